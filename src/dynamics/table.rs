@@ -1,0 +1,238 @@
+//! [`StateTable`]: the physical states of one run at its observation points, component by component.
+//!
+//! The one thing that stands between integrators and observables. A worker owns and reuses it; a component that nobody asked
+//! for is not a row of it. The stride is a multiple of eight, so that eight points are one vector; the padding behind the last
+//! point repeats that point.
+
+/// A group of components that is present or absent as a whole.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[repr(usize)]
+pub enum Block {
+    /// omega^se in F_s, rad/s (3).
+    Rate,
+    /// Attitude quaternion q_es (4).
+    Attitude,
+    /// Wheel rates alpha-dot, beta-dot, rad/s (2).
+    WheelRates,
+    /// Wheel angles alpha, beta, rad, unbounded (2).
+    WheelAngles,
+    /// Position of the spacecraft's centre of mass c in F_e, m (3).
+    ComPosition,
+    /// Velocity of c in F_e, m/s (3).
+    ComVelocity,
+    /// Work done since time zero: by the thrusters, by the wheel motors (relative to the fuselage, tau_i Omega_i), J (2).
+    Work,
+    /// Impulse of the thrusters since time zero in F_e, N s (3).
+    Impulse,
+    /// Angular impulse of the thrusters about c since time zero in F_e, N m s (3).
+    AngularImpulse,
+    /// Position of the debris's centre in F_e, m (3).
+    DebrisPosition,
+    /// Velocity of the debris's centre in F_e, m/s (3).
+    DebrisVelocity,
+    /// Attitude quaternion q_ed of the debris (4).
+    DebrisAttitude,
+    /// omega^de of the debris in F_d, rad/s (3).
+    DebrisRate,
+    /// C_es by columns as the kernel integrates it, where it integrates the DCM itself (9).
+    Dcm,
+    /// Residuals of the constraints: kinematic, collocation, attitude (27)-(34) (3).
+    Residuals,
+}
+
+impl Block {
+    /// All blocks in the order of the table.
+    pub const ALL: [Block; 15] = [
+        Block::Rate,
+        Block::Attitude,
+        Block::WheelRates,
+        Block::WheelAngles,
+        Block::ComPosition,
+        Block::ComVelocity,
+        Block::Work,
+        Block::Impulse,
+        Block::AngularImpulse,
+        Block::DebrisPosition,
+        Block::DebrisVelocity,
+        Block::DebrisAttitude,
+        Block::DebrisRate,
+        Block::Dcm,
+        Block::Residuals,
+    ];
+
+    /// Number of components.
+    pub const fn width(self) -> usize {
+        match self {
+            Block::Rate
+            | Block::ComPosition
+            | Block::ComVelocity
+            | Block::Impulse
+            | Block::AngularImpulse
+            | Block::DebrisPosition
+            | Block::DebrisVelocity
+            | Block::DebrisRate
+            | Block::Residuals => 3,
+            Block::Attitude | Block::DebrisAttitude => 4,
+            Block::WheelRates | Block::WheelAngles | Block::Work => 2,
+            Block::Dcm => 9,
+        }
+    }
+}
+
+/// A set of blocks.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Blocks(u32);
+
+impl Blocks {
+    /// No block.
+    pub const NONE: Blocks = Blocks(0);
+
+    /// This set and one more block.
+    #[must_use]
+    pub const fn with(self, block: Block) -> Self {
+        Blocks(self.0 | 1 << block as usize)
+    }
+
+    /// The union of two sets.
+    #[must_use]
+    pub const fn union(self, other: Self) -> Self {
+        Blocks(self.0 | other.0)
+    }
+
+    /// Whether the set holds `block`.
+    pub const fn contains(self, block: Block) -> bool {
+        self.0 & (1 << block as usize) != 0
+    }
+}
+
+/// States at the observation points: component by component, eight points to a vector.
+#[derive(Clone, Debug)]
+pub struct StateTable {
+    blocks: Blocks,
+    points: usize,
+    stride: usize,
+    offsets: [usize; Block::ALL.len()],
+    values: Vec<f64>,
+}
+
+impl StateTable {
+    /// A table of `points` >= 1 observation points that holds `blocks`; all zero.
+    pub fn new(blocks: Blocks, points: usize) -> Self {
+        let stride = points.next_multiple_of(8);
+        let mut offsets = [usize::MAX; Block::ALL.len()];
+        let mut components = 0;
+        for block in Block::ALL {
+            if blocks.contains(block) {
+                offsets[block as usize] = components;
+                components += block.width();
+            }
+        }
+        StateTable { blocks, points, stride, offsets, values: vec![0.0; components * stride] }
+    }
+
+    /// What the table holds.
+    pub fn blocks(&self) -> Blocks {
+        self.blocks
+    }
+
+    /// Number of observation points.
+    pub fn points(&self) -> usize {
+        self.points
+    }
+
+    /// Number of points with padding, a multiple of eight.
+    pub fn stride(&self) -> usize {
+        self.stride
+    }
+
+    /// Whether the table holds `block`.
+    pub fn has(&self, block: Block) -> bool {
+        self.blocks.contains(block)
+    }
+
+    /// Component `component` of `block` at all points (with padding).
+    ///
+    /// # Panics
+    /// Where the table does not hold the block.
+    #[inline]
+    pub fn column(&self, block: Block, component: usize) -> &[f64] {
+        debug_assert!(self.has(block) && component < block.width());
+        let start = (self.offsets[block as usize] + component) * self.stride;
+        &self.values[start..start + self.stride]
+    }
+
+    /// The same, to write.
+    ///
+    /// # Panics
+    /// Where the table does not hold the block.
+    #[inline]
+    pub fn column_mut(&mut self, block: Block, component: usize) -> &mut [f64] {
+        debug_assert!(self.has(block) && component < block.width());
+        let start = (self.offsets[block as usize] + component) * self.stride;
+        &mut self.values[start..start + self.stride]
+    }
+
+    /// The components of `block` at point `point`.
+    pub fn at<const N: usize>(&self, block: Block, point: usize) -> [f64; N] {
+        std::array::from_fn(|component| self.column(block, component)[point])
+    }
+
+    /// Writes the components of `block` at point `point`.
+    pub fn set<const N: usize>(&mut self, block: Block, point: usize, values: [f64; N]) {
+        for (component, value) in values.into_iter().enumerate() {
+            self.column_mut(block, component)[point] = value;
+        }
+    }
+
+    /// Fills the padding of every component with its last point.
+    pub fn pad(&mut self) {
+        let (points, stride) = (self.points, self.stride);
+        for component in self.values.chunks_exact_mut(stride) {
+            let last = component[points - 1];
+            component[points..].fill(last);
+        }
+    }
+}
+
+/// The times at which a run is observed, s: ascending, the first is zero, the last the duration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Grid {
+    times: Vec<f64>,
+    padded: Vec<f64>,
+}
+
+impl Grid {
+    /// `points` >= 2 times from zero to `duration` at equal distances.
+    pub fn uniform(duration: f64, points: usize) -> Self {
+        let last = (points - 1) as f64;
+        Self::at((0..points).map(|k| if k + 1 == points { duration } else { duration * (k as f64 / last) }).collect())
+    }
+
+    /// The given times: ascending, the first zero.
+    pub fn at(times: Vec<f64>) -> Self {
+        let mut padded = times.clone();
+        let last = *times.last().expect("a grid has at least one time");
+        padded.resize(times.len().next_multiple_of(8), last);
+        Grid { times, padded }
+    }
+
+    /// The times, s.
+    pub fn times(&self) -> &[f64] {
+        &self.times
+    }
+
+    /// The times with padding, as the columns of a [`StateTable`] have it.
+    pub fn padded_times(&self) -> &[f64] {
+        &self.padded
+    }
+
+    /// Number of times.
+    pub fn points(&self) -> usize {
+        self.times.len()
+    }
+
+    /// The last time, s.
+    pub fn duration(&self) -> f64 {
+        *self.times.last().expect("a grid has at least one time")
+    }
+}

@@ -1,0 +1,10 @@
+//! Floor 3: methods that march a run to its observation grid.
+//!
+//! Every method fills, per run, the integrated components at the observation times; a kernel then completes them to the
+//! physical [`crate::dynamics::table::StateTable`]. Runs stand in lanes that never share a decision.
+
+pub mod outcome;
+pub mod system;
+
+pub use outcome::{Effort, Outcome, Status};
+pub use system::{Runs, System, Tolerance};

@@ -1,0 +1,128 @@
+//! [`Isa`]: which instruction set the kernels run on, chosen once per process.
+//!
+//! One portable binary holds the kernels three times (AVX-512, AVX2 with FMA, plain), and every path gives the same bits:
+//! all arithmetic is IEEE, fused where [`super::Real::mul_add`] says so and nowhere else.
+
+use std::sync::OnceLock;
+
+use fearless_simd::{Level, Simd};
+
+/// The environment variable that forces a path (`avx512`, `avx2`, `plain`); for tests and for comparing paths.
+pub const VARIABLE: &str = "SPINDRIFT_ISA";
+
+/// An instruction set that this processor has.
+#[derive(Clone, Copy, Debug)]
+pub struct Isa {
+    level: Level,
+    name: &'static str,
+}
+
+/// Work that is compiled once per instruction set; [`Isa::run`] calls the right one.
+///
+/// A trait and not a closure, because a closure cannot be generic over the token. `run` should be `#[inline(always)]`, and
+/// so should everything hot that it calls, or it is compiled without the instructions it is meant to use.
+pub trait Work {
+    /// What the work returns.
+    type Output;
+    /// Does the work with vectors of the instruction set `S`.
+    fn run<S: Simd>(self, simd: S) -> Self::Output;
+}
+
+impl Isa {
+    /// The best instruction set of this processor.
+    pub fn best() -> Self {
+        let level = Level::new();
+        Self::named(level, "avx512").or_else(|| Self::named(level, "avx2")).unwrap_or_else(|| Self::plain(level))
+    }
+
+    /// The path called `name` (`avx512`, `avx2`, `plain`), or `None` where this processor lacks it or the name is unknown.
+    pub fn from_name(name: &str) -> Option<Self> {
+        let level = Level::new();
+        match name {
+            "plain" => Some(Self::plain(level)),
+            _ => Self::named(level, name),
+        }
+    }
+
+    /// The choice of this process: what [`VARIABLE`] says, else the best.
+    ///
+    /// # Errors
+    /// The value of the variable, where it names no path that this processor has.
+    pub fn chosen() -> Result<Self, String> {
+        static CHOICE: OnceLock<Result<Isa, String>> = OnceLock::new();
+        CHOICE
+            .get_or_init(|| match std::env::var(VARIABLE) {
+                Ok(name) => Isa::from_name(&name).ok_or(name),
+                Err(_) => Ok(Isa::best()),
+            })
+            .clone()
+    }
+
+    /// Every path that this processor has, best first.
+    pub fn available() -> Vec<Self> {
+        ["avx512", "avx2", "plain"].into_iter().filter_map(Self::from_name).collect()
+    }
+
+    /// The name of the path.
+    pub fn name(self) -> &'static str {
+        self.name
+    }
+
+    fn named(level: Level, name: &str) -> Option<Self> {
+        #[cfg(target_arch = "x86_64")]
+        {
+            match name {
+                "avx512" => level.as_avx512().map(|simd| Isa { level: simd.level(), name: "avx512" }),
+                "avx2" => level.as_avx2().map(|simd| Isa { level: simd.level(), name: "avx2" }),
+                _ => None,
+            }
+        }
+        #[cfg(not(target_arch = "x86_64"))]
+        {
+            let _ = (level, name);
+            None
+        }
+    }
+
+    /// The path that needs nothing beyond the target's baseline; on x86-64 every fused operation is then a library call.
+    fn plain(level: Level) -> Self {
+        let _ = level;
+        Isa { level: Level::baseline(), name: "plain" }
+    }
+
+    /// Runs `work` compiled for this instruction set.
+    #[inline]
+    pub fn run<W: Work>(self, work: W) -> W::Output {
+        #[cfg(target_arch = "x86_64")]
+        {
+            match self.name {
+                "avx512" => {
+                    if let Some(simd) = self.level.as_avx512() {
+                        return simd.vectorize(
+                            #[inline(always)]
+                            || work.run(simd),
+                        );
+                    }
+                }
+                "avx2" => {
+                    if let Some(simd) = self.level.as_avx2() {
+                        return simd.vectorize(
+                            #[inline(always)]
+                            || work.run(simd),
+                        );
+                    }
+                }
+                _ => {}
+            }
+            let simd = self.level.as_sse2().expect("every x86-64 processor has SSE2");
+            simd.vectorize(
+                #[inline(always)]
+                || work.run(simd),
+            )
+        }
+        #[cfg(not(target_arch = "x86_64"))]
+        {
+            fearless_simd::dispatch!(self.level, simd => work.run(simd))
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! [`Lanes`]: eight `f64` side by side as one [`Real`].
+//!
+//! A thin name around `fearless_simd::f64x8`, which holds the token of the chosen instruction set. Here and in [`super::isa`]
+//! only does the crate name that library.
+
+use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+
+use fearless_simd::{Select, Simd, SimdBase, SimdFloat, SimdFrom, f64x8, mask64x8};
+
+use super::Real;
+
+/// Number of lanes of [`Lanes`].
+pub const WIDTH: usize = 8;
+
+/// Eight `f64` side by side; lane `i` of every operation equals the scalar operation bit for bit.
+#[derive(Clone, Copy, Debug)]
+#[repr(transparent)]
+pub struct Lanes<S: Simd>(pub f64x8<S>);
+
+impl<S: Simd> Lanes<S> {
+    /// The same value in all lanes.
+    #[inline(always)]
+    pub fn broadcast(simd: S, value: f64) -> Self {
+        Lanes(f64x8::simd_from(simd, value))
+    }
+
+    /// Eight values from memory.
+    #[inline(always)]
+    pub fn load(simd: S, values: &[f64; WIDTH]) -> Self {
+        Lanes(f64x8::load_array_ref(simd, values))
+    }
+
+    /// Eight values from the start of a slice of at least eight.
+    #[inline(always)]
+    pub fn from_slice(simd: S, values: &[f64]) -> Self {
+        Lanes(f64x8::from_slice(simd, &values[..WIDTH]))
+    }
+
+    /// Writes the eight values to the start of a slice of at least eight.
+    #[inline(always)]
+    pub fn store(self, values: &mut [f64]) {
+        self.0.store_slice(&mut values[..WIDTH]);
+    }
+
+    /// The eight values.
+    #[inline(always)]
+    pub fn to_array(self) -> [f64; WIDTH] {
+        self.0.to_array()
+    }
+
+    /// The token of the instruction set behind.
+    #[inline(always)]
+    pub fn simd(self) -> S {
+        self.0.simd
+    }
+
+    /// Rounds each lane to the nearest integer, ties to even.
+    #[inline(always)]
+    pub fn round(self) -> Self {
+        Lanes(self.0.round_ties_even())
+    }
+
+    /// The largest integer not above each lane.
+    #[inline(always)]
+    pub fn floor(self) -> Self {
+        Lanes(self.0.floor())
+    }
+}
+
+macro_rules! operator {
+    ($trait:ident, $method:ident, $op:tt) => {
+        impl<S: Simd> $trait for Lanes<S> {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                Lanes(self.0 $op other.0)
+            }
+        }
+    };
+}
+operator!(Add, add, +);
+operator!(Sub, sub, -);
+operator!(Mul, mul, *);
+operator!(Div, div, /);
+
+impl<S: Simd> Neg for Lanes<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Lanes(-self.0)
+    }
+}
+impl<S: Simd> AddAssign for Lanes<S> {
+    #[inline(always)]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+impl<S: Simd> SubAssign for Lanes<S> {
+    #[inline(always)]
+    fn sub_assign(&mut self, other: Self) {
+        *self = *self - other;
+    }
+}
+
+impl<S: Simd> Real for Lanes<S> {
+    type Mask = mask64x8<S>;
+    const LANES: usize = WIDTH;
+
+    #[inline(always)]
+    fn splat(self, value: f64) -> Self {
+        Self::broadcast(self.simd(), value)
+    }
+    #[inline(always)]
+    fn mul_add(self, a: Self, b: Self) -> Self {
+        Lanes(self.0.mul_add_precise(a.0, b.0))
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Lanes(self.0.sqrt())
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Lanes(self.0.abs())
+    }
+    #[inline(always)]
+    fn larger(self, other: Self) -> Self {
+        Self::select(other.lt(self), self, other)
+    }
+    #[inline(always)]
+    fn smaller(self, other: Self) -> Self {
+        Self::select(self.lt(other), self, other)
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> Self::Mask {
+        self.0.simd_lt(other.0)
+    }
+    #[inline(always)]
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
+        Lanes(mask.select(yes.0, no.0))
+    }
+    #[inline(always)]
+    fn lane(&self, lane: usize) -> f64 {
+        self.0[lane]
+    }
+    #[inline(always)]
+    fn set_lane(&mut self, lane: usize, value: f64) {
+        self.0[lane] = value;
+    }
+}

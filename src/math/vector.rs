@@ -1,0 +1,79 @@
+//! Three-vectors, 3x3 matrices and quaternions as plain arrays of [`Real`].
+//!
+//! Plain arrays and not nalgebra matrices, because these run in lanes. Quaternions are Hamilton's, scalar first.
+
+use super::Real;
+
+/// `a . b`.
+#[inline(always)]
+pub fn dot<R: Real>(a: [R; 3], b: [R; 3]) -> R {
+    a[0].mul_add(b[0], a[1].mul_add(b[1], a[2] * b[2]))
+}
+
+/// `a x b`.
+#[inline(always)]
+pub fn cross<R: Real>(a: [R; 3], b: [R; 3]) -> [R; 3] {
+    [a[1].mul_add(b[2], -(a[2] * b[1])), a[2].mul_add(b[0], -(a[0] * b[2])), a[0].mul_add(b[1], -(a[1] * b[0]))]
+}
+
+/// `a + b`.
+#[inline(always)]
+pub fn sum<R: Real>(a: [R; 3], b: [R; 3]) -> [R; 3] {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+
+/// `a - b`.
+#[inline(always)]
+pub fn difference<R: Real>(a: [R; 3], b: [R; 3]) -> [R; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// `s a`.
+#[inline(always)]
+pub fn scaled<R: Real>(s: R, a: [R; 3]) -> [R; 3] {
+    [s * a[0], s * a[1], s * a[2]]
+}
+
+/// `|a|`.
+#[inline(always)]
+pub fn norm<R: Real>(a: [R; 3]) -> R {
+    dot(a, a).sqrt()
+}
+
+/// `m a` for a matrix stored by rows.
+#[inline(always)]
+pub fn product<R: Real>(m: [[R; 3]; 3], a: [R; 3]) -> [R; 3] {
+    [dot(m[0], a), dot(m[1], a), dot(m[2], a)]
+}
+
+/// `m^T a` for a matrix stored by rows.
+#[inline(always)]
+pub fn transposed_product<R: Real>(m: [[R; 3]; 3], a: [R; 3]) -> [R; 3] {
+    let column = |j: usize| m[0][j].mul_add(a[0], m[1][j].mul_add(a[1], m[2][j] * a[2]));
+    [column(0), column(1), column(2)]
+}
+
+/// The Hamilton product `p (x) q`.
+#[inline(always)]
+pub fn hamilton<R: Real>(p: [R; 4], q: [R; 4]) -> [R; 4] {
+    [
+        p[0].mul_add(q[0], -p[1].mul_add(q[1], p[2].mul_add(q[2], p[3] * q[3]))),
+        p[0].mul_add(q[1], p[1].mul_add(q[0], p[2].mul_add(q[3], -(p[3] * q[2])))),
+        p[0].mul_add(q[2], p[2].mul_add(q[0], p[3].mul_add(q[1], -(p[1] * q[3])))),
+        p[0].mul_add(q[3], p[3].mul_add(q[0], p[1].mul_add(q[2], -(p[2] * q[1])))),
+    ]
+}
+
+/// The DCM of a quaternion, by rows, in the homogeneous form: `|q|^2` times a rotation, so that a drift of the norm shows.
+#[inline(always)]
+pub fn dcm_from_quaternion<R: Real>(q: [R; 4]) -> [[R; 3]; 3] {
+    let [w, x, y, z] = q;
+    let two = w.splat(2.0);
+    let (ww, xx, yy, zz) = (w * w, x * x, y * y, z * z);
+    let off = |a: R, b: R, c: R| two * a.mul_add(b, c);
+    [
+        [(ww + xx) - (yy + zz), off(x, y, -(w * z)), off(x, z, w * y)],
+        [off(x, y, w * z), (ww + yy) - (xx + zz), off(y, z, -(w * x))],
+        [off(x, z, -(w * y)), off(y, z, w * x), (ww + zz) - (xx + yy)],
+    ]
+}

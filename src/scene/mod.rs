@@ -1,0 +1,80 @@
+//! Floor 1: what is simulated. Bodies -> mass properties, actuators, initial state; validated, immutable, SI, no serde.
+//!
+//! - [`input`]: the scene as written.
+//! - [`mass`]: mass properties of the bodies and of the whole (the report's (60)-(67), in closed form).
+
+pub mod input;
+pub mod mass;
+
+pub use input::{ActuationInput, DebrisInput, DebrisShape, FuselageInput, InitialInput, SceneInput, WheelInput};
+pub use mass::MassProperties;
+
+/// A physically valid scene: everything that a kernel starts from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    /// Mass properties of all bodies and of the spacecraft as a whole.
+    pub mass: MassProperties,
+    /// The state at time zero.
+    pub initial: InitialState,
+    /// Distance rho_p of the thrusters P2 and P3 from the axis s3, m.
+    pub thruster_offset: f64,
+    /// Station l_s of the thrusters P2 and P3 on the axis s3, m.
+    pub thruster_station: f64,
+    /// Stretches of constant thrust and torque, in order, not overlapping, each with start < end.
+    pub schedule: Vec<Actuation>,
+}
+
+/// A stretch of constant thrust and torque.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Actuation {
+    /// Start, s.
+    pub start: f64,
+    /// End, s.
+    pub end: f64,
+    /// Thrusts P1, P2, P3, N.
+    pub thrust: [f64; 3],
+    /// Motor torques on W1, W2 about their axes, N m; the fuselage feels the opposite.
+    pub torque: [f64; 2],
+}
+
+/// The full state at time zero, in the frames that the kernels use.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InitialState {
+    /// Position of p, m.
+    pub r_po_e: [f64; 3],
+    /// Velocity of p, m/s.
+    pub v_po_e: [f64; 3],
+    /// Attitude of the fuselage, F_s -> F_e, unit norm.
+    pub q_es: [f64; 4],
+    /// Angular velocity of the fuselage, rad/s.
+    pub omega_se_s: [f64; 3],
+    /// Wheel angles alpha, beta, rad.
+    pub wheel_angles: [f64; 2],
+    /// Wheel rates relative to the fuselage, rad/s.
+    pub wheel_rates: [f64; 2],
+    /// Position of the debris's centre, m.
+    pub r_gdo_e: [f64; 3],
+    /// Velocity of the debris's centre, m/s.
+    pub v_gdo_e: [f64; 3],
+    /// Attitude of the debris, F_d -> F_e, unit norm: q_es (x) q_sd.
+    pub q_ed: [f64; 4],
+    /// Angular velocity omega^de of the debris in F_d, rad/s: omega^ds + C_ds omega^se (59).
+    pub omega_de_d: [f64; 3],
+}
+
+impl Scene {
+    /// Force of the thrusts P1, P2, P3 in F_s, N (72).
+    pub fn thruster_force_s(&self, thrust: [f64; 3]) -> [f64; 3] {
+        [0.0, 0.0, thrust[0] - thrust[1] - thrust[2]]
+    }
+
+    /// Torque of the thrusts P1, P2, P3 about the spacecraft's centre of mass c, in F_s, N m (72).
+    ///
+    /// P1 acts at p, P2 at (0, -rho_p, l_s), P3 at (0, +rho_p, l_s).
+    pub fn thruster_torque_s(&self, thrust: [f64; 3]) -> [f64; 3] {
+        let force = thrust[0] - thrust[1] - thrust[2];
+        let c = self.mass.center;
+        // about p, then less c x F
+        [self.thruster_offset * (thrust[1] - thrust[2]) - c[1] * force, c[0] * force, 0.0]
+    }
+}
