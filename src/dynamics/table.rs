@@ -194,6 +194,59 @@ impl StateTable {
     }
 }
 
+/// The components that a method integrates, of one run at its observation points, component by component.
+///
+/// What a kernel completes to a [`StateTable`]; which component is what, the kernel says.
+#[derive(Clone, Debug)]
+pub struct Trajectory {
+    points: usize,
+    stride: usize,
+    values: Vec<f64>,
+}
+
+impl Trajectory {
+    /// `components` components at `points` points; all zero.
+    pub fn new(components: usize, points: usize) -> Self {
+        let stride = points.next_multiple_of(8);
+        Trajectory { points, stride, values: vec![0.0; components * stride] }
+    }
+
+    /// Number of observation points.
+    pub fn points(&self) -> usize {
+        self.points
+    }
+
+    /// Number of points with padding, a multiple of eight.
+    pub fn stride(&self) -> usize {
+        self.stride
+    }
+
+    /// Component `component` at all points (with padding).
+    #[inline]
+    pub fn column(&self, component: usize) -> &[f64] {
+        &self.values[component * self.stride..(component + 1) * self.stride]
+    }
+
+    /// The same, to write.
+    #[inline]
+    pub fn column_mut(&mut self, component: usize) -> &mut [f64] {
+        &mut self.values[component * self.stride..(component + 1) * self.stride]
+    }
+
+    /// Writes all components at point `point`.
+    #[inline]
+    pub fn set<const N: usize>(&mut self, point: usize, state: &[f64; N]) {
+        for (component, value) in state.iter().enumerate() {
+            self.values[component * self.stride + point] = *value;
+        }
+    }
+
+    /// All components at point `point`.
+    pub fn at<const N: usize>(&self, point: usize) -> [f64; N] {
+        std::array::from_fn(|component| self.values[component * self.stride + point])
+    }
+}
+
 /// The times at which a run is observed, s: ascending, the first is zero, the last the duration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {

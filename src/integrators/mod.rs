@@ -3,8 +3,10 @@
 //! Every method fills, per run, the integrated components at the observation times; a kernel then completes them to the
 //! physical [`crate::dynamics::table::StateTable`]. Runs stand in lanes that never share a decision.
 
+pub mod method;
 pub mod outcome;
 pub mod system;
 
+pub use method::Method;
 pub use outcome::{Effort, Outcome, Status};
 pub use system::{Runs, System, Tolerance};
