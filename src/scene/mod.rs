@@ -2,12 +2,15 @@
 //!
 //! - [`input`]: the scene as written.
 //! - [`mass`]: mass properties of the bodies and of the whole (the report's (60)-(67), in closed form).
+//! - [`parameter`]: the one table of the numeric keys that can be dispersed.
 
 pub mod input;
 pub mod mass;
+pub mod parameter;
 
 pub use input::{ActuationInput, DebrisInput, DebrisShape, FuselageInput, InitialInput, SceneInput, WheelInput};
 pub use mass::MassProperties;
+pub use parameter::Parameter;
 
 /// A physically valid scene: everything that a kernel starts from.
 #[derive(Clone, Debug, PartialEq)]
