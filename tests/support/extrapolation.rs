@@ -6,8 +6,8 @@ use spindrift::integrators::System;
 use spindrift::math::Isa;
 use spindrift::math::isa::Work;
 
-/// Basic step, s: a wheel at 340 rad/s turns by 3 rad, which order 16 takes to rounding.
-const STEP: f64 = 0.005;
+/// Basic step, s: a wheel at 340 rad/s turns by 0.7 rad, whose order-16 error is far below rounding (at 1.6 rad it is 1e-11).
+const STEP: f64 = 0.002;
 
 /// The state after `duration` seconds from `state`.
 pub fn march<const N: usize, Y: System<f64, N>>(system: &Y, state: [f64; N], duration: f64) -> [f64; N] {
@@ -46,11 +46,10 @@ impl<const N: usize, Y: System<f64, N>> Work for March<'_, Y, N> {
                 let smooth: [f64; N] = std::array::from_fn(|i| 0.5 * (here[i] + before[i] + h * f[i]));
                 // Aitken-Neville, in place: table[k] holds column k of the row before
                 let mut previous = smooth;
-                for column in 0..row {
+                for (column, above) in table.iter_mut().enumerate().take(row) {
                     let ratio = (row + 1) as f64 / (row - column) as f64;
-                    let next =
-                        std::array::from_fn(|i| previous[i] + (previous[i] - table[column][i]) / (ratio * ratio - 1.0));
-                    table[column] = std::mem::replace(&mut previous, next);
+                    let next = std::array::from_fn(|i| previous[i] + (previous[i] - above[i]) / (ratio * ratio - 1.0));
+                    *above = std::mem::replace(&mut previous, next);
                 }
                 table[row] = previous;
             }

@@ -3,10 +3,12 @@
 //! M-hat is block diagonal: the spacecraft's 8x8 (v_p, omega_s, alpha-dot, beta-dot), m_d 1, J_d. In the 8x8 the block of v_p is
 //! m 1, so that its part of the factor is sqrt(m) 1 and only a 5x5 is left to factor: the same factor, without its zeros.
 
+#![expect(clippy::needless_range_loop, reason = "indices of a matrix, as in the formulas")]
+
 use super::kinematics::{WheelMotion, lever};
 use super::parameters::Parameters;
 use super::state::State;
-use crate::math::vector::{dot, product};
+use crate::math::vector::{dot, product, scaled};
 
 /// A lower triangular Cholesky factor; the diagonal holds the reciprocals.
 pub type Factor<const N: usize> = [[f64; N]; N];
@@ -51,14 +53,19 @@ impl SpacecraftMass {
             }
             rotation[3 + w][3 + w] = dot(wheel.axis, axial) + wheel.idle;
         }
-        SpacecraftMass { total: parameters.total, coupling: minus.map(|column| column.map(|x| -x)), rotation }
+        SpacecraftMass {
+            total: parameters.total,
+            coupling: [scaled(-1.0, minus[0]), scaled(-1.0, minus[1]), scaled(-1.0, minus[2])],
+            rotation,
+        }
     }
 
     /// Solves for (v_p-dot, [omega_s-dot, alpha-dot-dot, beta-dot-dot]).
     #[inline(always)]
     pub fn solution(&self, force: [f64; 3], torque: [f64; 5]) -> ([f64; 3], [f64; 5]) {
         let root = 1.0 / self.total.sqrt();
-        let b = self.coupling.map(|column| column.map(|x| x * root));
+        // not `map`: it is compiled on its own, without the instructions of the caller
+        let b = [scaled(root, self.coupling[0]), scaled(root, self.coupling[1]), scaled(root, self.coupling[2])];
         let mut rest = self.rotation;
         for i in 0..3 {
             for j in 0..=i {
@@ -66,7 +73,7 @@ impl SpacecraftMass {
             }
         }
         let factor = cholesky(rest);
-        let y = force.map(|x| x * root);
+        let y = scaled(root, force);
         let mut right = torque;
         for i in 0..3 {
             right[i] -= dot(b[i], y);

@@ -20,7 +20,7 @@
 //! - [`forces`]: M-dot, Omega, a_non, B, body by body.
 //! - [`kernel`]: the right-hand side.
 //! - [`matrices`]: the same as whole matrices, as printed; slow, for proofs.
-//! - [`residuals`]: the constraints (27)-(34). [`energy`]: kinetic energies (36). [`completion`]: to a table of physical states.
+//! - [`mod@residuals`]: the constraints (27)-(34). [`energy`]: kinetic energies (36). [`completion`]: to a table of physical states.
 //!
 //! Not here: the fast reduced form (gyrostat), and any integration.
 

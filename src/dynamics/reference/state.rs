@@ -61,7 +61,7 @@ impl State {
         let column = |body: usize, j: usize| three(x, PER_BODY * body + 3 + 3 * j);
         let body = |b: usize| [column(b, 0), column(b, 1), column(b, 2)];
         State {
-            position: [0, 1, 2, 3].map(|b| three(x, PER_BODY * b)),
+            position: [three(x, 0), three(x, PER_BODY), three(x, 2 * PER_BODY), three(x, 3 * PER_BODY)],
             dcm: [body(0), body(1), body(2), body(3)],
             v_p: three(x, 48),
             omega_s: three(x, 51),
