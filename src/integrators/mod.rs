@@ -5,8 +5,10 @@
 
 pub mod method;
 pub mod outcome;
+pub mod reference_runs;
 pub mod system;
 
 pub use method::Method;
 pub use outcome::{Effort, Outcome, Status};
+pub use reference_runs::ReferenceRuns;
 pub use system::{Runs, System, Tolerance};
