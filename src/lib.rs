@@ -7,5 +7,6 @@ pub mod campaign;
 pub mod dynamics;
 pub mod integrators;
 pub mod math;
+pub mod observables;
 pub mod sampling;
 pub mod scene;

@@ -8,8 +8,10 @@ use std::path::Path;
 
 fn shipped() -> Vec<std::path::PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns");
-    let mut files: Vec<_> =
-        std::fs::read_dir(folder).expect("a folder of campaigns").map(|entry| entry.expect("an entry").path()).collect();
+    let mut files: Vec<_> = std::fs::read_dir(folder)
+        .expect("a folder of campaigns")
+        .map(|entry| entry.expect("an entry").path())
+        .collect();
     files.sort();
     files
 }

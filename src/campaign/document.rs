@@ -280,7 +280,11 @@ impl<'d, 'a> Section<'d, 'a> {
         match matrix.filter(|matrix| matrix.as_flattened().iter().all(|x| x.is_finite())) {
             Some(matrix) => Some(matrix),
             None => {
-                self.refuse(key, "three rows of three finite numbers", "write it like [[3, 0, 0], [0, 3, 0], [0, 0, 2]]");
+                self.refuse(
+                    key,
+                    "three rows of three finite numbers",
+                    "write it like [[3, 0, 0], [0, 3, 0], [0, 0, 2]]",
+                );
                 Some([[f64::NAN; 3]; 3])
             }
         }
@@ -300,7 +304,11 @@ impl<'d, 'a> Section<'d, 'a> {
             Values::Each(list) => list.iter().all(|x| x.is_finite()),
         };
         if !values.as_ref().is_some_and(finite) {
-            self.refuse(key, "a finite number, or an array of one for each component", remedy_for_text(value.get_ref()));
+            self.refuse(
+                key,
+                "a finite number, or an array of one for each component",
+                remedy_for_text(value.get_ref()),
+            );
             return None;
         }
         values

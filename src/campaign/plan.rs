@@ -157,7 +157,12 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
     let absolute = spec.absolute_tolerance.or(spec.tolerance).unwrap_or(TOLERANCE);
     if spec.tolerance.is_some() && spec.relative_tolerance.is_some() && spec.absolute_tolerance.is_some() {
         let both = "left out beside relative_tolerance and absolute_tolerance";
-        document.add("integrator.tolerance", spec.tolerance.map(|x| format!("{x:?}")), both, "delete it: it has no effect");
+        document.add(
+            "integrator.tolerance",
+            spec.tolerance.map(|x| format!("{x:?}")),
+            both,
+            "delete it: it has no effect",
+        );
     }
 
     if let Err(errors) = Scene::resolve(&spec.scene) {

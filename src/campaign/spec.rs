@@ -221,7 +221,9 @@ fn initial(section: &mut Section<'_, '_>, wheels: [bool; 2], has_debris: bool) -
             .vector("debris_relative_angular_velocity_rad_s")
             .unwrap_or_default(),
     };
-    for (key, values) in [("wheel_angles_rad", initial.wheel_angles_rad), ("wheel_rates_rad_s", initial.wheel_rates_rad_s)] {
+    for (key, values) in
+        [("wheel_angles_rad", initial.wheel_angles_rad), ("wheel_rates_rad_s", initial.wheel_rates_rad_s)]
+    {
         if let Some(k) = (0..2).find(|k| !wheels[*k] && values[*k] != 0.0 && values[*k].is_finite()) {
             let allowed = format!("0 for wheel {}, which this spacecraft does not have", k + 1);
             section.refuse(key, allowed, format!("write 0 there, or add a [wheel{}] table", k + 1));

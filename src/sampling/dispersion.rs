@@ -337,8 +337,7 @@ fn bounds(index: usize, cut: &Cut, nominals: &[f64], stds: &[f64]) -> Result<(Ve
                 Some(values) => spread_out(index, key, values, width),
                 None => Ok(vec![none; width]),
             };
-            let (lower, upper) =
-                (end("lower", lower, f64::NEG_INFINITY)?, end("upper", upper, f64::INFINITY)?);
+            let (lower, upper) = (end("lower", lower, f64::NEG_INFINITY)?, end("upper", upper, f64::INFINITY)?);
             match (0..width).find(|k| lower[*k] >= upper[*k]) {
                 Some(k) => {
                     let allowed = format!("< upper ({:?})", upper[k]);
@@ -364,7 +363,8 @@ fn truncated(
         Cut::Bounds { .. } => "upper",
     };
     let refused = || {
-        let allowed = format!("bounds with some of the normal law of mean {mean:?} and standard deviation {std:?} between them");
+        let allowed =
+            format!("bounds with some of the normal law of mean {mean:?} and standard deviation {std:?} between them");
         error(index, key, format!("{lower:?} to {upper:?}"), allowed, "move the bounds to the nominal, or widen them")
     };
     // A nominal that is not a number is the scene's error, and is reported as such.

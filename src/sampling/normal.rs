@@ -79,7 +79,8 @@ const FAR: [[f64; 8]; 2] = [
 
 #[inline]
 fn ratio([numerator, denominator]: &[[f64; 8]; 2], x: f64) -> f64 {
-    let horner = |c: &[f64; 8]| ((((((c[7] * x + c[6]) * x + c[5]) * x + c[4]) * x + c[3]) * x + c[2]) * x + c[1]) * x + c[0];
+    let horner =
+        |c: &[f64; 8]| ((((((c[7] * x + c[6]) * x + c[5]) * x + c[4]) * x + c[3]) * x + c[2]) * x + c[1]) * x + c[0];
     horner(numerator) / horner(denominator)
 }
 

@@ -343,8 +343,11 @@ mod tests {
                 parameter.set(&mut scene, component, 42.5);
                 for other in Parameter::all() {
                     for place in 0..other.width() {
-                        let expected =
-                            if (other, place) == (parameter, component) { Some(42.5) } else { other.value(nominal, place) };
+                        let expected = if (other, place) == (parameter, component) {
+                            Some(42.5)
+                        } else {
+                            other.value(nominal, place)
+                        };
                         assert_eq!(other.value(&scene, place), expected, "{} {component}", parameter.name());
                     }
                 }
@@ -371,7 +374,13 @@ mod tests {
         assert_eq!(column("fuselage.density_kg_m3"), "fuselage_density_kg_m3");
         assert_eq!(column("fuselage.inertia_kg_m2.xy"), "fuselage_inertia_xy_kg_m2");
         assert_eq!(column("initial.wheel_rates_rad_s[1]"), "initial_wheel_rates_2_rad_s");
-        for wrong in ["fuselage.density", "initial.attitude[4]", "initial.attitude.u", "fuselage.mass_kg[0]", "fuselage.mass_kg."] {
+        for wrong in [
+            "fuselage.density",
+            "initial.attitude[4]",
+            "initial.attitude.u",
+            "fuselage.mass_kg[0]",
+            "fuselage.mass_kg.",
+        ] {
             assert_eq!(Parameter::find(wrong), None, "{wrong}");
         }
     }
