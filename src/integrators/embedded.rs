@@ -7,7 +7,7 @@
 
 use super::explicit::{Carried, Step, fill_stages, poison, weighted};
 use super::step_control::Controller;
-use super::tableau::{Dop853Tableau, DormandPrinceTableau, Tableau};
+use super::tableau::{Dop853Tableau, DormandPrinceTableau};
 use super::{System, Tolerance};
 use crate::math::Real;
 use crate::math::power::power;
@@ -297,6 +297,7 @@ impl Embedded for Dop853 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::tableau::Tableau;
     use super::super::tableau::trees::largest_defect;
     use super::*;
 
