@@ -5,7 +5,7 @@
 //! bit for bit (`tests/lanes_runge_kutta.rs`). The order of things within a step is ode45's (Shampine & Reichelt 1997).
 
 use super::embedded::Embedded;
-use super::explicit::{Carried, Step};
+use super::explicit::{Carried, Step, chosen, each};
 use super::step_control::{Control, flag, raised, shortest_step};
 use super::workspace::{Arrival, Workspace};
 use super::{Effort, Outcome, Runs, Status, System};
@@ -174,9 +174,7 @@ pub fn march<M, R, Q, F, const N: usize>(
         places.now = Carried::select(verdict, &attempt.end, &places.now);
         let last = *M::last(&stages);
         let first = M::first(&mut stages);
-        for n in 0..N {
-            first[n] = R::select(verdict, last[n], first[n]);
-        }
+        *first = chosen(verdict, &last, first);
 
         // Arrivals and troubles, lane by lane.
         let arrived = accepted * landing;
@@ -230,9 +228,7 @@ fn start<M, R, Q, const N: usize>(
     let longest = (places.end - places.time) * places.time.splat(M::CONTROLLER.longest);
     let length = M::first_step(system, places.time, state, &slope, longest, control.tolerance);
     let first = M::first(stages);
-    for n in 0..N {
-        first[n] = R::select(starting, slope[n], first[n]);
-    }
+    *first = chosen(starting, &slope, first);
     places.longest = R::select(starting, longest, places.longest);
     places.length = R::select(starting, length, places.length);
     let evaluations = places.time.splat(M::START_EVALUATIONS);
@@ -262,7 +258,14 @@ fn observe<M, R, const N: usize>(
             let (next, limit) = (places.next.lane(lane), limit.lane(lane));
             if next <= limit {
                 let state = if next < limit { &inside } else { end };
-                workspace.write(lane, &core::array::from_fn::<f64, N, _>(|n| state[n].lane(lane)));
+                workspace.write(
+                    lane,
+                    &each::<f64, N>(
+                        0.0,
+                        #[inline(always)]
+                        |n| state[n].lane(lane),
+                    ),
+                );
                 let next = workspace.next_time(lane, grid);
                 places.next.set_lane(lane, next);
                 due |= next <= limit;

@@ -5,7 +5,7 @@
 //!
 //! The norm of an error is the kernel's ([`System::error_ratio`]). The march itself stands in [`super::adaptive`].
 
-use super::explicit::{Carried, Step, fill_stages, poison, weighted};
+use super::explicit::{Carried, Step, each, fill_stages, poison, scaled, weighted};
 use super::step_control::Controller;
 use super::tableau::{Dop853Tableau, DormandPrinceTableau};
 use super::{System, Tolerance};
@@ -140,7 +140,7 @@ impl Embedded for DormandPrince {
         stages: &mut [[R; N]; 7],
     ) -> Attempt<R, N> {
         let end = fill_stages::<DormandPrinceTableau, R, Q, N, 7>(system, step, start, stages, (1, 7, 6));
-        let error = weighted(stages, &DormandPrinceTableau::E).map(|e| step.length * e);
+        let error = scaled(step.length, &weighted(stages, &DormandPrinceTableau::E));
         let ratio = system.error_ratio(&error, &start.state, &end.state, tolerance);
         let poison = poison(&error, poison(&end.state, ratio.zero() * ratio));
         Attempt { end, ratio, poison }
@@ -158,18 +158,27 @@ impl Embedded for DormandPrince {
 
     #[inline(always)]
     fn inside<R: Real, const N: usize>(length: R, s: R, start: &[R; N], stages: &[[R; N]; 7]) -> [R; N] {
-        let weights: [R; 7] = core::array::from_fn(|i| {
-            let c = DormandPrinceTableau::DENSE[i].map(|c| s.splat(c));
-            length * (s * c[3].mul_add(s, c[2]).mul_add(s, c[1]).mul_add(s, c[0]))
-        });
-        core::array::from_fn(|n| {
-            let mut sum = start[n];
-            // Stage 1 has no weight.
-            for i in [0, 2, 3, 4, 5, 6] {
-                sum = weights[i].mul_add(stages[i][n], sum);
-            }
-            sum
-        })
+        let weights: [R; 7] = each(
+            s,
+            #[inline(always)]
+            |i| {
+                let c = DormandPrinceTableau::DENSE[i];
+                let cubic = s.splat(c[3]).mul_add(s, s.splat(c[2])).mul_add(s, s.splat(c[1])).mul_add(s, s.splat(c[0]));
+                length * (s * cubic)
+            },
+        );
+        each(
+            s,
+            #[inline(always)]
+            |n| {
+                let mut sum = start[n];
+                // Stage 1 has no weight.
+                for i in [0, 2, 3, 4, 5, 6] {
+                    sum = weights[i].mul_add(stages[i][n], sum);
+                }
+                sum
+            },
+        )
     }
 }
 
@@ -224,19 +233,32 @@ impl Embedded for Dop853 {
         longest: R,
         tolerance: Tolerance,
     ) -> R {
-        let c = |value: f64| longest.splat(value);
         let size = system.error_ratio(state, state, state, tolerance);
         let rate = system.error_ratio(slope, state, state, tolerance);
-        let tiny = R::select(rate.lt(c(1e-5)), c(1.0), R::select(size.lt(c(1e-5)), c(1.0), c(0.0)));
-        let guess = R::select(c(0.5).lt(tiny), c(1e-6), c(0.01) * (size / rate)).smaller(longest);
-        let euler = core::array::from_fn(|n| guess.mul_add(slope[n], state[n]));
+        let tiny = R::select(
+            rate.lt(longest.splat(1e-5)),
+            longest.splat(1.0),
+            R::select(size.lt(longest.splat(1e-5)), longest.splat(1.0), longest.splat(0.0)),
+        );
+        let guess = R::select(longest.splat(0.5).lt(tiny), longest.splat(1e-6), longest.splat(0.01) * (size / rate))
+            .smaller(longest);
+        let euler = each(
+            guess,
+            #[inline(always)]
+            |n| guess.mul_add(slope[n], state[n]),
+        );
         let end = system.derivative(time + guess, &euler);
-        let bend = system.error_ratio(&core::array::from_fn(|n| end[n] - slope[n]), state, state, tolerance) / guess;
+        let turn = each(
+            guess,
+            #[inline(always)]
+            |n| end[n] - slope[n],
+        );
+        let bend = system.error_ratio(&turn, state, state, tolerance) / guess;
         let largest = bend.abs().larger(rate);
-        let straight = (guess * c(1e-3)).larger(c(1e-6));
-        let curved = power(c(0.01) / largest, 1.0 / 8.0);
-        let refined = R::select(largest.lt(c(1e-15)), straight, curved);
-        refined.smaller(c(100.0) * guess).smaller(longest)
+        let straight = (guess * longest.splat(1e-3)).larger(longest.splat(1e-6));
+        let curved = power(longest.splat(0.01) / largest, 1.0 / 8.0);
+        let refined = R::select(largest.lt(longest.splat(1e-15)), straight, curved);
+        refined.smaller(longest.splat(100.0) * guess).smaller(longest)
     }
 
     /// The error estimate combines the embedded solutions of order 5 and 3: e5^2 / sqrt(e5^2 + 0.01 e3^2) (section II.10).
@@ -250,8 +272,8 @@ impl Embedded for Dop853 {
     ) -> Attempt<R, N> {
         let k = &mut stages.k;
         let end = fill_stages::<Dop853Tableau, R, Q, N, 16>(system, step, start, k, (1, 13, 12));
-        let fifth = weighted(k, &Dop853Tableau::E5).map(|e| step.length * e);
-        let third = weighted(k, &Dop853Tableau::E3).map(|e| step.length * e);
+        let fifth = scaled(step.length, &weighted(k, &Dop853Tableau::E5));
+        let third = scaled(step.length, &weighted(k, &Dop853Tableau::E3));
         let e5 = system.error_ratio(&fifth, &start.state, &end.state, tolerance);
         let e3 = system.error_ratio(&third, &start.state, &end.state, tolerance);
         let sum = e5.mul_add(e5, e5.splat(0.01) * (e3 * e3));
@@ -278,20 +300,25 @@ impl Embedded for Dop853 {
             interpolant[1][n] = bend;
             interpolant[2][n] = difference - h.mul_add(k[12][n], bend);
         }
-        for (row, weights) in interpolant[3..].iter_mut().zip(&Dop853Tableau::D) {
-            *row = weighted(k, weights).map(|sum| h * sum);
-        }
+        interpolant[3] = scaled(h, &weighted(k, &Dop853Tableau::D[0]));
+        interpolant[4] = scaled(h, &weighted(k, &Dop853Tableau::D[1]));
+        interpolant[5] = scaled(h, &weighted(k, &Dop853Tableau::D[2]));
+        interpolant[6] = scaled(h, &weighted(k, &Dop853Tableau::D[3]));
     }
 
     /// CONTD8 of dop853.f.
     #[inline(always)]
     fn inside<R: Real, const N: usize>(_length: R, s: R, start: &[R; N], stages: &Dop853Stages<R, N>) -> [R; N] {
         let r = s.splat(1.0) - s;
-        core::array::from_fn(|n| {
-            let c = |i: usize| stages.interpolant[i][n];
-            let inner = c(6).mul_add(s, c(5)).mul_add(r, c(4)).mul_add(s, c(3));
-            inner.mul_add(r, c(2)).mul_add(s, c(1)).mul_add(r, c(0)).mul_add(s, start[n])
-        })
+        each(
+            s,
+            #[inline(always)]
+            |n| {
+                let c = &stages.interpolant;
+                let inner = c[6][n].mul_add(s, c[5][n]).mul_add(r, c[4][n]).mul_add(s, c[3][n]);
+                inner.mul_add(r, c[2][n]).mul_add(s, c[1][n]).mul_add(r, c[0][n]).mul_add(s, start[n])
+            },
+        )
     }
 }
 

@@ -16,18 +16,45 @@ impl<T: Tableau<S>, const S: usize, const I: usize> Row<T, S, I> {
     const WEIGHTS: [f64; S] = if I < S { T::A[I] } else { [0.0; S] };
 }
 
+/// A vector by its components.
+///
+/// For `core::array::from_fn` and `map` in hot code: what these call is not inlined always, and then it is compiled without
+/// the instructions of the chosen set (measured: thirty times slower). For the same reason the closures here say so too.
+#[inline(always)]
+pub(super) fn each<R: Copy, const N: usize>(like: R, component: impl Fn(usize) -> R) -> [R; N] {
+    let mut vector = [like; N];
+    for n in 0..N {
+        vector[n] = component(n);
+    }
+    vector
+}
+
+/// `length * slope`.
+#[inline(always)]
+pub(super) fn scaled<R: Real, const N: usize>(length: R, slope: &[R; N]) -> [R; N] {
+    each(
+        length,
+        #[inline(always)]
+        |n| length * slope[n],
+    )
+}
+
 /// sum_j w_j k_j.
 #[inline(always)]
 pub(super) fn weighted<R: Real, const N: usize, const S: usize>(k: &[[R; N]; S], weights: &[f64; S]) -> [R; N] {
-    core::array::from_fn(|n| {
-        let mut sum = k[0][n].zero();
-        for j in 0..S {
-            if weights[j] != 0.0 {
-                sum = sum.splat(weights[j]).mul_add(k[j][n], sum);
+    each(
+        k[0][0],
+        #[inline(always)]
+        |n| {
+            let mut sum = k[0][n].zero();
+            for j in 0..S {
+                if weights[j] != 0.0 {
+                    sum = sum.splat(weights[j]).mul_add(k[j][n], sum);
+                }
             }
-        }
-        sum
-    })
+            sum
+        },
+    )
 }
 
 /// sum_j a_ij k_j for stage `stage`. One arm per stage: the derivative then stands in one place, in a loop, and is inlined
@@ -95,23 +122,38 @@ impl<R: Real, const N: usize> Carried<R, N> {
     /// The state alone advanced by `length * slope`, for a stage.
     #[inline(always)]
     pub(super) fn shifted(&self, length: R, slope: &[R; N]) -> [R; N] {
-        core::array::from_fn(|n| length.mul_add(slope[n], self.state[n]))
+        each(
+            length,
+            #[inline(always)]
+            |n| length.mul_add(slope[n], self.state[n]),
+        )
     }
 
     /// `yes` where `mask` holds, else `no`.
     #[inline(always)]
     pub(super) fn select(mask: R::Mask, yes: &Self, no: &Self) -> Self {
-        Carried {
-            state: core::array::from_fn(|n| R::select(mask, yes.state[n], no.state[n])),
-            carry: core::array::from_fn(|n| R::select(mask, yes.carry[n], no.carry[n])),
-        }
+        Carried { state: chosen(mask, &yes.state, &no.state), carry: chosen(mask, &yes.carry, &no.carry) }
     }
+}
+
+/// `yes` where `mask` holds, else `no`.
+#[inline(always)]
+pub(super) fn chosen<R: Real, const N: usize>(mask: R::Mask, yes: &[R; N], no: &[R; N]) -> [R; N] {
+    each(
+        yes[0],
+        #[inline(always)]
+        |n| R::select(mask, yes[n], no[n]),
+    )
 }
 
 /// Zero where all components are finite, else not a number.
 #[inline(always)]
 pub(super) fn poison<R: Real, const N: usize>(values: &[R; N], sum: R) -> R {
-    values.iter().fold(sum, |sum, value| sum.zero().mul_add(*value, sum))
+    let mut sum = sum;
+    for n in 0..N {
+        sum = sum.zero().mul_add(values[n], sum);
+    }
+    sum
 }
 
 /// Fills the stages `from..to` of `k` and returns the state at the end of the step, as stage `closing` sees it.

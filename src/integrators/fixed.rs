@@ -4,7 +4,7 @@
 //! point inside a step is reached by a step of its own from the step's start, of the fraction that it needs: as accurate as
 //! the method, and it keeps what the method keeps, which an interpolating polynomial does not.
 
-use super::explicit::{Carried, Step, fill_stages, poison, weighted};
+use super::explicit::{Carried, Step, each, fill_stages, poison, weighted};
 use super::step_control::{Control, flag, raised};
 use super::tableau::{RungeKutta4Tableau, Tableau};
 use super::workspace::{Arrival, Workspace};
@@ -227,7 +227,14 @@ pub fn march<M, R, Q, F, const N: usize>(
             }
             for lane in 0..R::LANES {
                 if places.next.lane(lane) <= limit.lane(lane) {
-                    workspace.write(lane, &core::array::from_fn::<f64, N, _>(|n| reached.state[n].lane(lane)));
+                    workspace.write(
+                        lane,
+                        &each::<f64, N>(
+                            0.0,
+                            #[inline(always)]
+                            |n| reached.state[n].lane(lane),
+                        ),
+                    );
                     places.next.set_lane(lane, workspace.next_time(lane, grid));
                 }
             }

@@ -4,7 +4,7 @@
 //! law with implicit Runge-Kutta methods*, have it: until the change is zero or stops falling. Not Newton's method: the
 //! rotations here are not stiff, and a few sweeps cost less than a Jacobian. Each lane stops for itself.
 
-use super::explicit::{Carried, Step, poison, weighted};
+use super::explicit::{Carried, Step, chosen, each, poison, scaled, weighted};
 use super::fixed::{Advance, FixedStep};
 use super::step_control::{flag, raised};
 use super::tableau::{GaussLegendreTableau, Tableau};
@@ -25,16 +25,23 @@ pub struct GaussLegendre;
 /// Derivatives at the three stages.
 type Stages<R, const N: usize> = [[R; N]; 3];
 
-/// The polynomial through the derivatives `k` of a step, at the fraction `x` of it (Lagrange).
+/// Lagrange's polynomial of node `i` among the nodes `i`, `j`, `l`, at `x`.
+#[inline(always)]
+fn lagrange<R: Real>(x: R, i: usize, j: usize, l: usize) -> R {
+    let c = GaussLegendreTableau::C;
+    let scale = 1.0 / ((c[i] - c[j]) * (c[i] - c[l]));
+    x.splat(scale) * ((x - x.splat(c[j])) * (x - x.splat(c[l])))
+}
+
+/// The polynomial through the derivatives `k` of a step, at the fraction `x` of it.
 #[inline(always)]
 fn derivative_at<R: Real, const N: usize>(k: &Stages<R, N>, x: R) -> [R; N] {
-    let c = GaussLegendreTableau::C;
-    let weight = |i: usize, j: usize, l: usize| {
-        let scale = 1.0 / ((c[i] - c[j]) * (c[i] - c[l]));
-        x.splat(scale) * ((x - x.splat(c[j])) * (x - x.splat(c[l])))
-    };
-    let w = [weight(0, 1, 2), weight(1, 0, 2), weight(2, 0, 1)];
-    core::array::from_fn(|n| w[0].mul_add(k[0][n], w[1].mul_add(k[1][n], w[2] * k[2][n])))
+    let w = [lagrange(x, 0, 1, 2), lagrange(x, 1, 0, 2), lagrange(x, 2, 0, 1)];
+    each(
+        x,
+        #[inline(always)]
+        |n| w[0].mul_add(k[0][n], w[1].mul_add(k[1][n], w[2] * k[2][n])),
+    )
 }
 
 /// Iterates the stages from the guess `k`, and takes the step.
@@ -59,15 +66,17 @@ fn solved<R: Real, Q: System<R, N>, const N: usize>(
         for i in 0..3 {
             let slope = weighted(k, &GaussLegendreTableau::A[i]);
             let found = system.derivative(step.at(GaussLegendreTableau::C[i]), &start.shifted(step.length, &slope));
-            let moved = core::array::from_fn(|n| step.length * (found[n] - k[i][n]));
+            let moved = each(
+                zero,
+                #[inline(always)]
+                |n| step.length * (found[n] - k[i][n]),
+            );
             change = system.error_ratio(&moved, state, state, tolerance).larger(change);
             // Gauss-Seidel: later stages already use it.
-            for n in 0..N {
-                k[i][n] = R::select(raised(open), found[n], k[i][n]);
-            }
+            k[i] = chosen(raised(open), &found, &k[i]);
         }
         evaluations = open.mul_add(zero.splat(3.0), evaluations);
-        let way = k[1].map(|slope| step.length * slope);
+        let way = scaled(step.length, &k[1]);
         let size =
             system.error_ratio(state, state, state, tolerance) + system.error_ratio(&way, state, state, tolerance);
         let near = flag(change.lt(size * zero.splat(NEAR_ROUND_OFF)), zero);
@@ -103,13 +112,14 @@ impl FixedStep for GaussLegendre {
         tolerance: Tolerance,
         memory: &mut Stages<R, N>,
     ) -> Advance<R, N> {
-        let mut guess = GaussLegendreTableau::C.map(|c| derivative_at(memory, fresh.splat(1.0 + c)));
+        let mut guess = *memory;
+        for i in 0..3 {
+            guess[i] = derivative_at(memory, fresh.splat(1.0 + GaussLegendreTableau::C[i]));
+        }
         if R::any(raised(fresh)) {
             let slope = system.derivative(step.time, &start.state);
-            for stage in &mut guess {
-                for n in 0..N {
-                    stage[n] = R::select(raised(fresh), slope[n], stage[n]);
-                }
+            for i in 0..3 {
+                guess[i] = chosen(raised(fresh), &slope, &guess[i]);
             }
         }
         *memory = guess;
@@ -126,7 +136,10 @@ impl FixedStep for GaussLegendre {
         tolerance: Tolerance,
         memory: &Stages<R, N>,
     ) -> Advance<R, N> {
-        let mut k = GaussLegendreTableau::C.map(|c| derivative_at(memory, s * s.splat(c)));
+        let mut k = *memory;
+        for i in 0..3 {
+            k[i] = derivative_at(memory, s * s.splat(GaussLegendreTableau::C[i]));
+        }
         solved(system, part, start, tolerance, &mut k)
     }
 }

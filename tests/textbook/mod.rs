@@ -43,9 +43,10 @@ impl<R: Real, L: Law<N, P>, const N: usize, const P: usize> System<R, N> for Ban
     fn error_ratio(&self, error: &[R; N], old: &[R; N], new: &[R; N], tolerance: Tolerance) -> R {
         let zero = error[0].zero();
         let threshold = zero.splat(tolerance.absolute / tolerance.relative);
-        let largest = (0..N).fold(zero, |largest, n| {
-            (error[n].abs() / old[n].abs().larger(new[n].abs()).larger(threshold)).larger(largest)
-        });
+        let mut largest = zero;
+        for n in 0..N {
+            largest = (error[n].abs() / old[n].abs().larger(new[n].abs()).larger(threshold)).larger(largest);
+        }
         largest / zero.splat(tolerance.relative)
     }
 }
@@ -135,6 +136,7 @@ impl<const N: usize> Journey<N> {
     }
 }
 
+#[inline(always)] // Else it is compiled without the instructions of the chosen set.
 fn marched<M, R, L, const N: usize, const P: usize>(
     (method, law): (M, L),
     zero: R,
@@ -231,14 +233,17 @@ impl Law<4, 1> for ThreeBody {
     fn derivative<R: Real>(_time: R, y: &[R; 4], p: &[R; 1], _stretch: R) -> [R; 4] {
         let [x, z, u, v] = *y;
         let (mu, nu) = (p[0], x.splat(1.0) - p[0]);
-        let cube = |dx: R| {
-            let square = dx.mul_add(dx, z * z);
-            square * square.sqrt()
-        };
-        let (a, b) = (nu / cube(x + mu), mu / cube(x - nu));
+        let (a, b) = (nu / cube(x + mu, z), mu / cube(x - nu, z));
         let two = x.splat(2.0);
         [u, v, x + two * v - a * (x + mu) - b * (x - nu), z - two * u - a * z - b * z]
     }
+}
+
+/// The cube of the distance (x, z).
+#[inline(always)]
+fn cube<R: Real>(x: R, z: R) -> R {
+    let square = x.mul_add(x, z * z);
+    square * square.sqrt()
 }
 
 /// Arenstorf's orbit: mass, initial state, period.

@@ -20,23 +20,3 @@ impl Tableau<3> for GaussLegendreTableau {
     ];
     const B: [f64; 3] = [5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0];
 }
-
-impl GaussLegendreTableau {
-    /// The derivatives at the stages of the next step of the same size, from those of this one: Lagrange's polynomials
-    /// through the nodes C at 1 + C_i. A first guess only.
-    pub const EXTRAPOLATION: [[f64; 3]; 3] = {
-        let c = Self::C;
-        let mut rows = [[0.0; 3]; 3];
-        let mut i = 0;
-        while i < 3 {
-            let x = 1.0 + c[i];
-            rows[i] = [
-                (x - c[1]) * (x - c[2]) / ((c[0] - c[1]) * (c[0] - c[2])),
-                (x - c[0]) * (x - c[2]) / ((c[1] - c[0]) * (c[1] - c[2])),
-                (x - c[0]) * (x - c[1]) / ((c[2] - c[0]) * (c[2] - c[1])),
-            ];
-            i += 1;
-        }
-        rows
-    };
-}
