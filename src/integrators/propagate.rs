@@ -5,8 +5,8 @@
 
 use fearless_simd::Simd;
 
-use super::embedded::{Dop853, DormandPrince, Embedded};
-use super::fixed::{FixedStep, RungeKutta4};
+use super::embedded::{Dop853, DormandPrince};
+use super::fixed::RungeKutta4;
 use super::gauss_legendre::GaussLegendre;
 use super::method::Method;
 use super::reference_engine::ReferenceEngine;
@@ -17,8 +17,8 @@ use crate::dynamics::gyrostat::completion::components;
 use crate::dynamics::gyrostat::{RATES_ONLY, WITH_ANGLES, WITH_ATTITUDE, WITH_MOTORS, WITH_THRUST};
 use crate::dynamics::outcome::Outcome;
 use crate::dynamics::table::{Block, Blocks, Grid, StateTable};
-use crate::math::isa::Work;
-use crate::math::{Isa, Lanes};
+use crate::math::isa::{NarrowWork, Work};
+use crate::math::{Isa, Lanes, Real};
 use crate::scene::Scene;
 
 /// What a campaign's runs have in common: how they are integrated and what of them is kept.
@@ -68,26 +68,36 @@ impl Propagator {
 
     /// Memory and code for one worker.
     pub fn engine(&self, isa: Isa) -> Box<dyn Engine> {
-        isa.run(Build(self))
+        match self.method {
+            Method::Auto | Method::Taylor => isa.run(BuildTaylor(self)),
+            _ => isa.run_narrow(BuildRungeKutta(self)),
+        }
     }
 }
 
-/// Builds the engine of a propagator for the instruction set `S`.
-struct Build<'a>(&'a Propagator);
+/// Builds the engine of a Taylor method for the instruction set `S`.
+struct BuildTaylor<'a>(&'a Propagator);
 
-impl Work for Build<'_> {
+impl Work for BuildTaylor<'_> {
     type Output = Box<dyn Engine>;
 
     fn run<S: Simd>(self, simd: S) -> Self::Output {
-        let plan = self.0;
-        match plan.method {
-            Method::Auto | Method::Taylor => taylor(simd, plan),
-            Method::DormandPrince => adaptive(simd, plan, DormandPrince),
-            Method::Dop853 => adaptive(simd, plan, Dop853),
-            Method::RungeKutta4 => fixed(simd, plan, RungeKutta4),
-            Method::GaussLegendre => fixed(simd, plan, GaussLegendre),
-            Method::Reference => Box::new(ReferenceEngine::new(simd, plan)),
-        }
+        taylor(simd, self.0)
+    }
+}
+
+/// Builds the engine of a Runge-Kutta method.
+struct BuildRungeKutta<'a>(&'a Propagator);
+
+impl NarrowWork for BuildRungeKutta<'_> {
+    type Output = Box<dyn Engine>;
+
+    fn in_lanes<S: Simd>(self, simd: S) -> Self::Output {
+        runge_kutta(simd, Lanes::broadcast(simd, 0.0), self.0)
+    }
+
+    fn in_scalars<S: Simd>(self, simd: S) -> Self::Output {
+        runge_kutta(simd, 0.0, self.0)
     }
 }
 
@@ -105,22 +115,29 @@ fn taylor<S: Simd>(simd: S, plan: &Propagator) -> Box<dyn Engine> {
     }
 }
 
-/// A Runge-Kutta engine that follows the tolerance.
-fn adaptive<S: Simd, M: Embedded + Send + 'static>(simd: S, plan: &Propagator, method: M) -> Box<dyn Engine> {
-    runge_kutta(simd, plan, Adaptive(method))
+/// The engine of a Runge-Kutta method; `zero` says in how many lanes.
+fn runge_kutta<S: Simd, R: Real + Send + 'static>(simd: S, zero: R, plan: &Propagator) -> Box<dyn Engine> {
+    match plan.method {
+        Method::Dop853 => marched(simd, zero, plan, Adaptive(Dop853)),
+        Method::RungeKutta4 => marched(simd, zero, plan, Fixed(RungeKutta4)),
+        Method::GaussLegendre => marched(simd, zero, plan, Fixed(GaussLegendre)),
+        Method::Reference => Box::new(ReferenceEngine::new(simd, plan)),
+        Method::DormandPrince | Method::Auto | Method::Taylor => marched(simd, zero, plan, Adaptive(DormandPrince)),
+    }
 }
 
-/// A Runge-Kutta engine with a fixed step.
-fn fixed<S: Simd, M: FixedStep + Send + 'static>(simd: S, plan: &Propagator, method: M) -> Box<dyn Engine> {
-    runge_kutta(simd, plan, Fixed(method))
-}
-
-/// A Runge-Kutta engine: attitude and angles always, thrust where it is scheduled; two kernels a method are enough to compile.
-fn runge_kutta<S: Simd, M: March + Send + 'static>(simd: S, plan: &Propagator, march: M) -> Box<dyn Engine> {
+/// The engine of a march: attitude and angles always, thrust where it is scheduled; two kernels a method are enough to
+/// compile.
+fn marched<S: Simd, R: Real + Send + 'static, M: March + Send + 'static>(
+    simd: S,
+    zero: R,
+    plan: &Propagator,
+    march: M,
+) -> Box<dyn Engine> {
     if plan.thrust || plan.motors {
-        Box::new(RungeKuttaEngine::<S, M, WITH_THRUST>::new(simd, march, plan))
+        Box::new(RungeKuttaEngine::<S, R, M, WITH_THRUST>::new(simd, zero, march, plan))
     } else {
-        Box::new(RungeKuttaEngine::<S, M, WITH_ANGLES>::new(simd, march, plan))
+        Box::new(RungeKuttaEngine::<S, R, M, WITH_ANGLES>::new(simd, zero, march, plan))
     }
 }
 

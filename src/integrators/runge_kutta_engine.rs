@@ -10,10 +10,9 @@ use super::propagate::{Engine, Finish, Propagator};
 use super::step_control::Control;
 use super::workspace::Workspace;
 use super::{Runs, adaptive, fixed};
-use crate::dynamics::gyrostat::WITH_ATTITUDE;
 use crate::dynamics::outcome::Outcome;
 use crate::dynamics::table::{Grid, StateTable, Trajectory};
-use crate::math::{Lanes, Real};
+use crate::math::Real;
 use crate::scene::Scene;
 
 /// A method together with its march.
@@ -67,8 +66,9 @@ march!(Adaptive, Embedded, adaptive);
 march!(Fixed, FixedStep, fixed);
 
 /// One worker's memory.
-pub struct RungeKuttaEngine<S, M, const N: usize> {
+pub struct RungeKuttaEngine<S, R, M, const N: usize> {
     simd: S,
+    zero: R,
     march: M,
     plan: Propagator,
     batch: GyrostatBatch,
@@ -76,30 +76,31 @@ pub struct RungeKuttaEngine<S, M, const N: usize> {
     table: StateTable,
 }
 
-impl<S: Simd, M: March, const N: usize> RungeKuttaEngine<S, M, N> {
-    /// Memory for the runs of `plan`.
-    pub fn new(simd: S, march: M, plan: &Propagator) -> Self {
+impl<S: Simd, R: Real, M: March, const N: usize> RungeKuttaEngine<S, R, M, N> {
+    /// Memory for the runs of `plan`; `zero` says how many lanes.
+    pub fn new(simd: S, zero: R, march: M, plan: &Propagator) -> Self {
         let points = plan.grid.points();
         RungeKuttaEngine {
             simd,
+            zero,
             march,
             plan: plan.clone(),
             batch: GyrostatBatch::new(plan),
-            workspace: Workspace::new(Lanes::<S>::LANES, N, points),
+            workspace: Workspace::new(R::LANES, N, points),
             table: StateTable::new(plan.blocks, points),
         }
     }
 
     #[inline(always)]
     fn run(&mut self, scenes: &[Scene], finish: &mut Finish<'_>) {
-        let Self { simd, march, plan, batch, workspace, table } = self;
-        let zero = Lanes::broadcast(*simd, 0.0);
+        let Self { simd, zero, march, plan, batch, workspace, table } = self;
+        let zero = *zero;
         batch.take(scenes);
         if batch.begin_debris(scenes) {
-            // the debris is a gyrostat without wheels; it needs no more than its attitude
+            // the debris is a gyrostat without wheels; it needs no more than its attitude, but a kernel less to compile
             let (runs, store) = batch.debris();
             let mut runs = GyrostatRuns::new(zero, runs);
-            march.march::<_, _, _, WITH_ATTITUDE>(
+            march.march::<_, _, _, N>(
                 zero,
                 &mut runs,
                 &plan.grid,
@@ -123,7 +124,7 @@ impl<S: Simd, M: March, const N: usize> RungeKuttaEngine<S, M, N> {
     }
 }
 
-impl<S: Simd, M: March + Send, const N: usize> Engine for RungeKuttaEngine<S, M, N> {
+impl<S: Simd, R: Real + Send, M: March + Send, const N: usize> Engine for RungeKuttaEngine<S, R, M, N> {
     fn propagate(&mut self, scenes: &[Scene], finish: &mut Finish<'_>) {
         let simd = self.simd;
         simd.vectorize(

@@ -28,6 +28,19 @@ pub trait Work {
     fn run<S: Simd>(self, simd: S) -> Self::Output;
 }
 
+/// Work that is compiled for lanes on AVX2 and for one number at a time elsewhere; [`Isa::run_narrow`] calls the right one.
+///
+/// For methods that need not be the fastest: every instruction set more costs minutes of compile time, and the bits are the
+/// same.
+pub trait NarrowWork {
+    /// What the work returns.
+    type Output;
+    /// Does the work in lanes.
+    fn in_lanes<S: Simd>(self, simd: S) -> Self::Output;
+    /// Does the work one number at a time.
+    fn in_scalars<S: Simd>(self, simd: S) -> Self::Output;
+}
+
 impl Isa {
     /// The best instruction set of this processor.
     pub fn best() -> Self {
@@ -88,6 +101,23 @@ impl Isa {
     fn plain(level: Level) -> Self {
         let _ = level;
         Isa { level: Level::baseline(), name: "plain" }
+    }
+
+    /// Runs `work` in lanes of AVX2 where this instruction set has them, else one number at a time.
+    pub fn run_narrow<W: NarrowWork>(self, work: W) -> W::Output {
+        #[cfg(target_arch = "x86_64")]
+        {
+            if self.name != "plain"
+                && let Some(simd) = self.level.as_avx2()
+            {
+                return work.in_lanes(simd);
+            }
+            work.in_scalars(self.level.as_sse2().expect("every x86-64 processor has SSE2"))
+        }
+        #[cfg(not(target_arch = "x86_64"))]
+        {
+            fearless_simd::dispatch!(self.level, simd => work.in_scalars(simd))
+        }
     }
 
     /// Runs `work` compiled for this instruction set.
