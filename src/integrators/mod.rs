@@ -4,8 +4,10 @@
 //! physical [`crate::dynamics::table::StateTable`]. Runs stand in lanes that never share a decision.
 
 pub mod method;
+pub mod reference_runs;
 pub mod system;
 
 pub use crate::dynamics::outcome::{self, Effort, Outcome, Status};
 pub use method::Method;
+pub use reference_runs::ReferenceRuns;
 pub use system::{Runs, System, Tolerance};
