@@ -61,17 +61,17 @@ impl SeriesTable {
 type Form = [f64; 6];
 
 /// 2 T^c = omega . K omega of a body of mass `mass` at `offset` from c with inertia `inertia`, halved, as a form.
+#[inline(always)]
 fn form(mass: f64, offset: [f64; 3], inertia: [[f64; 3]; 3]) -> Form {
     let [x, y, z] = offset;
-    let moment = [mass * (y * y + z * z), mass * (x * x + z * z), mass * (x * x + y * y)];
-    let both = |i: usize, j: usize| 0.5 * (inertia[i][j] + inertia[j][i]);
+    let [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]] = inertia;
     [
-        0.5 * (inertia[0][0] + moment[0]),
-        0.5 * (inertia[1][1] + moment[1]),
-        0.5 * (inertia[2][2] + moment[2]),
-        both(0, 1) - mass * x * y,
-        both(0, 2) - mass * x * z,
-        both(1, 2) - mass * y * z,
+        0.5 * (xx + mass * (y * y + z * z)),
+        0.5 * (yy + mass * (x * x + z * z)),
+        0.5 * (zz + mass * (x * x + y * y)),
+        0.5 * (xy + yx) - mass * x * y,
+        0.5 * (xz + zx) - mass * x * z,
+        0.5 * (yz + zy) - mass * y * z,
     ]
 }
 
@@ -88,10 +88,15 @@ fn quadratic<R: Real>(form: [R; 6], p: [R; 6]) -> R {
 }
 
 /// Inertia of an axisymmetric wheel about its centre in F_s: J_t (1 - a a^T) + J_a a a^T.
-fn wheel_inertia(axis: [f64; 3], axial: f64, transverse: f64) -> [[f64; 3]; 3] {
-    std::array::from_fn(|i| {
-        std::array::from_fn(|j| (axial - transverse) * axis[i] * axis[j] + if i == j { transverse } else { 0.0 })
-    })
+#[inline(always)]
+fn wheel_inertia(wheel: &Wheel) -> [[f64; 3]; 3] {
+    let [x, y, z] = wheel.axis;
+    let (t, d) = (wheel.transverse, wheel.axial - wheel.transverse);
+    [
+        [t + d * x * x, d * x * y, d * x * z],
+        [d * x * y, t + d * y * y, d * y * z],
+        [d * x * z, d * y * z, t + d * z * z],
+    ]
 }
 
 /// Three components of a block at eight points.
@@ -143,13 +148,14 @@ fn first_vector<S: Simd>(simd: S, a: [Lanes<S>; 3]) -> [Lanes<S>; 3] {
 /// The columns of a block, or nothing where the table does not hold it.
 #[inline(always)]
 fn columns<const N: usize>(table: &StateTable, block: Block) -> Option<[&[f64]; N]> {
-    table.has(block).then(|| {
-        let mut columns: [&[f64]; N] = [&[]; N];
-        for (component, column) in columns.iter_mut().enumerate() {
-            *column = table.column(block, component);
-        }
-        columns
-    })
+    if !table.has(block) {
+        return None;
+    }
+    let mut columns: [&[f64]; N] = [&[]; N];
+    for (component, column) in columns.iter_mut().enumerate() {
+        *column = table.column(block, component);
+    }
+    Some(columns)
 }
 
 /// The columns of a block that the request has promised to be there.
@@ -241,9 +247,9 @@ impl<'a> Attitude<'a> {
             Attitude::Dcm(columns) => {
                 let axes =
                     [three(simd, &columns[0..], at), three(simd, &columns[3..], at), three(simd, &columns[6..], at)];
-                let off = |i: usize, j: usize| dot(axes[i], axes[j]).abs();
-                let on = |i: usize| (dot(axes[i], axes[i]) - one).abs();
-                on(0).larger(on(1)).larger(on(2).larger(off(0, 1))).larger(off(0, 2).larger(off(1, 2)))
+                let [x, y, z] = axes;
+                let on = unit_error(x, one).larger(unit_error(y, one)).larger(unit_error(z, one));
+                on.larger(dot(x, y).abs()).larger(dot(x, z).abs().larger(dot(y, z).abs()))
             }
             Attitude::Quaternion(columns) => {
                 let [w, x, y, z] = four(simd, &columns, at);
@@ -252,6 +258,69 @@ impl<'a> Attitude<'a> {
             }
             Attitude::None => Lanes::broadcast(simd, f64::NAN),
         }
+    }
+}
+
+/// |a . a - 1|.
+#[inline(always)]
+fn unit_error<R: Real>(a: [R; 3], one: R) -> R {
+    (dot(a, a) - one).abs()
+}
+
+/// The constants of the energies of a run, in all lanes.
+struct Constants<S: Simd> {
+    /// Energy of S, W1, W2 about c, the wheels locked, as forms of omega.
+    forms: [[Lanes<S>; 6]; 3],
+    /// m_b d_b, since m_b u . (omega x d_b) = m_b d_b . (u x omega).
+    arms: [[Lanes<S>; 3]; 3],
+    /// m_b / 2.
+    halves: [Lanes<S>; 3],
+    /// a_i.
+    axes: [[Lanes<S>; 3]; 2],
+    /// J_i.
+    axial: [Lanes<S>; 2],
+    /// m / 2.
+    half_total: Lanes<S>,
+    half: Lanes<S>,
+}
+
+impl<S: Simd> Constants<S> {
+    // Closures that compute with lanes are avoided here and below: one that is not inlined loses the instruction set.
+    #[inline(always)]
+    fn of(simd: S, mass: &MassProperties) -> Self {
+        let s = &mass.fuselage;
+        let [w1, w2] = &mass.wheels;
+        let d =
+            [difference(s.center, mass.center), difference(w1.center, mass.center), difference(w2.center, mass.center)];
+        Constants {
+            forms: [
+                constant_form(simd, form(s.mass, d[0], s.inertia)),
+                constant_form(simd, form(w1.mass, d[1], wheel_inertia(w1))),
+                constant_form(simd, form(w2.mass, d[2], wheel_inertia(w2))),
+            ],
+            arms: [
+                constant(simd, scaled(s.mass, d[0])),
+                constant(simd, scaled(w1.mass, d[1])),
+                constant(simd, scaled(w2.mass, d[2])),
+            ],
+            halves: constant(simd, [0.5 * s.mass, 0.5 * w1.mass, 0.5 * w2.mass]),
+            axes: [constant(simd, w1.axis), constant(simd, w2.axis)],
+            axial: [Lanes::broadcast(simd, w1.axial), Lanes::broadcast(simd, w2.axial)],
+            half_total: Lanes::broadcast(simd, 0.5 * mass.total),
+            half: Lanes::broadcast(simd, 0.5),
+        }
+    }
+
+    /// What the rate of wheel `i` adds to its energy: J_i Omega_i (omega . a_i + Omega_i / 2).
+    #[inline(always)]
+    fn spin(&self, i: usize, omega: [Lanes<S>; 3], rate: Lanes<S>) -> Lanes<S> {
+        self.axial[i] * rate * self.half.mul_add(rate, dot(self.axes[i], omega))
+    }
+
+    /// Energy of body `b` in F_e from the one about c: `square` = u . u, `turned` = u x omega.
+    #[inline(always)]
+    fn moving(&self, b: usize, about: Lanes<S>, square: Lanes<S>, turned: [Lanes<S>; 3]) -> Lanes<S> {
+        self.halves[b].mul_add(square, dot(self.arms[b], turned) + about)
     }
 }
 
@@ -266,25 +335,7 @@ fn energies<S: Simd>(
     points: usize,
     out: &mut SeriesTable,
 ) {
-    let all = |value: f64| Lanes::broadcast(simd, value);
-    let [w1, w2] = mass.wheels;
-    let offset = |center: [f64; 3]| difference(center, mass.center);
-    let offsets = [offset(mass.fuselage.center), offset(w1.center), offset(w2.center)];
-    let wheel = |w: &Wheel, offset| form(w.mass, offset, wheel_inertia(w.axis, w.axial, w.transverse));
-    let forms = [
-        constant_form(simd, form(mass.fuselage.mass, offsets[0], mass.fuselage.inertia)),
-        constant_form(simd, wheel(&w1, offsets[1])),
-        constant_form(simd, wheel(&w2, offsets[2])),
-    ];
-    let axes = [constant(simd, w1.axis), constant(simd, w2.axis)];
-    let axial = [all(w1.axial), all(w2.axial)];
-    let half = all(0.5);
-    // d_b m_b, since u . (omega x d) m = d m . (u x omega)
-    let weighted = |mass, offset| constant(simd, scaled(mass, offset));
-    let arms = [weighted(mass.fuselage.mass, offsets[0]), weighted(w1.mass, offsets[1]), weighted(w2.mass, offsets[2])];
-    let halves = [all(0.5 * mass.fuselage.mass), all(0.5 * w1.mass), all(0.5 * w2.mass)];
-    let half_total = all(0.5 * mass.total);
-
+    let constants = Constants::of(simd, mass);
     let omega_columns: [_; 3] = needed(table, Block::Rate);
     let rate_columns: [_; 2] = needed(table, Block::WheelRates);
     let total = wanted.has(Series::EnergyTotal);
@@ -292,22 +343,26 @@ fn energies<S: Simd>(
     let velocity = if total || inertial { needed(table, Block::ComVelocity) } else { [&[][..]; 3] };
     let work: Option<[_; 2]> = if wanted.has(Series::EnergyError) { columns(table, Block::Work) } else { None };
     // the debris enters as a body of its own, with c at its centre
-    let debris = debris.filter(|_| total || wanted.has(Series::EnergyDebris)).map(|body| {
-        let velocity: [_; 3] = needed(table, Block::DebrisVelocity);
-        let omega: [_; 3] = needed(table, Block::DebrisRate);
-        (velocity, omega, constant_form(simd, form(0.0, [0.0; 3], body.inertia)), all(0.5 * body.mass))
-    });
-
-    let mut com_first = all(0.0);
-    let mut balance_first = all(0.0);
+    let debris = match debris {
+        Some(body) if total || wanted.has(Series::EnergyDebris) => {
+            let velocity: [_; 3] = needed(table, Block::DebrisVelocity);
+            let omega: [_; 3] = needed(table, Block::DebrisRate);
+            let form = constant_form(simd, form(0.0, [0.0; 3], body.inertia));
+            Some((velocity, omega, form, Lanes::broadcast(simd, 0.5 * body.mass)))
+        }
+        _ => None,
+    };
+    let mut com_first = Lanes::broadcast(simd, 0.0);
+    let mut balance_first = com_first;
     for at in (0..points).step_by(WIDTH) {
         let omega = three(simd, &omega_columns, at);
         let p = products(omega);
-        let spin = |i: usize| {
-            let rate = Lanes::from_slice(simd, &rate_columns[i][at..]);
-            axial[i] * rate * half.mul_add(rate, dot(axes[i], omega))
-        };
-        let about = [quadratic(forms[0], p), quadratic(forms[1], p) + spin(0), quadratic(forms[2], p) + spin(1)];
+        let rates = [Lanes::from_slice(simd, &rate_columns[0][at..]), Lanes::from_slice(simd, &rate_columns[1][at..])];
+        let about = [
+            quadratic(constants.forms[0], p),
+            quadratic(constants.forms[1], p) + constants.spin(0, omega, rates[0]),
+            quadratic(constants.forms[2], p) + constants.spin(1, omega, rates[1]),
+        ];
         let com = about[0] + (about[1] + about[2]);
         if at == 0 {
             com_first = first(simd, com);
@@ -326,12 +381,11 @@ fn energies<S: Simd>(
             let u = transposed_product(attitude.c_es(simd, at), v_c);
             let square = dot(u, u);
             let turned = cross(u, omega);
-            let moving = |b: usize| halves[b].mul_add(square, dot(arms[b], turned) + about[b]);
-            out.store(Series::EnergyFuselage, at, moving(0));
-            out.store(Series::EnergyWheel1, at, moving(1));
-            out.store(Series::EnergyWheel2, at, moving(2));
+            out.store(Series::EnergyFuselage, at, constants.moving(0, about[0], square, turned));
+            out.store(Series::EnergyWheel1, at, constants.moving(1, about[1], square, turned));
+            out.store(Series::EnergyWheel2, at, constants.moving(2, about[2], square, turned));
         }
-        let mut energy = half_total.mul_add(dot(v_c, v_c), com);
+        let mut energy = constants.half_total.mul_add(dot(v_c, v_c), com);
         if let Some((velocity, omega, form, half_mass)) = &debris {
             let v = three(simd, velocity, at);
             let omega = three(simd, omega, at);
@@ -408,7 +462,8 @@ fn angular_momentum<S: Simd>(
     let rates: [_; 2] = needed(table, Block::WheelRates);
     let impulse: Option<[_; 3]> = columns(table, Block::AngularImpulse);
     let inertia = constant_matrix(simd, mass.inertia);
-    let axes = [0, 1].map(|i| constant(simd, scaled(mass.wheels[i].axial, mass.wheels[i].axis)));
+    let [w1, w2] = &mass.wheels;
+    let axes = [constant(simd, scaled(w1.axial, w1.axis)), constant(simd, scaled(w2.axial, w2.axis))];
     let mut start = constant(simd, [0.0; 3]);
     for at in (0..points).step_by(WIDTH) {
         let wheels = sum(
