@@ -349,7 +349,7 @@ const FAMILIES: &[&[Column]] = &[
     scales!(MomentumConservation, Debris, DebrisAngularSquare, "debris_angular_momentum", ["N m s", "_n_m_s"], "|L| of the debris about its centre"),
     errors!(Attitude, Always, AttitudeError, "attitude_error", "the largest entry of |C_es^T C_es - 1|."),
     errors!(Constraints, Constrained, ResidualKinematic, "residual_kinematic", ["m/s", "_m_s"], ["m/s^2", "_m_s2"], "the residual of the kinematic constraints (angular components in rad/s)."),
-    errors!(Constraints, Constrained, ResidualCollocation, "residual_collocation", ["m", "_m"], ["m/s", "_m_s"], "the residual of the collocation constraints."),
+    errors!(Constraints, Constrained, ResidualCollocation, "residual_collocation", ["m", "_m"], ["m/s", "_m_s"], "the residual of the collocation constraints (tilts of wheel axes as sines)."),
     errors!(Constraints, Constrained, ResidualAttitude, "residual_attitude", "the residual of the attitude constraints."),
     energies!(Energies, Always, EnergyFuselage, "energy_fuselage", "kinetic energy of the fuselage in F_e"),
     energies!(Energies, Always, EnergyWheel1, "energy_wheel1", "kinetic energy of wheel 1 in F_e"),

@@ -5,16 +5,20 @@
 //! - [`series`]: the time series behind the columns, which `simulate` writes out.
 //! - [`request`]: what was asked for; from it the columns, and which blocks of the state table they need and why.
 //! - [`observer`]: [`Observer`] reads a state table and writes a row.
-//! - `measure`, `reduce`, `spectrum`: states to series, series to numbers, the frequency of the exchange.
+//! - `measure`, `momenta`, `attitude`, `points`: states to series, eight points at a time.
+//! - `reduce`, `spectrum`: series to numbers, the frequency of the exchange.
 //!
 //! Source of energies and momenta: Berdoz, *Final Report - ADR Spacecraft*, (36), and the balances of the gyrostat
 //! (Zhukovskii; Volterra 1899). Nothing here knows how a run was integrated, and nothing is assumed to be conserved: every
 //! error is measured from the produced states.
 
+mod attitude;
 pub mod columns;
 pub mod group;
 mod measure;
+mod momenta;
 pub mod observer;
+mod points;
 mod reduce;
 pub mod request;
 pub mod series;

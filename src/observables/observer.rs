@@ -4,7 +4,8 @@ use fearless_simd::Simd;
 
 use super::columns::{Own, Statistic, Value};
 use super::group::Group;
-use super::measure::{SeriesTable, measure};
+use super::measure::{Run, measure};
+use super::points::SeriesTable;
 use super::reduce::{Weights, correlations, errors, initial_and_max, slope, spread, transfer};
 use super::request::{Request, Wanted};
 use super::series::{Series, SeriesColumn};
@@ -25,14 +26,16 @@ pub struct Observer {
     request: Request,
     wanted: Wanted,
     exchange: bool,
-    /// For each column the slot of its value, and whether a run that failed has it too.
-    slots: Vec<(u32, bool)>,
+    /// For each column the slot of its value.
+    slots: Vec<u16>,
+    /// For each column whether a run that failed has it too.
+    survives: Vec<bool>,
     published: Vec<&'static SeriesColumn>,
     times: Vec<f64>,
     weights: Weights,
     spectrum: Option<Spectrum>,
     series: SeriesTable,
-    values: Vec<f64>,
+    values: Box<[f64; Value::SLOTS]>,
     /// Number of points of the run that was observed last.
     filled: usize,
 }
@@ -46,13 +49,14 @@ impl Observer {
             request,
             wanted: request.wanted(),
             exchange,
-            slots: columns.iter().map(|column| (column.value.slot() as u32, column.value.survives())).collect(),
+            slots: columns.iter().map(|column| column.value.slot() as u16).collect(),
+            survives: columns.iter().map(|column| column.value.survives()).collect(),
             published: request.series(),
             times: grid.times().to_vec(),
             weights: Weights::of(grid),
             spectrum: if exchange { Spectrum::of(grid) } else { None },
             series: SeriesTable::new(grid.points()),
-            values: vec![f64::NAN; Value::SLOTS],
+            values: Box::new([f64::NAN; Value::SLOTS]),
             filled: 0,
         }
     }
@@ -74,14 +78,18 @@ impl Observer {
         assert_eq!(row.len(), self.slots.len(), "a row has one value a column");
         assert_eq!(table.points(), self.times.len(), "the table has the points of the grid");
         assert!(scene.mass.debris.is_some() || !self.request.debris, "a scene whose debris is observed has one");
-        let done = outcome.status == Status::Done;
         self.filled = outcome.points.min(table.points());
         if self.filled > 0 {
             isa.run(Observation { observer: self, scene, table });
         }
         self.own(table, outcome);
-        for (value, (slot, survives)) in row.iter_mut().zip(&self.slots) {
-            *value = if done || *survives { self.values[*slot as usize] } else { f64::NAN };
+        for (value, slot) in row.iter_mut().zip(&self.slots) {
+            *value = self.values[*slot as usize];
+        }
+        if outcome.status != Status::Done {
+            for (value, survives) in row.iter_mut().zip(&self.survives) {
+                *value = if *survives { *value } else { f64::NAN };
+            }
         }
     }
 
@@ -178,7 +186,7 @@ impl Observer {
     #[inline(always)]
     fn exchange<S: Simd>(&mut self, simd: S) {
         use Series::{ComFuselage, ComTotal, ComWheel1, ComWheel2};
-        let of = |values: &[f64], series, statistic| values[Value::Of(series, statistic).slot()];
+        let of = |values: &[f64; Value::SLOTS], series, statistic| values[Value::Of(series, statistic).slot()];
         let total = of(&self.values, ComTotal, Statistic::Max);
         for series in [ComFuselage, ComWheel1, ComWheel2] {
             let swing = of(&self.values, series, Statistic::PeakToPeak);
@@ -252,7 +260,9 @@ impl Work for Observation<'_> {
     fn run<S: Simd>(self, simd: S) {
         let Observation { observer, scene, table } = self;
         let debris = scene.mass.debris.as_ref().filter(|_| observer.request.debris);
-        measure(simd, observer.wanted, debris, &scene.mass, table, observer.filled, &mut observer.series);
+        let (wanted, points) = (observer.wanted, observer.filled);
+        let run = Run { wanted, mass: &scene.mass, debris, table, points };
+        measure(simd, &run, &mut observer.series);
         observer.reduce(simd);
     }
 }

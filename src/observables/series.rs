@@ -144,7 +144,12 @@ pub const PUBLISHED: &[SeriesColumn] = &{
             "m/s",
             "Residual of the kinematic constraints (angular components in rad/s).",
         ),
-        column(ResidualCollocation, "residual_collocation_m", "m", "Residual of the collocation constraints."),
+        column(
+            ResidualCollocation,
+            "residual_collocation_m",
+            "m",
+            "Residual of the collocation constraints (tilts of wheel axes as sines).",
+        ),
         column(ResidualAttitude, "residual_attitude", "", "Residual of the attitude constraints."),
     ]
 };

@@ -107,9 +107,10 @@ impl Spectrum {
                 let (im_a, im_b) = im.split_at_mut(half);
                 if half >= WIDTH {
                     for at in (0..half).step_by(WIDTH) {
-                        let read = |column: &[f64]| Lanes::from_slice(simd, &column[at..]);
-                        let (a, b) =
-                            butterfly((read(re_a), read(im_a)), (read(re_b), read(im_b)), (read(cos), read(sin)));
+                        let a = (Lanes::from_slice(simd, &re_a[at..]), Lanes::from_slice(simd, &im_a[at..]));
+                        let b = (Lanes::from_slice(simd, &re_b[at..]), Lanes::from_slice(simd, &im_b[at..]));
+                        let w = (Lanes::from_slice(simd, &cos[at..]), Lanes::from_slice(simd, &sin[at..]));
+                        let (a, b) = butterfly(a, b, w);
                         a.0.store(&mut re_a[at..]);
                         a.1.store(&mut im_a[at..]);
                         b.0.store(&mut re_b[at..]);

@@ -1,0 +1,72 @@
+//! Attitude of the fuselage as a kernel has it: the DCM itself or a quaternion.
+
+use fearless_simd::Simd;
+
+use super::points::{Column, columns, constant_matrix, four, three};
+use crate::dynamics::table::{Block, StateTable};
+use crate::math::vector::{dcm_from_quaternion, dot};
+use crate::math::{Lanes, Real};
+
+/// Where C_es comes from: the DCM where the kernel integrates it, else the quaternion in its homogeneous form, so that an
+/// error of the norm shows in whatever is turned by it.
+#[derive(Clone, Copy)]
+pub(super) enum Attitude<'a> {
+    Dcm([Column<'a>; 9]),
+    Quaternion([Column<'a>; 4]),
+    None,
+}
+
+impl<'a> Attitude<'a> {
+    #[inline(always)]
+    pub(super) fn of(table: &'a StateTable, vectors: usize) -> Self {
+        if let Some(dcm) = columns(table, Block::Dcm, vectors) {
+            Attitude::Dcm(dcm)
+        } else if let Some(quaternion) = columns(table, Block::Attitude, vectors) {
+            Attitude::Quaternion(quaternion)
+        } else {
+            Attitude::None
+        }
+    }
+
+    /// C_es by rows.
+    #[inline(always)]
+    pub(super) fn c_es<S: Simd>(self, simd: S, at: usize) -> [[Lanes<S>; 3]; 3] {
+        match self {
+            Attitude::Dcm([a, b, c, d, e, f, g, h, i]) => {
+                let x = three(simd, [a, b, c], at);
+                let y = three(simd, [d, e, f], at);
+                let z = three(simd, [g, h, i], at);
+                [[x[0], y[0], z[0]], [x[1], y[1], z[1]], [x[2], y[2], z[2]]]
+            }
+            Attitude::Quaternion(columns) => dcm_from_quaternion(four(simd, columns, at)),
+            Attitude::None => constant_matrix(simd, [[f64::NAN; 3]; 3]),
+        }
+    }
+
+    /// Largest entry of |C_es^T C_es - 1|; of a quaternion | |q|^4 - 1 |, since its C_es is |q|^2 times a rotation.
+    #[inline(always)]
+    pub(super) fn error<S: Simd>(self, simd: S, at: usize) -> Lanes<S> {
+        let one = Lanes::broadcast(simd, 1.0);
+        match self {
+            Attitude::Dcm([a, b, c, d, e, f, g, h, i]) => {
+                let x = three(simd, [a, b, c], at);
+                let y = three(simd, [d, e, f], at);
+                let z = three(simd, [g, h, i], at);
+                let on = unit_error(x, one).larger(unit_error(y, one)).larger(unit_error(z, one));
+                on.larger(dot(x, y).abs()).larger(dot(x, z).abs().larger(dot(y, z).abs()))
+            }
+            Attitude::Quaternion(columns) => {
+                let [w, x, y, z] = four(simd, columns, at);
+                let excess = w.mul_add(w, x.mul_add(x, y.mul_add(y, z.mul_add(z, -one))));
+                (excess * (excess + Lanes::broadcast(simd, 2.0))).abs()
+            }
+            Attitude::None => Lanes::broadcast(simd, f64::NAN),
+        }
+    }
+}
+
+/// |a . a - 1|.
+#[inline(always)]
+pub(super) fn unit_error<R: Real>(a: [R; 3], one: R) -> R {
+    (dot(a, a) - one).abs()
+}

@@ -1,0 +1,121 @@
+//! Linear and angular momenta of spacecraft and debris, and how far each departs from its first value.
+//!
+//! p = m v_c less the thrusters' impulse; L = C_es (J omega + sum J_i Omega_i a_i) about c, J with wheels locked, less their
+//! angular impulse; of the debris m_d v_d and C_ed J_d omega_d, on which nothing acts.
+
+use fearless_simd::Simd;
+
+use super::attitude::Attitude;
+use super::points::{SeriesTable, columns, constant, constant_matrix, first_vector, four, needed, three};
+use super::series::Series;
+use crate::dynamics::table::{Block, StateTable};
+use crate::math::Lanes;
+use crate::math::lanes::WIDTH;
+use crate::math::vector::{dcm_from_quaternion, difference, dot, norm, product, scaled, sum};
+use crate::scene::mass::{Body, MassProperties};
+
+/// Where |balance - its first value| and |momentum|^2 of a momentum are written.
+struct Sink<'a, S: Simd> {
+    error: &'a mut [[f64; WIDTH]],
+    square: &'a mut [[f64; WIDTH]],
+    start: [Lanes<S>; 3],
+}
+
+impl<'a, S: Simd> Sink<'a, S> {
+    #[inline(always)]
+    fn new(simd: S, [error, square]: [&'a mut [[f64; WIDTH]]; 2]) -> Self {
+        Sink { error, square, start: constant(simd, [0.0; 3]) }
+    }
+
+    /// Writes vector `at`; `balance` is the momentum less what was fed in.
+    #[inline(always)]
+    fn put(&mut self, simd: S, at: usize, momentum: [Lanes<S>; 3], balance: [Lanes<S>; 3]) {
+        if at == 0 {
+            self.start = first_vector(simd, balance);
+        }
+        norm(difference(balance, self.start)).store(&mut self.error[at]);
+        dot(momentum, momentum).store(&mut self.square[at]);
+    }
+}
+
+/// Linear momentum of the spacecraft.
+#[inline(always)]
+pub(super) fn linear_momentum<S: Simd>(
+    simd: S,
+    mass: &MassProperties,
+    table: &StateTable,
+    vectors: usize,
+    out: &mut SeriesTable,
+) {
+    let velocity: [_; 3] = needed(table, Block::ComVelocity, vectors);
+    let impulse: Option<[_; 3]> = columns(table, Block::Impulse, vectors);
+    let total = Lanes::broadcast(simd, mass.total);
+    let columns = out.write([Series::LinearMomentumError, Series::LinearMomentumSquare], vectors);
+    let mut sink = Sink::new(simd, columns);
+    for at in 0..vectors {
+        let momentum = scaled(total, three(simd, velocity, at));
+        let balance = match impulse {
+            Some(impulse) => difference(momentum, three(simd, impulse, at)),
+            None => momentum,
+        };
+        sink.put(simd, at, momentum, balance);
+    }
+}
+
+/// Angular momentum of the spacecraft about c.
+#[inline(always)]
+pub(super) fn angular_momentum<S: Simd>(
+    simd: S,
+    mass: &MassProperties,
+    table: &StateTable,
+    attitude: Attitude<'_>,
+    vectors: usize,
+    out: &mut SeriesTable,
+) {
+    let omega: [_; 3] = needed(table, Block::Rate, vectors);
+    let [rate1, rate2]: [_; 2] = needed(table, Block::WheelRates, vectors);
+    let impulse: Option<[_; 3]> = columns(table, Block::AngularImpulse, vectors);
+    let inertia = constant_matrix(simd, mass.inertia);
+    let [w1, w2] = &mass.wheels;
+    let axes = [constant(simd, scaled(w1.axial, w1.axis)), constant(simd, scaled(w2.axial, w2.axis))];
+    let columns = out.write([Series::AngularMomentumError, Series::AngularMomentumSquare], vectors);
+    let mut sink = Sink::new(simd, columns);
+    for at in 0..vectors {
+        let wheels =
+            sum(scaled(Lanes::load(simd, &rate1[at]), axes[0]), scaled(Lanes::load(simd, &rate2[at]), axes[1]));
+        let h_s = sum(product(inertia, three(simd, omega, at)), wheels);
+        let momentum = product(attitude.c_es(simd, at), h_s);
+        let balance = match impulse {
+            Some(impulse) => difference(momentum, three(simd, impulse, at)),
+            None => momentum,
+        };
+        sink.put(simd, at, momentum, balance);
+    }
+}
+
+/// Linear and angular momentum of the debris.
+#[inline(always)]
+pub(super) fn debris_momenta<S: Simd>(simd: S, body: &Body, table: &StateTable, vectors: usize, out: &mut SeriesTable) {
+    let velocity: [_; 3] = needed(table, Block::DebrisVelocity, vectors);
+    let omega: [_; 3] = needed(table, Block::DebrisRate, vectors);
+    let attitude: [_; 4] = needed(table, Block::DebrisAttitude, vectors);
+    let inertia = constant_matrix(simd, body.inertia);
+    let total = Lanes::broadcast(simd, body.mass);
+    let [a, b, c, d] = out.write(
+        [
+            Series::DebrisLinearError,
+            Series::DebrisLinearSquare,
+            Series::DebrisAngularError,
+            Series::DebrisAngularSquare,
+        ],
+        vectors,
+    );
+    let (mut linear_sink, mut angular_sink) = (Sink::new(simd, [a, b]), Sink::new(simd, [c, d]));
+    for at in 0..vectors {
+        let linear = scaled(total, three(simd, velocity, at));
+        linear_sink.put(simd, at, linear, linear);
+        let c_ed = dcm_from_quaternion(four(simd, attitude, at));
+        let angular = product(c_ed, product(inertia, three(simd, omega, at)));
+        angular_sink.put(simd, at, angular, angular);
+    }
+}

@@ -1,0 +1,112 @@
+//! Eight points at a time: columns of the state table in, columns of the series out.
+//!
+//! Not here: what is computed in between (`measure`, `momenta`).
+
+use fearless_simd::Simd;
+
+use super::request::Wanted;
+use super::series::Series;
+use crate::dynamics::table::{Block, StateTable};
+use crate::math::lanes::WIDTH;
+use crate::math::{Lanes, Real};
+
+/// Eight neighbouring points of a component: all arithmetic here goes vector by vector, and columns cut to one common number of
+/// vectors need no check of bounds inside the loops.
+pub(super) type Column<'a> = &'a [[f64; WIDTH]];
+
+/// The values of every series, each with one vector of padding more than a column of the state table (so that the neighbour of
+/// every point can be read).
+#[derive(Clone, Debug)]
+pub(super) struct SeriesTable {
+    columns: [Vec<[f64; WIDTH]>; Series::COUNT],
+}
+
+impl SeriesTable {
+    /// Series of `points` points; all zero.
+    pub(super) fn new(points: usize) -> Self {
+        let vectors = points.div_ceil(WIDTH) + 1;
+        SeriesTable { columns: std::array::from_fn(|_| vec![[0.0; WIDTH]; vectors]) }
+    }
+
+    /// The values of a series, with padding.
+    #[inline(always)]
+    pub(super) fn column(&self, series: Series) -> &[f64] {
+        self.columns[series as usize].as_flattened()
+    }
+
+    /// The first `vectors` vectors of some series, to write.
+    #[inline(always)]
+    pub(super) fn write<const N: usize>(&mut self, series: [Series; N], vectors: usize) -> [&mut [[f64; WIDTH]]; N] {
+        let columns = self.columns.get_disjoint_mut(series.map(|series| series as usize));
+        columns.expect("no series is written twice at once").map(|column| &mut column[..vectors])
+    }
+
+    /// Repeats point `points - 1` in all that follow it.
+    #[inline(always)]
+    pub(super) fn pad(&mut self, wanted: Wanted, points: usize) {
+        for (series, column) in self.columns.iter_mut().enumerate() {
+            if wanted.has_index(series) {
+                let (whole, rest) = (points / WIDTH, points % WIDTH);
+                let last = column[(points - 1) / WIDTH][(points - 1) % WIDTH];
+                for (lane, value) in column[whole].iter_mut().enumerate() {
+                    *value = if lane < rest { *value } else { last };
+                }
+                column[whole + 1..].fill([last; WIDTH]);
+            }
+        }
+    }
+}
+
+/// Three components of a block at the eight points of vector `at`.
+#[inline(always)]
+pub(super) fn three<S: Simd>(simd: S, [x, y, z]: [Column<'_>; 3], at: usize) -> [Lanes<S>; 3] {
+    [Lanes::load(simd, &x[at]), Lanes::load(simd, &y[at]), Lanes::load(simd, &z[at])]
+}
+
+#[inline(always)]
+pub(super) fn four<S: Simd>(simd: S, [w, x, y, z]: [Column<'_>; 4], at: usize) -> [Lanes<S>; 4] {
+    let [x, y, z] = three(simd, [x, y, z], at);
+    [Lanes::load(simd, &w[at]), x, y, z]
+}
+
+/// A constant vector in all lanes.
+#[inline(always)]
+pub(super) fn constant<S: Simd>(simd: S, a: [f64; 3]) -> [Lanes<S>; 3] {
+    [Lanes::broadcast(simd, a[0]), Lanes::broadcast(simd, a[1]), Lanes::broadcast(simd, a[2])]
+}
+
+/// A constant matrix in all lanes, by rows.
+#[inline(always)]
+pub(super) fn constant_matrix<S: Simd>(simd: S, m: [[f64; 3]; 3]) -> [[Lanes<S>; 3]; 3] {
+    [constant(simd, m[0]), constant(simd, m[1]), constant(simd, m[2])]
+}
+
+/// Lane 0 in all lanes: the value at point 0, if the vector is the first of its column.
+#[inline(always)]
+pub(super) fn first<S: Simd>(simd: S, a: Lanes<S>) -> Lanes<S> {
+    Lanes::broadcast(simd, a.lane(0))
+}
+
+#[inline(always)]
+pub(super) fn first_vector<S: Simd>(simd: S, a: [Lanes<S>; 3]) -> [Lanes<S>; 3] {
+    [first(simd, a[0]), first(simd, a[1]), first(simd, a[2])]
+}
+
+/// The first `vectors` vectors of the columns of a block, or nothing where the table does not hold it.
+#[inline(always)]
+pub(super) fn columns<const N: usize>(table: &StateTable, block: Block, vectors: usize) -> Option<[Column<'_>; N]> {
+    if !table.has(block) {
+        return None;
+    }
+    let mut columns: [Column<'_>; N] = [&[]; N];
+    for (component, column) in columns.iter_mut().enumerate() {
+        *column = &table.column(block, component).as_chunks().0[..vectors];
+    }
+    Some(columns)
+}
+
+/// The columns of a block that the request has promised to be there.
+#[inline(always)]
+pub(super) fn needed<const N: usize>(table: &StateTable, block: Block, vectors: usize) -> [Column<'_>; N] {
+    columns(table, block, vectors).expect("the observer checks that the table holds what its request needs")
+}
