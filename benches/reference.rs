@@ -2,6 +2,7 @@
 //!
 //! `cargo bench --bench reference`
 
+use std::f64::consts::PI;
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
@@ -52,9 +53,9 @@ fn report_scene() -> Scene {
             position_m: [0.0; 3],
             velocity_m_s: [10.0, 0.0, 0.0],
             attitude: [1.0, 0.0, 0.0, 0.0],
-            angular_velocity_rad_s: [0.0, 3.141592653589793, 31.41592653589793],
+            angular_velocity_rad_s: [0.0, PI, 10.0 * PI],
             wheel_angles_rad: [0.0; 2],
-            wheel_rates_rad_s: [314.1592653589793, 157.07963267948966],
+            wheel_rates_rad_s: [100.0 * PI, 50.0 * PI],
             debris_position_m: [0.0; 3],
             debris_velocity_m_s: [10.0, 0.0, 0.0],
             debris_attitude: [1.0, 0.0, 0.0, 0.0],

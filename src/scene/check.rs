@@ -1,6 +1,6 @@
 //! What makes a scene physical: every refusal, by key and number.
 //!
-//! [`written`] checks what a person wrote, [`derived`] what follows from it (masses and inertias that overflow, vanish or are
+//! `written` checks what a person wrote, `derived` what follows from it (masses and inertias that overflow, vanish or are
 //! not positive definite). Both only gather problems, so that one look at an input finds them all.
 
 use super::error::Problems;

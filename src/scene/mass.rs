@@ -69,7 +69,7 @@ impl<R: Real> Body<R> {
         matrix_sum(self.inertia, point_inertia(self.mass, self.center))
     }
 
-    /// The fuselage (60)-(63), with the overrides of its input.
+    /// The fuselage (60)-(67), with the overrides of its input.
     ///
     /// Where only the mass is overridden, the inertia that geometry gives scales with it (same shape, another density); an
     /// overridden centre of mass moves the centre and leaves the inertia about it as it was.
@@ -97,14 +97,14 @@ impl<R: Real> Body<R> {
         body
     }
 
-    /// The debris (66), (67).
+    /// The debris (60)-(67).
     pub fn debris(input: &DebrisInput, one: R) -> Self {
         solid_box(input.shape.size_m().map(|side| one.splat(side)), one.splat(input.density_kg_m3))
     }
 }
 
 impl<R: Real> Wheel<R> {
-    /// A wheel (64), (65) with spin axis `axis`; a missing one has mass and inertia zero.
+    /// A wheel (60)-(67) with spin axis `axis`; a missing one has mass and inertia zero.
     pub fn new(input: Option<&WheelInput>, axis: [f64; 3], one: R) -> Self {
         let k = |value: f64| one.splat(value);
         let zero = one.zero();

@@ -1,4 +1,4 @@
-//! Non-inertial terms and actuators, body by body: -M-dot nu - Omega M nu + a_non (38), (39), and B u (26), (72)-(74).
+//! Non-inertial terms and actuators, body by body: -M-dot nu - Omega M nu + a_non (39), and B u (26), (72)-(74).
 //!
 //! The three non-inertial terms stay apart, as in the report, although for the fuselage they add up to -omega x J omega and
 //! C omega x (c x omega): so the sign of a_non can be looked at by itself.

@@ -1,4 +1,4 @@
-//! Residuals of the constraints (27)-(34): what the integration lets slip, each as one largest absolute value.
+//! Residuals of the constraints (27)-(34), in three kinds: what the integration lets slip, each as one largest absolute value.
 //!
 //! The null space fulfils the constraints on the speeds by construction; the coordinates, being integrated, drift from them.
 
@@ -10,10 +10,10 @@ use crate::scene::Scene;
 
 /// The largest residual of each kind in `state`: [kinematic, collocation, attitude]. Bodies that the scene lacks do not count.
 ///
-/// - kinematic (m/s and rad/s): Xi nu of (27)-(29), with nu = Pi nu-hat: the wheel's centre moves as a point of the fuselage,
+/// - kinematic (m/s and rad/s): Xi nu, with nu = Pi nu-hat: the wheel's centre moves as a point of the fuselage,
 ///   and the wheel turns against the fuselage about its axis only (both seen in F_s through the integrated DCMs);
-/// - collocation (m, and sines of angles): (30), (31), the wheel's centre sits at z_i, its axis along the fuselage's a_i;
-/// - attitude: (32)-(34), entries of C^T C - 1 of all DCMs.
+/// - collocation (m, and sines of angles): the wheel's centre sits at z_i, its axis along the fuselage's a_i;
+/// - attitude: entries of C^T C - 1 of all DCMs.
 #[inline(always)]
 pub fn residuals(scene: &Scene, parameters: &Parameters, state: &State) -> [f64; 3] {
     let (mut kinematic, mut collocation) = (0.0, 0.0);
