@@ -6,4 +6,5 @@
 pub mod dynamics;
 pub mod integrators;
 pub mod math;
+pub mod output;
 pub mod scene;
