@@ -241,6 +241,22 @@ impl Trajectory {
         }
     }
 
+    /// Fills the padding of every component with its last point.
+    pub fn pad(&mut self) {
+        let (points, stride) = (self.points, self.stride);
+        for component in self.values.chunks_exact_mut(stride) {
+            let last = component[points - 1];
+            component[points..].fill(last);
+        }
+    }
+
+    /// Fills every component from point `point` on with `value`.
+    pub fn fill_after(&mut self, point: usize, value: f64) {
+        for component in self.values.chunks_exact_mut(self.stride) {
+            component[point..].fill(value);
+        }
+    }
+
     /// All components at point `point`.
     pub fn at<const N: usize>(&self, point: usize) -> [f64; N] {
         std::array::from_fn(|component| self.values[component * self.stride + point])

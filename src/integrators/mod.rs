@@ -4,9 +4,11 @@
 //! physical [`crate::dynamics::table::StateTable`]. Runs stand in lanes that never share a decision.
 
 pub mod method;
-pub mod outcome;
+pub mod propagate;
 pub mod system;
+pub mod taylor;
 
+pub use crate::dynamics::outcome::{self, Effort, Outcome, Status};
 pub use method::Method;
-pub use outcome::{Effort, Outcome, Status};
+pub use propagate::{Control, Engine, Propagator, Width};
 pub use system::{Runs, System, Tolerance};

@@ -77,3 +77,32 @@ pub fn dcm_from_quaternion<R: Real>(q: [R; 4]) -> [[R; 3]; 3] {
         [off(x, z, -(w * y)), off(y, z, w * x), (ww + zz) - (xx + yy)],
     ]
 }
+
+/// The quaternion of a DCM given by rows (one number per entry, not lanes): Shepperd's choice of the largest component
+/// (S. W. Shepperd, J. Guidance and Control 1(3), 1978); scalar part >= 0 unless it vanishes.
+pub fn quaternion_from_dcm<R: Real>(c: [[R; 3]; 3]) -> [R; 4] {
+    let one = c[0][0].splat(1.0);
+    let half = c[0][0].splat(0.5);
+    let trace = c[0][0] + c[1][1] + c[2][2];
+    // four times the squares of w, x, y, z
+    let squares = [
+        one + trace,
+        one + c[0][0] - c[1][1] - c[2][2],
+        one - c[0][0] + c[1][1] - c[2][2],
+        one - c[0][0] - c[1][1] + c[2][2],
+    ];
+    let largest = (0..4).fold(0, |best, i| if squares[i].lane(0) > squares[best].lane(0) { i } else { best });
+    let root = squares[largest].sqrt();
+    let (own, other) = (half * root, half / root);
+    let (d, s) = (
+        [c[2][1] - c[1][2], c[0][2] - c[2][0], c[1][0] - c[0][1]],
+        [c[2][1] + c[1][2], c[0][2] + c[2][0], c[1][0] + c[0][1]],
+    );
+    let q = match largest {
+        0 => [own, other * d[0], other * d[1], other * d[2]],
+        1 => [other * d[0], own, other * s[2], other * s[1]],
+        2 => [other * d[1], other * s[2], own, other * s[0]],
+        _ => [other * d[2], other * s[1], other * s[0], own],
+    };
+    if q[0].lane(0) < 0.0 { q.map(|x| -x) } else { q }
+}

@@ -1,0 +1,124 @@
+//! The debris D: a free rigid body in uniform translation.
+//!
+//! An isotropic body (cube) turns at a constant rate about an axis fixed in it and in space, so its attitude is closed form
+//! at any time. A box is a gyrostat without wheels and goes through that code; here only its constants are made.
+
+use fearless_simd::Simd;
+
+use super::gyrostat::{Gyrostat, Stretch};
+use super::table::{Block, Grid, StateTable, Trajectory};
+use crate::math::double_double::{DoubleDouble, two_product};
+use crate::math::lanes::WIDTH;
+use crate::math::sine::sin_cos_turns;
+use crate::math::vector::hamilton;
+use crate::math::{Lanes, Real};
+use crate::scene::Scene;
+use crate::scene::mass::Body;
+
+/// Whether every axis of the body is principal with the same moment, so that it turns uniformly.
+pub fn is_isotropic(body: &Body) -> bool {
+    let j = body.inertia;
+    let diagonal = j[0][0] == j[1][1] && j[1][1] == j[2][2];
+    diagonal && j[0][1] == 0.0 && j[0][2] == 0.0 && j[1][2] == 0.0
+}
+
+/// Sets `run` to the free rotation of the debris; false where the scene has none.
+pub fn set_rotation(run: &mut Gyrostat<f64>, scene: &Scene, duration: f64) -> bool {
+    let Some(body) = &scene.mass.debris else { return false };
+    let zero = 0.0_f64;
+    run.set_body(zero, body.inertia);
+    run.axial = [zero; 2];
+    run.axes_b = [[zero; 3]; 2];
+    run.mass = body.mass;
+    run.omega_b = run.into_b(scene.initial.omega_de_d);
+    run.q_eb = if run.c_sb.is_some() { hamilton(scene.initial.q_ed, run.q_sb) } else { scene.initial.q_ed };
+    run.stretches.clear();
+    run.stretches.push(Stretch::free(zero, 0.0, duration));
+    true
+}
+
+/// Fills position and velocity of the debris in `table`, as far as they are asked for.
+#[inline(always)]
+pub fn complete_translation<S: Simd>(simd: S, scene: &Scene, grid: &Grid, table: &mut StateTable) {
+    let initial = &scene.initial;
+    for i in 0..3 {
+        let (start, velocity) = (initial.r_gdo_e[i], initial.v_gdo_e[i]);
+        if table.has(Block::DebrisPosition) {
+            let line = Line { start: Lanes::broadcast(simd, start), slope: Lanes::broadcast(simd, velocity) };
+            let column = table.column_mut(Block::DebrisPosition, i);
+            for (times, out) in grid.padded_times().chunks_exact(WIDTH).zip(column.chunks_exact_mut(WIDTH)) {
+                line.slope.mul_add(Lanes::from_slice(simd, times), line.start).store(out);
+            }
+        }
+        if table.has(Block::DebrisVelocity) {
+            table.column_mut(Block::DebrisVelocity, i).fill(velocity);
+        }
+    }
+}
+
+/// A straight line in time.
+struct Line<V> {
+    start: V,
+    slope: V,
+}
+
+/// Fills attitude and rate of an isotropic debris in `table`: q_ed(t) = q_ed(0) (x) exp(omega t/2), omega constant in F_d.
+///
+/// The angle is reduced to a part of a turn as a sum of two numbers, so that it is as good after 1e10 rad as at the start.
+#[inline(always)]
+pub fn complete_isotropic<S: Simd>(simd: S, scene: &Scene, grid: &Grid, table: &mut StateTable) {
+    let omega = scene.initial.omega_de_d;
+    for (i, component) in omega.into_iter().enumerate() {
+        if table.has(Block::DebrisRate) {
+            table.column_mut(Block::DebrisRate, i).fill(component);
+        }
+    }
+    if !table.has(Block::DebrisAttitude) {
+        return;
+    }
+    let square = two_product(omega[0], omega[0]) + two_product(omega[1], omega[1]) + two_product(omega[2], omega[2]);
+    let rate = square.sqrt();
+    // half the angle in turns per second: |omega|/(4 pi)
+    let half_turns = rate / FOUR_PI;
+    let axis = if rate.high == 0.0 { [0.0; 3] } else { omega.map(|x| (DoubleDouble::exact(x) / rate).high) };
+    let (high, low) = (Lanes::broadcast(simd, half_turns.high), Lanes::broadcast(simd, half_turns.low));
+    let start = scene.initial.q_ed.map(|x| Lanes::broadcast(simd, x));
+    for first in (0..table.stride()).step_by(WIDTH) {
+        let time = Lanes::from_slice(simd, &grid.padded_times()[first..]);
+        let turns = time * high;
+        let rest = low.mul_add(time, time.mul_add(high, -turns));
+        let (sin, cos) = sin_cos_turns((turns - turns.round()) + rest);
+        let [x, y, z] = axis.map(|component| Lanes::broadcast(simd, component) * sin);
+        for (i, component) in hamilton(start, [cos, x, y, z]).into_iter().enumerate() {
+            component.store(&mut table.column_mut(Block::DebrisAttitude, i)[first..]);
+        }
+    }
+}
+
+/// 4 pi.
+const FOUR_PI: DoubleDouble = DoubleDouble { high: 12.566_370_614_359_172, low: 4.898_587_196_589_413e-16 };
+
+/// Fills attitude and rate of a box from the components that a method integrated for [`set_rotation`]'s run.
+#[inline(always)]
+pub fn complete_rotation<S: Simd, const N: usize>(
+    simd: S,
+    run: &Gyrostat<f64>,
+    trajectory: &Trajectory,
+    table: &mut StateTable,
+) {
+    for first in (0..table.stride()).step_by(WIDTH) {
+        let states = super::gyrostat::completion::rotation::<S, N>(simd, run, trajectory, first);
+        if table.has(Block::DebrisRate) {
+            for (i, component) in states.rate.into_iter().enumerate() {
+                component.store(&mut table.column_mut(Block::DebrisRate, i)[first..]);
+            }
+        }
+        if let Some(attitude) = states.attitude
+            && table.has(Block::DebrisAttitude)
+        {
+            for (i, component) in attitude.into_iter().enumerate() {
+                component.store(&mut table.column_mut(Block::DebrisAttitude, i)[first..]);
+            }
+        }
+    }
+}

@@ -1,0 +1,145 @@
+//! The gyrostat's right-hand side in lanes, for Runge-Kutta methods.
+
+use super::{ANGLE, ANGULAR_IMPULSE, ATTITUDE, Gyrostat, IMPULSE, IMPULSE_INTEGRAL, MOTOR_WORK, OMEGA, THRUST_WORK};
+use crate::math::Real;
+use crate::math::vector::{cross, dcm_from_quaternion, dot, product, scaled, sum};
+
+/// The constants of the equations, one run per lane; the stretch's own are set at its start.
+#[derive(Clone, Copy, Debug)]
+pub struct Constants<R> {
+    /// (J_2 - J_3)/J_1 and its cyclic fellows.
+    pub ratio: [R; 3],
+    /// 1/J_i, 1/(kg m^2).
+    pub inverse: [R; 3],
+    /// Wheels' momentum vector at the start of the stretch, B, N m s.
+    pub momentum: [R; 3],
+    /// Its rate: tau_1 a1 + tau_2 a2, B, N m.
+    pub momentum_rate: [R; 3],
+    /// Torque of the thrusters about c, B, N m.
+    pub torque: [R; 3],
+    /// Force of the thrusters, B, N.
+    pub force: [R; 3],
+    /// Velocity of c at time zero, F_e, m/s.
+    pub velocity: [R; 3],
+    /// 1/m, 1/kg.
+    pub inverse_mass: R,
+    /// Sum of tau_i h_i/J_i at the start of the stretch, W.
+    pub motor_power: R,
+    /// Its rate, the sum of tau_i^2/J_i, W/s.
+    pub motor_power_rate: R,
+    /// Start of the stretch, s.
+    pub start: R,
+}
+
+impl<R: Real> Constants<R> {
+    /// All zero; `zero` says how many lanes.
+    pub fn zero(zero: R) -> Self {
+        let z = [zero; 3];
+        Constants {
+            ratio: z,
+            inverse: z,
+            momentum: z,
+            momentum_rate: z,
+            torque: z,
+            force: z,
+            velocity: z,
+            inverse_mass: zero,
+            motor_power: zero,
+            motor_power_rate: zero,
+            start: zero,
+        }
+    }
+
+    /// Puts what does not change during a run into lane `lane`; `unit` is the unit of time of the lane, s.
+    ///
+    /// With a power of two as the unit every conversion is exact.
+    #[inline(always)]
+    pub fn set_run(&mut self, lane: usize, run: &Gyrostat<f64>, unit: f64) {
+        let j = run.moments;
+        for i in 0..3 {
+            let (a, b) = ((i + 1) % 3, (i + 2) % 3);
+            self.ratio[i].set_lane(lane, (j[a] - j[b]) / j[i]);
+            self.inverse[i].set_lane(lane, 1.0 / j[i]);
+            self.velocity[i].set_lane(lane, run.v_co_e[i] * unit);
+        }
+        self.inverse_mass.set_lane(lane, 1.0 / run.mass);
+    }
+
+    /// Puts stretch `stretch` of the run into lane `lane`; times and rates in units of `unit` seconds.
+    #[inline(always)]
+    pub fn set_stretch(&mut self, lane: usize, run: &Gyrostat<f64>, stretch: usize, unit: f64) {
+        let stretch = &run.stretches[stretch];
+        let momentum = run.wheel_momentum_b(stretch.wheel_momentum);
+        let rate = run.wheel_momentum_b(stretch.motor);
+        for i in 0..3 {
+            self.momentum[i].set_lane(lane, momentum[i] * unit);
+            self.momentum_rate[i].set_lane(lane, rate[i] * unit * unit);
+            self.torque[i].set_lane(lane, stretch.torque_b[i] * unit * unit);
+            self.force[i].set_lane(lane, stretch.force_b[i] * unit * unit);
+        }
+        let [power, power_rate] = run.motor_power(stretch);
+        let unit3 = unit * unit * unit;
+        self.motor_power.set_lane(lane, power * unit3);
+        self.motor_power_rate.set_lane(lane, power_rate * unit3 * unit);
+        self.start.set_lane(lane, stretch.start / unit);
+    }
+
+    /// omega' in B: J* omega' = H x omega + tau_ext - tau_1 a1 - tau_2 a2, H = J* omega + h.
+    #[inline(always)]
+    pub fn angular_acceleration(&self, time: R, omega: [R; 3]) -> [R; 3] {
+        let since = time - self.start;
+        let h: [R; 3] = [0, 1, 2].map(|i| self.momentum_rate[i].mul_add(since, self.momentum[i]));
+        let linear = cross(h, omega);
+        let at = |i: usize, j: usize, k: usize| {
+            let known = (self.torque[i] - self.momentum_rate[i]) + linear[i];
+            self.ratio[i].mul_add(omega[j] * omega[k], self.inverse[i] * known)
+        };
+        [at(0, 1, 2), at(1, 2, 0), at(2, 0, 1)]
+    }
+
+    /// The derivative of the first `N` components, in the order of the indices of the parent module.
+    #[inline(always)]
+    pub fn derivative<const N: usize>(&self, time: R, y: &[R; N]) -> [R; N] {
+        let zero = time.zero();
+        let mut rate = [zero; N];
+        let omega = [y[OMEGA], y[OMEGA + 1], y[OMEGA + 2]];
+        rate[OMEGA..OMEGA + 3].copy_from_slice(&self.angular_acceleration(time, omega));
+        if N >= super::WITH_ATTITUDE {
+            let q = [y[ATTITUDE], y[ATTITUDE + 1], y[ATTITUDE + 2], y[ATTITUDE + 3]];
+            rate[ATTITUDE..ATTITUDE + 4].copy_from_slice(&quaternion_rate(q, omega));
+            if N >= super::WITH_ANGLES {
+                rate[ANGLE..ANGLE + 3].copy_from_slice(&omega);
+            }
+            if N >= super::WITH_MOTORS {
+                // tau_i Omega_i = tau_i h_i/J_i - tau_i a_i . omega
+                let since = time - self.start;
+                let driven = self.motor_power_rate.mul_add(since, self.motor_power);
+                rate[MOTOR_WORK] = driven - dot(self.momentum_rate, omega);
+            }
+            if N >= super::WITH_THRUST {
+                let c_eb = dcm_from_quaternion(q);
+                let force = product(c_eb, self.force);
+                let impulse = [y[IMPULSE], y[IMPULSE + 1], y[IMPULSE + 2]];
+                let velocity = sum(self.velocity, scaled(self.inverse_mass, impulse));
+                rate[IMPULSE..IMPULSE + 3].copy_from_slice(&force);
+                rate[IMPULSE_INTEGRAL..IMPULSE_INTEGRAL + 3].copy_from_slice(&impulse);
+                rate[ANGULAR_IMPULSE..ANGULAR_IMPULSE + 3].copy_from_slice(&product(c_eb, self.torque));
+                rate[THRUST_WORK] = dot(force, velocity) + dot(self.torque, omega);
+            }
+        }
+        rate
+    }
+}
+
+/// q' = (1/2) q (x) omega.
+#[inline(always)]
+pub fn quaternion_rate<R: Real>(q: [R; 4], omega: [R; 3]) -> [R; 4] {
+    let half = q[0].splat(0.5);
+    let [x, y, z] = omega.map(|component| half * component);
+    [
+        -q[1].mul_add(x, q[2].mul_add(y, q[3] * z)),
+        q[0].mul_add(x, q[2].mul_add(z, -(q[3] * y))),
+        q[0].mul_add(y, q[3].mul_add(x, -(q[1] * z))),
+        q[0].mul_add(z, q[1].mul_add(y, -(q[2] * x))),
+    ]
+}

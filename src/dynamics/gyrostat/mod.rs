@@ -1,0 +1,278 @@
+//! The gyrostat: the spacecraft with its wheels reduced to what moves on its own.
+//!
+//! For balanced axisymmetric wheels with fixed centres the inertia in F_s is constant, and the spacecraft is a
+//! Zhukovskii-Volterra gyrostat (N. E. Zhukovskii, 1885; V. Volterra, Acta Math. 22, 1899; J. Wittenburg, *Dynamics of
+//! Multibody Systems*, 2008, section 4.6). About the centre of mass c, with J* = J - J_1 a1 a1^T - J_2 a2 a2^T:
+//!
+//! ```text
+//! H = J* omega + h_1 a1 + h_2 a2,    J* omega' = H x omega + tau_ext - tau_1 a1 - tau_2 a2,    h_i' = tau_i
+//! ```
+//!
+//! Everything here is written in the *principal frame* B of J* (where J* is diagonal already, B is F_s), so that products of
+//! inertia cost nothing: omega_i' is one product of two rates plus linear terms. Between switches the torques and thrusts
+//! are constant, h_i is linear in time and is not integrated.
+//!
+//! - [`Gyrostat`]: one run's constants, initial state and stretches.
+//! - [`equations`]: the right-hand side, for Runge-Kutta methods in lanes.
+//! - [`completion`]: integrated components -> the physical [`super::table::StateTable`].
+//!
+//! Not here: Taylor recurrences of the same equations (`integrators::taylor`), the debris (`super::debris`).
+
+pub mod completion;
+pub mod equations;
+
+use crate::math::Real;
+use crate::math::symmetric::principal_axes;
+use crate::math::vector::{cross, dot, hamilton, quaternion_from_dcm, scaled, sum, transposed_product};
+use crate::scene::Scene;
+
+/// Index of the first component of the angular velocity in B, rad/s (3).
+pub const OMEGA: usize = 0;
+/// Index of the first component of the attitude quaternion q_eb (4).
+pub const ATTITUDE: usize = 3;
+/// Index of the first component of the integral of omega in B over time, rad (3).
+pub const ANGLE: usize = 7;
+/// Index of the work of the wheel motors, J (1).
+pub const MOTOR_WORK: usize = 10;
+/// Index of the first component of the thrusters' impulse in F_e, N s (3).
+pub const IMPULSE: usize = 11;
+/// Index of the first component of the time integral of that impulse, N s^2 (3).
+pub const IMPULSE_INTEGRAL: usize = 14;
+/// Index of the first component of the thrusters' angular impulse about c in F_e, N m s (3).
+pub const ANGULAR_IMPULSE: usize = 17;
+/// Index of the work of the thrusters, J (1).
+pub const THRUST_WORK: usize = 20;
+
+/// Number of integrated components where only the rates are wanted.
+pub const RATES_ONLY: usize = 3;
+/// With the attitude.
+pub const WITH_ATTITUDE: usize = 7;
+/// With the integral of omega (wheel angles).
+pub const WITH_ANGLES: usize = 10;
+/// With the work of the wheel motors.
+pub const WITH_MOTORS: usize = 11;
+/// With everything that thrust asks for.
+pub const WITH_THRUST: usize = 21;
+
+/// A stretch of a run over which forces and torques are constant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stretch<R> {
+    /// Start, s.
+    pub start: f64,
+    /// End, s.
+    pub end: f64,
+    /// Whether any thrust or motor acts.
+    pub actuated: bool,
+    /// Force of the thrusters, B, N.
+    pub force_b: [R; 3],
+    /// Torque of the thrusters about c, B, N m.
+    pub torque_b: [R; 3],
+    /// Motor torques tau_1, tau_2 on the wheels, N m.
+    pub motor: [R; 2],
+    /// Absolute axial momenta h_1, h_2 of the wheels at the start, N m s.
+    pub wheel_momentum: [R; 2],
+    /// Integrals of h_i/J_i over time from zero to the start, rad.
+    pub wheel_turn: [R; 2],
+}
+
+impl<R: Real> Stretch<R> {
+    /// A stretch without thrust or motor, and wheels without momentum.
+    pub fn free(zero: R, start: f64, end: f64) -> Self {
+        Stretch {
+            start,
+            end,
+            actuated: false,
+            force_b: [zero; 3],
+            torque_b: [zero; 3],
+            motor: [zero; 2],
+            wheel_momentum: [zero; 2],
+            wheel_turn: [zero; 2],
+        }
+    }
+}
+
+/// One run of the gyrostat: constants in the principal frame B of J*, the initial state and the stretches.
+#[derive(Clone, Debug)]
+pub struct Gyrostat<R> {
+    /// Maps B components to F_s components, by rows; `None` where B is F_s.
+    pub c_sb: Option<[[R; 3]; 3]>,
+    /// The quaternion of `c_sb`.
+    pub q_sb: [R; 4],
+    /// Principal moments of J*, kg m^2.
+    pub moments: [R; 3],
+    /// Wheel axes a1, a2 in B.
+    pub axes_b: [[R; 3]; 2],
+    /// Axial inertias J_1, J_2 of the wheels, kg m^2; zero for a wheel that is not there.
+    pub axial: [R; 2],
+    /// Mass of the spacecraft, kg.
+    pub mass: R,
+    /// Angular velocity at time zero, B, rad/s.
+    pub omega_b: [R; 3],
+    /// Attitude at time zero, B -> F_e.
+    pub q_eb: [R; 4],
+    /// Position of c at time zero, m.
+    pub r_co_e: [R; 3],
+    /// Velocity of c at time zero, m/s.
+    pub v_co_e: [R; 3],
+    /// Wheel angles at time zero, rad.
+    pub wheel_angles: [R; 2],
+    /// The stretches, which cover the horizon from zero without a gap.
+    pub stretches: Vec<Stretch<R>>,
+}
+
+impl<R: Real> Gyrostat<R> {
+    /// The gyrostat of `scene` over `duration` seconds; `zero` says in which arithmetic.
+    pub fn new(zero: R, scene: &Scene, duration: f64) -> Self {
+        let mut gyrostat = Self::blank(zero);
+        gyrostat.reset(zero, scene, duration);
+        gyrostat
+    }
+
+    /// Nothing yet: a buffer for [`Gyrostat::reset`].
+    pub fn blank(zero: R) -> Self {
+        let z3 = [zero; 3];
+        Gyrostat {
+            c_sb: None,
+            q_sb: [zero; 4],
+            moments: z3,
+            axes_b: [z3; 2],
+            axial: [zero; 2],
+            mass: zero,
+            omega_b: z3,
+            q_eb: [zero; 4],
+            r_co_e: z3,
+            v_co_e: z3,
+            wheel_angles: [zero; 2],
+            stretches: Vec::new(),
+        }
+    }
+
+    /// The same as [`Gyrostat::new`], in place: reuses the buffer of the stretches.
+    pub fn reset(&mut self, zero: R, scene: &Scene, duration: f64) {
+        let exact3 = |v: [f64; 3]| v.map(|x| zero.splat(x));
+        let mass = &scene.mass;
+        let initial = &scene.initial;
+        self.set_body(zero, mass.inertia_free);
+        for (i, wheel) in mass.wheels.iter().enumerate() {
+            self.axes_b[i] = self.into_b(exact3(wheel.axis));
+            self.axial[i] = zero.splat(wheel.axial);
+            self.wheel_angles[i] = zero.splat(initial.wheel_angles[i]);
+        }
+        self.mass = zero.splat(mass.total);
+        let omega_s = exact3(initial.omega_se_s);
+        self.omega_b = self.into_b(omega_s);
+        let q_es = initial.q_es.map(|x| zero.splat(x));
+        self.q_eb = if self.c_sb.is_some() { hamilton(q_es, self.q_sb) } else { q_es };
+        let c_es = crate::math::vector::dcm_from_quaternion(q_es);
+        let center = exact3(mass.center);
+        self.r_co_e = sum(exact3(initial.r_po_e), crate::math::vector::product(c_es, center));
+        self.v_co_e = sum(exact3(initial.v_po_e), crate::math::vector::product(c_es, cross(omega_s, center)));
+        self.lay_stretches(zero, scene, duration);
+    }
+
+    /// Takes the principal axes of the inertia `j`, kg m^2 by rows, as the frame B.
+    pub fn set_body(&mut self, zero: R, j: [[f64; 3]; 3]) {
+        let exact3 = |v: [f64; 3]| v.map(|x| zero.splat(x));
+        if j[0][1] == 0.0 && j[0][2] == 0.0 && j[1][2] == 0.0 {
+            self.c_sb = None;
+            self.q_sb = [zero.splat(1.0), zero, zero, zero];
+            self.moments = exact3([j[0][0], j[1][1], j[2][2]]);
+        } else {
+            let (moments, c_sb) = principal_axes(j.map(exact3));
+            self.c_sb = Some(c_sb);
+            self.q_sb = quaternion_from_dcm(c_sb);
+            self.moments = moments;
+        }
+    }
+
+    /// Vector components in F_s -> B.
+    #[inline(always)]
+    pub fn into_b(&self, v_s: [R; 3]) -> [R; 3] {
+        match self.c_sb {
+            Some(c_sb) => transposed_product(c_sb, v_s),
+            None => v_s,
+        }
+    }
+
+    /// Cuts the horizon at every switch and fills the gaps of the schedule with free stretches.
+    fn lay_stretches(&mut self, zero: R, scene: &Scene, duration: f64) {
+        self.stretches.clear();
+        let momentum = std::array::from_fn(|i| {
+            self.axial[i] * (dot(self.axes_b[i], self.omega_b) + zero.splat(scene.initial.wheel_rates[i]))
+        });
+        let mut next = Stretch { wheel_momentum: momentum, ..Stretch::free(zero, 0.0, 0.0) };
+        for act in scene.schedule.iter().filter(|act| act.start < duration) {
+            if act.start > next.start {
+                next = self.push(Stretch { end: act.start, ..next });
+            }
+            let exact3 = |v: [f64; 3]| v.map(|x| zero.splat(x));
+            next = self.push(Stretch {
+                end: act.end.min(duration),
+                actuated: act.thrust != [0.0; 3] || act.torque != [0.0; 2],
+                force_b: self.into_b(exact3(scene.thruster_force_s(act.thrust))),
+                torque_b: self.into_b(exact3(scene.thruster_torque_s(act.thrust))),
+                motor: act.torque.map(|x| zero.splat(x)),
+                ..next
+            });
+        }
+        if next.start < duration || self.stretches.is_empty() {
+            self.push(Stretch { end: duration, ..next });
+        }
+    }
+
+    /// Appends `stretch` and returns the free stretch that starts where it ends.
+    fn push(&mut self, stretch: Stretch<R>) -> Stretch<R> {
+        self.stretches.push(stretch);
+        Stretch {
+            wheel_momentum: std::array::from_fn(|i| self.wheel_momentum_at(&stretch, i, stretch.end)),
+            wheel_turn: std::array::from_fn(|i| self.wheel_turn_at(&stretch, i, stretch.end)),
+            ..Stretch::free(self.mass.zero(), stretch.end, stretch.end)
+        }
+    }
+
+    /// The stretch that `time` lies in; the one that ends there, at a switch.
+    #[inline]
+    pub fn stretch_at(&self, time: f64) -> &Stretch<R> {
+        let after = self.stretches.partition_point(|stretch| stretch.end < time);
+        &self.stretches[after.min(self.stretches.len() - 1)]
+    }
+
+    /// h_i at `time` within `stretch`, N m s.
+    #[inline(always)]
+    pub fn wheel_momentum_at(&self, stretch: &Stretch<R>, wheel: usize, time: f64) -> R {
+        let since = self.mass.splat(time) - self.mass.splat(stretch.start);
+        stretch.motor[wheel].mul_add(since, stretch.wheel_momentum[wheel])
+    }
+
+    /// Integral of h_i/J_i from time zero to `time` within `stretch`, rad: the wheel's angle is this less a_i . (integral of omega).
+    #[inline(always)]
+    pub fn wheel_turn_at(&self, stretch: &Stretch<R>, wheel: usize, time: f64) -> R {
+        let since = self.mass.splat(time) - self.mass.splat(stretch.start);
+        let half = self.mass.splat(0.5);
+        let mean = (half * stretch.motor[wheel]).mul_add(since, stretch.wheel_momentum[wheel]);
+        (mean * self.inverse_axial(wheel)).mul_add(since, stretch.wheel_turn[wheel])
+    }
+
+    /// 1/J_i, or zero for a wheel that is not there.
+    #[inline(always)]
+    pub fn inverse_axial(&self, wheel: usize) -> R {
+        let axial = self.axial[wheel];
+        if axial.lane(0) == 0.0 { axial.zero() } else { axial.splat(1.0) / axial }
+    }
+
+    /// Sum of tau_i h_i/J_i at the start of `stretch`, W, and its rate, W/s.
+    pub fn motor_power(&self, stretch: &Stretch<R>) -> [R; 2] {
+        let per_wheel = |i: usize| {
+            let scaled = stretch.motor[i] * self.inverse_axial(i);
+            [scaled * stretch.wheel_momentum[i], scaled * stretch.motor[i]]
+        };
+        let (first, second) = (per_wheel(0), per_wheel(1));
+        [first[0] + second[0], first[1] + second[1]]
+    }
+
+    /// h_1 a1 + h_2 a2 in B, N m s.
+    #[inline(always)]
+    pub fn wheel_momentum_b(&self, momentum: [R; 2]) -> [R; 3] {
+        sum(scaled(momentum[0], self.axes_b[0]), scaled(momentum[1], self.axes_b[1]))
+    }
+}

@@ -1,0 +1,238 @@
+//! Taylor coefficients of the gyrostat's motion by recurrences.
+//!
+//! Everything is quadratic, so the coefficient of order n + 1 is a Cauchy product of those up to n, divided by n + 1
+//! (R. E. Moore, *Interval Analysis*, 1966, ch. 11; A. Jorba & M. Zou, Experimental Mathematics 14, 2005, section 2).
+//! Written for the equations of [`crate::dynamics::gyrostat`]; components as there.
+
+use crate::dynamics::gyrostat::equations::Constants;
+use crate::dynamics::gyrostat::{
+    ANGLE, ANGULAR_IMPULSE, ATTITUDE, IMPULSE, IMPULSE_INTEGRAL, MOTOR_WORK, OMEGA, THRUST_WORK, WITH_ANGLES,
+    WITH_ATTITUDE, WITH_MOTORS, WITH_THRUST,
+};
+use crate::math::Real;
+use crate::math::vector::{cross, dot};
+
+/// The largest order that a jet can hold: 20 is what a tolerance of 1e-16 asks for; double-double needs twice that.
+pub const MAX_ORDER: usize = 40;
+
+/// 1/n as a `Real`, for n = 1 ..= order.
+#[derive(Clone, Debug)]
+pub struct Reciprocals<R>(Vec<R>);
+
+impl<R: Real> Reciprocals<R> {
+    /// The table up to 1/(`order`); entry zero is not used.
+    pub fn new(zero: R, order: usize) -> Self {
+        let one = zero.splat(1.0);
+        Reciprocals((0..=order).map(|n| if n == 0 { zero } else { one / zero.splat(n as f64) }).collect())
+    }
+}
+
+/// Series that a jet needs on its way but that nobody else asks for.
+#[derive(Clone, Debug)]
+pub struct Scratch<R> {
+    /// omega/2, which is all that the attitude needs.
+    half_omega: [[R; 3]; MAX_ORDER],
+    /// q (x) F.
+    turned_force: [[R; 4]; MAX_ORDER],
+    /// q (x) tau.
+    turned_torque: [[R; 4]; MAX_ORDER],
+    /// The force in F_e.
+    force_e: [[R; 3]; MAX_ORDER],
+}
+
+impl<R: Real> Scratch<R> {
+    /// Room for any order.
+    pub fn new(zero: R) -> Self {
+        Scratch {
+            half_omega: [[zero; 3]; MAX_ORDER],
+            turned_force: [[zero; 4]; MAX_ORDER],
+            turned_torque: [[zero; 4]; MAX_ORDER],
+            force_e: [[zero; 3]; MAX_ORDER],
+        }
+    }
+}
+
+/// Fills `jet[1 ..= order]` with the Taylor coefficients of the first `N` components, given `jet[0]`, the state.
+///
+/// `constants.momentum` is the wheels' momentum *at the start of the step*. Where `FORCED` is false, torques, thrusts and
+/// the rate of the momentum are taken as zero.
+#[inline(always)]
+pub fn expand<R: Real, const N: usize, const FORCED: bool>(
+    constants: &Constants<R>,
+    reciprocals: &Reciprocals<R>,
+    order: usize,
+    scratch: &mut Scratch<R>,
+    jet: &mut [[R; N]],
+) {
+    let jet = &mut jet[..=order];
+    let reciprocal = &reciprocals.0[..=order];
+    let zero = jet[0][0].zero();
+    let half = zero.splat(0.5);
+    let Scratch { half_omega, turned_force, turned_torque, force_e } = scratch;
+    for n in 0..order {
+        let inverse = reciprocal[n + 1];
+        let omega = [jet[n][OMEGA], jet[n][OMEGA + 1], jet[n][OMEGA + 2]];
+        let acceleration = angular_acceleration::<R, N, FORCED>(constants, jet, n);
+        let mut next = [zero; N];
+        for i in 0..3 {
+            next[OMEGA + i] = acceleration[i] * inverse;
+        }
+        if N >= WITH_ATTITUDE {
+            half_omega[n] = omega.map(|component| half * component);
+            let rate = quaternion_rate(jet, half_omega, n);
+            for i in 0..4 {
+                next[ATTITUDE + i] = rate[i] * inverse;
+            }
+        }
+        if N >= WITH_ANGLES {
+            for i in 0..3 {
+                next[ANGLE + i] = omega[i] * inverse;
+            }
+        }
+        if N >= WITH_MOTORS && FORCED {
+            let driven = match n {
+                0 => constants.motor_power,
+                1 => constants.motor_power_rate,
+                _ => zero,
+            };
+            next[MOTOR_WORK] = (driven - dot(constants.momentum_rate, omega)) * inverse;
+        }
+        if N >= WITH_THRUST && FORCED {
+            let q = [jet[n][ATTITUDE], jet[n][ATTITUDE + 1], jet[n][ATTITUDE + 2], jet[n][ATTITUDE + 3]];
+            turned_force[n] = pure_product(q, constants.force);
+            turned_torque[n] = pure_product(q, constants.torque);
+            force_e[n] = turned(jet, turned_force, n);
+            let torque_e = turned(jet, turned_torque, n);
+            for i in 0..3 {
+                next[IMPULSE + i] = force_e[n][i] * inverse;
+                next[IMPULSE_INTEGRAL + i] = jet[n][IMPULSE + i] * inverse;
+                next[ANGULAR_IMPULSE + i] = torque_e[i] * inverse;
+            }
+            let push = thrust_power(constants, jet, force_e, n);
+            next[THRUST_WORK] = (push + dot(constants.torque, omega)) * inverse;
+        }
+        jet[n + 1] = next;
+    }
+}
+
+/// Coefficient n of omega' = ratio omega omega + (h x omega + torque - h')/J.
+#[inline(always)]
+fn angular_acceleration<R: Real, const N: usize, const FORCED: bool>(
+    constants: &Constants<R>,
+    jet: &[[R; N]],
+    n: usize,
+) -> [R; 3] {
+    let zero = jet[0][0].zero();
+    let omega = [jet[n][OMEGA], jet[n][OMEGA + 1], jet[n][OMEGA + 2]];
+    // two sums each, so that six chains of fused operations run side by side
+    let mut even = [zero; 3];
+    let mut odd = [zero; 3];
+    let mut m = 0;
+    while m < n {
+        let (a, b) = (&jet[m], &jet[n - m]);
+        even = products(a, b, even);
+        let (a, b) = (&jet[m + 1], &jet[n - m - 1]);
+        odd = products(a, b, odd);
+        m += 2;
+    }
+    if m == n {
+        even = products(&jet[n], &jet[0], even);
+    }
+    let mut linear = cross(constants.momentum, omega);
+    if FORCED {
+        if n == 0 {
+            for i in 0..3 {
+                linear[i] += constants.torque[i] - constants.momentum_rate[i];
+            }
+        } else {
+            let earlier = [jet[n - 1][OMEGA], jet[n - 1][OMEGA + 1], jet[n - 1][OMEGA + 2]];
+            let turning = cross(constants.momentum_rate, earlier);
+            for i in 0..3 {
+                linear[i] += turning[i];
+            }
+        }
+    }
+    [0, 1, 2].map(|i| constants.ratio[i].mul_add(even[i] + odd[i], constants.inverse[i] * linear[i]))
+}
+
+/// `sum` plus the products of unlike components of two rates.
+#[inline(always)]
+fn products<R: Real, const N: usize>(a: &[R; N], b: &[R; N], sum: [R; 3]) -> [R; 3] {
+    [a[1].mul_add(b[2], sum[0]), a[2].mul_add(b[0], sum[1]), a[0].mul_add(b[1], sum[2])]
+}
+
+/// Coefficient n of q (x) omega/2.
+#[inline(always)]
+fn quaternion_rate<R: Real, const N: usize>(jet: &[[R; N]], half_omega: &[[R; 3]; MAX_ORDER], n: usize) -> [R; 4] {
+    let zero = jet[0][0].zero();
+    let mut plus = [zero; 4];
+    let mut minus = [zero; 4];
+    for m in 0..=n {
+        let q = &jet[m][ATTITUDE..ATTITUDE + 4];
+        let [x, y, z] = half_omega[n - m];
+        plus[0] = q[1].mul_add(x, plus[0]);
+        minus[0] = q[2].mul_add(y, minus[0]);
+        plus[1] = q[0].mul_add(x, plus[1]);
+        minus[1] = q[3].mul_add(y, minus[1]);
+        plus[2] = q[0].mul_add(y, plus[2]);
+        minus[2] = q[1].mul_add(z, minus[2]);
+        plus[3] = q[0].mul_add(z, plus[3]);
+        minus[3] = q[2].mul_add(x, minus[3]);
+        minus[0] = q[3].mul_add(z, minus[0]);
+        plus[1] = q[2].mul_add(z, plus[1]);
+        plus[2] = q[3].mul_add(x, plus[2]);
+        plus[3] = q[1].mul_add(y, plus[3]);
+    }
+    [-(plus[0] + minus[0]), plus[1] - minus[1], plus[2] - minus[2], plus[3] - minus[3]]
+}
+
+/// q (x) (0, v).
+#[inline(always)]
+fn pure_product<R: Real>(q: [R; 4], v: [R; 3]) -> [R; 4] {
+    let [x, y, z] = v;
+    [
+        -q[1].mul_add(x, q[2].mul_add(y, q[3] * z)),
+        q[0].mul_add(x, q[2].mul_add(z, -(q[3] * y))),
+        q[0].mul_add(y, q[3].mul_add(x, -(q[1] * z))),
+        q[0].mul_add(z, q[1].mul_add(y, -(q[2] * x))),
+    ]
+}
+
+/// Coefficient n of the vector part of g (x) q*, with g = q (x) v: the vector v of B in F_e.
+#[inline(always)]
+fn turned<R: Real, const N: usize>(jet: &[[R; N]], g: &[[R; 4]; MAX_ORDER], n: usize) -> [R; 3] {
+    let zero = jet[0][0].zero();
+    let mut plus = [zero; 3];
+    let mut minus = [zero; 3];
+    for m in 0..=n {
+        let q = &jet[n - m][ATTITUDE..ATTITUDE + 4];
+        let [w, x, y, z] = g[m];
+        plus[0] = x.mul_add(q[0], z.mul_add(q[2], plus[0]));
+        minus[0] = w.mul_add(q[1], y.mul_add(q[3], minus[0]));
+        plus[1] = y.mul_add(q[0], x.mul_add(q[3], plus[1]));
+        minus[1] = w.mul_add(q[2], z.mul_add(q[1], minus[1]));
+        plus[2] = z.mul_add(q[0], y.mul_add(q[1], plus[2]));
+        minus[2] = w.mul_add(q[3], x.mul_add(q[2], minus[2]));
+    }
+    [plus[0] - minus[0], plus[1] - minus[1], plus[2] - minus[2]]
+}
+
+/// Coefficient n of F_e . v_c.
+#[inline(always)]
+fn thrust_power<R: Real, const N: usize>(
+    constants: &Constants<R>,
+    jet: &[[R; N]],
+    force_e: &[[R; 3]; MAX_ORDER],
+    n: usize,
+) -> R {
+    let zero = jet[0][0].zero();
+    // impulse . force first, then the initial velocity, which is a constant
+    let mut sums = [zero; 3];
+    for m in 0..=n {
+        for i in 0..3 {
+            sums[i] = force_e[m][i].mul_add(jet[n - m][IMPULSE + i], sums[i]);
+        }
+    }
+    let pushed = sums[0] + sums[1] + sums[2];
+    constants.inverse_mass.mul_add(pushed, dot(constants.velocity, force_e[n]))
+}

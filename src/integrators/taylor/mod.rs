@@ -1,0 +1,16 @@
+//! Taylor series of the gyrostat in lanes, with periodic propagation of what is free of torque.
+//!
+//! - [`jet`]: the recurrences. [`step`]: order and step size. [`period`]: finding the period of omega and folding time by it.
+//! - [`dense`]: evaluating the series at the observation points, eight at a time. [`march`]: the lanes.
+//!
+//! The motion of omega without torque is periodic: it stays on the curve in which the energy ellipsoid meets the momentum
+//! sphere. One period turns the attitude by a fixed rotation about the constant angular momentum L, so a horizon of any
+//! length costs one period and the observation points. Where no period shows up (near the separatrix, or with torque), the
+//! same march simply is the Taylor integration of the whole horizon.
+
+pub mod dense;
+pub mod engine;
+pub mod jet;
+pub mod march;
+pub mod period;
+pub mod step;

@@ -1,0 +1,207 @@
+//! [`DoubleDouble`]: a number as the unevaluated sum of two `f64`, 106 bits: the arithmetic of reference solutions.
+//!
+//! Sources: T. J. Dekker, Numerische Mathematik 18, 1971; D. E. Knuth, *The Art of Computer Programming* vol. 2, 4.2.2;
+//! error bounds from M. Joldes, J.-M. Muller & V. Popescu, ACM Trans. Math. Softw. 44(2), 2017 (algorithms 6, 12, 18).
+//! A small file and not a crate: the kernels need exactly [`Real`], fused, and nothing else.
+
+use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+
+use super::Real;
+
+/// `high + low` with |low| <= ulp(high)/2.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DoubleDouble {
+    /// The value rounded to `f64`.
+    pub high: f64,
+    /// What rounding left.
+    pub low: f64,
+}
+
+/// Sum and rounding error of any two numbers (Knuth).
+#[inline(always)]
+pub fn two_sum(a: f64, b: f64) -> DoubleDouble {
+    let high = a + b;
+    let shadow = high - a;
+    DoubleDouble { high, low: (a - (high - shadow)) + (b - shadow) }
+}
+
+/// Product and rounding error.
+#[inline(always)]
+pub fn two_product(a: f64, b: f64) -> DoubleDouble {
+    let high = a * b;
+    DoubleDouble { high, low: a.mul_add(b, -high) }
+}
+
+/// Sum and rounding error for |a| >= |b| or a = 0 (Dekker).
+#[inline(always)]
+fn fast_two_sum(a: f64, b: f64) -> DoubleDouble {
+    let high = a + b;
+    DoubleDouble { high, low: b - (high - a) }
+}
+
+impl DoubleDouble {
+    /// An `f64`, exactly.
+    #[inline(always)]
+    pub const fn exact(value: f64) -> Self {
+        DoubleDouble { high: value, low: 0.0 }
+    }
+}
+
+impl Add for DoubleDouble {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        // Joldes et al., algorithm 6: relative error below 3 u^2
+        let s = two_sum(self.high, other.high);
+        let t = two_sum(self.low, other.low);
+        let v = fast_two_sum(s.high, s.low + t.high);
+        fast_two_sum(v.high, t.low + v.low)
+    }
+}
+
+impl Sub for DoubleDouble {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        self + -other
+    }
+}
+
+impl Mul for DoubleDouble {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        // Joldes et al., algorithm 12: relative error below 5 u^2
+        let product = two_product(self.high, other.high);
+        let cross = self.low.mul_add(other.low, 0.0);
+        let cross = self.high.mul_add(other.low, cross);
+        let cross = self.low.mul_add(other.high, cross);
+        fast_two_sum(product.high, product.low + cross)
+    }
+}
+
+impl Div for DoubleDouble {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        // Joldes et al., algorithm 18: relative error below 10 u^2
+        let reciprocal = 1.0 / other.high;
+        let rest = DoubleDouble { high: (-other.high).mul_add(reciprocal, 1.0), low: -(other.low * reciprocal) };
+        let rest = fast_two_sum(rest.high, rest.low);
+        let delta = rest * DoubleDouble::exact(reciprocal);
+        self * (delta + DoubleDouble::exact(reciprocal))
+    }
+}
+
+impl Neg for DoubleDouble {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        DoubleDouble { high: -self.high, low: -self.low }
+    }
+}
+
+impl AddAssign for DoubleDouble {
+    #[inline(always)]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl SubAssign for DoubleDouble {
+    #[inline(always)]
+    fn sub_assign(&mut self, other: Self) {
+        *self = *self - other;
+    }
+}
+
+impl Real for DoubleDouble {
+    type Mask = bool;
+    const LANES: usize = 1;
+
+    #[inline(always)]
+    fn splat(self, value: f64) -> Self {
+        DoubleDouble::exact(value)
+    }
+    /// Two roundings here, each at 2^-104; the fused form only matters where a single `f64` rounding is at stake.
+    #[inline(always)]
+    fn mul_add(self, a: Self, b: Self) -> Self {
+        self * a + b
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        if self.high <= 0.0 {
+            return DoubleDouble::exact(self.high.sqrt());
+        }
+        // one Newton step from the f64 root (Karp & Markstein, ACM Trans. Math. Softw. 23(4), 1997)
+        let root = self.high.sqrt();
+        let rest = self - two_product(root, root);
+        fast_two_sum(root, rest.high / (2.0 * root))
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        if self.high < 0.0 { -self } else { self }
+    }
+    #[inline(always)]
+    fn larger(self, other: Self) -> Self {
+        if other.lt(self) { self } else { other }
+    }
+    #[inline(always)]
+    fn smaller(self, other: Self) -> Self {
+        if self.lt(other) { self } else { other }
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> bool {
+        self.high < other.high || (self.high == other.high && self.low < other.low)
+    }
+    #[inline(always)]
+    fn select(mask: bool, yes: Self, no: Self) -> Self {
+        if mask { yes } else { no }
+    }
+    #[inline(always)]
+    fn lane(&self, _lane: usize) -> f64 {
+        self.high
+    }
+    #[inline(always)]
+    fn set_lane(&mut self, _lane: usize, value: f64) {
+        *self = DoubleDouble::exact(value);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 16 u^2 = 2^-102: the worst of the stated bounds with room for two operations.
+    const BOUND: f64 = 1.972_152_263_052_53e-31;
+
+    fn dd(x: f64) -> DoubleDouble {
+        DoubleDouble::exact(x)
+    }
+
+    #[test]
+    fn a_quotient_times_its_divisor_gives_the_dividend() {
+        for k in 1..2000 {
+            let (a, b) = (dd(f64::from(k)), dd(f64::from(3 * k + 1)) / dd(7.0));
+            let off = (a / b) * b - a;
+            assert!(off.high.abs() <= BOUND * a.high, "{k}: {off:?}");
+        }
+    }
+
+    #[test]
+    fn a_root_squared_gives_the_number() {
+        for k in 1..2000 {
+            let a = dd(f64::from(k)) / dd(3.0);
+            let off = a.sqrt() * a.sqrt() - a;
+            assert!(off.high.abs() <= BOUND * a.high, "{k}: {off:?}");
+        }
+        assert_eq!(dd(0.0).sqrt(), dd(0.0));
+    }
+
+    #[test]
+    fn holds_what_f64_drops() {
+        let tiny = 1e-25;
+        assert_eq!((dd(1.0) + dd(tiny) - dd(1.0)).high, tiny);
+        assert_eq!(1.0 + tiny - 1.0, 0.0);
+    }
+}

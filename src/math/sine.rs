@@ -1,0 +1,74 @@
+//! Sine and cosine of an angle in turns, from [`Real`] operations alone: eight at a time, the same bits everywhere.
+
+use super::Real;
+
+/// sin and cos of 2 pi `turns` for |turns| <= 1/2 (slightly more does no harm), each within 2 ulp of 1.
+///
+/// Reduction to |angle| <= pi/4 by quarter turns is exact; the polynomials are those of fdlibm's kernel functions
+/// (Sun Microsystems, 1993: `__kernel_sin`, `__kernel_cos`; minimax on [-pi/4, pi/4], error below 2^-58).
+#[inline(always)]
+pub fn sin_cos_turns<R: Real>(turns: R) -> (R, R) {
+    let c = |value: f64| turns.splat(value);
+    // adding and taking away 1.5 * 2^52 rounds to the nearest whole number of quarters, ties to even
+    let shift = c(6_755_399_441_055_744.0);
+    let quarters = (c(4.0) * turns + shift) - shift;
+    let rest = quarters.mul_add(c(-0.25), turns);
+    // 2 pi as a sum of two
+    let x = rest.mul_add(c(core::f64::consts::TAU), rest * c(2.449_293_598_294_706_4e-16));
+    let z = x * x;
+    let sine_series = [
+        -1.666_666_666_666_663_243_48e-01,
+        8.333_333_333_322_489_461_24e-03,
+        -1.984_126_982_985_794_931_34e-04,
+        2.755_731_370_707_006_767_89e-06,
+        -2.505_076_025_340_686_341_95e-08,
+        1.589_690_995_211_550_102_21e-10,
+    ];
+    let cosine_series = [
+        4.166_666_666_666_660_190_37e-02,
+        -1.388_888_888_887_410_957_49e-03,
+        2.480_158_728_947_672_941_78e-05,
+        -2.755_731_435_139_066_330_35e-07,
+        2.087_572_321_298_174_827_90e-09,
+        -1.135_964_755_778_819_482_65e-11,
+    ];
+    let horner = |series: [f64; 6]| series.iter().rev().skip(1).fold(c(series[5]), |sum, a| sum.mul_add(z, c(*a)));
+    let sin = (x * z).mul_add(horner(sine_series), x);
+    let cos = z.mul_add(z.mul_add(horner(cosine_series), c(-0.5)), c(1.0));
+    // quarters in {-2, ..., 2}: swap on odd ones, then the signs
+    let even = c(0.5).lt((quarters.abs() - c(1.0)).abs());
+    let (s, k) = (R::select(even, sin, cos), R::select(even, cos, sin));
+    let two = c(1.5).lt(quarters.abs());
+    let minus_one = quarters.lt(c(-0.5));
+    let plus_one = c(0.5).lt(quarters);
+    // sin: q = 0 s, 1 cos, 2 -s, -1 -cos, -2 -s; cos: q = 0 c, 1 -sin, 2 -c, -1 sin, -2 -c
+    let negative_sin = R::select(two, -s, R::select(minus_one, -s, s));
+    let negative_cos = R::select(two, -k, R::select(plus_one, -k, k));
+    (negative_sin, negative_cos)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn agrees_with_the_library_over_a_turn() {
+        let mut worst = 0.0_f64;
+        for k in -10_000..=10_000 {
+            let turns = f64::from(k) / 20_000.0;
+            let (s, c) = sin_cos_turns(turns);
+            // the library's argument is rounded, which costs up to pi eps/2
+            let angle = core::f64::consts::TAU * turns;
+            worst = worst.max((s - libm::sin(angle)).abs()).max((c - libm::cos(angle)).abs());
+        }
+        assert!(worst < 3.0 * f64::EPSILON, "{worst:e}");
+    }
+
+    #[test]
+    fn quarter_turns_are_exact() {
+        assert_eq!(sin_cos_turns(0.25), (1.0, 0.0));
+        assert_eq!(sin_cos_turns(-0.25), (-1.0, 0.0));
+        assert_eq!(sin_cos_turns(0.5).1, -1.0);
+        assert_eq!(sin_cos_turns(0.0), (0.0, 1.0));
+    }
+}
