@@ -7,4 +7,5 @@ pub mod dynamics;
 pub mod integrators;
 pub mod math;
 pub mod output;
+pub mod observables;
 pub mod scene;

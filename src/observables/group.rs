@@ -1,0 +1,111 @@
+//! [`Group`]: what a campaign asks for by name (`[observe] groups = [...]`).
+
+/// A group of columns that is asked for as a whole.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Group {
+    /// Error of total kinetic energy less the work of the actuators.
+    EnergyConservation,
+    /// Errors of linear momentum less impulse and of angular momentum about the centre of mass less angular impulse.
+    MomentumConservation,
+    /// Departure of the attitude from a rotation.
+    Attitude,
+    /// Residuals of the constraints, where the kernel has constraints.
+    Constraints,
+    /// Kinetic energy of each body in F_e.
+    Energies,
+    /// Kinetic energy of each body about the spacecraft's centre of mass: the frame-independent twin.
+    EnergiesCom,
+    /// Exchange of kinetic energy between fuselage and wheels, about the spacecraft's centre of mass.
+    Exchange,
+    /// The last state.
+    FinalState,
+    /// Steps and evaluations.
+    Effort,
+}
+
+impl Group {
+    /// All groups, in the order of the columns.
+    pub const ALL: [Group; 9] = [
+        Group::EnergyConservation,
+        Group::MomentumConservation,
+        Group::Attitude,
+        Group::Constraints,
+        Group::Energies,
+        Group::EnergiesCom,
+        Group::Exchange,
+        Group::FinalState,
+        Group::Effort,
+    ];
+
+    /// The name in campaign files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Group::EnergyConservation => "energy_conservation",
+            Group::MomentumConservation => "momentum_conservation",
+            Group::Attitude => "attitude",
+            Group::Constraints => "constraints",
+            Group::Energies => "energies",
+            Group::EnergiesCom => "energies_com",
+            Group::Exchange => "exchange",
+            Group::FinalState => "final_state",
+            Group::Effort => "effort",
+        }
+    }
+
+    /// The group called `name`.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|group| group.name() == name)
+    }
+}
+
+/// A set of groups.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Groups(u16);
+
+impl Groups {
+    /// No group.
+    pub const NONE: Groups = Groups(0);
+
+    /// Every group.
+    pub const ALL: Groups = Groups((1 << Group::ALL.len()) - 1);
+
+    /// This set and one more group.
+    #[must_use]
+    pub const fn with(self, group: Group) -> Self {
+        Groups(self.0 | 1 << group as u16)
+    }
+
+    /// Whether the set holds `group`.
+    pub const fn contains(self, group: Group) -> bool {
+        self.0 & (1 << group as u16) != 0
+    }
+}
+
+impl FromIterator<Group> for Groups {
+    fn from_iter<I: IntoIterator<Item = Group>>(groups: I) -> Self {
+        groups.into_iter().fold(Groups::NONE, Groups::with)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_and_groups_map_one_to_one() {
+        for group in Group::ALL {
+            assert_eq!(Group::from_name(group.name()), Some(group));
+        }
+        assert_eq!(Group::from_name("energy"), None);
+    }
+
+    #[test]
+    fn a_set_holds_what_was_put_in_and_nothing_else() {
+        let some: Groups = [Group::Exchange, Group::Effort].into_iter().collect();
+        for group in Group::ALL {
+            assert_eq!(some.contains(group), matches!(group, Group::Exchange | Group::Effort));
+            assert!(Groups::ALL.contains(group));
+            assert!(!Groups::NONE.contains(group));
+        }
+    }
+}

@@ -1,0 +1,258 @@
+//! [`Observer`]: reads the state table of one run and writes its row.
+
+use fearless_simd::Simd;
+
+use super::columns::{Own, Statistic, Value};
+use super::group::Group;
+use super::measure::{SeriesTable, measure};
+use super::reduce::{Weights, correlations, errors, initial_and_max, slope, spread, transfer};
+use super::request::{Request, Wanted};
+use super::series::{Series, SeriesColumn};
+use super::spectrum::Spectrum;
+use crate::dynamics::outcome::{Outcome, Status};
+use crate::dynamics::table::{Block, Grid, StateTable};
+use crate::math::Isa;
+use crate::math::isa::Work;
+use crate::scene::Scene;
+
+/// Swing of the fuselage's energy, relative to the total about the centre of mass, below which there is no exchange but only
+/// rounding: some dozens of roundings of the total, as its sum of squares and the integration of omega leave them.
+pub const EXCHANGE_FLOOR: f64 = 64.0 * f64::EPSILON;
+
+/// Observes runs on one grid; one per worker, reused from run to run without allocating.
+#[derive(Clone, Debug)]
+pub struct Observer {
+    request: Request,
+    wanted: Wanted,
+    exchange: bool,
+    /// For each column the slot of its value, and whether a run that failed has it too.
+    slots: Vec<(u32, bool)>,
+    published: Vec<&'static SeriesColumn>,
+    times: Vec<f64>,
+    weights: Weights,
+    spectrum: Option<Spectrum>,
+    series: SeriesTable,
+    values: Vec<f64>,
+    /// Number of points of the run that was observed last.
+    filled: usize,
+}
+
+impl Observer {
+    /// Observes what `request` asks for at the times of `grid`.
+    pub fn new(request: Request, grid: &Grid) -> Self {
+        let columns = request.columns();
+        let exchange = request.groups.contains(Group::Exchange);
+        Observer {
+            request,
+            wanted: request.wanted(),
+            exchange,
+            slots: columns.iter().map(|column| (column.value.slot() as u32, column.value.survives())).collect(),
+            published: request.series(),
+            times: grid.times().to_vec(),
+            weights: Weights::of(grid),
+            spectrum: if exchange { Spectrum::of(grid) } else { None },
+            series: SeriesTable::new(grid.points()),
+            values: vec![f64::NAN; Value::SLOTS],
+            filled: 0,
+        }
+    }
+
+    /// What is observed.
+    pub fn request(&self) -> &Request {
+        &self.request
+    }
+
+    /// Writes the values of [`Request::columns`], in that order, of the run that `table` holds.
+    ///
+    /// Of a run that is not [`Status::Done`] only effort and final state are numbers, the latter that of the last point that
+    /// was filled with finite values; all else is NaN, and so is everything that is not finite by itself. Counts are whole.
+    ///
+    /// # Panics
+    /// Where the table lacks a block of [`Request::blocks`] or has other points than the grid, the scene has no debris although
+    /// the request says so, or `row` has another length than [`Request::columns`].
+    pub fn observe(&mut self, isa: Isa, scene: &Scene, table: &StateTable, outcome: &Outcome, row: &mut [f64]) {
+        assert_eq!(row.len(), self.slots.len(), "a row has one value a column");
+        assert_eq!(table.points(), self.times.len(), "the table has the points of the grid");
+        assert!(scene.mass.debris.is_some() || !self.request.debris, "a scene whose debris is observed has one");
+        let done = outcome.status == Status::Done;
+        self.filled = outcome.points.min(table.points());
+        if self.filled > 0 {
+            isa.run(Observation { observer: self, scene, table });
+        }
+        self.own(table, outcome);
+        for (value, (slot, survives)) in row.iter_mut().zip(&self.slots) {
+            *value = if done || *survives { self.values[*slot as usize] } else { f64::NAN };
+        }
+    }
+
+    /// The series of the run that was observed last, in the order of [`Request::series`], each with its column and its values
+    /// at the observation points that the run reached. Relative errors are divided by their scales, as in the row.
+    pub fn series(
+        &self,
+    ) -> impl Iterator<Item = (&'static SeriesColumn, impl ExactSizeIterator<Item = f64> + '_)> + '_ {
+        self.published.iter().map(|column| {
+            let scale = self.scale(column.series);
+            let values = &self.series.column(column.series)[..self.filled];
+            (*column, values.iter().map(move |value| value / scale))
+        })
+    }
+
+    /// What the values of a series are divided by: the largest value of its scale, or one where that is zero or there is none.
+    #[inline(always)]
+    fn scale(&self, series: Series) -> f64 {
+        let scale = series.scale().map_or(1.0, |of| self.values[Value::Of(of, Statistic::Max).slot()]);
+        if scale == 0.0 { 1.0 } else { scale }
+    }
+
+    #[inline(always)]
+    fn put(&mut self, series: Series, statistic: Statistic, value: f64) {
+        self.values[Value::Of(series, statistic).slot()] = value;
+    }
+
+    #[inline(always)]
+    fn put_own(&mut self, own: Own, value: f64) {
+        self.values[Value::Own(own).slot()] = value;
+    }
+
+    /// Reduces the series to the numbers of the row.
+    #[inline(always)]
+    fn reduce<S: Simd>(&mut self, simd: S) {
+        use Series::*;
+        const BODIES: [Series; 7] =
+            [EnergyFuselage, EnergyWheel1, EnergyWheel2, EnergyDebris, ComFuselage, ComWheel1, ComWheel2];
+        const SQUARES: [Series; 4] =
+            [LinearMomentumSquare, AngularMomentumSquare, DebrisLinearSquare, DebrisAngularSquare];
+        const ERRORS: [Series; 10] = [
+            EnergyError,
+            ComError,
+            LinearMomentumError,
+            AngularMomentumError,
+            DebrisLinearError,
+            DebrisAngularError,
+            AttitudeError,
+            ResidualKinematic,
+            ResidualCollocation,
+            ResidualAttitude,
+        ];
+        for series in [EnergyTotal, ComTotal] {
+            if self.wanted.has(series) {
+                let (initial, max) = initial_and_max(simd, &self.weights, self.series.column(series));
+                self.put(series, Statistic::Initial, initial);
+                self.put(series, Statistic::Max, max);
+            }
+        }
+        for series in SQUARES {
+            if self.wanted.has(series) {
+                let (initial, max) = initial_and_max(simd, &self.weights, self.series.column(series));
+                self.put(series, Statistic::Initial, initial.sqrt());
+                self.put(series, Statistic::Max, max.sqrt());
+            }
+        }
+        for series in BODIES {
+            if self.wanted.has(series) {
+                let spread = spread(simd, &self.weights, self.series.column(series));
+                self.put(series, Statistic::Initial, spread.initial);
+                self.put(series, Statistic::Final, spread.last);
+                self.put(series, Statistic::Min, spread.min);
+                self.put(series, Statistic::Max, spread.max);
+                self.put(series, Statistic::Mean, spread.mean);
+                self.put(series, Statistic::PeakToPeak, spread.max - spread.min);
+            }
+        }
+        for series in ERRORS {
+            if self.wanted.has(series) {
+                let errors = errors(simd, &self.weights, self.series.column(series));
+                let scale = self.scale(series);
+                self.put(series, Statistic::Max, errors.max / scale);
+                self.put(series, Statistic::Final, errors.last / scale);
+                self.put(series, Statistic::Rms, errors.rms / scale);
+                self.put(series, Statistic::Rate, errors.rate / scale);
+            }
+        }
+        if self.exchange {
+            self.exchange(simd);
+        }
+    }
+
+    /// Exchange between fuselage and wheels about the centre of mass.
+    #[inline(always)]
+    fn exchange<S: Simd>(&mut self, simd: S) {
+        use Series::{ComFuselage, ComTotal, ComWheel1, ComWheel2};
+        let of = |values: &[f64], series, statistic| values[Value::Of(series, statistic).slot()];
+        let total = of(&self.values, ComTotal, Statistic::Max);
+        for series in [ComFuselage, ComWheel1, ComWheel2] {
+            let swing = of(&self.values, series, Statistic::PeakToPeak);
+            let net = of(&self.values, series, Statistic::Final) - of(&self.values, series, Statistic::Initial);
+            let (gross, power) = transfer(simd, &self.weights, self.series.column(series));
+            self.put(series, Statistic::Fraction, if total > 0.0 { swing / total } else { 0.0 });
+            self.put(series, Statistic::Net, net);
+            self.put(series, Statistic::Gross, gross);
+            self.put(series, Statistic::Power, power);
+        }
+        let swings = [ComFuselage, ComWheel1, ComWheel2].map(|series| of(&self.values, series, Statistic::PeakToPeak));
+        let varies = swings.map(|swing| swing > EXCHANGE_FLOOR * total);
+        let with_mean = |series| (self.series.column(series), of(&self.values, series, Statistic::Mean));
+        let fuselage = with_mean(ComFuselage);
+        let wheels = correlations(simd, &self.weights, fuselage, [with_mean(ComWheel1), with_mean(ComWheel2)]);
+        let frequency = match &mut self.spectrum {
+            Some(_) if !varies[0] => 0.0,
+            Some(spectrum) => {
+                let (column, mean) = fuselage;
+                let slope = slope(simd, &self.weights, column, mean);
+                spectrum.peak(simd, column, mean, slope, self.weights.centered_times())
+            }
+            None => f64::NAN,
+        };
+        self.put_own(Own::CorrelationWheel1, if varies[0] && varies[1] { wheels[0] } else { 0.0 });
+        self.put_own(Own::CorrelationWheel2, if varies[0] && varies[2] { wheels[1] } else { 0.0 });
+        self.put_own(Own::ExchangeFrequency, frequency);
+    }
+
+    /// The numbers that are read and not computed.
+    fn own(&mut self, table: &StateTable, outcome: &Outcome) {
+        let done = outcome.status == Status::Done;
+        let groups = self.request.groups;
+        if done && self.request.actuated && groups.contains(Group::EnergyConservation) {
+            let [thrusters, motors] = table.at(Block::Work, table.points() - 1);
+            self.put_own(Own::WorkThrusters, thrusters);
+            self.put_own(Own::WorkMotors, motors);
+        }
+        if groups.contains(Group::FinalState) {
+            let finite = |point: &usize| {
+                table.at::<3>(Block::Rate, *point).iter().all(|x| x.is_finite())
+                    && table.at::<4>(Block::Attitude, *point).iter().all(|x| x.is_finite())
+                    && table.at::<2>(Block::WheelRates, *point).iter().all(|x| x.is_finite())
+            };
+            let state = (0..self.filled).rev().find(finite).map(|point| {
+                let [w, x, y, z] = table.at(Block::Attitude, point);
+                let [a, b, c] = table.at(Block::Rate, point);
+                let [first, second] = table.at(Block::WheelRates, point);
+                [self.times[point], w, x, y, z, a, b, c, first, second]
+            });
+            let first = Value::Own(Own::TimeFinal).slot();
+            self.values[first..first + 10].copy_from_slice(&state.unwrap_or([f64::NAN; 10]));
+            self.put_own(Own::TimeReached, outcome.time);
+        }
+        self.put_own(Own::Steps, outcome.effort.steps as f64);
+        self.put_own(Own::Rejected, outcome.effort.rejected as f64);
+        self.put_own(Own::Evaluations, outcome.effort.evaluations as f64);
+    }
+}
+
+struct Observation<'a> {
+    observer: &'a mut Observer,
+    scene: &'a Scene,
+    table: &'a StateTable,
+}
+
+impl Work for Observation<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let Observation { observer, scene, table } = self;
+        let debris = scene.mass.debris.as_ref().filter(|_| observer.request.debris);
+        measure(simd, observer.wanted, debris, &scene.mass, table, observer.filled, &mut observer.series);
+        observer.reduce(simd);
+    }
+}

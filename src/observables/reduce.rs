@@ -1,0 +1,304 @@
+//! Series to numbers: extremes, means, slopes, transfers, correlations, each in one fixed order.
+//!
+//! Lane `i` of an accumulator gathers points `i`, `i + 8`, ...; the eight are then joined as a fixed tree, so that the bits
+//! depend on nothing but the values. Means are taken of the departures from the first value: with n points their rounding
+//! error is at most n/8 + 4 roundings of the largest *departure* (not of the value itself), which for any grid in use lies far
+//! below one rounding of the value. The same holds for slopes, whose error series starts at zero. Weights are zero in the padding.
+
+use fearless_simd::Simd;
+
+use crate::dynamics::table::Grid;
+use crate::math::lanes::WIDTH;
+use crate::math::{Lanes, Real};
+
+/// What of the grid enters the reductions, with zeros in the padding.
+#[derive(Clone, Debug)]
+pub(super) struct Weights {
+    /// Number of points.
+    pub(super) points: usize,
+    /// One at every point.
+    one: Vec<f64>,
+    /// Least-squares slope of a series: sum of weight times value, 1/s.
+    slope: Vec<f64>,
+    /// One over the distance to the next point, 1/s.
+    inverse_step: Vec<f64>,
+    /// Times less their mean, s.
+    centered_times: Vec<f64>,
+}
+
+impl Weights {
+    pub(super) fn of(grid: &Grid) -> Self {
+        let times = grid.times();
+        let points = times.len();
+        let mean = times.iter().sum::<f64>() / points as f64;
+        let centered: Vec<f64> = times.iter().map(|t| t - mean).collect();
+        let square: f64 = centered.iter().map(|t| t * t).sum();
+        let slope = centered.iter().map(|t| if square > 0.0 { t / square } else { 0.0 });
+        let inverse = times.windows(2).map(|t| if t[1] > t[0] { 1.0 / (t[1] - t[0]) } else { 0.0 });
+        let padded = |values: Vec<f64>| {
+            let mut values = values;
+            values.resize(points.next_multiple_of(WIDTH), 0.0);
+            values
+        };
+        Weights {
+            points,
+            one: padded(vec![1.0; points]),
+            slope: padded(slope.collect()),
+            inverse_step: padded(inverse.collect()),
+            centered_times: padded(centered),
+        }
+    }
+
+    /// Times less their mean, s.
+    pub(super) fn centered_times(&self) -> &[f64] {
+        &self.centered_times
+    }
+}
+
+#[inline(always)]
+fn joined(lanes: [f64; WIDTH], join: impl Fn(f64, f64) -> f64) -> f64 {
+    let [a, b, c, d, e, f, g, h] = lanes;
+    join(join(join(a, e), join(c, g)), join(join(b, f), join(d, h)))
+}
+
+#[inline(always)]
+fn total<S: Simd>(lanes: Lanes<S>) -> f64 {
+    joined(lanes.to_array(), |a, b| a + b)
+}
+
+#[inline(always)]
+fn largest<S: Simd>(lanes: Lanes<S>) -> f64 {
+    joined(lanes.to_array(), |a, b| a.larger(b))
+}
+
+#[inline(always)]
+fn smallest<S: Simd>(lanes: Lanes<S>) -> f64 {
+    joined(lanes.to_array(), |a, b| a.smaller(b))
+}
+
+/// Location and extremes of a series.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Spread {
+    pub(super) initial: f64,
+    pub(super) last: f64,
+    pub(super) min: f64,
+    pub(super) max: f64,
+    pub(super) mean: f64,
+}
+
+/// A series' column and its points' neighbours: `column` is one vector longer than the weights.
+#[inline(always)]
+pub(super) fn spread<S: Simd>(simd: S, weights: &Weights, column: &[f64]) -> Spread {
+    let initial = column[0];
+    let first = Lanes::broadcast(simd, initial);
+    let mut min = first;
+    let mut max = first;
+    let mut sum = first.zero();
+    for at in (0..weights.one.len()).step_by(WIDTH) {
+        let x = Lanes::from_slice(simd, &column[at..]);
+        min = x.smaller(min);
+        max = x.larger(max);
+        sum = (x - first).mul_add(Lanes::from_slice(simd, &weights.one[at..]), sum);
+    }
+    let mean = initial + total(sum) / weights.points as f64;
+    let last = column[weights.points - 1];
+    if mean.is_nan() {
+        return Spread { initial, last, min: f64::NAN, max: f64::NAN, mean };
+    }
+    Spread { initial, last, min: smallest(min), max: largest(max), mean }
+}
+
+/// First and largest value of a series, for scales.
+#[inline(always)]
+pub(super) fn initial_and_max<S: Simd>(simd: S, weights: &Weights, column: &[f64]) -> (f64, f64) {
+    let mut max = Lanes::broadcast(simd, column[0]);
+    for at in (0..weights.one.len()).step_by(WIDTH) {
+        max = Lanes::from_slice(simd, &column[at..]).larger(max);
+    }
+    (column[0], largest(max))
+}
+
+/// Sizes of an error series.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Errors {
+    pub(super) max: f64,
+    pub(super) last: f64,
+    pub(super) rms: f64,
+    pub(super) rate: f64,
+}
+
+#[inline(always)]
+pub(super) fn errors<S: Simd>(simd: S, weights: &Weights, column: &[f64]) -> Errors {
+    let zero = Lanes::broadcast(simd, 0.0);
+    let (mut max, mut squares, mut slope) = (zero, zero, zero);
+    for at in (0..weights.one.len()).step_by(WIDTH) {
+        let e = Lanes::from_slice(simd, &column[at..]);
+        max = e.abs().larger(max);
+        squares = (e * Lanes::from_slice(simd, &weights.one[at..])).mul_add(e, squares);
+        slope = e.mul_add(Lanes::from_slice(simd, &weights.slope[at..]), slope);
+    }
+    let rms = (total(squares) / weights.points as f64).sqrt();
+    // a maximum by comparison passes over what is not a number, a sum does not
+    let max = if rms.is_nan() { f64::NAN } else { largest(max) };
+    Errors { max, last: column[weights.points - 1], rms, rate: total(slope) }
+}
+
+/// Sum of |dx| and largest |dx/dt| between neighbouring points.
+#[inline(always)]
+pub(super) fn transfer<S: Simd>(simd: S, weights: &Weights, column: &[f64]) -> (f64, f64) {
+    let mut gross = Lanes::broadcast(simd, 0.0);
+    let mut power = gross;
+    for at in (0..weights.one.len()).step_by(WIDTH) {
+        // the padding repeats the last point, and so adds nothing
+        let change = (Lanes::from_slice(simd, &column[at + 1..]) - Lanes::from_slice(simd, &column[at..])).abs();
+        gross += change;
+        power = (change * Lanes::from_slice(simd, &weights.inverse_step[at..])).larger(power);
+    }
+    (total(gross), largest(power))
+}
+
+/// Correlation of `a` with `b[0]` and with `b[1]` (each with its mean); zero where one of the two does not vary.
+#[inline(always)]
+pub(super) fn correlations<S: Simd>(
+    simd: S,
+    weights: &Weights,
+    (a, a_mean): (&[f64], f64),
+    b: [(&[f64], f64); 2],
+) -> [f64; 2] {
+    let zero = Lanes::broadcast(simd, 0.0);
+    let means = [Lanes::broadcast(simd, a_mean), Lanes::broadcast(simd, b[0].1), Lanes::broadcast(simd, b[1].1)];
+    let (mut aa, mut ab0, mut ab1, mut bb0, mut bb1) = (zero, zero, zero, zero, zero);
+    for at in (0..weights.one.len()).step_by(WIDTH) {
+        let one = Lanes::from_slice(simd, &weights.one[at..]);
+        let x = (Lanes::from_slice(simd, &a[at..]) - means[0]) * one;
+        let y0 = (Lanes::from_slice(simd, &b[0].0[at..]) - means[1]) * one;
+        let y1 = (Lanes::from_slice(simd, &b[1].0[at..]) - means[2]) * one;
+        aa = x.mul_add(x, aa);
+        ab0 = x.mul_add(y0, ab0);
+        ab1 = x.mul_add(y1, ab1);
+        bb0 = y0.mul_add(y0, bb0);
+        bb1 = y1.mul_add(y1, bb1);
+    }
+    let aa = total(aa);
+    let correlation = |ab: f64, bb: f64| {
+        let scale = aa.sqrt() * bb.sqrt();
+        if scale == 0.0 { 0.0 } else { (ab / scale).clamp(-1.0, 1.0) }
+    };
+    [correlation(total(ab0), total(bb0)), correlation(total(ab1), total(bb1))]
+}
+
+/// Slope of the least-squares line through a series, per second.
+#[inline(always)]
+pub(super) fn slope<S: Simd>(simd: S, weights: &Weights, column: &[f64], mean: f64) -> f64 {
+    let mean = Lanes::broadcast(simd, mean);
+    let mut slope = mean.zero();
+    for at in (0..weights.one.len()).step_by(WIDTH) {
+        let x = Lanes::from_slice(simd, &column[at..]) - mean;
+        slope = x.mul_add(Lanes::from_slice(simd, &weights.slope[at..]), slope);
+    }
+    total(slope)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Isa;
+    use crate::math::isa::Work;
+
+    /// A few roundings of sums of up to a hundred terms of size one.
+    const ROUNDING: f64 = 1e-13;
+
+    struct Reduce<'a>(&'a Weights, &'a [f64]);
+    impl Work for Reduce<'_> {
+        type Output = (Spread, Errors, (f64, f64), f64, [f64; 2]);
+        #[inline(always)]
+        fn run<S: Simd>(self, simd: S) -> Self::Output {
+            let spread = spread(simd, self.0, self.1);
+            let own = (self.1, spread.mean);
+            (
+                spread,
+                errors(simd, self.0, self.1),
+                transfer(simd, self.0, self.1),
+                slope(simd, self.0, self.1, spread.mean),
+                correlations(simd, self.0, own, [own, own]),
+            )
+        }
+    }
+
+    fn column(points: usize, padding: f64, f: impl Fn(usize) -> f64) -> Vec<f64> {
+        let mut values: Vec<f64> = (0..points).map(f).collect();
+        let last = values[points - 1];
+        values.resize(points.next_multiple_of(WIDTH) + WIDTH, if padding.is_nan() { last } else { padding });
+        values
+    }
+
+    fn close(a: f64, b: f64) {
+        assert!((a - b).abs() <= ROUNDING * b.abs().max(1.0), "{a} != {b}");
+    }
+
+    #[test]
+    fn a_line_has_its_slope_on_even_and_uneven_grids() {
+        for times in [
+            (0..101).map(|k| 0.1 * k as f64).collect::<Vec<_>>(),
+            (0..37).map(|k| (k * k) as f64 * 0.01).collect(),
+            vec![0.0, 1.0, 10.0],
+        ] {
+            let points = times.len();
+            let weights = Weights::of(&Grid::at(times.clone()));
+            let line = column(points, f64::NAN, |k| 2.0 - 0.75 * times[k]);
+            let (_, errors, (gross, power), slope, _) = Isa::best().run(Reduce(&weights, &line));
+            close(slope, -0.75);
+            close(errors.rate, -0.75);
+            close(gross, 0.75 * times[points - 1]);
+            close(power, 0.75);
+        }
+    }
+
+    #[test]
+    fn every_number_agrees_with_its_definition_and_padding_counts_for_none() {
+        for points in [1, 2, 7, 8, 9, 16, 101] {
+            let times: Vec<f64> = (0..points).map(|k| k as f64 + 0.3 * (k as f64 * 0.7).floor()).collect();
+            let weights = Weights::of(&Grid::at(times.clone()));
+            let values = column(points, f64::NAN, |k| ((k * 37 + 11) % 23) as f64 / 7.0 - 1.5);
+            let (spread, errors, (gross, power), _, _) = Isa::best().run(Reduce(&weights, &values));
+            let v = &values[..points];
+            let n = points as f64;
+            assert_eq!(spread.min, v.iter().copied().fold(f64::INFINITY, f64::min));
+            assert_eq!(spread.max, v.iter().copied().fold(f64::NEG_INFINITY, f64::max));
+            assert_eq!((spread.initial, spread.last, errors.last), (v[0], v[points - 1], v[points - 1]));
+            close(spread.mean, v.iter().sum::<f64>() / n);
+            close(errors.rms, (v.iter().map(|x| x * x).sum::<f64>() / n).sqrt());
+            assert_eq!(errors.max, v.iter().map(|x| x.abs()).fold(0.0, f64::max));
+            close(gross, v.windows(2).map(|x| (x[1] - x[0]).abs()).sum());
+            let slopes = v.windows(2).zip(times.windows(2)).map(|(x, t)| ((x[1] - x[0]) / (t[1] - t[0])).abs());
+            close(power, slopes.fold(0.0, f64::max));
+        }
+    }
+
+    #[test]
+    fn a_small_swing_on_a_large_value_keeps_its_mean() {
+        let weights = Weights::of(&Grid::uniform(1.0, 101));
+        let values = column(101, f64::NAN, |k| 1e6 + (k % 2) as f64);
+        let (spread, ..) = Isa::best().run(Reduce(&weights, &values));
+        assert_eq!(spread.mean, 1e6 + 50.0 / 101.0);
+    }
+
+    #[test]
+    fn a_series_is_correlated_with_itself_unless_it_is_constant() {
+        let weights = Weights::of(&Grid::uniform(1.0, 11));
+        let (.., same) = Isa::best().run(Reduce(&weights, &column(11, f64::NAN, |k| (k * k) as f64)));
+        same.map(|c| close(c, 1.0));
+        let (.., constant) = Isa::best().run(Reduce(&weights, &column(11, f64::NAN, |_| 3.0)));
+        assert_eq!(constant, [0.0; 2]);
+    }
+
+    #[test]
+    fn what_is_not_a_number_is_not_lost_in_a_maximum() {
+        let weights = Weights::of(&Grid::uniform(1.0, 20));
+        let values = column(20, f64::NAN, |k| if k == 13 { f64::NAN } else { k as f64 });
+        let (spread, errors, ..) = Isa::best().run(Reduce(&weights, &values));
+        for value in [spread.min, spread.max, spread.mean, errors.max, errors.rms] {
+            assert!(value.is_nan());
+        }
+    }
+}
