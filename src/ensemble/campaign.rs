@@ -1,9 +1,10 @@
 //! [`Campaign`]: a plan made ready to run; [`Worker`]: the memory in which one thread runs samples of it.
 
 use crate::campaign::Plan;
+use crate::dynamics::table::{Blocks, Grid};
 use crate::ensemble::parts::Part;
 use crate::ensemble::rows::{Rows, Shape};
-use crate::integrators::{Control, Method, Propagator, Workspace};
+use crate::integrators::{Control, Engine, Method, Propagator};
 use crate::math::Isa;
 use crate::observables::{Observer, Request};
 use crate::sampling::{Sampler, SampleId};
@@ -32,16 +33,18 @@ pub fn request(plan: &Plan) -> Request {
     }
 }
 
-/// How `plan` steers its integrator.
-pub fn control(plan: &Plan) -> Control {
-    Control { tolerance: plan.tolerance, step: plan.step_s, max_steps: plan.max_steps }
+/// What integrates scenes of `plan`, observed at the times of `grid`.
+pub fn propagator(plan: &Plan, grid: Grid, blocks: Blocks) -> Propagator {
+    let control = Control { tolerance: plan.tolerance, step: plan.step_s, max_steps: plan.max_steps };
+    let nominal = Scene::resolve(&plan.nominal).expect("a plan's nominal scene was resolved when the plan was made");
+    Propagator::new(plan.method, control, grid, blocks, &nominal)
 }
 
 impl<'p> Campaign<'p> {
     /// `plan`, to be run on `isa`.
     pub fn new(plan: &'p Plan, isa: Isa) -> Self {
         let request = request(plan);
-        let propagator = Propagator::new(plan.method, control(plan), plan.grid.clone(), request.blocks());
+        let propagator = propagator(plan, plan.grid.clone(), request.blocks());
         Campaign { plan, isa, request, propagator }
     }
 
@@ -69,7 +72,7 @@ impl<'p> Campaign<'p> {
             input: self.plan.nominal.clone(),
             scenes: Vec::new(),
             places: Vec::with_capacity(BATCH),
-            workspace: self.propagator.workspace(self.isa),
+            engine: self.propagator.engine(self.isa),
             observer: Observer::new(self.request, &self.plan.grid),
             applied: vec![0.0; shape.parameters],
             observed: vec![0.0; shape.observables],
@@ -78,7 +81,6 @@ impl<'p> Campaign<'p> {
 }
 
 /// The memory in which one thread runs samples. What an earlier sample left in it does not reach a later one.
-#[derive(Debug)]
 pub struct Worker<'c> {
     campaign: &'c Campaign<'c>,
     sampler: Sampler<'c>,
@@ -86,7 +88,7 @@ pub struct Worker<'c> {
     scenes: Vec<Scene>,
     /// The row of each scene.
     places: Vec<usize>,
-    workspace: Workspace,
+    engine: Box<dyn Engine>,
     observer: Observer,
     applied: Vec<f64>,
     observed: Vec<f64>,
@@ -124,7 +126,7 @@ impl Worker<'_> {
     fn propagate(&mut self, rows: &mut Rows) {
         let (isa, scenes) = (self.campaign.isa, &self.scenes[..self.places.len()]);
         let (places, observer, observed) = (&self.places, &mut self.observer, &mut self.observed);
-        self.campaign.propagator.propagate(isa, scenes, &mut self.workspace, &mut |index, table, outcome| {
+        self.engine.propagate(scenes, &mut |index, table, outcome| {
             observer.observe(isa, &scenes[index], table, outcome, observed);
             rows.set_result(places[index], outcome.status, observed);
         });

@@ -4,8 +4,8 @@
 
 use crate::campaign::Plan;
 use crate::dynamics::table::{Block, Blocks, Grid, StateTable};
-use crate::ensemble::campaign::{control, request};
-use crate::integrators::{Method, Outcome, Propagator};
+use crate::ensemble::campaign::{propagator, request};
+use crate::integrators::{Method, Outcome};
 use crate::math::Isa;
 use crate::observables::{Group, Observer, Request, SeriesColumn};
 use crate::sampling::SampleId;
@@ -48,22 +48,17 @@ impl SingleRun {
         let request = request(plan);
         let shown = Request { groups: GROUPS.into_iter().collect(), ..request };
         let blocks = states(plan).union(shown.blocks()).union(request.blocks());
-        let propagator = Propagator::new(plan.method, control(plan), grid.clone(), blocks);
+        let mut engine = propagator(plan, grid.clone(), blocks).engine(isa);
         let mut observer = Observer::new(request, &grid);
         let mut watcher = Observer::new(shown, &grid);
         let mut row = vec![f64::NAN; request.columns().len()];
         let mut ignored = vec![f64::NAN; shown.columns().len()];
         let mut kept = None;
-        propagator.propagate(
-            isa,
-            std::slice::from_ref(&scene),
-            &mut propagator.workspace(isa),
-            &mut |_, table, outcome| {
-                observer.observe(isa, &scene, table, outcome, &mut row);
-                watcher.observe(isa, &scene, table, outcome, &mut ignored);
-                kept = Some((table.clone(), *outcome));
-            },
-        );
+        engine.propagate(std::slice::from_ref(&scene), &mut |_, table, outcome| {
+            observer.observe(isa, &scene, table, outcome, &mut row);
+            watcher.observe(isa, &scene, table, outcome, &mut ignored);
+            kept = Some((table.clone(), *outcome));
+        });
         let (table, outcome) = kept.expect("the propagator finishes every scene that it is given");
         let series = watcher.series().map(|(column, values)| (column, values.collect())).collect();
         Ok(SingleRun { scene, grid, table, outcome, series, row, request })

@@ -13,7 +13,7 @@ use thiserror::Error;
 use crate::campaign::Plan;
 use crate::dynamics::table::Block;
 use crate::ensemble::SingleRun;
-use crate::math::vector::{cross, dcm_from_quaternion, product};
+use crate::math::vector::{cross, dcm_from_quaternion, difference, product};
 use crate::output::atomic;
 use crate::output::columnar::{Cells, Content, Heading, Layout, Packing};
 use crate::output::rows_file::provenance;
@@ -184,13 +184,12 @@ impl Columns<'_> {
 fn spacecraft(run: &SingleRun, table: &mut Columns<'_>) {
     let (states, center) = (&run.table, run.scene.mass.center);
     let rotated = |point, vector| product(dcm_from_quaternion(states.at(Block::Attitude, point)), vector);
-    let less = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|i| a[i] - b[i]);
     table.push_vector::<3>("r_po_e", ("m", "m"), "Position of the fuselage's base centre p, in F_e.", |point| {
-        less(states.at(Block::ComPosition, point), rotated(point, center))
+        difference(states.at(Block::ComPosition, point), rotated(point, center))
     });
     table.push_vector::<3>("v_po_e", ("m/s", "m_s"), "Velocity of the fuselage's base centre p, in F_e.", |point| {
         let relative = cross(states.at(Block::Rate, point), center);
-        less(states.at(Block::ComVelocity, point), rotated(point, relative))
+        difference(states.at(Block::ComVelocity, point), rotated(point, relative))
     });
     table.push_vector::<4>("q_es", ("", ""), "Attitude quaternion of the fuselage, F_s to F_e.", |point| {
         states.at(Block::Attitude, point)

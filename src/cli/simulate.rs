@@ -1,0 +1,154 @@
+//! `spindrift simulate`: one sample over time.
+
+use std::fmt::Write as _;
+
+use crate::campaign::{Overrides, Plan};
+use crate::cli::verdict::{Failure, Verdict};
+use crate::cli::{SimulateOptions, isa, plan, screen};
+use crate::dynamics::table::Grid;
+use crate::ensemble::SingleRun;
+use crate::integrators::Status;
+use crate::output::energy_figure::energy_figure;
+use crate::output::plot::{PlotError, PlotFormat};
+use crate::output::timeseries::{TableError, TableFormat, TimeSeries};
+use crate::sampling::SampleId;
+
+/// The columns on the screen: what fits, the rest is in the files.
+const ON_SCREEN: [&str; 12] = [
+    "time_s",
+    "omega_se_s_x_rad_s",
+    "omega_se_s_y_rad_s",
+    "omega_se_s_z_rad_s",
+    "alpha_dot_rad_s",
+    "beta_dot_rad_s",
+    "energy_fuselage_j",
+    "energy_wheel1_j",
+    "energy_wheel2_j",
+    "energy_error",
+    "linear_momentum_error",
+    "angular_momentum_error",
+];
+
+/// Runs the command.
+///
+/// # Errors
+/// Where the sample cannot be run or its files cannot be written.
+pub fn run(options: &SimulateOptions) -> Result<Verdict, Failure> {
+    // refuse a file that cannot be written before running for it
+    if let Some(path) = &options.out {
+        TableFormat::of(path).map_err(|error| Failure::Input(error.to_string()))?;
+    }
+    if let Some(path) = &options.plot {
+        PlotFormat::of(path).map_err(|error| Failure::Input(error.to_string()))?;
+    }
+    let plan = plan(&options.file, Overrides::default())?;
+    let isa = isa()?;
+    if options.sample >= plan.samples {
+        let (last, name) = (plan.samples - 1, &plan.name);
+        return Err(Failure::Input(format!("--sample {}: must be 0 to {last}, the samples of {name}", options.sample)));
+    }
+    let times = options.times.as_deref().map(ascending).transpose()?;
+    let grid = times.as_deref().map_or_else(|| plan.grid.clone(), |times| grid(times, &plan));
+    let sample = SampleId(options.sample);
+    let run = SingleRun::new(&plan, sample, grid, isa).map_err(|errors| {
+        let errors: Vec<String> = errors.iter().map(|error| format!("\n  {error}")).collect();
+        Failure::Input(format!("sample {sample} is not physical (its row says invalid_sample):{}", errors.concat()))
+    })?;
+    let shown = |time: f64| times.as_deref().is_none_or(|times| times.contains(&time));
+    let series = TimeSeries::new(&plan, sample, &run, shown);
+    write(options, &plan, &series)?;
+    if run.outcome.status != Status::Done {
+        let (status, time) = (run.outcome.status.name(), run.outcome.time);
+        screen::note(&format!("the run ended with {status} at {time:?} s; what follows is not shown"));
+    }
+    Ok(Verdict::of(run.outcome.status))
+}
+
+/// The times that were asked for, ascending, each once.
+fn ascending(times: &[f64]) -> Result<Vec<f64>, Failure> {
+    if let Some(wrong) = times.iter().find(|time| !(time.is_finite() && **time >= 0.0)) {
+        return Err(Failure::Input(format!("--times: {wrong:?} must be a finite number >= 0, in seconds")));
+    }
+    let mut times: Vec<f64> = times.iter().map(|time| time + 0.0).collect(); // -0 is 0
+    times.sort_by(f64::total_cmp);
+    times.dedup();
+    Ok(times)
+}
+
+/// A grid that holds `times` and begins at zero, as every grid does; conservation is measured from there.
+fn grid(times: &[f64], plan: &Plan) -> Grid {
+    let mut times = times.to_vec();
+    if times.first() != Some(&0.0) {
+        times.insert(0, 0.0);
+    }
+    if times.len() == 1 {
+        times.push(plan.grid.duration());
+    }
+    Grid::at(times)
+}
+
+fn write(options: &SimulateOptions, plan: &Plan, series: &TimeSeries) -> Result<(), Failure> {
+    if let Some(path) = &options.out {
+        series.save(path).map_err(|error| match error {
+            TableError::Format(_) => Failure::Input(error.to_string()),
+            _ => Failure::Files(format!("{}: {error}", path.display())),
+        })?;
+        screen::note(&format!(
+            "{}: {} points, {} columns",
+            path.display(),
+            series.points(),
+            series.headings().len()
+        ));
+    }
+    if let Some(path) = &options.plot {
+        let title = match options.sample {
+            0 => format!("{}, nominal", plan.name),
+            sample => format!("{}, sample {sample}", plan.name),
+        };
+        energy_figure(&title, series).save(path).map_err(|error| match error {
+            PlotError::Format(_) => Failure::Input(error.to_string()),
+            _ => Failure::Files(format!("{}: {error}", path.display())),
+        })?;
+        screen::note(&format!("{}: energies of {} points", path.display(), series.points()));
+    }
+    if options.out.is_none() && options.plot.is_none() {
+        screen::print(&table(series))?;
+        screen::note("(--out X.csv or --out X.parquet writes all columns)");
+    }
+    Ok(())
+}
+
+/// The main columns, aligned; numbers in the fewest digits that read back to the same bits.
+fn table(series: &TimeSeries) -> String {
+    let columns: Vec<(&str, Vec<String>)> = ON_SCREEN
+        .into_iter()
+        .filter_map(|name| Some((name, series.column(name)?.iter().map(|value| format!("{value:?}")).collect())))
+        .collect();
+    let widths: Vec<usize> = columns
+        .iter()
+        .map(|(name, values)| values.iter().map(String::len).chain([name.len()]).max().unwrap_or(0))
+        .collect();
+    let mut text = String::new();
+    let mut line = |cells: &mut dyn Iterator<Item = &str>| {
+        let cells: Vec<String> = cells.zip(&widths).map(|(cell, width)| format!("{cell:>width$}")).collect();
+        let _ = writeln!(text, "{}", cells.join("  ")); // writing to a String does not fail
+    };
+    line(&mut columns.iter().map(|(name, _)| *name));
+    for point in 0..series.points() {
+        line(&mut columns.iter().map(|(_, values)| values[point].as_str()));
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_sorted_and_single() {
+        assert_eq!(ascending(&[3.0, -0.0, 1.0, 3.0]), Ok(vec![0.0, 1.0, 3.0]));
+        for wrong in [f64::NAN, f64::INFINITY, -1.0] {
+            assert!(matches!(ascending(&[wrong]), Err(Failure::Input(_))));
+        }
+    }
+}
