@@ -140,7 +140,7 @@ struct March<'a, S, R, const N: usize, const FORCED: bool> {
 
 impl<S: Simd, R: Real, const N: usize, const FORCED: bool> March<'_, S, R, N, FORCED> {
     /// Puts the next run into `lane`, or empties it.
-    #[inline(always)]
+    #[inline(never)]
     fn refill(&mut self, lane: usize) {
         let zero = 0.0;
         for i in 0..N {
@@ -181,7 +181,7 @@ impl<S: Simd, R: Real, const N: usize, const FORCED: bool> March<'_, S, R, N, FO
     }
 
     /// Prepares `lane` for a stretch.
-    #[inline(always)]
+    #[inline(never)]
     fn enter(&mut self, lane: usize, stretch: usize) {
         let Some(place) = &mut self.places[lane] else { return };
         let run = &self.runs[place.run];
@@ -235,8 +235,22 @@ impl<S: Simd, R: Real, const N: usize, const FORCED: bool> March<'_, S, R, N, FO
     }
 
     /// What a lane does after a step: note the section, fold by a period, end a stretch or a run.
-    #[inline(always)]
+    #[inline(never)]
     fn attend(
+        &mut self,
+        lane: usize,
+        slot: usize,
+        length: f64,
+        finish: &mut dyn FnMut(usize, &mut Trajectory, &Outcome),
+    ) {
+        self.simd.vectorize(
+            #[inline(always)]
+            || self.attended(lane, slot, length, finish),
+        );
+    }
+
+    #[inline(always)]
+    fn attended(
         &mut self,
         lane: usize,
         slot: usize,
@@ -299,7 +313,7 @@ impl<S: Simd, R: Real, const N: usize, const FORCED: bool> March<'_, S, R, N, FO
     }
 
     /// The period of the stretch in `lane`, of which the last step comes back after `within` units.
-    #[inline(always)]
+    #[inline(never)]
     fn period(&self, lane: usize, slot: usize, within: f64) -> Option<Period> {
         let place = self.places[lane]?;
         let segment = &self.work.ring[slot];
@@ -338,8 +352,16 @@ impl<S: Simd, R: Real, const N: usize, const FORCED: bool> March<'_, S, R, N, FO
     }
 
     /// Evaluates the points of the stretch that the kept steps cover: all that are left of it where `whole`.
-    #[inline(always)]
+    #[inline(never)]
     fn evaluate(&mut self, lane: usize, slot: usize, period: Option<&Period>, whole: bool) {
+        self.simd.vectorize(
+            #[inline(always)]
+            || self.evaluated(lane, slot, period, whole),
+        );
+    }
+
+    #[inline(always)]
+    fn evaluated(&mut self, lane: usize, slot: usize, period: Option<&Period>, whole: bool) {
         let Some(place) = &mut self.places[lane] else { return };
         let run = &self.runs[place.run];
         let bounds = &run.stretches[place.stretch];
@@ -400,8 +422,16 @@ impl<S: Simd, R: Real, const N: usize, const FORCED: bool> March<'_, S, R, N, FO
     }
 
     /// Sets the state of `lane` to that at the end of its stretch, by folding.
-    #[inline(always)]
+    #[inline(never)]
     fn jump_to_end(&mut self, lane: usize, slot: usize, period: &Period) {
+        self.simd.vectorize(
+            #[inline(always)]
+            || self.jumped(lane, slot, period),
+        );
+    }
+
+    #[inline(always)]
+    fn jumped(&mut self, lane: usize, slot: usize, period: &Period) {
         let Some(place) = self.places[lane] else { return };
         let order = self.work.rule.order;
         let (whole, rest) = period.fold(Lanes::broadcast(self.simd, place.length));
@@ -436,7 +466,7 @@ impl<S: Simd, R: Real, const N: usize, const FORCED: bool> March<'_, S, R, N, FO
     }
 
     /// Goes on with the next stretch, or hands the run over and takes the next.
-    #[inline(always)]
+    #[inline(never)]
     fn end_stretch(&mut self, lane: usize, finish: &mut dyn FnMut(usize, &mut Trajectory, &Outcome)) {
         let Some(place) = self.places[lane] else { return };
         let run = &self.runs[place.run];
