@@ -5,10 +5,12 @@
 
 pub mod method;
 pub mod propagate;
+pub mod reference_runs;
 pub mod system;
 pub mod taylor;
 
 pub use crate::dynamics::outcome::{self, Effort, Outcome, Status};
 pub use method::Method;
 pub use propagate::{Control, Engine, Propagator, Width};
+pub use reference_runs::ReferenceRuns;
 pub use system::{Runs, System, Tolerance};

@@ -5,7 +5,7 @@
 //! - [`lanes`]: [`Lanes`], eight `f64` in one vector, on whichever instruction set was chosen.
 //! - [`isa`]: the run-time choice of instruction set, and the only place that reads `SPINDRIFT_ISA`.
 //! - [`sine`]: sine and cosine in turns, eight at a time.
-//! - [`symmetric`]: principal axes of a symmetric 3x3 matrix.
+//! - [`symmetric`]: positive definiteness and principal axes of 3x3 matrices.
 //! - [`vector`]: three-vectors, 3x3 matrices and quaternions as plain arrays of `Real`.
 
 pub mod double_double;

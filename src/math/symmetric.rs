@@ -1,4 +1,4 @@
-//! Principal axes of a symmetric 3x3 matrix by cyclic Jacobi rotations.
+//! Symmetric 3x3 matrices: positive definiteness, and principal axes by cyclic Jacobi rotations.
 //!
 //! C. G. J. Jacobi, J. reine angew. Math. 30, 1846; the rotation as in G. H. Golub & C. F. Van Loan, *Matrix Computations*,
 //! 4th ed., section 8.5.2. Only IEEE operations, so the bits are the same everywhere; any [`Real`] of one lane.
@@ -50,6 +50,15 @@ pub fn principal_axes<R: Real>(m: [[R; 3]; 3]) -> ([R; 3], [[R; 3]; 3]) {
     ([a[0][0], a[1][1], a[2][2]], c)
 }
 
+/// Whether a symmetric matrix is positive definite, by the pivots of its Cholesky factor. Reads the lower triangle.
+pub fn is_positive_definite(m: [[f64; 3]; 3]) -> bool {
+    let (a, b, c) = (m[0][0], m[1][0], m[2][0]);
+    let second = m[1][1] - b * b / a;
+    let off = m[2][1] - b * c / a;
+    let third = m[2][2] - c * c / a - off * off / second;
+    a > 0.0 && second > 0.0 && third > 0.0
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -82,5 +91,13 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn definiteness_is_told_apart() {
+        assert!(is_positive_definite([[2.0, 1.0, 0.0], [1.0, 2.0, 1.0], [0.0, 1.0, 2.0]]));
+        assert!(!is_positive_definite([[1.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 0.0, 1.0]]));
+        assert!(!is_positive_definite([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1e-300]]));
+        assert!(!is_positive_definite([[f64::NAN; 3]; 3]));
     }
 }

@@ -1,46 +1,255 @@
 //! Mass properties of the bodies and of the spacecraft as a whole.
+//!
+//! Source: Berdoz, *Final Report - ADR Spacecraft*, (60)-(67) for the bodies ([`super::solids`]). Sums over bodies use the
+//! distances between pairs, sum over i < j of m_i m_j / m times (r^2 1 - r r^T): no difference with the common centre, no cancellation.
+//!
+//! Generic over the number type, so that a reference solution in more digits starts from a J of as many digits.
+
+use super::input::{DebrisInput, FuselageInput, SceneInput, WheelInput};
+use super::solids::{Cylinder, hollow_cylinder, solid_box, solid_cylinder};
+use crate::math::Real;
+use crate::math::vector::{difference, scaled, sum};
 
 /// Mass properties of a rigid body in its own frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Body {
+pub struct Body<R = f64> {
     /// Mass, kg.
-    pub mass: f64,
+    pub mass: R,
     /// Centre of mass from the frame's origin, m (for the fuselage from p in F_s; zero for the debris).
-    pub center: [f64; 3],
+    pub center: [R; 3],
     /// Inertia tensor about the centre of mass, in the body's frame, kg m^2, by rows.
-    pub inertia: [[f64; 3]; 3],
+    pub inertia: [[R; 3]; 3],
 }
 
 /// A balanced axisymmetric wheel, fixed with its centre and axis in the fuselage. A missing wheel has mass and inertia zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Wheel {
+pub struct Wheel<R = f64> {
     /// Mass, kg.
-    pub mass: f64,
+    pub mass: R,
     /// Centre from p in F_s, m.
-    pub center: [f64; 3],
+    pub center: [R; 3],
     /// Unit spin axis in F_s.
-    pub axis: [f64; 3],
+    pub axis: [R; 3],
     /// Moment of inertia about the spin axis, kg m^2.
-    pub axial: f64,
+    pub axial: R,
     /// Moment of inertia about any axis through the centre across the spin axis, kg m^2.
-    pub transverse: f64,
+    pub transverse: R,
 }
 
 /// Mass properties of all bodies and of the spacecraft S + W1 + W2 as a whole.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MassProperties {
+pub struct MassProperties<R = f64> {
     /// The fuselage S.
-    pub fuselage: Body,
+    pub fuselage: Body<R>,
     /// The wheels W1, W2.
-    pub wheels: [Wheel; 2],
+    pub wheels: [Wheel<R>; 2],
     /// The debris D, if present.
-    pub debris: Option<Body>,
+    pub debris: Option<Body<R>>,
     /// Mass m of the spacecraft, kg.
-    pub total: f64,
+    pub total: R,
     /// Centre of mass c of the spacecraft from p in F_s, m.
-    pub center: [f64; 3],
+    pub center: [R; 3],
     /// Inertia J of the spacecraft about c with wheels locked, F_s, kg m^2, by rows.
-    pub inertia: [[f64; 3]; 3],
+    pub inertia: [[R; 3]; 3],
     /// J* = J - J_1 a1 a1^T - J_2 a2 a2^T, kg m^2, by rows: what resists a change of omega when the wheels turn freely.
-    pub inertia_free: [[f64; 3]; 3],
+    pub inertia_free: [[R; 3]; 3],
+}
+
+/// The spin axes of W1 and W2 in F_s: s2 and s3.
+pub const WHEEL_AXES: [[f64; 3]; 2] = [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+impl<R: Real> Body<R> {
+    /// The first moment of mass c = m r about the frame's origin, kg m.
+    pub fn first_moment(&self) -> [R; 3] {
+        scaled(self.mass, self.center)
+    }
+
+    /// The inertia about the frame's origin, kg m^2, by rows.
+    pub fn inertia_about_origin(&self) -> [[R; 3]; 3] {
+        matrix_sum(self.inertia, point_inertia(self.mass, self.center))
+    }
+
+    /// The fuselage (60)-(63), with the overrides of its input.
+    ///
+    /// Where only the mass is overridden, the inertia that geometry gives scales with it (same shape, another density); an
+    /// overridden centre of mass moves the centre and leaves the inertia about it as it was.
+    pub fn fuselage(input: &FuselageInput, one: R) -> Self {
+        let k = |value: f64| one.splat(value);
+        let mut body = hollow_cylinder(
+            k(input.wall_thickness_m),
+            k(input.outer_radius_m),
+            k(input.length_m),
+            k(input.density_kg_m3),
+        );
+        if let Some(mass) = input.mass_kg {
+            let ratio = k(mass) / body.mass;
+            body.inertia = body.inertia.map(|row| scaled(ratio, row));
+            body.mass = k(mass);
+        }
+        if let Some(center) = input.center_of_mass_m {
+            body.center = center.map(k);
+        }
+        if let Some(inertia) = input.inertia_kg_m2 {
+            // symmetric to rounding when it comes here; exactly so afterwards
+            body.inertia =
+                std::array::from_fn(|i| std::array::from_fn(|j| k(0.5) * (k(inertia[i][j]) + k(inertia[j][i]))));
+        }
+        body
+    }
+
+    /// The debris (66), (67).
+    pub fn debris(input: &DebrisInput, one: R) -> Self {
+        solid_box(input.shape.size_m().map(|side| one.splat(side)), one.splat(input.density_kg_m3))
+    }
+}
+
+impl<R: Real> Wheel<R> {
+    /// A wheel (64), (65) with spin axis `axis`; a missing one has mass and inertia zero.
+    pub fn new(input: Option<&WheelInput>, axis: [f64; 3], one: R) -> Self {
+        let k = |value: f64| one.splat(value);
+        let zero = one.zero();
+        let axis = axis.map(k);
+        match input {
+            None => Wheel { mass: zero, center: [zero; 3], axis, axial: zero, transverse: zero },
+            Some(input) => {
+                let Cylinder { mass, axial, transverse } =
+                    solid_cylinder(k(input.radius_m), k(input.length_m), k(input.density_kg_m3));
+                Wheel { mass, center: [zero, zero, k(input.station_m)], axis, axial, transverse }
+            }
+        }
+    }
+
+    /// The inertia about the wheel's centre, kg m^2, by rows; the same in F_s and in the wheel's own frame.
+    pub fn inertia(&self) -> [[R; 3]; 3] {
+        matrix_sum(self.axial_inertia(), self.transverse_inertia())
+    }
+
+    /// J_i a a^T.
+    fn axial_inertia(&self) -> [[R; 3]; 3] {
+        std::array::from_fn(|i| scaled(self.axial * self.axis[i], self.axis))
+    }
+
+    /// What is left of the wheel's inertia without its axial part.
+    fn transverse_inertia(&self) -> [[R; 3]; 3] {
+        point_inertia(self.transverse, self.axis)
+    }
+}
+
+impl Wheel {
+    /// Whether the spacecraft has this wheel.
+    pub fn is_present(&self) -> bool {
+        self.mass > 0.0
+    }
+}
+
+impl<R: Real> MassProperties<R> {
+    /// The mass properties of `input`, in the number type of `one`; meaningful where [`super::Scene::resolve`] accepts the input.
+    pub fn of(input: &SceneInput, one: R) -> Self {
+        let fuselage = Body::fuselage(&input.fuselage, one);
+        let wheels: [Wheel<R>; 2] = std::array::from_fn(|i| Wheel::new(input.wheels[i].as_ref(), WHEEL_AXES[i], one));
+        let debris = input.debris.as_ref().map(|debris| Body::debris(debris, one));
+
+        let points =
+            [(fuselage.mass, fuselage.center), (wheels[0].mass, wheels[0].center), (wheels[1].mass, wheels[1].center)];
+        let total = fuselage.mass + (wheels[0].mass + wheels[1].mass);
+        // from the fuselage's centre, so that equal wheels on both sides of it move nothing, to the last bit
+        let shift = |wheel: &Wheel<R>| scaled(wheel.mass / total, difference(wheel.center, fuselage.center));
+        let center = sum(fuselage.center, sum(shift(&wheels[0]), shift(&wheels[1])));
+
+        let mut inertia_free = fuselage.inertia;
+        for wheel in &wheels {
+            inertia_free = matrix_sum(inertia_free, wheel.transverse_inertia());
+        }
+        for (i, j) in [(0, 1), (0, 2), (1, 2)] {
+            let ((mass_i, center_i), (mass_j, center_j)) = (points[i], points[j]);
+            let pair = point_inertia(mass_i * mass_j / total, difference(center_i, center_j));
+            inertia_free = matrix_sum(inertia_free, pair);
+        }
+        let inertia = wheels.iter().fold(inertia_free, |sum, wheel| matrix_sum(sum, wheel.axial_inertia()));
+        MassProperties { fuselage, wheels, debris, total, center, inertia, inertia_free }
+    }
+}
+
+/// m (r^2 1 - r r^T): the inertia of a mass at `r`, without differences on the diagonal.
+fn point_inertia<R: Real>(mass: R, r: [R; 3]) -> [[R; 3]; 3] {
+    let square = [mass * (r[0] * r[0]), mass * (r[1] * r[1]), mass * (r[2] * r[2])];
+    let off = |i: usize, j: usize| -(mass * (r[i] * r[j]));
+    [
+        [square[1] + square[2], off(0, 1), off(0, 2)],
+        [off(0, 1), square[0] + square[2], off(1, 2)],
+        [off(0, 2), off(1, 2), square[0] + square[1]],
+    ]
+}
+
+fn matrix_sum<R: Real>(a: [[R; 3]; 3], b: [[R; 3]; 3]) -> [[R; 3]; 3] {
+    std::array::from_fn(|i| sum(a[i], b[i]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::samples;
+
+    /// The check values have 16 digits.
+    const CHECK_TOLERANCE: f64 = 1e-15;
+
+    fn assert_close(name: &str, value: f64, expected: f64) {
+        assert!((value / expected - 1.0).abs() <= CHECK_TOLERANCE, "{name}: {value:?}, expected {expected:?}");
+    }
+
+    #[test]
+    fn table_two_gives_the_check_values() {
+        let mass = MassProperties::of(&samples::table_two(), 1.0);
+        assert_close("m_s", mass.fuselage.mass, 1982.7715926975181);
+        assert_close("J_s transverse", mass.fuselage.inertia[0][0], 3026.338725586386);
+        assert_close("J_s axial", mass.fuselage.inertia[2][2], 1684.750805384533);
+        for wheel in mass.wheels {
+            assert_close("m_i", wheel.mass, 53.014376029327764);
+            assert_close("J_i axial", wheel.axial, 1.6566992509164926);
+            assert_close("J_i transverse", wheel.transverse, 0.8725282721493528);
+        }
+        assert_close("m_d", mass.debris.expect("Table II has debris").mass, 21.6);
+        assert_close("J_1", mass.inertia[0][0], 3054.590970145349);
+        assert_close("J_2", mass.inertia[1][1], 3055.375141124116);
+        assert_close("J_3", mass.inertia[2][2], 1687.2800329075988);
+        assert_eq!(mass.center, [0.0, 0.0, 1.5]);
+        for i in 0..3 {
+            for j in 0..3 {
+                if i != j {
+                    assert_eq!(mass.inertia[i][j], 0.0, "exactly diagonal, so that nothing spends time on products");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn pairs_equal_parallel_axes() {
+        let mut input = samples::table_two();
+        input.fuselage.center_of_mass_m = Some([0.05, -0.02, 1.4]);
+        let mass = MassProperties::of(&input, 1.0);
+        let about_c = |body_mass: f64, center: [f64; 3]| point_inertia(body_mass, difference(center, mass.center));
+        let mut expected = matrix_sum(mass.fuselage.inertia, about_c(mass.fuselage.mass, mass.fuselage.center));
+        for wheel in mass.wheels {
+            expected = matrix_sum(expected, matrix_sum(wheel.inertia(), about_c(wheel.mass, wheel.center)));
+        }
+        for i in 0..3 {
+            for j in 0..3 {
+                assert!((mass.inertia[i][j] - expected[i][j]).abs() < 1e-12 * expected[0][0]);
+            }
+        }
+    }
+
+    #[test]
+    fn a_mass_alone_scales_the_inertia_and_a_missing_wheel_weighs_nothing() {
+        let mut input = samples::table_two();
+        let nominal = MassProperties::of(&input, 1.0);
+        input.fuselage.mass_kg = Some(2.0 * nominal.fuselage.mass);
+        input.wheels = [None, None];
+        let mass = MassProperties::of(&input, 1.0);
+        assert_eq!(mass.fuselage.inertia[0][0], 2.0 * nominal.fuselage.inertia[0][0]);
+        assert_eq!(mass.inertia, mass.fuselage.inertia);
+        assert_eq!(mass.inertia_free, mass.fuselage.inertia);
+        assert_eq!(mass.total, mass.fuselage.mass);
+        assert_eq!(mass.center, mass.fuselage.center);
+    }
 }

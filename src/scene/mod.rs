@@ -1,13 +1,28 @@
 //! Floor 1: what is simulated. Bodies -> mass properties, actuators, initial state; validated, immutable, SI, no serde.
 //!
 //! - [`input`]: the scene as written.
-//! - [`mass`]: mass properties of the bodies and of the whole (the report's (60)-(67), in closed form).
+//! - [`solids`]: mass, centre and inertia of homogeneous solids (the report's (60)-(67), in closed form).
+//! - [`mass`]: mass properties of the bodies and of the whole.
+//! - [`parameter`]: the one table of the numeric keys that can be dispersed.
+//! - [`check`], [`error`]: what makes a scene physical, and what is said where it is not.
+//! - [`resolve`]: the way from an input to a [`Scene`].
+//! - [`schedule`]: the stretches of a run between switches.
 
+pub mod check;
+pub mod error;
 pub mod input;
 pub mod mass;
+pub mod parameter;
+pub mod resolve;
+#[cfg(test)]
+pub(crate) mod samples;
+pub mod schedule;
+pub mod solids;
 
+pub use error::SceneError;
 pub use input::{ActuationInput, DebrisInput, DebrisShape, FuselageInput, InitialInput, SceneInput, WheelInput};
 pub use mass::MassProperties;
+pub use parameter::Parameter;
 
 /// A physically valid scene: everything that a kernel starts from.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,0 +1,173 @@
+//! A plan as text: every key with its value, defaults too, in one order and one spelling; it reads back to the same plan.
+//!
+//! Its SHA-256 (FIPS 180-4) is the plan's identity, which `sha256sum` reproduces. Floats are written with the fewest digits
+//! that read back to the same bits.
+
+use super::plan::Plan;
+use crate::sampling::{Cut, Dispersion, Law, Range, Spread, Values};
+use crate::scene::DebrisShape;
+use sha2::{Digest, Sha256};
+
+/// A table's lines while they are written.
+struct Lines(String);
+
+impl Lines {
+    fn table(&mut self, header: &str) {
+        if !self.0.is_empty() {
+            self.0.push('\n');
+        }
+        self.0.push_str(header);
+        self.0.push('\n');
+    }
+
+    /// `value` in its Debug form: of floats, lists of floats, whole numbers and plain text that form is TOML.
+    fn key(&mut self, key: &str, value: impl std::fmt::Debug) {
+        self.0.push_str(&format!("{key} = {value:?}\n"));
+    }
+
+    fn values(&mut self, key: &str, values: &Values) {
+        match values {
+            Values::All(value) => self.key(key, value),
+            Values::Each(list) => self.key(key, list),
+        }
+    }
+}
+
+impl Plan {
+    /// The plan as canonical text.
+    pub fn text(&self) -> String {
+        let mut lines = Lines(String::new());
+        lines.table("[campaign]");
+        lines.key("name", &self.name);
+        lines.key("samples", self.samples);
+        lines.key("seed", self.seed);
+        lines.key("duration_s", self.grid.duration());
+        lines.table("[integrator]");
+        lines.key("method", self.method.name());
+        lines.key("relative_tolerance", self.tolerance.relative);
+        lines.key("absolute_tolerance", self.tolerance.absolute);
+        if let Some(step) = self.step_s {
+            lines.key("step_s", step);
+        }
+        lines.key("max_steps", self.max_steps);
+        lines.table("[observe]");
+        lines.key("points", self.grid.points());
+        lines.key("groups", self.groups.iter().map(|group| group.name()).collect::<Vec<_>>());
+        self.write_bodies(&mut lines);
+        self.write_state(&mut lines);
+        for dispersion in &self.dispersed {
+            write_dispersion(dispersion, &mut lines);
+        }
+        lines.table("[output]");
+        lines.key("compression", self.compression.name());
+        lines.0
+    }
+
+    /// SHA-256 of the canonical text, in hexadecimal.
+    pub fn hash(&self) -> String {
+        Sha256::digest(self.text().as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
+    }
+
+    fn write_bodies(&self, lines: &mut Lines) {
+        let fuselage = &self.nominal.fuselage;
+        lines.table("[fuselage]");
+        lines.key("wall_thickness_m", fuselage.wall_thickness_m);
+        lines.key("outer_radius_m", fuselage.outer_radius_m);
+        lines.key("length_m", fuselage.length_m);
+        lines.key("density_kg_m3", fuselage.density_kg_m3);
+        lines.key("thruster_offset_m", fuselage.thruster_offset_m);
+        if let Some(mass) = fuselage.mass_kg {
+            lines.key("mass_kg", mass);
+        }
+        if let Some(center) = fuselage.center_of_mass_m {
+            lines.key("center_of_mass_m", center);
+        }
+        if let Some(inertia) = fuselage.inertia_kg_m2 {
+            lines.key("inertia_kg_m2", inertia);
+        }
+        for (wheel, header) in self.nominal.wheels.iter().zip(["[wheel1]", "[wheel2]"]) {
+            if let Some(wheel) = wheel {
+                lines.table(header);
+                lines.key("radius_m", wheel.radius_m);
+                lines.key("length_m", wheel.length_m);
+                lines.key("station_m", wheel.station_m);
+                lines.key("density_kg_m3", wheel.density_kg_m3);
+            }
+        }
+        if let Some(debris) = &self.nominal.debris {
+            lines.table("[debris]");
+            match debris.shape {
+                DebrisShape::Cube { side_m } => lines.key("side_m", side_m),
+                DebrisShape::Box { size_m } => lines.key("size_m", size_m),
+            }
+            lines.key("density_kg_m3", debris.density_kg_m3);
+        }
+    }
+
+    fn write_state(&self, lines: &mut Lines) {
+        let initial = &self.nominal.initial;
+        lines.table("[initial]");
+        lines.key("position_m", initial.position_m);
+        lines.key("velocity_m_s", initial.velocity_m_s);
+        lines.key("attitude", initial.attitude);
+        lines.key("angular_velocity_rad_s", initial.angular_velocity_rad_s);
+        lines.key("wheel_angles_rad", initial.wheel_angles_rad);
+        lines.key("wheel_rates_rad_s", initial.wheel_rates_rad_s);
+        if self.nominal.debris.is_some() {
+            lines.key("debris_position_m", initial.debris_position_m);
+            lines.key("debris_velocity_m_s", initial.debris_velocity_m_s);
+            lines.key("debris_attitude", initial.debris_attitude);
+            lines.key("debris_relative_angular_velocity_rad_s", initial.debris_relative_angular_velocity_rad_s);
+        }
+        for actuation in &self.nominal.actuation {
+            lines.table("[[actuation]]");
+            lines.key("start_s", actuation.start_s);
+            lines.key("end_s", actuation.end_s);
+            lines.key("thrust_n", actuation.thrust_n);
+            lines.key("torque_n_m", actuation.torque_n_m);
+        }
+    }
+}
+
+fn write_dispersion(dispersion: &Dispersion, lines: &mut Lines) {
+    lines.table("[[disperse]]");
+    match dispersion.component {
+        Some(component) => lines.key("parameter", dispersion.parameter.component_name(component)),
+        None => lines.key("parameter", dispersion.parameter.name()),
+    }
+    let spread = |lines: &mut Lines, spread: &Spread| match spread {
+        Spread::Absolute(values) => lines.values("std", values),
+        Spread::Relative(values) => lines.values("relative_std", values),
+    };
+    match &dispersion.law {
+        Law::Normal(width) => {
+            lines.key("distribution", "normal");
+            spread(lines, width);
+        }
+        Law::TruncatedNormal(width, cut) => {
+            lines.key("distribution", "truncated_normal");
+            spread(lines, width);
+            match cut {
+                Cut::Sigmas(sigmas) => lines.values("sigmas", sigmas),
+                Cut::Bounds { lower, upper } => {
+                    for (key, bound) in [("lower", lower), ("upper", upper)] {
+                        if let Some(bound) = bound {
+                            lines.values(key, bound);
+                        }
+                    }
+                }
+            }
+        }
+        Law::Uniform(range) => {
+            lines.key("distribution", "uniform");
+            match range {
+                Range::Between { min, max } => {
+                    lines.values("min", min);
+                    lines.values("max", max);
+                }
+                Range::Around(half) => lines.values("half_width", half),
+                Range::AroundRelative(half) => lines.values("relative_half_width", half),
+            }
+        }
+    }
+}

@@ -1,0 +1,229 @@
+//! [`Plan`]: what will run. Defaults are filled in, scene and dispersions are checked; a row is a pure function of the plan and
+//! a sample's id.
+
+use super::document::Document;
+use super::problem::{CampaignError, Problem};
+use super::spec::{LARGEST_SEED, MOST_SAMPLES, Spec};
+use crate::dynamics::table::Grid;
+use crate::integrators::{Method, Tolerance};
+use crate::observables::Group;
+use crate::sampling::{Dispersion, Dispersions};
+use crate::scene::{Scene, SceneInput};
+use std::path::Path;
+
+/// What will run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// Name of the campaign and of its folder of results.
+    pub name: String,
+    /// Number of samples, at least 1; sample 0 is the nominal scene.
+    pub samples: u64,
+    /// Seed of every draw.
+    pub seed: u64,
+    /// The times at which each run is observed.
+    pub grid: Grid,
+    /// Kernel and method.
+    pub method: Method,
+    /// Tolerances of local errors.
+    pub tolerance: Tolerance,
+    /// The fixed step, s; `Some` exactly where the method has one.
+    pub step_s: Option<f64>,
+    /// Most steps of one run.
+    pub max_steps: u64,
+    /// What is observed, in the order of the columns.
+    pub groups: Vec<Group>,
+    /// The nominal scene.
+    pub nominal: SceneInput,
+    /// The dispersions as written.
+    pub dispersed: Vec<Dispersion>,
+    /// The dispersions ready to be drawn.
+    pub dispersions: Dispersions,
+    /// Compression of the files of rows.
+    pub compression: Compression,
+}
+
+/// Compression of the files of rows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Compression {
+    /// Zstandard, level 1: half the size, half the speed.
+    Zstd,
+    /// None.
+    None,
+}
+
+impl Compression {
+    /// All values.
+    pub const ALL: [Compression; 2] = [Compression::Zstd, Compression::None];
+
+    /// The name in campaign files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Compression::Zstd => "zstd",
+            Compression::None => "none",
+        }
+    }
+
+    /// The compression called `name`.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|compression| compression.name() == name)
+    }
+}
+
+/// What the command line says instead of the file.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Overrides {
+    /// `--samples`.
+    pub samples: Option<u64>,
+    /// `--seed`.
+    pub seed: Option<u64>,
+}
+
+/// Observation points where the file does not say.
+const POINTS: u64 = 101;
+/// Tolerance where the file does not say: energy errors of a run near the rounding of its observables.
+const TOLERANCE: f64 = 1e-10;
+/// Most steps of a run where the file does not say: minutes of the slowest kernel, so that a run that is stuck ends.
+const MAX_STEPS: u64 = 10_000_000;
+
+impl Plan {
+    /// The plan of the file at `path`.
+    ///
+    /// # Errors
+    /// That the file cannot be read, or everything that is wrong with it.
+    pub fn load(path: &Path, overrides: Overrides) -> Result<Plan, CampaignError> {
+        let file = path.display().to_string();
+        let text = std::fs::read_to_string(path).map_err(|error| CampaignError {
+            problems: vec![Problem {
+                file: file.clone(),
+                line: None,
+                key: "file".to_owned(),
+                value: Some(error.to_string()),
+                allowed: "a readable text file (UTF-8)".to_owned(),
+                remedy: "check the path".to_owned(),
+            }],
+        })?;
+        let file = path.file_name().map_or(file, |name| name.to_string_lossy().into_owned());
+        Self::from_text(&file, &text, overrides)
+    }
+
+    /// The plan of a file's text; `file` is its name in messages.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the text.
+    pub fn from_text(file: &str, text: &str, overrides: Overrides) -> Result<Plan, CampaignError> {
+        let mut document = Document::new(file, text);
+        let mut spec = Spec::read(&mut document);
+        override_spec(&mut spec, overrides, &mut document);
+        let plan = resolve(spec, &mut document);
+        document.verdict()?;
+        plan.ok_or_else(|| unreachable_plan(file))
+    }
+}
+
+/// A plan that is missing without a problem cannot be: said as an error all the same.
+fn unreachable_plan(file: &str) -> CampaignError {
+    CampaignError {
+        problems: vec![Problem {
+            file: file.to_owned(),
+            line: None,
+            key: "plan".to_owned(),
+            value: None,
+            allowed: "complete".to_owned(),
+            remedy: "this is an error of spindrift: please report it with the file".to_owned(),
+        }],
+    }
+}
+
+fn override_spec(spec: &mut Spec, overrides: Overrides, document: &mut Document<'_>) {
+    let mut check = |flag: &str, value: Option<u64>, least: u64, most: u64| {
+        if let Some(value) = value.filter(|value| !(least..=most).contains(value)) {
+            let allowed = format!("a whole number from {least} to {most}");
+            document.add(flag, Some(value.to_string()), allowed, "write a number within this range");
+        }
+    };
+    check("--samples", overrides.samples, 1, MOST_SAMPLES);
+    check("--seed", overrides.seed, 0, LARGEST_SEED);
+    spec.samples = overrides.samples.or(spec.samples);
+    spec.seed = overrides.seed.or(spec.seed);
+}
+
+/// Fills in the defaults, checks what needs several keys, and asks the floors below; `None` where something is wrong.
+fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
+    let method = spec.method.unwrap_or(Method::Auto);
+    if spec.method.is_some() {
+        check_step(&spec, method, document);
+    }
+    let relative = spec.relative_tolerance.or(spec.tolerance).unwrap_or(TOLERANCE);
+    let absolute = spec.absolute_tolerance.or(spec.tolerance).unwrap_or(TOLERANCE);
+    if spec.tolerance.is_some() && spec.relative_tolerance.is_some() && spec.absolute_tolerance.is_some() {
+        let both = "left out beside relative_tolerance and absolute_tolerance";
+        document.add(
+            "integrator.tolerance",
+            spec.tolerance.map(|x| format!("{x:?}")),
+            both,
+            "delete it: it has no effect",
+        );
+    }
+
+    if let Err(errors) = Scene::resolve(&spec.scene) {
+        let found = errors.into_iter().map(|e| (e.key.into_owned(), e.value, e.allowed, e.remedy.to_owned()));
+        document.add_from_below(found.collect());
+    }
+
+    // Errors name a dispersion by its place among those that could be read.
+    let places: Vec<usize> =
+        spec.dispersions.iter().enumerate().filter(|(_, d)| d.is_some()).map(|(place, _)| place).collect();
+    let dispersed: Vec<Dispersion> = spec.dispersions.into_iter().flatten().collect();
+    let dispersions = match Dispersions::new(spec.seed.unwrap_or(0), &spec.scene, &dispersed) {
+        Ok(dispersions) => Some(dispersions),
+        Err(errors) => {
+            let found = errors
+                .into_iter()
+                .map(|e| (format!("disperse[{}].{}", places[e.dispersion], e.key), e.value, e.allowed, e.remedy));
+            document.add_from_below(found.collect());
+            None
+        }
+    };
+
+    let mut groups = spec.groups.unwrap_or_else(|| Group::ALL.to_vec());
+    groups.sort_by_key(|group| Group::ALL.iter().position(|known| known == group));
+    Some(Plan {
+        name: spec.name?,
+        samples: spec.samples?,
+        seed: spec.seed?,
+        grid: Grid::uniform(spec.duration_s?, usize::try_from(spec.points.unwrap_or(POINTS)).ok()?),
+        method,
+        tolerance: Tolerance { relative, absolute },
+        step_s: spec.step_s,
+        max_steps: spec.max_steps.unwrap_or(MAX_STEPS),
+        groups,
+        nominal: spec.scene,
+        dispersed,
+        dispersions: dispersions?,
+        compression: spec.compression.unwrap_or(Compression::Zstd),
+    })
+}
+
+/// A fixed step where the method has one, and none where it has not.
+fn check_step(spec: &Spec, method: Method, document: &mut Document<'_>) {
+    const KEY: &str = "integrator.step_s";
+    if document.is_reported(KEY) {
+        return;
+    }
+    let name = method.name();
+    match (method.has_fixed_step(), spec.step_s) {
+        (true, None) => {
+            let allowed = format!("the step of method {name:?}, a number > 0");
+            document.add(KEY, None, allowed, "add step_s = 0.001 to [integrator]");
+        }
+        (true, Some(step)) if spec.duration_s.is_some_and(|duration| step > duration) => {
+            let allowed = format!("at most campaign.duration_s ({:?})", spec.duration_s.unwrap_or(f64::NAN));
+            document.add(KEY, Some(format!("{step:?}")), allowed, "write a smaller step");
+        }
+        (false, Some(step)) => {
+            let allowed = format!("left out with method {name:?}, which chooses its steps itself");
+            document.add(KEY, Some(format!("{step:?}")), allowed, "delete it, or choose a method with a fixed step");
+        }
+        _ => {}
+    }
+}

@@ -1,0 +1,94 @@
+//! Non-inertial terms and actuators, body by body: -M-dot nu - Omega M nu + a_non (38), (39), and B u (26), (72)-(74).
+//!
+//! The three non-inertial terms stay apart, as in the report, although for the fuselage they add up to -omega x J omega and
+//! C omega x (c x omega): so the sign of a_non can be looked at by itself.
+
+use super::kinematics::WheelMotion;
+use super::parameters::{Parameters, WheelParameters};
+use super::state::{State, rotated, rotated_back};
+use crate::math::vector::{cross, difference, dot, product, scaled, sum};
+use crate::scene::Actuation;
+
+/// A force in F_e and a torque in the body's frame about the body's point (p, g1, g2, g_d).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wrench {
+    /// Force in F_e, N.
+    pub force: [f64; 3],
+    /// Torque in the body's frame, N m.
+    pub torque: [f64; 3],
+}
+
+/// What the actuators do in one stretch: B u (26), in the frames of the bodies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drive {
+    /// Force of the thrusters in F_s, N.
+    pub force_s: [f64; 3],
+    /// Torque of the thrusters about p in F_s, N m.
+    pub torque_p_s: [f64; 3],
+    /// Torque of the thrusters about c in F_s, N m.
+    pub torque_c_s: [f64; 3],
+    /// Motor torques tau^W1, tau^W2 on the wheels, N m.
+    pub motors: [f64; 2],
+}
+
+impl Drive {
+    /// B_s u (72): P1 pushes along +s3 at p, P2 and P3 along -s3 at (0, -rho_p, l_s) and (0, +rho_p, l_s).
+    pub fn of(parameters: &Parameters, actuation: &Actuation) -> Self {
+        let [p1, p2, p3] = actuation.thrust;
+        let force_s = [0.0, 0.0, p1 - p2 - p3];
+        let torque_p_s = [parameters.thruster_offset * (p2 - p3), 0.0, 0.0];
+        Drive {
+            force_s,
+            torque_p_s,
+            torque_c_s: difference(torque_p_s, cross(parameters.center, force_s)),
+            motors: actuation.torque,
+        }
+    }
+}
+
+/// -M-dot nu - Omega M nu + `sign` a_non of the fuselage; the correct sign is +1.
+///
+/// With w = C_es^T v_p, M-dot nu = [-C omega x (c x omega); -c x (omega x w)], Omega M nu = [0; omega x (c x w + J omega)],
+/// a_non = [0; w x (c x omega)].
+#[inline(always)]
+pub fn fuselage_inertial(parameters: &Parameters, state: &State, sign: f64) -> Wrench {
+    let (omega, c) = (state.omega_s, parameters.fuselage_first);
+    let w = rotated_back(state.dcm[0], state.v_p);
+    let c_omega = cross(c, omega);
+    let m_dot_nu = scaled(-1.0, cross(c, cross(omega, w)));
+    let omega_m_nu = cross(omega, sum(cross(c, w), product(parameters.fuselage_inertia, omega)));
+    let a_non = scaled(sign, cross(w, c_omega));
+    Wrench {
+        force: rotated(state.dcm[0], cross(omega, c_omega)),
+        torque: difference(difference(a_non, m_dot_nu), omega_m_nu),
+    }
+}
+
+/// B_s u (72): the thrusters, and the motors' reaction.
+#[inline(always)]
+pub fn fuselage_applied(parameters: &Parameters, state: &State, drive: &Drive) -> Wrench {
+    let mut torque = drive.torque_p_s;
+    for (wheel, motor) in parameters.wheels.iter().zip(drive.motors) {
+        torque = difference(torque, scaled(motor, wheel.axis));
+    }
+    Wrench { force: rotated(state.dcm[0], drive.force_s), torque }
+}
+
+/// -M Pi-dot nu-hat - Omega M nu of a wheel, and its motor (73), (74). M-dot and a_non vanish about the centre of mass.
+#[inline(always)]
+pub fn wheel_wrench(wheel: &WheelParameters, motion: &WheelMotion, motor: f64) -> Wrench {
+    let gyroscopic = cross(motion.omega, product(wheel.inertia, motion.omega));
+    let transport = product(wheel.inertia, motion.angular_acceleration);
+    Wrench {
+        force: scaled(-wheel.mass, motion.acceleration),
+        torque: difference(scaled(motor, wheel.axis), sum(transport, gyroscopic)),
+    }
+}
+
+/// The power of the thrusters, F . v at the points where they act, and of the motors, tau . Omega; W.
+#[inline(always)]
+pub fn power(state: &State, drive: &Drive) -> [f64; 2] {
+    let w = rotated_back(state.dcm[0], state.v_p);
+    let motors = drive.motors[0].mul_add(state.wheel_rates[0], drive.motors[1] * state.wheel_rates[1]);
+    [dot(drive.force_s, w) + dot(drive.torque_p_s, state.omega_s), motors]
+}

@@ -1,0 +1,116 @@
+//! [`Kernel`]: the right-hand side x-dot = f(x) (41).
+
+use super::forces::{self, Drive};
+use super::kinematics::{WheelMotion, dcm_rate};
+use super::mass_matrix::{Factor, SpacecraftMass, cholesky, solved};
+use super::parameters::Parameters;
+use super::state::{COMPONENTS, State, rotated};
+use crate::math::vector::{cross, product, scaled, sum};
+use crate::scene::{Actuation, Scene};
+
+/// The sign of a-hat_non,s.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SignOfANon {
+    /// Plus, which conserves energy.
+    #[default]
+    Corrected,
+    /// Minus, as printed at the end of section XVIII: for the test that shows what it does.
+    Printed,
+}
+
+/// The right-hand side for one scene and one stretch of its schedule.
+#[derive(Clone, Copy, Debug)]
+pub struct Kernel {
+    parameters: Parameters,
+    drive: Drive,
+    debris_factor: Factor<3>,
+    /// J_d - J_d,11 1: a multiple of the unit matrix makes no torque, and so a cube's rate is constant to the last bit.
+    debris_deviator: [[f64; 3]; 3],
+    sign: f64,
+}
+
+impl Kernel {
+    /// The kernel of `scene`, coasting.
+    pub fn new(scene: &Scene, sign: SignOfANon) -> Self {
+        let parameters = Parameters::of(scene);
+        let mut debris_deviator = parameters.debris_inertia;
+        for (i, row) in debris_deviator.iter_mut().enumerate() {
+            row[i] -= parameters.debris_inertia[0][0];
+        }
+        Kernel {
+            drive: Drive::of(&parameters, &Actuation::coast(0.0, 0.0)),
+            debris_factor: cholesky(parameters.debris_inertia),
+            debris_deviator,
+            sign: match sign {
+                SignOfANon::Corrected => 1.0,
+                SignOfANon::Printed => -1.0,
+            },
+            parameters,
+        }
+    }
+
+    /// Enters a stretch of the schedule.
+    pub fn drive(&mut self, actuation: &Actuation) {
+        self.drive = Drive::of(&self.parameters, actuation);
+    }
+
+    /// The constants.
+    pub fn parameters(&self) -> &Parameters {
+        &self.parameters
+    }
+
+    /// The derivative of all components. No allocation, no branch on the data; 0.56 us on one core with AVX2
+    /// (`cargo bench --bench reference`), inside [`crate::math::Isa::run`].
+    ///
+    /// Tests: `block_form_equals_the_matrices_as_printed`, `agrees_with_the_gyrostat`.
+    #[inline(always)]
+    pub fn derivative(&self, x: &[f64; COMPONENTS]) -> [f64; COMPONENTS] {
+        let state = &State::from_components(x);
+        let parameters = &self.parameters;
+        let wheels =
+            [WheelMotion::of(&parameters.wheels[0], state, 0), WheelMotion::of(&parameters.wheels[1], state, 1)];
+
+        // f-hat_non + f-hat = Pi^T (...), spacecraft rows
+        let inertial = forces::fuselage_inertial(parameters, state, self.sign);
+        let applied = forces::fuselage_applied(parameters, state, &self.drive);
+        let mut force = sum(inertial.force, applied.force);
+        let mut omega_row = sum(inertial.torque, applied.torque);
+        let mut wheel_row = [0.0; 2];
+        for w in 0..2 {
+            let wheel = &parameters.wheels[w];
+            let wrench = forces::wheel_wrench(wheel, &wheels[w], self.drive.motors[w]);
+            let (torque, axial) = wheels[w].reduced(wrench.force, wrench.torque, wheel.axis);
+            force = sum(force, wrench.force);
+            omega_row = sum(omega_row, torque);
+            wheel_row[w] = axial;
+        }
+        let mass = SpacecraftMass::of(parameters, state, &wheels);
+        let (v_dot, rotation) =
+            mass.solution(force, [omega_row[0], omega_row[1], omega_row[2], wheel_row[0], wheel_row[1]]);
+
+        // debris rows: free
+        let momentum = product(self.debris_deviator, state.omega_d);
+        let omega_d_dot = solved(&self.debris_factor, scaled(-1.0, cross(state.omega_d, momentum)));
+
+        let c_es = state.dcm[0];
+        State {
+            position: [state.v_p, wheels[0].velocity, wheels[1].velocity, state.v_gd],
+            dcm: [
+                dcm_rate(c_es, state.omega_s),
+                dcm_rate(state.dcm[1], wheels[0].omega),
+                dcm_rate(state.dcm[2], wheels[1].omega),
+                dcm_rate(state.dcm[3], state.omega_d),
+            ],
+            v_p: v_dot,
+            omega_s: [rotation[0], rotation[1], rotation[2]],
+            wheel_rates: [rotation[3], rotation[4]],
+            v_gd: [0.0; 3],
+            omega_d: omega_d_dot,
+            work: forces::power(state, &self.drive),
+            impulse: rotated(c_es, self.drive.force_s),
+            angular_impulse: rotated(c_es, self.drive.torque_c_s),
+            wheel_angles: state.wheel_rates,
+        }
+        .components()
+    }
+}

@@ -1,0 +1,55 @@
+//! Residuals of the constraints (27)-(34): what the integration lets slip, each as one largest absolute value.
+//!
+//! The null space fulfils the constraints on the speeds by construction; the coordinates, being integrated, drift from them.
+
+use super::kinematics::WheelMotion;
+use super::parameters::Parameters;
+use super::state::{Columns, State, rotated, rotated_back};
+use crate::math::vector::{cross, difference, dot, scaled, sum};
+use crate::scene::Scene;
+
+/// The largest residual of each kind in `state`: [kinematic, collocation, attitude]. Bodies that the scene lacks do not count.
+///
+/// - kinematic (m/s and rad/s): Xi nu of (27)-(29), with nu = Pi nu-hat: the wheel's centre moves as a point of the fuselage,
+///   and the wheel turns against the fuselage about its axis only (both seen in F_s through the integrated DCMs);
+/// - collocation (m, and sines of angles): (30), (31), the wheel's centre sits at z_i, its axis along the fuselage's a_i;
+/// - attitude: (32)-(34), entries of C^T C - 1 of all DCMs.
+#[inline(always)]
+pub fn residuals(scene: &Scene, parameters: &Parameters, state: &State) -> [f64; 3] {
+    let (mut kinematic, mut collocation) = (0.0, 0.0);
+    let c_es = state.dcm[0];
+    let mut attitude = orthonormality(c_es);
+    for (w, wheel) in parameters.wheels.iter().enumerate() {
+        if !scene.mass.wheels[w].is_present() {
+            continue;
+        }
+        let motion = WheelMotion::of(wheel, state, w);
+        let c_ew = state.dcm[w + 1];
+        let carried = sum(state.v_p, rotated(c_es, cross(state.omega_s, wheel.center)));
+        let relative = difference(rotated_back(c_es, rotated(c_ew, motion.omega)), state.omega_s);
+        let across = difference(relative, scaled(dot(relative, wheel.axis), wheel.axis));
+        kinematic = largest(largest(kinematic, difference(motion.velocity, carried)), across);
+
+        let center = sum(state.position[0], rotated(c_es, wheel.center));
+        let tilt = difference(rotated(c_ew, wheel.axis), rotated(c_es, wheel.axis));
+        collocation = largest(largest(collocation, difference(state.position[w + 1], center)), tilt);
+        attitude = attitude.max(orthonormality(c_ew));
+    }
+    if scene.mass.debris.is_some() {
+        attitude = attitude.max(orthonormality(state.dcm[3]));
+    }
+    [kinematic, collocation, attitude]
+}
+
+/// The largest entry of |C^T C - 1|.
+#[inline(always)]
+pub fn orthonormality(c: Columns) -> f64 {
+    let unit = |i: usize| (dot(c[i], c[i]) - 1.0).abs();
+    let right = |i: usize, j: usize| dot(c[i], c[j]).abs();
+    unit(0).max(unit(1)).max(unit(2)).max(right(0, 1)).max(right(0, 2)).max(right(1, 2))
+}
+
+#[inline(always)]
+fn largest(so_far: f64, v: [f64; 3]) -> f64 {
+    v.iter().fold(so_far, |m, x| m.max(x.abs()))
+}

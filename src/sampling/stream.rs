@@ -1,0 +1,150 @@
+//! [`Stream`]: the random numbers of one component of one parameter, addressed by sample.
+//!
+//! The generator is ChaCha with 8 rounds (D. J. Bernstein, *ChaCha, a variant of Salsa20*, 2008), 64-bit block counter and
+//! nonce zero. The 256-bit key is, byte by byte,
+//!
+//! | bytes | |
+//! | --- | --- |
+//! | 0..8 | seed, little-endian |
+//! | 8..24 | FNV-1a, 128 bits, of the component's name (`initial.angular_velocity_rad_s.y`), little-endian |
+//! | 24..32 | the ASCII text `sampling` |
+//!
+//! and sample k takes the k-th little-endian 64-bit word of the key stream. So a draw depends on (seed, sample, name) alone,
+//! any sample is reached at once, neighbours share a block (one draw costs an eighth of one), and whoever has a ChaCha can
+//! make the same numbers. Counters that hold the sample *and* the parameter under one key were rejected: they would number
+//! the parameters, and a new one would renumber the others.
+
+use rand::rngs::ChaCha8Rng;
+use rand::{Rng, SeedableRng};
+
+/// The number of a sample within a campaign; 0 is the nominal scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct SampleId(pub u64);
+
+impl std::fmt::Display for SampleId {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+/// The last eight bytes of every key: keeps these streams apart from any other use of the same seed.
+const PURPOSE: [u8; 8] = *b"sampling";
+/// Offset basis and prime of FNV-1a, 128 bits (G. Fowler, L. C. Noll, K.-P. Vo).
+const FNV_BASIS: u128 = 0x6c62_272e_07bb_0142_62b8_2175_6295_c58d;
+const FNV_PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013b;
+
+/// FNV-1a of `text`, 128 bits.
+fn fnv1a(text: &str) -> u128 {
+    text.bytes().fold(FNV_BASIS, |hash, byte| (hash ^ u128::from(byte)).wrapping_mul(FNV_PRIME))
+}
+
+/// The random numbers of one component, addressed by sample; reading samples in order is fastest.
+#[derive(Debug)]
+pub struct Stream {
+    generator: ChaCha8Rng,
+    /// The sample whose word the generator gives next.
+    next: u64,
+}
+
+impl Stream {
+    /// The stream of the component called `name`.
+    pub fn new(seed: u64, name: &str) -> Self {
+        let mut key = [0; 32];
+        key[..8].copy_from_slice(&seed.to_le_bytes());
+        key[8..24].copy_from_slice(&fnv1a(name).to_le_bytes());
+        key[24..].copy_from_slice(&PURPOSE);
+        Stream { generator: ChaCha8Rng::from_seed(key), next: 0 }
+    }
+
+    /// The 64 random bits of `sample`.
+    #[inline]
+    pub fn bits(&mut self, sample: SampleId) -> u64 {
+        if sample.0 != self.next {
+            self.generator.set_word_pos(2 * u128::from(sample.0));
+        }
+        self.next = sample.0.wrapping_add(1);
+        self.generator.next_u64()
+    }
+
+    /// The number u of `sample`: an odd multiple of 2^-53, so 0 < u < 1 and 1 - u is exact.
+    #[inline]
+    pub fn uniform(&mut self, sample: SampleId) -> f64 {
+        unit(self.bits(sample))
+    }
+}
+
+/// The upper 52 bits as an odd multiple of 2^-53.
+#[inline]
+fn unit(bits: u64) -> f64 {
+    /// 2^-53.
+    const STEP: f64 = f64::EPSILON / 2.0;
+    ((bits >> 11) | 1) as f64 * STEP
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Parameter;
+
+    /// ChaCha8, key and nonce zero: first bytes of the key stream (J. Strombergson, *Test Vectors for the Stream Cipher
+    /// ChaCha*, draft-strombergson-chacha-test-vectors-01, TC1, 256-bit key, 8 rounds).
+    #[test]
+    fn the_generator_gives_the_published_key_stream() {
+        let mut generator = ChaCha8Rng::from_seed([0; 32]);
+        let mut bytes = [0; 32];
+        generator.fill_bytes(&mut bytes);
+        let hex: String = bytes.iter().map(|byte| format!("{byte:02x}")).collect();
+        assert_eq!(hex, "3e00ef2f895f40d67f5bb8e81f09a5a12c840ec3ce9a7f3b181be188ef711a1e");
+    }
+
+    #[test]
+    fn the_hash_gives_the_published_values() {
+        // FNV-1a 128 of "" and "a" (the authors' test values)
+        assert_eq!(fnv1a(""), FNV_BASIS);
+        assert_eq!(fnv1a("a"), 0xd228_cb69_6f1a_8caf_7891_2b70_4e4a_8964);
+    }
+
+    /// Golden: any change of these is a change of every campaign that was ever run.
+    #[test]
+    fn draws_are_pinned() {
+        let bits = |seed, name, sample| Stream::new(seed, name).bits(SampleId(sample));
+        assert_eq!(
+            [
+                bits(20260101, "initial.angular_velocity_rad_s.x", 1),
+                bits(20260101, "initial.angular_velocity_rad_s.y", 1),
+                bits(20260101, "fuselage.density_kg_m3", 4095),
+                bits(0, "fuselage.density_kg_m3", u64::MAX),
+            ],
+            [0, 0, 0, 0]
+        );
+    }
+
+    #[test]
+    fn a_sample_is_the_same_alone_backwards_and_in_order() {
+        let mut stream = Stream::new(7, "wheel1.radius_m");
+        let forward: Vec<u64> = (0..100).map(|k| stream.bits(SampleId(k))).collect();
+        let mut backward: Vec<u64> = (0..100).rev().map(|k| stream.bits(SampleId(k))).collect();
+        backward.reverse();
+        let alone: Vec<u64> = (0..100).map(|k| Stream::new(7, "wheel1.radius_m").bits(SampleId(k))).collect();
+        assert_eq!(forward, backward);
+        assert_eq!(forward, alone);
+    }
+
+    #[test]
+    fn every_component_of_every_parameter_has_its_own_stream() {
+        let mut seen = std::collections::HashSet::new();
+        for parameter in Parameter::all() {
+            for component in 0..parameter.width() {
+                for seed in [0, 1, 20260101] {
+                    assert!(seen.insert(Stream::new(seed, &parameter.component_name(component)).bits(SampleId(1))));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn u_is_never_zero_or_one() {
+        assert!(unit(0) > 0.0 && unit(u64::MAX) < 1.0);
+        assert_eq!(unit(0), 1.0 - unit(u64::MAX), "symmetric about one half");
+    }
+}

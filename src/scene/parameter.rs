@@ -1,0 +1,418 @@
+//! [`Parameter`]: the one table of the numeric keys of scene and initial state that can be dispersed.
+//!
+//! Name, unit, components, place in [`SceneInput`] and names of columns all come from one table: a new key is one new line.
+//! Not here: the keys of `[[actuation]]`, a list whose stretches are dispersed by types of their own.
+
+use super::input::{DebrisInput, DebrisShape, FuselageInput, InitialInput, SceneInput, WheelInput};
+
+/// A numeric key of scene or initial state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Parameter(u8);
+
+/// How the components of a parameter belong together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Independent numbers.
+    Plain,
+    /// One number for each wheel, which exists where the wheel does.
+    PerWheel,
+    /// A unit quaternion: renormalised after its components were changed.
+    Quaternion,
+    /// A symmetric 3x3 tensor stored by rows, of which the six entries on and above the diagonal are the components; a
+    /// change of one off the diagonal changes its mirror image too.
+    Symmetric,
+}
+
+struct Entry {
+    name: &'static str,
+    unit: &'static str,
+    components: &'static [&'static str],
+    kind: Kind,
+    /// What makes the key exist where it does not.
+    remedy: &'static str,
+    read: fn(&SceneInput) -> Option<&[f64]>,
+    write: fn(&mut SceneInput) -> Option<&mut [f64]>,
+}
+
+const SCALAR: &[&str] = &[""];
+const XYZ: &[&str] = &["x", "y", "z"];
+const WXYZ: &[&str] = &["w", "x", "y", "z"];
+const WHEELS: &[&str] = &["1", "2"];
+const SYMMETRIC: &[&str] = &["xx", "xy", "xz", "yy", "yz", "zz"];
+/// Places of the components of a symmetric tensor, and of their mirror images, among its nine numbers by rows.
+const SYMMETRIC_PLACES: [(usize, usize); 6] = [(0, 0), (1, 3), (2, 6), (4, 4), (5, 7), (8, 8)];
+
+/// A value seen as plain numbers.
+trait Numbers {
+    fn numbers(&self) -> &[f64];
+    fn numbers_mut(&mut self) -> &mut [f64];
+}
+
+impl Numbers for f64 {
+    fn numbers(&self) -> &[f64] {
+        std::slice::from_ref(self)
+    }
+    fn numbers_mut(&mut self) -> &mut [f64] {
+        std::slice::from_mut(self)
+    }
+}
+
+impl<const N: usize> Numbers for [f64; N] {
+    fn numbers(&self) -> &[f64] {
+        self
+    }
+    fn numbers_mut(&mut self) -> &mut [f64] {
+        self
+    }
+}
+
+impl Numbers for [[f64; 3]; 3] {
+    fn numbers(&self) -> &[f64] {
+        self.as_flattened()
+    }
+    fn numbers_mut(&mut self) -> &mut [f64] {
+        self.as_flattened_mut()
+    }
+}
+
+/// One line of the table: the pattern binds the value where the key exists, by shared or by mutable reference.
+macro_rules! entry {
+    ($table:literal, $key:ident, $unit:literal, $components:expr, $kind:ident, $remedy:expr, $pattern:pat => $value:ident) => {
+        Entry {
+            name: concat!($table, ".", stringify!($key)),
+            unit: $unit,
+            components: $components,
+            kind: Kind::$kind,
+            remedy: $remedy,
+            #[allow(unreachable_patterns, reason = "keys that always exist have a pattern that always matches")]
+            read: |scene| match scene {
+                $pattern => Some($value.numbers()),
+                _ => None,
+            },
+            #[allow(unreachable_patterns, reason = "keys that always exist have a pattern that always matches")]
+            write: |scene| match scene {
+                $pattern => Some($value.numbers_mut()),
+                _ => None,
+            },
+        }
+    };
+}
+
+macro_rules! fuselage {
+    ($key:ident, $unit:literal) => {
+        entry!("fuselage", $key, $unit, SCALAR, Plain, "",
+            SceneInput { fuselage: FuselageInput { $key: value, .. }, .. } => value)
+    };
+    ($key:ident, $unit:literal, $components:expr, $kind:ident, given) => {
+        entry!("fuselage", $key, $unit, $components, $kind,
+            concat!("give fuselage.", stringify!($key), " a nominal value, or disperse the geometry that it would come from"),
+            SceneInput { fuselage: FuselageInput { $key: Some(value), .. }, .. } => value)
+    };
+}
+
+macro_rules! wheel1 {
+    ($key:ident, $unit:literal) => {
+        entry!("wheel1", $key, $unit, SCALAR, Plain, "add a [wheel1] table",
+            SceneInput { wheels: [Some(WheelInput { $key: value, .. }), _], .. } => value)
+    };
+}
+
+macro_rules! wheel2 {
+    ($key:ident, $unit:literal) => {
+        entry!("wheel2", $key, $unit, SCALAR, Plain, "add a [wheel2] table",
+            SceneInput { wheels: [_, Some(WheelInput { $key: value, .. })], .. } => value)
+    };
+}
+
+macro_rules! initial {
+    ($key:ident, $unit:literal, $components:expr, $kind:ident) => {
+        entry!("initial", $key, $unit, $components, $kind, "add the wheel's table",
+            SceneInput { initial: InitialInput { $key: value, .. }, .. } => value)
+    };
+    ($key:ident, $unit:literal, $components:expr, $kind:ident, debris) => {
+        entry!("initial", $key, $unit, $components, $kind, "add a [debris] table",
+            SceneInput { debris: Some(_), initial: InitialInput { $key: value, .. }, .. } => value)
+    };
+}
+
+static TABLE: [Entry; 29] = [
+    fuselage!(wall_thickness_m, "m"),
+    fuselage!(outer_radius_m, "m"),
+    fuselage!(length_m, "m"),
+    fuselage!(density_kg_m3, "kg/m^3"),
+    fuselage!(thruster_offset_m, "m"),
+    fuselage!(mass_kg, "kg", SCALAR, Plain, given),
+    fuselage!(center_of_mass_m, "m", XYZ, Plain, given),
+    fuselage!(inertia_kg_m2, "kg m^2", SYMMETRIC, Symmetric, given),
+    wheel1!(radius_m, "m"),
+    wheel1!(length_m, "m"),
+    wheel1!(station_m, "m"),
+    wheel1!(density_kg_m3, "kg/m^3"),
+    wheel2!(radius_m, "m"),
+    wheel2!(length_m, "m"),
+    wheel2!(station_m, "m"),
+    wheel2!(density_kg_m3, "kg/m^3"),
+    entry!("debris", side_m, "m", SCALAR, Plain, "describe the debris by debris.side_m (a [debris] table without size_m)",
+        SceneInput { debris: Some(DebrisInput { shape: DebrisShape::Cube { side_m: value }, .. }), .. } => value),
+    entry!("debris", size_m, "m", XYZ, Plain, "describe the debris by debris.size_m (a [debris] table without side_m)",
+        SceneInput { debris: Some(DebrisInput { shape: DebrisShape::Box { size_m: value }, .. }), .. } => value),
+    entry!("debris", density_kg_m3, "kg/m^3", SCALAR, Plain, "add a [debris] table",
+        SceneInput { debris: Some(DebrisInput { density_kg_m3: value, .. }), .. } => value),
+    initial!(position_m, "m", XYZ, Plain),
+    initial!(velocity_m_s, "m/s", XYZ, Plain),
+    initial!(attitude, "1", WXYZ, Quaternion),
+    initial!(angular_velocity_rad_s, "rad/s", XYZ, Plain),
+    initial!(wheel_angles_rad, "rad", WHEELS, PerWheel),
+    initial!(wheel_rates_rad_s, "rad/s", WHEELS, PerWheel),
+    initial!(debris_position_m, "m", XYZ, Plain, debris),
+    initial!(debris_velocity_m_s, "m/s", XYZ, Plain, debris),
+    initial!(debris_attitude, "1", WXYZ, Quaternion, debris),
+    initial!(debris_relative_angular_velocity_rad_s, "rad/s", XYZ, Plain, debris),
+];
+
+impl Parameter {
+    /// All parameters in the order of the table.
+    pub fn all() -> impl Iterator<Item = Parameter> {
+        (0..TABLE.len()).map(|index| Parameter(index as u8))
+    }
+
+    /// The parameter called `name`, and the component if the name ends in one (`[1]`, counted from zero, or `.y`).
+    pub fn find(name: &str) -> Option<(Parameter, Option<usize>)> {
+        let whole = |name: &str| Self::all().find(|parameter| parameter.name() == name);
+        if let Some(parameter) = whole(name) {
+            return Some((parameter, None));
+        }
+        let (parameter, component) = match name.strip_suffix(']').and_then(|rest| rest.split_once('[')) {
+            Some((stem, index)) => (whole(stem)?, index.parse().ok()?),
+            None => {
+                let (stem, suffix) = name.rsplit_once('.')?;
+                let parameter = whole(stem)?;
+                (parameter, parameter.components().iter().position(|component| *component == suffix)?)
+            }
+        };
+        (parameter.width() > 1 && component < parameter.width()).then_some((parameter, Some(component)))
+    }
+
+    fn entry(self) -> &'static Entry {
+        &TABLE[usize::from(self.0)]
+    }
+
+    /// The dotted name, as in a campaign file.
+    pub fn name(self) -> &'static str {
+        self.entry().name
+    }
+
+    /// The unit, as people write it; `1` for a pure number.
+    pub fn unit(self) -> &'static str {
+        self.entry().unit
+    }
+
+    /// The names of the components; one empty name for a scalar.
+    pub fn components(self) -> &'static [&'static str] {
+        self.entry().components
+    }
+
+    /// Number of components.
+    pub fn width(self) -> usize {
+        self.components().len()
+    }
+
+    /// How the components belong together.
+    pub fn kind(self) -> Kind {
+        self.entry().kind
+    }
+
+    /// The dotted name of a component: the parameter's name, `.`, the component's name; for a scalar the parameter's name.
+    pub fn component_name(self, component: usize) -> String {
+        match self.components()[component] {
+            "" => self.name().to_owned(),
+            suffix => format!("{}.{suffix}", self.name()),
+        }
+    }
+
+    /// The name of a component's column in tables: underscores for dots, the unit last.
+    pub fn column_name(self, component: usize) -> String {
+        let unit = match self.unit() {
+            "1" => String::new(),
+            unit => format!("_{}", unit.replace([' ', '/'], "_").replace('^', "")),
+        };
+        let stem = self.name().strip_suffix(unit.as_str()).unwrap_or(self.name()).replace('.', "_");
+        match self.components()[component] {
+            "" => format!("{stem}{unit}"),
+            suffix => format!("{stem}_{suffix}{unit}"),
+        }
+    }
+
+    /// Whether a component exists in `scene`.
+    pub fn exists(self, scene: &SceneInput, component: usize) -> bool {
+        (self.entry().read)(scene).is_some() && (self.kind() != Kind::PerWheel || scene.wheels[component].is_some())
+    }
+
+    /// What to write so that the parameter exists where [`Parameter::exists`] says that it does not.
+    pub fn remedy(self) -> &'static str {
+        self.entry().remedy
+    }
+
+    /// The value of a component, in SI; `None` where the scene has no such key.
+    #[inline]
+    pub fn value(self, scene: &SceneInput, component: usize) -> Option<f64> {
+        let numbers = (self.entry().read)(scene)?;
+        Some(match self.kind() {
+            Kind::Symmetric => numbers[SYMMETRIC_PLACES[component].0],
+            _ => numbers[component],
+        })
+    }
+
+    /// Changes a component, and with it its mirror image in a symmetric tensor; nothing where the scene has no such key.
+    #[inline]
+    pub fn set(self, scene: &mut SceneInput, component: usize, value: f64) {
+        let Some(numbers) = (self.entry().write)(scene) else { return };
+        match self.kind() {
+            Kind::Symmetric => {
+                let (place, mirror) = SYMMETRIC_PLACES[component];
+                numbers[place] = value;
+                numbers[mirror] = value;
+            }
+            _ => numbers[component] = value,
+        }
+    }
+
+    /// Makes the value valid as a whole after its components were changed: a quaternion is divided by its norm (one of norm
+    /// zero or not finite is left as it is: the scene refuses it).
+    #[inline]
+    pub fn settle(self, scene: &mut SceneInput) {
+        if self.kind() != Kind::Quaternion {
+            return;
+        }
+        let Some(numbers) = (self.entry().write)(scene) else { return };
+        let norm = numbers.iter().map(|x| x * x).sum::<f64>().sqrt();
+        if norm > 0.0 && norm.is_finite() {
+            numbers.iter_mut().for_each(|x| *x /= norm);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A scene in which every key but `debris.size_m` exists.
+    fn full() -> SceneInput {
+        let wheel = WheelInput { radius_m: 0.25, length_m: 0.1, station_m: 1.0, density_kg_m3: 2700.0 };
+        SceneInput {
+            fuselage: FuselageInput {
+                wall_thickness_m: 0.03,
+                outer_radius_m: 1.0,
+                length_m: 3.0,
+                density_kg_m3: 2700.0,
+                thruster_offset_m: 0.5,
+                mass_kg: Some(2000.0),
+                center_of_mass_m: Some([0.0, 0.0, 1.5]),
+                inertia_kg_m2: Some([[3.0, 0.1, 0.2], [0.1, 3.0, 0.3], [0.2, 0.3, 3.0]]),
+            },
+            wheels: [Some(wheel); 2],
+            debris: Some(DebrisInput { shape: DebrisShape::Cube { side_m: 0.2 }, density_kg_m3: 2700.0 }),
+            initial: InitialInput {
+                position_m: [0.0; 3],
+                velocity_m_s: [0.0; 3],
+                attitude: [1.0, 0.0, 0.0, 0.0],
+                angular_velocity_rad_s: [0.0; 3],
+                wheel_angles_rad: [0.0; 2],
+                wheel_rates_rad_s: [0.0; 2],
+                debris_position_m: [0.0; 3],
+                debris_velocity_m_s: [0.0; 3],
+                debris_attitude: [1.0, 0.0, 0.0, 0.0],
+                debris_relative_angular_velocity_rad_s: [0.0; 3],
+            },
+            actuation: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn every_component_is_its_own_number_and_found_by_name() {
+        let cube = full();
+        let mut boxed = full();
+        boxed.debris = Some(DebrisInput { shape: DebrisShape::Box { size_m: [1.0, 2.0, 3.0] }, density_kg_m3: 1.0 });
+        let mut columns = std::collections::BTreeSet::new();
+        for parameter in Parameter::all() {
+            let nominal = if parameter.name() == "debris.size_m" { &boxed } else { &cube };
+            assert_eq!(Parameter::find(parameter.name()), Some((parameter, None)));
+            for component in 0..parameter.width() {
+                assert!(parameter.exists(nominal, component), "{}", parameter.name());
+                let mut scene = nominal.clone();
+                parameter.set(&mut scene, component, 42.5);
+                for other in Parameter::all() {
+                    for place in 0..other.width() {
+                        let expected = if (other, place) == (parameter, component) {
+                            Some(42.5)
+                        } else {
+                            other.value(nominal, place)
+                        };
+                        assert_eq!(other.value(&scene, place), expected, "{} {component}", parameter.name());
+                    }
+                }
+                assert!(columns.insert(parameter.column_name(component)));
+                if parameter.width() > 1 {
+                    let found = Some((parameter, Some(component)));
+                    assert_eq!(Parameter::find(&parameter.component_name(component)), found);
+                    assert_eq!(Parameter::find(&format!("{}[{component}]", parameter.name())), found);
+                }
+            }
+            let unit = parameter.unit().replace([' ', '/'], "_").replace('^', "");
+            assert!(unit == "1" || parameter.name().ends_with(&format!("_{unit}")), "{} in {unit}", parameter.name());
+        }
+    }
+
+    #[test]
+    fn columns_carry_the_unit_last() {
+        let column = |name| {
+            let (parameter, component) = Parameter::find(name).expect("in the table");
+            parameter.column_name(component.unwrap_or(0))
+        };
+        assert_eq!(column("initial.angular_velocity_rad_s.x"), "initial_angular_velocity_x_rad_s");
+        assert_eq!(column("initial.attitude"), "initial_attitude_w");
+        assert_eq!(column("fuselage.density_kg_m3"), "fuselage_density_kg_m3");
+        assert_eq!(column("fuselage.inertia_kg_m2.xy"), "fuselage_inertia_xy_kg_m2");
+        assert_eq!(column("initial.wheel_rates_rad_s[1]"), "initial_wheel_rates_2_rad_s");
+        for wrong in [
+            "fuselage.density",
+            "initial.attitude[4]",
+            "initial.attitude.u",
+            "fuselage.mass_kg[0]",
+            "fuselage.mass_kg.",
+        ] {
+            assert_eq!(Parameter::find(wrong), None, "{wrong}");
+        }
+    }
+
+    #[test]
+    fn a_symmetric_tensor_stays_symmetric_and_a_quaternion_stays_unit() {
+        let mut scene = full();
+        Parameter::find("fuselage.inertia_kg_m2").expect("in the table").0.set(&mut scene, 4, 7.0);
+        assert_eq!(scene.fuselage.inertia_kg_m2, Some([[3.0, 0.1, 0.2], [0.1, 3.0, 7.0], [0.2, 7.0, 3.0]]));
+        let attitude = Parameter::find("initial.attitude").expect("in the table").0;
+        attitude.set(&mut scene, 3, 1.0);
+        attitude.settle(&mut scene);
+        assert_eq!(scene.initial.attitude, [0.5f64.sqrt(), 0.0, 0.0, 0.5f64.sqrt()]);
+    }
+
+    #[test]
+    fn what_is_left_out_does_not_exist() {
+        let mut scene = full();
+        scene.wheels[1] = None;
+        scene.debris = None;
+        scene.fuselage.mass_kg = None;
+        let exists = |name, component| Parameter::find(name).expect("in the table").0.exists(&scene, component);
+        assert!(exists("initial.wheel_rates_rad_s", 0) && exists("wheel1.radius_m", 0));
+        for (name, component) in [
+            ("initial.wheel_rates_rad_s", 1),
+            ("wheel2.radius_m", 0),
+            ("fuselage.mass_kg", 0),
+            ("debris.side_m", 0),
+            ("debris.size_m", 0),
+            ("initial.debris_attitude", 0),
+        ] {
+            assert!(!exists(name, component), "{name}");
+        }
+    }
+}

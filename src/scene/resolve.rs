@@ -1,0 +1,434 @@
+//! From what a person wrote to a [`Scene`]: check everything, derive, normalise; the report's Sigma (59) in quaternions.
+
+use super::error::Problems;
+use super::input::{InitialInput, SceneInput};
+use super::mass::MassProperties;
+use super::{Actuation, InitialState, Scene, SceneError, check};
+use crate::math::vector::{dcm_from_quaternion, hamilton, sum, transposed_product};
+
+impl Scene {
+    /// The scene that `input` describes.
+    ///
+    /// # Errors
+    /// Everything about `input` that is not physical, all at once.
+    pub fn resolve(input: &SceneInput) -> Result<Self, Vec<SceneError>> {
+        let mass = accepted_mass(input)?;
+        let mut scene = Scene {
+            mass,
+            initial: initial_state(input),
+            thruster_offset: 0.0,
+            thruster_station: 0.0,
+            schedule: Vec::with_capacity(input.actuation.len()),
+        };
+        scene.take(input, mass);
+        Ok(scene)
+    }
+
+    /// The same into an existing scene, whose memory is reused: where `input` is physical and its schedule is no longer than
+    /// one this scene has held, nothing is allocated.
+    ///
+    /// # Errors
+    /// Everything about `input` that is not physical; the scene then stays as it was.
+    pub fn resolve_into(&mut self, input: &SceneInput) -> Result<(), Vec<SceneError>> {
+        let mass = accepted_mass(input)?;
+        self.take(input, mass);
+        Ok(())
+    }
+
+    fn take(&mut self, input: &SceneInput, mass: MassProperties) {
+        self.mass = mass;
+        self.initial = initial_state(input);
+        self.thruster_offset = input.fuselage.thruster_offset_m;
+        self.thruster_station = input.fuselage.length_m;
+        self.schedule.clear();
+        self.schedule.extend(input.actuation.iter().map(|actuation| Actuation {
+            start: actuation.start_s,
+            end: actuation.end_s,
+            thrust: actuation.thrust_n,
+            torque: actuation.torque_n_m,
+        }));
+    }
+}
+
+/// The mass properties of an input in which nothing is unphysical.
+fn accepted_mass(input: &SceneInput) -> Result<MassProperties, Vec<SceneError>> {
+    let mut problems = Problems::default();
+    check::written(input, &mut problems);
+    if !problems.0.is_empty() {
+        return Err(problems.0);
+    }
+    let mass = MassProperties::of(input, 1.0);
+    check::derived(input, &mass, &mut problems);
+    if problems.0.is_empty() { Ok(mass) } else { Err(problems.0) }
+}
+
+/// The state at time zero (59): debris q_ed = q_es (x) q_sd, omega^de = omega^ds + C_ds omega^se.
+///
+/// What belongs to a body that the scene does not have is zero (attitude: identity): a missing wheel does not turn.
+fn initial_state(input: &SceneInput) -> InitialState {
+    let InitialInput {
+        position_m,
+        velocity_m_s,
+        attitude,
+        angular_velocity_rad_s,
+        wheel_angles_rad,
+        wheel_rates_rad_s,
+        debris_position_m,
+        debris_velocity_m_s,
+        debris_attitude,
+        debris_relative_angular_velocity_rad_s,
+    } = input.initial;
+    let of_present_wheels =
+        |values: [f64; 2]| std::array::from_fn(|i| if input.wheels[i].is_some() { values[i] } else { 0.0 });
+    let q_es = normalised(attitude);
+    let mut state = InitialState {
+        r_po_e: position_m,
+        v_po_e: velocity_m_s,
+        q_es,
+        omega_se_s: angular_velocity_rad_s,
+        wheel_angles: of_present_wheels(wheel_angles_rad),
+        wheel_rates: of_present_wheels(wheel_rates_rad_s),
+        r_gdo_e: [0.0; 3],
+        v_gdo_e: [0.0; 3],
+        q_ed: [1.0, 0.0, 0.0, 0.0],
+        omega_de_d: [0.0; 3],
+    };
+    if input.debris.is_some() {
+        let q_sd = normalised(debris_attitude);
+        state.r_gdo_e = debris_position_m;
+        state.v_gdo_e = debris_velocity_m_s;
+        state.q_ed = hamilton(q_es, q_sd);
+        let omega_se_d = transposed_product(dcm_from_quaternion(q_sd), angular_velocity_rad_s);
+        state.omega_de_d = sum(debris_relative_angular_velocity_rad_s, omega_se_d);
+    }
+    state
+}
+
+fn normalised(q: [f64; 4]) -> [f64; 4] {
+    let norm = q.iter().map(|x| x * x).sum::<f64>().sqrt();
+    q.map(|x| x / norm)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::symmetric::{is_positive_definite, principal_axes};
+    use crate::scene::check::INERTIA_SLACK;
+    use crate::scene::{ActuationInput, DebrisShape, samples};
+    use proptest::prelude::*;
+
+    /// A change of the report's scene.
+    type Change = fn(&mut SceneInput);
+
+    fn changed(change: Change) -> SceneInput {
+        let mut input = samples::table_two();
+        input.actuation = vec![stretch(0.0, 1.0), stretch(2.0, 3.0)];
+        change(&mut input);
+        input
+    }
+
+    fn stretch(start_s: f64, end_s: f64) -> ActuationInput {
+        ActuationInput { start_s, end_s, thrust_n: [1.0, 0.0, 0.0], torque_n_m: [0.5, 0.25] }
+    }
+
+    fn below(x: f64) -> f64 {
+        f64::from_bits(x.to_bits() - 1)
+    }
+
+    const TINY: f64 = 1e-9;
+
+    /// Key, what the message must say, the change that is refused, and its nearest neighbour that is accepted.
+    const REFUSALS: &[(&str, &str, Change, Change)] = &[
+        (
+            "fuselage.wall_thickness_m",
+            "below fuselage.outer_radius_m = 1.0",
+            |input| input.fuselage.wall_thickness_m = 1.0,
+            |input| input.fuselage.wall_thickness_m = below(1.0),
+        ),
+        (
+            "fuselage.wall_thickness_m",
+            "below half of fuselage.length_m = 0.06",
+            |input| input.fuselage.length_m = 0.06,
+            |input| input.fuselage.length_m = 0.06 + 1e-17,
+        ),
+        (
+            "fuselage.wall_thickness_m",
+            "above zero",
+            |input| input.fuselage.wall_thickness_m = 0.0,
+            |input| input.fuselage.wall_thickness_m = TINY,
+        ),
+        (
+            "fuselage.outer_radius_m",
+            "above zero",
+            |input| input.fuselage.outer_radius_m = -1.0,
+            |input| input.fuselage.outer_radius_m = 0.031,
+        ),
+        (
+            "fuselage.length_m",
+            "a finite number",
+            |input| input.fuselage.length_m = f64::NAN,
+            |input| input.fuselage.length_m = 0.061,
+        ),
+        (
+            "fuselage.density_kg_m3",
+            "above zero",
+            |input| input.fuselage.density_kg_m3 = 0.0,
+            |input| input.fuselage.density_kg_m3 = TINY,
+        ),
+        (
+            "fuselage.thruster_offset_m",
+            "zero or above",
+            |input| input.fuselage.thruster_offset_m = -TINY,
+            |input| input.fuselage.thruster_offset_m = 0.0,
+        ),
+        (
+            "fuselage.mass_kg",
+            "above zero",
+            |input| input.fuselage.mass_kg = Some(0.0),
+            |input| input.fuselage.mass_kg = Some(TINY),
+        ),
+        (
+            "fuselage.center_of_mass_m",
+            "finite numbers",
+            |input| input.fuselage.center_of_mass_m = Some([0.0, f64::INFINITY, 0.0]),
+            |input| input.fuselage.center_of_mass_m = Some([0.0, 1e3, 0.0]),
+        ),
+        (
+            "fuselage.inertia_kg_m2",
+            "symmetric",
+            |input| input.fuselage.inertia_kg_m2 = Some([[1.0, 2e-14, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),
+            |input| input.fuselage.inertia_kg_m2 = Some([[1.0, 1e-14, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),
+        ),
+        (
+            "fuselage.inertia_kg_m2",
+            "positive definite",
+            |input| input.fuselage.inertia_kg_m2 = Some([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.0]]),
+            |input| input.fuselage.inertia_kg_m2 = Some([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, TINY]]),
+        ),
+        (
+            "fuselage.inertia_kg_m2",
+            "exceeds the sum of the other two",
+            |input| input.fuselage.inertia_kg_m2 = Some([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 2.0 + 1e-13]]),
+            |input| input.fuselage.inertia_kg_m2 = Some([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 2.0]]),
+        ),
+        (
+            "wheel1.radius_m",
+            "above zero",
+            |input| wheel(input, 0).radius_m = 0.0,
+            |input| wheel(input, 0).radius_m = TINY,
+        ),
+        (
+            "wheel2.length_m",
+            "above zero",
+            |input| wheel(input, 1).length_m = -0.1,
+            |input| wheel(input, 1).length_m = TINY,
+        ),
+        (
+            "wheel2.station_m",
+            "a finite number",
+            |input| wheel(input, 1).station_m = f64::INFINITY,
+            |input| wheel(input, 1).station_m = -1.0,
+        ),
+        (
+            "wheel1.density_kg_m3",
+            "above zero",
+            |input| wheel(input, 0).density_kg_m3 = 0.0,
+            |input| wheel(input, 0).density_kg_m3 = TINY,
+        ),
+        (
+            "wheel1",
+            "positive and finite",
+            |input| wheel(input, 0).radius_m = 1e-160,
+            |input| wheel(input, 0).radius_m = 1e-75,
+        ),
+        (
+            "debris.side_m",
+            "above zero",
+            |input| debris(input).shape = DebrisShape::Cube { side_m: 0.0 },
+            |input| debris(input).shape = DebrisShape::Cube { side_m: TINY },
+        ),
+        (
+            "debris.size_m",
+            "above zero, each",
+            |input| debris(input).shape = DebrisShape::Box { size_m: [1.0, 0.0, 1.0] },
+            |input| debris(input).shape = DebrisShape::Box { size_m: [1.0, TINY, 1.0] },
+        ),
+        (
+            "debris.density_kg_m3",
+            "above zero",
+            |input| debris(input).density_kg_m3 = -1.0,
+            |input| debris(input).density_kg_m3 = TINY,
+        ),
+        (
+            "initial.attitude",
+            "norm 1",
+            |input| input.initial.attitude = [1.0 + 2e-6, 0.0, 0.0, 0.0],
+            |input| input.initial.attitude = [1.0 + 0.9e-6, 0.0, 0.0, 0.0],
+        ),
+        (
+            "initial.debris_attitude",
+            "norm 1",
+            |input| input.initial.debris_attitude = [0.0; 4],
+            |input| input.initial.debris_attitude = [0.0, 0.6, -0.8, 0.0],
+        ),
+        (
+            "initial.angular_velocity_rad_s",
+            "finite",
+            |input| input.initial.angular_velocity_rad_s[1] = f64::NAN,
+            |input| input.initial.angular_velocity_rad_s[1] = 0.0,
+        ),
+        (
+            "initial.wheel_rates_rad_s",
+            "finite",
+            |input| input.initial.wheel_rates_rad_s[1] = f64::NEG_INFINITY,
+            |input| input.initial.wheel_rates_rad_s[1] = 0.0,
+        ),
+        (
+            "actuation[0].start_s",
+            "zero or later",
+            |input| input.actuation[0].start_s = -TINY,
+            |input| input.actuation[0].start_s = 0.0,
+        ),
+        (
+            "actuation[0].end_s",
+            "later than its start_s = 0.0",
+            |input| input.actuation[0].end_s = 0.0,
+            |input| input.actuation[0].end_s = TINY,
+        ),
+        (
+            "actuation[1].start_s",
+            "no earlier than actuation[0].end_s = 1.0",
+            |input| input.actuation[1].start_s = below(1.0),
+            |input| input.actuation[1].start_s = 1.0,
+        ),
+        (
+            "actuation[1].thrust_n",
+            "does not pull",
+            |input| input.actuation[1].thrust_n[2] = -TINY,
+            |input| input.actuation[1].thrust_n[2] = 0.0,
+        ),
+        (
+            "actuation[1]",
+            "finite",
+            |input| input.actuation[1].torque_n_m[0] = f64::NAN,
+            |input| input.actuation[1].torque_n_m[0] = -1.0,
+        ),
+        (
+            "actuation[0].torque_n_m",
+            "wheel1",
+            |input| {
+                input.wheels[0] = None;
+                input.actuation[1].torque_n_m[0] = 0.0;
+            },
+            |input| {
+                input.wheels[0] = None;
+                input.actuation[0].torque_n_m[0] = 0.0;
+                input.actuation[1].torque_n_m[0] = 0.0;
+            },
+        ),
+    ];
+
+    fn wheel(input: &mut SceneInput, i: usize) -> &mut crate::scene::WheelInput {
+        input.wheels[i].as_mut().expect("Table II has both wheels")
+    }
+
+    fn debris(input: &mut SceneInput) -> &mut crate::scene::DebrisInput {
+        input.debris.as_mut().expect("Table II has debris")
+    }
+
+    #[test]
+    fn each_refusal_names_its_key_and_its_neighbour_is_accepted() {
+        for &(key, says, refused, accepted) in REFUSALS {
+            let errors = Scene::resolve(&changed(refused)).expect_err(key);
+            assert_eq!(errors.len(), 1, "{key}: {errors:?}");
+            assert_eq!(errors[0].key, key);
+            assert!(errors[0].to_string().contains(says), "{}", errors[0]);
+            if let Err(errors) = Scene::resolve(&changed(accepted)) {
+                panic!("{key}: the neighbour is refused: {}", errors[0]);
+            }
+        }
+    }
+
+    #[test]
+    fn all_problems_come_at_once_and_leave_the_scene_alone() {
+        let mut input = samples::table_two();
+        let mut scene = Scene::resolve(&input).expect("the report's scene");
+        let before = scene.clone();
+        input.fuselage.wall_thickness_m = 2.0;
+        wheel(&mut input, 1).radius_m = 0.0;
+        input.initial.attitude = [0.0; 4];
+        let errors = scene.resolve_into(&input).expect_err("four problems");
+        let keys: Vec<&str> = errors.iter().map(|error| &*error.key).collect();
+        assert_eq!(
+            keys,
+            ["fuselage.wall_thickness_m", "fuselage.wall_thickness_m", "wheel2.radius_m", "initial.attitude"]
+        );
+        assert_eq!(scene, before);
+    }
+
+    #[test]
+    fn resolving_into_a_used_scene_gives_the_same_scene() {
+        let input = changed(|_| ());
+        let mut scene = Scene::resolve(&changed(|input| input.wheels = [None, input.wheels[1]])).err().map_or_else(
+            || unreachable!("the torque on a missing wheel is refused"),
+            |_| Scene::resolve(&samples::table_two()).expect("the report's scene"),
+        );
+        scene.resolve_into(&input).expect("a legal scene");
+        assert_eq!(scene, Scene::resolve(&input).expect("a legal scene"));
+    }
+
+    #[test]
+    fn sigma_composes_debris_attitude_and_rate() {
+        let mut input = samples::table_two();
+        input.initial.attitude = [0.5, 0.5, -0.5, 0.5];
+        input.initial.debris_attitude = [0.0, 0.0, 0.0, 1.0]; // half a turn about s3
+        let state = Scene::resolve(&input).expect("a legal scene").initial;
+        assert_eq!(state.q_ed, [-0.5, -0.5, -0.5, 0.5]);
+        let omega = input.initial.angular_velocity_rad_s;
+        assert_eq!(state.omega_de_d, [100.0, -omega[1], omega[2]]);
+        input.debris = None;
+        let state = Scene::resolve(&input).expect("a legal scene").initial;
+        assert_eq!((state.q_ed, state.omega_de_d), ([1.0, 0.0, 0.0, 0.0], [0.0; 3]));
+    }
+
+    proptest! {
+        /// Whatever is accepted is a physical inertia, whatever was written.
+        #[test]
+        fn what_is_accepted_is_physical(
+            sizes in prop::array::uniform3(-4.0f64..3.0),
+            wheels in prop::array::uniform4(-4.0f64..2.0),
+            overrides in prop::option::of((prop::array::uniform6(-1.0f64..3.0), prop::array::uniform3(-1.0f64..1.0))),
+            mass in prop::option::of(1e-3f64..1e5),
+            present in prop::array::uniform2(any::<bool>()),
+        ) {
+            let size = sizes.map(|e| 10f64.powf(e));
+            let mut input = samples::table_two();
+            input.fuselage.wall_thickness_m = size[0];
+            input.fuselage.outer_radius_m = size[1];
+            input.fuselage.length_m = size[2];
+            input.fuselage.mass_kg = mass;
+            for i in 0..2 {
+                wheel(&mut input, i).radius_m = 10f64.powf(wheels[2 * i]);
+                wheel(&mut input, i).station_m = wheels[2 * i + 1];
+                if !present[i] {
+                    input.wheels[i] = None;
+                }
+            }
+            if let Some(([a, b, c, d, e, f], center)) = overrides {
+                let (d, e, f) = (d - 1.0, e - 1.0, f - 1.0);
+                input.fuselage.inertia_kg_m2 = Some([[a, d, e], [d, b, f], [e, f, c]]);
+                input.fuselage.center_of_mass_m = Some(center);
+            }
+            if let Ok(Scene { mass, .. }) = Scene::resolve(&input) {
+                prop_assert!(mass.total.is_finite() && mass.total > 0.0);
+                prop_assert!(is_positive_definite(mass.inertia) && is_positive_definite(mass.inertia_free));
+                let (moments, _) = principal_axes(mass.inertia);
+                let trace: f64 = moments.iter().sum();
+                for moment in moments {
+                    prop_assert!(moment > 0.0);
+                    prop_assert!(moment <= trace - moment + 2.0 * INERTIA_SLACK * trace, "{:?}", moments);
+                }
+            }
+        }
+    }
+}

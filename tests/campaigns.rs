@@ -1,0 +1,133 @@
+//! Campaign files: the shipped ones, defaults, and the plan as text.
+
+use spindrift::campaign::{Compression, Overrides, Plan};
+use spindrift::integrators::Method;
+use spindrift::observables::Group;
+use spindrift::scene::Scene;
+use std::path::Path;
+
+fn shipped() -> Vec<std::path::PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns");
+    let mut files: Vec<_> = std::fs::read_dir(folder)
+        .expect("a folder of campaigns")
+        .map(|entry| entry.expect("an entry").path())
+        .collect();
+    files.sort();
+    files
+}
+
+#[test]
+fn shipped_campaigns_are_valid_and_say_what_they_ask() {
+    let files = shipped();
+    assert!(files.len() >= 5);
+    for file in files {
+        let plan = Plan::load(&file, Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
+        assert!(Scene::resolve(&plan.nominal).is_ok());
+        assert_eq!(file.file_stem().and_then(|stem| stem.to_str()), Some(plan.name.as_str()));
+        let text = std::fs::read_to_string(&file).expect("readable");
+        for word in ["# Question: ", "\n# Source: ", "\n# Expect: "] {
+            assert!(text.contains(word), "{} says {word}", file.display());
+        }
+    }
+}
+
+#[test]
+fn a_plan_reads_back_from_its_text() {
+    for file in shipped() {
+        let plan = Plan::load(&file, Overrides { samples: Some(17), seed: Some(5) }).expect("valid");
+        let again = Plan::from_text("plan.toml", &plan.text(), Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
+        assert_eq!(again, plan);
+        assert_eq!((again.text(), again.hash()), (plan.text(), plan.hash()));
+    }
+}
+
+/// Every optional key, and numbers that need all their digits.
+const FULL: &str = r#"
+[campaign]
+name = "full"
+samples = 0x10
+seed = 9_223_372_036_854_775_807
+duration_s = 1e-3
+[integrator]
+method = "runge_kutta_4"
+relative_tolerance = 1e-9
+absolute_tolerance = 1e-12
+step_s = 0.0001
+max_steps = 5
+[observe]
+points = 2
+groups = ["effort", "energy_conservation"]
+[fuselage]
+wall_thickness_m = 0.030000000000000002
+outer_radius_m = 1
+length_m = 3
+density_kg_m3 = 2.7e3
+mass_kg = 2000
+center_of_mass_m = [0.01, -0.02, 1.5]
+inertia_kg_m2 = [[3000, 0.1, 0.2], [0.1, 3100, 0.3], [0.2, 0.3, 1700]]
+[wheel2]
+radius_m = 0.25
+length_m = 0.1
+station_m = -0.0
+density_kg_m3 = 2700
+[debris]
+size_m = [0.1, 0.2, 0.3]
+density_kg_m3 = 1e3
+[initial]
+angular_velocity_rad_s = [0.1, 1e-300, 5e300]
+[[disperse]]
+parameter = "initial.angular_velocity_rad_s.x"
+distribution = "truncated_normal"
+std = 0.1
+lower = 0
+[[disperse]]
+parameter = "debris.size_m"
+distribution = "uniform"
+min = [0.05, 0.1, 0.2]
+max = 0.5
+[[disperse]]
+parameter = "fuselage.inertia_kg_m2"
+distribution = "normal"
+std = [1, 0.1, 0.1, 1, 0.1, 1]
+[[disperse]]
+parameter = "fuselage.mass_kg"
+distribution = "uniform"
+relative_half_width = 0.01
+[[disperse]]
+parameter = "initial.debris_attitude"
+distribution = "normal"
+std = 0.1
+[output]
+compression = "none"
+"#;
+
+#[test]
+fn every_key_reads_back() {
+    let plan = Plan::from_text("full.toml", FULL, Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!((plan.samples, plan.seed, plan.max_steps), (16, i64::MAX as u64, 5));
+    assert_eq!((plan.method, plan.step_s), (Method::RungeKutta4, Some(1e-4)));
+    assert_eq!((plan.tolerance.relative, plan.tolerance.absolute), (1e-9, 1e-12));
+    assert_eq!(plan.groups, [Group::EnergyConservation, Group::Effort], "in the order of the columns");
+    assert_eq!(plan.compression, Compression::None);
+    assert_eq!(plan.nominal.fuselage.thruster_offset_m, 0.0);
+    let again = Plan::from_text("plan.toml", &plan.text(), Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(again, plan);
+    // every digit counts in the hash
+    let other = FULL.replace("0.030000000000000002", "0.03");
+    assert_ne!(Plan::from_text("full.toml", &other, Overrides::default()).expect("valid").hash(), plan.hash());
+    // spelling does not
+    let spelled = FULL.replace("2.7e3", "2700 # the same").replace("0x10", "16");
+    assert_eq!(Plan::from_text("full.toml", &spelled, Overrides::default()).expect("valid").hash(), plan.hash());
+}
+
+#[test]
+fn what_is_left_out_has_a_default() {
+    let text = "[campaign]\nname = \"small\"\nsamples = 1\nseed = 0\nduration_s = 2\n[fuselage]\nwall_thickness_m = 0.03\n\
+                outer_radius_m = 1\nlength_m = 3\ndensity_kg_m3 = 2700\n[initial]\nangular_velocity_rad_s = [0, 0, 1]\n";
+    let plan = Plan::from_text("small.toml", text, Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!((plan.method, plan.grid.points(), plan.grid.duration()), (Method::Auto, 101, 2.0));
+    assert_eq!(plan.groups, Group::ALL);
+    assert_eq!(plan.nominal.initial.attitude, [1.0, 0.0, 0.0, 0.0]);
+    assert_eq!((plan.nominal.wheels, plan.nominal.debris), ([None; 2], None));
+    assert!(plan.dispersions.columns().is_empty());
+}

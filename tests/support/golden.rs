@@ -1,0 +1,148 @@
+//! Golden truth: scenes with states to 25 digits, from a 40-digit Taylor solution of the gyrostat equations.
+//!
+//! `tests/golden/*.json` hold numbers as strings (all digits) or as plain JSON numbers; here they become `f64`.
+
+use std::path::Path;
+
+use serde_json::Value;
+use spindrift::scene::{ActuationInput, DebrisInput, DebrisShape, FuselageInput, InitialInput, SceneInput, WheelInput};
+
+/// A scene, and the truth at some times.
+pub struct Golden {
+    /// The scene as written.
+    pub scene: SceneInput,
+    /// The truth, ascending in time, the first at zero.
+    pub truth: Vec<Truth>,
+}
+
+/// The true state at one time; SI, frames as in [`InitialInput`].
+#[derive(Clone, Debug)]
+pub struct Truth {
+    /// Time, s.
+    pub time: f64,
+    /// Position of p in F_e.
+    pub r_po_e: [f64; 3],
+    /// Velocity of p in F_e.
+    pub v_po_e: [f64; 3],
+    /// Attitude of the fuselage; the sign is free.
+    pub q_es: [f64; 4],
+    /// omega^se in F_s.
+    pub omega_se_s: [f64; 3],
+    /// alpha, beta, unwrapped.
+    pub wheel_angles: [f64; 2],
+    /// alpha-dot, beta-dot.
+    pub wheel_rates: [f64; 2],
+    /// Kinetic energies of fuselage, W1, W2 and debris in F_e, J.
+    pub energies: [f64; 4],
+    /// Angular momentum of the spacecraft about c in F_e.
+    pub momentum_c_e: [f64; 3],
+    /// Position of the debris's centre in F_e.
+    pub r_gdo_e: [f64; 3],
+    /// Velocity of the debris's centre in F_e.
+    pub v_gdo_e: [f64; 3],
+    /// Attitude of the debris, F_d -> F_e; the sign is free.
+    pub q_ed: [f64; 4],
+    /// omega^de in F_d.
+    pub omega_de_d: [f64; 3],
+}
+
+impl Golden {
+    /// The golden file `tests/golden/<name>.json`.
+    pub fn load(name: &str) -> Self {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden").join(format!("{name}.json"));
+        let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        let file: Value = serde_json::from_str(&text).expect("golden files are JSON");
+        let truth = file["truth"].as_array().expect("truth is a list").iter().map(row).collect();
+        Golden { scene: scene(&file["scene"]), truth }
+    }
+
+    /// The times of the truth, s.
+    pub fn times(&self) -> Vec<f64> {
+        self.truth.iter().map(|row| row.time).collect()
+    }
+}
+
+/// One number, written as a string of all its digits or as a JSON number.
+fn number(value: &Value) -> f64 {
+    match value {
+        Value::String(digits) => digits.parse().expect("a decimal number"),
+        other => other.as_f64().unwrap_or_else(|| panic!("not a number: {other}")),
+    }
+}
+
+fn numbers<const N: usize>(value: &Value) -> [f64; N] {
+    let list = value.as_array().unwrap_or_else(|| panic!("not a list: {value}"));
+    assert_eq!(list.len(), N, "length of {value}");
+    std::array::from_fn(|i| number(&list[i]))
+}
+
+fn scene(scene: &Value) -> SceneInput {
+    let (fuselage, debris, initial) = (&scene["fuselage"], &scene["debris"], &scene["initial"]);
+    let wheel = |wheel: &Value| {
+        (!wheel.is_null()).then(|| WheelInput {
+            radius_m: number(&wheel["radius"]),
+            length_m: number(&wheel["length"]),
+            station_m: number(&wheel["station"]),
+            density_kg_m3: number(&wheel["density"]),
+        })
+    };
+    let mut start_s = 0.0;
+    let actuation = scene["segments"].as_array().expect("segments is a list").iter().map(|segment| {
+        let stretch = ActuationInput {
+            start_s,
+            end_s: number(&segment["until"]),
+            thrust_n: numbers(&segment["thrust"]),
+            torque_n_m: numbers(&segment["torque"]),
+        };
+        start_s = stretch.end_s;
+        stretch
+    });
+    SceneInput {
+        fuselage: FuselageInput {
+            wall_thickness_m: number(&fuselage["wall_thickness"]),
+            outer_radius_m: number(&fuselage["outer_radius"]),
+            length_m: number(&fuselage["length"]),
+            density_kg_m3: number(&fuselage["density"]),
+            thruster_offset_m: number(&fuselage["thruster_offset"]),
+            mass_kg: None,
+            center_of_mass_m: None,
+            inertia_kg_m2: None,
+        },
+        wheels: [wheel(&scene["wheel1"]), wheel(&scene["wheel2"])],
+        debris: (!debris.is_null()).then(|| DebrisInput {
+            shape: DebrisShape::Cube { side_m: number(&debris["side"]) },
+            density_kg_m3: number(&debris["density"]),
+        }),
+        initial: InitialInput {
+            position_m: numbers(&initial["position"]),
+            velocity_m_s: numbers(&initial["velocity"]),
+            attitude: numbers(&initial["attitude"]),
+            angular_velocity_rad_s: numbers(&initial["angular_velocity"]),
+            wheel_angles_rad: numbers(&initial["wheel_angles"]),
+            wheel_rates_rad_s: numbers(&initial["wheel_rates"]),
+            debris_position_m: numbers(&initial["debris_position"]),
+            debris_velocity_m_s: numbers(&initial["debris_velocity"]),
+            debris_attitude: numbers(&initial["debris_attitude"]),
+            debris_relative_angular_velocity_rad_s: numbers(&initial["debris_relative_angular_velocity"]),
+        },
+        actuation: actuation.collect(),
+    }
+}
+
+fn row(row: &Value) -> Truth {
+    Truth {
+        time: number(&row["t"]),
+        r_po_e: numbers(&row["r_p"]),
+        v_po_e: numbers(&row["v_p"]),
+        q_es: numbers(&row["q"]),
+        omega_se_s: numbers(&row["omega"]),
+        wheel_angles: numbers(&row["wheel_angles"]),
+        wheel_rates: numbers(&row["wheel_rates"]),
+        energies: ["T_fuselage", "T_wheel1", "T_wheel2", "T_debris"].map(|key| number(&row[key])),
+        momentum_c_e: numbers(&row["L_c"]),
+        r_gdo_e: numbers(&row["r_gd"]),
+        v_gdo_e: numbers(&row["v_gd"]),
+        q_ed: numbers(&row["q_debris"]),
+        omega_de_d: numbers(&row["omega_debris"]),
+    }
+}
