@@ -89,8 +89,7 @@ fn dispersions(text: &mut String, plan: &Plan) -> std::fmt::Result {
     if columns.is_empty() {
         return writeln!(text, "none: every sample is the nominal scene");
     }
-    let names: Vec<String> =
-        columns.iter().map(|column| column.parameter.component_name(column.component)).collect();
+    let names: Vec<String> = columns.iter().map(|column| column.parameter.component_name(column.component)).collect();
     let width = names.iter().map(String::len).max().unwrap_or(0);
     writeln!(
         text,

@@ -93,12 +93,7 @@ fn write(options: &SimulateOptions, plan: &Plan, series: &TimeSeries) -> Result<
             TableError::Format(_) => Failure::Input(error.to_string()),
             _ => Failure::Files(format!("{}: {error}", path.display())),
         })?;
-        screen::note(&format!(
-            "{}: {} points, {} columns",
-            path.display(),
-            series.points(),
-            series.headings().len()
-        ));
+        screen::note(&format!("{}: {} points, {} columns", path.display(), series.points(), series.headings().len()));
     }
     if let Some(path) = &options.plot {
         let title = match options.sample {

@@ -7,7 +7,7 @@ use crate::ensemble::rows::{Rows, Shape};
 use crate::integrators::{Control, Engine, Method, Propagator};
 use crate::math::Isa;
 use crate::observables::{Observer, Request};
-use crate::sampling::{Sampler, SampleId};
+use crate::sampling::{SampleId, Sampler};
 use crate::scene::{Scene, SceneInput};
 
 /// Scenes that are drawn and propagated together: enough that lanes seldom wait for work (16 refills of eight lanes), few

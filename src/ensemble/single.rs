@@ -67,14 +67,8 @@ impl SingleRun {
 
 /// Every state that the scenes of `plan` have.
 fn states(plan: &Plan) -> Blocks {
-    let spacecraft = [
-        Block::Rate,
-        Block::Attitude,
-        Block::WheelRates,
-        Block::WheelAngles,
-        Block::ComPosition,
-        Block::ComVelocity,
-    ];
+    let spacecraft =
+        [Block::Rate, Block::Attitude, Block::WheelRates, Block::WheelAngles, Block::ComPosition, Block::ComVelocity];
     let debris = [Block::DebrisPosition, Block::DebrisVelocity, Block::DebrisAttitude, Block::DebrisRate];
     let constrained: &[Block] = if plan.method == Method::Reference { &[Block::Dcm] } else { &[] };
     let debris: &[Block] = if plan.nominal.debris.is_some() { &debris } else { &[] };

@@ -233,8 +233,11 @@ mod tests {
     }
 
     fn written(packing: Packing) -> Vec<u8> {
-        let headings =
-            [heading("id", Content::Count, false), heading("word", Content::Word, false), heading("x", Content::Real, true)];
+        let headings = [
+            heading("id", Content::Count, false),
+            heading("word", Content::Word, false),
+            heading("x", Content::Real, true),
+        ];
         let layout = Layout::new(&headings, HashMap::from([("seed".into(), "7".into())]), packing).unwrap();
         let mut bytes = Vec::new();
         let cells = [

@@ -200,13 +200,12 @@ impl Panel {
         for (index, curve) in self.curves.iter().enumerate() {
             let style = COLORS[index % COLORS.len()].stroke_width(scale + scale / 2);
             let points = abscissa.iter().zip(&curve.values);
-            let points = points.filter(|(_, value)| value.is_finite()).map(|(x, y)| (horizontal.map(*x), vertical.map(*y)));
+            let points =
+                points.filter(|(_, value)| value.is_finite()).map(|(x, y)| (horizontal.map(*x), vertical.map(*y)));
             let drawn = chart.draw_series(LineSeries::new(points, style)).map_err(drawing)?;
             if self.curves.len() > 1 {
                 let length = (18 * scale) as i32;
-                drawn
-                    .label(&curve.label)
-                    .legend(move |(x, y)| PathElement::new(vec![(x, y), (x + length, y)], style));
+                drawn.label(&curve.label).legend(move |(x, y)| PathElement::new(vec![(x, y), (x + length, y)], style));
             }
         }
         if self.curves.len() > 1 {
@@ -340,7 +339,8 @@ mod tests {
             label: label.to_owned(),
             values: abscissa.iter().map(|t| base + size * libm::sin(3.0 * t)).collect(),
         };
-        let panel = |title: &str, unit: &str, curves: Vec<Curve>| Panel { title: title.into(), unit: unit.into(), curves };
+        let panel =
+            |title: &str, unit: &str, curves: Vec<Curve>| Panel { title: title.into(), unit: unit.into(), curves };
         Figure {
             title: "spin_sweep, nominal".into(),
             abscissa_label: "time / s".into(),

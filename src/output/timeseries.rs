@@ -70,8 +70,7 @@ impl TableFormat {
 impl TimeSeries {
     /// The points of `run` (of sample `sample` of `plan`) that it reached and that `shown` lets pass, by their time.
     pub fn new(plan: &Plan, sample: SampleId, run: &SingleRun, shown: impl Fn(f64) -> bool) -> Self {
-        let points: Vec<usize> =
-            (0..run.outcome.points).filter(|point| shown(run.grid.times()[*point])).collect();
+        let points: Vec<usize> = (0..run.outcome.points).filter(|point| shown(run.grid.times()[*point])).collect();
         let mut table = Columns { points: &points, headings: Vec::new(), columns: Vec::new() };
         table.push("time_s", "s", "Time since the start.", |point| run.grid.times()[point]);
         spacecraft(run, &mut table);
