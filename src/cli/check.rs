@@ -10,9 +10,10 @@ use crate::cli::{CheckOptions, isa, plan, screen};
 use crate::dynamics::table::Block;
 use crate::ensemble::{Campaign, Part, PartId, Parts, Rows};
 use crate::integrators::Status;
+use crate::observables::Request;
 use crate::output::rows_file::RowsFile;
 use crate::output::summary::short;
-use crate::sampling::SampleId;
+use crate::sampling::{Distribution, SampleId};
 use crate::scene::{MassProperties, Scene};
 
 /// The probe runs about this long, s.
@@ -103,12 +104,25 @@ fn dispersions(text: &mut String, plan: &Plan) -> std::fmt::Result {
                 for p in [0.01, 0.5, 0.99] {
                     write!(text, "{:>12}", short(law.quantile(p)))?;
                 }
-                writeln!(text, "  {law:?}")?;
+                writeln!(text, "  {}", law_text(law))?;
             }
             None => writeln!(text, "{:>36}  follows its siblings", "")?,
         }
     }
     Ok(())
+}
+
+/// A law in words.
+fn law_text(law: &Distribution) -> String {
+    match law {
+        Distribution::Normal { std, .. } => format!("normal, std {}", short(*std)),
+        Distribution::TruncatedNormal(_) => {
+            // the bounds, to the digits shown
+            let [low, high] = [f64::EPSILON, 1.0 - f64::EPSILON].map(|u| short(law.quantile(u)));
+            format!("truncated normal, {low} to {high}")
+        }
+        Distribution::Uniform { min, max } => format!("uniform, {} to {}", short(*min), short(*max)),
+    }
 }
 
 /// What is integrated and why, and what is not.
@@ -119,11 +133,30 @@ fn blocks(text: &mut String, campaign: &Campaign<'_>) -> std::fmt::Result {
         let name = block_name(block);
         match reasons.iter().find(|(needed, _)| *needed == block) {
             Some((_, reason)) => writeln!(text, "{name:<44} needed because of {reason}")?,
-            None => writeln!(text, "{name:<44} skipped")?,
+            None => writeln!(text, "{name:<44} skipped: {}", absence(campaign.request(), block))?,
         }
+    }
+    for (piece, scheduled) in [("thrust", campaign.propagator().thrust), ("wheel motors", campaign.propagator().motors)]
+    {
+        let why = if scheduled { "needed because the schedule has it" } else { "skipped: not in the schedule" };
+        writeln!(text, "{piece:<44} {why}")?;
     }
     let asked: Vec<&str> = campaign.plan().groups.iter().map(|group| group.name()).collect();
     writeln!(text, "observed groups: {}", asked.join(", "))
+}
+
+/// Why a block is not computed.
+fn absence(request: &Request, block: Block) -> &'static str {
+    match block {
+        Block::DebrisPosition | Block::DebrisVelocity | Block::DebrisAttitude | Block::DebrisRate
+            if !request.debris =>
+        {
+            "there is no debris"
+        }
+        Block::Work | Block::Impulse | Block::AngularImpulse if !request.actuated => "no actuator works",
+        Block::Dcm | Block::Residuals if !request.constrained => "only the reference kernel has it",
+        _ => "nothing observed needs it",
+    }
 }
 
 fn block_name(block: Block) -> &'static str {

@@ -97,7 +97,7 @@ pub struct SimulateOptions {
     /// Write all columns to this file (.parquet or .csv).
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Plot the energies to this file (.svg or .png).
+    /// Plot the energies to this file (.svg or .png), smoothly, or at --times.
     #[arg(long, value_name = "FILE")]
     pub plot: Option<PathBuf>,
 }

@@ -1,6 +1,7 @@
 //! `spindrift simulate`: one sample over time.
 
 use std::fmt::Write as _;
+use std::path::Path;
 
 use crate::campaign::{Overrides, Plan};
 use crate::cli::verdict::{Failure, Verdict};
@@ -8,6 +9,7 @@ use crate::cli::{SimulateOptions, isa, plan, screen};
 use crate::dynamics::table::Grid;
 use crate::ensemble::SingleRun;
 use crate::integrators::Status;
+use crate::math::Isa;
 use crate::output::energy_figure::energy_figure;
 use crate::output::plot::{PlotError, PlotFormat};
 use crate::output::timeseries::{TableError, TableFormat, TimeSeries};
@@ -29,6 +31,9 @@ const ON_SCREEN: [&str; 12] = [
     "angular_momentum_error",
 ];
 
+/// A plot has at least this many intervals, unless it is told its times: two to a pixel.
+const SMOOTH: usize = 1200;
+
 /// Runs the command.
 ///
 /// # Errors
@@ -49,14 +54,24 @@ pub fn run(options: &SimulateOptions) -> Result<Verdict, Failure> {
     }
     let times = options.times.as_deref().map(ascending).transpose()?;
     let grid = times.as_deref().map_or_else(|| plan.grid.clone(), |times| grid(times, &plan));
-    let sample = SampleId(options.sample);
-    let run = SingleRun::new(&plan, sample, grid, isa).map_err(|errors| {
-        let errors: Vec<String> = errors.iter().map(|error| format!("\n  {error}")).collect();
-        Failure::Input(format!("sample {sample} is not physical (its row says invalid_sample):{}", errors.concat()))
-    })?;
+    let run = single_run(options, &plan, grid, isa)?;
     let shown = |time: f64| times.as_deref().is_none_or(|times| times.contains(&time));
-    let series = TimeSeries::new(&plan, sample, &run, shown);
-    write(options, &plan, &series)?;
+    let series = TimeSeries::new(&plan, SampleId(options.sample), &run, shown);
+    if let Some(path) = &options.out {
+        save(path, &series)?;
+    }
+    if let Some(path) = &options.plot {
+        if times.is_some() {
+            plot(path, options, &plan, &series)?;
+        } else {
+            let fine = single_run(options, &plan, refined(&plan.grid), isa)?;
+            plot(path, options, &plan, &TimeSeries::new(&plan, SampleId(options.sample), &fine, |_| true))?;
+        }
+    }
+    if options.out.is_none() && options.plot.is_none() {
+        screen::print(&table(&series))?;
+        screen::note("(--out X.csv or --out X.parquet writes all columns)");
+    }
     if run.outcome.status != Status::Done {
         let (status, time) = (run.outcome.status.name(), run.outcome.time);
         screen::note(&format!("the run ended with {status} at {time:?} s; what follows is not shown"));
@@ -87,29 +102,40 @@ fn grid(times: &[f64], plan: &Plan) -> Grid {
     Grid::at(times)
 }
 
-fn write(options: &SimulateOptions, plan: &Plan, series: &TimeSeries) -> Result<(), Failure> {
-    if let Some(path) = &options.out {
-        series.save(path).map_err(|error| match error {
-            TableError::Format(_) => Failure::Input(error.to_string()),
-            _ => Failure::Files(format!("{}: {error}", path.display())),
-        })?;
-        screen::note(&format!("{}: {} points, {} columns", path.display(), series.points(), series.headings().len()));
-    }
-    if let Some(path) = &options.plot {
-        let title = match options.sample {
-            0 => format!("{}, nominal", plan.name),
-            sample => format!("{}, sample {sample}", plan.name),
-        };
-        energy_figure(&title, series).save(path).map_err(|error| match error {
-            PlotError::Format(_) => Failure::Input(error.to_string()),
-            _ => Failure::Files(format!("{}: {error}", path.display())),
-        })?;
-        screen::note(&format!("{}: energies of {} points", path.display(), series.points()));
-    }
-    if options.out.is_none() && options.plot.is_none() {
-        screen::print(&table(series))?;
-        screen::note("(--out X.csv or --out X.parquet writes all columns)");
-    }
+/// The campaign's grid with its intervals divided, so that curves are smooth; the campaign's own points are among them.
+fn refined(grid: &Grid) -> Grid {
+    let intervals = grid.points().saturating_sub(1).max(1);
+    Grid::uniform(grid.duration(), intervals * SMOOTH.div_ceil(intervals) + 1)
+}
+
+fn single_run(options: &SimulateOptions, plan: &Plan, grid: Grid, isa: Isa) -> Result<SingleRun, Failure> {
+    let sample = SampleId(options.sample);
+    SingleRun::new(plan, sample, grid, isa).map_err(|errors| {
+        let errors: Vec<String> = errors.iter().map(|error| format!("\n  {error}")).collect();
+        Failure::Input(format!("sample {sample} is not physical (its row says invalid_sample):{}", errors.concat()))
+    })
+}
+
+fn save(path: &Path, series: &TimeSeries) -> Result<(), Failure> {
+    series.save(path).map_err(|error| match error {
+        TableError::Format(_) => Failure::Input(error.to_string()),
+        _ => Failure::Files(format!("{}: {error}", path.display())),
+    })?;
+    let (points, columns) = (series.points(), series.headings().len());
+    screen::note(&format!("{}: {points} points, {columns} columns", path.display()));
+    Ok(())
+}
+
+fn plot(path: &Path, options: &SimulateOptions, plan: &Plan, series: &TimeSeries) -> Result<(), Failure> {
+    let title = match options.sample {
+        0 => format!("{}, nominal", plan.name),
+        sample => format!("{}, sample {sample}", plan.name),
+    };
+    energy_figure(&title, series).save(path).map_err(|error| match error {
+        PlotError::Format(_) => Failure::Input(error.to_string()),
+        _ => Failure::Files(format!("{}: {error}", path.display())),
+    })?;
+    screen::note(&format!("{}: energies at {} points", path.display(), series.points()));
     Ok(())
 }
 
@@ -138,6 +164,15 @@ fn table(series: &TimeSeries) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Law: a plot shows the campaign's own points too (their times to the last digit or two).
+    #[test]
+    fn a_refined_grid_holds_the_campaigns_points() {
+        let (coarse, fine) = (Grid::uniform(10.0, 101), refined(&Grid::uniform(10.0, 101)));
+        assert!(fine.points() > SMOOTH && fine.duration() == 10.0);
+        let near = |time: &f64| fine.times().iter().any(|other| (other - time).abs() <= 1e-15 * 10.0);
+        assert!(coarse.times().iter().all(near));
+    }
 
     #[test]
     fn times_are_sorted_and_single() {

@@ -58,6 +58,11 @@ impl<'p> Campaign<'p> {
         &self.request
     }
 
+    /// What integrates the runs.
+    pub fn propagator(&self) -> &Propagator {
+        &self.propagator
+    }
+
     /// What columns a row has.
     pub fn shape(&self) -> Shape {
         Shape { parameters: self.plan.dispersions.columns().len(), observables: self.request.columns().len() }

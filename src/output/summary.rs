@@ -10,6 +10,7 @@ use serde_json::{Map, Value, json};
 use crate::campaign::Plan;
 use crate::ensemble::{Campaign, Rows};
 use crate::integrators::Status;
+use crate::observables::Kind;
 use crate::output::sketch::{RELATIVE_ERROR, Sketch};
 
 /// The observables that are summed up, where the campaign has them: main errors, exchange, effort.
@@ -43,7 +44,16 @@ struct Headline {
     index: usize,
     name: &'static str,
     unit: &'static str,
+    kind: Kind,
     sketch: Sketch,
+}
+
+impl Headline {
+    /// The value of rank ceil(p n); a count is a whole number, which the middle of a bucket need not be.
+    fn quantile(&self, p: f64) -> Option<f64> {
+        let value = self.sketch.quantile(p)?;
+        Some(if self.kind == Kind::Count { libm::round(value) } else { value })
+    }
 }
 
 /// Counts of statuses, and of values of the main observables over the runs that are `ok`.
@@ -59,7 +69,8 @@ impl Tally {
         let columns = campaign.request().columns();
         let headline = |name: &&'static str| {
             let index = columns.iter().position(|column| column.name == *name)?;
-            Some(Headline { index, name, unit: columns[index].unit, sketch: Sketch::default() })
+            let column = columns[index];
+            Some(Headline { index, name, unit: column.unit, kind: column.kind, sketch: Sketch::default() })
         };
         Tally { statuses: [0; Status::ALL.len()], headlines: HEADLINES.iter().filter_map(headline).collect() }
     }
@@ -126,14 +137,14 @@ pub struct Summary {
 impl Summary {
     /// Sums up.
     pub fn new(plan: &Plan, tally: &Tally) -> Self {
-        let lines = tally.headlines.iter().map(|Headline { name, unit, sketch, .. }| Line {
-            name,
-            unit,
-            count: sketch.count(),
-            median: sketch.quantile(0.5),
-            p95: sketch.quantile(0.95),
-            p99_9: sketch.quantile(0.999),
-            max: sketch.max(),
+        let lines = tally.headlines.iter().map(|headline| Line {
+            name: headline.name,
+            unit: headline.unit,
+            count: headline.sketch.count(),
+            median: headline.quantile(0.5),
+            p95: headline.quantile(0.95),
+            p99_9: headline.quantile(0.999),
+            max: headline.sketch.max(),
         });
         Summary {
             name: plan.name.clone(),
