@@ -162,7 +162,11 @@ const CASES: &[(&str, &str, &str)] = &[
         "bad.toml:10: output.compression = \"zip\": must be one of zstd, none; choose one of these",
     ),
     ("[observe]", "[observ]", "bad.toml:9: observ = "),
-    ("[[actuation]]", "[actuation]", "bad.toml:28: actuation = "),
+    (
+        "[[actuation]]",
+        "[actuation]",
+        "bad.toml:29: actuation = [actuation]: must be a list of tables; write [[actuation]] with two brackets",
+    ),
     // scene
     (
         "wall_thickness_m = 0.03",
@@ -369,7 +373,7 @@ const CASES: &[(&str, &str, &str)] = &[
         "bad.toml:39: disperse[1].parameter = \"fuselage.density_kg_m3\": must be dispersed once; delete one of the two [[disperse]] tables, or address different components",
     ),
     // TOML itself
-    ("seed = 1\n", "seed = = 1\nseed = 1\n", "bad.toml:4: line = "),
+    ("seed = 1\n", "seed = = 1\n", "bad.toml:4: line = "),
     ("seed = 1\n", "seed = 1\nseed = 2\n", "bad.toml:5: line = "),
 ];
 

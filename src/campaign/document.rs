@@ -46,9 +46,14 @@ impl<'a> Document<'a> {
     /// Parses the text; what is not TOML is reported, and the rest is read.
     pub fn parse(&mut self) -> DeTable<'a> {
         let (table, errors) = DeTable::parse_recoverable(self.text);
+        let mut last = 0;
         for error in errors {
-            let start = error.span().map_or(0, |span| span.start);
-            let line = self.line_at(start);
+            let line = self.line_at(error.span().map_or(0, |span| span.start));
+            // what follows on the same line follows from the first
+            if line == last {
+                continue;
+            }
+            last = line;
             let written = self.text.lines().nth(line - 1).unwrap_or("").trim();
             self.problems.push(Problem {
                 file: self.file.to_owned(),
@@ -160,15 +165,22 @@ impl<'d, 'a> Section<'d, 'a> {
     /// The value of `key` if it was written; the key is known from now on, and so is its line.
     fn take(&mut self, key: &'static str) -> Option<&'d Spanned<DeValue<'a>>> {
         self.known.push(key);
-        let (name, value) = self.table?.get_key_value(key)?;
-        let line = self.document.line_at(name.span().start);
-        self.document.lines.insert(self.path(key), line);
-        Some(value)
+        self.note_line(key);
+        self.table?.get(key)
+    }
+
+    /// Remembers the line of `key`, if it was written.
+    fn note_line(&mut self, key: &str) {
+        if let Some((name, _)) = self.table.and_then(|table| table.get_key_value(key)) {
+            let line = self.document.line_at(name.span().start);
+            self.document.lines.insert(self.path(key), line);
+        }
     }
 
     /// Notes that the value of `key` is wrong.
     pub fn refuse(&mut self, key: &str, allowed: impl Into<String>, remedy: impl Into<String>) {
         let value = self.table.and_then(|table| table.get(key)).map(|value| self.document.written(value));
+        self.note_line(key);
         let path = self.path(key);
         self.document.add(&path, value, allowed, remedy);
     }
@@ -210,7 +222,8 @@ impl<'d, 'a> Section<'d, 'a> {
 
     /// Notes that `key` is missing, unless it was written (and is wrong in another way).
     pub fn require(&mut self, key: &'static str, allowed: &str, example: &str) {
-        if !self.has(key) {
+        let is_reported = !self.is_present() && self.document.is_reported(&self.path);
+        if !self.has(key) && !is_reported {
             let remedy = if self.path.ends_with(']') {
                 format!("add {key} = {example} to this table")
             } else {
@@ -390,13 +403,11 @@ impl<'d, 'a> Section<'d, 'a> {
     /// Notes every key that was written and not asked for.
     pub fn finish(&mut self) {
         let Some(table) = self.table else { return };
-        for (name, value) in table {
+        for name in table.keys() {
             let name = name.get_ref();
             if self.known.iter().any(|known| known == name) {
                 continue;
             }
-            let line = self.document.line_at(value.span().start);
-            self.document.lines.insert(self.path(name), line);
             let remedy = match nearest(name, self.known.iter().copied()) {
                 Some(meant) => format!("did you mean {meant}?"),
                 None => "delete it".to_owned(),

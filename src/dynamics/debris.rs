@@ -10,7 +10,7 @@ use super::table::{Block, Grid, StateTable, Trajectory};
 use crate::math::double_double::{DoubleDouble, two_product};
 use crate::math::lanes::WIDTH;
 use crate::math::sine::sin_cos_turns;
-use crate::math::vector::hamilton;
+use crate::math::vector::{constant, constant_quaternion, hamilton, scaled};
 use crate::math::{Lanes, Real};
 use crate::scene::Scene;
 use crate::scene::mass::Body;
@@ -82,13 +82,13 @@ pub fn complete_isotropic<S: Simd>(simd: S, scene: &Scene, grid: &Grid, table: &
     let half_turns = rate / FOUR_PI;
     let axis = if rate.high == 0.0 { [0.0; 3] } else { omega.map(|x| (DoubleDouble::exact(x) / rate).high) };
     let (high, low) = (Lanes::broadcast(simd, half_turns.high), Lanes::broadcast(simd, half_turns.low));
-    let start = scene.initial.q_ed.map(|x| Lanes::broadcast(simd, x));
+    let start = constant_quaternion(high, scene.initial.q_ed);
     for first in (0..table.stride()).step_by(WIDTH) {
         let time = Lanes::from_slice(simd, &grid.padded_times()[first..]);
         let turns = time * high;
         let rest = low.mul_add(time, time.mul_add(high, -turns));
         let (sin, cos) = sin_cos_turns((turns - turns.round()) + rest);
-        let [x, y, z] = axis.map(|component| Lanes::broadcast(simd, component) * sin);
+        let [x, y, z] = scaled(sin, constant(high, axis));
         for (i, component) in hamilton(start, [cos, x, y, z]).into_iter().enumerate() {
             component.store(&mut table.column_mut(Block::DebrisAttitude, i)[first..]);
         }

@@ -3,7 +3,7 @@
 //! - [`debris`]: the free body beside the spacecraft.
 //! - [`gyrostat`]: the reduced form, fast: three rates, an attitude, and what a scene asks for beyond.
 //! - [`outcome`]: how a run ended and what it cost; on this floor, because integrators say it and observables read it.
-//! - [`reference`]: the report's 62-state null-space form.
+//! - [`mod@reference`]: the report's 62-state null-space form.
 //! - [`table`]: the physical states of a run at its observation points.
 
 pub mod debris;

@@ -67,6 +67,14 @@ impl<S: Simd> Lanes<S> {
     }
 }
 
+/// The fused operation where the instruction set has none: eight library calls, kept out of line, because a kernel with all
+/// of them inlined takes minutes to compile.
+#[cfg(target_arch = "x86_64")]
+#[inline(never)]
+fn plain_mul_add<S: Simd>(x: Lanes<S>, a: Lanes<S>, b: Lanes<S>) -> Lanes<S> {
+    Lanes(x.0.mul_add_precise(a.0, b.0))
+}
+
 macro_rules! operator {
     ($trait:ident, $method:ident, $op:tt) => {
         impl<S: Simd> $trait for Lanes<S> {
@@ -113,6 +121,10 @@ impl<S: Simd> Real for Lanes<S> {
     }
     #[inline(always)]
     fn mul_add(self, a: Self, b: Self) -> Self {
+        #[cfg(target_arch = "x86_64")]
+        if core::any::TypeId::of::<S>() == core::any::TypeId::of::<fearless_simd::x86::Sse2>() {
+            return plain_mul_add(self, a, b);
+        }
         Lanes(self.0.mul_add_precise(a.0, b.0))
     }
     #[inline(always)]

@@ -8,13 +8,12 @@ use super::Real;
 /// (Sun Microsystems, 1993: `__kernel_sin`, `__kernel_cos`; minimax on [-pi/4, pi/4], error below 2^-58).
 #[inline(always)]
 pub fn sin_cos_turns<R: Real>(turns: R) -> (R, R) {
-    let c = |value: f64| turns.splat(value);
     // adding and taking away 1.5 * 2^52 rounds to the nearest whole number of quarters, ties to even
-    let shift = c(6_755_399_441_055_744.0);
-    let quarters = (c(4.0) * turns + shift) - shift;
-    let rest = quarters.mul_add(c(-0.25), turns);
+    let shift = turns.splat(6_755_399_441_055_744.0);
+    let quarters = (turns.splat(4.0) * turns + shift) - shift;
+    let rest = quarters.mul_add(turns.splat(-0.25), turns);
     // 2 pi as a sum of two
-    let x = rest.mul_add(c(core::f64::consts::TAU), rest * c(2.449_293_598_294_706_4e-16));
+    let x = rest.mul_add(turns.splat(core::f64::consts::TAU), rest * turns.splat(2.449_293_598_294_706_4e-16));
     let z = x * x;
     let sine_series = [
         -1.666_666_666_666_663_243_48e-01,
@@ -32,15 +31,19 @@ pub fn sin_cos_turns<R: Real>(turns: R) -> (R, R) {
         2.087_572_321_298_174_827_90e-09,
         -1.135_964_755_778_819_482_65e-11,
     ];
-    let horner = |series: [f64; 6]| series.iter().rev().skip(1).fold(c(series[5]), |sum, a| sum.mul_add(z, c(*a)));
-    let sin = (x * z).mul_add(horner(sine_series), x);
-    let cos = z.mul_add(z.mul_add(horner(cosine_series), c(-0.5)), c(1.0));
+    let (mut sine_sum, mut cosine_sum) = (turns.splat(sine_series[5]), turns.splat(cosine_series[5]));
+    for n in (0..5).rev() {
+        sine_sum = sine_sum.mul_add(z, turns.splat(sine_series[n]));
+        cosine_sum = cosine_sum.mul_add(z, turns.splat(cosine_series[n]));
+    }
+    let sin = (x * z).mul_add(sine_sum, x);
+    let cos = z.mul_add(z.mul_add(cosine_sum, turns.splat(-0.5)), turns.splat(1.0));
     // quarters in {-2, ..., 2}: swap on odd ones, then the signs
-    let even = c(0.5).lt((quarters.abs() - c(1.0)).abs());
+    let even = turns.splat(0.5).lt((quarters.abs() - turns.splat(1.0)).abs());
     let (s, k) = (R::select(even, sin, cos), R::select(even, cos, sin));
-    let two = c(1.5).lt(quarters.abs());
-    let minus_one = quarters.lt(c(-0.5));
-    let plus_one = c(0.5).lt(quarters);
+    let two = turns.splat(1.5).lt(quarters.abs());
+    let minus_one = quarters.lt(turns.splat(-0.5));
+    let plus_one = turns.splat(0.5).lt(quarters);
     // sin: q = 0 s, 1 cos, 2 -s, -1 -cos, -2 -s; cos: q = 0 c, 1 -sin, 2 -c, -1 sin, -2 -c
     let negative_sin = R::select(two, -s, R::select(minus_one, -s, s));
     let negative_cos = R::select(two, -k, R::select(plus_one, -k, k));

@@ -238,7 +238,7 @@ fn spread_out(index: usize, key: &'static str, values: &Values, width: usize) ->
         Values::Each(list) if list.len() == width => list.clone(),
         Values::Each(list) => {
             let parts = if width == 1 { "1 number".to_owned() } else { format!("1 number, or {width} in an array") };
-            return Err(error(index, key, format!("{list:?}"), format!("{parts}"), "give one for each component"));
+            return Err(error(index, key, format!("{list:?}"), parts, "give one for each component"));
         }
     };
     match list.iter().find(|x| !x.is_finite()) {

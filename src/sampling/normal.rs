@@ -91,7 +91,7 @@ pub fn quantile(p: f64) -> f64 {
     if q.abs() <= 0.425 {
         return q * ratio(&CENTER, 0.180_625 - q * q);
     }
-    let tail = libm::sqrt(-libm::log(if q < 0.0 { p } else { 1.0 - p }));
+    let tail = (-libm::log(if q < 0.0 { p } else { 1.0 - p })).sqrt();
     let z = if tail <= 5.0 { ratio(&NEAR, tail - 1.6) } else { ratio(&FAR, tail - 5.0) };
     if q < 0.0 { -z } else { z }
 }

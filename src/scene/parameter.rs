@@ -391,9 +391,10 @@ mod tests {
         Parameter::find("fuselage.inertia_kg_m2").expect("in the table").0.set(&mut scene, 4, 7.0);
         assert_eq!(scene.fuselage.inertia_kg_m2, Some([[3.0, 0.1, 0.2], [0.1, 3.0, 7.0], [0.2, 7.0, 3.0]]));
         let attitude = Parameter::find("initial.attitude").expect("in the table").0;
-        attitude.set(&mut scene, 3, 1.0);
+        attitude.set(&mut scene, 0, 3.0);
+        attitude.set(&mut scene, 3, 4.0);
         attitude.settle(&mut scene);
-        assert_eq!(scene.initial.attitude, [0.5f64.sqrt(), 0.0, 0.0, 0.5f64.sqrt()]);
+        assert_eq!(scene.initial.attitude, [0.6, 0.0, 0.0, 0.8]);
     }
 
     #[test]

@@ -8,7 +8,9 @@ use super::{
 };
 use crate::dynamics::table::{Block, Grid, StateTable, Trajectory};
 use crate::math::lanes::WIDTH;
-use crate::math::vector::{dot, hamilton, product};
+use crate::math::vector::{
+    conjugate, constant, constant_matrix, constant_quaternion, dot, hamilton, product, scaled, sum,
+};
 use crate::math::{Lanes, Real};
 
 /// The smallest number of integrated components from which the spacecraft's blocks of `table` follow.
@@ -80,19 +82,19 @@ pub fn rotation<S: Simd, const N: usize>(
     let chunk = Chunk { simd, first };
     let omega_b = chunk.read3(trajectory, OMEGA);
     let rate = match run.c_sb {
-        Some(c_sb) => product(c_sb.map(|row| row.map(|x| chunk.splat(x))), omega_b),
+        Some(c_sb) => product(constant_matrix(chunk.zero(), c_sb), omega_b),
         None => omega_b,
     };
-    let attitude = (N >= WITH_ATTITUDE).then(|| {
-        let q_eb = [0, 1, 2, 3].map(|i| chunk.read(trajectory, ATTITUDE + i));
-        if run.c_sb.is_some() {
-            let [w, x, y, z] = run.q_sb;
-            hamilton(q_eb, [w, -x, -y, -z].map(|c| chunk.splat(c)))
-        } else {
-            q_eb
-        }
-    });
-    Rotation { rate, attitude }
+    if N < WITH_ATTITUDE {
+        return Rotation { rate, attitude: None };
+    }
+    let [x, y, z] = chunk.read3(trajectory, ATTITUDE + 1);
+    let q_eb = [chunk.read(trajectory, ATTITUDE), x, y, z];
+    let q_es = match run.c_sb {
+        Some(_) => hamilton(q_eb, conjugate(constant_quaternion(chunk.zero(), run.q_sb))),
+        None => q_eb,
+    };
+    Rotation { rate, attitude: Some(q_es) }
 }
 
 /// Wheel rates Omega_i = h_i/J_i - a_i . omega and, where asked for, the angles.
@@ -110,7 +112,7 @@ fn complete_wheels<S: Simd, const N: usize>(
         return;
     }
     for wheel in 0..2 {
-        let axis = run.axes_b[wheel].map(|x| chunk.splat(x));
+        let axis = constant(chunk.zero(), run.axes_b[wheel]);
         let inverse = run.inverse_axial(wheel);
         if inverse == 0.0 {
             // a wheel that is not there does not turn
@@ -146,28 +148,32 @@ fn complete_translation<S: Simd, const N: usize>(
     let zero = chunk.zero();
     let thrust = N >= WITH_THRUST;
     let inverse_mass = chunk.splat(1.0 / run.mass);
-    let read_if = |asked: bool, component: usize| if asked { chunk.read3(trajectory, component) } else { [zero; 3] };
     if table.has(Block::ComPosition) {
         let time = Lanes::from_slice(chunk.simd, times);
-        let pushed = read_if(thrust, IMPULSE_INTEGRAL);
-        let line = |i: usize| chunk.splat(run.v_co_e[i]).mul_add(time, chunk.splat(run.r_co_e[i]));
-        chunk.write3(table, Block::ComPosition, [0, 1, 2].map(|i| pushed[i].mul_add(inverse_mass, line(i))));
+        let pushed = chunk.read3_if(thrust, trajectory, IMPULSE_INTEGRAL);
+        let mut position = [zero; 3];
+        for i in 0..3 {
+            let line = chunk.splat(run.v_co_e[i]).mul_add(time, chunk.splat(run.r_co_e[i]));
+            position[i] = pushed[i].mul_add(inverse_mass, line);
+        }
+        chunk.write3(table, Block::ComPosition, position);
     }
-    let impulse = read_if(thrust, IMPULSE);
+    let impulse = chunk.read3_if(thrust, trajectory, IMPULSE);
     if table.has(Block::ComVelocity) {
-        let velocity = [0, 1, 2].map(|i| impulse[i].mul_add(inverse_mass, chunk.splat(run.v_co_e[i])));
+        let velocity = sum(constant(zero, run.v_co_e), scaled(inverse_mass, impulse));
         chunk.write3(table, Block::ComVelocity, velocity);
     }
     if table.has(Block::Impulse) {
         chunk.write3(table, Block::Impulse, impulse);
     }
     if table.has(Block::AngularImpulse) {
-        chunk.write3(table, Block::AngularImpulse, read_if(thrust, ANGULAR_IMPULSE));
+        chunk.write3(table, Block::AngularImpulse, chunk.read3_if(thrust, trajectory, ANGULAR_IMPULSE));
     }
     if table.has(Block::Work) {
-        let read = |asked: bool, component: usize| if asked { chunk.read(trajectory, component) } else { zero };
-        read(thrust, THRUST_WORK).store(&mut table.column_mut(Block::Work, 0)[chunk.first..]);
-        read(N >= WITH_MOTORS, MOTOR_WORK).store(&mut table.column_mut(Block::Work, 1)[chunk.first..]);
+        chunk.read_if(thrust, trajectory, THRUST_WORK).store(&mut table.column_mut(Block::Work, 0)[chunk.first..]);
+        chunk
+            .read_if(N >= WITH_MOTORS, trajectory, MOTOR_WORK)
+            .store(&mut table.column_mut(Block::Work, 1)[chunk.first..]);
     }
 }
 
@@ -196,7 +202,17 @@ impl<S: Simd> Chunk<S> {
 
     #[inline(always)]
     fn read3(self, trajectory: &Trajectory, component: usize) -> [Lanes<S>; 3] {
-        [0, 1, 2].map(|i| self.read(trajectory, component + i))
+        [self.read(trajectory, component), self.read(trajectory, component + 1), self.read(trajectory, component + 2)]
+    }
+
+    #[inline(always)]
+    fn read_if(self, asked: bool, trajectory: &Trajectory, component: usize) -> Lanes<S> {
+        if asked { self.read(trajectory, component) } else { self.zero() }
+    }
+
+    #[inline(always)]
+    fn read3_if(self, asked: bool, trajectory: &Trajectory, component: usize) -> [Lanes<S>; 3] {
+        if asked { self.read3(trajectory, component) } else { [self.zero(); 3] }
     }
 
     #[inline(always)]

@@ -88,13 +88,15 @@ impl<R: Real> Constants<R> {
     #[inline(always)]
     pub fn angular_acceleration(&self, time: R, omega: [R; 3]) -> [R; 3] {
         let since = time - self.start;
-        let h: [R; 3] = [0, 1, 2].map(|i| self.momentum_rate[i].mul_add(since, self.momentum[i]));
+        let h = sum(self.momentum, scaled(since, self.momentum_rate));
         let linear = cross(h, omega);
-        let at = |i: usize, j: usize, k: usize| {
+        let mut acceleration = [since; 3];
+        for i in 0..3 {
             let known = (self.torque[i] - self.momentum_rate[i]) + linear[i];
-            self.ratio[i].mul_add(omega[j] * omega[k], self.inverse[i] * known)
-        };
-        [at(0, 1, 2), at(1, 2, 0), at(2, 0, 1)]
+            let product = omega[(i + 1) % 3] * omega[(i + 2) % 3];
+            acceleration[i] = self.ratio[i].mul_add(product, self.inverse[i] * known);
+        }
+        acceleration
     }
 
     /// The derivative of the first `N` components, in the order of the indices of the parent module.
@@ -135,7 +137,7 @@ impl<R: Real> Constants<R> {
 #[inline(always)]
 pub fn quaternion_rate<R: Real>(q: [R; 4], omega: [R; 3]) -> [R; 4] {
     let half = q[0].splat(0.5);
-    let [x, y, z] = omega.map(|component| half * component);
+    let [x, y, z] = scaled(half, omega);
     [
         -q[1].mul_add(x, q[2].mul_add(y, q[3] * z)),
         q[0].mul_add(x, q[2].mul_add(z, -(q[3] * y))),

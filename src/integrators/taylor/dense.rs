@@ -145,14 +145,13 @@ fn horner<S: Simd, R: Real, const N: usize>(
     order: usize,
     x: Lanes<S>,
 ) -> [Lanes<S>; N] {
-    let coefficient = |n: usize, i: usize| Lanes::broadcast(simd, jet[n][i].lane(lane));
-    let mut sums: [Lanes<S>; N] = core::array::from_fn(
-        #[inline(always)]
-        |i| coefficient(order, i),
-    );
+    let mut sums = [Lanes::broadcast(simd, 0.0); N];
+    for i in 0..N {
+        sums[i] = Lanes::broadcast(simd, jet[order][i].lane(lane));
+    }
     for n in (0..order).rev() {
-        for (i, sum) in sums.iter_mut().enumerate() {
-            *sum = sum.mul_add(x, coefficient(n, i));
+        for i in 0..N {
+            sums[i] = sums[i].mul_add(x, Lanes::broadcast(simd, jet[n][i].lane(lane)));
         }
     }
     sums

@@ -95,19 +95,25 @@ impl<S: Simd, R: Real + Send + 'static, const N: usize, const FORCED: bool> Tayl
         let Self { simd, zero, plan, runs, workspace, table, debris } = self;
         let runs = &runs[..scenes.len()];
         march::<S, R, N, FORCED>(*simd, *zero, runs, &plan.grid, workspace, &mut |index, trajectory, outcome| {
-            let scene = &scenes[index];
-            complete::<S, N>(*simd, &runs[index], trajectory, &plan.grid, table);
-            if let Some(body) = &scene.mass.debris {
-                debris::complete_translation(*simd, scene, &plan.grid, table);
-                if debris::is_isotropic(body) {
-                    debris::complete_isotropic(*simd, scene, &plan.grid, table);
-                } else if let Some(rotation) = debris
-                    && rotated
-                {
-                    let (run, trajectory) = (&rotation.runs[index], &rotation.trajectories[index]);
-                    debris::complete_rotation::<S, WITH_ATTITUDE>(*simd, run, trajectory, table);
-                }
-            }
+            // a closure behind `dyn` is compiled apart: it enters the instruction set again
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    let scene = &scenes[index];
+                    complete::<S, N>(*simd, &runs[index], trajectory, &plan.grid, table);
+                    if let Some(body) = &scene.mass.debris {
+                        debris::complete_translation(*simd, scene, &plan.grid, table);
+                        if debris::is_isotropic(body) {
+                            debris::complete_isotropic(*simd, scene, &plan.grid, table);
+                        } else if let Some(rotation) = debris
+                            && rotated
+                        {
+                            let (run, trajectory) = (&rotation.runs[index], &rotation.trajectories[index]);
+                            debris::complete_rotation::<S, WITH_ATTITUDE>(*simd, run, trajectory, table);
+                        }
+                    }
+                },
+            );
             finish(index, table, outcome);
         });
     }

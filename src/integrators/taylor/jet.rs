@@ -10,7 +10,7 @@ use crate::dynamics::gyrostat::{
     WITH_ATTITUDE, WITH_MOTORS, WITH_THRUST,
 };
 use crate::math::Real;
-use crate::math::vector::{cross, dot};
+use crate::math::vector::{cross, dot, scaled};
 
 /// The largest order that a jet can hold: 20 is what a tolerance of 1e-16 asks for; double-double needs twice that.
 pub const MAX_ORDER: usize = 40;
@@ -78,7 +78,7 @@ pub fn expand<R: Real, const N: usize, const FORCED: bool>(
             next[OMEGA + i] = acceleration[i] * inverse;
         }
         if N >= WITH_ATTITUDE {
-            half_omega[n] = omega.map(|component| half * component);
+            half_omega[n] = scaled(half, omega);
             let rate = quaternion_rate(jet, half_omega, n);
             for i in 0..4 {
                 next[ATTITUDE + i] = rate[i] * inverse;
@@ -152,7 +152,11 @@ fn angular_acceleration<R: Real, const N: usize, const FORCED: bool>(
             }
         }
     }
-    [0, 1, 2].map(|i| constants.ratio[i].mul_add(even[i] + odd[i], constants.inverse[i] * linear[i]))
+    let mut acceleration = [zero; 3];
+    for i in 0..3 {
+        acceleration[i] = constants.ratio[i].mul_add(even[i] + odd[i], constants.inverse[i] * linear[i]);
+    }
+    acceleration
 }
 
 /// `sum` plus the products of unlike components of two rates.

@@ -577,22 +577,31 @@ fn unfold<S: Simd, const N: usize>(
         turns[..count].copy_from_slice(&whole[first..first + count]);
         let turns = Lanes::load(simd, &turns);
         let at = offset + first;
-        let read = |trajectory: &Trajectory, i: usize| {
-            let mut values = [0.0; WIDTH];
-            values[..count].copy_from_slice(&trajectory.column(i)[at..at + count]);
-            Lanes::load(simd, &values)
-        };
-        let q = [0, 1, 2, 3].map(|i| read(trajectory, ATTITUDE + i));
+        let q = [
+            load_part(simd, &trajectory.column(ATTITUDE)[at..at + count]),
+            load_part(simd, &trajectory.column(ATTITUDE + 1)[at..at + count]),
+            load_part(simd, &trajectory.column(ATTITUDE + 2)[at..at + count]),
+            load_part(simd, &trajectory.column(ATTITUDE + 3)[at..at + count]),
+        ];
         let turned = hamilton(period.turn(turns), q);
         for (i, component) in turned.into_iter().enumerate() {
             let values = component.to_array();
             trajectory.column_mut(ATTITUDE + i)[at..at + count].copy_from_slice(&values[..count]);
         }
         for i in WITH_ATTITUDE..N {
-            let grown = turns.mul_add(Lanes::broadcast(simd, growth[i]), read(trajectory, i)).to_array();
+            let start = load_part(simd, &trajectory.column(i)[at..at + count]);
+            let grown = turns.mul_add(Lanes::broadcast(simd, growth[i]), start).to_array();
             trajectory.column_mut(i)[at..at + count].copy_from_slice(&grown[..count]);
         }
     }
+}
+
+/// Up to eight values, zeros behind them.
+#[inline(always)]
+fn load_part<S: Simd>(simd: S, part: &[f64]) -> Lanes<S> {
+    let mut values = [0.0; WIDTH];
+    values[..part.len()].copy_from_slice(part);
+    Lanes::load(simd, &values)
 }
 
 /// What turns a component in the lane's unit of time into SI.

@@ -9,7 +9,7 @@
 use fearless_simd::Simd;
 
 use crate::math::sine::sin_cos_turns;
-use crate::math::vector::hamilton;
+use crate::math::vector::{constant, hamilton, scaled};
 use crate::math::{Lanes, Real};
 
 /// How far a return may be off the start, as a share of the curve's extent: far below the distance of two branches of the
@@ -149,7 +149,7 @@ impl Period {
     /// Splits times since the start of the stretch into whole periods and the rest, 0 <= rest < P up to round-off.
     #[inline(always)]
     pub fn fold<S: Simd>(&self, time: Lanes<S>) -> (Lanes<S>, Lanes<S>) {
-        let [high, low] = self.length.map(|part| time.splat(part));
+        let (high, low) = (time.splat(self.length[0]), time.splat(self.length[1]));
         let inverse = time.splat(1.0 / self.length[0]);
         let whole = (time * inverse).floor();
         // exact up to one rounding: whole * high is not rounded
@@ -171,7 +171,7 @@ impl Period {
         let high = whole * half_turns;
         let low = whole.mul_add(half_turns, -high);
         let (sin, cos) = sin_cos_turns((high - high.round()) + low);
-        let [x, y, z] = self.axis_e.map(|component| whole.splat(component) * sin);
+        let [x, y, z] = scaled(sin, constant(whole, self.axis_e));
         [cos, x, y, z]
     }
 }

@@ -34,20 +34,15 @@ impl StepRule {
     #[inline(always)]
     pub fn step<R: Real, const N: usize>(&self, jet: &[[R; N]]) -> R {
         let zero = jet[0][0].zero();
-        let square = |n: usize| {
-            let rate = [jet[n][0], jet[n][1], jet[n][2]];
-            dot(rate, rate)
-        };
-        let scale = square(0) + square(1);
-        let (last, before) = (square(self.order), square(self.order - 1));
+        let scale = rate_squared(&jet[0]) + rate_squared(&jet[1]);
+        let (last, before) = (rate_squared(&jet[self.order]), rate_squared(&jet[self.order - 1]));
         let mut step = zero;
         let (p, log_safety) = (self.order as f64, self.log_safety);
         for lane in 0..R::LANES {
             let size = log2_rough(scale.lane(lane));
             // the tail is measured by squares: half the logarithm
-            let radius = |n: f64, tail: f64| 0.5 * (size - log2_rough(tail)) / n;
-            let from_last = radius(p, last.lane(lane));
-            let from_before = radius(p - 1.0, before.lane(lane));
+            let from_last = 0.5 * (size - log2_rough(last.lane(lane))) / p;
+            let from_before = 0.5 * (size - log2_rough(before.lane(lane))) / (p - 1.0);
             let radius = if from_last < from_before { from_last } else { from_before };
             let slowest = 1.0 + log2_rough(self.turn) - 0.5 * size;
             let log_step = radius + log_safety;
@@ -56,6 +51,13 @@ impl StepRule {
         }
         step
     }
+}
+
+/// |omega|^2 of one order of a jet.
+#[inline(always)]
+fn rate_squared<R: Real, const N: usize>(coefficients: &[R; N]) -> R {
+    let rate = [coefficients[0], coefficients[1], coefficients[2]];
+    dot(rate, rate)
 }
 
 /// log2 x to 1e-4 for positive normal x; about -1023 for zero; branch-free, so that eight lanes vectorise.
