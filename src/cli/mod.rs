@@ -58,7 +58,7 @@ pub enum Command {
 pub struct CampaignOptions {
     /// The campaign file.
     pub file: PathBuf,
-    /// Folder of the result [default: results/<name of the campaign>].
+    /// Folder of the result [default: the campaign's name in results/].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Number of samples instead of the file's.
