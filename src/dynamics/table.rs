@@ -250,6 +250,12 @@ impl Trajectory {
         }
     }
 
+    /// Takes the values of the first components of `other`, which has as many points.
+    pub fn copy_from(&mut self, other: &Trajectory) {
+        let length = self.values.len();
+        self.values.copy_from_slice(&other.values[..length]);
+    }
+
     /// Fills every component from point `point` on with `value`.
     pub fn fill_after(&mut self, point: usize, value: f64) {
         for component in self.values.chunks_exact_mut(self.stride) {

@@ -5,8 +5,13 @@
 
 use fearless_simd::Simd;
 
+use super::embedded::{Dop853, DormandPrince, Embedded};
+use super::fixed::{FixedStep, RungeKutta4};
+use super::gauss_legendre::GaussLegendre;
 use super::method::Method;
-use super::system::Tolerance;
+use super::reference_engine::ReferenceEngine;
+use super::runge_kutta_engine::{Adaptive, Fixed, March, RungeKuttaEngine};
+use super::step_control::Control;
 use super::taylor::engine::TaylorEngine;
 use crate::dynamics::gyrostat::completion::components;
 use crate::dynamics::gyrostat::{RATES_ONLY, WITH_ANGLES, WITH_ATTITUDE, WITH_MOTORS, WITH_THRUST};
@@ -15,26 +20,6 @@ use crate::dynamics::table::{Block, Blocks, Grid, StateTable};
 use crate::math::isa::Work;
 use crate::math::{Isa, Lanes};
 use crate::scene::Scene;
-
-/// Tolerances and limits of an integration.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Control {
-    /// Tolerance of methods that follow one.
-    pub tolerance: Tolerance,
-    /// Step of methods with a fixed step, s.
-    pub step: Option<f64>,
-    /// Steps after which a run is given up.
-    pub max_steps: u64,
-}
-
-/// How many runs stand side by side.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Width {
-    /// Eight.
-    Lanes,
-    /// One; the bits are the same.
-    Scalar,
-}
 
 /// What a campaign's runs have in common: how they are integrated and what of them is kept.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,8 +36,6 @@ pub struct Propagator {
     pub thrust: bool,
     /// Whether any scene has motor torque in its schedule.
     pub motors: bool,
-    /// How many runs stand side by side.
-    pub width: Width,
 }
 
 /// Hands over a finished run: its index among the scenes, its states, how it ended.
@@ -75,7 +58,6 @@ impl Propagator {
             blocks,
             thrust: any(|act| act.thrust != [0.0; 3]),
             motors: any(|act| act.torque != [0.0; 2]),
-            width: Width::Lanes,
         }
     }
 
@@ -98,24 +80,47 @@ impl Work for Build<'_> {
 
     fn run<S: Simd>(self, simd: S) -> Self::Output {
         let plan = self.0;
-        let forced = plan.thrust || plan.motors;
-        // a forced run integrates at least what motors ask for: one kernel less to compile, and hardly slower
-        match (plan.components(), forced) {
-            (RATES_ONLY, false) => taylor::<S, RATES_ONLY, false>(simd, plan),
-            (WITH_ATTITUDE, false) => taylor::<S, WITH_ATTITUDE, false>(simd, plan),
-            (WITH_ANGLES, false) => taylor::<S, WITH_ANGLES, false>(simd, plan),
-            (WITH_THRUST, _) => taylor::<S, WITH_THRUST, true>(simd, plan),
-            _ => taylor::<S, WITH_MOTORS, true>(simd, plan),
+        match plan.method {
+            Method::Auto | Method::Taylor => taylor(simd, plan),
+            Method::DormandPrince => adaptive(simd, plan, DormandPrince),
+            Method::Dop853 => adaptive(simd, plan, Dop853),
+            Method::RungeKutta4 => fixed(simd, plan, RungeKutta4),
+            Method::GaussLegendre => fixed(simd, plan, GaussLegendre),
+            Method::Reference => Box::new(ReferenceEngine::new(simd, plan)),
         }
     }
 }
 
-/// The Taylor engine in the width that the plan asks for.
-fn taylor<S: Simd, const N: usize, const FORCED: bool>(simd: S, plan: &Propagator) -> Box<dyn Engine> {
+/// The Taylor engine with the components that the plan needs.
+///
+/// A forced run integrates at least what motors ask for: fewer kernels to compile, and hardly slower.
+fn taylor<S: Simd>(simd: S, plan: &Propagator) -> Box<dyn Engine> {
     let zero = Lanes::broadcast(simd, 0.0);
-    match plan.width {
-        Width::Lanes => Box::new(TaylorEngine::<S, Lanes<S>, N, FORCED>::new(simd, zero, plan)),
-        Width::Scalar => Box::new(TaylorEngine::<S, f64, N, FORCED>::new(simd, 0.0, plan)),
+    match (plan.components(), plan.thrust || plan.motors) {
+        (RATES_ONLY, false) => Box::new(TaylorEngine::<S, Lanes<S>, RATES_ONLY, false>::new(simd, zero, plan)),
+        (WITH_ATTITUDE, false) => Box::new(TaylorEngine::<S, Lanes<S>, WITH_ATTITUDE, false>::new(simd, zero, plan)),
+        (WITH_ANGLES, false) => Box::new(TaylorEngine::<S, Lanes<S>, WITH_ANGLES, false>::new(simd, zero, plan)),
+        (WITH_THRUST, _) => Box::new(TaylorEngine::<S, Lanes<S>, WITH_THRUST, true>::new(simd, zero, plan)),
+        _ => Box::new(TaylorEngine::<S, Lanes<S>, WITH_MOTORS, true>::new(simd, zero, plan)),
+    }
+}
+
+/// A Runge-Kutta engine that follows the tolerance.
+fn adaptive<S: Simd, M: Embedded + Send + 'static>(simd: S, plan: &Propagator, method: M) -> Box<dyn Engine> {
+    runge_kutta(simd, plan, Adaptive(method))
+}
+
+/// A Runge-Kutta engine with a fixed step.
+fn fixed<S: Simd, M: FixedStep + Send + 'static>(simd: S, plan: &Propagator, method: M) -> Box<dyn Engine> {
+    runge_kutta(simd, plan, Fixed(method))
+}
+
+/// A Runge-Kutta engine: attitude and angles always, thrust where it is scheduled; two kernels a method are enough to compile.
+fn runge_kutta<S: Simd, M: March + Send + 'static>(simd: S, plan: &Propagator, march: M) -> Box<dyn Engine> {
+    if plan.thrust || plan.motors {
+        Box::new(RungeKuttaEngine::<S, M, WITH_THRUST>::new(simd, march, plan))
+    } else {
+        Box::new(RungeKuttaEngine::<S, M, WITH_ANGLES>::new(simd, march, plan))
     }
 }
 

@@ -10,7 +10,8 @@ pub trait System<R: Real, const N: usize> {
     /// The size of a step's local error in units of the tolerance: the step passes where it is at most one.
     ///
     /// `error` is the difference of the embedded solutions, `old` and `new` the states at both ends. Each kernel scales its
-    /// components by what they mean; the reference kernel does as ode45 does.
+    /// components by what they mean; the reference kernel does as ode45 does. It must be homogeneous in `error` (twice the
+    /// error, twice the ratio): the choice of a first step also asks for the size of a derivative, or of a state, in it.
     fn error_ratio(&self, error: &[R; N], old: &[R; N], new: &[R; N], tolerance: Tolerance) -> R;
 }
 

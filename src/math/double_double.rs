@@ -159,6 +159,18 @@ impl Real for DoubleDouble {
         if mask { yes } else { no }
     }
     #[inline(always)]
+    fn any(mask: bool) -> bool {
+        mask
+    }
+    #[inline(always)]
+    fn exponent(self) -> Self {
+        DoubleDouble::exact(self.high.exponent())
+    }
+    #[inline(always)]
+    fn power_of_two(self) -> Self {
+        DoubleDouble::exact(self.high.power_of_two())
+    }
+    #[inline(always)]
     fn lane(&self, _lane: usize) -> f64 {
         self.high
     }

@@ -5,9 +5,10 @@
 
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-use fearless_simd::{Select, Simd, SimdBase, SimdFloat, SimdFrom, f64x8, mask64x8};
+use fearless_simd::{Bytes, Select, Simd, SimdBase, SimdFloat, SimdFrom, SimdMask, f64x8, mask64x8, u64x8};
 
 use super::Real;
+use super::real::TWO_52;
 
 /// Number of lanes of [`Lanes`].
 pub const WIDTH: usize = 8;
@@ -150,6 +151,21 @@ impl<S: Simd> Real for Lanes<S> {
     #[inline(always)]
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
         Lanes(mask.select(yes.0, no.0))
+    }
+    #[inline(always)]
+    fn any(mask: Self::Mask) -> bool {
+        mask.any_true()
+    }
+    #[inline(always)]
+    fn exponent(self) -> Self {
+        let bits = self.0.bitcast::<u64x8<S>>() >> 52;
+        let shifted = (bits | TWO_52.to_bits()).bitcast::<f64x8<S>>();
+        Lanes(shifted) - self.splat(TWO_52 + 1023.0)
+    }
+    #[inline(always)]
+    fn power_of_two(self) -> Self {
+        let bits = (self + self.splat(TWO_52 + 1023.0)).0.bitcast::<u64x8<S>>();
+        Lanes((bits << 52).bitcast::<f64x8<S>>())
     }
     #[inline(always)]
     fn lane(&self, lane: usize) -> f64 {

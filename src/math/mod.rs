@@ -4,6 +4,7 @@
 //! - [`double_double`]: 106 bits, for reference solutions.
 //! - [`lanes`]: [`Lanes`], eight `f64` in one vector, on whichever instruction set was chosen.
 //! - [`isa`]: the run-time choice of instruction set, and the only place that reads `SPINDRIFT_ISA`.
+//! - [`power`]: fractional powers for step control, the same bits in a scalar and in lanes.
 //! - [`sine`]: sine and cosine in turns, eight at a time.
 //! - [`symmetric`]: positive definiteness and principal axes of 3x3 matrices.
 //! - [`vector`]: three-vectors, 3x3 matrices and quaternions as plain arrays of `Real`.
@@ -11,6 +12,7 @@
 pub mod double_double;
 pub mod isa;
 pub mod lanes;
+pub mod power;
 pub mod real;
 pub mod sine;
 pub mod symmetric;

@@ -6,6 +6,9 @@
 
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
+/// 2^52: the last bits of 2^52 + n are the integer n, which is how exponents are read and written without a conversion.
+pub(super) const TWO_52: f64 = 4_503_599_627_370_496.0;
+
 /// A real number, or several side by side that never share a decision.
 pub trait Real:
     Copy
@@ -53,6 +56,15 @@ pub trait Real:
 
     /// `yes` where `mask` holds, else `no`.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+
+    /// Whether `mask` holds in any lane.
+    fn any(mask: Self::Mask) -> bool;
+
+    /// The exponent of a positive normal number as a number: floor(log2(self)).
+    fn exponent(self) -> Self;
+
+    /// 2^self for an integer from -1022 to 1023.
+    fn power_of_two(self) -> Self;
 
     /// The number in lane `lane`; rounded to `f64` where a wider type is behind.
     fn lane(&self, lane: usize) -> f64;
@@ -102,6 +114,18 @@ impl Real for f64 {
     #[inline(always)]
     fn select(mask: bool, yes: Self, no: Self) -> Self {
         if mask { yes } else { no }
+    }
+    #[inline(always)]
+    fn any(mask: bool) -> bool {
+        mask
+    }
+    #[inline(always)]
+    fn exponent(self) -> Self {
+        f64::from_bits((self.to_bits() >> 52) | TWO_52.to_bits()) - (TWO_52 + 1023.0)
+    }
+    #[inline(always)]
+    fn power_of_two(self) -> Self {
+        f64::from_bits((self + (TWO_52 + 1023.0)).to_bits() << 52)
     }
     #[inline(always)]
     fn lane(&self, _lane: usize) -> f64 {

@@ -23,7 +23,7 @@ pub mod equations;
 
 use crate::math::Real;
 use crate::math::symmetric::principal_axes;
-use crate::math::vector::{cross, dot, hamilton, quaternion_from_dcm, scaled, sum, transposed_product};
+use crate::math::vector::{constant, cross, dot, hamilton, quaternion_from_dcm, scaled, sum, transposed_product};
 use crate::scene::Scene;
 
 /// Index of the first component of the angular velocity in B, rad/s (3).
@@ -194,39 +194,27 @@ impl<R: Real> Gyrostat<R> {
         }
     }
 
-    /// Cuts the horizon at every switch and fills the gaps of the schedule with free stretches.
+    /// The scene's stretches with their forces in B, and the wheels' momenta and turns carried from one to the next.
     fn lay_stretches(&mut self, zero: R, scene: &Scene, duration: f64) {
         self.stretches.clear();
-        let momentum = std::array::from_fn(|i| {
+        let mut momentum: [R; 2] = std::array::from_fn(|i| {
             self.axial[i] * (dot(self.axes_b[i], self.omega_b) + zero.splat(scene.initial.wheel_rates[i]))
         });
-        let mut next = Stretch { wheel_momentum: momentum, ..Stretch::free(zero, 0.0, 0.0) };
-        for act in scene.schedule.iter().filter(|act| act.start < duration) {
-            if act.start > next.start {
-                next = self.push(Stretch { end: act.start, ..next });
-            }
-            let exact3 = |v: [f64; 3]| v.map(|x| zero.splat(x));
-            next = self.push(Stretch {
-                end: act.end.min(duration),
+        let mut turn = [zero; 2];
+        for act in scene.stretches(duration) {
+            let stretch = Stretch {
+                start: act.start,
+                end: act.end,
                 actuated: act.thrust != [0.0; 3] || act.torque != [0.0; 2],
-                force_b: self.into_b(exact3(scene.thruster_force_s(act.thrust))),
-                torque_b: self.into_b(exact3(scene.thruster_torque_s(act.thrust))),
+                force_b: self.into_b(constant(zero, scene.thruster_force_s(act.thrust))),
+                torque_b: self.into_b(constant(zero, scene.thruster_torque_s(act.thrust))),
                 motor: act.torque.map(|x| zero.splat(x)),
-                ..next
-            });
-        }
-        if next.start < duration || self.stretches.is_empty() {
-            self.push(Stretch { end: duration, ..next });
-        }
-    }
-
-    /// Appends `stretch` and returns the free stretch that starts where it ends.
-    fn push(&mut self, stretch: Stretch<R>) -> Stretch<R> {
-        self.stretches.push(stretch);
-        Stretch {
-            wheel_momentum: std::array::from_fn(|i| self.wheel_momentum_at(&stretch, i, stretch.end)),
-            wheel_turn: std::array::from_fn(|i| self.wheel_turn_at(&stretch, i, stretch.end)),
-            ..Stretch::free(self.mass.zero(), stretch.end, stretch.end)
+                wheel_momentum: momentum,
+                wheel_turn: turn,
+            };
+            momentum = std::array::from_fn(|i| self.wheel_momentum_at(&stretch, i, stretch.end));
+            turn = std::array::from_fn(|i| self.wheel_turn_at(&stretch, i, stretch.end));
+            self.stretches.push(stretch);
         }
     }
 
@@ -275,4 +263,31 @@ impl<R: Real> Gyrostat<R> {
     pub fn wheel_momentum_b(&self, momentum: [R; 2]) -> [R; 3] {
         sum(scaled(momentum[0], self.axes_b[0]), scaled(momentum[1], self.axes_b[1]))
     }
+}
+
+impl Gyrostat<f64> {
+    /// A power of two near the time scale of the run, s: from its rates, its wheels and what acts on it.
+    pub fn time_unit(&self) -> f64 {
+        let smallest = self.moments[0].min(self.moments[1]).min(self.moments[2]);
+        let mut rate = largest(self.omega_b);
+        for stretch in &self.stretches {
+            rate = rate.max(largest(self.wheel_momentum_b(stretch.wheel_momentum)) / smallest);
+            let torque = largest(stretch.torque_b).max(largest(self.wheel_momentum_b(stretch.motor)));
+            rate = rate.max((torque / smallest).sqrt());
+        }
+        if rate.is_nan() || rate <= SLOWEST {
+            return 1.0 / SLOWEST;
+        }
+        // the exponent alone: 2^-floor(log2 rate)
+        let exponent = (rate.to_bits() >> 52) & 0x7ff;
+        f64::from_bits((2046 - exponent) << 52)
+    }
+}
+
+/// Below this rate, rad/s, nothing is resolved more finely: 2^-200.
+const SLOWEST: f64 = 6.223_015_277_861_142e-61;
+
+/// The largest component.
+fn largest(v: [f64; 3]) -> f64 {
+    v[0].abs().max(v[1].abs()).max(v[2].abs())
 }

@@ -155,7 +155,7 @@ impl<S: Simd, R: Real, const N: usize, const FORCED: bool> March<'_, S, R, N, FO
             return;
         }
         let run = &self.runs[self.next];
-        let unit = time_unit(run);
+        let unit = run.time_unit();
         self.constants.set_run(lane, run, unit);
         for i in 0..3 {
             self.state[OMEGA + i].set_lane(lane, run.omega_b[i] * unit);
@@ -620,27 +620,6 @@ fn factors<const N: usize>(unit: f64) -> [f64; N] {
     }
     factors
 }
-
-/// A power of two near the time scale of a run, s: from its rates, its wheels and what acts on it.
-fn time_unit(run: &Gyrostat<f64>) -> f64 {
-    let smallest = run.moments[0].min(run.moments[1]).min(run.moments[2]);
-    let size = |v: [f64; 3]| v[0].abs().max(v[1].abs()).max(v[2].abs());
-    let mut rate = size(run.omega_b);
-    for stretch in &run.stretches {
-        rate = rate.max(size(run.wheel_momentum_b(stretch.wheel_momentum)) / smallest);
-        let torque = size(stretch.torque_b).max(size(run.wheel_momentum_b(stretch.motor)));
-        rate = rate.max((torque / smallest).sqrt());
-    }
-    if !(rate > SLOWEST) {
-        return 1.0 / SLOWEST;
-    }
-    // the exponent alone: 2^-floor(log2 rate)
-    let exponent = (rate.to_bits() >> 52) & 0x7ff;
-    f64::from_bits((2046 - exponent) << 52)
-}
-
-/// Below this rate, rad/s, nothing is resolved more finely: 2^-200.
-const SLOWEST: f64 = 6.223_015_277_861_142e-61;
 
 /// The sum and its rounding error, for |a| >= |b| or a = 0 (T. J. Dekker, Numerische Mathematik 18, 1971).
 #[inline(always)]

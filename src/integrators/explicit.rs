@@ -1,0 +1,187 @@
+//! Stages of explicit Runge-Kutta methods from their tableaus, and the compensated step that all methods share.
+//!
+//! A step is y' = y + h sum_i b_i k_i; what the sum loses in the last digits of y is carried to the next step (Kahan 1965,
+//! Knuth's error-free sum). Which method takes which step stands in [`super::embedded`] and [`super::fixed`].
+
+use core::marker::PhantomData;
+
+use super::System;
+use super::tableau::Tableau;
+use crate::math::Real;
+
+/// Row `I` of a tableau as a constant of its own, so that the sum over it is unrolled and its zeros vanish at compile time.
+struct Row<T, const S: usize, const I: usize>(PhantomData<T>);
+
+impl<T: Tableau<S>, const S: usize, const I: usize> Row<T, S, I> {
+    const WEIGHTS: [f64; S] = if I < S { T::A[I] } else { [0.0; S] };
+}
+
+/// A vector by its components.
+///
+/// For `core::array::from_fn` and `map` in hot code: what these call is not inlined always, and then it is compiled without
+/// the instructions of the chosen set (measured: thirty times slower). For the same reason the closures here say so too.
+#[inline(always)]
+pub(super) fn each<R: Copy, const N: usize>(like: R, component: impl Fn(usize) -> R) -> [R; N] {
+    let mut vector = [like; N];
+    for n in 0..N {
+        vector[n] = component(n);
+    }
+    vector
+}
+
+/// `length * slope`.
+#[inline(always)]
+pub(super) fn scaled<R: Real, const N: usize>(length: R, slope: &[R; N]) -> [R; N] {
+    each(
+        length,
+        #[inline(always)]
+        |n| length * slope[n],
+    )
+}
+
+/// sum_j w_j k_j.
+#[inline(always)]
+pub(super) fn weighted<R: Real, const N: usize, const S: usize>(k: &[[R; N]; S], weights: &[f64; S]) -> [R; N] {
+    each(
+        k[0][0],
+        #[inline(always)]
+        |n| {
+            let mut sum = k[0][n].zero();
+            for j in 0..S {
+                if weights[j] != 0.0 {
+                    sum = sum.splat(weights[j]).mul_add(k[j][n], sum);
+                }
+            }
+            sum
+        },
+    )
+}
+
+/// sum_j a_ij k_j for stage `stage`. One arm per stage: the derivative then stands in one place, in a loop, and is inlined
+/// once and not once per stage, which matters for kernels of 62 components.
+#[inline(always)]
+fn stage_slope<T, R, const N: usize, const S: usize>(stage: usize, k: &[[R; N]; S]) -> [R; N]
+where
+    T: Tableau<S>,
+    R: Real,
+{
+    macro_rules! arms {
+        ($($i:literal)*) => {
+            match stage {
+                $($i => weighted(k, &Row::<T, S, $i>::WEIGHTS),)*
+                _ => [k[0][0].zero(); N],
+            }
+        };
+    }
+    arms!(1 2 3 4 5 6 7 8 9 10 11 12 13 14 15)
+}
+
+/// Where a step starts and how far it goes.
+#[derive(Clone, Copy)]
+pub struct Step<R> {
+    /// Time at the start, s.
+    pub time: R,
+    /// Time at the end, s: a node of one is there, to the last bit.
+    pub end: R,
+    /// Length, s.
+    pub length: R,
+}
+
+impl<R: Real> Step<R> {
+    /// The time at the fraction `node` of the step.
+    #[inline(always)]
+    pub(super) fn at(&self, node: f64) -> R {
+        if node == 1.0 { self.end } else { self.length.mul_add(self.length.splat(node), self.time) }
+    }
+}
+
+/// A state and the part of it that is too small for its last digits.
+#[derive(Clone, Copy)]
+pub struct Carried<R, const N: usize> {
+    /// The state.
+    pub state: [R; N],
+    /// What is to be added to it in higher precision.
+    pub carry: [R; N],
+}
+
+impl<R: Real, const N: usize> Carried<R, N> {
+    /// The state advanced by `length * slope`.
+    #[inline(always)]
+    pub(super) fn advanced(&self, length: R, slope: &[R; N]) -> Self {
+        let mut next = *self;
+        for n in 0..N {
+            let (y, delta) = (self.state[n], length.mul_add(slope[n], self.carry[n]));
+            let sum = y + delta;
+            let part = sum - y;
+            next.state[n] = sum;
+            next.carry[n] = (y - (sum - part)) + (delta - part);
+        }
+        next
+    }
+
+    /// The state alone advanced by `length * slope`, for a stage.
+    #[inline(always)]
+    pub(super) fn shifted(&self, length: R, slope: &[R; N]) -> [R; N] {
+        each(
+            length,
+            #[inline(always)]
+            |n| length.mul_add(slope[n], self.state[n]),
+        )
+    }
+
+    /// `yes` where `mask` holds, else `no`.
+    #[inline(always)]
+    pub(super) fn select(mask: R::Mask, yes: &Self, no: &Self) -> Self {
+        Carried { state: chosen(mask, &yes.state, &no.state), carry: chosen(mask, &yes.carry, &no.carry) }
+    }
+}
+
+/// `yes` where `mask` holds, else `no`.
+#[inline(always)]
+pub(super) fn chosen<R: Real, const N: usize>(mask: R::Mask, yes: &[R; N], no: &[R; N]) -> [R; N] {
+    each(
+        yes[0],
+        #[inline(always)]
+        |n| R::select(mask, yes[n], no[n]),
+    )
+}
+
+/// Zero where all components are finite, else not a number.
+#[inline(always)]
+pub(super) fn poison<R: Real, const N: usize>(values: &[R; N], sum: R) -> R {
+    let mut sum = sum;
+    for n in 0..N {
+        sum = sum.zero().mul_add(values[n], sum);
+    }
+    sum
+}
+
+/// Fills the stages `from..to` of `k` and returns the state at the end of the step, as stage `closing` sees it.
+///
+/// Stage zero must stand. A `closing` of `S` leaves the end to the caller.
+#[inline(always)]
+pub(super) fn fill_stages<T, R, Q, const N: usize, const S: usize>(
+    system: &Q,
+    step: Step<R>,
+    start: &Carried<R, N>,
+    k: &mut [[R; N]; S],
+    (from, to, closing): (usize, usize, usize),
+) -> Carried<R, N>
+where
+    T: Tableau<S>,
+    R: Real,
+    Q: System<R, N>,
+{
+    let mut end = *start;
+    for i in from..to {
+        let slope = stage_slope::<T, R, N, S>(i, k);
+        let argument = if i == closing {
+            end = start.advanced(step.length, &slope);
+            end.state
+        } else {
+            start.shifted(step.length, &slope)
+        };
+        k[i] = system.derivative(step.at(T::C[i]), &argument);
+    }
+    end
+}

@@ -1,0 +1,134 @@
+//! Runge-Kutta methods on the gyrostat, as an [`Engine`].
+
+use fearless_simd::Simd;
+
+use super::embedded::Embedded;
+use super::fixed::FixedStep;
+use super::gyrostat_batch::GyrostatBatch;
+use super::gyrostat_runs::GyrostatRuns;
+use super::propagate::{Engine, Finish, Propagator};
+use super::step_control::Control;
+use super::workspace::Workspace;
+use super::{Runs, adaptive, fixed};
+use crate::dynamics::gyrostat::WITH_ATTITUDE;
+use crate::dynamics::outcome::Outcome;
+use crate::dynamics::table::{Grid, StateTable, Trajectory};
+use crate::math::{Lanes, Real};
+use crate::scene::Scene;
+
+/// A method together with its march.
+pub trait March: Copy {
+    /// Marches all runs; as [`adaptive::march`].
+    fn march<R, Q, F, const N: usize>(
+        self,
+        zero: R,
+        runs: &mut Q,
+        grid: &Grid,
+        control: &Control,
+        workspace: &mut Workspace,
+        finish: F,
+    ) where
+        R: Real,
+        Q: Runs<R, N>,
+        F: FnMut(&Q, usize, usize, &Trajectory, &Outcome);
+}
+
+/// A method that follows the tolerance.
+#[derive(Clone, Copy, Debug)]
+pub struct Adaptive<M>(pub M);
+
+/// A method with a fixed step.
+#[derive(Clone, Copy, Debug)]
+pub struct Fixed<M>(pub M);
+
+macro_rules! march {
+    ($kind:ident, $bound:ident, $module:ident) => {
+        impl<M: $bound> March for $kind<M> {
+            #[inline(always)]
+            fn march<R, Q, F, const N: usize>(
+                self,
+                zero: R,
+                runs: &mut Q,
+                grid: &Grid,
+                control: &Control,
+                workspace: &mut Workspace,
+                finish: F,
+            ) where
+                R: Real,
+                Q: Runs<R, N>,
+                F: FnMut(&Q, usize, usize, &Trajectory, &Outcome),
+            {
+                $module::march(self.0, zero, runs, grid, control, workspace, finish);
+            }
+        }
+    };
+}
+march!(Adaptive, Embedded, adaptive);
+march!(Fixed, FixedStep, fixed);
+
+/// One worker's memory.
+pub struct RungeKuttaEngine<S, M, const N: usize> {
+    simd: S,
+    march: M,
+    plan: Propagator,
+    batch: GyrostatBatch,
+    workspace: Workspace,
+    table: StateTable,
+}
+
+impl<S: Simd, M: March, const N: usize> RungeKuttaEngine<S, M, N> {
+    /// Memory for the runs of `plan`.
+    pub fn new(simd: S, march: M, plan: &Propagator) -> Self {
+        let points = plan.grid.points();
+        RungeKuttaEngine {
+            simd,
+            march,
+            plan: plan.clone(),
+            batch: GyrostatBatch::new(plan),
+            workspace: Workspace::new(Lanes::<S>::LANES, N, points),
+            table: StateTable::new(plan.blocks, points),
+        }
+    }
+
+    #[inline(always)]
+    fn run(&mut self, scenes: &[Scene], finish: &mut Finish<'_>) {
+        let Self { simd, march, plan, batch, workspace, table } = self;
+        let zero = Lanes::broadcast(*simd, 0.0);
+        batch.take(scenes);
+        if batch.begin_debris(scenes) {
+            // the debris is a gyrostat without wheels; it needs no more than its attitude
+            let (runs, store) = batch.debris();
+            let mut runs = GyrostatRuns::new(zero, runs);
+            march.march::<_, _, _, WITH_ATTITUDE>(
+                zero,
+                &mut runs,
+                &plan.grid,
+                &plan.control,
+                workspace,
+                |_, _, run, trajectory, _| store[run].copy_from(trajectory),
+            );
+        }
+        let mut runs = GyrostatRuns::new(zero, batch.runs());
+        march.march::<_, _, _, N>(
+            zero,
+            &mut runs,
+            &plan.grid,
+            &plan.control,
+            workspace,
+            |_, _, run, trajectory, outcome| {
+                batch.complete::<S, N>(*simd, scenes, run, trajectory, table);
+                finish(run, table, outcome);
+            },
+        );
+    }
+}
+
+impl<S: Simd, M: March + Send, const N: usize> Engine for RungeKuttaEngine<S, M, N> {
+    fn propagate(&mut self, scenes: &[Scene], finish: &mut Finish<'_>) {
+        let simd = self.simd;
+        simd.vectorize(
+            #[inline(always)]
+            || self.run(scenes, finish),
+        );
+    }
+}

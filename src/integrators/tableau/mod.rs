@@ -1,0 +1,94 @@
+//! Constant tableaus of Runge-Kutta methods, and the proof of their orders.
+//!
+//! Only numbers and their sources; how a step is taken from them stands in [`super::explicit`] and
+//! [`super::gauss_legendre`]. The tests here hold every tableau against all order conditions of its order, one for each
+//! rooted tree (Butcher 1963; Hairer, Norsett & Wanner 1993, theorem II.2.13), so that no digit stands on trust.
+
+pub mod dop853;
+pub mod dormand_prince;
+pub mod gauss_legendre;
+pub mod runge_kutta_4;
+#[cfg(test)]
+pub(super) mod trees;
+
+pub use dop853::Dop853Tableau;
+pub use dormand_prince::DormandPrinceTableau;
+pub use gauss_legendre::GaussLegendreTableau;
+pub use runge_kutta_4::RungeKutta4Tableau;
+
+/// A Runge-Kutta method of `S` stages: k_i = f(t + C_i h, y + h sum_j A_ij k_j), y' = y + h sum_i B_i k_i.
+pub trait Tableau<const S: usize> {
+    /// Nodes, as fractions of the step.
+    const C: [f64; S];
+    /// Weights of the stages in each stage; strictly lower triangular where the method is explicit.
+    const A: [[f64; S]; S];
+    /// Weights of the stages in the step.
+    const B: [f64; S];
+}
+
+#[cfg(test)]
+mod tests {
+    use super::trees::{largest_defect, largest_defect_at};
+    use super::*;
+
+    /// Round-off of the conditions: coefficients up to 50 in products of up to seven sums, in units of the last place.
+    const ROUND_OFF: f64 = 2e-13;
+
+    fn orders<T: Tableau<S>, const S: usize>(order: usize) {
+        for (row, node) in T::A.iter().zip(T::C) {
+            assert!((row.iter().sum::<f64>() - node).abs() < ROUND_OFF, "row sum for the node {node}");
+        }
+        let defect = largest_defect(&T::A, &T::B, 1.0, order);
+        assert!(defect < ROUND_OFF, "order {order}: {defect:e}");
+        // The counter-test: the next order is not reached, and a slip in a digit is seen.
+        assert!(largest_defect(&T::A, &T::B, 1.0, order + 1) > 1e-6);
+        let mut slip = T::B;
+        slip[0] += 1e-10;
+        assert!(largest_defect(&T::A, &slip, 1.0, order) > 1e-11);
+    }
+
+    #[test]
+    fn dormand_prince_has_order_5() {
+        orders::<DormandPrinceTableau, 7>(5);
+    }
+
+    #[test]
+    fn dop853_has_order_8() {
+        orders::<Dop853Tableau, 16>(8);
+    }
+
+    #[test]
+    fn runge_kutta_4_has_order_4() {
+        orders::<RungeKutta4Tableau, 4>(4);
+    }
+
+    #[test]
+    fn gauss_legendre_has_order_6_and_keeps_quadratic_invariants() {
+        orders::<GaussLegendreTableau, 3>(6);
+        // Cooper 1987: b_i a_ij + b_j a_ji = b_i b_j.
+        let (a, b) = (GaussLegendreTableau::A, GaussLegendreTableau::B);
+        for i in 0..3 {
+            for j in 0..3 {
+                assert!((b[i] * a[i][j] + b[j] * a[j][i] - b[i] * b[j]).abs() < 1e-16);
+            }
+        }
+    }
+
+    #[test]
+    fn first_same_as_last() {
+        assert_eq!(DormandPrinceTableau::A[6], DormandPrinceTableau::B);
+        assert_eq!(Dop853Tableau::A[12], Dop853Tableau::B);
+    }
+
+    #[test]
+    fn embedded_solutions_have_their_orders() {
+        let embedded = std::array::from_fn(|i| DormandPrinceTableau::B[i] - DormandPrinceTableau::E[i]);
+        assert!(largest_defect(&DormandPrinceTableau::A, &embedded, 1.0, 4) < ROUND_OFF);
+        assert!(largest_defect_at(&DormandPrinceTableau::A, &embedded, 5) > 1e-6);
+        for (error, order) in [(Dop853Tableau::E5, 5), (Dop853Tableau::E3, 3)] {
+            let embedded = std::array::from_fn(|i| Dop853Tableau::B[i] - error[i]);
+            assert!(largest_defect(&Dop853Tableau::A, &embedded, 1.0, order) < ROUND_OFF);
+            assert!(largest_defect(&Dop853Tableau::A, &embedded, 1.0, order + 1) > 1e-6);
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! Rooted trees and the order conditions that they stand for (Hairer, Norsett & Wanner 1993, section II.2).
+
+/// A rooted tree by what hangs on its root.
+#[derive(Clone)]
+struct Tree(Vec<Tree>);
+
+impl Tree {
+    /// Number of nodes.
+    fn order(&self) -> usize {
+        1 + self.0.iter().map(Tree::order).sum::<usize>()
+    }
+
+    /// The density gamma.
+    fn density(&self) -> f64 {
+        self.order() as f64 * self.0.iter().map(Tree::density).product::<f64>()
+    }
+
+    /// The products over the branches, stage by stage: the elementary weight is their sum with the weights b.
+    fn stages<const S: usize>(&self, a: &[[f64; S]; S]) -> [f64; S] {
+        let mut product = [1.0; S];
+        for branch in &self.0 {
+            let inner = branch.stages(a);
+            for (i, factor) in product.iter_mut().enumerate() {
+                *factor *= (0..S).map(|j| a[i][j] * inner[j]).sum::<f64>();
+            }
+        }
+        product
+    }
+}
+
+/// All trees of each order up to `order`: element n holds those with n nodes.
+fn trees(order: usize) -> Vec<Vec<Tree>> {
+    let mut all: Vec<Vec<Tree>> = vec![Vec::new()];
+    for nodes in 1..=order {
+        // Multisets of branches of nodes - 1 nodes in all: branches in the order of (size, index), never falling.
+        let mut of_order = Vec::new();
+        let mut open = vec![(Vec::new(), nodes - 1, (1, 0))];
+        while let Some((branches, left, (size, index))) = open.pop() {
+            if left == 0 {
+                of_order.push(Tree(branches));
+                continue;
+            }
+            for next in size..=left {
+                let first = if next == size { index } else { 0 };
+                for (k, tree) in all[next].iter().enumerate().skip(first) {
+                    let mut longer: Vec<Tree> = branches.clone();
+                    longer.push(tree.clone());
+                    open.push((longer, left - next, (next, k)));
+                }
+            }
+        }
+        all.push(of_order);
+    }
+    all
+}
+
+fn defects<const S: usize>(a: &[[f64; S]; S], b: &[f64; S], s: f64, trees: &[Tree]) -> Vec<f64> {
+    let defect = |tree: &Tree| {
+        let weight: f64 = tree.stages(a).iter().zip(b).map(|(phi, b)| phi * b).sum();
+        (weight - s.powi(tree.order() as i32) / tree.density()).abs()
+    };
+    trees.iter().map(defect).collect()
+}
+
+/// The largest defect of the conditions up to `order` for the weights `b` at the fraction `s` of the step.
+pub fn largest_defect<const S: usize>(a: &[[f64; S]; S], b: &[f64; S], s: f64, order: usize) -> f64 {
+    trees(order).iter().flat_map(|trees| defects(a, b, s, trees)).fold(0.0, f64::max)
+}
+
+/// The largest defect among the conditions of exactly `order` at the end of the step.
+pub fn largest_defect_at<const S: usize>(a: &[[f64; S]; S], b: &[f64; S], order: usize) -> f64 {
+    defects(a, b, 1.0, &trees(order)[order]).into_iter().fold(0.0, f64::max)
+}
+
+#[test]
+fn there_are_as_many_trees_as_cayley_counted() {
+    let counts: Vec<usize> = trees(8).iter().map(Vec::len).collect();
+    assert_eq!(counts, [0, 1, 1, 2, 4, 9, 20, 48, 115]);
+}

@@ -1,0 +1,143 @@
+//! Fractional powers from [`Real`] operations alone: the same bits in a scalar and in every lane, on every platform.
+//!
+//! For step control, where ten digits are more than enough. The logarithm is the series of artanh about the nearest power
+//! of two, the exponential a Taylor polynomial on half an octave either way (Abramowitz & Stegun 1964, 4.1.27 and 4.2.1).
+//! Not for values of a row: `libm` is for those.
+
+use super::Real;
+
+/// 1.5 * 2^52: adding and taking it away rounds to the nearest integer, ties to even, in one way everywhere.
+const ROUNDING: f64 = 6_755_399_441_055_744.0;
+
+/// The smallest normal number: what is below counts as this.
+const SMALLEST: f64 = f64::MIN_POSITIVE;
+
+/// The largest number whose power of two has a normal reciprocal: what is above counts as this.
+const LARGEST: f64 = f64::MAX / 2.0;
+
+/// Terms of the artanh series; the first that is left out is below 2e-14 at |t| <= 0.172.
+const LOGARITHM: [f64; 8] = [1.0, 1.0 / 3.0, 1.0 / 5.0, 1.0 / 7.0, 1.0 / 9.0, 1.0 / 11.0, 1.0 / 13.0, 1.0 / 15.0];
+
+/// 1/k!; the first term that is left out is below 1e-14 at |x| <= ln(2)/2.
+const EXPONENTIAL: [f64; 12] = [
+    1.0,
+    1.0,
+    1.0 / 2.0,
+    1.0 / 6.0,
+    1.0 / 24.0,
+    1.0 / 120.0,
+    1.0 / 720.0,
+    1.0 / 5_040.0,
+    1.0 / 40_320.0,
+    1.0 / 362_880.0,
+    1.0 / 3_628_800.0,
+    1.0 / 39_916_800.0,
+];
+
+/// `c[0] + c[1] x + ...`.
+#[inline(always)]
+fn polynomial<R: Real, const K: usize>(coefficients: &[f64; K], x: R) -> R {
+    let mut sum = x.splat(coefficients[K - 1]);
+    for k in (0..K - 1).rev() {
+        sum = sum.mul_add(x, x.splat(coefficients[k]));
+    }
+    sum
+}
+
+/// log2 of a positive number, to an absolute error of 1e-13.
+///
+/// Zero, negative, subnormal and what is not a number count as the smallest normal number, anything above 2^1023 as that.
+#[inline(always)]
+pub fn log2<R: Real>(x: R) -> R {
+    let x = x.larger(x.splat(SMALLEST)).smaller(x.splat(LARGEST));
+    let exponent = x.exponent();
+    let mantissa = x * (-exponent).power_of_two();
+    // From [1, 2) to [0.71, 1.42), where the series converges fastest.
+    let upper = x.splat(core::f64::consts::SQRT_2).lt(mantissa);
+    let exponent = R::select(upper, exponent + x.splat(1.0), exponent);
+    let mantissa = R::select(upper, mantissa * x.splat(0.5), mantissa);
+    let t = (mantissa - x.splat(1.0)) / (mantissa + x.splat(1.0));
+    let series = t * polynomial(&LOGARITHM, t * t);
+    series.mul_add(x.splat(2.0 * core::f64::consts::LOG2_E), exponent)
+}
+
+/// 2^x, to a relative error of 1e-13; clamped to the range of normal numbers.
+#[inline(always)]
+pub fn exp2<R: Real>(x: R) -> R {
+    let x = x.larger(x.splat(-1022.0)).smaller(x.splat(1023.0));
+    let whole = (x + x.splat(ROUNDING)) - x.splat(ROUNDING);
+    polynomial(&EXPONENTIAL, (x - whole) * x.splat(core::f64::consts::LN_2)) * whole.power_of_two()
+}
+
+/// `x^exponent` for a positive `x` and a small `exponent` (|exponent| <= 1), to a relative error of [`POWER_ERROR`].
+///
+/// Arguments outside the normal range are clamped as [`log2`] says; callers ask for non-finite values separately.
+#[inline(always)]
+pub fn power<R: Real>(x: R, exponent: f64) -> R {
+    exp2(log2(x) * x.splat(exponent))
+}
+
+/// What [`power`] promises: half a unit in the last place of log2 at the ends of the range (1.1e-13), and of its product with
+/// the exponent, times ln 2; rounded up.
+pub const POWER_ERROR: f64 = 3e-13;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Isa;
+    use crate::math::isa::Work;
+    use crate::math::lanes::{Lanes, WIDTH};
+    use fearless_simd::Simd;
+
+    fn samples() -> impl Iterator<Item = f64> {
+        (-3000..3000).map(|k| libm::exp(k as f64 * 0.2360679 / 1.01) * (1.0 + 1e-3 * (k % 7) as f64))
+    }
+
+    #[test]
+    fn powers_agree_with_libm() {
+        for x in samples() {
+            for exponent in [0.2, -0.2, 0.125, -0.125, 1.0 / 3.0, -1.0] {
+                let truth = libm::pow(x, exponent);
+                let error = (power(x, exponent) / truth - 1.0).abs();
+                assert!(error < POWER_ERROR, "{x:e}^{exponent}: {error:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn exact_powers_of_two_and_edges() {
+        assert_eq!(power(1.0, 0.2), 1.0);
+        assert_eq!(power(32.0, 0.2), 2.0);
+        assert_eq!(power(256.0, -0.125), 0.5);
+        assert_eq!(power(0.0, 0.2), power(f64::MIN_POSITIVE, 0.2));
+        assert_eq!(power(f64::NAN, 0.2), power(f64::MIN_POSITIVE, 0.2));
+        assert!(power(f64::INFINITY, 0.2).is_finite());
+        assert_eq!(1023.0_f64.power_of_two(), 2.0_f64.powi(1023));
+        assert_eq!((-1022.0_f64).power_of_two(), f64::MIN_POSITIVE);
+        assert_eq!(f64::MIN_POSITIVE.exponent(), -1022.0);
+        assert_eq!(7.9.exponent(), 2.0);
+    }
+
+    struct EightPowers([f64; WIDTH]);
+    impl Work for EightPowers {
+        type Output = [f64; WIDTH];
+        #[inline(always)]
+        fn run<S: Simd>(self, simd: S) -> [f64; WIDTH] {
+            power(Lanes::load(simd, &self.0), 0.2).to_array()
+        }
+    }
+
+    #[test]
+    fn a_lane_has_the_bits_of_the_scalar() {
+        let values: Vec<f64> = samples().chain([0.0, f64::NAN, f64::INFINITY, -1.0]).collect();
+        for isa in Isa::available() {
+            for eight in values.chunks_exact(WIDTH) {
+                let eight: [f64; WIDTH] = eight.try_into().expect("chunks of eight");
+                let lanes = isa.run(EightPowers(eight));
+                for (lane, x) in lanes.iter().zip(eight) {
+                    assert_eq!(lane.to_bits(), power(x, 0.2).to_bits(), "{x:e} on {}", isa.name());
+                }
+            }
+        }
+    }
+}

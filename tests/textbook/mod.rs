@@ -1,0 +1,311 @@
+//! Textbook problems as runs in lanes, and one way to march them as scalars or in lanes.
+
+#![allow(dead_code)] // Every test file uses its own part.
+
+use fearless_simd::Simd;
+use spindrift::dynamics::table::{Grid, Trajectory};
+use spindrift::integrators::embedded::Embedded;
+use spindrift::integrators::fixed::FixedStep;
+use spindrift::integrators::{Control, Outcome, Runs, System, Tolerance, Workspace, adaptive, fixed};
+use spindrift::math::isa::Work;
+use spindrift::math::{Isa, Lanes, Real};
+
+/// A right-hand side with `P` parameters; `stretch` counts the stretches.
+pub trait Law<const N: usize, const P: usize>: Copy {
+    fn derivative<R: Real>(time: R, state: &[R; N], parameters: &[R; P], stretch: R) -> [R; N];
+}
+
+/// One run: initial state, parameters, ends of its stretches.
+#[derive(Clone)]
+pub struct Case<const N: usize, const P: usize> {
+    pub state: [f64; N],
+    pub parameters: [f64; P],
+    pub ends: Vec<f64>,
+}
+
+/// Runs of one law.
+pub struct Bank<R, L, const N: usize, const P: usize> {
+    law: L,
+    cases: Vec<Case<N, P>>,
+    loaded: [usize; 8],
+    parameters: [R; P],
+    stretch: R,
+}
+
+impl<R: Real, L: Law<N, P>, const N: usize, const P: usize> System<R, N> for Bank<R, L, N, P> {
+    #[inline(always)]
+    fn derivative(&self, time: R, state: &[R; N]) -> [R; N] {
+        L::derivative(time, state, &self.parameters, self.stretch)
+    }
+
+    /// ode45: max |e_i| / max(|y_i|, |y'_i|, atol/rtol) / rtol.
+    #[inline(always)]
+    fn error_ratio(&self, error: &[R; N], old: &[R; N], new: &[R; N], tolerance: Tolerance) -> R {
+        let zero = error[0].zero();
+        let threshold = zero.splat(tolerance.absolute / tolerance.relative);
+        let mut largest = zero;
+        for n in 0..N {
+            largest = (error[n].abs() / old[n].abs().larger(new[n].abs()).larger(threshold)).larger(largest);
+        }
+        largest / zero.splat(tolerance.relative)
+    }
+}
+
+impl<R: Real, L: Law<N, P>, const N: usize, const P: usize> Runs<R, N> for Bank<R, L, N, P> {
+    fn count(&self) -> usize {
+        self.cases.len()
+    }
+    fn load(&mut self, lane: usize, run: usize) -> [f64; N] {
+        self.loaded[lane] = run;
+        for (slot, value) in self.parameters.iter_mut().zip(self.cases[run].parameters) {
+            slot.set_lane(lane, value);
+        }
+        self.cases[run].state
+    }
+    fn stretches(&self, lane: usize) -> usize {
+        self.cases[self.loaded[lane]].ends.len()
+    }
+    fn enter(&mut self, lane: usize, stretch: usize) -> f64 {
+        self.stretch.set_lane(lane, stretch as f64);
+        self.cases[self.loaded[lane]].ends[stretch]
+    }
+}
+
+/// A method with the march that it belongs to.
+pub trait Marcher: Copy {
+    fn march<R: Real, Q: Runs<R, N>, F, const N: usize>(
+        self,
+        zero: R,
+        runs: &mut Q,
+        grid: &Grid,
+        control: &Control,
+        workspace: &mut Workspace,
+        finish: F,
+    ) where
+        F: FnMut(&Q, usize, usize, &Trajectory, &Outcome);
+}
+
+#[derive(Clone, Copy)]
+pub struct Adaptive<M>(pub M);
+impl<M: Embedded> Marcher for Adaptive<M> {
+    #[inline(always)]
+    fn march<R: Real, Q: Runs<R, N>, F, const N: usize>(
+        self,
+        zero: R,
+        runs: &mut Q,
+        grid: &Grid,
+        control: &Control,
+        workspace: &mut Workspace,
+        finish: F,
+    ) where
+        F: FnMut(&Q, usize, usize, &Trajectory, &Outcome),
+    {
+        adaptive::march(self.0, zero, runs, grid, control, workspace, finish);
+    }
+}
+
+#[derive(Clone, Copy)]
+pub struct Fixed<M>(pub M);
+impl<M: FixedStep> Marcher for Fixed<M> {
+    #[inline(always)]
+    fn march<R: Real, Q: Runs<R, N>, F, const N: usize>(
+        self,
+        zero: R,
+        runs: &mut Q,
+        grid: &Grid,
+        control: &Control,
+        workspace: &mut Workspace,
+        finish: F,
+    ) where
+        F: FnMut(&Q, usize, usize, &Trajectory, &Outcome),
+    {
+        fixed::march(self.0, zero, runs, grid, control, workspace, finish);
+    }
+}
+
+/// What became of a run.
+#[derive(Clone)]
+pub struct Journey<const N: usize> {
+    pub points: Vec<[f64; N]>,
+    pub outcome: Outcome,
+}
+
+impl<const N: usize> Journey<N> {
+    pub fn bits(&self) -> (Vec<[u64; N]>, Outcome) {
+        (self.points.iter().map(|point| point.map(f64::to_bits)).collect(), self.outcome)
+    }
+}
+
+#[inline(always)] // Else it is compiled without the instructions of the chosen set.
+fn marched<M, R, L, const N: usize, const P: usize>(
+    (method, law): (M, L),
+    zero: R,
+    cases: &[Case<N, P>],
+    grid: &Grid,
+    control: &Control,
+) -> Vec<Journey<N>>
+where
+    M: Marcher,
+    R: Real,
+    L: Law<N, P>,
+{
+    let mut bank = Bank { law, cases: cases.to_vec(), loaded: [0; 8], parameters: [zero; P], stretch: zero };
+    let mut workspace = Workspace::new(R::LANES, N, grid.points());
+    let mut journeys: Vec<Option<Journey<N>>> = vec![None; cases.len()];
+    method.march(zero, &mut bank, grid, control, &mut workspace, |bank, lane, run, trajectory, outcome| {
+        assert_eq!(bank.loaded[lane], run, "the lane still holds the run that is handed over");
+        let points = (0..trajectory.points()).map(|point| trajectory.at(point)).collect();
+        let former = journeys[run].replace(Journey { points, outcome: *outcome });
+        assert!(former.is_none(), "every run is handed over once");
+    });
+    journeys.into_iter().map(|journey| journey.expect("every run is handed over")).collect()
+}
+
+/// Marches all cases one by one.
+pub fn scalar<M: Marcher, L: Law<N, P>, const N: usize, const P: usize>(
+    method: M,
+    law: L,
+    cases: &[Case<N, P>],
+    grid: &Grid,
+    control: &Control,
+) -> Vec<Journey<N>> {
+    marched((method, law), 0.0_f64, cases, grid, control)
+}
+
+/// Marches all cases in lanes.
+pub fn lanes<M: Marcher, L: Law<N, P>, const N: usize, const P: usize>(
+    isa: Isa,
+    method: M,
+    law: L,
+    cases: &[Case<N, P>],
+    grid: &Grid,
+    control: &Control,
+) -> Vec<Journey<N>> {
+    struct March<'a, M, L, const N: usize, const P: usize>(M, L, &'a [Case<N, P>], &'a Grid, &'a Control);
+    impl<M: Marcher, L: Law<N, P>, const N: usize, const P: usize> Work for March<'_, M, L, N, P> {
+        type Output = Vec<Journey<N>>;
+        #[inline(always)]
+        fn run<S: Simd>(self, simd: S) -> Vec<Journey<N>> {
+            marched((self.0, self.1), Lanes::broadcast(simd, 0.0), self.2, self.3, self.4)
+        }
+    }
+    isa.run(March(method, law, cases, grid, control))
+}
+
+/// A control with equal relative and absolute tolerance.
+pub fn control(tolerance: f64, step: f64) -> Control {
+    Control {
+        tolerance: Tolerance { relative: tolerance, absolute: tolerance },
+        step: Some(step),
+        max_steps: 1_000_000,
+    }
+}
+
+/// y'' = -w^2 y with w the parameter.
+#[derive(Clone, Copy)]
+pub struct Oscillator;
+impl Law<2, 1> for Oscillator {
+    #[inline(always)]
+    fn derivative<R: Real>(_time: R, y: &[R; 2], p: &[R; 1], _stretch: R) -> [R; 2] {
+        [p[0] * y[1], -(p[0] * y[0])]
+    }
+}
+
+/// Euler's equations of the free rigid body with the moments of inertia as parameters (Hairer, Lubich & Wanner 2006, IV.1.3).
+#[derive(Clone, Copy)]
+pub struct RigidBody;
+impl Law<3, 3> for RigidBody {
+    #[inline(always)]
+    fn derivative<R: Real>(_time: R, y: &[R; 3], i: &[R; 3], _stretch: R) -> [R; 3] {
+        let w = [y[0] / i[0], y[1] / i[1], y[2] / i[2]];
+        spindrift::math::vector::cross(*y, w)
+    }
+}
+
+/// Hairer, Lubich & Wanner 2006, section IV.1 (example 1.7).
+pub const RIGID_BODY: ([f64; 3], [f64; 3]) = ([0.899_3, 0.0, 0.437_4], [2.0, 1.0, 2.0 / 3.0]);
+
+/// The restricted three-body problem (Hairer, Norsett & Wanner 1993, (0.1)) with the smaller mass as the parameter.
+#[derive(Clone, Copy)]
+pub struct ThreeBody;
+impl Law<4, 1> for ThreeBody {
+    #[inline(always)]
+    fn derivative<R: Real>(_time: R, y: &[R; 4], p: &[R; 1], _stretch: R) -> [R; 4] {
+        let [x, z, u, v] = *y;
+        let (mu, nu) = (p[0], x.splat(1.0) - p[0]);
+        let (a, b) = (nu / cube(x + mu, z), mu / cube(x - nu, z));
+        let two = x.splat(2.0);
+        [u, v, x + two * v - a * (x + mu) - b * (x - nu), z - two * u - a * z - b * z]
+    }
+}
+
+/// The cube of the distance (x, z).
+#[inline(always)]
+fn cube<R: Real>(x: R, z: R) -> R {
+    let square = x.mul_add(x, z * z);
+    square * square.sqrt()
+}
+
+/// Arenstorf's orbit: mass, initial state, period.
+pub const ARENSTORF: (f64, [f64; 4], f64) =
+    (0.012277471, [0.994, 0.0, 0.0, -2.001_585_106_379_082_5], 17.065_216_560_157_964);
+
+/// y'' = (1 - y^2) y' - y.
+#[derive(Clone, Copy)]
+pub struct VanDerPol;
+impl Law<2, 0> for VanDerPol {
+    #[inline(always)]
+    fn derivative<R: Real>(_time: R, y: &[R; 2], _p: &[R; 0], _stretch: R) -> [R; 2] {
+        [y[1], (y[0].splat(1.0) - y[0] * y[0]) * y[1] - y[0]]
+    }
+}
+
+/// y' = y^2: y(0) = 1 has a pole at t = 1.
+#[derive(Clone, Copy)]
+pub struct BlowUp;
+impl Law<1, 0> for BlowUp {
+    #[inline(always)]
+    fn derivative<R: Real>(_time: R, y: &[R; 1], _p: &[R; 0], _stretch: R) -> [R; 1] {
+        [y[0] * y[0]]
+    }
+}
+
+/// y' = sqrt(y): no number left of zero, and so none for y(0) < 0.
+#[derive(Clone, Copy)]
+pub struct NotANumber;
+impl Law<1, 0> for NotANumber {
+    #[inline(always)]
+    fn derivative<R: Real>(_time: R, y: &[R; 1], _p: &[R; 0], _stretch: R) -> [R; 1] {
+        [y[0].sqrt()]
+    }
+}
+
+/// y' = (s + 1) (3 t^2): in stretch s, a quadrature whose right-hand side jumps at every boundary; it takes the absolute time.
+#[derive(Clone, Copy)]
+pub struct Switched;
+impl Law<1, 0> for Switched {
+    #[inline(always)]
+    fn derivative<R: Real>(time: R, _y: &[R; 1], _p: &[R; 0], stretch: R) -> [R; 1] {
+        [(stretch + time.splat(1.0)) * (time.splat(3.0) * (time * time))]
+    }
+}
+
+/// Marches all cases one by one, compiled for the instruction set `isa`.
+pub fn scalar_on<M: Marcher, L: Law<N, P>, const N: usize, const P: usize>(
+    isa: Isa,
+    method: M,
+    law: L,
+    cases: &[Case<N, P>],
+    grid: &Grid,
+    control: &Control,
+) -> Vec<Journey<N>> {
+    struct March<'a, M, L, const N: usize, const P: usize>(M, L, &'a [Case<N, P>], &'a Grid, &'a Control);
+    impl<M: Marcher, L: Law<N, P>, const N: usize, const P: usize> Work for March<'_, M, L, N, P> {
+        type Output = Vec<Journey<N>>;
+        #[inline(always)]
+        fn run<S: Simd>(self, _simd: S) -> Vec<Journey<N>> {
+            marched((self.0, self.1), 0.0_f64, self.2, self.3, self.4)
+        }
+    }
+    isa.run(March(method, law, cases, grid, control))
+}
