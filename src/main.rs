@@ -1,1 +1,14 @@
-fn main() {}
+//! The program `spindrift`; what it does, the library does.
+
+use std::process::ExitCode;
+
+use spindrift::cli::{Command, arguments, campaign, check, simulate, verdict};
+
+fn main() -> ExitCode {
+    let ended = match arguments().command {
+        Command::Campaign(options) => campaign::run(&options),
+        Command::Check(options) => check::run(&options),
+        Command::Simulate(options) => simulate::run(&options),
+    };
+    verdict::exit_code(ended)
+}

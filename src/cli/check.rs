@@ -1,0 +1,228 @@
+//! `spindrift check`: what a campaign would run.
+
+use std::fmt::Write as _;
+use std::time::Instant;
+
+use crate::campaign::{Overrides, Plan};
+use crate::cli::campaign::bytes;
+use crate::cli::verdict::{Failure, Verdict};
+use crate::cli::{CheckOptions, isa, plan, screen};
+use crate::dynamics::table::Block;
+use crate::ensemble::{Campaign, Part, PartId, Parts, Rows};
+use crate::integrators::Status;
+use crate::observables::Request;
+use crate::output::rows_file::RowsFile;
+use crate::output::summary::short;
+use crate::sampling::{Distribution, SampleId};
+use crate::scene::{MassProperties, Scene};
+
+/// The probe runs about this long, s.
+const PROBE_SECONDS: f64 = 0.5;
+/// The probe runs at most this many samples.
+const PROBE_SAMPLES: usize = 512;
+
+/// Runs the command.
+///
+/// # Errors
+/// Where the campaign file is wrong.
+pub fn run(options: &CheckOptions) -> Result<Verdict, Failure> {
+    let plan = plan(&options.file, Overrides::default())?;
+    let campaign = Campaign::new(&plan, isa()?);
+    let scene = Scene::resolve(&plan.nominal)
+        .map_err(|errors| Failure::Input(errors.iter().map(|error| format!("{error}\n")).collect()))?;
+    let mut text = String::new();
+    let written = (|| {
+        section(&mut text, &format!("Plan (hash {})", plan.hash()))?;
+        text.push_str(&plan.text());
+        masses(&mut text, &scene.mass)?;
+        dispersions(&mut text, &plan)?;
+        blocks(&mut text, &campaign)?;
+        std::fmt::Result::Ok(())
+    })();
+    written.map_err(Failure::files)?;
+    screen::print(&text)?;
+    screen::print(&estimate(&campaign)?)?;
+    Ok(Verdict::Done)
+}
+
+fn section(text: &mut String, title: &str) -> std::fmt::Result {
+    let gap = if text.is_empty() { "" } else { "\n" };
+    writeln!(text, "{gap}== {title}")
+}
+
+/// Masses, centre of mass, inertia, with the convention.
+fn masses(text: &mut String, mass: &MassProperties) -> std::fmt::Result {
+    section(text, "Mass properties of the nominal scene")?;
+    let [wheel1, wheel2] = &mass.wheels;
+    let debris = mass.debris.as_ref().map(|debris| ("debris", debris.mass));
+    for (body, mass) in [("fuselage", mass.fuselage.mass), ("wheel 1", wheel1.mass), ("wheel 2", wheel2.mass)]
+        .into_iter()
+        .chain([("spacecraft", mass.total)])
+        .chain(debris)
+    {
+        writeln!(text, "{body:<12}{mass:>24?} kg")?;
+    }
+    let [x, y, z] = mass.center;
+    writeln!(text, "centre of mass of the spacecraft, from p in F_s: [{x:?}, {y:?}, {z:?}] m")?;
+    tensor(text, "inertia of the spacecraft, wheels locked, about its centre of mass", mass.inertia)?;
+    tensor(text, "the same less the wheels' axial inertias (J*: wheels free)", mass.inertia_free)?;
+    tensor(text, "inertia of the fuselage about its own centre of mass", mass.fuselage.inertia)?;
+    writeln!(text, "wheel 1: axial {:?}, transverse {:?} kg m^2", wheel1.axial, wheel1.transverse)?;
+    writeln!(text, "wheel 2: axial {:?}, transverse {:?} kg m^2", wheel2.axial, wheel2.transverse)?;
+    writeln!(
+        text,
+        "Convention: tensors in F_s (origin p, s3 along the fuselage's axis, wheel 1 spins about s2, wheel 2 about s3);\n\
+         off-diagonal entries are those of the tensor, J_xy = -integral of x y dm."
+    )
+}
+
+fn tensor(text: &mut String, name: &str, rows: [[f64; 3]; 3]) -> std::fmt::Result {
+    writeln!(text, "{name}, kg m^2:")?;
+    for [x, y, z] in rows {
+        writeln!(text, "  {x:>24?}{y:>24?}{z:>24?}")?;
+    }
+    Ok(())
+}
+
+fn dispersions(text: &mut String, plan: &Plan) -> std::fmt::Result {
+    section(text, "Dispersions")?;
+    let columns = plan.dispersions.columns();
+    if columns.is_empty() {
+        return writeln!(text, "none: every sample is the nominal scene");
+    }
+    let names: Vec<String> = columns.iter().map(|column| column.parameter.component_name(column.component)).collect();
+    let width = names.iter().map(String::len).max().unwrap_or(0);
+    writeln!(
+        text,
+        "{:<width$}  {:>12}  {:>12}{:>12}{:>12}  law",
+        "parameter (sample 0 is nominal)", "nominal", "1%", "50%", "99%"
+    )?;
+    for (name, column) in names.iter().zip(columns) {
+        write!(text, "{name:<width$}  {:>12}  ", short(column.nominal))?;
+        match &column.law {
+            Some(law) => {
+                for p in [0.01, 0.5, 0.99] {
+                    write!(text, "{:>12}", short(law.quantile(p)))?;
+                }
+                writeln!(text, "  {}", law_text(law))?;
+            }
+            None => writeln!(text, "{:>36}  follows its siblings", "")?,
+        }
+    }
+    Ok(())
+}
+
+/// A law in words.
+fn law_text(law: &Distribution) -> String {
+    match law {
+        Distribution::Normal { std, .. } => format!("normal, std {}", short(*std)),
+        Distribution::TruncatedNormal(_) => {
+            // the bounds, to the digits shown
+            let [low, high] = [f64::EPSILON, 1.0 - f64::EPSILON].map(|u| short(law.quantile(u)));
+            format!("truncated normal, {low} to {high}")
+        }
+        Distribution::Uniform { min, max } => format!("uniform, {} to {}", short(*min), short(*max)),
+    }
+}
+
+/// What is integrated and why, and what is not.
+fn blocks(text: &mut String, campaign: &Campaign<'_>) -> std::fmt::Result {
+    section(text, "What is computed")?;
+    let reasons = campaign.request().reasons();
+    for block in Block::ALL {
+        let name = block_name(block);
+        match reasons.iter().find(|(needed, _)| *needed == block) {
+            Some((_, reason)) => writeln!(text, "{name:<44} needed because of {reason}")?,
+            None => writeln!(text, "{name:<44} skipped: {}", absence(campaign.request(), block))?,
+        }
+    }
+    for (piece, scheduled) in [("thrust", campaign.propagator().thrust), ("wheel motors", campaign.propagator().motors)]
+    {
+        let why = if scheduled { "needed because the schedule has it" } else { "skipped: not in the schedule" };
+        writeln!(text, "{piece:<44} {why}")?;
+    }
+    let asked: Vec<&str> = campaign.plan().groups.iter().map(|group| group.name()).collect();
+    writeln!(text, "observed groups: {}", asked.join(", "))
+}
+
+/// Why a block is not computed.
+fn absence(request: &Request, block: Block) -> &'static str {
+    match block {
+        Block::DebrisPosition | Block::DebrisVelocity | Block::DebrisAttitude | Block::DebrisRate
+            if !request.debris =>
+        {
+            "there is no debris"
+        }
+        Block::Work | Block::Impulse | Block::AngularImpulse if !request.actuated => "no actuator works",
+        Block::Dcm | Block::Residuals if !request.constrained => "only the reference kernel has it",
+        _ => "nothing observed needs it",
+    }
+}
+
+fn block_name(block: Block) -> &'static str {
+    match block {
+        Block::Rate => "angular velocity of the fuselage",
+        Block::Attitude => "attitude quaternion",
+        Block::WheelRates => "wheel rates",
+        Block::WheelAngles => "wheel angles",
+        Block::ComPosition => "position of the centre of mass",
+        Block::ComVelocity => "velocity of the centre of mass",
+        Block::Work => "work of the actuators",
+        Block::Impulse => "impulse of the thrusters",
+        Block::AngularImpulse => "angular impulse of the thrusters",
+        Block::DebrisPosition => "position of the debris",
+        Block::DebrisVelocity => "velocity of the debris",
+        Block::DebrisAttitude => "attitude of the debris",
+        Block::DebrisRate => "angular velocity of the debris",
+        Block::Dcm => "direction cosine matrix (reference kernel)",
+        Block::Residuals => "constraint residuals (reference kernel)",
+    }
+}
+
+/// Time and disk from a short probe.
+fn estimate(campaign: &Campaign<'_>) -> Result<String, Failure> {
+    let plan = campaign.plan();
+    let most = usize::try_from(plan.samples).unwrap_or(usize::MAX).min(PROBE_SAMPLES);
+    let mut rows = Rows::new(campaign.shape(), most);
+    let mut worker = campaign.worker();
+    let mut timed = |count: usize| {
+        let start = Instant::now();
+        worker.run(Part { id: PartId(0), first: SampleId(0), count }, &mut rows, &|_| {});
+        start.elapsed().as_secs_f64()
+    };
+    timed(1); // warm
+    let one = timed(1).max(1e-7);
+    let count = ((PROBE_SECONDS / one) as usize).clamp(1, most);
+    let each = timed(count) / count as f64;
+    let failed = rows.statuses().iter().filter(|status| **status != Status::Done).count();
+
+    let file = RowsFile::new(campaign).map_err(Failure::files)?;
+    let mut packed = Vec::new();
+    file.write(&rows, &mut packed).map_err(Failure::files)?;
+    rows.start(Part { id: PartId(0), first: SampleId(0), count: 1 });
+    let mut empty = Vec::new();
+    file.write(&rows, &mut empty).map_err(Failure::files)?;
+    let row = if count > 1 {
+        packed.len().saturating_sub(empty.len()) as f64 / (count - 1) as f64
+    } else {
+        (file.columns() * size_of::<f64>()) as f64
+    };
+    let parts = Parts::of(plan.samples);
+    let disk = row * plan.samples as f64 + empty.len() as f64 * parts.count() as f64;
+    let cores = std::thread::available_parallelism().map_or(1, std::num::NonZeroUsize::get);
+    let seconds = each * plan.samples as f64 / cores as f64;
+    Ok(format!(
+        "\n== Estimate, from {count} runs\n\
+         {:.3} ms a run on one core; {} samples on {cores} cores: about {} s\n\
+         {} columns; {} file{} of rows: about {}\n\
+         {}",
+        each * 1e3,
+        plan.samples,
+        short(seconds),
+        file.columns(),
+        parts.count(),
+        if parts.count() == 1 { "" } else { "s" },
+        bytes(disk as u64),
+        if failed == 0 { String::new() } else { format!("{failed} of the {count} runs failed\n") },
+    ))
+}

@@ -1,0 +1,21 @@
+//! Floor 5: many runs. Parts of consecutive samples over threads; a row is a pure function of (plan, sample).
+//!
+//! - [`parts`]: where a campaign is cut. - [`rows`]: the rows of a part, column by column. - [`sink`]: where they go.
+//! - [`campaign`]: what all workers share, and [`campaign::Worker`], what each owns.
+//! - [`runner`]: parts over threads. - [`single`]: one run with its states, as `simulate` shows it.
+//!
+//! Not here: file formats (the output floor), and what a run is (the floors below).
+
+pub mod campaign;
+pub mod parts;
+pub mod rows;
+pub mod runner;
+pub mod single;
+pub mod sink;
+
+pub use campaign::{Campaign, Worker};
+pub use parts::{Part, PartId, Parts};
+pub use rows::{Rows, Shape};
+pub use runner::{RunError, run};
+pub use single::SingleRun;
+pub use sink::Sink;

@@ -1,0 +1,145 @@
+//! [`Rows`]: the rows of one part, column by column.
+//!
+//! A worker owns one block and reuses it from part to part, so that memory does not grow with the campaign. What the columns
+//! mean, the plan's dispersions and the table of observables say; here they are numbers by position.
+
+use crate::ensemble::parts::Part;
+use crate::integrators::Status;
+use crate::sampling::SampleId;
+
+/// What columns a row has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shape {
+    /// Number of dispersed values.
+    pub parameters: usize,
+    /// Number of observables.
+    pub observables: usize,
+}
+
+/// Rows of consecutive samples: status, dispersed values as applied, observables.
+#[derive(Clone, Debug)]
+pub struct Rows {
+    part: Part,
+    shape: Shape,
+    capacity: usize,
+    statuses: Vec<Status>,
+    values: Vec<f64>,
+}
+
+impl Rows {
+    /// A block for parts of up to `capacity` samples. It holds no part yet; [`Rows::start`] gives it one.
+    pub fn new(shape: Shape, capacity: usize) -> Self {
+        Rows {
+            part: Part { id: crate::ensemble::parts::PartId(0), first: SampleId(0), count: 0 },
+            shape,
+            capacity,
+            statuses: vec![Status::InvalidSample; capacity],
+            values: vec![f64::NAN; (shape.parameters + shape.observables) * capacity],
+        }
+    }
+
+    /// Empties the block for `part`: until a row is written it reads as an invalid sample without numbers.
+    ///
+    /// # Panics
+    /// Where the part is larger than the block.
+    pub fn start(&mut self, part: Part) {
+        assert!(part.count <= self.capacity, "a part of {} samples in a block for {}", part.count, self.capacity);
+        self.part = part;
+        self.statuses.fill(Status::InvalidSample);
+        self.values.fill(f64::NAN);
+    }
+
+    /// The part whose rows these are.
+    pub fn part(&self) -> Part {
+        self.part
+    }
+
+    /// What columns a row has.
+    pub fn shape(&self) -> Shape {
+        self.shape
+    }
+
+    /// Statuses, sample by sample.
+    pub fn statuses(&self) -> &[Status] {
+        &self.statuses[..self.part.count]
+    }
+
+    /// The dispersed value `index`, sample by sample.
+    pub fn parameter(&self, index: usize) -> &[f64] {
+        assert!(index < self.shape.parameters);
+        self.column(index)
+    }
+
+    /// The observable `index`, sample by sample; NaN where a run did not get that far.
+    pub fn observable(&self, index: usize) -> &[f64] {
+        assert!(index < self.shape.observables);
+        self.column(self.shape.parameters + index)
+    }
+
+    /// Writes the dispersed values of row `row` as they were applied.
+    pub fn set_parameters(&mut self, row: usize, values: &[f64]) {
+        assert_eq!(values.len(), self.shape.parameters);
+        self.scatter(0, row, values);
+    }
+
+    /// Writes how the run of row `row` ended and what was observed.
+    pub fn set_result(&mut self, row: usize, status: Status, observables: &[f64]) {
+        assert_eq!(observables.len(), self.shape.observables);
+        self.statuses[row] = status;
+        self.scatter(self.shape.parameters, row, observables);
+    }
+
+    fn column(&self, index: usize) -> &[f64] {
+        &self.values[index * self.capacity..index * self.capacity + self.part.count]
+    }
+
+    fn scatter(&mut self, first: usize, row: usize, values: &[f64]) {
+        assert!(row < self.part.count);
+        for (index, value) in values.iter().enumerate() {
+            self.values[(first + index) * self.capacity + row] = *value;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ensemble::parts::PartId;
+
+    fn part(count: usize) -> Part {
+        Part { id: PartId(3), first: SampleId(768), count }
+    }
+
+    /// Law: what is written to a row stands in its columns at its place, and nowhere else.
+    #[test]
+    fn a_row_lands_in_its_columns() {
+        let mut rows = Rows::new(Shape { parameters: 2, observables: 3 }, 8);
+        rows.start(part(4));
+        rows.set_parameters(1, &[1.0, 2.0]);
+        rows.set_result(1, Status::Done, &[3.0, 4.0, 5.0]);
+        assert_eq!(rows.statuses().len(), 4);
+        assert_eq!(rows.statuses()[1], Status::Done);
+        for (column, expected) in [(rows.parameter(0), 1.0), (rows.parameter(1), 2.0), (rows.observable(2), 5.0)] {
+            assert_eq!(column[1], expected);
+            assert!(column.iter().enumerate().all(|(row, value)| row == 1 || value.is_nan()));
+        }
+    }
+
+    /// Law: nothing of an earlier part is left in a block that starts a new one, and an unwritten row never reads as done.
+    #[test]
+    fn start_forgets_the_earlier_part() {
+        let mut rows = Rows::new(Shape { parameters: 0, observables: 1 }, 4);
+        rows.start(part(4));
+        (0..4).for_each(|row| rows.set_result(row, Status::Done, &[1.0]));
+        rows.start(part(2));
+        assert_eq!(rows.statuses(), [Status::InvalidSample; 2]);
+        assert!(rows.observable(0).iter().all(|value| value.is_nan()));
+        assert_eq!(rows.observable(0).len(), 2);
+    }
+
+    #[test]
+    #[should_panic(expected = "a part of 5 samples in a block for 4")]
+    fn a_part_must_fit() {
+        Rows::new(Shape { parameters: 0, observables: 1 }, 4).start(part(5));
+    }
+}

@@ -1,0 +1,76 @@
+//! [`SingleRun`]: one sample of a campaign with all its states, as `simulate` shows it.
+//!
+//! The scene is drawn and propagated by the code that runs campaigns, so that the states are those behind the row.
+
+use crate::campaign::Plan;
+use crate::dynamics::table::{Block, Blocks, Grid, StateTable};
+use crate::ensemble::campaign::{propagator, request};
+use crate::integrators::{Method, Outcome};
+use crate::math::Isa;
+use crate::observables::{Group, Observer, Request, SeriesColumn};
+use crate::sampling::SampleId;
+use crate::scene::{Scene, SceneError};
+
+/// The groups whose series a time series shows.
+const GROUPS: [Group; 5] =
+    [Group::EnergyConservation, Group::MomentumConservation, Group::Attitude, Group::Constraints, Group::Energies];
+
+/// One run with its states.
+#[derive(Clone, Debug)]
+pub struct SingleRun {
+    /// The scene that was run.
+    pub scene: Scene,
+    /// The times of the table's points; the first is zero, whether it was asked for or not.
+    pub grid: Grid,
+    /// The states.
+    pub table: StateTable,
+    /// How the run ended.
+    pub outcome: Outcome,
+    /// Energies and conservation errors at the points that were reached.
+    pub series: Vec<(&'static SeriesColumn, Vec<f64>)>,
+    /// The row of the sample, as a campaign on this grid has it, with the columns of [`SingleRun::request`].
+    pub row: Vec<f64>,
+    /// What the row holds.
+    pub request: Request,
+}
+
+impl SingleRun {
+    /// Runs sample `sample` of `plan`, observed at the times of `grid` (which may reach beyond the campaign's duration).
+    ///
+    /// # Errors
+    /// Why the drawn scene is not physical.
+    pub fn new(plan: &Plan, sample: SampleId, grid: Grid, isa: Isa) -> Result<Self, Vec<SceneError>> {
+        let mut input = plan.nominal.clone();
+        let mut applied = vec![0.0; plan.dispersions.columns().len()];
+        plan.dispersions.sampler().draw(sample, &mut input, &mut applied);
+        let scene = Scene::resolve(&input)?;
+
+        let request = request(plan);
+        let shown = Request { groups: GROUPS.into_iter().collect(), ..request };
+        let blocks = states(plan).union(shown.blocks()).union(request.blocks());
+        let mut engine = propagator(plan, grid.clone(), blocks).engine(isa);
+        let mut observer = Observer::new(request, &grid);
+        let mut watcher = Observer::new(shown, &grid);
+        let mut row = vec![f64::NAN; request.columns().len()];
+        let mut ignored = vec![f64::NAN; shown.columns().len()];
+        let mut kept = None;
+        engine.propagate(std::slice::from_ref(&scene), &mut |_, table, outcome| {
+            observer.observe(isa, &scene, table, outcome, &mut row);
+            watcher.observe(isa, &scene, table, outcome, &mut ignored);
+            kept = Some((table.clone(), *outcome));
+        });
+        let (table, outcome) = kept.expect("the propagator finishes every scene that it is given");
+        let series = watcher.series().map(|(column, values)| (column, values.collect())).collect();
+        Ok(SingleRun { scene, grid, table, outcome, series, row, request })
+    }
+}
+
+/// Every state that the scenes of `plan` have.
+fn states(plan: &Plan) -> Blocks {
+    let spacecraft =
+        [Block::Rate, Block::Attitude, Block::WheelRates, Block::WheelAngles, Block::ComPosition, Block::ComVelocity];
+    let debris = [Block::DebrisPosition, Block::DebrisVelocity, Block::DebrisAttitude, Block::DebrisRate];
+    let constrained: &[Block] = if plan.method == Method::Reference { &[Block::Dcm] } else { &[] };
+    let debris: &[Block] = if plan.nominal.debris.is_some() { &debris } else { &[] };
+    spacecraft.iter().chain(debris).chain(constrained).fold(Blocks::NONE, |blocks, block| blocks.with(*block))
+}

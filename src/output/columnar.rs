@@ -1,0 +1,301 @@
+//! [`Layout`]: named columns with unit and meaning as a Parquet file.
+//!
+//! Arrow's schema (so that unit and meaning travel as field metadata) on Parquet's typed column writer: columns go from the
+//! rows' memory to the encoder without a copy. The Arrow writer was rejected for the hot path: it writes a third slower.
+//! Floats have no dictionary (with one the file is a quarter larger and takes five times as long); split into byte streams,
+//! their exponents compress.
+
+use std::collections::HashMap;
+use std::io::Write;
+use std::sync::Arc;
+
+use arrow_schema::{DataType, Field, Schema};
+use parquet::arrow::{ArrowSchemaConverter, add_encoded_arrow_schema_to_metadata};
+use parquet::basic::{Compression, Encoding, ZstdLevel};
+use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
+use parquet::errors::{ParquetError, Result};
+use parquet::file::metadata::KeyValue;
+use parquet::file::properties::WriterProperties;
+use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
+use parquet::schema::types::{ColumnPath, TypePtr};
+
+/// What a column holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Content {
+    /// Real numbers.
+    Real,
+    /// Counts.
+    Count,
+    /// Words of a small vocabulary.
+    Word,
+}
+
+/// A column: name, unit, meaning, content.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Heading {
+    /// Name, unit last.
+    pub name: String,
+    /// Unit; empty for a pure number.
+    pub unit: String,
+    /// One sentence.
+    pub meaning: String,
+    /// What it holds.
+    pub content: Content,
+    /// Whether a value may be absent.
+    pub nullable: bool,
+}
+
+impl Heading {
+    fn field(&self) -> Field {
+        let data_type = match self.content {
+            Content::Real => DataType::Float64,
+            Content::Count => DataType::UInt64,
+            Content::Word => DataType::Utf8,
+        };
+        let metadata = [("unit", &self.unit), ("meaning", &self.meaning)];
+        let metadata: HashMap<String, String> = metadata.map(|(key, value)| (key.to_owned(), value.clone())).into();
+        Field::new(&self.name, data_type, self.nullable).with_metadata(metadata)
+    }
+}
+
+/// The values of a column.
+#[derive(Clone, Debug)]
+pub enum Cells<'a> {
+    /// Real numbers; those that the mask calls absent are null.
+    Real(&'a [f64], Option<&'a [bool]>),
+    /// Counts, with the same mask.
+    Count(Vec<u64>, Option<&'a [bool]>),
+    /// Words.
+    Word(Vec<&'static str>),
+}
+
+/// How a file is packed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Packing {
+    /// Byte streams, zstd of level 1: the smallest file for its time.
+    Zstd,
+    /// Plain and uncompressed: three times as fast to write, a half larger.
+    Plain,
+}
+
+/// What all files of one kind have in common.
+#[derive(Clone, Debug)]
+pub struct Layout {
+    schema: Schema,
+    root: TypePtr,
+    packing: Packing,
+}
+
+impl Layout {
+    /// Files of these columns. `metadata` is what they all say about themselves.
+    ///
+    /// # Errors
+    /// Where Parquet has no such columns (two of one name).
+    pub fn new(headings: &[Heading], metadata: HashMap<String, String>, packing: Packing) -> Result<Self> {
+        let mut names: Vec<&str> = headings.iter().map(|heading| heading.name.as_str()).collect();
+        names.sort_unstable();
+        if let Some(twice) = names.windows(2).find(|pair| pair[0] == pair[1]) {
+            return Err(ParquetError::General(format!("two columns are called `{}`", twice[0])));
+        }
+        let schema = Schema::new_with_metadata(headings.iter().map(Heading::field).collect::<Vec<_>>(), metadata);
+        let root = ArrowSchemaConverter::new().convert(&schema)?.root_schema_ptr();
+        Ok(Layout { schema, root, packing })
+    }
+
+    /// The columns and what files say about themselves.
+    pub fn schema(&self) -> &Schema {
+        &self.schema
+    }
+
+    /// Writes one file: a row group of `cells`, column by column in the order of the headings, all of the same length.
+    /// `own` is what this file says beyond what all say.
+    ///
+    /// # Errors
+    /// Where writing fails.
+    ///
+    /// # Panics
+    /// Where cells are not of the content that the heading says.
+    pub fn write<'a, W: Write + Send>(
+        &self,
+        out: W,
+        own: &[(&str, String)],
+        cells: impl Iterator<Item = Cells<'a>>,
+    ) -> Result<()> {
+        let mut writer = SerializedFileWriter::new(out, self.root.clone(), Arc::new(self.properties(own)))?;
+        let mut group = writer.next_row_group()?;
+        let mut scratch = Scratch::default();
+        for (field, cells) in self.schema.fields().iter().zip(cells) {
+            let Some(mut column) = group.next_column()? else { break };
+            scratch.write(&mut column, cells, field.is_nullable())?;
+            column.close()?;
+        }
+        group.close()?;
+        writer.close()?;
+        Ok(())
+    }
+
+    fn properties(&self, own: &[(&str, String)]) -> WriterProperties {
+        let pairs = self.schema.metadata().iter().map(|(key, value)| (key.as_str(), value));
+        let mut pairs: Vec<(&str, &String)> = pairs.chain(own.iter().map(|(key, value)| (*key, value))).collect();
+        pairs.sort_unstable(); // a map has no order, and files must not differ from run to run
+        let pairs = pairs.into_iter().map(|(key, value)| KeyValue::new(key.to_owned(), value.clone())).collect();
+        let mut properties =
+            WriterProperties::builder().set_dictionary_enabled(false).set_key_value_metadata(Some(pairs));
+        if self.packing == Packing::Zstd {
+            properties = properties.set_compression(Compression::ZSTD(ZstdLevel::default()));
+        }
+        for field in self.schema.fields() {
+            let path = ColumnPath::from(field.name().as_str());
+            properties = match (field.data_type(), self.packing) {
+                (DataType::Utf8, _) => properties.set_column_dictionary_enabled(path, true),
+                (DataType::UInt64, _) => properties.set_column_encoding(path, Encoding::DELTA_BINARY_PACKED),
+                (_, Packing::Zstd) => properties.set_column_encoding(path, Encoding::BYTE_STREAM_SPLIT),
+                (_, Packing::Plain) => properties.set_column_encoding(path, Encoding::PLAIN),
+            };
+        }
+        let mut properties = properties.build();
+        // the schema's own metadata would be stored twice
+        let bare = Schema::new(self.schema.fields().clone());
+        add_encoded_arrow_schema_to_metadata(&bare, &mut properties);
+        properties
+    }
+}
+
+/// Memory for what Parquet wants apart: which values are there, and those values without gaps.
+#[derive(Default)]
+struct Scratch {
+    levels: Vec<i16>,
+    reals: Vec<f64>,
+    counts: Vec<i64>,
+}
+
+impl Scratch {
+    fn write(&mut self, column: &mut SerializedColumnWriter<'_>, cells: Cells<'_>, nullable: bool) -> Result<()> {
+        match cells {
+            Cells::Real(values, mask) => {
+                let levels = self.levels(values.len(), mask, nullable);
+                let values = match mask {
+                    Some(mask) if mask.contains(&false) => {
+                        self.reals.clear();
+                        self.reals.extend(present(values, mask));
+                        &self.reals
+                    }
+                    _ => values,
+                };
+                column.typed::<DoubleType>().write_batch(values, levels.then_some(&self.levels[..]), None)?;
+            }
+            Cells::Count(values, mask) => {
+                let levels = self.levels(values.len(), mask, nullable);
+                self.counts.clear();
+                match mask {
+                    Some(mask) => self.counts.extend(present(&values, mask).map(u64::cast_signed)),
+                    None => self.counts.extend(values.iter().map(|value| value.cast_signed())),
+                }
+                column.typed::<Int64Type>().write_batch(&self.counts, levels.then_some(&self.levels[..]), None)?;
+            }
+            Cells::Word(words) => {
+                let levels = self.levels(words.len(), None, nullable);
+                let words: Vec<ByteArray> = words.into_iter().map(ByteArray::from).collect();
+                column.typed::<ByteArrayType>().write_batch(&words, levels.then_some(&self.levels[..]), None)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Notes which values are there; false where the column does not ask.
+    fn levels(&mut self, length: usize, mask: Option<&[bool]>, nullable: bool) -> bool {
+        self.levels.clear();
+        if nullable {
+            match mask {
+                Some(mask) => self.levels.extend(mask.iter().map(|there| i16::from(*there))),
+                None => self.levels.resize(length, 1),
+            }
+        }
+        nullable
+    }
+}
+
+fn present<'a, T: Copy>(values: &'a [T], mask: &'a [bool]) -> impl Iterator<Item = T> + 'a {
+    values.iter().zip(mask).filter(|(_, there)| **there).map(|(value, _)| *value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use arrow_array::cast::AsArray;
+    use arrow_array::types::{Float64Type, UInt64Type};
+    use arrow_array::{Array, RecordBatch};
+    use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+
+    fn heading(name: &str, content: Content, nullable: bool) -> Heading {
+        let (unit, meaning) = ("m".to_owned(), format!("The {name}."));
+        Heading { name: name.into(), unit, meaning, content, nullable }
+    }
+
+    fn written(packing: Packing) -> Vec<u8> {
+        let headings = [
+            heading("id", Content::Count, false),
+            heading("word", Content::Word, false),
+            heading("x", Content::Real, true),
+        ];
+        let layout = Layout::new(&headings, HashMap::from([("seed".into(), "7".into())]), packing).unwrap();
+        let mut bytes = Vec::new();
+        let cells = [
+            Cells::Count(vec![0, 1, u64::MAX], None),
+            Cells::Word(vec!["ok", "ok", "bad"]),
+            Cells::Real(&[1.5, f64::NAN, f64::NAN], Some(&[true, true, false])),
+        ];
+        layout.write(&mut bytes, &[("part", "3".into())], cells.into_iter()).unwrap();
+        bytes
+    }
+
+    fn read(bytes: Vec<u8>) -> (RecordBatch, ParquetRecordBatchReaderBuilder<bytes::Bytes>) {
+        let bytes = bytes::Bytes::from(bytes);
+        let batch = ParquetRecordBatchReaderBuilder::try_new(bytes.clone()).unwrap().build().unwrap().next().unwrap();
+        (batch.unwrap(), ParquetRecordBatchReaderBuilder::try_new(bytes).unwrap())
+    }
+
+    /// Law: what is written is read back, in both packings; absent is null, and not a number is not null.
+    #[test]
+    fn values_come_back() {
+        for packing in [Packing::Zstd, Packing::Plain] {
+            let (batch, _) = read(written(packing));
+            assert_eq!(batch.column(0).as_primitive::<UInt64Type>().values(), &[0, 1, u64::MAX]);
+            assert_eq!(batch.column(1).as_string::<i32>().iter().flatten().collect::<Vec<_>>(), ["ok", "ok", "bad"]);
+            let x = batch.column(2).as_primitive::<Float64Type>();
+            assert_eq!((x.value(0), x.is_null(1), x.is_null(2)), (1.5, false, true));
+            assert!(x.value(1).is_nan());
+        }
+    }
+
+    /// Law: unit and meaning are on every field, the file says what it is told to say, and floats have no dictionary.
+    #[test]
+    fn a_file_explains_itself() {
+        let (_, file) = read(written(Packing::Zstd));
+        for field in file.schema().fields() {
+            assert_eq!(field.metadata()["unit"], "m");
+            assert_eq!(field.metadata()["meaning"], format!("The {}.", field.name()));
+        }
+        let pairs = file.metadata().file_metadata().key_value_metadata().unwrap();
+        let value = |key: &str| pairs.iter().find(|pair| pair.key == key).and_then(|pair| pair.value.clone());
+        assert_eq!((value("seed"), value("part")), (Some("7".to_owned()), Some("3".to_owned())));
+        let floats = file.metadata().row_group(0).column(2);
+        assert!(floats.dictionary_page_offset().is_none());
+        assert!(floats.encodings().any(|encoding| encoding == Encoding::BYTE_STREAM_SPLIT));
+        assert!(matches!(floats.compression(), Compression::ZSTD(_)));
+    }
+
+    /// Law: the same cells give the same bytes.
+    #[test]
+    fn files_are_reproducible() {
+        assert_eq!(written(Packing::Zstd), written(Packing::Zstd));
+        assert_ne!(written(Packing::Zstd), written(Packing::Plain));
+    }
+
+    #[test]
+    fn two_columns_of_one_name_are_refused() {
+        let headings = [heading("x", Content::Real, false), heading("x", Content::Real, false)];
+        let refused = Layout::new(&headings, HashMap::new(), Packing::Plain).unwrap_err();
+        assert!(refused.to_string().contains("two columns are called `x`"), "{refused}");
+    }
+}

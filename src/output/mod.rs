@@ -1,0 +1,19 @@
+//! Floor 6: results on the disk and on the screen.
+//!
+//! - [`folder`]: the folder of a result, what makes it whole, and what may be replaced. - [`atomic`]: files whole or absent.
+//! - [`columnar`]: columns with unit and meaning as Parquet. - [`rows_file`]: the files of rows. - [`part_sink`]: parts into files.
+//! - [`sketch`], [`summary`]: order statistics of any number of samples in flat memory.
+//! - [`timeseries`]: one run over time. - [`plot`], [`energy_figure`]: curves as SVG and PNG.
+//!
+//! Not here: what is measured (the observables' table says it), and arguments and exit codes (the command line).
+
+pub mod atomic;
+pub mod columnar;
+pub mod energy_figure;
+pub mod folder;
+pub mod part_sink;
+pub mod plot;
+pub mod rows_file;
+pub mod sketch;
+pub mod summary;
+pub mod timeseries;

@@ -1,0 +1,157 @@
+//! [`RowsFile`]: the files of rows, from the table of observables and the dispersed parameters.
+
+use std::collections::HashMap;
+use std::io::Write;
+use std::path::Path;
+
+use parquet::errors::ParquetError;
+
+use crate::campaign::{Compression, Plan};
+use crate::ensemble::{Campaign, PartId, Rows};
+use crate::integrators::Status;
+use crate::observables::Kind;
+use crate::output::atomic;
+use crate::output::columnar::{Cells, Content, Heading, Layout, Packing};
+
+/// Name of the column that numbers the samples.
+pub const SAMPLE_ID: &str = "sample_id";
+/// Name of the column that says how a run ended.
+pub const STATUS: &str = "status";
+
+/// What the files of rows of one campaign have in common.
+#[derive(Clone, Debug)]
+pub struct RowsFile {
+    layout: Layout,
+    /// Content of each observable.
+    contents: Vec<Content>,
+}
+
+/// The name of the file that holds `part`.
+pub fn file_name(part: PartId) -> String {
+    format!("part-{:06}.parquet", part.0)
+}
+
+/// The columns of a row.
+pub fn headings(campaign: &Campaign<'_>) -> Vec<Heading> {
+    let fixed = [
+        (SAMPLE_ID, "Number of the sample within the campaign; 0 is the nominal scene.", Content::Count),
+        (STATUS, "How the run ended: ok, step_limit, step_floor, non_finite, invalid_sample.", Content::Word),
+    ];
+    let fixed = fixed.map(|(name, meaning, content)| Heading {
+        name: name.to_owned(),
+        unit: String::new(),
+        meaning: meaning.to_owned(),
+        content,
+        nullable: false,
+    });
+    let parameters = campaign.plan().dispersions.columns().iter().map(|column| Heading {
+        name: column.parameter.column_name(column.component),
+        unit: match column.parameter.unit() {
+            "1" => String::new(),
+            unit => unit.to_owned(),
+        },
+        meaning: format!("{} as applied.", column.parameter.component_name(column.component)),
+        content: Content::Real,
+        nullable: false,
+    });
+    let observables = campaign.request().columns().into_iter().map(|column| Heading {
+        name: column.name.to_owned(),
+        unit: column.unit.to_owned(),
+        meaning: column.meaning.to_owned(),
+        content: content(column.kind),
+        nullable: true,
+    });
+    fixed.into_iter().chain(parameters).chain(observables).collect()
+}
+
+fn content(kind: Kind) -> Content {
+    match kind {
+        Kind::Float => Content::Real,
+        Kind::Count => Content::Count,
+    }
+}
+
+/// What every file of a campaign says about its origin. The instruction set is not in it: no bit depends on it.
+pub fn provenance(plan: &Plan) -> HashMap<String, String> {
+    let pairs = [
+        ("spindrift.version", env!("CARGO_PKG_VERSION").to_owned()),
+        ("spindrift.campaign", plan.name.clone()),
+        ("spindrift.seed", plan.seed.to_string()),
+        ("spindrift.plan_hash", plan.hash()),
+        ("spindrift.plan", plan.text()),
+    ];
+    pairs.map(|(key, value)| (key.to_owned(), value)).into()
+}
+
+/// How the files of `plan` are packed.
+pub fn packing(plan: &Plan) -> Packing {
+    match plan.compression {
+        Compression::Zstd => Packing::Zstd,
+        Compression::None => Packing::Plain,
+    }
+}
+
+impl RowsFile {
+    /// The files of `campaign`.
+    ///
+    /// # Errors
+    /// Where two columns have one name.
+    pub fn new(campaign: &Campaign<'_>) -> Result<Self, ParquetError> {
+        let layout = Layout::new(&headings(campaign), provenance(campaign.plan()), packing(campaign.plan()))?;
+        let contents = campaign.request().columns().into_iter().map(|column| content(column.kind)).collect();
+        Ok(RowsFile { layout, contents })
+    }
+
+    /// Number of columns.
+    pub fn columns(&self) -> usize {
+        self.layout.schema().fields().len()
+    }
+
+    /// Writes `rows` as the file `path`, which is whole or absent.
+    ///
+    /// # Errors
+    /// Where writing fails.
+    pub fn save(&self, rows: &Rows, path: &Path) -> Result<(), ParquetError> {
+        atomic::write(path, |file| self.write(rows, file))
+    }
+
+    /// Writes `rows` to `out`.
+    ///
+    /// A number that a failed run does not have is null; in a run that is `ok` a value that is not a number stays one, so
+    /// that nobody takes it for a missing run.
+    ///
+    /// # Errors
+    /// Where writing fails.
+    pub fn write<W: Write + Send>(&self, rows: &Rows, out: W) -> Result<(), ParquetError> {
+        let own = [
+            ("spindrift.part", rows.part().id.0.to_string()),
+            ("spindrift.first_sample", rows.part().first.to_string()),
+            ("spindrift.samples", rows.part().count.to_string()),
+        ];
+        let shape = rows.shape();
+        let masks = masks(rows);
+        let fixed = [
+            Cells::Count(rows.part().samples().map(|sample| sample.0).collect(), None),
+            Cells::Word(rows.statuses().iter().map(|status| status.name()).collect()),
+        ];
+        let parameters = (0..shape.parameters).map(|index| Cells::Real(rows.parameter(index), None));
+        let observables = (0..shape.observables).map(|index| {
+            let (values, mask) = (rows.observable(index), masks.as_ref().map(|masks| &masks[index][..]));
+            match self.contents[index] {
+                Content::Count => Cells::Count(values.iter().map(|value| *value as u64).collect(), mask),
+                _ => Cells::Real(values, mask),
+            }
+        });
+        self.layout.write(out, &own, fixed.into_iter().chain(parameters).chain(observables))
+    }
+}
+
+/// Which values of each observable are there; `None` where all are.
+fn masks(rows: &Rows) -> Option<Vec<Vec<bool>>> {
+    if rows.statuses().iter().all(|status| *status == Status::Done) {
+        return None;
+    }
+    let there = |(value, status): (&f64, &Status)| *status == Status::Done || !value.is_nan();
+    let mask = |index: usize| rows.observable(index).iter().zip(rows.statuses()).map(there).collect();
+    Some((0..rows.shape().observables).map(mask).collect())
+}

@@ -1,0 +1,198 @@
+//! [`Sketch`]: a histogram fine enough to read order statistics from, and small enough for any number of samples.
+//!
+//! Buckets are the leading bits of the number itself: sign, exponent, and the first [`MANTISSA_BITS`] bits of the mantissa (the
+//! idea of HdrHistogram, G. Tene 2012, and of DDSketch, Masson, Rim & Lee 2019, with the logarithm taken from the bits). A
+//! bucket is at most 2^-10 = 0.098% of its value wide; a quantile is answered by the middle of its bucket, hence within 0.05%.
+//! Contents are counts, so merging is addition: the result does not depend on order, threads or parts.
+
+/// Leading mantissa bits that tell buckets apart.
+pub const MANTISSA_BITS: u32 = 10;
+
+/// Bound of the relative error of a quantile of normal numbers: half a bucket.
+pub const RELATIVE_ERROR: f64 = 1.0 / 2048.0;
+
+const PAGE: usize = 1 << MANTISSA_BITS;
+const SHIFT: u32 = 52 - MANTISSA_BITS;
+
+/// Counts of numbers by their leading bits, with exact extremes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sketch {
+    /// One page of buckets per sign and exponent that occurred, in ascending order of its number.
+    pages: Vec<(u16, Box<[u64; PAGE]>)>,
+    count: u64,
+    min: f64,
+    max: f64,
+}
+
+impl Default for Sketch {
+    fn default() -> Self {
+        Sketch { pages: Vec::new(), count: 0, min: f64::INFINITY, max: f64::NEG_INFINITY }
+    }
+}
+
+/// Maps the bits of a number so that unsigned order is numeric order.
+fn ordered(value: f64) -> u64 {
+    let bits = value.to_bits();
+    if bits >> 63 == 0 { bits | 1 << 63 } else { !bits }
+}
+
+/// The inverse of [`ordered`].
+fn unordered(key: u64) -> f64 {
+    f64::from_bits(if key >> 63 == 1 { key & !(1 << 63) } else { !key })
+}
+
+impl Sketch {
+    /// Counts one number; NaN is not counted.
+    pub fn add(&mut self, value: f64) {
+        if value.is_nan() {
+            return;
+        }
+        let value = value + 0.0; // one zero, so that the extremes do not depend on order
+        let key = ordered(value) >> SHIFT;
+        self.page((key >> MANTISSA_BITS) as u16)[key as usize % PAGE] += 1;
+        self.count += 1;
+        self.min = self.min.min(value);
+        self.max = self.max.max(value);
+    }
+
+    /// Counts all that `other` has counted.
+    pub fn merge(&mut self, other: &Sketch) {
+        for (number, counts) in &other.pages {
+            for (mine, theirs) in self.page(*number).iter_mut().zip(counts.iter()) {
+                *mine += theirs;
+            }
+        }
+        self.count += other.count;
+        self.min = self.min.min(other.min);
+        self.max = self.max.max(other.max);
+    }
+
+    /// How many numbers were counted.
+    pub fn count(&self) -> u64 {
+        self.count
+    }
+
+    /// The largest number, exactly; `None` where nothing was counted.
+    pub fn max(&self) -> Option<f64> {
+        (self.count > 0).then_some(self.max)
+    }
+
+    /// The smallest number, exactly; `None` where nothing was counted.
+    pub fn min(&self) -> Option<f64> {
+        (self.count > 0).then_some(self.min)
+    }
+
+    /// The number of rank ceil(p n), 0 < p <= 1 (nearest rank), within [`RELATIVE_ERROR`]; `None` where nothing was counted.
+    pub fn quantile(&self, p: f64) -> Option<f64> {
+        if self.count == 0 {
+            return None;
+        }
+        let rank = ((p * self.count as f64).ceil() as u64).clamp(1, self.count);
+        let mut seen = 0;
+        for (number, counts) in &self.pages {
+            for (bucket, count) in counts.iter().enumerate() {
+                seen += count;
+                if seen >= rank {
+                    let low = (u64::from(*number) << MANTISSA_BITS | bucket as u64) << SHIFT;
+                    // half of each end: the difference of the ends may overflow, and zero's bucket must answer zero
+                    let (low, high) = (unordered(low), unordered(low | ((1 << SHIFT) - 1)));
+                    let middle = 0.5 * low + 0.5 * high;
+                    // the bucket of an infinity reaches into the NaNs
+                    return Some(if middle.is_nan() { if low.is_nan() { high } else { low } } else { middle })
+                        .map(|middle| middle.clamp(self.min, self.max));
+                }
+            }
+        }
+        Some(self.max)
+    }
+
+    fn page(&mut self, number: u16) -> &mut [u64; PAGE] {
+        let at = match self.pages.binary_search_by_key(&number, |(number, _)| *number) {
+            Ok(at) => at,
+            Err(at) => {
+                self.pages.insert(at, (number, Box::new([0; PAGE])));
+                at
+            }
+        };
+        &mut self.pages[at].1
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn exact(values: &[f64], p: f64) -> f64 {
+        let mut sorted = values.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        sorted[((p * values.len() as f64).ceil() as usize).clamp(1, values.len()) - 1]
+    }
+
+    fn sketch(values: &[f64]) -> Sketch {
+        let mut sketch = Sketch::default();
+        values.iter().for_each(|value| sketch.add(*value));
+        sketch
+    }
+
+    /// A number that follows from `k`, spread over many decades and both signs.
+    fn spread(k: u64) -> f64 {
+        let bits = k.wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        let magnitude = libm::exp2((bits >> 40) as f64 / f64::from(1 << 24) * 80.0 - 60.0);
+        if bits & 1 == 0 { magnitude } else { -magnitude }
+    }
+
+    /// Law: every quantile is within the stated relative error of the exact order statistic, the maximum is exact.
+    #[test]
+    fn quantiles_are_within_the_bound() {
+        let values: Vec<f64> = (0..20_000).map(spread).collect();
+        let sketch = sketch(&values);
+        for p in [1e-4, 0.01, 0.3, 0.5, 0.95, 0.999, 1.0] {
+            let (got, want) = (sketch.quantile(p).unwrap(), exact(&values, p));
+            assert!((got - want).abs() <= RELATIVE_ERROR * want.abs(), "p = {p}: {got} for {want}");
+        }
+        assert_eq!(sketch.max(), Some(exact(&values, 1.0)));
+        assert_eq!(sketch.min(), Some(exact(&values, 1e-9)));
+    }
+
+    /// Counter-test: the bound is not idle. A quantile of the wrong rank breaks it.
+    #[test]
+    fn a_wrong_rank_breaks_the_bound() {
+        let values: Vec<f64> = (0..20_000).map(spread).collect();
+        let (got, want) = (sketch(&values).quantile(0.51).unwrap(), exact(&values, 0.5));
+        assert!((got - want).abs() > RELATIVE_ERROR * want.abs());
+    }
+
+    #[test]
+    fn infinities_keep_their_ranks() {
+        let sketch = sketch(&[f64::NEG_INFINITY, 1.0, f64::INFINITY]);
+        assert_eq!(sketch.quantile(0.3), Some(f64::NEG_INFINITY));
+        assert_eq!(sketch.quantile(1.0), Some(f64::INFINITY));
+    }
+
+    #[test]
+    fn zero_nan_and_nothing() {
+        assert_eq!(Sketch::default().quantile(0.5), None);
+        assert_eq!(Sketch::default().max(), None);
+        let sketch = sketch(&[0.0, -0.0, f64::NAN, 0.0]);
+        assert_eq!((sketch.count(), sketch.quantile(0.5), sketch.max()), (3, Some(0.0), Some(0.0)));
+        assert!(sketch.max().is_some_and(f64::is_sign_positive));
+    }
+
+    proptest! {
+        /// Law: however the numbers are cut into parts and in whichever order the parts are merged, the sketch is the same.
+        #[test]
+        fn merging_does_not_know_order(
+            values in prop::collection::vec(prop::num::f64::ANY, 1..200),
+            cut in 0usize..200,
+        ) {
+            let (left, right) = values.split_at(cut.min(values.len()));
+            let (left, right) = (sketch(left), sketch(right));
+            let (mut forward, mut backward) = (left.clone(), right.clone());
+            forward.merge(&right);
+            backward.merge(&left);
+            prop_assert_eq!(&forward, &backward);
+            prop_assert_eq!(&forward, &sketch(&values));
+        }
+    }
+}
