@@ -66,9 +66,8 @@ fn adaptive_steps_converge_with_their_order() {
     }
 }
 
-/// The global error over 20 radians stays within this factor of the tolerance, either way. An eighth-order error estimated
-/// by a fifth- and a third-order one is smaller than asked.
-const PROPORTION: std::ops::Range<f64> = 1e-3..40.0;
+/// The global error over 20 radians is this many times the tolerance (measured: Dormand-Prince 2.5 to 2.7, DOP853 1.3 to 1.5).
+const PROPORTION: std::ops::Range<f64> = 1.0..4.0;
 
 /// Between steps the error may be so many times that at the end.
 const BETWEEN: f64 = 10.0;
@@ -92,8 +91,8 @@ fn errors_follow_the_tolerance_at_and_between_steps() {
     follows_the_tolerance(Adaptive(Dop853), "DOP853");
 }
 
-/// The orbit amplifies local errors by four orders of magnitude over its period (measured).
-const ARENSTORF_AMPLIFICATION: f64 = 1e5;
+/// The orbit amplifies local errors over its period: the gap is up to 59 times the tolerance at 1e-11 (measured).
+const ARENSTORF_AMPLIFICATION: f64 = 200.0;
 
 #[test]
 fn arenstorf_orbits_close() {
@@ -126,9 +125,9 @@ fn dormand_prince_takes_the_steps_of_ode45() {
     assert_eq!((effort.steps, effort.rejected, effort.evaluations), (59, 10, 415));
 }
 
-/// Round-off of 10,000 compensated steps in quantities of order one: a random walk of half a last place a step would end
-/// near 1e-14; the compensated sum stays below that.
-const INVARIANT_ROUND_OFF: f64 = 1e-14;
+/// Quantities of order one after 10,000 compensated steps: a few units in their last place (measured: two). Without the
+/// compensation a random walk of half a last place a step would end near 1e-14.
+const INVARIANT_ROUND_OFF: f64 = 2e-15;
 
 /// The largest change of |y|^2 and of the energy of a free rigid body.
 fn invariant_drift<M: Marcher>(method: M) -> f64 {

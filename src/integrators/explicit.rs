@@ -3,6 +3,8 @@
 //! A step is y' = y + h sum_i b_i k_i; what the sum loses in the last digits of y is carried to the next step (Kahan 1965,
 //! Knuth's error-free sum). Which method takes which step stands in [`super::embedded`] and [`super::fixed`].
 
+#![allow(clippy::needless_range_loop, reason = "iterators over lanes are not inlined always, see `each`")]
+
 use core::marker::PhantomData;
 
 use super::System;

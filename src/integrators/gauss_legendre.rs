@@ -4,6 +4,11 @@
 //! law with implicit Runge-Kutta methods*, have it: until the change is zero or stops falling. Not Newton's method: the
 //! rotations here are not stiff, and a few sweeps cost less than a Jacobian. Each lane stops for itself.
 
+#![allow(
+    clippy::needless_range_loop,
+    reason = "iterators over lanes are not inlined always, see `super::explicit::each`"
+)]
+
 use super::explicit::{Carried, Step, chosen, each, poison, scaled, weighted};
 use super::fixed::{Advance, FixedStep};
 use super::step_control::{flag, raised};
@@ -84,8 +89,8 @@ fn solved<R: Real, Q: System<R, N>, const N: usize>(
         // Not `change == 0`: there is no such question, and a change is never negative.
         let still = one - flag(zero.lt(change), zero);
         let done = open * R::select(raised(still), one, near * (one - falling));
-        failed = failed - done;
-        open = open - done;
+        failed -= done;
+        open -= done;
         former = change;
         sweeps += 1;
     }
