@@ -116,29 +116,28 @@ fn taylor<S: Simd>(simd: S, plan: &Propagator) -> Box<dyn Engine> {
 }
 
 /// The engine of a Runge-Kutta method; `zero` says in how many lanes.
+///
+/// Only Dormand-Prince has a kernel of its own for scenes without actuators: every kernel costs compile time, and the others
+/// are there for comparison.
 fn runge_kutta<S: Simd, R: Real + Send + 'static>(simd: S, zero: R, plan: &Propagator) -> Box<dyn Engine> {
     match plan.method {
-        Method::Dop853 => marched(simd, zero, plan, Adaptive(Dop853)),
-        Method::RungeKutta4 => marched(simd, zero, plan, Fixed(RungeKutta4)),
-        Method::GaussLegendre => marched(simd, zero, plan, Fixed(GaussLegendre)),
         Method::Reference => Box::new(ReferenceEngine::new(simd, plan)),
-        Method::DormandPrince | Method::Auto | Method::Taylor => marched(simd, zero, plan, Adaptive(DormandPrince)),
+        Method::Dop853 => marched::<WITH_THRUST, _, _, _>(simd, zero, plan, Adaptive(Dop853)),
+        Method::RungeKutta4 => marched::<WITH_THRUST, _, _, _>(simd, zero, plan, Fixed(RungeKutta4)),
+        Method::GaussLegendre => marched::<WITH_THRUST, _, _, _>(simd, zero, plan, Fixed(GaussLegendre)),
+        _ if plan.thrust || plan.motors => marched::<WITH_THRUST, _, _, _>(simd, zero, plan, Adaptive(DormandPrince)),
+        _ => marched::<WITH_ANGLES, _, _, _>(simd, zero, plan, Adaptive(DormandPrince)),
     }
 }
 
-/// The engine of a march: attitude and angles always, thrust where it is scheduled; two kernels a method are enough to
-/// compile.
-fn marched<S: Simd, R: Real + Send + 'static, M: March + Send + 'static>(
+/// The engine of a march of the first `N` components.
+fn marched<const N: usize, S: Simd, R: Real + Send + 'static, M: March + Send + 'static>(
     simd: S,
     zero: R,
     plan: &Propagator,
     march: M,
 ) -> Box<dyn Engine> {
-    if plan.thrust || plan.motors {
-        Box::new(RungeKuttaEngine::<S, R, M, WITH_THRUST>::new(simd, zero, march, plan))
-    } else {
-        Box::new(RungeKuttaEngine::<S, R, M, WITH_ANGLES>::new(simd, zero, march, plan))
-    }
+    Box::new(RungeKuttaEngine::<S, R, M, N>::new(simd, zero, march, plan))
 }
 
 /// Whether the table needs the rotation of the debris at all.
