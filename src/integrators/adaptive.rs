@@ -164,7 +164,7 @@ pub fn march<M, R, Q, F, const N: usize>(
                 M::prepare_inside(&*runs, step, &places.now, &attempt.end.state, &mut stages);
                 places.evaluations = inside.mul_add(zero.splat(M::DENSE_EVALUATIONS), places.evaluations);
             }
-            observe::<M, R, N>(&mut places, step, limit, &attempt.end.state, &stages, workspace, grid);
+            observe::<M, R, Q, N>(&*runs, &mut places, step, limit, &attempt.end.state, &stages, workspace, grid);
         }
 
         // The next step.
@@ -238,7 +238,9 @@ fn start<M, R, Q, const N: usize>(
 
 /// Writes the observation points up to `limit`, of all lanes together, one point of each at a time.
 #[inline(always)]
-fn observe<M, R, const N: usize>(
+#[expect(clippy::too_many_arguments, reason = "a hot inner function: one struct more would be taken apart at once")]
+fn observe<M, R, Q, const N: usize>(
+    system: &Q,
     places: &mut Places<R, N>,
     step: Step<R>,
     limit: R,
@@ -249,15 +251,20 @@ fn observe<M, R, const N: usize>(
 ) where
     M: Embedded,
     R: Real,
+    Q: System<R, N>,
 {
     loop {
         let fraction = (places.next - step.time) / step.length;
-        let inside = M::inside(step.length, fraction, &places.now.state, stages);
+        let inside = M::inside(system, step, fraction, &places.now, stages);
         let mut due = false;
         for lane in 0..R::LANES {
             let (next, limit) = (places.next.lane(lane), limit.lane(lane));
             if next <= limit {
                 let state = if next < limit { &inside } else { end };
+                if next < limit {
+                    let evaluations = places.evaluations.lane(lane) + M::POINT_EVALUATIONS;
+                    places.evaluations.set_lane(lane, evaluations);
+                }
                 workspace.write(
                     lane,
                     &each::<f64, N>(

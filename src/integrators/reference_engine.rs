@@ -3,7 +3,7 @@
 use fearless_simd::Simd;
 
 use super::adaptive;
-use super::embedded::DormandPrince;
+use super::embedded::DormandPrinceRestepped;
 use super::propagate::{Engine, Finish, Propagator};
 use super::reference_runs::ReferenceRuns;
 use super::workspace::Workspace;
@@ -39,7 +39,7 @@ impl<S: Simd> ReferenceEngine<S> {
         let Self { plan, workspace, table, .. } = self;
         let mut runs = ReferenceRuns::new(scenes, plan.grid.duration());
         adaptive::march::<_, _, _, _, COMPONENTS>(
-            DormandPrince,
+            DormandPrinceRestepped,
             0.0,
             &mut runs,
             &plan.grid,
