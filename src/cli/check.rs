@@ -154,7 +154,9 @@ fn absence(request: &Request, block: Block) -> &'static str {
             "there is no debris"
         }
         Block::Work | Block::Impulse | Block::AngularImpulse if !request.actuated => "no actuator works",
-        Block::Dcm | Block::Residuals if !request.constrained => "only the reference kernel has it",
+        Block::Dcm | Block::Residuals | Block::KineticEnergies if !request.constrained => {
+            "only the reference kernel has it"
+        }
         _ => "nothing observed needs it",
     }
 }
@@ -176,6 +178,7 @@ fn block_name(block: Block) -> &'static str {
         Block::DebrisRate => "angular velocity of the debris",
         Block::Dcm => "direction cosine matrix (reference kernel)",
         Block::Residuals => "constraint residuals (reference kernel)",
+        Block::KineticEnergies => "kinetic energies of the redundant states (reference kernel)",
     }
 }
 

@@ -38,11 +38,13 @@ pub enum Block {
     Dcm,
     /// Residuals of the constraints: kinematic, collocation, attitude (27)-(34) (3).
     Residuals,
+    /// Kinetic energies of S, W1, W2, D in F_e as a kernel with redundant states has them, 1/2 nu^T M nu (36), J (4).
+    KineticEnergies,
 }
 
 impl Block {
     /// All blocks in the order of the table.
-    pub const ALL: [Block; 15] = [
+    pub const ALL: [Block; 16] = [
         Block::Rate,
         Block::Attitude,
         Block::WheelRates,
@@ -58,6 +60,7 @@ impl Block {
         Block::DebrisRate,
         Block::Dcm,
         Block::Residuals,
+        Block::KineticEnergies,
     ];
 
     /// Number of components.
@@ -72,7 +75,7 @@ impl Block {
             | Block::DebrisVelocity
             | Block::DebrisRate
             | Block::Residuals => 3,
-            Block::Attitude | Block::DebrisAttitude => 4,
+            Block::Attitude | Block::DebrisAttitude | Block::KineticEnergies => 4,
             Block::WheelRates | Block::WheelAngles | Block::Work => 2,
             Block::Dcm => 9,
         }

@@ -73,7 +73,7 @@ impl Mul for DoubleDouble {
     fn mul(self, other: Self) -> Self {
         // Joldes et al., algorithm 12: relative error below 5 u^2
         let product = two_product(self.high, other.high);
-        let cross = self.low.mul_add(other.low, 0.0);
+        let cross = self.low * other.low;
         let cross = self.high.mul_add(other.low, cross);
         let cross = self.low.mul_add(other.high, cross);
         fast_two_sum(product.high, product.low + cross)

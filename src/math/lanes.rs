@@ -169,10 +169,11 @@ impl<S: Simd> Real for Lanes<S> {
     }
     #[inline(always)]
     fn lane(&self, lane: usize) -> f64 {
-        self.0[lane]
+        // the mask spares a check of the bound in loops over series
+        self.0[lane & (WIDTH - 1)]
     }
     #[inline(always)]
     fn set_lane(&mut self, lane: usize, value: f64) {
-        self.0[lane] = value;
+        self.0[lane & (WIDTH - 1)] = value;
     }
 }

@@ -177,6 +177,12 @@ impl<S: Simd> Constants<S> {
     }
 }
 
+/// Eight values of a column.
+#[inline(always)]
+fn load<S: Simd>(simd: S, column: Column<'_>, at: usize) -> Lanes<S> {
+    Lanes::load(simd, &column[at])
+}
+
 #[inline(always)]
 fn energies<S: Simd>(simd: S, run: &Run<'_>, attitude: Attitude<'_>, vectors: usize, out: &mut SeriesTable) {
     let Run { wanted, mass, debris, table, .. } = *run;
@@ -188,6 +194,9 @@ fn energies<S: Simd>(simd: S, run: &Run<'_>, attitude: Attitude<'_>, vectors: us
     let velocity = if total || inertial { needed(table, Block::ComVelocity, vectors) } else { [&[][..]; 3] };
     let work: Option<[_; 2]> =
         if wanted.has(Series::EnergyError) { columns(table, Block::Work, vectors) } else { None };
+    // where the states are redundant, the energy that the kernel conserves is that of its own states (36): with wheels that
+    // have drifted off their constraints the one of the rates alone is another
+    let own: Option<[_; 4]> = columns(table, Block::KineticEnergies, vectors);
     // the debris enters as a body of its own, with c at its centre
     let debris = match debris {
         Some(body) if total || wanted.has(Series::EnergyDebris) => {
@@ -252,7 +261,11 @@ fn energies<S: Simd>(simd: S, run: &Run<'_>, attitude: Attitude<'_>, vectors: us
         }
 
         let v_c = three(simd, velocity, at);
-        if inertial {
+        if inertial && let Some([s, w1, w2, _]) = own {
+            load(simd, s, at).store(&mut fuselage[at]);
+            load(simd, w1, at).store(&mut wheel1[at]);
+            load(simd, w2, at).store(&mut wheel2[at]);
+        } else if inertial {
             let u = transposed_product(attitude.c_es(simd, at), v_c);
             let square = dot(u, u);
             let turned = cross(u, omega);
@@ -260,7 +273,10 @@ fn energies<S: Simd>(simd: S, run: &Run<'_>, attitude: Attitude<'_>, vectors: us
             constants.moving(1, about[1], square, turned).store(&mut wheel1[at]);
             constants.moving(2, about[2], square, turned).store(&mut wheel2[at]);
         }
-        let mut energy = constants.half_total.mul_add(dot(v_c, v_c), com);
+        let mut energy = match own {
+            Some([s, w1, w2, _]) => load(simd, s, at) + (load(simd, w1, at) + load(simd, w2, at)),
+            None => constants.half_total.mul_add(dot(v_c, v_c), com),
+        };
         if let Some((velocity, omega, form, half_mass)) = debris {
             let v = three(simd, velocity, at);
             let omega = three(simd, omega, at);

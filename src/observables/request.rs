@@ -164,7 +164,7 @@ mod tests {
             (&[EnergyConservation], [false, true, false], &[Rate, WheelRates, ComVelocity, Work]),
             (&[EnergyConservation], [true, false, false], &[Rate, WheelRates, ComVelocity, DebrisVelocity, DebrisRate]),
             (&[Energies], [false; 3], &[Rate, Attitude, WheelRates, ComVelocity]),
-            (&[Energies], [false, false, true], &[Rate, Dcm, WheelRates, ComVelocity]),
+            (&[Energies], [false, false, true], &[Rate, Dcm, WheelRates, ComVelocity, KineticEnergies]),
             (
                 &[MomentumConservation],
                 [true, true, false],

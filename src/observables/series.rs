@@ -182,6 +182,9 @@ impl Series {
                 needs.extend(SPIN);
                 needs.push((Block::ComVelocity, "energies in F_e"));
                 needs.push(attitude("velocities of bodies off the centre of mass"));
+                if request.constrained {
+                    needs.push((Block::KineticEnergies, "energies as the redundant states have them"));
+                }
             }
             Series::EnergyDebris => {
                 needs.push((Block::DebrisVelocity, "energy of the debris"));
@@ -190,6 +193,9 @@ impl Series {
             Series::EnergyTotal | Series::EnergyError => {
                 needs.extend(SPIN);
                 needs.push((Block::ComVelocity, "total energy in F_e"));
+                if request.constrained {
+                    needs.push((Block::KineticEnergies, "energies as the redundant states have them"));
+                }
                 if request.debris {
                     needs.extend(Series::EnergyDebris.needs(request));
                 }

@@ -1,5 +1,6 @@
 //! From integrated components to the table of physical states.
 
+use super::energy::kinetic_energies;
 use super::parameters::Parameters;
 use super::residuals::residuals;
 use super::state::{Columns, State, rotated};
@@ -42,6 +43,9 @@ pub fn complete(scene: &Scene, trajectory: &Trajectory, grid: &Grid, table: &mut
         set(Block::DebrisAttitude, &q_ed);
         set(Block::DebrisRate, &state.omega_d);
         set(Block::Dcm, c_es.as_flattened());
+        if table.has(Block::KineticEnergies) {
+            table.set(Block::KineticEnergies, point, kinetic_energies(&parameters, &state));
+        }
         if table.has(Block::Residuals) {
             table.set(Block::Residuals, point, residuals(scene, &parameters, &state));
         }

@@ -1,4 +1,5 @@
 //! Evaluating stored series at observation points: the coefficients of one run broadcast, eight points at a time.
+#![expect(clippy::needless_range_loop, reason = "components are numbered alike in several arrays")]
 
 use fearless_simd::Simd;
 
@@ -121,38 +122,60 @@ impl Buckets {
         while place < range.end {
             let rest = Lanes::from_slice(simd, &self.sorted_rest[place..]);
             let x = (rest - start) - start_low;
-            let values = horner(simd, &segment.jet, lane, order, x);
             let count = WIDTH.min(range.end - place);
             let points = &self.sorted[place..place + count];
-            for (component, value) in values.into_iter().enumerate() {
-                let scaled = (value * Lanes::broadcast(simd, factors[component])).to_array();
-                let column = &mut trajectory.column_mut(component)[offset..];
-                for (point, value) in points.iter().zip(scaled) {
-                    column[*point as usize] = value;
-                }
+            // components in groups that fit the registers: each group is a set of chains of its own
+            let mut component = 0;
+            while component + 4 <= N {
+                let values = horner::<S, R, N, 4>(simd, &segment.jet, component, lane, order, x);
+                scatter(simd, &values, points, &factors[component..], component, offset, trajectory);
+                component += 4;
+            }
+            while component < N {
+                let values = horner::<S, R, N, 1>(simd, &segment.jet, component, lane, order, x);
+                scatter(simd, &values, points, &factors[component..], component, offset, trajectory);
+                component += 1;
             }
             place += WIDTH;
         }
     }
 }
 
-/// The series of lane `lane` at eight times.
+/// The series of lane `lane` at eight times, of `G` components from `first` on.
 #[inline(always)]
-fn horner<S: Simd, R: Real, const N: usize>(
+fn horner<S: Simd, R: Real, const N: usize, const G: usize>(
     simd: S,
     jet: &[[R; N]],
+    first: usize,
     lane: usize,
     order: usize,
     x: Lanes<S>,
-) -> [Lanes<S>; N] {
-    let mut sums = [Lanes::broadcast(simd, 0.0); N];
-    for i in 0..N {
-        sums[i] = Lanes::broadcast(simd, jet[order][i].lane(lane));
-    }
-    for n in (0..order).rev() {
-        for i in 0..N {
-            sums[i] = sums[i].mul_add(x, Lanes::broadcast(simd, jet[n][i].lane(lane)));
+) -> [Lanes<S>; G] {
+    let mut sums = [Lanes::broadcast(simd, 0.0); G];
+    for coefficients in jet[..=order].iter().rev() {
+        for i in 0..G {
+            sums[i] = sums[i].mul_add(x, Lanes::broadcast(simd, coefficients[first + i].lane(lane)));
         }
     }
     sums
+}
+
+/// Writes the values of up to eight points to their places.
+#[inline(always)]
+fn scatter<S: Simd, const G: usize>(
+    simd: S,
+    values: &[Lanes<S>; G],
+    points: &[u32],
+    factors: &[f64],
+    first: usize,
+    offset: usize,
+    trajectory: &mut Trajectory,
+) {
+    for i in 0..G {
+        let scaled = (values[i] * Lanes::broadcast(simd, factors[i])).to_array();
+        let column = &mut trajectory.column_mut(first + i)[offset..];
+        for (point, value) in points.iter().zip(scaled) {
+            column[*point as usize] = value;
+        }
+    }
 }

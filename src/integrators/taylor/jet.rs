@@ -3,6 +3,7 @@
 //! Everything is quadratic, so the coefficient of order n + 1 is a Cauchy product of those up to n, divided by n + 1
 //! (R. E. Moore, *Interval Analysis*, 1966, ch. 11; A. Jorba & M. Zou, Experimental Mathematics 14, 2005, section 2).
 //! Written for the equations of [`crate::dynamics::gyrostat`]; components as there.
+#![expect(clippy::needless_range_loop, reason = "components are numbered alike in several arrays")]
 
 use crate::dynamics::gyrostat::equations::Constants;
 use crate::dynamics::gyrostat::{
@@ -30,12 +31,12 @@ impl<R: Real> Reciprocals<R> {
 /// Series that a jet needs on its way but that nobody else asks for.
 #[derive(Clone, Debug)]
 pub struct Scratch<R> {
-    /// omega/2, which is all that the attitude needs.
-    half_omega: [[R; 3]; MAX_ORDER],
-    /// q (x) F.
-    turned_force: [[R; 4]; MAX_ORDER],
-    /// q (x) tau.
-    turned_torque: [[R; 4]; MAX_ORDER],
+    /// omega/2, which is all that the attitude needs, and its negative.
+    half_omega: [[R; 6]; MAX_ORDER],
+    /// q (x) F and its negative.
+    turned_force: [[R; 8]; MAX_ORDER],
+    /// q (x) tau and its negative.
+    turned_torque: [[R; 8]; MAX_ORDER],
     /// The force in F_e.
     force_e: [[R; 3]; MAX_ORDER],
 }
@@ -44,9 +45,9 @@ impl<R: Real> Scratch<R> {
     /// Room for any order.
     pub fn new(zero: R) -> Self {
         Scratch {
-            half_omega: [[zero; 3]; MAX_ORDER],
-            turned_force: [[zero; 4]; MAX_ORDER],
-            turned_torque: [[zero; 4]; MAX_ORDER],
+            half_omega: [[zero; 6]; MAX_ORDER],
+            turned_force: [[zero; 8]; MAX_ORDER],
+            turned_torque: [[zero; 8]; MAX_ORDER],
             force_e: [[zero; 3]; MAX_ORDER],
         }
     }
@@ -78,7 +79,8 @@ pub fn expand<R: Real, const N: usize, const FORCED: bool>(
             next[OMEGA + i] = acceleration[i] * inverse;
         }
         if N >= WITH_ATTITUDE {
-            half_omega[n] = scaled(half, omega);
+            let [x, y, z] = scaled(half, omega);
+            half_omega[n] = [x, y, z, -x, -y, -z];
             let rate = quaternion_rate(jet, half_omega, n);
             for i in 0..4 {
                 next[ATTITUDE + i] = rate[i] * inverse;
@@ -127,16 +129,13 @@ fn angular_acceleration<R: Real, const N: usize, const FORCED: bool>(
     // two sums each, so that six chains of fused operations run side by side
     let mut even = [zero; 3];
     let mut odd = [zero; 3];
-    let mut m = 0;
-    while m < n {
-        let (a, b) = (&jet[m], &jet[n - m]);
+    let (ahead, behind) = (&jet[..=n], &jet[..=n]);
+    let mut pairs = ahead.iter().zip(behind.iter().rev());
+    while let Some((a, b)) = pairs.next() {
         even = products(a, b, even);
-        let (a, b) = (&jet[m + 1], &jet[n - m - 1]);
-        odd = products(a, b, odd);
-        m += 2;
-    }
-    if m == n {
-        even = products(&jet[n], &jet[0], even);
+        if let Some((a, b)) = pairs.next() {
+            odd = products(a, b, odd);
+        }
     }
     let mut linear = cross(constants.momentum, omega);
     if FORCED {
@@ -166,59 +165,67 @@ fn products<R: Real, const N: usize>(a: &[R; N], b: &[R; N], sum: [R; 3]) -> [R;
 }
 
 /// Coefficient n of q (x) omega/2.
+///
+/// One accumulator a component: with both halves of eight lanes these are the eight chains that two units of latency four
+/// need, and they leave room for the quaternion in sixteen registers. That is why the negative rates are stored as well.
 #[inline(always)]
-fn quaternion_rate<R: Real, const N: usize>(jet: &[[R; N]], half_omega: &[[R; 3]; MAX_ORDER], n: usize) -> [R; 4] {
+fn quaternion_rate<R: Real, const N: usize>(jet: &[[R; N]], half_omega: &[[R; 6]; MAX_ORDER], n: usize) -> [R; 4] {
     let zero = jet[0][0].zero();
-    let mut plus = [zero; 4];
-    let mut minus = [zero; 4];
-    for m in 0..=n {
-        let q = &jet[m][ATTITUDE..ATTITUDE + 4];
-        let [x, y, z] = half_omega[n - m];
-        plus[0] = q[1].mul_add(x, plus[0]);
-        minus[0] = q[2].mul_add(y, minus[0]);
-        plus[1] = q[0].mul_add(x, plus[1]);
-        minus[1] = q[3].mul_add(y, minus[1]);
-        plus[2] = q[0].mul_add(y, plus[2]);
-        minus[2] = q[1].mul_add(z, minus[2]);
-        plus[3] = q[0].mul_add(z, plus[3]);
-        minus[3] = q[2].mul_add(x, minus[3]);
-        minus[0] = q[3].mul_add(z, minus[0]);
-        plus[1] = q[2].mul_add(z, plus[1]);
-        plus[2] = q[3].mul_add(x, plus[2]);
-        plus[3] = q[1].mul_add(y, plus[3]);
+    let (mut w, mut x, mut y, mut z) = (zero, zero, zero, zero);
+    for (coefficient, rate) in jet[..=n].iter().zip(half_omega[..=n].iter().rev()) {
+        let (q0, q1) = (coefficient[ATTITUDE], coefficient[ATTITUDE + 1]);
+        let (q2, q3) = (coefficient[ATTITUDE + 2], coefficient[ATTITUDE + 3]);
+        w = q1.mul_add(rate[3], w);
+        x = q0.mul_add(rate[0], x);
+        y = q0.mul_add(rate[1], y);
+        z = q0.mul_add(rate[2], z);
+        w = q2.mul_add(rate[4], w);
+        x = q2.mul_add(rate[2], x);
+        y = q3.mul_add(rate[0], y);
+        z = q1.mul_add(rate[1], z);
+        w = q3.mul_add(rate[5], w);
+        x = q3.mul_add(rate[4], x);
+        y = q1.mul_add(rate[5], y);
+        z = q2.mul_add(rate[3], z);
     }
-    [-(plus[0] + minus[0]), plus[1] - minus[1], plus[2] - minus[2], plus[3] - minus[3]]
+    [w, x, y, z]
 }
 
-/// q (x) (0, v).
+/// q (x) (0, v), and its negative.
 #[inline(always)]
-fn pure_product<R: Real>(q: [R; 4], v: [R; 3]) -> [R; 4] {
+fn pure_product<R: Real>(q: [R; 4], v: [R; 3]) -> [R; 8] {
     let [x, y, z] = v;
-    [
+    let [w, x, y, z] = [
         -q[1].mul_add(x, q[2].mul_add(y, q[3] * z)),
         q[0].mul_add(x, q[2].mul_add(z, -(q[3] * y))),
         q[0].mul_add(y, q[3].mul_add(x, -(q[1] * z))),
         q[0].mul_add(z, q[1].mul_add(y, -(q[2] * x))),
-    ]
+    ];
+    [w, x, y, z, -w, -x, -y, -z]
 }
 
-/// Coefficient n of the vector part of g (x) q*, with g = q (x) v: the vector v of B in F_e.
+/// Coefficient n of the vector part of g (x) q*, with g = q (x) v: the vector v of B in F_e. `g` holds g and -g.
 #[inline(always)]
-fn turned<R: Real, const N: usize>(jet: &[[R; N]], g: &[[R; 4]; MAX_ORDER], n: usize) -> [R; 3] {
+fn turned<R: Real, const N: usize>(jet: &[[R; N]], g: &[[R; 8]; MAX_ORDER], n: usize) -> [R; 3] {
     let zero = jet[0][0].zero();
-    let mut plus = [zero; 3];
-    let mut minus = [zero; 3];
-    for m in 0..=n {
-        let q = &jet[n - m][ATTITUDE..ATTITUDE + 4];
-        let [w, x, y, z] = g[m];
-        plus[0] = x.mul_add(q[0], z.mul_add(q[2], plus[0]));
-        minus[0] = w.mul_add(q[1], y.mul_add(q[3], minus[0]));
-        plus[1] = y.mul_add(q[0], x.mul_add(q[3], plus[1]));
-        minus[1] = w.mul_add(q[2], z.mul_add(q[1], minus[1]));
-        plus[2] = z.mul_add(q[0], y.mul_add(q[1], plus[2]));
-        minus[2] = w.mul_add(q[3], x.mul_add(q[2], minus[2]));
+    let (mut a, mut b, mut c) = (zero, zero, zero);
+    for (coefficient, g) in jet[..=n].iter().zip(g[..=n].iter().rev()) {
+        let (q0, q1) = (coefficient[ATTITUDE], coefficient[ATTITUDE + 1]);
+        let (q2, q3) = (coefficient[ATTITUDE + 2], coefficient[ATTITUDE + 3]);
+        a = q0.mul_add(g[1], a);
+        b = q0.mul_add(g[2], b);
+        c = q0.mul_add(g[3], c);
+        a = q1.mul_add(g[4], a);
+        b = q1.mul_add(g[7], b);
+        c = q1.mul_add(g[2], c);
+        a = q2.mul_add(g[3], a);
+        b = q2.mul_add(g[4], b);
+        c = q2.mul_add(g[5], c);
+        a = q3.mul_add(g[6], a);
+        b = q3.mul_add(g[1], b);
+        c = q3.mul_add(g[4], c);
     }
-    [plus[0] - minus[0], plus[1] - minus[1], plus[2] - minus[2]]
+    [a, b, c]
 }
 
 /// Coefficient n of F_e . v_c.

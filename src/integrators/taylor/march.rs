@@ -1,4 +1,5 @@
 //! The lanes: runs side by side, each with its own step, stretch, period and end.
+#![expect(clippy::needless_range_loop, reason = "components are numbered alike in several arrays")]
 
 use fearless_simd::Simd;
 
@@ -264,7 +265,7 @@ impl<S: Simd, R: Real, const N: usize, const FORCED: bool> March<'_, S, R, N, FO
         let omega = [self.state[0].lane(lane), self.state[1].lane(lane), self.state[2].lane(lane)];
         let left = (place.length - self.time.lane(lane)) - self.time_low.lane(lane);
         self.left.set_lane(lane, left);
-        if !(omega[0] - omega[0] == 0.0 && omega[1] - omega[1] == 0.0 && omega[2] - omega[2] == 0.0) {
+        if !(omega[0].is_finite() && omega[1].is_finite() && omega[2].is_finite()) {
             // the failed step is not to be evaluated
             place.kept -= 1;
             self.places[lane] = Some(place);
@@ -286,8 +287,7 @@ impl<S: Simd, R: Real, const N: usize, const FORCED: bool> March<'_, S, R, N, FO
             } else if let Some(section) = &mut place.section
                 && section.passes(omega)
             {
-                let coefficient = |n: usize, i: usize| jet[n][i].lane(lane);
-                found = section.crossing(coefficient, order, length, self.work.settings.tolerance);
+                found = section.crossing(jet, lane, order, length, self.work.settings.tolerance);
             }
         }
         self.places[lane] = Some(place);
@@ -315,6 +315,14 @@ impl<S: Simd, R: Real, const N: usize, const FORCED: bool> March<'_, S, R, N, FO
     /// The period of the stretch in `lane`, of which the last step comes back after `within` units.
     #[inline(never)]
     fn period(&self, lane: usize, slot: usize, within: f64) -> Option<Period> {
+        self.simd.vectorize(
+            #[inline(always)]
+            || self.period_of(lane, slot, within),
+        )
+    }
+
+    #[inline(always)]
+    fn period_of(&self, lane: usize, slot: usize, within: f64) -> Option<Period> {
         let place = self.places[lane]?;
         let segment = &self.work.ring[slot];
         let length = {
@@ -327,16 +335,16 @@ impl<S: Simd, R: Real, const N: usize, const FORCED: bool> March<'_, S, R, N, FO
         }
         let run = &self.runs[place.run];
         let first = &self.work.ring[self.slot_back(slot, place.kept - 1)].jet[0];
-        let get = |of: &[R; N], at: usize| of[at].lane(lane);
-        let start: [f64; 4] = core::array::from_fn(|i| get(first, ATTITUDE + i));
         let order = self.work.rule.order;
-        let end: [f64; 4] = core::array::from_fn(|i| {
-            (0..=order).rev().fold(0.0_f64, |sum, n| sum.mul_add(within, get(&segment.jet[n], ATTITUDE + i)))
-        });
+        let (mut start, mut end) = ([0.0; 4], [0.0; 4]);
+        for i in 0..4 {
+            start[i] = first[ATTITUDE + i].lane(lane);
+            end[i] = value_at(&segment.jet, ATTITUDE + i, lane, order, within);
+        }
         let mut momentum_b = [0.0; 3];
         let mut scale = 0.0_f64;
         for i in 0..3 {
-            let own = run.moments[i] * get(first, OMEGA + i);
+            let own = run.moments[i] * first[OMEGA + i].lane(lane);
             momentum_b[i] = own + self.constants.momentum[i].lane(lane);
             scale = scale.max(own.abs());
         }
@@ -451,11 +459,11 @@ impl<S: Simd, R: Real, const N: usize, const FORCED: bool> March<'_, S, R, N, FO
         let growth = growth::<R, N>(first, &ring[slot], lane, order, period);
         let mut end = [0.0; N];
         for (i, value) in end.iter_mut().enumerate() {
-            let at_rest = (0..=order).rev().fold(0.0_f64, |sum, n| sum.mul_add(x, segment.jet[n][i].lane(lane)));
-            *value = whole.lane(0).mul_add(growth[i], at_rest);
+            *value = whole.lane(0).mul_add(growth[i], value_at(&segment.jet, i, lane, order, x));
         }
         if N >= WITH_ATTITUDE {
-            let turn = period.turn(whole).map(|part| part.lane(0));
+            let turn = period.turn(whole);
+            let turn = [turn[0].lane(0), turn[1].lane(0), turn[2].lane(0), turn[3].lane(0)];
             let q = hamilton(turn, [end[ATTITUDE], end[ATTITUDE + 1], end[ATTITUDE + 2], end[ATTITUDE + 3]]);
             end[ATTITUDE..ATTITUDE + 4].copy_from_slice(&q);
         }
@@ -552,10 +560,19 @@ fn growth<R: Real, const N: usize>(
     let within = (period.length[0] - last.start.lane(lane)) + (period.length[1] - last.start_low.lane(lane));
     let mut growth = [0.0; N];
     for (i, value) in growth.iter_mut().enumerate().skip(WITH_ATTITUDE) {
-        let end = (0..=order).rev().fold(0.0_f64, |sum, n| sum.mul_add(within, last.jet[n][i].lane(lane)));
-        *value = end - first[i].lane(lane);
+        *value = value_at(&last.jet, i, lane, order, within) - first[i].lane(lane);
     }
     growth
+}
+
+/// One component of a series, in lane `lane`, at `x`.
+#[inline(always)]
+fn value_at<R: Real, const N: usize>(jet: &[[R; N]], component: usize, lane: usize, order: usize, x: f64) -> f64 {
+    let mut sum = jet[order][component].lane(lane);
+    for n in (0..order).rev() {
+        sum = sum.mul_add(x, jet[n][component].lane(lane));
+    }
+    sum
 }
 
 /// Turns the attitudes by their whole periods and adds what the integrals grew.

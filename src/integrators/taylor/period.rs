@@ -5,9 +5,11 @@
 //! momentum L, which is constant in F_e (L. Poinsot, *Theorie nouvelle de la rotation des corps*, 1851; for gyrostats
 //! V. Volterra, 1899): q(t + n P) = r^n (x) q(t) with r = q(P) (x) q(0)*. Integrals of what is periodic grow by the same
 //! amount in every period.
+#![expect(clippy::needless_range_loop, reason = "components and orders are numbered alike in several arrays")]
 
 use fearless_simd::Simd;
 
+use super::jet::MAX_ORDER;
 use crate::math::sine::sin_cos_turns;
 use crate::math::vector::{constant, hamilton, scaled};
 use crate::math::{Lanes, Real};
@@ -70,29 +72,35 @@ impl Section {
         back
     }
 
-    /// The time within a step at which omega is back, given `coefficient(n, i)`, the step's series of omega, and the step's
-    /// length; `None` where the crossing is on another branch of the curve.
+    /// The time within a step at which omega is back, given the step's series in lane `lane` and its length; `None` where the
+    /// crossing is on another branch of the curve.
     #[inline(always)]
-    pub fn crossing(
+    pub fn crossing<R: Real, const N: usize>(
         &self,
-        coefficient: impl Fn(usize, usize) -> f64,
+        jet: &[[R; N]],
+        lane: usize,
         order: usize,
         length: f64,
         tolerance: f64,
     ) -> Option<f64> {
-        let along = |n: usize| {
-            let off = |i: usize| if n == 0 { coefficient(0, i) - self.start[i] } else { coefficient(n, i) };
-            off(0).mul_add(self.direction[0], off(1).mul_add(self.direction[1], off(2) * self.direction[2]))
-        };
-        let first = along(0);
+        // the position along the direction, as a series
+        let d = self.direction;
+        let mut along = [0.0; MAX_ORDER + 1];
+        for n in 0..=order {
+            let mut omega = [jet[n][0].lane(lane), jet[n][1].lane(lane), jet[n][2].lane(lane)];
+            if n == 0 {
+                omega = [omega[0] - self.start[0], omega[1] - self.start[1], omega[2] - self.start[2]];
+            }
+            along[n] = omega[0].mul_add(d[0], omega[1].mul_add(d[1], omega[2] * d[2]));
+        }
         // a secant between both ends, then Newton kept inside the bracket
-        let mut x = length * (first / (first - self.side));
+        let mut x = length * (along[0] / (along[0] - self.side));
         let (mut low, mut high) = (0.0, length);
         for _ in 0..NEWTON_STEPS {
             let (mut value, mut slope) = (0.0_f64, 0.0_f64);
             for n in (0..=order).rev() {
                 slope = slope.mul_add(x, value);
-                value = value.mul_add(x, along(n));
+                value = value.mul_add(x, along[n]);
             }
             if value < 0.0 {
                 low = x;
@@ -107,10 +115,12 @@ impl Section {
                 break;
             }
         }
-        let mut distance2 = 0.0;
-        let mut rate2 = 0.0;
+        let (mut distance2, mut rate2) = (0.0, 0.0);
         for i in 0..3 {
-            let omega = (0..=order).rev().fold(0.0_f64, |sum, n| sum.mul_add(x, coefficient(n, i)));
+            let mut omega = 0.0_f64;
+            for n in (0..=order).rev() {
+                omega = omega.mul_add(x, jet[n][i].lane(lane));
+            }
             distance2 += (omega - self.start[i]) * (omega - self.start[i]);
             rate2 += omega * omega;
         }
