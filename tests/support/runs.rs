@@ -52,9 +52,10 @@ pub fn blocks(list: impl IntoIterator<Item = Block>) -> Blocks {
     list.into_iter().fold(Blocks::NONE, Blocks::with)
 }
 
-/// All blocks that `method` can fill: only the reference kernel integrates the DCM and has constraints.
+/// All blocks that `method` can fill: only the reference kernel integrates the DCM, with
+/// constraints, and has energies of its own.
 pub fn everything(method: Method) -> Blocks {
-    let constrained = |block: &Block| matches!(block, Block::Dcm | Block::Residuals);
+    let constrained = |block: &Block| matches!(block, Block::Dcm | Block::Residuals | Block::KineticEnergies);
     blocks(Block::ALL.into_iter().filter(|block| method == Method::Reference || !constrained(block)))
 }
 

@@ -122,11 +122,11 @@ pub fn random(kind: Kind, seed: u64, horizon: f64) -> SceneInput {
     SceneInput { fuselage, wheels, debris, initial, actuation }
 }
 
-/// `count` scenes of all kinds, all forced or none.
+/// `count` scenes of all kinds, all forced or none; with debris, as a campaign has it for all of its samples or for none.
 pub fn mixed(count: u64, forced: bool, horizon: f64) -> Vec<Scene> {
     let kind = |k: u64| Kind {
         wheels: [k % 4 != 1, k % 4 != 2],
-        debris: (k % 3) as u8,
+        debris: if k % 3 == 0 { 2 } else { 1 },
         products: k % 2 == 1,
         offset: k % 5 > 1,
         forced,
