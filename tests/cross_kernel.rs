@@ -21,12 +21,13 @@ const TOLERANCE: f64 = 1e-11;
 const TAYLOR_TOLERANCE: f64 = 1e-16;
 
 /// Every step may add its tolerance to the rate, relative, and what a rate is off by turns the body for the rest of the run:
-/// steps x tolerance x (1 + angle). The size of a wheel's rate against the body's, and of a lever arm against one metre,
-/// multiply it by up to ten; that the error of the step is the tolerance is the pessimism which makes up for it.
-const AMPLIFICATION: f64 = 10.0;
+/// steps x tolerance x (1 + angle) bounds the error, for states of the size of the rate. The factor is what local
+/// extrapolation gains (the error of the step that is taken is of a higher order than the one that is estimated), less
+/// lever arms, works and impulses of up to ten in their units: measured 0.04 at most in 200 scenes.
+const SHARE: f64 = 0.2;
 /// Rounding of a Taylor step: the state is compensated, so what remains is that of the coefficients and of the constants
-/// (moments, axes, momenta: a few ulps, for the whole run).
-const TAYLOR_ROUNDING: f64 = 16.0 * f64::EPSILON;
+/// (moments, axes, momenta: a few ulps, for the whole run), for every radian.
+const TAYLOR_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 fn kinds() -> impl Strategy<Value = (Kind, u64)> {
     (any::<[bool; 2]>(), 0u8..3, any::<[bool; 3]>(), any::<u64>()).prop_map(
@@ -78,8 +79,12 @@ fn distance(scene: &Scene, found: &StateTable, expected: &StateTable) -> (f64, &
     worst
 }
 
-fn bound(scene: &Scene, tolerance: f64, outcome: &Outcome) -> f64 {
-    AMPLIFICATION * outcome.effort.steps as f64 * tolerance * (1.0 + angle(scene))
+fn bound(scene: &Scene, method: Method, outcome: &Outcome) -> f64 {
+    let local = match method {
+        Method::Auto => TAYLOR_ROUNDING,
+        _ => SHARE * outcome.effort.steps as f64 * TOLERANCE,
+    };
+    local * (1.0 + angle(scene))
 }
 
 proptest! {
@@ -93,18 +98,14 @@ proptest! {
         let run = |method, tolerance| propagate(method, adaptive(tolerance), &grid, &scenes).remove(0);
         let truth = run(Method::Taylor, TAYLOR_TOLERANCE);
         prop_assert_eq!(truth.outcome.status, Status::Done);
-        for (method, tolerance, floor) in [
-            (Method::Auto, TAYLOR_TOLERANCE, TAYLOR_ROUNDING),
-            (Method::DormandPrince, TOLERANCE, 0.0),
-            (Method::Reference, TOLERANCE, 0.0),
-        ] {
+        for (method, tolerance) in
+            [(Method::Auto, TAYLOR_TOLERANCE), (Method::DormandPrince, TOLERANCE), (Method::Reference, TOLERANCE)]
+        {
             let found = run(method, tolerance);
             prop_assert_eq!(found.outcome.status, Status::Done);
             let (error, what) = distance(scene, &found.table, &truth.table);
-            let allowed = bound(scene, tolerance.max(floor), &found.outcome);
-            if std::env::var_os("SPINDRIFT_SHOW").is_some() {
-                println!("{:15} {:9.2e} of {:9.2e}: {:.4} {}", method.name(), error, allowed, error / allowed, what);
-            }
+            let allowed = bound(scene, method, &found.outcome);
+            println!("{:15} {error:9.2e} of {allowed:9.2e}: {:.4} {what}", method.name(), error / allowed);
             prop_assert!(error <= allowed, "{}: {} {:e} > {:e}", method.name(), what, error, allowed);
         }
     }
@@ -129,7 +130,7 @@ fn the_comparison_can_fail() {
         let other = Scene::resolve(&other).expect("random scenes are physical");
         let found = run(Method::Reference, TOLERANCE, &other);
         let (error, _) = distance(&scene, &found.table, &truth.table);
-        let allowed = bound(&scene, TOLERANCE, &found.outcome);
+        let allowed = bound(&scene, Method::Reference, &found.outcome);
         assert!(error > allowed, "{error:e} {allowed:e}");
     }
 }
