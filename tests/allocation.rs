@@ -133,8 +133,7 @@ fn engines_with_scenes_of_every_kind() {
 
 fn no_allocation(method: Method, control: Control, first: &[Scene], second: &[Scene], what: &str) {
     let grid = Grid::uniform(10.0, 101);
-    let mut engine =
-        Propagator::new(method, control, grid, everything(method), &first[0]).engine(Isa::best());
+    let mut engine = Propagator::new(method, control, grid, everything(method), &first[0]).engine(Isa::best());
     let mut finished = 0;
     engine.propagate(first, &mut |_, _, _| finished += 1);
     let counted = allocations(|| engine.propagate(second, &mut |_, _, _| finished += 1));
@@ -208,7 +207,9 @@ fn draws_and_scenes() {
 /// Law: a worker of a campaign - draw, propagate, observe, write rows - allocates in its first part only.
 #[test]
 fn a_worker() {
-    for (name, method) in [("spin_sweep", "auto"), ("spin_sweep", "taylor"), ("burn", "auto"), ("no_debris", "dormand_prince")] {
+    for (name, method) in
+        [("spin_sweep", "auto"), ("spin_sweep", "taylor"), ("burn", "auto"), ("no_debris", "dormand_prince")]
+    {
         let plan = plan(name, method);
         let campaign = Campaign::new(&plan, Isa::best());
         let mut worker = campaign.worker();

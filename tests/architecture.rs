@@ -19,8 +19,8 @@ const FLOORS: [(&str, u32); 11] = [
 
 /// Elementary functions whose last digits are the platform's own: rows take them from `libm`.
 const UNPORTABLE: [&str; 24] = [
-    "sin", "cos", "tan", "sin_cos", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "asinh", "acosh", "atanh", "exp",
-    "exp2", "exp_m1", "ln", "ln_1p", "log", "log2", "log10", "powf", "cbrt",
+    "sin", "cos", "tan", "sin_cos", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "asinh", "acosh", "atanh",
+    "exp", "exp2", "exp_m1", "ln", "ln_1p", "log", "log2", "log10", "powf", "cbrt",
 ];
 
 fn root() -> PathBuf {
@@ -105,7 +105,9 @@ fn imports(code: &str) -> Vec<String> {
                     }
                     found.push(item);
                 }
-                None => found.push(rest.chars().take_while(|letter| letter.is_alphanumeric() || *letter == '_').collect()),
+                None => {
+                    found.push(rest.chars().take_while(|letter| letter.is_alphanumeric() || *letter == '_').collect())
+                }
             }
         }
     }
@@ -151,7 +153,9 @@ fn elementary_functions_are_portable() {
 fn failures_are_values() {
     let wrong: Vec<String> = sources()
         .iter()
-        .filter(|source| [".unwrap()", "todo!(", "unimplemented!(", "dbg!("].iter().any(|call| source.code.contains(call)))
+        .filter(|source| {
+            [".unwrap()", "todo!(", "unimplemented!(", "dbg!("].iter().any(|call| source.code.contains(call))
+        })
         .map(|source| source.path.clone())
         .collect();
     assert!(wrong.is_empty(), "unwrap, todo or dbg in what is shipped: {wrong:?}");
@@ -183,7 +187,10 @@ fn the_readers_can_fail() {
     assert_eq!(trespasses("dynamics/x.rs", "dynamics", grouped), ["dynamics/x.rs imports output"]);
     let beside = "fn f() -> crate::observables::Request { todo() }";
     assert_eq!(trespasses("integrators/x.rs", "integrators", beside), ["integrators/x.rs imports observables"]);
-    assert!(trespasses("integrators/x.rs", "integrators", &code("// see crate::cli\nuse crate::dynamics::debris;")).is_empty());
+    assert!(
+        trespasses("integrators/x.rs", "integrators", &code("// see crate::cli\nuse crate::dynamics::debris;"))
+            .is_empty()
+    );
     assert_eq!(trespasses("new/x.rs", "new", "").len(), 1, "a module without a floor");
     assert_eq!(unportable("let y = x.sin() + f64::exp(x) + libm::cos(x);"), ["sin", "exp"]);
     assert_eq!(code("a\n#[cfg(test)]\nmod tests {\n x.unwrap()"), "a");

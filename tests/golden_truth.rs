@@ -178,14 +178,16 @@ fn reference() {
 #[test]
 fn taylor() {
     for name in ["table1", "forced"] {
-        errors(name, Method::Taylor, adaptive(1e-16)).assert_below(Errors::all(TAYLOR), &format!("taylor at 1e-16, {name}"));
+        errors(name, Method::Taylor, adaptive(1e-16))
+            .assert_below(Errors::all(TAYLOR), &format!("taylor at 1e-16, {name}"));
     }
 }
 
 #[test]
 fn auto() {
     for name in ["table1", "forced"] {
-        errors(name, Method::Auto, adaptive(1e-16)).assert_below(Errors::all(TAYLOR), &format!("auto at 1e-16, {name}"));
+        errors(name, Method::Auto, adaptive(1e-16))
+            .assert_below(Errors::all(TAYLOR), &format!("auto at 1e-16, {name}"));
     }
 }
 

@@ -246,7 +246,10 @@ const REFERENCE_ERROR: f64 = 1e-6;
 fn special_cases_are_those_of_the_reference_kernel() {
     for Special { name, input, amplification, .. } in specials() {
         let rates = input.initial.wheel_rates_rad_s.map(f64::abs);
-        if rates[0].max(rates[1]) > 150.0 || amplification > 1e4 || input.initial.angular_velocity_rad_s[0].abs() > 100.0 {
+        if rates[0].max(rates[1]) > 150.0
+            || amplification > 1e4
+            || input.initial.angular_velocity_rad_s[0].abs() > 100.0
+        {
             continue;
         }
         let scenes = [scene(&input)];

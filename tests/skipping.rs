@@ -106,7 +106,8 @@ fn less_is_integrated() {
 #[test]
 fn debris_changes_nothing_of_the_spacecraft() {
     use Block::*;
-    let list = blocks([Rate, Attitude, WheelRates, WheelAngles, ComPosition, ComVelocity, Work, Impulse, AngularImpulse]);
+    let list =
+        blocks([Rate, Attitude, WheelRates, WheelAngles, ComPosition, ComVelocity, Work, Impulse, AngularImpulse]);
     let grid = Grid::uniform(HORIZON, 29);
     for forced in [false, true] {
         let with = mixed(13, forced, HORIZON);
@@ -128,7 +129,9 @@ fn debris_changes_nothing_of_the_spacecraft() {
 #[test]
 fn groups_do_not_reach_each_other() {
     let grid = Grid::uniform(HORIZON, 29);
-    for (forced, method) in [(false, Method::Auto), (true, Method::Auto), (true, Method::Taylor), (true, Method::DormandPrince)] {
+    for (forced, method) in
+        [(false, Method::Auto), (true, Method::Auto), (true, Method::Taylor), (true, Method::DormandPrince)]
+    {
         let scenes = mixed(13, forced, HORIZON);
         let rows = |groups: Groups| {
             let request = Request { groups, debris: true, actuated: forced, constrained: false };
@@ -159,7 +162,8 @@ fn groups_do_not_reach_each_other() {
 #[test]
 fn the_comparison_can_fail() {
     let scenes = mixed(2, false, HORIZON);
-    let plan = Propagator::new(Method::Auto, adaptive(1e-12), Grid::uniform(HORIZON, 29), blocks([Block::Rate]), &scenes[0]);
+    let plan =
+        Propagator::new(Method::Auto, adaptive(1e-12), Grid::uniform(HORIZON, 29), blocks([Block::Rate]), &scenes[0]);
     let runs = propagate_on(Isa::best(), &plan, &scenes);
     let mut other = runs[0].clone();
     let value = &mut other.table.column_mut(Block::Rate, 2)[28];
