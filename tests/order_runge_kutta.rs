@@ -101,9 +101,10 @@ fn arenstorf_orbits_close() {
     let grid = Grid::uniform(period, 5);
     let mut steps = Vec::new();
     for tolerance in [1e-9, 1e-11] {
+        let cases = std::slice::from_ref(&case);
         for journey in [
-            scalar(Adaptive(DormandPrince), ThreeBody, &[case.clone()], &grid, &control(tolerance, 0.0)).remove(0),
-            scalar(Adaptive(Dop853), ThreeBody, &[case.clone()], &grid, &control(tolerance, 0.0)).remove(0),
+            scalar(Adaptive(DormandPrince), ThreeBody, cases, &grid, &control(tolerance, 0.0)).remove(0),
+            scalar(Adaptive(Dop853), ThreeBody, cases, &grid, &control(tolerance, 0.0)).remove(0),
         ] {
             let end = journey.points[4];
             let gap = libm::hypot(end[0] - state[0], end[1] - state[1]);

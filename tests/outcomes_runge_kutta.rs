@@ -83,7 +83,8 @@ fn a_pole_is_a_step_floor_or_not_finite() {
     let control = control(1e-8, 0.01);
     let case = Case { state: [1.0], parameters: [], ends: vec![2.0] };
     for journey in [
-        scalar(Adaptive(DormandPrince), BlowUp, &[case.clone()], &Grid::uniform(2.0, 21), &control).remove(0),
+        scalar(Adaptive(DormandPrince), BlowUp, std::slice::from_ref(&case), &Grid::uniform(2.0, 21), &control)
+            .remove(0),
         scalar(Adaptive(Dop853), BlowUp, &[case], &Grid::uniform(2.0, 21), &control).remove(0),
     ] {
         assert!(matches!(journey.outcome.status, Status::StepFloor | Status::NonFinite), "{:?}", journey.outcome);

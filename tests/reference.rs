@@ -324,7 +324,7 @@ fn energies_of_table_one_at_time_zero() {
     }
 }
 
-const BLOCKS: [Block; 15] = Block::ALL;
+const BLOCKS: [Block; 16] = Block::ALL;
 
 /// The reference kernel on a golden scene, observed at the golden times.
 fn observed(input: &SceneInput, times: Vec<f64>) -> (Scene, Trajectory, StateTable) {

@@ -166,7 +166,7 @@ fn components_and_samples_are_independent() {
         })
         .collect();
     let correlation = |pair: &dyn Fn(usize) -> (f64, f64), n: usize| {
-        (0..n).map(|k| pair(k)).map(|(a, b)| a * b).sum::<f64>() / (n as f64).sqrt()
+        (0..n).map(pair).map(|(a, b)| a * b).sum::<f64>() / (n as f64).sqrt()
     };
     let n = N as usize;
     for value in [

@@ -6,7 +6,7 @@
 //! - [`spec`]: the keys of a campaign file; [`disperse`]: those of its `[[disperse]]` tables.
 //! - [`plan`]: defaults filled in, scene and dispersions checked against each other.
 //! - [`canonical`]: the plan as text that reads back to the same plan, and its hash.
-//! - [`find`]: which file a name means.
+//! - [`mod@find`]: which file a name means.
 //!
 //! Not here: what is physical ([`crate::scene`]) and what can be drawn ([`crate::sampling`]); their errors get lines here.
 

@@ -433,11 +433,11 @@ mod tests {
 
     /// A right-hand side of no consequence: the stages are set by hand.
     struct Still;
-    impl System<f64, 16> for Still {
-        fn derivative(&self, _time: f64, _state: &[f64; 16]) -> [f64; 16] {
-            [0.0; 16]
+    impl<const N: usize> System<f64, N> for Still {
+        fn derivative(&self, _time: f64, _state: &[f64; N]) -> [f64; N] {
+            [0.0; N]
         }
-        fn error_ratio(&self, _: &[f64; 16], _: &[f64; 16], _: &[f64; 16], _: Tolerance) -> f64 {
+        fn error_ratio(&self, _: &[f64; N], _: &[f64; N], _: &[f64; N], _: Tolerance) -> f64 {
             0.0
         }
     }
@@ -457,17 +457,16 @@ mod tests {
         for (row, weights) in interpolant[3..].iter_mut().zip(&Dop853Tableau::D) {
             *row = weighted(k, weights);
         }
-        Dop853::inside(1.0, s, &[0.0; 16], &stages)
+        Dop853::inside(&Still, step, s, &start, &stages)
     }
 
     #[test]
     fn dense_output_of_dormand_prince_has_order_4() {
         for s in [0.1, 0.3, 0.5, 0.77, 1.0] {
-            let mut unit = [[0.0; 7]; 7];
-            for i in 0..7 {
-                unit[i][i] = 1.0;
-            }
-            let weights = DormandPrince::inside(1.0, s, &[0.0; 7], &unit);
+            let unit: [[f64; 7]; 7] = std::array::from_fn(|i| std::array::from_fn(|k| f64::from(u8::from(i == k))));
+            let start = Carried { state: [0.0; 7], carry: [0.0; 7] };
+            let step = Step { time: 0.0, end: 1.0, length: 1.0 };
+            let weights = DormandPrince::inside(&Still, step, s, &start, &unit);
             assert!(largest_defect(&DormandPrinceTableau::A, &weights, s, 4) < ROUND_OFF);
             if s < 1.0 {
                 assert!(largest_defect(&DormandPrinceTableau::A, &weights, s, 5) > 1e-7);

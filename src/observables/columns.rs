@@ -30,6 +30,19 @@ pub struct Column {
     pub(super) value: Value,
 }
 
+impl Column {
+    /// The scenes that have the column, in words; empty where all have it.
+    pub const fn scenes(&self) -> &'static str {
+        match self.when {
+            When::Always => "",
+            When::Debris => "with debris",
+            When::Actuated => "with actuation",
+            When::Free => "without actuation",
+            When::Constrained => "reference kernel",
+        }
+    }
+}
+
 /// The kind of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {

@@ -229,8 +229,9 @@ mod tests {
         for points in [51, 64, 101, 128, 129, 1000, 5000] {
             for cycles in [2.2, 3.0, 4.55, 7.31, 11.5, 17.77, 20.01] {
                 let duration = 3.0;
-                let found =
-                    peak(points, duration, |t| 0.1 * libm::sin(2.0 * 3.141592653589793 * cycles * t / duration + 0.3));
+                let found = peak(points, duration, |t| {
+                    0.1 * libm::sin(2.0 * std::f64::consts::PI * cycles * t / duration + 0.3)
+                });
                 let error = (found * duration - cycles).abs();
                 worst = worst.max(error);
                 assert!(error <= BIN_ERROR, "{points} points, {cycles} cycles: {}", found * duration);
@@ -241,7 +242,7 @@ mod tests {
 
     #[test]
     fn the_stronger_of_two_tones_wins() {
-        let tone = |t: f64, f: f64| libm::sin(2.0 * 3.141592653589793 * f * t);
+        let tone = |t: f64, f: f64| libm::sin(2.0 * std::f64::consts::PI * f * t);
         for (weak, strong) in [(5.0, 12.0), (12.0, 5.0)] {
             let found = peak(101, 1.0, |t| tone(t, strong) + 0.5 * tone(t, weak));
             assert!((found - strong).abs() <= BIN_ERROR, "{found}");

@@ -28,7 +28,7 @@ impl DormandPrinceTableau {
     pub const E: [f64; 7] =
         [71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339200.0, 22.0 / 525.0, -1.0 / 40.0];
 
-    /// Dense output: the weight of stage i at the fraction s of the step is sum_p DENSE[i][p] s^(p+1).
+    /// Dense output: the weight of stage i at the fraction s of the step is `sum_p DENSE[i][p] s^(p+1)`.
     pub const DENSE: [[f64; 4]; 7] = [
         [1.0, -183.0 / 64.0, 37.0 / 12.0, -145.0 / 128.0],
         [0.0; 4],

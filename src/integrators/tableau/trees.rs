@@ -40,9 +40,9 @@ fn trees(order: usize) -> Vec<Vec<Tree>> {
                 of_order.push(Tree(branches));
                 continue;
             }
-            for next in size..=left {
+            for (next, smaller) in all.iter().enumerate().take(left + 1).skip(size) {
                 let first = if next == size { index } else { 0 };
-                for (k, tree) in all[next].iter().enumerate().skip(first) {
+                for (k, tree) in smaller.iter().enumerate().skip(first) {
                     let mut longer: Vec<Tree> = branches.clone();
                     longer.push(tree.clone());
                     open.push((longer, left - next, (next, k)));

@@ -628,7 +628,7 @@ fn load_part<S: Simd>(simd: S, part: &[f64]) -> Lanes<S> {
 
 /// What turns a component in the lane's unit of time into SI.
 #[inline(always)]
-fn factors<const N: usize>(unit: f64) -> [f64; N] {
+pub(super) fn factors<const N: usize>(unit: f64) -> [f64; N] {
     let mut factors = [1.0; N];
     let inverse = 1.0 / unit;
     factors[OMEGA..OMEGA + 3].fill(inverse);
