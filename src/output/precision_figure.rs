@@ -22,6 +22,10 @@ const PANEL_WIDTH: u32 = 680;
 const PANEL_HEIGHT: u32 = 440;
 /// Height of the figure's title, pixels.
 const TITLE_HEIGHT: u32 = 44;
+/// Height of the legend below the title, pixels: outside the panels, since curves may lie anywhere in them.
+const LEGEND_HEIGHT: u32 = 28;
+/// Width of one method in the legend, pixels.
+const LEGEND_WIDTH: u32 = 160;
 /// Errors below this are drawn on it: they are zero but for the observation's rounding.
 const LEAST_ERROR: f64 = 1e-17;
 /// Errors above this are drawn on it: nothing of the motion is left.
@@ -56,7 +60,7 @@ impl PrecisionFigure<'_> {
         let panels = self.panels();
         let columns = panels.len().clamp(1, 2);
         let rows = panels.len().div_ceil(columns).max(1);
-        let (width, height) = (columns as u32 * PANEL_WIDTH, rows as u32 * PANEL_HEIGHT + TITLE_HEIGHT);
+        let (width, height) = (columns as u32 * PANEL_WIDTH, rows as u32 * PANEL_HEIGHT + TITLE_HEIGHT + LEGEND_HEIGHT);
         let bytes = match PlotFormat::of(path)? {
             PlotFormat::Svg => {
                 let mut text = String::new();
@@ -88,7 +92,7 @@ impl PrecisionFigure<'_> {
             let of = self.measured.iter().filter(|measurement| measurement.method == method);
             let points: Vec<(f64, f64)> = of
                 .filter_map(|m| pick(m).filter(|error| error.max.is_finite()).map(|error| (error.max, m.cpu[0])))
-                .map(|(error, cpu)| (-libm::log10(error.clamp(LEAST_ERROR, LARGEST_ERROR)), libm::log10(1e6 * cpu)))
+                .map(|(error, cpu)| (-libm::log10(error.clamp(LEAST_ERROR, LARGEST_ERROR)), libm::log10(cpu)))
                 .filter(|(_, cpu)| cpu.is_finite())
                 .collect();
             (!points.is_empty()).then(|| Curve { method, color: COLORS.get(number).copied().unwrap_or(GREY), points })
@@ -106,6 +110,8 @@ impl PrecisionFigure<'_> {
         area.fill(&WHITE).map_err(drawing)?;
         let area = area.margin((12 * scale) as i32, 0, 0, 0);
         let area = area.titled(&self.title, ("sans-serif", 20 * scale)).map_err(drawing)?;
+        let (strip, area) = area.split_vertically((LEGEND_HEIGHT * scale) as i32);
+        legend(&strip, panels.first().map_or(&[], |(_, curves)| curves), scale)?;
         let columns = panels.len().clamp(1, 2);
         let cells = area.split_evenly((panels.len().div_ceil(columns).max(1), columns));
         for ((title, curves), cell) in panels.iter().zip(&cells) {
@@ -118,7 +124,7 @@ impl PrecisionFigure<'_> {
 /// The seventh method's colour.
 const GREY: RGBColor = RGBColor(130, 130, 130);
 
-/// One method: (-log10 error, log10 of the time in microseconds), setting by setting.
+/// One method: (-log10 error, log10 of the time in s), setting by setting.
 struct Curve {
     method: Method,
     color: RGBColor,
@@ -132,23 +138,22 @@ fn draw_panel<B: DrawingBackend>(
     scale: u32,
 ) -> Result<(), PlotError> {
     let points = || curves.iter().flat_map(|curve| &curve.points);
-    let horizontal = decades(points().map(|point| point.0), 0);
-    // a decade above for the legend
-    let vertical = decades(points().map(|point| point.1), 1);
+    let horizontal = decades(points().map(|point| point.0));
+    let vertical = decades(points().map(|point| point.1));
     let label = (15 * scale) as i32;
     let mut chart = ChartBuilder::on(cell)
         .caption(title, ("sans-serif", 17 * scale))
         .margin(8 * scale)
         .margin_right(20 * scale)
         .x_label_area_size(44 * scale)
-        .y_label_area_size(74 * scale)
+        .y_label_area_size(64 * scale)
         .build_cartesian_2d(horizontal.clone(), vertical.clone())
         .map_err(drawing)?;
     let ticks = |range: &Range<f64>| (range.end - range.start).round() as usize + 1;
     chart
         .configure_mesh()
         .x_desc("error, smaller to the right")
-        .y_desc("CPU time of a run, µs")
+        .y_desc("CPU time of a run, s")
         .x_labels(ticks(&horizontal))
         .y_labels(ticks(&vertical))
         .x_label_formatter(&|value| power(-value))
@@ -162,35 +167,39 @@ fn draw_panel<B: DrawingBackend>(
     for curve in curves {
         let style = curve.color.stroke_width(scale + scale / 2);
         let color = curve.color;
-        let (length, radius) = ((22 * scale) as i32, (3 * scale) as i32);
-        chart
-            .draw_series(LineSeries::new(curve.points.iter().copied(), style))
-            .map_err(drawing)?
-            .label(curve.method.name())
-            .legend(move |(x, y)| PathElement::new(vec![(x, y), (x + length, y)], style.stroke_width(2 * scale)));
-        let dots = curve.points.iter().map(|point| Circle::new(*point, radius, color.filled()));
+        chart.draw_series(LineSeries::new(curve.points.iter().copied(), style)).map_err(drawing)?;
+        let dots = curve.points.iter().map(|point| Circle::new(*point, (3 * scale) as i32, color.filled()));
         chart.draw_series(dots).map_err(drawing)?;
     }
-    chart
-        .configure_series_labels()
-        .position(SeriesLabelPosition::UpperLeft)
-        .legend_area_size(28 * scale)
-        .background_style(WHITE.mix(0.8))
-        .border_style(RGBColor(200, 200, 200))
-        .label_font(("sans-serif", label - 2))
-        .draw()
-        .map_err(drawing)?;
     Ok(())
 }
 
-/// Whole decades around `values`, and `more` above.
-fn decades(values: impl Iterator<Item = f64>, more: i32) -> Range<f64> {
+/// The methods in their colours, side by side.
+fn legend<B: DrawingBackend>(strip: &DrawingArea<B, Shift>, curves: &[Curve], scale: u32) -> Result<(), PlotError> {
+    let width = (LEGEND_WIDTH * scale) as i32;
+    let total = width * curves.len() as i32;
+    let mut x = (strip.dim_in_pixel().0 as i32 - total).max(0) / 2;
+    let (y, line) = ((LEGEND_HEIGHT * scale / 2) as i32, (24 * scale) as i32);
+    for curve in curves {
+        strip
+            .draw(&PathElement::new(vec![(x, y), (x + line, y)], curve.color.stroke_width(2 * scale)))
+            .map_err(drawing)?;
+        strip.draw(&Circle::new((x + line / 2, y), (3 * scale) as i32, curve.color.filled())).map_err(drawing)?;
+        let at = (x + line + (6 * scale) as i32, y - (8 * scale) as i32);
+        strip.draw(&Text::new(curve.method.name(), at, ("sans-serif", 14 * scale))).map_err(drawing)?;
+        x += width;
+    }
+    Ok(())
+}
+
+/// Whole decades around `values`.
+fn decades(values: impl Iterator<Item = f64>) -> Range<f64> {
     let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), value| (l.min(value), h.max(value)));
     if low > high {
         return 0.0..1.0;
     }
     let (low, high) = (libm::floor(low), libm::ceil(high));
-    low..high.max(low + 1.0) + f64::from(more)
+    low..high.max(low + 1.0)
 }
 
 /// 10^`exponent` as a person writes it; nothing between the powers.
@@ -210,9 +219,9 @@ mod tests {
 
     #[test]
     fn axes_hold_whole_decades() {
-        assert_eq!(decades([3.2, 7.9].into_iter(), 1), 3.0..9.0);
-        assert_eq!(decades([3.0].into_iter(), 0), 3.0..4.0);
-        assert_eq!(decades([].into_iter(), 0), 0.0..1.0);
+        assert_eq!(decades([3.2, 7.9].into_iter()), 3.0..8.0);
+        assert_eq!(decades([3.0].into_iter()), 3.0..4.0);
+        assert_eq!(decades([].into_iter()), 0.0..1.0);
         assert_eq!([-12.0, 0.0, 1.0, 2.5].map(power), ["10⁻¹²", "1", "10", ""]);
     }
 }
