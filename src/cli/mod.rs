@@ -1,6 +1,6 @@
 //! Floor 7: the command line. Arguments, progress, exit codes; no physics.
 //!
-//! - [`campaign`], [`check`], [`simulate`]: one command each.
+//! - [`campaign`], [`check`], [`precision`], [`simulate`]: one command each.
 //! - [`verdict`]: how a command ends, and the exit code. - [`progress`]: the bar. - [`screen`]: what is printed.
 
 use std::path::PathBuf;
@@ -9,11 +9,13 @@ use clap::{Args, Parser, Subcommand};
 
 use crate::campaign::{Overrides, Plan, find};
 use crate::cli::verdict::Failure;
+use crate::integrators::Method;
 use crate::math::Isa;
 use crate::math::isa::VARIABLE;
 
 pub mod campaign;
 pub mod check;
+pub mod precision;
 pub mod progress;
 pub mod screen;
 pub mod simulate;
@@ -51,6 +53,9 @@ pub enum Command {
     /// Run one sample as a time series: to a table, a Parquet or CSV file, a plot.
     #[command(after_help = EXIT_CODES)]
     Simulate(SimulateOptions),
+    /// Measure run time against error for every method and tolerance: a table, a Parquet file, a plot.
+    #[command(after_help = EXIT_CODES)]
+    Precision(PrecisionOptions),
 }
 
 /// Arguments of `campaign`.
@@ -102,6 +107,35 @@ pub struct SimulateOptions {
     pub plot: Option<PathBuf>,
 }
 
+/// Arguments of `precision`.
+#[derive(Debug, Args)]
+pub struct PrecisionOptions {
+    /// The campaign file; its own method and tolerance are not used.
+    pub file: PathBuf,
+    /// Number of samples, from the first.
+    #[arg(long, value_name = "N", default_value = "64")]
+    pub samples: std::num::NonZeroU64,
+    /// Methods, by their names in campaign files [default: all].
+    #[arg(long, value_name = "A,B", value_delimiter = ',', value_parser = precision::method)]
+    pub methods: Option<Vec<Method>>,
+    /// Tolerances [default: 1e-4 to 1e-16, a decade apart]. A method with a fixed step gets as many steps, each half the one
+    /// before.
+    #[arg(long, value_name = "A,B", value_delimiter = ',', value_parser = precision::tolerance)]
+    pub tolerances: Option<Vec<f64>>,
+    /// Timed repetitions of each; the median counts.
+    #[arg(long, value_name = "N", default_value = "5")]
+    pub repeats: std::num::NonZeroUsize,
+    /// Integrate only what the file's groups of observables need, not every state of the scene.
+    #[arg(long)]
+    pub observed: bool,
+    /// Leave out what is predicted to take more CPU time than this for one pass over the samples.
+    #[arg(long, value_name = "S", default_value = "20", value_parser = precision::seconds)]
+    pub limit_s: f64,
+    /// Folder of the result, whose files are replaced [default: the campaign's name and _precision in results/].
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
 /// The arguments of this process; where they are wrong, says so and ends it with code 2.
 pub fn arguments() -> Arguments {
     Arguments::parse()
@@ -142,7 +176,7 @@ mod tests {
         // `help` is clap's own
         let ours = command.get_subcommands_mut().filter(|command| command.get_name() != "help");
         helps.extend(ours.map(|command| command.render_help().to_string()));
-        assert_eq!(helps.len(), 4);
+        assert_eq!(helps.len(), 5);
         for help in helps {
             for code in ["0  done", "1  ran", "2  bad input", "4  input/output"] {
                 assert!(help.contains(code), "{help}");

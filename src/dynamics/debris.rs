@@ -23,15 +23,16 @@ pub fn is_isotropic(body: &Body) -> bool {
 }
 
 /// Sets `run` to the free rotation of the debris; false where the scene has none.
-pub fn set_rotation(run: &mut Gyrostat<f64>, scene: &Scene, duration: f64) -> bool {
+pub fn set_rotation<R: Real>(run: &mut Gyrostat<R>, scene: &Scene, duration: f64) -> bool {
     let Some(body) = &scene.mass.debris else { return false };
-    let zero = 0.0_f64;
+    let zero = run.mass.zero();
     run.set_body(zero, body.inertia);
     run.axial = [zero; 2];
     run.axes_b = [[zero; 3]; 2];
-    run.mass = body.mass;
-    run.omega_b = run.into_b(scene.initial.omega_de_d);
-    run.q_eb = if run.c_sb.is_some() { hamilton(scene.initial.q_ed, run.q_sb) } else { scene.initial.q_ed };
+    run.mass = zero.splat(body.mass);
+    run.omega_b = run.into_b(constant(zero, scene.initial.omega_de_d));
+    let q_ed = constant_quaternion(zero, scene.initial.q_ed);
+    run.q_eb = if run.c_sb.is_some() { hamilton(q_ed, run.q_sb) } else { q_ed };
     run.stretches.clear();
     run.stretches.push(Stretch::free(zero, 0.0, duration));
     true

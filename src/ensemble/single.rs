@@ -66,7 +66,7 @@ impl SingleRun {
 }
 
 /// Every state that the scenes of `plan` have.
-fn states(plan: &Plan) -> Blocks {
+pub fn states(plan: &Plan) -> Blocks {
     let spacecraft =
         [Block::Rate, Block::Attitude, Block::WheelRates, Block::WheelAngles, Block::ComPosition, Block::ComVelocity];
     let debris = [Block::DebrisPosition, Block::DebrisVelocity, Block::DebrisAttitude, Block::DebrisRate];

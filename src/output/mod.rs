@@ -4,6 +4,7 @@
 //! - [`columnar`]: columns with unit and meaning as Parquet. - [`rows_file`]: the files of rows. - [`part_sink`]: parts into files.
 //! - [`sketch`], [`summary`]: order statistics of any number of samples in flat memory.
 //! - [`timeseries`]: one run over time. - [`plot`], [`energy_figure`]: curves as SVG and PNG.
+//! - [`precision_table`], [`precision_figure`]: run time against error, as Parquet, text and a logarithmic plot.
 //!
 //! Not here: what is measured (the observables' table says it), and arguments and exit codes (the command line).
 
@@ -13,6 +14,8 @@ pub mod energy_figure;
 pub mod folder;
 pub mod part_sink;
 pub mod plot;
+pub mod precision_figure;
+pub mod precision_table;
 pub mod rows_file;
 pub mod sketch;
 pub mod summary;

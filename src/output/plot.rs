@@ -19,7 +19,7 @@ use crate::output::atomic;
 static FONT: &[u8] = include_bytes!("../../assets/DejaVuSans-subset.ttf");
 
 /// Colours that stay apart for colour-blind readers (Okabe & Ito 2008).
-const COLORS: [RGBColor; 6] = [
+pub(super) const COLORS: [RGBColor; 6] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),
@@ -35,7 +35,7 @@ const PANEL_HEIGHT: u32 = 320;
 /// Height of the figure's title, pixels.
 const TITLE_HEIGHT: u32 = 44;
 /// The bitmap is drawn this much larger and averaged down.
-const OVERSAMPLING: u32 = 2;
+pub(super) const OVERSAMPLING: u32 = 2;
 
 /// Where a variable moves by less than this fraction of its size, its axis counts from a base value.
 const OFFSET_BELOW: f64 = 1e-3;
@@ -280,25 +280,25 @@ impl Axis {
     }
 }
 
-fn superscript(power: i32) -> String {
+pub(super) fn superscript(power: i32) -> String {
     const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let digits = power.unsigned_abs().to_string();
     let digits = digits.chars().filter_map(|digit| digit.to_digit(10)).map(|digit| DIGITS[digit as usize]);
     (power < 0).then_some('⁻').into_iter().chain(digits).collect()
 }
 
-fn install_font() -> Result<(), PlotError> {
+pub(super) fn install_font() -> Result<(), PlotError> {
     static INSTALLED: OnceLock<bool> = OnceLock::new();
     let installed = INSTALLED.get_or_init(|| register_font("sans-serif", FontStyle::Normal, FONT).is_ok());
     if *installed { Ok(()) } else { Err(PlotError::Drawing("the built-in font cannot be read".to_owned())) }
 }
 
-fn drawing<E: std::error::Error + Send + Sync>(error: DrawingAreaErrorKind<E>) -> PlotError {
+pub(super) fn drawing<E: std::error::Error + Send + Sync>(error: DrawingAreaErrorKind<E>) -> PlotError {
     PlotError::Drawing(error.to_string())
 }
 
 /// Averages squares of [`OVERSAMPLING`] pixels; `width` and `height` are those of the result.
-fn averaged(pixels: &[u8], width: usize, height: usize) -> Vec<u8> {
+pub(super) fn averaged(pixels: &[u8], width: usize, height: usize) -> Vec<u8> {
     let side = OVERSAMPLING as usize;
     let mut small = Vec::with_capacity(width * height * 3);
     for y in 0..height {
@@ -317,7 +317,7 @@ fn averaged(pixels: &[u8], width: usize, height: usize) -> Vec<u8> {
     small
 }
 
-fn encode(pixels: &[u8], width: u32, height: u32) -> Result<Vec<u8>, PlotError> {
+pub(super) fn encode(pixels: &[u8], width: u32, height: u32) -> Result<Vec<u8>, PlotError> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
     encoder.set_color(png::ColorType::Rgb);

@@ -3,3 +3,5 @@
 
 pub mod extrapolation;
 pub mod golden;
+pub mod runs;
+pub mod scenes;

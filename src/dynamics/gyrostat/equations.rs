@@ -84,6 +84,34 @@ impl<R: Real> Constants<R> {
         self.start.set_lane(lane, stretch.start / unit);
     }
 
+    /// The constants of stretch `stretch` of one run in the run's own arithmetic; times and rates in units of `unit` seconds.
+    ///
+    /// What [`Constants::set_run`] and [`Constants::set_stretch`] put into a lane, for reference solutions in more digits.
+    #[inline(always)]
+    pub fn of(run: &Gyrostat<R>, stretch: usize, unit: f64) -> Self {
+        let stretch = &run.stretches[stretch];
+        let (one, unit) = (run.mass.splat(1.0), run.mass.splat(unit));
+        let unit2 = unit * unit;
+        let [power, power_rate] = run.motor_power(stretch);
+        let mut constants = Constants::zero(run.mass.zero());
+        let j = run.moments;
+        for i in 0..3 {
+            let (a, b) = ((i + 1) % 3, (i + 2) % 3);
+            constants.ratio[i] = (j[a] - j[b]) / j[i];
+            constants.inverse[i] = one / j[i];
+        }
+        constants.velocity = scaled(unit, run.v_co_e);
+        constants.inverse_mass = one / run.mass;
+        constants.momentum = scaled(unit, run.wheel_momentum_b(stretch.wheel_momentum));
+        constants.momentum_rate = scaled(unit2, run.wheel_momentum_b(stretch.motor));
+        constants.torque = scaled(unit2, stretch.torque_b);
+        constants.force = scaled(unit2, stretch.force_b);
+        constants.motor_power = power * unit2 * unit;
+        constants.motor_power_rate = power_rate * unit2 * unit2;
+        constants.start = one.splat(stretch.start) / unit;
+        constants
+    }
+
     /// omega' in B: J* omega' = H x omega + tau_ext - tau_1 a1 - tau_2 a2, H = J* omega + h.
     #[inline(always)]
     pub fn angular_acceleration(&self, time: R, omega: [R; 3]) -> [R; 3] {

@@ -1,5 +1,4 @@
 //! Evaluating stored series at observation points: the coefficients of one run broadcast, eight points at a time.
-#![expect(clippy::needless_range_loop, reason = "components are numbered alike in several arrays")]
 
 use fearless_simd::Simd;
 
@@ -130,6 +129,11 @@ impl Buckets {
                 let values = horner::<S, R, N, 4>(simd, &segment.jet, component, lane, order, x);
                 scatter(simd, &values, points, &factors[component..], component, offset, trajectory);
                 component += 4;
+            }
+            if component + 3 == N {
+                let values = horner::<S, R, N, 3>(simd, &segment.jet, component, lane, order, x);
+                scatter(simd, &values, points, &factors[component..], component, offset, trajectory);
+                component += 3;
             }
             while component < N {
                 let values = horner::<S, R, N, 1>(simd, &segment.jet, component, lane, order, x);

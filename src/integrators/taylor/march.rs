@@ -106,6 +106,7 @@ pub fn march<S: Simd, R: Real, const N: usize, const FORCED: bool>(
         time: zero,
         time_low: zero,
         left: zero,
+        pushed: zero,
         places: [None; WIDTH],
         clock: 0,
         work: workspace,
@@ -133,6 +134,8 @@ struct March<'a, S, R, const N: usize, const FORCED: bool> {
     time_low: R,
     /// Time to the end of the stretch, units.
     left: R,
+    /// One where thrust acts in the lane's stretch, else zero.
+    pushed: R,
     places: [Option<Place>; WIDTH],
     /// Steps of the march, which number the slots of the ring.
     clock: usize,
@@ -188,6 +191,8 @@ impl<S: Simd, R: Real, const N: usize, const FORCED: bool> March<'_, S, R, N, FO
         let run = &self.runs[place.run];
         self.constants.set_stretch(lane, run, stretch, place.unit);
         let bounds = &run.stretches[stretch];
+        let pushed = bounds.force_b.iter().chain(&bounds.torque_b).any(|component| *component != 0.0);
+        self.pushed.set_lane(lane, if pushed { 1.0 } else { 0.0 });
         place.stretch = stretch;
         place.length = (bounds.end - bounds.start) / place.unit;
         place.kept = 0;
@@ -215,7 +220,7 @@ impl<S: Simd, R: Real, const N: usize, const FORCED: bool> March<'_, S, R, N, FO
         segment.start = self.time;
         segment.start_low = self.time_low;
         expand::<R, N, FORCED>(&constants, &self.work.reciprocals, order, &mut self.work.scratch, &mut segment.jet);
-        let wanted = self.work.rule.step(&segment.jet);
+        let wanted = self.work.rule.step(&segment.jet, self.pushed);
         let lands = self.left.lt(wanted);
         let length = R::select(lands, self.left, wanted);
         // the increment first, then the state with its carry
@@ -623,7 +628,7 @@ fn load_part<S: Simd>(simd: S, part: &[f64]) -> Lanes<S> {
 
 /// What turns a component in the lane's unit of time into SI.
 #[inline(always)]
-fn factors<const N: usize>(unit: f64) -> [f64; N] {
+pub(super) fn factors<const N: usize>(unit: f64) -> [f64; N] {
     let mut factors = [1.0; N];
     let inverse = 1.0 / unit;
     factors[OMEGA..OMEGA + 3].fill(inverse);

@@ -2,6 +2,7 @@
 //!
 //! - [`jet`]: the recurrences. [`step`]: order and step size. [`period`]: finding the period of omega and folding time by it.
 //! - [`dense`]: evaluating the series at the observation points, eight at a time. [`march`]: the lanes.
+//! - [`truth`]: reference solutions of any scene by the same recurrences in double-double.
 //!
 //! The motion of omega without torque is periodic: it stays on the curve in which the energy ellipsoid meets the momentum
 //! sphere. One period turns the attitude by a fixed rotation about the constant angular momentum L, so a horizon of any
@@ -14,3 +15,4 @@ pub mod jet;
 pub mod march;
 pub mod period;
 pub mod step;
+pub mod truth;

@@ -1,0 +1,127 @@
+//! `spindrift precision`: run time against error for every method and tolerance.
+
+use std::path::{Path, PathBuf};
+
+use crate::campaign::Overrides;
+use crate::cli::verdict::{Failure, Verdict};
+use crate::cli::{PrecisionOptions, isa, plan, screen};
+use crate::ensemble::precision::{Patience, Precision, States};
+use crate::integrators::Method;
+use crate::output::precision_figure::PrecisionFigure;
+use crate::output::precision_table::PrecisionTable;
+
+/// Runs the command.
+///
+/// # Errors
+/// Where arguments or campaign file are wrong, a truth cannot be had, or files cannot be written.
+pub fn run(options: &PrecisionOptions) -> Result<Verdict, Failure> {
+    let plan = plan(&options.file, Overrides::default())?;
+    let isa = isa()?;
+    let methods = options.methods.clone().unwrap_or_else(|| Method::ALL.to_vec());
+    let mut tolerances = options.tolerances.clone().unwrap_or_else(default_tolerances);
+    tolerances.sort_by(|a, b| b.total_cmp(a));
+    tolerances.dedup();
+    let folder =
+        options.out.clone().unwrap_or_else(|| PathBuf::from("results").join(format!("{}_precision", plan.name)));
+    std::fs::create_dir_all(&folder).map_err(|error| Failure::Files(format!("{}: {error}", folder.display())))?;
+
+    let states = if options.observed { States::Observed } else { States::All };
+    let samples = usize::try_from(options.samples.get()).unwrap_or(usize::MAX);
+    let precision = Precision::new(&plan, isa, samples, states).map_err(|(sample, status)| {
+        Failure::Input(format!("no reference solution of sample {sample}: it ended with {}", status.name()))
+    })?;
+    if precision.samples() == 0 {
+        return Err(Failure::Input("no sample of this campaign is physical".to_owned()));
+    }
+    let patience = Patience { repeats: options.repeats.get(), limit: options.limit_s };
+    screen::print(&format!(
+        "{}: {} samples over {:?} s at {} points, {} states, on {}; largest errors against a reference in double-double\n{}",
+        plan.name,
+        precision.samples(),
+        plan.grid.duration(),
+        plan.grid.points(),
+        if options.observed { "observed" } else { "all" },
+        isa.name(),
+        PrecisionTable::headline(),
+    ))?;
+    let mut table = PrecisionTable::default();
+    for method in methods {
+        let settings = precision.settings(method, &tolerances);
+        let mut heard = Ok(());
+        let skipped = precision.sweep(method, &settings, patience, &mut |measurement| {
+            let printed = screen::print(&PrecisionTable::line(&measurement));
+            heard = std::mem::replace(&mut heard, Ok(())).and(printed);
+            table.measured.push(measurement);
+        });
+        heard?;
+        table.skipped.extend(skipped);
+    }
+    screen::print(&table.omissions(patience.limit))?;
+
+    save(&folder, "parquet", |path| table.save(&plan, isa.name(), path).map_err(Failure::files))?;
+    let title = format!("{}: {} samples, {:?} s", plan.name, precision.samples(), plan.grid.duration());
+    let figure = PrecisionFigure { title, measured: &table.measured };
+    for format in ["svg", "png"] {
+        save(&folder, format, |path| figure.save(path).map_err(Failure::files))?;
+    }
+    Ok(Verdict::Done)
+}
+
+/// Writes one file of the result and says so.
+fn save(folder: &Path, extension: &str, write: impl FnOnce(&Path) -> Result<(), Failure>) -> Result<(), Failure> {
+    let path = folder.join(format!("precision.{extension}"));
+    write(&path)?;
+    screen::note(&path.display().to_string());
+    Ok(())
+}
+
+/// 1e-4 to 1e-16, a decade apart.
+fn default_tolerances() -> Vec<f64> {
+    (4..=16).map(|digits| libm::pow(10.0, -f64::from(digits))).collect()
+}
+
+/// A method by its name, for the command line.
+///
+/// # Errors
+/// The names that there are.
+pub fn method(name: &str) -> Result<Method, String> {
+    let names = || Method::ALL.map(Method::name).join(", ");
+    Method::from_name(name).ok_or_else(|| format!("must be one of {}", names()))
+}
+
+/// A tolerance from the command line.
+///
+/// # Errors
+/// The allowed range.
+pub fn tolerance(text: &str) -> Result<f64, String> {
+    let allowed = || "must be a number from 1e-16 to 0.1".to_owned();
+    text.parse().ok().filter(|value| (1e-16..=0.1).contains(value)).ok_or_else(allowed)
+}
+
+/// A length of time from the command line.
+///
+/// # Errors
+/// The allowed range.
+pub fn seconds(text: &str) -> Result<f64, String> {
+    let allowed = || "must be a number of seconds above 0".to_owned();
+    text.parse().ok().filter(|value: &f64| value.is_finite() && *value > 0.0).ok_or_else(allowed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tolerances_are_decades() {
+        let tolerances = default_tolerances();
+        assert_eq!((tolerances.len(), tolerances[0], tolerances[8]), (13, 1e-4, 1e-12));
+        assert!(tolerances.iter().all(|value| tolerance(&value.to_string()).is_ok()));
+        assert!(tolerance("1e-17").is_err() && tolerance("0.2").is_err() && tolerance("nan").is_err());
+    }
+
+    #[test]
+    fn methods_go_by_their_names() {
+        assert_eq!(method("auto"), Ok(Method::Auto));
+        assert!(method("euler").is_err_and(|message| message.contains("gauss_legendre_6")));
+    }
+}

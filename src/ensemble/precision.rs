@@ -1,0 +1,379 @@
+//! [`Precision`]: run time against error, method by method and setting by setting, on samples of a campaign.
+//!
+//! The truth is [`Truth`], the exact motion in double-double. Time is CPU time of one thread that propagates batches as a
+//! campaign does, states at every observation point included, observation and files not. Work-precision diagrams: E. Hairer,
+//! S. P. Norsett & G. Wanner, *Solving Ordinary Differential Equations I*, 1993, section II.10.
+
+use rayon::prelude::*;
+
+use crate::campaign::Plan;
+use crate::dynamics::gyrostat::Gyrostat;
+use crate::dynamics::table::{Block, Blocks, StateTable};
+use crate::ensemble::campaign::{BATCH, request};
+use crate::ensemble::cpu_clock::thread_seconds;
+use crate::ensemble::single::states;
+use crate::integrators::taylor::truth::{self, Truth};
+use crate::integrators::{Control, Engine, Method, Outcome, Propagator, Status, Tolerance};
+use crate::math::Isa;
+use crate::math::lanes::WIDTH;
+use crate::observables::{Group, Observer, Request};
+use crate::sampling::SampleId;
+use crate::scene::Scene;
+
+/// A timed repetition lasts at least this long, s: thousands of readings of the clock.
+const SHORTEST: f64 = 5e-3;
+
+/// A first pass may exceed the limit so many times before it is given up: a prediction may be wrong, but not for long.
+const PATIENCE: f64 = 2.0;
+
+/// What one point of a diagram is set to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Setting {
+    /// Relative and absolute tolerance of an adaptive method.
+    Tolerance(f64),
+    /// Step of a fixed-step method, s.
+    Step(f64),
+}
+
+/// Largest and root-mean-square error over samples and observation points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Deviation {
+    /// The largest.
+    pub max: f64,
+    /// Root mean square.
+    pub rms: f64,
+}
+
+/// What was measured of one method at one setting. Errors are `None` where their states are not integrated or every run failed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Measurement {
+    /// Kernel and method.
+    pub method: Method,
+    /// Its tolerance or step.
+    pub setting: Setting,
+    /// CPU time of a run, s: median and least of the repetitions.
+    pub cpu: [f64; 2],
+    /// Repetitions.
+    pub repeats: usize,
+    /// Runs, and how many of them did not reach their end.
+    pub runs: [usize; 2],
+    /// Mean number of accepted steps of a run.
+    pub steps: f64,
+    /// |omega - truth| over the run's largest |omega|.
+    pub rate: Option<Deviation>,
+    /// Twice the distance between the attitude quaternions, rad: the angle between them where the norm is kept.
+    pub attitude: Option<Deviation>,
+    /// Relative error of the energy balance.
+    pub energy: Option<Deviation>,
+    /// Relative error of the balance of angular momentum.
+    pub momentum: Option<Deviation>,
+}
+
+/// A setting that was not measured.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Skipped {
+    /// Kernel and method.
+    pub method: Method,
+    /// Its tolerance or step.
+    pub setting: Setting,
+    /// What a pass over the samples would take, s.
+    pub predicted: f64,
+}
+
+/// Which states are integrated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum States {
+    /// Every state that the scene has, as `simulate` shows them.
+    All,
+    /// Those that the campaign's groups of observables need, and omega.
+    Observed,
+}
+
+/// How long a measurement may take.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Patience {
+    /// Timed repetitions.
+    pub repeats: usize,
+    /// CPU time that one pass over the samples may take, s.
+    pub limit: f64,
+}
+
+/// Samples of a campaign with their truth.
+pub struct Precision<'p> {
+    plan: &'p Plan,
+    isa: Isa,
+    blocks: Blocks,
+    request: Request,
+    scenes: Vec<Scene>,
+    truths: Vec<Truth>,
+}
+
+impl<'p> Precision<'p> {
+    /// The first `samples` samples of `plan` that are physical, solved exactly on all cores.
+    ///
+    /// # Errors
+    /// The number of a sample whose truth cannot be had, and why.
+    pub fn new(plan: &'p Plan, isa: Isa, samples: usize, wanted: States) -> Result<Self, (SampleId, Status)> {
+        let mut input = plan.nominal.clone();
+        let mut applied = vec![0.0; plan.dispersions.columns().len()];
+        let mut sampler = plan.dispersions.sampler();
+        let drawn: Vec<(SampleId, Scene)> = (0..plan.samples)
+            .filter_map(|id| {
+                sampler.draw(SampleId(id), &mut input, &mut applied);
+                Some((SampleId(id), Scene::resolve(&input).ok()?))
+            })
+            .take(samples)
+            .collect();
+        let balances = [Group::EnergyConservation, Group::MomentumConservation];
+        let plain = Request { constrained: false, ..request(plan) };
+        let (request, blocks) = match wanted {
+            States::All => {
+                let request = Request { groups: balances.into_iter().collect(), ..plain };
+                (request, states(plan).union(request.blocks()))
+            }
+            States::Observed => (plain, plain.blocks().with(Block::Rate)),
+        };
+        let compared = [Block::Rate, Block::Attitude].into_iter().filter(|block| blocks.contains(*block));
+        let compared = compared.fold(Blocks::NONE, Blocks::with);
+        let solve = |(id, scene): &(SampleId, Scene)| {
+            Truth::new(isa, scene, &plan.grid, compared, truth::TOLERANCE).map_err(|status| (*id, status))
+        };
+        let truths = drawn.par_iter().map(solve).collect::<Result<Vec<_>, _>>()?;
+        let scenes = drawn.into_iter().map(|(_, scene)| scene).collect();
+        Ok(Precision { plan, isa, blocks, request, scenes, truths })
+    }
+
+    /// Number of samples.
+    pub fn samples(&self) -> usize {
+        self.scenes.len()
+    }
+
+    /// The settings of `method` that stand for `tolerances`: these, or as many steps, each half the one before, the first the
+    /// power of two near the time scale of the first sample's motion.
+    pub fn settings(&self, method: Method, tolerances: &[f64]) -> Vec<Setting> {
+        if !method.has_fixed_step() {
+            return tolerances.iter().map(|tolerance| Setting::Tolerance(*tolerance)).collect();
+        }
+        let duration = self.plan.grid.duration();
+        let unit = self.scenes.first().map_or(duration, |scene| Gyrostat::new(0.0, scene, duration).time_unit());
+        let mut step = 2.0 * unit.min(duration);
+        tolerances
+            .iter()
+            .map(|_| {
+                step *= 0.5;
+                Setting::Step(step)
+            })
+            .collect()
+    }
+
+    /// Measures `method` at `settings`, from coarse to fine, until a pass over the samples is predicted to take longer than
+    /// the limit; `hear` is told of each measurement as it is made. What was skipped comes back.
+    pub fn sweep(
+        &self,
+        method: Method,
+        settings: &[Setting],
+        patience: Patience,
+        hear: &mut dyn FnMut(Measurement),
+    ) -> Vec<Skipped> {
+        let mut passes: Vec<f64> = Vec::new();
+        for (done, setting) in settings.iter().enumerate() {
+            let predicted = prediction(&passes);
+            let pass = if predicted <= patience.limit { self.first_pass(method, *setting, patience) } else { None };
+            let Some(pass) = pass else {
+                let predicted = if predicted <= patience.limit { PATIENCE * patience.limit } else { predicted };
+                let skip = |setting: &Setting| Skipped { method, setting: *setting, predicted };
+                return settings[done..].iter().map(skip).collect();
+            };
+            passes.push(pass.seconds);
+            let (cpu, repeats) = self.timed(method, *setting, patience, pass.seconds);
+            let runs = self.scenes.len();
+            hear(Measurement {
+                method,
+                setting: *setting,
+                cpu,
+                repeats,
+                runs: [runs, pass.failed],
+                steps: pass.steps as f64 / runs.max(1) as f64,
+                rate: pass.rate.deviation(),
+                attitude: pass.attitude.deviation(),
+                energy: pass.energy.deviation(),
+                momentum: pass.momentum.deviation(),
+            });
+        }
+        Vec::new()
+    }
+
+    fn engine(&self, method: Method, setting: Setting) -> Option<Box<dyn Engine>> {
+        let (tolerance, step) = match setting {
+            Setting::Tolerance(tolerance) => (tolerance, None),
+            // Gauss-Legendre iterates its stages to the tolerance: to the last digit
+            Setting::Step(step) => (f64::EPSILON, Some(step)),
+        };
+        let tolerance = Tolerance { relative: tolerance, absolute: tolerance };
+        let control = Control { tolerance, step, max_steps: self.plan.max_steps };
+        let nominal = self.scenes.first()?;
+        Some(Propagator::new(method, control, self.plan.grid.clone(), self.blocks, nominal).engine(self.isa))
+    }
+
+    /// Every sample once, compared with the truth; `None` where it takes too long.
+    fn first_pass(&self, method: Method, setting: Setting, patience: Patience) -> Option<Pass> {
+        let mut engine = self.engine(method, setting)?;
+        let mut observer = Observer::new(self.request, &self.plan.grid);
+        let names: Vec<&str> = self.request.columns().iter().map(|column| column.name).collect();
+        let place = |wanted: &[&str]| wanted.iter().find_map(|name| names.iter().position(|known| known == name));
+        let energy = place(&["energy_error_max", "energy_com_error_max"])
+            .zip(place(&["energy_error_rms", "energy_com_error_rms"]));
+        let momentum = place(&["angular_momentum_error_max"]).zip(place(&["angular_momentum_error_rms"]));
+        let mut row = vec![f64::NAN; names.len()];
+        let mut pass = Pass::default();
+        let start = thread_seconds();
+        for first in (0..self.scenes.len()).step_by(WIDTH) {
+            let chunk = &self.scenes[first..self.scenes.len().min(first + WIDTH)];
+            engine.propagate(chunk, &mut |index, table, outcome| {
+                pass.steps += outcome.effort.steps;
+                if outcome.status != Status::Done {
+                    pass.failed += 1;
+                    return;
+                }
+                observer.observe(self.isa, &chunk[index], table, outcome, &mut row);
+                let points = outcome.points;
+                for (sum, columns) in [(&mut pass.energy, energy), (&mut pass.momentum, momentum)] {
+                    if let Some((max, rms)) = columns {
+                        sum.add_many(row[max], row[rms], points);
+                    }
+                }
+                pass.compare(&self.truths[first + index], table, outcome);
+            });
+            if thread_seconds() - start > PATIENCE * patience.limit {
+                return None;
+            }
+        }
+        pass.seconds = thread_seconds() - start;
+        Some(pass)
+    }
+
+    /// Median and least CPU time of a run, and of how many repetitions.
+    fn timed(&self, method: Method, setting: Setting, patience: Patience, pass: f64) -> ([f64; 2], usize) {
+        let Some(mut engine) = self.engine(method, setting) else { return ([f64::NAN; 2], 0) };
+        // batches as a campaign has them, unless the samples alone take long enough
+        let count = if pass > SHORTEST { self.scenes.len() } else { self.scenes.len().next_multiple_of(BATCH) };
+        let batch: Vec<Scene> = self.scenes.iter().cycle().take(count).cloned().collect();
+        let expected = pass * count as f64 / self.scenes.len() as f64;
+        let rounds = (SHORTEST / expected).ceil().clamp(1.0, 1e4) as usize;
+        let affordable = (patience.limit / expected).floor().clamp(1.0, patience.repeats as f64) as usize;
+        let mut sum = 0;
+        let mut times: Vec<f64> = (0..affordable)
+            .map(|_| {
+                let start = thread_seconds();
+                for _ in 0..rounds {
+                    for part in batch.chunks(BATCH) {
+                        engine.propagate(part, &mut |_, _, outcome| sum += outcome.points);
+                    }
+                }
+                (thread_seconds() - start) / (rounds * count) as f64
+            })
+            .collect();
+        std::hint::black_box(sum);
+        times.sort_by(f64::total_cmp);
+        ([times[times.len() / 2], times[0]], times.len())
+    }
+}
+
+/// The next pass takes as much longer than the last as the last did than the one before (or half as long again), at most
+/// three times.
+fn prediction(passes: &[f64]) -> f64 {
+    match passes {
+        [] => 0.0,
+        [only] => 1.5 * only,
+        [.., before, last] => last * (last / before).clamp(1.0, 3.0),
+    }
+}
+
+/// What a pass over the samples found.
+#[derive(Default)]
+struct Pass {
+    seconds: f64,
+    failed: usize,
+    steps: u64,
+    rate: Sum,
+    attitude: Sum,
+    energy: Sum,
+    momentum: Sum,
+}
+
+impl Pass {
+    /// Adds the errors of one run.
+    fn compare(&mut self, truth: &Truth, table: &StateTable, outcome: &Outcome) {
+        let points = 0..outcome.points;
+        let size = points.clone().map(|point| length(truth.high.at::<3>(Block::Rate, point))).fold(0.0, f64::max);
+        let size = if size > 0.0 { size } else { 1.0 };
+        for point in points {
+            self.rate.add(length(off::<3>(truth, table, Block::Rate, point, 1.0)) / size);
+            if truth.high.has(Block::Attitude) {
+                let error = |sign| length(off::<4>(truth, table, Block::Attitude, point, sign));
+                self.attitude.add(2.0 * error(1.0).min(error(-1.0)));
+            }
+        }
+    }
+}
+
+/// `sign` times the state less the truth, in all digits of the truth.
+fn off<const N: usize>(truth: &Truth, table: &StateTable, block: Block, point: usize, sign: f64) -> [f64; N] {
+    let (high, low) = (truth.high.at::<N>(block, point), truth.low.at::<N>(block, point));
+    let state = table.at::<N>(block, point);
+    std::array::from_fn(|i| (sign * state[i] - high[i]) - low[i])
+}
+
+fn length<const N: usize>(v: [f64; N]) -> f64 {
+    v.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// A maximum and a mean square; what is not a number makes both so.
+#[derive(Default)]
+struct Sum {
+    max: f64,
+    squares: f64,
+    count: usize,
+}
+
+impl Sum {
+    fn add(&mut self, error: f64) {
+        self.add_many(error, error, 1);
+    }
+
+    fn add_many(&mut self, max: f64, rms: f64, count: usize) {
+        self.max = if max.is_nan() || max > self.max { max } else { self.max };
+        self.squares += rms * rms * count as f64;
+        self.count += count;
+    }
+
+    fn deviation(&self) -> Option<Deviation> {
+        (self.count > 0).then(|| Deviation { max: self.max, rms: (self.squares / self.count as f64).sqrt() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_prediction_goes_on_as_before_within_bounds() {
+        assert_eq!(prediction(&[]), 0.0);
+        assert_eq!(prediction(&[2.0]), 3.0);
+        assert_eq!(prediction(&[1.0, 2.0]), 4.0);
+        assert_eq!(prediction(&[1.0, 100.0]), 300.0);
+        assert_eq!(prediction(&[4.0, 2.0]), 2.0);
+    }
+
+    #[test]
+    fn a_sum_keeps_the_largest_and_the_mean_square() {
+        let mut sum = Sum::default();
+        assert_eq!(sum.deviation(), None);
+        sum.add(3.0);
+        sum.add(4.0);
+        assert_eq!(sum.deviation(), Some(Deviation { max: 4.0, rms: 12.5_f64.sqrt() }));
+        sum.add(f64::NAN);
+        sum.add(5.0);
+        assert!(sum.deviation().is_some_and(|of| of.rms.is_nan()));
+    }
+}

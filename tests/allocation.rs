@@ -1,0 +1,223 @@
+//! What runs once per sample allocates nothing once it is warm: counted by an allocator that counts.
+
+mod support;
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+use std::hint::black_box;
+
+use spindrift::campaign::{Overrides, Plan};
+use spindrift::dynamics::gyrostat::Gyrostat;
+use spindrift::dynamics::gyrostat::equations::Constants;
+use spindrift::dynamics::reference::{Kernel, SignOfANon, sigma};
+use spindrift::dynamics::table::Grid;
+use spindrift::ensemble::{Campaign, Part, PartId, Rows};
+use spindrift::integrators::{Control, Method, Propagator};
+use spindrift::math::Isa;
+use spindrift::observables::{Groups, Observer, Request};
+use spindrift::sampling::SampleId;
+use spindrift::scene::Scene;
+use support::runs::{adaptive, everything, fixed};
+use support::scenes::mixed;
+
+/// The system's allocator, which counts per thread, so that tests beside this one do not count.
+struct Counting;
+
+thread_local! {
+    static COUNT: Cell<u64> = const { Cell::new(0) };
+}
+
+fn count() {
+    COUNT.with(|count| count.set(count.get() + 1));
+}
+
+// SAFETY: everything is handed on to the system's allocator unchanged; the counter is a plain number that needs no memory.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        count();
+        // SAFETY: the caller's promises are those that `System` asks for.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
+        count();
+        // SAFETY: as above.
+        unsafe { System.alloc_zeroed(layout) }
+    }
+
+    unsafe fn realloc(&self, old: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        count();
+        // SAFETY: as above.
+        unsafe { System.realloc(old, layout, size) }
+    }
+
+    unsafe fn dealloc(&self, old: *mut u8, layout: Layout) {
+        // SAFETY: as above.
+        unsafe { System.dealloc(old, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+/// Allocations of this thread while `work` runs.
+fn allocations(work: impl FnOnce()) -> u64 {
+    let before = COUNT.with(Cell::get);
+    work();
+    COUNT.with(Cell::get) - before
+}
+
+fn plan(name: &str, method: &str) -> Plan {
+    let path = format!("{}/campaigns/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(path).expect("a shipped campaign");
+    let text = text.replace("method = \"auto\"", &format!("method = \"{method}\""));
+    Plan::from_text(name, &text, Overrides { samples: Some(512), seed: None }).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Scenes drawn from a shipped campaign.
+fn drawn(plan: &Plan, samples: std::ops::Range<u64>) -> Vec<Scene> {
+    let mut sampler = plan.dispersions.sampler();
+    let mut applied = vec![0.0; plan.dispersions.columns().len()];
+    let mut input = plan.nominal.clone();
+    samples
+        .map(|sample| {
+            sampler.draw(SampleId(sample), &mut input, &mut applied);
+            Scene::resolve(&input).expect("shipped campaigns draw physical scenes")
+        })
+        .collect()
+}
+
+/// The counter counts; else everything below would hold for any program.
+#[test]
+fn the_counter_counts() {
+    assert_eq!(allocations(|| drop(black_box(Box::new(1.0)))), 1);
+    let counted = allocations(|| {
+        let mut list = vec![0_u8; 8];
+        list.reserve_exact(1000);
+        black_box(&list);
+    });
+    assert_eq!(counted, 2);
+}
+
+/// Law: after one batch a batch of other samples costs no allocation, whatever the method.
+#[test]
+fn engines() {
+    for name in ["spin_sweep", "burn"] {
+        let plan = plan(name, "auto");
+        let (first, second) = (drawn(&plan, 0..128), drawn(&plan, 128..256));
+        for (method, control) in [
+            (Method::Auto, adaptive(1e-12)),
+            (Method::Taylor, adaptive(1e-12)),
+            (Method::DormandPrince, adaptive(1e-6)),
+            (Method::Dop853, adaptive(1e-6)),
+            (Method::RungeKutta4, fixed(0.05)),
+            (Method::GaussLegendre, fixed(0.05)),
+            (Method::Reference, adaptive(1e-3)),
+        ] {
+            let count = if method == Method::Reference { 4 } else { 128 };
+            no_allocation(method, control, &first[..count], &second[..count], name);
+        }
+    }
+}
+
+/// The same for scenes of every kind: missing wheels, products of inertia, boxes as debris, forced and free.
+#[test]
+fn engines_with_scenes_of_every_kind() {
+    for forced in [false, true] {
+        let scenes = mixed(24, forced, 10.0);
+        for method in [Method::Auto, Method::Taylor, Method::DormandPrince] {
+            no_allocation(method, adaptive(1e-8), &scenes, &scenes, "every kind");
+        }
+    }
+}
+
+fn no_allocation(method: Method, control: Control, first: &[Scene], second: &[Scene], what: &str) {
+    let grid = Grid::uniform(10.0, 101);
+    let mut engine = Propagator::new(method, control, grid, everything(method), &first[0]).engine(Isa::best());
+    let mut finished = 0;
+    engine.propagate(first, &mut |_, _, _| finished += 1);
+    let counted = allocations(|| engine.propagate(second, &mut |_, _, _| finished += 1));
+    assert_eq!(finished, first.len() + second.len());
+    assert_eq!(counted, 0, "{} allocates in {what}", method.name());
+}
+
+/// Law: an observer allocates when it is made and never again.
+#[test]
+fn observation() {
+    for (name, method) in [("spin_sweep", Method::Auto), ("burn", Method::Auto), ("spin_sweep", Method::Reference)] {
+        let plan = plan(name, "auto");
+        let scenes = drawn(&plan, 0..3);
+        let actuated = !plan.nominal.actuation.is_empty();
+        let constrained = method == Method::Reference;
+        let request = Request { groups: Groups::ALL, debris: plan.nominal.debris.is_some(), actuated, constrained };
+        let mut observer = Observer::new(request, &plan.grid);
+        let mut row = vec![0.0; request.columns().len()];
+        let control = adaptive(if constrained { 1e-3 } else { 1e-12 });
+        let propagator = Propagator::new(method, control, plan.grid.clone(), request.blocks(), &scenes[0]);
+        let mut observed = 0;
+        propagator.engine(Isa::best()).propagate(&scenes, &mut |index, table, outcome| {
+            let counted = allocations(|| observer.observe(Isa::best(), &scenes[index], table, outcome, &mut row));
+            assert_eq!(counted, 0, "observing {name}");
+            observed += 1;
+        });
+        assert_eq!(observed, 3);
+    }
+}
+
+/// Law: right-hand sides live on the stack.
+#[test]
+fn right_hand_sides() {
+    let scene = &mixed(1, true, 1.0)[0];
+    let actuation = scene.schedule[0];
+    let state = sigma(scene).components();
+    let gyrostat = Gyrostat::new(0.0, scene, 1.0);
+    let mut constants = Constants::zero(0.0);
+    constants.set_run(0, &gyrostat, 1.0);
+    constants.set_stretch(0, &gyrostat, 0, 1.0);
+    let reduced: [f64; 21] = std::array::from_fn(|i| 0.1 * i as f64);
+    let counted = allocations(|| {
+        let mut kernel = Kernel::new(scene, SignOfANon::Corrected);
+        kernel.drive(&actuation);
+        black_box(kernel.derivative(black_box(&state)));
+        black_box(constants.derivative(0.0, black_box(&reduced)));
+    });
+    assert_eq!(counted, 0);
+}
+
+/// Law: drawing a sample into a scene, and making the scene of it, reuses what is there.
+#[test]
+fn draws_and_scenes() {
+    for name in ["spin_sweep", "burn", "no_debris"] {
+        let plan = plan(name, "auto");
+        let mut sampler = plan.dispersions.sampler();
+        let mut applied = vec![0.0; plan.dispersions.columns().len()];
+        let mut input = plan.nominal.clone();
+        sampler.draw(SampleId(1), &mut input, &mut applied);
+        let mut scene = Scene::resolve(&input).expect("shipped campaigns draw physical scenes");
+        let counted = allocations(|| {
+            for sample in 0..256 {
+                sampler.draw(SampleId(sample), &mut input, &mut applied);
+                scene.resolve_into(&input).expect("shipped campaigns draw physical scenes");
+            }
+        });
+        assert_eq!(counted, 0, "{name}");
+    }
+}
+
+/// Law: a worker of a campaign - draw, propagate, observe, write rows - allocates in its first part only.
+#[test]
+fn a_worker() {
+    for (name, method) in
+        [("spin_sweep", "auto"), ("spin_sweep", "taylor"), ("burn", "auto"), ("no_debris", "dormand_prince")]
+    {
+        let plan = plan(name, method);
+        let campaign = Campaign::new(&plan, Isa::best());
+        let mut worker = campaign.worker();
+        let mut rows = Rows::new(campaign.shape(), 256);
+        let mut part = |first, count| {
+            worker.run(Part { id: PartId(0), first: SampleId(first), count }, &mut rows, &|_| {});
+        };
+        part(0, 256);
+        assert_eq!(allocations(|| part(256, 256)), 0, "{name}, {method}");
+    }
+}

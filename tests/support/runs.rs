@@ -1,0 +1,128 @@
+//! Runs through [`Propagator`], as every campaign makes them, and the distances by which they are judged.
+
+use sha2::{Digest, Sha256};
+use spindrift::dynamics::table::{Block, Blocks, Grid, StateTable};
+use spindrift::integrators::{Control, Method, Outcome, Propagator, Tolerance};
+use spindrift::math::Isa;
+use spindrift::math::vector::{cross, dcm_from_quaternion, difference, norm, product};
+use spindrift::scene::Scene;
+
+/// The states of one run and how it ended.
+#[derive(Clone, Debug)]
+pub struct Run {
+    pub table: StateTable,
+    pub outcome: Outcome,
+}
+
+/// Everything that is the same bits where a run is the same: outcome, then the table column by column.
+pub type Bits = Vec<u64>;
+
+impl Run {
+    /// Outcome and all states, as bits.
+    pub fn bits(&self) -> Bits {
+        self.bits_of(self.table.blocks())
+    }
+
+    /// Outcome and the states of `blocks`, as bits.
+    pub fn bits_of(&self, blocks: Blocks) -> Bits {
+        let Outcome { status, time, points, effort } = self.outcome;
+        let mut bits = vec![status as u64, time.to_bits(), points as u64];
+        bits.extend([effort.steps, effort.rejected, effort.evaluations]);
+        for block in Block::ALL.into_iter().filter(|block| blocks.contains(*block)) {
+            for component in 0..block.width() {
+                let column = &self.table.column(block, component)[..self.table.points()];
+                bits.extend(column.iter().map(|x| x.to_bits()));
+            }
+        }
+        bits
+    }
+}
+
+/// SHA-256 of numbers as little-endian bytes, in hexadecimal.
+pub fn hash(bits: impl IntoIterator<Item = u64>) -> String {
+    let mut digest = Sha256::new();
+    for word in bits {
+        digest.update(word.to_le_bytes());
+    }
+    digest.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// A set of blocks.
+pub fn blocks(list: impl IntoIterator<Item = Block>) -> Blocks {
+    list.into_iter().fold(Blocks::NONE, Blocks::with)
+}
+
+/// All blocks that `method` can fill: only the reference kernel integrates the DCM, with
+/// constraints, and has energies of its own.
+pub fn everything(method: Method) -> Blocks {
+    let constrained = |block: &Block| matches!(block, Block::Dcm | Block::Residuals | Block::KineticEnergies);
+    blocks(Block::ALL.into_iter().filter(|block| method == Method::Reference || !constrained(block)))
+}
+
+/// The control of an adaptive method, as `tolerance = ...` in a campaign file.
+pub fn adaptive(tolerance: f64) -> Control {
+    Control { tolerance: Tolerance { relative: tolerance, absolute: tolerance }, step: None, max_steps: 10_000_000 }
+}
+
+/// The control of a method with a fixed step, s.
+pub fn fixed(step: f64) -> Control {
+    Control { step: Some(step), ..adaptive(1e-10) }
+}
+
+/// The runs of `scenes` in their order.
+pub fn propagate_on(isa: Isa, plan: &Propagator, scenes: &[Scene]) -> Vec<Run> {
+    let mut runs: Vec<Option<Run>> = vec![None; scenes.len()];
+    plan.engine(isa).propagate(scenes, &mut |index, table, outcome| {
+        let before = runs[index].replace(Run { table: table.clone(), outcome: *outcome });
+        assert!(before.is_none(), "run {index} was handed over twice");
+    });
+    runs.into_iter().map(|run| run.expect("every run is handed over")).collect()
+}
+
+/// The same on the best instruction set, with everything in the table.
+pub fn propagate(method: Method, control: Control, grid: &Grid, scenes: &[Scene]) -> Vec<Run> {
+    let plan = Propagator::new(method, control, grid.clone(), everything(method), &scenes[0]);
+    propagate_on(Isa::best(), &plan, scenes)
+}
+
+/// |a - b| over |b|, as vectors; over one where |b| is smaller.
+pub fn relative<const N: usize>(found: [f64; N], expected: [f64; N]) -> f64 {
+    let mut off = 0.0;
+    let mut size = 0.0;
+    for (a, b) in found.into_iter().zip(expected) {
+        off += (a - b) * (a - b);
+        size += b * b;
+    }
+    let error = off.sqrt() / size.sqrt().max(1.0);
+    if error.is_nan() { f64::INFINITY } else { error }
+}
+
+/// The same for quaternions, whose sign is free.
+pub fn up_to_sign(found: [f64; 4], expected: [f64; 4]) -> f64 {
+    relative(found, expected).min(relative(found, expected.map(|x| -x)))
+}
+
+/// Position and velocity of p in F_e, from the states of c.
+pub fn base_point(scene: &Scene, table: &StateTable, point: usize) -> [[f64; 3]; 2] {
+    let c_es = dcm_from_quaternion(table.at::<4>(Block::Attitude, point));
+    let center = scene.mass.center;
+    let spin = cross(table.at::<3>(Block::Rate, point), center);
+    [
+        difference(table.at(Block::ComPosition, point), product(c_es, center)),
+        difference(table.at(Block::ComVelocity, point), product(c_es, spin)),
+    ]
+}
+
+/// Largest distance of omega, over the largest |omega| of the run, and of the attitude, at any point of two runs.
+pub fn rotation_distance(found: &StateTable, expected: &StateTable) -> [f64; 2] {
+    let points = 0..expected.points();
+    let size = points.clone().map(|point| norm(expected.at::<3>(Block::Rate, point))).fold(0.0, f64::max);
+    let mut worst = [0.0_f64; 2];
+    for point in points {
+        let off = norm(difference(found.at::<3>(Block::Rate, point), expected.at::<3>(Block::Rate, point)));
+        let off = if size > 0.0 { off / size } else { off };
+        let turned = up_to_sign(found.at(Block::Attitude, point), expected.at(Block::Attitude, point));
+        worst = [worst[0].max(if off.is_nan() { f64::INFINITY } else { off }), worst[1].max(turned)];
+    }
+    worst
+}
