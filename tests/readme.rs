@@ -87,6 +87,7 @@ fn dependencies() -> String {
         if let Some(section) = line.strip_prefix('[') {
             place = match section.trim_end_matches(']') {
                 "dependencies" => Some("program"),
+                "target.'cfg(unix)'.dependencies" => Some("program, on Unix"),
                 "dev-dependencies" => Some("tests, benches"),
                 _ => None,
             };
