@@ -126,7 +126,7 @@ pub fn random(kind: Kind, seed: u64, horizon: f64) -> SceneInput {
 pub fn mixed(count: u64, forced: bool, horizon: f64) -> Vec<Scene> {
     let kind = |k: u64| Kind {
         wheels: [k % 4 != 1, k % 4 != 2],
-        debris: if k % 3 == 0 { 2 } else { 1 },
+        debris: if k.is_multiple_of(3) { 2 } else { 1 },
         products: k % 2 == 1,
         offset: k % 5 > 1,
         forced,

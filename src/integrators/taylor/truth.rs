@@ -207,6 +207,8 @@ impl March<'_> {
             let last = number + 1 == run.stretches.len();
             let start = DoubleDouble::exact(bounds.start);
             let length = (DoubleDouble::exact(bounds.end) - start) * per_second;
+            let pushed = bounds.force_b.iter().chain(&bounds.torque_b).any(|component| component.high != 0.0);
+            let pushed = DoubleDouble::exact(if pushed { 1.0 } else { 0.0 });
             let mut time = zero;
             let mut lands = false;
             while !lands {
@@ -215,7 +217,7 @@ impl March<'_> {
                 now.motor_power = constants.motor_power_rate.mul_add(time, constants.motor_power);
                 jet[0] = state;
                 expand::<DoubleDouble, N, true>(&now, &reciprocals, order, &mut scratch, &mut jet);
-                let (wanted, left) = (rule.step(&jet), length - time);
+                let (wanted, left) = (rule.step(&jet, pushed), length - time);
                 lands = !wanted.lt(left);
                 let step = if lands { left } else { wanted };
                 while let Some(at) = times.get(states.len()) {
