@@ -308,7 +308,7 @@ fn a_wrong_moment_of_inertia_is_noticed() {
     let tri = [1000.0, 1500.0, 2000.0];
     let right = scene(&body(tri, [1.0, -2.0, 0.5]));
     let wrong = scene(&body([1000.0, 1500.0 * (1.0 + 1e-8), 2000.0], [1.0, -2.0, 0.5]));
-    let own = conservation(&right, horizon, &runs(Method::Auto, horizon, &[right.clone()])[0]);
+    let own = conservation(&right, horizon, &runs(Method::Auto, horizon, std::slice::from_ref(&right))[0]);
     let other = conservation(&right, horizon, &runs(Method::Auto, horizon, &[wrong])[0]);
     println!("right {own:?}, wrong {other:?}");
     for (own, other) in own.into_iter().zip(other) {
