@@ -201,9 +201,9 @@ impl Embedded for DormandPrince {
 
 /// Dormand-Prince 5(4) that reaches a point inside a step by a shorter step of its own from the same start.
 ///
-/// The steps are those of [`DormandPrince`], and so of ode45. Its free interpolant (ntrp45) is of order 4: as good as the
-/// tolerance, but several times worse than the steps, so that the energy of the report's run would show the interpolant and
-/// not the method (measured at 1e-6: 3.3e-6 against 1.2e-6). Five evaluations a point, which is little for the kernel it is for.
+/// The steps are those of [`DormandPrince`], and so of ode45. Its free interpolant (ntrp45) is of order 4, with an error of the
+/// size of the tolerance; a shorter step keeps order 5 at the point. Five evaluations a point, which is little for the kernel
+/// it is for.
 #[derive(Clone, Copy, Debug)]
 pub struct DormandPrinceRestepped;
 

@@ -1,7 +1,8 @@
 //! Taylor series of the gyrostat in lanes, with periodic propagation of what is free of torque.
 //!
 //! - [`jet`]: the recurrences. [`step`]: order and step size. [`period`]: finding the period of omega and folding time by it.
-//! - [`dense`]: evaluating the series at the observation points, eight at a time. [`march`]: the lanes.
+//! - [`dense`]: evaluating the series at the observation points, eight at a time. [`march`]: the lanes;
+//!   `unfold`: from one period to the whole horizon.
 //! - [`truth`]: reference solutions of any scene by the same recurrences in double-double.
 //!
 //! The motion of omega without torque is periodic: it stays on the curve in which the energy ellipsoid meets the momentum
@@ -16,3 +17,4 @@ pub mod march;
 pub mod period;
 pub mod step;
 pub mod truth;
+mod unfold;
