@@ -158,6 +158,7 @@ fn write_dispersion(dispersion: &Dispersion, lines: &mut Lines) {
                 }
             }
         }
+        Law::UniformAttitude => lines.key("distribution", "uniform_attitude"),
         Law::Uniform(range) => {
             lines.key("distribution", "uniform");
             match range {

@@ -8,7 +8,7 @@ use crate::sampling::{Cut, Dispersion, Law, Range, Spread, Values};
 use crate::scene::Parameter;
 
 /// The names of the laws.
-pub const DISTRIBUTIONS: [&str; 3] = ["normal", "truncated_normal", "uniform"];
+pub const DISTRIBUTIONS: [&str; 4] = ["normal", "truncated_normal", "uniform", "uniform_attitude"];
 
 /// Which law a table asks for.
 #[derive(Clone, Copy)]
@@ -16,6 +16,7 @@ enum Family {
     Normal,
     TruncatedNormal,
     Uniform,
+    UniformAttitude,
 }
 
 /// Reads one table; `None` where something is wrong, which is then noted.
@@ -38,6 +39,7 @@ pub fn read(table: &mut Section<'_, '_>) -> Option<Dispersion> {
         "normal" => Some(Family::Normal),
         "truncated_normal" => Some(Family::TruncatedNormal),
         "uniform" => Some(Family::Uniform),
+        "uniform_attitude" => Some(Family::UniformAttitude),
         _ => None,
     });
     let law = match family {
@@ -47,6 +49,7 @@ pub fn read(table: &mut Section<'_, '_>) -> Option<Dispersion> {
             spread.zip(cut).map(|(spread, cut)| Law::TruncatedNormal(spread, cut))
         }
         Some(Family::Uniform) => range(table).map(Law::Uniform),
+        Some(Family::UniformAttitude) => Some(Law::UniformAttitude),
         // Which other keys belong here, nobody can say.
         None => return None,
     };

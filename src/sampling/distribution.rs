@@ -3,7 +3,7 @@
 //! One u gives one value, monotonically. So every design (random, Latin hypercube, Sobol, ...) gives a law the same meaning,
 //! and correlation can be laid between the u. Rejection and polar methods, which eat an unknown count of u, are not here.
 
-use super::normal::{probability, quantile};
+use super::normal::{probability, quantile, quantiles};
 
 /// The law of one number.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,6 +64,21 @@ impl TruncatedNormal {
         // The conditional law has no mass outside; this catches a last bit only.
         (self.mean + self.std * z).clamp(self.lower, self.upper)
     }
+
+    fn quantiles(&self, u: &[f64; 8], values: &mut [f64; 8]) {
+        let (mut tail, mut z) = ([0.0; 8], [0.0; 8]);
+        for (tail, u) in tail.iter_mut().zip(u) {
+            let u = if self.std < 0.0 { 1.0 - u } else { *u };
+            let p = self.below + u * self.between;
+            *tail = if p <= 0.5 { p } else { self.above + (1.0 - u) * self.between };
+        }
+        quantiles(&tail, &mut z);
+        for ((value, u), z) in values.iter_mut().zip(u).zip(z) {
+            let u = if self.std < 0.0 { 1.0 - u } else { *u };
+            let z = if self.below + u * self.between <= 0.5 { z } else { -z };
+            *value = (self.mean + self.std * z).max(self.lower).min(self.upper);
+        }
+    }
 }
 
 impl Distribution {
@@ -74,6 +89,24 @@ impl Distribution {
             Distribution::Normal { mean, std } => mean + std * quantile(u),
             Distribution::TruncatedNormal(law) => law.quantile(if law.std < 0.0 { 1.0 - u } else { u }),
             Distribution::Uniform { min, max } => min + u * (max - min),
+        }
+    }
+
+    /// [`Distribution::quantile`] of eight numbers, with the same bits.
+    pub fn quantiles(&self, u: &[f64; 8], values: &mut [f64; 8]) {
+        match self {
+            Distribution::Normal { mean, std } => {
+                quantiles(u, values);
+                for value in values {
+                    *value = mean + std * *value;
+                }
+            }
+            Distribution::TruncatedNormal(law) => law.quantiles(u, values),
+            Distribution::Uniform { .. } => {
+                for (value, u) in values.iter_mut().zip(u) {
+                    *value = self.quantile(*u);
+                }
+            }
         }
     }
 }
@@ -172,6 +205,25 @@ mod tests {
         let tail = truncated(10.0, 0.1, 10.5, f64::INFINITY);
         assert!(ends.iter().all(|u| tail.quantile(*u) >= 10.5));
         assert_eq!(TruncatedNormal::new(0.0, 1.0, 9.0, 10.0), None);
+    }
+
+    #[test]
+    fn eight_at_a_time_have_the_bits_of_one() {
+        for law in [
+            truncated(10.0, 0.1, 9.7, 10.3),
+            truncated(10.0, 0.1, 10.2, f64::INFINITY),
+            truncated(-1.0, 2.0, f64::NEG_INFINITY, 0.5),
+            Distribution::Uniform { min: 2.0, max: 3.0 },
+            Distribution::Normal { mean: 1.0, std: 0.5 },
+        ] {
+            let mut stream = Stream::new(2, "eight");
+            for block in 0..500 {
+                let (mut u, mut values) = ([0.0; 8], [0.0; 8]);
+                stream.uniforms(block, &mut u);
+                law.quantiles(&u, &mut values);
+                assert_eq!(values.map(f64::to_bits), u.map(|u| law.quantile(u).to_bits()), "{law:?} {u:?}");
+            }
+        }
     }
 
     #[test]

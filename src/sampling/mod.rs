@@ -1,17 +1,26 @@
 //! Floor 2: random draws. Streams, distributions, dispersions; a draw is a pure function of (seed, sample, parameter).
 //!
-//! A draw goes through four rooms, one after the other, so that each can grow without the others:
-//! 1. [`stream`], the random *design*: a number u in (0, 1) for each (seed, sample, component name). Other designs (Latin
-//!    hypercube, Sobol, table) would give their u here;
-//! 2. a dependence between the u of several components (a copula) would stand here; today they are independent;
-//! 3. [`distribution`]: u -> value, through one quantile function each;
-//! 4. [`dispersion`]: the value into the scene, and what was applied out of it.
+//! A draw goes through rooms, one after the other, so that each can grow without the others:
+//! 1. [`design`]: for each sample and each random dimension a number u in (0, 1); the random design takes them from
+//!    [`stream`];
+//! 2. laws map u to values: [`distribution`], one quantile function each, for one number; [`joint`] for several together
+//!    ([`law`]: as written; [`scalar`]: from there to a distribution);
+//! 3. [`dispersions`]: which law writes what, checked against the nominal scene; [`sampler`]: values into the scene, and what
+//!    was applied out of it.
 
-pub mod dispersion;
+pub mod design;
+pub mod dispersions;
 pub mod distribution;
+pub mod joint;
+pub mod law;
 pub mod normal;
+pub mod sampler;
+pub mod scalar;
 pub mod stream;
 
-pub use dispersion::{Cut, Dispersion, DispersionError, Dispersions, Law, Range, Sampler, Spread, Values};
+pub use dispersions::{Column, Dispersions, Map};
 pub use distribution::Distribution;
+pub use joint::Joint;
+pub use law::{Cut, Dispersion, DispersionError, Law, Range, Spread, Values};
+pub use sampler::Sampler;
 pub use stream::{SampleId, Stream};

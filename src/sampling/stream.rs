@@ -66,6 +66,21 @@ impl Stream {
         self.generator.next_u64()
     }
 
+    /// The numbers u of the eight samples of `block`, 8 `block` and after: one block of ChaCha.
+    #[inline]
+    pub fn uniforms(&mut self, block: u64, u: &mut [f64; 8]) {
+        let first = block.wrapping_mul(8);
+        if first != self.next {
+            self.generator.set_word_pos(2 * u128::from(first));
+        }
+        self.next = first.wrapping_add(8);
+        let mut bytes = [0; 64];
+        self.generator.fill_bytes(&mut bytes);
+        for (u, word) in u.iter_mut().zip(bytes.as_chunks().0) {
+            *u = unit(u64::from_le_bytes(*word));
+        }
+    }
+
     /// The number u of `sample`: an odd multiple of 2^-53, so 0 < u < 1 and 1 - u is exact.
     #[inline]
     pub fn uniform(&mut self, sample: SampleId) -> f64 {

@@ -1,0 +1,103 @@
+//! [`Sampler`]: draws samples of [`Dispersions`] into scenes, eight consecutive ones at a time.
+//!
+//! What is recorded is what was applied: values are written into the scene, made valid as a whole (a quaternion is
+//! renormalised) and read back. A draw that is physically impossible is not drawn again: the scene refuses it later.
+
+use super::design::{BLOCK, Points};
+use super::dispersions::{Column, Dispersions, Map};
+use super::joint::{MOST_COMPONENTS, MOST_DIMENSIONS};
+use super::stream::SampleId;
+use crate::scene::parameter::Kind;
+use crate::scene::{Parameter, SceneInput};
+
+/// Draws samples; owned by one worker. What it keeps only makes neighbours cheap: a draw depends on the sample alone.
+#[derive(Debug)]
+pub struct Sampler<'a> {
+    dispersions: &'a Dispersions,
+    points: Points,
+    /// The block of which `values` holds the draws.
+    block: Option<u64>,
+    /// Numbers u of the block, dimension by dimension.
+    u: Vec<[f64; BLOCK]>,
+    /// Values of the block, column by column.
+    values: Vec<[f64; BLOCK]>,
+    /// Parameters that change as a whole once they are written.
+    settled: Vec<Parameter>,
+}
+
+impl<'a> Sampler<'a> {
+    pub(super) fn new(dispersions: &'a Dispersions) -> Self {
+        Sampler {
+            dispersions,
+            points: Points::random(dispersions.seed, &dispersions.dimensions),
+            block: None,
+            u: vec![[0.5; BLOCK]; dispersions.dimensions.len()],
+            // columns that no law writes keep their nominal
+            values: dispersions.columns.iter().map(|column| [column.nominal; BLOCK]).collect(),
+            settled: settled(dispersions),
+        }
+    }
+
+    /// Writes every dispersed number of `sample` into `scene`, a copy of the nominal scene or of an earlier draw, and what was
+    /// applied into `applied`, one number a column. Sample 0 is nominal.
+    ///
+    /// # Panics
+    /// Where `applied` is not as long as [`Dispersions::columns`].
+    pub fn draw(&mut self, sample: SampleId, scene: &mut SceneInput, applied: &mut [f64]) {
+        let columns = &self.dispersions.columns;
+        assert_eq!(applied.len(), columns.len(), "one applied value a column");
+        if sample == SampleId(0) {
+            for (column, applied) in columns.iter().zip(applied) {
+                column.parameter.set(scene, column.component, column.nominal);
+                *applied = column.nominal;
+            }
+            return;
+        }
+        let (block, lane) = (sample.0 / BLOCK as u64, (sample.0 % BLOCK as u64) as usize);
+        if self.block != Some(block) {
+            self.fill(block);
+        }
+        for ((column, values), applied) in columns.iter().zip(&self.values).zip(&mut *applied) {
+            column.parameter.set(scene, column.component, values[lane]);
+            *applied = values[lane];
+        }
+        for parameter in &self.settled {
+            parameter.settle(scene);
+            for (applied, column) in applied.iter_mut().zip(columns).filter(|(_, c)| c.parameter == *parameter) {
+                *applied = parameter.value(scene, column.component).unwrap_or(f64::NAN);
+            }
+        }
+    }
+
+    /// Draws the samples of `block`.
+    fn fill(&mut self, block: u64) {
+        self.points.fill(block, &mut self.u);
+        for law in &self.dispersions.laws {
+            match &law.map {
+                Map::Scalar(distribution) => {
+                    distribution.quantiles(&self.u[law.first], &mut self.values[law.columns[0]]);
+                }
+                Map::Joint(joint) => {
+                    let dimensions = joint.dimensions();
+                    let (mut u, mut values) = ([0.0; MOST_DIMENSIONS], [0.0; MOST_COMPONENTS]);
+                    for lane in 0..BLOCK {
+                        for (u, block) in u.iter_mut().zip(&self.u[law.first..law.first + dimensions]) {
+                            *u = block[lane];
+                        }
+                        joint.values(&u[..dimensions], &mut values);
+                        for (column, value) in law.columns.iter().zip(values) {
+                            self.values[*column][lane] = value;
+                        }
+                    }
+                }
+            }
+        }
+        self.block = Some(block);
+    }
+}
+
+/// The quaternions among the columns, each once.
+fn settled(dispersions: &Dispersions) -> Vec<Parameter> {
+    let first = |column: &&Column| column.component == 0 && column.parameter.kind() == Kind::Quaternion;
+    dispersions.columns.iter().filter(first).map(|column| column.parameter).collect()
+}
