@@ -3,16 +3,17 @@
 //! Its SHA-256 (FIPS 180-4) is the plan's identity, which `sha256sum` reproduces. Floats are written with the fewest digits
 //! that read back to the same bits.
 
+use super::canonical_draws::dispersion_lines;
 use super::plan::Plan;
-use crate::sampling::{Cut, Dispersion, Law, Range, Spread, Values};
+use crate::sampling::Values;
 use crate::scene::DebrisShape;
 use sha2::{Digest, Sha256};
 
 /// A table's lines while they are written.
-struct Lines(String);
+pub(super) struct Lines(String);
 
 impl Lines {
-    fn table(&mut self, header: &str) {
+    pub(super) fn table(&mut self, header: &str) {
         if !self.0.is_empty() {
             self.0.push('\n');
         }
@@ -21,11 +22,11 @@ impl Lines {
     }
 
     /// `value` in its Debug form: of floats, lists of floats, whole numbers and plain text that form is TOML.
-    fn key(&mut self, key: &str, value: impl std::fmt::Debug) {
+    pub(super) fn key(&mut self, key: &str, value: impl std::fmt::Debug) {
         self.0.push_str(&format!("{key} = {value:?}\n"));
     }
 
-    fn values(&mut self, key: &str, values: &Values) {
+    pub(super) fn values(&mut self, key: &str, values: &Values) {
         match values {
             Values::All(value) => self.key(key, value),
             Values::Each(list) => self.key(key, list),
@@ -56,7 +57,7 @@ impl Plan {
         self.write_bodies(&mut lines);
         self.write_state(&mut lines);
         for dispersion in &self.dispersed {
-            write_dispersion(dispersion, &mut lines);
+            dispersion_lines(dispersion, &mut lines);
         }
         lines.table("[output]");
         lines.key("compression", self.compression.name());
@@ -125,50 +126,6 @@ impl Plan {
             lines.key("end_s", actuation.end_s);
             lines.key("thrust_n", actuation.thrust_n);
             lines.key("torque_n_m", actuation.torque_n_m);
-        }
-    }
-}
-
-fn write_dispersion(dispersion: &Dispersion, lines: &mut Lines) {
-    lines.table("[[disperse]]");
-    match dispersion.component {
-        Some(component) => lines.key("parameter", dispersion.parameter.component_name(component)),
-        None => lines.key("parameter", dispersion.parameter.name()),
-    }
-    let spread = |lines: &mut Lines, spread: &Spread| match spread {
-        Spread::Absolute(values) => lines.values("std", values),
-        Spread::Relative(values) => lines.values("relative_std", values),
-    };
-    match &dispersion.law {
-        Law::Normal(width) => {
-            lines.key("distribution", "normal");
-            spread(lines, width);
-        }
-        Law::TruncatedNormal(width, cut) => {
-            lines.key("distribution", "truncated_normal");
-            spread(lines, width);
-            match cut {
-                Cut::Sigmas(sigmas) => lines.values("sigmas", sigmas),
-                Cut::Bounds { lower, upper } => {
-                    for (key, bound) in [("lower", lower), ("upper", upper)] {
-                        if let Some(bound) = bound {
-                            lines.values(key, bound);
-                        }
-                    }
-                }
-            }
-        }
-        Law::UniformAttitude => lines.key("distribution", "uniform_attitude"),
-        Law::Uniform(range) => {
-            lines.key("distribution", "uniform");
-            match range {
-                Range::Between { min, max } => {
-                    lines.values("min", min);
-                    lines.values("max", max);
-                }
-                Range::Around(half) => lines.values("half_width", half),
-                Range::AroundRelative(half) => lines.values("relative_half_width", half),
-            }
         }
     }
 }

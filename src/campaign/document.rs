@@ -7,6 +7,7 @@
 use super::problem::{CampaignError, Problem, nearest};
 use crate::sampling::Values;
 use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -17,6 +18,8 @@ pub struct Document<'a> {
     text: &'a str,
     problems: Vec<Problem>,
     lines: BTreeMap<String, usize>,
+    /// The folder from which paths in the document count.
+    folder: PathBuf,
 }
 
 /// What a number may be.
@@ -40,7 +43,18 @@ pub const POSITIVE: Limit =
 impl<'a> Document<'a> {
     /// A document of which nothing has been read.
     pub fn new(file: &'a str, text: &'a str) -> Self {
-        Document { file, text, problems: Vec::new(), lines: BTreeMap::new() }
+        Document { file, text, problems: Vec::new(), lines: BTreeMap::new(), folder: PathBuf::new() }
+    }
+
+    /// The same document in `folder`, from which its paths count; without, they count from the working directory.
+    pub fn in_folder(mut self, folder: &Path) -> Self {
+        self.folder = folder.to_owned();
+        self
+    }
+
+    /// The folder from which paths in the document count.
+    pub fn folder(&self) -> &Path {
+        &self.folder
     }
 
     /// Parses the text; what is not TOML is reported, and the rest is read.
@@ -163,7 +177,7 @@ impl<'d, 'a> Section<'d, 'a> {
     }
 
     /// The value of `key` if it was written; the key is known from now on, and so is its line.
-    fn take(&mut self, key: &'static str) -> Option<&'d Spanned<DeValue<'a>>> {
+    pub(super) fn take(&mut self, key: &'static str) -> Option<&'d Spanned<DeValue<'a>>> {
         self.known.push(key);
         self.note_line(key);
         self.table?.get(key)
@@ -175,6 +189,13 @@ impl<'d, 'a> Section<'d, 'a> {
             let line = self.document.line_at(name.span().start);
             self.document.lines.insert(self.path(key), line);
         }
+    }
+
+    /// Notes that `value`, which `key` led to, is wrong.
+    pub fn refuse_value(&mut self, key: &str, value: String, allowed: impl Into<String>, remedy: impl Into<String>) {
+        self.note_line(key);
+        let path = self.path(key);
+        self.document.add(&path, Some(value), allowed, remedy);
     }
 
     /// Notes that the value of `key` is wrong.
@@ -428,7 +449,7 @@ pub fn choice(written: &str, names: &[&str]) -> (String, String) {
 }
 
 /// The number that an integer or a float stands for; NaN and infinities too.
-fn number(value: &DeValue<'_>) -> Option<f64> {
+pub(super) fn number(value: &DeValue<'_>) -> Option<f64> {
     match value {
         DeValue::Float(float) => float.as_str().parse().ok(),
         DeValue::Integer(integer) => i128::from_str_radix(integer.as_str(), integer.radix()).ok().map(|x| x as f64),

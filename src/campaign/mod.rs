@@ -3,17 +3,21 @@
 //! - [`problem`]: one reason, with file, line, key, value, allowed range and remedy.
 //! - [`document`]: a TOML document that is read key by key and remembers the lines. By hand and not by serde's derive, which
 //!   stops at the first error and knows no line of a key that passed.
+//! - [`lists`]: lists of any length in it; [`data`]: files of numbers that it names.
 //! - [`spec`]: the keys of a campaign file; [`disperse`]: those of its `[[disperse]]` tables.
 //! - [`plan`]: defaults filled in, scene and dispersions checked against each other.
-//! - [`canonical`]: the plan as text that reads back to the same plan, and its hash.
+//! - [`canonical`], [`canonical_draws`]: the plan as text that reads back to the same plan, and its hash.
 //! - [`mod@find`]: which file a name means.
 //!
 //! Not here: what is physical ([`crate::scene`]) and what can be drawn ([`crate::sampling`]); their errors get lines here.
 
 pub mod canonical;
+pub mod canonical_draws;
+pub mod data;
 pub mod disperse;
 pub mod document;
 pub mod find;
+pub mod lists;
 pub mod plan;
 pub mod problem;
 pub mod spec;

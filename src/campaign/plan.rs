@@ -103,7 +103,7 @@ impl Plan {
             }],
         })?;
         let file = path.file_name().map_or(file, |name| name.to_string_lossy().into_owned());
-        Self::from_text(&file, &text, overrides)
+        Self::from_text_in(path.parent().unwrap_or(Path::new("")), &file, &text, overrides)
     }
 
     /// The plan of a file's text; `file` is its name in messages.
@@ -111,7 +111,15 @@ impl Plan {
     /// # Errors
     /// Everything that is wrong with the text.
     pub fn from_text(file: &str, text: &str, overrides: Overrides) -> Result<Plan, CampaignError> {
-        let mut document = Document::new(file, text);
+        Self::from_text_in(Path::new(""), file, text, overrides)
+    }
+
+    /// The same of a file in `folder`, from which the paths in the text count.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the text.
+    pub fn from_text_in(folder: &Path, file: &str, text: &str, overrides: Overrides) -> Result<Plan, CampaignError> {
+        let mut document = Document::new(file, text).in_folder(folder);
         let mut spec = Spec::read(&mut document);
         override_spec(&mut spec, overrides, &mut document);
         let plan = resolve(spec, &mut document);

@@ -128,15 +128,28 @@ fn drawn(plan: &Plan) -> Vec<Vec<f64>> {
 
 /// A law in words.
 fn law_text(law: &Map) -> String {
+    let law = match law {
+        Map::Joint(joint) => return joint.text(),
+        Map::Scalar(law) => law,
+    };
+    // the ends, to the digits shown
+    let [low, high] = [f64::EPSILON, 1.0 - f64::EPSILON].map(|u| short(law.quantile(u)));
     match law {
-        Map::Joint(joint) => joint.text(),
-        Map::Scalar(Distribution::Normal { std, .. }) => format!("normal, std {}", short(*std)),
-        Map::Scalar(law @ Distribution::TruncatedNormal(_)) => {
-            // the bounds, to the digits shown
-            let [low, high] = [f64::EPSILON, 1.0 - f64::EPSILON].map(|u| short(law.quantile(u)));
-            format!("truncated normal, {low} to {high}")
+        Distribution::Normal { std, .. } => format!("normal, std {}", short(*std)),
+        Distribution::TruncatedNormal(_) => format!("truncated normal, {low} to {high}"),
+        Distribution::Uniform { min, max } => format!("uniform, {} to {}", short(*min), short(*max)),
+        Distribution::LogNormal { log_std, .. } => format!("log-normal, std of the logarithm {}", short(*log_std)),
+        Distribution::LogUniform { min, max, .. } => format!("log-uniform, {} to {}", short(*min), short(*max)),
+        Distribution::Triangular { min, mode, max } => {
+            format!("triangular, {} to {}, mode {}", short(*min), short(*max), short(*mode))
         }
-        Map::Scalar(Distribution::Uniform { min, max }) => format!("uniform, {} to {}", short(*min), short(*max)),
+        Distribution::Beta(law) => {
+            let ((min, max), (alpha, beta)) = (law.ends(), law.shapes());
+            format!("beta({}, {}), {} to {}", short(alpha), short(beta), short(min), short(max))
+        }
+        Distribution::Choice(choice) => format!("one of {} values, {low} to {high}", choice.values().len()),
+        Distribution::Empirical(law) => format!("as {} values of a file, {low} to {high}", law.count()),
+        Distribution::Fixed(_) => "fixed".to_owned(),
     }
 }
 

@@ -44,6 +44,7 @@ impl Map {
     /// Number of u that it takes.
     pub fn dimensions(&self) -> usize {
         match self {
+            Map::Scalar(Distribution::Fixed(_)) => 0,
             Map::Scalar(_) => 1,
             Map::Joint(joint) => joint.dimensions(),
         }
@@ -110,6 +111,7 @@ impl Dispersions {
         for (components, map) in maps {
             let first = self.dimensions.len();
             match &map {
+                Map::Scalar(Distribution::Fixed(_)) => {}
                 Map::Scalar(_) => self.dimensions.push(parameter.component_name(components[0])),
                 Map::Joint(joint) => {
                     let name = |k: usize| format!("{}/{}", parameter.name(), k + 1);

@@ -3,10 +3,12 @@
 //! One u gives one value, monotonically. So every design (random, Latin hypercube, Sobol, ...) gives a law the same meaning,
 //! and correlation can be laid between the u. Rejection and polar methods, which eat an unknown count of u, are not here.
 
+use super::beta::BetaLaw;
+use super::discrete::{Choice, Empirical};
 use super::normal::{probability, quantile, quantiles};
 
 /// The law of one number.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Distribution {
     /// Normal.
     Normal {
@@ -24,6 +26,39 @@ pub enum Distribution {
         /// Upper bound, >= min.
         max: f64,
     },
+    /// Normal in the logarithm.
+    LogNormal {
+        /// Median, > 0.
+        median: f64,
+        /// Standard deviation of the natural logarithm, >= 0.
+        log_std: f64,
+    },
+    /// Uniform in the logarithm.
+    LogUniform {
+        /// Lower bound, > 0.
+        min: f64,
+        /// Upper bound.
+        max: f64,
+        /// ln(max/min).
+        log_ratio: f64,
+    },
+    /// Triangular.
+    Triangular {
+        /// Lower bound.
+        min: f64,
+        /// Most likely value.
+        mode: f64,
+        /// Upper bound.
+        max: f64,
+    },
+    /// Beta (and PERT) between two bounds.
+    Beta(BetaLaw),
+    /// One of several values (and Bernoulli: one of two).
+    Choice(Choice),
+    /// As a list of values.
+    Empirical(Empirical),
+    /// Always the same; takes no u.
+    Fixed(f64),
 }
 
 /// See [`Distribution::TruncatedNormal`].
@@ -82,6 +117,11 @@ impl TruncatedNormal {
 }
 
 impl Distribution {
+    /// The log-uniform law from `min` > 0 to `max` > `min`.
+    pub fn log_uniform(min: f64, max: f64) -> Self {
+        Distribution::LogUniform { min, max, log_ratio: libm::log(max / min) }
+    }
+
     /// The value below which the fraction `u` of the law lies, 0 < u < 1.
     #[inline]
     pub fn quantile(&self, u: f64) -> f64 {
@@ -89,6 +129,16 @@ impl Distribution {
             Distribution::Normal { mean, std } => mean + std * quantile(u),
             Distribution::TruncatedNormal(law) => law.quantile(if law.std < 0.0 { 1.0 - u } else { u }),
             Distribution::Uniform { min, max } => min + u * (max - min),
+            Distribution::LogNormal { median, log_std } => median * libm::exp(log_std * quantile(u)),
+            Distribution::LogUniform { min, max, log_ratio } => (min * libm::exp(u * log_ratio)).clamp(*min, *max),
+            Distribution::Triangular { min, mode, max } => {
+                let (rise, fall, width) = (mode - min, max - mode, max - min);
+                if u * width < rise { min + (u * width * rise).sqrt() } else { max - ((1.0 - u) * width * fall).sqrt() }
+            }
+            Distribution::Beta(law) => law.quantile(u),
+            Distribution::Choice(law) => law.quantile(u),
+            Distribution::Empirical(law) => law.quantile(u),
+            Distribution::Fixed(value) => *value,
         }
     }
 
@@ -102,7 +152,18 @@ impl Distribution {
                 }
             }
             Distribution::TruncatedNormal(law) => law.quantiles(u, values),
-            Distribution::Uniform { .. } => {
+            Distribution::Uniform { min, max } => {
+                for (value, u) in values.iter_mut().zip(u) {
+                    *value = min + u * (max - min);
+                }
+            }
+            Distribution::LogNormal { median, log_std } => {
+                quantiles(u, values);
+                for value in values {
+                    *value = median * libm::exp(log_std * *value);
+                }
+            }
+            _ => {
                 for (value, u) in values.iter_mut().zip(u) {
                     *value = self.quantile(*u);
                 }

@@ -4,6 +4,7 @@
 //! becomes a [`super::Joint`] in [`super::joint`].
 
 use crate::scene::Parameter;
+use std::sync::Arc;
 
 /// One number for all components, or one for each.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,17 +24,28 @@ pub enum Spread {
     Relative(Values),
 }
 
+/// One bound of a truncated law.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Bound {
+    /// In the parameter's unit (`lower`, `upper`).
+    Absolute(Values),
+    /// From the nominal, as a fraction of its absolute value (`relative_lower`, `relative_upper`; the lower is below zero).
+    Relative(Values),
+    /// So many standard deviations from the nominal (`lower_sigmas`, `upper_sigmas`).
+    Sigmas(Values),
+}
+
 /// Where a normal law is cut off.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cut {
     /// At so many standard deviations on both sides of the nominal (`sigmas`).
     Sigmas(Values),
-    /// At bounds in the parameter's unit (`lower`, `upper`); at least one is given.
+    /// At bounds; at least one is given.
     Bounds {
         /// Lower bound.
-        lower: Option<Values>,
+        lower: Option<Bound>,
         /// Upper bound.
-        upper: Option<Values>,
+        upper: Option<Bound>,
     },
 }
 
@@ -53,6 +65,64 @@ pub enum Range {
     AroundRelative(Values),
 }
 
+/// The interval of a log-uniform law.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LogRange {
+    /// Between two positive numbers in the parameter's unit (`min`, `max`).
+    Between {
+        /// Lower end.
+        min: Values,
+        /// Upper end.
+        max: Values,
+    },
+    /// From the nominal divided by a factor to the nominal times it (`factor`).
+    Around(Values),
+}
+
+/// A distance from the nominal.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Offset {
+    /// In the parameter's unit (`offset`).
+    Absolute(Values),
+    /// As a fraction of the nominal's absolute value (`relative_offset`).
+    Relative(Values),
+}
+
+/// A column of a file of numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DataColumn {
+    /// The file, as written.
+    pub file: String,
+    /// SHA-256 of the file's bytes, hexadecimal.
+    pub sha256: String,
+    /// The column's name.
+    pub column: String,
+    /// Its numbers, in the order of the file.
+    pub values: Arc<[f64]>,
+}
+
+/// What lies between the values of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Interpolation {
+    /// Nothing: each draw is a value of the file, each as likely as the others.
+    None,
+    /// A uniform law between neighbours.
+    Linear,
+}
+
+impl Interpolation {
+    /// All values.
+    pub const ALL: [Interpolation; 2] = [Interpolation::None, Interpolation::Linear];
+
+    /// The name in campaign files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Interpolation::None => "none",
+            Interpolation::Linear => "linear",
+        }
+    }
+}
+
 /// A law as written.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Law {
@@ -62,6 +132,62 @@ pub enum Law {
     TruncatedNormal(Spread, Cut),
     /// Uniform.
     Uniform(Range),
+    /// Normal in the logarithm (`log_std`, and `median`, else the nominal).
+    LogNormal {
+        /// Standard deviation of the natural logarithm.
+        log_std: Values,
+        /// Median; the nominal where it is not written.
+        median: Option<Values>,
+    },
+    /// Uniform in the logarithm.
+    LogUniform(LogRange),
+    /// Triangular (`min`, `max`, and `mode`, else the nominal).
+    Triangular {
+        /// Lower end.
+        min: Values,
+        /// Upper end.
+        max: Values,
+        /// Most likely value; the nominal where it is not written.
+        mode: Option<Values>,
+    },
+    /// Beta law stretched from `min` to `max`, with exponents `alpha` - 1 and `beta` - 1.
+    Beta {
+        /// First shape parameter.
+        alpha: Values,
+        /// Second shape parameter.
+        beta: Values,
+        /// Lower end.
+        min: Values,
+        /// Upper end.
+        max: Values,
+    },
+    /// PERT: the beta law of shape 1 + 4 (mode - min)/(max - min) and 1 + 4 (max - mode)/(max - min).
+    Pert {
+        /// Lower end.
+        min: Values,
+        /// Upper end.
+        max: Values,
+        /// Most likely value; the nominal where it is not written.
+        mode: Option<Values>,
+    },
+    /// One of a list of values (`values`, and `weights`, else all alike).
+    Choice {
+        /// The values.
+        values: Vec<f64>,
+        /// Their weights, in proportion.
+        weights: Option<Vec<f64>>,
+    },
+    /// Another value with some probability (`value`, `probability`), else the nominal.
+    Bernoulli {
+        /// The other value.
+        value: Values,
+        /// Its probability.
+        probability: Values,
+    },
+    /// As a column of a file (`file`, `column`, `interpolation`).
+    Empirical(DataColumn, Interpolation),
+    /// The same distance from the nominal in every sample but the nominal one.
+    Offset(Offset),
     /// Attitude uniform over all rotations, of a quaternion as a whole.
     UniformAttitude,
 }

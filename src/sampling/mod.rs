@@ -8,7 +8,9 @@
 //! 3. [`dispersions`]: which law writes what, checked against the nominal scene; [`sampler`]: values into the scene, and what
 //!    was applied out of it.
 
+pub mod beta;
 pub mod design;
+pub mod discrete;
 pub mod dispersions;
 pub mod distribution;
 pub mod joint;
@@ -21,6 +23,8 @@ pub mod stream;
 pub use dispersions::{Column, Dispersions, Map};
 pub use distribution::Distribution;
 pub use joint::Joint;
-pub use law::{Cut, Dispersion, DispersionError, Law, Range, Spread, Values};
+pub use law::{
+    Bound, Cut, DataColumn, Dispersion, DispersionError, Interpolation, Law, LogRange, Offset, Range, Spread, Values,
+};
 pub use sampler::Sampler;
 pub use stream::{SampleId, Stream};

@@ -5,6 +5,7 @@
 
 use super::design::{BLOCK, Points};
 use super::dispersions::{Column, Dispersions, Map};
+use super::distribution::Distribution;
 use super::joint::{MOST_COMPONENTS, MOST_DIMENSIONS};
 use super::stream::SampleId;
 use crate::scene::parameter::Kind;
@@ -74,6 +75,7 @@ impl<'a> Sampler<'a> {
         self.points.fill(block, &mut self.u);
         for law in &self.dispersions.laws {
             match &law.map {
+                Map::Scalar(Distribution::Fixed(value)) => self.values[law.columns[0]] = [*value; BLOCK],
                 Map::Scalar(distribution) => {
                     distribution.quantiles(&self.u[law.first], &mut self.values[law.columns[0]]);
                 }

@@ -1,0 +1,121 @@
+//! What is drawn, as canonical text; see [`super::canonical`].
+
+use super::canonical::Lines;
+use crate::sampling::scalar::{LOWER_KEYS, UPPER_KEYS};
+use crate::sampling::{Bound, Cut, DataColumn, Dispersion, Law, LogRange, Offset, Range, Spread, Values};
+
+/// Writes one `[[disperse]]` table.
+pub(super) fn dispersion_lines(dispersion: &Dispersion, lines: &mut Lines) {
+    lines.table("[[disperse]]");
+    match dispersion.component {
+        Some(component) => lines.key("parameter", dispersion.parameter.component_name(component)),
+        None => lines.key("parameter", dispersion.parameter.name()),
+    }
+    match &dispersion.law {
+        Law::Normal(width) => {
+            lines.key("distribution", "normal");
+            spread(lines, width);
+        }
+        Law::TruncatedNormal(width, cut) => {
+            lines.key("distribution", "truncated_normal");
+            spread(lines, width);
+            match cut {
+                Cut::Sigmas(sigmas) => lines.values("sigmas", sigmas),
+                Cut::Bounds { lower, upper } => {
+                    bound(lines, lower.as_ref(), LOWER_KEYS);
+                    bound(lines, upper.as_ref(), UPPER_KEYS);
+                }
+            }
+        }
+        Law::Uniform(range) => {
+            lines.key("distribution", "uniform");
+            match range {
+                Range::Between { min, max } => ends(lines, min, max),
+                Range::Around(half) => lines.values("half_width", half),
+                Range::AroundRelative(half) => lines.values("relative_half_width", half),
+            }
+        }
+        Law::LogNormal { log_std, median } => {
+            lines.key("distribution", "log_normal");
+            lines.values("log_std", log_std);
+            optional(lines, "median", median.as_ref());
+        }
+        Law::LogUniform(range) => {
+            lines.key("distribution", "log_uniform");
+            match range {
+                LogRange::Between { min, max } => ends(lines, min, max),
+                LogRange::Around(factor) => lines.values("factor", factor),
+            }
+        }
+        Law::Triangular { min, max, mode } => {
+            lines.key("distribution", "triangular");
+            ends(lines, min, max);
+            optional(lines, "mode", mode.as_ref());
+        }
+        Law::Beta { alpha, beta, min, max } => {
+            lines.key("distribution", "beta");
+            lines.values("alpha", alpha);
+            lines.values("beta", beta);
+            ends(lines, min, max);
+        }
+        Law::Pert { min, max, mode } => {
+            lines.key("distribution", "pert");
+            ends(lines, min, max);
+            optional(lines, "mode", mode.as_ref());
+        }
+        Law::Choice { values, weights } => {
+            lines.key("distribution", "choice");
+            lines.key("values", values);
+            if let Some(weights) = weights {
+                lines.key("weights", weights);
+            }
+        }
+        Law::Bernoulli { value, probability } => {
+            lines.key("distribution", "bernoulli");
+            lines.values("value", value);
+            lines.values("probability", probability);
+        }
+        Law::Empirical(DataColumn { file, sha256, column, .. }, interpolation) => {
+            lines.key("distribution", "empirical");
+            lines.key("file", file);
+            lines.key("sha256", sha256);
+            lines.key("column", column);
+            lines.key("interpolation", interpolation.name());
+        }
+        Law::Offset(offset) => {
+            lines.key("distribution", "offset");
+            match offset {
+                Offset::Absolute(values) => lines.values("offset", values),
+                Offset::Relative(values) => lines.values("relative_offset", values),
+            }
+        }
+        Law::UniformAttitude => lines.key("distribution", "uniform_attitude"),
+    }
+}
+
+fn spread(lines: &mut Lines, spread: &Spread) {
+    match spread {
+        Spread::Absolute(values) => lines.values("std", values),
+        Spread::Relative(values) => lines.values("relative_std", values),
+    }
+}
+
+fn bound(lines: &mut Lines, bound: Option<&Bound>, keys: [&str; 3]) {
+    match bound {
+        Some(Bound::Absolute(values)) => lines.values(keys[0], values),
+        Some(Bound::Relative(values)) => lines.values(keys[1], values),
+        Some(Bound::Sigmas(values)) => lines.values(keys[2], values),
+        None => {}
+    }
+}
+
+fn ends(lines: &mut Lines, min: &Values, max: &Values) {
+    lines.values("min", min);
+    lines.values("max", max);
+}
+
+fn optional(lines: &mut Lines, key: &str, values: Option<&Values>) {
+    if let Some(values) = values {
+        lines.values(key, values);
+    }
+}

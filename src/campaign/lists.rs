@@ -1,0 +1,54 @@
+//! Lists of any length in a [`Section`]: numbers, texts, square matrices.
+
+use super::document::{Section, number};
+use toml::de::DeValue;
+
+impl Section<'_, '_> {
+    /// A list of finite numbers, if it was written.
+    pub fn numbers(&mut self, key: &'static str) -> Option<Vec<f64>> {
+        let value = self.take(key)?;
+        let list = numbers(value.get_ref());
+        if list.is_none() {
+            self.refuse(key, "an array of finite numbers", "write it like [1.0, 2.0]");
+        }
+        list
+    }
+
+    /// A list of texts, if it was written.
+    pub fn texts(&mut self, key: &'static str, example: &str) -> Option<Vec<String>> {
+        let value = self.take(key)?;
+        let text = |item: &DeValue<'_>| item.as_str().map(str::to_owned);
+        let list: Option<Vec<String>> =
+            value.get_ref().as_array().and_then(|list| list.iter().map(|item| text(item.get_ref())).collect());
+        if list.is_none() {
+            self.refuse(key, "an array of texts", format!("write it like {example}"));
+        }
+        list
+    }
+
+    /// A square matrix of finite numbers by rows, if it was written.
+    pub fn square(&mut self, key: &'static str) -> Option<Vec<Vec<f64>>> {
+        let value = self.take(key)?;
+        let rows: Option<Vec<Vec<f64>>> =
+            value.get_ref().as_array().and_then(|rows| rows.iter().map(|row| numbers(row.get_ref())).collect());
+        let square = rows.filter(|rows| !rows.is_empty() && rows.iter().all(|row| row.len() == rows.len()));
+        if square.is_none() {
+            self.refuse(key, "a square matrix of finite numbers by rows", "write it like [[1.0, 0.5], [0.5, 1.0]]");
+        }
+        square
+    }
+
+    /// Yes or no, if it was written.
+    pub fn flag(&mut self, key: &'static str) -> Option<bool> {
+        let value = self.take(key)?;
+        let flag = value.get_ref().as_bool();
+        if flag.is_none() {
+            self.refuse(key, "true or false", "write it without quotes");
+        }
+        flag
+    }
+}
+
+fn numbers(value: &DeValue<'_>) -> Option<Vec<f64>> {
+    value.as_array()?.iter().map(|item| number(item.get_ref()).filter(|x| x.is_finite())).collect()
+}
