@@ -19,9 +19,9 @@ fn law(name: &str, p: &[f64]) -> Distribution {
         "triangular" => Distribution::Triangular { min: p[0], mode: p[1], max: p[2] },
         "beta" => Distribution::Beta(BetaLaw::new(p[0], p[1], p[2], p[3])),
         "pert" => Distribution::Beta(BetaLaw::pert(p[0], p[1], p[2])),
-        "truncated_normal" => {
-            Distribution::TruncatedNormal(TruncatedNormal::new(p[0], p[1], p[2], p[3]).expect("mass between the bounds"))
-        }
+        "truncated_normal" => Distribution::TruncatedNormal(
+            TruncatedNormal::new(p[0], p[1], p[2], p[3]).expect("mass between the bounds"),
+        ),
         other => panic!("{other}"),
     }
 }
@@ -96,7 +96,11 @@ fn draws_follow_their_laws() {
 
     let triangle = |mode: f64| {
         move |x: f64| {
-            if x < mode { (x - 1.0).powi(2) / (3.0 * (mode - 1.0)) } else { 1.0 - (4.0 - x).powi(2) / (3.0 * (4.0 - mode)) }
+            if x < mode {
+                (x - 1.0).powi(2) / (3.0 * (mode - 1.0))
+            } else {
+                1.0 - (4.0 - x).powi(2) / (3.0 * (4.0 - mode))
+            }
         }
     };
     let values = draws(&Distribution::Triangular { min: 1.0, mode: 1.5, max: 4.0 });

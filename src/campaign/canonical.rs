@@ -3,7 +3,7 @@
 //! Its SHA-256 (FIPS 180-4) is the plan's identity, which `sha256sum` reproduces. Floats are written with the fewest digits
 //! that read back to the same bits.
 
-use super::canonical_draws::dispersion_lines;
+use super::canonical_draws::{correlation_lines, derivation_lines, design_lines, dispersion_lines};
 use super::plan::Plan;
 use crate::sampling::Values;
 use crate::scene::DebrisShape;
@@ -56,8 +56,15 @@ impl Plan {
         lines.key("groups", self.groups.iter().map(|group| group.name()).collect::<Vec<_>>());
         self.write_bodies(&mut lines);
         self.write_state(&mut lines);
+        design_lines(&self.design, &mut lines);
         for dispersion in &self.dispersed {
             dispersion_lines(dispersion, &mut lines);
+        }
+        for correlation in &self.correlated {
+            correlation_lines(correlation, &mut lines);
+        }
+        for derivation in &self.derived {
+            derivation_lines(derivation, &mut lines);
         }
         lines.table("[output]");
         lines.key("compression", self.compression.name());

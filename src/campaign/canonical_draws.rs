@@ -2,7 +2,11 @@
 
 use super::canonical::Lines;
 use crate::sampling::scalar::{LOWER_KEYS, UPPER_KEYS};
-use crate::sampling::{Bound, Cut, DataColumn, Dispersion, Law, LogRange, Offset, Range, Spread, Values};
+use crate::sampling::{
+    Bound, Correlation, Cut, DataColumn, Dependence, Derivation, Design, Dispersion, Law, Levels, LogRange, Offset,
+    Range, Spread, Values,
+};
+use crate::scene::Parameter;
 
 /// Writes one `[[disperse]]` table.
 pub(super) fn dispersion_lines(dispersion: &Dispersion, lines: &mut Lines) {
@@ -91,6 +95,58 @@ pub(super) fn dispersion_lines(dispersion: &Dispersion, lines: &mut Lines) {
         }
         Law::UniformAttitude => lines.key("distribution", "uniform_attitude"),
     }
+}
+
+/// Writes the `[design]` table, if it is not the random design.
+pub(super) fn design_lines(design: &Design, lines: &mut Lines) {
+    if *design == Design::Random {
+        return;
+    }
+    lines.table("[design]");
+    lines.key("kind", design.name());
+    match design {
+        Design::Grid(levels) | Design::OneAtATime(levels) => match levels {
+            Levels::All(count) => lines.key("levels", count),
+            Levels::Each(counts) => lines.key("levels", counts),
+            Levels::Quantiles(list) => lines.key("quantiles", list),
+        },
+        Design::Table(columns) => {
+            if let Some(column) = columns.first() {
+                lines.key("file", &column.file);
+                lines.key("sha256", &column.sha256);
+            }
+            lines.key("parameters", columns.iter().map(|column| column.column.as_str()).collect::<Vec<_>>());
+        }
+        _ => {}
+    }
+}
+
+/// Writes one `[[correlate]]` table.
+pub(super) fn correlation_lines(correlation: &Correlation, lines: &mut Lines) {
+    lines.table("[[correlate]]");
+    let name = |(parameter, component): &(Parameter, Option<usize>)| match component {
+        Some(component) => parameter.component_name(*component),
+        None => parameter.name().to_owned(),
+    };
+    lines.key("parameters", correlation.parameters.iter().map(name).collect::<Vec<_>>());
+    match &correlation.dependence {
+        Dependence::Scores(matrix) => lines.key("correlation", matrix),
+        Dependence::Ranks(matrix) => lines.key("rank_correlation", matrix),
+        Dependence::Covariance(matrix) => lines.key("covariance", matrix),
+    }
+    if correlation.nearest_psd {
+        lines.key("nearest_psd", true);
+    }
+}
+
+/// Writes one `[[derive]]` table.
+pub(super) fn derivation_lines(derivation: &Derivation, lines: &mut Lines) {
+    lines.table("[[derive]]");
+    match derivation.component {
+        Some(component) => lines.key("parameter", derivation.parameter.component_name(component)),
+        None => lines.key("parameter", derivation.parameter.name()),
+    }
+    lines.key("expression", &derivation.expression);
 }
 
 fn spread(lines: &mut Lines, spread: &Spread) {

@@ -1,6 +1,7 @@
 //! Lists of any length in a [`Section`]: numbers, texts, square matrices.
 
 use super::document::{Section, number};
+use crate::sampling::Levels;
 use toml::de::DeValue;
 
 impl Section<'_, '_> {
@@ -36,6 +37,26 @@ impl Section<'_, '_> {
             self.refuse(key, "a square matrix of finite numbers by rows", "write it like [[1.0, 0.5], [0.5, 1.0]]");
         }
         square
+    }
+
+    /// A whole number within `range` for all, or a list of them, if it was written.
+    pub fn counts(&mut self, key: &'static str, range: std::ops::RangeInclusive<u64>) -> Option<Levels> {
+        let value = self.take(key)?;
+        let count = |value: &DeValue<'_>| {
+            let count = value.as_integer().and_then(|x| u64::from_str_radix(x.as_str(), x.radix()).ok());
+            count.filter(|count| range.contains(count))
+        };
+        let counts = match value.get_ref() {
+            DeValue::Array(list) => {
+                list.iter().map(|item| count(item.get_ref())).collect::<Option<_>>().map(Levels::Each)
+            }
+            single => count(single).map(Levels::All),
+        };
+        if counts.is_none() {
+            let allowed = format!("a whole number of at least {}, or an array of them", range.start());
+            self.refuse(key, allowed, "write it like 5 or [5, 3]");
+        }
+        counts
     }
 
     /// Yes or no, if it was written.

@@ -4,7 +4,7 @@
 //! - [`document`]: a TOML document that is read key by key and remembers the lines. By hand and not by serde's derive, which
 //!   stops at the first error and knows no line of a key that passed.
 //! - [`lists`]: lists of any length in it; [`data`]: files of numbers that it names.
-//! - [`spec`]: the keys of a campaign file; [`disperse`]: those of its `[[disperse]]` tables.
+//! - [`spec`]: the keys of a campaign file; [`disperse`], [`design`], [`dependence`]: those that say what is drawn.
 //! - [`plan`]: defaults filled in, scene and dispersions checked against each other.
 //! - [`canonical`], [`canonical_draws`]: the plan as text that reads back to the same plan, and its hash.
 //! - [`mod@find`]: which file a name means.
@@ -14,6 +14,8 @@
 pub mod canonical;
 pub mod canonical_draws;
 pub mod data;
+pub mod dependence;
+pub mod design;
 pub mod disperse;
 pub mod document;
 pub mod find;

@@ -7,7 +7,7 @@ use super::spec::{LARGEST_SEED, MOST_SAMPLES, Spec};
 use crate::dynamics::table::Grid;
 use crate::integrators::{Method, Tolerance};
 use crate::observables::Group;
-use crate::sampling::{Dispersion, Dispersions};
+use crate::sampling::{Correlation, Derivation, Design, Dispersion, Dispersions, Draws, Table};
 use crate::scene::{Scene, SceneInput};
 use std::path::Path;
 
@@ -34,8 +34,14 @@ pub struct Plan {
     pub groups: Vec<Group>,
     /// The nominal scene.
     pub nominal: SceneInput,
+    /// The design as written.
+    pub design: Design,
     /// The dispersions as written.
     pub dispersed: Vec<Dispersion>,
+    /// The correlations as written.
+    pub correlated: Vec<Correlation>,
+    /// The derived parameters as written.
+    pub derived: Vec<Derivation>,
     /// The dispersions ready to be drawn.
     pub dispersions: Dispersions,
     /// Compression of the files of rows.
@@ -151,6 +157,17 @@ fn override_spec(spec: &mut Spec, overrides: Overrides, document: &mut Document<
     };
     check("--samples", overrides.samples, 1, MOST_SAMPLES);
     check("--seed", overrides.seed, 0, LARGEST_SEED);
+    if let (Some(samples), Some(written), Some(Design::LatinHypercube)) =
+        (overrides.samples, spec.samples, &spec.design)
+        && samples != written
+    {
+        let allowed = format!(
+            "left out with design \"latin_hypercube\", whose strata are 1/(samples - 1) wide: with other than the file's \
+             {written} samples every row would be another"
+        );
+        let remedy = "write samples in the file for a hypercube of that size, or use sobol, whose rows stay";
+        document.add("--samples", Some(samples.to_string()), allowed, remedy);
+    }
     spec.samples = overrides.samples.or(spec.samples);
     spec.seed = overrides.seed.or(spec.seed);
 }
@@ -178,16 +195,19 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
         document.add_from_below(found.collect());
     }
 
-    // Errors name a dispersion by its place among those that could be read.
-    let places: Vec<usize> =
-        spec.dispersions.iter().enumerate().filter(|(_, d)| d.is_some()).map(|(place, _)| place).collect();
-    let dispersed: Vec<Dispersion> = spec.dispersions.into_iter().flatten().collect();
-    let dispersions = match Dispersions::new(spec.seed.unwrap_or(0), &spec.scene, &dispersed) {
+    let drawn = Drawn::of(spec.dispersions, spec.correlations, spec.derivations);
+    let draws = Draws {
+        seed: spec.seed.unwrap_or(0),
+        samples: spec.samples,
+        design: spec.design.as_ref().unwrap_or(&Design::Random),
+        disperse: &drawn.dispersed.1,
+        correlate: &drawn.correlated.1,
+        derive: &drawn.derived.1,
+    };
+    let dispersions = match Dispersions::new(draws, &spec.scene) {
         Ok(dispersions) => Some(dispersions),
         Err(errors) => {
-            let found = errors
-                .into_iter()
-                .map(|e| (format!("disperse[{}].{}", places[e.dispersion], e.key), e.value, e.allowed, e.remedy));
+            let found = errors.into_iter().map(|e| (drawn.path(e.table, e.key), e.value, e.allowed, e.remedy));
             document.add_from_below(found.collect());
             None
         }
@@ -195,9 +215,10 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
 
     let mut groups = spec.groups.unwrap_or_else(|| Group::ALL.to_vec());
     groups.sort_by_key(|group| Group::ALL.iter().position(|known| known == group));
+    let dispersions = dispersions?;
     Some(Plan {
         name: spec.name?,
-        samples: spec.samples?,
+        samples: dispersions.samples(),
         seed: spec.seed?,
         grid: Grid::uniform(spec.duration_s?, usize::try_from(spec.points.unwrap_or(POINTS)).ok()?),
         method,
@@ -206,10 +227,45 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
         max_steps: spec.max_steps.unwrap_or(MAX_STEPS),
         groups,
         nominal: spec.scene,
-        dispersed,
-        dispersions: dispersions?,
+        design: spec.design?,
+        dispersed: drawn.dispersed.1,
+        correlated: drawn.correlated.1,
+        derived: drawn.derived.1,
+        dispersions,
         compression: spec.compression.unwrap_or(Compression::Zstd),
     })
+}
+
+/// What could be read of the tables that say what is drawn, each with its place in the file: errors name a table by its place
+/// among those that could be read.
+struct Drawn {
+    dispersed: (Vec<usize>, Vec<Dispersion>),
+    correlated: (Vec<usize>, Vec<Correlation>),
+    derived: (Vec<usize>, Vec<Derivation>),
+}
+
+impl Drawn {
+    fn of(
+        disperse: Vec<Option<Dispersion>>,
+        correlate: Vec<Option<Correlation>>,
+        derive: Vec<Option<Derivation>>,
+    ) -> Self {
+        fn placed<T>(list: Vec<Option<T>>) -> (Vec<usize>, Vec<T>) {
+            list.into_iter().enumerate().filter_map(|(place, item)| item.map(|item| (place, item))).unzip()
+        }
+        Drawn { dispersed: placed(disperse), correlated: placed(correlate), derived: placed(derive) }
+    }
+
+    /// The dotted path of a key in the file.
+    fn path(&self, table: Table, key: &str) -> String {
+        let table = match table {
+            Table::Disperse(index) => Table::Disperse(self.dispersed.0[index]),
+            Table::Correlate(index) => Table::Correlate(self.correlated.0[index]),
+            Table::Derive(index) => Table::Derive(self.derived.0[index]),
+            other => other,
+        };
+        format!("{table}.{key}")
+    }
 }
 
 /// A fixed step where the method has one, and none where it has not.

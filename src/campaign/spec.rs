@@ -3,12 +3,12 @@
 //! Every key of the file is read here (those of `[[disperse]]` in [`super::disperse`]); a number that is missing or wrong is
 //! NaN here and noted in the document. What is left out stays `None`: the plan fills it in.
 
-use super::disperse;
 use super::document::{Document, Limit, POSITIVE, Section};
 use super::plan::Compression;
+use super::{dependence, design, disperse};
 use crate::integrators::Method;
 use crate::observables::Group;
-use crate::sampling::Dispersion;
+use crate::sampling::{Correlation, Derivation, Design, Dispersion};
 use crate::scene::{ActuationInput, DebrisInput, DebrisShape, FuselageInput, InitialInput, SceneInput, WheelInput};
 
 /// A campaign file as written.
@@ -40,14 +40,20 @@ pub struct Spec {
     pub groups: Option<Vec<Group>>,
     /// The scene; NaN where a number is missing or wrong.
     pub scene: SceneInput,
+    /// `[design]`; `None` where it is wrong.
+    pub design: Option<Design>,
     /// `[[disperse]]`; `None` where a table is wrong.
     pub dispersions: Vec<Option<Dispersion>>,
+    /// `[[correlate]]`; `None` where a table is wrong.
+    pub correlations: Vec<Option<Correlation>>,
+    /// `[[derive]]`; `None` where a table is wrong.
+    pub derivations: Vec<Option<Derivation>>,
     /// `output.compression`.
     pub compression: Option<Compression>,
 }
 
 /// Most samples of a campaign: ids stay exact in a double.
-pub const MOST_SAMPLES: u64 = 1 << 53;
+pub const MOST_SAMPLES: u64 = crate::sampling::dispersions::MOST_SAMPLES;
 /// Largest seed: TOML integers are signed.
 pub const LARGEST_SEED: u64 = i64::MAX as u64;
 /// Most observation points of a run: each worker holds the states at all of them (some 40 numbers each).
@@ -74,9 +80,14 @@ impl Spec {
             }
         }
 
+        let design = design::read(&mut root.section("design"));
+        let has_size = matches!(design, None | Some(Design::Grid(_) | Design::OneAtATime(_) | Design::Table(_)));
+
         let mut section = root.section("campaign");
         let name = name(&mut section);
-        section.require("samples", "a whole number of at least 1", "1000");
+        if !has_size {
+            section.require("samples", "a whole number of at least 1", "1000");
+        }
         let samples = section.count("samples", 1..=MOST_SAMPLES);
         section.require("seed", "a whole number of at least 0", "1");
         let seed = section.count("seed", 0..=LARGEST_SEED);
@@ -100,6 +111,8 @@ impl Spec {
 
         let scene = scene(&mut root);
         let dispersions = root.sections("disperse", disperse::read);
+        let correlations = root.sections("correlate", dependence::correlation);
+        let derivations = root.sections("derive", dependence::derivation);
 
         let mut section = root.section("output");
         let names = Compression::ALL.map(Compression::name);
@@ -121,7 +134,10 @@ impl Spec {
             points,
             groups,
             scene,
+            design,
             dispersions,
+            correlations,
+            derivations,
             compression,
         }
     }

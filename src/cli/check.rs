@@ -13,7 +13,7 @@ use crate::integrators::Status;
 use crate::observables::Request;
 use crate::output::rows_file::RowsFile;
 use crate::output::summary::short;
-use crate::sampling::{Distribution, Map, SampleId};
+use crate::sampling::{Dispersions, Distribution, Map, SampleId};
 use crate::scene::{MassProperties, Scene};
 
 /// The probe runs about this long, s.
@@ -104,8 +104,7 @@ fn dispersions(text: &mut String, plan: &Plan) -> std::fmt::Result {
             let place = ((p * count as f64) as usize).min(count.saturating_sub(1));
             write!(text, "{:>12}", values.get(place).map_or("-".to_owned(), |value| short(*value)))?;
         }
-        let law = plan.dispersions.law_of(index);
-        writeln!(text, "  {}", law.map_or("follows its siblings".to_owned(), law_text))?;
+        writeln!(text, "  {}", origin(&plan.dispersions, index))?;
     }
     Ok(())
 }
@@ -116,7 +115,7 @@ fn drawn(plan: &Plan) -> Vec<Vec<f64>> {
     let mut input = plan.nominal.clone();
     let mut applied = vec![0.0; plan.dispersions.columns().len()];
     let mut drawn = vec![Vec::new(); applied.len()];
-    for sample in 1..=DRAWS {
+    for sample in 1..plan.samples.min(DRAWS + 1) {
         sampler.draw(SampleId(sample), &mut input, &mut applied);
         for (values, value) in drawn.iter_mut().zip(&applied) {
             values.push(*value);
@@ -124,6 +123,19 @@ fn drawn(plan: &Plan) -> Vec<Vec<f64>> {
     }
     drawn.iter_mut().for_each(|values| values.sort_by(f64::total_cmp));
     drawn
+}
+
+/// Where the values of a column come from, in words.
+fn origin(dispersions: &Dispersions, column: usize) -> String {
+    if let Some(law) = dispersions.law_of(column) {
+        law_text(law)
+    } else if let Some(expression) = dispersions.expression_of(column) {
+        format!("= {expression}")
+    } else if dispersions.is_tabled(column) {
+        "rows of a file".to_owned()
+    } else {
+        "follows its siblings".to_owned()
+    }
 }
 
 /// A law in words.

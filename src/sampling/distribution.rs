@@ -142,6 +142,26 @@ impl Distribution {
         }
     }
 
+    /// The values of eight normal scores z, that is the quantiles of Phi(z), for laws that are functions of z itself; false, and
+    /// nothing done, for others. A score says more than its u in the upper tail.
+    pub fn of_scores(&self, z: &[f64; 8], values: &mut [f64; 8]) -> bool {
+        match self {
+            Distribution::Normal { mean, std } => {
+                for (value, z) in values.iter_mut().zip(z) {
+                    *value = mean + std * z;
+                }
+                true
+            }
+            Distribution::LogNormal { median, log_std } => {
+                for (value, z) in values.iter_mut().zip(z) {
+                    *value = median * libm::exp(log_std * z);
+                }
+                true
+            }
+            _ => false,
+        }
+    }
+
     /// [`Distribution::quantile`] of eight numbers, with the same bits.
     pub fn quantiles(&self, u: &[f64; 8], values: &mut [f64; 8]) {
         match self {

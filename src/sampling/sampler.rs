@@ -3,10 +3,10 @@
 //! What is recorded is what was applied: values are written into the scene, made valid as a whole (a quaternion is
 //! renormalised) and read back. A draw that is physically impossible is not drawn again: the scene refuses it later.
 
-use super::design::{BLOCK, Points};
-use super::dispersions::{Column, Dispersions, Map};
+use super::design::{BLOCK, Design, Points};
+use super::dispersions::{Column, Dispersions, Map, Placed};
 use super::distribution::Distribution;
-use super::joint::{MOST_COMPONENTS, MOST_DIMENSIONS};
+use super::joint::{Joint, MOST_COMPONENTS, MOST_DIMENSIONS};
 use super::stream::SampleId;
 use crate::scene::parameter::Kind;
 use crate::scene::{Parameter, SceneInput};
@@ -20,6 +20,10 @@ pub struct Sampler<'a> {
     block: Option<u64>,
     /// Numbers u of the block, dimension by dimension.
     u: Vec<[f64; BLOCK]>,
+    /// Normal scores of the block, dimension by dimension; those of dimensions that no copula ties mean nothing.
+    scores: Vec<[f64; BLOCK]>,
+    /// Which dimensions have scores.
+    tied: Vec<bool>,
     /// Values of the block, column by column.
     values: Vec<[f64; BLOCK]>,
     /// Parameters that change as a whole once they are written.
@@ -30,9 +34,11 @@ impl<'a> Sampler<'a> {
     pub(super) fn new(dispersions: &'a Dispersions) -> Self {
         Sampler {
             dispersions,
-            points: Points::random(dispersions.seed, &dispersions.dimensions),
+            points: dispersions.points(),
             block: None,
             u: vec![[0.5; BLOCK]; dispersions.dimensions.len()],
+            scores: vec![[0.0; BLOCK]; dispersions.dimensions.len()],
+            tied: tied(dispersions),
             // columns that no law writes keep their nominal
             values: dispersions.columns.iter().map(|column| [column.nominal; BLOCK]).collect(),
             settled: settled(dispersions),
@@ -73,29 +79,76 @@ impl<'a> Sampler<'a> {
     /// Draws the samples of `block`.
     fn fill(&mut self, block: u64) {
         self.points.fill(block, &mut self.u);
+        for copula in &self.dispersions.copulas {
+            copula.apply(&mut self.u, &mut self.scores);
+        }
         for law in &self.dispersions.laws {
             match &law.map {
                 Map::Scalar(Distribution::Fixed(value)) => self.values[law.columns[0]] = [*value; BLOCK],
                 Map::Scalar(distribution) => {
-                    distribution.quantiles(&self.u[law.first], &mut self.values[law.columns[0]]);
-                }
-                Map::Joint(joint) => {
-                    let dimensions = joint.dimensions();
-                    let (mut u, mut values) = ([0.0; MOST_DIMENSIONS], [0.0; MOST_COMPONENTS]);
-                    for lane in 0..BLOCK {
-                        for (u, block) in u.iter_mut().zip(&self.u[law.first..law.first + dimensions]) {
-                            *u = block[lane];
-                        }
-                        joint.values(&u[..dimensions], &mut values);
-                        for (column, value) in law.columns.iter().zip(values) {
-                            self.values[*column][lane] = value;
-                        }
+                    let values = &mut self.values[law.columns[0]];
+                    match self.tied[law.first].then(|| distribution.of_scores(&self.scores[law.first], values)) {
+                        Some(true) => {}
+                        _ => distribution.quantiles(&self.u[law.first], values),
                     }
                 }
+                Map::Joint(joint) => self.draw_joint(law, joint),
+            }
+        }
+        if matches!(self.dispersions.design(), Design::OneAtATime(_)) {
+            self.keep_nominals();
+        }
+        for (column, rows) in &self.dispersions.tabled {
+            for (lane, value) in self.values[*column].iter_mut().enumerate() {
+                let row = (block * BLOCK as u64 + lane as u64).checked_sub(1).and_then(|row| usize::try_from(row).ok());
+                // beyond the last row there is no sample: the scene refuses what is not a number
+                *value = row.and_then(|row| rows.get(row).copied()).unwrap_or(f64::NAN);
+            }
+        }
+        for derived in &self.dispersions.derived {
+            for lane in 0..BLOCK {
+                let value = derived.value(|column| self.values[column][lane]);
+                self.values[derived.column][lane] = value;
             }
         }
         self.block = Some(block);
     }
+
+    fn draw_joint(&mut self, law: &Placed, joint: &Joint) {
+        let dimensions = joint.dimensions();
+        let (mut u, mut values) = ([0.0; MOST_DIMENSIONS], [0.0; MOST_COMPONENTS]);
+        for lane in 0..BLOCK {
+            for (u, block) in u.iter_mut().zip(&self.u[law.first..law.first + dimensions]) {
+                // while one dimension of a law has its turn, the others are at their middle
+                *u = if block[lane].is_nan() { 0.5 } else { block[lane] };
+            }
+            joint.values(&u[..dimensions], &mut values);
+            for (column, value) in law.columns.iter().zip(values) {
+                self.values[*column][lane] = value;
+            }
+        }
+    }
+
+    /// Gives the columns of each law none of whose dimensions has its turn their nominal values.
+    fn keep_nominals(&mut self) {
+        for law in self.dispersions.laws.iter().filter(|law| law.map.dimensions() > 0) {
+            let dimensions = law.first..law.first + law.map.dimensions();
+            for lane in 0..BLOCK {
+                if self.u[dimensions.clone()].iter().all(|u| u[lane].is_nan()) {
+                    for column in &law.columns {
+                        self.values[*column][lane] = self.dispersions.columns[*column].nominal;
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Which dimensions a copula ties.
+fn tied(dispersions: &Dispersions) -> Vec<bool> {
+    let mut tied = vec![false; dispersions.dimensions.len()];
+    dispersions.copulas.iter().flat_map(|copula| &copula.dimensions).for_each(|dimension| tied[*dimension] = true);
+    tied
 }
 
 /// The quaternions among the columns, each once.

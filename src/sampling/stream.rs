@@ -38,6 +38,20 @@ fn fnv1a(text: &str) -> u128 {
     text.bytes().fold(FNV_BASIS, |hash, byte| (hash ^ u128::from(byte)).wrapping_mul(FNV_PRIME))
 }
 
+/// The generator of a seed, a name and a purpose.
+fn generator(seed: u64, name: &str, purpose: [u8; 8]) -> ChaCha8Rng {
+    let mut key = [0; 32];
+    key[..8].copy_from_slice(&seed.to_le_bytes());
+    key[8..24].copy_from_slice(&fnv1a(name).to_le_bytes());
+    key[24..].copy_from_slice(&purpose);
+    ChaCha8Rng::from_seed(key)
+}
+
+/// A key of 64 bits for what a design does with the dimension `name`: the first word of a stream for that `purpose`.
+pub(super) fn key(seed: u64, name: &str, purpose: [u8; 8]) -> u64 {
+    generator(seed, name, purpose).next_u64()
+}
+
 /// The random numbers of one component, addressed by sample; reading samples in order is fastest.
 #[derive(Debug)]
 pub struct Stream {
@@ -49,11 +63,7 @@ pub struct Stream {
 impl Stream {
     /// The stream of the component called `name`.
     pub fn new(seed: u64, name: &str) -> Self {
-        let mut key = [0; 32];
-        key[..8].copy_from_slice(&seed.to_le_bytes());
-        key[8..24].copy_from_slice(&fnv1a(name).to_le_bytes());
-        key[24..].copy_from_slice(&PURPOSE);
-        Stream { generator: ChaCha8Rng::from_seed(key), next: 0 }
+        Stream { generator: generator(seed, name, PURPOSE), next: 0 }
     }
 
     /// The 64 random bits of `sample`.
@@ -90,7 +100,7 @@ impl Stream {
 
 /// The upper 52 bits as an odd multiple of 2^-53.
 #[inline]
-fn unit(bits: u64) -> f64 {
+pub(super) fn unit(bits: u64) -> f64 {
     /// 2^-53.
     const STEP: f64 = f64::EPSILON / 2.0;
     ((bits >> 11) | 1) as f64 * STEP

@@ -1,0 +1,65 @@
+//! The keys of `[[correlate]]` and `[[derive]]` tables.
+
+use super::disperse::{parameter, unknown_parameter};
+use super::document::Section;
+use crate::sampling::{Correlation, Dependence, Derivation};
+use crate::scene::Parameter;
+
+/// Reads one `[[correlate]]` table; `None` where something is wrong, which is then noted.
+pub fn correlation(table: &mut Section<'_, '_>) -> Option<Correlation> {
+    const KINDS: [(&str, fn(Vec<Vec<f64>>) -> Dependence); 3] = [
+        ("correlation", Dependence::Scores),
+        ("rank_correlation", Dependence::Ranks),
+        ("covariance", Dependence::Covariance),
+    ];
+    table.require("parameters", "an array of texts", "[\"wheel1.radius_m\", \"wheel1.length_m\"]");
+    let names = table.texts("parameters", "[\"wheel1.radius_m\", \"wheel1.length_m\"]");
+    let parameters = names.and_then(|names| {
+        let mut parameters = Vec::with_capacity(names.len());
+        for name in names {
+            let Some(found) = Parameter::find(&name) else {
+                let (allowed, remedy) = unknown_parameter(&name);
+                table.refuse_value("parameters", format!("{name:?}"), format!("made of names, each {allowed}"), remedy);
+                return None;
+            };
+            parameters.push(found);
+        }
+        Some(parameters)
+    });
+    let written: Vec<&str> = KINDS.iter().map(|(key, _)| *key).filter(|key| table.has(key)).collect();
+    match written[..] {
+        [_] => {}
+        [] => table.require(
+            "correlation",
+            "given (correlation, rank_correlation or covariance)",
+            "[[1.0, 0.5], [0.5, 1.0]]",
+        ),
+        [_, second, ..] => {
+            let allowed = "the only one of correlation, rank_correlation, covariance";
+            table.refuse(second, allowed, "delete all but one of them");
+        }
+    }
+    let mut dependences: Vec<Dependence> = Vec::new();
+    for (key, kind) in KINDS {
+        dependences.extend(table.square(key).map(kind));
+    }
+    let nearest_psd = table.flag("nearest_psd");
+    let flag_passed = !table.has("nearest_psd") || nearest_psd.is_some();
+    table.finish();
+    match (parameters, dependences.pop()) {
+        (Some(parameters), Some(dependence)) if flag_passed && written.len() == 1 => {
+            Some(Correlation { parameters, dependence, nearest_psd: nearest_psd.unwrap_or(false) })
+        }
+        _ => None,
+    }
+}
+
+/// Reads one `[[derive]]` table; `None` where something is wrong, which is then noted.
+pub fn derivation(table: &mut Section<'_, '_>) -> Option<Derivation> {
+    let target = parameter(table, "parameter");
+    table.require("expression", "arithmetic over other parameters", "\"wheel1.density_kg_m3\"");
+    let expression = table.text("expression").map(str::to_owned);
+    table.finish();
+    let ((parameter, component), expression) = target.zip(expression)?;
+    Some(Derivation { parameter, component, expression })
+}

@@ -1,0 +1,220 @@
+//! [`Copula`]: dependence between the numbers u of several dimensions, whatever their laws (Gaussian copula).
+//!
+//! Normal scores z = Phi^-1(u) of independent u become y = L z with the Cholesky factor of the correlation matrix R = L L^T, and
+//! u' = Phi(y) goes on to the laws. So every marginal law stays what it is, and R is the correlation of the scores: that of the
+//! values where these are normal. A rank correlation rho_s is reached by r = 2 sin(pi rho_s/6) (K. Pearson 1907; W. H. Kruskal,
+//! *J. Am. Stat. Assoc.* 53 (1958) 814).
+//!
+//! A matrix that is not positive semidefinite is refused, or replaced by the nearest that is (N. J. Higham, *Computing the nearest
+//! correlation matrix*, IMA J. Numer. Anal. 22 (2002) 329, algorithm 3.3). All arithmetic here is plain and portable: the factor
+//! is on the path of a row.
+
+use super::design::BLOCK;
+use super::normal::{probability, quantiles};
+
+/// A square matrix by rows.
+pub type Matrix = Vec<Vec<f64>>;
+
+/// Dependence between some dimensions, ready to be drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Copula {
+    /// The dimensions, in the order of the matrix.
+    pub dimensions: Vec<usize>,
+    /// The Cholesky factor by rows, row i of i + 1 numbers.
+    factor: Matrix,
+}
+
+/// Eigenvalues above minus this count as zero: rounding of a matrix written in 15 digits, times its order.
+const SLACK: f64 = 1e-12;
+/// A pivot below this is zero: the row depends on those above it.
+const SMALLEST_PIVOT: f64 = 1e-12;
+/// Steps of alternating projections; convergence is linear, hundreds are typical.
+const MOST_PROJECTIONS: usize = 5000;
+
+impl Copula {
+    /// The dependence of `dimensions` by a correlation matrix that is positive semidefinite to rounding.
+    pub fn new(dimensions: Vec<usize>, correlation: &Matrix) -> Self {
+        Copula { dimensions, factor: cholesky(correlation) }
+    }
+
+    /// Replaces the independent numbers of a block by dependent ones; their normal scores go to `scores`. Both by dimension.
+    pub fn apply(&self, u: &mut [[f64; BLOCK]], scores: &mut [[f64; BLOCK]]) {
+        for dimension in &self.dimensions {
+            quantiles(&u[*dimension], &mut scores[*dimension]);
+        }
+        // from the last row upwards, each needs only the independent scores above it
+        for (row, dimension) in self.factor.iter().zip(&self.dimensions).rev() {
+            let mut sum = [0.0; BLOCK];
+            for (weight, other) in row.iter().zip(&self.dimensions) {
+                for (sum, score) in sum.iter_mut().zip(&scores[*other]) {
+                    *sum += weight * score;
+                }
+            }
+            scores[*dimension] = sum;
+            for (u, score) in u[*dimension].iter_mut().zip(sum) {
+                *u = inside(probability(score));
+            }
+        }
+    }
+}
+
+/// A probability that is neither zero nor one.
+fn inside(p: f64) -> f64 {
+    const LEAST: f64 = f64::EPSILON / 2.0;
+    p.clamp(LEAST, 1.0 - LEAST)
+}
+
+/// The correlation of normal scores that gives a rank correlation (Spearman's).
+pub fn score_correlation(rank_correlation: f64) -> f64 {
+    2.0 * libm::sin(core::f64::consts::PI / 6.0 * rank_correlation)
+}
+
+/// The Cholesky factor of a positive semidefinite matrix; a row that depends on those above it gets a zero on the diagonal.
+fn cholesky(matrix: &Matrix) -> Matrix {
+    let mut factor: Matrix = Vec::with_capacity(matrix.len());
+    for (i, entries) in matrix.iter().enumerate() {
+        let mut row = vec![0.0; i + 1];
+        for j in 0..=i {
+            let before: f64 = (0..j).map(|k| row[k] * if j == i { row[k] } else { factor[j][k] }).sum();
+            let rest = entries[j] - before;
+            row[j] = if j == i {
+                if rest > SMALLEST_PIVOT { rest.sqrt() } else { 0.0 }
+            } else if factor[j][j] > 0.0 {
+                rest / factor[j][j]
+            } else {
+                0.0
+            };
+        }
+        factor.push(row);
+    }
+    factor
+}
+
+/// Whether a symmetric matrix is positive semidefinite to rounding; its smallest eigenvalue where not.
+pub fn smallest_negative_eigenvalue(matrix: &Matrix) -> Option<f64> {
+    let (values, _) = eigen(matrix);
+    let smallest = values.into_iter().fold(f64::INFINITY, f64::min);
+    (smallest < -SLACK * matrix.len() as f64).then_some(smallest)
+}
+
+/// The correlation matrix nearest to a symmetric one with unit diagonal, in the Frobenius norm (Higham 2002, algorithm 3.3).
+pub fn nearest_correlation(matrix: &Matrix) -> Matrix {
+    let n = matrix.len();
+    let (mut y, mut correction) = (matrix.clone(), vec![vec![0.0; n]; n]);
+    for _ in 0..MOST_PROJECTIONS {
+        let r = combined(&y, &correction, -1.0);
+        let x = semidefinite_part(&r);
+        correction = combined(&x, &r, -1.0);
+        let mut next = x;
+        (0..n).for_each(|i| next[i][i] = 1.0);
+        let change = combined(&next, &y, -1.0).iter().flatten().fold(0.0f64, |most, entry| most.max(entry.abs()));
+        y = next;
+        if change < 1e-14 {
+            break;
+        }
+    }
+    // what is left of negative eigenvalues is rounding: cut it and scale to a unit diagonal
+    let x = semidefinite_part(&y);
+    (0..n).map(|i| (0..n).map(|j| if i == j { 1.0 } else { x[i][j] / (x[i][i] * x[j][j]).sqrt() }).collect()).collect()
+}
+
+fn combined(a: &Matrix, b: &Matrix, factor: f64) -> Matrix {
+    a.iter().zip(b).map(|(a, b)| a.iter().zip(b).map(|(a, b)| a + factor * b).collect()).collect()
+}
+
+/// The nearest positive semidefinite matrix: negative eigenvalues become zero.
+fn semidefinite_part(matrix: &Matrix) -> Matrix {
+    let (values, vectors) = eigen(matrix);
+    let n = matrix.len();
+    let entry = |i: usize, j: usize| (0..n).map(|k| values[k].max(0.0) * vectors[i][k] * vectors[j][k]).sum();
+    (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect()
+}
+
+/// Eigenvalues of a symmetric matrix and its eigenvectors as columns, by cyclic Jacobi rotations (Golub & Van Loan, *Matrix
+/// Computations*, 4th ed. (2013), section 8.5).
+fn eigen(matrix: &Matrix) -> (Vec<f64>, Matrix) {
+    const SWEEPS: usize = 60;
+    let n = matrix.len();
+    let mut a = matrix.clone();
+    let mut vectors: Matrix = (0..n).map(|i| (0..n).map(|j| if i == j { 1.0 } else { 0.0 }).collect()).collect();
+    for _ in 0..SWEEPS {
+        let mut rotated = false;
+        for p in 0..n {
+            for q in p + 1..n {
+                if a[p][q].abs() <= f64::EPSILON * f64::EPSILON {
+                    continue;
+                }
+                rotated = true;
+                let theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
+                let t = theta.signum() / (theta.abs() + (theta * theta + 1.0).sqrt());
+                let cosine = 1.0 / (t * t + 1.0).sqrt();
+                let sine = t * cosine;
+                let turned = |x: f64, y: f64| (cosine * x - sine * y, sine * x + cosine * y);
+                for row in &mut a {
+                    (row[p], row[q]) = turned(row[p], row[q]);
+                }
+                for k in 0..n {
+                    (a[p][k], a[q][k]) = turned(a[p][k], a[q][k]);
+                }
+                for row in &mut vectors {
+                    (row[p], row[q]) = turned(row[p], row[q]);
+                }
+            }
+        }
+        if !rotated {
+            break;
+        }
+    }
+    ((0..n).map(|i| a[i][i]).collect(), vectors)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Higham 2002, section 5: the nearest correlation matrix to [[1,1,0],[1,1,1],[0,1,1]], to the four digits printed.
+    #[test]
+    fn the_nearest_correlation_matrix_is_that_of_the_paper() {
+        let nearest = nearest_correlation(&vec![vec![1.0, 1.0, 0.0], vec![1.0, 1.0, 1.0], vec![0.0, 1.0, 1.0]]);
+        let expected = [[1.0, 0.7607, 0.1573], [0.7607, 1.0, 0.7607], [0.1573, 0.7607, 1.0]];
+        for (row, expected) in nearest.iter().zip(expected) {
+            assert!(row.iter().zip(expected).all(|(x, e)| (x - e).abs() < 5e-5), "{nearest:?}");
+        }
+        assert_eq!(smallest_negative_eigenvalue(&nearest), None);
+    }
+
+    #[test]
+    fn a_matrix_that_is_not_semidefinite_shows_its_smallest_eigenvalue() {
+        // eigenvalues of [[1,1,0],[1,1,1],[0,1,1]]: 1, 1 +- sqrt 2
+        let smallest =
+            smallest_negative_eigenvalue(&vec![vec![1.0, 1.0, 0.0], vec![1.0, 1.0, 1.0], vec![0.0, 1.0, 1.0]]);
+        assert!((smallest.expect("negative") - (1.0 - 2f64.sqrt())).abs() < 1e-14);
+        assert_eq!(smallest_negative_eigenvalue(&vec![vec![1.0, 1.0], vec![1.0, 1.0]]), None, "singular is allowed");
+    }
+
+    #[test]
+    fn the_factor_gives_the_matrix_back() {
+        let r = vec![vec![1.0, 0.5, -0.3], vec![0.5, 1.0, 0.2], vec![-0.3, 0.2, 1.0]];
+        let l = cholesky(&r);
+        for i in 0..3 {
+            for j in 0..=i {
+                let product: f64 = (0..=j).map(|k| l[i][k] * l[j][k]).sum();
+                assert!((product - r[i][j]).abs() < 4.0 * f64::EPSILON);
+            }
+        }
+        assert_eq!(cholesky(&vec![vec![1.0, 1.0], vec![1.0, 1.0]]), [vec![1.0], vec![1.0, 0.0]]);
+    }
+
+    #[test]
+    fn eigenvectors_rebuild_the_matrix() {
+        let r: Matrix =
+            (0..7).map(|i| (0..7).map(|j| 1.0 / f64::from(1 + (i as i32 - j as i32).abs())).collect()).collect();
+        let (values, vectors) = eigen(&r);
+        for i in 0..7 {
+            for j in 0..7 {
+                let entry: f64 = (0..7).map(|k| values[k] * vectors[i][k] * vectors[j][k]).sum();
+                assert!((entry - r[i][j]).abs() < 1e-14);
+            }
+        }
+    }
+}

@@ -1,0 +1,398 @@
+//! [`Expression`]: arithmetic over parameters, as in `expression = "0.5 * wheel1.density_kg_m3"`.
+//!
+//! A parser of operator precedence (V. R. Pratt, *Top down operator precedence*, 1973) into a list for a stack machine. By hand,
+//! because no crate fits: names hold dots, functions must be those of `libm` (the same bits everywhere), and a draw may not
+//! allocate. `exmex` (regex, `lazy_static`) takes the platform's functions, `evalexpr` is AGPL, `meval` and `fasteval` are no
+//! longer maintained.
+//!
+//! | | |
+//! | --- | --- |
+//! | operators, weakest first | `< <= > >= == !=` (1 or 0), `+ -`, `* /`, unary `-`, `^` (from the right) |
+//! | functions | `sqrt exp ln log10 sin cos tan asin acos atan atan2 abs min max`, `if(condition, yes, no)` |
+//! | constants | `pi`, numbers such as `2`, `0.5`, `1e-3` |
+
+/// Deepest stack: an expression nested deeper is refused.
+pub const DEEPEST: usize = 32;
+
+/// One step of the stack machine.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Step {
+    Number(f64),
+    /// The variable of this place.
+    Variable(usize),
+    Negate,
+    Binary(Binary),
+    Function(Function),
+}
+
+/// An operator between two numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Binary {
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Power,
+    Less,
+    LessOrEqual,
+    Greater,
+    GreaterOrEqual,
+    Equal,
+    NotEqual,
+}
+
+/// A function.
+#[derive(Clone, Copy, Debug)]
+enum Function {
+    One(fn(f64) -> f64),
+    Two(fn(f64, f64) -> f64),
+    If,
+}
+
+impl PartialEq for Function {
+    fn eq(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Function::One(a), Function::One(b)) => std::ptr::fn_addr_eq(*a, *b),
+            (Function::Two(a), Function::Two(b)) => std::ptr::fn_addr_eq(*a, *b),
+            (Function::If, Function::If) => true,
+            _ => false,
+        }
+    }
+}
+
+/// The functions: name, number of arguments is that of the variant.
+const FUNCTIONS: [(&str, Function); 15] = [
+    ("sqrt", Function::One(f64::sqrt)),
+    ("exp", Function::One(libm::exp)),
+    ("ln", Function::One(libm::log)),
+    ("log10", Function::One(libm::log10)),
+    ("sin", Function::One(libm::sin)),
+    ("cos", Function::One(libm::cos)),
+    ("tan", Function::One(libm::tan)),
+    ("asin", Function::One(libm::asin)),
+    ("acos", Function::One(libm::acos)),
+    ("atan", Function::One(libm::atan)),
+    ("atan2", Function::Two(libm::atan2)),
+    ("abs", Function::One(f64::abs)),
+    ("min", Function::Two(libm::fmin)),
+    ("max", Function::Two(libm::fmax)),
+    ("if", Function::If),
+];
+
+/// An expression, ready to be evaluated.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Expression {
+    steps: Vec<Step>,
+    variables: Vec<String>,
+}
+
+/// What is wrong with an expression: what it must be, to follow the words `must be`.
+pub type ExpressionError = String;
+
+impl Expression {
+    /// Reads `text`.
+    ///
+    /// # Errors
+    /// What was expected, and where.
+    pub fn parse(text: &str) -> Result<Self, ExpressionError> {
+        let mut parser = Parser { text, at: 0, steps: Vec::new(), variables: Vec::new() };
+        parser.expression(0)?;
+        parser.space();
+        if parser.at < text.len() {
+            return Err(parser.expected("an operator or the end"));
+        }
+        let these = Expression { steps: parser.steps, variables: parser.variables };
+        if these.depth() > DEEPEST { Err(format!("nested at most {DEEPEST} deep")) } else { Ok(these) }
+    }
+
+    /// The names in it, each once, in the order in which they first stand there.
+    pub fn variables(&self) -> &[String] {
+        &self.variables
+    }
+
+    /// The value, where `variable` gives the value of the variable at each place of [`Expression::variables`]. Allocates nothing.
+    pub fn value(&self, variable: impl Fn(usize) -> f64) -> f64 {
+        let mut stack = [0.0; DEEPEST + 2];
+        let mut top = 0;
+        for step in &self.steps {
+            match *step {
+                Step::Number(number) => {
+                    stack[top] = number;
+                    top += 1;
+                }
+                Step::Variable(place) => {
+                    stack[top] = variable(place);
+                    top += 1;
+                }
+                Step::Negate => stack[top - 1] = -stack[top - 1],
+                Step::Function(Function::One(function)) => stack[top - 1] = function(stack[top - 1]),
+                Step::Function(Function::Two(function)) => {
+                    top -= 1;
+                    stack[top - 1] = function(stack[top - 1], stack[top]);
+                }
+                Step::Function(Function::If) => {
+                    top -= 2;
+                    stack[top - 1] = if stack[top - 1] != 0.0 { stack[top] } else { stack[top + 1] };
+                }
+                Step::Binary(operator) => {
+                    top -= 1;
+                    stack[top - 1] = operator.value(stack[top - 1], stack[top]);
+                }
+            }
+        }
+        stack[0]
+    }
+
+    /// Most numbers on the stack at once.
+    fn depth(&self) -> usize {
+        let (mut top, mut most) = (0usize, 0);
+        for step in &self.steps {
+            match step {
+                Step::Number(_) | Step::Variable(_) => top += 1,
+                Step::Negate | Step::Function(Function::One(_)) => {}
+                Step::Binary(_) | Step::Function(Function::Two(_)) => top -= 1,
+                Step::Function(Function::If) => top -= 2,
+            }
+            most = most.max(top);
+        }
+        most
+    }
+}
+
+impl Binary {
+    fn value(self, a: f64, b: f64) -> f64 {
+        let truth = |is: bool| if is { 1.0 } else { 0.0 };
+        match self {
+            Binary::Add => a + b,
+            Binary::Subtract => a - b,
+            Binary::Multiply => a * b,
+            Binary::Divide => a / b,
+            Binary::Power => libm::pow(a, b),
+            Binary::Less => truth(a < b),
+            Binary::LessOrEqual => truth(a <= b),
+            Binary::Greater => truth(a > b),
+            Binary::GreaterOrEqual => truth(a >= b),
+            Binary::Equal => truth(a == b),
+            Binary::NotEqual => truth(a != b),
+        }
+    }
+}
+
+/// The operators: text, meaning, how strongly they bind what is left and right of them. Longer texts first.
+const OPERATORS: [(&str, Binary, u8, u8); 11] = [
+    ("<=", Binary::LessOrEqual, 1, 2),
+    (">=", Binary::GreaterOrEqual, 1, 2),
+    ("==", Binary::Equal, 1, 2),
+    ("!=", Binary::NotEqual, 1, 2),
+    ("<", Binary::Less, 1, 2),
+    (">", Binary::Greater, 1, 2),
+    ("+", Binary::Add, 3, 4),
+    ("-", Binary::Subtract, 3, 4),
+    ("*", Binary::Multiply, 5, 6),
+    ("/", Binary::Divide, 5, 6),
+    ("^", Binary::Power, 10, 9),
+];
+/// How strongly a sign binds: -x^2 is -(x^2), -x*y is (-x)*y.
+const SIGN: u8 = 7;
+/// Parentheses and signs within each other: deeper, the parser itself would run out of stack.
+const DEEPEST_TEXT: usize = 1000;
+
+struct Parser<'a> {
+    text: &'a str,
+    at: usize,
+    steps: Vec<Step>,
+    variables: Vec<String>,
+}
+
+impl Parser<'_> {
+    fn space(&mut self) {
+        self.at += self.rest().len() - self.rest().trim_start().len();
+    }
+
+    fn rest(&self) -> &str {
+        &self.text[self.at..]
+    }
+
+    fn expected(&self, what: &str) -> ExpressionError {
+        let found = self.rest().chars().next();
+        let found = found.map_or("the end".to_owned(), |letter| format!("{letter:?}"));
+        format!("an expression: {what} instead of {found} at character {}", self.text[..self.at].chars().count() + 1)
+    }
+
+    /// Whether `token` comes next; it is then passed.
+    fn take(&mut self, token: &str) -> bool {
+        self.space();
+        let is_next = self.rest().starts_with(token);
+        if is_next {
+            self.at += token.len();
+        }
+        is_next
+    }
+
+    /// What binds at least as strongly as `least`.
+    fn expression(&mut self, least: u8) -> Result<(), ExpressionError> {
+        if self.text.len() > DEEPEST_TEXT {
+            return Err(format!("at most {DEEPEST_TEXT} characters long"));
+        }
+        self.operand()?;
+        loop {
+            self.space();
+            let operator = OPERATORS.iter().find(|(text, ..)| self.rest().starts_with(text));
+            let Some(&(text, operator, _, right)) = operator.filter(|(_, _, left, _)| *left >= least) else {
+                return Ok(());
+            };
+            self.at += text.len();
+            self.expression(right)?;
+            self.steps.push(Step::Binary(operator));
+        }
+    }
+
+    fn operand(&mut self) -> Result<(), ExpressionError> {
+        if self.take("-") {
+            self.expression(SIGN)?;
+            self.steps.push(Step::Negate);
+            return Ok(());
+        }
+        if self.take("(") {
+            self.expression(0)?;
+            return if self.take(")") { Ok(()) } else { Err(self.expected("\")\"")) };
+        }
+        let first = self.rest().chars().next();
+        match first {
+            Some(letter) if letter.is_ascii_digit() || letter == '.' => self.number(),
+            Some(letter) if letter.is_ascii_alphabetic() => self.name(),
+            _ => Err(self.expected("a number, a name, \"(\" or \"-\"")),
+        }
+    }
+
+    fn number(&mut self) -> Result<(), ExpressionError> {
+        let rest = self.rest();
+        let digits = |from: usize| from + rest[from..].bytes().take_while(u8::is_ascii_digit).count();
+        let mut end = digits(0);
+        if rest[end..].starts_with('.') {
+            end = digits(end + 1);
+        }
+        if rest[end..].starts_with(['e', 'E']) {
+            let sign = usize::from(rest[end + 1..].starts_with(['+', '-']));
+            let power = digits(end + 1 + sign);
+            if power > end + 1 + sign {
+                end = power;
+            }
+        }
+        match rest[..end].parse::<f64>() {
+            Ok(number) if number.is_finite() => {
+                self.at += end;
+                self.steps.push(Step::Number(number));
+                Ok(())
+            }
+            _ => Err(self.expected("a finite number")),
+        }
+    }
+
+    /// A function, `pi`, or a parameter with its dots and, in brackets, its component.
+    fn name(&mut self) -> Result<(), ExpressionError> {
+        let letters = |text: &str| text.bytes().take_while(|b| b.is_ascii_alphanumeric() || b"_.".contains(b)).count();
+        let mut end = letters(self.rest());
+        if self.rest()[end..].starts_with('[')
+            && let Some(close) = self.rest()[end..].find(']')
+        {
+            end += close + 1;
+        }
+        let start = self.at;
+        let name = self.rest()[..end].to_owned();
+        self.at += end;
+        if name == "pi" {
+            self.steps.push(Step::Number(core::f64::consts::PI));
+            return Ok(());
+        }
+        if !self.take("(") {
+            let known = self.variables.iter().position(|known| *known == name);
+            let place = known.unwrap_or_else(|| {
+                self.variables.push(name);
+                self.variables.len() - 1
+            });
+            self.steps.push(Step::Variable(place));
+            return Ok(());
+        }
+        let Some((_, function)) = FUNCTIONS.iter().find(|(known, _)| *known == name) else {
+            self.at = start;
+            let names = FUNCTIONS.map(|(known, _)| known).join(", ");
+            return Err(self.expected(&format!("a function ({names}), not {name:?},")));
+        };
+        let arguments = match function {
+            Function::One(_) => 1,
+            Function::Two(_) => 2,
+            Function::If => 3,
+        };
+        for argument in 0..arguments {
+            if argument > 0 && !self.take(",") {
+                return Err(self.expected(&format!("\",\" ({name} takes {arguments})")));
+            }
+            self.expression(0)?;
+        }
+        if !self.take(")") {
+            return Err(self.expected(&format!("\")\" ({name} takes {arguments})")));
+        }
+        self.steps.push(Step::Function(*function));
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn value(text: &str) -> f64 {
+        let expression = Expression::parse(text).unwrap_or_else(|error| panic!("{text}: {error}"));
+        expression.value(|place| [2.0, 3.0, 5.0][place])
+    }
+
+    #[test]
+    fn values_are_those_of_arithmetic() {
+        for (text, expected) in [
+            ("1 + 2 * 3", 7.0),
+            ("(1 + 2) * 3", 9.0),
+            ("8 - 3 - 2", 3.0),
+            ("8 / 4 / 2", 1.0),
+            ("2 ^ 3 ^ 2", 512.0),
+            ("-2 ^ 2", -4.0),
+            ("2 ^ -1", 0.5),
+            ("-2 * 3 + 1", -5.0),
+            ("a.b * x[1] + wheel1.y_m", 11.0),
+            ("a + a * a", 6.0),
+            ("1.5e-3*1E+3", 1.5),
+            (".5", 0.5),
+            ("max(1, min(4, 3))", 3.0),
+            ("if(a < b, 10, 20)", 10.0),
+            ("if(a >= b, 10, 20)", 20.0),
+            ("(a == 2) + (b != 3)", 1.0),
+            ("sqrt(16) + abs(-1)", 5.0),
+            ("sin(pi / 2) + cos(0) + atan2(0, 1)", 2.0),
+            ("ln(exp(2)) + log10(1000)", 5.0),
+        ] {
+            assert!((value(text) - expected).abs() < 1e-14, "{text} = {}", value(text));
+        }
+        assert_eq!(Expression::parse("x.y + z[0] + x.y").map(|e| e.variables), Ok(vec!["x.y".into(), "z[0]".into()]));
+    }
+
+    #[test]
+    fn what_is_no_expression_is_refused_with_its_place() {
+        for (text, says) in [
+            ("", "instead of the end at character 1"),
+            ("1 +", "instead of the end at character 4"),
+            ("1 2", "an operator or the end instead of '2' at character 3"),
+            ("(1", "\")\" instead of the end at character 3"),
+            ("foo(1)", "not \"foo\""),
+            ("max(1)", "max takes 2"),
+            ("sqrt(1, 2)", "sqrt takes 1"),
+            ("1e999", "a finite number"),
+            ("a $ b", "instead of '$' at character 3"),
+        ] {
+            let error = Expression::parse(text).expect_err(text);
+            assert!(error.contains(says), "{text}: {error}");
+        }
+        let deep = format!("{}1{}", "(1+".repeat(40), ")".repeat(40));
+        assert_eq!(Expression::parse(&deep).expect_err("too deep"), "nested at most 32 deep");
+        assert!(Expression::parse(&"-".repeat(1001)).is_err());
+    }
+}
