@@ -6,6 +6,9 @@
 //! - `right-hand side`: a chain of evaluations, each from the last as in an integration; the gyrostat with attitude and wheel
 //!   angles, in lanes (eight runs at once) and one at a time, and the reference kernel (62 states and 10 integrals).
 //! - `step`: a whole run without observation points, by its accepted steps: what a step costs with its share of all else.
+//! - `peak`: fused operations alone, sixteen independent chains, in flop/s: the ceiling of one core on each instruction set.
+//! - `taylor`: the arithmetic of Taylor steps by itself (rate and attitude, free of torque), in flop/s, on each instruction set and
+//!   for several tolerances: its share of the peak is what the kernel makes of the machine.
 //! - `run`: 128 samples of `campaigns/no_debris.toml` (`spin_sweep` without the debris: 10 s, 101 points), with all that its
 //!   rows need.
 //!
@@ -24,8 +27,10 @@ use spindrift::dynamics::reference::{COMPONENTS, Kernel, SignOfANon, sigma};
 use spindrift::dynamics::table::{Block, Blocks, Grid};
 use spindrift::ensemble::Campaign;
 use spindrift::ensemble::campaign::BATCH;
+use spindrift::integrators::taylor::step::StepRule;
 use spindrift::integrators::{Control, Engine, Method, Propagator, Tolerance};
 use spindrift::math::isa::Work;
+use spindrift::math::lanes::WIDTH;
 use spindrift::math::{Isa, Lanes, Real};
 use spindrift::sampling::SampleId;
 use spindrift::scene::Scene;
@@ -215,10 +220,74 @@ fn run(criterion: &mut Criterion) {
     group.finish();
 }
 
+/// Fused operations of one chain per measurement.
+const CHAIN: usize = 1000;
+
+/// Chains side by side: two units times a latency of four, twice.
+const CHAINS: usize = 16;
+
+/// Independent chains of fused operations and nothing else.
+struct Peak(f64);
+
+impl Work for Peak {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> f64 {
+        let (a, b) = (Lanes::broadcast(simd, self.0), Lanes::broadcast(simd, 1.0 - self.0));
+        let mut sums = [b; CHAINS];
+        for _ in 0..CHAIN {
+            for sum in &mut sums {
+                *sum = sum.mul_add(a, b);
+            }
+        }
+        let mut all = sums[0];
+        for sum in &sums[1..] {
+            all += *sum;
+        }
+        all.lane(0)
+    }
+}
+
+fn peak(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("peak");
+    for isa in Isa::available() {
+        group.throughput(Throughput::Elements((2 * CHAIN * CHAINS * WIDTH) as u64));
+        group.bench_function(isa.name(), |bencher| bencher.iter(|| isa.run(Peak(black_box(0.5)))));
+    }
+    group.finish();
+}
+
+/// Floating-point operations of one step of one run of rate and attitude by a series of order `p`; a fused one counts two.
+///
+/// Cauchy products: fifteen fused operations for each pair of coefficients. For each order: h x omega (9), the rate (9), its
+/// division by the order (3), that of the attitude (4). Then the value at the end of the step, two for each coefficient, and
+/// the step size, less than a hundred, which is left out.
+fn flops_of_step(p: u64) -> u64 {
+    2 * 15 * p * (p + 1) / 2 + p * (9 + 9 + 3 + 4) + 2 * 7 * p
+}
+
+fn taylor(criterion: &mut Criterion) {
+    let plan = plan("no_debris.toml");
+    let scenes = scenes(&plan, BATCH);
+    let blocks = Blocks::NONE.with(Block::Rate).with(Block::Attitude);
+    let mut group = criterion.benchmark_group("taylor");
+    for isa in Isa::available() {
+        for tolerance in [1e-6, 1e-10, 1e-13, 1e-16] {
+            let grid = Grid::uniform(plan.grid.duration(), 2);
+            let mut engine = engine(isa, (Method::Taylor, tolerance), grid, blocks, &scenes[0]);
+            let order = StepRule::new(tolerance).order as u64;
+            group.throughput(Throughput::Elements(steps(&mut *engine, &scenes) * flops_of_step(order)));
+            measure(&mut group, format!("{}/{tolerance:e}", isa.name()), &mut *engine, &scenes);
+        }
+    }
+    group.finish();
+}
+
 fn brief() -> Criterion {
     let (warm_up, measurement) = (std::time::Duration::from_millis(500), std::time::Duration::from_secs(2));
     Criterion::default().sample_size(20).warm_up_time(warm_up).measurement_time(measurement)
 }
 
-criterion_group! { name = benches; config = brief(); targets = right_hand_side, step, run }
+criterion_group! { name = benches; config = brief(); targets = right_hand_side, step, run, peak, taylor }
 criterion_main!(benches);

@@ -108,13 +108,13 @@ fn runs_that_fail_beside_runs_that_do_not() {
 const GOLDEN: [(Method, &str, &str); 7] = [
     (
         Method::Auto,
-        "ce82bea6f276b3e0097b97afd1ab0d4ef0e2cb4e876cbd18056ab347cf9cb13e",
-        "a2dacdb9d227be56fd764b4e460fc7bc8b4d1dac4375bbe9c45b0a94af38b5b0",
+        "95cf3a1f63bf1b600ba90c3572e380fd2b74325aea972867ad57730bfc586013",
+        "ad5b3ce2900d009f5c90a5a64327f6d9a59de3bd633d587eeb0de6594acd338c",
     ),
     (
         Method::Taylor,
-        "7fd5693f86c65704658cb390f672997f1fed56d61d8d106a2ccc76ae7271c651",
-        "e2a3cd139d67b93621611cc0cf665eedf67d777a24cde3e382e99ae59a67b949",
+        "b413306c69c05ca8154adebf891baec22812e6a6ea6c3edf179d9a67ad20027f",
+        "a36a0cfa48a2dbe57b35c03cd4b441b1ed913e028da511f0e93e10c18ff71a6a",
     ),
     (
         Method::DormandPrince,

@@ -17,7 +17,7 @@ use crate::dynamics::gyrostat::completion::components;
 use crate::dynamics::gyrostat::{RATES_ONLY, WITH_ANGLES, WITH_ATTITUDE, WITH_MOTORS, WITH_THRUST};
 use crate::dynamics::outcome::Outcome;
 use crate::dynamics::table::{Block, Blocks, Grid, StateTable};
-use crate::math::isa::{NarrowWork, Work};
+use crate::math::isa::{NarrowWork, WideWork};
 use crate::math::{Isa, Lanes, Real};
 use crate::scene::Scene;
 
@@ -69,20 +69,20 @@ impl Propagator {
     /// Memory and code for one worker.
     pub fn engine(&self, isa: Isa) -> Box<dyn Engine> {
         match self.method {
-            Method::Auto | Method::Taylor => isa.run(BuildTaylor(self)),
+            Method::Auto | Method::Taylor => isa.run_wide(BuildTaylor(self)),
             _ => isa.run_narrow(BuildRungeKutta(self)),
         }
     }
 }
 
-/// Builds the engine of a Taylor method for the instruction set `S`.
+/// Builds the engine of a Taylor method.
 struct BuildTaylor<'a>(&'a Propagator);
 
-impl Work for BuildTaylor<'_> {
+impl WideWork for BuildTaylor<'_> {
     type Output = Box<dyn Engine>;
 
-    fn run<S: Simd>(self, simd: S) -> Self::Output {
-        taylor(simd, self.0)
+    fn run<S: Simd, R: Real + Send + 'static>(self, simd: S, zero: R) -> Self::Output {
+        taylor(simd, zero, self.0)
     }
 }
 
@@ -104,14 +104,15 @@ impl NarrowWork for BuildRungeKutta<'_> {
 /// The Taylor engine with the components that the plan needs.
 ///
 /// A forced run integrates at least what motors ask for: fewer kernels to compile, and hardly slower.
-fn taylor<S: Simd>(simd: S, plan: &Propagator) -> Box<dyn Engine> {
-    let zero = Lanes::broadcast(simd, 0.0);
+fn taylor<S: Simd, R: Real + Send + 'static>(simd: S, zero: R, plan: &Propagator) -> Box<dyn Engine> {
     match (plan.components(), plan.thrust || plan.motors) {
-        (RATES_ONLY, false) => Box::new(TaylorEngine::<S, Lanes<S>, RATES_ONLY, false>::new(simd, zero, plan)),
-        (WITH_ATTITUDE, false) => Box::new(TaylorEngine::<S, Lanes<S>, WITH_ATTITUDE, false>::new(simd, zero, plan)),
-        (WITH_ANGLES, false) => Box::new(TaylorEngine::<S, Lanes<S>, WITH_ANGLES, false>::new(simd, zero, plan)),
-        (WITH_THRUST, _) => Box::new(TaylorEngine::<S, Lanes<S>, WITH_THRUST, true>::new(simd, zero, plan)),
-        _ => Box::new(TaylorEngine::<S, Lanes<S>, WITH_MOTORS, true>::new(simd, zero, plan)),
+        (RATES_ONLY, false) => Box::new(TaylorEngine::<S, R, RATES_ONLY, RATES_ONLY, false>::new(simd, zero, plan)),
+        (WITH_ATTITUDE, false) => {
+            Box::new(TaylorEngine::<S, R, WITH_ATTITUDE, WITH_ATTITUDE, false>::new(simd, zero, plan))
+        }
+        (WITH_ANGLES, false) => Box::new(TaylorEngine::<S, R, WITH_ANGLES, WITH_ANGLES, false>::new(simd, zero, plan)),
+        (WITH_THRUST, _) => Box::new(TaylorEngine::<S, R, WITH_THRUST, WITH_ANGLES, true>::new(simd, zero, plan)),
+        _ => Box::new(TaylorEngine::<S, R, WITH_MOTORS, WITH_ANGLES, true>::new(simd, zero, plan)),
     }
 }
 

@@ -178,6 +178,14 @@ impl Real for DoubleDouble {
     fn set_lane(&mut self, _lane: usize, value: f64) {
         *self = DoubleDouble::exact(value);
     }
+    #[inline(always)]
+    fn read(self, values: &[f64]) -> Self {
+        DoubleDouble::exact(values[0])
+    }
+    #[inline(always)]
+    fn write(self, values: &mut [f64]) {
+        values[0] = self.high;
+    }
 }
 
 #[cfg(test)]

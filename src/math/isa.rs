@@ -7,6 +7,8 @@ use std::sync::OnceLock;
 
 use fearless_simd::{Level, Simd};
 
+use super::{Lanes, Pair, Real};
+
 /// The environment variable that forces a path (`avx512`, `avx2`, `plain`); for tests and for comparing paths.
 pub const VARIABLE: &str = "SPINDRIFT_ISA";
 
@@ -39,6 +41,16 @@ pub trait NarrowWork {
     fn in_lanes<S: Simd>(self, simd: S) -> Self::Output;
     /// Does the work one number at a time.
     fn in_scalars<S: Simd>(self, simd: S) -> Self::Output;
+}
+
+/// Work in as many lanes as the instruction set has registers for; [`Isa::run_wide`] calls it.
+///
+/// AVX-512 has thirty-two registers of eight lanes and marches sixteen; the others have sixteen of four or two and march eight.
+pub trait WideWork {
+    /// What the work returns.
+    type Output;
+    /// Does the work; `zero` says in how many lanes.
+    fn run<S: Simd, R: Real + Send + 'static>(self, simd: S, zero: R) -> Self::Output;
 }
 
 impl Isa {
@@ -117,6 +129,33 @@ impl Isa {
         #[cfg(not(target_arch = "x86_64"))]
         {
             fearless_simd::dispatch!(self.level, simd => work.in_scalars(simd))
+        }
+    }
+
+    /// Runs `work` in the number of lanes that suits this instruction set.
+    pub fn run_wide<W: WideWork>(self, work: W) -> W::Output {
+        #[cfg(target_arch = "x86_64")]
+        {
+            match self.name {
+                "avx512" => {
+                    if let Some(simd) = self.level.as_avx512() {
+                        let zero = Lanes::broadcast(simd, 0.0);
+                        return work.run(simd, Pair(zero, zero));
+                    }
+                }
+                "avx2" => {
+                    if let Some(simd) = self.level.as_avx2() {
+                        return work.run(simd, Lanes::broadcast(simd, 0.0));
+                    }
+                }
+                _ => {}
+            }
+            let simd = self.level.as_sse2().expect("every x86-64 processor has SSE2");
+            work.run(simd, Lanes::broadcast(simd, 0.0))
+        }
+        #[cfg(not(target_arch = "x86_64"))]
+        {
+            fearless_simd::dispatch!(self.level, simd => work.run(simd, Lanes::broadcast(simd, 0.0)))
         }
     }
 

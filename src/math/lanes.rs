@@ -8,10 +8,13 @@ use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 use fearless_simd::{Bytes, Select, Simd, SimdBase, SimdFloat, SimdFrom, SimdMask, f64x8, mask64x8, u64x8};
 
 use super::Real;
-use super::real::TWO_52;
+pub use super::real::TWO_52;
 
 /// Number of lanes of [`Lanes`].
 pub const WIDTH: usize = 8;
+
+/// Most lanes of any [`Real`]: two [`Lanes`] as a [`super::Pair`].
+pub const WIDEST: usize = 2 * WIDTH;
 
 /// Eight `f64` side by side; lane `i` of every operation equals the scalar operation bit for bit.
 #[derive(Clone, Copy, Debug)]
@@ -175,5 +178,13 @@ impl<S: Simd> Real for Lanes<S> {
     #[inline(always)]
     fn set_lane(&mut self, lane: usize, value: f64) {
         self.0[lane & (WIDTH - 1)] = value;
+    }
+    #[inline(always)]
+    fn read(self, values: &[f64]) -> Self {
+        Self::from_slice(self.simd(), values)
+    }
+    #[inline(always)]
+    fn write(self, values: &mut [f64]) {
+        self.store(values);
     }
 }

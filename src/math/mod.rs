@@ -4,6 +4,7 @@
 //! - [`double_double`]: 106 bits, for reference solutions.
 //! - [`lanes`]: [`Lanes`], eight `f64` in one vector, on whichever instruction set was chosen.
 //! - [`isa`]: the run-time choice of instruction set, and the only place that reads `SPINDRIFT_ISA`.
+//! - [`pair`]: [`Pair`], two of a kind as one, to keep wide vector units busy.
 //! - [`power`]: fractional powers for step control, the same bits in a scalar and in lanes.
 //! - [`sine`]: sine and cosine in turns, eight at a time.
 //! - [`symmetric`]: positive definiteness and principal axes of 3x3 matrices.
@@ -12,6 +13,7 @@
 pub mod double_double;
 pub mod isa;
 pub mod lanes;
+pub mod pair;
 pub mod power;
 pub mod real;
 pub mod sine;
@@ -20,4 +22,5 @@ pub mod vector;
 
 pub use isa::Isa;
 pub use lanes::Lanes;
+pub use pair::Pair;
 pub use real::Real;

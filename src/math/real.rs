@@ -7,7 +7,7 @@
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// 2^52: the last bits of 2^52 + n are the integer n, which is how exponents are read and written without a conversion.
-pub(super) const TWO_52: f64 = 4_503_599_627_370_496.0;
+pub const TWO_52: f64 = 4_503_599_627_370_496.0;
 
 /// A real number, or several side by side that never share a decision.
 pub trait Real:
@@ -72,6 +72,12 @@ pub trait Real:
     /// Puts `value` into lane `lane`.
     fn set_lane(&mut self, lane: usize, value: f64);
 
+    /// `LANES` numbers from the start of a slice; `self` only says which kind of number is meant.
+    fn read(self, values: &[f64]) -> Self;
+
+    /// Writes the numbers to the start of a slice, as [`Real::lane`] gives them.
+    fn write(self, values: &mut [f64]);
+
     /// The constant zero.
     #[inline(always)]
     fn zero(self) -> Self {
@@ -134,5 +140,13 @@ impl Real for f64 {
     #[inline(always)]
     fn set_lane(&mut self, _lane: usize, value: f64) {
         *self = value;
+    }
+    #[inline(always)]
+    fn read(self, values: &[f64]) -> Self {
+        values[0]
+    }
+    #[inline(always)]
+    fn write(self, values: &mut [f64]) {
+        values[0] = self;
     }
 }

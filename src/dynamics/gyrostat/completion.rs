@@ -124,12 +124,28 @@ fn complete_wheels<S: Simd, const N: usize>(
             continue;
         }
         if table.has(Block::WheelRates) {
-            let momentum = chunk.along(run, times, |stretch, time| run.wheel_momentum_at(stretch, wheel, time));
+            let momentum = chunk.along(
+                run,
+                times,
+                #[inline(always)]
+                |stretch, since| {
+                    chunk.splat(stretch.motor[wheel]).mul_add(since, chunk.splat(stretch.wheel_momentum[wheel]))
+                },
+            );
             let rate = momentum * chunk.splat(inverse) - dot(axis, omega_b);
             rate.store(&mut table.column_mut(Block::WheelRates, wheel)[chunk.first..]);
         }
         if angles {
-            let turn = chunk.along(run, times, |stretch, time| run.wheel_turn_at(stretch, wheel, time));
+            let turn = chunk.along(
+                run,
+                times,
+                #[inline(always)]
+                |stretch, since| {
+                    let (motor, momentum) = (stretch.motor[wheel], stretch.wheel_momentum[wheel]);
+                    let mean = chunk.splat(0.5 * motor).mul_add(since, chunk.splat(momentum));
+                    (mean * chunk.splat(inverse)).mul_add(since, chunk.splat(stretch.wheel_turn[wheel]))
+                },
+            );
             let angle = chunk.splat(run.wheel_angles[wheel]) + (turn - dot(axis, chunk.read3(trajectory, ANGLE)));
             angle.store(&mut table.column_mut(Block::WheelAngles, wheel)[chunk.first..]);
         }
@@ -224,17 +240,25 @@ impl<S: Simd> Chunk<S> {
         }
     }
 
-    /// A quantity that is known in closed form on each stretch, at the eight times.
+    /// A quantity that is known in closed form on each stretch, as a function of the time since its start.
     #[inline(always)]
     fn along(
         self,
         run: &Gyrostat<f64>,
         times: &[f64],
-        quantity: impl Fn(&super::Stretch<f64>, f64) -> f64,
+        quantity: impl Fn(&super::Stretch<f64>, Lanes<S>) -> Lanes<S>,
     ) -> Lanes<S> {
-        let mut values = [0.0; WIDTH];
-        for (value, time) in values.iter_mut().zip(times) {
-            *value = quantity(run.stretch_at(*time), *time);
+        let time = Lanes::from_slice(self.simd, times);
+        let (first, last) = (run.stretch_at(times[0]), run.stretch_at(times[WIDTH - 1]));
+        let all = quantity(first, time - self.splat(first.start));
+        if first.start == last.start {
+            return all;
+        }
+        // a switch among the eight
+        let mut values = all.to_array();
+        for (k, value) in values.iter_mut().enumerate() {
+            let stretch = run.stretch_at(times[k]);
+            *value = quantity(stretch, time - self.splat(stretch.start)).lane(k);
         }
         Lanes::load(self.simd, &values)
     }

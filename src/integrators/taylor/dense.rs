@@ -1,185 +1,80 @@
-//! Evaluating stored series at observation points: the coefficients of one run broadcast, eight points at a time.
+//! Stored series and their values: every lane at a time of its own.
 
-use fearless_simd::Simd;
-
-use crate::dynamics::table::Trajectory;
-use crate::math::lanes::WIDTH;
-use crate::math::{Lanes, Real};
+use crate::math::Real;
 
 /// The series of one step in lanes, and when it began: time since the start of the stretch as an unevaluated sum.
 #[derive(Clone, Debug)]
-pub struct Segment<R, const N: usize> {
+pub struct Segment<R, const J: usize> {
     /// Taylor coefficients, order by order.
-    pub jet: Vec<[R; N]>,
+    pub jet: Vec<[R; J]>,
     /// Start of the step in each lane, high part.
     pub start: R,
     /// Start of the step in each lane, low part.
     pub start_low: R,
 }
 
-impl<R: Real, const N: usize> Segment<R, N> {
+impl<R: Real, const J: usize> Segment<R, J> {
     /// Room for a series of order `order`.
     pub fn new(zero: R, order: usize) -> Self {
-        Segment { jet: vec![[zero; N]; order + 1], start: zero, start_low: zero }
+        Segment { jet: vec![[zero; J]; order + 1], start: zero, start_low: zero }
     }
 }
 
-/// Observation points of one run that wait to be evaluated, sorted into the segments they lie in.
-#[derive(Clone, Debug, Default)]
-pub struct Buckets {
-    /// Time since the start of the stretch less whole periods, point by point in order of time.
-    pub rest: Vec<f64>,
-    /// Whole periods before each point.
-    pub whole: Vec<f64>,
-    /// Index of the segment each point lies in.
-    segment: Vec<u32>,
-    /// First entry of each segment in `sorted`.
-    first: Vec<u32>,
-    /// Point numbers, by segment.
-    sorted: Vec<u32>,
-    /// `rest` in the order of `sorted`.
-    sorted_rest: Vec<f64>,
-}
-
-impl Buckets {
-    /// Room for `points` points and `segments` segments.
-    pub fn new(points: usize, segments: usize) -> Self {
-        let padded = points.next_multiple_of(WIDTH) + WIDTH;
-        Buckets {
-            rest: vec![0.0; padded],
-            whole: vec![0.0; padded],
-            segment: vec![0; padded],
-            first: vec![0; segments + 2],
-            sorted: vec![0; padded],
-            sorted_rest: vec![0.0; padded],
-        }
-    }
-
-    /// Sorts the first `points` points into segments that start at `starts` (ascending, the first is zero).
-    #[inline(always)]
-    pub fn sort<S: Simd>(&mut self, simd: S, points: usize, starts: &[f64]) {
-        let segments = starts.len();
-        if self.first.len() < segments + 2 {
-            self.first.resize(segments + 2, 0);
-        }
-        let one = Lanes::broadcast(simd, 1.0);
-        let zero = one.zero();
-        for first in (0..points).step_by(WIDTH) {
-            let rest = Lanes::from_slice(simd, &self.rest[first..]);
-            // how many later segments start at or before the point
-            let mut count = zero;
-            for start in &starts[1..] {
-                let before = rest.lt(Lanes::broadcast(simd, *start));
-                count += Real::select(before, zero, one);
-            }
-            let count = count.to_array();
-            for (slot, count) in self.segment[first..first + WIDTH].iter_mut().zip(count) {
-                *slot = count as u32;
-            }
-        }
-        self.first[..segments + 2].fill(0);
-        for segment in &self.segment[..points] {
-            self.first[*segment as usize + 2] += 1;
-        }
-        for i in 2..segments + 2 {
-            self.first[i] += self.first[i - 1];
-        }
-        // first[s + 1] walks from the start of segment s to its end
-        for point in 0..points {
-            let place = &mut self.first[self.segment[point] as usize + 1];
-            self.sorted[*place as usize] = point as u32;
-            self.sorted_rest[*place as usize] = self.rest[point];
-            *place += 1;
-        }
-    }
-
-    /// The places in sorted order of the points in segment `segment`.
-    #[inline(always)]
-    fn range(&self, segment: usize) -> core::ops::Range<usize> {
-        self.first[segment] as usize..self.first[segment + 1] as usize
-    }
-
-    /// Evaluates segment `number`, whose series is `segment`, in lane `lane` at its points, and writes them to
-    /// `trajectory` from point `offset` on; component `i` is multiplied by `factors[i]`.
-    #[inline(always)]
-    #[expect(clippy::too_many_arguments, reason = "a hot inner function: one struct more would be taken apart at once")]
-    pub fn evaluate<S: Simd, R: Real, const N: usize>(
-        &self,
-        simd: S,
-        number: usize,
-        segment: &Segment<R, N>,
-        lane: usize,
-        order: usize,
-        factors: &[f64; N],
-        offset: usize,
-        trajectory: &mut Trajectory,
-    ) {
-        let start = Lanes::broadcast(simd, segment.start.lane(lane));
-        let start_low = Lanes::broadcast(simd, segment.start_low.lane(lane));
-        let range = self.range(number);
-        let mut place = range.start;
-        while place < range.end {
-            let rest = Lanes::from_slice(simd, &self.sorted_rest[place..]);
-            let x = (rest - start) - start_low;
-            let count = WIDTH.min(range.end - place);
-            let points = &self.sorted[place..place + count];
-            // components in groups that fit the registers: each group is a set of chains of its own
-            let mut component = 0;
-            while component + 4 <= N {
-                let values = horner::<S, R, N, 4>(simd, &segment.jet, component, lane, order, x);
-                scatter(simd, &values, points, &factors[component..], component, offset, trajectory);
-                component += 4;
-            }
-            if component + 3 == N {
-                let values = horner::<S, R, N, 3>(simd, &segment.jet, component, lane, order, x);
-                scatter(simd, &values, points, &factors[component..], component, offset, trajectory);
-                component += 3;
-            }
-            while component < N {
-                let values = horner::<S, R, N, 1>(simd, &segment.jet, component, lane, order, x);
-                scatter(simd, &values, points, &factors[component..], component, offset, trajectory);
-                component += 1;
-            }
-            place += WIDTH;
-        }
-    }
-}
-
-/// The series of lane `lane` at eight times, of `G` components from `first` on.
+/// All components of the series `jet`, each at the `U` times `x`.
+///
+/// By groups of components, so that the sums of a group stay in registers and a coefficient that was loaded serves all times.
 #[inline(always)]
-fn horner<S: Simd, R: Real, const N: usize, const G: usize>(
-    simd: S,
-    jet: &[[R; N]],
-    first: usize,
-    lane: usize,
-    order: usize,
-    x: Lanes<S>,
-) -> [Lanes<S>; G] {
-    let mut sums = [Lanes::broadcast(simd, 0.0); G];
-    for coefficients in jet[..=order].iter().rev() {
-        for i in 0..G {
-            sums[i] = sums[i].mul_add(x, Lanes::broadcast(simd, coefficients[first + i].lane(lane)));
-        }
+pub fn values<R: Real, const J: usize, const U: usize>(jet: &[[R; J]], x: [R; U]) -> [[R; J]; U] {
+    let mut all = [jet[0]; U];
+    // the rate by itself, the quaternion two by two, the angle by itself
+    group::<R, J, 3, U>(jet, 0, x, &mut all);
+    if J > 3 {
+        group::<R, J, 2, U>(jet, 3, x, &mut all);
+        group::<R, J, 2, U>(jet, 5, x, &mut all);
     }
-    sums
+    if J > 7 {
+        group::<R, J, 3, U>(jet, 7, x, &mut all);
+    }
+    all
 }
 
-/// Writes the values of up to eight points to their places.
+/// Horner's scheme for `G` components from `first` on.
 #[inline(always)]
-fn scatter<S: Simd, const G: usize>(
-    simd: S,
-    values: &[Lanes<S>; G],
-    points: &[u32],
-    factors: &[f64],
+fn group<R: Real, const J: usize, const G: usize, const U: usize>(
+    jet: &[[R; J]],
     first: usize,
-    offset: usize,
-    trajectory: &mut Trajectory,
+    x: [R; U],
+    all: &mut [[R; J]; U],
 ) {
-    for i in 0..G {
-        let scaled = (values[i] * Lanes::broadcast(simd, factors[i])).to_array();
-        let column = &mut trajectory.column_mut(first + i)[offset..];
-        for (point, value) in points.iter().zip(scaled) {
-            column[*point as usize] = value;
+    let Some((last, lower)) = jet.split_last() else { return };
+    let mut sums = [[x[0]; G]; U];
+    for u in 0..U {
+        for i in 0..G {
+            sums[u][i] = last[first + i];
         }
     }
+    for coefficients in lower.iter().rev() {
+        for i in 0..G {
+            let coefficient = coefficients[first + i];
+            for u in 0..U {
+                sums[u][i] = sums[u][i].mul_add(x[u], coefficient);
+            }
+        }
+    }
+    for u in 0..U {
+        for i in 0..G {
+            all[u][first + i] = sums[u][i];
+        }
+    }
+}
+
+/// One component of a series, in lane `lane`, at `x`.
+#[inline(always)]
+pub fn value_at<R: Real, const J: usize>(jet: &[[R; J]], component: usize, lane: usize, x: f64) -> f64 {
+    let order = jet.len() - 1;
+    let mut sum = jet[order][component].lane(lane);
+    for n in (0..order).rev() {
+        sum = sum.mul_add(x, jet[n][component].lane(lane));
+    }
+    sum
 }

@@ -2,7 +2,8 @@
 
 use fearless_simd::Simd;
 
-use super::march::{Settings, Workspace, march};
+use super::march::march;
+use super::workspace::{Settings, Workspace};
 use crate::dynamics::gyrostat::WITH_ATTITUDE;
 use crate::dynamics::table::StateTable;
 use crate::integrators::gyrostat_batch::GyrostatBatch;
@@ -11,18 +12,20 @@ use crate::integrators::propagate::{Engine, Finish, Propagator};
 use crate::math::Real;
 use crate::scene::Scene;
 
-/// One worker's memory.
-pub struct TaylorEngine<S, R, const N: usize, const FORCED: bool> {
+/// One worker's memory: `N` components, of which the first `J` have series of their own.
+pub struct TaylorEngine<S, R, const N: usize, const J: usize, const FORCED: bool> {
     simd: S,
     zero: R,
     plan: Propagator,
     batch: GyrostatBatch,
-    workspace: Workspace<R, N>,
+    workspace: Workspace<R, J>,
     debris_workspace: Option<Workspace<R, WITH_ATTITUDE>>,
     table: StateTable,
 }
 
-impl<S: Simd, R: Real + Send + 'static, const N: usize, const FORCED: bool> TaylorEngine<S, R, N, FORCED> {
+impl<S: Simd, R: Real + Send + 'static, const N: usize, const J: usize, const FORCED: bool>
+    TaylorEngine<S, R, N, J, FORCED>
+{
     /// Memory for the runs of `plan`; `zero` says how many lanes.
     pub fn new(simd: S, zero: R, plan: &Propagator) -> Self {
         TaylorEngine {
@@ -30,7 +33,7 @@ impl<S: Simd, R: Real + Send + 'static, const N: usize, const FORCED: bool> Tayl
             zero,
             plan: plan.clone(),
             batch: GyrostatBatch::new(plan),
-            workspace: Workspace::new(zero, settings(plan), plan.grid.points()),
+            workspace: Workspace::new(zero, settings(plan), N, plan.grid.points()),
             debris_workspace: None,
             table: StateTable::new(plan.blocks, plan.grid.points()),
         }
@@ -41,15 +44,22 @@ impl<S: Simd, R: Real + Send + 'static, const N: usize, const FORCED: bool> Tayl
         let Self { simd, zero, plan, batch, workspace, debris_workspace, table } = self;
         batch.take(scenes);
         if batch.begin_debris(scenes) {
-            let workspace =
-                debris_workspace.get_or_insert_with(|| Workspace::new(*zero, settings(plan), plan.grid.points()));
+            let workspace = debris_workspace
+                .get_or_insert_with(|| Workspace::new(*zero, settings(plan), WITH_ATTITUDE, plan.grid.points()));
             let (runs, store) = batch.debris();
-            march::<S, R, WITH_ATTITUDE, false>(*simd, *zero, runs, &plan.grid, workspace, &mut |run, states, _| {
-                core::mem::swap(&mut store[run], states);
-            });
+            march::<S, R, WITH_ATTITUDE, WITH_ATTITUDE, false>(
+                *simd,
+                *zero,
+                runs,
+                &plan.grid,
+                workspace,
+                &mut |run, states, _| {
+                    core::mem::swap(&mut store[run], states);
+                },
+            );
         }
         let batch = &*batch;
-        march::<S, R, N, FORCED>(*simd, *zero, batch.runs(), &plan.grid, workspace, &mut |run, states, outcome| {
+        march::<S, R, N, J, FORCED>(*simd, *zero, batch.runs(), &plan.grid, workspace, &mut |run, states, outcome| {
             batch.complete::<S, N>(*simd, scenes, run, states, table);
             finish(run, table, outcome);
         });
@@ -65,7 +75,9 @@ fn settings(plan: &Propagator) -> Settings {
     }
 }
 
-impl<S: Simd, R: Real + Send + 'static, const N: usize, const FORCED: bool> Engine for TaylorEngine<S, R, N, FORCED> {
+impl<S: Simd, R: Real + Send + 'static, const N: usize, const J: usize, const FORCED: bool> Engine
+    for TaylorEngine<S, R, N, J, FORCED>
+{
     fn propagate(&mut self, scenes: &[Scene], finish: &mut Finish<'_>) {
         let simd = self.simd;
         simd.vectorize(

@@ -11,7 +11,7 @@ use crate::dynamics::gyrostat::{
     WITH_ATTITUDE, WITH_MOTORS, WITH_THRUST,
 };
 use crate::math::Real;
-use crate::math::vector::{cross, dot, scaled};
+use crate::math::vector::{cross, dot};
 
 /// The largest order that a jet can hold: 20 is what a tolerance of 1e-16 asks for; double-double needs twice that.
 pub const MAX_ORDER: usize = 40;
@@ -31,8 +31,6 @@ impl<R: Real> Reciprocals<R> {
 /// Series that a jet needs on its way but that nobody else asks for.
 #[derive(Clone, Debug)]
 pub struct Scratch<R> {
-    /// omega/2, which is all that the attitude needs, and its negative.
-    half_omega: [[R; 6]; MAX_ORDER],
     /// q (x) F and its negative.
     turned_force: [[R; 8]; MAX_ORDER],
     /// q (x) tau and its negative.
@@ -45,7 +43,6 @@ impl<R: Real> Scratch<R> {
     /// Room for any order.
     pub fn new(zero: R) -> Self {
         Scratch {
-            half_omega: [[zero; 6]; MAX_ORDER],
             turned_force: [[zero; 8]; MAX_ORDER],
             turned_torque: [[zero; 8]; MAX_ORDER],
             force_e: [[zero; 3]; MAX_ORDER],
@@ -69,21 +66,21 @@ pub fn expand<R: Real, const N: usize, const FORCED: bool>(
     let reciprocal = &reciprocals.0[..=order];
     let zero = jet[0][0].zero();
     let half = zero.splat(0.5);
-    let Scratch { half_omega, turned_force, turned_torque, force_e } = scratch;
+    let Scratch { turned_force, turned_torque, force_e } = scratch;
     for n in 0..order {
         let inverse = reciprocal[n + 1];
         let omega = [jet[n][OMEGA], jet[n][OMEGA + 1], jet[n][OMEGA + 2]];
-        let acceleration = angular_acceleration::<R, N, FORCED>(constants, jet, n);
+        let sums = cauchy_products(jet, n);
+        let acceleration = angular_acceleration::<R, N, FORCED>(constants, jet, n, sums.rate);
         let mut next = [zero; N];
         for i in 0..3 {
             next[OMEGA + i] = acceleration[i] * inverse;
         }
         if N >= WITH_ATTITUDE {
-            let [x, y, z] = scaled(half, omega);
-            half_omega[n] = [x, y, z, -x, -y, -z];
-            let rate = quaternion_rate(jet, half_omega, n);
+            // q' = q (x) omega/2: the half is exact wherever it stands
+            let half_inverse = half * inverse;
             for i in 0..4 {
-                next[ATTITUDE + i] = rate[i] * inverse;
+                next[ATTITUDE + i] = sums.attitude[i] * half_inverse;
             }
         }
         if N >= WITH_ANGLES {
@@ -117,26 +114,16 @@ pub fn expand<R: Real, const N: usize, const FORCED: bool>(
     }
 }
 
-/// Coefficient n of omega' = ratio omega omega + (h x omega + torque - h')/J.
+/// Coefficient n of omega' = ratio omega omega + (h x omega + torque - h')/J, given those of the products of two rates.
 #[inline(always)]
 fn angular_acceleration<R: Real, const N: usize, const FORCED: bool>(
     constants: &Constants<R>,
     jet: &[[R; N]],
     n: usize,
+    products: [R; 3],
 ) -> [R; 3] {
     let zero = jet[0][0].zero();
     let omega = [jet[n][OMEGA], jet[n][OMEGA + 1], jet[n][OMEGA + 2]];
-    // two sums each, so that six chains of fused operations run side by side
-    let mut even = [zero; 3];
-    let mut odd = [zero; 3];
-    let (ahead, behind) = (&jet[..=n], &jet[..=n]);
-    let mut pairs = ahead.iter().zip(behind.iter().rev());
-    while let Some((a, b)) = pairs.next() {
-        even = products(a, b, even);
-        if let Some((a, b)) = pairs.next() {
-            odd = products(a, b, odd);
-        }
-    }
     let mut linear = cross(constants.momentum, omega);
     if FORCED {
         if n == 0 {
@@ -153,41 +140,76 @@ fn angular_acceleration<R: Real, const N: usize, const FORCED: bool>(
     }
     let mut acceleration = [zero; 3];
     for i in 0..3 {
-        acceleration[i] = constants.ratio[i].mul_add(even[i] + odd[i], constants.inverse[i] * linear[i]);
+        acceleration[i] = constants.ratio[i].mul_add(products[i], constants.inverse[i] * linear[i]);
     }
     acceleration
 }
 
+/// Coefficients of the products of series that the motion needs.
+struct Sums<R> {
+    /// Of omega_2 omega_3 and its cyclic fellows.
+    rate: [R; 3],
+    /// Of q (x) omega.
+    attitude: [R; 4],
+}
+
+/// Coefficient n of the products, as far as the first `N` components go.
+///
+/// One pass over both series, so that ten loads feed fifteen fused operations. The two products with the coefficient that was
+/// made last come last: all others need not wait for it.
+#[inline(always)]
+fn cauchy_products<R: Real, const N: usize>(jet: &[[R; N]], n: usize) -> Sums<R> {
+    let zero = jet[0][0].zero();
+    let mut even = [zero; 3];
+    let mut odd = [zero; 3];
+    let mut attitude = [zero; 4];
+    let middle = &jet[n.min(1)..n];
+    let mut pairs = middle.iter().zip(middle.iter().rev());
+    while let Some((a, b)) = pairs.next() {
+        odd = rate_products(a, b, odd);
+        attitude = attitude_products(a, b, attitude);
+        if let Some((a, b)) = pairs.next() {
+            even = rate_products(a, b, even);
+            attitude = attitude_products(a, b, attitude);
+        }
+    }
+    let (first, last) = (&jet[0], &jet[n]);
+    even = rate_products(first, last, even);
+    attitude = attitude_products(first, last, attitude);
+    if n > 0 {
+        odd = rate_products(last, first, odd);
+        attitude = attitude_products(last, first, attitude);
+    }
+    Sums { rate: [even[0] + odd[0], even[1] + odd[1], even[2] + odd[2]], attitude }
+}
+
 /// `sum` plus the products of unlike components of two rates.
 #[inline(always)]
-fn products<R: Real, const N: usize>(a: &[R; N], b: &[R; N], sum: [R; 3]) -> [R; 3] {
+fn rate_products<R: Real, const N: usize>(a: &[R; N], b: &[R; N], sum: [R; 3]) -> [R; 3] {
     [a[1].mul_add(b[2], sum[0]), a[2].mul_add(b[0], sum[1]), a[0].mul_add(b[1], sum[2])]
 }
 
-/// Coefficient n of q (x) omega/2.
-///
-/// One accumulator a component: with both halves of eight lanes these are the eight chains that two units of latency four
-/// need, and they leave room for the quaternion in sixteen registers. That is why the negative rates are stored as well.
+/// `sum` plus q (x) omega with the quaternion of `a` and the rate of `b`.
 #[inline(always)]
-fn quaternion_rate<R: Real, const N: usize>(jet: &[[R; N]], half_omega: &[[R; 6]; MAX_ORDER], n: usize) -> [R; 4] {
-    let zero = jet[0][0].zero();
-    let (mut w, mut x, mut y, mut z) = (zero, zero, zero, zero);
-    for (coefficient, rate) in jet[..=n].iter().zip(half_omega[..=n].iter().rev()) {
-        let (q0, q1) = (coefficient[ATTITUDE], coefficient[ATTITUDE + 1]);
-        let (q2, q3) = (coefficient[ATTITUDE + 2], coefficient[ATTITUDE + 3]);
-        w = q1.mul_add(rate[3], w);
-        x = q0.mul_add(rate[0], x);
-        y = q0.mul_add(rate[1], y);
-        z = q0.mul_add(rate[2], z);
-        w = q2.mul_add(rate[4], w);
-        x = q2.mul_add(rate[2], x);
-        y = q3.mul_add(rate[0], y);
-        z = q1.mul_add(rate[1], z);
-        w = q3.mul_add(rate[5], w);
-        x = q3.mul_add(rate[4], x);
-        y = q1.mul_add(rate[5], y);
-        z = q2.mul_add(rate[3], z);
+fn attitude_products<R: Real, const N: usize>(a: &[R; N], b: &[R; N], sum: [R; 4]) -> [R; 4] {
+    if N < WITH_ATTITUDE {
+        return sum;
     }
+    let (q0, q1, q2, q3) = (a[ATTITUDE], a[ATTITUDE + 1], a[ATTITUDE + 2], a[ATTITUDE + 3]);
+    let (o1, o2, o3) = (b[OMEGA], b[OMEGA + 1], b[OMEGA + 2]);
+    let [mut w, mut x, mut y, mut z] = sum;
+    w = q1.neg_mul_add(o1, w);
+    x = q0.mul_add(o1, x);
+    y = q0.mul_add(o2, y);
+    z = q0.mul_add(o3, z);
+    w = q2.neg_mul_add(o2, w);
+    x = q2.mul_add(o3, x);
+    y = q3.mul_add(o1, y);
+    z = q1.mul_add(o2, z);
+    w = q3.neg_mul_add(o3, w);
+    x = q3.neg_mul_add(o2, x);
+    y = q1.neg_mul_add(o3, y);
+    z = q2.neg_mul_add(o1, z);
     [w, x, y, z]
 }
 

@@ -1,8 +1,9 @@
 //! Taylor series of the gyrostat in lanes, with periodic propagation of what is free of torque.
 //!
-//! - [`jet`]: the recurrences. [`step`]: order and step size. [`period`]: finding the period of omega and folding time by it.
-//! - [`dense`]: evaluating the series at the observation points, eight at a time. [`march`]: the lanes;
-//!   `unfold`: from one period to the whole horizon.
+//! - [`jet`]: the recurrences. [`step`]: order and step size. [`thrust`]: integrals of the thrust along a step.
+//! - [`march`]: the lanes; [`workspace`]: their memory. [`dense`]: evaluating series at the observation points.
+//! - [`period`]: finding the period of omega and folding time by it; [`watch`]: the same for all lanes at once;
+//!   [`fold`]: the points of runs whose period is known.
 //! - [`truth`]: reference solutions of any scene by the same recurrences in double-double.
 //!
 //! The motion of omega without torque is periodic: it stays on the curve in which the energy ellipsoid meets the momentum
@@ -12,9 +13,12 @@
 
 pub mod dense;
 pub mod engine;
+pub mod fold;
 pub mod jet;
 pub mod march;
 pub mod period;
 pub mod step;
+pub mod thrust;
 pub mod truth;
-mod unfold;
+pub mod watch;
+pub mod workspace;

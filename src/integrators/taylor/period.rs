@@ -35,7 +35,7 @@ pub struct Period {
     pub axis_e: [f64; 3],
 }
 
-/// What a march knows of the curve of omega since the start of a stretch.
+/// What a march knows of the curve of omega since the start of a stretch; [`super::watch::Watch`] keeps it up to date.
 #[derive(Clone, Copy, Debug)]
 pub struct Section {
     /// omega at the start.
@@ -58,18 +58,6 @@ impl Section {
         }
         let inverse = 1.0 / norm2.sqrt();
         Some(Section { start: omega, direction: rate.map(|x| x * inverse), extent2: 0.0, side: 0.0 })
-    }
-
-    /// Takes note of omega at the end of a step; true where the step may have come back through the section.
-    #[inline(always)]
-    pub fn passes(&mut self, omega: [f64; 3]) -> bool {
-        let off = [omega[0] - self.start[0], omega[1] - self.start[1], omega[2] - self.start[2]];
-        let side = off[0] * self.direction[0] + off[1] * self.direction[1] + off[2] * self.direction[2];
-        let extent2 = off[0] * off[0] + off[1] * off[1] + off[2] * off[2];
-        let back = self.side < 0.0 && side >= 0.0;
-        self.side = side;
-        self.extent2 = if extent2 > self.extent2 { extent2 } else { self.extent2 };
-        back
     }
 
     /// The time within a step at which omega is back, given the step's series in lane `lane` and its length; `None` where the

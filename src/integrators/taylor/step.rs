@@ -1,7 +1,7 @@
 //! Order and step size from the tolerance (A. Jorba & M. Zou, Experimental Mathematics 14, 2005, sections 3.1 and 3.2).
 //!
-//! Decided from the angular velocity alone, and from whether thrust acts, so that a campaign that asks for the attitude and one
-//! that does not take the same steps and get the same bits.
+//! Decided from the angular velocity alone, so that a campaign that asks for the attitude and one that does not take the same
+//! steps and get the same bits.
 
 use crate::math::Real;
 use crate::math::vector::dot;
@@ -15,6 +15,8 @@ pub struct StepRule {
     log_safety: f64,
     /// Largest |omega| h/2 at which the series of exp(omega t/2) up to the order meets the tolerance.
     turn: f64,
+    /// log2 of twice that.
+    log_slowest: f64,
 }
 
 impl StepRule {
@@ -24,36 +26,32 @@ impl StepRule {
         let factorial: f64 = (1..=order + 1).map(|n| n as f64).product();
         let turn = libm::pow(factorial * tolerance, 1.0 / (order as f64 + 1.0));
         let log_safety = -(2.0 + 0.7 / (order as f64 - 1.0)) / core::f64::consts::LN_2;
-        StepRule { order, log_safety, turn }
+        StepRule { order, log_safety, turn, log_slowest: 1.0 + libm::log2(turn) }
     }
 
     /// The step for the jet of a rate, lane by lane, in the lane's unit of time; always positive, at most 2^30.
     ///
     /// The size against which the tail of the series is held is that of the rate and of its change over a unit of time,
     /// which the caller chooses near the time scale of the motion.
-    ///
-    /// `pushed` is one where thrust acts, else zero. A thrust turns with omega where the quaternion turns with omega/2, so that
-    /// the series of its integrals (impulse, angular impulse, path) needs half the step; at 1e-16 they would else be off by
-    /// 2^21 tolerances, 2e-10.
     #[inline(always)]
-    pub fn step<R: Real, const N: usize>(&self, jet: &[[R; N]], pushed: R) -> R {
-        let zero = jet[0][0].zero();
+    pub fn step<R: Real, const N: usize>(&self, jet: &[[R; N]]) -> R {
         let scale = rate_squared(&jet[0]) + rate_squared(&jet[1]);
         let (last, before) = (rate_squared(&jet[self.order]), rate_squared(&jet[self.order - 1]));
-        let mut step = zero;
-        let (p, log_safety) = (self.order as f64, self.log_safety);
-        for lane in 0..R::LANES {
-            let size = log2_rough(scale.lane(lane));
-            // the tail is measured by squares: half the logarithm
-            let from_last = 0.5 * (size - log2_rough(last.lane(lane))) / p;
-            let from_before = 0.5 * (size - log2_rough(before.lane(lane))) / (p - 1.0);
-            let radius = if from_last < from_before { from_last } else { from_before };
-            let slowest = 1.0 + log2_rough(self.turn) - 0.5 * size - pushed.lane(lane);
-            let log_step = radius + log_safety;
-            let log_step = if slowest < log_step { slowest } else { log_step };
-            step.set_lane(lane, exp2_rough(if log_step < 30.0 { log_step } else { 30.0 }));
-        }
-        step
+        let number = |value: f64| scale.splat(value);
+        let p = self.order as f64;
+        let size = log2_rough(scale);
+        // the tail is measured by squares: half the logarithm
+        let from_last = (size - log2_rough(last)) * number(0.5 / p);
+        let from_before = (size - log2_rough(before)) * number(0.5 / (p - 1.0));
+        let radius = from_last.smaller(from_before);
+        let slowest = size.mul_add(number(-0.5), number(self.log_slowest));
+        let log_step = (radius + number(self.log_safety)).smaller(slowest).smaller(number(30.0));
+        exp2_rough(log_step.larger(number(-1000.0)))
+    }
+
+    /// Largest |omega| h of a step.
+    pub fn largest_turn(&self) -> f64 {
+        2.0 * self.turn
     }
 }
 
@@ -64,33 +62,31 @@ fn rate_squared<R: Real, const N: usize>(coefficients: &[R; N]) -> R {
     dot(rate, rate)
 }
 
-/// log2 x to 1e-4 for positive normal x; about -1023 for zero; branch-free, so that eight lanes vectorise.
+/// log2 x to 1e-4 for positive normal x below 2^1022; about -1020 for zero.
 #[inline(always)]
-pub fn log2_rough(x: f64) -> f64 {
-    let bits = x.to_bits();
-    let exponent = ((bits >> 52) & 0x7ff) as i32 - 1023;
-    let mantissa = f64::from_bits((bits & 0x000f_ffff_ffff_ffff) | 0x3ff0_0000_0000_0000);
-    let y = mantissa - 1.0;
+pub fn log2_rough<R: Real>(x: R) -> R {
+    let exponent = x.exponent();
+    let y = x * (-exponent).power_of_two() - x.splat(1.0);
     // log2(1 + y)/y interpolated at the Chebyshev nodes of [0, 1], degree 5: error 7.4e-6
-    let series = -0.033_822_046 * y + 0.144_471_096;
-    let series = series * y - 0.301_638_01;
-    let series = series * y + 0.468_658_879;
-    let series = series * y - 0.720_358_773;
-    let series = series * y + 1.442_681_47;
-    f64::from(exponent) + y * series
+    let mut series = y.splat(-0.033_822_046);
+    for coefficient in [0.144_471_096, -0.301_638_01, 0.468_658_879, -0.720_358_773, 1.442_681_47] {
+        series = series.mul_add(y, y.splat(coefficient));
+    }
+    y.mul_add(series, exponent)
 }
 
-/// 2^x to 1e-4 for |x| < 1000; branch-free.
+/// 2^x to 1e-4 for |x| < 1000.
 #[inline(always)]
-pub fn exp2_rough(x: f64) -> f64 {
-    // adding and taking away 1.5 * 2^52 rounds to the nearest integer, which stands in the low bits in between
-    const SHIFT: f64 = 6_755_399_441_055_744.0;
-    let shifted = x + SHIFT;
-    let whole = shifted - SHIFT;
-    let rest = (x - whole) * core::f64::consts::LN_2;
-    let series = 1.0 + rest * (1.0 + rest * (0.5 + rest * (1.0 / 6.0 + rest * (1.0 / 24.0 + rest / 120.0))));
-    let exponent = shifted.to_bits().wrapping_sub(SHIFT.to_bits());
-    series * f64::from_bits(exponent.wrapping_add(1023) << 52)
+pub fn exp2_rough<R: Real>(x: R) -> R {
+    // adding and taking away 1.5 * 2^52 rounds to the nearest integer
+    let shift = x.splat(6_755_399_441_055_744.0);
+    let whole = (x + shift) - shift;
+    let rest = (x - whole) * x.splat(core::f64::consts::LN_2);
+    let mut series = x.splat(1.0 / 120.0);
+    for coefficient in [1.0 / 24.0, 1.0 / 6.0, 0.5, 1.0, 1.0] {
+        series = series.mul_add(rest, x.splat(coefficient));
+    }
+    series * whole.power_of_two()
 }
 
 #[cfg(test)]
@@ -108,7 +104,7 @@ mod tests {
             let e = f64::from(k) * 0.0091;
             assert!((exp2_rough(e) / libm::exp2(e) - 1.0).abs() < ROUGH, "{e}");
         }
-        assert!(log2_rough(0.0) < -1000.0);
+        assert!(log2_rough(0.0_f64) < -1000.0);
     }
 
     #[test]

@@ -195,7 +195,7 @@ impl March<'_> {
         let reciprocals = Reciprocals::new(zero, order);
         let mut scratch = Scratch::new(zero);
         let mut jet = vec![[zero; N]; order + 1];
-        let factors = factors::<N>(unit);
+        let factors = factors::<f64, N>(1.0 / unit);
         let mut state = [zero; N];
         state[OMEGA..OMEGA + 3].copy_from_slice(&scaled(DoubleDouble::exact(unit), run.omega_b));
         state[ATTITUDE..ATTITUDE + 4].copy_from_slice(&run.q_eb);
@@ -208,7 +208,8 @@ impl March<'_> {
             let start = DoubleDouble::exact(bounds.start);
             let length = (DoubleDouble::exact(bounds.end) - start) * per_second;
             let pushed = bounds.force_b.iter().chain(&bounds.torque_b).any(|component| component.high != 0.0);
-            let pushed = DoubleDouble::exact(if pushed { 1.0 } else { 0.0 });
+            // a thrust turns with omega where the quaternion turns with omega/2: the series of its integrals need half the step
+            let share = DoubleDouble::exact(if pushed { 0.5 } else { 1.0 });
             let mut time = zero;
             let mut lands = false;
             while !lands {
@@ -217,7 +218,7 @@ impl March<'_> {
                 now.motor_power = constants.motor_power_rate.mul_add(time, constants.motor_power);
                 jet[0] = state;
                 expand::<DoubleDouble, N, true>(&now, &reciprocals, order, &mut scratch, &mut jet);
-                let (wanted, left) = (rule.step(&jet, pushed), length - time);
+                let (wanted, left) = (share * rule.step(&jet), length - time);
                 lands = !wanted.lt(left);
                 let step = if lands { left } else { wanted };
                 while let Some(at) = times.get(states.len()) {

@@ -1,0 +1,139 @@
+//! [`Pair`]: two [`Real`]s of one kind as one, so that twice as many independent operations are in flight.
+//!
+//! A vector unit that starts two fused operations a cycle and takes four cycles for each wants eight independent chains. A
+//! kernel with four sums to a vector has them where two vectors march together. Lanes never mix, so pairing changes no bit.
+
+use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+
+use super::Real;
+
+/// Two numbers (or two vectors of numbers) side by side; the lanes of the first come first.
+#[derive(Clone, Copy, Debug)]
+pub struct Pair<R>(pub R, pub R);
+
+macro_rules! operator {
+    ($trait:ident, $method:ident, $op:tt) => {
+        impl<R: Real> $trait for Pair<R> {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                Pair(self.0 $op other.0, self.1 $op other.1)
+            }
+        }
+    };
+}
+operator!(Add, add, +);
+operator!(Sub, sub, -);
+operator!(Mul, mul, *);
+operator!(Div, div, /);
+
+impl<R: Real> Neg for Pair<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Pair(-self.0, -self.1)
+    }
+}
+impl<R: Real> AddAssign for Pair<R> {
+    #[inline(always)]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+impl<R: Real> SubAssign for Pair<R> {
+    #[inline(always)]
+    fn sub_assign(&mut self, other: Self) {
+        *self = *self - other;
+    }
+}
+
+impl<R: Real> Real for Pair<R> {
+    type Mask = (R::Mask, R::Mask);
+    const LANES: usize = 2 * R::LANES;
+
+    #[inline(always)]
+    fn splat(self, value: f64) -> Self {
+        let half = self.0.splat(value);
+        Pair(half, half)
+    }
+    #[inline(always)]
+    fn mul_add(self, a: Self, b: Self) -> Self {
+        Pair(self.0.mul_add(a.0, b.0), self.1.mul_add(a.1, b.1))
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Pair(self.0.sqrt(), self.1.sqrt())
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Pair(self.0.abs(), self.1.abs())
+    }
+    #[inline(always)]
+    fn larger(self, other: Self) -> Self {
+        Pair(self.0.larger(other.0), self.1.larger(other.1))
+    }
+    #[inline(always)]
+    fn smaller(self, other: Self) -> Self {
+        Pair(self.0.smaller(other.0), self.1.smaller(other.1))
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> Self::Mask {
+        (self.0.lt(other.0), self.1.lt(other.1))
+    }
+    #[inline(always)]
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
+        Pair(R::select(mask.0, yes.0, no.0), R::select(mask.1, yes.1, no.1))
+    }
+    #[inline(always)]
+    fn any(mask: Self::Mask) -> bool {
+        R::any(mask.0) || R::any(mask.1)
+    }
+    #[inline(always)]
+    fn exponent(self) -> Self {
+        Pair(self.0.exponent(), self.1.exponent())
+    }
+    #[inline(always)]
+    fn power_of_two(self) -> Self {
+        Pair(self.0.power_of_two(), self.1.power_of_two())
+    }
+    #[inline(always)]
+    fn lane(&self, lane: usize) -> f64 {
+        if lane < R::LANES { self.0.lane(lane) } else { self.1.lane(lane - R::LANES) }
+    }
+    #[inline(always)]
+    fn set_lane(&mut self, lane: usize, value: f64) {
+        if lane < R::LANES {
+            self.0.set_lane(lane, value);
+        } else {
+            self.1.set_lane(lane - R::LANES, value);
+        }
+    }
+    #[inline(always)]
+    fn read(self, values: &[f64]) -> Self {
+        Pair(self.0.read(values), self.1.read(&values[R::LANES..]))
+    }
+    #[inline(always)]
+    fn write(self, values: &mut [f64]) {
+        self.0.write(values);
+        self.1.write(&mut values[R::LANES..]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lanes_of_a_pair_are_its_halves() {
+        let mut pair = Pair(1.0_f64, 2.0).mul_add(Pair(3.0, 4.0), Pair(5.0, 6.0));
+        assert_eq!((pair.lane(0), pair.lane(1), Pair::<f64>::LANES), (8.0, 14.0, 2));
+        pair.set_lane(1, -1.0);
+        assert_eq!((pair.0, pair.1), (8.0, -1.0));
+        assert!(Pair::<f64>::any(pair.lt(pair.zero())) && !Pair::<f64>::any(pair.splat(9.0).lt(pair)));
+        let mut written = [0.0; 2];
+        pair.write(&mut written);
+        assert_eq!(written, [8.0, -1.0]);
+        let read = pair.read(&[3.0, 7.0]);
+        assert_eq!((read.0, read.1), (3.0, 7.0));
+    }
+}
