@@ -15,7 +15,7 @@ use std::num::NonZeroUsize;
 use std::path::Path;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use spindrift::campaign::{Overrides, Plan};
+use spindrift::campaign::{Compression, Overrides, Plan};
 use spindrift::ensemble::campaign::propagator;
 use spindrift::ensemble::{Campaign, Part, PartId, Parts, Rows, Sink, run};
 use spindrift::math::Isa;
@@ -79,16 +79,20 @@ fn writing(criterion: &mut Criterion) {
     let count = SAMPLES as usize;
     let mut rows = Rows::new(campaign.shape(), count);
     campaign.worker().run(Part { id: PartId(0), first: SampleId(0), count }, &mut rows, &|_| {});
-    let file = RowsFile::new(&campaign).expect("names are unique");
     let mut bytes = Vec::new();
     let mut group = criterion.benchmark_group("writing");
     group.throughput(Throughput::Elements(SAMPLES));
-    group.bench_function("parquet, zstd", |bencher| {
-        bencher.iter(|| {
-            bytes.clear();
-            file.write(black_box(&rows), &mut bytes).expect("memory takes all");
+    for compression in Compression::ALL {
+        let packed = Plan { compression, ..plan.clone() };
+        let file = RowsFile::new(&Campaign::new(&packed, Isa::best())).expect("names are unique");
+        group.bench_function(format!("parquet, {}", compression.name()), |bencher| {
+            bencher.iter(|| {
+                bytes.clear();
+                file.write(black_box(&rows), &mut bytes).expect("memory takes all");
+            });
         });
-    });
+        println!("{} bytes a row", bytes.len() / count);
+    }
     group.finish();
 }
 

@@ -159,7 +159,7 @@ const CASES: &[(&str, &str, &str)] = &[
     (
         "[observe]\npoints = 11",
         "[output]\ncompression = \"zip\"",
-        "bad.toml:10: output.compression = \"zip\": must be one of zstd, none; choose one of these",
+        "bad.toml:10: output.compression = \"zip\": must be one of lz4, zstd, none; choose one of these",
     ),
     ("[observe]", "[observ]", "bad.toml:9: observ = "),
     (

@@ -51,7 +51,9 @@ pub struct Plan {
 /// Compression of the files of rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Compression {
-    /// Zstandard, level 1: half the size, half the speed.
+    /// LZ4: nearly as small as Zstandard, twice as fast to write.
+    Lz4,
+    /// Zstandard, level 1: the smallest.
     Zstd,
     /// None.
     None,
@@ -59,11 +61,12 @@ pub enum Compression {
 
 impl Compression {
     /// All values.
-    pub const ALL: [Compression; 2] = [Compression::Zstd, Compression::None];
+    pub const ALL: [Compression; 3] = [Compression::Lz4, Compression::Zstd, Compression::None];
 
     /// The name in campaign files.
     pub const fn name(self) -> &'static str {
         match self {
+            Compression::Lz4 => "lz4",
             Compression::Zstd => "zstd",
             Compression::None => "none",
         }
@@ -232,7 +235,7 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
         correlated: drawn.correlated.1,
         derived: drawn.derived.1,
         dispersions,
-        compression: spec.compression.unwrap_or(Compression::Zstd),
+        compression: spec.compression.unwrap_or(Compression::Lz4),
     })
 }
 

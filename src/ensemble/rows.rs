@@ -7,6 +7,9 @@ use crate::ensemble::parts::Part;
 use crate::integrators::Status;
 use crate::sampling::SampleId;
 
+/// Numbers in a cache line.
+const CACHE_LINE: usize = 8;
+
 /// What columns a row has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shape {
@@ -22,6 +25,8 @@ pub struct Rows {
     part: Part,
     shape: Shape,
     capacity: usize,
+    /// From one column to the next: not a multiple of a large power of two, or all columns of a row would share few cache lines.
+    stride: usize,
     statuses: Vec<Status>,
     values: Vec<f64>,
 }
@@ -29,12 +34,14 @@ pub struct Rows {
 impl Rows {
     /// A block for parts of up to `capacity` samples. It holds no part yet; [`Rows::start`] gives it one.
     pub fn new(shape: Shape, capacity: usize) -> Self {
+        let stride = capacity.next_multiple_of(CACHE_LINE) + CACHE_LINE;
         Rows {
+            stride,
             part: Part { id: crate::ensemble::parts::PartId(0), first: SampleId(0), count: 0 },
             shape,
             capacity,
             statuses: vec![Status::InvalidSample; capacity],
-            values: vec![f64::NAN; (shape.parameters + shape.observables) * capacity],
+            values: vec![f64::NAN; (shape.parameters + shape.observables) * stride],
         }
     }
 
@@ -90,13 +97,13 @@ impl Rows {
     }
 
     fn column(&self, index: usize) -> &[f64] {
-        &self.values[index * self.capacity..index * self.capacity + self.part.count]
+        &self.values[index * self.stride..index * self.stride + self.part.count]
     }
 
     fn scatter(&mut self, first: usize, row: usize, values: &[f64]) {
         assert!(row < self.part.count);
         for (index, value) in values.iter().enumerate() {
-            self.values[(first + index) * self.capacity + row] = *value;
+            self.values[(first + index) * self.stride + row] = *value;
         }
     }
 }

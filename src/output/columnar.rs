@@ -72,9 +72,11 @@ pub enum Cells<'a> {
 /// How a file is packed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Packing {
-    /// Byte streams, zstd of level 1: the smallest file for its time.
+    /// Byte streams, LZ4: nearly as small as the next at twice the speed.
+    Lz4,
+    /// Byte streams, zstd of level 1: the smallest file.
     Zstd,
-    /// Plain and uncompressed: three times as fast to write, a half larger.
+    /// Plain and uncompressed: the fastest, a half larger.
     Plain,
 }
 
@@ -141,15 +143,17 @@ impl Layout {
         let pairs = pairs.into_iter().map(|(key, value)| KeyValue::new(key.to_owned(), value.clone())).collect();
         let mut properties =
             WriterProperties::builder().set_dictionary_enabled(false).set_key_value_metadata(Some(pairs));
-        if self.packing == Packing::Zstd {
-            properties = properties.set_compression(Compression::ZSTD(ZstdLevel::default()));
-        }
+        properties = properties.set_compression(match self.packing {
+            Packing::Lz4 => Compression::LZ4_RAW,
+            Packing::Zstd => Compression::ZSTD(ZstdLevel::default()),
+            Packing::Plain => Compression::UNCOMPRESSED,
+        });
         for field in self.schema.fields() {
             let path = ColumnPath::from(field.name().as_str());
             properties = match (field.data_type(), self.packing) {
                 (DataType::Utf8, _) => properties.set_column_dictionary_enabled(path, true),
                 (DataType::UInt64, _) => properties.set_column_encoding(path, Encoding::DELTA_BINARY_PACKED),
-                (_, Packing::Zstd) => properties.set_column_encoding(path, Encoding::BYTE_STREAM_SPLIT),
+                (_, Packing::Lz4 | Packing::Zstd) => properties.set_column_encoding(path, Encoding::BYTE_STREAM_SPLIT),
                 (_, Packing::Plain) => properties.set_column_encoding(path, Encoding::PLAIN),
             };
         }
@@ -258,7 +262,7 @@ mod tests {
     /// Law: what is written is read back, in both packings; absent is null, and not a number is not null.
     #[test]
     fn values_come_back() {
-        for packing in [Packing::Zstd, Packing::Plain] {
+        for packing in [Packing::Lz4, Packing::Zstd, Packing::Plain] {
             let (batch, _) = read(written(packing));
             assert_eq!(batch.column(0).as_primitive::<UInt64Type>().values(), &[0, 1, u64::MAX]);
             assert_eq!(batch.column(1).as_string::<i32>().iter().flatten().collect::<Vec<_>>(), ["ok", "ok", "bad"]);
@@ -290,6 +294,7 @@ mod tests {
     fn files_are_reproducible() {
         assert_eq!(written(Packing::Zstd), written(Packing::Zstd));
         assert_ne!(written(Packing::Zstd), written(Packing::Plain));
+        assert_ne!(written(Packing::Zstd), written(Packing::Lz4));
     }
 
     #[test]

@@ -85,7 +85,7 @@ impl PrecisionTable {
         let headings: Vec<Heading> = std::iter::once(method).chain(numbers).collect();
         let mut origin = provenance(plan);
         origin.insert("spindrift.isa".to_owned(), isa.to_owned()); // times depend on it, unlike rows
-        let layout = Layout::new(&headings, origin, Packing::Zstd)?;
+        let layout = Layout::new(&headings, origin, Packing::Lz4)?;
         let columns: Vec<(Vec<f64>, Vec<bool>)> = COLUMNS
             .iter()
             .map(|(.., value)| {

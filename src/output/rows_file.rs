@@ -86,6 +86,7 @@ pub fn provenance(plan: &Plan) -> HashMap<String, String> {
 /// How the files of `plan` are packed.
 pub fn packing(plan: &Plan) -> Packing {
     match plan.compression {
+        Compression::Lz4 => Packing::Lz4,
         Compression::Zstd => Packing::Zstd,
         Compression::None => Packing::Plain,
     }

@@ -112,7 +112,7 @@ impl TimeSeries {
         match TableFormat::of(path)? {
             TableFormat::Csv => atomic::write(path, |file| self.write_csv(file)).map_err(TableError::Io),
             TableFormat::Parquet => {
-                let layout = Layout::new(&self.headings, self.origin.clone(), Packing::Zstd)?;
+                let layout = Layout::new(&self.headings, self.origin.clone(), Packing::Lz4)?;
                 let cells = self.columns.iter().map(|column| Cells::Real(column, None));
                 atomic::write(path, |file| layout.write(file, &[], cells)).map_err(TableError::Parquet)
             }
