@@ -48,7 +48,7 @@ pub struct Workspace<R, const J: usize> {
 impl<R: Real, const J: usize> Workspace<R, J> {
     /// Memory for runs of `components` components observed at `points` points; `zero` says how many lanes.
     pub fn new(zero: R, settings: Settings, components: usize, points: usize) -> Self {
-        let rule = StepRule::new(settings.tolerance);
+        let rule = StepRule::in_f64(settings.tolerance);
         Workspace {
             rule,
             settings,
