@@ -1,7 +1,11 @@
 //! What several test programs share; each of them uses a part.
 #![allow(dead_code)] // every file under tests/ is a program of its own and compiles all of this
 
+pub mod claims;
+pub mod exact;
 pub mod extrapolation;
 pub mod golden;
+pub mod invariants;
+pub mod plans;
 pub mod runs;
 pub mod scenes;

@@ -1,0 +1,58 @@
+//! The table of what is claimed of accuracy: a test measures and holds a claim, and `docs/accuracy.md` is written from the same call.
+//!
+//! A claim is a regime in words, a bound, and what was measured. In the document it is one row of the table of its section:
+//! [`hold`] fails where the measured number exceeds the bound, and where the document does not know the claim or states another
+//! bound. With `SPINDRIFT_WRITE_ACCURACY=1` it writes the row instead: nothing in the tables is typed by hand.
+
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+/// Set, rows of the document are written anew and not compared.
+pub const WRITE: &str = "SPINDRIFT_WRITE_ACCURACY";
+
+/// Tests of one program run side by side; the document is one file.
+static DOCUMENT: Mutex<()> = Mutex::new(());
+
+/// The head of every table.
+const HEAD: [&str; 2] = ["| regime | bound | measured | margin |", "| --- | --- | --- | --- |"];
+
+/// The document.
+pub fn path() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/accuracy.md")
+}
+
+/// The row of a claim up to its measured number, which may differ from kernel to kernel.
+fn stated(regime: &str, bound: f64) -> String {
+    format!("| {regime} | {bound:.1e} |")
+}
+
+/// Holds the claim of `section` that in `regime` the number `measured` is at most `bound`.
+pub fn hold(section: &str, regime: &str, bound: f64, measured: f64) {
+    let row = format!("{} {measured:.1e} | {:.1} |", stated(regime, bound), bound / measured);
+    println!("{section}: {row}");
+    assert!(measured <= bound, "{regime}: {measured:e} > {bound:e}");
+    let _guard = DOCUMENT.lock().unwrap_or_else(PoisonError::into_inner);
+    let text = std::fs::read_to_string(path()).expect("docs/accuracy.md");
+    let (begin, end) = (format!("<!-- claims: {section} -->\n"), format!("<!-- end of {section} -->"));
+    let from = text.find(&begin).unwrap_or_else(|| panic!("docs/accuracy.md has no {begin}")) + begin.len();
+    let to = from + text[from..].find(&end).unwrap_or_else(|| panic!("docs/accuracy.md has no {end}"));
+    let is_row = |line: &&str| line.starts_with('|') && !HEAD.contains(line);
+    let rows: Vec<&str> = text[from..to].lines().filter(is_row).collect();
+    if std::env::var_os(WRITE).is_none() {
+        let known = rows.iter().any(|known| known.starts_with(&stated(regime, bound)));
+        assert!(
+            known,
+            "docs/accuracy.md does not state \"{}\": {WRITE}=1 and this test write it",
+            stated(regime, bound)
+        );
+        return;
+    }
+    let key = format!("| {regime} |");
+    let mut written: Vec<&str> =
+        rows.iter().map(|old| if old.starts_with(&key) { row.as_str() } else { old }).collect();
+    if !rows.iter().any(|old| old.starts_with(&key)) {
+        written.push(&row);
+    }
+    let text = format!("{}\n{}\n{}\n\n{}", &text[..from], HEAD.join("\n"), written.join("\n"), &text[to..]);
+    std::fs::write(path(), text).expect("docs/accuracy.md can be written");
+}

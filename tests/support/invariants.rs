@@ -1,0 +1,69 @@
+//! Energy and angular momentum of a run without actuators from its states, in double-double: what rounding does to the states is
+//! seen, what rounding would do to the measurement is not there.
+
+use spindrift::dynamics::table::{Block, StateTable};
+use spindrift::math::double_double::DoubleDouble;
+use spindrift::math::vector::{constant, constant_matrix, dcm_from_quaternion, dot, product, scaled, sum};
+use spindrift::math::{Real, vector};
+use spindrift::scene::Scene;
+
+/// What a free spacecraft conserves, at one point.
+#[derive(Clone, Copy, Debug)]
+pub struct Invariants {
+    /// Kinetic energy about c, J.
+    pub energy: DoubleDouble,
+    /// Size of the angular momentum about c from the rates alone, N m s.
+    pub momentum: DoubleDouble,
+    /// The angular momentum about c in F_e, N m s, by the unit quaternion along the attitude.
+    pub momentum_e: [DoubleDouble; 3],
+    /// Norm of the attitude quaternion.
+    pub norm: DoubleDouble,
+}
+
+/// The absolute axial momenta h_i of free wheels, which nothing changes, N m s.
+fn wheel_momenta(scene: &Scene) -> [DoubleDouble; 2] {
+    let zero = DoubleDouble::exact(0.0);
+    let omega = constant(zero, scene.initial.omega_se_s);
+    std::array::from_fn(|i| {
+        let wheel = &scene.mass.wheels[i];
+        zero.splat(wheel.axial) * (dot(constant(zero, wheel.axis), omega) + zero.splat(scene.initial.wheel_rates[i]))
+    })
+}
+
+impl Invariants {
+    /// The invariants of `scene` at point `point` of its states, which hold rate and attitude.
+    pub fn of(scene: &Scene, table: &StateTable, point: usize) -> Self {
+        let zero = DoubleDouble::exact(0.0);
+        let half = zero.splat(0.5);
+        let omega = constant(zero, table.at::<3>(Block::Rate, point));
+        let mut momentum = product(constant_matrix(zero, scene.mass.inertia_free), omega);
+        let mut energy = half * dot(momentum, omega);
+        for (wheel, h) in scene.mass.wheels.iter().zip(wheel_momenta(scene)) {
+            if wheel.axial != 0.0 {
+                momentum = sum(momentum, scaled(h, constant(zero, wheel.axis)));
+                energy += half * h * h / zero.splat(wheel.axial);
+            }
+        }
+        let q = table.at::<4>(Block::Attitude, point).map(DoubleDouble::exact);
+        let norm = (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]).sqrt();
+        let unit = q.map(|component| component / norm);
+        let momentum_e = product(dcm_from_quaternion(unit), momentum);
+        Invariants { energy, momentum: vector::norm(momentum), momentum_e, norm }
+    }
+
+    /// Signed relative errors against `start`: of energy, of |L|, of the quaternion's norm; and the size of that of the vector L.
+    pub fn errors(&self, start: &Self) -> [f64; 4] {
+        let off = |now: DoubleDouble, then: DoubleDouble| {
+            let size = if then.high == 0.0 { DoubleDouble::exact(1.0) } else { then };
+            ((now - then) / size).high
+        };
+        let moved = vector::difference(self.momentum_e, start.momentum_e);
+        let size = if start.momentum.high == 0.0 { 1.0 } else { start.momentum.high };
+        [
+            off(self.energy, start.energy),
+            off(self.momentum, start.momentum),
+            off(self.norm, start.norm),
+            vector::norm(moved).high / size,
+        ]
+    }
+}

@@ -1,0 +1,72 @@
+//! Campaigns run in memory: rows by column name.
+
+use std::convert::Infallible;
+use std::path::Path;
+use std::sync::Mutex;
+
+use spindrift::campaign::{Overrides, Plan};
+use spindrift::ensemble::{Campaign, Parts, Rows, Sink, run};
+use spindrift::integrators::Status;
+use spindrift::math::Isa;
+
+/// The shipped campaign `name`, with other samples where asked for.
+pub fn shipped(name: &str, samples: Option<u64>) -> Plan {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("campaigns/{name}.toml"));
+    Plan::load(&path, Overrides { samples, seed: None }).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The rows of a campaign, in the order of samples.
+pub struct Table {
+    names: Vec<&'static str>,
+    pub statuses: Vec<Status>,
+    /// Column by column.
+    values: Vec<Vec<f64>>,
+}
+
+impl Table {
+    /// The observables called `name`, sample by sample; `None` where the campaign has no such column.
+    pub fn find(&self, name: &str) -> Option<&[f64]> {
+        self.names.iter().position(|known| *known == name).map(|place| self.values[place].as_slice())
+    }
+
+    /// The same.
+    ///
+    /// # Panics
+    /// Where there is no such column.
+    pub fn column(&self, name: &str) -> &[f64] {
+        self.find(name).unwrap_or_else(|| panic!("no column {name} in {:?}", self.names))
+    }
+
+    /// Names and values of all columns.
+    pub fn columns(&self) -> impl Iterator<Item = (&'static str, &[f64])> {
+        self.names.iter().copied().zip(self.values.iter().map(Vec::as_slice))
+    }
+}
+
+#[derive(Default)]
+struct Memory(Mutex<Vec<(u64, Status, Vec<f64>)>>);
+
+impl Sink for Memory {
+    type Error = Infallible;
+
+    fn take(&self, rows: &Rows) -> Result<(), Infallible> {
+        let observables = rows.shape().observables;
+        let mut kept = self.0.lock().expect("no other thread panicked");
+        kept.extend(rows.part().samples().enumerate().map(|(row, sample)| {
+            (sample.0, rows.statuses()[row], (0..observables).map(|index| rows.observable(index)[row]).collect())
+        }));
+        Ok(())
+    }
+}
+
+/// Runs `plan` on all cores.
+pub fn rows(plan: &Plan) -> Table {
+    let campaign = Campaign::new(plan, Isa::best());
+    let names = campaign.request().columns().iter().map(|column| column.name).collect::<Vec<_>>();
+    let sink = Memory::default();
+    run(&campaign, Parts::of(plan.samples), None, &sink, &|_| {}).expect("threads");
+    let mut kept = sink.0.into_inner().expect("no thread panicked");
+    kept.sort_by_key(|(sample, ..)| *sample);
+    let values = (0..names.len()).map(|place| kept.iter().map(|(.., row)| row[place]).collect()).collect();
+    Table { names, statuses: kept.iter().map(|(_, status, _)| *status).collect(), values }
+}
