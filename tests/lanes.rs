@@ -108,13 +108,13 @@ fn runs_that_fail_beside_runs_that_do_not() {
 const GOLDEN: [(Method, &str, &str); 7] = [
     (
         Method::Auto,
-        "95cf3a1f63bf1b600ba90c3572e380fd2b74325aea972867ad57730bfc586013",
-        "ad5b3ce2900d009f5c90a5a64327f6d9a59de3bd633d587eeb0de6594acd338c",
+        "9eb26cf84029ce4db8bbbbdb7548e22d1bb15db9592b07f0e3efb948953063d1",
+        "02a24c28c6a24eb36cbc819d08ba61523dd80b16caac54e3c68ca5049cd7232c",
     ),
     (
         Method::Taylor,
-        "b413306c69c05ca8154adebf891baec22812e6a6ea6c3edf179d9a67ad20027f",
-        "a36a0cfa48a2dbe57b35c03cd4b441b1ed913e028da511f0e93e10c18ff71a6a",
+        "deaeeafe6a10e6518c5a1c3c83a1afa23b4c391f4940c41b5f018f23fac336d3",
+        "734625bee8aaeb0ec0983c683d6a54cd867b700a859434b64bcf52c09d761622",
     ),
     (
         Method::DormandPrince,
