@@ -216,7 +216,7 @@ const CASES: &[(&str, &str, &str)] = &[
     (
         "radius_m = 0.25",
         "radius = 0.25\nradius_m = 0.25",
-        "bad.toml:18: wheel1.radius = 0.25: must be a key of [wheel1] (radius_m, length_m, station_m, density_kg_m3); did you mean radius_m?",
+        "bad.toml:18: wheel1.radius = 0.25: must be a key of [wheel1] (radius_m, length_m, station_m, density_kg_m3, offset_m, tilt_rad, wheel_mode); did you mean radius_m?",
     ),
     (
         "side_m = 0.2",

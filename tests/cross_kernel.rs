@@ -9,9 +9,9 @@ use proptest::prelude::*;
 use spindrift::dynamics::table::{Block, Grid, StateTable};
 use spindrift::integrators::{Method, Outcome, Status};
 use spindrift::math::vector::norm;
-use spindrift::scene::Scene;
+use spindrift::scene::{Scene, SceneInput};
 use support::runs::{adaptive, base_point, fixed, propagate, relative, up_to_sign};
-use support::scenes::{Kind, mixed, random};
+use support::scenes::{Kind, misaligned, mixed, random, speed_held};
 
 /// Horizon, s: up to three turns of the body and twenty of a wheel, many steps of every method.
 const HORIZON: f64 = 1.0;
@@ -24,10 +24,14 @@ const TAYLOR_TOLERANCE: f64 = 1e-16;
 /// (moments, axes, momenta: a few ulps, for the whole run), for every radian.
 const TAYLOR_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-fn kinds() -> impl Strategy<Value = (Kind, u64)> {
-    (any::<[bool; 2]>(), 0u8..3, any::<[bool; 3]>(), any::<u64>()).prop_map(
-        |(wheels, debris, [products, offset, forced], seed)| (Kind { wheels, debris, products, offset, forced }, seed),
-    )
+/// Random scenes: bodies, forces, wheels whose speed is held, wheels off their places and axes.
+fn inputs() -> impl Strategy<Value = SceneInput> {
+    (any::<[bool; 2]>(), 0u8..3, any::<[bool; 6]>(), any::<u64>()).prop_map(|(wheels, debris, flags, seed)| {
+        let [products, offset, forced, first_held, second_held, tilted] = flags;
+        let input = random(Kind { wheels, debris, products, offset, forced }, seed, HORIZON);
+        let input = speed_held(input, [first_held, second_held]);
+        if tilted { misaligned(input, seed) } else { input }
+    })
 }
 
 /// The angle of body, wheels and debris over the run, rad: what an error of the rate is multiplied with.
@@ -89,8 +93,8 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn kernels_and_methods_agree((kind, seed) in kinds()) {
-        let scenes = [Scene::resolve(&random(kind, seed, HORIZON)).expect("random scenes are physical")];
+    fn kernels_and_methods_agree(input in inputs()) {
+        let scenes = [Scene::resolve(&input).expect("random scenes are physical")];
         let scene = &scenes[0];
         let grid = Grid::uniform(HORIZON, 7);
         let run = |method, tolerance| propagate(method, adaptive(tolerance), &grid, &scenes).remove(0);

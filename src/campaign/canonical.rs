@@ -100,6 +100,9 @@ impl Plan {
                 lines.key("length_m", wheel.length_m);
                 lines.key("station_m", wheel.station_m);
                 lines.key("density_kg_m3", wheel.density_kg_m3);
+                lines.key("offset_m", wheel.offset_m);
+                lines.key("tilt_rad", wheel.tilt_rad);
+                lines.key("wheel_mode", wheel.mode.name());
             }
         }
         if let Some(debris) = &self.nominal.debris {

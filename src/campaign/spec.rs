@@ -9,7 +9,9 @@ use super::{dependence, design, disperse};
 use crate::integrators::Method;
 use crate::observables::Group;
 use crate::sampling::{Correlation, Derivation, Design, Dispersion};
-use crate::scene::{ActuationInput, DebrisInput, DebrisShape, FuselageInput, InitialInput, SceneInput, WheelInput};
+use crate::scene::{
+    ActuationInput, DebrisInput, DebrisShape, FuselageInput, InitialInput, SceneInput, WheelInput, WheelMode,
+};
 
 /// A campaign file as written.
 #[derive(Clone, Debug, PartialEq)]
@@ -195,6 +197,11 @@ fn wheel(section: &mut Section<'_, '_>) -> Option<WheelInput> {
         length_m: section.required_number("length_m", "0.1"),
         station_m: section.required_number("station_m", "1.0"),
         density_kg_m3: section.required_number("density_kg_m3", "2700.0"),
+        offset_m: section.vector("offset_m").unwrap_or_default(),
+        tilt_rad: section.vector("tilt_rad").unwrap_or_default(),
+        mode: section
+            .name("wheel_mode", &WheelMode::ALL.map(WheelMode::name), WheelMode::from_name)
+            .unwrap_or_default(),
     };
     section.finish();
     Some(wheel)

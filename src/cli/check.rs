@@ -69,8 +69,14 @@ fn masses(text: &mut String, mass: &MassProperties) -> std::fmt::Result {
     tensor(text, "inertia of the spacecraft, wheels locked, about its centre of mass", mass.inertia)?;
     tensor(text, "the same less the wheels' axial inertias (J*: wheels free)", mass.inertia_free)?;
     tensor(text, "inertia of the fuselage about its own centre of mass", mass.fuselage.inertia)?;
-    writeln!(text, "wheel 1: axial {:?}, transverse {:?} kg m^2", wheel1.axial, wheel1.transverse)?;
-    writeln!(text, "wheel 2: axial {:?}, transverse {:?} kg m^2", wheel2.axial, wheel2.transverse)?;
+    for (number, wheel) in [(1, wheel1), (2, wheel2)] {
+        let (axial, transverse, mode) = (wheel.axial, wheel.transverse, wheel.mode.name());
+        writeln!(
+            text,
+            "wheel {number}: axial {axial:?}, transverse {transverse:?} kg m^2, {mode}, axis {:?} in F_s",
+            wheel.axis
+        )?;
+    }
     writeln!(
         text,
         "Convention: tensors in F_s (origin p, s3 along the fuselage's axis, wheel 1 spins about s2, wheel 2 about s3);\n\

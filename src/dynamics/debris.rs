@@ -28,6 +28,7 @@ pub fn set_rotation<R: Real>(run: &mut Gyrostat<R>, scene: &Scene, duration: f64
     let zero = run.mass.zero();
     run.set_body(zero, body.inertia);
     run.axial = [zero; 2];
+    run.held = [None; 2];
     run.axes_b = [[zero; 3]; 2];
     run.mass = zero.splat(body.mass);
     run.omega_b = run.into_b(constant(zero, scene.initial.omega_de_d));

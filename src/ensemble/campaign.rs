@@ -28,7 +28,7 @@ pub fn request(plan: &Plan) -> Request {
     Request {
         groups: plan.groups.iter().copied().collect(),
         debris: plan.nominal.debris.is_some(),
-        actuated: !plan.nominal.actuation.is_empty(),
+        actuated: plan.nominal.is_actuated(),
         constrained: plan.method == Method::Reference,
     }
 }

@@ -4,7 +4,7 @@
 //! not positive definite). Both only gather problems, so that one look at an input finds them all.
 
 use super::error::Problems;
-use super::input::{ActuationInput, DebrisShape, FuselageInput, InitialInput, SceneInput, WheelInput};
+use super::input::{ActuationInput, DebrisShape, FuselageInput, InitialInput, SceneInput, WheelInput, WheelMode};
 use super::mass::{Body, MassProperties};
 use crate::math::symmetric::{is_positive_definite, principal_axes};
 
@@ -17,21 +17,37 @@ pub const INERTIA_SLACK: f64 = 16.0 * f64::EPSILON;
 
 const WHEEL_TABLES: [&str; 2] = ["wheel1", "wheel2"];
 
-/// The keys of a wheel's table: radius, length, station, density.
-const WHEEL_KEYS: [[&str; 4]; 2] = [
-    ["wheel1.radius_m", "wheel1.length_m", "wheel1.station_m", "wheel1.density_kg_m3"],
-    ["wheel2.radius_m", "wheel2.length_m", "wheel2.station_m", "wheel2.density_kg_m3"],
+/// The numeric keys of a wheel's table: radius, length, station, density, offset, tilt.
+const WHEEL_KEYS: [[&str; 6]; 2] = [
+    [
+        "wheel1.radius_m",
+        "wheel1.length_m",
+        "wheel1.station_m",
+        "wheel1.density_kg_m3",
+        "wheel1.offset_m",
+        "wheel1.tilt_rad",
+    ],
+    [
+        "wheel2.radius_m",
+        "wheel2.length_m",
+        "wheel2.station_m",
+        "wheel2.density_kg_m3",
+        "wheel2.offset_m",
+        "wheel2.tilt_rad",
+    ],
 ];
 
 /// Gathers what is wrong with the numbers as written.
 pub(super) fn written(input: &SceneInput, problems: &mut Problems) {
     fuselage(&input.fuselage, problems);
     for (wheel, keys) in input.wheels.iter().zip(WHEEL_KEYS) {
-        if let Some(WheelInput { radius_m, length_m, station_m, density_kg_m3 }) = *wheel {
+        if let Some(WheelInput { radius_m, length_m, station_m, density_kg_m3, offset_m, tilt_rad, mode: _ }) = *wheel {
             problems.positive(keys[0], radius_m);
             problems.positive(keys[1], length_m);
             problems.finite(keys[2], station_m);
             problems.positive(keys[3], density_kg_m3);
+            problems.all_finite(keys[4], offset_m);
+            problems.all_finite(keys[5], tilt_rad);
         }
     }
     if let Some(debris) = input.debris {
@@ -187,13 +203,23 @@ fn actuation(input: &SceneInput, problems: &mut Problems) {
             );
         }
         for (wheel, torque) in torque_n_m.into_iter().enumerate() {
-            if input.wheels[wheel].is_none() && torque != 0.0 {
-                problems.add(
+            if torque == 0.0 {
+                continue;
+            }
+            match input.wheels[wheel].map(|wheel| wheel.mode) {
+                Some(WheelMode::Free) => {}
+                Some(WheelMode::SpeedHeld) => problems.add(
+                    key("torque_n_m"),
+                    torque_n_m,
+                    format!("zero for {}, whose speed its motor holds", WHEEL_TABLES[wheel]),
+                    "set that torque to zero, or the wheel's wheel_mode to \"free\"",
+                ),
+                None => problems.add(
                     key("torque_n_m"),
                     torque_n_m,
                     format!("zero for {}, which this spacecraft does not have", WHEEL_TABLES[wheel]),
                     "set that torque to zero or describe the wheel",
-                );
+                ),
             }
         }
     }

@@ -18,6 +18,14 @@ pub struct SceneInput {
     pub actuation: Vec<ActuationInput>,
 }
 
+impl SceneInput {
+    /// Whether anything does work on the spacecraft: a schedule, or a motor that holds its wheel's speed.
+    pub fn is_actuated(&self) -> bool {
+        let is_held = |wheel: &Option<WheelInput>| wheel.is_some_and(|wheel| wheel.mode == WheelMode::SpeedHeld);
+        !self.actuation.is_empty() || self.wheels.iter().any(is_held)
+    }
+}
+
 /// The fuselage: a hollow cylinder with closed ends, axis s3, base centre at the origin p of F_s.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FuselageInput {
@@ -39,17 +47,53 @@ pub struct FuselageInput {
     pub inertia_kg_m2: Option<[[f64; 3]; 3]>,
 }
 
-/// A wheel: a solid balanced cylinder that spins about a fixed axis through its centre.
+/// A wheel: a solid balanced cylinder that spins about an axis through its centre, which is fixed in the fuselage.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WheelInput {
     /// Radius, m.
     pub radius_m: f64,
     /// Length along the spin axis, m.
     pub length_m: f64,
-    /// Station z of the wheel's centre on the axis s3, from p, m.
+    /// Station z of the wheel's centre along s3, from p, m.
     pub station_m: f64,
     /// Density, kg/m^3.
     pub density_kg_m3: f64,
+    /// Offset of the wheel's centre from the axis s3, along s1 and s2, m.
+    pub offset_m: [f64; 2],
+    /// Alignment error of the spin axis: the rotation vector, in F_s, rad, that turns the nominal axis (s2 of W1, s3 of W2) into
+    /// the true one; its two components across the nominal axis, (s1, s3) of W1, (s1, s2) of W2.
+    pub tilt_rad: [f64; 2],
+    /// What the wheel does when no torque is scheduled for it.
+    pub mode: WheelMode,
+}
+
+/// What a wheel does when no torque is scheduled for it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum WheelMode {
+    /// It turns freely in its bearing: its absolute axial momentum h_i is constant, and J* resists a change of omega.
+    #[default]
+    Free,
+    /// Its motor keeps its rate relative to the fuselage at the initial value with whatever torque that takes: its momentum
+    /// relative to the fuselage, J_i Omega_i, is constant, and its axial inertia resists a change of omega with the rest.
+    SpeedHeld,
+}
+
+impl WheelMode {
+    /// All values.
+    pub const ALL: [WheelMode; 2] = [WheelMode::Free, WheelMode::SpeedHeld];
+
+    /// The name in campaign files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            WheelMode::Free => "free",
+            WheelMode::SpeedHeld => "speed_held",
+        }
+    }
+
+    /// The mode called `name`.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|mode| mode.name() == name)
+    }
 }
 
 /// The debris: a solid homogeneous cube or box.

@@ -5,10 +5,10 @@
 //!
 //! Generic over the number type, so that a reference solution in more digits starts from a J of as many digits.
 
-use super::input::{DebrisInput, FuselageInput, SceneInput, WheelInput};
+use super::input::{DebrisInput, FuselageInput, SceneInput, WheelInput, WheelMode};
 use super::solids::{Cylinder, hollow_cylinder, solid_box, solid_cylinder};
 use crate::math::Real;
-use crate::math::vector::{difference, scaled, sum};
+use crate::math::vector::{constant, cross, difference, dot, norm, scaled, sum};
 
 /// Mass properties of a rigid body in its own frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,6 +34,8 @@ pub struct Wheel<R = f64> {
     pub axial: R,
     /// Moment of inertia about any axis through the centre across the spin axis, kg m^2.
     pub transverse: R,
+    /// Whether it turns freely or its motor holds its speed.
+    pub mode: WheelMode,
 }
 
 /// Mass properties of all bodies and of the spacecraft S + W1 + W2 as a whole.
@@ -55,7 +57,7 @@ pub struct MassProperties<R = f64> {
     pub inertia_free: [[R; 3]; 3],
 }
 
-/// The spin axes of W1 and W2 in F_s: s2 and s3.
+/// The nominal spin axes of W1 and W2 in F_s: s2 and s3.
 pub const WHEEL_AXES: [[f64; 3]; 2] = [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 impl<R: Real> Body<R> {
@@ -104,17 +106,32 @@ impl<R: Real> Body<R> {
 }
 
 impl<R: Real> Wheel<R> {
-    /// A wheel (60)-(67) with spin axis `axis`; a missing one has mass and inertia zero.
-    pub fn new(input: Option<&WheelInput>, axis: [f64; 3], one: R) -> Self {
+    /// Wheel `index` (0, 1) (60)-(67); a missing one has mass and inertia zero.
+    pub fn new(input: Option<&WheelInput>, index: usize, one: R) -> Self {
         let k = |value: f64| one.splat(value);
         let zero = one.zero();
-        let axis = axis.map(k);
         match input {
-            None => Wheel { mass: zero, center: [zero; 3], axis, axial: zero, transverse: zero },
+            None => Wheel {
+                mass: zero,
+                center: [zero; 3],
+                axis: constant(one, WHEEL_AXES[index]),
+                axial: zero,
+                transverse: zero,
+                mode: WheelMode::Free,
+            },
             Some(input) => {
                 let Cylinder { mass, axial, transverse } =
                     solid_cylinder(k(input.radius_m), k(input.length_m), k(input.density_kg_m3));
-                Wheel { mass, center: [zero, zero, k(input.station_m)], axis, axial, transverse }
+                let [x, y] = input.offset_m;
+                let center = [k(x), k(y), k(input.station_m)];
+                Wheel {
+                    mass,
+                    center,
+                    axis: wheel_axis(index, input.tilt_rad, one),
+                    axial,
+                    transverse,
+                    mode: input.mode,
+                }
             }
         }
     }
@@ -135,6 +152,32 @@ impl<R: Real> Wheel<R> {
     }
 }
 
+/// The spin axis of wheel `index` whose alignment error is `tilt` ([`WheelInput::tilt_rad`]), a unit vector in F_s.
+///
+/// With theta across the nominal axis a_0: a = cos|theta| a_0 + sin|theta|/|theta| theta x a_0 (O. Rodrigues, *Des lois
+/// geometriques qui regissent les deplacements d'un systeme solide*, 1840). The angle is good to `f64`, the length to all digits
+/// of the type; without a tilt the axis is exactly the nominal one.
+pub fn wheel_axis<R: Real>(index: usize, tilt: [f64; 2], one: R) -> [R; 3] {
+    let nominal = WHEEL_AXES[index];
+    let across = [[0, 2], [0, 1]][index];
+    let mut theta = [0.0; 3];
+    for (component, angle) in across.into_iter().zip(tilt) {
+        theta[component] = angle;
+    }
+    turned(nominal, theta, one)
+}
+
+/// The unit vector `axis` turned by the rotation vector `theta`, which is across it, rad.
+pub(super) fn turned<R: Real>(axis: [f64; 3], theta: [f64; 3], one: R) -> [R; 3] {
+    let angle = dot(theta, theta).sqrt();
+    if angle == 0.0 {
+        return constant(one, axis);
+    }
+    let (sine, cosine) = libm::sincos(angle);
+    let turned = constant(one, sum(scaled(cosine, axis), scaled(sine / angle, cross(theta, axis))));
+    scaled(one / norm(turned), turned)
+}
+
 impl Wheel {
     /// Whether the spacecraft has this wheel.
     pub fn is_present(&self) -> bool {
@@ -146,7 +189,7 @@ impl<R: Real> MassProperties<R> {
     /// The mass properties of `input`, in the number type of `one`; meaningful where [`super::Scene::resolve`] accepts the input.
     pub fn of(input: &SceneInput, one: R) -> Self {
         let fuselage = Body::fuselage(&input.fuselage, one);
-        let wheels: [Wheel<R>; 2] = std::array::from_fn(|i| Wheel::new(input.wheels[i].as_ref(), WHEEL_AXES[i], one));
+        let wheels: [Wheel<R>; 2] = std::array::from_fn(|i| Wheel::new(input.wheels[i].as_ref(), i, one));
         let debris = input.debris.as_ref().map(|debris| Body::debris(debris, one));
 
         let points =
@@ -167,6 +210,12 @@ impl<R: Real> MassProperties<R> {
         }
         let inertia = wheels.iter().fold(inertia_free, |sum, wheel| matrix_sum(sum, wheel.axial_inertia()));
         MassProperties { fuselage, wheels, debris, total, center, inertia, inertia_free }
+    }
+
+    /// What resists a change of omega, kg m^2, by rows: J*, and the axial inertias of the wheels whose speed is held.
+    pub fn inertia_rotating(&self) -> [[R; 3]; 3] {
+        let held = self.wheels.iter().filter(|wheel| wheel.mode == WheelMode::SpeedHeld);
+        held.fold(self.inertia_free, |sum, wheel| matrix_sum(sum, wheel.axial_inertia()))
     }
 }
 
@@ -237,6 +286,37 @@ mod tests {
                 assert!((mass.inertia[i][j] - expected[i][j]).abs() < 1e-12 * expected[0][0]);
             }
         }
+    }
+
+    #[test]
+    fn a_tilt_turns_the_axis_by_its_angle_about_its_vector() {
+        assert_eq!(wheel_axis(0, [0.0; 2], 1.0), WHEEL_AXES[0]);
+        for (index, tilt, expected) in [
+            // about s1: s2 towards s3, s3 towards -s2; about s3: s2 towards -s1; about s2: s3 towards s1
+            (0, [0.3, 0.0], [0.0, 0.3f64.cos(), 0.3f64.sin()]),
+            (0, [0.0, 0.3], [-0.3f64.sin(), 0.3f64.cos(), 0.0]),
+            (1, [0.3, 0.0], [0.0, -0.3f64.sin(), 0.3f64.cos()]),
+            (1, [0.0, 0.3], [0.3f64.sin(), 0.0, 0.3f64.cos()]),
+        ] {
+            let axis = wheel_axis(index, tilt, 1.0);
+            assert!(norm(difference(axis, expected)) < 4e-16, "{axis:?} {expected:?}");
+        }
+        let axis = wheel_axis(1, [0.3, -0.4], 1.0);
+        assert!((axis[2] - 0.5f64.cos()).abs() < 4e-16, "the angle is the length of the vector");
+        assert!((axis[1] / axis[0] - 0.75).abs() < 4e-16, "{axis:?}");
+    }
+
+    #[test]
+    fn held_wheels_turn_with_the_rest() {
+        let mut input = samples::table_two();
+        assert_eq!(MassProperties::of(&input, 1.0).inertia_rotating(), MassProperties::of(&input, 1.0).inertia_free);
+        input.wheels[0].as_mut().expect("Table II has it").mode = WheelMode::SpeedHeld;
+        let mass = MassProperties::of(&input, 1.0);
+        assert_eq!(mass.inertia_rotating()[1][1], mass.inertia[1][1]);
+        assert_eq!(mass.inertia_rotating()[2][2], mass.inertia_free[2][2]);
+        input.wheels[1].as_mut().expect("Table II has it").mode = WheelMode::SpeedHeld;
+        let mass = MassProperties::of(&input, 1.0);
+        assert_eq!(mass.inertia_rotating(), mass.inertia);
     }
 
     #[test]

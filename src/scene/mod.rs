@@ -20,7 +20,9 @@ pub mod schedule;
 pub mod solids;
 
 pub use error::SceneError;
-pub use input::{ActuationInput, DebrisInput, DebrisShape, FuselageInput, InitialInput, SceneInput, WheelInput};
+pub use input::{
+    ActuationInput, DebrisInput, DebrisShape, FuselageInput, InitialInput, SceneInput, WheelInput, WheelMode,
+};
 pub use mass::MassProperties;
 pub use parameter::Parameter;
 

@@ -35,6 +35,8 @@ struct Entry {
 }
 
 const SCALAR: &[&str] = &[""];
+const XY: &[&str] = &["x", "y"];
+const XZ: &[&str] = &["x", "z"];
 const XYZ: &[&str] = &["x", "y", "z"];
 const WXYZ: &[&str] = &["w", "x", "y", "z"];
 const WHEELS: &[&str] = &["1", "2"];
@@ -112,14 +114,20 @@ macro_rules! fuselage {
 
 macro_rules! wheel1 {
     ($key:ident, $unit:literal) => {
-        entry!("wheel1", $key, $unit, SCALAR, Plain, "add a [wheel1] table",
+        wheel1!($key, $unit, SCALAR)
+    };
+    ($key:ident, $unit:literal, $components:expr) => {
+        entry!("wheel1", $key, $unit, $components, Plain, "add a [wheel1] table",
             SceneInput { wheels: [Some(WheelInput { $key: value, .. }), _], .. } => value)
     };
 }
 
 macro_rules! wheel2 {
     ($key:ident, $unit:literal) => {
-        entry!("wheel2", $key, $unit, SCALAR, Plain, "add a [wheel2] table",
+        wheel2!($key, $unit, SCALAR)
+    };
+    ($key:ident, $unit:literal, $components:expr) => {
+        entry!("wheel2", $key, $unit, $components, Plain, "add a [wheel2] table",
             SceneInput { wheels: [_, Some(WheelInput { $key: value, .. })], .. } => value)
     };
 }
@@ -135,7 +143,7 @@ macro_rules! initial {
     };
 }
 
-static TABLE: [Entry; 29] = [
+static TABLE: [Entry; 33] = [
     fuselage!(wall_thickness_m, "m"),
     fuselage!(outer_radius_m, "m"),
     fuselage!(length_m, "m"),
@@ -148,10 +156,14 @@ static TABLE: [Entry; 29] = [
     wheel1!(length_m, "m"),
     wheel1!(station_m, "m"),
     wheel1!(density_kg_m3, "kg/m^3"),
+    wheel1!(offset_m, "m", XY),
+    wheel1!(tilt_rad, "rad", XZ),
     wheel2!(radius_m, "m"),
     wheel2!(length_m, "m"),
     wheel2!(station_m, "m"),
     wheel2!(density_kg_m3, "kg/m^3"),
+    wheel2!(offset_m, "m", XY),
+    wheel2!(tilt_rad, "rad", XY),
     entry!("debris", side_m, "m", SCALAR, Plain, "describe the debris by debris.side_m (a [debris] table without size_m)",
         SceneInput { debris: Some(DebrisInput { shape: DebrisShape::Cube { side_m: value }, .. }), .. } => value),
     entry!("debris", size_m, "m", XYZ, Plain, "describe the debris by debris.size_m (a [debris] table without side_m)",
@@ -298,7 +310,15 @@ mod tests {
 
     /// A scene in which every key but `debris.size_m` exists.
     fn full() -> SceneInput {
-        let wheel = WheelInput { radius_m: 0.25, length_m: 0.1, station_m: 1.0, density_kg_m3: 2700.0 };
+        let wheel = WheelInput {
+            radius_m: 0.25,
+            length_m: 0.1,
+            station_m: 1.0,
+            density_kg_m3: 2700.0,
+            offset_m: [0.0; 2],
+            tilt_rad: [0.0; 2],
+            mode: crate::scene::WheelMode::Free,
+        };
         SceneInput {
             fuselage: FuselageInput {
                 wall_thickness_m: 0.03,

@@ -114,7 +114,7 @@ mod tests {
     use super::*;
     use crate::math::symmetric::{is_positive_definite, principal_axes};
     use crate::scene::check::INERTIA_SLACK;
-    use crate::scene::{ActuationInput, DebrisShape, samples};
+    use crate::scene::{ActuationInput, DebrisShape, WheelMode, samples};
     use proptest::prelude::*;
 
     /// A change of the report's scene.
@@ -236,6 +236,18 @@ mod tests {
             |input| wheel(input, 0).density_kg_m3 = TINY,
         ),
         (
+            "wheel2.offset_m",
+            "finite",
+            |input| wheel(input, 1).offset_m[0] = f64::NAN,
+            |input| wheel(input, 1).offset_m = [-1.0, 1.0],
+        ),
+        (
+            "wheel1.tilt_rad",
+            "finite",
+            |input| wheel(input, 0).tilt_rad[1] = f64::INFINITY,
+            |input| wheel(input, 0).tilt_rad = [-1.0, 4.0],
+        ),
+        (
             "wheel1",
             "positive and finite",
             |input| wheel(input, 0).radius_m = 1e-160,
@@ -324,6 +336,19 @@ mod tests {
                 input.wheels[0] = None;
                 input.actuation[0].torque_n_m[0] = 0.0;
                 input.actuation[1].torque_n_m[0] = 0.0;
+            },
+        ),
+        (
+            "actuation[1].torque_n_m",
+            "wheel2, whose speed its motor holds",
+            |input| {
+                input.actuation[0].torque_n_m[1] = 0.0;
+                wheel(input, 1).mode = WheelMode::SpeedHeld;
+            },
+            |input| {
+                input.actuation[0].torque_n_m[1] = 0.0;
+                input.actuation[1].torque_n_m[1] = 0.0;
+                wheel(input, 1).mode = WheelMode::SpeedHeld;
             },
         ),
     ];

@@ -1,11 +1,21 @@
 //! Scenes for the tests of this crate: the report's Tables I and II.
 
-use super::input::{DebrisInput, DebrisShape, FuselageInput, InitialInput, SceneInput, WheelInput};
+use super::input::{DebrisInput, DebrisShape, FuselageInput, InitialInput, SceneInput, WheelInput, WheelMode};
 use core::f64::consts::PI;
 
 /// The report's scene: bodies of Table II, initial state of Table I, no force.
 pub(crate) fn table_two() -> SceneInput {
-    let wheel = |station_m| Some(WheelInput { radius_m: 0.25, length_m: 0.1, station_m, density_kg_m3: 2700.0 });
+    let wheel = |station_m| {
+        Some(WheelInput {
+            radius_m: 0.25,
+            length_m: 0.1,
+            station_m,
+            density_kg_m3: 2700.0,
+            offset_m: [0.0; 2],
+            tilt_rad: [0.0; 2],
+            mode: WheelMode::Free,
+        })
+    };
     SceneInput {
         fuselage: FuselageInput {
             wall_thickness_m: 0.03,

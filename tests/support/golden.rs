@@ -5,7 +5,9 @@
 use std::path::Path;
 
 use serde_json::Value;
-use spindrift::scene::{ActuationInput, DebrisInput, DebrisShape, FuselageInput, InitialInput, SceneInput, WheelInput};
+use spindrift::scene::{
+    ActuationInput, DebrisInput, DebrisShape, FuselageInput, InitialInput, SceneInput, WheelInput, WheelMode,
+};
 
 /// A scene, and the truth at some times.
 pub struct Golden {
@@ -84,6 +86,9 @@ fn scene(scene: &Value) -> SceneInput {
             length_m: number(&wheel["length"]),
             station_m: number(&wheel["station"]),
             density_kg_m3: number(&wheel["density"]),
+            offset_m: [0.0; 2],
+            tilt_rad: [0.0; 2],
+            mode: WheelMode::Free,
         })
     };
     let mut start_s = 0.0;

@@ -1,7 +1,7 @@
 //! Random scenes that are a function of a number: the same on every machine, in every version of any crate.
 
 use spindrift::scene::{
-    ActuationInput, DebrisInput, DebrisShape, FuselageInput, InitialInput, Scene, SceneInput, WheelInput,
+    ActuationInput, DebrisInput, DebrisShape, FuselageInput, InitialInput, Scene, SceneInput, WheelInput, WheelMode,
 };
 
 /// What a random scene has beyond a bare fuselage.
@@ -74,6 +74,9 @@ pub fn random(kind: Kind, seed: u64, horizon: f64) -> SceneInput {
             length_m: u.between(0.02, 0.2),
             station_m: u.between(0.0, length_m),
             density_kg_m3: u.between(500.0, 8000.0),
+            offset_m: [0.0; 2],
+            tilt_rad: [0.0; 2],
+            mode: WheelMode::Free,
         };
         present.then_some(wheel)
     });
@@ -120,6 +123,29 @@ pub fn random(kind: Kind, seed: u64, horizon: f64) -> SceneInput {
         stretch(0.3 * horizon, 0.75 * horizon);
     }
     SceneInput { fuselage, wheels, debris, initial, actuation }
+}
+
+/// `input` with motors that hold the speed of the wheels named by `held`, which then have no torque in the schedule.
+pub fn speed_held(mut input: SceneInput, held: [bool; 2]) -> SceneInput {
+    for w in (0..2).filter(|w| held[*w]) {
+        if let Some(wheel) = &mut input.wheels[w] {
+            wheel.mode = WheelMode::SpeedHeld;
+        }
+        for stretch in &mut input.actuation {
+            stretch.torque_n_m[w] = 0.0;
+        }
+    }
+    input
+}
+
+/// `input` with wheels that stand off the axis s3 by up to 0.2 m and whose axes are tilted by up to 0.3 rad each way.
+pub fn misaligned(mut input: SceneInput, seed: u64) -> SceneInput {
+    let mut u = Uniform::new(!seed);
+    for wheel in input.wheels.iter_mut().flatten() {
+        wheel.offset_m = u.vector(0.2);
+        wheel.tilt_rad = u.vector(0.3);
+    }
+    input
 }
 
 /// `count` scenes of all kinds, all forced or none; with debris, as a campaign has it for all of its samples or for none.

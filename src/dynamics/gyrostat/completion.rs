@@ -9,7 +9,7 @@ use super::{
 use crate::dynamics::table::{Block, Grid, StateTable, Trajectory};
 use crate::math::lanes::WIDTH;
 use crate::math::vector::{
-    conjugate, constant, constant_matrix, constant_quaternion, dot, hamilton, product, scaled, sum,
+    conjugate, constant, constant_matrix, constant_quaternion, difference, dot, hamilton, product, scaled, sum,
 };
 use crate::math::{Lanes, Real};
 
@@ -60,6 +60,7 @@ pub fn complete<S: Simd, const N: usize>(
         let omega_b = chunk.read3(trajectory, OMEGA);
         complete_wheels::<S, N>(chunk, run, trajectory, &times[first..first + WIDTH], omega_b, table);
         complete_translation::<S, N>(chunk, run, trajectory, &times[first..first + WIDTH], table);
+        complete_work::<S, N>(chunk, run, trajectory, omega_b, table);
     }
 }
 
@@ -97,7 +98,7 @@ pub fn rotation<S: Simd, const N: usize>(
     Rotation { rate, attitude: Some(q_es) }
 }
 
-/// Wheel rates Omega_i = h_i/J_i - a_i . omega and, where asked for, the angles.
+/// Wheel rates Omega_i = h_i/J_i - a_i . omega and, where asked for, the angles; of a held wheel the constant rate and a line.
 #[inline(always)]
 fn complete_wheels<S: Simd, const N: usize>(
     chunk: Chunk<S>,
@@ -120,6 +121,17 @@ fn complete_wheels<S: Simd, const N: usize>(
                 if table.has(block) {
                     chunk.zero().store(&mut table.column_mut(block, wheel)[chunk.first..]);
                 }
+            }
+            continue;
+        }
+        if let Some(rate) = run.held[wheel] {
+            let rate = chunk.splat(rate);
+            if table.has(Block::WheelRates) {
+                rate.store(&mut table.column_mut(Block::WheelRates, wheel)[chunk.first..]);
+            }
+            if table.has(Block::WheelAngles) {
+                let angle = rate.mul_add(Lanes::from_slice(chunk.simd, times), chunk.splat(run.wheel_angles[wheel]));
+                angle.store(&mut table.column_mut(Block::WheelAngles, wheel)[chunk.first..]);
             }
             continue;
         }
@@ -152,7 +164,29 @@ fn complete_wheels<S: Simd, const N: usize>(
     }
 }
 
-/// Position and velocity of c, impulses and works.
+/// Work of the thrusters and of the wheel motors, those that hold a speed among them.
+#[inline(always)]
+fn complete_work<S: Simd, const N: usize>(
+    chunk: Chunk<S>,
+    run: &Gyrostat<f64>,
+    trajectory: &Trajectory,
+    omega_b: [Lanes<S>; 3],
+    table: &mut StateTable,
+) {
+    if !table.has(Block::Work) {
+        return;
+    }
+    let thrusters = chunk.read_if(N >= WITH_THRUST, trajectory, THRUST_WORK);
+    let mut motors = chunk.read_if(N >= WITH_MOTORS, trajectory, MOTOR_WORK);
+    if let Some(held) = run.held_momentum_b() {
+        let change = difference(omega_b, constant(chunk.zero(), run.omega_b));
+        motors += dot(constant(chunk.zero(), held), change);
+    }
+    thrusters.store(&mut table.column_mut(Block::Work, 0)[chunk.first..]);
+    motors.store(&mut table.column_mut(Block::Work, 1)[chunk.first..]);
+}
+
+/// Position and velocity of c, and impulses.
 #[inline(always)]
 fn complete_translation<S: Simd, const N: usize>(
     chunk: Chunk<S>,
@@ -184,12 +218,6 @@ fn complete_translation<S: Simd, const N: usize>(
     }
     if table.has(Block::AngularImpulse) {
         chunk.write3(table, Block::AngularImpulse, chunk.read3_if(thrust, trajectory, ANGULAR_IMPULSE));
-    }
-    if table.has(Block::Work) {
-        chunk.read_if(thrust, trajectory, THRUST_WORK).store(&mut table.column_mut(Block::Work, 0)[chunk.first..]);
-        chunk
-            .read_if(N >= WITH_MOTORS, trajectory, MOTOR_WORK)
-            .store(&mut table.column_mut(Block::Work, 1)[chunk.first..]);
     }
 }
 

@@ -8,7 +8,17 @@
 //! H = J* omega + h_1 a1 + h_2 a2,    J* omega' = H x omega + tau_ext - tau_1 a1 - tau_2 a2,    h_i' = tau_i
 //! ```
 //!
-//! Everything here is written in the *principal frame* B of J* (where J* is diagonal already, B is F_s), so that products of
+//! A wheel whose motor holds its speed takes the part of a free one with other constants: its axial inertia stays in the
+//! inertia that resists a change of omega, and beside it stands its momentum relative to the fuselage, J_i Omega_i, which is
+//! constant. With K = J* + sum over held wheels of J_i a_i a_i^T (all held: K = J) the same equations hold:
+//!
+//! ```text
+//! H = K omega + sum over free wheels h_i a_i + sum over held wheels J_i Omega_i a_i
+//! ```
+//!
+//! Its motor's torque is J_i omega' . a_i, and the work of that, Omega_i J_i (omega - omega(0)) . a_i, is known without a quadrature.
+//!
+//! Everything here is written in the *principal frame* B of K (where J* is diagonal already, B is F_s), so that products of
 //! inertia cost nothing: omega_i' is one product of two rates plus linear terms. Between switches the torques and thrusts
 //! are constant, h_i is linear in time and is not integrated.
 //!
@@ -24,7 +34,7 @@ pub mod equations;
 use crate::math::Real;
 use crate::math::symmetric::principal_axes;
 use crate::math::vector::{constant, cross, dot, hamilton, quaternion_from_dcm, scaled, sum, transposed_product};
-use crate::scene::Scene;
+use crate::scene::{Scene, WheelMode};
 
 /// Index of the first component of the angular velocity in B, rad/s (3).
 pub const OMEGA: usize = 0;
@@ -69,9 +79,9 @@ pub struct Stretch<R> {
     pub torque_b: [R; 3],
     /// Motor torques tau_1, tau_2 on the wheels, N m.
     pub motor: [R; 2],
-    /// Absolute axial momenta h_1, h_2 of the wheels at the start, N m s.
+    /// Momenta of the wheels beside K omega at the start, N m s: h_i of a free wheel, J_i Omega_i of one whose speed is held.
     pub wheel_momentum: [R; 2],
-    /// Integrals of h_i/J_i over time from zero to the start, rad.
+    /// Integrals of h_i/J_i over time from zero to the start, rad (of free wheels).
     pub wheel_turn: [R; 2],
 }
 
@@ -91,19 +101,21 @@ impl<R: Real> Stretch<R> {
     }
 }
 
-/// One run of the gyrostat: constants in the principal frame B of J*, the initial state and the stretches.
+/// One run of the gyrostat: constants in the principal frame B of K, the initial state and the stretches.
 #[derive(Clone, Debug)]
 pub struct Gyrostat<R> {
     /// Maps B components to F_s components, by rows; `None` where B is F_s.
     pub c_sb: Option<[[R; 3]; 3]>,
     /// The quaternion of `c_sb`.
     pub q_sb: [R; 4],
-    /// Principal moments of J*, kg m^2.
+    /// Principal moments of K, kg m^2.
     pub moments: [R; 3],
     /// Wheel axes a1, a2 in B.
     pub axes_b: [[R; 3]; 2],
     /// Axial inertias J_1, J_2 of the wheels, kg m^2; zero for a wheel that is not there.
     pub axial: [R; 2],
+    /// Rates relative to the fuselage of the wheels whose speed is held, rad/s; `None` of a free one.
+    pub held: [Option<R>; 2],
     /// Mass of the spacecraft, kg.
     pub mass: R,
     /// Angular velocity at time zero, B, rad/s.
@@ -137,6 +149,7 @@ impl<R: Real> Gyrostat<R> {
             moments: z3,
             axes_b: [z3; 2],
             axial: [zero; 2],
+            held: [None; 2],
             mass: zero,
             omega_b: z3,
             q_eb: [zero; 4],
@@ -152,10 +165,14 @@ impl<R: Real> Gyrostat<R> {
         let exact3 = |v: [f64; 3]| v.map(|x| zero.splat(x));
         let mass = &scene.mass;
         let initial = &scene.initial;
-        self.set_body(zero, mass.inertia_free);
+        self.set_body(zero, mass.inertia_rotating());
         for (i, wheel) in mass.wheels.iter().enumerate() {
             self.axes_b[i] = self.into_b(exact3(wheel.axis));
             self.axial[i] = zero.splat(wheel.axial);
+            self.held[i] = match wheel.mode {
+                WheelMode::Free => None,
+                WheelMode::SpeedHeld => Some(zero.splat(initial.wheel_rates[i])),
+            };
             self.wheel_angles[i] = zero.splat(initial.wheel_angles[i]);
         }
         self.mass = zero.splat(mass.total);
@@ -198,7 +215,11 @@ impl<R: Real> Gyrostat<R> {
     fn lay_stretches(&mut self, zero: R, scene: &Scene, duration: f64) {
         self.stretches.clear();
         let mut momentum: [R; 2] = std::array::from_fn(|i| {
-            self.axial[i] * (dot(self.axes_b[i], self.omega_b) + zero.splat(scene.initial.wheel_rates[i]))
+            let rate = match self.held[i] {
+                Some(rate) => rate,
+                None => dot(self.axes_b[i], self.omega_b) + zero.splat(scene.initial.wheel_rates[i]),
+            };
+            self.axial[i] * rate
         });
         let mut turn = [zero; 2];
         for act in scene.stretches(duration) {
@@ -225,7 +246,7 @@ impl<R: Real> Gyrostat<R> {
         &self.stretches[after.min(self.stretches.len() - 1)]
     }
 
-    /// h_i at `time` within `stretch`, N m s.
+    /// Momentum of a wheel beside K omega at `time` within `stretch`, N m s.
     #[inline(always)]
     pub fn wheel_momentum_at(&self, stretch: &Stretch<R>, wheel: usize, time: f64) -> R {
         let since = self.mass.splat(time) - self.mass.splat(stretch.start);
@@ -245,7 +266,48 @@ impl<R: Real> Gyrostat<R> {
     #[inline(always)]
     pub fn inverse_axial(&self, wheel: usize) -> R {
         let axial = self.axial[wheel];
-        if axial.lane(0) == 0.0 { axial.zero() } else { axial.splat(1.0) / axial }
+        if self.is_missing(wheel) { axial.zero() } else { axial.splat(1.0) / axial }
+    }
+
+    /// Rate of a wheel relative to the fuselage at `time` within `stretch`, rad/s, where the body turns with `omega_b`:
+    /// h_i/J_i - a_i . omega, or what it is held at.
+    pub fn wheel_rate_at(&self, stretch: &Stretch<R>, wheel: usize, time: f64, omega_b: [R; 3]) -> R {
+        match self.held[wheel] {
+            Some(rate) => rate,
+            None if self.is_missing(wheel) => self.mass.zero(),
+            None => {
+                let absolute = self.wheel_momentum_at(stretch, wheel, time) * self.inverse_axial(wheel);
+                absolute - dot(self.axes_b[wheel], omega_b)
+            }
+        }
+    }
+
+    /// Angle of a wheel at `time` within `stretch`, rad, where the integral of omega since time zero is `turned_b`.
+    pub fn wheel_angle_at(&self, stretch: &Stretch<R>, wheel: usize, time: f64, turned_b: [R; 3]) -> R {
+        match self.held[wheel] {
+            Some(rate) => rate.mul_add(rate.splat(time), self.wheel_angles[wheel]),
+            None if self.is_missing(wheel) => self.mass.zero(),
+            None => {
+                let absolute = self.wheel_turn_at(stretch, wheel, time);
+                self.wheel_angles[wheel] + (absolute - dot(self.axes_b[wheel], turned_b))
+            }
+        }
+    }
+
+    /// Whether the spacecraft lacks a wheel.
+    #[inline(always)]
+    pub fn is_missing(&self, wheel: usize) -> bool {
+        self.axial[wheel].lane(0) == 0.0
+    }
+
+    /// The sum of J_i Omega_i a_i over the wheels whose speed is held, B, N m s, where there are any. Since time zero their motors have
+    /// done the work of this vector . (omega - omega(0)).
+    pub fn held_momentum_b(&self) -> Option<[R; 3]> {
+        let of = |wheel: usize| self.held[wheel].map(|rate| scaled(self.axial[wheel] * rate, self.axes_b[wheel]));
+        match (of(0), of(1)) {
+            (Some(first), Some(second)) => Some(sum(first, second)),
+            (first, second) => first.or(second),
+        }
     }
 
     /// Sum of tau_i h_i/J_i at the start of `stretch`, W, and its rate, W/s.
@@ -258,7 +320,7 @@ impl<R: Real> Gyrostat<R> {
         [first[0] + second[0], first[1] + second[1]]
     }
 
-    /// h_1 a1 + h_2 a2 in B, N m s.
+    /// The wheels' momenta as one vector in B, N m s.
     #[inline(always)]
     pub fn wheel_momentum_b(&self, momentum: [R; 2]) -> [R; 3] {
         sum(scaled(momentum[0], self.axes_b[0]), scaled(momentum[1], self.axes_b[1]))

@@ -85,10 +85,18 @@ pub fn wheel_wrench(wheel: &WheelParameters, motion: &WheelMotion, motor: f64) -
     }
 }
 
+/// The torque of the motor that holds a wheel's rate, N m: what the wheel's row of (39) lacks where its rate does not change,
+/// a^T J C_ws omega_s-dot less the `inertial` part of the row. On omega_s a motor has no effect: what it does to the wheel and
+/// to the fuselage cancels in Pi^T B u.
+#[inline(always)]
+pub fn holding_torque(wheel: &WheelParameters, motion: &WheelMotion, omega_s_dot: [f64; 3], inertial: f64) -> f64 {
+    dot(product(wheel.inertia, wheel.axis), rotated(motion.c_ws, omega_s_dot)) - inertial
+}
+
 /// The power of the thrusters, F . v at the points where they act, and of the motors, tau . Omega; W.
 #[inline(always)]
-pub fn power(state: &State, drive: &Drive) -> [f64; 2] {
+pub fn power(state: &State, drive: &Drive, motors: [f64; 2]) -> [f64; 2] {
     let w = rotated_back(state.dcm[0], state.v_p);
-    let motors = drive.motors[0].mul_add(state.wheel_rates[0], drive.motors[1] * state.wheel_rates[1]);
+    let motors = motors[0].mul_add(state.wheel_rates[0], motors[1] * state.wheel_rates[1]);
     [dot(drive.force_s, w) + dot(drive.torque_p_s, state.omega_s), motors]
 }

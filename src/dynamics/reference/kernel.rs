@@ -85,8 +85,16 @@ impl Kernel {
             wheel_row[w] = axial;
         }
         let mass = SpacecraftMass::of(parameters, state, &wheels);
+        let free_row = [parameters.wheels[0].free * wheel_row[0], parameters.wheels[1].free * wheel_row[1]];
         let (v_dot, rotation) =
-            mass.solution(force, [omega_row[0], omega_row[1], omega_row[2], wheel_row[0], wheel_row[1]]);
+            mass.solution(force, [omega_row[0], omega_row[1], omega_row[2], free_row[0], free_row[1]]);
+        let omega_s_dot = [rotation[0], rotation[1], rotation[2]];
+        let mut motors = self.drive.motors;
+        for w in 0..2 {
+            let wheel = &parameters.wheels[w];
+            let holding = forces::holding_torque(wheel, &wheels[w], omega_s_dot, wheel_row[w]);
+            motors[w] = (1.0 - wheel.free).mul_add(holding, motors[w]);
+        }
 
         // debris rows: free
         let momentum = product(self.debris_deviator, state.omega_d);
@@ -102,11 +110,11 @@ impl Kernel {
                 dcm_rate(state.dcm[3], state.omega_d),
             ],
             v_p: v_dot,
-            omega_s: [rotation[0], rotation[1], rotation[2]],
+            omega_s: omega_s_dot,
             wheel_rates: [rotation[3], rotation[4]],
             v_gd: [0.0; 3],
             omega_d: omega_d_dot,
-            work: forces::power(state, &self.drive),
+            work: forces::power(state, &self.drive, motors),
             impulse: rotated(c_es, self.drive.force_s),
             angular_impulse: rotated(c_es, self.drive.torque_c_s),
             wheel_angles: state.wheel_rates,

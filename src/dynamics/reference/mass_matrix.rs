@@ -2,6 +2,9 @@
 //!
 //! M-hat is block diagonal: the spacecraft's 8x8 (v_p, omega_s, alpha-dot, beta-dot), m_d 1, J_d. In the 8x8 the block of v_p is
 //! m 1, so that its part of the factor is sqrt(m) 1 and only a 5x5 is left to factor: the same factor, without its zeros.
+//!
+//! The rate of a wheel whose speed is held is given, and drops out of the unknowns; its row and column stay as those of the
+//! unit matrix, so that its rate of change comes out as zero.
 
 #![expect(clippy::needless_range_loop, reason = "indices of a matrix, as in the formulas")]
 
@@ -49,9 +52,9 @@ impl SpacecraftMass {
                     rotation[i][j] +=
                         wheel.mass.mul_add(dot(motion.lever[i], motion.lever[j]), dot(motion.c_ws[i], turned[j]));
                 }
-                rotation[3 + w][i] = dot(axial, motion.c_ws[i]);
+                rotation[3 + w][i] = wheel.free * dot(axial, motion.c_ws[i]);
             }
-            rotation[3 + w][3 + w] = dot(wheel.axis, axial) + wheel.idle;
+            rotation[3 + w][3 + w] = wheel.free * dot(wheel.axis, axial) + wheel.idle;
         }
         SpacecraftMass {
             total: parameters.total,

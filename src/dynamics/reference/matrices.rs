@@ -149,17 +149,20 @@ pub fn actuation(parameters: &Parameters, state: &State) -> SMatrix<f64, FULL_SP
     b
 }
 
-/// M-hat = Pi^T M Pi (25), with a unit on the diagonal for a missing wheel.
+/// M-hat = Pi^T M Pi (25), with a unit on the diagonal for a missing wheel, and the rows and columns of the unit matrix for a
+/// wheel whose speed is held.
 pub fn reduced_mass(parameters: &Parameters, state: &State) -> SMatrix<f64, SPEEDS, SPEEDS> {
     let pi = pi(parameters, state);
     let mut m = pi.transpose() * mass(parameters, state) * pi;
     for (w, wheel) in parameters.wheels.iter().enumerate() {
+        m.row_mut(6 + w).scale_mut(wheel.free);
+        m.column_mut(6 + w).scale_mut(wheel.free);
         m[(6 + w, 6 + w)] += wheel.idle;
     }
     m
 }
 
-/// f-hat_non + f-hat (39) under the inputs u = (P1, P2, P3, tau^W1, tau^W2).
+/// f-hat_non + f-hat (39) under the inputs u = (P1, P2, P3, tau^W1, tau^W2); zero for the rate of a wheel whose speed is held.
 pub fn reduced_force(parameters: &Parameters, state: &State, inputs: [f64; 5], sign: f64) -> SVector<f64, SPEEDS> {
     let (pi, nu_hat) = (pi(parameters, state), reduced_speeds(state));
     let nu = pi * nu_hat;
@@ -168,5 +171,9 @@ pub fn reduced_force(parameters: &Parameters, state: &State, inputs: [f64; 5], s
         + m * (pi_dot(parameters, state) * nu_hat)
         + omega_matrix(parameters, state) * (m * nu);
     let applied = actuation(parameters, state) * SVector::from(inputs);
-    pi.transpose() * (a_non(parameters, state, sign) - inertial + applied)
+    let mut force = pi.transpose() * (a_non(parameters, state, sign) - inertial + applied);
+    for (w, wheel) in parameters.wheels.iter().enumerate() {
+        force[6 + w] *= wheel.free;
+    }
+    force
 }

@@ -1,6 +1,7 @@
 //! The constants of a scene that the reference kernel computes with.
 
 use crate::scene::Scene;
+use crate::scene::WheelMode;
 use crate::scene::mass::{Body, Wheel};
 
 /// The constants of a scene. Bodies that are absent stay in the equations, decoupled: a missing wheel has mass and inertia
@@ -40,18 +41,23 @@ pub struct WheelParameters {
     pub axis: [f64; 3],
     /// Inertia about the centre in the wheel's frame, kg m^2, by rows.
     pub inertia: [[f64; 3]; 3],
-    /// What stands on M-hat's diagonal beside a^T J a: zero, or one where the wheel is missing.
+    /// One where the wheel's rate is a speed of its own in M-hat; zero where its motor holds it, and its row says that the rate
+    /// does not change.
+    pub free: f64,
+    /// What stands on M-hat's diagonal beside a^T J a: zero, or one where the wheel is missing or its speed held.
     pub idle: f64,
 }
 
 impl WheelParameters {
     fn of(wheel: &Wheel) -> Self {
+        let is_free = wheel.mode == WheelMode::Free;
         WheelParameters {
             mass: wheel.mass,
             center: wheel.center,
             axis: wheel.axis,
             inertia: wheel.inertia(),
-            idle: if wheel.is_present() { 0.0 } else { 1.0 },
+            free: if is_free { 1.0 } else { 0.0 },
+            idle: if wheel.is_present() && is_free { 0.0 } else { 1.0 },
         }
     }
 }

@@ -128,6 +128,9 @@ pub fn sigma(scene: &Scene) -> State {
 }
 
 /// C_sw of a wheel that has turned by `angle` about the unit axis `axis`, by columns: the transposes of C_2 and C_3 in (42), (43).
+///
+/// At angle zero the wheel's frame is F_s, whatever the alignment error of the axis: so the axis has the same components in both
+/// frames at any angle.
 fn wheel_columns(axis: [f64; 3], angle: f64) -> Columns {
     let (sine, cosine) = libm::sincos(angle);
     let [x, y, z] = axis;

@@ -25,7 +25,7 @@ use crate::dynamics::table::{Block, Blocks, Grid, StateTable};
 use crate::integrators::propagate::observes_debris_rotation;
 use crate::math::double_double::DoubleDouble;
 use crate::math::isa::NarrowWork;
-use crate::math::vector::{conjugate, dot, hamilton, product, scaled, sum};
+use crate::math::vector::{conjugate, difference, dot, hamilton, product, scaled, sum};
 use crate::math::{Isa, Real};
 use crate::scene::Scene;
 
@@ -99,12 +99,8 @@ impl Truth {
         let stretch = run.stretch_at(time);
         let (mut rates, mut angles) = ([zero; 2], [zero; 2]);
         for i in 0..2 {
-            if run.axial[i].high != 0.0 {
-                let momentum = run.wheel_momentum_at(stretch, i, time);
-                rates[i] = momentum * run.inverse_axial(i) - dot(run.axes_b[i], omega_b);
-                let turned = dot(run.axes_b[i], three(y, ANGLE));
-                angles[i] = run.wheel_angles[i] + (run.wheel_turn_at(stretch, i, time) - turned);
-            }
+            rates[i] = run.wheel_rate_at(stretch, i, time, omega_b);
+            angles[i] = run.wheel_angle_at(stretch, i, time, three(y, ANGLE));
         }
         self.put(Block::WheelRates, point, rates);
         self.put(Block::WheelAngles, point, angles);
@@ -115,7 +111,11 @@ impl Truth {
         self.put(Block::ComVelocity, point, sum(run.v_co_e, scaled(inverse_mass, impulse)));
         self.put(Block::Impulse, point, impulse);
         self.put(Block::AngularImpulse, point, three(y, ANGULAR_IMPULSE));
-        self.put(Block::Work, point, [y[THRUST_WORK], y[MOTOR_WORK]]);
+        let mut motors = y[MOTOR_WORK];
+        if let Some(held) = run.held_momentum_b() {
+            motors += dot(held, difference(omega_b, run.omega_b));
+        }
+        self.put(Block::Work, point, [y[THRUST_WORK], motors]);
     }
 
     /// Fills the blocks of the debris.
