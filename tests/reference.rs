@@ -13,7 +13,7 @@ use spindrift::dynamics::reference::{
 };
 use spindrift::dynamics::table::{Block, Blocks, Grid, StateTable, Trajectory};
 use spindrift::integrators::{ReferenceRuns, Runs, System};
-use spindrift::scene::{Actuation, DebrisShape, Scene, SceneInput};
+use spindrift::scene::{Actuation, DebrisInput, Scene, SceneInput};
 use support::extrapolation::march;
 use support::golden::Golden;
 
@@ -44,7 +44,9 @@ fn scenes() -> impl Strategy<Value = (Scene, Actuation)> {
                 *wheel = wheel.filter(|_| present);
             }
             match &mut input.debris {
-                Some(debris) if present[2] => debris.shape = DebrisShape::Box { size_m: [0.1, 0.25, 0.5] },
+                debris if present[2] => {
+                    *debris = Some(DebrisInput::Box { size_m: [0.1, 0.25, 0.5], density_kg_m3: 2700.0 });
+                }
                 debris => *debris = None,
             }
             input.initial.angular_velocity_rad_s = rates.0;

@@ -6,7 +6,7 @@
 use super::canonical_draws::{correlation_lines, derivation_lines, design_lines, dispersion_lines};
 use super::plan::Plan;
 use crate::sampling::Values;
-use crate::scene::DebrisShape;
+use crate::scene::{DebrisInput, PrincipalInertia, PrincipalMoments};
 use sha2::{Digest, Sha256};
 
 /// A table's lines while they are written.
@@ -93,6 +93,13 @@ impl Plan {
         if let Some(inertia) = fuselage.inertia_kg_m2 {
             lines.key("inertia_kg_m2", inertia);
         }
+        if let Some(principal) = &fuselage.principal {
+            write_principal(principal, lines);
+        }
+        lines.key("mass_scale", fuselage.errors.mass_scale);
+        lines.key("stretch_log", fuselage.errors.stretch_log);
+        lines.key("shear", fuselage.errors.shear);
+        lines.key("center_offset_m", fuselage.errors.center_offset_m);
         for (wheel, header) in self.nominal.wheels.iter().zip(["[wheel1]", "[wheel2]"]) {
             if let Some(wheel) = wheel {
                 lines.table(header);
@@ -107,11 +114,24 @@ impl Plan {
         }
         if let Some(debris) = &self.nominal.debris {
             lines.table("[debris]");
-            match debris.shape {
-                DebrisShape::Cube { side_m } => lines.key("side_m", side_m),
-                DebrisShape::Box { size_m } => lines.key("size_m", size_m),
+            match debris {
+                DebrisInput::Cube { side_m, density_kg_m3 } => {
+                    lines.key("side_m", side_m);
+                    lines.key("density_kg_m3", density_kg_m3);
+                }
+                DebrisInput::Box { size_m, density_kg_m3 } => {
+                    lines.key("size_m", size_m);
+                    lines.key("density_kg_m3", density_kg_m3);
+                }
+                DebrisInput::Tensor { mass_kg, inertia_kg_m2 } => {
+                    lines.key("mass_kg", mass_kg);
+                    lines.key("inertia_kg_m2", inertia_kg_m2);
+                }
+                DebrisInput::Principal { mass_kg, principal } => {
+                    lines.key("mass_kg", mass_kg);
+                    write_principal(principal, lines);
+                }
             }
-            lines.key("density_kg_m3", debris.density_kg_m3);
         }
     }
 
@@ -137,5 +157,25 @@ impl Plan {
             lines.key("thrust_n", actuation.thrust_n);
             lines.key("torque_n_m", actuation.torque_n_m);
         }
+        if !self.nominal.actuation.is_empty() {
+            let actuators = &self.nominal.actuators;
+            lines.table("[actuators]");
+            lines.key("thrust_scale", actuators.thrust_scale);
+            lines.key("thruster1_tilt_rad", actuators.thruster1_tilt_rad);
+            lines.key("thruster2_tilt_rad", actuators.thruster2_tilt_rad);
+            lines.key("thruster3_tilt_rad", actuators.thruster3_tilt_rad);
+            lines.key("switch_on_delay_s", actuators.switch_on_delay_s);
+            lines.key("switch_off_delay_s", actuators.switch_off_delay_s);
+            lines.key("torque_scale", actuators.torque_scale);
+            lines.key("torque_bias_n_m", actuators.torque_bias_n_m);
+        }
     }
+}
+
+fn write_principal(principal: &PrincipalInertia, lines: &mut Lines) {
+    match principal.moments {
+        PrincipalMoments::Inertia(moments) => lines.key("principal_moments_kg_m2", moments),
+        PrincipalMoments::Second(moments) => lines.key("principal_second_moments_kg_m2", moments),
+    }
+    lines.key("principal_axes", principal.axes);
 }

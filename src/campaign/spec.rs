@@ -10,7 +10,8 @@ use crate::integrators::Method;
 use crate::observables::Group;
 use crate::sampling::{Correlation, Derivation, Design, Dispersion};
 use crate::scene::{
-    ActuationInput, DebrisInput, DebrisShape, FuselageInput, InitialInput, SceneInput, WheelInput, WheelMode,
+    ActuationInput, ActuatorsInput, DebrisInput, FuselageInput, InitialInput, MassErrors, PrincipalInertia,
+    PrincipalMoments, SceneInput, WheelInput, WheelMode,
 };
 
 /// A campaign file as written.
@@ -165,7 +166,12 @@ fn scene(root: &mut Section<'_, '_>) -> SceneInput {
     let debris = debris(&mut root.section("debris"));
     let initial = initial(&mut root.section("initial"), wheels.map(|wheel| wheel.is_some()), debris.is_some());
     let actuation = root.sections("actuation", actuation);
-    SceneInput { fuselage, wheels, debris, initial, actuation }
+    if root.has("actuators") && !has_actuation {
+        let remedy = "delete this table, or add [[actuation]] tables";
+        root.refuse("actuators", "left out where there is no [[actuation]]", remedy);
+    }
+    let actuators = actuators(&mut root.section("actuators"));
+    SceneInput { fuselage, wheels, debris, initial, actuation, actuators }
 }
 
 fn fuselage(section: &mut Section<'_, '_>, has_actuation: bool) -> FuselageInput {
@@ -183,9 +189,53 @@ fn fuselage(section: &mut Section<'_, '_>, has_actuation: bool) -> FuselageInput
         mass_kg: section.optional_number("mass_kg"),
         center_of_mass_m: section.vector("center_of_mass_m"),
         inertia_kg_m2: section.matrix("inertia_kg_m2"),
+        principal: principal(section),
+        errors: MassErrors {
+            mass_scale: section.optional_number("mass_scale").unwrap_or(1.0),
+            stretch_log: section.vector("stretch_log").unwrap_or_default(),
+            shear: section.vector("shear").unwrap_or_default(),
+            center_offset_m: section.vector("center_offset_m").unwrap_or_default(),
+        },
     };
     section.finish();
     fuselage
+}
+
+/// An inertia by principal moments and axes, if it was written; it excludes a tensor.
+fn principal(section: &mut Section<'_, '_>) -> Option<PrincipalInertia> {
+    const MOMENTS: &str = "principal_moments_kg_m2";
+    const SECOND: &str = "principal_second_moments_kg_m2";
+    let (inertia, second) = (section.vector(MOMENTS), section.vector(SECOND));
+    let axes = section.vector("principal_axes");
+    let written = if inertia.is_some() { MOMENTS } else { SECOND };
+    if inertia.is_some() && second.is_some() {
+        section.refuse(SECOND, format!("left out beside {MOMENTS}"), "delete one of the two");
+    }
+    if inertia.or(second).is_none() && axes.is_some() {
+        let allowed = "left out where there are no principal moments";
+        section.refuse("principal_axes", allowed, format!("delete this line, or add {MOMENTS}"));
+    }
+    if inertia.or(second).is_some() && section.has("inertia_kg_m2") {
+        section.refuse("inertia_kg_m2", format!("left out beside {written}"), "delete one of the two");
+    }
+    let moments = inertia.map(PrincipalMoments::Inertia).or(second.map(PrincipalMoments::Second))?;
+    Some(PrincipalInertia { moments, axes: axes.unwrap_or(IDENTITY) })
+}
+
+fn actuators(section: &mut Section<'_, '_>) -> ActuatorsInput {
+    let ideal = ActuatorsInput::IDEAL;
+    let actuators = ActuatorsInput {
+        thrust_scale: section.vector("thrust_scale").unwrap_or(ideal.thrust_scale),
+        thruster1_tilt_rad: section.vector("thruster1_tilt_rad").unwrap_or_default(),
+        thruster2_tilt_rad: section.vector("thruster2_tilt_rad").unwrap_or_default(),
+        thruster3_tilt_rad: section.vector("thruster3_tilt_rad").unwrap_or_default(),
+        switch_on_delay_s: section.optional_number("switch_on_delay_s").unwrap_or(0.0),
+        switch_off_delay_s: section.optional_number("switch_off_delay_s").unwrap_or(0.0),
+        torque_scale: section.vector("torque_scale").unwrap_or(ideal.torque_scale),
+        torque_bias_n_m: section.vector("torque_bias_n_m").unwrap_or_default(),
+    };
+    section.finish();
+    actuators
 }
 
 fn wheel(section: &mut Section<'_, '_>) -> Option<WheelInput> {
@@ -211,19 +261,49 @@ fn debris(section: &mut Section<'_, '_>) -> Option<DebrisInput> {
     if !section.is_present() {
         return None;
     }
+    const IRREGULAR: [&str; 4] =
+        ["mass_kg", "inertia_kg_m2", "principal_moments_kg_m2", "principal_second_moments_kg_m2"];
+    let is_irregular = IRREGULAR.iter().any(|key| section.has(key));
+    let debris = if is_irregular { irregular_debris(section) } else { solid_debris(section) };
+    section.finish();
+    Some(debris)
+}
+
+/// A cube or a box.
+fn solid_debris(section: &mut Section<'_, '_>) -> DebrisInput {
     let (side, size) = (section.optional_number("side_m"), section.vector("size_m"));
-    let shape = match (side, size) {
-        (Some(side_m), None) => DebrisShape::Cube { side_m },
-        (None, Some(size_m)) => DebrisShape::Box { size_m },
-        (None, None) => DebrisShape::Cube { side_m: section.required_number("side_m", "0.2") },
-        (Some(side_m), Some(_)) => {
-            section.refuse("size_m", "left out beside side_m", "delete side_m or size_m");
-            DebrisShape::Cube { side_m }
-        }
+    if side.is_some() && size.is_some() {
+        section.refuse("size_m", "left out beside side_m", "delete side_m or size_m");
+    }
+    let side_m = match (side, size) {
+        (None, None) => section.required_number("side_m", "0.2"),
+        _ => side.unwrap_or(f64::NAN),
     };
     let density_kg_m3 = section.required_number("density_kg_m3", "2700.0");
-    section.finish();
-    Some(DebrisInput { shape, density_kg_m3 })
+    match (side, size) {
+        (None, Some(size_m)) => DebrisInput::Box { size_m, density_kg_m3 },
+        _ => DebrisInput::Cube { side_m, density_kg_m3 },
+    }
+}
+
+/// Any rigid body, by mass and inertia.
+fn irregular_debris(section: &mut Section<'_, '_>) -> DebrisInput {
+    let mass_kg = section.required_number("mass_kg", "21.6");
+    let (tensor, principal) = (section.matrix("inertia_kg_m2"), principal(section));
+    for key in ["side_m", "size_m", "density_kg_m3"] {
+        if section.has(key) {
+            section.refuse(key, "left out where the debris is given by mass and inertia", "delete this line");
+        }
+    }
+    match (tensor, principal) {
+        (_, Some(principal)) => DebrisInput::Principal { mass_kg, principal },
+        (Some(inertia_kg_m2), None) => DebrisInput::Tensor { mass_kg, inertia_kg_m2 },
+        (None, None) => {
+            let allowed = "given beside mass_kg (or principal_moments_kg_m2, principal_second_moments_kg_m2)";
+            section.require("inertia_kg_m2", allowed, "[[3, 0, 0], [0, 3, 0], [0, 0, 2]]");
+            DebrisInput::Tensor { mass_kg, inertia_kg_m2: [[f64::NAN; 3]; 3] }
+        }
+    }
 }
 
 const IDENTITY: [f64; 4] = [1.0, 0.0, 0.0, 0.0];

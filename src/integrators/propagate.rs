@@ -32,9 +32,9 @@ pub struct Propagator {
     pub grid: Grid,
     /// What the tables hold.
     pub blocks: Blocks,
-    /// Whether any scene has thrust in its schedule.
+    /// Whether the schedule commands thrust.
     pub thrust: bool,
-    /// Whether any scene has motor torque in its schedule.
+    /// Whether the schedule commands motor torque.
     pub motors: bool,
 }
 
@@ -50,15 +50,7 @@ pub trait Engine: Send {
 impl Propagator {
     /// The propagator for scenes that have the schedule of `nominal` (its sizes may differ from run to run).
     pub fn new(method: Method, control: Control, grid: Grid, blocks: Blocks, nominal: &Scene) -> Self {
-        let any = |acts: fn(&crate::scene::Actuation) -> bool| nominal.schedule.iter().any(acts);
-        Propagator {
-            method,
-            control,
-            grid,
-            blocks,
-            thrust: any(|act| act.thrust != [0.0; 3]),
-            motors: any(|act| act.torque != [0.0; 2]),
-        }
+        Propagator { method, control, grid, blocks, thrust: nominal.commands_thrust, motors: nominal.commands_torque }
     }
 
     /// Number of components that the gyrostat kernel integrates for this propagator.

@@ -4,8 +4,12 @@
 //! not positive definite). Both only gather problems, so that one look at an input finds them all.
 
 use super::error::Problems;
-use super::input::{ActuationInput, DebrisShape, FuselageInput, InitialInput, SceneInput, WheelInput, WheelMode};
+use super::input::{
+    ActuationInput, ActuatorsInput, DebrisInput, FuselageInput, InitialInput, MassErrors, PrincipalInertia,
+    PrincipalMoments, SceneInput, WheelInput, WheelMode,
+};
 use super::mass::{Body, MassProperties};
+use super::schedule::applied;
 use crate::math::symmetric::{is_positive_definite, principal_axes};
 
 /// How far the norm of a written attitude quaternion may be from one: six written digits make 1e-6; it is then normalised.
@@ -51,20 +55,66 @@ pub(super) fn written(input: &SceneInput, problems: &mut Problems) {
         }
     }
     if let Some(debris) = input.debris {
-        match debris.shape {
-            DebrisShape::Cube { side_m } => {
+        match debris {
+            DebrisInput::Cube { side_m, density_kg_m3 } => {
                 problems.positive("debris.side_m", side_m);
+                problems.positive("debris.density_kg_m3", density_kg_m3);
             }
-            DebrisShape::Box { size_m } => {
-                if problems.all_finite("debris.size_m", size_m) && size_m.iter().any(|&side| side <= 0.0) {
-                    problems.add("debris.size_m", size_m, "above zero, each", "write positive sides");
-                }
+            DebrisInput::Box { size_m, density_kg_m3 } => {
+                problems.all_positive("debris.size_m", size_m);
+                problems.positive("debris.density_kg_m3", density_kg_m3);
+            }
+            DebrisInput::Tensor { mass_kg, inertia_kg_m2 } => {
+                problems.positive("debris.mass_kg", mass_kg);
+                inertia("debris.inertia_kg_m2", inertia_kg_m2, problems);
+            }
+            DebrisInput::Principal { mass_kg, principal: written } => {
+                problems.positive("debris.mass_kg", mass_kg);
+                principal(&DEBRIS_PRINCIPAL, &written, problems);
             }
         }
-        problems.positive("debris.density_kg_m3", debris.density_kg_m3);
     }
     initial(input, &input.initial, problems);
-    actuation(input, problems);
+    if actuation(input, problems) && actuators(&input.actuators, problems) {
+        switches(input, problems);
+    }
+}
+
+/// The keys of an inertia by principal moments: of inertia, second, axes.
+const FUSELAGE_PRINCIPAL: [&str; 3] =
+    ["fuselage.principal_moments_kg_m2", "fuselage.principal_second_moments_kg_m2", "fuselage.principal_axes"];
+const DEBRIS_PRINCIPAL: [&str; 3] =
+    ["debris.principal_moments_kg_m2", "debris.principal_second_moments_kg_m2", "debris.principal_axes"];
+
+/// Gathers what keeps principal moments and axes from being an inertia.
+fn principal(keys: &[&'static str; 3], principal: &PrincipalInertia, problems: &mut Problems) {
+    match principal.moments {
+        PrincipalMoments::Inertia(moments) => {
+            let [a, b, c] = moments;
+            let slack = INERTIA_SLACK * (a + b + c);
+            if problems.all_positive(keys[0], moments) && (a > b + c + slack || b > a + c + slack || c > a + b + slack)
+            {
+                problems.add(
+                    keys[0],
+                    moments,
+                    "such that no moment exceeds the sum of the other two",
+                    "no distribution of mass has these moments; principal_second_moments_kg_m2 cannot fail in this way",
+                );
+            }
+        }
+        PrincipalMoments::Second(moments) => {
+            problems.all_positive(keys[1], moments);
+        }
+    }
+    unit_quaternion(keys[2], principal.axes, problems);
+}
+
+/// Gathers what is wrong with errors of the fuselage's mass distribution.
+fn mass_errors(errors: &MassErrors, problems: &mut Problems) {
+    problems.positive("fuselage.mass_scale", errors.mass_scale);
+    problems.all_finite("fuselage.stretch_log", errors.stretch_log);
+    problems.all_finite("fuselage.shear", errors.shear);
+    problems.all_finite("fuselage.center_offset_m", errors.center_offset_m);
 }
 
 fn fuselage(fuselage: &FuselageInput, problems: &mut Problems) {
@@ -99,6 +149,10 @@ fn fuselage(fuselage: &FuselageInput, problems: &mut Problems) {
     if let Some(tensor) = fuselage.inertia_kg_m2 {
         inertia("fuselage.inertia_kg_m2", tensor, problems);
     }
+    if let Some(written) = fuselage.principal {
+        principal(&FUSELAGE_PRINCIPAL, &written, problems);
+    }
+    mass_errors(&fuselage.errors, problems);
 }
 
 /// Gathers what keeps `tensor` from being the inertia of a body about its centre of mass.
@@ -164,7 +218,9 @@ fn unit_quaternion(key: &'static str, q: [f64; 4], problems: &mut Problems) {
     }
 }
 
-fn actuation(input: &SceneInput, problems: &mut Problems) {
+/// Gathers what is wrong with the commands; whether nothing is.
+fn actuation(input: &SceneInput, problems: &mut Problems) -> bool {
+    let before = problems.0.len();
     let mut previous_end = 0.0;
     for (i, &ActuationInput { start_s, end_s, thrust_n, torque_n_m }) in input.actuation.iter().enumerate() {
         let key = |name: &str| format!("actuation[{i}].{name}");
@@ -222,6 +278,50 @@ fn actuation(input: &SceneInput, problems: &mut Problems) {
                 ),
             }
         }
+    }
+    problems.0.len() == before
+}
+
+/// Gathers what is wrong with the actuators; whether nothing is.
+fn actuators(actuators: &ActuatorsInput, problems: &mut Problems) -> bool {
+    let before = problems.0.len();
+    let scale = actuators.thrust_scale;
+    if problems.all_finite("actuators.thrust_scale", scale) && scale.iter().any(|&factor| factor < 0.0) {
+        let allowed = "zero or above, each: a thruster does not pull";
+        problems.add("actuators.thrust_scale", scale, allowed, "write zero for a thruster that does not work");
+    }
+    let keys = ["actuators.thruster1_tilt_rad", "actuators.thruster2_tilt_rad", "actuators.thruster3_tilt_rad"];
+    for (key, tilt) in keys.into_iter().zip(actuators.tilts_rad()) {
+        problems.all_finite(key, tilt);
+    }
+    problems.finite("actuators.switch_on_delay_s", actuators.switch_on_delay_s);
+    problems.finite("actuators.switch_off_delay_s", actuators.switch_off_delay_s);
+    problems.all_finite("actuators.torque_scale", actuators.torque_scale);
+    problems.all_finite("actuators.torque_bias_n_m", actuators.torque_bias_n_m);
+    problems.0.len() == before
+}
+
+/// Gathers where delays turn stretches inside out or into each other. Only the first is told: the delays are common to all.
+fn switches(input: &SceneInput, problems: &mut Problems) {
+    let delays = &input.actuators;
+    let commanded = |index: usize| {
+        let command = &input.actuation[index];
+        format!("such that actuation[{index}], commanded from {:?} to {:?},", command.start_s, command.end_s)
+    };
+    for index in 0..input.actuation.len() {
+        let stretch = applied(input, index);
+        let next = (index + 1 < input.actuation.len()).then(|| applied(input, index + 1).start);
+        let said = if stretch.end <= stretch.start {
+            format!("{} ends after it starts", commanded(index))
+        } else if next.is_some_and(|next| stretch.end > next) {
+            format!("{} ends before the next starts", commanded(index))
+        } else {
+            continue;
+        };
+        let written = (delays.switch_on_delay_s, delays.switch_off_delay_s);
+        let remedy = "make the delays (on, off) smaller, or nearer to each other";
+        problems.add("actuators.switch_off_delay_s", written, said, remedy);
+        return;
     }
 }
 

@@ -52,6 +52,16 @@ impl Problems {
         passed
     }
 
+    /// Whether all `values` are finite and above zero; notes the whole vector where not.
+    pub(super) fn all_positive<const N: usize>(&mut self, key: &'static str, values: [f64; N]) -> bool {
+        let finite = self.all_finite(key, values);
+        let passed = values.iter().all(|&value| value > 0.0);
+        if finite && !passed {
+            self.add(key, values, "above zero, each", "write positive numbers");
+        }
+        finite && passed
+    }
+
     /// Whether `value` is finite and above zero; notes it where not.
     pub(super) fn positive(&mut self, key: &'static str, value: f64) -> bool {
         let passed = self.finite(key, value);

@@ -16,6 +16,8 @@ pub struct SceneInput {
     pub initial: InitialInput,
     /// Stretches of constant thrust and torque, in order and not overlapping.
     pub actuation: Vec<ActuationInput>,
+    /// What the actuators make of it.
+    pub actuators: ActuatorsInput,
 }
 
 impl SceneInput {
@@ -45,6 +47,61 @@ pub struct FuselageInput {
     pub center_of_mass_m: Option<[f64; 3]>,
     /// Inertia tensor about the fuselage's own centre of mass in F_s instead of the one that geometry gives, kg m^2, by rows.
     pub inertia_kg_m2: Option<[[f64; 3]; 3]>,
+    /// The same inertia by principal moments and axes; at most one of the two is given.
+    pub principal: Option<PrincipalInertia>,
+    /// How the true distribution of mass differs from all of the above.
+    pub errors: MassErrors,
+}
+
+/// An inertia about the centre of mass by principal moments and axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PrincipalInertia {
+    /// The moments.
+    pub moments: PrincipalMoments,
+    /// Attitude of the principal frame: quaternion that maps its components to the body's, scalar first.
+    pub axes: [f64; 4],
+}
+
+/// How principal moments were written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PrincipalMoments {
+    /// Moments of inertia J_1, J_2, J_3, kg m^2: none above the sum of the other two.
+    Inertia([f64; 3]),
+    /// Second moments of mass P_i, the integrals of x_i^2 dm, kg m^2: J_1 = P_2 + P_3 and so on, so that any positive three are
+    /// the inertia of some body.
+    Second([f64; 3]),
+}
+
+/// How a distribution of mass differs from the nominal one: the same matter, moved by a linear map about the centre of mass, with another
+/// mass, at another place.
+///
+/// The second moments of mass about the centre become S' = k A S A^T with k = `mass_scale` and A lower triangular, exp(`stretch_log`)
+/// on its diagonal and `shear` below: positive definite whatever the numbers, and so is always the inertia of a body. If S = L L^T
+/// then S' = k (A L)(A L)^T: these are the coordinates of the log-Cholesky form (C. Rucker & P. M. Wensing, *Smooth
+/// Parameterization of Rigid-Body Inertia*, IEEE Robotics and Automation Letters 7(2), 2022) about the nominal body, and with
+/// mass and centre of mass they couple all ten numbers of a rigid body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MassErrors {
+    /// Factor k of all masses, pure.
+    pub mass_scale: f64,
+    /// Logarithms of the stretches along s1, s2, s3, pure.
+    pub stretch_log: [f64; 3],
+    /// Shears xy, xz, yz, pure: what stands at x moves by xy x along s2 and by xz x along s3, what stands at y by yz y along s3.
+    pub shear: [f64; 3],
+    /// Offset of the centre of mass, in F_s, m.
+    pub center_offset_m: [f64; 3],
+}
+
+impl MassErrors {
+    /// No difference.
+    pub const NONE: MassErrors =
+        MassErrors { mass_scale: 1.0, stretch_log: [0.0; 3], shear: [0.0; 3], center_offset_m: [0.0; 3] };
+}
+
+impl Default for MassErrors {
+    fn default() -> Self {
+        Self::NONE
+    }
 }
 
 /// A wheel: a solid balanced cylinder that spins about an axis through its centre, which is fixed in the fuselage.
@@ -96,38 +153,37 @@ impl WheelMode {
     }
 }
 
-/// The debris: a solid homogeneous cube or box.
+/// The debris: a solid homogeneous cube or box, or any rigid body; its centre of mass is the origin of F_d.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DebrisInput {
-    /// Shape and size.
-    pub shape: DebrisShape,
-    /// Density, kg/m^3.
-    pub density_kg_m3: f64,
-}
-
-/// How the size of the debris was written.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum DebrisShape {
+pub enum DebrisInput {
     /// A cube, by its side.
     Cube {
         /// Side l_d, m.
         side_m: f64,
+        /// Density, kg/m^3.
+        density_kg_m3: f64,
     },
     /// A box, by its three sides along d1, d2, d3.
     Box {
         /// Sides, m.
         size_m: [f64; 3],
+        /// Density, kg/m^3.
+        density_kg_m3: f64,
     },
-}
-
-impl DebrisShape {
-    /// The three sides along d1, d2, d3, m.
-    pub fn size_m(self) -> [f64; 3] {
-        match self {
-            DebrisShape::Cube { side_m } => [side_m; 3],
-            DebrisShape::Box { size_m } => size_m,
-        }
-    }
+    /// An irregular body, by its inertia tensor.
+    Tensor {
+        /// Mass, kg.
+        mass_kg: f64,
+        /// Inertia tensor about the centre of mass in F_d, kg m^2, by rows.
+        inertia_kg_m2: [[f64; 3]; 3],
+    },
+    /// An irregular body, by its principal moments and axes.
+    Principal {
+        /// Mass, kg.
+        mass_kg: f64,
+        /// Moments, and the attitude of the principal frame in F_d.
+        principal: PrincipalInertia,
+    },
 }
 
 /// The measurable state at time zero (the report's Sigma, (59), builds the full state from it).
@@ -153,6 +209,54 @@ pub struct InitialInput {
     pub debris_attitude: [f64; 4],
     /// Angular velocity omega^ds of the debris relative to the spacecraft, in F_d, rad/s.
     pub debris_relative_angular_velocity_rad_s: [f64; 3],
+}
+
+/// What the actuators make of what the schedule commands; as a whole, for all of its stretches.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ActuatorsInput {
+    /// Factors of the thrusts P1, P2, P3, pure; never negative.
+    pub thrust_scale: [f64; 3],
+    /// Misalignment of P1: components along s1 and s2 of the rotation vector that turns the nominal direction of its thrust into
+    /// the true one, rad.
+    pub thruster1_tilt_rad: [f64; 2],
+    /// The same of P2.
+    pub thruster2_tilt_rad: [f64; 2],
+    /// The same of P3.
+    pub thruster3_tilt_rad: [f64; 2],
+    /// How much later than commanded stretches start, s. One that would start before the run starts with it.
+    pub switch_on_delay_s: f64,
+    /// How much later than commanded stretches end, s. Where one stretch starts as another ends there is one switch, which is late
+    /// by `switch_on_delay_s`.
+    pub switch_off_delay_s: f64,
+    /// Factors of the motor torques, pure.
+    pub torque_scale: [f64; 2],
+    /// What a motor gives beyond that while a torque other than zero is commanded, N m.
+    pub torque_bias_n_m: [f64; 2],
+}
+
+impl ActuatorsInput {
+    /// Actuators that do as they are told.
+    pub const IDEAL: ActuatorsInput = ActuatorsInput {
+        thrust_scale: [1.0; 3],
+        thruster1_tilt_rad: [0.0; 2],
+        thruster2_tilt_rad: [0.0; 2],
+        thruster3_tilt_rad: [0.0; 2],
+        switch_on_delay_s: 0.0,
+        switch_off_delay_s: 0.0,
+        torque_scale: [1.0; 2],
+        torque_bias_n_m: [0.0; 2],
+    };
+
+    /// The misalignments of P1, P2, P3, rad.
+    pub fn tilts_rad(&self) -> [[f64; 2]; 3] {
+        [self.thruster1_tilt_rad, self.thruster2_tilt_rad, self.thruster3_tilt_rad]
+    }
+}
+
+impl Default for ActuatorsInput {
+    fn default() -> Self {
+        Self::IDEAL
+    }
 }
 
 /// A stretch of constant thrust and torque.

@@ -74,7 +74,7 @@ impl<R: Real> Body<R> {
     /// The fuselage (60)-(67), with the overrides of its input.
     ///
     /// Where only the mass is overridden, the inertia that geometry gives scales with it (same shape, another density); an
-    /// overridden centre of mass moves the centre and leaves the inertia about it as it was.
+    /// overridden centre of mass moves the centre and leaves the inertia about it as it was. Errors come last.
     pub fn fuselage(input: &FuselageInput, one: R) -> Self {
         let k = |value: f64| one.splat(value);
         let mut body = hollow_cylinder(
@@ -92,16 +92,28 @@ impl<R: Real> Body<R> {
             body.center = center.map(k);
         }
         if let Some(inertia) = input.inertia_kg_m2 {
-            // symmetric to rounding when it comes here; exactly so afterwards
-            body.inertia =
-                std::array::from_fn(|i| std::array::from_fn(|j| k(0.5) * (k(inertia[i][j]) + k(inertia[j][i]))));
+            body.inertia = symmetric(inertia, one);
         }
-        body
+        if let Some(principal) = input.principal {
+            body.inertia = principal.tensor(one);
+        }
+        input.errors.applied(body)
     }
 
-    /// The debris (60)-(67).
+    /// The debris (60)-(67), or the irregular body of its input.
     pub fn debris(input: &DebrisInput, one: R) -> Self {
-        solid_box(input.shape.size_m().map(|side| one.splat(side)), one.splat(input.density_kg_m3))
+        let k = |value: f64| one.splat(value);
+        let center = [one.zero(); 3];
+        match *input {
+            DebrisInput::Cube { side_m, density_kg_m3 } => solid_box([k(side_m); 3], k(density_kg_m3)),
+            DebrisInput::Box { size_m, density_kg_m3 } => solid_box(size_m.map(k), k(density_kg_m3)),
+            DebrisInput::Tensor { mass_kg, inertia_kg_m2 } => {
+                Body { mass: k(mass_kg), center, inertia: symmetric(inertia_kg_m2, one) }
+            }
+            DebrisInput::Principal { mass_kg, principal } => {
+                Body { mass: k(mass_kg), center, inertia: principal.tensor(one) }
+            }
+        }
     }
 }
 
@@ -228,6 +240,12 @@ fn point_inertia<R: Real>(mass: R, r: [R; 3]) -> [[R; 3]; 3] {
         [off(0, 1), square[0] + square[2], off(1, 2)],
         [off(0, 2), off(1, 2), square[0] + square[1]],
     ]
+}
+
+/// A tensor that is symmetric to rounding when it comes here, exactly so afterwards.
+fn symmetric<R: Real>(tensor: [[f64; 3]; 3], one: R) -> [[R; 3]; 3] {
+    let k = |value: f64| one.splat(value);
+    std::array::from_fn(|i| std::array::from_fn(|j| k(0.5) * (k(tensor[i][j]) + k(tensor[j][i]))))
 }
 
 fn matrix_sum<R: Real>(a: [[R; 3]; 3], b: [[R; 3]; 3]) -> [[R; 3]; 3] {

@@ -1,12 +1,13 @@
 //! Floor 1: what is simulated. Bodies -> mass properties, actuators, initial state; validated, immutable, SI, no serde.
 //!
 //! - [`input`]: the scene as written.
+//! - [`second_moment`]: inertia by second moments of mass, and errors of a distribution of mass.
 //! - [`solids`]: mass, centre and inertia of homogeneous solids (the report's (60)-(67), in closed form).
 //! - [`mass`]: mass properties of the bodies and of the whole.
 //! - [`parameter`]: the one table of the numeric keys that can be dispersed.
 //! - [`check`], [`error`]: what makes a scene physical, and what is said where it is not.
 //! - [`resolve`]: the way from an input to a [`Scene`].
-//! - [`schedule`]: the stretches of a run between switches.
+//! - [`schedule`]: what the actuators make of the commands, and the stretches of a run between switches.
 
 pub mod check;
 pub mod error;
@@ -17,14 +18,18 @@ pub mod resolve;
 #[cfg(test)]
 pub(crate) mod samples;
 pub mod schedule;
+pub mod second_moment;
 pub mod solids;
 
 pub use error::SceneError;
 pub use input::{
-    ActuationInput, DebrisInput, DebrisShape, FuselageInput, InitialInput, SceneInput, WheelInput, WheelMode,
+    ActuationInput, ActuatorsInput, DebrisInput, FuselageInput, InitialInput, MassErrors, PrincipalInertia,
+    PrincipalMoments, SceneInput, WheelInput, WheelMode,
 };
 pub use mass::MassProperties;
 pub use parameter::Parameter;
+
+use crate::math::vector::{cross, difference, scaled, sum};
 
 /// A physically valid scene: everything that a kernel starts from.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,9 +42,18 @@ pub struct Scene {
     pub thruster_offset: f64,
     /// Station l_s of the thrusters P2 and P3 on the axis s3, m.
     pub thruster_station: f64,
-    /// Stretches of constant thrust and torque, in order, not overlapping, each with start < end.
+    /// Directions in which the thrusts P1, P2, P3 push, unit vectors in F_s: nominally s3, -s3, -s3.
+    pub thruster_directions: [[f64; 3]; 3],
+    /// Stretches of constant thrust and torque as they are applied, in order, not overlapping, each with start < end.
     pub schedule: Vec<Actuation>,
+    /// Whether the schedule commands thrust at all, whatever the thrusters make of it.
+    pub commands_thrust: bool,
+    /// The same of motor torque.
+    pub commands_torque: bool,
 }
+
+/// The nominal directions of the thrusts P1, P2, P3 in F_s (72).
+pub const THRUSTER_DIRECTIONS: [[f64; 3]; 3] = [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [0.0, 0.0, -1.0]];
 
 /// A stretch of constant thrust and torque.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,15 +96,25 @@ pub struct InitialState {
 impl Scene {
     /// Force of the thrusts P1, P2, P3 in F_s, N (72).
     pub fn thruster_force_s(&self, thrust: [f64; 3]) -> [f64; 3] {
-        [0.0, 0.0, thrust[0] - thrust[1] - thrust[2]]
+        if self.thruster_directions == THRUSTER_DIRECTIONS {
+            return [0.0, 0.0, thrust[0] - thrust[1] - thrust[2]];
+        }
+        let [p1, p2, p3] = self.thruster_directions;
+        sum(scaled(thrust[0], p1), sum(scaled(thrust[1], p2), scaled(thrust[2], p3)))
     }
 
     /// Torque of the thrusts P1, P2, P3 about the spacecraft's centre of mass c, in F_s, N m (72).
     ///
     /// P1 acts at p, P2 at (0, -rho_p, l_s), P3 at (0, +rho_p, l_s).
     pub fn thruster_torque_s(&self, thrust: [f64; 3]) -> [f64; 3] {
-        let force = thrust[0] - thrust[1] - thrust[2];
         let c = self.mass.center;
+        if self.thruster_directions != THRUSTER_DIRECTIONS {
+            let (offset, station) = (self.thruster_offset, self.thruster_station);
+            let points = [[0.0; 3], [0.0, -offset, station], [0.0, offset, station]];
+            let of = |k: usize| cross(difference(points[k], c), scaled(thrust[k], self.thruster_directions[k]));
+            return sum(of(0), sum(of(1), of(2)));
+        }
+        let force = thrust[0] - thrust[1] - thrust[2];
         // about p, then less c x F
         [self.thruster_offset * (thrust[1] - thrust[2]) - c[1] * force, c[0] * force, 0.0]
     }

@@ -1,9 +1,13 @@
 //! [`Parameter`]: the one table of the numeric keys of scene and initial state that can be dispersed.
 //!
 //! Name, unit, components, place in [`SceneInput`] and names of columns all come from one table: a new key is one new line.
-//! Not here: the keys of `[[actuation]]`, a list whose stretches are dispersed by types of their own.
+//! A key exists where a change of it changes something: what belongs to actuators needs a schedule.
+//! Not here: the keys of `[[actuation]]`, the commands, which the keys of `[actuators]` distort for all stretches alike.
 
-use super::input::{DebrisInput, DebrisShape, FuselageInput, InitialInput, SceneInput, WheelInput};
+use super::input::{
+    ActuatorsInput, DebrisInput, FuselageInput, InitialInput, MassErrors, PrincipalInertia, PrincipalMoments,
+    SceneInput, WheelInput,
+};
 
 /// A numeric key of scene or initial state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -40,6 +44,9 @@ const XZ: &[&str] = &["x", "z"];
 const XYZ: &[&str] = &["x", "y", "z"];
 const WXYZ: &[&str] = &["w", "x", "y", "z"];
 const WHEELS: &[&str] = &["1", "2"];
+const THRUSTERS: &[&str] = &["1", "2", "3"];
+const AXES: &[&str] = THRUSTERS;
+const SHEARS: &[&str] = &["xy", "xz", "yz"];
 const SYMMETRIC: &[&str] = &["xx", "xy", "xz", "yy", "yz", "zz"];
 /// Places of the components of a symmetric tensor, and of their mirror images, among its nine numbers by rows.
 const SYMMETRIC_PLACES: [(usize, usize); 6] = [(0, 0), (1, 3), (2, 6), (4, 4), (5, 7), (8, 8)];
@@ -79,7 +86,8 @@ impl Numbers for [[f64; 3]; 3] {
 
 /// One line of the table: the pattern binds the value where the key exists, by shared or by mutable reference.
 macro_rules! entry {
-    ($table:literal, $key:ident, $unit:literal, $components:expr, $kind:ident, $remedy:expr, $pattern:pat => $value:ident) => {
+    ($table:literal, $key:ident, $unit:literal, $components:expr, $kind:ident, $remedy:expr,
+        $pattern:pat $(if $guard:expr)? => $value:ident) => {
         Entry {
             name: concat!($table, ".", stringify!($key)),
             unit: $unit,
@@ -88,12 +96,12 @@ macro_rules! entry {
             remedy: $remedy,
             #[allow(unreachable_patterns, reason = "keys that always exist have a pattern that always matches")]
             read: |scene| match scene {
-                $pattern => Some($value.numbers()),
+                $pattern $(if $guard)? => Some($value.numbers()),
                 _ => None,
             },
             #[allow(unreachable_patterns, reason = "keys that always exist have a pattern that always matches")]
             write: |scene| match scene {
-                $pattern => Some($value.numbers_mut()),
+                $pattern $(if $guard)? => Some($value.numbers_mut()),
                 _ => None,
             },
         }
@@ -101,14 +109,47 @@ macro_rules! entry {
 }
 
 macro_rules! fuselage {
-    ($key:ident, $unit:literal) => {
-        entry!("fuselage", $key, $unit, SCALAR, Plain, "",
-            SceneInput { fuselage: FuselageInput { $key: value, .. }, .. } => value)
+    ($key:ident, $unit:literal, $hidden:ident) => {
+        entry!("fuselage", $key, $unit, SCALAR, Plain, "other keys override it: disperse those, or delete them",
+            SceneInput { actuation, fuselage: FuselageInput {
+                $key: value, mass_kg, center_of_mass_m, inertia_kg_m2, principal, .. }, .. }
+            if !$hidden(!actuation.is_empty(), mass_kg.is_some(), center_of_mass_m.is_some(),
+                inertia_kg_m2.is_some() || principal.is_some()) => value)
     };
     ($key:ident, $unit:literal, $components:expr, $kind:ident, given) => {
         entry!("fuselage", $key, $unit, $components, $kind,
             concat!("give fuselage.", stringify!($key), " a nominal value, or disperse the geometry that it would come from"),
             SceneInput { fuselage: FuselageInput { $key: Some(value), .. }, .. } => value)
+    };
+}
+
+macro_rules! fuselage_error {
+    ($key:ident, $unit:literal, $components:expr) => {
+        entry!("fuselage", $key, $unit, $components, Plain, "",
+            SceneInput { fuselage: FuselageInput { errors: MassErrors { $key: value, .. }, .. }, .. } => value)
+    };
+}
+
+macro_rules! fuselage_principal {
+    ($key:ident, $unit:literal, $components:expr, $kind:ident, $pattern:pat => $value:ident) => {
+        entry!("fuselage", $key, $unit, $components, $kind,
+            concat!("describe the fuselage's inertia by fuselage.", stringify!($key)),
+            SceneInput { fuselage: FuselageInput { principal: Some($pattern), .. }, .. } => $value)
+    };
+}
+
+macro_rules! debris {
+    ($key:ident, $unit:literal, $components:expr, $kind:ident, $pattern:pat => $value:ident) => {
+        entry!("debris", $key, $unit, $components, $kind,
+            concat!("describe the debris by debris.", stringify!($key)),
+            SceneInput { debris: Some($pattern), .. } => $value)
+    };
+}
+
+macro_rules! actuators {
+    ($key:ident, $unit:literal, $components:expr, $kind:ident) => {
+        entry!("actuators", $key, $unit, $components, $kind, "add [[actuation]] tables, or the wheel's",
+            SceneInput { actuation, actuators: ActuatorsInput { $key: value, .. }, .. } if !actuation.is_empty() => value)
     };
 }
 
@@ -143,15 +184,40 @@ macro_rules! initial {
     };
 }
 
-static TABLE: [Entry; 33] = [
-    fuselage!(wall_thickness_m, "m"),
-    fuselage!(outer_radius_m, "m"),
-    fuselage!(length_m, "m"),
-    fuselage!(density_kg_m3, "kg/m^3"),
-    fuselage!(thruster_offset_m, "m"),
+/// Whether the overrides that are given hide the fuselage's density: a mass alone scales what geometry gives.
+fn hides_density(_actuated: bool, mass: bool, _center: bool, _inertia: bool) -> bool {
+    mass
+}
+
+/// Whether they hide its wall and radius, from which mass and inertia come.
+fn hides_section(_actuated: bool, mass: bool, _center: bool, inertia: bool) -> bool {
+    mass && inertia
+}
+
+/// Whether they hide its length, which is also where the centre of mass and the thrusters are.
+fn hides_length(actuated: bool, mass: bool, center: bool, inertia: bool) -> bool {
+    mass && inertia && center && !actuated
+}
+
+static TABLE: [Entry; 53] = [
+    fuselage!(wall_thickness_m, "m", hides_section),
+    fuselage!(outer_radius_m, "m", hides_section),
+    fuselage!(length_m, "m", hides_length),
+    fuselage!(density_kg_m3, "kg/m^3", hides_density),
+    entry!("fuselage", thruster_offset_m, "m", SCALAR, Plain, "add [[actuation]] tables: nothing else depends on it",
+        SceneInput { actuation, fuselage: FuselageInput { thruster_offset_m: value, .. }, .. } if !actuation.is_empty() => value),
     fuselage!(mass_kg, "kg", SCALAR, Plain, given),
     fuselage!(center_of_mass_m, "m", XYZ, Plain, given),
     fuselage!(inertia_kg_m2, "kg m^2", SYMMETRIC, Symmetric, given),
+    fuselage_principal!(principal_moments_kg_m2, "kg m^2", AXES, Plain,
+        PrincipalInertia { moments: PrincipalMoments::Inertia(value), .. } => value),
+    fuselage_principal!(principal_second_moments_kg_m2, "kg m^2", AXES, Plain,
+        PrincipalInertia { moments: PrincipalMoments::Second(value), .. } => value),
+    fuselage_principal!(principal_axes, "1", WXYZ, Quaternion, PrincipalInertia { axes: value, .. } => value),
+    fuselage_error!(mass_scale, "1", SCALAR),
+    fuselage_error!(stretch_log, "1", XYZ),
+    fuselage_error!(shear, "1", SHEARS),
+    fuselage_error!(center_offset_m, "m", XYZ),
     wheel1!(radius_m, "m"),
     wheel1!(length_m, "m"),
     wheel1!(station_m, "m"),
@@ -164,12 +230,27 @@ static TABLE: [Entry; 33] = [
     wheel2!(density_kg_m3, "kg/m^3"),
     wheel2!(offset_m, "m", XY),
     wheel2!(tilt_rad, "rad", XY),
-    entry!("debris", side_m, "m", SCALAR, Plain, "describe the debris by debris.side_m (a [debris] table without size_m)",
-        SceneInput { debris: Some(DebrisInput { shape: DebrisShape::Cube { side_m: value }, .. }), .. } => value),
-    entry!("debris", size_m, "m", XYZ, Plain, "describe the debris by debris.size_m (a [debris] table without side_m)",
-        SceneInput { debris: Some(DebrisInput { shape: DebrisShape::Box { size_m: value }, .. }), .. } => value),
-    entry!("debris", density_kg_m3, "kg/m^3", SCALAR, Plain, "add a [debris] table",
-        SceneInput { debris: Some(DebrisInput { density_kg_m3: value, .. }), .. } => value),
+    debris!(side_m, "m", SCALAR, Plain, DebrisInput::Cube { side_m: value, .. } => value),
+    debris!(size_m, "m", XYZ, Plain, DebrisInput::Box { size_m: value, .. } => value),
+    debris!(density_kg_m3, "kg/m^3", SCALAR, Plain,
+        DebrisInput::Cube { density_kg_m3: value, .. } | DebrisInput::Box { density_kg_m3: value, .. } => value),
+    debris!(mass_kg, "kg", SCALAR, Plain,
+        DebrisInput::Tensor { mass_kg: value, .. } | DebrisInput::Principal { mass_kg: value, .. } => value),
+    debris!(inertia_kg_m2, "kg m^2", SYMMETRIC, Symmetric, DebrisInput::Tensor { inertia_kg_m2: value, .. } => value),
+    debris!(principal_moments_kg_m2, "kg m^2", AXES, Plain,
+        DebrisInput::Principal { principal: PrincipalInertia { moments: PrincipalMoments::Inertia(value), .. }, .. } => value),
+    debris!(principal_second_moments_kg_m2, "kg m^2", AXES, Plain,
+        DebrisInput::Principal { principal: PrincipalInertia { moments: PrincipalMoments::Second(value), .. }, .. } => value),
+    debris!(principal_axes, "1", WXYZ, Quaternion,
+        DebrisInput::Principal { principal: PrincipalInertia { axes: value, .. }, .. } => value),
+    actuators!(thrust_scale, "1", THRUSTERS, Plain),
+    actuators!(thruster1_tilt_rad, "rad", XY, Plain),
+    actuators!(thruster2_tilt_rad, "rad", XY, Plain),
+    actuators!(thruster3_tilt_rad, "rad", XY, Plain),
+    actuators!(switch_on_delay_s, "s", SCALAR, Plain),
+    actuators!(switch_off_delay_s, "s", SCALAR, Plain),
+    actuators!(torque_scale, "1", WHEELS, PerWheel),
+    actuators!(torque_bias_n_m, "N m", WHEELS, PerWheel),
     initial!(position_m, "m", XYZ, Plain),
     initial!(velocity_m_s, "m/s", XYZ, Plain),
     initial!(attitude, "1", WXYZ, Quaternion),
@@ -307,8 +388,31 @@ impl Parameter {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::ActuationInput;
 
-    /// A scene in which every key but `debris.size_m` exists.
+    const IDENTITY: [f64; 4] = [1.0, 0.0, 0.0, 0.0];
+
+    /// Scenes in one of which every key exists.
+    fn variants() -> Vec<SceneInput> {
+        let second = PrincipalMoments::Second([1.0, 2.0, 3.0]);
+        let debris = [
+            DebrisInput::Box { size_m: [1.0, 2.0, 3.0], density_kg_m3: 1.0 },
+            DebrisInput::Tensor { mass_kg: 1.0, inertia_kg_m2: [[3.0, 0.1, 0.2], [0.1, 3.0, 0.3], [0.2, 0.3, 3.0]] },
+            DebrisInput::Principal { mass_kg: 1.0, principal: full().fuselage.principal.expect("full") },
+            DebrisInput::Principal { mass_kg: 1.0, principal: PrincipalInertia { moments: second, axes: IDENTITY } },
+        ];
+        let mut list = vec![full()];
+        list.extend(debris.map(|debris| SceneInput { debris: Some(debris), ..full() }));
+        let mut plain = full();
+        plain.fuselage.mass_kg = None;
+        list.push(plain);
+        let mut other = full();
+        other.fuselage.principal = Some(PrincipalInertia { moments: second, axes: IDENTITY });
+        list.push(other);
+        list
+    }
+
+    /// A scene in which most keys exist.
     fn full() -> SceneInput {
         let wheel = WheelInput {
             radius_m: 0.25,
@@ -329,9 +433,14 @@ mod tests {
                 mass_kg: Some(2000.0),
                 center_of_mass_m: Some([0.0, 0.0, 1.5]),
                 inertia_kg_m2: Some([[3.0, 0.1, 0.2], [0.1, 3.0, 0.3], [0.2, 0.3, 3.0]]),
+                principal: Some(PrincipalInertia {
+                    moments: PrincipalMoments::Inertia([2.0, 3.0, 4.0]),
+                    axes: IDENTITY,
+                }),
+                errors: MassErrors::NONE,
             },
             wheels: [Some(wheel); 2],
-            debris: Some(DebrisInput { shape: DebrisShape::Cube { side_m: 0.2 }, density_kg_m3: 2700.0 }),
+            debris: Some(DebrisInput::Cube { side_m: 0.2, density_kg_m3: 2700.0 }),
             initial: InitialInput {
                 position_m: [0.0; 3],
                 velocity_m_s: [0.0; 3],
@@ -344,18 +453,17 @@ mod tests {
                 debris_attitude: [1.0, 0.0, 0.0, 0.0],
                 debris_relative_angular_velocity_rad_s: [0.0; 3],
             },
-            actuation: Vec::new(),
+            actuation: vec![ActuationInput { start_s: 0.0, end_s: 1.0, thrust_n: [1.0; 3], torque_n_m: [1.0; 2] }],
+            actuators: ActuatorsInput::IDEAL,
         }
     }
 
     #[test]
     fn every_component_is_its_own_number_and_found_by_name() {
-        let cube = full();
-        let mut boxed = full();
-        boxed.debris = Some(DebrisInput { shape: DebrisShape::Box { size_m: [1.0, 2.0, 3.0] }, density_kg_m3: 1.0 });
+        let variants = variants();
         let mut columns = std::collections::BTreeSet::new();
         for parameter in Parameter::all() {
-            let nominal = if parameter.name() == "debris.size_m" { &boxed } else { &cube };
+            let nominal = variants.iter().find(|scene| parameter.exists(scene, 0)).expect("every key exists somewhere");
             assert_eq!(Parameter::find(parameter.name()), Some((parameter, None)));
             for component in 0..parameter.width() {
                 assert!(parameter.exists(nominal, component), "{}", parameter.name());
@@ -423,6 +531,7 @@ mod tests {
         scene.wheels[1] = None;
         scene.debris = None;
         scene.fuselage.mass_kg = None;
+        scene.actuation.clear();
         let exists = |name, component| Parameter::find(name).expect("in the table").0.exists(&scene, component);
         assert!(exists("initial.wheel_rates_rad_s", 0) && exists("wheel1.radius_m", 0));
         for (name, component) in [
@@ -431,6 +540,9 @@ mod tests {
             ("fuselage.mass_kg", 0),
             ("debris.side_m", 0),
             ("debris.size_m", 0),
+            ("fuselage.principal_second_moments_kg_m2", 0),
+            ("fuselage.thruster_offset_m", 0),
+            ("actuators.thrust_scale", 2),
             ("initial.debris_attitude", 0),
         ] {
             assert!(!exists(name, component), "{name}");

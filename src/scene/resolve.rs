@@ -3,7 +3,7 @@
 use super::error::Problems;
 use super::input::{InitialInput, SceneInput};
 use super::mass::MassProperties;
-use super::{Actuation, InitialState, Scene, SceneError, check};
+use super::{InitialState, Scene, SceneError, THRUSTER_DIRECTIONS, check, schedule};
 use crate::math::vector::{dcm_from_quaternion, hamilton, sum, transposed_product};
 
 impl Scene {
@@ -18,7 +18,10 @@ impl Scene {
             initial: initial_state(input),
             thruster_offset: 0.0,
             thruster_station: 0.0,
+            thruster_directions: THRUSTER_DIRECTIONS,
             schedule: Vec::with_capacity(input.actuation.len()),
+            commands_thrust: false,
+            commands_torque: false,
         };
         scene.take(input, mass);
         Ok(scene)
@@ -40,13 +43,11 @@ impl Scene {
         self.initial = initial_state(input);
         self.thruster_offset = input.fuselage.thruster_offset_m;
         self.thruster_station = input.fuselage.length_m;
+        self.thruster_directions = schedule::thruster_directions(input);
         self.schedule.clear();
-        self.schedule.extend(input.actuation.iter().map(|actuation| Actuation {
-            start: actuation.start_s,
-            end: actuation.end_s,
-            thrust: actuation.thrust_n,
-            torque: actuation.torque_n_m,
-        }));
+        self.schedule.extend((0..input.actuation.len()).map(|index| schedule::applied(input, index)));
+        self.commands_thrust = input.actuation.iter().any(|stretch| stretch.thrust_n != [0.0; 3]);
+        self.commands_torque = input.actuation.iter().any(|stretch| stretch.torque_n_m != [0.0; 2]);
     }
 }
 
@@ -114,7 +115,7 @@ mod tests {
     use super::*;
     use crate::math::symmetric::{is_positive_definite, principal_axes};
     use crate::scene::check::INERTIA_SLACK;
-    use crate::scene::{ActuationInput, DebrisShape, WheelMode, samples};
+    use crate::scene::{ActuationInput, DebrisInput, PrincipalInertia, PrincipalMoments, WheelMode, samples};
     use proptest::prelude::*;
 
     /// A change of the report's scene.
@@ -136,6 +137,15 @@ mod tests {
     }
 
     const TINY: f64 = 1e-9;
+    const UNIT: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+    fn principal(moments: PrincipalMoments) -> PrincipalInertia {
+        PrincipalInertia { moments, axes: [1.0, 0.0, 0.0, 0.0] }
+    }
+
+    fn irregular(moments: PrincipalMoments) -> DebrisInput {
+        DebrisInput::Principal { mass_kg: 1.0, principal: principal(moments) }
+    }
 
     /// Key, what the message must say, the change that is refused, and its nearest neighbour that is accepted.
     const REFUSALS: &[(&str, &str, Change, Change)] = &[
@@ -256,20 +266,108 @@ mod tests {
         (
             "debris.side_m",
             "above zero",
-            |input| debris(input).shape = DebrisShape::Cube { side_m: 0.0 },
-            |input| debris(input).shape = DebrisShape::Cube { side_m: TINY },
+            |input| input.debris = Some(DebrisInput::Cube { side_m: 0.0, density_kg_m3: 1.0 }),
+            |input| input.debris = Some(DebrisInput::Cube { side_m: TINY, density_kg_m3: 1.0 }),
         ),
         (
             "debris.size_m",
             "above zero, each",
-            |input| debris(input).shape = DebrisShape::Box { size_m: [1.0, 0.0, 1.0] },
-            |input| debris(input).shape = DebrisShape::Box { size_m: [1.0, TINY, 1.0] },
+            |input| input.debris = Some(DebrisInput::Box { size_m: [1.0, 0.0, 1.0], density_kg_m3: 1.0 }),
+            |input| input.debris = Some(DebrisInput::Box { size_m: [1.0, TINY, 1.0], density_kg_m3: 1.0 }),
         ),
         (
             "debris.density_kg_m3",
             "above zero",
-            |input| debris(input).density_kg_m3 = -1.0,
-            |input| debris(input).density_kg_m3 = TINY,
+            |input| input.debris = Some(DebrisInput::Cube { side_m: 1.0, density_kg_m3: -1.0 }),
+            |input| input.debris = Some(DebrisInput::Cube { side_m: 1.0, density_kg_m3: TINY }),
+        ),
+        (
+            "debris.mass_kg",
+            "above zero",
+            |input| input.debris = Some(DebrisInput::Tensor { mass_kg: 0.0, inertia_kg_m2: UNIT }),
+            |input| input.debris = Some(DebrisInput::Tensor { mass_kg: TINY, inertia_kg_m2: UNIT }),
+        ),
+        (
+            "debris.inertia_kg_m2",
+            "positive definite",
+            |input| input.debris = Some(DebrisInput::Tensor { mass_kg: 1.0, inertia_kg_m2: [[0.0; 3]; 3] }),
+            |input| input.debris = Some(DebrisInput::Tensor { mass_kg: 1.0, inertia_kg_m2: UNIT }),
+        ),
+        (
+            "debris.principal_moments_kg_m2",
+            "no moment exceeds the sum of the other two",
+            |input| input.debris = Some(irregular(PrincipalMoments::Inertia([1.0, 1.0, 2.0 + 1e-13]))),
+            |input| input.debris = Some(irregular(PrincipalMoments::Inertia([1.0, 1.0, 2.0]))),
+        ),
+        (
+            "fuselage.principal_moments_kg_m2",
+            "above zero, each",
+            |input| input.fuselage.principal = Some(principal(PrincipalMoments::Inertia([1.0, 1.0, 0.0]))),
+            |input| input.fuselage.principal = Some(principal(PrincipalMoments::Inertia([1.0, 1.0, TINY]))),
+        ),
+        (
+            "fuselage.principal_second_moments_kg_m2",
+            "above zero, each",
+            |input| input.fuselage.principal = Some(principal(PrincipalMoments::Second([1.0, -TINY, 1.0]))),
+            |input| input.fuselage.principal = Some(principal(PrincipalMoments::Second([1.0, TINY, 1e9]))),
+        ),
+        (
+            "fuselage.principal_axes",
+            "norm 1",
+            |input| {
+                let axes = [0.0; 4];
+                input.fuselage.principal =
+                    Some(PrincipalInertia { moments: PrincipalMoments::Inertia([1.0; 3]), axes });
+            },
+            |input| input.fuselage.principal = Some(principal(PrincipalMoments::Inertia([1.0; 3]))),
+        ),
+        (
+            "fuselage.mass_scale",
+            "above zero",
+            |input| input.fuselage.errors.mass_scale = 0.0,
+            |input| input.fuselage.errors.mass_scale = TINY,
+        ),
+        (
+            "fuselage.stretch_log",
+            "finite",
+            |input| input.fuselage.errors.stretch_log[1] = f64::NAN,
+            |input| input.fuselage.errors.stretch_log[1] = -3.0,
+        ),
+        (
+            "fuselage.shear",
+            "finite",
+            |input| input.fuselage.errors.shear[1] = f64::INFINITY,
+            |input| input.fuselage.errors.shear[1] = -3.0,
+        ),
+        (
+            "fuselage.center_offset_m",
+            "finite",
+            |input| input.fuselage.errors.center_offset_m[1] = f64::INFINITY,
+            |input| input.fuselage.errors.center_offset_m[1] = -3.0,
+        ),
+        (
+            "actuators.thrust_scale",
+            "does not pull",
+            |input| input.actuators.thrust_scale[1] = -TINY,
+            |input| input.actuators.thrust_scale[1] = 0.0,
+        ),
+        (
+            "actuators.torque_scale",
+            "finite",
+            |input| input.actuators.torque_scale[1] = f64::NAN,
+            |input| input.actuators.torque_scale[1] = -1.0,
+        ),
+        (
+            "actuators.switch_off_delay_s",
+            "actuation[0], commanded from 0.0 to 1.0, ends after it starts",
+            |input| input.actuators.switch_off_delay_s = -1.0,
+            |input| input.actuators.switch_off_delay_s = -1.0 + TINY,
+        ),
+        (
+            "actuators.switch_off_delay_s",
+            "actuation[0], commanded from 0.0 to 1.0, ends before the next starts",
+            |input| input.actuators.switch_off_delay_s = 1.0 + TINY,
+            |input| input.actuators.switch_off_delay_s = 1.0,
         ),
         (
             "initial.attitude",
@@ -355,10 +453,6 @@ mod tests {
 
     fn wheel(input: &mut SceneInput, i: usize) -> &mut crate::scene::WheelInput {
         input.wheels[i].as_mut().expect("Table II has both wheels")
-    }
-
-    fn debris(input: &mut SceneInput) -> &mut crate::scene::DebrisInput {
-        input.debris.as_mut().expect("Table II has debris")
     }
 
     #[test]

@@ -1,6 +1,8 @@
 //! Scenes for the tests of this crate: the report's Tables I and II.
 
-use super::input::{DebrisInput, DebrisShape, FuselageInput, InitialInput, SceneInput, WheelInput, WheelMode};
+use super::input::{
+    ActuatorsInput, DebrisInput, FuselageInput, InitialInput, MassErrors, SceneInput, WheelInput, WheelMode,
+};
 use core::f64::consts::PI;
 
 /// The report's scene: bodies of Table II, initial state of Table I, no force.
@@ -26,9 +28,11 @@ pub(crate) fn table_two() -> SceneInput {
             mass_kg: None,
             center_of_mass_m: None,
             inertia_kg_m2: None,
+            principal: None,
+            errors: MassErrors::NONE,
         },
         wheels: [wheel(1.0), wheel(2.0)],
-        debris: Some(DebrisInput { shape: DebrisShape::Cube { side_m: 0.2 }, density_kg_m3: 2700.0 }),
+        debris: Some(DebrisInput::Cube { side_m: 0.2, density_kg_m3: 2700.0 }),
         initial: InitialInput {
             position_m: [0.0; 3],
             velocity_m_s: [10.0, 0.0, 0.0],
@@ -42,5 +46,6 @@ pub(crate) fn table_two() -> SceneInput {
             debris_relative_angular_velocity_rad_s: [100.0, 0.0, 0.0],
         },
         actuation: Vec::new(),
+        actuators: ActuatorsInput::IDEAL,
     }
 }

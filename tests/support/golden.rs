@@ -6,7 +6,8 @@ use std::path::Path;
 
 use serde_json::Value;
 use spindrift::scene::{
-    ActuationInput, DebrisInput, DebrisShape, FuselageInput, InitialInput, SceneInput, WheelInput, WheelMode,
+    ActuationInput, ActuatorsInput, DebrisInput, FuselageInput, InitialInput, MassErrors, SceneInput, WheelInput,
+    WheelMode,
 };
 
 /// A scene, and the truth at some times.
@@ -112,12 +113,12 @@ fn scene(scene: &Value) -> SceneInput {
             mass_kg: None,
             center_of_mass_m: None,
             inertia_kg_m2: None,
+            principal: None,
+            errors: MassErrors::NONE,
         },
         wheels: [wheel(&scene["wheel1"]), wheel(&scene["wheel2"])],
-        debris: (!debris.is_null()).then(|| DebrisInput {
-            shape: DebrisShape::Cube { side_m: number(&debris["side"]) },
-            density_kg_m3: number(&debris["density"]),
-        }),
+        debris: (!debris.is_null())
+            .then(|| DebrisInput::Cube { side_m: number(&debris["side"]), density_kg_m3: number(&debris["density"]) }),
         initial: InitialInput {
             position_m: numbers(&initial["position"]),
             velocity_m_s: numbers(&initial["velocity"]),
@@ -131,6 +132,7 @@ fn scene(scene: &Value) -> SceneInput {
             debris_relative_angular_velocity_rad_s: numbers(&initial["debris_relative_angular_velocity"]),
         },
         actuation: actuation.collect(),
+        actuators: ActuatorsInput::IDEAL,
     }
 }
 

@@ -1,7 +1,8 @@
 //! Random scenes that are a function of a number: the same on every machine, in every version of any crate.
 
 use spindrift::scene::{
-    ActuationInput, DebrisInput, DebrisShape, FuselageInput, InitialInput, Scene, SceneInput, WheelInput, WheelMode,
+    ActuationInput, ActuatorsInput, DebrisInput, FuselageInput, InitialInput, MassErrors, Scene, SceneInput,
+    WheelInput, WheelMode,
 };
 
 /// What a random scene has beyond a bare fuselage.
@@ -67,6 +68,8 @@ pub fn random(kind: Kind, seed: u64, horizon: f64) -> SceneInput {
         mass_kg: None,
         center_of_mass_m: None,
         inertia_kg_m2: None,
+        principal: None,
+        errors: MassErrors::NONE,
     };
     let wheels = kind.wheels.map(|present| {
         let wheel = WheelInput {
@@ -93,12 +96,11 @@ pub fn random(kind: Kind, seed: u64, horizon: f64) -> SceneInput {
         fuselage.center_of_mass_m = Some([offset[0], offset[1], 0.5 * length_m + offset[2]]);
     }
     let sides: [f64; 3] = std::array::from_fn(|_| u.between(0.05, 0.8));
-    let shape = match kind.debris {
-        1 => Some(DebrisShape::Cube { side_m: sides[0] }),
-        2 => Some(DebrisShape::Box { size_m: sides }),
+    let debris = match kind.debris {
+        1 => Some(DebrisInput::Cube { side_m: sides[0], density_kg_m3: 2000.0 }),
+        2 => Some(DebrisInput::Box { size_m: sides, density_kg_m3: 2000.0 }),
         _ => None,
     };
-    let debris = shape.map(|shape| DebrisInput { shape, density_kg_m3: 2000.0 });
     let initial = InitialInput {
         position_m: u.vector(10.0),
         velocity_m_s: u.vector(10.0),
@@ -122,7 +124,7 @@ pub fn random(kind: Kind, seed: u64, horizon: f64) -> SceneInput {
         stretch(0.125 * horizon, 0.3 * horizon);
         stretch(0.3 * horizon, 0.75 * horizon);
     }
-    SceneInput { fuselage, wheels, debris, initial, actuation }
+    SceneInput { fuselage, wheels, debris, initial, actuation, actuators: ActuatorsInput::IDEAL }
 }
 
 /// `input` with motors that hold the speed of the wheels named by `held`, which then have no torque in the schedule.

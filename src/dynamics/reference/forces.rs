@@ -7,7 +7,7 @@ use super::kinematics::WheelMotion;
 use super::parameters::{Parameters, WheelParameters};
 use super::state::{State, rotated, rotated_back};
 use crate::math::vector::{cross, difference, dot, product, scaled, sum};
-use crate::scene::Actuation;
+use crate::scene::{Actuation, THRUSTER_DIRECTIONS};
 
 /// A force in F_e and a torque in the body's frame about the body's point (p, g1, g2, g_d).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,11 +32,24 @@ pub struct Drive {
 }
 
 impl Drive {
-    /// B_s u (72): P1 pushes along +s3 at p, P2 and P3 along -s3 at (0, -rho_p, l_s) and (0, +rho_p, l_s).
+    /// B_s u (72): P1 pushes along +s3 at p, P2 and P3 along -s3 at (0, -rho_p, l_s) and (0, +rho_p, l_s), each turned by its
+    /// misalignment.
     pub fn of(parameters: &Parameters, actuation: &Actuation) -> Self {
         let [p1, p2, p3] = actuation.thrust;
-        let force_s = [0.0, 0.0, p1 - p2 - p3];
-        let torque_p_s = [parameters.thruster_offset * (p2 - p3), 0.0, 0.0];
+        let (mut force_s, mut torque_p_s) = ([0.0; 3], [0.0; 3]);
+        if parameters.thruster_directions == THRUSTER_DIRECTIONS {
+            // two numbers that equal thrusts make exactly zero
+            force_s[2] = p1 - p2 - p3;
+            torque_p_s[0] = parameters.thruster_points[2][1] * (p2 - p3);
+        } else {
+            for ((point, direction), thrust) in
+                parameters.thruster_points.into_iter().zip(parameters.thruster_directions).zip(actuation.thrust)
+            {
+                let force = scaled(thrust, direction);
+                force_s = sum(force_s, force);
+                torque_p_s = sum(torque_p_s, cross(point, force));
+            }
+        }
         Drive {
             force_s,
             torque_p_s,

@@ -135,10 +135,10 @@ pub fn a_non(parameters: &Parameters, state: &State, sign: f64) -> SVector<f64, 
 /// B (26), (72)-(74): forces and torques per unit of (P1, P2, P3, tau^W1, tau^W2).
 pub fn actuation(parameters: &Parameters, state: &State) -> SMatrix<f64, FULL_SPEEDS, 5> {
     let mut b: SMatrix<f64, FULL_SPEEDS, 5> = SMatrix::zeros();
-    let s3 = dcm(state, 0).column(2).into_owned();
-    let arm = Vector3::new(parameters.thruster_offset, 0.0, 0.0);
-    for (thruster, (direction, torque)) in [(s3, arm * 0.0), (-s3, arm), (-s3, -arm)].into_iter().enumerate() {
-        b.fixed_view_mut::<3, 1>(0, thruster).copy_from(&direction);
+    for thruster in 0..3 {
+        let direction = Vector3::from(parameters.thruster_directions[thruster]);
+        let torque = skew(parameters.thruster_points[thruster].into()) * direction;
+        b.fixed_view_mut::<3, 1>(0, thruster).copy_from(&(dcm(state, 0) * direction));
         b.fixed_view_mut::<3, 1>(3, thruster).copy_from(&torque);
     }
     for (w, wheel) in parameters.wheels.iter().enumerate() {

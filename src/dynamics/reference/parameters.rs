@@ -24,8 +24,10 @@ pub struct Parameters {
     pub debris_mass: f64,
     /// Inertia of the debris about its centre, in F_d, kg m^2, by rows.
     pub debris_inertia: [[f64; 3]; 3],
-    /// Lever arm rho_p of P2 and P3, m.
-    pub thruster_offset: f64,
+    /// Points where P1, P2, P3 push, from p in F_s, m: p, (0, -rho_p, l_s), (0, +rho_p, l_s).
+    pub thruster_points: [[f64; 3]; 3],
+    /// Directions in which they push, unit vectors in F_s.
+    pub thruster_directions: [[f64; 3]; 3],
     /// Centre of mass c of the spacecraft from p in F_s, m.
     pub center: [f64; 3],
 }
@@ -86,7 +88,12 @@ impl Parameters {
             first,
             debris_mass: debris.mass,
             debris_inertia: debris.inertia,
-            thruster_offset: scene.thruster_offset,
+            thruster_points: [
+                [0.0; 3],
+                [0.0, -scene.thruster_offset, scene.thruster_station],
+                [0.0, scene.thruster_offset, scene.thruster_station],
+            ],
+            thruster_directions: scene.thruster_directions,
             center: mass.center,
         }
     }

@@ -1,0 +1,163 @@
+//! Inertia by second moments of mass: S, the integral of r r^T dm about the centre of mass, and J = tr(S) 1 - S.
+//!
+//! A symmetric J is the inertia of some body exactly where S is positive semidefinite, which is what "positive moments, none above
+//! the sum of the other two" says. So whoever changes S and keeps it so, never makes an impossible body
+//! (C. Rucker & P. M. Wensing, *Smooth Parameterization of Rigid-Body Inertia*, IEEE Robotics and Automation Letters 7(2), 2022).
+//!
+//! Not here: bodies put together ([`super::mass`]), refusals ([`super::check`]).
+
+use super::input::{MassErrors, PrincipalInertia, PrincipalMoments};
+use super::mass::Body;
+use crate::math::Real;
+use crate::math::vector::{constant, constant_quaternion, dcm_from_quaternion, dot, product, scaled, sum};
+
+/// S of the inertia `j`, kg m^2, by rows: (tr(J)/2) 1 - J, with a diagonal of half sums and half differences.
+pub fn second_moment<R: Real>(j: [[R; 3]; 3]) -> [[R; 3]; 3] {
+    let half = j[0][0].splat(0.5);
+    let own = |i: usize| half * ((j[(i + 1) % 3][(i + 1) % 3] - j[i][i]) + j[(i + 2) % 3][(i + 2) % 3]);
+    [[own(0), -j[0][1], -j[0][2]], [-j[0][1], own(1), -j[1][2]], [-j[0][2], -j[1][2], own(2)]]
+}
+
+/// J = tr(S) 1 - S of second moments `s`, kg m^2, by rows: sums of positive numbers on the diagonal.
+pub fn inertia<R: Real>(s: [[R; 3]; 3]) -> [[R; 3]; 3] {
+    let own = |i: usize| s[(i + 1) % 3][(i + 1) % 3] + s[(i + 2) % 3][(i + 2) % 3];
+    [[own(0), -s[0][1], -s[0][2]], [-s[0][1], own(1), -s[1][2]], [-s[0][2], -s[1][2], own(2)]]
+}
+
+impl PrincipalInertia {
+    /// The tensor in the body's frame, kg m^2, by rows, in the number type of `one`: C diag(moments) C^T with C from the normalised
+    /// quaternion; without a rotation exactly diagonal.
+    pub fn tensor<R: Real>(&self, one: R) -> [[R; 3]; 3] {
+        let zero = one.zero();
+        let moments = match self.moments {
+            PrincipalMoments::Inertia(moments) => constant(one, moments),
+            PrincipalMoments::Second(moments) => {
+                let [a, b, c] = constant(one, moments);
+                [b + c, a + c, a + b]
+            }
+        };
+        let q = constant_quaternion(one, self.axes);
+        let square = q[0].mul_add(q[0], q[1].mul_add(q[1], q[2].mul_add(q[2], q[3] * q[3])));
+        let c = dcm_from_quaternion(q);
+        if self.axes[1..] == [0.0; 3] {
+            return [[moments[0], zero, zero], [zero, moments[1], zero], [zero, zero, moments[2]]];
+        }
+        // |q|^2 times a rotation, twice
+        let scale = one / (square * square);
+        let entry =
+            |i: usize, j: usize| scale * dot([c[i][0] * moments[0], c[i][1] * moments[1], c[i][2] * moments[2]], c[j]);
+        let (xy, xz, yz) = (entry(0, 1), entry(0, 2), entry(1, 2));
+        [[entry(0, 0), xy, xz], [xy, entry(1, 1), yz], [xz, yz, entry(2, 2)]]
+    }
+}
+
+impl MassErrors {
+    /// `body` with these errors; without any, the same bits.
+    pub fn applied<R: Real>(&self, body: Body<R>) -> Body<R> {
+        if *self == Self::NONE {
+            return body;
+        }
+        let one = body.mass.splat(1.0);
+        let scale = one.splat(self.mass_scale);
+        Body {
+            mass: scale * body.mass,
+            center: sum(body.center, constant(one, self.center_offset_m)),
+            inertia: if self.stretch_log == [0.0; 3] && self.shear == [0.0; 3] {
+                [scaled(scale, body.inertia[0]), scaled(scale, body.inertia[1]), scaled(scale, body.inertia[2])]
+            } else {
+                inertia(self.moved(scale, second_moment(body.inertia)))
+            },
+        }
+    }
+
+    /// k A S A^T.
+    fn moved<R: Real>(&self, scale: R, s: [[R; 3]; 3]) -> [[R; 3]; 3] {
+        let k = |value: f64| scale.splat(value);
+        let [x, y, z] = self.stretch_log.map(libm::exp);
+        let [xy, xz, yz] = self.shear;
+        let a = [[k(x), k(0.0), k(0.0)], [k(xy), k(y), k(0.0)], [k(xz), k(yz), k(z)]];
+        // row i of A S, then times A^T; S is symmetric
+        let rows = [product(s, a[0]), product(s, a[1]), product(s, a[2])];
+        let entry = |i: usize, j: usize| scale * dot(rows[i], a[j]);
+        let (xy, xz, yz) = (entry(0, 1), entry(0, 2), entry(1, 2));
+        [[entry(0, 0), xy, xz], [xy, entry(1, 1), yz], [xz, yz, entry(2, 2)]]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::symmetric::{is_positive_definite, principal_axes};
+    use crate::scene::solids::solid_box;
+    use proptest::prelude::*;
+
+    #[test]
+    fn second_moments_and_inertia_are_inverse() {
+        let j = [[3.0, 0.1, -0.2], [0.1, 4.0, 0.3], [-0.2, 0.3, 5.0]];
+        assert_eq!(second_moment(j), [[3.0, -0.1, 0.2], [-0.1, 2.0, -0.3], [0.2, -0.3, 1.0]]);
+        assert_eq!(inertia(second_moment(j)), j);
+    }
+
+    #[test]
+    fn principal_axes_turn_the_tensor() {
+        let axes = [std::f64::consts::FRAC_1_SQRT_2, 0.0, 0.0, std::f64::consts::FRAC_1_SQRT_2]; // s1 -> s2
+        let principal = PrincipalInertia { moments: PrincipalMoments::Inertia([2.0, 3.0, 4.0]), axes };
+        let tensor = principal.tensor(1.0);
+        for (i, expected) in [3.0, 2.0, 4.0].into_iter().enumerate() {
+            assert!((tensor[i][i] - expected).abs() < 2e-15, "{tensor:?}");
+        }
+        let second =
+            PrincipalInertia { moments: PrincipalMoments::Second([2.5, 1.5, 0.5]), axes: [1.0, 0.0, 0.0, 0.0] };
+        assert_eq!(second.tensor(1.0), [[2.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 4.0]]);
+    }
+
+    /// Law: a box whose matter is stretched is the stretched box; one that is sheared has the moments of the sheared box, by its
+    /// integrals (x, y, z independent and uniform: <x^2> = a^2/12).
+    #[test]
+    fn stretched_and_sheared_matter_is_that_of_the_integrals() {
+        let nominal = solid_box([1.0, 2.0, 3.0], 10.0);
+        let stretched = MassErrors { stretch_log: [0.2, -0.1, 0.3], ..MassErrors::NONE }.applied(nominal);
+        let size = [1.0 * 0.2f64.exp(), 2.0 * (-0.1f64).exp(), 3.0 * 0.3f64.exp()];
+        let expected = solid_box(size, 60.0 * 10.0 / 6.0 / (size[0] * size[1] * size[2]) * 0.6);
+        assert_eq!(stretched.mass, nominal.mass);
+        for i in 0..3 {
+            let ratio = expected.inertia[i][i] / expected.mass * nominal.mass;
+            assert!((stretched.inertia[i][i] / ratio - 1.0).abs() < 1e-14);
+        }
+        let errors = MassErrors {
+            mass_scale: 2.0,
+            shear: [0.5, 0.0, 0.0],
+            center_offset_m: [0.1, 0.2, 0.3],
+            ..MassErrors::NONE
+        };
+        let sheared = errors.applied(nominal);
+        let (xx, yy) = (120.0 * 1.0 / 12.0, 120.0 * 4.0 / 12.0);
+        assert_eq!(sheared.mass, 120.0);
+        assert_eq!(sheared.center, [0.1, 0.2, 0.3]);
+        assert!((sheared.inertia[0][1] + 0.5 * xx).abs() < 1e-13, "J_xy = -integral of x y");
+        let expected = xx + (yy + 0.25 * xx);
+        assert!((sheared.inertia[2][2] - expected).abs() < 1e-12);
+    }
+
+    proptest! {
+        /// Whatever the errors, the body is possible: what the form is for.
+        #[test]
+        fn errors_never_make_an_impossible_body(
+            moments in prop::array::uniform3(1e-3f64..10.0),
+            stretch_log in prop::array::uniform3(-2.0f64..2.0),
+            shear in prop::array::uniform3(-3.0f64..3.0),
+            mass_scale in 0.1f64..10.0,
+        ) {
+            let principal = PrincipalInertia { moments: PrincipalMoments::Second(moments), axes: [0.5, 0.5, -0.5, 0.5] };
+            let body = Body { mass: 1.0, center: [0.0; 3], inertia: principal.tensor(1.0) };
+            let errors = MassErrors { mass_scale, stretch_log, shear, ..MassErrors::NONE };
+            let tensor = errors.applied(body).inertia;
+            let (moments, _) = principal_axes(tensor);
+            let trace: f64 = moments.iter().sum();
+            prop_assert!(is_positive_definite(tensor));
+            for moment in moments {
+                prop_assert!(moment <= trace - moment + 16.0 * f64::EPSILON * trace, "{:?}", moments);
+            }
+        }
+    }
+}
