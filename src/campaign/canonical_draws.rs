@@ -1,10 +1,11 @@
 //! What is drawn, as canonical text; see [`super::canonical`].
 
 use super::canonical::Lines;
+use crate::sampling::geometric::DirectionSpread;
 use crate::sampling::scalar::{LOWER_KEYS, UPPER_KEYS};
 use crate::sampling::{
-    Bound, Correlation, Cut, DataColumn, Dependence, Derivation, Design, Dispersion, Law, Levels, LogRange, Offset,
-    Range, Spread, Values,
+    AttitudeSpread, Bound, Correlation, Cut, DataColumn, Dependence, Derivation, Design, Dispersion, GeometricLaw, Law, Levels,
+    LogRange, Offset, Range, Spread, Values,
 };
 use crate::scene::Parameter;
 
@@ -15,7 +16,12 @@ pub(super) fn dispersion_lines(dispersion: &Dispersion, lines: &mut Lines) {
         Some(component) => lines.key("parameter", dispersion.parameter.component_name(component)),
         None => lines.key("parameter", dispersion.parameter.name()),
     }
-    match &dispersion.law {
+    law_lines(&dispersion.law, lines);
+}
+
+/// Writes the keys of a law; tables within it come last.
+fn law_lines(law: &Law, lines: &mut Lines) {
+    match law {
         Law::Normal(width) => {
             lines.key("distribution", "normal");
             spread(lines, width);
@@ -94,6 +100,34 @@ pub(super) fn dispersion_lines(dispersion: &Dispersion, lines: &mut Lines) {
             }
         }
         Law::UniformAttitude => lines.key("distribution", "uniform_attitude"),
+        Law::Geometric(law) => geometric_lines(law, lines),
+    }
+}
+
+fn geometric_lines(law: &GeometricLaw, lines: &mut Lines) {
+    lines.key("distribution", law.name());
+    match law {
+        GeometricLaw::Direction { spread, axis, magnitude } => {
+            match spread {
+                DirectionSpread::Sphere => {}
+                DirectionSpread::Cone { half_angle_rad } => lines.key("half_angle_rad", half_angle_rad),
+                DirectionSpread::Fisher { concentration } => lines.key("concentration", concentration),
+            }
+            if let Some(axis) = axis {
+                lines.key("axis", axis);
+            }
+            if let Some(magnitude) = magnitude {
+                lines.table("[disperse.magnitude]");
+                law_lines(magnitude, lines);
+            }
+        }
+        GeometricLaw::AttitudeError(AttitudeSpread::Std(values)) => lines.values("std_rad", values),
+        GeometricLaw::AttitudeError(AttitudeSpread::Covariance(matrix)) => lines.key("covariance_rad2", matrix),
+        GeometricLaw::AboutAxis { axis, angle } => {
+            lines.key("axis", axis);
+            lines.table("[disperse.angle_rad]");
+            law_lines(angle, lines);
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 //! Here is only how a law is written; whether it can be drawn for a scene, [`crate::sampling::Dispersions`] says.
 
 use super::data::DataFile;
+use super::disperse_geometric::{about_axis, attitude_error, cone, uniform_direction, von_mises_fisher};
 use super::document::Section;
 use super::problem::nearest;
 use crate::sampling::scalar::{LOWER_KEYS, UPPER_KEYS};
@@ -15,7 +16,7 @@ use crate::scene::Parameter;
 type Reader = fn(&mut Section<'_, '_>) -> Option<Law>;
 
 /// The laws: name, and how its keys are read.
-const LAWS: [(&str, Reader); 13] = [
+const LAWS: [(&str, Reader); 18] = [
     ("normal", |table| spread(table).map(Law::Normal)),
     ("truncated_normal", |table| {
         let (spread, cut) = (spread(table), cut(table));
@@ -53,21 +54,31 @@ const LAWS: [(&str, Reader); 13] = [
         if one { offset.map(Law::Offset) } else { None }
     }),
     ("uniform_attitude", |_| Some(Law::UniformAttitude)),
+    ("uniform_direction", uniform_direction),
+    ("cone", cone),
+    ("von_mises_fisher", von_mises_fisher),
+    ("attitude_error", attitude_error),
+    ("about_axis", about_axis),
 ];
 
 /// Reads one table; `None` where something is wrong, which is then noted.
 pub fn read(table: &mut Section<'_, '_>) -> Option<Dispersion> {
     let target = parameter(table, "parameter");
-    let names = LAWS.map(|(name, _)| name);
-    table.require("distribution", &format!("one of {}", names.join(", ")), "\"normal\"");
-    // Without a law nobody can say which other keys belong here.
-    let reader = table.name("distribution", &names, |name| {
-        LAWS.iter().find(|(known, _)| *known == name).map(|(_, reader)| *reader)
-    })?;
-    let law = reader(table);
-    table.finish();
+    let law = law(table);
     let ((parameter, component), law) = target.zip(law)?;
     Some(Dispersion { parameter, component, law })
+}
+
+/// The law that a table describes, and that nothing else is written there.
+pub(super) fn law(table: &mut Section<'_, '_>) -> Option<Law> {
+    let names = LAWS.map(|(name, _)| name);
+    table.require("distribution", &format!("one of {}", names.join(", ")), "\"normal\"");
+    let reader = table
+        .name("distribution", &names, |name| LAWS.iter().find(|(known, _)| *known == name).map(|(_, reader)| *reader));
+    // without a law nobody can say which other keys belong here
+    let law = reader?(table);
+    table.finish();
+    law
 }
 
 /// The parameter, and the component if one is meant, that `key` names.
@@ -92,7 +103,7 @@ pub(super) fn unknown_parameter(name: &str) -> (String, String) {
 }
 
 /// Notes that of `keys` not exactly one was written, where that is so.
-fn is_one_of(table: &mut Section<'_, '_>, keys: &[&'static str], example: &str) -> bool {
+pub(super) fn is_one_of(table: &mut Section<'_, '_>, keys: &[&'static str], example: &str) -> bool {
     let written: Vec<&'static str> = keys.iter().copied().filter(|key| table.has(key)).collect();
     match written[..] {
         [_] => true,

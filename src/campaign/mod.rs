@@ -4,7 +4,8 @@
 //! - [`document`]: a TOML document that is read key by key and remembers the lines. By hand and not by serde's derive, which
 //!   stops at the first error and knows no line of a key that passed.
 //! - [`lists`]: lists of any length in it; [`data`]: files of numbers that it names.
-//! - [`spec`]: the keys of a campaign file; [`disperse`], [`design`], [`dependence`]: those that say what is drawn.
+//! - [`spec`]: the keys of a campaign file; [`disperse`], [`disperse_geometric`], [`design`], [`dependence`]: those that say
+//!   what is drawn.
 //! - [`plan`]: defaults filled in, scene and dispersions checked against each other.
 //! - [`canonical`], [`canonical_draws`]: the plan as text that reads back to the same plan, and its hash.
 //! - [`mod@find`]: which file a name means.
@@ -17,6 +18,7 @@ pub mod data;
 pub mod dependence;
 pub mod design;
 pub mod disperse;
+pub mod disperse_geometric;
 pub mod document;
 pub mod find;
 pub mod lists;

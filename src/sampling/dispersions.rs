@@ -231,7 +231,7 @@ impl Dispersions {
         let nominals: Vec<f64> = components.iter().filter_map(|c| parameter.value(nominal, *c)).collect();
         let maps: Vec<(Vec<usize>, Map)> = match distributions(index, &dispersion.law, &nominals)? {
             Some(laws) => components.iter().zip(laws).map(|(c, law)| (vec![*c], Map::Scalar(law))).collect(),
-            None => vec![(components, Map::Joint(joint(index, dispersion)?))],
+            None => vec![(components, Map::Joint(joint(index, dispersion, nominal)?))],
         };
         // a quaternion is normalised as a whole: all of it is recorded, in one place
         if parameter.kind() == Kind::Quaternion {
@@ -298,9 +298,10 @@ impl Dispersions {
 }
 
 /// The law of all components together.
-fn joint(index: usize, dispersion: &Dispersion) -> Result<Joint, DispersionError> {
+fn joint(index: usize, dispersion: &Dispersion, nominal: &SceneInput) -> Result<Joint, DispersionError> {
     let parameter = dispersion.parameter;
-    match dispersion.law {
+    match &dispersion.law {
+        Law::Geometric(law) => law.joint(index, dispersion, nominal),
         Law::UniformAttitude if parameter.kind() == Kind::Quaternion && dispersion.component.is_none() => {
             Ok(Joint::UniformAttitude)
         }

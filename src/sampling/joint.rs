@@ -3,6 +3,7 @@
 //! The map is pure and takes the same count of u for every sample, so that each design gives it the same meaning. Rejection
 //! methods, which eat an unknown count, are not here.
 
+use super::geometric::{AboutAxis, AttitudeError, DirectionLaw};
 use core::f64::consts::TAU;
 
 /// A law of several components together, ready to be drawn.
@@ -10,6 +11,12 @@ use core::f64::consts::TAU;
 pub enum Joint {
     /// Attitude quaternion uniform over SO(3).
     UniformAttitude,
+    /// A vector by direction and magnitude.
+    Direction(DirectionLaw),
+    /// An attitude by a normal rotation vector from the nominal one.
+    AttitudeError(AttitudeError),
+    /// An attitude turned about an axis from the nominal one.
+    AboutAxis(AboutAxis),
 }
 
 /// Most dimensions of one law.
@@ -21,14 +28,17 @@ impl Joint {
     /// Number of u that a draw takes, at most [`MOST_DIMENSIONS`].
     pub fn dimensions(&self) -> usize {
         match self {
-            Joint::UniformAttitude => 3,
+            Joint::UniformAttitude | Joint::AttitudeError(_) => 3,
+            Joint::Direction(law) => law.dimensions(),
+            Joint::AboutAxis(law) => law.dimensions(),
         }
     }
 
     /// Number of values that a draw gives, at most [`MOST_COMPONENTS`].
     pub fn components(&self) -> usize {
         match self {
-            Joint::UniformAttitude => 4,
+            Joint::UniformAttitude | Joint::AttitudeError(_) | Joint::AboutAxis(_) => 4,
+            Joint::Direction(_) => 3,
         }
     }
 
@@ -36,6 +46,9 @@ impl Joint {
     pub fn values(&self, u: &[f64], values: &mut [f64]) {
         match self {
             Joint::UniformAttitude => values[..4].copy_from_slice(&uniform_attitude([u[0], u[1], u[2]])),
+            Joint::Direction(law) => values[..3].copy_from_slice(&law.value(u)),
+            Joint::AttitudeError(law) => values[..4].copy_from_slice(&law.value(u)),
+            Joint::AboutAxis(law) => values[..4].copy_from_slice(&law.value(u)),
         }
     }
 
@@ -43,6 +56,9 @@ impl Joint {
     pub fn text(&self) -> String {
         match self {
             Joint::UniformAttitude => "attitude uniform over all rotations".to_owned(),
+            Joint::Direction(law) => law.text(),
+            Joint::AttitudeError(_) => "normal rotation vector from the nominal attitude".to_owned(),
+            Joint::AboutAxis(_) => "nominal attitude turned about an axis".to_owned(),
         }
     }
 }

@@ -3,6 +3,7 @@
 //! A law of one number at a time becomes a [`super::Distribution`] in [`super::scalar`]; one of several numbers together
 //! becomes a [`super::Joint`] in [`super::joint`].
 
+use super::geometric_law::GeometricLaw;
 use crate::scene::Parameter;
 use std::sync::Arc;
 
@@ -190,6 +191,8 @@ pub enum Law {
     Offset(Offset),
     /// Attitude uniform over all rotations, of a quaternion as a whole.
     UniformAttitude,
+    /// Of a direction or an attitude as a whole.
+    Geometric(GeometricLaw),
 }
 
 /// What a campaign says about one parameter.

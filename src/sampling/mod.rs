@@ -5,7 +5,8 @@
 //!    [`stream`];
 //! 2. [`copula`]: dependence between the u of several dimensions;
 //! 3. laws map u to values: [`distribution`] ([`beta`], [`discrete`], [`normal`]), one quantile function each, for one number;
-//!    [`joint`] for several together ([`law`]: as written; [`scalar`]: from there to a distribution);
+//!    [`joint`] for several together, [`geometric`] for directions and attitudes ([`law`], [`geometric_law`]: as written;
+//!    [`scalar`]: from there to a distribution);
 //! 4. [`expression`]: values that follow from others ([`dependence`]: correlation and derivation as written);
 //! 5. [`dispersions`]: which law writes what, checked against the nominal scene; [`sampler`]: values into the scene, and what
 //!    was applied out of it.
@@ -18,6 +19,8 @@ pub mod discrete;
 pub mod dispersions;
 pub mod distribution;
 pub mod expression;
+pub mod geometric;
+pub mod geometric_law;
 pub mod joint;
 pub mod law;
 pub mod normal;
@@ -30,6 +33,7 @@ pub use design::levels::Levels;
 pub use design::{DESIGNS, Design};
 pub use dispersions::{Column, Dispersions, Draws, Map};
 pub use distribution::Distribution;
+pub use geometric_law::{AttitudeSpread, GeometricLaw};
 pub use joint::Joint;
 pub use law::{
     Bound, Cut, DataColumn, Dispersion, DispersionError, Interpolation, Law, LogRange, Offset, Range, Spread, Table,

@@ -16,7 +16,7 @@ pub(super) fn distributions(
 ) -> Result<Option<Vec<Distribution>>, DispersionError> {
     let at = At { index, nominals };
     let laws = match law {
-        Law::UniformAttitude => return Ok(None),
+        Law::UniformAttitude | Law::Geometric(_) => return Ok(None),
         Law::Normal(spread) => {
             let stds = at.deviations(spread)?;
             at.all(|k| Ok(Distribution::Normal { mean: nominals[k], std: stds[k] }))

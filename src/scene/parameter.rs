@@ -327,7 +327,7 @@ impl Parameter {
     pub fn column_name(self, component: usize) -> String {
         let unit = match self.unit() {
             "1" => String::new(),
-            unit => format!("_{}", unit.replace([' ', '/'], "_").replace('^', "")),
+            unit => format!("_{}", unit.replace([' ', '/'], "_").replace('^', "").to_lowercase()),
         };
         let stem = self.name().strip_suffix(unit.as_str()).unwrap_or(self.name()).replace('.', "_");
         match self.components()[component] {
@@ -486,7 +486,7 @@ mod tests {
                     assert_eq!(Parameter::find(&format!("{}[{component}]", parameter.name())), found);
                 }
             }
-            let unit = parameter.unit().replace([' ', '/'], "_").replace('^', "");
+            let unit = parameter.unit().replace([' ', '/'], "_").replace('^', "").to_lowercase();
             assert!(unit == "1" || parameter.name().ends_with(&format!("_{unit}")), "{} in {unit}", parameter.name());
         }
     }

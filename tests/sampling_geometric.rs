@@ -1,0 +1,411 @@
+//! Laws of directions, attitudes and inertias, through campaign files as users write them.
+//!
+//! Statistical tests state H0, n, alpha and power; seeds are fixed, so their outcome is. All at alpha = 1e-3.
+
+use std::f64::consts::{PI, TAU};
+
+use spindrift::campaign::{Overrides, Plan};
+use spindrift::math::vector::{conjugate, cross, dcm_from_quaternion, dot, hamilton, norm, scaled};
+use spindrift::sampling::SampleId;
+use spindrift::scene::{Scene, SceneInput};
+
+const SCENE: &str = "[campaign]\nname = \"test\"\nsamples = 10\nseed = 11\nduration_s = 1.0\n[fuselage]\n\
+    wall_thickness_m = 0.03\nouter_radius_m = 1.0\nlength_m = 3.0\ndensity_kg_m3 = 2700.0\n[debris]\nmass_kg = 20.0\n\
+    principal_second_moments_kg_m2 = [1.0, 2.0, 3.0]\n[initial]\nangular_velocity_rad_s = [1.0, -2.0, 2.0]\n\
+    attitude = [0.5, 0.5, -0.5, 0.5]\n";
+
+/// Draws of every statistical test.
+const N: usize = 100_000;
+/// sqrt(n) D of Kolmogorov and Smirnov: sqrt(-ln(alpha/2)/2). A deviation of a distribution function by 0.01 anywhere (3.2 of these units) is
+/// missed with a probability below 1e-3.
+const KS: f64 = 1.949;
+/// Quantiles 1 - alpha of chi-square with 3, 5, 9 degrees of freedom (tables of Abramowitz & Stegun, 26.8).
+const CHI_3: f64 = 16.266;
+const CHI_5: f64 = 20.515;
+const CHI_9: f64 = 27.877;
+
+fn plan(disperse: &str) -> Plan {
+    let text = format!("{SCENE}[[disperse]]\n{disperse}");
+    Plan::from_text("test.toml", &text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// What samples 1 to N of a file look like through `seen`.
+fn draws<T>(disperse: &str, seen: impl Fn(&SceneInput) -> T) -> Vec<T> {
+    let plan = plan(disperse);
+    let (mut sampler, mut scene) = (plan.dispersions.sampler(), plan.nominal.clone());
+    let mut applied = vec![0.0; plan.dispersions.columns().len()];
+    let draw = |k: usize| {
+        sampler.draw(SampleId(k as u64 + 1), &mut scene, &mut applied);
+        seen(&scene)
+    };
+    (0..N).map(draw).collect()
+}
+
+fn rate(scene: &SceneInput) -> [f64; 3] {
+    scene.initial.angular_velocity_rad_s
+}
+
+/// sqrt(n) times the largest distance between the empirical and a given distribution function.
+fn distance(values: impl IntoIterator<Item = f64>, law: impl Fn(f64) -> f64) -> f64 {
+    let mut values: Vec<f64> = values.into_iter().collect();
+    values.sort_by(f64::total_cmp);
+    let n = values.len() as f64;
+    let far = values.iter().enumerate().fold(0.0f64, |far, (k, x)| {
+        let p = law(*x);
+        far.max((p - k as f64 / n).abs()).max(((k + 1) as f64 / n - p).abs())
+    });
+    far * n.sqrt()
+}
+
+/// Rayleigh's statistic of isotropy, 3 n |mean|^2, chi-square with 3 degrees of freedom (K. V. Mardia & P. E. Jupp, *Directional
+/// Statistics*, 2000, 10.4.1): sees a preferred direction.
+fn rayleigh(directions: &[[f64; 3]]) -> f64 {
+    let n = directions.len() as f64;
+    let mean: [f64; 3] = std::array::from_fn(|i| directions.iter().map(|d| d[i]).sum::<f64>() / n);
+    3.0 * n * dot(mean, mean)
+}
+
+/// Bingham's statistic of uniformity on the sphere in `P` dimensions, n p (p + 2)/2 (tr T^2 - 1/p) with T the mean of x x^T, chi-square with
+/// (p - 1)(p + 2)/2 degrees of freedom (ibid., 10.7.1): sees a preferred axis, whatever its sign.
+fn bingham<const P: usize>(points: &[[f64; P]]) -> f64 {
+    let (n, p) = (points.len() as f64, P as f64);
+    let mut square = 0.0;
+    for i in 0..P {
+        for j in 0..P {
+            let mean = points.iter().map(|x| x[i] * x[j]).sum::<f64>() / n;
+            square += mean * mean;
+        }
+    }
+    n * p * (p + 2.0) / 2.0 * (square - 1.0 / p)
+}
+
+/// Angles about an axis: the cosine to it, and the azimuth from 0 to 1.
+fn about(axis: [f64; 3], v: [f64; 3]) -> [f64; 2] {
+    let z = scaled(1.0 / norm(axis), axis);
+    let v = scaled(1.0 / norm(v), v);
+    let x = cross([0.3, 0.4, -0.8], z);
+    let x = scaled(1.0 / norm(x), x);
+    let azimuth = libm::atan2(dot(v, cross(z, x)), dot(v, x)) / TAU;
+    [dot(v, z), azimuth.rem_euclid(1.0)]
+}
+
+const RATE: &str = "parameter = \"initial.angular_velocity_rad_s\"\n";
+
+/// H0: directions are uniform on the sphere; the magnitude stays. Power: a law that prefers one direction by a concentration of 0.03, or one
+/// that shifts E[z^2] from 1/3 by 0.005, is missed with a probability below 1e-2.
+#[test]
+fn directions_are_uniform_on_the_sphere() {
+    let rates = draws(&format!("{RATE}distribution = \"uniform_direction\"\n"), rate);
+    assert!(rates.iter().all(|v| (norm(*v) / 3.0 - 1.0).abs() < 1e-15 * 8.0));
+    let directions: Vec<[f64; 3]> = rates.iter().map(|v| scaled(1.0 / 3.0, *v)).collect();
+    let (first, second) = (rayleigh(&directions), bingham(&directions));
+    assert!(first < CHI_3 && second < CHI_5, "{first} {second}");
+    for i in 0..3 {
+        let far = distance(directions.iter().map(|d| d[i]), |x| (1.0 + x) / 2.0);
+        assert!(far < KS, "component {i} is uniform (Archimedes): {far}");
+    }
+}
+
+/// H0: in a cone about the nominal the azimuth is uniform and the cosine is uniform.
+#[test]
+fn cones_are_uniform_in_solid_angle() {
+    for (half_angle, axis) in [(0.2, None), (1e-6, None), (2.5, Some([0.0, 3.0, 4.0])), (PI, None)] {
+        let written = axis.map_or(String::new(), |axis: [f64; 3]| format!("axis = {axis:?}\n"));
+        let rates = draws(&format!("{RATE}distribution = \"cone\"\nhalf_angle_rad = {half_angle:?}\n{written}"), rate);
+        let axis = axis.unwrap_or([1.0, -2.0, 2.0]);
+        let azimuth = distance(rates.iter().map(|v| about(axis, *v)[1]), |x| x);
+        // 1 - cos from the sine of half the angle: |v/|v| - axis|^2/2, which keeps its digits in a needle
+        let versine = |v: &[f64; 3]| {
+            let (v, z) = (scaled(1.0 / norm(*v), *v), scaled(1.0 / norm(axis), axis));
+            0.5 * (0..3).map(|i| (v[i] - z[i]) * (v[i] - z[i])).sum::<f64>()
+        };
+        let whole = 2.0 * libm::sin(0.5 * half_angle) * libm::sin(0.5 * half_angle);
+        let cosine = distance(rates.iter().map(versine), |x| x / whole);
+        assert!(azimuth < KS && cosine < KS, "{half_angle}: {azimuth} {cosine}");
+    }
+}
+
+/// H0: von Mises and Fisher's law: P(1 - cos <= v) = (1 - exp(-kappa v))/(1 - exp(-2 kappa)), uniform azimuth, mean resultant
+/// coth(kappa) - 1/kappa, whose estimate has a standard deviation below 1/(kappa sqrt(n)).
+#[test]
+fn von_mises_and_fisher() {
+    for kappa in [0.5, 5.0, 400.0] {
+        let rates = draws(&format!("{RATE}distribution = \"von_mises_fisher\"\nconcentration = {kappa:?}\n"), rate);
+        let axis = [1.0, -2.0, 2.0];
+        let angles: Vec<[f64; 2]> = rates.iter().map(|v| about(axis, *v)).collect();
+        let azimuth = distance(angles.iter().map(|a| a[1]), |x| x);
+        let law = |v: f64| libm::expm1(-kappa * v) / libm::expm1(-2.0 * kappa);
+        let versine = distance(angles.iter().map(|a| 1.0 - a[0]), law);
+        let mean = angles.iter().map(|a| a[0]).sum::<f64>() / N as f64;
+        let off = mean - (1.0 / libm::tanh(kappa) - 1.0 / kappa);
+        let sigma = (1.0 / (kappa * kappa)).min(1.0 / 3.0).sqrt() / (N as f64).sqrt();
+        assert!(azimuth < KS && versine < KS && off.abs() < 3.29 * sigma, "{kappa}: {azimuth} {versine} {off}");
+    }
+}
+
+/// H0: spin axis and rate are apart: the magnitude follows its own law and does not know the direction.
+#[test]
+fn magnitude_and_direction_are_apart() {
+    let law =
+        "distribution = \"cone\"\nhalf_angle_rad = 0.5\nmagnitude = { distribution = \"uniform\", min = 1, max = 5 }\n";
+    let rates = draws(&format!("{RATE}{law}"), rate);
+    let far = distance(rates.iter().map(|v| norm(*v)), |x| (x - 1.0) / 4.0);
+    assert!(far < KS, "{far}");
+    let (mut covariance, mut squares) = (0.0, [0.0; 2]);
+    for v in &rates {
+        let (a, b) = (norm(*v) - 3.0, about([1.0, -2.0, 2.0], *v)[0] - (1.0 + libm::cos(0.5)) / 2.0);
+        covariance += a * b;
+        squares = [squares[0] + a * a, squares[1] + b * b];
+    }
+    let correlation = covariance / (squares[0] * squares[1]).sqrt();
+    assert!(correlation.abs() * (N as f64).sqrt() < 3.29, "{correlation}");
+    // a zero nominal has neither: both are given
+    let zero = "parameter = \"initial.velocity_m_s\"\ndistribution = \"uniform_direction\"\n\
+        magnitude = { distribution = \"uniform\", min = 0, max = 2 }\n";
+    let speeds = draws(zero, |scene| norm(scene.initial.velocity_m_s));
+    assert!(distance(speeds, |x| x / 2.0) < KS);
+}
+
+/// H0: attitudes are uniform on SO(3): quaternions uniform on the 3-sphere (Bingham), E[C33^2] = 1/3 with variance 4/45, and the angle, whose
+/// cosine is (trace - 1)/2, has the distribution (theta - sin theta)/pi.
+#[test]
+fn attitudes_are_uniform_on_so3() {
+    let list = draws("parameter = \"initial.attitude\"\ndistribution = \"uniform_attitude\"\n", |s| s.initial.attitude);
+    assert!(bingham(&list) < CHI_9, "{}", bingham(&list));
+    let mean = list.iter().map(|q| dcm_from_quaternion(*q)[2][2].powi(2)).sum::<f64>() / N as f64;
+    assert!((mean - 1.0 / 3.0).abs() < 3.29 * (4.0 / 45.0 / N as f64).sqrt(), "{mean}");
+    let trace = |q: &[f64; 4]| (0..3).map(|i| dcm_from_quaternion(*q)[i][i]).sum::<f64>();
+    let angle = |q: &[f64; 4]| libm::acos(((trace(q) - 1.0) / 2.0).clamp(-1.0, 1.0));
+    let far = distance(list.iter().map(angle), |theta| (theta - libm::sin(theta)) / PI);
+    assert!(far < KS, "{far}");
+}
+
+/// The rotation vector from the nominal attitude, in the frame of the body.
+fn error(q: [f64; 4]) -> [f64; 3] {
+    let off = hamilton(conjugate([0.5, 0.5, -0.5, 0.5]), q);
+    let off = if off[0] < 0.0 { off.map(|x| -x) } else { off };
+    let sine = norm([off[1], off[2], off[3]]);
+    let angle = 2.0 * libm::atan2(sine, off[0]);
+    let share = if sine > 0.0 { angle / sine } else { 2.0 };
+    [share * off[1], share * off[2], share * off[3]]
+}
+
+/// H0: the rotation vector is normal with the covariance written: theta^T P^-1 theta is chi-square with 3 degrees of freedom, and its mean
+/// square and products are P, each within 3.29 standard deviations ((p_ii p_jj + p_ij^2)/n).
+#[test]
+fn attitude_errors_have_their_covariance() {
+    let p = [[4e-4, 1e-4, 0.0], [1e-4, 1e-4, -5e-5], [0.0, -5e-5, 2.5e-4]];
+    let law = format!("parameter = \"initial.attitude\"\ndistribution = \"attitude_error\"\ncovariance_rad2 = {p:?}\n");
+    let thetas: Vec<[f64; 3]> = draws(&law, |s| error(s.initial.attitude));
+    for i in 0..3 {
+        for j in 0..3 {
+            let mean = thetas.iter().map(|t| t[i] * t[j]).sum::<f64>() / N as f64;
+            let sigma = ((p[i][i] * p[j][j] + p[i][j] * p[i][j]) / N as f64).sqrt();
+            assert!((mean - p[i][j]).abs() < 3.29 * sigma, "{i}{j}: {mean} {}", p[i][j]);
+        }
+    }
+    let chi_3 = |x: f64| libm::erf((x / 2.0).sqrt()) - (2.0 * x / PI).sqrt() * libm::exp(-x / 2.0);
+    let std = "parameter = \"initial.attitude\"\ndistribution = \"attitude_error\"\nstd_rad = [0.01, 0.02, 0.04]\n";
+    let squares = draws(std, |s| {
+        let [a, b, c] = error(s.initial.attitude);
+        (a / 0.01).powi(2) + (b / 0.02).powi(2) + (c / 0.04).powi(2)
+    });
+    let far = distance(squares, chi_3);
+    assert!(far < KS, "{far}");
+}
+
+/// H0: about an axis the attitude turns by the law of the angle, and about no other.
+#[test]
+fn attitudes_turn_about_an_axis() {
+    let law = "parameter = \"initial.attitude\"\ndistribution = \"about_axis\"\naxis = [0, 3, 4]\n\
+        angle_rad = { distribution = \"uniform\", min = -1, max = 2 }\n";
+    let thetas = draws(law, |s| error(s.initial.attitude));
+    assert!(thetas.iter().all(|t| t[0].abs() < 1e-14 && (t[1] * 0.8 - t[2] * 0.6).abs() < 1e-14));
+    let far = distance(thetas.iter().map(|t| 0.6 * t[1] + 0.8 * t[2]), |x| (x + 1.0) / 3.0);
+    assert!(far < KS, "{far}");
+}
+
+/// Counter-tests: what is often done instead is told from the laws by the same statistics.
+#[test]
+fn usual_mistakes_are_caught() {
+    let uniform = draws(&format!("{RATE}distribution = \"uniform\"\nmin = -1\nmax = 1\n"), rate);
+    // components of a cube, normalised: towards its corners. No preferred axis, so second moments are blind; the component is not
+    let cube: Vec<f64> = uniform.iter().map(|v| v[2] / norm(*v)).collect();
+    assert!(distance(cube, |x| (1.0 + x) / 2.0) > 3.0 * KS);
+    // two quadrants only
+    let half: Vec<[f64; 3]> = uniform.iter().map(|v| scaled(1.0 / norm(*v), [v[0].abs(), v[1], v[2]])).collect();
+    assert!(rayleigh(&half) > 100.0 * CHI_3);
+    // uniform angles to the axis: towards the pole
+    let polar: Vec<[f64; 3]> = uniform
+        .iter()
+        .map(|v| {
+            let ((s, c), (sp, cp)) = (libm::sincos(PI * (v[0] + 1.0) / 2.0), libm::sincos(PI * v[1]));
+            [s * cp, s * sp, c]
+        })
+        .collect();
+    assert!(bingham(&polar) > 100.0 * CHI_5);
+    // uniform Euler angles: E[C33^2] = 1/2
+    let mean = uniform.iter().map(|v| libm::cos(PI * v[0]).powi(2)).sum::<f64>() / N as f64;
+    assert!((mean - 1.0 / 3.0).abs() > 100.0 * (4.0 / 45.0 / N as f64).sqrt());
+    // a quaternion of uniform numbers, normalised
+    let uniform = draws("parameter = \"initial.attitude\"\ndistribution = \"uniform\"\nmin = -1\nmax = 1\n", |s| {
+        s.initial.attitude
+    });
+    let quaternion = distance(uniform.iter().map(|q| libm::acos(q[0].abs().min(1.0)) * 2.0), |theta| {
+        (theta - libm::sin(theta)) / PI
+    });
+    assert!(quaternion > 3.0 * KS, "{quaternion}");
+}
+
+/// Draws of a million bodies, and how many of them are impossible.
+fn impossible(dispersions: &str, count: u64) -> u64 {
+    let text = format!("{SCENE}{dispersions}");
+    let plan = Plan::from_text("test.toml", &text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
+    let (mut sampler, mut input) = (plan.dispersions.sampler(), plan.nominal.clone());
+    let mut applied = vec![0.0; plan.dispersions.columns().len()];
+    let mut scene = Scene::resolve(&input).expect("the nominal scene is physical");
+    let mut refused = 0;
+    for sample in 1..=count {
+        sampler.draw(SampleId(sample), &mut input, &mut applied);
+        refused += u64::from(scene.resolve_into(&input).is_err());
+    }
+    refused
+}
+
+/// Law: a million draws by log-Cholesky, and by second moments about the principal axes, make a million possible bodies, however wide. Counter-test:
+/// principal moments that are drawn freely do not.
+#[test]
+fn a_million_bodies_and_none_impossible() {
+    let normal = |key: &str, std: f64| {
+        format!("[[disperse]]\nparameter = \"{key}\"\ndistribution = \"normal\"\nstd = {std:?}\n")
+    };
+    let second = "[[disperse]]\nparameter = \"debris.principal_second_moments_kg_m2\"\ndistribution = \"log_normal\"\nlog_std = 2.0\n\
+        [[disperse]]\nparameter = \"debris.principal_axes\"\ndistribution = \"uniform_attitude\"\n";
+    let scale = "[[disperse]]\nparameter = \"fuselage.mass_scale\"\ndistribution = \"log_normal\"\nlog_std = 0.5\n";
+    let all = [
+        normal("fuselage.stretch_log", 1.0),
+        normal("fuselage.shear", 1.0),
+        normal("fuselage.center_offset_m", 1.0),
+        scale.to_owned(),
+        second.to_owned(),
+    ]
+    .concat();
+    assert_eq!(impossible(&all, 1_000_000), 0);
+
+    let free =
+        "[[disperse]]\nparameter = \"debris.principal_moments_kg_m2\"\ndistribution = \"normal\"\nrelative_std = 0.1\n";
+    let moments =
+        SCENE.replace("principal_second_moments_kg_m2 = [1.0, 2.0, 3.0]", "principal_moments_kg_m2 = [1.0, 1.5, 2.3]");
+    let plan = Plan::from_text("test.toml", &format!("{moments}{free}"), Overrides::default()).expect("a valid file");
+    let (mut sampler, mut input) = (plan.dispersions.sampler(), plan.nominal.clone());
+    let (mut applied, mut refused) = ([0.0; 3], 0);
+    for sample in 1..=10_000 {
+        sampler.draw(SampleId(sample), &mut input, &mut applied);
+        refused += usize::from(Scene::resolve(&input).is_err());
+    }
+    println!("free principal moments: {refused} of 10000 impossible");
+    assert!(refused > 500, "{refused}");
+}
+
+#[test]
+fn what_cannot_be_drawn_is_refused() {
+    let refused = |disperse: &str| {
+        let text = format!("{SCENE}[[disperse]]\n{disperse}");
+        Plan::from_text("test.toml", &text, Overrides::default()).expect_err(disperse).to_string()
+    };
+    let attitude = "parameter = \"initial.attitude\"\n";
+    let speed = "parameter = \"initial.velocity_m_s\"\n";
+    for (disperse, key, says) in [
+        (
+            format!("{attitude}distribution = \"cone\"\nhalf_angle_rad = 0.1\n"),
+            "parameter",
+            "a vector (x, y, z) as a whole",
+        ),
+        (format!("{RATE}distribution = \"attitude_error\"\nstd_rad = 0.1\n"), "parameter", "an attitude (w, x, y, z)"),
+        (
+            "parameter = \"initial.velocity_m_s.x\"\ndistribution = \"cone\"\nhalf_angle_rad = 0.1\n".to_owned(),
+            "parameter",
+            "as a whole",
+        ),
+        (
+            "parameter = \"fuselage.length_m\"\ndistribution = \"uniform_direction\"\n".to_owned(),
+            "parameter",
+            "a vector",
+        ),
+        ("parameter = \"fuselage.shear\"\ndistribution = \"uniform_direction\"\n".to_owned(), "parameter", "a vector"),
+        (format!("{RATE}distribution = \"cone\"\n"), "half_angle_rad", "given"),
+        (format!("{RATE}distribution = \"cone\"\nhalf_angle_rad = 0\n"), "half_angle_rad", "at most pi"),
+        (format!("{RATE}distribution = \"cone\"\nhalf_angle_rad = 3.2\n"), "half_angle_rad", "at most pi"),
+        (format!("{RATE}distribution = \"cone\"\nhalf_angle_rad = 1\naxis = [0, 0, 0]\n"), "axis", "other than zero"),
+        (format!("{RATE}distribution = \"von_mises_fisher\"\nconcentration = -1\n"), "concentration", "above 0"),
+        (format!("{speed}distribution = \"cone\"\nhalf_angle_rad = 1\n"), "axis", "nominal vector is zero"),
+        (format!("{speed}distribution = \"uniform_direction\"\n"), "magnitude", "nominal vector is zero"),
+        (
+            format!(
+                "{RATE}distribution = \"cone\"\nhalf_angle_rad = 1\nmagnitude = {{ distribution = \"normal\", std = -1 }}\n"
+            ),
+            "magnitude",
+            ">= 0",
+        ),
+        (
+            format!(
+                "{RATE}distribution = \"cone\"\nhalf_angle_rad = 1\nmagnitude = {{ distribution = \"cone\", half_angle_rad = 1 }}\n"
+            ),
+            "magnitude",
+            "a law of one number",
+        ),
+        (
+            format!(
+                "{RATE}distribution = \"cone\"\nhalf_angle_rad = 1\nmagnitude = {{ distribution = \"normal\", sd = 1 }}\n"
+            ),
+            "magnitude.sd",
+            "std",
+        ),
+        (format!("{RATE}distribution = \"cone\"\nhalf_angle_rad = 1\nmagnitude = 3\n"), "magnitude", "a table"),
+        (format!("{attitude}distribution = \"attitude_error\"\nstd_rad = [0.1, 0.1]\n"), "std_rad", "3 in an array"),
+        (format!("{attitude}distribution = \"attitude_error\"\nstd_rad = -0.1\n"), "std_rad", ">= 0"),
+        (
+            format!(
+                "{attitude}distribution = \"attitude_error\"\ncovariance_rad2 = [[1, 2, 0], [2, 1, 0], [0, 0, 1]]\n"
+            ),
+            "covariance_rad2",
+            "positive semidefinite",
+        ),
+        (
+            format!(
+                "{attitude}distribution = \"attitude_error\"\nstd_rad = 1\ncovariance_rad2 = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\n"
+            ),
+            "covariance_rad2",
+            "the only one",
+        ),
+        (format!("{attitude}distribution = \"about_axis\"\naxis = [0, 0, 1]\n"), "angle_rad", "given"),
+        (
+            format!(
+                "{attitude}distribution = \"about_axis\"\naxis = [0, 0, 0]\nangle_rad = {{ distribution = \"normal\", std = 1 }}\n"
+            ),
+            "axis",
+            "other than zero",
+        ),
+    ] {
+        let message = refused(&disperse);
+        assert!(message.contains(&format!("disperse[0].{key}")) && message.contains(says), "{disperse}\n{message}");
+        assert!(message.contains("test.toml:"), "the line is said: {message}");
+    }
+}
+
+/// A geometric law survives the way to the plan's text and back.
+#[test]
+fn plans_hold_geometric_laws() {
+    for disperse in [
+        format!("{RATE}distribution = \"uniform_direction\"\n"),
+        format!("{RATE}distribution = \"cone\"\nhalf_angle_rad = 0.25\naxis = [0, 1, 1]\nmagnitude = {{ distribution = \"truncated_normal\", relative_std = 0.1, sigmas = 3 }}\n"),
+        format!("{RATE}distribution = \"von_mises_fisher\"\nconcentration = 30\n"),
+        "parameter = \"initial.attitude\"\ndistribution = \"attitude_error\"\nstd_rad = 0.1\n".to_owned(),
+        "parameter = \"initial.attitude\"\ndistribution = \"attitude_error\"\ncovariance_rad2 = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\n".to_owned(),
+        "parameter = \"initial.attitude\"\ndistribution = \"about_axis\"\naxis = [0, 0, 1]\nangle_rad = { distribution = \"normal\", std = 0.1 }\n".to_owned(),
+    ] {
+        let plan = plan(&disperse);
+        let again = Plan::from_text("plan.toml", &plan.text(), Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
+        assert_eq!(again, plan);
+    }
+}
