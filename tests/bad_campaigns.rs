@@ -294,7 +294,7 @@ const CASES: &[(&str, &str, &str)] = &[
     (
         "\"fuselage.density_kg_m3\"",
         "\"debris.size_m\"",
-        "bad.toml:34: disperse[0].parameter = \"debris.size_m.x\": must be a key that the scene has; describe the debris by debris.size_m (a [debris] table without side_m)",
+        "bad.toml:34: disperse[0].parameter = \"debris.size_m.x\": must be a key that the scene has; describe the debris by debris.size_m",
     ),
     (
         "\"truncated_normal\"",

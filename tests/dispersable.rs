@@ -7,6 +7,8 @@ mod support;
 
 use spindrift::dynamics::table::{Block, Grid, StateTable};
 use spindrift::integrators::{Method, Status};
+use spindrift::math::Isa;
+use spindrift::observables::{Group, Observer, Request};
 use spindrift::sampling::{Dispersion, Dispersions, Law, SampleId, Spread, Values};
 use spindrift::scene::parameter::Kind as ParameterKind;
 use spindrift::scene::{DebrisInput, Parameter, PrincipalInertia, PrincipalMoments, Scene, SceneInput};
@@ -17,8 +19,8 @@ use support::scenes::{Kind, misaligned, random};
 const HORIZON: f64 = 1.0;
 /// Tolerance of both kernels; a step of the report's form may add it a few hundred times.
 const TOLERANCE: f64 = 1e-11;
-/// Distance of two kernels at this tolerance; measured at most 1.6e-10.
-const AGREED: f64 = 2e-9;
+/// Distance of two kernels at this tolerance; measured at most 2e-11.
+const AGREED: f64 = 2e-10;
 /// Distance that a change must make: ten times what the kernels may differ by.
 const CHANGED: f64 = 10.0 * AGREED;
 /// Standard deviation of a draw, relative to the nominal, or absolute where that is zero.
@@ -68,19 +70,35 @@ fn nominal_for<'a>(parameter: Parameter, variants: &'a [SceneInput]) -> &'a Scen
         .unwrap_or_else(|| panic!("no scene has {}", parameter.name()))
 }
 
-/// The states of a scene by a method.
-fn states(method: Method, input: &SceneInput) -> StateTable {
+/// What is known of a run: its states, and the energies in its row (a cube turns alike whatever it weighs).
+struct Motion {
+    table: StateTable,
+    energies: Vec<f64>,
+}
+
+/// The motion of a scene by a method.
+fn motion(method: Method, input: &SceneInput) -> Motion {
     let scene = Scene::resolve(input).unwrap_or_else(|errors| panic!("{}", errors[0]));
     let grid = Grid::uniform(HORIZON, 5);
     let tolerance = if method == Method::Taylor { 1e-16 } else { TOLERANCE };
-    let run = propagate(method, adaptive(tolerance), &grid, &[scene]).remove(0);
+    let run = propagate(method, adaptive(tolerance), &grid, std::slice::from_ref(&scene)).remove(0);
     assert_eq!(run.outcome.status, Status::Done);
-    run.table
+    let groups = [Group::Energies, Group::EnergiesCom].into_iter().collect();
+    let request = Request { groups, debris: true, actuated: true, constrained: method == Method::Reference };
+    let mut observer = Observer::new(request, &grid);
+    let mut row = vec![f64::NAN; request.columns().len()];
+    observer.observe(Isa::best(), &scene, &run.table, &run.outcome, &mut row);
+    let is_energy = |name: &str| name.ends_with("_initial_j") || name.ends_with("_final_j");
+    let energies = request.columns().iter().zip(row).filter(|(c, _)| is_energy(c.name)).map(|(_, x)| x).collect();
+    Motion { table: run.table, energies }
 }
 
-/// The largest distance of any state at any point, relative to its size.
-fn distance(found: &StateTable, expected: &StateTable) -> f64 {
-    let mut worst = 0.0_f64;
+/// The largest distance of any state at any point, or of an energy, relative to its size.
+fn distance(found: &Motion, expected: &Motion) -> f64 {
+    assert!(found.energies.len() == expected.energies.len() && found.energies.len() >= 8);
+    let pairs = found.energies.iter().zip(&expected.energies);
+    let mut worst = pairs.map(|(a, b)| relative([*a], [*b])).fold(0.0, f64::max);
+    let (found, expected) = (&found.table, &expected.table);
     for block in Block::ALL.into_iter().filter(|block| everything(Method::Taylor).contains(*block)) {
         for point in 0..expected.points() {
             macro_rules! off {
@@ -116,7 +134,7 @@ fn drawn(parameter: Parameter, component: usize, nominal: &SceneInput) -> (Scene
 #[test]
 fn every_key_moves_the_motion_and_both_kernels_agree_where_to() {
     let variants = variants();
-    let nominal_states: Vec<StateTable> = variants.iter().map(|input| states(Method::Taylor, input)).collect();
+    let nominal_motions: Vec<Motion> = variants.iter().map(|input| motion(Method::Taylor, input)).collect();
     let (mut least, mut most, mut count) = (f64::INFINITY, 0.0_f64, 0);
     for parameter in Parameter::all() {
         let nominal = nominal_for(parameter, &variants);
@@ -134,9 +152,9 @@ fn every_key_moves_the_motion_and_both_kernels_agree_where_to() {
                 );
             }
             assert_ne!(parameter.value(&scene, component), parameter.value(nominal, component), "{name}");
-            let taylor = states(Method::Taylor, &scene);
-            let moved = distance(&taylor, &nominal_states[place]);
-            let agreed = distance(&states(Method::Reference, &scene), &taylor);
+            let taylor = motion(Method::Taylor, &scene);
+            let moved = distance(&taylor, &nominal_motions[place]);
+            let agreed = distance(&motion(Method::Reference, &scene), &taylor);
             println!("{name:50} moved {moved:8.1e}, kernels apart {agreed:8.1e}");
             assert!(moved > CHANGED, "{name}: {moved:e}");
             assert!(agreed < AGREED, "{name}: {agreed:e}");
@@ -152,10 +170,10 @@ fn every_key_moves_the_motion_and_both_kernels_agree_where_to() {
 fn a_key_without_effect_is_seen_and_refused() {
     let hidden = &variants()[1];
     assert!(hidden.fuselage.mass_kg.is_some() && hidden.fuselage.inertia_kg_m2.is_some());
-    let nominal = states(Method::Taylor, hidden);
+    let nominal = motion(Method::Taylor, hidden);
     let mut denser = hidden.clone();
     denser.fuselage.density_kg_m3 *= 1.1;
-    assert_eq!(distance(&states(Method::Taylor, &denser), &nominal), 0.0);
+    assert_eq!(distance(&motion(Method::Taylor, &denser), &nominal), 0.0);
     for name in ["fuselage.density_kg_m3", "fuselage.wall_thickness_m", "fuselage.outer_radius_m"] {
         let parameter = Parameter::find(name).expect("in the table").0;
         let law = Law::Normal(Spread::Relative(Values::All(SPREAD)));

@@ -58,7 +58,7 @@ fn draws(plan: &Plan, ids: impl IntoIterator<Item = u64>) -> Vec<Vec<(String, u6
 #[test]
 fn a_draw_depends_on_its_own_name_alone() {
     let rate = disperse("initial.angular_velocity_rad_s", NORMAL);
-    let length = disperse("fuselage.length_m", "distribution = \"uniform\"\nhalf_width = 0.1");
+    let length = disperse("wheel1.length_m", "distribution = \"uniform\"\nhalf_width = 0.01");
     let radius = disperse("wheel1.radius_m", "distribution = \"truncated_normal\"\nrelative_std = 0.01\nsigmas = 3");
     let ids = || [1, 2, 9, 4095, 1 << 40];
     let both = draws(&plan(&format!("{rate}{length}")), ids());
@@ -128,15 +128,28 @@ fn every_key_can_be_dispersed_and_moves_the_scene() {
     let shipped = &shipped[..shipped.find("[[disperse]]").expect("dispersions come last")];
     let overrides = "thruster_offset_m = 0.5\nmass_kg = 2000.0\ncenter_of_mass_m = [0, 0, 1.5]\n\
                      inertia_kg_m2 = [[3000, 0, 0], [0, 3000, 0], [0, 0, 1700]]\n";
+    let moments = "thruster_offset_m = 0.5\nprincipal_moments_kg_m2 = [3000, 3100, 1700]\n";
+    let second = "thruster_offset_m = 0.5\nprincipal_second_moments_kg_m2 = [800, 900, 2200]\n";
+    let (bodies, cube) = ("thruster_offset_m = 0.5\n", "side_m = 0.2\ndensity_kg_m3 = 2700.0\n");
     for parameter in Parameter::all() {
-        let mut text = shipped.replace("side_m = 0.2", "side_m = 0.2 # cube");
-        match parameter.name() {
-            "debris.size_m" => text = text.replace("side_m = 0.2 # cube", "size_m = [0.2, 0.3, 0.4]"),
-            name if ["fuselage.mass_kg", "fuselage.center_of_mass_m", "fuselage.inertia_kg_m2"].contains(&name) => {
-                text = text.replacen("thruster_offset_m = 0.5\n", overrides, 1);
+        let mut text = match parameter.name() {
+            "fuselage.mass_kg" | "fuselage.center_of_mass_m" | "fuselage.inertia_kg_m2" => {
+                shipped.replacen(bodies, overrides, 1)
             }
-            _ => {}
-        }
+            "fuselage.principal_moments_kg_m2" | "fuselage.principal_axes" => shipped.replacen(bodies, moments, 1),
+            "fuselage.principal_second_moments_kg_m2" => shipped.replacen(bodies, second, 1),
+            "debris.size_m" => shipped.replacen("side_m = 0.2", "size_m = [0.2, 0.3, 0.4]", 1),
+            "debris.mass_kg" | "debris.inertia_kg_m2" => {
+                shipped.replacen(cube, "mass_kg = 20\ninertia_kg_m2 = [[3, 0, 0], [0, 3, 0], [0, 0, 2]]\n", 1)
+            }
+            "debris.principal_moments_kg_m2" | "debris.principal_axes" => {
+                shipped.replacen(cube, "mass_kg = 20\nprincipal_moments_kg_m2 = [3, 3, 2]\n", 1)
+            }
+            "debris.principal_second_moments_kg_m2" => {
+                shipped.replacen(cube, "mass_kg = 20\nprincipal_second_moments_kg_m2 = [3, 3, 2]\n", 1)
+            }
+            _ => shipped.to_owned(),
+        };
         text += &disperse(parameter.name(), "distribution = \"normal\"\nstd = 1e-4");
         let plan = Plan::from_text("key.toml", &text, Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
         assert_eq!(plan.dispersions.columns().len(), parameter.width());
