@@ -14,6 +14,9 @@ pub mod error;
 pub mod input;
 pub mod mass;
 pub mod parameter;
+mod parameter_table;
+#[cfg(test)]
+mod refusals;
 pub mod resolve;
 #[cfg(test)]
 pub(crate) mod samples;

@@ -140,13 +140,16 @@ pub fn speed_held(mut input: SceneInput, held: [bool; 2]) -> SceneInput {
     input
 }
 
-/// `input` with wheels that stand off the axis s3 by up to 0.2 m and whose axes are tilted by up to 0.3 rad each way.
+/// `input` with wheels that stand off the axis s3 by up to 0.2 m, and axes and thrusters that are tilted by up to 0.3 rad each way.
 pub fn misaligned(mut input: SceneInput, seed: u64) -> SceneInput {
     let mut u = Uniform::new(!seed);
     for wheel in input.wheels.iter_mut().flatten() {
         wheel.offset_m = u.vector(0.2);
         wheel.tilt_rad = u.vector(0.3);
     }
+    input.actuators.thruster1_tilt_rad = u.vector(0.3);
+    input.actuators.thruster2_tilt_rad = u.vector(0.3);
+    input.actuators.thruster3_tilt_rad = u.vector(0.3);
     input
 }
 
