@@ -9,7 +9,8 @@ use spindrift::dynamics::table::{Block, Grid, StateTable};
 use spindrift::integrators::{Method, Status};
 use spindrift::math::Isa;
 use spindrift::observables::{Group, Observer, Request};
-use spindrift::sampling::{Dispersion, Dispersions, Law, SampleId, Spread, Values};
+use spindrift::sampling::dispersions::Draws;
+use spindrift::sampling::{Design, Dispersion, DispersionError, Dispersions, Law, SampleId, Spread, Values};
 use spindrift::scene::parameter::Kind as ParameterKind;
 use spindrift::scene::{DebrisInput, Parameter, PrincipalInertia, PrincipalMoments, Scene, SceneInput};
 use support::runs::{adaptive, everything, propagate, relative, up_to_sign};
@@ -118,16 +119,23 @@ fn distance(found: &Motion, expected: &Motion) -> f64 {
     worst
 }
 
+/// Random draws of `disperse` about `nominal`.
+fn dispersions(nominal: &SceneInput, disperse: &[Dispersion]) -> Result<Dispersions, Vec<DispersionError>> {
+    let design = &Design::Random;
+    let draws = Draws { seed: 3, samples: Some(2), design, disperse, correlate: &[], derive: &[] };
+    Dispersions::new(draws, nominal)
+}
+
 /// Sample 1 of `component` of `parameter` about `nominal`: the scene, and what was recorded.
 fn drawn(parameter: Parameter, component: usize, nominal: &SceneInput) -> (SceneInput, Vec<(Parameter, usize, f64)>) {
     let value = parameter.value(nominal, component).expect("the key exists");
     let std = SPREAD * if value == 0.0 { 1.0 } else { value.abs() };
     let law = Law::Normal(Spread::Absolute(Values::All(std)));
     let list = [Dispersion { parameter, component: Some(component), law }];
-    let dispersions = Dispersions::new(3, nominal, &list).unwrap_or_else(|errors| panic!("{}", errors[0]));
-    let (mut scene, mut applied) = (nominal.clone(), vec![f64::NAN; dispersions.columns().len()]);
-    dispersions.sampler().draw(SampleId(1), &mut scene, &mut applied);
-    let recorded = dispersions.columns().iter().zip(applied).map(|(c, x)| (c.parameter, c.component, x)).collect();
+    let drawn = dispersions(nominal, &list).unwrap_or_else(|errors| panic!("{}", errors[0]));
+    let (mut scene, mut applied) = (nominal.clone(), vec![f64::NAN; drawn.columns().len()]);
+    drawn.sampler().draw(SampleId(1), &mut scene, &mut applied);
+    let recorded = drawn.columns().iter().zip(applied).map(|(c, x)| (c.parameter, c.component, x)).collect();
     (scene, recorded)
 }
 
@@ -177,8 +185,7 @@ fn a_key_without_effect_is_seen_and_refused() {
     for name in ["fuselage.density_kg_m3", "fuselage.wall_thickness_m", "fuselage.outer_radius_m"] {
         let parameter = Parameter::find(name).expect("in the table").0;
         let law = Law::Normal(Spread::Relative(Values::All(SPREAD)));
-        let errors =
-            Dispersions::new(3, hidden, &[Dispersion { parameter, component: None, law }]).expect_err("hidden");
+        let errors = dispersions(hidden, &[Dispersion { parameter, component: None, law }]).expect_err("hidden");
         assert!(errors[0].to_string().contains("override"), "{}", errors[0]);
     }
 }

@@ -4,8 +4,8 @@ use super::canonical::Lines;
 use crate::sampling::geometric::DirectionSpread;
 use crate::sampling::scalar::{LOWER_KEYS, UPPER_KEYS};
 use crate::sampling::{
-    AttitudeSpread, Bound, Correlation, Cut, DataColumn, Dependence, Derivation, Design, Dispersion, GeometricLaw, Law, Levels,
-    LogRange, Offset, Range, Spread, Values,
+    AttitudeSpread, Bound, Correlation, Cut, DataColumn, Dependence, Derivation, Design, Dispersion, GeometricLaw, Law,
+    Levels, LogRange, Offset, Range, Spread, Values,
 };
 use crate::scene::Parameter;
 
