@@ -10,13 +10,13 @@ use spindrift::integrators::Status;
 use spindrift::math::Isa;
 use spindrift::sampling::SampleId;
 
-/// The shipped campaign of that name, with walls that are sometimes impossible where `with_failures`.
+/// The shipped campaign of that name, with a wheel that is sometimes impossible where `with_failures`.
 fn plan(name: &str, samples: u64, with_failures: bool) -> Plan {
     let path = format!("{}/campaigns/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     let mut text = std::fs::read_to_string(path).unwrap();
     if with_failures {
         text.push_str(
-            "\n[[disperse]]\nparameter = \"fuselage.thruster_offset_m\"\ndistribution = \"uniform\"\nmin = -0.5\nmax = 1.0\n",
+            "\n[[disperse]]\nparameter = \"wheel2.length_m\"\ndistribution = \"uniform\"\nmin = -0.05\nmax = 0.1\n",
         );
     }
     Plan::from_text(name, &text, Overrides { samples: Some(samples), seed: None }).unwrap_or_else(|e| panic!("{e}"))
