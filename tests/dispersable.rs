@@ -64,7 +64,7 @@ fn variants() -> Vec<SceneInput> {
 }
 
 /// The scene in which `parameter` is to be tested: its geometry counts where no other key overrides it.
-fn nominal_for<'a>(parameter: Parameter, variants: &'a [SceneInput]) -> &'a SceneInput {
+fn nominal_for(parameter: Parameter, variants: &[SceneInput]) -> &SceneInput {
     variants
         .iter()
         .find(|scene| parameter.exists(scene, 0))
