@@ -9,7 +9,7 @@ use spindrift::integrators::taylor::truth::Truth;
 use spindrift::integrators::{Method, Propagator, Status};
 use spindrift::math::Isa;
 use spindrift::math::vector::norm;
-use spindrift::scene::{DebrisInput, DebrisShape, Scene, SceneInput};
+use spindrift::scene::{DebrisInput, Scene, SceneInput};
 use support::claims::hold;
 use support::exact::distance;
 use support::golden::Golden;
@@ -136,8 +136,7 @@ fn hard() -> Vec<Hard> {
     list.push(Hard { name: "wheels at 1e4 rad/s, 20 s", scene: scene(&fast), horizon: 20.0 });
 
     let mut boxed = table1.clone();
-    boxed.debris =
-        boxed.debris.map(|debris| DebrisInput { shape: DebrisShape::Box { size_m: [0.1, 0.25, 0.6] }, ..debris });
+    boxed.debris = Some(DebrisInput::Box { size_m: [0.1, 0.25, 0.6], density_kg_m3: 2700.0 });
     boxed.initial.debris_relative_angular_velocity_rad_s = [3.0, 20.0, -5.0];
     list.push(Hard { name: "tumbling box, 50 s", scene: scene(&boxed), horizon: 50.0 });
 
