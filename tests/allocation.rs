@@ -187,7 +187,7 @@ fn right_hand_sides() {
 /// Law: drawing a sample into a scene, and making the scene of it, reuses what is there.
 #[test]
 fn draws_and_scenes() {
-    for name in ["spin_sweep", "burn", "no_debris"] {
+    for name in ["spin_sweep", "burn", "no_debris", "correlated", "sobol"] {
         let plan = plan(name, "auto");
         let mut sampler = plan.dispersions.sampler();
         let mut applied = vec![0.0; plan.dispersions.columns().len()];

@@ -11,6 +11,7 @@ fn shipped() -> Vec<std::path::PathBuf> {
     let mut files: Vec<_> = std::fs::read_dir(folder)
         .expect("a folder of campaigns")
         .map(|entry| entry.expect("an entry").path())
+        .filter(|path| path.extension().is_some_and(|extension| extension == "toml"))
         .collect();
     files.sort();
     files
@@ -35,7 +36,9 @@ fn shipped_campaigns_are_valid_and_say_what_they_ask() {
 fn a_plan_reads_back_from_its_text() {
     for file in shipped() {
         let plan = Plan::load(&file, Overrides { samples: Some(17), seed: Some(5) }).expect("valid");
-        let again = Plan::from_text("plan.toml", &plan.text(), Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
+        let folder = file.parent().expect("a folder");
+        let again = Plan::from_text_in(folder, "plan.toml", &plan.text(), Overrides::default());
+        let again = again.unwrap_or_else(|e| panic!("{e}"));
         assert_eq!(again, plan);
         assert_eq!((again.text(), again.hash()), (plan.text(), plan.hash()));
     }
@@ -97,6 +100,77 @@ relative_half_width = 0.01
 parameter = "initial.debris_attitude"
 distribution = "normal"
 std = 0.1
+[[disperse]]
+parameter = "fuselage.density_kg_m3"
+distribution = "truncated_normal"
+relative_std = 0.1
+relative_lower = -0.2
+upper_sigmas = 1.5
+[[disperse]]
+parameter = "wheel2.radius_m"
+distribution = "log_normal"
+log_std = 0.1
+median = 0.26
+[[disperse]]
+parameter = "wheel2.density_kg_m3"
+distribution = "log_uniform"
+factor = 1.1
+[[disperse]]
+parameter = "debris.density_kg_m3"
+distribution = "log_uniform"
+min = 900
+max = 1100
+[[disperse]]
+parameter = "initial.position_m"
+distribution = "triangular"
+min = -1
+max = [1, 2, 3]
+[[disperse]]
+parameter = "initial.velocity_m_s.x"
+distribution = "beta"
+alpha = 2
+beta = 3.5
+min = 0
+max = 1
+[[disperse]]
+parameter = "initial.velocity_m_s.y"
+distribution = "pert"
+min = 0
+max = 1
+mode = 0.25
+[[disperse]]
+parameter = "initial.velocity_m_s.z"
+distribution = "choice"
+values = [1, 2, 4]
+weights = [1, 1, 2]
+[[disperse]]
+parameter = "initial.wheel_rates_rad_s[1]"
+distribution = "bernoulli"
+value = 100
+probability = 0.05
+[[disperse]]
+parameter = "initial.debris_position_m"
+distribution = "empirical"
+file = "campaigns/table.csv"
+column = "wheel1.radius_m"
+interpolation = "linear"
+[[disperse]]
+parameter = "initial.debris_velocity_m_s"
+distribution = "offset"
+offset = [0.1, 0.2, 0.3]
+[[disperse]]
+parameter = "initial.attitude"
+distribution = "uniform_attitude"
+[[correlate]]
+parameters = ["wheel2.radius_m", "wheel2.density_kg_m3", "initial.velocity_m_s.y"]
+correlation = [[1, 0.9, 0.9], [0.9, 1, -0.9], [0.9, -0.9, 1]]
+nearest_psd = true
+[[correlate]]
+parameters = ["initial.velocity_m_s.x", "initial.velocity_m_s.z"]
+rank_correlation = [[1, 0.5], [0.5, 1]]
+[[derive]]
+parameter = "wheel2.length_m"
+expression = "0.4 * wheel2.radius_m + max(0, if(wheel2.radius_m > 0.25, wheel2.radius_m - 0.25, 0))"
 [output]
 compression = "none"
 "#;
@@ -118,6 +192,31 @@ fn every_key_reads_back() {
     // spelling does not
     let spelled = FULL.replace("2.7e3", "2700 # the same").replace("0x10", "16");
     assert_eq!(Plan::from_text("full.toml", &spelled, Overrides::default()).expect("valid").hash(), plan.hash());
+}
+
+#[test]
+fn every_design_reads_back() {
+    let start = &FULL[..FULL.find("[[disperse]]").expect("dispersions")];
+    let law = "[[disperse]]\nparameter = \"wheel2.radius_m\"\ndistribution = \"uniform\"\nhalf_width = 0.01\n";
+    for (design, samples) in [
+        ("kind = \"random\"", 16),
+        ("kind = \"latin_hypercube\"", 16),
+        ("kind = \"sobol\"", 16),
+        ("kind = \"halton\"", 16),
+        ("kind = \"saltelli\"", 16),
+        ("kind = \"grid\"\nlevels = 15", 16),
+        ("kind = \"grid\"\nquantiles = [0.25, 0.75]", 3),
+        ("kind = \"one_at_a_time\"\nlevels = [2]", 3),
+        ("kind = \"table\"\nfile = \"campaigns/table.csv\"\nparameters = [\"initial_angular_velocity_y_rad_s\"]", 28),
+    ] {
+        let text = format!("{start}{law}[design]\n{design}\n");
+        let text = if samples == 16 { text } else { text.replace("samples = 0x10\n", "") };
+        let plan = Plan::from_text("design.toml", &text, Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
+        assert_eq!(plan.samples, samples, "{design}");
+        let again = Plan::from_text("plan.toml", &plan.text(), Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
+        assert_eq!(again, plan);
+        assert_eq!(again.text(), plan.text());
+    }
 }
 
 #[test]

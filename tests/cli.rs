@@ -379,6 +379,39 @@ fn plots_and_tables_are_made() {
     assert!(said.contains("omega_se_s_x_rad_s") && said.lines().count() >= 12, "{said}");
 }
 
+/// Law: `sample` draws what the campaign draws, in both formats, and says which samples could not be run.
+#[test]
+fn sample_draws_the_rows_of_the_campaign() {
+    let room = Room::new("sample");
+    room.file("thin.toml", &format!("{CAMPAIGN}{THIN_WALLS}"));
+    let said = room.says("sample thin.toml --out s.csv --plot s.svg", 0);
+    for expected in ["of 599 draws", "fuselage.wall_thickness_m", "uniform, -0.02", "initial.angular_velocity_rad_s.z"] {
+        assert!(said.contains(expected), "{expected} in:\n{said}");
+    }
+    room.says("sample thin.toml --out s.parquet --plot s.png", 0);
+    let text = fs::read_to_string(room.path("s.csv")).unwrap();
+    let names: Vec<&str> = text.lines().next().unwrap().split(',').collect();
+    assert_eq!(names[..3], ["sample_id", "status", "initial_angular_velocity_x_rad_s"]);
+    assert_eq!(text.lines().count(), 601);
+    let parquet = &batches(&room.path("s.parquet"))[0];
+    room.says("campaign thin.toml --out r", 1);
+    let rows: Vec<RecordBatch> = (0..3).flat_map(|part| batches(&room.path(&format!("r/runs/part-{part:06}.parquet")))).collect();
+    for name in &names[2..] {
+        let run: Vec<u64> = rows.iter().flat_map(|batch| floats(batch, name)).map(f64::to_bits).collect();
+        let drawn: Vec<u64> = floats(parquet, name).into_iter().map(f64::to_bits).collect();
+        let column = names.iter().position(|other| other == name).unwrap();
+        let written = text.lines().skip(1).map(|line| line.split(',').nth(column).unwrap().parse::<f64>().unwrap().to_bits());
+        assert_eq!(drawn, run, "{name}");
+        assert!(written.eq(run), "{name}");
+    }
+    let invalid = text.lines().filter(|line| line.contains(",invalid_sample,")).count();
+    assert!((100..300).contains(&invalid), "a third is thinner than nothing: {invalid}");
+    assert!(fs::read_to_string(room.path("s.svg")).unwrap().contains("Rank correlation"));
+    assert!(fs::read(room.path("s.png")).unwrap().starts_with(b"\x89PNG"));
+    room.says("sample thin.toml --out s.txt", 2);
+    room.says("sample thin.toml --samples 0", 2);
+}
+
 #[test]
 fn check_shows_what_would_run() {
     let room = Room::new("check");

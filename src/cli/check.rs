@@ -3,25 +3,23 @@
 use std::fmt::Write as _;
 use std::time::Instant;
 
-use crate::campaign::{Overrides, Plan};
+use crate::campaign::Overrides;
 use crate::cli::campaign::bytes;
 use crate::cli::verdict::{Failure, Verdict};
-use crate::cli::{CheckOptions, isa, plan, screen};
+use crate::cli::{CheckOptions, dispersions, isa, plan, screen};
 use crate::dynamics::table::Block;
 use crate::ensemble::{Campaign, Part, PartId, Parts, Rows};
 use crate::integrators::Status;
 use crate::observables::Request;
 use crate::output::rows_file::RowsFile;
 use crate::output::summary::short;
-use crate::sampling::{Dispersions, Distribution, Map, SampleId};
+use crate::sampling::SampleId;
 use crate::scene::{MassProperties, Scene};
 
 /// The probe runs about this long, s.
 const PROBE_SECONDS: f64 = 0.5;
 /// The probe runs at most this many samples.
 const PROBE_SAMPLES: usize = 512;
-/// Draws behind the percentiles: the 1% and 99% lie within a tenth of the law's spread of their true places.
-const DRAWS: u64 = 10_000;
 
 /// Runs the command.
 ///
@@ -37,7 +35,8 @@ pub fn run(options: &CheckOptions) -> Result<Verdict, Failure> {
         section(&mut text, &format!("Plan (hash {})", plan.hash()))?;
         text.push_str(&plan.text());
         masses(&mut text, &scene.mass)?;
-        dispersions(&mut text, &plan)?;
+        section(&mut text, "Dispersions")?;
+        dispersions::table(&mut text, &plan)?;
         blocks(&mut text, &campaign)?;
         std::fmt::Result::Ok(())
     })();
@@ -90,85 +89,6 @@ fn tensor(text: &mut String, name: &str, rows: [[f64; 3]; 3]) -> std::fmt::Resul
         writeln!(text, "  {x:>24?}{y:>24?}{z:>24?}")?;
     }
     Ok(())
-}
-
-fn dispersions(text: &mut String, plan: &Plan) -> std::fmt::Result {
-    section(text, "Dispersions")?;
-    let columns = plan.dispersions.columns();
-    if columns.is_empty() {
-        return writeln!(text, "none: every sample is the nominal scene");
-    }
-    let names: Vec<String> = columns.iter().map(|column| column.parameter.component_name(column.component)).collect();
-    let drawn = drawn(plan);
-    let count = drawn.first().map_or(0, Vec::len);
-    let title = format!("parameter, of {count} draws (sample 0 is nominal)");
-    let width = names.iter().map(String::len).chain([title.len()]).max().unwrap_or(0);
-    writeln!(text, "{title:<width$}  {:>12}  {:>12}{:>12}{:>12}  law", "nominal", "1%", "50%", "99%")?;
-    for (index, ((name, column), values)) in names.iter().zip(columns).zip(&drawn).enumerate() {
-        write!(text, "{name:<width$}  {:>12}  ", short(column.nominal))?;
-        for p in [0.01, 0.5, 0.99] {
-            let place = ((p * count as f64) as usize).min(count.saturating_sub(1));
-            write!(text, "{:>12}", values.get(place).map_or("-".to_owned(), |value| short(*value)))?;
-        }
-        writeln!(text, "  {}", origin(&plan.dispersions, index))?;
-    }
-    Ok(())
-}
-
-/// The values of each column as applied, in ascending order, of the first samples behind the nominal one.
-fn drawn(plan: &Plan) -> Vec<Vec<f64>> {
-    let mut sampler = plan.dispersions.sampler();
-    let mut input = plan.nominal.clone();
-    let mut applied = vec![0.0; plan.dispersions.columns().len()];
-    let mut drawn = vec![Vec::new(); applied.len()];
-    for sample in 1..plan.samples.min(DRAWS + 1) {
-        sampler.draw(SampleId(sample), &mut input, &mut applied);
-        for (values, value) in drawn.iter_mut().zip(&applied) {
-            values.push(*value);
-        }
-    }
-    drawn.iter_mut().for_each(|values| values.sort_by(f64::total_cmp));
-    drawn
-}
-
-/// Where the values of a column come from, in words.
-fn origin(dispersions: &Dispersions, column: usize) -> String {
-    if let Some(law) = dispersions.law_of(column) {
-        law_text(law)
-    } else if let Some(expression) = dispersions.expression_of(column) {
-        format!("= {expression}")
-    } else if dispersions.is_tabled(column) {
-        "rows of a file".to_owned()
-    } else {
-        "follows its siblings".to_owned()
-    }
-}
-
-/// A law in words.
-fn law_text(law: &Map) -> String {
-    let law = match law {
-        Map::Joint(joint) => return joint.text(),
-        Map::Scalar(law) => law,
-    };
-    // the ends, to the digits shown
-    let [low, high] = [f64::EPSILON, 1.0 - f64::EPSILON].map(|u| short(law.quantile(u)));
-    match law {
-        Distribution::Normal { std, .. } => format!("normal, std {}", short(*std)),
-        Distribution::TruncatedNormal(_) => format!("truncated normal, {low} to {high}"),
-        Distribution::Uniform { min, max } => format!("uniform, {} to {}", short(*min), short(*max)),
-        Distribution::LogNormal { log_std, .. } => format!("log-normal, std of the logarithm {}", short(*log_std)),
-        Distribution::LogUniform { min, max, .. } => format!("log-uniform, {} to {}", short(*min), short(*max)),
-        Distribution::Triangular { min, mode, max } => {
-            format!("triangular, {} to {}, mode {}", short(*min), short(*max), short(*mode))
-        }
-        Distribution::Beta(law) => {
-            let ((min, max), (alpha, beta)) = (law.ends(), law.shapes());
-            format!("beta({}, {}), {} to {}", short(alpha), short(beta), short(min), short(max))
-        }
-        Distribution::Choice(choice) => format!("one of {} values, {low} to {high}", choice.values().len()),
-        Distribution::Empirical(law) => format!("as {} values of a file, {low} to {high}", law.count()),
-        Distribution::Fixed(_) => "fixed".to_owned(),
-    }
 }
 
 /// What is integrated and why, and what is not.

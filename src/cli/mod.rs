@@ -1,6 +1,6 @@
 //! Floor 7: the command line. Arguments, progress, exit codes; no physics.
 //!
-//! - [`campaign`], [`check`], [`precision`], [`simulate`]: one command each.
+//! - [`campaign`], [`check`], [`precision`], [`sample`], [`simulate`]: one command each. - [`dispersions`]: what is drawn, in words.
 //! - [`verdict`]: how a command ends, and the exit code. - [`progress`]: the bar. - [`screen`]: what is printed.
 
 use std::path::PathBuf;
@@ -15,8 +15,10 @@ use crate::math::isa::VARIABLE;
 
 pub mod campaign;
 pub mod check;
+pub mod dispersions;
 pub mod precision;
 pub mod progress;
+pub mod sample;
 pub mod screen;
 pub mod simulate;
 pub mod verdict;
@@ -53,6 +55,9 @@ pub enum Command {
     /// Run one sample as a time series: to a table, a Parquet or CSV file, a plot.
     #[command(after_help = EXIT_CODES)]
     Simulate(SimulateOptions),
+    /// Draw the samples of a campaign without running them: percentiles, a table of all, marginals and correlation as a plot.
+    #[command(after_help = EXIT_CODES)]
+    Sample(SampleOptions),
     /// Measure run time against error for every method and tolerance: a table, a Parquet file, a plot.
     #[command(after_help = EXIT_CODES)]
     Precision(PrecisionOptions),
@@ -103,6 +108,25 @@ pub struct SimulateOptions {
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
     /// Plot the energies to this file (.svg or .png), smoothly, or at --times.
+    #[arg(long, value_name = "FILE")]
+    pub plot: Option<PathBuf>,
+}
+
+/// Arguments of `sample`.
+#[derive(Debug, Args)]
+pub struct SampleOptions {
+    /// The campaign file.
+    pub file: PathBuf,
+    /// Number of samples instead of the file's.
+    #[arg(long, value_name = "N")]
+    pub samples: Option<u64>,
+    /// Seed instead of the file's.
+    #[arg(long, value_name = "S")]
+    pub seed: Option<u64>,
+    /// Write every sample's dispersed numbers to this file (.parquet or .csv).
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Plot marginals and rank correlation to this file (.svg or .png).
     #[arg(long, value_name = "FILE")]
     pub plot: Option<PathBuf>,
 }
@@ -176,7 +200,7 @@ mod tests {
         // `help` is clap's own
         let ours = command.get_subcommands_mut().filter(|command| command.get_name() != "help");
         helps.extend(ours.map(|command| command.render_help().to_string()));
-        assert_eq!(helps.len(), 5);
+        assert_eq!(helps.len(), 6);
         for help in helps {
             for code in ["0  done", "1  ran", "2  bad input", "4  input/output"] {
                 assert!(help.contains(code), "{help}");

@@ -2,13 +2,14 @@
 //!
 //! - [`parts`]: where a campaign is cut. - [`rows`]: the rows of a part, column by column. - [`sink`]: where they go.
 //! - [`campaign`]: what all workers share, and [`campaign::Worker`], what each owns.
-//! - [`runner`]: parts over threads. - [`single`]: one run with its states, as `simulate` shows it.
+//! - [`drawn`]: samples drawn and not run. - [`runner`]: parts over threads. - [`single`]: one run with its states, as `simulate` shows it.
 //! - [`precision`]: run time against error for every method. - [`cpu_clock`]: the clock of that time.
 //!
 //! Not here: file formats (the output floor), and what a run is (the floors below).
 
 pub mod campaign;
 pub mod cpu_clock;
+pub mod drawn;
 pub mod parts;
 pub mod precision;
 pub mod rows;
@@ -17,6 +18,7 @@ pub mod single;
 pub mod sink;
 
 pub use campaign::{Campaign, Worker};
+pub use drawn::DrawnScenes;
 pub use parts::{Part, PartId, Parts};
 pub use rows::{Rows, Shape};
 pub use runner::{RunError, run};

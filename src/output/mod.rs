@@ -4,12 +4,15 @@
 //! - [`columnar`]: columns with unit and meaning as Parquet. - [`rows_file`]: the files of rows. - [`part_sink`]: parts into files.
 //! - [`sketch`], [`summary`]: order statistics of any number of samples in flat memory.
 //! - [`timeseries`]: one run over time. - [`plot`], [`energy_figure`]: curves as SVG and PNG.
+//! - [`drawn_table`], [`drawn_figure`]: drawn samples as a table, their marginals and correlation.
 //! - [`precision_table`], [`precision_figure`]: run time against error, as Parquet, text and a logarithmic plot.
 //!
 //! Not here: what is measured (the observables' table says it), and arguments and exit codes (the command line).
 
 pub mod atomic;
 pub mod columnar;
+pub mod drawn_figure;
+pub mod drawn_table;
 pub mod energy_figure;
 pub mod folder;
 pub mod part_sink;

@@ -44,7 +44,19 @@ pub fn headings(campaign: &Campaign<'_>) -> Vec<Heading> {
         content,
         nullable: false,
     });
-    let parameters = campaign.plan().dispersions.columns().iter().map(|column| Heading {
+    let observables = campaign.request().columns().into_iter().map(|column| Heading {
+        name: column.name.to_owned(),
+        unit: column.unit.to_owned(),
+        meaning: column.meaning.to_owned(),
+        content: content(column.kind),
+        nullable: true,
+    });
+    fixed.into_iter().chain(parameter_headings(campaign.plan())).chain(observables).collect()
+}
+
+/// The columns of dispersed values.
+pub fn parameter_headings(plan: &Plan) -> impl Iterator<Item = Heading> {
+    plan.dispersions.columns().iter().map(|column| Heading {
         name: column.parameter.column_name(column.component),
         unit: match column.parameter.unit() {
             "1" => String::new(),
@@ -53,15 +65,7 @@ pub fn headings(campaign: &Campaign<'_>) -> Vec<Heading> {
         meaning: format!("{} as applied.", column.parameter.component_name(column.component)),
         content: Content::Real,
         nullable: false,
-    });
-    let observables = campaign.request().columns().into_iter().map(|column| Heading {
-        name: column.name.to_owned(),
-        unit: column.unit.to_owned(),
-        meaning: column.meaning.to_owned(),
-        content: content(column.kind),
-        nullable: true,
-    });
-    fixed.into_iter().chain(parameters).chain(observables).collect()
+    })
 }
 
 fn content(kind: Kind) -> Content {

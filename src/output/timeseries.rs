@@ -43,7 +43,7 @@ pub enum TableFormat {
 #[derive(Debug, Error)]
 pub enum TableError {
     /// The name says neither Parquet nor CSV.
-    #[error("a time series is written as .parquet or .csv, and `{0}` is neither")]
+    #[error("a table is written as .parquet or .csv, and `{0}` is neither")]
     Format(String),
     /// The file system refused.
     #[error(transparent)]

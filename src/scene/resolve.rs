@@ -12,7 +12,8 @@ impl Scene {
     /// # Errors
     /// Everything about `input` that is not physical, all at once.
     pub fn resolve(input: &SceneInput) -> Result<Self, Vec<SceneError>> {
-        let mass = accepted_mass(input)?;
+        let mass = MassProperties::of(accepted(input)?, 1.0);
+        checked(input, &mass)?;
         let mut scene = Scene {
             mass,
             initial: initial_state(input),
@@ -23,7 +24,7 @@ impl Scene {
             commands_thrust: false,
             commands_torque: false,
         };
-        scene.take(input, mass);
+        scene.take(input, &mass);
         Ok(scene)
     }
 
@@ -33,13 +34,14 @@ impl Scene {
     /// # Errors
     /// Everything about `input` that is not physical; the scene then stays as it was.
     pub fn resolve_into(&mut self, input: &SceneInput) -> Result<(), Vec<SceneError>> {
-        let mass = accepted_mass(input)?;
-        self.take(input, mass);
+        let mass = MassProperties::of(accepted(input)?, 1.0);
+        checked(input, &mass)?;
+        self.take(input, &mass);
         Ok(())
     }
 
-    fn take(&mut self, input: &SceneInput, mass: MassProperties) {
-        self.mass = mass;
+    fn take(&mut self, input: &SceneInput, mass: &MassProperties) {
+        self.mass = *mass;
         self.initial = initial_state(input);
         self.thruster_offset = input.fuselage.thruster_offset_m;
         self.thruster_station = input.fuselage.length_m;
@@ -51,16 +53,19 @@ impl Scene {
     }
 }
 
-/// The mass properties of an input in which nothing is unphysical.
-fn accepted_mass(input: &SceneInput) -> Result<MassProperties, Vec<SceneError>> {
+/// The input, where nothing that is written is unphysical.
+fn accepted(input: &SceneInput) -> Result<&SceneInput, Vec<SceneError>> {
     let mut problems = Problems::default();
     check::written(input, &mut problems);
-    if !problems.0.is_empty() {
-        return Err(problems.0);
-    }
-    let mass = MassProperties::of(input, 1.0);
-    check::derived(input, &mass, &mut problems);
-    if problems.0.is_empty() { Ok(mass) } else { Err(problems.0) }
+    if problems.0.is_empty() { Ok(input) } else { Err(problems.0) }
+}
+
+/// That nothing which follows from an accepted input is unphysical. By reference: mass properties are some 600 bytes, and each
+/// copy of them shows in the time of a draw.
+fn checked(input: &SceneInput, mass: &MassProperties) -> Result<(), Vec<SceneError>> {
+    let mut problems = Problems::default();
+    check::derived(input, mass, &mut problems);
+    if problems.0.is_empty() { Ok(()) } else { Err(problems.0) }
 }
 
 /// The state at time zero (59): debris q_ed = q_es (x) q_sd, omega^de = omega^ds + C_ds omega^se.

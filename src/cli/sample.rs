@@ -1,0 +1,80 @@
+//! `spindrift sample`: the samples of a campaign, drawn and not run.
+
+use std::path::Path;
+
+use crate::campaign::Overrides;
+use crate::cli::verdict::{Failure, Verdict};
+use crate::cli::{SampleOptions, dispersions, plan, screen};
+use crate::ensemble::DrawnScenes;
+use crate::output::drawn_figure::DrawnFigure;
+use crate::output::drawn_table::DrawnTable;
+use crate::output::plot::{PlotError, PlotFormat};
+use crate::output::timeseries::{TableError, TableFormat};
+use crate::sampling::SampleId;
+
+/// Runs the command.
+///
+/// # Errors
+/// Where the campaign file is wrong or a file cannot be written.
+pub fn run(options: &SampleOptions) -> Result<Verdict, Failure> {
+    // refuse a file that cannot be written before drawing for it
+    if let Some(path) = &options.out {
+        TableFormat::of(path).map_err(|error| Failure::Input(error.to_string()))?;
+    }
+    if let Some(path) = &options.plot {
+        PlotFormat::of(path).map_err(|error| Failure::Input(error.to_string()))?;
+    }
+    let plan = plan(&options.file, Overrides { samples: options.samples, seed: options.seed })?;
+    let drawn = DrawnScenes::new(&plan, SampleId(0), plan.samples);
+    let mut text = String::new();
+    // the nominal sample is none of the draws
+    let dispersed = DrawnScenes {
+        first: SampleId(1),
+        physical: drawn.physical.iter().skip(1).copied().collect(),
+        columns: drawn.columns.iter().map(|column| column.iter().skip(1).copied().collect()).collect(),
+    };
+    dispersions::table_of(&mut text, &plan, &dispersed).map_err(Failure::files)?;
+    screen::print(&text)?;
+    let invalid = drawn.physical.iter().filter(|physical| !**physical).count();
+    if invalid > 0 {
+        screen::note(&format!(
+            "{invalid} of {} samples are not physical: their rows would say invalid_sample",
+            drawn.count()
+        ));
+    }
+    if let Some(path) = &options.out {
+        save(path, &DrawnTable { plan: &plan, drawn: &drawn })?;
+    }
+    if let Some(path) = &options.plot {
+        let columns = plan.dispersions.columns();
+        if columns.is_empty() {
+            return Err(Failure::Input(format!("{} disperses nothing: there is nothing to plot", plan.name)));
+        }
+        let figure = DrawnFigure {
+            title: format!(
+                "{}, {} samples, {} design",
+                plan.name,
+                dispersed.count(),
+                plan.design.name().replace('_', " ")
+            ),
+            names: columns.iter().map(|column| column.parameter.component_name(column.component)).collect(),
+            drawn: &dispersed,
+        };
+        figure.save(path).map_err(|error| match error {
+            PlotError::Format(_) => Failure::Input(error.to_string()),
+            _ => Failure::Files(format!("{}: {error}", path.display())),
+        })?;
+        screen::note(&format!("{}: {} numbers of {} samples", path.display(), columns.len(), dispersed.count()));
+    }
+    Ok(Verdict::Done)
+}
+
+fn save(path: &Path, table: &DrawnTable<'_>) -> Result<(), Failure> {
+    table.save(path).map_err(|error| match error {
+        TableError::Format(_) => Failure::Input(error.to_string()),
+        _ => Failure::Files(format!("{}: {error}", path.display())),
+    })?;
+    let (samples, columns) = (table.drawn.count(), table.headings().len());
+    screen::note(&format!("{}: {samples} samples, {columns} columns", path.display()));
+    Ok(())
+}

@@ -1,0 +1,97 @@
+//! [`DrawnScenes`]: the samples of a campaign as they are drawn, without running them.
+
+use crate::campaign::Plan;
+use crate::sampling::SampleId;
+use crate::scene::Scene;
+
+/// Samples as drawn: what was applied, and whether the scene is physical.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DrawnScenes {
+    /// The first sample.
+    pub first: SampleId,
+    /// Whether each sample's scene is physical; one that is not would be a row with status `invalid_sample`.
+    pub physical: Vec<bool>,
+    /// The applied values, column by column as [`crate::sampling::Dispersions::columns`] has them.
+    pub columns: Vec<Vec<f64>>,
+}
+
+impl DrawnScenes {
+    /// Draws `count` samples of `plan` from `first` on, as far as it has them.
+    pub fn new(plan: &Plan, first: SampleId, count: u64) -> Self {
+        let end = first.0.saturating_add(count).min(plan.samples);
+        let mut sampler = plan.dispersions.sampler();
+        let (mut input, mut scene) = (plan.nominal.clone(), None::<Scene>);
+        let mut applied = vec![0.0; plan.dispersions.columns().len()];
+        let mut drawn = DrawnScenes { first, physical: Vec::new(), columns: vec![Vec::new(); applied.len()] };
+        for sample in first.0..end {
+            sampler.draw(SampleId(sample), &mut input, &mut applied);
+            drawn.columns.iter_mut().zip(&applied).for_each(|(column, value)| column.push(*value));
+            drawn.physical.push(match &mut scene {
+                Some(scene) => scene.resolve_into(&input).is_ok(),
+                None => Scene::resolve(&input).map(|resolved| scene = Some(resolved)).is_ok(),
+            });
+        }
+        drawn
+    }
+
+    /// Number of samples.
+    pub fn count(&self) -> usize {
+        self.physical.len()
+    }
+
+    /// The values of each column at the fractions `p` of its samples in ascending order; none where there are no samples.
+    pub fn percentiles<const N: usize>(&self, p: [f64; N]) -> Vec<Option<[f64; N]>> {
+        let of = |column: &Vec<f64>| {
+            let mut values = column.clone();
+            values.sort_by(f64::total_cmp);
+            let last = values.len().checked_sub(1)?;
+            Some(p.map(|p| values[((p * values.len() as f64) as usize).min(last)]))
+        };
+        self.columns.iter().map(of).collect()
+    }
+
+    /// Spearman's rank correlation of each pair of columns; 0 for a column that does not vary. Equal values share their mean rank.
+    pub fn rank_correlations(&self) -> Vec<Vec<f64>> {
+        let scores: Vec<Vec<f64>> = self.columns.iter().map(|column| standard_ranks(column)).collect();
+        let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        scores.iter().map(|a| scores.iter().map(|b| product(a, b)).collect()).collect()
+    }
+}
+
+/// Ranks less their mean, as a vector of length one, or zero where all values are equal.
+fn standard_ranks(values: &[f64]) -> Vec<f64> {
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
+    let mut ranks = vec![0.0; values.len()];
+    let mut start = 0;
+    while start < order.len() {
+        let equal = order[start..].iter().take_while(|place| values[**place] == values[order[start]]).count().max(1);
+        let rank = start as f64 + 0.5 * (equal - 1) as f64;
+        order[start..start + equal].iter().for_each(|place| ranks[*place] = rank);
+        start += equal;
+    }
+    let mean = 0.5 * (values.len() as f64 - 1.0);
+    ranks.iter_mut().for_each(|rank| *rank -= mean);
+    let length = ranks.iter().map(|rank| rank * rank).sum::<f64>().sqrt();
+    if length > 0.0 {
+        ranks.iter_mut().for_each(|rank| *rank /= length);
+    }
+    ranks
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rank_correlations_of_known_columns() {
+        let columns =
+            vec![vec![1.0, 2.0, 3.0, 4.0], vec![1.0, 8.0, 27.0, 64.0], vec![4.0, 3.0, 2.0, 1.0], vec![5.0; 4]];
+        let drawn = DrawnScenes { first: SampleId(0), physical: vec![true; 4], columns };
+        let r = drawn.rank_correlations();
+        assert!((r[0][1] - 1.0).abs() < 1e-15 && (r[0][2] + 1.0).abs() < 1e-15 && r[0][3] == 0.0);
+        // ties share their mean rank: ranks 0.5, 0.5, 2 against 0, 1, 2
+        assert_eq!(standard_ranks(&[7.0, 7.0, 9.0]), [-0.5 / 1.5f64.sqrt(), -0.5 / 1.5f64.sqrt(), 1.0 / 1.5f64.sqrt()]);
+        assert_eq!(drawn.percentiles([0.0, 0.5, 0.99])[1], Some([1.0, 27.0, 64.0]));
+    }
+}
