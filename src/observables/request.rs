@@ -131,7 +131,10 @@ impl Own {
             | Own::TimeFinal
             | Own::Steps
             | Own::Rejected
-            | Own::Evaluations => None,
+            | Own::Evaluations
+            | Own::IllConditioned => None,
+            Own::StateError => Some((Block::Rate, "how the motion amplifies errors")),
+            Own::Amplification => Some((Block::WheelRates, "how the motion amplifies errors")),
         }
     }
 }
