@@ -53,7 +53,8 @@ impl Sink for Memory {
 
 fn rows(plan: &Plan, threads: usize) -> BTreeMap<u64, Row> {
     let sink = Memory::default();
-    run(&Campaign::new(plan, Isa::best()), Parts::of(plan.samples), NonZeroUsize::new(threads), &sink, &|_| {}).unwrap();
+    run(&Campaign::new(plan, Isa::best()), Parts::of(plan.samples), NonZeroUsize::new(threads), &sink, &|_| {})
+        .unwrap();
     sink.0.into_inner().unwrap()
 }
 
@@ -217,8 +218,7 @@ fn the_program_audits() {
         let column = table.column_by_name(name).unwrap_or_else(|| panic!("no column {name}"));
         column.as_primitive::<Float64Type>().iter().collect::<Vec<_>>()
     };
-    let [state, omega, attitude] =
-        ["audit_state_error", "audit_omega_error", "audit_attitude_error_rad"].map(&column);
+    let [state, omega, attitude] = ["audit_state_error", "audit_omega_error", "audit_attitude_error_rad"].map(&column);
     let estimate = column("state_error_estimate");
     let audited = state.iter().flatten().count();
     assert!((10..60).contains(&audited));
@@ -280,7 +280,10 @@ fn wrong_fractions_are_refused() {
     let path = format!("{}/campaigns/burn.toml", env!("CARGO_MANIFEST_DIR"));
     let text = fs::read_to_string(path).unwrap();
     for (written, problem) in [
-        ("fraction = -0.1", "audit.fraction = -0.1: must be a number from 0 to 1; 0.01 runs one sample in a hundred again"),
+        (
+            "fraction = -0.1",
+            "audit.fraction = -0.1: must be a number from 0 to 1; 0.01 runs one sample in a hundred again",
+        ),
         ("fraction = \"all\"", "audit.fraction = \"all\": must be a number from 0 to 1"),
         ("fractions = 0.1", "audit.fractions"),
     ] {

@@ -73,7 +73,7 @@ fn shipped(name: &'static str, samples: u64) -> Family {
 fn separatrix(count: u64) -> Family {
     let mut u = Uniform::new(76);
     let scene = |k: u64| {
-        let (is_aligned, wheels) = (k % 3 != 2, k % 3 != 0);
+        let (is_aligned, wheels) = (k % 3 != 2, !k.is_multiple_of(3));
         let kind = Kind { wheels: [wheels, k % 4 == 1], debris: 0, products: true, offset: !is_aligned, forced: false };
         let mut input = random(kind, 500 + k, 10.0);
         if is_aligned {
@@ -100,7 +100,7 @@ fn separatrix(count: u64) -> Family {
 fn nutating(count: u64) -> Family {
     let mut u = Uniform::new(79);
     let scene = |k: u64| {
-        let wheels = [k % 3 != 0, k % 3 == 2];
+        let wheels = [!k.is_multiple_of(3), k % 3 == 2];
         let kind = Kind { wheels, debris: 0, products: k.is_multiple_of(2), offset: false, forced: false };
         let mut input = random(kind, 700 + k, 10.0);
         let off = libm::pow(10.0, u.between(-14.0, -1.0));
@@ -170,8 +170,7 @@ fn found(family: &Family, judges: &[Scene], method: Method, control: Control) ->
             observer.observe(Isa::best(), &judges[index], table, outcome, &mut row);
             let error = true_error(&family.truths[index], table);
             assert!(row.iter().all(|value| value.is_finite()), "{}: {row:?}", family.name);
-            list[index] =
-                Some(Found { estimate: row[0], amplification: row[1], is_ill: row[2] == 1.0, error });
+            list[index] = Some(Found { estimate: row[0], amplification: row[1], is_ill: row[2] == 1.0, error });
         }
     });
     list.into_iter().flatten().collect()
@@ -314,7 +313,7 @@ fn what_rounding_decides_is_ill_conditioned() {
     let offs = [1e-2, 1e-4, 1e-12, 1e-15];
     for axis in 0..3 {
         let scenes: Vec<Scene> = offs.iter().map(|off| spin(axis, *off)).collect();
-        let family = Family::new("spin", Grid::uniform(60.0, 201), scenes);
+        let family = Family::new("spin", Grid::uniform(120.0, 401), scenes);
         let runs = found(&family, &family.scenes, Method::Auto, adaptive(1e-14));
         let ill: Vec<bool> = runs.iter().map(|run| run.is_ill).collect();
         assert_eq!(ill, if axis == 1 { [false, false, true, true] } else { [false; 4] }, "axis {axis}");
@@ -322,8 +321,8 @@ fn what_rounding_decides_is_ill_conditioned() {
             let growth: Vec<f64> = runs.iter().map(|run| run.amplification).collect();
             assert!(growth.is_sorted(), "{growth:?}");
         } else {
-            // 180 rad of rotation, and no more than some times that
-            assert!(runs.iter().all(|run| run.amplification < 2e3), "axis {axis}");
+            // 360 rad of rotation, and no more than some times that
+            assert!(runs.iter().all(|run| run.amplification < 5e3), "axis {axis}");
         }
     }
 }

@@ -419,7 +419,13 @@ fn a_failed_run_has_its_effort_and_its_last_finite_state() {
             ),
         }
     }
-    let invalid = Outcome { status: Status::InvalidSample, time: 0.0, points: 0, effort: Effort::default(), local_errors: LocalErrors::default() };
+    let invalid = Outcome {
+        status: Status::InvalidSample,
+        time: 0.0,
+        points: 0,
+        effort: Effort::default(),
+        local_errors: LocalErrors::default(),
+    };
     observer.observe(Isa::best(), &scene, &table, &invalid, &mut row);
     for (column, value) in columns.iter().zip(&row) {
         let known = column.group == Group::Effort || column.name == "time_reached_s";

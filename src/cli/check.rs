@@ -227,7 +227,8 @@ fn block_name(block: Block) -> &'static str {
 fn audit_estimate(campaign: &Campaign<'_>) -> String {
     let plan = campaign.plan();
     if plan.audit_fraction == 0.0 {
-        return "no sample is audited ([audit] fraction = 0.01 or --audit 0.01 runs one in a hundred again exactly)\n".to_owned();
+        return "no sample is audited ([audit] fraction = 0.01 or --audit 0.01 runs one in a hundred again exactly)\n"
+            .to_owned();
     }
     let mut auditor = Auditor::new(plan, campaign.isa(), &plan.grid);
     let mut sampler = plan.dispersions.sampler();

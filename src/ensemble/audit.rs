@@ -207,10 +207,11 @@ impl Auditor {
         let tolerance = Tolerance { relative: PLAIN_TOLERANCE, absolute: PLAIN_TOLERANCE };
         let control = Control { tolerance, step: None, max_steps: self.max_steps.max(truth::MOST_STEPS) };
         let mut found = None;
-        Propagator::new(Method::Taylor, control, self.grid.clone(), blocks, scene).engine(self.isa).propagate(
-            std::slice::from_ref(scene),
-            &mut |_, table, outcome| found = (outcome.status == Status::Done).then(|| table.clone()),
-        );
+        Propagator::new(Method::Taylor, control, self.grid.clone(), blocks, scene)
+            .engine(self.isa)
+            .propagate(std::slice::from_ref(scene), &mut |_, table, outcome| {
+                found = (outcome.status == Status::Done).then(|| table.clone())
+            });
         let high = found?;
         let low = StateTable::new(high.blocks(), high.points());
         Some((Truth { high, low }, PLAIN_TOLERANCE))

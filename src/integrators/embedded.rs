@@ -5,8 +5,8 @@
 //!
 //! The norm of an error is the kernel's ([`System::error_ratio`]). The march itself stands in [`super::adaptive`].
 
-use super::local_error::StepErrors;
 use super::explicit::{Carried, Step, each, fill_stages, poison, scaled, weighted};
+use super::local_error::StepErrors;
 use super::step_control::Controller;
 use super::tableau::Tableau;
 use super::tableau::{Dop853Tableau, DormandPrinceTableau};

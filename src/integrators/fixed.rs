@@ -4,8 +4,8 @@
 //! point inside a step is reached by a step of its own from the step's start, of the fraction that it needs: as accurate as
 //! the method, and it keeps what the method keeps, which an interpolating polynomial does not.
 
-use super::local_error::Remainder;
 use super::explicit::{Carried, Step, each, fill_stages, poison, weighted};
+use super::local_error::Remainder;
 use super::step_control::{Control, flag, raised};
 use super::tableau::{RungeKutta4Tableau, Tableau};
 use super::workspace::{Arrival, Workspace};
@@ -276,7 +276,14 @@ pub fn march<M, R, Q, F, const N: usize>(
                         rejected: 0,
                         evaluations: places.evaluations.lane(lane) as u64,
                     };
-                    workspace.close(lane, &*runs, status, time, (effort, local_error::rounding(effort.steps)), &mut finish);
+                    workspace.close(
+                        lane,
+                        &*runs,
+                        status,
+                        time,
+                        (effort, local_error::rounding(effort.steps)),
+                        &mut finish,
+                    );
                     let arrival = workspace.load(lane, runs, grid, &mut finish);
                     places.seat(lane, arrival, workspace.next_time(lane, grid), control);
                 }

@@ -114,7 +114,14 @@ impl Workspace {
             if let Some(end) = self.enter(lane, runs, 0.0) {
                 return Some(Arrival { state, end });
             }
-            self.close::<R, Q, F, N>(lane, runs, Status::Done, 0.0, (Effort::default(), LocalErrors::default()), finish);
+            self.close::<R, Q, F, N>(
+                lane,
+                runs,
+                Status::Done,
+                0.0,
+                (Effort::default(), LocalErrors::default()),
+                finish,
+            );
         }
         None
     }
@@ -163,6 +170,12 @@ impl Workspace {
         }
         berth.occupied = false;
         self.occupied -= 1;
-        finish(runs, lane, berth.run, &berth.trajectory, &Outcome { status, time, points: filled, effort, local_errors });
+        finish(
+            runs,
+            lane,
+            berth.run,
+            &berth.trajectory,
+            &Outcome { status, time, points: filled, effort, local_errors },
+        );
     }
 }

@@ -1,8 +1,8 @@
-//! How much the motion amplifies small errors of its rotational state, from the states at the observation points alone.
+//! [`Conditioning`]: the estimated error of a run, and how much the motion amplifies small errors of its rotational state.
 //!
 //! With H = K omega + wheels' momentum in the body's frame and A = K^-1, a small error eta of H obeys
-//! eta' = eta x omega + H x A eta. Free of torque, H . eta and omega . eta are constant (the changes of |H|^2/2 and of the energy;
-//! E. Zhukovskii's gyrostat is integrable: V. Volterra, Acta Math. 22, 1899), so that the error across the curve of H follows
+//! eta' = eta x omega + H x A eta. Free of torque, H . eta and omega . eta are constant (the changes of |H|^2/2 and of the energy T;
+//! Zhukovskii's gyrostat is integrable: V. Volterra, Acta Math. 22, 1899), so that the error across the curve of H follows
 //! from them at any time, and only the shift along the curve has to be added up. With w the part of omega across H, and unit
 //! vectors along H, w and v = H x w, eta = X H/|H| + Y w/|w| + Z v/|v|:
 //!
@@ -13,22 +13,30 @@
 //!
 //! Near an unstable equilibrium |w| is small for long, and the shift grows like 1/|w|^2: that is the separatrix. The attitude's
 //! error across L follows from eta, since L is constant in F_e; the one about L is the integral of H . A eta/|H|, in which the
-//! part of alpha, a derivative, is integrated by parts.
+//! part of alpha, a derivative, is integrated by parts. The sums stand in [`super::error_sums`].
 //!
-//! Sizes are added, not signed numbers: the amplification is meant to be an upper estimate that is rarely too small and seldom
-//! a hundred times too large (`tests/error_estimate.rs` holds it to that). Errors are taken to arise evenly along the run. Where
-//! torque acts the invariants change; there |w| counts at least what the torque makes of it within a radian of rotation.
+//! What is put into them:
+//! - the change of |H|^2 and of T - mu_0 |H|^2/2 since point 0, as the states show it beyond rounding: what truncation has made of
+//!   the invariants, whatever the method; |w| Y is the latter. mu_0 is mu where |w| is least, so that near a separatrix it
+//!   is the distance from it that is watched;
+//! - rounding, component by component, which the states do not show;
+//! - of a kernel whose other states feed back into omega, the errors that are too small to show there;
+//! - where torque acts, and there are no invariants, the truncation that the method reckons with, in proportion to |w|; and |w|
+//!   counts at least what the torque makes of it within a radian of rotation.
 //!
-//! Not here: how large the errors are that are amplified ([`crate::dynamics::outcome::Outcome::local_errors`]).
+//! Sizes are added, not signed numbers. Errors are taken to arise evenly along the run.
+//!
+//! Not here: what the method itself knows of its errors ([`crate::dynamics::outcome::Outcome::local_errors`]).
 
 use fearless_simd::Simd;
 
+use super::error_sums::{Here, Sums};
+use super::rotor::{Body, acts, adjugate, largest_torque};
 use crate::dynamics::outcome::LocalErrors;
 use crate::dynamics::table::{Block, StateTable};
 use crate::math::lanes::WIDTH;
 use crate::math::vector::{constant, constant_matrix, cross, difference, dot, product, scaled, sum};
 use crate::math::{Lanes, Real};
-use crate::scene::mass::MassProperties;
 use crate::scene::Scene;
 
 /// Points of a run that are looked at, at most: enough for the closest approach to a separatrix to be met about as often as it
@@ -42,10 +50,10 @@ const STILL: f64 = 1e-12;
 const LEAST: f64 = 1e-17;
 
 /// An error of size one in a direction of no preference has this size along each of three axes: 1/sqrt(3).
-const THIRD: f64 = 0.577_350_269_189_625_8;
+const PER_AXIS: f64 = 0.577_350_269_189_625_8;
 
-/// Factor on the sum of all that is known of an error: the smallest with which the estimate covers the true error in 95% of the
-/// runs of every family and method of `tests/error_estimate.rs`.
+/// Factor on the sum of all that is known of an error, from the runs of `tests/error_estimate.rs`: with 1 the estimate lies below
+/// the true error in up to half of the runs of a family (by a few percent, mostly), with 2.5 in less than one of twenty.
 const SAFETY: f64 = 2.5;
 
 /// An estimate of half a turn says that nothing is known.
@@ -97,78 +105,6 @@ pub(super) struct Conditioning {
     energy: [f64; POINTS],
     /// Sizes along H, w and v of the error of H that relative errors of omega's components make, N m s.
     digits: [[f64; POINTS]; 3],
-}
-
-/// Errors of one kind until some point, added up.
-#[derive(Clone, Copy, Default)]
-struct Sums {
-    /// Along H.
-    along: f64,
-    /// |w| Y.
-    across: f64,
-    /// |mu - mu_0| |H| X, where errors along H come to be errors across it.
-    tilted: f64,
-    /// Shift in time.
-    shift: f64,
-    /// Turn about L but for what the shift makes of it.
-    about: f64,
-    /// The largest error until now.
-    most: f64,
-}
-
-/// A point as the sums see it.
-struct Here {
-    /// Time since the point before, and since the start, s.
-    step: f64,
-    since: f64,
-    h: f64,
-    w: f64,
-    /// |mu - mu_0| |H|.
-    tilt: f64,
-    axial: f64,
-    twist: f64,
-    shear: f64,
-    /// The largest difference of mu |H| until now.
-    range: f64,
-    /// Momentum that counts as an error of one, and the largest |omega|.
-    unit: f64,
-    largest: f64,
-}
-
-impl Sums {
-    /// Goes on to a point where the sizes of the error along H, and of the change of the balance, are known.
-    #[inline(always)]
-    fn hold(&mut self, at: &Here, along: f64, balance: f64) {
-        let per_w = 1.0 / at.w;
-        let sideways = at.tilt.mul_add(along, balance) * per_w;
-        self.shift += at.step * per_w * along.mul_add(at.twist, sideways * at.shear);
-        self.about += at.step * along.mul_add(at.axial, sideways * at.twist);
-        self.note(at, along + sideways + self.shift * at.h * at.w);
-    }
-
-    /// Takes note of an error of size `total` at a point.
-    #[inline(always)]
-    fn note(&mut self, at: &Here, total: f64) {
-        // across L: what the constant L allows, and at most what the error of the rate can have swept
-        let across = (at.unit / at.h * total).smaller((at.largest * at.since).mul_add(self.most, total));
-        let turned = at.unit * 2.0_f64.mul_add(self.shift * at.range, self.about);
-        self.most = self.most.larger(total.larger(across + turned));
-    }
-
-    /// Goes on to a point, at which errors of size `made` along H, w and v are made.
-    #[inline(always)]
-    fn advance(&mut self, at: &Here, made: [f64; 3]) {
-        let per_w = 1.0 / at.w;
-        let crossing = at.tilt.mul_add(self.along, self.across + self.tilted) * per_w;
-        self.shift += at.step * per_w * self.along.mul_add(at.twist, crossing * at.shear);
-        self.along += made[0];
-        self.tilted += made[0] * at.tilt;
-        self.across += made[1] * at.w;
-        self.shift += made[2] * per_w / at.h;
-        let sideways = at.tilt.mul_add(self.along, self.across + self.tilted) * per_w;
-        self.about += at.step * self.along.mul_add(at.axial, sideways * at.twist);
-        self.note(at, self.along + sideways + self.shift * at.h * at.w);
-    }
 }
 
 impl Conditioning {
@@ -291,7 +227,7 @@ impl Conditioning {
         let sizes = if body.is_principal {
             [moments[0] * omega[0], moments[1] * omega[1], moments[2] * omega[2]]
         } else {
-            scaled(rate2.sqrt() * Lanes::broadcast(simd, TURNED * THIRD), moments)
+            scaled(rate2.sqrt() * Lanes::broadcast(simd, TURNED * PER_AXIS), moments)
         };
         (sizes_along(sizes, momentum) * per_h).store(&mut self.digits[0][first..]);
         (sizes_along(sizes, w) * (per_w2 * across)).store(&mut self.digits[1][first..]);
@@ -349,14 +285,14 @@ impl Conditioning {
                 unit,
                 largest,
             };
-            even.advance(&here, [THIRD; 3]);
+            even.advance(&here, [PER_AXIS; 3]);
             digits.advance(&here, [self.digits[0][k], self.digits[1][k], self.digits[2][k]]);
             if is_driven {
-                other.advance(&here, [THIRD * w; 3]);
+                other.advance(&here, [PER_AXIS * w; 3]);
             } else {
                 if local.feedback > 0.0 {
                     // of errors across H only what the balance does not show
-                    let made = THIRD * local.feedback / count as f64;
+                    let made = PER_AXIS * local.feedback / count as f64;
                     let hidden = |size: f64| made.smaller(size / unit);
                     other.advance(&here, [hidden(NOISE * h), hidden(noise / w), made]);
                 }
@@ -426,70 +362,4 @@ fn gathered<S: Simd>(simd: S, column: &[f64], places: &[usize; WIDTH]) -> Lanes<
         *value = column[*place];
     }
     Lanes::load(simd, &values)
-}
-
-/// The constants of a run.
-struct Body<'a> {
-    mass: &'a MassProperties,
-    /// K, kg m^2, its inverse A, and a third of its trace.
-    inertia: [[f64; 3]; 3],
-    inverse: [[f64; 3]; 3],
-    size: f64,
-    /// Whether K is diagonal.
-    is_principal: bool,
-    /// The wheels' momentum H - K omega where it is constant: where nothing acts.
-    offset: Option<[f64; 3]>,
-}
-
-impl<'a> Body<'a> {
-    fn of(scene: &'a Scene, table: &StateTable, duration: f64) -> Self {
-        let mass = &scene.mass;
-        let inertia = mass.inertia_free;
-        let [[x, xy, xz], [_, y, yz], [.., z]] = inertia;
-        let is_free = scene.schedule.iter().all(|act| act.start >= duration);
-        let offset = is_free.then(|| {
-            let omega = table.at::<3>(Block::Rate, 0);
-            let mut momentum = difference(product(mass.inertia, omega), product(inertia, omega));
-            for (wheel, rate) in mass.wheels.iter().zip(table.at::<2>(Block::WheelRates, 0)) {
-                momentum = sum(momentum, scaled(wheel.axial * rate, wheel.axis));
-            }
-            momentum
-        });
-        let adjugate = adjugate(inertia);
-        let per_determinant = 1.0 / dot(inertia[0], adjugate[0]);
-        Body {
-            mass,
-            inertia,
-            inverse: [
-                scaled(per_determinant, adjugate[0]),
-                scaled(per_determinant, adjugate[1]),
-                scaled(per_determinant, adjugate[2]),
-            ],
-            size: (x + y + z) / 3.0,
-            is_principal: xy == 0.0 && xz == 0.0 && yz == 0.0,
-            offset,
-        }
-    }
-}
-
-/// The adjugate of a symmetric matrix, by rows.
-fn adjugate(m: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
-    [cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])]
-}
-
-/// The largest torque of the schedule on the fuselage: thrusters' and motors' sizes added, N m.
-#[inline(always)]
-fn largest_torque(scene: &Scene) -> f64 {
-    let mut largest = 0.0_f64;
-    for act in &scene.schedule {
-        let thrust = scene.thruster_torque_s(act.thrust);
-        largest = largest.larger(dot(thrust, thrust).sqrt() + act.torque[0].abs() + act.torque[1].abs());
-    }
-    largest
-}
-
-/// Whether thrust or motors act at `time`.
-#[inline(always)]
-fn acts(scene: &Scene, time: f64) -> bool {
-    scene.schedule.iter().any(|act| act.start <= time && time <= act.end)
 }

@@ -131,10 +131,11 @@ impl Own {
             | Own::TimeFinal
             | Own::Steps
             | Own::Rejected
-            | Own::Evaluations
-            | Own::IllConditioned => None,
+            | Own::Evaluations => None,
             Own::StateError => Some((Block::Rate, "how the motion amplifies errors")),
             Own::Amplification => Some((Block::WheelRates, "how the motion amplifies errors")),
+            // the method's own errors of the attitude are known only where it is integrated
+            Own::IllConditioned => Some((Block::Attitude, "errors of the attitude")),
         }
     }
 }

@@ -237,7 +237,11 @@ impl Display for Summary {
         write!(f, "\n{audit}")?;
         let audited = self.lines.iter().filter_map(|line| Some((line, line.numerical_error.as_ref()?)));
         let title = "numerical error, and how much of the spread (p95 - p5) it is";
-        writeln!(f, "\n  {title}\n  {:<width$}  {:>6}{:>12}{:>12}{:>12}{:>12}", "", "unit", "median", "p95", "max", "share")?;
+        writeln!(
+            f,
+            "\n  {title}\n  {:<width$}  {:>6}{:>12}{:>12}{:>12}{:>12}",
+            "", "unit", "median", "p95", "max", "share"
+        )?;
         for (line, numerics) in audited {
             write!(f, "  {:<width$}  {:>6}", line.name, if line.unit.is_empty() { "-" } else { line.unit })?;
             for value in [numerics.median, numerics.p95, numerics.max, numerics.share_of_spread] {

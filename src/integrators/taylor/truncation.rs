@@ -1,6 +1,6 @@
 //! [`Truncation`]: what the steps of a Taylor march leave out of the motion, from the last term that they keep.
 
-use crate::dynamics::gyrostat::OMEGA;
+use crate::dynamics::gyrostat::{ATTITUDE, OMEGA, WITH_ATTITUDE};
 use crate::dynamics::outcome::LocalErrors;
 use crate::integrators::local_error::rounding;
 use crate::math::Real;
@@ -21,9 +21,8 @@ pub(super) struct LeftOut {
 
 /// Sums over the steps of a run, in lanes.
 ///
-/// They follow from the series of omega alone, so that they do not depend on whether the attitude is integrated. The attitude
-/// turns by |omega| h/2 in its own four components where omega is constant; where omega itself goes round with the frequency W,
-/// |omega'| = |w| W, it has a part of size |w|/(2 W) of the frequency |omega|/2 + W. Of both the first term left out is counted.
+/// The first term left out of a series is reckoned as the last one kept times its share of the one before. Of the attitude that
+/// needs its series: where only rates are integrated it counts as turning with constant omega, (|omega| h/2)^(p+1)/(p+1)!.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Truncation<R> {
     order: usize,
@@ -57,20 +56,17 @@ impl<R: Real> Truncation<R> {
     #[inline(always)]
     pub(super) fn add<const N: usize>(&mut self, jet: &[[R; N]], length: R) {
         let order = self.order;
-        let one = length.splat(1.0);
         let tiny = length.splat(f64::MIN_POSITIVE);
         let rate = size(&jet[0]);
         let last = size(&jet[order]);
         self.rate += last * raised_to(length, order) / rate.larger(tiny);
-        let turned = length.splat(0.5) * (rate * length);
-        // W h from the last two terms, at most as if they were equal
-        let p = length.splat(order as f64);
-        let gone_round = (p * (last * length / size(&jet[order - 1]).larger(tiny))).smaller(p);
-        let share = size(&jet[1]) * (length * length) / (gone_round * gone_round).larger(tiny);
-        let share = (length.splat(0.5) * share).smaller(one);
-        let slow = raised_to(turned, order + 1);
-        let fast = raised_to(turned + gone_round, order + 1);
-        self.turn = share.mul_add(fast, slow).mul_add(length.splat(self.factor), self.turn);
+        self.turn += if N >= WITH_ATTITUDE {
+            let (kept, before) = (turn(&jet[order]), turn(&jet[order - 1]));
+            let share = (kept * length / before.larger(tiny)).smaller(length.splat(1.0));
+            length.splat(2.0) * (kept * raised_to(length, order) * share)
+        } else {
+            length.splat(self.factor) * raised_to(length.splat(0.5) * (rate * length), order + 1)
+        };
     }
 }
 
@@ -87,6 +83,13 @@ impl LeftOut {
 #[inline(always)]
 fn size<R: Real, const N: usize>(term: &[R; N]) -> R {
     norm([term[OMEGA], term[OMEGA + 1], term[OMEGA + 2]])
+}
+
+/// |q| of one order of a series.
+#[inline(always)]
+fn turn<R: Real, const N: usize>(term: &[R; N]) -> R {
+    let vector = norm([term[ATTITUDE + 1], term[ATTITUDE + 2], term[ATTITUDE + 3]]);
+    term[ATTITUDE].mul_add(term[ATTITUDE], vector * vector).sqrt()
 }
 
 /// `x` to the power `n` >= 1, by squaring.
