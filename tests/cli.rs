@@ -385,7 +385,8 @@ fn sample_draws_the_rows_of_the_campaign() {
     let room = Room::new("sample");
     room.file("thin.toml", &format!("{CAMPAIGN}{THIN_WALLS}"));
     let said = room.says("sample thin.toml --out s.csv --plot s.svg", 0);
-    for expected in ["of 599 draws", "fuselage.wall_thickness_m", "uniform, -0.02", "initial.angular_velocity_rad_s.z"] {
+    for expected in ["of 599 draws", "fuselage.wall_thickness_m", "uniform, -0.02", "initial.angular_velocity_rad_s.z"]
+    {
         assert!(said.contains(expected), "{expected} in:\n{said}");
     }
     room.says("sample thin.toml --out s.parquet --plot s.png", 0);
@@ -395,12 +396,14 @@ fn sample_draws_the_rows_of_the_campaign() {
     assert_eq!(text.lines().count(), 601);
     let parquet = &batches(&room.path("s.parquet"))[0];
     room.says("campaign thin.toml --out r", 1);
-    let rows: Vec<RecordBatch> = (0..3).flat_map(|part| batches(&room.path(&format!("r/runs/part-{part:06}.parquet")))).collect();
+    let rows: Vec<RecordBatch> =
+        (0..3).flat_map(|part| batches(&room.path(&format!("r/runs/part-{part:06}.parquet")))).collect();
     for name in &names[2..] {
         let run: Vec<u64> = rows.iter().flat_map(|batch| floats(batch, name)).map(f64::to_bits).collect();
         let drawn: Vec<u64> = floats(parquet, name).into_iter().map(f64::to_bits).collect();
         let column = names.iter().position(|other| other == name).unwrap();
-        let written = text.lines().skip(1).map(|line| line.split(',').nth(column).unwrap().parse::<f64>().unwrap().to_bits());
+        let written =
+            text.lines().skip(1).map(|line| line.split(',').nth(column).unwrap().parse::<f64>().unwrap().to_bits());
         assert_eq!(drawn, run, "{name}");
         assert!(written.eq(run), "{name}");
     }

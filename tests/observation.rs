@@ -8,7 +8,7 @@ mod support;
 
 use std::collections::HashMap;
 
-use spindrift::dynamics::outcome::{Effort, Outcome, Status};
+use spindrift::dynamics::outcome::{Effort, LocalErrors, Outcome, Status};
 use spindrift::dynamics::table::{Block, Blocks, Grid, StateTable};
 use spindrift::math::Isa;
 use spindrift::math::vector::{cross, dcm_from_quaternion, hamilton, product, sum};
@@ -35,7 +35,7 @@ fn request(groups: Groups, debris: bool, actuated: bool) -> Request {
 
 fn done(points: usize, time: f64) -> Outcome {
     let effort = Effort { steps: 12, rejected: 3, evaluations: 91 };
-    Outcome { status: Status::Done, time, points, effort }
+    Outcome { status: Status::Done, time, points, effort, local_errors: LocalErrors::default() }
 }
 
 /// Every block but those of constraints, so that one table serves every request.
@@ -401,6 +401,7 @@ fn a_failed_run_has_its_effort_and_its_last_finite_state() {
         time: 1.5,
         points: 4,
         effort: Effort { steps: 7, rejected: 1, evaluations: 50 },
+        local_errors: LocalErrors::default(),
     };
     observer.observe(Isa::best(), &scene, &table, &failed, &mut row);
     let truth = &golden.truth[2];
@@ -418,7 +419,13 @@ fn a_failed_run_has_its_effort_and_its_last_finite_state() {
             ),
         }
     }
-    let invalid = Outcome { status: Status::InvalidSample, time: 0.0, points: 0, effort: Effort::default() };
+    let invalid = Outcome {
+        status: Status::InvalidSample,
+        time: 0.0,
+        points: 0,
+        effort: Effort::default(),
+        local_errors: LocalErrors::default(),
+    };
     observer.observe(Isa::best(), &scene, &table, &invalid, &mut row);
     for (column, value) in columns.iter().zip(&row) {
         let known = column.group == Group::Effort || column.name == "time_reached_s";

@@ -66,6 +66,8 @@ impl Plan {
         for derivation in &self.derived {
             derivation_lines(derivation, &mut lines);
         }
+        lines.table("[audit]");
+        lines.key("fraction", self.audit_fraction);
         lines.table("[output]");
         lines.key("compression", self.compression.name());
         lines.0

@@ -44,6 +44,8 @@ pub struct Plan {
     pub derived: Vec<Derivation>,
     /// The dispersions ready to be drawn.
     pub dispersions: Dispersions,
+    /// Share of the samples that are audited: run again exactly, and compared.
+    pub audit_fraction: f64,
     /// Compression of the files of rows.
     pub compression: Compression,
 }
@@ -235,6 +237,7 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
         correlated: drawn.correlated.1,
         derived: drawn.derived.1,
         dispersions,
+        audit_fraction: spec.audit_fraction.unwrap_or(0.0),
         compression: spec.compression.unwrap_or(Compression::Lz4),
     })
 }

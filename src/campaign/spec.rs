@@ -51,6 +51,8 @@ pub struct Spec {
     pub correlations: Vec<Option<Correlation>>,
     /// `[[derive]]`; `None` where a table is wrong.
     pub derivations: Vec<Option<Derivation>>,
+    /// `audit.fraction`.
+    pub audit_fraction: Option<f64>,
     /// `output.compression`.
     pub compression: Option<Compression>,
 }
@@ -66,6 +68,13 @@ const TOLERANCE: Limit = Limit {
     allowed: "a number from 1e-16 to 1e-2",
     remedy: "1e-10 is a good start",
     test: |x| (1e-16..=1e-2).contains(&x),
+};
+
+/// A share of the samples.
+pub const FRACTION: Limit = Limit {
+    allowed: "a number from 0 to 1",
+    remedy: "0.01 runs one sample in a hundred again exactly, 1 all of them",
+    test: |x| (0.0..=1.0).contains(&x),
 };
 
 impl Spec {
@@ -117,6 +126,10 @@ impl Spec {
         let correlations = root.sections("correlate", dependence::correlation);
         let derivations = root.sections("derive", dependence::derivation);
 
+        let mut section = root.section("audit");
+        let audit_fraction = section.number("fraction", FRACTION);
+        section.finish();
+
         let mut section = root.section("output");
         let names = Compression::ALL.map(Compression::name);
         let compression = section.name("compression", &names, Compression::from_name);
@@ -141,6 +154,7 @@ impl Spec {
             dispersions,
             correlations,
             derivations,
+            audit_fraction,
             compression,
         }
     }

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use crate::campaign::spec::FRACTION;
 use crate::campaign::{Overrides, Plan};
 use crate::cli::progress::Bar;
 use crate::cli::verdict::{Failure, Verdict};
@@ -20,7 +21,14 @@ const RESULTS: &str = "results";
 /// # Errors
 /// Where the campaign cannot run or its result cannot be kept.
 pub fn run(options: &CampaignOptions) -> Result<Verdict, Failure> {
-    let plan = plan(&options.file, Overrides { samples: options.samples, seed: options.seed })?;
+    let mut plan = plan(&options.file, Overrides { samples: options.samples, seed: options.seed })?;
+    if let Some(fraction) = options.audit {
+        if !(FRACTION.test)(fraction) {
+            let (allowed, remedy) = (FRACTION.allowed, FRACTION.remedy);
+            return Err(Failure::Input(format!("--audit {fraction:?}: must be {allowed}; {remedy}")));
+        }
+        plan.audit_fraction = fraction;
+    }
     let isa = isa()?;
     let root = options.out.clone().unwrap_or_else(|| PathBuf::from(RESULTS).join(&plan.name));
     match Folder::claim(&root, &plan, options.overwrite).map_err(Failure::files)? {
@@ -66,8 +74,9 @@ fn fill(
     let summary = Summary::new(plan, &tally);
     folder.finish(&summary.json()).map_err(Failure::files)?;
     let size = folder.size().map_err(Failure::files)?;
+    let audits = tally.audits().map_or(String::new(), |audits| format!("\n  the audit took {}\n", audits.cost()));
     screen::print(&format!(
-        "{}\n{summary}\n  {}: {} file{} of rows, {}\n",
+        "{}\n{summary}{audits}\n  {}: {} file{} of rows, {}\n",
         headline(plan, elapsed),
         root.display(),
         parts.count(),

@@ -8,7 +8,7 @@ use crate::cli::campaign::bytes;
 use crate::cli::verdict::{Failure, Verdict};
 use crate::cli::{CheckOptions, dispersions, isa, plan, screen};
 use crate::dynamics::table::Block;
-use crate::ensemble::{Campaign, Part, PartId, Parts, Rows};
+use crate::ensemble::{Auditor, Campaign, Part, PartId, Parts, Rows};
 use crate::integrators::Status;
 use crate::observables::Request;
 use crate::output::rows_file::RowsFile;
@@ -43,6 +43,7 @@ pub fn run(options: &CheckOptions) -> Result<Verdict, Failure> {
     written.map_err(Failure::files)?;
     screen::print(&text)?;
     screen::print(&estimate(&campaign)?)?;
+    screen::print(&audit_estimate(&campaign))?;
     Ok(Verdict::Done)
 }
 
@@ -146,6 +147,39 @@ fn block_name(block: Block) -> &'static str {
         Block::Residuals => "constraint residuals (reference kernel)",
         Block::KineticEnergies => "kinetic energies of the redundant states (reference kernel)",
     }
+}
+
+/// What the audits would cost, from a short probe of the first samples.
+fn audit_estimate(campaign: &Campaign<'_>) -> String {
+    let plan = campaign.plan();
+    if plan.audit_fraction == 0.0 {
+        return "no sample is audited ([audit] fraction = 0.01 or --audit 0.01 runs one in a hundred again exactly)\n"
+            .to_owned();
+    }
+    let mut auditor = Auditor::new(plan, campaign.isa(), &plan.grid);
+    let mut sampler = plan.dispersions.sampler();
+    let mut input = plan.nominal.clone();
+    let mut applied = vec![0.0; plan.dispersions.columns().len()];
+    let start = Instant::now();
+    let (mut audits, mut sample) = (0_u32, 0);
+    while sample < plan.samples && start.elapsed().as_secs_f64() < PROBE_SECONDS {
+        sampler.draw(SampleId(sample), &mut input, &mut applied);
+        if let Ok(scene) = Scene::resolve(&input) {
+            auditor.audit(&scene);
+            audits += 1;
+        }
+        sample += 1;
+    }
+    let each = start.elapsed().as_secs_f64() / f64::from(audits.max(1));
+    let count = plan.audit_fraction * plan.samples as f64;
+    let cores = std::thread::available_parallelism().map_or(1, std::num::NonZeroUsize::get);
+    format!(
+        "audit of {} of the samples, from {audits} audits: {:.1} ms each, about {} of them on {cores} cores: {} s more\n",
+        short(plan.audit_fraction),
+        each * 1e3,
+        short(libm::round(count)),
+        short(each * count / cores as f64),
+    )
 }
 
 /// Time and disk from a short probe.

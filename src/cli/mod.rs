@@ -80,6 +80,9 @@ pub struct CampaignOptions {
     /// Number of threads [default: one for each core]; rows do not depend on it.
     #[arg(long, value_name = "N")]
     pub threads: Option<std::num::NonZeroUsize>,
+    /// Share of the samples to run again exactly and compare, instead of the file's.
+    #[arg(long, value_name = "F")]
+    pub audit: Option<f64>,
     /// Replace a result that is already there.
     #[arg(long)]
     pub overwrite: bool,
@@ -104,6 +107,9 @@ pub struct SimulateOptions {
     /// beyond the campaign's duration.
     #[arg(long, value_name = "A,B,C", value_delimiter = ',', allow_negative_numbers = true)]
     pub times: Option<Vec<f64>>,
+    /// Run the sample again exactly, and say how far it is off.
+    #[arg(long)]
+    pub audit: bool,
     /// Write all columns to this file (.parquet or .csv).
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,

@@ -7,11 +7,12 @@ use crate::campaign::{Overrides, Plan};
 use crate::cli::verdict::{Failure, Verdict};
 use crate::cli::{SimulateOptions, isa, plan, screen};
 use crate::dynamics::table::Grid;
-use crate::ensemble::SingleRun;
+use crate::ensemble::{Auditor, SingleRun};
 use crate::integrators::Status;
 use crate::math::Isa;
 use crate::output::energy_figure::energy_figure;
 use crate::output::plot::{PlotError, PlotFormat};
+use crate::output::summary::short;
 use crate::output::timeseries::{TableError, TableFormat, TimeSeries};
 use crate::sampling::SampleId;
 
@@ -56,6 +57,9 @@ pub fn run(options: &SimulateOptions) -> Result<Verdict, Failure> {
     let grid = times.as_deref().map_or_else(|| plan.grid.clone(), |times| grid(times, &plan));
     let run = single_run(options, &plan, grid, isa)?;
     let shown = |time: f64| times.as_deref().is_none_or(|times| times.contains(&time));
+    if options.audit {
+        audit(options, &plan, &run, isa)?;
+    }
     let series = TimeSeries::new(&plan, SampleId(options.sample), &run, shown);
     if let Some(path) = &options.out {
         save(path, &series)?;
@@ -106,6 +110,33 @@ fn grid(times: &[f64], plan: &Plan) -> Grid {
 fn refined(grid: &Grid) -> Grid {
     let intervals = grid.points().saturating_sub(1).max(1);
     Grid::uniform(grid.duration(), intervals * SMOOTH.div_ceil(intervals) + 1)
+}
+
+/// How far the run is off the truth, and what was estimated.
+fn audit(options: &SimulateOptions, plan: &Plan, run: &SingleRun, isa: Isa) -> Result<(), Failure> {
+    let sample = options.sample;
+    let Some(found) = Auditor::new(plan, isa, &run.grid).audit(&run.scene) else {
+        screen::note(&format!("audit of sample {sample}: the run, or its truth, does not arrive"));
+        return Ok(());
+    };
+    let mut text = format!("audit of sample {sample}, against a solution at {:e}\n", found.truth_tolerance);
+    let lines = [
+        ("audit_state_error", found.state()),
+        ("audit_omega_error", found.omega),
+        ("audit_attitude_error_rad", found.attitude),
+        ("state_error_estimate", found.estimate),
+    ];
+    let columns = run.request.columns();
+    let observed = columns.iter().zip(&found.observables).filter(|(_, error)| !error.is_nan());
+    let errors = observed.map(|(column, error)| (column.name, *error));
+    for (name, value) in lines {
+        let _ = writeln!(text, "{name:<40}{:>12}", short(value)); // writing to a String does not fail
+    }
+    let _ = writeln!(text, "\nnumerical error of");
+    for (name, error) in errors {
+        let _ = writeln!(text, "{name:<40}{:>12}", short(error));
+    }
+    screen::print(&text)
 }
 
 fn single_run(options: &SimulateOptions, plan: &Plan, grid: Grid, isa: Isa) -> Result<SingleRun, Failure> {

@@ -54,4 +54,20 @@ pub struct Outcome {
     pub points: usize,
     /// What it cost.
     pub effort: Effort,
+    /// The errors that the method reckons to have made on the way.
+    pub local_errors: LocalErrors,
+}
+
+/// Errors of the rotational state that a method reckons to have made on its way, added up as if all pointed the same way, before
+/// the motion amplifies them. Of omega they are relative to the largest |omega|. Estimates, by what they go with.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LocalErrors {
+    /// Of omega, in proportion to how fast it changes: truncation.
+    pub truncation: f64,
+    /// Of omega, in proportion to its components: rounding.
+    pub rounding: f64,
+    /// Of omega, wherever it stands: of a kernel whose other states feed back into it.
+    pub feedback: f64,
+    /// Of the attitude alone, rad: truncation, rounding and dense output.
+    pub attitude: f64,
 }

@@ -2,6 +2,8 @@
 
 use crate::campaign::Plan;
 use crate::dynamics::table::{Blocks, Grid};
+use crate::ensemble::audit::{Auditor, Selection};
+use crate::ensemble::cpu_clock::thread_seconds;
 use crate::ensemble::parts::Part;
 use crate::ensemble::rows::{Rows, Shape};
 use crate::integrators::{Control, Engine, Method, Propagator};
@@ -53,6 +55,11 @@ impl<'p> Campaign<'p> {
         self.plan
     }
 
+    /// The instruction set that it is run on.
+    pub fn isa(&self) -> Isa {
+        self.isa
+    }
+
     /// What is observed.
     pub fn request(&self) -> &Request {
         &self.request
@@ -81,6 +88,8 @@ impl<'p> Campaign<'p> {
             observer: Observer::new(self.request, &self.plan.grid),
             applied: vec![0.0; shape.parameters],
             observed: vec![0.0; shape.observables],
+            audits: (self.plan.audit_fraction > 0.0)
+                .then(|| (Selection::new(self.plan), Auditor::new(self.plan, self.isa, &self.plan.grid))),
         }
     }
 }
@@ -97,6 +106,7 @@ pub struct Worker<'c> {
     observer: Observer,
     applied: Vec<f64>,
     observed: Vec<f64>,
+    audits: Option<(Selection, Auditor)>,
 }
 
 impl Worker<'_> {
@@ -105,8 +115,14 @@ impl Worker<'_> {
         rows.start(part);
         for start in (0..part.count).step_by(BATCH) {
             let end = part.count.min(start + BATCH);
+            let begun = self.audits.as_ref().map(|_| thread_seconds());
             self.draw(part, start..end, rows);
             self.propagate(rows);
+            if let Some(begun) = begun {
+                let done = thread_seconds();
+                self.audit(part, rows);
+                rows.add_seconds(done - begun, thread_seconds() - done);
+            }
             progress((end - start) as u64);
         }
     }
@@ -124,6 +140,16 @@ impl Worker<'_> {
             };
             if physical {
                 self.places.push(row);
+            }
+        }
+    }
+
+    /// Audits the samples of the batch that are selected.
+    fn audit(&mut self, part: Part, rows: &mut Rows) {
+        let Some((selection, auditor)) = &mut self.audits else { return };
+        for (scene, row) in self.scenes.iter().zip(&self.places) {
+            if selection.holds(SampleId(part.first.0 + *row as u64)) {
+                rows.set_audit(*row, auditor.audit(scene));
             }
         }
     }

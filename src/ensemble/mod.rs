@@ -3,10 +3,11 @@
 //! - [`parts`]: where a campaign is cut. - [`rows`]: the rows of a part, column by column. - [`sink`]: where they go.
 //! - [`campaign`]: what all workers share, and [`campaign::Worker`], what each owns.
 //! - [`drawn`]: samples drawn and not run. - [`runner`]: parts over threads. - [`single`]: one run with its states, as `simulate` shows it.
-//! - [`precision`]: run time against error for every method. - [`cpu_clock`]: the clock of that time.
+//! - [`audit`]: runs once more, exactly. - [`precision`]: run time against error for every method. - [`cpu_clock`]: the clock of that time.
 //!
 //! Not here: file formats (the output floor), and what a run is (the floors below).
 
+pub mod audit;
 pub mod campaign;
 pub mod cpu_clock;
 pub mod drawn;
@@ -17,6 +18,7 @@ pub mod runner;
 pub mod single;
 pub mod sink;
 
+pub use audit::{Audit, Auditor};
 pub use campaign::{Campaign, Worker};
 pub use drawn::DrawnScenes;
 pub use parts::{Part, PartId, Parts};

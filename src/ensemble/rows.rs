@@ -3,6 +3,7 @@
 //! A worker owns one block and reuses it from part to part, so that memory does not grow with the campaign. What the columns
 //! mean, the plan's dispersions and the table of observables say; here they are numbers by position.
 
+use crate::ensemble::audit::Audit;
 use crate::ensemble::parts::Part;
 use crate::integrators::Status;
 use crate::sampling::SampleId;
@@ -29,6 +30,8 @@ pub struct Rows {
     stride: usize,
     statuses: Vec<Status>,
     values: Vec<f64>,
+    audits: Vec<(usize, Option<Audit>)>,
+    seconds: [f64; 2],
 }
 
 impl Rows {
@@ -42,6 +45,8 @@ impl Rows {
             capacity,
             statuses: vec![Status::InvalidSample; capacity],
             values: vec![f64::NAN; (shape.parameters + shape.observables) * stride],
+            audits: Vec::new(),
+            seconds: [0.0; 2],
         }
     }
 
@@ -54,6 +59,8 @@ impl Rows {
         self.part = part;
         self.statuses.fill(Status::InvalidSample);
         self.values.fill(f64::NAN);
+        self.audits.clear();
+        self.seconds = [0.0; 2];
     }
 
     /// The part whose rows these are.
@@ -94,6 +101,28 @@ impl Rows {
         assert_eq!(observables.len(), self.shape.observables);
         self.statuses[row] = status;
         self.scatter(self.shape.parameters, row, observables);
+    }
+
+    /// Writes what the audit of row `row` found: `None` where the run or its truth did not arrive.
+    pub fn set_audit(&mut self, row: usize, audit: Option<Audit>) {
+        assert!(row < self.part.count);
+        self.audits.push((row, audit));
+    }
+
+    /// The rows that were audited, and what was found.
+    pub fn audits(&self) -> &[(usize, Option<Audit>)] {
+        &self.audits
+    }
+
+    /// Adds CPU time of the runs and of their audits, s.
+    pub fn add_seconds(&mut self, runs: f64, audits: f64) {
+        self.seconds[0] += runs;
+        self.seconds[1] += audits;
+    }
+
+    /// CPU time of the runs and of their audits, s; measured where there are audits.
+    pub fn seconds(&self) -> [f64; 2] {
+        self.seconds
     }
 
     fn column(&self, index: usize) -> &[f64] {

@@ -32,6 +32,8 @@ struct Places<R, const N: usize> {
     accepted: R,
     rejected: R,
     evaluations: R,
+    /// Errors of the accepted steps in units of the tolerance, added up.
+    error: R,
 }
 
 impl<R: Real, const N: usize> Places<R, N> {
@@ -50,6 +52,7 @@ impl<R: Real, const N: usize> Places<R, N> {
             accepted: zero,
             rejected: zero,
             evaluations: zero,
+            error: zero,
         }
     }
 
@@ -70,6 +73,7 @@ impl<R: Real, const N: usize> Places<R, N> {
         self.accepted.set_lane(lane, 0.0);
         self.rejected.set_lane(lane, if arrival.is_some() { 0.0 } else { f64::NEG_INFINITY });
         self.evaluations.set_lane(lane, 0.0);
+        self.error.set_lane(lane, 0.0);
         self.enter(lane, end);
         if arrival.is_none() {
             self.starting.set_lane(lane, 0.0);
@@ -154,6 +158,7 @@ pub fn march<M, R, Q, F, const N: usize>(
 
         places.accepted += accepted;
         places.rejected += refused;
+        places.error += R::select(verdict, ratio, zero);
         places.evaluations += zero.splat(M::EVALUATIONS);
 
         // Observation points up to the end of the step.
@@ -201,7 +206,9 @@ pub fn march<M, R, Q, F, const N: usize>(
                     status = Some(Status::StepLimit);
                 }
                 if let Some(status) = status {
-                    workspace.close(lane, &*runs, status, time, places.effort(lane), &mut finish);
+                    let effort = places.effort(lane);
+                    let errors = M::ERRORS.sum(places.error.lane(lane), control.tolerance.relative, effort.steps);
+                    workspace.close(lane, &*runs, status, time, (effort, errors), &mut finish);
                     let arrival = workspace.load(lane, runs, grid, &mut finish);
                     places.seat(lane, arrival, workspace.next_time(lane, grid));
                 }

@@ -6,6 +6,7 @@
 //! The norm of an error is the kernel's ([`System::error_ratio`]). The march itself stands in [`super::adaptive`].
 
 use super::explicit::{Carried, Step, each, fill_stages, poison, scaled, weighted};
+use super::local_error::StepErrors;
 use super::step_control::Controller;
 use super::tableau::Tableau;
 use super::tableau::{Dop853Tableau, DormandPrinceTableau};
@@ -35,6 +36,8 @@ pub trait Embedded: Copy {
     const DENSE_EVALUATIONS: f64;
     /// Further evaluations for each such point.
     const POINT_EVALUATIONS: f64;
+    /// What its error estimates say of its errors.
+    const ERRORS: StepErrors;
 
     /// Stages and what dense output needs.
     type Stages<R: Real, const N: usize>;
@@ -108,6 +111,7 @@ impl Embedded for DormandPrince {
     const START_EVALUATIONS: f64 = 1.0;
     const DENSE_EVALUATIONS: f64 = 0.0;
     const POINT_EVALUATIONS: f64 = 0.0;
+    const ERRORS: StepErrors = StepErrors { factor: 1.0, extrapolation: 0.2, dense: 1.0, feeds_back: false };
 
     type Stages<R: Real, const N: usize> = [[R; N]; 7];
 
@@ -213,6 +217,7 @@ impl Embedded for DormandPrinceRestepped {
     const START_EVALUATIONS: f64 = DormandPrince::START_EVALUATIONS;
     const DENSE_EVALUATIONS: f64 = 0.0;
     const POINT_EVALUATIONS: f64 = 5.0;
+    const ERRORS: StepErrors = StepErrors { factor: 0.5, dense: 0.0, feeds_back: true, ..DormandPrince::ERRORS };
 
     type Stages<R: Real, const N: usize> = [[R; N]; 7];
 
@@ -301,6 +306,7 @@ impl Embedded for Dop853 {
     const START_EVALUATIONS: f64 = 2.0;
     const DENSE_EVALUATIONS: f64 = 3.0;
     const POINT_EVALUATIONS: f64 = 0.0;
+    const ERRORS: StepErrors = StepErrors { factor: 1.0, extrapolation: 0.125, dense: 6.0, feeds_back: false };
 
     type Stages<R: Real, const N: usize> = Dop853Stages<R, N>;
 

@@ -5,10 +5,11 @@
 //! the method, and it keeps what the method keeps, which an interpolating polynomial does not.
 
 use super::explicit::{Carried, Step, each, fill_stages, poison, weighted};
+use super::local_error::Remainder;
 use super::step_control::{Control, flag, raised};
 use super::tableau::{RungeKutta4Tableau, Tableau};
 use super::workspace::{Arrival, Workspace};
-use super::{Effort, Outcome, Runs, Status, System, Tolerance};
+use super::{Effort, Outcome, Runs, Status, System, Tolerance, local_error};
 use crate::dynamics::table::{Grid, Trajectory};
 use crate::math::Real;
 
@@ -31,6 +32,9 @@ pub struct Advance<R, const N: usize> {
 
 /// A one-step method that takes the steps it is told.
 pub trait FixedStep: Copy {
+    /// What its steps leave out of the motion.
+    const REMAINDER: Remainder;
+
     /// What a step leaves for the next, and for points inside it.
     type Memory<R: Real, const N: usize>;
 
@@ -63,6 +67,8 @@ pub trait FixedStep: Copy {
 pub struct RungeKutta4;
 
 impl FixedStep for RungeKutta4 {
+    const REMAINDER: Remainder = Remainder { order: 4, factor: 1.0 };
+
     /// The derivative at the start.
     type Memory<R: Real, const N: usize> = [R; N];
 
@@ -270,7 +276,14 @@ pub fn march<M, R, Q, F, const N: usize>(
                         rejected: 0,
                         evaluations: places.evaluations.lane(lane) as u64,
                     };
-                    workspace.close(lane, &*runs, status, time, effort, &mut finish);
+                    workspace.close(
+                        lane,
+                        &*runs,
+                        status,
+                        time,
+                        (effort, local_error::rounding(effort.steps)),
+                        &mut finish,
+                    );
                     let arrival = workspace.load(lane, runs, grid, &mut finish);
                     places.seat(lane, arrival, workspace.next_time(lane, grid), control);
                 }

@@ -11,6 +11,7 @@
 
 use super::explicit::{Carried, Step, chosen, each, poison, scaled, weighted};
 use super::fixed::{Advance, FixedStep};
+use super::local_error::Remainder;
 use super::step_control::{flag, raised};
 use super::tableau::{GaussLegendreTableau, Tableau};
 use super::{System, Tolerance};
@@ -100,6 +101,8 @@ fn solved<R: Real, Q: System<R, N>, const N: usize>(
 }
 
 impl FixedStep for GaussLegendre {
+    const REMAINDER: Remainder = Remainder { order: 6, factor: 0.05 };
+
     type Memory<R: Real, const N: usize> = Stages<R, N>;
 
     #[inline(always)]

@@ -10,6 +10,7 @@ pub mod fixed;
 pub mod gauss_legendre;
 pub mod gyrostat_batch;
 pub mod gyrostat_runs;
+pub mod local_error;
 pub mod method;
 pub mod propagate;
 pub mod reference_engine;

@@ -6,6 +6,7 @@ use super::embedded::Embedded;
 use super::fixed::FixedStep;
 use super::gyrostat_batch::GyrostatBatch;
 use super::gyrostat_runs::GyrostatRuns;
+use super::local_error::{Remainder, Remainders};
 use super::propagate::{Engine, Finish, Propagator};
 use super::step_control::Control;
 use super::workspace::Workspace;
@@ -17,6 +18,9 @@ use crate::scene::Scene;
 
 /// A method together with its march.
 pub trait March: Copy {
+    /// What its steps leave out, where it does not estimate that itself.
+    fn remainder(self) -> Option<Remainder>;
+
     /// Marches all runs; as [`adaptive::march`].
     fn march<R, Q, F, const N: usize>(
         self,
@@ -41,8 +45,12 @@ pub struct Adaptive<M>(pub M);
 pub struct Fixed<M>(pub M);
 
 macro_rules! march {
-    ($kind:ident, $bound:ident, $module:ident) => {
+    ($kind:ident, $bound:ident, $module:ident, $remainder:expr) => {
         impl<M: $bound> March for $kind<M> {
+            fn remainder(self) -> Option<Remainder> {
+                $remainder
+            }
+
             #[inline(always)]
             fn march<R, Q, F, const N: usize>(
                 self,
@@ -62,8 +70,8 @@ macro_rules! march {
         }
     };
 }
-march!(Adaptive, Embedded, adaptive);
-march!(Fixed, FixedStep, fixed);
+march!(Adaptive, Embedded, adaptive, None);
+march!(Fixed, FixedStep, fixed, Some(M::REMAINDER));
 
 /// One worker's memory.
 pub struct RungeKuttaEngine<S, R, M, const N: usize> {
@@ -73,6 +81,7 @@ pub struct RungeKuttaEngine<S, R, M, const N: usize> {
     plan: Propagator,
     batch: GyrostatBatch,
     workspace: Workspace,
+    remainders: Option<Remainders>,
     table: StateTable,
 }
 
@@ -87,13 +96,14 @@ impl<S: Simd, R: Real, M: March, const N: usize> RungeKuttaEngine<S, R, M, N> {
             plan: plan.clone(),
             batch: GyrostatBatch::new(plan),
             workspace: Workspace::new(R::LANES, N, points),
+            remainders: march.remainder().map(Remainders::new),
             table: StateTable::new(plan.blocks, points),
         }
     }
 
     #[inline(always)]
     fn run(&mut self, scenes: &[Scene], finish: &mut Finish<'_>) {
-        let Self { simd, zero, march, plan, batch, workspace, table } = self;
+        let Self { simd, zero, march, plan, batch, workspace, remainders, table } = self;
         let zero = *zero;
         batch.take(scenes);
         if batch.begin_debris(scenes) {
@@ -118,7 +128,11 @@ impl<S: Simd, R: Real, M: March, const N: usize> RungeKuttaEngine<S, R, M, N> {
             workspace,
             |_, _, run, trajectory, outcome| {
                 batch.complete::<S, N>(*simd, scenes, run, trajectory, table);
-                finish(run, table, outcome);
+                let mut outcome = *outcome;
+                if let Some(remainders) = remainders {
+                    outcome.local_errors = remainders.sum(&batch.runs()[run], trajectory, &plan.grid, &outcome);
+                }
+                finish(run, table, &outcome);
             },
         );
     }

@@ -3,6 +3,7 @@
 //! No arithmetic of a method. Nothing is allocated after [`Workspace::new`].
 
 use super::{Effort, Outcome, Runs, Status};
+use crate::dynamics::outcome::LocalErrors;
 use crate::dynamics::table::{Grid, Trajectory};
 use crate::math::Real;
 
@@ -113,7 +114,14 @@ impl Workspace {
             if let Some(end) = self.enter(lane, runs, 0.0) {
                 return Some(Arrival { state, end });
             }
-            self.close::<R, Q, F, N>(lane, runs, Status::Done, 0.0, Effort::default(), finish);
+            self.close::<R, Q, F, N>(
+                lane,
+                runs,
+                Status::Done,
+                0.0,
+                (Effort::default(), LocalErrors::default()),
+                finish,
+            );
         }
         None
     }
@@ -136,7 +144,8 @@ impl Workspace {
         None
     }
 
-    /// Hands the run in lane `lane` to `finish` and frees the lane; what was not reached is not a number.
+    /// Hands the run in lane `lane` to `finish` and frees the lane; what was not reached is not a number. What the run cost
+    /// and what it made of errors ([`Outcome::local_errors`]) the march says.
     #[inline(always)]
     pub(super) fn close<R, Q, F, const N: usize>(
         &mut self,
@@ -144,7 +153,7 @@ impl Workspace {
         runs: &Q,
         status: Status,
         time: f64,
-        effort: Effort,
+        (effort, local_errors): (Effort, LocalErrors),
         finish: &mut F,
     ) where
         R: Real,
@@ -161,6 +170,12 @@ impl Workspace {
         }
         berth.occupied = false;
         self.occupied -= 1;
-        finish(runs, lane, berth.run, &berth.trajectory, &Outcome { status, time, points: filled, effort });
+        finish(
+            runs,
+            lane,
+            berth.run,
+            &berth.trajectory,
+            &Outcome { status, time, points: filled, effort, local_errors },
+        );
     }
 }

@@ -117,13 +117,16 @@ pub(super) enum Own {
     Steps,
     Rejected,
     Evaluations,
+    StateError,
+    Amplification,
+    IllConditioned,
 }
 
 impl Value {
     const STATISTICS: usize = Statistic::Rate as usize + 1;
 
     /// Number of slots.
-    pub(super) const SLOTS: usize = Series::COUNT * Self::STATISTICS + Own::Evaluations as usize + 1;
+    pub(super) const SLOTS: usize = Series::COUNT * Self::STATISTICS + Own::IllConditioned as usize + 1;
 
     /// Where the value stands among all numbers that an observer can compute.
     pub(super) const fn slot(self) -> usize {
@@ -135,7 +138,10 @@ impl Value {
 
     /// Whether the value is known although the run did not reach its end.
     pub(super) const fn survives(self) -> bool {
-        matches!(self, Value::Own(own) if own as usize >= Own::TimeReached as usize)
+        match self {
+            Value::Own(own) => Own::TimeReached as usize <= own as usize && own as usize <= Own::Evaluations as usize,
+            Value::Of(..) => false,
+        }
     }
 }
 
@@ -394,6 +400,9 @@ const FAMILIES: &[&[Column]] = &[
         own!(Effort, Always, Count, Steps, "steps", "", "Accepted steps."),
         own!(Effort, Always, Count, Rejected, "steps_rejected", "", "Rejected steps."),
         own!(Effort, Always, Count, Evaluations, "evaluations", "", "Evaluations of the right-hand side (for Taylor methods: jets)."),
+        own!(Numerics, Always, Float, StateError, "state_error_estimate", "", "Estimated largest error of the fuselage's rotation on the grid: of omega over the largest |omega|, or of the attitude in rad, whichever is larger."),
+        own!(Numerics, Always, Float, Amplification, "error_amplification", "", "Estimated factor by which the motion amplifies relative errors of the rotational state that are made evenly along the run."),
+        own!(Numerics, Always, Count, IllConditioned, "ill_conditioned", "", "1 where the rounding of the input alone may move the state by more than 1e-3 (error_amplification times 2^-52), else 0."),
     ],
 ];
 

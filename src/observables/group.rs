@@ -21,11 +21,13 @@ pub enum Group {
     FinalState,
     /// Steps and evaluations.
     Effort,
+    /// Estimated error of the rotational state, and how far the run is to be trusted.
+    Numerics,
 }
 
 impl Group {
     /// All groups, in the order of the columns.
-    pub const ALL: [Group; 9] = [
+    pub const ALL: [Group; 10] = [
         Group::EnergyConservation,
         Group::MomentumConservation,
         Group::Attitude,
@@ -35,6 +37,7 @@ impl Group {
         Group::Exchange,
         Group::FinalState,
         Group::Effort,
+        Group::Numerics,
     ];
 
     /// The name in campaign files.
@@ -49,6 +52,7 @@ impl Group {
             Group::Exchange => "exchange",
             Group::FinalState => "final_state",
             Group::Effort => "effort",
+            Group::Numerics => "numerics",
         }
     }
 

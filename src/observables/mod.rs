@@ -6,6 +6,7 @@
 //! - [`request`]: what was asked for; from it the columns, and which blocks of the state table they need and why.
 //! - [`observer`]: [`Observer`] reads a state table and writes a row.
 //! - `measure`, `momenta`, `attitude`, `points`: states to series, eight points at a time.
+//! - `conditioning`, `error_sums`, `rotor`: how much the motion amplifies errors of its state.
 //! - `reduce`, `spectrum`: series to numbers, the frequency of the exchange.
 //!
 //! Source of energies and momenta: Berdoz, *Final Report - ADR Spacecraft*, (36), and the balances of the gyrostat
@@ -14,6 +15,8 @@
 
 mod attitude;
 pub mod columns;
+mod conditioning;
+mod error_sums;
 pub mod group;
 mod measure;
 mod momenta;
@@ -21,6 +24,7 @@ pub mod observer;
 mod points;
 mod reduce;
 pub mod request;
+mod rotor;
 pub mod series;
 mod spectrum;
 

@@ -3,6 +3,7 @@
 use fearless_simd::Simd;
 
 use super::columns::{Own, Statistic, Value};
+use super::conditioning::{Conditioning, Judgement};
 use super::group::Group;
 use super::measure::{Run, measure};
 use super::points::SeriesTable;
@@ -10,7 +11,7 @@ use super::reduce::{Weights, correlations, errors, initial_and_max, slope, sprea
 use super::request::{Request, Wanted};
 use super::series::{Series, SeriesColumn};
 use super::spectrum::Spectrum;
-use crate::dynamics::outcome::{Outcome, Status};
+use crate::dynamics::outcome::{LocalErrors, Outcome, Status};
 use crate::dynamics::table::{Block, Grid, StateTable};
 use crate::math::Isa;
 use crate::math::isa::Work;
@@ -19,6 +20,10 @@ use crate::scene::Scene;
 /// Swing of the fuselage's energy, relative to the total about the centre of mass, below which there is no exchange but only
 /// rounding: some dozens of roundings of the total, as its sum of squares and the integration of omega leave them.
 pub const EXCHANGE_FLOOR: f64 = 64.0 * f64::EPSILON;
+
+/// An error of the state, from the rounding of the input alone, beyond which a run is ill conditioned: a thousandth of a radian
+/// or of the rate, less than which no campaign's question turns on.
+pub const MEANINGLESS: f64 = 1e-3;
 
 /// Observes runs on one grid; one per worker, reused from run to run without allocating.
 #[derive(Clone, Debug)]
@@ -36,6 +41,8 @@ pub struct Observer {
     spectrum: Option<Spectrum>,
     series: SeriesTable,
     values: Box<[f64; Value::SLOTS]>,
+    conditioning: Option<Box<Conditioning>>,
+    judgement: Option<Judgement>,
     /// Number of points of the run that was observed last.
     filled: usize,
 }
@@ -57,6 +64,8 @@ impl Observer {
             spectrum: if exchange { Spectrum::of(grid) } else { None },
             series: SeriesTable::new(grid.points()),
             values: Box::new([f64::NAN; Value::SLOTS]),
+            conditioning: request.groups.contains(Group::Numerics).then(|| Box::new(Conditioning::new())),
+            judgement: None,
             filled: 0,
         }
     }
@@ -80,7 +89,7 @@ impl Observer {
         assert!(scene.mass.debris.is_some() || !self.request.debris, "a scene whose debris is observed has one");
         self.filled = outcome.points.min(table.points());
         if self.filled > 0 {
-            isa.run(Observation { observer: self, scene, table });
+            isa.run(Observation { observer: self, scene, table, local_errors: &outcome.local_errors });
         }
         self.own(table, outcome);
         for (value, slot) in row.iter_mut().zip(&self.slots) {
@@ -241,6 +250,11 @@ impl Observer {
             self.values[first..first + 10].copy_from_slice(&state.unwrap_or([f64::NAN; 10]));
             self.put_own(Own::TimeReached, outcome.time);
         }
+        if let Some(Judgement { error, amplification }) = self.judgement {
+            self.put_own(Own::StateError, error);
+            self.put_own(Own::Amplification, amplification);
+            self.put_own(Own::IllConditioned, f64::from(u8::from(amplification * f64::EPSILON > MEANINGLESS)));
+        }
         self.put_own(Own::Steps, outcome.effort.steps as f64);
         self.put_own(Own::Rejected, outcome.effort.rejected as f64);
         self.put_own(Own::Evaluations, outcome.effort.evaluations as f64);
@@ -251,6 +265,7 @@ struct Observation<'a> {
     observer: &'a mut Observer,
     scene: &'a Scene,
     table: &'a StateTable,
+    local_errors: &'a LocalErrors,
 }
 
 impl Work for Observation<'_> {
@@ -258,11 +273,15 @@ impl Work for Observation<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let Observation { observer, scene, table } = self;
+        let Observation { observer, scene, table, local_errors } = self;
         let debris = scene.mass.debris.as_ref().filter(|_| observer.request.debris);
         let (wanted, points) = (observer.wanted, observer.filled);
         let run = Run { wanted, mass: &scene.mass, debris, table, points };
         measure(simd, &run, &mut observer.series);
         observer.reduce(simd);
+        if let Some(conditioning) = &mut observer.conditioning {
+            let found = conditioning.judge(simd, scene, table, &observer.times, points, local_errors);
+            observer.judgement = Some(found);
+        }
     }
 }

@@ -132,6 +132,10 @@ impl Own {
             | Own::Steps
             | Own::Rejected
             | Own::Evaluations => None,
+            Own::StateError => Some((Block::Rate, "how the motion amplifies errors")),
+            Own::Amplification => Some((Block::WheelRates, "how the motion amplifies errors")),
+            // the method's own errors of the attitude are known only where it is integrated
+            Own::IllConditioned => Some((Block::Attitude, "errors of the attitude")),
         }
     }
 }

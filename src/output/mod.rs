@@ -10,6 +10,7 @@
 //! Not here: what is measured (the observables' table says it), and arguments and exit codes (the command line).
 
 pub mod atomic;
+pub mod audit_summary;
 pub mod columnar;
 pub mod drawn_figure;
 pub mod drawn_table;

@@ -7,6 +7,7 @@ use std::path::Path;
 use parquet::errors::ParquetError;
 
 use crate::campaign::{Compression, Plan};
+use crate::ensemble::audit::COLUMNS;
 use crate::ensemble::{Campaign, PartId, Rows};
 use crate::integrators::Status;
 use crate::observables::Kind;
@@ -24,6 +25,7 @@ pub struct RowsFile {
     layout: Layout,
     /// Content of each observable.
     contents: Vec<Content>,
+    is_audited: bool,
 }
 
 /// The name of the file that holds `part`.
@@ -51,7 +53,15 @@ pub fn headings(campaign: &Campaign<'_>) -> Vec<Heading> {
         content: content(column.kind),
         nullable: true,
     });
-    fixed.into_iter().chain(parameter_headings(campaign.plan())).chain(observables).collect()
+    let audited = campaign.plan().audit_fraction > 0.0;
+    let audits = COLUMNS.iter().filter(|_| audited).map(|column| Heading {
+        name: column.name.to_owned(),
+        unit: column.unit.to_owned(),
+        meaning: column.meaning.to_owned(),
+        content: Content::Real,
+        nullable: true,
+    });
+    fixed.into_iter().chain(parameter_headings(campaign.plan())).chain(observables).chain(audits).collect()
 }
 
 /// The columns of dispersed values.
@@ -104,7 +114,7 @@ impl RowsFile {
     pub fn new(campaign: &Campaign<'_>) -> Result<Self, ParquetError> {
         let layout = Layout::new(&headings(campaign), provenance(campaign.plan()), packing(campaign.plan()))?;
         let contents = campaign.request().columns().into_iter().map(|column| content(column.kind)).collect();
-        Ok(RowsFile { layout, contents })
+        Ok(RowsFile { layout, contents, is_audited: campaign.plan().audit_fraction > 0.0 })
     }
 
     /// Number of columns.
@@ -147,8 +157,24 @@ impl RowsFile {
                 _ => Cells::Real(values, mask),
             }
         });
-        self.layout.write(out, &own, fixed.into_iter().chain(parameters).chain(observables))
+        let (audited, audits) = if self.is_audited { audit_columns(rows) } else { (Vec::new(), Vec::new()) };
+        let audits = audits.iter().map(|column| Cells::Real(column, Some(&audited)));
+        self.layout.write(out, &own, fixed.into_iter().chain(parameters).chain(observables).chain(audits))
     }
+}
+
+/// Which rows were audited, and the columns of the audits.
+fn audit_columns(rows: &Rows) -> (Vec<bool>, Vec<Vec<f64>>) {
+    let mut audited = vec![false; rows.part().count];
+    let mut columns = vec![vec![f64::NAN; rows.part().count]; COLUMNS.len()];
+    for (row, audit) in rows.audits() {
+        let Some(audit) = audit else { continue };
+        audited[*row] = true;
+        for (column, value) in columns.iter_mut().zip(audit.values()) {
+            column[*row] = value;
+        }
+    }
+    (audited, columns)
 }
 
 /// Which values of each observable are there; `None` where all are.

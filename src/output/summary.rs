@@ -11,9 +11,10 @@ use crate::campaign::Plan;
 use crate::ensemble::{Campaign, Rows};
 use crate::integrators::Status;
 use crate::observables::Kind;
+use crate::output::audit_summary::{AuditSummary, AuditTally, Numerics};
 use crate::output::sketch::{RELATIVE_ERROR, Sketch};
 
-/// The observables that are summed up, where the campaign has them: main errors, exchange, effort.
+/// The observables that are summed up, where the campaign has them: main errors, exchange, effort, numerics.
 pub const HEADLINES: &[&str] = &[
     "energy_error_max",
     "energy_error_rate_per_s",
@@ -35,6 +36,9 @@ pub const HEADLINES: &[&str] = &[
     "exchange_wheel1_gross_j",
     "exchange_wheel2_gross_j",
     "steps",
+    "state_error_estimate",
+    "error_amplification",
+    "ill_conditioned",
 ];
 
 /// An observable that is summed up.
@@ -61,6 +65,8 @@ impl Headline {
 pub struct Tally {
     statuses: [u64; Status::ALL.len()],
     headlines: Vec<Headline>,
+    /// Where the campaign is audited.
+    audits: Option<AuditTally>,
 }
 
 impl Tally {
@@ -72,7 +78,9 @@ impl Tally {
             let column = columns[index];
             Some(Headline { index, name, unit: column.unit, kind: column.kind, sketch: Sketch::default() })
         };
-        Tally { statuses: [0; Status::ALL.len()], headlines: HEADLINES.iter().filter_map(headline).collect() }
+        let headlines: Vec<Headline> = HEADLINES.iter().filter_map(headline).collect();
+        let audits = (campaign.plan().audit_fraction > 0.0).then(|| AuditTally::new(headlines.len()));
+        Tally { statuses: [0; Status::ALL.len()], headlines, audits }
     }
 
     /// Counts the rows of a part.
@@ -87,6 +95,14 @@ impl Tally {
                 }
             }
         }
+        if let Some(audits) = &mut self.audits {
+            audits.add(rows, self.headlines.iter().map(|headline| headline.index));
+        }
+    }
+
+    /// What the audits amount to, where there are any.
+    pub fn audits(&self) -> Option<&AuditTally> {
+        self.audits.as_ref()
     }
 
     /// How many samples ended with `status`.
@@ -121,6 +137,9 @@ pub struct Line {
     pub p99_9: Option<f64>,
     /// Largest value.
     pub max: Option<f64>,
+    /// Its numerical error over the audited runs, where there are any that have one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub numerical_error: Option<Numerics>,
 }
 
 /// What a campaign amounts to.
@@ -132,12 +151,14 @@ pub struct Summary {
     plan_hash: String,
     statuses: Vec<(&'static str, u64)>,
     lines: Vec<Line>,
+    audit: Option<AuditSummary>,
 }
 
 impl Summary {
     /// Sums up.
     pub fn new(plan: &Plan, tally: &Tally) -> Self {
-        let lines = tally.headlines.iter().map(|headline| Line {
+        let numerics = |index, headline: &Headline| tally.audits.as_ref()?.numerics(index, &headline.sketch);
+        let lines = tally.headlines.iter().enumerate().map(|(index, headline)| Line {
             name: headline.name,
             unit: headline.unit,
             count: headline.sketch.count(),
@@ -145,6 +166,7 @@ impl Summary {
             p95: headline.quantile(0.95),
             p99_9: headline.quantile(0.999),
             max: headline.sketch.max(),
+            numerical_error: numerics(index, headline),
         });
         Summary {
             name: plan.name.clone(),
@@ -153,6 +175,7 @@ impl Summary {
             plan_hash: plan.hash(),
             statuses: Status::ALL.into_iter().map(|status| (status.name(), tally.count(status))).collect(),
             lines: lines.collect(),
+            audit: tally.audits.as_ref().map(|audits| audits.summary(plan.audit_fraction)),
         }
     }
 
@@ -160,7 +183,7 @@ impl Summary {
     pub fn json(&self) -> String {
         let statuses: Map<String, Value> =
             self.statuses.iter().map(|(name, count)| ((*name).to_owned(), json!(count))).collect();
-        let value = json!({
+        let mut value = json!({
             "program": "spindrift",
             "version": env!("CARGO_PKG_VERSION"),
             "campaign": self.name,
@@ -175,6 +198,9 @@ impl Summary {
             },
             "observables": self.lines,
         });
+        if let Some(audit) = &self.audit {
+            value["audit"] = json!(audit);
+        }
         format!("{value:#}\n")
     }
 }
@@ -204,6 +230,22 @@ impl Display for Summary {
                     Some(value) => write!(f, "{:>12}", short(value))?,
                     None => write!(f, "{:>12}", "-")?,
                 }
+            }
+            writeln!(f)?;
+        }
+        let Some(audit) = &self.audit else { return Ok(()) };
+        write!(f, "\n{audit}")?;
+        let audited = self.lines.iter().filter_map(|line| Some((line, line.numerical_error.as_ref()?)));
+        let title = "numerical error, and how much of the spread (p95 - p5) it is";
+        writeln!(
+            f,
+            "\n  {title}\n  {:<width$}  {:>6}{:>12}{:>12}{:>12}{:>12}",
+            "", "unit", "median", "p95", "max", "share"
+        )?;
+        for (line, numerics) in audited {
+            write!(f, "  {:<width$}  {:>6}", line.name, if line.unit.is_empty() { "-" } else { line.unit })?;
+            for value in [numerics.median, numerics.p95, numerics.max, numerics.share_of_spread] {
+                write!(f, "{:>12}", value.map_or("-".to_owned(), short))?;
             }
             writeln!(f)?;
         }

@@ -25,7 +25,7 @@ impl Run {
 
     /// Outcome and the states of `blocks`, as bits.
     pub fn bits_of(&self, blocks: Blocks) -> Bits {
-        let Outcome { status, time, points, effort } = self.outcome;
+        let Outcome { status, time, points, effort, .. } = self.outcome;
         let mut bits = vec![status as u64, time.to_bits(), points as u64];
         bits.extend([effort.steps, effort.rejected, effort.evaluations]);
         for block in Block::ALL.into_iter().filter(|block| blocks.contains(*block)) {

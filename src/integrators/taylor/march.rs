@@ -10,6 +10,7 @@ use super::dense::{value_at, values};
 use super::jet::expand;
 use super::period::{Period, Section};
 use super::thrust::angle_of;
+use super::truncation::{LeftOut, Truncation};
 use super::watch::Watch;
 use super::workspace::Workspace;
 use crate::dynamics::gyrostat::equations::Constants;
@@ -41,6 +42,8 @@ pub(super) struct Place {
     pub begun: usize,
     /// Steps of the run before the stretch.
     pub steps_before: u64,
+    /// Number of periods by which a stretch is unfolded at most, one where none is.
+    pub periods: f64,
     /// Whether a return is looked for.
     pub watching: bool,
     /// Set where the lane waits for its points to be evaluated in company.
@@ -56,6 +59,8 @@ pub(super) struct Wait {
     pub period: Option<Period>,
     /// The step of the march after which the lane began to wait.
     pub since: usize,
+    /// What the run's steps had left out by then.
+    pub left_out: LeftOut,
 }
 
 /// Number of components that have no series of their own.
@@ -88,6 +93,7 @@ pub fn march<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: boo
         upcoming: zero,
         per_unit: zero,
         watch: Watch::none(zero),
+        truncation: Truncation::new(zero, workspace.rule.order),
         places: [None; WIDEST],
         clock: 0,
         alarm: 0,
@@ -121,6 +127,8 @@ pub(super) struct March<'a, S, R, const N: usize, const J: usize, const FORCED: 
     /// One over the unit of time, 1/s.
     per_unit: R,
     watch: Watch<R>,
+    /// What the steps of each lane's run left out.
+    truncation: Truncation<R>,
     pub places: [Option<Place>; WIDEST],
     /// Steps of the march; step k lies in slot k modulo the ring's length.
     pub clock: usize,
@@ -137,6 +145,7 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> March
             self.state[i].set_lane(lane, 0.0);
             self.state_low[i].set_lane(lane, 0.0);
         }
+        self.truncation.set(lane, LeftOut::default());
         if self.next >= self.runs.len() {
             self.places[lane] = None;
             self.rest(lane);
@@ -162,6 +171,7 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> March
             point: 0,
             begun: self.clock,
             steps_before: 0,
+            periods: 1.0,
             watching: false,
             waits: None,
             riders: [0.0; RIDERS],
@@ -254,6 +264,7 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> March
         let wanted = self.work.rule.step(&segment.jet);
         let left = (self.length - self.time) - self.time_low;
         let length = R::select(left.lt(wanted), left, wanted);
+        self.truncation.add(&segment.jet, length);
         // the increment first, then the state with its carry
         let [slope] = values(&segment.jet[1..=order], [length]);
         for i in 0..J {
@@ -419,7 +430,10 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> March
     /// Lets `lane` wait for its points to be evaluated.
     fn wait(&mut self, lane: usize, period: Option<Period>) {
         if let Some(place) = &mut self.places[lane] {
-            place.waits = Some(Wait { period, since: self.clock });
+            if let Some(period) = &period {
+                place.periods = place.periods.max(place.length / period.length[0]);
+            }
+            place.waits = Some(Wait { period, since: self.clock, left_out: self.truncation.left_out(lane) });
         }
         self.rest(lane);
     }
@@ -479,6 +493,10 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> March
     pub(super) fn end_stretch(&mut self, lane: usize, finish: &mut Finish<'_>) {
         let Some(place) = self.places[lane] else { return };
         let steps = self.steps(&place);
+        if let Some(wait) = &place.waits {
+            // the lane has run on since
+            self.truncation.set(lane, wait.left_out);
+        }
         if place.stretch + 1 < self.runs[place.run].stretches.len() {
             if let Some(place) = &mut self.places[lane] {
                 place.steps_before = steps;
@@ -491,6 +509,7 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> March
             time: self.grid.duration(),
             points: self.grid.points(),
             effort: Effort { steps, rejected: 0, evaluations: steps },
+            local_errors: self.truncation.left_out(lane).errors(steps, place.periods),
         };
         let trajectory = &mut self.work.trajectories[lane];
         trajectory.pad();
@@ -516,6 +535,7 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> March
             time: reached.mul_add(place.unit, bounds.start),
             points,
             effort: Effort { steps, rejected: 0, evaluations: steps },
+            local_errors: self.truncation.left_out(lane).errors(steps, place.periods),
         };
         let trajectory = &mut self.work.trajectories[lane];
         trajectory.fill_after(points, f64::NAN);

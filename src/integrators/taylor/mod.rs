@@ -1,7 +1,7 @@
 //! Taylor series of the gyrostat in lanes, with periodic propagation of what is free of torque.
 //!
 //! - [`jet`]: the recurrences. [`step`]: order and step size. [`thrust`]: integrals of the thrust along a step.
-//! - [`march`]: the lanes; [`workspace`]: their memory. [`dense`]: evaluating series at the observation points.
+//! - `truncation`: what the steps leave out. [`march`]: the lanes; [`workspace`]: their memory. [`dense`]: evaluating series at the observation points.
 //! - [`period`]: finding the period of omega and folding time by it; [`watch`]: the same for all lanes at once;
 //!   [`fold`]: the points of runs whose period is known.
 //! - [`truth`]: reference solutions of any scene by the same recurrences in double-double.
@@ -19,6 +19,7 @@ pub mod march;
 pub mod period;
 pub mod step;
 pub mod thrust;
+mod truncation;
 pub mod truth;
 pub mod watch;
 pub mod workspace;

@@ -34,7 +34,7 @@ use crate::scene::Scene;
 pub const TOLERANCE: f64 = 1e-31;
 
 /// A march that takes more steps than this is given up: at some 20 steps a turn, fifty thousand turns.
-const MOST_STEPS: u64 = 1_000_000;
+pub const MOST_STEPS: u64 = 1_000_000;
 
 /// Every component that a gyrostat has: one kernel for all scenes.
 const N: usize = WITH_THRUST;
@@ -81,6 +81,13 @@ impl Truth {
     pub fn at<const K: usize>(&self, block: Block, point: usize) -> [DoubleDouble; K] {
         let (high, low) = (self.high.at::<K>(block, point), self.low.at::<K>(block, point));
         std::array::from_fn(|i| DoubleDouble { high: high[i], low: low[i] })
+    }
+
+    /// |`sign` x - truth| of the components x of `block` at `point` of `table`, in all digits of the truth.
+    pub fn distance<const K: usize>(&self, table: &StateTable, block: Block, point: usize, sign: f64) -> f64 {
+        let (high, low) = (self.high.at::<K>(block, point), self.low.at::<K>(block, point));
+        let state = table.at::<K>(block, point);
+        (0..K).map(|i| (sign * state[i] - high[i]) - low[i]).map(|off| off * off).sum::<f64>().sqrt()
     }
 
     fn put<const K: usize>(&mut self, block: Block, point: usize, values: [DoubleDouble; K]) {

@@ -1,0 +1,95 @@
+//! [`Body`]: the constants of a run's rotation, as [`super::conditioning`] needs them.
+
+use crate::dynamics::table::{Block, StateTable};
+use crate::math::Real;
+use crate::math::vector::{cross, difference, dot, product, scaled, sum};
+use crate::scene::Scene;
+use crate::scene::mass::MassProperties;
+
+/// The constants of a run.
+pub(super) struct Body<'a> {
+    pub(super) mass: &'a MassProperties,
+    /// K, kg m^2, its inverse A, and a third of its trace.
+    pub(super) inertia: [[f64; 3]; 3],
+    pub(super) inverse: [[f64; 3]; 3],
+    pub(super) size: f64,
+    /// Whether K is diagonal.
+    pub(super) is_principal: bool,
+    /// The wheels' momentum H - K omega where it is constant: where nothing acts.
+    pub(super) offset: Option<[f64; 3]>,
+}
+
+impl<'a> Body<'a> {
+    /// The constants of a run of `scene` for `duration` seconds, whose states `table` holds.
+    pub(super) fn of(scene: &'a Scene, table: &StateTable, duration: f64) -> Self {
+        let mass = &scene.mass;
+        let inertia = mass.inertia_free;
+        let [[x, xy, xz], [_, y, yz], [.., z]] = inertia;
+        let is_free = scene.schedule.iter().all(|act| act.start >= duration);
+        let offset = is_free.then(|| {
+            let omega = table.at::<3>(Block::Rate, 0);
+            let mut momentum = difference(product(mass.inertia, omega), product(inertia, omega));
+            for (wheel, rate) in mass.wheels.iter().zip(table.at::<2>(Block::WheelRates, 0)) {
+                momentum = sum(momentum, scaled(wheel.axial * rate, wheel.axis));
+            }
+            momentum
+        });
+        let adjugate = adjugate(inertia);
+        let per_determinant = 1.0 / dot(inertia[0], adjugate[0]);
+        Body {
+            mass,
+            inertia,
+            inverse: [
+                scaled(per_determinant, adjugate[0]),
+                scaled(per_determinant, adjugate[1]),
+                scaled(per_determinant, adjugate[2]),
+            ],
+            size: (x + y + z) / 3.0,
+            is_principal: xy == 0.0 && xz == 0.0 && yz == 0.0,
+            offset,
+        }
+    }
+}
+
+/// The adjugate of a symmetric matrix, by rows.
+pub(super) fn adjugate(m: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
+    [cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])]
+}
+
+/// The largest torque of the schedule on the fuselage: thrusters' and motors' sizes added, N m.
+#[inline(always)]
+pub(super) fn largest_torque(scene: &Scene) -> f64 {
+    let mut largest = 0.0_f64;
+    for act in &scene.schedule {
+        let thrust = scene.thruster_torque_s(act.thrust);
+        largest = largest.larger(dot(thrust, thrust).sqrt() + act.torque[0].abs() + act.torque[1].abs());
+    }
+    largest
+}
+
+/// Whether thrust or motors act at `time`.
+#[inline(always)]
+pub(super) fn acts(scene: &Scene, time: f64) -> bool {
+    scene.schedule.iter().any(|act| act.start <= time && time <= act.end)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A few roundings of entries of size one.
+    const ROUNDING: f64 = 1e-14;
+
+    #[test]
+    fn the_adjugate_over_the_determinant_is_the_inverse() {
+        let m = [[3.0, 0.25, -0.5], [0.25, 2.0, 0.125], [-0.5, 0.125, 1.5]];
+        let (cofactors, determinant) = (adjugate(m), dot(m[0], adjugate(m)[0]));
+        for (i, row) in m.iter().enumerate() {
+            for j in 0..3 {
+                // both are symmetric: a column is a row
+                let entry = dot(*row, cofactors[j]) / determinant;
+                assert!((entry - f64::from(u8::from(i == j))).abs() < ROUNDING, "{i}, {j}: {entry}");
+            }
+        }
+    }
+}
