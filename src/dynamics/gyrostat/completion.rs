@@ -45,22 +45,59 @@ pub fn complete<S: Simd, const N: usize>(
     grid: &Grid,
     table: &mut StateTable,
 ) {
+    complete_rotation::<S, N>(simd, run, trajectory, table);
     let times = grid.padded_times();
+    let wheels = table.has(Block::WheelRates) || N >= WITH_ANGLES && table.has(Block::WheelAngles);
+    let translation = [Block::ComPosition, Block::ComVelocity, Block::Impulse, Block::AngularImpulse, Block::Work];
+    let translation = translation.into_iter().any(|block| table.has(block));
+    if !wheels && !translation {
+        return;
+    }
     for first in (0..table.stride()).step_by(WIDTH) {
         let chunk = Chunk { simd, first };
+        let omega_b = chunk.read3(trajectory, OMEGA);
+        if wheels {
+            complete_wheels::<S, N>(chunk, run, trajectory, &times[first..first + WIDTH], omega_b, table);
+        }
+        if translation {
+            complete_translation::<S, N>(chunk, run, trajectory, &times[first..first + WIDTH], table);
+            complete_work::<S, N>(chunk, run, trajectory, omega_b, table);
+        }
+    }
+}
+
+/// Rates and attitudes; where B is F_s the components are the states, and are copied.
+#[inline(always)]
+fn complete_rotation<S: Simd, const N: usize>(
+    simd: S,
+    run: &Gyrostat<f64>,
+    trajectory: &Trajectory,
+    table: &mut StateTable,
+) {
+    let attitude = N >= WITH_ATTITUDE && table.has(Block::Attitude);
+    if run.c_sb.is_none() {
+        for i in 0..3 {
+            if table.has(Block::Rate) {
+                table.column_mut(Block::Rate, i).copy_from_slice(trajectory.column(OMEGA + i));
+            }
+        }
+        for i in 0..4 {
+            if attitude {
+                table.column_mut(Block::Attitude, i).copy_from_slice(trajectory.column(ATTITUDE + i));
+            }
+        }
+        return;
+    }
+    for first in (0..table.stride()).step_by(WIDTH) {
         let states = rotation::<S, N>(simd, run, trajectory, first);
-        chunk.write3(table, Block::Rate, states.rate);
-        if let Some(attitude) = states.attitude
-            && table.has(Block::Attitude)
+        Chunk { simd, first }.write3(table, Block::Rate, states.rate);
+        if let Some(components) = states.attitude
+            && attitude
         {
-            for (i, component) in attitude.into_iter().enumerate() {
+            for (i, component) in components.into_iter().enumerate() {
                 component.store(&mut table.column_mut(Block::Attitude, i)[first..]);
             }
         }
-        let omega_b = chunk.read3(trajectory, OMEGA);
-        complete_wheels::<S, N>(chunk, run, trajectory, &times[first..first + WIDTH], omega_b, table);
-        complete_translation::<S, N>(chunk, run, trajectory, &times[first..first + WIDTH], table);
-        complete_work::<S, N>(chunk, run, trajectory, omega_b, table);
     }
 }
 
@@ -109,9 +146,6 @@ fn complete_wheels<S: Simd, const N: usize>(
     table: &mut StateTable,
 ) {
     let angles = N >= WITH_ANGLES && table.has(Block::WheelAngles);
-    if !table.has(Block::WheelRates) && !angles {
-        return;
-    }
     for wheel in 0..2 {
         let axis = constant(chunk.zero(), run.axes_b[wheel]);
         let inverse = run.inverse_axial(wheel);

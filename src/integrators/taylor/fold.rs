@@ -9,8 +9,10 @@
 use fearless_simd::Simd;
 
 use super::dense::{Segment, value_at, values};
-use super::march::{Finish, March, Place, factors};
+use super::march::{Finish, March};
 use super::period::Period;
+use super::place::Place;
+use super::points::factors;
 use super::workspace::Folds;
 use crate::dynamics::gyrostat::{ANGLE, ATTITUDE, WITH_ANGLES, WITH_ATTITUDE};
 use crate::dynamics::table::Trajectory;

@@ -8,17 +8,14 @@ use fearless_simd::Simd;
 
 use super::dense::{value_at, values};
 use super::jet::expand;
-use super::period::{Period, Section};
-use super::thrust::angle_of;
-use super::truncation::{LeftOut, Truncation};
+use super::period::Period;
+use super::place::Place;
+use super::truncation::Truncation;
 use super::watch::Watch;
 use super::workspace::Workspace;
 use crate::dynamics::gyrostat::equations::Constants;
-use crate::dynamics::gyrostat::{
-    ANGLE, ANGULAR_IMPULSE, ATTITUDE, Gyrostat, IMPULSE, IMPULSE_INTEGRAL, MOTOR_WORK, OMEGA, THRUST_WORK, WITH_ANGLES,
-    WITH_ATTITUDE, WITH_MOTORS, WITH_THRUST,
-};
-use crate::dynamics::outcome::{Effort, Outcome, Status};
+use crate::dynamics::gyrostat::{ANGLE, ATTITUDE, Gyrostat, OMEGA, WITH_ATTITUDE};
+use crate::dynamics::outcome::{Outcome, Status};
 use crate::dynamics::table::{Grid, Trajectory};
 use crate::math::Real;
 use crate::math::lanes::WIDEST;
@@ -26,45 +23,6 @@ use crate::math::vector::{dcm_from_quaternion, product};
 
 /// Hands over a run: its index, its components at the points, how it ended.
 pub(super) type Finish<'a> = dyn FnMut(usize, &mut Trajectory, &Outcome) + 'a;
-
-/// One lane's place in its run.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
-    pub run: usize,
-    pub stretch: usize,
-    /// Unit of time, s: a power of two near the time scale of the motion, so that every conversion is exact.
-    pub unit: f64,
-    /// Length of the stretch, units.
-    pub length: f64,
-    /// First observation point that is not evaluated yet.
-    pub point: usize,
-    /// The step of the march at which the stretch began: of a stretch that is watched, the series since then are kept.
-    pub begun: usize,
-    /// Steps of the run before the stretch.
-    pub steps_before: u64,
-    /// Number of periods by which a stretch is unfolded at most, one where none is.
-    pub periods: f64,
-    /// Whether a return is looked for.
-    pub watching: bool,
-    /// Set where the lane waits for its points to be evaluated in company.
-    pub waits: Option<Wait>,
-    /// The components without series at the start of the stretch.
-    pub riders: [f64; RIDERS],
-}
-
-/// What a lane waits with.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Wait {
-    /// The period; `None` where the horizon ended before one was seen.
-    pub period: Option<Period>,
-    /// The step of the march after which the lane began to wait.
-    pub since: usize,
-    /// What the run's steps had left out by then.
-    pub left_out: LeftOut,
-}
-
-/// Number of components that have no series of their own.
-pub(super) const RIDERS: usize = WITH_THRUST - WITH_ANGLES;
 
 /// Marches `runs` over `grid`; `finish` is called once for each, with its index and its components at the points.
 ///
@@ -113,132 +71,31 @@ pub(super) struct March<'a, S, R, const N: usize, const J: usize, const FORCED: 
     pub runs: &'a [Gyrostat<f64>],
     pub grid: &'a Grid,
     /// The next run that waits for a lane.
-    next: usize,
-    constants: Constants<R>,
+    pub next: usize,
+    pub constants: Constants<R>,
     pub state: [R; N],
     pub state_low: [R; N],
     /// Time since the start of the stretch, units, as an unevaluated sum.
-    time: R,
-    time_low: R,
+    pub time: R,
+    pub time_low: R,
     /// Length of the stretch, units; infinite where the lane is empty or waits.
-    length: R,
+    pub length: R,
     /// Time of the next observation point of the stretch, units; infinite where there is none or the lane is watched.
-    upcoming: R,
+    pub upcoming: R,
     /// One over the unit of time, 1/s.
-    per_unit: R,
-    watch: Watch<R>,
+    pub per_unit: R,
+    pub watch: Watch<R>,
     /// What the steps of each lane's run left out.
-    truncation: Truncation<R>,
+    pub truncation: Truncation<R>,
     pub places: [Option<Place>; WIDEST],
     /// Steps of the march; step k lies in slot k modulo the ring's length.
     pub clock: usize,
     /// The step at which some lane is to be looked at, whatever happens.
-    alarm: usize,
+    pub alarm: usize,
     pub work: &'a mut Workspace<R, J>,
 }
 
 impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> March<'_, S, R, N, J, FORCED> {
-    /// Puts the next run into `lane`, or empties it.
-    #[inline(never)]
-    pub(super) fn refill(&mut self, lane: usize) {
-        for i in 0..N {
-            self.state[i].set_lane(lane, 0.0);
-            self.state_low[i].set_lane(lane, 0.0);
-        }
-        self.truncation.set(lane, LeftOut::default());
-        if self.next >= self.runs.len() {
-            self.places[lane] = None;
-            self.rest(lane);
-            return;
-        }
-        let run = &self.runs[self.next];
-        let unit = run.time_unit();
-        self.constants.set_run(lane, run, unit);
-        self.per_unit.set_lane(lane, 1.0 / unit);
-        for i in 0..3 {
-            self.state[OMEGA + i].set_lane(lane, run.omega_b[i] * unit);
-        }
-        if N >= WITH_ATTITUDE {
-            for i in 0..4 {
-                self.state[ATTITUDE + i].set_lane(lane, run.q_eb[i]);
-            }
-        }
-        self.places[lane] = Some(Place {
-            run: self.next,
-            stretch: 0,
-            unit,
-            length: 0.0,
-            point: 0,
-            begun: self.clock,
-            steps_before: 0,
-            periods: 1.0,
-            watching: false,
-            waits: None,
-            riders: [0.0; RIDERS],
-        });
-        self.next += 1;
-        self.enter(lane, 0);
-    }
-
-    /// Lets `lane` run on without being heard of: empty, or waiting.
-    pub(super) fn rest(&mut self, lane: usize) {
-        self.length.set_lane(lane, f64::INFINITY);
-        self.upcoming.set_lane(lane, f64::INFINITY);
-        self.watch.set(lane, None);
-    }
-
-    /// Prepares `lane` for a stretch.
-    #[inline(never)]
-    pub(super) fn enter(&mut self, lane: usize, stretch: usize) {
-        let Some(place) = &mut self.places[lane] else { return };
-        let run = &self.runs[place.run];
-        self.constants.set_stretch(lane, run, stretch, place.unit);
-        let bounds = &run.stretches[stretch];
-        place.stretch = stretch;
-        place.length = (bounds.end - bounds.start) / place.unit;
-        place.begun = self.clock;
-        place.waits = None;
-        place.watching = self.work.settings.periodic && !bounds.actuated;
-        for i in J..N {
-            place.riders[i - J] = self.state[i].lane(lane);
-        }
-        self.time.set_lane(lane, 0.0);
-        self.time_low.set_lane(lane, 0.0);
-        self.length.set_lane(lane, place.length);
-        let section = if place.watching { self.section(lane) } else { None };
-        self.watch.set(lane, section.as_ref());
-        self.look_ahead(lane);
-        // one that does not move at all has found its period with the first step
-        self.alarm = self.clock + 1;
-    }
-
-    /// The section across the motion of omega in `lane` now.
-    fn section(&self, lane: usize) -> Option<Section> {
-        let three = |v: &[R; 3]| [v[0].lane(lane), v[1].lane(lane), v[2].lane(lane)];
-        let omega = [self.state[0].lane(lane), self.state[1].lane(lane), self.state[2].lane(lane)];
-        let [x, y, z] = three(&self.constants.momentum);
-        let linear = [y * omega[2] - z * omega[1], z * omega[0] - x * omega[2], x * omega[1] - y * omega[0]];
-        let (ratio, inverse) = (three(&self.constants.ratio), three(&self.constants.inverse));
-        let mut rate = [0.0; 3];
-        for i in 0..3 {
-            // not fused: this is not compiled for an instruction set
-            rate[i] = ratio[i] * omega[(i + 1) % 3] * omega[(i + 2) % 3] + inverse[i] * linear[i];
-        }
-        Section::new(omega, rate)
-    }
-
-    /// Sets the time of the next observation point of the stretch in `lane`.
-    pub(super) fn look_ahead(&mut self, lane: usize) {
-        let Some(place) = &self.places[lane] else { return };
-        let bounds = &self.runs[place.run].stretches[place.stretch];
-        let last = place.stretch + 1 == self.runs[place.run].stretches.len();
-        let upcoming = match self.grid.times().get(place.point) {
-            Some(time) if !place.watching && (last || *time <= bounds.end) => (time - bounds.start) / place.unit,
-            _ => f64::INFINITY,
-        };
-        self.upcoming.set_lane(lane, upcoming);
-    }
-
     /// One step of every lane.
     #[inline(always)]
     fn step(&mut self, finish: &mut Finish<'_>) {
@@ -297,46 +154,6 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> March
         let calm = R::select(finite, R::select(goes_on, R::select(stuck, zero, one), zero), zero) - back;
         if R::any(calm.lt(one)) || self.clock >= self.alarm {
             self.attend(calm, back, length, finish);
-        }
-    }
-
-    /// Evaluates the next observation point of every lane that has one before `covered`.
-    #[inline(always)]
-    fn observe(&mut self, slot: usize, constants: &Constants<R>, begin: &[R; N], covered: R) {
-        let zero = covered.zero();
-        let segment = &self.work.ring[slot];
-        let due = self.upcoming.lt(covered);
-        let x = R::select(due, (self.upcoming - segment.start) - segment.start_low, zero);
-        let [at] = values(&segment.jet, [x]);
-        let mut all = [zero; N];
-        all[..J].copy_from_slice(&at);
-        if FORCED {
-            let mut turned = angle_of(&at);
-            for i in 0..3 {
-                turned[i] = turned[i] - segment.jet[0][ANGLE + i];
-            }
-            let grown = self.work.quadrature.growth(constants, &segment.jet, begin, turned, x);
-            for i in J..N {
-                all[i] = begin[i] + grown[i];
-            }
-        }
-        let factors = factors::<R, N>(self.per_unit);
-        let mut rows = [[0.0; WIDEST]; N];
-        for i in 0..N {
-            (all[i] * factors[i]).write(&mut rows[i]);
-        }
-        let flags = R::select(due, zero.splat(1.0), zero);
-        for lane in 0..R::LANES {
-            if flags.lane(lane) == 0.0 {
-                continue;
-            }
-            let Some(place) = &mut self.places[lane] else { continue };
-            let point = place.point;
-            place.point += 1;
-            for i in 0..N {
-                self.work.trajectories[lane].column_mut(i)[point] = rows[i][lane];
-            }
-            self.look_ahead(lane);
         }
     }
 
@@ -427,23 +244,6 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> March
         }
     }
 
-    /// Lets `lane` wait for its points to be evaluated.
-    fn wait(&mut self, lane: usize, period: Option<Period>) {
-        if let Some(place) = &mut self.places[lane] {
-            if let Some(period) = &period {
-                place.periods = place.periods.max(place.length / period.length[0]);
-            }
-            place.waits = Some(Wait { period, since: self.clock, left_out: self.truncation.left_out(lane) });
-        }
-        self.rest(lane);
-    }
-
-    /// Steps of the run so far.
-    pub(super) fn steps(&self, place: &Place) -> u64 {
-        let until = place.waits.map_or(self.clock, |wait| wait.since);
-        place.steps_before + (until - place.begun) as u64
-    }
-
     /// The time within the last step at which omega in `lane` is where the stretch began.
     #[inline(always)]
     fn comes_back(&self, lane: usize, back: bool, length: f64) -> Option<f64> {
@@ -488,145 +288,6 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> March
         }
         Period::new(length, start, end, product(dcm_from_quaternion(start), momentum_b), scale)
     }
-
-    /// Goes on with the next stretch, or hands the run over and takes the next.
-    pub(super) fn end_stretch(&mut self, lane: usize, finish: &mut Finish<'_>) {
-        let Some(place) = self.places[lane] else { return };
-        let steps = self.steps(&place);
-        if let Some(wait) = &place.waits {
-            // the lane has run on since
-            self.truncation.set(lane, wait.left_out);
-        }
-        if place.stretch + 1 < self.runs[place.run].stretches.len() {
-            if let Some(place) = &mut self.places[lane] {
-                place.steps_before = steps;
-            }
-            self.enter(lane, place.stretch + 1);
-            return;
-        }
-        let outcome = Outcome {
-            status: Status::Done,
-            time: self.grid.duration(),
-            points: self.grid.points(),
-            effort: Effort { steps, rejected: 0, evaluations: steps },
-            local_errors: self.truncation.left_out(lane).errors(steps, place.periods),
-        };
-        let trajectory = &mut self.work.trajectories[lane];
-        trajectory.pad();
-        finish(place.run, trajectory, &outcome);
-        self.refill(lane);
-    }
-
-    /// Hands a run over that cannot go on.
-    #[cold]
-    fn fail(&mut self, lane: usize, status: Status, finish: &mut Finish<'_>) {
-        let Some(place) = self.places[lane] else { return };
-        let steps = self.steps(&place);
-        let segment = &self.work.ring[(self.clock - 1) % self.work.ring.len()];
-        let reached = if status == Status::NonFinite { segment.start.lane(lane) } else { self.time.lane(lane) };
-        self.time.set_lane(lane, reached);
-        if place.watching {
-            self.evaluate_kept(lane, false);
-        }
-        let points = self.places[lane].map_or(place.point, |place| place.point);
-        let bounds = &self.runs[place.run].stretches[place.stretch];
-        let outcome = Outcome {
-            status,
-            time: reached.mul_add(place.unit, bounds.start),
-            points,
-            effort: Effort { steps, rejected: 0, evaluations: steps },
-            local_errors: self.truncation.left_out(lane).errors(steps, place.periods),
-        };
-        let trajectory = &mut self.work.trajectories[lane];
-        trajectory.fill_after(points, f64::NAN);
-        finish(place.run, trajectory, &outcome);
-        self.refill(lane);
-    }
-
-    /// More memory for a long period, or no longer looking for it.
-    #[cold]
-    fn make_room(&mut self, lane: usize) {
-        if self.work.grow_ring(self.time.zero(), self.clock) {
-            return;
-        }
-        self.evaluate_kept(lane, false);
-        if let Some(place) = &mut self.places[lane] {
-            place.watching = false;
-        }
-        self.watch.set(lane, None);
-        self.look_ahead(lane);
-    }
-
-    /// Evaluates the points of a watched stretch one by one from the series that were kept: those before the present time,
-    /// or all of the stretch where it is the `whole`.
-    #[cold]
-    #[inline(never)]
-    fn evaluate_kept(&mut self, lane: usize, whole: bool) {
-        let Some(mut place) = self.places[lane] else { return };
-        let ring = &self.work.ring;
-        let run = &self.runs[place.run];
-        let bounds = &run.stretches[place.stretch];
-        let last = place.stretch + 1 == run.stretches.len();
-        let reached = self.time.lane(lane);
-        let mut step = place.begun;
-        while let Some(time) = self.grid.times().get(place.point) {
-            let local = (time - bounds.start) / place.unit;
-            if if whole { !last && *time > bounds.end } else { local >= reached } {
-                break;
-            }
-            while step + 1 < self.clock && ring[(step + 1) % ring.len()].start.lane(lane) <= local {
-                step += 1;
-            }
-            let segment = &ring[step % ring.len()];
-            let x = (local - segment.start.lane(lane)) - segment.start_low.lane(lane);
-            let factors = factors::<f64, N>(1.0 / place.unit);
-            let trajectory = &mut self.work.trajectories[lane];
-            for i in 0..J {
-                trajectory.column_mut(i)[place.point] = value_at(&segment.jet, i, lane, x) * factors[i];
-            }
-            let riders = place.riders_after::<N, J>(local);
-            for i in J..N {
-                trajectory.column_mut(i)[place.point] = riders[i - J] * factors[i];
-            }
-            place.point += 1;
-        }
-        self.places[lane] = Some(place);
-    }
-}
-
-impl Place {
-    /// The step up to which the lane waits for most of the others.
-    pub(super) fn patience(&self, wait: &Wait) -> usize {
-        wait.since + 2 + (wait.since - self.begun) / 4
-    }
-
-    /// The components without series `time` units into a stretch in which nothing acts.
-    pub(super) fn riders_after<const N: usize, const J: usize>(&self, time: f64) -> [f64; RIDERS] {
-        let mut riders = self.riders;
-        if N >= WITH_THRUST {
-            for i in 0..3 {
-                let path = IMPULSE_INTEGRAL + i - J;
-                riders[path] = time.mul_add(self.riders[IMPULSE + i - J], self.riders[path]);
-            }
-        }
-        riders
-    }
-}
-
-/// What turns a component in the lane's unit of time into SI, given one over the unit.
-#[inline(always)]
-pub(super) fn factors<R: Real, const N: usize>(per_unit: R) -> [R; N] {
-    let mut factors = [per_unit.splat(1.0); N];
-    factors[OMEGA..OMEGA + 3].fill(per_unit);
-    if N >= WITH_MOTORS {
-        factors[MOTOR_WORK] = per_unit * per_unit;
-    }
-    if N >= WITH_THRUST {
-        factors[IMPULSE..IMPULSE + 3].fill(per_unit);
-        factors[ANGULAR_IMPULSE..ANGULAR_IMPULSE + 3].fill(per_unit);
-        factors[THRUST_WORK] = per_unit * per_unit;
-    }
-    factors
 }
 
 /// The sum and its rounding error, for |a| >= |b| or a = 0 (T. J. Dekker, Numerische Mathematik 18, 1971).

@@ -1,7 +1,8 @@
 //! Taylor series of the gyrostat in lanes, with periodic propagation of what is free of torque.
 //!
 //! - [`jet`]: the recurrences. [`step`]: order and step size. [`thrust`]: integrals of the thrust along a step.
-//! - `truncation`: what the steps leave out. [`march`]: the lanes; [`workspace`]: their memory. [`dense`]: evaluating series at the observation points.
+//! - `truncation`: what the steps leave out. [`march`]: the lanes; `place`: where each is in its run; `points`: what it passes;
+//!   [`workspace`]: their memory. [`dense`]: evaluating series at the observation points.
 //! - [`period`]: finding the period of omega and folding time by it; [`watch`]: the same for all lanes at once;
 //!   [`fold`]: the points of runs whose period is known.
 //! - [`truth`]: reference solutions of any scene by the same recurrences in double-double.
@@ -17,6 +18,8 @@ pub mod fold;
 pub mod jet;
 pub mod march;
 pub mod period;
+mod place;
+mod points;
 pub mod step;
 pub mod thrust;
 mod truncation;

@@ -13,7 +13,7 @@
 use fearless_simd::Simd;
 
 use super::jet::{Reciprocals, Scratch, expand};
-use super::march::factors;
+use super::points::factors;
 use super::step::StepRule;
 use crate::dynamics::debris;
 use crate::dynamics::gyrostat::equations::Constants;
