@@ -135,16 +135,17 @@ fn a_grid_and_one_at_a_time_have_their_own_size() {
     assert_eq!(distinct.len(), 24);
     assert!((value(&rows[6], "fuselage_length_m") - 2.975).abs() < 1e-12, "the fourth dimension is slowest");
 
-    let text = format!("{}quantiles = [0.1, 0.9]\n{RATE}{LENGTH}", design("one_at_a_time"));
+    let text = format!("{}quantiles = [0.1, 0.9]\n{RATE}{LENGTH}{RADIUS}", design("one_at_a_time"));
     let one = read(&text).unwrap_or_else(|e| panic!("{e}"));
-    assert_eq!(one.samples, 9);
-    let rows = draws(&one, 0..9);
+    assert_eq!(one.samples, 11);
+    let rows = draws(&one, 0..11);
     for (id, row) in rows.iter().enumerate().skip(1) {
         let moved: Vec<&String> = row.keys().filter(|name| row[*name] != rows[0][*name]).collect();
         assert_eq!(moved.len(), 1, "sample {id}");
     }
     assert!((value(&rows[7], "fuselage_length_m") - 2.92).abs() < 1e-12);
     assert!((value(&rows[8], "fuselage_length_m") - 3.08).abs() < 1e-12);
+    assert_eq!(value(&rows[8], "wheel1_radius_m"), 0.25, "the nominal, not the median");
 }
 
 #[test]

@@ -64,6 +64,14 @@ fn rows(table: &mut Section<'_, '_>) -> Option<Vec<DataColumn>> {
     }
     let (name, data) = file(table)?;
     let wanted = listed.unwrap_or_else(|| data.names.iter().filter(|name| *name != "sample_id").cloned().collect());
+    if wanted.is_empty() {
+        table.refuse(
+            "file",
+            "a file with columns that are named like parameters",
+            "name its columns wheel1.radius_m, ...",
+        );
+        return None;
+    }
     let mut columns = Vec::with_capacity(wanted.len());
     for parameter in wanted {
         columns.push(column(table, &name, &data, &parameter)?);

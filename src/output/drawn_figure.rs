@@ -19,7 +19,7 @@ const ACROSS: usize = 4;
 /// Height of the figure's title, pixels.
 const TITLE_HEIGHT: u32 = 44;
 /// Height of the title over the correlations, pixels.
-const CAPTION_HEIGHT: u32 = 40;
+const CAPTION_HEIGHT: u32 = 52;
 /// Largest size of a cell of the correlation plot, pixels.
 const LARGEST_CELL: u32 = 64;
 /// Width kept for the names beside the correlation plot, pixels.
@@ -97,7 +97,7 @@ impl DrawnFigure<'_> {
             ((self.cell() * scale) as i32, (NAMES_WIDTH * scale) as i32, (CAPTION_HEIGHT * scale) as i32);
         let font = |size: u32| ("sans-serif", size * scale).into_font();
         let caption = font(17).into_text_style(area).pos(Pos::new(HPos::Left, VPos::Center));
-        area.draw_text("Rank correlation", &caption, (left, top / 2)).map_err(drawing)?;
+        area.draw_text("Rank correlation", &caption, (left, top / 3)).map_err(drawing)?;
         let correlations = self.drawn.rank_correlations();
         for (i, (name, row)) in self.names.iter().zip(&correlations).enumerate() {
             let y = top + i as i32 * cell;
@@ -105,6 +105,9 @@ impl DrawnFigure<'_> {
             let style = font(size).into_text_style(area).pos(Pos::new(HPos::Right, VPos::Center));
             area.draw_text(&format!("{name}  {}", i + 1), &style, (left - 8 * scale as i32, y + cell / 2))
                 .map_err(drawing)?;
+            let number = font(size).into_text_style(area).pos(Pos::new(HPos::Center, VPos::Bottom));
+            let above = (left + i as i32 * cell + cell / 2, top - 3 * scale as i32);
+            area.draw_text(&format!("{}", i + 1), &number, above).map_err(drawing)?;
             for (j, r) in row.iter().enumerate() {
                 let x = left + j as i32 * cell;
                 let square = Rectangle::new([(x, y), (x + cell - 1, y + cell - 1)], shade(*r).filled());
@@ -160,7 +163,9 @@ fn histogram<B: DrawingBackend>(
     let mut chart = ChartBuilder::on(area)
         .caption(name, ("sans-serif", 13 * scale))
         .margin(6 * scale)
-        .margin_right(14 * scale)
+        // room for half of the outermost labels
+        .margin_left(28 * scale)
+        .margin_right(28 * scale)
         .x_label_area_size(24 * scale)
         .build_cartesian_2d(0.0..1.0, 0.0..1.05 * f64::from(most))
         .map_err(drawing)?;

@@ -1,5 +1,5 @@
-//! Laws of listed values: [`Choice`] with weights, [`Empirical`] as a file's column. Values are sorted, so that quantiles rise with u
-//! and a rank correlation means what it says.
+//! Laws of listed values: [`Choice`] with weights, [`Empirical`] as a file's column. Values are sorted, so that quantiles rise
+//! with u and a rank correlation means what it says.
 
 use super::law::Interpolation;
 use std::sync::Arc;

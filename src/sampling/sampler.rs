@@ -20,6 +20,8 @@ pub struct Sampler<'a> {
     block: Option<u64>,
     /// Numbers u of the block, dimension by dimension.
     u: Vec<[f64; BLOCK]>,
+    /// Which of these keep their nominal values; only in a design of one at a time.
+    nominal: Vec<[bool; BLOCK]>,
     /// Normal scores of the block, dimension by dimension; those of dimensions that no copula ties mean nothing.
     scores: Vec<[f64; BLOCK]>,
     /// Which dimensions have scores.
@@ -37,6 +39,7 @@ impl<'a> Sampler<'a> {
             points: dispersions.points(),
             block: None,
             u: vec![[0.5; BLOCK]; dispersions.dimensions.len()],
+            nominal: vec![[false; BLOCK]; dispersions.dimensions.len()],
             scores: vec![[0.0; BLOCK]; dispersions.dimensions.len()],
             tied: tied(dispersions),
             // columns that no law writes keep their nominal
@@ -79,6 +82,10 @@ impl<'a> Sampler<'a> {
     /// Draws the samples of `block`.
     fn fill(&mut self, block: u64) {
         self.points.fill(block, &mut self.u);
+        let some_stay = matches!(self.dispersions.design(), Design::OneAtATime(_));
+        if some_stay {
+            self.note_nominals();
+        }
         for copula in &self.dispersions.copulas {
             copula.apply(&mut self.u, &mut self.scores);
         }
@@ -95,7 +102,7 @@ impl<'a> Sampler<'a> {
                 Map::Joint(joint) => self.draw_joint(law, joint),
             }
         }
-        if matches!(self.dispersions.design(), Design::OneAtATime(_)) {
+        if some_stay {
             self.keep_nominals();
         }
         for (column, rows) in &self.dispersions.tabled {
@@ -119,12 +126,24 @@ impl<'a> Sampler<'a> {
         let (mut u, mut values) = ([0.0; MOST_DIMENSIONS], [0.0; MOST_COMPONENTS]);
         for lane in 0..BLOCK {
             for (u, block) in u.iter_mut().zip(&self.u[law.first..law.first + dimensions]) {
-                // while one dimension of a law has its turn, the others are at their middle
-                *u = if block[lane].is_nan() { 0.5 } else { block[lane] };
+                *u = block[lane];
             }
             joint.values(&u[..dimensions], &mut values);
             for (column, value) in law.columns.iter().zip(values) {
                 self.values[*column][lane] = value;
+            }
+        }
+    }
+
+    /// Notes where a dimension keeps its nominal value, and puts the middle of its law there: while one dimension of a law of
+    /// several has its turn, the others stand at their middle.
+    fn note_nominals(&mut self) {
+        for (u, nominal) in self.u.iter_mut().zip(&mut self.nominal) {
+            for (u, nominal) in u.iter_mut().zip(nominal) {
+                *nominal = u.is_nan();
+                if *nominal {
+                    *u = 0.5;
+                }
             }
         }
     }
@@ -134,7 +153,7 @@ impl<'a> Sampler<'a> {
         for law in self.dispersions.laws.iter().filter(|law| law.map.dimensions() > 0) {
             let dimensions = law.first..law.first + law.map.dimensions();
             for lane in 0..BLOCK {
-                if self.u[dimensions.clone()].iter().all(|u| u[lane].is_nan()) {
+                if self.nominal[dimensions.clone()].iter().all(|nominal| nominal[lane]) {
                     for column in &law.columns {
                         self.values[*column][lane] = self.dispersions.columns[*column].nominal;
                     }

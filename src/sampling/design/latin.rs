@@ -99,8 +99,8 @@ mod tests {
         }
     }
 
-    /// H0: over keys, all 120 permutations of five are alike. n = 24,000 keys, chi-square with 119 degrees of freedom, alpha = 1e-3:
-    /// critical 172.4. Power: were one permutation in ten missing, the statistic would be above 2000.
+    /// H0: over keys, all 120 permutations of five are alike. n = 24,000 keys, chi-square with 119 degrees of freedom,
+    /// alpha = 1e-3: critical 172.4. Power: were one permutation in ten missing, the statistic would be above 2000.
     #[test]
     fn all_permutations_of_five_are_alike() {
         let mut counts = std::collections::HashMap::new();

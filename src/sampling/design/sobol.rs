@@ -1,8 +1,8 @@
 //! [`Sobol`]: Sobol's sequence with the direction numbers of Joe and Kuo and nested uniform scrambling.
 //!
 //! Directions: S. Joe & F. Y. Kuo, *Constructing Sobol sequences with better two-dimensional projections*, SIAM J. Sci. Comput.
-//! 30 (2008) 2635, file new-joe-kuo-6, its first 512 dimensions. Scrambling: A. B. Owen, *Randomly permuted (t,m,s)-nets and (t,s)-sequences*
-//! (1995): each bit of a point is flipped or not by a hash of the dimension's key and of the bits above it, so that all points
+//! 30 (2008) 2635, file new-joe-kuo-6, its first 512 dimensions. Scrambling: A. B. Owen, *Randomly permuted (t,m,s)-nets and
+//! (t,s)-sequences* (1995): each bit of a point is flipped or not by a hash of the dimension's key and of the bits above it, so that all points
 //! that share those bits are flipped alike; done bit by bit for the leading 32, which tell any 2^32 points apart, and by one hash
 //! of these for the bits below. Point 0 is used, as it must be (A. B. Owen, *On dropping the first Sobol' point*, 2020): the
 //! scrambled sequence is best in 2^m points, which are 2^m + 1 samples with the nominal one.
