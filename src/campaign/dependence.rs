@@ -5,9 +5,12 @@ use super::document::Section;
 use crate::sampling::{Correlation, Dependence, Derivation};
 use crate::scene::Parameter;
 
+/// A dependence from its matrix.
+type Kind = fn(Vec<Vec<f64>>) -> Dependence;
+
 /// Reads one `[[correlate]]` table; `None` where something is wrong, which is then noted.
 pub fn correlation(table: &mut Section<'_, '_>) -> Option<Correlation> {
-    const KINDS: [(&str, fn(Vec<Vec<f64>>) -> Dependence); 3] = [
+    const KINDS: [(&str, Kind); 3] = [
         ("correlation", Dependence::Scores),
         ("rank_correlation", Dependence::Ranks),
         ("covariance", Dependence::Covariance),

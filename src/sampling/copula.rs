@@ -132,6 +132,7 @@ fn semidefinite_part(matrix: &Matrix) -> Matrix {
 
 /// Eigenvalues of a symmetric matrix and its eigenvectors as columns, by cyclic Jacobi rotations (Golub & Van Loan, *Matrix
 /// Computations*, 4th ed. (2013), section 8.5).
+#[expect(clippy::needless_range_loop, reason = "two rows of one matrix change together")]
 fn eigen(matrix: &Matrix) -> (Vec<f64>, Matrix) {
     const SWEEPS: usize = 60;
     let n = matrix.len();
@@ -207,8 +208,7 @@ mod tests {
 
     #[test]
     fn eigenvectors_rebuild_the_matrix() {
-        let r: Matrix =
-            (0..7).map(|i| (0..7).map(|j| 1.0 / f64::from(1 + (i as i32 - j as i32).abs())).collect()).collect();
+        let r: Matrix = (0..7).map(|i| (0..7).map(|j| 1.0 / f64::from(1 + i32::abs(i - j))).collect()).collect();
         let (values, vectors) = eigen(&r);
         for i in 0..7 {
             for j in 0..7 {

@@ -82,6 +82,7 @@ const NOMINAL_SLACK: f64 = 1e-9;
 
 impl Correlation {
     /// The dependence of the dimensions of `drawn`.
+    #[expect(clippy::needless_range_loop, reason = "entries of a matrix are known by two indices")]
     pub(super) fn copula(&self, index: usize, drawn: &Dispersions) -> Result<Copula, DispersionError> {
         let refused = |key, value: String, allowed: String, remedy: &str| {
             Err(error_of(Table::Correlate(index), key, value, allowed, remedy))
