@@ -5,12 +5,13 @@ use spindrift::dynamics::table::{Block, StateTable};
 use spindrift::math::double_double::DoubleDouble;
 use spindrift::math::vector::{constant, constant_matrix, dcm_from_quaternion, dot, product, scaled, sum};
 use spindrift::math::{Real, vector};
-use spindrift::scene::Scene;
+use spindrift::scene::{Scene, WheelMode};
 
 /// What a free spacecraft conserves, at one point.
 #[derive(Clone, Copy, Debug)]
 pub struct Invariants {
-    /// Kinetic energy about c, J.
+    /// Kinetic energy about c, J; where the speed of wheels is held less what their motors give: half omega . K omega, with K the
+    /// inertia that turns with the fuselage.
     pub energy: DoubleDouble,
     /// Size of the angular momentum about c from the rates alone, N m s.
     pub momentum: DoubleDouble,
@@ -20,13 +21,17 @@ pub struct Invariants {
     pub norm: DoubleDouble,
 }
 
-/// The absolute axial momenta h_i of free wheels, which nothing changes, N m s.
+/// The wheels' momenta that nothing changes, N m s: h_i of a free wheel, J_i Omega_i of one whose speed is held.
 fn wheel_momenta(scene: &Scene) -> [DoubleDouble; 2] {
     let zero = DoubleDouble::exact(0.0);
     let omega = constant(zero, scene.initial.omega_se_s);
     std::array::from_fn(|i| {
         let wheel = &scene.mass.wheels[i];
-        zero.splat(wheel.axial) * (dot(constant(zero, wheel.axis), omega) + zero.splat(scene.initial.wheel_rates[i]))
+        let carried = match wheel.mode {
+            WheelMode::Free => dot(constant(zero, wheel.axis), omega),
+            WheelMode::SpeedHeld => zero,
+        };
+        zero.splat(wheel.axial) * (carried + zero.splat(scene.initial.wheel_rates[i]))
     })
 }
 
@@ -36,7 +41,7 @@ impl Invariants {
         let zero = DoubleDouble::exact(0.0);
         let half = zero.splat(0.5);
         let omega = constant(zero, table.at::<3>(Block::Rate, point));
-        let mut momentum = product(constant_matrix(zero, scene.mass.inertia_free), omega);
+        let mut momentum = product(constant_matrix(zero, scene.mass.inertia_rotating()), omega);
         let mut energy = half * dot(momentum, omega);
         for (wheel, h) in scene.mass.wheels.iter().zip(wheel_momenta(scene)) {
             if wheel.axial != 0.0 {
