@@ -101,7 +101,7 @@ parameter = "initial.debris_attitude"
 distribution = "normal"
 std = 0.1
 [[disperse]]
-parameter = "fuselage.density_kg_m3"
+parameter = "fuselage.center_of_mass_m.z"
 distribution = "truncated_normal"
 relative_std = 0.1
 relative_lower = -0.2

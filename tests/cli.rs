@@ -382,7 +382,7 @@ fn plots_and_tables_are_made() {
 /// Law: `sample` draws what the campaign draws, in both formats, and says which samples could not be run.
 #[test]
 fn sample_draws_the_rows_of_the_campaign() {
-    let room = Room::new("sample");
+    let room = Room::new("drawn");
     room.file("thin.toml", &format!("{CAMPAIGN}{THIN_WALLS}"));
     let said = room.says("sample thin.toml --out s.csv --plot s.svg", 0);
     for expected in ["of 599 draws", "fuselage.wall_thickness_m", "uniform, -0.02", "initial.angular_velocity_rad_s.z"]

@@ -16,9 +16,6 @@ wall_thickness_m = 0.03
 outer_radius_m = 1.0
 length_m = 3.0
 density_kg_m3 = 2700.0
-mass_kg = 2000.0
-center_of_mass_m = [0, 0, 1.5]
-inertia_kg_m2 = [[3000, 1, 2], [1, 3000, 3], [2, 3, 1700]]
 [wheel1]
 radius_m = 0.25
 length_m = 0.1
