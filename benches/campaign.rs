@@ -5,7 +5,7 @@
 //!
 //! - `sampling`: draws, and mass properties and initial state from them;
 //! - `observation`: the observables of a run that stands in the state table: all, those about the centre of mass with the
-//!   exchange, and those alone;
+//!   exchange, those alone, and the estimate of errors alone;
 //! - `writing`: rows to Parquet, in memory;
 //! - `campaign`: all of it, rows given to a sink that drops them, and rows written.
 
@@ -57,9 +57,13 @@ fn observation(criterion: &mut Criterion) {
     let com = Groups::NONE.with(Group::EnergiesCom);
     let mut group = criterion.benchmark_group("observation");
     group.throughput(Throughput::Elements(1));
-    for (name, groups) in
-        [("all", Groups::ALL), ("energies_com and exchange", com.with(Group::Exchange)), ("energies_com", com)]
-    {
+    let numerics = Groups::NONE.with(Group::Numerics);
+    for (name, groups) in [
+        ("all", Groups::ALL),
+        ("energies_com and exchange", com.with(Group::Exchange)),
+        ("energies_com", com),
+        ("numerics", numerics),
+    ] {
         let request = Request { groups, ..*Campaign::new(&plan, isa).request() };
         let mut observer = Observer::new(request, &plan.grid);
         let mut row = vec![0.0; request.columns().len()];

@@ -53,8 +53,8 @@ const LEAST: f64 = 1e-17;
 const PER_AXIS: f64 = 0.577_350_269_189_625_8;
 
 /// Factor on the sum of all that is known of an error, from the runs of `tests/error_estimate.rs`: with 1 the estimate lies below
-/// the true error in up to half of the runs of a family (by a few percent, mostly), with 2.5 in less than one of twenty.
-const SAFETY: f64 = 2.5;
+/// the true error in up to half of the runs of a family (by a third, mostly), with 2 in less than one of twenty.
+const SAFETY: f64 = 2.0;
 
 /// An estimate of half a turn says that nothing is known.
 const LOST: f64 = core::f64::consts::PI;
