@@ -85,9 +85,9 @@ mod tests {
         let m = [[3.0, 0.25, -0.5], [0.25, 2.0, 0.125], [-0.5, 0.125, 1.5]];
         let (cofactors, determinant) = (adjugate(m), dot(m[0], adjugate(m)[0]));
         for (i, row) in m.iter().enumerate() {
-            for j in 0..3 {
+            for (j, cofactor) in cofactors.iter().enumerate() {
                 // both are symmetric: a column is a row
-                let entry = dot(*row, cofactors[j]) / determinant;
+                let entry = dot(*row, *cofactor) / determinant;
                 assert!((entry - f64::from(u8::from(i == j))).abs() < ROUNDING, "{i}, {j}: {entry}");
             }
         }

@@ -1,4 +1,9 @@
 //! Stored series and their values: every lane at a time of its own.
+#![expect(
+    clippy::needless_range_loop,
+    clippy::manual_memcpy,
+    reason = "components are numbered alike in several arrays; a copy by slices leaves the registers"
+)]
 
 use crate::math::Real;
 

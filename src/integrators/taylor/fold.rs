@@ -274,9 +274,7 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> March
             }
         }
         let riders = place.riders_after::<N, J>(place.length);
-        for i in J..N {
-            at_end[i] = riders[i - J];
-        }
+        at_end[J..N].copy_from_slice(&riders[..N - J]);
         for i in 0..N {
             self.state[i].set_lane(lane, at_end[i]);
             self.state_low[i].set_lane(lane, 0.0);

@@ -27,7 +27,7 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> March
         if FORCED {
             let mut turned = angle_of(&at);
             for i in 0..3 {
-                turned[i] = turned[i] - segment.jet[0][ANGLE + i];
+                turned[i] -= segment.jet[0][ANGLE + i];
             }
             let grown = self.work.quadrature.growth(constants, &segment.jet, begin, turned, x);
             for i in J..N {

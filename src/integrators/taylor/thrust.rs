@@ -6,7 +6,6 @@
 //! Gauss-Legendre quadrature: m nodes integrate exp(i Omega t) over h to (Omega h)^2m (m!)^4/((2m+1) (2m)!^3)
 //! (P. J. Davis & P. Rabinowitz, *Methods of Numerical Integration*, 2nd ed. 1984, section 2.7), and m is chosen from the
 //! largest turn that a step may have. An observation point inside a step is the end of a shorter one.
-#![expect(clippy::needless_range_loop, reason = "components are numbered alike in several arrays")]
 
 use super::step::StepRule;
 use crate::dynamics::gyrostat::equations::Constants;
