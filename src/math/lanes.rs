@@ -52,6 +52,18 @@ impl<S: Simd> Lanes<S> {
         self.0.to_array()
     }
 
+    /// The lanes of `self` and `other` by turns: the first eight, the last eight.
+    #[inline(always)]
+    pub fn interleave(self, other: Self) -> (Self, Self) {
+        (Lanes(self.0.zip_low(other.0)), Lanes(self.0.zip_high(other.0)))
+    }
+
+    /// The even and the odd numbers of the sixteen that `self` and `other` hold.
+    #[inline(always)]
+    pub fn deinterleave(self, other: Self) -> (Self, Self) {
+        (Lanes(self.0.unzip_low(other.0)), Lanes(self.0.unzip_high(other.0)))
+    }
+
     /// The token of the instruction set behind.
     #[inline(always)]
     pub fn simd(self) -> S {

@@ -216,7 +216,7 @@ impl Observer {
             Some(spectrum) => {
                 let (column, mean) = fuselage;
                 let slope = slope(simd, &self.weights, column, mean);
-                spectrum.peak(simd, column, mean, slope, self.weights.centered_times())
+                spectrum.peak(simd, column, mean, slope)
             }
             None => f64::NAN,
         };

@@ -22,8 +22,6 @@ pub(super) struct Weights {
     slope: Vec<[f64; WIDTH]>,
     /// One over the distance to the next point, 1/s.
     inverse_step: Vec<[f64; WIDTH]>,
-    /// Times less their mean, s, without padding.
-    centered_times: Vec<f64>,
 }
 
 impl Weights {
@@ -45,13 +43,7 @@ impl Weights {
             one: padded(vec![1.0; points]),
             slope: padded(slope.collect()),
             inverse_step: padded(inverse.collect()),
-            centered_times: centered,
         }
-    }
-
-    /// Times less their mean, s.
-    pub(super) fn centered_times(&self) -> &[f64] {
-        &self.centered_times
     }
 }
 

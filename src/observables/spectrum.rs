@@ -2,8 +2,9 @@
 //!
 //! Periodogram of the series less its least-squares line, under Hann's window (Harris 1978) and padded with zeros to a power
 //! of two; the largest ordinate at one cycle per horizon or more, refined by the parabola through the logarithms of it and its
-//! neighbours (Gasior & Gonzalez 2004). Cost n log n with an own radix-2 transform (Cooley & Tukey 1965), since every crate
-//! that was looked at chooses its algorithm by the machine, and then the bits differ.
+//! neighbours (Gasior & Gonzalez 2004). Cost n log n with an own radix-2 transform of constant geometry (Pease, J. ACM 15, 1968:
+//! every stage reads two halves and writes them interleaved, so that all stages are vectors), since every crate that was looked
+//! at chooses its algorithm by the machine, and then the bits differ.
 //!
 //! A tone is found within 0.05 of 1/horizon (a test measures it), if it is above one and below half the points per horizon; slower changes
 //! than one cycle per horizon look like about one.
@@ -26,17 +27,20 @@ pub(super) struct Spectrum {
     points: usize,
     /// Distance of two points, s.
     step: f64,
-    /// Hann's window at every point.
+    /// Hann's window at every point, zero in the padding.
     window: Vec<f64>,
+    /// Times less their mean, s, with padding.
+    centered_times: Vec<f64>,
     /// Number of complex values: half the padded length.
     size: usize,
-    /// Where complex value k goes before the first butterfly.
+    /// Where coefficient k stands after the last stage.
     order: Vec<u32>,
-    /// exp(-2 pi i j / length), j < length / 2, for length = 2, 4, ..., size one after another; then for 2 size.
-    cos: Vec<f64>,
-    sin: Vec<f64>,
-    re: Vec<f64>,
-    im: Vec<f64>,
+    /// exp(-2 pi i e / size), stage by stage, with e = j less its last bits, as many as stages before; j < size / 2.
+    stages: [Vec<f64>; 2],
+    /// exp(-2 pi i k / (2 size)), k < size.
+    turns: [Vec<f64>; 2],
+    /// Real and imaginary parts; each stage reads one pair and writes the other.
+    parts: [[Vec<f64>; 2]; 2],
     power: Vec<f64>,
 }
 
@@ -56,75 +60,98 @@ impl Spectrum {
         let size = points.next_power_of_two() / 2;
         let turn = |part: usize, whole: usize| 2.0 * std::f64::consts::PI * part as f64 / whole as f64;
         // the window of period n + 1, so that no point has weight zero
-        let window = (0..points).map(|k| 0.5 - 0.5 * libm::cos(turn(k + 1, points + 1))).collect();
+        let padded = points.next_multiple_of(2 * WIDTH);
+        let mut window: Vec<f64> = (0..points).map(|k| 0.5 - 0.5 * libm::cos(turn(k + 1, points + 1))).collect();
+        window.resize(padded, 0.0);
+        let mean_time = times.iter().sum::<f64>() / points as f64;
+        let mut centered_times: Vec<f64> = times.iter().map(|t| t - mean_time).collect();
+        centered_times.resize(padded, 0.0);
         let bits = size.trailing_zeros();
         let order = (0..size as u32).map(|k| k.reverse_bits() >> (u32::BITS - bits)).collect();
-        let (mut cos, mut sin) = (Vec::new(), Vec::new());
-        let mut length = 2;
-        while length <= 2 * size {
-            for j in 0..length / 2 {
-                cos.push(libm::cos(turn(j, length)));
-                sin.push(-libm::sin(turn(j, length)));
-            }
-            length *= 2;
-        }
-        let zeros = vec![0.0; size];
-        let power = vec![0.0; size + 1];
-        Some(Spectrum { points, step, window, size, order, cos, sin, re: zeros.clone(), im: zeros, power })
+        let exponents = (0..bits).flat_map(|stage| (0..size / 2).map(move |j| (j >> stage) << stage));
+        let stages = exponents.map(|e| (libm::cos(turn(e, size)), -libm::sin(turn(e, size)))).unzip();
+        let turns = (0..size).map(|k| (libm::cos(turn(k, 2 * size)), -libm::sin(turn(k, 2 * size)))).unzip();
+        let zeros = || vec![0.0; size.max(padded / 2)];
+        let parts = [[zeros(), zeros()], [zeros(), zeros()]];
+        let (stages, turns): ((Vec<f64>, Vec<f64>), (Vec<f64>, Vec<f64>)) = (stages, turns);
+        Some(Spectrum {
+            points,
+            step,
+            window,
+            centered_times,
+            size,
+            order,
+            stages: stages.into(),
+            turns: turns.into(),
+            parts,
+            power: vec![0.0; size + 1],
+        })
     }
 
-    /// The dominant frequency, Hz, of `column` less the line `mean + slope * centered_times`.
+    /// The dominant frequency, Hz, of `column` less the line `mean + slope * (time - mean time)`; the column is padded to a
+    /// multiple of sixteen.
     #[inline(always)]
-    pub(super) fn peak<S: Simd>(
-        &mut self,
-        simd: S,
-        column: &[f64],
-        mean: f64,
-        slope: f64,
-        centered_times: &[f64],
-    ) -> f64 {
-        self.re.fill(0.0);
-        self.im.fill(0.0);
-        for k in 0..self.points {
-            let value = self.window[k] * ((column[k] - mean) - slope * centered_times[k]);
-            let place = self.order[k / 2] as usize;
-            if k % 2 == 0 { self.re[place] = value } else { self.im[place] = value }
-        }
+    pub(super) fn peak<S: Simd>(&mut self, simd: S, column: &[f64], mean: f64, slope: f64) -> f64 {
+        self.fill(simd, column, mean, slope);
         self.transform(simd);
         self.fill_power();
         self.highest()
     }
 
-    /// The complex transform in place, input in bit-reversed order.
+    /// Even points as real, odd points as imaginary parts.
+    #[inline(always)]
+    fn fill<S: Simd>(&mut self, simd: S, column: &[f64], mean: f64, slope: f64) {
+        let (mean, slope) = (Lanes::broadcast(simd, mean), Lanes::broadcast(simd, slope));
+        let [re, im] = &mut self.parts[0];
+        let (window, times) = (&self.window[..], &self.centered_times[..]);
+        for first in (0..window.len()).step_by(2 * WIDTH) {
+            let second = first + WIDTH;
+            let early = Lanes::from_slice(simd, &column[first..]) - mean;
+            let late = Lanes::from_slice(simd, &column[second..]) - mean;
+            let early = early - slope * Lanes::from_slice(simd, &times[first..]);
+            let late = late - slope * Lanes::from_slice(simd, &times[second..]);
+            let early = early * Lanes::from_slice(simd, &window[first..]);
+            let late = late * Lanes::from_slice(simd, &window[second..]);
+            let (even, odd) = early.deinterleave(late);
+            even.store(&mut re[first / 2..]);
+            odd.store(&mut im[first / 2..]);
+        }
+        let filled = window.len() / 2;
+        re[filled..].fill(0.0);
+        im[filled..].fill(0.0);
+    }
+
+    /// The complex transform; coefficient k ends at `order[k]` of the first parts.
     #[inline(always)]
     fn transform<S: Simd>(&mut self, simd: S) {
-        let (re, im) = (&mut self.re[..], &mut self.im[..]);
-        let mut half = 1;
-        while half < self.size {
-            let (cos, sin) = (&self.cos[half - 1..][..half], &self.sin[half - 1..][..half]);
-            for (re, im) in re.chunks_exact_mut(2 * half).zip(im.chunks_exact_mut(2 * half)) {
-                let (re_a, re_b) = re.split_at_mut(half);
-                let (im_a, im_b) = im.split_at_mut(half);
-                if half >= WIDTH {
-                    for at in (0..half).step_by(WIDTH) {
-                        let a = (Lanes::from_slice(simd, &re_a[at..]), Lanes::from_slice(simd, &im_a[at..]));
-                        let b = (Lanes::from_slice(simd, &re_b[at..]), Lanes::from_slice(simd, &im_b[at..]));
-                        let w = (Lanes::from_slice(simd, &cos[at..]), Lanes::from_slice(simd, &sin[at..]));
-                        let (a, b) = butterfly(a, b, w);
-                        a.0.store(&mut re_a[at..]);
-                        a.1.store(&mut im_a[at..]);
-                        b.0.store(&mut re_b[at..]);
-                        b.1.store(&mut im_b[at..]);
-                    }
-                } else {
-                    for j in 0..half {
-                        let (a, b) = butterfly((re_a[j], im_a[j]), (re_b[j], im_b[j]), (cos[j], sin[j]));
-                        (re_a[j], im_a[j]) = a;
-                        (re_b[j], im_b[j]) = b;
-                    }
+        let half = self.size / 2;
+        let [from, to] = &mut self.parts;
+        let stages = self.stages[0].chunks_exact(half).zip(self.stages[1].chunks_exact(half));
+        for (cos, sin) in stages {
+            let ([re, im], [re_out, im_out]) = (&mut *from, &mut *to);
+            let (re_a, re_b) = re.split_at(half);
+            let (im_a, im_b) = im.split_at(half);
+            if half >= WIDTH {
+                for at in (0..half).step_by(WIDTH) {
+                    let a = (Lanes::from_slice(simd, &re_a[at..]), Lanes::from_slice(simd, &im_a[at..]));
+                    let b = (Lanes::from_slice(simd, &re_b[at..]), Lanes::from_slice(simd, &im_b[at..]));
+                    let w = (Lanes::from_slice(simd, &cos[at..]), Lanes::from_slice(simd, &sin[at..]));
+                    let (sum, turned) = butterfly(a, b, w);
+                    let (low, high) = sum.0.interleave(turned.0);
+                    low.store(&mut re_out[2 * at..]);
+                    high.store(&mut re_out[2 * at + WIDTH..]);
+                    let (low, high) = sum.1.interleave(turned.1);
+                    low.store(&mut im_out[2 * at..]);
+                    high.store(&mut im_out[2 * at + WIDTH..]);
+                }
+            } else {
+                for j in 0..half {
+                    let (sum, turned) = butterfly((re_a[j], im_a[j]), (re_b[j], im_b[j]), (cos[j], sin[j]));
+                    (re_out[2 * j], im_out[2 * j]) = sum;
+                    (re_out[2 * j + 1], im_out[2 * j + 1]) = turned;
                 }
             }
-            half *= 2;
+            core::mem::swap(from, to);
         }
     }
 
@@ -132,15 +159,16 @@ impl Spectrum {
     #[inline(always)]
     fn fill_power(&mut self) {
         let size = self.size;
-        let (cos, sin) = (&self.cos[size - 1..][..size], &self.sin[size - 1..][..size]);
-        let (re, im) = (&self.re[..size], &self.im[..size]);
+        let [cos, sin] = &self.turns;
+        let [re, im] = &self.parts[0];
         let power = &mut self.power[..=size];
         power[0] = (re[0] + im[0]) * (re[0] + im[0]);
         power[size] = (re[0] - im[0]) * (re[0] - im[0]);
         for k in 1..=size / 2 {
             let other = size - k;
-            let even = (0.5 * (re[k] + re[other]), 0.5 * (im[k] - im[other]));
-            let odd = (0.5 * (im[k] + im[other]), -0.5 * (re[k] - re[other]));
+            let (at, at_other) = (self.order[k] as usize, self.order[other] as usize);
+            let even = (0.5 * (re[at] + re[at_other]), 0.5 * (im[at] - im[at_other]));
+            let odd = (0.5 * (im[at] + im[at_other]), -0.5 * (re[at] - re[at_other]));
             let turned = (cos[k] * odd.0 - sin[k] * odd.1, cos[k] * odd.1 + sin[k] * odd.0);
             let (x, y) = (even.0 + turned.0, even.1 + turned.1);
             power[k] = x * x + y * y;
@@ -170,11 +198,12 @@ impl Spectrum {
     }
 }
 
-/// a + w b and a - w b.
+/// a + b and w (a - b).
 #[inline(always)]
 fn butterfly<R: Real>(a: (R, R), b: (R, R), w: (R, R)) -> ((R, R), (R, R)) {
-    let turned = (w.0.mul_add(b.0, -(w.1 * b.1)), w.0.mul_add(b.1, w.1 * b.0));
-    ((a.0 + turned.0, a.1 + turned.1), (a.0 - turned.0, a.1 - turned.1))
+    let apart = (a.0 - b.0, a.1 - b.1);
+    let turned = (w.0.mul_add(apart.0, -(w.1 * apart.1)), w.0.mul_add(apart.1, w.1 * apart.0));
+    ((a.0 + b.0, a.1 + b.1), turned)
 }
 
 #[cfg(test)]
@@ -187,20 +216,26 @@ mod tests {
     /// as 0.03 over the tones of the test (from two cycles per horizon on), with margin for interference of the mirror image.
     const BIN_ERROR: f64 = 0.05;
 
-    struct Peak<'a>(&'a mut Spectrum, &'a [f64], f64, f64, &'a [f64]);
+    struct Peak<'a>(&'a mut Spectrum, &'a [f64], f64, f64);
     impl Work for Peak<'_> {
         type Output = f64;
         #[inline(always)]
         fn run<S: Simd>(self, simd: S) -> f64 {
-            self.0.peak(simd, self.1, self.2, self.3, self.4)
+            self.0.peak(simd, self.1, self.2, self.3)
         }
+    }
+
+    /// A column as the table of series has it: padded, here with numbers that must not matter.
+    fn padded(mut values: Vec<f64>) -> Vec<f64> {
+        values.resize(values.len().next_multiple_of(2 * WIDTH), 1e3);
+        values
     }
 
     fn peak(points: usize, duration: f64, f: impl Fn(f64) -> f64) -> f64 {
         let grid = Grid::uniform(duration, points);
         let values: Vec<f64> = grid.times().iter().map(|t| f(*t)).collect();
         let mut spectrum = Spectrum::of(&grid).unwrap();
-        Isa::best().run(Peak(&mut spectrum, &values, 0.0, 0.0, &vec![0.0; points]))
+        Isa::best().run(Peak(&mut spectrum, &padded(values), 0.0, 0.0))
     }
 
     #[test]
@@ -209,7 +244,7 @@ mod tests {
             let grid = Grid::uniform(1.0, points);
             let values: Vec<f64> = (0..points).map(|k| ((k * 37 + 11) % 23) as f64 / 7.0 - 1.5).collect();
             let mut spectrum = Spectrum::of(&grid).unwrap();
-            Isa::best().run(Peak(&mut spectrum, &values, 0.0, 0.0, &vec![0.0; points]));
+            Isa::best().run(Peak(&mut spectrum, &padded(values.clone()), 0.0, 0.0));
             for k in 0..=spectrum.size {
                 let (mut x, mut y) = (0.0, 0.0);
                 for (j, value) in values.iter().enumerate() {
@@ -263,7 +298,7 @@ mod tests {
         let mut spectrum = Spectrum::of(&grid).unwrap();
         let bits: Vec<u64> = Isa::available()
             .into_iter()
-            .map(|isa| isa.run(Peak(&mut spectrum, &values, 0.01, 0.1, grid.times())).to_bits())
+            .map(|isa| isa.run(Peak(&mut spectrum, &padded(values.clone()), 0.01, 0.1)).to_bits())
             .collect();
         assert!(bits.windows(2).all(|pair| pair[0] == pair[1]));
     }
