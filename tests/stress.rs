@@ -126,6 +126,26 @@ fn flips_come_later_with_the_logarithm_of_the_offset() {
     hold(SECTION, "the same: relative distance of the slope from 1/lambda", 1e-2, (slope * lambda - 1.0).abs());
 }
 
+/// Law: where a rounding decides what the body does, the row says so, and only there. Two minutes hold the second approach to the
+/// unstable axis, which an energy off by a rounding (1e-16 against delta^2) makes another one.
+#[test]
+fn rows_near_the_separatrix_are_marked() {
+    let moments = [1000.0, 1500.0, 2000.0];
+    let marked = |delta: f64| {
+        let table = rows(&plan(&body(diagonal(moments), [0.0, 3.0, 3.0 * delta]), 120.0, 481));
+        assert_eq!(table.statuses, [Status::Done]);
+        let (marked, estimate) = (table.column("ill_conditioned")[0] == 1.0, table.column("state_error_estimate")[0]);
+        println!("delta {delta:e}: marked {marked}, estimate {estimate:e}");
+        marked
+    };
+    for exponent in 2..=5 {
+        assert!(!marked(libm::pow(10.0, -f64::from(exponent))), "1e-{exponent} is well conditioned");
+    }
+    for exponent in 9..=15 {
+        assert!(marked(libm::pow(10.0, -f64::from(exponent))), "1e-{exponent} is ill conditioned");
+    }
+}
+
 /// Law: no rate is too slow or too fast.
 #[test]
 fn any_rate_passes() {
