@@ -22,7 +22,7 @@ use spindrift::observables::{Group, Observer, Request};
 use spindrift::sampling::SampleId;
 use spindrift::scene::Scene;
 use support::runs::{adaptive, fixed};
-use support::scenes::{Kind, Uniform, mixed, random};
+use support::scenes::{Kind, Uniform, mixed, random, speed_held};
 
 /// Chance of rejecting one setting whose coverage is 95%: there are about two hundred settings.
 const ALPHA: f64 = 1e-5;
@@ -111,6 +111,15 @@ fn nutating(count: u64) -> Family {
         Scene::resolve(&input).expect("physical")
     };
     Family::new("nutating", Grid::uniform(10.0, 101), (0..count).map(scene).collect())
+}
+
+/// Wheels whose motors hold their speed, one or both.
+fn held(count: u64) -> Family {
+    let scene = |k: u64| {
+        let kind = Kind { wheels: [true; 2], debris: 0, products: k % 2 == 1, offset: k % 5 > 1, forced: false };
+        Scene::resolve(&speed_held(random(kind, 300 + k, 10.0), [k % 3 != 2, !k.is_multiple_of(3)])).expect("physical")
+    };
+    Family::new("speed held", Grid::uniform(10.0, 101), (0..count).map(scene).collect())
 }
 
 /// |x - truth| in all digits of the truth, with `sign` x.
@@ -217,6 +226,7 @@ fn breaches(count: u64, factor: f64) -> Vec<String> {
         nutating(count),
         Family::new("mixed", Grid::uniform(10.0, 101), mixed(count, false, 10.0)),
         Family::new("mixed, seen rarely", Grid::uniform(10.0, 11), mixed(count, false, 10.0)),
+        held(count),
         Family::new("mixed, forced", Grid::uniform(10.0, 101), mixed(count, true, 10.0)),
     ];
     let mut breaches = Vec::new();

@@ -23,7 +23,7 @@ impl<'a> Body<'a> {
     /// The constants of a run of `scene` for `duration` seconds, whose states `table` holds.
     pub(super) fn of(scene: &'a Scene, table: &StateTable, duration: f64) -> Self {
         let mass = &scene.mass;
-        let inertia = mass.inertia_free;
+        let inertia = mass.inertia_rotating();
         let [[x, xy, xz], [_, y, yz], [.., z]] = inertia;
         let is_free = scene.schedule.iter().all(|act| act.start >= duration);
         let offset = is_free.then(|| {

@@ -21,8 +21,9 @@ pub(super) struct LeftOut {
 
 /// Sums over the steps of a run, in lanes.
 ///
-/// The first term left out of a series is reckoned as the last one kept times its share of the one before. Of the attitude that
-/// needs its series: where only rates are integrated it counts as turning with constant omega, (|omega| h/2)^(p+1)/(p+1)!.
+/// Of the attitude the first term left out is reckoned from its own series: the last one kept, times the root of what that is of
+/// the term two orders before. Where only rates are integrated it counts as turning with constant omega,
+/// (|omega| h/2)^(p+1)/(p+1)!.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Truncation<R> {
     order: usize,
@@ -61,8 +62,8 @@ impl<R: Real> Truncation<R> {
         let last = size(&jet[order]);
         self.rate += last * raised_to(length, order) / rate.larger(tiny);
         self.turn += if N >= WITH_ATTITUDE {
-            let (kept, before) = (turn(&jet[order]), turn(&jet[order - 1]));
-            let share = (kept * length / before.larger(tiny)).smaller(length.splat(1.0));
+            let (kept, before) = (turn(&jet[order]), turn(&jet[order - 2]));
+            let share = (kept * (length * length) / before.larger(tiny)).sqrt().smaller(length.splat(1.0));
             length.splat(2.0) * (kept * raised_to(length, order) * share)
         } else {
             length.splat(self.factor) * raised_to(length.splat(0.5) * (rate * length), order + 1)
@@ -75,7 +76,7 @@ impl LeftOut {
     pub(super) fn errors(&self, steps: u64, periods: f64) -> LocalErrors {
         let LocalErrors { rounding, attitude, .. } = rounding(steps);
         let truncation = REST * self.rate;
-        LocalErrors { truncation, rounding, feedback: 0.0, attitude: periods * (attitude + self.turn + truncation) }
+        LocalErrors { truncation, rounding, feedback: 0.0, attitude: periods * (attitude + self.turn) }
     }
 }
 
