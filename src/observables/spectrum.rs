@@ -69,11 +69,16 @@ impl Spectrum {
         let bits = size.trailing_zeros();
         let order = (0..size as u32).map(|k| k.reverse_bits() >> (u32::BITS - bits)).collect();
         let exponents = (0..bits).flat_map(|stage| (0..size / 2).map(move |j| (j >> stage) << stage));
-        let stages = exponents.map(|e| (libm::cos(turn(e, size)), -libm::sin(turn(e, size)))).unzip();
-        let turns = (0..size).map(|k| (libm::cos(turn(k, 2 * size)), -libm::sin(turn(k, 2 * size)))).unzip();
+        let stages = [
+            exponents.clone().map(|e| libm::cos(turn(e, size))).collect(),
+            exponents.map(|e| -libm::sin(turn(e, size))).collect(),
+        ];
+        let turns = [
+            (0..size).map(|k| libm::cos(turn(k, 2 * size))).collect(),
+            (0..size).map(|k| -libm::sin(turn(k, 2 * size))).collect(),
+        ];
         let zeros = || vec![0.0; size.max(padded / 2)];
         let parts = [[zeros(), zeros()], [zeros(), zeros()]];
-        let (stages, turns): ((Vec<f64>, Vec<f64>), (Vec<f64>, Vec<f64>)) = (stages, turns);
         Some(Spectrum {
             points,
             step,
@@ -81,8 +86,8 @@ impl Spectrum {
             centered_times,
             size,
             order,
-            stages: stages.into(),
-            turns: turns.into(),
+            stages,
+            turns,
             parts,
             power: vec![0.0; size + 1],
         })
