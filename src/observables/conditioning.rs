@@ -41,7 +41,7 @@ use crate::scene::Scene;
 
 /// Points of a run that are looked at, at most: enough for the closest approach to a separatrix to be met about as often as it
 /// happens, few enough to cost nothing beside the run.
-const POINTS: usize = 64;
+const POINTS: usize = 32;
 
 /// A rate across H below this share of |omega| is rounding: the motion is an equilibrium.
 const STILL: f64 = 1e-12;
