@@ -1,16 +1,16 @@
 //! A campaign that audits itself: which samples, what it finds, and that nothing else changes by it.
 
+mod support;
+
 use std::collections::BTreeMap;
-use std::fs::{self, File};
+use std::fs;
 use std::num::NonZeroUsize;
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::path::Path;
 use std::sync::Mutex;
 
+use arrow_array::Array;
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float64Type, UInt64Type};
-use arrow_array::{Array, RecordBatch};
-use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use serde_json::Value;
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::ensemble::audit::Selection;
@@ -19,6 +19,7 @@ use spindrift::integrators::{Status, Tolerance};
 use spindrift::math::Isa;
 use spindrift::sampling::SampleId;
 use spindrift::scene::Scene;
+use support::room::Room;
 
 /// The shipped campaign of that name, with so many samples of which a share is audited.
 fn plan(name: &str, samples: u64, fraction: f64) -> Plan {
@@ -160,43 +161,6 @@ fn a_long_run_is_audited_in_plain_doubles() {
     let (short, long) = (truth_of(2.0), truth_of(300.0));
     assert_eq!((short.truth_tolerance, long.truth_tolerance), (1e-31, 1e-16));
     assert!(long.state() > short.state() && long.estimate >= long.state(), "{:e} {:e}", long.state(), long.estimate);
-}
-
-/// A folder of its own for each test, removed at its end.
-struct Room(PathBuf);
-
-impl Room {
-    fn new(name: &str) -> Self {
-        let folder = std::env::temp_dir().join(format!("spindrift-audit-{}-{name}", std::process::id()));
-        let _ = fs::remove_dir_all(&folder);
-        fs::create_dir_all(&folder).unwrap();
-        Room(folder)
-    }
-
-    /// Runs a command on a shipped campaign, insists on the exit code; what was said, both streams.
-    fn says(&self, command: &str, campaign: &str, arguments: &str, code: i32) -> String {
-        let output = Command::new(env!("CARGO_BIN_EXE_spindrift"))
-            .arg(command)
-            .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns").join(campaign))
-            .args(arguments.split_whitespace())
-            .current_dir(&self.0)
-            .output()
-            .unwrap();
-        let said = format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
-        assert_eq!(output.status.code(), Some(code), "{command} {campaign} {arguments}:\n{said}");
-        said
-    }
-
-    fn table(&self, file: &str) -> RecordBatch {
-        let file = File::open(self.0.join(file)).unwrap();
-        ParquetRecordBatchReaderBuilder::try_new(file).unwrap().build().unwrap().next().unwrap().unwrap()
-    }
-}
-
-impl Drop for Room {
-    fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0);
-    }
 }
 
 /// Law: the program writes the audit's columns, null where no audit was, sums them up beside every statistic, says what it cost;

@@ -127,7 +127,6 @@ mod tests {
     use super::*;
 
     /// Quantiles solved in 40 digits from the complementary error function, for the doubles nearest to p.
-    #[allow(clippy::unreadable_literal)]
     const TRUTH: [(f64, f64); 13] = [
         (1e-300, -37.047096299361199237),
         (1e-20, -9.2623400897984075796),

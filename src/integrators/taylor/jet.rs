@@ -3,6 +3,9 @@
 //! Everything is quadratic, so the coefficient of order n + 1 is a Cauchy product of those up to n, divided by n + 1
 //! (R. E. Moore, *Interval Analysis*, 1966, ch. 11; A. Jorba & M. Zou, Experimental Mathematics 14, 2005, section 2).
 //! Written for the equations of [`crate::dynamics::gyrostat`]; components as there.
+//!
+//! The recurrences of thrust (impulses, works) serve [`super::truth`] alone: a march in `f64` takes these integrals from
+//! [`super::thrust`], so that each judges the other.
 #![expect(clippy::needless_range_loop, reason = "components are numbered alike in several arrays")]
 
 use crate::dynamics::gyrostat::equations::Constants;

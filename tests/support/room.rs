@@ -1,0 +1,47 @@
+//! A folder in which a test runs the program.
+
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use arrow_array::RecordBatch;
+use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+
+/// A folder of its own for each test, removed at its end.
+pub struct Room(pub PathBuf);
+
+impl Room {
+    /// An empty folder; `name` is the test's own within the whole of the tests.
+    pub fn new(name: &str) -> Self {
+        let folder = std::env::temp_dir().join(format!("spindrift-{}-{name}", std::process::id()));
+        let _ = fs::remove_dir_all(&folder);
+        fs::create_dir_all(&folder).unwrap();
+        Room(folder)
+    }
+
+    /// Runs a command on a shipped campaign, insists on the exit code; what was said, both streams.
+    pub fn says(&self, command: &str, campaign: &str, arguments: &str, code: i32) -> String {
+        let output = Command::new(env!("CARGO_BIN_EXE_spindrift"))
+            .arg(command)
+            .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns").join(campaign))
+            .args(arguments.split_whitespace())
+            .current_dir(&self.0)
+            .output()
+            .unwrap();
+        let said = format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+        assert_eq!(output.status.code(), Some(code), "{command} {campaign} {arguments}:\n{said}");
+        said
+    }
+
+    /// The first batch of a Parquet file in the folder.
+    pub fn table(&self, file: &str) -> RecordBatch {
+        let file = File::open(self.0.join(file)).unwrap();
+        ParquetRecordBatchReaderBuilder::try_new(file).unwrap().build().unwrap().next().unwrap().unwrap()
+    }
+}
+
+impl Drop for Room {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
