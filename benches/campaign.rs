@@ -16,11 +16,11 @@ use std::path::Path;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use spindrift::campaign::{Compression, Overrides, Plan};
-use spindrift::ensemble::campaign::propagator;
-use spindrift::ensemble::{Campaign, Part, PartId, Parts, Rows, Sink, run};
+use spindrift::dataset::rows_file::RowsFile;
+use spindrift::ensemble::worker::propagator;
+use spindrift::ensemble::{Ensemble, Part, PartId, Parts, Rows, Sink, run};
 use spindrift::math::Isa;
 use spindrift::observables::{Group, Groups, Observer, Request};
-use spindrift::output::rows_file::RowsFile;
 use spindrift::sampling::SampleId;
 use spindrift::scene::Scene;
 
@@ -64,7 +64,7 @@ fn observation(criterion: &mut Criterion) {
         ("energies_com", com),
         ("numerics", numerics),
     ] {
-        let request = Request { groups, ..*Campaign::new(&plan, isa).request() };
+        let request = Request { groups, ..*Ensemble::new(&plan, isa).request() };
         let mut observer = Observer::new(request, &plan.grid);
         let mut row = vec![0.0; request.columns().len()];
         let mut engine = propagator(&plan, plan.grid.clone(), request.blocks()).engine(isa);
@@ -79,7 +79,7 @@ fn observation(criterion: &mut Criterion) {
 
 fn writing(criterion: &mut Criterion) {
     let plan = plan();
-    let campaign = Campaign::new(&plan, Isa::best());
+    let campaign = Ensemble::new(&plan, Isa::best());
     let count = SAMPLES as usize;
     let mut rows = Rows::new(campaign.shape(), count);
     campaign.worker().run(Part { id: PartId(0), first: SampleId(0), count }, &mut rows, &|_| {});
@@ -88,7 +88,7 @@ fn writing(criterion: &mut Criterion) {
     group.throughput(Throughput::Elements(SAMPLES));
     for compression in Compression::ALL {
         let packed = Plan { compression, ..plan.clone() };
-        let file = RowsFile::new(&Campaign::new(&packed, Isa::best())).expect("names are unique");
+        let file = RowsFile::new(&Ensemble::new(&packed, Isa::best())).expect("names are unique");
         group.bench_function(format!("parquet, {}", compression.name()), |bencher| {
             bencher.iter(|| {
                 bytes.clear();
@@ -125,7 +125,7 @@ impl Sink for Written {
 
 fn campaign(criterion: &mut Criterion) {
     let plan = plan();
-    let campaign = Campaign::new(&plan, Isa::best());
+    let campaign = Ensemble::new(&plan, Isa::best());
     let written = Written(RowsFile::new(&campaign).expect("names are unique"));
     let (parts, one) = (Parts::of(SAMPLES), NonZeroUsize::new(1));
     let mut group = criterion.benchmark_group("campaign");

@@ -23,15 +23,19 @@ use fearless_simd::Simd;
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::dynamics::gyrostat::equations::Constants;
 use spindrift::dynamics::gyrostat::{ATTITUDE, Gyrostat, OMEGA, WITH_ANGLES};
-use spindrift::dynamics::reference::{COMPONENTS, Kernel, SignOfANon, sigma};
-use spindrift::dynamics::table::{Block, Blocks, Grid};
-use spindrift::ensemble::Campaign;
-use spindrift::ensemble::campaign::BATCH;
-use spindrift::integrators::taylor::step::StepRule;
-use spindrift::integrators::{Control, Engine, Method, Propagator, Tolerance};
+use spindrift::dynamics::null_space::{COMPONENTS, Kernel, SignOfANon, sigma};
+use spindrift::ensemble::Ensemble;
+use spindrift::ensemble::worker::BATCH;
 use spindrift::math::isa::Work;
 use spindrift::math::lanes::WIDTH;
 use spindrift::math::{Isa, Lanes, Real};
+use spindrift::ode::Control;
+use spindrift::ode::Tolerance;
+use spindrift::propagation::Engine;
+use spindrift::propagation::Method;
+use spindrift::propagation::PropagationSettings;
+use spindrift::propagation::taylor::step::StepRule;
+use spindrift::run::state_table::{Grid, StateField, StateFields};
 use spindrift::sampling::SampleId;
 use spindrift::scene::Scene;
 
@@ -50,7 +54,7 @@ const METHODS: [(Method, f64); 8] = [
     (Method::Dop853, 1e-10),
     (Method::RungeKutta4, 1e-3),
     (Method::GaussLegendre, 1e-2),
-    (Method::Reference, 1e-8),
+    (Method::NullSpace, 1e-8),
 ];
 
 /// The plan of a shipped campaign.
@@ -155,12 +159,18 @@ fn right_hand_side(criterion: &mut Criterion) {
 }
 
 /// The engine of a method for the grid and blocks.
-fn engine(isa: Isa, (method, setting): (Method, f64), grid: Grid, blocks: Blocks, scene: &Scene) -> Box<dyn Engine> {
+fn engine(
+    isa: Isa,
+    (method, setting): (Method, f64),
+    grid: Grid,
+    blocks: StateFields,
+    scene: &Scene,
+) -> Box<dyn Engine> {
     let fixed = method.has_fixed_step();
     let relative = if fixed { 1e-10 } else { setting };
     let tolerance = Tolerance { relative, absolute: relative };
     let control = Control { tolerance, step: fixed.then_some(setting), max_steps: 10_000_000 };
-    Propagator::new(method, control, grid, blocks, scene).engine(isa)
+    PropagationSettings::new(method, control, grid, blocks, scene).engine(isa)
 }
 
 /// Accepted steps of all runs together.
@@ -174,7 +184,7 @@ fn measure(group: &mut BenchmarkGroup<'_, WallTime>, name: String, engine: &mut 
     group.bench_function(name, |bencher| {
         bencher.iter(|| {
             engine.propagate(scenes, &mut |_, table, _| {
-                black_box(table.column(Block::Rate, 0));
+                black_box(table.column(StateField::Rate, 0));
             });
         });
     });
@@ -182,7 +192,7 @@ fn measure(group: &mut BenchmarkGroup<'_, WallTime>, name: String, engine: &mut 
 
 /// Fewer runs of the slow kernel for one measurement.
 fn of(scenes: &[Scene], method: Method) -> &[Scene] {
-    if method == Method::Reference { &scenes[..4] } else { scenes }
+    if method == Method::NullSpace { &scenes[..4] } else { scenes }
 }
 
 fn name((method, setting): (Method, f64)) -> String {
@@ -196,7 +206,7 @@ fn step(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("step");
     // where `auto` finds a period it does not step through the run
     for method in METHODS.into_iter().filter(|(method, _)| *method != Method::Auto) {
-        let blocks = Blocks::NONE.with(Block::Rate).with(Block::Attitude);
+        let blocks = StateFields::NONE.with(StateField::Rate).with(StateField::Attitude);
         let mut engine = engine(isa, method, Grid::uniform(plan.grid.duration(), 2), blocks, &scenes[0]);
         let scenes = of(&scenes, method.0);
         group.throughput(Throughput::Elements(steps(&mut *engine, scenes)));
@@ -208,7 +218,7 @@ fn step(criterion: &mut Criterion) {
 fn run(criterion: &mut Criterion) {
     let plan = plan("no_debris.toml");
     let isa = Isa::best();
-    let blocks = Campaign::new(&plan, isa).request().blocks();
+    let blocks = Ensemble::new(&plan, isa).request().blocks();
     let scenes = scenes(&plan, BATCH);
     let mut group = criterion.benchmark_group("run");
     for method in METHODS {
@@ -270,7 +280,7 @@ fn flops_of_step(p: u64) -> u64 {
 fn taylor(criterion: &mut Criterion) {
     let plan = plan("no_debris.toml");
     let scenes = scenes(&plan, BATCH);
-    let blocks = Blocks::NONE.with(Block::Rate).with(Block::Attitude);
+    let blocks = StateFields::NONE.with(StateField::Rate).with(StateField::Attitude);
     let mut group = criterion.benchmark_group("taylor");
     for isa in Isa::available() {
         for tolerance in [1e-6, 1e-10, 1e-13, 1e-16] {

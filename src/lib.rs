@@ -1,15 +1,18 @@
 //! spindrift: Monte Carlo analysis of spacecraft attitude dynamics.
 //!
-//! A module imports only from floors below its own: [`math`] (0), [`scene`] (1), [`sampling`] and [`dynamics`] (2),
-//! [`integrators`] and [`observables`] (3), [`campaign`] (4), [`ensemble`] (5), [`output`] (6), [`cli`] (7).
+//! A module imports only from layers below its own; ARCHITECTURE.md shows the data flow and the layers.
 
 pub mod campaign;
 pub mod cli;
+pub mod dataset;
 pub mod dynamics;
 pub mod ensemble;
-pub mod integrators;
 pub mod math;
 pub mod observables;
-pub mod output;
+pub mod ode;
+pub mod propagation;
+pub mod report;
+pub mod run;
 pub mod sampling;
 pub mod scene;
+pub mod statistics;

@@ -9,12 +9,14 @@ use std::hint::black_box;
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::dynamics::gyrostat::Gyrostat;
 use spindrift::dynamics::gyrostat::equations::Constants;
-use spindrift::dynamics::reference::{Kernel, SignOfANon, sigma};
-use spindrift::dynamics::table::Grid;
-use spindrift::ensemble::{Campaign, Part, PartId, Rows};
-use spindrift::integrators::{Control, Method, Propagator};
+use spindrift::dynamics::null_space::{Kernel, SignOfANon, sigma};
+use spindrift::ensemble::{Ensemble, Part, PartId, Rows};
 use spindrift::math::Isa;
 use spindrift::observables::{Groups, Observer, Request};
+use spindrift::ode::Control;
+use spindrift::propagation::Method;
+use spindrift::propagation::PropagationSettings;
+use spindrift::run::state_table::Grid;
 use spindrift::sampling::SampleId;
 use spindrift::scene::Scene;
 use support::runs::{adaptive, everything, fixed};
@@ -112,9 +114,9 @@ fn engines() {
             (Method::Dop853, adaptive(1e-6)),
             (Method::RungeKutta4, fixed(0.05)),
             (Method::GaussLegendre, fixed(0.05)),
-            (Method::Reference, adaptive(1e-3)),
+            (Method::NullSpace, adaptive(1e-3)),
         ] {
-            let count = if method == Method::Reference { 4 } else { 128 };
+            let count = if method == Method::NullSpace { 4 } else { 128 };
             no_allocation(method, control, &first[..count], &second[..count], name);
         }
     }
@@ -133,7 +135,7 @@ fn engines_with_scenes_of_every_kind() {
 
 fn no_allocation(method: Method, control: Control, first: &[Scene], second: &[Scene], what: &str) {
     let grid = Grid::uniform(10.0, 101);
-    let mut engine = Propagator::new(method, control, grid, everything(method), &first[0]).engine(Isa::best());
+    let mut engine = PropagationSettings::new(method, control, grid, everything(method), &first[0]).engine(Isa::best());
     let mut finished = 0;
     engine.propagate(first, &mut |_, _, _| finished += 1);
     let counted = allocations(|| engine.propagate(second, &mut |_, _, _| finished += 1));
@@ -144,16 +146,16 @@ fn no_allocation(method: Method, control: Control, first: &[Scene], second: &[Sc
 /// Law: an observer allocates when it is made and never again.
 #[test]
 fn observation() {
-    for (name, method) in [("spin_sweep", Method::Auto), ("burn", Method::Auto), ("spin_sweep", Method::Reference)] {
+    for (name, method) in [("spin_sweep", Method::Auto), ("burn", Method::Auto), ("spin_sweep", Method::NullSpace)] {
         let plan = plan(name, "auto");
         let scenes = drawn(&plan, 0..3);
         let actuated = !plan.nominal.actuation.is_empty();
-        let constrained = method == Method::Reference;
+        let constrained = method == Method::NullSpace;
         let request = Request { groups: Groups::ALL, debris: plan.nominal.debris.is_some(), actuated, constrained };
         let mut observer = Observer::new(request, &plan.grid);
         let mut row = vec![0.0; request.columns().len()];
         let control = adaptive(if constrained { 1e-3 } else { 1e-12 });
-        let propagator = Propagator::new(method, control, plan.grid.clone(), request.blocks(), &scenes[0]);
+        let propagator = PropagationSettings::new(method, control, plan.grid.clone(), request.blocks(), &scenes[0]);
         let mut observed = 0;
         propagator.engine(Isa::best()).propagate(&scenes, &mut |index, table, outcome| {
             let counted = allocations(|| observer.observe(Isa::best(), &scenes[index], table, outcome, &mut row));
@@ -211,7 +213,7 @@ fn a_worker() {
         [("spin_sweep", "auto"), ("spin_sweep", "taylor"), ("burn", "auto"), ("no_debris", "dormand_prince")]
     {
         let plan = plan(name, method);
-        let campaign = Campaign::new(&plan, Isa::best());
+        let campaign = Ensemble::new(&plan, Isa::best());
         let mut worker = campaign.worker();
         let mut rows = Rows::new(campaign.shape(), 256);
         let mut part = |first, count| {

@@ -4,8 +4,8 @@ use super::canonical::Lines;
 use crate::sampling::geometric::DirectionSpread;
 use crate::sampling::scalar::{LOWER_KEYS, UPPER_KEYS};
 use crate::sampling::{
-    AttitudeSpread, Bound, Correlation, Cut, DataColumn, Dependence, Derivation, Design, Dispersion, GeometricLaw, Law,
-    Levels, LogRange, Offset, Range, Spread, Values,
+    AttitudeSpread, Bound, Correlation, DataColumn, Dependence, Derivation, Design, Dispersion, GeometricLaw, Law,
+    Levels, LogRange, Offset, Range, Spread, Truncation, Values,
 };
 use crate::scene::Parameter;
 
@@ -30,8 +30,8 @@ fn law_lines(law: &Law, lines: &mut Lines) {
             lines.key("distribution", "truncated_normal");
             spread(lines, width);
             match cut {
-                Cut::Sigmas(sigmas) => lines.values("sigmas", sigmas),
-                Cut::Bounds { lower, upper } => {
+                Truncation::Sigmas(sigmas) => lines.values("sigmas", sigmas),
+                Truncation::Bounds { lower, upper } => {
                     bound(lines, lower.as_ref(), LOWER_KEYS);
                     bound(lines, upper.as_ref(), UPPER_KEYS);
                 }

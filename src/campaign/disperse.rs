@@ -8,7 +8,7 @@ use super::document::Section;
 use super::problem::nearest;
 use crate::sampling::scalar::{LOWER_KEYS, UPPER_KEYS};
 use crate::sampling::{
-    Bound, Cut, DataColumn, Dispersion, Interpolation, Law, LogRange, Offset, Range, Spread, Values,
+    Bound, DataColumn, Dispersion, Interpolation, Law, LogRange, Offset, Range, Spread, Truncation, Values,
 };
 use crate::scene::Parameter;
 
@@ -147,7 +147,7 @@ fn bound(table: &mut Section<'_, '_>, keys: [&'static str; 3]) -> Option<Option<
     (written.len() <= 1 && bounds.len() == written.len()).then(|| bounds.into_iter().next())
 }
 
-fn cut(table: &mut Section<'_, '_>) -> Option<Cut> {
+fn cut(table: &mut Section<'_, '_>) -> Option<Truncation> {
     let first = LOWER_KEYS.into_iter().chain(UPPER_KEYS).find(|key| table.has(key)).unwrap_or(LOWER_KEYS[0]);
     let one = is_one_of(table, &["sigmas", first], "3");
     let sigmas = optional(table, "sigmas");
@@ -155,8 +155,8 @@ fn cut(table: &mut Section<'_, '_>) -> Option<Cut> {
     let (sigmas, (lower, upper)) = sigmas.zip(lower.zip(upper))?;
     match (one, sigmas) {
         (false, _) => None,
-        (true, Some(sigmas)) => Some(Cut::Sigmas(sigmas)),
-        (true, None) => Some(Cut::Bounds { lower, upper }),
+        (true, Some(sigmas)) => Some(Truncation::Sigmas(sigmas)),
+        (true, None) => Some(Truncation::Bounds { lower, upper }),
     }
 }
 

@@ -4,9 +4,10 @@
 use super::document::Document;
 use super::problem::{CampaignError, Problem};
 use super::spec::{LARGEST_SEED, MOST_SAMPLES, Spec};
-use crate::dynamics::table::Grid;
-use crate::integrators::{Method, Tolerance};
 use crate::observables::Group;
+use crate::ode::Tolerance;
+use crate::propagation::Method;
+use crate::run::state_table::Grid;
 use crate::sampling::{Correlation, Derivation, Design, Dispersion, Dispersions, Draws, Table};
 use crate::scene::{Scene, SceneInput};
 use std::path::Path;

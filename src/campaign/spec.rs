@@ -6,8 +6,8 @@
 use super::document::{Document, Limit, POSITIVE, Section};
 use super::plan::Compression;
 use super::{dependence, design, disperse};
-use crate::integrators::Method;
 use crate::observables::Group;
+use crate::propagation::Method;
 use crate::sampling::{Correlation, Derivation, Design, Dispersion};
 use crate::scene::{
     ActuationInput, ActuatorsInput, DebrisInput, FuselageInput, InitialInput, MassErrors, PrincipalInertia,

@@ -4,15 +4,15 @@ use std::fmt::Write as _;
 use std::time::Instant;
 
 use crate::campaign::Overrides;
-use crate::cli::campaign::bytes;
-use crate::cli::verdict::{Failure, Verdict};
+use crate::cli::command_outcome::{CommandOutcome, Failure};
+use crate::cli::run_campaign::bytes;
 use crate::cli::{CheckOptions, dispersions, isa, plan, screen};
-use crate::dynamics::table::Block;
-use crate::ensemble::{Auditor, Campaign, Part, PartId, Parts, Rows};
-use crate::integrators::Status;
+use crate::dataset::rows_file::RowsFile;
+use crate::ensemble::{Auditor, Ensemble, Part, PartId, Parts, Rows};
 use crate::observables::Request;
-use crate::output::rows_file::RowsFile;
-use crate::output::summary::short;
+use crate::report::summary::short;
+use crate::run::Status;
+use crate::run::state_table::StateField;
 use crate::sampling::SampleId;
 use crate::scene::{MassProperties, Scene};
 
@@ -25,9 +25,9 @@ const PROBE_SAMPLES: usize = 512;
 ///
 /// # Errors
 /// Where the campaign file is wrong.
-pub fn run(options: &CheckOptions) -> Result<Verdict, Failure> {
+pub fn run(options: &CheckOptions) -> Result<CommandOutcome, Failure> {
     let plan = plan(&options.file, Overrides::default())?;
-    let campaign = Campaign::new(&plan, isa()?);
+    let campaign = Ensemble::new(&plan, isa()?);
     let scene = Scene::resolve(&plan.nominal)
         .map_err(|errors| Failure::Input(errors.iter().map(|error| format!("{error}\n")).collect()))?;
     let mut text = String::new();
@@ -44,7 +44,7 @@ pub fn run(options: &CheckOptions) -> Result<Verdict, Failure> {
     screen::print(&text)?;
     screen::print(&estimate(&campaign)?)?;
     screen::print(&audit_estimate(&campaign))?;
-    Ok(Verdict::Done)
+    Ok(CommandOutcome::Done)
 }
 
 fn section(text: &mut String, title: &str) -> std::fmt::Result {
@@ -93,10 +93,10 @@ fn tensor(text: &mut String, name: &str, rows: [[f64; 3]; 3]) -> std::fmt::Resul
 }
 
 /// What is integrated and why, and what is not.
-fn blocks(text: &mut String, campaign: &Campaign<'_>) -> std::fmt::Result {
+fn blocks(text: &mut String, campaign: &Ensemble<'_>) -> std::fmt::Result {
     section(text, "What is computed")?;
     let reasons = campaign.request().reasons();
-    for block in Block::ALL {
+    for block in StateField::ALL {
         let name = block_name(block);
         match reasons.iter().find(|(needed, _)| *needed == block) {
             Some((_, reason)) => writeln!(text, "{name:<44} needed because of {reason}")?,
@@ -113,44 +113,47 @@ fn blocks(text: &mut String, campaign: &Campaign<'_>) -> std::fmt::Result {
 }
 
 /// Why a block is not computed.
-fn absence(request: &Request, block: Block) -> &'static str {
+fn absence(request: &Request, block: StateField) -> &'static str {
     match block {
-        Block::DebrisPosition | Block::DebrisVelocity | Block::DebrisAttitude | Block::DebrisRate
+        StateField::DebrisPosition
+        | StateField::DebrisVelocity
+        | StateField::DebrisAttitude
+        | StateField::DebrisRate
             if !request.debris =>
         {
             "there is no debris"
         }
-        Block::Work | Block::Impulse | Block::AngularImpulse if !request.actuated => "no actuator works",
-        Block::Dcm | Block::Residuals | Block::KineticEnergies if !request.constrained => {
+        StateField::Work | StateField::Impulse | StateField::AngularImpulse if !request.actuated => "no actuator works",
+        StateField::Dcm | StateField::Residuals | StateField::KineticEnergies if !request.constrained => {
             "only the reference kernel has it"
         }
         _ => "nothing observed needs it",
     }
 }
 
-fn block_name(block: Block) -> &'static str {
+fn block_name(block: StateField) -> &'static str {
     match block {
-        Block::Rate => "angular velocity of the fuselage",
-        Block::Attitude => "attitude quaternion",
-        Block::WheelRates => "wheel rates",
-        Block::WheelAngles => "wheel angles",
-        Block::ComPosition => "position of the centre of mass",
-        Block::ComVelocity => "velocity of the centre of mass",
-        Block::Work => "work of the actuators",
-        Block::Impulse => "impulse of the thrusters",
-        Block::AngularImpulse => "angular impulse of the thrusters",
-        Block::DebrisPosition => "position of the debris",
-        Block::DebrisVelocity => "velocity of the debris",
-        Block::DebrisAttitude => "attitude of the debris",
-        Block::DebrisRate => "angular velocity of the debris",
-        Block::Dcm => "direction cosine matrix (reference kernel)",
-        Block::Residuals => "constraint residuals (reference kernel)",
-        Block::KineticEnergies => "kinetic energies of the redundant states (reference kernel)",
+        StateField::Rate => "angular velocity of the fuselage",
+        StateField::Attitude => "attitude quaternion",
+        StateField::WheelRates => "wheel rates",
+        StateField::WheelAngles => "wheel angles",
+        StateField::ComPosition => "position of the centre of mass",
+        StateField::ComVelocity => "velocity of the centre of mass",
+        StateField::Work => "work of the actuators",
+        StateField::Impulse => "impulse of the thrusters",
+        StateField::AngularImpulse => "angular impulse of the thrusters",
+        StateField::DebrisPosition => "position of the debris",
+        StateField::DebrisVelocity => "velocity of the debris",
+        StateField::DebrisAttitude => "attitude of the debris",
+        StateField::DebrisRate => "angular velocity of the debris",
+        StateField::Dcm => "direction cosine matrix (reference kernel)",
+        StateField::Residuals => "constraint residuals (reference kernel)",
+        StateField::KineticEnergies => "kinetic energies of the redundant states (reference kernel)",
     }
 }
 
 /// What the audits would cost, from a short probe of the first samples.
-fn audit_estimate(campaign: &Campaign<'_>) -> String {
+fn audit_estimate(campaign: &Ensemble<'_>) -> String {
     let plan = campaign.plan();
     if plan.audit_fraction == 0.0 {
         return "no sample is audited ([audit] fraction = 0.01 or --audit 0.01 runs one in a hundred again exactly)\n"
@@ -183,7 +186,7 @@ fn audit_estimate(campaign: &Campaign<'_>) -> String {
 }
 
 /// Time and disk from a short probe.
-fn estimate(campaign: &Campaign<'_>) -> Result<String, Failure> {
+fn estimate(campaign: &Ensemble<'_>) -> Result<String, Failure> {
     let plan = campaign.plan();
     let most = usize::try_from(plan.samples).unwrap_or(usize::MAX).min(PROBE_SAMPLES);
     let mut rows = Rows::new(campaign.shape(), most);

@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use crate::campaign::Plan;
 use crate::ensemble::DrawnScenes;
-use crate::output::summary::short;
-use crate::sampling::{Design, Dispersions, Distribution, Map, SampleId};
+use crate::report::summary::short;
+use crate::sampling::{Design, Dispersions, Distribution, SampleId, Transform};
 
 /// Draws behind the percentiles: the 1% and 99% lie within a tenth of the law's spread of their true places.
 const DRAWS: u64 = 10_000;
@@ -67,10 +67,10 @@ fn origin(dispersions: &Dispersions, column: usize) -> String {
 }
 
 /// A law in words.
-fn law_text(law: &Map) -> String {
+fn law_text(law: &Transform) -> String {
     let law = match law {
-        Map::Joint(joint) => return joint.text(),
-        Map::Scalar(law) => law,
+        Transform::Joint(joint) => return joint.text(),
+        Transform::Scalar(law) => law,
     };
     // the ends, to the digits shown
     let [low, high] = [f64::EPSILON, 1.0 - f64::EPSILON].map(|u| short(law.quantile(u)));

@@ -8,20 +8,20 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 
 use crate::campaign::{Overrides, Plan, find};
-use crate::cli::verdict::Failure;
-use crate::integrators::Method;
+use crate::cli::command_outcome::Failure;
 use crate::math::Isa;
 use crate::math::isa::VARIABLE;
+use crate::propagation::Method;
 
-pub mod campaign;
 pub mod check;
+pub mod command_outcome;
 pub mod dispersions;
 pub mod precision;
 pub mod progress;
+pub mod run_campaign;
 pub mod sample;
 pub mod screen;
 pub mod simulate;
-pub mod verdict;
 
 /// What stands below every help text.
 const EXIT_CODES: &str = "\

@@ -3,18 +3,18 @@
 use std::path::{Path, PathBuf};
 
 use crate::campaign::Overrides;
-use crate::cli::verdict::{Failure, Verdict};
+use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::{PrecisionOptions, isa, plan, screen};
+use crate::dataset::precision_table::PrecisionTable;
 use crate::ensemble::precision::{Patience, Precision, States};
-use crate::integrators::Method;
-use crate::output::precision_figure::PrecisionFigure;
-use crate::output::precision_table::PrecisionTable;
+use crate::propagation::Method;
+use crate::report::precision_figure::PrecisionFigure;
 
 /// Runs the command.
 ///
 /// # Errors
 /// Where arguments or campaign file are wrong, a truth cannot be had, or files cannot be written.
-pub fn run(options: &PrecisionOptions) -> Result<Verdict, Failure> {
+pub fn run(options: &PrecisionOptions) -> Result<CommandOutcome, Failure> {
     let plan = plan(&options.file, Overrides::default())?;
     let isa = isa()?;
     let methods = options.methods.clone().unwrap_or_else(|| Method::ALL.to_vec());
@@ -64,7 +64,7 @@ pub fn run(options: &PrecisionOptions) -> Result<Verdict, Failure> {
     for format in ["svg", "png"] {
         save(&folder, format, |path| figure.save(path).map_err(Failure::files))?;
     }
-    Ok(Verdict::Done)
+    Ok(CommandOutcome::Done)
 }
 
 /// Writes one file of the result and says so.

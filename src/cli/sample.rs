@@ -3,20 +3,20 @@
 use std::path::Path;
 
 use crate::campaign::Overrides;
-use crate::cli::verdict::{Failure, Verdict};
+use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::{SampleOptions, dispersions, plan, screen};
+use crate::dataset::drawn_table::DrawnTable;
+use crate::dataset::timeseries::{TableError, TableFormat};
 use crate::ensemble::DrawnScenes;
-use crate::output::drawn_figure::DrawnFigure;
-use crate::output::drawn_table::DrawnTable;
-use crate::output::plot::{PlotError, PlotFormat};
-use crate::output::timeseries::{TableError, TableFormat};
+use crate::report::drawn_figure::DrawnFigure;
+use crate::report::plot::{PlotError, PlotFormat};
 use crate::sampling::SampleId;
 
 /// Runs the command.
 ///
 /// # Errors
 /// Where the campaign file is wrong or a file cannot be written.
-pub fn run(options: &SampleOptions) -> Result<Verdict, Failure> {
+pub fn run(options: &SampleOptions) -> Result<CommandOutcome, Failure> {
     // refuse a file that cannot be written before drawing for it
     if let Some(path) = &options.out {
         TableFormat::of(path).map_err(|error| Failure::Input(error.to_string()))?;
@@ -66,7 +66,7 @@ pub fn run(options: &SampleOptions) -> Result<Verdict, Failure> {
         })?;
         screen::note(&format!("{}: {} numbers of {} samples", path.display(), columns.len(), dispersed.count()));
     }
-    Ok(Verdict::Done)
+    Ok(CommandOutcome::Done)
 }
 
 fn save(path: &Path, table: &DrawnTable<'_>) -> Result<(), Failure> {

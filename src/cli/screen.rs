@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use crate::cli::verdict::Failure;
+use crate::cli::command_outcome::Failure;
 
 /// Prints a result on standard output.
 ///

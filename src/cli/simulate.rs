@@ -4,16 +4,16 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use crate::campaign::{Overrides, Plan};
-use crate::cli::verdict::{Failure, Verdict};
+use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::{SimulateOptions, isa, plan, screen};
-use crate::dynamics::table::Grid;
+use crate::dataset::timeseries::{TableError, TableFormat, TimeSeries};
 use crate::ensemble::{Auditor, SingleRun};
-use crate::integrators::Status;
 use crate::math::Isa;
-use crate::output::energy_figure::energy_figure;
-use crate::output::plot::{PlotError, PlotFormat};
-use crate::output::summary::short;
-use crate::output::timeseries::{TableError, TableFormat, TimeSeries};
+use crate::report::energy_figure::energy_figure;
+use crate::report::plot::{PlotError, PlotFormat};
+use crate::report::summary::short;
+use crate::run::Status;
+use crate::run::state_table::Grid;
 use crate::sampling::SampleId;
 
 /// The columns on the screen: what fits, the rest is in the files.
@@ -39,7 +39,7 @@ const SMOOTH: usize = 1200;
 ///
 /// # Errors
 /// Where the sample cannot be run or its files cannot be written.
-pub fn run(options: &SimulateOptions) -> Result<Verdict, Failure> {
+pub fn run(options: &SimulateOptions) -> Result<CommandOutcome, Failure> {
     // refuse a file that cannot be written before running for it
     if let Some(path) = &options.out {
         TableFormat::of(path).map_err(|error| Failure::Input(error.to_string()))?;
@@ -80,7 +80,7 @@ pub fn run(options: &SimulateOptions) -> Result<Verdict, Failure> {
         let (status, time) = (run.outcome.status.name(), run.outcome.time);
         screen::note(&format!("the run ended with {status} at {time:?} s; what follows is not shown"));
     }
-    Ok(Verdict::of(run.outcome.status))
+    Ok(CommandOutcome::of(run.outcome.status))
 }
 
 /// The times that were asked for, ascending, each once.

@@ -6,12 +6,12 @@
 use fearless_simd::Simd;
 
 use super::gyrostat::{Gyrostat, Stretch};
-use super::table::{Block, Grid, StateTable, Trajectory};
 use crate::math::double_double::{DoubleDouble, two_product};
 use crate::math::lanes::WIDTH;
 use crate::math::sine::sin_cos_turns;
 use crate::math::vector::{constant, constant_quaternion, hamilton, scaled};
 use crate::math::{Lanes, Real};
+use crate::run::state_table::{Grid, StateField, StateTable, Trajectory};
 use crate::scene::Scene;
 use crate::scene::mass::Body;
 
@@ -45,15 +45,15 @@ pub fn complete_translation<S: Simd>(simd: S, scene: &Scene, grid: &Grid, table:
     let initial = &scene.initial;
     for i in 0..3 {
         let (start, velocity) = (initial.r_gdo_e[i], initial.v_gdo_e[i]);
-        if table.has(Block::DebrisPosition) {
+        if table.has(StateField::DebrisPosition) {
             let line = Line { start: Lanes::broadcast(simd, start), slope: Lanes::broadcast(simd, velocity) };
-            let column = table.column_mut(Block::DebrisPosition, i);
+            let column = table.column_mut(StateField::DebrisPosition, i);
             for (times, out) in grid.padded_times().chunks_exact(WIDTH).zip(column.chunks_exact_mut(WIDTH)) {
                 line.slope.mul_add(Lanes::from_slice(simd, times), line.start).store(out);
             }
         }
-        if table.has(Block::DebrisVelocity) {
-            table.column_mut(Block::DebrisVelocity, i).fill(velocity);
+        if table.has(StateField::DebrisVelocity) {
+            table.column_mut(StateField::DebrisVelocity, i).fill(velocity);
         }
     }
 }
@@ -71,11 +71,11 @@ struct Line<V> {
 pub fn complete_isotropic<S: Simd>(simd: S, scene: &Scene, grid: &Grid, table: &mut StateTable) {
     let omega = scene.initial.omega_de_d;
     for (i, component) in omega.into_iter().enumerate() {
-        if table.has(Block::DebrisRate) {
-            table.column_mut(Block::DebrisRate, i).fill(component);
+        if table.has(StateField::DebrisRate) {
+            table.column_mut(StateField::DebrisRate, i).fill(component);
         }
     }
-    if !table.has(Block::DebrisAttitude) {
+    if !table.has(StateField::DebrisAttitude) {
         return;
     }
     let square = two_product(omega[0], omega[0]) + two_product(omega[1], omega[1]) + two_product(omega[2], omega[2]);
@@ -92,7 +92,7 @@ pub fn complete_isotropic<S: Simd>(simd: S, scene: &Scene, grid: &Grid, table: &
         let (sin, cos) = sin_cos_turns((turns - turns.round()) + rest);
         let [x, y, z] = scaled(sin, constant(high, axis));
         for (i, component) in hamilton(start, [cos, x, y, z]).into_iter().enumerate() {
-            component.store(&mut table.column_mut(Block::DebrisAttitude, i)[first..]);
+            component.store(&mut table.column_mut(StateField::DebrisAttitude, i)[first..]);
         }
     }
 }
@@ -110,16 +110,16 @@ pub fn complete_rotation<S: Simd, const N: usize>(
 ) {
     for first in (0..table.stride()).step_by(WIDTH) {
         let states = super::gyrostat::completion::rotation::<S, N>(simd, run, trajectory, first);
-        if table.has(Block::DebrisRate) {
+        if table.has(StateField::DebrisRate) {
             for (i, component) in states.rate.into_iter().enumerate() {
-                component.store(&mut table.column_mut(Block::DebrisRate, i)[first..]);
+                component.store(&mut table.column_mut(StateField::DebrisRate, i)[first..]);
             }
         }
         if let Some(attitude) = states.attitude
-            && table.has(Block::DebrisAttitude)
+            && table.has(StateField::DebrisAttitude)
         {
             for (i, component) in attitude.into_iter().enumerate() {
-                component.store(&mut table.column_mut(Block::DebrisAttitude, i)[first..]);
+                component.store(&mut table.column_mut(StateField::DebrisAttitude, i)[first..]);
             }
         }
     }

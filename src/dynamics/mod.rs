@@ -8,6 +8,4 @@
 
 pub mod debris;
 pub mod gyrostat;
-pub mod outcome;
-pub mod reference;
-pub mod table;
+pub mod null_space;

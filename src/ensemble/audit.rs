@@ -1,6 +1,6 @@
 //! [`Auditor`]: a run once more, exactly, and what the campaign's own run of it is off.
 //!
-//! The truth is the double-double Taylor solution of the scene ([`crate::integrators::taylor::truth`]), which shares neither
+//! The truth is the double-double Taylor solution of the scene ([`crate::propagation::taylor::reference_solution`]), which shares neither
 //! method nor periodic folding with what it judges. Where the run is too long for that, it is the Taylor method at 1e-16 in plain doubles,
 //! and the row says so ([`Audit::truth_tolerance`]). The audited run itself is made again with the states that a comparison
 //! needs; the rows of a campaign do not know that they are audited.
@@ -10,13 +10,20 @@
 
 use crate::campaign::Plan;
 use crate::dynamics::gyrostat::Gyrostat;
-use crate::dynamics::outcome::LocalErrors;
-use crate::dynamics::table::{Block, Blocks, Grid, StateTable};
-use crate::ensemble::campaign::{propagator, request};
-use crate::integrators::taylor::truth::{self, Truth};
-use crate::integrators::{Control, Effort, Engine, Method, Outcome, Propagator, Status, Tolerance};
+use crate::ensemble::worker::{propagator, request};
 use crate::math::Isa;
 use crate::observables::{Group, Observer, Request};
+use crate::ode::Control;
+use crate::ode::Tolerance;
+use crate::propagation::Engine;
+use crate::propagation::Method;
+use crate::propagation::PropagationSettings;
+use crate::propagation::taylor::reference_solution::{self, ReferenceSolution};
+use crate::run::Outcome;
+use crate::run::Status;
+use crate::run::StepStatistics;
+use crate::run::outcome::LocalErrors;
+use crate::run::state_table::{Grid, StateField, StateFields, StateTable};
 use crate::sampling::{SampleId, Stream};
 use crate::scene::Scene;
 
@@ -133,7 +140,8 @@ impl Auditor {
         let campaign = request(plan);
         let groups = plan.groups.iter().copied();
         let request = Request { groups: groups.clone().chain([Group::Numerics]).collect(), ..campaign };
-        let of_motion = groups.filter(|group| !matches!(group, Group::Effort | Group::Numerics | Group::Constraints));
+        let of_motion =
+            groups.filter(|group| !matches!(group, Group::StepStatistics | Group::Numerics | Group::Constraints));
         let true_request = Request { groups: of_motion.collect(), constrained: false, ..campaign };
         let names = |request: &Request| request.columns().iter().map(|column| column.name).collect::<Vec<_>>();
         let (own, of_truth) = (names(&request), names(&true_request));
@@ -171,7 +179,7 @@ impl Auditor {
             status: Status::Done,
             time: self.grid.duration(),
             points: self.grid.points(),
-            effort: Effort::default(),
+            effort: StepStatistics::default(),
             local_errors: LocalErrors::default(),
         };
         self.true_observer.observe(self.isa, scene, &truth.high, &arrived, &mut self.true_row);
@@ -197,42 +205,43 @@ impl Auditor {
         &self.request
     }
 
-    fn truth(&self, scene: &Scene, blocks: Blocks) -> Option<(Truth, f64)> {
+    fn truth(&self, scene: &Scene, blocks: StateFields) -> Option<(ReferenceSolution, f64)> {
         let duration = self.grid.duration();
         let unit = Gyrostat::new(0.0, scene, duration).time_unit();
         if duration <= MOST_UNITS * unit {
-            let truth = Truth::new(self.isa, scene, &self.grid, blocks, truth::TOLERANCE).ok()?;
-            return Some((truth, truth::TOLERANCE));
+            let truth =
+                ReferenceSolution::new(self.isa, scene, &self.grid, blocks, reference_solution::TOLERANCE).ok()?;
+            return Some((truth, reference_solution::TOLERANCE));
         }
         let tolerance = Tolerance { relative: PLAIN_TOLERANCE, absolute: PLAIN_TOLERANCE };
-        let control = Control { tolerance, step: None, max_steps: self.max_steps.max(truth::MOST_STEPS) };
+        let control = Control { tolerance, step: None, max_steps: self.max_steps.max(reference_solution::MOST_STEPS) };
         let mut found = None;
-        Propagator::new(Method::Taylor, control, self.grid.clone(), blocks, scene)
+        PropagationSettings::new(Method::Taylor, control, self.grid.clone(), blocks, scene)
             .engine(self.isa)
             .propagate(std::slice::from_ref(scene), &mut |_, table, outcome| {
                 found = (outcome.status == Status::Done).then(|| table.clone())
             });
         let high = found?;
         let low = StateTable::new(high.blocks(), high.points());
-        Some((Truth { high, low }, PLAIN_TOLERANCE))
+        Some((ReferenceSolution { high, low }, PLAIN_TOLERANCE))
     }
 }
 
 /// What is compared whatever is observed.
-fn compared() -> Blocks {
-    Blocks::NONE.with(Block::Rate).with(Block::Attitude)
+fn compared() -> StateFields {
+    StateFields::NONE.with(StateField::Rate).with(StateField::Attitude)
 }
 
 /// Largest error of omega over the largest |omega|, and of the attitude, rad.
-fn rotation_errors(truth: &Truth, table: &StateTable) -> [f64; 2] {
+fn rotation_errors(truth: &ReferenceSolution, table: &StateTable) -> [f64; 2] {
     let points = 0..table.points();
     let square = |omega: [f64; 3]| omega.iter().map(|x| x * x).sum::<f64>();
-    let largest = points.clone().map(|point| square(truth.high.at(Block::Rate, point))).fold(0.0, f64::max).sqrt();
+    let largest = points.clone().map(|point| square(truth.high.at(StateField::Rate, point))).fold(0.0, f64::max).sqrt();
     let largest = if largest > 0.0 { largest } else { 1.0 };
     let mut worst = [0.0_f64; 2];
     for point in points {
-        let turned = |sign| 2.0 * truth.distance::<4>(table, Block::Attitude, point, sign);
-        let found = [truth.distance::<3>(table, Block::Rate, point, 1.0) / largest, turned(1.0).min(turned(-1.0))];
+        let turned = |sign| 2.0 * truth.distance::<4>(table, StateField::Attitude, point, sign);
+        let found = [truth.distance::<3>(table, StateField::Rate, point, 1.0) / largest, turned(1.0).min(turned(-1.0))];
         for (worst, found) in worst.iter_mut().zip(found) {
             // what is not a number is not to be passed over
             *worst = if found.is_nan() || found > *worst { found } else { *worst };

@@ -8,7 +8,6 @@
 //! Not here: file formats (the output floor), and what a run is (the floors below).
 
 pub mod audit;
-pub mod campaign;
 pub mod cpu_clock;
 pub mod drawn;
 pub mod parts;
@@ -17,12 +16,13 @@ pub mod rows;
 pub mod runner;
 pub mod single;
 pub mod sink;
+pub mod worker;
 
 pub use audit::{Audit, Auditor};
-pub use campaign::{Campaign, Worker};
 pub use drawn::DrawnScenes;
 pub use parts::{Part, PartId, Parts};
 pub use rows::{Rows, Shape};
 pub use runner::{RunError, run};
 pub use single::SingleRun;
 pub use sink::Sink;
+pub use worker::{Ensemble, Worker};

@@ -1,6 +1,6 @@
 //! [`Precision`]: run time against error, method by method and setting by setting, on samples of a campaign.
 //!
-//! The truth is [`Truth`], the exact motion in double-double. Time is CPU time of one thread that propagates batches as a
+//! The truth is [`ReferenceSolution`], the exact motion in double-double. Time is CPU time of one thread that propagates batches as a
 //! campaign does, states at every observation point included, observation and files not. Work-precision diagrams: E. Hairer,
 //! S. P. Norsett & G. Wanner, *Solving Ordinary Differential Equations I*, 1993, section II.10.
 
@@ -8,15 +8,21 @@ use rayon::prelude::*;
 
 use crate::campaign::Plan;
 use crate::dynamics::gyrostat::Gyrostat;
-use crate::dynamics::table::{Block, Blocks, StateTable};
-use crate::ensemble::campaign::{BATCH, request};
 use crate::ensemble::cpu_clock::thread_seconds;
 use crate::ensemble::single::states;
-use crate::integrators::taylor::truth::{self, Truth};
-use crate::integrators::{Control, Engine, Method, Outcome, Propagator, Status, Tolerance};
+use crate::ensemble::worker::{BATCH, request};
 use crate::math::Isa;
 use crate::math::lanes::WIDTH;
 use crate::observables::{Group, Observer, Request};
+use crate::ode::Control;
+use crate::ode::Tolerance;
+use crate::propagation::Engine;
+use crate::propagation::Method;
+use crate::propagation::PropagationSettings;
+use crate::propagation::taylor::reference_solution::{self, ReferenceSolution};
+use crate::run::Outcome;
+use crate::run::Status;
+use crate::run::state_table::{StateField, StateFields, StateTable};
 use crate::sampling::SampleId;
 use crate::scene::Scene;
 
@@ -102,10 +108,10 @@ pub struct Patience {
 pub struct Precision<'p> {
     plan: &'p Plan,
     isa: Isa,
-    blocks: Blocks,
+    blocks: StateFields,
     request: Request,
     scenes: Vec<Scene>,
-    truths: Vec<Truth>,
+    truths: Vec<ReferenceSolution>,
 }
 
 impl<'p> Precision<'p> {
@@ -131,12 +137,13 @@ impl<'p> Precision<'p> {
                 let request = Request { groups: balances.into_iter().collect(), ..plain };
                 (request, states(plan).union(request.blocks()))
             }
-            States::Observed => (plain, plain.blocks().with(Block::Rate)),
+            States::Observed => (plain, plain.blocks().with(StateField::Rate)),
         };
-        let compared = [Block::Rate, Block::Attitude].into_iter().filter(|block| blocks.contains(*block));
-        let compared = compared.fold(Blocks::NONE, Blocks::with);
+        let compared = [StateField::Rate, StateField::Attitude].into_iter().filter(|block| blocks.contains(*block));
+        let compared = compared.fold(StateFields::NONE, StateFields::with);
         let solve = |(id, scene): &(SampleId, Scene)| {
-            Truth::new(isa, scene, &plan.grid, compared, truth::TOLERANCE).map_err(|status| (*id, status))
+            ReferenceSolution::new(isa, scene, &plan.grid, compared, reference_solution::TOLERANCE)
+                .map_err(|status| (*id, status))
         };
         let truths = drawn.par_iter().map(solve).collect::<Result<Vec<_>, _>>()?;
         let scenes = drawn.into_iter().map(|(_, scene)| scene).collect();
@@ -212,7 +219,7 @@ impl<'p> Precision<'p> {
         let tolerance = Tolerance { relative: tolerance, absolute: tolerance };
         let control = Control { tolerance, step, max_steps: self.plan.max_steps };
         let nominal = self.scenes.first()?;
-        Some(Propagator::new(method, control, self.plan.grid.clone(), self.blocks, nominal).engine(self.isa))
+        Some(PropagationSettings::new(method, control, self.plan.grid.clone(), self.blocks, nominal).engine(self.isa))
     }
 
     /// Every sample once, compared with the truth; `None` where it takes too long.
@@ -303,14 +310,14 @@ struct Pass {
 
 impl Pass {
     /// Adds the errors of one run.
-    fn compare(&mut self, truth: &Truth, table: &StateTable, outcome: &Outcome) {
+    fn compare(&mut self, truth: &ReferenceSolution, table: &StateTable, outcome: &Outcome) {
         let points = 0..outcome.points;
-        let size = points.clone().map(|point| length(truth.high.at::<3>(Block::Rate, point))).fold(0.0, f64::max);
+        let size = points.clone().map(|point| length(truth.high.at::<3>(StateField::Rate, point))).fold(0.0, f64::max);
         let size = if size > 0.0 { size } else { 1.0 };
         for point in points {
-            self.rate.add(length(off::<3>(truth, table, Block::Rate, point, 1.0)) / size);
-            if truth.high.has(Block::Attitude) {
-                let error = |sign| length(off::<4>(truth, table, Block::Attitude, point, sign));
+            self.rate.add(length(off::<3>(truth, table, StateField::Rate, point, 1.0)) / size);
+            if truth.high.has(StateField::Attitude) {
+                let error = |sign| length(off::<4>(truth, table, StateField::Attitude, point, sign));
                 self.attitude.add(2.0 * error(1.0).min(error(-1.0)));
             }
         }
@@ -318,7 +325,13 @@ impl Pass {
 }
 
 /// `sign` times the state less the truth, in all digits of the truth.
-fn off<const N: usize>(truth: &Truth, table: &StateTable, block: Block, point: usize, sign: f64) -> [f64; N] {
+fn off<const N: usize>(
+    truth: &ReferenceSolution,
+    table: &StateTable,
+    block: StateField,
+    point: usize,
+    sign: f64,
+) -> [f64; N] {
     let (high, low) = (truth.high.at::<N>(block, point), truth.low.at::<N>(block, point));
     let state = table.at::<N>(block, point);
     std::array::from_fn(|i| (sign * state[i] - high[i]) - low[i])

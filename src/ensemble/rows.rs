@@ -5,7 +5,7 @@
 
 use crate::ensemble::audit::Audit;
 use crate::ensemble::parts::Part;
-use crate::integrators::Status;
+use crate::run::Status;
 use crate::sampling::SampleId;
 
 /// Numbers in a cache line.

@@ -11,10 +11,10 @@ use std::sync::{Mutex, PoisonError};
 use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 use thiserror::Error;
 
-use crate::ensemble::campaign::Campaign;
 use crate::ensemble::parts::{PartId, Parts};
 use crate::ensemble::rows::Rows;
 use crate::ensemble::sink::Sink;
+use crate::ensemble::worker::Ensemble;
 
 /// Why a campaign did not end.
 #[derive(Debug, Error)]
@@ -34,7 +34,7 @@ pub enum RunError<E> {
 /// # Errors
 /// Where no threads could be had, or the first error of the sink; no part is started after it.
 pub fn run<S: Sink>(
-    campaign: &Campaign<'_>,
+    campaign: &Ensemble<'_>,
     parts: Parts,
     threads: Option<NonZeroUsize>,
     sink: &S,

@@ -3,11 +3,12 @@
 //! The scene is drawn and propagated by the code that runs campaigns, so that the states are those behind the row.
 
 use crate::campaign::Plan;
-use crate::dynamics::table::{Block, Blocks, Grid, StateTable};
-use crate::ensemble::campaign::{propagator, request};
-use crate::integrators::{Method, Outcome};
+use crate::ensemble::worker::{propagator, request};
 use crate::math::Isa;
 use crate::observables::{Group, Observer, Request, SeriesColumn};
+use crate::propagation::Method;
+use crate::run::Outcome;
+use crate::run::state_table::{Grid, StateField, StateFields, StateTable};
 use crate::sampling::SampleId;
 use crate::scene::{Scene, SceneError};
 
@@ -66,11 +67,18 @@ impl SingleRun {
 }
 
 /// Every state that the scenes of `plan` have.
-pub fn states(plan: &Plan) -> Blocks {
-    let spacecraft =
-        [Block::Rate, Block::Attitude, Block::WheelRates, Block::WheelAngles, Block::ComPosition, Block::ComVelocity];
-    let debris = [Block::DebrisPosition, Block::DebrisVelocity, Block::DebrisAttitude, Block::DebrisRate];
-    let constrained: &[Block] = if plan.method == Method::Reference { &[Block::Dcm] } else { &[] };
-    let debris: &[Block] = if plan.nominal.debris.is_some() { &debris } else { &[] };
-    spacecraft.iter().chain(debris).chain(constrained).fold(Blocks::NONE, |blocks, block| blocks.with(*block))
+pub fn states(plan: &Plan) -> StateFields {
+    let spacecraft = [
+        StateField::Rate,
+        StateField::Attitude,
+        StateField::WheelRates,
+        StateField::WheelAngles,
+        StateField::ComPosition,
+        StateField::ComVelocity,
+    ];
+    let debris =
+        [StateField::DebrisPosition, StateField::DebrisVelocity, StateField::DebrisAttitude, StateField::DebrisRate];
+    let constrained: &[StateField] = if plan.method == Method::NullSpace { &[StateField::Dcm] } else { &[] };
+    let debris: &[StateField] = if plan.nominal.debris.is_some() { &debris } else { &[] };
+    spacecraft.iter().chain(debris).chain(constrained).fold(StateFields::NONE, |blocks, block| blocks.with(*block))
 }

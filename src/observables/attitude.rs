@@ -3,9 +3,9 @@
 use fearless_simd::Simd;
 
 use super::points::{Column, columns, constant_matrix, four, three};
-use crate::dynamics::table::{Block, StateTable};
 use crate::math::vector::{dcm_from_quaternion, dot};
 use crate::math::{Lanes, Real};
+use crate::run::state_table::{StateField, StateTable};
 
 /// Where C_es comes from: the DCM where the kernel integrates it, else the quaternion in its homogeneous form, so that an
 /// error of the norm shows in whatever is turned by it.
@@ -19,9 +19,9 @@ pub(super) enum Attitude<'a> {
 impl<'a> Attitude<'a> {
     #[inline(always)]
     pub(super) fn of(table: &'a StateTable, vectors: usize) -> Self {
-        if let Some(dcm) = columns(table, Block::Dcm, vectors) {
+        if let Some(dcm) = columns(table, StateField::Dcm, vectors) {
             Attitude::Dcm(dcm)
-        } else if let Some(quaternion) = columns(table, Block::Attitude, vectors) {
+        } else if let Some(quaternion) = columns(table, StateField::Attitude, vectors) {
             Attitude::Quaternion(quaternion)
         } else {
             Attitude::None

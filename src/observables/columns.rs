@@ -73,7 +73,7 @@ pub(super) enum Value {
     /// A statistic of a series.
     Of(Series, Statistic),
     /// A number of its own.
-    Own(Own),
+    DirectValue(DirectValue),
 }
 
 /// A number made of a series.
@@ -97,7 +97,7 @@ pub(super) enum Statistic {
 /// A number that is no statistic of one series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(usize)]
-pub(super) enum Own {
+pub(super) enum DirectValue {
     WorkThrusters,
     WorkMotors,
     CorrelationWheel1,
@@ -126,20 +126,22 @@ impl Value {
     const STATISTICS: usize = Statistic::Rate as usize + 1;
 
     /// Number of slots.
-    pub(super) const SLOTS: usize = Series::COUNT * Self::STATISTICS + Own::IllConditioned as usize + 1;
+    pub(super) const SLOTS: usize = Series::COUNT * Self::STATISTICS + DirectValue::IllConditioned as usize + 1;
 
     /// Where the value stands among all numbers that an observer can compute.
     pub(super) const fn slot(self) -> usize {
         match self {
             Value::Of(series, statistic) => series as usize * Self::STATISTICS + statistic as usize,
-            Value::Own(own) => Series::COUNT * Self::STATISTICS + own as usize,
+            Value::DirectValue(own) => Series::COUNT * Self::STATISTICS + own as usize,
         }
     }
 
     /// Whether the value is known although the run did not reach its end.
     pub(super) const fn survives(self) -> bool {
         match self {
-            Value::Own(own) => Own::TimeReached as usize <= own as usize && own as usize <= Own::Evaluations as usize,
+            Value::DirectValue(own) => {
+                DirectValue::TimeReached as usize <= own as usize && own as usize <= DirectValue::Evaluations as usize
+            }
             Value::Of(..) => false,
         }
     }
@@ -162,7 +164,7 @@ macro_rules! column {
 /// One number that is no statistic.
 macro_rules! own {
     ($group:ident, $when:ident, $kind:ident, $own:ident, $name:literal, $unit:literal, $meaning:literal) => {
-        column!($group, $when, $kind, Value::Own(Own::$own), $name, $unit, $meaning)
+        column!($group, $when, $kind, Value::DirectValue(DirectValue::$own), $name, $unit, $meaning)
     };
 }
 
@@ -366,7 +368,7 @@ const FAMILIES: &[&[Column]] = &[
     scales!(MomentumConservation, Debris, DebrisLinearSquare, "debris_linear_momentum", ["N s", "_n_s"], "|p| of the debris"),
     errors!(MomentumConservation, Debris, DebrisAngularError, "debris_angular_momentum_error", "the error vector of the debris's angular momentum about its centre in F_e, over the largest |L|."),
     scales!(MomentumConservation, Debris, DebrisAngularSquare, "debris_angular_momentum", ["N m s", "_n_m_s"], "|L| of the debris about its centre"),
-    errors!(Attitude, Always, AttitudeError, "attitude_error", "the largest entry of |C_es^T C_es - 1|."),
+    errors!(Attitude, Always, AttitudeError, "dcm_orthonormality", "the largest entry of |C_es^T C_es - 1|."),
     errors!(Constraints, Constrained, ResidualKinematic, "residual_kinematic", ["m/s", "_m_s"], ["m/s^2", "_m_s2"], "the residual of the kinematic constraints (angular components in rad/s)."),
     errors!(Constraints, Constrained, ResidualCollocation, "residual_collocation", ["m", "_m"], ["m/s", "_m_s"], "the residual of the collocation constraints (tilts of wheel axes as sines)."),
     errors!(Constraints, Constrained, ResidualAttitude, "residual_attitude", "the residual of the attitude constraints."),
@@ -397,9 +399,9 @@ const FAMILIES: &[&[Column]] = &[
         own!(FinalState, Always, Float, RateZ, "omega_se_s_z_final_rad_s", "rad/s", "Angular velocity of the fuselage about s3 at the final time."),
         own!(FinalState, Always, Float, WheelRate1, "alpha_dot_final_rad_s", "rad/s", "Rate of wheel 1 relative to the fuselage at the final time."),
         own!(FinalState, Always, Float, WheelRate2, "beta_dot_final_rad_s", "rad/s", "Rate of wheel 2 relative to the fuselage at the final time."),
-        own!(Effort, Always, Count, Steps, "steps", "", "Accepted steps."),
-        own!(Effort, Always, Count, Rejected, "steps_rejected", "", "Rejected steps."),
-        own!(Effort, Always, Count, Evaluations, "evaluations", "", "Evaluations of the right-hand side (for Taylor methods: jets)."),
+        own!(StepStatistics, Always, Count, Steps, "steps", "", "Accepted steps."),
+        own!(StepStatistics, Always, Count, Rejected, "steps_rejected", "", "Rejected steps."),
+        own!(StepStatistics, Always, Count, Evaluations, "evaluations", "", "Evaluations of the right-hand side (for Taylor methods: jets)."),
         own!(Numerics, Always, Float, StateError, "state_error_estimate", "", "Estimated largest error of the fuselage's rotation on the grid: of omega over the largest |omega|, or of the attitude in rad, whichever is larger."),
         own!(Numerics, Always, Float, Amplification, "error_amplification", "", "Estimated factor by which the motion amplifies relative errors of the rotational state that are made evenly along the run."),
         own!(Numerics, Always, Count, IllConditioned, "ill_conditioned", "", "1 where the rounding of the input alone may move the state by more than 1e-3 (error_amplification times 2^-52), else 0."),

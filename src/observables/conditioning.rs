@@ -26,17 +26,17 @@
 //!
 //! Sizes are added, not signed numbers. Errors are taken to arise evenly along the run.
 //!
-//! Not here: what the method itself knows of its errors ([`crate::dynamics::outcome::Outcome::local_errors`]).
+//! Not here: what the method itself knows of its errors ([`crate::run::outcome::Outcome::local_errors`]).
 
 use fearless_simd::Simd;
 
 use super::error_sums::{Here, Sums};
 use super::rotor::{Body, acts, adjugate, largest_torque};
-use crate::dynamics::outcome::LocalErrors;
-use crate::dynamics::table::{Block, StateTable};
 use crate::math::lanes::WIDTH;
 use crate::math::vector::{constant, constant_matrix, cross, difference, dot, product, scaled, sum};
 use crate::math::{Lanes, Real};
+use crate::run::outcome::LocalErrors;
+use crate::run::state_table::{StateField, StateTable};
 use crate::scene::Scene;
 
 /// Points of a run that are looked at, at most: enough for the closest approach to a separatrix to be met about as often as it
@@ -73,7 +73,7 @@ const MOST: f64 = 1e200;
 
 /// What is known of the errors of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Judgement {
+pub(super) struct ErrorEstimate {
     /// The estimated largest error of the rotational state: of omega over the largest |omega|, or of the attitude in rad.
     pub(super) error: f64,
     /// The factor by which relative errors of omega, made evenly along the run and in every direction, have grown where they are
@@ -137,7 +137,7 @@ impl Conditioning {
         times: &[f64],
         filled: usize,
         local: &LocalErrors,
-    ) -> Judgement {
+    ) -> ErrorEstimate {
         let last = filled - 1;
         let stride = last.div_ceil(POINTS - 1).max(1);
         let count = last.div_ceil(stride) + 1;
@@ -154,7 +154,7 @@ impl Conditioning {
             widest = widest.larger(self.across[k]);
         }
         if largest == 0.0 {
-            return Judgement { error: SAFETY * (local.rounding + local.attitude), amplification: 1.0 };
+            return ErrorEstimate { error: SAFETY * (local.rounding + local.attitude), amplification: 1.0 };
         }
         let (error, amplification) = if widest <= STILL * largest {
             self.at_equilibrium(&body, count, largest, table, local)
@@ -163,7 +163,7 @@ impl Conditioning {
         };
         // also where one is not a number
         let error = SAFETY * (error + local.truncation + local.attitude);
-        Judgement {
+        ErrorEstimate {
             error: if error < LOST { error } else { LOST },
             amplification: if amplification < MOST { amplification.larger(1.0) } else { MOST },
         }
@@ -178,9 +178,9 @@ impl Conditioning {
         }
         let zero = Lanes::broadcast(simd, 0.0);
         let omega = [
-            gathered(simd, table.column(Block::Rate, 0), &places),
-            gathered(simd, table.column(Block::Rate, 1), &places),
-            gathered(simd, table.column(Block::Rate, 2), &places),
+            gathered(simd, table.column(StateField::Rate, 0), &places),
+            gathered(simd, table.column(StateField::Rate, 1), &places),
+            gathered(simd, table.column(StateField::Rate, 2), &places),
         ];
         let own = product(constant_matrix(zero, body.inertia), omega);
         let momentum = match body.offset {
@@ -188,7 +188,7 @@ impl Conditioning {
             None => {
                 let mut momentum = product(constant_matrix(zero, body.mass.inertia), omega);
                 for (i, wheel) in body.mass.wheels.iter().enumerate() {
-                    let rate = gathered(simd, table.column(Block::WheelRates, i), &places);
+                    let rate = gathered(simd, table.column(StateField::WheelRates, i), &places);
                     let spin = Lanes::broadcast(simd, wheel.axial) * rate;
                     momentum = sum(momentum, scaled(spin, constant(zero, wheel.axis)));
                 }
@@ -322,7 +322,7 @@ impl Conditioning {
     ) -> (f64, f64) {
         let duration = self.times[count - 1];
         let (h, mu) = (self.momentum[0], self.along[0]);
-        let axis = table.at::<3>(Block::Rate, 0).map(|x| x / self.rate[0].larger(f64::MIN_POSITIVE));
+        let axis = table.at::<3>(StateField::Rate, 0).map(|x| x / self.rate[0].larger(f64::MIN_POSITIVE));
         let mut a = body.inverse;
         let mut size = 0.0_f64;
         for (i, row) in a.iter_mut().enumerate() {

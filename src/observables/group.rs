@@ -20,7 +20,7 @@ pub enum Group {
     /// The last state.
     FinalState,
     /// Steps and evaluations.
-    Effort,
+    StepStatistics,
     /// Estimated error of the rotational state, and how far the run is to be trusted.
     Numerics,
 }
@@ -36,7 +36,7 @@ impl Group {
         Group::EnergiesCom,
         Group::Exchange,
         Group::FinalState,
-        Group::Effort,
+        Group::StepStatistics,
         Group::Numerics,
     ];
 
@@ -51,7 +51,7 @@ impl Group {
             Group::EnergiesCom => "energies_com",
             Group::Exchange => "exchange",
             Group::FinalState => "final_state",
-            Group::Effort => "effort",
+            Group::StepStatistics => "effort",
             Group::Numerics => "numerics",
         }
     }
@@ -105,9 +105,9 @@ mod tests {
 
     #[test]
     fn a_set_holds_what_was_put_in_and_nothing_else() {
-        let some: Groups = [Group::Exchange, Group::Effort].into_iter().collect();
+        let some: Groups = [Group::Exchange, Group::StepStatistics].into_iter().collect();
         for group in Group::ALL {
-            assert_eq!(some.contains(group), matches!(group, Group::Exchange | Group::Effort));
+            assert_eq!(some.contains(group), matches!(group, Group::Exchange | Group::StepStatistics));
             assert!(Groups::ALL.contains(group));
             assert!(!Groups::NONE.contains(group));
         }

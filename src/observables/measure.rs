@@ -12,12 +12,12 @@ use fearless_simd::Simd;
 use super::attitude::Attitude;
 use super::momenta::{angular_momentum, debris_momenta, linear_momentum};
 use super::points::{Column, SeriesTable, columns, constant, first, needed, three};
-use super::request::Wanted;
+use super::request::SeriesSet;
 use super::series::Series;
-use crate::dynamics::table::{Block, StateTable};
 use crate::math::lanes::WIDTH;
 use crate::math::vector::{cross, difference, dot, scaled, transposed_product};
 use crate::math::{Lanes, Real};
+use crate::run::state_table::{StateField, StateTable};
 use crate::scene::mass::{Body, MassProperties, Wheel};
 
 /// The quadratic form of a symmetric matrix: coefficients of xx, yy, zz, xy, xz, yz.
@@ -72,7 +72,7 @@ fn constant_form<S: Simd>(simd: S, a: Form) -> [Lanes<S>; 6] {
 /// A run as it is measured.
 pub(super) struct Run<'a> {
     /// The series that are wanted.
-    pub(super) wanted: Wanted,
+    pub(super) wanted: SeriesSet,
     /// Mass properties of the spacecraft.
     pub(super) mass: &'a MassProperties,
     /// The debris, where the request counts it in.
@@ -111,7 +111,7 @@ pub(super) fn measure<S: Simd>(simd: S, run: &Run<'_>, out: &mut SeriesTable) {
         debris_momenta(simd, body, table, vectors, out);
     }
     if wanted.has(Series::ResidualKinematic) {
-        let residuals: [Column<'_>; 3] = needed(table, Block::Residuals, vectors);
+        let residuals: [Column<'_>; 3] = needed(table, StateField::Residuals, vectors);
         let series = [Series::ResidualKinematic, Series::ResidualCollocation, Series::ResidualAttitude];
         for (column, residual) in out.write(series, vectors).into_iter().zip(residuals) {
             column.copy_from_slice(residual);
@@ -187,21 +187,21 @@ fn load<S: Simd>(simd: S, column: Column<'_>, at: usize) -> Lanes<S> {
 fn energies<S: Simd>(simd: S, run: &Run<'_>, attitude: Attitude<'_>, vectors: usize, out: &mut SeriesTable) {
     let Run { wanted, mass, debris, table, .. } = *run;
     let constants = Constants::of(simd, mass);
-    let omega_columns: [_; 3] = needed(table, Block::Rate, vectors);
-    let rate_columns: [_; 2] = needed(table, Block::WheelRates, vectors);
+    let omega_columns: [_; 3] = needed(table, StateField::Rate, vectors);
+    let rate_columns: [_; 2] = needed(table, StateField::WheelRates, vectors);
     let total = wanted.has(Series::EnergyTotal);
     let inertial = wanted.has(Series::EnergyFuselage);
-    let velocity = if total || inertial { needed(table, Block::ComVelocity, vectors) } else { [&[][..]; 3] };
+    let velocity = if total || inertial { needed(table, StateField::ComVelocity, vectors) } else { [&[][..]; 3] };
     let work: Option<[_; 2]> =
-        if wanted.has(Series::EnergyError) { columns(table, Block::Work, vectors) } else { None };
+        if wanted.has(Series::EnergyError) { columns(table, StateField::Work, vectors) } else { None };
     // where the states are redundant, the energy that the kernel conserves is that of its own states (36): with wheels that
     // have drifted off their constraints the one of the rates alone is another
-    let own: Option<[_; 4]> = columns(table, Block::KineticEnergies, vectors);
+    let own: Option<[_; 4]> = columns(table, StateField::KineticEnergies, vectors);
     // the debris enters as a body of its own, with c at its centre
     let debris = match debris {
         Some(body) if total || wanted.has(Series::EnergyDebris) => {
-            let velocity: [_; 3] = needed(table, Block::DebrisVelocity, vectors);
-            let omega: [_; 3] = needed(table, Block::DebrisRate, vectors);
+            let velocity: [_; 3] = needed(table, StateField::DebrisVelocity, vectors);
+            let omega: [_; 3] = needed(table, StateField::DebrisRate, vectors);
             let form = constant_form(simd, form(0.0, [0.0; 3], body.inertia));
             Some((velocity, omega, form, Lanes::broadcast(simd, 0.5 * body.mass)))
         }

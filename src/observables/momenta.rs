@@ -8,10 +8,10 @@ use fearless_simd::Simd;
 use super::attitude::Attitude;
 use super::points::{SeriesTable, columns, constant, constant_matrix, first_vector, four, needed, three};
 use super::series::Series;
-use crate::dynamics::table::{Block, StateTable};
 use crate::math::Lanes;
 use crate::math::lanes::WIDTH;
 use crate::math::vector::{dcm_from_quaternion, difference, dot, norm, product, scaled, sum};
+use crate::run::state_table::{StateField, StateTable};
 use crate::scene::mass::{Body, MassProperties};
 
 /// Where |balance - its first value| and |momentum|^2 of a momentum are written.
@@ -47,8 +47,8 @@ pub(super) fn linear_momentum<S: Simd>(
     vectors: usize,
     out: &mut SeriesTable,
 ) {
-    let velocity: [_; 3] = needed(table, Block::ComVelocity, vectors);
-    let impulse: Option<[_; 3]> = columns(table, Block::Impulse, vectors);
+    let velocity: [_; 3] = needed(table, StateField::ComVelocity, vectors);
+    let impulse: Option<[_; 3]> = columns(table, StateField::Impulse, vectors);
     let total = Lanes::broadcast(simd, mass.total);
     let columns = out.write([Series::LinearMomentumError, Series::LinearMomentumSquare], vectors);
     let mut sink = Sink::new(simd, columns);
@@ -72,9 +72,9 @@ pub(super) fn angular_momentum<S: Simd>(
     vectors: usize,
     out: &mut SeriesTable,
 ) {
-    let omega: [_; 3] = needed(table, Block::Rate, vectors);
-    let [rate1, rate2]: [_; 2] = needed(table, Block::WheelRates, vectors);
-    let impulse: Option<[_; 3]> = columns(table, Block::AngularImpulse, vectors);
+    let omega: [_; 3] = needed(table, StateField::Rate, vectors);
+    let [rate1, rate2]: [_; 2] = needed(table, StateField::WheelRates, vectors);
+    let impulse: Option<[_; 3]> = columns(table, StateField::AngularImpulse, vectors);
     let inertia = constant_matrix(simd, mass.inertia);
     let [w1, w2] = &mass.wheels;
     let axes = [constant(simd, scaled(w1.axial, w1.axis)), constant(simd, scaled(w2.axial, w2.axis))];
@@ -96,9 +96,9 @@ pub(super) fn angular_momentum<S: Simd>(
 /// Linear and angular momentum of the debris.
 #[inline(always)]
 pub(super) fn debris_momenta<S: Simd>(simd: S, body: &Body, table: &StateTable, vectors: usize, out: &mut SeriesTable) {
-    let velocity: [_; 3] = needed(table, Block::DebrisVelocity, vectors);
-    let omega: [_; 3] = needed(table, Block::DebrisRate, vectors);
-    let attitude: [_; 4] = needed(table, Block::DebrisAttitude, vectors);
+    let velocity: [_; 3] = needed(table, StateField::DebrisVelocity, vectors);
+    let omega: [_; 3] = needed(table, StateField::DebrisRate, vectors);
+    let attitude: [_; 4] = needed(table, StateField::DebrisAttitude, vectors);
     let inertia = constant_matrix(simd, body.inertia);
     let total = Lanes::broadcast(simd, body.mass);
     let [a, b, c, d] = out.write(

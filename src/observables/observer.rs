@@ -2,19 +2,19 @@
 
 use fearless_simd::Simd;
 
-use super::columns::{Own, Statistic, Value};
-use super::conditioning::{Conditioning, Judgement};
+use super::columns::{DirectValue, Statistic, Value};
+use super::conditioning::{Conditioning, ErrorEstimate};
 use super::group::Group;
 use super::measure::{Run, measure};
 use super::points::SeriesTable;
 use super::reduce::{Weights, correlations, errors, initial_and_max, slope, spread, transfer};
-use super::request::{Request, Wanted};
+use super::request::{Request, SeriesSet};
 use super::series::{Series, SeriesColumn};
 use super::spectrum::Spectrum;
-use crate::dynamics::outcome::{LocalErrors, Outcome, Status};
-use crate::dynamics::table::{Block, Grid, StateTable};
 use crate::math::Isa;
 use crate::math::isa::Work;
+use crate::run::outcome::{LocalErrors, Outcome, Status};
+use crate::run::state_table::{Grid, StateField, StateTable};
 use crate::scene::Scene;
 
 /// Swing of the fuselage's energy, relative to the total about the centre of mass, below which there is no exchange but only
@@ -29,7 +29,7 @@ pub const MEANINGLESS: f64 = 1e-3;
 #[derive(Clone, Debug)]
 pub struct Observer {
     request: Request,
-    wanted: Wanted,
+    wanted: SeriesSet,
     exchange: bool,
     /// For each column the slot of its value.
     slots: Vec<u16>,
@@ -42,7 +42,7 @@ pub struct Observer {
     series: SeriesTable,
     values: Box<[f64; Value::SLOTS]>,
     conditioning: Option<Box<Conditioning>>,
-    judgement: Option<Judgement>,
+    judgement: Option<ErrorEstimate>,
     /// Number of points of the run that was observed last.
     filled: usize,
 }
@@ -127,8 +127,8 @@ impl Observer {
     }
 
     #[inline(always)]
-    fn put_own(&mut self, own: Own, value: f64) {
-        self.values[Value::Own(own).slot()] = value;
+    fn put_own(&mut self, own: DirectValue, value: f64) {
+        self.values[Value::DirectValue(own).slot()] = value;
     }
 
     /// Reduces the series to the numbers of the row.
@@ -220,9 +220,9 @@ impl Observer {
             }
             None => f64::NAN,
         };
-        self.put_own(Own::CorrelationWheel1, if varies[0] && varies[1] { wheels[0] } else { 0.0 });
-        self.put_own(Own::CorrelationWheel2, if varies[0] && varies[2] { wheels[1] } else { 0.0 });
-        self.put_own(Own::ExchangeFrequency, frequency);
+        self.put_own(DirectValue::CorrelationWheel1, if varies[0] && varies[1] { wheels[0] } else { 0.0 });
+        self.put_own(DirectValue::CorrelationWheel2, if varies[0] && varies[2] { wheels[1] } else { 0.0 });
+        self.put_own(DirectValue::ExchangeFrequency, frequency);
     }
 
     /// The numbers that are read and not computed.
@@ -230,34 +230,34 @@ impl Observer {
         let done = outcome.status == Status::Done;
         let groups = self.request.groups;
         if done && self.request.actuated && groups.contains(Group::EnergyConservation) {
-            let [thrusters, motors] = table.at(Block::Work, table.points() - 1);
-            self.put_own(Own::WorkThrusters, thrusters);
-            self.put_own(Own::WorkMotors, motors);
+            let [thrusters, motors] = table.at(StateField::Work, table.points() - 1);
+            self.put_own(DirectValue::WorkThrusters, thrusters);
+            self.put_own(DirectValue::WorkMotors, motors);
         }
         if groups.contains(Group::FinalState) {
             let finite = |point: &usize| {
-                table.at::<3>(Block::Rate, *point).iter().all(|x| x.is_finite())
-                    && table.at::<4>(Block::Attitude, *point).iter().all(|x| x.is_finite())
-                    && table.at::<2>(Block::WheelRates, *point).iter().all(|x| x.is_finite())
+                table.at::<3>(StateField::Rate, *point).iter().all(|x| x.is_finite())
+                    && table.at::<4>(StateField::Attitude, *point).iter().all(|x| x.is_finite())
+                    && table.at::<2>(StateField::WheelRates, *point).iter().all(|x| x.is_finite())
             };
             let state = (0..self.filled).rev().find(finite).map(|point| {
-                let [w, x, y, z] = table.at(Block::Attitude, point);
-                let [a, b, c] = table.at(Block::Rate, point);
-                let [first, second] = table.at(Block::WheelRates, point);
+                let [w, x, y, z] = table.at(StateField::Attitude, point);
+                let [a, b, c] = table.at(StateField::Rate, point);
+                let [first, second] = table.at(StateField::WheelRates, point);
                 [self.times[point], w, x, y, z, a, b, c, first, second]
             });
-            let first = Value::Own(Own::TimeFinal).slot();
+            let first = Value::DirectValue(DirectValue::TimeFinal).slot();
             self.values[first..first + 10].copy_from_slice(&state.unwrap_or([f64::NAN; 10]));
-            self.put_own(Own::TimeReached, outcome.time);
+            self.put_own(DirectValue::TimeReached, outcome.time);
         }
-        if let Some(Judgement { error, amplification }) = self.judgement {
-            self.put_own(Own::StateError, error);
-            self.put_own(Own::Amplification, amplification);
-            self.put_own(Own::IllConditioned, f64::from(u8::from(amplification * f64::EPSILON > MEANINGLESS)));
+        if let Some(ErrorEstimate { error, amplification }) = self.judgement {
+            self.put_own(DirectValue::StateError, error);
+            self.put_own(DirectValue::Amplification, amplification);
+            self.put_own(DirectValue::IllConditioned, f64::from(u8::from(amplification * f64::EPSILON > MEANINGLESS)));
         }
-        self.put_own(Own::Steps, outcome.effort.steps as f64);
-        self.put_own(Own::Rejected, outcome.effort.rejected as f64);
-        self.put_own(Own::Evaluations, outcome.effort.evaluations as f64);
+        self.put_own(DirectValue::Steps, outcome.effort.steps as f64);
+        self.put_own(DirectValue::Rejected, outcome.effort.rejected as f64);
+        self.put_own(DirectValue::Evaluations, outcome.effort.evaluations as f64);
     }
 }
 

@@ -4,11 +4,11 @@
 
 use fearless_simd::Simd;
 
-use super::request::Wanted;
+use super::request::SeriesSet;
 use super::series::Series;
-use crate::dynamics::table::{Block, StateTable};
 use crate::math::lanes::WIDTH;
 use crate::math::{Lanes, Real};
+use crate::run::state_table::{StateField, StateTable};
 
 /// Eight neighbouring points of a component: all arithmetic here goes vector by vector, and columns cut to one common number of
 /// vectors need no check of bounds inside the loops.
@@ -43,7 +43,7 @@ impl SeriesTable {
 
     /// Repeats point `points - 1` in all that follow it.
     #[inline(always)]
-    pub(super) fn pad(&mut self, wanted: Wanted, points: usize) {
+    pub(super) fn pad(&mut self, wanted: SeriesSet, points: usize) {
         for (series, column) in self.columns.iter_mut().enumerate() {
             if wanted.has_index(series) {
                 let (whole, rest) = (points / WIDTH, points % WIDTH);
@@ -94,7 +94,11 @@ pub(super) fn first_vector<S: Simd>(simd: S, a: [Lanes<S>; 3]) -> [Lanes<S>; 3] 
 
 /// The first `vectors` vectors of the columns of a block, or nothing where the table does not hold it.
 #[inline(always)]
-pub(super) fn columns<const N: usize>(table: &StateTable, block: Block, vectors: usize) -> Option<[Column<'_>; N]> {
+pub(super) fn columns<const N: usize>(
+    table: &StateTable,
+    block: StateField,
+    vectors: usize,
+) -> Option<[Column<'_>; N]> {
     if !table.has(block) {
         return None;
     }
@@ -107,6 +111,6 @@ pub(super) fn columns<const N: usize>(table: &StateTable, block: Block, vectors:
 
 /// The columns of a block that the request has promised to be there.
 #[inline(always)]
-pub(super) fn needed<const N: usize>(table: &StateTable, block: Block, vectors: usize) -> [Column<'_>; N] {
+pub(super) fn needed<const N: usize>(table: &StateTable, block: StateField, vectors: usize) -> [Column<'_>; N] {
     columns(table, block, vectors).expect("the observer checks that the table holds what its request needs")
 }

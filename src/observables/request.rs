@@ -1,10 +1,10 @@
 //! [`Request`]: what a campaign asks to observe of scenes of one kind; which columns, which series, which blocks and why.
 
 use super::columns::{self, Column, Value, When};
-use super::columns::{Own, Statistic};
+use super::columns::{DirectValue, Statistic};
 use super::group::{Group, Groups};
 use super::series::{PUBLISHED, Series, SeriesColumn};
-use crate::dynamics::table::{Block, Blocks};
+use crate::run::state_table::{StateField, StateFields};
 
 /// What is asked for, and what kind of scene it is asked of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,11 +21,11 @@ pub struct Request {
 
 /// A set of series.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Wanted(u32);
+pub(super) struct SeriesSet(u32);
 
-impl Wanted {
+impl SeriesSet {
     pub(super) const fn with(self, series: Series) -> Self {
-        Wanted(self.0 | 1 << series as u32)
+        SeriesSet(self.0 | 1 << series as u32)
     }
 
     pub(super) const fn has(self, series: Series) -> bool {
@@ -50,14 +50,14 @@ impl Request {
     }
 
     /// The blocks of the state table that the columns need; no other is read.
-    pub fn blocks(&self) -> Blocks {
-        self.needs().into_iter().fold(Blocks::NONE, |blocks, (_, block, _)| blocks.with(block))
+    pub fn blocks(&self) -> StateFields {
+        self.needs().into_iter().fold(StateFields::NONE, |blocks, (_, block, _)| blocks.with(block))
     }
 
     /// For each needed block, in the order of the table, which groups need it and for what.
-    pub fn reasons(&self) -> Vec<(Block, String)> {
+    pub fn reasons(&self) -> Vec<(StateField, String)> {
         let needs = self.needs();
-        let reason = |block: Block| {
+        let reason = |block: StateField| {
             let parts: Vec<String> = needs
                 .iter()
                 .filter(|(_, needed, _)| *needed == block)
@@ -65,12 +65,15 @@ impl Request {
                 .collect();
             (!parts.is_empty()).then(|| (block, parts.join(", ")))
         };
-        Block::ALL.into_iter().filter_map(reason).collect()
+        StateField::ALL.into_iter().filter_map(reason).collect()
     }
 
     /// The series that the columns are made of, with those that set their scales.
-    pub(super) fn wanted(&self) -> Wanted {
-        self.columns().into_iter().flat_map(|column| Self::sources(column.value)).fold(Wanted::default(), Wanted::with)
+    pub(super) fn wanted(&self) -> SeriesSet {
+        self.columns()
+            .into_iter()
+            .flat_map(|column| Self::sources(column.value))
+            .fold(SeriesSet::default(), SeriesSet::with)
     }
 
     fn applies(&self, when: When) -> bool {
@@ -88,19 +91,21 @@ impl Request {
         match value {
             Value::Of(series, Statistic::Fraction) => vec![series, Series::ComTotal],
             Value::Of(series, _) => series.scale().into_iter().chain([series]).collect(),
-            Value::Own(Own::CorrelationWheel1 | Own::CorrelationWheel2 | Own::ExchangeFrequency) => {
+            Value::DirectValue(
+                DirectValue::CorrelationWheel1 | DirectValue::CorrelationWheel2 | DirectValue::ExchangeFrequency,
+            ) => {
                 vec![Series::ComFuselage, Series::ComWheel1, Series::ComWheel2, Series::ComTotal]
             }
-            Value::Own(_) => vec![],
+            Value::DirectValue(_) => vec![],
         }
     }
 
     /// Every (group, block, purpose), each once, in the order of the columns.
-    fn needs(&self) -> Vec<(Group, Block, &'static str)> {
+    fn needs(&self) -> Vec<(Group, StateField, &'static str)> {
         let mut needs = Vec::new();
         for column in self.columns() {
             let own = match column.value {
-                Value::Own(own) => own.needs(),
+                Value::DirectValue(own) => own.needs(),
                 Value::Of(..) => None,
             };
             let series = Self::sources(column.value).into_iter().flat_map(|series| series.needs(self));
@@ -114,28 +119,32 @@ impl Request {
     }
 }
 
-impl Own {
+impl DirectValue {
     /// The block that the number is read from, beside the series it is made of.
-    const fn needs(self) -> Option<(Block, &'static str)> {
+    const fn needs(self) -> Option<(StateField, &'static str)> {
         match self {
-            Own::WorkThrusters | Own::WorkMotors => Some((Block::Work, "work of the actuators")),
-            Own::AttitudeW | Own::AttitudeX | Own::AttitudeY | Own::AttitudeZ => {
-                Some((Block::Attitude, "attitude at the end"))
+            DirectValue::WorkThrusters | DirectValue::WorkMotors => Some((StateField::Work, "work of the actuators")),
+            DirectValue::AttitudeW | DirectValue::AttitudeX | DirectValue::AttitudeY | DirectValue::AttitudeZ => {
+                Some((StateField::Attitude, "attitude at the end"))
             }
-            Own::RateX | Own::RateY | Own::RateZ => Some((Block::Rate, "angular velocity at the end")),
-            Own::WheelRate1 | Own::WheelRate2 => Some((Block::WheelRates, "wheel rates at the end")),
-            Own::CorrelationWheel1
-            | Own::CorrelationWheel2
-            | Own::ExchangeFrequency
-            | Own::TimeReached
-            | Own::TimeFinal
-            | Own::Steps
-            | Own::Rejected
-            | Own::Evaluations => None,
-            Own::StateError => Some((Block::Rate, "how the motion amplifies errors")),
-            Own::Amplification => Some((Block::WheelRates, "how the motion amplifies errors")),
+            DirectValue::RateX | DirectValue::RateY | DirectValue::RateZ => {
+                Some((StateField::Rate, "angular velocity at the end"))
+            }
+            DirectValue::WheelRate1 | DirectValue::WheelRate2 => {
+                Some((StateField::WheelRates, "wheel rates at the end"))
+            }
+            DirectValue::CorrelationWheel1
+            | DirectValue::CorrelationWheel2
+            | DirectValue::ExchangeFrequency
+            | DirectValue::TimeReached
+            | DirectValue::TimeFinal
+            | DirectValue::Steps
+            | DirectValue::Rejected
+            | DirectValue::Evaluations => None,
+            DirectValue::StateError => Some((StateField::Rate, "how the motion amplifies errors")),
+            DirectValue::Amplification => Some((StateField::WheelRates, "how the motion amplifies errors")),
             // the method's own errors of the attitude are known only where it is integrated
-            Own::IllConditioned => Some((Block::Attitude, "errors of the attitude")),
+            DirectValue::IllConditioned => Some((StateField::Attitude, "errors of the attitude")),
         }
     }
 }
@@ -148,22 +157,23 @@ mod tests {
         Request { groups: groups.iter().copied().collect(), debris, actuated, constrained }
     }
 
-    fn set(blocks: &[Block]) -> Blocks {
-        blocks.iter().fold(Blocks::NONE, |set, block| set.with(*block))
+    fn set(blocks: &[StateField]) -> StateFields {
+        blocks.iter().fold(StateFields::NONE, |set, block| set.with(*block))
     }
 
     #[test]
     fn nothing_is_needed_that_nobody_asked_for() {
-        use Block::*;
         use Group::{
-            Constraints, Effort, Energies, EnergiesCom, EnergyConservation, Exchange, FinalState, MomentumConservation,
+            Constraints, Energies, EnergiesCom, EnergyConservation, Exchange, FinalState, MomentumConservation,
+            StepStatistics,
         };
+        use StateField::*;
         let spin = [Rate, WheelRates];
-        let cases: [(&[Group], [bool; 3], &[Block]); 13] = [
+        let cases: [(&[Group], [bool; 3], &[StateField]); 13] = [
             (&[], [true; 3], &[]),
-            (&[Effort], [true; 3], &[]),
+            (&[StepStatistics], [true; 3], &[]),
             (&[EnergiesCom], [true, false, false], &spin),
-            (&[EnergiesCom, Exchange, Effort], [true, true, true], &spin),
+            (&[EnergiesCom, Exchange, StepStatistics], [true, true, true], &spin),
             (&[EnergyConservation], [false; 3], &[Rate, WheelRates, ComVelocity]),
             (&[EnergyConservation], [false, true, false], &[Rate, WheelRates, ComVelocity, Work]),
             (&[EnergyConservation], [true, false, false], &[Rate, WheelRates, ComVelocity, DebrisVelocity, DebrisRate]),
@@ -198,7 +208,7 @@ mod tests {
     fn wheel_angles_and_positions_are_never_read() {
         for [debris, actuated, constrained] in [[false; 3], [true; 3]] {
             let blocks = Request { groups: Groups::ALL, debris, actuated, constrained }.blocks();
-            for block in [Block::WheelAngles, Block::ComPosition, Block::DebrisPosition] {
+            for block in [StateField::WheelAngles, StateField::ComPosition, StateField::DebrisPosition] {
                 assert!(!blocks.contains(block));
             }
         }
@@ -209,7 +219,7 @@ mod tests {
         let request = Request { groups: Groups::ALL, debris: true, actuated: true, constrained: true };
         let reasons = request.reasons();
         assert_eq!(set(&reasons.iter().map(|(block, _)| *block).collect::<Vec<_>>()), request.blocks());
-        let (_, why) = reasons.iter().find(|(block, _)| *block == Block::AngularImpulse).unwrap();
+        let (_, why) = reasons.iter().find(|(block, _)| *block == StateField::AngularImpulse).unwrap();
         assert_eq!(why, "momentum_conservation (angular impulse of the thrusters)");
     }
 

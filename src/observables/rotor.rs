@@ -1,8 +1,8 @@
 //! [`Body`]: the constants of a run's rotation, as [`super::conditioning`] needs them.
 
-use crate::dynamics::table::{Block, StateTable};
 use crate::math::Real;
 use crate::math::vector::{cross, difference, dot, product, scaled, sum};
+use crate::run::state_table::{StateField, StateTable};
 use crate::scene::Scene;
 use crate::scene::mass::MassProperties;
 
@@ -27,9 +27,9 @@ impl<'a> Body<'a> {
         let [[x, xy, xz], [_, y, yz], [.., z]] = inertia;
         let is_free = scene.schedule.iter().all(|act| act.start >= duration);
         let offset = is_free.then(|| {
-            let omega = table.at::<3>(Block::Rate, 0);
+            let omega = table.at::<3>(StateField::Rate, 0);
             let mut momentum = difference(product(mass.inertia, omega), product(inertia, omega));
-            for (wheel, rate) in mass.wheels.iter().zip(table.at::<2>(Block::WheelRates, 0)) {
+            for (wheel, rate) in mass.wheels.iter().zip(table.at::<2>(StateField::WheelRates, 0)) {
                 momentum = sum(momentum, scaled(wheel.axial * rate, wheel.axis));
             }
             momentum

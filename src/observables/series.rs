@@ -3,7 +3,7 @@
 //! Columns of a row are statistics of these; `simulate` writes those that have a [`SeriesColumn`] as they are. One code for both.
 
 use super::request::Request;
-use crate::dynamics::table::Block;
+use crate::run::state_table::StateField;
 
 /// A quantity at every observation point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -137,7 +137,7 @@ pub const PUBLISHED: &[SeriesColumn] = &{
             "",
             "Change of the debris's angular momentum about its centre in F_e, over the largest.",
         ),
-        column(AttitudeError, "attitude_error", "", "Largest entry of |C_es^T C_es - 1|."),
+        column(AttitudeError, "dcm_orthonormality", "", "Largest entry of |C_es^T C_es - 1|."),
         column(
             ResidualKinematic,
             "residual_kinematic_m_s",
@@ -172,63 +172,63 @@ impl Series {
     }
 
     /// The blocks that the series is made of, each with what it is needed for.
-    pub(super) fn needs(self, request: &Request) -> Vec<(Block, &'static str)> {
-        const SPIN: [(Block, &str); 2] =
-            [(Block::Rate, "rotation of the fuselage"), (Block::WheelRates, "rotation of the wheels")];
-        let attitude = |why| (if request.constrained { Block::Dcm } else { Block::Attitude }, why);
+    pub(super) fn needs(self, request: &Request) -> Vec<(StateField, &'static str)> {
+        const SPIN: [(StateField, &str); 2] =
+            [(StateField::Rate, "rotation of the fuselage"), (StateField::WheelRates, "rotation of the wheels")];
+        let attitude = |why| (if request.constrained { StateField::Dcm } else { StateField::Attitude }, why);
         let mut needs = Vec::new();
         match self {
             Series::EnergyFuselage | Series::EnergyWheel1 | Series::EnergyWheel2 => {
                 needs.extend(SPIN);
-                needs.push((Block::ComVelocity, "energies in F_e"));
+                needs.push((StateField::ComVelocity, "energies in F_e"));
                 needs.push(attitude("velocities of bodies off the centre of mass"));
                 if request.constrained {
-                    needs.push((Block::KineticEnergies, "energies as the redundant states have them"));
+                    needs.push((StateField::KineticEnergies, "energies as the redundant states have them"));
                 }
             }
             Series::EnergyDebris => {
-                needs.push((Block::DebrisVelocity, "energy of the debris"));
-                needs.push((Block::DebrisRate, "energy of the debris"));
+                needs.push((StateField::DebrisVelocity, "energy of the debris"));
+                needs.push((StateField::DebrisRate, "energy of the debris"));
             }
             Series::EnergyTotal | Series::EnergyError => {
                 needs.extend(SPIN);
-                needs.push((Block::ComVelocity, "total energy in F_e"));
+                needs.push((StateField::ComVelocity, "total energy in F_e"));
                 if request.constrained {
-                    needs.push((Block::KineticEnergies, "energies as the redundant states have them"));
+                    needs.push((StateField::KineticEnergies, "energies as the redundant states have them"));
                 }
                 if request.debris {
                     needs.extend(Series::EnergyDebris.needs(request));
                 }
                 if request.actuated && matches!(self, Series::EnergyError) {
-                    needs.push((Block::Work, "work of the actuators"));
+                    needs.push((StateField::Work, "work of the actuators"));
                 }
             }
             Series::ComFuselage | Series::ComWheel1 | Series::ComWheel2 | Series::ComTotal | Series::ComError => {
                 needs.extend(SPIN);
             }
             Series::LinearMomentumError | Series::LinearMomentumSquare => {
-                needs.push((Block::ComVelocity, "linear momentum"));
+                needs.push((StateField::ComVelocity, "linear momentum"));
                 if request.actuated {
-                    needs.push((Block::Impulse, "impulse of the thrusters"));
+                    needs.push((StateField::Impulse, "impulse of the thrusters"));
                 }
             }
             Series::AngularMomentumError | Series::AngularMomentumSquare => {
                 needs.extend(SPIN);
                 needs.push(attitude("angular momentum in F_e"));
                 if request.actuated {
-                    needs.push((Block::AngularImpulse, "angular impulse of the thrusters"));
+                    needs.push((StateField::AngularImpulse, "angular impulse of the thrusters"));
                 }
             }
             Series::DebrisLinearError | Series::DebrisLinearSquare => {
-                needs.push((Block::DebrisVelocity, "linear momentum of the debris"));
+                needs.push((StateField::DebrisVelocity, "linear momentum of the debris"));
             }
             Series::DebrisAngularError | Series::DebrisAngularSquare => {
-                needs.push((Block::DebrisRate, "angular momentum of the debris"));
-                needs.push((Block::DebrisAttitude, "angular momentum of the debris in F_e"));
+                needs.push((StateField::DebrisRate, "angular momentum of the debris"));
+                needs.push((StateField::DebrisAttitude, "angular momentum of the debris in F_e"));
             }
             Series::AttitudeError => needs.push(attitude("departure from a rotation")),
             Series::ResidualKinematic | Series::ResidualCollocation | Series::ResidualAttitude => {
-                needs.push((Block::Residuals, "residuals of the constraints"));
+                needs.push((StateField::Residuals, "residuals of the constraints"));
             }
         }
         needs

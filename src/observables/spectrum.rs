@@ -11,9 +11,9 @@
 
 use fearless_simd::Simd;
 
-use crate::dynamics::table::Grid;
 use crate::math::lanes::WIDTH;
 use crate::math::{Lanes, Real};
+use crate::run::state_table::Grid;
 
 /// Fewest points from which a frequency is told.
 const FEWEST: usize = 8;

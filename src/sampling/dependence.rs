@@ -2,7 +2,7 @@
 //! [`Derived`] columns.
 
 use super::copula::{Copula, Matrix, nearest_correlation, score_correlation, smallest_negative_eigenvalue};
-use super::dispersions::{Dispersions, Map};
+use super::dispersions::{Dispersions, Transform};
 use super::distribution::Distribution;
 use super::expression::Expression;
 use super::law::{DispersionError, Table, error_of};
@@ -100,7 +100,7 @@ impl Correlation {
         let mut laws: Vec<&Distribution> = Vec::with_capacity(components.len());
         for component in &components {
             let law = drawn.law_at(*component).filter(|law| law.map.dimensions() == 1);
-            let Some((law, Map::Scalar(distribution))) = law.map(|law| (law, &law.map)) else {
+            let Some((law, Transform::Scalar(distribution))) = law.map(|law| (law, &law.map)) else {
                 let allowed = "made of parameters that a [[disperse]] table gives a law of one number each".to_owned();
                 return refused("parameters", name(*component), allowed, "disperse it, or take it out of the list");
             };

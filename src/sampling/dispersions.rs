@@ -33,25 +33,25 @@ pub struct Placed {
     /// The columns that it writes, in the order of the law's values.
     pub columns: Vec<usize>,
     /// The law.
-    pub map: Map,
+    pub map: Transform,
 }
 
 /// From numbers u in (0, 1) to values.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Map {
+pub enum Transform {
     /// One u, one value.
     Scalar(Distribution),
     /// Several together.
     Joint(Joint),
 }
 
-impl Map {
+impl Transform {
     /// Number of u that it takes.
     pub fn dimensions(&self) -> usize {
         match self {
-            Map::Scalar(Distribution::Fixed(_)) => 0,
-            Map::Scalar(_) => 1,
-            Map::Joint(joint) => joint.dimensions(),
+            Transform::Scalar(Distribution::Fixed(_)) => 0,
+            Transform::Scalar(_) => 1,
+            Transform::Joint(joint) => joint.dimensions(),
         }
     }
 }
@@ -145,7 +145,7 @@ impl Dispersions {
     }
 
     /// The law that writes a column, if one does: a component of a quaternion may only change with its siblings.
-    pub fn law_of(&self, column: usize) -> Option<&Map> {
+    pub fn law_of(&self, column: usize) -> Option<&Transform> {
         self.laws.iter().find(|law| law.columns.contains(&column)).map(|law| &law.map)
     }
 
@@ -229,9 +229,9 @@ impl Dispersions {
         };
         self.check_components(index, parameter, &components, nominal)?;
         let nominals: Vec<f64> = components.iter().filter_map(|c| parameter.value(nominal, *c)).collect();
-        let maps: Vec<(Vec<usize>, Map)> = match distributions(index, &dispersion.law, &nominals)? {
-            Some(laws) => components.iter().zip(laws).map(|(c, law)| (vec![*c], Map::Scalar(law))).collect(),
-            None => vec![(components, Map::Joint(joint(index, dispersion, nominal)?))],
+        let maps: Vec<(Vec<usize>, Transform)> = match distributions(index, &dispersion.law, &nominals)? {
+            Some(laws) => components.iter().zip(laws).map(|(c, law)| (vec![*c], Transform::Scalar(law))).collect(),
+            None => vec![(components, Transform::Joint(joint(index, dispersion, nominal)?))],
         };
         // a quaternion is normalised as a whole: all of it is recorded, in one place
         if parameter.kind() == Kind::Quaternion {
@@ -242,9 +242,9 @@ impl Dispersions {
         for (components, map) in maps {
             let first = self.dimensions.len();
             match &map {
-                Map::Scalar(Distribution::Fixed(_)) => {}
-                Map::Scalar(_) => self.dimensions.push(parameter.component_name(components[0])),
-                Map::Joint(joint) => {
+                Transform::Scalar(Distribution::Fixed(_)) => {}
+                Transform::Scalar(_) => self.dimensions.push(parameter.component_name(components[0])),
+                Transform::Joint(joint) => {
                     let name = |k: usize| format!("{}/{}", parameter.name(), k + 1);
                     self.dimensions.extend((0..joint.dimensions()).map(name));
                 }

@@ -38,7 +38,7 @@ pub enum Bound {
 
 /// Where a normal law is cut off.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Cut {
+pub enum Truncation {
     /// At so many standard deviations on both sides of the nominal (`sigmas`).
     Sigmas(Values),
     /// At bounds; at least one is given.
@@ -130,7 +130,7 @@ pub enum Law {
     /// Normal about the nominal.
     Normal(Spread),
     /// Normal about the nominal, truncated.
-    TruncatedNormal(Spread, Cut),
+    TruncatedNormal(Spread, Truncation),
     /// Uniform.
     Uniform(Range),
     /// Normal in the logarithm (`log_std`, and `median`, else the nominal).

@@ -31,13 +31,13 @@ pub mod stream;
 pub use dependence::{Correlation, Dependence, Derivation};
 pub use design::levels::Levels;
 pub use design::{DESIGNS, Design};
-pub use dispersions::{Column, Dispersions, Draws, Map};
+pub use dispersions::{Column, Dispersions, Draws, Transform};
 pub use distribution::Distribution;
 pub use geometric_law::{AttitudeSpread, GeometricLaw};
 pub use joint::Joint;
 pub use law::{
-    Bound, Cut, DataColumn, Dispersion, DispersionError, Interpolation, Law, LogRange, Offset, Range, Spread, Table,
-    Values,
+    Bound, DataColumn, Dispersion, DispersionError, Interpolation, Law, LogRange, Offset, Range, Spread, Table,
+    Truncation, Values,
 };
 pub use sampler::Sampler;
 pub use stream::{SampleId, Stream};

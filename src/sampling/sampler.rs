@@ -4,7 +4,7 @@
 //! renormalised) and read back. A draw that is physically impossible is not drawn again: the scene refuses it later.
 
 use super::design::{BLOCK, Design, Points};
-use super::dispersions::{Column, Dispersions, Map, Placed};
+use super::dispersions::{Column, Dispersions, Placed, Transform};
 use super::distribution::Distribution;
 use super::joint::{Joint, MOST_COMPONENTS, MOST_DIMENSIONS};
 use super::stream::SampleId;
@@ -91,15 +91,15 @@ impl<'a> Sampler<'a> {
         }
         for law in &self.dispersions.laws {
             match &law.map {
-                Map::Scalar(Distribution::Fixed(value)) => self.values[law.columns[0]] = [*value; BLOCK],
-                Map::Scalar(distribution) => {
+                Transform::Scalar(Distribution::Fixed(value)) => self.values[law.columns[0]] = [*value; BLOCK],
+                Transform::Scalar(distribution) => {
                     let values = &mut self.values[law.columns[0]];
                     match self.tied[law.first].then(|| distribution.of_scores(&self.scores[law.first], values)) {
                         Some(true) => {}
                         _ => distribution.quantiles(&self.u[law.first], values),
                     }
                 }
-                Map::Joint(joint) => self.draw_joint(law, joint),
+                Transform::Joint(joint) => self.draw_joint(law, joint),
             }
         }
         if some_stay {

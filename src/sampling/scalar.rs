@@ -3,7 +3,7 @@
 use super::beta::BetaLaw;
 use super::discrete::{Choice, Empirical};
 use super::distribution::{Distribution, TruncatedNormal};
-use super::law::{Bound, Cut, DispersionError, Law, LogRange, Offset, Range, Spread, Values, error};
+use super::law::{Bound, DispersionError, Law, LogRange, Offset, Range, Spread, Truncation, Values, error};
 
 /// Shape parameters of a beta law: outside, the law is a spike or two, and the quantile's series need thousands of terms.
 const SHAPES: std::ops::RangeInclusive<f64> = 0.01..=1e4;
@@ -259,18 +259,18 @@ impl At<'_> {
     }
 
     /// Lower and upper bound of each component of a truncated law.
-    fn bounds(&self, cut: &Cut, stds: &[f64]) -> Result<(Vec<f64>, Vec<f64>), DispersionError> {
+    fn bounds(&self, cut: &Truncation, stds: &[f64]) -> Result<(Vec<f64>, Vec<f64>), DispersionError> {
         let so_many =
             |key, values: &Values| self.passing(key, values, |x| x > 0.0, "> 0", "3 cuts 0.27% of the normal law");
         let sigmas_away = |sigmas: &[f64], sign: f64| -> Vec<f64> {
             (0..stds.len()).map(|k| self.nominals[k] + sign * sigmas[k] * stds[k]).collect()
         };
         match cut {
-            Cut::Sigmas(sigmas) => {
+            Truncation::Sigmas(sigmas) => {
                 let sigmas = so_many("sigmas", sigmas)?;
                 Ok((sigmas_away(&sigmas, -1.0), sigmas_away(&sigmas, 1.0)))
             }
-            Cut::Bounds { lower, upper } => {
+            Truncation::Bounds { lower, upper } => {
                 let end = |bound: &Option<Bound>, keys: [&'static str; 3], sign: f64| match bound {
                     None => Ok(vec![sign * f64::INFINITY; stds.len()]),
                     Some(Bound::Absolute(values)) => self.each(keys[0], values),
@@ -295,7 +295,7 @@ impl At<'_> {
 
     fn truncated(
         &self,
-        cut: &Cut,
+        cut: &Truncation,
         mean: f64,
         std: f64,
         lower: f64,
@@ -326,17 +326,17 @@ pub const LOWER_KEYS: [&str; 3] = ["lower", "relative_lower", "lower_sigmas"];
 pub const UPPER_KEYS: [&str; 3] = ["upper", "relative_upper", "upper_sigmas"];
 
 /// The key that stands for both bounds in a message.
-fn cut_key(cut: &Cut) -> &'static str {
+fn cut_key(cut: &Truncation) -> &'static str {
     let key = |bound: &Bound, keys: [&'static str; 3]| match bound {
         Bound::Absolute(_) => keys[0],
         Bound::Relative(_) => keys[1],
         Bound::Sigmas(_) => keys[2],
     };
     match cut {
-        Cut::Sigmas(_) => "sigmas",
-        Cut::Bounds { lower: Some(lower), .. } => key(lower, LOWER_KEYS),
-        Cut::Bounds { upper: Some(upper), .. } => key(upper, UPPER_KEYS),
-        Cut::Bounds { .. } => "lower",
+        Truncation::Sigmas(_) => "sigmas",
+        Truncation::Bounds { lower: Some(lower), .. } => key(lower, LOWER_KEYS),
+        Truncation::Bounds { upper: Some(upper), .. } => key(upper, UPPER_KEYS),
+        Truncation::Bounds { .. } => "lower",
     }
 }
 

@@ -1,10 +1,13 @@
 //! Scenes with their exact motion (double-double), and how far runs are off it.
 
 use rayon::prelude::*;
-use spindrift::dynamics::table::{Block, Grid, StateTable};
-use spindrift::integrators::taylor::truth::{TOLERANCE, Truth};
-use spindrift::integrators::{Control, Method, Propagator, Status};
 use spindrift::math::Isa;
+use spindrift::ode::Control;
+use spindrift::propagation::Method;
+use spindrift::propagation::PropagationSettings;
+use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE};
+use spindrift::run::Status;
+use spindrift::run::state_table::{Grid, StateField, StateTable};
 use spindrift::scene::Scene;
 
 use super::runs::{Run, blocks, propagate_on};
@@ -13,11 +16,17 @@ use super::runs::{Run, blocks, propagate_on};
 pub struct Exact {
     pub scenes: Vec<Scene>,
     pub grid: Grid,
-    pub truths: Vec<Truth>,
+    pub truths: Vec<ReferenceSolution>,
 }
 
 /// |a - b|, in all digits of b.
-fn off<const N: usize>(table: &StateTable, truth: &Truth, block: Block, point: usize, sign: f64) -> f64 {
+fn off<const N: usize>(
+    table: &StateTable,
+    truth: &ReferenceSolution,
+    block: StateField,
+    point: usize,
+    sign: f64,
+) -> f64 {
     let found = table.at::<N>(block, point);
     let (high, low) = (truth.high.at::<N>(block, point), truth.low.at::<N>(block, point));
     let square = |i: usize| ((sign * found[i] - high[i]) - low[i]).powi(2);
@@ -30,30 +39,34 @@ fn size<const N: usize>(v: [f64; N]) -> f64 {
 }
 
 /// Largest |omega - truth| over the largest |omega|, and largest angle between the attitudes, rad, at any point.
-pub fn distance(table: &StateTable, truth: &Truth) -> [f64; 2] {
+pub fn distance(table: &StateTable, truth: &ReferenceSolution) -> [f64; 2] {
     let points = 0..truth.high.points();
-    let scale = points.clone().map(|point| size(truth.high.at::<3>(Block::Rate, point))).fold(0.0, f64::max);
+    let scale = points.clone().map(|point| size(truth.high.at::<3>(StateField::Rate, point))).fold(0.0, f64::max);
     let scale = if scale > 0.0 { scale } else { 1.0 };
     points.fold([0.0, 0.0], |[rate, attitude], point| {
-        let turned = |sign| 2.0 * off::<4>(table, truth, Block::Attitude, point, sign);
-        [rate.max(off::<3>(table, truth, Block::Rate, point, 1.0) / scale), attitude.max(turned(1.0).min(turned(-1.0)))]
+        let turned = |sign| 2.0 * off::<4>(table, truth, StateField::Attitude, point, sign);
+        [
+            rate.max(off::<3>(table, truth, StateField::Rate, point, 1.0) / scale),
+            attitude.max(turned(1.0).min(turned(-1.0))),
+        ]
     })
 }
 
 impl Exact {
     /// Solves `scenes` exactly.
     pub fn new(scenes: Vec<Scene>, grid: Grid) -> Self {
-        let wanted = blocks([Block::Rate, Block::Attitude]);
-        let solve =
-            |scene: &Scene| Truth::new(Isa::best(), scene, &grid, wanted, TOLERANCE).expect("the truth arrives");
+        let wanted = blocks([StateField::Rate, StateField::Attitude]);
+        let solve = |scene: &Scene| {
+            ReferenceSolution::new(Isa::best(), scene, &grid, wanted, TOLERANCE).expect("the truth arrives")
+        };
         let truths = scenes.par_iter().map(solve).collect();
         Exact { scenes, grid, truths }
     }
 
     /// The runs of the scenes by `method`: rate, attitude and wheel rates, all of which must arrive.
     pub fn runs(&self, method: Method, control: Control) -> Vec<Run> {
-        let wanted = blocks([Block::Rate, Block::Attitude, Block::WheelRates]);
-        let plan = Propagator::new(method, control, self.grid.clone(), wanted, &self.scenes[0]);
+        let wanted = blocks([StateField::Rate, StateField::Attitude, StateField::WheelRates]);
+        let plan = PropagationSettings::new(method, control, self.grid.clone(), wanted, &self.scenes[0]);
         let parts: Vec<_> = self.scenes.par_chunks(8).map(|part| propagate_on(Isa::best(), &plan, part)).collect();
         let runs: Vec<Run> = parts.into_iter().flatten().collect();
         assert!(runs.iter().all(|run| run.outcome.status == Status::Done), "{method:?}");
@@ -62,7 +75,7 @@ impl Exact {
 
     /// The larger of the errors of rate (relative) and attitude (rad) of each run.
     pub fn errors(&self, runs: &[Run]) -> Vec<f64> {
-        let worst = |(run, truth): (&Run, &Truth)| {
+        let worst = |(run, truth): (&Run, &ReferenceSolution)| {
             let [rate, attitude] = distance(&run.table, truth);
             rate.max(attitude)
         };

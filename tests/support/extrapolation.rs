@@ -2,9 +2,9 @@
 //!
 //! Source: Hairer, Norsett & Wanner (1993), II.9, harmonic sequence of even numbers, eight columns: order 16.
 
-use spindrift::integrators::System;
 use spindrift::math::Isa;
 use spindrift::math::isa::Work;
+use spindrift::ode::System;
 
 /// Basic step, s: a wheel at 340 rad/s turns by 0.7 rad, whose order-16 error is far below rounding (at 1.6 rad it is 1e-11).
 const STEP: f64 = 0.002;

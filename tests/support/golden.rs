@@ -15,12 +15,12 @@ pub struct Golden {
     /// The scene as written.
     pub scene: SceneInput,
     /// The truth, ascending in time, the first at zero.
-    pub truth: Vec<Truth>,
+    pub truth: Vec<ReferenceSolution>,
 }
 
 /// The true state at one time; SI, frames as in [`InitialInput`].
 #[derive(Clone, Debug)]
-pub struct Truth {
+pub struct ReferenceSolution {
     /// Time, s.
     pub time: f64,
     /// Position of p in F_e.
@@ -136,8 +136,8 @@ fn scene(scene: &Value) -> SceneInput {
     }
 }
 
-fn row(row: &Value) -> Truth {
-    Truth {
+fn row(row: &Value) -> ReferenceSolution {
+    ReferenceSolution {
         time: number(&row["t"]),
         r_po_e: numbers(&row["r_p"]),
         v_po_e: numbers(&row["v_p"]),

@@ -1,10 +1,10 @@
 //! Energy and angular momentum of a run without actuators from its states, in double-double: what rounding does to the states is
 //! seen, what rounding would do to the measurement is not there.
 
-use spindrift::dynamics::table::{Block, StateTable};
 use spindrift::math::double_double::DoubleDouble;
 use spindrift::math::vector::{constant, constant_matrix, dcm_from_quaternion, dot, product, scaled, sum};
 use spindrift::math::{Real, vector};
+use spindrift::run::state_table::{StateField, StateTable};
 use spindrift::scene::{Scene, WheelMode};
 
 /// What a free spacecraft conserves, at one point.
@@ -40,7 +40,7 @@ impl Invariants {
     pub fn of(scene: &Scene, table: &StateTable, point: usize) -> Self {
         let zero = DoubleDouble::exact(0.0);
         let half = zero.splat(0.5);
-        let omega = constant(zero, table.at::<3>(Block::Rate, point));
+        let omega = constant(zero, table.at::<3>(StateField::Rate, point));
         let mut momentum = product(constant_matrix(zero, scene.mass.inertia_rotating()), omega);
         let mut energy = half * dot(momentum, omega);
         for (wheel, h) in scene.mass.wheels.iter().zip(wheel_momenta(scene)) {
@@ -49,7 +49,7 @@ impl Invariants {
                 energy += half * h * h / zero.splat(wheel.axial);
             }
         }
-        let q = table.at::<4>(Block::Attitude, point).map(DoubleDouble::exact);
+        let q = table.at::<4>(StateField::Attitude, point).map(DoubleDouble::exact);
         let norm = (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]).sqrt();
         let unit = q.map(|component| component / norm);
         let momentum_e = product(dcm_from_quaternion(unit), momentum);

@@ -5,9 +5,9 @@ use std::path::Path;
 use std::sync::Mutex;
 
 use spindrift::campaign::{Overrides, Plan};
-use spindrift::ensemble::{Campaign, Parts, Rows, Sink, run};
-use spindrift::integrators::Status;
+use spindrift::ensemble::{Ensemble, Parts, Rows, Sink, run};
 use spindrift::math::Isa;
+use spindrift::run::Status;
 
 /// The shipped campaign `name`, with other samples where asked for.
 pub fn shipped(name: &str, samples: Option<u64>) -> Plan {
@@ -61,7 +61,7 @@ impl Sink for Memory {
 
 /// Runs `plan` on all cores.
 pub fn rows(plan: &Plan) -> Table {
-    let campaign = Campaign::new(plan, Isa::best());
+    let campaign = Ensemble::new(plan, Isa::best());
     let names = campaign.request().columns().iter().map(|column| column.name).collect::<Vec<_>>();
     let sink = Memory::default();
     run(&campaign, Parts::of(plan.samples), None, &sink, &|_| {}).expect("threads");

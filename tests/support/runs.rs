@@ -1,10 +1,14 @@
-//! Runs through [`Propagator`], as every campaign makes them, and the distances by which they are judged.
+//! Runs through [`PropagationSettings`], as every campaign makes them, and the distances by which they are judged.
 
 use sha2::{Digest, Sha256};
-use spindrift::dynamics::table::{Block, Blocks, Grid, StateTable};
-use spindrift::integrators::{Control, Method, Outcome, Propagator, Tolerance};
 use spindrift::math::Isa;
 use spindrift::math::vector::{cross, dcm_from_quaternion, difference, norm, product};
+use spindrift::ode::Control;
+use spindrift::ode::Tolerance;
+use spindrift::propagation::Method;
+use spindrift::propagation::PropagationSettings;
+use spindrift::run::Outcome;
+use spindrift::run::state_table::{Grid, StateField, StateFields, StateTable};
 use spindrift::scene::Scene;
 
 /// The states of one run and how it ended.
@@ -24,11 +28,11 @@ impl Run {
     }
 
     /// Outcome and the states of `blocks`, as bits.
-    pub fn bits_of(&self, blocks: Blocks) -> Bits {
+    pub fn bits_of(&self, blocks: StateFields) -> Bits {
         let Outcome { status, time, points, effort, .. } = self.outcome;
         let mut bits = vec![status as u64, time.to_bits(), points as u64];
         bits.extend([effort.steps, effort.rejected, effort.evaluations]);
-        for block in Block::ALL.into_iter().filter(|block| blocks.contains(*block)) {
+        for block in StateField::ALL.into_iter().filter(|block| blocks.contains(*block)) {
             for component in 0..block.width() {
                 let column = &self.table.column(block, component)[..self.table.points()];
                 bits.extend(column.iter().map(|x| x.to_bits()));
@@ -48,15 +52,16 @@ pub fn hash(bits: impl IntoIterator<Item = u64>) -> String {
 }
 
 /// A set of blocks.
-pub fn blocks(list: impl IntoIterator<Item = Block>) -> Blocks {
-    list.into_iter().fold(Blocks::NONE, Blocks::with)
+pub fn blocks(list: impl IntoIterator<Item = StateField>) -> StateFields {
+    list.into_iter().fold(StateFields::NONE, StateFields::with)
 }
 
 /// All blocks that `method` can fill: only the reference kernel integrates the DCM, with
 /// constraints, and has energies of its own.
-pub fn everything(method: Method) -> Blocks {
-    let constrained = |block: &Block| matches!(block, Block::Dcm | Block::Residuals | Block::KineticEnergies);
-    blocks(Block::ALL.into_iter().filter(|block| method == Method::Reference || !constrained(block)))
+pub fn everything(method: Method) -> StateFields {
+    let constrained =
+        |block: &StateField| matches!(block, StateField::Dcm | StateField::Residuals | StateField::KineticEnergies);
+    blocks(StateField::ALL.into_iter().filter(|block| method == Method::NullSpace || !constrained(block)))
 }
 
 /// The control of an adaptive method, as `tolerance = ...` in a campaign file.
@@ -70,7 +75,7 @@ pub fn fixed(step: f64) -> Control {
 }
 
 /// The runs of `scenes` in their order.
-pub fn propagate_on(isa: Isa, plan: &Propagator, scenes: &[Scene]) -> Vec<Run> {
+pub fn propagate_on(isa: Isa, plan: &PropagationSettings, scenes: &[Scene]) -> Vec<Run> {
     let mut runs: Vec<Option<Run>> = vec![None; scenes.len()];
     plan.engine(isa).propagate(scenes, &mut |index, table, outcome| {
         let before = runs[index].replace(Run { table: table.clone(), outcome: *outcome });
@@ -81,7 +86,7 @@ pub fn propagate_on(isa: Isa, plan: &Propagator, scenes: &[Scene]) -> Vec<Run> {
 
 /// The same on the best instruction set, with everything in the table.
 pub fn propagate(method: Method, control: Control, grid: &Grid, scenes: &[Scene]) -> Vec<Run> {
-    let plan = Propagator::new(method, control, grid.clone(), everything(method), &scenes[0]);
+    let plan = PropagationSettings::new(method, control, grid.clone(), everything(method), &scenes[0]);
     propagate_on(Isa::best(), &plan, scenes)
 }
 
@@ -104,24 +109,24 @@ pub fn up_to_sign(found: [f64; 4], expected: [f64; 4]) -> f64 {
 
 /// Position and velocity of p in F_e, from the states of c.
 pub fn base_point(scene: &Scene, table: &StateTable, point: usize) -> [[f64; 3]; 2] {
-    let c_es = dcm_from_quaternion(table.at::<4>(Block::Attitude, point));
+    let c_es = dcm_from_quaternion(table.at::<4>(StateField::Attitude, point));
     let center = scene.mass.center;
-    let spin = cross(table.at::<3>(Block::Rate, point), center);
+    let spin = cross(table.at::<3>(StateField::Rate, point), center);
     [
-        difference(table.at(Block::ComPosition, point), product(c_es, center)),
-        difference(table.at(Block::ComVelocity, point), product(c_es, spin)),
+        difference(table.at(StateField::ComPosition, point), product(c_es, center)),
+        difference(table.at(StateField::ComVelocity, point), product(c_es, spin)),
     ]
 }
 
 /// Largest distance of omega, over the largest |omega| of the run, and of the attitude, at any point of two runs.
 pub fn rotation_distance(found: &StateTable, expected: &StateTable) -> [f64; 2] {
     let points = 0..expected.points();
-    let size = points.clone().map(|point| norm(expected.at::<3>(Block::Rate, point))).fold(0.0, f64::max);
+    let size = points.clone().map(|point| norm(expected.at::<3>(StateField::Rate, point))).fold(0.0, f64::max);
     let mut worst = [0.0_f64; 2];
     for point in points {
-        let off = norm(difference(found.at::<3>(Block::Rate, point), expected.at::<3>(Block::Rate, point)));
+        let off = norm(difference(found.at::<3>(StateField::Rate, point), expected.at::<3>(StateField::Rate, point)));
         let off = if size > 0.0 { off / size } else { off };
-        let turned = up_to_sign(found.at(Block::Attitude, point), expected.at(Block::Attitude, point));
+        let turned = up_to_sign(found.at(StateField::Attitude, point), expected.at(StateField::Attitude, point));
         worst = [worst[0].max(if off.is_nan() { f64::INFINITY } else { off }), worst[1].max(turned)];
     }
     worst

@@ -3,12 +3,19 @@
 #![allow(dead_code)] // Every test file uses its own part.
 
 use fearless_simd::Simd;
-use spindrift::dynamics::table::{Grid, Trajectory};
-use spindrift::integrators::embedded::Embedded;
-use spindrift::integrators::fixed::FixedStep;
-use spindrift::integrators::{Control, Outcome, Runs, System, Tolerance, Workspace, adaptive, fixed};
 use spindrift::math::isa::Work;
 use spindrift::math::{Isa, Lanes, Real};
+use spindrift::ode::Control;
+use spindrift::ode::Runs;
+use spindrift::ode::System;
+use spindrift::ode::Tolerance;
+use spindrift::ode::Workspace;
+use spindrift::ode::adaptive;
+use spindrift::ode::embedded::Embedded;
+use spindrift::ode::fixed;
+use spindrift::ode::fixed::FixedStep;
+use spindrift::run::Outcome;
+use spindrift::run::state_table::{Grid, Trajectory};
 
 /// A right-hand side with `P` parameters; `stretch` counts the stretches.
 pub trait Law<const N: usize, const P: usize>: Copy {

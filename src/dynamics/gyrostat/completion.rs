@@ -6,29 +6,29 @@ use super::{
     ANGLE, ANGULAR_IMPULSE, ATTITUDE, Gyrostat, IMPULSE, IMPULSE_INTEGRAL, MOTOR_WORK, OMEGA, THRUST_WORK, WITH_ANGLES,
     WITH_ATTITUDE, WITH_MOTORS, WITH_THRUST,
 };
-use crate::dynamics::table::{Block, Grid, StateTable, Trajectory};
 use crate::math::lanes::WIDTH;
 use crate::math::vector::{
     conjugate, constant, constant_matrix, constant_quaternion, difference, dot, hamilton, product, scaled, sum,
 };
 use crate::math::{Lanes, Real};
+use crate::run::state_table::{Grid, StateField, StateTable, Trajectory};
 
 /// The smallest number of integrated components from which the spacecraft's blocks of `table` follow.
 ///
 /// `thrust` and `motors` say what the scene's schedule holds.
-pub fn components(has: impl Fn(Block) -> bool, thrust: bool, motors: bool) -> usize {
-    let forced = has(Block::ComPosition)
-        || has(Block::ComVelocity)
-        || has(Block::Impulse)
-        || has(Block::AngularImpulse)
-        || has(Block::Work);
+pub fn components(has: impl Fn(StateField) -> bool, thrust: bool, motors: bool) -> usize {
+    let forced = has(StateField::ComPosition)
+        || has(StateField::ComVelocity)
+        || has(StateField::Impulse)
+        || has(StateField::AngularImpulse)
+        || has(StateField::Work);
     if thrust && forced {
         WITH_THRUST
-    } else if motors && has(Block::Work) {
+    } else if motors && has(StateField::Work) {
         WITH_MOTORS
-    } else if has(Block::WheelAngles) {
+    } else if has(StateField::WheelAngles) {
         WITH_ANGLES
-    } else if has(Block::Attitude) {
+    } else if has(StateField::Attitude) {
         WITH_ATTITUDE
     } else {
         super::RATES_ONLY
@@ -47,8 +47,14 @@ pub fn complete<S: Simd, const N: usize>(
 ) {
     complete_rotation::<S, N>(simd, run, trajectory, table);
     let times = grid.padded_times();
-    let wheels = table.has(Block::WheelRates) || N >= WITH_ANGLES && table.has(Block::WheelAngles);
-    let translation = [Block::ComPosition, Block::ComVelocity, Block::Impulse, Block::AngularImpulse, Block::Work];
+    let wheels = table.has(StateField::WheelRates) || N >= WITH_ANGLES && table.has(StateField::WheelAngles);
+    let translation = [
+        StateField::ComPosition,
+        StateField::ComVelocity,
+        StateField::Impulse,
+        StateField::AngularImpulse,
+        StateField::Work,
+    ];
     let translation = translation.into_iter().any(|block| table.has(block));
     if !wheels && !translation {
         return;
@@ -74,28 +80,28 @@ fn complete_rotation<S: Simd, const N: usize>(
     trajectory: &Trajectory,
     table: &mut StateTable,
 ) {
-    let attitude = N >= WITH_ATTITUDE && table.has(Block::Attitude);
+    let attitude = N >= WITH_ATTITUDE && table.has(StateField::Attitude);
     if run.c_sb.is_none() {
         for i in 0..3 {
-            if table.has(Block::Rate) {
-                table.column_mut(Block::Rate, i).copy_from_slice(trajectory.column(OMEGA + i));
+            if table.has(StateField::Rate) {
+                table.column_mut(StateField::Rate, i).copy_from_slice(trajectory.column(OMEGA + i));
             }
         }
         for i in 0..4 {
             if attitude {
-                table.column_mut(Block::Attitude, i).copy_from_slice(trajectory.column(ATTITUDE + i));
+                table.column_mut(StateField::Attitude, i).copy_from_slice(trajectory.column(ATTITUDE + i));
             }
         }
         return;
     }
     for first in (0..table.stride()).step_by(WIDTH) {
         let states = rotation::<S, N>(simd, run, trajectory, first);
-        Chunk { simd, first }.write3(table, Block::Rate, states.rate);
+        Chunk { simd, first }.write3(table, StateField::Rate, states.rate);
         if let Some(components) = states.attitude
             && attitude
         {
             for (i, component) in components.into_iter().enumerate() {
-                component.store(&mut table.column_mut(Block::Attitude, i)[first..]);
+                component.store(&mut table.column_mut(StateField::Attitude, i)[first..]);
             }
         }
     }
@@ -145,13 +151,13 @@ fn complete_wheels<S: Simd, const N: usize>(
     omega_b: [Lanes<S>; 3],
     table: &mut StateTable,
 ) {
-    let angles = N >= WITH_ANGLES && table.has(Block::WheelAngles);
+    let angles = N >= WITH_ANGLES && table.has(StateField::WheelAngles);
     for wheel in 0..2 {
         let axis = constant(chunk.zero(), run.axes_b[wheel]);
         let inverse = run.inverse_axial(wheel);
         if inverse == 0.0 {
             // a wheel that is not there does not turn
-            for block in [Block::WheelRates, Block::WheelAngles] {
+            for block in [StateField::WheelRates, StateField::WheelAngles] {
                 if table.has(block) {
                     chunk.zero().store(&mut table.column_mut(block, wheel)[chunk.first..]);
                 }
@@ -160,16 +166,16 @@ fn complete_wheels<S: Simd, const N: usize>(
         }
         if let Some(rate) = run.held[wheel] {
             let rate = chunk.splat(rate);
-            if table.has(Block::WheelRates) {
-                rate.store(&mut table.column_mut(Block::WheelRates, wheel)[chunk.first..]);
+            if table.has(StateField::WheelRates) {
+                rate.store(&mut table.column_mut(StateField::WheelRates, wheel)[chunk.first..]);
             }
-            if table.has(Block::WheelAngles) {
+            if table.has(StateField::WheelAngles) {
                 let angle = rate.mul_add(Lanes::from_slice(chunk.simd, times), chunk.splat(run.wheel_angles[wheel]));
-                angle.store(&mut table.column_mut(Block::WheelAngles, wheel)[chunk.first..]);
+                angle.store(&mut table.column_mut(StateField::WheelAngles, wheel)[chunk.first..]);
             }
             continue;
         }
-        if table.has(Block::WheelRates) {
+        if table.has(StateField::WheelRates) {
             let momentum = chunk.along(
                 run,
                 times,
@@ -179,7 +185,7 @@ fn complete_wheels<S: Simd, const N: usize>(
                 },
             );
             let rate = momentum * chunk.splat(inverse) - dot(axis, omega_b);
-            rate.store(&mut table.column_mut(Block::WheelRates, wheel)[chunk.first..]);
+            rate.store(&mut table.column_mut(StateField::WheelRates, wheel)[chunk.first..]);
         }
         if angles {
             let turn = chunk.along(
@@ -193,7 +199,7 @@ fn complete_wheels<S: Simd, const N: usize>(
                 },
             );
             let angle = chunk.splat(run.wheel_angles[wheel]) + (turn - dot(axis, chunk.read3(trajectory, ANGLE)));
-            angle.store(&mut table.column_mut(Block::WheelAngles, wheel)[chunk.first..]);
+            angle.store(&mut table.column_mut(StateField::WheelAngles, wheel)[chunk.first..]);
         }
     }
 }
@@ -207,7 +213,7 @@ fn complete_work<S: Simd, const N: usize>(
     omega_b: [Lanes<S>; 3],
     table: &mut StateTable,
 ) {
-    if !table.has(Block::Work) {
+    if !table.has(StateField::Work) {
         return;
     }
     let thrusters = chunk.read_if(N >= WITH_THRUST, trajectory, THRUST_WORK);
@@ -216,8 +222,8 @@ fn complete_work<S: Simd, const N: usize>(
         let change = difference(omega_b, constant(chunk.zero(), run.omega_b));
         motors += dot(constant(chunk.zero(), held), change);
     }
-    thrusters.store(&mut table.column_mut(Block::Work, 0)[chunk.first..]);
-    motors.store(&mut table.column_mut(Block::Work, 1)[chunk.first..]);
+    thrusters.store(&mut table.column_mut(StateField::Work, 0)[chunk.first..]);
+    motors.store(&mut table.column_mut(StateField::Work, 1)[chunk.first..]);
 }
 
 /// Position and velocity of c, and impulses.
@@ -232,7 +238,7 @@ fn complete_translation<S: Simd, const N: usize>(
     let zero = chunk.zero();
     let thrust = N >= WITH_THRUST;
     let inverse_mass = chunk.splat(1.0 / run.mass);
-    if table.has(Block::ComPosition) {
+    if table.has(StateField::ComPosition) {
         let time = Lanes::from_slice(chunk.simd, times);
         let pushed = chunk.read3_if(thrust, trajectory, IMPULSE_INTEGRAL);
         let mut position = [zero; 3];
@@ -240,18 +246,18 @@ fn complete_translation<S: Simd, const N: usize>(
             let line = chunk.splat(run.v_co_e[i]).mul_add(time, chunk.splat(run.r_co_e[i]));
             position[i] = pushed[i].mul_add(inverse_mass, line);
         }
-        chunk.write3(table, Block::ComPosition, position);
+        chunk.write3(table, StateField::ComPosition, position);
     }
     let impulse = chunk.read3_if(thrust, trajectory, IMPULSE);
-    if table.has(Block::ComVelocity) {
+    if table.has(StateField::ComVelocity) {
         let velocity = sum(constant(zero, run.v_co_e), scaled(inverse_mass, impulse));
-        chunk.write3(table, Block::ComVelocity, velocity);
+        chunk.write3(table, StateField::ComVelocity, velocity);
     }
-    if table.has(Block::Impulse) {
-        chunk.write3(table, Block::Impulse, impulse);
+    if table.has(StateField::Impulse) {
+        chunk.write3(table, StateField::Impulse, impulse);
     }
-    if table.has(Block::AngularImpulse) {
-        chunk.write3(table, Block::AngularImpulse, chunk.read3_if(thrust, trajectory, ANGULAR_IMPULSE));
+    if table.has(StateField::AngularImpulse) {
+        chunk.write3(table, StateField::AngularImpulse, chunk.read3_if(thrust, trajectory, ANGULAR_IMPULSE));
     }
 }
 
@@ -294,7 +300,7 @@ impl<S: Simd> Chunk<S> {
     }
 
     #[inline(always)]
-    fn write3(self, table: &mut StateTable, block: Block, values: [Lanes<S>; 3]) {
+    fn write3(self, table: &mut StateTable, block: StateField, values: [Lanes<S>; 3]) {
         if table.has(block) {
             for (i, value) in values.into_iter().enumerate() {
                 value.store(&mut table.column_mut(block, i)[self.first..]);

@@ -55,7 +55,7 @@ pub enum Design {
     Grid(Levels),
     /// One parameter after the other through its levels, the others nominal.
     OneAtATime(Levels),
-    /// Blocks for sensitivity indices.
+    /// StateFields for sensitivity indices.
     Saltelli,
     /// The rows of a file, for the parameters that are its columns; others are drawn as by the random design.
     Table(Vec<DataColumn>),

@@ -1,0 +1,118 @@
+//! `spindrift campaign`: every sample of a campaign into files.
+
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use crate::campaign::spec::FRACTION;
+use crate::campaign::{Overrides, Plan};
+use crate::cli::command_outcome::{CommandOutcome, Failure};
+use crate::cli::progress::Bar;
+use crate::cli::{CampaignOptions, isa, plan, screen};
+use crate::dataset::folder::{Claim, Folder};
+use crate::dataset::part_sink::PartSink;
+use crate::ensemble::{Ensemble, Parts, RunError, run as run_parts};
+use crate::report::summary::{Summary, failed_runs};
+
+/// Where results go unless `--out` says otherwise, below the current folder.
+const RESULTS: &str = "results";
+
+/// Runs the command.
+///
+/// # Errors
+/// Where the campaign cannot run or its result cannot be kept.
+pub fn run(options: &CampaignOptions) -> Result<CommandOutcome, Failure> {
+    let mut plan = plan(&options.file, Overrides { samples: options.samples, seed: options.seed })?;
+    if let Some(fraction) = options.audit {
+        if !(FRACTION.test)(fraction) {
+            let (allowed, remedy) = (FRACTION.allowed, FRACTION.remedy);
+            return Err(Failure::Input(format!("--audit {fraction:?}: must be {allowed}; {remedy}")));
+        }
+        plan.audit_fraction = fraction;
+    }
+    let isa = isa()?;
+    let root = options.out.clone().unwrap_or_else(|| PathBuf::from(RESULTS).join(&plan.name));
+    match Folder::claim(&root, &plan, options.overwrite).map_err(Failure::files)? {
+        Claim::Finished(summary) => already_finished(&root, &plan, &summary),
+        Claim::Ready(folder) => fill(options, &plan, &Ensemble::new(&plan, isa), &folder, &root),
+    }
+}
+
+fn already_finished(root: &Path, plan: &Plan, summary: &str) -> Result<CommandOutcome, Failure> {
+    let failed = match failed_runs(summary) {
+        Some(0) | None => String::new(),
+        Some(failed) => format!(", {failed} of them failed"),
+    };
+    screen::print(&format!(
+        "{}: already finished in {} ({} samples{failed}); nothing to do. Run it again with --overwrite.\n",
+        plan.name,
+        root.display(),
+        plan.samples,
+    ))?;
+    Ok(CommandOutcome::Done)
+}
+
+fn fill(
+    options: &CampaignOptions,
+    plan: &Plan,
+    campaign: &Ensemble<'_>,
+    folder: &Folder,
+    root: &Path,
+) -> Result<CommandOutcome, Failure> {
+    if folder.restarted {
+        screen::note(&format!("{}: found unfinished in {}, starting over", plan.name, root.display()));
+    }
+    let sink = PartSink::new(folder, campaign).map_err(Failure::files)?;
+    let parts = Parts::of(plan.samples);
+    let bar = Bar::new(plan.samples);
+    let ended = run_parts(campaign, parts, options.threads, &sink, &|samples| bar.advance(samples));
+    let elapsed = bar.finish();
+    ended.map_err(|error| match error {
+        RunError::Threads(_) => Failure::Input(error.to_string()),
+        RunError::Sink(_) => Failure::files(error),
+    })?;
+    let tally = sink.into_tally();
+    let summary = Summary::new(plan, &tally);
+    folder.finish(&summary.json()).map_err(Failure::files)?;
+    let size = folder.size().map_err(Failure::files)?;
+    let audits = tally.audits().map_or(String::new(), |audits| format!("\n  the audit took {}\n", audits.cost()));
+    screen::print(&format!(
+        "{}\n{summary}{audits}\n  {}: {} file{} of rows, {}\n",
+        headline(plan, elapsed),
+        root.display(),
+        parts.count(),
+        if parts.count() == 1 { "" } else { "s" },
+        bytes(size),
+    ))?;
+    Ok(match tally.failed() {
+        0 => CommandOutcome::Done,
+        failed => CommandOutcome::SomeFailed(failed),
+    })
+}
+
+fn headline(plan: &Plan, elapsed: Duration) -> String {
+    let seconds = elapsed.as_secs_f64();
+    let rate = plan.samples as f64 / seconds.max(1e-9);
+    format!("{}: {} samples in {seconds:.2} s ({rate:.0}/s), seed {}", plan.name, plan.samples, plan.seed)
+}
+
+/// A size for people.
+pub fn bytes(size: u64) -> String {
+    const UNITS: [&str; 5] = ["B", "kB", "MB", "GB", "TB"];
+    let mut value = size as f64;
+    let mut unit = 0;
+    while value >= 1000.0 && unit + 1 < UNITS.len() {
+        value /= 1000.0;
+        unit += 1;
+    }
+    if unit == 0 { format!("{size} B") } else { format!("{value:.1} {}", UNITS[unit]) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::bytes;
+
+    #[test]
+    fn sizes_are_legible() {
+        assert_eq!([0, 999, 1000, 3_200_000].map(bytes), ["0 B", "999 B", "1.0 kB", "3.2 MB"]);
+    }
+}

@@ -1,0 +1,85 @@
+//! [`DrawnTable`]: drawn samples as a table, for Parquet and CSV.
+
+use std::io::{self, Write};
+use std::path::Path;
+
+use crate::campaign::Plan;
+use crate::dataset::atomic;
+use crate::dataset::columnar::{Cells, Content, Heading, Layout, Packing};
+use crate::dataset::rows_file::{SAMPLE_ID, STATUS, parameter_headings, provenance};
+use crate::dataset::timeseries::{TableError, TableFormat};
+use crate::ensemble::DrawnScenes;
+use crate::run::Status;
+
+/// What a sample that could be run is called; one that could not has the status of its row.
+pub const PHYSICAL: &str = "drawn";
+
+/// Drawn samples as a table.
+#[derive(Clone, Copy, Debug)]
+pub struct DrawnTable<'a> {
+    /// The campaign.
+    pub plan: &'a Plan,
+    /// Its samples.
+    pub drawn: &'a DrawnScenes,
+}
+
+impl DrawnTable<'_> {
+    /// The columns: number, status, dispersed values.
+    pub fn headings(&self) -> Vec<Heading> {
+        let fixed = [
+            (SAMPLE_ID, "Number of the sample within the campaign; 0 is the nominal scene.", Content::Count),
+            (STATUS, "drawn, or invalid_sample where the scene is not physical.", Content::Word),
+        ];
+        let fixed = fixed.map(|(name, meaning, content)| Heading {
+            name: name.to_owned(),
+            unit: String::new(),
+            meaning: meaning.to_owned(),
+            content,
+            nullable: false,
+        });
+        fixed.into_iter().chain(parameter_headings(self.plan)).collect()
+    }
+
+    /// Writes the table to `path`, in the format of its extension; the file is whole or absent.
+    ///
+    /// # Errors
+    /// [`TableError`].
+    pub fn save(&self, path: &Path) -> Result<(), TableError> {
+        match TableFormat::of(path)? {
+            TableFormat::Csv => atomic::write(path, |file| self.write_csv(file)).map_err(TableError::Io),
+            TableFormat::Parquet => {
+                let layout = Layout::new(&self.headings(), provenance(self.plan), Packing::Zstd)?;
+                let first = self.drawn.first.0;
+                let ids = (first..first + self.drawn.count() as u64).collect();
+                let fixed = [
+                    Cells::Count(ids, None),
+                    Cells::Word(self.drawn.physical.iter().map(|physical| status(*physical)).collect()),
+                ];
+                let values = self.drawn.columns.iter().map(|column| Cells::Real(column, None));
+                let cells = fixed.into_iter().chain(values);
+                atomic::write(path, |file| layout.write(file, &[], cells)).map_err(TableError::Parquet)
+            }
+        }
+    }
+
+    /// Writes the table as CSV. Numbers have the fewest digits that read back to the same bits.
+    ///
+    /// # Errors
+    /// What `out` returns.
+    pub fn write_csv(&self, out: &mut impl Write) -> io::Result<()> {
+        let names: Vec<String> = self.headings().into_iter().map(|heading| heading.name).collect();
+        writeln!(out, "{}", names.join(","))?;
+        for (row, physical) in self.drawn.physical.iter().enumerate() {
+            write!(out, "{},{}", self.drawn.first.0 + row as u64, status(*physical))?;
+            for column in &self.drawn.columns {
+                write!(out, ",{:?}", column[row])?;
+            }
+            writeln!(out)?;
+        }
+        Ok(())
+    }
+}
+
+fn status(physical: bool) -> &'static str {
+    if physical { PHYSICAL } else { Status::InvalidSample.name() }
+}

@@ -1,0 +1,230 @@
+//! [`TimeSeries`]: one run as a table over time, for Parquet, CSV, the screen and the plot.
+//!
+//! The state table holds the spacecraft's centre of mass c; the series gives the point p (the origin of F_s), as the report's
+//! state does: r_p = r_c - C_es c, v_p = v_c - C_es (omega x c).
+
+use std::collections::HashMap;
+use std::io::{self, Write};
+use std::path::Path;
+
+use parquet::errors::ParquetError;
+use thiserror::Error;
+
+use crate::campaign::Plan;
+use crate::dataset::atomic;
+use crate::dataset::columnar::{Cells, Content, Heading, Layout, Packing};
+use crate::dataset::rows_file::provenance;
+use crate::ensemble::SingleRun;
+use crate::math::vector::{cross, dcm_from_quaternion, difference, product};
+use crate::run::state_table::StateField;
+use crate::sampling::SampleId;
+
+/// Series of the observables that are not columns here: the total is the sum of its bodies.
+const LEFT_OUT: [&str; 1] = ["energy_total_j"];
+
+/// A table over time.
+#[derive(Clone, Debug)]
+pub struct TimeSeries {
+    headings: Vec<Heading>,
+    columns: Vec<Vec<f64>>,
+    origin: HashMap<String, String>,
+}
+
+/// The formats that a table over time is written in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TableFormat {
+    /// Apache Parquet.
+    Parquet,
+    /// Comma-separated values.
+    Csv,
+}
+
+/// Why a table could not be written.
+#[derive(Debug, Error)]
+pub enum TableError {
+    /// The name says neither Parquet nor CSV.
+    #[error("a table is written as .parquet or .csv, and `{0}` is neither")]
+    Format(String),
+    /// The file system refused.
+    #[error(transparent)]
+    Io(#[from] io::Error),
+    /// Parquet refused.
+    #[error(transparent)]
+    Parquet(#[from] ParquetError),
+}
+
+impl TableFormat {
+    /// The format that the extension of `path` names.
+    ///
+    /// # Errors
+    /// [`TableError::Format`].
+    pub fn of(path: &Path) -> Result<Self, TableError> {
+        match path.extension().and_then(|extension| extension.to_str()).map(str::to_ascii_lowercase).as_deref() {
+            Some("parquet") => Ok(TableFormat::Parquet),
+            Some("csv") => Ok(TableFormat::Csv),
+            _ => Err(TableError::Format(path.display().to_string())),
+        }
+    }
+}
+
+impl TimeSeries {
+    /// The points of `run` (of sample `sample` of `plan`) that it reached and that `shown` lets pass, by their time.
+    pub fn new(plan: &Plan, sample: SampleId, run: &SingleRun, shown: impl Fn(f64) -> bool) -> Self {
+        let points: Vec<usize> = (0..run.outcome.points).filter(|point| shown(run.grid.times()[*point])).collect();
+        let mut table = Columns { points: &points, headings: Vec::new(), columns: Vec::new() };
+        table.push("time_s", "s", "Time since the start.", |point| run.grid.times()[point]);
+        spacecraft(run, &mut table);
+        if run.scene.mass.debris.is_some() {
+            debris(run, &mut table);
+        }
+        for (column, values) in &run.series {
+            if !LEFT_OUT.contains(&column.name) {
+                table.push(column.name, column.unit, column.meaning, |point| values[point]);
+            }
+        }
+        let mut origin = provenance(plan);
+        origin.insert("spindrift.sample_id".to_owned(), sample.to_string());
+        origin.insert("spindrift.status".to_owned(), run.outcome.status.name().to_owned());
+        TimeSeries { headings: table.headings, columns: table.columns, origin }
+    }
+
+    /// The columns.
+    pub fn headings(&self) -> &[Heading] {
+        &self.headings
+    }
+
+    /// The values of the column called `name`.
+    pub fn column(&self, name: &str) -> Option<&[f64]> {
+        let index = self.headings.iter().position(|heading| heading.name == name)?;
+        Some(&self.columns[index])
+    }
+
+    /// Number of points.
+    pub fn points(&self) -> usize {
+        self.columns.first().map_or(0, Vec::len)
+    }
+
+    /// Writes the table to `path`, in the format of its extension; the file is whole or absent.
+    ///
+    /// # Errors
+    /// [`TableError`].
+    pub fn save(&self, path: &Path) -> Result<(), TableError> {
+        match TableFormat::of(path)? {
+            TableFormat::Csv => atomic::write(path, |file| self.write_csv(file)).map_err(TableError::Io),
+            TableFormat::Parquet => {
+                let layout = Layout::new(&self.headings, self.origin.clone(), Packing::Lz4)?;
+                let cells = self.columns.iter().map(|column| Cells::Real(column, None));
+                atomic::write(path, |file| layout.write(file, &[], cells)).map_err(TableError::Parquet)
+            }
+        }
+    }
+
+    /// Writes the table as CSV. Numbers have the fewest digits that read back to the same bits.
+    ///
+    /// # Errors
+    /// What `out` returns.
+    pub fn write_csv(&self, out: &mut impl Write) -> io::Result<()> {
+        let names: Vec<&str> = self.headings.iter().map(|heading| heading.name.as_str()).collect();
+        writeln!(out, "{}", names.join(","))?;
+        for point in 0..self.points() {
+            for (index, column) in self.columns.iter().enumerate() {
+                let comma = if index == 0 { "" } else { "," };
+                write!(out, "{comma}{:?}", column[point])?;
+            }
+            writeln!(out)?;
+        }
+        Ok(())
+    }
+}
+
+/// A table that grows column by column.
+struct Columns<'a> {
+    points: &'a [usize],
+    headings: Vec<Heading>,
+    columns: Vec<Vec<f64>>,
+}
+
+impl Columns<'_> {
+    fn push(&mut self, name: &str, unit: &str, meaning: &str, value: impl Fn(usize) -> f64) {
+        self.headings.push(Heading {
+            name: name.to_owned(),
+            unit: unit.to_owned(),
+            meaning: meaning.to_owned(),
+            content: Content::Real,
+            nullable: false,
+        });
+        self.columns.push(self.points.iter().map(|point| value(*point)).collect());
+    }
+
+    /// Components of a vector, the names of the components before the unit.
+    fn push_vector<const N: usize>(
+        &mut self,
+        stem: &str,
+        unit: (&str, &str),
+        meaning: &str,
+        value: impl Fn(usize) -> [f64; N],
+    ) {
+        let names = if N == 4 { ["w", "x", "y", "z"] } else { ["x", "y", "z", ""] };
+        let values: Vec<[f64; N]> = self.points.iter().map(|point| value(*point)).collect();
+        for component in 0..N {
+            let suffix = if unit.1.is_empty() { String::new() } else { format!("_{}", unit.1) };
+            self.headings.push(Heading {
+                name: format!("{stem}_{}{suffix}", names[component]),
+                unit: unit.0.to_owned(),
+                meaning: meaning.to_owned(),
+                content: Content::Real,
+                nullable: false,
+            });
+            self.columns.push(values.iter().map(|value| value[component]).collect());
+        }
+    }
+}
+
+fn spacecraft(run: &SingleRun, table: &mut Columns<'_>) {
+    let (states, center) = (&run.table, run.scene.mass.center);
+    let rotated = |point, vector| product(dcm_from_quaternion(states.at(StateField::Attitude, point)), vector);
+    table.push_vector::<3>("r_po_e", ("m", "m"), "Position of the fuselage's base centre p, in F_e.", |point| {
+        difference(states.at(StateField::ComPosition, point), rotated(point, center))
+    });
+    table.push_vector::<3>("v_po_e", ("m/s", "m_s"), "Velocity of the fuselage's base centre p, in F_e.", |point| {
+        let relative = cross(states.at(StateField::Rate, point), center);
+        difference(states.at(StateField::ComVelocity, point), rotated(point, relative))
+    });
+    table.push_vector::<4>("q_es", ("", ""), "Attitude quaternion of the fuselage, F_s to F_e.", |point| {
+        states.at(StateField::Attitude, point)
+    });
+    table.push_vector::<3>("omega_se_s", ("rad/s", "rad_s"), "Angular velocity of the fuselage, in F_s.", |point| {
+        states.at(StateField::Rate, point)
+    });
+    let wheel = |block, wheel| move |point| states.column(block, wheel)[point];
+    table.push("alpha_rad", "rad", "Angle of wheel 1, unbounded.", wheel(StateField::WheelAngles, 0));
+    table.push("beta_rad", "rad", "Angle of wheel 2, unbounded.", wheel(StateField::WheelAngles, 1));
+    table.push(
+        "alpha_dot_rad_s",
+        "rad/s",
+        "Rate of wheel 1 relative to the fuselage.",
+        wheel(StateField::WheelRates, 0),
+    );
+    table.push(
+        "beta_dot_rad_s",
+        "rad/s",
+        "Rate of wheel 2 relative to the fuselage.",
+        wheel(StateField::WheelRates, 1),
+    );
+}
+
+fn debris(run: &SingleRun, table: &mut Columns<'_>) {
+    let states = &run.table;
+    table.push_vector::<3>("r_gdo_e", ("m", "m"), "Position of the debris's centre, in F_e.", |point| {
+        states.at(StateField::DebrisPosition, point)
+    });
+    table.push_vector::<3>("v_gdo_e", ("m/s", "m_s"), "Velocity of the debris's centre, in F_e.", |point| {
+        states.at(StateField::DebrisVelocity, point)
+    });
+    table.push_vector::<4>("q_ed", ("", ""), "Attitude quaternion of the debris, F_d to F_e.", |point| {
+        states.at(StateField::DebrisAttitude, point)
+    });
+    table.push_vector::<3>("omega_de_d", ("rad/s", "rad_s"), "Angular velocity of the debris, in F_d.", |point| {
+        states.at(StateField::DebrisRate, point)
+    });
+}

@@ -1,0 +1,105 @@
+//! From integrated components to the table of physical states.
+
+use super::energy::kinetic_energies;
+use super::parameters::Parameters;
+use super::residuals::residuals;
+use super::state::{Columns, State, rotated};
+use crate::math::vector::{cross, sum};
+use crate::run::state_table::{Grid, StateField, StateTable, Trajectory};
+use crate::scene::Scene;
+
+/// Fills whichever blocks `table` has from the integrated components of a run of `scene`, and pads them.
+///
+/// Quaternions come from the integrated DCMs, of unit norm, with a sign that does not jump from point to point, starting from
+/// the scene's own. What the scene does not have (debris) is at rest. No allocation.
+#[inline(always)]
+pub fn complete(scene: &Scene, trajectory: &Trajectory, grid: &Grid, table: &mut StateTable) {
+    debug_assert!(trajectory.points() == grid.points() && table.points() == grid.points());
+    let parameters = Parameters::of(scene);
+    let (mut q_es, mut q_ed) = (scene.initial.q_es, scene.initial.q_ed);
+    for point in 0..table.points() {
+        let state = State::from_components(&trajectory.at(point));
+        let c_es = state.dcm[0];
+        let mut set = |block: StateField, values: &[f64]| {
+            if table.has(block) {
+                for (component, value) in values.iter().enumerate() {
+                    table.column_mut(block, component)[point] = *value;
+                }
+            }
+        };
+        q_es = quaternion(c_es, q_es);
+        q_ed = quaternion(state.dcm[3], q_ed);
+        set(StateField::Rate, &state.omega_s);
+        set(StateField::Attitude, &q_es);
+        set(StateField::WheelRates, &state.wheel_rates);
+        set(StateField::WheelAngles, &state.wheel_angles);
+        set(StateField::ComPosition, &sum(state.position[0], rotated(c_es, parameters.center)));
+        set(StateField::ComVelocity, &sum(state.v_p, rotated(c_es, cross(state.omega_s, parameters.center))));
+        set(StateField::Work, &state.work);
+        set(StateField::Impulse, &state.impulse);
+        set(StateField::AngularImpulse, &state.angular_impulse);
+        set(StateField::DebrisPosition, &state.position[3]);
+        set(StateField::DebrisVelocity, &state.v_gd);
+        set(StateField::DebrisAttitude, &q_ed);
+        set(StateField::DebrisRate, &state.omega_d);
+        set(StateField::Dcm, c_es.as_flattened());
+        if table.has(StateField::KineticEnergies) {
+            table.set(StateField::KineticEnergies, point, kinetic_energies(&parameters, &state));
+        }
+        if table.has(StateField::Residuals) {
+            table.set(StateField::Residuals, point, residuals(scene, &parameters, &state));
+        }
+    }
+    table.pad();
+}
+
+/// The unit quaternion of a DCM by columns, of the two the one nearer to `near`.
+///
+/// Shepperd (1978): from the largest of the four squares, so that nothing small is divided by; what the DCM has drifted from
+/// orthonormal is spread by the final normalisation.
+#[inline(always)]
+pub fn quaternion(c: Columns, near: [f64; 4]) -> [f64; 4] {
+    let [x, y, z] = c;
+    let trace = x[0] + y[1] + z[2];
+    let (a, b, d) = (y[2] - z[1], z[0] - x[2], x[1] - y[0]);
+    let (e, f, g) = (y[0] + x[1], z[0] + x[2], z[1] + y[2]);
+    let q = if trace >= x[0] && trace >= y[1] && trace >= z[2] {
+        [1.0 + trace, a, b, d]
+    } else if x[0] >= y[1] && x[0] >= z[2] {
+        [a, 1.0 + 2.0 * x[0] - trace, e, f]
+    } else if y[1] >= z[2] {
+        [b, e, 1.0 + 2.0 * y[1] - trace, g]
+    } else {
+        [d, f, g, 1.0 + 2.0 * z[2] - trace]
+    };
+    let dot = |p: [f64; 4]| q[0].mul_add(p[0], q[1].mul_add(p[1], q[2].mul_add(p[2], q[3] * p[3])));
+    let norm = if dot(near) < 0.0 { -dot(q).sqrt() } else { dot(q).sqrt() };
+    q.map(|component| component / norm)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dynamics::null_space::state::transposed;
+    use crate::math::vector::dcm_from_quaternion;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn a_quaternion_survives_its_dcm(q in prop::array::uniform4(-1.0f64..1.0), small in 0usize..5) {
+            let mut q = q;
+            if small < 4 {
+                q[small] *= 1e-9; // near the borders of Shepperd's cases
+            }
+            let norm = q.iter().map(|x| x * x).sum::<f64>().sqrt();
+            prop_assume!(norm > 0.1);
+            let q = q.map(|x| x / norm);
+            let back = quaternion(transposed(dcm_from_quaternion(q)), q);
+            for i in 0..4 {
+                prop_assert!((back[i] - q[i]).abs() < 4.0 * f64::EPSILON, "{:?} {:?}", q, back);
+            }
+            let other = quaternion(transposed(dcm_from_quaternion(q)), q.map(|x| -x));
+            prop_assert_eq!(other, back.map(|x| -x));
+        }
+    }
+}

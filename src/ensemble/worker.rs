@@ -1,0 +1,168 @@
+//! [`Ensemble`]: a plan made ready to run; [`Worker`]: the memory in which one thread runs samples of it.
+
+use crate::campaign::Plan;
+use crate::ensemble::audit::{Auditor, Selection};
+use crate::ensemble::cpu_clock::thread_seconds;
+use crate::ensemble::parts::Part;
+use crate::ensemble::rows::{Rows, Shape};
+use crate::math::Isa;
+use crate::observables::{Observer, Request};
+use crate::ode::Control;
+use crate::propagation::Engine;
+use crate::propagation::Method;
+use crate::propagation::PropagationSettings;
+use crate::run::state_table::{Grid, StateFields};
+use crate::sampling::{SampleId, Sampler};
+use crate::scene::{Scene, SceneInput};
+
+/// Scenes that are drawn and propagated together: enough that lanes seldom wait for work (16 refills of eight lanes), few
+/// enough that scenes and workspace stay in the second-level cache.
+pub const BATCH: usize = 128;
+
+/// A plan made ready to run.
+#[derive(Debug)]
+pub struct Ensemble<'p> {
+    plan: &'p Plan,
+    isa: Isa,
+    request: Request,
+    propagator: PropagationSettings,
+}
+
+/// What `plan` asks to observe.
+pub fn request(plan: &Plan) -> Request {
+    Request {
+        groups: plan.groups.iter().copied().collect(),
+        debris: plan.nominal.debris.is_some(),
+        actuated: plan.nominal.is_actuated(),
+        constrained: plan.method == Method::NullSpace,
+    }
+}
+
+/// What integrates scenes of `plan`, observed at the times of `grid`.
+pub fn propagator(plan: &Plan, grid: Grid, blocks: StateFields) -> PropagationSettings {
+    let control = Control { tolerance: plan.tolerance, step: plan.step_s, max_steps: plan.max_steps };
+    let nominal = Scene::resolve(&plan.nominal).expect("a plan's nominal scene was resolved when the plan was made");
+    PropagationSettings::new(plan.method, control, grid, blocks, &nominal)
+}
+
+impl<'p> Ensemble<'p> {
+    /// `plan`, to be run on `isa`.
+    pub fn new(plan: &'p Plan, isa: Isa) -> Self {
+        let request = request(plan);
+        let propagator = propagator(plan, plan.grid.clone(), request.blocks());
+        Ensemble { plan, isa, request, propagator }
+    }
+
+    /// The plan.
+    pub fn plan(&self) -> &'p Plan {
+        self.plan
+    }
+
+    /// The instruction set that it is run on.
+    pub fn isa(&self) -> Isa {
+        self.isa
+    }
+
+    /// What is observed.
+    pub fn request(&self) -> &Request {
+        &self.request
+    }
+
+    /// What integrates the runs.
+    pub fn propagator(&self) -> &PropagationSettings {
+        &self.propagator
+    }
+
+    /// What columns a row has.
+    pub fn shape(&self) -> Shape {
+        Shape { parameters: self.plan.dispersions.columns().len(), observables: self.request.columns().len() }
+    }
+
+    /// Memory for one thread. Allocates; running samples in it does not, once it is warm.
+    pub fn worker(&self) -> Worker<'_> {
+        let shape = self.shape();
+        Worker {
+            campaign: self,
+            sampler: self.plan.dispersions.sampler(),
+            input: self.plan.nominal.clone(),
+            scenes: Vec::new(),
+            places: Vec::with_capacity(BATCH),
+            engine: self.propagator.engine(self.isa),
+            observer: Observer::new(self.request, &self.plan.grid),
+            applied: vec![0.0; shape.parameters],
+            observed: vec![0.0; shape.observables],
+            audits: (self.plan.audit_fraction > 0.0)
+                .then(|| (Selection::new(self.plan), Auditor::new(self.plan, self.isa, &self.plan.grid))),
+        }
+    }
+}
+
+/// The memory in which one thread runs samples. What an earlier sample left in it does not reach a later one.
+pub struct Worker<'c> {
+    campaign: &'c Ensemble<'c>,
+    sampler: Sampler<'c>,
+    input: SceneInput,
+    scenes: Vec<Scene>,
+    /// The row of each scene.
+    places: Vec<usize>,
+    engine: Box<dyn Engine>,
+    observer: Observer,
+    applied: Vec<f64>,
+    observed: Vec<f64>,
+    audits: Option<(Selection, Auditor)>,
+}
+
+impl Worker<'_> {
+    /// Runs the samples of `part` and writes their rows; `progress` hears of every batch how many samples it held.
+    pub fn run(&mut self, part: Part, rows: &mut Rows, progress: &dyn Fn(u64)) {
+        rows.start(part);
+        for start in (0..part.count).step_by(BATCH) {
+            let end = part.count.min(start + BATCH);
+            let begun = self.audits.as_ref().map(|_| thread_seconds());
+            self.draw(part, start..end, rows);
+            self.propagate(rows);
+            if let Some(begun) = begun {
+                let done = thread_seconds();
+                self.audit(part, rows);
+                rows.add_seconds(done - begun, thread_seconds() - done);
+            }
+            progress((end - start) as u64);
+        }
+    }
+
+    /// Draws the samples of `batch`. One that is not physical keeps the row that [`Rows::start`] gave it: `invalid_sample`.
+    fn draw(&mut self, part: Part, batch: std::ops::Range<usize>, rows: &mut Rows) {
+        self.places.clear();
+        for row in batch {
+            self.sampler.draw(SampleId(part.first.0 + row as u64), &mut self.input, &mut self.applied);
+            rows.set_parameters(row, &self.applied);
+            let place = self.places.len();
+            let physical = match self.scenes.get_mut(place) {
+                Some(scene) => scene.resolve_into(&self.input).is_ok(),
+                None => Scene::resolve(&self.input).map(|scene| self.scenes.push(scene)).is_ok(),
+            };
+            if physical {
+                self.places.push(row);
+            }
+        }
+    }
+
+    /// Audits the samples of the batch that are selected.
+    fn audit(&mut self, part: Part, rows: &mut Rows) {
+        let Some((selection, auditor)) = &mut self.audits else { return };
+        for (scene, row) in self.scenes.iter().zip(&self.places) {
+            if selection.holds(SampleId(part.first.0 + *row as u64)) {
+                rows.set_audit(*row, auditor.audit(scene));
+            }
+        }
+    }
+
+    fn propagate(&mut self, rows: &mut Rows) {
+        let (isa, scenes) = (self.campaign.isa, &self.scenes[..self.places.len()]);
+        let (places, observer, observed) = (&self.places, &mut self.observer, &mut self.observed);
+        self.engine.propagate(scenes, &mut |index, table, outcome| {
+            observer.observe(isa, &scenes[index], table, outcome, observed);
+            rows.set_result(places[index], outcome.status, observed);
+        });
+    }
+}

@@ -1,0 +1,209 @@
+//! Dormand-Prince 8(5,3) as DOP853 has it.
+
+use super::super::explicit::{Carried, Step, each, fill_stages, poison, scaled, weighted};
+use super::super::step_control::Controller;
+use super::super::tableau::Dop853Tableau;
+use super::super::{System, Tolerance};
+use super::{Attempt, Embedded};
+use crate::math::Real;
+use crate::math::power::power;
+use crate::propagation::local_error::StepErrors;
+
+/// Dormand-Prince 8(5,3), as DOP853 has it.
+#[derive(Clone, Copy, Debug)]
+pub struct Dop853;
+
+/// Stages of [`Dop853`] and the coefficients of its interpolant.
+pub struct Dop853Stages<R, const N: usize> {
+    k: [[R; N]; 16],
+    interpolant: [[R; N]; 7],
+}
+
+impl Embedded for Dop853 {
+    const CONTROLLER: Controller = Controller {
+        exponent: 1.0 / 8.0,
+        safety: 0.9,
+        growth: 6.0,
+        shrink: 0.333,
+        shrink_again: None,
+        hold_after_rejection: false,
+        landing: 1.01,
+        longest: 1.0,
+    };
+    // The twelfth is the derivative at the end, taken for rejected steps too: lanes do not wait for each other's verdict.
+    const EVALUATIONS: f64 = 12.0;
+    const START_EVALUATIONS: f64 = 2.0;
+    const DENSE_EVALUATIONS: f64 = 3.0;
+    const POINT_EVALUATIONS: f64 = 0.0;
+    const ERRORS: StepErrors = StepErrors { factor: 1.0, extrapolation: 0.125, dense: 6.0, feeds_back: false };
+
+    type Stages<R: Real, const N: usize> = Dop853Stages<R, N>;
+
+    #[inline(always)]
+    fn stages<R: Real, const N: usize>(zero: R) -> Dop853Stages<R, N> {
+        Dop853Stages { k: [[zero; N]; 16], interpolant: [[zero; N]; 7] }
+    }
+    #[inline(always)]
+    fn first<R: Real, const N: usize>(stages: &mut Dop853Stages<R, N>) -> &mut [R; N] {
+        &mut stages.k[0]
+    }
+    #[inline(always)]
+    fn last<R: Real, const N: usize>(stages: &Dop853Stages<R, N>) -> &[R; N] {
+        &stages.k[12]
+    }
+
+    /// HINIT of dop853.f (section II.4): a guess from |y|/|f|, then from an Euler step's estimate of the second derivative.
+    #[inline(always)]
+    fn first_step<R: Real, Q: System<R, N>, const N: usize>(
+        system: &Q,
+        time: R,
+        state: &[R; N],
+        slope: &[R; N],
+        longest: R,
+        tolerance: Tolerance,
+    ) -> R {
+        let size = system.error_ratio(state, state, state, tolerance);
+        let rate = system.error_ratio(slope, state, state, tolerance);
+        let tiny = R::select(
+            rate.lt(longest.splat(1e-5)),
+            longest.splat(1.0),
+            R::select(size.lt(longest.splat(1e-5)), longest.splat(1.0), longest.splat(0.0)),
+        );
+        let guess = R::select(longest.splat(0.5).lt(tiny), longest.splat(1e-6), longest.splat(0.01) * (size / rate))
+            .smaller(longest);
+        let euler = each(
+            guess,
+            #[inline(always)]
+            |n| guess.mul_add(slope[n], state[n]),
+        );
+        let end = system.derivative(time + guess, &euler);
+        let turn = each(
+            guess,
+            #[inline(always)]
+            |n| end[n] - slope[n],
+        );
+        let bend = system.error_ratio(&turn, state, state, tolerance) / guess;
+        let largest = bend.abs().larger(rate);
+        let straight = (guess * longest.splat(1e-3)).larger(longest.splat(1e-6));
+        let curved = power(longest.splat(0.01) / largest, 1.0 / 8.0);
+        let refined = R::select(largest.lt(longest.splat(1e-15)), straight, curved);
+        refined.smaller(longest.splat(100.0) * guess).smaller(longest)
+    }
+
+    /// The error estimate combines the embedded solutions of order 5 and 3: e5^2 / sqrt(e5^2 + 0.01 e3^2) (section II.10).
+    #[inline(always)]
+    fn attempt<R: Real, Q: System<R, N>, const N: usize>(
+        system: &Q,
+        step: Step<R>,
+        start: &Carried<R, N>,
+        tolerance: Tolerance,
+        stages: &mut Dop853Stages<R, N>,
+    ) -> Attempt<R, N> {
+        let k = &mut stages.k;
+        let end = fill_stages::<Dop853Tableau, R, Q, N, 16>(system, step, start, k, (1, 13, 12));
+        let fifth = scaled(step.length, &weighted(k, &Dop853Tableau::E5));
+        let third = scaled(step.length, &weighted(k, &Dop853Tableau::E3));
+        let e5 = system.error_ratio(&fifth, &start.state, &end.state, tolerance);
+        let e3 = system.error_ratio(&third, &start.state, &end.state, tolerance);
+        let sum = e5.mul_add(e5, e5.splat(0.01) * (e3 * e3));
+        let ratio = R::select(e5.zero().lt(sum), e5 * (e5 / sum.sqrt()), e5);
+        let poison = poison(&fifth, poison(&k[12], poison(&end.state, ratio.zero() * (e5 + e3))));
+        Attempt { end, ratio, poison }
+    }
+
+    #[inline(always)]
+    fn prepare_inside<R: Real, Q: System<R, N>, const N: usize>(
+        system: &Q,
+        step: Step<R>,
+        start: &Carried<R, N>,
+        end: &[R; N],
+        stages: &mut Dop853Stages<R, N>,
+    ) {
+        let Dop853Stages { k, interpolant } = stages;
+        fill_stages::<Dop853Tableau, R, Q, N, 16>(system, step, start, k, (13, 16, 16));
+        let h = step.length;
+        for n in 0..N {
+            let difference = end[n] - start.state[n];
+            let bend = h.mul_add(k[0][n], -difference);
+            interpolant[0][n] = difference;
+            interpolant[1][n] = bend;
+            interpolant[2][n] = difference - h.mul_add(k[12][n], bend);
+        }
+        interpolant[3] = scaled(h, &weighted(k, &Dop853Tableau::D[0]));
+        interpolant[4] = scaled(h, &weighted(k, &Dop853Tableau::D[1]));
+        interpolant[5] = scaled(h, &weighted(k, &Dop853Tableau::D[2]));
+        interpolant[6] = scaled(h, &weighted(k, &Dop853Tableau::D[3]));
+    }
+
+    /// CONTD8 of dop853.f.
+    #[inline(always)]
+    fn inside<R: Real, Q: System<R, N>, const N: usize>(
+        _system: &Q,
+        _step: Step<R>,
+        s: R,
+        start: &Carried<R, N>,
+        stages: &Dop853Stages<R, N>,
+    ) -> [R; N] {
+        let (start, r) = (&start.state, s.splat(1.0) - s);
+        each(
+            s,
+            #[inline(always)]
+            |n| {
+                let c = &stages.interpolant;
+                let inner = c[6][n].mul_add(s, c[5][n]).mul_add(r, c[4][n]).mul_add(s, c[3][n]);
+                inner.mul_add(r, c[2][n]).mul_add(s, c[1][n]).mul_add(r, c[0][n]).mul_add(s, start[n])
+            },
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::tableau::Tableau;
+    use super::super::super::tableau::trees::largest_defect;
+    use super::*;
+
+    /// As in [`super::super::tableau`], with interpolation weights up to 500.
+    const ROUND_OFF: f64 = 3e-12;
+
+    /// A right-hand side of no consequence: the stages are set by hand.
+    struct Still;
+    impl<const N: usize> System<f64, N> for Still {
+        fn derivative(&self, _time: f64, _state: &[f64; N]) -> [f64; N] {
+            [0.0; N]
+        }
+        fn error_ratio(&self, _: &[f64; N], _: &[f64; N], _: &[f64; N], _: Tolerance) -> f64 {
+            0.0
+        }
+    }
+
+    /// The weight of each stage at the fraction `s`, by interpolating stages that are unit vectors.
+    fn dop853_weights(s: f64) -> [f64; 16] {
+        let mut stages = Dop853::stages::<f64, 16>(0.0);
+        for i in 0..16 {
+            stages.k[i][i] = 1.0;
+        }
+        let start = Carried { state: [0.0; 16], carry: [0.0; 16] };
+        let step = Step { time: 0.0, end: 1.0, length: 1.0 };
+        let kept = stages.k;
+        Dop853::prepare_inside(&Still, step, &start, &Dop853Tableau::B, &mut stages);
+        stages.k = kept;
+        let Dop853Stages { k, interpolant } = &mut stages;
+        for (row, weights) in interpolant[3..].iter_mut().zip(&Dop853Tableau::D) {
+            *row = weighted(k, weights);
+        }
+        Dop853::inside(&Still, step, s, &start, &stages)
+    }
+
+    #[test]
+    fn dense_output_of_dop853_has_order_7() {
+        for s in [0.1, 0.3, 0.5, 0.77, 1.0] {
+            let weights = dop853_weights(s);
+            let defect = largest_defect(&Dop853Tableau::A, &weights, s, 7);
+            assert!(defect < ROUND_OFF, "{s}: {defect:e}");
+            if s < 1.0 {
+                assert!(largest_defect(&Dop853Tableau::A, &weights, s, 8) > 1e-9);
+            }
+        }
+    }
+}

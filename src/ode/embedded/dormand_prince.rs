@@ -1,0 +1,235 @@
+//! Dormand-Prince 5(4) as ode45 has it, and a twin that steps anew to points inside a step.
+
+use super::super::explicit::{Carried, Step, each, fill_stages, poison, scaled, weighted};
+use super::super::step_control::Controller;
+use super::super::tableau::{DormandPrinceTableau, Tableau};
+use super::super::{System, Tolerance};
+use super::{Attempt, Embedded};
+use crate::math::Real;
+use crate::math::power::power;
+use crate::propagation::local_error::StepErrors;
+
+/// The relative tolerance below which the choice of the first step does not follow (ode45's limit, 100 eps).
+const FINEST: f64 = 100.0 * f64::EPSILON;
+
+/// Dormand-Prince 5(4), as ode45 has it.
+#[derive(Clone, Copy, Debug)]
+pub struct DormandPrince;
+
+impl Embedded for DormandPrince {
+    const CONTROLLER: Controller = Controller {
+        exponent: 1.0 / 5.0,
+        safety: 0.8,
+        growth: 5.0,
+        shrink: 0.1,
+        shrink_again: Some(0.5),
+        hold_after_rejection: true,
+        landing: 1.1,
+        longest: 0.1,
+    };
+    const EVALUATIONS: f64 = 6.0;
+    const START_EVALUATIONS: f64 = 1.0;
+    const DENSE_EVALUATIONS: f64 = 0.0;
+    const POINT_EVALUATIONS: f64 = 0.0;
+    const ERRORS: StepErrors = StepErrors { factor: 1.0, extrapolation: 0.2, dense: 1.0, feeds_back: false };
+
+    type Stages<R: Real, const N: usize> = [[R; N]; 7];
+
+    #[inline(always)]
+    fn stages<R: Real, const N: usize>(zero: R) -> [[R; N]; 7] {
+        [[zero; N]; 7]
+    }
+    #[inline(always)]
+    fn first<R: Real, const N: usize>(stages: &mut [[R; N]; 7]) -> &mut [R; N] {
+        &mut stages[0]
+    }
+    #[inline(always)]
+    fn last<R: Real, const N: usize>(stages: &[[R; N]; 7]) -> &[R; N] {
+        &stages[6]
+    }
+
+    /// ode45: the whole longest step, or 1/rh with rh = |f0 / max(|y|, atol/rtol)| / (0.8 rtol^(1/5)) where that is shorter.
+    #[inline(always)]
+    fn first_step<R: Real, Q: System<R, N>, const N: usize>(
+        system: &Q,
+        _time: R,
+        state: &[R; N],
+        slope: &[R; N],
+        longest: R,
+        tolerance: Tolerance,
+    ) -> R {
+        let relative = longest.splat(tolerance.relative.max(FINEST));
+        let rate = system.error_ratio(slope, state, state, tolerance) * longest.splat(tolerance.relative);
+        let rate = rate / (longest.splat(0.8) * power(relative, 0.2));
+        let one = longest.splat(1.0);
+        R::select(one.lt(longest * rate), one / rate, longest)
+    }
+
+    #[inline(always)]
+    fn attempt<R: Real, Q: System<R, N>, const N: usize>(
+        system: &Q,
+        step: Step<R>,
+        start: &Carried<R, N>,
+        tolerance: Tolerance,
+        stages: &mut [[R; N]; 7],
+    ) -> Attempt<R, N> {
+        let end = fill_stages::<DormandPrinceTableau, R, Q, N, 7>(system, step, start, stages, (1, 7, 6));
+        let error = scaled(step.length, &weighted(stages, &DormandPrinceTableau::E));
+        let ratio = system.error_ratio(&error, &start.state, &end.state, tolerance);
+        let poison = poison(&error, poison(&end.state, ratio.zero() * ratio));
+        Attempt { end, ratio, poison }
+    }
+
+    #[inline(always)]
+    fn prepare_inside<R: Real, Q: System<R, N>, const N: usize>(
+        _system: &Q,
+        _step: Step<R>,
+        _start: &Carried<R, N>,
+        _end: &[R; N],
+        _stages: &mut [[R; N]; 7],
+    ) {
+    }
+
+    #[inline(always)]
+    fn inside<R: Real, Q: System<R, N>, const N: usize>(
+        _system: &Q,
+        step: Step<R>,
+        s: R,
+        start: &Carried<R, N>,
+        stages: &[[R; N]; 7],
+    ) -> [R; N] {
+        let (length, start) = (step.length, &start.state);
+        let weights: [R; 7] = each(
+            s,
+            #[inline(always)]
+            |i| {
+                let c = DormandPrinceTableau::DENSE[i];
+                let cubic = s.splat(c[3]).mul_add(s, s.splat(c[2])).mul_add(s, s.splat(c[1])).mul_add(s, s.splat(c[0]));
+                length * (s * cubic)
+            },
+        );
+        each(
+            s,
+            #[inline(always)]
+            |n| {
+                let mut sum = start[n];
+                // Stage 1 has no weight.
+                for i in [0, 2, 3, 4, 5, 6] {
+                    sum = weights[i].mul_add(stages[i][n], sum);
+                }
+                sum
+            },
+        )
+    }
+}
+
+/// Dormand-Prince 5(4) that reaches a point inside a step by a shorter step of its own from the same start.
+///
+/// The steps are those of [`DormandPrince`], and so of ode45. Its free interpolant (ntrp45) is of order 4, with an error of the
+/// size of the tolerance; a shorter step keeps order 5 at the point. Five evaluations a point, which is little for the kernel
+/// it is for.
+#[derive(Clone, Copy, Debug)]
+pub struct DormandPrinceRestepped;
+
+impl Embedded for DormandPrinceRestepped {
+    const CONTROLLER: Controller = DormandPrince::CONTROLLER;
+    const EVALUATIONS: f64 = DormandPrince::EVALUATIONS;
+    const START_EVALUATIONS: f64 = DormandPrince::START_EVALUATIONS;
+    const DENSE_EVALUATIONS: f64 = 0.0;
+    const POINT_EVALUATIONS: f64 = 5.0;
+    const ERRORS: StepErrors = StepErrors { factor: 0.5, dense: 0.0, feeds_back: true, ..DormandPrince::ERRORS };
+
+    type Stages<R: Real, const N: usize> = [[R; N]; 7];
+
+    #[inline(always)]
+    fn stages<R: Real, const N: usize>(zero: R) -> [[R; N]; 7] {
+        DormandPrince::stages(zero)
+    }
+    #[inline(always)]
+    fn first<R: Real, const N: usize>(stages: &mut [[R; N]; 7]) -> &mut [R; N] {
+        DormandPrince::first(stages)
+    }
+    #[inline(always)]
+    fn last<R: Real, const N: usize>(stages: &[[R; N]; 7]) -> &[R; N] {
+        DormandPrince::last(stages)
+    }
+    #[inline(always)]
+    fn first_step<R: Real, Q: System<R, N>, const N: usize>(
+        system: &Q,
+        time: R,
+        state: &[R; N],
+        slope: &[R; N],
+        longest: R,
+        tolerance: Tolerance,
+    ) -> R {
+        DormandPrince::first_step(system, time, state, slope, longest, tolerance)
+    }
+    #[inline(always)]
+    fn attempt<R: Real, Q: System<R, N>, const N: usize>(
+        system: &Q,
+        step: Step<R>,
+        start: &Carried<R, N>,
+        tolerance: Tolerance,
+        stages: &mut [[R; N]; 7],
+    ) -> Attempt<R, N> {
+        DormandPrince::attempt(system, step, start, tolerance, stages)
+    }
+    #[inline(always)]
+    fn prepare_inside<R: Real, Q: System<R, N>, const N: usize>(
+        _system: &Q,
+        _step: Step<R>,
+        _start: &Carried<R, N>,
+        _end: &[R; N],
+        _stages: &mut [[R; N]; 7],
+    ) {
+    }
+    #[inline(always)]
+    fn inside<R: Real, Q: System<R, N>, const N: usize>(
+        system: &Q,
+        step: Step<R>,
+        s: R,
+        start: &Carried<R, N>,
+        stages: &[[R; N]; 7],
+    ) -> [R; N] {
+        let length = s * step.length;
+        let part = Step { time: step.time, end: step.time + length, length };
+        let mut own = [[s.zero(); N]; 7];
+        own[0] = stages[0];
+        fill_stages::<DormandPrinceTableau, R, Q, N, 7>(system, part, start, &mut own, (1, 6, 7));
+        start.advanced(length, &weighted(&own, &<DormandPrinceTableau as Tableau<7>>::A[6])).state
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::tableau::trees::largest_defect;
+    use super::*;
+
+    /// As in [`super::super::tableau`], with interpolation weights up to 500.
+    const ROUND_OFF: f64 = 3e-12;
+
+    /// A right-hand side of no consequence: the stages are set by hand.
+    struct Still;
+    impl<const N: usize> System<f64, N> for Still {
+        fn derivative(&self, _time: f64, _state: &[f64; N]) -> [f64; N] {
+            [0.0; N]
+        }
+        fn error_ratio(&self, _: &[f64; N], _: &[f64; N], _: &[f64; N], _: Tolerance) -> f64 {
+            0.0
+        }
+    }
+
+    #[test]
+    fn dense_output_of_dormand_prince_has_order_4() {
+        for s in [0.1, 0.3, 0.5, 0.77, 1.0] {
+            let unit: [[f64; 7]; 7] = std::array::from_fn(|i| std::array::from_fn(|k| f64::from(u8::from(i == k))));
+            let start = Carried { state: [0.0; 7], carry: [0.0; 7] };
+            let step = Step { time: 0.0, end: 1.0, length: 1.0 };
+            let weights = DormandPrince::inside(&Still, step, s, &start, &unit);
+            assert!(largest_defect(&DormandPrinceTableau::A, &weights, s, 4) < ROUND_OFF);
+            if s < 1.0 {
+                assert!(largest_defect(&DormandPrinceTableau::A, &weights, s, 5) > 1e-7);
+            }
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! [`GyrostatRuns`]: gyrostats in lanes, for Runge-Kutta methods.
+
+use crate::dynamics::gyrostat::equations::Constants;
+use crate::dynamics::gyrostat::{ATTITUDE, Gyrostat, OMEGA, WITH_ATTITUDE};
+use crate::math::Real;
+use crate::math::vector::{dot, norm};
+use crate::ode::Runs;
+use crate::ode::System;
+use crate::ode::Tolerance;
+
+/// Runs of the gyrostat's first `N` components, one per lane.
+#[derive(Clone, Debug)]
+pub struct GyrostatRuns<'a, R> {
+    runs: &'a [Gyrostat<f64>],
+    constants: Constants<R>,
+    /// The run in each lane.
+    seated: [usize; crate::math::lanes::WIDTH],
+    /// Time scale of the run in each lane as a rate, rad/s: below it a rate is measured against it.
+    scale: R,
+}
+
+impl<'a, R: Real> GyrostatRuns<'a, R> {
+    /// The given runs; `zero` says how many lanes.
+    pub fn new(zero: R, runs: &'a [Gyrostat<f64>]) -> Self {
+        GyrostatRuns {
+            runs,
+            constants: Constants::zero(zero),
+            seated: [0; crate::math::lanes::WIDTH],
+            scale: zero.splat(1.0),
+        }
+    }
+}
+
+impl<R: Real, const N: usize> System<R, N> for GyrostatRuns<'_, R> {
+    #[inline(always)]
+    fn derivative(&self, time: R, state: &[R; N]) -> [R; N] {
+        self.constants.derivative(time, state)
+    }
+
+    /// The largest component of the rate's error against |omega| (at least the run's own time scale, times
+    /// absolute/relative), and of the attitude's against |q|; the integrals that ride along have no say. Not a number where
+    /// any component is not finite.
+    #[inline(always)]
+    fn error_ratio(&self, error: &[R; N], old: &[R; N], new: &[R; N], tolerance: Tolerance) -> R {
+        let threshold = self.scale.splat(tolerance.absolute / tolerance.relative);
+        let rate = [old[OMEGA], old[OMEGA + 1], old[OMEGA + 2]];
+        let rate_new = [new[OMEGA], new[OMEGA + 1], new[OMEGA + 2]];
+        let size = norm(rate).larger(norm(rate_new)).larger(threshold * self.scale);
+        let off = error[OMEGA].abs().larger(error[OMEGA + 1].abs()).larger(error[OMEGA + 2].abs());
+        let mut ratio = off / size;
+        if N >= WITH_ATTITUDE {
+            let vector = [new[ATTITUDE + 1], new[ATTITUDE + 2], new[ATTITUDE + 3]];
+            let size = new[ATTITUDE].mul_add(new[ATTITUDE], dot(vector, vector)).sqrt().larger(threshold);
+            let mut off = error[ATTITUDE].abs();
+            for i in 1..4 {
+                off = off.larger(error[ATTITUDE + i].abs());
+            }
+            ratio = ratio.larger(off / size);
+        }
+        let zero = self.scale.zero();
+        let mut poison = zero;
+        for i in 0..N {
+            poison = (error[i] + new[i]).mul_add(zero, poison);
+        }
+        ratio * self.scale.splat(1.0 / tolerance.relative) + poison
+    }
+}
+
+impl<R: Real, const N: usize> Runs<R, N> for GyrostatRuns<'_, R> {
+    fn count(&self) -> usize {
+        self.runs.len()
+    }
+
+    fn load(&mut self, lane: usize, run: usize) -> [f64; N] {
+        self.seated[lane] = run;
+        let run = &self.runs[run];
+        self.constants.set_run(lane, run, 1.0);
+        self.scale.set_lane(lane, 1.0 / run.time_unit());
+        let mut state = [0.0; N];
+        state[OMEGA..OMEGA + 3].copy_from_slice(&run.omega_b);
+        if N >= WITH_ATTITUDE {
+            state[ATTITUDE..ATTITUDE + 4].copy_from_slice(&run.q_eb);
+        }
+        state
+    }
+
+    fn stretches(&self, lane: usize) -> usize {
+        self.runs[self.seated[lane]].stretches.len()
+    }
+
+    fn enter(&mut self, lane: usize, stretch: usize) -> f64 {
+        let run = &self.runs[self.seated[lane]];
+        self.constants.set_stretch(lane, run, stretch, 1.0);
+        run.stretches[stretch].end
+    }
+}

@@ -1,0 +1,108 @@
+//! [`NullSpaceRuns`]: runs of the reference kernel, one at a time.
+
+use crate::dynamics::null_space::{COMPONENTS, Kernel, STATES, SignOfANon, sigma};
+use crate::ode::Runs;
+use crate::ode::System;
+use crate::ode::Tolerance;
+use crate::scene::Scene;
+
+/// Runs of the report's 62-state form for the scenes of a batch; `f64`, one lane.
+#[derive(Clone, Debug)]
+pub struct NullSpaceRuns<'a> {
+    scenes: &'a [Scene],
+    duration: f64,
+    sign: SignOfANon,
+    run: usize,
+    kernel: Kernel,
+}
+
+impl<'a> NullSpaceRuns<'a> {
+    /// Runs of `scenes` from zero to `duration`, s.
+    ///
+    /// # Panics
+    /// Where there is no scene.
+    pub fn new(scenes: &'a [Scene], duration: f64) -> Self {
+        Self::with_sign(scenes, duration, SignOfANon::Corrected)
+    }
+
+    /// The same with a chosen sign of a-hat_non,s: for the test that shows what the printed one does.
+    ///
+    /// # Panics
+    /// Where there is no scene.
+    pub fn with_sign(scenes: &'a [Scene], duration: f64, sign: SignOfANon) -> Self {
+        let kernel = Kernel::new(scenes.first().expect("a batch has at least one scene"), sign);
+        NullSpaceRuns { scenes, duration, sign, run: 0, kernel }
+    }
+}
+
+impl System<f64, COMPONENTS> for NullSpaceRuns<'_> {
+    #[inline(always)]
+    fn derivative(&self, _time: f64, state: &[f64; COMPONENTS]) -> [f64; COMPONENTS] {
+        self.kernel.derivative(state)
+    }
+
+    /// As MATLAB's ode45: max |e_i| / (rtol max(|y_i|, |y_i new|, atol / rtol)) over the 62 states (Shampine & Reichelt 1997);
+    /// the integrals that ride along have no say. Not a number where any component is not finite.
+    #[inline(always)]
+    fn error_ratio(
+        &self,
+        error: &[f64; COMPONENTS],
+        old: &[f64; COMPONENTS],
+        new: &[f64; COMPONENTS],
+        tolerance: Tolerance,
+    ) -> f64 {
+        let threshold = tolerance.absolute / tolerance.relative;
+        let (mut largest, mut poison) = (0.0_f64, 0.0_f64);
+        for i in 0..STATES {
+            let ratio = error[i].abs() / old[i].abs().max(new[i].abs()).max(threshold);
+            poison = (error[i] + new[i]).mul_add(0.0, poison);
+            largest = largest.max(ratio);
+        }
+        largest / tolerance.relative + poison
+    }
+}
+
+impl Runs<f64, COMPONENTS> for NullSpaceRuns<'_> {
+    fn count(&self) -> usize {
+        self.scenes.len()
+    }
+
+    fn load(&mut self, _lane: usize, run: usize) -> [f64; COMPONENTS] {
+        self.run = run;
+        self.kernel = Kernel::new(&self.scenes[run], self.sign);
+        sigma(&self.scenes[run]).components()
+    }
+
+    fn stretches(&self, _lane: usize) -> usize {
+        self.scenes[self.run].stretches(self.duration).count()
+    }
+
+    fn enter(&mut self, _lane: usize, stretch: usize) -> f64 {
+        let actuation =
+            self.scenes[self.run].stretches(self.duration).nth(stretch).expect("asked within the number of stretches");
+        self.kernel.drive(&actuation);
+        actuation.end
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::samples;
+
+    #[test]
+    fn the_error_norm_is_that_of_ode45() {
+        let scenes = [Scene::resolve(&samples::table_two()).expect("the report's scene")];
+        let runs = NullSpaceRuns::new(&scenes, 1.0);
+        let tolerance = Tolerance { relative: 1e-3, absolute: 1e-6 };
+        let (mut error, mut old, mut new) = ([0.0; COMPONENTS], [0.0; COMPONENTS], [0.0; COMPONENTS]);
+        (error[3], old[3], new[3]) = (1e-3, 1.0, -2.0); // relative to the larger end
+        (error[61], old[61], new[61]) = (4e-7, 1e-4, 0.0); // below the threshold 1e-3
+        error[62] = 1e9; // an integral
+        assert!((runs.error_ratio(&error, &old, &new, tolerance) - 0.5).abs() < 1e-15);
+        error[3] = 0.0;
+        assert!((runs.error_ratio(&error, &old, &new, tolerance) - 0.4).abs() < 1e-15);
+        new[10] = f64::INFINITY;
+        assert!(runs.error_ratio(&error, &old, &new, tolerance).is_nan());
+    }
+}

@@ -1,0 +1,282 @@
+//! Taylor coefficients of the gyrostat's motion by recurrences.
+//!
+//! Everything is quadratic, so the coefficient of order n + 1 is a Cauchy product of those up to n, divided by n + 1
+//! (R. E. Moore, *Interval Analysis*, 1966, ch. 11; A. Jorba & M. Zou, Experimental Mathematics 14, 2005, section 2).
+//! Written for the equations of [`crate::dynamics::gyrostat`]; components as there.
+//!
+//! The recurrences of thrust (impulses, works) serve [`super::reference_solution`] alone: a march in `f64` takes these integrals from
+//! [`super::thrust`], so that each judges the other.
+#![expect(clippy::needless_range_loop, reason = "components are numbered alike in several arrays")]
+
+use crate::dynamics::gyrostat::equations::Constants;
+use crate::dynamics::gyrostat::{
+    ANGLE, ANGULAR_IMPULSE, ATTITUDE, IMPULSE, IMPULSE_INTEGRAL, MOTOR_WORK, OMEGA, THRUST_WORK, WITH_ANGLES,
+    WITH_ATTITUDE, WITH_MOTORS, WITH_THRUST,
+};
+use crate::math::Real;
+use crate::math::vector::{cross, dot};
+
+/// The largest order that a jet can hold: 22 is what a tolerance of 1e-16 asks for; double-double needs twice that.
+pub const MAX_ORDER: usize = 40;
+
+/// 1/n as the sum of two `Real`, for n = 1 ..= order.
+///
+/// A rounded 1/n is wrong in the same direction in every step: with it the quaternion's norm grew by 2e-17 a step, all of which
+/// added up (`tests/accuracy/round_off.rs`).
+#[derive(Clone, Debug)]
+pub struct Reciprocals<R>(Vec<[R; 2]>);
+
+impl<R: Real> Reciprocals<R> {
+    /// The table up to 1/(`order`); entry zero is not used.
+    pub fn new(zero: R, order: usize) -> Self {
+        let one = zero.splat(1.0);
+        let pair = |n: usize| {
+            let divisor = zero.splat(n as f64);
+            let high = one / divisor;
+            [high, (-high).mul_add(divisor, one) / divisor]
+        };
+        Reciprocals((0..=order).map(|n| if n == 0 { [zero; 2] } else { pair(n) }).collect())
+    }
+}
+
+/// Series that a jet needs on its way but that nobody else asks for.
+#[derive(Clone, Debug)]
+pub struct Scratch<R> {
+    /// q (x) F and its negative.
+    turned_force: [[R; 8]; MAX_ORDER],
+    /// q (x) tau and its negative.
+    turned_torque: [[R; 8]; MAX_ORDER],
+    /// The force in F_e.
+    force_e: [[R; 3]; MAX_ORDER],
+}
+
+impl<R: Real> Scratch<R> {
+    /// Room for any order.
+    pub fn new(zero: R) -> Self {
+        Scratch {
+            turned_force: [[zero; 8]; MAX_ORDER],
+            turned_torque: [[zero; 8]; MAX_ORDER],
+            force_e: [[zero; 3]; MAX_ORDER],
+        }
+    }
+}
+
+/// Fills `jet[1 ..= order]` with the Taylor coefficients of the first `N` components, given `jet[0]`, the state.
+///
+/// `constants.momentum` is the wheels' momentum *at the start of the step*. Where `FORCED` is false, torques, thrusts and
+/// the rate of the momentum are taken as zero.
+#[inline(always)]
+pub fn expand<R: Real, const N: usize, const FORCED: bool>(
+    constants: &Constants<R>,
+    reciprocals: &Reciprocals<R>,
+    order: usize,
+    scratch: &mut Scratch<R>,
+    jet: &mut [[R; N]],
+) {
+    let jet = &mut jet[..=order];
+    let reciprocal = &reciprocals.0[..=order];
+    let zero = jet[0][0].zero();
+    let half = zero.splat(0.5);
+    let Scratch { turned_force, turned_torque, force_e } = scratch;
+    for n in 0..order {
+        let [inverse, inverse_low] = reciprocal[n + 1];
+        let omega = [jet[n][OMEGA], jet[n][OMEGA + 1], jet[n][OMEGA + 2]];
+        let sums = cauchy_products(jet, n);
+        let acceleration = angular_acceleration::<R, N, FORCED>(constants, jet, n, sums.rate);
+        let mut next = [zero; N];
+        for i in 0..3 {
+            next[OMEGA + i] = acceleration[i].mul_add(inverse, acceleration[i] * inverse_low);
+        }
+        if N >= WITH_ATTITUDE {
+            // q' = q (x) omega/2: the half is exact wherever it stands
+            let (half_inverse, half_low) = (half * inverse, half * inverse_low);
+            for i in 0..4 {
+                next[ATTITUDE + i] = sums.attitude[i].mul_add(half_inverse, sums.attitude[i] * half_low);
+            }
+        }
+        if N >= WITH_ANGLES {
+            for i in 0..3 {
+                next[ANGLE + i] = omega[i] * inverse;
+            }
+        }
+        if N >= WITH_MOTORS && FORCED {
+            let driven = match n {
+                0 => constants.motor_power,
+                1 => constants.motor_power_rate,
+                _ => zero,
+            };
+            next[MOTOR_WORK] = (driven - dot(constants.momentum_rate, omega)) * inverse;
+        }
+        if N >= WITH_THRUST && FORCED {
+            let q = [jet[n][ATTITUDE], jet[n][ATTITUDE + 1], jet[n][ATTITUDE + 2], jet[n][ATTITUDE + 3]];
+            turned_force[n] = pure_product(q, constants.force);
+            turned_torque[n] = pure_product(q, constants.torque);
+            force_e[n] = turned(jet, turned_force, n);
+            let torque_e = turned(jet, turned_torque, n);
+            for i in 0..3 {
+                next[IMPULSE + i] = force_e[n][i] * inverse;
+                next[IMPULSE_INTEGRAL + i] = jet[n][IMPULSE + i] * inverse;
+                next[ANGULAR_IMPULSE + i] = torque_e[i] * inverse;
+            }
+            let push = thrust_power(constants, jet, force_e, n);
+            next[THRUST_WORK] = (push + dot(constants.torque, omega)) * inverse;
+        }
+        jet[n + 1] = next;
+    }
+}
+
+/// Coefficient n of omega' = ratio omega omega + (h x omega + torque - h')/J, given those of the products of two rates.
+#[inline(always)]
+fn angular_acceleration<R: Real, const N: usize, const FORCED: bool>(
+    constants: &Constants<R>,
+    jet: &[[R; N]],
+    n: usize,
+    products: [R; 3],
+) -> [R; 3] {
+    let zero = jet[0][0].zero();
+    let omega = [jet[n][OMEGA], jet[n][OMEGA + 1], jet[n][OMEGA + 2]];
+    let mut linear = cross(constants.momentum, omega);
+    if FORCED {
+        if n == 0 {
+            for i in 0..3 {
+                linear[i] += constants.torque[i] - constants.momentum_rate[i];
+            }
+        } else {
+            let earlier = [jet[n - 1][OMEGA], jet[n - 1][OMEGA + 1], jet[n - 1][OMEGA + 2]];
+            let turning = cross(constants.momentum_rate, earlier);
+            for i in 0..3 {
+                linear[i] += turning[i];
+            }
+        }
+    }
+    let mut acceleration = [zero; 3];
+    for i in 0..3 {
+        acceleration[i] = constants.ratio[i].mul_add(products[i], constants.inverse[i] * linear[i]);
+    }
+    acceleration
+}
+
+/// Coefficients of the products of series that the motion needs.
+struct Sums<R> {
+    /// Of omega_2 omega_3 and its cyclic fellows.
+    rate: [R; 3],
+    /// Of q (x) omega.
+    attitude: [R; 4],
+}
+
+/// Coefficient n of the products, as far as the first `N` components go.
+///
+/// One pass over both series, so that ten loads feed fifteen fused operations. The two products with the coefficient that was
+/// made last come last: all others need not wait for it.
+#[inline(always)]
+fn cauchy_products<R: Real, const N: usize>(jet: &[[R; N]], n: usize) -> Sums<R> {
+    let zero = jet[0][0].zero();
+    let mut even = [zero; 3];
+    let mut odd = [zero; 3];
+    let mut attitude = [zero; 4];
+    let middle = &jet[n.min(1)..n];
+    let mut pairs = middle.iter().zip(middle.iter().rev());
+    while let Some((a, b)) = pairs.next() {
+        odd = rate_products(a, b, odd);
+        attitude = attitude_products(a, b, attitude);
+        if let Some((a, b)) = pairs.next() {
+            even = rate_products(a, b, even);
+            attitude = attitude_products(a, b, attitude);
+        }
+    }
+    let (first, last) = (&jet[0], &jet[n]);
+    even = rate_products(first, last, even);
+    attitude = attitude_products(first, last, attitude);
+    if n > 0 {
+        odd = rate_products(last, first, odd);
+        attitude = attitude_products(last, first, attitude);
+    }
+    Sums { rate: [even[0] + odd[0], even[1] + odd[1], even[2] + odd[2]], attitude }
+}
+
+/// `sum` plus the products of unlike components of two rates.
+#[inline(always)]
+fn rate_products<R: Real, const N: usize>(a: &[R; N], b: &[R; N], sum: [R; 3]) -> [R; 3] {
+    [a[1].mul_add(b[2], sum[0]), a[2].mul_add(b[0], sum[1]), a[0].mul_add(b[1], sum[2])]
+}
+
+/// `sum` plus q (x) omega with the quaternion of `a` and the rate of `b`.
+#[inline(always)]
+fn attitude_products<R: Real, const N: usize>(a: &[R; N], b: &[R; N], sum: [R; 4]) -> [R; 4] {
+    if N < WITH_ATTITUDE {
+        return sum;
+    }
+    let (q0, q1, q2, q3) = (a[ATTITUDE], a[ATTITUDE + 1], a[ATTITUDE + 2], a[ATTITUDE + 3]);
+    let (o1, o2, o3) = (b[OMEGA], b[OMEGA + 1], b[OMEGA + 2]);
+    let [mut w, mut x, mut y, mut z] = sum;
+    w = q1.neg_mul_add(o1, w);
+    x = q0.mul_add(o1, x);
+    y = q0.mul_add(o2, y);
+    z = q0.mul_add(o3, z);
+    w = q2.neg_mul_add(o2, w);
+    x = q2.mul_add(o3, x);
+    y = q3.mul_add(o1, y);
+    z = q1.mul_add(o2, z);
+    w = q3.neg_mul_add(o3, w);
+    x = q3.neg_mul_add(o2, x);
+    y = q1.neg_mul_add(o3, y);
+    z = q2.neg_mul_add(o1, z);
+    [w, x, y, z]
+}
+
+/// q (x) (0, v), and its negative.
+#[inline(always)]
+fn pure_product<R: Real>(q: [R; 4], v: [R; 3]) -> [R; 8] {
+    let [x, y, z] = v;
+    let [w, x, y, z] = [
+        -q[1].mul_add(x, q[2].mul_add(y, q[3] * z)),
+        q[0].mul_add(x, q[2].mul_add(z, -(q[3] * y))),
+        q[0].mul_add(y, q[3].mul_add(x, -(q[1] * z))),
+        q[0].mul_add(z, q[1].mul_add(y, -(q[2] * x))),
+    ];
+    [w, x, y, z, -w, -x, -y, -z]
+}
+
+/// Coefficient n of the vector part of g (x) q*, with g = q (x) v: the vector v of B in F_e. `g` holds g and -g.
+#[inline(always)]
+fn turned<R: Real, const N: usize>(jet: &[[R; N]], g: &[[R; 8]; MAX_ORDER], n: usize) -> [R; 3] {
+    let zero = jet[0][0].zero();
+    let (mut a, mut b, mut c) = (zero, zero, zero);
+    for (coefficient, g) in jet[..=n].iter().zip(g[..=n].iter().rev()) {
+        let (q0, q1) = (coefficient[ATTITUDE], coefficient[ATTITUDE + 1]);
+        let (q2, q3) = (coefficient[ATTITUDE + 2], coefficient[ATTITUDE + 3]);
+        a = q0.mul_add(g[1], a);
+        b = q0.mul_add(g[2], b);
+        c = q0.mul_add(g[3], c);
+        a = q1.mul_add(g[4], a);
+        b = q1.mul_add(g[7], b);
+        c = q1.mul_add(g[2], c);
+        a = q2.mul_add(g[3], a);
+        b = q2.mul_add(g[4], b);
+        c = q2.mul_add(g[5], c);
+        a = q3.mul_add(g[6], a);
+        b = q3.mul_add(g[1], b);
+        c = q3.mul_add(g[4], c);
+    }
+    [a, b, c]
+}
+
+/// Coefficient n of F_e . v_c.
+#[inline(always)]
+fn thrust_power<R: Real, const N: usize>(
+    constants: &Constants<R>,
+    jet: &[[R; N]],
+    force_e: &[[R; 3]; MAX_ORDER],
+    n: usize,
+) -> R {
+    let zero = jet[0][0].zero();
+    // impulse . force first, then the initial velocity, which is a constant
+    let mut sums = [zero; 3];
+    for m in 0..=n {
+        for i in 0..3 {
+            sums[i] = force_e[m][i].mul_add(jet[n - m][IMPULSE + i], sums[i]);
+        }
+    }
+    let pushed = sums[0] + sums[1] + sums[2];
+    constants.inverse_mass.mul_add(pushed, dot(constants.velocity, force_e[n]))
+}

@@ -1,0 +1,180 @@
+//! The period of omega, and folding time by it.
+//!
+//! Without torque omega(t) runs round a closed curve. A return is a crossing of the plane through omega(0) across its
+//! velocity, in the same sense, close to omega(0). Over one period P the attitude turns by a fixed rotation about the angular
+//! momentum L, which is constant in F_e (L. Poinsot, *Theorie nouvelle de la rotation des corps*, 1851; for gyrostats
+//! V. Volterra, 1899): q(t + n P) = r^n (x) q(t) with r = q(P) (x) q(0)*. Integrals of what is periodic grow by the same
+//! amount in every period.
+#![expect(clippy::needless_range_loop, reason = "components and orders are numbered alike in several arrays")]
+
+use fearless_simd::Simd;
+
+use super::jet::MAX_ORDER;
+use crate::math::sine::sin_cos_turns;
+use crate::math::vector::{constant, hamilton, scaled};
+use crate::math::{Lanes, Real};
+
+/// How far a return may be off the start, as a share of the curve's extent: far below the distance of two branches of the
+/// curve, far above the round-off of a march round it.
+const RETURN_OF_EXTENT: f64 = 1e-6;
+/// The same as a share of the rate itself: what round-off leaves of a curve that is small beside |omega|.
+const RETURN_OF_RATE: f64 = 1e-13;
+/// The same in units of the tolerance: what truncation leaves at loose tolerances.
+const RETURN_OF_TOLERANCE: f64 = 100.0;
+/// Newton steps on one polynomial before a crossing is given up; three or four are usual.
+const NEWTON_STEPS: usize = 12;
+
+/// One period of a run's stretch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Period {
+    /// Length, in the lane's unit of time, as an unevaluated sum.
+    pub length: [f64; 2],
+    /// Half the angle by which a period turns the attitude, in turns.
+    pub half_turns: f64,
+    /// Axis of that turn, unit vector in F_e.
+    pub axis_e: [f64; 3],
+}
+
+/// What a march knows of the curve of omega since the start of a stretch; [`super::return_detector::ReturnDetector`] keeps it up to date.
+#[derive(Clone, Copy, Debug)]
+pub struct PoincareSection {
+    /// omega at the start.
+    pub start: [f64; 3],
+    /// Unit vector along omega' at the start.
+    pub direction: [f64; 3],
+    /// Largest squared distance from the start that was seen at the ends of steps.
+    pub extent2: f64,
+    /// Position along `direction` at the end of the last step.
+    pub side: f64,
+}
+
+impl PoincareSection {
+    /// The section across the motion at the start of a stretch; `None` where omega does not move at all.
+    #[inline]
+    pub fn new(omega: [f64; 3], rate: [f64; 3]) -> Option<Self> {
+        let norm2 = rate[0] * rate[0] + rate[1] * rate[1] + rate[2] * rate[2];
+        if norm2 == 0.0 {
+            return None;
+        }
+        let inverse = 1.0 / norm2.sqrt();
+        Some(PoincareSection { start: omega, direction: rate.map(|x| x * inverse), extent2: 0.0, side: 0.0 })
+    }
+
+    /// The time within a step at which omega is back, given the step's series in lane `lane` and its length; `None` where the
+    /// crossing is on another branch of the curve.
+    #[inline(always)]
+    pub fn crossing<R: Real, const N: usize>(
+        &self,
+        jet: &[[R; N]],
+        lane: usize,
+        order: usize,
+        length: f64,
+        tolerance: f64,
+    ) -> Option<f64> {
+        // the position along the direction, as a series
+        let d = self.direction;
+        let mut along = [0.0; MAX_ORDER + 1];
+        for n in 0..=order {
+            let mut omega = [jet[n][0].lane(lane), jet[n][1].lane(lane), jet[n][2].lane(lane)];
+            if n == 0 {
+                omega = [omega[0] - self.start[0], omega[1] - self.start[1], omega[2] - self.start[2]];
+            }
+            along[n] = omega[0].mul_add(d[0], omega[1].mul_add(d[1], omega[2] * d[2]));
+        }
+        // a secant between both ends, then Newton kept inside the bracket
+        let mut x = length * (along[0] / (along[0] - self.side));
+        let (mut low, mut high) = (0.0, length);
+        for _ in 0..NEWTON_STEPS {
+            let (mut value, mut slope) = (0.0_f64, 0.0_f64);
+            for n in (0..=order).rev() {
+                slope = slope.mul_add(x, value);
+                value = value.mul_add(x, along[n]);
+            }
+            if value < 0.0 {
+                low = x;
+            } else {
+                high = x;
+            }
+            let next = x - value / slope;
+            let next = if next >= low && next <= high { next } else { 0.5 * (low + high) };
+            let moved = (next - x).abs();
+            x = next;
+            if moved <= f64::EPSILON * length {
+                break;
+            }
+        }
+        let (mut distance2, mut rate2) = (0.0, 0.0);
+        for i in 0..3 {
+            let mut omega = 0.0_f64;
+            for n in (0..=order).rev() {
+                omega = omega.mul_add(x, jet[n][i].lane(lane));
+            }
+            distance2 += (omega - self.start[i]) * (omega - self.start[i]);
+            rate2 += omega * omega;
+        }
+        let of_rate = RETURN_OF_RATE + RETURN_OF_TOLERANCE * tolerance;
+        let allowed2 = RETURN_OF_EXTENT * RETURN_OF_EXTENT * self.extent2 + of_rate * of_rate * rate2;
+        (distance2 <= allowed2).then_some(x)
+    }
+}
+
+impl Period {
+    /// The period of a stretch of length `length` that takes the attitude from `start` to `end`; `momentum_e` is the
+    /// angular momentum in F_e and `scale` the size |J| |omega| beside which it counts as zero.
+    ///
+    /// `None` where the axis of the turn is too poorly known to be used many times over.
+    #[inline]
+    pub fn new(length: [f64; 2], start: [f64; 4], end: [f64; 4], momentum_e: [f64; 3], scale: f64) -> Option<Self> {
+        let norm = crate::math::vector::norm(momentum_e);
+        let [w, x, y, z] = start;
+        let turn = hamilton(end, [w, -x, -y, -z]);
+        let axis_part = [turn[1], turn[2], turn[3]];
+        let axis_e = if norm > SMALL_MOMENTUM * scale {
+            momentum_e.map(|component| component / norm)
+        } else {
+            // without momentum omega itself is constant, and the turn is about it
+            let sine = crate::math::vector::norm(axis_part);
+            if sine < SMALL_SINE {
+                return None;
+            }
+            axis_part.map(|component| component / sine)
+        };
+        let sine = crate::math::vector::dot(axis_part, axis_e);
+        let half_turns = libm::atan2(sine, turn[0]) / core::f64::consts::TAU;
+        Some(Period { length, half_turns, axis_e })
+    }
+
+    /// Splits times since the start of the stretch into whole periods and the rest, 0 <= rest < P up to round-off.
+    #[inline(always)]
+    pub fn fold<S: Simd>(&self, time: Lanes<S>) -> (Lanes<S>, Lanes<S>) {
+        let (high, low) = (time.splat(self.length[0]), time.splat(self.length[1]));
+        let inverse = time.splat(1.0 / self.length[0]);
+        let whole = (time * inverse).floor();
+        // exact up to one rounding: whole * high is not rounded
+        let rest = (-whole).mul_add(low, (-whole).mul_add(high, time));
+        let zero = time.zero();
+        let one = time.splat(1.0);
+        // the quotient may have rounded up to the next whole number
+        let below = rest.lt(zero);
+        let rest = Real::select(below, rest + high, rest);
+        let whole = Real::select(below, whole - one, whole);
+        (whole, rest)
+    }
+
+    /// The quaternion of the turn of `whole` periods.
+    #[inline(always)]
+    pub fn turn<S: Simd>(&self, whole: Lanes<S>) -> [Lanes<S>; 4] {
+        // the product is exact as a sum of two, so the error is that of half_turns alone, times the number of periods
+        let half_turns = whole.splat(self.half_turns);
+        let high = whole * half_turns;
+        let low = whole.mul_add(half_turns, -high);
+        let (sin, cos) = sin_cos_turns((high - high.round()) + low);
+        let [x, y, z] = scaled(sin, constant(whole, self.axis_e));
+        [cos, x, y, z]
+    }
+}
+
+/// Below this share of |J| |omega| the direction of the angular momentum is not taken as the axis.
+const SMALL_MOMENTUM: f64 = 1e-3;
+/// Below this sine the vector part of the turn of a period does not give its axis to full precision.
+const SMALL_SINE: f64 = 0.1;

@@ -1,0 +1,268 @@
+//! [`ReferenceSolution`]: the reference solution of any scene, by the same Taylor recurrences in double-double (106 bits).
+//!
+//! One run at a time, every stretch restarted exactly at its switch, order and step from a tolerance near the rounding of
+//! the arithmetic (A. Jorba & M. Zou, Experimental Mathematics 14, 2005). The debris goes through the same march as a gyrostat
+//! without wheels, a cube like any other box.
+//!
+//! **Of what it is the truth**: the mass properties and the initial state of a [`Scene`] are `f64` numbers, and so is what every
+//! method is given. The truth is the exact motion for *those* numbers; the rounding on the way from dimensions and densities to
+//! a mass matrix is not an error of integration and is not counted here.
+//!
+//! Not here: periodic folding (a truth that shared it could not judge it), lanes, failures as rows.
+
+use fearless_simd::Simd;
+
+use super::jet::{Reciprocals, Scratch, expand};
+use super::points::factors;
+use super::step::StepRule;
+use crate::dynamics::debris;
+use crate::dynamics::gyrostat::equations::Constants;
+use crate::dynamics::gyrostat::{
+    ANGLE, ANGULAR_IMPULSE, ATTITUDE, Gyrostat, IMPULSE, IMPULSE_INTEGRAL, MOTOR_WORK, OMEGA, THRUST_WORK, WITH_THRUST,
+};
+use crate::math::double_double::DoubleDouble;
+use crate::math::isa::NarrowWork;
+use crate::math::vector::{conjugate, difference, dot, hamilton, product, scaled, sum};
+use crate::math::{Isa, Real};
+use crate::propagation::settings::observes_debris_rotation;
+use crate::run::outcome::Status;
+use crate::run::state_table::{Grid, StateField, StateFields, StateTable};
+use crate::scene::Scene;
+
+/// Relative tolerance of a reference solution: five times the rounding of double-double (2^-105 = 2.5e-32), below which
+/// smaller steps only add rounding errors.
+pub const TOLERANCE: f64 = 1e-31;
+
+/// A march that takes more steps than this is given up: at some 20 steps a turn, fifty thousand turns.
+pub const MOST_STEPS: u64 = 1_000_000;
+
+/// Every component that a gyrostat has: one kernel for all scenes.
+const N: usize = WITH_THRUST;
+
+/// The states of a run at its observation points, as unevaluated sums of two tables.
+#[derive(Clone, Debug)]
+pub struct ReferenceSolution {
+    /// The states rounded to `f64`.
+    pub high: StateTable,
+    /// What rounding left.
+    pub low: StateTable,
+}
+
+impl ReferenceSolution {
+    /// The motion of `scene`, observed at the times of `grid`, in the blocks of `blocks` that a gyrostat has (all but
+    /// [`StateField::Dcm`] and [`StateField::Residuals`], which stay zero). The debris is only integrated where it is observed.
+    ///
+    /// # Errors
+    /// [`Status::NonFinite`] or [`Status::StepLimit`], where the march does not arrive.
+    pub fn new(isa: Isa, scene: &Scene, grid: &Grid, blocks: StateFields, tolerance: f64) -> Result<Self, Status> {
+        let zero = DoubleDouble::exact(0.0);
+        let run = Gyrostat::new(zero, scene, grid.duration());
+        let unit = Gyrostat::new(0.0, scene, grid.duration()).time_unit();
+        let mut truth = Self::blank(blocks, grid);
+        let rule = StepRule::new(tolerance);
+        let states = isa.run_narrow(Driver { run: &run, unit, grid, rule })?;
+        for (point, state) in states.iter().enumerate() {
+            truth.complete(&run, grid.times()[point], point, state);
+        }
+        if scene.mass.debris.is_some() {
+            truth.complete_debris(isa, scene, grid, rule)?;
+        }
+        truth.high.pad();
+        truth.low.pad();
+        Ok(truth)
+    }
+
+    fn blank(blocks: StateFields, grid: &Grid) -> Self {
+        let table = StateTable::new(blocks, grid.points());
+        ReferenceSolution { high: table.clone(), low: table }
+    }
+
+    /// The components of `block` at point `point`, in all digits.
+    pub fn at<const K: usize>(&self, block: StateField, point: usize) -> [DoubleDouble; K] {
+        let (high, low) = (self.high.at::<K>(block, point), self.low.at::<K>(block, point));
+        std::array::from_fn(|i| DoubleDouble { high: high[i], low: low[i] })
+    }
+
+    /// |`sign` x - truth| of the components x of `block` at `point` of `table`, in all digits of the truth.
+    pub fn distance<const K: usize>(&self, table: &StateTable, block: StateField, point: usize, sign: f64) -> f64 {
+        let (high, low) = (self.high.at::<K>(block, point), self.low.at::<K>(block, point));
+        let state = table.at::<K>(block, point);
+        (0..K).map(|i| (sign * state[i] - high[i]) - low[i]).map(|off| off * off).sum::<f64>().sqrt()
+    }
+
+    fn put<const K: usize>(&mut self, block: StateField, point: usize, values: [DoubleDouble; K]) {
+        if self.high.has(block) {
+            self.high.set(block, point, values.map(|value| value.high));
+            self.low.set(block, point, values.map(|value| value.low));
+        }
+    }
+
+    /// Fills the spacecraft's blocks at `point` from the integrated components.
+    fn complete(&mut self, run: &Gyrostat<DoubleDouble>, time: f64, point: usize, y: &[DoubleDouble; N]) {
+        let zero = DoubleDouble::exact(0.0);
+        let (omega_b, omega_s, q_es) = rotation(run, y);
+        self.put(StateField::Rate, point, omega_s);
+        self.put(StateField::Attitude, point, q_es);
+        let stretch = run.stretch_at(time);
+        let (mut rates, mut angles) = ([zero; 2], [zero; 2]);
+        for i in 0..2 {
+            rates[i] = run.wheel_rate_at(stretch, i, time, omega_b);
+            angles[i] = run.wheel_angle_at(stretch, i, time, three(y, ANGLE));
+        }
+        self.put(StateField::WheelRates, point, rates);
+        self.put(StateField::WheelAngles, point, angles);
+        let inverse_mass = DoubleDouble::exact(1.0) / run.mass;
+        let impulse = three(y, IMPULSE);
+        let line = sum(run.r_co_e, scaled(DoubleDouble::exact(time), run.v_co_e));
+        self.put(StateField::ComPosition, point, sum(line, scaled(inverse_mass, three(y, IMPULSE_INTEGRAL))));
+        self.put(StateField::ComVelocity, point, sum(run.v_co_e, scaled(inverse_mass, impulse)));
+        self.put(StateField::Impulse, point, impulse);
+        self.put(StateField::AngularImpulse, point, three(y, ANGULAR_IMPULSE));
+        let mut motors = y[MOTOR_WORK];
+        if let Some(held) = run.held_momentum_b() {
+            motors += dot(held, difference(omega_b, run.omega_b));
+        }
+        self.put(StateField::Work, point, [y[THRUST_WORK], motors]);
+    }
+
+    /// Fills the blocks of the debris.
+    fn complete_debris(&mut self, isa: Isa, scene: &Scene, grid: &Grid, rule: StepRule) -> Result<(), Status> {
+        let (start, velocity) = (scene.initial.r_gdo_e, scene.initial.v_gdo_e.map(DoubleDouble::exact));
+        for (point, time) in grid.times().iter().enumerate() {
+            let position = sum(start.map(DoubleDouble::exact), scaled(DoubleDouble::exact(*time), velocity));
+            self.put(StateField::DebrisPosition, point, position);
+            self.put(StateField::DebrisVelocity, point, velocity);
+        }
+        if !observes_debris_rotation(self.high.blocks()) {
+            return Ok(());
+        }
+        let mut coarse = Gyrostat::blank(0.0);
+        debris::set_rotation(&mut coarse, scene, grid.duration());
+        let mut run = Gyrostat::blank(DoubleDouble::exact(0.0));
+        debris::set_rotation(&mut run, scene, grid.duration());
+        let states = isa.run_narrow(Driver { run: &run, unit: coarse.time_unit(), grid, rule })?;
+        for (point, state) in states.iter().enumerate() {
+            let (_, omega_d, q_ed) = rotation(&run, state);
+            self.put(StateField::DebrisRate, point, omega_d);
+            self.put(StateField::DebrisAttitude, point, q_ed);
+        }
+        Ok(())
+    }
+}
+
+/// Three components from `first` on.
+fn three(y: &[DoubleDouble; N], first: usize) -> [DoubleDouble; 3] {
+    [y[first], y[first + 1], y[first + 2]]
+}
+
+/// Angular velocity in B and in the body's own frame, and the attitude of that frame.
+fn rotation(
+    run: &Gyrostat<DoubleDouble>,
+    y: &[DoubleDouble; N],
+) -> ([DoubleDouble; 3], [DoubleDouble; 3], [DoubleDouble; 4]) {
+    let omega_b = three(y, OMEGA);
+    let q_eb = [y[ATTITUDE], y[ATTITUDE + 1], y[ATTITUDE + 2], y[ATTITUDE + 3]];
+    match run.c_sb {
+        Some(c_sb) => (omega_b, product(c_sb, omega_b), hamilton(q_eb, conjugate(run.q_sb))),
+        None => (omega_b, omega_b, q_eb),
+    }
+}
+
+/// One run from its start to the end of its grid.
+struct Driver<'a> {
+    run: &'a Gyrostat<DoubleDouble>,
+    /// Unit of time, s: a power of two near the time scale of the motion.
+    unit: f64,
+    grid: &'a Grid,
+    rule: StepRule,
+}
+
+impl NarrowWork for Driver<'_> {
+    type Output = Result<Vec<[DoubleDouble; N]>, Status>;
+
+    fn in_lanes<S: Simd>(self, simd: S) -> Self::Output {
+        simd.vectorize(
+            #[inline(always)]
+            || self.states(),
+        )
+    }
+
+    fn in_scalars<S: Simd>(self, simd: S) -> Self::Output {
+        self.in_lanes(simd)
+    }
+}
+
+impl Driver<'_> {
+    /// The integrated components at the observation points, SI.
+    #[inline(always)]
+    fn states(self) -> Result<Vec<[DoubleDouble; N]>, Status> {
+        let Driver { run, unit, grid, rule } = self;
+        let zero = DoubleDouble::exact(0.0);
+        let (per_second, order) = (DoubleDouble::exact(1.0 / unit), rule.order);
+        let reciprocals = Reciprocals::new(zero, order);
+        let mut scratch = Scratch::new(zero);
+        let mut jet = vec![[zero; N]; order + 1];
+        let factors = factors::<f64, N>(1.0 / unit);
+        let mut state = [zero; N];
+        state[OMEGA..OMEGA + 3].copy_from_slice(&scaled(DoubleDouble::exact(unit), run.omega_b));
+        state[ATTITUDE..ATTITUDE + 4].copy_from_slice(&run.q_eb);
+        let times = grid.times();
+        let mut states = Vec::with_capacity(times.len());
+        let mut steps = 0;
+        for (number, bounds) in run.stretches.iter().enumerate() {
+            let constants = Constants::of(run, number, unit);
+            let last = number + 1 == run.stretches.len();
+            let start = DoubleDouble::exact(bounds.start);
+            let length = (DoubleDouble::exact(bounds.end) - start) * per_second;
+            let pushed = bounds.force_b.iter().chain(&bounds.torque_b).any(|component| component.high != 0.0);
+            // a thrust turns with omega where the quaternion turns with omega/2: the series of its integrals need half the step
+            let share = DoubleDouble::exact(if pushed { 0.5 } else { 1.0 });
+            let mut time = zero;
+            let mut lands = false;
+            while !lands {
+                let mut now = constants;
+                now.momentum = sum(constants.momentum, scaled(time, constants.momentum_rate));
+                now.motor_power = constants.motor_power_rate.mul_add(time, constants.motor_power);
+                jet[0] = state;
+                expand::<DoubleDouble, N, true>(&now, &reciprocals, order, &mut scratch, &mut jet);
+                let (wanted, left) = (share * rule.step(&jet), length - time);
+                lands = !wanted.lt(left);
+                let step = if lands { left } else { wanted };
+                while let Some(at) = times.get(states.len()) {
+                    let within = (DoubleDouble::exact(*at) - start) * per_second - time;
+                    let covered = if lands { last || *at <= bounds.end } else { !step.lt(within) };
+                    if !covered {
+                        break;
+                    }
+                    let mut values = value(&jet, within);
+                    for i in 0..N {
+                        values[i] = values[i] * DoubleDouble::exact(factors[i]);
+                    }
+                    states.push(values);
+                }
+                state = value(&jet, step);
+                if !(state[0].high + state[1].high + state[2].high).is_finite() {
+                    return Err(Status::NonFinite);
+                }
+                time += step;
+                steps += 1;
+                if steps == MOST_STEPS {
+                    return Err(Status::StepLimit);
+                }
+            }
+        }
+        Ok(states)
+    }
+}
+
+/// The series `jet` at `x`.
+#[inline(always)]
+fn value(jet: &[[DoubleDouble; N]], x: DoubleDouble) -> [DoubleDouble; N] {
+    let mut sums = jet[jet.len() - 1];
+    for coefficients in jet[..jet.len() - 1].iter().rev() {
+        for i in 0..N {
+            sums[i] = sums[i].mul_add(x, coefficients[i]);
+        }
+    }
+    sums
+}

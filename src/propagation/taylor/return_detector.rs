@@ -1,0 +1,62 @@
+//! [`ReturnDetector`]: looking for the period of omega, all lanes at once.
+//!
+//! What [`super::period::PoincareSection`] says of one run, side by side: where omega started, which way it went, and on which side of
+//! the plane across that way it stands.
+
+use super::period::PoincareSection;
+use crate::math::Real;
+use crate::math::vector::{difference, dot};
+
+/// The sections of all lanes; a lane that does not watch has a direction of zero and never comes back.
+#[derive(Clone, Copy, Debug)]
+pub struct ReturnDetector<R> {
+    start: [R; 3],
+    direction: [R; 3],
+    extent2: R,
+    side: R,
+}
+
+impl<R: Real> ReturnDetector<R> {
+    /// No lane watches.
+    pub fn none(zero: R) -> Self {
+        ReturnDetector { start: [zero; 3], direction: [zero; 3], extent2: zero, side: zero }
+    }
+
+    /// Puts a section into `lane`, or ends its watch.
+    pub fn set(&mut self, lane: usize, section: Option<&PoincareSection>) {
+        let nothing = PoincareSection { start: [0.0; 3], direction: [0.0; 3], extent2: 0.0, side: 0.0 };
+        let section = section.unwrap_or(&nothing);
+        for i in 0..3 {
+            self.start[i].set_lane(lane, section.start[i]);
+            self.direction[i].set_lane(lane, section.direction[i]);
+        }
+        self.extent2.set_lane(lane, section.extent2);
+        self.side.set_lane(lane, section.side);
+    }
+
+    /// The section in `lane`, with `side` as it was before the last step.
+    pub fn section(&self, lane: usize) -> PoincareSection {
+        let three = |v: &[R; 3]| [v[0].lane(lane), v[1].lane(lane), v[2].lane(lane)];
+        PoincareSection {
+            start: three(&self.start),
+            direction: three(&self.direction),
+            extent2: self.extent2.lane(lane),
+            side: self.side.lane(lane),
+        }
+    }
+
+    /// Takes note of omega at the end of a step; one where the step may have come back through the section, else zero.
+    #[inline(always)]
+    pub fn passes(&mut self, omega: [R; 3]) -> R {
+        let zero = self.side.zero();
+        let one = zero.splat(1.0);
+        let off = difference(omega, self.start);
+        let side = dot(off, self.direction);
+        let extent2 = dot(off, off);
+        let was_behind = R::select(self.side.lt(zero), one, zero);
+        let back = R::select(side.lt(zero), zero, was_behind);
+        self.side = side;
+        self.extent2 = extent2.larger(self.extent2);
+        back
+    }
+}

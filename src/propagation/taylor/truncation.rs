@@ -1,0 +1,109 @@
+//! [`Truncation`]: what the steps of a Taylor march leave out of the motion, from the last term that they keep.
+
+use crate::dynamics::gyrostat::{ATTITUDE, OMEGA, WITH_ATTITUDE};
+use crate::math::Real;
+use crate::math::vector::norm;
+use crate::propagation::local_error::rounding;
+use crate::run::outcome::LocalErrors;
+
+/// FoldedLane of the last kept term of omega's series that the rest of it amounts to: terms fall by e^-2 or more at the steps of
+/// Jorba & Zou (2005).
+const REST: f64 = 0.15;
+
+/// The sums of one run.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct TruncationSums {
+    /// Last terms of omega over |omega|, added up.
+    rate: f64,
+    /// First terms left out of the attitude, added up, rad.
+    turn: f64,
+}
+
+/// Sums over the steps of a run, in lanes.
+///
+/// Of the attitude the first term left out is reckoned from its own series: the last one kept, times the root of what that is of
+/// the term two orders before. Where only rates are integrated it counts as turning with constant omega,
+/// (|omega| h/2)^(p+1)/(p+1)!.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Truncation<R> {
+    order: usize,
+    /// 2/(p+1)!.
+    factor: f64,
+    /// Last terms of omega over |omega|, added up.
+    rate: R,
+    /// First terms left out of the attitude, added up, rad.
+    turn: R,
+}
+
+impl<R: Real> Truncation<R> {
+    /// No steps yet, of order `order`; `zero` says how many lanes.
+    pub(super) fn new(zero: R, order: usize) -> Self {
+        let factorial: f64 = (1..=order + 1).map(|n| n as f64).product();
+        Truncation { order, factor: 2.0 / factorial, rate: zero, turn: zero }
+    }
+
+    /// The sums of the run in `lane`.
+    pub(super) fn left_out(&self, lane: usize) -> TruncationSums {
+        TruncationSums { rate: self.rate.lane(lane), turn: self.turn.lane(lane) }
+    }
+
+    /// Sets the sums of the run in `lane`.
+    pub(super) fn set(&mut self, lane: usize, sums: TruncationSums) {
+        self.rate.set_lane(lane, sums.rate);
+        self.turn.set_lane(lane, sums.turn);
+    }
+
+    /// Takes note of a step of length `length` along the series `jet`.
+    #[inline(always)]
+    pub(super) fn add<const N: usize>(&mut self, jet: &[[R; N]], length: R) {
+        let order = self.order;
+        let tiny = length.splat(f64::MIN_POSITIVE);
+        let rate = size(&jet[0]);
+        let last = size(&jet[order]);
+        self.rate += last * raised_to(length, order) / rate.larger(tiny);
+        self.turn += if N >= WITH_ATTITUDE {
+            let (kept, before) = (turn(&jet[order]), turn(&jet[order - 2]));
+            let share = (kept * (length * length) / before.larger(tiny)).sqrt().smaller(length.splat(1.0));
+            length.splat(2.0) * (kept * raised_to(length, order) * share)
+        } else {
+            length.splat(self.factor) * raised_to(length.splat(0.5) * (rate * length), order + 1)
+        };
+    }
+}
+
+impl TruncationSums {
+    /// The errors after `steps` steps, whose rotation is used `periods` times over.
+    pub(super) fn errors(&self, steps: u64, periods: f64) -> LocalErrors {
+        let LocalErrors { rounding, attitude, .. } = rounding(steps);
+        let truncation = REST * self.rate;
+        LocalErrors { truncation, rounding, feedback: 0.0, attitude: periods * (attitude + self.turn) }
+    }
+}
+
+/// |omega| of one order of a series.
+#[inline(always)]
+fn size<R: Real, const N: usize>(term: &[R; N]) -> R {
+    norm([term[OMEGA], term[OMEGA + 1], term[OMEGA + 2]])
+}
+
+/// |q| of one order of a series.
+#[inline(always)]
+fn turn<R: Real, const N: usize>(term: &[R; N]) -> R {
+    let vector = norm([term[ATTITUDE + 1], term[ATTITUDE + 2], term[ATTITUDE + 3]]);
+    term[ATTITUDE].mul_add(term[ATTITUDE], vector * vector).sqrt()
+}
+
+/// `x` to the power `n` >= 1, by squaring.
+#[inline(always)]
+fn raised_to<R: Real>(x: R, n: usize) -> R {
+    let mut power = x.splat(1.0);
+    let (mut square, mut left) = (x, n);
+    while left > 0 {
+        if left & 1 == 1 {
+            power = power * square;
+        }
+        square = square * square;
+        left >>= 1;
+    }
+    power
+}

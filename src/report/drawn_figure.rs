@@ -1,0 +1,187 @@
+//! [`DrawnFigure`]: how drawn samples are distributed (one histogram for each number) and how they hang together (rank
+//! correlation of each pair).
+
+use std::path::Path;
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+use crate::dataset::atomic;
+use crate::ensemble::DrawnScenes;
+use crate::report::plot::{COLORS, OVERSAMPLING, PlotError, PlotFormat, averaged, drawing, encode, install_font};
+use crate::report::summary::short;
+
+/// Size of a histogram, pixels.
+const HISTOGRAM: (u32, u32) = (300, 190);
+/// Histograms side by side.
+const ACROSS: usize = 4;
+/// Height of the figure's title, pixels.
+const TITLE_HEIGHT: u32 = 44;
+/// Height of the title over the correlations, pixels.
+const CAPTION_HEIGHT: u32 = 52;
+/// Largest size of a cell of the correlation plot, pixels.
+const LARGEST_CELL: u32 = 64;
+/// Width kept for the names beside the correlation plot, pixels.
+const NAMES_WIDTH: u32 = 400;
+/// Bars of a histogram.
+const BARS: usize = 40;
+
+/// Marginals and correlation of drawn samples.
+#[derive(Clone, Debug)]
+pub struct DrawnFigure<'a> {
+    /// Title of the whole.
+    pub title: String,
+    /// Name of each column.
+    pub names: Vec<String>,
+    /// The samples.
+    pub drawn: &'a DrawnScenes,
+}
+
+impl DrawnFigure<'_> {
+    /// Draws the figure to `path`, in the format of its extension.
+    ///
+    /// # Errors
+    /// [`PlotError`].
+    pub fn save(&self, path: &Path) -> Result<(), PlotError> {
+        let (width, height) = self.size();
+        let bytes = match PlotFormat::of(path)? {
+            PlotFormat::Svg => {
+                let mut text = String::new();
+                self.draw(&SVGBackend::with_string(&mut text, (width, height)).into_drawing_area(), 1)?;
+                text.into_bytes()
+            }
+            PlotFormat::Png => {
+                let large = (width * OVERSAMPLING, height * OVERSAMPLING);
+                let mut pixels = vec![255; (large.0 * large.1 * 3) as usize];
+                self.draw(&BitMapBackend::with_buffer(&mut pixels, large).into_drawing_area(), OVERSAMPLING)?;
+                encode(&averaged(&pixels, width as usize, height as usize), width, height)?
+            }
+        };
+        Ok(atomic::write_bytes(path, &bytes)?)
+    }
+
+    /// Side of a cell of the correlation plot, pixels.
+    fn cell(&self) -> u32 {
+        let room = ACROSS as u32 * HISTOGRAM.0 - NAMES_WIDTH;
+        (room / self.names.len().max(1) as u32).clamp(2, LARGEST_CELL)
+    }
+
+    fn size(&self) -> (u32, u32) {
+        let rows = self.names.len().div_ceil(ACROSS) as u32;
+        let matrix = self.names.len() as u32 * self.cell() + CAPTION_HEIGHT + 20;
+        (ACROSS as u32 * HISTOGRAM.0, TITLE_HEIGHT + rows * HISTOGRAM.1 + matrix)
+    }
+
+    fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: u32) -> Result<(), PlotError> {
+        install_font()?;
+        area.fill(&WHITE).map_err(drawing)?;
+        let (title, rest) = area.split_vertically(TITLE_HEIGHT * scale);
+        let style =
+            ("sans-serif", 20 * scale).into_font().into_text_style(&title).pos(Pos::new(HPos::Center, VPos::Center));
+        let middle = ((ACROSS as u32 * HISTOGRAM.0 * scale / 2) as i32, (TITLE_HEIGHT * scale / 2) as i32);
+        title.draw_text(&self.title, &style, middle).map_err(drawing)?;
+        let rows = self.names.len().div_ceil(ACROSS);
+        let (upper, lower) = rest.split_vertically(rows as u32 * HISTOGRAM.1 * scale);
+        for ((name, values), cell) in
+            self.names.iter().zip(&self.drawn.columns).zip(upper.split_evenly((rows.max(1), ACROSS)))
+        {
+            histogram(name, values, &cell, scale)?;
+        }
+        self.draw_correlations(&lower, scale)?;
+        area.present().map_err(drawing)
+    }
+
+    fn draw_correlations<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: u32) -> Result<(), PlotError> {
+        let (cell, left, top) =
+            ((self.cell() * scale) as i32, (NAMES_WIDTH * scale) as i32, (CAPTION_HEIGHT * scale) as i32);
+        let font = |size: u32| ("sans-serif", size * scale).into_font();
+        let caption = font(17).into_text_style(area).pos(Pos::new(HPos::Left, VPos::Center));
+        area.draw_text("Rank correlation", &caption, (left, top / 3)).map_err(drawing)?;
+        let correlations = self.drawn.rank_correlations();
+        for (i, (name, row)) in self.names.iter().zip(&correlations).enumerate() {
+            let y = top + i as i32 * cell;
+            let size = (self.cell().saturating_sub(2)).min(13);
+            let style = font(size).into_text_style(area).pos(Pos::new(HPos::Right, VPos::Center));
+            area.draw_text(&format!("{name}  {}", i + 1), &style, (left - 8 * scale as i32, y + cell / 2))
+                .map_err(drawing)?;
+            let number = font(size).into_text_style(area).pos(Pos::new(HPos::Center, VPos::Bottom));
+            let above = (left + i as i32 * cell + cell / 2, top - 3 * scale as i32);
+            area.draw_text(&format!("{}", i + 1), &number, above).map_err(drawing)?;
+            for (j, r) in row.iter().enumerate() {
+                let x = left + j as i32 * cell;
+                let square = Rectangle::new([(x, y), (x + cell - 1, y + cell - 1)], shade(*r).filled());
+                area.draw(&square).map_err(drawing)?;
+                if self.cell() >= 36 {
+                    let color = if r.abs() > 0.6 { WHITE } else { BLACK };
+                    let style = font(12).color(&color).into_text_style(area).pos(Pos::new(HPos::Center, VPos::Center));
+                    area.draw_text(&rounded(*r), &style, (x + cell / 2, y + cell / 2)).map_err(drawing)?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A correlation in two decimals, the first zero left out.
+fn rounded(r: f64) -> String {
+    let text = format!("{r:.2}");
+    if text == "-0.00" { "0.00".to_owned() } else { text }
+}
+
+/// White at 0, blue towards 1, vermilion towards -1.
+fn shade(r: f64) -> RGBColor {
+    let RGBColor(red, green, blue) = if r < 0.0 { COLORS[1] } else { COLORS[0] };
+    let part = r.abs().min(1.0);
+    let mixed = |full: u8| (255.0 + part * (f64::from(full) - 255.0)) as u8;
+    RGBColor(mixed(red), mixed(green), mixed(blue))
+}
+
+/// The histogram of one column: bars between its least and largest value.
+fn histogram<B: DrawingBackend>(
+    name: &str,
+    values: &[f64],
+    area: &DrawingArea<B, Shift>,
+    scale: u32,
+) -> Result<(), PlotError> {
+    let finite = values.iter().copied().filter(|value| value.is_finite());
+    let (low, high) =
+        finite.clone().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+    // one value alone, or none, still gets a bar in the middle of an axis
+    let half = if high > low {
+        0.5 * (high - low)
+    } else if low.is_finite() {
+        0.05 * low.abs().max(1e-3)
+    } else {
+        1.0
+    };
+    let middle = if low.is_finite() { low + 0.5 * (high - low) } else { 0.0 };
+    let (low, width) = (middle - half, 2.0 * half);
+    let mut counts = [0u32; BARS];
+    finite.for_each(|x| counts[(((x - low) / width * BARS as f64) as usize).min(BARS - 1)] += 1);
+    let most = counts.iter().copied().max().unwrap_or(0).max(1);
+    let mut chart = ChartBuilder::on(area)
+        .caption(name, ("sans-serif", 13 * scale))
+        .margin(6 * scale)
+        // room for half of the outermost labels
+        .margin_left(28 * scale)
+        .margin_right(28 * scale)
+        .x_label_area_size(24 * scale)
+        .build_cartesian_2d(0.0..1.0, 0.0..1.05 * f64::from(most))
+        .map_err(drawing)?;
+    chart
+        .configure_mesh()
+        .disable_mesh()
+        .disable_y_axis()
+        .x_labels(3)
+        .x_label_formatter(&|part| short(low + part * width))
+        .label_style(("sans-serif", 12 * scale))
+        .draw()
+        .map_err(drawing)?;
+    let bar = |k: usize| f64::from(k as u32) / BARS as f64;
+    let bars = counts.iter().enumerate().map(|(k, count)| {
+        Rectangle::new([(bar(k), 0.0), (bar(k + 1), f64::from(*count))], COLORS[0].mix(0.75).filled())
+    });
+    chart.draw_series(bars).map_err(drawing)?;
+    Ok(())
+}

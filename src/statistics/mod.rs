@@ -1,0 +1,3 @@
+//! Layer 2: statistics of many runs: pure functions of numbers.
+
+pub mod sketch;

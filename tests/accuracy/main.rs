@@ -1,0 +1,24 @@
+//! Accuracy: every method against independent truth, closed forms, published cases and its own error estimate.
+
+#[path = "../support/mod.rs"]
+mod support;
+#[path = "../textbook/mod.rs"]
+mod textbook;
+
+mod accuracy_claims;
+mod bodies;
+mod closed_forms;
+mod cross_kernel;
+mod drift_bounds;
+mod error_estimate;
+mod golden_truth;
+mod null_space;
+mod order_runge_kutta;
+mod outcomes_runge_kutta;
+mod periodic;
+mod reference_solution;
+mod report_figures;
+mod round_off;
+mod stress;
+mod tolerance;
+mod wheels;

@@ -1,0 +1,421 @@
+//! The reference kernel: the block form against the matrices as printed, against the gyrostat equations, and against golden truth.
+//!
+//! Laws: the null-space form is equivalent to the gyrostat equations; energy changes by the power fed in, momentum by the
+//! thrust, angular momentum by the torque; constraints hold at the level of rates. Counter-test: with the printed sign of
+//! a-hat_non,s energy is not conserved.
+
+use crate::support::extrapolation::march;
+use crate::support::golden::Golden;
+use nalgebra::{Matrix3, SVector, Vector3};
+use proptest::prelude::*;
+use spindrift::dynamics::null_space::{
+    COMPONENTS, Kernel, Parameters, STATES, SignOfANon, State, complete, kinetic_energies, matrices, residuals, sigma,
+};
+use spindrift::ode::Runs;
+use spindrift::ode::System;
+use spindrift::propagation::NullSpaceRuns;
+use spindrift::run::state_table::{Grid, StateField, StateFields, StateTable, Trajectory};
+use spindrift::scene::{Actuation, DebrisInput, Scene, SceneInput};
+
+/// Rates of random scenes, relative to the size of their terms: a few hundred roundings, some through M-hat's condition (< 1e4).
+const RATE_TOLERANCE: f64 = 1e-11;
+
+/// A scene with everything general, or with bodies missing, in a random state.
+fn scenes() -> impl Strategy<Value = (Scene, Actuation)> {
+    let bodies = (any::<[bool; 3]>(), prop::array::uniform3(-0.3f64..0.3), prop::array::uniform3(-200.0f64..200.0));
+    let rates = (prop::array::uniform3(-20.0f64..20.0), prop::array::uniform2(-300.0f64..300.0));
+    let attitude =
+        (prop::array::uniform4(-1.0f64..1.0), prop::array::uniform4(-1.0f64..1.0), prop::array::uniform2(-9.0f64..9.0));
+    let linear = (prop::array::uniform3(-10.0f64..10.0), prop::array::uniform3(-10.0f64..10.0));
+    let inputs = (prop::array::uniform3(0.0f64..100.0), prop::array::uniform2(-5.0f64..5.0));
+    (bodies, rates, attitude, linear, inputs).prop_filter_map(
+        "near-zero quaternion",
+        |(bodies, rates, attitude, linear, (thrust, torque))| {
+            let (present, offset, products) = bodies;
+            let unit = |q: [f64; 4]| {
+                let norm = q.iter().map(|x| x * x).sum::<f64>().sqrt();
+                (norm > 0.1).then(|| q.map(|x| x / norm))
+            };
+            let mut input = Golden::load("table1").scene;
+            input.fuselage.center_of_mass_m = Some([offset[0], offset[1], 1.5 + offset[2]]);
+            let [a, b, c] = products;
+            input.fuselage.inertia_kg_m2 = Some([[3000.0, a, b], [a, 2800.0, c], [b, c, 1700.0]]);
+            for (wheel, present) in input.wheels.iter_mut().zip(present) {
+                *wheel = wheel.filter(|_| present);
+            }
+            match &mut input.debris {
+                debris if present[2] => {
+                    *debris = Some(DebrisInput::Box { size_m: [0.1, 0.25, 0.5], density_kg_m3: 2700.0 });
+                }
+                debris => *debris = None,
+            }
+            input.initial.angular_velocity_rad_s = rates.0;
+            input.initial.wheel_rates_rad_s = rates.1;
+            input.initial.attitude = unit(attitude.0)?;
+            input.initial.debris_attitude = unit(attitude.1)?;
+            input.initial.wheel_angles_rad = attitude.2;
+            input.initial.position_m = linear.0;
+            input.initial.velocity_m_s = linear.1;
+            let torque = std::array::from_fn(|i| if present[i] { torque[i] } else { 0.0 });
+            let scene = Scene::resolve(&input).expect("a physical scene");
+            Some((scene, Actuation { start: 0.0, end: 1.0, thrust, torque }))
+        },
+    )
+}
+
+fn derivative(scene: &Scene, actuation: &Actuation, sign: SignOfANon, state: &State) -> State {
+    let mut kernel = Kernel::new(scene, sign);
+    kernel.drive(actuation);
+    State::from_components(&kernel.derivative(&state.components()))
+}
+
+fn inputs(actuation: &Actuation) -> [f64; 5] {
+    let ([p1, p2, p3], [t1, t2]) = (actuation.thrust, actuation.torque);
+    [p1, p2, p3, t1, t2]
+}
+
+fn rotation(columns: [[f64; 3]; 3]) -> Matrix3<f64> {
+    Matrix3::from_columns(&columns.map(Vector3::from))
+}
+
+fn tensor(rows: [[f64; 3]; 3]) -> Matrix3<f64> {
+    Matrix3::from_fn(|i, j| rows[i][j])
+}
+
+/// The state moved along its derivative.
+fn moved(state: &State, rate: &State, time: f64) -> State {
+    let (x, f) = (state.components(), rate.components());
+    State::from_components(&std::array::from_fn(|i| x[i] + time * f[i]))
+}
+
+/// d(T)/dt in closed form, nu^T M nu-dot + 1/2 nu^T M-dot nu with nu-dot = Pi nu-hat-dot + Pi-dot nu-hat; and the sum of the
+/// terms' sizes.
+fn energy_rate(parameters: &Parameters, state: &State, rate: &State) -> (f64, f64) {
+    let pi = matrices::pi(parameters, state);
+    let nu_hat = matrices::reduced_speeds(state);
+    let nu = pi * nu_hat;
+    let nu_dot = pi * matrices::reduced_speeds(rate) + matrices::pi_dot(parameters, state) * nu_hat;
+    let momentum = matrices::mass(parameters, state) * nu;
+    let turning = matrices::mass_dot(parameters, state) * nu;
+    let size = momentum.component_mul(&nu_dot).abs().sum() + turning.component_mul(&nu).abs().sum();
+    (momentum.dot(&nu_dot) + 0.5 * turning.dot(&nu), size)
+}
+
+proptest! {
+    #[test]
+    fn block_form_equals_the_matrices_as_printed((scene, actuation) in scenes(), drift in prop::array::uniform32(-1e-3f64..1e-3)) {
+        let parameters = Parameters::of(&scene);
+        let mut x = sigma(&scene).components();
+        for (x, drift) in x.iter_mut().zip(drift) {
+            *x += drift; // off the constraints the forms must agree too
+        }
+        let state = State::from_components(&x);
+        for (sign, factor) in [(SignOfANon::Corrected, 1.0), (SignOfANon::Printed, -1.0)] {
+            let rate = derivative(&scene, &actuation, sign, &state);
+            let nu = matrices::pi(&parameters, &state) * matrices::reduced_speeds(&state);
+            let q_dot = matrices::gamma(&state) * nu;
+            let components = rate.components();
+            for i in 0..48 {
+                prop_assert!((components[i] - q_dot[i]).abs() <= 1e-12 * (1.0 + q_dot[i].abs() + nu.abs().max()), "q {}", i);
+            }
+            let m = matrices::reduced_mass(&parameters, &state);
+            let force = matrices::reduced_force(&parameters, &state, inputs(&actuation), factor);
+            let residual = m * matrices::reduced_speeds(&rate) - force;
+            let size = (m.abs() * matrices::reduced_speeds(&rate).abs()).max() + force.abs().max();
+            prop_assert!(residual.abs().max() <= RATE_TOLERANCE * size, "{}", residual);
+        }
+    }
+
+    #[test]
+    fn reduced_mass_is_symmetric_positive_definite((scene, _) in scenes()) {
+        let m = matrices::reduced_mass(&Parameters::of(&scene), &sigma(&scene));
+        prop_assert!((m - m.transpose()).abs().max() <= 1e-15 * m.abs().max());
+        prop_assert!(m.cholesky().is_some());
+    }
+
+    #[test]
+    fn rates_of_pi_and_m_are_their_differences((scene, actuation) in scenes()) {
+        // central differences: error h^2 |third derivative| (rates 300/s) and eps/h; both near 1e-7 relative
+        const STEP: f64 = 1e-6;
+        const TOLERANCE: f64 = 1e-6;
+        let parameters = Parameters::of(&scene);
+        let state = sigma(&scene);
+        let rate = derivative(&scene, &actuation, SignOfANon::Corrected, &state);
+        let (before, after) = (moved(&state, &rate, -STEP), moved(&state, &rate, STEP));
+        let pi_dot = (matrices::pi(&parameters, &after) - matrices::pi(&parameters, &before)) / (2.0 * STEP);
+        let expected = matrices::pi_dot(&parameters, &state);
+        prop_assert!((pi_dot - expected).abs().max() <= TOLERANCE * (1.0 + expected.abs().max()));
+        let m_dot = (matrices::mass(&parameters, &after) - matrices::mass(&parameters, &before)) / (2.0 * STEP);
+        let expected = matrices::mass_dot(&parameters, &state);
+        prop_assert!((m_dot - expected).abs().max() <= TOLERANCE * (1.0 + matrices::mass(&parameters, &state).abs().max()));
+    }
+
+    #[test]
+    fn a_non_is_the_gradient_of_the_energy((scene, _) in scenes()) {
+        // a_non = Gamma^T (dT/dq)^T at fixed nu: so its sign is not a matter of taste
+        const STEP: f64 = 1e-5; // T is quadratic in q, central differences are exact but for rounding
+        let parameters = Parameters::of(&scene);
+        let state = sigma(&scene);
+        let nu = matrices::pi(&parameters, &state) * matrices::reduced_speeds(&state);
+        let gamma = matrices::gamma(&state);
+        let expected = matrices::a_non(&parameters, &state, 1.0);
+        let energy = |sign: f64, direction: &SVector<f64, 48>| {
+            let mut x = state.components();
+            for i in 0..48 {
+                x[i] += sign * STEP * direction[i];
+            }
+            0.5 * nu.dot(&(matrices::mass(&parameters, &State::from_components(&x)) * nu))
+        };
+        let scale = energy(0.0, &SVector::zeros());
+        for i in 0..24 {
+            let direction = gamma.column(i).into_owned();
+            let slope = (energy(1.0, &direction) - energy(-1.0, &direction)) / (2.0 * STEP);
+            prop_assert!((slope - expected[i]).abs() <= 1e-9 * scale, "{}: {} {}", i, slope, expected[i]);
+        }
+    }
+
+    /// model: J* omega-dot = H x omega + tau_ext - tau_i a_i, h_i-dot = tau_i, m c-dot-dot = C_es F; written plainly.
+    #[test]
+    fn agrees_with_the_gyrostat((scene, actuation) in scenes()) {
+        let mass = &scene.mass;
+        let state = sigma(&scene);
+        let rate = derivative(&scene, &actuation, SignOfANon::Corrected, &state);
+        let omega = Vector3::from(state.omega_s);
+        let c_es = rotation(state.dcm[0]);
+        let force = Vector3::from(scene.thruster_force_s(actuation.thrust));
+
+        let j_free = tensor(mass.inertia_free);
+        let mut h = j_free * omega;
+        let mut torque = Vector3::from(scene.thruster_torque_s(actuation.thrust));
+        for (i, wheel) in mass.wheels.iter().enumerate() {
+            let axis = Vector3::from(wheel.axis);
+            h += axis * (wheel.axial * (omega.dot(&axis) + state.wheel_rates[i]));
+            torque -= axis * actuation.torque[i];
+        }
+        let omega_dot = j_free.try_inverse().expect("J* is positive definite") * (h.cross(&omega) + torque);
+        let size = omega_dot.norm() + omega.norm_squared() + 1.0;
+        let found = Vector3::from(rate.omega_s);
+        prop_assert!((found - omega_dot).norm() <= RATE_TOLERANCE * size, "{} {}", found, omega_dot);
+
+        for (i, wheel) in mass.wheels.iter().enumerate() {
+            if wheel.is_present() {
+                let expected = actuation.torque[i] / wheel.axial - omega_dot.dot(&Vector3::from(wheel.axis));
+                prop_assert!((rate.wheel_rates[i] - expected).abs() <= RATE_TOLERANCE * (size + 300.0));
+            } else {
+                prop_assert_eq!((rate.wheel_rates[i], state.wheel_rates[i]), (0.0, 0.0));
+            }
+        }
+        let c = Vector3::from(mass.center);
+        let v_dot = c_es * (force / mass.total - omega_dot.cross(&c) - omega.cross(&omega.cross(&c)));
+        prop_assert!((Vector3::from(rate.v_p) - v_dot).norm() <= RATE_TOLERANCE * (size + 1.0) * 10.0);
+
+        if let Some(debris) = mass.debris {
+            let j = tensor(debris.inertia);
+            let omega_d = Vector3::from(state.omega_d);
+            let torque = (j * omega_d).cross(&omega_d);
+            let residual = j * Vector3::from(rate.omega_d) - torque;
+            prop_assert!(residual.norm() <= RATE_TOLERANCE * (torque.norm() + j.norm() * omega_d.norm_squared()));
+        }
+    }
+
+    #[test]
+    fn energy_and_momenta_change_by_what_is_fed_in((scene, actuation) in scenes()) {
+        let parameters = Parameters::of(&scene);
+        let state = sigma(&scene);
+        let rate = derivative(&scene, &actuation, SignOfANon::Corrected, &state);
+        let (found, size) = energy_rate(&parameters, &state, &rate);
+        let fed = rate.work[0] + rate.work[1];
+        prop_assert!((found - fed).abs() <= RATE_TOLERANCE * size, "{} {} {}", found, fed, size);
+
+        let c_es = rotation(state.dcm[0]);
+        let (omega, omega_dot) = (Vector3::from(state.omega_s), Vector3::from(rate.omega_s));
+        let c = Vector3::from(scene.mass.center);
+        let p_dot = (Vector3::from(rate.v_p) + c_es * (omega_dot.cross(&c) + omega.cross(&omega.cross(&c)))) * scene.mass.total;
+        let size = scene.mass.total * (1.0 + omega.norm_squared() + omega_dot.norm()) * (1.0 + c.norm());
+        prop_assert!((p_dot - Vector3::from(rate.impulse)).norm() <= RATE_TOLERANCE * size);
+
+        let (mut l, mut l_dot) = (tensor(scene.mass.inertia) * omega, tensor(scene.mass.inertia) * omega_dot);
+        for (i, wheel) in scene.mass.wheels.iter().enumerate() {
+            l += Vector3::from(wheel.axis) * (wheel.axial * state.wheel_rates[i]);
+            l_dot += Vector3::from(wheel.axis) * (wheel.axial * rate.wheel_rates[i]);
+        }
+        let size = l_dot.norm() + omega.norm() * l.norm() + 1.0;
+        let found = c_es * (l_dot + omega.cross(&l));
+        prop_assert!((found - Vector3::from(rate.angular_impulse)).norm() <= 10.0 * RATE_TOLERANCE * size);
+    }
+
+    #[test]
+    fn constraints_hold_at_the_level_of_rates((scene, actuation) in scenes()) {
+        let parameters = Parameters::of(&scene);
+        let state = sigma(&scene);
+        for (kind, value) in residuals(&scene, &parameters, &state).into_iter().enumerate() {
+            prop_assert!(value <= 1e-12, "{}: {}", kind, value); // speeds of some hundred rad/s, to rounding
+        }
+        let rate = derivative(&scene, &actuation, SignOfANon::Corrected, &state);
+        // after a short time along the rates, residuals grow with its square
+        let step = 1e-7;
+        let [_, collocation, attitude] = residuals(&scene, &parameters, &moved(&state, &rate, step));
+        let bound = (400.0 * step) * (400.0 * step);
+        prop_assert!(collocation <= bound && attitude <= bound, "{} {}", collocation, attitude);
+    }
+}
+
+#[test]
+fn the_printed_sign_feeds_energy_from_nowhere() {
+    let mut input = Golden::load("table1").scene;
+    input.fuselage.center_of_mass_m = Some([0.1, 0.0, 1.5]);
+    let scene = Scene::resolve(&input).expect("the report's scene");
+    let (parameters, state, coast) = (Parameters::of(&scene), sigma(&scene), Actuation::coast(0.0, 1.0));
+    let relative = |sign| {
+        let (rate, size) = energy_rate(&parameters, &state, &derivative(&scene, &coast, sign, &state));
+        rate.abs() / size
+    };
+    assert!(relative(SignOfANon::Corrected) < RATE_TOLERANCE);
+    assert!(relative(SignOfANon::Printed) > 1e-3);
+}
+
+/// Largest |T - T(0)| / T(0) over two seconds of Table I at a fixed step.
+fn energy_error(sign: SignOfANon, substeps: usize) -> f64 {
+    let scenes = [Scene::resolve(&Golden::load("table1").scene).expect("the report's scene")];
+    let parameters = Parameters::of(&scenes[0]);
+    let mut runs = NullSpaceRuns::with_sign(&scenes, 2.0, sign);
+    let mut x = runs.load(0, 0);
+    runs.enter(0, 0);
+    let total = |x: &[f64; COMPONENTS]| kinetic_energies(&parameters, &State::from_components(x)).iter().sum::<f64>();
+    let start = total(&x);
+    let mut worst = 0.0_f64;
+    for _ in 0..200 {
+        for _ in 0..substeps {
+            x = runge_kutta_4(&runs, &x, 0.01 / substeps as f64);
+        }
+        worst = worst.max((total(&x) / start - 1.0).abs());
+    }
+    worst
+}
+
+/// One step of the classical method.
+fn runge_kutta_4(system: &NullSpaceRuns, x: &[f64; COMPONENTS], h: f64) -> [f64; COMPONENTS] {
+    let ahead = |k: &[f64; COMPONENTS], h: f64| std::array::from_fn(|i| x[i] + h * k[i]);
+    let k1 = system.derivative(0.0, x);
+    let k2 = system.derivative(0.0, &ahead(&k1, h / 2.0));
+    let k3 = system.derivative(0.0, &ahead(&k2, h / 2.0));
+    let k4 = system.derivative(0.0, &ahead(&k3, h));
+    std::array::from_fn(|i| x[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]))
+}
+
+#[test]
+fn table_one_conserves_energy_with_the_corrected_sign_only() {
+    let (coarse, fine) = (energy_error(SignOfANon::Corrected, 10), energy_error(SignOfANon::Corrected, 20));
+    assert!(coarse < 1e-3, "{coarse}");
+    assert!(fine < coarse / 12.0, "order 4: {coarse} -> {fine}");
+    let (printed, printed_fine) = (energy_error(SignOfANon::Printed, 10), energy_error(SignOfANon::Printed, 20));
+    // the printed sign: an error of the model, 1.2 in two seconds, that no step removes
+    assert!((1.0..1.4).contains(&printed_fine), "{printed_fine}");
+    assert!((printed / printed_fine - 1.0).abs() < 0.02, "{printed} {printed_fine}");
+}
+
+#[test]
+fn energies_of_table_one_at_time_zero() {
+    let golden = Golden::load("table1");
+    let scene = Scene::resolve(&golden.scene).expect("the report's scene");
+    let energies = kinetic_energies(&Parameters::of(&scene), &sigma(&scene));
+    let printed = [1060915.388498418, 88406.50864294029, 36464.21707185995, 1871.7717632047218];
+    for ((found, expected), printed) in energies.into_iter().zip(golden.truth[0].energies).zip(printed) {
+        assert!((found / expected - 1.0).abs() < 1e-15, "{found:?} {expected:?}");
+        assert!((found / printed - 1.0).abs() < 1e-15, "{found:?} {printed:?}");
+    }
+}
+
+const BLOCKS: [StateField; 16] = StateField::ALL;
+
+/// The reference kernel on a golden scene, observed at the golden times.
+fn observed(input: &SceneInput, times: Vec<f64>) -> (Scene, Trajectory, StateTable) {
+    let scene = Scene::resolve(input).expect("a golden scene");
+    let grid = Grid::at(times);
+    let scenes = [scene.clone()];
+    let mut runs = NullSpaceRuns::new(&scenes, grid.duration());
+    let mut x = runs.load(0, 0);
+    let mut trajectory = Trajectory::new(COMPONENTS, grid.points());
+    trajectory.set(0, &x);
+    let (mut time, mut point) = (0.0, 1);
+    for stretch in 0..runs.stretches(0) {
+        let end = runs.enter(0, stretch);
+        while time < end {
+            let next = grid.times()[point].min(end);
+            x = march(&runs, x, next - time);
+            time = next;
+            if time == grid.times()[point] {
+                trajectory.set(point, &x);
+                point += 1;
+            }
+        }
+    }
+    assert_eq!(point, grid.points());
+    let blocks = BLOCKS.into_iter().fold(StateFields::NONE, StateFields::with);
+    let mut table = StateTable::new(blocks, grid.points());
+    complete(&scene, &trajectory, &grid, &mut table);
+    (scene, trajectory, table)
+}
+
+/// |a - b| over |b|, as vectors.
+fn relative<const N: usize>(found: [f64; N], expected: [f64; N]) -> f64 {
+    let difference = SVector::from(found) - SVector::from(expected);
+    difference.norm() / SVector::from(expected).norm().max(1.0)
+}
+
+fn up_to_sign(found: [f64; 4], expected: [f64; 4]) -> f64 {
+    relative(found, expected).min(relative(found, expected.map(|x| -x)))
+}
+
+#[test]
+fn golden_truth_is_reached() {
+    // the issue asks for 1e-9; extrapolation at order 16 leaves rounding, which spins of thousands of radians multiply
+    const TOLERANCE: f64 = 1e-10;
+    // rounding over ten thousand steps, at positions of 200 m; measured 1.6e-10
+    const DRIFT_TOLERANCE: f64 = 1e-9;
+    for name in ["table1", "forced"] {
+        let golden = Golden::load(name);
+        let (scene, trajectory, table) = observed(&golden.scene, golden.times());
+        let parameters = Parameters::of(&scene);
+        for (point, truth) in golden.truth.iter().enumerate() {
+            let state = State::from_components(&trajectory.at::<COMPONENTS>(point));
+            let check =
+                |what: &str, error: f64| assert!(error < TOLERANCE, "{name} t={}: {what} {error:e}", truth.time);
+            check("r_p", relative(state.position[0], truth.r_po_e));
+            check("v_p", relative(state.v_p, truth.v_po_e));
+            check("omega", relative(table.at(StateField::Rate, point), truth.omega_se_s));
+            check("q_es", up_to_sign(table.at(StateField::Attitude, point), truth.q_es));
+            check("wheel rates", relative(table.at(StateField::WheelRates, point), truth.wheel_rates));
+            check("wheel angles", relative(table.at(StateField::WheelAngles, point), truth.wheel_angles));
+            check("r_gd", relative(table.at(StateField::DebrisPosition, point), truth.r_gdo_e));
+            check("v_gd", relative(table.at(StateField::DebrisVelocity, point), truth.v_gdo_e));
+            check("q_ed", up_to_sign(table.at(StateField::DebrisAttitude, point), truth.q_ed));
+            check("omega_d", relative(table.at(StateField::DebrisRate, point), truth.omega_de_d));
+            let energies = kinetic_energies(&parameters, &state);
+            for (found, expected) in energies.into_iter().zip(truth.energies) {
+                check("energy", (found / expected - 1.0).abs());
+            }
+            let work: [f64; 2] = table.at(StateField::Work, point);
+            let start: f64 = golden.truth[0].energies.iter().sum();
+            check("energy balance", ((energies.iter().sum::<f64>() - start - work[0] - work[1]) / start).abs());
+
+            let momentum = Vector3::from(table.at::<3>(StateField::ComVelocity, point)) * scene.mass.total;
+            let first = Vector3::from(table.at::<3>(StateField::ComVelocity, 0)) * scene.mass.total;
+            let impulse = Vector3::from(table.at::<3>(StateField::Impulse, point));
+            check("momentum balance", (momentum - first - impulse).norm() / first.norm());
+            let fed = Vector3::from(table.at::<3>(StateField::AngularImpulse, point));
+            let change = Vector3::from(truth.momentum_c_e) - Vector3::from(golden.truth[0].momentum_c_e);
+            check("angular impulse", (change - fed).norm() / Vector3::from(truth.momentum_c_e).norm());
+            let [kinematic, collocation, attitude] = table.at(StateField::Residuals, point);
+            let drift = (kinematic / 300.0).max(collocation).max(attitude); // a tilt times the wheel's rate is kinematic
+            assert!(drift < DRIFT_TOLERANCE, "{name} t={}: {kinematic:e} {collocation:e} {attitude:e}", truth.time);
+        }
+        let signs = (1..table.points()).all(|point| {
+            let (p, q): ([f64; 4], [f64; 4]) =
+                (table.at(StateField::Attitude, point - 1), table.at(StateField::Attitude, point));
+            p.iter().zip(q).map(|(p, q)| p * q).sum::<f64>() >= 0.0
+        });
+        assert!(signs, "the quaternion's sign does not jump");
+        assert_eq!(table.at::<9>(StateField::Dcm, 1).as_slice(), &trajectory.at::<STATES>(1)[3..12]);
+    }
+}

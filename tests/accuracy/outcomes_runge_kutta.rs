@@ -1,0 +1,122 @@
+//! How a run ends is data: done, step limit, step floor, not finite; stretches and observation points are met exactly.
+
+use crate::textbook::*;
+use spindrift::ode::Control;
+use spindrift::ode::embedded::{Dop853, DormandPrince};
+use spindrift::ode::fixed::RungeKutta4;
+use spindrift::ode::gauss_legendre::GaussLegendre;
+use spindrift::run::Status;
+use spindrift::run::state_table::Grid;
+
+/// Round-off of a sum of some ten steps of order one to ten.
+const ROUND_OFF: f64 = 1e-14;
+
+fn jumps_are_met<M: Marcher>(method: M, name: &str) {
+    // Methods of order four and more integrate a quadratic exactly, if no step straddles a jump.
+    let ends = vec![0.3, 0.3, 1.0, 1.7];
+    let case = Case { state: [0.0], parameters: [], ends };
+    let times = vec![0.0, 0.1, 0.3, 0.9, 1.0, 1.1, 1.7];
+    let truth = |t: f64| {
+        let cube = |t: f64| t * t * t;
+        cube(t.min(0.3)) + 3.0 * (cube(t.clamp(0.3, 1.0)) - cube(0.3)) + 4.0 * (cube(t.max(1.0)) - 1.0)
+    };
+    let grid = Grid::at(times.clone());
+    let journey = scalar(method, Switched, &[case], &grid, &control(1e-6, 0.07)).remove(0);
+    assert_eq!(
+        (journey.outcome.status, journey.outcome.time, journey.outcome.points),
+        (Status::Done, 1.7, 7),
+        "{name}"
+    );
+    assert_eq!(journey.points[0], [0.0]);
+    for (time, state) in std::iter::zip(times, &journey.points) {
+        assert!((state[0] - truth(time)).abs() < ROUND_OFF, "{name} at {time}: {} {}", state[0], truth(time));
+    }
+    // The counter-test: one stretch less, and a step straddles the jump that is not there.
+    let blind = Case { state: [0.0], parameters: [], ends: vec![1.0, 1.7] };
+    let blind = scalar(method, Switched, &[blind], &grid, &control(1e-6, 0.07)).remove(0);
+    assert!((blind.points[6][0] - truth(1.7)).abs() > 0.1);
+}
+
+#[test]
+fn stretches_restart_exactly() {
+    jumps_are_met(Adaptive(DormandPrince), "Dormand-Prince");
+    jumps_are_met(Adaptive(Dop853), "DOP853");
+    jumps_are_met(Fixed(RungeKutta4), "Runge-Kutta 4");
+    jumps_are_met(Fixed(GaussLegendre), "Gauss-Legendre");
+}
+
+#[test]
+fn a_stretch_is_a_run_of_its_own() {
+    // The second half of a run equals a run that starts where the first half ended: nothing survives the boundary but the
+    // carry of the compensated sum, which round-off bounds.
+    let half = |state, ends| Case::<2, 1> { state, parameters: [1.5], ends };
+    let grid = Grid::uniform(2.0, 3);
+    let whole =
+        scalar(Adaptive(DormandPrince), Oscillator, &[half([1.0, 0.0], vec![1.0, 2.0])], &grid, &control(1e-8, 0.0));
+    let grid = Grid::uniform(1.0, 2);
+    let first = scalar(Adaptive(DormandPrince), Oscillator, &[half([1.0, 0.0], vec![1.0])], &grid, &control(1e-8, 0.0));
+    assert_eq!(whole[0].points[1], first[0].points[1], "the boundary is a step's own state");
+    let second =
+        scalar(Adaptive(DormandPrince), Oscillator, &[half(first[0].points[1], vec![1.0])], &grid, &control(1e-8, 0.0));
+    for n in 0..2 {
+        assert!((whole[0].points[2][n] - second[0].points[1][n]).abs() < ROUND_OFF);
+    }
+    let steps = |journey: &Journey<2>| journey.outcome.effort.steps;
+    assert_eq!(steps(&whole[0]), steps(&first[0]) + steps(&second[0]));
+}
+
+fn ends_as<M: Marcher, L: Law<1, 0>>(method: M, law: L, state: f64, control: &Control, status: Status) {
+    let case = Case { state: [state], parameters: [], ends: vec![2.0] };
+    let journey = scalar(method, law, &[case], &Grid::uniform(2.0, 21), control).remove(0);
+    let outcome = journey.outcome;
+    assert_eq!(outcome.status, status, "{outcome:?}");
+    assert!(outcome.time < 2.0);
+    assert_eq!(outcome.points, 1 + (outcome.time / 0.1 + 1e-9) as usize, "{outcome:?}");
+    for (point, state) in journey.points.iter().enumerate() {
+        assert_eq!(state[0].is_nan(), point >= outcome.points, "point {point}");
+    }
+}
+
+#[test]
+fn a_pole_is_a_step_floor_or_not_finite() {
+    let control = control(1e-8, 0.01);
+    let case = Case { state: [1.0], parameters: [], ends: vec![2.0] };
+    for journey in [
+        scalar(Adaptive(DormandPrince), BlowUp, std::slice::from_ref(&case), &Grid::uniform(2.0, 21), &control)
+            .remove(0),
+        scalar(Adaptive(Dop853), BlowUp, &[case], &Grid::uniform(2.0, 21), &control).remove(0),
+    ] {
+        assert!(matches!(journey.outcome.status, Status::StepFloor | Status::NonFinite), "{:?}", journey.outcome);
+        assert!((journey.outcome.time - 1.0).abs() < 1e-6, "the pole is at 1: {:?}", journey.outcome);
+        assert_eq!(journey.outcome.points, 10 + usize::from(journey.outcome.time >= 1.0));
+    }
+    ends_as(Fixed(RungeKutta4), BlowUp, 1.0, &control, Status::NonFinite);
+    ends_as(Fixed(GaussLegendre), BlowUp, 1.0, &control, Status::NonFinite);
+}
+
+#[test]
+fn what_is_no_number_from_the_start_ends_at_once() {
+    let control = control(1e-8, 0.01);
+    ends_as(Adaptive(DormandPrince), NotANumber, -1.0, &control, Status::NonFinite);
+    ends_as(Adaptive(Dop853), NotANumber, -1.0, &control, Status::NonFinite);
+    ends_as(Fixed(RungeKutta4), NotANumber, -1.0, &control, Status::NonFinite);
+    ends_as(Fixed(GaussLegendre), NotANumber, -1.0, &control, Status::NonFinite);
+}
+
+#[test]
+fn a_run_that_takes_too_many_steps_is_given_up() {
+    let control = Control { max_steps: 5, ..control(1e-10, 0.01) };
+    ends_as(Adaptive(DormandPrince), NotANumber, 1.0, &control, Status::StepLimit);
+    ends_as(Adaptive(Dop853), NotANumber, 1.0, &Control { max_steps: 2, ..control }, Status::StepLimit);
+    ends_as(Fixed(RungeKutta4), NotANumber, 1.0, &control, Status::StepLimit);
+    ends_as(Fixed(GaussLegendre), NotANumber, 1.0, &control, Status::StepLimit);
+}
+
+#[test]
+fn a_step_too_long_for_the_iteration_is_not_passed_over() {
+    let case = Case { state: [1.0, 0.0], parameters: [40.0], ends: vec![2.0] };
+    let journey =
+        scalar(Fixed(GaussLegendre), Oscillator, &[case], &Grid::uniform(2.0, 3), &control(1e-8, 1.0)).remove(0);
+    assert_eq!(journey.outcome.status, Status::NonFinite);
+    assert_eq!((journey.outcome.time, journey.outcome.points), (0.0, 1));
+}

@@ -1,0 +1,297 @@
+//! Round-off: at the tightest tolerance errors of conserved quantities are a random walk of last digits (D. Brouwer, Astronomical
+//! Journal 46, 1937: the energy's error grows with the square root of the number of steps), and nothing grows faster.
+//!
+//! Ensemble: 64 random scenes (wheels, products of inertia, offset centres of mass), fixed seeds. A law is three statements of the
+//! signed relative errors e of the ensemble after N steps: rms e <= bound sqrt(N); the log-log slope of rms e is 0.5 +- 0.1; the
+//! mean of e is within three standard errors of zero (H0: no bias; n = 64, two-sided alpha = 0.0027; a bias as large as the
+//! scatter shows with a power above 0.999). Counter-tests: steps that are chopped instead of rounded, and a series that is cut off
+//! where its tail is still a last digit, break the law.
+
+use crate::support::claims::hold;
+use crate::support::invariants::Invariants;
+use crate::support::runs::{adaptive, blocks, propagate_on};
+use crate::support::scenes::{Uniform, mixed};
+use rayon::prelude::*;
+use spindrift::math::Isa;
+use spindrift::math::double_double::{DoubleDouble, two_sum};
+use spindrift::propagation::Method;
+use spindrift::propagation::PropagationSettings;
+use spindrift::run::Status;
+use spindrift::run::state_table::{Grid, StateField};
+use spindrift::scene::Scene;
+
+const SECTION: &str = "round_off";
+/// The tightest tolerance.
+const TOLERANCE: f64 = 1e-16;
+/// Scenes of the ensemble.
+const SCENES: u64 = 64;
+/// rms |dE/E| after N steps, over sqrt(N).
+const ENERGY: f64 = 1.5e-16;
+/// The same of |L|.
+const MOMENTUM: f64 = 3e-16;
+/// Median over the scenes of the error of the attitude quaternion's norm, which nothing renormalises, over sqrt(N).
+const NORM: f64 = 1.5e-16;
+/// The largest such error over N: a scene whose rates hardly change makes the same roundings in every step, which then add up (two
+/// of the 64 do, 2.6e-18 a step).
+const NORM_A_STEP: f64 = 1e-17;
+/// The random walk's slope, and how far the measured one may be off.
+const SLOPE: f64 = 0.5;
+const SLOPE_SLACK: f64 = 0.1;
+/// Standard errors by which a mean may be off zero.
+const SIGMAS: f64 = 3.0;
+
+/// Signed errors of an ensemble: point by point (mean number of steps, errors over the scenes and those over sqrt(N)).
+struct Walk {
+    steps: Vec<f64>,
+    errors: Vec<Vec<f64>>,
+    scaled: Vec<Vec<f64>>,
+}
+
+fn rms(values: &[f64]) -> f64 {
+    (values.iter().map(|x| x * x).sum::<f64>() / values.len() as f64).sqrt()
+}
+
+impl Walk {
+    /// Largest rms e / sqrt(N) at any point.
+    fn rate(&self) -> f64 {
+        self.scaled.iter().map(|errors| rms(errors)).fold(0.0, f64::max)
+    }
+
+    /// Slope of the least-squares line through (ln N, ln rms e).
+    fn slope(&self) -> f64 {
+        let points: Vec<[f64; 2]> =
+            self.steps.iter().zip(&self.errors).map(|(n, e)| [libm::log(*n), libm::log(rms(e))]).collect();
+        let mean = |i: usize| points.iter().map(|p| p[i]).sum::<f64>() / points.len() as f64;
+        let (x, y) = (mean(0), mean(1));
+        let covariance: f64 = points.iter().map(|p| (p[0] - x) * (p[1] - y)).sum();
+        covariance / points.iter().map(|p| (p[0] - x) * (p[0] - x)).sum::<f64>()
+    }
+
+    /// Largest |mean| at any point, in standard errors.
+    fn bias(&self) -> f64 {
+        let bias = |e: &Vec<f64>| {
+            let n = e.len() as f64;
+            let mean = e.iter().sum::<f64>() / n;
+            let variance = e.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / (n - 1.0);
+            mean.abs() / (variance / n).sqrt()
+        };
+        self.scaled.iter().map(bias).fold(0.0, f64::max)
+    }
+
+    /// What of the law does not hold.
+    fn broken(&self, bound: f64) -> Vec<String> {
+        let (rate, slope, bias) = (self.rate(), self.slope(), self.bias());
+        let mut broken = Vec::new();
+        if rate.is_nan() || rate > bound {
+            broken.push(format!("rms e / sqrt(N) = {rate:e} > {bound:e}"));
+        }
+        if slope.is_nan() || (slope - SLOPE).abs() > SLOPE_SLACK {
+            broken.push(format!("slope {slope}"));
+        }
+        if bias.is_nan() || bias > SIGMAS {
+            broken.push(format!("mean off by {bias} standard errors"));
+        }
+        broken
+    }
+}
+
+/// The walks of energy, |L|, norm of the quaternion, and vector L (sizes only), after about `steps` steps of Taylor integration.
+fn taylor(steps: &[f64]) -> [Walk; 4] {
+    let scenes = mixed(SCENES, false, 10.0);
+    let run = |times: Vec<f64>, scenes: &[Scene]| {
+        let grid = Grid::at(times);
+        let wanted = blocks([StateField::Rate, StateField::Attitude]);
+        let plan = PropagationSettings::new(Method::Taylor, adaptive(TOLERANCE), grid, wanted, &scenes[0]);
+        let parts: Vec<_> = scenes.par_chunks(8).map(|part| propagate_on(Isa::best(), &plan, part)).collect();
+        parts.into_iter().flatten().collect::<Vec<_>>()
+    };
+    // steps hardly differ along a run: a short run says how many there are in a second
+    let rates: Vec<f64> =
+        run(vec![0.0, 20.0], &scenes).iter().map(|run| run.outcome.effort.steps as f64 / 20.0).collect();
+    let mean = libm::exp(rates.iter().map(|rate| libm::log(*rate)).sum::<f64>() / rates.len() as f64);
+    let times: Vec<f64> = std::iter::once(0.0).chain(steps.iter().map(|n| n / mean)).collect();
+    let runs = run(times.clone(), &scenes);
+    assert!(runs.iter().all(|run| run.outcome.status == Status::Done));
+    std::array::from_fn(|quantity| {
+        let mut walk = Walk { steps: steps.to_vec(), errors: Vec::new(), scaled: Vec::new() };
+        for (point, time) in times.iter().enumerate().skip(1) {
+            let errors: Vec<f64> = scenes
+                .iter()
+                .zip(&runs)
+                .map(|(scene, run)| {
+                    let start = Invariants::of(scene, &run.table, 0);
+                    Invariants::of(scene, &run.table, point).errors(&start)[quantity]
+                })
+                .collect();
+            walk.scaled.push(errors.iter().zip(&rates).map(|(e, rate)| e / (rate * time).sqrt()).collect());
+            walk.errors.push(errors);
+        }
+        walk
+    })
+}
+
+/// Numbers of steps from 100 on, over `count` decades, two to a decade.
+fn decades(count: i32) -> Vec<f64> {
+    (0..=2 * count).map(|k| libm::pow(10.0, 2.0 + 0.5 * f64::from(k))).collect()
+}
+
+/// Holds the law for Taylor integration over `decades` decades of steps from 100 on; `last` is their end in words.
+fn hold_law(count: i32, last: &str) {
+    let steps = decades(count);
+    let [energy, momentum, norm, vector] = taylor(&steps);
+    for (name, walk, bound) in [("energy", &energy, ENERGY), ("size of L", &momentum, MOMENTUM)] {
+        let (slope, bias) = (walk.slope(), walk.bias());
+        println!("{name}: rms e / sqrt(N) {:e}, slope {slope:.3}, mean {bias:.2} standard errors", walk.rate());
+        assert!(walk.broken(bound).is_empty(), "{name}: {:?}", walk.broken(bound));
+        let claim = |what: &str| format!("`taylor` at 1e-16, {name}: {what}, N to {last}");
+        hold(SECTION, &claim("rms over 64 scenes of the relative error / sqrt(N)"), bound, walk.rate());
+        hold(SECTION, &claim("distance of its log-log slope from 1/2"), SLOPE_SLACK, (slope - SLOPE).abs());
+        hold(SECTION, &claim("mean in standard errors"), SIGMAS, bias);
+    }
+    // sizes of vectors have no sign: no mean
+    let claim = |what: &str| format!("`taylor` at 1e-16, {what}, N to {last}");
+    assert!((vector.slope() - SLOPE).abs() < SLOPE_SLACK, "vector L: slope {}", vector.slope());
+    hold(
+        SECTION,
+        &claim("vector L in F_e: rms over 64 scenes of the relative error / sqrt(N)"),
+        MOMENTUM,
+        vector.rate(),
+    );
+    let (mut middle, mut largest) = (0.0_f64, 0.0_f64);
+    for (n, (errors, scaled)) in steps.iter().zip(norm.errors.iter().zip(&norm.scaled)) {
+        let mut sizes: Vec<f64> = scaled.iter().map(|x| x.abs()).collect();
+        sizes.sort_by(f64::total_cmp);
+        middle = middle.max(sizes[sizes.len() / 2]);
+        let size = errors.iter().fold(0.0_f64, |size, e| size.max(e.abs()));
+        // the first hundred steps are all rounding of the start
+        largest = if *n > 1e3 { largest.max(size / n) } else { largest };
+    }
+    hold(SECTION, &claim("norm of the quaternion: median error / sqrt(N)"), NORM, middle);
+    hold(SECTION, &claim("norm of the quaternion: largest error / N"), NORM_A_STEP, largest);
+}
+
+#[test]
+fn taylor_errors_are_a_random_walk() {
+    hold_law(3, "1e5");
+}
+
+#[test]
+#[ignore = "a minute: the same to a million steps"]
+fn taylor_errors_are_a_random_walk_over_a_million_steps() {
+    hold_law(4, "1e6");
+}
+
+/// How the test's own integrator ends a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Ending {
+    /// The plain sum in `f64`, rounded to nearest, without compensation.
+    Rounded,
+    /// The sum chopped towards zero.
+    Chopped,
+    /// The plain sum of a series of order 7, whose tail is about a last digit at this step.
+    Short,
+}
+
+/// Walks of the energy of free rigid bodies under a Taylor method of this test alone: w_i' = (I_j - I_k)/I_i w_j w_k.
+fn own_taylor(ending: Ending, steps: &[f64]) -> Walk {
+    const MOMENTS: [f64; 3] = [2.0, 1.5, 1.0];
+    const STEP: f64 = 0.05;
+    let order = if ending == Ending::Short { 7 } else { 18 };
+    let energy = |w: [f64; 3]| {
+        let term = |i: usize| {
+            let w = DoubleDouble::exact(w[i]);
+            DoubleDouble::exact(MOMENTS[i]) * w * w
+        };
+        term(0) + term(1) + term(2)
+    };
+    let mut errors = vec![Vec::new(); steps.len()];
+    let mut u = Uniform::new(77);
+    for _ in 0..SCENES {
+        let mut w = [u.between(0.5, 1.5), u.between(-1.5, -0.5), u.between(0.5, 1.5)];
+        let start = energy(w);
+        let mut done = 0;
+        for (point, n) in steps.iter().enumerate() {
+            while done < *n as usize {
+                let mut jet = [[0.0; 3]; 19];
+                jet[0] = w;
+                for m in 0..order {
+                    for i in 0..3 {
+                        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+                        let sum: f64 = (0..=m).map(|l| jet[l][j] * jet[m - l][k]).sum();
+                        jet[m + 1][i] = (MOMENTS[j] - MOMENTS[k]) / MOMENTS[i] * sum / (m + 1) as f64;
+                    }
+                }
+                for i in 0..3 {
+                    let tail = (1..=order).rev().fold(0.0, |tail, m| (tail + jet[m][i]) * STEP);
+                    let sum = two_sum(w[i], tail);
+                    let above = ending == Ending::Chopped && sum.low * sum.high < 0.0;
+                    w[i] = if above { f64::from_bits(sum.high.to_bits() - 1) } else { sum.high };
+                }
+                done += 1;
+            }
+            errors[point].push(((energy(w) - start) / start).high);
+        }
+    }
+    let scaled = steps.iter().zip(&errors).map(|(n, e)| e.iter().map(|e| e / n.sqrt()).collect()).collect();
+    Walk { steps: steps.to_vec(), errors, scaled }
+}
+
+/// Counter-test: the law accepts an honest walk, and rejects one whose roundings or truncations all point one way.
+#[test]
+fn the_law_can_be_broken() {
+    let steps = decades(2);
+    let honest = own_taylor(Ending::Rounded, &steps);
+    println!("rounded: {:e} {:.3} {:.2}", honest.rate(), honest.slope(), honest.bias());
+    assert!(honest.broken(ENERGY).is_empty(), "{:?}", honest.broken(ENERGY));
+    for ending in [Ending::Chopped, Ending::Short] {
+        let biased = own_taylor(ending, &steps);
+        println!("{ending:?}: {:e} {:.3} {:.2}", biased.rate(), biased.slope(), biased.bias());
+        let broken = biased.broken(ENERGY);
+        assert!(broken.iter().any(|law| law.starts_with("slope")), "{ending:?}: {broken:?}");
+        assert!(broken.len() >= 2, "{ending:?}: {broken:?}");
+    }
+}
+
+/// Largest error of energy, |L|, norm and vector L of a run that goes on by its period, at any horizon: the roundings of one period.
+const PERIODIC: f64 = 1e-14;
+/// How many times the largest error at a short horizon the largest at any other may be: no growth.
+const GROWTH: f64 = 2.0;
+
+/// Law: a run that is continued by its period conserves as well after a million seconds as after ten.
+#[test]
+fn periods_add_no_error_of_conservation() {
+    let scenes = mixed(SCENES, false, 10.0);
+    let wanted = blocks([StateField::Rate, StateField::Attitude]);
+    let (mut first, mut all) = (0.0_f64, 0.0_f64);
+    for exponent in 2..=6 {
+        let horizon = libm::pow(10.0, f64::from(exponent));
+        let plan = PropagationSettings::new(
+            Method::Auto,
+            adaptive(TOLERANCE),
+            Grid::uniform(horizon, 101),
+            wanted,
+            &scenes[0],
+        );
+        let mut worst = 0.0_f64;
+        let mut periodic = 0;
+        for (scene, run) in scenes.iter().zip(propagate_on(Isa::best(), &plan, &scenes)) {
+            assert_eq!(run.outcome.status, Status::Done);
+            if run.outcome.effort.steps > 200 {
+                continue; // no period within memory: plain integration, which has its own law
+            }
+            periodic += 1;
+            let start = Invariants::of(scene, &run.table, 0);
+            for point in 1..101 {
+                let errors = Invariants::of(scene, &run.table, point).errors(&start);
+                worst = errors.iter().fold(worst, |worst, e| worst.max(e.abs()));
+            }
+        }
+        println!("{horizon:e} s: {worst:e}, {periodic} periodic");
+        assert!(periodic > 50, "most random scenes have a period: {periodic}");
+        first = if exponent == 2 { worst } else { first };
+        all = all.max(worst);
+    }
+    let claim = |what: &str| format!("`auto` at 1e-16, 64 scenes, 1e2 to 1e6 s: {what}");
+    hold(SECTION, &claim("largest error of energy, size of L, vector L, norm"), PERIODIC, all);
+    hold(SECTION, &claim("largest error at any horizon over that at 1e2 s"), GROWTH, all / first);
+}

@@ -1,0 +1,341 @@
+//! Absurd numbers: every campaign `stress_*.toml` in a small version, and scenes built here that no file can hold.
+//!
+//! Law for all: every run arrives, no number in the row of a run that arrived is missing, and conservation errors stay near rounding.
+//! Beside that each theme has a law of its own: flip times, impulses, exact scaling with units.
+
+use crate::support::claims::hold;
+use crate::support::golden::Golden;
+use crate::support::plans::{Table, rows, shipped};
+use crate::support::runs::{Run, adaptive, blocks, propagate_on};
+use spindrift::campaign::{Overrides, Plan};
+use spindrift::math::Isa;
+use spindrift::ode::Tolerance;
+use spindrift::propagation::Method;
+use spindrift::propagation::PropagationSettings;
+use spindrift::run::Status;
+use spindrift::run::state_table::{Grid, StateField};
+use spindrift::scene::{ActuationInput, DebrisInput, Scene, SceneInput};
+
+const SECTION: &str = "stress";
+/// Samples of a campaign in its small version.
+const SMALL: u64 = 48;
+/// Errors of energy, linear and angular momentum and attitude: some hundred roundings.
+const CONSERVED: f64 = 1e-13;
+/// The columns that hold them.
+const ERRORS: [&str; 6] = [
+    "energy_error_max",
+    "energy_com_error_max",
+    "linear_momentum_error_max",
+    "angular_momentum_error_max",
+    "debris_angular_momentum_error_max",
+    "dcm_orthonormality_max",
+];
+
+/// The largest conservation error in any row; every run must have arrived, with all its numbers.
+fn largest_error(what: &str, table: &Table) -> f64 {
+    for (sample, status) in table.statuses.iter().enumerate() {
+        assert_eq!(*status, Status::Done, "{what}: sample {sample}");
+    }
+    let mut worst = 0.0_f64;
+    for (name, values) in table.columns() {
+        for (sample, value) in values.iter().enumerate() {
+            assert!(value.is_finite(), "{what}: {name} of sample {sample} is {value}");
+            if ERRORS.contains(&name) {
+                worst = worst.max(*value);
+            }
+        }
+    }
+    worst
+}
+
+/// A plan for one scene of this file: `auto` at 1e-16.
+fn plan(scene: &SceneInput, duration: f64, points: usize) -> Plan {
+    let text = "[campaign]\nname = \"stress\"\nsamples = 1\nseed = 1\nduration_s = 1\n[integrator]\ntolerance = 1e-16\n\
+                [fuselage]\nwall_thickness_m = 0.03\nouter_radius_m = 1\nlength_m = 3\ndensity_kg_m3 = 2700\n[initial]\n\
+                angular_velocity_rad_s = [0, 0, 1]\n";
+    let mut plan = Plan::from_text("stress", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
+    plan.nominal = scene.clone();
+    plan.grid = Grid::uniform(duration, points);
+    plan
+}
+
+/// The largest conservation error of one scene.
+fn error_of(what: &str, scene: &SceneInput, duration: f64) -> f64 {
+    let worst = largest_error(what, &rows(&plan(scene, duration, 41)));
+    println!("{what}: {worst:.1e}");
+    worst
+}
+
+fn table_one() -> SceneInput {
+    Golden::load("table1").scene
+}
+
+/// A body with moments of inertia of its own and no wheels.
+fn body(inertia: [[f64; 3]; 3], omega: [f64; 3]) -> SceneInput {
+    let mut input = table_one();
+    input.fuselage.inertia_kg_m2 = Some(inertia);
+    input.wheels = [None, None];
+    input.debris = None;
+    input.initial.angular_velocity_rad_s = omega;
+    input.initial.wheel_rates_rad_s = [0.0; 2];
+    input
+}
+
+fn diagonal([a, b, c]: [f64; 3]) -> [[f64; 3]; 3] {
+    [[a, 0.0, 0.0], [0.0, b, 0.0], [0.0, 0.0, c]]
+}
+
+fn run(scene: &Scene, method: Method, tolerance: f64, grid: Grid) -> Run {
+    let wanted = blocks([StateField::Rate, StateField::Attitude]);
+    let plan = PropagationSettings::new(method, adaptive(tolerance), grid, wanted, scene);
+    propagate_on(Isa::best(), &plan, std::slice::from_ref(scene)).remove(0)
+}
+
+/// Law: every stress campaign passes in its small version.
+#[test]
+fn stress_campaigns_pass() {
+    for name in ["separatrix", "rates", "shapes", "actuation", "horizon", "scales"] {
+        let worst = largest_error(name, &rows(&shipped(&format!("stress_{name}"), Some(SMALL))));
+        hold(SECTION, &format!("`stress_{name}.toml`, {SMALL} samples: largest conservation error"), CONSERVED, worst);
+    }
+}
+
+/// Law: as the start nears the unstable axis the first flip comes later in proportion to ln(1/delta), by 1/lambda each.
+#[test]
+fn flips_come_later_with_the_logarithm_of_the_offset() {
+    let moments = [1000.0_f64, 1500.0, 2000.0];
+    let rate = 3.0_f64;
+    let lambda = rate * ((moments[2] - moments[1]) * (moments[1] - moments[0]) / (moments[0] * moments[2])).sqrt();
+    let mut points = Vec::new();
+    for exponent in 2..=15 {
+        let delta = libm::pow(10.0, -f64::from(exponent));
+        let scene = Scene::resolve(&body(diagonal(moments), [0.0, rate, rate * delta])).expect("a physical body");
+        let run = run(&scene, Method::Auto, 1e-16, Grid::uniform(60.0, 6001));
+        assert_eq!(run.outcome.status, Status::Done);
+        let rates = run.table.column(StateField::Rate, 1);
+        let after = (1..6001).find(|point| rates[*point] < 0.0).expect("the body flips");
+        let (before, here) = (rates[after - 1], rates[after]);
+        points.push([-libm::log(delta), 0.01 * (after as f64 - here / (here - before))]);
+    }
+    let n = points.len() as f64;
+    let mean = |i: usize| points.iter().map(|p| p[i]).sum::<f64>() / n;
+    let (x, y) = (mean(0), mean(1));
+    let moment = |i: usize, j: usize| points.iter().map(|p| (p[i] - [x, y][i]) * (p[j] - [x, y][j])).sum::<f64>();
+    let (slope, r2) = (moment(0, 1) / moment(0, 0), moment(0, 1).powi(2) / (moment(0, 0) * moment(1, 1)));
+    println!("flip time: slope {slope}, 1/lambda {}, 1 - R^2 {:e}", 1.0 / lambda, 1.0 - r2);
+    hold(SECTION, "flip time against ln(1/delta), delta 1e-2 to 1e-15: 1 - R^2", 1e-3, 1.0 - r2);
+    hold(SECTION, "the same: relative distance of the slope from 1/lambda", 1e-2, (slope * lambda - 1.0).abs());
+}
+
+/// Law: where a rounding decides what the body does, the row says so, and only there. Two minutes hold the second approach to the
+/// unstable axis, which an energy off by a rounding (1e-16 against delta^2) makes another one.
+#[test]
+fn rows_near_the_separatrix_are_marked() {
+    let moments = [1000.0, 1500.0, 2000.0];
+    let marked = |delta: f64| {
+        let table = rows(&plan(&body(diagonal(moments), [0.0, 3.0, 3.0 * delta]), 120.0, 481));
+        assert_eq!(table.statuses, [Status::Done]);
+        let (marked, estimate) = (table.column("ill_conditioned")[0] == 1.0, table.column("state_error_estimate")[0]);
+        println!("delta {delta:e}: marked {marked}, estimate {estimate:e}");
+        marked
+    };
+    for exponent in 2..=5 {
+        assert!(!marked(libm::pow(10.0, -f64::from(exponent))), "1e-{exponent} is well conditioned");
+    }
+    for exponent in 9..=15 {
+        assert!(marked(libm::pow(10.0, -f64::from(exponent))), "1e-{exponent} is ill conditioned");
+    }
+}
+
+/// Law: no rate is too slow or too fast.
+#[test]
+fn any_rate_passes() {
+    let mut worst = 0.0_f64;
+    for (spin, horizon) in [(1e-9, 1e10), (1e-3, 1e5), (1.0, 1e2), (1e6, 1e-3), (1e6, 1.0)] {
+        let mut input = table_one();
+        input.initial.angular_velocity_rad_s = [0.1 * spin, -0.3 * spin, spin];
+        input.initial.debris_relative_angular_velocity_rad_s = [spin, -0.5 * spin, 0.2 * spin];
+        input.debris = Some(DebrisInput::Box { size_m: [0.1, 0.2, 0.4], density_kg_m3: 2700.0 });
+        for wheels in [[0.0, 0.0], [3.0 * spin, -spin]] {
+            input.initial.wheel_rates_rad_s = wheels;
+            worst =
+                worst.max(error_of(&format!("spin {spin:e} over {horizon:e} s, wheels {wheels:?}"), &input, horizon));
+        }
+    }
+    for wheels in [[1e5, 1e5], [1e5, -1e5], [0.0, 0.0], [1e5, 0.0]] {
+        let mut input = table_one();
+        input.initial.wheel_rates_rad_s = wheels;
+        worst = worst.max(error_of(&format!("wheels {wheels:?}"), &input, 10.0));
+    }
+    let mut input = table_one();
+    input.initial.debris_relative_angular_velocity_rad_s = [1e4, -3e3, 2e3];
+    let density_kg_m3 = 2700.0;
+    for debris in
+        [DebrisInput::Cube { side_m: 0.2, density_kg_m3 }, DebrisInput::Box { size_m: [0.01, 0.2, 0.5], density_kg_m3 }]
+    {
+        input.debris = Some(debris);
+        worst = worst.max(error_of(&format!("debris at 1e4 rad/s, {debris:?}"), &input, 10.0));
+    }
+    hold(SECTION, "spin 1e-9 to 1e6 rad/s, wheels to 1e5, debris 1e4: largest conservation error", CONSERVED, worst);
+}
+
+/// Law: no shape is too long, too flat or too round.
+#[test]
+fn any_shape_passes() {
+    let omega = [1.0, -2.0, 0.5];
+    let near = 1000.0 * (1.0 + f64::EPSILON);
+    let mut bodies: Vec<(String, SceneInput)> = [
+        ("rod", [1000.0, 1000.0, 1e-6]),
+        ("rod, not quite round", [1000.0, 1000.0 - 1e-6, 2e-6]),
+        ("disc", [1000.0, 1000.0, 2000.0]),
+        ("sphere", [1000.0, 1000.0, 1000.0]),
+        ("nearly a sphere", [1000.0, near, 1000.0]),
+        ("nearly symmetric", [1000.0, near, 1800.0]),
+        ("exactly symmetric", [1000.0, 1000.0, 1800.0]),
+        ("flat: the triangle's limit", [1000.0, 1500.0, 2500.0]),
+    ]
+    .map(|(name, moments)| (name.to_owned(), body(diagonal(moments), omega)))
+    .to_vec();
+    // turned out of its axes, the flat body has products of inertia at the triangle's limit
+    let (c, s) = (0.8, 0.6);
+    let turned = [
+        [c * c * 1000.0 + s * s * 2500.0, 0.0, c * s * (2500.0 - 1000.0)],
+        [0.0, 1500.0, 0.0],
+        [c * s * (2500.0 - 1000.0), 0.0, s * s * 1000.0 + c * c * 2500.0],
+    ];
+    bodies.push(("flat and turned".to_owned(), body(turned, omega)));
+    for ratio in [1e-9, 1e-3, 1e3, 1e9] {
+        let mut input = table_one();
+        for wheel in input.wheels.iter_mut().flatten() {
+            wheel.density_kg_m3 = 2700.0 * ratio;
+        }
+        input.initial.wheel_rates_rad_s = [30.0, -10.0];
+        bodies.push((format!("wheels {ratio:e} as dense as the fuselage"), input));
+    }
+    for offset in [1e-3, 1.0, 1e3] {
+        let mut input = table_one();
+        input.fuselage.center_of_mass_m = Some([offset, -0.5 * offset, 1.5 + offset]);
+        bodies.push((format!("centre of mass {offset:e} m off"), input));
+    }
+    let mut worst = 0.0_f64;
+    for (name, input) in bodies {
+        worst = worst.max(error_of(&name, &input, 100.0));
+    }
+    let regime = "rods, discs, spheres, symmetric to an ulp, triangle limit, mass ratios 1e-9 to 1e9, offsets to 1e3 m: largest \
+                  conservation error";
+    hold(SECTION, regime, CONSERVED, worst);
+}
+
+/// Law: a million seconds and any tolerance that a file may ask for pass, under every method that chooses its steps; a looser
+/// tolerance is looser.
+#[test]
+fn any_tolerance_passes() {
+    let mut scene = table_one();
+    scene.initial.angular_velocity_rad_s = [0.3, -0.2, 1.0];
+    scene.initial.wheel_rates_rad_s = [20.0, -30.0];
+    for method in [Method::Auto, Method::Taylor, Method::DormandPrince, Method::Dop853, Method::NullSpace] {
+        let errors = [1e-16, 1e-2].map(|tolerance| {
+            let mut plan = plan(&scene, 0.25, 41);
+            plan.method = method;
+            plan.tolerance = Tolerance { relative: tolerance, absolute: tolerance };
+            largest_error(&format!("{method:?} at {tolerance:e}"), &rows(&plan))
+        });
+        println!("{method:?}: {errors:?}");
+        assert!(errors[0] < CONSERVED && errors[1] < 1.0, "{method:?}: {errors:?}");
+    }
+}
+
+/// Law: no switch is missed, however short its stretch: the impulse is the thrust times its time.
+#[test]
+fn short_thrusts_are_not_missed() {
+    let mut worst = 0.0_f64;
+    for length in [1e-6, 1e-9, 1e-12] {
+        let mut input = table_one();
+        input.debris = None;
+        input.initial.angular_velocity_rad_s = [0.0, 0.0, 0.5];
+        input.initial.wheel_rates_rad_s = [0.0; 2];
+        let stretch = |start_s: f64, thrust_n: [f64; 3]| ActuationInput {
+            start_s,
+            end_s: start_s + length,
+            thrust_n,
+            torque_n_m: [0.0; 2],
+        };
+        input.actuation =
+            vec![stretch(0.5, [1e9, 0.0, 0.0]), stretch(0.5 + length, [2e9, 0.0, 0.0]), stretch(1.0, [1e9, 0.0, 0.0])];
+        let table = rows(&plan(&input, 2.0, 21));
+        worst = worst.max(largest_error(&format!("thrust for {length:e} s"), &table));
+        let scene = Scene::resolve(&input).expect("a physical scene");
+        let expected: f64 = input.actuation.iter().map(|act| act.thrust_n[0] * (act.end_s - act.start_s)).sum();
+        let wanted = blocks([StateField::Impulse, StateField::Rate, StateField::Attitude]);
+        let run = {
+            let plan = PropagationSettings::new(Method::Auto, adaptive(1e-16), Grid::uniform(2.0, 21), wanted, &scene);
+            propagate_on(Isa::best(), &plan, std::slice::from_ref(&scene)).remove(0)
+        };
+        // the body spins about the axis of the thrust, which therefore keeps its direction
+        let off = (run.table.column(StateField::Impulse, 2)[20] / expected - 1.0).abs();
+        println!("thrust for {length:e} s: impulse off by {off:e}");
+        worst = worst.max(off);
+    }
+    hold(SECTION, "thrust for 1e-6, 1e-9 and 1e-12 s: error of the impulse and of all balances", CONSERVED, worst);
+}
+
+/// The same scene in other units: lengths `length` and masses `mass` times as large.
+fn scaled(input: &SceneInput, length: f64, mass: f64) -> SceneInput {
+    let mut input = input.clone();
+    let density = mass / (length * length * length);
+    let fuselage = &mut input.fuselage;
+    for size in [&mut fuselage.wall_thickness_m, &mut fuselage.outer_radius_m, &mut fuselage.length_m] {
+        *size *= length;
+    }
+    fuselage.density_kg_m3 *= density;
+    for wheel in input.wheels.iter_mut().flatten() {
+        wheel.radius_m *= length;
+        wheel.length_m *= length;
+        wheel.station_m *= length;
+        wheel.density_kg_m3 *= density;
+    }
+    let initial = &mut input.initial;
+    for vector in [&mut initial.position_m, &mut initial.velocity_m_s] {
+        *vector = vector.map(|x| x * length);
+    }
+    input
+}
+
+/// Law: the motion does not depend on the units of length and mass: to the bit for powers of two, to rounding for others.
+#[test]
+fn units_do_not_matter() {
+    let mut input = table_one();
+    input.debris = None;
+    let grid = Grid::uniform(10.0, 21);
+    let states = |input: &SceneInput| {
+        let scene = Scene::resolve(input).expect("a physical scene");
+        let run = run(&scene, Method::Auto, 1e-16, grid.clone());
+        assert_eq!(run.outcome.status, Status::Done);
+        run.table
+    };
+    let nominal = states(&input);
+    for (length, mass) in
+        [(1024.0, 1.0), (2.0_f64.powi(-10), 1.0), (1.0, 2.0_f64.powi(40)), (2.0_f64.powi(-10), 2.0_f64.powi(-30))]
+    {
+        let other = states(&scaled(&input, length, mass));
+        for point in 0..grid.points() {
+            assert_eq!(
+                other.at::<3>(StateField::Rate, point),
+                nominal.at::<3>(StateField::Rate, point),
+                "{length} {mass}"
+            );
+            assert_eq!(
+                other.at::<4>(StateField::Attitude, point),
+                nominal.at::<4>(StateField::Attitude, point),
+                "{length} {mass}"
+            );
+        }
+    }
+    let mut worst = 0.0_f64;
+    for (length, mass) in [(1e3, 1.0), (1e-3, 1e-9), (1.0, 1e6)] {
+        let other = states(&scaled(&input, length, mass));
+        let [rate, attitude] = crate::support::runs::rotation_distance(&other, &nominal);
+        worst = worst.max(rate).max(attitude);
+    }
+    hold(SECTION, "millimetres, kilometres, tonnes: distance from the same scene in metres after 10 s", 1e-12, worst);
+}

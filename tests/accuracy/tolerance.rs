@@ -1,0 +1,163 @@
+//! What a tolerance, a step and a direction of time promise: errors against the exact motion (double-double) fall in proportion to
+//! the tolerance, or with the order of the method; and a run that is turned round comes back.
+
+use crate::support::claims::hold;
+use crate::support::exact::Exact;
+use crate::support::runs::{Run, adaptive, fixed, relative, up_to_sign};
+use crate::support::scenes::mixed;
+use spindrift::ode::Control;
+use spindrift::propagation::Method;
+use spindrift::run::state_table::{Grid, StateField};
+use spindrift::scene::Scene;
+
+const SECTION: &str = "tolerance";
+
+/// Scenes of an experiment over `horizon` seconds.
+fn exact(count: u64, forced: bool, horizon: f64) -> Exact {
+    Exact::new(mixed(count, forced, horizon), Grid::uniform(horizon, 9))
+}
+
+/// The root mean square error over the scenes, and the mean number of steps.
+fn error(exact: &Exact, method: Method, control: Control) -> (f64, f64) {
+    let runs = exact.runs(method, control);
+    let errors = exact.errors(&runs);
+    let count = errors.len() as f64;
+    let steps = runs.iter().map(|run| run.outcome.effort.steps as f64).sum::<f64>() / count;
+    ((errors.iter().map(|e| e * e).sum::<f64>() / count).sqrt(), steps)
+}
+
+/// Slope of the least-squares line through the points.
+fn slope(points: &[[f64; 2]]) -> f64 {
+    let mean = |i: usize| points.iter().map(|p| p[i]).sum::<f64>() / points.len() as f64;
+    let (x, y) = (mean(0), mean(1));
+    let covariance: f64 = points.iter().map(|p| (p[0] - x) * (p[1] - y)).sum();
+    covariance / points.iter().map(|p| (p[0] - x) * (p[0] - x)).sum::<f64>()
+}
+
+/// The scenes, their horizon in seconds, and how many times the tolerance the error may be at any tolerance; by method.
+///
+/// Error per step is the tolerance's, so the sum grows with the horizon: over 10 s and some hundred radians of ten scenes.
+const PROPORTIONS: [(Method, u64, f64, f64); 5] = [
+    (Method::Auto, 8, 10.0, 4e2),
+    (Method::Taylor, 8, 10.0, 4e2),
+    (Method::DormandPrince, 8, 10.0, 3e1),
+    (Method::Dop853, 8, 10.0, 2e1),
+    (Method::NullSpace, 4, 1.0, 2.0),
+];
+/// How far the log-log slope of the error over the tolerance may be off one: 5% over nine decades.
+const PROPORTIONAL: f64 = 0.05;
+/// The same for the Taylor method, whose order is a whole number that changes with the tolerance.
+const STAIRCASE: f64 = 0.15;
+/// What rounding leaves of these runs; tolerances whose errors are near it say nothing about proportion.
+const FLOOR: f64 = 2e-14;
+
+/// Law: from 1e-4 to 1e-13 the global error falls in proportion to the tolerance.
+#[test]
+fn errors_fall_in_proportion_to_the_tolerance() {
+    for (method, count, horizon, factor) in PROPORTIONS {
+        let exact = exact(count, false, horizon);
+        let (mut points, mut largest, mut former) = (Vec::new(), 0.0_f64, f64::INFINITY);
+        for exponent in 4..=13 {
+            let tolerance = libm::pow(10.0, -f64::from(exponent));
+            let (error, _) = error(&exact, method, adaptive(tolerance));
+            println!("{method:?} at 1e-{exponent}: {error:.2e}");
+            largest = largest.max(error / tolerance.max(FLOOR));
+            if error > FLOOR {
+                points.push([libm::log(tolerance), libm::log(error)]);
+                assert!(error < 0.5 * former, "{method:?}: {error:e} at 1e-{exponent} after {former:e}");
+            }
+            former = error;
+        }
+        let off = (slope(&points) - 1.0).abs();
+        let claim = |what: &str| format!("`{}`, 1e-4 to 1e-13, rms over scenes: {what}", method.name());
+        let slack = if matches!(method, Method::Auto | Method::Taylor) { STAIRCASE } else { PROPORTIONAL };
+        hold(SECTION, &claim("distance of the error's log-log slope over the tolerance from 1"), slack, off);
+        hold(SECTION, &claim("largest error / tolerance"), factor, largest);
+    }
+}
+
+/// What a measured order may differ from the stated one.
+const ORDER_SLACK: f64 = 0.3;
+
+/// Law: errors fall with the order of the method, with the step where it is fixed, with the number of steps where it follows the
+/// tolerance; on coasting scenes and on scenes with thrust and motors, whose switches are landed on.
+#[test]
+fn methods_have_their_order() {
+    for forced in [false, true] {
+        let exact = exact(4, forced, 8.0);
+        let what = if forced { "with actuators" } else { "free" };
+        for (method, order, step) in [(Method::RungeKutta4, 4.0, 0.0078125), (Method::GaussLegendre, 6.0, 0.0625)] {
+            let at = |step: f64| error(&exact, method, fixed(step)).0;
+            let measured = (at(step) / at(0.5 * step)).log2();
+            let regime = format!("`{}`, {what}: distance of the measured order from {order}", method.name());
+            hold(SECTION, &regime, ORDER_SLACK, (measured - order).abs());
+        }
+        if forced {
+            continue; // the few steps of a stretch are mostly those that begin and end it
+        }
+        for (method, order) in [(Method::DormandPrince, 5.0), (Method::Dop853, 8.0)] {
+            let [(large, few), (small, many)] =
+                [1e-8, 1e-12].map(|tolerance| error(&exact, method, adaptive(tolerance)));
+            let measured = (large / small).log2() / (many / few).log2();
+            let regime = format!("`{}`, {what}: distance of the measured order from {order}", method.name());
+            hold(SECTION, &regime, ORDER_SLACK, (measured - order).abs());
+        }
+    }
+}
+
+/// How far a run may end from where it began, once forward and once back: 1e4 eps.
+const RETURN: f64 = 1e4 * f64::EPSILON;
+
+/// Law: the equations do not know the direction of time: with all rates turned round a run goes back to its start.
+#[test]
+fn runs_go_forward_and_back() {
+    for (method, control, horizon) in reversals() {
+        let off = there_and_back(method, control, horizon, -1.0);
+        let regime = format!("`{}`, {horizon} s forward and back: distance from the start", method.name());
+        hold(SECTION, &regime, RETURN, off);
+    }
+    // counter-test: with the wheels' rates a part in 1e9 too large it does not
+    let off = there_and_back(Method::Taylor, adaptive(1e-16), 10.0, -(1.0 + 1e-9));
+    assert!(off > 100.0 * RETURN, "{off:e}");
+}
+
+/// How each method is turned round: at its best.
+fn reversals() -> [(Method, Control, f64); 7] {
+    [
+        (Method::Auto, adaptive(1e-16), 10.0),
+        (Method::Taylor, adaptive(1e-16), 10.0),
+        (Method::DormandPrince, adaptive(1e-14), 2.0),
+        (Method::Dop853, adaptive(1e-14), 10.0),
+        (Method::RungeKutta4, fixed(1e-4), 2.0),
+        (Method::GaussLegendre, fixed(1e-2), 10.0),
+        (Method::NullSpace, adaptive(1e-14), 0.5),
+    ]
+}
+
+/// The same scene at the end of `run`, with all rates turned round: what it did it now does backwards. `wheels`: the factor of
+/// their rates, -1 where the scene is to return.
+fn reversed(scene: &Scene, run: &Run, wheels: f64) -> Scene {
+    let last = run.table.points() - 1;
+    let mut back = scene.clone();
+    back.initial.q_es = run.table.at(StateField::Attitude, last);
+    back.initial.omega_se_s = run.table.at::<3>(StateField::Rate, last).map(|x| -x);
+    back.initial.wheel_rates = run.table.at::<2>(StateField::WheelRates, last).map(|x| wheels * x);
+    back
+}
+
+/// How far scenes are from their start, relative, when they have gone forward and back by `method`.
+fn there_and_back(method: Method, control: Control, horizon: f64, wheels: f64) -> f64 {
+    let there = Exact { scenes: mixed(8, false, horizon), grid: Grid::uniform(horizon, 3), truths: Vec::new() };
+    let runs = there.runs(method, control);
+    let turned = there.scenes.iter().zip(&runs).map(|(scene, run)| reversed(scene, run, wheels)).collect();
+    let back = Exact { scenes: turned, grid: there.grid.clone(), truths: Vec::new() };
+    let mut worst = 0.0_f64;
+    for (scene, run) in there.scenes.iter().zip(back.runs(method, control)) {
+        let (start, last) = (&scene.initial, run.table.points() - 1);
+        let rate = relative(run.table.at(StateField::Rate, last), start.omega_se_s.map(|x| -x));
+        let attitude = up_to_sign(run.table.at(StateField::Attitude, last), start.q_es);
+        let wheels = relative(run.table.at(StateField::WheelRates, last), start.wheel_rates.map(|x| -x));
+        worst = worst.max(rate).max(attitude).max(wheels);
+    }
+    worst
+}

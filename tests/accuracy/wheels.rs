@@ -1,0 +1,295 @@
+//! Wheels whose motors hold their speed, and wheels that are off their axis or their place.
+//!
+//! Laws: a held wheel keeps its rate and turns uniformly; what its motor puts in is in the energy balance; L is constant
+//! whatever motors and tilts; a body that a known torque turns about a wheel's axis has J with the wheel held and J* with
+//! the wheel free. Counter-tests: J and J* mixed up, either way, and work left out.
+
+use crate::support::golden::Golden;
+use crate::support::runs::{Run, adaptive, everything, propagate, relative, rotation_distance, up_to_sign};
+use crate::support::scenes::{Kind, misaligned, random, speed_held};
+use spindrift::campaign::{Overrides, Plan};
+use spindrift::ensemble::SingleRun;
+use spindrift::math::Isa;
+use spindrift::math::vector::{difference, norm};
+use spindrift::observables::{Groups, Observer, Request};
+use spindrift::propagation::Method;
+use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE as TRUTH_TOLERANCE};
+use spindrift::run::Status;
+use spindrift::run::state_table::{Grid, StateField, StateFields};
+use spindrift::sampling::SampleId;
+use spindrift::scene::{ActuationInput, Scene, SceneInput, WheelMode};
+
+/// Horizon of random scenes, s.
+const HORIZON: f64 = 1.0;
+/// Tolerance of Taylor methods: what remains is rounding.
+const TAYLOR: f64 = 1e-16;
+
+/// Random scenes with every combination of held wheels but none, most of them misaligned; all forced or none.
+fn held_scenes(count: u64, forced: bool) -> Vec<Scene> {
+    let scene = |k: u64| {
+        let kind = Kind { wheels: [true; 2], debris: 0, products: k % 2 == 1, offset: !k.is_multiple_of(3), forced };
+        let held = [[true, false], [false, true], [true, true]][(k % 3) as usize];
+        let input = speed_held(random(kind, 400 + k, HORIZON), held);
+        Scene::resolve(&if k % 5 > 1 { misaligned(input, k) } else { input }).expect("random scenes are physical")
+    };
+    (0..count).map(scene).collect()
+}
+
+/// The largest errors of energy balance and angular momentum of a run, as a campaign measures them; `actuated` says whether work
+/// is counted.
+fn balances(scene: &Scene, grid: &Grid, run: &Run, actuated: bool) -> [f64; 2] {
+    let request = Request { groups: Groups::ALL, debris: false, actuated, constrained: false };
+    let mut observer = Observer::new(request, grid);
+    let columns = request.columns();
+    let mut row = vec![0.0; columns.len()];
+    let mut table = run.table.clone();
+    if !actuated {
+        table.column_mut(StateField::Work, 0).fill(0.0);
+        table.column_mut(StateField::Work, 1).fill(0.0);
+    }
+    observer.observe(Isa::best(), scene, &table, &run.outcome, &mut row);
+    ["energy_error_max", "angular_momentum_error_max"]
+        .map(|name| row[columns.iter().position(|column| column.name == name).expect("a column")])
+}
+
+/// Energy and momentum of runs that are accurate to rounding: some hundred roundings of the observables and of the states.
+const BALANCE: f64 = 1e-13;
+/// The same of the report's form at 1e-11: steps times tolerance, with the drift of its DCMs.
+const REFERENCE_BALANCE: f64 = 1e-8;
+
+#[test]
+fn energy_balances_with_the_work_of_the_motors_and_momentum_does_without() {
+    let grid = Grid::uniform(HORIZON, 33);
+    for (method, tolerance, bound, forced) in [
+        (Method::Taylor, TAYLOR, BALANCE, true),
+        (Method::Auto, TAYLOR, BALANCE, false),
+        (Method::NullSpace, 1e-11, REFERENCE_BALANCE, true),
+        (Method::NullSpace, 1e-11, REFERENCE_BALANCE, false),
+    ] {
+        let scenes = held_scenes(18, forced);
+        let mut worst = [0.0_f64; 2];
+        let mut seen = 0;
+        for (scene, run) in scenes.iter().zip(propagate(method, adaptive(tolerance), &grid, &scenes)) {
+            assert_eq!(run.outcome.status, Status::Done);
+            let [energy, momentum] = balances(scene, &grid, &run, true);
+            worst = [worst[0].max(energy), worst[1].max(momentum)];
+            let work = run.table.column(StateField::Work, 1).iter().fold(0.0, |most: f64, w| most.max(w.abs()));
+            let [without, _] = balances(scene, &grid, &run, false);
+            seen += usize::from(work > 1e-6 && without > 100.0 * bound);
+        }
+        println!("{}: energy {:e}, angular momentum {:e}", method.name(), worst[0], worst[1]);
+        assert!(worst.iter().all(|error| *error < bound), "{}: {worst:?}", method.name());
+        assert!(seen >= scenes.len() - 2, "{}: work left out must show: {seen}", method.name());
+    }
+}
+
+#[test]
+fn a_held_wheel_keeps_its_rate_and_its_angle_is_a_line() {
+    let scenes = held_scenes(12, false);
+    let grid = Grid::uniform(HORIZON, 17);
+    for method in [Method::Auto, Method::Taylor, Method::DormandPrince, Method::NullSpace] {
+        for (scene, run) in scenes.iter().zip(propagate(method, adaptive(1e-11), &grid, &scenes)) {
+            for w in (0..2).filter(|w| scene.mass.wheels[*w].mode == WheelMode::SpeedHeld) {
+                let (start, rate) = (scene.initial.wheel_angles[w], scene.initial.wheel_rates[w]);
+                for (point, time) in grid.times().iter().enumerate() {
+                    assert_eq!(run.table.column(StateField::WheelRates, w)[point].to_bits(), rate.to_bits());
+                    let off = run.table.column(StateField::WheelAngles, w)[point] - (start + rate * time);
+                    // the reference kernel adds up its steps
+                    assert!(off.abs() <= 1e-13 * (1.0 + rate.abs()), "{} {off:e}", method.name());
+                }
+            }
+        }
+    }
+}
+
+/// Counter-test: with J where J* belongs, or J* where J belongs, the kernels do not agree.
+#[test]
+fn mixing_up_the_two_inertias_is_seen() {
+    let grid = Grid::uniform(HORIZON, 7);
+    let kind = Kind { wheels: [true; 2], debris: 0, products: true, offset: true, forced: false };
+    let free = random(kind, 31, HORIZON);
+    let held = speed_held(free.clone(), [true, false]);
+    let resolved = |input: &SceneInput| Scene::resolve(input).expect("a physical scene");
+    let run = |method, tolerance, scene: &Scene| {
+        propagate(method, adaptive(tolerance), &grid, std::slice::from_ref(scene)).remove(0)
+    };
+    let distance = |a: &Run, b: &Run| rotation_distance(&a.table, &b.table)[0];
+    for input in [&free, &held] {
+        let scene = resolved(input);
+        let reference = run(Method::NullSpace, 1e-11, &scene);
+        let right = distance(&run(Method::Taylor, TAYLOR, &scene), &reference);
+        // the wheel's axial inertia moved in or out of what resists a change of omega, and nothing else
+        let wheel = scene.mass.wheels[0];
+        let sign = if wheel.mode == WheelMode::Free { 1.0 } else { -1.0 };
+        let mut mixed = scene.clone();
+        for i in 0..3 {
+            for j in 0..3 {
+                mixed.mass.inertia_free[i][j] += sign * wheel.axial * wheel.axis[i] * wheel.axis[j];
+            }
+        }
+        let wrong = distance(&run(Method::Taylor, TAYLOR, &mixed), &reference);
+        println!("{:?}: right {right:e}, mixed up {wrong:e}", wheel.mode);
+        assert!(right < 1e-9 && wrong > 1e-6, "{right:e} {wrong:e}");
+    }
+    let (free, held) = (resolved(&free), resolved(&held));
+    let apart = distance(&run(Method::Taylor, TAYLOR, &free), &run(Method::Taylor, TAYLOR, &held));
+    assert!(apart > 1e-6, "free and held are different motions: {apart:e}");
+}
+
+/// The report's body with wheel 1 turned onto s1, so that P2 against P3 turns the body about the wheel's own axis, and P1
+/// against their push.
+fn rotor(mode: WheelMode) -> SceneInput {
+    let mut input = Golden::load("table1").scene;
+    input.debris = None;
+    input.wheels[1] = None;
+    let wheel = input.wheels[0].as_mut().expect("Table II has it");
+    wheel.tilt_rad = [0.0, -std::f64::consts::FRAC_PI_2];
+    wheel.mode = mode;
+    input.initial.velocity_m_s = [0.0; 3];
+    input.initial.angular_velocity_rad_s = [0.25, 0.0, 0.0];
+    input.initial.wheel_rates_rad_s = [120.0, 0.0];
+    input.actuation =
+        vec![ActuationInput { start_s: 0.0, end_s: 4.0, thrust_n: [300.0, 200.0, 100.0], torque_n_m: [0.0; 2] }];
+    input
+}
+
+/// Law: about the wheel's axis the body's rate grows by tau t/J with the wheel held and by tau t/J* with the wheel free; the free
+/// wheel lags by as much, the motor of the held one does Omega J_1 (omega - omega(0)).
+#[test]
+fn a_torque_about_the_wheels_axis_has_a_closed_form() {
+    const TAU: f64 = 0.5 * (200.0 - 100.0);
+    /// Rounding of a hundred steps; the axis is a quarter turn to 6e-17.
+    const BOUND: f64 = 1e-13;
+    let grid = Grid::uniform(4.0, 9);
+    for (method, tolerance) in [(Method::Taylor, TAYLOR), (Method::Dop853, 1e-13), (Method::NullSpace, 1e-13)] {
+        let mut rates = [0.0; 2];
+        for mode in WheelMode::ALL {
+            let scene = Scene::resolve(&rotor(mode)).expect("a physical scene");
+            let (wheel, locked) = (scene.mass.wheels[0], scene.mass.inertia[0][0]);
+            let held = mode == WheelMode::SpeedHeld;
+            let inertia = if held { locked } else { locked - wheel.axial };
+            let run = propagate(method, adaptive(tolerance), &grid, std::slice::from_ref(&scene)).remove(0);
+            for (point, time) in grid.times().iter().enumerate() {
+                let gained = TAU * time / inertia;
+                let omega: [f64; 3] = run.table.at(StateField::Rate, point);
+                assert!(norm(difference(omega, [0.25 + gained, 0.0, 0.0])) < BOUND, "{} {omega:?}", method.name());
+                let (lag, work) = if held { (0.0, 120.0 * wheel.axial * gained) } else { (gained, 0.0) };
+                let rate = run.table.column(StateField::WheelRates, 0)[point];
+                assert!((rate - (120.0 - lag)).abs() < 120.0 * BOUND, "{} {rate}", method.name());
+                let done = run.table.column(StateField::Work, 1)[point];
+                assert!((done - work).abs() < 120.0 * BOUND, "{} {done} {work}", method.name());
+            }
+            rates[usize::from(held)] = run.table.column(StateField::Rate, 0)[grid.points() - 1];
+        }
+        assert!((rates[0] - rates[1]).abs() > 1e-5, "J and J* are told apart: {rates:?}");
+    }
+}
+
+/// Law: with wheel 2 held on the axis of a symmetric body, omega turns about s3 at ((C - A) omega_3 + J_2 Omega_2)/A, C and A with the
+/// wheel locked.
+#[test]
+fn an_axial_rotor_precesses_as_the_closed_form_says() {
+    let mut input = Golden::load("table1").scene;
+    input.debris = None;
+    input.wheels[0] = None;
+    input = speed_held(input, [false, true]);
+    input.initial.angular_velocity_rad_s = [0.3, 0.4, 1.5];
+    let scene = Scene::resolve(&input).expect("a physical scene");
+    let (a, c, wheel) = (scene.mass.inertia[0][0], scene.mass.inertia[2][2], scene.mass.wheels[1].axial);
+    let rate = ((c - a) * 1.5 + wheel * scene.initial.wheel_rates[1]) / a;
+    let grid = Grid::uniform(200.0, 41);
+    for method in [Method::Auto, Method::Taylor] {
+        let run = propagate(method, adaptive(TAYLOR), &grid, std::slice::from_ref(&scene)).remove(0);
+        for (point, time) in grid.times().iter().enumerate() {
+            let (sine, cosine) = libm::sincos(rate * time);
+            let expected = [0.3 * cosine - 0.4 * sine, 0.3 * sine + 0.4 * cosine, 1.5];
+            let error = norm(difference(run.table.at(StateField::Rate, point), expected));
+            // an ulp of the rate of precession, times the time
+            assert!(error < 4.0 * f64::EPSILON * (1.0 + rate.abs() * time), "{}: {error:e} at {time}", method.name());
+            let work = wheel * scene.initial.wheel_rates[1] * (run.table.column(StateField::Rate, 2)[point] - 1.5);
+            assert!((run.table.column(StateField::Work, 1)[point] - work).abs() < 1e-12);
+        }
+    }
+}
+
+/// The reference solution in double-double knows held and tilted wheels, and Taylor at 1e-16 is its rounding.
+#[test]
+fn taylor_is_the_rounded_truth() {
+    let grid = Grid::uniform(HORIZON, 7);
+    let blocks: StateFields = everything(Method::Auto);
+    let mut worst = [0.0_f64; 5];
+    let (free, forced) = (held_scenes(9, false), held_scenes(9, true));
+    let mut runs = propagate(Method::Auto, adaptive(TAYLOR), &grid, &free);
+    runs.extend(propagate(Method::Auto, adaptive(TAYLOR), &grid, &forced));
+    for (scene, run) in free.iter().chain(&forced).zip(&runs) {
+        let truth = ReferenceSolution::new(Isa::best(), scene, &grid, blocks, TRUTH_TOLERANCE).expect("arrives");
+        for point in 0..grid.points() {
+            macro_rules! off {
+                ($block:ident, $width:literal) => {
+                    relative::<$width>(
+                        run.table.at(StateField::$block, point),
+                        truth.high.at(StateField::$block, point),
+                    )
+                };
+            }
+            let turned =
+                up_to_sign(run.table.at(StateField::Attitude, point), truth.high.at(StateField::Attitude, point));
+            let errors = [off!(Rate, 3), turned, off!(WheelRates, 2), off!(WheelAngles, 2), off!(Work, 2)];
+            for (worst, error) in worst.iter_mut().zip(errors) {
+                *worst = worst.max(error);
+            }
+        }
+    }
+    println!("rate, attitude, wheel rates, wheel angles, work: {worst:?}");
+    assert!(worst.iter().all(|error| *error < 1e-13), "{worst:?}");
+}
+
+/// A period found for held wheels carries a horizon of many of them.
+#[test]
+fn periods_carry_held_wheels_too() {
+    let kind = Kind { wheels: [true; 2], debris: 0, products: true, offset: true, forced: false };
+    let grid = Grid::uniform(200.0, 101);
+    let mut folded = 0;
+    for seed in 0..6 {
+        let input = misaligned(speed_held(random(kind, 70 + seed, 1.0), [seed % 2 == 0, seed % 3 > 0]), seed);
+        let scene = Scene::resolve(&input).expect("a physical scene");
+        let run = |method| propagate(method, adaptive(TAYLOR), &grid, std::slice::from_ref(&scene)).remove(0);
+        let (auto, plain) = (run(Method::Auto), run(Method::Taylor));
+        folded += usize::from(auto.outcome.effort.steps * 4 < plain.outcome.effort.steps);
+        let [rate, attitude] = rotation_distance(&auto.table, &plain.table);
+        let angle = 200.0 * norm(scene.initial.omega_se_s);
+        assert!(rate.max(attitude) < 16.0 * f64::EPSILON * angle, "{rate:e} {attitude:e} over {angle} rad");
+        let [energy, momentum] = balances(&scene, &grid, &auto, true);
+        assert!(energy < BALANCE && momentum < BALANCE, "{energy:e} {momentum:e}");
+    }
+    assert!(folded >= 4, "most of these have a period within the horizon: {folded}");
+}
+
+const FILE: &str = "[campaign]\nname = \"held\"\nsamples = 2\nseed = 1\nduration_s = 1.0\n[fuselage]\n\
+    wall_thickness_m = 0.03\nouter_radius_m = 1\nlength_m = 3\ndensity_kg_m3 = 2700\n[wheel1]\nradius_m = 0.25\n\
+    length_m = 0.1\nstation_m = 1.0\ndensity_kg_m3 = 2700\nwheel_mode = \"speed_held\"\ntilt_rad = [0.01, 0.02]\n\
+    offset_m = [0.0, 0.1]\n[initial]\nangular_velocity_rad_s = [0.1, 0.2, 1.0]\nwheel_rates_rad_s = [100, 0]\n";
+
+#[test]
+fn a_campaign_says_how_a_wheel_runs_and_gets_the_motors_work() {
+    let plan = |text: &str| Plan::from_text("held.toml", text, Overrides::default());
+    let held = plan(FILE).expect("a legal campaign");
+    let wheel = held.nominal.wheels[0].expect("the file has it");
+    assert_eq!((wheel.mode, wheel.tilt_rad, wheel.offset_m), (WheelMode::SpeedHeld, [0.01, 0.02], [0.0, 0.1]));
+    assert_eq!(plan(&held.text()).expect("a plan is a campaign").nominal, held.nominal);
+    let run = SingleRun::new(&held, SampleId(0), held.grid.clone(), Isa::best()).expect("a physical scene");
+    let value = |name: &str| {
+        let place = run.request.columns().iter().position(|column| column.name == name);
+        run.row[place.unwrap_or_else(|| panic!("no column {name}"))]
+    };
+    assert!(value("work_motors_final_j").abs() > 1e-3);
+    assert!(value("energy_error_max") < BALANCE);
+    let free = plan(&FILE.replace("speed_held", "free")).expect("a legal campaign");
+    assert!(!free.nominal.is_actuated());
+    let wrong = plan(&FILE.replace("speed_held", "held")).expect_err("no such mode").to_string();
+    assert!(wrong.contains("wheel1.wheel_mode") && wrong.contains("free, speed_held"), "{wrong}");
+    let pushed = format!("{FILE}[[actuation]]\nstart_s = 0\nend_s = 1\nthrust_n = [0, 0, 0]\ntorque_n_m = [1, 0]\n")
+        .replace("[wheel1]", "thruster_offset_m = 0.5\n[wheel1]");
+    let wrong = plan(&pushed).expect_err("a torque on a held wheel").to_string();
+    assert!(wrong.contains("actuation[0].torque_n_m") && wrong.contains("wheel_mode"), "{wrong}");
+}

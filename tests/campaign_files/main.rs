@@ -1,0 +1,5 @@
+//! Campaign files: what is read, what is refused, and in which words.
+
+mod bad_campaigns;
+mod bad_dispersions;
+mod shipped;

@@ -1,0 +1,232 @@
+//! Campaign files: the shipped ones, defaults, and the plan as text.
+
+use spindrift::campaign::{Compression, Overrides, Plan};
+use spindrift::observables::Group;
+use spindrift::propagation::Method;
+use spindrift::scene::Scene;
+use std::path::Path;
+
+fn shipped() -> Vec<std::path::PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns");
+    let mut files: Vec<_> = std::fs::read_dir(folder)
+        .expect("a folder of campaigns")
+        .map(|entry| entry.expect("an entry").path())
+        .filter(|path| path.extension().is_some_and(|extension| extension == "toml"))
+        .collect();
+    files.sort();
+    files
+}
+
+#[test]
+fn shipped_campaigns_are_valid_and_say_what_they_ask() {
+    let files = shipped();
+    assert!(files.len() >= 5);
+    for file in files {
+        let plan = Plan::load(&file, Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
+        assert!(Scene::resolve(&plan.nominal).is_ok());
+        assert_eq!(file.file_stem().and_then(|stem| stem.to_str()), Some(plan.name.as_str()));
+        let text = std::fs::read_to_string(&file).expect("readable");
+        for word in ["# Question: ", "\n# Source: ", "\n# Expect: "] {
+            assert!(text.contains(word), "{} says {word}", file.display());
+        }
+    }
+}
+
+#[test]
+fn a_plan_reads_back_from_its_text() {
+    for file in shipped() {
+        let plan = Plan::load(&file, Overrides { samples: Some(17), seed: Some(5) }).expect("valid");
+        let folder = file.parent().expect("a folder");
+        let again = Plan::from_text_in(folder, "plan.toml", &plan.text(), Overrides::default());
+        let again = again.unwrap_or_else(|e| panic!("{e}"));
+        assert_eq!(again, plan);
+        assert_eq!((again.text(), again.hash()), (plan.text(), plan.hash()));
+    }
+}
+
+/// Every optional key, and numbers that need all their digits.
+const FULL: &str = r#"
+[campaign]
+name = "full"
+samples = 0x10
+seed = 9_223_372_036_854_775_807
+duration_s = 1e-3
+[integrator]
+method = "runge_kutta_4"
+relative_tolerance = 1e-9
+absolute_tolerance = 1e-12
+step_s = 0.0001
+max_steps = 5
+[observe]
+points = 2
+groups = ["effort", "energy_conservation"]
+[fuselage]
+wall_thickness_m = 0.030000000000000002
+outer_radius_m = 1
+length_m = 3
+density_kg_m3 = 2.7e3
+mass_kg = 2000
+center_of_mass_m = [0.01, -0.02, 1.5]
+inertia_kg_m2 = [[3000, 0.1, 0.2], [0.1, 3100, 0.3], [0.2, 0.3, 1700]]
+[wheel2]
+radius_m = 0.25
+length_m = 0.1
+station_m = -0.0
+density_kg_m3 = 2700
+[debris]
+size_m = [0.1, 0.2, 0.3]
+density_kg_m3 = 1e3
+[initial]
+angular_velocity_rad_s = [0.1, 1e-300, 5e300]
+[[disperse]]
+parameter = "initial.angular_velocity_rad_s.x"
+distribution = "truncated_normal"
+std = 0.1
+lower = 0
+[[disperse]]
+parameter = "debris.size_m"
+distribution = "uniform"
+min = [0.05, 0.1, 0.2]
+max = 0.5
+[[disperse]]
+parameter = "fuselage.inertia_kg_m2"
+distribution = "normal"
+std = [1, 0.1, 0.1, 1, 0.1, 1]
+[[disperse]]
+parameter = "fuselage.mass_kg"
+distribution = "uniform"
+relative_half_width = 0.01
+[[disperse]]
+parameter = "initial.debris_attitude"
+distribution = "normal"
+std = 0.1
+[[disperse]]
+parameter = "fuselage.center_of_mass_m.z"
+distribution = "truncated_normal"
+relative_std = 0.1
+relative_lower = -0.2
+upper_sigmas = 1.5
+[[disperse]]
+parameter = "wheel2.radius_m"
+distribution = "log_normal"
+log_std = 0.1
+median = 0.26
+[[disperse]]
+parameter = "wheel2.density_kg_m3"
+distribution = "log_uniform"
+factor = 1.1
+[[disperse]]
+parameter = "debris.density_kg_m3"
+distribution = "log_uniform"
+min = 900
+max = 1100
+[[disperse]]
+parameter = "initial.position_m"
+distribution = "triangular"
+min = -1
+max = [1, 2, 3]
+[[disperse]]
+parameter = "initial.velocity_m_s.x"
+distribution = "beta"
+alpha = 2
+beta = 3.5
+min = 0
+max = 1
+[[disperse]]
+parameter = "initial.velocity_m_s.y"
+distribution = "pert"
+min = 0
+max = 1
+mode = 0.25
+[[disperse]]
+parameter = "initial.velocity_m_s.z"
+distribution = "choice"
+values = [1, 2, 4]
+weights = [1, 1, 2]
+[[disperse]]
+parameter = "initial.wheel_rates_rad_s[1]"
+distribution = "bernoulli"
+value = 100
+probability = 0.05
+[[disperse]]
+parameter = "initial.debris_position_m"
+distribution = "empirical"
+file = "campaigns/table.csv"
+column = "wheel1.radius_m"
+interpolation = "linear"
+[[disperse]]
+parameter = "initial.debris_velocity_m_s"
+distribution = "offset"
+offset = [0.1, 0.2, 0.3]
+[[disperse]]
+parameter = "initial.attitude"
+distribution = "uniform_attitude"
+[[correlate]]
+parameters = ["wheel2.radius_m", "wheel2.density_kg_m3", "initial.velocity_m_s.y"]
+correlation = [[1, 0.9, 0.9], [0.9, 1, -0.9], [0.9, -0.9, 1]]
+nearest_psd = true
+[[correlate]]
+parameters = ["initial.velocity_m_s.x", "initial.velocity_m_s.z"]
+rank_correlation = [[1, 0.5], [0.5, 1]]
+[[derive]]
+parameter = "wheel2.length_m"
+expression = "0.4 * wheel2.radius_m + max(0, if(wheel2.radius_m > 0.25, wheel2.radius_m - 0.25, 0))"
+[output]
+compression = "none"
+"#;
+
+#[test]
+fn every_key_reads_back() {
+    let plan = Plan::from_text("full.toml", FULL, Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!((plan.samples, plan.seed, plan.max_steps), (16, i64::MAX as u64, 5));
+    assert_eq!((plan.method, plan.step_s), (Method::RungeKutta4, Some(1e-4)));
+    assert_eq!((plan.tolerance.relative, plan.tolerance.absolute), (1e-9, 1e-12));
+    assert_eq!(plan.groups, [Group::EnergyConservation, Group::StepStatistics], "in the order of the columns");
+    assert_eq!(plan.compression, Compression::None);
+    assert_eq!(plan.nominal.fuselage.thruster_offset_m, 0.0);
+    let again = Plan::from_text("plan.toml", &plan.text(), Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(again, plan);
+    // every digit counts in the hash
+    let other = FULL.replace("0.030000000000000002", "0.03");
+    assert_ne!(Plan::from_text("full.toml", &other, Overrides::default()).expect("valid").hash(), plan.hash());
+    // spelling does not
+    let spelled = FULL.replace("2.7e3", "2700 # the same").replace("0x10", "16");
+    assert_eq!(Plan::from_text("full.toml", &spelled, Overrides::default()).expect("valid").hash(), plan.hash());
+}
+
+#[test]
+fn every_design_reads_back() {
+    let start = &FULL[..FULL.find("[[disperse]]").expect("dispersions")];
+    let law = "[[disperse]]\nparameter = \"wheel2.radius_m\"\ndistribution = \"uniform\"\nhalf_width = 0.01\n";
+    for (design, samples) in [
+        ("kind = \"random\"", 16),
+        ("kind = \"latin_hypercube\"", 16),
+        ("kind = \"sobol\"", 16),
+        ("kind = \"halton\"", 16),
+        ("kind = \"saltelli\"", 16),
+        ("kind = \"grid\"\nlevels = 15", 16),
+        ("kind = \"grid\"\nquantiles = [0.25, 0.75]", 3),
+        ("kind = \"one_at_a_time\"\nlevels = [2]", 3),
+        ("kind = \"table\"\nfile = \"campaigns/table.csv\"\nparameters = [\"initial_angular_velocity_y_rad_s\"]", 28),
+    ] {
+        let text = format!("{start}{law}[design]\n{design}\n");
+        let text = if samples == 16 { text } else { text.replace("samples = 0x10\n", "") };
+        let plan = Plan::from_text("design.toml", &text, Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
+        assert_eq!(plan.samples, samples, "{design}");
+        let again = Plan::from_text("plan.toml", &plan.text(), Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
+        assert_eq!(again, plan);
+        assert_eq!(again.text(), plan.text());
+    }
+}
+
+#[test]
+fn what_is_left_out_has_a_default() {
+    let text = "[campaign]\nname = \"small\"\nsamples = 1\nseed = 0\nduration_s = 2\n[fuselage]\nwall_thickness_m = 0.03\n\
+                outer_radius_m = 1\nlength_m = 3\ndensity_kg_m3 = 2700\n[initial]\nangular_velocity_rad_s = [0, 0, 1]\n";
+    let plan = Plan::from_text("small.toml", text, Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!((plan.method, plan.grid.points(), plan.grid.duration()), (Method::Auto, 101, 2.0));
+    assert_eq!(plan.groups, Group::ALL);
+    assert_eq!(plan.nominal.initial.attitude, [1.0, 0.0, 0.0, 0.0]);
+    assert_eq!((plan.nominal.wheels, plan.nominal.debris), ([None; 2], None));
+    assert!(plan.dispersions.columns().is_empty());
+}

@@ -1,0 +1,166 @@
+//! A run's bits are its own: company, order, lane and instruction set do not reach them. Golden hashes lock them.
+
+use crate::support::runs::{Bits, Run, adaptive, everything, fixed, hash, propagate_on};
+use crate::support::scenes::mixed;
+use spindrift::math::Isa;
+use spindrift::ode::Control;
+use spindrift::propagation::Method;
+use spindrift::propagation::PropagationSettings;
+use spindrift::run::state_table::Grid;
+use spindrift::scene::Scene;
+
+/// Horizon, s: some periods of most scenes, less than one of a few.
+const HORIZON: f64 = 6.0;
+
+fn plan(method: Method, control: Control, scenes: &[Scene]) -> PropagationSettings {
+    PropagationSettings::new(method, control, Grid::uniform(HORIZON, 29), everything(method), &scenes[0])
+}
+
+fn bits(runs: &[Run]) -> Vec<Bits> {
+    runs.iter().map(Run::bits).collect()
+}
+
+/// Law: the row of a scene is the same bits alone, in company, in any order, and on every instruction set.
+fn equal_in_any_company(method: Method, control: Control) {
+    for forced in [false, true] {
+        let scenes = mixed(21, forced, HORIZON);
+        let plan = plan(method, control, &scenes);
+        let alone: Vec<Bits> = scenes
+            .iter()
+            .map(|scene| propagate_on(Isa::best(), &plan, std::slice::from_ref(scene))[0].bits())
+            .collect();
+        let distinct: std::collections::HashSet<&Bits> = alone.iter().collect();
+        assert_eq!(distinct.len(), scenes.len(), "scenes differ, so that equality says something");
+        for isa in Isa::available() {
+            let what = format!("{} on {}, forced: {forced}", method.name(), isa.name());
+            assert!(bits(&propagate_on(isa, &plan, &scenes)) == alone, "{what}");
+            let backwards: Vec<Scene> = scenes.iter().rev().cloned().collect();
+            assert!(bits(&propagate_on(isa, &plan, &backwards)).iter().rev().eq(&alone), "{what}, backwards");
+        }
+        // a second batch in the same engine finds what the first left behind, and does not care
+        let mut engine = plan.engine(Isa::best());
+        engine.propagate(&scenes[10..], &mut |_, _, _| {});
+        let mut found = vec![Bits::new(); 10];
+        engine.propagate(&scenes[..10], &mut |index, table, outcome| {
+            found[index] = Run { table: table.clone(), outcome: *outcome }.bits();
+        });
+        assert!(found == alone[..10], "{}, second batch, forced: {forced}", method.name());
+    }
+}
+
+#[test]
+fn auto() {
+    equal_in_any_company(Method::Auto, adaptive(1e-12));
+}
+
+#[test]
+fn taylor() {
+    equal_in_any_company(Method::Taylor, adaptive(1e-12));
+}
+
+#[test]
+fn dormand_prince() {
+    equal_in_any_company(Method::DormandPrince, adaptive(1e-8));
+}
+
+#[test]
+fn dop853() {
+    equal_in_any_company(Method::Dop853, adaptive(1e-8));
+}
+
+#[test]
+fn methods_with_fixed_steps() {
+    equal_in_any_company(Method::RungeKutta4, fixed(0.01));
+    equal_in_any_company(Method::GaussLegendre, fixed(0.01));
+}
+
+#[test]
+fn reference() {
+    equal_in_any_company(Method::NullSpace, adaptive(1e-5));
+}
+
+/// Law: with a limit of steps that only some runs meet, the failed rows are theirs alone as well.
+#[test]
+fn runs_that_fail_beside_runs_that_do_not() {
+    for method in [Method::Taylor, Method::Auto] {
+        let scenes = mixed(21, true, HORIZON);
+        let whole = propagate_on(Isa::best(), &plan(method, adaptive(1e-12), &scenes), &scenes);
+        let mut steps: Vec<u64> = whole.iter().map(|run| run.outcome.effort.steps).collect();
+        steps.sort_unstable();
+        let control = Control { max_steps: steps[10], ..adaptive(1e-12) };
+        let plan = plan(method, control, &scenes);
+        let together = propagate_on(Isa::best(), &plan, &scenes);
+        let done = together.iter().filter(|run| run.outcome.points == 29).count();
+        assert!((1..21).contains(&done), "{done} of 21 arrive");
+        for (scene, run) in scenes.iter().zip(&together) {
+            let alone = &propagate_on(Isa::best(), &plan, std::slice::from_ref(scene))[0];
+            assert!(alone.bits() == run.bits(), "{}", method.name());
+        }
+    }
+}
+
+/// SHA-256 of outcome and states of sixteen fixed scenes, without and with actuators.
+///
+/// They may change where the arithmetic of a method changes on purpose: another order of operations, step rule, dense
+/// output, or a component more in the table. Then the new ones (printed by this test) are committed together with that change,
+/// and its message says why. They may not change with the machine, the compiler, the instruction set, the number of threads,
+/// an optimisation that claims to keep the bits, or a new version of a dependency.
+const GOLDEN: [(Method, &str, &str); 7] = [
+    (
+        Method::Auto,
+        "9eb26cf84029ce4db8bbbbdb7548e22d1bb15db9592b07f0e3efb948953063d1",
+        "02a24c28c6a24eb36cbc819d08ba61523dd80b16caac54e3c68ca5049cd7232c",
+    ),
+    (
+        Method::Taylor,
+        "deaeeafe6a10e6518c5a1c3c83a1afa23b4c391f4940c41b5f018f23fac336d3",
+        "734625bee8aaeb0ec0983c683d6a54cd867b700a859434b64bcf52c09d761622",
+    ),
+    (
+        Method::DormandPrince,
+        "98b666c6598c06bfbc659c6daedf530b406ba72cea1f3c1c274f684af65d825a",
+        "35453f7aadc57cfb35577b0d8f3d3bb071501230801766b2520bab6f07f1cc8b",
+    ),
+    (
+        Method::Dop853,
+        "09aaab6fca8de5d1a8dd4f40b9e5e871c57f2dd0872b686725f8792580a4996f",
+        "c5927ff47dae48c177e950a70532e9857d2ddbb30eacef9cb0cc4fbbf988f619",
+    ),
+    (
+        Method::RungeKutta4,
+        "b12204d809439ba8b0d36d2ab6d3064aa8c438d9b0c71cb9475da46e0cc4ce4f",
+        "d8c41193ad6096294757d77b73dba655a4b32207c81e1247c06639b11f90abac",
+    ),
+    (
+        Method::GaussLegendre,
+        "ffb8ee51245782fdd5503dab671360640093cef20f5415435cce774e55225272",
+        "3f2593a94efcea1575f39642171e2f7bd96ad8fd868cde9ebb8ff402ea855701",
+    ),
+    (
+        Method::NullSpace,
+        "2dcfc8a1b4dcc6686edff49eedd0d79f381ee48855ab10b467df15656de7f3d2",
+        "1933a2c1436c1eb1275c558a7322704cfaefda8a39f295f15a631789e1c5c892",
+    ),
+];
+
+#[test]
+fn bits_are_golden() {
+    let mut wrong = String::new();
+    for (method, free, forced) in GOLDEN {
+        let control = match method {
+            Method::Auto | Method::Taylor => adaptive(1e-12),
+            Method::RungeKutta4 | Method::GaussLegendre => fixed(0.01),
+            Method::NullSpace => adaptive(1e-5),
+            Method::DormandPrince | Method::Dop853 => adaptive(1e-8),
+        };
+        for (expected, forced) in [(free, false), (forced, true)] {
+            let scenes = mixed(16, forced, HORIZON);
+            let runs = propagate_on(Isa::best(), &plan(method, control, &scenes), &scenes);
+            let found = hash(bits(&runs).into_iter().flatten());
+            if found != expected {
+                wrong.push_str(&format!("{method:?}, forced {forced}: {found}\n"));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "bits have changed:\n{wrong}");
+}

@@ -1,0 +1,12 @@
+//! A row is a pure function of plan and sample: threads, order, lanes, instruction sets, skipped parts and time change no bit.
+
+#[path = "../support/mod.rs"]
+mod support;
+#[path = "../textbook/mod.rs"]
+mod textbook;
+
+mod lanes;
+mod lanes_runge_kutta;
+mod skipping;
+mod threads_and_order;
+mod value_hashes;

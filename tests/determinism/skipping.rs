@@ -1,0 +1,179 @@
+//! What is not asked for is not computed, and its absence changes no bit of what is.
+
+use crate::support::runs::{Bits, adaptive, blocks, everything, fixed, propagate_on};
+use crate::support::scenes::mixed;
+use spindrift::math::Isa;
+use spindrift::observables::{Group, Groups, Observer, Request};
+use spindrift::ode::Control;
+use spindrift::propagation::Method;
+use spindrift::propagation::PropagationSettings;
+use spindrift::run::state_table::{Grid, StateField, StateFields};
+use spindrift::scene::Scene;
+
+/// Horizon, s.
+const HORIZON: f64 = 6.0;
+
+fn control(method: Method) -> Control {
+    match method {
+        Method::RungeKutta4 | Method::GaussLegendre => fixed(0.01),
+        Method::Auto | Method::Taylor => adaptive(1e-12),
+        _ => adaptive(1e-6),
+    }
+}
+
+/// The requests, from almost nothing to all but one.
+fn requests(method: Method) -> Vec<StateFields> {
+    use StateField::*;
+    let spin = [Rate, WheelRates];
+    let mut list = vec![
+        blocks([Rate]),
+        blocks(spin),
+        blocks([Rate, Attitude]),
+        blocks([Rate, Attitude, WheelRates, WheelAngles]),
+        blocks([Rate, WheelAngles]),
+        blocks([Rate, WheelRates, Work]),
+        blocks([Attitude, ComVelocity]),
+        blocks([Rate, ComPosition, Impulse]),
+        blocks([DebrisAttitude, DebrisRate]),
+        blocks([DebrisPosition, AngularImpulse]),
+    ];
+    if method == Method::NullSpace {
+        list.push(blocks([Dcm, Residuals, KineticEnergies]));
+    }
+    list
+}
+
+/// Law: for every request the columns are those of the table that holds everything, bit for bit, and so is the effort.
+fn skipping_changes_nothing(method: Method) {
+    let grid = Grid::uniform(HORIZON, 29);
+    for forced in [false, true] {
+        let scenes = mixed(13, forced, HORIZON);
+        let run = |blocks: StateFields| {
+            let plan = PropagationSettings::new(method, control(method), grid.clone(), blocks, &scenes[0]);
+            propagate_on(Isa::best(), &plan, &scenes)
+        };
+        let whole = run(everything(method));
+        for request in requests(method) {
+            for (scene, (found, whole)) in run(request).iter().zip(&whole).enumerate() {
+                let names: Vec<StateField> =
+                    StateField::ALL.into_iter().filter(|block| request.contains(*block)).collect();
+                let same = found.bits() == whole.bits_of(request);
+                assert!(same, "{}, forced {forced}, scene {scene}: {names:?}", method.name());
+            }
+        }
+    }
+}
+
+#[test]
+fn auto() {
+    skipping_changes_nothing(Method::Auto);
+}
+
+#[test]
+fn taylor() {
+    skipping_changes_nothing(Method::Taylor);
+}
+
+#[test]
+fn comparison_methods() {
+    for method in [Method::DormandPrince, Method::Dop853, Method::RungeKutta4, Method::GaussLegendre] {
+        skipping_changes_nothing(method);
+    }
+}
+
+#[test]
+fn reference() {
+    skipping_changes_nothing(Method::NullSpace);
+}
+
+/// Law: less is integrated where less is asked for; else the tests above would hold for a program that skips nothing.
+#[test]
+fn less_is_integrated() {
+    let free = &mixed(1, false, HORIZON)[0];
+    let forced = &mixed(1, true, HORIZON)[0];
+    let components = |scene: &Scene, list: &[StateField]| {
+        let blocks = blocks(list.iter().copied());
+        PropagationSettings::new(Method::Auto, adaptive(1e-12), Grid::uniform(HORIZON, 3), blocks, scene).components()
+    };
+    use StateField::*;
+    assert_eq!(components(free, &[Rate, WheelRates]), 3);
+    assert_eq!(components(free, &[Rate, Attitude, ComVelocity, DebrisAttitude, Work]), 7);
+    assert_eq!(components(free, &[Rate, WheelAngles]), 10);
+    assert_eq!(components(forced, &[Rate, WheelRates]), 3);
+    assert_eq!(components(forced, &[Rate, Work]), 21);
+}
+
+/// Law: debris does not reach the spacecraft's states: with it, without it, cube or box.
+#[test]
+fn debris_changes_nothing_of_the_spacecraft() {
+    use StateField::*;
+    let list =
+        blocks([Rate, Attitude, WheelRates, WheelAngles, ComPosition, ComVelocity, Work, Impulse, AngularImpulse]);
+    let grid = Grid::uniform(HORIZON, 29);
+    for forced in [false, true] {
+        let with = mixed(13, forced, HORIZON);
+        let mut without = with.clone();
+        for scene in &mut without {
+            scene.mass.debris = None;
+        }
+        for method in [Method::Auto, Method::Taylor, Method::DormandPrince] {
+            let states = |scenes: &[Scene]| -> Vec<Bits> {
+                let plan =
+                    PropagationSettings::new(method, control(method), grid.clone(), everything(method), &scenes[0]);
+                propagate_on(Isa::best(), &plan, scenes).iter().map(|run| run.bits_of(list)).collect()
+            };
+            assert!(states(&with) == states(&without), "{}, forced {forced}", method.name());
+        }
+    }
+}
+
+/// Law: a row that asks for one group holds the bits of that group in the row that asks for all.
+#[test]
+fn groups_do_not_reach_each_other() {
+    let grid = Grid::uniform(HORIZON, 29);
+    for (forced, method) in
+        [(false, Method::Auto), (true, Method::Auto), (true, Method::Taylor), (true, Method::DormandPrince)]
+    {
+        let scenes = mixed(13, forced, HORIZON);
+        let rows = |groups: Groups| {
+            let request = Request { groups, debris: true, actuated: forced, constrained: false };
+            let plan = PropagationSettings::new(method, control(method), grid.clone(), request.blocks(), &scenes[0]);
+            let mut observer = Observer::new(request, &grid);
+            let names: Vec<&str> = request.columns().iter().map(|column| column.name).collect();
+            let mut rows = vec![vec![0.0; names.len()]; scenes.len()];
+            plan.engine(Isa::best()).propagate(&scenes, &mut |index, table, outcome| {
+                observer.observe(Isa::best(), &scenes[index], table, outcome, &mut rows[index]);
+            });
+            let bits = rows.iter().map(|row| row.iter().map(|x| x.to_bits()).collect()).collect();
+            (names, bits)
+        };
+        let (all_names, all): (Vec<&str>, Vec<Bits>) = rows(Groups::ALL);
+        for group in Group::ALL {
+            let (names, some): (Vec<&str>, Vec<Bits>) = rows(Groups::NONE.with(group));
+            for (row, whole) in some.iter().zip(&all) {
+                for (name, value) in names.iter().zip(row) {
+                    let at = all_names.iter().position(|other| other == name).expect("the whole row has every column");
+                    assert_eq!(*value, whole[at], "{}: {name} of {}", method.name(), group.name());
+                }
+            }
+        }
+    }
+}
+
+/// Counter-test: the comparison sees the last bit of one state.
+#[test]
+fn the_comparison_can_fail() {
+    let scenes = mixed(2, false, HORIZON);
+    let plan = PropagationSettings::new(
+        Method::Auto,
+        adaptive(1e-12),
+        Grid::uniform(HORIZON, 29),
+        blocks([StateField::Rate]),
+        &scenes[0],
+    );
+    let runs = propagate_on(Isa::best(), &plan, &scenes);
+    let mut other = runs[0].clone();
+    let value = &mut other.table.column_mut(StateField::Rate, 2)[28];
+    *value = f64::from_bits(value.to_bits() ^ 1);
+    assert!(other.bits() != runs[0].bits());
+}

@@ -1,0 +1,131 @@
+//! A row is a pure function of (plan, sample): not of threads, parts, order, or what a worker did before.
+
+use std::num::NonZeroUsize;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use spindrift::campaign::{Overrides, Plan};
+use spindrift::ensemble::{Ensemble, Part, PartId, Parts, Rows, RunError, Sink, run};
+use spindrift::math::Isa;
+use spindrift::run::Status;
+use spindrift::sampling::SampleId;
+
+/// The shipped campaign of that name, with a wheel that is sometimes impossible where `with_failures`.
+fn plan(name: &str, samples: u64, with_failures: bool) -> Plan {
+    let path = format!("{}/campaigns/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    let mut text = std::fs::read_to_string(path).unwrap();
+    if with_failures {
+        text.push_str(
+            "\n[[disperse]]\nparameter = \"wheel2.length_m\"\ndistribution = \"uniform\"\nmin = -0.05\nmax = 0.1\n",
+        );
+    }
+    Plan::from_text(name, &text, Overrides { samples: Some(samples), seed: None }).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// A row as bits: status, dispersed values, observables.
+type Bits = (Status, Vec<u64>);
+
+fn bits(rows: &Rows, row: usize) -> Bits {
+    let shape = rows.shape();
+    let parameters = (0..shape.parameters).map(|index| rows.parameter(index)[row]);
+    let observables = (0..shape.observables).map(|index| rows.observable(index)[row]);
+    (rows.statuses()[row], parameters.chain(observables).map(f64::to_bits).collect())
+}
+
+/// Keeps rows in memory; fails at a part where it is told to.
+#[derive(Default)]
+struct Memory {
+    rows: Mutex<Vec<(u64, Bits)>>,
+    parts: AtomicU64,
+    full_at: Option<u64>,
+}
+
+impl Sink for Memory {
+    type Error = String;
+
+    fn take(&self, rows: &Rows) -> Result<(), String> {
+        let part = rows.part();
+        self.parts.fetch_add(1, Ordering::Relaxed);
+        if self.full_at == Some(part.id.0) {
+            return Err(format!("no room for part {}", part.id.0));
+        }
+        let mut kept = self.rows.lock().unwrap();
+        kept.extend(part.samples().enumerate().map(|(row, sample)| (sample.0, bits(rows, row))));
+        Ok(())
+    }
+}
+
+fn whole(campaign: &Ensemble<'_>, threads: usize) -> Vec<(u64, Bits)> {
+    let sink = Memory::default();
+    let parts = Parts::of(campaign.plan().samples);
+    run(campaign, parts, NonZeroUsize::new(threads), &sink, &|_| {}).unwrap();
+    let mut rows = sink.rows.into_inner().unwrap();
+    rows.sort_by_key(|(sample, _)| *sample);
+    rows
+}
+
+#[test]
+fn rows_do_not_depend_on_threads() {
+    for (name, failures) in [("spin_sweep", true), ("burn", false), ("no_debris", false)] {
+        let plan = plan(name, 1000, failures);
+        let campaign = Ensemble::new(&plan, Isa::best());
+        let one = whole(&campaign, 1);
+        assert_eq!(one.len(), 1000);
+        assert_eq!(one.iter().any(|(_, (status, _))| *status == Status::InvalidSample), failures, "{name}");
+        assert!(one == whole(&campaign, 2), "{name}, 2 threads");
+        assert!(one == whole(&campaign, 7), "{name}, 7 threads");
+    }
+}
+
+/// Law: a sample that is run alone, by a worker that has done other work before, in a part cut elsewhere, gives the same row.
+#[test]
+fn rows_do_not_depend_on_company() {
+    let plan = plan("spin_sweep", 1000, true);
+    let campaign = Ensemble::new(&plan, Isa::best());
+    let expected = whole(&campaign, 1);
+    let (mut worker, mut rows) = (campaign.worker(), Rows::new(campaign.shape(), 300));
+    for (first, count) in [(999, 1), (0, 1), (517, 1), (3, 300), (250, 13), (998, 2), (0, 129)] {
+        worker.run(Part { id: PartId(0), first: SampleId(first), count }, &mut rows, &|_| {});
+        for row in 0..count {
+            assert!(bits(&rows, row) == expected[first as usize + row].1, "sample {}", first as usize + row);
+        }
+    }
+}
+
+/// Counter-test: the comparison sees a single changed bit of a scene.
+#[test]
+fn the_comparison_can_fail() {
+    let plan = plan("spin_sweep", 64, false);
+    let rows = |plan: &Plan| whole(&Ensemble::new(plan, Isa::best()), 1);
+    let mut other = plan.clone();
+    let side = &mut other.nominal.wheels[1].as_mut().unwrap().length_m;
+    *side = f64::from_bits(side.to_bits() + 1);
+    assert!(rows(&plan) == rows(&plan));
+    assert!(rows(&plan) != rows(&other));
+}
+
+/// Law: after an error of the sink no further part is begun (but those under way), and the error is what is reported.
+#[test]
+fn a_full_sink_stops_the_campaign() {
+    let plan = plan("no_debris", 4096, false);
+    let campaign = Ensemble::new(&plan, Isa::best());
+    for threads in [1, 2] {
+        let sink = Memory { full_at: Some(1), ..Memory::default() };
+        let ended = run(&campaign, Parts::of(4096), NonZeroUsize::new(threads), &sink, &|_| {});
+        assert!(matches!(ended, Err(RunError::Sink(error)) if error == "no room for part 1"));
+        assert!(sink.parts.into_inner() <= 1 + 2 * threads as u64, "{threads} threads");
+    }
+}
+
+/// Law: progress hears of every sample once.
+#[test]
+fn progress_counts_every_sample() {
+    let plan = plan("no_debris", 777, false);
+    let campaign = Ensemble::new(&plan, Isa::best());
+    let heard = AtomicU64::new(0);
+    let count = |samples| {
+        heard.fetch_add(samples, Ordering::Relaxed);
+    };
+    run(&campaign, Parts::of(777), None, &Memory::default(), &count).unwrap();
+    assert_eq!(heard.into_inner(), 777);
+}

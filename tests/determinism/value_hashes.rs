@@ -1,0 +1,191 @@
+//! Every shipped campaign still gives the same values, bit for bit: the hash of each column of its first 257 rows.
+//!
+//! The hashes in `golden/value_hashes.json` were made before the architecture was rebuilt. A column may be renamed (listed in
+//! [`RENAMED`]); the column of a part that the scene does not have may go away (it held only zeros or nulls). Any other
+//! difference is a defect, unless a decision recorded in CHANGELOG.md allows it; then
+//! `SPINDRIFT_WRITE_HASHES=1 cargo test --release --test determinism value_hashes` writes the file anew.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::support::room::Room;
+use arrow_array::cast::AsArray;
+use arrow_array::types::{Float64Type, Int64Type, UInt64Type};
+use arrow_array::{Array, RecordBatch};
+use arrow_schema::DataType;
+
+/// Rows of each campaign; all where a campaign has a number of its own (a table's rows).
+const SAMPLES: u64 = 257;
+
+/// Campaigns of which some samples are audited too, about ten each: free, forced, and with a general debris.
+const AUDITED: [&str; 3] = ["spin_sweep", "burn", "inertia"];
+
+/// Columns that measure the machine and not the run.
+const OF_THE_MACHINE: [&str; 2] = ["cpu_s", "wall_s"];
+
+/// Columns with a new name: (then, now).
+const RENAMED: &[(&str, &str)] = &[
+    ("attitude_error_max", "dcm_orthonormality_max"),
+    ("attitude_error_final", "dcm_orthonormality_final"),
+    ("attitude_error_rms", "dcm_orthonormality_rms"),
+    ("attitude_error_rate_per_s", "dcm_orthonormality_rate_per_s"),
+];
+
+/// FNV-1a, 64 bits (G. Fowler, L. C. Noll, K.-P. Vo; RFC 9923): enough to tell a change, short enough to read.
+struct Fnv(u64);
+
+impl Fnv {
+    fn new() -> Self {
+        Fnv(0xcbf2_9ce4_8422_2325)
+    }
+
+    fn add(&mut self, bytes: &[u8]) {
+        for byte in bytes {
+            self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+    }
+
+    fn text(&self) -> String {
+        format!("{:016x}", self.0)
+    }
+}
+
+/// Adds the values of one column of one part to `hash`: bits of numbers, a mark for a null.
+fn add_values(hash: &mut Fnv, column: &dyn Array) {
+    let each = |hash: &mut Fnv, value: &dyn Fn(usize) -> Vec<u8>| {
+        for row in 0..column.len() {
+            if column.is_null(row) { hash.add(b"null") } else { hash.add(&value(row)) }
+        }
+    };
+    match column.data_type() {
+        DataType::Float64 => {
+            let values = column.as_primitive::<Float64Type>();
+            each(hash, &|row| values.value(row).to_bits().to_le_bytes().to_vec());
+        }
+        DataType::UInt64 => {
+            let values = column.as_primitive::<UInt64Type>();
+            each(hash, &|row| values.value(row).to_le_bytes().to_vec());
+        }
+        DataType::Int64 => {
+            let values = column.as_primitive::<Int64Type>();
+            each(hash, &|row| values.value(row).to_le_bytes().to_vec());
+        }
+        DataType::Utf8 => {
+            let values = column.as_string::<i32>();
+            each(hash, &|row| values.value(row).as_bytes().to_vec());
+        }
+        other => panic!("a column of type {other}"),
+    }
+}
+
+/// Hash of each column of the parts of a result.
+fn hashes(parts: &[RecordBatch]) -> BTreeMap<String, String> {
+    let schema = parts[0].schema();
+    let names = schema.fields().iter().map(|field| field.name().clone());
+    let hash = |(index, name): (usize, String)| {
+        let mut hash = Fnv::new();
+        parts.iter().for_each(|part| add_values(&mut hash, part.column(index)));
+        (name, hash.text())
+    };
+    names.enumerate().map(hash).filter(|(name, _)| !OF_THE_MACHINE.contains(&name.as_str())).collect()
+}
+
+/// What a column of `rows` zeros, or of as many nulls, has for a hash.
+fn of_nothing(rows: usize) -> [String; 2] {
+    let (mut zeros, mut nulls) = (Fnv::new(), Fnv::new());
+    for _ in 0..rows {
+        zeros.add(&0.0_f64.to_bits().to_le_bytes());
+        nulls.add(b"null");
+    }
+    [zeros.text(), nulls.text()]
+}
+
+fn shipped() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns");
+    let mut files: Vec<PathBuf> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
+    files.sort();
+    files
+}
+
+/// Runs a campaign; its rows, column by column.
+fn run(room: &Room, file: &Path) -> (usize, BTreeMap<String, String>) {
+    let name = file.file_stem().unwrap().to_string_lossy().into_owned();
+    let text = fs::read_to_string(file).unwrap();
+    let samples = if text.contains("kind = \"table\"") { String::new() } else { format!("--samples {SAMPLES}") };
+    let audit = if AUDITED.contains(&name.as_str()) { "--audit 0.04" } else { "" };
+    let campaign = file.file_name().unwrap().to_string_lossy().into_owned();
+    room.says("campaign", &campaign, &format!("{samples} {audit} --out {name}"), 0);
+    let folder = room.0.join(&name);
+    let mut files: Vec<PathBuf> =
+        fs::read_dir(folder.join("runs")).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.sort();
+    let parts: Vec<RecordBatch> = files.iter().flat_map(|file| crate::support::room::batches(file)).collect();
+    (parts.iter().map(RecordBatch::num_rows).sum(), hashes(&parts))
+}
+
+/// What differs between the committed hashes and those of now.
+fn differences(
+    campaign: &str,
+    then: &BTreeMap<String, String>,
+    now: &BTreeMap<String, String>,
+    rows: usize,
+) -> Vec<String> {
+    let renamed = |name: &str| {
+        RENAMED.iter().find(|(then, _)| *then == name).map_or(name.to_owned(), |(_, now)| (*now).to_owned())
+    };
+    let nothing = of_nothing(rows);
+    let mut wrong = Vec::new();
+    for (name, hash) in then {
+        match now.get(&renamed(name)) {
+            Some(other) if other == hash => {}
+            Some(other) => wrong.push(format!("{campaign}: {name} was {hash} and is {other}")),
+            None if nothing.contains(hash) => {}
+            None => wrong.push(format!("{campaign}: {name} is gone and was not empty")),
+        }
+    }
+    wrong
+}
+
+#[test]
+fn shipped_campaigns_keep_their_bits() {
+    let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/value_hashes.json");
+    let room = Room::new("value-hashes");
+    let now: BTreeMap<String, (usize, BTreeMap<String, String>)> = shipped()
+        .iter()
+        .map(|file| (file.file_stem().unwrap().to_string_lossy().into_owned(), run(&room, file)))
+        .collect();
+    if std::env::var_os("SPINDRIFT_WRITE_HASHES").is_some() {
+        fs::write(&golden, serde_json::to_string_pretty(&now).unwrap() + "\n").unwrap();
+    }
+    let then: BTreeMap<String, (usize, BTreeMap<String, String>)> =
+        serde_json::from_str(&fs::read_to_string(&golden).unwrap()).unwrap();
+    let mut wrong = Vec::new();
+    for (campaign, (rows, columns)) in &then {
+        let Some((count, found)) = now.get(campaign) else {
+            wrong.push(format!("{campaign} is no longer shipped"));
+            continue;
+        };
+        if count != rows {
+            wrong.push(format!("{campaign}: {count} rows, not {rows}"));
+        }
+        wrong.extend(differences(campaign, columns, found, *rows));
+    }
+    assert!(wrong.is_empty(), "{} differences:\n{}", wrong.len(), wrong.join("\n"));
+    assert!(then.len() >= 18, "every campaign that was shipped then: {}", then.len());
+}
+
+/// Counter-test: a changed bit, a lost column and a lost campaign are seen; an absent part is not held against anybody.
+#[test]
+fn a_changed_value_is_seen() {
+    let table = |entries: &[(&str, &str)]| -> BTreeMap<String, String> {
+        entries.iter().map(|(name, hash)| ((*name).to_owned(), (*hash).to_owned())).collect()
+    };
+    let [zeros, nulls] = of_nothing(3);
+    let then = table(&[("a", "01"), ("b", "02"), ("debris_x", &zeros), ("debris_y", &nulls)]);
+    assert_eq!(differences("c", &then, &table(&[("a", "01"), ("b", "02"), ("new", "03")]), 3), [""; 0]);
+    assert_eq!(differences("c", &then, &table(&[("a", "01"), ("b", "03")]), 3).len(), 1);
+    assert_eq!(differences("c", &then, &table(&[("a", "01")]), 3).len(), 1);
+    assert_eq!(differences("c", &then, &table(&[("a", "01"), ("b", "02")]), 4).len(), 2, "zeros of another length");
+}

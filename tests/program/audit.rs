@@ -1,0 +1,261 @@
+//! A campaign that audits itself: which samples, what it finds, and that nothing else changes by it.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::num::NonZeroUsize;
+use std::path::Path;
+use std::sync::Mutex;
+
+use crate::support::room::Room;
+use arrow_array::Array;
+use arrow_array::cast::AsArray;
+use arrow_array::types::{Float64Type, UInt64Type};
+use serde_json::Value;
+use spindrift::campaign::{Overrides, Plan};
+use spindrift::ensemble::audit::Selection;
+use spindrift::ensemble::{Audit, Auditor, Ensemble, Parts, Rows, Sink, run};
+use spindrift::math::Isa;
+use spindrift::ode::Tolerance;
+use spindrift::run::Status;
+use spindrift::sampling::SampleId;
+use spindrift::scene::Scene;
+
+/// The shipped campaign of that name, with so many samples of which a share is audited.
+fn plan(name: &str, samples: u64, fraction: f64) -> Plan {
+    let path = format!("{}/campaigns/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(path).expect("a shipped campaign");
+    let overrides = Overrides { samples: Some(samples), seed: None };
+    Plan { audit_fraction: fraction, ..Plan::from_text(name, &text, overrides).unwrap_or_else(|e| panic!("{e}")) }
+}
+
+/// A row as bits, and what its audit found.
+type Row = (Status, Vec<u64>, Option<Option<Audit>>);
+
+/// Keeps rows by sample.
+#[derive(Default)]
+struct Memory(Mutex<BTreeMap<u64, Row>>);
+
+impl Sink for Memory {
+    type Error = String;
+
+    fn take(&self, rows: &Rows) -> Result<(), String> {
+        let mut kept = self.0.lock().unwrap();
+        for (row, sample) in rows.part().samples().enumerate() {
+            let shape = rows.shape();
+            let parameters = (0..shape.parameters).map(|index| rows.parameter(index)[row]);
+            let values = parameters.chain((0..shape.observables).map(|index| rows.observable(index)[row]));
+            let audit = rows.audits().iter().find(|(audited, _)| *audited == row).map(|(_, audit)| audit.clone());
+            kept.insert(sample.0, (rows.statuses()[row], values.map(f64::to_bits).collect(), audit));
+        }
+        Ok(())
+    }
+}
+
+fn rows(plan: &Plan, threads: usize) -> BTreeMap<u64, Row> {
+    let sink = Memory::default();
+    run(&Ensemble::new(plan, Isa::best()), Parts::of(plan.samples), NonZeroUsize::new(threads), &sink, &|_| {})
+        .unwrap();
+    sink.0.into_inner().unwrap()
+}
+
+/// Bits of an audit: what is not a number is not equal to itself.
+fn bits(audit: &Option<Option<Audit>>) -> Option<Option<Vec<u64>>> {
+    audit.as_ref().map(|audit| {
+        let audit = audit.as_ref()?;
+        let own = [audit.omega, audit.attitude, audit.estimate, audit.truth_tolerance];
+        Some(own.iter().chain(&audit.observables).map(|x| x.to_bits()).collect())
+    })
+}
+
+/// Law: fraction 0 audits nothing, 1 everything, and no column of a row changes by a bit; audits do not depend on threads.
+#[test]
+fn rows_keep_their_bits_and_audits_are_those_of_any_thread() {
+    for name in ["spin_sweep", "burn"] {
+        let plain = rows(&plan(name, 300, 0.0), 1);
+        assert!(plain.values().all(|(.., audit)| audit.is_none()));
+        let some = rows(&plan(name, 300, 0.1), 1);
+        let again = rows(&plan(name, 300, 0.1), 3);
+        let audited = some.values().filter(|(.., audit)| audit.is_some()).count();
+        assert!((10..60).contains(&audited), "{name}: {audited} of 300");
+        for (sample, row) in &plain {
+            assert!(row.0 == some[sample].0 && row.1 == some[sample].1, "{name}, sample {sample}");
+            assert!(bits(&some[sample].2) == bits(&again[sample].2), "{name}, sample {sample}");
+        }
+        let all = rows(&plan(name, 24, 1.0), 2);
+        assert!(all.values().all(|(.., audit)| audit.as_ref().is_some_and(Option::is_some)), "{name}");
+    }
+}
+
+/// Law: the selection is a share of the samples (H0: each with probability 0.01, of 100,000; alpha = 1e-6, two-sided), does
+/// not depend on the order of asking, and a larger fraction holds the samples of a smaller one.
+#[test]
+fn the_selection_is_a_share_and_grows_with_it() {
+    let selected = |fraction: f64| {
+        let mut selection = Selection::new(&plan("no_debris", 100_000, fraction));
+        (0..100_000).filter(|sample| selection.holds(SampleId(*sample))).collect::<Vec<_>>()
+    };
+    let (small, large) = (selected(0.01), selected(0.1));
+    // 4.9 standard deviations of 31.5
+    assert!((845..=1155).contains(&small.len()), "{}", small.len());
+    assert!(small.iter().all(|sample| large.contains(sample)));
+    assert_eq!((selected(0.0).len(), selected(1.0).len()), (0, 100_000));
+    let mut backwards = Selection::new(&plan("no_debris", 100_000, 0.01));
+    let mut found: Vec<u64> = (0..100_000).rev().filter(|sample| backwards.holds(SampleId(*sample))).collect();
+    found.reverse();
+    assert_eq!(found, small);
+}
+
+fn audits(plan: &Plan) -> Vec<Audit> {
+    rows(plan, 2).into_values().filter_map(|(.., audit)| audit.flatten()).collect()
+}
+
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+/// Law: what an audit finds follows the tolerance, down to rounding; a tolerance that is looser than it should be shows.
+#[test]
+fn a_loose_tolerance_is_caught() {
+    let at = |tolerance: f64| {
+        let mut plan = plan("spin_sweep", 40, 1.0);
+        plan.tolerance = Tolerance { relative: tolerance, absolute: tolerance };
+        let audits = audits(&plan);
+        assert_eq!(audits.len(), 40);
+        let covered = audits.iter().filter(|audit| audit.estimate >= audit.state()).count();
+        assert!(covered >= 38, "{covered} of 40 at {tolerance:e}");
+        median(audits.iter().map(Audit::state))
+    };
+    let (loose, tight, tightest) = (at(1e-6), at(1e-10), at(1e-16));
+    assert!(loose > 1e3 * tight && tight > tightest, "{loose:e} {tight:e} {tightest:e}");
+    assert!(tightest < 1e-12 && loose > 1e-7, "{tightest:e} {loose:e}");
+}
+
+/// Law: a kernel that is wrong by a billionth in one moment of inertia is found out: its errors are beyond every estimate.
+#[test]
+fn a_wrong_kernel_is_caught() {
+    let mut plan = plan("spin_sweep", 1, 1.0);
+    plan.tolerance = Tolerance { relative: 1e-13, absolute: 1e-13 };
+    let scene = Scene::resolve(&plan.nominal).expect("physical");
+    let mut wrong = scene.clone();
+    wrong.mass.inertia_free[0][0] *= 1.0 + 1e-9;
+    wrong.mass.inertia[0][0] *= 1.0 + 1e-9;
+    let mut auditor = Auditor::new(&plan, Isa::best(), &plan.grid);
+    let (right, caught) = (auditor.audit(&scene).unwrap(), auditor.compare(&wrong, &scene).unwrap());
+    assert!(right.estimate >= right.state() && right.state() < 1e-11, "{:e}", right.state());
+    assert!(caught.state() > 10.0 * caught.estimate && caught.state() > 1e-9, "{:e}", caught.state());
+}
+
+/// Law: a run too long for double-double is compared with the tightest plain march, and says so.
+#[test]
+fn a_long_run_is_audited_in_plain_doubles() {
+    let mut plan = plan("spin_sweep", 1, 1.0);
+    plan.tolerance = Tolerance { relative: 1e-8, absolute: 1e-8 };
+    let scene = Scene::resolve(&plan.nominal).expect("physical");
+    let truth_of = |duration: f64| {
+        let grid = spindrift::run::state_table::Grid::uniform(duration, 11);
+        Auditor::new(&plan, Isa::best(), &grid).audit(&scene).unwrap()
+    };
+    let (short, long) = (truth_of(2.0), truth_of(300.0));
+    assert_eq!((short.truth_tolerance, long.truth_tolerance), (1e-31, 1e-16));
+    assert!(long.state() > short.state() && long.estimate >= long.state(), "{:e} {:e}", long.state(), long.estimate);
+}
+
+/// Law: the program writes the audit's columns, null where no audit was, sums them up beside every statistic, says what it cost;
+/// and all that is the same on any number of threads.
+#[test]
+fn the_program_audits() {
+    let room = Room::new("campaign");
+    let said = room.says("campaign", "spin_sweep.toml", "--samples 120 --audit 0.25 --threads 1 --out one", 0);
+    room.says("campaign", "spin_sweep.toml", "--samples 120 --audit 0.25 --threads 3 --out three", 0);
+    for file in ["runs/part-000000.parquet", "summary.json", "plan.toml"] {
+        let read = |folder: &str| fs::read(room.0.join(folder).join(file)).unwrap();
+        assert!(read("one") == read("three"), "{file}");
+    }
+    assert!(said.contains("state_error_estimate covers") && said.contains("the audit took"), "{said}");
+    assert!(fs::read_to_string(room.0.join("one/plan.toml")).unwrap().contains("[audit]\nfraction = 0.25\n"));
+
+    let table = room.table("one/runs/part-000000.parquet");
+    let column = |name: &str| {
+        let column = table.column_by_name(name).unwrap_or_else(|| panic!("no column {name}"));
+        column.as_primitive::<Float64Type>().iter().collect::<Vec<_>>()
+    };
+    let [state, omega, attitude] = ["audit_state_error", "audit_omega_error", "audit_attitude_error_rad"].map(&column);
+    let estimate = column("state_error_estimate");
+    let audited = state.iter().flatten().count();
+    assert!((10..60).contains(&audited));
+    let mut covered = 0;
+    for row in 0..120 {
+        assert_eq!(state[row].is_some(), attitude[row].is_some());
+        if let (Some(state), Some(omega), Some(attitude)) = (state[row], omega[row], attitude[row]) {
+            assert_eq!(state, omega.max(attitude));
+            assert!(state > 0.0 && state < 1e-7);
+            covered += usize::from(estimate[row].unwrap() >= state);
+        }
+    }
+    assert!(covered as f64 >= 0.95 * audited as f64, "{covered} of {audited}");
+    let ill = table.column_by_name("ill_conditioned").unwrap().as_primitive::<UInt64Type>();
+    assert!(ill.null_count() == 0 && ill.values().iter().all(|value| *value == 0));
+
+    let summary: Value = serde_json::from_str(&fs::read_to_string(room.0.join("one/summary.json")).unwrap()).unwrap();
+    let audit = &summary["audit"];
+    assert_eq!((audit["audited"].as_u64(), audit["failed"].as_u64()), (Some(audited as u64), Some(0)));
+    assert_eq!(audit["in_double_double"].as_u64(), Some(audited as u64));
+    assert_eq!(audit["estimate"]["covered"].as_u64(), Some(covered as u64));
+    let largest = state.iter().flatten().copied().fold(0.0, f64::max);
+    assert_eq!(audit["state_error"]["max"].as_f64(), Some(largest));
+    let line = |name: &str| {
+        let lines = summary["observables"].as_array().unwrap();
+        lines.iter().find(|line| line["name"] == name).unwrap_or_else(|| panic!("no {name}"))["numerical_error"].clone()
+    };
+    // the exchange varies by tens of joules, and numerics have no part in it; an energy error is nothing but numerics
+    let share = |name: &str| line(name)["share_of_spread"].as_f64().unwrap();
+    assert!(share("exchange_wheel1_peak_to_peak_j") < 1e-6);
+    assert!(share("energy_error_max") > 0.1);
+    assert!(line("steps").is_null(), "steps have no truth");
+
+    let said = room.says("campaign", "spin_sweep.toml", "--samples 120 --audit 0 --out none", 0);
+    assert!(!said.contains("audit"), "{said}");
+    assert!(room.table("none/runs/part-000000.parquet").column_by_name("audit_state_error").is_none());
+}
+
+#[test]
+fn one_run_is_audited_and_costs_are_foretold() {
+    let room = Room::new("simulate");
+    let said = room.says("simulate", "burn.toml", "--sample 3 --audit --times 0,1,2", 0);
+    for word in ["audit of sample 3, against a solution at 1e-31", "audit_attitude_error_rad", "state_error_estimate"] {
+        assert!(said.contains(word), "{word}: {said}");
+    }
+    let said = room.says("check", "burn.toml", "", 0);
+    assert!(said.contains("no sample is audited"), "{said}");
+    let text = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns/burn.toml")).unwrap();
+    fs::write(room.0.join("own.toml"), format!("{text}\n[audit]\nfraction = 0.5\n")).unwrap();
+    let said = room.says("check", room.0.join("own.toml").to_str().unwrap(), "", 0);
+    assert!(said.contains("audit of 0.5") && said.contains("ms each"), "{said}");
+}
+
+#[test]
+fn wrong_fractions_are_refused() {
+    let room = Room::new("wrong");
+    let said = room.says("campaign", "burn.toml", "--audit 1.5", 2);
+    assert!(said.contains("--audit 1.5: must be a number from 0 to 1"), "{said}");
+    let path = format!("{}/campaigns/burn.toml", env!("CARGO_MANIFEST_DIR"));
+    let text = fs::read_to_string(path).unwrap();
+    for (written, problem) in [
+        (
+            "fraction = -0.1",
+            "audit.fraction = -0.1: must be a number from 0 to 1; 0.01 runs one sample in a hundred again",
+        ),
+        ("fraction = \"all\"", "audit.fraction = \"all\": must be a number from 0 to 1"),
+        ("fractions = 0.1", "audit.fractions"),
+    ] {
+        let text = format!("{text}\n[audit]\n{written}\n");
+        let error = Plan::from_text("x.toml", &text, Overrides::default()).expect_err("a bad file").to_string();
+        assert!(error.contains(problem), "{error}");
+    }
+    let good = format!("{text}\n[audit]\nfraction = 0.125\n");
+    let plan = Plan::from_text("x.toml", &good, Overrides::default()).unwrap();
+    assert_eq!(plan.audit_fraction, 0.125);
+    assert_eq!(Plan::from_text("plan.toml", &plan.text(), Overrides::default()).unwrap(), plan);
+}

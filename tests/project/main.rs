@@ -1,0 +1,8 @@
+//! The project itself: architecture, README, documents.
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod accuracy_document;
+mod architecture;
+mod readme;

@@ -1,0 +1,151 @@
+//! The README against the program: its generated tables are those of the source, and it knows every name that a user meets.
+//!
+//! `SPINDRIFT_WRITE_README=1 cargo test --release --test readme` writes the generated tables anew.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use clap::CommandFactory;
+use spindrift::campaign::{Overrides, Plan};
+use spindrift::cli::Arguments;
+use spindrift::dataset::rows_file::headings;
+use spindrift::dataset::timeseries::TimeSeries;
+use spindrift::ensemble::{Ensemble, SingleRun};
+use spindrift::math::Isa;
+use spindrift::observables::{Group, columns};
+use spindrift::propagation::Method;
+use spindrift::run::Status;
+use spindrift::sampling::SampleId;
+
+/// Set, the tables in the README are written anew and not compared.
+const WRITE: &str = "SPINDRIFT_WRITE_README";
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).to_owned()
+}
+
+fn text(file: &str) -> String {
+    std::fs::read_to_string(root().join(file)).unwrap_or_else(|error| panic!("{file}: {error}"))
+}
+
+fn plan(name: &str) -> Plan {
+    Plan::load(&root().join("campaigns").join(name), Overrides::default()).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// A cell of a Markdown table.
+fn cell(text: &str) -> String {
+    text.replace('|', "\\|")
+}
+
+/// Every column of a row, group by group; of the dispersed values those of one campaign as an example.
+fn columns_of_rows() -> String {
+    let mut table = String::new();
+    let mut section = |title: &str, rows: &[[String; 4]]| {
+        let _ = writeln!(table, "<details><summary>{title} ({})</summary>\n", rows.len());
+        let _ = writeln!(table, "| column | unit | what it is | only |\n| --- | --- | --- | --- |");
+        for [name, unit, meaning, only] in rows {
+            let _ = writeln!(table, "| `{name}` | {unit} | {} | {only} |", cell(meaning));
+        }
+        let _ = writeln!(table, "\n</details>\n");
+    };
+    let plan = plan("spin_sweep.toml");
+    let all = headings(&Ensemble::new(&plan, Isa::best()));
+    let row = |heading: &spindrift::dataset::columnar::Heading| {
+        [heading.name.clone(), heading.unit.clone(), heading.meaning.clone(), String::new()]
+    };
+    let (own, rest) = all.split_at(2);
+    let dispersed = &rest[..plan.dispersions.columns().len()];
+    section("the sample", &own.iter().map(row).collect::<Vec<_>>());
+    section(
+        "dispersed values, here those of <code>spin_sweep.toml</code>",
+        &dispersed.iter().map(row).collect::<Vec<_>>(),
+    );
+    for group in Group::ALL {
+        let of_group = columns::all().filter(|column| column.group == group);
+        let rows: Vec<_> = of_group
+            .map(|column| [column.name, column.unit, column.meaning, column.scenes()].map(str::to_owned))
+            .collect();
+        section(&format!("group <code>{}</code>", group.name()), &rows);
+    }
+    table
+}
+
+/// The columns of `simulate`, for a scene that has all.
+fn columns_of_series() -> String {
+    let plan = plan("burn.toml");
+    let isa = Isa::best();
+    let run = SingleRun::new(&plan, SampleId(0), plan.grid.clone(), isa).expect("the nominal scene is physical");
+    let series = TimeSeries::new(&plan, SampleId(0), &run, |_| true);
+    let names: Vec<String> = series.headings().iter().map(|heading| format!("`{}`", heading.name)).collect();
+    format!("{}.\n", names.join(", "))
+}
+
+/// The dependencies with the comments that stand above them in Cargo.toml.
+fn dependencies() -> String {
+    let mut table = String::from("| crate | version | why | where |\n| --- | --- | --- | --- |\n");
+    let (mut place, mut why) = (None, String::new());
+    for line in text("Cargo.toml").lines() {
+        if let Some(section) = line.strip_prefix('[') {
+            place = match section.trim_end_matches(']') {
+                "dependencies" => Some("program"),
+                "target.'cfg(unix)'.dependencies" => Some("program, on Unix"),
+                "dev-dependencies" => Some("tests, benches"),
+                _ => None,
+            };
+        } else if let Some(comment) = line.strip_prefix("# ") {
+            let _ = write!(why, "{}{comment}", if why.is_empty() { "" } else { " " });
+        } else if let (Some(place), Some((name, value))) = (place, line.split_once(" = ")) {
+            assert!(!why.is_empty(), "Cargo.toml does not say why there is {name}");
+            let version = value.split('"').nth(1).unwrap_or_default();
+            let _ = writeln!(table, "| {name} | {version} | {} | {place} |", cell(&std::mem::take(&mut why)));
+        }
+    }
+    table
+}
+
+/// `readme` with the text between the marks of `name` replaced.
+fn replaced(readme: &str, name: &str, table: &str) -> String {
+    let (begin, end) = (format!("<!-- generated: {name} -->\n"), format!("<!-- end of {name} -->"));
+    let from = readme.find(&begin).unwrap_or_else(|| panic!("README.md has no {begin}")) + begin.len();
+    let to = from + readme[from..].find(&end).unwrap_or_else(|| panic!("README.md has no {end}"));
+    format!("{}\n{}\n{}", &readme[..from], table.trim_end(), &readme[to..])
+}
+
+/// Law: what the README says of columns and dependencies is what the source says.
+#[test]
+fn the_generated_tables_are_up_to_date() {
+    let written = text("README.md");
+    let mut readme = written.clone();
+    for (name, table) in
+        [("columns", columns_of_rows()), ("series", columns_of_series()), ("dependencies", dependencies())]
+    {
+        readme = replaced(&readme, name, &table);
+    }
+    if std::env::var_os(WRITE).is_some() {
+        std::fs::write(root().join("README.md"), readme).expect("the README can be written");
+    } else {
+        assert!(readme == written, "README.md is stale: {WRITE}=1 cargo test --release --test readme");
+    }
+    let stale = written.replacen("| `sample_id` |", "| `sample` |", 1);
+    assert_ne!(replaced(&stale, "columns", &columns_of_rows()), stale, "a stale table is noticed");
+}
+
+/// Law: every name that a user writes or reads stands in the README.
+#[test]
+fn the_readme_knows_every_name() {
+    let readme = text("README.md");
+    let command = Arguments::command();
+    let mut names: Vec<String> = vec![".ci/run".to_owned(), "cargo test --release".to_owned()];
+    for command in command.get_subcommands() {
+        names.push(format!("`{}", command.get_name()));
+        names
+            .extend(command.get_arguments().filter_map(|argument| argument.get_long()).map(|long| format!("--{long}")));
+    }
+    names.extend(Method::ALL.map(|method| format!("`{}`", method.name())));
+    names.extend(Status::ALL.map(|status| format!("`{}`", status.name())));
+    for file in std::fs::read_dir(root().join("campaigns")).expect("a folder of campaigns") {
+        names.push(file.expect("an entry").file_name().to_string_lossy().into_owned());
+    }
+    names.retain(|name| !readme.contains(name.as_str()));
+    assert!(names.is_empty(), "README.md does not mention {names:?}");
+}

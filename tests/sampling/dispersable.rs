@@ -1,0 +1,190 @@
+//! Every number that can be dispersed changes the motion, in both kernels alike, and what is recorded is what was applied.
+//!
+//! Law: a draw of one key moves the states away from the nominal ones by far more than the tolerance, and the report's form and
+//! the gyrostat agree on where to. The keys come from the table of parameters: a new one is tested as soon as it is there.
+
+use crate::support::runs::{adaptive, everything, propagate, relative, up_to_sign};
+use crate::support::scenes::{Kind, misaligned, random};
+use spindrift::math::Isa;
+use spindrift::observables::{Group, Observer, Request};
+use spindrift::propagation::Method;
+use spindrift::run::Status;
+use spindrift::run::state_table::{Grid, StateField, StateTable};
+use spindrift::sampling::dispersions::Draws;
+use spindrift::sampling::{Design, Dispersion, DispersionError, Dispersions, Law, SampleId, Spread, Values};
+use spindrift::scene::parameter::Kind as ParameterKind;
+use spindrift::scene::{DebrisInput, Parameter, PrincipalInertia, PrincipalMoments, Scene, SceneInput};
+
+/// Horizon, s.
+const HORIZON: f64 = 1.0;
+/// Tolerance of both kernels; a step of the report's form may add it a few hundred times.
+const TOLERANCE: f64 = 1e-11;
+/// Distance of two kernels at this tolerance; measured at most 2e-11.
+const AGREED: f64 = 2e-10;
+/// Distance that a change must make: ten times what the kernels may differ by.
+const CHANGED: f64 = 10.0 * AGREED;
+/// Standard deviation of a draw, relative to the nominal, or absolute where that is zero.
+const SPREAD: f64 = 1e-3;
+
+/// Scenes in one of which every key exists: forced, with both wheels, general in all else.
+fn variants() -> Vec<SceneInput> {
+    let kind = |debris| Kind { wheels: [true; 2], debris, products: true, offset: true, forced: true };
+    let scene = |debris| misaligned(random(kind(debris), 11, HORIZON), 11);
+    let axes = [0.5, 0.1, -0.7, 0.5];
+    let principal = |moments| Some(PrincipalInertia { moments, axes });
+    let mut by_moments = scene(1);
+    by_moments.fuselage.inertia_kg_m2 = None;
+    by_moments.fuselage.principal = principal(PrincipalMoments::Inertia([1000.0, 1500.0, 1200.0]));
+    let mut by_second = by_moments.clone();
+    by_second.fuselage.principal = principal(PrincipalMoments::Second([300.0, 500.0, 900.0]));
+    // by geometry alone
+    let plain = random(Kind { products: false, offset: false, ..kind(2) }, 12, HORIZON);
+    let tensor = [[3.0, 0.2, -0.1], [0.2, 4.0, 0.3], [-0.1, 0.3, 5.0]];
+    let irregular = [
+        DebrisInput::Tensor { mass_kg: 20.0, inertia_kg_m2: tensor },
+        DebrisInput::Principal {
+            mass_kg: 20.0,
+            principal: principal(PrincipalMoments::Inertia([3.0, 4.0, 5.0])).expect("some"),
+        },
+        DebrisInput::Principal {
+            mass_kg: 20.0,
+            principal: principal(PrincipalMoments::Second([3.0, 4.0, 5.0])).expect("some"),
+        },
+    ];
+    let mut list = vec![plain, scene(1), scene(2), by_moments, by_second];
+    list.extend(irregular.map(|debris| SceneInput { debris: Some(debris), ..scene(1) }));
+    for input in &mut list {
+        for q in [&mut input.initial.attitude, &mut input.initial.debris_attitude] {
+            let norm = q.iter().map(|x| x * x).sum::<f64>().sqrt();
+            q.iter_mut().for_each(|x| *x /= norm);
+        }
+    }
+    list
+}
+
+/// The scene in which `parameter` is to be tested: its geometry counts where no other key overrides it.
+fn nominal_for(parameter: Parameter, variants: &[SceneInput]) -> &SceneInput {
+    variants
+        .iter()
+        .find(|scene| parameter.exists(scene, 0))
+        .unwrap_or_else(|| panic!("no scene has {}", parameter.name()))
+}
+
+/// What is known of a run: its states, and the energies in its row (a cube turns alike whatever it weighs).
+struct Motion {
+    table: StateTable,
+    energies: Vec<f64>,
+}
+
+/// The motion of a scene by a method.
+fn motion(method: Method, input: &SceneInput) -> Motion {
+    let scene = Scene::resolve(input).unwrap_or_else(|errors| panic!("{}", errors[0]));
+    let grid = Grid::uniform(HORIZON, 5);
+    let tolerance = if method == Method::Taylor { 1e-16 } else { TOLERANCE };
+    let run = propagate(method, adaptive(tolerance), &grid, std::slice::from_ref(&scene)).remove(0);
+    assert_eq!(run.outcome.status, Status::Done);
+    let groups = [Group::Energies, Group::EnergiesCom].into_iter().collect();
+    let request = Request { groups, debris: true, actuated: true, constrained: method == Method::NullSpace };
+    let mut observer = Observer::new(request, &grid);
+    let mut row = vec![f64::NAN; request.columns().len()];
+    observer.observe(Isa::best(), &scene, &run.table, &run.outcome, &mut row);
+    let is_energy = |name: &str| name.ends_with("_initial_j") || name.ends_with("_final_j");
+    let energies = request.columns().iter().zip(row).filter(|(c, _)| is_energy(c.name)).map(|(_, x)| x).collect();
+    Motion { table: run.table, energies }
+}
+
+/// The largest distance of any state at any point, or of an energy, relative to its size.
+fn distance(found: &Motion, expected: &Motion) -> f64 {
+    assert!(found.energies.len() == expected.energies.len() && found.energies.len() >= 8);
+    let pairs = found.energies.iter().zip(&expected.energies);
+    let mut worst = pairs.map(|(a, b)| relative([*a], [*b])).fold(0.0, f64::max);
+    let (found, expected) = (&found.table, &expected.table);
+    for block in StateField::ALL.into_iter().filter(|block| everything(Method::Taylor).contains(*block)) {
+        for point in 0..expected.points() {
+            macro_rules! off {
+                ($width:literal) => {
+                    relative::<$width>(found.at(block, point), expected.at(block, point))
+                };
+            }
+            worst = worst.max(match block {
+                StateField::Attitude | StateField::DebrisAttitude => {
+                    up_to_sign(found.at(block, point), expected.at(block, point))
+                }
+                _ if block.width() == 2 => off!(2),
+                _ => off!(3),
+            });
+        }
+    }
+    worst
+}
+
+/// Random draws of `disperse` about `nominal`.
+fn dispersions(nominal: &SceneInput, disperse: &[Dispersion]) -> Result<Dispersions, Vec<DispersionError>> {
+    let design = &Design::Random;
+    let draws = Draws { seed: 3, samples: Some(2), design, disperse, correlate: &[], derive: &[] };
+    Dispersions::new(draws, nominal)
+}
+
+/// Sample 1 of `component` of `parameter` about `nominal`: the scene, and what was recorded.
+fn drawn(parameter: Parameter, component: usize, nominal: &SceneInput) -> (SceneInput, Vec<(Parameter, usize, f64)>) {
+    let value = parameter.value(nominal, component).expect("the key exists");
+    let std = SPREAD * if value == 0.0 { 1.0 } else { value.abs() };
+    let law = Law::Normal(Spread::Absolute(Values::All(std)));
+    let list = [Dispersion { parameter, component: Some(component), law }];
+    let drawn = dispersions(nominal, &list).unwrap_or_else(|errors| panic!("{}", errors[0]));
+    let (mut scene, mut applied) = (nominal.clone(), vec![f64::NAN; drawn.columns().len()]);
+    drawn.sampler().draw(SampleId(1), &mut scene, &mut applied);
+    let recorded = drawn.columns().iter().zip(applied).map(|(c, x)| (c.parameter, c.component, x)).collect();
+    (scene, recorded)
+}
+
+#[test]
+fn every_key_moves_the_motion_and_both_kernels_agree_where_to() {
+    let variants = variants();
+    let nominal_motions: Vec<Motion> = variants.iter().map(|input| motion(Method::Taylor, input)).collect();
+    let (mut least, mut most, mut count) = (f64::INFINITY, 0.0_f64, 0);
+    for parameter in Parameter::all() {
+        let nominal = nominal_for(parameter, &variants);
+        let place = variants.iter().position(|scene| std::ptr::eq(scene, nominal)).expect("one of them");
+        for component in 0..parameter.width() {
+            let name = parameter.component_name(component);
+            let (scene, recorded) = drawn(parameter, component, nominal);
+            let whole = parameter.kind() == ParameterKind::Quaternion;
+            assert_eq!(recorded.len(), if whole { 4 } else { 1 }, "{name}");
+            for (parameter, component, value) in recorded {
+                assert_eq!(
+                    parameter.value(&scene, component),
+                    Some(value),
+                    "{name}: what is recorded is what is there"
+                );
+            }
+            assert_ne!(parameter.value(&scene, component), parameter.value(nominal, component), "{name}");
+            let taylor = motion(Method::Taylor, &scene);
+            let moved = distance(&taylor, &nominal_motions[place]);
+            let agreed = distance(&motion(Method::NullSpace, &scene), &taylor);
+            println!("{name:50} moved {moved:8.1e}, kernels apart {agreed:8.1e}");
+            assert!(moved > CHANGED, "{name}: {moved:e}");
+            assert!(agreed < AGREED, "{name}: {agreed:e}");
+            (least, most, count) = (least.min(moved), most.max(agreed), count + 1);
+        }
+    }
+    println!("{count} components: moved by at least {least:e}; kernels at most {most:e} apart");
+    assert!(count > 100, "{count}");
+}
+
+/// Counter-test: a key that an override hides changes nothing; the comparison says so, and a dispersion of it is refused.
+#[test]
+fn a_key_without_effect_is_seen_and_refused() {
+    let hidden = &variants()[1];
+    assert!(hidden.fuselage.mass_kg.is_some() && hidden.fuselage.inertia_kg_m2.is_some());
+    let nominal = motion(Method::Taylor, hidden);
+    let mut denser = hidden.clone();
+    denser.fuselage.density_kg_m3 *= 1.1;
+    assert_eq!(distance(&motion(Method::Taylor, &denser), &nominal), 0.0);
+    for name in ["fuselage.density_kg_m3", "fuselage.wall_thickness_m", "fuselage.outer_radius_m"] {
+        let parameter = Parameter::find(name).expect("in the table").0;
+        let law = Law::Normal(Spread::Relative(Values::All(SPREAD)));
+        let errors = dispersions(hidden, &[Dispersion { parameter, component: None, law }]).expect_err("hidden");
+        assert!(errors[0].to_string().contains("override"), "{}", errors[0]);
+    }
+}

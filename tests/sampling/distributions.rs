@@ -1,0 +1,166 @@
+//! Laws of one number: quantiles against a published implementation, and draws against their distribution functions.
+//!
+//! Statistical tests state H0, n, alpha and power; seeds are fixed, so their outcome is.
+
+use serde_json::Value;
+use spindrift::sampling::beta::BetaLaw;
+use spindrift::sampling::discrete::{Choice, Empirical};
+use spindrift::sampling::distribution::TruncatedNormal;
+use spindrift::sampling::normal::probability;
+use spindrift::sampling::{Distribution, Interpolation, SampleId, Stream};
+
+/// The law that a row of the golden table names.
+fn law(name: &str, p: &[f64]) -> Distribution {
+    match name {
+        "normal" => Distribution::Normal { mean: p[0], std: p[1] },
+        "uniform" => Distribution::Uniform { min: p[0], max: p[1] },
+        "log_normal" => Distribution::LogNormal { median: p[0], log_std: p[1] },
+        "log_uniform" => Distribution::log_uniform(p[0], p[1]),
+        "triangular" => Distribution::Triangular { min: p[0], mode: p[1], max: p[2] },
+        "beta" => Distribution::Beta(BetaLaw::new(p[0], p[1], p[2], p[3])),
+        "pert" => Distribution::Beta(BetaLaw::pert(p[0], p[1], p[2])),
+        "truncated_normal" => Distribution::TruncatedNormal(
+            TruncatedNormal::new(p[0], p[1], p[2], p[3]).expect("mass between the bounds"),
+        ),
+        other => panic!("{other}"),
+    }
+}
+
+/// Relative difference of two implementations that are both good to a few units in the last place of the number that they
+/// compute; a difference of large numbers (a normal value near its mean) is measured against the law's own width.
+const AGREEMENT: f64 = 1e-12;
+
+/// scipy's quantiles of the smooth laws, in both tails and at the seams of the approximations.
+#[test]
+fn quantiles_are_those_of_scipy() {
+    let golden: Value = serde_json::from_str(include_str!("../golden/quantiles.json")).expect("JSON");
+    let rows = golden["rows"].as_array().expect("rows");
+    assert!(rows.len() > 250);
+    let mut wrong = Vec::new();
+    for row in rows {
+        let name = row["law"].as_str().expect("a name");
+        let parameters: Vec<f64> = row["parameters"].as_array().expect("parameters").iter().map(number).collect();
+        let (u, value) = (number(&row["u"]), number(&row["value"]));
+        let law = law(name, &parameters);
+        let ours = law.quantile(u);
+        let scale = match name {
+            "normal" | "truncated_normal" => value.abs().max(parameters[1]),
+            _ => value.abs(),
+        };
+        let error = (ours - value).abs() / scale;
+        if error > AGREEMENT {
+            wrong.push(format!("{name} {parameters:?} at {u:e}: {ours:e}, scipy {value:e}, relative {error:.1e}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{} of {}\n{}", wrong.len(), rows.len(), wrong.join("\n"));
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or(f64::INFINITY)
+}
+
+/// Number of draws and critical value of each Kolmogorov-Smirnov test: alpha = 1e-3 gives sqrt(n) D < 1.949. H0: the draws follow
+/// the law. Power: a distribution function that is off by 0.01 somewhere gives sqrt(n) D = 4.5 there, with a standard deviation
+/// of at most 0.5: missed with probability < 1e-6. The counter-test shows it for laws with a parameter slightly off.
+const N: usize = 200_000;
+const CRITICAL: f64 = 1.949;
+
+fn draws(law: &Distribution) -> Vec<f64> {
+    let mut stream = Stream::new(11, "laws");
+    let mut values: Vec<f64> = (0..N as u64).map(|k| law.quantile(stream.uniform(SampleId(k)))).collect();
+    values.sort_by(f64::total_cmp);
+    values
+}
+
+/// sqrt(n) times the largest distance between empirical and given distribution function; `values` sorted.
+fn distance(values: &[f64], law: impl Fn(f64) -> f64) -> f64 {
+    let n = values.len() as f64;
+    let far = values.iter().enumerate().fold(0.0f64, |far, (k, x)| {
+        let p = law(*x);
+        far.max((p - k as f64 / n).abs()).max(((k + 1) as f64 / n - p).abs())
+    });
+    far * n.sqrt()
+}
+
+/// Distribution functions written independently of the quantiles.
+#[test]
+fn draws_follow_their_laws() {
+    let log_normal = |median: f64| move |x: f64| probability((x / median).ln() / 0.4);
+    let values = draws(&Distribution::LogNormal { median: 2.5, log_std: 0.4 });
+    assert!(distance(&values, log_normal(2.5)) < CRITICAL);
+    assert!(distance(&values, log_normal(2.5 * 1.02)) > CRITICAL, "a median off by 2% is found");
+
+    let values = draws(&Distribution::log_uniform(0.1, 10.0));
+    assert!(distance(&values, |x| (x / 0.1).ln() / 100f64.ln()) < CRITICAL);
+    assert!(distance(&values, |x| (x / 0.1).ln() / 103f64.ln()) > CRITICAL, "an end off by 3% is found");
+
+    let triangle = |mode: f64| {
+        move |x: f64| {
+            if x < mode {
+                (x - 1.0).powi(2) / (3.0 * (mode - 1.0))
+            } else {
+                1.0 - (4.0 - x).powi(2) / (3.0 * (4.0 - mode))
+            }
+        }
+    };
+    let values = draws(&Distribution::Triangular { min: 1.0, mode: 1.5, max: 4.0 });
+    assert!(distance(&values, triangle(1.5)) < CRITICAL);
+    assert!(distance(&values, triangle(1.55)) > CRITICAL, "a mode off by 2% of the width is found");
+
+    // I_x(2, 3) = x^2 (6 - 8 x + 3 x^2)
+    let beta = |x: f64| x * x * (6.0 - 8.0 * x + 3.0 * x * x);
+    assert!(distance(&draws(&Distribution::Beta(BetaLaw::new(2.0, 3.0, 0.0, 1.0))), beta) < CRITICAL);
+    assert!(distance(&draws(&Distribution::Beta(BetaLaw::new(2.0, 3.06, 0.0, 1.0))), beta) > CRITICAL);
+    // PERT from 0 to 4 with mode 4/3: shapes 1 + 4/3 and 1 + 8/3; with mode 1: 2 and 4, I_x(2, 4) = 1 - (1-x)^4 (1 + 4 x)
+    let pert = |x: f64| 1.0 - (1.0 - x / 4.0).powi(4) * (1.0 + x);
+    assert!(distance(&draws(&Distribution::Beta(BetaLaw::pert(0.0, 1.0, 4.0))), pert) < CRITICAL);
+
+    let lines = Empirical::new(&[0.0, 1.0, 3.0], Interpolation::Linear);
+    let values = draws(&Distribution::Empirical(lines));
+    assert!(distance(&values, |x| if x < 1.0 { x / 2.0 } else { 0.5 + (x - 1.0) / 4.0 }) < CRITICAL);
+}
+
+/// H0: each value is drawn with its weight. Chi-square with 3 degrees of freedom, n = 200,000, alpha = 1e-3: critical 16.27. Power:
+/// a weight of 0.4 that is 0.41 instead shifts the statistic by n 0.01^2/0.4 and more = 50 (noncentral), missed with
+/// probability < 1e-3.
+#[test]
+fn listed_values_come_in_proportion() {
+    let counted = |weights: &[f64; 4]| {
+        let values = draws(&Distribution::Choice(Choice::new(&[4.0, 1.0, 3.0, 2.0], weights)));
+        let count = |value: f64| values.iter().filter(|x| **x == value).count() as f64;
+        let expected = [0.1, 0.4, 0.2, 0.3].map(|weight| weight * N as f64);
+        let counts = [count(4.0), count(1.0), count(3.0), count(2.0)];
+        assert_eq!(counts.iter().sum::<f64>(), N as f64);
+        counts.iter().zip(expected).map(|(count, expected)| (count - expected).powi(2) / expected).sum::<f64>()
+    };
+    const CRITICAL: f64 = 16.27;
+    assert!(counted(&[1.0, 4.0, 2.0, 3.0]) < CRITICAL);
+    assert!(counted(&[1.0, 4.1, 2.0, 2.9]) > CRITICAL, "a weight that is off is found");
+    // Bernoulli is a choice of two; and an empirical law without interpolation gives every value its share
+    let values = draws(&Distribution::Empirical(Empirical::new(&[1.0, 2.0, 2.0, 5.0], Interpolation::None)));
+    let twos = values.iter().filter(|x| **x == 2.0).count() as f64;
+    assert!((twos / N as f64 - 0.5).abs() < 3.29 * 0.5 / (N as f64).sqrt());
+}
+
+/// Law: every quantile rises with u, so that a rank correlation laid between u is one of values, and is finite at both ends of u.
+#[test]
+fn quantiles_rise() {
+    let mut laws: Vec<Distribution> = vec![
+        Distribution::LogNormal { median: 2.5, log_std: 0.4 },
+        Distribution::log_uniform(0.1, 10.0),
+        Distribution::Triangular { min: 1.0, mode: 4.0, max: 4.0 },
+        Distribution::Choice(Choice::new(&[4.0, 1.0], &[0.25, 0.75])),
+        Distribution::Empirical(Empirical::new(&[3.0, 1.0, 2.0], Interpolation::None)),
+    ];
+    for (a, b) in [(0.01, 0.01), (0.01, 1e4), (1e4, 0.01), (1e4, 1e4), (1.0, 3.0), (0.5, 0.02)] {
+        laws.push(Distribution::Beta(BetaLaw::new(a, b, -1.0, 2.0)));
+    }
+    for law in laws {
+        let ends = [f64::EPSILON / 2.0, 1e-12, 1e-3];
+        let u: Vec<f64> = ends.into_iter().chain((1..100).map(|k| f64::from(k) / 100.0)).collect();
+        let mut values: Vec<f64> = u.iter().map(|u| law.quantile(*u)).collect();
+        values.extend(ends.iter().rev().map(|end| law.quantile(1.0 - end)));
+        assert!(values.iter().all(|x| x.is_finite()), "{law:?}: {values:?}");
+        assert!(values.is_sorted(), "{law:?}: {values:?}");
+    }
+}

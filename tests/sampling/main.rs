@@ -1,0 +1,11 @@
+//! Draws: streams, distributions, designs, dependence.
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod dependence;
+mod designs;
+mod dispersable;
+mod distributions;
+mod geometric;
+mod streams;
