@@ -35,7 +35,7 @@ use spindrift::propagation::Engine;
 use spindrift::propagation::Method;
 use spindrift::propagation::PropagationSettings;
 use spindrift::propagation::taylor::step::StepRule;
-use spindrift::run::state_table::{Grid, StateField, StateFields};
+use spindrift::run::{Grid, StateField, StateFields};
 use spindrift::sampling::SampleId;
 use spindrift::scene::Scene;
 

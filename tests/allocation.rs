@@ -16,7 +16,7 @@ use spindrift::observables::{Groups, Observer, Request};
 use spindrift::ode::Control;
 use spindrift::propagation::Method;
 use spindrift::propagation::PropagationSettings;
-use spindrift::run::state_table::Grid;
+use spindrift::run::Grid;
 use spindrift::sampling::SampleId;
 use spindrift::scene::Scene;
 use support::runs::{adaptive, everything, fixed};

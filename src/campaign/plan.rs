@@ -7,7 +7,7 @@ use super::spec::{LARGEST_SEED, MOST_SAMPLES, Spec};
 use crate::observables::Group;
 use crate::ode::Tolerance;
 use crate::propagation::Method;
-use crate::run::state_table::Grid;
+use crate::run::Grid;
 use crate::sampling::{Correlation, Derivation, Design, Dispersion, Dispersions, Draws, Table};
 use crate::scene::{Scene, SceneInput};
 use std::path::Path;

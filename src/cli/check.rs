@@ -11,8 +11,8 @@ use crate::dataset::rows_file::RowsFile;
 use crate::ensemble::{Auditor, Ensemble, Part, PartId, Parts, Rows};
 use crate::observables::Request;
 use crate::report::summary::short;
+use crate::run::StateField;
 use crate::run::Status;
-use crate::run::state_table::StateField;
 use crate::sampling::SampleId;
 use crate::scene::{MassProperties, Scene};
 

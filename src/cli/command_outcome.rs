@@ -3,7 +3,7 @@
 use std::process::ExitCode;
 
 use crate::cli::screen;
-use crate::run::outcome::Status;
+use crate::run::Status;
 
 /// A command that ran to its end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -12,8 +12,8 @@ use crate::math::Isa;
 use crate::report::energy_figure::energy_figure;
 use crate::report::plot::{PlotError, PlotFormat};
 use crate::report::summary::short;
+use crate::run::Grid;
 use crate::run::Status;
-use crate::run::state_table::Grid;
 use crate::sampling::SampleId;
 
 /// The columns on the screen: what fits, the rest is in the files.

@@ -16,7 +16,7 @@ use crate::dataset::columnar::{Cells, Content, Heading, Layout, Packing};
 use crate::dataset::rows_file::provenance;
 use crate::ensemble::SingleRun;
 use crate::math::vector::{cross, dcm_from_quaternion, difference, product};
-use crate::run::state_table::StateField;
+use crate::run::StateField;
 use crate::sampling::SampleId;
 
 /// Series of the observables that are not columns here: the total is the sum of its bodies.

@@ -11,7 +11,7 @@ use crate::math::lanes::WIDTH;
 use crate::math::sine::sin_cos_turns;
 use crate::math::vector::{constant, constant_quaternion, hamilton, scaled};
 use crate::math::{Lanes, Real};
-use crate::run::state_table::{Grid, StateField, StateTable, Trajectory};
+use crate::run::{Grid, StateField, StateTable, Trajectory};
 use crate::scene::Scene;
 use crate::scene::mass::Body;
 

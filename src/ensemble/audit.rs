@@ -19,11 +19,11 @@ use crate::propagation::Engine;
 use crate::propagation::Method;
 use crate::propagation::PropagationSettings;
 use crate::propagation::taylor::reference_solution::{self, ReferenceSolution};
+use crate::run::LocalErrors;
 use crate::run::Outcome;
 use crate::run::Status;
 use crate::run::StepStatistics;
-use crate::run::outcome::LocalErrors;
-use crate::run::state_table::{Grid, StateField, StateFields, StateTable};
+use crate::run::{Grid, StateField, StateFields, StateTable};
 use crate::sampling::{SampleId, Stream};
 use crate::scene::Scene;
 
@@ -222,7 +222,7 @@ impl Auditor {
                 found = (outcome.status == Status::Done).then(|| table.clone())
             });
         let high = found?;
-        let low = StateTable::new(high.blocks(), high.points());
+        let low = StateTable::new(high.fields(), high.points());
         Some((ReferenceSolution { high, low }, PLAIN_TOLERANCE))
     }
 }

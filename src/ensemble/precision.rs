@@ -22,7 +22,7 @@ use crate::propagation::PropagationSettings;
 use crate::propagation::taylor::reference_solution::{self, ReferenceSolution};
 use crate::run::Outcome;
 use crate::run::Status;
-use crate::run::state_table::{StateField, StateFields, StateTable};
+use crate::run::{StateField, StateFields, StateTable};
 use crate::sampling::SampleId;
 use crate::scene::Scene;
 

@@ -8,7 +8,7 @@ use crate::math::Isa;
 use crate::observables::{Group, Observer, Request, SeriesColumn};
 use crate::propagation::Method;
 use crate::run::Outcome;
-use crate::run::state_table::{Grid, StateField, StateFields, StateTable};
+use crate::run::{Grid, StateField, StateFields, StateTable};
 use crate::sampling::SampleId;
 use crate::scene::{Scene, SceneError};
 

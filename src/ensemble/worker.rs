@@ -11,7 +11,7 @@ use crate::ode::Control;
 use crate::propagation::Engine;
 use crate::propagation::Method;
 use crate::propagation::PropagationSettings;
-use crate::run::state_table::{Grid, StateFields};
+use crate::run::{Grid, StateFields};
 use crate::sampling::{SampleId, Sampler};
 use crate::scene::{Scene, SceneInput};
 

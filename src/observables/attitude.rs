@@ -5,7 +5,7 @@ use fearless_simd::Simd;
 use super::points::{Column, columns, constant_matrix, four, three};
 use crate::math::vector::{dcm_from_quaternion, dot};
 use crate::math::{Lanes, Real};
-use crate::run::state_table::{StateField, StateTable};
+use crate::run::{StateField, StateTable};
 
 /// Where C_es comes from: the DCM where the kernel integrates it, else the quaternion in its homogeneous form, so that an
 /// error of the norm shows in whatever is turned by it.

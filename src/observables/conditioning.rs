@@ -26,7 +26,7 @@
 //!
 //! Sizes are added, not signed numbers. Errors are taken to arise evenly along the run.
 //!
-//! Not here: what the method itself knows of its errors ([`crate::run::outcome::Outcome::local_errors`]).
+//! Not here: what the method itself knows of its errors ([`crate::run::Outcome::local_errors`]).
 
 use fearless_simd::Simd;
 
@@ -35,8 +35,8 @@ use super::rotor::{Body, acts, adjugate, largest_torque};
 use crate::math::lanes::WIDTH;
 use crate::math::vector::{constant, constant_matrix, cross, difference, dot, product, scaled, sum};
 use crate::math::{Lanes, Real};
-use crate::run::outcome::LocalErrors;
-use crate::run::state_table::{StateField, StateTable};
+use crate::run::LocalErrors;
+use crate::run::{StateField, StateTable};
 use crate::scene::Scene;
 
 /// Points of a run that are looked at, at most: enough for the closest approach to a separatrix to be met about as often as it

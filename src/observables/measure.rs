@@ -17,7 +17,7 @@ use super::series::Series;
 use crate::math::lanes::WIDTH;
 use crate::math::vector::{cross, difference, dot, scaled, transposed_product};
 use crate::math::{Lanes, Real};
-use crate::run::state_table::{StateField, StateTable};
+use crate::run::{StateField, StateTable};
 use crate::scene::mass::{Body, MassProperties, Wheel};
 
 /// The quadratic form of a symmetric matrix: coefficients of xx, yy, zz, xy, xz, yz.

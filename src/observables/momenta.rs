@@ -11,7 +11,7 @@ use super::series::Series;
 use crate::math::Lanes;
 use crate::math::lanes::WIDTH;
 use crate::math::vector::{dcm_from_quaternion, difference, dot, norm, product, scaled, sum};
-use crate::run::state_table::{StateField, StateTable};
+use crate::run::{StateField, StateTable};
 use crate::scene::mass::{Body, MassProperties};
 
 /// Where |balance - its first value| and |momentum|^2 of a momentum are written.

@@ -13,8 +13,8 @@ use super::series::{Series, SeriesColumn};
 use super::spectrum::Spectrum;
 use crate::math::Isa;
 use crate::math::isa::Work;
-use crate::run::outcome::{LocalErrors, Outcome, Status};
-use crate::run::state_table::{Grid, StateField, StateTable};
+use crate::run::{Grid, StateField, StateTable};
+use crate::run::{LocalErrors, Outcome, Status};
 use crate::scene::Scene;
 
 /// Swing of the fuselage's energy, relative to the total about the centre of mass, below which there is no exchange but only

@@ -8,7 +8,7 @@ use super::request::SeriesSet;
 use super::series::Series;
 use crate::math::lanes::WIDTH;
 use crate::math::{Lanes, Real};
-use crate::run::state_table::{StateField, StateTable};
+use crate::run::{StateField, StateTable};
 
 /// Eight neighbouring points of a component: all arithmetic here goes vector by vector, and columns cut to one common number of
 /// vectors need no check of bounds inside the loops.

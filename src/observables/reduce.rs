@@ -9,7 +9,7 @@ use fearless_simd::Simd;
 
 use crate::math::lanes::WIDTH;
 use crate::math::{Lanes, Real};
-use crate::run::state_table::Grid;
+use crate::run::Grid;
 
 /// What of the grid enters the reductions, with zeros in the padding.
 #[derive(Clone, Debug)]

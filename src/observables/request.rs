@@ -4,7 +4,7 @@ use super::columns::{self, Column, Value, When};
 use super::columns::{DirectValue, Statistic};
 use super::group::{Group, Groups};
 use super::series::{PUBLISHED, Series, SeriesColumn};
-use crate::run::state_table::{StateField, StateFields};
+use crate::run::{StateField, StateFields};
 
 /// What is asked for, and what kind of scene it is asked of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 
 use crate::math::Real;
 use crate::math::vector::{cross, difference, dot, product, scaled, sum};
-use crate::run::state_table::{StateField, StateTable};
+use crate::run::{StateField, StateTable};
 use crate::scene::Scene;
 use crate::scene::mass::MassProperties;
 

@@ -3,7 +3,7 @@
 //! Columns of a row are statistics of these; `simulate` writes those that have a [`SeriesColumn`] as they are. One code for both.
 
 use super::request::Request;
-use crate::run::state_table::StateField;
+use crate::run::StateField;
 
 /// A quantity at every observation point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

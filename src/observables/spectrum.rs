@@ -13,7 +13,7 @@ use fearless_simd::Simd;
 
 use crate::math::lanes::WIDTH;
 use crate::math::{Lanes, Real};
-use crate::run::state_table::Grid;
+use crate::run::Grid;
 
 /// Fewest points from which a frequency is told.
 const FEWEST: usize = 8;

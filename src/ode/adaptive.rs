@@ -10,7 +10,7 @@ use super::step_control::{Control, flag, raised, shortest_step};
 use super::workspace::{LoadedRun, Workspace};
 use super::{Runs, System};
 use crate::math::Real;
-use crate::run::state_table::{Grid, Trajectory};
+use crate::run::{Grid, Trajectory};
 use crate::run::{Outcome, Status, StepStatistics};
 
 /// What counts as the error of a step in which something is not finite: the strongest cut that a controller knows.

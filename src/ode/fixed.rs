@@ -12,7 +12,7 @@ use super::{Runs, System, Tolerance};
 use crate::math::Real;
 use crate::propagation::local_error;
 use crate::propagation::local_error::Remainder;
-use crate::run::state_table::{Grid, Trajectory};
+use crate::run::{Grid, Trajectory};
 use crate::run::{Outcome, Status, StepStatistics};
 
 /// Steps per stretch where the campaign names no step.

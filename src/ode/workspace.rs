@@ -4,8 +4,8 @@
 
 use super::Runs;
 use crate::math::Real;
-use crate::run::outcome::LocalErrors;
-use crate::run::state_table::{Grid, Trajectory};
+use crate::run::LocalErrors;
+use crate::run::{Grid, Trajectory};
 use crate::run::{Outcome, Status, StepStatistics};
 
 /// What a worker owns and reuses from march to march: one trajectory per lane.

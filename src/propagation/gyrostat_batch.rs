@@ -9,7 +9,7 @@ use super::settings::{PropagationSettings, observes_debris_rotation};
 use crate::dynamics::debris;
 use crate::dynamics::gyrostat::completion::complete;
 use crate::dynamics::gyrostat::{Gyrostat, WITH_ATTITUDE};
-use crate::run::state_table::{Grid, StateTable, Trajectory};
+use crate::run::{Grid, StateTable, Trajectory};
 use crate::scene::Scene;
 
 /// A batch's runs in buffers that are reused.

@@ -7,8 +7,8 @@ use super::taylor::jet::{Reciprocals, Scratch, expand};
 use crate::dynamics::gyrostat::equations::Constants;
 use crate::dynamics::gyrostat::{ATTITUDE, Gyrostat, OMEGA, WITH_ATTITUDE};
 use crate::math::vector::{scaled, sum};
-use crate::run::outcome::{LocalErrors, Outcome};
-use crate::run::state_table::{Grid, Trajectory};
+use crate::run::{Grid, Trajectory};
+use crate::run::{LocalErrors, Outcome};
 
 /// Error model of a method that estimates the error of each step.
 #[derive(Clone, Copy, Debug, PartialEq)]

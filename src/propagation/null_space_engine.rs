@@ -8,7 +8,7 @@ use crate::dynamics::null_space::{COMPONENTS, complete};
 use crate::ode::adaptive;
 use crate::ode::embedded::DormandPrinceRestepped;
 use crate::ode::workspace::Workspace;
-use crate::run::state_table::StateTable;
+use crate::run::StateTable;
 use crate::scene::Scene;
 
 /// One worker's memory.

@@ -12,8 +12,8 @@ use crate::ode::fixed::FixedStep;
 use crate::ode::step_control::Control;
 use crate::ode::workspace::Workspace;
 use crate::ode::{Runs, adaptive, fixed};
-use crate::run::outcome::Outcome;
-use crate::run::state_table::{Grid, StateTable, Trajectory};
+use crate::run::Outcome;
+use crate::run::{Grid, StateTable, Trajectory};
 use crate::scene::Scene;
 
 /// A method together with its march.

@@ -17,8 +17,8 @@ use crate::ode::embedded::{Dop853, DormandPrince};
 use crate::ode::fixed::RungeKutta4;
 use crate::ode::gauss_legendre::GaussLegendre;
 use crate::ode::step_control::Control;
-use crate::run::outcome::Outcome;
-use crate::run::state_table::{Grid, StateField, StateFields, StateTable};
+use crate::run::Outcome;
+use crate::run::{Grid, StateField, StateFields, StateTable};
 use crate::scene::Scene;
 
 /// What a campaign's runs have in common: how they are integrated and what of them is kept.

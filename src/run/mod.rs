@@ -1,7 +1,18 @@
-//! Layer 1: what a run consists of: the observation grid, the state table, how it ended and what it cost.
+//! Layer 1: what a run consists of.
+//!
+//! - [`Grid`]: the observation times.
+//! - [`StateTable`]: the physical states at these times, by [`StateField`].
+//! - [`Trajectory`]: the components that a method integrates, from which a kernel completes the table.
+//! - [`Outcome`]: how a run ended, what it cost, and the estimate of its errors.
 
-pub mod outcome;
-pub mod state_table;
+mod grid;
+mod outcome;
+mod state_field;
+mod state_table;
+mod trajectory;
 
+pub use grid::Grid;
 pub use outcome::{LocalErrors, Outcome, Status, StepStatistics};
-pub use state_table::{Grid, StateField, StateFields, StateTable, Trajectory};
+pub use state_field::{StateField, StateFields};
+pub use state_table::StateTable;
+pub use trajectory::Trajectory;

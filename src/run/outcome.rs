@@ -5,13 +5,13 @@
 pub enum Status {
     /// Reached the end of its horizon.
     Done,
-    /// Gave up after the largest allowed number of steps.
+    /// Reached the maximum number of steps before the end of its horizon.
     StepLimit,
-    /// The step that the tolerance asks for is below what the time's last digits can hold.
+    /// The step that the tolerance requires is below the resolution of the time in floating point.
     StepFloor,
-    /// A state component stopped being a finite number.
+    /// A state component became infinite or not a number.
     NonFinite,
-    /// The drawn scene is physically impossible; nothing was integrated.
+    /// The sampled scene is physically impossible; nothing was integrated.
     InvalidSample,
 }
 
@@ -46,27 +46,27 @@ pub struct StepStatistics {
 /// How a run ended, when, and what it cost.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outcome {
-    /// How.
+    /// How it ended.
     pub status: Status,
-    /// The time that was reached, s: the duration where the status is [`Status::Done`].
+    /// The time that was reached, s: the duration if the status is [`Status::Done`].
     pub time: f64,
-    /// Number of observation points that were filled, from the first; all where the status is [`Status::Done`].
+    /// Number of observation points that were filled, counted from the first: all if the status is [`Status::Done`].
     pub points: usize,
     /// What it cost.
     pub effort: StepStatistics,
-    /// The errors that the method reckons to have made on the way.
+    /// Estimate of the errors that the method made.
     pub local_errors: LocalErrors,
 }
 
-/// Errors of the rotational state that a method reckons to have made on its way, added up as if all pointed the same way, before
-/// the motion amplifies them. Of omega they are relative to the largest |omega|. Estimates, by what they go with.
+/// Estimated errors of the rotational state from all steps of a run, added as if all had the same direction, before the motion
+/// amplifies them. Those of omega are relative to the maximum of |omega|. They are separated by what they are proportional to.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LocalErrors {
-    /// Of omega, in proportion to how fast it changes: truncation.
+    /// Of omega, proportional to its rate of change: truncation.
     pub truncation: f64,
-    /// Of omega, in proportion to its components: rounding.
+    /// Of omega, proportional to its components: rounding.
     pub rounding: f64,
-    /// Of omega, wherever it stands: of a kernel whose other states feed back into it.
+    /// Of omega, in any direction: from kernels whose other states feed back into it.
     pub feedback: f64,
     /// Of the attitude alone, rad: truncation, rounding and dense output.
     pub attitude: f64,

@@ -14,7 +14,7 @@ use spindrift::propagation::Method;
 use spindrift::propagation::PropagationSettings;
 use spindrift::propagation::taylor::reference_solution::ReferenceSolution;
 use spindrift::run::Status;
-use spindrift::run::state_table::{Grid, StateField};
+use spindrift::run::{Grid, StateField};
 use spindrift::scene::{DebrisInput, Scene, SceneInput, WheelMode};
 
 const SECTION: &str = "accuracy_claims";

@@ -5,7 +5,7 @@ use crate::support::scenes::{Kind, random};
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::math::vector::{difference, norm};
 use spindrift::propagation::Method;
-use spindrift::run::state_table::{Grid, StateField};
+use spindrift::run::{Grid, StateField};
 use spindrift::sampling::SampleId;
 use spindrift::scene::{ActuatorsInput, DebrisInput, MassErrors, PrincipalInertia, PrincipalMoments, Scene};
 

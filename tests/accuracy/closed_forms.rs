@@ -14,7 +14,7 @@ use spindrift::math::{Isa, Real};
 use spindrift::propagation::Method;
 use spindrift::propagation::PropagationSettings;
 use spindrift::run::Status;
-use spindrift::run::state_table::{Grid, StateField, StateTable};
+use spindrift::run::{Grid, StateField, StateTable};
 use spindrift::scene::{Scene, SceneInput, WheelInput, WheelMode};
 
 const SECTION: &str = "closed_forms";

@@ -10,7 +10,7 @@ use spindrift::math::vector::norm;
 use spindrift::propagation::Method;
 use spindrift::run::Outcome;
 use spindrift::run::Status;
-use spindrift::run::state_table::{Grid, StateField, StateTable};
+use spindrift::run::{Grid, StateField, StateTable};
 use spindrift::scene::{Scene, SceneInput};
 
 /// Horizon, s: up to three turns of the body and twenty of a wheel, many steps of every method.

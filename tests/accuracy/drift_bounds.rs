@@ -24,8 +24,8 @@ use spindrift::ode::Tolerance;
 use spindrift::propagation::Method;
 use spindrift::propagation::NullSpaceRuns;
 use spindrift::propagation::PropagationSettings;
+use spindrift::run::Grid;
 use spindrift::run::Status;
-use spindrift::run::state_table::Grid;
 use spindrift::sampling::SampleId;
 use spindrift::scene::Scene;
 

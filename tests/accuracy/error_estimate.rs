@@ -21,7 +21,7 @@ use spindrift::propagation::Method;
 use spindrift::propagation::PropagationSettings;
 use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE};
 use spindrift::run::Status;
-use spindrift::run::state_table::{Grid, StateField, StateFields, StateTable};
+use spindrift::run::{Grid, StateField, StateFields, StateTable};
 use spindrift::sampling::SampleId;
 use spindrift::scene::Scene;
 

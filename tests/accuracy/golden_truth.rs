@@ -11,7 +11,7 @@ use spindrift::observables::{Groups, Observer, Request};
 use spindrift::ode::Control;
 use spindrift::propagation::Method;
 use spindrift::run::Status;
-use spindrift::run::state_table::{Grid, StateField};
+use spindrift::run::{Grid, StateField};
 use spindrift::scene::Scene;
 
 /// The largest error at any golden time, relative to the truth (at least to one in its unit).

@@ -14,7 +14,7 @@ use spindrift::dynamics::null_space::{
 use spindrift::ode::Runs;
 use spindrift::ode::System;
 use spindrift::propagation::NullSpaceRuns;
-use spindrift::run::state_table::{Grid, StateField, StateFields, StateTable, Trajectory};
+use spindrift::run::{Grid, StateField, StateFields, StateTable, Trajectory};
 use spindrift::scene::{Actuation, DebrisInput, Scene, SceneInput};
 
 /// Rates of random scenes, relative to the size of their terms: a few hundred roundings, some through M-hat's condition (< 1e4).

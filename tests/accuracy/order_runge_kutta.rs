@@ -6,8 +6,8 @@ use spindrift::ode::Tolerance;
 use spindrift::ode::embedded::{Dop853, DormandPrince};
 use spindrift::ode::fixed::RungeKutta4;
 use spindrift::ode::gauss_legendre::GaussLegendre;
+use spindrift::run::Grid;
 use spindrift::run::Status;
-use spindrift::run::state_table::Grid;
 
 /// What a measured order may differ from the stated one.
 const ORDER_SLACK: f64 = 0.3;

@@ -5,8 +5,8 @@ use spindrift::ode::Control;
 use spindrift::ode::embedded::{Dop853, DormandPrince};
 use spindrift::ode::fixed::RungeKutta4;
 use spindrift::ode::gauss_legendre::GaussLegendre;
+use spindrift::run::Grid;
 use spindrift::run::Status;
-use spindrift::run::state_table::Grid;
 
 /// Round-off of a sum of some ten steps of order one to ten.
 const ROUND_OFF: f64 = 1e-14;

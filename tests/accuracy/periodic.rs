@@ -9,7 +9,7 @@ use spindrift::math::vector::norm;
 use spindrift::observables::{Groups, Observer, Request};
 use spindrift::propagation::Method;
 use spindrift::run::Status;
-use spindrift::run::state_table::{Grid, StateField, StateTable};
+use spindrift::run::{Grid, StateField, StateTable};
 use spindrift::scene::{Scene, SceneInput};
 
 /// Tolerance of every run here: what remains is rounding.

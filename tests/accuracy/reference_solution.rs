@@ -8,7 +8,7 @@ use spindrift::math::vector::{
     constant, constant_matrix, dcm_from_quaternion, difference, dot, norm, product, scaled, sum,
 };
 use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE};
-use spindrift::run::state_table::{Grid, StateField, StateFields};
+use spindrift::run::{Grid, StateField, StateFields};
 use spindrift::scene::Scene;
 
 /// All that a scene has.

@@ -16,8 +16,8 @@ use spindrift::ode::adaptive as adaptive_march;
 use spindrift::ode::embedded::DormandPrinceRestepped;
 use spindrift::propagation::Method;
 use spindrift::propagation::NullSpaceRuns;
+use spindrift::run::Grid;
 use spindrift::run::StepStatistics;
-use spindrift::run::state_table::Grid;
 use spindrift::scene::Scene;
 
 /// Horizon of the figures, s.

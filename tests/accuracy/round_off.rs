@@ -17,7 +17,7 @@ use spindrift::math::double_double::{DoubleDouble, two_sum};
 use spindrift::propagation::Method;
 use spindrift::propagation::PropagationSettings;
 use spindrift::run::Status;
-use spindrift::run::state_table::{Grid, StateField};
+use spindrift::run::{Grid, StateField};
 use spindrift::scene::Scene;
 
 const SECTION: &str = "round_off";

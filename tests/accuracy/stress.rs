@@ -13,7 +13,7 @@ use spindrift::ode::Tolerance;
 use spindrift::propagation::Method;
 use spindrift::propagation::PropagationSettings;
 use spindrift::run::Status;
-use spindrift::run::state_table::{Grid, StateField};
+use spindrift::run::{Grid, StateField};
 use spindrift::scene::{ActuationInput, DebrisInput, Scene, SceneInput};
 
 const SECTION: &str = "stress";

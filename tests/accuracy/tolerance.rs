@@ -7,7 +7,7 @@ use crate::support::runs::{Run, adaptive, fixed, relative, up_to_sign};
 use crate::support::scenes::mixed;
 use spindrift::ode::Control;
 use spindrift::propagation::Method;
-use spindrift::run::state_table::{Grid, StateField};
+use spindrift::run::{Grid, StateField};
 use spindrift::scene::Scene;
 
 const SECTION: &str = "tolerance";

@@ -15,7 +15,7 @@ use spindrift::observables::{Groups, Observer, Request};
 use spindrift::propagation::Method;
 use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE as TRUTH_TOLERANCE};
 use spindrift::run::Status;
-use spindrift::run::state_table::{Grid, StateField, StateFields};
+use spindrift::run::{Grid, StateField, StateFields};
 use spindrift::sampling::SampleId;
 use spindrift::scene::{ActuationInput, Scene, SceneInput, WheelMode};
 

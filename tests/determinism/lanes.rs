@@ -6,7 +6,7 @@ use spindrift::math::Isa;
 use spindrift::ode::Control;
 use spindrift::propagation::Method;
 use spindrift::propagation::PropagationSettings;
-use spindrift::run::state_table::Grid;
+use spindrift::run::Grid;
 use spindrift::scene::Scene;
 
 /// Horizon, s: some periods of most scenes, less than one of a few.

@@ -7,8 +7,8 @@ use spindrift::ode::Tolerance;
 use spindrift::ode::embedded::{Dop853, DormandPrince};
 use spindrift::ode::fixed::RungeKutta4;
 use spindrift::ode::gauss_legendre::GaussLegendre;
+use spindrift::run::Grid;
 use spindrift::run::Status;
-use spindrift::run::state_table::Grid;
 
 const HORIZON: f64 = 6.0;
 

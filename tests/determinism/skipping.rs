@@ -7,7 +7,7 @@ use spindrift::observables::{Group, Groups, Observer, Request};
 use spindrift::ode::Control;
 use spindrift::propagation::Method;
 use spindrift::propagation::PropagationSettings;
-use spindrift::run::state_table::{Grid, StateField, StateFields};
+use spindrift::run::{Grid, StateField, StateFields};
 use spindrift::scene::Scene;
 
 /// Horizon, s.

@@ -154,7 +154,7 @@ fn a_long_run_is_audited_in_plain_doubles() {
     plan.tolerance = Tolerance { relative: 1e-8, absolute: 1e-8 };
     let scene = Scene::resolve(&plan.nominal).expect("physical");
     let truth_of = |duration: f64| {
-        let grid = spindrift::run::state_table::Grid::uniform(duration, 11);
+        let grid = spindrift::run::Grid::uniform(duration, 11);
         Auditor::new(&plan, Isa::best(), &grid).audit(&scene).unwrap()
     };
     let (short, long) = (truth_of(2.0), truth_of(300.0));

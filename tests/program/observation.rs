@@ -10,8 +10,8 @@ use crate::support::golden::Golden;
 use spindrift::math::Isa;
 use spindrift::math::vector::{cross, dcm_from_quaternion, hamilton, product, sum};
 use spindrift::observables::{Group, Groups, Observer, Request, Series};
-use spindrift::run::outcome::{LocalErrors, Outcome, Status, StepStatistics};
-use spindrift::run::state_table::{Grid, StateField, StateFields, StateTable};
+use spindrift::run::{Grid, StateField, StateFields, StateTable};
+use spindrift::run::{LocalErrors, Outcome, Status, StepStatistics};
 use spindrift::scene::Scene;
 
 /// Energies and momenta of states that are rounded to f64: a few roundings of the state, doubled by squares, and some dozens of

@@ -9,7 +9,7 @@ use spindrift::math::Isa;
 use spindrift::observables::{Group, Observer, Request};
 use spindrift::propagation::Method;
 use spindrift::run::Status;
-use spindrift::run::state_table::{Grid, StateField, StateTable};
+use spindrift::run::{Grid, StateField, StateTable};
 use spindrift::sampling::dispersions::Draws;
 use spindrift::sampling::{Design, Dispersion, DispersionError, Dispersions, Law, SampleId, Spread, Values};
 use spindrift::scene::parameter::Kind as ParameterKind;

@@ -7,7 +7,7 @@ use spindrift::propagation::Method;
 use spindrift::propagation::PropagationSettings;
 use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE};
 use spindrift::run::Status;
-use spindrift::run::state_table::{Grid, StateField, StateTable};
+use spindrift::run::{Grid, StateField, StateTable};
 use spindrift::scene::Scene;
 
 use super::runs::{Run, blocks, propagate_on};

@@ -4,7 +4,7 @@
 use spindrift::math::double_double::DoubleDouble;
 use spindrift::math::vector::{constant, constant_matrix, dcm_from_quaternion, dot, product, scaled, sum};
 use spindrift::math::{Real, vector};
-use spindrift::run::state_table::{StateField, StateTable};
+use spindrift::run::{StateField, StateTable};
 use spindrift::scene::{Scene, WheelMode};
 
 /// What a free spacecraft conserves, at one point.

@@ -8,7 +8,7 @@ use spindrift::ode::Tolerance;
 use spindrift::propagation::Method;
 use spindrift::propagation::PropagationSettings;
 use spindrift::run::Outcome;
-use spindrift::run::state_table::{Grid, StateField, StateFields, StateTable};
+use spindrift::run::{Grid, StateField, StateFields, StateTable};
 use spindrift::scene::Scene;
 
 /// The states of one run and how it ended.
@@ -24,7 +24,7 @@ pub type Bits = Vec<u64>;
 impl Run {
     /// Outcome and all states, as bits.
     pub fn bits(&self) -> Bits {
-        self.bits_of(self.table.blocks())
+        self.bits_of(self.table.fields())
     }
 
     /// Outcome and the states of `blocks`, as bits.

@@ -15,7 +15,7 @@ use spindrift::ode::embedded::Embedded;
 use spindrift::ode::fixed;
 use spindrift::ode::fixed::FixedStep;
 use spindrift::run::Outcome;
-use spindrift::run::state_table::{Grid, Trajectory};
+use spindrift::run::{Grid, Trajectory};
 
 /// A right-hand side with `P` parameters; `stretch` counts the stretches.
 pub trait Law<const N: usize, const P: usize>: Copy {

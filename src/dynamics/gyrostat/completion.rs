@@ -11,7 +11,7 @@ use crate::math::vector::{
     conjugate, constant, constant_matrix, constant_quaternion, difference, dot, hamilton, product, scaled, sum,
 };
 use crate::math::{Lanes, Real};
-use crate::run::state_table::{Grid, StateField, StateTable, Trajectory};
+use crate::run::{Grid, StateField, StateTable, Trajectory};
 
 /// The smallest number of integrated components from which the spacecraft's blocks of `table` follow.
 ///

@@ -24,7 +24,7 @@
 //!
 //! - [`Gyrostat`]: one run's constants, initial state and stretches.
 //! - [`equations`]: the right-hand side, for Runge-Kutta methods in lanes.
-//! - [`completion`]: integrated components -> the physical [`crate::run::state_table::StateTable`].
+//! - [`completion`]: integrated components -> the physical [`crate::run::StateTable`].
 //!
 //! Not here: Taylor recurrences of the same equations (`integrators::taylor`), the debris (`super::debris`).
 

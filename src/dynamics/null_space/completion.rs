@@ -5,7 +5,7 @@ use super::parameters::Parameters;
 use super::residuals::residuals;
 use super::state::{Columns, State, rotated};
 use crate::math::vector::{cross, sum};
-use crate::run::state_table::{Grid, StateField, StateTable, Trajectory};
+use crate::run::{Grid, StateField, StateTable, Trajectory};
 use crate::scene::Scene;
 
 /// Fills whichever blocks `table` has from the integrated components of a run of `scene`, and pads them.

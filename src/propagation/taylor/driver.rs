@@ -18,8 +18,8 @@ use crate::dynamics::gyrostat::{ANGLE, ATTITUDE, Gyrostat, OMEGA, WITH_ATTITUDE}
 use crate::math::Real;
 use crate::math::lanes::WIDEST;
 use crate::math::vector::{dcm_from_quaternion, product};
-use crate::run::outcome::{Outcome, Status};
-use crate::run::state_table::{Grid, Trajectory};
+use crate::run::{Grid, Trajectory};
+use crate::run::{Outcome, Status};
 
 /// Hands over a run: its index, its components at the points, how it ended.
 pub(super) type CompletionCallback<'a> = dyn FnMut(usize, &mut Trajectory, &Outcome) + 'a;

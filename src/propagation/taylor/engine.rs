@@ -9,7 +9,7 @@ use crate::math::Real;
 use crate::propagation::gyrostat_batch::GyrostatBatch;
 use crate::propagation::method::Method;
 use crate::propagation::settings::{CompletionCallback, Engine, PropagationSettings};
-use crate::run::state_table::StateTable;
+use crate::run::StateTable;
 use crate::scene::Scene;
 
 /// One worker's memory: `N` components, of which the first `J` have series of their own.

@@ -7,7 +7,7 @@ use super::period::{Period, PoincareSection};
 use super::truncation::TruncationSums;
 use crate::dynamics::gyrostat::{ATTITUDE, IMPULSE, IMPULSE_INTEGRAL, OMEGA, WITH_ANGLES, WITH_ATTITUDE, WITH_THRUST};
 use crate::math::Real;
-use crate::run::outcome::{Outcome, Status, StepStatistics};
+use crate::run::{Outcome, Status, StepStatistics};
 
 /// One lane's place in its run.
 #[derive(Clone, Copy, Debug)]

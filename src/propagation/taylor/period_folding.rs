@@ -18,7 +18,7 @@ use crate::dynamics::gyrostat::{ANGLE, ATTITUDE, WITH_ANGLES, WITH_ATTITUDE};
 use crate::math::lanes::{TWO_52, WIDEST, WIDTH};
 use crate::math::vector::hamilton;
 use crate::math::{Lanes, Real};
-use crate::run::state_table::Trajectory;
+use crate::run::Trajectory;
 
 /// Steps that a lane waits at most beyond as many as its period took.
 const SLACK: usize = 8;

@@ -25,8 +25,8 @@ use crate::math::isa::NarrowWork;
 use crate::math::vector::{conjugate, difference, dot, hamilton, product, scaled, sum};
 use crate::math::{Isa, Real};
 use crate::propagation::settings::observes_debris_rotation;
-use crate::run::outcome::Status;
-use crate::run::state_table::{Grid, StateField, StateFields, StateTable};
+use crate::run::Status;
+use crate::run::{Grid, StateField, StateFields, StateTable};
 use crate::scene::Scene;
 
 /// Relative tolerance of a reference solution: five times the rounding of double-double (2^-105 = 2.5e-32), below which
@@ -133,7 +133,7 @@ impl ReferenceSolution {
             self.put(StateField::DebrisPosition, point, position);
             self.put(StateField::DebrisVelocity, point, velocity);
         }
-        if !observes_debris_rotation(self.high.blocks()) {
+        if !observes_debris_rotation(self.high.fields()) {
             return Ok(());
         }
         let mut coarse = Gyrostat::blank(0.0);

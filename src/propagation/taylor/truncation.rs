@@ -4,7 +4,7 @@ use crate::dynamics::gyrostat::{ATTITUDE, OMEGA, WITH_ATTITUDE};
 use crate::math::Real;
 use crate::math::vector::norm;
 use crate::propagation::local_error::rounding;
-use crate::run::outcome::LocalErrors;
+use crate::run::LocalErrors;
 
 /// FoldedLane of the last kept term of omega's series that the rest of it amounts to: terms fall by e^-2 or more at the steps of
 /// Jorba & Zou (2005).

@@ -6,7 +6,7 @@ use super::step::StepRule;
 use super::thrust::Quadrature;
 use crate::math::Real;
 use crate::math::lanes::WIDTH;
-use crate::run::state_table::Trajectory;
+use crate::run::Trajectory;
 
 /// Steps whose series are kept at first; a period within them is found without any allocation.
 const RING: usize = 24;

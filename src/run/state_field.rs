@@ -1,0 +1,105 @@
+//! [`StateField`]: the physical quantities of a state, and sets of them.
+
+/// A field of the state: components that are present or absent together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[repr(usize)]
+pub enum StateField {
+    /// omega^se in F_s, rad/s (3).
+    Rate,
+    /// Attitude quaternion q_es (4).
+    Attitude,
+    /// Wheel rates alpha-dot, beta-dot, rad/s (2).
+    WheelRates,
+    /// Wheel angles alpha, beta, rad, unbounded (2).
+    WheelAngles,
+    /// Position of the centre of mass c of the spacecraft in F_e, m (3).
+    ComPosition,
+    /// Velocity of c in F_e, m/s (3).
+    ComVelocity,
+    /// Work done since time zero: by the thrusters, by the wheel motors (relative to the fuselage, tau_i Omega_i), J (2).
+    Work,
+    /// Impulse of the thrusters since time zero in F_e, N s (3).
+    Impulse,
+    /// Angular impulse of the thrusters about c since time zero in F_e, N m s (3).
+    AngularImpulse,
+    /// Position of the centre of the debris in F_e, m (3).
+    DebrisPosition,
+    /// Velocity of the centre of the debris in F_e, m/s (3).
+    DebrisVelocity,
+    /// Attitude quaternion q_ed of the debris (4).
+    DebrisAttitude,
+    /// omega^de of the debris in F_d, rad/s (3).
+    DebrisRate,
+    /// C_es by columns as integrated, from methods that integrate the DCM itself (9).
+    Dcm,
+    /// Residuals of the constraints: kinematic, collocation, attitude (3).
+    Residuals,
+    /// Kinetic energies of fuselage, wheels 1 and 2, and debris in F_e, from methods with redundant states, J (4).
+    KineticEnergies,
+}
+
+impl StateField {
+    /// All fields in the order of the table.
+    pub const ALL: [StateField; 16] = [
+        StateField::Rate,
+        StateField::Attitude,
+        StateField::WheelRates,
+        StateField::WheelAngles,
+        StateField::ComPosition,
+        StateField::ComVelocity,
+        StateField::Work,
+        StateField::Impulse,
+        StateField::AngularImpulse,
+        StateField::DebrisPosition,
+        StateField::DebrisVelocity,
+        StateField::DebrisAttitude,
+        StateField::DebrisRate,
+        StateField::Dcm,
+        StateField::Residuals,
+        StateField::KineticEnergies,
+    ];
+
+    /// Number of components.
+    pub const fn width(self) -> usize {
+        match self {
+            StateField::Rate
+            | StateField::ComPosition
+            | StateField::ComVelocity
+            | StateField::Impulse
+            | StateField::AngularImpulse
+            | StateField::DebrisPosition
+            | StateField::DebrisVelocity
+            | StateField::DebrisRate
+            | StateField::Residuals => 3,
+            StateField::Attitude | StateField::DebrisAttitude | StateField::KineticEnergies => 4,
+            StateField::WheelRates | StateField::WheelAngles | StateField::Work => 2,
+            StateField::Dcm => 9,
+        }
+    }
+}
+
+/// A set of fields.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct StateFields(u32);
+
+impl StateFields {
+    /// The empty set.
+    pub const NONE: StateFields = StateFields(0);
+
+    /// This set and one more field.
+    #[must_use]
+    pub const fn with(self, field: StateField) -> Self {
+        StateFields(self.0 | 1 << field as usize)
+    }
+
+    /// The union of two sets.
+    #[must_use]
+    pub const fn union(self, other: Self) -> Self {
+        StateFields(self.0 | other.0)
+    }
+
+    /// Whether the set contains `field`.
+    pub const fn contains(self, field: StateField) -> bool {
+        self.0 & (1 << field as usize) != 0
+    }
+}
