@@ -11,6 +11,7 @@
 //! - [`vector`]: three-vectors, 3x3 matrices and quaternions as plain arrays of `Real`.
 
 pub mod double_double;
+pub mod incomplete_beta;
 pub mod isa;
 pub mod lanes;
 pub mod pair;

@@ -1,3 +1,7 @@
 //! Layer 2: statistics of many runs: pure functions of numbers.
 
+pub mod binomial;
+pub mod moments;
+pub mod quantile;
 pub mod sketch;
+pub mod student;

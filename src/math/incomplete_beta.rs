@@ -1,0 +1,216 @@
+//! The regularised incomplete beta function I_x(a, b) and its inverse, for shapes from 1e-3 to 1e15.
+//!
+//! I_x by a continued fraction (evaluated by the method of Lentz as modified by I. J. Thompson & A. R. Barnett, *J. Comput. Phys.* 64
+//! (1986) 490), from the side where it converges. Its factor x^a (1-x)^b / B(a, b) by the saddle-point form of
+//! C. Loader, *Fast and Accurate Computation of Binomial Probabilities* (2000): the logarithms of gamma functions would lose as
+//! many digits as the shapes have. Elementary functions from `libm`.
+
+use core::f64::consts::PI;
+
+/// A probability and its complement. Each has its own relative accuracy, so neither tail loses digits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Probability {
+    /// P.
+    pub lower: f64,
+    /// 1 - P.
+    pub upper: f64,
+}
+
+/// Terms after which the continued fraction is taken as converged; about 3 sqrt(max(a, b)) are needed in the worst place.
+const MAX_TERMS: u32 = 100_000_000;
+/// Replaces a zero, so that Lentz's method continues (Thompson & Barnett).
+const TINY: f64 = 1e-300;
+
+/// I_x(a, b) and 1 - I_x(a, b), for shapes `a`, `b` > 0 and `x` in [0, 1] given with its complement `y` = 1 - x.
+///
+/// Relative error below 5e-14 for shapes up to 1e7 (test `known_values`).
+pub fn incomplete_beta(x: f64, y: f64, a: f64, b: f64) -> Probability {
+    if x <= 0.0 {
+        return Probability { lower: 0.0, upper: 1.0 };
+    }
+    if y <= 0.0 {
+        return Probability { lower: 1.0, upper: 0.0 };
+    }
+    let front = front(x, y, a, b);
+    if b * x <= a * y {
+        let lower = (front / continued_fraction(x, y, a, b)).min(1.0);
+        Probability { lower, upper: 1.0 - lower }
+    } else {
+        let upper = (front / continued_fraction(y, x, b, a)).min(1.0);
+        Probability { lower: 1.0 - upper, upper }
+    }
+}
+
+/// x with I_x(a, b) = `p`, for `p` in [0, 1] given with its complement `q` = 1 - p; returned with 1 - x.
+///
+/// Bisection in the logarithm of the smaller of x and 1 - x brackets the root, Newton's method with the density as slope ends
+/// it; a Newton step that leaves the bracket is replaced by a bisection, so that it always converges.
+pub fn inverse_incomplete_beta(p: f64, q: f64, a: f64, b: f64) -> [f64; 2] {
+    if p <= 0.0 {
+        return [0.0, 1.0];
+    }
+    if q <= 0.0 {
+        return [1.0, 0.0];
+    }
+    // the side of the middle on which the root lies decides which of x and 1 - x is the unknown
+    let middle = incomplete_beta(0.5, 0.5, a, b);
+    let below = if p <= q { p <= middle.lower } else { q >= middle.upper };
+    if below {
+        let x = smaller_root(p, q, a, b);
+        [x, 1.0 - x]
+    } else {
+        let y = smaller_root(q, p, b, a);
+        [1.0 - y, y]
+    }
+}
+
+/// x <= 1/2 with I_x(a, b) = p = 1 - q.
+fn smaller_root(p: f64, q: f64, a: f64, b: f64) -> f64 {
+    // x is the exponential of the unknown: roots near zero keep their relative accuracy
+    let (mut low, mut high) = (-745.0_f64, -core::f64::consts::LN_2);
+    // the first term of the series x^a / (a B), and the mean where that is no use
+    let mean = libm::log((a / (a + b)).clamp(1e-300, 0.5));
+    let mut log_x = mean.clamp(low, high);
+    for _ in 0..200 {
+        let x = libm::exp(log_x);
+        let found = incomplete_beta(x, 1.0 - x, a, b);
+        // compare the smaller tails: they have the digits
+        let (ratio, slope) = if p <= q {
+            (libm::log(found.lower / p), front(x, 1.0 - x, a, b) / ((1.0 - x) * found.lower))
+        } else {
+            (-libm::log(found.upper / q), front(x, 1.0 - x, a, b) / ((1.0 - x) * found.upper))
+        };
+        if ratio > 0.0 {
+            high = high.min(log_x);
+        } else {
+            low = low.max(log_x);
+        }
+        let newton = log_x - ratio / slope;
+        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+        let moved = (next - log_x).abs();
+        log_x = next;
+        if moved <= f64::EPSILON * (1.0 + log_x.abs()) || high - low <= f64::EPSILON * log_x.abs() {
+            break;
+        }
+    }
+    libm::exp(log_x)
+}
+
+/// x^a y^b / B(a, b), y = 1 - x.
+fn front(x: f64, y: f64, a: f64, b: f64) -> f64 {
+    let n = a + b;
+    // binomial probability of a successes in n trials (Loader, equation 3), times a b / n
+    let exponent = stirling_error(n) - stirling_error(a) - stirling_error(b) - deviance(a, n * x) - deviance(b, n * y);
+    libm::exp(exponent) * libm::sqrt(a * b / (2.0 * PI * n))
+}
+
+/// ln(n!) - ln(sqrt(2 pi n) (n/e)^n), for n > 0 (Loader, section 2.1).
+fn stirling_error(n: f64) -> f64 {
+    if n < 16.0 {
+        return libm::lgamma(n + 1.0) - (n + 0.5) * libm::log(n) + n - 0.5 * libm::log(2.0 * PI);
+    }
+    let square = n * n;
+    (1.0 / 12.0 - (1.0 / 360.0 - (1.0 / 1260.0 - (1.0 / 1680.0 - 1.0 / 1188.0 / square) / square) / square) / square) / n
+}
+
+/// x ln(x/m) + m - x without cancellation, for x, m > 0 (Loader, section 2.2).
+fn deviance(x: f64, m: f64) -> f64 {
+    let difference = x - m;
+    if difference.abs() < 0.1 * (x + m) {
+        let ratio = difference / (x + m);
+        let mut sum = difference * ratio;
+        let square = ratio * ratio;
+        let mut power = 2.0 * x * ratio;
+        for j in 1..1000 {
+            power *= square;
+            let next = sum + power / f64::from(2 * j + 1);
+            if next == sum {
+                return next;
+            }
+            sum = next;
+        }
+    }
+    x * libm::log(x / m) + m - x
+}
+
+/// The continued fraction of x^a y^b / (B(a, b) I_x(a, b)), y = 1 - x, for x below about its mean a/(a + b).
+///
+/// A. R. DiDonato & A. H. Morris, *Significant digit computation of the incomplete beta function ratios*, ACM Trans. Math. Softw. 18
+/// (1992) 360, equation (9). Where the shapes are large its terms do not cancel, as those of DLMF 8.17.22 do.
+fn continued_fraction(x: f64, y: f64, a: f64, b: f64) -> f64 {
+    let nonzero = |value: f64| if value.abs() < TINY { TINY } else { value };
+    let lambda = a * y - b * x;
+    let mut fraction = nonzero(a * (lambda + 1.0) / (a + 1.0));
+    let (mut c, mut d) = (fraction, 0.0);
+    for term in 1..MAX_TERMS {
+        let m = f64::from(term);
+        let denominator = a + 2.0 * m - 1.0;
+        let numerator = (a + m - 1.0) * (a + b + m - 1.0) * m * (b - m) * x * x / (denominator * denominator);
+        let partial = m + m * (b - m) * x / denominator + (a + m) * (lambda + 1.0 + m * (2.0 - x)) / (denominator + 2.0);
+        d = 1.0 / nonzero(partial + numerator * d);
+        c = nonzero(partial + numerator / c);
+        let factor = c * d;
+        fraction *= factor;
+        if (factor - 1.0).abs() <= f64::EPSILON {
+            break;
+        }
+    }
+    fraction
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// (x, a, b, I, 1 - I), from sums of binomial terms and hypergeometric series in 40 digits (mpmath 1.3).
+    const KNOWN: [(f64, f64, f64, f64, f64); 11] = [
+        (0.3, 2.5, 1.5, 0.088943723170665592, 0.91105627682933441),
+        (0.001, 0.05, 40.0, 0.87238223856348242, 0.12761776143651758),
+        (0.5, 10000.0, 10000.0, 0.5, 0.5),
+        (0.499, 10000.0, 10000.0, 0.38864995214253755, 0.61135004785746245),
+        (0.95, 95000.0, 5001.0, 0.50376240480463818, 0.49623759519536182),
+        (0.9995, 999000.0, 1001.0, 1.0, 1.4516196883227837e-86),
+        (0.01, 1.0, 300.0, 0.95095910592871415, 0.049040894071285853),
+        (1e-08, 3.0, 10000000.0, 0.00015465311776863954, 0.99984534688223136),
+        (0.7, 20.0, 3.0, 0.020666196971081487, 0.97933380302891851),
+        (0.3, 1000.0, 2200.0, 0.062740550124345751, 0.93725944987565425),
+        (0.001, 9990.0, 9990010.0, 0.54117582832690051, 0.45882417167309949),
+    ];
+
+    /// Measured: at most 7.6e-15.
+    const RELATIVE_ERROR: f64 = 5e-14;
+
+    #[test]
+    fn known_values() {
+        for (x, a, b, lower, upper) in KNOWN {
+            let found = incomplete_beta(x, 1.0 - x, a, b);
+            assert!((found.lower / lower - 1.0).abs() < RELATIVE_ERROR, "{x} {a} {b}: {found:?} {lower}");
+            assert!((found.upper / upper - 1.0).abs() < RELATIVE_ERROR, "{x} {a} {b}: {found:?} {upper}");
+        }
+    }
+
+    #[test]
+    fn the_inverse_inverts() {
+        for (a, b) in [(2.5, 1.5), (0.05, 40.0), (1e4, 1e4), (95_000.0, 5001.0), (1.0, 300.0), (3.0, 1e7), (0.5, 0.5)] {
+            for p in [1e-12, 1e-3, 0.025, 0.3, 0.5, 0.9, 0.975, 0.999_999] {
+                let [x, y] = inverse_incomplete_beta(p, 1.0 - p, a, b);
+                let found = incomplete_beta(x, y, a, b);
+                let error = ((found.lower - p) / p.min(1.0 - p)).abs();
+                assert!(error < 1e-10, "{a} {b} {p}: x {x} gives {found:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn closed_forms() {
+        // I_x(1, b) = 1 - (1 - x)^b; I_x(a, 1) = x^a
+        for x in [1e-9, 0.2, 0.5, 0.8, 1.0 - 1e-9] {
+            for shape in [0.05, 1.0, 7.5, 400.0] {
+                let (first, power) = (incomplete_beta(x, 1.0 - x, 1.0, shape).upper, libm::pow(1.0 - x, shape));
+                assert!((first - power).abs() <= 1e-12 * power, "{x} {shape} {first} {power}");
+                let (second, power) = (incomplete_beta(x, 1.0 - x, shape, 1.0).lower, libm::pow(x, shape));
+                assert!((second - power).abs() <= 1e-12 * power, "{x} {shape} {second} {power}");
+            }
+        }
+    }
+}

@@ -1,0 +1,44 @@
+//! Student's t distribution: intervals for a mean of few values, such as the replicates of a design.
+//!
+//! By the incomplete beta function (Abramowitz & Stegun 26.7.1).
+
+use crate::math::incomplete_beta::inverse_incomplete_beta;
+
+/// t with P(|T| <= t) = `confidence` for `degrees` >= 1 degrees of freedom.
+pub fn two_sided_quantile(confidence: f64, degrees: f64) -> f64 {
+    // 1 - P(|T| <= t) = I_x(degrees/2, 1/2) with x = degrees/(degrees + t^2)
+    let [x, y] = inverse_incomplete_beta(1.0 - confidence, confidence, 0.5 * degrees, 0.5);
+    libm::sqrt(degrees * y / x)
+}
+
+/// Half width of the interval in which the mean lies with `confidence`: t s / sqrt(n), from the `standard_deviation` of `count` values.
+///
+/// Infinite for fewer than two values.
+pub fn half_width(standard_deviation: f64, count: u64, confidence: f64) -> f64 {
+    if count < 2 {
+        return f64::INFINITY;
+    }
+    two_sided_quantile(confidence, count as f64 - 1.0) * standard_deviation / libm::sqrt(count as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn known_quantiles() {
+        // one degree: tan(pi confidence/2); two degrees: closed form; the rest from scipy.stats.t.ppf
+        let first = libm::tan(core::f64::consts::FRAC_PI_2 * 0.95);
+        assert!((two_sided_quantile(0.95, 1.0) / first - 1.0).abs() < 1e-12);
+        let p: f64 = 0.975;
+        let second = (2.0 * p - 1.0) / libm::sqrt(2.0 * p * (1.0 - p));
+        assert!((two_sided_quantile(0.95, 2.0) / second - 1.0).abs() < 1e-12);
+        for (confidence, degrees, t) in KNOWN {
+            assert!((two_sided_quantile(confidence, degrees) / t - 1.0).abs() < 1e-11, "{degrees}");
+        }
+        assert_eq!(half_width(1.0, 1, 0.95), f64::INFINITY);
+    }
+
+    /// (confidence, degrees, t), `scipy.stats.t.ppf(0.5 + confidence/2, degrees)`.
+    const KNOWN: [(f64, f64, f64); 3] = [(0.95, 15.0, 2.131449545559775), (0.99, 7.0, 3.4994832973504932), (0.9, 1000.0, 1.6463788172854648)];
+}
