@@ -110,7 +110,8 @@ fn stirling_error(n: f64) -> f64 {
         return libm::lgamma(n + 1.0) - (n + 0.5) * libm::log(n) + n - 0.5 * libm::log(2.0 * PI);
     }
     let square = n * n;
-    (1.0 / 12.0 - (1.0 / 360.0 - (1.0 / 1260.0 - (1.0 / 1680.0 - 1.0 / 1188.0 / square) / square) / square) / square) / n
+    (1.0 / 12.0 - (1.0 / 360.0 - (1.0 / 1260.0 - (1.0 / 1680.0 - 1.0 / 1188.0 / square) / square) / square) / square)
+        / n
 }
 
 /// x ln(x/m) + m - x without cancellation, for x, m > 0 (Loader, section 2.2).
@@ -146,7 +147,8 @@ fn continued_fraction(x: f64, y: f64, a: f64, b: f64) -> f64 {
         let m = f64::from(term);
         let denominator = a + 2.0 * m - 1.0;
         let numerator = (a + m - 1.0) * (a + b + m - 1.0) * m * (b - m) * x * x / (denominator * denominator);
-        let partial = m + m * (b - m) * x / denominator + (a + m) * (lambda + 1.0 + m * (2.0 - x)) / (denominator + 2.0);
+        let partial =
+            m + m * (b - m) * x / denominator + (a + m) * (lambda + 1.0 + m * (2.0 - x)) / (denominator + 2.0);
         d = 1.0 / nonzero(partial + numerator * d);
         c = nonzero(partial + numerator / c);
         let factor = c * d;

@@ -177,7 +177,8 @@ mod tests {
     #[test]
     fn decisions_err_as_seldom_as_stated() {
         for (trials, target, confidence) in [(59, 0.95, 0.95), (200, 0.5, 0.9), (1000, 0.99, 0.99)] {
-            let probability = |k: u64| at_most(k, trials, target) - if k == 0 { 0.0 } else { at_most(k - 1, trials, target) };
+            let probability =
+                |k: u64| at_most(k, trials, target) - if k == 0 { 0.0 } else { at_most(k - 1, trials, target) };
             let of = |met: bool| -> f64 {
                 (0..=trials).filter(|k| decided(*k, trials, target, confidence) == Some(met)).map(probability).sum()
             };
