@@ -6,7 +6,7 @@ use crate::math::vector::norm;
 use crate::propagation::local_error::rounding;
 use crate::run::LocalErrors;
 
-/// FoldedLane of the last kept term of omega's series that the rest of it amounts to: terms fall by e^-2 or more at the steps of
+/// Share of the last kept term of omega's series that the rest of it amounts to: terms fall by e^-2 or more at the steps of
 /// Jorba & Zou (2005).
 const REST: f64 = 0.15;
 

@@ -55,7 +55,7 @@ pub enum Design {
     Grid(Levels),
     /// One parameter after the other through its levels, the others nominal.
     OneAtATime(Levels),
-    /// StateFields for sensitivity indices.
+    /// Blocks for sensitivity indices.
     Saltelli,
     /// The rows of a file, for the parameters that are its columns; others are drawn as by the random design.
     Table(Vec<DataColumn>),
