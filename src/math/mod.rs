@@ -14,6 +14,7 @@ pub mod double_double;
 pub mod incomplete_beta;
 pub mod isa;
 pub mod lanes;
+pub mod normal;
 pub mod pair;
 pub mod power;
 pub mod real;

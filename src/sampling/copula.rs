@@ -10,7 +10,7 @@
 //! is on the path of a row.
 
 use super::design::BLOCK;
-use super::normal::{probability, quantiles};
+use crate::math::normal::{probability, quantiles};
 
 /// A square matrix by rows.
 pub type Matrix = Vec<Vec<f64>>;

@@ -5,7 +5,7 @@
 
 use super::beta::BetaLaw;
 use super::discrete::{Choice, Empirical};
-use super::normal::{probability, quantile, quantiles};
+use crate::math::normal::{probability, quantile, quantiles};
 
 /// The law of one number.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,7 +6,7 @@
 //! uniform components, or of a uniform angle to the axis, is not (test `usual_mistakes_are_caught` in `tests/sampling_geometric.rs`).
 
 use super::distribution::Distribution;
-use super::normal::quantile;
+use crate::math::normal::quantile;
 use crate::math::vector::{cross, dot, hamilton, norm, scaled};
 use core::f64::consts::TAU;
 

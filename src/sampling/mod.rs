@@ -23,7 +23,6 @@ pub mod geometric;
 pub mod geometric_law;
 pub mod joint;
 pub mod law;
-pub mod normal;
 pub mod sampler;
 pub mod scalar;
 pub mod stream;

@@ -3,8 +3,8 @@
 //! Statistical tests state H0, n, alpha and power; seeds are fixed, so their outcome is.
 
 use spindrift::campaign::{Overrides, Plan};
+use spindrift::math::normal::probability;
 use spindrift::sampling::SampleId;
-use spindrift::sampling::normal::probability;
 
 const SCENE: &str = r#"
 [campaign]

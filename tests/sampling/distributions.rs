@@ -3,10 +3,10 @@
 //! Statistical tests state H0, n, alpha and power; seeds are fixed, so their outcome is.
 
 use serde_json::Value;
+use spindrift::math::normal::probability;
 use spindrift::sampling::beta::BetaLaw;
 use spindrift::sampling::discrete::{Choice, Empirical};
 use spindrift::sampling::distribution::TruncatedNormal;
-use spindrift::sampling::normal::probability;
 use spindrift::sampling::{Distribution, Interpolation, SampleId, Stream};
 
 /// The law that a row of the golden table names.

@@ -1,4 +1,4 @@
-//! The standard normal law: probability and quantile, in portable arithmetic.
+//! The standard normal distribution: probability and quantile, in portable arithmetic.
 //!
 //! Quantile: M. J. Wichura, *Algorithm AS 241: The Percentage Points of the Normal Distribution*, Applied Statistics 37
 //! (1988) 477-484, routine PPND16 (relative error about 1e-16 by construction). `log`, `erfc` from `libm`, so the same bits
