@@ -170,7 +170,7 @@ fn observation() {
 #[test]
 fn right_hand_sides() {
     let scene = &mixed(1, true, 1.0)[0];
-    let actuation = scene.schedule[0];
+    let actuation = scene.schedule[0].applied;
     let state = sigma(scene).components();
     let gyrostat = Gyrostat::new(0.0, scene, 1.0);
     let mut constants = Constants::zero(0.0);

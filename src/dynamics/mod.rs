@@ -6,6 +6,7 @@
 //! - [`mod@reference`]: the report's 62-state null-space form.
 //! - [`table`]: the physical states of a run at its observation points.
 
+pub mod actuation;
 pub mod debris;
 pub mod gyrostat;
 pub mod null_space;

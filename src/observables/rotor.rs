@@ -25,7 +25,7 @@ impl<'a> Body<'a> {
         let mass = &scene.mass;
         let inertia = mass.inertia_rotating();
         let [[x, xy, xz], [_, y, yz], [.., z]] = inertia;
-        let is_free = scene.schedule.iter().all(|act| act.start >= duration);
+        let is_free = scene.schedule.iter().all(|arc| arc.start >= duration);
         let offset = is_free.then(|| {
             let omega = table.at::<3>(StateField::Rate, 0);
             let mut momentum = difference(product(mass.inertia, omega), product(inertia, omega));
@@ -60,9 +60,11 @@ pub(super) fn adjugate(m: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
 #[inline(always)]
 pub(super) fn largest_torque(scene: &Scene) -> f64 {
     let mut largest = 0.0_f64;
-    for act in &scene.schedule {
-        let thrust = scene.thruster_torque_s(act.thrust);
-        largest = largest.larger(dot(thrust, thrust).sqrt() + act.torque[0].abs() + act.torque[1].abs());
+    for arc in &scene.schedule {
+        let applied = &arc.applied;
+        let thrust = scene.thruster_torque_s(applied.thrust);
+        largest =
+            largest.larger(dot(thrust, thrust).sqrt() + applied.motor_torque[0].abs() + applied.motor_torque[1].abs());
     }
     largest
 }
@@ -70,7 +72,7 @@ pub(super) fn largest_torque(scene: &Scene) -> f64 {
 /// Whether thrust or motors act at `time`.
 #[inline(always)]
 pub(super) fn acts(scene: &Scene, time: f64) -> bool {
-    scene.schedule.iter().any(|act| act.start <= time && time <= act.end)
+    scene.schedule.iter().any(|arc| arc.start <= time && time <= arc.end())
 }
 
 #[cfg(test)]

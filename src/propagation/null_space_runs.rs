@@ -74,14 +74,13 @@ impl Runs<f64, COMPONENTS> for NullSpaceRuns<'_> {
     }
 
     fn stretches(&self, _lane: usize) -> usize {
-        self.scenes[self.run].stretches(self.duration).count()
+        self.scenes[self.run].arcs(self.duration).count()
     }
 
     fn enter(&mut self, _lane: usize, stretch: usize) -> f64 {
-        let actuation =
-            self.scenes[self.run].stretches(self.duration).nth(stretch).expect("asked within the number of stretches");
-        self.kernel.drive(&actuation);
-        actuation.end
+        let arc = self.scenes[self.run].arcs(self.duration).nth(stretch).expect("asked within the number of stretches");
+        self.kernel.drive(&arc.applied);
+        arc.end()
     }
 }
 

@@ -311,9 +311,9 @@ fn switches(input: &SceneInput, problems: &mut Problems) {
     for index in 0..input.actuation.len() {
         let stretch = applied(input, index);
         let next = (index + 1 < input.actuation.len()).then(|| applied(input, index + 1).start);
-        let said = if stretch.end <= stretch.start {
+        let said = if stretch.end() <= stretch.start {
             format!("{} ends after it starts", commanded(index))
-        } else if next.is_some_and(|next| stretch.end > next) {
+        } else if next.is_some_and(|next| stretch.end() > next) {
             format!("{} ends before the next starts", commanded(index))
         } else {
             continue;

@@ -7,7 +7,7 @@
 //! - [`parameter`]: the one table of the numeric keys that can be dispersed.
 //! - [`check`], [`error`]: what makes a scene physical, and what is said where it is not.
 //! - [`resolve`]: the way from an input to a [`Scene`].
-//! - [`schedule`]: what the actuators make of the commands, and the stretches of a run between switches.
+//! - [`schedule`]: what the actuators make of the commands, and the arcs of constant actuation.
 
 pub mod check;
 pub mod error;
@@ -31,6 +31,7 @@ pub use input::{
 };
 pub use mass::MassProperties;
 pub use parameter::Parameter;
+pub use schedule::{Actuation, Arc, THRUSTERS, WHEELS};
 
 use crate::math::vector::{cross, difference, scaled, sum};
 
@@ -47,8 +48,8 @@ pub struct Scene {
     pub thruster_station: f64,
     /// Directions in which the thrusts P1, P2, P3 push, unit vectors in F_s: nominally s3, -s3, -s3.
     pub thruster_directions: [[f64; 3]; 3],
-    /// Stretches of constant thrust and torque as they are applied, in order, not overlapping, each with start < end.
-    pub schedule: Vec<Actuation>,
+    /// Arcs of constant actuation as they are applied, in order, not overlapping, each with start < end.
+    pub schedule: Vec<Arc>,
     /// Whether the schedule commands thrust at all, whatever the thrusters make of it.
     pub commands_thrust: bool,
     /// The same of motor torque.
@@ -57,19 +58,6 @@ pub struct Scene {
 
 /// The nominal directions of the thrusts P1, P2, P3 in F_s (72).
 pub const THRUSTER_DIRECTIONS: [[f64; 3]; 3] = [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [0.0, 0.0, -1.0]];
-
-/// A stretch of constant thrust and torque.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Actuation {
-    /// Start, s.
-    pub start: f64,
-    /// End, s.
-    pub end: f64,
-    /// Thrusts P1, P2, P3, N.
-    pub thrust: [f64; 3],
-    /// Motor torques on W1, W2 about their axes, N m; the fuselage feels the opposite.
-    pub torque: [f64; 2],
-}
 
 /// The full state at time zero, in the frames that the kernels use.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,28 +1,57 @@
-//! The stretches of a run: where thrust and torque are constant, from one switch to the next; and what the actuators make of
-//! the commands.
+//! The arcs of a run: intervals of constant actuation; and what the actuators make of the commands.
 
 use super::input::SceneInput;
 use super::mass::turned;
-use super::{Actuation, Scene, THRUSTER_DIRECTIONS};
+use super::{Scene, THRUSTER_DIRECTIONS};
 
-/// What is applied where stretch `index` of `input` is commanded: scales, bias, delays. With ideal actuators, the command.
+/// Number of thrusters.
+pub const THRUSTERS: usize = 3;
+/// Number of wheels.
+pub const WHEELS: usize = 2;
+
+/// What acts on the spacecraft until a time: the values as they are applied, constant, SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Actuation {
+    /// The time since the start of the run until which the values are constant, s; infinite where nothing is to change.
+    pub until: f64,
+    /// Thrusts P1, P2, P3 along the thrusters' directions ([`Scene::thruster_directions`]), N.
+    pub thrust: [f64; THRUSTERS],
+    /// Motor torques on W1, W2 about their axes, N m; the fuselage feels the opposite.
+    pub motor_torque: [f64; WHEELS],
+    /// External torque on the spacecraft beside that of the thrusters, in F_s, N m.
+    pub body_torque: [f64; 3],
+}
+
+/// An interval of constant actuation: from `start` to the actuation's `until`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Arc {
+    /// Start, s.
+    pub start: f64,
+    /// What acts, and until when.
+    pub applied: Actuation,
+}
+
+/// The arc that command `index` of `input` becomes: scales, bias, delays. With ideal actuators, the command itself.
 ///
-/// Whether what comes out is a schedule (starts before it ends, no thrust that pulls), [`super::check`] says.
-pub fn applied(input: &SceneInput, index: usize) -> Actuation {
+/// [`super::check`] checks that the result is a schedule (every arc starts before it ends, no negative thrust).
+pub fn applied(input: &SceneInput, index: usize) -> Arc {
     let (actuators, command) = (&input.actuators, &input.actuation[index]);
     let start = |index: usize| {
-        // where a run starts, it has started
+        // a command that would start before the run starts with it
         (input.actuation[index].start_s + actuators.switch_on_delay_s).max(0.0)
     };
     let next = input.actuation.get(index + 1).filter(|next| next.start_s == command.end_s);
-    Actuation {
+    Arc {
         start: start(index),
-        end: if next.is_some() { start(index + 1) } else { command.end_s + actuators.switch_off_delay_s },
-        thrust: std::array::from_fn(|i| actuators.thrust_scale[i] * command.thrust_n[i]),
-        torque: std::array::from_fn(|i| {
-            let torque = command.torque_n_m[i];
-            if torque == 0.0 { 0.0 } else { actuators.torque_scale[i] * torque + actuators.torque_bias_n_m[i] }
-        }),
+        applied: Actuation {
+            until: if next.is_some() { start(index + 1) } else { command.end_s + actuators.switch_off_delay_s },
+            thrust: std::array::from_fn(|i| actuators.thrust_scale[i] * command.thrust_n[i]),
+            motor_torque: std::array::from_fn(|i| {
+                let torque = command.torque_n_m[i];
+                if torque == 0.0 { 0.0 } else { actuators.torque_scale[i] * torque + actuators.torque_bias_n_m[i] }
+            }),
+            body_torque: [0.0; 3],
+        },
     }
 }
 
@@ -32,34 +61,57 @@ pub fn thruster_directions(input: &SceneInput) -> [[f64; 3]; 3] {
     std::array::from_fn(|k| turned(THRUSTER_DIRECTIONS[k], [tilts[k][0], tilts[k][1], 0.0], 1.0))
 }
 
+/// What the commands of `schedule` (in order, not overlapping) apply at `time`, and until when: between them and after the last
+/// nothing acts. At the boundary of two arcs the later one applies.
+#[inline]
+pub fn actuation_at(schedule: &[Arc], time: f64) -> Actuation {
+    match schedule.get(schedule.partition_point(|arc| arc.end() <= time)) {
+        Some(arc) if arc.start <= time => arc.applied,
+        Some(arc) => Actuation::none(arc.start),
+        None => Actuation::none(f64::INFINITY),
+    }
+}
+
 impl Scene {
-    /// The stretches that cover [0, `duration`] without a gap, in order: those of the schedule, cut at the duration, and
-    /// between them coasting (thrust and torque zero). Integration restarts exactly at every boundary. No allocation.
-    pub fn stretches(&self, duration: f64) -> impl Iterator<Item = Actuation> + '_ {
-        let (mut time, mut next) = (0.0, 0);
+    /// The arcs of the scene's schedule that cover [0, `duration`] without a gap, in order. Integration restarts exactly at every
+    /// boundary. No allocation.
+    pub fn arcs(&self, duration: f64) -> impl Iterator<Item = Arc> + '_ {
+        let mut time = 0.0;
         std::iter::from_fn(move || {
             if time >= duration {
                 return None;
             }
-            let ahead = self.schedule.get(next).filter(|actuation| actuation.start < duration);
-            let stretch = match ahead {
-                Some(actuation) if actuation.start <= time => {
-                    next += 1;
-                    Actuation { end: actuation.end.min(duration), ..*actuation }
-                }
-                Some(actuation) => Actuation::coast(time, actuation.start),
-                None => Actuation::coast(time, duration),
-            };
-            time = stretch.end;
-            Some(stretch)
+            let arc = Arc::new(time, actuation_at(&self.schedule, time), duration);
+            time = arc.end();
+            Some(arc)
         })
     }
 }
 
 impl Actuation {
-    /// A stretch without thrust and torque.
-    pub const fn coast(start: f64, end: f64) -> Self {
-        Actuation { start, end, thrust: [0.0; 3], torque: [0.0; 2] }
+    /// Nothing acts until `until`.
+    pub const fn none(until: f64) -> Self {
+        Actuation { until, thrust: [0.0; THRUSTERS], motor_torque: [0.0; WHEELS], body_torque: [0.0; 3] }
+    }
+
+    /// Whether any thrust, motor or body torque acts.
+    #[inline]
+    pub fn acts(&self) -> bool {
+        self.thrust != [0.0; THRUSTERS] || self.motor_torque != [0.0; WHEELS] || self.body_torque != [0.0; 3]
+    }
+}
+
+impl Arc {
+    /// The arc of `applied` from `start` on, ended at `duration` at the latest.
+    #[inline]
+    pub fn new(start: f64, applied: Actuation, duration: f64) -> Self {
+        Arc { start, applied: Actuation { until: applied.until.min(duration), ..applied } }
+    }
+
+    /// End, s.
+    #[inline]
+    pub const fn end(&self) -> f64 {
+        self.applied.until
     }
 }
 
@@ -67,14 +119,14 @@ impl Actuation {
 mod tests {
     use crate::scene::{ActuationInput, Scene, samples};
 
-    fn stretches(switches: &[[f64; 2]], duration: f64) -> Vec<(f64, f64, bool)> {
+    fn arcs(switches: &[[f64; 2]], duration: f64) -> Vec<(f64, f64, bool)> {
         let mut input = samples::table_two();
         input.actuation = switches
             .iter()
             .map(|&[start_s, end_s]| ActuationInput { start_s, end_s, thrust_n: [1.0, 0.0, 0.0], torque_n_m: [0.0; 2] })
             .collect();
         let scene = Scene::resolve(&input).expect("a legal schedule");
-        scene.stretches(duration).map(|s| (s.start, s.end, s.thrust[0] > 0.0)).collect()
+        scene.arcs(duration).map(|arc| (arc.start, arc.end(), arc.applied.thrust[0] > 0.0)).collect()
     }
 
     #[test]
@@ -88,9 +140,9 @@ mod tests {
         };
         input.actuation = vec![command(0.0, 1.0, 2.0), command(1.0, 2.0, 0.0), command(3.0, 4.0, -2.0)];
         let ideal = Scene::resolve(&input).expect("a legal schedule");
-        for (stretch, command) in ideal.schedule.iter().zip(&input.actuation) {
-            assert_eq!((stretch.start, stretch.end), (command.start_s, command.end_s));
-            assert_eq!((stretch.thrust, stretch.torque), (command.thrust_n, command.torque_n_m));
+        for (arc, command) in ideal.schedule.iter().zip(&input.actuation) {
+            assert_eq!((arc.start, arc.end()), (command.start_s, command.end_s));
+            assert_eq!((arc.applied.thrust, arc.applied.motor_torque), (command.thrust_n, command.torque_n_m));
         }
         input.actuators.thrust_scale = [0.5, 1.0, 1.5];
         input.actuators.torque_scale = [2.0, 1.0];
@@ -98,10 +150,10 @@ mod tests {
         input.actuators.switch_on_delay_s = -0.25;
         input.actuators.switch_off_delay_s = 0.5;
         let schedule = Scene::resolve(&input).expect("a legal schedule").schedule;
-        let times: Vec<_> = schedule.iter().map(|stretch| (stretch.start, stretch.end)).collect();
-        assert_eq!(times, [(0.0, 0.75), (0.75, 2.5), (2.75, 4.5)], "one switch where stretches meet, none before zero");
-        assert!(schedule.iter().all(|stretch| stretch.thrust == [5.0, 20.0, 45.0]));
-        let torques: Vec<_> = schedule.iter().map(|stretch| stretch.torque).collect();
+        let times: Vec<_> = schedule.iter().map(|arc| (arc.start, arc.end())).collect();
+        assert_eq!(times, [(0.0, 0.75), (0.75, 2.5), (2.75, 4.5)], "one switch where commands meet, none before zero");
+        assert!(schedule.iter().all(|arc| arc.applied.thrust == [5.0, 20.0, 45.0]));
+        let torques: Vec<_> = schedule.iter().map(|arc| arc.applied.motor_torque).collect();
         assert_eq!(torques, [[4.25, 0.0], [0.0, 0.0], [-3.75, 0.0]], "no bias where nothing is commanded");
     }
 
@@ -127,13 +179,13 @@ mod tests {
     }
 
     #[test]
-    fn stretches_cover_the_horizon_without_a_gap() {
-        assert_eq!(stretches(&[], 2.0), [(0.0, 2.0, false)]);
-        assert_eq!(stretches(&[[0.0, 2.0]], 2.0), [(0.0, 2.0, true)]);
-        assert_eq!(stretches(&[[0.0, 5.0]], 2.0), [(0.0, 2.0, true)]);
-        assert_eq!(stretches(&[[3.0, 5.0]], 2.0), [(0.0, 2.0, false)]);
+    fn arcs_cover_the_horizon_without_a_gap() {
+        assert_eq!(arcs(&[], 2.0), [(0.0, 2.0, false)]);
+        assert_eq!(arcs(&[[0.0, 2.0]], 2.0), [(0.0, 2.0, true)]);
+        assert_eq!(arcs(&[[0.0, 5.0]], 2.0), [(0.0, 2.0, true)]);
+        assert_eq!(arcs(&[[3.0, 5.0]], 2.0), [(0.0, 2.0, false)]);
         assert_eq!(
-            stretches(&[[0.5, 1.0], [1.0, 1.5]], 2.0),
+            arcs(&[[0.5, 1.0], [1.0, 1.5]], 2.0),
             [(0.0, 0.5, false), (0.5, 1.0, true), (1.0, 1.5, true), (1.5, 2.0, false)]
         );
     }

@@ -58,7 +58,7 @@ fn scenes() -> impl Strategy<Value = (Scene, Actuation)> {
             input.initial.velocity_m_s = linear.1;
             let torque = std::array::from_fn(|i| if present[i] { torque[i] } else { 0.0 });
             let scene = Scene::resolve(&input).expect("a physical scene");
-            Some((scene, Actuation { start: 0.0, end: 1.0, thrust, torque }))
+            Some((scene, Actuation { until: 1.0, thrust, motor_torque: torque, body_torque: [0.0; 3] }))
         },
     )
 }
@@ -70,7 +70,7 @@ fn derivative(scene: &Scene, actuation: &Actuation, sign: SignOfANon, state: &St
 }
 
 fn inputs(actuation: &Actuation) -> [f64; 5] {
-    let ([p1, p2, p3], [t1, t2]) = (actuation.thrust, actuation.torque);
+    let ([p1, p2, p3], [t1, t2]) = (actuation.thrust, actuation.motor_torque);
     [p1, p2, p3, t1, t2]
 }
 
@@ -190,7 +190,7 @@ proptest! {
         for (i, wheel) in mass.wheels.iter().enumerate() {
             let axis = Vector3::from(wheel.axis);
             h += axis * (wheel.axial * (omega.dot(&axis) + state.wheel_rates[i]));
-            torque -= axis * actuation.torque[i];
+            torque -= axis * actuation.motor_torque[i];
         }
         let omega_dot = j_free.try_inverse().expect("J* is positive definite") * (h.cross(&omega) + torque);
         let size = omega_dot.norm() + omega.norm_squared() + 1.0;
@@ -199,7 +199,7 @@ proptest! {
 
         for (i, wheel) in mass.wheels.iter().enumerate() {
             if wheel.is_present() {
-                let expected = actuation.torque[i] / wheel.axial - omega_dot.dot(&Vector3::from(wheel.axis));
+                let expected = actuation.motor_torque[i] / wheel.axial - omega_dot.dot(&Vector3::from(wheel.axis));
                 prop_assert!((rate.wheel_rates[i] - expected).abs() <= RATE_TOLERANCE * (size + 300.0));
             } else {
                 prop_assert_eq!((rate.wheel_rates[i], state.wheel_rates[i]), (0.0, 0.0));
@@ -265,7 +265,7 @@ fn the_printed_sign_feeds_energy_from_nowhere() {
     let mut input = Golden::load("table1").scene;
     input.fuselage.center_of_mass_m = Some([0.1, 0.0, 1.5]);
     let scene = Scene::resolve(&input).expect("the report's scene");
-    let (parameters, state, coast) = (Parameters::of(&scene), sigma(&scene), Actuation::coast(0.0, 1.0));
+    let (parameters, state, coast) = (Parameters::of(&scene), sigma(&scene), Actuation::none(1.0));
     let relative = |sign| {
         let (rate, size) = energy_rate(&parameters, &state, &derivative(&scene, &coast, sign, &state));
         rate.abs() / size

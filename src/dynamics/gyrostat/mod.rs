@@ -222,14 +222,15 @@ impl<R: Real> Gyrostat<R> {
             self.axial[i] * rate
         });
         let mut turn = [zero; 2];
-        for act in scene.stretches(duration) {
+        for arc in scene.arcs(duration) {
+            let applied = &arc.applied;
             let stretch = Stretch {
-                start: act.start,
-                end: act.end,
-                actuated: act.thrust != [0.0; 3] || act.torque != [0.0; 2],
-                force_b: self.into_b(constant(zero, scene.thruster_force_s(act.thrust))),
-                torque_b: self.into_b(constant(zero, scene.thruster_torque_s(act.thrust))),
-                motor: act.torque.map(|x| zero.splat(x)),
+                start: arc.start,
+                end: arc.end(),
+                actuated: applied.acts(),
+                force_b: self.into_b(constant(zero, scene.thruster_force_s(applied.thrust))),
+                torque_b: self.into_b(constant(zero, scene.thruster_torque_s(applied.thrust))),
+                motor: applied.motor_torque.map(|x| zero.splat(x)),
                 wheel_momentum: momentum,
                 wheel_turn: turn,
             };

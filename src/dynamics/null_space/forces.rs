@@ -54,7 +54,7 @@ impl Drive {
             force_s,
             torque_p_s,
             torque_c_s: difference(torque_p_s, cross(parameters.center, force_s)),
-            motors: actuation.torque,
+            motors: actuation.motor_torque,
         }
     }
 }

@@ -38,7 +38,7 @@ impl Kernel {
             row[i] -= parameters.debris_inertia[0][0];
         }
         Kernel {
-            drive: Drive::of(&parameters, &Actuation::coast(0.0, 0.0)),
+            drive: Drive::of(&parameters, &Actuation::none(0.0)),
             debris_factor: cholesky(parameters.debris_inertia),
             debris_deviator,
             sign: match sign {
@@ -49,7 +49,7 @@ impl Kernel {
         }
     }
 
-    /// Enters a stretch of the schedule.
+    /// Starts an arc: what acts from here on.
     pub fn drive(&mut self, actuation: &Actuation) {
         self.drive = Drive::of(&self.parameters, actuation);
     }

@@ -1,0 +1,232 @@
+//! The actuation interface: what acts on a spacecraft, asked for at the start of every arc.
+//!
+//! A run consists of *arcs* of constant actuation. Where one ends, the engine asks the run's [`ActuationLaw`] what acts next and
+//! until when, and shows it the state there. A law sees its own run only: engines propagate several runs at once, and no value
+//! of one reaches another.
+//!
+//! - [`OpenLoop`]: the schedule of a scene, which depends on time alone. The default.
+//! - [`ZeroOrderHold`]: sampled-data control: a law is asked once per control period and its answer is held.
+//! - [`Sum`]: several sources at once.
+//! - A closure `|time, body, wheels| -> Actuation` is a law.
+//!
+//! Values are *applied* values: scales, delays and limits of actuators are the law's own matter. Not here: sensors, estimators
+//! and control laws proper, and the equations on which the values act.
+
+use crate::scene::schedule::actuation_at;
+pub use crate::scene::{Actuation, Arc, THRUSTERS, WHEELS};
+
+/// The motion of the spacecraft's body at a time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BodyState {
+    /// Angular velocity of F_s relative to F_e, in F_s, rad/s.
+    pub omega_se_s: [f64; 3],
+    /// Attitude quaternion, F_s -> F_e, scalar first; of unit norm up to the error of integration.
+    pub q_es: [f64; 4],
+    /// Position of the spacecraft's centre of mass c in F_e, m.
+    pub r_co_e: [f64; 3],
+    /// Velocity of c relative to F_e, in F_e, m/s.
+    pub v_co_e: [f64; 3],
+}
+
+/// The motion of the wheels at a time. A wheel that the spacecraft does not have is at rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WheelState {
+    /// Rates relative to the fuselage, rad/s.
+    pub rates: [f64; WHEELS],
+    /// Angular momenta about their axes relative to F_e, J_i (Omega_i + a_i . omega), N m s.
+    pub momenta: [f64; WHEELS],
+    /// Angles relative to the fuselage, rad, not wrapped.
+    pub angles: [f64; WHEELS],
+}
+
+/// Decides what acts on one run, arc by arc.
+///
+/// The answer may depend on everything that the law was told before, and on nothing else: then a run is a function of its scene
+/// and its law, whatever runs beside it.
+pub trait ActuationLaw {
+    /// What acts from `time` (s since the start of the run) on, given the state there: the arc ends at `until`, or earlier where
+    /// another source or the end of the run ends it. Called at time zero and at the end of every arc, in ascending order;
+    /// `until` must be after `time`.
+    fn arc(&mut self, time: f64, body: &BodyState, wheels: &WheelState) -> Actuation;
+}
+
+impl<F: FnMut(f64, &BodyState, &WheelState) -> Actuation> ActuationLaw for F {
+    fn arc(&mut self, time: f64, body: &BodyState, wheels: &WheelState) -> Actuation {
+        self(time, body, wheels)
+    }
+}
+
+/// A schedule that was fixed before the run: the arcs of a scene, or those that another run has flown.
+///
+/// Between the arcs of the schedule and after the last nothing acts.
+#[derive(Clone, Copy, Debug)]
+pub struct OpenLoop<'a> {
+    /// The arcs, in order, not overlapping.
+    pub schedule: &'a [Arc],
+}
+
+impl ActuationLaw for OpenLoop<'_> {
+    fn arc(&mut self, time: f64, _body: &BodyState, _wheels: &WheelState) -> Actuation {
+        actuation_at(self.schedule, time)
+    }
+}
+
+/// Asks a law once per control period, at times 0, T, 2T, ..., and holds its answer in between.
+///
+/// The `until` of the answer is not used: it holds for the whole period.
+#[derive(Clone, Debug)]
+pub struct ZeroOrderHold<L> {
+    period: f64,
+    law: L,
+    /// Number of the next sample.
+    next: u64,
+    held: Actuation,
+}
+
+impl<L: ActuationLaw> ZeroOrderHold<L> {
+    /// `law` at a control period of `period` > 0 seconds.
+    pub fn new(period: f64, law: L) -> Self {
+        ZeroOrderHold { period, law, next: 0, held: Actuation::none(0.0) }
+    }
+
+    /// The law that is sampled.
+    pub fn law(&self) -> &L {
+        &self.law
+    }
+}
+
+impl<L: ActuationLaw> ActuationLaw for ZeroOrderHold<L> {
+    fn arc(&mut self, time: f64, body: &BodyState, wheels: &WheelState) -> Actuation {
+        if time >= self.held.until {
+            // the time of a sample is a product, so that rounding does not add up
+            while self.next as f64 * self.period <= time {
+                self.next += 1;
+            }
+            self.held = self.law.arc(time, body, wheels);
+            self.held.until = self.next as f64 * self.period;
+        }
+        self.held
+    }
+}
+
+/// Two sources at once: their thrusts and torques add, the earlier `until` ends the arc. More by nesting.
+///
+/// Each source is asked when its own last answer has ended, and only then.
+#[derive(Clone, Debug)]
+pub struct Sum<A, B> {
+    first: (A, Actuation),
+    second: (B, Actuation),
+}
+
+impl<A: ActuationLaw, B: ActuationLaw> Sum<A, B> {
+    /// `first` and `second`.
+    pub fn new(first: A, second: B) -> Self {
+        // both are asked at the first arc
+        let asked = Actuation::none(f64::NEG_INFINITY);
+        Sum { first: (first, asked), second: (second, asked) }
+    }
+}
+
+impl<A: ActuationLaw, B: ActuationLaw> ActuationLaw for Sum<A, B> {
+    fn arc(&mut self, time: f64, body: &BodyState, wheels: &WheelState) -> Actuation {
+        if time >= self.first.1.until {
+            self.first.1 = self.first.0.arc(time, body, wheels);
+        }
+        if time >= self.second.1.until {
+            self.second.1 = self.second.0.arc(time, body, wheels);
+        }
+        sum(&self.first.1, &self.second.1)
+    }
+}
+
+/// What two sources apply together, until the first of them changes.
+pub fn sum(first: &Actuation, second: &Actuation) -> Actuation {
+    Actuation {
+        until: first.until.min(second.until),
+        thrust: std::array::from_fn(|i| first.thrust[i] + second.thrust[i]),
+        motor_torque: std::array::from_fn(|i| first.motor_torque[i] + second.motor_torque[i]),
+        body_torque: std::array::from_fn(|i| first.body_torque[i] + second.body_torque[i]),
+    }
+}
+
+/// The laws of the runs of a batch, by the index of the run.
+pub trait LawSource {
+    /// The law of run `run`.
+    fn law(&mut self, run: usize) -> &mut dyn ActuationLaw;
+}
+
+impl<L: ActuationLaw> LawSource for Vec<L> {
+    fn law(&mut self, run: usize) -> &mut dyn ActuationLaw {
+        &mut self[run]
+    }
+}
+
+/// How the runs of a batch are actuated.
+pub enum Laws<'a> {
+    /// Each run by the schedule of its own scene.
+    OpenLoop,
+    /// Each run by a law of its own, in place of the schedule of its scene.
+    Feedback(&'a mut dyn LawSource),
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BODY: BodyState =
+        BodyState { omega_se_s: [0.0; 3], q_es: [1.0, 0.0, 0.0, 0.0], r_co_e: [0.0; 3], v_co_e: [0.0; 3] };
+    const WHEEL: WheelState = WheelState { rates: [0.0; 2], momenta: [0.0; 2], angles: [0.0; 2] };
+
+    fn thrust(until: f64, thrust: f64) -> Actuation {
+        Actuation { thrust: [thrust, 0.0, 0.0], ..Actuation::none(until) }
+    }
+
+    /// The arcs of `law` up to `duration`: start, end, thrust.
+    fn arcs(law: &mut dyn ActuationLaw, duration: f64) -> Vec<(f64, f64, f64)> {
+        let (mut time, mut list) = (0.0, Vec::new());
+        while time < duration {
+            let arc = Arc::new(time, law.arc(time, &BODY, &WHEEL), duration);
+            time = arc.end();
+            list.push((arc.start, arc.end(), arc.applied.thrust[0]));
+        }
+        list
+    }
+
+    #[test]
+    fn a_schedule_is_flown_as_it_is() {
+        let schedule = [Arc { start: 0.5, applied: thrust(1.0, 2.0) }, Arc { start: 1.0, applied: thrust(1.5, 3.0) }];
+        let mut law = OpenLoop { schedule: &schedule };
+        let flown = [(0.0, 0.5, 0.0), (0.5, 1.0, 2.0), (1.0, 1.5, 3.0), (1.5, 2.0, 0.0)];
+        assert_eq!(arcs(&mut law, 2.0), flown);
+        assert_eq!(arcs(&mut law, 0.75), [(0.0, 0.5, 0.0), (0.5, 0.75, 2.0)]);
+    }
+
+    #[test]
+    fn a_sampled_law_is_asked_once_per_period() {
+        let mut asked = Vec::new();
+        let mut law = ZeroOrderHold::new(0.1, |time: f64, _: &BodyState, _: &WheelState| {
+            asked.push(time);
+            thrust(f64::INFINITY, time)
+        });
+        // in between, the answer is held
+        assert_eq!(law.arc(0.0, &BODY, &WHEEL), thrust(0.1, 0.0));
+        assert_eq!(law.arc(0.05, &BODY, &WHEEL), thrust(0.1, 0.0));
+        let flown = arcs(&mut law, 0.35);
+        assert_eq!(flown.len(), 4);
+        let samples: Vec<f64> = (0..4).map(|k| f64::from(k) * 0.1).collect();
+        assert_eq!(asked, samples);
+    }
+
+    #[test]
+    fn sources_add_and_the_earlier_end_wins() {
+        let schedule = [Arc { start: 0.25, applied: thrust(0.6, 2.0) }];
+        let mut calls = 0;
+        let sampled = ZeroOrderHold::new(0.5, |_: f64, _: &BodyState, _: &WheelState| {
+            calls += 1;
+            thrust(f64::INFINITY, 10.0 * f64::from(calls))
+        });
+        let mut law = Sum::new(OpenLoop { schedule: &schedule }, sampled);
+        let flown = [(0.0, 0.25, 10.0), (0.25, 0.5, 12.0), (0.5, 0.6, 22.0), (0.6, 1.0, 20.0)];
+        assert_eq!(arcs(&mut law, 1.0), flown);
+    }
+}
