@@ -5,4 +5,5 @@ mod support;
 
 mod accuracy_document;
 mod architecture;
-mod readme;
+mod documents;
+mod generated_tables;

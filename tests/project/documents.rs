@@ -1,0 +1,249 @@
+//! README and `docs/`: every name that a user meets is documented, every campaign file in them is valid, and every command exists.
+
+use std::path::{Path, PathBuf};
+
+use clap::{CommandFactory, Parser};
+use spindrift::campaign::{Overrides, Plan, find};
+use spindrift::cli::{Arguments, Command};
+use spindrift::propagation::Method;
+use spindrift::run::Status;
+use spindrift::scene::Scene;
+
+/// The maximum length of the README, in lines.
+const README_LINES: usize = 200;
+
+/// The mark above a TOML block that is a part of a campaign file.
+const FRAGMENT: &str = "<!-- fragment -->";
+
+/// Commands of other programs that may stand in a shell block.
+const OTHER_PROGRAMS: [&str; 5] = ["sha256sum", "git", "cd", "rustup", "cp"];
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).to_owned()
+}
+
+fn text(file: &Path) -> String {
+    std::fs::read_to_string(file).unwrap_or_else(|error| panic!("{}: {error}", file.display()))
+}
+
+/// The documents: every Markdown file at the root, in `docs/` and in `benches/`.
+fn documents() -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    for folder in ["", "docs", "benches"] {
+        let entries = std::fs::read_dir(root().join(folder)).expect("a readable folder");
+        files.extend(entries.map(|entry| entry.expect("an entry").path()));
+    }
+    files.retain(|path| path.extension().is_some_and(|extension| extension == "md"));
+    files.sort();
+    files
+}
+
+/// A fenced block: its language, its text, and whether it is marked as a part of a campaign file.
+struct Block {
+    language: String,
+    text: String,
+    is_fragment: bool,
+}
+
+fn blocks(document: &str) -> Vec<Block> {
+    let mut blocks: Vec<Block> = Vec::new();
+    let (mut is_open, mut before) = (false, "");
+    for line in document.lines() {
+        match line.strip_prefix("```") {
+            Some(_) if is_open => is_open = false,
+            Some(language) => {
+                is_open = true;
+                let (language, is_fragment) = (language.to_owned(), before == FRAGMENT);
+                blocks.push(Block { language, text: String::new(), is_fragment });
+            }
+            None if is_open => {
+                let block = blocks.last_mut().expect("an open block");
+                block.text.push_str(line);
+                block.text.push('\n');
+            }
+            None => before = if line.is_empty() { before } else { line },
+        }
+    }
+    blocks
+}
+
+/// What is wrong with a campaign file, or with a part of one added to `spin_sweep.toml`.
+fn campaign_problem(block: &Block) -> Option<String> {
+    let folder = root().join("campaigns");
+    let base = if block.is_fragment { text(&folder.join("spin_sweep.toml")) } else { String::new() };
+    let whole = format!("{base}\n{}", block.text);
+    match Plan::from_text_in(&folder, "block.toml", &whole, Overrides::default()) {
+        Err(error) => Some(error.to_string()),
+        Ok(plan) => Scene::resolve(&plan.nominal).err().map(|errors| format!("{errors:?}")),
+    }
+}
+
+/// Whether `cargo`'s arguments name a target of this package that exists.
+fn cargo_problem(words: &[&str]) -> Option<String> {
+    let folders = [("--test", "tests"), ("--bench", "benches"), ("--example", "examples")];
+    for (option, folder) in folders {
+        let Some(at) = words.iter().position(|word| *word == option) else { continue };
+        let name = words.get(at + 1).copied().unwrap_or_default();
+        let folder = root().join(folder);
+        if !folder.join(format!("{name}.rs")).is_file() && !folder.join(name).join("main.rs").is_file() {
+            return Some(format!("there is no {option} {name}"));
+        }
+    }
+    match words.split(|word| *word == "--").nth(1) {
+        Some(arguments) if words.first() == Some(&"run") && !words.contains(&"--example") => program_problem(arguments),
+        _ => None,
+    }
+}
+
+/// What is wrong with the arguments of the program.
+fn program_problem(words: &[&str]) -> Option<String> {
+    let arguments = match Arguments::try_parse_from([&["spindrift"], words].concat()) {
+        Ok(arguments) => arguments,
+        Err(error) => return Some(error.to_string()),
+    };
+    let file = match &arguments.command {
+        Command::Campaign(options) => &options.file,
+        Command::Check(options) => &options.file,
+        Command::Simulate(options) => &options.file,
+        Command::Sample(options) => &options.file,
+        Command::Precision(options) => &options.file,
+    };
+    // `my_sweep.toml` is the file that the README asks the reader to save; FILE stands for any
+    let shipped = || root().join("campaigns").join(file).is_file() || find(file).is_ok();
+    let is_known = ["my_sweep.toml", "FILE"].iter().any(|name| Path::new(name) == file) || shipped();
+    (!is_known).then(|| format!("there is no {}", file.display()))
+}
+
+/// What is wrong with a line of a shell block.
+fn command_problem(line: &str) -> Option<String> {
+    let line = line.split(" #").next().unwrap_or_default().replace('"', "");
+    let words: Vec<&str> = line.split_whitespace().skip_while(|word| is_setting(word)).collect();
+    match words.split_first() {
+        None => None,
+        Some((&"cargo", arguments)) => cargo_problem(arguments),
+        Some((&"spindrift" | &"target/release/spindrift", arguments)) => program_problem(arguments),
+        Some((program, _)) if OTHER_PROGRAMS.contains(program) || root().join(program).is_file() => None,
+        Some((program, _)) => Some(format!("unknown program {program}")),
+    }
+}
+
+/// Whether a word sets a variable of the environment.
+fn is_setting(word: &str) -> bool {
+    word.split_once('=')
+        .is_some_and(|(name, _)| name.chars().all(|letter| letter.is_ascii_uppercase() || letter == '_'))
+}
+
+/// The targets of the relative links of a document.
+fn links(document: &str) -> Vec<&str> {
+    let targets = document.match_indices("](").map(|(at, _)| document[at + 2..].split(')').next().unwrap_or_default());
+    targets.filter(|target| !target.starts_with("http") && !target.starts_with('#')).collect()
+}
+
+/// The headings of a document as GitHub names them in links.
+fn anchors(document: &str) -> Vec<String> {
+    let headings = document.lines().filter(|line| line.starts_with('#'));
+    headings
+        .map(|line| {
+            let title = line.trim_start_matches('#').trim().to_lowercase().replace(' ', "-");
+            title.chars().filter(|letter| letter.is_alphanumeric() || "-_".contains(*letter)).collect()
+        })
+        .collect()
+}
+
+/// Checked: the README is short.
+#[test]
+fn the_readme_is_short() {
+    let lines = text(&root().join("README.md")).lines().count();
+    assert!(lines <= README_LINES, "README.md has {lines} lines; move what is long to docs/");
+}
+
+/// Checked: every campaign file in the documents is valid.
+#[test]
+fn every_campaign_file_is_valid() {
+    let mut count = 0;
+    for file in documents() {
+        for block in blocks(&text(&file)).into_iter().filter(|block| block.language == "toml") {
+            count += 1;
+            let problem = campaign_problem(&block);
+            assert!(problem.is_none(), "{}: {}\n{}", file.display(), problem.unwrap_or_default(), block.text);
+        }
+    }
+    assert!(count >= 4, "{count} blocks were found");
+}
+
+/// Checked: every command in the documents exists, with its options, targets and files.
+#[test]
+fn every_command_exists() {
+    let mut count = 0;
+    for file in documents() {
+        for block in blocks(&text(&file)).iter().filter(|block| block.language == "sh") {
+            for line in block.text.lines() {
+                count += 1;
+                let problem = command_problem(line);
+                assert!(problem.is_none(), "{}: `{line}`: {}", file.display(), problem.unwrap_or_default());
+            }
+        }
+    }
+    assert!(count >= 10, "{count} commands were found");
+}
+
+/// Checked: every relative link leads to a file, and to a heading where it names one.
+#[test]
+fn every_link_leads_somewhere() {
+    for file in documents() {
+        let document = text(&file);
+        for link in links(&document) {
+            let (path, anchor) = link.split_once('#').unwrap_or((link, ""));
+            let target = file.parent().expect("a folder").join(path);
+            assert!(target.exists(), "{}: there is no {link}", file.display());
+            let known = || anchors(&text(&target)).iter().any(|known| known == anchor);
+            assert!(anchor.is_empty() || known(), "{}: {path} has no heading #{anchor}", file.display());
+        }
+    }
+}
+
+/// Checked: every name that a user writes or reads is documented.
+#[test]
+fn every_name_is_documented() {
+    let readme = text(&root().join("README.md"));
+    let command = Arguments::command();
+    let mut names: Vec<String> = vec![".ci/run".to_owned(), "cargo test --release".to_owned()];
+    for command in command.get_subcommands() {
+        names.push(format!("`{}", command.get_name()));
+        names
+            .extend(command.get_arguments().filter_map(|argument| argument.get_long()).map(|long| format!("--{long}")));
+    }
+    names.extend(Method::ALL.map(|method| format!("`{}`", method.name())));
+    names.extend(Status::ALL.map(|status| format!("`{}`", status.name())));
+    names.retain(|name| !readme.contains(name.as_str()));
+    assert!(names.is_empty(), "README.md does not mention {names:?}");
+
+    let page = text(&root().join("docs/campaign-files.md"));
+    let files = std::fs::read_dir(root().join("campaigns")).expect("a folder of campaigns");
+    let names = files.map(|file| file.expect("an entry").file_name().to_string_lossy().into_owned());
+    let unknown: Vec<String> = names.filter(|name| !page.contains(name.as_str())).collect();
+    assert!(unknown.is_empty(), "docs/campaign-files.md does not mention {unknown:?}");
+}
+
+/// Counter-test: each of the checks finds what it looks for.
+#[test]
+fn the_checks_can_fail() {
+    let document = "a\n<!-- fragment -->\n\n```toml\n[design]\nkind = \"sobol\"\n```\n```toml\n[design]\n```\n";
+    let found = blocks(document);
+    assert_eq!(found.len(), 2);
+    assert!(campaign_problem(&found[0]).is_none());
+    assert!(campaign_problem(&found[1]).is_some(), "a part of a file is no campaign");
+    for wrong in [
+        "spindrift campaign no_such_file.toml",
+        "spindrift campaign spin_sweep.toml --no-such-option",
+        "cargo run --release -- no_such_command spin_sweep.toml",
+        "cargo test --release --test no_such_test",
+        "SPINDRIFT_WRITE_DOCS=1 cargo bench --bench no_such_bench",
+        "no_such_program",
+    ] {
+        assert!(command_problem(wrong).is_some(), "{wrong}");
+    }
+    assert!(command_problem("spindrift check spin_sweep.toml   # shows the plan").is_none());
+    assert_eq!(links("[a](b.md#c) and [d](https://e) and [f](#g)"), ["b.md#c"]);
+    assert_eq!(anchors("# A b, c\ntext\n## D"), ["a-b-c", "d"]);
+}
