@@ -4,7 +4,7 @@
 //! 1e-10. Throughput is in samples per second.
 //!
 //! - `sampling`: draws, and mass properties and initial state from them;
-//! - `observation`: the observables of a run that stands in the state table: all, those about the centre of mass with the
+//! - `observation`: the observables of a run in the state table: all, those about the centre of mass with the
 //!   exchange, those alone, and the estimate of errors alone;
 //! - `writing`: rows to Parquet, in memory;
 //! - `campaign`: all of it, rows given to a sink that drops them, and rows written.

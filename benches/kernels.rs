@@ -12,7 +12,7 @@
 //! - `run`: 128 samples of `campaigns/no_debris.toml` (`spin_sweep` without the debris: 10 s, 101 points), with all that its
 //!   rows need.
 //!
-//! Through [`Engine`]s, which the library has compiled already: a march of its own would cost a bench minutes to build.
+//! Through [`Engine`]s, which the library has compiled already: a driver instantiated in the bench would take minutes to build.
 
 use std::hint::black_box;
 use std::path::Path;
@@ -233,7 +233,7 @@ fn run(criterion: &mut Criterion) {
 /// Fused operations of one chain per measurement.
 const CHAIN: usize = 1000;
 
-/// Chains side by side: two units times a latency of four, twice.
+/// Independent chains: two units times a latency of four, twice.
 const CHAINS: usize = 16;
 
 /// Independent chains of fused operations and nothing else.
@@ -272,7 +272,7 @@ fn peak(criterion: &mut Criterion) {
 ///
 /// Cauchy products: fifteen fused operations for each pair of coefficients. For each order: h x omega (9), the rate (9), its
 /// division by the order (3), that of the attitude (4). Then the value at the end of the step, two for each coefficient, and
-/// the step size, less than a hundred, which is left out.
+/// the step size, less than a hundred, which is omitted.
 fn flops_of_step(p: u64) -> u64 {
     2 * 15 * p * (p + 1) / 2 + p * (9 + 9 + 3 + 4) + 2 * 7 * p
 }

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Runs spindrift, heyoka and SciPy on the same scenes, side by side on one core, and prints ratios. See benches/README.md.
+# Runs spindrift, heyoka and SciPy on the same scenes, one after the other on one core, and prints ratios. See benches/README.md.
 #
 #   benches/peers/run.sh [options of compare.py, for example --samples 64 --repeats 5 --quick]
 #

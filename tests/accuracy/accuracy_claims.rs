@@ -48,8 +48,8 @@ fn gyrostats(count: u64, mode: WheelMode) -> Vec<(Scene, f64)> {
 }
 
 fn run(method: Method, scene: &Scene, grid: &Grid) -> Run {
-    let wanted = blocks([StateField::Rate, StateField::Attitude]);
-    let plan = PropagationSettings::new(method, adaptive(TOLERANCE), grid.clone(), wanted, scene);
+    let fields = blocks([StateField::Rate, StateField::Attitude]);
+    let plan = PropagationSettings::new(method, adaptive(TOLERANCE), grid.clone(), fields, scene);
     let run = propagate_on(Isa::best(), &plan, std::slice::from_ref(scene)).remove(0);
     assert_eq!(run.outcome.status, Status::Done);
     run
@@ -57,10 +57,11 @@ fn run(method: Method, scene: &Scene, grid: &Grid) -> Run {
 
 /// State errors of each of `methods` at five times, the largest of each scene, ascending.
 fn state_errors(methods: [Method; 2], scenes: &[(Scene, f64)]) -> [Vec<f64>; 2] {
-    let wanted = blocks([StateField::Rate, StateField::Attitude]);
+    let fields = blocks([StateField::Rate, StateField::Attitude]);
     let error = |(scene, time): &(Scene, f64)| {
         let grid = Grid::at(vec![0.0, 0.25 * time, 0.5 * time, 0.9 * time, *time]);
-        let truth = ReferenceSolution::new(Isa::best(), scene, &grid, wanted, TRUE).expect("the truth arrives");
+        let truth = ReferenceSolution::new(Isa::best(), scene, &grid, fields, TRUE)
+            .expect("the reference solution is complete");
         methods.map(|method| {
             let [rate, attitude] = distance(&run(method, scene, &grid).table, &truth);
             rate.max(attitude)
@@ -88,7 +89,7 @@ fn largest(errors: &[f64]) -> f64 {
     errors.iter().fold(0.0, |worst, e| if e.is_nan() { f64::INFINITY } else { worst.max(*e) })
 }
 
-/// Holds the claims for `count` scenes, of which `solved` have a truth.
+/// Checks the claims for `count` scenes; `solved` of them are compared with a reference solution.
 fn hold_gyrostats(count: u64, solved: u64) {
     for (mode, wheels) in [(WheelMode::Free, "free"), (WheelMode::SpeedHeld, "speed-held")] {
         let what = format!("two {wheels} wheels, 1000 revolutions");
@@ -120,9 +121,10 @@ fn many_gyrostats_after_a_thousand_revolutions() {
 fn mixing_the_modes_up_is_seen() {
     let [(free, time), (held, _)] = [WheelMode::Free, WheelMode::SpeedHeld].map(|mode| gyrostats(1, mode).remove(0));
     let grid = Grid::at(vec![0.0, 0.01 * time]);
-    let wanted = blocks([StateField::Rate, StateField::Attitude]);
+    let fields = blocks([StateField::Rate, StateField::Attitude]);
     for (right, wrong) in [(&free, &held), (&held, &free)] {
-        let truth = ReferenceSolution::new(Isa::best(), right, &grid, wanted, TRUE).expect("the truth arrives");
+        let truth = ReferenceSolution::new(Isa::best(), right, &grid, fields, TRUE)
+            .expect("the reference solution is complete");
         let [rate, attitude] = distance(&run(Method::Auto, wrong, &grid).table, &truth);
         assert!(rate.max(attitude) > 1e6 * STATE, "{rate:e} {attitude:e}");
     }
@@ -133,10 +135,11 @@ fn mixing_the_modes_up_is_seen() {
 fn a_wrong_coefficient_breaks_the_bound() {
     let (scene, time) = gyrostats(1, WheelMode::Free).remove(0);
     let grid = Grid::at(vec![0.0, time]);
-    let wanted = blocks([StateField::Rate, StateField::Attitude]);
+    let fields = blocks([StateField::Rate, StateField::Attitude]);
     let mut wrong = scene.clone();
     wrong.mass.inertia_free[1][1] *= 1.0 + 1e-12;
-    let truth = ReferenceSolution::new(Isa::best(), &scene, &grid, wanted, TRUE).expect("the truth arrives");
+    let truth =
+        ReferenceSolution::new(Isa::best(), &scene, &grid, fields, TRUE).expect("the reference solution is complete");
     let [rate, attitude] = distance(&run(Method::Auto, &wrong, &grid).table, &truth);
     assert!(rate.max(attitude) > 10.0 * STATE, "{rate:e} {attitude:e}");
 }
@@ -184,7 +187,7 @@ fn hard() -> Vec<Hard> {
     list
 }
 
-/// How far the end moves when the exact state is rounded to `f64` at one of four times on the way, and goes on exactly from there.
+/// How far the end moves when the exact state is rounded to `f64` at one of four times, and integrated in double-double from there.
 fn one_rounding(scene: &Scene, grid: &Grid, truth: &ReferenceSolution) -> f64 {
     let last = grid.points() - 1;
     let moved = |point: usize| {
@@ -194,8 +197,9 @@ fn one_rounding(scene: &Scene, grid: &Grid, truth: &ReferenceSolution) -> f64 {
         rest.initial.q_es = truth.high.at(StateField::Attitude, point);
         rest.initial.wheel_rates = truth.high.at(StateField::WheelRates, point);
         let rest_grid = Grid::at(vec![0.0, grid.times()[last] - grid.times()[point]]);
-        let wanted = blocks([StateField::Rate, StateField::Attitude]);
-        let end = ReferenceSolution::new(Isa::best(), &rest, &rest_grid, wanted, TRUE).expect("the truth arrives");
+        let fields = blocks([StateField::Rate, StateField::Attitude]);
+        let end = ReferenceSolution::new(Isa::best(), &rest, &rest_grid, fields, TRUE)
+            .expect("the reference solution is complete");
         let size = norm(truth.high.at::<3>(StateField::Rate, last));
         let rates = [end.high.at::<3>(StateField::Rate, 1), truth.high.at(StateField::Rate, last)];
         let attitudes = [end.high.at::<4>(StateField::Attitude, 1), truth.high.at(StateField::Attitude, last)];
@@ -212,13 +216,14 @@ fn hard_scenes_are_exact_to_their_conditioning() {
         let grid = Grid::uniform(horizon, 11);
         let own = [StateField::Rate, StateField::Attitude, StateField::WheelRates];
         let debris = [StateField::DebrisRate, StateField::DebrisAttitude];
-        let wanted = if scene.mass.debris.is_some() { blocks(own.into_iter().chain(debris)) } else { blocks(own) };
-        let solve =
-            |scene: &Scene| ReferenceSolution::new(Isa::best(), scene, &grid, wanted, TRUE).expect("the truth arrives");
+        let fields = if scene.mass.debris.is_some() { blocks(own.into_iter().chain(debris)) } else { blocks(own) };
+        let solve = |scene: &Scene| {
+            ReferenceSolution::new(Isa::best(), scene, &grid, fields, TRUE).expect("the reference solution is complete")
+        };
         let truth = solve(&scene);
         let rounding = one_rounding(&scene, &grid, &truth);
         for method in [Method::Auto, Method::Taylor] {
-            let plan = PropagationSettings::new(method, adaptive(TOLERANCE), grid.clone(), wanted, &scene);
+            let plan = PropagationSettings::new(method, adaptive(TOLERANCE), grid.clone(), fields, &scene);
             let run = propagate_on(Isa::best(), &plan, std::slice::from_ref(&scene)).remove(0);
             assert_eq!(run.outcome.status, Status::Done);
             let [rate, attitude] = distance(&run.table, &truth);

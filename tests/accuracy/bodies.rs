@@ -161,9 +161,9 @@ fn draws_that_pull_or_turn_inside_out_are_invalid() {
 fn a_scaled_actuator_is_a_scaled_command() {
     let kind = Kind { wheels: [true; 2], debris: 0, products: true, offset: true, forced: true };
     let mut scaled = random(kind, 21, 1.0);
-    for stretch in &mut scaled.actuation {
-        stretch.thrust_n = [stretch.thrust_n[0] * 2.0, stretch.thrust_n[1], 0.0];
-        stretch.torque_n_m[1] *= 0.5;
+    for interval in &mut scaled.actuation {
+        interval.thrust_n = [interval.thrust_n[0] * 2.0, interval.thrust_n[1], 0.0];
+        interval.torque_n_m[1] *= 0.5;
     }
     let mut errors = random(kind, 21, 1.0);
     errors.actuators.thrust_scale = [2.0, 1.0, 0.0];
@@ -186,8 +186,8 @@ fn a_scaled_actuator_is_a_scaled_command() {
 fn a_delay_moves_the_burn() {
     let kind = Kind { wheels: [true; 2], debris: 0, products: true, offset: true, forced: true };
     let mut late = random(kind, 22, 1.0);
-    for stretch in &mut late.actuation {
-        (stretch.start_s, stretch.end_s) = (stretch.start_s + 0.0625, stretch.end_s + 0.0625);
+    for interval in &mut late.actuation {
+        (interval.start_s, interval.end_s) = (interval.start_s + 0.0625, interval.end_s + 0.0625);
     }
     let mut delayed = random(kind, 22, 1.0);
     delayed.actuators.switch_on_delay_s = 0.0625;

@@ -1,4 +1,4 @@
-//! Closed forms and published cases: motions whose solution stands in a book, against every method at its tightest.
+//! Closed forms and published cases: motions with a published solution, against every method at its smallest tolerance.
 //!
 //! Free asymmetric bodies by Jacobi's elliptic functions (`tests/golden/free_bodies.json`, 25 digits, by `free_bodies.py` beside it);
 //! symmetric tops and axial rotors by uniform rotations, whose angles are computed here in double-double.
@@ -86,8 +86,8 @@ fn error(table: &StateTable, point: usize, omega: [f64; 3], q: [f64; 4]) -> f64 
 }
 
 fn states(method: Method, tolerance: f64, scene: &Scene, times: &[f64]) -> StateTable {
-    let wanted = blocks([StateField::Rate, StateField::Attitude]);
-    let plan = PropagationSettings::new(method, adaptive(tolerance), Grid::at(times.to_vec()), wanted, scene);
+    let fields = blocks([StateField::Rate, StateField::Attitude]);
+    let plan = PropagationSettings::new(method, adaptive(tolerance), Grid::at(times.to_vec()), fields, scene);
     let run = propagate_on(Isa::best(), &plan, std::slice::from_ref(scene)).remove(0);
     assert_eq!(run.outcome.status, Status::Done);
     run.table

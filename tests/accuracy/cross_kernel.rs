@@ -24,7 +24,7 @@ const TAYLOR_TOLERANCE: f64 = 1e-16;
 /// (moments, axes, momenta: a few ulps, for the whole run), for every radian.
 const TAYLOR_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// Random scenes: bodies, forces, wheels whose speed is held, wheels off their places and axes.
+/// Random scenes: bodies, forces, wheels whose speed is held, wheels off their nominal centres and axes.
 fn inputs() -> impl Strategy<Value = SceneInput> {
     (any::<[bool; 2]>(), 0u8..3, any::<[bool; 6]>(), any::<u64>()).prop_map(|(wheels, debris, flags, seed)| {
         let [products, offset, forced, first_held, second_held, tilted] = flags;
@@ -118,7 +118,7 @@ proptest! {
 /// Largest relative error of what thrust adds up to, of Taylor at 1e-16 and of collocation in steps that leave rounding.
 const IMPULSE_ERROR: f64 = 1e-13;
 
-/// Law: impulse, angular impulse and path, which ride along, are as accurate as the rates. They turn with the body, the
+/// Law: impulse, angular impulse and path, which are quadratures, are as accurate as the rates. They turn with the body, the
 /// quaternion at half its rate: a step that is short enough for the one need not be for the other (it was not: 3e-10).
 #[test]
 fn what_thrust_adds_up_to_is_as_accurate_as_the_rates() {

@@ -7,7 +7,7 @@
 //!   whose median lies at the 75th percentile of the baseline is seen with a power above 0.999.
 //! - Scaling: the median error falls in proportion to the tolerance.
 //!
-//! A change of a kernel that changes these distributions on purpose writes the baseline anew:
+//! A change of a kernel that changes these distributions on purpose writes the baseline again:
 //! `SPINDRIFT_WRITE_BASELINE=1 cargo test --release --test drift_bounds`.
 
 use crate::support::claims::hold;
@@ -30,7 +30,7 @@ use spindrift::sampling::SampleId;
 use spindrift::scene::Scene;
 
 const SECTION: &str = "drift_bounds";
-/// Set, the baseline is written anew and not compared.
+/// Set, the baseline is written and not compared.
 const WRITE: &str = "SPINDRIFT_WRITE_BASELINE";
 /// The shipped campaigns whose runs are compared.
 const CAMPAIGNS: [&str; 5] = ["burn", "no_debris", "report_1e-6", "report_1e-8", "spin_sweep"];
@@ -199,7 +199,7 @@ fn shipped_campaigns_drift_as_before() {
         let text = serde_json::to_string_pretty(&Value::Object(written)).expect("JSON");
         std::fs::write(golden(), text + "\n").expect("the baseline can be written");
     }
-    assert!(wrong.is_empty(), "distributions have changed ({WRITE}=1 writes the baseline anew): {wrong:#?}");
+    assert!(wrong.is_empty(), "distributions have changed ({WRITE}=1 writes the baseline again): {wrong:#?}");
 }
 
 /// How far the log-log slope of the median error over the tolerance may be off one.
@@ -275,7 +275,7 @@ fn faults_are_seen() {
         println!("moment {axis} off by 1e-12: {off:.3}");
         assert!(off > critical(128), "moment {axis}: {off}");
     }
-    // a term is left out: J in the place of J* = J - J_1 a1 a1^T - J_2 a2 a2^T
+    // a term is omitted: J instead of J* = J - J_1 a1 a1^T - J_2 a2 a2^T
     let (off, beyond) = seen(&|scene| scene.mass.inertia_free = scene.mass.inertia);
     assert!(off > 0.99 && beyond, "{off}");
     // a wrong sign: wheel 1 couples as if it turned about -s2

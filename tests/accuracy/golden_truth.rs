@@ -27,7 +27,7 @@ struct Errors {
     energies: f64,
     /// Each body's energy relative to the total.
     energies_of_total: f64,
-    /// Energy balance: total less work less the total at zero, over the largest total.
+    /// Energy balance: total minus work minus the total at time zero, over the largest total.
     balance: f64,
     debris_position: f64,
     debris_velocity: f64,

@@ -4,7 +4,7 @@
 //! thrust, angular momentum by the torque; constraints hold at the level of rates. Counter-test: with the printed sign of
 //! a-hat_non,s energy is not conserved.
 
-use crate::support::extrapolation::march;
+use crate::support::extrapolation::integrate;
 use crate::support::golden::Golden;
 use nalgebra::{Matrix3, SVector, Vector3};
 use proptest::prelude::*;
@@ -338,11 +338,11 @@ fn observed(input: &SceneInput, times: Vec<f64>) -> (Scene, Trajectory, StateTab
     let mut trajectory = Trajectory::new(COMPONENTS, grid.points());
     trajectory.set(0, &x);
     let (mut time, mut point) = (0.0, 1);
-    for stretch in 0..runs.stretches(0) {
-        let end = runs.enter(0, stretch);
+    for arc in 0..runs.stretches(0) {
+        let end = runs.enter(0, arc);
         while time < end {
             let next = grid.times()[point].min(end);
-            x = march(&runs, x, next - time);
+            x = integrate(&runs, x, next - time);
             time = next;
             if time == grid.times()[point] {
                 trajectory.set(point, &x);

@@ -1,4 +1,4 @@
-//! How a run ends is data: done, step limit, step floor, not finite; stretches and observation points are met exactly.
+//! How a run ends is data: done, step limit, step floor, not finite; arcs and observation points are met exactly.
 
 use crate::textbook::*;
 use spindrift::ode::Control;
@@ -11,7 +11,7 @@ use spindrift::run::Status;
 /// Round-off of a sum of some ten steps of order one to ten.
 const ROUND_OFF: f64 = 1e-14;
 
-fn jumps_are_met<M: Marcher>(method: M, name: &str) {
+fn jumps_are_met<M: Driver>(method: M, name: &str) {
     // Methods of order four and more integrate a quadratic exactly, if no step straddles a jump.
     let ends = vec![0.3, 0.3, 1.0, 1.7];
     let case = Case { state: [0.0], parameters: [], ends };
@@ -31,14 +31,14 @@ fn jumps_are_met<M: Marcher>(method: M, name: &str) {
     for (time, state) in std::iter::zip(times, &journey.points) {
         assert!((state[0] - truth(time)).abs() < ROUND_OFF, "{name} at {time}: {} {}", state[0], truth(time));
     }
-    // The counter-test: one stretch less, and a step straddles the jump that is not there.
+    // The counter-test: with one arc fewer, a step straddles the jump that is not there.
     let blind = Case { state: [0.0], parameters: [], ends: vec![1.0, 1.7] };
     let blind = scalar(method, Switched, &[blind], &grid, &control(1e-6, 0.07)).remove(0);
     assert!((blind.points[6][0] - truth(1.7)).abs() > 0.1);
 }
 
 #[test]
-fn stretches_restart_exactly() {
+fn arcs_restart_exactly() {
     jumps_are_met(Adaptive(DormandPrince), "Dormand-Prince");
     jumps_are_met(Adaptive(Dop853), "DOP853");
     jumps_are_met(Fixed(RungeKutta4), "Runge-Kutta 4");
@@ -46,7 +46,7 @@ fn stretches_restart_exactly() {
 }
 
 #[test]
-fn a_stretch_is_a_run_of_its_own() {
+fn an_arc_is_a_run_of_its_own() {
     // The second half of a run equals a run that starts where the first half ended: nothing survives the boundary but the
     // carry of the compensated sum, which round-off bounds.
     let half = |state, ends| Case::<2, 1> { state, parameters: [1.5], ends };
@@ -65,7 +65,7 @@ fn a_stretch_is_a_run_of_its_own() {
     assert_eq!(steps(&whole[0]), steps(&first[0]) + steps(&second[0]));
 }
 
-fn ends_as<M: Marcher, L: Law<1, 0>>(method: M, law: L, state: f64, control: &Control, status: Status) {
+fn ends_as<M: Driver, L: Law<1, 0>>(method: M, law: L, state: f64, control: &Control, status: Status) {
     let case = Case { state: [state], parameters: [], ends: vec![2.0] };
     let journey = scalar(method, law, &[case], &Grid::uniform(2.0, 21), control).remove(0);
     let outcome = journey.outcome;

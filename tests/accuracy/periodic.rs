@@ -178,7 +178,7 @@ fn specials() -> Vec<Special> {
         special("fast", spun([1e6, -2e6, 0.5e6], [3e7, -1e7]), 4e-5),
         special("slow wheels, fast body", spun([1e3, -2e3, 0.5e3], [1e-3, 1e-3]), 0.04),
         Special {
-            // omega goes round by 60 rad in this time, which the angle of the body does not count
+            // omega rotates by 60 rad in this time, which the angle of the body does not count
             amplification: 3.0,
             ..special("fast wheels, slow body", spun([1e-4, -2e-4, 0.5e-4], [3e3, -1e3]), 40.0)
         },
@@ -214,7 +214,7 @@ fn special_cases_are_plain_propagation() {
         assert!(rate.max(attitude) < amplification * PER_RADIAN * size, "{name}: {rate:e} {attitude:e}");
         assert!(steps[0] <= steps[1], "{name}: {steps:?}");
         if steps[0] == steps[1] {
-            assert!(auto.bits() == taylor.bits(), "{name}: without a period both are the same march");
+            assert!(auto.bits() == taylor.bits(), "{name}: without a period both integrate the same");
         }
     }
 }

@@ -85,7 +85,7 @@ fn two_tolerances_agree() {
     }
 }
 
-/// Law: energy less work, momentum less impulse, angular momentum less angular impulse are constant, to the digits of the
+/// Law: energy minus work, momentum minus impulse, angular momentum minus angular impulse are constant, to the digits of the
 /// arithmetic; and a state of another time breaks it.
 #[test]
 fn balances_hold_to_the_last_digits() {

@@ -81,7 +81,7 @@ fn with_the_steps_of_the_independent_run_the_error_is_its_error() {
     }
 }
 
-/// Figure 5: energy goes back and forth between fuselage and wheels, without any motor torque, and their sum stands still.
+/// Figure 5: energy oscillates between fuselage and wheels, without any motor torque, and their sum is constant.
 #[test]
 fn energy_moves_between_fuselage_and_wheels() {
     let (all, _) = figures(adaptive(1e-8));

@@ -100,8 +100,8 @@ fn taylor(steps: &[f64]) -> [Walk; 4] {
     let scenes = mixed(SCENES, false, 10.0);
     let run = |times: Vec<f64>, scenes: &[Scene]| {
         let grid = Grid::at(times);
-        let wanted = blocks([StateField::Rate, StateField::Attitude]);
-        let plan = PropagationSettings::new(Method::Taylor, adaptive(TOLERANCE), grid, wanted, &scenes[0]);
+        let fields = blocks([StateField::Rate, StateField::Attitude]);
+        let plan = PropagationSettings::new(Method::Taylor, adaptive(TOLERANCE), grid, fields, &scenes[0]);
         let parts: Vec<_> = scenes.par_chunks(8).map(|part| propagate_on(Isa::best(), &plan, part)).collect();
         parts.into_iter().flatten().collect::<Vec<_>>()
     };
@@ -252,7 +252,7 @@ fn the_law_can_be_broken() {
     }
 }
 
-/// Largest error of energy, |L|, norm and vector L of a run that goes on by its period, at any horizon: the roundings of one period.
+/// Largest error of energy, |L|, norm and vector L of a run that is continued by its period, at any horizon: the roundings of one period.
 const PERIODIC: f64 = 1e-14;
 /// How many times the largest error at a short horizon the largest at any other may be: no growth.
 const GROWTH: f64 = 2.0;
@@ -261,7 +261,7 @@ const GROWTH: f64 = 2.0;
 #[test]
 fn periods_add_no_error_of_conservation() {
     let scenes = mixed(SCENES, false, 10.0);
-    let wanted = blocks([StateField::Rate, StateField::Attitude]);
+    let fields = blocks([StateField::Rate, StateField::Attitude]);
     let (mut first, mut all) = (0.0_f64, 0.0_f64);
     for exponent in 2..=6 {
         let horizon = libm::pow(10.0, f64::from(exponent));
@@ -269,7 +269,7 @@ fn periods_add_no_error_of_conservation() {
             Method::Auto,
             adaptive(TOLERANCE),
             Grid::uniform(horizon, 101),
-            wanted,
+            fields,
             &scenes[0],
         );
         let mut worst = 0.0_f64;

@@ -86,8 +86,8 @@ fn diagonal([a, b, c]: [f64; 3]) -> [[f64; 3]; 3] {
 }
 
 fn run(scene: &Scene, method: Method, tolerance: f64, grid: Grid) -> Run {
-    let wanted = blocks([StateField::Rate, StateField::Attitude]);
-    let plan = PropagationSettings::new(method, adaptive(tolerance), grid, wanted, scene);
+    let fields = blocks([StateField::Rate, StateField::Attitude]);
+    let plan = PropagationSettings::new(method, adaptive(tolerance), grid, fields, scene);
     propagate_on(Isa::best(), &plan, std::slice::from_ref(scene)).remove(0)
 }
 
@@ -245,7 +245,7 @@ fn any_tolerance_passes() {
     }
 }
 
-/// Law: no switch is missed, however short its stretch: the impulse is the thrust times its time.
+/// Law: no switch is missed, however short its interval: the impulse is the thrust times its time.
 #[test]
 fn short_thrusts_are_not_missed() {
     let mut worst = 0.0_f64;
@@ -254,21 +254,24 @@ fn short_thrusts_are_not_missed() {
         input.debris = None;
         input.initial.angular_velocity_rad_s = [0.0, 0.0, 0.5];
         input.initial.wheel_rates_rad_s = [0.0; 2];
-        let stretch = |start_s: f64, thrust_n: [f64; 3]| ActuationInput {
+        let interval = |start_s: f64, thrust_n: [f64; 3]| ActuationInput {
             start_s,
             end_s: start_s + length,
             thrust_n,
             torque_n_m: [0.0; 2],
         };
-        input.actuation =
-            vec![stretch(0.5, [1e9, 0.0, 0.0]), stretch(0.5 + length, [2e9, 0.0, 0.0]), stretch(1.0, [1e9, 0.0, 0.0])];
+        input.actuation = vec![
+            interval(0.5, [1e9, 0.0, 0.0]),
+            interval(0.5 + length, [2e9, 0.0, 0.0]),
+            interval(1.0, [1e9, 0.0, 0.0]),
+        ];
         let table = rows(&plan(&input, 2.0, 21));
         worst = worst.max(largest_error(&format!("thrust for {length:e} s"), &table));
         let scene = Scene::resolve(&input).expect("a physical scene");
         let expected: f64 = input.actuation.iter().map(|act| act.thrust_n[0] * (act.end_s - act.start_s)).sum();
-        let wanted = blocks([StateField::Impulse, StateField::Rate, StateField::Attitude]);
+        let fields = blocks([StateField::Impulse, StateField::Rate, StateField::Attitude]);
         let run = {
-            let plan = PropagationSettings::new(Method::Auto, adaptive(1e-16), Grid::uniform(2.0, 21), wanted, &scene);
+            let plan = PropagationSettings::new(Method::Auto, adaptive(1e-16), Grid::uniform(2.0, 21), fields, &scene);
             propagate_on(Isa::best(), &plan, std::slice::from_ref(&scene)).remove(0)
         };
         // the body spins about the axis of the thrust, which therefore keeps its direction

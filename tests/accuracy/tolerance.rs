@@ -93,7 +93,7 @@ fn methods_have_their_order() {
             hold(SECTION, &regime, ORDER_SLACK, (measured - order).abs());
         }
         if forced {
-            continue; // the few steps of a stretch are mostly those that begin and end it
+            continue; // most of the few steps of an arc are its first and last
         }
         for (method, order) in [(Method::DormandPrince, 5.0), (Method::Dop853, 8.0)] {
             let [(large, few), (small, many)] =
@@ -108,9 +108,9 @@ fn methods_have_their_order() {
 /// How far a run may end from where it began, once forward and once back: 1e4 eps.
 const RETURN: f64 = 1e4 * f64::EPSILON;
 
-/// Law: the equations do not know the direction of time: with all rates turned round a run goes back to its start.
+/// Law: the equations do not know the direction of time: with all rates reversed a run returns to its start.
 #[test]
-fn runs_go_forward_and_back() {
+fn runs_are_reversible() {
     for (method, control, horizon) in reversals() {
         let off = there_and_back(method, control, horizon, -1.0);
         let regime = format!("`{}`, {horizon} s forward and back: distance from the start", method.name());

@@ -2,7 +2,7 @@
 //!
 //! Laws: a held wheel keeps its rate and turns uniformly; what its motor puts in is in the energy balance; L is constant
 //! whatever motors and tilts; a body that a known torque turns about a wheel's axis has J with the wheel held and J* with
-//! the wheel free. Counter-tests: J and J* mixed up, either way, and work left out.
+//! the wheel free. Counter-tests: J and J* mixed up, either way, and work omitted.
 
 use crate::support::golden::Golden;
 use crate::support::runs::{Run, adaptive, everything, propagate, relative, rotation_distance, up_to_sign};
@@ -79,7 +79,7 @@ fn energy_balances_with_the_work_of_the_motors_and_momentum_does_without() {
         }
         println!("{}: energy {:e}, angular momentum {:e}", method.name(), worst[0], worst[1]);
         assert!(worst.iter().all(|error| *error < bound), "{}: {worst:?}", method.name());
-        assert!(seen >= scenes.len() - 2, "{}: work left out must show: {seen}", method.name());
+        assert!(seen >= scenes.len() - 2, "{}: work omitted must show: {seen}", method.name());
     }
 }
 

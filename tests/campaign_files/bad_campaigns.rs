@@ -378,7 +378,7 @@ const CASES: &[(&str, &str, &str)] = &[
 ];
 
 #[test]
-fn every_bad_file_says_what_where_and_how_to_mend_it() {
+fn every_error_gives_line_key_value_range_and_remedy() {
     assert!(CASES.len() >= 60);
     let mut wrong = Vec::new();
     for (from, to, expected) in CASES {

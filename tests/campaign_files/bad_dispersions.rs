@@ -1,7 +1,7 @@
 //! Impossible and contradictory dispersions: each is refused with file, line, key, value, what is allowed and a remedy.
 //!
 //! The messages stand in tests/golden/bad_dispersions.txt, to be read by people; `SPINDRIFT_WRITE_SNAPSHOT=1 cargo test --release --test
-//! bad_dispersions` writes it anew.
+//! bad_dispersions` writes it again.
 
 use spindrift::campaign::{Overrides, Plan};
 use std::fmt::Write as _;
@@ -205,7 +205,7 @@ fn folder() -> std::path::PathBuf {
 }
 
 #[test]
-fn every_bad_dispersion_says_what_where_and_how_to_mend_it() {
+fn every_error_gives_line_key_value_range_and_remedy() {
     assert_eq!(START.lines().count(), 20);
     assert!(CASES.len() >= 60);
     let folder = folder();

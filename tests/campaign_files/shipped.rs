@@ -220,7 +220,7 @@ fn every_design_reads_back() {
 }
 
 #[test]
-fn what_is_left_out_has_a_default() {
+fn omitted_keys_have_defaults() {
     let text = "[campaign]\nname = \"small\"\nsamples = 1\nseed = 0\nduration_s = 2\n[fuselage]\nwall_thickness_m = 0.03\n\
                 outer_radius_m = 1\nlength_m = 3\ndensity_kg_m3 = 2700\n[initial]\nangular_velocity_rad_s = [0, 0, 1]\n";
     let plan = Plan::from_text("small.toml", text, Overrides::default()).unwrap_or_else(|e| panic!("{e}"));

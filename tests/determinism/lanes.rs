@@ -20,7 +20,7 @@ fn bits(runs: &[Run]) -> Vec<Bits> {
     runs.iter().map(Run::bits).collect()
 }
 
-/// Law: the row of a scene is the same bits alone, in company, in any order, and on every instruction set.
+/// Law: the row of a scene is the same bits alone, together with other runs, in any order, and on every instruction set.
 fn equal_in_any_company(method: Method, control: Control) {
     for forced in [false, true] {
         let scenes = mixed(21, forced, HORIZON);

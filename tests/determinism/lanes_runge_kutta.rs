@@ -12,7 +12,7 @@ use spindrift::run::Status;
 
 const HORIZON: f64 = 6.0;
 
-/// Three-body runs of very different length and fate, with stretches of their own.
+/// Three-body runs of very different length and fate, with arcs of their own.
 fn cases() -> Vec<Case<4, 1>> {
     (0..29)
         .map(|run| {
@@ -30,7 +30,7 @@ fn cases() -> Vec<Case<4, 1>> {
         .collect()
 }
 
-fn equal_in_all_lanes<M: Marcher>(method: M, control: &Control) {
+fn equal_in_all_lanes<M: Driver>(method: M, control: &Control) {
     let (cases, grid) = (cases(), Grid::uniform(HORIZON, 45));
     let truth = scalar(method, ThreeBody, &cases, &grid, control);
     for isa in Isa::available() {

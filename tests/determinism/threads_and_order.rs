@@ -47,7 +47,7 @@ impl Sink for Memory {
         let part = rows.part();
         self.parts.fetch_add(1, Ordering::Relaxed);
         if self.full_at == Some(part.id.0) {
-            return Err(format!("no room for part {}", part.id.0));
+            return Err(format!("no space for part {}", part.id.0));
         }
         let mut kept = self.rows.lock().unwrap();
         kept.extend(part.samples().enumerate().map(|(row, sample)| (sample.0, bits(rows, row))));
@@ -112,7 +112,7 @@ fn a_full_sink_stops_the_campaign() {
     for threads in [1, 2] {
         let sink = Memory { full_at: Some(1), ..Memory::default() };
         let ended = run(&campaign, Parts::of(4096), NonZeroUsize::new(threads), &sink, &|_| {});
-        assert!(matches!(ended, Err(RunError::Sink(error)) if error == "no room for part 1"));
+        assert!(matches!(ended, Err(RunError::Sink(error)) if error == "no space for part 1"));
         assert!(sink.parts.into_inner() <= 1 + 2 * threads as u64, "{threads} threads");
     }
 }

@@ -3,13 +3,13 @@
 //! The hashes in `golden/value_hashes.json` were made before the architecture was rebuilt. A column may be renamed (listed in
 //! [`RENAMED`]); the column of a part that the scene does not have may go away (it held only zeros or nulls). Any other
 //! difference is a defect, unless a decision recorded in CHANGELOG.md allows it; then
-//! `SPINDRIFT_WRITE_HASHES=1 cargo test --release --test determinism value_hashes` writes the file anew.
+//! `SPINDRIFT_WRITE_HASHES=1 cargo test --release --test determinism value_hashes` writes the file again.
 
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::support::room::Room;
+use crate::support::scratch_folder::ScratchFolder;
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float64Type, Int64Type, UInt64Type};
 use arrow_array::{Array, RecordBatch};
@@ -18,7 +18,7 @@ use arrow_schema::DataType;
 /// Rows of each campaign; all where a campaign has a number of its own (a table's rows).
 const SAMPLES: u64 = 257;
 
-/// Campaigns of which some samples are audited too, about ten each: free, forced, and with a general debris.
+/// Campaigns with some audited samples, about ten each: free, forced, and with a general debris.
 const AUDITED: [&str; 3] = ["spin_sweep", "burn", "inertia"];
 
 /// Columns that measure the machine and not the run.
@@ -110,18 +110,18 @@ fn shipped() -> Vec<PathBuf> {
 }
 
 /// Runs a campaign; its rows, column by column.
-fn run(room: &Room, file: &Path) -> (usize, BTreeMap<String, String>) {
+fn run(scratch: &ScratchFolder, file: &Path) -> (usize, BTreeMap<String, String>) {
     let name = file.file_stem().unwrap().to_string_lossy().into_owned();
     let text = fs::read_to_string(file).unwrap();
     let samples = if text.contains("kind = \"table\"") { String::new() } else { format!("--samples {SAMPLES}") };
     let audit = if AUDITED.contains(&name.as_str()) { "--audit 0.04" } else { "" };
     let campaign = file.file_name().unwrap().to_string_lossy().into_owned();
-    room.says("campaign", &campaign, &format!("{samples} {audit} --out {name}"), 0);
-    let folder = room.0.join(&name);
+    scratch.says("campaign", &campaign, &format!("{samples} {audit} --out {name}"), 0);
+    let folder = scratch.0.join(&name);
     let mut files: Vec<PathBuf> =
         fs::read_dir(folder.join("runs")).unwrap().map(|entry| entry.unwrap().path()).collect();
     files.sort();
-    let parts: Vec<RecordBatch> = files.iter().flat_map(|file| crate::support::room::batches(file)).collect();
+    let parts: Vec<RecordBatch> = files.iter().flat_map(|file| crate::support::scratch_folder::batches(file)).collect();
     (parts.iter().map(RecordBatch::num_rows).sum(), hashes(&parts))
 }
 
@@ -151,10 +151,10 @@ fn differences(
 #[test]
 fn shipped_campaigns_keep_their_bits() {
     let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/value_hashes.json");
-    let room = Room::new("value-hashes");
+    let scratch = ScratchFolder::new("value-hashes");
     let now: BTreeMap<String, (usize, BTreeMap<String, String>)> = shipped()
         .iter()
-        .map(|file| (file.file_stem().unwrap().to_string_lossy().into_owned(), run(&room, file)))
+        .map(|file| (file.file_stem().unwrap().to_string_lossy().into_owned(), run(&scratch, file)))
         .collect();
     if std::env::var_os("SPINDRIFT_WRITE_HASHES").is_some() {
         fs::write(&golden, serde_json::to_string_pretty(&now).unwrap() + "\n").unwrap();

@@ -6,7 +6,7 @@ use std::num::NonZeroUsize;
 use std::path::Path;
 use std::sync::Mutex;
 
-use crate::support::room::Room;
+use crate::support::scratch_folder::ScratchFolder;
 use arrow_array::Array;
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float64Type, UInt64Type};
@@ -20,7 +20,7 @@ use spindrift::run::Status;
 use spindrift::sampling::SampleId;
 use spindrift::scene::Scene;
 
-/// The shipped campaign of that name, with so many samples of which a share is audited.
+/// The shipped campaign of that name, with this number of samples, a fraction of them audited.
 fn plan(name: &str, samples: u64, fraction: f64) -> Plan {
     let path = format!("{}/campaigns/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(path).expect("a shipped campaign");
@@ -147,7 +147,7 @@ fn a_wrong_kernel_is_caught() {
     assert!(caught.state() > 10.0 * caught.estimate && caught.state() > 1e-9, "{:e}", caught.state());
 }
 
-/// Law: a run too long for double-double is compared with the tightest plain march, and says so.
+/// Law: a run too long for double-double is compared with plain Taylor integration at the smallest tolerance, and says so.
 #[test]
 fn a_long_run_is_audited_in_plain_doubles() {
     let mut plan = plan("spin_sweep", 1, 1.0);
@@ -166,17 +166,17 @@ fn a_long_run_is_audited_in_plain_doubles() {
 /// and all that is the same on any number of threads.
 #[test]
 fn the_program_audits() {
-    let room = Room::new("campaign");
-    let said = room.says("campaign", "spin_sweep.toml", "--samples 120 --audit 0.25 --threads 1 --out one", 0);
-    room.says("campaign", "spin_sweep.toml", "--samples 120 --audit 0.25 --threads 3 --out three", 0);
+    let scratch = ScratchFolder::new("campaign");
+    let said = scratch.says("campaign", "spin_sweep.toml", "--samples 120 --audit 0.25 --threads 1 --out one", 0);
+    scratch.says("campaign", "spin_sweep.toml", "--samples 120 --audit 0.25 --threads 3 --out three", 0);
     for file in ["runs/part-000000.parquet", "summary.json", "plan.toml"] {
-        let read = |folder: &str| fs::read(room.0.join(folder).join(file)).unwrap();
+        let read = |folder: &str| fs::read(scratch.0.join(folder).join(file)).unwrap();
         assert!(read("one") == read("three"), "{file}");
     }
     assert!(said.contains("state_error_estimate covers") && said.contains("the audit took"), "{said}");
-    assert!(fs::read_to_string(room.0.join("one/plan.toml")).unwrap().contains("[audit]\nfraction = 0.25\n"));
+    assert!(fs::read_to_string(scratch.0.join("one/plan.toml")).unwrap().contains("[audit]\nfraction = 0.25\n"));
 
-    let table = room.table("one/runs/part-000000.parquet");
+    let table = scratch.table("one/runs/part-000000.parquet");
     let column = |name: &str| {
         let column = table.column_by_name(name).unwrap_or_else(|| panic!("no column {name}"));
         column.as_primitive::<Float64Type>().iter().collect::<Vec<_>>()
@@ -198,7 +198,8 @@ fn the_program_audits() {
     let ill = table.column_by_name("ill_conditioned").unwrap().as_primitive::<UInt64Type>();
     assert!(ill.null_count() == 0 && ill.values().iter().all(|value| *value == 0));
 
-    let summary: Value = serde_json::from_str(&fs::read_to_string(room.0.join("one/summary.json")).unwrap()).unwrap();
+    let summary: Value =
+        serde_json::from_str(&fs::read_to_string(scratch.0.join("one/summary.json")).unwrap()).unwrap();
     let audit = &summary["audit"];
     assert_eq!((audit["audited"].as_u64(), audit["failed"].as_u64()), (Some(audited as u64), Some(0)));
     assert_eq!(audit["in_double_double"].as_u64(), Some(audited as u64));
@@ -215,30 +216,30 @@ fn the_program_audits() {
     assert!(share("energy_error_max") > 0.1);
     assert!(line("steps").is_null(), "steps have no truth");
 
-    let said = room.says("campaign", "spin_sweep.toml", "--samples 120 --audit 0 --out none", 0);
+    let said = scratch.says("campaign", "spin_sweep.toml", "--samples 120 --audit 0 --out none", 0);
     assert!(!said.contains("audit"), "{said}");
-    assert!(room.table("none/runs/part-000000.parquet").column_by_name("audit_state_error").is_none());
+    assert!(scratch.table("none/runs/part-000000.parquet").column_by_name("audit_state_error").is_none());
 }
 
 #[test]
-fn one_run_is_audited_and_costs_are_foretold() {
-    let room = Room::new("simulate");
-    let said = room.says("simulate", "burn.toml", "--sample 3 --audit --times 0,1,2", 0);
+fn one_run_is_audited_and_costs_are_estimated() {
+    let scratch = ScratchFolder::new("simulate");
+    let said = scratch.says("simulate", "burn.toml", "--sample 3 --audit --times 0,1,2", 0);
     for word in ["audit of sample 3, against a solution at 1e-31", "audit_attitude_error_rad", "state_error_estimate"] {
         assert!(said.contains(word), "{word}: {said}");
     }
-    let said = room.says("check", "burn.toml", "", 0);
+    let said = scratch.says("check", "burn.toml", "", 0);
     assert!(said.contains("no sample is audited"), "{said}");
     let text = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns/burn.toml")).unwrap();
-    fs::write(room.0.join("own.toml"), format!("{text}\n[audit]\nfraction = 0.5\n")).unwrap();
-    let said = room.says("check", room.0.join("own.toml").to_str().unwrap(), "", 0);
+    fs::write(scratch.0.join("own.toml"), format!("{text}\n[audit]\nfraction = 0.5\n")).unwrap();
+    let said = scratch.says("check", scratch.0.join("own.toml").to_str().unwrap(), "", 0);
     assert!(said.contains("audit of 0.5") && said.contains("ms each"), "{said}");
 }
 
 #[test]
 fn wrong_fractions_are_refused() {
-    let room = Room::new("wrong");
-    let said = room.says("campaign", "burn.toml", "--audit 1.5", 2);
+    let scratch = ScratchFolder::new("wrong");
+    let said = scratch.says("campaign", "burn.toml", "--audit 1.5", 2);
     assert!(said.contains("--audit 1.5: must be a number from 0 to 1"), "{said}");
     let path = format!("{}/campaigns/burn.toml", env!("CARGO_MANIFEST_DIR"));
     let text = fs::read_to_string(path).unwrap();

@@ -307,7 +307,7 @@ fn thrust_along_the_axis_balances_and_without_its_work_it_does_not() {
 }
 
 #[test]
-fn a_dcm_stands_for_the_attitude_where_the_kernel_integrates_it() {
+fn the_dcm_gives_the_attitude_where_the_method_integrates_it() {
     let (golden, scene) = table1();
     let (grid, table) = golden_table(&golden, &scene);
     let constrained = Request { constrained: true, ..request(Groups::ALL, true, false) };

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::support::room::Room;
+use crate::support::scratch_folder::ScratchFolder;
 use arrow_array::RecordBatch;
 use arrow_array::cast::AsArray;
 use arrow_array::types::Float64Type;
@@ -18,11 +18,11 @@ const LESS: f64 = 0.01;
 /// Law: every method that is asked for is measured at every setting, and smaller settings have smaller errors against the truth.
 #[test]
 fn errors_follow_the_settings() {
-    let room = Room::new("settings");
+    let scratch = ScratchFolder::new("settings");
     let arguments = "--samples 3 --methods auto,dop853,runge_kutta_4 --tolerances 1e-4,1e-6,1e-8 --repeats 1 --out p";
-    let said = room.says("precision", "spin_sweep.toml", arguments, 0);
+    let said = scratch.says("precision", "spin_sweep.toml", arguments, 0);
     assert!(said.contains("3 samples") && said.contains("us/run"), "{said}");
-    let table = room.table("p/precision.parquet");
+    let table = scratch.table("p/precision.parquet");
     let methods: Vec<&str> = table.column(0).as_string::<i32>().iter().flatten().collect();
     assert_eq!(methods[..4], ["auto", "auto", "auto", "dop853"]);
     assert_eq!(methods.len(), 9);
@@ -38,18 +38,18 @@ fn errors_follow_the_settings() {
     assert_eq!((tolerances[3], steps[3]), (Some(1e-4), None));
     assert_eq!(tolerances[8], None);
     assert_eq!(steps[8].unwrap() * 4.0, steps[6].unwrap());
-    assert!(fs::read_to_string(room.0.join("p/precision.svg")).unwrap().contains("Angular velocity"));
-    assert!(fs::read(room.0.join("p/precision.png")).unwrap().starts_with(b"\x89PNG"));
+    assert!(fs::read_to_string(scratch.0.join("p/precision.svg")).unwrap().contains("Angular velocity"));
+    assert!(fs::read(scratch.0.join("p/precision.png")).unwrap().starts_with(b"\x89PNG"));
 }
 
 /// Law: with thrust and motors the energy balance holds against the truth's motion too, and what takes too long is named.
 #[test]
 fn balances_are_measured_and_omissions_named() {
-    let room = Room::new("limit");
+    let scratch = ScratchFolder::new("limit");
     let arguments = "--samples 2 --methods taylor,reference --tolerances 1e-6,1e-12 --repeats 1 --limit-s 0.02 --out p";
-    let said = room.says("precision", "burn.toml", arguments, 0);
+    let said = scratch.says("precision", "burn.toml", arguments, 0);
     assert!(said.contains("skipped: reference") && said.contains("--limit-s"), "{said}");
-    let table = room.table("p/precision.parquet");
+    let table = scratch.table("p/precision.parquet");
     let energy = floats(&table, "energy_error_max");
     assert!(energy[1].unwrap() < 1e-11 && energy[0].unwrap() > energy[1].unwrap(), "{energy:?}");
     assert!(floats(&table, "rate_error_max")[1].unwrap() < 1e-11);
@@ -57,14 +57,14 @@ fn balances_are_measured_and_omissions_named() {
 
 #[test]
 fn wrong_arguments_end_with_code_2() {
-    let room = Room::new("wrong");
+    let scratch = ScratchFolder::new("wrong");
     for (arguments, word) in [
         ("--methods euler", "gauss_legendre_6"),
         ("--tolerances 1e-20", "1e-16 to 0.1"),
         ("--samples 0", "0"),
         ("--limit-s -1", "-1"),
     ] {
-        let said = room.says("precision", "spin_sweep.toml", arguments, 2);
+        let said = scratch.says("precision", "spin_sweep.toml", arguments, 2);
         assert!(said.contains(word), "{arguments}: {said}");
     }
 }

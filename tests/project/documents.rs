@@ -108,7 +108,7 @@ fn program_problem(words: &[&str]) -> Option<String> {
         Command::Sample(options) => &options.file,
         Command::Precision(options) => &options.file,
     };
-    // `my_sweep.toml` is the file that the README asks the reader to save; FILE stands for any
+    // `my_sweep.toml` is the file that the README asks the reader to save; FILE means any
     let shipped = || root().join("campaigns").join(file).is_file() || find(file).is_ok();
     let is_known = ["my_sweep.toml", "FILE"].iter().any(|name| Path::new(name) == file) || shipped();
     (!is_known).then(|| format!("there is no {}", file.display()))

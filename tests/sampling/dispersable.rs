@@ -26,7 +26,7 @@ const CHANGED: f64 = 10.0 * AGREED;
 /// Standard deviation of a draw, relative to the nominal, or absolute where that is zero.
 const SPREAD: f64 = 1e-3;
 
-/// Scenes in one of which every key exists: forced, with both wheels, general in all else.
+/// Scenes: every key exists in at least one of them: forced, with both wheels, general in all else.
 fn variants() -> Vec<SceneInput> {
     let kind = |debris| Kind { wheels: [true; 2], debris, products: true, offset: true, forced: true };
     let scene = |debris| misaligned(random(kind(debris), 11, HORIZON), 11);

@@ -7,10 +7,10 @@
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-/// Set, rows of the document are written anew and not compared.
+/// Set, rows of the document are written and not compared.
 pub const WRITE: &str = "SPINDRIFT_WRITE_ACCURACY";
 
-/// Tests of one program run side by side; the document is one file.
+/// Tests of one program run in parallel; the document is one file.
 static DOCUMENT: Mutex<()> = Mutex::new(());
 
 /// The head of every table.

@@ -55,18 +55,19 @@ pub fn distance(table: &StateTable, truth: &ReferenceSolution) -> [f64; 2] {
 impl Exact {
     /// Solves `scenes` exactly.
     pub fn new(scenes: Vec<Scene>, grid: Grid) -> Self {
-        let wanted = blocks([StateField::Rate, StateField::Attitude]);
+        let fields = blocks([StateField::Rate, StateField::Attitude]);
         let solve = |scene: &Scene| {
-            ReferenceSolution::new(Isa::best(), scene, &grid, wanted, TOLERANCE).expect("the truth arrives")
+            ReferenceSolution::new(Isa::best(), scene, &grid, fields, TOLERANCE)
+                .expect("the reference solution is complete")
         };
         let truths = scenes.par_iter().map(solve).collect();
         Exact { scenes, grid, truths }
     }
 
-    /// The runs of the scenes by `method`: rate, attitude and wheel rates, all of which must arrive.
+    /// The runs of the scenes by `method`: rate, attitude and wheel rates, which must all be complete.
     pub fn runs(&self, method: Method, control: Control) -> Vec<Run> {
-        let wanted = blocks([StateField::Rate, StateField::Attitude, StateField::WheelRates]);
-        let plan = PropagationSettings::new(method, control, self.grid.clone(), wanted, &self.scenes[0]);
+        let fields = blocks([StateField::Rate, StateField::Attitude, StateField::WheelRates]);
+        let plan = PropagationSettings::new(method, control, self.grid.clone(), fields, &self.scenes[0]);
         let parts: Vec<_> = self.scenes.par_chunks(8).map(|part| propagate_on(Isa::best(), &plan, part)).collect();
         let runs: Vec<Run> = parts.into_iter().flatten().collect();
         assert!(runs.iter().all(|run| run.outcome.status == Status::Done), "{method:?}");

@@ -10,17 +10,17 @@ use spindrift::ode::System;
 const STEP: f64 = 0.002;
 
 /// The state after `duration` seconds from `state`.
-pub fn march<const N: usize, Y: System<f64, N>>(system: &Y, state: [f64; N], duration: f64) -> [f64; N] {
-    Isa::best().run(March { system, state, duration })
+pub fn integrate<const N: usize, Y: System<f64, N>>(system: &Y, state: [f64; N], duration: f64) -> [f64; N] {
+    Isa::best().run(Integrate { system, state, duration })
 }
 
-struct March<'a, Y, const N: usize> {
+struct Integrate<'a, Y, const N: usize> {
     system: &'a Y,
     state: [f64; N],
     duration: f64,
 }
 
-impl<const N: usize, Y: System<f64, N>> Work for March<'_, Y, N> {
+impl<const N: usize, Y: System<f64, N>> Work for Integrate<'_, Y, N> {
     type Output = [f64; N];
 
     #[inline(always)]

@@ -94,14 +94,14 @@ fn scene(scene: &Value) -> SceneInput {
     };
     let mut start_s = 0.0;
     let actuation = scene["segments"].as_array().expect("segments is a list").iter().map(|segment| {
-        let stretch = ActuationInput {
+        let interval = ActuationInput {
             start_s,
             end_s: number(&segment["until"]),
             thrust_n: numbers(&segment["thrust"]),
             torque_n_m: numbers(&segment["torque"]),
         };
-        start_s = stretch.end_s;
-        stretch
+        start_s = interval.end_s;
+        interval
     });
     SceneInput {
         fuselage: FuselageInput {

@@ -7,6 +7,6 @@ pub mod extrapolation;
 pub mod golden;
 pub mod invariants;
 pub mod plans;
-pub mod room;
 pub mod runs;
 pub mod scenes;
+pub mod scratch_folder;

@@ -79,9 +79,9 @@ pub fn propagate_on(isa: Isa, plan: &PropagationSettings, scenes: &[Scene]) -> V
     let mut runs: Vec<Option<Run>> = vec![None; scenes.len()];
     plan.engine(isa).propagate(scenes, &mut |index, table, outcome| {
         let before = runs[index].replace(Run { table: table.clone(), outcome: *outcome });
-        assert!(before.is_none(), "run {index} was handed over twice");
+        assert!(before.is_none(), "run {index} was completed twice");
     });
-    runs.into_iter().map(|run| run.expect("every run is handed over")).collect()
+    runs.into_iter().map(|run| run.expect("every run is completed")).collect()
 }
 
 /// The same on the best instruction set, with everything in the table.

@@ -15,7 +15,7 @@ pub struct Kind {
     pub products: bool,
     /// A centre of mass off the axis.
     pub offset: bool,
-    /// Thrusts and motor torques in two stretches and a coast.
+    /// Thrusts and motor torques in two intervals, then nothing.
     pub forced: bool,
 }
 
@@ -115,14 +115,14 @@ pub fn random(kind: Kind, seed: u64, horizon: f64) -> SceneInput {
     };
     let mut actuation = Vec::new();
     if kind.forced {
-        let mut stretch = |start_s: f64, end_s: f64| {
+        let mut interval = |start_s: f64, end_s: f64| {
             let thrust_n = std::array::from_fn(|_| u.between(0.0, 100.0));
             let torque: [f64; 2] = u.vector(3.0);
             let torque_n_m = std::array::from_fn(|i| if kind.wheels[i] { torque[i] } else { 0.0 });
             actuation.push(ActuationInput { start_s, end_s, thrust_n, torque_n_m });
         };
-        stretch(0.125 * horizon, 0.3 * horizon);
-        stretch(0.3 * horizon, 0.75 * horizon);
+        interval(0.125 * horizon, 0.3 * horizon);
+        interval(0.3 * horizon, 0.75 * horizon);
     }
     SceneInput { fuselage, wheels, debris, initial, actuation, actuators: ActuatorsInput::IDEAL }
 }
@@ -133,8 +133,8 @@ pub fn speed_held(mut input: SceneInput, held: [bool; 2]) -> SceneInput {
         if let Some(wheel) = &mut input.wheels[w] {
             wheel.mode = WheelMode::SpeedHeld;
         }
-        for stretch in &mut input.actuation {
-            stretch.torque_n_m[w] = 0.0;
+        for interval in &mut input.actuation {
+            interval.torque_n_m[w] = 0.0;
         }
     }
     input

@@ -1,4 +1,4 @@
-//! Textbook problems as runs in lanes, and one way to march them as scalars or in lanes.
+//! Textbook problems as runs in lanes, and one way to integrate them as scalars or in lanes.
 
 #![allow(dead_code)] // Every test file uses its own part.
 
@@ -17,12 +17,12 @@ use spindrift::ode::fixed::FixedStep;
 use spindrift::run::Outcome;
 use spindrift::run::{Grid, Trajectory};
 
-/// A right-hand side with `P` parameters; `stretch` counts the stretches.
+/// A right-hand side with `P` parameters; `arc` is the number of the arc.
 pub trait Law<const N: usize, const P: usize>: Copy {
-    fn derivative<R: Real>(time: R, state: &[R; N], parameters: &[R; P], stretch: R) -> [R; N];
+    fn derivative<R: Real>(time: R, state: &[R; N], parameters: &[R; P], arc: R) -> [R; N];
 }
 
-/// One run: initial state, parameters, ends of its stretches.
+/// One run: initial state, parameters, ends of its arcs.
 #[derive(Clone)]
 pub struct Case<const N: usize, const P: usize> {
     pub state: [f64; N],
@@ -36,13 +36,13 @@ pub struct Bank<R, L, const N: usize, const P: usize> {
     cases: Vec<Case<N, P>>,
     loaded: [usize; 8],
     parameters: [R; P],
-    stretch: R,
+    arc: R,
 }
 
 impl<R: Real, L: Law<N, P>, const N: usize, const P: usize> System<R, N> for Bank<R, L, N, P> {
     #[inline(always)]
     fn derivative(&self, time: R, state: &[R; N]) -> [R; N] {
-        L::derivative(time, state, &self.parameters, self.stretch)
+        L::derivative(time, state, &self.parameters, self.arc)
     }
 
     /// ode45: max |e_i| / max(|y_i|, |y'_i|, atol/rtol) / rtol.
@@ -72,15 +72,15 @@ impl<R: Real, L: Law<N, P>, const N: usize, const P: usize> Runs<R, N> for Bank<
     fn stretches(&self, lane: usize) -> usize {
         self.cases[self.loaded[lane]].ends.len()
     }
-    fn enter(&mut self, lane: usize, stretch: usize) -> f64 {
-        self.stretch.set_lane(lane, stretch as f64);
-        self.cases[self.loaded[lane]].ends[stretch]
+    fn enter(&mut self, lane: usize, arc: usize) -> f64 {
+        self.arc.set_lane(lane, arc as f64);
+        self.cases[self.loaded[lane]].ends[arc]
     }
 }
 
-/// A method with the march that it belongs to.
-pub trait Marcher: Copy {
-    fn march<R: Real, Q: Runs<R, N>, F, const N: usize>(
+/// A method with the driver that it belongs to.
+pub trait Driver: Copy {
+    fn integrate<R: Real, Q: Runs<R, N>, F, const N: usize>(
         self,
         zero: R,
         runs: &mut Q,
@@ -94,9 +94,9 @@ pub trait Marcher: Copy {
 
 #[derive(Clone, Copy)]
 pub struct Adaptive<M>(pub M);
-impl<M: Embedded> Marcher for Adaptive<M> {
+impl<M: Embedded> Driver for Adaptive<M> {
     #[inline(always)]
-    fn march<R: Real, Q: Runs<R, N>, F, const N: usize>(
+    fn integrate<R: Real, Q: Runs<R, N>, F, const N: usize>(
         self,
         zero: R,
         runs: &mut Q,
@@ -113,9 +113,9 @@ impl<M: Embedded> Marcher for Adaptive<M> {
 
 #[derive(Clone, Copy)]
 pub struct Fixed<M>(pub M);
-impl<M: FixedStep> Marcher for Fixed<M> {
+impl<M: FixedStep> Driver for Fixed<M> {
     #[inline(always)]
-    fn march<R: Real, Q: Runs<R, N>, F, const N: usize>(
+    fn integrate<R: Real, Q: Runs<R, N>, F, const N: usize>(
         self,
         zero: R,
         runs: &mut Q,
@@ -144,7 +144,7 @@ impl<const N: usize> Journey<N> {
 }
 
 #[inline(always)] // Else it is compiled without the instructions of the chosen set.
-fn marched<M, R, L, const N: usize, const P: usize>(
+fn integrated<M, R, L, const N: usize, const P: usize>(
     (method, law): (M, L),
     zero: R,
     cases: &[Case<N, P>],
@@ -152,35 +152,35 @@ fn marched<M, R, L, const N: usize, const P: usize>(
     control: &Control,
 ) -> Vec<Journey<N>>
 where
-    M: Marcher,
+    M: Driver,
     R: Real,
     L: Law<N, P>,
 {
-    let mut bank = Bank { law, cases: cases.to_vec(), loaded: [0; 8], parameters: [zero; P], stretch: zero };
+    let mut bank = Bank { law, cases: cases.to_vec(), loaded: [0; 8], parameters: [zero; P], arc: zero };
     let mut workspace = Workspace::new(R::LANES, N, grid.points());
     let mut journeys: Vec<Option<Journey<N>>> = vec![None; cases.len()];
-    method.march(zero, &mut bank, grid, control, &mut workspace, |bank, lane, run, trajectory, outcome| {
-        assert_eq!(bank.loaded[lane], run, "the lane still holds the run that is handed over");
+    method.integrate(zero, &mut bank, grid, control, &mut workspace, |bank, lane, run, trajectory, outcome| {
+        assert_eq!(bank.loaded[lane], run, "the lane still holds the run that is completed");
         let points = (0..trajectory.points()).map(|point| trajectory.at(point)).collect();
         let former = journeys[run].replace(Journey { points, outcome: *outcome });
-        assert!(former.is_none(), "every run is handed over once");
+        assert!(former.is_none(), "every run is completed once");
     });
-    journeys.into_iter().map(|journey| journey.expect("every run is handed over")).collect()
+    journeys.into_iter().map(|journey| journey.expect("every run is completed")).collect()
 }
 
-/// Marches all cases one by one.
-pub fn scalar<M: Marcher, L: Law<N, P>, const N: usize, const P: usize>(
+/// Integrates all cases one by one.
+pub fn scalar<M: Driver, L: Law<N, P>, const N: usize, const P: usize>(
     method: M,
     law: L,
     cases: &[Case<N, P>],
     grid: &Grid,
     control: &Control,
 ) -> Vec<Journey<N>> {
-    marched((method, law), 0.0_f64, cases, grid, control)
+    integrated((method, law), 0.0_f64, cases, grid, control)
 }
 
-/// Marches all cases in lanes.
-pub fn lanes<M: Marcher, L: Law<N, P>, const N: usize, const P: usize>(
+/// Integrates all cases in lanes.
+pub fn lanes<M: Driver, L: Law<N, P>, const N: usize, const P: usize>(
     isa: Isa,
     method: M,
     law: L,
@@ -188,15 +188,15 @@ pub fn lanes<M: Marcher, L: Law<N, P>, const N: usize, const P: usize>(
     grid: &Grid,
     control: &Control,
 ) -> Vec<Journey<N>> {
-    struct March<'a, M, L, const N: usize, const P: usize>(M, L, &'a [Case<N, P>], &'a Grid, &'a Control);
-    impl<M: Marcher, L: Law<N, P>, const N: usize, const P: usize> Work for March<'_, M, L, N, P> {
+    struct Integrate<'a, M, L, const N: usize, const P: usize>(M, L, &'a [Case<N, P>], &'a Grid, &'a Control);
+    impl<M: Driver, L: Law<N, P>, const N: usize, const P: usize> Work for Integrate<'_, M, L, N, P> {
         type Output = Vec<Journey<N>>;
         #[inline(always)]
         fn run<S: Simd>(self, simd: S) -> Vec<Journey<N>> {
-            marched((self.0, self.1), Lanes::broadcast(simd, 0.0), self.2, self.3, self.4)
+            integrated((self.0, self.1), Lanes::broadcast(simd, 0.0), self.2, self.3, self.4)
         }
     }
-    isa.run(March(method, law, cases, grid, control))
+    isa.run(Integrate(method, law, cases, grid, control))
 }
 
 /// A control with equal relative and absolute tolerance.
@@ -213,7 +213,7 @@ pub fn control(tolerance: f64, step: f64) -> Control {
 pub struct Oscillator;
 impl Law<2, 1> for Oscillator {
     #[inline(always)]
-    fn derivative<R: Real>(_time: R, y: &[R; 2], p: &[R; 1], _stretch: R) -> [R; 2] {
+    fn derivative<R: Real>(_time: R, y: &[R; 2], p: &[R; 1], _arc: R) -> [R; 2] {
         [p[0] * y[1], -(p[0] * y[0])]
     }
 }
@@ -223,7 +223,7 @@ impl Law<2, 1> for Oscillator {
 pub struct RigidBody;
 impl Law<3, 3> for RigidBody {
     #[inline(always)]
-    fn derivative<R: Real>(_time: R, y: &[R; 3], i: &[R; 3], _stretch: R) -> [R; 3] {
+    fn derivative<R: Real>(_time: R, y: &[R; 3], i: &[R; 3], _arc: R) -> [R; 3] {
         let w = [y[0] / i[0], y[1] / i[1], y[2] / i[2]];
         spindrift::math::vector::cross(*y, w)
     }
@@ -237,7 +237,7 @@ pub const RIGID_BODY: ([f64; 3], [f64; 3]) = ([0.899_3, 0.0, 0.437_4], [2.0, 1.0
 pub struct ThreeBody;
 impl Law<4, 1> for ThreeBody {
     #[inline(always)]
-    fn derivative<R: Real>(_time: R, y: &[R; 4], p: &[R; 1], _stretch: R) -> [R; 4] {
+    fn derivative<R: Real>(_time: R, y: &[R; 4], p: &[R; 1], _arc: R) -> [R; 4] {
         let [x, z, u, v] = *y;
         let (mu, nu) = (p[0], x.splat(1.0) - p[0]);
         let (a, b) = (nu / cube(x + mu, z), mu / cube(x - nu, z));
@@ -262,7 +262,7 @@ pub const ARENSTORF: (f64, [f64; 4], f64) =
 pub struct VanDerPol;
 impl Law<2, 0> for VanDerPol {
     #[inline(always)]
-    fn derivative<R: Real>(_time: R, y: &[R; 2], _p: &[R; 0], _stretch: R) -> [R; 2] {
+    fn derivative<R: Real>(_time: R, y: &[R; 2], _p: &[R; 0], _arc: R) -> [R; 2] {
         [y[1], (y[0].splat(1.0) - y[0] * y[0]) * y[1] - y[0]]
     }
 }
@@ -272,7 +272,7 @@ impl Law<2, 0> for VanDerPol {
 pub struct BlowUp;
 impl Law<1, 0> for BlowUp {
     #[inline(always)]
-    fn derivative<R: Real>(_time: R, y: &[R; 1], _p: &[R; 0], _stretch: R) -> [R; 1] {
+    fn derivative<R: Real>(_time: R, y: &[R; 1], _p: &[R; 0], _arc: R) -> [R; 1] {
         [y[0] * y[0]]
     }
 }
@@ -282,23 +282,23 @@ impl Law<1, 0> for BlowUp {
 pub struct NotANumber;
 impl Law<1, 0> for NotANumber {
     #[inline(always)]
-    fn derivative<R: Real>(_time: R, y: &[R; 1], _p: &[R; 0], _stretch: R) -> [R; 1] {
+    fn derivative<R: Real>(_time: R, y: &[R; 1], _p: &[R; 0], _arc: R) -> [R; 1] {
         [y[0].sqrt()]
     }
 }
 
-/// y' = (s + 1) (3 t^2): in stretch s, a quadrature whose right-hand side jumps at every boundary; it takes the absolute time.
+/// y' = (s + 1) (3 t^2): in arc s, a quadrature whose right-hand side jumps at every boundary; it takes the absolute time.
 #[derive(Clone, Copy)]
 pub struct Switched;
 impl Law<1, 0> for Switched {
     #[inline(always)]
-    fn derivative<R: Real>(time: R, _y: &[R; 1], _p: &[R; 0], stretch: R) -> [R; 1] {
-        [(stretch + time.splat(1.0)) * (time.splat(3.0) * (time * time))]
+    fn derivative<R: Real>(time: R, _y: &[R; 1], _p: &[R; 0], arc: R) -> [R; 1] {
+        [(arc + time.splat(1.0)) * (time.splat(3.0) * (time * time))]
     }
 }
 
-/// Marches all cases one by one, compiled for the instruction set `isa`.
-pub fn scalar_on<M: Marcher, L: Law<N, P>, const N: usize, const P: usize>(
+/// Integrates all cases one by one, compiled for the instruction set `isa`.
+pub fn scalar_on<M: Driver, L: Law<N, P>, const N: usize, const P: usize>(
     isa: Isa,
     method: M,
     law: L,
@@ -306,13 +306,13 @@ pub fn scalar_on<M: Marcher, L: Law<N, P>, const N: usize, const P: usize>(
     grid: &Grid,
     control: &Control,
 ) -> Vec<Journey<N>> {
-    struct March<'a, M, L, const N: usize, const P: usize>(M, L, &'a [Case<N, P>], &'a Grid, &'a Control);
-    impl<M: Marcher, L: Law<N, P>, const N: usize, const P: usize> Work for March<'_, M, L, N, P> {
+    struct Integrate<'a, M, L, const N: usize, const P: usize>(M, L, &'a [Case<N, P>], &'a Grid, &'a Control);
+    impl<M: Driver, L: Law<N, P>, const N: usize, const P: usize> Work for Integrate<'_, M, L, N, P> {
         type Output = Vec<Journey<N>>;
         #[inline(always)]
         fn run<S: Simd>(self, _simd: S) -> Vec<Journey<N>> {
-            marched((self.0, self.1), 0.0_f64, self.2, self.3, self.4)
+            integrated((self.0, self.1), 0.0_f64, self.2, self.3, self.4)
         }
     }
-    isa.run(March(method, law, cases, grid, control))
+    isa.run(Integrate(method, law, cases, grid, control))
 }

@@ -8,15 +8,15 @@ use arrow_array::RecordBatch;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 
 /// A folder of its own for each test, removed at its end.
-pub struct Room(pub PathBuf);
+pub struct ScratchFolder(pub PathBuf);
 
-impl Room {
+impl ScratchFolder {
     /// An empty folder; `name` is the test's own within the whole of the tests.
     pub fn new(name: &str) -> Self {
         let folder = std::env::temp_dir().join(format!("spindrift-{}-{name}", std::process::id()));
         let _ = fs::remove_dir_all(&folder);
         fs::create_dir_all(&folder).unwrap();
-        Room(folder)
+        ScratchFolder(folder)
     }
 
     /// Runs a command on a shipped campaign, insists on the exit code; what was said, both streams.
@@ -46,7 +46,7 @@ pub fn batches(path: &Path) -> Vec<RecordBatch> {
     reader.map(|batch| batch.unwrap()).collect()
 }
 
-impl Drop for Room {
+impl Drop for ScratchFolder {
     fn drop(&mut self) {
         let _ = fs::remove_dir_all(&self.0);
     }
