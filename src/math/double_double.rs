@@ -1,28 +1,27 @@
 //! [`DoubleDouble`]: a number as the unevaluated sum of two `f64`, 106 bits: the arithmetic of reference solutions.
 //!
-//! Sources: T. J. Dekker, Numerische Mathematik 18, 1971; D. E. Knuth, *The Art of Computer Programming* vol. 2, 4.2.2;
-//! error bounds from M. Joldes, J.-M. Muller & V. Popescu, ACM Trans. Math. Softw. 44(2), 2017 (algorithms 6, 12, 18).
-//! A small file and not a crate: the kernels need exactly [`Real`], fused, and nothing else.
+//! Source of the algorithms and of their error bounds: M. Joldes, J.-M. Muller & V. Popescu, ACM Trans. Math. Softw. 44(2), 2017
+//! (algorithms 6, 12, 18). Not a crate: the kernels need exactly [`Real`], with fused operations, and nothing else.
 
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 use super::Real;
+use super::sums;
 
 /// `high + low` with |low| <= ulp(high)/2.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DoubleDouble {
     /// The value rounded to `f64`.
     pub high: f64,
-    /// What rounding left.
+    /// The rounding error of `high`.
     pub low: f64,
 }
 
-/// Sum and rounding error of any two numbers (Knuth).
+/// [`sums::two_sum`] as a double-double.
 #[inline(always)]
 pub fn two_sum(a: f64, b: f64) -> DoubleDouble {
-    let high = a + b;
-    let shadow = high - a;
-    DoubleDouble { high, low: (a - (high - shadow)) + (b - shadow) }
+    let (high, low) = sums::two_sum(a, b);
+    DoubleDouble { high, low }
 }
 
 /// Product and rounding error.
@@ -32,11 +31,11 @@ pub fn two_product(a: f64, b: f64) -> DoubleDouble {
     DoubleDouble { high, low: a.mul_add(b, -high) }
 }
 
-/// Sum and rounding error for |a| >= |b| or a = 0 (Dekker).
+/// [`sums::fast_two_sum`] as a double-double.
 #[inline(always)]
 fn fast_two_sum(a: f64, b: f64) -> DoubleDouble {
-    let high = a + b;
-    DoubleDouble { high, low: b - (high - a) }
+    let (high, low) = sums::fast_two_sum(a, b);
+    DoubleDouble { high, low }
 }
 
 impl DoubleDouble {
@@ -123,7 +122,7 @@ impl Real for DoubleDouble {
     fn splat(self, value: f64) -> Self {
         DoubleDouble::exact(value)
     }
-    /// Two roundings here, each at 2^-104; the fused form only matters where a single `f64` rounding is at stake.
+    /// Two roundings here, each at 2^-104; nothing needs a single rounding at this precision.
     #[inline(always)]
     fn mul_add(self, a: Self, b: Self) -> Self {
         self * a + b
@@ -159,10 +158,6 @@ impl Real for DoubleDouble {
         if mask { yes } else { no }
     }
     #[inline(always)]
-    fn any(mask: bool) -> bool {
-        mask
-    }
-    #[inline(always)]
     fn exponent(self) -> Self {
         DoubleDouble::exact(self.high.exponent())
     }
@@ -192,7 +187,7 @@ impl Real for DoubleDouble {
 mod tests {
     use super::*;
 
-    /// 16 u^2 = 2^-102: the worst of the stated bounds with room for two operations.
+    /// 16 u^2 = 2^-102: the largest of the stated bounds with a margin for two operations.
     const BOUND: f64 = 1.972_152_263_052_53e-31;
 
     fn dd(x: f64) -> DoubleDouble {
@@ -219,7 +214,7 @@ mod tests {
     }
 
     #[test]
-    fn holds_what_f64_drops() {
+    fn keeps_digits_that_f64_loses() {
         let tiny = 1e-25;
         assert_eq!((dd(1.0) + dd(tiny) - dd(1.0)).high, tiny);
         assert_eq!(1.0 + tiny - 1.0, 0.0);

@@ -1,14 +1,13 @@
 //! [`Lanes`]: eight `f64` side by side as one [`Real`].
 //!
-//! A thin name around `fearless_simd::f64x8`, which holds the token of the chosen instruction set. Here and in [`super::isa`]
-//! only does the crate name that library.
+//! A thin wrapper of `fearless_simd::f64x8`, which contains the token of the chosen instruction set.
 
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 use fearless_simd::{Bytes, Select, Simd, SimdBase, SimdFloat, SimdFrom, SimdMask, f64x8, mask64x8, u64x8};
 
-use super::Real;
 pub use super::real::TWO_52;
+use super::{Mask, Real};
 
 /// Number of lanes of [`Lanes`].
 pub const WIDTH: usize = 8;
@@ -52,19 +51,19 @@ impl<S: Simd> Lanes<S> {
         self.0.to_array()
     }
 
-    /// The lanes of `self` and `other` by turns: the first eight, the last eight.
+    /// The lanes of `self` and `other` alternating: the first eight, the last eight.
     #[inline(always)]
     pub fn interleave(self, other: Self) -> (Self, Self) {
         (Lanes(self.0.zip_low(other.0)), Lanes(self.0.zip_high(other.0)))
     }
 
-    /// The even and the odd numbers of the sixteen that `self` and `other` hold.
+    /// The even and the odd numbers of the sixteen in `self` and `other`.
     #[inline(always)]
     pub fn deinterleave(self, other: Self) -> (Self, Self) {
         (Lanes(self.0.unzip_low(other.0)), Lanes(self.0.unzip_high(other.0)))
     }
 
-    /// The token of the instruction set behind.
+    /// The token of the instruction set.
     #[inline(always)]
     pub fn simd(self) -> S {
         self.0.simd
@@ -83,8 +82,8 @@ impl<S: Simd> Lanes<S> {
     }
 }
 
-/// The fused operation where the instruction set has none: eight library calls, kept out of line, because a kernel with all
-/// of them inlined takes minutes to compile.
+/// The fused operation for an instruction set that has none: eight library calls, not inlined, because a kernel with all of them
+/// inlined takes minutes to compile.
 #[cfg(target_arch = "x86_64")]
 #[inline(never)]
 fn plain_mul_add<S: Simd>(x: Lanes<S>, a: Lanes<S>, b: Lanes<S>) -> Lanes<S> {
@@ -124,6 +123,23 @@ impl<S: Simd> SubAssign for Lanes<S> {
     #[inline(always)]
     fn sub_assign(&mut self, other: Self) {
         *self = *self - other;
+    }
+}
+
+impl<S: Simd> Mask for mask64x8<S> {
+    const LANES: usize = WIDTH;
+
+    #[inline(always)]
+    fn any(self) -> bool {
+        self.any_true()
+    }
+    #[inline(always)]
+    fn test(self, lane: usize) -> bool {
+        (self.to_bitmask() >> lane) & 1 != 0
+    }
+    #[inline(always)]
+    fn set(&mut self, lane: usize, value: bool) {
+        SimdMask::set(self, lane, value);
     }
 }
 
@@ -168,10 +184,6 @@ impl<S: Simd> Real for Lanes<S> {
         Lanes(mask.select(yes.0, no.0))
     }
     #[inline(always)]
-    fn any(mask: Self::Mask) -> bool {
-        mask.any_true()
-    }
-    #[inline(always)]
     fn exponent(self) -> Self {
         let bits = self.0.bitcast::<u64x8<S>>() >> 52;
         let shifted = (bits | TWO_52.to_bits()).bitcast::<f64x8<S>>();
@@ -184,7 +196,7 @@ impl<S: Simd> Real for Lanes<S> {
     }
     #[inline(always)]
     fn lane(&self, lane: usize) -> f64 {
-        // the mask spares a check of the bound in loops over series
+        // the bit mask avoids a bounds check in loops over series
         self.0[lane & (WIDTH - 1)]
     }
     #[inline(always)]

@@ -1,12 +1,13 @@
-//! Floor 0: numbers. What every other floor computes with and nothing of physics.
+//! Layer 0: arithmetic and elementary mathematics, no physics.
 //!
-//! - [`real`]: [`Real`], the one trait a kernel is generic over (`f64`, eight lanes of `f64`).
+//! - [`real`]: [`Real`], the trait that kernels are generic over (`f64`, eight lanes of `f64`), and its [`Mask`].
 //! - [`double_double`]: 106 bits, for reference solutions.
-//! - [`lanes`]: [`Lanes`], eight `f64` in one vector, on whichever instruction set was chosen.
-//! - [`isa`]: the run-time choice of instruction set, and the only place that reads `SPINDRIFT_ISA`.
-//! - [`pair`]: [`Pair`], two of a kind as one, to keep wide vector units busy.
-//! - [`power`]: fractional powers for step control, the same bits in a scalar and in lanes.
-//! - [`sine`]: sine and cosine in turns, eight at a time.
+//! - [`lanes`]: [`Lanes`], eight `f64` in one vector of the chosen instruction set.
+//! - [`isa`]: the run-time choice of instruction set; the only file that reads `SPINDRIFT_ISA`.
+//! - [`pair`]: [`Pair`], two numbers of one kind as one, to keep wide vector units busy.
+//! - [`power`]: powers, logarithms and exponentials for step control, the same bits in a scalar and in lanes.
+//! - [`sine`]: sine and cosine of angles in turns, eight at a time.
+//! - [`sums`]: sums with their rounding errors.
 //! - [`symmetric`]: positive definiteness and principal axes of 3x3 matrices.
 //! - [`vector`]: three-vectors, 3x3 matrices and quaternions as plain arrays of `Real`.
 
@@ -19,10 +20,11 @@ pub mod pair;
 pub mod power;
 pub mod real;
 pub mod sine;
+pub mod sums;
 pub mod symmetric;
 pub mod vector;
 
 pub use isa::Isa;
 pub use lanes::Lanes;
 pub use pair::Pair;
-pub use real::Real;
+pub use real::{Mask, Real};

@@ -1,11 +1,11 @@
 //! [`Pair`]: two [`Real`]s of one kind as one, so that twice as many independent operations are in flight.
 //!
-//! A vector unit that starts two fused operations a cycle and takes four cycles for each wants eight independent chains. A
-//! kernel with four sums to a vector has them where two vectors march together. Lanes never mix, so pairing changes no bit.
+//! A vector unit that starts two fused operations per cycle, each with a latency of four cycles, needs eight independent chains.
+//! A kernel with four sums per vector has them if it works on two vectors at a time. Lanes never mix, so pairing changes no bit.
 
-use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+use core::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign};
 
-use super::Real;
+use super::{Mask, Real};
 
 /// Two numbers (or two vectors of numbers) side by side; the lanes of the first come first.
 #[derive(Clone, Copy, Debug)]
@@ -47,8 +47,51 @@ impl<R: Real> SubAssign for Pair<R> {
     }
 }
 
+/// The masks of the two numbers of a [`Pair`].
+#[derive(Clone, Copy, Debug)]
+pub struct PairMask<M>(M, M);
+
+impl<M: Mask> BitAnd for PairMask<M> {
+    type Output = Self;
+    #[inline(always)]
+    fn bitand(self, other: Self) -> Self {
+        PairMask(self.0 & other.0, self.1 & other.1)
+    }
+}
+impl<M: Mask> BitOr for PairMask<M> {
+    type Output = Self;
+    #[inline(always)]
+    fn bitor(self, other: Self) -> Self {
+        PairMask(self.0 | other.0, self.1 | other.1)
+    }
+}
+impl<M: Mask> Not for PairMask<M> {
+    type Output = Self;
+    #[inline(always)]
+    fn not(self) -> Self {
+        PairMask(!self.0, !self.1)
+    }
+}
+
+impl<M: Mask> Mask for PairMask<M> {
+    const LANES: usize = 2 * M::LANES;
+
+    #[inline(always)]
+    fn any(self) -> bool {
+        self.0.any() || self.1.any()
+    }
+    #[inline(always)]
+    fn test(self, lane: usize) -> bool {
+        if lane < M::LANES { self.0.test(lane) } else { self.1.test(lane - M::LANES) }
+    }
+    #[inline(always)]
+    fn set(&mut self, lane: usize, value: bool) {
+        if lane < M::LANES { self.0.set(lane, value) } else { self.1.set(lane - M::LANES, value) }
+    }
+}
+
 impl<R: Real> Real for Pair<R> {
-    type Mask = (R::Mask, R::Mask);
+    type Mask = PairMask<R::Mask>;
     const LANES: usize = 2 * R::LANES;
 
     #[inline(always)]
@@ -78,15 +121,11 @@ impl<R: Real> Real for Pair<R> {
     }
     #[inline(always)]
     fn lt(self, other: Self) -> Self::Mask {
-        (self.0.lt(other.0), self.1.lt(other.1))
+        PairMask(self.0.lt(other.0), self.1.lt(other.1))
     }
     #[inline(always)]
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
         Pair(R::select(mask.0, yes.0, no.0), R::select(mask.1, yes.1, no.1))
-    }
-    #[inline(always)]
-    fn any(mask: Self::Mask) -> bool {
-        R::any(mask.0) || R::any(mask.1)
     }
     #[inline(always)]
     fn exponent(self) -> Self {
@@ -129,7 +168,14 @@ mod tests {
         assert_eq!((pair.lane(0), pair.lane(1), Pair::<f64>::LANES), (8.0, 14.0, 2));
         pair.set_lane(1, -1.0);
         assert_eq!((pair.0, pair.1), (8.0, -1.0));
-        assert!(Pair::<f64>::any(pair.lt(pair.zero())) && !Pair::<f64>::any(pair.splat(9.0).lt(pair)));
+        let negative = pair.lt(pair.zero());
+        assert!(negative.any() && !pair.splat(9.0).lt(pair).any() && !pair.never().any());
+        assert_eq!([negative.test(0), negative.test(1)], [false, true]);
+        let mut other = !negative;
+        assert_eq!([other.test(0), other.test(1)], [true, false]);
+        assert!((other | negative).test(0) && !(other & negative).any());
+        other.set(1, true);
+        assert!(other.test(1) && (other & negative).test(1));
         let mut written = [0.0; 2];
         pair.write(&mut written);
         assert_eq!(written, [8.0, -1.0]);

@@ -1,24 +1,22 @@
 //! Fractional powers from [`Real`] operations alone: the same bits in a scalar and in every lane, on every platform.
 //!
-//! For step control, where ten digits are more than enough. The logarithm is the series of artanh about the nearest power
-//! of two, the exponential a Taylor polynomial on half an octave either way (Abramowitz & Stegun 1964, 4.1.27 and 4.2.1).
-//! Not for values of a row: `libm` is for those.
+//! For step control. [`power`] has twelve digits: the logarithm is the series of artanh about the nearest power of two, the
+//! exponential a Taylor polynomial on half an octave on either side (Abramowitz & Stegun 1964, 4.1.27 and 4.2.1).
+//! [`log2_rough`] and [`exp2_rough`] have four and are the ones that a Taylor step needs. Not for values of a row: those use
+//! `libm`.
 
 use super::Real;
 
-/// 1.5 * 2^52: adding and taking it away rounds to the nearest integer, ties to even, in one way everywhere.
-const ROUNDING: f64 = 6_755_399_441_055_744.0;
-
-/// The smallest normal number: what is below counts as this.
+/// The smallest normal number: smaller arguments are replaced by it.
 const SMALLEST: f64 = f64::MIN_POSITIVE;
 
-/// The largest number whose power of two has a normal reciprocal: what is above counts as this.
+/// The largest number whose power of two has a normal reciprocal: larger arguments are replaced by it.
 const LARGEST: f64 = f64::MAX / 2.0;
 
-/// Terms of the artanh series; the first that is left out is below 2e-14 at |t| <= 0.172.
+/// Coefficients of the artanh series; the first neglected term is below 2e-14 at |t| <= 0.172.
 const LOGARITHM: [f64; 8] = [1.0, 1.0 / 3.0, 1.0 / 5.0, 1.0 / 7.0, 1.0 / 9.0, 1.0 / 11.0, 1.0 / 13.0, 1.0 / 15.0];
 
-/// 1/k!; the first term that is left out is below 1e-14 at |x| <= ln(2)/2.
+/// 1/k!; the first neglected term is below 1e-14 at |x| <= ln(2)/2.
 const EXPONENTIAL: [f64; 12] = [
     1.0,
     1.0,
@@ -46,7 +44,7 @@ fn polynomial<R: Real, const K: usize>(coefficients: &[f64; K], x: R) -> R {
 
 /// log2 of a positive number, to an absolute error of 1e-13.
 ///
-/// Zero, negative, subnormal and what is not a number count as the smallest normal number, anything above 2^1023 as that.
+/// Zero, negative and subnormal numbers and NaN count as the smallest normal number, anything above 2^1023 as 2^1023.
 #[inline(always)]
 pub fn log2<R: Real>(x: R) -> R {
     let x = x.larger(x.splat(SMALLEST)).smaller(x.splat(LARGEST));
@@ -65,21 +63,49 @@ pub fn log2<R: Real>(x: R) -> R {
 #[inline(always)]
 pub fn exp2<R: Real>(x: R) -> R {
     let x = x.larger(x.splat(-1022.0)).smaller(x.splat(1023.0));
-    let whole = (x + x.splat(ROUNDING)) - x.splat(ROUNDING);
+    let whole = x.nearest_integer();
     polynomial(&EXPONENTIAL, (x - whole) * x.splat(core::f64::consts::LN_2)) * whole.power_of_two()
 }
 
 /// `x^exponent` for a positive `x` and a small `exponent` (|exponent| <= 1), to a relative error of [`POWER_ERROR`].
 ///
-/// Arguments outside the normal range are clamped as [`log2`] says; callers ask for non-finite values separately.
+/// Arguments outside the normal range are clamped as [`log2`] says; callers check for non-finite values separately.
 #[inline(always)]
 pub fn power<R: Real>(x: R, exponent: f64) -> R {
     exp2(log2(x) * x.splat(exponent))
 }
 
-/// What [`power`] promises: half a unit in the last place of log2 at the ends of the range (1.1e-13), and of its product with
+/// Error bound of [`power`]: half a unit in the last place of log2 at the ends of the range (1.1e-13), and of its product with
 /// the exponent, times ln 2; rounded up.
 pub const POWER_ERROR: f64 = 3e-13;
+
+/// log2 x with an absolute error of at most [`ROUGH_ERROR`] for positive normal x below 2^1022; about -1020 for zero.
+#[inline(always)]
+pub fn log2_rough<R: Real>(x: R) -> R {
+    let exponent = x.exponent();
+    let y = x * (-exponent).power_of_two() - x.splat(1.0);
+    // log2(1 + y)/y interpolated at the Chebyshev nodes of [0, 1], degree 5: error 7.4e-6
+    let mut series = y.splat(-0.033_822_046);
+    for coefficient in [0.144_471_096, -0.301_638_01, 0.468_658_879, -0.720_358_773, 1.442_681_47] {
+        series = series.mul_add(y, y.splat(coefficient));
+    }
+    y.mul_add(series, exponent)
+}
+
+/// 2^x with a relative error of at most [`ROUGH_ERROR`] for |x| < 1000.
+#[inline(always)]
+pub fn exp2_rough<R: Real>(x: R) -> R {
+    let whole = x.nearest_integer();
+    let rest = (x - whole) * x.splat(core::f64::consts::LN_2);
+    let mut series = x.splat(1.0 / 120.0);
+    for coefficient in [1.0 / 24.0, 1.0 / 6.0, 0.5, 1.0, 1.0] {
+        series = series.mul_add(rest, x.splat(coefficient));
+    }
+    series * whole.power_of_two()
+}
+
+/// Error bound of [`log2_rough`] and [`exp2_rough`]; test `rough_logarithm_and_power_are_as_good_as_stated`.
+pub const ROUGH_ERROR: f64 = 1e-4;
 
 #[cfg(test)]
 mod tests {
@@ -102,6 +128,17 @@ mod tests {
                 assert!(error < POWER_ERROR, "{x:e}^{exponent}: {error:e}");
             }
         }
+    }
+
+    #[test]
+    fn rough_logarithm_and_power_are_as_good_as_stated() {
+        for k in -3000..3000 {
+            let x = libm::exp2(f64::from(k) * 0.0317);
+            assert!((log2_rough(x) - libm::log2(x)).abs() < ROUGH_ERROR, "{x}");
+            let e = f64::from(k) * 0.0091;
+            assert!((exp2_rough(e) / libm::exp2(e) - 1.0).abs() < ROUGH_ERROR, "{e}");
+        }
+        assert!(log2_rough(0.0_f64) < -1000.0);
     }
 
     #[test]

@@ -1,13 +1,49 @@
 //! [`Real`]: the arithmetic a kernel may use.
 //!
 //! One trait for a scalar and for eight lanes, so that a kernel is written once and lane `i` equals the scalar run bit for
-//! bit: every operation here is correctly rounded (IEEE 754) in both, and `mul_add` is always fused. Elementary functions
-//! are *not* here: those on the path of a row come from `libm` or are built from these operations.
+//! bit: every operation here is correctly rounded (IEEE 754) in both, and `mul_add` is always fused. Comparisons give a
+//! [`Mask`], one truth value per lane, which `&`, `|` and `!` combine. Elementary functions are *not* here: those that the
+//! values of a row depend on come from `libm` or are built from these operations.
 
-use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+use core::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign};
 
 /// 2^52: the last bits of 2^52 + n are the integer n, which is how exponents are read and written without a conversion.
 pub const TWO_52: f64 = 4_503_599_627_370_496.0;
+
+/// 1.5 * 2^52: adding and subtracting it rounds to the nearest integer.
+const NEAREST: f64 = 1.5 * TWO_52;
+
+/// One truth value per lane.
+pub trait Mask: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self> {
+    /// Number of lanes.
+    const LANES: usize;
+
+    /// Whether it is true in any lane.
+    fn any(self) -> bool;
+
+    /// Whether it is true in lane `lane`.
+    fn test(self, lane: usize) -> bool;
+
+    /// Sets the value of lane `lane`.
+    fn set(&mut self, lane: usize, value: bool);
+}
+
+impl Mask for bool {
+    const LANES: usize = 1;
+
+    #[inline(always)]
+    fn any(self) -> bool {
+        self
+    }
+    #[inline(always)]
+    fn test(self, _lane: usize) -> bool {
+        self
+    }
+    #[inline(always)]
+    fn set(&mut self, _lane: usize, value: bool) {
+        *self = value;
+    }
+}
 
 /// A real number, or several side by side that never share a decision.
 pub trait Real:
@@ -20,10 +56,10 @@ pub trait Real:
     + AddAssign
     + SubAssign
 {
-    /// One truth value per lane.
-    type Mask: Copy;
+    /// The result of a comparison.
+    type Mask: Mask;
 
-    /// How many numbers stand side by side.
+    /// Number of lanes.
     const LANES: usize;
 
     /// The constant `value` in every lane; `self` only says which kind of number is meant.
@@ -44,21 +80,36 @@ pub trait Real:
     /// Absolute value.
     fn abs(self) -> Self;
 
-    /// The larger of two numbers; where `self` is not a number the result is `other`, where `other` is not, it is `other`
-    /// too (so that a maximum over errors, `error.larger(maximum)`, must be asked for non-finite values separately).
+    /// The larger of two numbers; the result is `other` where either is not a number (so that a
+    /// maximum over errors, `error.larger(maximum)`, does not detect non-finite values).
     fn larger(self, other: Self) -> Self;
 
-    /// The smaller of two numbers, with the same rule for what is not a number.
+    /// The smaller of two numbers, with the same rule for NaN.
     fn smaller(self, other: Self) -> Self;
 
     /// `self < other`, lane by lane.
     fn lt(self, other: Self) -> Self::Mask;
 
-    /// `yes` where `mask` holds, else `no`.
+    /// `yes` in the lanes where `mask` is true, else `no`.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
 
-    /// Whether `mask` holds in any lane.
-    fn any(mask: Self::Mask) -> bool;
+    /// One in the lanes where `mask` is true, else zero: for counts. `self` only says which kind of number is meant.
+    #[inline(always)]
+    fn indicator(self, mask: Self::Mask) -> Self {
+        Self::select(mask, self.splat(1.0), self.zero())
+    }
+
+    /// A mask that is false in every lane.
+    #[inline(always)]
+    fn never(self) -> Self::Mask {
+        self.lt(self)
+    }
+
+    /// The nearest integer of a number below 2^51 in magnitude, ties to even.
+    #[inline(always)]
+    fn nearest_integer(self) -> Self {
+        (self + self.splat(NEAREST)) - self.splat(NEAREST)
+    }
 
     /// The exponent of a positive normal number as a number: floor(log2(self)).
     fn exponent(self) -> Self;
@@ -66,7 +117,7 @@ pub trait Real:
     /// 2^self for an integer from -1022 to 1023.
     fn power_of_two(self) -> Self;
 
-    /// The number in lane `lane`; rounded to `f64` where a wider type is behind.
+    /// The number in lane `lane`, rounded to `f64` if the type has more digits.
     fn lane(&self, lane: usize) -> f64;
 
     /// Puts `value` into lane `lane`.
@@ -120,10 +171,6 @@ impl Real for f64 {
     #[inline(always)]
     fn select(mask: bool, yes: Self, no: Self) -> Self {
         if mask { yes } else { no }
-    }
-    #[inline(always)]
-    fn any(mask: bool) -> bool {
-        mask
     }
     #[inline(always)]
     fn exponent(self) -> Self {

@@ -2,15 +2,13 @@
 
 use super::Real;
 
-/// sin and cos of 2 pi `turns` for |turns| <= 1/2 (slightly more does no harm), each within 2 ulp of 1.
+/// sin and cos of 2 pi `turns` for |turns| <= 1/2 (slightly more is allowed), each within 2 ulp of 1.
 ///
 /// Reduction to |angle| <= pi/4 by quarter turns is exact; the polynomials are those of fdlibm's kernel functions
 /// (Sun Microsystems, 1993: `__kernel_sin`, `__kernel_cos`; minimax on [-pi/4, pi/4], error below 2^-58).
 #[inline(always)]
 pub fn sin_cos_turns<R: Real>(turns: R) -> (R, R) {
-    // adding and taking away 1.5 * 2^52 rounds to the nearest whole number of quarters, ties to even
-    let shift = turns.splat(6_755_399_441_055_744.0);
-    let quarters = (turns.splat(4.0) * turns + shift) - shift;
+    let quarters = (turns.splat(4.0) * turns).nearest_integer();
     let rest = quarters.mul_add(turns.splat(-0.25), turns);
     // 2 pi as a sum of two
     let x = rest.mul_add(turns.splat(core::f64::consts::TAU), rest * turns.splat(2.449_293_598_294_706_4e-16));

@@ -103,31 +103,37 @@ pub fn dcm_from_quaternion<R: Real>(q: [R; 4]) -> [[R; 3]; 3] {
     ]
 }
 
-/// The quaternion of a DCM given by rows (one number per entry, not lanes): Shepperd's choice of the largest component
-/// (S. W. Shepperd, J. Guidance and Control 1(3), 1978); scalar part >= 0 unless it vanishes.
-pub fn quaternion_from_dcm<R: Real>(c: [[R; 3]; 3]) -> [R; 4] {
-    let one = c[0][0].splat(1.0);
-    let half = c[0][0].splat(0.5);
+/// A multiple of the quaternion of a DCM given by rows (one number per entry, not lanes), by Shepperd's method, and the index of
+/// its component of maximum magnitude: the quaternion is multiplied by four times that component, which is positive, so that
+/// nothing is divided and nothing cancels.
+///
+/// S. W. Shepperd, J. Guidance and Control 1(3), 1978. The error of a matrix that is not quite orthonormal is left to the caller,
+/// who normalises.
+#[inline(always)]
+pub fn scaled_quaternion_from_dcm<R: Real>(c: [[R; 3]; 3]) -> (usize, [R; 4]) {
+    let (one, two) = (c[0][0].splat(1.0), c[0][0].splat(2.0));
     let trace = c[0][0] + c[1][1] + c[2][2];
-    // four times the squares of w, x, y, z
-    let squares = [
-        one + trace,
-        one + c[0][0] - c[1][1] - c[2][2],
-        one - c[0][0] + c[1][1] - c[2][2],
-        one - c[0][0] - c[1][1] + c[2][2],
-    ];
-    let largest = (0..4).fold(0, |best, i| if squares[i].lane(0) > squares[best].lane(0) { i } else { best });
-    let root = squares[largest].sqrt();
-    let (own, other) = (half * root, half / root);
-    let (d, s) = (
-        [c[2][1] - c[1][2], c[0][2] - c[2][0], c[1][0] - c[0][1]],
-        [c[2][1] + c[1][2], c[0][2] + c[2][0], c[1][0] + c[0][1]],
-    );
-    let q = match largest {
-        0 => [own, other * d[0], other * d[1], other * d[2]],
-        1 => [other * d[0], own, other * s[2], other * s[1]],
-        2 => [other * d[1], other * s[2], own, other * s[0]],
-        _ => [other * d[2], other * s[1], other * s[0], own],
-    };
+    let d = [c[2][1] - c[1][2], c[0][2] - c[2][0], c[1][0] - c[0][1]];
+    let s = [c[2][1] + c[1][2], c[0][2] + c[2][0], c[1][0] + c[0][1]];
+    let (w, x, y, z) = (trace.lane(0), c[0][0].lane(0), c[1][1].lane(0), c[2][2].lane(0));
+    if w >= x && w >= y && w >= z {
+        (0, [one + trace, d[0], d[1], d[2]])
+    } else if x >= y && x >= z {
+        (1, [d[0], one + two * c[0][0] - trace, s[2], s[1]])
+    } else if y >= z {
+        (2, [d[1], s[2], one + two * c[1][1] - trace, s[0]])
+    } else {
+        (3, [d[2], s[1], s[0], one + two * c[2][2] - trace])
+    }
+}
+
+/// The quaternion of a DCM given by rows (one number per entry, not lanes) by [`scaled_quaternion_from_dcm`]; scalar part >= 0.
+pub fn quaternion_from_dcm<R: Real>(c: [[R; 3]; 3]) -> [R; 4] {
+    let half = c[0][0].splat(0.5);
+    let (largest, scaled) = scaled_quaternion_from_dcm(c);
+    // four times the square of the component, and so twice the component
+    let root = scaled[largest].sqrt();
+    let mut q = scaled.map(|component| half / root * component);
+    q[largest] = half * root;
     if q[0].lane(0) < 0.0 { q.map(|x| -x) } else { q }
 }

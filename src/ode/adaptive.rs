@@ -9,7 +9,7 @@ use super::explicit::{Carried, Step, chosen, each};
 use super::step_control::{Control, flag, raised, shortest_step};
 use super::workspace::{LoadedRun, Workspace};
 use super::{Runs, System};
-use crate::math::Real;
+use crate::math::{Mask, Real};
 use crate::run::{Grid, Trajectory};
 use crate::run::{Outcome, Status, StepStatistics};
 
@@ -136,7 +136,7 @@ pub fn march<M, R, Q, F, const N: usize>(
         places.seat(lane, arrival, workspace.next_time(lane, grid));
     }
     while workspace.is_occupied() {
-        if R::any(raised(places.starting)) {
+        if raised(places.starting).any() {
             start::<M, R, Q, N>(runs, &mut places, &mut stages, control);
         }
 
@@ -164,9 +164,9 @@ pub fn march<M, R, Q, F, const N: usize>(
 
         // Observation points up to the end of the step.
         let limit = R::select(verdict, end, zero.splat(f64::NEG_INFINITY));
-        if R::any(raised(one - flag(limit.lt(places.next), zero))) {
+        if raised(one - flag(limit.lt(places.next), zero)).any() {
             let inside = flag(places.next.lt(limit), zero);
-            if R::any(raised(inside)) {
+            if raised(inside).any() {
                 M::prepare_inside(&*runs, step, &places.now, &attempt.end.state, &mut stages);
                 places.evaluations = inside.mul_add(zero.splat(M::DENSE_EVALUATIONS), places.evaluations);
             }
@@ -187,7 +187,7 @@ pub fn march<M, R, Q, F, const N: usize>(
         let stuck = refused * (one - flag(floor.lt(attempted), zero));
         let spent = one - flag((places.accepted + places.rejected).lt(most), zero);
         places.retry = refused;
-        if R::any(raised(arrived + stuck + spent)) {
+        if raised(arrived + stuck + spent).any() {
             let healthy = flag(sound, zero);
             for lane in 0..R::LANES {
                 if !workspace.has_run(lane) {

@@ -10,6 +10,7 @@ use core::marker::PhantomData;
 use super::System;
 use super::tableau::Tableau;
 use crate::math::Real;
+use crate::math::sums::two_sum;
 
 /// Row `I` of a tableau as a constant of its own, so that the sum over it is unrolled and its zeros vanish at compile time.
 struct Row<T, const S: usize, const I: usize>(PhantomData<T>);
@@ -112,11 +113,8 @@ impl<R: Real, const N: usize> Carried<R, N> {
     pub(super) fn advanced(&self, length: R, slope: &[R; N]) -> Self {
         let mut next = *self;
         for n in 0..N {
-            let (y, delta) = (self.state[n], length.mul_add(slope[n], self.carry[n]));
-            let sum = y + delta;
-            let part = sum - y;
-            next.state[n] = sum;
-            next.carry[n] = (y - (sum - part)) + (delta - part);
+            let increment = length.mul_add(slope[n], self.carry[n]);
+            (next.state[n], next.carry[n]) = two_sum(self.state[n], increment);
         }
         next
     }

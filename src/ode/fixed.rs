@@ -9,7 +9,7 @@ use super::step_control::{Control, flag, raised};
 use super::tableau::{RungeKutta4Tableau, Tableau};
 use super::workspace::{LoadedRun, Workspace};
 use super::{Runs, System, Tolerance};
-use crate::math::Real;
+use crate::math::{Mask, Real};
 use crate::propagation::local_error;
 use crate::propagation::local_error::Remainder;
 use crate::run::{Grid, Trajectory};
@@ -222,10 +222,10 @@ pub fn march<M, R, Q, F, const N: usize>(
         places.evaluations += advance.evaluations;
 
         let limit = R::select(raised(sound), end, zero.splat(f64::NEG_INFINITY));
-        while R::any(raised(one - flag(limit.lt(places.next), zero))) {
+        while raised(one - flag(limit.lt(places.next), zero)).any() {
             let inside = flag(places.next.lt(limit), zero);
             let mut reached = advance.end;
-            if R::any(raised(inside)) {
+            if raised(inside).any() {
                 let length = R::select(raised(inside), places.next - step.time, zero);
                 let part = Step { time: step.time, end: step.time + length, length };
                 let s = length / step.length;
@@ -254,7 +254,7 @@ pub fn march<M, R, Q, F, const N: usize>(
         places.accepted += sound;
 
         let spent = one - flag(places.accepted.lt(most), zero);
-        if R::any(raised(arrived + (one - sound) + spent)) {
+        if raised(arrived + (one - sound) + spent).any() {
             for lane in 0..R::LANES {
                 if !workspace.has_run(lane) {
                     continue;

@@ -14,7 +14,7 @@ use super::fixed::{Advance, FixedStep};
 use super::step_control::{flag, raised};
 use super::tableau::{GaussLegendreTableau, Tableau};
 use super::{System, Tolerance};
-use crate::math::Real;
+use crate::math::{Mask, Real};
 use crate::propagation::local_error::Remainder;
 
 /// Sweeps after which a step counts as too long for the iteration; a contraction by one half gets to round-off in 52.
@@ -67,7 +67,7 @@ fn solved<R: Real, Q: System<R, N>, const N: usize>(
     let mut former = zero.splat(f64::INFINITY);
     let mut evaluations = zero;
     let mut sweeps = 0;
-    while sweeps < MOST_SWEEPS && R::any(raised(open)) {
+    while sweeps < MOST_SWEEPS && raised(open).any() {
         let mut change = zero;
         for i in 0..3 {
             let slope = weighted(k, &GaussLegendreTableau::A[i]);
@@ -124,7 +124,7 @@ impl FixedStep for GaussLegendre {
         for i in 0..3 {
             guess[i] = derivative_at(memory, fresh.splat(1.0 + GaussLegendreTableau::C[i]));
         }
-        if R::any(raised(fresh)) {
+        if raised(fresh).any() {
             let slope = system.derivative(step.time, &start.state);
             for i in 0..3 {
                 guess[i] = chosen(raised(fresh), &slope, &guess[i]);

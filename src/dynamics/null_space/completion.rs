@@ -3,8 +3,8 @@
 use super::energy::kinetic_energies;
 use super::parameters::Parameters;
 use super::residuals::residuals;
-use super::state::{Columns, State, rotated};
-use crate::math::vector::{cross, sum};
+use super::state::{Columns, State, rotated, transposed};
+use crate::math::vector::{cross, scaled_quaternion_from_dcm, sum};
 use crate::run::{Grid, StateField, StateTable, Trajectory};
 use crate::scene::Scene;
 
@@ -55,23 +55,10 @@ pub fn complete(scene: &Scene, trajectory: &Trajectory, grid: &Grid, table: &mut
 
 /// The unit quaternion of a DCM by columns, of the two the one nearer to `near`.
 ///
-/// Shepperd (1978): from the largest of the four squares, so that nothing small is divided by; what the DCM has drifted from
-/// orthonormal is spread by the final normalisation.
+/// By Shepperd's method; the final normalisation distributes the deviation of the DCM from orthonormality.
 #[inline(always)]
 pub fn quaternion(c: Columns, near: [f64; 4]) -> [f64; 4] {
-    let [x, y, z] = c;
-    let trace = x[0] + y[1] + z[2];
-    let (a, b, d) = (y[2] - z[1], z[0] - x[2], x[1] - y[0]);
-    let (e, f, g) = (y[0] + x[1], z[0] + x[2], z[1] + y[2]);
-    let q = if trace >= x[0] && trace >= y[1] && trace >= z[2] {
-        [1.0 + trace, a, b, d]
-    } else if x[0] >= y[1] && x[0] >= z[2] {
-        [a, 1.0 + 2.0 * x[0] - trace, e, f]
-    } else if y[1] >= z[2] {
-        [b, e, 1.0 + 2.0 * y[1] - trace, g]
-    } else {
-        [d, f, g, 1.0 + 2.0 * z[2] - trace]
-    };
+    let (_, q) = scaled_quaternion_from_dcm(transposed(c));
     let dot = |p: [f64; 4]| q[0].mul_add(p[0], q[1].mul_add(p[1], q[2].mul_add(p[2], q[3] * p[3])));
     let norm = if dot(near) < 0.0 { -dot(q).sqrt() } else { dot(q).sqrt() };
     q.map(|component| component / norm)
@@ -80,7 +67,6 @@ pub fn quaternion(c: Columns, near: [f64; 4]) -> [f64; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dynamics::null_space::state::transposed;
     use crate::math::vector::dcm_from_quaternion;
     use proptest::prelude::*;
 

@@ -140,8 +140,9 @@ fn wheel_columns(axis: [f64; 3], angle: f64) -> Columns {
 }
 
 /// Rows to columns and back.
+#[inline(always)]
 pub(super) fn transposed(m: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
-    std::array::from_fn(|i| std::array::from_fn(|j| m[j][i]))
+    [[m[0][0], m[1][0], m[2][0]], [m[0][1], m[1][1], m[2][1]], [m[0][2], m[1][2], m[2][2]]]
 }
 
 /// C v of a DCM by columns.

@@ -15,9 +15,10 @@ use super::truncation::Truncation;
 use super::workspace::Workspace;
 use crate::dynamics::gyrostat::equations::Constants;
 use crate::dynamics::gyrostat::{ANGLE, ATTITUDE, Gyrostat, OMEGA, WITH_ATTITUDE};
-use crate::math::Real;
 use crate::math::lanes::WIDEST;
+use crate::math::sums::{fast_two_sum, two_sum};
 use crate::math::vector::{dcm_from_quaternion, product};
+use crate::math::{Mask, Real};
 use crate::run::{Grid, Trajectory};
 use crate::run::{Outcome, Status};
 
@@ -145,14 +146,14 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> Drive
         let left = (self.length - self.time) - self.time_low;
         let goes_on = zero.lt(left);
         let covered = R::select(finite, R::select(goes_on, time, infinite), -infinite);
-        while R::any(self.upcoming.lt(covered)) {
+        while self.upcoming.lt(covered).any() {
             self.observe(slot, &constants, &begin, covered);
         }
 
         let back = self.watch.passes(omega);
         let stuck = length.lt(time * zero.splat(f64::EPSILON * f64::EPSILON));
         let calm = R::select(finite, R::select(goes_on, R::select(stuck, zero, one), zero), zero) - back;
-        if R::any(calm.lt(one)) || self.clock >= self.alarm {
+        if calm.lt(one).any() || self.clock >= self.alarm {
             self.attend(calm, back, length, finish);
         }
     }
@@ -288,19 +289,4 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> Drive
         }
         Period::new(length, start, end, product(dcm_from_quaternion(start), momentum_b), scale)
     }
-}
-
-/// The sum and its rounding error, for |a| >= |b| or a = 0 (T. J. Dekker, Numerische Mathematik 18, 1971).
-#[inline(always)]
-fn fast_two_sum<R: Real>(a: R, b: R) -> (R, R) {
-    let sum = a + b;
-    (sum, b - (sum - a))
-}
-
-/// The sum and its rounding error, whichever is larger (D. E. Knuth, *The Art of Computer Programming*, vol. 2, 4.2.2).
-#[inline(always)]
-fn two_sum<R: Real>(a: R, b: R) -> (R, R) {
-    let sum = a + b;
-    let other = sum - a;
-    (sum, (a - (sum - other)) + (b - other))
 }

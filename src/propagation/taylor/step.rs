@@ -4,6 +4,7 @@
 //! steps and get the same bits.
 
 use crate::math::Real;
+use crate::math::power::{exp2_rough, log2_rough};
 use crate::math::vector::dot;
 
 /// Order and constants of the step size for one tolerance.
@@ -82,50 +83,9 @@ fn rate_squared<R: Real, const N: usize>(coefficients: &[R; N]) -> R {
     dot(rate, rate)
 }
 
-/// log2 x to 1e-4 for positive normal x below 2^1022; about -1020 for zero.
-#[inline(always)]
-pub fn log2_rough<R: Real>(x: R) -> R {
-    let exponent = x.exponent();
-    let y = x * (-exponent).power_of_two() - x.splat(1.0);
-    // log2(1 + y)/y interpolated at the Chebyshev nodes of [0, 1], degree 5: error 7.4e-6
-    let mut series = y.splat(-0.033_822_046);
-    for coefficient in [0.144_471_096, -0.301_638_01, 0.468_658_879, -0.720_358_773, 1.442_681_47] {
-        series = series.mul_add(y, y.splat(coefficient));
-    }
-    y.mul_add(series, exponent)
-}
-
-/// 2^x to 1e-4 for |x| < 1000.
-#[inline(always)]
-pub fn exp2_rough<R: Real>(x: R) -> R {
-    // adding and taking away 1.5 * 2^52 rounds to the nearest integer
-    let shift = x.splat(6_755_399_441_055_744.0);
-    let whole = (x + shift) - shift;
-    let rest = (x - whole) * x.splat(core::f64::consts::LN_2);
-    let mut series = x.splat(1.0 / 120.0);
-    for coefficient in [1.0 / 24.0, 1.0 / 6.0, 0.5, 1.0, 1.0] {
-        series = series.mul_add(rest, x.splat(coefficient));
-    }
-    series * whole.power_of_two()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Stated error of the rough functions.
-    const ROUGH: f64 = 1e-4;
-
-    #[test]
-    fn rough_logarithm_and_power_are_as_good_as_stated() {
-        for k in -3000..3000 {
-            let x = libm::exp2(f64::from(k) * 0.0317);
-            assert!((log2_rough(x) - libm::log2(x)).abs() < ROUGH, "{x}");
-            let e = f64::from(k) * 0.0091;
-            assert!((exp2_rough(e) / libm::exp2(e) - 1.0).abs() < ROUGH, "{e}");
-        }
-        assert!(log2_rough(0.0_f64) < -1000.0);
-    }
 
     #[test]
     fn order_follows_jorba_and_zou() {

@@ -1,0 +1,46 @@
+//! Error-free sums: a rounded sum together with its rounding error, exactly, for any [`Real`].
+
+use super::Real;
+
+/// The sum of any two numbers and its rounding error (D. E. Knuth, *The Art of Computer Programming*, vol. 2, 4.2.2, theorem B).
+#[inline(always)]
+pub fn two_sum<R: Real>(a: R, b: R) -> (R, R) {
+    let sum = a + b;
+    let other = sum - a;
+    (sum, (a - (sum - other)) + (b - other))
+}
+
+/// The sum and its rounding error for |a| >= |b| or a = 0 (T. J. Dekker, Numerische Mathematik 18, 1971).
+#[inline(always)]
+pub fn fast_two_sum<R: Real>(a: R, b: R) -> (R, R) {
+    let sum = a + b;
+    (sum, b - (sum - a))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        // the numbers are integers below 2^80, which i128 adds exactly
+        #[test]
+        fn sum_and_error_are_exact(a in -(1i64 << 53)..1i64 << 53, b in -(1i64 << 53)..1i64 << 53, shift in 0i32..26) {
+            let scale = 2.0f64.powi(shift);
+            let (x, y) = (a as f64 * scale, b as f64);
+            let exact = (i128::from(a) << shift) + i128::from(b);
+            let (sum, error) = two_sum(x, y);
+            prop_assert_eq!(sum as i128 + error as i128, exact);
+            let (large, small) = if x.abs() < y.abs() { (y, x) } else { (x, y) };
+            prop_assert_eq!(fast_two_sum(large, small), (sum, error));
+        }
+    }
+
+    #[test]
+    fn the_order_matters_for_the_fast_sum_only() {
+        let (small, large) = (1e-20, 1.0);
+        assert_eq!(two_sum(small, large), (1.0, 1e-20));
+        assert_eq!(fast_two_sum(large, small), (1.0, 1e-20));
+        assert_ne!(fast_two_sum(0.1, 1e17), two_sum(0.1, 1e17));
+    }
+}
