@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use crate::campaign::Plan;
 use crate::ensemble::DrawnScenes;
-use crate::report::summary::short;
+use crate::report::number::short;
 use crate::sampling::{Design, Dispersions, Distribution, SampleId, Transform};
 
 /// Draws behind the percentiles: the 1% and 99% lie within a tenth of the law's spread of their true places.

@@ -5,10 +5,11 @@ use std::path::{Path, PathBuf};
 use crate::campaign::Overrides;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::{PrecisionOptions, isa, plan, screen};
-use crate::dataset::precision_table::PrecisionTable;
+use crate::dataset::precision_table;
 use crate::ensemble::precision::{Patience, Precision, States};
 use crate::propagation::Method;
 use crate::report::precision_figure::PrecisionFigure;
+use crate::report::precision_text;
 
 /// Runs the command.
 ///
@@ -42,25 +43,25 @@ pub fn run(options: &PrecisionOptions) -> Result<CommandOutcome, Failure> {
         plan.grid.points(),
         if options.observed { "observed" } else { "all" },
         isa.name(),
-        PrecisionTable::headline(),
+        precision_text::headline(),
     ))?;
-    let mut table = PrecisionTable::default();
+    let (mut measured, mut omitted) = (Vec::new(), Vec::new());
     for method in methods {
         let settings = precision.settings(method, &tolerances);
         let mut heard = Ok(());
         let skipped = precision.sweep(method, &settings, patience, &mut |measurement| {
-            let printed = screen::print(&PrecisionTable::line(&measurement));
+            let printed = screen::print(&precision_text::line(&measurement));
             heard = std::mem::replace(&mut heard, Ok(())).and(printed);
-            table.measured.push(measurement);
+            measured.push(measurement);
         });
         heard?;
-        table.skipped.extend(skipped);
+        omitted.extend(skipped);
     }
-    screen::print(&table.omissions(patience.limit))?;
+    screen::print(&precision_text::omissions(&omitted, patience.limit))?;
 
-    save(&folder, "parquet", |path| table.save(&plan, isa.name(), path).map_err(Failure::files))?;
+    save(&folder, "parquet", |path| precision_table::save(&measured, &plan, isa.name(), path).map_err(Failure::files))?;
     let title = format!("{}: {} samples, {:?} s", plan.name, precision.samples(), plan.grid.duration());
-    let figure = PrecisionFigure { title, measured: &table.measured };
+    let figure = PrecisionFigure { title, measured: &measured };
     for format in ["svg", "png"] {
         save(&folder, format, |path| figure.save(path).map_err(Failure::files))?;
     }

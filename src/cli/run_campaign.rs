@@ -11,6 +11,7 @@ use crate::cli::{CampaignOptions, isa, plan, screen};
 use crate::dataset::folder::{Claim, Folder};
 use crate::dataset::part_sink::PartSink;
 use crate::ensemble::{Ensemble, Parts, RunError, run as run_parts};
+use crate::report::audit_summary::cost;
 use crate::report::summary::{Summary, failed_runs};
 
 /// Where results go unless `--out` says otherwise, below the current folder.
@@ -74,7 +75,7 @@ fn fill(
     let summary = Summary::new(plan, &tally);
     folder.finish(&summary.json()).map_err(Failure::files)?;
     let size = folder.size().map_err(Failure::files)?;
-    let audits = tally.audits().map_or(String::new(), |audits| format!("\n  the audit took {}\n", audits.cost()));
+    let audits = tally.audits().map_or(String::new(), |audits| format!("\n  the audit took {}\n", cost(audits)));
     screen::print(&format!(
         "{}\n{summary}{audits}\n  {}: {} file{} of rows, {}\n",
         headline(plan, elapsed),

@@ -6,7 +6,7 @@ use crate::campaign::Overrides;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::{SampleOptions, dispersions, plan, screen};
 use crate::dataset::drawn_table::DrawnTable;
-use crate::dataset::timeseries::{TableError, TableFormat};
+use crate::dataset::table::{TableError, TableFormat};
 use crate::ensemble::DrawnScenes;
 use crate::report::drawn_figure::DrawnFigure;
 use crate::report::plot::{PlotError, PlotFormat};

@@ -1,9 +1,9 @@
 //! [`Layout`]: named columns with unit and meaning as a Parquet file.
 //!
-//! Arrow's schema (so that unit and meaning travel as field metadata) on Parquet's typed column writer: columns go from the
-//! rows' memory to the encoder without a copy. The Arrow writer was rejected for the hot path: it writes a third slower.
-//! Floats have no dictionary (with one the file is a quarter larger and takes five times as long); split into byte streams,
-//! their exponents compress.
+//! Arrow's schema (which carries unit and meaning as field metadata) with Parquet's typed column writer: columns are passed
+//! from the memory of the rows to the encoder without a copy. The Arrow writer was rejected: it writes a third slower.
+//! Floats have no dictionary (with one the file is a quarter larger and takes five times as long). The encoding
+//! BYTE_STREAM_SPLIT makes their exponents compress.
 
 use std::collections::HashMap;
 use std::io::Write;
@@ -19,14 +19,14 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
 use parquet::schema::types::{ColumnPath, TypePtr};
 
-/// What a column holds.
+/// Type of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Content {
     /// Real numbers.
     Real,
     /// Counts.
     Count,
-    /// Words of a small vocabulary.
+    /// Short words, few of them distinct.
     Word,
 }
 
@@ -39,13 +39,24 @@ pub struct Heading {
     pub unit: String,
     /// One sentence.
     pub meaning: String,
-    /// What it holds.
+    /// Type.
     pub content: Content,
     /// Whether a value may be absent.
     pub nullable: bool,
 }
 
 impl Heading {
+    /// A column without absent values.
+    pub fn new(name: &str, unit: &str, meaning: &str, content: Content) -> Self {
+        Heading { name: name.to_owned(), unit: unit.to_owned(), meaning: meaning.to_owned(), content, nullable: false }
+    }
+
+    /// The same column, whose values may be absent.
+    #[must_use]
+    pub fn nullable(self) -> Self {
+        Heading { nullable: true, ..self }
+    }
+
     fn field(&self) -> Field {
         let data_type = match self.content {
             Content::Real => DataType::Float64,
@@ -72,11 +83,11 @@ pub enum Cells<'a> {
 /// How a file is packed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Packing {
-    /// Byte streams, LZ4: nearly as small as the next at twice the speed.
+    /// BYTE_STREAM_SPLIT and LZ4: nearly as small as zstd at twice the speed.
     Lz4,
-    /// Byte streams, zstd of level 1: the smallest file.
+    /// BYTE_STREAM_SPLIT and zstd, level 1: the smallest file.
     Zstd,
-    /// Plain and uncompressed: the fastest, a half larger.
+    /// PLAIN and uncompressed: the fastest, half as large again.
     Plain,
 }
 
@@ -89,34 +100,34 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// Files of these columns. `metadata` is what they all say about themselves.
+    /// Files with these columns. `metadata` is written to every file.
     ///
     /// # Errors
-    /// Where Parquet has no such columns (two of one name).
+    /// Where two columns have the same name.
     pub fn new(headings: &[Heading], metadata: HashMap<String, String>, packing: Packing) -> Result<Self> {
         let mut names: Vec<&str> = headings.iter().map(|heading| heading.name.as_str()).collect();
         names.sort_unstable();
         if let Some(twice) = names.windows(2).find(|pair| pair[0] == pair[1]) {
-            return Err(ParquetError::General(format!("two columns are called `{}`", twice[0])));
+            return Err(ParquetError::General(format!("two columns have the name `{}`", twice[0])));
         }
         let schema = Schema::new_with_metadata(headings.iter().map(Heading::field).collect::<Vec<_>>(), metadata);
         let root = ArrowSchemaConverter::new().convert(&schema)?.root_schema_ptr();
         Ok(Layout { schema, root, packing })
     }
 
-    /// The columns and what files say about themselves.
+    /// The columns, and the metadata that every file has.
     pub fn schema(&self) -> &Schema {
         &self.schema
     }
 
     /// Writes one file: a row group of `cells`, column by column in the order of the headings, all of the same length.
-    /// `own` is what this file says beyond what all say.
+    /// `own` is the metadata of this file only.
     ///
     /// # Errors
     /// Where writing fails.
     ///
     /// # Panics
-    /// Where cells are not of the content that the heading says.
+    /// Where the type of the cells differs from the heading's.
     pub fn write<'a, W: Write + Send>(
         &self,
         out: W,
@@ -139,7 +150,7 @@ impl Layout {
     fn properties(&self, own: &[(&str, String)]) -> WriterProperties {
         let pairs = self.schema.metadata().iter().map(|(key, value)| (key.as_str(), value));
         let mut pairs: Vec<(&str, &String)> = pairs.chain(own.iter().map(|(key, value)| (*key, value))).collect();
-        pairs.sort_unstable(); // a map has no order, and files must not differ from run to run
+        pairs.sort_unstable(); // the order of a hash map changes from run to run; files must not
         let pairs = pairs.into_iter().map(|(key, value)| KeyValue::new(key.to_owned(), value.clone())).collect();
         let mut properties =
             WriterProperties::builder().set_dictionary_enabled(false).set_key_value_metadata(Some(pairs));
@@ -165,7 +176,7 @@ impl Layout {
     }
 }
 
-/// Memory for what Parquet wants apart: which values are there, and those values without gaps.
+/// Buffers for what Parquet takes separately: which values are present, and those values without gaps.
 #[derive(Default)]
 struct Scratch {
     levels: Vec<i16>,
@@ -206,12 +217,12 @@ impl Scratch {
         Ok(())
     }
 
-    /// Notes which values are there; false where the column does not ask.
+    /// Sets the definition levels (1 = present); false for a column that has none.
     fn levels(&mut self, length: usize, mask: Option<&[bool]>, nullable: bool) -> bool {
         self.levels.clear();
         if nullable {
             match mask {
-                Some(mask) => self.levels.extend(mask.iter().map(|there| i16::from(*there))),
+                Some(mask) => self.levels.extend(mask.iter().map(|present| i16::from(*present))),
                 None => self.levels.resize(length, 1),
             }
         }
@@ -220,7 +231,7 @@ impl Scratch {
 }
 
 fn present<'a, T: Copy>(values: &'a [T], mask: &'a [bool]) -> impl Iterator<Item = T> + 'a {
-    values.iter().zip(mask).filter(|(_, there)| **there).map(|(value, _)| *value)
+    values.iter().zip(mask).filter(|(_, present)| **present).map(|(value, _)| *value)
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! [`DrawnTable`]: drawn samples as a table, for Parquet and CSV.
+//! [`DrawnTable`]: sampled parameters as a table, Parquet or CSV.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -6,15 +6,16 @@ use std::path::Path;
 use crate::campaign::Plan;
 use crate::dataset::atomic;
 use crate::dataset::columnar::{Cells, Content, Heading, Layout, Packing};
-use crate::dataset::rows_file::{SAMPLE_ID, STATUS, parameter_headings, provenance};
-use crate::dataset::timeseries::{TableError, TableFormat};
+use crate::dataset::provenance::provenance;
+use crate::dataset::rows_file::{SAMPLE_ID, STATUS, parameter_headings};
+use crate::dataset::table::{TableError, TableFormat, write_csv};
 use crate::ensemble::DrawnScenes;
 use crate::run::Status;
 
-/// What a sample that could be run is called; one that could not has the status of its row.
+/// Status of a sample that is physical; one that is not has the status of its row.
 pub const PHYSICAL: &str = "drawn";
 
-/// Drawn samples as a table.
+/// Sampled parameters of a campaign as a table.
 #[derive(Clone, Copy, Debug)]
 pub struct DrawnTable<'a> {
     /// The campaign.
@@ -26,17 +27,10 @@ pub struct DrawnTable<'a> {
 impl DrawnTable<'_> {
     /// The columns: number, status, dispersed values.
     pub fn headings(&self) -> Vec<Heading> {
-        let fixed = [
-            (SAMPLE_ID, "Number of the sample within the campaign; 0 is the nominal scene.", Content::Count),
-            (STATUS, "drawn, or invalid_sample where the scene is not physical.", Content::Word),
-        ];
-        let fixed = fixed.map(|(name, meaning, content)| Heading {
-            name: name.to_owned(),
-            unit: String::new(),
-            meaning: meaning.to_owned(),
-            content,
-            nullable: false,
-        });
+        let number = "Number of the sample within the campaign; 0 is the nominal scene.";
+        let status = "drawn, or invalid_sample where the scene is not physical.";
+        let fixed =
+            [Heading::new(SAMPLE_ID, "", number, Content::Count), Heading::new(STATUS, "", status, Content::Word)];
         fixed.into_iter().chain(parameter_headings(self.plan)).collect()
     }
 
@@ -67,16 +61,10 @@ impl DrawnTable<'_> {
     /// # Errors
     /// What `out` returns.
     pub fn write_csv(&self, out: &mut impl Write) -> io::Result<()> {
-        let names: Vec<String> = self.headings().into_iter().map(|heading| heading.name).collect();
-        writeln!(out, "{}", names.join(","))?;
-        for (row, physical) in self.drawn.physical.iter().enumerate() {
-            write!(out, "{},{}", self.drawn.first.0 + row as u64, status(*physical))?;
-            for column in &self.drawn.columns {
-                write!(out, ",{:?}", column[row])?;
-            }
-            writeln!(out)?;
-        }
-        Ok(())
+        write_csv(out, &self.headings(), self.drawn.count(), |out, row| {
+            write!(out, "{},{}", self.drawn.first.0 + row as u64, status(self.drawn.physical[row]))?;
+            self.drawn.columns.iter().try_for_each(|column| write!(out, ",{:?}", column[row]))
+        })
     }
 }
 

@@ -1,10 +1,21 @@
-//! Layer 6: results on disk: the folder of a campaign, its parts, and tables.
+//! Layer 6: results on disk.
+//!
+//! - [`folder`]: the folder of a result: claim, commit, completeness. - [`part_sink`]: writes finished parts.
+//! - [`rows_file`]: the files of rows. - [`columnar`]: columns to Parquet. - [`atomic`]: files that are whole or absent.
+//! - [`tally`], [`audit_tally`]: statistics counted while rows are written. - [`provenance`]: metadata on the origin.
+//! - [`table`]: tables in a single file: [`timeseries`], [`drawn_table`], [`precision_table`].
+//!
+//! Not here: text and figures for people (`report`), and reading tables for a campaign (`campaign`).
 
 pub mod atomic;
+pub mod audit_tally;
 pub mod columnar;
 pub mod drawn_table;
 pub mod folder;
 pub mod part_sink;
 pub mod precision_table;
+pub mod provenance;
 pub mod rows_file;
+pub mod table;
+pub mod tally;
 pub mod timeseries;

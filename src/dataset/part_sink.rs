@@ -1,4 +1,4 @@
-//! [`PartSink`]: the rows of each part into its own Parquet file, and into the tally.
+//! [`PartSink`]: writes each part to a Parquet file of its own and counts its rows in the tally.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -7,10 +7,10 @@ use thiserror::Error;
 
 use crate::dataset::folder::Folder;
 use crate::dataset::rows_file::RowsFile;
+use crate::dataset::tally::Tally;
 use crate::ensemble::{Ensemble, Rows, Sink};
-use crate::report::summary::Tally;
 
-/// Why rows could not be kept.
+/// Why rows could not be written.
 #[derive(Debug, Error)]
 #[error("{path}: {source}")]
 pub struct PartError {
@@ -29,15 +29,15 @@ pub struct PartSink<'f> {
 }
 
 impl<'f> PartSink<'f> {
-    /// A sink for the rows of `campaign`.
+    /// A sink for the rows of `ensemble`.
     ///
     /// # Errors
-    /// Where two columns have one name.
-    pub fn new(folder: &'f Folder, campaign: &Ensemble<'_>) -> Result<Self, ParquetError> {
-        Ok(PartSink { folder, file: RowsFile::new(campaign)?, tally: Mutex::new(Tally::new(campaign)) })
+    /// Where two columns have the same name.
+    pub fn new(folder: &'f Folder, ensemble: &Ensemble<'_>) -> Result<Self, ParquetError> {
+        Ok(PartSink { folder, file: RowsFile::new(ensemble)?, tally: Mutex::new(Tally::new(ensemble)) })
     }
 
-    /// What the parts amount to.
+    /// The statistics of all parts.
     pub fn into_tally(self) -> Tally {
         self.tally.into_inner().unwrap_or_else(PoisonError::into_inner)
     }

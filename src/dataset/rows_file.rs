@@ -1,6 +1,5 @@
-//! [`RowsFile`]: the files of rows, from the table of observables and the dispersed parameters.
+//! [`RowsFile`]: the files of rows: dispersed parameters, observables, audits.
 
-use std::collections::HashMap;
 use std::io::Write;
 use std::path::Path;
 
@@ -9,6 +8,7 @@ use parquet::errors::ParquetError;
 use crate::campaign::{Compression, Plan};
 use crate::dataset::atomic;
 use crate::dataset::columnar::{Cells, Content, Heading, Layout, Packing};
+use crate::dataset::provenance::provenance;
 use crate::ensemble::audit::COLUMNS;
 use crate::ensemble::{Ensemble, PartId, Rows};
 use crate::observables::Kind;
@@ -19,7 +19,7 @@ pub const SAMPLE_ID: &str = "sample_id";
 /// Name of the column that says how a run ended.
 pub const STATUS: &str = "status";
 
-/// What the files of rows of one campaign have in common.
+/// Layout of the files of rows of one campaign.
 #[derive(Clone, Debug)]
 pub struct RowsFile {
     layout: Layout,
@@ -28,53 +28,38 @@ pub struct RowsFile {
     is_audited: bool,
 }
 
-/// The name of the file that holds `part`.
+/// The name of the file of `part`.
 pub fn file_name(part: PartId) -> String {
     format!("part-{:06}.parquet", part.0)
 }
 
 /// The columns of a row.
-pub fn headings(campaign: &Ensemble<'_>) -> Vec<Heading> {
-    let fixed = [
-        (SAMPLE_ID, "Number of the sample within the campaign; 0 is the nominal scene.", Content::Count),
-        (STATUS, "How the run ended: ok, step_limit, step_floor, non_finite, invalid_sample.", Content::Word),
-    ];
-    let fixed = fixed.map(|(name, meaning, content)| Heading {
-        name: name.to_owned(),
-        unit: String::new(),
-        meaning: meaning.to_owned(),
-        content,
-        nullable: false,
-    });
-    let observables = campaign.request().columns().into_iter().map(|column| Heading {
-        name: column.name.to_owned(),
-        unit: column.unit.to_owned(),
-        meaning: column.meaning.to_owned(),
-        content: content(column.kind),
-        nullable: true,
-    });
-    let audited = campaign.plan().audit_fraction > 0.0;
-    let audits = COLUMNS.iter().filter(|_| audited).map(|column| Heading {
-        name: column.name.to_owned(),
-        unit: column.unit.to_owned(),
-        meaning: column.meaning.to_owned(),
-        content: Content::Real,
-        nullable: true,
-    });
-    fixed.into_iter().chain(parameter_headings(campaign.plan())).chain(observables).chain(audits).collect()
+pub fn headings(ensemble: &Ensemble<'_>) -> Vec<Heading> {
+    let number = "Number of the sample within the campaign; 0 is the nominal scene.";
+    let status = "How the run ended: ok, step_limit, step_floor, non_finite, invalid_sample.";
+    let fixed = [Heading::new(SAMPLE_ID, "", number, Content::Count), Heading::new(STATUS, "", status, Content::Word)];
+    let observables = ensemble
+        .request()
+        .columns()
+        .into_iter()
+        .map(|column| Heading::new(column.name, column.unit, column.meaning, content(column.kind)).nullable());
+    let audited = ensemble.plan().audit_fraction > 0.0;
+    let audits = COLUMNS
+        .iter()
+        .filter(|_| audited)
+        .map(|column| Heading::new(column.name, column.unit, column.meaning, Content::Real).nullable());
+    fixed.into_iter().chain(parameter_headings(ensemble.plan())).chain(observables).chain(audits).collect()
 }
 
 /// The columns of dispersed values.
 pub fn parameter_headings(plan: &Plan) -> impl Iterator<Item = Heading> {
-    plan.dispersions.columns().iter().map(|column| Heading {
-        name: column.parameter.column_name(column.component),
-        unit: match column.parameter.unit() {
-            "1" => String::new(),
-            unit => unit.to_owned(),
-        },
-        meaning: format!("{} as applied.", column.parameter.component_name(column.component)),
-        content: Content::Real,
-        nullable: false,
+    plan.dispersions.columns().iter().map(|column| {
+        let unit = match column.parameter.unit() {
+            "1" => "",
+            unit => unit,
+        };
+        let meaning = format!("{} as applied.", column.parameter.component_name(column.component));
+        Heading::new(&column.parameter.column_name(column.component), unit, &meaning, Content::Real)
     })
 }
 
@@ -85,20 +70,8 @@ fn content(kind: Kind) -> Content {
     }
 }
 
-/// What every file of a campaign says about its origin. The instruction set is not in it: no bit depends on it.
-pub fn provenance(plan: &Plan) -> HashMap<String, String> {
-    let pairs = [
-        ("spindrift.version", env!("CARGO_PKG_VERSION").to_owned()),
-        ("spindrift.campaign", plan.name.clone()),
-        ("spindrift.seed", plan.seed.to_string()),
-        ("spindrift.plan_hash", plan.hash()),
-        ("spindrift.plan", plan.text()),
-    ];
-    pairs.map(|(key, value)| (key.to_owned(), value)).into()
-}
-
-/// How the files of `plan` are packed.
-pub fn packing(plan: &Plan) -> Packing {
+/// Encoding and compression of the files of `plan`.
+fn packing(plan: &Plan) -> Packing {
     match plan.compression {
         Compression::Lz4 => Packing::Lz4,
         Compression::Zstd => Packing::Zstd,
@@ -107,14 +80,14 @@ pub fn packing(plan: &Plan) -> Packing {
 }
 
 impl RowsFile {
-    /// The files of `campaign`.
+    /// The files of `ensemble`.
     ///
     /// # Errors
-    /// Where two columns have one name.
-    pub fn new(campaign: &Ensemble<'_>) -> Result<Self, ParquetError> {
-        let layout = Layout::new(&headings(campaign), provenance(campaign.plan()), packing(campaign.plan()))?;
-        let contents = campaign.request().columns().into_iter().map(|column| content(column.kind)).collect();
-        Ok(RowsFile { layout, contents, is_audited: campaign.plan().audit_fraction > 0.0 })
+    /// Where two columns have the same name.
+    pub fn new(ensemble: &Ensemble<'_>) -> Result<Self, ParquetError> {
+        let layout = Layout::new(&headings(ensemble), provenance(ensemble.plan()), packing(ensemble.plan()))?;
+        let contents = ensemble.request().columns().into_iter().map(|column| content(column.kind)).collect();
+        Ok(RowsFile { layout, contents, is_audited: ensemble.plan().audit_fraction > 0.0 })
     }
 
     /// Number of columns.
@@ -132,8 +105,8 @@ impl RowsFile {
 
     /// Writes `rows` to `out`.
     ///
-    /// A number that a failed run does not have is null; in a run that is `ok` a value that is not a number stays one, so
-    /// that nobody takes it for a missing run.
+    /// A value that a failed run does not have is null. In a run that is `ok` a NaN stays a NaN, so that it is not mistaken
+    /// for the value of a failed run.
     ///
     /// # Errors
     /// Where writing fails.
@@ -177,12 +150,12 @@ fn audit_columns(rows: &Rows) -> (Vec<bool>, Vec<Vec<f64>>) {
     (audited, columns)
 }
 
-/// Which values of each observable are there; `None` where all are.
+/// Which values of each observable are present; `None` where all are.
 fn masks(rows: &Rows) -> Option<Vec<Vec<bool>>> {
     if rows.statuses().iter().all(|status| *status == Status::Done) {
         return None;
     }
-    let there = |(value, status): (&f64, &Status)| *status == Status::Done || !value.is_nan();
-    let mask = |index: usize| rows.observable(index).iter().zip(rows.statuses()).map(there).collect();
+    let present = |(value, status): (&f64, &Status)| *status == Status::Done || !value.is_nan();
+    let mask = |index: usize| rows.observable(index).iter().zip(rows.statuses()).map(present).collect();
     Some((0..rows.shape().observables).map(mask).collect())
 }

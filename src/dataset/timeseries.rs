@@ -1,19 +1,17 @@
 //! [`TimeSeries`]: one run as a table over time, for Parquet, CSV, the screen and the plot.
 //!
-//! The state table holds the spacecraft's centre of mass c; the series gives the point p (the origin of F_s), as the report's
+//! The state table has the spacecraft's centre of mass c; the series gives the point p (the origin of F_s), as the report's
 //! state does: r_p = r_c - C_es c, v_p = v_c - C_es (omega x c).
 
 use std::collections::HashMap;
 use std::io::{self, Write};
 use std::path::Path;
 
-use parquet::errors::ParquetError;
-use thiserror::Error;
-
 use crate::campaign::Plan;
 use crate::dataset::atomic;
 use crate::dataset::columnar::{Cells, Content, Heading, Layout, Packing};
-use crate::dataset::rows_file::provenance;
+use crate::dataset::provenance::provenance;
+use crate::dataset::table::{TableError, TableFormat, write_csv};
 use crate::ensemble::SingleRun;
 use crate::math::vector::{cross, dcm_from_quaternion, difference, product};
 use crate::run::StateField;
@@ -30,45 +28,8 @@ pub struct TimeSeries {
     origin: HashMap<String, String>,
 }
 
-/// The formats that a table over time is written in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TableFormat {
-    /// Apache Parquet.
-    Parquet,
-    /// Comma-separated values.
-    Csv,
-}
-
-/// Why a table could not be written.
-#[derive(Debug, Error)]
-pub enum TableError {
-    /// The name says neither Parquet nor CSV.
-    #[error("a table is written as .parquet or .csv, and `{0}` is neither")]
-    Format(String),
-    /// The file system refused.
-    #[error(transparent)]
-    Io(#[from] io::Error),
-    /// Parquet refused.
-    #[error(transparent)]
-    Parquet(#[from] ParquetError),
-}
-
-impl TableFormat {
-    /// The format that the extension of `path` names.
-    ///
-    /// # Errors
-    /// [`TableError::Format`].
-    pub fn of(path: &Path) -> Result<Self, TableError> {
-        match path.extension().and_then(|extension| extension.to_str()).map(str::to_ascii_lowercase).as_deref() {
-            Some("parquet") => Ok(TableFormat::Parquet),
-            Some("csv") => Ok(TableFormat::Csv),
-            _ => Err(TableError::Format(path.display().to_string())),
-        }
-    }
-}
-
 impl TimeSeries {
-    /// The points of `run` (of sample `sample` of `plan`) that it reached and that `shown` lets pass, by their time.
+    /// The points of `run` (sample `sample` of `plan`) that the run reached and whose time `shown` accepts.
     pub fn new(plan: &Plan, sample: SampleId, run: &SingleRun, shown: impl Fn(f64) -> bool) -> Self {
         let points: Vec<usize> = (0..run.outcome.points).filter(|point| shown(run.grid.times()[*point])).collect();
         let mut table = Columns { points: &points, headings: Vec::new(), columns: Vec::new() };
@@ -124,20 +85,16 @@ impl TimeSeries {
     /// # Errors
     /// What `out` returns.
     pub fn write_csv(&self, out: &mut impl Write) -> io::Result<()> {
-        let names: Vec<&str> = self.headings.iter().map(|heading| heading.name.as_str()).collect();
-        writeln!(out, "{}", names.join(","))?;
-        for point in 0..self.points() {
-            for (index, column) in self.columns.iter().enumerate() {
+        write_csv(out, &self.headings, self.points(), |out, point| {
+            self.columns.iter().enumerate().try_for_each(|(index, column)| {
                 let comma = if index == 0 { "" } else { "," };
-                write!(out, "{comma}{:?}", column[point])?;
-            }
-            writeln!(out)?;
-        }
-        Ok(())
+                write!(out, "{comma}{:?}", column[point])
+            })
+        })
     }
 }
 
-/// A table that grows column by column.
+/// A table built column by column.
 struct Columns<'a> {
     points: &'a [usize],
     headings: Vec<Heading>,
@@ -146,13 +103,7 @@ struct Columns<'a> {
 
 impl Columns<'_> {
     fn push(&mut self, name: &str, unit: &str, meaning: &str, value: impl Fn(usize) -> f64) {
-        self.headings.push(Heading {
-            name: name.to_owned(),
-            unit: unit.to_owned(),
-            meaning: meaning.to_owned(),
-            content: Content::Real,
-            nullable: false,
-        });
+        self.headings.push(Heading::new(name, unit, meaning, Content::Real));
         self.columns.push(self.points.iter().map(|point| value(*point)).collect());
     }
 
@@ -168,13 +119,8 @@ impl Columns<'_> {
         let values: Vec<[f64; N]> = self.points.iter().map(|point| value(*point)).collect();
         for component in 0..N {
             let suffix = if unit.1.is_empty() { String::new() } else { format!("_{}", unit.1) };
-            self.headings.push(Heading {
-                name: format!("{stem}_{}{suffix}", names[component]),
-                unit: unit.0.to_owned(),
-                meaning: meaning.to_owned(),
-                content: Content::Real,
-                nullable: false,
-            });
+            let name = format!("{stem}_{}{suffix}", names[component]);
+            self.headings.push(Heading::new(&name, unit.0, meaning, Content::Real));
             self.columns.push(values.iter().map(|value| value[component]).collect());
         }
     }

@@ -1,110 +1,14 @@
-//! [`AuditTally`]: what the audits of a campaign amount to; [`AuditSummary`]: the same for `summary.json` and the screen.
+//! [`AuditSummary`]: the statistics of the audits, for `summary.json` and the screen.
 //!
-//! Errors are counted as everything is ([`crate::statistics::sketch`]); only the CPU time is added up, and it goes to the screen
-//! alone.
+//! CPU time is on the screen only: `summary.json` does not depend on the machine.
 
 use std::fmt::{self, Display, Formatter};
 
 use serde::Serialize;
 
-use crate::ensemble::Rows;
-use crate::propagation::taylor::reference_solution;
-use crate::report::summary::short;
+use crate::dataset::audit_tally::AuditTally;
+use crate::report::number::short;
 use crate::statistics::sketch::Sketch;
-
-/// An error beyond this is no longer small, and soon bounded: there an estimate covers it that is above half of this.
-pub const SMALL: f64 = 0.1;
-
-/// Counts over the audited runs.
-#[derive(Clone, Debug, Default)]
-pub struct AuditTally {
-    audited: u64,
-    failed: u64,
-    in_double_double: u64,
-    covered: u64,
-    state: Sketch,
-    omega: Sketch,
-    attitude: Sketch,
-    /// Estimate over true error, where both are numbers above zero.
-    excess: Sketch,
-    /// Errors of the observables that are summed up.
-    observables: Vec<Sketch>,
-    seconds: [f64; 2],
-}
-
-impl AuditTally {
-    /// Nothing counted yet, of `observables` observables.
-    pub fn new(observables: usize) -> Self {
-        AuditTally { observables: vec![Sketch::default(); observables], ..AuditTally::default() }
-    }
-
-    /// Counts the audits of a part; `indices` are the places of the observables in a row.
-    pub fn add(&mut self, rows: &Rows, indices: impl Iterator<Item = usize> + Clone) {
-        for (_, audit) in rows.audits() {
-            let Some(audit) = audit else {
-                self.failed += 1;
-                continue;
-            };
-            self.audited += 1;
-            self.in_double_double += u64::from(audit.truth_tolerance == reference_solution::TOLERANCE);
-            let error = audit.state();
-            let is_covered = audit.estimate >= error || (error > SMALL && audit.estimate > 0.5 * SMALL);
-            self.covered += u64::from(is_covered);
-            self.state.add(error);
-            self.omega.add(audit.omega);
-            self.attitude.add(audit.attitude);
-            if error > 0.0 {
-                self.excess.add(audit.estimate / error);
-            }
-            for (sketch, index) in self.observables.iter_mut().zip(indices.clone()) {
-                sketch.add(audit.observables[index]);
-            }
-        }
-        for (sum, seconds) in self.seconds.iter_mut().zip(rows.seconds()) {
-            *sum += seconds;
-        }
-    }
-
-    /// Errors of the observable numbered `index` among those that are summed up, beside its own `values`.
-    pub fn numerics(&self, index: usize, values: &Sketch) -> Option<Numerics> {
-        let errors = &self.observables[index];
-        let p95 = errors.quantile(0.95)?;
-        let spread = values.quantile(0.95)? - values.quantile(0.05)?;
-        Some(Numerics {
-            count: errors.count(),
-            median: errors.quantile(0.5),
-            p95: Some(p95),
-            p99: errors.quantile(0.99),
-            max: errors.max(),
-            spread,
-            share_of_spread: (spread > 0.0).then_some(p95 / spread),
-        })
-    }
-
-    /// Sums up.
-    pub fn summary(&self, fraction: f64) -> AuditSummary {
-        AuditSummary {
-            fraction,
-            audited: self.audited,
-            failed: self.failed,
-            in_double_double: self.in_double_double,
-            state_error: Quantiles::of(&self.state),
-            omega_error: Quantiles::of(&self.omega),
-            attitude_error_rad: Quantiles::of(&self.attitude),
-            estimate: Estimate {
-                covered: self.covered,
-                coverage: (self.audited > 0).then(|| self.covered as f64 / self.audited as f64),
-                median_ratio: self.excess.quantile(0.5),
-            },
-        }
-    }
-
-    /// What the audits cost, for the screen: CPU time, and its share.
-    pub fn cost(&self) -> String {
-        let [runs, audits] = self.seconds;
-        format!("{} s of CPU time, {:.1}% of all", short(audits), 100.0 * audits / (runs + audits).max(1e-9))
-    }
-}
 
 /// The numerical errors of an observable over the audited runs, beside the spread of its values over the campaign.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -175,6 +79,51 @@ pub struct AuditSummary {
     pub attitude_error_rad: Quantiles,
     /// How good the estimate was.
     pub estimate: Estimate,
+}
+
+impl Numerics {
+    /// Errors of the observable `index` among those with statistics, and the spread of its `values`; `None` where there are
+    /// no errors.
+    pub fn new(audits: &AuditTally, index: usize, values: &Sketch) -> Option<Self> {
+        let errors = &audits.observables[index];
+        let p95 = errors.quantile(0.95)?;
+        let spread = values.quantile(0.95)? - values.quantile(0.05)?;
+        Some(Numerics {
+            count: errors.count(),
+            median: errors.quantile(0.5),
+            p95: Some(p95),
+            p99: errors.quantile(0.99),
+            max: errors.max(),
+            spread,
+            share_of_spread: (spread > 0.0).then_some(p95 / spread),
+        })
+    }
+}
+
+impl AuditSummary {
+    /// The statistics of `audits`, of a campaign that audits `fraction` of its samples.
+    pub fn new(audits: &AuditTally, fraction: f64) -> Self {
+        AuditSummary {
+            fraction,
+            audited: audits.audited,
+            failed: audits.failed,
+            in_double_double: audits.in_double_double,
+            state_error: Quantiles::of(&audits.state),
+            omega_error: Quantiles::of(&audits.omega),
+            attitude_error_rad: Quantiles::of(&audits.attitude),
+            estimate: Estimate {
+                covered: audits.covered,
+                coverage: (audits.audited > 0).then(|| audits.covered as f64 / audits.audited as f64),
+                median_ratio: audits.ratio.quantile(0.5),
+            },
+        }
+    }
+}
+
+/// CPU time of the audits, and its share of the total.
+pub fn cost(audits: &AuditTally) -> String {
+    let [runs, audits] = audits.seconds();
+    format!("{} s of CPU time, {:.1}% of the total", short(audits), 100.0 * audits / (runs + audits).max(1e-9))
 }
 
 impl Display for AuditSummary {

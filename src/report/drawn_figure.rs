@@ -9,8 +9,8 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use crate::dataset::atomic;
 use crate::ensemble::DrawnScenes;
+use crate::report::number::short;
 use crate::report::plot::{COLORS, OVERSAMPLING, PlotError, PlotFormat, averaged, drawing, encode, install_font};
-use crate::report::summary::short;
 
 /// Size of a histogram, pixels.
 const HISTOGRAM: (u32, u32) = (300, 190);

@@ -26,7 +26,7 @@ fn errors_follow_the_settings() {
     let methods: Vec<&str> = table.column(0).as_string::<i32>().iter().flatten().collect();
     assert_eq!(methods[..4], ["auto", "auto", "auto", "dop853"]);
     assert_eq!(methods.len(), 9);
-    for name in ["rate_error_max", "dcm_orthonormality_max_rad"] {
+    for name in ["rate_error_max", "attitude_error_max_rad"] {
         let errors = floats(&table, name);
         for first in [0, 3, 6] {
             let (coarse, fine) = (errors[first].unwrap(), errors[first + 2].unwrap());

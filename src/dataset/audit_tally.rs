@@ -1,0 +1,71 @@
+//! [`AuditTally`]: statistics of the audits of a campaign, counted part by part.
+
+use crate::ensemble::Rows;
+use crate::propagation::taylor::reference_solution;
+use crate::statistics::sketch::Sketch;
+
+/// Errors above this are no longer small, and soon bounded: an estimate above half of this counts as covering them.
+pub const SMALL: f64 = 0.1;
+
+/// Counts over the audited runs.
+#[derive(Clone, Debug, Default)]
+pub struct AuditTally {
+    /// Runs that were audited.
+    pub audited: u64,
+    /// Selected runs that did not reach their end, or whose reference solution did not.
+    pub failed: u64,
+    /// Audited runs whose reference solution is in double-double; the others have one in plain doubles.
+    pub in_double_double: u64,
+    /// Runs whose `state_error_estimate` covers the true error.
+    pub covered: u64,
+    /// Maximum of the next two.
+    pub state: Sketch,
+    /// Errors of omega over the run's maximum |omega|.
+    pub omega: Sketch,
+    /// Errors of the attitude, rad.
+    pub attitude: Sketch,
+    /// Estimate over true error, where the true error is above zero.
+    pub ratio: Sketch,
+    /// Errors of the observables that have statistics.
+    pub observables: Vec<Sketch>,
+    seconds: [f64; 2],
+}
+
+impl AuditTally {
+    /// Nothing counted yet, of `observables` observables.
+    pub fn new(observables: usize) -> Self {
+        AuditTally { observables: vec![Sketch::default(); observables], ..AuditTally::default() }
+    }
+
+    /// Counts the audits of a part; `indices` are the indices of the observables in a row.
+    pub fn add(&mut self, rows: &Rows, indices: impl Iterator<Item = usize> + Clone) {
+        for (_, audit) in rows.audits() {
+            let Some(audit) = audit else {
+                self.failed += 1;
+                continue;
+            };
+            self.audited += 1;
+            self.in_double_double += u64::from(audit.truth_tolerance == reference_solution::TOLERANCE);
+            let error = audit.state();
+            let is_covered = audit.estimate >= error || (error > SMALL && audit.estimate > 0.5 * SMALL);
+            self.covered += u64::from(is_covered);
+            self.state.add(error);
+            self.omega.add(audit.omega);
+            self.attitude.add(audit.attitude);
+            if error > 0.0 {
+                self.ratio.add(audit.estimate / error);
+            }
+            for (sketch, index) in self.observables.iter_mut().zip(indices.clone()) {
+                sketch.add(audit.observables[index]);
+            }
+        }
+        for (sum, seconds) in self.seconds.iter_mut().zip(rows.seconds()) {
+            *sum += seconds;
+        }
+    }
+
+    /// CPU time of the runs and of their audits, s.
+    pub fn seconds(&self) -> [f64; 2] {
+        self.seconds
+    }
+}

@@ -1,0 +1,32 @@
+//! Numbers in text.
+
+/// A number in at most eleven characters: four significant digits, whole numbers below 1e5 in full.
+pub fn short(value: f64) -> String {
+    let size = value.abs();
+    if size == 0.0 {
+        "0".to_owned()
+    } else if !(1e-3..1e5).contains(&size) {
+        format!("{value:.3e}")
+    } else if size == libm::floor(size) {
+        format!("{value:.0}")
+    } else {
+        let before = libm::floor(libm::log10(size)) as i32;
+        format!("{value:.*}", (3 - before).max(1) as usize)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: a number fits its column, whatever its magnitude.
+    #[test]
+    fn short_numbers_are_short() {
+        for (value, text) in
+            [(0.0, "0"), (1.234_567e-15, "1.235e-15"), (12.345_67, "12.35"), (4096.0, "4096"), (-1.5e300, "-1.500e300")]
+        {
+            assert_eq!(short(value), text);
+        }
+        assert!([f64::MIN, f64::MIN_POSITIVE, f64::NAN, f64::INFINITY].iter().all(|value| short(*value).len() <= 11));
+    }
+}
