@@ -1,8 +1,9 @@
-//! The program `spindrift`; what it does, the library does.
+//! The program `spindrift`: selects the command; the library does the rest.
 
 use std::process::ExitCode;
 
-use spindrift::cli::{Command, arguments, check, command_outcome, precision, run_campaign, sample, simulate};
+use spindrift::cli::arguments::{Command, arguments};
+use spindrift::cli::{check, command_outcome, precision, run_campaign, sample, simulate};
 
 fn main() -> ExitCode {
     let ended = match arguments().command {

@@ -1,25 +1,20 @@
 //! `spindrift check`: what a campaign would run.
 
 use std::fmt::Write as _;
-use std::time::Instant;
 
 use crate::campaign::Overrides;
+use crate::cli::arguments::CheckOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
-use crate::cli::run_campaign::bytes;
-use crate::cli::{CheckOptions, dispersions, isa, plan, screen};
+use crate::cli::input::{isa, plan};
+use crate::cli::{dispersions, screen};
 use crate::dataset::rows_file::RowsFile;
-use crate::ensemble::{Auditor, Ensemble, Part, PartId, Parts, Rows};
+use crate::ensemble::probe::{AuditProbe, RunProbe};
+use crate::ensemble::{Ensemble, Part, PartId, Parts};
 use crate::observables::Request;
+use crate::report::number::{bytes, short};
 use crate::run::StateField;
-use crate::report::number::short;
-use crate::run::Status;
 use crate::sampling::SampleId;
 use crate::scene::{MassProperties, Scene};
-
-/// The probe runs about this long, s.
-const PROBE_SECONDS: f64 = 0.5;
-/// The probe runs at most this many samples.
-const PROBE_SAMPLES: usize = 512;
 
 /// Runs the command.
 ///
@@ -27,7 +22,7 @@ const PROBE_SAMPLES: usize = 512;
 /// Where the campaign file is wrong.
 pub fn run(options: &CheckOptions) -> Result<CommandOutcome, Failure> {
     let plan = plan(&options.file, Overrides::default())?;
-    let campaign = Ensemble::new(&plan, isa()?);
+    let ensemble = Ensemble::new(&plan, isa()?);
     let scene = Scene::resolve(&plan.nominal)
         .map_err(|errors| Failure::Input(errors.iter().map(|error| format!("{error}\n")).collect()))?;
     let mut text = String::new();
@@ -37,13 +32,13 @@ pub fn run(options: &CheckOptions) -> Result<CommandOutcome, Failure> {
         masses(&mut text, &scene.mass)?;
         section(&mut text, "Dispersions")?;
         dispersions::table(&mut text, &plan)?;
-        blocks(&mut text, &campaign)?;
+        computed(&mut text, &ensemble)?;
         std::fmt::Result::Ok(())
     })();
     written.map_err(Failure::files)?;
     screen::print(&text)?;
-    screen::print(&estimate(&campaign)?)?;
-    screen::print(&audit_estimate(&campaign))?;
+    screen::print(&estimate(&ensemble)?)?;
+    screen::print(&audit_estimate(&ensemble))?;
     Ok(CommandOutcome::Done)
 }
 
@@ -67,7 +62,7 @@ fn masses(text: &mut String, mass: &MassProperties) -> std::fmt::Result {
     let [x, y, z] = mass.center;
     writeln!(text, "centre of mass of the spacecraft, from p in F_s: [{x:?}, {y:?}, {z:?}] m")?;
     tensor(text, "inertia of the spacecraft, wheels locked, about its centre of mass", mass.inertia)?;
-    tensor(text, "the same less the wheels' axial inertias (J*: wheels free)", mass.inertia_free)?;
+    tensor(text, "the same minus the wheels' axial inertias (J*, wheels free)", mass.inertia_free)?;
     tensor(text, "inertia of the fuselage about its own centre of mass", mass.fuselage.inertia)?;
     for (number, wheel) in [(1, wheel1), (2, wheel2)] {
         let (axial, transverse, mode) = (wheel.axial, wheel.transverse, wheel.mode.name());
@@ -93,28 +88,28 @@ fn tensor(text: &mut String, name: &str, rows: [[f64; 3]; 3]) -> std::fmt::Resul
 }
 
 /// What is integrated and why, and what is not.
-fn blocks(text: &mut String, campaign: &Ensemble<'_>) -> std::fmt::Result {
+fn computed(text: &mut String, ensemble: &Ensemble<'_>) -> std::fmt::Result {
     section(text, "What is computed")?;
-    let reasons = campaign.request().reasons();
-    for block in StateField::ALL {
-        let name = block_name(block);
-        match reasons.iter().find(|(needed, _)| *needed == block) {
+    let reasons = ensemble.request().reasons();
+    for field in StateField::ALL {
+        let name = field_name(field);
+        match reasons.iter().find(|(needed, _)| *needed == field) {
             Some((_, reason)) => writeln!(text, "{name:<44} needed because of {reason}")?,
-            None => writeln!(text, "{name:<44} skipped: {}", absence(campaign.request(), block))?,
+            None => writeln!(text, "{name:<44} not computed: {}", absence(ensemble.request(), field))?,
         }
     }
-    for (piece, scheduled) in [("thrust", campaign.propagator().thrust), ("wheel motors", campaign.propagator().motors)]
+    for (term, scheduled) in [("thrust", ensemble.propagator().thrust), ("wheel motors", ensemble.propagator().motors)]
     {
-        let why = if scheduled { "needed because the schedule has it" } else { "skipped: not in the schedule" };
-        writeln!(text, "{piece:<44} {why}")?;
+        let why = if scheduled { "needed because of the schedule" } else { "not computed: not in the schedule" };
+        writeln!(text, "{term:<44} {why}")?;
     }
-    let asked: Vec<&str> = campaign.plan().groups.iter().map(|group| group.name()).collect();
+    let asked: Vec<&str> = ensemble.plan().groups.iter().map(|group| group.name()).collect();
     writeln!(text, "observed groups: {}", asked.join(", "))
 }
 
-/// Why a block is not computed.
-fn absence(request: &Request, block: StateField) -> &'static str {
-    match block {
+/// Why a state is not computed.
+fn absence(request: &Request, field: StateField) -> &'static str {
+    match field {
         StateField::DebrisPosition
         | StateField::DebrisVelocity
         | StateField::DebrisAttitude
@@ -123,16 +118,18 @@ fn absence(request: &Request, block: StateField) -> &'static str {
         {
             "there is no debris"
         }
-        StateField::Work | StateField::Impulse | StateField::AngularImpulse if !request.actuated => "no actuator works",
-        StateField::Dcm | StateField::Residuals | StateField::KineticEnergies if !request.constrained => {
-            "only the reference kernel has it"
+        StateField::Work | StateField::Impulse | StateField::AngularImpulse if !request.actuated => {
+            "there is no actuation"
         }
-        _ => "nothing observed needs it",
+        StateField::Dcm | StateField::Residuals | StateField::KineticEnergies if !request.constrained => {
+            "only the null_space method has it"
+        }
+        _ => "no requested observable needs it",
     }
 }
 
-fn block_name(block: StateField) -> &'static str {
-    match block {
+fn field_name(field: StateField) -> &'static str {
+    match field {
         StateField::Rate => "angular velocity of the fuselage",
         StateField::Attitude => "attitude quaternion",
         StateField::WheelRates => "wheel rates",
@@ -146,83 +143,39 @@ fn block_name(block: StateField) -> &'static str {
         StateField::DebrisVelocity => "velocity of the debris",
         StateField::DebrisAttitude => "attitude of the debris",
         StateField::DebrisRate => "angular velocity of the debris",
-        StateField::Dcm => "direction cosine matrix (reference kernel)",
-        StateField::Residuals => "constraint residuals (reference kernel)",
-        StateField::KineticEnergies => "kinetic energies of the redundant states (reference kernel)",
+        StateField::Dcm => "direction cosine matrix (null_space method)",
+        StateField::Residuals => "constraint residuals (null_space method)",
+        StateField::KineticEnergies => "kinetic energies of the redundant states (null_space method)",
     }
 }
 
-/// What the audits would cost, from a short probe of the first samples.
-fn audit_estimate(campaign: &Ensemble<'_>) -> String {
-    let plan = campaign.plan();
-    if plan.audit_fraction == 0.0 {
-        return "no sample is audited ([audit] fraction = 0.01 or --audit 0.01 runs one in a hundred again exactly)\n"
-            .to_owned();
-    }
-    let mut auditor = Auditor::new(plan, campaign.isa(), &plan.grid);
-    let mut sampler = plan.dispersions.sampler();
-    let mut input = plan.nominal.clone();
-    let mut applied = vec![0.0; plan.dispersions.columns().len()];
-    let start = Instant::now();
-    let (mut audits, mut sample) = (0_u32, 0);
-    while sample < plan.samples && start.elapsed().as_secs_f64() < PROBE_SECONDS {
-        sampler.draw(SampleId(sample), &mut input, &mut applied);
-        if let Ok(scene) = Scene::resolve(&input) {
-            auditor.audit(&scene);
-            audits += 1;
-        }
-        sample += 1;
-    }
-    let each = start.elapsed().as_secs_f64() / f64::from(audits.max(1));
-    let count = plan.audit_fraction * plan.samples as f64;
-    let cores = std::thread::available_parallelism().map_or(1, std::num::NonZeroUsize::get);
-    format!(
-        "audit of {} of the samples, from {audits} audits: {:.1} ms each, about {} of them on {cores} cores: {} s more\n",
-        short(plan.audit_fraction),
-        each * 1e3,
-        short(libm::round(count)),
-        short(each * count / cores as f64),
-    )
-}
+/// Time and disk space, extrapolated from a probe of the first samples.
+fn estimate(ensemble: &Ensemble<'_>) -> Result<String, Failure> {
+    let plan = ensemble.plan();
+    let mut probe = RunProbe::new(ensemble);
+    let (count, failed) = (probe.count(), probe.failed());
 
-/// Time and disk from a short probe.
-fn estimate(campaign: &Ensemble<'_>) -> Result<String, Failure> {
-    let plan = campaign.plan();
-    let most = usize::try_from(plan.samples).unwrap_or(usize::MAX).min(PROBE_SAMPLES);
-    let mut rows = Rows::new(campaign.shape(), most);
-    let mut worker = campaign.worker();
-    let mut timed = |count: usize| {
-        let start = Instant::now();
-        worker.run(Part { id: PartId(0), first: SampleId(0), count }, &mut rows, &|_| {});
-        start.elapsed().as_secs_f64()
-    };
-    timed(1); // warm
-    let one = timed(1).max(1e-7);
-    let count = ((PROBE_SECONDS / one) as usize).clamp(1, most);
-    let each = timed(count) / count as f64;
-    let failed = rows.statuses().iter().filter(|status| **status != Status::Done).count();
-
-    let file = RowsFile::new(campaign).map_err(Failure::files)?;
-    let mut packed = Vec::new();
-    file.write(&rows, &mut packed).map_err(Failure::files)?;
-    rows.start(Part { id: PartId(0), first: SampleId(0), count: 1 });
+    let file = RowsFile::new(ensemble).map_err(Failure::files)?;
+    let mut full = Vec::new();
+    file.write(&probe.rows, &mut full).map_err(Failure::files)?;
+    probe.rows.start(Part { id: PartId(0), first: SampleId(0), count: 1 });
     let mut empty = Vec::new();
-    file.write(&rows, &mut empty).map_err(Failure::files)?;
+    file.write(&probe.rows, &mut empty).map_err(Failure::files)?;
     let row = if count > 1 {
-        packed.len().saturating_sub(empty.len()) as f64 / (count - 1) as f64
+        full.len().saturating_sub(empty.len()) as f64 / (count - 1) as f64
     } else {
         (file.columns() * size_of::<f64>()) as f64
     };
     let parts = Parts::of(plan.samples);
     let disk = row * plan.samples as f64 + empty.len() as f64 * parts.count() as f64;
-    let cores = std::thread::available_parallelism().map_or(1, std::num::NonZeroUsize::get);
-    let seconds = each * plan.samples as f64 / cores as f64;
+    let cores = cores();
+    let seconds = probe.seconds * plan.samples as f64 / cores as f64;
     Ok(format!(
         "\n== Estimate, from {count} runs\n\
-         {:.3} ms a run on one core; {} samples on {cores} cores: about {} s\n\
+         {:.3} ms per run on one core; {} samples on {cores} cores: about {} s\n\
          {} columns; {} file{} of rows: about {}\n\
          {}",
-        each * 1e3,
+        probe.seconds * 1e3,
         plan.samples,
         short(seconds),
         file.columns(),
@@ -231,4 +184,27 @@ fn estimate(campaign: &Ensemble<'_>) -> Result<String, Failure> {
         bytes(disk as u64),
         if failed == 0 { String::new() } else { format!("{failed} of the {count} runs failed\n") },
     ))
+}
+
+/// Time of the audits, extrapolated from a probe of the first samples.
+fn audit_estimate(ensemble: &Ensemble<'_>) -> String {
+    let plan = ensemble.plan();
+    if plan.audit_fraction == 0.0 {
+        return "no audit ([audit] fraction = 0.01 or --audit 0.01 compares one sample in a hundred with a reference solution)\n"
+            .to_owned();
+    }
+    let AuditProbe { seconds, count } = AuditProbe::new(ensemble);
+    let audits = plan.audit_fraction * plan.samples as f64;
+    let cores = cores();
+    format!(
+        "audit of {} of the samples, from {count} audits: {:.1} ms each; about {} audits on {cores} cores: {} s more\n",
+        short(plan.audit_fraction),
+        seconds * 1e3,
+        short(libm::round(audits)),
+        short(seconds * audits / cores as f64),
+    )
+}
+
+fn cores() -> usize {
+    std::thread::available_parallelism().map_or(1, std::num::NonZeroUsize::get)
 }

@@ -5,12 +5,12 @@ use std::process::ExitCode;
 use crate::cli::screen;
 use crate::run::Status;
 
-/// A command that ran to its end.
+/// How a command ended that could run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CommandOutcome {
-    /// All is well: code 0.
+    /// No run failed: code 0.
     Done,
-    /// It ran, but this many runs failed: code 1.
+    /// This many runs failed: code 1.
     SomeFailed(u64),
 }
 
@@ -19,14 +19,20 @@ pub enum CommandOutcome {
 pub enum Failure {
     /// Arguments or campaign file are wrong: code 2.
     Input(String),
-    /// The file system refused, or something is in the way: code 4.
+    /// A file operation failed, or an existing result may not be replaced: code 4.
     Files(String),
 }
 
 impl CommandOutcome {
-    /// The verdict on one run.
+    /// The outcome of a command that made one run.
     pub fn of(status: Status) -> Self {
         if status == Status::Done { CommandOutcome::Done } else { CommandOutcome::SomeFailed(1) }
+    }
+}
+
+impl From<std::io::Error> for Failure {
+    fn from(error: std::io::Error) -> Self {
+        Failure::Files(error.to_string())
     }
 }
 
@@ -37,7 +43,7 @@ impl Failure {
     }
 }
 
-/// The exit code, after the reason has been said.
+/// Prints the reason of a failure and returns the exit code.
 pub fn exit_code(ended: Result<CommandOutcome, Failure>) -> ExitCode {
     ExitCode::from(match ended {
         Ok(CommandOutcome::Done) => 0,

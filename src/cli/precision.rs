@@ -3,8 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use crate::campaign::Overrides;
+use crate::cli::arguments::PrecisionOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
-use crate::cli::{PrecisionOptions, isa, plan, screen};
+use crate::cli::input::{isa, plan};
+use crate::cli::screen;
 use crate::dataset::precision_table;
 use crate::ensemble::precision::{Patience, Precision, States};
 use crate::propagation::Method;
@@ -81,33 +83,6 @@ fn default_tolerances() -> Vec<f64> {
     (4..=16).map(|digits| libm::pow(10.0, -f64::from(digits))).collect()
 }
 
-/// A method by its name, for the command line.
-///
-/// # Errors
-/// The names that there are.
-pub fn method(name: &str) -> Result<Method, String> {
-    let names = || Method::ALL.map(Method::name).join(", ");
-    Method::from_name(name).ok_or_else(|| format!("must be one of {}", names()))
-}
-
-/// A tolerance from the command line.
-///
-/// # Errors
-/// The allowed range.
-pub fn tolerance(text: &str) -> Result<f64, String> {
-    let allowed = || "must be a number from 1e-16 to 0.1".to_owned();
-    text.parse().ok().filter(|value| (1e-16..=0.1).contains(value)).ok_or_else(allowed)
-}
-
-/// A length of time from the command line.
-///
-/// # Errors
-/// The allowed range.
-pub fn seconds(text: &str) -> Result<f64, String> {
-    let allowed = || "must be a number of seconds above 0".to_owned();
-    text.parse().ok().filter(|value: &f64| value.is_finite() && *value > 0.0).ok_or_else(allowed)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -116,13 +91,5 @@ mod tests {
     fn tolerances_are_decades() {
         let tolerances = default_tolerances();
         assert_eq!((tolerances.len(), tolerances[0], tolerances[8]), (13, 1e-4, 1e-12));
-        assert!(tolerances.iter().all(|value| tolerance(&value.to_string()).is_ok()));
-        assert!(tolerance("1e-17").is_err() && tolerance("0.2").is_err() && tolerance("nan").is_err());
-    }
-
-    #[test]
-    fn methods_go_by_their_names() {
-        assert_eq!(method("auto"), Ok(Method::Auto));
-        assert!(method("euler").is_err_and(|message| message.contains("gauss_legendre_6")));
     }
 }

@@ -1,26 +1,29 @@
-//! `spindrift campaign`: every sample of a campaign into files.
+//! `spindrift campaign`: runs every sample of a campaign and writes rows and summary.
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use crate::campaign::spec::FRACTION;
 use crate::campaign::{Overrides, Plan};
+use crate::cli::arguments::CampaignOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
+use crate::cli::input::{isa, plan};
 use crate::cli::progress::Bar;
-use crate::cli::{CampaignOptions, isa, plan, screen};
+use crate::cli::screen;
 use crate::dataset::folder::{Claim, Folder};
 use crate::dataset::part_sink::PartSink;
 use crate::ensemble::{Ensemble, Parts, RunError, run as run_parts};
 use crate::report::audit_summary::cost;
+use crate::report::number::bytes;
 use crate::report::summary::{Summary, failed_runs};
 
-/// Where results go unless `--out` says otherwise, below the current folder.
+/// Default folder of results, in the current folder.
 const RESULTS: &str = "results";
 
 /// Runs the command.
 ///
 /// # Errors
-/// Where the campaign cannot run or its result cannot be kept.
+/// Where the campaign cannot run or its result cannot be written.
 pub fn run(options: &CampaignOptions) -> Result<CommandOutcome, Failure> {
     let mut plan = plan(&options.file, Overrides { samples: options.samples, seed: options.seed })?;
     if let Some(fraction) = options.audit {
@@ -33,18 +36,18 @@ pub fn run(options: &CampaignOptions) -> Result<CommandOutcome, Failure> {
     let isa = isa()?;
     let root = options.out.clone().unwrap_or_else(|| PathBuf::from(RESULTS).join(&plan.name));
     match Folder::claim(&root, &plan, options.overwrite).map_err(Failure::files)? {
-        Claim::Finished(summary) => already_finished(&root, &plan, &summary),
-        Claim::Ready(folder) => fill(options, &plan, &Ensemble::new(&plan, isa), &folder, &root),
+        Claim::Finished(summary) => already_complete(&root, &plan, &summary),
+        Claim::Ready(folder) => run_all(options, &plan, &Ensemble::new(&plan, isa), &folder, &root),
     }
 }
 
-fn already_finished(root: &Path, plan: &Plan, summary: &str) -> Result<CommandOutcome, Failure> {
+fn already_complete(root: &Path, plan: &Plan, summary: &str) -> Result<CommandOutcome, Failure> {
     let failed = match failed_runs(summary) {
         Some(0) | None => String::new(),
         Some(failed) => format!(", {failed} of them failed"),
     };
     screen::print(&format!(
-        "{}: already finished in {} ({} samples{failed}); nothing to do. Run it again with --overwrite.\n",
+        "{}: already complete in {} ({} samples{failed}); nothing to do. --overwrite runs it again.\n",
         plan.name,
         root.display(),
         plan.samples,
@@ -52,20 +55,20 @@ fn already_finished(root: &Path, plan: &Plan, summary: &str) -> Result<CommandOu
     Ok(CommandOutcome::Done)
 }
 
-fn fill(
+fn run_all(
     options: &CampaignOptions,
     plan: &Plan,
-    campaign: &Ensemble<'_>,
+    ensemble: &Ensemble<'_>,
     folder: &Folder,
     root: &Path,
 ) -> Result<CommandOutcome, Failure> {
     if folder.restarted {
-        screen::note(&format!("{}: found unfinished in {}, starting over", plan.name, root.display()));
+        screen::note(&format!("{}: unfinished result in {}, starting again", plan.name, root.display()));
     }
-    let sink = PartSink::new(folder, campaign).map_err(Failure::files)?;
+    let sink = PartSink::new(folder, ensemble).map_err(Failure::files)?;
     let parts = Parts::of(plan.samples);
     let bar = Bar::new(plan.samples);
-    let ended = run_parts(campaign, parts, options.threads, &sink, &|samples| bar.advance(samples));
+    let ended = run_parts(ensemble, parts, options.threads, &sink, &|samples| bar.advance(samples));
     let elapsed = bar.finish();
     ended.map_err(|error| match error {
         RunError::Threads(_) => Failure::Input(error.to_string()),
@@ -75,7 +78,7 @@ fn fill(
     let summary = Summary::new(plan, &tally);
     folder.finish(&summary.json()).map_err(Failure::files)?;
     let size = folder.size().map_err(Failure::files)?;
-    let audits = tally.audits().map_or(String::new(), |audits| format!("\n  the audit took {}\n", cost(audits)));
+    let audits = tally.audits().map_or(String::new(), |audits| format!("\n  audits: {}\n", cost(audits)));
     screen::print(&format!(
         "{}\n{summary}{audits}\n  {}: {} file{} of rows, {}\n",
         headline(plan, elapsed),
@@ -94,26 +97,4 @@ fn headline(plan: &Plan, elapsed: Duration) -> String {
     let seconds = elapsed.as_secs_f64();
     let rate = plan.samples as f64 / seconds.max(1e-9);
     format!("{}: {} samples in {seconds:.2} s ({rate:.0}/s), seed {}", plan.name, plan.samples, plan.seed)
-}
-
-/// A size for people.
-pub fn bytes(size: u64) -> String {
-    const UNITS: [&str; 5] = ["B", "kB", "MB", "GB", "TB"];
-    let mut value = size as f64;
-    let mut unit = 0;
-    while value >= 1000.0 && unit + 1 < UNITS.len() {
-        value /= 1000.0;
-        unit += 1;
-    }
-    if unit == 0 { format!("{size} B") } else { format!("{value:.1} {}", UNITS[unit]) }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::bytes;
-
-    #[test]
-    fn sizes_are_legible() {
-        assert_eq!([0, 999, 1000, 3_200_000].map(bytes), ["0 B", "999 B", "1.0 kB", "3.2 MB"]);
-    }
 }

@@ -3,8 +3,10 @@
 use std::path::Path;
 
 use crate::campaign::Overrides;
+use crate::cli::arguments::SampleOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
-use crate::cli::{SampleOptions, dispersions, plan, screen};
+use crate::cli::input::plan;
+use crate::cli::{dispersions, screen};
 use crate::dataset::drawn_table::DrawnTable;
 use crate::dataset::table::{TableError, TableFormat};
 use crate::ensemble::DrawnScenes;

@@ -4,8 +4,10 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use crate::campaign::{Overrides, Plan};
+use crate::cli::arguments::SimulateOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
-use crate::cli::{SimulateOptions, isa, plan, screen};
+use crate::cli::input::{isa, plan};
+use crate::cli::screen;
 use crate::dataset::table::{TableError, TableFormat};
 use crate::dataset::timeseries::TimeSeries;
 use crate::ensemble::{Auditor, SingleRun};
@@ -137,7 +139,8 @@ fn audit(options: &SimulateOptions, plan: &Plan, run: &SingleRun, isa: Isa) -> R
     for (name, error) in errors {
         let _ = writeln!(text, "{name:<40}{:>12}", short(error));
     }
-    screen::print(&text)
+    screen::print(&text)?;
+    Ok(())
 }
 
 fn single_run(options: &SimulateOptions, plan: &Plan, grid: Grid, isa: Isa) -> Result<SingleRun, Failure> {

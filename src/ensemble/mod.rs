@@ -1,17 +1,19 @@
-//! Floor 5: many runs. Parts of consecutive samples over threads; a row is a pure function of (plan, sample).
+//! Layer 5: many runs on all cores. A row is a pure function of (plan, sample).
 //!
-//! - [`parts`]: where a campaign is cut. - [`rows`]: the rows of a part, column by column. - [`sink`]: where they go.
-//! - [`campaign`]: what all workers share, and [`campaign::Worker`], what each owns.
-//! - [`drawn`]: samples drawn and not run. - [`runner`]: parts over threads. - [`single`]: one run with its states, as `simulate` shows it.
-//! - [`audit`]: runs once more, exactly. - [`precision`]: run time against error for every method. - [`cpu_clock`]: the clock of that time.
+//! - [`parts`]: how samples are divided into parts. - [`rows`]: the rows of a part. - [`sink`]: takes the rows.
+//! - [`worker`]: [`Ensemble`], shared by all threads, and [`Worker`], the memory of one thread.
+//! - [`runner`]: distributes parts to threads. - [`drawn`]: sampled parameters without runs. - [`single`]: one run with its states.
+//! - [`audit`]: runs compared with a reference solution. - [`precision`]: run time against error for every method.
+//! - [`probe`]: time of a run and of an audit. - [`cpu_clock`]: CPU time of a thread.
 //!
-//! Not here: file formats (the output floor), and what a run is (the floors below).
+//! Not here: file formats (`dataset`), and what a run is (`run`, `propagation`).
 
 pub mod audit;
 pub mod cpu_clock;
 pub mod drawn;
 pub mod parts;
 pub mod precision;
+pub mod probe;
 pub mod rows;
 pub mod runner;
 pub mod single;

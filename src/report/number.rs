@@ -15,6 +15,18 @@ pub fn short(value: f64) -> String {
     }
 }
 
+/// A size of files in decimal units.
+pub fn bytes(size: u64) -> String {
+    const UNITS: [&str; 5] = ["B", "kB", "MB", "GB", "TB"];
+    let mut value = size as f64;
+    let mut unit = 0;
+    while value >= 1000.0 && unit + 1 < UNITS.len() {
+        value /= 1000.0;
+        unit += 1;
+    }
+    if unit == 0 { format!("{size} B") } else { format!("{value:.1} {}", UNITS[unit]) }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -28,5 +40,10 @@ mod tests {
             assert_eq!(short(value), text);
         }
         assert!([f64::MIN, f64::MIN_POSITIVE, f64::NAN, f64::INFINITY].iter().all(|value| short(*value).len() <= 11));
+    }
+
+    #[test]
+    fn sizes_have_units() {
+        assert_eq!([0, 999, 1000, 3_200_000].map(bytes), ["0 B", "999 B", "1.0 kB", "3.2 MB"]);
     }
 }

@@ -143,7 +143,7 @@ fn a_campaign_runs_once_and_then_says_so() {
     assert!(summary.contains(r#""ok": 600"#), "{summary}");
 
     let said = scratch.says("campaign small.toml", 0);
-    assert!(said.contains("already finished"), "{said}");
+    assert!(said.contains("already complete"), "{said}");
     assert_eq!(scratch.parts("results/small"), parts, "nothing was touched");
 
     // every sample once, in order
@@ -203,7 +203,7 @@ fn leftovers_are_recognised() {
     let said = scratch.says("campaign small.toml --seed 9 --out half", 4);
     assert!(said.contains("unfinished result of another plan"), "{said}");
     let said = scratch.says("campaign small.toml --out half", 0);
-    assert!(said.contains("starting over"), "{said}");
+    assert!(said.contains("starting again"), "{said}");
     assert_eq!(scratch.parts("half"), scratch.parts("whole"));
 
     fs::remove_file(scratch.path("whole/runs/part-000001.parquet")).unwrap();
@@ -433,13 +433,13 @@ fn check_shows_what_would_run() {
         "J_xy = -integral of x y dm",
         "initial.angular_velocity_rad_s.x",
         "needed because of",
-        "skipped: no actuator works",
+        "not computed: there is no actuation",
         "== Estimate",
     ] {
         assert!(said.contains(expected), "{expected} in:\n{said}");
     }
     let said = scratch.says("check no_debris.toml", 0);
-    assert!(said.contains("skipped: there is no debris"), "{said}");
+    assert!(said.contains("not computed: there is no debris"), "{said}");
     assert!(!scratch.path("results").exists(), "check writes nothing");
 }
 

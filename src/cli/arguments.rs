@@ -1,0 +1,212 @@
+//! [`Arguments`]: commands and options of the program, with their help texts.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand};
+
+use crate::propagation::Method;
+
+/// Shown at the end of every help text.
+const EXIT_CODES: &str = "\
+Exit codes:
+  0  done (also: the same campaign was already complete)
+  1  ran, but some runs failed (their rows say how)
+  2  bad input: arguments, campaign file, or a sample that is not physical
+  4  input/output error, or the folder has a result that may not be overwritten
+
+A FILE without a folder, with or without .toml, is also looked for in campaigns/.
+SPINDRIFT_ISA=avx512|avx2|plain selects an instruction set; results do not depend on it.";
+
+/// Monte Carlo analysis of spacecraft attitude dynamics.
+#[derive(Debug, Parser)]
+#[command(name = "spindrift", version, about, after_help = EXIT_CODES, propagate_version = true)]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Run every sample of a campaign: rows to Parquet files, a summary to the screen.
+    #[command(after_help = EXIT_CODES)]
+    Campaign(CampaignOptions),
+    /// Show what a campaign would run: plan, mass properties, dispersions, what is integrated and why, time and disk space.
+    #[command(after_help = EXIT_CODES)]
+    Check(CheckOptions),
+    /// Run one sample as a time series: to a table, a Parquet or CSV file, a plot.
+    #[command(after_help = EXIT_CODES)]
+    Simulate(SimulateOptions),
+    /// Sample the dispersed parameters without running: percentiles, a table, a plot of distributions and correlations.
+    #[command(after_help = EXIT_CODES)]
+    Sample(SampleOptions),
+    /// Measure run time against error for every method and tolerance: a table, a Parquet file, a plot.
+    #[command(after_help = EXIT_CODES)]
+    Precision(PrecisionOptions),
+}
+
+/// Arguments of `campaign`.
+#[derive(Debug, Args)]
+pub struct CampaignOptions {
+    /// The campaign file.
+    pub file: PathBuf,
+    /// Folder of the result [default: the campaign's name in results/].
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Number of samples instead of the file's.
+    #[arg(long, value_name = "N")]
+    pub samples: Option<u64>,
+    /// Seed instead of the file's.
+    #[arg(long, value_name = "S")]
+    pub seed: Option<u64>,
+    /// Number of threads [default: one for each core]; rows do not depend on it.
+    #[arg(long, value_name = "N")]
+    pub threads: Option<std::num::NonZeroUsize>,
+    /// Fraction of the samples to compare with a reference solution, instead of the file's.
+    #[arg(long, value_name = "F")]
+    pub audit: Option<f64>,
+    /// Replace an existing result.
+    #[arg(long)]
+    pub overwrite: bool,
+}
+
+/// Arguments of `check`.
+#[derive(Debug, Args)]
+pub struct CheckOptions {
+    /// The campaign file.
+    pub file: PathBuf,
+}
+
+/// Arguments of `simulate`.
+#[derive(Debug, Args)]
+pub struct SimulateOptions {
+    /// The campaign file.
+    pub file: PathBuf,
+    /// The sample, run exactly as the campaign runs it; 0 is the nominal scene.
+    #[arg(long, value_name = "K", default_value_t = 0)]
+    pub sample: u64,
+    /// Times in seconds instead of the campaign's, in any order; the output is ascending, without duplicates. They may
+    /// exceed the campaign's duration.
+    #[arg(long, value_name = "A,B,C", value_delimiter = ',', allow_negative_numbers = true)]
+    pub times: Option<Vec<f64>>,
+    /// Compare the run with a reference solution and show its errors.
+    #[arg(long)]
+    pub audit: bool,
+    /// Write all columns to this file (.parquet or .csv).
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Plot the energies to this file (.svg or .png), smoothly, or at --times.
+    #[arg(long, value_name = "FILE")]
+    pub plot: Option<PathBuf>,
+}
+
+/// Arguments of `sample`.
+#[derive(Debug, Args)]
+pub struct SampleOptions {
+    /// The campaign file.
+    pub file: PathBuf,
+    /// Number of samples instead of the file's.
+    #[arg(long, value_name = "N")]
+    pub samples: Option<u64>,
+    /// Seed instead of the file's.
+    #[arg(long, value_name = "S")]
+    pub seed: Option<u64>,
+    /// Write the dispersed parameters of every sample to this file (.parquet or .csv).
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Plot distributions and rank correlations to this file (.svg or .png).
+    #[arg(long, value_name = "FILE")]
+    pub plot: Option<PathBuf>,
+}
+
+/// Arguments of `precision`.
+#[derive(Debug, Args)]
+pub struct PrecisionOptions {
+    /// The campaign file; its own method and tolerance are not used.
+    pub file: PathBuf,
+    /// Number of samples, starting with the nominal one.
+    #[arg(long, value_name = "N", default_value = "64")]
+    pub samples: std::num::NonZeroU64,
+    /// Methods, named as in campaign files [default: all].
+    #[arg(long, value_name = "A,B", value_delimiter = ',', value_parser = method)]
+    pub methods: Option<Vec<Method>>,
+    /// Tolerances [default: 1e-4 to 1e-16 by decades]. A fixed-step method is run with as many steps, each half the
+    /// previous one.
+    #[arg(long, value_name = "A,B", value_delimiter = ',', value_parser = tolerance)]
+    pub tolerances: Option<Vec<f64>>,
+    /// Timed repetitions of each measurement; the median is reported.
+    #[arg(long, value_name = "N", default_value = "5")]
+    pub repeats: std::num::NonZeroUsize,
+    /// Integrate only the states that the file's groups of observables need.
+    #[arg(long)]
+    pub observed: bool,
+    /// Skip settings predicted to take more CPU time than this for one pass over the samples.
+    #[arg(long, value_name = "S", default_value = "20", value_parser = seconds)]
+    pub limit_s: f64,
+    /// Folder of the result, whose files are replaced [default: the campaign's name and _precision in results/].
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
+/// The arguments of this process; invalid ones end it with a message and code 2.
+pub fn arguments() -> Arguments {
+    Arguments::parse()
+}
+
+/// The method of that name; otherwise the list of names.
+fn method(name: &str) -> Result<Method, String> {
+    let names = || Method::ALL.map(Method::name).join(", ");
+    Method::from_name(name).ok_or_else(|| format!("must be one of {}", names()))
+}
+
+/// A tolerance; otherwise the allowed range.
+fn tolerance(text: &str) -> Result<f64, String> {
+    let allowed = || "must be a number from 1e-16 to 0.1".to_owned();
+    text.parse().ok().filter(|value| (1e-16..=0.1).contains(value)).ok_or_else(allowed)
+}
+
+/// A positive time in seconds; otherwise the allowed range.
+fn seconds(text: &str) -> Result<f64, String> {
+    let allowed = || "must be a number of seconds above 0".to_owned();
+    text.parse().ok().filter(|value: &f64| value.is_finite() && *value > 0.0).ok_or_else(allowed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_arguments_are_consistent() {
+        Arguments::command().debug_assert();
+    }
+
+    /// Law: every help text lists the exit codes.
+    #[test]
+    fn every_help_documents_the_exit_codes() {
+        let mut command = Arguments::command();
+        let mut helps = vec![command.render_help().to_string()];
+        // `help` is clap's own
+        let ours = command.get_subcommands_mut().filter(|command| command.get_name() != "help");
+        helps.extend(ours.map(|command| command.render_help().to_string()));
+        assert_eq!(helps.len(), 6);
+        for help in helps {
+            for code in ["0  done", "1  ran", "2  bad input", "4  input/output"] {
+                assert!(help.contains(code), "{help}");
+            }
+        }
+    }
+
+    #[test]
+    fn tolerances_have_a_range() {
+        assert!([1e-16, 1e-4, 0.1].iter().all(|value| tolerance(&value.to_string()).is_ok()));
+        assert!(tolerance("1e-17").is_err() && tolerance("0.2").is_err() && tolerance("nan").is_err());
+    }
+
+    #[test]
+    fn methods_have_the_names_of_campaign_files() {
+        assert_eq!(method("auto"), Ok(Method::Auto));
+        assert!(method("euler").is_err_and(|message| message.contains("gauss_legendre_6")));
+    }
+}

@@ -1,0 +1,31 @@
+//! What every command starts from: the [`plan`] of a campaign file and the instruction set ([`isa`]).
+
+use std::path::Path;
+
+use crate::campaign::{Overrides, Plan, find};
+use crate::cli::command_outcome::Failure;
+use crate::math::Isa;
+use crate::math::isa::VARIABLE;
+
+/// The plan of the campaign file `file`, which may be given without folder and extension.
+///
+/// # Errors
+/// Where there is no such file, or it is wrong.
+pub fn plan(file: &Path, overrides: Overrides) -> Result<Plan, Failure> {
+    let path = find(file).map_err(|tried| {
+        let tried: Vec<String> = tried.iter().map(|path| format!("`{}`", path.display())).collect();
+        Failure::Input(format!("there is no campaign file `{}`; looked for {}", file.display(), tried.join(", ")))
+    })?;
+    Plan::load(&path, overrides).map_err(|error| Failure::Input(error.to_string()))
+}
+
+/// The instruction set of this process.
+///
+/// # Errors
+/// Where the environment names one that does not exist or is not available.
+pub fn isa() -> Result<Isa, Failure> {
+    Isa::chosen().map_err(|value| {
+        let names: Vec<&str> = Isa::available().iter().map(|isa| isa.name()).collect();
+        Failure::Input(format!("{VARIABLE}={value}: must be one of {}, or unset", names.join(", ")))
+    })
+}
