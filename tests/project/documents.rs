@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{CommandFactory, Parser};
 use spindrift::campaign::{Overrides, Plan, find};
-use spindrift::cli::{Arguments, Command};
+use spindrift::cli::arguments::{Arguments, Command};
 use spindrift::propagation::Method;
 use spindrift::run::Status;
 use spindrift::scene::Scene;

@@ -7,3 +7,4 @@ mod accuracy_document;
 mod architecture;
 mod documents;
 mod generated_tables;
+mod source;
