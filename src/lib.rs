@@ -2,6 +2,8 @@
 //!
 //! A module imports only from layers below its own; ARCHITECTURE.md shows the data flow and the layers.
 
+#![forbid(unsafe_code)]
+
 pub mod campaign;
 pub mod cli;
 pub mod dataset;

@@ -1,5 +1,7 @@
 //! The program `spindrift`: selects the command; the library does the rest.
 
+#![forbid(unsafe_code)]
+
 use std::process::ExitCode;
 
 use spindrift::cli::arguments::{Command, arguments};

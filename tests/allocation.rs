@@ -1,5 +1,7 @@
 //! What runs once per sample allocates nothing once it is warm: counted by an allocator that counts.
 
+#![allow(unsafe_code)] // a global allocator cannot be written without it
+
 mod support;
 
 use std::alloc::{GlobalAlloc, Layout, System};
