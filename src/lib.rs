@@ -1,6 +1,40 @@
 //! spindrift: Monte Carlo analysis of spacecraft attitude dynamics.
 //!
-//! A module imports only from layers below its own; ARCHITECTURE.md shows the data flow and the layers.
+//! A campaign file becomes a [`campaign::Plan`]. The plan and a [`sampling::SampleId`] determine a [`scene::Scene`]; an
+//! [`propagation::Engine`] integrates it to a [`run::StateTable`], and [`observables`] reduce that to a row. **A row is a pure function of
+//! (plan, sample id)**: threads, lanes, parts and order cannot change a bit of it.
+//!
+//! ```
+//! use spindrift::campaign::{Overrides, Plan};
+//! use spindrift::ensemble::SingleRun;
+//! use spindrift::math::Isa;
+//! use spindrift::run::{StateField, Status};
+//! use spindrift::sampling::SampleId;
+//!
+//! let text = r#"
+//!     campaign = { name = "doc", samples = 100, seed = 1, duration_s = 10.0 }
+//!     integrator = { method = "auto", tolerance = 1e-10 }
+//!     observe = { points = 11 }
+//!     fuselage = { outer_radius_m = 1.0, length_m = 3.0, wall_thickness_m = 0.03, density_kg_m3 = 2700.0 }
+//!     initial = { angular_velocity_rad_s = [0.0, 0.1, 0.5] }
+//!
+//!     [[disperse]]
+//!     parameter = "initial.angular_velocity_rad_s.x"
+//!     distribution = "normal"
+//!     std = 0.05
+//! "#;
+//! let plan = Plan::from_text("doc.toml", text, Overrides::default())?;
+//!
+//! // sample 17 exactly as a campaign runs it, with all states at the observation points
+//! let run = SingleRun::new(&plan, SampleId(17), plan.grid.clone(), Isa::best()).expect("the sample is physical");
+//! assert_eq!(run.outcome.status, Status::Done);
+//! let omega_se_s: [f64; 3] = run.table.at(StateField::Rate, 10); // rad/s, after 10 s
+//! assert!(omega_se_s.iter().all(|component| component.is_finite()));
+//! # Ok::<(), spindrift::campaign::CampaignError>(())
+//! ```
+//!
+//! The programs in `examples/` show a campaign in memory and a control law. A module imports only from layers below its own; `ARCHITECTURE.md`
+//! shows the data flow, the layers and a glossary, `docs/model.md` the equations.
 
 #![forbid(unsafe_code)]
 

@@ -39,7 +39,7 @@ fn count() {
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         count();
-        // SAFETY: the caller's promises are those that `System` asks for.
+        // SAFETY: the caller fulfils the requirements of `System`.
         unsafe { System.alloc(layout) }
     }
 
@@ -103,7 +103,7 @@ fn the_counter_counts() {
     assert_eq!(counted, 2);
 }
 
-/// Law: after one batch a batch of other samples costs no allocation, whatever the method.
+/// Law: after one batch a batch of other samples costs no allocation, with any method.
 #[test]
 fn engines() {
     for name in ["spin_sweep", "burn"] {

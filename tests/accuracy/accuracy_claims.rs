@@ -18,7 +18,7 @@ use spindrift::run::{Grid, StateField};
 use spindrift::scene::{DebrisInput, Scene, SceneInput, WheelMode};
 
 const SECTION: &str = "accuracy_claims";
-/// The tightest tolerance.
+/// The smallest tolerance.
 const TOLERANCE: f64 = 1e-16;
 /// Tolerance of the truth: eight digits beyond what is asserted of it, at half the price of its best.
 const TRUE: f64 = 1e-24;
@@ -153,7 +153,7 @@ struct Hard {
 
 /// Bound where the scene amplifies nothing.
 const HARD: f64 = 1e-12;
-/// Where it does: so many times what rounding the exact state once on the way moves its end by.
+/// The factor on the effect on the final state of rounding the state once during the run.
 const ROUNDINGS: f64 = 20.0;
 
 fn hard() -> Vec<Hard> {

@@ -18,7 +18,7 @@ use spindrift::run::{Grid, StateField, StateTable};
 use spindrift::scene::{Scene, SceneInput, WheelInput, WheelMode};
 
 const SECTION: &str = "closed_forms";
-/// The tightest tolerance.
+/// The smallest tolerance.
 const TOLERANCE: f64 = 1e-16;
 
 /// A free body and its exact motion.

@@ -44,8 +44,10 @@ struct Family {
 
 impl Family {
     fn new(name: &'static str, grid: Grid, scenes: Vec<Scene>) -> Self {
-        let solve =
-            |scene: &Scene| ReferenceSolution::new(Isa::best(), scene, &grid, compared(), TOLERANCE).expect("arrives");
+        let solve = |scene: &Scene| {
+            ReferenceSolution::new(Isa::best(), scene, &grid, compared(), TOLERANCE)
+                .expect("the reference solution is complete")
+        };
         let truths = scenes.iter().map(solve).collect();
         Family { name, grid, scenes, truths }
     }
@@ -167,8 +169,8 @@ impl Found {
     }
 }
 
-/// Every run of a family by `method` that arrives; `judges` are the scenes that the observer is told.
-fn found(family: &Family, judges: &[Scene], method: Method, control: Control) -> Vec<Found> {
+/// Every complete run of a family by `method`; `observed` are the scenes that the observer is given.
+fn found(family: &Family, observed: &[Scene], method: Method, control: Control) -> Vec<Found> {
     let request = Request {
         groups: [Group::Numerics].into_iter().collect(),
         debris: false,
@@ -181,10 +183,10 @@ fn found(family: &Family, judges: &[Scene], method: Method, control: Control) ->
     let names: Vec<&str> = request.columns().iter().map(|column| column.name).collect();
     assert_eq!(names, ["state_error_estimate", "error_amplification", "ill_conditioned"]);
     let mut row = vec![0.0; names.len()];
-    let mut list = vec![None; judges.len()];
-    plan.engine(Isa::best()).propagate(judges, &mut |index, table, outcome| {
+    let mut list = vec![None; observed.len()];
+    plan.engine(Isa::best()).propagate(observed, &mut |index, table, outcome| {
         if outcome.status == Status::Done {
-            observer.observe(Isa::best(), &judges[index], table, outcome, &mut row);
+            observer.observe(Isa::best(), &observed[index], table, outcome, &mut row);
             let error = true_error(&family.truths[index], table);
             assert!(row.iter().all(|value| value.is_finite()), "{}: {row:?}", family.name);
             list[index] = Some(Found { estimate: row[0], amplification: row[1], is_ill: row[2] == 1.0, error });
@@ -301,7 +303,7 @@ fn the_law_can_be_broken() {
 }
 
 /// Counter-test: the states of a slightly other body are beyond what is estimated: the estimate is of the method's errors alone
-/// and does not grow with whatever is wrong.
+/// and does not grow with every error.
 #[test]
 fn a_wrong_body_is_not_covered() {
     let family = shipped("spin_sweep", 8);

@@ -369,7 +369,7 @@ fn up_to_sign(found: [f64; 4], expected: [f64; 4]) -> f64 {
 
 #[test]
 fn golden_truth_is_reached() {
-    // the issue asks for 1e-9; extrapolation at order 16 leaves rounding, which spins of thousands of radians multiply
+    // bound 1e-9: extrapolation at order 16 leaves rounding, which spins of thousands of radians multiply
     const TOLERANCE: f64 = 1e-10;
     // rounding over ten thousand steps, at positions of 200 m; measured 1.6e-10
     const DRIFT_TOLERANCE: f64 = 1e-9;

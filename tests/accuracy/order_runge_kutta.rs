@@ -69,7 +69,7 @@ fn adaptive_steps_converge_with_their_order() {
 /// The global error over 20 radians is this many times the tolerance (measured: Dormand-Prince 2.5 to 2.7, DOP853 1.3 to 1.5).
 const PROPORTION: std::ops::Range<f64> = 1.0..4.0;
 
-/// Between steps the error may be so many times that at the end.
+/// Maximum ratio of the error between steps to the error at the end.
 const BETWEEN: f64 = 10.0;
 
 fn follows_the_tolerance<M: Driver>(method: M, name: &str) {

@@ -59,7 +59,7 @@ fn angle(table: &StateTable, horizon: f64) -> f64 {
     horizon * (0..table.points()).map(|point| norm(table.at::<3>(StateField::Rate, point))).fold(0.0, f64::max)
 }
 
-/// Energy and angular momentum along one period, whatever the horizon: rounding of a few dozen operations.
+/// Energy and angular momentum along one period, for any duration: rounding of a few dozen operations.
 const CONSERVATION: f64 = 2e-14;
 
 /// Law: ten thousand seconds take the steps of ten, and conserve as well.

@@ -21,7 +21,7 @@ fn solved(name: &str, tolerance: f64) -> (Golden, Scene, ReferenceSolution) {
     let golden = Golden::load(name);
     let scene = Scene::resolve(&golden.scene).expect("golden scenes are physical");
     let truth = ReferenceSolution::new(Isa::best(), &scene, &Grid::at(golden.times()), everything(), tolerance)
-        .expect("arrives");
+        .expect("the reference solution is complete");
     (golden, scene, truth)
 }
 

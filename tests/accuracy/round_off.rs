@@ -1,4 +1,4 @@
-//! Round-off: at the tightest tolerance errors of conserved quantities are a random walk of last digits (D. Brouwer, Astronomical
+//! Round-off: at the smallest tolerance errors of conserved quantities are a random walk of last digits (D. Brouwer, Astronomical
 //! Journal 46, 1937: the energy's error grows with the square root of the number of steps), and nothing grows faster.
 //!
 //! Ensemble: 64 random scenes (wheels, products of inertia, offset centres of mass), fixed seeds. A law is three statements of the
@@ -21,7 +21,7 @@ use spindrift::run::{Grid, StateField};
 use spindrift::scene::Scene;
 
 const SECTION: &str = "round_off";
-/// The tightest tolerance.
+/// The smallest tolerance.
 const TOLERANCE: f64 = 1e-16;
 /// Scenes of the ensemble.
 const SCENES: u64 = 64;

@@ -1,6 +1,6 @@
 //! Absurd numbers: every campaign `stress_*.toml` in a small version, and scenes built here that no file can hold.
 //!
-//! Law for all: every run arrives, no number in the row of a run that arrived is missing, and conservation errors stay near rounding.
+//! Law for all: every run is complete, no number in the row of a complete run is missing, and conservation errors stay near rounding.
 //! Beside that each theme has a law of its own: flip times, impulses, exact scaling with units.
 
 use crate::support::claims::hold;
@@ -31,7 +31,7 @@ const ERRORS: [&str; 6] = [
     "dcm_orthonormality_max",
 ];
 
-/// The largest conservation error in any row; every run must have arrived, with all its numbers.
+/// The largest conservation error in any row; every run must be complete, with all its numbers.
 fn largest_error(what: &str, table: &Table) -> f64 {
     for (sample, status) in table.statuses.iter().enumerate() {
         assert_eq!(*status, Status::Done, "{what}: sample {sample}");
@@ -226,7 +226,7 @@ fn any_shape_passes() {
     hold(SECTION, regime, CONSERVED, worst);
 }
 
-/// Law: a million seconds and any tolerance that a file may ask for pass, under every method that chooses its steps; a looser
+/// Law: a million seconds and any tolerance that a file may contain pass, with every method that chooses its steps; a looser
 /// tolerance is looser.
 #[test]
 fn any_tolerance_passes() {

@@ -1,7 +1,7 @@
 //! Wheels whose motors hold their speed, and wheels that are off their axis or their place.
 //!
 //! Laws: a held wheel keeps its rate and turns uniformly; what its motor puts in is in the energy balance; L is constant
-//! whatever motors and tilts; a body that a known torque turns about a wheel's axis has J with the wheel held and J* with
+//! for any motors and tilts; a body rotated by a known torque about a wheel's axis has J with the wheel held and J* with
 //! the wheel free. Counter-tests: J and J* mixed up, either way, and work omitted.
 
 use crate::support::golden::Golden;
@@ -181,7 +181,7 @@ fn a_torque_about_the_wheels_axis_has_a_closed_form() {
             }
             rates[usize::from(held)] = run.table.column(StateField::Rate, 0)[grid.points() - 1];
         }
-        assert!((rates[0] - rates[1]).abs() > 1e-5, "J and J* are told apart: {rates:?}");
+        assert!((rates[0] - rates[1]).abs() > 1e-5, "J and J* differ: {rates:?}");
     }
 }
 
@@ -222,7 +222,8 @@ fn taylor_is_the_rounded_truth() {
     let mut runs = propagate(Method::Auto, adaptive(TAYLOR), &grid, &free);
     runs.extend(propagate(Method::Auto, adaptive(TAYLOR), &grid, &forced));
     for (scene, run) in free.iter().chain(&forced).zip(&runs) {
-        let truth = ReferenceSolution::new(Isa::best(), scene, &grid, blocks, TRUTH_TOLERANCE).expect("arrives");
+        let truth = ReferenceSolution::new(Isa::best(), scene, &grid, blocks, TRUTH_TOLERANCE)
+            .expect("the reference solution is complete");
         for point in 0..grid.points() {
             macro_rules! off {
                 ($block:ident, $width:literal) => {

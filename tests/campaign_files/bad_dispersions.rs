@@ -37,7 +37,7 @@ macro_rules! density {
     };
 }
 
-/// Two laws that can be correlated, three components in all, on lines 21 to 28.
+/// Two distributions that can be correlated, three components in all, on lines 21 to 28.
 macro_rules! pair {
     ($rest:literal) => {
         concat!(

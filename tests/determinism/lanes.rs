@@ -91,7 +91,7 @@ fn runs_that_fail_beside_runs_that_do_not() {
         let plan = plan(method, control, &scenes);
         let together = propagate_on(Isa::best(), &plan, &scenes);
         let done = together.iter().filter(|run| run.outcome.points == 29).count();
-        assert!((1..21).contains(&done), "{done} of 21 arrive");
+        assert!((1..21).contains(&done), "{done} of 21 are complete");
         for (scene, run) in scenes.iter().zip(&together) {
             let alone = &propagate_on(Isa::best(), &plan, std::slice::from_ref(scene))[0];
             assert!(alone.bits() == run.bits(), "{}", method.name());

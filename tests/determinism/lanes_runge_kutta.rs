@@ -1,4 +1,4 @@
-//! Lane i of eight equals the scalar run bit for bit, on every path, whatever runs stand beside it or before it.
+//! Lane i of eight equals the scalar run bit for bit, on every path, whatever runs are in other lanes or came before it.
 
 use crate::textbook::*;
 use spindrift::math::Isa;
@@ -12,7 +12,7 @@ use spindrift::run::Status;
 
 const HORIZON: f64 = 6.0;
 
-/// Three-body runs of very different length and fate, with arcs of their own.
+/// Three-body runs of very different length and outcome, with arcs of their own.
 fn cases() -> Vec<Case<4, 1>> {
     (0..29)
         .map(|run| {

@@ -127,7 +127,7 @@ fn debris_changes_nothing_of_the_spacecraft() {
     }
 }
 
-/// Law: a row that asks for one group holds the bits of that group in the row that asks for all.
+/// Law: a row with one group has the same bits as that group in a row with all groups.
 #[test]
 fn groups_do_not_reach_each_other() {
     let grid = Grid::uniform(HORIZON, 29);

@@ -32,7 +32,7 @@ fn bits(rows: &Rows, row: usize) -> Bits {
     (rows.statuses()[row], parameters.chain(observables).map(f64::to_bits).collect())
 }
 
-/// Keeps rows in memory; fails at a part where it is told to.
+/// Keeps rows in memory; fails at a given part.
 #[derive(Default)]
 struct Memory {
     rows: Mutex<Vec<(u64, Bits)>>,
@@ -117,7 +117,7 @@ fn a_full_sink_stops_the_campaign() {
     }
 }
 
-/// Law: progress hears of every sample once.
+/// Law: progress counts every sample once.
 #[test]
 fn progress_counts_every_sample() {
     let plan = plan("no_debris", 777, false);

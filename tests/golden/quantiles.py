@@ -1,4 +1,4 @@
-"""Quantiles of a published implementation, for tests/sampling_laws.rs.
+"""Quantiles of a published implementation, for tests/sampling/distributions.rs.
 
 python3 tests/golden/quantiles.py > tests/golden/quantiles.json      (needs numpy and scipy; their versions are in the file)
 """

@@ -127,9 +127,9 @@ fn a_loose_tolerance_is_caught() {
         assert!(covered >= 38, "{covered} of 40 at {tolerance:e}");
         median(audits.iter().map(Audit::state))
     };
-    let (loose, tight, tightest) = (at(1e-6), at(1e-10), at(1e-16));
-    assert!(loose > 1e3 * tight && tight > tightest, "{loose:e} {tight:e} {tightest:e}");
-    assert!(tightest < 1e-12 && loose > 1e-7, "{tightest:e} {loose:e}");
+    let (loose, tight, smallest) = (at(1e-6), at(1e-10), at(1e-16));
+    assert!(loose > 1e3 * tight && tight > smallest, "{loose:e} {tight:e} {smallest:e}");
+    assert!(smallest < 1e-12 && loose > 1e-7, "{smallest:e} {loose:e}");
 }
 
 /// Law: a kernel that is wrong by a billionth in one moment of inertia is found out: its errors are beyond every estimate.

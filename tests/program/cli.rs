@@ -95,7 +95,7 @@ impl ScratchFolder {
             .unwrap()
     }
 
-    /// Runs, and insists on the exit code; what was said, both streams.
+    /// Runs the program and checks the exit code; returns both output streams.
     fn says(&self, arguments: &str, code: i32) -> String {
         let output = self.spindrift(arguments);
         let said = format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));

@@ -6,5 +6,6 @@ mod support;
 mod accuracy_document;
 mod architecture;
 mod documents;
+mod examples;
 mod generated_tables;
 mod source;

@@ -1,4 +1,4 @@
-//! Correlated and derived parameters: what a campaign file asks for is what the applied values have.
+//! Correlated and derived parameters: the applied values have the dependence that the campaign file specifies.
 //!
 //! Statistical tests state H0, n, alpha and power; seeds are fixed, so their outcome is.
 
@@ -96,7 +96,7 @@ fn in_band(sample: f64, expected: f64) -> bool {
     (sample.atanh() - expected.atanh()).abs() < BAND
 }
 
-/// H0: the rank correlation is the one that is asked for, whatever the marginal laws and the design.
+/// H0: the rank correlation is the specified one, for any marginal distributions and design.
 #[test]
 fn rank_correlations_are_those_of_the_file() {
     let pair = |r: f64| {
@@ -123,7 +123,7 @@ fn rank_correlations_are_those_of_the_file() {
 /// H0: each value keeps its law inside a block. Kolmogorov-Smirnov, n = 20,000, alpha = 1e-3: sqrt(n) D < 1.949; a distribution
 /// function off by 0.03 somewhere gives 4.2 there, missed with probability < 1e-5.
 #[test]
-fn correlation_leaves_the_laws_as_they_are() {
+fn correlation_preserves_the_distributions() {
     let plan = plan(
         "[[correlate]]\nparameters = [\"wheel2.density_kg_m3\", \"wheel1.density_kg_m3\", \"wheel1.radius_m\"]\n\
          correlation = [[1, 0.95, 0.5], [0.95, 1, 0.5], [0.5, 0.5, 1]]\n",
@@ -176,7 +176,7 @@ fn a_singular_matrix_ties_values_and_an_impossible_one_is_repaired_on_request() 
     assert!(in_band(correlation(&x, &y), 0.7607), "the nearest matrix of Higham (2002)");
 }
 
-/// Law: a derived value is its expression of the values as applied, in whatever order the tables stand; in sample 0 too.
+/// Law: a derived value is its expression of the values as applied, in any order of the tables; in sample 0 too.
 #[test]
 fn derived_values_follow_their_expressions() {
     let plan = plan(

@@ -70,7 +70,7 @@ fn nominal_for(parameter: Parameter, variants: &[SceneInput]) -> &SceneInput {
         .unwrap_or_else(|| panic!("no scene has {}", parameter.name()))
 }
 
-/// What is known of a run: its states, and the energies in its row (a cube turns alike whatever it weighs).
+/// What is known of a run: its states, and the energies in its row (the rotation of a cube does not depend on its mass).
 struct Motion {
     table: StateTable,
     energies: Vec<f64>,

@@ -1,4 +1,4 @@
-//! Laws of one number: quantiles against a published implementation, and draws against their distribution functions.
+//! Distributions of one number: quantiles against a published implementation, and draws against their distribution functions.
 //!
 //! Statistical tests state H0, n, alpha and power; seeds are fixed, so their outcome is.
 
@@ -30,7 +30,7 @@ fn law(name: &str, p: &[f64]) -> Distribution {
 /// compute; a difference of large numbers (a normal value near its mean) is measured against the law's own width.
 const AGREEMENT: f64 = 1e-12;
 
-/// scipy's quantiles of the smooth laws, in both tails and at the seams of the approximations.
+/// scipy's quantiles of the smooth distributions, in both tails and at the seams of the approximations.
 #[test]
 fn quantiles_are_those_of_scipy() {
     let golden: Value = serde_json::from_str(include_str!("../golden/quantiles.json")).expect("JSON");
@@ -61,7 +61,7 @@ fn number(value: &Value) -> f64 {
 
 /// Number of draws and critical value of each Kolmogorov-Smirnov test: alpha = 1e-3 gives sqrt(n) D < 1.949. H0: the draws follow
 /// the law. Power: a distribution function that is off by 0.01 somewhere gives sqrt(n) D = 4.5 there, with a standard deviation
-/// of at most 0.5: missed with probability < 1e-6. The counter-test shows it for laws with a parameter slightly off.
+/// of at most 0.5: missed with probability < 1e-6. The counter-test shows it for distributions with a parameter slightly off.
 const N: usize = 200_000;
 const CRITICAL: f64 = 1.949;
 
@@ -84,7 +84,7 @@ fn distance(values: &[f64], law: impl Fn(f64) -> f64) -> f64 {
 
 /// Distribution functions written independently of the quantiles.
 #[test]
-fn draws_follow_their_laws() {
+fn draws_follow_their_distributions() {
     let log_normal = |median: f64| move |x: f64| probability((x / median).ln() / 0.4);
     let values = draws(&Distribution::LogNormal { median: 2.5, log_std: 0.4 });
     assert!(distance(&values, log_normal(2.5)) < CRITICAL);

@@ -1,4 +1,4 @@
-//! Laws of directions, attitudes and inertias, through campaign files as users write them.
+//! Distributions of directions, attitudes and inertias, through campaign files as users write them.
 //!
 //! Statistical tests state H0, n, alpha and power; seeds are fixed, so their outcome is. All at alpha = 1e-3.
 
@@ -225,7 +225,7 @@ fn attitudes_turn_about_an_axis() {
     assert!(far < KS, "{far}");
 }
 
-/// Counter-tests: what is often done instead is told from the laws by the same statistics.
+/// Counter-tests: the same statistics reject common mistakes.
 #[test]
 fn usual_mistakes_are_caught() {
     let uniform = draws(&format!("{RATE}distribution = \"uniform\"\nmin = -1\nmax = 1\n"), rate);
@@ -395,7 +395,7 @@ fn what_cannot_be_drawn_is_refused() {
 
 /// A geometric law survives the way to the plan's text and back.
 #[test]
-fn plans_hold_geometric_laws() {
+fn plans_contain_geometric_distributions() {
     for disperse in [
         format!("{RATE}distribution = \"uniform_direction\"\n"),
         format!("{RATE}distribution = \"cone\"\nhalf_angle_rad = 0.25\naxis = [0, 1, 1]\nmagnitude = {{ distribution = \"truncated_normal\", relative_std = 0.1, sigmas = 3 }}\n"),

@@ -1,4 +1,4 @@
-//! Runs through [`PropagationSettings`], as every campaign makes them, and the distances by which they are judged.
+//! Runs through [`PropagationSettings`], as in a campaign, and the distances that the tests compare.
 
 use sha2::{Digest, Sha256};
 use spindrift::math::Isa;

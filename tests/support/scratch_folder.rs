@@ -19,7 +19,7 @@ impl ScratchFolder {
         ScratchFolder(folder)
     }
 
-    /// Runs a command on a shipped campaign, insists on the exit code; what was said, both streams.
+    /// Runs a command on a shipped campaign and checks the exit code; returns both output streams.
     pub fn says(&self, command: &str, campaign: &str, arguments: &str, code: i32) -> String {
         let output = Command::new(env!("CARGO_BIN_EXE_spindrift"))
             .arg(command)

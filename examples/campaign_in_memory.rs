@@ -1,0 +1,96 @@
+//! A campaign without files: rows are collected in memory by a sink of one's own.
+//!
+//! `cargo run --release --example campaign_in_memory`
+
+use std::convert::Infallible;
+use std::sync::Mutex;
+
+use spindrift::campaign::{Overrides, Plan};
+use spindrift::ensemble::{Ensemble, Parts, Rows, Sink, run};
+use spindrift::math::Isa;
+use spindrift::run::Status;
+
+/// A spacecraft whose spin is uncertain.
+const CAMPAIGN: &str = r#"
+[campaign]
+name = "campaign_in_memory"
+samples = 500
+seed = 7
+duration_s = 20.0
+
+[observe]
+points = 101
+groups = ["exchange", "energy_conservation"]
+
+[integrator]
+method = "auto"
+tolerance = 1e-10
+
+[fuselage]
+outer_radius_m = 0.8
+length_m = 2.0
+wall_thickness_m = 0.02
+density_kg_m3 = 2700.0
+
+[wheel1]
+radius_m = 0.2
+length_m = 0.08
+station_m = 1.0
+density_kg_m3 = 7800.0
+
+[initial]
+angular_velocity_rad_s = [0.0, 0.2, 0.5]
+wheel_rates_rad_s = [300.0, 0.0]
+
+[[disperse]]
+parameter = "initial.angular_velocity_rad_s.y"
+distribution = "normal"
+std = 0.05
+"#;
+
+/// The column of the energy transfer between fuselage and wheel 1.
+const COLUMN: &str = "exchange_wheel1_peak_to_peak_j";
+
+/// Keeps one column of every row with the value of the first dispersed parameter.
+struct Collected {
+    column: usize,
+    pairs: Mutex<Vec<[f64; 2]>>,
+}
+
+impl Sink for Collected {
+    type Error = Infallible;
+
+    /// Called from several threads, with parts in any order.
+    fn take(&self, rows: &Rows) -> Result<(), Infallible> {
+        let values = rows.parameter(0).iter().zip(rows.observable(self.column));
+        let done = rows.statuses().iter().zip(values).filter(|(status, _)| **status == Status::Done);
+        let pairs = done.map(|(_, (parameter, observable))| [*parameter, *observable]);
+        self.pairs.lock().expect("no thread panicked").extend(pairs);
+        Ok(())
+    }
+}
+
+/// Runs 500 samples on all cores and prints the correlation of a rate and the energy transfer.
+pub fn main() {
+    let plan = Plan::from_text("campaign_in_memory.toml", CAMPAIGN, Overrides::default())
+        .unwrap_or_else(|error| panic!("{error}"));
+    let ensemble = Ensemble::new(&plan, Isa::best());
+    let columns = ensemble.request().columns();
+    let column = columns.iter().position(|column| column.name == COLUMN).expect("the group `exchange` is observed");
+    let sink = Collected { column, pairs: Mutex::new(Vec::new()) };
+    run(&ensemble, Parts::of(plan.samples), None, &sink, &|_| ()).unwrap_or_else(|error| panic!("{error}"));
+
+    let pairs = sink.pairs.into_inner().expect("no thread panicked");
+    assert_eq!(pairs.len(), 500, "every run is ok");
+    let correlation = correlation(&pairs);
+    println!("{} runs; correlation of the rate about s2 and {COLUMN}: {correlation:.3}", pairs.len());
+    assert!(correlation.abs() <= 1.0);
+}
+
+/// The correlation coefficient of pairs of numbers.
+fn correlation(pairs: &[[f64; 2]]) -> f64 {
+    let count = pairs.len() as f64;
+    let mean = [0, 1].map(|i| pairs.iter().map(|pair| pair[i]).sum::<f64>() / count);
+    let moment = |i: usize, j: usize| pairs.iter().map(|pair| (pair[i] - mean[i]) * (pair[j] - mean[j])).sum::<f64>();
+    moment(0, 1) / (moment(0, 0) * moment(1, 1)).sqrt()
+}

@@ -1,0 +1,16 @@
+//! The programs in `examples/` run to their end. They check their own results.
+
+#[path = "../../examples/campaign_in_memory.rs"]
+mod campaign_in_memory;
+#[path = "../../examples/one_run.rs"]
+mod one_run;
+
+#[test]
+fn one_run_ends() {
+    one_run::main();
+}
+
+#[test]
+fn a_campaign_in_memory_ends() {
+    campaign_in_memory::main();
+}
