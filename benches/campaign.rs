@@ -1,11 +1,11 @@
-//! What a campaign is made of, each piece on its own, and the whole.
+//! The parts of a campaign, each alone, and the whole.
 //!
 //! `cargo bench --bench campaign`. One thread; `campaigns/no_debris.toml`, which is `spin_sweep` without the debris, `auto` at
 //! 1e-10. Throughput is in samples per second.
 //!
-//! - `sampling`: draws, and mass properties and initial state from them;
+//! - `sampling`: samples, and mass properties and initial state from them;
 //! - `observation`: the observables of a run in the state table: all, those about the centre of mass with the
-//!   exchange, those alone, and the estimate of errors alone;
+//!   energy transfer, those alone, and the error estimate alone;
 //! - `writing`: rows to Parquet, in memory;
 //! - `campaign`: all of it, rows given to a sink that drops them, and rows written.
 
@@ -112,7 +112,7 @@ impl Sink for Drain {
     }
 }
 
-/// Writes the rows to nowhere.
+/// Writes the rows to a sink that discards them.
 struct Written(RowsFile);
 
 impl Sink for Written {

@@ -1,14 +1,14 @@
-//! What a run is made of: right-hand sides, steps, runs.
+//! The parts of a run: right-hand sides, steps, runs.
 //!
 //! `cargo bench --bench kernels` (all), `cargo bench --bench kernels -- run` (one group). One thread. Throughput is in
 //! evaluations, steps or runs per second.
 //!
-//! - `right-hand side`: a chain of evaluations, each from the last as in an integration; the gyrostat with attitude and wheel
-//!   angles, in lanes (eight runs at once) and one at a time, and the reference kernel (62 states and 10 integrals).
-//! - `step`: a whole run without observation points, by its accepted steps: what a step costs with its share of all else.
-//! - `peak`: fused operations alone, sixteen independent chains, in flop/s: the ceiling of one core on each instruction set.
-//! - `taylor`: the arithmetic of Taylor steps by itself (rate and attitude, free of torque), in flop/s, on each instruction set and
-//!   for several tolerances: its share of the peak is what the kernel makes of the machine.
+//! - `right-hand side`: a chain of evaluations, each from the previous one as in an integration; the gyrostat with attitude and wheel
+//!   angles, in lanes (eight runs at once) and one at a time, and the null-space kernel (62 states and 10 integrals).
+//! - `step`: a whole run without observation points, divided by its accepted steps.
+//! - `peak`: fused operations alone, sixteen independent chains, in flop/s: the maximum of one core on each instruction set.
+//! - `taylor`: the arithmetic of Taylor steps alone (rate and attitude, free of torque), in flop/s, on each instruction set and
+//!   for several tolerances, to compare with the peak.
 //! - `run`: 128 samples of `campaigns/no_debris.toml` (`spin_sweep` without the debris: 10 s, 101 points), with all that its
 //!   rows need.
 //!
@@ -42,10 +42,10 @@ use spindrift::scene::Scene;
 /// Evaluations per measurement of a right-hand side.
 const EVALUATIONS: usize = 1000;
 
-/// Length of the chain's steps, s: so short that the state stays what a run sees.
+/// Length of the chain's steps, s: so short that the state remains realistic.
 const MOMENT: f64 = 1e-9;
 
-/// Methods with their tolerance (or, for a fixed step, the step in s). At 1e-16 `auto` is as exact as f64 allows.
+/// Methods with their tolerance (or, for a fixed step, the step in s). At 1e-16 `auto` is as accurate as f64 allows.
 const METHODS: [(Method, f64); 8] = [
     (Method::Auto, 1e-10),
     (Method::Auto, 1e-16),
@@ -74,7 +74,7 @@ fn scenes(plan: &Plan, count: usize) -> Vec<Scene> {
     (0..count as u64).map(&mut scene).collect()
 }
 
-/// A chain of evaluations of the reference kernel.
+/// A chain of evaluations of the null-space kernel.
 struct Reference<'a> {
     kernel: &'a Kernel,
     state: [f64; COMPONENTS],
@@ -190,7 +190,7 @@ fn measure(group: &mut BenchmarkGroup<'_, WallTime>, name: String, engine: &mut 
     });
 }
 
-/// Fewer runs of the slow kernel for one measurement.
+/// The slow kernel makes fewer runs per measurement.
 fn of(scenes: &[Scene], method: Method) -> &[Scene] {
     if method == Method::NullSpace { &scenes[..4] } else { scenes }
 }

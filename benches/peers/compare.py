@@ -1,11 +1,11 @@
-"""spindrift against heyoka (batch mode) and SciPy on the same scenes, one core, in one go.
+"""spindrift against heyoka (batch mode) and SciPy on the same scenes, one core, in one process.
 
 Scenes: campaigns/no_debris.toml (torque-free, 10 s) and variants of it made here: final state only, three states only, and
-motor torque and thrust acting the whole time. The dispersed parameters are read from the rows of a spindrift campaign, the
+motor torque and thrust during the whole run. The dispersed parameters are read from the rows of a spindrift campaign, the
 mass properties are computed here again. Errors of the peers are measured against heyoka in 80-bit floating point, those of
 spindrift against its own double-double reference; that both solve the same problem is checked by comparing final states.
 
-The compared error is the larger of |omega - truth| / max |omega| and 2 |q - truth|, worst over samples and points; for three
+The compared error is the larger of |omega - reference| / max |omega| and 2 |q - reference|, maximum over samples and points; for three
 states the first alone.
 """
 

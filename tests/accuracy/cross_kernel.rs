@@ -1,4 +1,4 @@
-//! The reference kernel against the gyrostat by every way of integrating it, on random scenes, forced ones too.
+//! The null-space kernel against the gyrostat by every way of integrating it, on random scenes, forced ones too.
 //!
 //! Law: two kernels and four integrators give the same states up to what their tolerances allow. The report's 62-state form
 //! and the gyrostat share no equation; Taylor, periodic and Runge-Kutta propagation share no integrator.

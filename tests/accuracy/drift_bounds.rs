@@ -34,7 +34,7 @@ const SECTION: &str = "drift_bounds";
 const WRITE: &str = "SPINDRIFT_WRITE_BASELINE";
 /// The shipped campaigns whose runs are compared.
 const CAMPAIGNS: [&str; 5] = ["burn", "no_debris", "report_1e-6", "report_1e-8", "spin_sweep"];
-/// Runs of a cell, and of one of the slow reference kernel.
+/// Runs of a cell, and of one of the slow null-space kernel.
 const RUNS: u64 = 512;
 const REFERENCE_RUNS: u64 = 48;
 /// What is compared.
@@ -283,7 +283,7 @@ fn faults_are_seen() {
     assert!(off > 0.99 && beyond, "{off}");
 }
 
-/// Counter-test: the report's sign of a-hat_non,s breaks the reference kernel's bound a million times over.
+/// Counter-test: the report's sign of a-hat_non,s breaks the null-space kernel's bound a million times over.
 #[test]
 fn the_printed_sign_is_seen() {
     let setting = settings().into_iter().find(|setting| setting.method == Method::NullSpace).expect("it has one");

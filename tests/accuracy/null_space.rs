@@ -1,4 +1,4 @@
-//! The reference kernel: the block form against the matrices as printed, against the gyrostat equations, and against golden truth.
+//! The null-space kernel: the block form against the matrices as printed, against the gyrostat equations, and against golden truth.
 //!
 //! Laws: the null-space form is equivalent to the gyrostat equations; energy changes by the power fed in, momentum by the
 //! thrust, angular momentum by the torque; constraints hold at the level of rates. Counter-test: with the printed sign of
@@ -328,7 +328,7 @@ fn energies_of_table_one_at_time_zero() {
 
 const BLOCKS: [StateField; 16] = StateField::ALL;
 
-/// The reference kernel on a golden scene, observed at the golden times.
+/// The null-space kernel on a golden scene, observed at the golden times.
 fn observed(input: &SceneInput, times: Vec<f64>) -> (Scene, Trajectory, StateTable) {
     let scene = Scene::resolve(input).expect("a golden scene");
     let grid = Grid::at(times);

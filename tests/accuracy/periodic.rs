@@ -241,7 +241,7 @@ fn equilibria_stand_still() {
     }
 }
 
-/// Tolerance of the reference kernel here, and what its runs are off by at most: measured below a hundredth of it.
+/// Tolerance of the null-space kernel here, and what its runs are off by at most: measured below a hundredth of it.
 const REFERENCE: f64 = 1e-10;
 const REFERENCE_ERROR: f64 = 1e-6;
 

@@ -31,7 +31,7 @@ fn table_one() -> Scene {
     Scene::resolve(&Golden::load("table1").scene).expect("the report's scene")
 }
 
-/// Every published series of the reference kernel's run, and its effort.
+/// Every published series of the null-space kernel's run, and its effort.
 fn figures(control: Control) -> (Vec<(&'static str, Vec<f64>)>, StepStatistics) {
     let (scene, grid) = (table_one(), Grid::uniform(HORIZON, POINTS));
     let run = propagate(Method::NullSpace, control, &grid, std::slice::from_ref(&scene)).remove(0);

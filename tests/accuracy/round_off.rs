@@ -139,7 +139,7 @@ fn decades(count: i32) -> Vec<f64> {
 fn hold_law(count: i32, last: &str) {
     let steps = decades(count);
     let [energy, momentum, norm, vector] = taylor(&steps);
-    for (name, walk, bound) in [("energy", &energy, ENERGY), ("size of L", &momentum, MOMENTUM)] {
+    for (name, walk, bound) in [("energy", &energy, ENERGY), ("magnitude of L", &momentum, MOMENTUM)] {
         let (slope, bias) = (walk.slope(), walk.bias());
         println!("{name}: rms e / sqrt(N) {:e}, slope {slope:.3}, mean {bias:.2} standard errors", walk.rate());
         assert!(walk.broken(bound).is_empty(), "{name}: {:?}", walk.broken(bound));
@@ -292,6 +292,6 @@ fn periods_add_no_error_of_conservation() {
         all = all.max(worst);
     }
     let claim = |what: &str| format!("`auto` at 1e-16, 64 scenes, 1e2 to 1e6 s: {what}");
-    hold(SECTION, &claim("largest error of energy, size of L, vector L, norm"), PERIODIC, all);
+    hold(SECTION, &claim("largest error of energy, magnitude of L, vector L, norm"), PERIODIC, all);
     hold(SECTION, &claim("largest error at any horizon over that at 1e2 s"), GROWTH, all / first);
 }

@@ -94,7 +94,7 @@ fn a_held_wheel_keeps_its_rate_and_its_angle_is_a_line() {
                 for (point, time) in grid.times().iter().enumerate() {
                     assert_eq!(run.table.column(StateField::WheelRates, w)[point].to_bits(), rate.to_bits());
                     let off = run.table.column(StateField::WheelAngles, w)[point] - (start + rate * time);
-                    // the reference kernel adds up its steps
+                    // the null-space kernel adds up its steps
                     assert!(off.abs() <= 1e-13 * (1.0 + rate.abs()), "{} {off:e}", method.name());
                 }
             }

@@ -56,8 +56,8 @@ pub fn blocks(list: impl IntoIterator<Item = StateField>) -> StateFields {
     list.into_iter().fold(StateFields::NONE, StateFields::with)
 }
 
-/// All blocks that `method` can fill: only the reference kernel integrates the DCM, with
-/// constraints, and has energies of its own.
+/// All blocks that `method` can fill: only `null_space` integrates the DCM, has
+/// constraints, and computes energies from its own states.
 pub fn everything(method: Method) -> StateFields {
     let constrained =
         |block: &StateField| matches!(block, StateField::Dcm | StateField::Residuals | StateField::KineticEnergies);
