@@ -1,4 +1,4 @@
-//! What runs once per sample allocates nothing once it is warm: counted by an allocator that counts.
+//! Code that runs once per sample does not allocate after the first batch; a counting allocator checks this.
 
 #![allow(unsafe_code)] // a global allocator cannot be written without it
 
@@ -24,7 +24,7 @@ use spindrift::scene::Scene;
 use support::runs::{adaptive, everything, fixed};
 use support::scenes::mixed;
 
-/// The system's allocator, which counts per thread, so that tests beside this one do not count.
+/// The system's allocator, which counts per thread, so that other tests do not count.
 struct Counting;
 
 thread_local! {
@@ -91,7 +91,7 @@ fn drawn(plan: &Plan, samples: std::ops::Range<u64>) -> Vec<Scene> {
         .collect()
 }
 
-/// The counter counts; else everything below would hold for any program.
+/// The counter counts; otherwise every test below would pass for any program.
 #[test]
 fn the_counter_counts() {
     assert_eq!(allocations(|| drop(black_box(Box::new(1.0)))), 1);
@@ -168,7 +168,7 @@ fn observation() {
     }
 }
 
-/// Law: right-hand sides live on the stack.
+/// Law: right-hand sides use the stack only.
 #[test]
 fn right_hand_sides() {
     let scene = &mixed(1, true, 1.0)[0];
@@ -188,7 +188,7 @@ fn right_hand_sides() {
     assert_eq!(counted, 0);
 }
 
-/// Law: drawing a sample into a scene, and making the scene of it, reuses what is there.
+/// Law: drawing a sample into a scene, and making the scene of it, reuses memory.
 #[test]
 fn draws_and_scenes() {
     for name in ["spin_sweep", "burn", "no_debris", "correlated", "sobol"] {

@@ -1,5 +1,5 @@
-//! What is promised of a state's accuracy, against the exact motion in double-double: thousands of radians of random gyrostats, and
-//! scenes that are chosen to hurt.
+//! Accuracy claims for states, compared with the reference solution in double-double: thousands of radians of random gyrostats, and
+//! difficult scenes.
 
 use crate::support::claims::hold;
 use crate::support::exact::distance;
@@ -20,7 +20,7 @@ use spindrift::scene::{DebrisInput, Scene, SceneInput, WheelMode};
 const SECTION: &str = "accuracy_claims";
 /// The smallest tolerance.
 const TOLERANCE: f64 = 1e-16;
-/// Tolerance of the truth: eight digits beyond what is asserted of it, at half the price of its best.
+/// Tolerance of the reference solution: eight digits beyond the claims, at half the cost of the smallest tolerance.
 const TRUE: f64 = 1e-24;
 /// Revolutions of the body.
 const REVOLUTIONS: f64 = 1000.0;
@@ -116,7 +116,7 @@ fn many_gyrostats_after_a_thousand_revolutions() {
     hold_gyrostats(1000, 100);
 }
 
-/// Counter-test: free wheels taken as held, or held ones as free, are not within a million bounds.
+/// Counter-test: free wheels taken as held, or held ones as free, exceed the bound by more than a million.
 #[test]
 fn mixing_the_modes_up_is_seen() {
     let [(free, time), (held, _)] = [WheelMode::Free, WheelMode::SpeedHeld].map(|mode| gyrostats(1, mode).remove(0));
@@ -144,7 +144,7 @@ fn a_wrong_coefficient_breaks_the_bound() {
     assert!(rate.max(attitude) > 10.0 * STATE, "{rate:e} {attitude:e}");
 }
 
-/// A scene that is chosen to hurt.
+/// A difficult scene.
 struct Hard {
     name: &'static str,
     scene: Scene,
@@ -187,7 +187,7 @@ fn hard() -> Vec<Hard> {
     list
 }
 
-/// How far the end moves when the exact state is rounded to `f64` at one of four times, and integrated in double-double from there.
+/// The change of the final state when the exact state is rounded to `f64` at one of four times, and integrated in double-double from there.
 fn one_rounding(scene: &Scene, grid: &Grid, truth: &ReferenceSolution) -> f64 {
     let last = grid.points() - 1;
     let moved = |point: usize| {
@@ -209,7 +209,7 @@ fn one_rounding(scene: &Scene, grid: &Grid, truth: &ReferenceSolution) -> f64 {
     [2, 4, 6, 8].into_iter().map(moved).fold(0.0, f64::max)
 }
 
-/// Law: hard scenes are as exact as easy ones, but for what they do to one rounding.
+/// Law: difficult scenes are as accurate as others, apart from their amplification of one rounding.
 #[test]
 fn hard_scenes_are_exact_to_their_conditioning() {
     for Hard { name, scene, horizon } in hard() {

@@ -101,7 +101,7 @@ const SEPARATRIX: f64 = 2e-9;
 /// Growth of the state error of `auto` with the angle of the body, up to a million seconds: an error of rounding in the period.
 const PER_RADIAN: f64 = 5e-16;
 
-/// Law: free bodies move as Jacobi says, by `auto` and by `taylor`, through a hundred periods; and by `auto` through a million
+/// Law: free bodies move as in Jacobi's solution, by `auto` and by `taylor`, through a hundred periods; and by `auto` through a million
 /// seconds with an error that is proportional to the angle.
 #[test]
 fn free_bodies_move_as_jacobi_says() {

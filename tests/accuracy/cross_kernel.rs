@@ -1,6 +1,6 @@
-//! The null-space kernel against the gyrostat by every way of integrating it, on random scenes, forced ones too.
+//! The null-space kernel compared with the gyrostat by every method, on random scenes, with and without actuation.
 //!
-//! Law: two kernels and four integrators give the same states up to what their tolerances allow. The report's 62-state form
+//! Law: two kernels and four integrators give the same states up to their tolerances. The report's 62-state form
 //! and the gyrostat share no equation; Taylor, periodic and Runge-Kutta propagation share no integrator.
 
 use crate::support::runs::{adaptive, base_point, fixed, propagate, relative, up_to_sign};
@@ -115,7 +115,7 @@ proptest! {
     }
 }
 
-/// Largest relative error of what thrust adds up to, of Taylor at 1e-16 and of collocation in steps that leave rounding.
+/// Maximum relative error of the quadratures of thrust, of Taylor at 1e-16 and of collocation in steps that leave rounding.
 const IMPULSE_ERROR: f64 = 1e-13;
 
 /// Law: impulse, angular impulse and path, which are quadratures, are as accurate as the rates. They turn with the body, the

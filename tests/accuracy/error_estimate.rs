@@ -27,14 +27,14 @@ use spindrift::scene::Scene;
 
 /// Chance of rejecting one setting whose coverage is 95%: there are about two hundred settings.
 const ALPHA: f64 = 1e-5;
-/// Coverage that is promised.
+/// The claimed coverage.
 const COVERAGE: f64 = 0.95;
 /// How much too large the estimate may be in the median.
 const TOO_LARGE: f64 = 100.0;
 /// Largest true error that counts as small.
 const SMALL: f64 = 0.1;
 
-/// Scenes of one kind with their truth.
+/// Scenes of one kind with their reference solutions.
 struct Family {
     name: &'static str,
     grid: Grid,
@@ -150,7 +150,7 @@ fn true_error(truth: &ReferenceSolution, table: &StateTable) -> f64 {
     points.map(error).fold(0.0, f64::max)
 }
 
-/// What was found of one run.
+/// The result of one run.
 #[derive(Clone, Copy)]
 struct Found {
     estimate: f64,
@@ -226,7 +226,7 @@ fn settings(method: Method) -> Vec<(f64, Control)> {
     tolerances.iter().map(|tolerance| (*tolerance, adaptive(*tolerance))).collect()
 }
 
-/// Holds all families to the law; a factor on the estimate for the counter-test. What broke it.
+/// Checks the law for all families, with a factor on the estimate for the counter-test; returns the violations.
 fn breaches(count: u64, factor: f64) -> Vec<String> {
     let families = [
         shipped("spin_sweep", count),
@@ -347,7 +347,7 @@ fn what_rounding_decides_is_ill_conditioned() {
     }
 }
 
-/// Law: estimates are those of a run alone, for every method: company and order in the lanes do not reach them.
+/// Law: the estimate of a run does not depend on other runs or their order, for every method.
 #[test]
 fn estimates_do_not_depend_on_company() {
     for forced in [false, true] {

@@ -1,4 +1,4 @@
-//! The null-space kernel: the block form against the matrices as printed, against the gyrostat equations, and against golden truth.
+//! The null-space kernel: the block form against the matrices as printed, against the gyrostat equations, and against golden data.
 //!
 //! Laws: the null-space form is equivalent to the gyrostat equations; energy changes by the power fed in, momentum by the
 //! thrust, angular momentum by the torque; constraints hold at the level of rates. Counter-test: with the printed sign of
@@ -152,7 +152,7 @@ proptest! {
 
     #[test]
     fn a_non_is_the_gradient_of_the_energy((scene, _) in scenes()) {
-        // a_non = Gamma^T (dT/dq)^T at fixed nu: so its sign is not a matter of taste
+        // a_non = Gamma^T (dT/dq)^T at fixed nu: so its sign is determined
         const STEP: f64 = 1e-5; // T is quadratic in q, central differences are exact but for rounding
         let parameters = Parameters::of(&scene);
         let state = sigma(&scene);

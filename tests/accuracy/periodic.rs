@@ -1,5 +1,5 @@
-//! Periodic propagation: the cost of a horizon, its agreement with plain Taylor integration, and the cases in which a period is
-//! nothing, everything, or never comes.
+//! Periodic propagation: the cost of a horizon, its agreement with plain Taylor integration, and the cases with a period of
+//! zero, of the whole run, or without a period.
 
 use crate::support::golden::Golden;
 use crate::support::runs::{Run, adaptive, propagate, rotation_distance};
@@ -144,7 +144,7 @@ fn spun(omega: [f64; 3], wheel_rates: [f64; 2]) -> SceneInput {
     input
 }
 
-/// Wheels that carry the momentum of the body and leave nothing: H = 0 to rounding.
+/// Wheels with a momentum opposite to that of the body: H = 0 to rounding.
 fn without_momentum(omega: [f64; 3]) -> SceneInput {
     let mut input = spun(omega, [0.0; 2]);
     let mass = scene(&input).mass;
@@ -304,7 +304,7 @@ fn time_has_no_scale() {
     }
 }
 
-/// Counter-test: states that are periodic, but of a body whose one moment of inertia is off by a hundred-millionth, are noticed:
+/// Counter-test: states that are periodic, but of a body whose one moment of inertia is off by 1e-8, are noticed:
 /// errors of energy and momentum are measured from the states and never assumed.
 #[test]
 fn a_wrong_moment_of_inertia_is_noticed() {
@@ -320,8 +320,8 @@ fn a_wrong_moment_of_inertia_is_noticed() {
     }
 }
 
-/// Counter-test: a period that is off by a ten-thousand-millionth keeps energy and momentum (the states are right, only late),
-/// so conservation alone would not do: the comparison with plain propagation notices it.
+/// Counter-test: a period that is off by 1e-10 keeps energy and momentum (the states are right, only late),
+/// so conservation alone is not sufficient: the comparison with plain propagation notices it.
 #[test]
 fn a_wrong_period_is_noticed() {
     let horizon = 1000.0;

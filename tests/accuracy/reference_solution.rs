@@ -1,4 +1,4 @@
-//! The reference solution in double-double: against solutions in 40 digits, against itself, and by what physics conserves.
+//! The reference solution in double-double: compared with solutions in 40 digits, with itself, and by conservation laws.
 
 use crate::support::golden::Golden;
 use spindrift::math::Isa;
@@ -25,7 +25,7 @@ fn solved(name: &str, tolerance: f64) -> (Golden, Scene, ReferenceSolution) {
     (golden, scene, truth)
 }
 
-/// The golden files start from exact dimensions, the truth from a scene in f64: a moment of inertia off by an ulp or two, times
+/// The golden files start from exact dimensions, the reference solution from a scene in f64: a moment of inertia off by an ulp or two, times
 /// the angle that the body turns through (320 rad in Table I). Measured: rate 4.4e-15, attitude 7.0e-15; 4e-16 for `forced`.
 const ROUNDED_SCENE: f64 = 1e-14;
 

@@ -1,7 +1,7 @@
-//! Absurd numbers: every campaign `stress_*.toml` in a small version, and scenes built here that no file can hold.
+//! Extreme parameters: every campaign `stress_*.toml` in a small version, and scenes that no campaign file can describe.
 //!
 //! Law for all: every run is complete, no number in the row of a complete run is missing, and conservation errors stay near rounding.
-//! Beside that each theme has a law of its own: flip times, impulses, exact scaling with units.
+//! In addition each theme has a law of its own: flip times, impulses, exact scaling with units.
 
 use crate::support::claims::hold;
 use crate::support::golden::Golden;
@@ -127,7 +127,7 @@ fn flips_come_later_with_the_logarithm_of_the_offset() {
     hold(SECTION, "the same: relative distance of the slope from 1/lambda", 1e-2, (slope * lambda - 1.0).abs());
 }
 
-/// Law: where a rounding decides what the body does, the row says so, and only there. Two minutes hold the second approach to the
+/// Law: a row is marked ill conditioned exactly where a rounding decides the motion. Two minutes include the second approach to the
 /// unstable axis, which an energy off by a rounding (1e-16 against delta^2) makes another one.
 #[test]
 fn rows_near_the_separatrix_are_marked() {
@@ -226,8 +226,8 @@ fn any_shape_passes() {
     hold(SECTION, regime, CONSERVED, worst);
 }
 
-/// Law: a million seconds and any tolerance that a file may contain pass, with every method that chooses its steps; a looser
-/// tolerance is looser.
+/// Law: a million seconds and any tolerance that a file may contain pass, with every method that chooses its steps; a larger
+/// tolerance has larger errors.
 #[test]
 fn any_tolerance_passes() {
     let mut scene = table_one();

@@ -1,6 +1,6 @@
-//! Wheels whose motors hold their speed, and wheels that are off their axis or their place.
+//! Wheels whose motors hold their speed, and wheels with misaligned axes and offset centres.
 //!
-//! Laws: a held wheel keeps its rate and turns uniformly; what its motor puts in is in the energy balance; L is constant
+//! Laws: a held wheel keeps its rate and turns uniformly; the work of its motor is in the energy balance; L is constant
 //! for any motors and tilts; a body rotated by a known torque about a wheel's axis has J with the wheel held and J* with
 //! the wheel free. Counter-tests: J and J* mixed up, either way, and work omitted.
 
@@ -118,7 +118,7 @@ fn mixing_up_the_two_inertias_is_seen() {
         let scene = resolved(input);
         let reference = run(Method::NullSpace, 1e-11, &scene);
         let right = distance(&run(Method::Taylor, TAYLOR, &scene), &reference);
-        // the wheel's axial inertia moved in or out of what resists a change of omega, and nothing else
+        // the wheel's axial inertia added to or removed from the inertia that resists a change of omega
         let wheel = scene.mass.wheels[0];
         let sign = if wheel.mode == WheelMode::Free { 1.0 } else { -1.0 };
         let mut mixed = scene.clone();
@@ -212,7 +212,7 @@ fn an_axial_rotor_precesses_as_the_closed_form_says() {
     }
 }
 
-/// The reference solution in double-double knows held and tilted wheels, and Taylor at 1e-16 is its rounding.
+/// The reference solution includes held and tilted wheels, and Taylor at 1e-16 agrees with it to rounding.
 #[test]
 fn taylor_is_the_rounded_truth() {
     let grid = Grid::uniform(HORIZON, 7);
@@ -245,7 +245,7 @@ fn taylor_is_the_rounded_truth() {
     assert!(worst.iter().all(|error| *error < 1e-13), "{worst:?}");
 }
 
-/// A period found for held wheels carries a horizon of many of them.
+/// A period found for held wheels is valid for many periods.
 #[test]
 fn periods_carry_held_wheels_too() {
     let kind = Kind { wheels: [true; 2], debris: 0, products: true, offset: true, forced: false };

@@ -1,6 +1,6 @@
 //! Impossible and contradictory dispersions: each is refused with file, line, key, value, what is allowed and a remedy.
 //!
-//! The messages stand in tests/golden/bad_dispersions.txt, to be read by people; `SPINDRIFT_WRITE_SNAPSHOT=1 cargo test --release --test
+//! The messages are in tests/golden/bad_dispersions.txt; `SPINDRIFT_WRITE_SNAPSHOT=1 cargo test --release --test
 //! bad_dispersions` writes it again.
 
 use spindrift::campaign::{Overrides, Plan};

@@ -1,4 +1,4 @@
-//! Campaign files: what is read, what is refused, and in which words.
+//! Campaign files: what is read, what is refused, and the messages.
 
 mod bad_campaigns;
 mod bad_dispersions;

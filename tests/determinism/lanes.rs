@@ -1,4 +1,4 @@
-//! A run's bits are its own: company, order, lane and instruction set do not reach them. Golden hashes lock them.
+//! The bits of a run depend on nothing else: not on other runs, order, lane or instruction set. Golden hashes lock them.
 
 use crate::support::runs::{Bits, Run, adaptive, everything, fixed, hash, propagate_on};
 use crate::support::scenes::mixed;
@@ -37,7 +37,7 @@ fn equal_in_any_company(method: Method, control: Control) {
             let backwards: Vec<Scene> = scenes.iter().rev().cloned().collect();
             assert!(bits(&propagate_on(isa, &plan, &backwards)).iter().rev().eq(&alone), "{what}, backwards");
         }
-        // a second batch in the same engine finds what the first left behind, and does not care
+        // a second batch in the same engine does not depend on the first
         let mut engine = plan.engine(Isa::best());
         engine.propagate(&scenes[10..], &mut |_, _, _| {});
         let mut found = vec![Bits::new(); 10];
@@ -79,7 +79,7 @@ fn reference() {
     equal_in_any_company(Method::NullSpace, adaptive(1e-5));
 }
 
-/// Law: with a limit of steps that only some runs meet, the failed rows are theirs alone as well.
+/// Law: with a limit of steps that only some runs meet, only these rows fail.
 #[test]
 fn runs_that_fail_beside_runs_that_do_not() {
     for method in [Method::Taylor, Method::Auto] {

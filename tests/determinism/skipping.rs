@@ -1,4 +1,4 @@
-//! What is not asked for is not computed, and its absence changes no bit of what is.
+//! Groups that are not requested are not computed, and their absence changes no bit of the others.
 
 use crate::support::runs::{Bits, adaptive, blocks, everything, fixed, propagate_on};
 use crate::support::scenes::mixed;
@@ -86,7 +86,7 @@ fn reference() {
     skipping_changes_nothing(Method::NullSpace);
 }
 
-/// Law: less is integrated where less is asked for; else the tests above would hold for a program that skips nothing.
+/// Law: fewer components are integrated where fewer groups are requested; otherwise the tests above would pass for a program that skips nothing.
 #[test]
 fn less_is_integrated() {
     let free = &mixed(1, false, HORIZON)[0];

@@ -77,7 +77,7 @@ fn rows_do_not_depend_on_threads() {
     }
 }
 
-/// Law: a sample that is run alone, by a worker that has done other work before, in a part cut elsewhere, gives the same row.
+/// Law: a sample that is run alone, by a worker that has run other samples before, in a part with other bounds, gives the same row.
 #[test]
 fn rows_do_not_depend_on_company() {
     let plan = plan("spin_sweep", 1000, true);
@@ -104,7 +104,7 @@ fn the_comparison_can_fail() {
     assert!(rows(&plan) != rows(&other));
 }
 
-/// Law: after an error of the sink no further part is begun (but those under way), and the error is what is reported.
+/// Law: after an error of the sink no further part is started, and the error is reported.
 #[test]
 fn a_full_sink_stops_the_campaign() {
     let plan = plan("no_debris", 4096, false);

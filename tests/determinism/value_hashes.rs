@@ -1,7 +1,7 @@
-//! Every shipped campaign still gives the same values, bit for bit: the hash of each column of its first 257 rows.
+//! Every shipped campaign gives the same values as before, bit for bit: hashes of each column of its first 257 rows.
 //!
 //! The hashes in `golden/value_hashes.json` were made before the architecture was rebuilt. A column may be renamed (listed in
-//! [`RENAMED`]); the column of a part that the scene does not have may go away (it held only zeros or nulls). Any other
+//! [`RENAMED`]); the column of a part that the scene does not have may be removed (it contained only zeros or nulls). Any other
 //! difference is a defect, unless a decision recorded in CHANGELOG.md allows it; then
 //! `SPINDRIFT_WRITE_HASHES=1 cargo test --release --test determinism value_hashes` writes the file again.
 
@@ -176,7 +176,7 @@ fn shipped_campaigns_keep_their_bits() {
     assert!(then.len() >= 18, "every campaign that was shipped then: {}", then.len());
 }
 
-/// Counter-test: a changed bit, a lost column and a lost campaign are seen; an absent part is not held against anybody.
+/// Counter-test: a changed bit, a lost column and a lost campaign are seen; the column of an absent part may be missing.
 #[test]
 fn a_changed_value_is_seen() {
     let table = |entries: &[(&str, &str)]| -> BTreeMap<String, String> {

@@ -1,4 +1,4 @@
-//! A campaign that audits itself: which samples, what it finds, and that nothing else changes by it.
+//! Audited campaigns: which samples are audited, the errors found, and that no other column changes.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -58,7 +58,7 @@ fn rows(plan: &Plan, threads: usize) -> BTreeMap<u64, Row> {
     sink.0.into_inner().unwrap()
 }
 
-/// Bits of an audit: what is not a number is not equal to itself.
+/// Bits of an audit, because NaN is not equal to itself.
 fn bits(audit: &Option<Option<Audit>>) -> Option<Option<Vec<u64>>> {
     audit.as_ref().map(|audit| {
         let audit = audit.as_ref()?;
@@ -86,8 +86,8 @@ fn rows_keep_their_bits_and_audits_are_those_of_any_thread() {
     }
 }
 
-/// Law: the selection is a share of the samples (H0: each with probability 0.01, of 100,000; alpha = 1e-6, two-sided), does
-/// not depend on the order of asking, and a larger fraction holds the samples of a smaller one.
+/// Law: the selection is a fraction of the samples (H0: each with probability 0.01, of 100,000; alpha = 1e-6, two-sided), does
+/// not depend on the order, and a larger fraction contains the samples of a smaller one.
 #[test]
 fn the_selection_is_a_share_and_grows_with_it() {
     let selected = |fraction: f64| {
@@ -115,7 +115,7 @@ fn median(values: impl Iterator<Item = f64>) -> f64 {
     values[values.len() / 2]
 }
 
-/// Law: what an audit finds follows the tolerance, down to rounding; a tolerance that is looser than it should be shows.
+/// Law: audited errors follow the tolerance, down to rounding; a tolerance that is too large is noticed.
 #[test]
 fn a_loose_tolerance_is_caught() {
     let at = |tolerance: f64| {
@@ -132,7 +132,7 @@ fn a_loose_tolerance_is_caught() {
     assert!(smallest < 1e-12 && loose > 1e-7, "{smallest:e} {loose:e}");
 }
 
-/// Law: a kernel that is wrong by a billionth in one moment of inertia is found out: its errors are beyond every estimate.
+/// Law: a kernel with an error of 1e-9 in one moment of inertia is detected: its errors exceed every estimate.
 #[test]
 fn a_wrong_kernel_is_caught() {
     let mut plan = plan("spin_sweep", 1, 1.0);
@@ -162,8 +162,8 @@ fn a_long_run_is_audited_in_plain_doubles() {
     assert!(long.state() > short.state() && long.estimate >= long.state(), "{:e} {:e}", long.state(), long.estimate);
 }
 
-/// Law: the program writes the audit's columns, null where no audit was, sums them up beside every statistic, says what it cost;
-/// and all that is the same on any number of threads.
+/// Law: the program writes the audit's columns, null for rows without audit, summarises them with every statistic, and reports the cost;
+/// all of this does not depend on the number of threads.
 #[test]
 fn the_program_audits() {
     let scratch = ScratchFolder::new("campaign");
@@ -210,7 +210,7 @@ fn the_program_audits() {
         let lines = summary["observables"].as_array().unwrap();
         lines.iter().find(|line| line["name"] == name).unwrap_or_else(|| panic!("no {name}"))["numerical_error"].clone()
     };
-    // the exchange varies by tens of joules, and numerics have no part in it; an energy error is nothing but numerics
+    // the energy transfer varies by tens of joules, for physical reasons; an energy error is purely numerical
     let share = |name: &str| line(name)["share_of_spread"].as_f64().unwrap();
     assert!(share("exchange_wheel1_peak_to_peak_j") < 1e-6);
     assert!(share("energy_error_max") > 0.1);

@@ -154,7 +154,7 @@ fn a_campaign_runs_once_and_then_says_so() {
     assert_eq!(ids, (0..600).collect::<Vec<u64>>());
 }
 
-/// Law: the plan that a result keeps runs to the same result.
+/// Law: the plan in a results folder gives the same result again.
 #[test]
 fn the_kept_plan_reproduces_the_result() {
     let scratch = ScratchFolder::new("plan");
@@ -190,7 +190,7 @@ fn threads_do_not_change_a_byte() {
     assert_ne!(scratch.parts("t1"), scratch.parts("other"));
 }
 
-/// Law: what a crash leaves is recognised, whichever file it was writing, and never taken for a result.
+/// Law: an interrupted campaign is recognised, whichever file it was writing, and is never taken for a result.
 #[test]
 fn leftovers_are_recognised() {
     let scratch = ScratchFolder::new("leftovers");
@@ -241,7 +241,7 @@ fn a_folder_in_use_is_refused() {
     scratch.says("campaign small.toml --samples 3 --out out", 0);
 }
 
-/// Law: a failed run is a row that says so, with nulls for what it does not have; the others are not touched.
+/// Law: a failed run is a row with its status and nulls for missing values; other rows do not change.
 #[test]
 fn failed_runs_are_rows() {
     let scratch = ScratchFolder::new("failed");
@@ -379,7 +379,7 @@ fn plots_and_tables_are_made() {
     assert!(said.contains("omega_se_s_x_rad_s") && said.lines().count() >= 12, "{said}");
 }
 
-/// Law: `sample` draws what the campaign draws, in both formats, and says which samples could not be run.
+/// Law: `sample` gives the samples of the campaign, in both formats, and says which of them are invalid.
 #[test]
 fn sample_draws_the_rows_of_the_campaign() {
     let scratch = ScratchFolder::new("drawn");

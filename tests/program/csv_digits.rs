@@ -1,4 +1,4 @@
-//! What `simulate --out X.csv` writes are the numbers of the run, to the last bit.
+//! `simulate --out X.csv` writes the numbers of the run to the last bit.
 
 use std::process::Command;
 
@@ -37,7 +37,7 @@ fn decimals_read_back_to_the_bit() {
         let column = series.column(name).unwrap_or_else(|| panic!("no column {name}"));
         for (row, value) in rows.iter().zip(column) {
             assert_eq!(row[place].to_bits(), value.to_bits(), "{name}: {} for {value:?}", row[place]);
-            // counter-test: sixteen digits would not do
+            // counter-test: sixteen digits are not enough
             let short: f64 = format!("{value:.15e}").parse().expect("a number");
             long += usize::from(short.to_bits() != value.to_bits());
         }

@@ -1,8 +1,8 @@
-//! Observation: what is measured of motions that are known without integrating.
+//! Observables of motions that are known without integration.
 //!
 //! Laws: energies and momenta of golden truth (25 digits) are those of the equations, point by point, and are conserved to
-//! rounding; closed-form motions give their closed-form numbers; what is skipped changes no bit of what remains; every
-//! instruction set gives the same bits. Counter-tests: one state or one inertia slightly off shows in the errors.
+//! rounding; closed-form motions give their closed-form numbers; skipped groups change no bit of the others; every
+//! instruction set gives the same bits. Counter-tests: a small change of one state or one inertia is seen in the errors.
 
 use std::collections::HashMap;
 
@@ -36,7 +36,7 @@ fn done(points: usize, time: f64) -> Outcome {
     Outcome { status: Status::Done, time, points, effort, local_errors: LocalErrors::default() }
 }
 
-/// Every block but those of constraints, so that one table serves every request.
+/// Every field except those of constraints, so that one table serves every request.
 fn everything() -> StateFields {
     StateField::ALL
         .into_iter()
@@ -270,7 +270,7 @@ fn a_nutating_top_swings_its_tilted_wheel_at_twice_the_body_nutation_rate() {
         "{} {expected}",
         row["exchange_frequency_hz"]
     );
-    // what one has the other has not, but for the second wheel's constant share
+    // what one gains the other loses, apart from the constant energy of the second wheel
     close(row["exchange_wheel1_correlation"], -1.0, 1e-6);
     let swing = row["exchange_fuselage_peak_to_peak_j"];
     let whole_swings = 2.0 * 30.0 * expected;
@@ -331,7 +331,7 @@ fn the_dcm_gives_the_attitude_where_the_method_integrates_it() {
     }
     assert!(good["dcm_orthonormality_max"] <= 2e-15 && good["angular_momentum_error_max"] <= ROUNDING);
     with.column_mut(StateField::Dcm, 5)[2] += 1e-9;
-    // the energies of redundant states are the kernel's own: a joule too much in one of them shows
+    // the energies of redundant states are the kernel's own: one joule too much in one of them is seen
     with.column_mut(StateField::KineticEnergies, 1)[3] += 1.0;
     let bad = row(Isa::best(), constrained, &grid, &scene, &with);
     assert!(good["energy_error_max"] <= ROUNDING && bad["energy_error_max"] > 1e-7);
@@ -368,7 +368,7 @@ fn bits_depend_neither_on_the_instruction_set_nor_on_what_else_is_observed() {
         for isa in Isa::available() {
             for groups in Group::ALL.map(|group| Groups::NONE.with(group)).into_iter().chain([Groups::ALL]) {
                 let request = request(groups, debris, actuated);
-                // a table that holds no more than what is needed
+                // a table with only the needed fields
                 let mut lean = StateTable::new(request.blocks(), grid.points());
                 for block in StateField::ALL.into_iter().filter(|block| request.blocks().contains(*block)) {
                     for component in 0..block.width() {
@@ -391,7 +391,7 @@ fn a_failed_run_has_its_effort_and_its_last_finite_state() {
     let mut observer = Observer::new(request, &grid);
     let columns = request.columns();
     let mut row = vec![0.0; columns.len()];
-    // an earlier run leaves its numbers behind, and none of them may show
+    // numbers of an earlier run remain in the table, and none of them may be used
     observer.observe(Isa::best(), &scene, &table, &done(grid.points(), grid.duration()), &mut row);
     table.set(StateField::Rate, 3, [f64::NAN; 3]);
     let failed = Outcome {

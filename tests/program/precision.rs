@@ -12,10 +12,10 @@ fn floats(batch: &RecordBatch, name: &str) -> Vec<Option<f64>> {
     column.as_primitive::<Float64Type>().iter().collect()
 }
 
-/// A tolerance 1e4 smaller, or a step four times smaller at order four, lessens the error at least so much.
+/// A tolerance 1e4 smaller, or a step four times smaller at order four, reduces the error at least by this factor.
 const LESS: f64 = 0.01;
 
-/// Law: every method that is asked for is measured at every setting, and smaller settings have smaller errors against the truth.
+/// Law: every requested method is measured at every setting, and smaller settings have smaller errors.
 #[test]
 fn errors_follow_the_settings() {
     let scratch = ScratchFolder::new("settings");
@@ -42,7 +42,7 @@ fn errors_follow_the_settings() {
     assert!(fs::read(scratch.0.join("p/precision.png")).unwrap().starts_with(b"\x89PNG"));
 }
 
-/// Law: with thrust and motors the energy balance holds against the truth's motion too, and what takes too long is named.
+/// Law: with thrust and motors the energy balance of the reference solution holds too, and skipped settings are named.
 #[test]
 fn balances_are_measured_and_omissions_named() {
     let scratch = ScratchFolder::new("limit");

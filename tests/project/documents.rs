@@ -187,6 +187,23 @@ fn every_command_exists() {
     assert!(count >= 10, "{count} commands were found");
 }
 
+/// Checked: every column in a query exists. A name with two underscores or more is that of a column.
+#[test]
+fn every_queried_column_exists() {
+    let columns = text(&root().join("docs/columns.md"));
+    let mut count = 0;
+    for file in documents() {
+        for block in blocks(&text(&file)).iter().filter(|block| block.language == "python") {
+            let names = block.text.split(|letter: char| !letter.is_ascii_alphanumeric() && letter != '_');
+            for name in names.filter(|name| name.matches('_').count() >= 2) {
+                count += 1;
+                assert!(columns.contains(&format!("`{name}`")), "{}: there is no column {name}", file.display());
+            }
+        }
+    }
+    assert!(count >= 4, "{count} names were found");
+}
+
 /// Checked: every relative link leads to a file, and to a heading where it names one.
 #[test]
 fn every_link_leads_somewhere() {

@@ -1,13 +1,13 @@
-//! The table of what is claimed of accuracy: a test measures and holds a claim, and `docs/accuracy.md` is written from the same call.
+//! The table of accuracy claims: a test measures and checks a claim, and `docs/accuracy.md` is written from the same call.
 //!
 //! A claim is a regime in words, a bound, and what was measured. In the document it is one row of the table of its section:
-//! [`hold`] fails where the measured number exceeds the bound, and where the document does not know the claim or states another
+//! [`hold`] fails where the measured number exceeds the bound, and where the document lacks the claim or states another
 //! bound. With `SPINDRIFT_WRITE_ACCURACY=1` it writes the row instead: nothing in the tables is typed by hand.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-/// Set, rows of the document are written and not compared.
+/// If this variable is set, rows of the document are written and not compared.
 pub const WRITE: &str = "SPINDRIFT_WRITE_ACCURACY";
 
 /// Tests of one program run in parallel; the document is one file.

@@ -1,4 +1,4 @@
-//! Scenes with their exact motion (double-double), and how far runs are off it.
+//! Scenes with their reference solution (double-double), and the errors of runs.
 
 use rayon::prelude::*;
 use spindrift::math::Isa;
@@ -12,7 +12,7 @@ use spindrift::scene::Scene;
 
 use super::runs::{Run, blocks, propagate_on};
 
-/// Scenes, and the truth about their rotation at the times of a grid.
+/// Scenes, and the reference solution of their rotation at the times of a grid.
 pub struct Exact {
     pub scenes: Vec<Scene>,
     pub grid: Grid,
@@ -53,7 +53,7 @@ pub fn distance(table: &StateTable, truth: &ReferenceSolution) -> [f64; 2] {
 }
 
 impl Exact {
-    /// Solves `scenes` exactly.
+    /// Solves `scenes` in double-double.
     pub fn new(scenes: Vec<Scene>, grid: Grid) -> Self {
         let fields = blocks([StateField::Rate, StateField::Attitude]);
         let solve = |scene: &Scene| {

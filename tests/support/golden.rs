@@ -1,4 +1,4 @@
-//! Golden truth: scenes with states to 25 digits, from a 40-digit Taylor solution of the gyrostat equations.
+//! Golden data: scenes with states to 25 digits, from a 40-digit Taylor solution of the gyrostat equations.
 //!
 //! `tests/golden/*.json` hold numbers as strings (all digits) or as plain JSON numbers; here they become `f64`.
 

@@ -1,5 +1,5 @@
-//! Energy and angular momentum of a run without actuators from its states, in double-double: what rounding does to the states is
-//! seen, what rounding would do to the measurement is not there.
+//! Energy and angular momentum of a run without actuators from its states, in double-double: rounding of the states is
+//! seen, rounding of the measurement itself is negligible.
 
 use spindrift::math::double_double::DoubleDouble;
 use spindrift::math::vector::{constant, constant_matrix, dcm_from_quaternion, dot, product, scaled, sum};
@@ -10,10 +10,10 @@ use spindrift::scene::{Scene, WheelMode};
 /// What a free spacecraft conserves, at one point.
 #[derive(Clone, Copy, Debug)]
 pub struct Invariants {
-    /// Kinetic energy about c, J; where the speed of wheels is held less what their motors give: half omega . K omega, with K the
-    /// inertia that turns with the fuselage.
+    /// Kinetic energy about c, J; where the speed of wheels is held minus the work of their motors: half omega . K omega, with K the
+    /// inertia that rotates with the fuselage.
     pub energy: DoubleDouble,
-    /// Size of the angular momentum about c from the rates alone, N m s.
+    /// Magnitude of the angular momentum about c from the rates alone, N m s.
     pub momentum: DoubleDouble,
     /// The angular momentum about c in F_e, N m s, by the unit quaternion along the attitude.
     pub momentum_e: [DoubleDouble; 3],

@@ -11,7 +11,7 @@ use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 pub struct ScratchFolder(pub PathBuf);
 
 impl ScratchFolder {
-    /// An empty folder; `name` is the test's own within the whole of the tests.
+    /// An empty folder; `name` is unique among all tests.
     pub fn new(name: &str) -> Self {
         let folder = std::env::temp_dir().join(format!("spindrift-{}-{name}", std::process::id()));
         let _ = fs::remove_dir_all(&folder);

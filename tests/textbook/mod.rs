@@ -130,7 +130,7 @@ impl<M: FixedStep> Driver for Fixed<M> {
     }
 }
 
-/// What became of a run.
+/// The result of a run.
 #[derive(Clone)]
 pub struct Journey<const N: usize> {
     pub points: Vec<[f64; N]>,
