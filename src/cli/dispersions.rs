@@ -10,7 +10,7 @@ use crate::sampling::{Design, Dispersions, Distribution, SampleId, Transform};
 /// Draws behind the percentiles: the 1% and 99% lie within a tenth of the law's spread of their true places.
 const DRAWS: u64 = 10_000;
 
-/// Nominal value, percentiles of the draws, and law of each dispersed number, to `text`; draws anew for that.
+/// Nominal value, percentiles of the draws, and law of each dispersed number, to `text`; draws again for that.
 ///
 /// # Errors
 /// What writing to `text` returns.

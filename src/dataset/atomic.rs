@@ -68,7 +68,7 @@ mod tests {
         folder
     }
 
-    /// Law: after an error in the middle the old content stands and nothing unfinished is left.
+    /// Law: after an error in the middle the old content is kept and no unfinished file is left.
     #[test]
     fn an_error_leaves_the_old_file() {
         let folder = folder("error");

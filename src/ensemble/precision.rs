@@ -370,7 +370,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_prediction_goes_on_as_before_within_bounds() {
+    fn a_prediction_extrapolates_within_bounds() {
         assert_eq!(prediction(&[]), 0.0);
         assert_eq!(prediction(&[2.0]), 3.0);
         assert_eq!(prediction(&[1.0, 2.0]), 4.0);

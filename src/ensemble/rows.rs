@@ -146,7 +146,7 @@ mod tests {
         Part { id: PartId(3), first: SampleId(768), count }
     }
 
-    /// Law: what is written to a row stands in its columns at its place, and nowhere else.
+    /// Law: what is written to a row is in its columns at its index, and nowhere else.
     #[test]
     fn a_row_lands_in_its_columns() {
         let mut rows = Rows::new(Shape { parameters: 2, observables: 3 }, 8);

@@ -15,7 +15,7 @@ use crate::run::{Grid, StateFields};
 use crate::sampling::{SampleId, Sampler};
 use crate::scene::{Scene, SceneInput};
 
-/// Scenes that are drawn and propagated together: enough that lanes seldom wait for work (16 refills of eight lanes), few
+/// Scenes that are drawn and propagated together: enough that lanes seldom wait for work (each of eight lanes is loaded 16 times), few
 /// enough that scenes and workspace stay in the second-level cache.
 pub const BATCH: usize = 128;
 

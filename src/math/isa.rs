@@ -45,7 +45,7 @@ pub trait NarrowWork {
 
 /// Work in as many lanes as the instruction set has registers for; [`Isa::run_wide`] calls it.
 ///
-/// AVX-512 has thirty-two registers of eight lanes and marches sixteen; the others have sixteen of four or two and march eight.
+/// AVX-512 has thirty-two registers of eight lanes and integrates sixteen runs; the others have sixteen of four or two and integrate eight.
 pub trait WideWork {
     /// What the work returns.
     type Output;

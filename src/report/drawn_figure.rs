@@ -20,7 +20,7 @@ const ACROSS: usize = 4;
 const TITLE_HEIGHT: u32 = 44;
 /// Height of the title over the correlations, pixels.
 const CAPTION_HEIGHT: u32 = 52;
-/// Largest size of a cell of the correlation plot, pixels.
+/// Maximum width of a cell of the correlation plot, pixels.
 const LARGEST_CELL: u32 = 64;
 /// Width kept for the names beside the correlation plot, pixels.
 const NAMES_WIDTH: u32 = 400;
@@ -63,8 +63,8 @@ impl DrawnFigure<'_> {
 
     /// Side of a cell of the correlation plot, pixels.
     fn cell(&self) -> u32 {
-        let room = ACROSS as u32 * HISTOGRAM.0 - NAMES_WIDTH;
-        (room / self.names.len().max(1) as u32).clamp(2, LARGEST_CELL)
+        let width = ACROSS as u32 * HISTOGRAM.0 - NAMES_WIDTH;
+        (width / self.names.len().max(1) as u32).clamp(2, LARGEST_CELL)
     }
 
     fn size(&self) -> (u32, u32) {
@@ -163,7 +163,7 @@ fn histogram<B: DrawingBackend>(
     let mut chart = ChartBuilder::on(area)
         .caption(name, ("sans-serif", 13 * scale))
         .margin(6 * scale)
-        // room for half of the outermost labels
+        // space for half of the outermost labels
         .margin_left(28 * scale)
         .margin_right(28 * scale)
         .x_label_area_size(24 * scale)

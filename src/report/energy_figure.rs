@@ -43,7 +43,7 @@ pub fn energy_figure(title: &str, series: &TimeSeries) -> Figure {
     }
     if let Some(values) = series.column("energy_error") {
         panels.push(Panel {
-            title: "Relative error of the total energy, less the actuators' work".to_owned(),
+            title: "Relative error of the total energy minus the actuators' work".to_owned(),
             unit: String::new(),
             curves: vec![Curve { label: "error".to_owned(), values: values.to_vec() }],
         });

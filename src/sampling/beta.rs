@@ -72,7 +72,7 @@ fn log_probability(x: f64, a: f64, b: f64, log_b: f64) -> (f64, f64) {
 
 /// The continued fraction of a I_x(a, b) B(a, b) / (x^a (1-x)^b), for x below (a + 1)/(a + b + 2).
 fn continued_fraction(x: f64, a: f64, b: f64) -> f64 {
-    /// In place of a zero, so that Lentz's method goes on (Thompson & Barnett).
+    /// In place of a zero, so that Lentz's method continues (Thompson & Barnett).
     const TINY: f64 = 1e-300;
     let kept = |value: f64| if value.abs() < TINY { TINY } else { value };
     let mut c = 1.0;

@@ -14,7 +14,7 @@ pub struct Choice {
 }
 
 impl Choice {
-    /// `values` with `weights` in proportion, of which one is above zero.
+    /// `values` with `weights` in proportion; at least one is above zero.
     pub fn new(values: &[f64], weights: &[f64]) -> Self {
         let mut pairs: Vec<(f64, f64)> = values.iter().copied().zip(weights.iter().copied()).collect();
         pairs.retain(|(_, weight)| *weight > 0.0);
@@ -50,7 +50,7 @@ pub struct Empirical {
 }
 
 impl Empirical {
-    /// The law of `values`, of which there is at least one.
+    /// The distribution of `values`, at least one.
     pub fn new(values: &[f64], interpolation: Interpolation) -> Self {
         let mut values = values.to_vec();
         values.sort_by(f64::total_cmp);

@@ -1,7 +1,7 @@
 //! Laws of directions and attitudes, each one map from a fixed number of u in (0, 1): [`DirectionLaw`], [`AttitudeError`],
 //! [`AboutAxis`].
 //!
-//! How they are written and checked stands in [`super::geometric_law`]. Isotropy is a matter of solid angle: the cosine of the angle to
+//! [`super::geometric_law`] defines how they are written and checked. Isotropy is a matter of solid angle: the cosine of the angle to
 //! the axis is what is uniform on a sphere or in a cone, and what von Mises and Fisher's law is exponential in; a direction made of
 //! uniform components, or of a uniform angle to the axis, is not (test `usual_mistakes_are_caught` in `tests/sampling_geometric.rs`).
 
@@ -10,7 +10,7 @@ use crate::math::normal::quantile;
 use crate::math::vector::{cross, dot, hamilton, norm, scaled};
 use core::f64::consts::TAU;
 
-/// A vector of which direction and magnitude are dispersed apart.
+/// A vector with separately dispersed direction and magnitude.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DirectionLaw {
     /// Two unit vectors across the axis, then the axis.

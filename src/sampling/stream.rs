@@ -10,8 +10,8 @@
 //! | 24..32 | the ASCII text `sampling` |
 //!
 //! and sample k takes the k-th little-endian 64-bit word of the key stream. So a draw depends on (seed, sample, name) alone,
-//! any sample is reached at once, neighbours share a block (one draw costs an eighth of one), and whoever has a ChaCha can
-//! make the same numbers. Counters that hold the sample *and* the parameter under one key were rejected: they would number
+//! any sample is reached at once, neighbours share a block (one draw costs an eighth of one), and any implementation of ChaCha
+//! gives the same numbers. Counters that hold the sample *and* the parameter under one key were rejected: they would number
 //! the parameters, and a new one would renumber the others.
 
 use rand::rngs::ChaCha8Rng;

@@ -20,7 +20,7 @@ pub fn at_least(k: u64, trials: u64, p: f64) -> f64 {
     }
 }
 
-/// One-sided lower confidence bound of a fraction, of which `successes` in `trials` were seen (Clopper-Pearson).
+/// One-sided lower confidence bound of a fraction with `successes` in `trials` (Clopper-Pearson).
 ///
 /// With probability `confidence` or more the bound is not above the true fraction.
 pub fn lower_bound(successes: u64, trials: u64, confidence: f64) -> f64 {
@@ -30,7 +30,7 @@ pub fn lower_bound(successes: u64, trials: u64, confidence: f64) -> f64 {
     inverse_incomplete_beta(1.0 - confidence, confidence, successes as f64, (trials - successes) as f64 + 1.0)[0]
 }
 
-/// One-sided upper confidence bound of a fraction, of which `successes` in `trials` were seen (Clopper-Pearson).
+/// One-sided upper confidence bound of a fraction with `successes` in `trials` (Clopper-Pearson).
 pub fn upper_bound(successes: u64, trials: u64, confidence: f64) -> f64 {
     if successes >= trials {
         return 1.0;

@@ -247,7 +247,7 @@ const REFERENCE_ERROR: f64 = 1e-6;
 
 /// Law: the report's own equations agree in the special cases as well, those at rates it can follow.
 #[test]
-fn special_cases_are_those_of_the_reference_kernel() {
+fn special_cases_are_those_of_the_null_space_form() {
     for Special { name, input, amplification, .. } in specials() {
         let rates = input.initial.wheel_rates_rad_s.map(f64::abs);
         if rates[0].max(rates[1]) > 150.0

@@ -16,7 +16,7 @@ def cross(a, b):
 
 
 class Body:
-    """A free body; axis 3 of the working frame is the one about which omega goes round, axis 2 the intermediate."""
+    """A free body; axis 3 of the working frame is the one about which omega rotates, axis 2 the intermediate."""
 
     def __init__(self, moments, omega):
         i, w = [mp.mpf(x) for x in moments], [mp.mpf(x) for x in omega]

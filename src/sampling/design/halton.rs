@@ -1,8 +1,8 @@
 //! [`Halton`]: Halton's sequence (*Numer. Math.* 2 (1960) 84), each digit scrambled by a random line.
 //!
-//! The number of a point in the dimension of base b is its radical inverse, of which each digit d becomes a d + c modulo b with a
+//! The number of a point in the dimension of base b is its radical inverse, in which each digit d becomes a d + c modulo b with a
 //! random slope a > 0 and shift c for each digit's place (J. Matousek, *On the L2-discrepancy for anchored boxes*, J. Complexity 14
-//! (1998) 527): without it neighbouring large bases march in step. Digits go on beyond those of the point, so that each number
+//! (1998) 527): without it neighbouring large bases are correlated. Digits go on beyond those of the point, so that each number
 //! is uniform, down to about 2^-52.
 
 use super::hash::{below, keyed};

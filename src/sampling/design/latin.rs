@@ -3,7 +3,7 @@
 //!
 //! Which stratum is a sample's, a keyed permutation of 0..n says: a Feistel network over the next even number of bits, walked
 //! until it falls below n (J. Black & P. Rogaway, *Ciphers with arbitrary finite domains*, CT-RSA 2002). So it takes no memory
-//! and any sample is found at once. Within its stratum the sample stands where the random design would have put it in the cube.
+//! and any sample is found at once. Within its stratum the sample is where the random design would have put it in the cube.
 //! n = samples - 1, since sample 0 is the nominal scene.
 
 use super::hash::keyed;
@@ -31,7 +31,7 @@ impl Permutation {
         Permutation { n, half: bits.div_ceil(2).max(LEAST_HALF), keys }
     }
 
-    /// Where `place` < n goes.
+    /// The image of `place` < n.
     pub fn image(&self, place: u64) -> u64 {
         let mut place = place;
         loop {

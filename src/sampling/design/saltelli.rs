@@ -22,7 +22,7 @@ pub fn members(factors: &[usize]) -> u64 {
 }
 
 impl Saltelli {
-    /// Blocks for the dimensions `names`, of which dimension i belongs to law `factors[i]`, counted from zero without gaps.
+    /// Blocks for the dimensions `names`; dimension i belongs to law `factors[i]`, counted from zero without gaps.
     pub fn new(seed: u64, names: &[String], factors: &[usize]) -> Self {
         let both: Vec<String> = names.iter().cloned().chain(names.iter().map(|name| format!("{name}/B"))).collect();
         Saltelli { sequence: Sobol::new(seed, &both), factors: factors.to_vec(), members: members(factors) }
