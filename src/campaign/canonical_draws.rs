@@ -1,6 +1,6 @@
 //! What is drawn, as canonical text; see [`super::canonical`].
 
-use super::canonical::Lines;
+use super::lines::Lines;
 use crate::sampling::geometric::DirectionSpread;
 use crate::sampling::scalar::{LOWER_KEYS, UPPER_KEYS};
 use crate::sampling::{

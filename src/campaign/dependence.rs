@@ -1,7 +1,7 @@
 //! The keys of `[[correlate]]` and `[[derive]]` tables.
 
 use super::disperse::{parameter, unknown_parameter};
-use super::document::Section;
+use super::section::Section;
 use crate::sampling::{Correlation, Dependence, Derivation};
 use crate::scene::Parameter;
 

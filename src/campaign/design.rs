@@ -2,7 +2,7 @@
 
 use super::data::DataFile;
 use super::disperse::{absent_column, file};
-use super::document::Section;
+use super::section::Section;
 use super::spec::MOST_SAMPLES;
 use crate::sampling::{DESIGNS, DataColumn, Design, Levels};
 use crate::scene::Parameter;

@@ -4,8 +4,8 @@
 
 use super::data::DataFile;
 use super::disperse_geometric::{about_axis, attitude_error, cone, uniform_direction, von_mises_fisher};
-use super::document::Section;
 use super::problem::nearest;
+use super::section::Section;
 use crate::sampling::scalar::{LOWER_KEYS, UPPER_KEYS};
 use crate::sampling::{
     Bound, DataColumn, Dispersion, Interpolation, Law, LogRange, Offset, Range, Spread, Truncation, Values,

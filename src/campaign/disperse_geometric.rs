@@ -3,7 +3,7 @@
 //! What is written there is checked against the scene in [`crate::sampling::geometric_law`].
 
 use super::disperse::{is_one_of, law};
-use super::document::{FINITE, Section};
+use super::section::{FINITE, Section};
 use crate::sampling::geometric::DirectionSpread;
 use crate::sampling::{AttitudeSpread, GeometricLaw, Law};
 

@@ -1,6 +1,6 @@
 //! Lists of any length in a [`Section`]: numbers, texts, square matrices.
 
-use super::document::{Section, number};
+use super::section::{Section, number};
 use crate::sampling::Levels;
 use toml::de::DeValue;
 

@@ -21,9 +21,12 @@ pub mod disperse;
 pub mod disperse_geometric;
 pub mod document;
 pub mod find;
+mod lines;
 pub mod lists;
 pub mod plan;
 pub mod problem;
+mod scene;
+pub mod section;
 pub mod spec;
 
 pub use find::find;

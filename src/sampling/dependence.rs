@@ -6,7 +6,7 @@ use super::dispersions::{Dispersions, Transform};
 use super::distribution::Distribution;
 use super::expression::Expression;
 use super::law::{DispersionError, Table, error_of};
-use crate::scene::parameter::Kind;
+use crate::scene::parameter::Shape;
 use crate::scene::{Parameter, SceneInput};
 
 /// How a dependence is written.
@@ -232,7 +232,7 @@ impl Dispersions {
                     || open.iter().any(|(_, target, ..)| *target == (parameter, component));
                 if !parameter.exists(nominal, component) {
                     refuse("parameter", shown, "a key that the scene has".to_owned(), parameter.remedy());
-                } else if parameter.kind() == Kind::Quaternion {
+                } else if parameter.shape() == Shape::Quaternion {
                     let allowed = "other than an attitude, which changes as a whole".to_owned();
                     refuse("parameter", shown, allowed, "disperse the attitude");
                 } else if is_taken {
@@ -316,7 +316,7 @@ fn variable(name: &str, nominal: &SceneInput) -> Result<((Parameter, usize), f64
         let allowed = "a numeric key of scene or initial state, one component of it".to_owned();
         return Err((allowed, "write names as in this file, wheel1.radius_m or initial.position_m.x".to_owned()));
     };
-    if parameter.kind() == Kind::Quaternion {
+    if parameter.shape() == Shape::Quaternion {
         let allowed = "other than an attitude, whose components are normalised after they were drawn".to_owned();
         return Err((allowed, "leave it out".to_owned()));
     }

@@ -10,7 +10,7 @@ use super::joint::Joint;
 use super::law::{DataColumn, Dispersion, DispersionError, Law, Table, error, error_of};
 use super::sampler::Sampler;
 use super::scalar::distributions;
-use crate::scene::parameter::Kind;
+use crate::scene::parameter::Shape;
 use crate::scene::{Parameter, SceneInput};
 use std::sync::Arc;
 
@@ -211,7 +211,7 @@ impl Dispersions {
         {
             return refused("given a value once", "delete its [[disperse]] table, or take it out of parameters");
         }
-        if parameter.kind() == Kind::Quaternion {
+        if parameter.shape() == Shape::Quaternion {
             (0..parameter.width()).for_each(|component| {
                 self.column(parameter, component, nominal);
             });
@@ -234,7 +234,7 @@ impl Dispersions {
             None => vec![(components, Transform::Joint(joint(index, dispersion, nominal)?))],
         };
         // a quaternion is normalised as a whole: all of it is recorded, in one place
-        if parameter.kind() == Kind::Quaternion {
+        if parameter.shape() == Shape::Quaternion {
             (0..parameter.width()).for_each(|component| {
                 self.column(parameter, component, nominal);
             });
@@ -302,7 +302,7 @@ fn joint(index: usize, dispersion: &Dispersion, nominal: &SceneInput) -> Result<
     let parameter = dispersion.parameter;
     match &dispersion.law {
         Law::Geometric(law) => law.joint(index, dispersion, nominal),
-        Law::UniformAttitude if parameter.kind() == Kind::Quaternion && dispersion.component.is_none() => {
+        Law::UniformAttitude if parameter.shape() == Shape::Quaternion && dispersion.component.is_none() => {
             Ok(Joint::UniformAttitude)
         }
         _ => {

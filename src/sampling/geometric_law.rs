@@ -6,7 +6,7 @@ use super::joint::Joint;
 use super::law::{Dispersion, DispersionError, Law, Values, error};
 use super::scalar::distributions;
 use crate::math::vector::norm;
-use crate::scene::parameter::Kind;
+use crate::scene::parameter::Shape;
 use crate::scene::{Parameter, SceneInput};
 
 /// A law of all components of a vector, or of an attitude, together.
@@ -148,7 +148,7 @@ impl GeometricLaw {
     fn check_target(&self, index: usize, dispersion: &Dispersion) -> Result<(), DispersionError> {
         let parameter = dispersion.parameter;
         let is_direction = matches!(self, GeometricLaw::Direction { .. });
-        let fits = if is_direction { is_vector(parameter) } else { parameter.kind() == Kind::Quaternion };
+        let fits = if is_direction { is_vector(parameter) } else { parameter.shape() == Shape::Quaternion };
         if fits && dispersion.component.is_none() {
             return Ok(());
         }
@@ -171,7 +171,7 @@ impl GeometricLaw {
 
 /// Whether the components of a parameter are those of a vector in space.
 fn is_vector(parameter: Parameter) -> bool {
-    parameter.kind() == Kind::Plain && parameter.components() == ["x", "y", "z"] && parameter.unit() != "1"
+    parameter.shape() == Shape::Plain && parameter.components() == ["x", "y", "z"] && parameter.unit() != "1"
 }
 
 /// A diagonal covariance.

@@ -8,7 +8,7 @@ use super::dispersions::{Column, Dispersions, Placed, Transform};
 use super::distribution::Distribution;
 use super::joint::{Joint, MOST_COMPONENTS, MOST_DIMENSIONS};
 use super::stream::SampleId;
-use crate::scene::parameter::Kind;
+use crate::scene::parameter::Shape;
 use crate::scene::{Parameter, SceneInput};
 
 /// Draws samples; owned by one worker. What it keeps only makes neighbours cheap: a draw depends on the sample alone.
@@ -72,7 +72,7 @@ impl<'a> Sampler<'a> {
             *applied = values[lane];
         }
         for parameter in &self.settled {
-            parameter.settle(scene);
+            parameter.normalise(scene);
             for (applied, column) in applied.iter_mut().zip(columns).filter(|(_, c)| c.parameter == *parameter) {
                 *applied = parameter.value(scene, column.component).unwrap_or(f64::NAN);
             }
@@ -172,6 +172,6 @@ fn tied(dispersions: &Dispersions) -> Vec<bool> {
 
 /// The quaternions among the columns, each once.
 fn settled(dispersions: &Dispersions) -> Vec<Parameter> {
-    let first = |column: &&Column| column.component == 0 && column.parameter.kind() == Kind::Quaternion;
+    let first = |column: &&Column| column.component == 0 && column.parameter.shape() == Shape::Quaternion;
     dispersions.columns.iter().filter(first).map(|column| column.parameter).collect()
 }

@@ -5,7 +5,8 @@
 //!
 //! Generic over the number type, so that a reference solution in more digits starts from a J of as many digits.
 
-use super::input::{DebrisInput, FuselageInput, SceneInput, WheelInput, WheelMode};
+use super::input::SceneInput;
+use super::schema::{DebrisInput, FuselageInput, WheelInput, WheelMode};
 use super::solids::{Cylinder, hollow_cylinder, solid_box, solid_cylinder};
 use crate::math::Real;
 use crate::math::vector::{constant, cross, difference, dot, norm, scaled, sum};

@@ -1,12 +1,13 @@
-//! Floor 1: what is simulated. Bodies -> mass properties, actuators, initial state; validated, immutable, SI, no serde.
+//! Layer 1: what is simulated. Bodies to mass properties, actuators, initial state; validated, immutable, SI, no serde.
 //!
+//! - [`schema`]: one row for each numeric key: unit, meaning, default, limit, where it is.
 //! - [`input`]: the scene as written.
 //! - [`second_moment`]: inertia by second moments of mass, and errors of a distribution of mass.
 //! - [`solids`]: mass, centre and inertia of homogeneous solids (the report's (60)-(67), in closed form).
 //! - [`mass`]: mass properties of the bodies and of the whole.
-//! - [`parameter`]: the one table of the numeric keys that can be dispersed.
-//! - [`check`], [`error`]: what makes a scene physical, and what is said where it is not.
-//! - [`resolve`]: the way from an input to a [`Scene`].
+//! - [`parameter`]: the numeric keys that can be dispersed.
+//! - [`check`], [`error`]: what makes a scene physical beyond single keys, and the message where it is not.
+//! - [`resolve`]: from an input to a [`Scene`].
 //! - [`schedule`]: what the actuators make of the commands, and the arcs of constant actuation.
 
 pub mod check;
@@ -14,24 +15,25 @@ pub mod error;
 pub mod input;
 pub mod mass;
 pub mod parameter;
-mod parameter_table;
 #[cfg(test)]
 mod refusals;
 pub mod resolve;
 #[cfg(test)]
 pub(crate) mod samples;
 pub mod schedule;
+pub mod schema;
 pub mod second_moment;
 pub mod solids;
 
 pub use error::SceneError;
-pub use input::{
-    ActuationInput, ActuatorsInput, DebrisInput, FuselageInput, InitialInput, MassErrors, PrincipalInertia,
-    PrincipalMoments, SceneInput, WheelInput, WheelMode,
-};
+pub use input::SceneInput;
 pub use mass::MassProperties;
 pub use parameter::Parameter;
 pub use schedule::{Actuation, Arc, THRUSTERS, WHEELS};
+pub use schema::{
+    ActuationInput, ActuatorsInput, DebrisInput, FuselageInput, InitialInput, MassErrors, PrincipalInertia,
+    PrincipalMoments, WheelInput, WheelMode,
+};
 
 use crate::math::vector::{cross, difference, scaled, sum};
 

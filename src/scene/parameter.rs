@@ -1,38 +1,69 @@
-//! [`Parameter`]: the one table of the numeric keys of scene and initial state that can be dispersed.
+//! [`Parameter`]: a numeric key of scene or initial state that can be dispersed: a row of [`super::schema`] and an instance of
+//! its table.
 //!
-//! Name, unit, components, place in [`SceneInput`] and names of columns all come from one table (`parameter_table`): a
-//! new key is one new line.
-//! A key exists where a change of it changes something: what belongs to actuators needs a schedule.
-//! Not here: the keys of `[[actuation]]`, the commands, which the keys of `[actuators]` distort for all stretches alike.
+//! A parameter exists in a scene where a change of it has an effect: what belongs to actuators needs a schedule.
+//! Not here: the keys of `[[actuation]]`, the commands, which the keys of `[actuators]` distort for all arcs alike.
 
 use super::input::SceneInput;
-use super::parameter_table::{Entry, TABLE};
+pub use super::schema::Shape;
+use super::schema::{Key, Table};
 
 /// A numeric key of scene or initial state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Parameter(u8);
-
-/// How the components of a parameter belong together.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// Independent numbers.
-    Plain,
-    /// One number for each wheel, which exists where the wheel does.
-    PerWheel,
-    /// A unit quaternion: renormalised after its components were changed.
-    Quaternion,
-    /// A symmetric 3x3 tensor stored by rows, of which the six entries on and above the diagonal are the components; a
-    /// change of one off the diagonal changes its mirror image too.
-    Symmetric,
+pub struct Parameter {
+    /// Index of its row in [`KEYS`].
+    key: u8,
+    /// Which instance of the row's table.
+    instance: u8,
 }
 
-/// Places of the components of a symmetric tensor, and of their mirror images, among its nine numbers by rows.
-const SYMMETRIC_PLACES: [(usize, usize); 6] = [(0, 0), (1, 3), (2, 6), (4, 4), (5, 7), (8, 8)];
+/// Number of rows of the schema that can be dispersed.
+const COUNT: usize = {
+    let (mut count, mut table) = (0, 0);
+    while table < Table::ALL.len() {
+        let parts = Table::ALL[table].rows();
+        let mut part = 0;
+        while part < parts.len() && Table::ALL[table].is_dispersable() {
+            count += parts[part].len();
+            part += 1;
+        }
+        table += 1;
+    }
+    count
+};
+
+/// The rows of the schema that can be dispersed, in order.
+static KEYS: [&Key; COUNT] = {
+    let mut keys = [&Table::Fuselage.rows()[0][0]; COUNT];
+    let (mut count, mut table) = (0, 0);
+    while table < Table::ALL.len() {
+        let parts = Table::ALL[table].rows();
+        let mut part = 0;
+        while part < parts.len() && Table::ALL[table].is_dispersable() {
+            let mut row = 0;
+            while row < parts[part].len() {
+                keys[count] = &parts[part][row];
+                count += 1;
+                row += 1;
+            }
+            part += 1;
+        }
+        table += 1;
+    }
+    keys
+};
+
+/// Indices of the components of a symmetric tensor, and of their mirror images, among its nine numbers by rows.
+const SYMMETRIC: [(usize, usize); 6] = [(0, 0), (1, 3), (2, 6), (4, 4), (5, 7), (8, 8)];
 
 impl Parameter {
-    /// All parameters in the order of the table.
+    /// All parameters: table by table, instance by instance, in the order of the schema.
     pub fn all() -> impl Iterator<Item = Parameter> {
-        (0..TABLE.len()).map(|index| Parameter(index as u8))
+        let of = |table: Table, instance: usize| {
+            let rows = KEYS.iter().enumerate().filter(move |(_, row)| row.table == table);
+            rows.map(move |(key, _)| Parameter { key: key as u8, instance: instance as u8 })
+        };
+        Table::ALL.into_iter().flat_map(move |table| (0..table.headers().len()).flat_map(move |i| of(table, i)))
     }
 
     /// The parameter called `name`, and the component if the name ends in one (`[1]`, counted from zero, or `.y`).
@@ -52,23 +83,28 @@ impl Parameter {
         (parameter.width() > 1 && component < parameter.width()).then_some((parameter, Some(component)))
     }
 
-    fn entry(self) -> &'static Entry {
-        &TABLE[usize::from(self.0)]
+    /// Its row of the schema.
+    pub fn key(self) -> &'static Key {
+        KEYS[usize::from(self.key)]
+    }
+
+    fn instance(self) -> usize {
+        usize::from(self.instance)
     }
 
     /// The dotted name, as in a campaign file.
     pub fn name(self) -> &'static str {
-        self.entry().name
+        self.key().name(self.instance())
     }
 
     /// The unit, as people write it; `1` for a pure number.
     pub fn unit(self) -> &'static str {
-        self.entry().unit
+        self.key().unit
     }
 
     /// The names of the components; one empty name for a scalar.
     pub fn components(self) -> &'static [&'static str] {
-        self.entry().components
+        self.key().components(self.instance())
     }
 
     /// Number of components.
@@ -77,8 +113,8 @@ impl Parameter {
     }
 
     /// How the components belong together.
-    pub fn kind(self) -> Kind {
-        self.entry().kind
+    pub fn shape(self) -> Shape {
+        self.key().shape
     }
 
     /// The dotted name of a component: the parameter's name, `.`, the component's name; for a scalar the parameter's name.
@@ -102,22 +138,35 @@ impl Parameter {
         }
     }
 
-    /// Whether a component exists in `scene`.
+    /// Whether `scene` has the component and a change of it has an effect.
     pub fn exists(self, scene: &SceneInput, component: usize) -> bool {
-        (self.entry().read)(scene).is_some() && (self.kind() != Kind::PerWheel || scene.wheels[component].is_some())
+        let key = self.key();
+        (key.read)(scene, self.instance()).is_some() && (key.acts)(scene, self.instance(), component)
     }
 
     /// What to write so that the parameter exists where [`Parameter::exists`] says that it does not.
     pub fn remedy(self) -> &'static str {
-        self.entry().remedy
+        match (self.key().table, self.instance()) {
+            (Table::Wheel, 0) => "add a [wheel1] table",
+            (Table::Wheel, _) => "add a [wheel2] table",
+            _ => self.key().remedy,
+        }
+    }
+
+    /// Makes `scene` have the key, if its table is there: an optional value, a way to describe a body. Its numbers are then
+    /// not numbers yet.
+    pub fn open(self, scene: &mut SceneInput) {
+        if (self.key().read)(scene, self.instance()).is_none() {
+            (self.key().open)(scene, self.instance());
+        }
     }
 
     /// The value of a component, in SI; `None` where the scene has no such key.
     #[inline]
     pub fn value(self, scene: &SceneInput, component: usize) -> Option<f64> {
-        let numbers = (self.entry().read)(scene)?;
-        Some(match self.kind() {
-            Kind::Symmetric => numbers[SYMMETRIC_PLACES[component].0],
+        let numbers = (self.key().read)(scene, self.instance())?;
+        Some(match self.shape() {
+            Shape::Symmetric => numbers[SYMMETRIC[component].0],
             _ => numbers[component],
         })
     }
@@ -125,11 +174,11 @@ impl Parameter {
     /// Changes a component, and with it its mirror image in a symmetric tensor; nothing where the scene has no such key.
     #[inline]
     pub fn set(self, scene: &mut SceneInput, component: usize, value: f64) {
-        let Some(numbers) = (self.entry().write)(scene) else { return };
-        match self.kind() {
-            Kind::Symmetric => {
-                let (place, mirror) = SYMMETRIC_PLACES[component];
-                numbers[place] = value;
+        let Some(numbers) = (self.key().write)(scene, self.instance()) else { return };
+        match self.shape() {
+            Shape::Symmetric => {
+                let (upper, mirror) = SYMMETRIC[component];
+                numbers[upper] = value;
                 numbers[mirror] = value;
             }
             _ => numbers[component] = value,
@@ -139,11 +188,11 @@ impl Parameter {
     /// Makes the value valid as a whole after its components were changed: a quaternion is divided by its norm (one of norm
     /// zero or not finite is left as it is: the scene refuses it).
     #[inline]
-    pub fn settle(self, scene: &mut SceneInput) {
-        if self.kind() != Kind::Quaternion {
+    pub fn normalise(self, scene: &mut SceneInput) {
+        if self.shape() != Shape::Quaternion {
             return;
         }
-        let Some(numbers) = (self.entry().write)(scene) else { return };
+        let Some(numbers) = (self.key().write)(scene, self.instance()) else { return };
         let norm = numbers.iter().map(|x| x * x).sum::<f64>().sqrt();
         if norm > 0.0 && norm.is_finite() {
             numbers.iter_mut().for_each(|x| *x /= norm);
@@ -290,7 +339,7 @@ mod tests {
         let attitude = Parameter::find("initial.attitude").expect("in the table").0;
         attitude.set(&mut scene, 0, 3.0);
         attitude.set(&mut scene, 3, 4.0);
-        attitude.settle(&mut scene);
+        attitude.normalise(&mut scene);
         assert_eq!(scene.initial.attitude, [0.6, 0.0, 0.0, 0.8]);
     }
 

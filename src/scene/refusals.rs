@@ -1,8 +1,7 @@
 //! Every refusal of a scene by its key, and its nearest neighbour that is accepted.
 
-use super::input::{
-    ActuationInput, DebrisInput, PrincipalInertia, PrincipalMoments, SceneInput, WheelInput, WheelMode,
-};
+use super::input::SceneInput;
+use super::schema::{ActuationInput, DebrisInput, PrincipalInertia, PrincipalMoments, WheelInput, WheelMode};
 use super::{Scene, samples};
 
 /// A change of the report's scene.

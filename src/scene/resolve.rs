@@ -1,8 +1,9 @@
 //! From what a person wrote to a [`Scene`]: check everything, derive, normalise; the report's Sigma (59) in quaternions.
 
 use super::error::Problems;
-use super::input::{InitialInput, SceneInput};
+use super::input::SceneInput;
 use super::mass::MassProperties;
+use super::schema::InitialInput;
 use super::{InitialState, Scene, SceneError, THRUSTER_DIRECTIONS, check, schedule};
 use crate::math::vector::{dcm_from_quaternion, hamilton, sum, transposed_product};
 
@@ -119,7 +120,7 @@ fn normalised(q: [f64; 4]) -> [f64; 4] {
 mod tests {
     use super::*;
     use crate::math::symmetric::{is_positive_definite, principal_axes};
-    use crate::scene::check::INERTIA_SLACK;
+    use crate::scene::schema::limit::INERTIA_SLACK;
     use crate::scene::{ActuationInput, samples};
     use proptest::prelude::*;
 

@@ -1,8 +1,7 @@
 //! Scenes for the tests of this crate: the report's Tables I and II.
 
-use super::input::{
-    ActuatorsInput, DebrisInput, FuselageInput, InitialInput, MassErrors, SceneInput, WheelInput, WheelMode,
-};
+use super::input::SceneInput;
+use super::schema::{ActuatorsInput, DebrisInput, FuselageInput, InitialInput, MassErrors, WheelInput, WheelMode};
 use core::f64::consts::PI;
 
 /// The report's scene: bodies of Table II, initial state of Table I, no force.

@@ -12,7 +12,7 @@ use spindrift::run::Status;
 use spindrift::run::{Grid, StateField, StateTable};
 use spindrift::sampling::dispersions::Draws;
 use spindrift::sampling::{Design, Dispersion, DispersionError, Dispersions, Law, SampleId, Spread, Values};
-use spindrift::scene::parameter::Kind as ParameterKind;
+use spindrift::scene::parameter::Shape as ParameterShape;
 use spindrift::scene::{DebrisInput, Parameter, PrincipalInertia, PrincipalMoments, Scene, SceneInput};
 
 /// Horizon, s.
@@ -149,7 +149,7 @@ fn every_key_moves_the_motion_and_both_kernels_agree_where_to() {
         for component in 0..parameter.width() {
             let name = parameter.component_name(component);
             let (scene, recorded) = drawn(parameter, component, nominal);
-            let whole = parameter.kind() == ParameterKind::Quaternion;
+            let whole = parameter.shape() == ParameterShape::Quaternion;
             assert_eq!(recorded.len(), if whole { 4 } else { 1 }, "{name}");
             for (parameter, component, value) in recorded {
                 assert_eq!(

@@ -1,0 +1,357 @@
+//! [`Section`]: one table of a [`Document`] while it is read, key by key.
+
+use super::document::Document;
+use super::problem::nearest;
+use crate::sampling::Values;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+/// What a number may be.
+#[derive(Clone, Copy, Debug)]
+pub struct Limit {
+    /// In words, to follow `must be`.
+    pub allowed: &'static str,
+    /// What to do otherwise.
+    pub remedy: &'static str,
+    /// Whether a number is allowed.
+    pub test: fn(f64) -> bool,
+}
+
+/// Any finite number.
+pub const FINITE: Limit =
+    Limit { allowed: "a finite number", remedy: "write a number such as 1.5", test: |x| x.is_finite() };
+/// A number above zero.
+pub const POSITIVE: Limit =
+    Limit { allowed: "a number > 0", remedy: "write a positive number", test: |x| x.is_finite() && x > 0.0 };
+
+/// One table of a document while it is read.
+#[derive(Debug)]
+pub struct Section<'d, 'a> {
+    /// Where problems go.
+    pub document: &'d mut Document<'a>,
+    path: String,
+    table: Option<&'d DeTable<'a>>,
+    known: Vec<&'static str>,
+}
+
+impl<'d, 'a> Section<'d, 'a> {
+    /// The whole document.
+    pub fn root(document: &'d mut Document<'a>, table: &'d DeTable<'a>) -> Self {
+        Section { document, path: String::new(), table: Some(table), known: Vec::new() }
+    }
+
+    /// The dotted path of a key of this table.
+    pub fn path(&self, key: &str) -> String {
+        if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) }
+    }
+
+    /// Whether the table was written.
+    pub fn is_present(&self) -> bool {
+        self.table.is_some()
+    }
+
+    /// Whether `key` was written.
+    pub fn has(&self, key: &str) -> bool {
+        self.table.is_some_and(|table| table.contains_key(key))
+    }
+
+    /// The value of `key` if it was written; the key is known from now on, and so is its line.
+    pub(super) fn take(&mut self, key: &'static str) -> Option<&'d Spanned<DeValue<'a>>> {
+        self.know(key);
+        self.table?.get(key)
+    }
+
+    /// Makes `key` a key of this table.
+    pub(super) fn know(&mut self, key: &'static str) {
+        self.known.push(key);
+        self.note_line(key);
+    }
+
+    /// Remembers the line of `key`, if it was written.
+    fn note_line(&mut self, key: &str) {
+        if let Some((name, _)) = self.table.and_then(|table| table.get_key_value(key)) {
+            let line = self.document.line_at(name.span().start);
+            self.document.lines.insert(self.path(key), line);
+        }
+    }
+
+    /// Notes that `value`, which `key` led to, is wrong.
+    pub fn refuse_value(&mut self, key: &str, value: String, allowed: impl Into<String>, remedy: impl Into<String>) {
+        self.note_line(key);
+        let path = self.path(key);
+        self.document.add(&path, Some(value), allowed, remedy);
+    }
+
+    /// Notes that the value of `key` is wrong.
+    pub fn refuse(&mut self, key: &str, allowed: impl Into<String>, remedy: impl Into<String>) {
+        let value = self.table.and_then(|table| table.get(key)).map(|value| self.document.written(value));
+        self.note_line(key);
+        let path = self.path(key);
+        self.document.add(&path, value, allowed, remedy);
+    }
+
+    /// The table called `key`; one that was not written reads as empty.
+    pub fn section(&mut self, key: &'static str) -> Section<'_, 'a> {
+        let path = self.path(key);
+        let table = match self.take(key).map(Spanned::get_ref) {
+            Some(DeValue::Table(table)) => Some(table),
+            Some(_) => {
+                self.refuse(key, "a table", format!("write [{path}] on a line of its own, and its keys below"));
+                None
+            }
+            None => None,
+        };
+        Section { document: &mut *self.document, path, table, known: Vec::new() }
+    }
+
+    /// The tables `[[key]]`, in order, each read by `read`.
+    pub fn sections<T>(&mut self, key: &'static str, mut read: impl FnMut(&mut Section<'_, 'a>) -> T) -> Vec<T> {
+        let Some(value) = self.take(key) else { return Vec::new() };
+        let tables: Option<Vec<_>> = value.get_ref().as_array().and_then(|list| {
+            list.iter().map(|item| item.get_ref().as_table().map(|table| (item.span().start, table))).collect()
+        });
+        let Some(tables) = tables else {
+            self.refuse(key, "a list of tables", format!("write [[{key}]] with two brackets"));
+            return Vec::new();
+        };
+        let mut list = Vec::with_capacity(tables.len());
+        for (index, (start, table)) in tables.into_iter().enumerate() {
+            let path = format!("{}[{index}]", self.path(key));
+            let line = self.document.line_at(start);
+            self.document.lines.insert(path.clone(), line);
+            let mut section = Section { document: &mut *self.document, path, table: Some(table), known: Vec::new() };
+            list.push(read(&mut section));
+        }
+        list
+    }
+
+    /// Notes that `key` is missing, unless it was written (and is wrong in another way).
+    pub fn require(&mut self, key: &'static str, allowed: &str, example: &str) {
+        let is_reported = !self.is_present() && self.document.is_reported(&self.path);
+        if !self.has(key) && !is_reported {
+            let remedy = if self.path.ends_with(']') {
+                format!("add {key} = {example} to this table")
+            } else {
+                format!("add {key} = {example} to [{}]", self.path)
+            };
+            let path = self.path(key);
+            self.document.add(&path, None, allowed, remedy);
+        }
+    }
+
+    /// A number, if it was written and is allowed.
+    pub fn number(&mut self, key: &'static str, limit: Limit) -> Option<f64> {
+        let value = self.take(key)?;
+        match number(value.get_ref()) {
+            Some(number) if (limit.test)(number) => Some(number),
+            Some(_) => {
+                self.refuse(key, limit.allowed, limit.remedy);
+                None
+            }
+            None => {
+                self.refuse(key, limit.allowed, remedy_for_text(value.get_ref()));
+                None
+            }
+        }
+    }
+
+    /// Notes that `key`, of `count` numbers, is missing, unless it was written.
+    pub(super) fn require_numbers(&mut self, key: &'static str, count: usize, example: &str) {
+        self.require(key, &numbers_in_words(count), example);
+    }
+
+    /// Fills `numbers` with the finite numbers of `key`: one, a list, or for nine of them three rows; whether the key was
+    /// written. What is wrong is noted, and the numbers are then NaN.
+    pub(super) fn fill(&mut self, key: &'static str, numbers: &mut [f64]) -> bool {
+        let Some(value) = self.take(key) else { return false };
+        let found = match numbers.len() {
+            1 => number(value.get_ref()).map(|number| vec![number]),
+            9 => rows_of_three(value.get_ref()),
+            _ => list(value.get_ref()),
+        };
+        match found.filter(|found| found.len() == numbers.len() && found.iter().all(|x| x.is_finite())) {
+            Some(found) => numbers.copy_from_slice(&found),
+            None => {
+                let remedy = match numbers.len() {
+                    1 if number(value.get_ref()).is_some() => FINITE.remedy.to_owned(),
+                    1 => remedy_for_text(value.get_ref()).to_owned(),
+                    9 => "write it like [[3, 0, 0], [0, 3, 0], [0, 0, 2]]".to_owned(),
+                    count => format!("write it like [{}]", vec!["0"; count].join(", ")),
+                };
+                self.refuse(key, numbers_in_words(numbers.len()), remedy);
+                numbers.fill(f64::NAN);
+            }
+        }
+        true
+    }
+
+    /// `N` finite numbers, if they were written; NaN each where they are wrong.
+    pub fn vector<const N: usize>(&mut self, key: &'static str) -> Option<[f64; N]> {
+        let mut vector = [f64::NAN; N];
+        self.fill(key, &mut vector).then_some(vector)
+    }
+
+    /// A 3x3 matrix of finite numbers by rows, if it was written; NaN where it is wrong.
+    pub fn matrix(&mut self, key: &'static str) -> Option<[[f64; 3]; 3]> {
+        let mut matrix = [[f64::NAN; 3]; 3];
+        self.fill(key, matrix.as_flattened_mut()).then_some(matrix)
+    }
+
+    /// One finite number, or an array of them, if written.
+    pub fn values(&mut self, key: &'static str) -> Option<Values> {
+        let value = self.take(key)?;
+        let values = match value.get_ref() {
+            DeValue::Array(_) => list(value.get_ref()).map(Values::Each),
+            single => number(single).map(Values::All),
+        };
+        let finite = |values: &Values| match values {
+            Values::All(x) => x.is_finite(),
+            Values::Each(list) => list.iter().all(|x| x.is_finite()),
+        };
+        if !values.as_ref().is_some_and(finite) {
+            self.refuse(
+                key,
+                "a finite number, or an array of one for each component",
+                remedy_for_text(value.get_ref()),
+            );
+            return None;
+        }
+        values
+    }
+
+    /// A whole number within `range`, if it was written.
+    pub fn count(&mut self, key: &'static str, range: std::ops::RangeInclusive<u64>) -> Option<u64> {
+        let value = self.take(key)?;
+        let count = value.get_ref().as_integer().and_then(|x| u64::from_str_radix(x.as_str(), x.radix()).ok());
+        if let Some(count) = count.filter(|count| range.contains(count)) {
+            return Some(count);
+        }
+        let remedy = match value.get_ref() {
+            DeValue::Float(_) => "write it without a decimal point or exponent",
+            DeValue::Integer(_) => "write a number within this range",
+            other => remedy_for_text(other),
+        };
+        self.refuse(key, format!("a whole number from {} to {}", range.start(), range.end()), remedy);
+        None
+    }
+
+    /// Text, if it was written.
+    pub fn text(&mut self, key: &'static str) -> Option<&'d str> {
+        let value = self.take(key)?;
+        let text = value.get_ref().as_str();
+        if text.is_none() {
+            self.refuse(key, "text", "write it in quotes");
+        }
+        text
+    }
+
+    /// One of the names that `parse` knows, if it was written.
+    pub fn name<T>(&mut self, key: &'static str, names: &[&str], parse: impl Fn(&str) -> Option<T>) -> Option<T> {
+        let text = self.text(key)?;
+        let parsed = parse(text);
+        if parsed.is_none() {
+            let (allowed, remedy) = choice(text, names);
+            self.refuse(key, allowed, remedy);
+        }
+        parsed
+    }
+
+    /// A list of different names that `parse` knows, if it was written.
+    pub fn names<T: PartialEq>(
+        &mut self,
+        key: &'static str,
+        names: &[&str],
+        parse: impl Fn(&str) -> Option<T>,
+    ) -> Option<Vec<T>> {
+        let value = self.take(key)?;
+        let texts: Option<Vec<&str>> =
+            value.get_ref().as_array().and_then(|list| list.iter().map(|item| item.get_ref().as_str()).collect());
+        let Some(texts) = texts else {
+            self.refuse(key, "an array of names", format!("write it like [{:?}]", names[0]));
+            return None;
+        };
+        let mut parsed = Vec::with_capacity(texts.len());
+        for text in texts {
+            match parse(text) {
+                Some(item) if parsed.contains(&item) => {
+                    self.refuse(key, "different names", format!("delete the second {text:?}"));
+                    return None;
+                }
+                Some(item) => parsed.push(item),
+                None => {
+                    let (allowed, remedy) = choice(text, names);
+                    self.refuse(key, format!("made of names, each {allowed}"), remedy);
+                    return None;
+                }
+            }
+        }
+        if parsed.is_empty() {
+            self.refuse(key, "at least one name", "leave the key out for all of them");
+            return None;
+        }
+        Some(parsed)
+    }
+
+    /// Notes every key that was written and not asked for.
+    pub fn finish(&mut self) {
+        let Some(table) = self.table else { return };
+        for name in table.keys() {
+            let name = name.get_ref();
+            if self.known.iter().any(|known| known == name) {
+                continue;
+            }
+            let remedy = match nearest(name, self.known.iter().copied()) {
+                Some(meant) => format!("did you mean {meant}?"),
+                None => "delete it".to_owned(),
+            };
+            let place = if self.path.is_empty() { "this file".to_owned() } else { format!("[{}]", self.path) };
+            self.refuse(name, format!("a key of {place} ({})", self.known.join(", ")), remedy);
+        }
+    }
+}
+
+/// What a name must be, and which one was probably meant.
+pub fn choice(written: &str, names: &[&str]) -> (String, String) {
+    let remedy = match nearest(written, names.iter().copied()) {
+        Some(meant) => format!("did you mean {meant:?}?"),
+        None => "choose one of these".to_owned(),
+    };
+    (format!("one of {}", names.join(", ")), remedy)
+}
+
+/// The number that an integer or a float stands for; NaN and infinities too.
+pub(super) fn number(value: &DeValue<'_>) -> Option<f64> {
+    match value {
+        DeValue::Float(float) => float.as_str().parse().ok(),
+        DeValue::Integer(integer) => i128::from_str_radix(integer.as_str(), integer.radix()).ok().map(|x| x as f64),
+        _ => None,
+    }
+}
+
+/// A list of numbers.
+fn list(value: &DeValue<'_>) -> Option<Vec<f64>> {
+    value.as_array()?.iter().map(|item| number(item.get_ref())).collect()
+}
+
+/// Three lists of three numbers, one after the other.
+fn rows_of_three(value: &DeValue<'_>) -> Option<Vec<f64>> {
+    let rows: Option<Vec<Vec<f64>>> = value.as_array()?.iter().map(|item| list(item.get_ref())).collect();
+    rows.filter(|rows| rows.len() == 3 && rows.iter().all(|row| row.len() == 3)).map(|rows| rows.concat())
+}
+
+/// What a value of `count` numbers must be.
+fn numbers_in_words(count: usize) -> String {
+    match count {
+        1 => FINITE.allowed.to_owned(),
+        9 => "three rows of three finite numbers".to_owned(),
+        count => format!("an array of {count} finite numbers"),
+    }
+}
+
+fn remedy_for_text(value: &DeValue<'_>) -> &'static str {
+    match value {
+        DeValue::String(text) if text.trim().parse::<f64>().is_ok() => "write it without quotes",
+        DeValue::Array(_) => "write one number, without brackets",
+        _ => "write a number",
+    }
+}

@@ -1,0 +1,68 @@
+//! `[actuators]`: what the actuators make of what the schedule commands.
+
+use super::fuselage::{AXES, SCALAR};
+use super::numbers::Numbers;
+use super::rows::rows;
+use super::wheel::XY;
+use super::{Key, Limit};
+use crate::scene::error::Problems;
+use crate::scene::input::SceneInput;
+
+const WHEELS: &[&[&str]] = &[&["1", "2"]];
+
+const REMEDY: &str = "add [[actuation]] tables, or the wheel's";
+
+rows! {
+    /// What the actuators make of what the schedule commands; as a whole, for all of its arcs.
+    pub struct ActuatorsInput in Actuators ["actuators"], actuators, actuators_mut {
+    thrust_scale: [f64; 3] = [1.0; 3], "1", "Factors of the thrusts P1, P2, P3, never negative", AXES, Plain,
+        Limit::Thrust("write zero for a thruster that does not work"), (optional), schedule_acts, REMEDY;
+    thruster1_tilt_rad: [f64; 2] = [0.0; 2], "rad",
+        "Misalignment of P1: components along s1 and s2 of the rotation vector that turns the nominal direction of its thrust into the true one",
+        XY, Plain, Limit::Finite, (optional), schedule_acts, REMEDY;
+    thruster2_tilt_rad: [f64; 2] = [0.0; 2], "rad", "Misalignment of P2, like that of P1", XY, Plain, Limit::Finite,
+        (optional), schedule_acts, REMEDY;
+    thruster3_tilt_rad: [f64; 2] = [0.0; 2], "rad", "Misalignment of P3, like that of P1", XY, Plain, Limit::Finite,
+        (optional), schedule_acts, REMEDY;
+    switch_on_delay_s: f64 = 0.0, "s",
+        "How much later than commanded arcs start; one that would start before the run starts with it", SCALAR, Plain,
+        Limit::Finite, (optional), schedule_acts, REMEDY;
+    switch_off_delay_s: f64 = 0.0, "s",
+        "How much later than commanded arcs end; where one arc starts as another ends there is one switch, which is late by switch_on_delay_s",
+        SCALAR, Plain, Limit::Finite, (optional), schedule_acts, REMEDY;
+    torque_scale: [f64; 2] = [1.0; 2], "1", "Factors of the motor torques", WHEELS, Plain, Limit::Finite, (optional),
+        motor_acts, REMEDY;
+    torque_bias_n_m: [f64; 2] = [0.0; 2], "N m",
+        "What a motor gives beyond the scaled torque while a torque other than zero is commanded", WHEELS, Plain,
+        Limit::Finite, (optional), motor_acts, REMEDY;
+    } beside {}
+}
+
+impl ActuatorsInput {
+    /// Actuators that do as they are told.
+    pub const IDEAL: ActuatorsInput = ActuatorsInput::DEFAULT;
+
+    /// The misalignments of P1, P2, P3, rad.
+    pub fn tilts_rad(&self) -> [[f64; 2]; 3] {
+        [self.thruster1_tilt_rad, self.thruster2_tilt_rad, self.thruster3_tilt_rad]
+    }
+}
+
+/// The rows of `[actuators]`.
+pub(super) const KEYS: &[&[Key]] = &[ActuatorsInput::ROWS];
+
+fn actuators(scene: &SceneInput, _: usize) -> Option<&ActuatorsInput> {
+    Some(&scene.actuators)
+}
+
+fn actuators_mut(scene: &mut SceneInput, _: usize) -> Option<&mut ActuatorsInput> {
+    Some(&mut scene.actuators)
+}
+
+fn schedule_acts(scene: &SceneInput, _: usize, _: usize) -> bool {
+    !scene.actuation.is_empty()
+}
+
+fn motor_acts(scene: &SceneInput, _: usize, wheel: usize) -> bool {
+    !scene.actuation.is_empty() && scene.wheels[wheel].is_some()
+}

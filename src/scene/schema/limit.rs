@@ -1,0 +1,157 @@
+//! [`Limit`]: what the numbers of one key must satisfy.
+
+use crate::math::symmetric::{is_positive_definite, principal_axes};
+use crate::scene::error::Problems;
+use std::borrow::Cow;
+
+/// How far the norm of a written attitude quaternion may be from one: six written digits make 1e-6; it is then normalised.
+pub const UNIT_NORM_TOLERANCE: f64 = 1e-6;
+
+/// Slack of symmetry and triangle inequality, relative to the trace: the rounding of a tensor that was computed elsewhere
+/// (rotated, shifted to another centre), and no more.
+pub const INERTIA_SLACK: f64 = 16.0 * f64::EPSILON;
+
+/// What the numbers of a key must satisfy; all must be finite.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Limit {
+    /// Nothing else.
+    Finite,
+    /// Above zero.
+    Positive,
+    /// Zero or above.
+    NotNegative,
+    /// A thrust or a factor of one: zero or above. The remedy says what to write.
+    Thrust(&'static str),
+    /// A quaternion of norm one, to [`UNIT_NORM_TOLERANCE`].
+    UnitQuaternion,
+    /// An inertia tensor about a centre of mass: symmetric, positive definite, triangle inequality, to [`INERTIA_SLACK`].
+    Inertia,
+    /// Principal moments of inertia: above zero, none above the sum of the other two.
+    PrincipalMoments,
+}
+
+impl Limit {
+    /// The limit in words, to follow "must be".
+    pub const fn words(self) -> &'static str {
+        match self {
+            Limit::Finite => "finite",
+            Limit::Positive => "above zero",
+            Limit::NotNegative | Limit::Thrust(_) => "zero or above",
+            Limit::UnitQuaternion => "a quaternion of norm 1",
+            Limit::Inertia => "symmetric, positive definite, no principal moment above the sum of the other two",
+            Limit::PrincipalMoments => "above zero, no moment above the sum of the other two",
+        }
+    }
+
+    /// Notes what is wrong with the numbers of `key`.
+    #[inline(always)]
+    pub(in crate::scene) fn check(self, key: impl Fn() -> Cow<'static, str>, numbers: &[f64], problems: &mut Problems) {
+        if !numbers.iter().all(|number| number.is_finite()) {
+            return not_finite(key(), numbers, problems);
+        }
+        let each = |scalar: &'static str, several: &'static str| if numbers.len() == 1 { scalar } else { several };
+        match self {
+            Limit::Finite => {}
+            Limit::Positive => {
+                if !numbers.iter().all(|number| *number > 0.0) {
+                    let remedy = each("write a positive number", "write positive numbers");
+                    problems.add(key(), shown(numbers), each("above zero", "above zero, each"), remedy);
+                }
+            }
+            Limit::NotNegative => {
+                if !numbers.iter().all(|number| *number >= 0.0) {
+                    let remedy = each("write zero or a positive number", "write zero or positive numbers");
+                    problems.add(key(), shown(numbers), each("zero or above", "zero or above, each"), remedy);
+                }
+            }
+            Limit::Thrust(remedy) => {
+                if !numbers.iter().all(|number| *number >= 0.0) {
+                    problems.add(key(), shown(numbers), "zero or above, each: a thruster does not pull", remedy);
+                }
+            }
+            Limit::UnitQuaternion => unit_quaternion(key, numbers, problems),
+            Limit::Inertia => inertia(key, numbers, problems),
+            Limit::PrincipalMoments => principal_moments(key, numbers, problems),
+        }
+    }
+}
+
+/// Notes that not all numbers of `key` are finite. Out of line, so that a draw without a problem runs straight through.
+#[cold]
+#[inline(never)]
+fn not_finite(key: Cow<'static, str>, numbers: &[f64], problems: &mut Problems) {
+    let (allowed, remedy) = match numbers.len() {
+        1 => ("a finite number", "write a finite number"),
+        9 => ("nine finite numbers", "write finite numbers"),
+        _ => ("finite numbers", "write finite numbers"),
+    };
+    problems.add(key, shown(numbers), allowed, remedy);
+}
+
+/// The numbers as in a campaign file: one, a list, or for nine of them three rows.
+pub fn shown(numbers: &[f64]) -> String {
+    match numbers {
+        [number] => format!("{number:?}"),
+        [_, _, _, _, _, _, _, _, _] => format!("{:?}", numbers.chunks(3).collect::<Vec<_>>()),
+        list => format!("{list:?}"),
+    }
+}
+
+#[inline(always)]
+fn unit_quaternion(key: impl Fn() -> Cow<'static, str>, q: &[f64], problems: &mut Problems) {
+    let norm = q.iter().map(|x| x * x).sum::<f64>().sqrt();
+    if (norm - 1.0).abs() > UNIT_NORM_TOLERANCE {
+        let allowed = format!("a quaternion of norm 1 within {UNIT_NORM_TOLERANCE:?} (its norm is {norm:?})");
+        problems.add(key(), shown(q), allowed, "divide the four numbers by the norm");
+    }
+}
+
+fn principal_moments(key: impl Fn() -> Cow<'static, str>, numbers: &[f64], problems: &mut Problems) {
+    let &[a, b, c] = numbers else { return };
+    if numbers.iter().any(|moment| *moment <= 0.0) {
+        problems.add(key(), shown(numbers), "above zero, each", "write positive numbers");
+        return;
+    }
+    let slack = INERTIA_SLACK * (a + b + c);
+    if a > b + c + slack || b > a + c + slack || c > a + b + slack {
+        problems.add(
+            key(),
+            shown(numbers),
+            "such that no moment exceeds the sum of the other two",
+            "no distribution of mass has these moments; principal_second_moments_kg_m2 cannot fail in this way",
+        );
+    }
+}
+
+fn inertia(key: impl Fn() -> Cow<'static, str>, numbers: &[f64], problems: &mut Problems) {
+    let &[xx, xy, xz, yx, yy, yz, zx, zy, zz] = numbers else { return };
+    let tensor = [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]];
+    let slack = INERTIA_SLACK * (xx.abs() + yy.abs() + zz.abs());
+    if [(xy, yx), (xz, zx), (yz, zy)].iter().any(|(upper, lower)| (upper - lower).abs() > slack) {
+        problems.add(
+            key(),
+            shown(numbers),
+            "symmetric",
+            "write products of inertia equal on both sides of the diagonal",
+        );
+        return;
+    }
+    let (moments, _) = principal_axes(tensor);
+    let largest = moments.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let smallest = moments.iter().copied().fold(f64::INFINITY, f64::min);
+    if smallest <= 0.0 || !is_positive_definite(tensor) {
+        problems.add(
+            key(),
+            shown(numbers),
+            format!("positive definite (its principal moments are {moments:?})"),
+            "check signs; products of inertia are minus the integrals of x y",
+        );
+    } else if largest > (moments[0] + moments[1] + moments[2] - largest) + slack {
+        problems.add(
+            key(),
+            shown(numbers),
+            format!("such that no principal moment exceeds the sum of the other two (they are {moments:?})"),
+            "no distribution of mass has these moments; check units and the point they refer to",
+        );
+    }
+}
