@@ -1,6 +1,6 @@
 //! The keys of `[[correlate]]` and `[[derive]]` tables.
 
-use super::disperse::{parameter, unknown_parameter};
+use super::parameter::{parameter, unknown_parameter};
 use super::section::Section;
 use crate::sampling::{Correlation, Dependence, Derivation};
 use crate::scene::Parameter;

@@ -1,6 +1,5 @@
 //! [`Lines`]: canonical text while it is written, table by table and key by key.
 
-use crate::sampling::Values;
 use crate::scene::SceneInput;
 use crate::scene::schema::{Table, limit::shown};
 
@@ -20,13 +19,6 @@ impl Lines {
     /// `value` in its Debug form: of floats, lists of floats, whole numbers and plain text that form is TOML.
     pub(super) fn key(&mut self, key: &str, value: impl std::fmt::Debug) {
         self.0.push_str(&format!("{key} = {value:?}\n"));
-    }
-
-    pub(super) fn values(&mut self, key: &str, values: &Values) {
-        match values {
-            Values::All(value) => self.key(key, value),
-            Values::Each(list) => self.key(key, list),
-        }
     }
 
     /// A table of the scene: every key that `scene` has.

@@ -1,7 +1,7 @@
 //! Lists of any length in a [`Section`]: numbers, texts, square matrices.
 
 use super::section::{Section, number};
-use crate::sampling::Levels;
+use crate::sampling::keys::Counts;
 use toml::de::DeValue;
 
 impl Section<'_, '_> {
@@ -40,7 +40,7 @@ impl Section<'_, '_> {
     }
 
     /// A whole number within `range` for all, or a list of them, if it was written.
-    pub fn counts(&mut self, key: &'static str, range: std::ops::RangeInclusive<u64>) -> Option<Levels> {
+    pub fn counts(&mut self, key: &'static str, range: std::ops::RangeInclusive<u64>) -> Option<Counts> {
         let value = self.take(key)?;
         let count = |value: &DeValue<'_>| {
             let count = value.as_integer().and_then(|x| u64::from_str_radix(x.as_str(), x.radix()).ok());
@@ -48,9 +48,9 @@ impl Section<'_, '_> {
         };
         let counts = match value.get_ref() {
             DeValue::Array(list) => {
-                list.iter().map(|item| count(item.get_ref())).collect::<Option<_>>().map(Levels::Each)
+                list.iter().map(|item| count(item.get_ref())).collect::<Option<_>>().map(Counts::Each)
             }
-            single => count(single).map(Levels::All),
+            single => count(single).map(Counts::All),
         };
         if counts.is_none() {
             let allowed = format!("a whole number of at least {}, or an array of them", range.start());

@@ -15,14 +15,17 @@
 pub mod canonical;
 pub mod canonical_draws;
 pub mod data;
+mod data_keys;
 pub mod dependence;
 pub mod design;
 pub mod disperse;
-pub mod disperse_geometric;
 pub mod document;
 pub mod find;
+mod keys;
+pub mod limits;
 mod lines;
 pub mod lists;
+mod parameter;
 pub mod plan;
 pub mod problem;
 mod scene;

@@ -2,8 +2,9 @@
 //! a sample's id.
 
 use super::document::Document;
+use super::limits::{LARGEST_SEED, MAX_SAMPLES};
 use super::problem::{CampaignError, Problem};
-use super::spec::{LARGEST_SEED, MOST_SAMPLES, Spec};
+use super::spec::Spec;
 use crate::observables::Group;
 use crate::ode::Tolerance;
 use crate::propagation::Method;
@@ -161,17 +162,16 @@ fn override_spec(spec: &mut Spec, overrides: Overrides, document: &mut Document<
             document.add(flag, Some(value.to_string()), allowed, "write a number within this range");
         }
     };
-    check("--samples", overrides.samples, 1, MOST_SAMPLES);
+    check("--samples", overrides.samples, 1, MAX_SAMPLES);
     check("--seed", overrides.seed, 0, LARGEST_SEED);
-    if let (Some(samples), Some(written), Some(Design::LatinHypercube)) =
-        (overrides.samples, spec.samples, &spec.design)
+    if let (Some(samples), Some(written), Some(design)) = (overrides.samples, spec.samples, &spec.design)
         && samples != written
+        && let Some([why, remedy]) = design.depends_on_samples()
     {
         let allowed = format!(
-            "left out with design \"latin_hypercube\", whose strata are 1/(samples - 1) wide: with other than the file's \
-             {written} samples every row would be another"
+            "left out with design {:?}, {why}: with other than the file's {written} samples every row would be another",
+            design.name()
         );
-        let remedy = "write samples in the file for a hypercube of that size, or use sobol, whose rows stay";
         document.add("--samples", Some(samples.to_string()), allowed, remedy);
     }
     spec.samples = overrides.samples.or(spec.samples);
@@ -205,7 +205,7 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
     let draws = Draws {
         seed: spec.seed.unwrap_or(0),
         samples: spec.samples,
-        design: spec.design.as_ref().unwrap_or(&Design::Random),
+        design: spec.design.as_ref().unwrap_or(&Design::DEFAULT),
         disperse: &drawn.dispersed.1,
         correlate: &drawn.correlated.1,
         derive: &drawn.derived.1,

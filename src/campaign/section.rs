@@ -292,6 +292,12 @@ impl<'d, 'a> Section<'d, 'a> {
         Some(parsed)
     }
 
+    /// Whether `key` was written and is one of `names`.
+    pub(super) fn is_name_of(&self, key: &str, names: &[&str]) -> bool {
+        let value = self.table.and_then(|table| table.get(key)).and_then(|value| value.get_ref().as_str());
+        value.is_some_and(|name| names.contains(&name))
+    }
+
     /// Notes every key that was written and not asked for.
     pub fn finish(&mut self) {
         let Some(table) = self.table else { return };

@@ -4,8 +4,9 @@
 //! NaN here and noted in the document. What is left out stays `None`: the plan fills it in.
 
 use super::document::Document;
+use super::limits::{FRACTION, LARGEST_SEED, MAX_POINTS, MAX_SAMPLES, TOLERANCE};
 use super::plan::Compression;
-use super::section::{Limit, POSITIVE, Section};
+use super::section::{POSITIVE, Section};
 use super::{dependence, design, disperse, scene};
 use crate::observables::Group;
 use crate::propagation::Method;
@@ -55,26 +56,6 @@ pub struct Spec {
     pub compression: Option<Compression>,
 }
 
-/// Most samples of a campaign: ids stay exact in a double.
-pub const MOST_SAMPLES: u64 = crate::sampling::dispersions::MOST_SAMPLES;
-/// Largest seed: TOML integers are signed.
-pub const LARGEST_SEED: u64 = i64::MAX as u64;
-/// Most observation points of a run: each worker holds the states at all of them (some 40 numbers each).
-pub const MOST_POINTS: u64 = 10_000_000;
-/// Tolerances between a few units in the last place and the point where nothing is accurate any more.
-const TOLERANCE: Limit = Limit {
-    allowed: "a number from 1e-16 to 1e-2",
-    remedy: "1e-10 is a good start",
-    test: |x| (1e-16..=1e-2).contains(&x),
-};
-
-/// A share of the samples.
-pub const FRACTION: Limit = Limit {
-    allowed: "a number from 0 to 1",
-    remedy: "0.01 runs one sample in a hundred again exactly, 1 all of them",
-    test: |x| (0.0..=1.0).contains(&x),
-};
-
 impl Spec {
     /// Reads a document; what is wrong is noted there.
     pub fn read(document: &mut Document<'_>) -> Spec {
@@ -91,14 +72,14 @@ impl Spec {
         }
 
         let design = design::read(&mut root.section("design"));
-        let has_size = matches!(design, None | Some(Design::Grid(_) | Design::OneAtATime(_) | Design::Table(_)));
+        let has_size = design.as_ref().is_none_or(Design::has_size);
 
         let mut section = root.section("campaign");
         let name = name(&mut section);
         if !has_size {
             section.require("samples", "a whole number of at least 1", "1000");
         }
-        let samples = section.count("samples", 1..=MOST_SAMPLES);
+        let samples = section.count("samples", 1..=MAX_SAMPLES);
         section.require("seed", "a whole number of at least 0", "1");
         let seed = section.count("seed", 0..=LARGEST_SEED);
         section.require("duration_s", POSITIVE.allowed, "10.0");
@@ -115,7 +96,7 @@ impl Spec {
         section.finish();
 
         let mut section = root.section("observe");
-        let points = section.count("points", 2..=MOST_POINTS);
+        let points = section.count("points", 2..=MAX_POINTS);
         let groups = section.names("groups", &Group::ALL.map(Group::name), Group::from_name);
         section.finish();
 

@@ -5,12 +5,12 @@ use std::fmt::Write as _;
 use crate::campaign::Plan;
 use crate::ensemble::DrawnScenes;
 use crate::report::number::short;
-use crate::sampling::{Design, Dispersions, Distribution, SampleId, Transform};
+use crate::sampling::{Design, Dispersions, SampleId};
 
-/// Draws behind the percentiles: the 1% and 99% lie within a tenth of the law's spread of their true places.
+/// Draws behind the percentiles: the 1% and 99% lie within a tenth of the distribution's width of their true places.
 const DRAWS: u64 = 10_000;
 
-/// Nominal value, percentiles of the draws, and law of each dispersed number, to `text`; draws again for that.
+/// Nominal value, percentiles of the draws, and distribution of each dispersed number, to `text`; draws again for that.
 ///
 /// # Errors
 /// What writing to `text` returns.
@@ -27,14 +27,14 @@ pub fn table_of(text: &mut String, plan: &Plan, drawn: &DrawnScenes) -> std::fmt
     if columns.is_empty() {
         return writeln!(text, "none: every sample is the nominal scene");
     }
-    if *plan.dispersions.design() != Design::Random {
+    if *plan.dispersions.design() != Design::DEFAULT {
         let dimensions = plan.dispersions.dimensions().len();
         writeln!(text, "design: {}, {} samples, {dimensions} random dimensions", plan.design.name(), plan.samples)?;
     }
     let names: Vec<String> = columns.iter().map(|column| column.parameter.component_name(column.component)).collect();
     let title = format!("parameter, of {} draws (sample 0 is nominal)", drawn.count());
     let width = names.iter().map(String::len).chain([title.len()]).max().unwrap_or(0);
-    writeln!(text, "{title:<width$}  {:>12}  {:>12}{:>12}{:>12}  law", "nominal", "1%", "50%", "99%")?;
+    writeln!(text, "{title:<width$}  {:>12}  {:>12}{:>12}{:>12}  distribution", "nominal", "1%", "50%", "99%")?;
     let percentiles = drawn.percentiles([0.01, 0.5, 0.99]);
     for (index, ((name, column), values)) in names.iter().zip(columns).zip(percentiles).enumerate() {
         write!(text, "{name:<width$}  {:>12}  ", short(column.nominal))?;
@@ -55,40 +55,13 @@ pub fn table_of(text: &mut String, plan: &Plan, drawn: &DrawnScenes) -> std::fmt
 
 /// Where the values of a column come from, in words.
 fn origin(dispersions: &Dispersions, column: usize) -> String {
-    if let Some(law) = dispersions.law_of(column) {
-        law_text(law)
+    if let Some(distribution) = dispersions.distribution_of(column) {
+        distribution.text(&short)
     } else if let Some(expression) = dispersions.expression_of(column) {
         format!("= {expression}")
     } else if dispersions.is_tabled(column) {
         "rows of a file".to_owned()
     } else {
-        "follows its siblings".to_owned()
-    }
-}
-
-/// A law in words.
-fn law_text(law: &Transform) -> String {
-    let law = match law {
-        Transform::Joint(joint) => return joint.text(),
-        Transform::Scalar(law) => law,
-    };
-    // the ends, to the digits shown
-    let [low, high] = [f64::EPSILON, 1.0 - f64::EPSILON].map(|u| short(law.quantile(u)));
-    match law {
-        Distribution::Normal { std, .. } => format!("normal, std {}", short(*std)),
-        Distribution::TruncatedNormal(_) => format!("truncated normal, {low} to {high}"),
-        Distribution::Uniform { min, max } => format!("uniform, {} to {}", short(*min), short(*max)),
-        Distribution::LogNormal { log_std, .. } => format!("log-normal, std of the logarithm {}", short(*log_std)),
-        Distribution::LogUniform { min, max, .. } => format!("log-uniform, {} to {}", short(*min), short(*max)),
-        Distribution::Triangular { min, mode, max } => {
-            format!("triangular, {} to {}, mode {}", short(*min), short(*max), short(*mode))
-        }
-        Distribution::Beta(law) => {
-            let ((min, max), (alpha, beta)) = (law.ends(), law.shapes());
-            format!("beta({}, {}), {} to {}", short(alpha), short(beta), short(min), short(max))
-        }
-        Distribution::Choice(choice) => format!("one of {} values, {low} to {high}", choice.values().len()),
-        Distribution::Empirical(law) => format!("as {} values of a file, {low} to {high}", law.count()),
-        Distribution::Fixed(_) => "fixed".to_owned(),
+        "follows the other components".to_owned()
     }
 }

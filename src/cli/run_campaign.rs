@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use crate::campaign::spec::FRACTION;
+use crate::campaign::limits::FRACTION;
 use crate::campaign::{Overrides, Plan};
 use crate::cli::arguments::CampaignOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};

@@ -1,7 +1,7 @@
-//! [`Copula`]: dependence between the numbers u of several dimensions, whatever their laws (Gaussian copula).
+//! [`Copula`]: dependence between the numbers u of several dimensions, whatever their distributions (Gaussian copula).
 //!
 //! Normal scores z = Phi^-1(u) of independent u become y = L z with the Cholesky factor of the correlation matrix R = L L^T, and
-//! u' = Phi(y) is the input of the distributions. So every marginal law stays what it is, and R is the correlation of the scores: that of the
+//! u' = Phi(y) is the input of the distributions. So every marginal distribution stays what it is, and R is the correlation of the scores: that of the
 //! values where these are normal. A rank correlation rho_s is reached by r = 2 sin(pi rho_s/6) (K. Pearson 1907; W. H. Kruskal,
 //! *J. Am. Stat. Assoc.* 53 (1958) 814).
 //!

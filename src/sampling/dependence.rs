@@ -3,9 +3,9 @@
 
 use super::copula::{Copula, Matrix, nearest_correlation, score_correlation, smallest_negative_eigenvalue};
 use super::dispersions::{Dispersions, Transform};
-use super::distribution::Distribution;
+use super::distribution::{Distribution, Quantile};
+use super::error::{DispersionError, Table, error_of};
 use super::expression::Expression;
-use super::law::{DispersionError, Table, error_of};
 use crate::scene::parameter::Shape;
 use crate::scene::{Parameter, SceneInput};
 
@@ -16,7 +16,7 @@ pub enum Dependence {
     Scores(Matrix),
     /// Spearman's rank correlations (`rank_correlation`).
     Ranks(Matrix),
-    /// Covariances of normal values, whose variances must be those of their laws (`covariance`).
+    /// Covariances of normal values, whose variances must be those of their distributions (`covariance`).
     Covariance(Matrix),
 }
 
@@ -97,20 +97,21 @@ impl Correlation {
             .collect();
         let name = |(parameter, component): (Parameter, usize)| format!("{:?}", parameter.component_name(component));
         let mut dimensions: Vec<usize> = Vec::with_capacity(components.len());
-        let mut laws: Vec<&Distribution> = Vec::with_capacity(components.len());
+        let mut distributions: Vec<&Distribution> = Vec::with_capacity(components.len());
         for component in &components {
-            let law = drawn.law_at(*component).filter(|law| law.map.dimensions() == 1);
-            let Some((law, Transform::Scalar(distribution))) = law.map(|law| (law, &law.map)) else {
-                let allowed = "made of parameters that a [[disperse]] table gives a law of one number each".to_owned();
+            let assigned = drawn.distribution_at(*component).filter(|assigned| assigned.map.dimensions() == 1);
+            let Some((first, Transform::Scalar(distribution))) = assigned.map(|one| (one.first, &one.map)) else {
+                let allowed =
+                    "made of parameters that a [[disperse]] table gives a distribution of one number each".to_owned();
                 return refused("parameters", name(*component), allowed, "disperse it, or take it out of the list");
             };
-            let earlier = drawn.copulas.iter().any(|copula| copula.dimensions.contains(&law.first));
-            if earlier || dimensions.contains(&law.first) {
+            let earlier = drawn.copulas.iter().any(|copula| copula.dimensions.contains(&first));
+            if earlier || dimensions.contains(&first) {
                 let allowed = "correlated in one place".to_owned();
                 return refused("parameters", name(*component), allowed, "put all of its correlations into one matrix");
             }
-            dimensions.push(law.first);
-            laws.push(distribution);
+            dimensions.push(first);
+            distributions.push(distribution);
         }
         let (key, matrix) = match &self.dependence {
             Dependence::Scores(matrix) => ("correlation", matrix),
@@ -132,8 +133,8 @@ impl Correlation {
             }
         }
         let scales = match &self.dependence {
-            Dependence::Covariance(matrix) => deviations(&laws, matrix).map_err(|(place, allowed)| {
-                let remedy = "give it a normal law of that standard deviation, or use correlation";
+            Dependence::Covariance(matrix) => deviations(&distributions, matrix).map_err(|(place, allowed)| {
+                let remedy = "give it a normal distribution of that standard deviation, or use correlation";
                 error_of(
                     Table::Correlate(index),
                     key,
@@ -175,7 +176,7 @@ impl Correlation {
                 let allowed = format!(
                     "positive semidefinite (the smallest eigenvalue of the scores' correlation is {smallest:.6})"
                 );
-                let remedy = "no numbers have these correlations: mend them, or add nearest_psd = true for the nearest that exist";
+                let remedy = "no numbers have these correlations: change them, or add nearest_psd = true for the nearest that exist";
                 return refused(key, format!("{matrix:?}"), allowed, remedy);
             }
             scores = nearest_correlation(&scores);
@@ -184,21 +185,16 @@ impl Correlation {
     }
 }
 
-/// The standard deviations of normal laws whose variances stand on the diagonal of `matrix`; the place of one that does not,
+/// The standard deviations of normal distributions whose variances are on the diagonal of `matrix`; the index of one that is not,
 /// and what it must be.
-fn deviations(laws: &[&Distribution], matrix: &Matrix) -> Result<Vec<f64>, (usize, String)> {
-    laws.iter()
+fn deviations(distributions: &[&Distribution], matrix: &Matrix) -> Result<Vec<f64>, (usize, String)> {
+    distributions
+        .iter()
         .enumerate()
-        .map(|(place, law)| match law {
-            Distribution::Normal { std, .. }
-                if (matrix[place][place] - std * std).abs() <= SAME * std * std && *std > 0.0 =>
-            {
-                Ok(*std)
-            }
-            Distribution::Normal { std, .. } if *std > 0.0 => {
-                Err((place, format!("the variance of its law ({:?})", std * std)))
-            }
-            _ => Err((place, "the variance of a normal law".to_owned())),
+        .map(|(index, distribution)| match distribution.normal_std() {
+            Some(std) if (matrix[index][index] - std * std).abs() <= SAME * std * std && std > 0.0 => Ok(std),
+            Some(std) if std > 0.0 => Err((index, format!("the variance of its distribution ({:?})", std * std))),
+            _ => Err((index, "the variance of a normal distribution".to_owned())),
         })
         .collect()
 }
@@ -228,7 +224,7 @@ impl Dispersions {
             };
             for component in components {
                 let shown = format!("{:?}", parameter.component_name(component));
-                let is_taken = self.law_at((parameter, component)).is_some()
+                let is_taken = self.distribution_at((parameter, component)).is_some()
                     || open.iter().any(|(_, target, ..)| *target == (parameter, component));
                 if !parameter.exists(nominal, component) {
                     refuse("parameter", shown, "a key that the scene has".to_owned(), parameter.remedy());
@@ -276,7 +272,7 @@ impl Dispersions {
                 let (index, target, _, text) = &open[0];
                 let allowed =
                     format!("made of values that do not depend on {} themselves", target.0.component_name(target.1));
-                let remedy = "break the circle: one of them needs a value of its own";
+                let remedy = "break the cycle: one of them needs a value of its own";
                 errors.push(error_of(Table::Derive(*index), "expression", format!("{text:?}"), allowed, remedy));
                 break;
             };
@@ -301,7 +297,7 @@ impl Dispersions {
                     "equal to the nominal {} = {written:?} in the nominal scene",
                     parameter.component_name(component)
                 );
-                let remedy = format!("write the nominal value {at_nominal:?}, or mend the expression");
+                let remedy = format!("write the nominal value {at_nominal:?}, or change the expression");
                 errors.push(error_of(Table::Derive(index), "expression", format!("{at_nominal:?}"), allowed, remedy));
             }
             self.derived.push(derived);

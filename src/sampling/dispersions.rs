@@ -3,16 +3,26 @@
 
 use super::copula::Copula;
 use super::dependence::{Correlation, Derivation, Derived};
-use super::design::levels::Levels;
-use super::design::{Design, Points, saltelli};
-use super::distribution::Distribution;
-use super::joint::Joint;
-use super::law::{DataColumn, Dispersion, DispersionError, Law, Table, error, error_of};
+use super::design::{Design, Dimensions, Points, Size};
+use super::distribution::target::{JointTarget, Target};
+use super::distribution::{Distribution, Joint, Map, Quantile, WrittenDistribution};
+use super::error::{DispersionError, Table, error, error_of};
+use super::keys::DataColumn;
 use super::sampler::Sampler;
-use super::scalar::distributions;
 use crate::scene::parameter::Shape;
 use crate::scene::{Parameter, SceneInput};
 use std::sync::Arc;
+
+/// What a campaign says about one parameter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Dispersion {
+    /// The parameter.
+    pub parameter: Parameter,
+    /// The component that is meant, if not all are.
+    pub component: Option<usize>,
+    /// The distribution of its components: of each alone, or of all together.
+    pub distribution: WrittenDistribution,
+}
 
 /// One number of the scene that a draw writes.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,14 +35,14 @@ pub struct Column {
     pub nominal: f64,
 }
 
-/// A law at its place: which numbers u it takes, and which columns it writes.
+/// A distribution with the numbers u that it takes, and the columns that it writes.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Placed {
-    /// Its first dimension; it takes as many as its law needs, one after the other.
+pub struct Assigned {
+    /// Its first dimension; it takes as many as its distribution needs, one after the other.
     pub first: usize,
-    /// The columns that it writes, in the order of the law's values.
+    /// The columns that it writes, in the order of the distribution's values.
     pub columns: Vec<usize>,
-    /// The law.
+    /// The distribution.
     pub map: Transform,
 }
 
@@ -49,9 +59,16 @@ impl Transform {
     /// Number of u that it takes.
     pub fn dimensions(&self) -> usize {
         match self {
-            Transform::Scalar(Distribution::Fixed(_)) => 0,
-            Transform::Scalar(_) => 1,
+            Transform::Scalar(distribution) => distribution.dimensions(),
             Transform::Joint(joint) => joint.dimensions(),
+        }
+    }
+
+    /// In words; `short` writes a number.
+    pub fn text(&self, short: &dyn Fn(f64) -> String) -> String {
+        match self {
+            Transform::Scalar(distribution) => distribution.text(short),
+            Transform::Joint(joint) => joint.text(short),
         }
     }
 }
@@ -63,9 +80,9 @@ pub struct Draws<'a> {
     pub seed: u64,
     /// Number of samples, sample 0 included; `None` where the file does not say.
     pub samples: Option<u64>,
-    /// How samples are laid out.
+    /// Where the samples are in the unit cube.
     pub design: &'a Design,
-    /// The laws.
+    /// The distributions.
     pub disperse: &'a [Dispersion],
     /// Dependence between them.
     pub correlate: &'a [Correlation],
@@ -80,10 +97,10 @@ pub struct Dispersions {
     samples: u64,
     design: Design,
     pub(super) columns: Vec<Column>,
-    pub(super) laws: Vec<Placed>,
+    pub(super) assigned: Vec<Assigned>,
     /// The name of each dimension.
     pub(super) dimensions: Vec<String>,
-    /// Columns whose values stand in a file, and these values.
+    /// Columns whose values are in a file, and these values.
     pub(super) tabled: Vec<(usize, Arc<[f64]>)>,
     pub(super) copulas: Vec<Copula>,
     pub(super) derived: Vec<Derived>,
@@ -97,7 +114,7 @@ impl Dispersions {
             samples: 1,
             design: draws.design.clone(),
             columns: Vec::new(),
-            laws: Vec::new(),
+            assigned: Vec::new(),
             dimensions: Vec::new(),
             tabled: Vec::new(),
             copulas: Vec::new(),
@@ -107,12 +124,10 @@ impl Dispersions {
         for (index, dispersion) in draws.disperse.iter().enumerate() {
             errors.extend(these.add(index, dispersion, nominal).err());
         }
-        if let Design::Table(columns) = draws.design {
-            for column in columns {
-                errors.extend(these.add_tabled(column, nominal).err());
-            }
+        for column in draws.design.columns() {
+            errors.extend(these.add_tabled(column, nominal).err());
         }
-        // the rest says nothing new where laws are missing
+        // the rest says nothing new where distributions are missing
         if errors.is_empty() {
             for (index, correlation) in draws.correlate.iter().enumerate() {
                 match correlation.copula(index, &these) {
@@ -139,14 +154,14 @@ impl Dispersions {
         self.samples
     }
 
-    /// How samples are laid out.
+    /// Where the samples are in the unit cube.
     pub fn design(&self) -> &Design {
         &self.design
     }
 
-    /// The law that writes a column, if one does: a component of a quaternion may only change with its siblings.
-    pub fn law_of(&self, column: usize) -> Option<&Transform> {
-        self.laws.iter().find(|law| law.columns.contains(&column)).map(|law| &law.map)
+    /// The distribution that writes a column, if one does: a component of a quaternion may only change with the others.
+    pub fn distribution_of(&self, column: usize) -> Option<&Transform> {
+        self.assigned.iter().find(|assigned| assigned.columns.contains(&column)).map(|assigned| &assigned.map)
     }
 
     /// The expression that a column follows, if it does.
@@ -154,7 +169,7 @@ impl Dispersions {
         self.derived.iter().find(|derived| derived.column == column).map(|derived| derived.text.as_str())
     }
 
-    /// Whether a column's values stand in a file.
+    /// Whether a column's values are in a file.
     pub fn is_tabled(&self, column: usize) -> bool {
         self.tabled.iter().any(|(tabled, _)| *tabled == column)
     }
@@ -164,10 +179,10 @@ impl Dispersions {
         &self.dimensions
     }
 
-    /// The law of each dimension: dimensions of one law have one number, counted from zero without gaps.
+    /// The distribution of each dimension: dimensions of one distribution have one number, counted from zero without gaps.
     pub fn factors(&self) -> Vec<usize> {
-        let random = self.laws.iter().filter(|law| law.map.dimensions() > 0);
-        random.enumerate().flat_map(|(factor, law)| vec![factor; law.map.dimensions()]).collect()
+        let random = self.assigned.iter().map(|assigned| assigned.map.dimensions()).filter(|count| *count > 0);
+        random.enumerate().flat_map(|(factor, count)| vec![factor; count]).collect()
     }
 
     /// A sampler for one worker. Allocates; drawing does not.
@@ -177,16 +192,18 @@ impl Dispersions {
 
     /// The points of the design, for one worker.
     pub fn points(&self) -> Points {
-        Points::new(&self.design, self.seed, self.samples, &self.dimensions, &self.factors())
+        let factors = self.factors();
+        let (seed, samples, names) = (self.seed, self.samples, self.dimensions.as_slice());
+        Points::new(&self.design, Dimensions { seed, samples, names, factors: &factors })
     }
 
-    /// The law of a component.
-    pub(super) fn law_at(&self, component: (Parameter, usize)) -> Option<&Placed> {
+    /// The distribution of a component.
+    pub(super) fn distribution_at(&self, component: (Parameter, usize)) -> Option<&Assigned> {
         let column = self.column_of(component)?;
-        self.laws.iter().find(|law| law.columns.contains(&column))
+        self.assigned.iter().find(|assigned| assigned.columns.contains(&column))
     }
 
-    /// The place of a component among the columns.
+    /// The index of a component among the columns.
     pub(super) fn column_of(&self, (parameter, component): (Parameter, usize)) -> Option<usize> {
         self.columns.iter().position(|c| (c.parameter, c.component) == (parameter, component))
     }
@@ -207,7 +224,8 @@ impl Dispersions {
             return refused("a key that the scene has", parameter.remedy());
         }
         let is_taken = |column: usize| self.tabled.iter().any(|(tabled, _)| *tabled == column);
-        if self.law_at((parameter, component)).is_some() || self.column_of((parameter, component)).is_some_and(is_taken)
+        if self.distribution_at((parameter, component)).is_some()
+            || self.column_of((parameter, component)).is_some_and(is_taken)
         {
             return refused("given a value once", "delete its [[disperse]] table, or take it out of parameters");
         }
@@ -229,11 +247,17 @@ impl Dispersions {
         };
         self.check_components(index, parameter, &components, nominal)?;
         let nominals: Vec<f64> = components.iter().filter_map(|c| parameter.value(nominal, *c)).collect();
-        let maps: Vec<(Vec<usize>, Transform)> = match distributions(index, &dispersion.law, &nominals)? {
-            Some(laws) => components.iter().zip(laws).map(|(c, law)| (vec![*c], Transform::Scalar(law))).collect(),
-            None => vec![(components, Transform::Joint(joint(index, dispersion, nominal)?))],
+        let target = Target { index, nominals: &nominals };
+        let maps: Vec<(Vec<usize>, Transform)> = match dispersion.distribution.distributions(&target)? {
+            Some(list) => components.iter().zip(list).map(|(c, one)| (vec![*c], Transform::Scalar(one))).collect(),
+            None => {
+                let component = dispersion.component;
+                let target = JointTarget { index, parameter, component, nominals: &nominals };
+                let joint = dispersion.distribution.joint(&target)?;
+                joint.map(|joint| (components, Transform::Joint(joint))).into_iter().collect()
+            }
         };
-        // a quaternion is normalised as a whole: all of it is recorded, in one place
+        // a quaternion is normalised as a whole: all of it is recorded
         if parameter.shape() == Shape::Quaternion {
             (0..parameter.width()).for_each(|component| {
                 self.column(parameter, component, nominal);
@@ -242,7 +266,7 @@ impl Dispersions {
         for (components, map) in maps {
             let first = self.dimensions.len();
             match &map {
-                Transform::Scalar(Distribution::Fixed(_)) => {}
+                Transform::Scalar(distribution) if distribution.dimensions() == 0 => {}
                 Transform::Scalar(_) => self.dimensions.push(parameter.component_name(components[0])),
                 Transform::Joint(joint) => {
                     let name = |k: usize| format!("{}/{}", parameter.name(), k + 1);
@@ -250,12 +274,12 @@ impl Dispersions {
                 }
             }
             let columns = components.iter().map(|component| self.column(parameter, *component, nominal)).collect();
-            self.laws.push(Placed { first, columns, map });
+            self.assigned.push(Assigned { first, columns, map });
         }
         Ok(())
     }
 
-    /// That the components exist and no law writes them yet.
+    /// That the components exist and no distribution writes them yet.
     fn check_components(
         &self,
         index: usize,
@@ -274,7 +298,7 @@ impl Dispersions {
                 let column = &self.columns[*column];
                 (column.parameter, column.component) == (parameter, **component)
             };
-            self.laws.iter().any(|law| law.columns.iter().any(same))
+            self.assigned.iter().any(|assigned| assigned.columns.iter().any(same))
         };
         match components.iter().find(taken) {
             Some(twice) => refused(
@@ -286,10 +310,10 @@ impl Dispersions {
         }
     }
 
-    /// The place of a component among the columns, where it is added if it is not there.
+    /// The index of a component among the columns, to which it is added if it is not there.
     pub(super) fn column(&mut self, parameter: Parameter, component: usize, nominal: &SceneInput) -> usize {
-        let there = |column: &Column| (column.parameter, column.component) == (parameter, component);
-        self.columns.iter().position(there).unwrap_or_else(|| {
+        let is_it = |column: &Column| (column.parameter, column.component) == (parameter, component);
+        self.columns.iter().position(is_it).unwrap_or_else(|| {
             let nominal = parameter.value(nominal, component).unwrap_or(f64::NAN);
             self.columns.push(Column { parameter, component, nominal });
             self.columns.len() - 1
@@ -297,76 +321,39 @@ impl Dispersions {
     }
 }
 
-/// The law of all components together.
-fn joint(index: usize, dispersion: &Dispersion, nominal: &SceneInput) -> Result<Joint, DispersionError> {
-    let parameter = dispersion.parameter;
-    match &dispersion.law {
-        Law::Geometric(law) => law.joint(index, dispersion, nominal),
-        Law::UniformAttitude if parameter.shape() == Shape::Quaternion && dispersion.component.is_none() => {
-            Ok(Joint::UniformAttitude)
-        }
-        _ => {
-            let name = dispersion.component.map_or(parameter.name().to_owned(), |c| parameter.component_name(c));
-            let allowed = "an attitude as a whole with distribution \"uniform_attitude\"";
-            let remedy = "write \"initial.attitude\" or \"initial.debris_attitude\"";
-            Err(error(index, "parameter", format!("{name:?}"), allowed, remedy))
-        }
-    }
-}
-
 /// The number of samples, where it fits the design.
 fn fitting_samples(design: &Design, samples: Option<u64>, drawn: &Dispersions) -> Result<u64, DispersionError> {
-    let (name, dimensions) = (design.name(), drawn.dimensions.len());
+    let (name, count) = (design.name(), drawn.dimensions.len());
     let refused =
-        |table, key, value: String, allowed: String, remedy: String| Err(error_of(table, key, value, allowed, remedy));
-    if dimensions > design.most_dimensions() {
-        let allowed = format!("a design for {dimensions} random dimensions; this one has {}", design.most_dimensions());
-        let remedy = "disperse fewer numbers, or use random or latin_hypercube".to_owned();
+        |table, key, value: String, allowed: String, remedy: &str| Err(error_of(table, key, value, allowed, remedy));
+    if count > design.max_dimensions() {
+        let allowed = format!("a design for {count} random dimensions; this one has {}", design.max_dimensions());
+        let remedy = "disperse fewer numbers, or use random or latin_hypercube";
         return refused(Table::Design, "kind", format!("{name:?}"), allowed, remedy);
     }
-    if let Design::Grid(Levels::Each(list)) | Design::OneAtATime(Levels::Each(list)) = design
-        && list.len() != dimensions
-    {
-        let allowed = format!("one number, or {dimensions} in an array, as many as random dimensions");
-        let remedy = "write them in the order of the file's [[disperse]] tables".to_owned();
-        return refused(Table::Design, "levels", format!("{list:?}"), allowed, remedy);
+    if let (Some([allowed, remedy]), false) = (design.excludes_correlation(), drawn.copulas.is_empty()) {
+        return refused(Table::Design, "kind", format!("{name:?}"), allowed.to_owned(), remedy);
     }
-    if matches!(design, Design::OneAtATime(_)) && !drawn.copulas.is_empty() {
-        let allowed = "a design in which parameters may vary together, as [[correlate]] asks".to_owned();
-        let remedy = "delete [[correlate]], or use another design".to_owned();
-        return refused(Table::Design, "kind", format!("{name:?}"), allowed, remedy);
-    }
-    let has_size = matches!(design, Design::Grid(_) | Design::OneAtATime(_) | Design::Table(_));
-    let Some(samples) = samples else {
-        // where none is written and none follows, the file is at fault, and says so
-        return match design.points(dimensions).and_then(|points| points.checked_add(1)).filter(|n| *n <= MOST_SAMPLES) {
-            Some(samples) => Ok(samples),
-            None if has_size => {
-                let allowed = format!("a design of at most {MOST_SAMPLES} samples");
-                refused(Table::Design, "levels", name.to_owned(), allowed, "write fewer levels".to_owned())
-            }
-            None => Ok(1),
-        };
-    };
-    if let Some(points) = design.points(dimensions)
-        && samples - 1 > points
-    {
-        let allowed = format!("at most {}: the nominal scene and the {points} points of design {name:?}", points + 1);
-        let remedy = "leave samples out for all of them".to_owned();
-        return refused(Table::Campaign, "samples", samples.to_string(), allowed, remedy);
-    }
-    if let Design::Saltelli = design {
-        let members = saltelli::members(&drawn.factors());
-        if samples > 1 && (samples - 1) % members != 0 {
-            let below = 1 + (samples - 1) / members * members;
-            let allowed =
-                format!("1 and a multiple of {members}: the nominal scene and whole blocks of the laws and two more");
-            let remedy = format!("write {below} or {}", below + members);
-            return refused(Table::Campaign, "samples", samples.to_string(), allowed, remedy);
+    let factors = drawn.factors();
+    let dimensions =
+        Dimensions { seed: drawn.seed, samples: samples.unwrap_or(1), names: &drawn.dimensions, factors: &factors };
+    design.check(dimensions, samples)?;
+    match (samples, design.size(count)) {
+        (None, Size::Points(points)) if points < MAX_SAMPLES => Ok(points + 1),
+        (None, Size::Points(_) | Size::TooMany) => {
+            let allowed = format!("a design of at most {MAX_SAMPLES} samples");
+            refused(Table::Design, "levels", name.to_owned(), allowed, "write fewer levels")
         }
+        // where none is written and none follows, the file is at fault, and its reader says so
+        (None, Size::Any) => Ok(1),
+        (Some(samples), Size::Points(points)) if samples - 1 > points => {
+            let allowed =
+                format!("at most {}: the nominal scene and the {points} points of design {name:?}", points + 1);
+            refused(Table::Campaign, "samples", samples.to_string(), allowed, "leave samples out for all of them")
+        }
+        (Some(samples), _) => Ok(samples),
     }
-    Ok(samples)
 }
 
-/// Most samples of a campaign: ids stay exact in a double.
-pub const MOST_SAMPLES: u64 = 1 << 53;
+/// Largest number of samples of a campaign: ids stay exact in a double.
+pub const MAX_SAMPLES: u64 = 1 << 53;

@@ -3,10 +3,10 @@
 //! What is recorded is what was applied: values are written into the scene, made valid as a whole (a quaternion is
 //! renormalised) and read back. A draw that is physically impossible is not drawn again: the scene refuses it later.
 
-use super::design::{BLOCK, Design, Points};
-use super::dispersions::{Column, Dispersions, Placed, Transform};
-use super::distribution::Distribution;
-use super::joint::{Joint, MOST_COMPONENTS, MOST_DIMENSIONS};
+use super::design::{BLOCK, PointSource, Points};
+use super::dispersions::{Assigned, Column, Dispersions, Transform};
+use super::distribution::traits::{MAX_COMPONENTS, MAX_DIMENSIONS};
+use super::distribution::{Joint, Map, Quantile};
 use super::stream::SampleId;
 use crate::scene::parameter::Shape;
 use crate::scene::{Parameter, SceneInput};
@@ -16,20 +16,20 @@ use crate::scene::{Parameter, SceneInput};
 pub struct Sampler<'a> {
     dispersions: &'a Dispersions,
     points: Points,
-    /// The block of which `values` holds the draws.
+    /// The block whose draws are in `values`.
     block: Option<u64>,
     /// Numbers u of the block, dimension by dimension.
     u: Vec<[f64; BLOCK]>,
     /// Which of these keep their nominal values; only in a design of one at a time.
     nominal: Vec<[bool; BLOCK]>,
-    /// Normal scores of the block, dimension by dimension; those of dimensions that no copula ties mean nothing.
+    /// Normal scores of the block, dimension by dimension; those of dimensions that no copula has mean nothing.
     scores: Vec<[f64; BLOCK]>,
     /// Which dimensions have scores.
-    tied: Vec<bool>,
+    correlated: Vec<bool>,
     /// Values of the block, column by column.
     values: Vec<[f64; BLOCK]>,
-    /// Parameters that change as a whole once they are written.
-    settled: Vec<Parameter>,
+    /// Parameters that are normalised as a whole once they are written.
+    normalised: Vec<Parameter>,
 }
 
 impl<'a> Sampler<'a> {
@@ -41,10 +41,10 @@ impl<'a> Sampler<'a> {
             u: vec![[0.5; BLOCK]; dispersions.dimensions.len()],
             nominal: vec![[false; BLOCK]; dispersions.dimensions.len()],
             scores: vec![[0.0; BLOCK]; dispersions.dimensions.len()],
-            tied: tied(dispersions),
-            // columns that no law writes keep their nominal
+            correlated: correlated(dispersions),
+            // columns that no distribution writes keep their nominal
             values: dispersions.columns.iter().map(|column| [column.nominal; BLOCK]).collect(),
-            settled: settled(dispersions),
+            normalised: normalised(dispersions),
         }
     }
 
@@ -71,7 +71,7 @@ impl<'a> Sampler<'a> {
             column.parameter.set(scene, column.component, values[lane]);
             *applied = values[lane];
         }
-        for parameter in &self.settled {
+        for parameter in &self.normalised {
             parameter.normalise(scene);
             for (applied, column) in applied.iter_mut().zip(columns).filter(|(_, c)| c.parameter == *parameter) {
                 *applied = parameter.value(scene, column.component).unwrap_or(f64::NAN);
@@ -82,24 +82,27 @@ impl<'a> Sampler<'a> {
     /// Draws the samples of `block`.
     fn fill(&mut self, block: u64) {
         self.points.fill(block, &mut self.u);
-        let some_stay = matches!(self.dispersions.design(), Design::OneAtATime(_));
+        let some_stay = self.dispersions.design().leaves_nominal();
         if some_stay {
             self.note_nominals();
         }
         for copula in &self.dispersions.copulas {
             copula.apply(&mut self.u, &mut self.scores);
         }
-        for law in &self.dispersions.laws {
-            match &law.map {
-                Transform::Scalar(Distribution::Fixed(value)) => self.values[law.columns[0]] = [*value; BLOCK],
+        for assigned in &self.dispersions.assigned {
+            let first = assigned.first;
+            match &assigned.map {
+                Transform::Scalar(distribution) if distribution.dimensions() == 0 => {
+                    self.values[assigned.columns[0]] = [distribution.quantile(0.5); BLOCK];
+                }
                 Transform::Scalar(distribution) => {
-                    let values = &mut self.values[law.columns[0]];
-                    match self.tied[law.first].then(|| distribution.of_scores(&self.scores[law.first], values)) {
+                    let values = &mut self.values[assigned.columns[0]];
+                    match self.correlated[first].then(|| distribution.of_scores(&self.scores[first], values)) {
                         Some(true) => {}
-                        _ => distribution.quantiles(&self.u[law.first], values),
+                        _ => distribution.quantiles(&self.u[first], values),
                     }
                 }
-                Transform::Joint(joint) => self.draw_joint(law, joint),
+                Transform::Joint(joint) => self.draw_joint(assigned, joint),
             }
         }
         if some_stay {
@@ -121,22 +124,22 @@ impl<'a> Sampler<'a> {
         self.block = Some(block);
     }
 
-    fn draw_joint(&mut self, law: &Placed, joint: &Joint) {
+    fn draw_joint(&mut self, assigned: &Assigned, joint: &Joint) {
         let dimensions = joint.dimensions();
-        let (mut u, mut values) = ([0.0; MOST_DIMENSIONS], [0.0; MOST_COMPONENTS]);
+        let (mut u, mut values) = ([0.0; MAX_DIMENSIONS], [0.0; MAX_COMPONENTS]);
         for lane in 0..BLOCK {
-            for (u, block) in u.iter_mut().zip(&self.u[law.first..law.first + dimensions]) {
+            for (u, block) in u.iter_mut().zip(&self.u[assigned.first..assigned.first + dimensions]) {
                 *u = block[lane];
             }
             joint.values(&u[..dimensions], &mut values);
-            for (column, value) in law.columns.iter().zip(values) {
+            for (column, value) in assigned.columns.iter().zip(values) {
                 self.values[*column][lane] = value;
             }
         }
     }
 
-    /// Notes where a dimension keeps its nominal value, and puts the middle of its law there: while one dimension of a law of
-    /// several has its turn, the others stand at their middle.
+    /// Notes where a dimension keeps its nominal value, and puts the median there: while one dimension of a
+    /// distribution of several varies, the others are at their median.
     fn note_nominals(&mut self) {
         for (u, nominal) in self.u.iter_mut().zip(&mut self.nominal) {
             for (u, nominal) in u.iter_mut().zip(nominal) {
@@ -148,13 +151,13 @@ impl<'a> Sampler<'a> {
         }
     }
 
-    /// Gives the columns of each law none of whose dimensions has its turn their nominal values.
+    /// Gives the columns of each distribution none of whose dimensions varies their nominal values.
     fn keep_nominals(&mut self) {
-        for law in self.dispersions.laws.iter().filter(|law| law.map.dimensions() > 0) {
-            let dimensions = law.first..law.first + law.map.dimensions();
+        for assigned in self.dispersions.assigned.iter().filter(|assigned| assigned.map.dimensions() > 0) {
+            let dimensions = assigned.first..assigned.first + assigned.map.dimensions();
             for lane in 0..BLOCK {
                 if self.nominal[dimensions.clone()].iter().all(|nominal| nominal[lane]) {
-                    for column in &law.columns {
+                    for column in &assigned.columns {
                         self.values[*column][lane] = self.dispersions.columns[*column].nominal;
                     }
                 }
@@ -163,15 +166,19 @@ impl<'a> Sampler<'a> {
     }
 }
 
-/// Which dimensions a copula ties.
-fn tied(dispersions: &Dispersions) -> Vec<bool> {
-    let mut tied = vec![false; dispersions.dimensions.len()];
-    dispersions.copulas.iter().flat_map(|copula| &copula.dimensions).for_each(|dimension| tied[*dimension] = true);
-    tied
+/// Which dimensions a copula has.
+fn correlated(dispersions: &Dispersions) -> Vec<bool> {
+    let mut correlated = vec![false; dispersions.dimensions.len()];
+    dispersions
+        .copulas
+        .iter()
+        .flat_map(|copula| &copula.dimensions)
+        .for_each(|dimension| correlated[*dimension] = true);
+    correlated
 }
 
 /// The quaternions among the columns, each once.
-fn settled(dispersions: &Dispersions) -> Vec<Parameter> {
+fn normalised(dispersions: &Dispersions) -> Vec<Parameter> {
     let first = |column: &&Column| column.component == 0 && column.parameter.shape() == Shape::Quaternion;
     dispersions.columns.iter().filter(first).map(|column| column.parameter).collect()
 }

@@ -116,7 +116,7 @@ const CASES: &[(&str, &str, &str)] = &[
     (
         "\"dormand_prince\"",
         "\"dormand_price\"",
-        "bad.toml:7: integrator.method = \"dormand_price\": must be one of auto, taylor, dormand_prince, dop853, runge_kutta_4, gauss_legendre_6, reference; did you mean \"dormand_prince\"?",
+        "bad.toml:7: integrator.method = \"dormand_price\": must be one of auto, taylor, dormand_prince, dop853, runge_kutta_4, gauss_legendre_6, null_space; did you mean \"dormand_prince\"?",
     ),
     (
         "\"dormand_prince\"",
@@ -258,7 +258,7 @@ const CASES: &[(&str, &str, &str)] = &[
     (
         "end_s = 3.0",
         "end_s = 0.0",
-        "bad.toml:31: actuation[0].end_s = 0.0: must be later than its start_s = 0.0; end the stretch after its start, or leave it out",
+        "bad.toml:31: actuation[0].end_s = 0.0: must be later than its start_s = 0.0; end the arc after its start, or leave it out",
     ),
     (
         "thrust_n = [100, 0, 0]",
@@ -273,7 +273,7 @@ const CASES: &[(&str, &str, &str)] = &[
     (
         "thrust_n = [100, 0, 0]",
         "thrust_n = [100, 0, 0]\n[[actuation]]\nstart_s = 2.0\nend_s = 4.0",
-        "bad.toml:34: actuation[1].start_s = 2.0: must be no earlier than actuation[0].end_s = 3.0; put the stretches in order, not overlapping",
+        "bad.toml:34: actuation[1].start_s = 2.0: must be no earlier than actuation[0].end_s = 3.0; put the arcs in order, not overlapping",
     ),
     // disperse
     (

@@ -1,7 +1,12 @@
 //! Designs: evenness against plain random draws, what stays when samples or dispersions are added, golden bits.
 
 use spindrift::campaign::{CampaignError, Overrides, Plan};
-use spindrift::sampling::design::{Points, halton::Halton, sobol::Sobol};
+use spindrift::sampling::design::halton::{Halton, HaltonDesign};
+use spindrift::sampling::design::latin::LatinHypercubeDesign;
+use spindrift::sampling::design::random::RandomDesign;
+use spindrift::sampling::design::saltelli::SaltelliDesign;
+use spindrift::sampling::design::sobol::{Sobol, SobolDesign};
+use spindrift::sampling::design::{Dimensions, PointSource, Points};
 use spindrift::sampling::{Design, SampleId, Stream};
 use std::collections::BTreeMap;
 
@@ -254,7 +259,10 @@ fn sequences_integrate_smooth_functions_faster() {
             .iter()
             .map(|n| {
                 let square = |seed: u64| {
-                    let mut points = Points::new(design, seed, n + 1, &names, &[0, 1, 2, 3, 4, 5]);
+                    let mut points = Points::new(
+                        design,
+                        Dimensions { seed, samples: n + 1, names: &names, factors: &[0, 1, 2, 3, 4, 5] },
+                    );
                     let (mut sum, mut u) = (0.0, vec![[0.0; 8]; 6]);
                     for block in 0..=n / 8 {
                         points.fill(block, &mut u);
@@ -271,8 +279,13 @@ fn sequences_integrate_smooth_functions_faster() {
             .collect();
         (slope(&errors), errors[3].1)
     };
-    let [random, latin, sobol, halton] =
-        [Design::Random, Design::LatinHypercube, Design::Sobol, Design::Halton].map(|design| fall(&design));
+    let [random, latin, sobol, halton] = [
+        Design::Random(RandomDesign),
+        Design::LatinHypercube(LatinHypercubeDesign),
+        Design::Sobol(SobolDesign),
+        Design::Halton(HaltonDesign),
+    ]
+    .map(|design| fall(&design));
     println!("slope and rms error at 4096: random {random:?}, latin {latin:?}, sobol {sobol:?}, halton {halton:?}");
     assert!((random.0 + 0.5).abs() < 0.15, "{random:?}");
     assert!(sobol.0 < -0.95 && halton.0 < -0.85, "{sobol:?} {halton:?}");
@@ -288,8 +301,15 @@ fn sequences_integrate_smooth_functions_faster() {
 fn numbers_are_pinned() {
     let names: Vec<String> = ["initial.angular_velocity_rad_s.x", "fuselage.density_kg_m3"].map(str::to_owned).to_vec();
     let mut found = Vec::new();
-    for design in [Design::Random, Design::LatinHypercube, Design::Sobol, Design::Halton, Design::Saltelli] {
-        let mut points = Points::new(&design, 20260101, 4097, &names, &[0, 1]);
+    for design in [
+        Design::Random(RandomDesign),
+        Design::LatinHypercube(LatinHypercubeDesign),
+        Design::Sobol(SobolDesign),
+        Design::Halton(HaltonDesign),
+        Design::Saltelli(SaltelliDesign),
+    ] {
+        let mut points =
+            Points::new(&design, Dimensions { seed: 20260101, samples: 4097, names: &names, factors: &[0, 1] });
         let mut u = [[0.0; 8]; 2];
         let mut at = |sample: u64| {
             points.fill(sample / 8, &mut u);

@@ -11,7 +11,8 @@ use spindrift::propagation::Method;
 use spindrift::run::Status;
 use spindrift::run::{Grid, StateField, StateTable};
 use spindrift::sampling::dispersions::Draws;
-use spindrift::sampling::{Design, Dispersion, DispersionError, Dispersions, Law, SampleId, Spread, Values};
+use spindrift::sampling::distribution::normal::{Normal, Spread};
+use spindrift::sampling::{Design, Dispersion, DispersionError, Dispersions, SampleId, Values, WrittenDistribution};
 use spindrift::scene::parameter::Shape as ParameterShape;
 use spindrift::scene::{DebrisInput, Parameter, PrincipalInertia, PrincipalMoments, Scene, SceneInput};
 
@@ -120,7 +121,7 @@ fn distance(found: &Motion, expected: &Motion) -> f64 {
 
 /// Random draws of `disperse` about `nominal`.
 fn dispersions(nominal: &SceneInput, disperse: &[Dispersion]) -> Result<Dispersions, Vec<DispersionError>> {
-    let design = &Design::Random;
+    let design = &Design::DEFAULT;
     let draws = Draws { seed: 3, samples: Some(2), design, disperse, correlate: &[], derive: &[] };
     Dispersions::new(draws, nominal)
 }
@@ -129,8 +130,8 @@ fn dispersions(nominal: &SceneInput, disperse: &[Dispersion]) -> Result<Dispersi
 fn drawn(parameter: Parameter, component: usize, nominal: &SceneInput) -> (SceneInput, Vec<(Parameter, usize, f64)>) {
     let value = parameter.value(nominal, component).expect("the key exists");
     let std = SPREAD * if value == 0.0 { 1.0 } else { value.abs() };
-    let law = Law::Normal(Spread::Absolute(Values::All(std)));
-    let list = [Dispersion { parameter, component: Some(component), law }];
+    let distribution = WrittenDistribution::Normal(Normal(Spread::Absolute(Values::All(std))));
+    let list = [Dispersion { parameter, component: Some(component), distribution }];
     let drawn = dispersions(nominal, &list).unwrap_or_else(|errors| panic!("{}", errors[0]));
     let (mut scene, mut applied) = (nominal.clone(), vec![f64::NAN; drawn.columns().len()]);
     drawn.sampler().draw(SampleId(1), &mut scene, &mut applied);
@@ -183,8 +184,9 @@ fn a_key_without_effect_is_seen_and_refused() {
     assert_eq!(distance(&motion(Method::Taylor, &denser), &nominal), 0.0);
     for name in ["fuselage.density_kg_m3", "fuselage.wall_thickness_m", "fuselage.outer_radius_m"] {
         let parameter = Parameter::find(name).expect("in the table").0;
-        let law = Law::Normal(Spread::Relative(Values::All(SPREAD)));
-        let errors = dispersions(hidden, &[Dispersion { parameter, component: None, law }]).expect_err("hidden");
+        let distribution = WrittenDistribution::Normal(Normal(Spread::Relative(Values::All(SPREAD))));
+        let errors =
+            dispersions(hidden, &[Dispersion { parameter, component: None, distribution }]).expect_err("hidden");
         assert!(errors[0].to_string().contains("override"), "{}", errors[0]);
     }
 }

@@ -4,23 +4,30 @@
 
 use serde_json::Value;
 use spindrift::math::normal::probability;
-use spindrift::sampling::beta::BetaLaw;
-use spindrift::sampling::discrete::{Choice, Empirical};
-use spindrift::sampling::distribution::TruncatedNormal;
-use spindrift::sampling::{Distribution, Interpolation, SampleId, Stream};
+use spindrift::sampling::distribution::Quantile;
+use spindrift::sampling::distribution::beta::BetaQuantile;
+use spindrift::sampling::distribution::choice::ChoiceQuantile;
+use spindrift::sampling::distribution::empirical::{EmpiricalQuantile, Interpolation};
+use spindrift::sampling::distribution::log_normal::LogNormalQuantile;
+use spindrift::sampling::distribution::log_uniform::LogUniformQuantile;
+use spindrift::sampling::distribution::normal::NormalQuantile;
+use spindrift::sampling::distribution::triangular::TriangularQuantile;
+use spindrift::sampling::distribution::truncated_normal::TruncatedNormalQuantile;
+use spindrift::sampling::distribution::uniform::UniformQuantile;
+use spindrift::sampling::{Distribution, SampleId, Stream};
 
 /// The law that a row of the golden table names.
 fn law(name: &str, p: &[f64]) -> Distribution {
     match name {
-        "normal" => Distribution::Normal { mean: p[0], std: p[1] },
-        "uniform" => Distribution::Uniform { min: p[0], max: p[1] },
-        "log_normal" => Distribution::LogNormal { median: p[0], log_std: p[1] },
-        "log_uniform" => Distribution::log_uniform(p[0], p[1]),
-        "triangular" => Distribution::Triangular { min: p[0], mode: p[1], max: p[2] },
-        "beta" => Distribution::Beta(BetaLaw::new(p[0], p[1], p[2], p[3])),
-        "pert" => Distribution::Beta(BetaLaw::pert(p[0], p[1], p[2])),
+        "normal" => Distribution::Normal(NormalQuantile { mean: p[0], std: p[1] }),
+        "uniform" => Distribution::Uniform(UniformQuantile { min: p[0], max: p[1] }),
+        "log_normal" => Distribution::LogNormal(LogNormalQuantile { median: p[0], log_std: p[1] }),
+        "log_uniform" => Distribution::LogUniform(LogUniformQuantile::new(p[0], p[1])),
+        "triangular" => Distribution::Triangular(TriangularQuantile { min: p[0], mode: p[1], max: p[2] }),
+        "beta" => Distribution::Beta(BetaQuantile::new(p[0], p[1], p[2], p[3])),
+        "pert" => Distribution::Beta(BetaQuantile::pert(p[0], p[1], p[2])),
         "truncated_normal" => Distribution::TruncatedNormal(
-            TruncatedNormal::new(p[0], p[1], p[2], p[3]).expect("mass between the bounds"),
+            TruncatedNormalQuantile::new(p[0], p[1], p[2], p[3]).expect("mass between the bounds"),
         ),
         other => panic!("{other}"),
     }
@@ -86,11 +93,11 @@ fn distance(values: &[f64], law: impl Fn(f64) -> f64) -> f64 {
 #[test]
 fn draws_follow_their_distributions() {
     let log_normal = |median: f64| move |x: f64| probability((x / median).ln() / 0.4);
-    let values = draws(&Distribution::LogNormal { median: 2.5, log_std: 0.4 });
+    let values = draws(&Distribution::LogNormal(LogNormalQuantile { median: 2.5, log_std: 0.4 }));
     assert!(distance(&values, log_normal(2.5)) < CRITICAL);
     assert!(distance(&values, log_normal(2.5 * 1.02)) > CRITICAL, "a median off by 2% is found");
 
-    let values = draws(&Distribution::log_uniform(0.1, 10.0));
+    let values = draws(&Distribution::LogUniform(LogUniformQuantile::new(0.1, 10.0)));
     assert!(distance(&values, |x| (x / 0.1).ln() / 100f64.ln()) < CRITICAL);
     assert!(distance(&values, |x| (x / 0.1).ln() / 103f64.ln()) > CRITICAL, "an end off by 3% is found");
 
@@ -103,19 +110,19 @@ fn draws_follow_their_distributions() {
             }
         }
     };
-    let values = draws(&Distribution::Triangular { min: 1.0, mode: 1.5, max: 4.0 });
+    let values = draws(&Distribution::Triangular(TriangularQuantile { min: 1.0, mode: 1.5, max: 4.0 }));
     assert!(distance(&values, triangle(1.5)) < CRITICAL);
     assert!(distance(&values, triangle(1.55)) > CRITICAL, "a mode off by 2% of the width is found");
 
     // I_x(2, 3) = x^2 (6 - 8 x + 3 x^2)
     let beta = |x: f64| x * x * (6.0 - 8.0 * x + 3.0 * x * x);
-    assert!(distance(&draws(&Distribution::Beta(BetaLaw::new(2.0, 3.0, 0.0, 1.0))), beta) < CRITICAL);
-    assert!(distance(&draws(&Distribution::Beta(BetaLaw::new(2.0, 3.06, 0.0, 1.0))), beta) > CRITICAL);
+    assert!(distance(&draws(&Distribution::Beta(BetaQuantile::new(2.0, 3.0, 0.0, 1.0))), beta) < CRITICAL);
+    assert!(distance(&draws(&Distribution::Beta(BetaQuantile::new(2.0, 3.06, 0.0, 1.0))), beta) > CRITICAL);
     // PERT from 0 to 4 with mode 4/3: shapes 1 + 4/3 and 1 + 8/3; with mode 1: 2 and 4, I_x(2, 4) = 1 - (1-x)^4 (1 + 4 x)
     let pert = |x: f64| 1.0 - (1.0 - x / 4.0).powi(4) * (1.0 + x);
-    assert!(distance(&draws(&Distribution::Beta(BetaLaw::pert(0.0, 1.0, 4.0))), pert) < CRITICAL);
+    assert!(distance(&draws(&Distribution::Beta(BetaQuantile::pert(0.0, 1.0, 4.0))), pert) < CRITICAL);
 
-    let lines = Empirical::new(&[0.0, 1.0, 3.0], Interpolation::Linear);
+    let lines = EmpiricalQuantile::new(&[0.0, 1.0, 3.0], Interpolation::Linear);
     let values = draws(&Distribution::Empirical(lines));
     assert!(distance(&values, |x| if x < 1.0 { x / 2.0 } else { 0.5 + (x - 1.0) / 4.0 }) < CRITICAL);
 }
@@ -126,7 +133,7 @@ fn draws_follow_their_distributions() {
 #[test]
 fn listed_values_come_in_proportion() {
     let counted = |weights: &[f64; 4]| {
-        let values = draws(&Distribution::Choice(Choice::new(&[4.0, 1.0, 3.0, 2.0], weights)));
+        let values = draws(&Distribution::Choice(ChoiceQuantile::new(&[4.0, 1.0, 3.0, 2.0], weights)));
         let count = |value: f64| values.iter().filter(|x| **x == value).count() as f64;
         let expected = [0.1, 0.4, 0.2, 0.3].map(|weight| weight * N as f64);
         let counts = [count(4.0), count(1.0), count(3.0), count(2.0)];
@@ -137,7 +144,7 @@ fn listed_values_come_in_proportion() {
     assert!(counted(&[1.0, 4.0, 2.0, 3.0]) < CRITICAL);
     assert!(counted(&[1.0, 4.1, 2.0, 2.9]) > CRITICAL, "a weight that is off is found");
     // Bernoulli is a choice of two; and an empirical law without interpolation gives every value its share
-    let values = draws(&Distribution::Empirical(Empirical::new(&[1.0, 2.0, 2.0, 5.0], Interpolation::None)));
+    let values = draws(&Distribution::Empirical(EmpiricalQuantile::new(&[1.0, 2.0, 2.0, 5.0], Interpolation::None)));
     let twos = values.iter().filter(|x| **x == 2.0).count() as f64;
     assert!((twos / N as f64 - 0.5).abs() < 3.29 * 0.5 / (N as f64).sqrt());
 }
@@ -146,14 +153,14 @@ fn listed_values_come_in_proportion() {
 #[test]
 fn quantiles_rise() {
     let mut laws: Vec<Distribution> = vec![
-        Distribution::LogNormal { median: 2.5, log_std: 0.4 },
-        Distribution::log_uniform(0.1, 10.0),
-        Distribution::Triangular { min: 1.0, mode: 4.0, max: 4.0 },
-        Distribution::Choice(Choice::new(&[4.0, 1.0], &[0.25, 0.75])),
-        Distribution::Empirical(Empirical::new(&[3.0, 1.0, 2.0], Interpolation::None)),
+        Distribution::LogNormal(LogNormalQuantile { median: 2.5, log_std: 0.4 }),
+        Distribution::LogUniform(LogUniformQuantile::new(0.1, 10.0)),
+        Distribution::Triangular(TriangularQuantile { min: 1.0, mode: 4.0, max: 4.0 }),
+        Distribution::Choice(ChoiceQuantile::new(&[4.0, 1.0], &[0.25, 0.75])),
+        Distribution::Empirical(EmpiricalQuantile::new(&[3.0, 1.0, 2.0], Interpolation::None)),
     ];
     for (a, b) in [(0.01, 0.01), (0.01, 1e4), (1e4, 0.01), (1e4, 1e4), (1.0, 3.0), (0.5, 0.02)] {
-        laws.push(Distribution::Beta(BetaLaw::new(a, b, -1.0, 2.0)));
+        laws.push(Distribution::Beta(BetaQuantile::new(a, b, -1.0, 2.0)));
     }
     for law in laws {
         let ends = [f64::EPSILON / 2.0, 1e-12, 1e-3];

@@ -1,11 +1,14 @@
-//! [`Halton`]: Halton's sequence (*Numer. Math.* 2 (1960) 84), each digit scrambled by a random line.
+//! `halton`: Halton's sequence (*Numer. Math.* 2 (1960) 84), each digit scrambled by a random line.
 //!
 //! The number of a point in the dimension of base b is its radical inverse, in which each digit d becomes a d + c modulo b with a
 //! random slope a > 0 and shift c for each digit's place (J. Matousek, *On the L2-discrepancy for anchored boxes*, J. Complexity 14
-//! (1998) 527): without it neighbouring large bases are correlated. Digits go on beyond those of the point, so that each number
+//! (1998) 527): without it neighbouring large bases are nearly proportional to each other. Digits continue beyond those of the point, so that each number
 //! is uniform, down to about 2^-52.
 
 use super::hash::{below, keyed};
+use super::sobol::MAX_DIMENSIONS;
+use super::traits::{BLOCK, Dimensions, Kind, PointSource, by_point};
+use crate::sampling::keys::{KeyReader, KeyWriter};
 use crate::sampling::stream::key;
 
 /// Number of cells of the finest digit that is scrambled, at most: half a cell is still seen next to one.
@@ -31,7 +34,7 @@ pub struct Halton {
 }
 
 impl Halton {
-    /// The sequence for the dimensions `names`: bases by place (the primes in order), scrambling by seed and name.
+    /// The sequence for the dimensions `names`: bases by position (the primes in order), scrambling by seed and name.
     pub fn new(seed: u64, names: &[String]) -> Self {
         let bases = primes(names.len());
         let dimensions = names.iter().zip(bases).map(|(name, base)| Radix::new(base, key(seed, name, *b"halton  ")));
@@ -92,6 +95,32 @@ fn primes(count: usize) -> Vec<u64> {
         candidate += 1;
     }
     primes
+}
+
+impl PointSource for Halton {
+    fn fill(&mut self, block: u64, u: &mut [[f64; BLOCK]]) {
+        by_point(block, u, |dimension, point| self.number(dimension, point));
+    }
+}
+
+/// Halton's sequence, scrambled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HaltonDesign;
+
+impl Kind for HaltonDesign {
+    const NAME: &'static str = "halton";
+    const MAX_DIMENSIONS: usize = MAX_DIMENSIONS;
+    type Points = Halton;
+
+    fn read(_keys: &mut dyn KeyReader) -> Option<Self> {
+        Some(HaltonDesign)
+    }
+
+    fn write(&self, _keys: &mut dyn KeyWriter) {}
+
+    fn points(&self, dimensions: Dimensions<'_>) -> Halton {
+        Halton::new(dimensions.seed, dimensions.names)
+    }
 }
 
 #[cfg(test)]

@@ -1,19 +1,20 @@
-//! [`LatinHypercube`]: in each dimension one sample in each of n equal strata (M. D. McKay, R. J. Beckman & W. J. Conover,
+//! `latin_hypercube`: in each dimension one sample in each of n equal strata (M. D. McKay, R. J. Beckman & W. J. Conover,
 //! *Technometrics* 21 (1979) 239).
 //!
-//! Which stratum is a sample's, a keyed permutation of 0..n says: a Feistel network over the next even number of bits, walked
+//! The stratum of a sample follows from a keyed permutation of 0..n: a Feistel network over the next even number of bits, walked
 //! until it falls below n (J. Black & P. Rogaway, *Ciphers with arbitrary finite domains*, CT-RSA 2002). So it takes no memory
-//! and any sample is found at once. Within its stratum the sample is where the random design would have put it in the cube.
+//! and any sample is found at once. Within its stratum the sample is where the random design would put it in the cube.
 //! n = samples - 1, since sample 0 is the nominal scene.
 
 use super::hash::keyed;
-use super::{BLOCK, streams};
+use super::traits::{BLOCK, Dimensions, Kind, PointSource, streams};
+use crate::sampling::keys::{KeyReader, KeyWriter};
 use crate::sampling::stream::{Stream, key};
 
-/// Feistel rounds: four make a pseudorandom permutation of an ideal round function (M. Luby & C. Rackoff, 1988); two to spare.
+/// Feistel rounds: four make a pseudorandom permutation of an ideal round function (M. Luby & C. Rackoff, 1988); two more for safety.
 const ROUNDS: usize = 6;
-/// Least bits of half a block: in a small block a Feistel network reaches few of the permutations.
-const LEAST_HALF: u32 = 4;
+/// Minimum number of bits of half a block: in a small block a Feistel network reaches few of the permutations.
+const MIN_HALF: u32 = 4;
 
 /// A permutation of 0..`n`, chosen by a key.
 #[derive(Clone, Debug)]
@@ -28,24 +29,24 @@ impl Permutation {
     pub fn new(n: u64, key: u64) -> Self {
         let bits = u64::BITS - n.saturating_sub(1).leading_zeros();
         let keys = std::array::from_fn(|round| keyed(key, round as u64));
-        Permutation { n, half: bits.div_ceil(2).max(LEAST_HALF), keys }
+        Permutation { n, half: bits.div_ceil(2).max(MIN_HALF), keys }
     }
 
-    /// The image of `place` < n.
-    pub fn image(&self, place: u64) -> u64 {
-        let mut place = place;
+    /// The image of `index` < n.
+    pub fn image(&self, index: u64) -> u64 {
+        let mut image = index;
         loop {
-            place = self.walk(place);
-            if place < self.n {
-                return place;
+            image = self.walk(image);
+            if image < self.n {
+                return image;
             }
         }
     }
 
     /// One walk through the network: a permutation of all numbers of 2 `half` bits.
-    fn walk(&self, place: u64) -> u64 {
+    fn walk(&self, index: u64) -> u64 {
         let mask = (1u64 << self.half) - 1;
-        let (mut left, mut right) = (place >> self.half, place & mask);
+        let (mut left, mut right) = (index >> self.half, index & mask);
         for key in self.keys {
             (left, right) = (right, left ^ (keyed(key, right) >> (u64::BITS - self.half)));
         }
@@ -68,9 +69,10 @@ impl LatinHypercube {
         let permutation = |name: &String| Permutation::new(strata, key(seed, name, *b"latin   "));
         LatinHypercube { strata, permutations: names.iter().map(permutation).collect(), within: streams(seed, names) }
     }
+}
 
-    /// See [`super::Points::fill`].
-    pub fn fill(&mut self, block: u64, u: &mut [[f64; BLOCK]]) {
+impl PointSource for LatinHypercube {
+    fn fill(&mut self, block: u64, u: &mut [[f64; BLOCK]]) {
         /// The largest number below one that a draw can be.
         const LAST: f64 = 1.0 - f64::EPSILON / 2.0;
         let n = self.strata as f64;
@@ -82,6 +84,29 @@ impl LatinHypercube {
                 *u = ((permutation.image(point % self.strata) as f64 + *u) / n).min(LAST);
             }
         }
+    }
+}
+
+/// One sample in each of n equal strata of each dimension.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LatinHypercubeDesign;
+
+impl Kind for LatinHypercubeDesign {
+    const NAME: &'static str = "latin_hypercube";
+    const DEPENDS_ON_SAMPLES: Option<[&'static str; 2]> = Some([
+        "whose strata are 1/(samples - 1) wide",
+        "write samples in the file for a hypercube of that size, or use sobol, whose rows stay",
+    ]);
+    type Points = LatinHypercube;
+
+    fn read(_keys: &mut dyn KeyReader) -> Option<Self> {
+        Some(LatinHypercubeDesign)
+    }
+
+    fn write(&self, _keys: &mut dyn KeyWriter) {}
+
+    fn points(&self, dimensions: Dimensions<'_>) -> LatinHypercube {
+        LatinHypercube::new(dimensions.seed, dimensions.samples, dimensions.names)
     }
 }
 

@@ -1,28 +1,31 @@
-//! [`Saltelli`]: blocks of samples from which first-order and total sensitivity indices are estimated (A. Saltelli et al.,
+//! `saltelli`: blocks of samples from which first-order and total sensitivity indices are estimated (A. Saltelli et al.,
 //! *Variance based sensitivity analysis of model output*, Comput. Phys. Commun. 181 (2010) 259, section 3).
 //!
 //! Two independent points A and B of a scrambled Sobol sequence in twice the dimensions make k + 2 samples, k being the number of
-//! laws: A, then A with the numbers of law 1 from B, ..., of law k from B, then B. So point j is member j mod (k + 2) of block
+//! distributions: A, then A with the numbers of distribution 1 from B, ..., of distribution k from B, then B. So point j is member j mod (k + 2) of block
 //! j div (k + 2), and adding blocks leaves the earlier ones as they are.
 
-use super::sobol::Sobol;
+use super::sobol::{MAX_DIMENSIONS, Sobol};
+use super::traits::{BLOCK, Dimensions, Kind, PointSource, by_point};
+use crate::sampling::error::{DispersionError, Table, error_of};
+use crate::sampling::keys::{KeyReader, KeyWriter};
 
 /// The points of the blocks.
 #[derive(Clone, Debug)]
 pub struct Saltelli {
     sequence: Sobol,
-    /// The law of each dimension.
+    /// The distribution of each dimension.
     factors: Vec<usize>,
     members: u64,
 }
 
-/// Number of samples of a block: that of the laws in `factors` and two.
+/// Number of samples of a block: that of the distributions in `factors` and two.
 pub fn members(factors: &[usize]) -> u64 {
     factors.iter().max().map_or(0, |last| *last as u64 + 1) + 2
 }
 
 impl Saltelli {
-    /// Blocks for the dimensions `names`; dimension i belongs to law `factors[i]`, counted from zero without gaps.
+    /// Blocks for the dimensions `names`; dimension i belongs to distribution `factors[i]`, counted from zero without gaps.
     pub fn new(seed: u64, names: &[String], factors: &[usize]) -> Self {
         let both: Vec<String> = names.iter().cloned().chain(names.iter().map(|name| format!("{name}/B"))).collect();
         Saltelli { sequence: Sobol::new(seed, &both), factors: factors.to_vec(), members: members(factors) }
@@ -33,6 +36,47 @@ impl Saltelli {
         let (block, member) = (point / self.members, point % self.members);
         let from_b = member == self.members - 1 || member == self.factors[dimension] as u64 + 1;
         self.sequence.number(if from_b { dimension + self.factors.len() } else { dimension }, block)
+    }
+}
+
+impl PointSource for Saltelli {
+    fn fill(&mut self, block: u64, u: &mut [[f64; BLOCK]]) {
+        by_point(block, u, |dimension, point| self.number(dimension, point));
+    }
+}
+
+/// Blocks of samples for sensitivity indices.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SaltelliDesign;
+
+impl Kind for SaltelliDesign {
+    const NAME: &'static str = "saltelli";
+    const MAX_DIMENSIONS: usize = MAX_DIMENSIONS / 2;
+    type Points = Saltelli;
+
+    fn read(_keys: &mut dyn KeyReader) -> Option<Self> {
+        Some(SaltelliDesign)
+    }
+
+    fn write(&self, _keys: &mut dyn KeyWriter) {}
+
+    fn check(&self, dimensions: Dimensions<'_>, samples: Option<u64>) -> Result<(), DispersionError> {
+        let members = members(dimensions.factors);
+        match samples {
+            Some(samples) if samples > 1 && (samples - 1) % members != 0 => {
+                let below = 1 + (samples - 1) / members * members;
+                let allowed = format!(
+                    "1 and a multiple of {members}: the nominal scene and whole blocks of the distributions and two more"
+                );
+                let remedy = format!("write {below} or {}", below + members);
+                Err(error_of(Table::Campaign, "samples", samples.to_string(), allowed, remedy))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn points(&self, dimensions: Dimensions<'_>) -> Saltelli {
+        Saltelli::new(dimensions.seed, dimensions.names, dimensions.factors)
     }
 }
 

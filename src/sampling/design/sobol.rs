@@ -1,4 +1,4 @@
-//! [`Sobol`]: Sobol's sequence with the direction numbers of Joe and Kuo and nested uniform scrambling.
+//! `sobol`: Sobol's sequence with the direction numbers of Joe and Kuo and nested uniform scrambling.
 //!
 //! Directions: S. Joe & F. Y. Kuo, *Constructing Sobol sequences with better two-dimensional projections*, SIAM J. Sci. Comput.
 //! 30 (2008) 2635, file new-joe-kuo-6, its first 512 dimensions. Scrambling: A. B. Owen, *Randomly permuted (t,m,s)-nets and
@@ -8,10 +8,12 @@
 //! scrambled sequence is best in 2^m points, which are 2^m + 1 samples with the nominal one.
 
 use super::hash::keyed;
+use super::traits::{BLOCK, Dimensions, Kind, PointSource, by_point};
+use crate::sampling::keys::{KeyReader, KeyWriter};
 use crate::sampling::stream::{key, unit};
 
 /// Dimensions in the table of directions.
-pub const MOST_DIMENSIONS: usize = 512;
+pub const MAX_DIMENSIONS: usize = 512;
 /// Bits that are scrambled one by one.
 const NESTED: u32 = 32;
 
@@ -26,7 +28,7 @@ pub struct Sobol {
 }
 
 impl Sobol {
-    /// The sequence for the dimensions `names`, at most [`MOST_DIMENSIONS`]: directions by place, scrambling by seed and name.
+    /// The sequence for the dimensions `names`, at most [`MAX_DIMENSIONS`]: directions by position, scrambling by seed and name.
     pub fn new(seed: u64, names: &[String]) -> Self {
         let keys = names.iter().map(|name| key(seed, name, *b"sobol   ")).collect();
         Sobol { directions: directions(names.len()), keys }
@@ -88,6 +90,32 @@ fn scrambled(bits: u64, key: u64) -> u64 {
 
 /// Tells the key of the nodes from that of the bits below them.
 const NODES: u64 = 0x6e6f_6465_735f_6f66;
+
+impl PointSource for Sobol {
+    fn fill(&mut self, block: u64, u: &mut [[f64; BLOCK]]) {
+        by_point(block, u, |dimension, point| self.number(dimension, point));
+    }
+}
+
+/// Sobol's sequence, scrambled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SobolDesign;
+
+impl Kind for SobolDesign {
+    const NAME: &'static str = "sobol";
+    const MAX_DIMENSIONS: usize = MAX_DIMENSIONS;
+    type Points = Sobol;
+
+    fn read(_keys: &mut dyn KeyReader) -> Option<Self> {
+        Some(SobolDesign)
+    }
+
+    fn write(&self, _keys: &mut dyn KeyWriter) {}
+
+    fn points(&self, dimensions: Dimensions<'_>) -> Sobol {
+        Sobol::new(dimensions.seed, dimensions.names)
+    }
+}
 
 #[cfg(test)]
 mod tests {

@@ -1,13 +1,60 @@
-//! [`BetaLaw`]: the beta law stretched over an interval, by its regularised incomplete beta function I_x(a, b) and the inverse.
+//! `beta`: between `min` and `max`, with density proportional to x^(`alpha` - 1) (1 - x)^(`beta` - 1), by its regularised incomplete beta function I_x(a, b) and the inverse.
 //!
 //! I_x by its continued fraction (DLMF 8.17.22, evaluated by the method of Lentz as modified by Thompson & Barnett, *J. Comput.
 //! Phys.* 64 (1986) 490), with I_x(a, b) = 1 - I_(1-x)(b, a) where that converges faster. The inverse is Newton's method for
 //! ln I as a function of ln x: that function rises and is concave (x f(x)/I falls), so each step after the first comes from
 //! the left and none overshoots; no bracket is needed. Elementary functions from `libm`.
 
-/// A beta law from `min` to `max`.
+use super::target::Target;
+use super::traits::{Quantile, Scalar};
+use crate::sampling::error::DispersionError;
+use crate::sampling::keys::{KeyReader, KeyWriter, Values};
+
+/// Allowed shape parameters: outside, the distribution is a spike or two, and the quantile's series need thousands of terms.
+const SHAPES: std::ops::RangeInclusive<f64> = 0.01..=1e4;
+
+/// As written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Beta {
+    /// First shape parameter.
+    pub alpha: Values,
+    /// Second shape parameter.
+    pub beta: Values,
+    /// Lower end.
+    pub min: Values,
+    /// Upper end.
+    pub max: Values,
+}
+
+impl Scalar for Beta {
+    const NAME: &'static str = "beta";
+    type Quantile = BetaQuantile;
+
+    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
+        let shapes = keys.required("alpha", "2.0").zip(keys.required("beta", "5.0"));
+        keys.ends().zip(shapes).map(|((min, max), (alpha, beta))| Beta { alpha, beta, min, max })
+    }
+
+    fn write(&self, keys: &mut dyn KeyWriter) {
+        keys.values("alpha", &self.alpha);
+        keys.values("beta", &self.beta);
+        keys.ends(&self.min, &self.max);
+    }
+
+    fn quantiles(&self, target: &Target<'_>) -> Result<Vec<BetaQuantile>, DispersionError> {
+        let shape = |key, values| {
+            let allowed = "a number from 0.01 to 1e4";
+            target.passing(key, values, |x| SHAPES.contains(&x), allowed, "1 is a uniform distribution")
+        };
+        let (alpha, beta) = (shape("alpha", &self.alpha)?, shape("beta", &self.beta)?);
+        let (min, max) = target.ends(&self.min, &self.max)?;
+        target.all(|k| Ok(BetaQuantile::new(alpha[k], beta[k], min[k], max[k])))
+    }
+}
+
+/// A beta distribution from `min` to `max`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BetaLaw {
+pub struct BetaQuantile {
     alpha: f64,
     beta: f64,
     min: f64,
@@ -23,11 +70,11 @@ const MOST_STEPS: u32 = 100;
 /// Steps of ln x below this leave x as it is.
 const SMALLEST_STEP: f64 = f64::EPSILON;
 
-impl BetaLaw {
+impl BetaQuantile {
     /// The law of shapes `alpha`, `beta` > 0 from `min` to `max`.
     pub fn new(alpha: f64, beta: f64, min: f64, max: f64) -> Self {
         let log_b = libm::lgamma(alpha) + libm::lgamma(beta) - libm::lgamma(alpha + beta);
-        BetaLaw { alpha, beta, min, max, log_b }
+        BetaQuantile { alpha, beta, min, max, log_b }
     }
 
     /// PERT: mean (min + 4 mode + max)/6 (D. G. Malcolm et al., *Operations Research* 7 (1959) 646).
@@ -35,19 +82,11 @@ impl BetaLaw {
         let width = max - min;
         Self::new(1.0 + 4.0 * (mode - min) / width, 1.0 + 4.0 * (max - mode) / width, min, max)
     }
+}
 
-    /// Lower and upper end.
-    pub fn ends(&self) -> (f64, f64) {
-        (self.min, self.max)
-    }
-
-    /// Shapes alpha and beta.
-    pub fn shapes(&self) -> (f64, f64) {
-        (self.alpha, self.beta)
-    }
-
+impl Quantile for BetaQuantile {
     /// The value below which the fraction `u` of the law lies; relative error of its place in the interval below 1e-12.
-    pub fn quantile(&self, u: f64) -> f64 {
+    fn quantile(&self, u: f64) -> f64 {
         // 1 - u is exact, so neither tail loses digits
         let value = if u <= 0.5 {
             self.min + (self.max - self.min) * inverse(u, self.alpha, self.beta, self.log_b)
@@ -55,6 +94,11 @@ impl BetaLaw {
             self.max - (self.max - self.min) * inverse(1.0 - u, self.beta, self.alpha, self.log_b)
         };
         value.clamp(self.min, self.max)
+    }
+
+    fn text(&self, short: &dyn Fn(f64) -> String) -> String {
+        let [alpha, beta, min, max] = [self.alpha, self.beta, self.min, self.max].map(short);
+        format!("beta({alpha}, {beta}), {min} to {max}")
     }
 }
 
@@ -125,23 +169,23 @@ mod tests {
         // a = 1: 1 - (1 - x)^b; b = 1: x^a; a = b = 1/2: sin^2(pi u/2)
         for u in [1e-15, 1e-6, 0.1, 0.4999, 0.5, 0.7, 0.999, 1.0 - 1e-12] {
             for shape in [0.05, 0.5, 1.0, 2.5, 40.0] {
-                let first = BetaLaw::new(1.0, shape, 0.0, 1.0).quantile(u);
+                let first = BetaQuantile::new(1.0, shape, 0.0, 1.0).quantile(u);
                 let expected = -libm::expm1(libm::log1p(-u) / shape);
                 assert!((first / expected - 1.0).abs() < 1e-12, "1, {shape}: {u} {first} {expected}");
-                let second = BetaLaw::new(shape, 1.0, 0.0, 1.0).quantile(u);
+                let second = BetaQuantile::new(shape, 1.0, 0.0, 1.0).quantile(u);
                 let expected = libm::exp(libm::log(u) / shape);
                 assert!((second / expected - 1.0).abs() < 1e-12, "{shape}, 1: {u} {second} {expected}");
             }
             let sine = libm::sin(core::f64::consts::FRAC_PI_2 * u);
-            let arcsine = BetaLaw::new(0.5, 0.5, 0.0, 1.0).quantile(u);
+            let arcsine = BetaQuantile::new(0.5, 0.5, 0.0, 1.0).quantile(u);
             assert!((arcsine / (sine * sine) - 1.0).abs() < 1e-12, "{u} {arcsine}");
         }
     }
 
     #[test]
-    fn a_pert_law_has_its_mean() {
+    fn a_pert_distribution_has_its_mean() {
         // the mean of a law is the mean of its quantiles: midpoint rule, whose error is below 1/n at these shapes
-        let law = BetaLaw::pert(2.0, 3.0, 7.0);
+        let law = BetaQuantile::pert(2.0, 3.0, 7.0);
         const N: u32 = 2000;
         let mean = (0..N).map(|k| law.quantile((f64::from(k) + 0.5) / f64::from(N))).sum::<f64>() / f64::from(N);
         assert!((mean - (2.0 + 12.0 + 7.0) / 6.0).abs() < 1e-4, "{mean}");

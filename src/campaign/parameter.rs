@@ -1,0 +1,40 @@
+//! Names of parameters in campaign files.
+
+use super::problem::nearest;
+use super::section::Section;
+use crate::scene::Parameter;
+
+/// The parameter, and the component if one is meant, that `key` names.
+pub(super) fn parameter(table: &mut Section<'_, '_>, key: &'static str) -> Option<(Parameter, Option<usize>)> {
+    table.require(key, "a numeric key of scene or initial state", "\"fuselage.density_kg_m3\"");
+    let name = table.text(key)?;
+    let found = Parameter::find(name);
+    if found.is_none() {
+        let (allowed, remedy) = unknown_parameter(name);
+        table.refuse(key, allowed, remedy);
+    }
+    found
+}
+
+/// What is said of a name that is no parameter: what is allowed, and what was probably meant.
+pub(super) fn unknown_parameter(name: &str) -> (String, String) {
+    let remedy = match nearest(name, Parameter::all().map(Parameter::name)) {
+        Some(meant) => format!("did you mean {meant:?}?"),
+        None => "write table and key as in this file, \"wheel1.radius_m\"".to_owned(),
+    };
+    ("a numeric key of scene or initial state, as a whole or with a component ([0] or .x)".to_owned(), remedy)
+}
+
+/// The component that a name means: dotted, or as a column of rows.
+pub(super) fn named(name: &str) -> Option<(Parameter, usize)> {
+    let flat = || {
+        Parameter::all().find_map(|parameter| {
+            (0..parameter.width()).map(|k| (parameter, k)).find(|(parameter, k)| parameter.column_name(*k) == name)
+        })
+    };
+    match Parameter::find(name) {
+        Some((parameter, Some(component))) => Some((parameter, component)),
+        Some((parameter, None)) if parameter.width() == 1 => Some((parameter, 0)),
+        _ => flat(),
+    }
+}

@@ -1,0 +1,145 @@
+//! The list of designs: everything that is done for each of them follows from here.
+
+use super::grid::GridDesign;
+use super::halton::HaltonDesign;
+use super::latin::LatinHypercubeDesign;
+use super::one_at_a_time::OneAtATimeDesign;
+use super::random::RandomDesign;
+use super::saltelli::SaltelliDesign;
+use super::sobol::SobolDesign;
+use super::table::TableDesign;
+use super::traits::{BLOCK, Dimensions, Kind, PointSource, Size};
+use crate::sampling::error::DispersionError;
+use crate::sampling::keys::{DataColumn, KeyReader, KeyWriter};
+
+/// Declares the enumerations over all designs, and passes each call on to the one that is meant.
+macro_rules! designs {
+    ($($Name:ident = $Kind:ty),* $(,)?) => {
+        /// A design as written.
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum Design {
+            $(
+                #[doc = concat!("See [`", stringify!($Kind), "`].")]
+                $Name($Kind),
+            )*
+        }
+
+        impl Design {
+            /// The names in campaign files.
+            pub const NAMES: &'static [&'static str] = &[$(<$Kind as Kind>::NAME),*];
+
+            /// The name in campaign files.
+            pub fn name(&self) -> &'static str {
+                match self { $( Self::$Name(_) => <$Kind as Kind>::NAME, )* }
+            }
+
+            /// Reads the keys of the design called `name`; `None` where there is none of that name or something is wrong,
+            /// which is then noted.
+            pub fn read_named(name: &str, keys: &mut dyn KeyReader) -> Option<Self> {
+                $( if name == <$Kind as Kind>::NAME {
+                    return <$Kind as Kind>::read(keys).map(Self::$Name);
+                } )*
+                None
+            }
+
+            /// Writes its name and its keys.
+            pub fn write(&self, keys: &mut dyn KeyWriter) {
+                keys.key("kind", &self.name());
+                match self { $( Self::$Name(kind) => kind.write(keys), )* }
+            }
+
+            /// See [`Kind::HAS_SIZE`].
+            pub fn has_size(&self) -> bool {
+                match self { $( Self::$Name(_) => <$Kind as Kind>::HAS_SIZE, )* }
+            }
+
+            /// See [`Kind::LEAVES_NOMINAL`].
+            pub fn leaves_nominal(&self) -> bool {
+                match self { $( Self::$Name(_) => <$Kind as Kind>::LEAVES_NOMINAL, )* }
+            }
+
+            /// See [`Kind::MAX_DIMENSIONS`].
+            pub fn max_dimensions(&self) -> usize {
+                match self { $( Self::$Name(_) => <$Kind as Kind>::MAX_DIMENSIONS, )* }
+            }
+
+            /// See [`Kind::DEPENDS_ON_SAMPLES`].
+            pub fn depends_on_samples(&self) -> Option<[&'static str; 2]> {
+                match self { $( Self::$Name(_) => <$Kind as Kind>::DEPENDS_ON_SAMPLES, )* }
+            }
+
+            /// See [`Kind::EXCLUDES_CORRELATION`].
+            pub fn excludes_correlation(&self) -> Option<[&'static str; 2]> {
+                match self { $( Self::$Name(_) => <$Kind as Kind>::EXCLUDES_CORRELATION, )* }
+            }
+
+            /// See [`Kind::size`].
+            pub fn size(&self, dimensions: usize) -> Size {
+                match self { $( Self::$Name(kind) => kind.size(dimensions), )* }
+            }
+
+            /// See [`Kind::check`].
+            ///
+            /// # Errors
+            /// What keeps the design from having these dimensions and samples.
+            pub fn check(&self, dimensions: Dimensions<'_>, samples: Option<u64>) -> Result<(), DispersionError> {
+                match self { $( Self::$Name(kind) => kind.check(dimensions, samples), )* }
+            }
+
+            /// See [`Kind::columns`].
+            pub fn columns(&self) -> &[DataColumn] {
+                match self { $( Self::$Name(kind) => kind.columns(), )* }
+            }
+        }
+
+        /// The points of a design, for one worker. What it keeps only makes neighbours cheap.
+        #[derive(Debug)]
+        pub enum Points {
+            $(
+                #[doc = concat!("See [`", stringify!($Kind), "`].")]
+                $Name(<$Kind as Kind>::Points),
+            )*
+        }
+
+        impl Points {
+            /// The points of `design`.
+            pub fn new(design: &Design, dimensions: Dimensions<'_>) -> Self {
+                match design { $( Design::$Name(kind) => Points::$Name(kind.points(dimensions)), )* }
+            }
+        }
+
+        impl PointSource for Points {
+            fn fill(&mut self, block: u64, u: &mut [[f64; BLOCK]]) {
+                match self { $( Self::$Name(points) => points.fill(block, u), )* }
+            }
+        }
+    };
+}
+
+designs! {
+    Random = RandomDesign,
+    LatinHypercube = LatinHypercubeDesign,
+    Sobol = SobolDesign,
+    Halton = HaltonDesign,
+    Grid = GridDesign,
+    OneAtATime = OneAtATimeDesign,
+    Saltelli = SaltelliDesign,
+    Table = TableDesign,
+}
+
+impl Design {
+    /// The design of a file that does not say.
+    pub const DEFAULT: Design = Design::Random(RandomDesign);
+
+    /// Reads `kind` and the keys of the design that it names.
+    pub fn read(keys: &mut dyn KeyReader) -> Option<Self> {
+        let name = keys.kind("kind", Self::NAMES, "\"sobol\"")?;
+        Self::read_named(name, keys)
+    }
+}
+
+impl Default for Design {
+    fn default() -> Self {
+        Self::DEFAULT
+    }
+}

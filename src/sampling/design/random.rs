@@ -1,0 +1,43 @@
+//! `random`: independent uniform numbers, one stream for each dimension.
+
+use super::traits::{BLOCK, Dimensions, Kind, PointSource, streams};
+use crate::sampling::keys::{KeyReader, KeyWriter};
+use crate::sampling::stream::Stream;
+
+/// The random design.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RandomDesign;
+
+/// Its points.
+#[derive(Debug)]
+pub struct RandomPoints(Vec<Stream>);
+
+impl RandomPoints {
+    /// The points of these dimensions.
+    pub fn new(dimensions: Dimensions<'_>) -> Self {
+        RandomPoints(streams(dimensions.seed, dimensions.names))
+    }
+}
+
+impl PointSource for RandomPoints {
+    fn fill(&mut self, block: u64, u: &mut [[f64; BLOCK]]) {
+        for (stream, u) in self.0.iter_mut().zip(u) {
+            stream.uniforms(block, u);
+        }
+    }
+}
+
+impl Kind for RandomDesign {
+    const NAME: &'static str = "random";
+    type Points = RandomPoints;
+
+    fn read(_keys: &mut dyn KeyReader) -> Option<Self> {
+        Some(RandomDesign)
+    }
+
+    fn write(&self, _keys: &mut dyn KeyWriter) {}
+
+    fn points(&self, dimensions: Dimensions<'_>) -> RandomPoints {
+        RandomPoints::new(dimensions)
+    }
+}

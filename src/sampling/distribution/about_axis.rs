@@ -1,0 +1,71 @@
+//! `about_axis`: the nominal attitude turned about an `axis` of the body by an angle with a distribution of its own
+//! (`[disperse.angle_rad]`).
+
+use super::target::JointTarget;
+use super::traits::{Map, Nested, Quantile, Together};
+use crate::math::vector::{hamilton, norm, scaled};
+use crate::sampling::error::DispersionError;
+use crate::sampling::keys::{KeyReader, KeyWriter};
+
+/// As written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AboutAxis<N> {
+    /// The axis, of any length.
+    pub axis: [f64; 3],
+    /// The distribution of the angle, rad; its nominal is 0.
+    pub angle: Box<N>,
+}
+
+/// Ready to be drawn: q = q_0 (x) exp(angle axis/2).
+#[derive(Clone, Debug, PartialEq)]
+pub struct AboutAxisMap<Q> {
+    nominal: [f64; 4],
+    axis: [f64; 3],
+    angle: Q,
+}
+
+impl<N: Nested> Together for AboutAxis<N> {
+    const NAME: &'static str = "about_axis";
+    type Map = AboutAxisMap<N::Quantile>;
+
+    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
+        keys.require("axis", "given, an array of 3 finite numbers", "[0, 0, 1]");
+        keys.require("angle_rad", "given, a distribution of one number", "{ distribution = \"normal\", std = 0.1 }");
+        let (axis, angle) = (keys.axis(), N::read_table(keys, "angle_rad"));
+        let (axis, angle) = (axis??, angle??);
+        Some(AboutAxis { axis, angle: Box::new(angle) })
+    }
+
+    fn write(&self, keys: &mut dyn KeyWriter) {
+        keys.key("axis", &self.axis);
+        self.angle.write_table(keys, "angle_rad");
+    }
+
+    fn map(&self, target: &JointTarget<'_>) -> Result<Self::Map, DispersionError> {
+        let nominal = target.attitude(Self::NAME)?;
+        let axis = target.axis(self.axis)?;
+        let angle = self.angle.quantile(target.index, "angle_rad", 0.0)?;
+        Ok(AboutAxisMap { nominal, axis: scaled(1.0 / norm(axis), axis), angle })
+    }
+}
+
+impl<Q: Quantile> Map for AboutAxisMap<Q> {
+    fn dimensions(&self) -> usize {
+        self.angle.dimensions()
+    }
+
+    fn components(&self) -> usize {
+        4
+    }
+
+    fn values(&self, u: &[f64], values: &mut [f64]) {
+        let (sine, cosine) = libm::sincos(0.5 * self.angle.quantile(u.first().copied().unwrap_or(0.5)));
+        let [x, y, z] = scaled(sine, self.axis);
+        values[..4].copy_from_slice(&hamilton(self.nominal, [cosine, x, y, z]));
+    }
+
+    fn text(&self, short: &dyn Fn(f64) -> String) -> String {
+        let [x, y, z] = self.axis.map(short);
+        format!("nominal attitude turned about [{x}, {y}, {z}], angle (rad): {}", self.angle.text(short))
+    }
+}

@@ -1,0 +1,182 @@
+//! `attitude_error`: a normal rotation vector from the nominal attitude, in the frame of the body, with `std_rad` or
+//! `covariance_rad2`.
+
+use super::target::JointTarget;
+use super::traits::{Map, Together};
+use crate::math::normal::quantile;
+use crate::math::vector::{dot, hamilton, norm, scaled};
+use crate::sampling::error::{DispersionError, error};
+use crate::sampling::keys::{KeyReader, KeyWriter, Values};
+
+/// As written: the covariance of the rotation vector.
+#[derive(Clone, Debug, PartialEq)]
+pub enum AttitudeError {
+    /// Independent components with these standard deviations, rad (`std_rad`).
+    Std(Values),
+    /// A covariance matrix, rad^2, by rows (`covariance_rad2`).
+    Covariance([[f64; 3]; 3]),
+}
+
+/// Ready to be drawn: q = q_0 (x) exp(theta/2) with a normal rotation vector theta of mean zero, in the frame of the body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AttitudeErrorMap {
+    nominal: [f64; 4],
+    /// Lower triangular L, rad: the covariance is L L^T.
+    factor: [[f64; 3]; 3],
+}
+
+impl AttitudeErrorMap {
+    /// About `nominal` (a unit quaternion), with the covariance `covariance`, rad^2, symmetric and positive semidefinite; `None`
+    /// where it is not (to 1e-12 of its trace).
+    pub fn new(nominal: [f64; 4], covariance: [[f64; 3]; 3]) -> Option<Self> {
+        Some(AttitudeErrorMap { nominal, factor: factor(covariance)? })
+    }
+}
+
+impl Together for AttitudeError {
+    const NAME: &'static str = "attitude_error";
+    type Map = AttitudeErrorMap;
+
+    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
+        let one = keys.is_one_of(&["std_rad", "covariance_rad2"], "0.01");
+        let (std, covariance) = (keys.values("std_rad"), keys.matrix("covariance_rad2"));
+        if one { std.map(AttitudeError::Std).or(covariance.map(AttitudeError::Covariance)) } else { None }
+    }
+
+    fn write(&self, keys: &mut dyn KeyWriter) {
+        match self {
+            AttitudeError::Std(values) => keys.values("std_rad", values),
+            AttitudeError::Covariance(matrix) => keys.key("covariance_rad2", matrix),
+        }
+    }
+
+    fn map(&self, target: &JointTarget<'_>) -> Result<AttitudeErrorMap, DispersionError> {
+        let nominal = target.attitude(Self::NAME)?;
+        let (key, shown, covariance) = match self {
+            AttitudeError::Std(values) => ("std_rad", values.text(), variances(target.index, values)?),
+            AttitudeError::Covariance(covariance) => ("covariance_rad2", format!("{covariance:?}"), *covariance),
+        };
+        match AttitudeErrorMap::new(nominal, covariance) {
+            Some(map) => Ok(map),
+            None => {
+                let remedy = "variances on the diagonal; |c_ij| at most the root of c_ii c_jj";
+                target.refused(key, shown, "symmetric and positive semidefinite", remedy)
+            }
+        }
+    }
+}
+
+impl Map for AttitudeErrorMap {
+    fn dimensions(&self) -> usize {
+        3
+    }
+
+    fn components(&self) -> usize {
+        4
+    }
+
+    fn values(&self, u: &[f64], values: &mut [f64]) {
+        let z = [quantile(u[0]), quantile(u[1]), quantile(u[2])];
+        let theta = core::array::from_fn(|i| (0..=i).map(|j| self.factor[i][j] * z[j]).sum());
+        values[..4].copy_from_slice(&hamilton(self.nominal, rotation(theta)));
+    }
+
+    fn text(&self, _short: &dyn Fn(f64) -> String) -> String {
+        "normal rotation vector from the nominal attitude".to_owned()
+    }
+}
+
+/// A diagonal covariance.
+fn variances(index: usize, values: &Values) -> Result<[[f64; 3]; 3], DispersionError> {
+    let list = match values {
+        Values::All(value) => [*value; 3],
+        Values::Each(list) => match <[f64; 3]>::try_from(list.as_slice()) {
+            Ok(list) => list,
+            Err(_) => {
+                let remedy = "give one for each axis of the body";
+                return Err(error(index, "std_rad", format!("{list:?}"), "1 number, or 3 in an array", remedy));
+            }
+        },
+    };
+    if let Some(x) = list.iter().find(|x| !(0.0..=f64::MAX).contains(*x)) {
+        return Err(error(index, "std_rad", format!("{x:?}"), ">= 0", "drop the minus sign"));
+    }
+    let [a, b, c] = list.map(|x| x * x);
+    Ok([[a, 0.0, 0.0], [0.0, b, 0.0], [0.0, 0.0, c]])
+}
+
+/// The unit quaternion of the rotation vector `theta`, rad.
+pub fn rotation(theta: [f64; 3]) -> [f64; 4] {
+    let half = 0.5 * norm(theta);
+    let (sine, cosine) = libm::sincos(half);
+    // sin(x)/x is 1 to the last bit below 1e-8
+    let share = if half < 1e-8 { 0.5 } else { 0.5 * sine / half };
+    let [x, y, z] = scaled(share, theta);
+    [cosine, x, y, z]
+}
+
+/// The lower Cholesky factor of a symmetric positive semidefinite matrix; `None` where it is not one. A pivot that is zero to rounding
+/// has a column of zeros.
+fn factor(m: [[f64; 3]; 3]) -> Option<[[f64; 3]; 3]> {
+    /// Entries come from files: twelve digits of them are meant.
+    const SLACK: f64 = 1e-12;
+    let slack = SLACK * (m[0][0].abs() + m[1][1].abs() + m[2][2].abs());
+    let symmetric = [(0, 1), (0, 2), (1, 2)].into_iter().all(|(i, j)| (m[i][j] - m[j][i]).abs() <= slack);
+    if !symmetric || !m.iter().flatten().all(|x| x.is_finite()) {
+        return None;
+    }
+    let mut l = [[0.0; 3]; 3];
+    for j in 0..3 {
+        let pivot = m[j][j] - dot(l[j], l[j]);
+        if pivot < -slack {
+            return None;
+        }
+        let root = pivot.max(0.0).sqrt();
+        for i in j..3 {
+            let rest = m[i][j] - dot(l[i], l[j]);
+            if pivot > slack {
+                l[i][j] = rest / root;
+            } else if i > j && rest.abs() > slack.max((slack * m[i][i].abs()).sqrt()) {
+                return None;
+            }
+        }
+    }
+    Some(l)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_covariance_is_factored_or_refused() {
+        let m = [[4.0, 2.0, -2.0], [2.0, 5.0, 1.0], [-2.0, 1.0, 6.0]];
+        let l = factor(m).expect("positive definite");
+        for i in 0..3 {
+            for j in 0..3 {
+                assert!((dot(l[i], l[j]) - m[i][j]).abs() < 1e-14);
+            }
+        }
+        assert_eq!(factor([[0.0; 3]; 3]), Some([[0.0; 3]; 3]));
+        let flat = factor([[1.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 0.0, 0.0]]).expect("semidefinite");
+        assert_eq!(flat, [[1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]]);
+        for wrong in [
+            [[1.0, 2.0, 0.0], [2.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            [[1.0, 0.5, 0.0], [0.4, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            [[0.0, 0.5, 0.0], [0.5, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            [[-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            [[f64::NAN, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        ] {
+            assert_eq!(factor(wrong), None, "{wrong:?}");
+        }
+    }
+
+    #[test]
+    fn small_rotations_do_not_lose_digits() {
+        for size in [1e-300, 1e-12, 0.99e-8, 1.01e-8, 0.1, 3.0] {
+            let q = rotation([0.0, 0.6 * size, 0.8 * size]);
+            assert!((q.iter().map(|x| x * x).sum::<f64>() - 1.0).abs() < 4.0 * f64::EPSILON);
+            assert!((q[3] / (0.8 * libm::sin(0.5 * size)) - 1.0).abs() < 4.0 * f64::EPSILON, "{size}");
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! `choice`: one of a list of `values`, with `weights`, else all alike. The values are sorted, so that quantiles rise with u and a
+//! rank correlation is one of values.
+
+use super::target::Target;
+use super::traits::{Quantile, Scalar};
+use crate::sampling::error::DispersionError;
+use crate::sampling::keys::{KeyReader, KeyWriter};
+use std::sync::Arc;
+
+/// As written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Choice {
+    /// The values.
+    pub values: Vec<f64>,
+    /// Their weights, in proportion.
+    pub weights: Option<Vec<f64>>,
+}
+
+/// Ready to be drawn: one of a list of values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChoiceQuantile {
+    /// Ascending.
+    values: Arc<[f64]>,
+    /// Probability of this value or a smaller one.
+    cumulative: Arc<[f64]>,
+}
+
+impl ChoiceQuantile {
+    /// `values` with `weights` in proportion, of which one is above zero.
+    pub fn new(values: &[f64], weights: &[f64]) -> Self {
+        let mut pairs: Vec<(f64, f64)> = values.iter().copied().zip(weights.iter().copied()).collect();
+        pairs.retain(|(_, weight)| *weight > 0.0);
+        pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let sum: f64 = pairs.iter().map(|(_, weight)| weight).sum();
+        let mut below = 0.0;
+        let cumulative = pairs.iter().map(|(_, weight)| {
+            below += weight;
+            below / sum
+        });
+        ChoiceQuantile { cumulative: cumulative.collect(), values: pairs.iter().map(|(value, _)| *value).collect() }
+    }
+}
+
+impl Scalar for Choice {
+    const NAME: &'static str = "choice";
+    type Quantile = ChoiceQuantile;
+
+    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
+        keys.require("values", "an array of finite numbers", "[1.0, 2.0]");
+        let (values, weights) = (keys.numbers("values"), keys.numbers("weights"));
+        if keys.has("weights") && weights.is_none() { None } else { values.map(|values| Choice { values, weights }) }
+    }
+
+    fn write(&self, keys: &mut dyn KeyWriter) {
+        keys.key("values", &self.values);
+        if let Some(weights) = &self.weights {
+            keys.key("weights", weights);
+        }
+    }
+
+    fn quantiles(&self, target: &Target<'_>) -> Result<Vec<ChoiceQuantile>, DispersionError> {
+        let shown = |list: &[f64]| format!("{list:?}");
+        let values = &self.values;
+        if values.is_empty() || values.iter().any(|x| !x.is_finite()) {
+            return target.refused("values", shown(values), "at least one finite number", "write them as [1.0, 2.0]");
+        }
+        let equal = vec![1.0; values.len()];
+        let weights = self.weights.as_ref().unwrap_or(&equal);
+        if weights.len() != values.len() {
+            let allowed = format!("as many numbers as values ({})", values.len());
+            return target.refused("weights", shown(weights), allowed, "give one for each value");
+        }
+        let sum: f64 = weights.iter().sum();
+        if weights.iter().any(|x| !x.is_finite() || *x < 0.0) || sum <= 0.0 || !sum.is_finite() {
+            let allowed = "numbers >= 0, not all 0";
+            return target.refused("weights", shown(weights), allowed, "their proportions count, not their sum");
+        }
+        let choice = ChoiceQuantile::new(values, weights);
+        target.all(|_| Ok(choice.clone()))
+    }
+}
+
+impl Quantile for ChoiceQuantile {
+    /// The smallest value whose cumulative probability reaches `u`.
+    fn quantile(&self, u: f64) -> f64 {
+        let place = self.cumulative.partition_point(|below| *below < u);
+        // rounding may leave the last sum below one
+        self.values[place.min(self.values.len() - 1)]
+    }
+
+    fn text(&self, short: &dyn Fn(f64) -> String) -> String {
+        let [low, high] = [f64::EPSILON, 1.0 - f64::EPSILON].map(|u| short(self.quantile(u)));
+        format!("one of {} values, {low} to {high}", self.values.len())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_choice_takes_each_value_in_its_share_of_u() {
+        let choice = ChoiceQuantile::new(&[3.0, 1.0, 2.0, 9.0], &[1.0, 2.0, 1.0, 0.0]);
+        assert_eq!(
+            [0.0001, 0.4999, 0.5001, 0.7499, 0.7501, 0.9999].map(|u| choice.quantile(u)),
+            [1., 1., 2., 2., 3., 3.]
+        );
+        assert_eq!(choice.values[..], [1.0, 2.0, 3.0], "what has no weight is never drawn");
+    }
+}

@@ -1,0 +1,317 @@
+//! `uniform_direction`, `cone`, `von_mises_fisher`: direction and magnitude of a vector apart.
+//!
+//! All three have an `axis` (else the nominal vector) and a distribution of the magnitude, `[disperse.magnitude]` (else the nominal
+//! one's). Isotropy is uniform in solid angle: the cosine of the angle to the axis is what is uniform on a sphere or in a cone, and
+//! what the von Mises-Fisher distribution is exponential in; a direction made of uniform components, or of a uniform angle to
+//! the axis, is not isotropic (test `usual_mistakes_are_caught` in `tests/sampling/geometric.rs`).
+
+use super::target::JointTarget;
+use super::traits::{Map, Nested, Quantile, Together};
+use crate::math::vector::{cross, norm, scaled};
+use crate::sampling::error::DispersionError;
+use crate::sampling::keys::{KeyReader, KeyWriter};
+use core::f64::consts::{PI, TAU};
+
+/// Axis and magnitude, as written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Direction<N> {
+    /// The axis, of any length; where it is not written, the nominal vector.
+    pub axis: Option<[f64; 3]>,
+    /// The distribution of the magnitude; where it is not written, the nominal's.
+    pub magnitude: Option<Box<N>>,
+}
+
+/// Uniform over the sphere, as written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UniformDirection<N>(pub Direction<N>);
+
+/// Uniform over a cone, as written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cone<N> {
+    /// Half-angle, rad.
+    pub half_angle_rad: f64,
+    /// Axis and magnitude.
+    pub direction: Direction<N>,
+}
+
+/// Von Mises-Fisher, as written: density proportional to exp(kappa cos theta) (R. A. Fisher, *Dispersion on a sphere*, Proc. R. Soc.
+/// A 217, 1953).
+#[derive(Clone, Debug, PartialEq)]
+pub struct VonMisesFisher<N> {
+    /// kappa > 0, pure; about 1/sigma^2 of a narrow distribution.
+    pub concentration: f64,
+    /// Axis and magnitude.
+    pub direction: Direction<N>,
+}
+
+/// Ready to be drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DirectionMap<Q> {
+    /// Two unit vectors across the axis, then the axis.
+    frame: [[f64; 3]; 3],
+    spread: DirectionSpread,
+    magnitude: Magnitude<Q>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Magnitude<Q> {
+    Fixed(f64),
+    Drawn(Q),
+}
+
+/// How a direction is distributed about an axis; the azimuth is uniform in all.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum DirectionSpread {
+    /// Uniform over the sphere.
+    Sphere,
+    /// Uniform over the cone of this half-angle, rad, above 0 and at most pi.
+    Cone {
+        /// Half-angle, rad.
+        half_angle_rad: f64,
+    },
+    /// Von Mises-Fisher: density proportional to exp(kappa cos theta) (R. A. Fisher, *Dispersion on a sphere*, Proc. R.
+    /// Soc. A 217, 1953).
+    Fisher {
+        /// kappa > 0, pure; about 1/sigma^2 of a narrow distribution.
+        concentration: f64,
+    },
+}
+
+impl DirectionSpread {
+    /// 1 - cos(theta) for `u`: the quantile function, exact near the axis, where 1 minus a cosine has no digits.
+    #[inline]
+    fn versine(self, u: f64) -> f64 {
+        match self {
+            DirectionSpread::Sphere => 2.0 * u,
+            DirectionSpread::Cone { half_angle_rad } => {
+                let sine = libm::sin(0.5 * half_angle_rad);
+                2.0 * sine * sine * u
+            }
+            // P(1 - cos <= v) = (1 - exp(-kappa v))/(1 - exp(-2 kappa))
+            DirectionSpread::Fisher { concentration } => {
+                (-libm::log1p(u * libm::expm1(-2.0 * concentration)) / concentration).min(2.0)
+            }
+        }
+    }
+}
+
+impl<N: Nested> Direction<N> {
+    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
+        let (axis, magnitude) = (keys.axis(), N::read_table(keys, "magnitude"));
+        axis.zip(magnitude).map(|(axis, magnitude)| Direction { axis, magnitude: magnitude.map(Box::new) })
+    }
+
+    fn write(&self, keys: &mut dyn KeyWriter) {
+        if let Some(axis) = &self.axis {
+            keys.key("axis", axis);
+        }
+        if let Some(magnitude) = &self.magnitude {
+            magnitude.write_table(keys, "magnitude");
+        }
+    }
+
+    fn map(
+        &self,
+        name: &str,
+        spread: DirectionSpread,
+        target: &JointTarget<'_>,
+    ) -> Result<DirectionMap<N::Quantile>, DispersionError> {
+        let nominal = target.vector(name)?;
+        let length = norm(nominal);
+        let axis = match self.axis {
+            Some(axis) => target.axis(axis)?,
+            None if length > 0.0 => nominal,
+            None if spread == DirectionSpread::Sphere => [0.0, 0.0, 1.0],
+            None => {
+                let allowed = "given where the nominal vector is zero and has no direction";
+                return target.refused("axis", "nothing", allowed, "add axis = [0, 0, 1]");
+            }
+        };
+        let magnitude = match &self.magnitude {
+            Some(magnitude) => Magnitude::Drawn(magnitude.quantile(target.index, "magnitude", length)?),
+            None if length == 0.0 => {
+                let allowed = "given where the nominal vector is zero: every direction of it would be zero";
+                let remedy = "add magnitude = { distribution = \"uniform\", min = 0, max = 1 }";
+                return target.refused("magnitude", "nothing", allowed, remedy);
+            }
+            None => Magnitude::Fixed(length),
+        };
+        Ok(DirectionMap { frame: frame(axis), spread, magnitude })
+    }
+}
+
+impl<N: Nested> Together for UniformDirection<N> {
+    const NAME: &'static str = "uniform_direction";
+    type Map = DirectionMap<N::Quantile>;
+
+    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
+        Direction::read(keys).map(UniformDirection)
+    }
+
+    fn write(&self, keys: &mut dyn KeyWriter) {
+        self.0.write(keys);
+    }
+
+    fn map(&self, target: &JointTarget<'_>) -> Result<Self::Map, DispersionError> {
+        self.0.map(Self::NAME, DirectionSpread::Sphere, target)
+    }
+}
+
+impl<N: Nested> Together for Cone<N> {
+    const NAME: &'static str = "cone";
+    type Map = DirectionMap<N::Quantile>;
+
+    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
+        keys.require("half_angle_rad", "given, above 0 and at most pi", "0.1");
+        let half_angle = keys.number("half_angle_rad");
+        let direction = Direction::read(keys);
+        half_angle.zip(direction).map(|(half_angle_rad, direction)| Cone { half_angle_rad, direction })
+    }
+
+    fn write(&self, keys: &mut dyn KeyWriter) {
+        keys.key("half_angle_rad", &self.half_angle_rad);
+        self.direction.write(keys);
+    }
+
+    fn map(&self, target: &JointTarget<'_>) -> Result<Self::Map, DispersionError> {
+        let half_angle_rad = self.half_angle_rad;
+        target.vector(Self::NAME)?;
+        if !(f64::MIN_POSITIVE..=PI).contains(&half_angle_rad) {
+            let remedy = "write an angle in radians";
+            return target.refused("half_angle_rad", format!("{half_angle_rad:?}"), "above 0 and at most pi", remedy);
+        }
+        self.direction.map(Self::NAME, DirectionSpread::Cone { half_angle_rad }, target)
+    }
+}
+
+impl<N: Nested> Together for VonMisesFisher<N> {
+    const NAME: &'static str = "von_mises_fisher";
+    type Map = DirectionMap<N::Quantile>;
+
+    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
+        keys.require("concentration", "given, above 0", "100.0");
+        let concentration = keys.number("concentration");
+        let direction = Direction::read(keys);
+        concentration.zip(direction).map(|(concentration, direction)| VonMisesFisher { concentration, direction })
+    }
+
+    fn write(&self, keys: &mut dyn KeyWriter) {
+        keys.key("concentration", &self.concentration);
+        self.direction.write(keys);
+    }
+
+    fn map(&self, target: &JointTarget<'_>) -> Result<Self::Map, DispersionError> {
+        let concentration = self.concentration;
+        target.vector(Self::NAME)?;
+        if !(f64::MIN_POSITIVE..=f64::MAX).contains(&concentration) {
+            let remedy = "1/sigma^2 of a narrow distribution: 100 spreads about 0.1 rad each way";
+            return target.refused("concentration", format!("{concentration:?}"), "above 0", remedy);
+        }
+        self.direction.map(Self::NAME, DirectionSpread::Fisher { concentration }, target)
+    }
+}
+
+impl<Q: Quantile> Map for DirectionMap<Q> {
+    /// Two for the direction, and the magnitude's.
+    fn dimensions(&self) -> usize {
+        match &self.magnitude {
+            Magnitude::Fixed(_) => 2,
+            Magnitude::Drawn(quantile) => 2 + quantile.dimensions(),
+        }
+    }
+
+    fn components(&self) -> usize {
+        3
+    }
+
+    /// A negative magnitude points backwards.
+    fn values(&self, u: &[f64], values: &mut [f64]) {
+        let versine = self.spread.versine(u[0]);
+        let (sine, cosine) = ((versine * (2.0 - versine)).sqrt(), 1.0 - versine);
+        let (s, c) = libm::sincos(TAU * u[1]);
+        let magnitude = match &self.magnitude {
+            Magnitude::Fixed(length) => *length,
+            Magnitude::Drawn(quantile) => quantile.quantile(u.get(2).copied().unwrap_or(0.5)),
+        };
+        let [x, y, z] = self.frame;
+        for (i, value) in values[..3].iter_mut().enumerate() {
+            *value = magnitude * (sine * (c * x[i] + s * y[i]) + cosine * z[i]);
+        }
+    }
+
+    fn text(&self, short: &dyn Fn(f64) -> String) -> String {
+        let [x, y, z] = self.frame[2].map(short);
+        let direction = match self.spread {
+            DirectionSpread::Sphere => "direction uniform over the sphere".to_owned(),
+            DirectionSpread::Cone { half_angle_rad } => {
+                format!("direction uniform in a cone of {} rad about [{x}, {y}, {z}]", short(half_angle_rad))
+            }
+            DirectionSpread::Fisher { concentration } => {
+                format!("direction von Mises-Fisher, kappa {}, about [{x}, {y}, {z}]", short(concentration))
+            }
+        };
+        match &self.magnitude {
+            Magnitude::Fixed(length) => format!("{direction}, magnitude {}", short(*length)),
+            Magnitude::Drawn(quantile) => format!("{direction}, magnitude {}", quantile.text(short)),
+        }
+    }
+}
+
+/// Two unit vectors across `axis` and the unit vector along it, right-handed.
+fn frame(axis: [f64; 3]) -> [[f64; 3]; 3] {
+    let z = scaled(1.0 / norm(axis), axis);
+    let least = (1..3).fold(0, |least, i| if z[i].abs() < z[least].abs() { i } else { least });
+    let mut other = [0.0; 3];
+    other[least] = 1.0;
+    let x = cross(other, z);
+    let x = scaled(1.0 / norm(x), x);
+    [x, cross(z, x), z]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::offset::Fixed;
+    use super::*;
+    use crate::math::vector::dot;
+
+    #[test]
+    fn frames_are_orthonormal_and_right_handed() {
+        for axis in [[0.0, 0.0, 2.0], [1.0, 0.0, 0.0], [0.0, -3.0, 0.0], [1.0, 2.0, 3.0], [1e-200, 1.0, -1.0]] {
+            let [x, y, z] = frame(axis);
+            for (a, b, expected) in [(x, x, 1.0), (y, y, 1.0), (z, z, 1.0), (x, y, 0.0), (x, z, 0.0), (y, z, 0.0)] {
+                assert!((dot(a, b) - expected).abs() < 4.0 * f64::EPSILON, "{axis:?}");
+            }
+            assert!((dot(cross(x, y), z) - 1.0).abs() < 4.0 * f64::EPSILON);
+            assert!(dot(z, axis) > 0.0);
+        }
+    }
+
+    #[test]
+    fn directions_have_length_one_even_where_cones_are_needles() {
+        for spread in [
+            DirectionSpread::Sphere,
+            DirectionSpread::Cone { half_angle_rad: 1e-9 },
+            DirectionSpread::Cone { half_angle_rad: core::f64::consts::PI },
+            DirectionSpread::Fisher { concentration: 1e-3 },
+            DirectionSpread::Fisher { concentration: 1e12 },
+        ] {
+            let map: DirectionMap<Fixed> =
+                DirectionMap { frame: frame([1.0, -2.0, 0.5]), spread, magnitude: Magnitude::Fixed(3.0) };
+            assert_eq!(map.dimensions(), 2);
+            for u in [[1e-16, 0.1], [0.3, 0.9], [1.0 - 1e-16, 0.5]] {
+                let mut vector = [0.0; 3];
+                map.values(&u, &mut vector);
+                assert!((norm(vector) / 3.0 - 1.0).abs() < 4.0 * f64::EPSILON, "{spread:?} {u:?}");
+            }
+        }
+        let needle: DirectionMap<Fixed> = DirectionMap {
+            frame: frame([0.0, 0.0, 1.0]),
+            spread: DirectionSpread::Cone { half_angle_rad: 1e-9 },
+            magnitude: Magnitude::Fixed(1.0),
+        };
+        let mut vector = [0.0; 3];
+        needle.values(&[0.25, 0.125], &mut vector);
+        let [x, y, _] = vector;
+        assert!(((x * x + y * y).sqrt() / 0.5e-9 - 1.0).abs() < 1e-12, "angle = half-angle times sqrt(u)");
+    }
+}

@@ -1,0 +1,113 @@
+//! `empirical`: as a `column` of a `file`, with `interpolation` between its values or none.
+
+use super::target::Target;
+use super::traits::{Quantile, Scalar};
+use crate::sampling::error::DispersionError;
+use crate::sampling::keys::{DataColumn, KeyReader, KeyWriter};
+use std::sync::Arc;
+
+/// What lies between the values of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Interpolation {
+    /// Nothing: each draw is a value of the file, each as likely as the others.
+    None,
+    /// A uniform distribution between neighbours.
+    Linear,
+}
+
+impl Interpolation {
+    /// All values.
+    pub const ALL: [Interpolation; 2] = [Interpolation::None, Interpolation::Linear];
+
+    /// The name in campaign files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Interpolation::None => "none",
+            Interpolation::Linear => "linear",
+        }
+    }
+}
+
+/// As written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Empirical(pub DataColumn, pub Interpolation);
+
+/// Ready to be drawn: as the values of a list, each with the same weight.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EmpiricalQuantile {
+    /// Ascending, at least one.
+    values: Arc<[f64]>,
+    interpolation: Interpolation,
+}
+
+impl EmpiricalQuantile {
+    /// The distribution of `values`, of which there is at least one.
+    pub fn new(values: &[f64], interpolation: Interpolation) -> Self {
+        let mut values = values.to_vec();
+        values.sort_by(f64::total_cmp);
+        EmpiricalQuantile { values: values.into(), interpolation }
+    }
+}
+
+impl Scalar for Empirical {
+    const NAME: &'static str = "empirical";
+    type Quantile = EmpiricalQuantile;
+
+    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
+        let has_interpolation = keys.has("interpolation");
+        let interpolation = keys.choice("interpolation", &Interpolation::ALL.map(Interpolation::name));
+        let data = keys.column()?;
+        let interpolation = if has_interpolation { Interpolation::ALL[interpolation?] } else { Interpolation::None };
+        Some(Empirical(data, interpolation))
+    }
+
+    fn write(&self, keys: &mut dyn KeyWriter) {
+        let Empirical(DataColumn { file, sha256, column, .. }, interpolation) = self;
+        keys.key("file", file);
+        keys.key("sha256", sha256);
+        keys.key("column", column);
+        keys.key("interpolation", &interpolation.name());
+    }
+
+    fn quantiles(&self, target: &Target<'_>) -> Result<Vec<EmpiricalQuantile>, DispersionError> {
+        let quantile = EmpiricalQuantile::new(&self.0.values, self.1);
+        target.all(|_| Ok(quantile.clone()))
+    }
+}
+
+impl Quantile for EmpiricalQuantile {
+    /// The value at `u`: the smallest with at least the fraction u of the values at or below it, or with linear interpolation
+    /// that at position u (n - 1), counted from zero (R. J. Hyndman & Y. Fan, *Am. Stat.* 50 (1996) 361, types 1 and 7).
+    fn quantile(&self, u: f64) -> f64 {
+        let last = self.values.len() - 1;
+        match self.interpolation {
+            Interpolation::None => self.values[((u * self.values.len() as f64) as usize).min(last)],
+            Interpolation::Linear => {
+                let position = u * last as f64;
+                let below = (position as usize).min(last);
+                let above = (below + 1).min(last);
+                let part = position - below as f64;
+                self.values[below] + part * (self.values[above] - self.values[below])
+            }
+        }
+    }
+
+    fn text(&self, short: &dyn Fn(f64) -> String) -> String {
+        let [low, high] = [f64::EPSILON, 1.0 - f64::EPSILON].map(|u| short(self.quantile(u)));
+        format!("as {} values of a file, {low} to {high}", self.values.len())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_empirical_distribution_gives_its_values_back() {
+        let steps = EmpiricalQuantile::new(&[5.0, 1.0, 2.0], Interpolation::None);
+        assert_eq!([0.01, 0.33, 0.34, 0.66, 0.67, 0.99].map(|u| steps.quantile(u)), [1.0, 1.0, 2.0, 2.0, 5.0, 5.0]);
+        let lines = EmpiricalQuantile::new(&[5.0, 1.0, 2.0], Interpolation::Linear);
+        assert_eq!([0.25, 0.5, 0.75].map(|u| lines.quantile(u)), [1.5, 2.0, 3.5]);
+        assert_eq!(EmpiricalQuantile::new(&[4.0], Interpolation::Linear).quantile(0.3), 4.0);
+    }
+}

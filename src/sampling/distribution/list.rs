@@ -1,0 +1,211 @@
+//! The list of distributions: everything that is done for each of them follows from here.
+
+use super::about_axis::AboutAxis;
+use super::attitude_error::AttitudeError;
+use super::bernoulli::Bernoulli;
+use super::beta::Beta;
+use super::choice::Choice;
+use super::direction::{Cone, UniformDirection, VonMisesFisher};
+use super::empirical::Empirical;
+use super::log_normal::LogNormal;
+use super::log_uniform::LogUniform;
+use super::normal::Normal;
+use super::offset::Offset;
+use super::pert::Pert;
+use super::target::{JointTarget, Target};
+use super::traits::{Map, Nested, Quantile, Scalar, Together};
+use super::triangular::Triangular;
+use super::truncated_normal::TruncatedNormal;
+use super::uniform::Uniform;
+use super::uniform_attitude::UniformAttitude;
+use crate::sampling::error::{DispersionError, error};
+use crate::sampling::keys::{KeyReader, KeyWriter};
+
+/// Declares the enumerations over all distributions, and passes each call on to the one that is meant.
+macro_rules! distributions {
+    (one number: $($Scalar:ident),* ; several together: $($Name:ident = $Together:ty),* $(,)?) => {
+        /// A distribution as written.
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum WrittenDistribution {
+            $(
+                #[doc = concat!("See [`", stringify!($Scalar), "`].")]
+                $Scalar($Scalar),
+            )*
+            $(
+                #[doc = concat!("See [`", stringify!($Name), "`].")]
+                $Name($Together),
+            )*
+        }
+
+        impl WrittenDistribution {
+            /// The names in campaign files.
+            pub const NAMES: &'static [&'static str] =
+                &[$(<$Scalar as Scalar>::NAME,)* $(<$Together as Together>::NAME,)*];
+
+            /// The name in campaign files.
+            pub fn name(&self) -> &'static str {
+                match self {
+                    $( Self::$Scalar(_) => <$Scalar as Scalar>::NAME, )*
+                    $( Self::$Name(_) => <$Together as Together>::NAME, )*
+                }
+            }
+
+            /// Reads the keys of the distribution called `name`; `None` where there is none of that name or something is
+            /// wrong, which is then noted.
+            pub fn read_named(name: &str, keys: &mut dyn KeyReader) -> Option<Self> {
+                $( if name == <$Scalar as Scalar>::NAME {
+                    return <$Scalar as Scalar>::read(keys).map(Self::$Scalar);
+                } )*
+                $( if name == <$Together as Together>::NAME {
+                    return <$Together as Together>::read(keys).map(Self::$Name);
+                } )*
+                None
+            }
+
+            /// Writes its name and its keys.
+            pub fn write(&self, keys: &mut dyn KeyWriter) {
+                keys.key("distribution", &self.name());
+                match self {
+                    $( Self::$Scalar(written) => written.write(keys), )*
+                    $( Self::$Name(written) => written.write(keys), )*
+                }
+            }
+
+            /// The distribution of each component; `None` for one of all components together.
+            ///
+            /// # Errors
+            /// What about its numbers does not fit the target.
+            pub fn distributions(&self, target: &Target<'_>) -> Result<Option<Vec<Distribution>>, DispersionError> {
+                Ok(match self {
+                    $( Self::$Scalar(written) => {
+                        Some(written.quantiles(target)?.into_iter().map(Distribution::$Scalar).collect())
+                    } )*
+                    $( Self::$Name(_) => None, )*
+                })
+            }
+
+            /// The map of all components together; `None` for a distribution of one number.
+            ///
+            /// # Errors
+            /// What is wrong with target or numbers.
+            pub fn joint(&self, target: &JointTarget<'_>) -> Result<Option<Joint>, DispersionError> {
+                Ok(match self {
+                    $( Self::$Scalar(_) => None, )*
+                    $( Self::$Name(written) => Some(Joint::$Name(written.map(target)?)), )*
+                })
+            }
+        }
+
+        /// A distribution of one number, ready to be drawn: one quantile function.
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum Distribution {
+            $(
+                #[doc = concat!("See [`", stringify!($Scalar), "`].")]
+                $Scalar(<$Scalar as Scalar>::Quantile),
+            )*
+        }
+
+        impl Quantile for Distribution {
+            #[inline]
+            fn quantile(&self, u: f64) -> f64 {
+                match self { $( Self::$Scalar(ready) => ready.quantile(u), )* }
+            }
+
+            #[inline]
+            fn quantiles(&self, u: &[f64; 8], values: &mut [f64; 8]) {
+                match self { $( Self::$Scalar(ready) => ready.quantiles(u, values), )* }
+            }
+
+            #[inline]
+            fn of_scores(&self, z: &[f64; 8], values: &mut [f64; 8]) -> bool {
+                match self { $( Self::$Scalar(ready) => ready.of_scores(z, values), )* }
+            }
+
+            #[inline]
+            fn dimensions(&self) -> usize {
+                match self { $( Self::$Scalar(ready) => ready.dimensions(), )* }
+            }
+
+            fn normal_std(&self) -> Option<f64> {
+                match self { $( Self::$Scalar(ready) => ready.normal_std(), )* }
+            }
+
+            fn text(&self, short: &dyn Fn(f64) -> String) -> String {
+                match self { $( Self::$Scalar(ready) => ready.text(short), )* }
+            }
+        }
+
+        /// A distribution of several numbers together, ready to be drawn.
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum Joint {
+            $(
+                #[doc = concat!("See [`", stringify!($Name), "`].")]
+                $Name(<$Together as Together>::Map),
+            )*
+        }
+
+        impl Map for Joint {
+            fn dimensions(&self) -> usize {
+                match self { $( Self::$Name(map) => map.dimensions(), )* }
+            }
+
+            fn components(&self) -> usize {
+                match self { $( Self::$Name(map) => map.components(), )* }
+            }
+
+            fn values(&self, u: &[f64], values: &mut [f64]) {
+                match self { $( Self::$Name(map) => map.values(u, values), )* }
+            }
+
+            fn text(&self, short: &dyn Fn(f64) -> String) -> String {
+                match self { $( Self::$Name(map) => map.text(short), )* }
+            }
+        }
+    };
+}
+
+distributions! {
+    one number:
+        Normal, TruncatedNormal, Uniform, LogNormal, LogUniform, Triangular, Beta, Pert, Choice, Bernoulli, Empirical, Offset;
+    several together:
+        UniformAttitude = UniformAttitude,
+        UniformDirection = UniformDirection<WrittenDistribution>,
+        Cone = Cone<WrittenDistribution>,
+        VonMisesFisher = VonMisesFisher<WrittenDistribution>,
+        AttitudeError = AttitudeError,
+        AboutAxis = AboutAxis<WrittenDistribution>,
+}
+
+impl WrittenDistribution {
+    /// Reads `distribution` and the keys of the distribution that it names.
+    pub fn read(keys: &mut dyn KeyReader) -> Option<Self> {
+        let name = keys.kind("distribution", Self::NAMES, "\"normal\"")?;
+        Self::read_named(name, keys)
+    }
+}
+
+impl Nested for WrittenDistribution {
+    type Quantile = Distribution;
+
+    fn read_table(keys: &mut dyn KeyReader, key: &'static str) -> Option<Option<Self>> {
+        let is_written = keys.has(key);
+        let mut found = None;
+        keys.table(key, &mut |table| found = Self::read(table));
+        if is_written { found.map(Some) } else { Some(None) }
+    }
+
+    fn write_table(&self, keys: &mut dyn KeyWriter, key: &str) {
+        keys.table(key);
+        self.write(keys);
+    }
+
+    fn quantile(&self, index: usize, key: &'static str, nominal: f64) -> Result<Distribution, DispersionError> {
+        let found = self.distributions(&Target { index, nominals: &[nominal] }).map_err(|inner| {
+            error(index, key, format!("{{ {} = {} }}", inner.key, inner.value), inner.allowed, inner.remedy)
+        })?;
+        found.and_then(|found| found.into_iter().next()).ok_or_else(|| {
+            let remedy = "choose \"normal\" or \"uniform\"";
+            error(index, key, format!("{:?}", self.name()), "a distribution of one number", remedy)
+        })
+    }
+}

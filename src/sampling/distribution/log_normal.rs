@@ -1,0 +1,73 @@
+//! `log_normal`: normal in the natural logarithm, with standard deviation `log_std` and `median`, else the nominal value.
+
+use super::target::Target;
+use super::traits::{Quantile, Scalar};
+use crate::math::normal::{quantile, quantiles};
+use crate::sampling::error::DispersionError;
+use crate::sampling::keys::{KeyReader, KeyWriter, Values};
+
+/// As written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LogNormal {
+    /// Standard deviation of the natural logarithm.
+    pub log_std: Values,
+    /// Median; the nominal where it is not written.
+    pub median: Option<Values>,
+}
+
+/// Ready to be drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LogNormalQuantile {
+    /// Median, > 0.
+    pub median: f64,
+    /// Standard deviation of the natural logarithm, >= 0.
+    pub log_std: f64,
+}
+
+impl Scalar for LogNormal {
+    const NAME: &'static str = "log_normal";
+    type Quantile = LogNormalQuantile;
+
+    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
+        let (log_std, median) = (keys.required("log_std", "0.1"), keys.optional("median"));
+        log_std.zip(median).map(|(log_std, median)| LogNormal { log_std, median })
+    }
+
+    fn write(&self, keys: &mut dyn KeyWriter) {
+        keys.values("log_std", &self.log_std);
+        keys.optional("median", self.median.as_ref());
+    }
+
+    fn quantiles(&self, target: &Target<'_>) -> Result<Vec<LogNormalQuantile>, DispersionError> {
+        let log_std = target.not_negative("log_std", &self.log_std)?;
+        let medians = target.positive_or_nominal("median", &self.median)?;
+        target.all(|k| Ok(LogNormalQuantile { median: medians[k], log_std: log_std[k] }))
+    }
+}
+
+impl Quantile for LogNormalQuantile {
+    #[inline]
+    fn quantile(&self, u: f64) -> f64 {
+        self.median * libm::exp(self.log_std * quantile(u))
+    }
+
+    #[inline]
+    fn quantiles(&self, u: &[f64; 8], values: &mut [f64; 8]) {
+        quantiles(u, values);
+        for value in values {
+            *value = self.median * libm::exp(self.log_std * *value);
+        }
+    }
+
+    #[inline]
+    fn of_scores(&self, z: &[f64; 8], values: &mut [f64; 8]) -> bool {
+        for (value, z) in values.iter_mut().zip(z) {
+            *value = self.median * libm::exp(self.log_std * z);
+        }
+        true
+    }
+
+    fn text(&self, short: &dyn Fn(f64) -> String) -> String {
+        format!("log-normal, std of the logarithm {}", short(self.log_std))
+    }
+}

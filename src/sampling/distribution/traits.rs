@@ -1,0 +1,119 @@
+//! What every distribution implements.
+
+use super::target::{JointTarget, Target};
+use crate::sampling::error::DispersionError;
+use crate::sampling::keys::{KeyReader, KeyWriter};
+use std::fmt::Debug;
+
+/// A distribution of one number, as written; of a parameter with components, each has it.
+pub trait Scalar: Clone + Debug + PartialEq {
+    /// The name in campaign files.
+    const NAME: &'static str;
+    /// What it becomes.
+    type Quantile: Quantile;
+
+    /// Reads its keys; `None` where something is wrong, which is then noted.
+    fn read(keys: &mut dyn KeyReader) -> Option<Self>;
+
+    /// Writes its keys.
+    fn write(&self, keys: &mut dyn KeyWriter);
+
+    /// The quantile function of each component.
+    ///
+    /// # Errors
+    /// What about its numbers does not fit the target.
+    fn quantiles(&self, target: &Target<'_>) -> Result<Vec<Self::Quantile>, DispersionError>;
+}
+
+/// A quantile function.
+pub trait Quantile: Clone + Debug + PartialEq {
+    /// The value below which the fraction `u` of the distribution lies, 0 < u < 1.
+    fn quantile(&self, u: f64) -> f64;
+
+    /// [`Quantile::quantile`] of eight numbers, with the same bits.
+    #[inline]
+    fn quantiles(&self, u: &[f64; 8], values: &mut [f64; 8]) {
+        for (value, u) in values.iter_mut().zip(u) {
+            *value = self.quantile(*u);
+        }
+    }
+
+    /// The values of eight normal scores z, that is the quantiles of Phi(z), where the value is a function of z itself; false,
+    /// and nothing done, elsewhere. A score says more than its u in the upper tail.
+    #[inline]
+    fn of_scores(&self, _z: &[f64; 8], _values: &mut [f64; 8]) -> bool {
+        false
+    }
+
+    /// Number of u that it takes: 0 where the value is always the same.
+    #[inline]
+    fn dimensions(&self) -> usize {
+        1
+    }
+
+    /// The standard deviation, of a normal distribution.
+    fn normal_std(&self) -> Option<f64> {
+        None
+    }
+
+    /// In words; `short` writes a number.
+    fn text(&self, short: &dyn Fn(f64) -> String) -> String;
+}
+
+/// A distribution of all components of a vector or an attitude together, as written.
+pub trait Together: Clone + Debug + PartialEq {
+    /// The name in campaign files.
+    const NAME: &'static str;
+    /// What it becomes.
+    type Map: Map;
+
+    /// Reads its keys; `None` where something is wrong, which is then noted.
+    fn read(keys: &mut dyn KeyReader) -> Option<Self>;
+
+    /// Writes its keys.
+    fn write(&self, keys: &mut dyn KeyWriter);
+
+    /// The map to be drawn.
+    ///
+    /// # Errors
+    /// What is wrong with target or numbers.
+    fn map(&self, target: &JointTarget<'_>) -> Result<Self::Map, DispersionError>;
+}
+
+/// A map from several u in (0, 1) to the values of several components.
+pub trait Map: Clone + Debug + PartialEq {
+    /// Number of u that a draw takes, at most [`MAX_DIMENSIONS`].
+    fn dimensions(&self) -> usize;
+
+    /// Number of values that a draw gives, at most [`MAX_COMPONENTS`].
+    fn components(&self) -> usize;
+
+    /// The values for `u` ([`Map::dimensions`] numbers), into the first [`Map::components`] of `values`.
+    fn values(&self, u: &[f64], values: &mut [f64]);
+
+    /// In words; `short` writes a number.
+    fn text(&self, short: &dyn Fn(f64) -> String) -> String;
+}
+
+/// Largest number of u of one distribution.
+pub const MAX_DIMENSIONS: usize = 8;
+/// Largest number of components that one distribution writes.
+pub const MAX_COMPONENTS: usize = 16;
+
+/// A distribution of one number within another, as written: of a magnitude, of an angle. The list of distributions is one.
+pub trait Nested: Clone + Debug + PartialEq {
+    /// What it becomes.
+    type Quantile: Quantile;
+
+    /// Reads the table `key` of `keys`; `None` where it is wrong, `Some(None)` where it is not written.
+    fn read_table(keys: &mut dyn KeyReader, key: &'static str) -> Option<Option<Self>>;
+
+    /// Writes the table `key`.
+    fn write_table(&self, keys: &mut dyn KeyWriter, key: &str);
+
+    /// Its quantile function.
+    ///
+    /// # Errors
+    /// That it is not a distribution of one number, or what about its numbers does not fit.
+    fn quantile(&self, index: usize, key: &'static str, nominal: f64) -> Result<Self::Quantile, DispersionError>;
+}

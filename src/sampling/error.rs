@@ -1,0 +1,66 @@
+//! [`DispersionError`]: why a campaign's dispersions cannot be drawn.
+
+/// Which table of a campaign file an error is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Table {
+    /// A `[[disperse]]` table, counted from zero.
+    Disperse(usize),
+    /// A `[[correlate]]` table, counted from zero.
+    Correlate(usize),
+    /// A `[[derive]]` table, counted from zero.
+    Derive(usize),
+    /// The `[design]` table.
+    Design,
+    /// The `[campaign]` table.
+    Campaign,
+}
+
+impl std::fmt::Display for Table {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Table::Disperse(index) => write!(f, "disperse[{index}]"),
+            Table::Correlate(index) => write!(f, "correlate[{index}]"),
+            Table::Derive(index) => write!(f, "derive[{index}]"),
+            Table::Design => f.write_str("design"),
+            Table::Campaign => f.write_str("campaign"),
+        }
+    }
+}
+
+/// Why a campaign's dispersions cannot be drawn.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{table}.{key} = {value}: must be {allowed}; {remedy}")]
+pub struct DispersionError {
+    /// Which table.
+    pub table: Table,
+    /// Its key that is wrong: `parameter`, `std`, ...
+    pub key: &'static str,
+    /// What it is.
+    pub value: String,
+    /// What it must be (to follow the words `must be`).
+    pub allowed: String,
+    /// What to do.
+    pub remedy: String,
+}
+
+/// An error of dispersion `dispersion`, key `key`.
+pub fn error(
+    dispersion: usize,
+    key: &'static str,
+    value: impl Into<String>,
+    allowed: impl Into<String>,
+    remedy: impl Into<String>,
+) -> DispersionError {
+    error_of(Table::Disperse(dispersion), key, value, allowed, remedy)
+}
+
+/// An error of any table.
+pub fn error_of(
+    table: Table,
+    key: &'static str,
+    value: impl Into<String>,
+    allowed: impl Into<String>,
+    remedy: impl Into<String>,
+) -> DispersionError {
+    DispersionError { table, key, value: value.into(), allowed: allowed.into(), remedy: remedy.into() }
+}
