@@ -1,4 +1,4 @@
-//! Every refusal of a scene by its key, and its nearest neighbour that is accepted.
+//! Every refusal of a scene by its key, and the nearest scene that is accepted.
 
 use super::input::SceneInput;
 use super::schema::{ActuationInput, DebrisInput, PrincipalInertia, PrincipalMoments, WheelInput, WheelMode};
@@ -297,7 +297,7 @@ const REFUSALS: &[(&str, &str, Change, Change)] = &[
         |input| input.actuation[1].thrust_n[2] = 0.0,
     ),
     (
-        "actuation[1]",
+        "actuation[1].torque_n_m",
         "finite",
         |input| input.actuation[1].torque_n_m[0] = f64::NAN,
         |input| input.actuation[1].torque_n_m[0] = -1.0,

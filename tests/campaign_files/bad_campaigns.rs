@@ -336,7 +336,11 @@ const CASES: &[(&str, &str, &str)] = &[
         "\"initial.position_m\"",
         "bad.toml:36: disperse[0].relative_std = 0.02: must be relative to a nominal value other than 0; use std in the parameter's unit",
     ),
-    ("sigmas = 3", "sigmas = 0", "bad.toml:37: disperse[0].sigmas = 0.0: must be > 0; 3 cuts 0.27% of the normal law"),
+    (
+        "sigmas = 3",
+        "sigmas = 0",
+        "bad.toml:37: disperse[0].sigmas = 0.0: must be > 0; 3 cuts off 0.27% of the normal distribution",
+    ),
     (
         "sigmas = 3",
         "sigmas = 3\nupper = 3000",
@@ -350,7 +354,7 @@ const CASES: &[(&str, &str, &str)] = &[
     (
         "sigmas = 3",
         "lower = 9000",
-        "must be bounds with some of the normal law of mean 2700.0 and standard deviation 54.0 between them; move the bounds to the nominal, or widen them",
+        "must be bounds with some of the normal distribution of mean 2700.0 and standard deviation 54.0 between them; move the bounds to the nominal, or widen them",
     ),
     (
         "\"truncated_normal\"\nrelative_std = 0.02\nsigmas = 3",

@@ -352,7 +352,7 @@ fn what_cannot_be_drawn_is_refused() {
                 "{RATE}distribution = \"cone\"\nhalf_angle_rad = 1\nmagnitude = {{ distribution = \"cone\", half_angle_rad = 1 }}\n"
             ),
             "magnitude",
-            "a law of one number",
+            "a distribution of one number",
         ),
         (
             format!(
@@ -393,9 +393,9 @@ fn what_cannot_be_drawn_is_refused() {
     }
 }
 
-/// A geometric law survives the way to the plan's text and back.
+/// A geometric distribution survives the way to the plan's text and back.
 #[test]
-fn plans_contain_geometric_distributions() {
+fn plans_keep_geometric_distributions() {
     for disperse in [
         format!("{RATE}distribution = \"uniform_direction\"\n"),
         format!("{RATE}distribution = \"cone\"\nhalf_angle_rad = 0.25\naxis = [0, 1, 1]\nmagnitude = {{ distribution = \"truncated_normal\", relative_std = 0.1, sigmas = 3 }}\n"),
