@@ -29,7 +29,8 @@ const SAMPLES: u64 = 1024;
 
 fn plan() -> Plan {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns/no_debris.toml");
-    Plan::load(&path, Overrides { samples: Some(SAMPLES), seed: None }).expect("a shipped campaign is valid")
+    Plan::load(&path, Overrides { samples: Some(SAMPLES), ..Overrides::default() })
+        .expect("a shipped campaign is valid")
 }
 
 fn sampling(criterion: &mut Criterion) {

@@ -75,7 +75,8 @@ fn plan(name: &str, method: &str) -> Plan {
     let path = format!("{}/campaigns/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(path).expect("a shipped campaign");
     let text = text.replace("method = \"auto\"", &format!("method = \"{method}\""));
-    Plan::from_text(name, &text, Overrides { samples: Some(512), seed: None }).unwrap_or_else(|error| panic!("{error}"))
+    Plan::from_text(name, &text, Overrides { samples: Some(512), ..Overrides::default() })
+        .unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Scenes drawn from a shipped campaign.

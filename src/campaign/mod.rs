@@ -1,13 +1,14 @@
-//! Floor 4: campaign files. What was written ([`Spec`]) -> what will run ([`Plan`]), or every reason why not ([`CampaignError`]).
+//! Layer 4: campaign files. What was written ([`Spec`]) -> what will run ([`Plan`]), or every reason why not ([`CampaignError`]).
 //!
 //! - [`problem`]: one reason, with file, line, key, value, allowed range and remedy.
-//! - [`document`]: a TOML document that is read key by key and remembers the lines. By hand and not by serde's derive, which
-//!   stops at the first error and knows no line of a key that passed.
-//! - [`lists`]: lists of any length in it; [`data`]: files of numbers that it names.
-//! - [`spec`]: the keys of a campaign file; [`disperse`], [`disperse_geometric`], [`design`], [`dependence`]: those that say
-//!   what is drawn.
+//! - [`document`], [`section`], [`lists`]: a TOML document that is read key by key and remembers the lines. By hand and not by
+//!   serde's derive, which stops at the first error and knows no line of a key that passed.
+//! - [`spec`]: the keys of a campaign file; [`scene`]: those of the scene, from [`crate::scene::schema`]; [`disperse`],
+//!   [`design`], [`dependence`]: those that say what is drawn; [`keys`]: how a distribution or a design reads its own;
+//!   [`data`], [`data_keys`]: files of numbers; [`parameter`]: names of parameters; [`limits`].
 //! - [`plan`]: defaults filled in, scene and dispersions checked against each other.
-//! - [`canonical`], [`canonical_draws`]: the plan as text that reads back to the same plan, and its hash.
+//! - [`mod@draw`]: from a plan and the number of a sample to its scene.
+//! - [`canonical`], [`canonical_draws`], [`lines`]: the plan as text that reads back to the same plan, and its hash.
 //! - [`mod@find`]: which file a name means.
 //!
 //! Not here: what is physical ([`crate::scene`]) and what can be drawn ([`crate::sampling`]); their errors get lines here.
@@ -20,6 +21,7 @@ pub mod dependence;
 pub mod design;
 pub mod disperse;
 pub mod document;
+pub mod draw;
 pub mod find;
 mod keys;
 pub mod limits;
@@ -32,6 +34,7 @@ mod scene;
 pub mod section;
 pub mod spec;
 
+pub use draw::{SceneDraws, draw};
 pub use find::find;
 pub use plan::{Compression, Overrides, Plan};
 pub use problem::{CampaignError, Problem};

@@ -2,7 +2,7 @@
 //! a sample's id.
 
 use super::document::Document;
-use super::limits::{LARGEST_SEED, MAX_SAMPLES};
+use super::limits::{FRACTION, LARGEST_SEED, MAX_SAMPLES};
 use super::problem::{CampaignError, Problem};
 use super::spec::Spec;
 use crate::observables::Group;
@@ -83,12 +83,14 @@ impl Compression {
 }
 
 /// What the command line says instead of the file.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Overrides {
     /// `--samples`.
     pub samples: Option<u64>,
     /// `--seed`.
     pub seed: Option<u64>,
+    /// `--audit`.
+    pub audit_fraction: Option<f64>,
 }
 
 /// Observation points where the file does not say.
@@ -164,6 +166,9 @@ fn override_spec(spec: &mut Spec, overrides: Overrides, document: &mut Document<
     };
     check("--samples", overrides.samples, 1, MAX_SAMPLES);
     check("--seed", overrides.seed, 0, LARGEST_SEED);
+    if let Some(fraction) = overrides.audit_fraction.filter(|fraction| !(FRACTION.test)(*fraction)) {
+        document.add("--audit", Some(format!("{fraction:?}")), FRACTION.allowed, FRACTION.remedy);
+    }
     if let (Some(samples), Some(written), Some(design)) = (overrides.samples, spec.samples, &spec.design)
         && samples != written
         && let Some([why, remedy]) = design.depends_on_samples()
@@ -176,6 +181,7 @@ fn override_spec(spec: &mut Spec, overrides: Overrides, document: &mut Document<
     }
     spec.samples = overrides.samples.or(spec.samples);
     spec.seed = overrides.seed.or(spec.seed);
+    spec.audit_fraction = overrides.audit_fraction.or(spec.audit_fraction);
 }
 
 /// Fills in the defaults, checks what needs several keys, and asks the floors below; `None` where something is wrong.

@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use crate::campaign::limits::FRACTION;
 use crate::campaign::{Overrides, Plan};
 use crate::cli::arguments::CampaignOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
@@ -25,14 +24,8 @@ const RESULTS: &str = "results";
 /// # Errors
 /// Where the campaign cannot run or its result cannot be written.
 pub fn run(options: &CampaignOptions) -> Result<CommandOutcome, Failure> {
-    let mut plan = plan(&options.file, Overrides { samples: options.samples, seed: options.seed })?;
-    if let Some(fraction) = options.audit {
-        if !(FRACTION.test)(fraction) {
-            let (allowed, remedy) = (FRACTION.allowed, FRACTION.remedy);
-            return Err(Failure::Input(format!("--audit {fraction:?}: must be {allowed}; {remedy}")));
-        }
-        plan.audit_fraction = fraction;
-    }
+    let overrides = Overrides { samples: options.samples, seed: options.seed, audit_fraction: options.audit };
+    let plan = plan(&options.file, overrides)?;
     let isa = isa()?;
     let root = options.out.clone().unwrap_or_else(|| PathBuf::from(RESULTS).join(&plan.name));
     match Folder::claim(&root, &plan, options.overwrite).map_err(Failure::files)? {

@@ -26,7 +26,7 @@ pub fn run(options: &SampleOptions) -> Result<CommandOutcome, Failure> {
     if let Some(path) = &options.plot {
         PlotFormat::of(path).map_err(|error| Failure::Input(error.to_string()))?;
     }
-    let plan = plan(&options.file, Overrides { samples: options.samples, seed: options.seed })?;
+    let plan = plan(&options.file, Overrides { samples: options.samples, seed: options.seed, ..Overrides::default() })?;
     let drawn = DrawnScenes::new(&plan, SampleId(0), plan.samples);
     let mut text = String::new();
     // the nominal sample is none of the draws

@@ -1,6 +1,6 @@
 //! [`DrawnScenes`]: the samples of a campaign as they are drawn, without running them.
 
-use crate::campaign::Plan;
+use crate::campaign::{Plan, SceneDraws};
 use crate::sampling::SampleId;
 use crate::scene::Scene;
 
@@ -19,17 +19,13 @@ impl DrawnScenes {
     /// Draws `count` samples of `plan` from `first` on, as far as it has them.
     pub fn new(plan: &Plan, first: SampleId, count: u64) -> Self {
         let end = first.0.saturating_add(count).min(plan.samples);
-        let mut sampler = plan.dispersions.sampler();
-        let (mut input, mut scene) = (plan.nominal.clone(), None::<Scene>);
-        let mut applied = vec![0.0; plan.dispersions.columns().len()];
-        let mut drawn = DrawnScenes { first, physical: Vec::new(), columns: vec![Vec::new(); applied.len()] };
+        let mut draws = SceneDraws::new(plan);
+        let mut scenes: Vec<Scene> = Vec::with_capacity(1);
+        let columns = plan.dispersions.columns().len();
+        let mut drawn = DrawnScenes { first, physical: Vec::new(), columns: vec![Vec::new(); columns] };
         for sample in first.0..end {
-            sampler.draw(SampleId(sample), &mut input, &mut applied);
-            drawn.columns.iter_mut().zip(&applied).for_each(|(column, value)| column.push(*value));
-            drawn.physical.push(match &mut scene {
-                Some(scene) => scene.resolve_into(&input).is_ok(),
-                None => Scene::resolve(&input).map(|resolved| scene = Some(resolved)).is_ok(),
-            });
+            drawn.physical.push(draws.scene_at(SampleId(sample), &mut scenes, 0));
+            drawn.columns.iter_mut().zip(draws.applied()).for_each(|(column, value)| column.push(*value));
         }
         drawn
     }
@@ -58,7 +54,7 @@ impl DrawnScenes {
     }
 }
 
-/// Ranks less their mean, as a vector of length one, or zero where all values are equal.
+/// Ranks minus their mean, as a vector of length one, or zero where all values are equal.
 fn standard_ranks(values: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..values.len()).collect();
     order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));

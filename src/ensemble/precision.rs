@@ -6,7 +6,7 @@
 
 use rayon::prelude::*;
 
-use crate::campaign::Plan;
+use crate::campaign::{Plan, SceneDraws};
 use crate::dynamics::gyrostat::Gyrostat;
 use crate::ensemble::cpu_clock::thread_seconds;
 use crate::ensemble::single::states;
@@ -120,14 +120,9 @@ impl<'p> Precision<'p> {
     /// # Errors
     /// The number of a sample whose truth cannot be had, and why.
     pub fn new(plan: &'p Plan, isa: Isa, samples: usize, wanted: States) -> Result<Self, (SampleId, Status)> {
-        let mut input = plan.nominal.clone();
-        let mut applied = vec![0.0; plan.dispersions.columns().len()];
-        let mut sampler = plan.dispersions.sampler();
+        let mut draws = SceneDraws::new(plan);
         let drawn: Vec<(SampleId, Scene)> = (0..plan.samples)
-            .filter_map(|id| {
-                sampler.draw(SampleId(id), &mut input, &mut applied);
-                Some((SampleId(id), Scene::resolve(&input).ok()?))
-            })
+            .filter_map(|id| Some((SampleId(id), draws.scene(SampleId(id)).ok()?)))
             .take(samples)
             .collect();
         let balances = [Group::EnergyConservation, Group::MomentumConservation];

@@ -2,13 +2,13 @@
 
 use std::time::Instant;
 
+use crate::campaign::SceneDraws;
 use crate::ensemble::audit::Auditor;
 use crate::ensemble::parts::{Part, PartId};
 use crate::ensemble::rows::Rows;
 use crate::ensemble::worker::Ensemble;
 use crate::run::Status;
 use crate::sampling::SampleId;
-use crate::scene::Scene;
 
 /// A probe takes about this long, s.
 const DURATION_S: f64 = 0.5;
@@ -68,14 +68,11 @@ impl AuditProbe {
     pub fn new(ensemble: &Ensemble<'_>) -> Self {
         let plan = ensemble.plan();
         let mut auditor = Auditor::new(plan, ensemble.isa(), &plan.grid);
-        let mut sampler = plan.dispersions.sampler();
-        let mut input = plan.nominal.clone();
-        let mut applied = vec![0.0; plan.dispersions.columns().len()];
+        let mut draws = SceneDraws::new(plan);
         let start = Instant::now();
         let (mut count, mut sample) = (0_u32, 0);
         while sample < plan.samples && start.elapsed().as_secs_f64() < DURATION_S {
-            sampler.draw(SampleId(sample), &mut input, &mut applied);
-            if let Ok(scene) = Scene::resolve(&input) {
+            if let Ok(scene) = draws.scene(SampleId(sample)) {
                 auditor.audit(&scene);
                 count += 1;
             }

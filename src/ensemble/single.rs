@@ -2,7 +2,7 @@
 //!
 //! The scene is drawn and propagated by the code that runs campaigns, so that the states are those behind the row.
 
-use crate::campaign::Plan;
+use crate::campaign::{Plan, draw};
 use crate::ensemble::worker::{propagator, request};
 use crate::math::Isa;
 use crate::observables::{Group, Observer, Request, SeriesColumn};
@@ -41,27 +41,24 @@ impl SingleRun {
     /// # Errors
     /// Why the drawn scene is not physical.
     pub fn new(plan: &Plan, sample: SampleId, grid: Grid, isa: Isa) -> Result<Self, Vec<SceneError>> {
-        let mut input = plan.nominal.clone();
-        let mut applied = vec![0.0; plan.dispersions.columns().len()];
-        plan.dispersions.sampler().draw(sample, &mut input, &mut applied);
-        let scene = Scene::resolve(&input)?;
+        let scene = draw(plan, sample)?;
 
         let request = request(plan);
         let shown = Request { groups: GROUPS.into_iter().collect(), ..request };
         let blocks = states(plan).union(shown.blocks()).union(request.blocks());
         let mut engine = propagator(plan, grid.clone(), blocks).engine(isa);
         let mut observer = Observer::new(request, &grid);
-        let mut watcher = Observer::new(shown, &grid);
+        let mut series_observer = Observer::new(shown, &grid);
         let mut row = vec![f64::NAN; request.columns().len()];
         let mut ignored = vec![f64::NAN; shown.columns().len()];
-        let mut kept = None;
+        let mut result = None;
         engine.propagate(std::slice::from_ref(&scene), &mut |_, table, outcome| {
             observer.observe(isa, &scene, table, outcome, &mut row);
-            watcher.observe(isa, &scene, table, outcome, &mut ignored);
-            kept = Some((table.clone(), *outcome));
+            series_observer.observe(isa, &scene, table, outcome, &mut ignored);
+            result = Some((table.clone(), *outcome));
         });
-        let (table, outcome) = kept.expect("the propagator finishes every scene that it is given");
-        let series = watcher.series().map(|(column, values)| (column, values.collect())).collect();
+        let (table, outcome) = result.expect("the propagator finishes every scene that it is given");
+        let series = series_observer.series().map(|(column, values)| (column, values.collect())).collect();
         Ok(SingleRun { scene, grid, table, outcome, series, row, request })
     }
 }

@@ -1,6 +1,6 @@
 //! [`Ensemble`]: a plan made ready to run; [`Worker`]: the memory in which one thread runs samples of it.
 
-use crate::campaign::Plan;
+use crate::campaign::{Plan, SceneDraws};
 use crate::ensemble::audit::{Auditor, Selection};
 use crate::ensemble::cpu_clock::thread_seconds;
 use crate::ensemble::parts::Part;
@@ -12,8 +12,8 @@ use crate::propagation::Engine;
 use crate::propagation::Method;
 use crate::propagation::PropagationSettings;
 use crate::run::{Grid, StateFields};
-use crate::sampling::{SampleId, Sampler};
-use crate::scene::{Scene, SceneInput};
+use crate::sampling::SampleId;
+use crate::scene::Scene;
 
 /// Scenes that are drawn and propagated together: enough that lanes seldom wait for work (each of eight lanes is loaded 16 times), few
 /// enough that scenes and workspace stay in the second-level cache.
@@ -83,13 +83,11 @@ impl<'p> Ensemble<'p> {
         let shape = self.shape();
         Worker {
             campaign: self,
-            sampler: self.plan.dispersions.sampler(),
-            input: self.plan.nominal.clone(),
+            draws: SceneDraws::new(self.plan),
             scenes: Vec::new(),
-            places: Vec::with_capacity(BATCH),
+            rows_of_scenes: Vec::with_capacity(BATCH),
             engine: self.propagator.engine(self.isa),
             observer: Observer::new(self.request, &self.plan.grid),
-            applied: vec![0.0; shape.parameters],
             observed: vec![0.0; shape.observables],
             audits: (self.plan.audit_fraction > 0.0)
                 .then(|| (Selection::new(self.plan), Auditor::new(self.plan, self.isa, &self.plan.grid))),
@@ -100,20 +98,18 @@ impl<'p> Ensemble<'p> {
 /// The memory in which one thread runs samples. What an earlier sample left in it does not reach a later one.
 pub struct Worker<'c> {
     campaign: &'c Ensemble<'c>,
-    sampler: Sampler<'c>,
-    input: SceneInput,
+    draws: SceneDraws<'c>,
     scenes: Vec<Scene>,
     /// The row of each scene.
-    places: Vec<usize>,
+    rows_of_scenes: Vec<usize>,
     engine: Box<dyn Engine>,
     observer: Observer,
-    applied: Vec<f64>,
     observed: Vec<f64>,
     audits: Option<(Selection, Auditor)>,
 }
 
 impl Worker<'_> {
-    /// Runs the samples of `part` and writes their rows; `progress` hears of every batch how many samples it held.
+    /// Runs the samples of `part` and writes their rows; `progress` is told the number of samples of each batch.
     pub fn run(&mut self, part: Part, rows: &mut Rows, progress: &dyn Fn(u64)) {
         rows.start(part);
         for start in (0..part.count).step_by(BATCH) {
@@ -130,19 +126,15 @@ impl Worker<'_> {
         }
     }
 
-    /// Draws the samples of `batch`. One that is not physical keeps the row that [`Rows::start`] gave it: `invalid_sample`.
+    /// Draws the samples of `batch`. One that is not physical keeps the row of [`Rows::start`]: `invalid_sample`.
     fn draw(&mut self, part: Part, batch: std::ops::Range<usize>, rows: &mut Rows) {
-        self.places.clear();
+        self.rows_of_scenes.clear();
         for row in batch {
-            self.sampler.draw(SampleId(part.first.0 + row as u64), &mut self.input, &mut self.applied);
-            rows.set_parameters(row, &self.applied);
-            let place = self.places.len();
-            let physical = match self.scenes.get_mut(place) {
-                Some(scene) => scene.resolve_into(&self.input).is_ok(),
-                None => Scene::resolve(&self.input).map(|scene| self.scenes.push(scene)).is_ok(),
-            };
+            let physical =
+                self.draws.scene_at(SampleId(part.first.0 + row as u64), &mut self.scenes, self.rows_of_scenes.len());
+            rows.set_parameters(row, self.draws.applied());
             if physical {
-                self.places.push(row);
+                self.rows_of_scenes.push(row);
             }
         }
     }
@@ -150,7 +142,7 @@ impl Worker<'_> {
     /// Audits the samples of the batch that are selected.
     fn audit(&mut self, part: Part, rows: &mut Rows) {
         let Some((selection, auditor)) = &mut self.audits else { return };
-        for (scene, row) in self.scenes.iter().zip(&self.places) {
+        for (scene, row) in self.scenes.iter().zip(&self.rows_of_scenes) {
             if selection.holds(SampleId(part.first.0 + *row as u64)) {
                 rows.set_audit(*row, auditor.audit(scene));
             }
@@ -158,11 +150,11 @@ impl Worker<'_> {
     }
 
     fn propagate(&mut self, rows: &mut Rows) {
-        let (isa, scenes) = (self.campaign.isa, &self.scenes[..self.places.len()]);
-        let (places, observer, observed) = (&self.places, &mut self.observer, &mut self.observed);
+        let (isa, scenes) = (self.campaign.isa, &self.scenes[..self.rows_of_scenes.len()]);
+        let (rows_of_scenes, observer, observed) = (&self.rows_of_scenes, &mut self.observer, &mut self.observed);
         self.engine.propagate(scenes, &mut |index, table, outcome| {
             observer.observe(isa, &scenes[index], table, outcome, observed);
-            rows.set_result(places[index], outcome.status, observed);
+            rows.set_result(rows_of_scenes[index], outcome.status, observed);
         });
     }
 }

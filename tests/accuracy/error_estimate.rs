@@ -61,7 +61,8 @@ fn compared() -> StateFields {
 fn shipped(name: &'static str, samples: u64) -> Family {
     let path = format!("{}/campaigns/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(path).expect("a shipped campaign");
-    let plan = Plan::from_text(name, &text, Overrides { samples: Some(samples), seed: None }).expect("valid");
+    let plan =
+        Plan::from_text(name, &text, Overrides { samples: Some(samples), ..Overrides::default() }).expect("valid");
     let mut sampler = plan.dispersions.sampler();
     let mut applied = vec![0.0; plan.dispersions.columns().len()];
     let mut input = plan.nominal.clone();

@@ -450,7 +450,8 @@ fn an_empty_file_asks_for_its_tables() {
 
 #[test]
 fn overrides_are_checked_too() {
-    let error = Plan::from_text("bad.toml", GOOD, Overrides { samples: Some(0), seed: Some(u64::MAX) });
+    let error =
+        Plan::from_text("bad.toml", GOOD, Overrides { samples: Some(0), seed: Some(u64::MAX), ..Overrides::default() });
     let keys: Vec<String> = error.expect_err("bad overrides").problems.into_iter().map(|p| p.key).collect();
     assert_eq!(keys, ["--samples", "--seed"]);
 }

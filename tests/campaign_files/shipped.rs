@@ -35,7 +35,8 @@ fn shipped_campaigns_are_valid_and_say_what_they_ask() {
 #[test]
 fn a_plan_reads_back_from_its_text() {
     for file in shipped() {
-        let plan = Plan::load(&file, Overrides { samples: Some(17), seed: Some(5) }).expect("valid");
+        let plan =
+            Plan::load(&file, Overrides { samples: Some(17), seed: Some(5), ..Overrides::default() }).expect("valid");
         let folder = file.parent().expect("a folder");
         let again = Plan::from_text_in(folder, "plan.toml", &plan.text(), Overrides::default());
         let again = again.unwrap_or_else(|e| panic!("{e}"));

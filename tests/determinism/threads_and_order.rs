@@ -19,7 +19,8 @@ fn plan(name: &str, samples: u64, with_failures: bool) -> Plan {
             "\n[[disperse]]\nparameter = \"wheel2.length_m\"\ndistribution = \"uniform\"\nmin = -0.05\nmax = 0.1\n",
         );
     }
-    Plan::from_text(name, &text, Overrides { samples: Some(samples), seed: None }).unwrap_or_else(|e| panic!("{e}"))
+    Plan::from_text(name, &text, Overrides { samples: Some(samples), ..Overrides::default() })
+        .unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// A row as bits: status, dispersed values, observables.

@@ -24,7 +24,7 @@ use spindrift::scene::Scene;
 fn plan(name: &str, samples: u64, fraction: f64) -> Plan {
     let path = format!("{}/campaigns/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(path).expect("a shipped campaign");
-    let overrides = Overrides { samples: Some(samples), seed: None };
+    let overrides = Overrides { samples: Some(samples), ..Overrides::default() };
     Plan { audit_fraction: fraction, ..Plan::from_text(name, &text, overrides).unwrap_or_else(|e| panic!("{e}")) }
 }
 

@@ -88,8 +88,8 @@ fn draws_do_not_depend_on_company() {
         assert_eq!(value(&rows[0], "fuselage_length_m"), 3.0);
         assert_ne!(rows[1], rows[2]);
         // and another seed another draw
-        let other =
-            planned(&format!("{head}{RATE}{LENGTH}"), Overrides { seed: Some(8), samples: None }).expect("valid");
+        let other = planned(&format!("{head}{RATE}{LENGTH}"), Overrides { seed: Some(8), ..Overrides::default() })
+            .expect("valid");
         assert_ne!(draws(&other, 1..3), rows[1..3], "{kind}");
     }
 }
@@ -101,17 +101,19 @@ fn samples_can_be_added() {
         let text = format!("{}{RATE}{LENGTH}", design(kind));
         let text = if kind == "saltelli" { format!("{text}{RADIUS}") } else { text };
         let samples = if kind == "saltelli" { 50 } else { 65 };
-        let few = planned(&text, Overrides { samples: Some(1 + (samples - 1) / 7 * 7), seed: None });
+        let few = planned(&text, Overrides { samples: Some(1 + (samples - 1) / 7 * 7), ..Overrides::default() });
         let few = few.unwrap_or_else(|e| panic!("{e}"));
-        let many = planned(&text, Overrides { samples: Some(1 + (more - 1) / 7 * 7), seed: None }).expect("valid");
+        let many =
+            planned(&text, Overrides { samples: Some(1 + (more - 1) / 7 * 7), ..Overrides::default() }).expect("valid");
         assert!(many.samples > few.samples);
         assert_eq!(draws(&few, 0..few.samples), draws(&many, 0..few.samples), "{kind}");
     }
     let hypercube = format!("{}{RATE}", design("latin_hypercube"));
-    let error = planned(&hypercube, Overrides { samples: Some(66), seed: None }).expect_err("refused").to_string();
+    let error =
+        planned(&hypercube, Overrides { samples: Some(66), ..Overrides::default() }).expect_err("refused").to_string();
     assert!(error.contains("--samples = 66") && error.contains("every row would be another"), "{error}");
     assert!(
-        planned(&hypercube, Overrides { samples: Some(65), seed: None }).is_ok(),
+        planned(&hypercube, Overrides { samples: Some(65), ..Overrides::default() }).is_ok(),
         "the file's own number is no change"
     );
 }

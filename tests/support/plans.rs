@@ -12,7 +12,7 @@ use spindrift::run::Status;
 /// The shipped campaign `name`, with other samples where asked for.
 pub fn shipped(name: &str, samples: Option<u64>) -> Plan {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("campaigns/{name}.toml"));
-    Plan::load(&path, Overrides { samples, seed: None }).unwrap_or_else(|error| panic!("{error}"))
+    Plan::load(&path, Overrides { samples, ..Overrides::default() }).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// The rows of a campaign, in the order of samples.
