@@ -41,18 +41,18 @@ impl DataFile {
         let (names, columns, first_row) = match extension.as_deref() {
             Some("csv") => {
                 let (names, columns) =
-                    csv_columns(&bytes).map_err(|error| unreadable(error.to_string(), "mend the file"))?;
+                    csv_columns(&bytes).map_err(|error| unreadable(error.to_string(), "correct the file"))?;
                 (names, columns, 2)
             }
             Some("parquet") => {
                 let file = std::fs::File::open(path).map_err(|error| unreadable(error.to_string(), "try again"))?;
                 let (names, columns) =
-                    parquet_columns(file).map_err(|error| unreadable(error.to_string(), "mend the file"))?;
+                    parquet_columns(file).map_err(|error| unreadable(error.to_string(), "correct the file"))?;
                 (names, columns, 1)
             }
             _ => {
                 let allowed = "a file whose name ends in .csv or .parquet".to_owned();
-                return Err((format!("{shown:?}"), allowed, "convert it, or mend its name".to_owned()));
+                return Err((format!("{shown:?}"), allowed, "convert it, or rename it".to_owned()));
             }
         };
         Ok(DataFile { sha256, names, columns, first_row })
@@ -74,7 +74,7 @@ impl DataFile {
                         Err(text) => format!("{text:?}"),
                     };
                     let allowed = format!("a column of finite numbers ({name:?}, row {})", row + self.first_row);
-                    return Some(Err((value, allowed, "mend or delete that row of the file".to_owned())));
+                    return Some(Err((value, allowed, "correct or delete that row of the file".to_owned())));
                 }
             }
         }

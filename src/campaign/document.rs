@@ -22,7 +22,7 @@ pub struct Document<'a> {
 }
 
 impl<'a> Document<'a> {
-    /// A document of which nothing has been read.
+    /// A document before anything has been read.
     pub fn new(file: &'a str, text: &'a str) -> Self {
         Document { file, text, problems: Vec::new(), lines: BTreeMap::new(), folder: PathBuf::new() }
     }

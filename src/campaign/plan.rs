@@ -184,7 +184,7 @@ fn override_spec(spec: &mut Spec, overrides: Overrides, document: &mut Document<
     spec.audit_fraction = overrides.audit_fraction.or(spec.audit_fraction);
 }
 
-/// Fills in the defaults, checks what needs several keys, and asks the floors below; `None` where something is wrong.
+/// Fills in the defaults, checks what needs several keys, and calls the checks of the layers below; `None` where something is wrong.
 fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
     let method = spec.method.unwrap_or(Method::Auto);
     if spec.method.is_some() {

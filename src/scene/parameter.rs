@@ -210,7 +210,7 @@ mod tests {
 
     const IDENTITY: [f64; 4] = [1.0, 0.0, 0.0, 0.0];
 
-    /// Scenes in one of which every key exists.
+    /// Scenes: every key exists in at least one of them.
     fn variants() -> Vec<SceneInput> {
         let second = PrincipalMoments::Second([1.0, 2.0, 3.0]);
         let debris = [

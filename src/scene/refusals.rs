@@ -9,12 +9,12 @@ type Change = fn(&mut SceneInput);
 
 fn changed(change: Change) -> SceneInput {
     let mut input = samples::table_two();
-    input.actuation = vec![stretch(0.0, 1.0), stretch(2.0, 3.0)];
+    input.actuation = vec![arc(0.0, 1.0), arc(2.0, 3.0)];
     change(&mut input);
     input
 }
 
-fn stretch(start_s: f64, end_s: f64) -> ActuationInput {
+fn arc(start_s: f64, end_s: f64) -> ActuationInput {
     ActuationInput { start_s, end_s, thrust_n: [1.0, 0.0, 0.0], torque_n_m: [0.5, 0.25] }
 }
 

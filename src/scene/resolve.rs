@@ -49,8 +49,8 @@ impl Scene {
         self.thruster_directions = schedule::thruster_directions(input);
         self.schedule.clear();
         self.schedule.extend((0..input.actuation.len()).map(|index| schedule::applied(input, index)));
-        self.commands_thrust = input.actuation.iter().any(|stretch| stretch.thrust_n != [0.0; 3]);
-        self.commands_torque = input.actuation.iter().any(|stretch| stretch.torque_n_m != [0.0; 2]);
+        self.commands_thrust = input.actuation.iter().any(|arc| arc.thrust_n != [0.0; 3]);
+        self.commands_torque = input.actuation.iter().any(|arc| arc.torque_n_m != [0.0; 2]);
     }
 }
 
@@ -129,12 +129,12 @@ mod tests {
 
     fn changed(change: Change) -> SceneInput {
         let mut input = samples::table_two();
-        input.actuation = vec![stretch(0.0, 1.0), stretch(2.0, 3.0)];
+        input.actuation = vec![arc(0.0, 1.0), arc(2.0, 3.0)];
         change(&mut input);
         input
     }
 
-    fn stretch(start_s: f64, end_s: f64) -> ActuationInput {
+    fn arc(start_s: f64, end_s: f64) -> ActuationInput {
         ActuationInput { start_s, end_s, thrust_n: [1.0, 0.0, 0.0], torque_n_m: [0.5, 0.25] }
     }
 

@@ -1,7 +1,7 @@
 //! Inertia by second moments of mass: S, the integral of r r^T dm about the centre of mass, and J = tr(S) 1 - S.
 //!
 //! A symmetric J is the inertia of some body exactly where S is positive semidefinite, which is what "positive moments, none above
-//! the sum of the other two" says. So whoever changes S and keeps it so, never makes an impossible body
+//! the sum of the other two" says. A change of S that keeps it positive semidefinite never gives an impossible body
 //! (C. Rucker & P. M. Wensing, *Smooth Parameterization of Rigid-Body Inertia*, IEEE Robotics and Automation Letters 7(2), 2022).
 //!
 //! Not here: bodies put together ([`super::mass`]), refusals ([`super::check`]).

@@ -129,7 +129,7 @@ fn is_word(letter: char) -> bool {
     letter.is_alphanumeric() || letter == '_'
 }
 
-/// Letters before a path that tell whether it begins there and whether it stands in a `use`.
+/// Letters before a path that tell whether it begins there and whether it is in a `use`.
 const LOOK_BACK: usize = 24;
 
 /// Whether `letters` continue a path.
@@ -139,7 +139,7 @@ fn is_path(letters: &[char]) -> bool {
 }
 
 /// The paths of at least two segments in `code`, trees of braces expanded, each with the name it is imported as (its last
-/// segment unless `as` says otherwise) where it stands in a `use`. A path in the restriction of `pub(in ...)` is not one.
+/// segment unless `as` says otherwise) where it is in a `use`. A path in the restriction of `pub(in ...)` is not one.
 pub fn paths(code: &str) -> Vec<(Segments, Option<String>)> {
     let letters: Vec<char> = code.chars().collect();
     let mut found = Vec::new();

@@ -26,7 +26,7 @@ pub struct ChoiceQuantile {
 }
 
 impl ChoiceQuantile {
-    /// `values` with `weights` in proportion, of which one is above zero.
+    /// `values` with `weights` in proportion; at least one is above zero.
     pub fn new(values: &[f64], weights: &[f64]) -> Self {
         let mut pairs: Vec<(f64, f64)> = values.iter().copied().zip(weights.iter().copied()).collect();
         pairs.retain(|(_, weight)| *weight > 0.0);

@@ -41,7 +41,7 @@ pub struct EmpiricalQuantile {
 }
 
 impl EmpiricalQuantile {
-    /// The distribution of `values`, of which there is at least one.
+    /// The distribution of `values`, at least one.
     pub fn new(values: &[f64], interpolation: Interpolation) -> Self {
         let mut values = values.to_vec();
         values.sort_by(f64::total_cmp);

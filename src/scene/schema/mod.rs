@@ -97,7 +97,7 @@ pub enum Shape {
     Plain,
     /// A unit quaternion, scalar first: normalised after its components were changed.
     Quaternion,
-    /// A symmetric 3x3 tensor by rows, of which the six entries on and above the diagonal are the components; a change of
+    /// A symmetric 3x3 tensor by rows; the six entries on and above the diagonal are the components; a change of
     /// one off the diagonal changes its mirror image too.
     Symmetric,
 }
@@ -172,7 +172,7 @@ impl Key {
     }
 }
 
-/// The key exists wherever its table does.
+/// The key exists in every scene that has its table.
 pub(super) fn in_every_scene(_: &SceneInput) -> bool {
     true
 }
