@@ -21,6 +21,7 @@ use spindrift::ensemble::worker::propagator;
 use spindrift::ensemble::{Ensemble, Part, PartId, Parts, Rows, Sink, run};
 use spindrift::math::Isa;
 use spindrift::observables::{Group, Groups, Observer, Request};
+use spindrift::propagation::CompletedRun;
 use spindrift::sampling::SampleId;
 use spindrift::scene::Scene;
 
@@ -69,7 +70,7 @@ fn observation(criterion: &mut Criterion) {
         let mut observer = Observer::new(request, &plan.grid);
         let mut row = vec![0.0; request.columns().len()];
         let mut engine = propagator(&plan, plan.grid.clone(), request.blocks()).engine(isa);
-        engine.propagate(std::slice::from_ref(&scene), &mut |_, table, outcome| {
+        engine.propagate(std::slice::from_ref(&scene), &mut |CompletedRun { table, outcome, .. }| {
             group.bench_function(name, |bencher| {
                 bencher.iter(|| observer.observe(isa, &scene, black_box(table), outcome, black_box(&mut row)));
             });

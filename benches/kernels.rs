@@ -31,6 +31,7 @@ use spindrift::math::lanes::WIDTH;
 use spindrift::math::{Isa, Lanes, Real};
 use spindrift::ode::Control;
 use spindrift::ode::Tolerance;
+use spindrift::propagation::CompletedRun;
 use spindrift::propagation::Engine;
 use spindrift::propagation::Method;
 use spindrift::propagation::PropagationSettings;
@@ -118,7 +119,7 @@ fn chain<R: Real>(zero: R, run: &Gyrostat<f64>) -> f64 {
     let mut y = [zero; WITH_ANGLES];
     for lane in 0..R::LANES {
         constants.set_run(lane, run, 1.0);
-        constants.set_stretch(lane, run, 0, 1.0);
+        constants.set_arc(lane, run, 0, 1.0);
         for i in 0..3 {
             y[OMEGA + i].set_lane(lane, run.omega_b[i]);
         }
@@ -176,14 +177,14 @@ fn engine(
 /// Accepted steps of all runs together.
 fn steps(engine: &mut dyn Engine, scenes: &[Scene]) -> u64 {
     let mut steps = 0;
-    engine.propagate(scenes, &mut |_, _, outcome| steps += outcome.effort.steps);
+    engine.propagate(scenes, &mut |run| steps += run.outcome.effort.steps);
     steps
 }
 
 fn measure(group: &mut BenchmarkGroup<'_, WallTime>, name: String, engine: &mut dyn Engine, scenes: &[Scene]) {
     group.bench_function(name, |bencher| {
         bencher.iter(|| {
-            engine.propagate(scenes, &mut |_, table, _| {
+            engine.propagate(scenes, &mut |CompletedRun { table, .. }| {
                 black_box(table.column(StateField::Rate, 0));
             });
         });

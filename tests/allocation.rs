@@ -16,6 +16,7 @@ use spindrift::ensemble::{Ensemble, Part, PartId, Rows};
 use spindrift::math::Isa;
 use spindrift::observables::{Groups, Observer, Request};
 use spindrift::ode::Control;
+use spindrift::propagation::CompletedRun;
 use spindrift::propagation::Method;
 use spindrift::propagation::PropagationSettings;
 use spindrift::run::Grid;
@@ -140,8 +141,8 @@ fn no_allocation(method: Method, control: Control, first: &[Scene], second: &[Sc
     let grid = Grid::uniform(10.0, 101);
     let mut engine = PropagationSettings::new(method, control, grid, everything(method), &first[0]).engine(Isa::best());
     let mut finished = 0;
-    engine.propagate(first, &mut |_, _, _| finished += 1);
-    let counted = allocations(|| engine.propagate(second, &mut |_, _, _| finished += 1));
+    engine.propagate(first, &mut |_| finished += 1);
+    let counted = allocations(|| engine.propagate(second, &mut |_| finished += 1));
     assert_eq!(finished, first.len() + second.len());
     assert_eq!(counted, 0, "{} allocates in {what}", method.name());
 }
@@ -160,7 +161,7 @@ fn observation() {
         let control = adaptive(if constrained { 1e-3 } else { 1e-12 });
         let propagator = PropagationSettings::new(method, control, plan.grid.clone(), request.blocks(), &scenes[0]);
         let mut observed = 0;
-        propagator.engine(Isa::best()).propagate(&scenes, &mut |index, table, outcome| {
+        propagator.engine(Isa::best()).propagate(&scenes, &mut |CompletedRun { index, table, outcome, .. }| {
             let counted = allocations(|| observer.observe(Isa::best(), &scenes[index], table, outcome, &mut row));
             assert_eq!(counted, 0, "observing {name}");
             observed += 1;
@@ -178,7 +179,7 @@ fn right_hand_sides() {
     let gyrostat = Gyrostat::new(0.0, scene, 1.0);
     let mut constants = Constants::zero(0.0);
     constants.set_run(0, &gyrostat, 1.0);
-    constants.set_stretch(0, &gyrostat, 0, 1.0);
+    constants.set_arc(0, &gyrostat, 0, 1.0);
     let reduced: [f64; 21] = std::array::from_fn(|i| 0.1 * i as f64);
     let counted = allocations(|| {
         let mut kernel = Kernel::new(scene, SignOfANon::Corrected);

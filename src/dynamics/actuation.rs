@@ -65,9 +65,17 @@ pub struct OpenLoop<'a> {
     pub schedule: &'a [Arc],
 }
 
+impl OpenLoop<'_> {
+    /// What acts at `time`, whatever the state is.
+    #[inline]
+    pub fn at(&self, time: f64) -> Actuation {
+        actuation_at(self.schedule, time)
+    }
+}
+
 impl ActuationLaw for OpenLoop<'_> {
     fn arc(&mut self, time: f64, _body: &BodyState, _wheels: &WheelState) -> Actuation {
-        actuation_at(self.schedule, time)
+        self.at(time)
     }
 }
 
@@ -167,6 +175,16 @@ pub enum Laws<'a> {
     OpenLoop,
     /// Each run by a law of its own, in place of the schedule of its scene.
     Feedback(&'a mut dyn LawSource),
+}
+
+impl Laws<'_> {
+    /// The same laws, borrowed for a shorter time.
+    pub fn reborrow(&mut self) -> Laws<'_> {
+        match self {
+            Laws::OpenLoop => Laws::OpenLoop,
+            Laws::Feedback(source) => Laws::Feedback(&mut **source),
+        }
+    }
 }
 
 #[cfg(test)]

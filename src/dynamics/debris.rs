@@ -1,11 +1,11 @@
 //! The debris D: a free rigid body in uniform translation.
 //!
 //! An isotropic body (cube) turns at a constant rate about an axis fixed in it and in space, so its attitude is closed form
-//! at any time. A box is a gyrostat without wheels and goes through that code; here only its constants are made.
+//! at any time. A box is a gyrostat without wheels and is integrated as one; only its constants are made here.
 
 use fearless_simd::Simd;
 
-use super::gyrostat::{Gyrostat, Stretch};
+use super::gyrostat::Gyrostat;
 use crate::math::double_double::{DoubleDouble, two_product};
 use crate::math::lanes::WIDTH;
 use crate::math::sine::sin_cos_turns;
@@ -22,20 +22,20 @@ pub fn is_isotropic(body: &Body) -> bool {
     diagonal && j[0][1] == 0.0 && j[0][2] == 0.0 && j[1][2] == 0.0
 }
 
-/// Sets `run` to the free rotation of the debris; false where the scene has none.
-pub fn set_rotation<R: Real>(run: &mut Gyrostat<R>, scene: &Scene, duration: f64) -> bool {
+/// Sets `run` to the free rotation of the debris, before its first arc; false where the scene has none.
+pub fn set_rotation<R: Real>(run: &mut Gyrostat<R>, scene: &Scene) -> bool {
     let Some(body) = &scene.mass.debris else { return false };
     let zero = run.mass.zero();
     run.set_body(zero, body.inertia);
     run.axial = [zero; 2];
+    run.initial_momentum = [zero; 2];
     run.held = [None; 2];
     run.axes_b = [[zero; 3]; 2];
     run.mass = zero.splat(body.mass);
-    run.omega_b = run.into_b(constant(zero, scene.initial.omega_de_d));
+    let omega_b = run.into_b(constant(zero, scene.initial.omega_de_d));
     let q_ed = constant_quaternion(zero, scene.initial.q_ed);
-    run.q_eb = if run.c_sb.is_some() { hamilton(q_ed, run.q_sb) } else { q_ed };
-    run.stretches.clear();
-    run.stretches.push(Stretch::free(zero, 0.0, duration));
+    let q_eb = if run.c_sb.is_some() { hamilton(q_ed, run.q_sb) } else { q_ed };
+    run.start_from(omega_b, q_eb);
     true
 }
 

@@ -15,10 +15,10 @@ use crate::math::Isa;
 use crate::observables::{Group, Observer, Request};
 use crate::ode::Control;
 use crate::ode::Tolerance;
-use crate::propagation::Engine;
 use crate::propagation::Method;
 use crate::propagation::PropagationSettings;
 use crate::propagation::taylor::reference_solution::{self, ReferenceSolution};
+use crate::propagation::{CompletedRun, Engine};
 use crate::run::LocalErrors;
 use crate::run::Outcome;
 use crate::run::Status;
@@ -185,7 +185,7 @@ impl Auditor {
         self.true_observer.observe(self.isa, scene, &truth.high, &arrived, &mut self.true_row);
         let (isa, observer, row) = (self.isa, &mut self.observer, &mut self.row);
         let mut errors = None;
-        self.engine.propagate(std::slice::from_ref(run), &mut |_, table, outcome| {
+        self.engine.propagate(std::slice::from_ref(run), &mut |CompletedRun { table, outcome, .. }| {
             if outcome.status == Status::Done {
                 observer.observe(isa, run, table, outcome, row);
                 errors = Some(rotation_errors(&truth, table));
@@ -218,7 +218,7 @@ impl Auditor {
         let mut found = None;
         PropagationSettings::new(Method::Taylor, control, self.grid.clone(), blocks, scene)
             .engine(self.isa)
-            .propagate(std::slice::from_ref(scene), &mut |_, table, outcome| {
+            .propagate(std::slice::from_ref(scene), &mut |CompletedRun { table, outcome, .. }| {
                 found = (outcome.status == Status::Done).then(|| table.clone())
             });
         let high = found?;

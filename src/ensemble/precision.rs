@@ -16,10 +16,10 @@ use crate::math::lanes::WIDTH;
 use crate::observables::{Group, Observer, Request};
 use crate::ode::Control;
 use crate::ode::Tolerance;
-use crate::propagation::Engine;
 use crate::propagation::Method;
 use crate::propagation::PropagationSettings;
 use crate::propagation::taylor::reference_solution::{self, ReferenceSolution};
+use crate::propagation::{CompletedRun, Engine};
 use crate::run::Outcome;
 use crate::run::Status;
 use crate::run::{StateField, StateFields, StateTable};
@@ -231,7 +231,7 @@ impl<'p> Precision<'p> {
         let start = thread_seconds();
         for first in (0..self.scenes.len()).step_by(WIDTH) {
             let chunk = &self.scenes[first..self.scenes.len().min(first + WIDTH)];
-            engine.propagate(chunk, &mut |index, table, outcome| {
+            engine.propagate(chunk, &mut |CompletedRun { index, table, outcome, .. }| {
                 pass.steps += outcome.effort.steps;
                 if outcome.status != Status::Done {
                     pass.failed += 1;
@@ -269,7 +269,7 @@ impl<'p> Precision<'p> {
                 let start = thread_seconds();
                 for _ in 0..rounds {
                     for part in batch.chunks(BATCH) {
-                        engine.propagate(part, &mut |_, _, outcome| sum += outcome.points);
+                        engine.propagate(part, &mut |run| sum += run.outcome.points);
                     }
                 }
                 (thread_seconds() - start) / (rounds * count) as f64

@@ -6,7 +6,7 @@ use crate::campaign::{Plan, draw};
 use crate::ensemble::worker::{propagator, request};
 use crate::math::Isa;
 use crate::observables::{Group, Observer, Request, SeriesColumn};
-use crate::propagation::Method;
+use crate::propagation::{CompletedRun, Method};
 use crate::run::Outcome;
 use crate::run::{Grid, StateField, StateFields, StateTable};
 use crate::sampling::SampleId;
@@ -52,7 +52,7 @@ impl SingleRun {
         let mut row = vec![f64::NAN; request.columns().len()];
         let mut ignored = vec![f64::NAN; shown.columns().len()];
         let mut result = None;
-        engine.propagate(std::slice::from_ref(&scene), &mut |_, table, outcome| {
+        engine.propagate(std::slice::from_ref(&scene), &mut |CompletedRun { table, outcome, .. }| {
             observer.observe(isa, &scene, table, outcome, &mut row);
             series_observer.observe(isa, &scene, table, outcome, &mut ignored);
             result = Some((table.clone(), *outcome));

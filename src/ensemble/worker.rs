@@ -8,9 +8,9 @@ use crate::ensemble::rows::{Rows, Shape};
 use crate::math::Isa;
 use crate::observables::{Observer, Request};
 use crate::ode::Control;
-use crate::propagation::Engine;
 use crate::propagation::Method;
 use crate::propagation::PropagationSettings;
+use crate::propagation::{CompletedRun, Engine};
 use crate::run::{Grid, StateFields};
 use crate::sampling::SampleId;
 use crate::scene::Scene;
@@ -152,7 +152,7 @@ impl Worker<'_> {
     fn propagate(&mut self, rows: &mut Rows) {
         let (isa, scenes) = (self.campaign.isa, &self.scenes[..self.rows_of_scenes.len()]);
         let (rows_of_scenes, observer, observed) = (&self.rows_of_scenes, &mut self.observer, &mut self.observed);
-        self.engine.propagate(scenes, &mut |index, table, outcome| {
+        self.engine.propagate(scenes, &mut |CompletedRun { index, table, outcome, .. }| {
             observer.observe(isa, &scenes[index], table, outcome, observed);
             rows.set_result(rows_of_scenes[index], outcome.status, observed);
         });

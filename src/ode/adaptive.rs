@@ -196,7 +196,12 @@ pub fn march<M, R, Q, F, const N: usize>(
                 let time = places.time.lane(lane);
                 let mut status = None;
                 if arrived.lane(lane) > 0.5 {
-                    match workspace.enter(lane, runs, time) {
+                    let state = each::<f64, N>(
+                        0.0,
+                        #[inline(always)]
+                        |n| places.now.state[n].lane(lane),
+                    );
+                    match runs.next_arc(lane, time, &state) {
                         Some(end) => places.enter(lane, end),
                         None => status = Some(Status::Done),
                     }

@@ -264,7 +264,12 @@ pub fn march<M, R, Q, F, const N: usize>(
                 if sound.lane(lane) < 0.5 {
                     status = Some(Status::NonFinite);
                 } else if arrived.lane(lane) > 0.5 {
-                    match workspace.enter(lane, runs, time) {
+                    let state = each::<f64, N>(
+                        0.0,
+                        #[inline(always)]
+                        |n| places.now.state[n].lane(lane),
+                    );
+                    match runs.next_arc(lane, time, &state) {
                         Some(end) => places.enter(lane, time, end, control),
                         None => status = Some(Status::Done),
                     }

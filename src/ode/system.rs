@@ -23,12 +23,12 @@ pub trait Runs<R: Real, const N: usize>: System<R, N> {
     /// Puts run `run` into lane `lane` and returns its state at time zero.
     fn load(&mut self, lane: usize, run: usize) -> [f64; N];
 
-    /// Number of stretches of the run in lane `lane`: within one the right-hand side is analytic; integration restarts
-    /// exactly at every boundary. The stretches cover the horizon from zero without a gap.
-    fn stretches(&self, lane: usize) -> usize;
-
-    /// Prepares lane `lane` for its stretch `stretch`, starting from `state`, and returns the time at which it ends, s.
-    fn enter(&mut self, lane: usize, stretch: usize) -> f64;
+    /// Starts the next arc of the run in lane `lane` at `time`, where its state is `state`, and returns the time at which the arc
+    /// ends, s, after `time`; `None` where the run is at its end.
+    ///
+    /// Within an arc the right-hand side is analytic; integration restarts exactly at every boundary. The arcs cover the time from
+    /// zero without a gap.
+    fn next_arc(&mut self, lane: usize, time: f64, state: &[f64; N]) -> Option<f64>;
 }
 
 /// Relative and absolute tolerance.

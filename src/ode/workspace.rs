@@ -23,8 +23,6 @@ pub struct Workspace {
 struct LaneSlot {
     occupied: bool,
     run: usize,
-    stretch: usize,
-    stretches: usize,
     /// The next observation point.
     point: usize,
     trajectory: Trajectory,
@@ -34,21 +32,14 @@ struct LaneSlot {
 pub(super) struct LoadedRun<const N: usize> {
     /// Its state at time zero.
     pub state: [f64; N],
-    /// The end of its first stretch, s.
+    /// The end of its first arc, s.
     pub end: f64,
 }
 
 impl Workspace {
     /// For `lanes` lanes (`R::LANES`) of runs of `components` components at `points` observation points.
     pub fn new(lanes: usize, components: usize, points: usize) -> Self {
-        let berth = LaneSlot {
-            occupied: false,
-            run: 0,
-            stretch: 0,
-            stretches: 0,
-            point: 0,
-            trajectory: Trajectory::new(components, points),
-        };
+        let berth = LaneSlot { occupied: false, run: 0, point: 0, trajectory: Trajectory::new(components, points) };
         Workspace { berths: vec![berth; lanes], waiting: 0, occupied: 0 }
     }
 
@@ -105,14 +96,13 @@ impl Workspace {
             let run = self.waiting;
             self.waiting += 1;
             let state = runs.load(lane, run);
-            let stretches = runs.stretches(lane);
             let berth = &mut self.berths[lane];
-            (berth.occupied, berth.run, berth.point, berth.stretch, berth.stretches) = (true, run, 0, 0, stretches);
+            (berth.occupied, berth.run, berth.point) = (true, run, 0);
             self.occupied += 1;
             while self.next_time(lane, grid) <= 0.0 {
                 self.write(lane, &state);
             }
-            if let Some(end) = self.enter(lane, runs, 0.0) {
+            if let Some(end) = runs.next_arc(lane, 0.0, &state) {
                 return Some(LoadedRun { state, end });
             }
             self.close::<R, Q, F, N>(
@@ -123,24 +113,6 @@ impl Workspace {
                 (StepStatistics::default(), LocalErrors::default()),
                 finish,
             );
-        }
-        None
-    }
-
-    /// Enters the next stretch of lane `lane` that ends after `time`, and returns its end; `None` after the last.
-    #[inline(always)]
-    pub(super) fn enter<R, Q, const N: usize>(&mut self, lane: usize, runs: &mut Q, time: f64) -> Option<f64>
-    where
-        R: Real,
-        Q: Runs<R, N>,
-    {
-        let berth = &mut self.berths[lane];
-        while berth.stretch < berth.stretches {
-            let end = runs.enter(lane, berth.stretch);
-            berth.stretch += 1;
-            if end > time {
-                return Some(end);
-            }
         }
         None
     }

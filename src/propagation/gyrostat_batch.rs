@@ -1,105 +1,129 @@
 //! [`GyrostatBatch`]: a batch of scenes as gyrostats, and what completes their components to physical states.
 //!
-//! What every method on the gyrostat shares: the spacecraft's runs, the rotation of debris that is not isotropic (marched
-//! first, as gyrostats without wheels), and the way back into the state table.
+//! Shared by every method on the gyrostat: the runs of the spacecraft, the rotation of debris that is not isotropic (integrated
+//! first, as gyrostats without wheels), and the conversion to the state table.
 
 use fearless_simd::Simd;
 
-use super::settings::{PropagationSettings, observes_debris_rotation};
+use super::arc_source::ArcSource;
+use super::settings::{CompletedRun, CompletionCallback, PropagationSettings, observes_debris_rotation};
 use crate::dynamics::debris;
 use crate::dynamics::gyrostat::completion::complete;
 use crate::dynamics::gyrostat::{Gyrostat, WITH_ATTITUDE};
-use crate::run::{Grid, StateTable, Trajectory};
-use crate::scene::Scene;
+use crate::run::{Grid, Outcome, StateTable, Trajectory};
+use crate::scene::{Arc, Scene};
 
-/// A batch's runs in buffers that are reused.
+/// The runs of a batch in buffers that are reused.
 #[derive(Clone, Debug)]
 pub struct GyrostatBatch {
+    runs: Vec<Gyrostat<f64>>,
+    completion: Completion,
+}
+
+/// What completes the runs of a batch.
+#[derive(Clone, Debug)]
+pub struct Completion {
     grid: Grid,
     observes_debris_rotation: bool,
-    count: usize,
-    runs: Vec<Gyrostat<f64>>,
     debris_runs: Vec<Gyrostat<f64>>,
     debris_trajectories: Vec<Trajectory>,
-    debris_marched: bool,
+    debris_is_integrated: bool,
+    table: StateTable,
+    /// The arcs of the run that has just ended.
+    arcs: Vec<Arc>,
 }
 
 impl GyrostatBatch {
     /// Empty buffers for batches of `plan`.
     pub fn new(plan: &PropagationSettings) -> Self {
         GyrostatBatch {
-            grid: plan.grid.clone(),
-            observes_debris_rotation: observes_debris_rotation(plan.blocks),
-            count: 0,
             runs: Vec::new(),
-            debris_runs: Vec::new(),
-            debris_trajectories: Vec::new(),
-            debris_marched: false,
+            completion: Completion {
+                grid: plan.grid.clone(),
+                observes_debris_rotation: observes_debris_rotation(plan.blocks),
+                debris_runs: Vec::new(),
+                debris_trajectories: Vec::new(),
+                debris_is_integrated: false,
+                table: StateTable::new(plan.blocks, plan.grid.points()),
+                arcs: Vec::new(),
+            },
         }
     }
 
-    /// Turns `scenes` into runs.
-    pub fn take(&mut self, scenes: &[Scene]) {
-        let duration = self.grid.duration();
-        self.count = scenes.len();
+    /// The runs of `scenes`, before their first arcs, which are to come from `arcs`; and what completes them.
+    pub fn load(&mut self, scenes: &[Scene], arcs: &ArcSource<'_>) -> (&mut [Gyrostat<f64>], &mut Completion) {
         while self.runs.len() < scenes.len() {
             self.runs.push(Gyrostat::blank(0.0));
         }
-        for (run, scene) in self.runs.iter_mut().zip(scenes) {
-            run.reset(0.0, scene, duration);
+        for (index, (run, scene)) in self.runs.iter_mut().zip(scenes).enumerate() {
+            run.reset(0.0, scene);
+            arcs.prepare(index, run);
         }
-        self.debris_marched = false;
+        (&mut self.runs[..scenes.len()], &mut self.completion)
     }
 
-    /// Prepares the rotations of the debris of `scenes`; true where there is any that [`GyrostatBatch::debris`] must march.
-    pub fn begin_debris(&mut self, scenes: &[Scene]) -> bool {
+    /// The debris of `scenes` as gyrostats without wheels, and where their components are kept; `None` where no rotation needs to be
+    /// integrated.
+    pub fn load_debris(&mut self, scenes: &[Scene]) -> Option<(&mut [Gyrostat<f64>], &mut [Trajectory])> {
+        let completion = &mut self.completion;
+        let observes = completion.observes_debris_rotation;
+        let Completion { grid, debris_runs, debris_trajectories, debris_is_integrated, .. } = completion;
         let general = |scene: &Scene| scene.mass.debris.as_ref().is_some_and(|body| !debris::is_isotropic(body));
-        if !self.observes_debris_rotation || !scenes.iter().any(general) {
-            return false;
+        *debris_is_integrated = observes && scenes.iter().any(general);
+        if !*debris_is_integrated {
+            return None;
         }
-        while self.debris_runs.len() < scenes.len() {
-            self.debris_runs.push(Gyrostat::blank(0.0));
-            self.debris_trajectories.push(Trajectory::new(WITH_ATTITUDE, self.grid.points()));
+        while debris_runs.len() < scenes.len() {
+            debris_runs.push(Gyrostat::blank(0.0));
+            debris_trajectories.push(Trajectory::new(WITH_ATTITUDE, grid.points()));
         }
-        for (run, scene) in self.debris_runs.iter_mut().zip(scenes) {
-            debris::set_rotation(run, scene, self.grid.duration());
+        for (run, scene) in debris_runs.iter_mut().zip(scenes) {
+            debris::set_rotation(run, scene);
         }
-        self.debris_marched = true;
-        true
+        Some((&mut debris_runs[..scenes.len()], &mut debris_trajectories[..scenes.len()]))
     }
+}
 
-    /// The debris as gyrostats without wheels, and where their components go.
-    pub fn debris(&mut self) -> (&[Gyrostat<f64>], &mut [Trajectory]) {
-        (&self.debris_runs[..self.count], &mut self.debris_trajectories[..self.count])
-    }
-
-    /// The spacecraft's runs.
-    pub fn runs(&self) -> &[Gyrostat<f64>] {
-        &self.runs[..self.count]
-    }
-
-    /// Fills `table` with the physical states of run `index`, whose first `N` components are `trajectory`.
-    #[inline(never)]
+impl Completion {
+    /// Completes run `index`, `run`, whose first `N` components are `trajectory`, to physical states and passes it to `finish`.
+    #[expect(clippy::too_many_arguments, reason = "one call per engine; a struct would be taken apart at once")]
     pub fn complete<S: Simd, const N: usize>(
-        &self,
+        &mut self,
         simd: S,
         scenes: &[Scene],
         index: usize,
+        run: &Gyrostat<f64>,
         trajectory: &Trajectory,
-        table: &mut StateTable,
+        outcome: &Outcome,
+        finish: &mut CompletionCallback<'_>,
     ) {
-        let scene = &scenes[index];
+        self.fill_table::<S, N>(simd, &scenes[index], index, run, trajectory);
+        self.arcs.clear();
+        self.arcs.extend(run.arcs.iter().map(|arc| arc.arc));
+        finish(CompletedRun { index, table: &self.table, outcome, arcs: &self.arcs });
+    }
+
+    #[inline(never)]
+    fn fill_table<S: Simd, const N: usize>(
+        &mut self,
+        simd: S,
+        scene: &Scene,
+        index: usize,
+        run: &Gyrostat<f64>,
+        trajectory: &Trajectory,
+    ) {
+        let Completion { grid, debris_runs, debris_trajectories, debris_is_integrated, table, .. } = self;
         // called through closures, which are compiled apart: it enters the instruction set again
         simd.vectorize(
             #[inline(always)]
             || {
-                complete::<S, N>(simd, &self.runs[index], trajectory, &self.grid, table);
+                complete::<S, N>(simd, run, trajectory, grid, table);
                 if let Some(body) = &scene.mass.debris {
-                    debris::complete_translation(simd, scene, &self.grid, table);
+                    debris::complete_translation(simd, scene, grid, table);
                     if debris::is_isotropic(body) {
-                        debris::complete_isotropic(simd, scene, &self.grid, table);
-                    } else if self.debris_marched {
-                        let (run, states) = (&self.debris_runs[index], &self.debris_trajectories[index]);
+                        debris::complete_isotropic(simd, scene, grid, table);
+                    } else if *debris_is_integrated {
+                        let (run, states) = (&debris_runs[index], &debris_trajectories[index]);
                         debris::complete_rotation::<S, WITH_ATTITUDE>(simd, run, states, table);
                     }
                 }

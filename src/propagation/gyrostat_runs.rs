@@ -1,7 +1,8 @@
 //! [`GyrostatRuns`]: gyrostats in lanes, for Runge-Kutta methods.
 
+use super::arc_source::ArcSource;
 use crate::dynamics::gyrostat::equations::Constants;
-use crate::dynamics::gyrostat::{ATTITUDE, Gyrostat, OMEGA, WITH_ATTITUDE};
+use crate::dynamics::gyrostat::{ATTITUDE, Gyrostat, OMEGA, WITH_ATTITUDE, WITH_THRUST};
 use crate::math::Real;
 use crate::math::vector::{dot, norm};
 use crate::ode::Runs;
@@ -9,25 +10,31 @@ use crate::ode::System;
 use crate::ode::Tolerance;
 
 /// Runs of the gyrostat's first `N` components, one per lane.
-#[derive(Clone, Debug)]
 pub struct GyrostatRuns<'a, R> {
-    runs: &'a [Gyrostat<f64>],
+    runs: &'a mut [Gyrostat<f64>],
+    arcs: ArcSource<'a>,
     constants: Constants<R>,
     /// The run in each lane.
-    seated: [usize; crate::math::lanes::WIDTH],
+    run_in_lane: [usize; crate::math::lanes::WIDTH],
     /// Time scale of the run in each lane as a rate, rad/s: below it a rate is measured against it.
     scale: R,
 }
 
 impl<'a, R: Real> GyrostatRuns<'a, R> {
-    /// The given runs; `zero` says how many lanes.
-    pub fn new(zero: R, runs: &'a [Gyrostat<f64>]) -> Self {
+    /// The given runs, before their first arcs, which come from `arcs`; `zero` says how many lanes.
+    pub fn new(zero: R, runs: &'a mut [Gyrostat<f64>], arcs: ArcSource<'a>) -> Self {
         GyrostatRuns {
             runs,
+            arcs,
             constants: Constants::zero(zero),
-            seated: [0; crate::math::lanes::WIDTH],
+            run_in_lane: [0; crate::math::lanes::WIDTH],
             scale: zero.splat(1.0),
         }
+    }
+
+    /// Run `run`, with the arcs flown so far.
+    pub fn run(&self, run: usize) -> &Gyrostat<f64> {
+        &self.runs[run]
     }
 }
 
@@ -72,10 +79,9 @@ impl<R: Real, const N: usize> Runs<R, N> for GyrostatRuns<'_, R> {
     }
 
     fn load(&mut self, lane: usize, run: usize) -> [f64; N] {
-        self.seated[lane] = run;
+        self.run_in_lane[lane] = run;
         let run = &self.runs[run];
         self.constants.set_run(lane, run, 1.0);
-        self.scale.set_lane(lane, 1.0 / run.time_unit());
         let mut state = [0.0; N];
         state[OMEGA..OMEGA + 3].copy_from_slice(&run.omega_b);
         if N >= WITH_ATTITUDE {
@@ -84,13 +90,20 @@ impl<R: Real, const N: usize> Runs<R, N> for GyrostatRuns<'_, R> {
         state
     }
 
-    fn stretches(&self, lane: usize) -> usize {
-        self.runs[self.seated[lane]].stretches.len()
-    }
-
-    fn enter(&mut self, lane: usize, stretch: usize) -> f64 {
-        let run = &self.runs[self.seated[lane]];
-        self.constants.set_stretch(lane, run, stretch, 1.0);
-        run.stretches[stretch].end
+    fn next_arc(&mut self, lane: usize, time: f64, state: &[f64; N]) -> Option<f64> {
+        if time >= self.arcs.duration() {
+            return None;
+        }
+        let index = self.run_in_lane[lane];
+        let run = &mut self.runs[index];
+        self.arcs.begin_arc(index, run, time, || {
+            let mut components = [0.0; WITH_THRUST];
+            components[..N].copy_from_slice(state);
+            components
+        });
+        let arc = run.arcs.len() - 1;
+        self.constants.set_arc(lane, run, arc, 1.0);
+        self.scale.set_lane(lane, 1.0 / run.time_unit());
+        Some(run.arcs[arc].arc.end())
     }
 }

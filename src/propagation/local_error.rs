@@ -116,10 +116,9 @@ impl Remainders {
 
     /// The series of the motion through `state` at `time`, in seconds.
     fn expand(&mut self, run: &Gyrostat<f64>, time: f64, state: [f64; N]) {
-        let after = run.stretches.partition_point(|stretch| stretch.end < time);
-        let stretch = after.min(run.stretches.len() - 1);
-        let mut constants = Constants::of(run, stretch, 1.0);
-        let since = time - run.stretches[stretch].start;
+        let arc = run.arc_index_at(time);
+        let mut constants = Constants::of(run, arc, 1.0);
+        let since = time - run.arcs[arc].arc.start;
         constants.momentum = sum(constants.momentum, scaled(since, constants.momentum_rate));
         self.jet[0] = state;
         let order = self.method.order + 1;

@@ -3,6 +3,7 @@
 //! Every method fills, per run, the integrated components at the observation times; a kernel then completes them to the
 //! physical [`crate::run::StateTable`]. Runs stand in lanes that never share a decision.
 
+pub mod arc_source;
 pub mod gyrostat_batch;
 pub mod gyrostat_runs;
 pub mod local_error;
@@ -15,4 +16,4 @@ pub mod taylor;
 
 pub use method::Method;
 pub use null_space_runs::NullSpaceRuns;
-pub use settings::{Engine, PropagationSettings};
+pub use settings::{CompletedRun, Engine, PropagationSettings};

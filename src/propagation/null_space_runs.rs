@@ -1,19 +1,24 @@
 //! [`NullSpaceRuns`]: runs of the reference kernel, one at a time.
 
-use crate::dynamics::null_space::{COMPONENTS, Kernel, STATES, SignOfANon, sigma};
+use super::arc_source::arc;
+use crate::dynamics::actuation::{Laws, OpenLoop};
+use crate::dynamics::null_space::{COMPONENTS, Kernel, STATES, SignOfANon, State, observed_state, sigma};
 use crate::ode::Runs;
 use crate::ode::System;
 use crate::ode::Tolerance;
-use crate::scene::Scene;
+use crate::scene::{Arc, Scene};
 
 /// Runs of the report's 62-state form for the scenes of a batch; `f64`, one lane.
-#[derive(Clone, Debug)]
 pub struct NullSpaceRuns<'a> {
     scenes: &'a [Scene],
+    laws: Laws<'a>,
     duration: f64,
     sign: SignOfANon,
     run: usize,
     kernel: Kernel,
+    /// The attitude quaternion at the start of the arc: the next one has the nearer sign.
+    q_es: [f64; 4],
+    arcs: Vec<Arc>,
 }
 
 impl<'a> NullSpaceRuns<'a> {
@@ -25,13 +30,38 @@ impl<'a> NullSpaceRuns<'a> {
         Self::with_sign(scenes, duration, SignOfANon::Corrected)
     }
 
+    /// The same runs under `laws`, their arcs recorded in the memory of `arcs`.
+    #[must_use]
+    pub fn under(self, laws: Laws<'a>, arcs: Vec<Arc>) -> Self {
+        NullSpaceRuns { laws, arcs, ..self }
+    }
+
+    /// The arcs of the run in the lane, so far.
+    pub fn arcs(&self) -> &[Arc] {
+        &self.arcs
+    }
+
+    /// Gives the memory of the arcs back.
+    pub fn into_arcs(self) -> Vec<Arc> {
+        self.arcs
+    }
+
     /// The same with a chosen sign of a-hat_non,s: for the test that shows what the printed one does.
     ///
     /// # Panics
     /// Where there is no scene.
     pub fn with_sign(scenes: &'a [Scene], duration: f64, sign: SignOfANon) -> Self {
         let kernel = Kernel::new(scenes.first().expect("a batch has at least one scene"), sign);
-        NullSpaceRuns { scenes, duration, sign, run: 0, kernel }
+        NullSpaceRuns {
+            scenes,
+            laws: Laws::OpenLoop,
+            duration,
+            sign,
+            run: 0,
+            kernel,
+            q_es: [1.0, 0.0, 0.0, 0.0],
+            arcs: Vec::new(),
+        }
     }
 }
 
@@ -70,17 +100,28 @@ impl Runs<f64, COMPONENTS> for NullSpaceRuns<'_> {
     fn load(&mut self, _lane: usize, run: usize) -> [f64; COMPONENTS] {
         self.run = run;
         self.kernel = Kernel::new(&self.scenes[run], self.sign);
+        self.q_es = self.scenes[run].initial.q_es;
+        self.arcs.clear();
         sigma(&self.scenes[run]).components()
     }
 
-    fn stretches(&self, _lane: usize) -> usize {
-        self.scenes[self.run].arcs(self.duration).count()
-    }
-
-    fn enter(&mut self, _lane: usize, stretch: usize) -> f64 {
-        let arc = self.scenes[self.run].arcs(self.duration).nth(stretch).expect("asked within the number of stretches");
+    fn next_arc(&mut self, _lane: usize, time: f64, state: &[f64; COMPONENTS]) -> Option<f64> {
+        if time >= self.duration {
+            return None;
+        }
+        let applied = match &mut self.laws {
+            Laws::OpenLoop => OpenLoop { schedule: &self.scenes[self.run].schedule }.at(time),
+            Laws::Feedback(source) => {
+                let state = State::from_components(state);
+                let (body, wheels) = observed_state(self.kernel.parameters(), &state, self.q_es);
+                self.q_es = body.q_es;
+                source.law(self.run).arc(time, &body, &wheels)
+            }
+        };
+        let arc = arc(time, applied, self.duration);
         self.kernel.drive(&arc.applied);
-        arc.end()
+        self.arcs.push(arc);
+        Some(arc.end())
     }
 }
 

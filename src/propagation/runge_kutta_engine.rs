@@ -2,10 +2,12 @@
 
 use fearless_simd::Simd;
 
+use super::arc_source::ArcSource;
 use super::gyrostat_batch::GyrostatBatch;
 use super::gyrostat_runs::GyrostatRuns;
 use super::local_error::{Remainder, Remainders};
 use super::settings::{CompletionCallback, Engine, PropagationSettings};
+use crate::dynamics::actuation::Laws;
 use crate::math::Real;
 use crate::ode::embedded::Embedded;
 use crate::ode::fixed::FixedStep;
@@ -13,7 +15,7 @@ use crate::ode::step_control::Control;
 use crate::ode::workspace::Workspace;
 use crate::ode::{Runs, adaptive, fixed};
 use crate::run::Outcome;
-use crate::run::{Grid, StateTable, Trajectory};
+use crate::run::{Grid, Trajectory};
 use crate::scene::Scene;
 
 /// A method together with its march.
@@ -82,7 +84,6 @@ pub struct RungeKuttaEngine<S, R, M, const N: usize> {
     batch: GyrostatBatch,
     workspace: Workspace,
     remainders: Option<Remainders>,
-    table: StateTable,
 }
 
 impl<S: Simd, R: Real, M: LaneIntegrator, const N: usize> RungeKuttaEngine<S, R, M, N> {
@@ -97,53 +98,54 @@ impl<S: Simd, R: Real, M: LaneIntegrator, const N: usize> RungeKuttaEngine<S, R,
             batch: GyrostatBatch::new(plan),
             workspace: Workspace::new(R::LANES, N, points),
             remainders: march.remainder().map(Remainders::new),
-            table: StateTable::new(plan.blocks, points),
         }
     }
 
     #[inline(always)]
-    fn run(&mut self, scenes: &[Scene], finish: &mut CompletionCallback<'_>) {
-        let Self { simd, zero, march, plan, batch, workspace, remainders, table } = self;
+    fn run(&mut self, mut laws: Laws<'_>, scenes: &[Scene], finish: &mut CompletionCallback<'_>) {
+        let Self { simd, zero, march, plan, batch, workspace, remainders } = self;
         let zero = *zero;
-        batch.take(scenes);
-        if batch.begin_debris(scenes) {
-            // the debris is a gyrostat without wheels; it needs no more than its attitude, but a kernel less to compile
-            let (runs, store) = batch.debris();
-            let mut runs = GyrostatRuns::new(zero, runs);
+        plan.check_laws(&laws);
+        let duration = plan.grid.duration();
+        if let Some((runs, trajectories)) = batch.load_debris(scenes) {
+            // the debris is a gyrostat without wheels; it needs only its attitude, but this saves compiling one more kernel
+            let mut runs = GyrostatRuns::new(zero, runs, ArcSource::free(duration));
             march.march::<_, _, _, N>(
                 zero,
                 &mut runs,
                 &plan.grid,
                 &plan.control,
                 workspace,
-                |_, _, run, trajectory, _| store[run].copy_from(trajectory),
+                |_, _, run, trajectory, _| trajectories[run].copy_from(trajectory),
             );
         }
-        let mut runs = GyrostatRuns::new(zero, batch.runs());
+        let arcs = ArcSource::new(scenes, laws.reborrow(), duration);
+        let (runs, completion) = batch.load(scenes, &arcs);
+        let mut runs = GyrostatRuns::new(zero, runs, arcs);
         march.march::<_, _, _, N>(
             zero,
             &mut runs,
             &plan.grid,
             &plan.control,
             workspace,
-            |_, _, run, trajectory, outcome| {
-                batch.complete::<S, N>(*simd, scenes, run, trajectory, table);
+            |runs, _, index, trajectory, outcome| {
+                let run = runs.run(index);
                 let mut outcome = *outcome;
                 if let Some(remainders) = remainders {
-                    outcome.local_errors = remainders.sum(&batch.runs()[run], trajectory, &plan.grid, &outcome);
+                    outcome.local_errors = remainders.sum(run, trajectory, &plan.grid, &outcome);
                 }
-                finish(run, table, &outcome);
+                completion.complete::<S, N>(*simd, scenes, index, run, trajectory, &outcome, finish);
             },
         );
     }
 }
 
 impl<S: Simd, R: Real + Send, M: LaneIntegrator + Send, const N: usize> Engine for RungeKuttaEngine<S, R, M, N> {
-    fn propagate(&mut self, scenes: &[Scene], finish: &mut CompletionCallback<'_>) {
+    fn propagate_under(&mut self, laws: Laws<'_>, scenes: &[Scene], finish: &mut CompletionCallback<'_>) {
         let simd = self.simd;
         simd.vectorize(
             #[inline(always)]
-            || self.run(scenes, finish),
+            || self.run(laws, scenes, finish),
         );
     }
 }

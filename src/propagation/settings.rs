@@ -1,7 +1,7 @@
 //! [`PropagationSettings`]: scenes in, tables of physical states out, by whichever method the plan chose.
 //!
-//! A propagator is decided once per plan: method, tolerance, grid, and which components are integrated at all. A worker then
-//! holds one [`Engine`], compiled for its instruction set, with all the memory that runs need.
+//! The settings are fixed once per plan: method, tolerance, grid, and which components are integrated at all. Every worker then
+//! has one [`Engine`], compiled for its instruction set, with all the memory that runs need.
 
 use fearless_simd::Simd;
 
@@ -9,6 +9,7 @@ use super::method::Method;
 use super::null_space_engine::NullSpaceEngine;
 use super::runge_kutta_engine::{Adaptive, Fixed, LaneIntegrator, RungeKuttaEngine};
 use super::taylor::engine::TaylorEngine;
+use crate::dynamics::actuation::Laws;
 use crate::dynamics::gyrostat::completion::components;
 use crate::dynamics::gyrostat::{RATES_ONLY, WITH_ANGLES, WITH_ATTITUDE, WITH_MOTORS, WITH_THRUST};
 use crate::math::isa::{NarrowWork, WideWork};
@@ -19,7 +20,7 @@ use crate::ode::gauss_legendre::GaussLegendre;
 use crate::ode::step_control::Control;
 use crate::run::Outcome;
 use crate::run::{Grid, StateField, StateFields, StateTable};
-use crate::scene::Scene;
+use crate::scene::{Arc, Scene};
 
 /// What a campaign's runs have in common: how they are integrated and what of them is kept.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,19 +33,44 @@ pub struct PropagationSettings {
     pub grid: Grid,
     /// What the tables hold.
     pub blocks: StateFields,
-    /// Whether the schedule commands thrust.
+    /// Whether thrust or body torque may act.
     pub thrust: bool,
-    /// Whether the schedule commands motor torque.
+    /// Whether motor torque may act.
     pub motors: bool,
+    /// Whether runs may have laws of their own ([`Engine::propagate_under`]): then all components are integrated.
+    pub feedback: bool,
 }
 
-/// Hands over a finished run: its index among the scenes, its states, how it ended.
-pub type CompletionCallback<'a> = dyn FnMut(usize, &StateTable, &Outcome) + 'a;
+/// A run that has ended.
+#[derive(Clone, Copy, Debug)]
+pub struct CompletedRun<'a> {
+    /// The index among the scenes.
+    pub index: usize,
+    /// The states at the observation points.
+    pub table: &'a StateTable,
+    /// How the run ended.
+    pub outcome: &'a Outcome,
+    /// The arcs that were flown, in order, from time zero without a gap. As the schedule of a scene they give the same run.
+    pub arcs: &'a [Arc],
+}
 
-/// A propagator's memory and code for one worker and one instruction set.
+/// Receives a run that has ended.
+pub type CompletionCallback<'a> = dyn FnMut(CompletedRun<'_>) + 'a;
+
+/// The memory and code of a method for one worker and one instruction set.
 pub trait Engine: Send {
-    /// Runs every scene once and hands each over, in whatever order they end; results depend on the scene alone.
-    fn propagate(&mut self, scenes: &[Scene], finish: &mut CompletionCallback<'_>);
+    /// Runs every scene once by the schedule of its own and passes it to `finish`, in the order in which the runs end; results depend
+    /// on the scene alone.
+    fn propagate(&mut self, scenes: &[Scene], finish: &mut CompletionCallback<'_>) {
+        self.propagate_under(Laws::OpenLoop, scenes, finish);
+    }
+
+    /// The same under `laws`: each run asks its law for one arc after another; results depend on the scene and its law alone.
+    ///
+    /// # Panics
+    /// Where the settings are not for feedback ([`PropagationSettings::with_feedback`]) and a law is given, and where a law's answer
+    /// ends before it starts.
+    fn propagate_under(&mut self, laws: Laws<'_>, scenes: &[Scene], finish: &mut CompletionCallback<'_>);
 }
 
 impl PropagationSettings {
@@ -57,11 +83,30 @@ impl PropagationSettings {
             blocks,
             thrust: nominal.commands_thrust,
             motors: nominal.commands_torque,
+            feedback: false,
         }
+    }
+
+    /// The same settings for runs that have laws of their own: anything may act, and every component is integrated, because a law
+    /// sees the whole state.
+    #[must_use]
+    pub fn with_feedback(self) -> Self {
+        PropagationSettings { thrust: true, motors: true, feedback: true, ..self }
+    }
+
+    /// Checks that runs of these settings can be flown under `laws`.
+    ///
+    /// # Panics
+    /// Where they cannot.
+    pub(super) fn check_laws(&self, laws: &Laws<'_>) {
+        assert!(self.feedback || matches!(laws, Laws::OpenLoop), "laws need PropagationSettings::with_feedback");
     }
 
     /// Number of components that the gyrostat kernel integrates for this propagator.
     pub fn components(&self) -> usize {
+        if self.feedback {
+            return WITH_THRUST;
+        }
         components(|block| self.blocks.contains(block), self.thrust, self.motors)
     }
 

@@ -21,6 +21,7 @@ use spindrift::observables::Observer;
 use spindrift::ode::Runs;
 use spindrift::ode::System;
 use spindrift::ode::Tolerance;
+use spindrift::propagation::CompletedRun;
 use spindrift::propagation::Method;
 use spindrift::propagation::NullSpaceRuns;
 use spindrift::propagation::PropagationSettings;
@@ -241,7 +242,7 @@ fn faulty(plan: &Plan, count: u64, fault: impl Fn(&mut Scene)) -> [Vec<f64>; 2] 
             SingleRun::new(plan, SampleId(sample), Grid::uniform(1e-3, 2), isa).expect("a physical sample").scene;
         let mut wrong = drawn.clone();
         fault(&mut wrong);
-        engine.propagate(std::slice::from_ref(&wrong), &mut |_, table, outcome| {
+        engine.propagate(std::slice::from_ref(&wrong), &mut |CompletedRun { table, outcome, .. }| {
             observer.observe(isa, &drawn, table, outcome, &mut row);
             for (errors, column) in errors.iter_mut().zip([COLUMNS[0], COLUMNS[2]]) {
                 errors.push(row[place(column)]);
@@ -293,7 +294,7 @@ fn the_printed_sign_is_seen() {
     let error = |sign| {
         let mut runs = NullSpaceRuns::with_sign(&scenes, setting.horizon, sign);
         let mut x = runs.load(0, 0);
-        runs.enter(0, 0);
+        runs.next_arc(0, 0.0, &x);
         let total = |x: &[f64; _]| kinetic_energies(&parameters, &State::from_components(x)).iter().sum::<f64>();
         let start = total(&x);
         const STEPS: usize = 2000;

@@ -17,6 +17,7 @@ use spindrift::math::symmetric::principal_axes;
 use spindrift::math::vector::norm;
 use spindrift::observables::{Group, Observer, Request};
 use spindrift::ode::Control;
+use spindrift::propagation::CompletedRun;
 use spindrift::propagation::Method;
 use spindrift::propagation::PropagationSettings;
 use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE};
@@ -185,7 +186,7 @@ fn found(family: &Family, observed: &[Scene], method: Method, control: Control) 
     assert_eq!(names, ["state_error_estimate", "error_amplification", "ill_conditioned"]);
     let mut row = vec![0.0; names.len()];
     let mut list = vec![None; observed.len()];
-    plan.engine(Isa::best()).propagate(observed, &mut |index, table, outcome| {
+    plan.engine(Isa::best()).propagate(observed, &mut |CompletedRun { index, table, outcome, .. }| {
         if outcome.status == Status::Done {
             observer.observe(Isa::best(), &observed[index], table, outcome, &mut row);
             let error = true_error(&family.truths[index], table);
@@ -359,7 +360,7 @@ fn estimates_do_not_depend_on_company() {
             let plan = PropagationSettings::new(method, control, grid.clone(), compared(), &scenes[0]);
             let errors = |scenes: &[Scene]| {
                 let mut list = vec![None; scenes.len()];
-                plan.engine(Isa::best()).propagate(scenes, &mut |index, _, outcome| {
+                plan.engine(Isa::best()).propagate(scenes, &mut |CompletedRun { index, outcome, .. }| {
                     list[index] = Some(outcome.local_errors);
                 });
                 list

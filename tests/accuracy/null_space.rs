@@ -280,7 +280,7 @@ fn energy_error(sign: SignOfANon, substeps: usize) -> f64 {
     let parameters = Parameters::of(&scenes[0]);
     let mut runs = NullSpaceRuns::with_sign(&scenes, 2.0, sign);
     let mut x = runs.load(0, 0);
-    runs.enter(0, 0);
+    runs.next_arc(0, 0.0, &x);
     let total = |x: &[f64; COMPONENTS]| kinetic_energies(&parameters, &State::from_components(x)).iter().sum::<f64>();
     let start = total(&x);
     let mut worst = 0.0_f64;
@@ -338,8 +338,7 @@ fn observed(input: &SceneInput, times: Vec<f64>) -> (Scene, Trajectory, StateTab
     let mut trajectory = Trajectory::new(COMPONENTS, grid.points());
     trajectory.set(0, &x);
     let (mut time, mut point) = (0.0, 1);
-    for arc in 0..runs.stretches(0) {
-        let end = runs.enter(0, arc);
+    while let Some(end) = runs.next_arc(0, time, &x) {
         while time < end {
             let next = grid.times()[point].min(end);
             x = integrate(&runs, x, next - time);

@@ -4,6 +4,7 @@ use crate::support::runs::{Bits, Run, adaptive, everything, fixed, hash, propaga
 use crate::support::scenes::mixed;
 use spindrift::math::Isa;
 use spindrift::ode::Control;
+use spindrift::propagation::CompletedRun;
 use spindrift::propagation::Method;
 use spindrift::propagation::PropagationSettings;
 use spindrift::run::Grid;
@@ -39,9 +40,9 @@ fn equal_in_any_company(method: Method, control: Control) {
         }
         // a second batch in the same engine does not depend on the first
         let mut engine = plan.engine(Isa::best());
-        engine.propagate(&scenes[10..], &mut |_, _, _| {});
+        engine.propagate(&scenes[10..], &mut |_| {});
         let mut found = vec![Bits::new(); 10];
-        engine.propagate(&scenes[..10], &mut |index, table, outcome| {
+        engine.propagate(&scenes[..10], &mut |CompletedRun { index, table, outcome, .. }| {
             found[index] = Run { table: table.clone(), outcome: *outcome }.bits();
         });
         assert!(found == alone[..10], "{}, second batch, forced: {forced}", method.name());

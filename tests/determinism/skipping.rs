@@ -5,6 +5,7 @@ use crate::support::scenes::mixed;
 use spindrift::math::Isa;
 use spindrift::observables::{Group, Groups, Observer, Request};
 use spindrift::ode::Control;
+use spindrift::propagation::CompletedRun;
 use spindrift::propagation::Method;
 use spindrift::propagation::PropagationSettings;
 use spindrift::run::{Grid, StateField, StateFields};
@@ -141,7 +142,7 @@ fn groups_do_not_reach_each_other() {
             let mut observer = Observer::new(request, &grid);
             let names: Vec<&str> = request.columns().iter().map(|column| column.name).collect();
             let mut rows = vec![vec![0.0; names.len()]; scenes.len()];
-            plan.engine(Isa::best()).propagate(&scenes, &mut |index, table, outcome| {
+            plan.engine(Isa::best()).propagate(&scenes, &mut |CompletedRun { index, table, outcome, .. }| {
                 observer.observe(Isa::best(), &scenes[index], table, outcome, &mut rows[index]);
             });
             let bits = rows.iter().map(|row| row.iter().map(|x| x.to_bits()).collect()).collect();

@@ -5,6 +5,7 @@ use spindrift::math::Isa;
 use spindrift::math::vector::{cross, dcm_from_quaternion, difference, norm, product};
 use spindrift::ode::Control;
 use spindrift::ode::Tolerance;
+use spindrift::propagation::CompletedRun;
 use spindrift::propagation::Method;
 use spindrift::propagation::PropagationSettings;
 use spindrift::run::Outcome;
@@ -77,7 +78,7 @@ pub fn fixed(step: f64) -> Control {
 /// The runs of `scenes` in their order.
 pub fn propagate_on(isa: Isa, plan: &PropagationSettings, scenes: &[Scene]) -> Vec<Run> {
     let mut runs: Vec<Option<Run>> = vec![None; scenes.len()];
-    plan.engine(isa).propagate(scenes, &mut |index, table, outcome| {
+    plan.engine(isa).propagate(scenes, &mut |CompletedRun { index, table, outcome, .. }| {
         let before = runs[index].replace(Run { table: table.clone(), outcome: *outcome });
         assert!(before.is_none(), "run {index} was completed twice");
     });

@@ -69,12 +69,11 @@ impl<R: Real, L: Law<N, P>, const N: usize, const P: usize> Runs<R, N> for Bank<
         }
         self.cases[run].state
     }
-    fn stretches(&self, lane: usize) -> usize {
-        self.cases[self.loaded[lane]].ends.len()
-    }
-    fn enter(&mut self, lane: usize, arc: usize) -> f64 {
+    fn next_arc(&mut self, lane: usize, time: f64, _state: &[f64; N]) -> Option<f64> {
+        let ends = &self.cases[self.loaded[lane]].ends;
+        let arc = ends.iter().position(|end| *end > time)?;
         self.arc.set_lane(lane, arc as f64);
-        self.cases[self.loaded[lane]].ends[arc]
+        Some(ends[arc])
     }
 }
 

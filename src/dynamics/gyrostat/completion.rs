@@ -15,7 +15,7 @@ use crate::run::{Grid, StateField, StateTable, Trajectory};
 
 /// The smallest number of integrated components from which the spacecraft's blocks of `table` follow.
 ///
-/// `thrust` and `motors` say what the scene's schedule holds.
+/// `thrust` and `motors` say whether thrust or body torque, and motor torque, may act.
 pub fn components(has: impl Fn(StateField) -> bool, thrust: bool, motors: bool) -> usize {
     let forced = has(StateField::ComPosition)
         || has(StateField::ComVelocity)
@@ -180,8 +180,9 @@ fn complete_wheels<S: Simd, const N: usize>(
                 run,
                 times,
                 #[inline(always)]
-                |stretch, since| {
-                    chunk.splat(stretch.motor[wheel]).mul_add(since, chunk.splat(stretch.wheel_momentum[wheel]))
+                |arc, since| {
+                    let motor = arc.arc.applied.motor_torque[wheel];
+                    chunk.splat(motor).mul_add(since, chunk.splat(arc.wheel_momentum[wheel]))
                 },
             );
             let rate = momentum * chunk.splat(inverse) - dot(axis, omega_b);
@@ -192,10 +193,10 @@ fn complete_wheels<S: Simd, const N: usize>(
                 run,
                 times,
                 #[inline(always)]
-                |stretch, since| {
-                    let (motor, momentum) = (stretch.motor[wheel], stretch.wheel_momentum[wheel]);
+                |arc, since| {
+                    let (motor, momentum) = (arc.arc.applied.motor_torque[wheel], arc.wheel_momentum[wheel]);
                     let mean = chunk.splat(0.5 * motor).mul_add(since, chunk.splat(momentum));
-                    (mean * chunk.splat(inverse)).mul_add(since, chunk.splat(stretch.wheel_turn[wheel]))
+                    (mean * chunk.splat(inverse)).mul_add(since, chunk.splat(arc.wheel_turn[wheel]))
                 },
             );
             let angle = chunk.splat(run.wheel_angles[wheel]) + (turn - dot(axis, chunk.read3(trajectory, ANGLE)));
@@ -308,25 +309,25 @@ impl<S: Simd> Chunk<S> {
         }
     }
 
-    /// A quantity that is known in closed form on each stretch, as a function of the time since its start.
+    /// A quantity that is known in closed form on each arc, as a function of the time since its start.
     #[inline(always)]
     fn along(
         self,
         run: &Gyrostat<f64>,
         times: &[f64],
-        quantity: impl Fn(&super::Stretch<f64>, Lanes<S>) -> Lanes<S>,
+        quantity: impl Fn(&super::GyrostatArc<f64>, Lanes<S>) -> Lanes<S>,
     ) -> Lanes<S> {
         let time = Lanes::from_slice(self.simd, times);
-        let (first, last) = (run.stretch_at(times[0]), run.stretch_at(times[WIDTH - 1]));
-        let all = quantity(first, time - self.splat(first.start));
-        if first.start == last.start {
+        let (first, last) = (run.arc_at(times[0]), run.arc_at(times[WIDTH - 1]));
+        let all = quantity(first, time - self.splat(first.arc.start));
+        if first.arc.start == last.arc.start {
             return all;
         }
         // a switch among the eight
         let mut values = all.to_array();
         for (k, value) in values.iter_mut().enumerate() {
-            let stretch = run.stretch_at(times[k]);
-            *value = quantity(stretch, time - self.splat(stretch.start)).lane(k);
+            let arc = run.arc_at(times[k]);
+            *value = quantity(arc, time - self.splat(arc.arc.start)).lane(k);
         }
         Lanes::load(self.simd, &values)
     }

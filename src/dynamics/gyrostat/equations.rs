@@ -4,18 +4,18 @@ use super::{ANGLE, ANGULAR_IMPULSE, ATTITUDE, Gyrostat, IMPULSE, IMPULSE_INTEGRA
 use crate::math::Real;
 use crate::math::vector::{cross, dcm_from_quaternion, dot, product, scaled, sum};
 
-/// The constants of the equations, one run per lane; the stretch's own are set at its start.
+/// The constants of the equations, one run per lane; those of an arc are set at its start.
 #[derive(Clone, Copy, Debug)]
 pub struct Constants<R> {
-    /// (J_2 - J_3)/J_1 and its cyclic fellows.
+    /// (J_2 - J_3)/J_1 and cyclic.
     pub ratio: [R; 3],
     /// 1/J_i, 1/(kg m^2).
     pub inverse: [R; 3],
-    /// Wheels' momentum vector at the start of the stretch, B, N m s.
+    /// Wheels' momentum vector at the start of the arc, B, N m s.
     pub momentum: [R; 3],
     /// Its rate: tau_1 a1 + tau_2 a2, B, N m.
     pub momentum_rate: [R; 3],
-    /// Torque of the thrusters about c, B, N m.
+    /// External torque about c, of the thrusters and on the body, B, N m.
     pub torque: [R; 3],
     /// Force of the thrusters, B, N.
     pub force: [R; 3],
@@ -23,11 +23,11 @@ pub struct Constants<R> {
     pub velocity: [R; 3],
     /// 1/m, 1/kg.
     pub inverse_mass: R,
-    /// Sum of tau_i h_i/J_i at the start of the stretch, W.
+    /// Sum of tau_i h_i/J_i at the start of the arc, W.
     pub motor_power: R,
     /// Its rate, the sum of tau_i^2/J_i, W/s.
     pub motor_power_rate: R,
-    /// Start of the stretch, s.
+    /// Start of the arc, s.
     pub start: R,
 }
 
@@ -65,34 +65,34 @@ impl<R: Real> Constants<R> {
         self.inverse_mass.set_lane(lane, 1.0 / run.mass);
     }
 
-    /// Puts stretch `stretch` of the run into lane `lane`; times and rates in units of `unit` seconds.
+    /// Puts arc `arc` of the run into lane `lane`; times and rates in units of `unit` seconds.
     #[inline(always)]
-    pub fn set_stretch(&mut self, lane: usize, run: &Gyrostat<f64>, stretch: usize, unit: f64) {
-        let stretch = &run.stretches[stretch];
-        let momentum = run.wheel_momentum_b(stretch.wheel_momentum);
-        let rate = run.wheel_momentum_b(stretch.motor);
+    pub fn set_arc(&mut self, lane: usize, run: &Gyrostat<f64>, arc: usize, unit: f64) {
+        let arc = &run.arcs[arc];
+        let momentum = run.wheel_momentum_b(arc.wheel_momentum);
+        let rate = run.wheel_momentum_b(arc.motor_torque());
         for i in 0..3 {
             self.momentum[i].set_lane(lane, momentum[i] * unit);
             self.momentum_rate[i].set_lane(lane, rate[i] * unit * unit);
-            self.torque[i].set_lane(lane, stretch.torque_b[i] * unit * unit);
-            self.force[i].set_lane(lane, stretch.force_b[i] * unit * unit);
+            self.torque[i].set_lane(lane, arc.torque_b[i] * unit * unit);
+            self.force[i].set_lane(lane, arc.force_b[i] * unit * unit);
         }
-        let [power, power_rate] = run.motor_power(stretch);
+        let [power, power_rate] = run.motor_power(arc);
         let unit3 = unit * unit * unit;
         self.motor_power.set_lane(lane, power * unit3);
         self.motor_power_rate.set_lane(lane, power_rate * unit3 * unit);
-        self.start.set_lane(lane, stretch.start / unit);
+        self.start.set_lane(lane, arc.arc.start / unit);
     }
 
-    /// The constants of stretch `stretch` of one run in the run's own arithmetic; times and rates in units of `unit` seconds.
+    /// The constants of arc `arc` of one run in the run's own arithmetic; times and rates in units of `unit` seconds.
     ///
-    /// What [`Constants::set_run`] and [`Constants::set_stretch`] put into a lane, for reference solutions in more digits.
+    /// The same as [`Constants::set_run`] and [`Constants::set_arc`] put into a lane, for reference solutions in more digits.
     #[inline(always)]
-    pub fn of(run: &Gyrostat<R>, stretch: usize, unit: f64) -> Self {
-        let stretch = &run.stretches[stretch];
+    pub fn of(run: &Gyrostat<R>, arc: usize, unit: f64) -> Self {
+        let arc = &run.arcs[arc];
         let (one, unit) = (run.mass.splat(1.0), run.mass.splat(unit));
         let unit2 = unit * unit;
-        let [power, power_rate] = run.motor_power(stretch);
+        let [power, power_rate] = run.motor_power(arc);
         let mut constants = Constants::zero(run.mass.zero());
         let j = run.moments;
         for i in 0..3 {
@@ -102,13 +102,13 @@ impl<R: Real> Constants<R> {
         }
         constants.velocity = scaled(unit, run.v_co_e);
         constants.inverse_mass = one / run.mass;
-        constants.momentum = scaled(unit, run.wheel_momentum_b(stretch.wheel_momentum));
-        constants.momentum_rate = scaled(unit2, run.wheel_momentum_b(stretch.motor));
-        constants.torque = scaled(unit2, stretch.torque_b);
-        constants.force = scaled(unit2, stretch.force_b);
+        constants.momentum = scaled(unit, run.wheel_momentum_b(arc.wheel_momentum));
+        constants.momentum_rate = scaled(unit2, run.wheel_momentum_b(arc.motor_torque()));
+        constants.torque = scaled(unit2, arc.torque_b);
+        constants.force = scaled(unit2, arc.force_b);
         constants.motor_power = power * unit2 * unit;
         constants.motor_power_rate = power_rate * unit2 * unit2;
-        constants.start = one.splat(stretch.start) / unit;
+        constants.start = one.splat(arc.arc.start) / unit;
         constants
     }
 

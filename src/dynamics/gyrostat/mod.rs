@@ -22,19 +22,22 @@
 //! inertia cost nothing: omega_i' is one product of two rates plus linear terms. Between switches the torques and thrusts
 //! are constant, h_i is linear in time and is not integrated.
 //!
-//! - [`Gyrostat`]: one run's constants, initial state and stretches.
+//! - [`Gyrostat`]: one run's constants, initial state and arcs.
 //! - [`equations`]: the right-hand side, for Runge-Kutta methods in lanes.
 //! - [`completion`]: integrated components -> the physical [`crate::run::StateTable`].
 //!
-//! Not here: Taylor recurrences of the same equations (`integrators::taylor`), the debris (`super::debris`).
+//! Not here: Taylor recurrences of the same equations (`propagation::taylor`), the debris (`super::debris`).
 
 pub mod completion;
 pub mod equations;
 
+use crate::dynamics::actuation::{BodyState, WheelState};
 use crate::math::Real;
 use crate::math::symmetric::principal_axes;
-use crate::math::vector::{constant, cross, dot, hamilton, quaternion_from_dcm, scaled, sum, transposed_product};
-use crate::scene::{Scene, WheelMode};
+use crate::math::vector::{
+    conjugate, constant, cross, dot, hamilton, product, quaternion_from_dcm, scaled, sum, transposed_product,
+};
+use crate::scene::{Actuation, Arc, Scene, WheelMode};
 
 /// Index of the first component of the angular velocity in B, rad/s (3).
 pub const OMEGA: usize = 0;
@@ -64,44 +67,32 @@ pub const WITH_MOTORS: usize = 11;
 /// With everything that thrust asks for.
 pub const WITH_THRUST: usize = 21;
 
-/// A stretch of a run over which forces and torques are constant.
+/// An arc of a run: what is applied, in B, and the wheels at its start.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stretch<R> {
-    /// Start, s.
-    pub start: f64,
-    /// End, s.
-    pub end: f64,
-    /// Whether any thrust or motor acts.
-    pub actuated: bool,
+pub struct GyrostatArc<R> {
+    /// Start, end and applied values.
+    pub arc: Arc,
     /// Force of the thrusters, B, N.
     pub force_b: [R; 3],
-    /// Torque of the thrusters about c, B, N m.
+    /// Torque of the thrusters about c plus the body torque, B, N m.
     pub torque_b: [R; 3],
-    /// Motor torques tau_1, tau_2 on the wheels, N m.
-    pub motor: [R; 2],
     /// Momenta of the wheels beside K omega at the start, N m s: h_i of a free wheel, J_i Omega_i of one whose speed is held.
     pub wheel_momentum: [R; 2],
     /// Integrals of h_i/J_i over time from zero to the start, rad (of free wheels).
     pub wheel_turn: [R; 2],
 }
 
-impl<R: Real> Stretch<R> {
-    /// A stretch without thrust or motor, and wheels without momentum.
-    pub fn free(zero: R, start: f64, end: f64) -> Self {
-        Stretch {
-            start,
-            end,
-            actuated: false,
-            force_b: [zero; 3],
-            torque_b: [zero; 3],
-            motor: [zero; 2],
-            wheel_momentum: [zero; 2],
-            wheel_turn: [zero; 2],
-        }
+impl<R: Real> GyrostatArc<R> {
+    /// Motor torques tau_1, tau_2 on the wheels, N m.
+    #[inline(always)]
+    pub fn motor_torque(&self) -> [R; 2] {
+        let zero = self.wheel_momentum[0];
+        let [first, second] = self.arc.applied.motor_torque;
+        [zero.splat(first), zero.splat(second)]
     }
 }
 
-/// One run of the gyrostat: constants in the principal frame B of K, the initial state and the stretches.
+/// One run of the gyrostat: constants in the principal frame B of K, the initial state and the arcs flown so far.
 #[derive(Clone, Debug)]
 pub struct Gyrostat<R> {
     /// Maps B components to F_s components, by rows; `None` where B is F_s.
@@ -128,15 +119,20 @@ pub struct Gyrostat<R> {
     pub v_co_e: [R; 3],
     /// Wheel angles at time zero, rad.
     pub wheel_angles: [R; 2],
-    /// The stretches, which cover the horizon from zero without a gap.
-    pub stretches: Vec<Stretch<R>>,
+    /// Momenta of the wheels at time zero, N m s, as [`GyrostatArc::wheel_momentum`].
+    pub initial_momentum: [R; 2],
+    /// The arcs flown so far, which cover the time from zero to the end of the last without a gap.
+    pub arcs: Vec<GyrostatArc<R>>,
+    /// Largest rate of the run's motion so far known, rad/s, from which [`Gyrostat::time_unit`] follows.
+    rate: f64,
 }
 
 impl<R: Real> Gyrostat<R> {
-    /// The gyrostat of `scene` over `duration` seconds; `zero` says in which arithmetic.
+    /// The gyrostat of `scene` with all arcs of its schedule up to `duration` seconds; `zero` says in which arithmetic.
     pub fn new(zero: R, scene: &Scene, duration: f64) -> Self {
         let mut gyrostat = Self::blank(zero);
-        gyrostat.reset(zero, scene, duration);
+        gyrostat.reset(zero, scene);
+        gyrostat.begin_schedule(scene, duration);
         gyrostat
     }
 
@@ -156,12 +152,14 @@ impl<R: Real> Gyrostat<R> {
             r_co_e: z3,
             v_co_e: z3,
             wheel_angles: [zero; 2],
-            stretches: Vec::new(),
+            initial_momentum: [zero; 2],
+            arcs: Vec::new(),
+            rate: 0.0,
         }
     }
 
-    /// The same as [`Gyrostat::new`], in place: reuses the buffer of the stretches.
-    pub fn reset(&mut self, zero: R, scene: &Scene, duration: f64) {
+    /// The gyrostat of `scene` at time zero, before its first arc; the memory of the arcs is reused.
+    pub fn reset(&mut self, zero: R, scene: &Scene) {
         let exact3 = |v: [f64; 3]| v.map(|x| zero.splat(x));
         let mass = &scene.mass;
         let initial = &scene.initial;
@@ -177,14 +175,28 @@ impl<R: Real> Gyrostat<R> {
         }
         self.mass = zero.splat(mass.total);
         let omega_s = exact3(initial.omega_se_s);
-        self.omega_b = self.into_b(omega_s);
         let q_es = initial.q_es.map(|x| zero.splat(x));
-        self.q_eb = if self.c_sb.is_some() { hamilton(q_es, self.q_sb) } else { q_es };
+        let q_eb = if self.c_sb.is_some() { hamilton(q_es, self.q_sb) } else { q_es };
+        self.start_from(self.into_b(omega_s), q_eb);
         let c_es = crate::math::vector::dcm_from_quaternion(q_es);
         let center = exact3(mass.center);
         self.r_co_e = sum(exact3(initial.r_po_e), crate::math::vector::product(c_es, center));
         self.v_co_e = sum(exact3(initial.v_po_e), crate::math::vector::product(c_es, cross(omega_s, center)));
-        self.lay_stretches(zero, scene, duration);
+        for (wheel, rate) in initial.wheel_rates.into_iter().enumerate() {
+            self.initial_momentum[wheel] = self.axial[wheel]
+                * match self.held[wheel] {
+                    Some(rate) => rate,
+                    None => dot(self.axes_b[wheel], self.omega_b) + zero.splat(rate),
+                };
+        }
+    }
+
+    /// Sets angular velocity in B and attitude at time zero, before the first arc.
+    pub fn start_from(&mut self, omega_b: [R; 3], q_eb: [R; 4]) {
+        self.omega_b = omega_b;
+        self.q_eb = q_eb;
+        self.rate = largest(first_lane(omega_b));
+        self.arcs.clear();
     }
 
     /// Takes the principal axes of the inertia `j`, kg m^2 by rows, as the frame B.
@@ -211,56 +223,113 @@ impl<R: Real> Gyrostat<R> {
         }
     }
 
-    /// The scene's stretches with their forces in B, and the wheels' momenta and turns carried from one to the next.
-    fn lay_stretches(&mut self, zero: R, scene: &Scene, duration: f64) {
-        self.stretches.clear();
-        let mut momentum: [R; 2] = std::array::from_fn(|i| {
-            let rate = match self.held[i] {
-                Some(rate) => rate,
-                None => dot(self.axes_b[i], self.omega_b) + zero.splat(scene.initial.wheel_rates[i]),
-            };
-            self.axial[i] * rate
+    /// Starts the next arc of a run of `scene`.
+    pub fn begin_arc(&mut self, scene: &Scene, arc: Arc) {
+        let zero = self.mass.zero();
+        let applied = &arc.applied;
+        let mut torque_s = scene.thruster_torque_s(applied.thrust);
+        if applied.body_torque != [0.0; 3] {
+            // apart from the common case, in which a sum with zero could still turn -0 into 0
+            torque_s = sum(torque_s, applied.body_torque);
+        }
+        let (wheel_momentum, wheel_turn) = self.wheels_at(arc.start);
+        self.arcs.push(GyrostatArc {
+            force_b: self.into_b(constant(zero, scene.thruster_force_s(applied.thrust))),
+            torque_b: self.into_b(constant(zero, torque_s)),
+            arc,
+            wheel_momentum,
+            wheel_turn,
         });
-        let mut turn = [zero; 2];
+    }
+
+    /// Starts an arc without any actuation until `end`, for a body without actuators.
+    pub fn begin_free_arc(&mut self, end: f64) {
+        let zero = [self.mass.zero(); 3];
+        let start = self.arcs.last().map_or(0.0, |last| last.arc.end());
+        let (wheel_momentum, wheel_turn) = self.wheels_at(start);
+        let arc = Arc { start, applied: Actuation::none(end) };
+        self.arcs.push(GyrostatArc { arc, force_b: zero, torque_b: zero, wheel_momentum, wheel_turn });
+    }
+
+    /// Starts all arcs of the schedule of `scene` up to `duration` seconds.
+    pub fn begin_schedule(&mut self, scene: &Scene, duration: f64) {
         for arc in scene.arcs(duration) {
-            let applied = &arc.applied;
-            let stretch = Stretch {
-                start: arc.start,
-                end: arc.end(),
-                actuated: applied.acts(),
-                force_b: self.into_b(constant(zero, scene.thruster_force_s(applied.thrust))),
-                torque_b: self.into_b(constant(zero, scene.thruster_torque_s(applied.thrust))),
-                motor: applied.motor_torque.map(|x| zero.splat(x)),
-                wheel_momentum: momentum,
-                wheel_turn: turn,
-            };
-            momentum = std::array::from_fn(|i| self.wheel_momentum_at(&stretch, i, stretch.end));
-            turn = std::array::from_fn(|i| self.wheel_turn_at(&stretch, i, stretch.end));
-            self.stretches.push(stretch);
+            self.begin_arc(scene, arc);
+            self.note_rate();
         }
     }
 
-    /// The stretch that `time` lies in; the one that ends there, at a switch.
+    /// Momenta of the wheels beside K omega, N m s, and integrals of h_i/J_i since time zero, rad, at `time` in the last arc (or zero
+    /// before the first).
+    fn wheels_at(&self, time: f64) -> ([R; 2], [R; 2]) {
+        let Some(last) = self.arcs.last() else { return (self.initial_momentum, [self.mass.zero(); 2]) };
+        let at = |wheel| (self.wheel_momentum_at(last, wheel, time), self.wheel_turn_at(last, wheel, time));
+        let (first, second) = (at(0), at(1));
+        ([first.0, second.0], [first.1, second.1])
+    }
+
+    /// The state that an actuation law sees at `time`, the end of the last arc (or zero before the first), from the integrated
+    /// components there, SI, in the order of the indices of this module.
+    pub fn observed_state(&self, time: f64, components: &[R; WITH_THRUST]) -> (BodyState, WheelState) {
+        let three = |first: usize| [components[first], components[first + 1], components[first + 2]];
+        let omega_b = three(OMEGA);
+        let [x, y, z] = three(ATTITUDE + 1);
+        let q_eb = [components[ATTITUDE], x, y, z];
+        let (omega_s, q_es) = match self.c_sb {
+            Some(c_sb) => (product(c_sb, omega_b), hamilton(q_eb, conjugate(self.q_sb))),
+            None => (omega_b, q_eb),
+        };
+        let since_start = self.mass.splat(time);
+        let inverse_mass = self.mass.splat(1.0) / self.mass;
+        let line = sum(self.r_co_e, scaled(since_start, self.v_co_e));
+        let body = BodyState {
+            omega_se_s: first_lane(omega_s),
+            q_es: first_lane(q_es),
+            r_co_e: first_lane(sum(line, scaled(inverse_mass, three(IMPULSE_INTEGRAL)))),
+            v_co_e: first_lane(sum(self.v_co_e, scaled(inverse_mass, three(IMPULSE)))),
+        };
+        let (momentum, turn) = self.wheels_at(time);
+        let mut wheels = WheelState { rates: [0.0; 2], momenta: [0.0; 2], angles: [0.0; 2] };
+        for i in 0..2 {
+            let body_rate = dot(self.axes_b[i], omega_b);
+            let (rate, absolute) = match self.held[i] {
+                Some(rate) => (rate, momentum[i] + self.axial[i] * body_rate),
+                None if self.is_missing(i) => (body_rate.zero(), body_rate.zero()),
+                None => (momentum[i] * self.inverse_axial(i) - body_rate, momentum[i]),
+            };
+            wheels.rates[i] = rate.lane(0);
+            wheels.momenta[i] = absolute.lane(0);
+            wheels.angles[i] = self.wheel_angle(i, time, turn[i], three(ANGLE)).lane(0);
+        }
+        (body, wheels)
+    }
+
+    /// The arc that `time` lies in; the one that ends there, at a switch.
     #[inline]
-    pub fn stretch_at(&self, time: f64) -> &Stretch<R> {
-        let after = self.stretches.partition_point(|stretch| stretch.end < time);
-        &self.stretches[after.min(self.stretches.len() - 1)]
+    pub fn arc_at(&self, time: f64) -> &GyrostatArc<R> {
+        &self.arcs[self.arc_index_at(time)]
     }
 
-    /// Momentum of a wheel beside K omega at `time` within `stretch`, N m s.
-    #[inline(always)]
-    pub fn wheel_momentum_at(&self, stretch: &Stretch<R>, wheel: usize, time: f64) -> R {
-        let since = self.mass.splat(time) - self.mass.splat(stretch.start);
-        stretch.motor[wheel].mul_add(since, stretch.wheel_momentum[wheel])
+    /// The index of the arc that `time` lies in; of the one that ends there, at a switch.
+    #[inline]
+    pub fn arc_index_at(&self, time: f64) -> usize {
+        self.arcs.partition_point(|arc| arc.arc.end() < time).min(self.arcs.len() - 1)
     }
 
-    /// Integral of h_i/J_i from time zero to `time` within `stretch`, rad: the wheel's angle is this less a_i . (integral of omega).
+    /// Momentum of a wheel beside K omega at `time` within `arc`, N m s.
     #[inline(always)]
-    pub fn wheel_turn_at(&self, stretch: &Stretch<R>, wheel: usize, time: f64) -> R {
-        let since = self.mass.splat(time) - self.mass.splat(stretch.start);
+    pub fn wheel_momentum_at(&self, arc: &GyrostatArc<R>, wheel: usize, time: f64) -> R {
+        let since = self.mass.splat(time) - self.mass.splat(arc.arc.start);
+        arc.motor_torque()[wheel].mul_add(since, arc.wheel_momentum[wheel])
+    }
+
+    /// Integral of h_i/J_i from time zero to `time` within `arc`, rad: the wheel's angle is this minus a_i . (integral of omega).
+    #[inline(always)]
+    pub fn wheel_turn_at(&self, arc: &GyrostatArc<R>, wheel: usize, time: f64) -> R {
+        let since = self.mass.splat(time) - self.mass.splat(arc.arc.start);
         let half = self.mass.splat(0.5);
-        let mean = (half * stretch.motor[wheel]).mul_add(since, stretch.wheel_momentum[wheel]);
-        (mean * self.inverse_axial(wheel)).mul_add(since, stretch.wheel_turn[wheel])
+        let mean = (half * arc.motor_torque()[wheel]).mul_add(since, arc.wheel_momentum[wheel]);
+        (mean * self.inverse_axial(wheel)).mul_add(since, arc.wheel_turn[wheel])
     }
 
     /// 1/J_i, or zero for a wheel that is not there.
@@ -270,28 +339,30 @@ impl<R: Real> Gyrostat<R> {
         if self.is_missing(wheel) { axial.zero() } else { axial.splat(1.0) / axial }
     }
 
-    /// Rate of a wheel relative to the fuselage at `time` within `stretch`, rad/s, where the body turns with `omega_b`:
+    /// Rate of a wheel relative to the fuselage at `time` within `arc`, rad/s, where the body turns with `omega_b`:
     /// h_i/J_i - a_i . omega, or what it is held at.
-    pub fn wheel_rate_at(&self, stretch: &Stretch<R>, wheel: usize, time: f64, omega_b: [R; 3]) -> R {
+    pub fn wheel_rate_at(&self, arc: &GyrostatArc<R>, wheel: usize, time: f64, omega_b: [R; 3]) -> R {
         match self.held[wheel] {
             Some(rate) => rate,
             None if self.is_missing(wheel) => self.mass.zero(),
             None => {
-                let absolute = self.wheel_momentum_at(stretch, wheel, time) * self.inverse_axial(wheel);
+                let absolute = self.wheel_momentum_at(arc, wheel, time) * self.inverse_axial(wheel);
                 absolute - dot(self.axes_b[wheel], omega_b)
             }
         }
     }
 
-    /// Angle of a wheel at `time` within `stretch`, rad, where the integral of omega since time zero is `turned_b`.
-    pub fn wheel_angle_at(&self, stretch: &Stretch<R>, wheel: usize, time: f64, turned_b: [R; 3]) -> R {
+    /// Angle of a wheel at `time` within `arc`, rad, where the integral of omega since time zero is `turned_b`.
+    pub fn wheel_angle_at(&self, arc: &GyrostatArc<R>, wheel: usize, time: f64, turned_b: [R; 3]) -> R {
+        self.wheel_angle(wheel, time, self.wheel_turn_at(arc, wheel, time), turned_b)
+    }
+
+    /// Angle of a wheel, rad, given the integral of h_i/J_i since time zero.
+    fn wheel_angle(&self, wheel: usize, time: f64, absolute: R, turned_b: [R; 3]) -> R {
         match self.held[wheel] {
             Some(rate) => rate.mul_add(rate.splat(time), self.wheel_angles[wheel]),
             None if self.is_missing(wheel) => self.mass.zero(),
-            None => {
-                let absolute = self.wheel_turn_at(stretch, wheel, time);
-                self.wheel_angles[wheel] + (absolute - dot(self.axes_b[wheel], turned_b))
-            }
+            None => self.wheel_angles[wheel] + (absolute - dot(self.axes_b[wheel], turned_b)),
         }
     }
 
@@ -311,11 +382,12 @@ impl<R: Real> Gyrostat<R> {
         }
     }
 
-    /// Sum of tau_i h_i/J_i at the start of `stretch`, W, and its rate, W/s.
-    pub fn motor_power(&self, stretch: &Stretch<R>) -> [R; 2] {
+    /// Sum of tau_i h_i/J_i at the start of `arc`, W, and its rate, W/s.
+    pub fn motor_power(&self, arc: &GyrostatArc<R>) -> [R; 2] {
+        let motor = arc.motor_torque();
         let per_wheel = |i: usize| {
-            let scaled = stretch.motor[i] * self.inverse_axial(i);
-            [scaled * stretch.wheel_momentum[i], scaled * stretch.motor[i]]
+            let scaled = motor[i] * self.inverse_axial(i);
+            [scaled * arc.wheel_momentum[i], scaled * motor[i]]
         };
         let (first, second) = (per_wheel(0), per_wheel(1));
         [first[0] + second[0], first[1] + second[1]]
@@ -326,18 +398,33 @@ impl<R: Real> Gyrostat<R> {
     pub fn wheel_momentum_b(&self, momentum: [R; 2]) -> [R; 3] {
         sum(scaled(momentum[0], self.axes_b[0]), scaled(momentum[1], self.axes_b[1]))
     }
-}
 
-impl Gyrostat<f64> {
+    /// Prepares the time scale of a run that will fly the schedule of `scene`, which is known before it starts.
+    pub fn expect_schedule(&mut self, scene: &Scene, duration: f64) {
+        self.begin_schedule(scene, duration);
+        self.arcs.clear();
+    }
+
+    /// Takes the last arc into account in the time scale, for a run whose arcs are not known before it starts.
+    pub fn note_rate(&mut self) {
+        if let Some(last) = self.arcs.last() {
+            self.rate = self.rate.max(self.rate_of(last));
+        }
+    }
+
+    /// The rate that an arc adds to the motion, rad/s: of the wheels' momenta, and of the torques after one radian.
+    fn rate_of(&self, arc: &GyrostatArc<R>) -> f64 {
+        let moments = first_lane(self.moments);
+        let smallest = moments[0].min(moments[1]).min(moments[2]);
+        let wheels = largest(first_lane(self.wheel_momentum_b(arc.wheel_momentum))) / smallest;
+        let motors = first_lane(self.wheel_momentum_b(arc.motor_torque()));
+        let torque = largest(first_lane(arc.torque_b)).max(largest(motors));
+        wheels.max((torque / smallest).sqrt())
+    }
+
     /// A power of two near the time scale of the run, s: from its rates, its wheels and what acts on it.
     pub fn time_unit(&self) -> f64 {
-        let smallest = self.moments[0].min(self.moments[1]).min(self.moments[2]);
-        let mut rate = largest(self.omega_b);
-        for stretch in &self.stretches {
-            rate = rate.max(largest(self.wheel_momentum_b(stretch.wheel_momentum)) / smallest);
-            let torque = largest(stretch.torque_b).max(largest(self.wheel_momentum_b(stretch.motor)));
-            rate = rate.max((torque / smallest).sqrt());
-        }
+        let rate = self.rate;
         if rate.is_nan() || rate <= SLOWEST {
             return 1.0 / SLOWEST;
         }
@@ -349,6 +436,11 @@ impl Gyrostat<f64> {
 
 /// Below this rate, rad/s, nothing is resolved more finely: 2^-200.
 const SLOWEST: f64 = 6.223_015_277_861_142e-61;
+
+/// The components rounded to `f64`.
+fn first_lane<R: Real, const K: usize>(v: [R; K]) -> [f64; K] {
+    v.map(|component| component.lane(0))
+}
 
 /// The largest component.
 fn largest(v: [f64; 3]) -> f64 {

@@ -1,10 +1,11 @@
 //! From integrated components to the table of physical states.
 
 use super::energy::kinetic_energies;
-use super::parameters::Parameters;
+use super::parameters::{Parameters, WheelParameters};
 use super::residuals::residuals;
 use super::state::{Columns, State, rotated, transposed};
-use crate::math::vector::{cross, scaled_quaternion_from_dcm, sum};
+use crate::dynamics::actuation::{BodyState, WheelState};
+use crate::math::vector::{cross, dot, product, scaled_quaternion_from_dcm, sum};
 use crate::run::{Grid, StateField, StateTable, Trajectory};
 use crate::scene::Scene;
 
@@ -51,6 +52,24 @@ pub fn complete(scene: &Scene, trajectory: &Trajectory, grid: &Grid, table: &mut
         }
     }
     table.pad();
+}
+
+/// The state that an actuation law sees; of the two quaternions of the attitude the one nearer to `near`.
+#[inline(always)]
+pub fn observed_state(parameters: &Parameters, state: &State, near: [f64; 4]) -> (BodyState, WheelState) {
+    let c_es = state.dcm[0];
+    let mut momenta = [0.0; 2];
+    for (wheel, momentum) in momenta.iter_mut().enumerate() {
+        let WheelParameters { axis, inertia, .. } = parameters.wheels[wheel];
+        *momentum = dot(axis, product(inertia, axis)) * (state.wheel_rates[wheel] + dot(axis, state.omega_s));
+    }
+    let body = BodyState {
+        omega_se_s: state.omega_s,
+        q_es: quaternion(c_es, near),
+        r_co_e: sum(state.position[0], rotated(c_es, parameters.center)),
+        v_co_e: sum(state.v_p, rotated(c_es, cross(state.omega_s, parameters.center))),
+    };
+    (body, WheelState { rates: state.wheel_rates, momenta, angles: state.wheel_angles })
 }
 
 /// The unit quaternion of a DCM by columns, of the two the one nearer to `near`.

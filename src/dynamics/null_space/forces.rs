@@ -18,14 +18,14 @@ pub struct Wrench {
     pub torque: [f64; 3],
 }
 
-/// What the actuators do in one stretch: B u (26), in the frames of the bodies.
+/// The applied forces of an arc: B u (26) and the body torque, in the frames of the bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drive {
     /// Force of the thrusters in F_s, N.
     pub force_s: [f64; 3],
-    /// Torque of the thrusters about p in F_s, N m.
+    /// Torque of the thrusters about p plus the body torque, in F_s, N m.
     pub torque_p_s: [f64; 3],
-    /// Torque of the thrusters about c in F_s, N m.
+    /// The same about c.
     pub torque_c_s: [f64; 3],
     /// Motor torques tau^W1, tau^W2 on the wheels, N m.
     pub motors: [f64; 2],
@@ -49,6 +49,9 @@ impl Drive {
                 force_s = sum(force_s, force);
                 torque_p_s = sum(torque_p_s, cross(point, force));
             }
+        }
+        if actuation.body_torque != [0.0; 3] {
+            torque_p_s = sum(torque_p_s, actuation.body_torque);
         }
         Drive {
             force_s,

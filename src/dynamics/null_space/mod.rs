@@ -35,7 +35,7 @@ pub mod parameters;
 pub mod residuals;
 pub mod state;
 
-pub use completion::complete;
+pub use completion::{complete, observed_state};
 pub use energy::kinetic_energies;
 pub use kernel::{Kernel, SignOfANon};
 pub use parameters::Parameters;

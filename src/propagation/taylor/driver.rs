@@ -1,292 +1,250 @@
-//! The lanes: runs side by side, each with its own step, stretch, period and end.
+//! [`integrate`]: runs in lanes, step by step, each with its own step, arc, period and end.
 //!
-//! A step is the same few vector operations for all lanes; a lane by itself is looked at only when something happens to it:
-//! an observation point passed, omega came back to where it started, a stretch ended, or something went wrong.
+//! A step is the same few vector operations for all lanes; a single lane is only examined when something happens to it:
+//! an observation point passed, omega came back to where it started, an arc ended, or something went wrong.
 #![expect(clippy::needless_range_loop, reason = "components are numbered alike in several arrays")]
 
 use fearless_simd::Simd;
 
-use super::dense::{value_at, values};
+use super::dense::values;
 use super::jet::expand;
-use super::lane_state::LaneState;
-use super::period::Period;
-use super::return_detector::ReturnDetector;
-use super::truncation::Truncation;
+use super::lanes::{RunCallback, RunLanes};
+use super::period_folding::{PeriodFolding, folded_lanes, is_due};
+use super::period_search::{period, return_time};
+use super::points::{StepSeries, Until};
 use super::workspace::Workspace;
 use crate::dynamics::gyrostat::equations::Constants;
-use crate::dynamics::gyrostat::{ANGLE, ATTITUDE, Gyrostat, OMEGA, WITH_ATTITUDE};
-use crate::math::lanes::WIDEST;
+use crate::dynamics::gyrostat::{ANGLE, Gyrostat};
 use crate::math::sums::{fast_two_sum, two_sum};
-use crate::math::vector::{dcm_from_quaternion, product};
 use crate::math::{Mask, Real};
-use crate::run::{Grid, Trajectory};
-use crate::run::{Outcome, Status};
+use crate::propagation::arc_source::ArcSource;
+use crate::run::{Grid, Status};
 
-/// Hands over a run: its index, its components at the points, how it ended.
-pub(super) type CompletionCallback<'a> = dyn FnMut(usize, &mut Trajectory, &Outcome) + 'a;
-
-/// Marches `runs` over `grid`; `finish` is called once for each, with its index and its components at the points.
+/// Integrates `runs`, whose arcs come from `arcs`, over `grid`; `finish` is called once for each, in the order in which they end.
 ///
-/// `N` components are integrated, of which the first `J` by series of their own. Every result is a function of the run alone:
-/// lanes share no decision.
+/// `N` components are integrated, the first `J` of them by series of their own. Every result is a function of the run and its law
+/// alone: lanes share no decision.
 #[inline(always)]
-pub fn march<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool>(
+pub fn integrate<'a, S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool>(
     simd: S,
     zero: R,
-    runs: &[Gyrostat<f64>],
-    grid: &Grid,
-    workspace: &mut Workspace<R, J>,
-    finish: &mut CompletionCallback<'_>,
+    (runs, arcs): (&'a mut [Gyrostat<f64>], ArcSource<'a>),
+    grid: &'a Grid,
+    workspace: &'a mut Workspace<R, J>,
+    finish: &mut RunCallback<'_>,
 ) {
-    let mut lanes = Driver::<S, R, N, J, FORCED> {
-        simd,
-        runs,
-        grid,
-        next: 0,
-        constants: Constants::zero(zero),
-        state: [zero; N],
-        state_low: [zero; N],
-        time: zero,
-        time_low: zero,
-        length: zero,
-        upcoming: zero,
-        per_unit: zero,
-        watch: ReturnDetector::none(zero),
-        truncation: Truncation::new(zero, workspace.rule.order),
-        places: [None; WIDEST],
-        clock: 0,
-        alarm: 0,
-        work: workspace,
-    };
+    let lanes = RunLanes::new(zero, runs, arcs, grid, workspace);
+    let mut driver = Driver::<S, R, N, J, FORCED> { simd, lanes };
     for lane in 0..R::LANES {
-        lanes.refill(lane);
+        driver.lanes.load_lane(lane);
     }
-    while lanes.places[..R::LANES].iter().any(Option::is_some) {
-        lanes.step(finish);
+    while driver.lanes.states[..R::LANES].iter().any(Option::is_some) {
+        driver.step(finish);
     }
 }
 
-/// The march while it runs.
-pub(super) struct Driver<'a, S, R, const N: usize, const J: usize, const FORCED: bool> {
-    pub simd: S,
-    pub runs: &'a [Gyrostat<f64>],
-    pub grid: &'a Grid,
-    /// The next run that waits for a lane.
-    pub next: usize,
-    pub constants: Constants<R>,
-    pub state: [R; N],
-    pub state_low: [R; N],
-    /// Time since the start of the stretch, units, as an unevaluated sum.
-    pub time: R,
-    pub time_low: R,
-    /// Length of the stretch, units; infinite where the lane is empty or waits.
-    pub length: R,
-    /// Time of the next observation point of the stretch, units; infinite where there is none or the lane is watched.
-    pub upcoming: R,
-    /// One over the unit of time, 1/s.
-    pub per_unit: R,
-    pub watch: ReturnDetector<R>,
-    /// What the steps of each lane's run left out.
-    pub truncation: Truncation<R>,
-    pub places: [Option<LaneState>; WIDEST],
-    /// Steps of the march; step k lies in slot k modulo the ring's length.
-    pub clock: usize,
-    /// The step at which some lane is to be looked at, whatever happens.
-    pub alarm: usize,
-    pub work: &'a mut Workspace<R, J>,
+/// Steps the lanes and decides what happens to them.
+struct Driver<'a, S, R, const N: usize, const J: usize, const FORCED: bool> {
+    simd: S,
+    lanes: RunLanes<'a, R, N, J>,
 }
 
 impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> Driver<'_, S, R, N, J, FORCED> {
     /// One step of every lane.
     #[inline(always)]
-    fn step(&mut self, finish: &mut CompletionCallback<'_>) {
-        let slot = self.clock % self.work.ring.len();
-        let zero = self.time.zero();
+    fn step(&mut self, finish: &mut RunCallback<'_>) {
+        let RunLanes { vectors, work, truncation, .. } = &mut self.lanes;
+        let zero = vectors.time.zero();
         let (one, infinite) = (zero.splat(1.0), zero.splat(f64::INFINITY));
-        let mut constants = self.constants;
+        let mut constants = vectors.constants;
         if FORCED {
             for i in 0..3 {
-                constants.momentum[i] = constants.momentum_rate[i].mul_add(self.time, constants.momentum[i]);
+                constants.momentum[i] = constants.momentum_rate[i].mul_add(vectors.time, constants.momentum[i]);
             }
-            constants.motor_power = constants.motor_power_rate.mul_add(self.time, constants.motor_power);
+            constants.motor_power = constants.motor_power_rate.mul_add(vectors.time, constants.motor_power);
         }
-        let begin = self.state;
-        let segment = &mut self.work.ring[slot];
+        let begin = vectors.state;
+        let segment = work.ring.current();
         for i in 0..J {
-            segment.jet[0][i] = self.state[i];
+            segment.jet[0][i] = vectors.state[i];
         }
-        segment.start = self.time;
-        segment.start_low = self.time_low;
-        let order = self.work.rule.order;
-        expand::<R, J, FORCED>(&constants, &self.work.reciprocals, order, &mut self.work.scratch, &mut segment.jet);
-        let wanted = self.work.rule.step(&segment.jet);
-        let left = (self.length - self.time) - self.time_low;
-        let length = R::select(left.lt(wanted), left, wanted);
-        self.truncation.add(&segment.jet, length);
+        segment.start = vectors.time;
+        segment.start_low = vectors.time_low;
+        let order = work.rule.order;
+        expand::<R, J, FORCED>(&constants, &work.reciprocals, order, &mut work.scratch, &mut segment.jet);
+        let proposed = work.rule.step(&segment.jet);
+        let left = (vectors.length - vectors.time) - vectors.time_low;
+        let length = R::select(left.lt(proposed), left, proposed);
+        truncation.add(&segment.jet, length);
         // the increment first, then the state with its carry
         let [slope] = values(&segment.jet[1..=order], [length]);
         for i in 0..J {
-            let increment = slope[i].mul_add(length, self.state_low[i]);
-            (self.state[i], self.state_low[i]) = fast_two_sum(self.state[i], increment);
+            let increment = slope[i].mul_add(length, vectors.state_low[i]);
+            (vectors.state[i], vectors.state_low[i]) = fast_two_sum(vectors.state[i], increment);
         }
         if FORCED {
             let turned = [slope[ANGLE] * length, slope[ANGLE + 1] * length, slope[ANGLE + 2] * length];
-            let grown = self.work.quadrature.growth(&constants, &segment.jet, &begin, turned, length);
+            let growth = work.quadrature.growth(&constants, &segment.jet, &begin, turned, length);
             for i in J..N {
-                (self.state[i], self.state_low[i]) = two_sum(self.state[i], grown[i] + self.state_low[i]);
+                (vectors.state[i], vectors.state_low[i]) = two_sum(vectors.state[i], growth[i] + vectors.state_low[i]);
             }
         }
-        let (time, error) = fast_two_sum(self.time, length + self.time_low);
-        (self.time, self.time_low) = (time, error);
-        self.clock += 1;
+        let (time, error) = fast_two_sum(vectors.time, length + vectors.time_low);
+        (vectors.time, vectors.time_low) = (time, error);
+        work.ring.clock += 1;
 
-        let omega = [self.state[0], self.state[1], self.state[2]];
+        let omega = [vectors.state[0], vectors.state[1], vectors.state[2]];
         let size = omega[0].abs() + omega[1].abs() + omega[2].abs();
         let finite = size.lt(infinite);
-        let left = (self.length - self.time) - self.time_low;
-        let goes_on = zero.lt(left);
-        let covered = R::select(finite, R::select(goes_on, time, infinite), -infinite);
-        while self.upcoming.lt(covered).any() {
-            self.observe(slot, &constants, &begin, covered);
+        let left = (vectors.length - vectors.time) - vectors.time_low;
+        let continues = zero.lt(left);
+        let covered = R::select(finite, R::select(continues, time, infinite), -infinite);
+        while self.lanes.vectors.next_point.lt(covered).any() {
+            self.observe(&constants, &begin, covered);
         }
 
-        let back = self.watch.passes(omega);
+        let back = self.lanes.detector.passes(omega);
         let stuck = length.lt(time * zero.splat(f64::EPSILON * f64::EPSILON));
-        let calm = R::select(finite, R::select(goes_on, R::select(stuck, zero, one), zero), zero) - back;
-        if calm.lt(one).any() || self.clock >= self.alarm {
-            self.attend(calm, back, length, finish);
+        let calm = R::select(finite, R::select(continues, R::select(stuck, zero, one), zero), zero) - back;
+        if calm.lt(one).any() || self.lanes.work.ring.clock >= self.lanes.alarm {
+            self.examine(calm, back, length, finish);
         }
     }
 
-    /// Looks at the lanes to which something happened: those where `calm` is not one, and all where it is time.
+    /// Evaluates the next observation point of every lane that has one before `covered`.
+    #[inline(always)]
+    fn observe(&mut self, constants: &Constants<R>, begin: &[R; N], covered: R) {
+        let RunLanes { vectors, work, .. } = &mut self.lanes;
+        let due = vectors.next_point.lt(covered);
+        let (segment, quadrature) = (work.ring.last(), &work.quadrature);
+        let series = StepSeries { segment, quadrature, constants, begin, per_unit: vectors.per_unit };
+        let rows = series.components::<FORCED>(vectors.next_point, due);
+        let zero = covered.zero();
+        self.lanes.write_points(&rows, R::select(due, zero.splat(1.0), zero));
+    }
+
+    /// Examines the lanes to which something happened: those where `calm` is not one, and all of them at an alarm.
     #[inline(never)]
-    fn attend(&mut self, calm: R, back: R, length: R, finish: &mut CompletionCallback<'_>) {
+    fn examine(&mut self, calm: R, back: R, length: R, finish: &mut RunCallback<'_>) {
         self.simd.vectorize(
             #[inline(always)]
-            || self.attend_now(calm, back, length, finish),
+            || self.examine_lanes(calm, back, length, finish),
         );
     }
 
     #[inline(always)]
-    fn attend_now(&mut self, calm: R, back: R, length: R, finish: &mut CompletionCallback<'_>) {
-        let all = self.clock >= self.alarm;
+    fn examine_lanes(&mut self, calm: R, back: R, length: R, finish: &mut RunCallback<'_>) {
+        let all = self.lanes.work.ring.clock >= self.lanes.alarm;
         for lane in 0..R::LANES {
             if all || calm.lane(lane) < 1.0 {
-                self.attend_lane(lane, back.lane(lane) > 0.0, length.lane(lane), finish);
+                self.examine_lane(lane, back.lane(lane) > 0.0, length.lane(lane), finish);
             }
         }
-        if self.should_fold() {
+        if is_due(&self.lanes.states, self.lanes.work.ring.clock, self.lanes.work.ring.len()) {
             self.fold(finish);
         }
-        let occupied = || self.places.iter().flatten();
-        if self.clock > 0 && occupied().all(|place| place.begun == self.clock && place.steps_before == 0) {
-            // all lanes start afresh: so does the ring, and the memory that it touches stays small
-            self.clock = 0;
-            self.places.iter_mut().flatten().for_each(|place| place.begun = 0);
+        let lanes = &mut self.lanes;
+        let clock = lanes.work.ring.clock;
+        let mut occupied = lanes.states.iter().flatten();
+        if clock > 0 && occupied.all(|state| state.begun == clock && state.steps_before == 0) {
+            // all lanes start anew: so does the ring, and the memory that it uses stays small
+            lanes.work.ring.clock = 0;
+            lanes.states.iter_mut().flatten().for_each(|state| state.begun = 0);
         }
         self.set_alarm();
     }
 
-    /// The step at which a lane is to be looked at at the latest.
+    /// Sets the step after which all lanes are examined at the latest.
     fn set_alarm(&mut self) {
-        let ring = self.work.ring.len();
-        let most = self.work.settings.max_steps;
+        let RunLanes { work, states, .. } = &self.lanes;
+        let (clock, kept) = (work.ring.clock, work.ring.len());
         let mut alarm = usize::MAX;
-        for place in self.places.iter().flatten() {
-            let given_up = place.begun as u64 + most.saturating_sub(place.steps_before);
-            let at = match place.waits {
-                Some(wait) => place.patience(&wait).min(place.begun + ring),
-                // one that does not move at all has its period after the first step
-                None if place.watching && place.begun == self.clock => self.clock + 1,
-                None if place.watching => place.begun + ring,
+        for state in states.iter().flatten() {
+            let given_up = state.begun as u64 + work.settings.max_steps.saturating_sub(state.steps_before);
+            let at = match state.waiting {
+                Some(waiting) => state.patience(&waiting).min(state.begun + kept),
+                // a body that does not move at all has its period after the first step
+                None if state.is_searching && state.begun == clock => clock + 1,
+                None if state.is_searching => state.begun + kept,
                 None => usize::MAX,
             };
             alarm = alarm.min(at).min(usize::try_from(given_up).unwrap_or(usize::MAX));
         }
-        self.alarm = alarm.max(self.clock + 1);
+        self.lanes.alarm = alarm.max(clock + 1);
     }
 
-    /// What a lane does after a step: fold by a period, end a stretch or a run.
+    /// Decides what happens to a lane after a step: folding by a period, the end of an arc or of a run.
     #[inline(always)]
-    fn attend_lane(&mut self, lane: usize, back: bool, length: f64, finish: &mut CompletionCallback<'_>) {
-        let Some(place) = self.places[lane] else { return };
-        if place.waits.is_some() {
+    fn examine_lane(&mut self, lane: usize, back: bool, length: f64, finish: &mut RunCallback<'_>) {
+        let lanes = &mut self.lanes;
+        let Some(state) = lanes.states[lane] else { return };
+        if state.waiting.is_some() {
             return;
         }
-        let omega = [self.state[0].lane(lane), self.state[1].lane(lane), self.state[2].lane(lane)];
+        let omega = lanes.vectors.omega(lane);
         if !(omega[0].is_finite() && omega[1].is_finite() && omega[2].is_finite()) {
-            self.fail(lane, Status::NonFinite, finish);
+            lanes.fail(lane, Status::NonFinite, finish);
             return;
         }
-        let time = self.time.lane(lane);
-        let left = (place.length - time) - self.time_low.lane(lane);
-        if place.watching
+        let time = lanes.vectors.time.lane(lane);
+        let left = (state.length - time) - lanes.vectors.time_low.lane(lane);
+        let (ring, settings) = (&lanes.work.ring, &lanes.work.settings);
+        let rule = (lanes.work.rule.order, settings.tolerance);
+        if state.is_searching
             && left > 0.0
-            && let Some(within) = self.comes_back(lane, back, length)
-            && let Some(period) = self.period(lane, within)
+            && let Some(within) = return_time(&lanes.detector.section(lane), ring, &state, lane, back, length, rule)
+            && let Some(period) = {
+                let momentum = &lanes.vectors.constants.momentum;
+                let momentum_b = [momentum[0].lane(lane), momentum[1].lane(lane), momentum[2].lane(lane)];
+                period(&lanes.runs[state.run], ring, &state, lane, within, momentum_b)
+            }
         {
-            self.wait(lane, Some(period));
+            lanes.wait(lane, Some(period));
         } else if left <= 0.0 {
-            if place.watching && place.stretch + 1 == self.runs[place.run].stretches.len() {
-                self.wait(lane, None);
+            if state.is_searching && state.is_last {
+                lanes.wait(lane, None);
                 return;
             }
-            if place.watching {
-                // the state at the end is wanted now
-                self.evaluate_kept(lane, true);
+            if state.is_searching {
+                // the next arc starts from the state at the end of this one
+                lanes.evaluate_kept(lane, Until::EndOfArc);
             }
-            self.end_stretch(lane, finish);
-        } else if self.steps(&place) >= self.work.settings.max_steps {
-            self.fail(lane, Status::StepLimit, finish);
+            lanes.end_arc(lane, finish);
+        } else if state.steps(ring.clock) >= settings.max_steps {
+            lanes.fail(lane, Status::StepLimit, finish);
         } else if length <= f64::EPSILON * time * f64::EPSILON {
-            self.fail(lane, Status::StepFloor, finish);
-        } else if place.watching && self.clock - place.begun >= self.work.ring.len() {
-            self.make_room(lane);
+            lanes.fail(lane, Status::StepFloor, finish);
+        } else if state.is_searching && ring.clock - state.begun >= ring.len() {
+            lanes.keep_more_series(lane);
         }
     }
 
-    /// The time within the last step at which omega in `lane` is where the stretch began.
-    #[inline(always)]
-    fn comes_back(&self, lane: usize, back: bool, length: f64) -> Option<f64> {
-        let place = self.places[lane]?;
-        let jet = &self.work.ring[(self.clock - 1) % self.work.ring.len()].jet;
-        let section = self.watch.section(lane);
-        if section.direction == [0.0; 3] {
-            // omega does not move: any time is a period
-            return (self.clock - place.begun == 1).then_some(length);
+    /// Evaluates all points of the arcs in the lanes that wait, and lets those lanes continue.
+    #[inline(never)]
+    fn fold(&mut self, finish: &mut RunCallback<'_>) {
+        let simd = self.simd;
+        let RunLanes { states, grid, work, vectors, .. } = &mut self.lanes;
+        let folded = folded_lanes(states, grid);
+        let Workspace { ring, folds, trajectories, .. } = &mut **work;
+        let zero = vectors.time.zero();
+        let mut folding = PeriodFolding::<S, R, N, J> { simd, zero, grid, ring, folds, trajectories };
+        folding.evaluate(&folded);
+        for share in folded.iter().flatten() {
+            if let Some(state) = &mut states[share.lane] {
+                state.point += share.points;
+            }
+            if !share.state.is_last
+                && let Some(period) = &share.period
+            {
+                let end = simd.vectorize(
+                    #[inline(always)]
+                    || folding.state_at_end(share, period),
+                );
+                vectors.set_state(share.lane, &end);
+            }
         }
-        if !back {
-            return None;
+        for share in folded.iter().flatten() {
+            self.lanes.end_arc(share.lane, finish);
         }
-        section.crossing(jet, lane, self.work.rule.order, length, self.work.settings.tolerance)
-    }
-
-    /// The period of the stretch in `lane`, of which the last step comes back after `within` units.
-    #[inline(always)]
-    fn period(&self, lane: usize, within: f64) -> Option<Period> {
-        let place = self.places[lane]?;
-        let ring = &self.work.ring;
-        let segment = &ring[(self.clock - 1) % ring.len()];
-        let start = segment.start.lane(lane);
-        let sum = start + within;
-        let length = [sum, (within - (sum - start)) + segment.start_low.lane(lane)];
-        if N < WITH_ATTITUDE {
-            return Some(Period { length, half_turns: 0.0, axis_e: [0.0; 3] });
-        }
-        let run = &self.runs[place.run];
-        let first = &ring[place.begun % ring.len()].jet[0];
-        let (mut start, mut end) = ([0.0; 4], [0.0; 4]);
-        for i in 0..4 {
-            start[i] = first[ATTITUDE + i].lane(lane);
-            end[i] = value_at(&segment.jet, ATTITUDE + i, lane, within);
-        }
-        let mut momentum_b = [0.0; 3];
-        let mut scale = 0.0_f64;
-        for i in 0..3 {
-            let own = run.moments[i] * first[OMEGA + i].lane(lane);
-            momentum_b[i] = own + self.constants.momentum[i].lane(lane);
-            scale = scale.max(own.abs());
-        }
-        Period::new(length, start, end, product(dcm_from_quaternion(start), momentum_b), scale)
     }
 }

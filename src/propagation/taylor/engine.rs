@@ -1,15 +1,16 @@
-//! The Taylor and periodic propagation as an [`Engine`].
+//! Taylor and periodic propagation as an [`Engine`].
 
 use fearless_simd::Simd;
 
-use super::driver::march;
+use super::driver::integrate;
 use super::workspace::{Settings, Workspace};
+use crate::dynamics::actuation::Laws;
 use crate::dynamics::gyrostat::WITH_ATTITUDE;
 use crate::math::Real;
+use crate::propagation::arc_source::ArcSource;
 use crate::propagation::gyrostat_batch::GyrostatBatch;
 use crate::propagation::method::Method;
 use crate::propagation::settings::{CompletionCallback, Engine, PropagationSettings};
-use crate::run::StateTable;
 use crate::scene::Scene;
 
 /// One worker's memory: `N` components, of which the first `J` have series of their own.
@@ -20,7 +21,6 @@ pub struct TaylorEngine<S, R, const N: usize, const J: usize, const FORCED: bool
     batch: GyrostatBatch,
     workspace: Workspace<R, J>,
     debris_workspace: Option<Workspace<R, WITH_ATTITUDE>>,
-    table: StateTable,
 }
 
 impl<S: Simd, R: Real + Send + 'static, const N: usize, const J: usize, const FORCED: bool>
@@ -35,38 +35,43 @@ impl<S: Simd, R: Real + Send + 'static, const N: usize, const J: usize, const FO
             batch: GyrostatBatch::new(plan),
             workspace: Workspace::new(zero, settings(plan), N, plan.grid.points()),
             debris_workspace: None,
-            table: StateTable::new(plan.blocks, plan.grid.points()),
         }
     }
 
     #[inline(always)]
-    fn run(&mut self, scenes: &[Scene], finish: &mut CompletionCallback<'_>) {
-        let Self { simd, zero, plan, batch, workspace, debris_workspace, table } = self;
-        batch.take(scenes);
-        if batch.begin_debris(scenes) {
+    fn run(&mut self, mut laws: Laws<'_>, scenes: &[Scene], finish: &mut CompletionCallback<'_>) {
+        let Self { simd, zero, plan, batch, workspace, debris_workspace } = self;
+        plan.check_laws(&laws);
+        let grid = &plan.grid;
+        if let Some((runs, trajectories)) = batch.load_debris(scenes) {
             let workspace = debris_workspace
-                .get_or_insert_with(|| Workspace::new(*zero, settings(plan), WITH_ATTITUDE, plan.grid.points()));
-            let (runs, store) = batch.debris();
-            march::<S, R, WITH_ATTITUDE, WITH_ATTITUDE, false>(
+                .get_or_insert_with(|| Workspace::new(*zero, settings(plan), WITH_ATTITUDE, grid.points()));
+            let arcs = ArcSource::free(grid.duration());
+            integrate::<S, R, WITH_ATTITUDE, WITH_ATTITUDE, false>(
                 *simd,
                 *zero,
-                runs,
-                &plan.grid,
+                (runs, arcs),
+                grid,
                 workspace,
-                &mut |run, states, _| {
-                    core::mem::swap(&mut store[run], states);
-                },
+                &mut |index, _, states, _| core::mem::swap(&mut trajectories[index], states),
             );
         }
-        let batch = &*batch;
-        march::<S, R, N, J, FORCED>(*simd, *zero, batch.runs(), &plan.grid, workspace, &mut |run, states, outcome| {
-            batch.complete::<S, N>(*simd, scenes, run, states, table);
-            finish(run, table, outcome);
-        });
+        let arcs = ArcSource::new(scenes, laws.reborrow(), grid.duration());
+        let (runs, completion) = batch.load(scenes, &arcs);
+        integrate::<S, R, N, J, FORCED>(
+            *simd,
+            *zero,
+            (runs, arcs),
+            grid,
+            workspace,
+            &mut |index, run, states, outcome| {
+                completion.complete::<S, N>(*simd, scenes, index, run, states, outcome, finish);
+            },
+        );
     }
 }
 
-/// What `plan` says of the march.
+/// What `plan` asks of an integration.
 fn settings(plan: &PropagationSettings) -> Settings {
     Settings {
         tolerance: plan.control.tolerance.relative,
@@ -78,11 +83,11 @@ fn settings(plan: &PropagationSettings) -> Settings {
 impl<S: Simd, R: Real + Send + 'static, const N: usize, const J: usize, const FORCED: bool> Engine
     for TaylorEngine<S, R, N, J, FORCED>
 {
-    fn propagate(&mut self, scenes: &[Scene], finish: &mut CompletionCallback<'_>) {
+    fn propagate_under(&mut self, laws: Laws<'_>, scenes: &[Scene], finish: &mut CompletionCallback<'_>) {
         let simd = self.simd;
         simd.vectorize(
             #[inline(always)]
-            || self.run(scenes, finish),
+            || self.run(laws, scenes, finish),
         );
     }
 }

@@ -1,108 +1,101 @@
-//! Observation points as the march passes them: of all lanes at once, and one by one from series that were kept.
+//! Observation points: of all lanes at once during a step, and one by one from series that were kept.
 #![expect(clippy::needless_range_loop, reason = "components are numbered alike in several arrays")]
 
-use fearless_simd::Simd;
-
-use super::dense::{value_at, values};
-use super::driver::Driver;
-use super::thrust::angle_of;
+use super::dense::{Segment, value_at, values};
+use super::lane_state::LaneState;
+use super::lane_vectors::si_factors;
+use super::series_ring::SeriesRing;
+use super::thrust::{Quadrature, angle_of};
+use crate::dynamics::gyrostat::ANGLE;
 use crate::dynamics::gyrostat::equations::Constants;
-use crate::dynamics::gyrostat::{
-    ANGLE, ANGULAR_IMPULSE, IMPULSE, MOTOR_WORK, OMEGA, THRUST_WORK, WITH_MOTORS, WITH_THRUST,
-};
 use crate::math::Real;
 use crate::math::lanes::WIDEST;
+use crate::run::{Grid, Trajectory};
 
-impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> Driver<'_, S, R, N, J, FORCED> {
-    /// Evaluates the next observation point of every lane that has one before `covered`.
+/// A step whose points are evaluated.
+pub(super) struct StepSeries<'a, R, const N: usize, const J: usize> {
+    pub segment: &'a Segment<R, J>,
+    pub quadrature: &'a Quadrature,
+    /// The constants at the start of the step.
+    pub constants: &'a Constants<R>,
+    /// The state there.
+    pub begin: &'a [R; N],
+    /// One over the unit of time, 1/s.
+    pub per_unit: R,
+}
+
+impl<R: Real, const N: usize, const J: usize> StepSeries<'_, R, N, J> {
+    /// The components at the times `at` since the start of the arc, SI, lane by lane. The quadrature states only where `FORCED`.
     #[inline(always)]
-    pub(super) fn observe(&mut self, slot: usize, constants: &Constants<R>, begin: &[R; N], covered: R) {
-        let zero = covered.zero();
-        let segment = &self.work.ring[slot];
-        let due = self.upcoming.lt(covered);
-        let x = R::select(due, (self.upcoming - segment.start) - segment.start_low, zero);
-        let [at] = values(&segment.jet, [x]);
+    pub(super) fn components<const FORCED: bool>(&self, at: R, due: R::Mask) -> [[f64; WIDEST]; N] {
+        let zero = at.zero();
+        let segment = self.segment;
+        let x = R::select(due, (at - segment.start) - segment.start_low, zero);
+        let [found] = values(&segment.jet, [x]);
         let mut all = [zero; N];
-        all[..J].copy_from_slice(&at);
+        all[..J].copy_from_slice(&found);
         if FORCED {
-            let mut turned = angle_of(&at);
+            let mut turned = angle_of(&found);
             for i in 0..3 {
                 turned[i] -= segment.jet[0][ANGLE + i];
             }
-            let grown = self.work.quadrature.growth(constants, &segment.jet, begin, turned, x);
+            let growth = self.quadrature.growth(self.constants, &segment.jet, self.begin, turned, x);
             for i in J..N {
-                all[i] = begin[i] + grown[i];
+                all[i] = self.begin[i] + growth[i];
             }
         }
-        let factors = factors::<R, N>(self.per_unit);
+        let factors = si_factors::<R, N>(self.per_unit);
         let mut rows = [[0.0; WIDEST]; N];
         for i in 0..N {
             (all[i] * factors[i]).write(&mut rows[i]);
         }
-        let flags = R::select(due, zero.splat(1.0), zero);
-        for lane in 0..R::LANES {
-            if flags.lane(lane) == 0.0 {
-                continue;
-            }
-            let Some(place) = &mut self.places[lane] else { continue };
-            let point = place.point;
-            place.point += 1;
-            for i in 0..N {
-                self.work.trajectories[lane].column_mut(i)[point] = rows[i][lane];
-            }
-            self.look_ahead(lane);
-        }
-    }
-
-    /// Evaluates the points of a watched stretch one by one from the series that were kept: those before the present time,
-    /// or all of the stretch where it is the `whole`.
-    #[cold]
-    #[inline(never)]
-    pub(super) fn evaluate_kept(&mut self, lane: usize, whole: bool) {
-        let Some(mut place) = self.places[lane] else { return };
-        let ring = &self.work.ring;
-        let run = &self.runs[place.run];
-        let bounds = &run.stretches[place.stretch];
-        let last = place.stretch + 1 == run.stretches.len();
-        let reached = self.time.lane(lane);
-        let mut step = place.begun;
-        while let Some(time) = self.grid.times().get(place.point) {
-            let local = (time - bounds.start) / place.unit;
-            if if whole { !last && *time > bounds.end } else { local >= reached } {
-                break;
-            }
-            while step + 1 < self.clock && ring[(step + 1) % ring.len()].start.lane(lane) <= local {
-                step += 1;
-            }
-            let segment = &ring[step % ring.len()];
-            let x = (local - segment.start.lane(lane)) - segment.start_low.lane(lane);
-            let factors = factors::<f64, N>(1.0 / place.unit);
-            let trajectory = &mut self.work.trajectories[lane];
-            for i in 0..J {
-                trajectory.column_mut(i)[place.point] = value_at(&segment.jet, i, lane, x) * factors[i];
-            }
-            let riders = place.riders_after::<N, J>(local);
-            for i in J..N {
-                trajectory.column_mut(i)[place.point] = riders[i - J] * factors[i];
-            }
-            place.point += 1;
-        }
-        self.places[lane] = Some(place);
+        rows
     }
 }
 
-/// What turns a component in the lane's unit of time into SI, given one over the unit.
-#[inline(always)]
-pub(super) fn factors<R: Real, const N: usize>(per_unit: R) -> [R; N] {
-    let mut factors = [per_unit.splat(1.0); N];
-    factors[OMEGA..OMEGA + 3].fill(per_unit);
-    if N >= WITH_MOTORS {
-        factors[MOTOR_WORK] = per_unit * per_unit;
+/// Where the evaluation of kept points ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Until {
+    /// At the end of the arc.
+    EndOfArc,
+    /// Before this time since the start of the arc, units.
+    Time(f64),
+}
+
+/// Evaluates the points of an arc without actuation one by one from the series that were kept.
+#[cold]
+#[inline(never)]
+pub(super) fn evaluate_kept<R: Real, const N: usize, const J: usize>(
+    state: &mut LaneState,
+    lane: usize,
+    ring: &SeriesRing<R, J>,
+    grid: &Grid,
+    trajectory: &mut Trajectory,
+    until: Until,
+) {
+    let mut step = state.begun;
+    while let Some(time) = grid.times().get(state.point) {
+        let local = (time - state.start) / state.unit;
+        let is_beyond = match until {
+            Until::EndOfArc => !state.is_last && *time > state.end,
+            Until::Time(reached) => local >= reached,
+        };
+        if is_beyond {
+            break;
+        }
+        while step + 1 < ring.clock && ring.segment(step + 1).start.lane(lane) <= local {
+            step += 1;
+        }
+        let segment = ring.segment(step);
+        let x = (local - segment.start.lane(lane)) - segment.start_low.lane(lane);
+        let factors = si_factors::<f64, N>(1.0 / state.unit);
+        for i in 0..J {
+            trajectory.column_mut(i)[state.point] = value_at(&segment.jet, i, lane, x) * factors[i];
+        }
+        let quadratures = state.quadratures_after::<N, J>(local);
+        for i in J..N {
+            trajectory.column_mut(i)[state.point] = quadratures[i - J] * factors[i];
+        }
+        state.point += 1;
     }
-    if N >= WITH_THRUST {
-        factors[IMPULSE..IMPULSE + 3].fill(per_unit);
-        factors[ANGULAR_IMPULSE..ANGULAR_IMPULSE + 3].fill(per_unit);
-        factors[THRUST_WORK] = per_unit * per_unit;
-    }
-    factors
 }

@@ -1,20 +1,21 @@
 //! [`ReferenceSolution`]: the reference solution of any scene, by the same Taylor recurrences in double-double (106 bits).
 //!
-//! One run at a time, every stretch restarted exactly at its switch, order and step from a tolerance near the rounding of
-//! the arithmetic (A. Jorba & M. Zou, Experimental Mathematics 14, 2005). The debris goes through the same march as a gyrostat
+//! One run at a time, every arc restarted exactly at its switch, order and step from a tolerance near the rounding of
+//! the arithmetic (A. Jorba & M. Zou, Experimental Mathematics 14, 2005). The debris is integrated in the same way as a gyrostat
 //! without wheels, a cube like any other box.
 //!
-//! **Of what it is the truth**: the mass properties and the initial state of a [`Scene`] are `f64` numbers, and so is what every
-//! method is given. The truth is the exact motion for *those* numbers; the rounding on the way from dimensions and densities to
-//! a mass matrix is not an error of integration and is not counted here.
+//! **What it is the solution of**: the mass properties and the initial state of a [`Scene`] are `f64` numbers, the same for every
+//! method. The reference solution is the exact motion for *those* numbers; the rounding in the computation of mass properties
+//! from dimensions and densities is not an error of integration and is not counted here.
 //!
-//! Not here: periodic folding (a truth that shared it could not judge it), lanes, failures as rows.
+//! Not here: periodic folding (a solution that shared it could not judge it), lanes, failures as rows.
 
 use fearless_simd::Simd;
 
 use super::jet::{Reciprocals, Scratch, expand};
-use super::points::factors;
+use super::lane_vectors::si_factors;
 use super::step::StepRule;
+use crate::dynamics::actuation::{ActuationLaw, OpenLoop};
 use crate::dynamics::debris;
 use crate::dynamics::gyrostat::equations::Constants;
 use crate::dynamics::gyrostat::{
@@ -24,6 +25,7 @@ use crate::math::double_double::DoubleDouble;
 use crate::math::isa::NarrowWork;
 use crate::math::vector::{conjugate, difference, dot, hamilton, product, scaled, sum};
 use crate::math::{Isa, Real};
+use crate::propagation::arc_source::arc;
 use crate::propagation::settings::observes_debris_rotation;
 use crate::run::Status;
 use crate::run::{Grid, StateField, StateFields, StateTable};
@@ -33,7 +35,7 @@ use crate::scene::Scene;
 /// smaller steps only add rounding errors.
 pub const TOLERANCE: f64 = 1e-31;
 
-/// A march that takes more steps than this is given up: at some 20 steps a turn, fifty thousand turns.
+/// A run that takes more steps than this is given up: at some 20 steps a turn, fifty thousand turns.
 pub const MOST_STEPS: u64 = 1_000_000;
 
 /// Every component that a gyrostat has: one kernel for all scenes.
@@ -44,32 +46,67 @@ const N: usize = WITH_THRUST;
 pub struct ReferenceSolution {
     /// The states rounded to `f64`.
     pub high: StateTable,
-    /// What rounding left.
+    /// The rounding errors of `high`.
     pub low: StateTable,
 }
 
 impl ReferenceSolution {
-    /// The motion of `scene`, observed at the times of `grid`, in the blocks of `blocks` that a gyrostat has (all but
-    /// [`StateField::Dcm`] and [`StateField::Residuals`], which stay zero). The debris is only integrated where it is observed.
+    /// The motion of `scene` by its own schedule, observed at the times of `grid`, in the blocks of `blocks` that a gyrostat has
+    /// (all but [`StateField::Dcm`] and [`StateField::Residuals`], which stay zero). The debris is only integrated where it is
+    /// observed.
     ///
     /// # Errors
-    /// [`Status::NonFinite`] or [`Status::StepLimit`], where the march does not arrive.
+    /// [`Status::NonFinite`] or [`Status::StepLimit`], where the run does not reach its end.
     pub fn new(isa: Isa, scene: &Scene, grid: &Grid, blocks: StateFields, tolerance: f64) -> Result<Self, Status> {
-        let zero = DoubleDouble::exact(0.0);
-        let run = Gyrostat::new(zero, scene, grid.duration());
-        let unit = Gyrostat::new(0.0, scene, grid.duration()).time_unit();
-        let mut truth = Self::blank(blocks, grid);
+        Self::solve(isa, scene, None, grid, blocks, tolerance)
+    }
+
+    /// The same under `law` in place of the scene's schedule. The law sees the state rounded to `f64`.
+    ///
+    /// # Errors
+    /// As [`ReferenceSolution::new`].
+    ///
+    /// # Panics
+    /// Where an answer of the law ends before it starts.
+    pub fn under(
+        law: &mut dyn ActuationLaw,
+        isa: Isa,
+        scene: &Scene,
+        grid: &Grid,
+        blocks: StateFields,
+        tolerance: f64,
+    ) -> Result<Self, Status> {
+        Self::solve(isa, scene, Some(law), grid, blocks, tolerance)
+    }
+
+    fn solve(
+        isa: Isa,
+        scene: &Scene,
+        mut law: Option<&mut dyn ActuationLaw>,
+        grid: &Grid,
+        blocks: StateFields,
+        tolerance: f64,
+    ) -> Result<Self, Status> {
         let rule = StepRule::new(tolerance);
-        let states = isa.run_narrow(Driver { run: &run, unit, grid, rule })?;
+        let (mut run, mut coarse) = (Gyrostat::blank(DoubleDouble::exact(0.0)), Gyrostat::blank(0.0));
+        run.reset(DoubleDouble::exact(0.0), scene);
+        coarse.reset(0.0, scene);
+        if law.is_none() {
+            coarse.expect_schedule(scene, grid.duration());
+        }
+        let mut solution = Self::blank(blocks, grid);
+        let law = law.as_deref_mut();
+        let states =
+            isa.run_narrow(Integration { run: &mut run, coarse: &mut coarse, scene: Some(scene), law, grid, rule })?;
         for (point, state) in states.iter().enumerate() {
-            truth.complete(&run, grid.times()[point], point, state);
+            solution.complete(&run, grid.times()[point], point, state);
         }
         if scene.mass.debris.is_some() {
-            truth.complete_debris(isa, scene, grid, rule)?;
+            solution.complete_debris(isa, scene, grid, rule)?;
         }
-        truth.high.pad();
-        truth.low.pad();
-        Ok(truth)
+        solution.high.pad();
+        solution.low.pad();
+        Ok(solution)
     }
 
     fn blank(blocks: StateFields, grid: &Grid) -> Self {
@@ -83,7 +120,7 @@ impl ReferenceSolution {
         std::array::from_fn(|i| DoubleDouble { high: high[i], low: low[i] })
     }
 
-    /// |`sign` x - truth| of the components x of `block` at `point` of `table`, in all digits of the truth.
+    /// |`sign` x - reference| of the components x of `block` at `point` of `table`, in all digits of the reference.
     pub fn distance<const K: usize>(&self, table: &StateTable, block: StateField, point: usize, sign: f64) -> f64 {
         let (high, low) = (self.high.at::<K>(block, point), self.low.at::<K>(block, point));
         let state = table.at::<K>(block, point);
@@ -103,11 +140,11 @@ impl ReferenceSolution {
         let (omega_b, omega_s, q_es) = rotation(run, y);
         self.put(StateField::Rate, point, omega_s);
         self.put(StateField::Attitude, point, q_es);
-        let stretch = run.stretch_at(time);
+        let arc = run.arc_at(time);
         let (mut rates, mut angles) = ([zero; 2], [zero; 2]);
         for i in 0..2 {
-            rates[i] = run.wheel_rate_at(stretch, i, time, omega_b);
-            angles[i] = run.wheel_angle_at(stretch, i, time, three(y, ANGLE));
+            rates[i] = run.wheel_rate_at(arc, i, time, omega_b);
+            angles[i] = run.wheel_angle_at(arc, i, time, three(y, ANGLE));
         }
         self.put(StateField::WheelRates, point, rates);
         self.put(StateField::WheelAngles, point, angles);
@@ -137,10 +174,11 @@ impl ReferenceSolution {
             return Ok(());
         }
         let mut coarse = Gyrostat::blank(0.0);
-        debris::set_rotation(&mut coarse, scene, grid.duration());
+        debris::set_rotation(&mut coarse, scene);
         let mut run = Gyrostat::blank(DoubleDouble::exact(0.0));
-        debris::set_rotation(&mut run, scene, grid.duration());
-        let states = isa.run_narrow(Driver { run: &run, unit: coarse.time_unit(), grid, rule })?;
+        debris::set_rotation(&mut run, scene);
+        let states =
+            isa.run_narrow(Integration { run: &mut run, coarse: &mut coarse, scene: None, law: None, grid, rule })?;
         for (point, state) in states.iter().enumerate() {
             let (_, omega_d, q_ed) = rotation(&run, state);
             self.put(StateField::DebrisRate, point, omega_d);
@@ -169,15 +207,19 @@ fn rotation(
 }
 
 /// One run from its start to the end of its grid.
-struct Driver<'a> {
-    run: &'a Gyrostat<DoubleDouble>,
-    /// Unit of time, s: a power of two near the time scale of the motion.
-    unit: f64,
+struct Integration<'a, 'l> {
+    run: &'a mut Gyrostat<DoubleDouble>,
+    /// The same run in `f64`, for its unit of time: a power of two near the time scale of the motion.
+    coarse: &'a mut Gyrostat<f64>,
+    /// `None` where nothing acts on the body.
+    scene: Option<&'a Scene>,
+    /// `None` where the scene's schedule is flown.
+    law: Option<&'a mut (dyn ActuationLaw + 'l)>,
     grid: &'a Grid,
     rule: StepRule,
 }
 
-impl NarrowWork for Driver<'_> {
+impl NarrowWork for Integration<'_, '_> {
     type Output = Result<Vec<[DoubleDouble; N]>, Status>;
 
     fn in_lanes<S: Simd>(self, simd: S) -> Self::Output {
@@ -192,31 +234,69 @@ impl NarrowWork for Driver<'_> {
     }
 }
 
-impl Driver<'_> {
+impl Integration<'_, '_> {
+    /// Starts the arc at `time`, where the components are `state` in units of `unit` seconds.
+    fn begin_arc(&mut self, time: f64, unit: f64, state: &[DoubleDouble; N]) {
+        let duration = self.grid.duration();
+        let Some(scene) = self.scene else {
+            self.run.begin_free_arc(duration);
+            return;
+        };
+        let applied = match &mut self.law {
+            None => OpenLoop { schedule: &scene.schedule }.at(time),
+            Some(law) => {
+                let mut components = *state;
+                scale(&mut components, si_factors(1.0 / unit));
+                let (body, wheels) = self.run.observed_state(time, &components);
+                law.arc(time, &body, &wheels)
+            }
+        };
+        let arc = arc(time, applied, duration);
+        self.run.begin_arc(scene, arc);
+        if self.law.is_some() {
+            self.coarse.begin_arc(scene, arc);
+            self.coarse.note_rate();
+        }
+    }
+
     /// The integrated components at the observation points, SI.
     #[inline(always)]
-    fn states(self) -> Result<Vec<[DoubleDouble; N]>, Status> {
-        let Driver { run, unit, grid, rule } = self;
+    fn states(mut self) -> Result<Vec<[DoubleDouble; N]>, Status> {
+        let (grid, rule) = (self.grid, self.rule);
         let zero = DoubleDouble::exact(0.0);
-        let (per_second, order) = (DoubleDouble::exact(1.0 / unit), rule.order);
+        let order = rule.order;
         let reciprocals = Reciprocals::new(zero, order);
         let mut scratch = Scratch::new(zero);
         let mut jet = vec![[zero; N]; order + 1];
-        let factors = factors::<f64, N>(1.0 / unit);
+        let mut unit = self.coarse.time_unit();
         let mut state = [zero; N];
-        state[OMEGA..OMEGA + 3].copy_from_slice(&scaled(DoubleDouble::exact(unit), run.omega_b));
-        state[ATTITUDE..ATTITUDE + 4].copy_from_slice(&run.q_eb);
+        state[OMEGA..OMEGA + 3].copy_from_slice(&scaled(DoubleDouble::exact(unit), self.run.omega_b));
+        state[ATTITUDE..ATTITUDE + 4].copy_from_slice(&self.run.q_eb);
         let times = grid.times();
         let mut states = Vec::with_capacity(times.len());
         let mut steps = 0;
-        for (number, bounds) in run.stretches.iter().enumerate() {
-            let constants = Constants::of(run, number, unit);
-            let last = number + 1 == run.stretches.len();
+        let (mut reached, mut is_last) = (0.0, false);
+        while !is_last {
+            self.begin_arc(reached, unit, &state);
+            let new_unit = self.coarse.time_unit();
+            if new_unit != unit {
+                // powers of two: nothing is rounded
+                scale(&mut state, si_factors(1.0 / unit));
+                scale(&mut state, si_factors(new_unit));
+                unit = new_unit;
+            }
+            let number = self.run.arcs.len() - 1;
+            let constants = Constants::of(self.run, number, unit);
+            let (per_second, factors) = (DoubleDouble::exact(1.0 / unit), si_factors::<f64, N>(1.0 / unit));
+            let arc = &self.run.arcs[number];
+            let bounds = arc.arc;
+            reached = bounds.end();
+            is_last = reached >= grid.duration();
             let start = DoubleDouble::exact(bounds.start);
-            let length = (DoubleDouble::exact(bounds.end) - start) * per_second;
-            let pushed = bounds.force_b.iter().chain(&bounds.torque_b).any(|component| component.high != 0.0);
+            let length = (DoubleDouble::exact(bounds.end()) - start) * per_second;
+            let is_forced = arc.force_b.iter().chain(&arc.torque_b).any(|component| component.high != 0.0);
             // a thrust turns with omega where the quaternion turns with omega/2: the series of its integrals need half the step
-            let share = DoubleDouble::exact(if pushed { 0.5 } else { 1.0 });
+            let share = DoubleDouble::exact(if is_forced { 0.5 } else { 1.0 });
             let mut time = zero;
             let mut lands = false;
             while !lands {
@@ -225,19 +305,17 @@ impl Driver<'_> {
                 now.motor_power = constants.motor_power_rate.mul_add(time, constants.motor_power);
                 jet[0] = state;
                 expand::<DoubleDouble, N, true>(&now, &reciprocals, order, &mut scratch, &mut jet);
-                let (wanted, left) = (share * rule.step(&jet), length - time);
-                lands = !wanted.lt(left);
-                let step = if lands { left } else { wanted };
+                let (proposed, left) = (share * rule.step(&jet), length - time);
+                lands = !proposed.lt(left);
+                let step = if lands { left } else { proposed };
                 while let Some(at) = times.get(states.len()) {
                     let within = (DoubleDouble::exact(*at) - start) * per_second - time;
-                    let covered = if lands { last || *at <= bounds.end } else { !step.lt(within) };
+                    let covered = if lands { is_last || *at <= bounds.end() } else { !step.lt(within) };
                     if !covered {
                         break;
                     }
                     let mut values = value(&jet, within);
-                    for i in 0..N {
-                        values[i] = values[i] * DoubleDouble::exact(factors[i]);
-                    }
+                    scale(&mut values, factors);
                     states.push(values);
                 }
                 state = value(&jet, step);
@@ -252,6 +330,14 @@ impl Driver<'_> {
             }
         }
         Ok(states)
+    }
+}
+
+/// Multiplies each component by its factor.
+#[inline(always)]
+fn scale(values: &mut [DoubleDouble; N], factors: [f64; N]) {
+    for i in 0..N {
+        values[i] = values[i] * DoubleDouble::exact(factors[i]);
     }
 }
 

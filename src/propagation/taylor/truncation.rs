@@ -1,4 +1,4 @@
-//! [`Truncation`]: what the steps of a Taylor march leave out of the motion, from the last term that they keep.
+//! [`Truncation`]: the truncation errors of Taylor steps, from the last term that they keep.
 
 use crate::dynamics::gyrostat::{ATTITUDE, OMEGA, WITH_ATTITUDE};
 use crate::math::Real;
@@ -21,7 +21,7 @@ pub(super) struct TruncationSums {
 
 /// Sums over the steps of a run, in lanes.
 ///
-/// Of the attitude the first term left out is reckoned from its own series: the last one kept, times the root of what that is of
+/// Of the attitude the first term left out is estimated from its own series: the last one kept, times the root of what that is of
 /// the term two orders before. Where only rates are integrated it counts as turning with constant omega,
 /// (|omega| h/2)^(p+1)/(p+1)!.
 #[derive(Clone, Copy, Debug)]
@@ -43,7 +43,7 @@ impl<R: Real> Truncation<R> {
     }
 
     /// The sums of the run in `lane`.
-    pub(super) fn left_out(&self, lane: usize) -> TruncationSums {
+    pub(super) fn sums(&self, lane: usize) -> TruncationSums {
         TruncationSums { rate: self.rate.lane(lane), turn: self.turn.lane(lane) }
     }
 
@@ -53,7 +53,7 @@ impl<R: Real> Truncation<R> {
         self.turn.set_lane(lane, sums.turn);
     }
 
-    /// Takes note of a step of length `length` along the series `jet`.
+    /// Adds a step of length `length` along the series `jet`.
     #[inline(always)]
     pub(super) fn add<const N: usize>(&mut self, jet: &[[R; N]], length: R) {
         let order = self.order;
@@ -72,7 +72,7 @@ impl<R: Real> Truncation<R> {
 }
 
 impl TruncationSums {
-    /// The errors after `steps` steps, whose rotation is used `periods` times over.
+    /// The errors after `steps` steps, whose rotation is repeated `periods` times.
     pub(super) fn errors(&self, steps: u64, periods: f64) -> LocalErrors {
         let LocalErrors { rounding, attitude, .. } = rounding(steps);
         let truncation = REST * self.rate;

@@ -1,0 +1,75 @@
+//! [`ArcSource`]: where the runs of a batch get their arcs from, one at a time.
+
+use crate::dynamics::actuation::{Laws, OpenLoop};
+use crate::dynamics::gyrostat::{Gyrostat, WITH_THRUST};
+use crate::scene::{Actuation, Arc, Scene};
+
+/// The arcs of the runs of a batch.
+pub struct ArcSource<'a> {
+    /// The scene of each run; empty for bodies on which nothing acts.
+    scenes: &'a [Scene],
+    laws: Laws<'a>,
+    duration: f64,
+}
+
+impl<'a> ArcSource<'a> {
+    /// Runs of `scenes` under `laws`, up to `duration` seconds.
+    pub fn new(scenes: &'a [Scene], laws: Laws<'a>, duration: f64) -> Self {
+        ArcSource { scenes, laws, duration }
+    }
+
+    /// Runs of bodies on which nothing acts: one arc each.
+    pub fn free(duration: f64) -> Self {
+        ArcSource { scenes: &[], laws: Laws::OpenLoop, duration }
+    }
+
+    /// The end of the last arc, s.
+    pub fn duration(&self) -> f64 {
+        self.duration
+    }
+
+    /// Prepares `gyrostat` for run `run`, before its first arc: where the arcs are known, they count in its time scale.
+    pub fn prepare(&self, run: usize, gyrostat: &mut Gyrostat<f64>) {
+        if let (Some(scene), Laws::OpenLoop) = (self.scenes.get(run), &self.laws) {
+            gyrostat.expect_schedule(scene, self.duration);
+        }
+    }
+
+    /// Starts the next arc of run `run` at `time`. `components` gives the integrated components there, SI, and is called only where
+    /// a law asks for the state.
+    ///
+    /// # Panics
+    /// Where a law's answer ends before it starts.
+    pub fn begin_arc(
+        &mut self,
+        run: usize,
+        gyrostat: &mut Gyrostat<f64>,
+        time: f64,
+        components: impl FnOnce() -> [f64; WITH_THRUST],
+    ) {
+        let Some(scene) = self.scenes.get(run) else {
+            gyrostat.begin_free_arc(self.duration);
+            return;
+        };
+        let (applied, known) = match &mut self.laws {
+            Laws::OpenLoop => (OpenLoop { schedule: &scene.schedule }.at(time), true),
+            Laws::Feedback(source) => {
+                let (body, wheels) = gyrostat.observed_state(time, &components());
+                (source.law(run).arc(time, &body, &wheels), false)
+            }
+        };
+        gyrostat.begin_arc(scene, arc(time, applied, self.duration));
+        if !known {
+            gyrostat.note_rate();
+        }
+    }
+}
+
+/// The arc of a law's answer at `time`.
+///
+/// # Panics
+/// Where the answer ends before it starts: the run would never end.
+pub fn arc(time: f64, applied: Actuation, duration: f64) -> Arc {
+    assert!(applied.until > time, "a law's arc from {time} s ends at {} s", applied.until);
+    Arc::new(time, applied, duration)
+}

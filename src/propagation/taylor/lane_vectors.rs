@@ -1,0 +1,95 @@
+//! [`LaneVectors`]: the quantities that every step computes with, all lanes at once.
+
+use crate::dynamics::gyrostat::equations::Constants;
+use crate::dynamics::gyrostat::{ANGULAR_IMPULSE, IMPULSE, MOTOR_WORK, OMEGA, THRUST_WORK, WITH_MOTORS, WITH_THRUST};
+use crate::math::Real;
+
+/// State, time and constants of the arcs in the lanes, each in its own unit of time.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LaneVectors<R, const N: usize> {
+    pub constants: Constants<R>,
+    /// The integrated components, as an unevaluated sum with `state_low`.
+    pub state: [R; N],
+    pub state_low: [R; N],
+    /// Time since the start of the arc, units, as an unevaluated sum.
+    pub time: R,
+    pub time_low: R,
+    /// Length of the arc, units; infinite where the lane is empty or waits.
+    pub length: R,
+    /// Time of the next observation point of the arc, units; infinite where there is none or a return is looked for.
+    pub next_point: R,
+    /// One over the unit of time, 1/s.
+    pub per_unit: R,
+}
+
+impl<R: Real, const N: usize> LaneVectors<R, N> {
+    /// Empty lanes; `zero` says how many.
+    pub fn new(zero: R) -> Self {
+        LaneVectors {
+            constants: Constants::zero(zero),
+            state: [zero; N],
+            state_low: [zero; N],
+            time: zero,
+            time_low: zero,
+            length: zero,
+            next_point: zero,
+            per_unit: zero,
+        }
+    }
+
+    /// Sets the state in `lane`.
+    pub fn set_state(&mut self, lane: usize, state: &[f64; N]) {
+        for (i, component) in state.iter().enumerate() {
+            self.state[i].set_lane(lane, *component);
+            self.state_low[i].set_lane(lane, 0.0);
+        }
+    }
+
+    /// Lets the lane step on without an end: empty, or waiting.
+    pub fn idle(&mut self, lane: usize) {
+        self.length.set_lane(lane, f64::INFINITY);
+        self.next_point.set_lane(lane, f64::INFINITY);
+    }
+
+    /// The angular velocity in `lane`, per unit.
+    #[inline(always)]
+    pub fn omega(&self, lane: usize) -> [f64; 3] {
+        [self.state[OMEGA].lane(lane), self.state[OMEGA + 1].lane(lane), self.state[OMEGA + 2].lane(lane)]
+    }
+
+    /// The components in `lane`, SI; zero where they are not integrated.
+    pub fn components(&self, lane: usize) -> [f64; WITH_THRUST] {
+        let factors = si_factors::<f64, N>(self.per_unit.lane(lane));
+        let mut components = [0.0; WITH_THRUST];
+        for (i, factor) in factors.into_iter().enumerate() {
+            components[i] = self.state[i].lane(lane) * factor;
+        }
+        components
+    }
+
+    /// Changes the unit of time in `lane` from `old` to `new` seconds: both are powers of two, so that nothing is rounded.
+    pub fn rescale(&mut self, lane: usize, old: f64, new: f64) {
+        let (from, to) = (si_factors::<f64, N>(1.0 / old), si_factors::<f64, N>(1.0 / new));
+        for i in 0..N {
+            let factor = from[i] / to[i];
+            self.state[i].set_lane(lane, self.state[i].lane(lane) * factor);
+            self.state_low[i].set_lane(lane, self.state_low[i].lane(lane) * factor);
+        }
+    }
+}
+
+/// The factors from components in the lane's unit of time to SI, given one over the unit.
+#[inline(always)]
+pub(super) fn si_factors<R: Real, const N: usize>(per_unit: R) -> [R; N] {
+    let mut factors = [per_unit.splat(1.0); N];
+    factors[OMEGA..OMEGA + 3].fill(per_unit);
+    if N >= WITH_MOTORS {
+        factors[MOTOR_WORK] = per_unit * per_unit;
+    }
+    if N >= WITH_THRUST {
+        factors[IMPULSE..IMPULSE + 3].fill(per_unit);
+        factors[ANGULAR_IMPULSE..ANGULAR_IMPULSE + 3].fill(per_unit);
+        factors[THRUST_WORK] = per_unit * per_unit;
+    }
+    factors
+}

@@ -1,0 +1,254 @@
+//! [`RunLanes`]: which run is in which lane, and how a lane is loaded, begins an arc, waits, and ends.
+
+use super::lane_state::{LaneState, Waiting};
+use super::lane_vectors::LaneVectors;
+use super::period::Period;
+use super::period_search::section;
+use super::points::{Until, evaluate_kept};
+use super::return_detector::ReturnDetector;
+use super::truncation::{Truncation, TruncationSums};
+use super::workspace::Workspace;
+use crate::dynamics::gyrostat::{ATTITUDE, Gyrostat, OMEGA, WITH_ATTITUDE};
+use crate::math::Real;
+use crate::math::lanes::WIDEST;
+use crate::propagation::arc_source::ArcSource;
+use crate::run::{Grid, Outcome, Status, StepStatistics, Trajectory};
+
+/// Receives a run that has ended: its index, the run with the arcs flown, its components at the points, how it ended.
+pub(super) type RunCallback<'a> = dyn FnMut(usize, &Gyrostat<f64>, &mut Trajectory, &Outcome) + 'a;
+
+/// Runs in lanes: `N` components, of which the first `J` have series.
+pub(super) struct RunLanes<'a, R, const N: usize, const J: usize> {
+    pub runs: &'a mut [Gyrostat<f64>],
+    pub arcs: ArcSource<'a>,
+    pub grid: &'a Grid,
+    /// The next run that has no lane yet.
+    pub next: usize,
+    pub vectors: LaneVectors<R, N>,
+    pub detector: ReturnDetector<R>,
+    /// Truncation of the steps of each lane's run.
+    pub truncation: Truncation<R>,
+    pub states: [Option<LaneState>; WIDEST],
+    /// The step after which all lanes are examined, whatever happens before.
+    pub alarm: usize,
+    pub work: &'a mut Workspace<R, J>,
+}
+
+impl<'a, R: Real, const N: usize, const J: usize> RunLanes<'a, R, N, J> {
+    /// Empty lanes for `runs`, whose arcs come from `arcs`.
+    #[inline(always)]
+    pub(super) fn new(
+        zero: R,
+        runs: &'a mut [Gyrostat<f64>],
+        arcs: ArcSource<'a>,
+        grid: &'a Grid,
+        work: &'a mut Workspace<R, J>,
+    ) -> Self {
+        work.ring.clock = 0;
+        RunLanes {
+            runs,
+            arcs,
+            grid,
+            next: 0,
+            vectors: LaneVectors::new(zero),
+            detector: ReturnDetector::none(zero),
+            truncation: Truncation::new(zero, work.rule.order),
+            states: [None; WIDEST],
+            alarm: 0,
+            work,
+        }
+    }
+
+    /// Loads the next run into `lane`, or empties it.
+    #[inline(never)]
+    pub(super) fn load_lane(&mut self, lane: usize) {
+        self.vectors.set_state(lane, &[0.0; N]);
+        self.truncation.set(lane, TruncationSums::default());
+        let Some(run) = self.runs.get(self.next) else {
+            self.states[lane] = None;
+            self.idle(lane);
+            return;
+        };
+        let unit = run.time_unit();
+        self.set_unit(lane, self.next, unit);
+        let run = &self.runs[self.next];
+        for i in 0..3 {
+            self.vectors.state[OMEGA + i].set_lane(lane, run.omega_b[i] * unit);
+        }
+        if N >= WITH_ATTITUDE {
+            for i in 0..4 {
+                self.vectors.state[ATTITUDE + i].set_lane(lane, run.q_eb[i]);
+            }
+        }
+        self.states[lane] = Some(LaneState::new(self.next, unit, self.work.ring.clock));
+        self.next += 1;
+        self.begin_arc(lane);
+    }
+
+    /// Sets the constants of run `run` in `lane` at a unit of time of `unit` seconds.
+    fn set_unit(&mut self, lane: usize, run: usize, unit: f64) {
+        self.vectors.constants.set_run(lane, &self.runs[run], unit);
+        self.vectors.per_unit.set_lane(lane, 1.0 / unit);
+    }
+
+    /// Lets `lane` step on without an end: empty, or waiting.
+    fn idle(&mut self, lane: usize) {
+        self.vectors.idle(lane);
+        self.detector.set(lane, None);
+    }
+
+    /// Begins the arc that follows the last one in `lane`.
+    #[inline(never)]
+    pub(super) fn begin_arc(&mut self, lane: usize) {
+        let Some(mut state) = self.states[lane] else { return };
+        let vectors = &self.vectors;
+        let run = &mut self.runs[state.run];
+        self.arcs.begin_arc(state.run, run, state.end, || vectors.components(lane));
+        let unit = run.time_unit();
+        let arc = run.arcs.len() - 1;
+        let bounds = run.arcs[arc].arc;
+        if unit != state.unit {
+            // a law may set the body turning faster than its start let expect
+            self.vectors.rescale(lane, state.unit, unit);
+            self.set_unit(lane, state.run, unit);
+            state.unit = unit;
+        }
+        self.vectors.constants.set_arc(lane, &self.runs[state.run], arc, unit);
+        state.start = bounds.start;
+        state.end = bounds.end();
+        state.is_last = state.end >= self.arcs.duration();
+        state.length = (state.end - state.start) / unit;
+        state.begun = self.work.ring.clock;
+        state.waiting = None;
+        state.is_searching = self.work.settings.periodic && !bounds.applied.acts();
+        for i in J..N {
+            state.quadratures[i - J] = self.vectors.state[i].lane(lane);
+        }
+        self.states[lane] = Some(state);
+        self.vectors.time.set_lane(lane, 0.0);
+        self.vectors.time_low.set_lane(lane, 0.0);
+        self.vectors.length.set_lane(lane, state.length);
+        let three = |v: &[R; 3]| [v[0].lane(lane), v[1].lane(lane), v[2].lane(lane)];
+        let section = if state.is_searching {
+            let constants = &self.vectors.constants;
+            let (ratio, inverse) = (three(&constants.ratio), three(&constants.inverse));
+            section(ratio, inverse, three(&constants.momentum), self.vectors.omega(lane))
+        } else {
+            None
+        };
+        self.detector.set(lane, section.as_ref());
+        self.set_next_point(lane);
+        // a body that does not move at all has found its period with the first step
+        self.alarm = self.work.ring.clock + 1;
+    }
+
+    /// Sets the time of the next observation point of the arc in `lane`.
+    #[inline(always)]
+    pub(super) fn set_next_point(&mut self, lane: usize) {
+        let Some(state) = &self.states[lane] else { return };
+        self.vectors.next_point.set_lane(lane, state.next_point(self.grid));
+    }
+
+    /// Writes a point of the lanes whose flag is not zero.
+    #[inline(always)]
+    pub(super) fn write_points(&mut self, rows: &[[f64; WIDEST]; N], flags: R) {
+        for lane in 0..R::LANES {
+            if flags.lane(lane) == 0.0 {
+                continue;
+            }
+            let Some(state) = &mut self.states[lane] else { continue };
+            let point = state.point;
+            state.point += 1;
+            for (i, row) in rows.iter().enumerate() {
+                self.work.trajectories[lane].column_mut(i)[point] = row[lane];
+            }
+            self.set_next_point(lane);
+        }
+    }
+
+    /// Lets `lane` wait for its points to be evaluated together with those of other lanes.
+    pub(super) fn wait(&mut self, lane: usize, period: Option<Period>) {
+        if let Some(state) = &mut self.states[lane] {
+            if let Some(period) = &period {
+                state.periods = state.periods.max(state.length / period.length[0]);
+            }
+            let truncation = self.truncation.sums(lane);
+            state.waiting = Some(Waiting { period, since: self.work.ring.clock, truncation });
+        }
+        self.idle(lane);
+    }
+
+    /// Evaluates the kept points of `lane`.
+    #[inline(never)]
+    pub(super) fn evaluate_kept(&mut self, lane: usize, until: Until) {
+        let Some(state) = &mut self.states[lane] else { return };
+        let Workspace { ring, trajectories, .. } = &mut *self.work;
+        evaluate_kept::<R, N, J>(state, lane, ring, self.grid, &mut trajectories[lane], until);
+    }
+
+    /// Begins the next arc of `lane`, or passes its run to `finish` and loads the next.
+    pub(super) fn end_arc(&mut self, lane: usize, finish: &mut RunCallback<'_>) {
+        let Some(state) = &mut self.states[lane] else { return };
+        let steps = state.steps(self.work.ring.clock);
+        if let Some(waiting) = &state.waiting {
+            // the lane has stepped on since
+            self.truncation.set(lane, waiting.truncation);
+        }
+        if !state.is_last {
+            state.steps_before = steps;
+            self.begin_arc(lane);
+            return;
+        }
+        let state = *state;
+        self.work.trajectories[lane].pad();
+        self.pass_on(lane, &state, (Status::Done, self.grid.duration(), self.grid.points()), finish);
+    }
+
+    /// Passes on a run that cannot continue.
+    #[cold]
+    pub(super) fn fail(&mut self, lane: usize, status: Status, finish: &mut RunCallback<'_>) {
+        let Some(state) = self.states[lane] else { return };
+        let start = self.work.ring.last().start.lane(lane);
+        let reached = if status == Status::NonFinite { start } else { self.vectors.time.lane(lane) };
+        if state.is_searching {
+            self.evaluate_kept(lane, Until::Time(reached));
+        }
+        let points = self.states[lane].map_or(state.point, |state| state.point);
+        self.work.trajectories[lane].fill_after(points, f64::NAN);
+        self.pass_on(lane, &state, (status, reached.mul_add(state.unit, state.start), points), finish);
+    }
+
+    /// Passes the run of `lane` to `finish` and loads the next.
+    fn pass_on(
+        &mut self,
+        lane: usize,
+        state: &LaneState,
+        (status, time, points): (Status, f64, usize),
+        finish: &mut RunCallback<'_>,
+    ) {
+        let steps = state.steps(self.work.ring.clock);
+        let outcome = Outcome {
+            status,
+            time,
+            points,
+            effort: StepStatistics { steps, rejected: 0, evaluations: steps },
+            local_errors: self.truncation.sums(lane).errors(steps, state.periods),
+        };
+        finish(state.run, &self.runs[state.run], &mut self.work.trajectories[lane], &outcome);
+        self.load_lane(lane);
+    }
+
+    /// Keeps the series of more steps for a long period, or stops looking for it.
+    #[cold]
+    pub(super) fn keep_more_series(&mut self, lane: usize) {
+        if self.work.ring.grow(self.vectors.time.zero()) {
+            return;
+        }
+        self.evaluate_kept(lane, Until::Time(self.vectors.time.lane(lane)));
+        if let Some(state) = &mut self.states[lane] {
+            state.is_searching = false;
+        }
+        self.detector.set(lane, None);
+        self.set_next_point(lane);
+    }
+}

@@ -1,0 +1,69 @@
+//! [`SeriesRing`]: the series of the last steps of all lanes.
+
+use super::dense::Segment;
+use crate::math::Real;
+
+/// Steps whose series are kept at first; a period within them is found without any allocation.
+const INITIAL: usize = 24;
+/// Steps whose series are kept at most; a run that takes more without a period continues as plain Taylor integration.
+pub const LARGEST: usize = 192;
+
+/// The series of the last steps; step k is in slot k modulo the length.
+#[derive(Clone, Debug)]
+pub struct SeriesRing<R, const J: usize> {
+    segments: Vec<Segment<R, J>>,
+    order: usize,
+    /// Number of steps so far.
+    pub clock: usize,
+}
+
+impl<R: Real, const J: usize> SeriesRing<R, J> {
+    /// Memory for series of order `order`; `zero` says in how many lanes.
+    pub fn new(zero: R, order: usize) -> Self {
+        SeriesRing { segments: (0..INITIAL).map(|_| Segment::new(zero, order)).collect(), order, clock: 0 }
+    }
+
+    /// Number of steps whose series are kept.
+    #[inline(always)]
+    pub fn len(&self) -> usize {
+        self.segments.len()
+    }
+
+    /// Whether nothing is kept: never.
+    pub fn is_empty(&self) -> bool {
+        self.segments.is_empty()
+    }
+
+    /// The series of step `step`, one of the last.
+    #[inline(always)]
+    pub fn segment(&self, step: usize) -> &Segment<R, J> {
+        &self.segments[step % self.segments.len()]
+    }
+
+    /// Memory for the series of the step that begins now.
+    #[inline(always)]
+    pub fn current(&mut self) -> &mut Segment<R, J> {
+        let slot = self.clock % self.segments.len();
+        &mut self.segments[slot]
+    }
+
+    /// The series of the step that has just ended.
+    #[inline(always)]
+    pub fn last(&self) -> &Segment<R, J> {
+        self.segment(self.clock - 1)
+    }
+
+    /// Doubles the length, keeping the series; false where it is at its largest already.
+    pub fn grow(&mut self, zero: R) -> bool {
+        let old = self.segments.len();
+        if old >= LARGEST {
+            return false;
+        }
+        let mut segments: Vec<Segment<R, J>> = (0..2 * old).map(|_| Segment::new(zero, self.order)).collect();
+        for step in self.clock.saturating_sub(old)..self.clock {
+            core::mem::swap(&mut segments[step % (2 * old)], &mut self.segments[step % old]);
+        }
+        self.segments = segments;
+        true
+    }
+}
