@@ -23,7 +23,7 @@ use fearless_simd::Simd;
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::dynamics::gyrostat::equations::Constants;
 use spindrift::dynamics::gyrostat::{ATTITUDE, Gyrostat, OMEGA, WITH_ANGLES};
-use spindrift::dynamics::null_space::{COMPONENTS, Kernel, SignOfANon, sigma};
+use spindrift::dynamics::null_space::{COMPONENTS, Kernel, sigma};
 use spindrift::ensemble::Ensemble;
 use spindrift::ensemble::worker::BATCH;
 use spindrift::math::isa::Work;
@@ -140,7 +140,7 @@ fn chain<R: Real>(zero: R, run: &Gyrostat<f64>) -> f64 {
 fn right_hand_side(criterion: &mut Criterion) {
     let spin_sweep = plan("spin_sweep.toml");
     let scene = Scene::resolve(&spin_sweep.nominal).expect("the report's scene is physical");
-    let kernel = Kernel::new(&scene, SignOfANon::Corrected);
+    let kernel = Kernel::new(&scene);
     let gyrostat = Gyrostat::new(0.0, &scene, 10.0);
     let mut group = criterion.benchmark_group("right-hand side");
     for isa in Isa::available() {

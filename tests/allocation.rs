@@ -11,7 +11,7 @@ use std::hint::black_box;
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::dynamics::gyrostat::Gyrostat;
 use spindrift::dynamics::gyrostat::equations::Constants;
-use spindrift::dynamics::null_space::{Kernel, SignOfANon, sigma};
+use spindrift::dynamics::null_space::{Kernel, sigma};
 use spindrift::ensemble::{Ensemble, Part, PartId, Rows};
 use spindrift::math::Isa;
 use spindrift::observables::{Groups, Observer, Request};
@@ -182,7 +182,7 @@ fn right_hand_sides() {
     constants.set_arc(0, &gyrostat, 0, 1.0);
     let reduced: [f64; 21] = std::array::from_fn(|i| 0.1 * i as f64);
     let counted = allocations(|| {
-        let mut kernel = Kernel::new(scene, SignOfANon::Corrected);
+        let mut kernel = Kernel::new(scene);
         kernel.drive(&actuation);
         black_box(kernel.derivative(black_box(&state)));
         black_box(constants.derivative(0.0, black_box(&reduced)));

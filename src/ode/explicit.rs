@@ -1,13 +1,12 @@
 //! Stages of explicit Runge-Kutta methods from their tableaus, and the compensated step that all methods share.
 //!
-//! A step is y' = y + h sum_i b_i k_i; what the sum loses in the last digits of y is carried to the next step (Kahan 1965,
-//! Knuth's error-free sum). Which method takes which step stands in [`super::embedded`] and [`super::fixed`].
+//! A step is y' = y + h sum_i b_i k_i; the rounding error of the sum is carried to the next step (Kahan 1965). The methods are in [`super::embedded`] and [`super::fixed`].
 
 #![allow(clippy::needless_range_loop, reason = "iterators over lanes are not inlined always, see `each`")]
 
 use core::marker::PhantomData;
 
-use super::System;
+use super::system::System;
 use super::tableau::Tableau;
 use crate::math::Real;
 use crate::math::sums::two_sum;
@@ -21,8 +20,8 @@ impl<T: Tableau<S>, const S: usize, const I: usize> Row<T, S, I> {
 
 /// A vector by its components.
 ///
-/// For `core::array::from_fn` and `map` in hot code: what these call is not inlined always, and then it is compiled without
-/// the instructions of the chosen set (measured: thirty times slower). For the same reason the closures here say so too.
+/// In place of `core::array::from_fn` and `map` in hot code: these are not always inlined, and are then compiled without the
+/// instructions of the chosen set (measured: thirty times slower). For the same reason every closure here is `inline(always)`.
 #[inline(always)]
 pub(super) fn each<R: Copy, const N: usize>(like: R, component: impl Fn(usize) -> R) -> [R; N] {
     let mut vector = [like; N];
@@ -60,8 +59,8 @@ pub(super) fn weighted<R: Real, const N: usize, const S: usize>(k: &[[R; N]; S],
     )
 }
 
-/// sum_j a_ij k_j for stage `stage`. One arm per stage: the derivative then stands in one place, in a loop, and is inlined
-/// once and not once per stage, which matters for kernels of 62 components.
+/// sum_j a_ij k_j for stage `stage`. One arm per stage: so the derivative is called in one place, in a loop, and is inlined once
+/// and not once per stage, which matters for kernels of 62 components.
 #[inline(always)]
 fn stage_slope<T, R, const N: usize, const S: usize>(stage: usize, k: &[[R; N]; S]) -> [R; N]
 where
@@ -79,12 +78,12 @@ where
     arms!(1 2 3 4 5 6 7 8 9 10 11 12 13 14 15)
 }
 
-/// Where a step starts and how far it goes.
+/// Start, end and length of a step.
 #[derive(Clone, Copy)]
 pub struct Step<R> {
     /// Time at the start, s.
     pub time: R,
-    /// Time at the end, s: a node of one is there, to the last bit.
+    /// Time at the end, s: the node one, to the last bit.
     pub end: R,
     /// Length, s.
     pub length: R,
@@ -98,12 +97,12 @@ impl<R: Real> Step<R> {
     }
 }
 
-/// A state and the part of it that is too small for its last digits.
+/// A state with its rounding error.
 #[derive(Clone, Copy)]
 pub struct Carried<R, const N: usize> {
     /// The state.
     pub state: [R; N],
-    /// What is to be added to it in higher precision.
+    /// What has to be added to the state to get its exact value.
     pub carry: [R; N],
 }
 
@@ -129,14 +128,14 @@ impl<R: Real, const N: usize> Carried<R, N> {
         )
     }
 
-    /// `yes` where `mask` holds, else `no`.
+    /// `yes` in the lanes where `mask` is true, else `no`.
     #[inline(always)]
     pub(super) fn select(mask: R::Mask, yes: &Self, no: &Self) -> Self {
         Carried { state: chosen(mask, &yes.state, &no.state), carry: chosen(mask, &yes.carry, &no.carry) }
     }
 }
 
-/// `yes` where `mask` holds, else `no`.
+/// `yes` in the lanes where `mask` is true, else `no`.
 #[inline(always)]
 pub(super) fn chosen<R: Real, const N: usize>(mask: R::Mask, yes: &[R; N], no: &[R; N]) -> [R; N] {
     each(
@@ -156,9 +155,9 @@ pub(super) fn poison<R: Real, const N: usize>(values: &[R; N], sum: R) -> R {
     sum
 }
 
-/// Fills the stages `from..to` of `k` and returns the state at the end of the step, as stage `closing` sees it.
+/// Fills the stages `from..to` of `k` and returns the state at the end of the step, the argument of stage `closing`.
 ///
-/// Stage zero must stand. A `closing` of `S` leaves the end to the caller.
+/// Stage zero must be there. With a `closing` of `S` the end is computed by the caller.
 #[inline(always)]
 pub(super) fn fill_stages<T, R, Q, const N: usize, const S: usize>(
     system: &Q,

@@ -1,27 +1,26 @@
-//! Gauss-Legendre collocation of order 6 with a fixed step: symmetric, and it keeps every quadratic invariant to round-off.
+//! Gauss-Legendre collocation of order 6 with a fixed step: symmetric, and exact in every quadratic invariant up to rounding.
 //!
-//! The stages are found by fixed-point iteration to round-off, as Hairer, McLachlan & Razakarivony 2008, *Achieving Brouwer's
-//! law with implicit Runge-Kutta methods*, have it: until the change is zero or stops falling. Not Newton's method: the
-//! rotations here are not stiff, and a few sweeps cost less than a Jacobian. Each lane stops for itself.
+//! The stages are found by fixed-point iteration to round-off (Hairer, McLachlan & Razakarivony 2008, *Achieving Brouwer's
+//! law with implicit Runge-Kutta methods*): until the change is zero or stops decreasing. Not by Newton's method: the
+//! rotations here are not stiff, and a few sweeps cost less than a Jacobian. Each lane stops by its own criterion.
 
 #![allow(
     clippy::needless_range_loop,
     reason = "iterators over lanes are not inlined always, see `super::explicit::each`"
 )]
 
+use super::error_model::Remainder;
 use super::explicit::{Carried, Step, chosen, each, poison, scaled, weighted};
 use super::fixed::{Advance, FixedStep};
-use super::step_control::{flag, raised};
+use super::system::{System, Tolerance};
 use super::tableau::{GaussLegendreTableau, Tableau};
-use super::{System, Tolerance};
 use crate::math::{Mask, Real};
-use crate::propagation::local_error::Remainder;
 
-/// Sweeps after which a step counts as too long for the iteration; a contraction by one half gets to round-off in 52.
+/// Sweeps after which a step counts as too long for the iteration; a contraction by one half reaches round-off in 52.
 const MOST_SWEEPS: usize = 60;
 
-/// A change of the stages below this share of the state is near round-off: only there may the iteration end because the
-/// change stopped falling. Far above 2^-52, since the stages are sums of several roundings, and far below any accuracy asked.
+/// A change of the stages below this fraction of the state is near round-off: only there may the iteration end because the
+/// change stopped decreasing. Far above 2^-52, since the stages are sums of several roundings, and far below any tolerance.
 const NEAR_ROUND_OFF: f64 = 1e-12;
 
 /// The method; see the module.
@@ -60,14 +59,12 @@ fn solved<R: Real, Q: System<R, N>, const N: usize>(
     k: &mut Stages<R, N>,
 ) -> Advance<R, N> {
     let zero = step.length.zero();
-    let one = zero.splat(1.0);
     let state = &start.state;
-    let mut open = one;
-    let mut failed = one;
+    let mut open = !zero.never();
     let mut former = zero.splat(f64::INFINITY);
     let mut evaluations = zero;
     let mut sweeps = 0;
-    while sweeps < MOST_SWEEPS && raised(open).any() {
+    while sweeps < MOST_SWEEPS && open.any() {
         let mut change = zero;
         for i in 0..3 {
             let slope = weighted(k, &GaussLegendreTableau::A[i]);
@@ -79,24 +76,20 @@ fn solved<R: Real, Q: System<R, N>, const N: usize>(
             );
             change = system.error_ratio(&moved, state, state, tolerance).larger(change);
             // Gauss-Seidel: later stages already use it.
-            k[i] = chosen(raised(open), &found, &k[i]);
+            k[i] = chosen(open, &found, &k[i]);
         }
-        evaluations = open.mul_add(zero.splat(3.0), evaluations);
+        evaluations += R::select(open, zero.splat(3.0), zero);
         let way = scaled(step.length, &k[1]);
         let size =
             system.error_ratio(state, state, state, tolerance) + system.error_ratio(&way, state, state, tolerance);
-        let near = flag(change.lt(size * zero.splat(NEAR_ROUND_OFF)), zero);
-        let falling = flag(change.lt(former), zero);
-        // Not `change == 0`: there is no such question, and a change is never negative.
-        let still = one - flag(zero.lt(change), zero);
-        let done = open * R::select(raised(still), one, near * (one - falling));
-        failed -= done;
-        open -= done;
+        let near = change.lt(size * zero.splat(NEAR_ROUND_OFF));
+        let still = !zero.lt(change);
+        open = open & !(still | (near & !change.lt(former)));
         former = change;
         sweeps += 1;
     }
     let end = start.advanced(step.length, &weighted(k, &GaussLegendreTableau::B));
-    let nan = R::select(raised(failed), zero.splat(f64::NAN), zero);
+    let nan = R::select(open, zero.splat(f64::NAN), zero);
     Advance { end, poison: poison(&end.state, nan), evaluations }
 }
 
@@ -110,29 +103,29 @@ impl FixedStep for GaussLegendre {
         [[zero; N]; 3]
     }
 
-    /// The guess is the former step's polynomial, or, at the start of a stretch, the derivative there.
+    /// The initial guess is the polynomial of the previous step, or, at the start of an arc, the derivative there.
     #[inline(always)]
     fn step<R: Real, Q: System<R, N>, const N: usize>(
         system: &Q,
         step: Step<R>,
         start: &Carried<R, N>,
-        fresh: R,
+        first: R::Mask,
         tolerance: Tolerance,
         memory: &mut Stages<R, N>,
     ) -> Advance<R, N> {
         let mut guess = *memory;
         for i in 0..3 {
-            guess[i] = derivative_at(memory, fresh.splat(1.0 + GaussLegendreTableau::C[i]));
+            guess[i] = derivative_at(memory, step.time.splat(1.0 + GaussLegendreTableau::C[i]));
         }
-        if raised(fresh).any() {
+        if first.any() {
             let slope = system.derivative(step.time, &start.state);
             for i in 0..3 {
-                guess[i] = chosen(raised(fresh), &slope, &guess[i]);
+                guess[i] = chosen(first, &slope, &guess[i]);
             }
         }
         *memory = guess;
         let advance = solved(system, step, start, tolerance, memory);
-        Advance { evaluations: advance.evaluations + fresh, ..advance }
+        Advance { evaluations: advance.evaluations + step.time.indicator(first), ..advance }
     }
 
     #[inline(always)]

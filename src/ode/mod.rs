@@ -1,15 +1,33 @@
-//! Layer 1: integrators of ordinary differential equations, which know no physics.
+//! Layer 1: integrators of ordinary differential equations. They know no physics and import [`crate::math`] only.
+//!
+//! - [`System`]: the right-hand side and the norm of its errors. [`Runs`]: where runs come from; [`Recorder`]: where states go.
+//! - [`integrate`]: the driver of all methods: runs in lanes, arc by arc.
+//! - [`Adaptive`]: step control by the tolerance, for [`embedded`] pairs. [`Fixed`]: equal steps, for [`RungeKutta4`] and
+//!   [`GaussLegendre`].
+//! - [`tableau`]: the coefficients. `explicit`: stages of explicit methods and the compensated step.
+//! - [`ErrorModel`]: what a method knows about its errors.
 
 pub mod adaptive;
 pub mod embedded;
+mod error_model;
 pub mod explicit;
 pub mod fixed;
-pub mod gauss_legendre;
-pub mod step_control;
-pub mod system;
+mod gauss_legendre;
+pub mod lane_driver;
+mod lane_slot;
+mod runge_kutta_4;
+mod runs;
+mod step_control;
+mod system;
 pub mod tableau;
-pub mod workspace;
 
+pub use adaptive::Adaptive;
+pub use embedded::{Dop853, DormandPrince, DormandPrinceRestepped};
+pub use error_model::{ErrorModel, Remainder, StepErrors};
+pub use fixed::Fixed;
+pub use gauss_legendre::GaussLegendre;
+pub use lane_driver::{Method, integrate};
+pub use runge_kutta_4::RungeKutta4;
+pub use runs::{Completion, Recorder, Runs, Termination};
 pub use step_control::Control;
-pub use system::{Runs, System, Tolerance};
-pub use workspace::Workspace;
+pub use system::{System, Tolerance};

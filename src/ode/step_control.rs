@@ -1,73 +1,61 @@
-//! How an adaptive method chooses its steps: numbers of the controllers, and the arithmetic that they share.
+//! Step control: what a campaign asks for, the constants of the controllers, and the arithmetic that they share.
 //!
-//! Sources stand with each controller. Everything is arithmetic in lanes: no lane looks at another.
+//! The source of the constants is given with each method.
 
-use super::Tolerance;
+use super::system::Tolerance;
 use crate::math::Real;
 use crate::math::power::power;
 
-/// What a campaign says about steps.
+/// What a campaign asks for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Control {
     /// Tolerance of the adaptive methods.
     pub tolerance: Tolerance,
-    /// Step of the methods with a fixed step, s; without it they take a thousandth of each stretch. Adaptive methods ignore it.
+    /// Step of the methods with a fixed step, s; without it they take a thousandth of each arc. Adaptive methods ignore it.
     pub step: Option<f64>,
-    /// A run that has not arrived after so many attempted steps (accepted and rejected) is given up.
+    /// A run ends after this number of attempted steps, accepted and rejected.
     pub max_steps: u64,
 }
 
 /// The constants of a step-size controller; the error is in units of the tolerance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Controller {
-    /// The step follows the error to minus this power: one over the order of the error estimate plus one.
+    /// The step is proportional to the error to minus this power: one over the order of the error estimate plus one.
     pub exponent: f64,
-    /// Share of the step at which the error is expected to meet the tolerance.
+    /// Fraction of the step at which the error is expected to equal the tolerance.
     pub safety: f64,
-    /// Largest growth from one step to the next.
+    /// Maximum factor from one step to the next.
     pub growth: f64,
-    /// Smallest factor at a rejection, and from one step to the next.
+    /// Minimum factor at a rejection, and from one step to the next.
     pub shrink: f64,
-    /// Factor of the second and further rejections of a step; `None`: as the first.
+    /// Factor of the second and further rejections of a step; `None`: the same as for the first.
     pub shrink_again: Option<f64>,
-    /// Whether a step that passed after a rejection hands its size on unchanged; else it only must not grow.
+    /// Whether the step after one that was accepted after a rejection has the same length; otherwise it is not longer.
     pub hold_after_rejection: bool,
-    /// A step that reaches the end of the stretch when it is this much longer is stretched or cut to land on it.
+    /// A step that would reach the end of the arc if it were longer by this factor is changed to end there.
     pub landing: f64,
-    /// Longest step as a share of the stretch.
+    /// Longest step as a fraction of the arc.
     pub longest: f64,
 }
 
-/// `Real` flags: one where something holds, zero where not. A sum of flags is a count, and a product both.
-#[inline(always)]
-pub(super) fn flag<R: Real>(mask: R::Mask, like: R) -> R {
-    R::select(mask, like.splat(1.0), like.zero())
-}
-
-/// The mask of a flag.
-#[inline(always)]
-pub(super) fn raised<R: Real>(flag: R) -> R::Mask {
-    flag.splat(0.5).lt(flag)
-}
-
-/// 16 eps: steps below this share of the time's power of two cannot be told from zero (ode45's `hmin = 16*eps(t)`).
+/// 16 eps: the shortest step as a fraction of the power of two below the time (`hmin = 16*eps(t)` of ode45).
 const FLOOR: f64 = 16.0 * f64::EPSILON;
 
-/// The time whose last digit counts while the run is still younger, s: keeps the floor a normal number at t = 0.
-const YOUNGEST: f64 = 1e-280;
+/// The time, s, that replaces smaller ones: the shortest step stays a normal number at t = 0.
+const EARLIEST: f64 = 1e-280;
 
 /// The shortest step at time `time`, s.
 #[inline(always)]
 pub(super) fn shortest_step<R: Real>(time: R) -> R {
-    time.abs().larger(time.splat(YOUNGEST)).exponent().power_of_two() * time.splat(FLOOR)
+    time.abs().larger(time.splat(EARLIEST)).exponent().power_of_two() * time.splat(FLOOR)
 }
 
 impl Controller {
-    /// The factor for the next step (`accepted` raised) or the next attempt (not raised) after an error of `ratio`.
+    /// The factor for the next step (where `accepted`) or the next attempt (where not) after an error of `ratio`.
     ///
-    /// `retry` is raised where the attempt followed a rejection of the same step.
+    /// `retry`: the attempt followed a rejection of the same step.
     #[inline(always)]
-    pub(super) fn factor<R: Real>(&self, ratio: R, accepted: R, retry: R) -> R {
+    pub(super) fn factor<R: Real>(&self, ratio: R, accepted: R::Mask, retry: R::Mask) -> R {
         let one = ratio.splat(1.0);
         let ideal = ratio.splat(self.safety) * power(ratio, -self.exponent);
         let bounded = ideal.larger(ratio.splat(self.shrink)).smaller(ratio.splat(self.growth));
@@ -76,11 +64,7 @@ impl Controller {
             Some(factor) => ratio.splat(factor),
             None => bounded,
         };
-        R::select(
-            raised(accepted),
-            R::select(raised(retry), after_rejection, bounded),
-            R::select(raised(retry), again, bounded),
-        )
+        R::select(retry, R::select(accepted, after_rejection, again), bounded)
     }
 }
 

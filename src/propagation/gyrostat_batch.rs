@@ -6,7 +6,8 @@
 use fearless_simd::Simd;
 
 use super::arc_source::ArcSource;
-use super::settings::{CompletedRun, CompletionCallback, PropagationSettings, observes_debris_rotation};
+use super::engine::{CompletedRun, CompletionCallback};
+use super::settings::{PropagationSettings, observes_debris_rotation};
 use crate::dynamics::debris;
 use crate::dynamics::gyrostat::completion::complete;
 use crate::dynamics::gyrostat::{Gyrostat, WITH_ATTITUDE};

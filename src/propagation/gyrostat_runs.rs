@@ -4,10 +4,9 @@ use super::arc_source::ArcSource;
 use crate::dynamics::gyrostat::equations::Constants;
 use crate::dynamics::gyrostat::{ATTITUDE, Gyrostat, OMEGA, WITH_ATTITUDE, WITH_THRUST};
 use crate::math::Real;
+use crate::math::lanes::WIDTH;
 use crate::math::vector::{dot, norm};
-use crate::ode::Runs;
-use crate::ode::System;
-use crate::ode::Tolerance;
+use crate::ode::{Runs, System, Tolerance};
 
 /// Runs of the gyrostat's first `N` components, one per lane.
 pub struct GyrostatRuns<'a, R> {
@@ -15,21 +14,15 @@ pub struct GyrostatRuns<'a, R> {
     arcs: ArcSource<'a>,
     constants: Constants<R>,
     /// The run in each lane.
-    run_in_lane: [usize; crate::math::lanes::WIDTH],
-    /// Time scale of the run in each lane as a rate, rad/s: below it a rate is measured against it.
+    run_in_lane: [usize; WIDTH],
+    /// Time scale of the run in each lane as a rate, rad/s: smaller rates are compared with it.
     scale: R,
 }
 
 impl<'a, R: Real> GyrostatRuns<'a, R> {
-    /// The given runs, before their first arcs, which come from `arcs`; `zero` says how many lanes.
+    /// The given runs, before their first arcs, which come from `arcs`; `zero` determines the number of lanes.
     pub fn new(zero: R, runs: &'a mut [Gyrostat<f64>], arcs: ArcSource<'a>) -> Self {
-        GyrostatRuns {
-            runs,
-            arcs,
-            constants: Constants::zero(zero),
-            run_in_lane: [0; crate::math::lanes::WIDTH],
-            scale: zero.splat(1.0),
-        }
+        GyrostatRuns { runs, arcs, constants: Constants::zero(zero), run_in_lane: [0; WIDTH], scale: zero.splat(1.0) }
     }
 
     /// Run `run`, with the arcs flown so far.
@@ -45,8 +38,8 @@ impl<R: Real, const N: usize> System<R, N> for GyrostatRuns<'_, R> {
     }
 
     /// The largest component of the rate's error against |omega| (at least the run's own time scale, times
-    /// absolute/relative), and of the attitude's against |q|; the integrals that ride along have no say. Not a number where
-    /// any component is not finite.
+    /// absolute/relative), and of the attitude's against |q|; the quadrature states do not count. Not a number if any
+    /// component is not finite.
     #[inline(always)]
     fn error_ratio(&self, error: &[R; N], old: &[R; N], new: &[R; N], tolerance: Tolerance) -> R {
         let threshold = self.scale.splat(tolerance.absolute / tolerance.relative);

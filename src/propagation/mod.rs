@@ -1,9 +1,17 @@
 //! Layer 3: engines that turn scenes into state tables.
 //!
-//! Every method fills, per run, the integrated components at the observation times; a kernel then completes them to the
-//! physical [`crate::run::StateTable`]. Runs stand in lanes that never share a decision.
+//! Every method computes, per run, the integrated components at the observation times; the kernel then completes them to the
+//! physical [`crate::run::StateTable`]. Runs are in lanes that never share a decision.
+//!
+//! - [`PropagationSettings`]: what is decided once per plan; `factory` makes an [`Engine`] of them.
+//! - [`taylor`]: Taylor series with periodic folding, and the double-double reference solution.
+//! - [`runge_kutta_engine`]: Runge-Kutta methods on the gyrostat. [`null_space_engine`]: the report's formulation.
+//! - [`arc_source`]: the arcs of constant actuation. [`gyrostat_batch`]: what all methods on the gyrostat share. [`trajectory_recorder`]: from integrators to trajectories.
+//! - [`local_error`], [`series_remainder`]: the errors of the steps of a run.
 
 pub mod arc_source;
+pub mod engine;
+mod factory;
 pub mod gyrostat_batch;
 pub mod gyrostat_runs;
 pub mod local_error;
@@ -11,9 +19,12 @@ pub mod method;
 pub mod null_space_engine;
 pub mod null_space_runs;
 pub mod runge_kutta_engine;
+pub mod series_remainder;
 pub mod settings;
 pub mod taylor;
+pub mod trajectory_recorder;
 
+pub use engine::{CompletedRun, CompletionCallback, Engine};
 pub use method::Method;
 pub use null_space_runs::NullSpaceRuns;
-pub use settings::{CompletedRun, Engine, PropagationSettings};
+pub use settings::PropagationSettings;

@@ -2,34 +2,37 @@
 
 use fearless_simd::Simd;
 
+use super::engine::{CompletedRun, CompletionCallback, Engine};
 use super::null_space_runs::NullSpaceRuns;
-use super::settings::{CompletedRun, CompletionCallback, Engine, PropagationSettings};
+use super::settings::PropagationSettings;
+use super::trajectory_recorder::{LaneTrajectory, TrajectoryRecorder};
 use crate::dynamics::actuation::Laws;
 use crate::dynamics::null_space::{COMPONENTS, complete};
-use crate::ode::adaptive;
-use crate::ode::embedded::DormandPrinceRestepped;
-use crate::ode::workspace::Workspace;
-use crate::run::StateTable;
+use crate::ode::{Adaptive, DormandPrinceRestepped, Method, integrate};
+use crate::run::{Outcome, StateTable, Trajectory};
 use crate::scene::{Arc, Scene};
+
+/// The method: points inside a step by a step of their own, which costs little beside the right-hand side.
+type Pair = Adaptive<DormandPrinceRestepped>;
 
 /// One worker's memory.
 pub struct NullSpaceEngine<S> {
     simd: S,
-    plan: PropagationSettings,
-    workspace: Workspace,
+    settings: PropagationSettings,
+    lanes: Vec<LaneTrajectory>,
     table: StateTable,
     arcs: Vec<Arc>,
 }
 
 impl<S: Simd> NullSpaceEngine<S> {
-    /// Memory for the runs of `plan`.
-    pub fn new(simd: S, plan: &PropagationSettings) -> Self {
-        let points = plan.grid.points();
+    /// Memory for runs with `settings`.
+    pub fn new(simd: S, settings: &PropagationSettings) -> Self {
+        let points = settings.grid.points();
         NullSpaceEngine {
             simd,
-            plan: plan.clone(),
-            workspace: Workspace::new(1, COMPONENTS, points),
-            table: StateTable::new(plan.blocks, points),
+            settings: settings.clone(),
+            lanes: LaneTrajectory::for_lanes(1, COMPONENTS, points),
+            table: StateTable::new(settings.blocks, points),
             arcs: Vec::new(),
         }
     }
@@ -39,22 +42,25 @@ impl<S: Simd> NullSpaceEngine<S> {
         if scenes.is_empty() {
             return;
         }
-        let Self { plan, workspace, table, arcs, .. } = self;
-        plan.check_laws(&laws);
-        let mut runs = NullSpaceRuns::new(scenes, plan.grid.duration()).under(laws.reborrow(), std::mem::take(arcs));
-        adaptive::march::<_, _, _, _, COMPONENTS>(
-            DormandPrinceRestepped,
-            0.0,
-            &mut runs,
-            &plan.grid,
-            &plan.control,
-            workspace,
-            |runs, _, index, trajectory, outcome| {
-                complete(&scenes[index], trajectory, &plan.grid, table);
+        let Self { settings, lanes, table, arcs, .. } = self;
+        settings.check_laws(&laws);
+        let (grid, control) = (&settings.grid, &settings.control);
+        let mut runs = NullSpaceRuns::new(scenes, grid.duration()).under(laws.reborrow(), std::mem::take(arcs));
+        let mut recorder = TrajectoryRecorder::new(
+            grid,
+            lanes,
+            Pair::ERRORS,
+            control.tolerance.relative,
+            |runs: &NullSpaceRuns<'_>, _, index, trajectory: &Trajectory, outcome: &Outcome| {
+                complete(&scenes[index], trajectory, grid, table);
                 table.pad();
-                finish(CompletedRun { index, table, outcome, arcs: runs.arcs() });
+                let mut outcome = *outcome;
+                // errors of the other states feed back into omega
+                outcome.local_errors.feedback = outcome.local_errors.truncation;
+                finish(CompletedRun { index, table, outcome: &outcome, arcs: runs.arcs() });
             },
         );
+        integrate::<_, _, _, _, COMPONENTS>(Adaptive(DormandPrinceRestepped), 0.0, &mut runs, &mut recorder, control);
         *arcs = runs.into_arcs();
     }
 }

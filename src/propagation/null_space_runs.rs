@@ -1,11 +1,9 @@
-//! [`NullSpaceRuns`]: runs of the reference kernel, one at a time.
+//! [`NullSpaceRuns`]: runs of the null-space formulation, one at a time.
 
 use super::arc_source::arc;
 use crate::dynamics::actuation::{Laws, OpenLoop};
-use crate::dynamics::null_space::{COMPONENTS, Kernel, STATES, SignOfANon, State, observed_state, sigma};
-use crate::ode::Runs;
-use crate::ode::System;
-use crate::ode::Tolerance;
+use crate::dynamics::null_space::{COMPONENTS, Kernel, STATES, State, observed_state, sigma};
+use crate::ode::{Runs, System, Tolerance};
 use crate::scene::{Arc, Scene};
 
 /// Runs of the report's 62-state form for the scenes of a batch; `f64`, one lane.
@@ -13,7 +11,6 @@ pub struct NullSpaceRuns<'a> {
     scenes: &'a [Scene],
     laws: Laws<'a>,
     duration: f64,
-    sign: SignOfANon,
     run: usize,
     kernel: Kernel,
     /// The attitude quaternion at the start of the arc: the next one has the nearer sign.
@@ -25,9 +22,18 @@ impl<'a> NullSpaceRuns<'a> {
     /// Runs of `scenes` from zero to `duration`, s.
     ///
     /// # Panics
-    /// Where there is no scene.
+    /// If there is no scene.
     pub fn new(scenes: &'a [Scene], duration: f64) -> Self {
-        Self::with_sign(scenes, duration, SignOfANon::Corrected)
+        let kernel = Kernel::new(scenes.first().expect("a batch has at least one scene"));
+        NullSpaceRuns {
+            scenes,
+            laws: Laws::OpenLoop,
+            duration,
+            run: 0,
+            kernel,
+            q_es: [1.0, 0.0, 0.0, 0.0],
+            arcs: Vec::new(),
+        }
     }
 
     /// The same runs under `laws`, their arcs recorded in the memory of `arcs`.
@@ -45,24 +51,6 @@ impl<'a> NullSpaceRuns<'a> {
     pub fn into_arcs(self) -> Vec<Arc> {
         self.arcs
     }
-
-    /// The same with a chosen sign of a-hat_non,s: for the test that shows what the printed one does.
-    ///
-    /// # Panics
-    /// Where there is no scene.
-    pub fn with_sign(scenes: &'a [Scene], duration: f64, sign: SignOfANon) -> Self {
-        let kernel = Kernel::new(scenes.first().expect("a batch has at least one scene"), sign);
-        NullSpaceRuns {
-            scenes,
-            laws: Laws::OpenLoop,
-            duration,
-            sign,
-            run: 0,
-            kernel,
-            q_es: [1.0, 0.0, 0.0, 0.0],
-            arcs: Vec::new(),
-        }
-    }
 }
 
 impl System<f64, COMPONENTS> for NullSpaceRuns<'_> {
@@ -72,7 +60,7 @@ impl System<f64, COMPONENTS> for NullSpaceRuns<'_> {
     }
 
     /// As MATLAB's ode45: max |e_i| / (rtol max(|y_i|, |y_i new|, atol / rtol)) over the 62 states (Shampine & Reichelt 1997);
-    /// the integrals that ride along have no say. Not a number where any component is not finite.
+    /// the quadrature states do not count. Not a number if any component is not finite.
     #[inline(always)]
     fn error_ratio(
         &self,
@@ -99,7 +87,7 @@ impl Runs<f64, COMPONENTS> for NullSpaceRuns<'_> {
 
     fn load(&mut self, _lane: usize, run: usize) -> [f64; COMPONENTS] {
         self.run = run;
-        self.kernel = Kernel::new(&self.scenes[run], self.sign);
+        self.kernel = Kernel::new(&self.scenes[run]);
         self.q_es = self.scenes[run].initial.q_es;
         self.arcs.clear();
         sigma(&self.scenes[run]).components()

@@ -10,11 +10,12 @@
 //! A change of a kernel that changes these distributions on purpose writes the baseline again:
 //! `SPINDRIFT_WRITE_BASELINE=1 cargo test --release --test drift_bounds`.
 
+use crate::null_space_matrices::{SignOfANon, SignedRuns};
 use crate::support::claims::hold;
 use crate::support::plans::{rows, shipped};
 use serde_json::{Value, json};
 use spindrift::campaign::Plan;
-use spindrift::dynamics::null_space::{Parameters, SignOfANon, State, kinetic_energies};
+use spindrift::dynamics::null_space::{Parameters, State, kinetic_energies};
 use spindrift::ensemble::{Ensemble, SingleRun};
 use spindrift::math::Isa;
 use spindrift::observables::Observer;
@@ -23,7 +24,6 @@ use spindrift::ode::System;
 use spindrift::ode::Tolerance;
 use spindrift::propagation::CompletedRun;
 use spindrift::propagation::Method;
-use spindrift::propagation::NullSpaceRuns;
 use spindrift::propagation::PropagationSettings;
 use spindrift::run::Grid;
 use spindrift::run::Status;
@@ -292,7 +292,7 @@ fn the_printed_sign_is_seen() {
     let scenes = [Scene::resolve(&plan.nominal).expect("the report's scene")];
     let parameters = Parameters::of(&scenes[0]);
     let error = |sign| {
-        let mut runs = NullSpaceRuns::with_sign(&scenes, setting.horizon, sign);
+        let mut runs = SignedRuns::new(&scenes[0], setting.horizon, sign);
         let mut x = runs.load(0, 0);
         runs.next_arc(0, 0.0, &x);
         let total = |x: &[f64; _]| kinetic_energies(&parameters, &State::from_components(x)).iter().sum::<f64>();

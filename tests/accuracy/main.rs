@@ -13,6 +13,7 @@ mod drift_bounds;
 mod error_estimate;
 mod golden_truth;
 mod null_space;
+mod null_space_matrices;
 mod order_runge_kutta;
 mod outcomes_runge_kutta;
 mod periodic;

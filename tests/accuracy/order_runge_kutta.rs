@@ -2,10 +2,10 @@
 
 use crate::textbook::*;
 use spindrift::ode::Control;
+use spindrift::ode::GaussLegendre;
+use spindrift::ode::RungeKutta4;
 use spindrift::ode::Tolerance;
-use spindrift::ode::embedded::{Dop853, DormandPrince};
-use spindrift::ode::fixed::RungeKutta4;
-use spindrift::ode::gauss_legendre::GaussLegendre;
+use spindrift::ode::{Dop853, DormandPrince};
 use spindrift::run::Grid;
 use spindrift::run::Status;
 
@@ -21,7 +21,7 @@ fn oscillator() -> Case<2, 1> {
 }
 
 /// The error at the end of the horizon, the largest at 101 points before it, and the number of steps.
-fn oscillation<M: Driver>(method: M, control: &Control) -> (f64, f64, u64) {
+fn oscillation<M: Method>(method: M, control: &Control) -> (f64, f64, u64) {
     let grid = Grid::uniform(HORIZON, 102);
     let journey = scalar(method, Oscillator, &[oscillator()], &grid, control).remove(0);
     assert_eq!(journey.outcome.status, Status::Done);
@@ -33,7 +33,7 @@ fn oscillation<M: Driver>(method: M, control: &Control) -> (f64, f64, u64) {
     (errors[101], between, journey.outcome.effort.steps)
 }
 
-fn fixed_order<M: Driver>(method: M, step: f64) -> (f64, f64) {
+fn fixed_order<M: Method>(method: M, step: f64) -> (f64, f64) {
     let (coarse, coarse_between, _) = oscillation(method, &control(1e-9, step));
     let (fine, fine_between, _) = oscillation(method, &control(1e-9, step / 2.0));
     ((coarse / fine).log2(), (coarse_between / fine_between).log2())
@@ -50,7 +50,7 @@ fn fixed_steps_converge_with_their_order_at_and_between_steps() {
 }
 
 /// The error falls as a power of the number of steps: that power is the order of the method.
-fn adaptive_order<M: Driver>(method: M, coarse: f64, fine: f64) -> f64 {
+fn adaptive_order<M: Method>(method: M, coarse: f64, fine: f64) -> f64 {
     let (large, _, few) = oscillation(method, &control(coarse, 0.0));
     let (small, _, many) = oscillation(method, &control(fine, 0.0));
     (large / small).log2() / (many as f64 / few as f64).log2()
@@ -72,7 +72,7 @@ const PROPORTION: std::ops::Range<f64> = 1.0..4.0;
 /// Maximum ratio of the error between steps to the error at the end.
 const BETWEEN: f64 = 10.0;
 
-fn follows_the_tolerance<M: Driver>(method: M, name: &str) {
+fn follows_the_tolerance<M: Method>(method: M, name: &str) {
     let mut former = f64::INFINITY;
     for exponent in 4..=12 {
         let tolerance = 10.0_f64.powi(-exponent);
@@ -131,7 +131,7 @@ fn dormand_prince_takes_the_steps_of_ode45() {
 const INVARIANT_ROUND_OFF: f64 = 2e-15;
 
 /// The largest change of |y|^2 and of the energy of a free rigid body.
-fn invariant_drift<M: Driver>(method: M) -> f64 {
+fn invariant_drift<M: Method>(method: M) -> f64 {
     let (state, inertia) = RIGID_BODY;
     let case = Case { state, parameters: inertia, ends: vec![1000.0] };
     let grid = Grid::uniform(1000.0, 777);

@@ -4,20 +4,19 @@
 //! two seconds, observed at 201 points. Law: the error of the energy follows the tolerance. Counter-test: with the printed
 //! sign of a-hat_non,s it jumps to the size of the energy itself.
 
+use crate::null_space_matrices::{SignOfANon, SignedRuns};
 use crate::support::golden::Golden;
 use crate::support::runs::{adaptive, propagate};
-use spindrift::dynamics::null_space::{COMPONENTS, Parameters, SignOfANon, State, kinetic_energies};
+use spindrift::dynamics::null_space::{COMPONENTS, Parameters, State, kinetic_energies};
 use spindrift::math::Isa;
 use spindrift::math::isa::Work;
 use spindrift::observables::{Groups, Observer, Request};
 use spindrift::ode::Control;
-use spindrift::ode::Workspace;
-use spindrift::ode::adaptive as adaptive_march;
-use spindrift::ode::embedded::DormandPrinceRestepped;
+use spindrift::ode::{Adaptive, DormandPrinceRestepped, Method as _, integrate};
 use spindrift::propagation::Method;
-use spindrift::propagation::NullSpaceRuns;
-use spindrift::run::Grid;
+use spindrift::propagation::trajectory_recorder::{LaneTrajectory, TrajectoryRecorder};
 use spindrift::run::StepStatistics;
+use spindrift::run::{Grid, Outcome, Trajectory};
 use spindrift::scene::Scene;
 
 /// Horizon of the figures, s.
@@ -113,12 +112,12 @@ fn with_the_printed_sign_the_energy_jumps() {
 /// Largest |T - T(0)|/T(0) at the observation points, T by (36) = 1/2 nu^T M nu as the report has it; and the steps.
 fn energy_error(sign: SignOfANon, tolerance: f64) -> (f64, u64) {
     let scenes = [table_one()];
-    let runs = NullSpaceRuns::with_sign(&scenes, HORIZON, sign);
+    let runs = SignedRuns::new(&scenes[0], HORIZON, sign);
     Isa::best().run(Signed { runs, parameters: Parameters::of(&scenes[0]), tolerance })
 }
 
 struct Signed<'a> {
-    runs: NullSpaceRuns<'a>,
+    runs: SignedRuns<'a>,
     parameters: Parameters,
     tolerance: f64,
 }
@@ -129,24 +128,26 @@ impl Work for Signed<'_> {
     #[inline(always)]
     fn run<S: fearless_simd::Simd>(mut self, _simd: S) -> (f64, u64) {
         let grid = Grid::uniform(HORIZON, POINTS);
-        let mut workspace = Workspace::new(1, COMPONENTS, POINTS);
+        let mut lanes = LaneTrajectory::for_lanes(1, COMPONENTS, POINTS);
         let (mut worst, mut steps, parameters) = (0.0_f64, 0, &self.parameters);
-        adaptive_march::march::<_, _, _, _, COMPONENTS>(
-            DormandPrinceRestepped,
+        let control = adaptive(self.tolerance);
+        let finish = |_: &SignedRuns<'_>, _, _, trajectory: &Trajectory, outcome: &Outcome| {
+            steps = outcome.effort.steps;
+            let total = |point| {
+                let state = State::from_components(&trajectory.at::<COMPONENTS>(point));
+                kinetic_energies(parameters, &state).iter().sum::<f64>()
+            };
+            let start = total(0);
+            worst = (0..POINTS).map(|point| (total(point) / start - 1.0).abs()).fold(0.0, f64::max);
+        };
+        let errors = Adaptive::<DormandPrinceRestepped>::ERRORS;
+        let mut recorder = TrajectoryRecorder::new(&grid, &mut lanes, errors, self.tolerance, finish);
+        integrate::<_, _, _, _, COMPONENTS>(
+            Adaptive(DormandPrinceRestepped),
             0.0,
             &mut self.runs,
-            &grid,
-            &adaptive(self.tolerance),
-            &mut workspace,
-            |_, _, _, trajectory, outcome| {
-                steps = outcome.effort.steps;
-                let total = |point| {
-                    let state = State::from_components(&trajectory.at::<COMPONENTS>(point));
-                    kinetic_energies(parameters, &state).iter().sum::<f64>()
-                };
-                let start = total(0);
-                worst = (0..POINTS).map(|point| (total(point) / start - 1.0).abs()).fold(0.0, f64::max);
-            },
+            &mut recorder,
+            &control,
         );
         (worst, steps)
     }

@@ -3,10 +3,10 @@
 use crate::textbook::*;
 use spindrift::math::Isa;
 use spindrift::ode::Control;
+use spindrift::ode::GaussLegendre;
+use spindrift::ode::RungeKutta4;
 use spindrift::ode::Tolerance;
-use spindrift::ode::embedded::{Dop853, DormandPrince};
-use spindrift::ode::fixed::RungeKutta4;
-use spindrift::ode::gauss_legendre::GaussLegendre;
+use spindrift::ode::{Dop853, DormandPrince};
 use spindrift::run::Grid;
 use spindrift::run::Status;
 
@@ -30,7 +30,7 @@ fn cases() -> Vec<Case<4, 1>> {
         .collect()
 }
 
-fn equal_in_all_lanes<M: Driver>(method: M, control: &Control) {
+fn equal_in_all_lanes<M: Method>(method: M, control: &Control) {
     let (cases, grid) = (cases(), Grid::uniform(HORIZON, 45));
     let truth = scalar(method, ThreeBody, &cases, &grid, control);
     for isa in Isa::available() {

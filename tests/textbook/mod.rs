@@ -1,23 +1,16 @@
-//! Textbook problems as runs in lanes, and one way to integrate them as scalars or in lanes.
+//! Textbook problems as runs in lanes, integrated as scalars or in lanes.
 
 #![allow(dead_code)] // Every test file uses its own part.
 
 use fearless_simd::Simd;
 use spindrift::math::isa::Work;
 use spindrift::math::{Isa, Lanes, Real};
-use spindrift::ode::Control;
-use spindrift::ode::Runs;
-use spindrift::ode::System;
-use spindrift::ode::Tolerance;
-use spindrift::ode::Workspace;
-use spindrift::ode::adaptive;
-use spindrift::ode::embedded::Embedded;
-use spindrift::ode::fixed;
-use spindrift::ode::fixed::FixedStep;
-use spindrift::run::Outcome;
-use spindrift::run::{Grid, Trajectory};
+pub use spindrift::ode::{Adaptive, Fixed, Method};
+use spindrift::ode::{Control, Runs, System, Tolerance, integrate};
+use spindrift::propagation::trajectory_recorder::{LaneTrajectory, TrajectoryRecorder};
+use spindrift::run::{Grid, Outcome, Trajectory};
 
-/// A right-hand side with `P` parameters; `arc` is the number of the arc.
+/// A right-hand side with `P` parameters; `arc` counts the arcs.
 pub trait Law<const N: usize, const P: usize>: Copy {
     fn derivative<R: Real>(time: R, state: &[R; N], parameters: &[R; P], arc: R) -> [R; N];
 }
@@ -77,59 +70,7 @@ impl<R: Real, L: Law<N, P>, const N: usize, const P: usize> Runs<R, N> for Bank<
     }
 }
 
-/// A method with the driver that it belongs to.
-pub trait Driver: Copy {
-    fn integrate<R: Real, Q: Runs<R, N>, F, const N: usize>(
-        self,
-        zero: R,
-        runs: &mut Q,
-        grid: &Grid,
-        control: &Control,
-        workspace: &mut Workspace,
-        finish: F,
-    ) where
-        F: FnMut(&Q, usize, usize, &Trajectory, &Outcome);
-}
-
-#[derive(Clone, Copy)]
-pub struct Adaptive<M>(pub M);
-impl<M: Embedded> Driver for Adaptive<M> {
-    #[inline(always)]
-    fn integrate<R: Real, Q: Runs<R, N>, F, const N: usize>(
-        self,
-        zero: R,
-        runs: &mut Q,
-        grid: &Grid,
-        control: &Control,
-        workspace: &mut Workspace,
-        finish: F,
-    ) where
-        F: FnMut(&Q, usize, usize, &Trajectory, &Outcome),
-    {
-        adaptive::march(self.0, zero, runs, grid, control, workspace, finish);
-    }
-}
-
-#[derive(Clone, Copy)]
-pub struct Fixed<M>(pub M);
-impl<M: FixedStep> Driver for Fixed<M> {
-    #[inline(always)]
-    fn integrate<R: Real, Q: Runs<R, N>, F, const N: usize>(
-        self,
-        zero: R,
-        runs: &mut Q,
-        grid: &Grid,
-        control: &Control,
-        workspace: &mut Workspace,
-        finish: F,
-    ) where
-        F: FnMut(&Q, usize, usize, &Trajectory, &Outcome),
-    {
-        fixed::march(self.0, zero, runs, grid, control, workspace, finish);
-    }
-}
-
-/// The result of a run.
+/// What became of a run.
 #[derive(Clone)]
 pub struct Journey<const N: usize> {
     pub points: Vec<[f64; N]>,
@@ -151,24 +92,26 @@ fn integrated<M, R, L, const N: usize, const P: usize>(
     control: &Control,
 ) -> Vec<Journey<N>>
 where
-    M: Driver,
+    M: Method,
     R: Real,
     L: Law<N, P>,
 {
     let mut bank = Bank { law, cases: cases.to_vec(), loaded: [0; 8], parameters: [zero; P], arc: zero };
-    let mut workspace = Workspace::new(R::LANES, N, grid.points());
+    let mut lanes = LaneTrajectory::for_lanes(R::LANES, N, grid.points());
     let mut journeys: Vec<Option<Journey<N>>> = vec![None; cases.len()];
-    method.integrate(zero, &mut bank, grid, control, &mut workspace, |bank, lane, run, trajectory, outcome| {
+    let finish = |bank: &Bank<R, L, N, P>, lane: usize, run: usize, trajectory: &Trajectory, outcome: &Outcome| {
         assert_eq!(bank.loaded[lane], run, "the lane still holds the run that is completed");
         let points = (0..trajectory.points()).map(|point| trajectory.at(point)).collect();
         let former = journeys[run].replace(Journey { points, outcome: *outcome });
         assert!(former.is_none(), "every run is completed once");
-    });
+    };
+    let mut recorder = TrajectoryRecorder::new(grid, &mut lanes, M::ERRORS, control.tolerance.relative, finish);
+    integrate(method, zero, &mut bank, &mut recorder, control);
     journeys.into_iter().map(|journey| journey.expect("every run is completed")).collect()
 }
 
 /// Integrates all cases one by one.
-pub fn scalar<M: Driver, L: Law<N, P>, const N: usize, const P: usize>(
+pub fn scalar<M: Method, L: Law<N, P>, const N: usize, const P: usize>(
     method: M,
     law: L,
     cases: &[Case<N, P>],
@@ -179,7 +122,7 @@ pub fn scalar<M: Driver, L: Law<N, P>, const N: usize, const P: usize>(
 }
 
 /// Integrates all cases in lanes.
-pub fn lanes<M: Driver, L: Law<N, P>, const N: usize, const P: usize>(
+pub fn lanes<M: Method, L: Law<N, P>, const N: usize, const P: usize>(
     isa: Isa,
     method: M,
     law: L,
@@ -187,15 +130,15 @@ pub fn lanes<M: Driver, L: Law<N, P>, const N: usize, const P: usize>(
     grid: &Grid,
     control: &Control,
 ) -> Vec<Journey<N>> {
-    struct Integrate<'a, M, L, const N: usize, const P: usize>(M, L, &'a [Case<N, P>], &'a Grid, &'a Control);
-    impl<M: Driver, L: Law<N, P>, const N: usize, const P: usize> Work for Integrate<'_, M, L, N, P> {
+    struct Integration<'a, M, L, const N: usize, const P: usize>(M, L, &'a [Case<N, P>], &'a Grid, &'a Control);
+    impl<M: Method, L: Law<N, P>, const N: usize, const P: usize> Work for Integration<'_, M, L, N, P> {
         type Output = Vec<Journey<N>>;
         #[inline(always)]
         fn run<S: Simd>(self, simd: S) -> Vec<Journey<N>> {
             integrated((self.0, self.1), Lanes::broadcast(simd, 0.0), self.2, self.3, self.4)
         }
     }
-    isa.run(Integrate(method, law, cases, grid, control))
+    isa.run(Integration(method, law, cases, grid, control))
 }
 
 /// A control with equal relative and absolute tolerance.
@@ -297,7 +240,7 @@ impl Law<1, 0> for Switched {
 }
 
 /// Integrates all cases one by one, compiled for the instruction set `isa`.
-pub fn scalar_on<M: Driver, L: Law<N, P>, const N: usize, const P: usize>(
+pub fn scalar_on<M: Method, L: Law<N, P>, const N: usize, const P: usize>(
     isa: Isa,
     method: M,
     law: L,
@@ -305,13 +248,13 @@ pub fn scalar_on<M: Driver, L: Law<N, P>, const N: usize, const P: usize>(
     grid: &Grid,
     control: &Control,
 ) -> Vec<Journey<N>> {
-    struct Integrate<'a, M, L, const N: usize, const P: usize>(M, L, &'a [Case<N, P>], &'a Grid, &'a Control);
-    impl<M: Driver, L: Law<N, P>, const N: usize, const P: usize> Work for Integrate<'_, M, L, N, P> {
+    struct Integration<'a, M, L, const N: usize, const P: usize>(M, L, &'a [Case<N, P>], &'a Grid, &'a Control);
+    impl<M: Method, L: Law<N, P>, const N: usize, const P: usize> Work for Integration<'_, M, L, N, P> {
         type Output = Vec<Journey<N>>;
         #[inline(always)]
         fn run<S: Simd>(self, _simd: S) -> Vec<Journey<N>> {
             integrated((self.0, self.1), 0.0_f64, self.2, self.3, self.4)
         }
     }
-    isa.run(Integrate(method, law, cases, grid, control))
+    isa.run(Integration(method, law, cases, grid, control))
 }

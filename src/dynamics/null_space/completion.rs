@@ -9,10 +9,10 @@ use crate::math::vector::{cross, dot, product, scaled_quaternion_from_dcm, sum};
 use crate::run::{Grid, StateField, StateTable, Trajectory};
 use crate::scene::Scene;
 
-/// Fills whichever blocks `table` has from the integrated components of a run of `scene`, and pads them.
+/// Fills the fields that `table` has from the integrated components of a run of `scene`, and pads them.
 ///
-/// Quaternions come from the integrated DCMs, of unit norm, with a sign that does not jump from point to point, starting from
-/// the scene's own. What the scene does not have (debris) is at rest. No allocation.
+/// Quaternions come from the integrated DCMs, of unit norm, with a sign that does not change from point to point, starting from
+/// the scene's own. Debris that the scene does not have is at rest. No allocation.
 #[inline(always)]
 pub fn complete(scene: &Scene, trajectory: &Trajectory, grid: &Grid, table: &mut StateTable) {
     debug_assert!(trajectory.points() == grid.points() && table.points() == grid.points());
@@ -21,10 +21,10 @@ pub fn complete(scene: &Scene, trajectory: &Trajectory, grid: &Grid, table: &mut
     for point in 0..table.points() {
         let state = State::from_components(&trajectory.at(point));
         let c_es = state.dcm[0];
-        let mut set = |block: StateField, values: &[f64]| {
-            if table.has(block) {
+        let mut set = |field: StateField, values: &[f64]| {
+            if table.has(field) {
                 for (component, value) in values.iter().enumerate() {
-                    table.column_mut(block, component)[point] = *value;
+                    table.column_mut(field, component)[point] = *value;
                 }
             }
         };
@@ -72,7 +72,7 @@ pub fn observed_state(parameters: &Parameters, state: &State, near: [f64; 4]) ->
     (body, WheelState { rates: state.wheel_rates, momenta, angles: state.wheel_angles })
 }
 
-/// The unit quaternion of a DCM by columns, of the two the one nearer to `near`.
+/// The unit quaternion of a DCM by columns, the one of the two that is nearer to `near`.
 ///
 /// By Shepperd's method; the final normalisation distributes the deviation of the DCM from orthonormality.
 #[inline(always)]

@@ -5,8 +5,8 @@ use super::parameters::Parameters;
 use super::state::{State, rotated_back};
 use crate::math::vector::{cross, dot, product};
 
-/// The kinetic energies of S, W1, W2 and D in `state`, J. What the scene does not have counts zero or, for missing debris,
-/// is at rest.
+/// The kinetic energies of S, W1, W2 and D in `state`, J. A missing wheel has none; missing debris is at
+/// rest.
 #[inline(always)]
 pub fn kinetic_energies(parameters: &Parameters, state: &State) -> [f64; 4] {
     let energy = |mass: f64, v: [f64; 3], inertia: [[f64; 3]; 3], omega: [f64; 3]| {

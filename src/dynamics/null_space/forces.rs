@@ -1,7 +1,7 @@
 //! Non-inertial terms and actuators, body by body: -M-dot nu - Omega M nu + a_non (39), and B u (26), (72)-(74).
 //!
-//! The three non-inertial terms stay apart, as in the report, although for the fuselage they add up to -omega x J omega and
-//! C omega x (c x omega): so the sign of a_non can be looked at by itself.
+//! The three non-inertial terms are separate, as in the report, although for the fuselage their sum is -omega x J omega and
+//! C omega x (c x omega): so each can be compared with the report's.
 
 use super::kinematics::WheelMotion;
 use super::parameters::{Parameters, WheelParameters};
@@ -38,7 +38,7 @@ impl Drive {
         let [p1, p2, p3] = actuation.thrust;
         let (mut force_s, mut torque_p_s) = ([0.0; 3], [0.0; 3]);
         if parameters.thruster_directions == THRUSTER_DIRECTIONS {
-            // two numbers that equal thrusts make exactly zero
+            // written out, so that equal thrusts add up to exactly zero
             force_s[2] = p1 - p2 - p3;
             torque_p_s[0] = parameters.thruster_points[2][1] * (p2 - p3);
         } else {
@@ -62,18 +62,18 @@ impl Drive {
     }
 }
 
-/// -M-dot nu - Omega M nu + `sign` a_non of the fuselage; the correct sign is +1.
+/// -M-dot nu - Omega M nu + a_non of the fuselage.
 ///
 /// With w = C_es^T v_p, M-dot nu = [-C omega x (c x omega); -c x (omega x w)], Omega M nu = [0; omega x (c x w + J omega)],
 /// a_non = [0; w x (c x omega)].
 #[inline(always)]
-pub fn fuselage_inertial(parameters: &Parameters, state: &State, sign: f64) -> Wrench {
+pub fn fuselage_inertial(parameters: &Parameters, state: &State) -> Wrench {
     let (omega, c) = (state.omega_s, parameters.fuselage_first);
     let w = rotated_back(state.dcm[0], state.v_p);
     let c_omega = cross(c, omega);
     let m_dot_nu = scaled(-1.0, cross(c, cross(omega, w)));
     let omega_m_nu = cross(omega, sum(cross(c, w), product(parameters.fuselage_inertia, omega)));
-    let a_non = scaled(sign, cross(w, c_omega));
+    let a_non = cross(w, c_omega);
     Wrench {
         force: rotated(state.dcm[0], cross(omega, c_omega)),
         torque: difference(difference(a_non, m_dot_nu), omega_m_nu),
@@ -101,9 +101,8 @@ pub fn wheel_wrench(wheel: &WheelParameters, motion: &WheelMotion, motor: f64) -
     }
 }
 
-/// The torque of the motor that holds a wheel's rate, N m: what the wheel's row of (39) lacks where its rate does not change,
-/// a^T J C_ws omega_s-dot less the `inertial` part of the row. On omega_s a motor has no effect: what it does to the wheel and
-/// to the fuselage cancels in Pi^T B u.
+/// The torque of the motor that keeps a wheel's rate constant, N m: a^T J C_ws omega_s-dot minus the `inertial` part of the wheel's
+/// row of (39). It has no effect on omega_s: its action on the wheel and on the fuselage cancels in Pi^T B u.
 #[inline(always)]
 pub fn holding_torque(wheel: &WheelParameters, motion: &WheelMotion, omega_s_dot: [f64; 3], inertial: f64) -> f64 {
     dot(product(wheel.inertia, wheel.axis), rotated(motion.c_ws, omega_s_dot)) - inertial

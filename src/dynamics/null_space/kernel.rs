@@ -8,30 +8,19 @@ use super::state::{COMPONENTS, State, rotated};
 use crate::math::vector::{cross, product, scaled, sum};
 use crate::scene::{Actuation, Scene};
 
-/// The sign of a-hat_non,s.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum SignOfANon {
-    /// Plus, which conserves energy.
-    #[default]
-    Corrected,
-    /// Minus, as printed at the end of section XVIII: for the test that shows what it does.
-    Printed,
-}
-
-/// The right-hand side for one scene and one stretch of its schedule.
+/// The right-hand side for one scene and one arc of constant actuation.
 #[derive(Clone, Copy, Debug)]
 pub struct Kernel {
     parameters: Parameters,
     drive: Drive,
     debris_factor: Factor<3>,
-    /// J_d - J_d,11 1: a multiple of the unit matrix makes no torque, and so a cube's rate is constant to the last bit.
+    /// J_d - J_d,11 1: a multiple of the unit matrix causes no torque, and so the rate of a cube is constant to the last bit.
     debris_deviator: [[f64; 3]; 3],
-    sign: f64,
 }
 
 impl Kernel {
-    /// The kernel of `scene`, coasting.
-    pub fn new(scene: &Scene, sign: SignOfANon) -> Self {
+    /// The kernel of `scene`, without actuation.
+    pub fn new(scene: &Scene) -> Self {
         let parameters = Parameters::of(scene);
         let mut debris_deviator = parameters.debris_inertia;
         for (i, row) in debris_deviator.iter_mut().enumerate() {
@@ -41,10 +30,6 @@ impl Kernel {
             drive: Drive::of(&parameters, &Actuation::none(0.0)),
             debris_factor: cholesky(parameters.debris_inertia),
             debris_deviator,
-            sign: match sign {
-                SignOfANon::Corrected => 1.0,
-                SignOfANon::Printed => -1.0,
-            },
             parameters,
         }
     }
@@ -60,7 +45,7 @@ impl Kernel {
     }
 
     /// The derivative of all components. No allocation, no branch on the data; 0.56 us on one core with AVX2
-    /// (`cargo bench --bench reference`), inside [`crate::math::Isa::run`].
+    /// (`cargo bench --bench kernels`), inside [`crate::math::Isa::run`].
     ///
     /// Tests: `block_form_equals_the_matrices_as_printed`, `agrees_with_the_gyrostat`.
     #[inline(always)]
@@ -71,7 +56,7 @@ impl Kernel {
             [WheelMotion::of(&parameters.wheels[0], state, 0), WheelMotion::of(&parameters.wheels[1], state, 1)];
 
         // f-hat_non + f-hat = Pi^T (...), spacecraft rows
-        let inertial = forces::fuselage_inertial(parameters, state, self.sign);
+        let inertial = forces::fuselage_inertial(parameters, state);
         let applied = forces::fuselage_applied(parameters, state, &self.drive);
         let mut force = sum(inertial.force, applied.force);
         let mut omega_row = sum(inertial.torque, applied.torque);

@@ -65,8 +65,8 @@ impl WheelMotion {
         }
     }
 
-    /// Pi^T of a force (in F_e) and torque (in the wheel's frame) on the wheel: what reaches omega_s, and what the wheel's rate.
-    /// (On v_p the force acts as it is.)
+    /// Pi^T of a force (in F_e) and torque (in the wheel's frame) on the wheel: the rows of omega_s and of the wheel's rate.
+    /// (The rows of v_p are the force itself.)
     #[inline(always)]
     pub fn reduced(&self, force: [f64; 3], torque: [f64; 3], axis: [f64; 3]) -> ([f64; 3], f64) {
         (sum(rotated_back(self.lever, force), rotated_back(self.c_ws, torque)), dot(axis, torque))

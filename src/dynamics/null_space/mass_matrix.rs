@@ -1,10 +1,10 @@
 //! M-hat = Pi^T M Pi (25) and its solution by Cholesky's method.
 //!
 //! M-hat is block diagonal: the spacecraft's 8x8 (v_p, omega_s, alpha-dot, beta-dot), m_d 1, J_d. In the 8x8 the block of v_p is
-//! m 1, so that its part of the factor is sqrt(m) 1 and only a 5x5 is left to factor: the same factor, without its zeros.
+//! m 1, so that its part of the factor is sqrt(m) 1 and only a 5x5 remains to be factored.
 //!
-//! The rate of a wheel whose speed is held is given, and drops out of the unknowns; its row and column stay as those of the
-//! unit matrix, so that its rate of change comes out as zero.
+//! The rate of a wheel of constant speed is not an unknown; its row and column are those of the unit matrix, so that its rate of
+//! change is zero.
 
 #![expect(clippy::needless_range_loop, reason = "indices of a matrix, as in the formulas")]
 
@@ -13,7 +13,7 @@ use super::parameters::Parameters;
 use super::state::State;
 use crate::math::vector::{dot, product, scaled};
 
-/// A lower triangular Cholesky factor; the diagonal holds the reciprocals.
+/// A lower triangular Cholesky factor with the reciprocals on its diagonal.
 pub type Factor<const N: usize> = [[f64; N]; N];
 
 /// The spacecraft's block of M-hat.
@@ -67,7 +67,7 @@ impl SpacecraftMass {
     #[inline(always)]
     pub fn solution(&self, force: [f64; 3], torque: [f64; 5]) -> ([f64; 3], [f64; 5]) {
         let root = 1.0 / self.total.sqrt();
-        // not `map`: it is compiled on its own, without the instructions of the caller
+        // not `map`: it is compiled separately, without the instructions of the caller
         let b = [scaled(root, self.coupling[0]), scaled(root, self.coupling[1]), scaled(root, self.coupling[2])];
         let mut rest = self.rotation;
         for i in 0..3 {

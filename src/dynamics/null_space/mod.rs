@@ -1,28 +1,29 @@
-//! The *reference* kernel: the report's null-space form, whole, in 62 states.
+//! The report's null-space formulation: fuselage, two wheels and debris in 62 redundant states.
 //!
-//! Source: F. Berdoz, *Final Report - ADR Spacecraft*; equation numbers in this folder are that report's. Notation of
+//! Source: F. Berdoz, *Final Report - ADR Spacecraft*; equation numbers in this folder are those of that report. Notation of
 //! J. Forbes, *A systematic approach to dynamics* (2019); the report's own symbols (Gamma, S, Pi, M, Omega, a_non, B, nu-hat)
-//! live only here. With these corrections, each verified against an independent 40-digit solution:
+//! are used only here. With these corrections, each verified against an independent 40-digit solution:
 //! - a-hat_non,s (end of section XVIII) is `+ (C_es^T v_p)^x c_s^x omega_s`; printed with a minus, energy is not conserved;
 //! - the lever arm of B_s (72) is rho_p, not rho_s; P2 acts at (0, -rho_p, l_s), P3 at (0, +rho_p, l_s), both along -s3;
-//! - omega_e^se = C_es omega_s (section IX prints them as equal, which holds only while C_es = 1);
-//! - S (68) holds each body's own third column.
+//! - omega_e^se = C_es omega_s (section IX prints them as equal, which is true only while C_es = 1);
+//! - S (68) contains each body's own third column.
 //!
-//! The form: q (48) holds, for each of S, W1, W2, D, the position (p, g1, g2, g_d) and C_eb by columns; nu (24), per body,
+//! The states: q (48) contains, for each of S, W1, W2, D, the position (p, g1, g2, g_d) and C_eb by columns; nu (24), per body,
 //! [velocity in F_e, angular velocity in the body's frame]; nu-hat (14) = [v_p, omega_s, alpha-dot, beta-dot, v_gd, omega_d].
 //! nu = Pi nu-hat (58), q-dot = Gamma nu (9), and with M-hat = Pi^T M Pi (25)
 //! `M-hat nu-hat-dot = Pi^T (-M-dot nu - M Pi-dot nu-hat - Omega M nu + a_non + B u)` (39).
 //!
-//! - [`state`]: which component is what, and Sigma (59).
+//! - [`state`]: the layout of the components, and Sigma (59).
 //! - [`parameters`]: the constants of a scene.
 //! - [`kinematics`]: S, Gamma, Pi, Pi-dot, block by block.
 //! - [`mass_matrix`]: M-hat and its Cholesky solution.
 //! - [`forces`]: M-dot, Omega, a_non, B, body by body.
 //! - [`kernel`]: the right-hand side.
-//! - [`matrices`]: the same as whole matrices, as printed; slow, for proofs.
 //! - [`mod@residuals`]: the constraints (27)-(34). [`energy`]: kinetic energies (36). [`completion`]: to a table of physical states.
 //!
-//! Not here: the fast reduced form (gyrostat), and any integration.
+//! That this block form equals the report's matrices as printed is a test (`tests/accuracy/null_space.rs`).
+//!
+//! Not here: the fast reduced form ([`super::gyrostat`]), and integration.
 
 pub mod completion;
 pub mod energy;
@@ -30,14 +31,13 @@ pub mod forces;
 pub mod kernel;
 pub mod kinematics;
 pub mod mass_matrix;
-pub mod matrices;
 pub mod parameters;
 pub mod residuals;
 pub mod state;
 
 pub use completion::{complete, observed_state};
 pub use energy::kinetic_energies;
-pub use kernel::{Kernel, SignOfANon};
+pub use kernel::Kernel;
 pub use parameters::Parameters;
 pub use residuals::residuals;
 pub use state::{COMPONENTS, STATES, State, sigma};

@@ -1,11 +1,11 @@
-//! The constants of a scene that the reference kernel computes with.
+//! The constants of a scene in the null-space formulation.
 
 use crate::scene::Scene;
 use crate::scene::WheelMode;
 use crate::scene::mass::{Body, Wheel};
 
-/// The constants of a scene. Bodies that are absent stay in the equations, decoupled: a missing wheel has mass and inertia
-/// zero and a unit on its diagonal of M-hat, missing debris is a body of unit mass and inertia at rest.
+/// The constants of a scene. Absent bodies remain in the equations, decoupled: a missing wheel has zero mass and inertia and a
+/// unit on its diagonal of M-hat, missing debris is a body of unit mass and inertia at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameters {
     /// Mass m_s of the fuselage, kg.
@@ -24,9 +24,9 @@ pub struct Parameters {
     pub debris_mass: f64,
     /// Inertia of the debris about its centre, in F_d, kg m^2, by rows.
     pub debris_inertia: [[f64; 3]; 3],
-    /// Points where P1, P2, P3 push, from p in F_s, m: p, (0, -rho_p, l_s), (0, +rho_p, l_s).
+    /// Points of application of P1, P2, P3, from p in F_s, m: p, (0, -rho_p, l_s), (0, +rho_p, l_s).
     pub thruster_points: [[f64; 3]; 3],
-    /// Directions in which they push, unit vectors in F_s.
+    /// Directions of the thrusts, unit vectors in F_s.
     pub thruster_directions: [[f64; 3]; 3],
     /// Centre of mass c of the spacecraft from p in F_s, m.
     pub center: [f64; 3],
@@ -35,7 +35,7 @@ pub struct Parameters {
 /// The constants of a wheel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WheelParameters {
-    /// Mass, kg; zero where missing.
+    /// Mass, kg; zero if missing.
     pub mass: f64,
     /// Centre z from p in F_s, m.
     pub center: [f64; 3],
@@ -43,10 +43,10 @@ pub struct WheelParameters {
     pub axis: [f64; 3],
     /// Inertia about the centre in the wheel's frame, kg m^2, by rows.
     pub inertia: [[f64; 3]; 3],
-    /// One where the wheel's rate is a speed of its own in M-hat; zero where its motor holds it, and its row says that the rate
-    /// does not change.
+    /// One if the wheel's rate is an unknown of M-hat; zero if its motor keeps it constant, and its row says that the rate does
+    /// not change.
     pub free: f64,
-    /// What stands on M-hat's diagonal beside a^T J a: zero, or one where the wheel is missing or its speed held.
+    /// Added to a^T J a on the diagonal of M-hat: zero, or one if the wheel is missing or of constant speed.
     pub idle: f64,
 }
 

@@ -1,6 +1,6 @@
-//! Residuals of the constraints (27)-(34), in three kinds: what the integration lets slip, each as one largest absolute value.
+//! Residuals of the constraints (27)-(34) in three kinds, each as one maximum magnitude: the drift of the integration.
 //!
-//! The null space fulfils the constraints on the speeds by construction; the coordinates, being integrated, drift from them.
+//! The null space satisfies the constraints on the speeds by construction; the integrated coordinates drift from them.
 
 use super::kinematics::WheelMotion;
 use super::parameters::Parameters;
@@ -8,11 +8,11 @@ use super::state::{Columns, State, rotated, rotated_back};
 use crate::math::vector::{cross, difference, dot, scaled, sum};
 use crate::scene::Scene;
 
-/// The largest residual of each kind in `state`: [kinematic, collocation, attitude]. Bodies that the scene lacks do not count.
+/// The largest residual of each kind in `state`: [kinematic, collocation, attitude]. Bodies that the scene does not have do not count.
 ///
 /// - kinematic (m/s and rad/s): Xi nu, with nu = Pi nu-hat: the wheel's centre moves as a point of the fuselage,
 ///   and the wheel turns against the fuselage about its axis only (both seen in F_s through the integrated DCMs);
-/// - collocation (m, and sines of angles): the wheel's centre sits at z_i, its axis along the fuselage's a_i;
+/// - collocation (m, and sines of angles): the wheel's centre is at z_i, its axis along the fuselage's a_i;
 /// - attitude: entries of C^T C - 1 of all DCMs.
 #[inline(always)]
 pub fn residuals(scene: &Scene, parameters: &Parameters, state: &State) -> [f64; 3] {

@@ -1,4 +1,4 @@
-//! Which component of the state is what, and Sigma (59), which builds it from what can be measured.
+//! The layout of the state, and Sigma (59), which makes it from the measurable state.
 
 use crate::math::vector::{dcm_from_quaternion, product, sum, transposed_product};
 use crate::scene::Scene;
@@ -12,7 +12,7 @@ pub const COORDINATES: usize = 48;
 pub const SPEEDS: usize = 14;
 /// States x = [q; nu-hat] (41).
 pub const STATES: usize = COORDINATES + SPEEDS;
-/// Integrals that ride along: thruster work, motor work, impulse (3), angular impulse (3), alpha, beta.
+/// Quadrature states: thruster work, motor work, impulse (3), angular impulse (3), alpha, beta.
 pub const INTEGRALS: usize = 10;
 /// Everything that is integrated.
 pub const COMPONENTS: usize = STATES + INTEGRALS;
@@ -22,7 +22,7 @@ pub const BODIES: usize = 4;
 /// Coordinates per body: position and DCM.
 pub const PER_BODY: usize = 12;
 
-/// The state, taken apart. Frames and units as in [`crate::scene::InitialState`].
+/// The state by its parts. Frames and units as in [`crate::scene::InitialState`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State {
     /// Positions of p, g1, g2, g_d in F_e, m.
@@ -45,7 +45,7 @@ pub struct State {
     pub impulse: [f64; 3],
     /// Angular impulse about c in F_e, N m s.
     pub angular_impulse: [f64; 3],
-    /// alpha, beta, unbounded, rad: the wheels' DCMs only know them up to whole turns.
+    /// alpha, beta, not wrapped, rad: the wheels' DCMs determine them only up to whole turns.
     pub wheel_angles: [f64; 2],
 }
 
@@ -55,7 +55,7 @@ fn three(x: &[f64; COMPONENTS], start: usize) -> [f64; 3] {
 }
 
 impl State {
-    /// Takes the components apart.
+    /// From the vector of components.
     #[inline(always)]
     pub fn from_components(x: &[f64; COMPONENTS]) -> Self {
         let column = |body: usize, j: usize| three(x, PER_BODY * body + 3 + 3 * j);
@@ -75,7 +75,7 @@ impl State {
         }
     }
 
-    /// Puts the components together; also of a derivative, which has the same layout.
+    /// The vector of components; also of a derivative, which has the same layout.
     #[inline(always)]
     pub fn components(&self) -> [f64; COMPONENTS] {
         let mut x = [0.0; COMPONENTS];

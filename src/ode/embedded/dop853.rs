@@ -1,15 +1,15 @@
-//! Dormand-Prince 8(5,3) as DOP853 has it.
+//! Dormand-Prince 8(5,3) as in DOP853.
 
+use super::super::error_model::StepErrors;
 use super::super::explicit::{Carried, Step, each, fill_stages, poison, scaled, weighted};
 use super::super::step_control::Controller;
+use super::super::system::{System, Tolerance};
 use super::super::tableau::Dop853Tableau;
-use super::super::{System, Tolerance};
-use super::{Attempt, Embedded};
+use super::pair::{Embedded, PairAttempt};
 use crate::math::Real;
 use crate::math::power::power;
-use crate::propagation::local_error::StepErrors;
 
-/// Dormand-Prince 8(5,3), as DOP853 has it.
+/// Dormand-Prince 8(5,3) as in DOP853.
 #[derive(Clone, Copy, Debug)]
 pub struct Dop853;
 
@@ -30,12 +30,12 @@ impl Embedded for Dop853 {
         landing: 1.01,
         longest: 1.0,
     };
-    // The twelfth is the derivative at the end, taken for rejected steps too: lanes do not wait for each other's verdict.
+    // The twelfth is the derivative at the end, evaluated for rejected steps too: lanes do not wait for each other's acceptance.
     const EVALUATIONS: f64 = 12.0;
     const START_EVALUATIONS: f64 = 2.0;
     const DENSE_EVALUATIONS: f64 = 3.0;
     const POINT_EVALUATIONS: f64 = 0.0;
-    const ERRORS: StepErrors = StepErrors { factor: 1.0, extrapolation: 0.125, dense: 6.0, feeds_back: false };
+    const ERRORS: StepErrors = StepErrors { factor: 1.0, extrapolation: 0.125, dense: 6.0 };
 
     type Stages<R: Real, const N: usize> = Dop853Stages<R, N>;
 
@@ -64,13 +64,8 @@ impl Embedded for Dop853 {
     ) -> R {
         let size = system.error_ratio(state, state, state, tolerance);
         let rate = system.error_ratio(slope, state, state, tolerance);
-        let tiny = R::select(
-            rate.lt(longest.splat(1e-5)),
-            longest.splat(1.0),
-            R::select(size.lt(longest.splat(1e-5)), longest.splat(1.0), longest.splat(0.0)),
-        );
-        let guess = R::select(longest.splat(0.5).lt(tiny), longest.splat(1e-6), longest.splat(0.01) * (size / rate))
-            .smaller(longest);
+        let tiny = rate.lt(longest.splat(1e-5)) | size.lt(longest.splat(1e-5));
+        let guess = R::select(tiny, longest.splat(1e-6), longest.splat(0.01) * (size / rate)).smaller(longest);
         let euler = each(
             guess,
             #[inline(always)]
@@ -98,7 +93,7 @@ impl Embedded for Dop853 {
         start: &Carried<R, N>,
         tolerance: Tolerance,
         stages: &mut Dop853Stages<R, N>,
-    ) -> Attempt<R, N> {
+    ) -> PairAttempt<R, N> {
         let k = &mut stages.k;
         let end = fill_stages::<Dop853Tableau, R, Q, N, 16>(system, step, start, k, (1, 13, 12));
         let fifth = scaled(step.length, &weighted(k, &Dop853Tableau::E5));
@@ -108,7 +103,7 @@ impl Embedded for Dop853 {
         let sum = e5.mul_add(e5, e5.splat(0.01) * (e3 * e3));
         let ratio = R::select(e5.zero().lt(sum), e5 * (e5 / sum.sqrt()), e5);
         let poison = poison(&fifth, poison(&k[12], poison(&end.state, ratio.zero() * (e5 + e3))));
-        Attempt { end, ratio, poison }
+        PairAttempt { end, ratio, poison }
     }
 
     #[inline(always)]
@@ -166,7 +161,7 @@ mod tests {
     /// As in [`super::super::tableau`], with interpolation weights up to 500.
     const ROUND_OFF: f64 = 3e-12;
 
-    /// A right-hand side of no consequence: the stages are set by hand.
+    /// A right-hand side that is not used: the stages are set by hand.
     struct Still;
     impl<const N: usize> System<f64, N> for Still {
         fn derivative(&self, _time: f64, _state: &[f64; N]) -> [f64; N] {

@@ -1,18 +1,18 @@
-//! Dormand-Prince 5(4) as ode45 has it, and a twin that steps anew to points inside a step.
+//! Dormand-Prince 5(4) as in ode45, and a variant that reaches points inside a step by a shorter step.
 
+use super::super::error_model::StepErrors;
 use super::super::explicit::{Carried, Step, each, fill_stages, poison, scaled, weighted};
 use super::super::step_control::Controller;
+use super::super::system::{System, Tolerance};
 use super::super::tableau::{DormandPrinceTableau, Tableau};
-use super::super::{System, Tolerance};
-use super::{Attempt, Embedded};
+use super::pair::{Embedded, PairAttempt};
 use crate::math::Real;
 use crate::math::power::power;
-use crate::propagation::local_error::StepErrors;
 
-/// The relative tolerance below which the choice of the first step does not follow (ode45's limit, 100 eps).
+/// The first step is chosen for this relative tolerance if the given one is smaller (ode45's limit, 100 eps).
 const FINEST: f64 = 100.0 * f64::EPSILON;
 
-/// Dormand-Prince 5(4), as ode45 has it.
+/// Dormand-Prince 5(4) as in ode45.
 #[derive(Clone, Copy, Debug)]
 pub struct DormandPrince;
 
@@ -31,7 +31,7 @@ impl Embedded for DormandPrince {
     const START_EVALUATIONS: f64 = 1.0;
     const DENSE_EVALUATIONS: f64 = 0.0;
     const POINT_EVALUATIONS: f64 = 0.0;
-    const ERRORS: StepErrors = StepErrors { factor: 1.0, extrapolation: 0.2, dense: 1.0, feeds_back: false };
+    const ERRORS: StepErrors = StepErrors { factor: 1.0, extrapolation: 0.2, dense: 1.0 };
 
     type Stages<R: Real, const N: usize> = [[R; N]; 7];
 
@@ -48,7 +48,7 @@ impl Embedded for DormandPrince {
         &stages[6]
     }
 
-    /// ode45: the whole longest step, or 1/rh with rh = |f0 / max(|y|, atol/rtol)| / (0.8 rtol^(1/5)) where that is shorter.
+    /// ode45: the longest step, or 1/rh with rh = |f0 / max(|y|, atol/rtol)| / (0.8 rtol^(1/5)) if that is shorter.
     #[inline(always)]
     fn first_step<R: Real, Q: System<R, N>, const N: usize>(
         system: &Q,
@@ -72,12 +72,12 @@ impl Embedded for DormandPrince {
         start: &Carried<R, N>,
         tolerance: Tolerance,
         stages: &mut [[R; N]; 7],
-    ) -> Attempt<R, N> {
+    ) -> PairAttempt<R, N> {
         let end = fill_stages::<DormandPrinceTableau, R, Q, N, 7>(system, step, start, stages, (1, 7, 6));
         let error = scaled(step.length, &weighted(stages, &DormandPrinceTableau::E));
         let ratio = system.error_ratio(&error, &start.state, &end.state, tolerance);
         let poison = poison(&error, poison(&end.state, ratio.zero() * ratio));
-        Attempt { end, ratio, poison }
+        PairAttempt { end, ratio, poison }
     }
 
     #[inline(always)]
@@ -123,11 +123,10 @@ impl Embedded for DormandPrince {
     }
 }
 
-/// Dormand-Prince 5(4) that reaches a point inside a step by a shorter step of its own from the same start.
+/// Dormand-Prince 5(4) that reaches a point inside a step by a shorter step from the same start.
 ///
-/// The steps are those of [`DormandPrince`], and so of ode45. Its free interpolant (ntrp45) is of order 4, with an error of the
-/// size of the tolerance; a shorter step keeps order 5 at the point. Five evaluations a point, which is little for the kernel
-/// it is for.
+/// The steps are those of [`DormandPrince`], and so of ode45, whose interpolant (ntrp45) is of order 4, with an error of the
+/// size of the tolerance; a shorter step has order 5 at the point. It costs five evaluations per point.
 #[derive(Clone, Copy, Debug)]
 pub struct DormandPrinceRestepped;
 
@@ -137,7 +136,7 @@ impl Embedded for DormandPrinceRestepped {
     const START_EVALUATIONS: f64 = DormandPrince::START_EVALUATIONS;
     const DENSE_EVALUATIONS: f64 = 0.0;
     const POINT_EVALUATIONS: f64 = 5.0;
-    const ERRORS: StepErrors = StepErrors { factor: 0.5, dense: 0.0, feeds_back: true, ..DormandPrince::ERRORS };
+    const ERRORS: StepErrors = StepErrors { factor: 0.5, dense: 0.0, ..DormandPrince::ERRORS };
 
     type Stages<R: Real, const N: usize> = [[R; N]; 7];
 
@@ -171,7 +170,7 @@ impl Embedded for DormandPrinceRestepped {
         start: &Carried<R, N>,
         tolerance: Tolerance,
         stages: &mut [[R; N]; 7],
-    ) -> Attempt<R, N> {
+    ) -> PairAttempt<R, N> {
         DormandPrince::attempt(system, step, start, tolerance, stages)
     }
     #[inline(always)]
@@ -208,7 +207,7 @@ mod tests {
     /// As in [`super::super::tableau`], with interpolation weights up to 500.
     const ROUND_OFF: f64 = 3e-12;
 
-    /// A right-hand side of no consequence: the stages are set by hand.
+    /// A right-hand side that is not used: the stages are set by hand.
     struct Still;
     impl<const N: usize> System<f64, N> for Still {
         fn derivative(&self, _time: f64, _state: &[f64; N]) -> [f64; N] {

@@ -3,7 +3,7 @@
 //! Hairer, Norsett & Wanner 1993, *Solving Ordinary Differential Equations I*, 2nd ed., sections II.5, II.6 and II.10, in the
 //! digits of their code DOP853 (dop853.f, 2009 release). Every digit is checked by the order conditions in [`super`].
 
-use super::Tableau;
+use super::butcher::Tableau;
 
 /// The tableau; see the module.
 ///

@@ -1,9 +1,9 @@
 //! Dormand-Prince 5(4): seven stages of which the last is the first of the next step, order 5, with dense output of order 4.
 //!
 //! Dormand & Prince 1980, *A family of embedded Runge-Kutta formulae*, RK5(4)7M; dense output: Shampine 1986, *Some
-//! practical Runge-Kutta formulas*, as ode45 has it (Shampine & Reichelt 1997, `ntrp45`).
+//! practical Runge-Kutta formulas*, as in ode45 (Shampine & Reichelt 1997, `ntrp45`).
 
-use super::Tableau;
+use super::butcher::Tableau;
 
 /// The tableau; see the module.
 #[derive(Clone, Copy, Debug)]
@@ -24,7 +24,7 @@ impl Tableau<7> for DormandPrinceTableau {
 }
 
 impl DormandPrinceTableau {
-    /// Weights of the error: the solution of order 5 less the embedded one of order 4.
+    /// Weights of the error: the solution of order 5 minus the embedded one of order 4.
     pub const E: [f64; 7] =
         [71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339200.0, 22.0 / 525.0, -1.0 / 40.0];
 

@@ -1,8 +1,8 @@
 //! Gauss-Legendre collocation with three stages, order 6: Butcher 1964, *Implicit Runge-Kutta processes*; Kuntzmann 1961.
 //!
-//! Symmetric, symplectic, and it keeps every quadratic invariant (Cooper 1987).
+//! Symmetric, symplectic, and with exact conservation of every quadratic invariant (Cooper 1987).
 
-use super::Tableau;
+use super::butcher::Tableau;
 
 /// sqrt(15), correctly rounded.
 const ROOT_15: f64 = 3.872983346207417;

@@ -1,30 +1,22 @@
 //! Constant tableaus of Runge-Kutta methods, and the proof of their orders.
 //!
-//! Only numbers and their sources; how a step is taken from them stands in [`super::explicit`] and
-//! [`super::gauss_legendre`]. The tests here hold every tableau against all order conditions of its order, one for each
-//! rooted tree (Butcher 1963; Hairer, Norsett & Wanner 1993, theorem II.2.13), so that no digit stands on trust.
+//! Only numbers and their sources; steps are in [`super::explicit`] and in the methods' own files. The tests check every tableau
+//! against all conditions of its order, one for each rooted tree (Butcher 1963; Hairer, Norsett & Wanner 1993, theorem
+//! II.2.13): an error in any digit fails.
 
-pub mod dop853;
-pub mod dormand_prince;
-pub mod gauss_legendre;
-pub mod runge_kutta_4;
+mod butcher;
+mod dop853;
+mod dormand_prince;
+mod gauss_legendre;
+mod runge_kutta_4;
 #[cfg(test)]
 pub(super) mod trees;
 
+pub use butcher::Tableau;
 pub use dop853::Dop853Tableau;
 pub use dormand_prince::DormandPrinceTableau;
 pub use gauss_legendre::GaussLegendreTableau;
 pub use runge_kutta_4::RungeKutta4Tableau;
-
-/// A Runge-Kutta method of `S` stages: k_i = f(t + C_i h, y + h sum_j A_ij k_j), y' = y + h sum_i B_i k_i.
-pub trait Tableau<const S: usize> {
-    /// Nodes, as fractions of the step.
-    const C: [f64; S];
-    /// Weights of the stages in each stage; strictly lower triangular where the method is explicit.
-    const A: [[f64; S]; S];
-    /// Weights of the stages in the step.
-    const B: [f64; S];
-}
 
 #[cfg(test)]
 mod tests {
@@ -40,7 +32,7 @@ mod tests {
         }
         let defect = largest_defect(&T::A, &T::B, 1.0, order);
         assert!(defect < ROUND_OFF, "order {order}: {defect:e}");
-        // The counter-test: the next order is not reached, and a slip in a digit is seen.
+        // Counter-test: the next order is not reached, and an error in a digit is detected.
         assert!(largest_defect(&T::A, &T::B, 1.0, order + 1) > 1e-6);
         let mut slip = T::B;
         slip[0] += 1e-10;
@@ -75,7 +67,7 @@ mod tests {
     }
 
     #[test]
-    fn first_same_as_last() {
+    fn the_last_stage_is_the_first_of_the_next_step() {
         assert_eq!(DormandPrinceTableau::A[6], DormandPrinceTableau::B);
         assert_eq!(Dop853Tableau::A[12], Dop853Tableau::B);
     }

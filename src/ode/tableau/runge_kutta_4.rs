@@ -1,6 +1,6 @@
 //! The classical method of order 4: Kutta 1901, *Beitrag zur naherungsweisen Integration totaler Differentialgleichungen*.
 
-use super::Tableau;
+use super::butcher::Tableau;
 
 /// The tableau; see the module.
 #[derive(Clone, Copy, Debug)]

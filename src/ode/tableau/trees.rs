@@ -1,6 +1,6 @@
-//! Rooted trees and the order conditions that they stand for (Hairer, Norsett & Wanner 1993, section II.2).
+//! Rooted trees and the order condition of each (Hairer, Norsett & Wanner 1993, section II.2).
 
-/// A rooted tree by what hangs on its root.
+/// A rooted tree: the branches of its root.
 #[derive(Clone)]
 struct Tree(Vec<Tree>);
 
@@ -28,11 +28,11 @@ impl Tree {
     }
 }
 
-/// All trees of each order up to `order`: element n holds those with n nodes.
+/// All trees of each order up to `order`: element n contains those with n nodes.
 fn trees(order: usize) -> Vec<Vec<Tree>> {
     let mut all: Vec<Vec<Tree>> = vec![Vec::new()];
     for nodes in 1..=order {
-        // Multisets of branches of nodes - 1 nodes in all: branches in the order of (size, index), never falling.
+        // Multisets of branches of nodes - 1 nodes in all: branches in the order of (size, index), never decreasing.
         let mut of_order = Vec::new();
         let mut open = vec![(Vec::new(), nodes - 1, (1, 0))];
         while let Some((branches, left, (size, index))) = open.pop() {

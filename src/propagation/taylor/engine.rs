@@ -8,9 +8,10 @@ use crate::dynamics::actuation::Laws;
 use crate::dynamics::gyrostat::WITH_ATTITUDE;
 use crate::math::Real;
 use crate::propagation::arc_source::ArcSource;
+use crate::propagation::engine::{CompletionCallback, Engine};
 use crate::propagation::gyrostat_batch::GyrostatBatch;
 use crate::propagation::method::Method;
-use crate::propagation::settings::{CompletionCallback, Engine, PropagationSettings};
+use crate::propagation::settings::PropagationSettings;
 use crate::scene::Scene;
 
 /// One worker's memory: `N` components, of which the first `J` have series of their own.

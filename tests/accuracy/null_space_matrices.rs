@@ -1,13 +1,16 @@
-//! The report's matrices whole, as printed (and corrected): Gamma, Pi, Pi-dot, M, M-dot, Omega, a_non, B.
+//! The report's matrices whole, as printed (and corrected): Gamma, Pi, Pi-dot, M, M-dot, Omega, a_non, B; and its equations of
+//! motion with the sign that it prints.
 //!
-//! Dense and slow: for proofs that the block form of [`super::kernel`] is the report's form, and for reading it. Rows of nu
-//! are, per body, [velocity in F_e, angular velocity in the body's frame]; of nu-hat [v_p, omega_s, alpha-dot, beta-dot, v_gd,
-//! omega_d].
+//! Dense and slow: the proof that the block form of `dynamics::null_space` is the report's form. Rows of nu are, per body,
+//! [velocity in F_e, angular velocity in the body's frame]; of nu-hat [v_p, omega_s, alpha-dot, beta-dot, v_gd, omega_d].
 
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
-use super::parameters::Parameters;
-use super::state::{BODIES, COORDINATES, PER_BODY, SPEEDS, State};
+use spindrift::dynamics::null_space::state::{BODIES, COORDINATES, PER_BODY, SPEEDS};
+use spindrift::dynamics::null_space::{COMPONENTS, Parameters, State};
+use spindrift::ode::{Runs, System, Tolerance};
+use spindrift::propagation::NullSpaceRuns;
+use spindrift::scene::Scene;
 
 /// Speeds nu before reduction.
 pub const FULL_SPEEDS: usize = 24;
@@ -150,7 +153,7 @@ pub fn actuation(parameters: &Parameters, state: &State) -> SMatrix<f64, FULL_SP
 }
 
 /// M-hat = Pi^T M Pi (25), with a unit on the diagonal for a missing wheel, and the rows and columns of the unit matrix for a
-/// wheel whose speed is held.
+/// wheel of constant speed.
 pub fn reduced_mass(parameters: &Parameters, state: &State) -> SMatrix<f64, SPEEDS, SPEEDS> {
     let pi = pi(parameters, state);
     let mut m = pi.transpose() * mass(parameters, state) * pi;
@@ -176,4 +179,75 @@ pub fn reduced_force(parameters: &Parameters, state: &State, inputs: [f64; 5], s
         force[6 + w] *= wheel.free;
     }
     force
+}
+
+/// The derivative `rate` of `state` as it is with a-hat_non,s of the opposite sign, as printed at the end of section XVIII.
+pub fn with_printed_sign(parameters: &Parameters, state: &State, rate: &State) -> State {
+    let change = a_non(parameters, state, -1.0) - a_non(parameters, state, 1.0);
+    let force = pi(parameters, state).transpose() * change;
+    let speeds = reduced_mass(parameters, state).cholesky().expect("M-hat is positive definite").solve(&force);
+    let mut components = rate.components();
+    for (component, change) in components[COORDINATES..COORDINATES + SPEEDS].iter_mut().zip(speeds.iter()) {
+        *component += change;
+    }
+    State::from_components(&components)
+}
+
+/// A-hat_non,s with its correct sign, or as printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SignOfANon {
+    Corrected,
+    Printed,
+}
+
+/// The runs of [`NullSpaceRuns`] with either sign.
+pub struct SignedRuns<'a> {
+    runs: NullSpaceRuns<'a>,
+    parameters: Parameters,
+    sign: SignOfANon,
+}
+
+impl<'a> SignedRuns<'a> {
+    /// The run of one scene from zero to `duration`, s.
+    pub fn new(scene: &'a Scene, duration: f64, sign: SignOfANon) -> Self {
+        let runs = NullSpaceRuns::new(std::slice::from_ref(scene), duration);
+        SignedRuns { runs, parameters: Parameters::of(scene), sign }
+    }
+}
+
+impl System<f64, COMPONENTS> for SignedRuns<'_> {
+    #[inline(always)]
+    fn derivative(&self, time: f64, x: &[f64; COMPONENTS]) -> [f64; COMPONENTS] {
+        let rate = self.runs.derivative(time, x);
+        match self.sign {
+            SignOfANon::Corrected => rate,
+            SignOfANon::Printed => {
+                let (state, rate) = (State::from_components(x), State::from_components(&rate));
+                with_printed_sign(&self.parameters, &state, &rate).components()
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn error_ratio(
+        &self,
+        error: &[f64; COMPONENTS],
+        old: &[f64; COMPONENTS],
+        new: &[f64; COMPONENTS],
+        tolerance: Tolerance,
+    ) -> f64 {
+        self.runs.error_ratio(error, old, new, tolerance)
+    }
+}
+
+impl Runs<f64, COMPONENTS> for SignedRuns<'_> {
+    fn count(&self) -> usize {
+        1
+    }
+    fn load(&mut self, lane: usize, run: usize) -> [f64; COMPONENTS] {
+        self.runs.load(lane, run)
+    }
+    fn next_arc(&mut self, lane: usize, time: f64, state: &[f64; COMPONENTS]) -> Option<f64> {
+        self.runs.next_arc(lane, time, state)
+    }
 }

@@ -1,0 +1,82 @@
+//! [`Embedded`]: an explicit method with an error estimate and dense output.
+
+use super::super::error_model::StepErrors;
+use super::super::explicit::{Carried, Step};
+use super::super::step_control::Controller;
+use super::super::system::{System, Tolerance};
+use crate::math::Real;
+
+/// An attempted step.
+pub struct PairAttempt<R, const N: usize> {
+    /// The state at its end.
+    pub end: Carried<R, N>,
+    /// The norm of its error in units of the tolerance.
+    pub ratio: R,
+    /// Zero if everything in it is finite, else not a number.
+    pub poison: R,
+}
+
+/// An explicit method with an error estimate and dense output, whose last stage is the first of the next step.
+pub trait Embedded: Copy {
+    /// Its step-size controller.
+    const CONTROLLER: Controller;
+    /// Evaluations of the right-hand side per attempted step.
+    const EVALUATIONS: f64;
+    /// Evaluations at the start of an arc.
+    const START_EVALUATIONS: f64;
+    /// Further evaluations in a step with an observation point inside it.
+    const DENSE_EVALUATIONS: f64;
+    /// Further evaluations for each such point.
+    const POINT_EVALUATIONS: f64;
+    /// How its errors follow from its estimates.
+    const ERRORS: StepErrors;
+
+    /// Stages and what dense output needs.
+    type Stages<R: Real, const N: usize>;
+
+    /// Memory for the stages.
+    fn stages<R: Real, const N: usize>(zero: R) -> Self::Stages<R, N>;
+
+    /// The derivative at the start of the step.
+    fn first<R: Real, const N: usize>(stages: &mut Self::Stages<R, N>) -> &mut [R; N];
+
+    /// The derivative at the end of the step.
+    fn last<R: Real, const N: usize>(stages: &Self::Stages<R, N>) -> &[R; N];
+
+    /// The length of the first step of an arc, s, from the derivative `slope` at its start.
+    fn first_step<R: Real, Q: System<R, N>, const N: usize>(
+        system: &Q,
+        time: R,
+        state: &[R; N],
+        slope: &[R; N],
+        longest: R,
+        tolerance: Tolerance,
+    ) -> R;
+
+    /// Attempts a step.
+    fn attempt<R: Real, Q: System<R, N>, const N: usize>(
+        system: &Q,
+        step: Step<R>,
+        start: &Carried<R, N>,
+        tolerance: Tolerance,
+        stages: &mut Self::Stages<R, N>,
+    ) -> PairAttempt<R, N>;
+
+    /// Prepares [`Embedded::inside`] for the step that was attempted last.
+    fn prepare_inside<R: Real, Q: System<R, N>, const N: usize>(
+        system: &Q,
+        step: Step<R>,
+        start: &Carried<R, N>,
+        end: &[R; N],
+        stages: &mut Self::Stages<R, N>,
+    );
+
+    /// The state at the fraction `s` of the step that was attempted last.
+    fn inside<R: Real, Q: System<R, N>, const N: usize>(
+        system: &Q,
+        step: Step<R>,
+        s: R,
+        start: &Carried<R, N>,
+        stages: &Self::Stages<R, N>,
+    ) -> [R; N];
+}

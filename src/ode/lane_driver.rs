@@ -1,0 +1,294 @@
+//! [`integrate`]: the driver of all methods. Runs in lanes, each with its own time, step, arc and error.
+//!
+//! A cycle of the driver: every lane *proposes* a step, *attempts* it, *records* the observation points inside it, and lanes
+//! whose run has ended *retire* it and load the next. How steps are proposed, attempted and accepted is the matter of a
+//! [`Stepper`]. All decisions are correctly rounded arithmetic on the lane's own numbers, so that lane i equals the scalar run
+//! bit for bit (`tests/determinism/lanes_runge_kutta.rs`). No allocation.
+
+use super::error_model::ErrorModel;
+use super::explicit::{Carried, Step, each};
+use super::lane_slot::{LaneSlots, LoadedRun};
+use super::runs::{Completion, Recorder, Runs, Termination};
+use super::step_control::Control;
+use super::system::System;
+use crate::math::{Mask, Real};
+
+/// A method together with its step control.
+pub trait Method: Copy {
+    /// What it knows about its errors.
+    const ERRORS: ErrorModel;
+
+    /// Its steps in lanes.
+    type Stepper<R: Real, const N: usize>: Stepper<R, N>;
+
+    /// A stepper for all lanes; `zero` determines the kind of number.
+    fn stepper<R: Real, const N: usize>(self, zero: R, control: &Control) -> Self::Stepper<R, N>;
+}
+
+/// The state of every lane, as far as it is common to all methods.
+pub struct LaneState<R, const N: usize> {
+    /// State at the current time.
+    pub now: Carried<R, N>,
+    /// Current time, s.
+    pub time: R,
+    /// End of the current arc, s.
+    pub arc_end: R,
+    /// Next observation time, s.
+    pub next: R,
+    /// Counts of the run: accepted and rejected steps, evaluations of the right-hand side.
+    pub accepted: R,
+    /// Rejected steps.
+    pub rejected: R,
+    /// Evaluations of the right-hand side.
+    pub evaluations: R,
+    /// Sum of the error estimates of the accepted steps, in units of the tolerance.
+    pub error_sum: R,
+}
+
+/// A step to be attempted.
+#[derive(Clone, Copy)]
+pub struct Proposal<R: Real> {
+    /// The step.
+    pub step: Step<R>,
+    /// Whether it ends at the end of the arc.
+    pub lands: R::Mask,
+}
+
+/// The result of an attempted step.
+pub struct Attempt<R: Real, const N: usize> {
+    /// The state at its end.
+    pub end: Carried<R, N>,
+    /// Whether it was accepted.
+    pub accepted: R::Mask,
+    /// Whether everything in it is finite.
+    pub sound: R::Mask,
+    /// Its error in units of the tolerance, zero if the method has no estimate.
+    pub error: R,
+}
+
+/// How a method chooses and takes steps: the memory of all lanes.
+pub trait Stepper<R: Real, const N: usize> {
+    /// A run starts in lane `lane`.
+    fn start_run(&mut self, lane: usize);
+
+    /// An arc from `start` to `end`, s, starts in lane `lane`.
+    fn start_arc(&mut self, lane: usize, start: f64, end: f64);
+
+    /// Lane `lane` has no run: it takes steps of zero length that never reach the end of an arc.
+    fn idle(&mut self, lane: usize);
+
+    /// The step that every lane takes next.
+    fn propose<Q: System<R, N>>(&mut self, system: &Q, lanes: &mut LaneState<R, N>) -> Proposal<R>;
+
+    /// Attempts the step.
+    fn attempt<Q: System<R, N>>(&mut self, system: &Q, step: Step<R>, lanes: &mut LaneState<R, N>) -> Attempt<R, N>;
+
+    /// Prepares [`Stepper::inside`] for the lanes `inside` of the step that was attempted.
+    fn prepare_inside<Q: System<R, N>>(
+        &mut self,
+        system: &Q,
+        step: Step<R>,
+        end: &[R; N],
+        inside: R::Mask,
+        lanes: &mut LaneState<R, N>,
+    );
+
+    /// The state at the end of `part`, the first part of the attempted step `step`; of use in the lanes `inside`.
+    fn inside<Q: System<R, N>>(
+        &mut self,
+        system: &Q,
+        step: Step<R>,
+        part: Step<R>,
+        inside: R::Mask,
+        lanes: &mut LaneState<R, N>,
+    ) -> [R; N];
+
+    /// Chooses the length of the next step; true in the lanes that cannot continue.
+    fn advance(&mut self, proposal: &Proposal<R>, attempt: &Attempt<R, N>) -> R::Mask;
+}
+
+impl<R: Real, const N: usize> LaneState<R, N> {
+    #[inline(always)]
+    fn new(zero: R) -> Self {
+        let state = [zero; N];
+        LaneState {
+            now: Carried { state, carry: state },
+            time: zero,
+            arc_end: zero.splat(f64::INFINITY),
+            next: zero.splat(f64::INFINITY),
+            accepted: zero,
+            rejected: zero,
+            evaluations: zero,
+            error_sum: zero,
+        }
+    }
+
+    /// The state in lane `lane`.
+    #[inline(always)]
+    fn state(&self, lane: usize) -> [f64; N] {
+        of_lane(&self.now.state, lane)
+    }
+
+    /// Starts `loaded`, observed next at `next`, in lane `lane`; without a run the lane becomes idle.
+    #[inline(always)]
+    fn start<P: Stepper<R, N>>(&mut self, lane: usize, loaded: Option<LoadedRun<N>>, next: f64, stepper: &mut P) {
+        self.time.set_lane(lane, 0.0);
+        self.accepted.set_lane(lane, 0.0);
+        self.evaluations.set_lane(lane, 0.0);
+        self.error_sum.set_lane(lane, 0.0);
+        let Some(run) = loaded else {
+            // an idle lane never reaches the maximum number of steps, an observation point or the end of an arc
+            self.rejected.set_lane(lane, f64::NEG_INFINITY);
+            self.arc_end.set_lane(lane, f64::INFINITY);
+            self.next.set_lane(lane, f64::INFINITY);
+            stepper.idle(lane);
+            return;
+        };
+        for n in 0..N {
+            self.now.state[n].set_lane(lane, run.state[n]);
+            self.now.carry[n].set_lane(lane, 0.0);
+        }
+        self.rejected.set_lane(lane, 0.0);
+        self.next.set_lane(lane, next);
+        self.arc_end.set_lane(lane, run.end);
+        stepper.start_run(lane);
+        stepper.start_arc(lane, 0.0, run.end);
+    }
+
+    /// How the run in lane `lane` ended.
+    #[inline(always)]
+    fn completion(&self, lane: usize, termination: Termination) -> Completion {
+        Completion {
+            termination,
+            time: self.time.lane(lane),
+            accepted: self.accepted.lane(lane) as u64,
+            rejected: self.rejected.lane(lane) as u64,
+            evaluations: self.evaluations.lane(lane) as u64,
+            error_sum: self.error_sum.lane(lane),
+        }
+    }
+}
+
+/// The numbers in lane `lane`.
+#[inline(always)]
+fn of_lane<R: Real, const N: usize>(state: &[R; N], lane: usize) -> [f64; N] {
+    each::<f64, N>(
+        0.0,
+        #[inline(always)]
+        |n| state[n].lane(lane),
+    )
+}
+
+/// Integrates all runs to the end of their last arcs.
+///
+/// `zero` determines the kind of number: a scalar or lanes. At every observation time the recorder gets the integrated
+/// components: at time zero the initial state itself, at the end of a step the step's own state, elsewhere dense output. A run
+/// whose state becomes non-finite, whose step becomes too short or that takes more than `control.max_steps` steps ends there.
+/// Call inside [`crate::math::Isa::run`].
+#[inline(always)]
+pub fn integrate<M, R, Q, O, const N: usize>(method: M, zero: R, runs: &mut Q, recorder: &mut O, control: &Control)
+where
+    M: Method,
+    R: Real,
+    Q: Runs<R, N>,
+    O: Recorder<Q, N>,
+{
+    let most = zero.splat(control.max_steps as f64);
+    let mut stepper = method.stepper::<R, N>(zero, control);
+    let mut lanes = LaneState::<R, N>::new(zero);
+    let mut slots = LaneSlots::new();
+    for lane in 0..R::LANES {
+        let loaded = slots.load_lane(lane, runs, recorder);
+        lanes.start(lane, loaded, recorder.next_time(lane), &mut stepper);
+    }
+    while slots.any_occupied() {
+        let proposal = stepper.propose(&*runs, &mut lanes);
+        let step = proposal.step;
+        let attempt = stepper.attempt(&*runs, step, &mut lanes);
+        lanes.accepted += zero.indicator(attempt.accepted);
+        lanes.rejected += zero.indicator(!attempt.accepted);
+        lanes.error_sum += R::select(attempt.accepted, attempt.error, zero);
+
+        // observation points up to the end of the step
+        let limit = R::select(attempt.accepted, step.end, zero.splat(f64::NEG_INFINITY));
+        if (!limit.lt(lanes.next)).any() {
+            record(&*runs, &mut stepper, &mut lanes, step, limit, &attempt.end.state, recorder);
+        }
+
+        let failed = stepper.advance(&proposal, &attempt);
+        lanes.time = R::select(attempt.accepted, step.end, lanes.time);
+        lanes.now = Carried::select(attempt.accepted, &attempt.end, &lanes.now);
+
+        let arrived = attempt.accepted & proposal.lands;
+        let spent = !(lanes.accepted + lanes.rejected).lt(most);
+        if (arrived | failed | spent).any() {
+            for lane in 0..R::LANES {
+                let Some(run) = slots.run(lane) else { continue };
+                let mut ended = None;
+                if arrived.test(lane) {
+                    let time = lanes.time.lane(lane);
+                    match runs.next_arc(lane, time, &lanes.state(lane)) {
+                        Some(end) => {
+                            lanes.arc_end.set_lane(lane, end);
+                            stepper.start_arc(lane, time, end);
+                        }
+                        None => ended = Some(Termination::Completed),
+                    }
+                } else if failed.test(lane) {
+                    let sound = attempt.sound.test(lane);
+                    ended = Some(if sound { Termination::StepFloor } else { Termination::NonFinite });
+                }
+                if ended.is_none() && spent.test(lane) {
+                    ended = Some(Termination::StepLimit);
+                }
+                if let Some(termination) = ended {
+                    recorder.finish(&*runs, lane, run, &lanes.completion(lane, termination));
+                    slots.clear(lane);
+                    let loaded = slots.load_lane(lane, runs, recorder);
+                    lanes.start(lane, loaded, recorder.next_time(lane), &mut stepper);
+                }
+            }
+        }
+    }
+}
+
+/// Records the observation points up to `limit` in all lanes together, one point of each at a time.
+#[inline(always)]
+fn record<R, Q, P, O, const N: usize>(
+    system: &Q,
+    stepper: &mut P,
+    lanes: &mut LaneState<R, N>,
+    step: Step<R>,
+    limit: R,
+    end: &[R; N],
+    recorder: &mut O,
+) where
+    R: Real,
+    Q: System<R, N>,
+    P: Stepper<R, N>,
+    O: Recorder<Q, N>,
+{
+    let inside = lanes.next.lt(limit);
+    if inside.any() {
+        stepper.prepare_inside(system, step, end, inside, lanes);
+    }
+    loop {
+        let inside = lanes.next.lt(limit);
+        let mut reached = *end;
+        if inside.any() {
+            let length = R::select(inside, lanes.next - step.time, step.time.zero());
+            let part = Step { time: step.time, end: step.time + length, length };
+            reached = stepper.inside(system, step, part, inside, lanes);
+        }
+        for lane in 0..R::LANES {
+            if lanes.next.lane(lane) <= limit.lane(lane) {
+                let state = if inside.test(lane) { &reached } else { end };
+                recorder.record(lane, &of_lane(state, lane));
+                lanes.next.set_lane(lane, recorder.next_time(lane));
+            }
+        }
+        if !(!limit.lt(lanes.next)).any() {
+            return;
+        }
+    }
+}

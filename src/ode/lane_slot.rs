@@ -1,0 +1,93 @@
+//! [`LaneSlots`]: which run is in which lane, and which run is next. No arithmetic of a method.
+
+use super::runs::{Completion, Recorder, Runs, Termination};
+use crate::math::Real;
+use crate::math::lanes::WIDEST;
+
+/// The lanes and the queue of runs.
+pub(super) struct LaneSlots {
+    /// The run in each lane.
+    lanes: [LaneSlot; WIDEST],
+    /// The next run of the queue.
+    next_run: usize,
+    /// Number of lanes that have a run.
+    occupied: usize,
+}
+
+/// The run in a lane, if there is one.
+type LaneSlot = Option<usize>;
+
+/// A run that has just been put into a lane.
+pub(super) struct LoadedRun<const N: usize> {
+    /// Its state at time zero.
+    pub state: [f64; N],
+    /// The end of its first arc, s.
+    pub end: f64,
+}
+
+impl LaneSlots {
+    /// Empty lanes; the queue starts with the first run.
+    pub(super) fn new() -> Self {
+        LaneSlots { lanes: [None; WIDEST], next_run: 0, occupied: 0 }
+    }
+
+    /// Whether any lane has a run.
+    #[inline(always)]
+    pub(super) fn any_occupied(&self) -> bool {
+        self.occupied > 0
+    }
+
+    /// The run in lane `lane`.
+    #[inline(always)]
+    pub(super) fn run(&self, lane: usize) -> LaneSlot {
+        self.lanes[lane]
+    }
+
+    /// Loads the next run of the queue into lane `lane` and records its initial state; `None` if the queue is empty.
+    ///
+    /// A run without arcs ends at once.
+    #[inline(always)]
+    pub(super) fn load_lane<R, Q, O, const N: usize>(
+        &mut self,
+        lane: usize,
+        runs: &mut Q,
+        recorder: &mut O,
+    ) -> Option<LoadedRun<N>>
+    where
+        R: Real,
+        Q: Runs<R, N>,
+        O: Recorder<Q, N>,
+    {
+        while self.next_run < runs.count() {
+            let run = self.next_run;
+            self.next_run += 1;
+            let state = runs.load(lane, run);
+            recorder.begin(lane, run);
+            while recorder.next_time(lane) <= 0.0 {
+                recorder.record(lane, &state);
+            }
+            if let Some(end) = runs.next_arc(lane, 0.0, &state) {
+                self.lanes[lane] = Some(run);
+                self.occupied += 1;
+                return Some(LoadedRun { state, end });
+            }
+            let nothing = Completion {
+                termination: Termination::Completed,
+                time: 0.0,
+                accepted: 0,
+                rejected: 0,
+                evaluations: 0,
+                error_sum: 0.0,
+            };
+            recorder.finish(runs, lane, run, &nothing);
+        }
+        None
+    }
+
+    /// Empties lane `lane`, whose run has ended.
+    #[inline(always)]
+    pub(super) fn clear(&mut self, lane: usize) {
+        self.lanes[lane] = None;
+        self.occupied -= 1;
+    }
+}

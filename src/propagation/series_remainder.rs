@@ -1,0 +1,72 @@
+//! [`Remainders`]: the errors of methods without an error estimate, from the Taylor series of the motion.
+
+use super::local_error::{rounding, rounding_of_turns};
+use super::taylor::jet::{Reciprocals, Scratch, expand};
+use crate::dynamics::gyrostat::equations::Constants;
+use crate::dynamics::gyrostat::{ATTITUDE, Gyrostat, OMEGA, WITH_ATTITUDE};
+use crate::math::vector::{scaled, sum};
+use crate::ode::Remainder;
+use crate::run::{Grid, LocalErrors, Outcome, Trajectory};
+
+/// Points of a run at which the series is expanded, at most.
+const EXPANSIONS: usize = 16;
+
+/// Components: rate and attitude.
+const N: usize = WITH_ATTITUDE;
+
+/// A [`Remainder`] with the memory to evaluate it.
+#[derive(Clone, Debug)]
+pub struct Remainders {
+    method: Remainder,
+    reciprocals: Reciprocals<f64>,
+    scratch: Box<Scratch<f64>>,
+    jet: Vec<[f64; N]>,
+}
+
+impl Remainders {
+    /// Memory for runs by a method.
+    pub fn new(method: Remainder) -> Self {
+        Remainders {
+            method,
+            reciprocals: Reciprocals::new(0.0, method.order + 1),
+            scratch: Box::new(Scratch::new(0.0)),
+            jet: vec![[0.0; N]; method.order + 2],
+        }
+    }
+
+    /// The sums for a run of equal steps, from the series at up to sixteen of its observation points.
+    pub fn sum(&mut self, run: &Gyrostat<f64>, states: &Trajectory, grid: &Grid, outcome: &Outcome) -> LocalErrors {
+        let (points, steps) = (outcome.points, outcome.effort.steps);
+        if points == 0 || steps == 0 {
+            return rounding(steps);
+        }
+        let step = outcome.time / steps as f64;
+        let stride = points.div_ceil(EXPANSIONS);
+        let (mut turning, mut changing, mut count, mut largest) = (0.0, 0.0, 0.0, 0.0_f64);
+        for point in (0..points).step_by(stride) {
+            self.expand(run, grid.times()[point], states.at::<N>(point));
+            let [state, .., next] = &self.jet[..] else { return rounding(steps) };
+            let size = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+            largest = largest.max(size(&state[OMEGA..OMEGA + 3]));
+            turning += 2.0 * size(&next[ATTITUDE..ATTITUDE + 4]);
+            changing += size(&next[OMEGA..OMEGA + 3]);
+            count += 1.0;
+        }
+        let term = libm::pow(step, self.method.order as f64 + 1.0);
+        let all = self.method.factor * term * steps as f64 / count;
+        let LocalErrors { rounding, attitude, .. } = rounding_of_turns(steps, largest * outcome.time);
+        let truncation = if largest > 0.0 { all * changing / largest } else { 0.0 };
+        LocalErrors { truncation, rounding, feedback: 0.0, attitude: attitude + all * turning }
+    }
+
+    /// The series of the motion through `state` at `time`, in seconds.
+    fn expand(&mut self, run: &Gyrostat<f64>, time: f64, state: [f64; N]) {
+        let arc = run.arc_index_at(time);
+        let mut constants = Constants::of(run, arc, 1.0);
+        let since = time - run.arcs[arc].arc.start;
+        constants.momentum = sum(constants.momentum, scaled(since, constants.momentum_rate));
+        self.jet[0] = state;
+        let order = self.method.order + 1;
+        expand::<f64, N, true>(&constants, &self.reciprocals, order, &mut self.scratch, &mut self.jet);
+    }
+}
