@@ -11,8 +11,8 @@ use super::settings::PropagationSettings;
 use super::trajectory_recorder::{LaneTrajectory, TrajectoryRecorder};
 use crate::dynamics::actuation::Laws;
 use crate::math::Real;
-use crate::ode::{ErrorModel, Method, integrate};
-use crate::run::{Outcome, Trajectory};
+use crate::ode::{Control, ErrorModel, Method, integrate};
+use crate::run::{Grid, Outcome, Trajectory};
 use crate::scene::Scene;
 
 /// One worker's memory.
@@ -49,30 +49,49 @@ impl<S: Simd, R: Real, M: Method, const N: usize> RungeKuttaEngine<S, R, M, N> {
         let Self { simd, zero, method, settings, batch, lanes, remainders } = self;
         settings.check_laws(&laws);
         let (grid, control) = (&settings.grid, &settings.control);
-        let (duration, tolerance) = (grid.duration(), control.tolerance.relative);
+        let duration = grid.duration();
+        let mut integrate = |runs: &mut GyrostatRuns<'_, R>, finish: &mut RunCallback<'_, R>| {
+            integrate_on::<S, R, M, N>((*simd, *zero, *method), runs, (grid, control), lanes, finish);
+        };
         if let Some((runs, trajectories)) = batch.load_debris(scenes) {
             // the debris is a gyrostat without wheels; only its attitude is needed, but one kernel for both compiles faster
-            let keep = |_: &GyrostatRuns<'_, R>, _, run: usize, trajectory: &Trajectory, _: &Outcome| {
-                trajectories[run].copy_from(trajectory);
-            };
-            let mut recorder = TrajectoryRecorder::new(grid, lanes, M::ERRORS, tolerance, keep);
             let mut runs = GyrostatRuns::new(*zero, runs, ArcSource::free(duration));
-            integrate::<_, _, _, _, N>(*method, *zero, &mut runs, &mut recorder, control);
+            integrate(&mut runs, &mut |_, index, trajectory, _| trajectories[index].copy_from(trajectory));
         }
         let arcs = ArcSource::new(scenes, laws.reborrow(), duration);
         let (runs, completion) = batch.load(scenes, &arcs);
-        let complete = |runs: &GyrostatRuns<'_, R>, _, index: usize, trajectory: &Trajectory, outcome: &Outcome| {
+        let mut runs = GyrostatRuns::new(*zero, runs, arcs);
+        integrate(&mut runs, &mut |runs, index, trajectory, outcome| {
             let run = runs.run(index);
             let mut outcome = *outcome;
             if let Some(remainders) = remainders {
                 outcome.local_errors = remainders.sum(run, trajectory, grid, &outcome);
             }
             completion.complete::<S, N>(*simd, scenes, index, run, trajectory, &outcome, finish);
-        };
-        let mut recorder = TrajectoryRecorder::new(grid, lanes, M::ERRORS, tolerance, complete);
-        let mut runs = GyrostatRuns::new(*zero, runs, arcs);
-        integrate::<_, _, _, _, N>(*method, *zero, &mut runs, &mut recorder, control);
+        });
     }
+}
+
+/// Receives a run that has ended: the runs, its index, its components at the observation points, its outcome.
+type RunCallback<'a, R> = dyn FnMut(&GyrostatRuns<'_, R>, usize, &Trajectory, &Outcome) + 'a;
+
+/// The integration, compiled for its instruction set. Not inlined: so it is compiled once for spacecraft and debris.
+#[inline(never)]
+fn integrate_on<S: Simd, R: Real, M: Method, const N: usize>(
+    (simd, zero, method): (S, R, M),
+    runs: &mut GyrostatRuns<'_, R>,
+    (grid, control): (&Grid, &Control),
+    lanes: &mut [LaneTrajectory],
+    finish: &mut RunCallback<'_, R>,
+) {
+    let finish = |runs: &GyrostatRuns<'_, R>, _, run: usize, trajectory: &Trajectory, outcome: &Outcome| {
+        finish(runs, run, trajectory, outcome);
+    };
+    let mut recorder = TrajectoryRecorder::new(grid, lanes, M::ERRORS, control.tolerance.relative, finish);
+    simd.vectorize(
+        #[inline(always)]
+        || integrate::<_, _, _, _, N>(method, zero, runs, &mut recorder, control),
+    );
 }
 
 impl<S: Simd, R: Real + Send, M: Method + Send, const N: usize> Engine for RungeKuttaEngine<S, R, M, N> {

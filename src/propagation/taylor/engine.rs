@@ -3,15 +3,17 @@
 use fearless_simd::Simd;
 
 use super::driver::integrate;
+use super::lanes::RunCallback;
 use super::workspace::{Settings, Workspace};
 use crate::dynamics::actuation::Laws;
-use crate::dynamics::gyrostat::WITH_ATTITUDE;
+use crate::dynamics::gyrostat::{Gyrostat, WITH_ATTITUDE};
 use crate::math::Real;
 use crate::propagation::arc_source::ArcSource;
 use crate::propagation::engine::{CompletionCallback, Engine};
 use crate::propagation::gyrostat_batch::GyrostatBatch;
 use crate::propagation::method::Method;
 use crate::propagation::settings::PropagationSettings;
+use crate::run::Grid;
 use crate::scene::Scene;
 
 /// One worker's memory: `N` components, of which the first `J` have series of their own.
@@ -48,7 +50,7 @@ impl<S: Simd, R: Real + Send + 'static, const N: usize, const J: usize, const FO
             let workspace = debris_workspace
                 .get_or_insert_with(|| Workspace::new(*zero, settings(plan), WITH_ATTITUDE, grid.points()));
             let arcs = ArcSource::free(grid.duration());
-            integrate::<S, R, WITH_ATTITUDE, WITH_ATTITUDE, false>(
+            integrate_on::<S, R, WITH_ATTITUDE, WITH_ATTITUDE, false>(
                 *simd,
                 *zero,
                 (runs, arcs),
@@ -59,7 +61,7 @@ impl<S: Simd, R: Real + Send + 'static, const N: usize, const J: usize, const FO
         }
         let arcs = ArcSource::new(scenes, laws.reborrow(), grid.duration());
         let (runs, completion) = batch.load(scenes, &arcs);
-        integrate::<S, R, N, J, FORCED>(
+        integrate_on::<S, R, N, J, FORCED>(
             *simd,
             *zero,
             (runs, arcs),
@@ -70,6 +72,23 @@ impl<S: Simd, R: Real + Send + 'static, const N: usize, const J: usize, const FO
             },
         );
     }
+}
+
+/// The integration, compiled for its instruction set. Not inlined: so the engines of all numbers of components share one kernel for
+/// the debris, which is that of spacecraft without actuators, and it is compiled once.
+#[inline(never)]
+fn integrate_on<'a, S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool>(
+    simd: S,
+    zero: R,
+    runs: (&'a mut [Gyrostat<f64>], ArcSource<'a>),
+    grid: &'a Grid,
+    workspace: &'a mut Workspace<R, J>,
+    finish: &mut RunCallback<'_>,
+) {
+    simd.vectorize(
+        #[inline(always)]
+        || integrate::<S, R, N, J, FORCED>(simd, zero, runs, grid, workspace, finish),
+    );
 }
 
 /// What `plan` asks of an integration.
