@@ -1,7 +1,7 @@
 //! [`Isa`]: which instruction set the kernels run on, chosen once per process.
 //!
-//! One portable binary holds the kernels three times (AVX-512, AVX2 with FMA, plain), and every path gives the same bits:
-//! all arithmetic is IEEE, fused where [`super::Real::mul_add`] says so and nowhere else.
+//! One portable binary contains the kernels three times (AVX-512, AVX2 with FMA, plain), and every path gives the same bits:
+//! all arithmetic is IEEE 754, fused in [`super::Real::mul_add`] and nowhere else.
 
 use std::sync::OnceLock;
 
@@ -32,8 +32,7 @@ pub trait Work {
 
 /// Work that is compiled for lanes on AVX2 and for one number at a time elsewhere; [`Isa::run_narrow`] calls the right one.
 ///
-/// For methods that need not be the fastest: every instruction set more costs minutes of compile time, and the bits are the
-/// same.
+/// For methods that need not be the fastest: every further instruction set costs compile time, and the bits are the same.
 pub trait NarrowWork {
     /// What the work returns.
     type Output;
@@ -45,11 +44,12 @@ pub trait NarrowWork {
 
 /// Work in as many lanes as the instruction set has registers for; [`Isa::run_wide`] calls it.
 ///
-/// AVX-512 has thirty-two registers of eight lanes and integrates sixteen runs; the others have sixteen of four or two and integrate eight.
+/// AVX-512 has thirty-two registers of eight lanes and takes sixteen lanes; the others have sixteen registers of four or two and
+/// take eight.
 pub trait WideWork {
     /// What the work returns.
     type Output;
-    /// Does the work; `zero` says in how many lanes.
+    /// Does the work; `zero` determines the number of lanes.
     fn run<S: Simd, R: Real + Send + 'static>(self, simd: S, zero: R) -> Self::Output;
 }
 
@@ -60,7 +60,7 @@ impl Isa {
         Self::named(level, "avx512").or_else(|| Self::named(level, "avx2")).unwrap_or_else(|| Self::plain(level))
     }
 
-    /// The path called `name` (`avx512`, `avx2`, `plain`), or `None` where this processor lacks it or the name is unknown.
+    /// The path called `name` (`avx512`, `avx2`, `plain`), or `None` if this processor does not have it or the name is unknown.
     pub fn from_name(name: &str) -> Option<Self> {
         let level = Level::new();
         match name {
@@ -69,10 +69,10 @@ impl Isa {
         }
     }
 
-    /// The choice of this process: what [`VARIABLE`] says, else the best.
+    /// The choice of this process: the value of [`VARIABLE`], else the best.
     ///
     /// # Errors
-    /// The value of the variable, where it names no path that this processor has.
+    /// The value of the variable, if it names no path that this processor has.
     pub fn chosen() -> Result<Self, String> {
         static CHOICE: OnceLock<Result<Isa, String>> = OnceLock::new();
         CHOICE
@@ -115,7 +115,7 @@ impl Isa {
         Isa { level: Level::baseline(), name: "plain" }
     }
 
-    /// Runs `work` in lanes of AVX2 where this instruction set has them, else one number at a time.
+    /// Runs `work` in lanes of AVX2 if this instruction set has them, else one number at a time.
     pub fn run_narrow<W: NarrowWork>(self, work: W) -> W::Output {
         #[cfg(target_arch = "x86_64")]
         {

@@ -62,7 +62,7 @@ pub trait Real:
     /// Number of lanes.
     const LANES: usize;
 
-    /// The constant `value` in every lane; `self` only says which kind of number is meant.
+    /// The constant `value` in every lane; `self` only determines the kind of number.
     fn splat(self, value: f64) -> Self;
 
     /// `self * a + b` with a single rounding.
@@ -93,7 +93,7 @@ pub trait Real:
     /// `yes` in the lanes where `mask` is true, else `no`.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
 
-    /// One in the lanes where `mask` is true, else zero: for counts. `self` only says which kind of number is meant.
+    /// One in the lanes where `mask` is true, else zero: for counts. `self` only determines the kind of number.
     #[inline(always)]
     fn indicator(self, mask: Self::Mask) -> Self {
         Self::select(mask, self.splat(1.0), self.zero())
@@ -123,7 +123,7 @@ pub trait Real:
     /// Puts `value` into lane `lane`.
     fn set_lane(&mut self, lane: usize, value: f64);
 
-    /// `LANES` numbers from the start of a slice; `self` only says which kind of number is meant.
+    /// `LANES` numbers from the start of a slice; `self` only determines the kind of number.
     fn read(self, values: &[f64]) -> Self;
 
     /// Writes the numbers to the start of a slice, as [`Real::lane`] gives them.

@@ -5,11 +5,11 @@
 
 use super::Real;
 
-/// Sweeps after which a 3x3 matrix has long converged: off-diagonals fall quadratically, five sweeps are typical.
+/// Sweeps after which any 3x3 matrix has converged: convergence is quadratic, five sweeps are typical.
 const SWEEPS: usize = 16;
 
-/// An off-diagonal entry this small beside its diagonal entries moves no eigenvalue, nor an axis, by a bit that is kept, in
-/// double-double neither.
+/// An off-diagonal entry this small relative to the difference of its diagonal entries changes no bit of an eigenvalue or an axis,
+/// in double-double either.
 const NEGLIGIBLE: f64 = 1e-36;
 
 /// Whether a symmetric matrix is positive definite, by the pivots of its Cholesky factor. Reads the lower triangle.
@@ -24,9 +24,9 @@ pub fn is_positive_definite(m: [[f64; 3]; 3]) -> bool {
 /// The eigenvalues ("moments") of a symmetric matrix, and the rotation C_sb from its principal frame F_b to F_s:
 /// m = C_sb diag(moments) C_sb^T, by cyclic Jacobi rotations.
 ///
-/// C_sb comes by rows (its columns are the principal axes), with determinant +1. Where the off-diagonals are exactly zero it
-/// is exactly the identity and the moments are the diagonal, in its order; the order of the moments is otherwise whatever the
-/// rotations, none of them above 45 degrees, make it. Error: a few ulp of the largest moment; test `principal_axes_rebuild_the_matrix`.
+/// C_sb comes by rows (its columns are the principal axes), with determinant +1. If the off-diagonals are exactly zero it is
+/// exactly the identity and the moments are the diagonal, in its order; otherwise the order of the moments follows from the
+/// rotations, none of them above 45 degrees. Error: a few ulp of the largest moment; test `principal_axes_rebuild_the_matrix`.
 pub fn principal_axes<R: Real>(m: [[R; 3]; 3]) -> ([R; 3], [[R; 3]; 3]) {
     let zero = m[0][0].zero();
     let (one, two, half) = (zero.splat(1.0), zero.splat(2.0), zero.splat(0.5));
@@ -80,7 +80,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Relative to the largest moment; measured at most 2.1 eps over a million random matrices would be luck, 8 is safe.
+    /// Relative to the largest moment: a few roundings in each of five sweeps.
     const TOLERANCE: f64 = 8.0 * f64::EPSILON;
 
     #[test]
@@ -92,7 +92,7 @@ mod tests {
     }
 
     #[test]
-    fn definiteness_is_told_apart() {
+    fn definiteness_is_detected() {
         assert!(is_positive_definite([[2.0, 1.0, 0.0], [1.0, 2.0, 1.0], [0.0, 1.0, 2.0]]));
         assert!(!is_positive_definite([[1.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 0.0, 1.0]]));
         assert!(!is_positive_definite([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1e-300]]));

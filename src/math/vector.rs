@@ -6,19 +6,19 @@
 
 use super::Real;
 
-/// The constant vector `v`; `like` says which kind of number is meant.
+/// The constant vector `v`; `like` determines the kind of number.
 #[inline(always)]
 pub fn constant<R: Real>(like: R, v: [f64; 3]) -> [R; 3] {
     [like.splat(v[0]), like.splat(v[1]), like.splat(v[2])]
 }
 
-/// The constant quaternion `q`; `like` says which kind of number is meant.
+/// The constant quaternion `q`; `like` determines the kind of number.
 #[inline(always)]
 pub fn constant_quaternion<R: Real>(like: R, q: [f64; 4]) -> [R; 4] {
     [like.splat(q[0]), like.splat(q[1]), like.splat(q[2]), like.splat(q[3])]
 }
 
-/// The constant matrix `m`, by rows; `like` says which kind of number is meant.
+/// The constant matrix `m`, by rows; `like` determines the kind of number.
 #[inline(always)]
 pub fn constant_matrix<R: Real>(like: R, m: [[f64; 3]; 3]) -> [[R; 3]; 3] {
     [constant(like, m[0]), constant(like, m[1]), constant(like, m[2])]

@@ -1,11 +1,11 @@
-//! [`Method`]: the names by which a campaign chooses how its runs are integrated.
+//! [`Method`]: the integration methods and their names in campaign files.
 
-/// A kernel together with an integration method.
+/// A formulation of the equations of motion together with an integration method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Method {
-    /// The fastest that is accurate for the scene: periodic propagation of the gyrostat, Taylor where that does not apply.
+    /// Gyrostat, Taylor series with periodic folding where the motion is periodic: the fastest.
     Auto,
-    /// Gyrostat, Taylor series of an order and step that follow from the tolerance (Jorba & Zou 2005).
+    /// Gyrostat, Taylor series with order and step chosen from the tolerance (Jorba & Zou 2005).
     Taylor,
     /// Gyrostat, Dormand-Prince 5(4).
     DormandPrince,
@@ -15,7 +15,7 @@ pub enum Method {
     RungeKutta4,
     /// Gyrostat, Gauss-Legendre collocation of order 6 with a fixed step.
     GaussLegendre,
-    /// The report's 62-state null-space form, Dormand-Prince 5(4).
+    /// The report's 62-state null-space formulation, Dormand-Prince 5(4).
     NullSpace,
 }
 
@@ -49,7 +49,7 @@ impl Method {
         Self::ALL.into_iter().find(|method| method.name() == name)
     }
 
-    /// Whether the method takes steps of a fixed size (`integrator.step_s`) instead of following the tolerance.
+    /// Whether the method takes steps of a fixed length (`integrator.step_s`) instead of following the tolerance.
     pub const fn has_fixed_step(self) -> bool {
         matches!(self, Method::RungeKutta4 | Method::GaussLegendre)
     }

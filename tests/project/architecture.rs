@@ -22,14 +22,13 @@ const LAYERS: [(&str, u32); 15] = [
 ];
 
 /// Where each dependency may be used: modules, or single files. An empty list means everywhere.
-const CRATES: [(&str, &[&str]); 18] = [
+const CRATES: [(&str, &[&str]); 17] = [
     ("arrow_schema", &["dataset"]),
     ("clap", &["cli"]),
     ("csv", &["campaign/data.rs"]),
     ("fearless_simd", &["math", "dynamics", "ode", "propagation", "observables"]),
     ("indicatif", &["cli"]),
     ("libm", &[]),
-    ("nalgebra", &["dynamics/null_space"]),
     ("parquet", &["dataset", "campaign/data.rs"]),
     ("plotters", &["report"]),
     ("png", &["report"]),
