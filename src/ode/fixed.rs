@@ -1,6 +1,6 @@
 //! [`Fixed`]: one-step methods with a given step.
 //!
-//! An arc of length l is divided into ceil(l / step) equal steps, of which the last ends exactly at its end. An observation point
+//! An arc of length l is divided into ceil(l / step) equal steps; the last ends exactly at its end. An observation point
 //! inside a step is reached by a shorter step from the same start: as accurate as the method, and with the same invariants,
 //! which an interpolating polynomial does not have.
 

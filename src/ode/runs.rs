@@ -5,7 +5,7 @@ use crate::math::Real;
 
 /// Runs to be integrated. A lane whose run has ended is loaded with the next one.
 ///
-/// A run consists of arcs, within each of which the right-hand side is smooth. Integration restarts at every boundary, exactly
+/// A run consists of arcs; within each arc the right-hand side is smooth. Integration restarts at every boundary, exactly
 /// there.
 pub trait Runs<R: Real, const N: usize>: System<R, N> {
     /// Number of runs.
