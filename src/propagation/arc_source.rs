@@ -1,8 +1,8 @@
 //! [`ArcSource`]: where the runs of a batch get their arcs from, one at a time.
 
-use crate::dynamics::actuation::{Laws, OpenLoop};
+use crate::dynamics::actuation::{ActuationLaw, BodyState, Laws, OpenLoop, WheelState};
 use crate::dynamics::gyrostat::{Gyrostat, WITH_THRUST};
-use crate::scene::{Actuation, Arc, Scene};
+use crate::scene::{Arc, Scene, WheelMode};
 
 /// The arcs of the runs of a batch.
 pub struct ArcSource<'a> {
@@ -51,25 +51,42 @@ impl<'a> ArcSource<'a> {
             gyrostat.begin_free_arc(self.duration);
             return;
         };
-        let (applied, known) = match &mut self.laws {
-            Laws::OpenLoop => (OpenLoop { schedule: &scene.schedule }.at(time), true),
+        match &mut self.laws {
+            Laws::OpenLoop => gyrostat.begin_arc(scene, scheduled_arc(scene, time, self.duration)),
             Laws::Feedback(source) => {
                 let (body, wheels) = gyrostat.observed_state(time, &components());
-                (source.law(run).arc(time, &body, &wheels), false)
+                let arc = law_arc(scene, source.law(run), time, (&body, &wheels), self.duration);
+                gyrostat.begin_arc(scene, arc);
+                gyrostat.note_rate();
             }
-        };
-        gyrostat.begin_arc(scene, arc(time, applied, self.duration));
-        if !known {
-            gyrostat.note_rate();
         }
     }
 }
 
-/// The arc of a law's answer at `time`.
+/// The arc of the schedule of `scene` at `time`.
+#[inline]
+pub fn scheduled_arc(scene: &Scene, time: f64, duration: f64) -> Arc {
+    Arc::new(time, OpenLoop { schedule: &scene.schedule }.at(time), duration)
+}
+
+/// The arc that `law` answers at `time`, where the state is `state`. The motor of a wheel that is missing, or whose speed is held,
+/// takes no command.
 ///
 /// # Panics
 /// Where the answer ends before it starts: the run would never end.
-pub fn arc(time: f64, applied: Actuation, duration: f64) -> Arc {
+pub fn law_arc(
+    scene: &Scene,
+    law: &mut dyn ActuationLaw,
+    time: f64,
+    (body, wheels): (&BodyState, &WheelState),
+    duration: f64,
+) -> Arc {
+    let mut applied = law.arc(time, body, wheels);
     assert!(applied.until > time, "a law's arc from {time} s ends at {} s", applied.until);
+    for (torque, wheel) in applied.motor_torque.iter_mut().zip(&scene.mass.wheels) {
+        if !wheel.is_present() || wheel.mode != WheelMode::Free {
+            *torque = 0.0;
+        }
+    }
     Arc::new(time, applied, duration)
 }

@@ -1,7 +1,7 @@
 //! [`NullSpaceRuns`]: runs of the null-space formulation, one at a time.
 
-use super::arc_source::arc;
-use crate::dynamics::actuation::{Laws, OpenLoop};
+use super::arc_source::{law_arc, scheduled_arc};
+use crate::dynamics::actuation::Laws;
 use crate::dynamics::null_space::{COMPONENTS, Kernel, STATES, State, observed_state, sigma};
 use crate::ode::{Runs, System, Tolerance};
 use crate::scene::{Arc, Scene};
@@ -97,16 +97,16 @@ impl Runs<f64, COMPONENTS> for NullSpaceRuns<'_> {
         if time >= self.duration {
             return None;
         }
-        let applied = match &mut self.laws {
-            Laws::OpenLoop => OpenLoop { schedule: &self.scenes[self.run].schedule }.at(time),
+        let scene = &self.scenes[self.run];
+        let arc = match &mut self.laws {
+            Laws::OpenLoop => scheduled_arc(scene, time, self.duration),
             Laws::Feedback(source) => {
                 let state = State::from_components(state);
                 let (body, wheels) = observed_state(self.kernel.parameters(), &state, self.q_es);
                 self.q_es = body.q_es;
-                source.law(self.run).arc(time, &body, &wheels)
+                law_arc(scene, source.law(self.run), time, (&body, &wheels), self.duration)
             }
         };
-        let arc = arc(time, applied, self.duration);
         self.kernel.drive(&arc.applied);
         self.arcs.push(arc);
         Some(arc.end())

@@ -11,6 +11,7 @@ mod closed_forms;
 mod cross_kernel;
 mod drift_bounds;
 mod error_estimate;
+mod feedback;
 mod golden_truth;
 mod null_space;
 mod null_space_matrices;

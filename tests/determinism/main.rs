@@ -5,6 +5,7 @@ mod support;
 #[path = "../textbook/mod.rs"]
 mod textbook;
 
+mod feedback;
 mod lanes;
 mod lanes_runge_kutta;
 mod skipping;

@@ -4,6 +4,7 @@
 pub mod claims;
 pub mod exact;
 pub mod extrapolation;
+pub mod feedback;
 pub mod golden;
 pub mod invariants;
 pub mod plans;

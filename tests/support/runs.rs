@@ -66,12 +66,12 @@ pub fn everything(method: Method) -> StateFields {
 }
 
 /// The control of an adaptive method, as `tolerance = ...` in a campaign file.
-pub fn adaptive(tolerance: f64) -> Control {
+pub const fn adaptive(tolerance: f64) -> Control {
     Control { tolerance: Tolerance { relative: tolerance, absolute: tolerance }, step: None, max_steps: 10_000_000 }
 }
 
 /// The control of a method with a fixed step, s.
-pub fn fixed(step: f64) -> Control {
+pub const fn fixed(step: f64) -> Control {
     Control { step: Some(step), ..adaptive(1e-10) }
 }
 

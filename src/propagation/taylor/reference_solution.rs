@@ -15,7 +15,7 @@ use fearless_simd::Simd;
 use super::jet::{Reciprocals, Scratch, expand};
 use super::lane_vectors::si_factors;
 use super::step::StepRule;
-use crate::dynamics::actuation::{ActuationLaw, OpenLoop};
+use crate::dynamics::actuation::ActuationLaw;
 use crate::dynamics::debris;
 use crate::dynamics::gyrostat::equations::Constants;
 use crate::dynamics::gyrostat::{
@@ -25,7 +25,7 @@ use crate::math::double_double::DoubleDouble;
 use crate::math::isa::NarrowWork;
 use crate::math::vector::{conjugate, difference, dot, hamilton, product, scaled, sum};
 use crate::math::{Isa, Real};
-use crate::propagation::arc_source::arc;
+use crate::propagation::arc_source::{law_arc, scheduled_arc};
 use crate::propagation::settings::observes_debris_rotation;
 use crate::run::Status;
 use crate::run::{Grid, StateField, StateFields, StateTable};
@@ -242,16 +242,15 @@ impl Integration<'_, '_> {
             self.run.begin_free_arc(duration);
             return;
         };
-        let applied = match &mut self.law {
-            None => OpenLoop { schedule: &scene.schedule }.at(time),
+        let arc = match &mut self.law {
+            None => scheduled_arc(scene, time, duration),
             Some(law) => {
                 let mut components = *state;
                 scale(&mut components, si_factors(1.0 / unit));
                 let (body, wheels) = self.run.observed_state(time, &components);
-                law.arc(time, &body, &wheels)
+                law_arc(scene, &mut **law, time, (&body, &wheels), duration)
             }
         };
-        let arc = arc(time, applied, duration);
         self.run.begin_arc(scene, arc);
         if self.law.is_some() {
             self.coarse.begin_arc(scene, arc);

@@ -1,0 +1,92 @@
+//! Sampled-data control: every method and the double-double solution fly the same closed loop.
+
+use crate::support::feedback::{Flight, fly, law};
+use crate::support::runs::{adaptive, everything, fixed};
+use crate::support::scenes::mixed;
+use spindrift::math::Isa;
+use spindrift::ode::Control;
+use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE};
+use spindrift::propagation::{Method, PropagationSettings};
+use spindrift::run::{Grid, StateField, Status};
+use spindrift::scene::Scene;
+
+/// Some control periods, and some quarter turns of the slowest scene, s.
+const HORIZON: f64 = 3.1;
+
+/// Largest distance from the double-double solution of any state, over its largest magnitude: within 10 of the measured values.
+const BOUNDS: [(Method, Control, f64); 7] = [
+    (Method::Auto, adaptive(1e-16), 1e-12),
+    (Method::Taylor, adaptive(1e-16), 1e-12),
+    (Method::Dop853, adaptive(1e-13), 1e-10),
+    (Method::DormandPrince, adaptive(1e-12), 1e-9),
+    (Method::GaussLegendre, fixed(1e-3), 1e-9),
+    (Method::RungeKutta4, fixed(1e-3), 1e-6),
+    (Method::NullSpace, adaptive(1e-11), 1e-7),
+];
+
+const FIELDS: [StateField; 8] = [
+    StateField::Rate,
+    StateField::WheelRates,
+    StateField::WheelAngles,
+    StateField::ComPosition,
+    StateField::ComVelocity,
+    StateField::Work,
+    StateField::Impulse,
+    StateField::AngularImpulse,
+];
+
+/// Largest distance of any field of a run from the reference, each over the field's largest magnitude (at least one).
+fn distance(flight: &Flight, reference: &ReferenceSolution) -> f64 {
+    let table = &flight.run.table;
+    let mut worst = 0.0_f64;
+    let points = table.points();
+    for field in FIELDS {
+        let (mut off, mut size) = (0.0_f64, 1.0_f64);
+        for component in 0..field.width() {
+            let expected = reference.high.column(field, component);
+            for point in 0..points {
+                off = off.max((table.column(field, component)[point] - expected[point]).abs());
+                size = size.max(expected[point].abs());
+            }
+        }
+        worst = worst.max(off / size);
+    }
+    for point in 0..points {
+        let turned = |sign| reference.distance::<4>(table, StateField::Attitude, point, sign);
+        worst = worst.max(turned(1.0).min(turned(-1.0)));
+    }
+    worst
+}
+
+/// Law: closed loops of all methods agree with the double-double solution under the same law, to the errors of the methods.
+#[test]
+fn all_methods_fly_the_same_closed_loop() {
+    let grid = Grid::uniform(HORIZON, 29);
+    let scenes: Vec<Scene> = mixed(6, false, HORIZON);
+    let references: Vec<ReferenceSolution> = scenes
+        .iter()
+        .map(|scene| {
+            let fields = everything(Method::Taylor);
+            ReferenceSolution::under(&mut law(scene), Isa::best(), scene, &grid, fields, TOLERANCE).expect("arrives")
+        })
+        .collect();
+    let mut report = String::new();
+    let mut failed = false;
+    for (method, control, bound) in BOUNDS {
+        let settings =
+            PropagationSettings::new(method, control, grid.clone(), everything(method), &scenes[0]).with_feedback();
+        let flown = fly(Isa::best(), &settings, &scenes);
+        assert!(flown.iter().all(|flight| flight.run.outcome.status == Status::Done), "{}", method.name());
+        let worst = flown.iter().zip(&references).map(|(run, exact)| distance(run, exact)).fold(0.0, f64::max);
+        failed |= worst > bound || worst.is_nan();
+        report.push_str(&format!("{}: {worst:.1e}, bound {bound:.1e}\n", method.name()));
+    }
+    println!("{report}");
+    assert!(!failed, "{report}");
+    // the law acts: without it the same scenes end elsewhere
+    let free = ReferenceSolution::new(Isa::best(), &scenes[0], &grid, everything(Method::Taylor), TOLERANCE);
+    let last = grid.points() - 1;
+    let free = free.expect("arrives").high.at::<3>(StateField::Rate, last);
+    let bound = references[0].high.at::<3>(StateField::Rate, last);
+    assert!((0..3).any(|i| (free[i] - bound[i]).abs() > 1e-3));
+}

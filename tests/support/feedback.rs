@@ -1,0 +1,90 @@
+//! A control law for tests, and runs under it.
+
+use spindrift::dynamics::actuation::{
+    Actuation, ActuationLaw, Arc, BodyState, Laws, OpenLoop, WheelState, ZeroOrderHold,
+};
+use spindrift::math::Isa;
+use spindrift::propagation::{CompletedRun, PropagationSettings};
+use spindrift::scene::Scene;
+
+use super::runs::Run;
+
+/// Control period, s.
+pub const PERIOD: f64 = 0.25;
+
+/// A proportional-derivative law that turns the body to the identity attitude: torque on the body -k q_v - d omega, with the sign
+/// of the shorter way; wheels are braked, and P1 pushes while the body is slow.
+#[derive(Clone, Copy, Debug)]
+pub struct ProportionalDerivative {
+    /// N m.
+    pub stiffness: f64,
+    /// N m s.
+    pub damping: f64,
+    /// N m s.
+    pub braking: f64,
+}
+
+impl ActuationLaw for ProportionalDerivative {
+    fn arc(&mut self, _time: f64, body: &BodyState, wheels: &WheelState) -> Actuation {
+        let sign = if body.q_es[0] < 0.0 { -1.0 } else { 1.0 };
+        let torque = |i: usize| -self.stiffness * sign * body.q_es[i + 1] - self.damping * body.omega_se_s[i];
+        let speed = body.v_co_e.iter().map(|v| v * v).sum::<f64>().sqrt();
+        // smooth in the state: a switch would tell rounding errors apart
+        let thrust = 20.0 / (1.0 + speed);
+        Actuation {
+            until: f64::INFINITY,
+            thrust: [thrust, 0.0, 0.5 * thrust],
+            motor_torque: wheels.rates.map(|rate| -self.braking * rate),
+            body_torque: [torque(0), torque(1), torque(2)],
+        }
+    }
+}
+
+/// The law of a scene: gains that turn its body within some seconds.
+pub fn law(scene: &Scene) -> ZeroOrderHold<ProportionalDerivative> {
+    let inertia = scene.mass.inertia;
+    let smallest = inertia[0][0].min(inertia[1][1]).min(inertia[2][2]);
+    let lightest =
+        scene.mass.wheels.iter().map(|wheel| wheel.axial).filter(|axial| *axial > 0.0).fold(smallest, f64::min);
+    ZeroOrderHold::new(
+        PERIOD,
+        ProportionalDerivative { stiffness: 0.5 * smallest, damping: 0.6 * smallest, braking: 0.2 * lightest },
+    )
+}
+
+/// A run with the arcs that it flew.
+#[derive(Clone, Debug)]
+pub struct Flight {
+    pub run: Run,
+    pub arcs: Vec<Arc>,
+}
+
+fn flights(count: usize, propagate: impl FnOnce(&mut dyn FnMut(CompletedRun<'_>))) -> Vec<Flight> {
+    let mut flights: Vec<Option<Flight>> = vec![None; count];
+    propagate(&mut |CompletedRun { index, table, outcome, arcs }| {
+        let run = Run { table: table.clone(), outcome: *outcome };
+        flights[index] = Some(Flight { run, arcs: arcs.to_vec() });
+    });
+    flights.into_iter().map(|flight| flight.expect("every run is handed over")).collect()
+}
+
+/// The runs of `scenes` under their laws.
+pub fn fly(isa: Isa, settings: &PropagationSettings, scenes: &[Scene]) -> Vec<Flight> {
+    let mut laws: Vec<_> = scenes.iter().map(law).collect();
+    flights(scenes.len(), |finish| {
+        settings.engine(isa).propagate_under(Laws::Feedback(&mut laws), scenes, &mut |run| finish(run));
+    })
+}
+
+/// The runs of `scenes` by schedules that were recorded, as laws.
+pub fn fly_recorded(isa: Isa, settings: &PropagationSettings, scenes: &[Scene], records: &[Vec<Arc>]) -> Vec<Flight> {
+    let mut laws: Vec<_> = records.iter().map(|schedule| OpenLoop { schedule }).collect();
+    flights(scenes.len(), |finish| {
+        settings.engine(isa).propagate_under(Laws::Feedback(&mut laws), scenes, &mut |run| finish(run));
+    })
+}
+
+/// The runs of `scenes` by their own schedules.
+pub fn fly_schedules(isa: Isa, settings: &PropagationSettings, scenes: &[Scene]) -> Vec<Flight> {
+    flights(scenes.len(), |finish| settings.engine(isa).propagate(scenes, &mut |run| finish(run)))
+}
