@@ -1,7 +1,6 @@
 //! The debris D: a free rigid body in uniform translation.
 //!
-//! An isotropic body (cube) turns at a constant rate about an axis fixed in it and in space, so its attitude is closed form
-//! at any time. A box is a gyrostat without wheels and is integrated as one; only its constants are made here.
+//! An isotropic body (cube) turns at a constant rate about an axis fixed in it and in space, so its attitude has a closed form. A box is a gyrostat without wheels and is integrated as one; only its constants are made here.
 
 use fearless_simd::Simd;
 
@@ -39,7 +38,7 @@ pub fn set_rotation<R: Real>(run: &mut Gyrostat<R>, scene: &Scene) -> bool {
     true
 }
 
-/// Fills position and velocity of the debris in `table`, as far as they are asked for.
+/// Fills position and velocity of the debris in `table`, as far as the table has them.
 #[inline(always)]
 pub fn complete_translation<S: Simd>(simd: S, scene: &Scene, grid: &Grid, table: &mut StateTable) {
     let initial = &scene.initial;
@@ -66,7 +65,7 @@ struct Line<V> {
 
 /// Fills attitude and rate of an isotropic debris in `table`: q_ed(t) = q_ed(0) (x) exp(omega t/2), omega constant in F_d.
 ///
-/// The angle is reduced to a part of a turn as a sum of two numbers, so that it is as good after 1e10 rad as at the start.
+/// The angle is reduced to a part of a turn as a sum of two numbers, so that it is as accurate after 1e10 rad as at the start.
 #[inline(always)]
 pub fn complete_isotropic<S: Simd>(simd: S, scene: &Scene, grid: &Grid, table: &mut StateTable) {
     let omega = scene.initial.omega_de_d;

@@ -1,10 +1,9 @@
-//! Floor 2: the equations of motion, each kernel generic over [`crate::math::Real`] where speed matters.
+//! Layer 2: the equations of motion, each kernel generic over [`crate::math::Real`] where speed matters, and what acts on them.
 //!
+//! - [`actuation`]: the interface by which a run is asked for its arcs of constant actuation.
 //! - [`debris`]: the free body beside the spacecraft.
-//! - [`gyrostat`]: the reduced form, fast: three rates, an attitude, and what a scene asks for beyond.
-//! - [`outcome`]: how a run ended and what it cost; on this floor, because integrators say it and observables read it.
-//! - [`mod@reference`]: the report's 62-state null-space form.
-//! - [`table`]: the physical states of a run at its observation points.
+//! - [`gyrostat`]: the reduced form, fast: three rates, an attitude, and further components where a scene needs them.
+//! - [`null_space`]: the report's 62-state null-space form.
 
 pub mod actuation;
 pub mod debris;

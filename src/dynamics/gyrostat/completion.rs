@@ -107,7 +107,7 @@ fn complete_rotation<S: Simd, const N: usize>(
     }
 }
 
-/// Rate and attitude of a body in its own frame at eight points.
+/// Rate and attitude of a body in its frame at eight points.
 pub struct Rotation<S: Simd> {
     /// Angular velocity in the body's frame, rad/s.
     pub rate: [Lanes<S>; 3],
@@ -115,7 +115,7 @@ pub struct Rotation<S: Simd> {
     pub attitude: Option<[Lanes<S>; 4]>,
 }
 
-/// The rotation at the eight points from `first` on, turned from the principal frame B into the body's own.
+/// The rotation at the eight points from `first` on, converted from the principal frame B to the body's frame.
 #[inline(always)]
 pub fn rotation<S: Simd, const N: usize>(
     simd: S,
@@ -141,7 +141,7 @@ pub fn rotation<S: Simd, const N: usize>(
     Rotation { rate, attitude: Some(q_es) }
 }
 
-/// Wheel rates Omega_i = h_i/J_i - a_i . omega and, where asked for, the angles; of a held wheel the constant rate and a line.
+/// Wheel rates Omega_i = h_i/J_i - a_i . omega and, where requested, the angles; for a held wheel the constant rate and a linear angle.
 #[inline(always)]
 fn complete_wheels<S: Simd, const N: usize>(
     chunk: Chunk<S>,
@@ -156,7 +156,7 @@ fn complete_wheels<S: Simd, const N: usize>(
         let axis = constant(chunk.zero(), run.axes_b[wheel]);
         let inverse = run.inverse_axial(wheel);
         if inverse == 0.0 {
-            // a wheel that is not there does not turn
+            // a missing wheel does not turn
             for block in [StateField::WheelRates, StateField::WheelAngles] {
                 if table.has(block) {
                     chunk.zero().store(&mut table.column_mut(block, wheel)[chunk.first..]);
@@ -205,7 +205,7 @@ fn complete_wheels<S: Simd, const N: usize>(
     }
 }
 
-/// Work of the thrusters and of the wheel motors, those that hold a speed among them.
+/// Work of the thrusters and body torque, and of the wheel motors, including those that hold a speed.
 #[inline(always)]
 fn complete_work<S: Simd, const N: usize>(
     chunk: Chunk<S>,

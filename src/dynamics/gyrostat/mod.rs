@@ -1,4 +1,4 @@
-//! The gyrostat: the spacecraft with its wheels reduced to what moves on its own.
+//! The gyrostat: the spacecraft with its wheels, reduced to its independent motions.
 //!
 //! For balanced axisymmetric wheels with fixed centres the inertia in F_s is constant, and the spacecraft is a
 //! Zhukovskii-Volterra gyrostat (N. E. Zhukovskii, 1885; V. Volterra, Acta Math. 22, 1899; J. Wittenburg, *Dynamics of
@@ -8,9 +8,8 @@
 //! H = J* omega + h_1 a1 + h_2 a2,    J* omega' = H x omega + tau_ext - tau_1 a1 - tau_2 a2,    h_i' = tau_i
 //! ```
 //!
-//! A wheel whose motor holds its speed takes the part of a free one with other constants: its axial inertia stays in the
-//! inertia that resists a change of omega, and beside it stands its momentum relative to the fuselage, J_i Omega_i, which is
-//! constant. With K = J* + sum over held wheels of J_i a_i a_i^T (all held: K = J) the same equations hold:
+//! A wheel whose motor holds its speed has other constants: its axial inertia stays in the inertia that resists a change of
+//! omega, and its momentum relative to the fuselage, J_i Omega_i, is constant. With K = J* + sum over held wheels of J_i a_i a_i^T (all held: K = J) the same equations hold:
 //!
 //! ```text
 //! H = K omega + sum over free wheels h_i a_i + sum over held wheels J_i Omega_i a_i
@@ -56,7 +55,7 @@ pub const ANGULAR_IMPULSE: usize = 17;
 /// Index of the work of the thrusters, J (1).
 pub const THRUST_WORK: usize = 20;
 
-/// Number of integrated components where only the rates are wanted.
+/// Number of integrated components where only the rates are needed.
 pub const RATES_ONLY: usize = 3;
 /// With the attitude.
 pub const WITH_ATTITUDE: usize = 7;
@@ -64,7 +63,7 @@ pub const WITH_ATTITUDE: usize = 7;
 pub const WITH_ANGLES: usize = 10;
 /// With the work of the wheel motors.
 pub const WITH_MOTORS: usize = 11;
-/// With everything that thrust asks for.
+/// With all integrals of thrust.
 pub const WITH_THRUST: usize = 21;
 
 /// An arc of a run: what is applied, in B, and the wheels at its start.

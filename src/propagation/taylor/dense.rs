@@ -1,4 +1,4 @@
-//! Stored series and their values: every lane at a time of its own.
+//! Series of steps and their values, each lane at its own time.
 #![expect(
     clippy::needless_range_loop,
     clippy::manual_memcpy,
@@ -7,7 +7,7 @@
 
 use crate::math::Real;
 
-/// The series of one step in lanes, and when it began: time since the start of the stretch as an unevaluated sum.
+/// The series of one step in lanes, and when it began: time since the start of the arc as an unevaluated sum.
 #[derive(Clone, Debug)]
 pub struct Segment<R, const J: usize> {
     /// Taylor coefficients, order by order.
@@ -19,7 +19,7 @@ pub struct Segment<R, const J: usize> {
 }
 
 impl<R: Real, const J: usize> Segment<R, J> {
-    /// Room for a series of order `order`.
+    /// Memory for a series of order `order`.
     pub fn new(zero: R, order: usize) -> Self {
         Segment { jet: vec![[zero; J]; order + 1], start: zero, start_low: zero }
     }

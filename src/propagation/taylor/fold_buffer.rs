@@ -6,21 +6,21 @@ use super::series_ring::LARGEST;
 use crate::math::Real;
 use crate::math::lanes::{WIDEST, WIDTH};
 
-/// Observation points of the runs in the lanes that wait with a known period: where each lies within the period, and
-/// the components there. Rows are lane by lane or vector by vector, as said.
+/// Observation points of the runs in the lanes that wait with a known period: the time of each within the period, and
+/// the components there. Rows are per lane or per vector, as documented.
 #[derive(Clone, Debug)]
 pub struct FoldBuffer {
     /// Points of a lane with padding: the length of a row of `rest`, `whole`, `segment`, `vector`.
     pub stride: usize,
-    /// Most vectors of `x` and `values`.
+    /// Largest number of vectors of `x` and `values`.
     pub capacity: usize,
-    /// Time since the start of the stretch less whole periods, a row per lane.
+    /// Time since the start of the arc minus whole periods, a row per lane.
     pub rest: Vec<f64>,
     /// Whole periods before each point, a row per lane.
     pub whole: Vec<f64>,
-    /// The series a point lies in, counted from the oldest of all lanes, a row per lane.
+    /// The series of a point, counted from the oldest of all lanes, a row per lane.
     pub segment: Vec<u32>,
-    /// The vector of `values` that holds a point (at first: its number within its series), a row per lane.
+    /// The vector of `values` with a point (before numbering: its number within its series), a row per lane.
     pub vector: Vec<u32>,
     /// Points of a lane in a series, series by series.
     pub count: Vec<u32>,

@@ -4,8 +4,8 @@
 //! (R. E. Moore, *Interval Analysis*, 1966, ch. 11; A. Jorba & M. Zou, Experimental Mathematics 14, 2005, section 2).
 //! Written for the equations of [`crate::dynamics::gyrostat`]; components as there.
 //!
-//! The recurrences of thrust (impulses, works) serve [`super::reference_solution`] alone: a march in `f64` takes these integrals from
-//! [`super::thrust`], so that each judges the other.
+//! The recurrences of thrust (impulses, works) serve [`super::reference_solution`] alone: integration in `f64` takes these integrals from
+//! [`super::thrust`], so that each tests the other.
 #![expect(clippy::needless_range_loop, reason = "components are numbered alike in several arrays")]
 
 use crate::dynamics::gyrostat::equations::Constants;
@@ -16,12 +16,12 @@ use crate::dynamics::gyrostat::{
 use crate::math::Real;
 use crate::math::vector::{cross, dot};
 
-/// The largest order that a jet can hold: 22 is what a tolerance of 1e-16 asks for; double-double needs twice that.
+/// The largest order of a jet: a tolerance of 1e-16 needs 22; double-double needs twice that.
 pub const MAX_ORDER: usize = 40;
 
 /// 1/n as the sum of two `Real`, for n = 1 ..= order.
 ///
-/// A rounded 1/n is wrong in the same direction in every step: with it the quaternion's norm grew by 2e-17 a step, all of which
+/// A rounded 1/n is wrong in the same direction in every step: with it the quaternion's norm grew by 2e-17 a step, which
 /// added up (`tests/accuracy/round_off.rs`).
 #[derive(Clone, Debug)]
 pub struct Reciprocals<R>(Vec<[R; 2]>);
@@ -39,7 +39,7 @@ impl<R: Real> Reciprocals<R> {
     }
 }
 
-/// Series that a jet needs on its way but that nobody else asks for.
+/// Intermediate series of the recurrences.
 #[derive(Clone, Debug)]
 pub struct Scratch<R> {
     /// q (x) F and its negative.
@@ -51,7 +51,7 @@ pub struct Scratch<R> {
 }
 
 impl<R: Real> Scratch<R> {
-    /// Room for any order.
+    /// Memory for any order.
     pub fn new(zero: R) -> Self {
         Scratch {
             turned_force: [[zero; 8]; MAX_ORDER],
@@ -88,7 +88,7 @@ pub fn expand<R: Real, const N: usize, const FORCED: bool>(
             next[OMEGA + i] = acceleration[i].mul_add(inverse, acceleration[i] * inverse_low);
         }
         if N >= WITH_ATTITUDE {
-            // q' = q (x) omega/2: the half is exact wherever it stands
+            // q' = q (x) omega/2: multiplication by one half is exact
             let (half_inverse, half_low) = (half * inverse, half * inverse_low);
             for i in 0..4 {
                 next[ATTITUDE + i] = sums.attitude[i].mul_add(half_inverse, sums.attitude[i] * half_low);
@@ -158,7 +158,7 @@ fn angular_acceleration<R: Real, const N: usize, const FORCED: bool>(
 
 /// Coefficients of the products of series that the motion needs.
 struct Sums<R> {
-    /// Of omega_2 omega_3 and its cyclic fellows.
+    /// Of omega_2 omega_3 and its cyclic permutations.
     rate: [R; 3],
     /// Of q (x) omega.
     attitude: [R; 4],
@@ -167,7 +167,7 @@ struct Sums<R> {
 /// Coefficient n of the products, as far as the first `N` components go.
 ///
 /// One pass over both series, so that ten loads feed fifteen fused operations. The two products with the coefficient that was
-/// made last come last: all others need not wait for it.
+/// computed last come last: the others need not wait for it.
 #[inline(always)]
 fn cauchy_products<R: Real, const N: usize>(jet: &[[R; N]], n: usize) -> Sums<R> {
     let zero = jet[0][0].zero();
@@ -237,7 +237,7 @@ fn pure_product<R: Real>(q: [R; 4], v: [R; 3]) -> [R; 8] {
     [w, x, y, z, -w, -x, -y, -z]
 }
 
-/// Coefficient n of the vector part of g (x) q*, with g = q (x) v: the vector v of B in F_e. `g` holds g and -g.
+/// Coefficient n of the vector part of g (x) q*, with g = q (x) v: the vector v of B in F_e. `g` contains g and -g.
 #[inline(always)]
 fn turned<R: Real, const N: usize>(jet: &[[R; N]], g: &[[R; 8]; MAX_ORDER], n: usize) -> [R; 3] {
     let zero = jet[0][0].zero();

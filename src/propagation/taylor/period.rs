@@ -1,6 +1,6 @@
 //! The period of omega, and folding time by it.
 //!
-//! Without torque omega(t) runs round a closed curve. A return is a crossing of the plane through omega(0) across its
+//! Without torque omega(t) moves on a closed curve. A return is a crossing of the plane through omega(0) across its
 //! velocity, in the same sense, close to omega(0). Over one period P the attitude turns by a fixed rotation about the angular
 //! momentum L, which is constant in F_e (L. Poinsot, *Theorie nouvelle de la rotation des corps*, 1851; for gyrostats
 //! V. Volterra, 1899): q(t + n P) = r^n (x) q(t) with r = q(P) (x) q(0)*. Integrals of what is periodic grow by the same
@@ -15,16 +15,16 @@ use crate::math::vector::{constant, hamilton, scaled};
 use crate::math::{Lanes, Real};
 
 /// How far a return may be off the start, as a share of the curve's extent: far below the distance of two branches of the
-/// curve, far above the round-off of a march round it.
+/// curve, far above the round-off of one period.
 const RETURN_OF_EXTENT: f64 = 1e-6;
-/// The same as a share of the rate itself: what round-off leaves of a curve that is small beside |omega|.
+/// The same as a share of the rate itself: the round-off on a curve that is small compared with |omega|.
 const RETURN_OF_RATE: f64 = 1e-13;
-/// The same in units of the tolerance: what truncation leaves at loose tolerances.
+/// The same in units of the tolerance: truncation at loose tolerances.
 const RETURN_OF_TOLERANCE: f64 = 100.0;
 /// Newton steps on one polynomial before a crossing is given up; three or four are usual.
 const NEWTON_STEPS: usize = 12;
 
-/// One period of a run's stretch.
+/// One period of an arc.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Period {
     /// Length, in the lane's unit of time, as an unevaluated sum.
@@ -35,21 +35,21 @@ pub struct Period {
     pub axis_e: [f64; 3],
 }
 
-/// What a march knows of the curve of omega since the start of a stretch; [`super::return_detector::ReturnDetector`] keeps it up to date.
+/// The section across the curve of omega at the start of an arc; [`super::return_detector::ReturnDetector`] keeps it up to date.
 #[derive(Clone, Copy, Debug)]
 pub struct PoincareSection {
     /// omega at the start.
     pub start: [f64; 3],
     /// Unit vector along omega' at the start.
     pub direction: [f64; 3],
-    /// Largest squared distance from the start that was seen at the ends of steps.
+    /// Largest squared distance from the start at the ends of steps so far.
     pub extent2: f64,
     /// Position along `direction` at the end of the last step.
     pub side: f64,
 }
 
 impl PoincareSection {
-    /// The section across the motion at the start of a stretch; `None` where omega does not move at all.
+    /// The section across the motion at the start of an arc; `None` where omega does not move at all.
     #[inline]
     pub fn new(omega: [f64; 3], rate: [f64; 3]) -> Option<Self> {
         let norm2 = rate[0] * rate[0] + rate[1] * rate[1] + rate[2] * rate[2];
@@ -81,7 +81,7 @@ impl PoincareSection {
             }
             along[n] = omega[0].mul_add(d[0], omega[1].mul_add(d[1], omega[2] * d[2]));
         }
-        // a secant between both ends, then Newton kept inside the bracket
+        // a secant between both ends, then Newton's method inside the bracket
         let mut x = length * (along[0] / (along[0] - self.side));
         let (mut low, mut high) = (0.0, length);
         for _ in 0..NEWTON_STEPS {
@@ -119,8 +119,8 @@ impl PoincareSection {
 }
 
 impl Period {
-    /// The period of a stretch of length `length` that takes the attitude from `start` to `end`; `momentum_e` is the
-    /// angular momentum in F_e and `scale` the size |J| |omega| beside which it counts as zero.
+    /// The period of an arc, of length `length`, that takes the attitude from `start` to `end`; `momentum_e` is the
+    /// angular momentum in F_e and `scale` the magnitude |J| |omega| relative to which it counts as zero.
     ///
     /// `None` where the axis of the turn is too poorly known to be used many times over.
     #[inline]
@@ -144,7 +144,7 @@ impl Period {
         Some(Period { length, half_turns, axis_e })
     }
 
-    /// Splits times since the start of the stretch into whole periods and the rest, 0 <= rest < P up to round-off.
+    /// Splits times since the start of the arc into whole periods and the rest, 0 <= rest < P up to round-off.
     #[inline(always)]
     pub fn fold<S: Simd>(&self, time: Lanes<S>) -> (Lanes<S>, Lanes<S>) {
         let (high, low) = (time.splat(self.length[0]), time.splat(self.length[1]));

@@ -1,13 +1,13 @@
 //! [`ReturnDetector`]: looking for the period of omega, all lanes at once.
 //!
-//! What [`super::period::PoincareSection`] says of one run, side by side: where omega started, which way it went, and on which side of
-//! the plane across that way it stands.
+//! The [`super::period::PoincareSection`]s of all lanes: where omega started, in which direction it moved, and on which side of the
+//! plane across that direction it is.
 
 use super::period::PoincareSection;
 use crate::math::Real;
 use crate::math::vector::{difference, dot};
 
-/// The sections of all lanes; a lane that does not watch has a direction of zero and never comes back.
+/// The sections of all lanes; a lane that looks for no return has a direction of zero and never comes back.
 #[derive(Clone, Copy, Debug)]
 pub struct ReturnDetector<R> {
     start: [R; 3],
@@ -17,12 +17,12 @@ pub struct ReturnDetector<R> {
 }
 
 impl<R: Real> ReturnDetector<R> {
-    /// No lane watches.
+    /// No lane looks for a return.
     pub fn none(zero: R) -> Self {
         ReturnDetector { start: [zero; 3], direction: [zero; 3], extent2: zero, side: zero }
     }
 
-    /// Puts a section into `lane`, or ends its watch.
+    /// Sets the section of `lane`, or ends its search.
     pub fn set(&mut self, lane: usize, section: Option<&PoincareSection>) {
         let nothing = PoincareSection { start: [0.0; 3], direction: [0.0; 3], extent2: 0.0, side: 0.0 };
         let section = section.unwrap_or(&nothing);
@@ -45,7 +45,7 @@ impl<R: Real> ReturnDetector<R> {
         }
     }
 
-    /// Takes note of omega at the end of a step; one where the step may have come back through the section, else zero.
+    /// Updates the sections with omega at the end of a step; one where the step may have come back through the section, else zero.
     #[inline(always)]
     pub fn passes(&mut self, omega: [R; 3]) -> R {
         let zero = self.side.zero();

@@ -17,7 +17,7 @@ use crate::math::vector::{dcm_from_quaternion, dot, product};
 
 /// Error of the quadrature, as a share of the tolerance.
 const SHARE: f64 = 0.1;
-/// Nodes at most: what the tightest tolerance of a march in `f64` asks for, with room.
+/// Largest number of nodes: more than the tightest tolerance in `f64` needs.
 const MOST_NODES: usize = 12;
 
 /// Nodes and weights of Gauss-Legendre quadrature on [0, 1].
@@ -43,10 +43,10 @@ impl Quadrature {
         self.nodes.len()
     }
 
-    /// What the components from [`MOTOR_WORK`] on grow by from the start of a step to `x` after it, zero in the others.
+    /// The increase of the components from [`MOTOR_WORK`] on from the start of a step to `x` after it, zero in the others.
     ///
-    /// `jet` holds at least the series of rate, attitude and angle; `start` is the whole state at the start of the step, and
-    /// `angle` what the angle grows by until `x`. `constants` are those of the start of the step.
+    /// `jet` has at least the series of rate, attitude and angle; `start` is the whole state at the start of the step, and
+    /// `angle` the increase of the angle until `x`. `constants` are those of the start of the step.
     ///
     /// Only `N` = [`WITH_THRUST`] has the components of thrust. Their work needs no quadrature of its own: Gauss collocation
     /// conserves quadratic invariants (J. M. Sanz-Serna, BIT 28, 1988), so that the sum over the nodes of force times
@@ -63,7 +63,7 @@ impl Quadrature {
         let zero = x.zero();
         let half = x.splat(0.5);
         let mut grown = [zero; N];
-        // tau_i Omega_i = tau_i h_i/J_i - tau_i a_i . omega, the first of which is linear in time
+        // tau_i Omega_i = tau_i h_i/J_i - tau_i a_i . omega: the first term is linear in time
         let driven = (half * constants.motor_power_rate).mul_add(x, constants.motor_power);
         grown[MOTOR_WORK] = driven.mul_add(x, -dot(constants.momentum_rate, angle));
         if N < WITH_THRUST {
@@ -155,7 +155,7 @@ mod tests {
                 let exact = 1.0 / (degree as f64 + 1.0);
                 assert!((sum - exact).abs() < 4e-15, "{m} nodes, degree {degree}: {sum}");
             }
-            // and not the next degree: the law above can fail
+            // but not of the next degree: the test above can fail
             let sum: f64 = (0..m).map(|i| node(m, i)).map(|(x, w)| w * libm::pow(x, 2.0 * m as f64)).sum();
             assert!(m > 8 || (sum - 1.0 / (2.0 * m as f64 + 1.0)).abs() > 1e-13, "{m} nodes");
         }
