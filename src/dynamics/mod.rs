@@ -1,11 +1,13 @@
 //! Layer 2: the equations of motion, each kernel generic over [`crate::math::Real`] where speed matters, and what acts on them.
 //!
 //! - [`actuation`]: the interface by which a run is asked for its arcs of constant actuation.
+//! - [`applied`]: the arc that a run flies next.
 //! - [`debris`]: the free body beside the spacecraft.
 //! - [`gyrostat`]: the reduced form, fast: three rates, an attitude, and further components where a scene needs them.
 //! - [`null_space`]: the report's 62-state null-space form.
 
 pub mod actuation;
+pub mod applied;
 pub mod debris;
 pub mod gyrostat;
 pub mod null_space;

@@ -1,8 +1,9 @@
 //! [`ArcSource`]: where the runs of a batch get their arcs from, one at a time.
 
-use crate::dynamics::actuation::{ActuationLaw, BodyState, Laws, OpenLoop, WheelState};
+use crate::dynamics::actuation::Laws;
+use crate::dynamics::applied::{law_arc, scheduled_arc};
 use crate::dynamics::gyrostat::{Gyrostat, WITH_THRUST};
-use crate::scene::{Arc, Scene, WheelMode};
+use crate::scene::Scene;
 
 /// The arcs of the runs of a batch.
 pub struct ArcSource<'a> {
@@ -61,32 +62,4 @@ impl<'a> ArcSource<'a> {
             }
         }
     }
-}
-
-/// The arc of the schedule of `scene` at `time`.
-#[inline]
-pub fn scheduled_arc(scene: &Scene, time: f64, duration: f64) -> Arc {
-    Arc::new(time, OpenLoop { schedule: &scene.schedule }.at(time), duration)
-}
-
-/// The arc that `law` answers at `time`, where the state is `state`. The motor of a wheel that is missing, or whose speed is held,
-/// takes no command.
-///
-/// # Panics
-/// Where the answer ends before it starts: the run would never end.
-pub fn law_arc(
-    scene: &Scene,
-    law: &mut dyn ActuationLaw,
-    time: f64,
-    (body, wheels): (&BodyState, &WheelState),
-    duration: f64,
-) -> Arc {
-    let mut applied = law.arc(time, body, wheels);
-    assert!(applied.until > time, "a law's arc from {time} s ends at {} s", applied.until);
-    for (torque, wheel) in applied.motor_torque.iter_mut().zip(&scene.mass.wheels) {
-        if !wheel.is_present() || wheel.mode != WheelMode::Free {
-            *torque = 0.0;
-        }
-    }
-    Arc::new(time, applied, duration)
 }

@@ -1,7 +1,7 @@
 //! [`NullSpaceRuns`]: runs of the null-space formulation, one at a time.
 
-use super::arc_source::{law_arc, scheduled_arc};
 use crate::dynamics::actuation::Laws;
+use crate::dynamics::applied::{law_arc, scheduled_arc};
 use crate::dynamics::null_space::{COMPONENTS, Kernel, STATES, State, observed_state, sigma};
 use crate::ode::{Runs, System, Tolerance};
 use crate::scene::{Arc, Scene};

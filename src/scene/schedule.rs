@@ -1,8 +1,8 @@
 //! The arcs of a run: intervals of constant actuation; and what the actuators make of the commands.
 
+use super::THRUSTER_DIRECTIONS;
 use super::input::SceneInput;
 use super::mass::turned;
-use super::{Scene, THRUSTER_DIRECTIONS};
 
 /// Number of thrusters.
 pub const THRUSTERS: usize = 3;
@@ -72,22 +72,6 @@ pub fn actuation_at(schedule: &[Arc], time: f64) -> Actuation {
     }
 }
 
-impl Scene {
-    /// The arcs of the scene's schedule that cover [0, `duration`] without a gap, in order. Integration restarts exactly at every
-    /// boundary. No allocation.
-    pub fn arcs(&self, duration: f64) -> impl Iterator<Item = Arc> + '_ {
-        let mut time = 0.0;
-        std::iter::from_fn(move || {
-            if time >= duration {
-                return None;
-            }
-            let arc = Arc::new(time, actuation_at(&self.schedule, time), duration);
-            time = arc.end();
-            Some(arc)
-        })
-    }
-}
-
 impl Actuation {
     /// Nothing acts until `until`.
     pub const fn none(until: f64) -> Self {
@@ -118,16 +102,6 @@ impl Arc {
 #[cfg(test)]
 mod tests {
     use crate::scene::{ActuationInput, Scene, samples};
-
-    fn arcs(switches: &[[f64; 2]], duration: f64) -> Vec<(f64, f64, bool)> {
-        let mut input = samples::table_two();
-        input.actuation = switches
-            .iter()
-            .map(|&[start_s, end_s]| ActuationInput { start_s, end_s, thrust_n: [1.0, 0.0, 0.0], torque_n_m: [0.0; 2] })
-            .collect();
-        let scene = Scene::resolve(&input).expect("a legal schedule");
-        scene.arcs(duration).map(|arc| (arc.start, arc.end(), arc.applied.thrust[0] > 0.0)).collect()
-    }
 
     #[test]
     fn actuators_delay_and_scale_what_is_commanded() {
@@ -176,17 +150,5 @@ mod tests {
         for (a, b) in aligned.thruster_torque_s(thrust).into_iter().zip(nearly.thruster_torque_s(thrust)) {
             assert!((a - b).abs() < 1e-13);
         }
-    }
-
-    #[test]
-    fn arcs_cover_the_horizon_without_a_gap() {
-        assert_eq!(arcs(&[], 2.0), [(0.0, 2.0, false)]);
-        assert_eq!(arcs(&[[0.0, 2.0]], 2.0), [(0.0, 2.0, true)]);
-        assert_eq!(arcs(&[[0.0, 5.0]], 2.0), [(0.0, 2.0, true)]);
-        assert_eq!(arcs(&[[3.0, 5.0]], 2.0), [(0.0, 2.0, false)]);
-        assert_eq!(
-            arcs(&[[0.5, 1.0], [1.0, 1.5]], 2.0),
-            [(0.0, 0.5, false), (0.5, 1.0, true), (1.0, 1.5, true), (1.5, 2.0, false)]
-        );
     }
 }

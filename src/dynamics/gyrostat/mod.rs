@@ -31,6 +31,7 @@ pub mod completion;
 pub mod equations;
 
 use crate::dynamics::actuation::{BodyState, WheelState};
+use crate::dynamics::applied::scheduled_arc;
 use crate::math::Real;
 use crate::math::symmetric::principal_axes;
 use crate::math::vector::{
@@ -252,7 +253,10 @@ impl<R: Real> Gyrostat<R> {
 
     /// Starts all arcs of the schedule of `scene` up to `duration` seconds.
     pub fn begin_schedule(&mut self, scene: &Scene, duration: f64) {
-        for arc in scene.arcs(duration) {
+        let mut time = 0.0;
+        while time < duration {
+            let arc = scheduled_arc(scene, time, duration);
+            time = arc.end();
             self.begin_arc(scene, arc);
             self.note_rate();
         }

@@ -16,6 +16,7 @@ use super::jet::{Reciprocals, Scratch, expand};
 use super::lane_vectors::si_factors;
 use super::step::StepRule;
 use crate::dynamics::actuation::ActuationLaw;
+use crate::dynamics::applied::{law_arc, scheduled_arc};
 use crate::dynamics::debris;
 use crate::dynamics::gyrostat::equations::Constants;
 use crate::dynamics::gyrostat::{
@@ -25,7 +26,6 @@ use crate::math::double_double::DoubleDouble;
 use crate::math::isa::NarrowWork;
 use crate::math::vector::{conjugate, difference, dot, hamilton, product, scaled, sum};
 use crate::math::{Isa, Real};
-use crate::propagation::arc_source::{law_arc, scheduled_arc};
 use crate::propagation::settings::observes_debris_rotation;
 use crate::run::Status;
 use crate::run::{Grid, StateField, StateFields, StateTable};

@@ -1,0 +1,66 @@
+//! The arc that a run flies next: by the schedule of its scene, or by a law.
+
+use super::actuation::{ActuationLaw, BodyState, OpenLoop, WheelState};
+use crate::scene::{Arc, Scene, WheelMode};
+
+/// The arc of the schedule of `scene` at `time`.
+#[inline]
+pub fn scheduled_arc(scene: &Scene, time: f64, duration: f64) -> Arc {
+    Arc::new(time, OpenLoop { schedule: &scene.schedule }.at(time), duration)
+}
+
+/// The arc that `law` answers at `time`, where the state is `state`. The motor of a wheel that is missing, or whose speed is held,
+/// takes no command.
+///
+/// # Panics
+/// Where the answer ends before it starts: the run would never end.
+pub fn law_arc(
+    scene: &Scene,
+    law: &mut dyn ActuationLaw,
+    time: f64,
+    (body, wheels): (&BodyState, &WheelState),
+    duration: f64,
+) -> Arc {
+    let mut applied = law.arc(time, body, wheels);
+    assert!(applied.until > time, "a law's arc from {time} s ends at {} s", applied.until);
+    for (torque, wheel) in applied.motor_torque.iter_mut().zip(&scene.mass.wheels) {
+        if !wheel.is_present() || wheel.mode != WheelMode::Free {
+            *torque = 0.0;
+        }
+    }
+    Arc::new(time, applied, duration)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{ActuationInput, samples};
+
+    fn arcs(switches: &[[f64; 2]], duration: f64) -> Vec<(f64, f64, bool)> {
+        let mut input = samples::table_two();
+        input.actuation = switches
+            .iter()
+            .map(|&[start_s, end_s]| ActuationInput { start_s, end_s, thrust_n: [1.0, 0.0, 0.0], torque_n_m: [0.0; 2] })
+            .collect();
+        let scene = Scene::resolve(&input).expect("a legal schedule");
+        let (mut time, mut list) = (0.0, Vec::new());
+        while time < duration {
+            let arc = scheduled_arc(&scene, time, duration);
+            time = arc.end();
+            list.push((arc.start, arc.end(), arc.applied.thrust[0] > 0.0));
+        }
+        list
+    }
+
+    #[test]
+    fn arcs_cover_the_horizon_without_a_gap() {
+        assert_eq!(arcs(&[], 2.0), [(0.0, 2.0, false)]);
+        assert_eq!(arcs(&[[0.0, 2.0]], 2.0), [(0.0, 2.0, true)]);
+        assert_eq!(arcs(&[[0.0, 5.0]], 2.0), [(0.0, 2.0, true)]);
+        assert_eq!(arcs(&[[3.0, 5.0]], 2.0), [(0.0, 2.0, false)]);
+        assert_eq!(
+            arcs(&[[0.5, 1.0], [1.0, 1.5]], 2.0),
+            [(0.0, 0.5, false), (0.5, 1.0, true), (1.0, 1.5, true), (1.5, 2.0, false)]
+        );
+    }
+}
