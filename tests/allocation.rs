@@ -9,6 +9,7 @@ use std::cell::Cell;
 use std::hint::black_box;
 
 use spindrift::campaign::{Overrides, Plan};
+use spindrift::dynamics::actuation::Laws;
 use spindrift::dynamics::gyrostat::Gyrostat;
 use spindrift::dynamics::gyrostat::equations::Constants;
 use spindrift::dynamics::null_space::{Kernel, sigma};
@@ -22,6 +23,7 @@ use spindrift::propagation::PropagationSettings;
 use spindrift::run::Grid;
 use spindrift::sampling::SampleId;
 use spindrift::scene::Scene;
+use support::feedback::law;
 use support::runs::{adaptive, everything, fixed};
 use support::scenes::mixed;
 
@@ -145,6 +147,24 @@ fn no_allocation(method: Method, control: Control, first: &[Scene], second: &[Sc
     let counted = allocations(|| engine.propagate(second, &mut |_| finished += 1));
     assert_eq!(finished, first.len() + second.len());
     assert_eq!(counted, 0, "{} allocates in {what}", method.name());
+}
+
+/// The same under laws of the runs' own.
+#[test]
+fn engines_under_laws() {
+    let scenes = mixed(24, false, 10.0);
+    for (method, tolerance) in [(Method::Auto, 1e-8), (Method::DormandPrince, 1e-6), (Method::NullSpace, 1e-3)] {
+        let count = if method == Method::NullSpace { 4 } else { 24 };
+        let scenes = &scenes[..count];
+        let grid = Grid::uniform(2.0, 21);
+        let settings = PropagationSettings::new(method, adaptive(tolerance), grid, everything(method), &scenes[0]);
+        let mut engine = settings.with_feedback().engine(Isa::best());
+        let laws = || scenes.iter().map(law).collect::<Vec<_>>();
+        let (mut first, mut second) = (laws(), laws());
+        engine.propagate_under(Laws::Feedback(&mut first), scenes, &mut |_| {});
+        let counted = allocations(|| engine.propagate_under(Laws::Feedback(&mut second), scenes, &mut |_| {}));
+        assert_eq!(counted, 0, "{} allocates under laws", method.name());
+    }
 }
 
 /// Law: an observer allocates when it is made and never again.
