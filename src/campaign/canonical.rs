@@ -66,6 +66,9 @@ impl Plan {
             lines.keys_of("[debris]", Table::Debris, 0, &self.nominal);
         }
         lines.keys_of("[initial]", Table::Initial, 0, &self.nominal);
+        if self.nominal.environment.acts() {
+            lines.keys_of("[environment]", Table::Environment, 0, &self.nominal);
+        }
         for arc in 0..self.nominal.actuation.len() {
             lines.keys_of("[[actuation]]", Table::Actuation, arc, &self.nominal);
         }

@@ -46,6 +46,9 @@ pub(super) fn read(root: &mut Section<'_, '_>) -> SceneInput {
     read_keys(&mut section, Table::Initial, 0, &mut scene);
     refuse_states_of_absent_bodies(&mut section, &scene);
     section.finish();
+    let mut section = root.section("environment");
+    read_keys(&mut section, Table::Environment, 0, &mut scene);
+    section.finish();
     if root.has("actuators") && !root.has("actuation") {
         let remedy = "delete this table, or add [[actuation]] tables";
         root.refuse("actuators", "left out where there is no [[actuation]]", remedy);

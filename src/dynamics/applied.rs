@@ -1,12 +1,14 @@
-//! The arc that a run flies next: by the schedule of its scene, or by a law.
+//! The arc that a run flies next: by the schedule of its scene, or by a law, and the environment.
 
 use super::actuation::{ActuationLaw, BodyState, OpenLoop, WheelState};
+use super::environment::with_environment;
 use crate::scene::{Arc, Scene, WheelMode};
 
 /// The arc of the schedule of `scene` at `time`.
 #[inline]
 pub fn scheduled_arc(scene: &Scene, time: f64, duration: f64) -> Arc {
-    Arc::new(time, OpenLoop { schedule: &scene.schedule }.at(time), duration)
+    let applied = OpenLoop { schedule: &scene.schedule }.at(time);
+    Arc::new(time, with_environment(scene, time, applied), duration)
 }
 
 /// The arc that `law` answers at `time`, where the state is `state`. The motor of a wheel that is missing, or whose speed is held,
@@ -28,7 +30,7 @@ pub fn law_arc(
             *torque = 0.0;
         }
     }
-    Arc::new(time, applied, duration)
+    Arc::new(time, with_environment(scene, time, applied), duration)
 }
 
 #[cfg(test)]

@@ -3,11 +3,13 @@
 //! - [`actuation`]: the interface by which a run is asked for its arcs of constant actuation.
 //! - [`applied`]: the arc that a run flies next.
 //! - [`debris`]: the free body beside the spacecraft.
+//! - [`environment`]: torques of the environment.
 //! - [`gyrostat`]: the reduced form, fast: three rates, an attitude, and further components where a scene needs them.
 //! - [`null_space`]: the report's 62-state null-space form.
 
 pub mod actuation;
 pub mod applied;
 pub mod debris;
+pub mod environment;
 pub mod gyrostat;
 pub mod null_space;

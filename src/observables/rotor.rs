@@ -1,10 +1,11 @@
 //! [`Body`]: the constants of a run's rotation, as [`super::conditioning`] needs them.
 
+use crate::dynamics::environment::with_environment;
 use crate::math::Real;
 use crate::math::vector::{cross, difference, dot, product, scaled, sum};
 use crate::run::{StateField, StateTable};
-use crate::scene::Scene;
 use crate::scene::mass::MassProperties;
+use crate::scene::{Actuation, Scene};
 
 /// The constants of a run.
 pub(super) struct Body<'a> {
@@ -25,7 +26,7 @@ impl<'a> Body<'a> {
         let mass = &scene.mass;
         let inertia = mass.inertia_rotating();
         let [[x, xy, xz], [_, y, yz], [.., z]] = inertia;
-        let is_free = scene.schedule.iter().all(|arc| arc.start >= duration);
+        let is_free = !scene.environment.acts() && scene.schedule.iter().all(|arc| arc.start >= duration);
         let offset = is_free.then(|| {
             let omega = table.at::<3>(StateField::Rate, 0);
             let mut momentum = difference(product(mass.inertia, omega), product(inertia, omega));
@@ -56,23 +57,25 @@ pub(super) fn adjugate(m: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
     [cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])]
 }
 
-/// The largest torque of the schedule on the fuselage: thrusters' and motors' sizes added, N m.
+/// Upper bound of the torque on the fuselage, N m: the magnitudes of thrusters, motors and environment added.
 #[inline(always)]
 pub(super) fn largest_torque(scene: &Scene) -> f64 {
-    let mut largest = 0.0_f64;
+    let environment = with_environment(scene, 0.0, Actuation::none(f64::INFINITY)).body_torque;
+    let environment = dot(environment, environment).sqrt();
+    let mut largest = environment;
     for arc in &scene.schedule {
         let applied = &arc.applied;
         let thrust = scene.thruster_torque_s(applied.thrust);
-        largest =
-            largest.larger(dot(thrust, thrust).sqrt() + applied.motor_torque[0].abs() + applied.motor_torque[1].abs());
+        let [first, second] = applied.motor_torque;
+        largest = largest.larger(dot(thrust, thrust).sqrt() + first.abs() + second.abs() + environment);
     }
     largest
 }
 
-/// Whether thrust or motors act at `time`.
+/// Whether anything acts at `time`.
 #[inline(always)]
 pub(super) fn acts(scene: &Scene, time: f64) -> bool {
-    scene.schedule.iter().any(|arc| arc.start <= time && time <= arc.end())
+    scene.environment.acts() || scene.schedule.iter().any(|arc| arc.start <= time && time <= arc.end())
 }
 
 #[cfg(test)]

@@ -35,7 +35,7 @@ impl PropagationSettings {
             control,
             grid,
             blocks,
-            thrust: nominal.commands_thrust,
+            thrust: nominal.commands_thrust || nominal.environment.acts(),
             motors: nominal.commands_torque,
             feedback: false,
         }

@@ -23,6 +23,7 @@ pub(super) fn written(input: &SceneInput, problems: &mut Problems) {
         debris::check(input, problems);
     }
     input.initial.check(input, problems, |_, names| names[0].into());
+    input.environment.check(input, problems, |_, names| names[0].into());
     if input.actuation.is_empty() {
         return;
     }

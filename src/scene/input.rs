@@ -4,7 +4,9 @@
 //! defaults come from [`super::schema`]. [`super::Scene::resolve`] turns a scene into a [`super::Scene`] or says why it is not
 //! physical.
 
-use super::schema::{ActuationInput, ActuatorsInput, DebrisInput, FuselageInput, InitialInput, WheelInput, WheelMode};
+use super::schema::{
+    ActuationInput, ActuatorsInput, DebrisInput, EnvironmentInput, FuselageInput, InitialInput, WheelInput, WheelMode,
+};
 
 /// A scene as written: bodies, initial state, actuation.
 ///
@@ -35,13 +37,16 @@ pub struct SceneInput {
     pub actuation: Vec<ActuationInput>,
     /// What the actuators make of it.
     pub actuators: ActuatorsInput,
+    /// Torques of the environment.
+    pub environment: EnvironmentInput,
 }
 
 impl SceneInput {
-    /// Whether anything does work on the spacecraft: a schedule, or a motor that holds its wheel's speed.
+    /// Whether anything does work on the spacecraft: a schedule, a torque of the environment, or a motor that holds its wheel's
+    /// speed.
     pub fn is_actuated(&self) -> bool {
         let is_held = |wheel: &Option<WheelInput>| wheel.is_some_and(|wheel| wheel.mode == WheelMode::SpeedHeld);
-        !self.actuation.is_empty() || self.wheels.iter().any(is_held)
+        !self.actuation.is_empty() || self.environment.acts() || self.wheels.iter().any(is_held)
     }
 
     /// The same scene with wheel `index`: 0 is W1, 1 is W2.

@@ -31,8 +31,8 @@ pub use mass::MassProperties;
 pub use parameter::Parameter;
 pub use schedule::{Actuation, Arc, THRUSTERS, WHEELS};
 pub use schema::{
-    ActuationInput, ActuatorsInput, DebrisInput, FuselageInput, InitialInput, MassErrors, PrincipalInertia,
-    PrincipalMoments, WheelInput, WheelMode,
+    ActuationInput, ActuatorsInput, DebrisInput, EnvironmentInput, FuselageInput, InitialInput, MassErrors,
+    PrincipalInertia, PrincipalMoments, WheelInput, WheelMode,
 };
 
 use crate::math::vector::{cross, difference, scaled, sum};
@@ -52,6 +52,8 @@ pub struct Scene {
     pub thruster_directions: [[f64; 3]; 3],
     /// Arcs of constant actuation as they are applied, in order, not overlapping, each with start < end.
     pub schedule: Vec<Arc>,
+    /// Torques of the environment, as written.
+    pub environment: EnvironmentInput,
     /// Whether the schedule commands thrust at all, whatever the thrusters make of it.
     pub commands_thrust: bool,
     /// The same of motor torque.

@@ -22,6 +22,7 @@ impl Scene {
             thruster_station: 0.0,
             thruster_directions: THRUSTER_DIRECTIONS,
             schedule: Vec::with_capacity(input.actuation.len()),
+            environment: input.environment,
             commands_thrust: false,
             commands_torque: false,
         };
@@ -49,6 +50,7 @@ impl Scene {
         self.thruster_directions = schedule::thruster_directions(input);
         self.schedule.clear();
         self.schedule.extend((0..input.actuation.len()).map(|index| schedule::applied(input, index)));
+        self.environment = input.environment;
         self.commands_thrust = input.actuation.iter().any(|arc| arc.thrust_n != [0.0; 3]);
         self.commands_torque = input.actuation.iter().any(|arc| arc.torque_n_m != [0.0; 2]);
     }

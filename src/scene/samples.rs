@@ -46,5 +46,6 @@ pub(crate) fn table_two() -> SceneInput {
         },
         actuation: Vec::new(),
         actuators: ActuatorsInput::IDEAL,
+        ..SceneInput::default()
     }
 }

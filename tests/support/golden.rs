@@ -133,6 +133,7 @@ fn scene(scene: &Value) -> SceneInput {
         },
         actuation: actuation.collect(),
         actuators: ActuatorsInput::IDEAL,
+        ..SceneInput::default()
     }
 }
 

@@ -124,7 +124,15 @@ pub fn random(kind: Kind, seed: u64, horizon: f64) -> SceneInput {
         interval(0.125 * horizon, 0.3 * horizon);
         interval(0.3 * horizon, 0.75 * horizon);
     }
-    SceneInput { fuselage, wheels, debris, initial, actuation, actuators: ActuatorsInput::IDEAL }
+    SceneInput {
+        fuselage,
+        wheels,
+        debris,
+        initial,
+        actuation,
+        actuators: ActuatorsInput::IDEAL,
+        ..SceneInput::default()
+    }
 }
 
 /// `input` with motors that hold the speed of the wheels named by `held`, which then have no torque in the schedule.

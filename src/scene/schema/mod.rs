@@ -5,7 +5,7 @@
 //! dispersable [`super::Parameter`]s and the table of keys in the documents. To add a parameter, add a row here and use the
 //! field where it acts.
 //!
-//! - [`fuselage`], [`wheel`], [`debris`], [`initial`], [`actuators`], [`actuation`]: the rows, table by table.
+//! - [`fuselage`], [`wheel`], [`debris`], [`initial`], [`environment`], [`actuators`], [`actuation`]: the rows, table by table.
 //! - [`limit`]: what a value must satisfy. [`numbers`]: values seen as plain numbers.
 //!
 //! A table may have several instances: wheel `i` is instance `i` of [`Table::Wheel`], arc `i` of the schedule is instance `i`
@@ -16,6 +16,7 @@
 pub mod actuation;
 pub mod actuators;
 pub mod debris;
+pub mod environment;
 pub mod fuselage;
 pub mod initial;
 pub mod limit;
@@ -28,6 +29,7 @@ use super::input::SceneInput;
 pub use actuation::ActuationInput;
 pub use actuators::ActuatorsInput;
 pub use debris::DebrisInput;
+pub use environment::EnvironmentInput;
 pub use fuselage::{FuselageInput, MassErrors, PrincipalInertia, PrincipalMoments};
 pub use initial::InitialInput;
 pub use limit::Limit;
@@ -46,14 +48,23 @@ pub enum Table {
     Actuators,
     /// `[initial]`.
     Initial,
+    /// `[environment]`.
+    Environment,
     /// `[[actuation]]`: commands, which cannot be dispersed; `[actuators]` distorts them.
     Actuation,
 }
 
 impl Table {
     /// All tables, in the order of the dispersable parameters.
-    pub const ALL: [Table; 6] =
-        [Table::Fuselage, Table::Wheel, Table::Debris, Table::Actuators, Table::Initial, Table::Actuation];
+    pub const ALL: [Table; 7] = [
+        Table::Fuselage,
+        Table::Wheel,
+        Table::Debris,
+        Table::Actuators,
+        Table::Initial,
+        Table::Environment,
+        Table::Actuation,
+    ];
 
     /// The names of the table in a campaign file, one for each instance; one name for a list of tables.
     pub const fn headers(self) -> &'static [&'static str] {
@@ -63,6 +74,7 @@ impl Table {
             Table::Debris => &["debris"],
             Table::Actuators => &["actuators"],
             Table::Initial => &["initial"],
+            Table::Environment => &["environment"],
             Table::Actuation => &["actuation"],
         }
     }
@@ -75,6 +87,7 @@ impl Table {
             Table::Debris => debris::KEYS,
             Table::Actuators => actuators::KEYS,
             Table::Initial => initial::KEYS,
+            Table::Environment => environment::KEYS,
             Table::Actuation => actuation::KEYS,
         }
     }
