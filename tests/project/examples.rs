@@ -2,12 +2,19 @@
 
 #[path = "../../examples/campaign_in_memory.rs"]
 mod campaign_in_memory;
+#[path = "../../examples/control_law.rs"]
+mod control_law;
 #[path = "../../examples/one_run.rs"]
 mod one_run;
 
 #[test]
 fn one_run_ends() {
     one_run::main();
+}
+
+#[test]
+fn a_closed_loop_ends() {
+    control_law::main();
 }
 
 #[test]
