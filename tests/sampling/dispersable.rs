@@ -54,6 +54,7 @@ fn variants() -> Vec<SceneInput> {
     ];
     let mut list = vec![plain, scene(1), scene(2), by_moments, by_second];
     list.extend(irregular.map(|debris| SceneInput { debris: Some(debris), ..scene(1) }));
+    list.push(scene(1).with("environment.body_torque_n_m", &[30.0, -20.0, 10.0]));
     for input in &mut list {
         for q in [&mut input.initial.attitude, &mut input.initial.debris_attitude] {
             let norm = q.iter().map(|x| x * x).sum::<f64>().sqrt();

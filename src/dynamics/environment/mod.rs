@@ -3,6 +3,8 @@
 //! Each torque is a source of actuation in a file of its own, listed in [`SOURCES`]; its parameters are the keys of `[environment]`
 //! ([`crate::scene::schema::environment`]). A scene without such keys has no environment and costs nothing.
 
+mod constant_torque;
+
 use super::actuation::sum;
 use crate::scene::{Actuation, Scene};
 
@@ -10,7 +12,7 @@ use crate::scene::{Actuation, Scene};
 pub type Source = fn(&Scene, f64) -> Actuation;
 
 /// All torques of the environment.
-pub const SOURCES: [Source; 0] = [];
+pub const SOURCES: [Source; 1] = [constant_torque::actuation];
 
 /// `applied` by the actuators at `time`, and everything that the environment of `scene` adds, until the first of them changes.
 #[inline]

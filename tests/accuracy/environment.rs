@@ -1,0 +1,91 @@
+//! A constant torque of the environment: closed form, balances, and every kernel against the double-double solution.
+
+use crate::support::runs::{Run, adaptive, everything, fixed, propagate};
+use crate::support::scenes::{Kind, random};
+use spindrift::math::Isa;
+use spindrift::ode::Control;
+use spindrift::propagation::Method;
+use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE};
+use spindrift::run::{Grid, StateField};
+use spindrift::scene::{Scene, SceneInput};
+
+/// Methods with their largest relative distance from the exact motion over the runs below.
+const METHODS: [(Method, Control, f64); 7] = [
+    (Method::Auto, adaptive(1e-16), 1e-13),
+    (Method::Taylor, adaptive(1e-16), 1e-13),
+    (Method::Dop853, adaptive(1e-13), 1e-11),
+    (Method::DormandPrince, adaptive(1e-12), 1e-10),
+    (Method::GaussLegendre, fixed(1e-3), 1e-10),
+    (Method::RungeKutta4, fixed(1e-3), 1e-7),
+    (Method::NullSpace, adaptive(1e-11), 1e-8),
+];
+
+/// |a - b| over |b|, at least one.
+fn off<const K: usize>(run: &Run, field: StateField, point: usize, expected: [f64; K]) -> f64 {
+    let found = run.table.at::<K>(field, point);
+    let size = expected.iter().map(|x| x * x).sum::<f64>().sqrt().max(1.0);
+    found.iter().zip(expected).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt() / size
+}
+
+/// Law: a torque tau about the axis of an axisymmetric body makes its rate grow by tau t/J and its angle by w t + tau t^2/(2 J); it does
+/// the work J (w(t)^2 - w(0)^2)/2, and its angular impulse is tau t.
+#[test]
+fn an_axisymmetric_body_spins_up() {
+    let (rate, torque) = (0.5, 40.0);
+    let mut input = SceneInput::default();
+    input.initial.angular_velocity_rad_s = [0.0, 0.0, rate];
+    input.environment.body_torque_n_m = Some([0.0, 0.0, torque]);
+    let scene = Scene::resolve(&input).expect("a legal scene");
+    let moment = scene.mass.inertia[2][2];
+    let grid = Grid::uniform(12.0, 25);
+    for (method, control, bound) in METHODS {
+        let run = propagate(method, control, &grid, std::slice::from_ref(&scene)).remove(0);
+        for (point, time) in grid.times().iter().enumerate() {
+            let spun = rate + torque * time / moment;
+            let (sin, cos) = libm::sincos(0.5 * (rate * time + 0.5 * torque * time * time / moment));
+            let work = 0.5 * moment * (spun * spun - rate * rate);
+            let sign = if run.table.at::<4>(StateField::Attitude, point)[0] * cos < 0.0 { -1.0 } else { 1.0 };
+            let errors = [
+                off(&run, StateField::Rate, point, [0.0, 0.0, spun]),
+                off(&run, StateField::Attitude, point, [sign * cos, 0.0, 0.0, sign * sin]),
+                off(&run, StateField::Work, point, [work, 0.0]),
+                off(&run, StateField::AngularImpulse, point, [0.0, 0.0, torque * time]),
+                off(&run, StateField::Impulse, point, [0.0; 3]),
+            ];
+            assert!(errors.iter().all(|error| *error <= bound), "{} at {time} s: {errors:?}", method.name());
+        }
+    }
+}
+
+/// Law: under a constant torque all kernels follow the double-double solution, and energy and angular momentum balance: what the
+/// torque put in is what the body gained.
+#[test]
+fn all_kernels_agree() {
+    let grid = Grid::uniform(4.0, 17);
+    let kind = Kind { wheels: [true, true], debris: 0, products: true, offset: true, forced: false };
+    for seed in 0..4 {
+        let mut input = random(kind, seed, 4.0);
+        let free = Scene::resolve(&input).expect("a legal scene");
+        input.environment.body_torque_n_m = Some([30.0, -20.0, 10.0]);
+        let scene = Scene::resolve(&input).expect("a legal scene");
+        let fields = everything(Method::Taylor);
+        let exact = ReferenceSolution::new(Isa::best(), &scene, &grid, fields, TOLERANCE).expect("arrives");
+        let last = grid.points() - 1;
+        for (method, control, bound) in METHODS {
+            let run = propagate(method, control, &grid, std::slice::from_ref(&scene)).remove(0);
+            for point in 0..grid.points() {
+                let errors = [
+                    off(&run, StateField::Rate, point, exact.high.at::<3>(StateField::Rate, point)),
+                    off(&run, StateField::WheelRates, point, exact.high.at::<2>(StateField::WheelRates, point)),
+                    off(&run, StateField::Work, point, exact.high.at::<2>(StateField::Work, point)),
+                    off(&run, StateField::AngularImpulse, point, exact.high.at::<3>(StateField::AngularImpulse, point)),
+                ];
+                assert!(errors.iter().all(|error| *error <= 10.0 * bound), "{}, {seed}: {errors:?}", method.name());
+            }
+        }
+        // the torque acts: without it the body ends elsewhere
+        let free = ReferenceSolution::new(Isa::best(), &free, &grid, fields, TOLERANCE).expect("arrives");
+        let rate = |solution: &ReferenceSolution| solution.high.at::<3>(StateField::Rate, last);
+        assert!((0..3).any(|i| (rate(&free)[i] - rate(&exact)[i]).abs() > 1e-3));
+    }
+}
