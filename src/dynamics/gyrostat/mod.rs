@@ -404,6 +404,11 @@ impl<R: Real> Gyrostat<R> {
 
     /// Prepares the time scale of a run that will fly the schedule of `scene`, which is known before it starts.
     pub fn expect_schedule(&mut self, scene: &Scene, duration: f64) {
+        if scene.schedule.is_empty() && !scene.environment.acts() {
+            // one arc without torque: no need to lay it out for its rate
+            self.rate = self.rate.max(self.wheel_rate_of(self.initial_momentum));
+            return;
+        }
         self.begin_schedule(scene, duration);
         self.arcs.clear();
     }
@@ -417,12 +422,20 @@ impl<R: Real> Gyrostat<R> {
 
     /// The rate that an arc adds to the motion, rad/s: of the wheels' momenta, and of the torques after one radian.
     fn rate_of(&self, arc: &GyrostatArc<R>) -> f64 {
-        let moments = first_lane(self.moments);
-        let smallest = moments[0].min(moments[1]).min(moments[2]);
-        let wheels = largest(first_lane(self.wheel_momentum_b(arc.wheel_momentum))) / smallest;
         let motors = first_lane(self.wheel_momentum_b(arc.motor_torque()));
         let torque = largest(first_lane(arc.torque_b)).max(largest(motors));
-        wheels.max((torque / smallest).sqrt())
+        self.wheel_rate_of(arc.wheel_momentum).max((torque / self.smallest_moment()).sqrt())
+    }
+
+    /// The rate that wheels of momenta `momentum` add to the motion, rad/s.
+    fn wheel_rate_of(&self, momentum: [R; 2]) -> f64 {
+        largest(first_lane(self.wheel_momentum_b(momentum))) / self.smallest_moment()
+    }
+
+    /// The smallest principal moment of K, kg m^2.
+    fn smallest_moment(&self) -> f64 {
+        let moments = first_lane(self.moments);
+        moments[0].min(moments[1]).min(moments[2])
     }
 
     /// A power of two near the time scale of the run, s: from its rates, its wheels and what acts on it.
