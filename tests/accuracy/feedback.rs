@@ -15,13 +15,13 @@ const HORIZON: f64 = 3.1;
 
 /// Largest distance from the double-double solution of any state, over its largest magnitude: within 10 of the measured values.
 const BOUNDS: [(Method, Control, f64); 7] = [
-    (Method::Auto, adaptive(1e-16), 1e-12),
-    (Method::Taylor, adaptive(1e-16), 1e-12),
-    (Method::Dop853, adaptive(1e-13), 1e-10),
-    (Method::DormandPrince, adaptive(1e-12), 1e-9),
-    (Method::GaussLegendre, fixed(1e-3), 1e-9),
-    (Method::RungeKutta4, fixed(1e-3), 1e-6),
-    (Method::NullSpace, adaptive(1e-11), 1e-7),
+    (Method::Auto, adaptive(1e-16), 2e-14),
+    (Method::Taylor, adaptive(1e-16), 2e-14),
+    (Method::Dop853, adaptive(1e-13), 1e-12),
+    (Method::DormandPrince, adaptive(1e-12), 2e-11),
+    (Method::GaussLegendre, fixed(1e-3), 2e-14),
+    (Method::RungeKutta4, fixed(1e-3), 5e-10),
+    (Method::NullSpace, adaptive(1e-11), 2e-10),
 ];
 
 const FIELDS: [StateField; 8] = [
