@@ -76,12 +76,12 @@ fn scenes(plan: &Plan, count: usize) -> Vec<Scene> {
 }
 
 /// A chain of evaluations of the null-space kernel.
-struct Reference<'a> {
+struct NullSpaceChain<'a> {
     kernel: &'a Kernel,
     state: [f64; COMPONENTS],
 }
 
-impl Work for Reference<'_> {
+impl Work for NullSpaceChain<'_> {
     type Output = [f64; COMPONENTS];
 
     #[inline(always)]
@@ -153,7 +153,7 @@ fn right_hand_side(criterion: &mut Criterion) {
         group.throughput(Throughput::Elements(EVALUATIONS as u64));
         group.bench_function(format!("reference/{}", isa.name()), |bencher| {
             let state = sigma(&scene).components();
-            bencher.iter(|| black_box(isa.run(Reference { kernel: &kernel, state: black_box(state) })));
+            bencher.iter(|| black_box(isa.run(NullSpaceChain { kernel: &kernel, state: black_box(state) })));
         });
     }
     group.finish();

@@ -147,7 +147,7 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> Drive
         let clock = lanes.work.ring.clock;
         let mut occupied = lanes.states.iter().flatten();
         if clock > 0 && occupied.all(|state| state.begun == clock && state.steps_before == 0) {
-            // all lanes start anew: so does the ring, and the memory that it uses stays small
+            // all lanes have just been loaded: the ring restarts too, and the memory that it uses stays small
             lanes.work.ring.clock = 0;
             lanes.states.iter_mut().flatten().for_each(|state| state.begun = 0);
         }

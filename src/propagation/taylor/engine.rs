@@ -16,7 +16,7 @@ use crate::propagation::settings::PropagationSettings;
 use crate::run::Grid;
 use crate::scene::Scene;
 
-/// One worker's memory: `N` components, of which the first `J` have series of their own.
+/// One worker's memory: `N` components; the first `J` have series of their own.
 pub struct TaylorEngine<S, R, const N: usize, const J: usize, const FORCED: bool> {
     simd: S,
     zero: R,

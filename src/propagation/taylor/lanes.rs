@@ -17,7 +17,7 @@ use crate::run::{Grid, Outcome, Status, StepStatistics, Trajectory};
 /// Receives a run that has ended: its index, the run with the arcs flown, its components at the points, how it ended.
 pub(super) type RunCallback<'a> = dyn FnMut(usize, &Gyrostat<f64>, &mut Trajectory, &Outcome) + 'a;
 
-/// Runs in lanes: `N` components, of which the first `J` have series.
+/// Runs in lanes: `N` components; the first `J` have series.
 pub(super) struct RunLanes<'a, R, const N: usize, const J: usize> {
     pub runs: &'a mut [Gyrostat<f64>],
     pub arcs: ArcSource<'a>,

@@ -20,8 +20,8 @@ pub struct StepRule {
     log_slowest: f64,
 }
 
-/// Tolerances below the rounding of the arithmetic are met with room to spare: truncation has a sign and rounding has none, so that
-/// what is left of it adds up in every step. At the tolerance itself energy drifted by 6e-19 and the quaternion's norm by 8.3e-17 a
+/// Tolerances below the rounding of the arithmetic are met with a margin: truncation has a sign and rounding has none, so that
+/// the remaining truncation adds up in every step. At the tolerance itself energy drifted by 6e-19 and the quaternion's norm by 8.3e-17 a
 /// step (`tests/accuracy/round_off.rs`): two orders more, and this share of the tolerance for the series of the attitude.
 const BELOW_ROUNDING: f64 = 1.0 / 4096.0;
 /// The orders that go with it.

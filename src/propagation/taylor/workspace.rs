@@ -19,7 +19,7 @@ pub struct Settings {
     pub max_steps: u64,
 }
 
-/// The reusable memory of runs of `N` components, of which the first `J` have series.
+/// The reusable memory of runs of `N` components; the first `J` have series.
 #[derive(Clone, Debug)]
 pub struct Workspace<R, const J: usize> {
     /// Order and step size.
