@@ -69,7 +69,7 @@ fn observation(criterion: &mut Criterion) {
         let request = Request { groups, ..*Ensemble::new(&plan, isa).request() };
         let mut observer = Observer::new(request, &plan.grid);
         let mut row = vec![0.0; request.columns().len()];
-        let mut engine = propagator(&plan, plan.grid.clone(), request.blocks()).engine(isa);
+        let mut engine = propagator(&plan, plan.grid.clone(), request.fields()).engine(isa);
         engine.propagate(std::slice::from_ref(&scene), &mut |CompletedRun { table, outcome, .. }| {
             group.bench_function(name, |bencher| {
                 bencher.iter(|| observer.observe(isa, &scene, black_box(table), outcome, black_box(&mut row)));

@@ -219,7 +219,7 @@ fn step(criterion: &mut Criterion) {
 fn run(criterion: &mut Criterion) {
     let plan = plan("no_debris.toml");
     let isa = Isa::best();
-    let blocks = Ensemble::new(&plan, isa).request().blocks();
+    let blocks = Ensemble::new(&plan, isa).request().fields();
     let scenes = scenes(&plan, BATCH);
     let mut group = criterion.benchmark_group("run");
     for method in METHODS {

@@ -76,7 +76,8 @@ pub fn main() {
         .unwrap_or_else(|error| panic!("{error}"));
     let ensemble = Ensemble::new(&plan, Isa::best());
     let columns = ensemble.request().columns();
-    let column = columns.iter().position(|column| column.name == COLUMN).expect("the group `exchange` is observed");
+    let column = columns.iter().position(|column| column.quantity.name() == COLUMN);
+    let column = column.expect("the group `exchange` is observed");
     let sink = Collected { column, pairs: Mutex::new(Vec::new()) };
     run(&ensemble, Parts::of(plan.samples), None, &sink, &|_| ()).unwrap_or_else(|error| panic!("{error}"));
 

@@ -51,10 +51,11 @@ pub fn main() {
         let [x, y, z] = run.table.at::<3>(StateField::Rate, point);
         println!("{time:6.1}  {x:10.6} {y:10.6} {z:10.6}");
     }
-    for (column, errors) in &run.series {
-        if column.name.ends_with("_error") {
+    for (series, errors) in &run.series {
+        let name = series.quantity().map_or("", |quantity| quantity.name());
+        if name.ends_with("_error") {
             let maximum = errors.iter().fold(0.0_f64, |maximum, error| maximum.max(error.abs()));
-            println!("maximum of {}: {maximum:.1e}", column.name);
+            println!("maximum of {name}: {maximum:.1e}");
             assert!(maximum < 1e-11, "the run conserves energy and momentum");
         }
     }

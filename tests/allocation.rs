@@ -179,7 +179,7 @@ fn observation() {
         let mut observer = Observer::new(request, &plan.grid);
         let mut row = vec![0.0; request.columns().len()];
         let control = adaptive(if constrained { 1e-3 } else { 1e-12 });
-        let propagator = PropagationSettings::new(method, control, plan.grid.clone(), request.blocks(), &scenes[0]);
+        let propagator = PropagationSettings::new(method, control, plan.grid.clone(), request.fields(), &scenes[0]);
         let mut observed = 0;
         propagator.engine(Isa::best()).propagate(&scenes, &mut |CompletedRun { index, table, outcome, .. }| {
             let counted = allocations(|| observer.observe(Isa::best(), &scenes[index], table, outcome, &mut row));

@@ -9,30 +9,32 @@ use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::input::{isa, plan};
 use crate::cli::screen;
 use crate::dataset::table::{TableError, TableFormat};
-use crate::dataset::timeseries::TimeSeries;
+use crate::dataset::timeseries::{TimeColumn, TimeSeries};
+use crate::ensemble::audit::AuditValue;
 use crate::ensemble::{Auditor, SingleRun};
 use crate::math::Isa;
+use crate::observables::Series;
+use crate::observables::table::STATE_ERROR_ESTIMATE;
 use crate::report::energy_figure::energy_figure;
 use crate::report::number::short;
 use crate::report::plot::{PlotError, PlotFormat};
-use crate::run::Grid;
-use crate::run::Status;
+use crate::run::{Grid, StateField, Status};
 use crate::sampling::SampleId;
 
 /// The columns on the screen: what fits, the rest is in the files.
-const ON_SCREEN: [&str; 12] = [
-    "time_s",
-    "omega_se_s_x_rad_s",
-    "omega_se_s_y_rad_s",
-    "omega_se_s_z_rad_s",
-    "alpha_dot_rad_s",
-    "beta_dot_rad_s",
-    "energy_fuselage_j",
-    "energy_wheel1_j",
-    "energy_wheel2_j",
-    "energy_error",
-    "linear_momentum_error",
-    "angular_momentum_error",
+const ON_SCREEN: [TimeColumn; 12] = [
+    TimeColumn::Time,
+    TimeColumn::State(StateField::Rate, 0),
+    TimeColumn::State(StateField::Rate, 1),
+    TimeColumn::State(StateField::Rate, 2),
+    TimeColumn::State(StateField::WheelRates, 0),
+    TimeColumn::State(StateField::WheelRates, 1),
+    TimeColumn::Series(Series::EnergyFuselage),
+    TimeColumn::Series(Series::EnergyWheel1),
+    TimeColumn::Series(Series::EnergyWheel2),
+    TimeColumn::Series(Series::EnergyError),
+    TimeColumn::Series(Series::LinearMomentumError),
+    TimeColumn::Series(Series::AngularMomentumError),
 ];
 
 /// A plot has at least this many intervals, unless it is told its times: two to a pixel.
@@ -123,15 +125,14 @@ fn audit(options: &SimulateOptions, plan: &Plan, run: &SingleRun, isa: Isa) -> R
         return Ok(());
     };
     let mut text = format!("audit of sample {sample}, against a solution at {:e}\n", found.truth_tolerance);
-    let lines = [
-        ("audit_state_error", found.state()),
-        ("audit_omega_error", found.omega),
-        ("audit_attitude_error_rad", found.attitude),
-        ("state_error_estimate", found.estimate),
-    ];
+    // the tolerance of the reference solution is in the first line
+    let values = AuditValue::ALL.into_iter().filter(|value| *value != AuditValue::Tolerance);
+    let lines = values
+        .map(|value| (value.quantity().name(), found.value(value)))
+        .chain([(STATE_ERROR_ESTIMATE.quantity().name(), found.estimate)]);
     let columns = run.request.columns();
     let observed = columns.iter().zip(&found.observables).filter(|(_, error)| !error.is_nan());
-    let errors = observed.map(|(column, error)| (column.name, *error));
+    let errors = observed.map(|(column, error)| (column.quantity.name(), *error));
     for (name, value) in lines {
         let _ = writeln!(text, "{name:<40}{:>12}", short(value)); // writing to a String does not fail
     }
@@ -178,7 +179,8 @@ fn plot(path: &Path, options: &SimulateOptions, plan: &Plan, series: &TimeSeries
 fn table(series: &TimeSeries) -> String {
     let columns: Vec<(&str, Vec<String>)> = ON_SCREEN
         .into_iter()
-        .filter_map(|name| Some((name, series.column(name)?.iter().map(|value| format!("{value:?}")).collect())))
+        .filter_map(|key| series.column(key))
+        .map(|(quantity, values)| (quantity.name(), values.iter().map(|value| format!("{value:?}")).collect()))
         .collect();
     let widths: Vec<usize> = columns
         .iter()

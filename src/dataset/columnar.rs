@@ -19,6 +19,8 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
 use parquet::schema::types::{ColumnPath, TypePtr};
 
+use crate::run::Quantity;
+
 /// Type of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Content {
@@ -30,15 +32,11 @@ pub enum Content {
     Word,
 }
 
-/// A column: name, unit, meaning, content.
+/// A column of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Heading {
-    /// Name, unit last.
-    pub name: String,
-    /// Unit; empty for a pure number.
-    pub unit: String,
-    /// One sentence.
-    pub meaning: String,
+    /// Name, unit and meaning.
+    pub quantity: Quantity,
     /// Type.
     pub content: Content,
     /// Whether a value may be absent.
@@ -47,8 +45,8 @@ pub struct Heading {
 
 impl Heading {
     /// A column without absent values.
-    pub fn new(name: &str, unit: &str, meaning: &str, content: Content) -> Self {
-        Heading { name: name.to_owned(), unit: unit.to_owned(), meaning: meaning.to_owned(), content, nullable: false }
+    pub fn new(quantity: Quantity, content: Content) -> Self {
+        Heading { quantity, content, nullable: false }
     }
 
     /// The same column, whose values may be absent.
@@ -63,9 +61,9 @@ impl Heading {
             Content::Count => DataType::UInt64,
             Content::Word => DataType::Utf8,
         };
-        let metadata = [("unit", &self.unit), ("meaning", &self.meaning)];
-        let metadata: HashMap<String, String> = metadata.map(|(key, value)| (key.to_owned(), value.clone())).into();
-        Field::new(&self.name, data_type, self.nullable).with_metadata(metadata)
+        let metadata = [("unit", self.quantity.unit()), ("meaning", self.quantity.meaning())];
+        let metadata: HashMap<String, String> = metadata.map(|(key, value)| (key.to_owned(), value.to_owned())).into();
+        Field::new(self.quantity.name(), data_type, self.nullable).with_metadata(metadata)
     }
 }
 
@@ -105,7 +103,7 @@ impl Layout {
     /// # Errors
     /// Where two columns have the same name.
     pub fn new(headings: &[Heading], metadata: HashMap<String, String>, packing: Packing) -> Result<Self> {
-        let mut names: Vec<&str> = headings.iter().map(|heading| heading.name.as_str()).collect();
+        let mut names: Vec<&str> = headings.iter().map(|heading| heading.quantity.name()).collect();
         names.sort_unstable();
         if let Some(twice) = names.windows(2).find(|pair| pair[0] == pair[1]) {
             return Err(ParquetError::General(format!("two columns have the name `{}`", twice[0])));
@@ -243,8 +241,7 @@ mod tests {
     use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 
     fn heading(name: &str, content: Content, nullable: bool) -> Heading {
-        let (unit, meaning) = ("m".to_owned(), format!("The {name}."));
-        Heading { name: name.into(), unit, meaning, content, nullable }
+        Heading { quantity: Quantity::named(name.into(), "m".to_owned(), format!("The {name}.")), content, nullable }
     }
 
     fn written(packing: Packing) -> Vec<u8> {

@@ -10,7 +10,7 @@ use crate::dataset::provenance::provenance;
 use crate::dataset::rows_file::{SAMPLE_ID, STATUS, parameter_headings};
 use crate::dataset::table::{TableError, TableFormat, write_csv};
 use crate::ensemble::DrawnScenes;
-use crate::run::Status;
+use crate::run::{Quantity, Status};
 
 /// Status of a sample that is physical; one that is not has the status of its row.
 pub const PHYSICAL: &str = "drawn";
@@ -29,8 +29,8 @@ impl DrawnTable<'_> {
     pub fn headings(&self) -> Vec<Heading> {
         let number = "Number of the sample within the campaign; 0 is the nominal scene.";
         let status = "drawn, or invalid_sample where the scene is not physical.";
-        let fixed =
-            [Heading::new(SAMPLE_ID, "", number, Content::Count), Heading::new(STATUS, "", status, Content::Word)];
+        let fixed = [(SAMPLE_ID, number, Content::Count), (STATUS, status, Content::Word)]
+            .map(|(name, meaning, content)| Heading::new(Quantity::new(name, "", meaning), content));
         fixed.into_iter().chain(parameter_headings(self.plan)).collect()
     }
 

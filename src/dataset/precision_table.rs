@@ -9,36 +9,51 @@ use crate::dataset::atomic;
 use crate::dataset::columnar::{Cells, Content, Heading, Layout, Packing};
 use crate::dataset::provenance::provenance;
 use crate::ensemble::precision::{Deviation, Measurement, Setting};
+use crate::run::Quantity;
 
-/// A column of numbers: name, unit, meaning, value.
-type Column = (&'static str, &'static str, &'static str, fn(&Measurement) -> Option<f64>);
+/// A column of numbers: what it is, and its value.
+type Column = (Quantity, fn(&Measurement) -> Option<f64>);
 
 /// The columns of numbers.
-const COLUMNS: [Column; 17] = [
-    ("tolerance", "", "Relative and absolute tolerance; absent for a fixed step.", |m| tolerance(m.setting)),
-    ("step_s", "s", "Fixed step; absent for a tolerance.", |m| step(m.setting)),
-    ("cpu_s", "s", "CPU time of a run, median of the repetitions.", |m| Some(m.cpu[0])),
-    ("cpu_least_s", "s", "CPU time of a run, minimum of the repetitions.", |m| Some(m.cpu[1])),
-    ("repeats", "", "Number of timed repetitions.", |m| Some(m.repeats as f64)),
-    ("runs", "", "Number of samples.", |m| Some(m.runs[0] as f64)),
-    ("failed", "", "Samples that did not reach their end; they have no error.", |m| Some(m.runs[1] as f64)),
-    ("steps_mean", "", "Accepted steps of a run, mean.", |m| Some(m.steps)),
-    ("runs_per_s", "1/s", "One over the median CPU time.", |m| Some(1.0 / m.cpu[0])),
-    ("rate_error_max", "", "Maximum |omega - reference solution| over the run's maximum |omega|.", |m| maximum(m.rate)),
-    ("rate_error_rms", "", "The same, root mean square over samples and points.", |m| mean(m.rate)),
+static COLUMNS: [Column; 17] = [
+    (Quantity::new("tolerance", "", "Relative and absolute tolerance; absent for a fixed step."), |m| {
+        tolerance(m.setting)
+    }),
+    (Quantity::new("step_s", "s", "Fixed step; absent for a tolerance."), |m| step(m.setting)),
+    (Quantity::new("cpu_s", "s", "CPU time of a run, median of the repetitions."), |m| Some(m.cpu[0])),
+    (Quantity::new("cpu_least_s", "s", "CPU time of a run, minimum of the repetitions."), |m| Some(m.cpu[1])),
+    (Quantity::new("repeats", "", "Number of timed repetitions."), |m| Some(m.repeats as f64)),
+    (Quantity::new("runs", "", "Number of samples."), |m| Some(m.runs[0] as f64)),
+    (Quantity::new("failed", "", "Samples that did not reach their end; they have no error."), |m| {
+        Some(m.runs[1] as f64)
+    }),
+    (Quantity::new("steps_mean", "", "Accepted steps of a run, mean."), |m| Some(m.steps)),
+    (Quantity::new("runs_per_s", "1/s", "One over the median CPU time."), |m| Some(1.0 / m.cpu[0])),
     (
-        "attitude_error_max_rad",
-        "rad",
-        "Maximum angle between the attitude and the reference solution, as 2 |q - q_ref|.",
+        Quantity::new("rate_error_max", "", "Maximum |omega - reference solution| over the run's maximum |omega|."),
+        |m| maximum(m.rate),
+    ),
+    (Quantity::new("rate_error_rms", "", "The same, root mean square over samples and points."), |m| mean(m.rate)),
+    (
+        Quantity::new(
+            "attitude_error_max_rad",
+            "rad",
+            "Maximum angle between the attitude and the reference solution, as 2 |q - q_ref|.",
+        ),
         |m| maximum(m.attitude),
     ),
-    ("attitude_error_rms_rad", "rad", "The same, root mean square over samples and points.", |m| mean(m.attitude)),
-    ("energy_error_max", "", "Maximum relative error of the energy balance.", |m| maximum(m.energy)),
-    ("energy_error_rms", "", "The same, root mean square over samples and points.", |m| mean(m.energy)),
-    ("angular_momentum_error_max", "", "Maximum relative error of the balance of angular momentum.", |m| {
-        maximum(m.momentum)
+    (Quantity::new("attitude_error_rms_rad", "rad", "The same, root mean square over samples and points."), |m| {
+        mean(m.attitude)
     }),
-    ("angular_momentum_error_rms", "", "The same, root mean square over samples and points.", |m| mean(m.momentum)),
+    (Quantity::new("energy_error_max", "", "Maximum relative error of the energy balance."), |m| maximum(m.energy)),
+    (Quantity::new("energy_error_rms", "", "The same, root mean square over samples and points."), |m| mean(m.energy)),
+    (
+        Quantity::new("angular_momentum_error_max", "", "Maximum relative error of the balance of angular momentum."),
+        |m| maximum(m.momentum),
+    ),
+    (Quantity::new("angular_momentum_error_rms", "", "The same, root mean square over samples and points."), |m| {
+        mean(m.momentum)
+    }),
 ];
 
 fn tolerance(setting: Setting) -> Option<f64> {
@@ -62,16 +77,15 @@ fn mean(of: Option<Deviation>) -> Option<f64> {
 /// # Errors
 /// Where writing fails.
 pub fn save(measured: &[Measurement], plan: &Plan, isa: &str, path: &Path) -> Result<(), ParquetError> {
-    let method = Heading::new("method", "", "Method, as in campaign files.", Content::Word);
-    let numbers =
-        COLUMNS.iter().map(|(name, unit, meaning, _)| Heading::new(name, unit, meaning, Content::Real).nullable());
+    let method = Heading::new(Quantity::new("method", "", "Method, as in campaign files."), Content::Word);
+    let numbers = COLUMNS.iter().map(|(quantity, _)| Heading::new(quantity.clone(), Content::Real).nullable());
     let headings: Vec<Heading> = std::iter::once(method).chain(numbers).collect();
     let mut origin = provenance(plan);
     origin.insert("spindrift.isa".to_owned(), isa.to_owned()); // times depend on it, unlike rows
     let layout = Layout::new(&headings, origin, Packing::Lz4)?;
     let columns: Vec<(Vec<f64>, Vec<bool>)> = COLUMNS
         .iter()
-        .map(|(.., value)| {
+        .map(|(_, value)| {
             let values: Vec<Option<f64>> = measured.iter().map(value).collect();
             let there = values.iter().map(Option::is_some).collect();
             (values.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect(), there)

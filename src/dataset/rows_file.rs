@@ -9,10 +9,10 @@ use crate::campaign::{Compression, Plan};
 use crate::dataset::atomic;
 use crate::dataset::columnar::{Cells, Content, Heading, Layout, Packing};
 use crate::dataset::provenance::provenance;
-use crate::ensemble::audit::COLUMNS;
+use crate::ensemble::audit::AuditValue;
 use crate::ensemble::{Ensemble, PartId, Rows};
 use crate::observables::Kind;
-use crate::run::Status;
+use crate::run::{Quantity, Status};
 
 /// Name of the column that numbers the samples.
 pub const SAMPLE_ID: &str = "sample_id";
@@ -37,17 +37,18 @@ pub fn file_name(part: PartId) -> String {
 pub fn headings(ensemble: &Ensemble<'_>) -> Vec<Heading> {
     let number = "Number of the sample within the campaign; 0 is the nominal scene.";
     let status = "How the run ended: ok, step_limit, step_floor, non_finite, invalid_sample.";
-    let fixed = [Heading::new(SAMPLE_ID, "", number, Content::Count), Heading::new(STATUS, "", status, Content::Word)];
+    let fixed = [(SAMPLE_ID, number, Content::Count), (STATUS, status, Content::Word)]
+        .map(|(name, meaning, content)| Heading::new(Quantity::new(name, "", meaning), content));
     let observables = ensemble
         .request()
         .columns()
         .into_iter()
-        .map(|column| Heading::new(column.name, column.unit, column.meaning, content(column.kind)).nullable());
+        .map(|column| Heading::new(column.quantity.clone(), content(column.kind)).nullable());
     let audited = ensemble.plan().audit_fraction > 0.0;
-    let audits = COLUMNS
-        .iter()
+    let audits = AuditValue::ALL
+        .into_iter()
         .filter(|_| audited)
-        .map(|column| Heading::new(column.name, column.unit, column.meaning, Content::Real).nullable());
+        .map(|value| Heading::new(value.quantity().clone(), Content::Real).nullable());
     fixed.into_iter().chain(parameter_headings(ensemble.plan())).chain(observables).chain(audits).collect()
 }
 
@@ -55,11 +56,12 @@ pub fn headings(ensemble: &Ensemble<'_>) -> Vec<Heading> {
 pub fn parameter_headings(plan: &Plan) -> impl Iterator<Item = Heading> {
     plan.dispersions.columns().iter().map(|column| {
         let unit = match column.parameter.unit() {
-            "1" => "",
-            unit => unit,
+            "1" => String::new(),
+            unit => unit.to_owned(),
         };
         let meaning = format!("{} as applied.", column.parameter.component_name(column.component));
-        Heading::new(&column.parameter.column_name(column.component), unit, &meaning, Content::Real)
+        let name = column.parameter.column_name(column.component);
+        Heading::new(Quantity::named(name, unit, meaning), Content::Real)
     })
 }
 
@@ -139,12 +141,12 @@ impl RowsFile {
 /// Which rows were audited, and the columns of the audits.
 fn audit_columns(rows: &Rows) -> (Vec<bool>, Vec<Vec<f64>>) {
     let mut audited = vec![false; rows.part().count];
-    let mut columns = vec![vec![f64::NAN; rows.part().count]; COLUMNS.len()];
+    let mut columns = vec![vec![f64::NAN; rows.part().count]; AuditValue::ALL.len()];
     for (row, audit) in rows.audits() {
         let Some(audit) = audit else { continue };
         audited[*row] = true;
-        for (column, value) in columns.iter_mut().zip(audit.values()) {
-            column[*row] = value;
+        for (column, value) in columns.iter_mut().zip(AuditValue::ALL) {
+            column[*row] = audit.value(value);
         }
     }
     (audited, columns)

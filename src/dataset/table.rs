@@ -55,7 +55,7 @@ pub fn write_csv<W: Write>(
     rows: usize,
     cells: impl Fn(&mut W, usize) -> io::Result<()>,
 ) -> io::Result<()> {
-    let names: Vec<&str> = headings.iter().map(|heading| heading.name.as_str()).collect();
+    let names: Vec<&str> = headings.iter().map(|heading| heading.quantity.name()).collect();
     writeln!(out, "{}", names.join(","))?;
     for row in 0..rows {
         cells(out, row)?;

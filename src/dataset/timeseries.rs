@@ -14,16 +14,30 @@ use crate::dataset::provenance::provenance;
 use crate::dataset::table::{TableError, TableFormat, write_csv};
 use crate::ensemble::SingleRun;
 use crate::math::vector::{cross, dcm_from_quaternion, difference, product};
-use crate::run::StateField;
+use crate::observables::Series;
+use crate::run::{Quantity, StateField};
 use crate::sampling::SampleId;
 
-/// Series of the observables that are not columns here: the total is the sum of its bodies.
-const LEFT_OUT: [&str; 1] = ["energy_total_j"];
+/// A series of the observables that is not a column here: the total is the sum of its bodies.
+const LEFT_OUT: Series = Series::EnergyTotal;
+
+/// What a column of a table over time shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TimeColumn {
+    /// The time since the start.
+    Time,
+    /// A component of a state; position and velocity of the spacecraft are those of the point p.
+    State(StateField, usize),
+    /// A series of the observables.
+    Series(Series),
+}
 
 /// A table over time.
 #[derive(Clone, Debug)]
 pub struct TimeSeries {
     headings: Vec<Heading>,
+    /// What each column shows.
+    keys: Vec<TimeColumn>,
     columns: Vec<Vec<f64>>,
     origin: HashMap<String, String>,
 }
@@ -32,21 +46,22 @@ impl TimeSeries {
     /// The points of `run` (sample `sample` of `plan`) that the run reached and whose time `shown` accepts.
     pub fn new(plan: &Plan, sample: SampleId, run: &SingleRun, shown: impl Fn(f64) -> bool) -> Self {
         let points: Vec<usize> = (0..run.outcome.points).filter(|point| shown(run.grid.times()[*point])).collect();
-        let mut table = Columns { points: &points, headings: Vec::new(), columns: Vec::new() };
-        table.push("time_s", "s", "Time since the start.", |point| run.grid.times()[point]);
+        let mut table = Columns { points: &points, headings: Vec::new(), keys: Vec::new(), columns: Vec::new() };
+        let time = Quantity::new("time_s", "s", "Time since the start.");
+        table.push(TimeColumn::Time, time, |point| run.grid.times()[point]);
         spacecraft(run, &mut table);
         if run.scene.mass.debris.is_some() {
             debris(run, &mut table);
         }
-        for (column, values) in &run.series {
-            if !LEFT_OUT.contains(&column.name) {
-                table.push(column.name, column.unit, column.meaning, |point| values[point]);
+        for (series, values) in &run.series {
+            if let Some(quantity) = series.quantity().filter(|_| *series != LEFT_OUT) {
+                table.push(TimeColumn::Series(*series), quantity.clone(), |point| values[point]);
             }
         }
         let mut origin = provenance(plan);
         origin.insert("spindrift.sample_id".to_owned(), sample.to_string());
         origin.insert("spindrift.status".to_owned(), run.outcome.status.name().to_owned());
-        TimeSeries { headings: table.headings, columns: table.columns, origin }
+        TimeSeries { headings: table.headings, keys: table.keys, columns: table.columns, origin }
     }
 
     /// The columns.
@@ -54,10 +69,15 @@ impl TimeSeries {
         &self.headings
     }
 
-    /// The values of the column called `name`.
-    pub fn column(&self, name: &str) -> Option<&[f64]> {
-        let index = self.headings.iter().position(|heading| heading.name == name)?;
-        Some(&self.columns[index])
+    /// The column that shows `key`: what it is, and its values.
+    pub fn column(&self, key: TimeColumn) -> Option<(&Quantity, &[f64])> {
+        let index = self.keys.iter().position(|known| *known == key)?;
+        Some((&self.headings[index].quantity, &self.columns[index]))
+    }
+
+    /// Every column, in order: what it is, and its values.
+    pub fn columns(&self) -> impl Iterator<Item = (&Quantity, &[f64])> {
+        self.headings.iter().map(|heading| &heading.quantity).zip(self.columns.iter().map(Vec::as_slice))
     }
 
     /// Number of points.
@@ -98,18 +118,21 @@ impl TimeSeries {
 struct Columns<'a> {
     points: &'a [usize],
     headings: Vec<Heading>,
+    keys: Vec<TimeColumn>,
     columns: Vec<Vec<f64>>,
 }
 
 impl Columns<'_> {
-    fn push(&mut self, name: &str, unit: &str, meaning: &str, value: impl Fn(usize) -> f64) {
-        self.headings.push(Heading::new(name, unit, meaning, Content::Real));
+    fn push(&mut self, key: TimeColumn, quantity: Quantity, value: impl Fn(usize) -> f64) {
+        self.headings.push(Heading::new(quantity, Content::Real));
+        self.keys.push(key);
         self.columns.push(self.points.iter().map(|point| value(*point)).collect());
     }
 
-    /// Components of a vector, the names of the components before the unit.
+    /// Components of `field`; the name of a component comes before the unit.
     fn push_vector<const N: usize>(
         &mut self,
+        field: StateField,
         stem: &str,
         unit: (&str, &str),
         meaning: &str,
@@ -120,7 +143,9 @@ impl Columns<'_> {
         for component in 0..N {
             let suffix = if unit.1.is_empty() { String::new() } else { format!("_{}", unit.1) };
             let name = format!("{stem}_{}{suffix}", names[component]);
-            self.headings.push(Heading::new(&name, unit.0, meaning, Content::Real));
+            let quantity = Quantity::named(name, unit.0.to_owned(), meaning.to_owned());
+            self.headings.push(Heading::new(quantity, Content::Real));
+            self.keys.push(TimeColumn::State(field, component));
             self.columns.push(values.iter().map(|value| value[component]).collect());
         }
     }
@@ -129,48 +154,83 @@ impl Columns<'_> {
 fn spacecraft(run: &SingleRun, table: &mut Columns<'_>) {
     let (states, center) = (&run.table, run.scene.mass.center);
     let rotated = |point, vector| product(dcm_from_quaternion(states.at(StateField::Attitude, point)), vector);
-    table.push_vector::<3>("r_po_e", ("m", "m"), "Position of the fuselage's base centre p, in F_e.", |point| {
-        difference(states.at(StateField::ComPosition, point), rotated(point, center))
-    });
-    table.push_vector::<3>("v_po_e", ("m/s", "m_s"), "Velocity of the fuselage's base centre p, in F_e.", |point| {
-        let relative = cross(states.at(StateField::Rate, point), center);
-        difference(states.at(StateField::ComVelocity, point), rotated(point, relative))
-    });
-    table.push_vector::<4>("q_es", ("", ""), "Attitude quaternion of the fuselage, F_s to F_e.", |point| {
-        states.at(StateField::Attitude, point)
-    });
-    table.push_vector::<3>("omega_se_s", ("rad/s", "rad_s"), "Angular velocity of the fuselage, in F_s.", |point| {
-        states.at(StateField::Rate, point)
-    });
-    let wheel = |block, wheel| move |point| states.column(block, wheel)[point];
-    table.push("alpha_rad", "rad", "Angle of wheel 1, unbounded.", wheel(StateField::WheelAngles, 0));
-    table.push("beta_rad", "rad", "Angle of wheel 2, unbounded.", wheel(StateField::WheelAngles, 1));
-    table.push(
-        "alpha_dot_rad_s",
-        "rad/s",
-        "Rate of wheel 1 relative to the fuselage.",
-        wheel(StateField::WheelRates, 0),
+    table.push_vector::<3>(
+        StateField::ComPosition,
+        "r_po_e",
+        ("m", "m"),
+        "Position of the fuselage's base centre p, in F_e.",
+        |point| difference(states.at(StateField::ComPosition, point), rotated(point, center)),
     );
-    table.push(
-        "beta_dot_rad_s",
-        "rad/s",
-        "Rate of wheel 2 relative to the fuselage.",
-        wheel(StateField::WheelRates, 1),
+    table.push_vector::<3>(
+        StateField::ComVelocity,
+        "v_po_e",
+        ("m/s", "m_s"),
+        "Velocity of the fuselage's base centre p, in F_e.",
+        |point| {
+            let relative = cross(states.at(StateField::Rate, point), center);
+            difference(states.at(StateField::ComVelocity, point), rotated(point, relative))
+        },
     );
+    table.push_vector::<4>(
+        StateField::Attitude,
+        "q_es",
+        ("", ""),
+        "Attitude quaternion of the fuselage, F_s to F_e.",
+        |point| states.at(StateField::Attitude, point),
+    );
+    table.push_vector::<3>(
+        StateField::Rate,
+        "omega_se_s",
+        ("rad/s", "rad_s"),
+        "Angular velocity of the fuselage, in F_s.",
+        |point| states.at(StateField::Rate, point),
+    );
+    for (field, wheel, quantity) in [
+        (StateField::WheelAngles, 0, Quantity::new("alpha_rad", "rad", "Angle of wheel 1, unbounded.")),
+        (StateField::WheelAngles, 1, Quantity::new("beta_rad", "rad", "Angle of wheel 2, unbounded.")),
+        (
+            StateField::WheelRates,
+            0,
+            Quantity::new("alpha_dot_rad_s", "rad/s", "Rate of wheel 1 relative to the fuselage."),
+        ),
+        (
+            StateField::WheelRates,
+            1,
+            Quantity::new("beta_dot_rad_s", "rad/s", "Rate of wheel 2 relative to the fuselage."),
+        ),
+    ] {
+        table.push(TimeColumn::State(field, wheel), quantity, |point| states.column(field, wheel)[point]);
+    }
 }
 
 fn debris(run: &SingleRun, table: &mut Columns<'_>) {
     let states = &run.table;
-    table.push_vector::<3>("r_gdo_e", ("m", "m"), "Position of the debris's centre, in F_e.", |point| {
-        states.at(StateField::DebrisPosition, point)
-    });
-    table.push_vector::<3>("v_gdo_e", ("m/s", "m_s"), "Velocity of the debris's centre, in F_e.", |point| {
-        states.at(StateField::DebrisVelocity, point)
-    });
-    table.push_vector::<4>("q_ed", ("", ""), "Attitude quaternion of the debris, F_d to F_e.", |point| {
-        states.at(StateField::DebrisAttitude, point)
-    });
-    table.push_vector::<3>("omega_de_d", ("rad/s", "rad_s"), "Angular velocity of the debris, in F_d.", |point| {
-        states.at(StateField::DebrisRate, point)
-    });
+    table.push_vector::<3>(
+        StateField::DebrisPosition,
+        "r_gdo_e",
+        ("m", "m"),
+        "Position of the debris's centre, in F_e.",
+        |point| states.at(StateField::DebrisPosition, point),
+    );
+    table.push_vector::<3>(
+        StateField::DebrisVelocity,
+        "v_gdo_e",
+        ("m/s", "m_s"),
+        "Velocity of the debris's centre, in F_e.",
+        |point| states.at(StateField::DebrisVelocity, point),
+    );
+    table.push_vector::<4>(
+        StateField::DebrisAttitude,
+        "q_ed",
+        ("", ""),
+        "Attitude quaternion of the debris, F_d to F_e.",
+        |point| states.at(StateField::DebrisAttitude, point),
+    );
+    table.push_vector::<3>(
+        StateField::DebrisRate,
+        "omega_de_d",
+        ("rad/s", "rad_s"),
+        "Angular velocity of the debris, in F_d.",
+        |point| states.at(StateField::DebrisRate, point),
+    );
 }

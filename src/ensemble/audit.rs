@@ -12,6 +12,7 @@ use crate::campaign::Plan;
 use crate::dynamics::gyrostat::Gyrostat;
 use crate::ensemble::worker::{propagator, request};
 use crate::math::Isa;
+use crate::observables::table::STATE_ERROR_ESTIMATE;
 use crate::observables::{Group, Observer, Request};
 use crate::ode::Control;
 use crate::ode::Tolerance;
@@ -21,6 +22,7 @@ use crate::propagation::taylor::reference_solution::{self, ReferenceSolution};
 use crate::propagation::{CompletedRun, Engine};
 use crate::run::LocalErrors;
 use crate::run::Outcome;
+use crate::run::Quantity;
 use crate::run::Status;
 use crate::run::StepStatistics;
 use crate::run::{Grid, StateField, StateFields, StateTable};
@@ -34,40 +36,49 @@ const MOST_UNITS: f64 = 4096.0;
 /// Tolerance of the truth in plain doubles: the last that a campaign may ask for.
 const PLAIN_TOLERANCE: f64 = 1e-16;
 
-/// A column of the rows of an audited campaign: null in the rows that were not audited.
+/// A value that an audit adds to a row; null in the rows that were not audited.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct AuditColumn {
-    /// Name, unit last.
-    pub name: &'static str,
-    /// Unit; empty for a pure number.
-    pub unit: &'static str,
-    /// One sentence.
-    pub meaning: &'static str,
+#[repr(usize)]
+pub enum AuditValue {
+    /// The larger of the next two.
+    State,
+    /// Error of omega.
+    Omega,
+    /// Error of the attitude.
+    Attitude,
+    /// Tolerance of the reference solution.
+    Tolerance,
 }
 
-/// The columns of an audit, in their order.
-pub const COLUMNS: [AuditColumn; 4] = [
-    AuditColumn {
-        name: "audit_state_error",
-        unit: "",
-        meaning: "True largest error of the fuselage's rotation on the grid, which state_error_estimate estimates: the larger of the next two.",
-    },
-    AuditColumn {
-        name: "audit_omega_error",
-        unit: "",
-        meaning: "True largest error of omega on the grid, over the largest |omega|.",
-    },
-    AuditColumn {
-        name: "audit_attitude_error_rad",
-        unit: "rad",
-        meaning: "True largest error of the attitude on the grid, twice the distance of the quaternions: the angle where the norm is kept.",
-    },
-    AuditColumn {
-        name: "audit_truth_tolerance",
-        unit: "",
-        meaning: "Tolerance of the solution that the run was compared with: 1e-31 in double-double, 1e-16 in plain doubles where the run was too long for that.",
-    },
+static COLUMNS: [Quantity; AuditValue::ALL.len()] = [
+    Quantity::new(
+        "audit_state_error",
+        "",
+        "True largest error of the fuselage's rotation on the grid, which state_error_estimate estimates: the larger of the next two.",
+    ),
+    Quantity::new("audit_omega_error", "", "True largest error of omega on the grid, relative to the largest |omega|."),
+    Quantity::new(
+        "audit_attitude_error_rad",
+        "rad",
+        "True largest error of the attitude on the grid, twice the distance of the quaternions: the angle where the norm is kept.",
+    ),
+    Quantity::new(
+        "audit_truth_tolerance",
+        "",
+        "Tolerance of the reference solution that the run was compared with: 1e-31 in double-double, 1e-16 in plain doubles where the run was too long for double-double.",
+    ),
 ];
+
+impl AuditValue {
+    /// Every value, in the order of the columns.
+    pub const ALL: [AuditValue; 4] =
+        [AuditValue::State, AuditValue::Omega, AuditValue::Attitude, AuditValue::Tolerance];
+
+    /// Name, unit and meaning of the column.
+    pub fn quantity(self) -> &'static Quantity {
+        &COLUMNS[self as usize]
+    }
+}
 
 /// What an audit found of one run.
 #[derive(Clone, Debug, PartialEq)]
@@ -90,9 +101,14 @@ impl Audit {
         self.omega.max(self.attitude)
     }
 
-    /// The values of [`COLUMNS`].
-    pub fn values(&self) -> [f64; COLUMNS.len()] {
-        [self.state(), self.omega, self.attitude, self.truth_tolerance]
+    /// The value of a column.
+    pub fn value(&self, value: AuditValue) -> f64 {
+        match value {
+            AuditValue::State => self.state(),
+            AuditValue::Omega => self.omega,
+            AuditValue::Attitude => self.attitude,
+            AuditValue::Tolerance => self.truth_tolerance,
+        }
     }
 }
 
@@ -143,24 +159,22 @@ impl Auditor {
         let of_motion =
             groups.filter(|group| !matches!(group, Group::StepStatistics | Group::Numerics | Group::Constraints));
         let true_request = Request { groups: of_motion.collect(), constrained: false, ..campaign };
-        let names = |request: &Request| request.columns().iter().map(|column| column.name).collect::<Vec<_>>();
-        let (own, of_truth) = (names(&request), names(&true_request));
-        let place = |names: &[&str], name: &str| names.iter().position(|known| *known == name);
-        let places = names(&campaign)
+        let places = campaign
+            .columns()
             .into_iter()
-            .filter_map(|name| Some((place(&own, name)?, place(&of_truth, name))))
+            .filter_map(|column| Some((request.position(column.id())?, true_request.position(column.id()))))
             .collect();
         Auditor {
             isa,
             grid: grid.clone(),
             max_steps: plan.max_steps,
-            engine: propagator(plan, grid.clone(), compared().union(request.blocks())).engine(isa),
+            engine: propagator(plan, grid.clone(), compared().union(request.fields())).engine(isa),
             observer: Observer::new(request, grid),
-            row: vec![f64::NAN; own.len()],
+            row: vec![f64::NAN; request.columns().len()],
             true_observer: Observer::new(true_request, grid),
-            true_row: vec![f64::NAN; of_truth.len()],
+            true_row: vec![f64::NAN; true_request.columns().len()],
             places,
-            estimate: place(&own, "state_error_estimate").expect("the group of numerics has its column"),
+            estimate: request.position(STATE_ERROR_ESTIMATE).expect("the group numerics has its column"),
             request,
             true_request,
         }
@@ -173,7 +187,7 @@ impl Auditor {
 
     /// Audits the run of `run` against the truth of `scene`: the same scene, but where a test wants a kernel that is wrong.
     pub fn compare(&mut self, run: &Scene, scene: &Scene) -> Option<Audit> {
-        let blocks = compared().union(self.true_request.blocks());
+        let blocks = compared().union(self.true_request.fields());
         let (truth, truth_tolerance) = self.truth(scene, blocks)?;
         let arrived = Outcome {
             status: Status::Done,

@@ -13,7 +13,8 @@ use crate::ensemble::single::states;
 use crate::ensemble::worker::{BATCH, request};
 use crate::math::Isa;
 use crate::math::lanes::WIDTH;
-use crate::observables::{Group, Observer, Request};
+use crate::observables::table::error_id;
+use crate::observables::{ErrorStatistic, Group, Observer, Request, Series};
 use crate::ode::Control;
 use crate::ode::Tolerance;
 use crate::propagation::Method;
@@ -130,9 +131,9 @@ impl<'p> Precision<'p> {
         let (request, blocks) = match wanted {
             States::All => {
                 let request = Request { groups: balances.into_iter().collect(), ..plain };
-                (request, states(plan).union(request.blocks()))
+                (request, states(plan).union(request.fields()))
             }
-            States::Observed => (plain, plain.blocks().with(StateField::Rate)),
+            States::Observed => (plain, plain.fields().with(StateField::Rate)),
         };
         let compared = [StateField::Rate, StateField::Attitude].into_iter().filter(|block| blocks.contains(*block));
         let compared = compared.fold(StateFields::NONE, StateFields::with);
@@ -221,12 +222,14 @@ impl<'p> Precision<'p> {
     fn first_pass(&self, method: Method, setting: Setting, patience: Patience) -> Option<Pass> {
         let mut engine = self.engine(method, setting)?;
         let mut observer = Observer::new(self.request, &self.plan.grid);
-        let names: Vec<&str> = self.request.columns().iter().map(|column| column.name).collect();
-        let place = |wanted: &[&str]| wanted.iter().find_map(|name| names.iter().position(|known| known == name));
-        let energy = place(&["energy_error_max", "energy_com_error_max"])
-            .zip(place(&["energy_error_rms", "energy_com_error_rms"]));
-        let momentum = place(&["angular_momentum_error_max"]).zip(place(&["angular_momentum_error_rms"]));
-        let mut row = vec![f64::NAN; names.len()];
+        let max_and_rms = |group: Group, series: Series| {
+            let place = |statistic| self.request.position(error_id(group, series, statistic));
+            place(ErrorStatistic::Max).zip(place(ErrorStatistic::Rms))
+        };
+        let energy = max_and_rms(Group::EnergyConservation, Series::EnergyError)
+            .or_else(|| max_and_rms(Group::EnergiesCom, Series::ComError));
+        let momentum = max_and_rms(Group::MomentumConservation, Series::AngularMomentumError);
+        let mut row = vec![f64::NAN; self.request.columns().len()];
         let mut pass = Pass::default();
         let start = thread_seconds();
         for first in (0..self.scenes.len()).step_by(WIDTH) {

@@ -5,7 +5,7 @@
 use crate::campaign::{Plan, draw};
 use crate::ensemble::worker::{propagator, request};
 use crate::math::Isa;
-use crate::observables::{Group, Observer, Request, SeriesColumn};
+use crate::observables::{Group, Observer, Request, Series};
 use crate::propagation::{CompletedRun, Method};
 use crate::run::Outcome;
 use crate::run::{Grid, StateField, StateFields, StateTable};
@@ -28,7 +28,7 @@ pub struct SingleRun {
     /// How the run ended.
     pub outcome: Outcome,
     /// Energies and conservation errors at the points that were reached.
-    pub series: Vec<(&'static SeriesColumn, Vec<f64>)>,
+    pub series: Vec<(Series, Vec<f64>)>,
     /// The row of the sample, as a campaign on this grid has it, with the columns of [`SingleRun::request`].
     pub row: Vec<f64>,
     /// What the row holds.
@@ -45,7 +45,7 @@ impl SingleRun {
 
         let request = request(plan);
         let shown = Request { groups: GROUPS.into_iter().collect(), ..request };
-        let blocks = states(plan).union(shown.blocks()).union(request.blocks());
+        let blocks = states(plan).union(shown.fields()).union(request.fields());
         let mut engine = propagator(plan, grid.clone(), blocks).engine(isa);
         let mut observer = Observer::new(request, &grid);
         let mut series_observer = Observer::new(shown, &grid);
@@ -58,7 +58,7 @@ impl SingleRun {
             result = Some((table.clone(), *outcome));
         });
         let (table, outcome) = result.expect("the propagator finishes every scene that it is given");
-        let series = series_observer.series().map(|(column, values)| (column, values.collect())).collect();
+        let series = series_observer.series().map(|(series, values)| (series, values.collect())).collect();
         Ok(SingleRun { scene, grid, table, outcome, series, row, request })
     }
 }

@@ -49,7 +49,7 @@ impl<'p> Ensemble<'p> {
     /// `plan`, to be run on `isa`.
     pub fn new(plan: &'p Plan, isa: Isa) -> Self {
         let request = request(plan);
-        let propagator = propagator(plan, plan.grid.clone(), request.blocks());
+        let propagator = propagator(plan, plan.grid.clone(), request.fields());
         Ensemble { plan, isa, request, propagator }
     }
 

@@ -1,14 +1,15 @@
-//! Attitude of the fuselage as a kernel has it: the DCM itself or a quaternion.
+//! Attitude of the fuselage as a kernel has it (the DCM or a quaternion), and the series that follow from the attitude.
 
 use fearless_simd::Simd;
 
-use super::points::{Column, columns, constant_matrix, four, three};
+use super::points::{Column, MeasuredRun, SeriesTable, columns, constant_matrix, four, three};
+use super::table::Series;
 use crate::math::vector::{dcm_from_quaternion, dot};
 use crate::math::{Lanes, Real};
 use crate::run::{StateField, StateTable};
 
-/// Where C_es comes from: the DCM where the kernel integrates it, else the quaternion in its homogeneous form, so that an
-/// error of the norm shows in whatever is turned by it.
+/// The source of C_es: the DCM where the kernel integrates it, else the quaternion in its homogeneous form, so that an error of
+/// the norm shows in every rotated vector.
 #[derive(Clone, Copy)]
 pub(super) enum Attitude<'a> {
     Dcm([Column<'a>; 9]),
@@ -45,7 +46,7 @@ impl<'a> Attitude<'a> {
 
     /// Largest entry of |C_es^T C_es - 1|; of a quaternion | |q|^4 - 1 |, since its C_es is |q|^2 times a rotation.
     #[inline(always)]
-    pub(super) fn error<S: Simd>(self, simd: S, at: usize) -> Lanes<S> {
+    fn orthonormality<S: Simd>(self, simd: S, at: usize) -> Lanes<S> {
         let one = Lanes::broadcast(simd, 1.0);
         match self {
             Attitude::Dcm([a, b, c, d, e, f, g, h, i]) => {
@@ -67,6 +68,19 @@ impl<'a> Attitude<'a> {
 
 /// |a . a - 1|.
 #[inline(always)]
-pub(super) fn unit_error<R: Real>(a: [R; 3], one: R) -> R {
+fn unit_error<R: Real>(a: [R; 3], one: R) -> R {
     (dot(a, a) - one).abs()
+}
+
+/// The series of the attitude.
+#[inline(always)]
+pub(super) fn attitude_series<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
+    let vectors = run.vectors();
+    let attitude = Attitude::of(run.table, vectors);
+    if run.observed.has(Series::Orthonormality) {
+        let [orthonormality] = out.write([Series::Orthonormality], vectors);
+        for (at, value) in orthonormality.iter_mut().enumerate() {
+            attitude.orthonormality(simd, at).store(value);
+        }
+    }
 }

@@ -81,6 +81,11 @@ pub(super) struct ErrorEstimate {
     pub(super) amplification: f64,
 }
 
+impl ErrorEstimate {
+    /// Of a run that was not observed.
+    pub(super) const UNKNOWN: ErrorEstimate = ErrorEstimate { error: f64::NAN, amplification: f64::NAN };
+}
+
 /// What the sums need to know of each point.
 #[derive(Clone, Debug)]
 pub(super) struct Conditioning {
@@ -129,7 +134,7 @@ impl Conditioning {
     /// Judges a run whose method says of its errors what `local` holds. `times` are those of the table's points, of which the
     /// first `filled` >= 1 hold states.
     #[inline(always)]
-    pub(super) fn judge<S: Simd>(
+    pub(super) fn estimate<S: Simd>(
         &mut self,
         simd: S,
         scene: &Scene,

@@ -1,297 +1,40 @@
-//! States to series, eight points at a time: the energies here, the momenta in `momenta`.
+//! States to series: the computation of each source, where one of its series is observed.
 //!
-//! With d_b = r_b - c in F_s and u = C_es^T v_c, body b moves with v_b = u + omega x d_b, so that (36) splits into the energy
-//! about c, a quadratic form of omega with constant coefficients, and what the motion of c adds:
-//! T_b = T_b^c + m_b (u . (omega x d_b) + u . u / 2). A wheel adds J_i Omega_i (omega . a_i + Omega_i / 2).
-//! Over the spacecraft the mixed terms cancel: T = T^c + m v_c . v_c / 2, which needs no attitude.
-//!
-//! Not here: what becomes of the series (`reduce`, `spectrum`).
+//! Not here: the computations ([`super::energies`], [`super::momenta`], [`super::attitude`]), and the reduction of series to
+//! numbers ([`super::reduce`]).
 
 use fearless_simd::Simd;
 
-use super::attitude::Attitude;
+use super::attitude::attitude_series;
+use super::energies::energies;
 use super::momenta::{angular_momentum, debris_momenta, linear_momentum};
-use super::points::{Column, SeriesTable, columns, constant, first, needed, three};
-use super::request::SeriesSet;
-use super::series::Series;
-use crate::math::lanes::WIDTH;
-use crate::math::vector::{cross, difference, dot, scaled, transposed_product};
-use crate::math::{Lanes, Real};
-use crate::run::{StateField, StateTable};
-use crate::scene::mass::{Body, MassProperties, Wheel};
+use super::points::{Column, MeasuredRun, SeriesTable, needed};
+use super::rows::Source;
+use super::table::Series;
+use crate::run::StateField;
 
-/// The quadratic form of a symmetric matrix: coefficients of xx, yy, zz, xy, xz, yz.
-type Form = [f64; 6];
-
-/// 2 T^c = omega . K omega of a body of mass `mass` at `offset` from c with inertia `inertia`, halved, as a form.
+/// Writes the observed series of a run.
 #[inline(always)]
-fn form(mass: f64, offset: [f64; 3], inertia: [[f64; 3]; 3]) -> Form {
-    let [x, y, z] = offset;
-    let [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]] = inertia;
-    [
-        0.5 * (xx + mass * (y * y + z * z)),
-        0.5 * (yy + mass * (x * x + z * z)),
-        0.5 * (zz + mass * (x * x + y * y)),
-        0.5 * (xy + yx) - mass * x * y,
-        0.5 * (xz + zx) - mass * x * z,
-        0.5 * (yz + zy) - mass * y * z,
-    ]
-}
-
-#[inline(always)]
-fn products<R: Real>([x, y, z]: [R; 3]) -> [R; 6] {
-    [x * x, y * y, z * z, x * y, x * z, y * z]
-}
-
-#[inline(always)]
-fn quadratic<R: Real>(form: [R; 6], p: [R; 6]) -> R {
-    let squares = form[0].mul_add(p[0], form[1].mul_add(p[1], form[2] * p[2]));
-    let mixed = form[3].mul_add(p[3], form[4].mul_add(p[4], form[5] * p[5]));
-    squares + mixed
-}
-
-/// Inertia of an axisymmetric wheel about its centre in F_s: J_t (1 - a a^T) + J_a a a^T.
-#[inline(always)]
-fn wheel_inertia(wheel: &Wheel) -> [[f64; 3]; 3] {
-    let [x, y, z] = wheel.axis;
-    let (t, d) = (wheel.transverse, wheel.axial - wheel.transverse);
-    [
-        [t + d * x * x, d * x * y, d * x * z],
-        [d * x * y, t + d * y * y, d * y * z],
-        [d * x * z, d * y * z, t + d * z * z],
-    ]
-}
-
-#[inline(always)]
-fn constant_form<S: Simd>(simd: S, a: Form) -> [Lanes<S>; 6] {
-    let [x, y, z] = constant(simd, [a[0], a[1], a[2]]);
-    let [u, v, w] = constant(simd, [a[3], a[4], a[5]]);
-    [x, y, z, u, v, w]
-}
-
-/// A run as it is measured.
-pub(super) struct Run<'a> {
-    /// The series that are wanted.
-    pub(super) wanted: SeriesSet,
-    /// Mass properties of the spacecraft.
-    pub(super) mass: &'a MassProperties,
-    /// The debris, where the request counts it in.
-    pub(super) debris: Option<&'a Body>,
-    /// Its states.
-    pub(super) table: &'a StateTable,
-    /// Number of filled points, at least one.
-    pub(super) points: usize,
-}
-
-/// Writes the wanted series of a run.
-#[inline(always)]
-pub(super) fn measure<S: Simd>(simd: S, run: &Run<'_>, out: &mut SeriesTable) {
-    let Run { wanted, mass, debris, table, points } = *run;
-    let vectors = points.div_ceil(WIDTH);
-    let attitude = Attitude::of(table, vectors);
-    let com = wanted.has(Series::ComFuselage) || wanted.has(Series::ComTotal);
-    let inertial = wanted.has(Series::EnergyFuselage);
-    let total = wanted.has(Series::EnergyTotal);
-    if com || inertial || total {
-        energies(simd, run, attitude, vectors, out);
-    }
-    if wanted.has(Series::LinearMomentumError) {
-        linear_momentum(simd, mass, table, vectors, out);
-    }
-    if wanted.has(Series::AngularMomentumError) {
-        angular_momentum(simd, mass, table, attitude, vectors, out);
-    }
-    if wanted.has(Series::AttitudeError) {
-        let [error] = out.write([Series::AttitudeError], vectors);
-        for (at, error) in error.iter_mut().enumerate() {
-            attitude.error(simd, at).store(error);
+pub(super) fn measure<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
+    for source in run.sources {
+        match source {
+            Source::Energies => energies(simd, run, out),
+            Source::LinearMomentum => linear_momentum(simd, run, out),
+            Source::AngularMomentum => angular_momentum(simd, run, out),
+            Source::Attitude => attitude_series(simd, run, out),
+            Source::DebrisMomenta => debris_momenta(simd, run, out),
+            Source::Residuals => residuals(run, out),
         }
     }
-    if let Some(body) = debris.filter(|_| wanted.has(Series::DebrisLinearError)) {
-        debris_momenta(simd, body, table, vectors, out);
-    }
-    if wanted.has(Series::ResidualKinematic) {
-        let residuals: [Column<'_>; 3] = needed(table, StateField::Residuals, vectors);
-        let series = [Series::ResidualKinematic, Series::ResidualCollocation, Series::ResidualAttitude];
-        for (column, residual) in out.write(series, vectors).into_iter().zip(residuals) {
-            column.copy_from_slice(residual);
-        }
-    }
-    out.pad(wanted, points);
+    out.pad(run.observed, run.points);
 }
 
-/// The constants of the energies of a run, in all lanes.
-struct Constants<S: Simd> {
-    /// Energy of S, W1, W2 about c, the wheels locked, as forms of omega.
-    forms: [[Lanes<S>; 6]; 3],
-    /// m_b d_b, since m_b u . (omega x d_b) = m_b d_b . (u x omega).
-    arms: [[Lanes<S>; 3]; 3],
-    /// m_b / 2.
-    halves: [Lanes<S>; 3],
-    /// a_i.
-    axes: [[Lanes<S>; 3]; 2],
-    /// J_i.
-    axial: [Lanes<S>; 2],
-    /// m / 2.
-    half_total: Lanes<S>,
-    half: Lanes<S>,
-}
-
-impl<S: Simd> Constants<S> {
-    // Closures that compute with lanes are avoided here and below: one that is not inlined loses the instruction set.
-    #[inline(always)]
-    fn of(simd: S, mass: &MassProperties) -> Self {
-        let s = &mass.fuselage;
-        let [w1, w2] = &mass.wheels;
-        let d =
-            [difference(s.center, mass.center), difference(w1.center, mass.center), difference(w2.center, mass.center)];
-        Constants {
-            forms: [
-                constant_form(simd, form(s.mass, d[0], s.inertia)),
-                constant_form(simd, form(w1.mass, d[1], wheel_inertia(w1))),
-                constant_form(simd, form(w2.mass, d[2], wheel_inertia(w2))),
-            ],
-            arms: [
-                constant(simd, scaled(s.mass, d[0])),
-                constant(simd, scaled(w1.mass, d[1])),
-                constant(simd, scaled(w2.mass, d[2])),
-            ],
-            halves: constant(simd, [0.5 * s.mass, 0.5 * w1.mass, 0.5 * w2.mass]),
-            axes: [constant(simd, w1.axis), constant(simd, w2.axis)],
-            axial: [Lanes::broadcast(simd, w1.axial), Lanes::broadcast(simd, w2.axial)],
-            half_total: Lanes::broadcast(simd, 0.5 * mass.total),
-            half: Lanes::broadcast(simd, 0.5),
-        }
-    }
-
-    /// What the rate of wheel `i` adds to its energy: J_i Omega_i (omega . a_i + Omega_i / 2).
-    #[inline(always)]
-    fn spin(&self, i: usize, omega: [Lanes<S>; 3], rate: Lanes<S>) -> Lanes<S> {
-        self.axial[i] * rate * self.half.mul_add(rate, dot(self.axes[i], omega))
-    }
-
-    /// Energy of body `b` in F_e from the one about c: `square` = u . u, `turned` = u x omega.
-    #[inline(always)]
-    fn moving(&self, b: usize, about: Lanes<S>, square: Lanes<S>, turned: [Lanes<S>; 3]) -> Lanes<S> {
-        self.halves[b].mul_add(square, dot(self.arms[b], turned) + about)
-    }
-}
-
-/// Eight values of a column.
-#[inline(always)]
-fn load<S: Simd>(simd: S, column: Column<'_>, at: usize) -> Lanes<S> {
-    Lanes::load(simd, &column[at])
-}
-
-#[inline(always)]
-fn energies<S: Simd>(simd: S, run: &Run<'_>, attitude: Attitude<'_>, vectors: usize, out: &mut SeriesTable) {
-    let Run { wanted, mass, debris, table, .. } = *run;
-    let constants = Constants::of(simd, mass);
-    let omega_columns: [_; 3] = needed(table, StateField::Rate, vectors);
-    let rate_columns: [_; 2] = needed(table, StateField::WheelRates, vectors);
-    let total = wanted.has(Series::EnergyTotal);
-    let inertial = wanted.has(Series::EnergyFuselage);
-    let velocity = if total || inertial { needed(table, StateField::ComVelocity, vectors) } else { [&[][..]; 3] };
-    let work: Option<[_; 2]> =
-        if wanted.has(Series::EnergyError) { columns(table, StateField::Work, vectors) } else { None };
-    // where the states are redundant, the energy that the kernel conserves is that of its own states (36): with wheels that
-    // have drifted off their constraints the one of the rates alone is another
-    let own: Option<[_; 4]> = columns(table, StateField::KineticEnergies, vectors);
-    // the debris enters as a body of its own, with c at its centre
-    let debris = match debris {
-        Some(body) if total || wanted.has(Series::EnergyDebris) => {
-            let velocity: [_; 3] = needed(table, StateField::DebrisVelocity, vectors);
-            let omega: [_; 3] = needed(table, StateField::DebrisRate, vectors);
-            let form = constant_form(simd, form(0.0, [0.0; 3], body.inertia));
-            Some((velocity, omega, form, Lanes::broadcast(simd, 0.5 * body.mass)))
-        }
-        _ => None,
-    };
-    use Series::*;
-    let [
-        com_fuselage,
-        com_wheel1,
-        com_wheel2,
-        com_total,
-        com_error,
-        fuselage,
-        wheel1,
-        wheel2,
-        debris_energy,
-        total_energy,
-        energy_error,
-    ] = out.write(
-        [
-            ComFuselage,
-            ComWheel1,
-            ComWheel2,
-            ComTotal,
-            ComError,
-            EnergyFuselage,
-            EnergyWheel1,
-            EnergyWheel2,
-            EnergyDebris,
-            EnergyTotal,
-            EnergyError,
-        ],
-        vectors,
-    );
-    let mut com_first = Lanes::broadcast(simd, 0.0);
-    let mut balance_first = com_first;
-    for at in 0..vectors {
-        let omega = three(simd, omega_columns, at);
-        let p = products(omega);
-        let rates = [Lanes::load(simd, &rate_columns[0][at]), Lanes::load(simd, &rate_columns[1][at])];
-        let about = [
-            quadratic(constants.forms[0], p),
-            quadratic(constants.forms[1], p) + constants.spin(0, omega, rates[0]),
-            quadratic(constants.forms[2], p) + constants.spin(1, omega, rates[1]),
-        ];
-        let com = about[0] + (about[1] + about[2]);
-        if at == 0 {
-            com_first = first(simd, com);
-        }
-        about[0].store(&mut com_fuselage[at]);
-        about[1].store(&mut com_wheel1[at]);
-        about[2].store(&mut com_wheel2[at]);
-        com.store(&mut com_total[at]);
-        (com - com_first).store(&mut com_error[at]);
-        if !(total || inertial) {
-            continue;
-        }
-
-        let v_c = three(simd, velocity, at);
-        if inertial && let Some([s, w1, w2, _]) = own {
-            load(simd, s, at).store(&mut fuselage[at]);
-            load(simd, w1, at).store(&mut wheel1[at]);
-            load(simd, w2, at).store(&mut wheel2[at]);
-        } else if inertial {
-            let u = transposed_product(attitude.c_es(simd, at), v_c);
-            let square = dot(u, u);
-            let turned = cross(u, omega);
-            constants.moving(0, about[0], square, turned).store(&mut fuselage[at]);
-            constants.moving(1, about[1], square, turned).store(&mut wheel1[at]);
-            constants.moving(2, about[2], square, turned).store(&mut wheel2[at]);
-        }
-        let mut energy = match own {
-            Some([s, w1, w2, _]) => load(simd, s, at) + (load(simd, w1, at) + load(simd, w2, at)),
-            None => constants.half_total.mul_add(dot(v_c, v_c), com),
-        };
-        if let Some((velocity, omega, form, half_mass)) = debris {
-            let v = three(simd, velocity, at);
-            let omega = three(simd, omega, at);
-            let debris = half_mass.mul_add(dot(v, v), quadratic(form, products(omega)));
-            debris.store(&mut debris_energy[at]);
-            energy += debris;
-        }
-        let mut balance = energy;
-        if let Some([thrusters, motors]) = work {
-            balance -= Lanes::load(simd, &thrusters[at]) + Lanes::load(simd, &motors[at]);
-        }
-        if at == 0 {
-            balance_first = first(simd, balance);
-        }
-        energy.store(&mut total_energy[at]);
-        (balance - balance_first).store(&mut energy_error[at]);
+/// The residuals of the constraints, as the kernel has them.
+fn residuals(run: &MeasuredRun<'_>, out: &mut SeriesTable) {
+    let vectors = run.vectors();
+    let residuals: [Column<'_>; 3] = needed(run.table, StateField::Residuals, vectors);
+    let series = [Series::ResidualKinematic, Series::ResidualCollocation, Series::ResidualAttitude];
+    for (column, residual) in out.write(series, vectors).into_iter().zip(residuals) {
+        column.copy_from_slice(residual);
     }
 }

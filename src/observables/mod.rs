@@ -1,35 +1,40 @@
-//! Floor 3: what is measured in a run.
+//! Layer 3: what is observed of a run.
 //!
 //! - [`group`]: the groups that a campaign asks for by name.
-//! - [`columns`]: the one table of what a row holds (name, unit, meaning, where the number comes from).
-//! - [`series`]: the time series behind the columns, which `simulate` writes out.
-//! - [`request`]: what was asked for; from it the columns, and which blocks of the state table they need and why.
+//! - [`table`]: the one table of observables: series, direct values and the columns of a row; `rows`: what its rows consist of.
+//! - [`reduction`]: how a series becomes a number; `reduce`: the passes over a series that compute it.
+//! - [`request`]: what a campaign observes; from it the columns, and which fields of the state table they need and why.
 //! - [`observer`]: [`Observer`] reads a state table and writes a row.
-//! - `measure`, `momenta`, `attitude`, `points`: states to series, eight points at a time.
+//! - `measure`: states to series, by `energies`, `momenta` and `attitude`, eight points at a time (`points`).
 //! - `conditioning`, `error_sums`, `rotor`: how much the motion amplifies errors of its state.
-//! - `reduce`, `spectrum`: series to numbers, the frequency of the exchange.
+//! - `exchange`, `spectrum`: the exchange of energy between the bodies, and its frequency.
 //!
 //! Source of energies and momenta: Berdoz, *Final Report - ADR Spacecraft*, (36), and the balances of the gyrostat
-//! (Zhukovskii; Volterra 1899). Nothing here knows how a run was integrated, and nothing is assumed to be conserved: every
-//! error is measured from the produced states.
+//! (Zhukovskii; Volterra 1899). Nothing here depends on how a run was integrated, and nothing is assumed to be conserved: every
+//! error is measured from the computed states.
 
 mod attitude;
-pub mod columns;
 mod conditioning;
+mod energies;
 mod error_sums;
+pub mod exchange;
 pub mod group;
 mod measure;
 mod momenta;
 pub mod observer;
 mod points;
 mod reduce;
+pub mod reduction;
 pub mod request;
 mod rotor;
-pub mod series;
+#[macro_use]
+mod rows;
 mod spectrum;
+pub mod table;
 
-pub use columns::{Column, Kind};
 pub use group::{Group, Groups};
 pub use observer::Observer;
+pub use reduction::{ChangeStatistic, ErrorStatistic, Reduction, ScaleStatistic, ValueStatistic};
 pub use request::Request;
-pub use series::{Series, SeriesColumn};
+pub use rows::Kind;
+pub use table::{Column, ColumnId, Series};

@@ -1,18 +1,17 @@
 //! Linear and angular momenta of spacecraft and debris, and how far each departs from its first value.
 //!
-//! p = m v_c less the thrusters' impulse; L = C_es (J omega + sum J_i Omega_i a_i) about c, J with wheels locked, less their
+//! p = m v_c minus the thrusters' impulse; L = C_es (J omega + sum J_i Omega_i a_i) about c, J with wheels locked, minus their
 //! angular impulse; of the debris m_d v_d and C_ed J_d omega_d, on which nothing acts.
 
 use fearless_simd::Simd;
 
 use super::attitude::Attitude;
-use super::points::{SeriesTable, columns, constant, constant_matrix, first_vector, four, needed, three};
-use super::series::Series;
+use super::points::{MeasuredRun, SeriesTable, columns, constant, constant_matrix, first_vector, four, needed, three};
+use super::table::Series;
 use crate::math::Lanes;
 use crate::math::lanes::WIDTH;
 use crate::math::vector::{dcm_from_quaternion, difference, dot, norm, product, scaled, sum};
-use crate::run::{StateField, StateTable};
-use crate::scene::mass::{Body, MassProperties};
+use crate::run::StateField;
 
 /// Where |balance - its first value| and |momentum|^2 of a momentum are written.
 struct Sink<'a, S: Simd> {
@@ -27,7 +26,7 @@ impl<'a, S: Simd> Sink<'a, S> {
         Sink { error, square, start: constant(simd, [0.0; 3]) }
     }
 
-    /// Writes vector `at`; `balance` is the momentum less what was fed in.
+    /// Writes vector `at`; `balance` is the momentum minus the impulse of the actuators.
     #[inline(always)]
     fn put(&mut self, simd: S, at: usize, momentum: [Lanes<S>; 3], balance: [Lanes<S>; 3]) {
         if at == 0 {
@@ -40,13 +39,8 @@ impl<'a, S: Simd> Sink<'a, S> {
 
 /// Linear momentum of the spacecraft.
 #[inline(always)]
-pub(super) fn linear_momentum<S: Simd>(
-    simd: S,
-    mass: &MassProperties,
-    table: &StateTable,
-    vectors: usize,
-    out: &mut SeriesTable,
-) {
+pub(super) fn linear_momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
+    let (mass, table, vectors) = (run.mass, run.table, run.vectors());
     let velocity: [_; 3] = needed(table, StateField::ComVelocity, vectors);
     let impulse: Option<[_; 3]> = columns(table, StateField::Impulse, vectors);
     let total = Lanes::broadcast(simd, mass.total);
@@ -64,14 +58,9 @@ pub(super) fn linear_momentum<S: Simd>(
 
 /// Angular momentum of the spacecraft about c.
 #[inline(always)]
-pub(super) fn angular_momentum<S: Simd>(
-    simd: S,
-    mass: &MassProperties,
-    table: &StateTable,
-    attitude: Attitude<'_>,
-    vectors: usize,
-    out: &mut SeriesTable,
-) {
+pub(super) fn angular_momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
+    let (mass, table, vectors) = (run.mass, run.table, run.vectors());
+    let attitude = Attitude::of(table, vectors);
     let omega: [_; 3] = needed(table, StateField::Rate, vectors);
     let [rate1, rate2]: [_; 2] = needed(table, StateField::WheelRates, vectors);
     let impulse: Option<[_; 3]> = columns(table, StateField::AngularImpulse, vectors);
@@ -95,7 +84,9 @@ pub(super) fn angular_momentum<S: Simd>(
 
 /// Linear and angular momentum of the debris.
 #[inline(always)]
-pub(super) fn debris_momenta<S: Simd>(simd: S, body: &Body, table: &StateTable, vectors: usize, out: &mut SeriesTable) {
+pub(super) fn debris_momenta<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
+    let (table, vectors) = (run.table, run.vectors());
+    let Some(body) = run.debris else { return };
     let velocity: [_; 3] = needed(table, StateField::DebrisVelocity, vectors);
     let omega: [_; 3] = needed(table, StateField::DebrisRate, vectors);
     let attitude: [_; 4] = needed(table, StateField::DebrisAttitude, vectors);

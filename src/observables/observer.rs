@@ -2,70 +2,113 @@
 
 use fearless_simd::Simd;
 
-use super::columns::{DirectValue, Statistic, Value};
 use super::conditioning::{Conditioning, ErrorEstimate};
+use super::exchange::{BodyEnergy, Exchange, exchange};
 use super::group::Group;
-use super::measure::{Run, measure};
-use super::points::SeriesTable;
-use super::reduce::{Weights, correlations, errors, initial_and_max, slope, spread, transfer};
-use super::request::{Request, SeriesSet};
-use super::series::{Series, SeriesColumn};
+use super::measure::measure;
+use super::points::{MeasuredRun, SeriesTable};
+use super::reduce::{Weights, reduce};
+use super::reduction::{Reduction, ScaleStatistic, ValueStatistic};
+use super::request::{Request, SeriesSet, SeriesTask};
+use super::rows::Source;
 use super::spectrum::Spectrum;
+use super::table::{DirectValue, Series, Value};
 use crate::math::Isa;
 use crate::math::isa::Work;
-use crate::run::{Grid, StateField, StateTable};
-use crate::run::{LocalErrors, Outcome, Status};
+use crate::run::{Grid, LocalErrors, Outcome, StateField, StateTable, Status};
 use crate::scene::Scene;
 
-/// Swing of the fuselage's energy, relative to the total about the centre of mass, below which there is no exchange but only
-/// rounding: some dozens of roundings of the total, as its sum of squares and the integration of omega leave them.
-pub const EXCHANGE_FLOOR: f64 = 64.0 * f64::EPSILON;
-
-/// An error of the state, from the rounding of the input alone, beyond which a run is ill conditioned: a thousandth of a radian
-/// or of the rate, less than which no campaign's question turns on.
+/// An error of the state, from the rounding of the input alone, above which a run is ill conditioned: a thousandth of a radian or
+/// of the rate. No question that a campaign asks depends on less.
 pub const MEANINGLESS: f64 = 1e-3;
 
 /// Observes runs on one grid; one per worker, reused from run to run without allocating.
 #[derive(Clone, Debug)]
 pub struct Observer {
     request: Request,
-    wanted: SeriesSet,
-    exchange: bool,
-    /// For each column the slot of its value.
-    slots: Vec<u16>,
+    observed: SeriesSet,
+    sources: Vec<Source>,
+    tasks: Vec<SeriesTask>,
+    /// The columns that show a statistic.
+    statistics: Vec<StatisticColumn>,
+    /// The columns that show a direct value, with their places in the row.
+    direct_values: Vec<(usize, DirectValue)>,
     /// For each column whether a run that failed has it too.
-    survives: Vec<bool>,
-    published: Vec<&'static SeriesColumn>,
+    known_after_failure: Vec<bool>,
+    shown: Vec<Series>,
     times: Vec<f64>,
     weights: Weights,
     spectrum: Option<Spectrum>,
     series: SeriesTable,
-    values: Box<[f64; Value::SLOTS]>,
+    values: Values,
     conditioning: Option<Box<Conditioning>>,
-    judgement: Option<ErrorEstimate>,
+    estimate: ErrorEstimate,
+    exchange: Exchange,
     /// Number of points of the run that was observed last.
     filled: usize,
+}
+
+/// The statistics of every series, in the order of [`Reduction::index`].
+#[derive(Clone, Debug)]
+struct Values(Box<[[f64; Reduction::COUNT]; Series::COUNT]>);
+
+impl Values {
+    #[inline(always)]
+    fn get(&self, series: Series, reduction: Reduction) -> f64 {
+        self.0[series as usize][reduction.index()]
+    }
+
+    /// The value of a scale, or one where it is zero: errors are absolute there.
+    #[inline(always)]
+    fn scale(&self, scale: Option<(Series, Reduction)>) -> f64 {
+        let scale = scale.map_or(1.0, |(series, reduction)| self.get(series, reduction));
+        if scale == 0.0 { 1.0 } else { scale }
+    }
+}
+
+/// A column that shows a statistic.
+#[derive(Clone, Copy, Debug)]
+struct StatisticColumn {
+    /// Its place in the row.
+    place: usize,
+    series: Series,
+    reduction: Reduction,
+    /// What it is relative to.
+    scale: Option<(Series, Reduction)>,
 }
 
 impl Observer {
     /// Observes what `request` asks for at the times of `grid`.
     pub fn new(request: Request, grid: &Grid) -> Self {
         let columns = request.columns();
-        let exchange = request.groups.contains(Group::Exchange);
+        let observed = request.observed();
+        let mut statistics = Vec::new();
+        let mut direct_values = Vec::new();
+        for (place, column) in columns.iter().enumerate() {
+            match column.value {
+                Value::Of(series, reduction) => {
+                    statistics.push(StatisticColumn { place, series, reduction, scale: column.value.scale() });
+                }
+                Value::Direct(value) => direct_values.push((place, value)),
+            }
+        }
         Observer {
             request,
-            wanted: request.wanted(),
-            exchange,
-            slots: columns.iter().map(|column| column.value.slot() as u16).collect(),
-            survives: columns.iter().map(|column| column.value.survives()).collect(),
-            published: request.series(),
+            observed,
+            sources: Source::ALL.into_iter().filter(|source| observed.has_any_of(*source)).collect(),
+            tasks: request.tasks(),
+            statistics,
+            direct_values,
+            known_after_failure: columns.iter().map(|column| column.value.is_known_after_failure()).collect(),
+            shown: request.series(),
             times: grid.times().to_vec(),
             weights: Weights::of(grid),
-            spectrum: if exchange { Spectrum::of(grid) } else { None },
+            spectrum: if request.groups.contains(Group::Exchange) { Spectrum::of(grid) } else { None },
             series: SeriesTable::new(grid.points()),
-            values: Box::new([f64::NAN; Value::SLOTS]),
+            values: Values(Box::new([[f64::NAN; Reduction::COUNT]; Series::COUNT])),
             conditioning: request.groups.contains(Group::Numerics).then(|| Box::new(Conditioning::new())),
-            judgement: None,
+            estimate: ErrorEstimate::UNKNOWN,
+            exchange: Exchange::UNKNOWN,
             filled: 0,
         }
     }
@@ -75,189 +118,129 @@ impl Observer {
         &self.request
     }
 
-    /// Writes the values of [`Request::columns`], in that order, of the run that `table` holds.
+    /// Writes the values of [`Request::columns`], in that order, of the run whose states are in `table`.
     ///
-    /// Of a run that is not [`Status::Done`] only effort and final state are numbers, the latter that of the last point that
-    /// was filled with finite values; all else is NaN, and so is everything that is not finite by itself. Counts are whole.
+    /// Of a run that is not [`Status::Done`] only step statistics and final state are numbers, the latter at the last point with
+    /// finite values; everything else is NaN. Counts are whole numbers.
     ///
     /// # Panics
-    /// Where the table lacks a block of [`Request::blocks`] or has other points than the grid, the scene has no debris although
+    /// Where the table lacks a field of [`Request::fields`] or has other points than the grid, the scene has no debris although
     /// the request says so, or `row` has another length than [`Request::columns`].
     pub fn observe(&mut self, isa: Isa, scene: &Scene, table: &StateTable, outcome: &Outcome, row: &mut [f64]) {
-        assert_eq!(row.len(), self.slots.len(), "a row has one value a column");
+        assert_eq!(row.len(), self.known_after_failure.len(), "a row has one value a column");
         assert_eq!(table.points(), self.times.len(), "the table has the points of the grid");
         assert!(scene.mass.debris.is_some() || !self.request.debris, "a scene whose debris is observed has one");
         self.filled = outcome.points.min(table.points());
         if self.filled > 0 {
             isa.run(Observation { observer: self, scene, table, local_errors: &outcome.local_errors });
         }
-        self.own(table, outcome);
-        for (value, slot) in row.iter_mut().zip(&self.slots) {
-            *value = self.values[*slot as usize];
+        for column in &self.statistics {
+            row[column.place] = self.values.get(column.series, column.reduction);
+            if column.scale.is_some() {
+                row[column.place] /= self.values.scale(column.scale);
+            }
+        }
+        let finished = FinishedRun { table, outcome, final_point: self.final_point(table) };
+        for (place, value) in &self.direct_values {
+            row[*place] = self.direct_value(*value, &finished);
         }
         if outcome.status != Status::Done {
-            for (value, survives) in row.iter_mut().zip(&self.survives) {
-                *value = if *survives { *value } else { f64::NAN };
+            for (value, known) in row.iter_mut().zip(&self.known_after_failure) {
+                *value = if *known { *value } else { f64::NAN };
             }
         }
     }
 
-    /// The series of the run that was observed last, in the order of [`Request::series`], each with its column and its values
-    /// at the observation points that the run reached. Relative errors are divided by their scales, as in the row.
-    pub fn series(
-        &self,
-    ) -> impl Iterator<Item = (&'static SeriesColumn, impl ExactSizeIterator<Item = f64> + '_)> + '_ {
-        self.published.iter().map(|column| {
-            let scale = self.scale(column.series);
-            let values = &self.series.column(column.series)[..self.filled];
-            (*column, values.iter().map(move |value| value / scale))
+    /// The series of the run that was observed last, in the order of [`Request::series`], each with its values at the
+    /// observation points that the run reached. Relative errors are divided by their scales, as in the row.
+    pub fn series(&self) -> impl Iterator<Item = (Series, impl ExactSizeIterator<Item = f64> + '_)> + '_ {
+        self.shown.iter().map(|series| {
+            let scale = self.values.scale(series.row().scale);
+            let values = &self.series.column(*series)[..self.filled];
+            (*series, values.iter().map(move |value| value / scale))
         })
     }
 
-    /// What the values of a series are divided by: the largest value of its scale, or one where that is zero or there is none.
-    #[inline(always)]
-    fn scale(&self, series: Series) -> f64 {
-        let scale = series.scale().map_or(1.0, |of| self.values[Value::Of(of, Statistic::Max).slot()]);
-        if scale == 0.0 { 1.0 } else { scale }
+    /// The last point with finite rotational states, where the final state is observed.
+    fn final_point(&self, table: &StateTable) -> Option<usize> {
+        let finite = |point: &usize| {
+            table.at::<3>(StateField::Rate, *point).iter().all(|x| x.is_finite())
+                && table.at::<4>(StateField::Attitude, *point).iter().all(|x| x.is_finite())
+                && table.at::<2>(StateField::WheelRates, *point).iter().all(|x| x.is_finite())
+        };
+        if self.request.groups.contains(Group::FinalState) { (0..self.filled).rev().find(finite) } else { None }
     }
 
-    #[inline(always)]
-    fn put(&mut self, series: Series, statistic: Statistic, value: f64) {
-        self.values[Value::Of(series, statistic).slot()] = value;
+    /// A value that is read and not reduced from a series.
+    fn direct_value(&self, value: DirectValue, run: &FinishedRun<'_>) -> f64 {
+        match value {
+            DirectValue::WorkThrusters => run.last(StateField::Work, 0),
+            DirectValue::WorkMotors => run.last(StateField::Work, 1),
+            DirectValue::CorrelationWheel1 => self.exchange.correlations[0],
+            DirectValue::CorrelationWheel2 => self.exchange.correlations[1],
+            DirectValue::ExchangeFrequency => self.exchange.frequency,
+            DirectValue::TimeReached => run.outcome.time,
+            DirectValue::TimeFinal => run.final_point.map_or(f64::NAN, |point| self.times[point]),
+            DirectValue::AttitudeW => run.final_state(StateField::Attitude, 0),
+            DirectValue::AttitudeX => run.final_state(StateField::Attitude, 1),
+            DirectValue::AttitudeY => run.final_state(StateField::Attitude, 2),
+            DirectValue::AttitudeZ => run.final_state(StateField::Attitude, 3),
+            DirectValue::RateX => run.final_state(StateField::Rate, 0),
+            DirectValue::RateY => run.final_state(StateField::Rate, 1),
+            DirectValue::RateZ => run.final_state(StateField::Rate, 2),
+            DirectValue::WheelRate1 => run.final_state(StateField::WheelRates, 0),
+            DirectValue::WheelRate2 => run.final_state(StateField::WheelRates, 1),
+            DirectValue::Steps => run.outcome.effort.steps as f64,
+            DirectValue::Rejected => run.outcome.effort.rejected as f64,
+            DirectValue::Evaluations => run.outcome.effort.evaluations as f64,
+            DirectValue::StateError => self.estimate.error,
+            DirectValue::Amplification => self.estimate.amplification,
+            DirectValue::IllConditioned => {
+                f64::from(u8::from(self.estimate.amplification * f64::EPSILON > MEANINGLESS))
+            }
+        }
     }
 
-    #[inline(always)]
-    fn put_own(&mut self, own: DirectValue, value: f64) {
-        self.values[Value::DirectValue(own).slot()] = value;
-    }
-
-    /// Reduces the series to the numbers of the row.
+    /// Reduces the observed series to statistics.
     #[inline(always)]
     fn reduce<S: Simd>(&mut self, simd: S) {
-        use Series::*;
-        const BODIES: [Series; 7] =
-            [EnergyFuselage, EnergyWheel1, EnergyWheel2, EnergyDebris, ComFuselage, ComWheel1, ComWheel2];
-        const SQUARES: [Series; 4] =
-            [LinearMomentumSquare, AngularMomentumSquare, DebrisLinearSquare, DebrisAngularSquare];
-        const ERRORS: [Series; 10] = [
-            EnergyError,
-            ComError,
-            LinearMomentumError,
-            AngularMomentumError,
-            DebrisLinearError,
-            DebrisAngularError,
-            AttitudeError,
-            ResidualKinematic,
-            ResidualCollocation,
-            ResidualAttitude,
-        ];
-        for series in [EnergyTotal, ComTotal] {
-            if self.wanted.has(series) {
-                let (initial, max) = initial_and_max(simd, &self.weights, self.series.column(series));
-                self.put(series, Statistic::Initial, initial);
-                self.put(series, Statistic::Max, max);
-            }
-        }
-        for series in SQUARES {
-            if self.wanted.has(series) {
-                let (initial, max) = initial_and_max(simd, &self.weights, self.series.column(series));
-                self.put(series, Statistic::Initial, initial.sqrt());
-                self.put(series, Statistic::Max, max.sqrt());
-            }
-        }
-        for series in BODIES {
-            if self.wanted.has(series) {
-                let spread = spread(simd, &self.weights, self.series.column(series));
-                self.put(series, Statistic::Initial, spread.initial);
-                self.put(series, Statistic::Final, spread.last);
-                self.put(series, Statistic::Min, spread.min);
-                self.put(series, Statistic::Max, spread.max);
-                self.put(series, Statistic::Mean, spread.mean);
-                self.put(series, Statistic::PeakToPeak, spread.max - spread.min);
-            }
-        }
-        for series in ERRORS {
-            if self.wanted.has(series) {
-                let errors = errors(simd, &self.weights, self.series.column(series));
-                let scale = self.scale(series);
-                self.put(series, Statistic::Max, errors.max / scale);
-                self.put(series, Statistic::Final, errors.last / scale);
-                self.put(series, Statistic::Rms, errors.rms / scale);
-                self.put(series, Statistic::Rate, errors.rate / scale);
-            }
-        }
-        if self.exchange {
-            self.exchange(simd);
+        for task in &self.tasks {
+            let out = &mut self.values.0[task.series as usize];
+            reduce(simd, &self.weights, self.series.column(task.series), task.passes, out);
         }
     }
 
     /// Exchange between fuselage and wheels about the centre of mass.
     #[inline(always)]
-    fn exchange<S: Simd>(&mut self, simd: S) {
-        use Series::{ComFuselage, ComTotal, ComWheel1, ComWheel2};
-        let of = |values: &[f64; Value::SLOTS], series, statistic| values[Value::Of(series, statistic).slot()];
-        let total = of(&self.values, ComTotal, Statistic::Max);
-        for series in [ComFuselage, ComWheel1, ComWheel2] {
-            let swing = of(&self.values, series, Statistic::PeakToPeak);
-            let net = of(&self.values, series, Statistic::Final) - of(&self.values, series, Statistic::Initial);
-            let (gross, power) = transfer(simd, &self.weights, self.series.column(series));
-            self.put(series, Statistic::Fraction, if total > 0.0 { swing / total } else { 0.0 });
-            self.put(series, Statistic::Net, net);
-            self.put(series, Statistic::Gross, gross);
-            self.put(series, Statistic::Power, power);
-        }
-        let swings = [ComFuselage, ComWheel1, ComWheel2].map(|series| of(&self.values, series, Statistic::PeakToPeak));
-        let varies = swings.map(|swing| swing > EXCHANGE_FLOOR * total);
-        let with_mean = |series| (self.series.column(series), of(&self.values, series, Statistic::Mean));
-        let fuselage = with_mean(ComFuselage);
-        let wheels = correlations(simd, &self.weights, fuselage, [with_mean(ComWheel1), with_mean(ComWheel2)]);
-        let frequency = match &mut self.spectrum {
-            Some(_) if !varies[0] => 0.0,
-            Some(spectrum) => {
-                let (column, mean) = fuselage;
-                let slope = slope(simd, &self.weights, column, mean);
-                spectrum.peak(simd, column, mean, slope)
-            }
-            None => f64::NAN,
+    fn find_exchange<S: Simd>(&mut self, simd: S) {
+        let (series, values) = (&self.series, &self.values);
+        let body = |of: Series| BodyEnergy {
+            column: series.column(of),
+            mean: values.get(of, Reduction::Value(ValueStatistic::Mean)),
+            swing: values.get(of, Reduction::Value(ValueStatistic::PeakToPeak)),
         };
-        self.put_own(DirectValue::CorrelationWheel1, if varies[0] && varies[1] { wheels[0] } else { 0.0 });
-        self.put_own(DirectValue::CorrelationWheel2, if varies[0] && varies[2] { wheels[1] } else { 0.0 });
-        self.put_own(DirectValue::ExchangeFrequency, frequency);
+        let total = values.get(Series::ComTotal, Reduction::Scale(ScaleStatistic::Max));
+        let wheels = [body(Series::ComWheel1), body(Series::ComWheel2)];
+        let spectrum = self.spectrum.as_mut();
+        self.exchange = exchange(simd, &self.weights, spectrum, total, body(Series::ComFuselage), wheels);
+    }
+}
+
+/// A run as the direct values see it.
+struct FinishedRun<'a> {
+    table: &'a StateTable,
+    outcome: &'a Outcome,
+    /// The point of the final state, where there is one and it is observed.
+    final_point: Option<usize>,
+}
+
+impl FinishedRun<'_> {
+    fn last(&self, field: StateField, component: usize) -> f64 {
+        self.table.column(field, component)[self.table.points() - 1]
     }
 
-    /// The numbers that are read and not computed.
-    fn own(&mut self, table: &StateTable, outcome: &Outcome) {
-        let done = outcome.status == Status::Done;
-        let groups = self.request.groups;
-        if done && self.request.actuated && groups.contains(Group::EnergyConservation) {
-            let [thrusters, motors] = table.at(StateField::Work, table.points() - 1);
-            self.put_own(DirectValue::WorkThrusters, thrusters);
-            self.put_own(DirectValue::WorkMotors, motors);
-        }
-        if groups.contains(Group::FinalState) {
-            let finite = |point: &usize| {
-                table.at::<3>(StateField::Rate, *point).iter().all(|x| x.is_finite())
-                    && table.at::<4>(StateField::Attitude, *point).iter().all(|x| x.is_finite())
-                    && table.at::<2>(StateField::WheelRates, *point).iter().all(|x| x.is_finite())
-            };
-            let state = (0..self.filled).rev().find(finite).map(|point| {
-                let [w, x, y, z] = table.at(StateField::Attitude, point);
-                let [a, b, c] = table.at(StateField::Rate, point);
-                let [first, second] = table.at(StateField::WheelRates, point);
-                [self.times[point], w, x, y, z, a, b, c, first, second]
-            });
-            let first = Value::DirectValue(DirectValue::TimeFinal).slot();
-            self.values[first..first + 10].copy_from_slice(&state.unwrap_or([f64::NAN; 10]));
-            self.put_own(DirectValue::TimeReached, outcome.time);
-        }
-        if let Some(ErrorEstimate { error, amplification }) = self.judgement {
-            self.put_own(DirectValue::StateError, error);
-            self.put_own(DirectValue::Amplification, amplification);
-            self.put_own(DirectValue::IllConditioned, f64::from(u8::from(amplification * f64::EPSILON > MEANINGLESS)));
-        }
-        self.put_own(DirectValue::Steps, outcome.effort.steps as f64);
-        self.put_own(DirectValue::Rejected, outcome.effort.rejected as f64);
-        self.put_own(DirectValue::Evaluations, outcome.effort.evaluations as f64);
+    fn final_state(&self, field: StateField, component: usize) -> f64 {
+        self.final_point.map_or(f64::NAN, |point| self.table.column(field, component)[point])
     }
 }
 
@@ -275,13 +258,15 @@ impl Work for Observation<'_> {
     fn run<S: Simd>(self, simd: S) {
         let Observation { observer, scene, table, local_errors } = self;
         let debris = scene.mass.debris.as_ref().filter(|_| observer.request.debris);
-        let (wanted, points) = (observer.wanted, observer.filled);
-        let run = Run { wanted, mass: &scene.mass, debris, table, points };
+        let (observed, points) = (observer.observed, observer.filled);
+        let run = MeasuredRun { observed, sources: &observer.sources, mass: &scene.mass, debris, table, points };
         measure(simd, &run, &mut observer.series);
         observer.reduce(simd);
+        if observer.request.groups.contains(Group::Exchange) {
+            observer.find_exchange(simd);
+        }
         if let Some(conditioning) = &mut observer.conditioning {
-            let found = conditioning.judge(simd, scene, table, &observer.times, points, local_errors);
-            observer.judgement = Some(found);
+            observer.estimate = conditioning.estimate(simd, scene, table, &observer.times, points, local_errors);
         }
     }
 }

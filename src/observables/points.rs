@@ -1,18 +1,44 @@
 //! Eight points at a time: columns of the state table in, columns of the series out.
 //!
-//! Not here: what is computed in between (`measure`, `momenta`).
+//! Not here: what is computed from these columns (`energies`, `momenta`, `attitude`).
 
 use fearless_simd::Simd;
 
 use super::request::SeriesSet;
-use super::series::Series;
+use super::rows::Source;
+use super::table::Series;
 use crate::math::lanes::WIDTH;
 use crate::math::{Lanes, Real};
 use crate::run::{StateField, StateTable};
+use crate::scene::mass::{Body, MassProperties};
 
-/// Eight neighbouring points of a component: all arithmetic here goes vector by vector, and columns cut to one common number of
-/// vectors need no check of bounds inside the loops.
+/// A component of a field as vectors of eight neighbouring points. Columns with one common number of vectors need no check of
+/// bounds inside the loops.
 pub(super) type Column<'a> = &'a [[f64; WIDTH]];
+
+/// A run as it is measured.
+pub(super) struct MeasuredRun<'a> {
+    /// The series to compute.
+    pub(super) observed: SeriesSet,
+    /// Their sources.
+    pub(super) sources: &'a [Source],
+    /// Mass properties of the spacecraft.
+    pub(super) mass: &'a MassProperties,
+    /// The debris, where it is observed.
+    pub(super) debris: Option<&'a Body>,
+    /// The states.
+    pub(super) table: &'a StateTable,
+    /// Number of filled points, at least one.
+    pub(super) points: usize,
+}
+
+impl MeasuredRun<'_> {
+    /// Number of vectors of eight points that contain the filled points.
+    #[inline(always)]
+    pub(super) fn vectors(&self) -> usize {
+        self.points.div_ceil(WIDTH)
+    }
+}
 
 /// The values of every series, each with one vector of padding more than a column of the state table (so that the neighbour of
 /// every point can be read).
@@ -22,10 +48,10 @@ pub(super) struct SeriesTable {
 }
 
 impl SeriesTable {
-    /// Series of `points` points; all zero.
+    /// Series of `points` points; all NaN until they are computed.
     pub(super) fn new(points: usize) -> Self {
         let vectors = points.div_ceil(WIDTH) + 1;
-        SeriesTable { columns: std::array::from_fn(|_| vec![[0.0; WIDTH]; vectors]) }
+        SeriesTable { columns: std::array::from_fn(|_| vec![[f64::NAN; WIDTH]; vectors]) }
     }
 
     /// The values of a series, with padding.
@@ -43,9 +69,9 @@ impl SeriesTable {
 
     /// Repeats point `points - 1` in all that follow it.
     #[inline(always)]
-    pub(super) fn pad(&mut self, wanted: SeriesSet, points: usize) {
-        for (series, column) in self.columns.iter_mut().enumerate() {
-            if wanted.has_index(series) {
+    pub(super) fn pad(&mut self, observed: SeriesSet, points: usize) {
+        for (series, column) in Series::ALL.iter().zip(&mut self.columns) {
+            if observed.has(*series) {
                 let (whole, rest) = (points / WIDTH, points % WIDTH);
                 let last = column[(points - 1) / WIDTH][(points - 1) % WIDTH];
                 for (lane, value) in column[whole].iter_mut().enumerate() {
@@ -57,7 +83,7 @@ impl SeriesTable {
     }
 }
 
-/// Three components of a block at the eight points of vector `at`.
+/// Three components of a field at the eight points of vector `at`.
 #[inline(always)]
 pub(super) fn three<S: Simd>(simd: S, [x, y, z]: [Column<'_>; 3], at: usize) -> [Lanes<S>; 3] {
     [Lanes::load(simd, &x[at]), Lanes::load(simd, &y[at]), Lanes::load(simd, &z[at])]
@@ -92,25 +118,25 @@ pub(super) fn first_vector<S: Simd>(simd: S, a: [Lanes<S>; 3]) -> [Lanes<S>; 3] 
     [first(simd, a[0]), first(simd, a[1]), first(simd, a[2])]
 }
 
-/// The first `vectors` vectors of the columns of a block, or nothing where the table does not hold it.
+/// The first `vectors` vectors of the columns of a field; `None` where the table does not have it.
 #[inline(always)]
 pub(super) fn columns<const N: usize>(
     table: &StateTable,
-    block: StateField,
+    field: StateField,
     vectors: usize,
 ) -> Option<[Column<'_>; N]> {
-    if !table.has(block) {
+    if !table.has(field) {
         return None;
     }
     let mut columns: [Column<'_>; N] = [&[]; N];
     for (component, column) in columns.iter_mut().enumerate() {
-        *column = &table.column(block, component).as_chunks().0[..vectors];
+        *column = &table.column(field, component).as_chunks().0[..vectors];
     }
     Some(columns)
 }
 
-/// The columns of a block that the request has promised to be there.
+/// The columns of a field that the table of observables says is needed.
 #[inline(always)]
-pub(super) fn needed<const N: usize>(table: &StateTable, block: StateField, vectors: usize) -> [Column<'_>; N] {
-    columns(table, block, vectors).expect("the observer checks that the table holds what its request needs")
+pub(super) fn needed<const N: usize>(table: &StateTable, field: StateField, vectors: usize) -> [Column<'_>; N] {
+    columns(table, field, vectors).expect("the state table has the fields that the request needs")
 }

@@ -1,17 +1,18 @@
-//! Series to numbers: extremes, means, slopes, transfers, correlations, each in one fixed order.
+//! Passes over a series: extremes, means, slopes, transfers, correlations, each in one fixed order of operations.
 //!
 //! Lane `i` of an accumulator gathers points `i`, `i + 8`, ...; the eight are then joined as a fixed tree, so that the bits
 //! depend on nothing but the values. Means are taken of the departures from the first value: with n points their rounding
-//! error is at most n/8 + 4 roundings of the largest *departure* (not of the value itself), which for any grid in use lies far
+//! error is at most n/8 + 4 roundings of the largest *departure* (not of the value itself), which for any grid in use is far
 //! below one rounding of the value. The same holds for slopes, whose error series starts at zero. Weights are zero in the padding.
 
 use fearless_simd::Simd;
 
+use super::reduction::{ChangeStatistic, ErrorStatistic, Passes, Reduction, ScaleStatistic, ValueStatistic};
 use crate::math::lanes::WIDTH;
 use crate::math::{Lanes, Real};
 use crate::run::Grid;
 
-/// What of the grid enters the reductions, with zeros in the padding.
+/// What the reductions use of the grid, with zeros in the padding.
 #[derive(Clone, Debug)]
 pub(super) struct Weights {
     /// Number of points.
@@ -47,9 +48,9 @@ impl Weights {
     }
 }
 
-/// The first `count` vectors of a column; columns cut to one common number need no check of bounds inside the loops.
+/// The first `count` vectors of a column; columns of one common length need no check of bounds inside the loops.
 #[inline(always)]
-fn cut(column: &[f64], count: usize) -> &[[f64; WIDTH]] {
+fn vectors(column: &[f64], count: usize) -> &[[f64; WIDTH]] {
     &column.as_chunks().0[..count]
 }
 
@@ -74,25 +75,76 @@ fn smallest<S: Simd>(lanes: Lanes<S>) -> f64 {
     joined(lanes.to_array(), |a, b| a.smaller(b))
 }
 
-/// Location and extremes of a series.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Spread {
-    pub(super) initial: f64,
-    pub(super) last: f64,
-    pub(super) min: f64,
-    pub(super) max: f64,
-    pub(super) mean: f64,
+/// Makes the passes over a series, and writes their values to `out` at [`Reduction::index`]. `column` has one vector more than
+/// the weights, in which the last point is repeated.
+#[inline(always)]
+pub(super) fn reduce<S: Simd>(
+    simd: S,
+    weights: &Weights,
+    column: &[f64],
+    passes: Passes,
+    out: &mut [f64; Reduction::COUNT],
+) {
+    if passes.scale || passes.root_scale {
+        let scale = scale(simd, weights, column);
+        for statistic in ScaleStatistic::ALL {
+            out[Reduction::Scale(*statistic).index()] = scale.get(*statistic);
+            out[Reduction::RootScale(*statistic).index()] = scale.get(*statistic).sqrt();
+        }
+    }
+    if passes.value {
+        let spread = spread(simd, weights, column);
+        for statistic in ValueStatistic::ALL {
+            out[Reduction::Value(*statistic).index()] = spread.get(*statistic);
+        }
+    }
+    if passes.error {
+        let errors = errors(simd, weights, column);
+        for statistic in ErrorStatistic::ALL {
+            out[Reduction::Error(*statistic).index()] = errors.get(*statistic);
+        }
+    }
+    if passes.change {
+        let transfer = transfer(simd, weights, column);
+        for statistic in ChangeStatistic::ALL {
+            out[Reduction::Change(*statistic).index()] = transfer.get(*statistic);
+        }
+    }
 }
 
-/// A series' column and its points' neighbours: `column` is one vector longer than the weights.
+/// Location and extremes of a series.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Spread {
+    initial: f64,
+    last: f64,
+    min: f64,
+    max: f64,
+    mean: f64,
+}
+
+impl Spread {
+    fn get(&self, statistic: ValueStatistic) -> f64 {
+        match statistic {
+            ValueStatistic::Initial => self.initial,
+            ValueStatistic::Final => self.last,
+            ValueStatistic::Min => self.min,
+            ValueStatistic::Max => self.max,
+            ValueStatistic::Mean => self.mean,
+            ValueStatistic::PeakToPeak => self.max - self.min,
+            ValueStatistic::Net => self.last - self.initial,
+        }
+    }
+}
+
+/// Extremes and mean; where a value is NaN, all three are.
 #[inline(always)]
-pub(super) fn spread<S: Simd>(simd: S, weights: &Weights, column: &[f64]) -> Spread {
+fn spread<S: Simd>(simd: S, weights: &Weights, column: &[f64]) -> Spread {
     let initial = column[0];
     let first = Lanes::broadcast(simd, initial);
     let mut min = first;
     let mut max = first;
     let mut sum = first.zero();
-    for (x, one) in cut(column, weights.one.len()).iter().zip(&weights.one) {
+    for (x, one) in vectors(column, weights.one.len()).iter().zip(&weights.one) {
         let x = Lanes::load(simd, x);
         min = x.smaller(min);
         max = x.larger(max);
@@ -106,31 +158,57 @@ pub(super) fn spread<S: Simd>(simd: S, weights: &Weights, column: &[f64]) -> Spr
     Spread { initial, last, min: smallest(min), max: largest(max), mean }
 }
 
-/// First and largest value of a series, for scales.
+/// First value and maximum.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Scale {
+    initial: f64,
+    max: f64,
+}
+
+impl Scale {
+    fn get(&self, statistic: ScaleStatistic) -> f64 {
+        match statistic {
+            ScaleStatistic::Initial => self.initial,
+            ScaleStatistic::Max => self.max,
+        }
+    }
+}
+
 #[inline(always)]
-pub(super) fn initial_and_max<S: Simd>(simd: S, weights: &Weights, column: &[f64]) -> (f64, f64) {
+fn scale<S: Simd>(simd: S, weights: &Weights, column: &[f64]) -> Scale {
     let mut max = Lanes::broadcast(simd, column[0]);
-    for x in cut(column, weights.one.len()) {
+    for x in vectors(column, weights.one.len()) {
         max = Lanes::load(simd, x).larger(max);
     }
-    (column[0], largest(max))
+    Scale { initial: column[0], max: largest(max) }
 }
 
-/// Sizes of an error series.
+/// Magnitude and slope of an error.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Errors {
-    pub(super) max: f64,
-    pub(super) last: f64,
-    pub(super) rms: f64,
-    pub(super) rate: f64,
+struct Errors {
+    max: f64,
+    last: f64,
+    rms: f64,
+    slope: f64,
+}
+
+impl Errors {
+    fn get(&self, statistic: ErrorStatistic) -> f64 {
+        match statistic {
+            ErrorStatistic::Max => self.max,
+            ErrorStatistic::Final => self.last,
+            ErrorStatistic::Rms => self.rms,
+            ErrorStatistic::Slope => self.slope,
+        }
+    }
 }
 
 #[inline(always)]
-pub(super) fn errors<S: Simd>(simd: S, weights: &Weights, values: &[f64]) -> Errors {
+fn errors<S: Simd>(simd: S, weights: &Weights, values: &[f64]) -> Errors {
     let zero = Lanes::broadcast(simd, 0.0);
     let (mut max, mut squares, mut slope) = (zero, zero, zero);
     let count = weights.one.len();
-    let (column, one, line) = (cut(values, count), &weights.one[..count], &weights.slope[..count]);
+    let (column, one, line) = (vectors(values, count), &weights.one[..count], &weights.slope[..count]);
     for at in 0..count {
         let e = Lanes::load(simd, &column[at]);
         max = e.abs().larger(max);
@@ -138,18 +216,34 @@ pub(super) fn errors<S: Simd>(simd: S, weights: &Weights, values: &[f64]) -> Err
         slope = e.mul_add(Lanes::load(simd, &line[at]), slope);
     }
     let rms = (total(squares) / weights.points as f64).sqrt();
-    // a maximum by comparison passes over what is not a number, a sum does not
+    // a maximum by comparison skips NaN, a sum does not
     let max = if rms.is_nan() { f64::NAN } else { largest(max) };
-    Errors { max, last: values[weights.points - 1], rms, rate: total(slope) }
+    Errors { max, last: values[weights.points - 1], rms, slope: total(slope) }
 }
 
-/// Sum of |dx| and largest |dx/dt| between neighbouring points.
+/// Changes between neighbouring points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Transfer {
+    gross: f64,
+    power: f64,
+}
+
+impl Transfer {
+    fn get(&self, statistic: ChangeStatistic) -> f64 {
+        match statistic {
+            ChangeStatistic::Gross => self.gross,
+            ChangeStatistic::Power => self.power,
+        }
+    }
+}
+
+/// Sum of |dx| and maximum of |dx/dt| between neighbouring points.
 #[inline(always)]
-pub(super) fn transfer<S: Simd>(simd: S, weights: &Weights, column: &[f64]) -> (f64, f64) {
+fn transfer<S: Simd>(simd: S, weights: &Weights, column: &[f64]) -> Transfer {
     let mut gross = Lanes::broadcast(simd, 0.0);
     let mut power = gross;
     let count = weights.one.len();
-    let (next, column) = (cut(&column[1..], count), cut(column, count));
+    let (next, column) = (vectors(&column[1..], count), vectors(column, count));
     let inverse_step = &weights.inverse_step[..count];
     for at in 0..count {
         // the padding repeats the last point, and so adds nothing
@@ -157,7 +251,7 @@ pub(super) fn transfer<S: Simd>(simd: S, weights: &Weights, column: &[f64]) -> (
         gross += change;
         power = (change * Lanes::load(simd, &inverse_step[at])).larger(power);
     }
-    (total(gross), largest(power))
+    Transfer { gross: total(gross), power: largest(power) }
 }
 
 /// Correlation of `a` with `b[0]` and with `b[1]` (each with its mean); zero where one of the two does not vary.
@@ -172,7 +266,7 @@ pub(super) fn correlations<S: Simd>(
     let means = [Lanes::broadcast(simd, a_mean), Lanes::broadcast(simd, b[0].1), Lanes::broadcast(simd, b[1].1)];
     let (mut aa, mut ab0, mut ab1, mut bb0, mut bb1) = (zero, zero, zero, zero, zero);
     let count = weights.one.len();
-    let (a, b0, b1) = (cut(a, count), cut(b[0].0, count), cut(b[1].0, count));
+    let (a, b0, b1) = (vectors(a, count), vectors(b[0].0, count), vectors(b[1].0, count));
     for at in 0..count {
         let one = Lanes::load(simd, &weights.one[at]);
         let x = (Lanes::load(simd, &a[at]) - means[0]) * one;
@@ -197,7 +291,7 @@ pub(super) fn correlations<S: Simd>(
 pub(super) fn slope<S: Simd>(simd: S, weights: &Weights, column: &[f64], mean: f64) -> f64 {
     let mean = Lanes::broadcast(simd, mean);
     let mut slope = mean.zero();
-    for (x, weight) in cut(column, weights.slope.len()).iter().zip(&weights.slope) {
+    for (x, weight) in vectors(column, weights.slope.len()).iter().zip(&weights.slope) {
         let x = Lanes::load(simd, x) - mean;
         slope = x.mul_add(Lanes::load(simd, weight), slope);
     }
@@ -215,7 +309,7 @@ mod tests {
 
     struct Reduce<'a>(&'a Weights, &'a [f64]);
     impl Work for Reduce<'_> {
-        type Output = (Spread, Errors, (f64, f64), f64, [f64; 2]);
+        type Output = (Spread, Errors, Transfer, f64, [f64; 2]);
         #[inline(always)]
         fn run<S: Simd>(self, simd: S) -> Self::Output {
             let spread = spread(simd, self.0, self.1);
@@ -251,9 +345,9 @@ mod tests {
             let points = times.len();
             let weights = Weights::of(&Grid::at(times.clone()));
             let line = column(points, |k| 2.0 - 0.75 * times[k]);
-            let (_, errors, (gross, power), slope, _) = Isa::best().run(Reduce(&weights, &line));
+            let (_, errors, Transfer { gross, power }, slope, _) = Isa::best().run(Reduce(&weights, &line));
             close(slope, -0.75);
-            close(errors.rate, -0.75);
+            close(errors.slope, -0.75);
             close(gross, 0.75 * times[points - 1]);
             close(power, 0.75);
         }
@@ -265,7 +359,7 @@ mod tests {
             let times: Vec<f64> = (0..points).map(|k| k as f64 + 0.3 * (k as f64 * 0.7).floor()).collect();
             let weights = Weights::of(&Grid::at(times.clone()));
             let values = column(points, |k| ((k * 37 + 11) % 23) as f64 / 7.0 - 1.5);
-            let (spread, errors, (gross, power), _, _) = Isa::best().run(Reduce(&weights, &values));
+            let (spread, errors, Transfer { gross, power }, _, _) = Isa::best().run(Reduce(&weights, &values));
             let v = &values[..points];
             let n = points as f64;
             assert_eq!(spread.min, v.iter().copied().fold(f64::INFINITY, f64::min));

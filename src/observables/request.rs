@@ -1,151 +1,131 @@
-//! [`Request`]: what a campaign asks to observe of scenes of one kind; which columns, which series, which blocks and why.
+//! [`Request`]: what a campaign observes of scenes of one kind: which columns, which series, which state fields and why.
 
-use super::columns::{self, Column, Value, When};
-use super::columns::{DirectValue, Statistic};
 use super::group::{Group, Groups};
-use super::series::{PUBLISHED, Series, SeriesColumn};
+use super::reduction::{Passes, Reduction};
+use super::rows::{Scenes, Source};
+use super::table::{self, Column, ColumnId, Series};
 use crate::run::{StateField, StateFields};
 
-/// What is asked for, and what kind of scene it is asked of.
+/// What is observed, and of what kind of scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Request {
-    /// The groups asked for.
+    /// The groups to observe.
     pub groups: Groups,
     /// Whether there is a debris body.
     pub debris: bool,
-    /// Whether thrusters or wheel motors work at any time.
+    /// Whether thrusters or wheel motors act at any time.
     pub actuated: bool,
-    /// Whether the kernel has constraints (and integrates the DCM itself).
+    /// Whether the method integrates constraints (and the DCM itself): the null-space method.
     pub constrained: bool,
 }
 
 /// A set of series.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct SeriesSet(u32);
+pub(super) struct SeriesSet(u64);
 
 impl SeriesSet {
-    pub(super) const fn with(self, series: Series) -> Self {
-        SeriesSet(self.0 | 1 << series as u32)
+    const fn with(self, series: Series) -> Self {
+        SeriesSet(self.0 | 1 << series as u64)
     }
 
+    /// Whether the set contains `series`.
     pub(super) const fn has(self, series: Series) -> bool {
-        self.has_index(series as usize)
+        self.0 & (1 << series as u64) != 0
     }
 
-    pub(super) const fn has_index(self, series: usize) -> bool {
-        self.0 & (1 << series) != 0
+    /// Whether the set contains any series of `source`.
+    pub(super) fn has_any_of(self, source: Source) -> bool {
+        Series::ALL.iter().any(|series| self.has(*series) && series.row().source == source)
     }
 }
 
+/// The passes over one series.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct SeriesTask {
+    pub(super) series: Series,
+    pub(super) passes: Passes,
+}
+
 impl Request {
-    /// The columns of a row, in order: those of the groups asked for that apply to such a scene.
+    /// The columns of a row, in order: those of the groups that apply to such a scene.
     pub fn columns(&self) -> Vec<&'static Column> {
-        columns::all().filter(|column| self.groups.contains(column.group) && self.applies(column.when)).collect()
+        table::all().filter(|column| self.groups.contains(column.group) && self.includes(column.scenes)).collect()
+    }
+
+    /// The place of a column in a row; `None` where the row does not have it.
+    pub fn position(&self, id: ColumnId) -> Option<usize> {
+        self.columns().iter().position(|column| column.id() == id)
     }
 
     /// The columns of a time series, in order: the series behind [`Request::columns`] that have one.
-    pub fn series(&self) -> Vec<&'static SeriesColumn> {
-        let wanted = self.wanted();
-        PUBLISHED.iter().filter(|column| wanted.has(column.series)).collect()
+    pub fn series(&self) -> Vec<Series> {
+        let observed = self.observed();
+        Series::ALL.iter().copied().filter(|series| observed.has(*series) && series.quantity().is_some()).collect()
     }
 
-    /// The blocks of the state table that the columns need; no other is read.
-    pub fn blocks(&self) -> StateFields {
-        self.needs().into_iter().fold(StateFields::NONE, |blocks, (_, block, _)| blocks.with(block))
+    /// The fields of the state table that the columns need; no other is read.
+    pub fn fields(&self) -> StateFields {
+        self.needs().into_iter().fold(StateFields::NONE, |fields, (_, field, _)| fields.with(field))
     }
 
-    /// For each needed block, in the order of the table, which groups need it and for what.
+    /// For each needed field, in the order of the table, which groups need it and for what.
     pub fn reasons(&self) -> Vec<(StateField, String)> {
         let needs = self.needs();
-        let reason = |block: StateField| {
+        let reason = |field: StateField| {
             let parts: Vec<String> = needs
                 .iter()
-                .filter(|(_, needed, _)| *needed == block)
+                .filter(|(_, needed, _)| *needed == field)
                 .map(|(group, _, why)| format!("{} ({why})", group.name()))
                 .collect();
-            (!parts.is_empty()).then(|| (block, parts.join(", ")))
+            (!parts.is_empty()).then(|| (field, parts.join(", ")))
         };
         StateField::ALL.into_iter().filter_map(reason).collect()
     }
 
     /// The series that the columns are made of, with those that set their scales.
-    pub(super) fn wanted(&self) -> SeriesSet {
-        self.columns()
-            .into_iter()
-            .flat_map(|column| Self::sources(column.value))
-            .fold(SeriesSet::default(), SeriesSet::with)
+    pub(super) fn observed(&self) -> SeriesSet {
+        self.inputs().fold(SeriesSet::default(), |set, (series, _)| set.with(series))
     }
 
-    fn applies(&self, when: When) -> bool {
-        match when {
-            When::Always => true,
-            When::Debris => self.debris,
-            When::Actuated => self.actuated,
-            When::Free => !self.actuated,
-            When::Constrained => self.constrained,
+    /// What is computed of each observed series.
+    pub(super) fn tasks(&self) -> Vec<SeriesTask> {
+        let observed = self.observed();
+        let passes = |series: Series| {
+            let of_series = self.inputs().filter(|(other, _)| *other == series);
+            of_series.fold(Passes::default(), |passes, (_, reduction)| passes.with(reduction))
+        };
+        let observed = Series::ALL.iter().copied().filter(|series| observed.has(*series));
+        observed.map(|series| SeriesTask { series, passes: passes(series) }).collect()
+    }
+
+    /// Every statistic that the columns are made of, some several times.
+    fn inputs(&self) -> impl Iterator<Item = (Series, Reduction)> {
+        self.columns().into_iter().flat_map(|column| column.value.inputs())
+    }
+
+    fn includes(&self, scenes: Scenes) -> bool {
+        match scenes {
+            Scenes::All => true,
+            Scenes::Debris => self.debris,
+            Scenes::Actuated => self.actuated,
+            Scenes::Free => !self.actuated,
+            Scenes::Constrained => self.constrained,
+            Scenes::Unconstrained => !self.constrained,
         }
     }
 
-    /// The series that a value is made of.
-    fn sources(value: Value) -> Vec<Series> {
-        match value {
-            Value::Of(series, Statistic::Fraction) => vec![series, Series::ComTotal],
-            Value::Of(series, _) => series.scale().into_iter().chain([series]).collect(),
-            Value::DirectValue(
-                DirectValue::CorrelationWheel1 | DirectValue::CorrelationWheel2 | DirectValue::ExchangeFrequency,
-            ) => {
-                vec![Series::ComFuselage, Series::ComWheel1, Series::ComWheel2, Series::ComTotal]
-            }
-            Value::DirectValue(_) => vec![],
-        }
-    }
-
-    /// Every (group, block, purpose), each once, in the order of the columns.
+    /// Every (group, field, purpose), each once, in the order of the columns.
     fn needs(&self) -> Vec<(Group, StateField, &'static str)> {
         let mut needs = Vec::new();
         for column in self.columns() {
-            let own = match column.value {
-                Value::DirectValue(own) => own.needs(),
-                Value::Of(..) => None,
-            };
-            let series = Self::sources(column.value).into_iter().flat_map(|series| series.needs(self));
-            for (block, why) in series.chain(own) {
-                if !needs.contains(&(column.group, block, why)) {
-                    needs.push((column.group, block, why));
+            for need in column.value.needs().filter(|need| self.includes(need.scenes)) {
+                let entry = (column.group, need.field, need.why);
+                if !needs.contains(&entry) {
+                    needs.push(entry);
                 }
             }
         }
         needs
-    }
-}
-
-impl DirectValue {
-    /// The block that the number is read from, beside the series it is made of.
-    const fn needs(self) -> Option<(StateField, &'static str)> {
-        match self {
-            DirectValue::WorkThrusters | DirectValue::WorkMotors => Some((StateField::Work, "work of the actuators")),
-            DirectValue::AttitudeW | DirectValue::AttitudeX | DirectValue::AttitudeY | DirectValue::AttitudeZ => {
-                Some((StateField::Attitude, "attitude at the end"))
-            }
-            DirectValue::RateX | DirectValue::RateY | DirectValue::RateZ => {
-                Some((StateField::Rate, "angular velocity at the end"))
-            }
-            DirectValue::WheelRate1 | DirectValue::WheelRate2 => {
-                Some((StateField::WheelRates, "wheel rates at the end"))
-            }
-            DirectValue::CorrelationWheel1
-            | DirectValue::CorrelationWheel2
-            | DirectValue::ExchangeFrequency
-            | DirectValue::TimeReached
-            | DirectValue::TimeFinal
-            | DirectValue::Steps
-            | DirectValue::Rejected
-            | DirectValue::Evaluations => None,
-            DirectValue::StateError => Some((StateField::Rate, "how the motion amplifies errors")),
-            DirectValue::Amplification => Some((StateField::WheelRates, "how the motion amplifies errors")),
-            // the method's own errors of the attitude are known only where it is integrated
-            DirectValue::IllConditioned => Some((StateField::Attitude, "errors of the attitude")),
-        }
     }
 }
 
@@ -200,14 +180,14 @@ mod tests {
         ];
         for (groups, [debris, actuated, constrained], blocks) in cases {
             let request = request(groups, debris, actuated, constrained);
-            assert_eq!(request.blocks(), set(blocks), "{request:?}");
+            assert_eq!(request.fields(), set(blocks), "{request:?}");
         }
     }
 
     #[test]
     fn wheel_angles_and_positions_are_never_read() {
         for [debris, actuated, constrained] in [[false; 3], [true; 3]] {
-            let blocks = Request { groups: Groups::ALL, debris, actuated, constrained }.blocks();
+            let blocks = Request { groups: Groups::ALL, debris, actuated, constrained }.fields();
             for block in [StateField::WheelAngles, StateField::ComPosition, StateField::DebrisPosition] {
                 assert!(!blocks.contains(block));
             }
@@ -218,7 +198,7 @@ mod tests {
     fn reasons_name_every_needed_block_and_no_other() {
         let request = Request { groups: Groups::ALL, debris: true, actuated: true, constrained: true };
         let reasons = request.reasons();
-        assert_eq!(set(&reasons.iter().map(|(block, _)| *block).collect::<Vec<_>>()), request.blocks());
+        assert_eq!(set(&reasons.iter().map(|(block, _)| *block).collect::<Vec<_>>()), request.fields());
         let (_, why) = reasons.iter().find(|(block, _)| *block == StateField::AngularImpulse).unwrap();
         assert_eq!(why, "momentum_conservation (angular impulse of the thrusters)");
     }
@@ -226,7 +206,11 @@ mod tests {
     #[test]
     fn columns_apply_to_scenes_that_have_what_they_measure() {
         let names = |debris, actuated, constrained| -> Vec<&str> {
-            Request { groups: Groups::ALL, debris, actuated, constrained }.columns().iter().map(|c| c.name).collect()
+            Request { groups: Groups::ALL, debris, actuated, constrained }
+                .columns()
+                .iter()
+                .map(|c| c.quantity.name())
+                .collect()
         };
         let bare = names(false, false, false);
         let full = names(true, true, true);

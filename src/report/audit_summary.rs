@@ -7,6 +7,7 @@ use std::fmt::{self, Display, Formatter};
 use serde::Serialize;
 
 use crate::dataset::audit_tally::AuditTally;
+use crate::ensemble::audit::AuditValue;
 use crate::report::number::short;
 use crate::statistics::sketch::Sketch;
 
@@ -142,10 +143,11 @@ impl Display for AuditSummary {
         }
         writeln!(f, "  {:<28}{:>12}{:>12}{:>12}{:>12}", "true error of the rotation", "median", "p95", "p99", "max")?;
         for (name, of) in [
-            ("audit_state_error", self.state_error),
-            ("audit_omega_error", self.omega_error),
-            ("audit_attitude_error_rad", self.attitude_error_rad),
+            (AuditValue::State, self.state_error),
+            (AuditValue::Omega, self.omega_error),
+            (AuditValue::Attitude, self.attitude_error_rad),
         ] {
+            let name = name.quantity().name();
             write!(f, "  {name:<28}")?;
             for value in [of.median, of.p95, of.p99, of.max] {
                 write!(f, "{:>12}", value.map_or("-".to_owned(), short))?;

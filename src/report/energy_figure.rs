@@ -1,20 +1,22 @@
 //! [`energy_figure`]: energies against time, as the report's Figures 3, 4 (total and its error) and 5 (body by body).
 
-use crate::dataset::timeseries::TimeSeries;
+use crate::dataset::timeseries::{TimeColumn, TimeSeries};
+use crate::observables::Series;
 use crate::report::plot::{Curve, Figure, Panel};
 
-/// Column and name of each body.
-const BODIES: [(&str, &str); 4] = [
-    ("energy_fuselage_j", "fuselage"),
-    ("energy_wheel1_j", "wheel 1"),
-    ("energy_wheel2_j", "wheel 2"),
-    ("energy_debris_j", "debris"),
+/// Energy and name of each body.
+const BODIES: [(Series, &str); 4] = [
+    (Series::EnergyFuselage, "fuselage"),
+    (Series::EnergyWheel1, "wheel 1"),
+    (Series::EnergyWheel2, "wheel 2"),
+    (Series::EnergyDebris, "debris"),
 ];
 
 /// A panel for the energy of each body, one for the changes of all since the start, one for the error of the total.
 pub fn energy_figure(title: &str, series: &TimeSeries) -> Figure {
+    let values = |key| series.column(key).map(|(_, values)| values);
     let bodies: Vec<(&str, &[f64])> =
-        BODIES.into_iter().filter_map(|(column, body)| Some((body, series.column(column)?))).collect();
+        BODIES.into_iter().filter_map(|(energy, body)| Some((body, values(TimeColumn::Series(energy))?))).collect();
     let mut panels: Vec<Panel> = bodies
         .iter()
         .map(|(body, values)| Panel {
@@ -41,9 +43,9 @@ pub fn energy_figure(title: &str, series: &TimeSeries) -> Figure {
             curves: bodies.iter().map(change).collect(),
         });
     }
-    if let Some(values) = series.column("energy_error") {
+    if let Some(values) = values(TimeColumn::Series(Series::EnergyError)) {
         panels.push(Panel {
-            title: "Relative error of the total energy minus the actuators' work".to_owned(),
+            title: "Relative error of the total energy minus the work of the actuators".to_owned(),
             unit: String::new(),
             curves: vec![Curve { label: "error".to_owned(), values: values.to_vec() }],
         });
@@ -51,7 +53,7 @@ pub fn energy_figure(title: &str, series: &TimeSeries) -> Figure {
     Figure {
         title: title.to_owned(),
         abscissa_label: "time / s".to_owned(),
-        abscissa: series.column("time_s").map(<[f64]>::to_vec).unwrap_or_default(),
+        abscissa: values(TimeColumn::Time).map(<[f64]>::to_vec).unwrap_or_default(),
         panels,
     }
 }

@@ -51,8 +51,8 @@ impl Summary {
     pub fn new(plan: &Plan, tally: &Tally) -> Self {
         let numerics = |index, headline: &Headline| Numerics::new(tally.audits()?, index, &headline.sketch);
         let lines = tally.headlines().iter().enumerate().map(|(index, headline)| Line {
-            name: headline.name,
-            unit: headline.unit,
+            name: headline.quantity.name(),
+            unit: headline.quantity.unit(),
             count: headline.sketch.count(),
             median: headline.quantile(0.5),
             p95: headline.quantile(0.95),

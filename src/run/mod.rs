@@ -4,15 +4,18 @@
 //! - [`StateTable`]: the physical states at these times, by [`StateField`].
 //! - [`Trajectory`]: the components that a method integrates, from which a kernel completes the table.
 //! - [`Outcome`]: how a run ended, what it cost, and the estimate of its errors.
+//! - [`Quantity`]: name, unit and meaning of a column of numbers.
 
 mod grid;
 mod outcome;
+mod quantity;
 mod state_field;
 mod state_table;
 mod trajectory;
 
 pub use grid::Grid;
 pub use outcome::{LocalErrors, Outcome, Status, StepStatistics};
+pub use quantity::Quantity;
 pub use state_field::{StateField, StateFields};
 pub use state_table::StateTable;
 pub use trajectory::Trajectory;

@@ -231,7 +231,7 @@ fn drift_scales_with_the_tolerance() {
 fn faulty(plan: &Plan, count: u64, fault: impl Fn(&mut Scene)) -> [Vec<f64>; 2] {
     let isa = Isa::best();
     let campaign = Ensemble::new(plan, isa);
-    let names: Vec<&str> = campaign.request().columns().iter().map(|column| column.name).collect();
+    let names: Vec<&str> = campaign.request().columns().iter().map(|column| column.quantity.name()).collect();
     let place = |name: &str| names.iter().position(|known| *known == name).expect("the column is there");
     let propagator: &PropagationSettings = campaign.propagator();
     let (mut engine, mut observer) = (propagator.engine(isa), Observer::new(*campaign.request(), &plan.grid));

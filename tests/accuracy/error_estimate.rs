@@ -179,10 +179,10 @@ fn found(family: &Family, observed: &[Scene], method: Method, control: Control) 
         actuated: !family.scenes[0].schedule.is_empty(),
         constrained: method == Method::NullSpace,
     };
-    let blocks = request.blocks().union(compared());
+    let blocks = request.fields().union(compared());
     let plan = PropagationSettings::new(method, control, family.grid.clone(), blocks, &family.scenes[0]);
     let mut observer = Observer::new(request, &family.grid);
-    let names: Vec<&str> = request.columns().iter().map(|column| column.name).collect();
+    let names: Vec<&str> = request.columns().iter().map(|column| column.quantity.name()).collect();
     assert_eq!(names, ["state_error_estimate", "error_amplification", "ill_conditioned"]);
     let mut row = vec![0.0; names.len()];
     let mut list = vec![None; observed.len()];

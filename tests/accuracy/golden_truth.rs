@@ -7,7 +7,7 @@
 use crate::support::golden::Golden;
 use crate::support::runs::{Run, adaptive, base_point, fixed, propagate, relative, up_to_sign};
 use spindrift::math::Isa;
-use spindrift::observables::{Groups, Observer, Request};
+use spindrift::observables::{Groups, Observer, Request, Series};
 use spindrift::ode::Control;
 use spindrift::propagation::Method;
 use spindrift::run::Status;
@@ -116,10 +116,9 @@ fn errors_of(golden: &Golden, scene: &Scene, method: Method, grid: &Grid, run: &
     let mut row = vec![0.0; request.columns().len()];
     observer.observe(Isa::best(), scene, table, &run.outcome, &mut row);
     let mut seen = 0;
-    for (column, values) in observer.series() {
-        let body = ["energy_fuselage_j", "energy_wheel1_j", "energy_wheel2_j", "energy_debris_j"]
-            .iter()
-            .position(|name| *name == column.name);
+    let bodies = [Series::EnergyFuselage, Series::EnergyWheel1, Series::EnergyWheel2, Series::EnergyDebris];
+    for (series, values) in observer.series() {
+        let body = bodies.iter().position(|energy| *energy == series);
         for (truth, value) in golden.truth.iter().zip(values) {
             if let Some(body) = body {
                 let (expected, total) = (truth.energies[body], truth.energies.iter().sum::<f64>());
@@ -127,7 +126,7 @@ fn errors_of(golden: &Golden, scene: &Scene, method: Method, grid: &Grid, run: &
                 worst.energies_of_total = worst.energies_of_total.max(((value - expected) / total).abs());
                 seen += 1;
             }
-            if column.name == "energy_error" {
+            if series == Series::EnergyError {
                 worst.balance = worst.balance.max(value.abs());
                 seen += 1;
             }

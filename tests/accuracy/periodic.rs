@@ -46,7 +46,7 @@ fn table_one(count: u64) -> Vec<Scene> {
 fn conservation(scene: &Scene, horizon: f64, run: &Run) -> [f64; 2] {
     let request = Request { groups: Groups::ALL, debris: false, actuated: false, constrained: false };
     let mut observer = Observer::new(request, &Grid::uniform(horizon, POINTS));
-    let names: Vec<&str> = request.columns().iter().map(|column| column.name).collect();
+    let names: Vec<&str> = request.columns().iter().map(|column| column.quantity.name()).collect();
     let mut row = vec![0.0; names.len()];
     observer.observe(Isa::best(), scene, &run.table, &run.outcome, &mut row);
     ["energy_com_error_max", "angular_momentum_error_max"].map(|name| {

@@ -38,7 +38,10 @@ fn figures(control: Control) -> (Vec<(&'static str, Vec<f64>)>, StepStatistics) 
     let mut observer = Observer::new(request, &grid);
     let mut row = vec![0.0; request.columns().len()];
     observer.observe(Isa::best(), &scene, &run.table, &run.outcome, &mut row);
-    (observer.series().map(|(column, values)| (column.name, values.collect())).collect(), run.outcome.effort)
+    (
+        observer.series().map(|(series, values)| (series.quantity().unwrap().name(), values.collect())).collect(),
+        run.outcome.effort,
+    )
 }
 
 fn series(all: &[(&str, Vec<f64>)], name: &str) -> Vec<f64> {

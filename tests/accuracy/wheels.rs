@@ -49,7 +49,7 @@ fn balances(scene: &Scene, grid: &Grid, run: &Run, actuated: bool) -> [f64; 2] {
     }
     observer.observe(Isa::best(), scene, &table, &run.outcome, &mut row);
     ["energy_error_max", "angular_momentum_error_max"]
-        .map(|name| row[columns.iter().position(|column| column.name == name).expect("a column")])
+        .map(|name| row[columns.iter().position(|column| column.quantity.name() == name).expect("a column")])
 }
 
 /// Energy and momentum of runs that are accurate to rounding: some hundred roundings of the observables and of the states.
@@ -280,7 +280,7 @@ fn a_campaign_says_how_a_wheel_runs_and_gets_the_motors_work() {
     assert_eq!(plan(&held.text()).expect("a plan is a campaign").nominal, held.nominal);
     let run = SingleRun::new(&held, SampleId(0), held.grid.clone(), Isa::best()).expect("a physical scene");
     let value = |name: &str| {
-        let place = run.request.columns().iter().position(|column| column.name == name);
+        let place = run.request.columns().iter().position(|column| column.quantity.name() == name);
         run.row[place.unwrap_or_else(|| panic!("no column {name}"))]
     };
     assert!(value("work_motors_final_j").abs() > 1e-3);

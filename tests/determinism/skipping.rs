@@ -138,9 +138,9 @@ fn groups_do_not_reach_each_other() {
         let scenes = mixed(13, forced, HORIZON);
         let rows = |groups: Groups| {
             let request = Request { groups, debris: true, actuated: forced, constrained: false };
-            let plan = PropagationSettings::new(method, control(method), grid.clone(), request.blocks(), &scenes[0]);
+            let plan = PropagationSettings::new(method, control(method), grid.clone(), request.fields(), &scenes[0]);
             let mut observer = Observer::new(request, &grid);
-            let names: Vec<&str> = request.columns().iter().map(|column| column.name).collect();
+            let names: Vec<&str> = request.columns().iter().map(|column| column.quantity.name()).collect();
             let mut rows = vec![vec![0.0; names.len()]; scenes.len()];
             plan.engine(Isa::best()).propagate(&scenes, &mut |CompletedRun { index, table, outcome, .. }| {
                 observer.observe(Isa::best(), &scenes[index], table, outcome, &mut rows[index]);

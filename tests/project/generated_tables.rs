@@ -10,7 +10,7 @@ use spindrift::dataset::rows_file::headings;
 use spindrift::dataset::timeseries::TimeSeries;
 use spindrift::ensemble::{Ensemble, SingleRun};
 use spindrift::math::Isa;
-use spindrift::observables::{Group, columns};
+use spindrift::observables::{Group, table};
 use spindrift::sampling::SampleId;
 
 /// If this variable is set, the tables are written and not compared.
@@ -47,7 +47,8 @@ fn columns_of_rows() -> String {
     let plan = plan("spin_sweep.toml");
     let all = headings(&Ensemble::new(&plan, Isa::best()));
     let row = |heading: &spindrift::dataset::columnar::Heading| {
-        [heading.name.clone(), heading.unit.clone(), heading.meaning.clone(), String::new()]
+        let quantity = &heading.quantity;
+        [quantity.name(), quantity.unit(), quantity.meaning(), ""].map(str::to_owned)
     };
     let (own, rest) = all.split_at(2);
     let dispersed = &rest[..plan.dispersions.columns().len()];
@@ -57,9 +58,12 @@ fn columns_of_rows() -> String {
         &dispersed.iter().map(row).collect::<Vec<_>>(),
     );
     for group in Group::ALL {
-        let of_group = columns::all().filter(|column| column.group == group);
+        let of_group = table::all().filter(|column| column.group == group);
         let rows: Vec<_> = of_group
-            .map(|column| [column.name, column.unit, column.meaning, column.scenes()].map(str::to_owned))
+            .map(|column| {
+                let quantity = &column.quantity;
+                [quantity.name(), quantity.unit(), quantity.meaning(), column.scenes()].map(str::to_owned)
+            })
             .collect();
         section(&format!("group <code>{}</code>", group.name()), &rows);
     }
@@ -72,7 +76,7 @@ fn columns_of_series() -> String {
     let isa = Isa::best();
     let run = SingleRun::new(&plan, SampleId(0), plan.grid.clone(), isa).expect("the nominal scene is physical");
     let series = TimeSeries::new(&plan, SampleId(0), &run, |_| true);
-    let names: Vec<String> = series.headings().iter().map(|heading| format!("`{}`", heading.name)).collect();
+    let names: Vec<String> = series.headings().iter().map(|heading| format!("`{}`", heading.quantity.name())).collect();
     format!("{}.\n", names.join(", "))
 }
 

@@ -91,7 +91,8 @@ fn motion(method: Method, input: &SceneInput) -> Motion {
     let mut row = vec![f64::NAN; request.columns().len()];
     observer.observe(Isa::best(), &scene, &run.table, &run.outcome, &mut row);
     let is_energy = |name: &str| name.ends_with("_initial_j") || name.ends_with("_final_j");
-    let energies = request.columns().iter().zip(row).filter(|(c, _)| is_energy(c.name)).map(|(_, x)| x).collect();
+    let energies =
+        request.columns().iter().zip(row).filter(|(c, _)| is_energy(c.quantity.name())).map(|(_, x)| x).collect();
     Motion { table: run.table, energies }
 }
 

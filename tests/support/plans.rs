@@ -62,7 +62,7 @@ impl Sink for Memory {
 /// Runs `plan` on all cores.
 pub fn rows(plan: &Plan) -> Table {
     let campaign = Ensemble::new(plan, Isa::best());
-    let names = campaign.request().columns().iter().map(|column| column.name).collect::<Vec<_>>();
+    let names = campaign.request().columns().iter().map(|column| column.quantity.name()).collect::<Vec<_>>();
     let sink = Memory::default();
     run(&campaign, Parts::of(plan.samples), None, &sink, &|_| {}).expect("threads");
     let mut kept = sink.0.into_inner().expect("no thread panicked");

@@ -1,0 +1,141 @@
+//! [`Reduction`]: how a series becomes a number.
+//!
+//! The reductions that one pass over a series yields together are one variant of [`Reduction`]. Each pass gives a value for every
+//! statistic of its list by an exhaustive `match`: a reduction that nothing computes does not compile.
+//!
+//! Not here: the passes ([`super::reduce`]).
+
+/// An enum with the list and the number of its variants.
+macro_rules! statistics {
+    ($(#[$doc:meta])* $name:ident { $($(#[$of:meta])* $variant:ident,)* }) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[repr(usize)]
+        pub enum $name {
+            $($(#[$of])* $variant,)*
+        }
+
+        impl $name {
+            /// Every statistic.
+            pub(super) const ALL: &[$name] = &[$($name::$variant),*];
+        }
+    };
+}
+
+statistics! {
+    /// A statistic of a conserved quantity.
+    ScaleStatistic {
+        /// The first value.
+        Initial,
+        /// The maximum.
+        Max,
+    }
+}
+
+statistics! {
+    /// A statistic of values.
+    ValueStatistic {
+        /// The first value.
+        Initial,
+        /// The last value.
+        Final,
+        /// The minimum.
+        Min,
+        /// The maximum.
+        Max,
+        /// The mean over the points.
+        Mean,
+        /// Maximum minus minimum.
+        PeakToPeak,
+        /// Last minus first value.
+        Net,
+    }
+}
+
+statistics! {
+    /// A statistic of an error.
+    ErrorStatistic {
+        /// The maximum magnitude.
+        Max,
+        /// The last value.
+        Final,
+        /// The root mean square over the points.
+        Rms,
+        /// The slope of the least-squares line through e(t), per second.
+        Slope,
+    }
+}
+
+statistics! {
+    /// A statistic of the changes from point to point.
+    ChangeStatistic {
+        /// Sum of |dx|.
+        Gross,
+        /// Maximum of |dx/dt|.
+        Power,
+    }
+}
+
+/// How a series becomes a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reduction {
+    /// Initial value and maximum.
+    Scale(ScaleStatistic),
+    /// The square roots of these, of a series of squares.
+    RootScale(ScaleStatistic),
+    /// Values, extremes and mean.
+    Value(ValueStatistic),
+    /// Maximum minus minimum, relative to the largest total kinetic energy about the centre of mass.
+    Fraction,
+    /// Magnitude and slope of an error.
+    Error(ErrorStatistic),
+    /// Changes from point to point.
+    Change(ChangeStatistic),
+}
+
+impl Reduction {
+    const ROOT: usize = ScaleStatistic::ALL.len();
+    const VALUE: usize = Self::ROOT + ScaleStatistic::ALL.len();
+    const ERROR: usize = Self::VALUE + ValueStatistic::ALL.len();
+    const CHANGE: usize = Self::ERROR + ErrorStatistic::ALL.len();
+
+    /// Number of values that [`reduce`] writes for a series.
+    pub(super) const COUNT: usize = Self::CHANGE + ChangeStatistic::ALL.len();
+
+    /// The index of the value among those that [`reduce`] writes; of a fraction that of its numerator.
+    pub(super) const fn index(self) -> usize {
+        match self {
+            Reduction::Scale(statistic) => statistic as usize,
+            Reduction::RootScale(statistic) => Self::ROOT + statistic as usize,
+            Reduction::Value(statistic) => Self::VALUE + statistic as usize,
+            Reduction::Fraction => Reduction::Value(ValueStatistic::PeakToPeak).index(),
+            Reduction::Error(statistic) => Self::ERROR + statistic as usize,
+            Reduction::Change(statistic) => Self::CHANGE + statistic as usize,
+        }
+    }
+}
+
+/// The passes over a series that its reductions need.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Passes {
+    pub(super) scale: bool,
+    pub(super) root_scale: bool,
+    pub(super) value: bool,
+    pub(super) error: bool,
+    pub(super) change: bool,
+}
+
+impl Passes {
+    /// These passes and the one that `reduction` needs.
+    #[must_use]
+    pub(super) const fn with(mut self, reduction: Reduction) -> Self {
+        match reduction {
+            Reduction::Scale(_) => self.scale = true,
+            Reduction::RootScale(_) => self.root_scale = true,
+            Reduction::Value(_) | Reduction::Fraction => self.value = true,
+            Reduction::Error(_) => self.error = true,
+            Reduction::Change(_) => self.change = true,
+        }
+        self
+    }
+}

@@ -1,0 +1,207 @@
+//! What the rows of the table of observables consist of: types without rows, and the macros that rows are written with.
+//!
+//! Not here: the rows ([`super::table`]).
+
+use crate::run::StateField;
+
+/// The kind of a value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A real number; NaN where the run failed before it was known.
+    Float,
+    /// A count, an integer of at most 2^53.
+    Count,
+}
+
+/// A kind of scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Scenes {
+    /// Every scene.
+    All,
+    /// With a debris body.
+    Debris,
+    /// With thrusters or motors in the schedule.
+    Actuated,
+    /// Without either.
+    Free,
+    /// Integrated with constraints: the null-space method.
+    Constrained,
+    /// Integrated without constraints.
+    Unconstrained,
+}
+
+/// A field of the state table that a value is computed from, for which scenes, and why.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Need {
+    pub(super) field: StateField,
+    pub(super) scenes: Scenes,
+    pub(super) why: &'static str,
+}
+
+/// Which computation makes a series.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(usize)]
+pub(super) enum Source {
+    /// [`super::energies`].
+    Energies,
+    /// [`super::momenta`].
+    LinearMomentum,
+    /// [`super::momenta`].
+    AngularMomentum,
+    /// [`super::momenta`].
+    DebrisMomenta,
+    /// [`super::attitude`].
+    Attitude,
+    /// Copied from the state table.
+    Residuals,
+}
+
+impl Source {
+    /// Every source, in the order of the computation.
+    pub(super) const ALL: [Source; 6] = [
+        Source::Energies,
+        Source::LinearMomentum,
+        Source::AngularMomentum,
+        Source::Attitude,
+        Source::DebrisMomenta,
+        Source::Residuals,
+    ];
+}
+
+pub(super) const fn need(field: StateField, scenes: Scenes, why: &'static str) -> Need {
+    Need { field, scenes, why }
+}
+
+/// The table of series: `name: source, scale, needs, column of a time series, meaning`.
+macro_rules! series {
+    ($($name:ident: $source:ident, $scale:expr, [$($need:ident),*], $shown:expr, $meaning:literal;)*) => {
+        /// A quantity at every observation point.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        #[repr(usize)]
+        pub enum Series {
+            $(#[doc = $meaning] $name,)*
+        }
+
+        impl Series {
+            /// Every series, in the order of a time series.
+            pub const ALL: &[Series] = &[$(Series::$name),*];
+
+            /// Number of series.
+            pub(super) const COUNT: usize = Series::ALL.len();
+        }
+
+        static SERIES: [SeriesRow; Series::COUNT] = [
+            $(SeriesRow {
+                source: Source::$source,
+                scale: $scale,
+                needs: &[$($need),*],
+                shown: match $shown {
+                    Some((name, unit)) => Some(Quantity::new(name, unit, $meaning)),
+                    None => None,
+                },
+            }),*
+        ];
+    };
+}
+
+/// The table of direct values: `name: needs, inputs, whether a failed run has it, meaning`.
+macro_rules! direct_values {
+    ($($name:ident: $needs:expr, $inputs:expr, $after_failure:ident, $meaning:literal;)*) => {
+        /// A number that is not made of a single series.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[repr(usize)]
+        pub enum DirectValue {
+            $(#[doc = $meaning] $name,)*
+        }
+
+        static DIRECT_VALUES: &[DirectRow] = &[
+            $(DirectRow { needs: $needs, inputs: $inputs, after_failure: $after_failure }),*
+        ];
+    };
+}
+
+/// One column.
+macro_rules! column {
+    ($group:ident, $scenes:ident, $kind:ident, $value:expr, [$($name:expr),*], $unit:expr, [$($meaning:expr),*]) => {
+        Column {
+            quantity: Quantity::new(concat!($($name),*), $unit, concat!($($meaning),*)),
+            group: Group::$group,
+            kind: Kind::$kind,
+            scenes: Scenes::$scenes,
+            value: $value,
+        }
+    };
+}
+
+/// One column of a series.
+macro_rules! of {
+    ($group:ident, $scenes:ident, $series:ident, $reduction:ident, [$($name:expr),*], $unit:expr, [$($meaning:expr),*]) => {
+        column!($group, $scenes, Float, Value::Of(Series::$series, Reduction::$reduction), [$($name),*], $unit, [$($meaning),*])
+    };
+    ($group:ident, $scenes:ident, $series:ident, $reduction:ident($statistics:ident::$statistic:ident), [$($name:expr),*], $unit:expr, [$($meaning:expr),*]) => {
+        column!($group, $scenes, Float, Value::Of(Series::$series, Reduction::$reduction($statistics::$statistic)), [$($name),*], $unit, [$($meaning),*])
+    };
+}
+
+/// One column that shows a direct value.
+macro_rules! direct {
+    ($group:ident, $scenes:ident, $kind:ident, $value:ident, $name:literal, $unit:literal, $meaning:literal) => {
+        column!($group, $scenes, $kind, Value::Direct(DirectValue::$value), [$name], $unit, [$meaning])
+    };
+}
+
+/// Maximum magnitude, final value, root mean square and slope of an error.
+#[rustfmt::skip]
+macro_rules! errors {
+    ($group:ident, $scenes:ident, $series:ident, $name:literal, $what:literal) => {
+        errors!($group, $scenes, $series, $name, ["", ""], ["1/s", "_per_s"], $what)
+    };
+    ($group:ident, $scenes:ident, $series:ident, $name:literal, [$unit:literal, $suffix:literal], [$rate:literal, $rate_suffix:literal], $what:literal) => {
+        &[
+            of!($group, $scenes, $series, Error(ErrorStatistic::Max), [$name, "_max", $suffix], $unit, ["Maximum magnitude of ", $what]),
+            of!($group, $scenes, $series, Error(ErrorStatistic::Final), [$name, "_final", $suffix], $unit, ["Last value of ", $what]),
+            of!($group, $scenes, $series, Error(ErrorStatistic::Rms), [$name, "_rms", $suffix], $unit, ["Root mean square over the points of ", $what]),
+            of!($group, $scenes, $series, Error(ErrorStatistic::Slope), [$name, "_rate", $rate_suffix], $rate, ["Least-squares slope in time of ", $what]),
+        ]
+    };
+}
+
+/// Initial and maximum value of a conserved quantity; the maximum is the scale of its error.
+#[rustfmt::skip]
+macro_rules! scales {
+    ($group:ident, $scenes:ident, $series:ident, $reduction:ident, $name:literal, [$unit:literal, $suffix:literal], $what:literal) => {
+        &[
+            of!($group, $scenes, $series, $reduction(ScaleStatistic::Initial), [$name, "_initial", $suffix], $unit, ["Initial value of ", $what, "."]),
+            of!($group, $scenes, $series, $reduction(ScaleStatistic::Max), [$name, "_max", $suffix], $unit, ["Maximum of ", $what, " on the grid: the scale of its error."]),
+        ]
+    };
+}
+
+/// Initial, final, minimum, maximum, mean and peak-to-peak of an energy.
+#[rustfmt::skip]
+macro_rules! energies {
+    ($group:ident, $scenes:ident, $series:ident, $name:literal, $what:literal) => {
+        &[
+            of!($group, $scenes, $series, Value(ValueStatistic::Initial), [$name, "_initial_j"], "J", ["Initial value of ", $what, "."]),
+            of!($group, $scenes, $series, Value(ValueStatistic::Final), [$name, "_final_j"], "J", ["Final value of ", $what, "."]),
+            of!($group, $scenes, $series, Value(ValueStatistic::Min), [$name, "_min_j"], "J", ["Minimum of ", $what, " on the grid."]),
+            of!($group, $scenes, $series, Value(ValueStatistic::Max), [$name, "_max_j"], "J", ["Maximum of ", $what, " on the grid."]),
+            of!($group, $scenes, $series, Value(ValueStatistic::Mean), [$name, "_mean_j"], "J", ["Mean over the points of ", $what, "."]),
+            of!($group, $scenes, $series, Value(ValueStatistic::PeakToPeak), [$name, "_peak_to_peak_j"], "J", ["Maximum minus minimum of ", $what, " on the grid."]),
+        ]
+    };
+}
+
+/// Swing, transfer and power of an energy about the centre of mass.
+#[rustfmt::skip]
+macro_rules! exchange {
+    ($series:ident, $body:literal, $what:literal) => {
+        &[
+            of!(Exchange, All, $series, Value(ValueStatistic::PeakToPeak), ["exchange_", $body, "_peak_to_peak_j"], "J", ["Maximum minus minimum of the kinetic energy of ", $what, " about the centre of mass."]),
+            of!(Exchange, All, $series, Fraction, ["exchange_", $body, "_fraction"], "", ["Maximum minus minimum of the kinetic energy of ", $what, ", relative to the largest total about the centre of mass (0 where that is 0)."]),
+            of!(Exchange, All, $series, Value(ValueStatistic::Net), ["exchange_", $body, "_net_j"], "J", ["Last minus first kinetic energy of ", $what, " about the centre of mass."]),
+            of!(Exchange, All, $series, Change(ChangeStatistic::Gross), ["exchange_", $body, "_gross_j"], "J", ["Sum of |dT| between neighbouring points of ", $what, " about the centre of mass."]),
+            of!(Exchange, All, $series, Change(ChangeStatistic::Power), ["exchange_", $body, "_power_max_w"], "W", ["Maximum of |dT/dt| between neighbouring points of ", $what, " about the centre of mass."]),
+        ]
+    };
+}

@@ -1,0 +1,469 @@
+//! The one table of observables: every series, every direct value and every column of a row.
+//!
+//! A row of [`Series`] says where a series comes from, what of the state table it needs, and how a time series shows it. A row
+//! of the columns says group, kinds of scene, value, name, unit and meaning. Names, order, documentation and the Parquet schema
+//! follow from here. To add an observable, add its rows, and compute its series in the file of its [`Source`].
+//!
+//! An error column belongs to a signed series e(t) (energy) or to the norm e(t) of an error vector (momenta), measured from
+//! observation point 0. Energy errors are relative to the largest total energy on the grid, momentum errors to the largest |p|
+//! or |L| on the grid. Where that is exactly zero the error is absolute (the scale is one); the scales are columns themselves.
+
+use super::group::Group;
+use super::reduction::{ChangeStatistic, ErrorStatistic, Reduction, ScaleStatistic, ValueStatistic};
+use super::rows::{Kind, Need, Scenes, Source};
+use crate::run::Quantity;
+
+/// A column of a row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    /// Name, unit and meaning.
+    pub quantity: Quantity,
+    /// The group that it belongs to.
+    pub group: Group,
+    /// Whether the value is a number or a count.
+    pub kind: Kind,
+    /// Which scenes have it.
+    pub(super) scenes: Scenes,
+    /// What it shows.
+    pub(super) value: Value,
+}
+
+impl Column {
+    /// The scenes that have the column, in words; empty where all have it.
+    pub const fn scenes(&self) -> &'static str {
+        match self.scenes {
+            Scenes::All => "",
+            Scenes::Debris => "with debris",
+            Scenes::Actuated => "with actuation",
+            Scenes::Free => "without actuation",
+            Scenes::Constrained => "null-space method",
+            Scenes::Unconstrained => "not the null-space method",
+        }
+    }
+
+    /// The handle of the column.
+    pub const fn id(&self) -> ColumnId {
+        ColumnId { group: self.group, value: self.value }
+    }
+}
+
+/// What a column shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Value {
+    /// A series, reduced to a number.
+    Of(Series, Reduction),
+    /// A number that is not made of a single series.
+    Direct(DirectValue),
+}
+
+/// The handle of a column: a value of a group. [`super::Request::position`] finds its place in a row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ColumnId {
+    group: Group,
+    value: Value,
+}
+
+impl ColumnId {
+    /// Name, unit and meaning of the column.
+    ///
+    /// # Panics
+    /// Where the table has no such column.
+    pub fn quantity(self) -> &'static Quantity {
+        let column = all().find(|column| column.id() == self);
+        &column.expect("a handle is that of a column").quantity
+    }
+}
+
+/// The estimated error of the rotational state.
+pub const STATE_ERROR_ESTIMATE: ColumnId = direct_id(Group::Numerics, DirectValue::StateError);
+
+/// The columns of a summary, in its order: main errors, exchange, effort, numerics.
+pub const HEADLINES: &[ColumnId] = &{
+    use Group::{Attitude, Constraints, EnergiesCom, EnergyConservation, Exchange, MomentumConservation, Numerics};
+    use Series::{ComFuselage, ComWheel1, ComWheel2};
+    [
+        error_id(EnergyConservation, Series::EnergyError, ErrorStatistic::Max),
+        error_id(EnergyConservation, Series::EnergyError, ErrorStatistic::Slope),
+        error_id(MomentumConservation, Series::LinearMomentumError, ErrorStatistic::Max),
+        error_id(MomentumConservation, Series::AngularMomentumError, ErrorStatistic::Max),
+        error_id(MomentumConservation, Series::DebrisLinearError, ErrorStatistic::Max),
+        error_id(MomentumConservation, Series::DebrisAngularError, ErrorStatistic::Max),
+        error_id(Attitude, Series::Orthonormality, ErrorStatistic::Max),
+        error_id(Constraints, Series::ResidualKinematic, ErrorStatistic::Max),
+        error_id(Constraints, Series::ResidualCollocation, ErrorStatistic::Max),
+        error_id(Constraints, Series::ResidualAttitude, ErrorStatistic::Max),
+        error_id(EnergiesCom, Series::ComError, ErrorStatistic::Max),
+        series_id(Exchange, ComFuselage, Reduction::Value(ValueStatistic::PeakToPeak)),
+        series_id(Exchange, ComWheel1, Reduction::Value(ValueStatistic::PeakToPeak)),
+        series_id(Exchange, ComWheel2, Reduction::Value(ValueStatistic::PeakToPeak)),
+        series_id(Exchange, ComFuselage, Reduction::Fraction),
+        series_id(Exchange, ComWheel1, Reduction::Fraction),
+        series_id(Exchange, ComWheel2, Reduction::Fraction),
+        series_id(Exchange, ComWheel1, Reduction::Change(ChangeStatistic::Gross)),
+        series_id(Exchange, ComWheel2, Reduction::Change(ChangeStatistic::Gross)),
+        direct_id(Group::StepStatistics, DirectValue::Steps),
+        STATE_ERROR_ESTIMATE,
+        direct_id(Numerics, DirectValue::Amplification),
+        direct_id(Numerics, DirectValue::IllConditioned),
+    ]
+};
+
+/// The handle of a series reduced to a number.
+pub const fn series_id(group: Group, series: Series, reduction: Reduction) -> ColumnId {
+    ColumnId { group, value: Value::Of(series, reduction) }
+}
+
+/// The handle of a statistic of an error.
+pub const fn error_id(group: Group, series: Series, statistic: ErrorStatistic) -> ColumnId {
+    series_id(group, series, Reduction::Error(statistic))
+}
+
+/// The handle of a direct value.
+pub const fn direct_id(group: Group, value: DirectValue) -> ColumnId {
+    ColumnId { group, value: Value::Direct(value) }
+}
+
+/// What the table says about a series.
+pub(super) struct SeriesRow {
+    /// The computation that makes it.
+    pub(super) source: Source,
+    /// The series and the statistic that its values are divided by.
+    pub(super) scale: Option<(Series, Reduction)>,
+    /// What it is computed from.
+    pub(super) needs: &'static [&'static [Need]],
+    /// Its column in a time series, where it has one.
+    pub(super) shown: Option<Quantity>,
+}
+
+/// What the table says about a direct value.
+pub(super) struct DirectRow {
+    /// What it is read from, in addition to its series.
+    pub(super) needs: &'static [Need],
+    /// The statistics that it is computed from.
+    pub(super) inputs: &'static [(Series, Reduction)],
+    /// Whether it is known of a run that failed.
+    pub(super) after_failure: bool,
+}
+
+const MAX: Reduction = Reduction::Scale(ScaleStatistic::Max);
+const ROOT_MAX: Reduction = Reduction::RootScale(ScaleStatistic::Max);
+const SWING: Reduction = Reduction::Value(ValueStatistic::PeakToPeak);
+const MEAN: Reduction = Reduction::Value(ValueStatistic::Mean);
+
+/// The denominator of [`Reduction::Fraction`].
+const FRACTION_SCALE: (Series, Reduction) = (Series::ComTotal, MAX);
+
+const CORRELATION1: &[(Series, Reduction)] = &[
+    FRACTION_SCALE,
+    (Series::ComFuselage, SWING),
+    (Series::ComFuselage, MEAN),
+    (Series::ComWheel1, SWING),
+    (Series::ComWheel1, MEAN),
+];
+const CORRELATION2: &[(Series, Reduction)] = &[
+    FRACTION_SCALE,
+    (Series::ComFuselage, SWING),
+    (Series::ComFuselage, MEAN),
+    (Series::ComWheel2, SWING),
+    (Series::ComWheel2, MEAN),
+];
+const FREQUENCY: &[(Series, Reduction)] = &[FRACTION_SCALE, (Series::ComFuselage, SWING), (Series::ComFuselage, MEAN)];
+
+#[rustfmt::skip]
+mod needs {
+    //! What values are computed from, and why.
+
+    use crate::observables::rows::{Need, Scenes, need};
+    use crate::run::StateField;
+
+    pub(super) const SPIN: &[Need] = &[
+        need(StateField::Rate, Scenes::All, "rotation of the fuselage"),
+        need(StateField::WheelRates, Scenes::All, "rotation of the wheels"),
+    ];
+    pub(super) const BODIES: &[Need] = &[
+        need(StateField::ComVelocity, Scenes::All, "energies in F_e"),
+        need(StateField::Dcm, Scenes::Constrained, "velocities of bodies off the centre of mass"),
+        need(StateField::Attitude, Scenes::Unconstrained, "velocities of bodies off the centre of mass"),
+    ];
+    pub(super) const TOTAL: &[Need] = &[need(StateField::ComVelocity, Scenes::All, "total energy in F_e")];
+    pub(super) const REDUNDANT: &[Need] = &[need(StateField::KineticEnergies, Scenes::Constrained, "energies of the redundant states")];
+    pub(super) const DEBRIS_ENERGY: &[Need] = &[
+        need(StateField::DebrisVelocity, Scenes::Debris, "energy of the debris"),
+        need(StateField::DebrisRate, Scenes::Debris, "energy of the debris"),
+    ];
+    pub(super) const WORK: &[Need] = &[need(StateField::Work, Scenes::Actuated, "work of the actuators")];
+    pub(super) const LINEAR: &[Need] = &[
+        need(StateField::ComVelocity, Scenes::All, "linear momentum"),
+        need(StateField::Impulse, Scenes::Actuated, "impulse of the thrusters"),
+    ];
+    pub(super) const ANGULAR: &[Need] = &[
+        need(StateField::Dcm, Scenes::Constrained, "angular momentum in F_e"),
+        need(StateField::Attitude, Scenes::Unconstrained, "angular momentum in F_e"),
+        need(StateField::AngularImpulse, Scenes::Actuated, "angular impulse of the thrusters"),
+    ];
+    pub(super) const DEBRIS_LINEAR: &[Need] = &[need(StateField::DebrisVelocity, Scenes::Debris, "linear momentum of the debris")];
+    pub(super) const DEBRIS_ANGULAR: &[Need] = &[
+        need(StateField::DebrisRate, Scenes::Debris, "angular momentum of the debris"),
+        need(StateField::DebrisAttitude, Scenes::Debris, "angular momentum of the debris in F_e"),
+    ];
+    pub(super) const ORTHONORMALITY: &[Need] = &[
+        need(StateField::Dcm, Scenes::Constrained, "departure from a rotation"),
+        need(StateField::Attitude, Scenes::Unconstrained, "departure from a rotation"),
+    ];
+    pub(super) const RESIDUALS: &[Need] = &[need(StateField::Residuals, Scenes::Constrained, "residuals of the constraints")];
+    pub(super) const FINAL_STATE: &[Need] = &[
+        need(StateField::Attitude, Scenes::All, "attitude at the end"),
+        need(StateField::Rate, Scenes::All, "angular velocity at the end"),
+        need(StateField::WheelRates, Scenes::All, "wheel rates at the end"),
+    ];
+    // a method's own errors of the attitude are known only where it is integrated
+    pub(super) const NUMERICS: &[Need] = &[
+        need(StateField::Rate, Scenes::All, "how the motion amplifies errors"),
+        need(StateField::WheelRates, Scenes::All, "how the motion amplifies errors"),
+        need(StateField::Attitude, Scenes::All, "errors of the attitude"),
+    ];
+}
+use needs::{
+    ANGULAR, BODIES, DEBRIS_ANGULAR, DEBRIS_ENERGY, DEBRIS_LINEAR, FINAL_STATE, LINEAR, NUMERICS, ORTHONORMALITY,
+    REDUNDANT, RESIDUALS, SPIN, TOTAL, WORK,
+};
+
+#[rustfmt::skip]
+series! {
+    EnergyFuselage: Energies, None, [SPIN, BODIES, REDUNDANT], Some(("energy_fuselage_j", "J")), "Kinetic energy of the fuselage in F_e.";
+    EnergyWheel1: Energies, None, [SPIN, BODIES, REDUNDANT], Some(("energy_wheel1_j", "J")), "Kinetic energy of wheel 1 in F_e.";
+    EnergyWheel2: Energies, None, [SPIN, BODIES, REDUNDANT], Some(("energy_wheel2_j", "J")), "Kinetic energy of wheel 2 in F_e.";
+    EnergyDebris: Energies, None, [SPIN, DEBRIS_ENERGY], Some(("energy_debris_j", "J")), "Kinetic energy of the debris in F_e.";
+    EnergyTotal: Energies, None, [SPIN, TOTAL, REDUNDANT, DEBRIS_ENERGY], Some(("energy_total_j", "J")), "Total kinetic energy in F_e, debris included.";
+    ComFuselage: Energies, None, [SPIN], Some(("energy_com_fuselage_j", "J")), "Kinetic energy of the fuselage about the spacecraft's centre of mass.";
+    ComWheel1: Energies, None, [SPIN], Some(("energy_com_wheel1_j", "J")), "Kinetic energy of wheel 1 about the spacecraft's centre of mass.";
+    ComWheel2: Energies, None, [SPIN], Some(("energy_com_wheel2_j", "J")), "Kinetic energy of wheel 2 about the spacecraft's centre of mass.";
+    ComTotal: Energies, None, [SPIN], Some(("energy_com_total_j", "J")), "Kinetic energy of the spacecraft about its centre of mass.";
+    EnergyError: Energies, Some((Series::EnergyTotal, MAX)), [SPIN, TOTAL, REDUNDANT, DEBRIS_ENERGY, WORK], Some(("energy_error", "")), "Change of total kinetic energy minus the work of the actuators, relative to the largest total.";
+    ComError: Energies, Some((Series::ComTotal, MAX)), [SPIN], Some(("energy_com_error", "")), "Change of kinetic energy about the centre of mass, relative to the largest (without actuators).";
+    LinearMomentumError: LinearMomentum, Some((Series::LinearMomentumSquare, ROOT_MAX)), [LINEAR], Some(("linear_momentum_error", "")), "Change of the spacecraft's linear momentum minus the impulse, relative to the largest.";
+    LinearMomentumSquare: LinearMomentum, None, [LINEAR], NOT_SHOWN, "Square of the spacecraft's linear momentum, N^2 s^2.";
+    AngularMomentumError: AngularMomentum, Some((Series::AngularMomentumSquare, ROOT_MAX)), [SPIN, ANGULAR], Some(("angular_momentum_error", "")), "Change of the spacecraft's angular momentum about its centre of mass in F_e minus the angular impulse, relative to the largest.";
+    AngularMomentumSquare: AngularMomentum, None, [SPIN, ANGULAR], NOT_SHOWN, "Square of the spacecraft's angular momentum about its centre of mass, N^2 m^2 s^2.";
+    DebrisLinearError: DebrisMomenta, Some((Series::DebrisLinearSquare, ROOT_MAX)), [DEBRIS_LINEAR, DEBRIS_ANGULAR], Some(("debris_linear_momentum_error", "")), "Change of the debris's linear momentum, relative to the largest.";
+    DebrisLinearSquare: DebrisMomenta, None, [DEBRIS_LINEAR, DEBRIS_ANGULAR], NOT_SHOWN, "Square of the debris's linear momentum, N^2 s^2.";
+    DebrisAngularError: DebrisMomenta, Some((Series::DebrisAngularSquare, ROOT_MAX)), [DEBRIS_LINEAR, DEBRIS_ANGULAR], Some(("debris_angular_momentum_error", "")), "Change of the debris's angular momentum about its centre in F_e, relative to the largest.";
+    DebrisAngularSquare: DebrisMomenta, None, [DEBRIS_LINEAR, DEBRIS_ANGULAR], NOT_SHOWN, "Square of the debris's angular momentum about its centre, N^2 m^2 s^2.";
+    Orthonormality: Attitude, None, [ORTHONORMALITY], Some(("dcm_orthonormality", "")), "Largest entry of |C_es^T C_es - 1|.";
+    ResidualKinematic: Residuals, None, [RESIDUALS], Some(("residual_kinematic_m_s", "m/s")), "Residual of the kinematic constraints (angular components in rad/s).";
+    ResidualCollocation: Residuals, None, [RESIDUALS], Some(("residual_collocation_m", "m")), "Residual of the collocation constraints (tilts of wheel axes as sines).";
+    ResidualAttitude: Residuals, None, [RESIDUALS], Some(("residual_attitude", "")), "Residual of the attitude constraints.";
+}
+
+/// A series that no time series shows: the scale of another one.
+const NOT_SHOWN: Option<(&str, &str)> = None;
+
+#[rustfmt::skip]
+direct_values! {
+    WorkThrusters: WORK, &[], false, "Work of the thrusters, J.";
+    WorkMotors: WORK, &[], false, "Work of the wheel motors, J.";
+    CorrelationWheel1: &[], CORRELATION1, false, "Correlation of the energies of fuselage and wheel 1.";
+    CorrelationWheel2: &[], CORRELATION2, false, "Correlation of the energies of fuselage and wheel 2.";
+    ExchangeFrequency: &[], FREQUENCY, false, "Dominant frequency of the fuselage's energy, Hz.";
+    TimeReached: &[], &[], true, "Time that the integration reached, s.";
+    TimeFinal: FINAL_STATE, &[], true, "Time of the last finite state, s.";
+    AttitudeW: FINAL_STATE, &[], true, "Scalar part of the attitude quaternion at the final time.";
+    AttitudeX: FINAL_STATE, &[], true, "First vector part of the attitude quaternion at the final time.";
+    AttitudeY: FINAL_STATE, &[], true, "Second vector part of the attitude quaternion at the final time.";
+    AttitudeZ: FINAL_STATE, &[], true, "Third vector part of the attitude quaternion at the final time.";
+    RateX: FINAL_STATE, &[], true, "Angular velocity about s1 at the final time, rad/s.";
+    RateY: FINAL_STATE, &[], true, "Angular velocity about s2 at the final time, rad/s.";
+    RateZ: FINAL_STATE, &[], true, "Angular velocity about s3 at the final time, rad/s.";
+    WheelRate1: FINAL_STATE, &[], true, "Rate of wheel 1 at the final time, rad/s.";
+    WheelRate2: FINAL_STATE, &[], true, "Rate of wheel 2 at the final time, rad/s.";
+    Steps: &[], &[], true, "Accepted steps.";
+    Rejected: &[], &[], true, "Rejected steps.";
+    Evaluations: &[], &[], true, "Evaluations of the right-hand side.";
+    StateError: NUMERICS, &[], false, "Estimated error of the rotational state.";
+    Amplification: NUMERICS, &[], false, "Estimated factor by which the motion amplifies errors.";
+    IllConditioned: NUMERICS, &[], false, "1 where the rounding of the input alone makes the result meaningless.";
+}
+
+/// The columns, family by family, in the order of a row.
+#[rustfmt::skip]
+static FAMILIES: &[&[Column]] = &[
+    errors!(EnergyConservation, All, EnergyError, "energy_error", "the error of total kinetic energy minus the work of the actuators, relative to the largest total energy."),
+    scales!(EnergyConservation, All, EnergyTotal, Scale, "energy_total", ["J", "_j"], "total kinetic energy in F_e, debris included"),
+    &[
+        direct!(EnergyConservation, Actuated, Float, WorkThrusters, "work_thrusters_final_j", "J", "Work done by the thrusters until the last point."),
+        direct!(EnergyConservation, Actuated, Float, WorkMotors, "work_motors_final_j", "J", "Work done by the wheel motors until the last point."),
+    ],
+    errors!(MomentumConservation, All, LinearMomentumError, "linear_momentum_error", "the error vector of the spacecraft's linear momentum minus the impulse, relative to the largest |p|."),
+    scales!(MomentumConservation, All, LinearMomentumSquare, RootScale, "linear_momentum", ["N s", "_n_s"], "|p| of the spacecraft"),
+    errors!(MomentumConservation, All, AngularMomentumError, "angular_momentum_error", "the error vector of the spacecraft's angular momentum about its centre of mass in F_e minus the angular impulse, relative to the largest |L|."),
+    scales!(MomentumConservation, All, AngularMomentumSquare, RootScale, "angular_momentum", ["N m s", "_n_m_s"], "|L| of the spacecraft about its centre of mass"),
+    errors!(MomentumConservation, Debris, DebrisLinearError, "debris_linear_momentum_error", "the error vector of the debris's linear momentum, relative to the largest |p|."),
+    scales!(MomentumConservation, Debris, DebrisLinearSquare, RootScale, "debris_linear_momentum", ["N s", "_n_s"], "|p| of the debris"),
+    errors!(MomentumConservation, Debris, DebrisAngularError, "debris_angular_momentum_error", "the error vector of the debris's angular momentum about its centre in F_e, relative to the largest |L|."),
+    scales!(MomentumConservation, Debris, DebrisAngularSquare, RootScale, "debris_angular_momentum", ["N m s", "_n_m_s"], "|L| of the debris about its centre"),
+    errors!(Attitude, All, Orthonormality, "dcm_orthonormality", "the largest entry of |C_es^T C_es - 1|."),
+    errors!(Constraints, Constrained, ResidualKinematic, "residual_kinematic", ["m/s", "_m_s"], ["m/s^2", "_m_s2"], "the residual of the kinematic constraints (angular components in rad/s)."),
+    errors!(Constraints, Constrained, ResidualCollocation, "residual_collocation", ["m", "_m"], ["m/s", "_m_s"], "the residual of the collocation constraints (tilts of wheel axes as sines)."),
+    errors!(Constraints, Constrained, ResidualAttitude, "residual_attitude", "the residual of the attitude constraints."),
+    energies!(Energies, All, EnergyFuselage, "energy_fuselage", "kinetic energy of the fuselage in F_e"),
+    energies!(Energies, All, EnergyWheel1, "energy_wheel1", "kinetic energy of wheel 1 in F_e"),
+    energies!(Energies, All, EnergyWheel2, "energy_wheel2", "kinetic energy of wheel 2 in F_e"),
+    energies!(Energies, Debris, EnergyDebris, "energy_debris", "kinetic energy of the debris in F_e"),
+    energies!(EnergiesCom, All, ComFuselage, "energy_com_fuselage", "kinetic energy of the fuselage about the spacecraft's centre of mass"),
+    energies!(EnergiesCom, All, ComWheel1, "energy_com_wheel1", "kinetic energy of wheel 1 about the spacecraft's centre of mass"),
+    energies!(EnergiesCom, All, ComWheel2, "energy_com_wheel2", "kinetic energy of wheel 2 about the spacecraft's centre of mass"),
+    scales!(EnergiesCom, All, ComTotal, Scale, "energy_com_total", ["J", "_j"], "kinetic energy of the spacecraft about its centre of mass"),
+    errors!(EnergiesCom, Free, ComError, "energy_com_error", "the change of kinetic energy about the centre of mass, relative to the largest (only where no actuator works)."),
+    exchange!(ComFuselage, "fuselage", "the fuselage"),
+    exchange!(ComWheel1, "wheel1", "wheel 1"),
+    exchange!(ComWheel2, "wheel2", "wheel 2"),
+    &[
+        direct!(Exchange, All, Float, CorrelationWheel1, "exchange_wheel1_correlation", "", "Correlation over the points of the energies of fuselage and wheel 1 about the centre of mass (0 where one of them is constant)."),
+        direct!(Exchange, All, Float, CorrelationWheel2, "exchange_wheel2_correlation", "", "Correlation over the points of the energies of fuselage and wheel 2 about the centre of mass (0 where one of them is constant)."),
+        direct!(Exchange, All, Float, ExchangeFrequency, "exchange_frequency_hz", "Hz", "Dominant frequency of the fuselage's energy about the centre of mass (0 where it is constant; none on uneven grids)."),
+        direct!(FinalState, All, Float, TimeReached, "time_reached_s", "s", "Time that the integration reached."),
+        direct!(FinalState, All, Float, TimeFinal, "time_final_s", "s", "Time of the last finite state at an observation point; the other columns of this group show that state."),
+        direct!(FinalState, All, Float, AttitudeW, "q_es_w_final", "", "Attitude quaternion, scalar part, at the final time."),
+        direct!(FinalState, All, Float, AttitudeX, "q_es_x_final", "", "Attitude quaternion, first vector part, at the final time."),
+        direct!(FinalState, All, Float, AttitudeY, "q_es_y_final", "", "Attitude quaternion, second vector part, at the final time."),
+        direct!(FinalState, All, Float, AttitudeZ, "q_es_z_final", "", "Attitude quaternion, third vector part, at the final time."),
+        direct!(FinalState, All, Float, RateX, "omega_se_s_x_final_rad_s", "rad/s", "Angular velocity of the fuselage about s1 at the final time."),
+        direct!(FinalState, All, Float, RateY, "omega_se_s_y_final_rad_s", "rad/s", "Angular velocity of the fuselage about s2 at the final time."),
+        direct!(FinalState, All, Float, RateZ, "omega_se_s_z_final_rad_s", "rad/s", "Angular velocity of the fuselage about s3 at the final time."),
+        direct!(FinalState, All, Float, WheelRate1, "alpha_dot_final_rad_s", "rad/s", "Rate of wheel 1 relative to the fuselage at the final time."),
+        direct!(FinalState, All, Float, WheelRate2, "beta_dot_final_rad_s", "rad/s", "Rate of wheel 2 relative to the fuselage at the final time."),
+        direct!(StepStatistics, All, Count, Steps, "steps", "", "Accepted steps."),
+        direct!(StepStatistics, All, Count, Rejected, "steps_rejected", "", "Rejected steps."),
+        direct!(StepStatistics, All, Count, Evaluations, "evaluations", "", "Evaluations of the right-hand side (for Taylor methods: jets)."),
+        direct!(Numerics, All, Float, StateError, "state_error_estimate", "", "Estimated largest error of the fuselage's rotation on the grid: of omega relative to the largest |omega|, or of the attitude in rad, whichever is larger."),
+        direct!(Numerics, All, Float, Amplification, "error_amplification", "", "Estimated factor by which the motion amplifies relative errors of the rotational state that are made evenly along the run."),
+        direct!(Numerics, All, Count, IllConditioned, "ill_conditioned", "", "1 where the rounding of the input alone may move the state by more than 1e-3 (error_amplification times 2^-52), else 0."),
+    ],
+];
+
+/// Every column, in the order of a row.
+pub fn all() -> impl Iterator<Item = &'static Column> {
+    FAMILIES.iter().copied().flatten()
+}
+
+impl Series {
+    /// What the table says about the series.
+    pub(super) fn row(self) -> &'static SeriesRow {
+        &SERIES[self as usize]
+    }
+
+    /// The column of a time series that shows the series; `None` for the scale of another one.
+    pub fn quantity(self) -> Option<&'static Quantity> {
+        self.row().shown.as_ref()
+    }
+}
+
+impl DirectValue {
+    /// What the table says about the value.
+    pub(super) fn row(self) -> &'static DirectRow {
+        &DIRECT_VALUES[self as usize]
+    }
+}
+
+impl Value {
+    /// The statistic that the value is relative to.
+    pub(super) fn scale(self) -> Option<(Series, Reduction)> {
+        match self {
+            Value::Of(_, Reduction::Fraction) => Some(FRACTION_SCALE),
+            Value::Of(series, _) => series.row().scale,
+            Value::Direct(_) => None,
+        }
+    }
+
+    /// Every statistic that the value is made of.
+    pub(super) fn inputs(self) -> impl Iterator<Item = (Series, Reduction)> {
+        let (own, direct) = match self {
+            Value::Of(series, reduction) => (Some((series, reduction)), [].as_slice()),
+            Value::Direct(value) => (None, value.row().inputs),
+        };
+        own.into_iter().chain(self.scale()).chain(direct.iter().copied())
+    }
+
+    /// Every field that the value is computed from.
+    pub(super) fn needs(self) -> impl Iterator<Item = Need> {
+        let direct = match self {
+            Value::Of(..) => [].as_slice(),
+            Value::Direct(value) => value.row().needs,
+        };
+        let of_series = self.inputs().flat_map(|(series, _)| series.row().needs.iter().copied().flatten());
+        of_series.chain(direct).copied()
+    }
+
+    /// Whether the value is known of a run that failed.
+    pub(super) fn is_known_after_failure(self) -> bool {
+        match self {
+            Value::Of(..) => false,
+            Value::Direct(value) => value.row().after_failure,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashSet;
+
+    use super::*;
+
+    #[test]
+    fn names_and_handles_are_unique() {
+        let (mut names, mut ids) = (HashSet::new(), HashSet::new());
+        for column in all() {
+            assert!(names.insert(column.quantity.name()), "{} appears twice", column.quantity.name());
+            assert!(
+                ids.insert(format!("{:?}", column.id())),
+                "two columns of a group show the same number: {column:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn the_name_of_a_column_ends_with_its_unit() {
+        for column in all() {
+            let suffix = match column.quantity.unit() {
+                "" => continue,
+                "1/s" => "_per_s".to_owned(),
+                unit => format!("_{}", unit.to_lowercase().replace([' ', '/'], "_").replace('^', "")),
+            };
+            assert!(column.quantity.name().ends_with(&suffix), "{column:?}");
+        }
+    }
+
+    #[test]
+    fn every_column_is_explained_by_a_sentence() {
+        for column in all() {
+            let meaning = column.quantity.meaning();
+            assert!(meaning.len() > 10 && meaning.ends_with('.') && !meaning.ends_with(".."), "{column:?}");
+        }
+    }
+
+    #[test]
+    fn columns_are_ordered_by_group() {
+        let order: Vec<usize> = all().map(|column| column.group as usize).collect();
+        assert!(order.is_sorted());
+        for group in Group::ALL {
+            assert!(all().any(|column| column.group == group));
+        }
+    }
+
+    /// Law: every row of the tables of series and direct values is used by a column.
+    #[test]
+    fn no_row_is_idle() {
+        let used: Vec<Series> = all().flat_map(|column| column.value.inputs()).map(|(series, _)| series).collect();
+        assert!(Series::ALL.iter().all(|series| used.contains(series)));
+        let direct = all().filter(|column| matches!(column.value, Value::Direct(_))).count();
+        assert_eq!(direct, DIRECT_VALUES.len());
+    }
+
+    /// Law: every handle of a headline is that of a column; a number of one kind of scene is in no other.
+    #[test]
+    fn headlines_are_columns() {
+        for id in HEADLINES {
+            assert!(all().any(|column| column.id() == *id), "{id:?}");
+        }
+    }
+}

@@ -1,0 +1,41 @@
+//! [`Quantity`]: name, unit and meaning of a column of numbers.
+//!
+//! Every table that the program writes or prints describes its columns with this type: observables, time series, audits, drawn
+//! parameters, precision measurements.
+
+use std::borrow::Cow;
+
+/// Name, unit and meaning of a column.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Quantity {
+    name: Cow<'static, str>,
+    unit: Cow<'static, str>,
+    meaning: Cow<'static, str>,
+}
+
+impl Quantity {
+    /// A quantity of a table that is written in the source. `unit` is empty for a pure number; `meaning` is one sentence.
+    pub const fn new(name: &'static str, unit: &'static str, meaning: &'static str) -> Self {
+        Quantity { name: Cow::Borrowed(name), unit: Cow::Borrowed(unit), meaning: Cow::Borrowed(meaning) }
+    }
+
+    /// A quantity whose name is known at run time only.
+    pub fn named(name: String, unit: String, meaning: String) -> Self {
+        Quantity { name: Cow::Owned(name), unit: Cow::Owned(unit), meaning: Cow::Owned(meaning) }
+    }
+
+    /// Name of the column, unit last.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Unit; empty for a pure number.
+    pub fn unit(&self) -> &str {
+        &self.unit
+    }
+
+    /// One sentence.
+    pub fn meaning(&self) -> &str {
+        &self.meaning
+    }
+}
