@@ -8,7 +8,7 @@ use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::input::{isa, plan};
 use crate::cli::screen;
 use crate::dataset::precision_table;
-use crate::ensemble::precision::{Patience, Precision, States};
+use crate::ensemble::precision::{Limits, Precision, States};
 use crate::propagation::Method;
 use crate::report::precision_figure::PrecisionFigure;
 use crate::report::precision_text;
@@ -36,7 +36,7 @@ pub fn run(options: &PrecisionOptions) -> Result<CommandOutcome, Failure> {
     if precision.samples() == 0 {
         return Err(Failure::Input("no sample of this campaign is physical".to_owned()));
     }
-    let patience = Patience { repeats: options.repeats.get(), limit: options.limit_s };
+    let limits = Limits { repeats: options.repeats.get(), limit: options.limit_s };
     screen::print(&format!(
         "{}: {} samples over {:?} s at {} points, {} states, on {}; largest errors against a reference in double-double\n{}",
         plan.name,
@@ -51,7 +51,7 @@ pub fn run(options: &PrecisionOptions) -> Result<CommandOutcome, Failure> {
     for method in methods {
         let settings = precision.settings(method, &tolerances);
         let mut heard = Ok(());
-        let skipped = precision.sweep(method, &settings, patience, &mut |measurement| {
+        let skipped = precision.sweep(method, &settings, limits, &mut |measurement| {
             let printed = screen::print(&precision_text::line(&measurement));
             heard = std::mem::replace(&mut heard, Ok(())).and(printed);
             measured.push(measurement);
@@ -59,7 +59,7 @@ pub fn run(options: &PrecisionOptions) -> Result<CommandOutcome, Failure> {
         heard?;
         omitted.extend(skipped);
     }
-    screen::print(&precision_text::omissions(&omitted, patience.limit))?;
+    screen::print(&precision_text::omissions(&omitted, limits.limit))?;
 
     save(&folder, "parquet", |path| precision_table::save(&measured, &plan, isa.name(), path).map_err(Failure::files))?;
     let title = format!("{}: {} samples, {:?} s", plan.name, precision.samples(), plan.grid.duration());

@@ -45,7 +45,7 @@ impl AuditTally {
                 continue;
             };
             self.audited += 1;
-            self.in_double_double += u64::from(audit.truth_tolerance == reference_solution::TOLERANCE);
+            self.in_double_double += u64::from(audit.reference_tolerance == reference_solution::TOLERANCE);
             let error = audit.state();
             let is_covered = audit.estimate >= error || (error > SMALL && audit.estimate > 0.5 * SMALL);
             self.covered += u64::from(is_covered);

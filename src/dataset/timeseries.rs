@@ -50,7 +50,7 @@ impl TimeSeries {
         let time = Quantity::new("time_s", "s", "Time since the start.");
         table.push(TimeColumn::Time, time, |point| run.grid.times()[point]);
         spacecraft(run, &mut table);
-        if run.scene.mass.debris.is_some() {
+        if run.request.debris {
             debris(run, &mut table);
         }
         for (series, values) in &run.series {

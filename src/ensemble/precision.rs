@@ -1,7 +1,7 @@
 //! [`Precision`]: run time against error, method by method and setting by setting, on samples of a campaign.
 //!
-//! The truth is [`ReferenceSolution`], the exact motion in double-double. Time is CPU time of one thread that propagates batches as a
-//! campaign does, states at every observation point included, observation and files not. Work-precision diagrams: E. Hairer,
+//! Errors are measured against the [`ReferenceSolution`] in double-double. Time is the CPU time of one thread that propagates
+//! batches as a campaign does, including the states at every observation point, without observation and files. Work-precision diagrams: E. Hairer,
 //! S. P. Norsett & G. Wanner, *Solving Ordinary Differential Equations I*, 1993, section II.10.
 
 use rayon::prelude::*;
@@ -15,23 +15,18 @@ use crate::math::Isa;
 use crate::math::lanes::WIDTH;
 use crate::observables::table::error_id;
 use crate::observables::{ErrorStatistic, Group, Observer, Request, Series};
-use crate::ode::Control;
-use crate::ode::Tolerance;
-use crate::propagation::Method;
-use crate::propagation::PropagationSettings;
+use crate::ode::{Control, Tolerance};
+use crate::propagation::{CompletedRun, Engine, Method, PropagationSettings, rotation_errors};
 use crate::propagation::taylor::reference_solution::{self, ReferenceSolution};
-use crate::propagation::{CompletedRun, Engine};
-use crate::run::Outcome;
-use crate::run::Status;
-use crate::run::{StateField, StateFields, StateTable};
+use crate::run::{StateField, StateFields, StateTable, Status};
 use crate::sampling::SampleId;
 use crate::scene::Scene;
 
-/// A timed repetition lasts at least this long, s: thousands of readings of the clock.
+/// A timed repetition takes at least this long, s: thousands of times the resolution of the clock.
 const SHORTEST: f64 = 5e-3;
 
-/// A first pass may exceed the limit so many times before it is given up: a prediction may be wrong, but not for long.
-const PATIENCE: f64 = 2.0;
+/// A first pass is stopped when it exceeds the limit by this factor: the prediction was wrong.
+const EXCESS: f64 = 2.0;
 
 /// What one point of a diagram is set to.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,31 +37,31 @@ pub enum Setting {
     Step(f64),
 }
 
-/// Largest and root-mean-square error over samples and observation points.
+/// Maximum and root mean square of an error over samples and observation points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Deviation {
-    /// The largest.
+    /// Maximum.
     pub max: f64,
     /// Root mean square.
     pub rms: f64,
 }
 
-/// What was measured of one method at one setting. Errors are `None` where their states are not integrated or every run failed.
+/// What was measured of one method at one setting. Errors are `None` where their states are not integrated or all runs failed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measurement {
     /// Kernel and method.
     pub method: Method,
     /// Its tolerance or step.
     pub setting: Setting,
-    /// CPU time of a run, s: median and least of the repetitions.
+    /// CPU time of a run, s: median and minimum of the repetitions.
     pub cpu: [f64; 2],
     /// Repetitions.
     pub repeats: usize,
-    /// Runs, and how many of them did not reach their end.
+    /// Number of runs, and of those that failed.
     pub runs: [usize; 2],
     /// Mean number of accepted steps of a run.
     pub steps: f64,
-    /// |omega - truth| over the run's largest |omega|.
+    /// |omega - reference| relative to the run's largest |omega|.
     pub rate: Option<Deviation>,
     /// Twice the distance between the attitude quaternions, rad: the angle between them where the norm is kept.
     pub attitude: Option<Deviation>,
@@ -83,7 +78,7 @@ pub struct Skipped {
     pub method: Method,
     /// Its tolerance or step.
     pub setting: Setting,
-    /// What a pass over the samples would take, s.
+    /// Predicted time of a pass over the samples, s.
     pub predicted: f64,
 }
 
@@ -96,31 +91,31 @@ pub enum States {
     Observed,
 }
 
-/// How long a measurement may take.
+/// Limits of a measurement.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Patience {
+pub struct Limits {
     /// Timed repetitions.
     pub repeats: usize,
     /// CPU time that one pass over the samples may take, s.
     pub limit: f64,
 }
 
-/// Samples of a campaign with their truth.
+/// Samples of a campaign with their reference solutions.
 pub struct Precision<'p> {
     plan: &'p Plan,
     isa: Isa,
     blocks: StateFields,
     request: Request,
     scenes: Vec<Scene>,
-    truths: Vec<ReferenceSolution>,
+    references: Vec<ReferenceSolution>,
 }
 
 impl<'p> Precision<'p> {
-    /// The first `samples` samples of `plan` that are physical, solved exactly on all cores.
+    /// The first `samples` samples of `plan` that are physical, with reference solutions computed on all cores.
     ///
     /// # Errors
-    /// The number of a sample whose truth cannot be had, and why.
-    pub fn new(plan: &'p Plan, isa: Isa, samples: usize, wanted: States) -> Result<Self, (SampleId, Status)> {
+    /// The number of a sample whose reference solution fails, and why.
+    pub fn new(plan: &'p Plan, isa: Isa, samples: usize, integrated: States) -> Result<Self, (SampleId, Status)> {
         let mut draws = SceneDraws::new(plan);
         let drawn: Vec<(SampleId, Scene)> = (0..plan.samples)
             .filter_map(|id| Some((SampleId(id), draws.scene(SampleId(id)).ok()?)))
@@ -128,10 +123,10 @@ impl<'p> Precision<'p> {
             .collect();
         let balances = [Group::EnergyConservation, Group::MomentumConservation];
         let plain = Request { constrained: false, ..request(plan) };
-        let (request, blocks) = match wanted {
+        let (request, blocks) = match integrated {
             States::All => {
                 let request = Request { groups: balances.into_iter().collect(), ..plain };
-                (request, states(plan).union(request.fields()))
+                (request, states(&plain).union(request.fields()))
             }
             States::Observed => (plain, plain.fields().with(StateField::Rate)),
         };
@@ -141,9 +136,9 @@ impl<'p> Precision<'p> {
             ReferenceSolution::new(isa, scene, &plan.grid, compared, reference_solution::TOLERANCE)
                 .map_err(|status| (*id, status))
         };
-        let truths = drawn.par_iter().map(solve).collect::<Result<Vec<_>, _>>()?;
+        let references = drawn.par_iter().map(solve).collect::<Result<Vec<_>, _>>()?;
         let scenes = drawn.into_iter().map(|(_, scene)| scene).collect();
-        Ok(Precision { plan, isa, blocks, request, scenes, truths })
+        Ok(Precision { plan, isa, blocks, request, scenes, references })
     }
 
     /// Number of samples.
@@ -151,8 +146,8 @@ impl<'p> Precision<'p> {
         self.scenes.len()
     }
 
-    /// The settings of `method` that stand for `tolerances`: these, or as many steps, each half the one before, the first the
-    /// power of two near the time scale of the first sample's motion.
+    /// The settings of `method` that correspond to `tolerances`: these, or as many fixed steps, each half of the one before, the
+    /// first the power of two near the time scale of the first sample's motion.
     pub fn settings(&self, method: Method, tolerances: &[f64]) -> Vec<Setting> {
         if !method.has_fixed_step() {
             return tolerances.iter().map(|tolerance| Setting::Tolerance(*tolerance)).collect();
@@ -170,27 +165,27 @@ impl<'p> Precision<'p> {
     }
 
     /// Measures `method` at `settings`, from coarse to fine, until a pass over the samples is predicted to take longer than
-    /// the limit; `hear` is told of each measurement as it is made. What was skipped comes back.
+    /// the limit. `report` receives each measurement as it is made. Returns what was skipped.
     pub fn sweep(
         &self,
         method: Method,
         settings: &[Setting],
-        patience: Patience,
-        hear: &mut dyn FnMut(Measurement),
+        limits: Limits,
+        report: &mut dyn FnMut(Measurement),
     ) -> Vec<Skipped> {
         let mut passes: Vec<f64> = Vec::new();
         for (done, setting) in settings.iter().enumerate() {
             let predicted = prediction(&passes);
-            let pass = if predicted <= patience.limit { self.first_pass(method, *setting, patience) } else { None };
+            let pass = if predicted <= limits.limit { self.first_pass(method, *setting, limits) } else { None };
             let Some(pass) = pass else {
-                let predicted = if predicted <= patience.limit { PATIENCE * patience.limit } else { predicted };
+                let predicted = if predicted <= limits.limit { EXCESS * limits.limit } else { predicted };
                 let skip = |setting: &Setting| Skipped { method, setting: *setting, predicted };
                 return settings[done..].iter().map(skip).collect();
             };
             passes.push(pass.seconds);
-            let (cpu, repeats) = self.timed(method, *setting, patience, pass.seconds);
+            let (cpu, repeats) = self.timed(method, *setting, limits, pass.seconds);
             let runs = self.scenes.len();
-            hear(Measurement {
+            report(Measurement {
                 method,
                 setting: *setting,
                 cpu,
@@ -209,7 +204,7 @@ impl<'p> Precision<'p> {
     fn engine(&self, method: Method, setting: Setting) -> Option<Box<dyn Engine>> {
         let (tolerance, step) = match setting {
             Setting::Tolerance(tolerance) => (tolerance, None),
-            // Gauss-Legendre iterates its stages to the tolerance: to the last digit
+            // Gauss-Legendre iterates its stages to the tolerance: here to rounding
             Setting::Step(step) => (f64::EPSILON, Some(step)),
         };
         let tolerance = Tolerance { relative: tolerance, absolute: tolerance };
@@ -218,8 +213,8 @@ impl<'p> Precision<'p> {
         Some(PropagationSettings::new(method, control, self.plan.grid.clone(), self.blocks, nominal).engine(self.isa))
     }
 
-    /// Every sample once, compared with the truth; `None` where it takes too long.
-    fn first_pass(&self, method: Method, setting: Setting, patience: Patience) -> Option<Pass> {
+    /// Every sample once, compared with its reference solution; `None` where it takes too long.
+    fn first_pass(&self, method: Method, setting: Setting, limits: Limits) -> Option<Pass> {
         let mut engine = self.engine(method, setting)?;
         let mut observer = Observer::new(self.request, &self.plan.grid);
         let max_and_rms = |group: Group, series: Series| {
@@ -247,9 +242,9 @@ impl<'p> Precision<'p> {
                         sum.add_many(row[max], row[rms], points);
                     }
                 }
-                pass.compare(&self.truths[first + index], table, outcome);
+                pass.compare(&self.references[first + index], table);
             });
-            if thread_seconds() - start > PATIENCE * patience.limit {
+            if thread_seconds() - start > EXCESS * limits.limit {
                 return None;
             }
         }
@@ -257,15 +252,15 @@ impl<'p> Precision<'p> {
         Some(pass)
     }
 
-    /// Median and least CPU time of a run, and of how many repetitions.
-    fn timed(&self, method: Method, setting: Setting, patience: Patience, pass: f64) -> ([f64; 2], usize) {
+    /// Median and minimum CPU time of a run, and the number of repetitions.
+    fn timed(&self, method: Method, setting: Setting, limits: Limits, pass: f64) -> ([f64; 2], usize) {
         let Some(mut engine) = self.engine(method, setting) else { return ([f64::NAN; 2], 0) };
-        // batches as a campaign has them, unless the samples alone take long enough
+        // batches of a campaign's size, unless the samples alone take long enough
         let count = if pass > SHORTEST { self.scenes.len() } else { self.scenes.len().next_multiple_of(BATCH) };
         let batch: Vec<Scene> = self.scenes.iter().cycle().take(count).cloned().collect();
         let expected = pass * count as f64 / self.scenes.len() as f64;
         let rounds = (SHORTEST / expected).ceil().clamp(1.0, 1e4) as usize;
-        let affordable = (patience.limit / expected).floor().clamp(1.0, patience.repeats as f64) as usize;
+        let affordable = (limits.limit / expected).floor().clamp(1.0, limits.repeats as f64) as usize;
         let mut sum = 0;
         let mut times: Vec<f64> = (0..affordable)
             .map(|_| {
@@ -284,8 +279,8 @@ impl<'p> Precision<'p> {
     }
 }
 
-/// The next pass takes as much longer than the last as the last did than the one before (or half as long again), at most
-/// three times.
+/// The predicted time of the next pass: the last one times the ratio of the last two (1.5 after the first), at most three times
+/// the last.
 fn prediction(passes: &[f64]) -> f64 {
     match passes {
         [] => 0.0,
@@ -294,7 +289,7 @@ fn prediction(passes: &[f64]) -> f64 {
     }
 }
 
-/// What a pass over the samples found.
+/// Errors and cost of a pass over the samples.
 #[derive(Default)]
 struct Pass {
     seconds: f64,
@@ -308,38 +303,17 @@ struct Pass {
 
 impl Pass {
     /// Adds the errors of one run.
-    fn compare(&mut self, truth: &ReferenceSolution, table: &StateTable, outcome: &Outcome) {
-        let points = 0..outcome.points;
-        let size = points.clone().map(|point| length(truth.high.at::<3>(StateField::Rate, point))).fold(0.0, f64::max);
-        let size = if size > 0.0 { size } else { 1.0 };
-        for point in points {
-            self.rate.add(length(off::<3>(truth, table, StateField::Rate, point, 1.0)) / size);
-            if truth.high.has(StateField::Attitude) {
-                let error = |sign| length(off::<4>(truth, table, StateField::Attitude, point, sign));
-                self.attitude.add(2.0 * error(1.0).min(error(-1.0)));
+    fn compare(&mut self, reference: &ReferenceSolution, table: &StateTable) {
+        for error in rotation_errors(reference, table) {
+            self.rate.add(error.omega);
+            if reference.high.has(StateField::Attitude) {
+                self.attitude.add(error.attitude);
             }
         }
     }
 }
 
-/// `sign` times the state less the truth, in all digits of the truth.
-fn off<const N: usize>(
-    truth: &ReferenceSolution,
-    table: &StateTable,
-    block: StateField,
-    point: usize,
-    sign: f64,
-) -> [f64; N] {
-    let (high, low) = (truth.high.at::<N>(block, point), truth.low.at::<N>(block, point));
-    let state = table.at::<N>(block, point);
-    std::array::from_fn(|i| (sign * state[i] - high[i]) - low[i])
-}
-
-fn length<const N: usize>(v: [f64; N]) -> f64 {
-    v.iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
-/// A maximum and a mean square; what is not a number makes both so.
+/// A maximum and a mean square; NaN makes both NaN.
 #[derive(Default)]
 struct Sum {
     max: f64,

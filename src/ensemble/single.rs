@@ -6,7 +6,7 @@ use crate::campaign::{Plan, draw};
 use crate::ensemble::worker::{propagator, request};
 use crate::math::Isa;
 use crate::observables::{Group, Observer, Request, Series};
-use crate::propagation::{CompletedRun, Method};
+use crate::propagation::CompletedRun;
 use crate::run::Outcome;
 use crate::run::{Grid, StateField, StateFields, StateTable};
 use crate::sampling::SampleId;
@@ -45,8 +45,8 @@ impl SingleRun {
 
         let request = request(plan);
         let shown = Request { groups: GROUPS.into_iter().collect(), ..request };
-        let blocks = states(plan).union(shown.fields()).union(request.fields());
-        let mut engine = propagator(plan, grid.clone(), blocks).engine(isa);
+        let fields = states(&request).union(shown.fields()).union(request.fields());
+        let mut engine = propagator(plan, grid.clone(), fields).engine(isa);
         let mut observer = Observer::new(request, &grid);
         let mut series_observer = Observer::new(shown, &grid);
         let mut row = vec![f64::NAN; request.columns().len()];
@@ -63,8 +63,8 @@ impl SingleRun {
     }
 }
 
-/// Every state that the scenes of `plan` have.
-pub fn states(plan: &Plan) -> StateFields {
+/// Every state of scenes of the kind of `request`.
+pub fn states(request: &Request) -> StateFields {
     let spacecraft = [
         StateField::Rate,
         StateField::Attitude,
@@ -75,7 +75,7 @@ pub fn states(plan: &Plan) -> StateFields {
     ];
     let debris =
         [StateField::DebrisPosition, StateField::DebrisVelocity, StateField::DebrisAttitude, StateField::DebrisRate];
-    let constrained: &[StateField] = if plan.method == Method::NullSpace { &[StateField::Dcm] } else { &[] };
-    let debris: &[StateField] = if plan.nominal.debris.is_some() { &debris } else { &[] };
+    let constrained: &[StateField] = if request.constrained { &[StateField::Dcm] } else { &[] };
+    let debris: &[StateField] = if request.debris { &debris } else { &[] };
     spacecraft.iter().chain(debris).chain(constrained).fold(StateFields::NONE, |blocks, block| blocks.with(*block))
 }

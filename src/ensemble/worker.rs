@@ -143,7 +143,7 @@ impl Worker<'_> {
     fn audit(&mut self, part: Part, rows: &mut Rows) {
         let Some((selection, auditor)) = &mut self.audits else { return };
         for (scene, row) in self.scenes.iter().zip(&self.rows_of_scenes) {
-            if selection.holds(SampleId(part.first.0 + *row as u64)) {
+            if selection.contains(SampleId(part.first.0 + *row as u64)) {
                 rows.set_audit(*row, auditor.audit(scene));
             }
         }

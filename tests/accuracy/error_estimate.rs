@@ -14,15 +14,12 @@ use crate::support::scenes::{Kind, Uniform, mixed, random, speed_held};
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::math::Isa;
 use spindrift::math::symmetric::principal_axes;
-use spindrift::math::vector::norm;
 use spindrift::observables::{Group, Observer, Request};
 use spindrift::ode::Control;
-use spindrift::propagation::CompletedRun;
-use spindrift::propagation::Method;
-use spindrift::propagation::PropagationSettings;
+use spindrift::propagation::{CompletedRun, Method, PropagationSettings, RotationError, rotation_errors};
 use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE};
 use spindrift::run::Status;
-use spindrift::run::{Grid, StateField, StateFields, StateTable};
+use spindrift::run::{Grid, StateField, StateFields};
 use spindrift::sampling::SampleId;
 use spindrift::scene::Scene;
 
@@ -128,30 +125,6 @@ fn held(count: u64) -> Family {
     Family::new("speed held", Grid::uniform(10.0, 101), (0..count).map(scene).collect())
 }
 
-/// |x - truth| in all digits of the truth, with `sign` x.
-fn off<const N: usize>(
-    truth: &ReferenceSolution,
-    table: &StateTable,
-    block: StateField,
-    point: usize,
-    sign: f64,
-) -> f64 {
-    let (high, low) = (truth.high.at::<N>(block, point), truth.low.at::<N>(block, point));
-    let state = table.at::<N>(block, point);
-    (0..N).map(|i| ((sign * state[i] - high[i]) - low[i]).powi(2)).sum::<f64>().sqrt()
-}
-
-/// The largest error of omega over the largest |omega|, or of the attitude, rad.
-fn true_error(truth: &ReferenceSolution, table: &StateTable) -> f64 {
-    let points = 0..table.points();
-    let size = points.clone().map(|p| norm(truth.high.at::<3>(StateField::Rate, p))).fold(f64::MIN_POSITIVE, f64::max);
-    let error = |p| {
-        let turn = |sign| 2.0 * off::<4>(truth, table, StateField::Attitude, p, sign);
-        (off::<3>(truth, table, StateField::Rate, p, 1.0) / size).max(turn(1.0).min(turn(-1.0)))
-    };
-    points.map(error).fold(0.0, f64::max)
-}
-
 /// The result of one run.
 #[derive(Clone, Copy)]
 struct Found {
@@ -189,7 +162,7 @@ fn found(family: &Family, observed: &[Scene], method: Method, control: Control) 
     plan.engine(Isa::best()).propagate(observed, &mut |CompletedRun { index, table, outcome, .. }| {
         if outcome.status == Status::Done {
             observer.observe(Isa::best(), &observed[index], table, outcome, &mut row);
-            let error = true_error(&family.truths[index], table);
+            let error = RotationError::largest(rotation_errors(&family.truths[index], table)).state();
             assert!(row.iter().all(|value| value.is_finite()), "{}: {row:?}", family.name);
             list[index] = Some(Found { estimate: row[0], amplification: row[1], is_ill: row[2] == 1.0, error });
         }

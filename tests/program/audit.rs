@@ -62,7 +62,7 @@ fn rows(plan: &Plan, threads: usize) -> BTreeMap<u64, Row> {
 fn bits(audit: &Option<Option<Audit>>) -> Option<Option<Vec<u64>>> {
     audit.as_ref().map(|audit| {
         let audit = audit.as_ref()?;
-        let own = [audit.omega, audit.attitude, audit.estimate, audit.truth_tolerance];
+        let own = [audit.omega, audit.attitude, audit.estimate, audit.reference_tolerance];
         Some(own.iter().chain(&audit.observables).map(|x| x.to_bits()).collect())
     })
 }
@@ -92,7 +92,7 @@ fn rows_keep_their_bits_and_audits_are_those_of_any_thread() {
 fn the_selection_is_a_share_and_grows_with_it() {
     let selected = |fraction: f64| {
         let mut selection = Selection::new(&plan("no_debris", 100_000, fraction));
-        (0..100_000).filter(|sample| selection.holds(SampleId(*sample))).collect::<Vec<_>>()
+        (0..100_000).filter(|sample| selection.contains(SampleId(*sample))).collect::<Vec<_>>()
     };
     let (small, large) = (selected(0.01), selected(0.1));
     // 4.9 standard deviations of 31.5
@@ -100,7 +100,7 @@ fn the_selection_is_a_share_and_grows_with_it() {
     assert!(small.iter().all(|sample| large.contains(sample)));
     assert_eq!((selected(0.0).len(), selected(1.0).len()), (0, 100_000));
     let mut backwards = Selection::new(&plan("no_debris", 100_000, 0.01));
-    let mut found: Vec<u64> = (0..100_000).rev().filter(|sample| backwards.holds(SampleId(*sample))).collect();
+    let mut found: Vec<u64> = (0..100_000).rev().filter(|sample| backwards.contains(SampleId(*sample))).collect();
     found.reverse();
     assert_eq!(found, small);
 }
@@ -158,7 +158,7 @@ fn a_long_run_is_audited_in_plain_doubles() {
         Auditor::new(&plan, Isa::best(), &grid).audit(&scene).unwrap()
     };
     let (short, long) = (truth_of(2.0), truth_of(300.0));
-    assert_eq!((short.truth_tolerance, long.truth_tolerance), (1e-31, 1e-16));
+    assert_eq!((short.reference_tolerance, long.reference_tolerance), (1e-31, 1e-16));
     assert!(long.state() > short.state() && long.estimate >= long.state(), "{:e} {:e}", long.state(), long.estimate);
 }
 

@@ -3,8 +3,7 @@
 use rayon::prelude::*;
 use spindrift::math::Isa;
 use spindrift::ode::Control;
-use spindrift::propagation::Method;
-use spindrift::propagation::PropagationSettings;
+use spindrift::propagation::{Method, PropagationSettings, RotationError, rotation_errors};
 use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE};
 use spindrift::run::Status;
 use spindrift::run::{Grid, StateField, StateTable};
@@ -19,37 +18,10 @@ pub struct Exact {
     pub truths: Vec<ReferenceSolution>,
 }
 
-/// |a - b|, in all digits of b.
-fn off<const N: usize>(
-    table: &StateTable,
-    truth: &ReferenceSolution,
-    block: StateField,
-    point: usize,
-    sign: f64,
-) -> f64 {
-    let found = table.at::<N>(block, point);
-    let (high, low) = (truth.high.at::<N>(block, point), truth.low.at::<N>(block, point));
-    let square = |i: usize| ((sign * found[i] - high[i]) - low[i]).powi(2);
-    let distance = (0..N).map(square).sum::<f64>().sqrt();
-    if distance.is_nan() { f64::INFINITY } else { distance }
-}
-
-fn size<const N: usize>(v: [f64; N]) -> f64 {
-    v.iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
-/// Largest |omega - truth| over the largest |omega|, and largest angle between the attitudes, rad, at any point.
-pub fn distance(table: &StateTable, truth: &ReferenceSolution) -> [f64; 2] {
-    let points = 0..truth.high.points();
-    let scale = points.clone().map(|point| size(truth.high.at::<3>(StateField::Rate, point))).fold(0.0, f64::max);
-    let scale = if scale > 0.0 { scale } else { 1.0 };
-    points.fold([0.0, 0.0], |[rate, attitude], point| {
-        let turned = |sign| 2.0 * off::<4>(table, truth, StateField::Attitude, point, sign);
-        [
-            rate.max(off::<3>(table, truth, StateField::Rate, point, 1.0) / scale),
-            attitude.max(turned(1.0).min(turned(-1.0))),
-        ]
-    })
+/// Largest |omega - reference| over the largest |omega|, and largest angle between the attitudes, rad, at any point.
+pub fn distance(table: &StateTable, reference: &ReferenceSolution) -> [f64; 2] {
+    let error = RotationError::largest(rotation_errors(reference, table));
+    [error.omega, error.attitude].map(|error| if error.is_nan() { f64::INFINITY } else { error })
 }
 
 impl Exact {

@@ -1,0 +1,98 @@
+//! [`rotation_errors`]: the error of a run's rotation against its reference solution, in all digits of the reference solution.
+
+use super::taylor::reference_solution::ReferenceSolution;
+use crate::run::{StateField, StateTable};
+
+/// The error of the rotation at one observation point, or the largest of a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RotationError {
+    /// |omega - reference|, relative to the largest |omega| of the run (absolute where that is zero).
+    pub omega: f64,
+    /// Twice the distance of the attitude quaternions, the nearer sign, rad: the angle between the attitudes where the norm is
+    /// kept. Zero where the reference solution has no attitude.
+    pub attitude: f64,
+}
+
+impl RotationError {
+    /// The larger of both errors.
+    pub fn state(&self) -> f64 {
+        larger_or_nan(self.omega, self.attitude)
+    }
+
+    /// The largest errors of a run, each over all its points; NaN where an error is NaN at any point.
+    pub fn largest(errors: impl Iterator<Item = RotationError>) -> Self {
+        errors.fold(RotationError { omega: 0.0, attitude: 0.0 }, |largest, error| RotationError {
+            omega: larger_or_nan(largest.omega, error.omega),
+            attitude: larger_or_nan(largest.attitude, error.attitude),
+        })
+    }
+}
+
+/// The larger number; NaN where either is NaN.
+fn larger_or_nan(a: f64, b: f64) -> f64 {
+    if b.is_nan() || b > a { b } else { a }
+}
+
+/// The error at each point of `table`, which has the rate, and the attitude where `reference` has it.
+pub fn rotation_errors<'a>(
+    reference: &'a ReferenceSolution,
+    table: &'a StateTable,
+) -> impl Iterator<Item = RotationError> + 'a {
+    let square = |omega: [f64; 3]| omega.iter().map(|x| x * x).sum::<f64>();
+    let squares = (0..table.points()).map(|point| square(reference.high.at(StateField::Rate, point)));
+    let largest = squares.fold(0.0, f64::max).sqrt();
+    let scale = if largest > 0.0 { largest } else { 1.0 };
+    let has_attitude = reference.high.has(StateField::Attitude);
+    (0..table.points()).map(move |point| {
+        let turned = |sign| 2.0 * reference.distance::<4>(table, StateField::Attitude, point, sign);
+        RotationError {
+            omega: reference.distance::<3>(table, StateField::Rate, point, 1.0) / scale,
+            attitude: if has_attitude { turned(1.0).min(turned(-1.0)) } else { 0.0 },
+        }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::StateFields;
+
+    /// Rates and attitudes at three points; the middle one is off by `rate` and `turn`, and `sign` is that of its quaternion.
+    fn table([rate, turn, sign]: [f64; 3]) -> StateTable {
+        let mut table = StateTable::new(StateFields::NONE.with(StateField::Rate).with(StateField::Attitude), 3);
+        for point in 0..3 {
+            let (rate, turn, sign) = if point == 1 { (rate, turn, sign) } else { (0.0, 0.0, 1.0) };
+            table.set(StateField::Rate, point, [0.0, 2.0 + rate, 0.0]);
+            let (sin, cos) = (libm::sin(0.5 * turn), libm::cos(0.5 * turn));
+            table.set(StateField::Attitude, point, [sign * cos, 0.0, 0.0, sign * sin]);
+        }
+        table
+    }
+
+    fn largest(run: [f64; 3]) -> RotationError {
+        let high = table([0.0, 0.0, 1.0]);
+        let low = StateTable::new(high.fields(), 3);
+        RotationError::largest(rotation_errors(&ReferenceSolution { high, low }, &table(run)))
+    }
+
+    /// Law: the error of a run is its maximum over the grid, wherever on the grid that is.
+    #[test]
+    fn the_error_in_the_middle_of_a_run_counts() {
+        let found = largest([0.5, 1e-3, 1.0]);
+        assert_eq!(found.omega, 0.25);
+        assert!((found.attitude - 1e-3).abs() < 1e-9, "{:e}", found.attitude);
+        assert_eq!(found.state(), 0.25);
+    }
+
+    /// Law: q and -q are the same attitude.
+    #[test]
+    fn the_sign_of_a_quaternion_is_no_error() {
+        assert_eq!(largest([0.0, 0.0, -1.0]), RotationError { omega: 0.0, attitude: 0.0 });
+    }
+
+    #[test]
+    fn an_error_that_is_nan_is_not_skipped() {
+        let found = largest([f64::NAN, 0.0, 1.0]);
+        assert!(found.omega.is_nan() && found.state().is_nan() && found.attitude == 0.0);
+    }
+}
