@@ -14,11 +14,9 @@ use crate::math::Isa;
 use crate::observables::table::STATE_ERROR_ESTIMATE;
 use crate::observables::{Group, Observer, Request};
 use crate::ode::{Control, Tolerance};
-use crate::propagation::{CompletedRun, Engine, Method, PropagationSettings, RotationError, rotation_errors};
 use crate::propagation::taylor::reference_solution::{self, ReferenceSolution};
-use crate::run::{
-    Grid, LocalErrors, Outcome, Quantity, StateField, StateFields, StateTable, Status, StepStatistics,
-};
+use crate::propagation::{CompletedRun, Engine, Method, PropagationSettings, RotationError, rotation_errors};
+use crate::run::{Grid, LocalErrors, Outcome, Quantity, StateField, StateFields, StateTable, Status, StepStatistics};
 use crate::sampling::{SampleId, Stream};
 use crate::scene::Scene;
 

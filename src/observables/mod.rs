@@ -34,7 +34,7 @@ pub mod table;
 
 pub use group::{Group, Groups};
 pub use observer::Observer;
-pub use reduction::{ChangeStatistic, ErrorStatistic, Reduction, ScaleStatistic, ValueStatistic};
+pub use reduction::{ChangeStatistic, ErrorStatistic, OrderStatistic, Reduction, ValueStatistic};
 pub use request::Request;
 pub use rows::Kind;
 pub use table::{Column, ColumnId, Series};

@@ -8,7 +8,7 @@ use super::group::Group;
 use super::measure::measure;
 use super::points::{MeasuredRun, SeriesTable};
 use super::reduce::{Weights, reduce};
-use super::reduction::{Reduction, ScaleStatistic, ValueStatistic};
+use super::reduction::{OrderStatistic, Reduction, ValueStatistic};
 use super::request::{Request, SeriesSet, SeriesTask};
 use super::rows::Source;
 use super::spectrum::Spectrum;
@@ -155,9 +155,9 @@ impl Observer {
     /// observation points that the run reached. Relative errors are divided by their scales, as in the row.
     pub fn series(&self) -> impl Iterator<Item = (Series, impl ExactSizeIterator<Item = f64> + '_)> + '_ {
         self.shown.iter().map(|series| {
-            let scale = self.values.scale(series.row().scale);
+            let (scale, stored) = (self.values.scale(series.row().scale), series.row().stored);
             let values = &self.series.column(*series)[..self.filled];
-            (*series, values.iter().map(move |value| value / scale))
+            (*series, values.iter().map(move |value| stored.shown(*value) / scale))
         })
     }
 
@@ -206,7 +206,7 @@ impl Observer {
     fn reduce<S: Simd>(&mut self, simd: S) {
         for task in &self.tasks {
             let out = &mut self.values.0[task.series as usize];
-            reduce(simd, &self.weights, self.series.column(task.series), task.passes, out);
+            reduce(simd, &self.weights, self.series.column(task.series), task.passes, task.stored, out);
         }
     }
 
@@ -219,7 +219,7 @@ impl Observer {
             mean: values.get(of, Reduction::Value(ValueStatistic::Mean)),
             swing: values.get(of, Reduction::Value(ValueStatistic::PeakToPeak)),
         };
-        let total = values.get(Series::ComTotal, Reduction::Scale(ScaleStatistic::Max));
+        let total = values.get(Series::ComTotal, Reduction::Order(OrderStatistic::Max));
         let wheels = [body(Series::ComWheel1), body(Series::ComWheel2)];
         let spectrum = self.spectrum.as_mut();
         self.exchange = exchange(simd, &self.weights, spectrum, total, body(Series::ComFuselage), wheels);

@@ -7,7 +7,7 @@
 
 use fearless_simd::Simd;
 
-use super::reduction::{ChangeStatistic, ErrorStatistic, Passes, Reduction, ScaleStatistic, ValueStatistic};
+use super::reduction::{ChangeStatistic, ErrorStatistic, OrderStatistic, Passes, Reduction, Stored, ValueStatistic};
 use crate::math::lanes::WIDTH;
 use crate::math::{Lanes, Real};
 use crate::run::Grid;
@@ -75,21 +75,21 @@ fn smallest<S: Simd>(lanes: Lanes<S>) -> f64 {
     joined(lanes.to_array(), |a, b| a.smaller(b))
 }
 
-/// Makes the passes over a series, and writes their values to `out` at [`Reduction::index`]. `column` has one vector more than
-/// the weights, in which the last point is repeated.
+/// Makes the passes over a series of numbers `stored`, and writes their values to `out` at [`Reduction::index`]. `column` has one
+/// vector more than the weights, in which the last point is repeated.
 #[inline(always)]
 pub(super) fn reduce<S: Simd>(
     simd: S,
     weights: &Weights,
     column: &[f64],
     passes: Passes,
+    stored: Stored,
     out: &mut [f64; Reduction::COUNT],
 ) {
-    if passes.scale || passes.root_scale {
-        let scale = scale(simd, weights, column);
-        for statistic in ScaleStatistic::ALL {
-            out[Reduction::Scale(*statistic).index()] = scale.get(*statistic);
-            out[Reduction::RootScale(*statistic).index()] = scale.get(*statistic).sqrt();
+    if passes.order {
+        let order = order(simd, weights, column);
+        for statistic in OrderStatistic::ALL {
+            out[Reduction::Order(*statistic).index()] = stored.shown(order.get(*statistic));
         }
     }
     if passes.value {
@@ -158,29 +158,31 @@ fn spread<S: Simd>(simd: S, weights: &Weights, column: &[f64]) -> Spread {
     Spread { initial, last, min: smallest(min), max: largest(max), mean }
 }
 
-/// First value and maximum.
+/// First value, last value and maximum.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Scale {
+struct Order {
     initial: f64,
+    last: f64,
     max: f64,
 }
 
-impl Scale {
-    fn get(&self, statistic: ScaleStatistic) -> f64 {
+impl Order {
+    fn get(&self, statistic: OrderStatistic) -> f64 {
         match statistic {
-            ScaleStatistic::Initial => self.initial,
-            ScaleStatistic::Max => self.max,
+            OrderStatistic::Initial => self.initial,
+            OrderStatistic::Final => self.last,
+            OrderStatistic::Max => self.max,
         }
     }
 }
 
 #[inline(always)]
-fn scale<S: Simd>(simd: S, weights: &Weights, column: &[f64]) -> Scale {
+fn order<S: Simd>(simd: S, weights: &Weights, column: &[f64]) -> Order {
     let mut max = Lanes::broadcast(simd, column[0]);
     for x in vectors(column, weights.one.len()) {
         max = Lanes::load(simd, x).larger(max);
     }
-    Scale { initial: column[0], max: largest(max) }
+    Order { initial: column[0], last: column[weights.points - 1], max: largest(max) }
 }
 
 /// Magnitude and slope of an error.

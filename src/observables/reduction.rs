@@ -23,10 +23,12 @@ macro_rules! statistics {
 }
 
 statistics! {
-    /// A statistic of a conserved quantity.
-    ScaleStatistic {
+    /// A statistic that is one of the values: cheap, and the same function of the values may be applied to it afterwards.
+    OrderStatistic {
         /// The first value.
         Initial,
+        /// The last value.
+        Final,
         /// The maximum.
         Max,
     }
@@ -79,10 +81,8 @@ statistics! {
 /// How a series becomes a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reduction {
-    /// Initial value and maximum.
-    Scale(ScaleStatistic),
-    /// The square roots of these, of a series of squares.
-    RootScale(ScaleStatistic),
+    /// Initial value, final value and maximum.
+    Order(OrderStatistic),
     /// Values, extremes and mean.
     Value(ValueStatistic),
     /// Maximum minus minimum, relative to the largest total kinetic energy about the centre of mass.
@@ -94,8 +94,7 @@ pub enum Reduction {
 }
 
 impl Reduction {
-    const ROOT: usize = ScaleStatistic::ALL.len();
-    const VALUE: usize = Self::ROOT + ScaleStatistic::ALL.len();
+    const VALUE: usize = OrderStatistic::ALL.len();
     const ERROR: usize = Self::VALUE + ValueStatistic::ALL.len();
     const CHANGE: usize = Self::ERROR + ErrorStatistic::ALL.len();
 
@@ -105,8 +104,7 @@ impl Reduction {
     /// The index of the value among those that [`reduce`] writes; of a fraction that of its numerator.
     pub(super) const fn index(self) -> usize {
         match self {
-            Reduction::Scale(statistic) => statistic as usize,
-            Reduction::RootScale(statistic) => Self::ROOT + statistic as usize,
+            Reduction::Order(statistic) => statistic as usize,
             Reduction::Value(statistic) => Self::VALUE + statistic as usize,
             Reduction::Fraction => Reduction::Value(ValueStatistic::PeakToPeak).index(),
             Reduction::Error(statistic) => Self::ERROR + statistic as usize,
@@ -118,8 +116,7 @@ impl Reduction {
 /// The passes over a series that its reductions need.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Passes {
-    pub(super) scale: bool,
-    pub(super) root_scale: bool,
+    pub(super) order: bool,
     pub(super) value: bool,
     pub(super) error: bool,
     pub(super) change: bool,
@@ -130,12 +127,37 @@ impl Passes {
     #[must_use]
     pub(super) const fn with(mut self, reduction: Reduction) -> Self {
         match reduction {
-            Reduction::Scale(_) => self.scale = true,
-            Reduction::RootScale(_) => self.root_scale = true,
+            Reduction::Order(_) => self.order = true,
             Reduction::Value(_) | Reduction::Fraction => self.value = true,
             Reduction::Error(_) => self.error = true,
             Reduction::Change(_) => self.change = true,
         }
         self
+    }
+}
+
+/// What a series stores of the quantity that is shown: a monotone function that is cheap to compute at every point.
+///
+/// Its inverse is applied to the order statistics and to the time series. Means, changes and errors of such a series would be
+/// those of the stored numbers: the table has none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Stored {
+    /// The quantity itself.
+    Quantity,
+    /// Its square.
+    Square,
+    /// The square of the tangent of half the angle that is shown.
+    HalfTangentSquare,
+}
+
+impl Stored {
+    /// The quantity of a stored number.
+    #[inline]
+    pub(super) fn shown(self, stored: f64) -> f64 {
+        match self {
+            Stored::Quantity => stored,
+            Stored::Square => stored.sqrt(),
+            Stored::HalfTangentSquare => 2.0 * libm::atan(stored.sqrt()),
+        }
     }
 }

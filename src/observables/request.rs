@@ -1,7 +1,7 @@
 //! [`Request`]: what a campaign observes of scenes of one kind: which columns, which series, which state fields and why.
 
 use super::group::{Group, Groups};
-use super::reduction::{Passes, Reduction};
+use super::reduction::{Passes, Reduction, Stored};
 use super::rows::{Scenes, Source};
 use super::table::{self, Column, ColumnId, Series};
 use crate::run::{StateField, StateFields};
@@ -44,6 +44,7 @@ impl SeriesSet {
 pub(super) struct SeriesTask {
     pub(super) series: Series,
     pub(super) passes: Passes,
+    pub(super) stored: Stored,
 }
 
 impl Request {
@@ -95,7 +96,7 @@ impl Request {
             of_series.fold(Passes::default(), |passes, (_, reduction)| passes.with(reduction))
         };
         let observed = Series::ALL.iter().copied().filter(|series| observed.has(*series));
-        observed.map(|series| SeriesTask { series, passes: passes(series) }).collect()
+        observed.map(|series| SeriesTask { series, passes: passes(series), stored: series.row().stored }).collect()
     }
 
     /// Every statistic that the columns are made of, some several times.

@@ -72,9 +72,9 @@ pub(super) const fn need(field: StateField, scenes: Scenes, why: &'static str) -
     Need { field, scenes, why }
 }
 
-/// The table of series: `name: source, scale, needs, column of a time series, meaning`.
+/// The table of series: `name: source, what is stored, scale, needs, column of a time series, meaning`.
 macro_rules! series {
-    ($($name:ident: $source:ident, $scale:expr, [$($need:ident),*], $shown:expr, $meaning:literal;)*) => {
+    ($($name:ident: $source:ident, $stored:ident, $scale:expr, [$($need:ident),*], $shown:expr, $meaning:literal;)*) => {
         /// A quantity at every observation point.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         #[repr(usize)]
@@ -93,6 +93,7 @@ macro_rules! series {
         static SERIES: [SeriesRow; Series::COUNT] = [
             $(SeriesRow {
                 source: Source::$source,
+                stored: Stored::$stored,
                 scale: $scale,
                 needs: &[$($need),*],
                 shown: match $shown {
@@ -169,10 +170,10 @@ macro_rules! errors {
 /// Initial and maximum value of a conserved quantity; the maximum is the scale of its error.
 #[rustfmt::skip]
 macro_rules! scales {
-    ($group:ident, $scenes:ident, $series:ident, $reduction:ident, $name:literal, [$unit:literal, $suffix:literal], $what:literal) => {
+    ($group:ident, $scenes:ident, $series:ident, $name:literal, [$unit:literal, $suffix:literal], $what:literal) => {
         &[
-            of!($group, $scenes, $series, $reduction(ScaleStatistic::Initial), [$name, "_initial", $suffix], $unit, ["Initial value of ", $what, "."]),
-            of!($group, $scenes, $series, $reduction(ScaleStatistic::Max), [$name, "_max", $suffix], $unit, ["Maximum of ", $what, " on the grid: the scale of its error."]),
+            of!($group, $scenes, $series, Order(OrderStatistic::Initial), [$name, "_initial", $suffix], $unit, ["Initial value of ", $what, "."]),
+            of!($group, $scenes, $series, Order(OrderStatistic::Max), [$name, "_max", $suffix], $unit, ["Maximum of ", $what, " on the grid: the scale of its error."]),
         ]
     };
 }

@@ -9,7 +9,7 @@
 //! or |L| on the grid. Where that is exactly zero the error is absolute (the scale is one); the scales are columns themselves.
 
 use super::group::Group;
-use super::reduction::{ChangeStatistic, ErrorStatistic, Reduction, ScaleStatistic, ValueStatistic};
+use super::reduction::{ChangeStatistic, ErrorStatistic, OrderStatistic, Reduction, Stored, ValueStatistic};
 use super::rows::{Kind, Need, Scenes, Source};
 use crate::run::Quantity;
 
@@ -127,6 +127,8 @@ pub const fn direct_id(group: Group, value: DirectValue) -> ColumnId {
 pub(super) struct SeriesRow {
     /// The computation that makes it.
     pub(super) source: Source,
+    /// What its numbers are.
+    pub(super) stored: Stored,
     /// The series and the statistic that its values are divided by.
     pub(super) scale: Option<(Series, Reduction)>,
     /// What it is computed from.
@@ -145,8 +147,7 @@ pub(super) struct DirectRow {
     pub(super) after_failure: bool,
 }
 
-const MAX: Reduction = Reduction::Scale(ScaleStatistic::Max);
-const ROOT_MAX: Reduction = Reduction::RootScale(ScaleStatistic::Max);
+const MAX: Reduction = Reduction::Order(OrderStatistic::Max);
 const SWING: Reduction = Reduction::Value(ValueStatistic::PeakToPeak);
 const MEAN: Reduction = Reduction::Value(ValueStatistic::Mean);
 
@@ -230,29 +231,29 @@ use needs::{
 
 #[rustfmt::skip]
 series! {
-    EnergyFuselage: Energies, None, [SPIN, BODIES, REDUNDANT], Some(("energy_fuselage_j", "J")), "Kinetic energy of the fuselage in F_e.";
-    EnergyWheel1: Energies, None, [SPIN, BODIES, REDUNDANT], Some(("energy_wheel1_j", "J")), "Kinetic energy of wheel 1 in F_e.";
-    EnergyWheel2: Energies, None, [SPIN, BODIES, REDUNDANT], Some(("energy_wheel2_j", "J")), "Kinetic energy of wheel 2 in F_e.";
-    EnergyDebris: Energies, None, [SPIN, DEBRIS_ENERGY], Some(("energy_debris_j", "J")), "Kinetic energy of the debris in F_e.";
-    EnergyTotal: Energies, None, [SPIN, TOTAL, REDUNDANT, DEBRIS_ENERGY], Some(("energy_total_j", "J")), "Total kinetic energy in F_e, debris included.";
-    ComFuselage: Energies, None, [SPIN], Some(("energy_com_fuselage_j", "J")), "Kinetic energy of the fuselage about the spacecraft's centre of mass.";
-    ComWheel1: Energies, None, [SPIN], Some(("energy_com_wheel1_j", "J")), "Kinetic energy of wheel 1 about the spacecraft's centre of mass.";
-    ComWheel2: Energies, None, [SPIN], Some(("energy_com_wheel2_j", "J")), "Kinetic energy of wheel 2 about the spacecraft's centre of mass.";
-    ComTotal: Energies, None, [SPIN], Some(("energy_com_total_j", "J")), "Kinetic energy of the spacecraft about its centre of mass.";
-    EnergyError: Energies, Some((Series::EnergyTotal, MAX)), [SPIN, TOTAL, REDUNDANT, DEBRIS_ENERGY, WORK], Some(("energy_error", "")), "Change of total kinetic energy minus the work of the actuators, relative to the largest total.";
-    ComError: Energies, Some((Series::ComTotal, MAX)), [SPIN], Some(("energy_com_error", "")), "Change of kinetic energy about the centre of mass, relative to the largest (without actuators).";
-    LinearMomentumError: LinearMomentum, Some((Series::LinearMomentumSquare, ROOT_MAX)), [LINEAR], Some(("linear_momentum_error", "")), "Change of the spacecraft's linear momentum minus the impulse, relative to the largest.";
-    LinearMomentumSquare: LinearMomentum, None, [LINEAR], NOT_SHOWN, "Square of the spacecraft's linear momentum, N^2 s^2.";
-    AngularMomentumError: AngularMomentum, Some((Series::AngularMomentumSquare, ROOT_MAX)), [SPIN, ANGULAR], Some(("angular_momentum_error", "")), "Change of the spacecraft's angular momentum about its centre of mass in F_e minus the angular impulse, relative to the largest.";
-    AngularMomentumSquare: AngularMomentum, None, [SPIN, ANGULAR], NOT_SHOWN, "Square of the spacecraft's angular momentum about its centre of mass, N^2 m^2 s^2.";
-    DebrisLinearError: DebrisMomenta, Some((Series::DebrisLinearSquare, ROOT_MAX)), [DEBRIS_LINEAR, DEBRIS_ANGULAR], Some(("debris_linear_momentum_error", "")), "Change of the debris's linear momentum, relative to the largest.";
-    DebrisLinearSquare: DebrisMomenta, None, [DEBRIS_LINEAR, DEBRIS_ANGULAR], NOT_SHOWN, "Square of the debris's linear momentum, N^2 s^2.";
-    DebrisAngularError: DebrisMomenta, Some((Series::DebrisAngularSquare, ROOT_MAX)), [DEBRIS_LINEAR, DEBRIS_ANGULAR], Some(("debris_angular_momentum_error", "")), "Change of the debris's angular momentum about its centre in F_e, relative to the largest.";
-    DebrisAngularSquare: DebrisMomenta, None, [DEBRIS_LINEAR, DEBRIS_ANGULAR], NOT_SHOWN, "Square of the debris's angular momentum about its centre, N^2 m^2 s^2.";
-    Orthonormality: Attitude, None, [ORTHONORMALITY], Some(("dcm_orthonormality", "")), "Largest entry of |C_es^T C_es - 1|.";
-    ResidualKinematic: Residuals, None, [RESIDUALS], Some(("residual_kinematic_m_s", "m/s")), "Residual of the kinematic constraints (angular components in rad/s).";
-    ResidualCollocation: Residuals, None, [RESIDUALS], Some(("residual_collocation_m", "m")), "Residual of the collocation constraints (tilts of wheel axes as sines).";
-    ResidualAttitude: Residuals, None, [RESIDUALS], Some(("residual_attitude", "")), "Residual of the attitude constraints.";
+    EnergyFuselage: Energies, Quantity, None, [SPIN, BODIES, REDUNDANT], Some(("energy_fuselage_j", "J")), "Kinetic energy of the fuselage in F_e.";
+    EnergyWheel1: Energies, Quantity, None, [SPIN, BODIES, REDUNDANT], Some(("energy_wheel1_j", "J")), "Kinetic energy of wheel 1 in F_e.";
+    EnergyWheel2: Energies, Quantity, None, [SPIN, BODIES, REDUNDANT], Some(("energy_wheel2_j", "J")), "Kinetic energy of wheel 2 in F_e.";
+    EnergyDebris: Energies, Quantity, None, [SPIN, DEBRIS_ENERGY], Some(("energy_debris_j", "J")), "Kinetic energy of the debris in F_e.";
+    EnergyTotal: Energies, Quantity, None, [SPIN, TOTAL, REDUNDANT, DEBRIS_ENERGY], Some(("energy_total_j", "J")), "Total kinetic energy in F_e, debris included.";
+    ComFuselage: Energies, Quantity, None, [SPIN], Some(("energy_com_fuselage_j", "J")), "Kinetic energy of the fuselage about the spacecraft's centre of mass.";
+    ComWheel1: Energies, Quantity, None, [SPIN], Some(("energy_com_wheel1_j", "J")), "Kinetic energy of wheel 1 about the spacecraft's centre of mass.";
+    ComWheel2: Energies, Quantity, None, [SPIN], Some(("energy_com_wheel2_j", "J")), "Kinetic energy of wheel 2 about the spacecraft's centre of mass.";
+    ComTotal: Energies, Quantity, None, [SPIN], Some(("energy_com_total_j", "J")), "Kinetic energy of the spacecraft about its centre of mass.";
+    EnergyError: Energies, Quantity, Some((Series::EnergyTotal, MAX)), [SPIN, TOTAL, REDUNDANT, DEBRIS_ENERGY, WORK], Some(("energy_error", "")), "Change of total kinetic energy minus the work of the actuators, relative to the largest total.";
+    ComError: Energies, Quantity, Some((Series::ComTotal, MAX)), [SPIN], Some(("energy_com_error", "")), "Change of kinetic energy about the centre of mass, relative to the largest (without actuators).";
+    LinearMomentumError: LinearMomentum, Quantity, Some((Series::LinearMomentumSquare, MAX)), [LINEAR], Some(("linear_momentum_error", "")), "Change of the spacecraft's linear momentum minus the impulse, relative to the largest.";
+    LinearMomentumSquare: LinearMomentum, Square, None, [LINEAR], NOT_SHOWN, "Square of the spacecraft's linear momentum, N^2 s^2.";
+    AngularMomentumError: AngularMomentum, Quantity, Some((Series::AngularMomentumSquare, MAX)), [SPIN, ANGULAR], Some(("angular_momentum_error", "")), "Change of the spacecraft's angular momentum about its centre of mass in F_e minus the angular impulse, relative to the largest.";
+    AngularMomentumSquare: AngularMomentum, Square, None, [SPIN, ANGULAR], NOT_SHOWN, "Square of the spacecraft's angular momentum about its centre of mass, N^2 m^2 s^2.";
+    DebrisLinearError: DebrisMomenta, Quantity, Some((Series::DebrisLinearSquare, MAX)), [DEBRIS_LINEAR, DEBRIS_ANGULAR], Some(("debris_linear_momentum_error", "")), "Change of the debris's linear momentum, relative to the largest.";
+    DebrisLinearSquare: DebrisMomenta, Square, None, [DEBRIS_LINEAR, DEBRIS_ANGULAR], NOT_SHOWN, "Square of the debris's linear momentum, N^2 s^2.";
+    DebrisAngularError: DebrisMomenta, Quantity, Some((Series::DebrisAngularSquare, MAX)), [DEBRIS_LINEAR, DEBRIS_ANGULAR], Some(("debris_angular_momentum_error", "")), "Change of the debris's angular momentum about its centre in F_e, relative to the largest.";
+    DebrisAngularSquare: DebrisMomenta, Square, None, [DEBRIS_LINEAR, DEBRIS_ANGULAR], NOT_SHOWN, "Square of the debris's angular momentum about its centre, N^2 m^2 s^2.";
+    Orthonormality: Attitude, Quantity, None, [ORTHONORMALITY], Some(("dcm_orthonormality", "")), "Largest entry of |C_es^T C_es - 1|.";
+    ResidualKinematic: Residuals, Quantity, None, [RESIDUALS], Some(("residual_kinematic_m_s", "m/s")), "Residual of the kinematic constraints (angular components in rad/s).";
+    ResidualCollocation: Residuals, Quantity, None, [RESIDUALS], Some(("residual_collocation_m", "m")), "Residual of the collocation constraints (tilts of wheel axes as sines).";
+    ResidualAttitude: Residuals, Quantity, None, [RESIDUALS], Some(("residual_attitude", "")), "Residual of the attitude constraints.";
 }
 
 /// A series that no time series shows: the scale of another one.
@@ -288,19 +289,19 @@ direct_values! {
 #[rustfmt::skip]
 static FAMILIES: &[&[Column]] = &[
     errors!(EnergyConservation, All, EnergyError, "energy_error", "the error of total kinetic energy minus the work of the actuators, relative to the largest total energy."),
-    scales!(EnergyConservation, All, EnergyTotal, Scale, "energy_total", ["J", "_j"], "total kinetic energy in F_e, debris included"),
+    scales!(EnergyConservation, All, EnergyTotal, "energy_total", ["J", "_j"], "total kinetic energy in F_e, debris included"),
     &[
         direct!(EnergyConservation, Actuated, Float, WorkThrusters, "work_thrusters_final_j", "J", "Work done by the thrusters until the last point."),
         direct!(EnergyConservation, Actuated, Float, WorkMotors, "work_motors_final_j", "J", "Work done by the wheel motors until the last point."),
     ],
     errors!(MomentumConservation, All, LinearMomentumError, "linear_momentum_error", "the error vector of the spacecraft's linear momentum minus the impulse, relative to the largest |p|."),
-    scales!(MomentumConservation, All, LinearMomentumSquare, RootScale, "linear_momentum", ["N s", "_n_s"], "|p| of the spacecraft"),
+    scales!(MomentumConservation, All, LinearMomentumSquare, "linear_momentum", ["N s", "_n_s"], "|p| of the spacecraft"),
     errors!(MomentumConservation, All, AngularMomentumError, "angular_momentum_error", "the error vector of the spacecraft's angular momentum about its centre of mass in F_e minus the angular impulse, relative to the largest |L|."),
-    scales!(MomentumConservation, All, AngularMomentumSquare, RootScale, "angular_momentum", ["N m s", "_n_m_s"], "|L| of the spacecraft about its centre of mass"),
+    scales!(MomentumConservation, All, AngularMomentumSquare, "angular_momentum", ["N m s", "_n_m_s"], "|L| of the spacecraft about its centre of mass"),
     errors!(MomentumConservation, Debris, DebrisLinearError, "debris_linear_momentum_error", "the error vector of the debris's linear momentum, relative to the largest |p|."),
-    scales!(MomentumConservation, Debris, DebrisLinearSquare, RootScale, "debris_linear_momentum", ["N s", "_n_s"], "|p| of the debris"),
+    scales!(MomentumConservation, Debris, DebrisLinearSquare, "debris_linear_momentum", ["N s", "_n_s"], "|p| of the debris"),
     errors!(MomentumConservation, Debris, DebrisAngularError, "debris_angular_momentum_error", "the error vector of the debris's angular momentum about its centre in F_e, relative to the largest |L|."),
-    scales!(MomentumConservation, Debris, DebrisAngularSquare, RootScale, "debris_angular_momentum", ["N m s", "_n_m_s"], "|L| of the debris about its centre"),
+    scales!(MomentumConservation, Debris, DebrisAngularSquare, "debris_angular_momentum", ["N m s", "_n_m_s"], "|L| of the debris about its centre"),
     errors!(Attitude, All, Orthonormality, "dcm_orthonormality", "the largest entry of |C_es^T C_es - 1|."),
     errors!(Constraints, Constrained, ResidualKinematic, "residual_kinematic", ["m/s", "_m_s"], ["m/s^2", "_m_s2"], "the residual of the kinematic constraints (angular components in rad/s)."),
     errors!(Constraints, Constrained, ResidualCollocation, "residual_collocation", ["m", "_m"], ["m/s", "_m_s"], "the residual of the collocation constraints (tilts of wheel axes as sines)."),
@@ -312,7 +313,7 @@ static FAMILIES: &[&[Column]] = &[
     energies!(EnergiesCom, All, ComFuselage, "energy_com_fuselage", "kinetic energy of the fuselage about the spacecraft's centre of mass"),
     energies!(EnergiesCom, All, ComWheel1, "energy_com_wheel1", "kinetic energy of wheel 1 about the spacecraft's centre of mass"),
     energies!(EnergiesCom, All, ComWheel2, "energy_com_wheel2", "kinetic energy of wheel 2 about the spacecraft's centre of mass"),
-    scales!(EnergiesCom, All, ComTotal, Scale, "energy_com_total", ["J", "_j"], "kinetic energy of the spacecraft about its centre of mass"),
+    scales!(EnergiesCom, All, ComTotal, "energy_com_total", ["J", "_j"], "kinetic energy of the spacecraft about its centre of mass"),
     errors!(EnergiesCom, Free, ComError, "energy_com_error", "the change of kinetic energy about the centre of mass, relative to the largest (only where no actuator works)."),
     exchange!(ComFuselage, "fuselage", "the fuselage"),
     exchange!(ComWheel1, "wheel1", "wheel 1"),
@@ -457,6 +458,17 @@ mod tests {
         assert!(Series::ALL.iter().all(|series| used.contains(series)));
         let direct = all().filter(|column| matches!(column.value, Value::Direct(_))).count();
         assert_eq!(direct, DIRECT_VALUES.len());
+    }
+
+    /// Law: only order statistics are made of a series that stores a function of its quantity.
+    #[test]
+    fn statistics_are_those_of_the_quantity() {
+        for column in all() {
+            for (series, reduction) in column.value.inputs() {
+                let is_order = matches!(reduction, Reduction::Order(_));
+                assert!(is_order || series.row().stored == Stored::Quantity, "{column:?}");
+            }
+        }
     }
 
     /// Law: every handle of a headline is that of a column; a number of one kind of scene is in no other.

@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 use spindrift::math::Isa;
 use spindrift::ode::Control;
-use spindrift::propagation::{Method, PropagationSettings, RotationError, rotation_errors};
 use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE};
+use spindrift::propagation::{Method, PropagationSettings, RotationError, rotation_errors};
 use spindrift::run::Status;
 use spindrift::run::{Grid, StateField, StateTable};
 use spindrift::scene::Scene;
