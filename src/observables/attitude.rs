@@ -2,9 +2,10 @@
 
 use fearless_simd::Simd;
 
-use super::points::{Column, MeasuredRun, SeriesTable, columns, constant_matrix, four, three};
+use super::points::{Column, MeasuredRun, SeriesTable, columns, constant, constant_matrix, first_vector, four, three};
 use super::table::Series;
-use crate::math::vector::{dcm_from_quaternion, dot};
+use crate::math::lanes::WIDTH;
+use crate::math::vector::{dcm_from_quaternion, difference, dot, sum};
 use crate::math::{Lanes, Real};
 use crate::run::{StateField, StateTable};
 
@@ -82,5 +83,24 @@ pub(super) fn attitude_series<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut
         for (at, value) in orthonormality.iter_mut().enumerate() {
             attitude.orthonormality(simd, at).store(value);
         }
+    }
+    if run.observed.has(Series::SpinAxisAngle) {
+        spin_axis_angle(simd, attitude, out.write([Series::SpinAxisAngle], vectors));
+    }
+}
+
+/// tan^2 of half the angle between s3 and its initial direction: |a - b|^2/|a + b|^2 of two unit vectors, exact to rounding for
+/// small angles and near half a turn (W. Kahan, *How Futile are Mindless Assessments of Roundoff*, 2006, section 12).
+#[inline(always)]
+fn spin_axis_angle<S: Simd>(simd: S, attitude: Attitude<'_>, [out]: [&mut [[f64; WIDTH]]; 1]) {
+    let mut start = constant(simd, [0.0; 3]);
+    for (at, value) in out.iter_mut().enumerate() {
+        let [[.., x], [.., y], [.., z]] = attitude.c_es(simd, at);
+        let s3 = [x, y, z];
+        if at == 0 {
+            start = first_vector(simd, s3);
+        }
+        let (apart, together) = (difference(s3, start), sum(s3, start));
+        (dot(apart, apart) / dot(together, together)).store(value);
     }
 }

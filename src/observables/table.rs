@@ -211,6 +211,10 @@ mod needs {
         need(StateField::Dcm, Scenes::Constrained, "departure from a rotation"),
         need(StateField::Attitude, Scenes::Unconstrained, "departure from a rotation"),
     ];
+    pub(super) const SPIN_AXIS: &[Need] = &[
+        need(StateField::Dcm, Scenes::Constrained, "direction of s3"),
+        need(StateField::Attitude, Scenes::Unconstrained, "direction of s3"),
+    ];
     pub(super) const RESIDUALS: &[Need] = &[need(StateField::Residuals, Scenes::Constrained, "residuals of the constraints")];
     pub(super) const FINAL_STATE: &[Need] = &[
         need(StateField::Attitude, Scenes::All, "attitude at the end"),
@@ -226,7 +230,7 @@ mod needs {
 }
 use needs::{
     ANGULAR, BODIES, DEBRIS_ANGULAR, DEBRIS_ENERGY, DEBRIS_LINEAR, FINAL_STATE, LINEAR, NUMERICS, ORTHONORMALITY,
-    REDUNDANT, RESIDUALS, SPIN, TOTAL, WORK,
+    REDUNDANT, RESIDUALS, SPIN, SPIN_AXIS, TOTAL, WORK,
 };
 
 #[rustfmt::skip]
@@ -251,6 +255,7 @@ series! {
     DebrisAngularError: DebrisMomenta, Quantity, Some((Series::DebrisAngularSquare, MAX)), [DEBRIS_LINEAR, DEBRIS_ANGULAR], Some(("debris_angular_momentum_error", "")), "Change of the debris's angular momentum about its centre in F_e, relative to the largest.";
     DebrisAngularSquare: DebrisMomenta, Square, None, [DEBRIS_LINEAR, DEBRIS_ANGULAR], NOT_SHOWN, "Square of the debris's angular momentum about its centre, N^2 m^2 s^2.";
     Orthonormality: Attitude, Quantity, None, [ORTHONORMALITY], Some(("dcm_orthonormality", "")), "Largest entry of |C_es^T C_es - 1|.";
+    SpinAxisAngle: Attitude, HalfTangentSquare, None, [SPIN_AXIS], Some(("spin_axis_angle_rad", "rad")), "Angle of s3 from its initial direction in F_e.";
     ResidualKinematic: Residuals, Quantity, None, [RESIDUALS], Some(("residual_kinematic_m_s", "m/s")), "Residual of the kinematic constraints (angular components in rad/s).";
     ResidualCollocation: Residuals, Quantity, None, [RESIDUALS], Some(("residual_collocation_m", "m")), "Residual of the collocation constraints (tilts of wheel axes as sines).";
     ResidualAttitude: Residuals, Quantity, None, [RESIDUALS], Some(("residual_attitude", "")), "Residual of the attitude constraints.";
@@ -303,6 +308,10 @@ static FAMILIES: &[&[Column]] = &[
     errors!(MomentumConservation, Debris, DebrisAngularError, "debris_angular_momentum_error", "the error vector of the debris's angular momentum about its centre in F_e, relative to the largest |L|."),
     scales!(MomentumConservation, Debris, DebrisAngularSquare, "debris_angular_momentum", ["N m s", "_n_m_s"], "|L| of the debris about its centre"),
     errors!(Attitude, All, Orthonormality, "dcm_orthonormality", "the largest entry of |C_es^T C_es - 1|."),
+    &[
+        of!(Attitude, All, SpinAxisAngle, Order(OrderStatistic::Max), ["spin_axis_angle_max_rad"], "rad", ["Maximum angle of s3 from its initial direction in F_e."]),
+        of!(Attitude, All, SpinAxisAngle, Order(OrderStatistic::Final), ["spin_axis_angle_final_rad"], "rad", ["Angle of s3 from its initial direction in F_e at the last point."]),
+    ],
     errors!(Constraints, Constrained, ResidualKinematic, "residual_kinematic", ["m/s", "_m_s"], ["m/s^2", "_m_s2"], "the residual of the kinematic constraints (angular components in rad/s)."),
     errors!(Constraints, Constrained, ResidualCollocation, "residual_collocation", ["m", "_m"], ["m/s", "_m_s"], "the residual of the collocation constraints (tilts of wheel axes as sines)."),
     errors!(Constraints, Constrained, ResidualAttitude, "residual_attitude", "the residual of the attitude constraints."),

@@ -232,6 +232,44 @@ fn wheels_alone_hold_energy_and_momentum() {
     assert_eq!((row["linear_momentum_max_n_s"], row["linear_momentum_error_max"]), (0.0, 0.0));
 }
 
+/// Law: s3 of a torque-free axisymmetric body moves on a cone about L, so that its largest angle from the initial direction is
+/// twice the nutation angle v, and after the time t it is 2 asin(sin v |sin(p t/2)|), p the rate of precession.
+#[test]
+fn the_spin_axis_of_a_free_symmetric_body_moves_on_a_cone() {
+    let (_, mut scene) = table1();
+    scene.mass.debris = None;
+    let precession = 2.0;
+    for nutation in [1e-6, 0.3, 1.5] {
+        let motion = |t: f64| {
+            let lean = rotation([1.0, 0.0, 0.0], nutation);
+            let q =
+                hamilton(rotation([0.0, 0.0, 1.0], precession * t), hamilton(lean, rotation([0.0, 0.0, 1.0], 7.0 * t)));
+            (q, [0.0; 3], [0.0; 2], [0.0; 3])
+        };
+        // one and a quarter turns of precession: the farthest point of the cone is on the grid
+        let grid = Grid::uniform(2.5 * std::f64::consts::PI / precession, 101);
+        let table = motion_table(&grid, &motion);
+        let request = request(Groups::NONE.with(Group::Attitude), false, false);
+        let mut observer = Observer::new(request, &grid);
+        let mut row = vec![0.0; request.columns().len()];
+        observer.observe(Isa::best(), &scene, &table, &done(grid.points(), grid.duration()), &mut row);
+        let value = |name: &str| {
+            row[request.columns().iter().position(|column| column.quantity.name() == name).expect("a column")]
+        };
+        // a few roundings of the attitude
+        let near = |found: f64, expected: f64| assert!((found - expected).abs() <= 4e-15, "{found:e} {expected:e}");
+        near(value("spin_axis_angle_max_rad"), 2.0 * nutation);
+        near(
+            value("spin_axis_angle_final_rad"),
+            2.0 * libm::asin(libm::sin(nutation) * libm::sin(0.25 * std::f64::consts::PI)),
+        );
+        let (_, angles) = observer.series().find(|(series, _)| *series == Series::SpinAxisAngle).expect("a series");
+        for (time, angle) in grid.times().iter().zip(angles) {
+            near(angle, 2.0 * libm::asin(libm::sin(nutation) * libm::sin(0.5 * precession * time).abs()));
+        }
+    }
+}
+
 /// A symmetric top whose spin axis nutates: body rate (w cos kt, w sin kt, n) with k = n (J3 - J1) / J1.
 #[test]
 fn a_nutating_top_swings_its_tilted_wheel_at_twice_the_body_nutation_rate() {
