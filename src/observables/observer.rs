@@ -29,8 +29,10 @@ pub struct Observer {
     observed: SeriesSet,
     sources: Vec<Source>,
     tasks: Vec<SeriesTask>,
-    /// The columns that show a statistic.
-    statistics: Vec<StatisticColumn>,
+    /// The columns that show a statistic: place in the row, and slot.
+    statistics: Vec<(usize, Slot)>,
+    /// The columns that are relative to a scale: place in the row, and slot of the scale.
+    relative: Vec<(usize, Slot)>,
     /// The columns that show a direct value, with their places in the row.
     direct_values: Vec<(usize, DirectValue)>,
     /// For each column whether a run that failed has it too.
@@ -48,33 +50,32 @@ pub struct Observer {
     filled: usize,
 }
 
-/// The statistics of every series, in the order of [`Reduction::index`].
+/// The statistics of every series.
 #[derive(Clone, Debug)]
 struct Values(Box<[[f64; Reduction::COUNT]; Series::COUNT]>);
 
+/// The index of a statistic among those of all series.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Slot(usize);
+
+impl Slot {
+    const fn of((series, reduction): (Series, Reduction)) -> Self {
+        Slot(series as usize * Reduction::COUNT + reduction.index())
+    }
+}
+
 impl Values {
     #[inline(always)]
-    fn get(&self, series: Series, reduction: Reduction) -> f64 {
-        self.0[series as usize][reduction.index()]
+    fn get(&self, slot: Slot) -> f64 {
+        self.0.as_flattened()[slot.0]
     }
 
     /// The value of a scale, or one where it is zero: errors are absolute there.
     #[inline(always)]
-    fn scale(&self, scale: Option<(Series, Reduction)>) -> f64 {
-        let scale = scale.map_or(1.0, |(series, reduction)| self.get(series, reduction));
+    fn scale(&self, slot: Slot) -> f64 {
+        let scale = self.get(slot);
         if scale == 0.0 { 1.0 } else { scale }
     }
-}
-
-/// A column that shows a statistic.
-#[derive(Clone, Copy, Debug)]
-struct StatisticColumn {
-    /// Its place in the row.
-    place: usize,
-    series: Series,
-    reduction: Reduction,
-    /// What it is relative to.
-    scale: Option<(Series, Reduction)>,
 }
 
 impl Observer {
@@ -82,12 +83,13 @@ impl Observer {
     pub fn new(request: Request, grid: &Grid) -> Self {
         let columns = request.columns();
         let observed = request.observed();
-        let mut statistics = Vec::new();
+        let (mut statistics, mut relative) = (Vec::new(), Vec::new());
         let mut direct_values = Vec::new();
         for (place, column) in columns.iter().enumerate() {
             match column.value {
                 Value::Of(series, reduction) => {
-                    statistics.push(StatisticColumn { place, series, reduction, scale: column.value.scale() });
+                    statistics.push((place, Slot::of((series, reduction))));
+                    relative.extend(column.value.scale().map(|scale| (place, Slot::of(scale))));
                 }
                 Value::Direct(value) => direct_values.push((place, value)),
             }
@@ -98,6 +100,7 @@ impl Observer {
             sources: Source::ALL.into_iter().filter(|source| observed.has_any_of(*source)).collect(),
             tasks: request.tasks(),
             statistics,
+            relative,
             direct_values,
             known_after_failure: columns.iter().map(|column| column.value.is_known_after_failure()).collect(),
             shown: request.series(),
@@ -134,11 +137,11 @@ impl Observer {
         if self.filled > 0 {
             isa.run(Observation { observer: self, scene, table, local_errors: &outcome.local_errors });
         }
-        for column in &self.statistics {
-            row[column.place] = self.values.get(column.series, column.reduction);
-            if column.scale.is_some() {
-                row[column.place] /= self.values.scale(column.scale);
-            }
+        for (place, slot) in &self.statistics {
+            row[*place] = self.values.get(*slot);
+        }
+        for (place, scale) in &self.relative {
+            row[*place] /= self.values.scale(*scale);
         }
         let finished = FinishedRun { table, outcome, final_point: self.final_point(table) };
         for (place, value) in &self.direct_values {
@@ -155,7 +158,8 @@ impl Observer {
     /// observation points that the run reached. Relative errors are divided by their scales, as in the row.
     pub fn series(&self) -> impl Iterator<Item = (Series, impl ExactSizeIterator<Item = f64> + '_)> + '_ {
         self.shown.iter().map(|series| {
-            let (scale, stored) = (self.values.scale(series.row().scale), series.row().stored);
+            let scale = series.row().scale.map_or(1.0, |scale| self.values.scale(Slot::of(scale)));
+            let stored = series.row().stored;
             let values = &self.series.column(*series)[..self.filled];
             (*series, values.iter().map(move |value| stored.shown(*value) / scale))
         })
@@ -216,10 +220,10 @@ impl Observer {
         let (series, values) = (&self.series, &self.values);
         let body = |of: Series| BodyEnergy {
             column: series.column(of),
-            mean: values.get(of, Reduction::Value(ValueStatistic::Mean)),
-            swing: values.get(of, Reduction::Value(ValueStatistic::PeakToPeak)),
+            mean: values.get(Slot::of((of, Reduction::Value(ValueStatistic::Mean)))),
+            swing: values.get(Slot::of((of, Reduction::Value(ValueStatistic::PeakToPeak)))),
         };
-        let total = values.get(Series::ComTotal, Reduction::Order(OrderStatistic::Max));
+        let total = values.get(Slot::of((Series::ComTotal, Reduction::Order(OrderStatistic::Max))));
         let wheels = [body(Series::ComWheel1), body(Series::ComWheel2)];
         let spectrum = self.spectrum.as_mut();
         self.exchange = exchange(simd, &self.weights, spectrum, total, body(Series::ComFuselage), wheels);
