@@ -1,9 +1,9 @@
 //! [`Conditioning`]: the estimated error of a run, and how much the motion amplifies small errors of its rotational state.
 //!
 //! With H = K omega + wheels' momentum in the body's frame and A = K^-1, a small error eta of H obeys
-//! eta' = eta x omega + H x A eta. Free of torque, H . eta and omega . eta are constant (the changes of |H|^2/2 and of the energy T;
-//! Zhukovskii's gyrostat is integrable: V. Volterra, Acta Math. 22, 1899), so that the error across the curve of H follows
-//! from them at any time, and only the shift along the curve has to be added up. With w the part of omega across H, and unit
+//! eta' = eta x omega + H x A eta. Without torque, H . eta and omega . eta are constant (the changes of |H|^2/2 and of the energy T;
+//! Zhukovskii's gyrostat is integrable: V. Volterra, Acta Math. 22, 1899). The error across the curve of H follows from them
+//! at any time; only the shift along the curve is integrated. With w the part of omega across H, and unit
 //! vectors along H, w and v = H x w, eta = X H/|H| + Y w/|w| + Z v/|v|:
 //!
 //! ```text
@@ -11,20 +11,20 @@
 //! alpha' = X A_wH/|w| + Y (A_ww - A_vv)/|w|      (alpha: the shift in time, s)
 //! ```
 //!
-//! Near an unstable equilibrium |w| is small for long, and the shift grows like 1/|w|^2: that is the separatrix. The attitude's
-//! error across L follows from eta, since L is constant in F_e; the one about L is the integral of H . A eta/|H|, in which the
-//! part of alpha, a derivative, is integrated by parts. The sums stand in [`super::error_sums`].
+//! Near an unstable equilibrium |w| stays small for a long time, and the shift grows like 1/|w|^2: that is the separatrix. The
+//! error of the attitude across L follows from eta, since L is constant in F_e. The error about L is the integral of
+//! H . A eta/|H|, in which the part of alpha, a derivative, is integrated by parts. [`super::error_sums`] has the sums.
 //!
-//! What is put into them:
-//! - the change of |H|^2 and of T - mu_0 |H|^2/2 since point 0, as the states show it beyond rounding: what truncation has made of
-//!   the invariants, whatever the method; |w| Y is the latter. mu_0 is mu where |w| is least, so that near a separatrix it
-//!   is the distance from it that is watched;
-//! - rounding, component by component, which the states do not show;
-//! - of a kernel whose other states feed back into omega, the errors that are too small to show there;
-//! - where torque acts, and there are no invariants, the truncation that the method reckons with, in proportion to |w|; and |w|
-//!   counts at least what the torque makes of it within a radian of rotation.
+//! The sums are made of:
+//! - the change of |H|^2 and of T - mu_0 |H|^2/2 since point 0 beyond rounding: the effect of truncation on the invariants, of any
+//!   method. The change of the second is |w| Y. mu_0 is mu where |w| is minimal: near a separatrix the second invariant is the
+//!   distance from it;
+//! - rounding of each component, which the states do not show;
+//! - for a kernel whose other states feed back into omega, the errors that are too small to show in the invariants;
+//! - where torque acts, and there are no invariants, the truncation that the method estimates, in proportion to |w|; |w| is taken
+//!   as at least what the torque makes of it within a radian of rotation.
 //!
-//! Sizes are added, not signed numbers. Errors are taken to arise evenly along the run.
+//! Magnitudes are added, not signed numbers. Errors are assumed to arise evenly along the run.
 //!
 //! Not here: what the method itself knows of its errors ([`crate::run::Outcome::local_errors`]).
 
@@ -35,40 +35,39 @@ use super::rotor::{Body, acts, adjugate, largest_torque};
 use crate::math::lanes::WIDTH;
 use crate::math::vector::{constant, constant_matrix, cross, difference, dot, product, scaled, sum};
 use crate::math::{Lanes, Real};
-use crate::run::LocalErrors;
-use crate::run::{StateField, StateTable};
+use crate::run::{LocalErrors, StateField, StateTable};
 use crate::scene::Scene;
 
-/// Points of a run that are looked at, at most: enough for the closest approach to a separatrix to be met about as often as it
-/// happens, few enough to cost nothing beside the run.
+/// Maximum number of points of a run that are examined: enough to find the closest approach to a separatrix about as often as it
+/// occurs, few enough that the cost is negligible compared with the run.
 const POINTS: usize = 32;
 
-/// A rate across H below this share of |omega| is rounding: the motion is an equilibrium.
+/// A rate across H below this fraction of |omega| is rounding: the motion is an equilibrium.
 const STILL: f64 = 1e-12;
 
-/// Least share of |omega| that a rate across H counts as: a tenth of rounding.
+/// Minimum of a rate across H as a fraction of |omega|: a tenth of rounding.
 const LEAST: f64 = 1e-17;
 
-/// An error of size one in a direction of no preference has this size along each of three axes: 1/sqrt(3).
+/// The component along each of three axes of an error of magnitude one in a random direction: 1/sqrt(3).
 const PER_AXIS: f64 = 0.577_350_269_189_625_8;
 
-/// Factor on the sum of all that is known of an error, from the runs of `tests/error_estimate.rs`: with 1 the estimate lies below
-/// the true error in up to half of the runs of a family (by a third, mostly), with 2 in less than one of twenty.
+/// Safety factor on the sum of the contributions, from the runs of `tests/accuracy/error_estimate.rs`: with 1 the estimate is below
+/// the true error in up to half of the runs of a family (mostly by a third), with 2 in less than one of twenty.
 const SAFETY: f64 = 2.0;
 
-/// An estimate of half a turn says that nothing is known.
+/// An estimate of half a turn means that nothing is known.
 const LOST: f64 = core::f64::consts::PI;
 
 /// Relative rounding of the energy of a state and of |H|^2.
 const NOISE: f64 = 4.0 * f64::EPSILON;
 
-/// What finding the principal axes adds to the rounding of a component.
+/// Factor on the rounding of a component where principal axes are computed first.
 const TURNED: f64 = 4.0;
 
-/// The largest exponent of a growth that is told apart from infinity: ln 1e200.
+/// The exponent of the largest growth, ln 1e200; beyond it the growth counts as infinite.
 const LARGEST_EXPONENT: f64 = 460.5;
 
-/// The largest amplification that is told apart from infinity.
+/// The largest amplification; beyond it the amplification counts as infinite.
 const MOST: f64 = 1e200;
 
 /// What is known of the errors of a run.
@@ -76,8 +75,8 @@ const MOST: f64 = 1e200;
 pub(super) struct ErrorEstimate {
     /// The estimated largest error of the rotational state: of omega over the largest |omega|, or of the attitude in rad.
     pub(super) error: f64,
-    /// The factor by which relative errors of omega, made evenly along the run and in every direction, have grown where they are
-    /// largest; at least one, at most 1e200.
+    /// The largest factor by which relative errors of omega, made evenly along the run and in every direction, grow; at least one,
+    /// at most 1e200.
     pub(super) amplification: f64,
 }
 
@@ -86,7 +85,7 @@ impl ErrorEstimate {
     pub(super) const UNKNOWN: ErrorEstimate = ErrorEstimate { error: f64::NAN, amplification: f64::NAN };
 }
 
-/// What the sums need to know of each point.
+/// The quantities that the sums use, at each examined point.
 #[derive(Clone, Debug)]
 pub(super) struct Conditioning {
     times: [f64; POINTS],
@@ -108,7 +107,7 @@ pub(super) struct Conditioning {
     square: [f64; POINTS],
     /// omega . K omega/2, J.
     energy: [f64; POINTS],
-    /// Sizes along H, w and v of the error of H that relative errors of omega's components make, N m s.
+    /// Magnitudes along H, w and v of the error of H that relative errors of omega's components cause, N m s.
     digits: [[f64; POINTS]; 3],
 }
 
@@ -131,8 +130,8 @@ impl Conditioning {
         }
     }
 
-    /// Judges a run whose method says of its errors what `local` holds. `times` are those of the table's points, of which the
-    /// first `filled` >= 1 hold states.
+    /// The estimate for a run; `local` are the errors that the method estimates. `times` are those of the table's points, of which
+    /// the first `filled` >= 1 have states.
     #[inline(always)]
     pub(super) fn estimate<S: Simd>(
         &mut self,
@@ -151,7 +150,7 @@ impl Conditioning {
         }
         let body = Body::of(scene, table, times[last]);
         for first in (0..count).step_by(WIDTH) {
-            self.look(simd, &body, table, [first, stride, last]);
+            self.fill(simd, &body, table, [first, stride, last]);
         }
         let (mut largest, mut widest) = (0.0_f64, 0.0_f64);
         for k in 0..count {
@@ -166,7 +165,7 @@ impl Conditioning {
         } else {
             self.along_curve(&body, count, largest, scene, local)
         };
-        // also where one is not a number
+        // NaN counts as lost
         let error = SAFETY * (error + local.truncation + local.attitude);
         ErrorEstimate {
             error: if error < LOST { error } else { LOST },
@@ -174,18 +173,18 @@ impl Conditioning {
         }
     }
 
-    /// Fills eight entries from entry `first` on; entry k is point `stride` k, point `last` at most.
+    /// Fills eight entries from entry `first` on; entry k is the point `stride` k, at most `last`.
     #[inline(always)]
-    fn look<S: Simd>(&mut self, simd: S, body: &Body<'_>, table: &StateTable, [first, stride, last]: [usize; 3]) {
-        let mut places = [0; WIDTH];
-        for (k, place) in places.iter_mut().enumerate() {
-            *place = ((first + k) * stride).min(last);
+    fn fill<S: Simd>(&mut self, simd: S, body: &Body<'_>, table: &StateTable, [first, stride, last]: [usize; 3]) {
+        let mut points = [0; WIDTH];
+        for (k, point) in points.iter_mut().enumerate() {
+            *point = ((first + k) * stride).min(last);
         }
         let zero = Lanes::broadcast(simd, 0.0);
         let omega = [
-            gathered(simd, table.column(StateField::Rate, 0), &places),
-            gathered(simd, table.column(StateField::Rate, 1), &places),
-            gathered(simd, table.column(StateField::Rate, 2), &places),
+            gathered(simd, table.column(StateField::Rate, 0), &points),
+            gathered(simd, table.column(StateField::Rate, 1), &points),
+            gathered(simd, table.column(StateField::Rate, 2), &points),
         ];
         let own = product(constant_matrix(zero, body.inertia), omega);
         let momentum = match body.offset {
@@ -193,7 +192,7 @@ impl Conditioning {
             None => {
                 let mut momentum = product(constant_matrix(zero, body.mass.inertia), omega);
                 for (i, wheel) in body.mass.wheels.iter().enumerate() {
-                    let rate = gathered(simd, table.column(StateField::WheelRates, i), &places);
+                    let rate = gathered(simd, table.column(StateField::WheelRates, i), &points);
                     let spin = Lanes::broadcast(simd, wheel.axial) * rate;
                     momentum = sum(momentum, scaled(spin, constant(zero, wheel.axis)));
                 }
@@ -225,18 +224,18 @@ impl Conditioning {
         (dot(w, turned) * (per_h * (per_w2 * across))).abs().store(&mut self.twist[first..]);
         (ww - vv).abs().store(&mut self.shear[first..]);
         rate2.sqrt().store(&mut self.rate[first..]);
-        // what relative errors of the components make of H: in the axes in which the motion is integrated, or, where these have
-        // to be found first, of any component
+        // the effect of relative errors of the components on H: in the axes of integration, or of any component where these axes
+        // are computed first
         let [[x, ..], [_, y, _], [.., z]] = body.inertia;
         let moments = constant(zero, [x, y, z]);
-        let sizes = if body.is_principal {
+        let magnitudes = if body.is_principal {
             [moments[0] * omega[0], moments[1] * omega[1], moments[2] * omega[2]]
         } else {
             scaled(rate2.sqrt() * Lanes::broadcast(simd, TURNED * PER_AXIS), moments)
         };
-        (sizes_along(sizes, momentum) * per_h).store(&mut self.digits[0][first..]);
-        (sizes_along(sizes, w) * (per_w2 * across)).store(&mut self.digits[1][first..]);
-        (sizes_along(sizes, v) * (per_h * (per_w2 * across))).store(&mut self.digits[2][first..]);
+        (magnitudes_along(magnitudes, momentum) * per_h).store(&mut self.digits[0][first..]);
+        (magnitudes_along(magnitudes, w) * (per_w2 * across)).store(&mut self.digits[1][first..]);
+        (magnitudes_along(magnitudes, v) * (per_h * (per_w2 * across))).store(&mut self.digits[2][first..]);
     }
 
     /// Error and amplification of a motion along a curve.
@@ -250,19 +249,19 @@ impl Conditioning {
         local: &LocalErrors,
     ) -> (f64, f64) {
         let inertia = body.size;
-        // errors are relative to omega: so much momentum is one
+        // errors are relative to omega: the momentum that corresponds to an error of one
         let unit = inertia * largest;
         let is_driven = body.offset.is_none();
         let torque = if is_driven { largest_torque(scene) } else { 0.0 };
-        let mut calmest = 0;
+        let mut quietest = 0;
         let mut energy = 0.0_f64;
         for k in 0..count {
-            calmest = if self.across[k] < self.across[calmest] { k } else { calmest };
+            quietest = if self.across[k] < self.across[quietest] { k } else { quietest };
             energy = energy.larger(self.energy[k]);
         }
-        let reference = self.along[calmest];
+        let reference = self.along[quietest];
         let balance = |k: usize| self.energy[k] - 0.5 * (reference * self.square[k]);
-        // what rounding makes of the balance
+        // rounding of the balance
         let noise = NOISE * (energy + 0.5 * (reference * self.square[0]).abs());
         let mut even = Sums::default();
         let mut digits = Sums::default();
@@ -296,13 +295,13 @@ impl Conditioning {
                 other.advance(&here, [PER_AXIS * w; 3]);
             } else {
                 if local.feedback > 0.0 {
-                    // of errors across H only what the balance does not show
+                    // of errors across H only the part that the balance does not show
                     let made = PER_AXIS * local.feedback / count as f64;
                     let hidden = |size: f64| made.smaller(size / unit);
                     other.advance(&here, [hidden(NOISE * h), hidden(noise / w), made]);
                 }
                 let along = ((self.square[k] - self.square[0]).abs() - NOISE * self.square[0]).larger(0.0) / (2.0 * h);
-                measured.hold(&here, along, ((balance(k) - balance(0)).abs() - noise).larger(0.0));
+                measured.set(&here, along, ((balance(k) - balance(0)).abs() - noise).larger(0.0));
             }
         }
         let other = match (is_driven, local.feedback > 0.0) {
@@ -310,7 +309,7 @@ impl Conditioning {
             (false, true) => other.most,
             (false, false) => 0.0,
         };
-        // the wheels' own drift counts in the balance of redundant states
+        // the drift of the wheels is part of the balance of redundant states
         let shown = measured.most / unit * if local.feedback > 0.0 { 0.5 } else { 1.0 };
         let rounded = digits.most / (count as f64 * unit) * local.rounding;
         (shown + rounded + other, even.most / count as f64)
@@ -346,7 +345,7 @@ impl Conditioning {
         let unit = body.size * largest;
         let spread = 1.0_f64.larger((unit / h.larger(f64::MIN_POSITIVE)).smaller(largest * duration));
         let steady = 1.0 + largest * duration;
-        // the states show that rounding has not grown beyond what counts as still
+        // the states show that rounding has not grown beyond the limit of an equilibrium
         let shown = growth.smaller(STILL / f64::EPSILON);
         let amplification = steady + growth * spread;
         (local.rounding * (steady + shown * spread) + local.feedback * amplification, amplification)
@@ -355,16 +354,16 @@ impl Conditioning {
 
 /// sum |a_i b_i|.
 #[inline(always)]
-fn sizes_along<R: Real>(a: [R; 3], b: [R; 3]) -> R {
+fn magnitudes_along<R: Real>(a: [R; 3], b: [R; 3]) -> R {
     (a[0] * b[0]).abs() + ((a[1] * b[1]).abs() + (a[2] * b[2]).abs())
 }
 
 /// The values of a column at eight points.
 #[inline(always)]
-fn gathered<S: Simd>(simd: S, column: &[f64], places: &[usize; WIDTH]) -> Lanes<S> {
+fn gathered<S: Simd>(simd: S, column: &[f64], points: &[usize; WIDTH]) -> Lanes<S> {
     let mut values = [0.0; WIDTH];
-    for (value, place) in values.iter_mut().zip(places) {
-        *value = column[*place];
+    for (value, point) in values.iter_mut().zip(points) {
+        *value = column[*point];
     }
     Lanes::load(simd, &values)
 }

@@ -1,28 +1,28 @@
-//! [`Sums`]: errors of the rotational state that are carried along a motion, in the axes H, w and v of [`super::conditioning`],
-//! where the equations stand.
+//! [`Sums`]: errors of the rotational state, propagated along a motion in the axes H, w and v of [`super::conditioning`], which has
+//! the equations.
 
 use crate::math::Real;
 
-/// Errors of one kind until some point, added up.
+/// The sum of the errors of one kind up to some point.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Sums {
     /// Along H.
     along: f64,
     /// |w| Y.
     across: f64,
-    /// |mu - mu_0| |H| X, where errors along H come to be errors across it.
+    /// |mu - mu_0| |H| X: errors along H that become errors across it.
     tilted: f64,
     /// Shift in time.
     shift: f64,
-    /// Turn about L but for what the shift makes of it.
+    /// Rotation about L, without the effect of the shift.
     about: f64,
-    /// The largest error until now.
+    /// The largest error so far.
     pub(super) most: f64,
 }
 
-/// A point as the sums see it.
+/// The data of a point that the sums use.
 pub(super) struct Here {
-    /// Time since the point before, and since the start, s.
+    /// Time since the previous point, and since the start, s.
     pub(super) step: f64,
     pub(super) since: f64,
     pub(super) h: f64,
@@ -32,34 +32,34 @@ pub(super) struct Here {
     pub(super) axial: f64,
     pub(super) twist: f64,
     pub(super) shear: f64,
-    /// The largest difference of mu |H| until now.
+    /// The largest difference of mu |H| so far.
     pub(super) range: f64,
-    /// Momentum that counts as an error of one, and the largest |omega|.
+    /// The momentum that corresponds to an error of one, and the largest |omega|.
     pub(super) unit: f64,
     pub(super) largest: f64,
 }
 
 impl Sums {
-    /// Goes on to a point where the sizes of the error along H, and of the change of the balance, are known.
+    /// Advances to a point at which the magnitudes of the error along H and of the change of the balance are known.
     #[inline(always)]
-    pub(super) fn hold(&mut self, at: &Here, along: f64, balance: f64) {
+    pub(super) fn set(&mut self, at: &Here, along: f64, balance: f64) {
         let per_w = 1.0 / at.w;
         let sideways = at.tilt.mul_add(along, balance) * per_w;
         self.shift += at.step * per_w * along.mul_add(at.twist, sideways * at.shear);
         self.about += at.step * along.mul_add(at.axial, sideways * at.twist);
-        self.note(at, along + sideways + self.shift * at.h * at.w);
+        self.record(at, along + sideways + self.shift * at.h * at.w);
     }
 
-    /// Takes note of an error of size `total` at a point.
+    /// Records an error of magnitude `total` at a point.
     #[inline(always)]
-    fn note(&mut self, at: &Here, total: f64) {
-        // across L: what the constant L allows, and at most what the error of the rate can have swept
+    fn record(&mut self, at: &Here, total: f64) {
+        // across L: bounded by the constancy of L, and by the integral of the error of the rate
         let across = (at.unit / at.h * total).smaller((at.largest * at.since).mul_add(self.most, total));
         let turned = at.unit * 2.0_f64.mul_add(self.shift * at.range, self.about);
         self.most = self.most.larger(total.larger(across + turned));
     }
 
-    /// Goes on to a point, at which errors of size `made` along H, w and v are made.
+    /// Advances to a point at which errors of magnitude `made` along H, w and v arise.
     #[inline(always)]
     pub(super) fn advance(&mut self, at: &Here, made: [f64; 3]) {
         let per_w = 1.0 / at.w;
@@ -71,7 +71,7 @@ impl Sums {
         self.shift += made[2] * per_w / at.h;
         let sideways = at.tilt.mul_add(self.along, self.across + self.tilted) * per_w;
         self.about += at.step * self.along.mul_add(at.axial, sideways * at.twist);
-        self.note(at, self.along + sideways + self.shift * at.h * at.w);
+        self.record(at, self.along + sideways + self.shift * at.h * at.w);
     }
 }
 
@@ -95,15 +95,15 @@ mod tests {
         }
     }
 
-    /// Law: an error along H alone turns the attitude about L at the rate A_HH, and stays what it is; one across H is
-    /// sheared along the curve, by shear t in units of itself where |w| does not change.
+    /// Law: an error along H alone rotates the attitude about L at the rate A_HH and stays constant; one across H is sheared along
+    /// the curve, by shear t relative to itself where |w| is constant.
     #[test]
     fn errors_grow_in_proportion_to_time() {
         let (mut along, mut across) = (Sums::default(), Sums::default());
         for k in 0..=100 {
             let here = at(if k == 0 { 0.0 } else { 0.1 }, 0.1 * f64::from(k), 0.5);
-            along.hold(&here, 1e-6, 0.0);
-            across.hold(&here, 0.0, 0.5e-6);
+            along.set(&here, 1e-6, 0.0);
+            across.set(&here, 0.0, 0.5e-6);
         }
         // 1e-6/2 across L, and 0.5 1e-6 10 about it
         assert!((along.most / 5.5e-6 - 1.0).abs() < 1e-12, "{:e}", along.most);

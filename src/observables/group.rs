@@ -1,19 +1,19 @@
 //! [`Group`]: what a campaign asks for by name (`[observe] groups = [...]`).
 
-/// A group of columns that is asked for as a whole.
+/// A group of columns that is observed as a whole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Group {
-    /// Error of total kinetic energy less the work of the actuators.
+    /// Error of total kinetic energy minus the work of the actuators.
     EnergyConservation,
-    /// Errors of linear momentum less impulse and of angular momentum about the centre of mass less angular impulse.
+    /// Errors of linear momentum minus impulse and of angular momentum about the centre of mass minus angular impulse.
     MomentumConservation,
-    /// Departure of the attitude from a rotation.
+    /// Orthonormality of the attitude, and the angle of s3 from its initial direction.
     Attitude,
     /// Residuals of the constraints, where the kernel has constraints.
     Constraints,
     /// Kinetic energy of each body in F_e.
     Energies,
-    /// Kinetic energy of each body about the spacecraft's centre of mass: the frame-independent twin.
+    /// Kinetic energy of each body about the spacecraft's centre of mass: independent of the frame.
     EnergiesCom,
     /// Exchange of kinetic energy between fuselage and wheels, about the spacecraft's centre of mass.
     Exchange,
@@ -21,7 +21,7 @@ pub enum Group {
     FinalState,
     /// Steps and evaluations.
     StepStatistics,
-    /// Estimated error of the rotational state, and how far the run is to be trusted.
+    /// Estimated error of the rotational state, and how much the motion amplifies errors.
     Numerics,
 }
 
@@ -79,7 +79,7 @@ impl Groups {
         Groups(self.0 | 1 << group as u16)
     }
 
-    /// Whether the set holds `group`.
+    /// Whether the set contains `group`.
     pub const fn contains(self, group: Group) -> bool {
         self.0 & (1 << group as u16) != 0
     }
@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn a_set_holds_what_was_put_in_and_nothing_else() {
+    fn a_set_contains_what_was_added_and_nothing_else() {
         let some: Groups = [Group::Exchange, Group::StepStatistics].into_iter().collect();
         for group in Group::ALL {
             assert_eq!(some.contains(group), matches!(group, Group::Exchange | Group::StepStatistics));

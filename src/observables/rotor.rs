@@ -21,7 +21,7 @@ pub(super) struct Body<'a> {
 }
 
 impl<'a> Body<'a> {
-    /// The constants of a run of `scene` for `duration` seconds, whose states `table` holds.
+    /// The constants of a run of `scene` for `duration` seconds with the states `table`.
     pub(super) fn of(scene: &'a Scene, table: &StateTable, duration: f64) -> Self {
         let mass = &scene.mass;
         let inertia = mass.inertia_rotating();

@@ -1,13 +1,13 @@
 //! [`Spectrum`]: the dominant frequency of an evenly sampled series.
 //!
-//! Periodogram of the series less its least-squares line, under Hann's window (Harris 1978) and padded with zeros to a power
+//! Periodogram of the series minus its least-squares line, with Hann's window (Harris 1978) and padded with zeros to a power
 //! of two; the largest ordinate at one cycle per horizon or more, refined by the parabola through the logarithms of it and its
 //! neighbours (Gasior & Gonzalez 2004). Cost n log n with an own radix-2 transform of constant geometry (Pease, J. ACM 15, 1968:
-//! every stage reads two halves and writes them interleaved, so that all stages are vectors), since every crate that was looked
-//! at chooses its algorithm by the machine, and then the bits differ.
+//! every stage reads two halves and writes them interleaved, so that all stages are vectors). The crates that were examined choose
+//! their algorithm by the machine, so that their bits differ.
 //!
-//! A tone is found within 0.05 of 1/horizon (a test measures it), if it is above one and below half the points per horizon; slower changes
-//! than one cycle per horizon look like about one.
+//! The frequency of a tone is found within 0.05 of 1/duration (a test measures it) between one cycle per duration and half a cycle per
+//! interval; slower changes are reported as about one cycle per duration.
 
 use fearless_simd::Simd;
 
@@ -15,10 +15,10 @@ use crate::math::lanes::WIDTH;
 use crate::math::{Lanes, Real};
 use crate::run::Grid;
 
-/// Fewest points from which a frequency is told.
+/// Minimum number of points.
 const FEWEST: usize = 8;
 
-/// Largest departure of a time from an even grid, in steps: rounding of times and no more.
+/// Maximum deviation of a time from an even grid, in steps: only rounding of the times is allowed.
 const UNEVENNESS: f64 = 1e-6;
 
 /// The transform of one length and its scratch.
@@ -29,13 +29,13 @@ pub(super) struct Spectrum {
     step: f64,
     /// Hann's window at every point, zero in the padding.
     window: Vec<f64>,
-    /// Times less their mean, s, with padding.
+    /// Times minus their mean, s, with padding.
     centered_times: Vec<f64>,
     /// Number of complex values: half the padded length.
     size: usize,
-    /// Where coefficient k stands after the last stage.
+    /// The place of coefficient k after the last stage.
     order: Vec<u32>,
-    /// exp(-2 pi i e / size), stage by stage, with e = j less its last bits, as many as stages before; j < size / 2.
+    /// exp(-2 pi i e / size), stage by stage; e is j with as many of its last bits cleared as there are earlier stages; j < size / 2.
     stages: [Vec<f64>; 2],
     /// exp(-2 pi i k / (2 size)), k < size.
     turns: [Vec<f64>; 2],
@@ -93,7 +93,7 @@ impl Spectrum {
         })
     }
 
-    /// The dominant frequency, Hz, of `column` less the line `mean + slope * (time - mean time)`; the column is padded to a
+    /// The dominant frequency, Hz, of `column` minus the line `mean + slope * (time - mean time)`; the column is padded to a
     /// multiple of sixteen.
     #[inline(always)]
     pub(super) fn peak<S: Simd>(&mut self, simd: S, column: &[f64], mean: f64, slope: f64) -> f64 {
