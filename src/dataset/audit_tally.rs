@@ -69,3 +69,48 @@ impl AuditTally {
         self.seconds
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ensemble::audit::Audit;
+    use crate::ensemble::{Part, PartId, Shape};
+    use crate::sampling::SampleId;
+
+    /// The tally of audits with these (error, estimate); `None` is an audit that failed.
+    fn tally(audits: &[Option<(f64, f64)>]) -> AuditTally {
+        let mut rows = Rows::new(Shape { parameters: 0, observables: 1 }, audits.len());
+        rows.start(Part { id: PartId(0), first: SampleId(0), count: audits.len() });
+        for (row, audit) in audits.iter().enumerate() {
+            let audit = audit.map(|(error, estimate)| Audit {
+                omega: error,
+                attitude: 0.5 * error,
+                estimate,
+                reference_tolerance: reference_solution::TOLERANCE,
+                observables: vec![f64::NAN],
+            });
+            rows.set_audit(row, audit);
+        }
+        let mut tally = AuditTally::new(1);
+        tally.add(&rows, std::iter::once(0));
+        tally
+    }
+
+    /// Law: every selected run is counted once, as audited or as failed.
+    #[test]
+    fn failed_audits_are_counted() {
+        let found = tally(&[Some((1e-12, 2e-12)), None, Some((1e-12, 2e-12)), None, None]);
+        assert_eq!((found.audited, found.failed), (2, 3));
+    }
+
+    /// Law: an error is covered by an estimate that is as large, and by none that is just below it. A large error, which is
+    /// bounded by half a turn, is covered by every large estimate.
+    #[test]
+    fn an_estimate_just_below_the_error_does_not_cover_it() {
+        let covered = |error: f64, estimate: f64| tally(&[Some((error, estimate))]).covered == 1;
+        assert!(covered(1e-9, 1e-9) && covered(1e-9, 2e-9));
+        assert!(!covered(1e-9, 0.999e-9) && !covered(1e-9, 0.2e-9) && !covered(0.09, 0.08));
+        assert!(covered(1.0, 0.9 * SMALL) && !covered(1.0, 0.4 * SMALL));
+        assert!(!covered(f64::NAN, 1e-9), "an error that is NaN is not covered");
+    }
+}

@@ -88,9 +88,9 @@ pub struct Audit {
 }
 
 impl Audit {
-    /// The larger of both errors.
+    /// The larger of both errors; NaN where either is NaN.
     pub fn state(&self) -> f64 {
-        self.omega.max(self.attitude)
+        RotationError { omega: self.omega, attitude: self.attitude }.state()
     }
 
     /// The value of a column.

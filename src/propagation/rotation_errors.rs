@@ -14,7 +14,7 @@ pub struct RotationError {
 }
 
 impl RotationError {
-    /// The larger of both errors.
+    /// The larger of both errors; NaN where either is NaN.
     pub fn state(&self) -> f64 {
         larger_or_nan(self.omega, self.attitude)
     }

@@ -105,6 +105,22 @@ fn the_selection_is_a_share_and_grows_with_it() {
     assert_eq!(found, small);
 }
 
+/// Law: the seed of the campaign decides which samples are audited (H0: two seeds select independently, 1% of 100,000 each; then
+/// about 10 are common, and 40 or more with a probability below 1e-12).
+#[test]
+fn the_selection_depends_on_the_seed() {
+    let selected = |seed: u64| {
+        let mut plan = plan("no_debris", 100_000, 0.01);
+        plan.seed = seed;
+        let mut selection = Selection::new(&plan);
+        (0..100_000).filter(|sample| selection.contains(SampleId(*sample))).collect::<Vec<_>>()
+    };
+    let (first, second) = (selected(1), selected(2));
+    assert_eq!(first, selected(1));
+    let common = first.iter().filter(|sample| second.contains(sample)).count();
+    assert!(common < 40, "{common} of {}", first.len());
+}
+
 fn audits(plan: &Plan) -> Vec<Audit> {
     rows(plan, 2).into_values().filter_map(|(.., audit)| audit.flatten()).collect()
 }

@@ -422,6 +422,38 @@ fn bits_depend_neither_on_the_instruction_set_nor_on_what_else_is_observed() {
     }
 }
 
+/// Law: the fraction is the swing over the largest total about the centre of mass, also where the total changes (under thrust), and
+/// net is the last minus the first value, also where the first is not the smallest.
+#[test]
+fn fraction_and_net_are_relative_to_the_right_points() {
+    let (_, mut scene) = table1();
+    scene.mass.debris = None;
+    let grid = Grid::uniform(6.0, 61);
+    // the spin slows down, then grows beyond its initial value: first, smallest, last and largest differ
+    let spin = |t: f64| 3.0 - 1.5 * libm::sin(t);
+    let table =
+        motion_table(&grid, &|t| (rotation([0.0, 0.0, 1.0], t), [0.0, 0.0, spin(t)], [10.0, 20.0 + t], [0.0; 3]));
+    let request = request(Groups::ALL, false, true);
+    let row = row(Isa::best(), request, &grid, &scene, &table);
+    let mut observer = Observer::new(request, &grid);
+    let mut ignored = vec![0.0; request.columns().len()];
+    observer.observe(Isa::best(), &scene, &table, &done(grid.points(), grid.duration()), &mut ignored);
+    let series = |of: Series| -> Vec<f64> { observer.series().find(|(series, _)| *series == of).unwrap().1.collect() };
+    let total = series(Series::ComTotal);
+    let largest = total.iter().copied().fold(0.0, f64::max);
+    assert!(largest > 1.5 * total[0], "a denominator of the initial total would be noticed");
+    for (of, body) in [(Series::ComFuselage, "fuselage"), (Series::ComWheel1, "wheel1"), (Series::ComWheel2, "wheel2")]
+    {
+        let energy = series(of);
+        let smallest = energy.iter().copied().fold(f64::INFINITY, f64::min);
+        let swing = energy.iter().copied().fold(f64::NEG_INFINITY, f64::max) - smallest;
+        assert!(energy[0] > smallest && energy[0] != energy[60], "{body}: {energy:?}");
+        assert_eq!(row[format!("exchange_{body}_fraction").as_str()], swing / largest, "{body}");
+        assert_eq!(row[format!("exchange_{body}_net_j").as_str()], energy[60] - energy[0], "{body}");
+        assert_eq!(row[format!("exchange_{body}_peak_to_peak_j").as_str()], swing, "{body}");
+    }
+}
+
 /// Law: every column of every kind of scene has a value, whether its group is observed alone or with all others.
 #[test]
 fn every_column_of_every_kind_of_scene_has_a_value() {
