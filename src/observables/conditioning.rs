@@ -130,8 +130,8 @@ impl Conditioning {
         }
     }
 
-    /// The estimate for a run; `local` are the errors that the method estimates. `times` are those of the table's points, of which
-    /// the first `filled` >= 1 have states.
+    /// The estimate for a run; `local` are the errors that the method estimates. `times` are those of the table's points; the
+    /// first `filled` >= 1 have states.
     #[inline(always)]
     pub(super) fn estimate<S: Simd>(
         &mut self,

@@ -75,7 +75,7 @@ mod tests {
         RotationError::largest(rotation_errors(&ReferenceSolution { high, low }, &table(run)))
     }
 
-    /// Law: the error of a run is its maximum over the grid, wherever on the grid that is.
+    /// Law: the error of a run is its maximum over the grid, at any point.
     #[test]
     fn the_error_in_the_middle_of_a_run_counts() {
         let found = largest([0.5, 1e-3, 1.0]);

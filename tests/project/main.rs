@@ -9,3 +9,4 @@ mod documents;
 mod examples;
 mod generated_tables;
 mod source;
+mod vocabulary;
