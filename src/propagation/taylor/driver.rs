@@ -55,7 +55,7 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> Drive
     fn step(&mut self, finish: &mut RunCallback<'_>) {
         let RunLanes { vectors, work, truncation, .. } = &mut self.lanes;
         let zero = vectors.time.zero();
-        let (one, infinite) = (zero.splat(1.0), zero.splat(f64::INFINITY));
+        let infinite = zero.splat(f64::INFINITY);
         let mut constants = vectors.constants;
         if FORCED {
             for i in 0..3 {
@@ -105,8 +105,8 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> Drive
 
         let back = self.lanes.detector.passes(omega);
         let stuck = length.lt(time * zero.splat(f64::EPSILON * f64::EPSILON));
-        let calm = R::select(finite, R::select(continues, R::select(stuck, zero, one), zero), zero) - back;
-        if calm.lt(one).any() || self.lanes.work.ring.clock >= self.lanes.alarm {
+        let calm = finite & continues & !(stuck | back);
+        if (!calm).any() || self.lanes.work.ring.clock >= self.lanes.alarm {
             self.examine(calm, back, length, finish);
         }
     }
@@ -119,13 +119,12 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> Drive
         let (segment, quadrature) = (work.ring.last(), &work.quadrature);
         let series = StepSeries { segment, quadrature, constants, begin, per_unit: vectors.per_unit };
         let rows = series.components::<FORCED>(vectors.next_point, due);
-        let zero = covered.zero();
-        self.lanes.write_points(&rows, R::select(due, zero.splat(1.0), zero));
+        self.lanes.write_points(&rows, due);
     }
 
-    /// Examines the lanes to which something happened: those where `calm` is not one, and all of them at an alarm.
+    /// Examines the lanes to which something happened: those that are not `calm`, and all of them at an alarm.
     #[inline(never)]
-    fn examine(&mut self, calm: R, back: R, length: R, finish: &mut RunCallback<'_>) {
+    fn examine(&mut self, calm: R::Mask, back: R::Mask, length: R, finish: &mut RunCallback<'_>) {
         self.simd.vectorize(
             #[inline(always)]
             || self.examine_lanes(calm, back, length, finish),
@@ -133,11 +132,11 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> Drive
     }
 
     #[inline(always)]
-    fn examine_lanes(&mut self, calm: R, back: R, length: R, finish: &mut RunCallback<'_>) {
+    fn examine_lanes(&mut self, calm: R::Mask, back: R::Mask, length: R, finish: &mut RunCallback<'_>) {
         let all = self.lanes.work.ring.clock >= self.lanes.alarm;
         for lane in 0..R::LANES {
-            if all || calm.lane(lane) < 1.0 {
-                self.examine_lane(lane, back.lane(lane) > 0.0, length.lane(lane), finish);
+            if all || !calm.test(lane) {
+                self.examine_lane(lane, back.test(lane), length.lane(lane), finish);
             }
         }
         if is_due(&self.lanes.states, self.lanes.work.ring.clock, self.lanes.work.ring.len()) {

@@ -9,8 +9,8 @@ use super::return_detector::ReturnDetector;
 use super::truncation::{Truncation, TruncationSums};
 use super::workspace::Workspace;
 use crate::dynamics::gyrostat::{ATTITUDE, Gyrostat, OMEGA, WITH_ATTITUDE};
-use crate::math::Real;
 use crate::math::lanes::WIDEST;
+use crate::math::{Mask, Real};
 use crate::propagation::arc_source::ArcSource;
 use crate::run::{Grid, Outcome, Status, StepStatistics, Trajectory};
 
@@ -149,11 +149,11 @@ impl<'a, R: Real, const N: usize, const J: usize> RunLanes<'a, R, N, J> {
         self.vectors.next_point.set_lane(lane, state.next_point(self.grid));
     }
 
-    /// Writes a point of the lanes whose flag is not zero.
+    /// Writes a point of the lanes that are `due`.
     #[inline(always)]
-    pub(super) fn write_points(&mut self, rows: &[[f64; WIDEST]; N], flags: R) {
+    pub(super) fn write_points(&mut self, rows: &[[f64; WIDEST]; N], due: R::Mask) {
         for lane in 0..R::LANES {
-            if flags.lane(lane) == 0.0 {
+            if !due.test(lane) {
                 continue;
             }
             let Some(state) = &mut self.states[lane] else { continue };

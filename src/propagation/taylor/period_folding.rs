@@ -143,7 +143,6 @@ impl<S: Simd, R: Real, const N: usize, const J: usize> PeriodFolding<'_, S, R, N
         let padded = self.grid.padded_times();
         let start = Lanes::broadcast(simd, state.start);
         let inverse = Lanes::broadcast(simd, 1.0 / state.unit);
-        let one = Lanes::broadcast(simd, 1.0);
         let FoldBuffer { stride, rest, whole, segment, vector, count, start: [starts, _], .. } = &mut *self.folds;
         let row = lane * *stride;
         // slices: the compiler then knows that a store does not change them
@@ -165,7 +164,7 @@ impl<S: Simd, R: Real, const N: usize, const J: usize> PeriodFolding<'_, S, R, N
             let mut number = Lanes::broadcast(simd, TWO_52 + (end_series - 1) as f64);
             for later in first_series + 1..end_series {
                 let before = folded.lt(Lanes::broadcast(simd, starts[later * lanes + lane]));
-                number -= Real::select(before, one, one.zero());
+                number -= number.indicator(before);
             }
             let number = number.to_array();
             for (entry, number) in segment[first..first + WIDTH].iter_mut().zip(number) {

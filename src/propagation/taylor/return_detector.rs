@@ -45,16 +45,14 @@ impl<R: Real> ReturnDetector<R> {
         }
     }
 
-    /// Updates the sections with omega at the end of a step; one where the step may have come back through the section, else zero.
+    /// Updates the sections with omega at the end of a step; true where the step may have come back through the section.
     #[inline(always)]
-    pub fn passes(&mut self, omega: [R; 3]) -> R {
+    pub fn passes(&mut self, omega: [R; 3]) -> R::Mask {
         let zero = self.side.zero();
-        let one = zero.splat(1.0);
         let off = difference(omega, self.start);
         let side = dot(off, self.direction);
         let extent2 = dot(off, off);
-        let was_behind = R::select(self.side.lt(zero), one, zero);
-        let back = R::select(side.lt(zero), zero, was_behind);
+        let back = self.side.lt(zero) & !side.lt(zero);
         self.side = side;
         self.extent2 = extent2.larger(self.extent2);
         back
