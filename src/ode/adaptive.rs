@@ -4,7 +4,7 @@
 
 use super::embedded::Embedded;
 use super::error_model::ErrorModel;
-use super::explicit::{Step, chosen};
+use super::explicit::{Carried, Step, chosen};
 use super::lane_driver::{Attempt, LaneState, Method, Proposal, Stepper};
 use super::step_control::{Control, shortest_step};
 use super::system::{System, Tolerance};
@@ -105,13 +105,19 @@ impl<M: Embedded, R: Real, const N: usize> Stepper<R, N> for AdaptiveStepper<M, 
     }
 
     #[inline(always)]
-    fn attempt<Q: System<R, N>>(&mut self, system: &Q, step: Step<R>, lanes: &mut LaneState<R, N>) -> Attempt<R, N> {
+    fn attempt<Q: System<R, N>>(
+        &mut self,
+        system: &Q,
+        step: Step<R>,
+        lanes: &mut LaneState<R, N>,
+        end: &mut Carried<R, N>,
+    ) -> Attempt<R> {
         let one = step.time.splat(1.0);
-        let attempt = M::attempt(system, step, &lanes.now, self.tolerance, &mut self.stages);
+        let attempt = M::attempt(system, step, &lanes.now, self.tolerance, &mut self.stages, end);
         lanes.evaluations += one.splat(M::EVALUATIONS);
         let sound = attempt.poison.lt(one);
         let error = R::select(sound, attempt.ratio, one.splat(UNSOUND));
-        Attempt { end: attempt.end, accepted: !one.lt(error), sound, error }
+        Attempt { accepted: !one.lt(error), sound, error }
     }
 
     #[inline(always)]
@@ -143,7 +149,7 @@ impl<M: Embedded, R: Real, const N: usize> Stepper<R, N> for AdaptiveStepper<M, 
     }
 
     #[inline(always)]
-    fn advance(&mut self, _proposal: &Proposal<R>, attempt: &Attempt<R, N>) -> R::Mask {
+    fn advance(&mut self, _proposal: &Proposal<R>, attempt: &Attempt<R>) -> R::Mask {
         let (accepted, rejected) = (attempt.accepted, !attempt.accepted);
         let factor = M::CONTROLLER.factor(attempt.error, accepted, self.retry);
         self.length = (self.attempted * factor).larger(R::select(accepted, factor.zero(), self.floor));

@@ -128,13 +128,20 @@ impl<M: FixedStep, R: Real, const N: usize> Stepper<R, N> for FixedStepper<M, R,
     }
 
     #[inline(always)]
-    fn attempt<Q: System<R, N>>(&mut self, system: &Q, step: Step<R>, lanes: &mut LaneState<R, N>) -> Attempt<R, N> {
+    fn attempt<Q: System<R, N>>(
+        &mut self,
+        system: &Q,
+        step: Step<R>,
+        lanes: &mut LaneState<R, N>,
+        end: &mut Carried<R, N>,
+    ) -> Attempt<R> {
         let one = step.time.splat(1.0);
         let first = self.taken.lt(one);
         let advance = M::step(system, step, &lanes.now, first, self.tolerance, &mut self.memory);
         lanes.evaluations += advance.evaluations;
         let sound = advance.poison.lt(one);
-        Attempt { end: advance.end, accepted: sound, sound, error: one.zero() }
+        *end = advance.end;
+        Attempt { accepted: sound, sound, error: one.zero() }
     }
 
     #[inline(always)]
@@ -164,7 +171,7 @@ impl<M: FixedStep, R: Real, const N: usize> Stepper<R, N> for FixedStepper<M, R,
     }
 
     #[inline(always)]
-    fn advance(&mut self, _proposal: &Proposal<R>, attempt: &Attempt<R, N>) -> R::Mask {
+    fn advance(&mut self, _proposal: &Proposal<R>, attempt: &Attempt<R>) -> R::Mask {
         self.taken += self.taken.splat(1.0);
         !attempt.sound
     }

@@ -54,10 +54,8 @@ pub struct Proposal<R: Real> {
     pub lands: R::Mask,
 }
 
-/// The result of an attempted step.
-pub struct Attempt<R: Real, const N: usize> {
-    /// The state at its end.
-    pub end: Carried<R, N>,
+/// The result of an attempted step, apart from the state at its end.
+pub struct Attempt<R: Real> {
     /// Whether it was accepted.
     pub accepted: R::Mask,
     /// Whether everything in it is finite.
@@ -80,8 +78,15 @@ pub trait Stepper<R: Real, const N: usize> {
     /// The step that every lane takes next.
     fn propose<Q: System<R, N>>(&mut self, system: &Q, lanes: &mut LaneState<R, N>) -> Proposal<R>;
 
-    /// Attempts the step.
-    fn attempt<Q: System<R, N>>(&mut self, system: &Q, step: Step<R>, lanes: &mut LaneState<R, N>) -> Attempt<R, N>;
+    /// Attempts the step and puts the state at its end into `end`, which is not returned because every move of a state of many
+    /// components is a copy.
+    fn attempt<Q: System<R, N>>(
+        &mut self,
+        system: &Q,
+        step: Step<R>,
+        lanes: &mut LaneState<R, N>,
+        end: &mut Carried<R, N>,
+    ) -> Attempt<R>;
 
     /// Prepares [`Stepper::inside`] for the lanes `inside` of the step that was attempted.
     fn prepare_inside<Q: System<R, N>>(
@@ -104,7 +109,7 @@ pub trait Stepper<R: Real, const N: usize> {
     ) -> [R; N];
 
     /// Chooses the length of the next step; true in the lanes that cannot continue.
-    fn advance(&mut self, proposal: &Proposal<R>, attempt: &Attempt<R, N>) -> R::Mask;
+    fn advance(&mut self, proposal: &Proposal<R>, attempt: &Attempt<R>) -> R::Mask;
 }
 
 impl<R: Real, const N: usize> LaneState<R, N> {
@@ -196,6 +201,7 @@ where
     let most = zero.splat(control.max_steps as f64);
     let mut stepper = method.stepper::<R, N>(zero, control);
     let mut lanes = LaneState::<R, N>::new(zero);
+    let mut end = lanes.now;
     let mut slots = LaneSlots::new();
     for lane in 0..R::LANES {
         let loaded = slots.load_lane(lane, runs, recorder);
@@ -204,7 +210,7 @@ where
     while slots.any_occupied() {
         let proposal = stepper.propose(&*runs, &mut lanes);
         let step = proposal.step;
-        let attempt = stepper.attempt(&*runs, step, &mut lanes);
+        let attempt = stepper.attempt(&*runs, step, &mut lanes, &mut end);
         lanes.accepted += zero.indicator(attempt.accepted);
         lanes.rejected += zero.indicator(!attempt.accepted);
         lanes.error_sum += R::select(attempt.accepted, attempt.error, zero);
@@ -212,12 +218,12 @@ where
         // observation points up to the end of the step
         let limit = R::select(attempt.accepted, step.end, zero.splat(f64::NEG_INFINITY));
         if (!limit.lt(lanes.next)).any() {
-            record(&*runs, &mut stepper, &mut lanes, step, limit, &attempt.end.state, recorder);
+            record(&*runs, &mut stepper, &mut lanes, step, limit, &end.state, recorder);
         }
 
         let failed = stepper.advance(&proposal, &attempt);
         lanes.time = R::select(attempt.accepted, step.end, lanes.time);
-        lanes.now = Carried::select(attempt.accepted, &attempt.end, &lanes.now);
+        lanes.now = Carried::select(attempt.accepted, &end, &lanes.now);
 
         let arrived = attempt.accepted & proposal.lands;
         let spent = !(lanes.accepted + lanes.rejected).lt(most);
@@ -274,12 +280,13 @@ fn record<R, Q, P, O, const N: usize>(
     }
     loop {
         let inside = lanes.next.lt(limit);
-        let mut reached = *end;
-        if inside.any() {
+        let reached = if inside.any() {
             let length = R::select(inside, lanes.next - step.time, step.time.zero());
             let part = Step { time: step.time, end: step.time + length, length };
-            reached = stepper.inside(system, step, part, inside, lanes);
-        }
+            stepper.inside(system, step, part, inside, lanes)
+        } else {
+            *end
+        };
         for lane in 0..R::LANES {
             if lanes.next.lane(lane) <= limit.lane(lane) {
                 let state = if inside.test(lane) { &reached } else { end };

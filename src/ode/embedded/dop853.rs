@@ -93,9 +93,10 @@ impl Embedded for Dop853 {
         start: &Carried<R, N>,
         tolerance: Tolerance,
         stages: &mut Dop853Stages<R, N>,
-    ) -> PairAttempt<R, N> {
+        end: &mut Carried<R, N>,
+    ) -> PairAttempt<R> {
         let k = &mut stages.k;
-        let end = fill_stages::<Dop853Tableau, R, Q, N, 16>(system, step, start, k, (1, 13, 12));
+        *end = fill_stages::<Dop853Tableau, R, Q, N, 16>(system, step, start, k, (1, 13, 12));
         let fifth = scaled(step.length, &weighted(k, &Dop853Tableau::E5));
         let third = scaled(step.length, &weighted(k, &Dop853Tableau::E3));
         let e5 = system.error_ratio(&fifth, &start.state, &end.state, tolerance);
@@ -103,7 +104,7 @@ impl Embedded for Dop853 {
         let sum = e5.mul_add(e5, e5.splat(0.01) * (e3 * e3));
         let ratio = R::select(e5.zero().lt(sum), e5 * (e5 / sum.sqrt()), e5);
         let poison = poison(&fifth, poison(&k[12], poison(&end.state, ratio.zero() * (e5 + e3))));
-        PairAttempt { end, ratio, poison }
+        PairAttempt { ratio, poison }
     }
 
     #[inline(always)]

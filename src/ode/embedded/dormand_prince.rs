@@ -72,12 +72,13 @@ impl Embedded for DormandPrince {
         start: &Carried<R, N>,
         tolerance: Tolerance,
         stages: &mut [[R; N]; 7],
-    ) -> PairAttempt<R, N> {
-        let end = fill_stages::<DormandPrinceTableau, R, Q, N, 7>(system, step, start, stages, (1, 7, 6));
+        end: &mut Carried<R, N>,
+    ) -> PairAttempt<R> {
+        *end = fill_stages::<DormandPrinceTableau, R, Q, N, 7>(system, step, start, stages, (1, 7, 6));
         let error = scaled(step.length, &weighted(stages, &DormandPrinceTableau::E));
         let ratio = system.error_ratio(&error, &start.state, &end.state, tolerance);
         let poison = poison(&error, poison(&end.state, ratio.zero() * ratio));
-        PairAttempt { end, ratio, poison }
+        PairAttempt { ratio, poison }
     }
 
     #[inline(always)]
@@ -170,8 +171,9 @@ impl Embedded for DormandPrinceRestepped {
         start: &Carried<R, N>,
         tolerance: Tolerance,
         stages: &mut [[R; N]; 7],
-    ) -> PairAttempt<R, N> {
-        DormandPrince::attempt(system, step, start, tolerance, stages)
+        end: &mut Carried<R, N>,
+    ) -> PairAttempt<R> {
+        DormandPrince::attempt(system, step, start, tolerance, stages, end)
     }
     #[inline(always)]
     fn prepare_inside<R: Real, Q: System<R, N>, const N: usize>(

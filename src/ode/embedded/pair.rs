@@ -6,10 +6,8 @@ use super::super::step_control::Controller;
 use super::super::system::{System, Tolerance};
 use crate::math::Real;
 
-/// An attempted step.
-pub struct PairAttempt<R, const N: usize> {
-    /// The state at its end.
-    pub end: Carried<R, N>,
+/// An attempted step, apart from the state at its end.
+pub struct PairAttempt<R> {
     /// The norm of its error in units of the tolerance.
     pub ratio: R,
     /// Zero if everything in it is finite, else not a number.
@@ -53,14 +51,15 @@ pub trait Embedded: Copy {
         tolerance: Tolerance,
     ) -> R;
 
-    /// Attempts a step.
+    /// Attempts a step from `start` and puts the state at its end into `end`.
     fn attempt<R: Real, Q: System<R, N>, const N: usize>(
         system: &Q,
         step: Step<R>,
         start: &Carried<R, N>,
         tolerance: Tolerance,
         stages: &mut Self::Stages<R, N>,
-    ) -> PairAttempt<R, N>;
+        end: &mut Carried<R, N>,
+    ) -> PairAttempt<R>;
 
     /// Prepares [`Embedded::inside`] for the step that was attempted last.
     fn prepare_inside<R: Real, Q: System<R, N>, const N: usize>(
