@@ -138,8 +138,8 @@ mod tests {
         Request { groups: groups.iter().copied().collect(), debris, actuated, constrained }
     }
 
-    fn set(blocks: &[StateField]) -> StateFields {
-        blocks.iter().fold(StateFields::NONE, |set, block| set.with(*block))
+    fn set(fields: &[StateField]) -> StateFields {
+        fields.iter().fold(StateFields::NONE, |set, field| set.with(*field))
     }
 
     #[test]
@@ -179,28 +179,28 @@ mod tests {
             (&[Constraints], [true, true, false], &[]),
             (&[FinalState], [true, true, true], &[Rate, Attitude, WheelRates]),
         ];
-        for (groups, [debris, actuated, constrained], blocks) in cases {
+        for (groups, [debris, actuated, constrained], fields) in cases {
             let request = request(groups, debris, actuated, constrained);
-            assert_eq!(request.fields(), set(blocks), "{request:?}");
+            assert_eq!(request.fields(), set(fields), "{request:?}");
         }
     }
 
     #[test]
     fn wheel_angles_and_positions_are_never_read() {
         for [debris, actuated, constrained] in [[false; 3], [true; 3]] {
-            let blocks = Request { groups: Groups::ALL, debris, actuated, constrained }.fields();
-            for block in [StateField::WheelAngles, StateField::ComPosition, StateField::DebrisPosition] {
-                assert!(!blocks.contains(block));
+            let fields = Request { groups: Groups::ALL, debris, actuated, constrained }.fields();
+            for field in [StateField::WheelAngles, StateField::ComPosition, StateField::DebrisPosition] {
+                assert!(!fields.contains(field));
             }
         }
     }
 
     #[test]
-    fn reasons_name_every_needed_block_and_no_other() {
+    fn reasons_name_every_needed_field_and_no_other() {
         let request = Request { groups: Groups::ALL, debris: true, actuated: true, constrained: true };
         let reasons = request.reasons();
-        assert_eq!(set(&reasons.iter().map(|(block, _)| *block).collect::<Vec<_>>()), request.fields());
-        let (_, why) = reasons.iter().find(|(block, _)| *block == StateField::AngularImpulse).unwrap();
+        assert_eq!(set(&reasons.iter().map(|(field, _)| *field).collect::<Vec<_>>()), request.fields());
+        let (_, why) = reasons.iter().find(|(field, _)| *field == StateField::AngularImpulse).unwrap();
         assert_eq!(why, "momentum_conservation (angular impulse of the thrusters)");
     }
 
