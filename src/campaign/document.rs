@@ -91,6 +91,9 @@ impl<'a> Document<'a> {
     }
 
     /// Nothing, or everything that is wrong, by line.
+    ///
+    /// # Errors
+    /// Where anything is wrong.
     pub fn verdict(self) -> Result<(), CampaignError> {
         let mut problems = self.problems;
         problems.sort_by_key(|problem| problem.line.unwrap_or(usize::MAX));

@@ -224,11 +224,12 @@ impl Auditor {
         let tolerance = Tolerance { relative: PLAIN_TOLERANCE, absolute: PLAIN_TOLERANCE };
         let control = Control { tolerance, step: None, max_steps: self.max_steps.max(reference_solution::MOST_STEPS) };
         let mut found = None;
-        PropagationSettings::new(Method::Taylor, control, self.grid.clone(), fields, scene)
-            .engine(self.isa)
-            .propagate(std::slice::from_ref(scene), &mut |CompletedRun { table, outcome, .. }| {
-                found = (outcome.status == Status::Done).then(|| table.clone())
-            });
+        PropagationSettings::new(Method::Taylor, control, self.grid.clone(), fields, scene).engine(self.isa).propagate(
+            std::slice::from_ref(scene),
+            &mut |CompletedRun { table, outcome, .. }| {
+                found = (outcome.status == Status::Done).then(|| table.clone());
+            },
+        );
         let high = found?;
         let low = StateTable::new(high.fields(), high.points());
         Some((ReferenceSolution { high, low }, PLAIN_TOLERANCE))

@@ -108,6 +108,9 @@ pub struct Dispersions {
 
 impl Dispersions {
     /// Checks `draws` against the `nominal` scene; all errors at once.
+    ///
+    /// # Errors
+    /// Everything that is wrong with `draws`.
     pub fn new(draws: Draws<'_>, nominal: &SceneInput) -> Result<Self, Vec<DispersionError>> {
         let mut these = Dispersions {
             seed: draws.seed,

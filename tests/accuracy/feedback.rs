@@ -43,10 +43,10 @@ fn distance(flight: &Flight, reference: &ReferenceSolution) -> f64 {
     for field in FIELDS {
         let (mut off, mut size) = (0.0_f64, 1.0_f64);
         for component in 0..field.width() {
-            let expected = reference.high.column(field, component);
-            for point in 0..points {
-                off = off.max((table.column(field, component)[point] - expected[point]).abs());
-                size = size.max(expected[point].abs());
+            let (found, expected) = (table.column(field, component), reference.high.column(field, component));
+            for (found, expected) in found.iter().zip(expected).take(points) {
+                off = off.max((found - expected).abs());
+                size = size.max(expected.abs());
             }
         }
         worst = worst.max(off / size);

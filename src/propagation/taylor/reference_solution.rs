@@ -82,7 +82,7 @@ impl ReferenceSolution {
     fn solve(
         isa: Isa,
         scene: &Scene,
-        mut law: Option<&mut dyn ActuationLaw>,
+        law: Option<&mut dyn ActuationLaw>,
         grid: &Grid,
         blocks: StateFields,
         tolerance: f64,
@@ -95,7 +95,6 @@ impl ReferenceSolution {
             coarse.expect_schedule(scene, grid.duration());
         }
         let mut solution = Self::blank(blocks, grid);
-        let law = law.as_deref_mut();
         let states =
             isa.run_narrow(Integration { run: &mut run, coarse: &mut coarse, scene: Some(scene), law, grid, rule })?;
         for (point, state) in states.iter().enumerate() {

@@ -180,7 +180,7 @@ impl Key {
     pub fn default_text(&self) -> Option<String> {
         match self.presence {
             Presence::Required(_) => None,
-            _ => (self.read)(&SceneInput::with_every_table(), 0).map(|numbers| limit::shown(numbers)),
+            _ => (self.read)(&SceneInput::with_every_table(), 0).map(limit::shown),
         }
     }
 }
