@@ -1,5 +1,5 @@
 //! [`Design`]: where the samples are in the unit cube; [`Points`]: for each sample and each random dimension one number u in
-//! (0, 1), which distributions map to values. To add a design, write its file and add it to [`list`].
+//! (0, 1), which distributions map to values. To add a design, write its file and add it to the list below.
 //!
 //! Sample 0 is the nominal scene in every design; sample k >= 1 is point k - 1 of the design. Each number is found from the
 //! sample's id alone: no permutation and no earlier point is stored.
@@ -17,12 +17,12 @@
 //! Dimensions are known by name (the component's, or the parameter's and a number for a distribution of several components). Samples
 //! come in blocks of eight consecutive ones, [`BLOCK`], the size of a block of ChaCha and of a call of the quantiles; a number never depends on what was asked before.
 
+mod enumerations;
 pub mod grid;
 pub mod halton;
 pub mod hash;
 pub mod latin;
 pub mod levels;
-pub mod list;
 pub mod one_at_a_time;
 pub mod random;
 pub mod saltelli;
@@ -30,5 +30,43 @@ pub mod sobol;
 pub mod table;
 pub mod traits;
 
-pub use list::{Design, Points};
-pub use traits::{BLOCK, Dimensions, NOMINAL, PointSource, Size};
+pub use traits::{BLOCK, Dimensions, Kind, NOMINAL, PointSource, Size};
+
+use self::grid::GridDesign;
+use self::halton::HaltonDesign;
+use self::latin::LatinHypercubeDesign;
+use self::one_at_a_time::OneAtATimeDesign;
+use self::random::RandomDesign;
+use self::saltelli::SaltelliDesign;
+use self::sobol::SobolDesign;
+use self::table::TableDesign;
+use crate::sampling::error::DispersionError;
+use crate::sampling::keys::{DataColumn, KeyReader, KeyWriter};
+
+enumerations::designs! {
+    Random = RandomDesign,
+    LatinHypercube = LatinHypercubeDesign,
+    Sobol = SobolDesign,
+    Halton = HaltonDesign,
+    Grid = GridDesign,
+    OneAtATime = OneAtATimeDesign,
+    Saltelli = SaltelliDesign,
+    Table = TableDesign,
+}
+
+impl Design {
+    /// The design of a file that does not say.
+    pub const DEFAULT: Design = Design::Random(RandomDesign);
+
+    /// Reads `kind` and the keys of the design that it names.
+    pub fn read(keys: &mut dyn KeyReader) -> Option<Self> {
+        let name = keys.kind("kind", Self::NAMES, "\"sobol\"")?;
+        Self::read_named(name, keys)
+    }
+}
+
+impl Default for Design {
+    fn default() -> Self {
+        Self::DEFAULT
+    }
+}

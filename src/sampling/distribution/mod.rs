@@ -6,7 +6,7 @@
 //! meaning, and one number can be correlated with another through their u. Rejection and polar methods, which take an
 //! unknown number of u, are not here.
 //!
-//! To add a distribution, write its file and add it to [`list`]. [`target`] has the checks that distributions share.
+//! To add a distribution, write its file and add it to the list below. [`target`] has the checks that distributions share.
 
 pub mod about_axis;
 pub mod attitude_error;
@@ -15,7 +15,7 @@ pub mod beta;
 pub mod choice;
 pub mod direction;
 pub mod empirical;
-pub mod list;
+mod enumerations;
 pub mod log_normal;
 pub mod log_uniform;
 pub mod normal;
@@ -28,8 +28,73 @@ pub mod truncated_normal;
 pub mod uniform;
 pub mod uniform_attitude;
 
-pub use list::{Distribution, Joint, WrittenDistribution};
-pub use traits::{Map, Quantile, Scalar, Together};
+pub use traits::{Map, Nested, Quantile, Scalar, Together};
+
+use self::about_axis::AboutAxis;
+use self::attitude_error::AttitudeError;
+use self::bernoulli::Bernoulli;
+use self::beta::Beta;
+use self::choice::Choice;
+use self::direction::{Cone, UniformDirection, VonMisesFisher};
+use self::empirical::Empirical;
+use self::log_normal::LogNormal;
+use self::log_uniform::LogUniform;
+use self::normal::Normal;
+use self::offset::Offset;
+use self::pert::Pert;
+use self::target::{JointTarget, Target};
+use self::triangular::Triangular;
+use self::truncated_normal::TruncatedNormal;
+use self::uniform::Uniform;
+use self::uniform_attitude::UniformAttitude;
+use crate::sampling::error::{DispersionError, error};
+use crate::sampling::keys::{KeyReader, KeyWriter};
+
+enumerations::distributions! {
+    one number:
+        Normal, TruncatedNormal, Uniform, LogNormal, LogUniform, Triangular, Beta, Pert, Choice, Bernoulli, Empirical, Offset;
+    several together:
+        UniformAttitude = UniformAttitude,
+        UniformDirection = UniformDirection<WrittenDistribution>,
+        Cone = Cone<WrittenDistribution>,
+        VonMisesFisher = VonMisesFisher<WrittenDistribution>,
+        AttitudeError = AttitudeError,
+        AboutAxis = AboutAxis<WrittenDistribution>,
+}
+
+impl WrittenDistribution {
+    /// Reads `distribution` and the keys of the distribution that it names.
+    pub fn read(keys: &mut dyn KeyReader) -> Option<Self> {
+        let name = keys.kind("distribution", Self::NAMES, "\"normal\"")?;
+        Self::read_named(name, keys)
+    }
+}
+
+impl Nested for WrittenDistribution {
+    type Quantile = Distribution;
+
+    fn read_table(keys: &mut dyn KeyReader, key: &'static str) -> Option<Option<Self>> {
+        let is_written = keys.has(key);
+        let mut found = None;
+        keys.table(key, &mut |table| found = Self::read(table));
+        if is_written { found.map(Some) } else { Some(None) }
+    }
+
+    fn write_table(&self, keys: &mut dyn KeyWriter, key: &str) {
+        keys.table(key);
+        self.write(keys);
+    }
+
+    fn quantile(&self, index: usize, key: &'static str, nominal: f64) -> Result<Distribution, DispersionError> {
+        let found = self.distributions(&Target { index, nominals: &[nominal] }).map_err(|inner| {
+            error(index, key, format!("{{ {} = {} }}", inner.key, inner.value), inner.allowed, inner.remedy)
+        })?;
+        found.and_then(|found| found.into_iter().next()).ok_or_else(|| {
+            let remedy = "choose \"normal\" or \"uniform\"";
+            error(index, key, format!("{:?}", self.name()), "a distribution of one number", remedy)
+        })
+    }
+}
 
 #[cfg(test)]
 mod tests {

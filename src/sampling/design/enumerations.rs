@@ -1,16 +1,4 @@
-//! The list of designs: everything that is done for each of them follows from here.
-
-use super::grid::GridDesign;
-use super::halton::HaltonDesign;
-use super::latin::LatinHypercubeDesign;
-use super::one_at_a_time::OneAtATimeDesign;
-use super::random::RandomDesign;
-use super::saltelli::SaltelliDesign;
-use super::sobol::SobolDesign;
-use super::table::TableDesign;
-use super::traits::{BLOCK, Dimensions, Kind, PointSource, Size};
-use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{DataColumn, KeyReader, KeyWriter};
+//! What is done for each design of the list: `designs!` makes the enumerations over all of them.
 
 /// Declares the enumerations over all designs, and passes each call on to the one that is meant.
 macro_rules! designs {
@@ -115,31 +103,4 @@ macro_rules! designs {
         }
     };
 }
-
-designs! {
-    Random = RandomDesign,
-    LatinHypercube = LatinHypercubeDesign,
-    Sobol = SobolDesign,
-    Halton = HaltonDesign,
-    Grid = GridDesign,
-    OneAtATime = OneAtATimeDesign,
-    Saltelli = SaltelliDesign,
-    Table = TableDesign,
-}
-
-impl Design {
-    /// The design of a file that does not say.
-    pub const DEFAULT: Design = Design::Random(RandomDesign);
-
-    /// Reads `kind` and the keys of the design that it names.
-    pub fn read(keys: &mut dyn KeyReader) -> Option<Self> {
-        let name = keys.kind("kind", Self::NAMES, "\"sobol\"")?;
-        Self::read_named(name, keys)
-    }
-}
-
-impl Default for Design {
-    fn default() -> Self {
-        Self::DEFAULT
-    }
-}
+pub(super) use designs;

@@ -1,25 +1,4 @@
-//! The list of distributions: everything that is done for each of them follows from here.
-
-use super::about_axis::AboutAxis;
-use super::attitude_error::AttitudeError;
-use super::bernoulli::Bernoulli;
-use super::beta::Beta;
-use super::choice::Choice;
-use super::direction::{Cone, UniformDirection, VonMisesFisher};
-use super::empirical::Empirical;
-use super::log_normal::LogNormal;
-use super::log_uniform::LogUniform;
-use super::normal::Normal;
-use super::offset::Offset;
-use super::pert::Pert;
-use super::target::{JointTarget, Target};
-use super::traits::{Map, Nested, Quantile, Scalar, Together};
-use super::triangular::Triangular;
-use super::truncated_normal::TruncatedNormal;
-use super::uniform::Uniform;
-use super::uniform_attitude::UniformAttitude;
-use crate::sampling::error::{DispersionError, error};
-use crate::sampling::keys::{KeyReader, KeyWriter};
+//! What is done for each distribution of the list: `distributions!` makes the enumerations over all of them.
 
 /// Declares the enumerations over all distributions, and passes each call on to the one that is meant.
 macro_rules! distributions {
@@ -163,49 +142,4 @@ macro_rules! distributions {
         }
     };
 }
-
-distributions! {
-    one number:
-        Normal, TruncatedNormal, Uniform, LogNormal, LogUniform, Triangular, Beta, Pert, Choice, Bernoulli, Empirical, Offset;
-    several together:
-        UniformAttitude = UniformAttitude,
-        UniformDirection = UniformDirection<WrittenDistribution>,
-        Cone = Cone<WrittenDistribution>,
-        VonMisesFisher = VonMisesFisher<WrittenDistribution>,
-        AttitudeError = AttitudeError,
-        AboutAxis = AboutAxis<WrittenDistribution>,
-}
-
-impl WrittenDistribution {
-    /// Reads `distribution` and the keys of the distribution that it names.
-    pub fn read(keys: &mut dyn KeyReader) -> Option<Self> {
-        let name = keys.kind("distribution", Self::NAMES, "\"normal\"")?;
-        Self::read_named(name, keys)
-    }
-}
-
-impl Nested for WrittenDistribution {
-    type Quantile = Distribution;
-
-    fn read_table(keys: &mut dyn KeyReader, key: &'static str) -> Option<Option<Self>> {
-        let is_written = keys.has(key);
-        let mut found = None;
-        keys.table(key, &mut |table| found = Self::read(table));
-        if is_written { found.map(Some) } else { Some(None) }
-    }
-
-    fn write_table(&self, keys: &mut dyn KeyWriter, key: &str) {
-        keys.table(key);
-        self.write(keys);
-    }
-
-    fn quantile(&self, index: usize, key: &'static str, nominal: f64) -> Result<Distribution, DispersionError> {
-        let found = self.distributions(&Target { index, nominals: &[nominal] }).map_err(|inner| {
-            error(index, key, format!("{{ {} = {} }}", inner.key, inner.value), inner.allowed, inner.remedy)
-        })?;
-        found.and_then(|found| found.into_iter().next()).ok_or_else(|| {
-            let remedy = "choose \"normal\" or \"uniform\"";
-            error(index, key, format!("{:?}", self.name()), "a distribution of one number", remedy)
-        })
-    }
-}
+pub(super) use distributions;
