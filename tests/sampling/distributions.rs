@@ -11,6 +11,7 @@ use spindrift::sampling::distribution::empirical::{EmpiricalQuantile, Interpolat
 use spindrift::sampling::distribution::log_normal::LogNormalQuantile;
 use spindrift::sampling::distribution::log_uniform::LogUniformQuantile;
 use spindrift::sampling::distribution::normal::NormalQuantile;
+use spindrift::sampling::distribution::rayleigh::RayleighQuantile;
 use spindrift::sampling::distribution::triangular::TriangularQuantile;
 use spindrift::sampling::distribution::truncated_normal::TruncatedNormalQuantile;
 use spindrift::sampling::distribution::uniform::UniformQuantile;
@@ -122,6 +123,11 @@ fn draws_follow_their_distributions() {
     let pert = |x: f64| 1.0 - (1.0 - x / 4.0).powi(4) * (1.0 + x);
     assert!(distance(&draws(&Distribution::Beta(BetaQuantile::pert(0.0, 1.0, 4.0))), pert) < CRITICAL);
 
+    let rayleigh = |scale: f64| move |x: f64| 1.0 - (-0.5 * (x / scale).powi(2)).exp();
+    let values = draws(&Distribution::Rayleigh(RayleighQuantile::new(0.02)));
+    assert!(distance(&values, rayleigh(0.02)) < CRITICAL);
+    assert!(distance(&values, rayleigh(0.0204)) > CRITICAL, "a scale off by 2% is found");
+
     let lines = EmpiricalQuantile::new(&[0.0, 1.0, 3.0], Interpolation::Linear);
     let values = draws(&Distribution::Empirical(lines));
     assert!(distance(&values, |x| if x < 1.0 { x / 2.0 } else { 0.5 + (x - 1.0) / 4.0 }) < CRITICAL);
@@ -155,6 +161,7 @@ fn quantiles_rise() {
     let mut laws: Vec<Distribution> = vec![
         Distribution::LogNormal(LogNormalQuantile { median: 2.5, log_std: 0.4 }),
         Distribution::LogUniform(LogUniformQuantile::new(0.1, 10.0)),
+        Distribution::Rayleigh(RayleighQuantile::new(0.02)),
         Distribution::Triangular(TriangularQuantile { min: 1.0, mode: 4.0, max: 4.0 }),
         Distribution::Choice(ChoiceQuantile::new(&[4.0, 1.0], &[0.25, 0.75])),
         Distribution::Empirical(EmpiricalQuantile::new(&[3.0, 1.0, 2.0], Interpolation::None)),

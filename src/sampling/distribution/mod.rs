@@ -21,6 +21,7 @@ pub mod log_uniform;
 pub mod normal;
 pub mod offset;
 pub mod pert;
+pub mod rayleigh;
 pub mod target;
 pub mod traits;
 pub mod triangular;
@@ -42,6 +43,7 @@ use self::log_uniform::LogUniform;
 use self::normal::Normal;
 use self::offset::Offset;
 use self::pert::Pert;
+use self::rayleigh::Rayleigh;
 use self::target::{JointTarget, Target};
 use self::triangular::Triangular;
 use self::truncated_normal::TruncatedNormal;
@@ -52,7 +54,8 @@ use crate::sampling::keys::{KeyReader, KeyWriter};
 
 enumerations::distributions! {
     one number:
-        Normal, TruncatedNormal, Uniform, LogNormal, LogUniform, Triangular, Beta, Pert, Choice, Bernoulli, Empirical, Offset;
+        Normal, TruncatedNormal, Uniform, LogNormal, LogUniform, Triangular, Beta, Pert, Choice, Bernoulli, Empirical, Offset,
+        Rayleigh;
     several together:
         UniformAttitude = UniformAttitude,
         UniformDirection = UniformDirection<WrittenDistribution>,
