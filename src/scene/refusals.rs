@@ -207,6 +207,12 @@ const REFUSALS: &[(&str, &str, Change, Change)] = &[
         |input| input.fuselage.errors.mass_scale = TINY,
     ),
     (
+        "fuselage.inertia_scale",
+        "above zero",
+        |input| input.fuselage.errors.inertia_scale = -TINY,
+        |input| input.fuselage.errors.inertia_scale = TINY,
+    ),
+    (
         "fuselage.stretch_log",
         "finite",
         |input| input.fuselage.errors.stretch_log[1] = f64::NAN,

@@ -58,9 +58,10 @@ impl MassErrors {
             return body;
         }
         let one = body.mass.splat(1.0);
-        let scale = one.splat(self.mass_scale);
+        let mass_scale = one.splat(self.mass_scale);
+        let scale = mass_scale * one.splat(self.inertia_scale);
         Body {
-            mass: scale * body.mass,
+            mass: mass_scale * body.mass,
             center: sum(body.center, constant(one, self.center_offset_m)),
             inertia: if self.stretch_log == [0.0; 3] && self.shear == [0.0; 3] {
                 [scaled(scale, body.inertia[0]), scaled(scale, body.inertia[1]), scaled(scale, body.inertia[2])]
@@ -113,6 +114,17 @@ mod tests {
 
     /// Law: a box whose matter is stretched is the stretched box; one that is sheared has the moments of the sheared box, by its
     /// integrals (x, y, z independent and uniform: <x^2> = a^2/12).
+    /// Law: a factor of the inertia changes the inertia by that factor, and neither mass nor centre; one leaves every bit.
+    #[test]
+    fn a_factor_of_the_inertia_changes_nothing_else() {
+        let nominal = solid_box([1.0, 2.0, 3.0], 10.0);
+        let scaled = MassErrors { inertia_scale: 1.25, ..MassErrors::NONE }.applied(nominal);
+        assert_eq!((scaled.mass, scaled.center), (nominal.mass, nominal.center));
+        assert_eq!(scaled.inertia, nominal.inertia.map(|row| row.map(|entry| 1.25 * entry)));
+        let heavier = MassErrors { mass_scale: 1.25, ..MassErrors::NONE }.applied(nominal);
+        assert_eq!((heavier.mass, heavier.inertia), (1.25 * nominal.mass, scaled.inertia));
+    }
+
     #[test]
     fn stretched_and_sheared_matter_is_that_of_the_integrals() {
         let nominal = solid_box([1.0, 2.0, 3.0], 10.0);

@@ -32,7 +32,7 @@ const ACTUATORS: &str = "[actuators]\nthrust_scale = [1, 0.5, 2]\nthruster1_tilt
 #[test]
 fn every_key_is_read_and_reads_back() {
     let fuselage = "principal_second_moments_kg_m2 = [100, 200, 300]\nprincipal_axes = [0.5, 0.5, -0.5, 0.5]\nmass_scale = 1.5\n\
-        stretch_log = [0.1, 0.2, 0.3]\nshear = [0.4, 0.5, 0.6]\ncenter_offset_m = [0.7, 0.8, 0.9]";
+        inertia_scale = 1.25\nstretch_log = [0.1, 0.2, 0.3]\nshear = [0.4, 0.5, 0.6]\ncenter_offset_m = [0.7, 0.8, 0.9]";
     let debris = "mass_kg = 3\nprincipal_moments_kg_m2 = [3, 4, 5]";
     let plan = plan(fuselage, debris, &format!("{BURN}{ACTUATORS}")).unwrap_or_else(|e| panic!("{e}"));
     let scene = &plan.nominal;
@@ -41,6 +41,7 @@ fn every_key_is_read_and_reads_back() {
     assert_eq!(scene.fuselage.principal, Some(PrincipalInertia { moments: second, axes }));
     let errors = MassErrors {
         mass_scale: 1.5,
+        inertia_scale: 1.25,
         stretch_log: [0.1, 0.2, 0.3],
         shear: [0.4, 0.5, 0.6],
         center_offset_m: [0.7, 0.8, 0.9],

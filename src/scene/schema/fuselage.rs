@@ -60,13 +60,15 @@ rows! {
     /// How a distribution of mass differs from the nominal one: the same matter, moved by a linear map about the centre of
     /// mass, with another mass, at another place.
     ///
-    /// The second moments of mass about the centre become S' = k A S A^T with k = `mass_scale` and A lower triangular,
+    /// The second moments of mass about the centre become S' = k A S A^T with k = `mass_scale` times `inertia_scale` and A lower triangular,
     /// exp(`stretch_log`) on its diagonal and `shear` below: positive definite whatever the numbers, as the inertia of a body
     /// always is. If S = L L^T then S' = k (A L)(A L)^T: these are the coordinates of the log-Cholesky form (C. Rucker & P. M.
     /// Wensing, *Smooth Parameterization of Rigid-Body Inertia*, IEEE Robotics and Automation Letters 7(2), 2022) about the
     /// nominal body; with mass and centre of mass they couple all ten numbers of a rigid body.
     pub struct MassErrors in Fuselage ["fuselage"], errors, errors_mut {
-    mass_scale: f64 = 1.0, "1", "Factor k of all masses", SCALAR, Plain, Limit::Positive, (optional), always, "";
+    mass_scale: f64 = 1.0, "1", "Factor of all masses", SCALAR, Plain, Limit::Positive, (optional), always, "";
+    inertia_scale: f64 = 1.0, "1", "Further factor of the inertia about the centre of mass, at the same mass", SCALAR, Plain,
+        Limit::Positive, (optional), always, "";
     stretch_log: [f64; 3] = [0.0; 3], "1", "Logarithms of the linear scale factors of the mass distribution along s1, s2, s3",
         XYZ, Plain, Limit::Finite, (optional), always, "";
     shear: [f64; 3] = [0.0; 3], "1",
