@@ -12,6 +12,7 @@ use spindrift::ensemble::{Ensemble, SingleRun};
 use spindrift::math::Isa;
 use spindrift::observables::{Group, table};
 use spindrift::sampling::SampleId;
+use spindrift::scene::schema::{Presence, Table};
 
 /// If this variable is set, the tables are written and not compared.
 const WRITE: &str = "SPINDRIFT_WRITE_DOCS";
@@ -103,6 +104,33 @@ fn dependencies() -> String {
     table
 }
 
+/// Every numeric key that describes the scene, table by table, from the schema.
+fn parameters() -> String {
+    let mut text = String::new();
+    for table in Table::ALL {
+        let _ = writeln!(text, "## `[{}]`\n", table.headers().join("]`, `["));
+        let _ = writeln!(
+            text,
+            "| key | unit | components | default | limit | meaning |\n| --- | --- | --- | --- | --- | --- |"
+        );
+        for key in table.keys() {
+            let components = (0..table.headers().len()).map(|instance| key.components(instance).join(", "));
+            let mut components: Vec<String> = components.collect();
+            components.dedup();
+            let default = match key.presence {
+                Presence::Required(_) => "required".to_owned(),
+                Presence::RequiredIf(..) => "required with `[[actuation]]`".to_owned(),
+                Presence::Optional => key.default_text().map_or("none".to_owned(), |text| format!("`{text}`")),
+            };
+            let (name, unit, limit, meaning) = (key.key, key.unit, key.limit.words(), cell(key.meaning));
+            let _ =
+                writeln!(text, "| `{name}` | {unit} | {} | {default} | {limit} | {meaning} |", components.join("; "),);
+        }
+        text.push('\n');
+    }
+    text
+}
+
 /// `document` with the text between the marks of `name` replaced.
 fn replaced(document: &str, name: &str, table: &str) -> String {
     let (begin, end) = (format!("<!-- generated: {name} -->\n"), format!("<!-- end of {name} -->"));
@@ -116,7 +144,12 @@ fn replaced(document: &str, name: &str, table: &str) -> String {
 fn the_generated_tables_are_up_to_date() {
     let columns = [("columns", columns_of_rows()), ("series", columns_of_series())];
     let dependencies = [("dependencies", dependencies())];
-    for (file, tables) in [("docs/columns.md", &columns[..]), ("ARCHITECTURE.md", &dependencies[..])] {
+    let parameters = [("parameters", parameters())];
+    for (file, tables) in [
+        ("docs/columns.md", &columns[..]),
+        ("ARCHITECTURE.md", &dependencies[..]),
+        ("docs/parameters.md", &parameters[..]),
+    ] {
         let written = text(file);
         let fresh = tables.iter().fold(written.clone(), |document, (name, table)| replaced(&document, name, table));
         if std::env::var_os(WRITE).is_some() {
