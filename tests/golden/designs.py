@@ -105,9 +105,11 @@ def halton(name, dimension, point):
         digits += 1
     cell = 0
     for digit in range(digits):
-        slope = 1 + (keyed(key, 2 * digit) * (b - 1) >> 64)
-        shift = keyed(key, 2 * digit + 1) * b >> 64
-        cell = cell * b + (slope * (point % b) + shift) % b
+        images = list(range(b))
+        for i in range(b - 1, 0, -1):
+            j = keyed(key, digit * b + i) * (i + 1) >> 64
+            images[i], images[j] = images[j], images[i]
+        cell = cell * b + images[point % b]
         point //= b
     return (cell + 0.5) / b**digits
 

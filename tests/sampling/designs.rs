@@ -352,9 +352,9 @@ const GOLDEN: [(&str, [[u64; 2]; 3]); 5] = [
     (
         "halton",
         [
-            [0x3fe7_493c_99e1_bde7, 0x3fcd_3480_67c1_a219],
-            [0x3fba_49e4_cf0d_ef38, 0x3fd5_b6b1_fafd_42d3],
-            [0x3fd1_6e79_33c3_7bce, 0x3fd5_48d1_bdce_f237],
+            [0x3fd1_6d86_cc3c_8432, 0x3fe0_7f4d_6984_3d53],
+            [0x3fec_b6c3_661e_4219, 0x3fd2_c5b7_44cf_9718],
+            [0x3fe7_48c3_661e_4219, 0x3fe0_c539_335b_e4fc],
         ],
     ),
     (

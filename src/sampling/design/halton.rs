@@ -1,9 +1,10 @@
-//! `halton`: Halton's sequence (*Numer. Math.* 2 (1960) 84), each digit scrambled by a random line.
+//! `halton`: Halton's sequence (*Numer. Math.* 2 (1960) 84) with random digit permutations.
 //!
-//! The number of a point in the dimension of base b is its radical inverse, in which each digit d becomes a d + c modulo b with a
-//! random slope a > 0 and shift c for each digit's place (J. Matousek, *On the L2-discrepancy for anchored boxes*, J. Complexity 14
-//! (1998) 527): without it neighbouring large bases are nearly proportional to each other. Digits continue beyond those of the point, so that each number
-//! is uniform, down to about 2^-52.
+//! The number of a point in the dimension of base b is its radical inverse, in which each digit is replaced by its image under a
+//! random permutation of 0..b, another for each digit (A. B. Owen, *A randomized Halton algorithm in R* (2017)). Without it
+//! neighbouring large bases are nearly proportional to each other; one random line a d + c for each digit, which is cheaper, leaves
+//! correlations of 0.5 between pairs in 12 dimensions with 256 points. Digits continue beyond those of the point, so that each
+//! number is uniform, down to about 2^-52.
 
 use super::hash::{below, keyed};
 use super::sobol::MAX_DIMENSIONS;
@@ -18,10 +19,12 @@ const FINEST: u64 = 1 << 52;
 #[derive(Clone, Debug)]
 struct Radix {
     base: u64,
-    /// Slope and shift of each digit, the first (the point's lowest, the fraction's highest) first.
-    lines: Vec<(u64, u64)>,
-    /// The weight of each digit, and what the shifts of this digit and all after it add up to.
+    /// The permutation of each digit, `base` numbers one after the other; the first digit is the point's lowest, the fraction's
+    /// highest. Bases are below 2^16 in all dimensions that there are.
+    permutations: Vec<u16>,
+    /// The weight of each digit.
     weights: Vec<u64>,
+    /// What the images of zero of this digit and all after it add up to.
     rests: Vec<u64>,
     /// Number of cells.
     cells: f64,
@@ -55,32 +58,46 @@ impl Radix {
             cells *= base;
             digits += 1;
         }
-        let line = |digit: u64| (1 + below(keyed(key, 2 * digit), base - 1), below(keyed(key, 2 * digit + 1), base));
-        let lines: Vec<(u64, u64)> = (0..digits).map(line).collect();
-        let mut weights = Vec::new();
-        let mut weight = cells;
-        for _ in 0..digits {
-            weight /= base;
-            weights.push(weight);
+        let weights: Vec<u64> = (1..=digits).map(|digit| cells / base.pow(digit)).collect();
+        let permutations: Vec<u16> = (0..u64::from(digits)).flat_map(|digit| permutation(base, key, digit)).collect();
+        let mut radix = Radix { base, permutations, weights, rests: Vec::new(), cells: cells as f64 };
+        radix.add_rests();
+        radix
+    }
+
+    fn add_rests(&mut self) {
+        let mut rest = 0;
+        self.rests = vec![0; self.weights.len() + 1];
+        for digit in (0..self.weights.len()).rev() {
+            rest += self.image(digit, 0) * self.weights[digit];
+            self.rests[digit] = rest;
         }
-        let mut rests = vec![0; lines.len() + 1];
-        for digit in (0..lines.len()).rev() {
-            rests[digit] = rests[digit + 1] + lines[digit].1 * weights[digit];
-        }
-        Radix { base, lines, weights, rests, cells: cells as f64 }
+    }
+
+    /// The image of `value` under the permutation of a digit.
+    fn image(&self, digit: usize, value: u64) -> u64 {
+        u64::from(self.permutations[digit * self.base as usize + value as usize])
     }
 
     /// The middle of the cell of a point.
     fn number(&self, point: u64) -> f64 {
         let (mut cell, mut rest, mut digit) = (0, point, 0);
-        while rest != 0 && digit < self.lines.len() {
-            let (slope, shift) = self.lines[digit];
-            cell += (slope * (rest % self.base) + shift) % self.base * self.weights[digit];
+        while rest != 0 && digit < self.weights.len() {
+            cell += self.image(digit, rest % self.base) * self.weights[digit];
             rest /= self.base;
             digit += 1;
         }
         ((cell + self.rests[digit]) as f64 + 0.5) / self.cells
     }
+}
+
+/// A random permutation of 0..`base` (Fisher and Yates): swap `i` of a digit uses hash `digit` `base` + `i`.
+fn permutation(base: u64, key: u64, digit: u64) -> Vec<u16> {
+    let mut images: Vec<u16> = (0..base as u16).collect();
+    for i in (1..base).rev() {
+        images.swap(i as usize, below(keyed(key, digit * base + i), i + 1) as usize);
+    }
+    images
 }
 
 /// The first `count` primes.
@@ -150,13 +167,63 @@ mod tests {
     }
 
     #[test]
-    fn without_slope_and_shift_it_is_the_radical_inverse() {
+    fn without_permutations_it_is_the_radical_inverse() {
         let mut radix = Radix::new(3, 0);
-        radix.lines.fill((1, 0));
-        radix.rests.fill(0);
+        radix.permutations = [0, 1, 2].repeat(radix.weights.len());
+        radix.add_rests();
         let inverse = |point: u64| (radix.number(point) * 81.0).floor();
         // 1 = 0.1, 5 = 0.21, 26 = 0.222 in base 3
         assert_eq!([1, 5, 26].map(inverse), [27.0, 63.0, 78.0]);
+    }
+
+    /// The largest correlation between two of the numbers of the first points.
+    fn worst_correlation(number: impl Fn(usize, u64) -> f64, dimensions: usize, points: u64) -> f64 {
+        let n = points as f64;
+        let columns: Vec<Vec<f64>> = (0..dimensions)
+            .map(|dimension| {
+                let column: Vec<f64> = (0..points).map(|point| number(dimension, point)).collect();
+                let mean = column.iter().sum::<f64>() / n;
+                let std = (column.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / n).sqrt();
+                column.iter().map(|x| (x - mean) / std).collect()
+            })
+            .collect();
+        let mut worst = 0.0f64;
+        for (i, a) in columns.iter().enumerate() {
+            for b in &columns[..i] {
+                worst = worst.max((a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>() / n).abs());
+            }
+        }
+        worst
+    }
+
+    /// Law: the largest correlation over all pairs is what random permutations of another generator give (mean over 8 seeds; its
+    /// standard deviation over seeds is at most 15% of it, 5% of the mean, so a quarter more is five standard deviations). Power:
+    /// random lines in place of permutations give 0.5 and 0.8 in 12 and 56 dimensions, two to six times as much.
+    #[test]
+    fn pairs_are_as_uncorrelated_as_random_permutations_make_them() {
+        use rand::seq::SliceRandom;
+        use rand::{Rng, SeedableRng};
+        for (dimensions, points) in [(12, 256), (30, 512), (56, 1024)] {
+            let names: Vec<String> = (0..dimensions).map(|k| format!("d{k}")).collect();
+            let (mut ours, mut theirs) = (0.0, 0.0);
+            for seed in 0..8 {
+                let halton = Halton::new(seed, &names);
+                ours += worst_correlation(|dimension, point| halton.number(dimension, point), dimensions, points) / 8.0;
+                let mut generator = rand::rngs::ChaCha8Rng::seed_from_u64(seed);
+                let mut other = Halton::new(seed, &names);
+                for radix in &mut other.dimensions {
+                    for digit in radix.permutations.chunks_mut(radix.base as usize) {
+                        digit.shuffle(&mut generator);
+                    }
+                    radix.add_rests();
+                    let _ = generator.next_u64();
+                }
+                theirs +=
+                    worst_correlation(|dimension, point| other.number(dimension, point), dimensions, points) / 8.0;
+            }
+            println!("{dimensions} dimensions, {points} points: {ours:.3}, random permutations {theirs:.3}");
+            assert!(ours < 1.25 * theirs, "{dimensions}: {ours} {theirs}");
+        }
     }
 
     #[test]
