@@ -87,7 +87,9 @@ impl Quantile for EmpiricalQuantile {
                 let below = (position as usize).min(last);
                 let above = (below + 1).min(last);
                 let part = position - below as f64;
-                self.values[below] + part * (self.values[above] - self.values[below])
+                let (low, high) = (self.values[below], self.values[above]);
+                let width = high - low;
+                if width.is_finite() { low + part * width } else { (1.0 - part) * low + part * high }
             }
         }
     }
@@ -108,6 +110,8 @@ mod tests {
         assert_eq!([0.01, 0.33, 0.34, 0.66, 0.67, 0.99].map(|u| steps.quantile(u)), [1.0, 1.0, 2.0, 2.0, 5.0, 5.0]);
         let lines = EmpiricalQuantile::new(&[5.0, 1.0, 2.0], Interpolation::Linear);
         assert_eq!([0.25, 0.5, 0.75].map(|u| lines.quantile(u)), [1.5, 2.0, 3.5]);
+        let wide = EmpiricalQuantile::new(&[-1.7e308, 1.7e308], Interpolation::Linear);
+        assert!((wide.quantile(0.75) - 0.85e308).abs() < 1e293, "a width beyond the largest number");
         assert_eq!(EmpiricalQuantile::new(&[4.0], Interpolation::Linear).quantile(0.3), 4.0);
     }
 }

@@ -31,7 +31,9 @@ pub struct LogUniformQuantile {
 impl LogUniformQuantile {
     /// From `min` > 0 to `max` > `min`.
     pub fn new(min: f64, max: f64) -> Self {
-        LogUniformQuantile { min, max, log_ratio: libm::log(max / min) }
+        let ratio = max / min;
+        let log_ratio = if ratio.is_finite() { libm::log(ratio) } else { libm::log(max) - libm::log(min) };
+        LogUniformQuantile { min, max, log_ratio }
     }
 }
 
@@ -78,10 +80,27 @@ impl Scalar for LogUniform {
 impl Quantile for LogUniformQuantile {
     #[inline]
     fn quantile(&self, u: f64) -> f64 {
-        (self.min * libm::exp(u * self.log_ratio)).clamp(self.min, self.max)
+        let factor = libm::exp(u * self.log_ratio);
+        // a ratio beyond the largest number: the logarithm of the value is still a number
+        let value =
+            if factor.is_finite() { self.min * factor } else { libm::exp(libm::log(self.min) + u * self.log_ratio) };
+        value.clamp(self.min, self.max)
     }
 
     fn text(&self, short: &dyn Fn(f64) -> String) -> String {
         format!("log-uniform, {} to {}", short(self.min), short(self.max))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_ratio_beyond_the_largest_number_is_uniform_in_the_logarithm() {
+        let quantile = LogUniformQuantile::new(1e-300, 1e300);
+        for (u, expected) in [(0.25, 1e-150), (0.5, 1.0), (0.75, 1e150)] {
+            assert!((quantile.quantile(u) / expected - 1.0).abs() < 1e-12, "{u} {}", quantile.quantile(u));
+        }
     }
 }

@@ -1,7 +1,6 @@
 //! [`Target`]: the components that a distribution is for, and the checks that distributions share; [`JointTarget`], the same for
 //! distributions of several numbers together.
 
-use crate::math::vector::norm;
 use crate::sampling::error::{DispersionError, error};
 use crate::sampling::keys::Values;
 use crate::scene::Parameter;
@@ -194,11 +193,13 @@ impl JointTarget<'_> {
         self.refused("parameter", format!("{name:?}"), allowed, remedy)
     }
 
-    /// An axis of any length but zero.
+    /// An axis of any length but zero; one whose square would overflow or vanish is divided by its largest component.
     pub(super) fn axis(&self, axis: [f64; 3]) -> Result<[f64; 3], DispersionError> {
-        if norm(axis) == 0.0 {
+        let largest = axis.iter().fold(0.0f64, |largest, x| largest.max(x.abs()));
+        if largest == 0.0 {
             return self.refused("axis", format!("{axis:?}"), "a vector other than zero", "write it like [0, 0, 1]");
         }
-        Ok(axis)
+        let is_squared = (1e-150..1e150).contains(&largest);
+        Ok(if is_squared { axis } else { axis.map(|x| x / largest) })
     }
 }

@@ -51,14 +51,29 @@ impl Scalar for Triangular {
 impl Quantile for TriangularQuantile {
     fn quantile(&self, u: f64) -> f64 {
         let (rise, fall, width) = (self.mode - self.min, self.max - self.mode, self.max - self.min);
-        if u * width < rise {
-            self.min + (u * width * rise).sqrt()
-        } else {
-            self.max - ((1.0 - u) * width * fall).sqrt()
-        }
+        // a product of two lengths may be too large where each is a number
+        let mean = |part: f64, side: f64| {
+            let product = part * width * side;
+            if product.is_finite() { product.sqrt() } else { (part * width).sqrt() * side.sqrt() }
+        };
+        if u * width < rise { self.min + mean(u, rise) } else { self.max - mean(1.0 - u, fall) }
     }
 
     fn text(&self, short: &dyn Fn(f64) -> String) -> String {
         format!("triangular, {} to {}, mode {}", short(self.min), short(self.max), short(self.mode))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lengths_whose_product_is_too_large_give_the_same_shape() {
+        let unit = TriangularQuantile { min: -1.0, mode: 0.5, max: 1.0 };
+        let large = TriangularQuantile { min: -1e160, mode: 0.5e160, max: 1e160 };
+        for u in [0.1, 0.5, 0.9] {
+            assert!((large.quantile(u) / 1e160 - unit.quantile(u)).abs() < 1e-15, "{u}");
+        }
     }
 }

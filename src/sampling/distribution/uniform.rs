@@ -75,10 +75,24 @@ impl Scalar for Uniform {
 impl Quantile for UniformQuantile {
     #[inline]
     fn quantile(&self, u: f64) -> f64 {
-        self.min + u * (self.max - self.min)
+        let width = self.max - self.min;
+        if width.is_finite() { self.min + u * width } else { (1.0 - u) * self.min + u * self.max }
     }
 
     fn text(&self, short: &dyn Fn(f64) -> String) -> String {
         format!("uniform, {} to {}", short(self.min), short(self.max))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_width_beyond_the_largest_number_gives_finite_values() {
+        let quantile = UniformQuantile { min: -1.7e308, max: 1.7e308 };
+        for (u, expected) in [(0.25, -0.85e308), (0.5, 0.0), (0.75, 0.85e308)] {
+            assert!((quantile.quantile(u) - expected).abs() < 1e293, "{u}");
+        }
     }
 }
