@@ -367,4 +367,28 @@ mod tests {
             assert!(!exists(name, component), "{name}");
         }
     }
+
+    /// Law: what the schedule never commands has no effect, and cannot be dispersed.
+    #[test]
+    fn actuators_that_are_never_commanded_have_no_effect() {
+        let mut scene = full();
+        scene.actuation[0].thrust_n = [1.0, 0.0, 0.0];
+        scene.actuation[0].torque_n_m = [0.0, 1.0];
+        let acts = |name| {
+            let (parameter, component) = Parameter::find(name).expect("in the schema");
+            parameter.exists(&scene, component.unwrap_or(0))
+        };
+        for name in ["actuators.thrust_scale.1", "actuators.thruster1_tilt_rad", "actuators.torque_bias_n_m.2"] {
+            assert!(acts(name), "{name}");
+        }
+        for name in [
+            "actuators.thrust_scale.2",
+            "actuators.thruster2_tilt_rad",
+            "actuators.thruster3_tilt_rad",
+            "actuators.torque_scale.1",
+            "fuselage.thruster_offset_m",
+        ] {
+            assert!(!acts(name), "{name}");
+        }
+    }
 }

@@ -10,20 +10,22 @@ use crate::scene::input::SceneInput;
 
 const WHEELS: &[&[&str]] = &[&["1", "2"]];
 
-const REMEDY: &str = "add [[actuation]] tables, or the wheel's";
+const REMEDY: &str = "add [[actuation]] tables";
+const THRUSTER: &str = "command that thruster in an [[actuation]] table, or disperse only what is commanded";
+const MOTOR: &str = "command that motor in an [[actuation]] table, or disperse only what is commanded";
 
 rows! {
     /// What the actuators make of what the schedule commands; as a whole, for all of its arcs.
     pub struct ActuatorsInput in Actuators ["actuators"], actuators, actuators_mut {
     thrust_scale: [f64; 3] = [1.0; 3], "1", "Factors of the thrusts P1, P2, P3, never negative", AXES, Plain,
-        Limit::Thrust("write zero for a thruster that does not work"), (optional), schedule_acts, REMEDY;
+        Limit::Thrust("write zero for a thruster that does not work"), (optional), thruster_acts, THRUSTER;
     thruster1_tilt_rad: [f64; 2] = [0.0; 2], "rad",
         "Misalignment of P1: components along s1 and s2 of the rotation vector that turns the nominal direction of its thrust into the true one",
-        XY, Plain, Limit::Finite, (optional), schedule_acts, REMEDY;
+        XY, Plain, Limit::Finite, (optional), thruster1_acts, THRUSTER;
     thruster2_tilt_rad: [f64; 2] = [0.0; 2], "rad", "Misalignment of P2, like that of P1", XY, Plain, Limit::Finite,
-        (optional), schedule_acts, REMEDY;
+        (optional), thruster2_acts, THRUSTER;
     thruster3_tilt_rad: [f64; 2] = [0.0; 2], "rad", "Misalignment of P3, like that of P1", XY, Plain, Limit::Finite,
-        (optional), schedule_acts, REMEDY;
+        (optional), thruster3_acts, THRUSTER;
     switch_on_delay_s: f64 = 0.0, "s",
         "How much later than commanded arcs start; one that would start before the run starts with it", SCALAR, Plain,
         Limit::Finite, (optional), schedule_acts, REMEDY;
@@ -31,10 +33,10 @@ rows! {
         "How much later than commanded arcs end; where one arc starts as another ends there is one switch, which is late by switch_on_delay_s",
         SCALAR, Plain, Limit::Finite, (optional), schedule_acts, REMEDY;
     torque_scale: [f64; 2] = [1.0; 2], "1", "Factors of the motor torques", WHEELS, Plain, Limit::Finite, (optional),
-        motor_acts, REMEDY;
+        motor_acts, MOTOR;
     torque_bias_n_m: [f64; 2] = [0.0; 2], "N m",
         "What a motor gives beyond the scaled torque while a torque other than zero is commanded", WHEELS, Plain,
-        Limit::Finite, (optional), motor_acts, REMEDY;
+        Limit::Finite, (optional), motor_acts, MOTOR;
     } beside {}
 }
 
@@ -63,6 +65,24 @@ fn schedule_acts(scene: &SceneInput, _: usize, _: usize) -> bool {
     !scene.actuation.is_empty()
 }
 
+/// Whether the schedule ever fires a thruster.
+fn thruster_acts(scene: &SceneInput, _: usize, thruster: usize) -> bool {
+    scene.actuation.iter().any(|arc| arc.thrust_n[thruster] != 0.0)
+}
+
+fn thruster1_acts(scene: &SceneInput, instance: usize, _: usize) -> bool {
+    thruster_acts(scene, instance, 0)
+}
+
+fn thruster2_acts(scene: &SceneInput, instance: usize, _: usize) -> bool {
+    thruster_acts(scene, instance, 1)
+}
+
+fn thruster3_acts(scene: &SceneInput, instance: usize, _: usize) -> bool {
+    thruster_acts(scene, instance, 2)
+}
+
+/// Whether the schedule ever commands a motor.
 fn motor_acts(scene: &SceneInput, _: usize, wheel: usize) -> bool {
-    !scene.actuation.is_empty() && scene.wheels[wheel].is_some()
+    scene.wheels[wheel].is_some() && scene.actuation.iter().any(|arc| arc.torque_n_m[wheel] != 0.0)
 }

@@ -38,8 +38,8 @@ rows! {
     density_kg_m3: f64 = 2700.0, "kg/m^3", "Density sigma_s of the wall", SCALAR, Plain, Limit::Positive,
         (required "2700.0"), density_acts, HIDDEN;
     thruster_offset_m: f64 = 0.0, "m", "Distance rho_p of the thrusters P2 and P3 from the axis s3", SCALAR, Plain,
-        Limit::NotNegative, (required "0.5" if is_actuated), actuation_acts,
-        "add [[actuation]] tables: nothing else depends on it";
+        Limit::NotNegative, (required "0.5" if is_actuated), offset_acts,
+        "fire P2 or P3 in an [[actuation]] table: nothing else depends on it";
     mass_kg: Option<f64> = None, "kg", "Mass instead of the one that geometry gives", SCALAR, Plain, Limit::Positive,
         (optional), always, given!("mass_kg");
     center_of_mass_m: Option<[f64; 3]> = None, "m",
@@ -171,8 +171,13 @@ fn is_actuated(scene: &SceneInput) -> bool {
     !scene.actuation.is_empty()
 }
 
-fn actuation_acts(scene: &SceneInput, _: usize, _: usize) -> bool {
-    is_actuated(scene)
+/// Whether the schedule ever fires a thruster away from p: P2 or P3.
+fn fires_p2_or_p3(scene: &SceneInput) -> bool {
+    scene.actuation.iter().any(|arc| arc.thrust_n[1] != 0.0 || arc.thrust_n[2] != 0.0)
+}
+
+fn offset_acts(scene: &SceneInput, _: usize, _: usize) -> bool {
+    fires_p2_or_p3(scene)
 }
 
 fn has_inertia(fuselage: &FuselageInput) -> bool {
@@ -191,5 +196,5 @@ fn section_acts(scene: &SceneInput, _: usize, _: usize) -> bool {
 
 /// The length also gives the centre of mass and the station of the thrusters.
 fn length_acts(scene: &SceneInput, instance: usize, component: usize) -> bool {
-    section_acts(scene, instance, component) || scene.fuselage.center_of_mass_m.is_none() || is_actuated(scene)
+    section_acts(scene, instance, component) || scene.fuselage.center_of_mass_m.is_none() || fires_p2_or_p3(scene)
 }
