@@ -3,7 +3,7 @@
 use super::section::Limit;
 
 /// Largest number of samples of a campaign: ids stay exact in a double.
-pub const MAX_SAMPLES: u64 = crate::sampling::dispersions::MAX_SAMPLES;
+pub const MAX_SAMPLES: u64 = crate::sampling::design::MAX_SAMPLES;
 /// Largest seed: TOML integers are signed.
 pub const LARGEST_SEED: u64 = i64::MAX as u64;
 /// Largest number of observation points of a run: each worker holds the states at all of them (some 40 numbers each).

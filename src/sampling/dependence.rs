@@ -151,17 +151,23 @@ impl Correlation {
         for i in 0..n {
             if (scores[i][i] - 1.0).abs() > SAME {
                 let (value, allowed) = (format!("{:?}", matrix[i][i]), "1 on the diagonal".to_owned());
-                return refused(
-                    key,
-                    value,
-                    allowed,
-                    "a parameter is correlated with itself by 1; covariances have a key of their own",
-                );
+                let remedy = "a parameter is correlated with itself by 1; for covariances write the key covariance";
+                return refused(key, value, allowed, remedy);
             }
             scores[i][i] = 1.0;
             if let Some(j) = (0..n).find(|j| scores[i][*j].abs() > 1.0 + SAME) {
                 let allowed = "made of correlations from -1 to 1".to_owned();
-                return refused(key, format!("{:?}", matrix[i][j]), allowed, "covariances have a key of their own");
+                let (value, remedy) = match &self.dependence {
+                    Dependence::Covariance(_) => {
+                        let r = scores[i][j];
+                        (
+                            format!("{:?} (a correlation of {r:?})", matrix[i][j]),
+                            "at most the product of the two standard deviations",
+                        )
+                    }
+                    _ => (format!("{:?}", matrix[i][j]), "for covariances write the key covariance"),
+                };
+                return refused(key, value, allowed, remedy);
             }
         }
         if matches!(self.dependence, Dependence::Ranks(_)) {
@@ -292,7 +298,11 @@ impl Dispersions {
             let written = self.columns[column].nominal;
             let near = (at_nominal - written).abs() <= NOMINAL_SLACK * at_nominal.abs().max(written.abs());
             // a nominal that is not a number is the scene's error
-            if !near && written.is_finite() {
+            if !at_nominal.is_finite() && written.is_finite() {
+                let allowed = "a finite number in the nominal scene".to_owned();
+                let remedy = "a division by zero, or a root or logarithm of a negative number: change the expression";
+                errors.push(error_of(Table::Derive(index), "expression", format!("{at_nominal:?}"), allowed, remedy));
+            } else if !near && written.is_finite() {
                 let allowed = format!(
                     "equal to the nominal {} = {written:?} in the nominal scene",
                     parameter.component_name(component)

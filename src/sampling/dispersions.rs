@@ -3,7 +3,7 @@
 
 use super::copula::Copula;
 use super::dependence::{Correlation, Derivation, Derived};
-use super::design::{Design, Dimensions, Points, Size};
+use super::design::{Design, Dimensions, MAX_SAMPLES, Points, Size};
 use super::distribution::target::{JointTarget, Target};
 use super::distribution::{Distribution, Joint, Map, Quantile, WrittenDistribution};
 use super::error::{DispersionError, Table, error, error_of};
@@ -227,10 +227,11 @@ impl Dispersions {
             return refused("a key that the scene has", parameter.remedy());
         }
         let is_taken = |column: usize| self.tabled.iter().any(|(tabled, _)| *tabled == column);
-        if self.distribution_at((parameter, component)).is_some()
-            || self.column_of((parameter, component)).is_some_and(is_taken)
-        {
+        if self.distribution_at((parameter, component)).is_some() {
             return refused("given a value once", "delete its [[disperse]] table, or take it out of parameters");
+        }
+        if self.column_of((parameter, component)).is_some_and(is_taken) {
+            return refused("given a value once", "name it once; the file may have it under two names");
         }
         if parameter.shape() == Shape::Quaternion {
             (0..parameter.width()).for_each(|component| {
@@ -357,6 +358,3 @@ fn fitting_samples(design: &Design, samples: Option<u64>, drawn: &Dispersions) -
         (Some(samples), _) => Ok(samples),
     }
 }
-
-/// Largest number of samples of a campaign: ids stay exact in a double.
-pub const MAX_SAMPLES: u64 = 1 << 53;

@@ -175,7 +175,26 @@ const CASES: &[&str] = &[
             "[[correlate]]\nparameters = [\"fuselage.density_kg_m3\", \"wheel1.radius_m\"]\ncorrelation = [[1, 0.5], [0.5, 1]]"
         )
     ),
+    concat!(
+        "[design]\nkind = \"grid\"\nlevels = 5\n",
+        pair!(
+            "[[correlate]]\nparameters = [\"fuselage.density_kg_m3\", \"wheel1.radius_m\"]\ncorrelation = [[1, 0.5], [0.5, 1]]"
+        )
+    ),
+    concat!(
+        "[design]\nkind = \"latin_hypercube\"\n",
+        pair!(
+            "[[correlate]]\nparameters = [\"fuselage.density_kg_m3\", \"wheel1.radius_m\"]\ncorrelation = [[1, 0.5], [0.5, 1]]"
+        )
+    ),
+    concat!(
+        "[design]\nkind = \"saltelli\"\n",
+        pair!(
+            "[[correlate]]\nparameters = [\"fuselage.density_kg_m3\", \"wheel1.radius_m\"]\ncorrelation = [[1, 0.5], [0.5, 1]]"
+        )
+    ),
     // derived
+    "[[derive]]\nparameter = \"wheel1.radius_m\"\nexpression = \"0.25 / initial.position_m.x\"\n",
     "[[derive]]\nparameter = \"wheel1.radius_m\"\n",
     "[[derive]]\nparameter = \"wheel1.radius_m\"\nexpression = \"2 *\"\n",
     "[[derive]]\nparameter = \"wheel1.radius_m\"\nexpression = \"wheel1.radius\"\n",

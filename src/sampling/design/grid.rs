@@ -45,6 +45,10 @@ impl PointSource for Grid {
 impl Kind for GridDesign {
     const NAME: &'static str = "grid";
     const HAS_SIZE: bool = true;
+    const EXCLUDES_CORRELATION: Option<[&'static str; 2]> = Some([
+        "a design for correlated parameters: with [[correlate]] the levels would not be those that were asked",
+        "delete [[correlate]], or use sobol",
+    ]);
     type Points = Grid;
 
     fn read(keys: &mut dyn KeyReader) -> Option<Self> {

@@ -97,6 +97,10 @@ impl Kind for LatinHypercubeDesign {
         "whose strata are 1/(samples - 1) wide",
         "write samples in the file for a hypercube of that size, or use sobol, whose rows stay",
     ]);
+    const EXCLUDES_CORRELATION: Option<[&'static str; 2]> = Some([
+        "a design for correlated parameters: with [[correlate]] only the first would stay stratified",
+        "delete [[correlate]], or use sobol",
+    ]);
     type Points = LatinHypercube;
 
     fn read(_keys: &mut dyn KeyReader) -> Option<Self> {

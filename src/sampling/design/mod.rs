@@ -30,7 +30,7 @@ pub mod sobol;
 pub mod table;
 pub mod traits;
 
-pub use traits::{BLOCK, Dimensions, Kind, NOMINAL, PointSource, Size};
+pub use traits::{BLOCK, Dimensions, Kind, MAX_SAMPLES, NOMINAL, PointSource, Size};
 
 use self::grid::GridDesign;
 use self::halton::HaltonDesign;

@@ -6,7 +6,7 @@
 //! j div (k + 2), and adding blocks leaves the earlier ones as they are.
 
 use super::sobol::{MAX_DIMENSIONS, Sobol};
-use super::traits::{BLOCK, Dimensions, Kind, PointSource, by_point};
+use super::traits::{BLOCK, Dimensions, Kind, MAX_SAMPLES, PointSource, by_point};
 use crate::sampling::error::{DispersionError, Table, error_of};
 use crate::sampling::keys::{KeyReader, KeyWriter};
 
@@ -52,6 +52,10 @@ pub struct SaltelliDesign;
 impl Kind for SaltelliDesign {
     const NAME: &'static str = "saltelli";
     const MAX_DIMENSIONS: usize = MAX_DIMENSIONS / 2;
+    const EXCLUDES_CORRELATION: Option<[&'static str; 2]> = Some([
+        "a design for correlated parameters: indices of variance are defined for independent ones",
+        "delete [[correlate]], or use sobol",
+    ]);
     type Points = Saltelli;
 
     fn read(_keys: &mut dyn KeyReader) -> Option<Self> {
@@ -68,7 +72,8 @@ impl Kind for SaltelliDesign {
                 let allowed = format!(
                     "1 and a multiple of {members}: the nominal scene and whole blocks of the distributions and two more"
                 );
-                let remedy = format!("write {below} or {}", below + members);
+                let above = Some(below + members).filter(|above| *above <= MAX_SAMPLES);
+                let remedy = above.map_or(format!("write {below}"), |above| format!("write {below} or {above}"));
                 Err(error_of(Table::Campaign, "samples", samples.to_string(), allowed, remedy))
             }
             _ => Ok(()),

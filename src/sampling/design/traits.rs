@@ -8,6 +8,9 @@ use std::fmt::Debug;
 /// Samples of a block: block b has the samples 8 b ... 8 b + 7.
 pub const BLOCK: usize = 8;
 
+/// Largest number of samples of a campaign: ids stay exact in a double.
+pub const MAX_SAMPLES: u64 = 1 << 53;
+
 /// In place of u where a dimension keeps its nominal value.
 pub const NOMINAL: f64 = f64::NAN;
 
