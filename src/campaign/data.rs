@@ -1,8 +1,8 @@
-//! [`DataFile`]: named columns of numbers in a CSV or Parquet file that a campaign names: values of an empirical law, rows of a
+//! [`DataFile`]: named columns of numbers in a CSV or Parquet file that a campaign names: values of an empirical distribution, rows of a
 //! table of samples.
 //!
 //! A path counts from the folder of the campaign file. What a plan keeps of a file is its name and the SHA-256 of its bytes,
-//! so that a plan's identity holds its data.
+//! so that a plan's identity includes its data.
 
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::{Field, Row};
@@ -63,9 +63,9 @@ impl DataFile {
     /// # Errors
     /// The first cell that is not a finite number, or that there is none.
     pub fn column(&self, name: &str) -> Option<Result<Vec<f64>, Refusal>> {
-        let place = self.names.iter().position(|known| known == name)?;
-        let mut numbers = Vec::with_capacity(self.columns[place].len());
-        for (row, cell) in self.columns[place].iter().enumerate() {
+        let index = self.names.iter().position(|known| known == name)?;
+        let mut numbers = Vec::with_capacity(self.columns[index].len());
+        for (row, cell) in self.columns[index].iter().enumerate() {
             match cell {
                 Ok(number) if number.is_finite() => numbers.push(*number),
                 other => {

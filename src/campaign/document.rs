@@ -62,12 +62,12 @@ impl<'a> Document<'a> {
         table.into_inner()
     }
 
-    /// Whether `key`, or a table that holds it, or a key in it, has a problem already.
+    /// Whether `key`, or a table that contains it, or a key in it, has a problem already.
     pub fn is_reported(&self, key: &str) -> bool {
-        let holds = |outer: &str, inner: &str| {
+        let contains = |outer: &str, inner: &str| {
             inner == outer || inner.strip_prefix(outer).is_some_and(|rest| rest.starts_with(['.', '[']))
         };
-        self.problems.iter().any(|problem| holds(&problem.key, key) || holds(key, &problem.key))
+        self.problems.iter().any(|problem| contains(&problem.key, key) || contains(key, &problem.key))
     }
 
     /// Notes a problem of `key`, on the line of that key or of the nearest table around it.
@@ -120,7 +120,7 @@ impl<'a> Document<'a> {
     }
 }
 
-/// At most 60 letters of one line.
+/// At most 60 characters of one line.
 fn shortened(text: &str) -> String {
     let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
     match line.char_indices().nth(60) {

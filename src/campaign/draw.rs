@@ -1,4 +1,4 @@
-//! [`SceneDraws`]: from a plan and the number of a sample to its scene, the only way there is.
+//! [`SceneDraws`]: from a plan and the number of a sample to its scene; nothing else draws scenes.
 
 use super::plan::Plan;
 use crate::sampling::{SampleId, Sampler};
@@ -40,7 +40,7 @@ impl<'p> SceneDraws<'p> {
     }
 
     /// The same into `scenes[index]`, which is reused if it is there and else added; whether the scene is physical. Where it is
-    /// not, a scene that is there stays as it was.
+    /// not, an existing scene stays as it was.
     pub fn scene_at(&mut self, sample: SampleId, scenes: &mut Vec<Scene>, index: usize) -> bool {
         self.sampler.draw(sample, &mut self.input, &mut self.applied);
         match scenes.get_mut(index) {

@@ -6,7 +6,7 @@ use super::section::Limit;
 pub const MAX_SAMPLES: u64 = crate::sampling::design::MAX_SAMPLES;
 /// Largest seed: TOML integers are signed.
 pub const LARGEST_SEED: u64 = i64::MAX as u64;
-/// Largest number of observation points of a run: each worker holds the states at all of them (some 40 numbers each).
+/// Largest number of observation points of a run: each worker stores the states at all of them (some 40 numbers each).
 pub const MAX_POINTS: u64 = 10_000_000;
 /// Tolerances between a few units in the last place and the point where nothing is accurate any more.
 pub const TOLERANCE: Limit = Limit {

@@ -46,7 +46,7 @@ pub struct Plan {
     pub derived: Vec<Derivation>,
     /// The dispersions ready to be drawn.
     pub dispersions: Dispersions,
-    /// Share of the samples that are audited: run again exactly, and compared.
+    /// Fraction of the samples that are audited: compared with a reference solution.
     pub audit_fraction: f64,
     /// Compression of the files of rows.
     pub compression: Compression,
@@ -143,7 +143,7 @@ impl Plan {
     }
 }
 
-/// A plan that is missing without a problem cannot be: said as an error all the same.
+/// A plan that is missing although no problem was found: impossible, and reported as an error.
 fn unreachable_plan(file: &str) -> CampaignError {
     CampaignError {
         problems: vec![Problem {
@@ -158,9 +158,9 @@ fn unreachable_plan(file: &str) -> CampaignError {
 }
 
 fn override_spec(spec: &mut Spec, overrides: Overrides, document: &mut Document<'_>) {
-    let mut check = |flag: &str, value: Option<u64>, least: u64, most: u64| {
-        if let Some(value) = value.filter(|value| !(least..=most).contains(value)) {
-            let allowed = format!("a whole number from {least} to {most}");
+    let mut check = |flag: &str, value: Option<u64>, min: u64, max: u64| {
+        if let Some(value) = value.filter(|value| !(min..=max).contains(value)) {
+            let allowed = format!("a whole number from {min} to {max}");
             document.add(flag, Some(value.to_string()), allowed, "write a number within this range");
         }
     };
@@ -193,7 +193,7 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
     let relative = spec.relative_tolerance.or(spec.tolerance).unwrap_or(TOLERANCE);
     let absolute = spec.absolute_tolerance.or(spec.tolerance).unwrap_or(TOLERANCE);
     if spec.tolerance.is_some() && spec.relative_tolerance.is_some() && spec.absolute_tolerance.is_some() {
-        let both = "left out beside relative_tolerance and absolute_tolerance";
+        let both = "left out where relative_tolerance and absolute_tolerance are given";
         document.add(
             "integrator.tolerance",
             spec.tolerance.map(|x| format!("{x:?}")),
@@ -249,7 +249,7 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
     })
 }
 
-/// What could be read of the tables that say what is drawn, each with its place in the file: errors name a table by its place
+/// The tables of draws that could be read, each with its index in the file: errors name a table by its index
 /// among those that could be read.
 struct Drawn {
     dispersed: (Vec<usize>, Vec<Dispersion>),
@@ -263,10 +263,10 @@ impl Drawn {
         correlate: Vec<Option<Correlation>>,
         derive: Vec<Option<Derivation>>,
     ) -> Self {
-        fn placed<T>(list: Vec<Option<T>>) -> (Vec<usize>, Vec<T>) {
-            list.into_iter().enumerate().filter_map(|(place, item)| item.map(|item| (place, item))).unzip()
+        fn indexed<T>(list: Vec<Option<T>>) -> (Vec<usize>, Vec<T>) {
+            list.into_iter().enumerate().filter_map(|(index, item)| item.map(|item| (index, item))).unzip()
         }
-        Drawn { dispersed: placed(disperse), correlated: placed(correlate), derived: placed(derive) }
+        Drawn { dispersed: indexed(disperse), correlated: indexed(correlate), derived: indexed(derive) }
     }
 
     /// The dotted path of a key in the file.
@@ -281,7 +281,7 @@ impl Drawn {
     }
 }
 
-/// A fixed step where the method has one, and none where it has not.
+/// A fixed step where the method has one, and none elsewhere.
 fn check_step(spec: &Spec, method: Method, document: &mut Document<'_>) {
     const KEY: &str = "integrator.step_s";
     if document.is_reported(KEY) {

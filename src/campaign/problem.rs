@@ -53,7 +53,7 @@ impl Display for CampaignError {
 
 impl std::error::Error for CampaignError {}
 
-/// The candidate that `written` probably means: one that contains it, or else the one with the least changes of letters, if
+/// The candidate that `written` probably means: one that contains it, or else the one with the fewest changes of letters, if
 /// these are at most a third of them.
 pub fn nearest<'a>(written: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let candidates: Vec<&str> = candidates.into_iter().collect();

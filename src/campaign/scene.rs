@@ -94,11 +94,11 @@ const TENSOR: &str = "inertia_kg_m2";
 fn exclude_inertias(section: &mut Section<'_, '_>) {
     let written: Vec<&str> = [MOMENTS, SECOND].into_iter().filter(|key| section.has(key)).collect();
     if let [first, second] = written[..] {
-        section.refuse(second, format!("left out beside {first}"), "delete one of the two");
+        section.refuse(second, format!("left out where {first} is given"), "delete one of the two");
     }
     match written.first() {
         Some(first) if section.has(TENSOR) => {
-            section.refuse(TENSOR, format!("left out beside {first}"), "delete one of the two");
+            section.refuse(TENSOR, format!("left out where {first} is given"), "delete one of the two");
         }
         None if section.has("principal_axes") => {
             let allowed = "left out where there are no principal moments";
@@ -114,7 +114,7 @@ fn exclude_shapes(section: &mut Section<'_, '_>) {
     let inertias = [TENSOR, MOMENTS, SECOND];
     if !["mass_kg"].iter().chain(&inertias).any(|key| section.has(key)) {
         if section.has("side_m") && section.has("size_m") {
-            section.refuse("size_m", "left out beside side_m", "delete side_m or size_m");
+            section.refuse("size_m", "left out where side_m is given", "delete side_m or size_m");
         }
         return;
     }
@@ -122,7 +122,7 @@ fn exclude_shapes(section: &mut Section<'_, '_>) {
         section.refuse(key, "left out where the debris is given by mass and inertia", "delete this line");
     }
     if !inertias.iter().any(|key| section.has(key)) {
-        let allowed = format!("given beside mass_kg (or {MOMENTS}, {SECOND})");
+        let allowed = format!("given with mass_kg (or {MOMENTS}, {SECOND})");
         section.require(TENSOR, &allowed, "[[3, 0, 0], [0, 3, 0], [0, 0, 2]]");
     }
 }

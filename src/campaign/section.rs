@@ -325,7 +325,7 @@ pub fn choice(written: &str, names: &[&str]) -> (String, String) {
     (format!("one of {}", names.join(", ")), remedy)
 }
 
-/// The number that an integer or a float stands for; NaN and infinities too.
+/// The number of an integer or a float; NaN and infinities too.
 pub(super) fn number(value: &DeValue<'_>) -> Option<f64> {
     match value {
         DeValue::Float(float) => float.as_str().parse().ok(),

@@ -61,13 +61,13 @@ impl Spec {
     pub fn read(document: &mut Document<'_>) -> Spec {
         let table = document.parse();
         let mut root = Section::root(document, &table);
-        for (key, holds) in [
+        for (key, content) in [
             ("campaign", "a table with name, samples, seed, duration_s"),
             ("fuselage", "a table with the fuselage's sizes and density"),
             ("initial", "a table with the state at time zero"),
         ] {
             if !root.has(key) {
-                root.document.add(key, None, holds, format!("add a [{key}] table"));
+                root.document.add(key, None, content, format!("add a [{key}] table"));
             }
         }
 

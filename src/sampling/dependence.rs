@@ -68,7 +68,7 @@ impl Derived {
     /// The value, where `column` gives the values of other columns.
     #[inline]
     pub fn value(&self, column: impl Fn(usize) -> f64) -> f64 {
-        self.expression.value(|place| match self.sources[place] {
+        self.expression.value(|index| match self.sources[index] {
             Source::Column(index) => column(index),
             Source::Nominal(value) => value,
         })
@@ -107,7 +107,7 @@ impl Correlation {
             };
             let earlier = drawn.copulas.iter().any(|copula| copula.dimensions.contains(&first));
             if earlier || dimensions.contains(&first) {
-                let allowed = "correlated in one place".to_owned();
+                let allowed = "correlated in one table".to_owned();
                 return refused("parameters", name(*component), allowed, "put all of its correlations into one matrix");
             }
             dimensions.push(first);

@@ -1,6 +1,6 @@
 //! [`SceneInput`]: a scene as written, number by number, before anything is derived or checked.
 //!
-//! This is what a campaign file holds and what a dispersion changes: plain SI numbers, no serde. The structures and their
+//! This is the content of a campaign file, and what a dispersion changes: plain SI numbers, no serde. The structures and their
 //! defaults come from [`super::schema`]. [`super::Scene::resolve`] turns a scene into a [`super::Scene`] or says why it is not
 //! physical.
 

@@ -110,7 +110,7 @@ impl Scene {
             return sum(of(0), sum(of(1), of(2)));
         }
         let force = thrust[0] - thrust[1] - thrust[2];
-        // about p, then less c x F
+        // about p, minus c x F
         [self.thruster_offset * (thrust[1] - thrust[2]) - c[1] * force, c[0] * force, 0.0]
     }
 }

@@ -289,13 +289,13 @@ mod tests {
                 let mut scene = nominal.clone();
                 parameter.set(&mut scene, component, 42.5);
                 for other in Parameter::all() {
-                    for place in 0..other.width() {
-                        let expected = if (other, place) == (parameter, component) {
+                    for index in 0..other.width() {
+                        let expected = if (other, index) == (parameter, component) {
                             Some(42.5)
                         } else {
-                            other.value(nominal, place)
+                            other.value(nominal, index)
                         };
-                        assert_eq!(other.value(&scene, place), expected, "{} {component}", parameter.name());
+                        assert_eq!(other.value(&scene, index), expected, "{} {component}", parameter.name());
                     }
                 }
                 assert!(columns.insert(parameter.column_name(component)));

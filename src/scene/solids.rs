@@ -1,7 +1,7 @@
 //! Mass, centre and inertia of homogeneous solids in closed form.
 //!
 //! Source: Berdoz, *Final Report - ADR Spacecraft*, (60)-(67). Every formula is a sum of positive parts (shell and end plates,
-//! never a big solid less a small one), so that each result is good to a few units in the last place: after thousands of
+//! never a large solid minus a small one), so that each result is good to a few units in the last place: after thousands of
 //! radians an error of J is an error of the attitude, multiplied.
 //!
 //! Not here: bodies put together ([`super::mass`]), and what sizes are allowed ([`super::check`]).
@@ -12,13 +12,13 @@ use crate::math::Real;
 /// pi - fl(pi): what a type wider than `f64` adds to `f64`'s pi.
 const PI_LOW: f64 = 1.224_646_799_147_353_2e-16;
 
-/// pi, to about 107 bits where the type holds them.
+/// pi, to about 107 bits where the type has as many.
 #[inline(always)]
 fn pi<R: Real>(one: R) -> R {
     one.splat(core::f64::consts::PI) + one.splat(PI_LOW)
 }
 
-/// A matrix with `diagonal` and zeros beside it.
+/// A matrix with `diagonal` and zeros elsewhere.
 #[inline(always)]
 fn diagonal<R: Real>(diagonal: [R; 3]) -> [[R; 3]; 3] {
     let zero = diagonal[0].zero();

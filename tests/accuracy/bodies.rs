@@ -74,14 +74,14 @@ fn contradictions_are_refused_by_key_with_a_remedy() {
             CUBE,
             "",
             "fuselage.inertia_kg_m2",
-            "left out beside principal_moments",
+            "left out where principal_moments",
         ),
         (
             "principal_moments_kg_m2 = [3, 3, 2]\nprincipal_second_moments_kg_m2 = [1, 1, 1]",
             CUBE,
             "",
             "fuselage.principal_second_moments_kg_m2",
-            "left out beside",
+            "left out where",
         ),
         ("principal_axes = [1, 0, 0, 0]", CUBE, "", "fuselage.principal_axes", "no principal moments"),
         (
@@ -93,7 +93,7 @@ fn contradictions_are_refused_by_key_with_a_remedy() {
         ),
         ("mass_scale = 0", CUBE, "", "fuselage.mass_scale", "above zero"),
         ("stretch_log = [0, 0]", CUBE, "", "fuselage.stretch_log", "3 finite numbers"),
-        ("", "mass_kg = 3", "", "debris.inertia_kg_m2", "given beside mass_kg"),
+        ("", "mass_kg = 3", "", "debris.inertia_kg_m2", "given with mass_kg"),
         (
             "",
             &*format!("mass_kg = 3\nside_m = 0.2\n{unit}"),
@@ -102,7 +102,13 @@ fn contradictions_are_refused_by_key_with_a_remedy() {
             "left out where the debris is given by mass",
         ),
         ("", unit, "", "debris.mass_kg", "add mass_kg"),
-        ("", "side_m = 0.2\nsize_m = [1, 1, 1]\ndensity_kg_m3 = 1", "", "debris.size_m", "left out beside side_m"),
+        (
+            "",
+            "side_m = 0.2\nsize_m = [1, 1, 1]\ndensity_kg_m3 = 1",
+            "",
+            "debris.size_m",
+            "left out where side_m is given",
+        ),
         ("", CUBE, ACTUATORS, "actuators", "no [[actuation]]"),
         (
             "",

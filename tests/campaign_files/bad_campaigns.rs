@@ -221,7 +221,7 @@ const CASES: &[(&str, &str, &str)] = &[
     (
         "side_m = 0.2",
         "side_m = 0.2\nsize_m = [1, 1, 1]",
-        "bad.toml:24: debris.size_m = [1, 1, 1]: must be left out beside side_m; delete side_m or size_m",
+        "bad.toml:24: debris.size_m = [1, 1, 1]: must be left out where side_m is given; delete side_m or size_m",
     ),
     (
         "side_m = 0.2",

@@ -150,7 +150,7 @@ mod tests {
         assert_eq!(primes(512)[511], 3671);
     }
 
-    /// Law: of any b^m consecutive points from a multiple of b^m one lies in each interval of width b^-m.
+    /// Law: of any b^m consecutive points from a multiple of b^m one is in each interval of width b^-m.
     #[test]
     fn each_interval_holds_one_point() {
         let names: Vec<String> = (0..40).map(|k| format!("d{k}")).collect();

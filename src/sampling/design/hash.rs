@@ -18,10 +18,10 @@ pub const fn keyed(key: u64, counter: u64) -> u64 {
     mix(key ^ mix(counter.wrapping_mul(GOLDEN).wrapping_add(GOLDEN)))
 }
 
-/// A whole number below `most` > 0 from a hash; the bias is below `most`/2^64.
+/// A whole number below `bound` > 0 from a hash; the bias is below `bound`/2^64.
 #[inline(always)]
-pub const fn below(hash: u64, most: u64) -> u64 {
-    ((hash as u128 * most as u128) >> 64) as u64
+pub const fn below(hash: u64, bound: u64) -> u64 {
+    ((hash as u128 * bound as u128) >> 64) as u64
 }
 
 #[cfg(test)]

@@ -17,7 +17,7 @@ pub const MAX_DIMENSIONS: usize = 512;
 /// Bits that are scrambled one by one.
 const NESTED: u32 = 32;
 
-/// d, s, a, m_1 ... m_s of each dimension but the first; see the licence beside it.
+/// d, s, a, m_1 ... m_s of each dimension but the first; see the licence in the same folder.
 const DIRECTIONS: &str = include_str!("../../../assets/joe-kuo-6.512");
 
 /// The scrambled sequence in some dimensions.
@@ -130,10 +130,10 @@ mod tests {
     #[test]
     fn unscrambled_points_are_those_of_scipy() {
         let sobol = Sobol::new(0, &names(512));
-        let place = |dimension: usize, point: u64| sobol.bits(dimension - 1, point) >> 44;
+        let leading = |dimension: usize, point: u64| sobol.bits(dimension - 1, point) >> 44;
         let expected: &[(u64, [u64; 6])] = &SCIPY;
         for (point, row) in expected {
-            assert_eq!([1, 2, 3, 10, 100, 512].map(|dimension| place(dimension, *point)), *row, "point {point}");
+            assert_eq!([1, 2, 3, 10, 100, 512].map(|dimension| leading(dimension, *point)), *row, "point {point}");
         }
     }
 
@@ -144,7 +144,7 @@ mod tests {
         (1000, [97280, 168960, 472064, 128000, 525312, 683008]),
     ];
 
-    /// Law of a scrambled net: of the first 2^m points exactly one lies in each of the 2^m intervals of each dimension, and in the
+    /// Law of a scrambled net: of the first 2^m points exactly one is in each of the 2^m intervals of each dimension, and in the
     /// first two dimensions (a (0, m, 2)-net) exactly one in each box of area 2^-m.
     #[test]
     fn a_scrambled_net_is_a_net() {

@@ -19,7 +19,7 @@ rows! {
     torque_n_m: [f64; 2] = [0.0; 2], "N m",
         "Motor torques tau^W1, tau^W2 on the wheels about their axes; the fuselage feels the opposite", WHEELS, Plain,
         Limit::Finite, (optional), always, "";
-    } beside {}
+    } others {}
 }
 
 /// The rows of `[[actuation]]`.

@@ -37,11 +37,11 @@ rows! {
     torque_bias_n_m: [f64; 2] = [0.0; 2], "N m",
         "What a motor gives beyond the scaled torque while a torque other than zero is commanded", WHEELS, Plain,
         Limit::Finite, (optional), motor_acts, MOTOR;
-    } beside {}
+    } others {}
 }
 
 impl ActuatorsInput {
-    /// Actuators that do as they are told.
+    /// Ideal actuators: thrust and torque as commanded.
     pub const IDEAL: ActuatorsInput = ActuatorsInput::DEFAULT;
 
     /// The misalignments of P1, P2, P3, rad.

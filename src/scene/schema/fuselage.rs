@@ -48,7 +48,7 @@ rows! {
     inertia_kg_m2: Option<[[f64; 3]; 3]> = None, "kg m^2",
         "Inertia tensor about the fuselage's own centre of mass in F_s, by rows, instead of the one that geometry gives",
         SYMMETRIC, Symmetric, Limit::Inertia, (optional), always, given!("inertia_kg_m2");
-    } beside {
+    } others {
         /// The same inertia by principal moments and axes; at most one of the two is given.
         principal: Option<PrincipalInertia> = None,
         /// How the true distribution of mass differs from all of the above.
@@ -76,7 +76,7 @@ rows! {
         Plain, Limit::Finite, (optional), always, "";
     center_offset_m: [f64; 3] = [0.0; 3], "m", "Offset of the centre of mass, components in F_s", XYZ, Plain,
         Limit::Finite, (optional), always, "";
-    } beside {}
+    } others {}
 }
 
 impl MassErrors {

@@ -36,7 +36,7 @@ rows! {
     debris_relative_angular_velocity_rad_s: [f64; 3] = [0.0; 3], "rad/s",
         "Angular velocity omega^ds of the debris relative to the spacecraft, in F_d", XYZ, Plain, Limit::Finite,
         (optional if has_debris), always, DEBRIS;
-    } beside {}
+    } others {}
 }
 
 /// The rows of `[initial]`.

@@ -122,7 +122,7 @@ pub enum Presence {
     Required(&'static str),
     /// Only where the scene says so.
     RequiredIf(fn(&SceneInput) -> bool, &'static str),
-    /// Never: the default of the input structure holds where it is left out.
+    /// Never: where it is left out, the default of the input structure applies.
     Optional,
 }
 

@@ -36,7 +36,7 @@ macro_rules! gate {
 /// key: type = default, "unit", "meaning", components, shape, limit, (presence), acts, "remedy";
 /// ```
 ///
-/// and `of` and `of_mut` give the structure in a scene; `beside` lists fields that are not numbers.
+/// and `of` and `of_mut` give the structure in a scene; `others` lists fields that are not numbers.
 macro_rules! rows {
     (
         $(#[$doc:meta])*
@@ -45,7 +45,7 @@ macro_rules! rows {
             $key:ident: $type:ty = $default:expr, $unit:literal, $meaning:literal,
             $components:expr, $shape:ident, $limit:expr, ($($presence:tt)+), $acts:path, $remedy:expr;
         )*
-        } beside { $( $(#[$field_doc:meta])* $field:ident: $field_type:ty = $field_default:expr, )* }
+        } others { $( $(#[$field_doc:meta])* $field:ident: $field_type:ty = $field_default:expr, )* }
     ) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, PartialEq)]

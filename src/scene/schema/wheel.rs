@@ -28,7 +28,7 @@ rows! {
     tilt_rad: [f64; 2] = [0.0; 2], "rad",
         "Alignment error of the spin axis: the rotation vector, in F_s, that turns the nominal axis (s2 of W1, s3 of W2) into the true one; its two components across the nominal axis, (s1, s3) of W1, (s1, s2) of W2",
         ACROSS, Plain, Limit::Finite, (optional), always, REMEDY;
-    } beside {
+    } others {
         /// What the wheel does when no torque is scheduled for it.
         mode: WheelMode = WheelMode::Free,
     }
