@@ -5,7 +5,7 @@
 //!   serde's derive, which stops at the first error and knows no line of a key that passed.
 //! - [`spec`]: the keys of a campaign file; [`scene`]: those of the scene, from [`crate::scene::schema`]; [`disperse`],
 //!   [`design`], [`dependence`]: those that say what is drawn; [`keys`]: how a distribution or a design reads its own;
-//!   [`data`], [`data_keys`]: files of numbers; [`parameter`]: names of parameters; [`limits`].
+//!   [`data`], [`data_keys`]: files of numbers; [`parameter`]: names of parameters; [`limits`]; [`compression`].
 //! - [`plan`]: defaults filled in, scene and dispersions checked against each other.
 //! - [`mod@draw`]: from a plan and the number of a sample to its scene.
 //! - [`canonical`], [`canonical_draws`], [`lines`]: the plan as text that reads back to the same plan, and its hash.
@@ -15,6 +15,7 @@
 
 pub mod canonical;
 pub mod canonical_draws;
+pub mod compression;
 pub mod data;
 mod data_keys;
 pub mod dependence;
@@ -34,8 +35,9 @@ mod scene;
 pub mod section;
 pub mod spec;
 
+pub use compression::Compression;
 pub use draw::{SceneDraws, draw};
 pub use find::find;
-pub use plan::{Compression, Overrides, Plan};
+pub use plan::{Overrides, Plan};
 pub use problem::{CampaignError, Problem};
 pub use spec::Spec;

@@ -1,6 +1,7 @@
 //! [`Plan`]: what will run. Defaults are filled in, scene and dispersions are checked; a row is a pure function of the plan and
 //! a sample's id.
 
+use super::compression::Compression;
 use super::document::Document;
 use super::limits::{FRACTION, LARGEST_SEED, MAX_SAMPLES};
 use super::problem::{CampaignError, Problem};
@@ -50,36 +51,6 @@ pub struct Plan {
     pub audit_fraction: f64,
     /// Compression of the files of rows.
     pub compression: Compression,
-}
-
-/// Compression of the files of rows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Compression {
-    /// LZ4: nearly as small as Zstandard, twice as fast to write.
-    Lz4,
-    /// Zstandard, level 1: the smallest.
-    Zstd,
-    /// None.
-    None,
-}
-
-impl Compression {
-    /// All values.
-    pub const ALL: [Compression; 3] = [Compression::Lz4, Compression::Zstd, Compression::None];
-
-    /// The name in campaign files.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Compression::Lz4 => "lz4",
-            Compression::Zstd => "zstd",
-            Compression::None => "none",
-        }
-    }
-
-    /// The compression called `name`.
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|compression| compression.name() == name)
-    }
 }
 
 /// What the command line says instead of the file.

@@ -3,9 +3,9 @@
 //! Every key of the file is read here (those of `[[disperse]]` in [`super::disperse`]); a number that is missing or wrong is
 //! NaN here and noted in the document. What is left out stays `None`: the plan fills it in.
 
+use super::compression::Compression;
 use super::document::Document;
 use super::limits::{FRACTION, LARGEST_SEED, MAX_POINTS, MAX_SAMPLES, TOLERANCE};
-use super::plan::Compression;
 use super::section::{POSITIVE, Section};
 use super::{dependence, design, disperse, scene};
 use crate::observables::Group;

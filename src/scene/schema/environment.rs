@@ -12,7 +12,7 @@ rows! {
     pub struct EnvironmentInput in Environment ["environment"], environment, environment_mut {
     body_torque_n_m: Option<[f64; 3]> = None, "N m", "Constant torque on the spacecraft, in F_s", XYZ, Plain, Limit::Finite,
         (optional), always, "give environment.body_torque_n_m a nominal value, zero if need be";
-    } beside {}
+    } others {}
 }
 
 impl EnvironmentInput {
