@@ -96,7 +96,7 @@ pub struct SimulateOptions {
     /// Write all columns to this file (.parquet or .csv).
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Plot the energies to this file (.svg or .png), smoothly, or at --times.
+    /// Plot states, energies and errors to this file (.svg or .png), on a fine grid or at --times.
     #[arg(long, value_name = "FILE")]
     pub plot: Option<PathBuf>,
 }

@@ -10,6 +10,7 @@ use crate::cli::screen;
 use crate::dataset::precision_table;
 use crate::ensemble::precision::{Limits, Precision, States};
 use crate::propagation::Method;
+use crate::report::canvas::Canvas;
 use crate::report::precision_figure::PrecisionFigure;
 use crate::report::precision_text;
 

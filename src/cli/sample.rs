@@ -10,8 +10,8 @@ use crate::cli::{dispersions, screen};
 use crate::dataset::drawn_table::DrawnTable;
 use crate::dataset::table::{TableError, TableFormat};
 use crate::ensemble::DrawnScenes;
+use crate::report::canvas::{Canvas, PlotError, PlotFormat};
 use crate::report::drawn_figure::DrawnFigure;
-use crate::report::plot::{PlotError, PlotFormat};
 use crate::sampling::SampleId;
 
 /// Runs the command.

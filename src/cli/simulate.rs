@@ -15,27 +15,30 @@ use crate::ensemble::{Auditor, SingleRun};
 use crate::math::Isa;
 use crate::observables::Series;
 use crate::observables::table::STATE_ERROR_ESTIMATE;
-use crate::report::energy_figure::energy_figure;
+use crate::report::canvas::{Canvas, PlotError, PlotFormat};
 use crate::report::number::short;
-use crate::report::plot::{PlotError, PlotFormat};
+use crate::report::simulation_figure::simulation_figure;
 use crate::run::{Grid, StateField, Status};
 use crate::sampling::SampleId;
 
-/// The columns on the screen: what fits, the rest is in the files.
-const ON_SCREEN: [TimeColumn; 12] = [
-    TimeColumn::Time,
-    TimeColumn::State(StateField::Rate, 0),
-    TimeColumn::State(StateField::Rate, 1),
-    TimeColumn::State(StateField::Rate, 2),
-    TimeColumn::State(StateField::WheelRates, 0),
-    TimeColumn::State(StateField::WheelRates, 1),
-    TimeColumn::Series(Series::EnergyFuselage),
-    TimeColumn::Series(Series::EnergyWheel1),
-    TimeColumn::Series(Series::EnergyWheel2),
-    TimeColumn::Series(Series::EnergyError),
-    TimeColumn::Series(Series::LinearMomentumError),
-    TimeColumn::Series(Series::AngularMomentumError),
+/// The states on the screen, with short names; all columns in all digits are in the files.
+const ON_SCREEN: [(TimeColumn, &str); 12] = [
+    (TimeColumn::Time, "time s"),
+    (TimeColumn::State(StateField::Rate, 0), "omega_x"),
+    (TimeColumn::State(StateField::Rate, 1), "omega_y"),
+    (TimeColumn::State(StateField::Rate, 2), "omega_z"),
+    (TimeColumn::State(StateField::Attitude, 0), "q_es_w"),
+    (TimeColumn::State(StateField::Attitude, 1), "q_es_x"),
+    (TimeColumn::State(StateField::Attitude, 2), "q_es_y"),
+    (TimeColumn::State(StateField::Attitude, 3), "q_es_z"),
+    (TimeColumn::State(StateField::WheelRates, 0), "wheel 1"),
+    (TimeColumn::State(StateField::WheelRates, 1), "wheel 2"),
+    (TimeColumn::Series(Series::EnergyError), "energy err"),
+    (TimeColumn::Series(Series::AngularMomentumError), "ang.m. err"),
 ];
+
+/// The screen shows at most this many points; the first and the last are among them.
+const MOST_LINES: usize = 21;
 
 /// A plot has at least this many intervals, unless it is told its times: two to a pixel.
 const SMOOTH: usize = 1200;
@@ -79,11 +82,14 @@ pub fn run(options: &SimulateOptions) -> Result<CommandOutcome, Failure> {
     }
     if options.out.is_none() && options.plot.is_none() {
         screen::print(&table(&series))?;
-        screen::note("(--out X.csv or --out X.parquet writes all columns)");
+        let (shown, points) = (shown_points(series.points()).len(), series.points());
+        screen::note(&format!(
+            "({shown} of {points} points; --out X.csv or X.parquet writes all points, columns and digits; --plot X.svg draws them)"
+        ));
     }
     if run.outcome.status != Status::Done {
         let (status, time) = (run.outcome.status.name(), run.outcome.time);
-        screen::note(&format!("the run ended with {status} at {time:?} s; what follows is not shown"));
+        screen::note(&format!("the run ended with {status} at {time:?} s; later points are not shown"));
     }
     Ok(CommandOutcome::of(run.outcome.status))
 }
@@ -117,14 +123,14 @@ fn refined(grid: &Grid) -> Grid {
     Grid::uniform(grid.duration(), intervals * SMOOTH.div_ceil(intervals) + 1)
 }
 
-/// How far the run is off the truth, and what was estimated.
+/// Compares the run with its reference solution, and shows errors and estimate.
 fn audit(options: &SimulateOptions, plan: &Plan, run: &SingleRun, isa: Isa) -> Result<(), Failure> {
     let sample = options.sample;
     let Some(found) = Auditor::new(plan, isa, &run.grid).audit(&run.scene) else {
-        screen::note(&format!("audit of sample {sample}: the run, or its truth, does not arrive"));
+        screen::note(&format!("audit of sample {sample}: the run or its reference solution did not reach the end"));
         return Ok(());
     };
-    let mut text = format!("audit of sample {sample}, against a solution at {:e}\n", found.reference_tolerance);
+    let mut text = format!("audit of sample {sample}, against a reference solution with tolerance {:e}\n", found.reference_tolerance);
     // the tolerance of the reference solution is in the first line
     let values = AuditValue::ALL.into_iter().filter(|value| *value != AuditValue::Tolerance);
     let lines = values
@@ -167,40 +173,53 @@ fn plot(path: &Path, options: &SimulateOptions, plan: &Plan, series: &TimeSeries
         0 => format!("{}, nominal", plan.name),
         sample => format!("{}, sample {sample}", plan.name),
     };
-    energy_figure(&title, series).save(path).map_err(|error| match error {
+    simulation_figure(&title, series, plan.tolerance.relative).save(path).map_err(|error| match error {
         PlotError::Format(_) => Failure::Input(error.to_string()),
         _ => Failure::Files(format!("{}: {error}", path.display())),
     })?;
-    screen::note(&format!("{}: energies at {} points", path.display(), series.points()));
+    screen::note(&format!("{}: states, energies and errors at {} points", path.display(), series.points()));
     Ok(())
 }
 
-/// The main columns, aligned; numbers in the fewest digits that read back to the same bits.
+/// The main states at some of the points, in columns of four digits. A wheel that never turns has no column.
 fn table(series: &TimeSeries) -> String {
-    let columns: Vec<(&str, Vec<String>)> = ON_SCREEN
+    let is_shown = |key: TimeColumn, values: &[f64]| {
+        !matches!(key, TimeColumn::State(StateField::WheelRates, _)) || values.iter().any(|value| *value != 0.0)
+    };
+    let columns: Vec<(&str, &[f64])> = ON_SCREEN
         .into_iter()
-        .filter_map(|key| series.column(key))
-        .map(|(quantity, values)| (quantity.name(), values.iter().map(|value| format!("{value:?}")).collect()))
-        .collect();
-    let widths: Vec<usize> = columns
-        .iter()
-        .map(|(name, values)| values.iter().map(String::len).chain([name.len()]).max().unwrap_or(0))
+        .filter_map(|(key, title)| Some((title, series.column(key)?.1)).filter(|(_, values)| is_shown(key, values)))
         .collect();
     let mut text = String::new();
-    let mut line = |cells: &mut dyn Iterator<Item = &str>| {
-        let cells: Vec<String> = cells.zip(&widths).map(|(cell, width)| format!("{cell:>width$}")).collect();
-        let _ = writeln!(text, "{}", cells.join("  ")); // writing to a String does not fail
+    let mut line = |cells: &mut dyn Iterator<Item = String>| {
+        let cells: Vec<String> = cells.map(|cell| format!("{cell:>10}")).collect();
+        let _ = writeln!(text, "{}", cells.join(" ")); // writing to a String does not fail
     };
-    line(&mut columns.iter().map(|(name, _)| *name));
-    for point in 0..series.points() {
-        line(&mut columns.iter().map(|(_, values)| values[point].as_str()));
+    line(&mut columns.iter().map(|(title, _)| (*title).to_owned()));
+    for point in shown_points(series.points()) {
+        line(&mut columns.iter().map(|(_, values)| short(values[point])));
     }
     text
+}
+
+/// At most [`MOST_LINES`] of `points` points, evenly distributed, with the first and the last.
+fn shown_points(points: usize) -> Vec<usize> {
+    let lines = points.min(MOST_LINES);
+    (0..lines).map(|line| line * (points - 1) / (lines - 1).max(1)).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_screen_shows_the_first_and_the_last_point() {
+        assert_eq!(shown_points(3), [0, 1, 2]);
+        assert_eq!(shown_points(1), [0]);
+        assert!(shown_points(0).is_empty());
+        let shown = shown_points(1201);
+        assert_eq!((shown.len(), shown[0], shown[20]), (21, 0, 1200));
+    }
 
     /// Law: a plot shows the campaign's own points too (their times to the last digit or two).
     #[test]

@@ -1,16 +1,12 @@
-//! [`DrawnFigure`]: how drawn samples are distributed (one histogram for each number) and how they hang together (rank
-//! correlation of each pair).
-
-use std::path::Path;
+//! [`DrawnFigure`]: histograms of the dispersed parameters and the rank correlation of each pair.
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use crate::dataset::atomic;
 use crate::ensemble::DrawnScenes;
+use crate::report::canvas::{COLORS, Canvas, PlotError, drawing};
 use crate::report::number::short;
-use crate::report::plot::{COLORS, OVERSAMPLING, PlotError, PlotFormat, averaged, drawing, encode, install_font};
 
 /// Size of a histogram, pixels.
 const HISTOGRAM: (u32, u32) = (300, 190);
@@ -20,14 +16,14 @@ const ACROSS: usize = 4;
 const TITLE_HEIGHT: u32 = 44;
 /// Height of the title over the correlations, pixels.
 const CAPTION_HEIGHT: u32 = 52;
-/// Maximum width of a cell of the correlation plot, pixels.
+/// Maximum side of a cell of the correlation plot, pixels.
 const LARGEST_CELL: u32 = 64;
 /// Width kept for the names beside the correlation plot, pixels.
 const NAMES_WIDTH: u32 = 400;
 /// Bars of a histogram.
 const BARS: usize = 40;
 
-/// Marginals and correlation of drawn samples.
+/// Histograms and rank correlations of sampled parameters.
 #[derive(Clone, Debug)]
 pub struct DrawnFigure<'a> {
     /// Title of the whole.
@@ -39,57 +35,10 @@ pub struct DrawnFigure<'a> {
 }
 
 impl DrawnFigure<'_> {
-    /// Draws the figure to `path`, in the format of its extension.
-    ///
-    /// # Errors
-    /// [`PlotError`].
-    pub fn save(&self, path: &Path) -> Result<(), PlotError> {
-        let (width, height) = self.size();
-        let bytes = match PlotFormat::of(path)? {
-            PlotFormat::Svg => {
-                let mut text = String::new();
-                self.draw(&SVGBackend::with_string(&mut text, (width, height)).into_drawing_area(), 1)?;
-                text.into_bytes()
-            }
-            PlotFormat::Png => {
-                let large = (width * OVERSAMPLING, height * OVERSAMPLING);
-                let mut pixels = vec![255; (large.0 * large.1 * 3) as usize];
-                self.draw(&BitMapBackend::with_buffer(&mut pixels, large).into_drawing_area(), OVERSAMPLING)?;
-                encode(&averaged(&pixels, width as usize, height as usize), width, height)?
-            }
-        };
-        Ok(atomic::write_bytes(path, &bytes)?)
-    }
-
     /// Side of a cell of the correlation plot, pixels.
     fn cell(&self) -> u32 {
         let width = ACROSS as u32 * HISTOGRAM.0 - NAMES_WIDTH;
         (width / self.names.len().max(1) as u32).clamp(2, LARGEST_CELL)
-    }
-
-    fn size(&self) -> (u32, u32) {
-        let rows = self.names.len().div_ceil(ACROSS) as u32;
-        let matrix = self.names.len() as u32 * self.cell() + CAPTION_HEIGHT + 20;
-        (ACROSS as u32 * HISTOGRAM.0, TITLE_HEIGHT + rows * HISTOGRAM.1 + matrix)
-    }
-
-    fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: u32) -> Result<(), PlotError> {
-        install_font()?;
-        area.fill(&WHITE).map_err(drawing)?;
-        let (title, rest) = area.split_vertically(TITLE_HEIGHT * scale);
-        let style =
-            ("sans-serif", 20 * scale).into_font().into_text_style(&title).pos(Pos::new(HPos::Center, VPos::Center));
-        let middle = ((ACROSS as u32 * HISTOGRAM.0 * scale / 2) as i32, (TITLE_HEIGHT * scale / 2) as i32);
-        title.draw_text(&self.title, &style, middle).map_err(drawing)?;
-        let rows = self.names.len().div_ceil(ACROSS);
-        let (upper, lower) = rest.split_vertically(rows as u32 * HISTOGRAM.1 * scale);
-        for ((name, values), cell) in
-            self.names.iter().zip(&self.drawn.columns).zip(upper.split_evenly((rows.max(1), ACROSS)))
-        {
-            histogram(name, values, &cell, scale)?;
-        }
-        self.draw_correlations(&lower, scale)?;
-        area.present().map_err(drawing)
     }
 
     fn draw_correlations<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: u32) -> Result<(), PlotError> {
@@ -123,7 +72,31 @@ impl DrawnFigure<'_> {
     }
 }
 
-/// A correlation in two decimals, the first zero left out.
+impl Canvas for DrawnFigure<'_> {
+    fn size(&self) -> (u32, u32) {
+        let rows = self.names.len().div_ceil(ACROSS) as u32;
+        let matrix = self.names.len() as u32 * self.cell() + CAPTION_HEIGHT + 20;
+        (ACROSS as u32 * HISTOGRAM.0, TITLE_HEIGHT + rows * HISTOGRAM.1 + matrix)
+    }
+
+    fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: u32) -> Result<(), PlotError> {
+        let (title, rest) = area.split_vertically(TITLE_HEIGHT * scale);
+        let style =
+            ("sans-serif", 20 * scale).into_font().into_text_style(&title).pos(Pos::new(HPos::Center, VPos::Center));
+        let middle = ((ACROSS as u32 * HISTOGRAM.0 * scale / 2) as i32, (TITLE_HEIGHT * scale / 2) as i32);
+        title.draw_text(&self.title, &style, middle).map_err(drawing)?;
+        let rows = self.names.len().div_ceil(ACROSS);
+        let (upper, lower) = rest.split_vertically(rows as u32 * HISTOGRAM.1 * scale);
+        for ((name, values), cell) in
+            self.names.iter().zip(&self.drawn.columns).zip(upper.split_evenly((rows.max(1), ACROSS)))
+        {
+            histogram(name, values, &cell, scale)?;
+        }
+        self.draw_correlations(&lower, scale)
+    }
+}
+
+/// A correlation in two decimals, without the sign of a rounded zero.
 fn rounded(r: f64) -> String {
     let text = format!("{r:.2}");
     if text == "-0.00" { "0.00".to_owned() } else { text }
@@ -137,7 +110,7 @@ fn shade(r: f64) -> RGBColor {
     RGBColor(mixed(red), mixed(green), mixed(blue))
 }
 
-/// The histogram of one column: bars between its least and largest value.
+/// The histogram of one column: bars between its minimum and its maximum.
 fn histogram<B: DrawingBackend>(
     name: &str,
     values: &[f64],
@@ -147,7 +120,7 @@ fn histogram<B: DrawingBackend>(
     let finite = values.iter().copied().filter(|value| value.is_finite());
     let (low, high) =
         finite.clone().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
-    // one value alone, or none, still gets a bar in the middle of an axis
+    // a single value, or none, is shown in the middle of an axis
     let half = if high > low {
         0.5 * (high - low)
     } else if low.is_finite() {
@@ -163,7 +136,7 @@ fn histogram<B: DrawingBackend>(
     let mut chart = ChartBuilder::on(area)
         .caption(name, ("sans-serif", 13 * scale))
         .margin(6 * scale)
-        // space for half of the outermost labels
+        // half of the outermost labels
         .margin_left(28 * scale)
         .margin_right(28 * scale)
         .x_label_area_size(24 * scale)

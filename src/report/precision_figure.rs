@@ -1,20 +1,17 @@
-//! [`PrecisionFigure`]: work-precision diagrams, CPU time of a run against its largest error, both logarithmic.
+//! [`PrecisionFigure`]: work-precision diagrams, CPU time of a run against its maximum error, both logarithmic.
 //!
-//! One panel for each error; errors fall to the right, so that the better method lies lower and further right. On the scale of
-//! decimal logarithms by hand: the plotting library's own labels a logarithmic axis by plain numbers.
+//! One panel for each error; errors decrease to the right, so that the better method is lower and further right. The axes are
+//! decimal logarithms: plotters labels its own logarithmic axes with plain numbers.
 
 use std::ops::Range;
-use std::path::Path;
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-use crate::dataset::atomic;
 use crate::ensemble::precision::{Deviation, Measurement};
 use crate::propagation::Method;
-use crate::report::plot::{
-    COLORS, OVERSAMPLING, PlotError, PlotFormat, averaged, drawing, encode, install_font, superscript,
-};
+use crate::report::axis::superscript;
+use crate::report::canvas::{COLORS, Canvas, PlotError, drawing};
 
 /// Width of a panel, pixels.
 const PANEL_WIDTH: u32 = 680;
@@ -29,17 +26,17 @@ const LEGEND_WIDTH: u32 = 160;
 /// Errors below this are drawn on it: they are zero but for the observation's rounding.
 const LEAST_ERROR: f64 = 1e-17;
 /// Errors above this are drawn on it: nothing of the motion is left.
-const LARGEST_ERROR: f64 = 1e1;
+const MOST_ERROR: f64 = 1e1;
 
 /// An error of a measurement.
 type Pick = fn(&Measurement) -> Option<Deviation>;
 
 /// The panels: title and what is shown.
 const PANELS: [(&str, Pick); 4] = [
-    ("Angular velocity: largest relative error", |m| m.rate),
-    ("Attitude: largest error, rad", |m| m.attitude),
-    ("Energy balance: largest relative error", |m| m.energy),
-    ("Angular momentum: largest relative error", |m| m.momentum),
+    ("Angular velocity: maximum relative error", |m| m.rate),
+    ("Attitude: maximum error, rad", |m| m.attitude),
+    ("Energy balance: maximum relative error", |m| m.energy),
+    ("Angular momentum: maximum relative error", |m| m.momentum),
 ];
 
 /// Run time against error.
@@ -52,31 +49,6 @@ pub struct PrecisionFigure<'a> {
 }
 
 impl PrecisionFigure<'_> {
-    /// Draws the figure to `path`, in the format of its extension.
-    ///
-    /// # Errors
-    /// [`PlotError`].
-    pub fn save(&self, path: &Path) -> Result<(), PlotError> {
-        let panels = self.panels();
-        let columns = panels.len().clamp(1, 2);
-        let rows = panels.len().div_ceil(columns).max(1);
-        let (width, height) = (columns as u32 * PANEL_WIDTH, rows as u32 * PANEL_HEIGHT + TITLE_HEIGHT + LEGEND_HEIGHT);
-        let bytes = match PlotFormat::of(path)? {
-            PlotFormat::Svg => {
-                let mut text = String::new();
-                self.draw(SVGBackend::with_string(&mut text, (width, height)).into_drawing_area(), &panels, 1)?;
-                text.into_bytes()
-            }
-            PlotFormat::Png => {
-                let large = (width * OVERSAMPLING, height * OVERSAMPLING);
-                let mut pixels = vec![255; (large.0 * large.1 * 3) as usize];
-                self.draw(BitMapBackend::with_buffer(&mut pixels, large).into_drawing_area(), &panels, OVERSAMPLING)?;
-                encode(&averaged(&pixels, width as usize, height as usize), width, height)?
-            }
-        };
-        Ok(atomic::write_bytes(path, &bytes)?)
-    }
-
     /// The panels that have anything to show.
     fn panels(&self) -> Vec<(&'static str, Vec<Curve>)> {
         PANELS
@@ -92,22 +64,25 @@ impl PrecisionFigure<'_> {
             let of = self.measured.iter().filter(|measurement| measurement.method == method);
             let points: Vec<(f64, f64)> = of
                 .filter_map(|m| pick(m).filter(|error| error.max.is_finite()).map(|error| (error.max, m.cpu[0])))
-                .map(|(error, cpu)| (-libm::log10(error.clamp(LEAST_ERROR, LARGEST_ERROR)), libm::log10(cpu)))
+                .map(|(error, cpu)| (-libm::log10(error.clamp(LEAST_ERROR, MOST_ERROR)), libm::log10(cpu)))
                 .filter(|(_, cpu)| cpu.is_finite())
                 .collect();
             (!points.is_empty()).then(|| Curve { method, color: COLORS.get(number).copied().unwrap_or(GREY), points })
         };
         Method::ALL.into_iter().enumerate().filter_map(curve).collect()
     }
+}
 
-    fn draw<B: DrawingBackend>(
-        &self,
-        area: DrawingArea<B, Shift>,
-        panels: &[(&'static str, Vec<Curve>)],
-        scale: u32,
-    ) -> Result<(), PlotError> {
-        install_font()?;
-        area.fill(&WHITE).map_err(drawing)?;
+impl Canvas for PrecisionFigure<'_> {
+    fn size(&self) -> (u32, u32) {
+        let panels = self.panels().len();
+        let columns = panels.clamp(1, 2);
+        let rows = panels.div_ceil(columns).max(1);
+        (columns as u32 * PANEL_WIDTH, rows as u32 * PANEL_HEIGHT + TITLE_HEIGHT + LEGEND_HEIGHT)
+    }
+
+    fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: u32) -> Result<(), PlotError> {
+        let panels = self.panels();
         let area = area.margin((12 * scale) as i32, 0, 0, 0);
         let area = area.titled(&self.title, ("sans-serif", 20 * scale)).map_err(drawing)?;
         let (strip, area) = area.split_vertically((LEGEND_HEIGHT * scale) as i32);
@@ -117,7 +92,7 @@ impl PrecisionFigure<'_> {
         for ((title, curves), cell) in panels.iter().zip(&cells) {
             draw_panel(cell, title, curves, scale)?;
         }
-        area.present().map_err(drawing)
+        Ok(())
     }
 }
 

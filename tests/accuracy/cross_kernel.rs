@@ -6,12 +6,13 @@
 use crate::support::runs::{adaptive, base_point, fixed, propagate, relative, up_to_sign};
 use crate::support::scenes::{Kind, misaligned, mixed, random, speed_held};
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 use spindrift::math::vector::norm;
 use spindrift::propagation::Method;
 use spindrift::run::Outcome;
 use spindrift::run::Status;
 use spindrift::run::{Grid, StateField, StateTable};
-use spindrift::scene::{Scene, SceneInput};
+use spindrift::scene::{Scene, SceneInput, WheelMode};
 
 /// Horizon, s: up to three turns of the body and twenty of a wheel, many steps of every method.
 const HORIZON: f64 = 1.0;
@@ -41,6 +42,16 @@ fn angle(scene: &Scene) -> f64 {
     HORIZON * norm(initial.omega_se_s).max(norm(initial.omega_de_d)).max(wheels)
 }
 
+/// What an error of the work is compared with, J, at least one. The motor of a wheel whose speed is held at Omega does the work
+/// A Omega (w(t) - w(0)), w being the rate of the fuselage along the axis: a difference of terms of the size A Omega |omega|,
+/// which is small where w returns to its first value. Rounding and tolerances act on the terms.
+fn work_scale(scene: &Scene, expected: &StateTable) -> f64 {
+    let omega = (0..expected.points()).map(|point| norm(expected.at::<3>(StateField::Rate, point))).fold(0.0, f64::max);
+    let wheels = scene.mass.wheels.iter().zip(scene.initial.wheel_rates);
+    let held = wheels.filter(|(wheel, _)| wheel.mode == WheelMode::SpeedHeld);
+    held.map(|(wheel, rate)| (wheel.axial * rate).abs() * omega).fold(1.0, f64::max)
+}
+
 /// The largest distance of any state at any point, relative to its size (at least one in its unit).
 fn distance(scene: &Scene, found: &StateTable, expected: &StateTable) -> (f64, &'static str) {
     let mut worst = (0.0, "nothing");
@@ -62,7 +73,9 @@ fn distance(scene: &Scene, found: &StateTable, expected: &StateTable) -> (f64, &
         compare!(WheelAngles, 2);
         compare!(ComPosition, 3);
         compare!(ComVelocity, 3);
-        compare!(Work, 2);
+        let (work, exact) = (found.at::<2>(StateField::Work, point), expected.at::<2>(StateField::Work, point));
+        let scale = work_scale(scene, expected);
+        take(relative(work.map(|x| x / scale), exact.map(|x| x / scale)), "Work");
         compare!(Impulse, 3);
         compare!(AngularImpulse, 3);
         take(up_to_sign(found.at(StateField::Attitude, point), expected.at(StateField::Attitude, point)), "Attitude");
@@ -92,7 +105,12 @@ fn bound(scene: &Scene, method: Method, outcome: &Outcome) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        cases: 200,
+        rng_seed: RngSeed::Fixed(31),
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
 
     #[test]
     fn kernels_and_methods_agree(input in inputs()) {

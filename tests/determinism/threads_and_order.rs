@@ -33,12 +33,12 @@ fn bits(rows: &Rows, row: usize) -> Bits {
     (rows.statuses()[row], parameters.chain(observables).map(f64::to_bits).collect())
 }
 
-/// Keeps rows in memory; fails at a given part.
+/// Keeps rows in memory; refuses all parts from a given one on.
 #[derive(Default)]
 struct Memory {
     rows: Mutex<Vec<(u64, Bits)>>,
     parts: AtomicU64,
-    full_at: Option<u64>,
+    full_from: Option<u64>,
 }
 
 impl Sink for Memory {
@@ -47,7 +47,7 @@ impl Sink for Memory {
     fn take(&self, rows: &Rows) -> Result<(), String> {
         let part = rows.part();
         self.parts.fetch_add(1, Ordering::Relaxed);
-        if self.full_at == Some(part.id.0) {
+        if self.full_from.is_some_and(|first| part.id.0 >= first) {
             return Err(format!("no space for part {}", part.id.0));
         }
         let mut kept = self.rows.lock().unwrap();
@@ -105,16 +105,24 @@ fn the_comparison_can_fail() {
     assert!(rows(&plan) != rows(&other));
 }
 
-/// Law: after an error of the sink no further part is started, and the error is reported.
+/// Law: after an error of the sink no further part is started, and the error is reported. With one thread nothing follows the
+/// refused part. With more threads, where every part is refused, each thread offers one at most, however they are scheduled.
 #[test]
 fn a_full_sink_stops_the_campaign() {
     let plan = plan("no_debris", 4096, false);
-    let campaign = Ensemble::new(&plan, Isa::best());
-    for threads in [1, 2] {
-        let sink = Memory { full_at: Some(1), ..Memory::default() };
-        let ended = run(&campaign, Parts::of(4096), NonZeroUsize::new(threads), &sink, &|_| {});
-        assert!(matches!(ended, Err(RunError::Sink(error)) if error == "no space for part 1"));
-        assert!(sink.parts.into_inner() <= 1 + 2 * threads as u64, "{threads} threads");
+    let ensemble = Ensemble::new(&plan, Isa::best());
+    let parts = Parts::of(4096);
+    assert!(parts.count() > 8);
+    let offered = |threads: usize, first_refused: u64| {
+        let sink = Memory { full_from: Some(first_refused), ..Memory::default() };
+        let ended = run(&ensemble, parts, NonZeroUsize::new(threads), &sink, &|_| {});
+        assert!(matches!(ended, Err(RunError::Sink(error)) if error.starts_with("no space for part ")));
+        sink.parts.into_inner()
+    };
+    assert_eq!(offered(1, 1), 2);
+    for threads in [2, 7] {
+        let offered = offered(threads, 0);
+        assert!((1..=threads as u64).contains(&offered), "{offered} parts offered by {threads} threads");
     }
 }
 

@@ -46,7 +46,8 @@ fn errors_follow_the_settings() {
 #[test]
 fn balances_are_measured_and_omissions_named() {
     let scratch = ScratchFolder::new("limit");
-    let arguments = "--samples 2 --methods taylor,reference --tolerances 1e-6,1e-12 --repeats 1 --limit-s 0.02 --out p";
+    let arguments =
+        "--samples 2 --methods taylor,null_space --tolerances 1e-6,1e-12 --repeats 1 --limit-s 0.02 --out p";
     let said = scratch.says("precision", "burn.toml", arguments, 0);
     assert!(said.contains("skipped: null_space") && said.contains("--limit-s"), "{said}");
     let table = scratch.table("p/precision.parquet");

@@ -22,7 +22,7 @@ const LAYERS: [(&str, u32); 15] = [
 ];
 
 /// Where each dependency may be used: modules, or single files. An empty list means everywhere.
-const CRATES: [(&str, &[&str]); 17] = [
+const CRATES: [(&str, &[&str]); 18] = [
     ("arrow_schema", &["dataset"]),
     ("clap", &["cli"]),
     ("csv", &["campaign/data.rs"]),
@@ -31,6 +31,7 @@ const CRATES: [(&str, &[&str]); 17] = [
     ("libm", &[]),
     ("parquet", &["dataset", "campaign/data.rs"]),
     ("plotters", &["report"]),
+    ("plotters_backend", &["report/bitmap.rs"]),
     ("png", &["report"]),
     ("rand", &["sampling"]),
     ("rayon", &["ensemble"]),

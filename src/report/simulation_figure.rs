@@ -1,0 +1,101 @@
+//! [`simulation_figure`]: one run over time: rates, attitude, wheel rates, energies, errors.
+//!
+//! The panels of the energies are the report's Figures 3 to 5 (body by body, total and its error).
+
+use crate::dataset::timeseries::{TimeColumn, TimeSeries};
+use crate::observables::Series;
+use crate::report::plot::{Curve, Figure, Panel};
+use crate::run::StateField;
+
+/// Column and label of a curve.
+type Column = (TimeColumn, &'static str);
+
+/// Title, unit, curves.
+type States = (&'static str, &'static str, &'static [Column]);
+
+/// Panels of states.
+const STATES: [States; 5] = [
+    (
+        "Angular velocity of the fuselage, in F_s",
+        "rad/s",
+        &[(TimeColumn::State(StateField::Rate, 0), "x"), (TimeColumn::State(StateField::Rate, 1), "y"), (TimeColumn::State(StateField::Rate, 2), "z")],
+    ),
+    (
+        "Attitude quaternion of the fuselage, F_s to F_e",
+        "",
+        &[(TimeColumn::State(StateField::Attitude, 0), "w"), (TimeColumn::State(StateField::Attitude, 1), "x"), (TimeColumn::State(StateField::Attitude, 2), "y"), (TimeColumn::State(StateField::Attitude, 3), "z")],
+    ),
+    ("Wheel rates", "rad/s", &[(TimeColumn::State(StateField::WheelRates, 0), "wheel 1"), (TimeColumn::State(StateField::WheelRates, 1), "wheel 2")]),
+    (
+        "Angular velocity of the debris, in F_d",
+        "rad/s",
+        &[(TimeColumn::State(StateField::DebrisRate, 0), "x"), (TimeColumn::State(StateField::DebrisRate, 1), "y"), (TimeColumn::State(StateField::DebrisRate, 2), "z")],
+    ),
+    (
+        "Attitude quaternion of the debris, F_d to F_e",
+        "",
+        &[(TimeColumn::State(StateField::DebrisAttitude, 0), "w"), (TimeColumn::State(StateField::DebrisAttitude, 1), "x"), (TimeColumn::State(StateField::DebrisAttitude, 2), "y"), (TimeColumn::State(StateField::DebrisAttitude, 3), "z")],
+    ),
+];
+
+/// The kinetic energy of each body.
+const ENERGIES: [Column; 4] = [
+    (TimeColumn::Series(Series::EnergyFuselage), "fuselage"),
+    (TimeColumn::Series(Series::EnergyWheel1), "wheel 1"),
+    (TimeColumn::Series(Series::EnergyWheel2), "wheel 2"),
+    (TimeColumn::Series(Series::EnergyDebris), "debris"),
+];
+
+/// Relative errors of the balances.
+const ERRORS: [Column; 3] = [
+    (TimeColumn::Series(Series::EnergyError), "energy minus work of the actuators"),
+    (TimeColumn::Series(Series::LinearMomentumError), "linear momentum"),
+    (TimeColumn::Series(Series::AngularMomentumError), "angular momentum"),
+];
+
+/// The figure of a run with this relative tolerance. A state or an energy that is zero throughout, as those of a part that the
+/// scene does not have, has no curve.
+pub fn simulation_figure(title: &str, series: &TimeSeries, tolerance: f64) -> Figure {
+    let curves = |columns: &[Column]| -> Vec<Curve> {
+        let curve = |(key, label): &Column| {
+            let values = series.column(*key)?.1.to_vec();
+            values.iter().any(|value| *value != 0.0).then(|| Curve { label: (*label).to_owned(), values })
+        };
+        columns.iter().filter_map(curve).collect()
+    };
+    let panel = |title: String, unit: &str, curves: Vec<Curve>, tolerance: Option<f64>| Panel {
+        title,
+        unit: unit.to_owned(),
+        curves,
+        tolerance,
+    };
+    let states = STATES.map(|(title, unit, columns)| panel(title.to_owned(), unit, curves(columns), None));
+    let bodies = curves(&ENERGIES);
+    let energy = |body: &Curve| panel(format!("Kinetic energy, {}", body.label), "J", vec![body.clone()], None);
+    let sum = |point: usize| bodies.iter().map(|body| body.values[point]).sum();
+    let total = Curve { label: "total".to_owned(), values: (0..series.points()).map(sum).collect() };
+    let transfer = |body: &Curve| Curve {
+        label: body.label.clone(),
+        values: body.values.iter().map(|value| value - body.values[0]).collect(),
+    };
+    let transfers = bodies.iter().map(transfer).collect();
+    let mut panels: Vec<Panel> = states.into_iter().chain(bodies.iter().map(energy)).collect();
+    if bodies.len() > 1 {
+        panels.push(panel("Kinetic energy, total".to_owned(), "J", vec![total], None));
+        panels.push(panel(
+            "Energy transfer: change of kinetic energy since the start".to_owned(),
+            "J",
+            transfers,
+            None,
+        ));
+    }
+    let errors = "Relative errors of the balances".to_owned();
+    panels.push(panel(errors, "", curves(&ERRORS), Some(tolerance)));
+    panels.retain(|panel| !panel.curves.is_empty());
+    Figure {
+        title: title.to_owned(),
+        abscissa_label: "time / s".to_owned(),
+        abscissa: series.column(TimeColumn::Time).map(|(_, times)| times.to_vec()).unwrap_or_default(),
+        panels,
+    }
+}
