@@ -73,8 +73,9 @@ fn run_all(
     let size = folder.size().map_err(Failure::files)?;
     let audits = tally.audits().map_or(String::new(), |audits| format!("\n  audits: {}\n", cost(audits)));
     screen::print(&format!(
-        "{}\n{summary}{audits}\n  {}: {} file{} of rows, {}\n",
-        headline(plan, elapsed),
+        "{}\n{summary}{audits}\n{}\n  {}: {} file{} of rows, {}\n",
+        headline(plan, &summary, elapsed),
+        summary.replay(&replayed(options, root)),
         root.display(),
         parts.count(),
         if parts.count() == 1 { "" } else { "s" },
@@ -86,8 +87,16 @@ fn run_all(
     })
 }
 
-fn headline(plan: &Plan, elapsed: Duration) -> String {
+/// The campaign file as `simulate` takes it: the file of this command, or the plan in the result where options replaced its
+/// numbers.
+fn replayed(options: &CampaignOptions, root: &Path) -> String {
+    let is_changed = options.samples.is_some() || options.seed.is_some();
+    if is_changed { root.join("plan.toml").display().to_string() } else { options.file.display().to_string() }
+}
+
+fn headline(plan: &Plan, summary: &Summary, elapsed: Duration) -> String {
     let seconds = elapsed.as_secs_f64();
     let rate = plan.samples as f64 / seconds.max(1e-9);
-    format!("{}: {} samples in {seconds:.2} s ({rate:.0}/s), seed {}", plan.name, plan.samples, plan.seed)
+    let (name, samples, seed) = (&plan.name, plan.samples, plan.seed);
+    format!("{name}: {samples} samples ({}) in {seconds:.2} s ({rate:.0}/s), seed {seed}", summary.samples())
 }

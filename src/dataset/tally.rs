@@ -1,12 +1,14 @@
 //! [`Tally`]: statistics of a campaign, counted part by part.
 //!
-//! Only counts are kept and no floating-point sums, so that the statistics do not depend on the order of the parts.
+//! Only counts, extremes and the numbers of samples are kept and no floating-point sums, so that the statistics do not depend on
+//! the order of the parts. Sample 0 is the nominal scene: where there are others, the statistics are those of the others.
 
 use crate::dataset::audit_tally::AuditTally;
 use crate::ensemble::{Ensemble, Rows};
-use crate::observables::table::HEADLINES;
-use crate::observables::{ColumnId, Kind};
+use crate::observables::table::{HEADLINES, STATE_ERROR_ESTIMATE, error_id};
+use crate::observables::{ColumnId, ErrorStatistic, Group, Kind, Series};
 use crate::run::{Quantity, Status};
+use crate::sampling::SampleId;
 use crate::statistics::sketch::Sketch;
 
 /// An observable with statistics in the summary.
@@ -29,11 +31,66 @@ impl Headline {
     }
 }
 
+/// How many samples of each group are listed by number.
+const LISTED: usize = 3;
+
+/// The observables of which the maximum is the conservation error of a run.
+const CONSERVATION: [ColumnId; 3] = [
+    error_id(Group::EnergyConservation, Series::EnergyError, ErrorStatistic::Max),
+    error_id(Group::MomentumConservation, Series::LinearMomentumError, ErrorStatistic::Max),
+    error_id(Group::MomentumConservation, Series::AngularMomentumError, ErrorStatistic::Max),
+];
+
+/// The samples that ended with one status.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Ended {
+    /// How many there are.
+    pub count: u64,
+    /// The first of them, ascending.
+    pub first: Vec<SampleId>,
+}
+
+impl Ended {
+    fn add(&mut self, sample: SampleId) {
+        self.count += 1;
+        let at = self.first.partition_point(|other| *other < sample);
+        if at < LISTED {
+            self.first.insert(at, sample);
+            self.first.truncate(LISTED);
+        }
+    }
+}
+
+/// The runs with the greatest values of an error, in descending order; equal values by ascending number.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Worst {
+    /// The error.
+    pub name: &'static str,
+    /// Indices among the observables of a row; the error is the maximum of their magnitudes.
+    indices: Vec<usize>,
+    /// Samples with their errors.
+    pub runs: Vec<(SampleId, f64)>,
+}
+
+impl Worst {
+    fn add(&mut self, sample: SampleId, error: f64) {
+        let is_before = |(other, greater): &(SampleId, f64)| *greater > error || *greater == error && *other < sample;
+        let at = self.runs.partition_point(is_before);
+        if at < LISTED && !error.is_nan() {
+            self.runs.insert(at, (sample, error));
+            self.runs.truncate(LISTED);
+        }
+    }
+}
+
 /// Counts of statuses, and of values of the main observables over the runs that are `ok`.
 #[derive(Clone, Debug)]
 pub struct Tally {
-    statuses: [u64; Status::ALL.len()],
+    /// Whether the statistics are those of the dispersed samples, without the nominal one.
+    without_nominal: bool,
+    statuses: [Ended; Status::ALL.len()],
     headlines: Vec<Headline>,
+    worst: Vec<Worst>,
     /// `None` where the campaign has no audits.
     audits: Option<AuditTally>,
 }
@@ -49,19 +106,39 @@ impl Tally {
         };
         let headlines: Vec<Headline> = HEADLINES.iter().filter_map(headline).collect();
         let audits = (ensemble.plan().audit_fraction > 0.0).then(|| AuditTally::new(headlines.len()));
-        Tally { statuses: [0; Status::ALL.len()], headlines, audits }
+        let index = |id: &ColumnId| ensemble.request().position(*id);
+        let worst = [("conservation error", &CONSERVATION[..]), ("state error estimate", &[STATE_ERROR_ESTIMATE][..])].map(|(name, columns)| {
+            Worst { name, indices: columns.iter().filter_map(index).collect(), runs: Vec::new() }
+        });
+        Tally {
+            without_nominal: ensemble.plan().samples > 1,
+            statuses: Default::default(),
+            headlines,
+            worst: worst.into_iter().filter(|worst| !worst.indices.is_empty()).collect(),
+            audits,
+        }
     }
 
     /// Counts the rows of a part.
     pub fn add(&mut self, rows: &Rows) {
-        for status in rows.statuses() {
-            self.statuses[status_index(*status)] += 1;
+        for (sample, status) in rows.part().samples().zip(rows.statuses()) {
+            self.statuses[status_index(*status)].add(sample);
         }
+        let is_nominal = |sample: SampleId| self.without_nominal && sample == SampleId(0);
+        let counted = rows.part().samples().zip(rows.statuses()).enumerate();
+        let counted: Vec<(usize, SampleId)> = counted
+            .filter(|(_, (sample, status))| **status == Status::Done && !is_nominal(*sample))
+            .map(|(row, (sample, _))| (row, sample))
+            .collect();
         for headline in &mut self.headlines {
-            for (value, status) in rows.observable(headline.index).iter().zip(rows.statuses()) {
-                if *status == Status::Done {
-                    headline.sketch.add(*value);
-                }
+            let values = rows.observable(headline.index);
+            counted.iter().for_each(|(row, _)| headline.sketch.add(values[*row]));
+        }
+        for worst in &mut self.worst {
+            let values: Vec<&[f64]> = worst.indices.iter().map(|index| rows.observable(*index)).collect();
+            for (row, sample) in &counted {
+                let error = values.iter().map(|values| values[*row].abs()).fold(f64::NAN, f64::max);
+                worst.add(*sample, error);
             }
         }
         if let Some(audits) = &mut self.audits {
@@ -79,17 +156,100 @@ impl Tally {
         self.audits.as_ref()
     }
 
+    /// Whether the statistics are those of the dispersed samples, without the nominal one; otherwise the nominal sample is the
+    /// only one.
+    pub fn without_nominal(&self) -> bool {
+        self.without_nominal
+    }
+
+    /// The runs with the greatest errors, where the campaign observes those errors.
+    pub fn worst(&self) -> &[Worst] {
+        &self.worst
+    }
+
+    /// The samples that ended with `status`.
+    pub fn ended(&self, status: Status) -> &Ended {
+        &self.statuses[status_index(status)]
+    }
+
     /// How many samples ended with `status`.
     pub fn count(&self, status: Status) -> u64 {
-        self.statuses[status_index(status)]
+        self.ended(status).count
     }
 
     /// How many runs failed.
     pub fn failed(&self) -> u64 {
-        self.statuses.iter().sum::<u64>() - self.count(Status::Done)
+        Status::ALL.into_iter().filter(|status| *status != Status::Done).map(|status| self.count(status)).sum()
     }
 }
 
 fn status_index(status: Status) -> usize {
     Status::ALL.iter().position(|known| *known == status).expect("every status is in the list of all")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::campaign::{Overrides, Plan};
+    use crate::ensemble::{Part, PartId};
+    use crate::math::Isa;
+
+    /// The tally of parts whose rows are (sample, status, error), of a campaign of `samples` samples.
+    fn tally(samples: u64, parts: &[&[(Status, f64)]]) -> Tally {
+        let path = format!("{}/campaigns/no_debris.toml", env!("CARGO_MANIFEST_DIR"));
+        let text = std::fs::read_to_string(path).unwrap();
+        let overrides = Overrides { samples: Some(samples), ..Overrides::default() };
+        let plan = Plan::from_text("no_debris", &text, overrides).unwrap();
+        let ensemble = Ensemble::new(&plan, Isa::best());
+        let (mut tally, mut first) = (Tally::new(&ensemble), 0);
+        let error = ensemble.request().position(CONSERVATION[0]).unwrap();
+        for (id, part) in parts.iter().enumerate() {
+            let mut rows = Rows::new(ensemble.shape(), part.len());
+            rows.start(Part { id: PartId(id as u64), first: SampleId(first), count: part.len() });
+            for (row, (status, value)) in part.iter().enumerate() {
+                let mut observed = vec![0.0; ensemble.shape().observables];
+                observed[error] = *value;
+                rows.set_result(row, *status, &observed);
+            }
+            tally.add(&rows);
+            first += part.len() as u64;
+        }
+        tally
+    }
+
+    /// Law: the statistics are those of the dispersed samples that are ok; without any, those of the nominal one.
+    #[test]
+    fn the_nominal_sample_is_not_counted() {
+        let ok = Status::Done;
+        let found = tally(4, &[&[(ok, 9.0), (ok, 1.0)], &[(Status::StepLimit, 8.0), (ok, 2.0)]]);
+        let headline = found.headlines().iter().find(|headline| headline.quantity.name() == "energy_error_max").unwrap();
+        assert_eq!((headline.sketch.count(), headline.sketch.max()), (2, Some(2.0)));
+        assert!(found.without_nominal());
+        assert_eq!((found.count(ok), found.failed()), (3, 1));
+        let alone = tally(1, &[&[(ok, 9.0)]]);
+        assert_eq!((alone.headlines()[0].sketch.max(), alone.without_nominal()), (Some(9.0), false));
+    }
+
+    /// Law: the worst runs and the first failed ones are listed by number, whatever the order of the rows is.
+    #[test]
+    fn worst_and_failed_runs_are_listed() {
+        let ok = Status::Done;
+        let rows = [
+            (ok, 99.0),
+            (ok, 2.0),
+            (Status::NonFinite, 98.0),
+            (ok, 7.0),
+            (ok, 7.0),
+            (ok, 1.0),
+            (ok, f64::NAN),
+            (ok, 8.0),
+        ];
+        let found = tally(8, &[&rows]);
+        let worst = found.worst().iter().find(|worst| worst.name == "conservation error").unwrap();
+        assert_eq!(worst.runs, [(SampleId(7), 8.0), (SampleId(3), 7.0), (SampleId(4), 7.0)]);
+        assert_eq!(found.ended(Status::NonFinite), &Ended { count: 1, first: vec![SampleId(2)] });
+        let mut ended = Ended::default();
+        [5, 1, 9, 3].into_iter().for_each(|sample| ended.add(SampleId(sample)));
+        assert_eq!(ended, Ended { count: 4, first: vec![SampleId(1), SampleId(3), SampleId(5)] });
+    }
 }

@@ -6,10 +6,11 @@ use serde::Serialize;
 use serde_json::{Map, Value, json};
 
 use crate::campaign::Plan;
-use crate::dataset::tally::{Headline, Tally};
+use crate::dataset::tally::{Ended, Headline, Tally, Worst};
 use crate::report::audit_summary::{AuditSummary, Numerics};
 use crate::report::number::short;
 use crate::run::Status;
+use crate::sampling::SampleId;
 use crate::statistics::sketch::RELATIVE_ERROR;
 
 /// Order statistics of one observable.
@@ -27,27 +28,29 @@ pub struct Line {
     pub p95: Option<f64>,
     /// Rank ceil(0.999 n).
     pub p99_9: Option<f64>,
-    /// Largest value.
+    /// Maximum.
     pub max: Option<f64>,
     /// Its numerical error over the audited runs, where there are any that have one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub numerical_error: Option<Numerics>,
 }
 
-/// What a campaign amounts to.
+/// The statistics of a campaign.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Summary {
     name: String,
     seed: u64,
     samples: u64,
     plan_hash: String,
-    statuses: Vec<(&'static str, u64)>,
+    without_nominal: bool,
+    statuses: Vec<(&'static str, Ended)>,
+    worst: Vec<Worst>,
     lines: Vec<Line>,
     audit: Option<AuditSummary>,
 }
 
 impl Summary {
-    /// Sums up.
+    /// The statistics in `tally` of the campaign `plan`.
     pub fn new(plan: &Plan, tally: &Tally) -> Self {
         let numerics = |index, headline: &Headline| Numerics::new(tally.audits()?, index, &headline.sketch);
         let lines = tally.headlines().iter().enumerate().map(|(index, headline)| Line {
@@ -65,16 +68,27 @@ impl Summary {
             seed: plan.seed,
             samples: plan.samples,
             plan_hash: plan.hash(),
-            statuses: Status::ALL.into_iter().map(|status| (status.name(), tally.count(status))).collect(),
+            statuses: Status::ALL.into_iter().map(|status| (status.name(), tally.ended(status).clone())).collect(),
+            without_nominal: tally.without_nominal(),
+            worst: tally.worst().to_vec(),
             lines: lines.collect(),
             audit: tally.audits().map(|audits| AuditSummary::new(audits, plan.audit_fraction)),
         }
     }
 
-    /// The text of `summary.json`. It holds nothing that depends on the machine or the clock.
+    /// The text of `summary.json`. Nothing in it depends on the machine or the clock.
     pub fn json(&self) -> String {
         let statuses: Map<String, Value> =
-            self.statuses.iter().map(|(name, count)| ((*name).to_owned(), json!(count))).collect();
+            self.statuses.iter().map(|(name, ended)| ((*name).to_owned(), json!(ended.count))).collect();
+        let numbers = |ended: &Ended| ended.first.iter().map(|sample| sample.0).collect::<Vec<_>>();
+        let failed = self.statuses.iter().filter(|(name, ended)| ended.count > 0 && *name != Status::Done.name());
+        let first_failed: Map<String, Value> =
+            failed.map(|(name, ended)| ((*name).to_owned(), json!(numbers(ended)))).collect();
+        let runs = |worst: &Worst| -> Vec<Value> {
+            worst.runs.iter().map(|(sample, error)| json!({ "sample": sample.0, "error": error })).collect()
+        };
+        let worst: Map<String, Value> =
+            self.worst.iter().map(|worst| (worst.name.replace(' ', "_"), json!(runs(worst)))).collect();
         let mut value = json!({
             "program": "spindrift",
             "version": env!("CARGO_PKG_VERSION"),
@@ -83,8 +97,11 @@ impl Summary {
             "seed": self.seed,
             "samples": self.samples,
             "statuses": statuses,
+            "first_failed": first_failed,
+            "worst_runs": worst,
             "quantiles": {
                 "rank": "ceil(p n), over the runs that are ok",
+                "samples": if self.without_nominal { "dispersed, without the nominal sample 0" } else { "nominal" },
                 "relative_error_bound": RELATIVE_ERROR,
                 "max": "exact",
             },
@@ -104,17 +121,57 @@ pub fn failed_runs(summary: &str) -> Option<u64> {
     Some(statuses.iter().filter(|(name, _)| *name != Status::Done.name()).filter_map(|(_, count)| count.as_u64()).sum())
 }
 
+impl Summary {
+    /// The samples of the campaign in words: how many are dispersed, and the nominal one.
+    pub fn samples(&self) -> String {
+        if self.without_nominal {
+            format!("{} dispersed + nominal", self.samples - 1)
+        } else {
+            "nominal sample".to_owned()
+        }
+    }
+
+    /// The runs with the greatest errors and the first that failed, with the command that shows one; `file` is the campaign as
+    /// the command takes it. Empty where there are none.
+    pub fn replay(&self, file: &str) -> String {
+        let mut text = String::new();
+        for worst in self.worst.iter().filter(|worst| !worst.runs.is_empty()) {
+            let runs = worst.runs.iter().map(|(sample, error)| format!("sample {sample} ({})", short(*error)));
+            text += &format!("  worst {}: {}\n", worst.name, runs.collect::<Vec<_>>().join(", "));
+        }
+        let failed = self.statuses.iter().filter(|(name, _)| *name != Status::Done.name());
+        let first_failed = failed.filter_map(|(_, ended)| ended.first.first()).next();
+        let worst = self.worst.iter().filter_map(|worst| worst.runs.first().map(|(sample, _)| sample)).next();
+        if let Some(sample) = first_failed.or(worst) {
+            text += &format!("  one of them again: spindrift simulate {file} --sample {sample}\n");
+        }
+        text
+    }
+}
+
+/// Numbers of samples, separated by commas.
+fn numbers(samples: &[SampleId]) -> String {
+    samples.iter().map(SampleId::to_string).collect::<Vec<_>>().join(", ")
+}
+
 impl Display for Summary {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let statuses = self.statuses.iter().filter(|(name, count)| *count > 0 || *name == Status::Done.name());
-        for (name, count) in statuses {
-            writeln!(f, "  {name:<16}{count:>12}")?;
+        let ok = Status::Done.name();
+        let statuses = self.statuses.iter().filter(|(name, ended)| ended.count > 0 || *name == ok);
+        for (name, ended) in statuses {
+            write!(f, "  {name:<16}{:>12}", ended.count)?;
+            if *name != ok {
+                let more = if ended.count > ended.first.len() as u64 { ", ..." } else { "" };
+                write!(f, "   samples {}{more}", numbers(&ended.first))?;
+            }
+            writeln!(f)?;
         }
         if self.lines.is_empty() {
             return Ok(());
         }
         let width = self.lines.iter().map(|line| line.name.len()).max().unwrap_or(0);
-        writeln!(f, "\n  {:<width$}  {:>6}{:>12}{:>12}{:>12}{:>12}", "", "unit", "median", "p95", "p99.9", "max")?;
+        let counted = if self.without_nominal { "dispersed samples" } else { "nominal sample" };
+        writeln!(f, "\n  {counted:<width$}  {:>6}{:>12}{:>12}{:>12}{:>12}", "unit", "median", "p95", "p99.9", "max")?;
         for line in &self.lines {
             write!(f, "  {:<width$}  {:>6}", line.name, if line.unit.is_empty() { "-" } else { line.unit })?;
             for value in [line.median, line.p95, line.p99_9, line.max] {
