@@ -8,3 +8,4 @@ mod cli;
 mod csv_digits;
 mod observation;
 mod precision;
+mod result_files;

@@ -1,0 +1,216 @@
+//! What the files of a result say: statistics, units, parts, compression, and the identity of the plan, each against a source of
+//! its own.
+
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::path::PathBuf;
+
+use arrow_array::cast::AsArray;
+use arrow_array::types::{Float64Type, UInt64Type};
+use arrow_array::{Array, RecordBatch};
+use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+use parquet::basic::Compression;
+use serde_json::Value;
+use sha2::{Digest, Sha256};
+use spindrift::campaign::{Overrides, Plan};
+use spindrift::ensemble::Ensemble;
+use spindrift::math::Isa;
+
+use crate::support::scratch_folder::{ScratchFolder, batches};
+
+/// Spins differ from sample to sample, and some 7% of the runs need more steps than they may take.
+const CAMPAIGN: &str = r#"
+[campaign]
+name = "limited"
+samples = 1500
+seed = 7
+duration_s = 1.0
+[integrator]
+method = "dop853"
+tolerance = 1e-9
+max_steps = 40
+[observe]
+points = 11
+[fuselage]
+wall_thickness_m = 0.03
+outer_radius_m = 1.0
+length_m = 3.0
+density_kg_m3 = 2700.0
+thruster_offset_m = 0.5
+[wheel1]
+radius_m = 0.25
+length_m = 0.1
+station_m = 1.0
+density_kg_m3 = 2700.0
+[wheel2]
+radius_m = 0.25
+length_m = 0.1
+station_m = 2.0
+density_kg_m3 = 2700.0
+[initial]
+position_m = [0, 0, 0]
+velocity_m_s = [10, 0, 0]
+attitude = [1, 0, 0, 0]
+angular_velocity_rad_s = [0, 3.141592653589793, 31.41592653589793]
+wheel_angles_rad = [0, 0]
+wheel_rates_rad_s = [314.1592653589793, 157.07963267948966]
+[[disperse]]
+parameter = "initial.angular_velocity_rad_s"
+distribution = "normal"
+std = [0.5, 0.5, 1.5]
+"#;
+
+/// The files of rows of the result in `folder`, in their order.
+fn parts(folder: &ScratchFolder, result: &str) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder.0.join(result).join("runs")).unwrap();
+    let mut files: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
+    files.sort();
+    files
+}
+
+fn run(folder: &ScratchFolder, text: &str, arguments: &str, code: i32) -> String {
+    let file = folder.0.join("own.toml");
+    fs::write(&file, text).unwrap();
+    folder.says("campaign", file.to_str().unwrap(), arguments, code)
+}
+
+/// Number, status and the column `name` of every row; counts as numbers, null as `None`.
+fn rows(batch: &RecordBatch, name: &str) -> Vec<(u64, String, Option<f64>)> {
+    let ids = batch.column_by_name("sample_id").unwrap().as_primitive::<UInt64Type>().clone();
+    let statuses = batch.column_by_name("status").unwrap().as_string::<i32>().clone();
+    let column = batch.column_by_name(name).unwrap();
+    let value = |row: usize| match column.as_primitive_opt::<Float64Type>() {
+        Some(values) => (!values.is_null(row)).then(|| values.value(row)),
+        None => {
+            let values = column.as_primitive::<UInt64Type>();
+            (!values.is_null(row)).then(|| values.value(row) as f64)
+        }
+    };
+    (0..batch.num_rows()).map(|row| (ids.value(row), statuses.value(row).to_owned(), value(row))).collect()
+}
+
+/// Law: each quantile of the summary is the value of the stated rank of the column in the files, over the dispersed samples
+/// that are ok; the worst runs and the first failed ones are those of the files.
+#[test]
+fn the_summary_is_that_of_the_files() {
+    let folder = ScratchFolder::new("statistics");
+    let said = run(&folder, CAMPAIGN, "--out r", 1);
+    assert!(said.contains("1499 dispersed + nominal"), "{said}");
+    let summary: Value = serde_json::from_str(&fs::read_to_string(folder.0.join("r/summary.json")).unwrap()).unwrap();
+    let tables: Vec<RecordBatch> = parts(&folder, "r").iter().flat_map(|file| batches(file)).collect();
+    let column =
+        |name: &str| -> Vec<(u64, String, Option<f64>)> { tables.iter().flat_map(|t| rows(t, name)).collect() };
+
+    let all = column("steps");
+    let failed: Vec<u64> = all.iter().filter(|(_, status, _)| status == "step_limit").map(|(id, ..)| *id).collect();
+    assert!(failed.len() > 20 && failed.len() < 750, "{} runs hit the limit", failed.len());
+    assert_eq!(summary["statuses"]["step_limit"], failed.len());
+    assert_eq!(summary["first_failed"]["step_limit"], Value::from(failed[..3].to_vec()));
+    assert!(said.contains(&format!("--sample {}", failed[0])), "{said}");
+
+    let lines = summary["observables"].as_array().unwrap();
+    assert!(lines.len() > 5);
+    for line in lines {
+        let name = line["name"].as_str().unwrap();
+        let counted = column(name).into_iter().filter(|(id, status, _)| *id > 0 && status == "ok");
+        let mut values: Vec<f64> = counted.filter_map(|(.., value)| value).filter(|value| !value.is_nan()).collect();
+        values.sort_by(f64::total_cmp);
+        let count = values.len();
+        assert_eq!(line["count"], count, "{name}");
+        assert!(count > 700, "{name}: {count}");
+        for (key, p) in [("median", 0.5), ("p95", 0.95), ("p99_9", 0.999)] {
+            let exact = values[(p * count as f64).ceil() as usize - 1];
+            let found = line[key].as_f64().unwrap();
+            assert!((found - exact).abs() <= exact.abs() / 2048.0, "{name} {key}: {found} for {exact}");
+        }
+        assert_eq!(line["max"].as_f64(), values.last().copied(), "{name}");
+    }
+
+    let errors = ["energy_error_max", "linear_momentum_error_max", "angular_momentum_error_max"].map(column);
+    let mut worst: Vec<(f64, u64)> = (1..1500)
+        .filter(|row| errors[0][*row].1 == "ok")
+        .map(|row| (errors.iter().filter_map(|column| column[row].2).fold(0.0, f64::max), row as u64))
+        .collect();
+    worst.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    let listed = summary["worst_runs"]["conservation_error"].as_array().unwrap();
+    let listed: Vec<(f64, u64)> =
+        listed.iter().map(|run| (run["error"].as_f64().unwrap(), run["sample"].as_u64().unwrap())).collect();
+    assert_eq!(listed, worst[..3]);
+}
+
+/// Law: every column of a file has the unit and the meaning of the table of columns; a part says which samples it has; the
+/// codec is the plan's.
+#[test]
+fn files_say_what_they_contain() {
+    for (name, codec) in [("lz4", Compression::LZ4_RAW), ("none", Compression::UNCOMPRESSED)] {
+        let folder = ScratchFolder::new(&format!("codec-{name}"));
+        let text = format!("{CAMPAIGN}[output]\ncompression = \"{name}\"\n");
+        run(&folder, &text, "--samples 600 --out r", 1);
+        let mut next = 0;
+        for (part, file) in parts(&folder, "r").iter().enumerate() {
+            let reader = ParquetRecordBatchReaderBuilder::try_new(File::open(file).unwrap()).unwrap();
+            let of_file: BTreeMap<String, String> =
+                reader.schema().metadata().iter().map(|(key, value)| (key.clone(), value.clone())).collect();
+            let pairs = reader.metadata().file_metadata().key_value_metadata().cloned().unwrap_or_default();
+            let pairs: BTreeMap<String, Option<String>> =
+                pairs.into_iter().map(|pair| (pair.key, pair.value)).collect();
+            let says =
+                |key: &str| pairs.get(key).cloned().flatten().or_else(|| of_file.get(key).cloned()).unwrap_or_default();
+            assert_eq!(says("spindrift.part"), part.to_string());
+            assert_eq!(says("spindrift.first_sample"), next.to_string());
+            for column in reader.metadata().row_group(0).columns() {
+                assert_eq!(column.compression(), codec, "{}", column.column_path());
+            }
+            let plan = Plan::from_text("r", &says("spindrift.plan"), Overrides::default()).unwrap();
+            let ensemble = Ensemble::new(&plan, Isa::best());
+            let columns = ensemble.request().columns();
+            for field in reader.schema().fields() {
+                let written = |key: &str| field.metadata().get(key).cloned().unwrap_or_default();
+                assert!(!written("meaning").is_empty(), "{}", field.name());
+                if let Some(column) = columns.iter().find(|column| column.name == field.name()) {
+                    assert_eq!(
+                        (written("unit"), written("meaning")),
+                        (column.unit.to_owned(), column.meaning.to_owned())
+                    );
+                }
+            }
+            let table = &batches(file)[0];
+            let ids = table.column_by_name("sample_id").unwrap().as_primitive::<UInt64Type>();
+            assert_eq!(ids.value(0), next);
+            assert_eq!(says("spindrift.samples"), table.num_rows().to_string());
+            next += table.num_rows() as u64;
+        }
+        assert_eq!(next, 600);
+    }
+}
+
+/// Law: the plan's hash is the SHA-256 of its text, and every value in the file changes it.
+#[test]
+fn the_hash_covers_every_key() {
+    let plan = |text: &str| Plan::from_text("own", text, Overrides::default());
+    let original = plan(CAMPAIGN).unwrap();
+    let digest: String = Sha256::digest(original.text().as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect();
+    assert_eq!(original.hash(), digest);
+    let lines: Vec<&str> = CAMPAIGN.lines().collect();
+    let mut changed = 0;
+    for (index, line) in lines.iter().enumerate() {
+        let Some((key, value)) = line.split_once(" = ") else { continue };
+        // another value of the same kind: one more, or the first component doubled
+        let other = match value.parse::<f64>() {
+            Ok(number) if !value.contains('.') && !value.contains('e') => format!("{}", number + 1.0),
+            Ok(number) => format!("{:?}", number * 1.0625),
+            Err(_) if value.starts_with('[') => {
+                value.replacen('[', "[0.125, ", 1).rsplit_once(',').unwrap().0.to_owned() + "]"
+            }
+            Err(_) if key == "name" => "\"other\"".to_owned(),
+            Err(_) if key == "method" => "\"taylor\"".to_owned(),
+            Err(_) => continue, // the parameter and the distribution of the dispersion
+        };
+        let mut text: Vec<String> = lines.iter().map(|line| (*line).to_owned()).collect();
+        text[index] = format!("{key} = {other}");
+        let other = plan(&text.join("\n")).unwrap_or_else(|error| panic!("{}: {error}", text[index]));
+        assert_ne!(other.hash(), original.hash(), "{key}");
+        changed += 1;
+    }
+    assert!(changed > 25, "{changed} keys were changed");
+}
