@@ -1,4 +1,4 @@
-//! `spindrift sample`: the samples of a campaign, drawn and not run.
+//! `spindrift sample`: the dispersed parameters of a campaign, without runs.
 
 use std::path::Path;
 
@@ -19,7 +19,7 @@ use crate::sampling::SampleId;
 /// # Errors
 /// Where the campaign file is wrong or a file cannot be written.
 pub fn run(options: &SampleOptions) -> Result<CommandOutcome, Failure> {
-    // refuse a file that cannot be written before drawing for it
+    // refuse a file that cannot be written before any work
     if let Some(path) = &options.out {
         TableFormat::of(path).map_err(|error| Failure::Input(error.to_string()))?;
     }
@@ -29,7 +29,7 @@ pub fn run(options: &SampleOptions) -> Result<CommandOutcome, Failure> {
     let plan = plan(&options.file, Overrides { samples: options.samples, seed: options.seed, ..Overrides::default() })?;
     let drawn = DrawnScenes::new(&plan, SampleId(0), plan.samples);
     let mut text = String::new();
-    // the nominal sample is none of the draws
+    // sample 0 is the nominal scene, which is not dispersed
     let dispersed = DrawnScenes {
         first: SampleId(1),
         physical: drawn.physical.iter().skip(1).copied().collect(),
@@ -40,7 +40,7 @@ pub fn run(options: &SampleOptions) -> Result<CommandOutcome, Failure> {
     let invalid = drawn.physical.iter().filter(|physical| !**physical).count();
     if invalid > 0 {
         screen::note(&format!(
-            "{invalid} of {} samples are not physical: their rows would say invalid_sample",
+            "{invalid} of {} samples are not physical: their status would be invalid_sample",
             drawn.count()
         ));
     }
@@ -50,7 +50,7 @@ pub fn run(options: &SampleOptions) -> Result<CommandOutcome, Failure> {
     if let Some(path) = &options.plot {
         let columns = plan.dispersions.columns();
         if columns.is_empty() {
-            return Err(Failure::Input(format!("{} disperses nothing: there is nothing to plot", plan.name)));
+            return Err(Failure::Input(format!("{} has no dispersions: there is nothing to plot", plan.name)));
         }
         let figure = DrawnFigure {
             title: format!(

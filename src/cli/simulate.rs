@@ -40,7 +40,7 @@ const ON_SCREEN: [(TimeColumn, &str); 12] = [
 /// The screen shows at most this many points; the first and the last are among them.
 const MOST_LINES: usize = 21;
 
-/// A plot has at least this many intervals, unless it is told its times: two to a pixel.
+/// A plot without --times has at least this many intervals: two per pixel.
 const SMOOTH: usize = 1200;
 
 /// Runs the command.
@@ -48,7 +48,7 @@ const SMOOTH: usize = 1200;
 /// # Errors
 /// Where the sample cannot be run or its files cannot be written.
 pub fn run(options: &SimulateOptions) -> Result<CommandOutcome, Failure> {
-    // refuse a file that cannot be written before running for it
+    // refuse a file that cannot be written before any work
     if let Some(path) = &options.out {
         TableFormat::of(path).map_err(|error| Failure::Input(error.to_string()))?;
     }
@@ -94,7 +94,7 @@ pub fn run(options: &SimulateOptions) -> Result<CommandOutcome, Failure> {
     Ok(CommandOutcome::of(run.outcome.status))
 }
 
-/// The times that were asked for, ascending, each once.
+/// The requested times, ascending, without duplicates.
 fn ascending(times: &[f64]) -> Result<Vec<f64>, Failure> {
     if let Some(wrong) = times.iter().find(|time| !(time.is_finite() && **time >= 0.0)) {
         return Err(Failure::Input(format!("--times: {wrong:?} must be a finite number >= 0, in seconds")));
@@ -105,7 +105,7 @@ fn ascending(times: &[f64]) -> Result<Vec<f64>, Failure> {
     Ok(times)
 }
 
-/// A grid that holds `times` and begins at zero, as every grid does; conservation is measured from there.
+/// A grid of `times` that begins at zero, as every grid does: conservation errors are relative to that point.
 fn grid(times: &[f64], plan: &Plan) -> Grid {
     let mut times = times.to_vec();
     if times.first() != Some(&0.0) {
@@ -117,7 +117,7 @@ fn grid(times: &[f64], plan: &Plan) -> Grid {
     Grid::at(times)
 }
 
-/// The campaign's grid with its intervals divided, so that curves are smooth; the campaign's own points are among them.
+/// The campaign's grid with divided intervals, for smooth curves; it contains the campaign's points.
 fn refined(grid: &Grid) -> Grid {
     let intervals = grid.points().saturating_sub(1).max(1);
     Grid::uniform(grid.duration(), intervals * SMOOTH.div_ceil(intervals) + 1)
@@ -154,7 +154,7 @@ fn single_run(options: &SimulateOptions, plan: &Plan, grid: Grid, isa: Isa) -> R
     let sample = SampleId(options.sample);
     SingleRun::new(plan, sample, grid, isa).map_err(|errors| {
         let errors: Vec<String> = errors.iter().map(|error| format!("\n  {error}")).collect();
-        Failure::Input(format!("sample {sample} is not physical (its row says invalid_sample):{}", errors.concat()))
+        Failure::Input(format!("sample {sample} is not physical (its status is invalid_sample):{}", errors.concat()))
     })
 }
 
@@ -221,9 +221,9 @@ mod tests {
         assert_eq!((shown.len(), shown[0], shown[20]), (21, 0, 1200));
     }
 
-    /// Law: a plot shows the campaign's own points too (their times to the last digit or two).
+    /// Law: a plot contains the campaign's points (their times to rounding).
     #[test]
-    fn a_refined_grid_holds_the_campaigns_points() {
+    fn a_refined_grid_contains_the_campaigns_points() {
         let (coarse, fine) = (Grid::uniform(10.0, 101), refined(&Grid::uniform(10.0, 101)));
         assert!(fine.points() > SMOOTH && fine.duration() == 10.0);
         let near = |time: &f64| fine.times().iter().any(|other| (other - time).abs() <= 1e-15 * 10.0);

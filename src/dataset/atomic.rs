@@ -1,13 +1,13 @@
 //! [`write()`]: files that are either whole or absent.
 //!
-//! A file is written under a temporary name in its own folder (a rename does not cross file systems), flushed to the disk, and
-//! then renamed. What a crash leaves behind is recognised by its name.
+//! A file is written under a temporary name in its own folder (a rename cannot cross file systems), flushed to the disk, and
+//! then renamed. What a crash leaves is recognised by its name.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-/// What the name of an unfinished file ends with.
+/// Suffix of the name of an unfinished file.
 pub const UNFINISHED: &str = ".tmp";
 
 /// The name under which `path` is written until it is whole.
@@ -17,7 +17,7 @@ pub fn unfinished(path: &Path) -> PathBuf {
     PathBuf::from(name)
 }
 
-/// Writes the file `path` through `content` and renames it into place; an older file of that name is replaced only then.
+/// Writes the file `path` with `content` and renames it; an older file of that name is replaced only then.
 ///
 /// # Errors
 /// What `content` returns, or the first failing operation on the file; the unfinished file is removed.
@@ -35,7 +35,7 @@ pub fn write<E: From<io::Error>>(
         Ok(())
     })();
     if written.is_err() {
-        // The first error is the one to report; what cannot be removed is recognised by its name.
+        // The first error is reported; a file that cannot be removed is recognised by its name.
         let _ = fs::remove_file(&temporary);
     }
     written
@@ -46,7 +46,7 @@ pub fn write<E: From<io::Error>>(
 /// # Errors
 /// Where the folder cannot be opened or flushed.
 pub fn sync_folder(folder: &Path) -> io::Result<()> {
-    // Only Unix can open a folder; elsewhere the rename itself is all that can be had.
+    // Only Unix can open and flush a folder.
     if cfg!(unix) { File::open(folder)?.sync_all() } else { Ok(()) }
 }
 
@@ -84,7 +84,7 @@ mod tests {
         fs::remove_dir_all(&folder).unwrap();
     }
 
-    /// Law: while it is written, the file does not exist under its name.
+    /// Law: while it is written, a file does not exist under its final name.
     #[test]
     fn the_name_appears_when_the_file_is_whole() {
         let folder = folder("whole");

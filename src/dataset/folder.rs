@@ -2,10 +2,10 @@
 //!
 //! ```text
 //! results/<name>/plan.toml                 the resolved plan, written first
-//! results/<name>/runs/part-000000.parquet  one file a part, each whole or absent
-//! results/<name>/summary.json              written last: it is what makes a result whole
+//! results/<name>/runs/part-000000.parquet  one file per part, each whole or absent
+//! results/<name>/summary.json              written last: it marks the result as complete
 //! ```
-//! A folder with a plan and without a summary is what an interrupted campaign leaves. Only these names are ever removed.
+//! A folder with a plan and without a summary is an unfinished result. Only files of these names are ever removed.
 
 use std::fs::{self, File, TryLockError};
 use std::io;
@@ -26,27 +26,27 @@ const SUMMARY: &str = "summary.json";
 /// Why a folder cannot take a result.
 #[derive(Debug, Error)]
 pub enum FolderError {
-    /// It holds the result of another plan.
+    /// It has the result of another plan.
     #[error(
-        "`{folder}` holds the result of another plan (hash {found}, this one is {wanted}); choose another --out, or replace it with --overwrite"
+        "`{folder}` contains the result of another plan (hash {found}, this one is {expected}); choose another --out, or replace it with --overwrite"
     )]
     Occupied {
         /// The folder.
         folder: String,
-        /// The plan that is there.
+        /// Hash of the plan that is there.
         found: String,
-        /// The plan that was to run.
-        wanted: String,
+        /// Hash of the plan to be run.
+        expected: String,
     },
-    /// It holds what an interrupted campaign of another plan left.
+    /// It has the unfinished result of another plan.
     #[error(
-        "`{folder}` holds an unfinished result of another plan; choose another --out, or replace it with --overwrite"
+        "`{folder}` contains an unfinished result of another plan; choose another --out, or replace it with --overwrite"
     )]
     Leftover {
         /// The folder.
         folder: String,
     },
-    /// It says that it is finished, and files are missing.
+    /// It is marked as complete, and files are missing.
     #[error("`{folder}` is damaged: `{missing}` is missing; run it again with --overwrite")]
     Damaged {
         /// The folder.
@@ -54,7 +54,7 @@ pub enum FolderError {
         /// The file.
         missing: String,
     },
-    /// It holds something else.
+    /// It has something else.
     #[error("`{folder}` exists and is not a result of spindrift; choose another --out")]
     Foreign {
         /// The folder.
@@ -66,30 +66,30 @@ pub enum FolderError {
         /// The folder.
         folder: String,
     },
-    /// The file system refused.
+    /// A file operation failed.
     #[error("{path}: {source}")]
     Io {
-        /// What was touched.
+        /// The file or folder.
         path: String,
         /// Why.
         source: io::Error,
     },
 }
 
-/// What was found where a result is to be.
+/// The state of the folder of a result.
 #[derive(Debug)]
 pub enum Claim {
     /// The folder is ready for the result.
     Ready(Folder),
-    /// The same plan has run to its end there; the text of its summary.
+    /// The result of the same plan is complete there; the text of its summary.
     Finished(String),
 }
 
-/// A folder that is ready for a result, held against other processes until it is dropped.
+/// A folder that is ready for a result, locked against other processes until it is dropped.
 #[derive(Debug)]
 pub struct Folder {
     root: PathBuf,
-    /// Whether an interrupted run of the same plan was found and cleared.
+    /// Whether an unfinished result of the same plan was found and cleared.
     pub restarted: bool,
     _lock: Option<File>,
 }
@@ -100,10 +100,10 @@ fn failed(path: &Path) -> impl FnOnce(io::Error) -> FolderError + use<> {
 }
 
 impl Folder {
-    /// Makes `root` ready for the result of `plan`, or says what is there.
+    /// Prepares `root` for the result of `plan`, unless that result is already complete.
     ///
     /// # Errors
-    /// Where something is there that must not be replaced, or the file system refuses.
+    /// Where the folder has something that must not be replaced, or a file operation fails.
     pub fn claim(root: &Path, plan: &Plan, overwrite: bool) -> Result<Claim, FolderError> {
         let folder = root.display().to_string();
         fs::create_dir_all(root).map_err(failed(root))?;
@@ -115,9 +115,9 @@ impl Folder {
             let text = fs::read_to_string(&summary).map_err(failed(&summary))?;
             let Some(found) = plan_hash(&text) else { return Err(FolderError::Foreign { folder }) };
             if !overwrite {
-                let wanted = plan.hash();
-                if found != wanted {
-                    return Err(FolderError::Occupied { folder, found, wanted });
+                let expected = plan.hash();
+                if found != expected {
+                    return Err(FolderError::Occupied { folder, found, expected });
                 }
                 return match missing(root, plan) {
                     Some(missing) => Err(FolderError::Damaged { folder, missing }),
@@ -140,15 +140,15 @@ impl Folder {
         Ok(Claim::Ready(Folder { root: root.to_owned(), restarted, _lock: lock }))
     }
 
-    /// Where the rows of `part` go.
+    /// The file of `part`.
     pub fn part(&self, part: PartId) -> PathBuf {
         self.root.join(RUNS).join(file_name(part))
     }
 
-    /// Makes the result whole: its summary, after everything else is on the disk.
+    /// Completes the result with its summary, after everything else is on the disk.
     ///
     /// # Errors
-    /// Where the file system refuses.
+    /// Where a file operation fails.
     pub fn finish(&self, summary: &str) -> Result<(), FolderError> {
         let runs = self.root.join(RUNS);
         atomic::sync_folder(&runs).map_err(failed(&runs))?;
@@ -160,7 +160,7 @@ impl Folder {
     /// Total size of the files of rows, bytes.
     ///
     /// # Errors
-    /// Where the file system refuses.
+    /// Where a file operation fails.
     pub fn size(&self) -> Result<u64, FolderError> {
         let runs = self.root.join(RUNS);
         let mut size = 0;
@@ -171,7 +171,7 @@ impl Folder {
     }
 }
 
-/// Holds `root` against other processes that ask the same way; where the file system has no locks, nothing is held.
+/// Locks `root` against other processes of this program; no lock where the file system has none.
 fn lock(root: &Path) -> Result<Option<File>, FolderError> {
     let Ok(file) = File::open(root) else { return Ok(None) };
     match file.try_lock() {
@@ -181,19 +181,19 @@ fn lock(root: &Path) -> Result<Option<File>, FolderError> {
     }
 }
 
-/// The hash in a summary of ours, or `None` where it is not ours.
+/// The hash in a summary; `None` where it is not one of this program.
 fn plan_hash(summary: &str) -> Option<String> {
     let value: Value = serde_json::from_str(summary).ok()?;
     Some(value.get("plan_hash")?.as_str()?.to_owned())
 }
 
-/// The first file that a finished result of `plan` should have and has not.
+/// The first file that a complete result of `plan` should have and does not have.
 fn missing(root: &Path, plan: &Plan) -> Option<String> {
     let files = Parts::of(plan.samples).iter().map(|part| Path::new(RUNS).join(file_name(part.id)));
     files.chain([PathBuf::from(PLAN)]).find(|file| !root.join(file).is_file()).map(|file| file.display().to_string())
 }
 
-/// Whether there is nothing in `root` but what a campaign leaves that was stopped before it wrote its plan.
+/// Whether `root` has nothing but temporary files of a campaign that was stopped before it wrote its plan.
 fn is_blank(root: &Path) -> io::Result<bool> {
     for entry in fs::read_dir(root)? {
         if !entry?.file_name().to_string_lossy().ends_with(atomic::UNFINISHED) {
@@ -203,7 +203,7 @@ fn is_blank(root: &Path) -> io::Result<bool> {
     Ok(true)
 }
 
-/// Removes what a result consists of: first the summary, so that a half-removed result never looks whole.
+/// Removes the files of a result: first the summary, so that a partly removed result is never taken for a complete one.
 fn clear(root: &Path) -> Result<(), FolderError> {
     let runs = root.join(RUNS);
     let mut files = vec![root.join(SUMMARY), atomic::unfinished(&root.join(SUMMARY))];

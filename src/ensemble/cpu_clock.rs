@@ -1,4 +1,4 @@
-//! [`thread_seconds`]: the CPU time of this thread, so that a measurement does not count what other programs take.
+//! [`thread_seconds`]: the CPU time of this thread, which does not include the time of other programs.
 
 /// CPU time that this thread has used, s, to the nanosecond.
 #[cfg(unix)]
@@ -7,7 +7,7 @@ pub fn thread_seconds() -> f64 {
     now.tv_sec as f64 + 1e-9 * now.tv_nsec as f64
 }
 
-/// Elapsed time, s: the closest that the standard library has elsewhere.
+/// Elapsed time, s: the standard library has no CPU time.
 #[cfg(not(unix))]
 pub fn thread_seconds() -> f64 {
     use std::sync::LazyLock;

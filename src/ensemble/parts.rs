@@ -1,17 +1,17 @@
-//! [`Parts`]: a campaign cut into parts of consecutive samples.
+//! [`Parts`]: the samples of a campaign divided into parts of consecutive samples.
 //!
-//! Where the cuts are follows from the number of samples alone, never from threads or machine: a part is what a thread takes,
-//! what a file holds, and what a shard or a resumed campaign will count in.
+//! The division depends on the number of samples only, not on threads or machine: a part is the unit of work of a thread, the
+//! content of a file, and the unit in which a campaign can be resumed or divided among machines.
 
 use crate::sampling::SampleId;
 
-/// The smallest part: below it, opening a file costs more than the runs in it.
+/// The smallest part: for a smaller one, creating the file costs more than the runs.
 const SMALLEST: u64 = 256;
 
-/// The largest part: its rows (about a hundred columns) stay near 10 MB for each thread.
+/// The largest part: its rows (about a hundred columns) take some 10 MB per thread.
 const LARGEST: u64 = 16_384;
 
-/// A campaign is cut into about this many parts, so that threads end at nearly the same time.
+/// A campaign has about this many parts, so that all threads end at nearly the same time.
 const AIM: u64 = 32;
 
 /// The number of a part, from zero in the order of its samples.
@@ -25,7 +25,7 @@ pub struct Part {
     pub id: PartId,
     /// Its first sample.
     pub first: SampleId,
-    /// How many samples it holds, at least one.
+    /// Its number of samples, at least one.
     pub count: usize,
 }
 
@@ -36,7 +36,7 @@ impl Part {
     }
 }
 
-/// How a campaign is cut into parts.
+/// How the samples of a campaign are divided into parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Parts {
     samples: u64,
@@ -55,12 +55,12 @@ impl Parts {
         self.samples.div_ceil(self.size)
     }
 
-    /// Number of samples of every part but the last, which may hold fewer.
+    /// Number of samples of every part but the last, which may have fewer.
     pub fn size(self) -> usize {
         self.size as usize
     }
 
-    /// The part numbered `id`, or `None` behind the last.
+    /// The part `id`; `None` after the last.
     pub fn part(self, id: PartId) -> Option<Part> {
         let first = id.0.checked_mul(self.size).filter(|first| *first < self.samples)?;
         let count = self.size.min(self.samples - first) as usize;
@@ -77,7 +77,7 @@ impl Parts {
 mod tests {
     use super::*;
 
-    /// Law: the parts hold every sample exactly once, in order, and sizes keep their bounds.
+    /// Law: every sample is in exactly one part, in order, and sizes are within their bounds.
     #[test]
     fn parts_tile_the_samples() {
         for samples in [0, 1, 255, 256, 257, 4096, 4097, 100_000, 1_000_000, 1_000_003] {
@@ -94,7 +94,7 @@ mod tests {
         }
     }
 
-    /// Law: a bigger campaign does not need bigger parts for ever, so memory stays flat.
+    /// Law: the size of a part is bounded, and so is memory.
     #[test]
     fn size_is_bounded() {
         assert_eq!(Parts::of(1).size(), SMALLEST as usize);
@@ -102,9 +102,9 @@ mod tests {
         assert_eq!(Parts::of(4096).size(), 256);
     }
 
-    /// Law: a number behind the last part is no part, however large it is.
+    /// Law: there is no part after the last, however large its number is.
     #[test]
-    fn no_part_behind_the_last() {
+    fn no_part_after_the_last() {
         assert_eq!(Parts::of(4096).part(PartId(16)), None);
         assert_eq!(Parts::of(4096).part(PartId(u64::MAX)), None);
     }

@@ -1,7 +1,7 @@
 //! [`Rows`]: the rows of one part, column by column.
 //!
-//! A worker owns one block and reuses it from part to part, so that memory does not grow with the campaign. What the columns
-//! mean, the plan's dispersions and the table of observables say; here they are numbers by position.
+//! A worker owns one block and reuses it from part to part, so that memory does not grow with the campaign. The meaning of the
+//! columns is in the plan's dispersions and in the table of observables; here they are numbers by index.
 
 use crate::ensemble::audit::Audit;
 use crate::ensemble::parts::Part;
@@ -26,7 +26,8 @@ pub struct Rows {
     part: Part,
     shape: Shape,
     capacity: usize,
-    /// From one column to the next: not a multiple of a large power of two, or all columns of a row would share few cache lines.
+    /// Distance of neighbouring columns: not a multiple of a large power of two, which would map all columns of a row to few
+    /// cache sets.
     stride: usize,
     statuses: Vec<Status>,
     values: Vec<f64>,
@@ -35,7 +36,7 @@ pub struct Rows {
 }
 
 impl Rows {
-    /// A block for parts of up to `capacity` samples. It holds no part yet; [`Rows::start`] gives it one.
+    /// A block for parts of up to `capacity` samples; [`Rows::start`] assigns a part.
     pub fn new(shape: Shape, capacity: usize) -> Self {
         let stride = capacity.next_multiple_of(CACHE_LINE) + CACHE_LINE;
         Rows {
@@ -50,7 +51,7 @@ impl Rows {
         }
     }
 
-    /// Empties the block for `part`: until a row is written it reads as an invalid sample without numbers.
+    /// Clears the block for `part`: a row that is not written yet is an invalid sample without numbers.
     ///
     /// # Panics
     /// Where the part is larger than the block.
@@ -84,32 +85,32 @@ impl Rows {
         self.column(index)
     }
 
-    /// The observable `index`, sample by sample; NaN where a run did not get that far.
+    /// The observable `index`, sample by sample; NaN where a failed run has no value.
     pub fn observable(&self, index: usize) -> &[f64] {
         assert!(index < self.shape.observables);
         self.column(self.shape.parameters + index)
     }
 
-    /// Writes the dispersed values of row `row` as they were applied.
+    /// Sets the dispersed values of row `row` as applied.
     pub fn set_parameters(&mut self, row: usize, values: &[f64]) {
         assert_eq!(values.len(), self.shape.parameters);
         self.scatter(0, row, values);
     }
 
-    /// Writes how the run of row `row` ended and what was observed.
+    /// Sets the status and the observables of row `row`.
     pub fn set_result(&mut self, row: usize, status: Status, observables: &[f64]) {
         assert_eq!(observables.len(), self.shape.observables);
         self.statuses[row] = status;
         self.scatter(self.shape.parameters, row, observables);
     }
 
-    /// Writes what the audit of row `row` found: `None` where the run or its truth did not arrive.
+    /// Sets the audit of row `row`: `None` where the run or its reference solution did not reach the end.
     pub fn set_audit(&mut self, row: usize, audit: Option<Audit>) {
         assert!(row < self.part.count);
         self.audits.push((row, audit));
     }
 
-    /// The rows that were audited, and what was found.
+    /// The rows that were audited, with their audits.
     pub fn audits(&self) -> &[(usize, Option<Audit>)] {
         &self.audits
     }
@@ -148,7 +149,7 @@ mod tests {
 
     /// Law: what is written to a row is in its columns at its index, and nowhere else.
     #[test]
-    fn a_row_lands_in_its_columns() {
+    fn a_row_is_in_its_columns() {
         let mut rows = Rows::new(Shape { parameters: 2, observables: 3 }, 8);
         rows.start(part(4));
         rows.set_parameters(1, &[1.0, 2.0]);
@@ -161,9 +162,9 @@ mod tests {
         }
     }
 
-    /// Law: nothing of an earlier part is left in a block that starts a new one, and an unwritten row never reads as done.
+    /// Law: a block that starts a new part has nothing of the earlier one, and an unwritten row is never done.
     #[test]
-    fn start_forgets_the_earlier_part() {
+    fn start_clears_the_earlier_part() {
         let mut rows = Rows::new(Shape { parameters: 0, observables: 1 }, 4);
         rows.start(part(4));
         (0..4).for_each(|row| rows.set_result(row, Status::Done, &[1.0]));

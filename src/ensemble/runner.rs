@@ -1,8 +1,8 @@
 //! [`run`]: the parts of a campaign over threads.
 //!
-//! Threads take the next part in order as they become free; each works in memory of its own. Nothing about a row depends on
-//! which thread made it. Stealing halves of ranges, as rayon's parallel iterators do, was rejected: the parts done at any
-//! moment would lie scattered, where a campaign that is resumed one day wants them to be a beginning.
+//! A free thread takes the next part in order, and works in memory of its own. Nothing in a row depends on the thread.
+//! Rayon's parallel iterators, which split ranges in halves, were rejected: the parts completed at any moment would be scattered
+//! over the campaign instead of being its first ones, apart from those under way.
 
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -16,25 +16,25 @@ use crate::ensemble::rows::Rows;
 use crate::ensemble::sink::Sink;
 use crate::ensemble::worker::Ensemble;
 
-/// Why a campaign did not end.
+/// Why a campaign was not completed.
 #[derive(Debug, Error)]
 pub enum RunError<E> {
-    /// The system gave no threads.
+    /// Threads could not be started.
     #[error("cannot start the threads: {0}")]
     Threads(#[from] ThreadPoolBuildError),
-    /// The sink did not take rows.
+    /// The sink refused rows.
     #[error("{0}")]
     Sink(E),
 }
 
-/// Runs every part of `campaign` and gives the rows to `sink`. `threads` of `None` means one for each core.
+/// Runs every part of `ensemble` and passes the rows to `sink`. `threads` of `None` means one per core.
 ///
-/// `progress` hears, from any thread, of every few samples how many they were.
+/// `progress` is called from any thread with the number of samples completed since its last call there.
 ///
 /// # Errors
-/// Where no threads could be had, or the first error of the sink; no part is started after it.
+/// Where threads could not be started, or the first error of the sink; no part is started after it.
 pub fn run<S: Sink>(
-    campaign: &Ensemble<'_>,
+    ensemble: &Ensemble<'_>,
     parts: Parts,
     threads: Option<NonZeroUsize>,
     sink: &S,
@@ -44,11 +44,11 @@ pub fn run<S: Sink>(
     let next = AtomicU64::new(0);
     let failure: Mutex<Option<S::Error>> = Mutex::new(None);
     pool.broadcast(|_| {
-        // Memory is made on the thread that uses it, and only by threads that get a part.
+        // Memory is allocated on the thread that uses it, and only where it gets a part.
         let mut memory = None;
         while let Some(part) = parts.part(PartId(next.fetch_add(1, Ordering::Relaxed))) {
             let (worker, rows) =
-                memory.get_or_insert_with(|| (campaign.worker(), Rows::new(campaign.shape(), parts.size())));
+                memory.get_or_insert_with(|| (ensemble.worker(), Rows::new(ensemble.shape(), parts.size())));
             worker.run(part, rows, &|samples| progress(samples));
             if let Err(error) = sink.take(rows) {
                 next.store(parts.count(), Ordering::Relaxed);

@@ -1,18 +1,18 @@
-//! [`Sink`]: where finished rows go. The ensemble knows no file format; the output floor implements this.
+//! [`Sink`]: takes finished rows. The ensemble knows no file format; `dataset` implements this.
 
 use crate::ensemble::rows::Rows;
 
 /// Takes the rows of finished parts.
 ///
-/// Called from several threads, with parts in no order. A part is offered once; what the sink makes of it must not depend on
-/// which other parts came before.
+/// Called from several threads, with parts in any order. Each part is offered once; what the sink does with it must not depend
+/// on the parts before it.
 pub trait Sink: Sync {
-    /// Why rows could not be taken.
+    /// Why rows were refused.
     type Error: Send;
 
     /// Takes the rows of one part. After an error the campaign starts no further part.
     ///
     /// # Errors
-    /// Where the rows could not be kept.
+    /// Where the rows could not be stored.
     fn take(&self, rows: &Rows) -> Result<(), Self::Error>;
 }

@@ -22,7 +22,7 @@ pub struct Numerics {
     pub p95: Option<f64>,
     /// Rank ceil(0.99 n).
     pub p99: Option<f64>,
-    /// Largest.
+    /// Maximum.
     pub max: Option<f64>,
     /// Difference of the 95% and 5% quantiles of the observable.
     pub spread: f64,
@@ -39,7 +39,7 @@ pub struct Quantiles {
     pub p95: Option<f64>,
     /// Rank ceil(0.99 n).
     pub p99: Option<f64>,
-    /// Largest.
+    /// Maximum.
     pub max: Option<f64>,
 }
 
@@ -50,35 +50,35 @@ impl Quantiles {
     }
 }
 
-/// How good `state_error_estimate` was.
+/// Comparison of `state_error_estimate` with the true error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Estimate {
     /// Runs whose estimate covers the true error.
     pub covered: u64,
-    /// Share of the audited runs.
+    /// Fraction of the audited runs.
     pub coverage: Option<f64>,
     /// Median of estimate over true error.
     pub median_ratio: Option<f64>,
 }
 
-/// What the audits of a campaign amount to.
+/// The statistics of the audits of a campaign.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct AuditSummary {
-    /// Share of the samples that was to be audited.
+    /// Fraction of the samples selected for audits.
     pub fraction: f64,
     /// Runs that were audited.
     pub audited: u64,
-    /// Selected runs that did not arrive, or whose truth did not.
+    /// Selected runs that did not reach their end, or whose reference solution did not.
     pub failed: u64,
-    /// How many of them against double-double; the others against plain doubles at 1e-16.
+    /// Audited runs with a reference solution in double-double; the others have one in plain doubles with tolerance 1e-16.
     pub in_double_double: u64,
-    /// The larger of the next two.
+    /// Maximum of the next two.
     pub state_error: Quantiles,
-    /// Of omega, over the largest |omega| of the run.
+    /// Of omega, over the run's maximum |omega|.
     pub omega_error: Quantiles,
     /// Of the attitude, rad.
     pub attitude_error_rad: Quantiles,
-    /// How good the estimate was.
+    /// Comparison of the estimate with the true error.
     pub estimate: Estimate,
 }
 
@@ -130,12 +130,12 @@ pub fn cost(audits: &AuditTally) -> String {
 impl Display for AuditSummary {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let plain = self.audited - self.in_double_double;
-        write!(f, "  audit: {} runs again, {} in double-double", self.audited, self.in_double_double)?;
+        write!(f, "  audit: {} runs compared with reference solutions, {} of them in double-double", self.audited, self.in_double_double)?;
         if plain > 0 {
-            write!(f, ", {plain} too long for that, in plain doubles at 1e-16")?;
+            write!(f, ", {plain} too long for that, in plain doubles with tolerance 1e-16")?;
         }
         if self.failed > 0 {
-            write!(f, "; {} more did not arrive", self.failed)?;
+            write!(f, "; {} more did not reach their end", self.failed)?;
         }
         writeln!(f)?;
         if self.audited == 0 {

@@ -19,13 +19,13 @@ const PANEL_WIDTH: u32 = 680;
 const PANEL_HEIGHT: u32 = 440;
 /// Height of the figure's title, pixels.
 const TITLE_HEIGHT: u32 = 44;
-/// Height of the legend below the title, pixels: outside the panels, since curves may lie anywhere in them.
+/// Height of the legend below the title, pixels: outside the panels, since curves may be anywhere in them.
 const LEGEND_HEIGHT: u32 = 28;
 /// Width of one method in the legend, pixels.
 const LEGEND_WIDTH: u32 = 160;
-/// Errors below this are drawn on it: they are zero but for the observation's rounding.
+/// Errors below this are drawn here: they are rounding of the observation.
 const LEAST_ERROR: f64 = 1e-17;
-/// Errors above this are drawn on it: nothing of the motion is left.
+/// Errors above this are drawn here: nothing of the solution is right.
 const MOST_ERROR: f64 = 1e1;
 
 /// An error of a measurement.
@@ -49,7 +49,7 @@ pub struct PrecisionFigure<'a> {
 }
 
 impl PrecisionFigure<'_> {
-    /// The panels that have anything to show.
+    /// The panels with at least one curve.
     fn panels(&self) -> Vec<(&'static str, Vec<Curve>)> {
         PANELS
             .into_iter()
@@ -58,7 +58,7 @@ impl PrecisionFigure<'_> {
             .collect()
     }
 
-    /// A curve for each method; it keeps its colour from panel to panel.
+    /// A curve for each method, with the same colour in all panels.
     fn curves(&self, pick: Pick) -> Vec<Curve> {
         let curve = |(number, method): (usize, Method)| {
             let of = self.measured.iter().filter(|measurement| measurement.method == method);
@@ -149,7 +149,7 @@ fn draw_panel<B: DrawingBackend>(
     Ok(())
 }
 
-/// The methods in their colours, side by side.
+/// The methods with their colours in a row.
 fn legend<B: DrawingBackend>(strip: &DrawingArea<B, Shift>, curves: &[Curve], scale: u32) -> Result<(), PlotError> {
     let width = (LEGEND_WIDTH * scale) as i32;
     let total = width * curves.len() as i32;
@@ -177,7 +177,7 @@ fn decades(values: impl Iterator<Item = f64>) -> Range<f64> {
     low..high.max(low + 1.0)
 }
 
-/// 10^`exponent` as a person writes it; nothing between the powers.
+/// 10^`exponent` in the usual notation; empty between the powers.
 fn power(exponent: f64) -> String {
     let whole = exponent.round();
     match whole as i32 {
@@ -193,7 +193,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn axes_hold_whole_decades() {
+    fn axes_have_whole_decades() {
         assert_eq!(decades([3.2, 7.9].into_iter()), 3.0..8.0);
         assert_eq!(decades([3.0].into_iter()), 3.0..4.0);
         assert_eq!(decades([].into_iter()), 0.0..1.0);
