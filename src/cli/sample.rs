@@ -60,6 +60,7 @@ pub fn run(options: &SampleOptions) -> Result<CommandOutcome, Failure> {
                 plan.design.name().replace('_', " ")
             ),
             names: columns.iter().map(|column| column.parameter.component_name(column.component)).collect(),
+            nominal: columns.iter().map(|column| column.nominal).collect(),
             drawn: &dispersed,
         };
         figure.save(path).map_err(|error| match error {

@@ -130,7 +130,11 @@ pub fn cost(audits: &AuditTally) -> String {
 impl Display for AuditSummary {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let plain = self.audited - self.in_double_double;
-        write!(f, "  audit: {} runs compared with reference solutions, {} of them in double-double", self.audited, self.in_double_double)?;
+        write!(
+            f,
+            "  audit: {} runs compared with reference solutions, {} of them in double-double",
+            self.audited, self.in_double_double
+        )?;
         if plain > 0 {
             write!(f, ", {plain} too long for that, in plain doubles with tolerance 1e-16")?;
         }

@@ -20,6 +20,8 @@ const CAPTION_HEIGHT: u32 = 52;
 const LARGEST_CELL: u32 = 64;
 /// Width kept for the names beside the correlation plot, pixels.
 const NAMES_WIDTH: u32 = 400;
+/// With fewer samples than this, correlations of independent parameters beyond 0.14 are common.
+const FEW: usize = 200;
 /// Bars of a histogram.
 const BARS: usize = 40;
 
@@ -30,7 +32,9 @@ pub struct DrawnFigure<'a> {
     pub title: String,
     /// Name of each column.
     pub names: Vec<String>,
-    /// The samples.
+    /// Nominal value of each column.
+    pub nominal: Vec<f64>,
+    /// The dispersed samples.
     pub drawn: &'a DrawnScenes,
 }
 
@@ -47,6 +51,9 @@ impl DrawnFigure<'_> {
         let font = |size: u32| ("sans-serif", size * scale).into_font();
         let caption = font(17).into_text_style(area).pos(Pos::new(HPos::Left, VPos::Center));
         area.draw_text("Rank correlation", &caption, (left, top / 3)).map_err(drawing)?;
+        color_bar(area, (left + (170 * scale) as i32, top / 3), scale)?;
+        let note = font(13).into_text_style(area).pos(Pos::new(HPos::Left, VPos::Center));
+        area.draw_text(&caution(self.drawn.count()), &note, (left + (400 * scale) as i32, top / 3)).map_err(drawing)?;
         let correlations = self.drawn.rank_correlations();
         for (i, (name, row)) in self.names.iter().zip(&correlations).enumerate() {
             let y = top + i as i32 * cell;
@@ -87,13 +94,38 @@ impl Canvas for DrawnFigure<'_> {
         title.draw_text(&self.title, &style, middle).map_err(drawing)?;
         let rows = self.names.len().div_ceil(ACROSS);
         let (upper, lower) = rest.split_vertically(rows as u32 * HISTOGRAM.1 * scale);
-        for ((name, values), cell) in
-            self.names.iter().zip(&self.drawn.columns).zip(upper.split_evenly((rows.max(1), ACROSS)))
-        {
-            histogram(name, values, &cell, scale)?;
+        let columns = self.names.iter().zip(&self.drawn.columns).zip(&self.nominal);
+        for (((name, values), nominal), cell) in columns.zip(upper.split_evenly((rows.max(1), ACROSS))) {
+            histogram(name, values, *nominal, &cell, scale)?;
         }
         self.draw_correlations(&lower, scale)
     }
+}
+
+/// The colours of correlations from -1 to 1, around the height of `at`.
+fn color_bar<B: DrawingBackend>(area: &DrawingArea<B, Shift>, (x, y): (i32, i32), scale: u32) -> Result<(), PlotError> {
+    const STEPS: i32 = 41;
+    let (step, half) = (4 * scale as i32, 6 * scale as i32);
+    for k in 0..STEPS {
+        let color = shade(f64::from(2 * k) / f64::from(STEPS - 1) - 1.0);
+        let left = x + k * step;
+        area.draw(&Rectangle::new([(left, y - half), (left + step - 1, y + half)], color.filled())).map_err(drawing)?;
+    }
+    let style = ("sans-serif", 12 * scale).into_font().into_text_style(area).pos(Pos::new(HPos::Center, VPos::Top));
+    for (text, at) in [("-1", 0), ("0", STEPS / 2), ("1", STEPS - 1)] {
+        area.draw_text(text, &style, (x + at * step + step / 2, y + half + 2 * scale as i32)).map_err(drawing)?;
+    }
+    Ok(())
+}
+
+/// What a correlation of `samples` samples says: that of independent parameters has the standard deviation 1/sqrt(n - 1).
+fn caution(samples: usize) -> String {
+    let Some(others) = samples.checked_sub(1).filter(|others| *others > 0) else {
+        return "too few samples for correlations".to_owned();
+    };
+    let bound = (1.96 / (others as f64).sqrt()).min(1.0);
+    let word = if samples < FEW { "caution, few samples: " } else { "" };
+    format!("{word}independent parameters are within \u{b1}{bound:.2} in 95% of cases ({samples} samples)")
 }
 
 /// A correlation in two decimals, without the sign of a rounded zero.
@@ -110,16 +142,19 @@ fn shade(r: f64) -> RGBColor {
     RGBColor(mixed(red), mixed(green), mixed(blue))
 }
 
-/// The histogram of one column: bars between its minimum and its maximum.
+/// The histogram of one column: bars between its minimum and its maximum; a dashed line at the nominal value.
 fn histogram<B: DrawingBackend>(
     name: &str,
     values: &[f64],
+    nominal: f64,
     area: &DrawingArea<B, Shift>,
     scale: u32,
 ) -> Result<(), PlotError> {
     let finite = values.iter().copied().filter(|value| value.is_finite());
-    let (low, high) =
-        finite.clone().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+    let (low, high) = finite
+        .clone()
+        .chain(Some(nominal).filter(|nominal| nominal.is_finite()))
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
     // a single value, or none, is shown in the middle of an axis
     let half = if high > low {
         0.5 * (high - low)
@@ -156,5 +191,30 @@ fn histogram<B: DrawingBackend>(
         Rectangle::new([(bar(k), 0.0), (bar(k + 1), f64::from(*count))], COLORS[0].mix(0.75).filled())
     });
     chart.draw_series(bars).map_err(drawing)?;
+    let at = (nominal - low) / width;
+    let line = [(at, 0.0), (at, 1.05 * f64::from(most))];
+    chart.draw_series(DashedLineSeries::new(line, 5 * scale, 3 * scale, BLACK.stroke_width(scale))).map_err(drawing)?;
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sampling::SampleId;
+
+    /// Law: the nominal value is marked, outside the samples too; with few samples the figure warns.
+    #[test]
+    fn the_nominal_value_is_marked() {
+        let columns = vec![(0..50).map(f64::from).collect::<Vec<_>>(), (0..50).map(|k| f64::from(k * k)).collect()];
+        let drawn = DrawnScenes { first: SampleId(1), physical: vec![true; 50], columns };
+        let names = vec!["one".to_owned(), "two".to_owned()];
+        let figure = |nominal| DrawnFigure { title: "t".into(), names: names.clone(), nominal, drawn: &drawn };
+        let svg = figure(vec![25.0, -3000.0]).svg().unwrap();
+        assert!(svg.contains("caution, few samples") && svg.contains("-3000"), "{svg}");
+        assert_ne!(svg, figure(vec![20.0, -3000.0]).svg().unwrap());
+        assert!(caution(1000).starts_with("independent parameters are within \u{b1}0.06"));
+        if let Some(folder) = std::env::var_os("SPINDRIFT_PLOT_FOLDER") {
+            figure(vec![25.0, -100.0]).save(&std::path::Path::new(&folder).join("drawn.png")).unwrap();
+        }
+    }
 }
