@@ -53,7 +53,7 @@ impl DrawnFigure<'_> {
         area.draw_text("Rank correlation", &caption, (left, top / 3)).map_err(drawing)?;
         color_bar(area, (left + (170 * scale) as i32, top / 3), scale)?;
         let note = font(13).into_text_style(area).pos(Pos::new(HPos::Left, VPos::Center));
-        area.draw_text(&caution(self.drawn.count()), &note, (left + (400 * scale) as i32, top / 3)).map_err(drawing)?;
+        area.draw_text(&caution(self.drawn.count()), &note, (left + (370 * scale) as i32, top / 3)).map_err(drawing)?;
         let correlations = self.drawn.rank_correlations();
         for (i, (name, row)) in self.names.iter().zip(&correlations).enumerate() {
             let y = top + i as i32 * cell;
@@ -124,8 +124,8 @@ fn caution(samples: usize) -> String {
         return "too few samples for correlations".to_owned();
     };
     let bound = (1.96 / (others as f64).sqrt()).min(1.0);
-    let word = if samples < FEW { "caution, few samples: " } else { "" };
-    format!("{word}independent parameters are within \u{b1}{bound:.2} in 95% of cases ({samples} samples)")
+    let word = if samples < FEW { "; caution, few samples" } else { "" };
+    format!("{samples} samples: up to \u{b1}{bound:.2} by chance (95%){word}")
 }
 
 /// A correlation in two decimals, without the sign of a rounded zero.
@@ -212,7 +212,7 @@ mod tests {
         let svg = figure(vec![25.0, -3000.0]).svg().unwrap();
         assert!(svg.contains("caution, few samples") && svg.contains("-3000"), "{svg}");
         assert_ne!(svg, figure(vec![20.0, -3000.0]).svg().unwrap());
-        assert!(caution(1000).starts_with("independent parameters are within \u{b1}0.06"));
+        assert!(caution(1000) == "1000 samples: up to \u{b1}0.06 by chance (95%)");
         if let Some(folder) = std::env::var_os("SPINDRIFT_PLOT_FOLDER") {
             figure(vec![25.0, -100.0]).save(&std::path::Path::new(&folder).join("drawn.png")).unwrap();
         }
