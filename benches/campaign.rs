@@ -17,7 +17,7 @@ use std::path::Path;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use spindrift::campaign::{Compression, Overrides, Plan};
 use spindrift::dataset::rows_file::RowsFile;
-use spindrift::ensemble::worker::propagator;
+use spindrift::ensemble::settings::propagator;
 use spindrift::ensemble::{Ensemble, Part, PartId, Parts, Rows, Sink, run};
 use spindrift::math::Isa;
 use spindrift::observables::{Group, Groups, Observer, Request};

@@ -9,7 +9,7 @@
 
 use crate::campaign::Plan;
 use crate::dynamics::gyrostat::Gyrostat;
-use crate::ensemble::worker::{propagator, request};
+use crate::ensemble::settings::{propagator, request};
 use crate::math::Isa;
 use crate::observables::table::STATE_ERROR_ESTIMATE;
 use crate::observables::{Group, Observer, Request};

@@ -4,7 +4,7 @@
 //! - [`worker`]: [`Ensemble`], shared by all threads, and [`Worker`], the memory of one thread.
 //! - [`runner`]: distributes parts to threads. - [`drawn`]: sampled parameters without runs. - [`single`]: one run with its states.
 //! - [`audit`]: runs compared with a reference solution. - [`precision`]: run time against error for every method.
-//! - [`probe`]: time of a run and of an audit. - [`cpu_clock`]: CPU time of a thread.
+//! - [`settings`]: observables and engine of a plan. - [`probe`]: time of a run and of an audit. - [`cpu_clock`]: CPU time of a thread.
 //!
 //! Not here: file formats (`dataset`), and what a run is (`run`, `propagation`).
 
@@ -16,6 +16,7 @@ pub mod precision;
 pub mod probe;
 pub mod rows;
 pub mod runner;
+pub mod settings;
 pub mod single;
 pub mod sink;
 pub mod worker;

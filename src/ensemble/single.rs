@@ -3,7 +3,7 @@
 //! The scene is drawn and propagated by the code that runs campaigns, so that the states are those behind the row.
 
 use crate::campaign::{Plan, draw};
-use crate::ensemble::worker::{propagator, request};
+use crate::ensemble::settings::{propagator, request};
 use crate::math::Isa;
 use crate::observables::{Group, Observer, Request, Series};
 use crate::propagation::CompletedRun;

@@ -5,13 +5,11 @@ use crate::ensemble::audit::{Auditor, Selection};
 use crate::ensemble::cpu_clock::thread_seconds;
 use crate::ensemble::parts::Part;
 use crate::ensemble::rows::{Rows, Shape};
+use crate::ensemble::settings::{propagator, request};
 use crate::math::Isa;
 use crate::observables::{Observer, Request};
-use crate::ode::Control;
-use crate::propagation::Method;
 use crate::propagation::PropagationSettings;
 use crate::propagation::{CompletedRun, Engine};
-use crate::run::{Grid, StateFields};
 use crate::sampling::SampleId;
 use crate::scene::Scene;
 
@@ -26,23 +24,6 @@ pub struct Ensemble<'p> {
     isa: Isa,
     request: Request,
     propagator: PropagationSettings,
-}
-
-/// What `plan` asks to observe.
-pub fn request(plan: &Plan) -> Request {
-    Request {
-        groups: plan.groups.iter().copied().collect(),
-        debris: plan.nominal.debris.is_some(),
-        actuated: plan.nominal.is_actuated(),
-        constrained: plan.method == Method::NullSpace,
-    }
-}
-
-/// What integrates scenes of `plan`, observed at the times of `grid`.
-pub fn propagator(plan: &Plan, grid: Grid, blocks: StateFields) -> PropagationSettings {
-    let control = Control { tolerance: plan.tolerance, step: plan.step_s, max_steps: plan.max_steps };
-    let nominal = Scene::resolve(&plan.nominal).expect("a plan's nominal scene was resolved when the plan was made");
-    PropagationSettings::new(plan.method, control, grid, blocks, &nominal)
 }
 
 impl<'p> Ensemble<'p> {
