@@ -130,7 +130,10 @@ fn audit(options: &SimulateOptions, plan: &Plan, run: &SingleRun, isa: Isa) -> R
         screen::note(&format!("audit of sample {sample}: the run or its reference solution did not reach the end"));
         return Ok(());
     };
-    let mut text = format!("audit of sample {sample}, against a reference solution with tolerance {:e}\n", found.reference_tolerance);
+    let mut text = format!(
+        "audit of sample {sample}, against a reference solution with tolerance {:e}\n",
+        found.reference_tolerance
+    );
     // the tolerance of the reference solution is in the first line
     let values = AuditValue::ALL.into_iter().filter(|value| *value != AuditValue::Tolerance);
     let lines = values

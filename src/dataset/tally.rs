@@ -107,9 +107,10 @@ impl Tally {
         let headlines: Vec<Headline> = HEADLINES.iter().filter_map(headline).collect();
         let audits = (ensemble.plan().audit_fraction > 0.0).then(|| AuditTally::new(headlines.len()));
         let index = |id: &ColumnId| ensemble.request().position(*id);
-        let worst = [("conservation error", &CONSERVATION[..]), ("state error estimate", &[STATE_ERROR_ESTIMATE][..])].map(|(name, columns)| {
-            Worst { name, indices: columns.iter().filter_map(index).collect(), runs: Vec::new() }
-        });
+        let worst =
+            [("conservation error", &CONSERVATION[..]), ("state error estimate", &[STATE_ERROR_ESTIMATE][..])].map(
+                |(name, columns)| Worst { name, indices: columns.iter().filter_map(index).collect(), runs: Vec::new() },
+            );
         Tally {
             without_nominal: ensemble.plan().samples > 1,
             statuses: Default::default(),
@@ -222,7 +223,8 @@ mod tests {
     fn the_nominal_sample_is_not_counted() {
         let ok = Status::Done;
         let found = tally(4, &[&[(ok, 9.0), (ok, 1.0)], &[(Status::StepLimit, 8.0), (ok, 2.0)]]);
-        let headline = found.headlines().iter().find(|headline| headline.quantity.name() == "energy_error_max").unwrap();
+        let headline =
+            found.headlines().iter().find(|headline| headline.quantity.name() == "energy_error_max").unwrap();
         assert_eq!((headline.sketch.count(), headline.sketch.max()), (2, Some(2.0)));
         assert!(found.without_nominal());
         assert_eq!((found.count(ok), found.failed()), (3, 1));

@@ -18,23 +18,48 @@ const STATES: [States; 5] = [
     (
         "Angular velocity of the fuselage, in F_s",
         "rad/s",
-        &[(TimeColumn::State(StateField::Rate, 0), "x"), (TimeColumn::State(StateField::Rate, 1), "y"), (TimeColumn::State(StateField::Rate, 2), "z")],
+        &[
+            (TimeColumn::State(StateField::Rate, 0), "x"),
+            (TimeColumn::State(StateField::Rate, 1), "y"),
+            (TimeColumn::State(StateField::Rate, 2), "z"),
+        ],
     ),
     (
         "Attitude quaternion of the fuselage, F_s to F_e",
         "",
-        &[(TimeColumn::State(StateField::Attitude, 0), "w"), (TimeColumn::State(StateField::Attitude, 1), "x"), (TimeColumn::State(StateField::Attitude, 2), "y"), (TimeColumn::State(StateField::Attitude, 3), "z")],
+        &[
+            (TimeColumn::State(StateField::Attitude, 0), "w"),
+            (TimeColumn::State(StateField::Attitude, 1), "x"),
+            (TimeColumn::State(StateField::Attitude, 2), "y"),
+            (TimeColumn::State(StateField::Attitude, 3), "z"),
+        ],
     ),
-    ("Wheel rates", "rad/s", &[(TimeColumn::State(StateField::WheelRates, 0), "wheel 1"), (TimeColumn::State(StateField::WheelRates, 1), "wheel 2")]),
+    (
+        "Wheel rates",
+        "rad/s",
+        &[
+            (TimeColumn::State(StateField::WheelRates, 0), "wheel 1"),
+            (TimeColumn::State(StateField::WheelRates, 1), "wheel 2"),
+        ],
+    ),
     (
         "Angular velocity of the debris, in F_d",
         "rad/s",
-        &[(TimeColumn::State(StateField::DebrisRate, 0), "x"), (TimeColumn::State(StateField::DebrisRate, 1), "y"), (TimeColumn::State(StateField::DebrisRate, 2), "z")],
+        &[
+            (TimeColumn::State(StateField::DebrisRate, 0), "x"),
+            (TimeColumn::State(StateField::DebrisRate, 1), "y"),
+            (TimeColumn::State(StateField::DebrisRate, 2), "z"),
+        ],
     ),
     (
         "Attitude quaternion of the debris, F_d to F_e",
         "",
-        &[(TimeColumn::State(StateField::DebrisAttitude, 0), "w"), (TimeColumn::State(StateField::DebrisAttitude, 1), "x"), (TimeColumn::State(StateField::DebrisAttitude, 2), "y"), (TimeColumn::State(StateField::DebrisAttitude, 3), "z")],
+        &[
+            (TimeColumn::State(StateField::DebrisAttitude, 0), "w"),
+            (TimeColumn::State(StateField::DebrisAttitude, 1), "x"),
+            (TimeColumn::State(StateField::DebrisAttitude, 2), "y"),
+            (TimeColumn::State(StateField::DebrisAttitude, 3), "z"),
+        ],
     ),
 ];
 
