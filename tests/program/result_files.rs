@@ -167,10 +167,10 @@ fn files_say_what_they_contain() {
             for field in reader.schema().fields() {
                 let written = |key: &str| field.metadata().get(key).cloned().unwrap_or_default();
                 assert!(!written("meaning").is_empty(), "{}", field.name());
-                if let Some(column) = columns.iter().find(|column| column.name == field.name()) {
+                if let Some(column) = columns.iter().find(|column| column.quantity.name() == field.name()) {
                     assert_eq!(
                         (written("unit"), written("meaning")),
-                        (column.unit.to_owned(), column.meaning.to_owned())
+                        (column.quantity.unit().to_owned(), column.quantity.meaning().to_owned())
                     );
                 }
             }
