@@ -34,7 +34,7 @@ impl Headline {
 /// How many samples of each group are listed by number.
 const LISTED: usize = 3;
 
-/// The observables of which the maximum is the conservation error of a run.
+/// The observables whose maximum is the conservation error of a run.
 const CONSERVATION: [ColumnId; 3] = [
     error_id(Group::EnergyConservation, Series::EnergyError, ErrorStatistic::Max),
     error_id(Group::MomentumConservation, Series::LinearMomentumError, ErrorStatistic::Max),
