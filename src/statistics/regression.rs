@@ -6,6 +6,8 @@
 //! same inverse gives the partial correlations (M. G. Kendall & A. Stuart, *The Advanced Theory of Statistics* 2, section 27.5).
 //! Applied to ranks it is the rank regression of R. L. Iman & W. J. Conover, *Technometrics* 21 (1979) 499.
 
+use nalgebra::{Cholesky, DMatrix, DVector};
+
 use super::correlation::{Estimate, product};
 use super::student::two_sided_quantile;
 
@@ -29,18 +31,18 @@ const SMALLEST_PIVOT: f64 = 1e-10;
 pub fn regression(inputs: &[Vec<f64>], y: &[f64], confidence: f64) -> Option<Regression> {
     let count = inputs.len();
     let freedom = y.len().checked_sub(count + 1).filter(|freedom| *freedom > 0)? as f64;
-    let r: Vec<f64> = inputs.iter().map(|x| product(x, y)).collect();
+    let r = DVector::from_iterator(count, inputs.iter().map(|x| product(x, y)));
     let inverse = inverse(&super::correlation::matrix(inputs))?;
-    let beta: Vec<f64> = inverse.iter().map(|row| product(row, &r)).collect();
-    let r_squared = product(&beta, &r).clamp(0.0, 1.0);
+    let beta = &inverse * &r;
+    let r_squared = beta.dot(&r).clamp(0.0, 1.0);
     let t = two_sided_quantile(confidence, freedom);
     let estimate = |j: usize| {
-        let half = t * libm::sqrt((1.0 - r_squared) / freedom * inverse[j][j]);
+        let half = t * libm::sqrt((1.0 - r_squared) / freedom * inverse[(j, j)]);
         Estimate { value: beta[j], lower: beta[j] - half, upper: beta[j] + half }
     };
     // beta_j^2 / C_jj is the part of R^2 that input j adds to the others
     let partial = |j: usize| {
-        let added = beta[j] / libm::sqrt(inverse[j][j]);
+        let added = beta[j] / libm::sqrt(inverse[(j, j)]);
         let whole = libm::sqrt(added * added + (1.0 - r_squared));
         if whole > 0.0 { (added / whole).clamp(-1.0, 1.0) } else { 0.0 }
     };
@@ -51,36 +53,12 @@ pub fn regression(inputs: &[Vec<f64>], y: &[f64], confidence: f64) -> Option<Reg
     })
 }
 
-/// The inverse of a symmetric positive definite matrix of ones on the diagonal, by Cholesky's factor; `None` where it is singular.
-fn inverse(matrix: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
-    let n = matrix.len();
-    let mut factor = vec![vec![0.0; n]; n];
-    for i in 0..n {
-        for j in 0..=i {
-            let rest = matrix[i][j] - product(&factor[i][..j], &factor[j][..j]);
-            if i == j {
-                if rest < SMALLEST_PIVOT {
-                    return None;
-                }
-                factor[i][i] = libm::sqrt(rest);
-            } else {
-                factor[i][j] = rest / factor[j][j];
-            }
-        }
-    }
-    let column = |k: usize| {
-        let mut x = vec![0.0; n];
-        for i in 0..n {
-            let unit = if i == k { 1.0 } else { 0.0 };
-            x[i] = (unit - product(&factor[i][..i], &x[..i])) / factor[i][i];
-        }
-        for i in (0..n).rev() {
-            let rest: f64 = (i + 1..n).map(|j| factor[j][i] * x[j]).sum();
-            x[i] = (x[i] - rest) / factor[i][i];
-        }
-        x
-    };
-    Some((0..n).map(column).collect())
+/// The inverse of a correlation matrix; `None` where it is singular.
+fn inverse(correlation: &[Vec<f64>]) -> Option<DMatrix<f64>> {
+    let n = correlation.len();
+    let factor = Cholesky::new(DMatrix::from_fn(n, n, |i, j| correlation[i][j]))?;
+    let regular = factor.l_dirty().diagonal().iter().all(|pivot| pivot * pivot >= SMALLEST_PIVOT);
+    regular.then(|| factor.inverse())
 }
 
 #[cfg(test)]

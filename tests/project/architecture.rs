@@ -22,13 +22,14 @@ const LAYERS: [(&str, u32); 15] = [
 ];
 
 /// Where each dependency may be used: modules, or single files. An empty list means everywhere.
-const CRATES: [(&str, &[&str]); 18] = [
+const CRATES: [(&str, &[&str]); 19] = [
     ("arrow_schema", &["dataset"]),
     ("clap", &["cli"]),
     ("csv", &["campaign/data.rs"]),
     ("fearless_simd", &["math", "dynamics", "ode", "propagation", "observables"]),
     ("indicatif", &["cli"]),
     ("libm", &[]),
+    ("nalgebra", &["statistics"]),
     ("parquet", &["dataset", "campaign/data.rs"]),
     ("plotters", &["report"]),
     ("plotters_backend", &["report/bitmap.rs"]),
