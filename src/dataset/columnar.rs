@@ -309,6 +309,6 @@ mod tests {
     fn two_columns_of_one_name_are_refused() {
         let headings = [heading("x", Content::Real, false), heading("x", Content::Real, false)];
         let refused = Layout::new(&headings, HashMap::new(), Packing::Plain).unwrap_err();
-        assert!(refused.to_string().contains("two columns are called `x`"), "{refused}");
+        assert!(refused.to_string().contains("two columns have the name `x`"), "{refused}");
     }
 }

@@ -273,7 +273,7 @@ mod tests {
             },
             actuation: vec![ActuationInput { start_s: 0.0, end_s: 1.0, thrust_n: [1.0; 3], torque_n_m: [1.0; 2] }],
             actuators: ActuatorsInput::IDEAL,
-            ..SceneInput::default()
+            environment: crate::scene::schema::EnvironmentInput { body_torque_n_m: Some([0.0; 3]) },
         }
     }
 
