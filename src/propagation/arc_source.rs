@@ -1,7 +1,7 @@
 //! [`ArcSource`]: where the runs of a batch get their arcs from, one at a time.
 
 use crate::dynamics::actuation::Laws;
-use crate::dynamics::applied::{law_arc, scheduled_arc};
+use crate::dynamics::applied::law_arc;
 use crate::dynamics::gyrostat::{Gyrostat, WITH_THRUST};
 use crate::scene::Scene;
 
@@ -53,7 +53,7 @@ impl<'a> ArcSource<'a> {
             return;
         };
         match &mut self.laws {
-            Laws::OpenLoop => gyrostat.begin_arc(scene, scheduled_arc(scene, time, self.duration)),
+            Laws::OpenLoop => gyrostat.begin_scheduled_arc(scene, time, self.duration),
             Laws::Feedback(source) => {
                 let (body, wheels) = gyrostat.observed_state(time, &components());
                 let arc = law_arc(scene, source.law(run), time, (&body, &wheels), self.duration);

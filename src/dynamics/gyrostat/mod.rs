@@ -123,6 +123,8 @@ pub struct Gyrostat<R> {
     pub initial_momentum: [R; 2],
     /// The arcs flown so far, which cover the time from zero to the end of the last without a gap.
     pub arcs: Vec<GyrostatArc<R>>,
+    /// All arcs of the schedule, where it was laid out for the time scale: they need not be computed again.
+    scheduled: Vec<GyrostatArc<R>>,
     /// Largest rate of the run's motion so far known, rad/s, from which [`Gyrostat::time_unit`] follows.
     rate: f64,
 }
@@ -154,6 +156,7 @@ impl<R: Real> Gyrostat<R> {
             wheel_angles: [zero; 2],
             initial_momentum: [zero; 2],
             arcs: Vec::new(),
+            scheduled: Vec::new(),
             rate: 0.0,
         }
     }
@@ -197,6 +200,7 @@ impl<R: Real> Gyrostat<R> {
         self.q_eb = q_eb;
         self.rate = largest(first_lane(omega_b));
         self.arcs.clear();
+        self.scheduled.clear();
     }
 
     /// Takes the principal axes of the inertia `j`, kg m^2 by rows, as the frame B.
@@ -410,7 +414,15 @@ impl<R: Real> Gyrostat<R> {
             return;
         }
         self.begin_schedule(scene, duration);
-        self.arcs.clear();
+        core::mem::swap(&mut self.arcs, &mut self.scheduled);
+    }
+
+    /// Starts the next arc of the schedule of `scene`, at `time`.
+    pub fn begin_scheduled_arc(&mut self, scene: &Scene, time: f64, duration: f64) {
+        match self.scheduled.get(self.arcs.len()) {
+            Some(arc) => self.arcs.push(*arc),
+            None => self.begin_arc(scene, scheduled_arc(scene, time, duration)),
+        }
     }
 
     /// Takes the last arc into account in the time scale, for a run whose arcs are not known before it starts.
