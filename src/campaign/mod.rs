@@ -3,12 +3,12 @@
 //! - [`problem`]: one reason, with file, line, key, value, allowed range and remedy.
 //! - [`document`], [`section`], [`lists`]: a TOML document that is read key by key and remembers the lines. By hand and not by
 //!   serde's derive, which stops at the first error and knows no line of a key that passed.
-//! - [`spec`]: the keys of a campaign file; [`scene`]: those of the scene, from [`crate::scene::schema`]; [`disperse`],
-//!   [`design`], [`dependence`]: those that say what is drawn; [`keys`]: how a distribution or a design reads its own;
-//!   [`data`], [`data_keys`]: files of numbers; [`parameter`]: names of parameters; [`limits`]; [`compression`].
+//! - [`spec`]: the keys of a campaign file; `scene`: those of the scene, from [`crate::scene::schema`]; [`disperse`],
+//!   [`design`], [`dependence`]: those that say what is drawn; `keys`: how a distribution or a design reads its own;
+//!   [`data`], `data_keys`: files of numbers; `parameter`: names of parameters; [`limits`]; [`compression`].
 //! - [`plan`]: defaults filled in, scene and dispersions checked against each other.
 //! - [`mod@draw`]: from a plan and the number of a sample to its scene.
-//! - [`canonical`], [`canonical_draws`], [`lines`]: the plan as text that reads back to the same plan, and its hash.
+//! - [`canonical`], [`canonical_draws`], `lines`: the plan as text that reads back to the same plan, and its hash.
 //! - [`mod@find`]: which file a name means.
 //!
 //! Not here: what is physical ([`crate::scene`]) and what can be drawn ([`crate::sampling`]); their errors get lines here.

@@ -1,4 +1,4 @@
-//! [`exchange`]: correlations and dominant frequency of the exchange of kinetic energy between fuselage and wheels, about the
+//! `exchange`: correlations and dominant frequency of the exchange of kinetic energy between fuselage and wheels, about the
 //! spacecraft's centre of mass.
 
 use fearless_simd::Simd;

@@ -3,7 +3,7 @@
 //! The reductions that one pass over a series yields together are one variant of [`Reduction`]. Each pass gives a value for every
 //! statistic of its list by an exhaustive `match`: a reduction that nothing computes does not compile.
 //!
-//! Not here: the passes ([`super::reduce`]).
+//! Not here: the passes (`reduce`).
 
 /// An enum with the list and the number of its variants.
 macro_rules! statistics {

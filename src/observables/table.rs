@@ -2,7 +2,7 @@
 //!
 //! A row of [`Series`] says where a series comes from, what of the state table it needs, and how a time series shows it. A row
 //! of the columns says group, kinds of scene, value, name, unit and meaning. Names, order, documentation and the Parquet schema
-//! follow from here. To add an observable, add its rows, and compute its series in the file of its [`Source`].
+//! follow from here. To add an observable, add its rows, and compute its series in the file of its `Source`.
 //!
 //! An error column belongs to a signed series e(t) (energy) or to the norm e(t) of an error vector (momenta), measured from
 //! observation point 0. Energy errors are relative to the largest total energy on the grid, momentum errors to the largest |p|

@@ -68,7 +68,7 @@ impl Figure {
     /// Corner, width and height of each panel at scale 1, pixels.
     fn places(&self) -> Vec<(i32, i32, u32, u32)> {
         let place = |index: usize| {
-            let is_alone = index % 2 == 0 && index + 1 == self.panels.len();
+            let is_alone = index.is_multiple_of(2) && index + 1 == self.panels.len();
             let width = if is_alone { self.size().0 } else { PANEL_WIDTH };
             let (column, row) = ((index % 2) as u32, (index / 2) as u32);
             ((column * PANEL_WIDTH) as i32, (TITLE_HEIGHT + row * PANEL_HEIGHT) as i32, width, PANEL_HEIGHT)

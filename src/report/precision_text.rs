@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use crate::ensemble::precision::{Deviation, Measurement, Setting, Skipped};
 
-/// The names of the columns of [`line`].
+/// The names of the columns of [`line()`].
 pub fn headline() -> String {
     format!(
         "{:<17} {:>9} {:>10} {:>11} {:>8} {:>9} {:>9} {:>9} {:>9}  {}\n",

@@ -1,6 +1,6 @@
 //! What makes a scene physical beyond the limits of single keys, which [`super::schema`] states.
 //!
-//! [`written`] checks what was written, [`derived`] what follows from it (masses and inertias that overflow, vanish or are
+//! `written` checks what was written, `derived` what follows from it (masses and inertias that overflow, vanish or are
 //! not positive definite). Both only collect problems, so that one check of an input finds them all.
 
 use super::error::Problems;

@@ -14,7 +14,7 @@ pub const WHEELS: usize = 2;
 pub struct Actuation {
     /// The time since the start of the run until which the values are constant, s; infinite where nothing is to change.
     pub until: f64,
-    /// Thrusts P1, P2, P3 along the thrusters' directions ([`Scene::thruster_directions`]), N.
+    /// Thrusts P1, P2, P3 along the thrusters' directions (`thruster_directions`), N.
     pub thrust: [f64; THRUSTERS],
     /// Motor torques on W1, W2 about their axes, N m; the fuselage feels the opposite.
     pub motor_torque: [f64; WHEELS],

@@ -1,4 +1,4 @@
-//! [`Numbers`]: a field of an input structure seen as plain numbers.
+//! `Numbers`: a field of an input structure seen as plain numbers.
 
 /// A value made of numbers, present or not.
 pub(in crate::scene) trait Numbers {
