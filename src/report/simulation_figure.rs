@@ -73,7 +73,7 @@ const ENERGIES: [Column; 4] = [
 
 /// Relative errors of the balances.
 const ERRORS: [Column; 3] = [
-    (TimeColumn::Series(Series::EnergyError), "energy minus work of the actuators"),
+    (TimeColumn::Series(Series::EnergyError), "energy minus work"),
     (TimeColumn::Series(Series::LinearMomentumError), "linear momentum"),
     (TimeColumn::Series(Series::AngularMomentumError), "angular momentum"),
 ];
