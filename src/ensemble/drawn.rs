@@ -3,6 +3,7 @@
 use crate::campaign::{Plan, SceneDraws};
 use crate::sampling::SampleId;
 use crate::scene::Scene;
+use crate::statistics::correlation::{matrix, mid_ranks, standardised};
 use crate::statistics::quantile::quantile;
 
 /// Samples as drawn: what was applied, and whether the scene is physical.
@@ -53,31 +54,9 @@ impl DrawnScenes {
 
     /// Spearman's rank correlation of each pair of columns; 0 for a column that does not vary. Equal values share their mean rank.
     pub fn rank_correlations(&self) -> Vec<Vec<f64>> {
-        let scores: Vec<Vec<f64>> = self.columns.iter().map(|column| standard_ranks(column)).collect();
-        let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-        scores.iter().map(|a| scores.iter().map(|b| product(a, b)).collect()).collect()
+        let scores: Vec<Vec<f64>> = self.columns.iter().map(|column| standardised(&mid_ranks(column))).collect();
+        matrix(&scores)
     }
-}
-
-/// Ranks minus their mean, as a vector of length one, or zero where all values are equal.
-fn standard_ranks(values: &[f64]) -> Vec<f64> {
-    let mut order: Vec<usize> = (0..values.len()).collect();
-    order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
-    let mut ranks = vec![0.0; values.len()];
-    let mut start = 0;
-    while start < order.len() {
-        let equal = order[start..].iter().take_while(|place| values[**place] == values[order[start]]).count().max(1);
-        let rank = start as f64 + 0.5 * (equal - 1) as f64;
-        order[start..start + equal].iter().for_each(|place| ranks[*place] = rank);
-        start += equal;
-    }
-    let mean = 0.5 * (values.len() as f64 - 1.0);
-    ranks.iter_mut().for_each(|rank| *rank -= mean);
-    let length = ranks.iter().map(|rank| rank * rank).sum::<f64>().sqrt();
-    if length > 0.0 {
-        ranks.iter_mut().for_each(|rank| *rank /= length);
-    }
-    ranks
 }
 
 #[cfg(test)]
@@ -91,8 +70,6 @@ mod tests {
         let drawn = DrawnScenes { first: SampleId(0), physical: vec![true; 4], columns };
         let r = drawn.rank_correlations();
         assert!((r[0][1] - 1.0).abs() < 1e-15 && (r[0][2] + 1.0).abs() < 1e-15 && r[0][3] == 0.0);
-        // ties share their mean rank: ranks 0.5, 0.5, 2 against 0, 1, 2
-        assert_eq!(standard_ranks(&[7.0, 7.0, 9.0]), [-0.5 / 1.5f64.sqrt(), -0.5 / 1.5f64.sqrt(), 1.0 / 1.5f64.sqrt()]);
         let [low, middle, high] = drawn.percentiles([0.0, 0.5, 0.99])[1].expect("four samples");
         assert_eq!((low, middle), (1.0, 17.5));
         assert!((high - (64.0 - 0.03 * 37.0)).abs() < 1e-12, "99% of four draws is not their maximum: {high}");
