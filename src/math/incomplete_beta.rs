@@ -165,7 +165,7 @@ mod tests {
     use super::*;
 
     /// (x, a, b, I, 1 - I), from sums of binomial terms and hypergeometric series in 40 digits (mpmath 1.3).
-    #[allow(clippy::excessive_precision, reason = "the digits are those of the source")]
+    #[expect(clippy::excessive_precision, reason = "the digits are those of the source")]
     const KNOWN: [(f64, f64, f64, f64, f64); 11] = [
         (0.3, 2.5, 1.5, 0.088943723170665592, 0.91105627682933441),
         (0.001, 0.05, 40.0, 0.87238223856348242, 0.12761776143651758),

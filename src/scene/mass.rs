@@ -7,20 +7,10 @@
 
 use super::input::SceneInput;
 use super::schema::{DebrisInput, FuselageInput, WheelInput, WheelMode};
+pub use super::solids::Body;
 use super::solids::{Cylinder, hollow_cylinder, solid_box, solid_cylinder};
 use crate::math::Real;
 use crate::math::vector::{constant, cross, difference, dot, norm, scaled, sum};
-
-/// Mass properties of a rigid body in its own frame.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Body<R = f64> {
-    /// Mass, kg.
-    pub mass: R,
-    /// Centre of mass from the frame's origin, m (for the fuselage from p in F_s; zero for the debris).
-    pub center: [R; 3],
-    /// Inertia tensor about the centre of mass, in the body's frame, kg m^2, by rows.
-    pub inertia: [[R; 3]; 3],
-}
 
 /// A balanced axisymmetric wheel, fixed with its centre and axis in the fuselage. A missing wheel has mass and inertia zero.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -112,8 +112,6 @@ mod tests {
         assert_eq!(second.tensor(1.0), [[2.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 4.0]]);
     }
 
-    /// Law: a box whose matter is stretched is the stretched box; one that is sheared has the moments of the sheared box, by its
-    /// integrals (x, y, z independent and uniform: <x^2> = a^2/12).
     /// Law: a factor of the inertia changes the inertia by that factor, and neither mass nor centre; one leaves every bit.
     #[test]
     fn a_factor_of_the_inertia_changes_nothing_else() {
@@ -125,6 +123,8 @@ mod tests {
         assert_eq!((heavier.mass, heavier.inertia), (1.25 * nominal.mass, scaled.inertia));
     }
 
+    /// Law: a box whose matter is stretched is the stretched box; one that is sheared has the moments of the sheared box, by its
+    /// integrals (x, y, z independent and uniform: <x^2> = a^2/12).
     #[test]
     fn stretched_and_sheared_matter_is_that_of_the_integrals() {
         let nominal = solid_box([1.0, 2.0, 3.0], 10.0);

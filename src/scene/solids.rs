@@ -6,8 +6,18 @@
 //!
 //! Not here: bodies put together ([`super::mass`]), and what sizes are allowed ([`super::check`]).
 
-use super::mass::Body;
 use crate::math::Real;
+
+/// Mass properties of a rigid body in its own frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Body<R = f64> {
+    /// Mass, kg.
+    pub mass: R,
+    /// Centre of mass from the frame's origin, m (for the fuselage from p in F_s; zero for the debris).
+    pub center: [R; 3],
+    /// Inertia tensor about the centre of mass, in the body's frame, kg m^2, by rows.
+    pub inertia: [[R; 3]; 3],
+}
 
 /// pi - fl(pi): what a type wider than `f64` adds to `f64`'s pi.
 const PI_LOW: f64 = 1.224_646_799_147_353_2e-16;
