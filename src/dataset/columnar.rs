@@ -94,7 +94,10 @@ pub enum Packing {
 pub struct Layout {
     schema: Schema,
     root: TypePtr,
-    packing: Packing,
+    /// Properties of every file, without its metadata.
+    properties: WriterProperties,
+    /// The schema as Arrow's readers look for it. It is encoded once: for a small part that costs as much as tens of runs.
+    arrow_schema: Vec<KeyValue>,
 }
 
 impl Layout {
@@ -110,7 +113,9 @@ impl Layout {
         }
         let schema = Schema::new_with_metadata(headings.iter().map(Heading::field).collect::<Vec<_>>(), metadata);
         let root = ArrowSchemaConverter::new().convert(&schema)?.root_schema_ptr();
-        Ok(Layout { schema, root, packing })
+        let properties = properties(&schema, packing);
+        let arrow_schema = arrow_schema(&schema);
+        Ok(Layout { schema, root, properties, arrow_schema })
     }
 
     /// The columns, and the metadata that every file has.
@@ -145,33 +150,45 @@ impl Layout {
         Ok(())
     }
 
+    /// The properties of a file with the metadata `own`.
     fn properties(&self, own: &[(&str, String)]) -> WriterProperties {
         let pairs = self.schema.metadata().iter().map(|(key, value)| (key.as_str(), value));
         let mut pairs: Vec<(&str, &String)> = pairs.chain(own.iter().map(|(key, value)| (*key, value))).collect();
         pairs.sort_unstable(); // the order of a hash map changes from run to run; files must not
-        let pairs = pairs.into_iter().map(|(key, value)| KeyValue::new(key.to_owned(), value.clone())).collect();
-        let mut properties =
-            WriterProperties::builder().set_dictionary_enabled(false).set_key_value_metadata(Some(pairs));
-        properties = properties.set_compression(match self.packing {
-            Packing::Lz4 => Compression::LZ4_RAW,
-            Packing::Zstd => Compression::ZSTD(ZstdLevel::default()),
-            Packing::Plain => Compression::UNCOMPRESSED,
-        });
-        for field in self.schema.fields() {
-            let path = ColumnPath::from(field.name().as_str());
-            properties = match (field.data_type(), self.packing) {
-                (DataType::Utf8, _) => properties.set_column_dictionary_enabled(path, true),
-                (DataType::UInt64, _) => properties.set_column_encoding(path, Encoding::DELTA_BINARY_PACKED),
-                (_, Packing::Lz4 | Packing::Zstd) => properties.set_column_encoding(path, Encoding::BYTE_STREAM_SPLIT),
-                (_, Packing::Plain) => properties.set_column_encoding(path, Encoding::PLAIN),
-            };
-        }
-        let mut properties = properties.build();
-        // the schema's own metadata would be stored twice
-        let bare = Schema::new(self.schema.fields().clone());
-        add_encoded_arrow_schema_to_metadata(&bare, &mut properties);
-        properties
+        let pairs = pairs.into_iter().map(|(key, value)| KeyValue::new(key.to_owned(), value.clone()));
+        let pairs = pairs.chain(self.arrow_schema.iter().cloned()).collect();
+        self.properties.clone().into_builder().set_key_value_metadata(Some(pairs)).build()
     }
+}
+
+/// Encodings and compression of the columns of `schema`.
+fn properties(schema: &Schema, packing: Packing) -> WriterProperties {
+    let (compression, reals) = match packing {
+        Packing::Lz4 => (Compression::LZ4_RAW, Encoding::BYTE_STREAM_SPLIT),
+        Packing::Zstd => (Compression::ZSTD(ZstdLevel::default()), Encoding::BYTE_STREAM_SPLIT),
+        Packing::Plain => (Compression::UNCOMPRESSED, Encoding::PLAIN),
+    };
+    // most columns are real numbers: theirs is the encoding of columns without one of their own
+    let mut properties = WriterProperties::builder().set_dictionary_enabled(false).set_encoding(reals);
+    properties = properties.set_compression(compression);
+    for field in schema.fields() {
+        let path = || ColumnPath::from(field.name().as_str());
+        properties = match field.data_type() {
+            DataType::Utf8 => {
+                properties.set_column_dictionary_enabled(path(), true).set_column_encoding(path(), Encoding::PLAIN)
+            }
+            DataType::UInt64 => properties.set_column_encoding(path(), Encoding::DELTA_BINARY_PACKED),
+            _ => properties,
+        };
+    }
+    properties.build()
+}
+
+/// The metadata that contains `schema`, without the schema's own metadata, which would be stored twice.
+fn arrow_schema(schema: &Schema) -> Vec<KeyValue> {
+    let mut properties = WriterProperties::default();
+    add_encoded_arrow_schema_to_metadata(&Schema::new(schema.fields().clone()), &mut properties);
+    properties.key_value_metadata().cloned().unwrap_or_default()
 }
 
 /// Buffers for what Parquet takes separately: which values are present, and those values without gaps.
