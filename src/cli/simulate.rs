@@ -14,7 +14,7 @@ use crate::ensemble::audit::AuditValue;
 use crate::ensemble::{Auditor, SingleRun};
 use crate::math::Isa;
 use crate::observables::Series;
-use crate::observables::table::STATE_ERROR_ESTIMATE;
+use crate::observables::headlines::STATE_ERROR_ESTIMATE;
 use crate::report::canvas::{Canvas, PlotError, PlotFormat};
 use crate::report::number::short;
 use crate::report::simulation_figure::simulation_figure;

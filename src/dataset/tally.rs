@@ -5,7 +5,8 @@
 
 use crate::dataset::audit_tally::AuditTally;
 use crate::ensemble::{Ensemble, Rows};
-use crate::observables::table::{HEADLINES, STATE_ERROR_ESTIMATE, error_id};
+use crate::observables::headlines::{HEADLINES, STATE_ERROR_ESTIMATE};
+use crate::observables::table::error_id;
 use crate::observables::{ColumnId, ErrorStatistic, Group, Kind, Series};
 use crate::run::{Quantity, Status};
 use crate::sampling::SampleId;

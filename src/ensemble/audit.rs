@@ -11,7 +11,7 @@ use crate::campaign::Plan;
 use crate::dynamics::gyrostat::Gyrostat;
 use crate::ensemble::settings::{propagator, request};
 use crate::math::Isa;
-use crate::observables::table::STATE_ERROR_ESTIMATE;
+use crate::observables::headlines::STATE_ERROR_ESTIMATE;
 use crate::observables::{Group, Observer, Request};
 use crate::ode::{Control, Tolerance};
 use crate::propagation::taylor::reference_solution::{self, ReferenceSolution};

@@ -30,13 +30,13 @@
 
 use fearless_simd::Simd;
 
+use super::acting::Acting;
 use super::error_sums::{Here, Sums};
-use super::rotor::{Body, acts, adjugate, largest_torque};
+use super::rotor::{Body, adjugate};
 use crate::math::lanes::WIDTH;
 use crate::math::vector::{constant, constant_matrix, cross, difference, dot, product, scaled, sum};
 use crate::math::{Lanes, Real};
 use crate::run::{LocalErrors, StateField, StateTable};
-use crate::scene::Scene;
 
 /// Maximum number of points of a run that are examined: enough to find the closest approach to a separatrix about as often as it
 /// occurs, few enough that the cost is negligible compared with the run.
@@ -130,13 +130,13 @@ impl Conditioning {
         }
     }
 
-    /// The estimate for a run; `local` are the errors that the method estimates. `times` are those of the table's points; the
+    /// The estimate for a run on which `acting` acts; `local` are the errors that the method estimates. `times` are those of the table's points; the
     /// first `filled` >= 1 have states.
     #[inline(always)]
     pub(super) fn estimate<S: Simd>(
         &mut self,
         simd: S,
-        scene: &Scene,
+        acting: Acting<'_>,
         table: &StateTable,
         times: &[f64],
         filled: usize,
@@ -148,7 +148,7 @@ impl Conditioning {
         for (k, time) in self.times[..count].iter_mut().enumerate() {
             *time = times[(k * stride).min(last)];
         }
-        let body = Body::of(scene, table, times[last]);
+        let body = Body::of(acting, table, times[last]);
         for first in (0..count).step_by(WIDTH) {
             self.fill(simd, &body, table, [first, stride, last]);
         }
@@ -163,7 +163,7 @@ impl Conditioning {
         let (error, amplification) = if widest <= STILL * largest {
             self.at_equilibrium(&body, count, largest, table, local)
         } else {
-            self.along_curve(&body, count, largest, scene, local)
+            self.along_curve(&body, count, largest, acting, local)
         };
         // NaN counts as lost
         let error = SAFETY * (error + local.truncation + local.attitude);
@@ -245,14 +245,14 @@ impl Conditioning {
         body: &Body<'_>,
         count: usize,
         largest: f64,
-        scene: &Scene,
+        acting: Acting<'_>,
         local: &LocalErrors,
     ) -> (f64, f64) {
         let inertia = body.size;
         // errors are relative to omega: the momentum that corresponds to an error of one
         let unit = inertia * largest;
         let is_driven = body.offset.is_none();
-        let torque = if is_driven { largest_torque(scene) } else { 0.0 };
+        let torque = if is_driven { acting.largest_torque() } else { 0.0 };
         let mut quietest = 0;
         let mut energy = 0.0_f64;
         for k in 0..count {
@@ -270,7 +270,7 @@ impl Conditioning {
         let (mut low, mut high, mut motion) = (f64::INFINITY, f64::NEG_INFINITY, 0.0);
         for k in 0..count {
             let (h, mu, mut w) = (self.momentum[k], self.along[k], self.across[k]);
-            if torque > 0.0 && acts(scene, self.times[k]) {
+            if torque > 0.0 && acting.acts(self.times[k]) {
                 w = w.larger(torque / (inertia * largest.larger(h / inertia)));
             }
             low = low.smaller(mu * h);

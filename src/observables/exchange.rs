@@ -3,8 +3,9 @@
 
 use fearless_simd::Simd;
 
-use super::reduce::{Weights, correlations, slope};
+use super::correlation::{correlations, slope};
 use super::spectrum::Spectrum;
+use super::weights::Weights;
 
 /// Swing of a body's energy, relative to the total about the centre of mass, up to which the energy counts as constant: some
 /// dozens of roundings of the total, from its sum of squares and from the integration of omega.

@@ -1,24 +1,30 @@
 //! Layer 3: what is observed of a run.
 //!
 //! - [`group`]: the groups that a campaign asks for by name.
-//! - [`table`]: the one table of observables: series, direct values and the columns of a row; `rows`: what its rows consist of.
-//! - [`reduction`]: how a series becomes a number; `reduce`: the passes over a series that compute it.
+//! - [`table`]: the one table of observables: series, direct values and the columns of a row; `rows`: what its rows consist of;
+//!   `inputs`: what each value is made of; [`headlines`]: the columns of a summary.
+//! - [`reduction`]: how a series becomes a number; `reduce`, `correlation`: the passes over series that compute it (`weights`).
 //! - [`request`]: what a campaign observes; from it the columns, and which fields of the state table they need and why.
-//! - [`observer`]: [`Observer`] reads a state table and writes a row.
+//! - [`observer`]: [`Observer`] reads a state table and writes a row, by a `row_plan` and with direct values of a `finished_run`.
 //! - `measure`: states to series, by `energies`, `momenta` and `attitude`, eight points at a time (`points`).
-//! - `conditioning`, `error_sums`, `rotor`: how much the motion amplifies errors of its state.
+//! - `conditioning`, `error_sums`, `rotor`, `acting`: how much the motion amplifies errors of its state.
 //! - `exchange`, `spectrum`: the exchange of energy between the bodies, and its frequency.
 //!
 //! Source of energies and momenta: Berdoz, *Final Report - ADR Spacecraft*, (36), and the balances of the gyrostat
 //! (Zhukovskii; Volterra 1899). Nothing here depends on how a run was integrated, and nothing is assumed to be conserved: every
 //! error is measured from the computed states.
 
+mod acting;
 mod attitude;
 mod conditioning;
+mod correlation;
 mod energies;
 mod error_sums;
 pub mod exchange;
+mod finished_run;
 pub mod group;
+pub mod headlines;
+mod inputs;
 mod measure;
 mod momenta;
 pub mod observer;
@@ -27,10 +33,12 @@ mod reduce;
 pub mod reduction;
 pub mod request;
 mod rotor;
+mod row_plan;
 #[macro_use]
 mod rows;
 mod spectrum;
 pub mod table;
+mod weights;
 
 pub use group::{Group, Groups};
 pub use observer::Observer;

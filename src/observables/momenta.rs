@@ -1,7 +1,7 @@
 //! Linear and angular momenta of spacecraft and debris, and how far each departs from its first value.
 //!
-//! p = m v_c minus the thrusters' impulse; L = C_es (J omega + sum J_i Omega_i a_i) about c, J with wheels locked, minus their
-//! angular impulse; of the debris m_d v_d and C_ed J_d omega_d, on which nothing acts.
+//! p = m v_c minus the thrusters' impulse; L = C_es (J omega + sum J_i Omega_i a_i) about c, J with wheels locked, minus the
+//! angular impulse of thrusters and torques on the body; of the debris m_d v_d and C_ed J_d omega_d, on which nothing acts.
 
 use fearless_simd::Simd;
 

@@ -2,25 +2,25 @@
 
 use fearless_simd::Simd;
 
+use super::acting::Acting;
 use super::conditioning::{Conditioning, ErrorEstimate};
 use super::exchange::{BodyEnergy, Exchange, exchange};
+use super::finished_run::{FinishedRun, final_point};
 use super::group::Group;
 use super::measure::measure;
 use super::points::{MeasuredRun, SeriesTable};
-use super::reduce::{Weights, reduce};
+use super::reduce::reduce;
 use super::reduction::{OrderStatistic, Reduction, ValueStatistic};
 use super::request::{Request, SeriesSet, SeriesTask};
+use super::row_plan::{RowPlan, Slot, Statistics};
 use super::rows::Source;
 use super::spectrum::Spectrum;
-use super::table::{DirectValue, Series, Value};
+use super::table::Series;
+use super::weights::Weights;
 use crate::math::Isa;
 use crate::math::isa::Work;
-use crate::run::{Grid, LocalErrors, Outcome, StateField, StateTable, Status};
-use crate::scene::Scene;
-
-/// An error of the state, from the rounding of the input alone, above which a run is ill conditioned: a thousandth of a radian or
-/// of the rate. No question that a campaign asks depends on less.
-pub const MEANINGLESS: f64 = 1e-3;
+use crate::run::{Grid, LocalErrors, Outcome, StateTable, Status};
+use crate::scene::{Arc, Scene};
 
 /// Observes runs on one grid; one per worker, reused from run to run without allocating.
 #[derive(Clone, Debug)]
@@ -29,20 +29,13 @@ pub struct Observer {
     observed: SeriesSet,
     sources: Vec<Source>,
     tasks: Vec<SeriesTask>,
-    /// The columns that show a statistic: place in the row, and slot.
-    statistics: Vec<(usize, Slot)>,
-    /// The columns that are relative to a scale: place in the row, and slot of the scale.
-    relative: Vec<(usize, Slot)>,
-    /// The columns that show a direct value, with their places in the row.
-    direct_values: Vec<(usize, DirectValue)>,
-    /// For each column whether a run that failed has it too.
-    known_after_failure: Vec<bool>,
+    plan: RowPlan,
     shown: Vec<Series>,
     times: Vec<f64>,
     weights: Weights,
     spectrum: Option<Spectrum>,
     series: SeriesTable,
-    values: Values,
+    statistics: Statistics,
     conditioning: Option<Box<Conditioning>>,
     estimate: ErrorEstimate,
     exchange: Exchange,
@@ -50,65 +43,22 @@ pub struct Observer {
     filled: usize,
 }
 
-/// The statistics of every series.
-#[derive(Clone, Debug)]
-struct Values(Box<[[f64; Reduction::COUNT]; Series::COUNT]>);
-
-/// The index of a statistic among those of all series.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Slot(usize);
-
-impl Slot {
-    const fn of((series, reduction): (Series, Reduction)) -> Self {
-        Slot(series as usize * Reduction::COUNT + reduction.index())
-    }
-}
-
-impl Values {
-    #[inline(always)]
-    fn get(&self, slot: Slot) -> f64 {
-        self.0.as_flattened()[slot.0]
-    }
-
-    /// The value of a scale, or one where it is zero: errors are absolute there.
-    #[inline(always)]
-    fn scale(&self, slot: Slot) -> f64 {
-        let scale = self.get(slot);
-        if scale == 0.0 { 1.0 } else { scale }
-    }
-}
-
 impl Observer {
     /// Observes what `request` asks for at the times of `grid`.
     pub fn new(request: Request, grid: &Grid) -> Self {
-        let columns = request.columns();
         let observed = request.observed();
-        let (mut statistics, mut relative) = (Vec::new(), Vec::new());
-        let mut direct_values = Vec::new();
-        for (place, column) in columns.iter().enumerate() {
-            match column.value {
-                Value::Of(series, reduction) => {
-                    statistics.push((place, Slot::of((series, reduction))));
-                    relative.extend(column.value.scale().map(|scale| (place, Slot::of(scale))));
-                }
-                Value::Direct(value) => direct_values.push((place, value)),
-            }
-        }
         Observer {
             request,
             observed,
             sources: Source::ALL.into_iter().filter(|source| observed.has_any_of(*source)).collect(),
             tasks: request.tasks(),
-            statistics,
-            relative,
-            direct_values,
-            known_after_failure: columns.iter().map(|column| column.value.is_known_after_failure()).collect(),
+            plan: RowPlan::of(&request),
             shown: request.series(),
             times: grid.times().to_vec(),
             weights: Weights::of(grid),
             spectrum: if request.groups.contains(Group::Exchange) { Spectrum::of(grid) } else { None },
             series: SeriesTable::new(grid.points()),
-            values: Values(Box::new([[f64::NAN; Reduction::COUNT]; Series::COUNT])),
+            statistics: Statistics::unknown(),
             conditioning: request.groups.contains(Group::Numerics).then(|| Box::new(Conditioning::new())),
             estimate: ErrorEstimate::UNKNOWN,
             exchange: Exchange::UNKNOWN,
@@ -121,7 +71,7 @@ impl Observer {
         &self.request
     }
 
-    /// Writes the values of [`Request::columns`], in that order, of the run whose states are in `table`.
+    /// Writes the values of [`Request::columns`], in that order, of the run of `scene` by its own schedule whose states are in `table`.
     ///
     /// Of a run that is not [`Status::Done`] only step statistics and final state are numbers, the latter at the last point with
     /// finite values; everything else is NaN. Counts are whole numbers.
@@ -130,27 +80,46 @@ impl Observer {
     /// Where the table lacks a field of [`Request::fields`] or has other points than the grid, the scene has no debris although
     /// the request says so, or `row` has another length than [`Request::columns`].
     pub fn observe(&mut self, isa: Isa, scene: &Scene, table: &StateTable, outcome: &Outcome, row: &mut [f64]) {
-        assert_eq!(row.len(), self.known_after_failure.len(), "a row has one value a column");
+        self.observe_acting(isa, Acting::scheduled(scene), table, outcome, row);
+    }
+
+    /// The same of a run under an actuation law, in which `arcs` were flown: the schedule of `scene` did not act. The values are those
+    /// of [`Observer::observe`] of a scene with `arcs` as its schedule, where no environment acts.
+    ///
+    /// # Panics
+    /// As [`Observer::observe`].
+    pub fn observe_flown(
+        &mut self,
+        isa: Isa,
+        (scene, arcs): (&Scene, &[Arc]),
+        table: &StateTable,
+        outcome: &Outcome,
+        row: &mut [f64],
+    ) {
+        self.observe_acting(isa, Acting::flown(scene, arcs), table, outcome, row);
+    }
+
+    fn observe_acting(&mut self, isa: Isa, acting: Acting<'_>, table: &StateTable, outcome: &Outcome, row: &mut [f64]) {
+        assert_eq!(row.len(), self.plan.columns(), "a row has one value a column");
         assert_eq!(table.points(), self.times.len(), "the table has the points of the grid");
-        assert!(scene.mass.debris.is_some() || !self.request.debris, "a scene whose debris is observed has one");
+        let has_debris = acting.scene().mass.debris.is_some();
+        assert!(has_debris || !self.request.debris, "a scene whose debris is observed has one");
         self.filled = outcome.points.min(table.points());
         if self.filled > 0 {
-            isa.run(Observation { observer: self, scene, table, local_errors: &outcome.local_errors });
+            isa.run(Observation { observer: self, acting, table, local_errors: &outcome.local_errors });
         }
-        for (place, slot) in &self.statistics {
-            row[*place] = self.values.get(*slot);
-        }
-        for (place, scale) in &self.relative {
-            row[*place] /= self.values.scale(*scale);
-        }
-        let finished = FinishedRun { table, outcome, final_point: self.final_point(table) };
-        for (place, value) in &self.direct_values {
-            row[*place] = self.direct_value(*value, &finished);
-        }
+        let is_final_observed = self.request.groups.contains(Group::FinalState);
+        let run = FinishedRun {
+            table,
+            outcome,
+            times: &self.times,
+            final_point: if is_final_observed { final_point(table, self.filled) } else { None },
+            exchange: self.exchange,
+            estimate: self.estimate,
+        };
+        self.plan.fill(&self.statistics, |value| run.value(value), row);
         if outcome.status != Status::Done {
-            for (value, known) in row.iter_mut().zip(&self.known_after_failure) {
-                *value = if *known { *value } else { f64::NAN };
-            }
+            self.plan.clear_unknown(row);
         }
     }
 
@@ -158,58 +127,18 @@ impl Observer {
     /// observation points that the run reached. Relative errors are divided by their scales, as in the row.
     pub fn series(&self) -> impl Iterator<Item = (Series, impl ExactSizeIterator<Item = f64> + '_)> + '_ {
         self.shown.iter().map(|series| {
-            let scale = series.row().scale.map_or(1.0, |scale| self.values.scale(Slot::of(scale)));
+            let scale = series.row().scale.map_or(1.0, |scale| self.statistics.scale(Slot::of(scale)));
             let stored = series.row().stored;
             let values = &self.series.column(*series)[..self.filled];
             (*series, values.iter().map(move |value| stored.shown(*value) / scale))
         })
     }
 
-    /// The last point with finite rotational states, where the final state is observed.
-    fn final_point(&self, table: &StateTable) -> Option<usize> {
-        let finite = |point: &usize| {
-            table.at::<3>(StateField::Rate, *point).iter().all(|x| x.is_finite())
-                && table.at::<4>(StateField::Attitude, *point).iter().all(|x| x.is_finite())
-                && table.at::<2>(StateField::WheelRates, *point).iter().all(|x| x.is_finite())
-        };
-        if self.request.groups.contains(Group::FinalState) { (0..self.filled).rev().find(finite) } else { None }
-    }
-
-    /// A value that is read and not reduced from a series.
-    fn direct_value(&self, value: DirectValue, run: &FinishedRun<'_>) -> f64 {
-        match value {
-            DirectValue::WorkThrusters => run.last(StateField::Work, 0),
-            DirectValue::WorkMotors => run.last(StateField::Work, 1),
-            DirectValue::CorrelationWheel1 => self.exchange.correlations[0],
-            DirectValue::CorrelationWheel2 => self.exchange.correlations[1],
-            DirectValue::ExchangeFrequency => self.exchange.frequency,
-            DirectValue::TimeReached => run.outcome.time,
-            DirectValue::TimeFinal => run.final_point.map_or(f64::NAN, |point| self.times[point]),
-            DirectValue::AttitudeW => run.final_state(StateField::Attitude, 0),
-            DirectValue::AttitudeX => run.final_state(StateField::Attitude, 1),
-            DirectValue::AttitudeY => run.final_state(StateField::Attitude, 2),
-            DirectValue::AttitudeZ => run.final_state(StateField::Attitude, 3),
-            DirectValue::RateX => run.final_state(StateField::Rate, 0),
-            DirectValue::RateY => run.final_state(StateField::Rate, 1),
-            DirectValue::RateZ => run.final_state(StateField::Rate, 2),
-            DirectValue::WheelRate1 => run.final_state(StateField::WheelRates, 0),
-            DirectValue::WheelRate2 => run.final_state(StateField::WheelRates, 1),
-            DirectValue::Steps => run.outcome.effort.steps as f64,
-            DirectValue::Rejected => run.outcome.effort.rejected as f64,
-            DirectValue::Evaluations => run.outcome.effort.evaluations as f64,
-            DirectValue::StateError => self.estimate.error,
-            DirectValue::Amplification => self.estimate.amplification,
-            DirectValue::IllConditioned => {
-                f64::from(u8::from(self.estimate.amplification * f64::EPSILON > MEANINGLESS))
-            }
-        }
-    }
-
     /// Reduces the observed series to statistics.
     #[inline(always)]
     fn reduce<S: Simd>(&mut self, simd: S) {
         for task in &self.tasks {
-            let out = &mut self.values.0[task.series as usize];
+            let out = self.statistics.of(task.series);
             reduce(simd, &self.weights, self.series.column(task.series), task.passes, task.stored, out);
         }
     }
@@ -217,7 +146,7 @@ impl Observer {
     /// Exchange between fuselage and wheels about the centre of mass.
     #[inline(always)]
     fn find_exchange<S: Simd>(&mut self, simd: S) {
-        let (series, values) = (&self.series, &self.values);
+        let (series, values) = (&self.series, &self.statistics);
         let body = |of: Series| BodyEnergy {
             column: series.column(of),
             mean: values.get(Slot::of((of, Reduction::Value(ValueStatistic::Mean)))),
@@ -230,27 +159,9 @@ impl Observer {
     }
 }
 
-/// A run as the direct values see it.
-struct FinishedRun<'a> {
-    table: &'a StateTable,
-    outcome: &'a Outcome,
-    /// The point of the final state, where there is one and it is observed.
-    final_point: Option<usize>,
-}
-
-impl FinishedRun<'_> {
-    fn last(&self, field: StateField, component: usize) -> f64 {
-        self.table.column(field, component)[self.table.points() - 1]
-    }
-
-    fn final_state(&self, field: StateField, component: usize) -> f64 {
-        self.final_point.map_or(f64::NAN, |point| self.table.column(field, component)[point])
-    }
-}
-
 struct Observation<'a> {
     observer: &'a mut Observer,
-    scene: &'a Scene,
+    acting: Acting<'a>,
     table: &'a StateTable,
     local_errors: &'a LocalErrors,
 }
@@ -260,7 +171,8 @@ impl Work for Observation<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let Observation { observer, scene, table, local_errors } = self;
+        let Observation { observer, acting, table, local_errors } = self;
+        let scene = acting.scene();
         let debris = scene.mass.debris.as_ref().filter(|_| observer.request.debris);
         let (observed, points) = (observer.observed, observer.filled);
         let run = MeasuredRun { observed, sources: &observer.sources, mass: &scene.mass, debris, table, points };
@@ -270,7 +182,7 @@ impl Work for Observation<'_> {
             observer.find_exchange(simd);
         }
         if let Some(conditioning) = &mut observer.conditioning {
-            observer.estimate = conditioning.estimate(simd, scene, table, &observer.times, points, local_errors);
+            observer.estimate = conditioning.estimate(simd, acting, table, &observer.times, points, local_errors);
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Passes over a series: extremes, means, slopes, transfers, correlations, each in one fixed order of operations.
+//! Passes over a series: extremes, means, errors, transfers, each in one fixed order of operations.
 //!
 //! Lane `i` of an accumulator gathers points `i`, `i + 8`, ...; the eight are then joined as a fixed tree, so that the bits
 //! depend on nothing but the values. Means are taken of the departures from the first value: with n points their rounding
@@ -8,72 +8,8 @@
 use fearless_simd::Simd;
 
 use super::reduction::{ChangeStatistic, ErrorStatistic, OrderStatistic, Passes, Reduction, Stored, ValueStatistic};
-use crate::math::lanes::WIDTH;
+use super::weights::{Weights, largest, smallest, total, vectors};
 use crate::math::{Lanes, Real};
-use crate::run::Grid;
-
-/// What the reductions use of the grid, with zeros in the padding.
-#[derive(Clone, Debug)]
-pub(super) struct Weights {
-    /// Number of points.
-    pub(super) points: usize,
-    /// One at every point.
-    one: Vec<[f64; WIDTH]>,
-    /// Least-squares slope of a series: sum of weight times value, 1/s.
-    slope: Vec<[f64; WIDTH]>,
-    /// One over the distance to the next point, 1/s.
-    inverse_step: Vec<[f64; WIDTH]>,
-}
-
-impl Weights {
-    pub(super) fn of(grid: &Grid) -> Self {
-        let times = grid.times();
-        let points = times.len();
-        let mean = times.iter().sum::<f64>() / points as f64;
-        let centered: Vec<f64> = times.iter().map(|t| t - mean).collect();
-        let square: f64 = centered.iter().map(|t| t * t).sum();
-        let slope = centered.iter().map(|t| if square > 0.0 { t / square } else { 0.0 });
-        let inverse = times.windows(2).map(|t| if t[1] > t[0] { 1.0 / (t[1] - t[0]) } else { 0.0 });
-        let padded = |values: Vec<f64>| {
-            let mut values = values;
-            values.resize(points.next_multiple_of(WIDTH), 0.0);
-            values.as_chunks().0.to_vec()
-        };
-        Weights {
-            points,
-            one: padded(vec![1.0; points]),
-            slope: padded(slope.collect()),
-            inverse_step: padded(inverse.collect()),
-        }
-    }
-}
-
-/// The first `count` vectors of a column; columns of one common length need no check of bounds inside the loops.
-#[inline(always)]
-fn vectors(column: &[f64], count: usize) -> &[[f64; WIDTH]] {
-    &column.as_chunks().0[..count]
-}
-
-#[inline(always)]
-fn joined(lanes: [f64; WIDTH], join: impl Fn(f64, f64) -> f64) -> f64 {
-    let [a, b, c, d, e, f, g, h] = lanes;
-    join(join(join(a, e), join(c, g)), join(join(b, f), join(d, h)))
-}
-
-#[inline(always)]
-fn total<S: Simd>(lanes: Lanes<S>) -> f64 {
-    joined(lanes.to_array(), |a, b| a + b)
-}
-
-#[inline(always)]
-fn largest<S: Simd>(lanes: Lanes<S>) -> f64 {
-    joined(lanes.to_array(), |a, b| a.larger(b))
-}
-
-#[inline(always)]
-fn smallest<S: Simd>(lanes: Lanes<S>) -> f64 {
-    joined(lanes.to_array(), |a, b| a.smaller(b))
-}
 
 /// Makes the passes over a series of numbers `stored`, and writes their values to `out` at [`Reduction::index`]. `column` has one
 /// vector more than the weights, in which the last point is repeated.
@@ -86,9 +22,9 @@ pub(super) fn reduce<S: Simd>(
     stored: Stored,
     out: &mut [f64; Reduction::COUNT],
 ) {
-    if passes.order {
+    if passes.order.has_any() {
         let order = order(simd, weights, column);
-        for statistic in OrderStatistic::ALL {
+        for statistic in OrderStatistic::ALL.iter().filter(|statistic| passes.order.has(**statistic)) {
             out[Reduction::Order(*statistic).index()] = stored.shown(order.get(*statistic));
         }
     }
@@ -256,73 +192,23 @@ fn transfer<S: Simd>(simd: S, weights: &Weights, column: &[f64]) -> Transfer {
     Transfer { gross: total(gross), power: largest(power) }
 }
 
-/// Correlation of `a` with `b[0]` and with `b[1]` (each with its mean); zero where one of the two does not vary.
-#[inline(always)]
-pub(super) fn correlations<S: Simd>(
-    simd: S,
-    weights: &Weights,
-    (a, a_mean): (&[f64], f64),
-    b: [(&[f64], f64); 2],
-) -> [f64; 2] {
-    let zero = Lanes::broadcast(simd, 0.0);
-    let means = [Lanes::broadcast(simd, a_mean), Lanes::broadcast(simd, b[0].1), Lanes::broadcast(simd, b[1].1)];
-    let (mut aa, mut ab0, mut ab1, mut bb0, mut bb1) = (zero, zero, zero, zero, zero);
-    let count = weights.one.len();
-    let (a, b0, b1) = (vectors(a, count), vectors(b[0].0, count), vectors(b[1].0, count));
-    for at in 0..count {
-        let one = Lanes::load(simd, &weights.one[at]);
-        let x = (Lanes::load(simd, &a[at]) - means[0]) * one;
-        let y0 = (Lanes::load(simd, &b0[at]) - means[1]) * one;
-        let y1 = (Lanes::load(simd, &b1[at]) - means[2]) * one;
-        aa = x.mul_add(x, aa);
-        ab0 = x.mul_add(y0, ab0);
-        ab1 = x.mul_add(y1, ab1);
-        bb0 = y0.mul_add(y0, bb0);
-        bb1 = y1.mul_add(y1, bb1);
-    }
-    let aa = total(aa);
-    let correlation = |ab: f64, bb: f64| {
-        let scale = aa.sqrt() * bb.sqrt();
-        if scale == 0.0 { 0.0 } else { (ab / scale).clamp(-1.0, 1.0) }
-    };
-    [correlation(total(ab0), total(bb0)), correlation(total(ab1), total(bb1))]
-}
-
-/// Slope of the least-squares line through a series, per second.
-#[inline(always)]
-pub(super) fn slope<S: Simd>(simd: S, weights: &Weights, column: &[f64], mean: f64) -> f64 {
-    let mean = Lanes::broadcast(simd, mean);
-    let mut slope = mean.zero();
-    for (x, weight) in vectors(column, weights.slope.len()).iter().zip(&weights.slope) {
-        let x = Lanes::load(simd, x) - mean;
-        slope = x.mul_add(Lanes::load(simd, weight), slope);
-    }
-    total(slope)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::math::Isa;
     use crate::math::isa::Work;
+    use crate::math::lanes::WIDTH;
+    use crate::run::Grid;
 
     /// A few roundings of sums of up to a hundred terms of size one.
     const ROUNDING: f64 = 1e-13;
 
     struct Reduce<'a>(&'a Weights, &'a [f64]);
     impl Work for Reduce<'_> {
-        type Output = (Spread, Errors, Transfer, f64, [f64; 2]);
+        type Output = (Spread, Errors, Transfer);
         #[inline(always)]
         fn run<S: Simd>(self, simd: S) -> Self::Output {
-            let spread = spread(simd, self.0, self.1);
-            let own = (self.1, spread.mean);
-            (
-                spread,
-                errors(simd, self.0, self.1),
-                transfer(simd, self.0, self.1),
-                slope(simd, self.0, self.1, spread.mean),
-                correlations(simd, self.0, own, [own, own]),
-            )
+            (spread(simd, self.0, self.1), errors(simd, self.0, self.1), transfer(simd, self.0, self.1))
         }
     }
 
@@ -347,8 +233,7 @@ mod tests {
             let points = times.len();
             let weights = Weights::of(&Grid::at(times.clone()));
             let line = column(points, |k| 2.0 - 0.75 * times[k]);
-            let (_, errors, Transfer { gross, power }, slope, _) = Isa::best().run(Reduce(&weights, &line));
-            close(slope, -0.75);
+            let (_, errors, Transfer { gross, power }) = Isa::best().run(Reduce(&weights, &line));
             close(errors.slope, -0.75);
             close(gross, 0.75 * times[points - 1]);
             close(power, 0.75);
@@ -361,7 +246,7 @@ mod tests {
             let times: Vec<f64> = (0..points).map(|k| k as f64 + 0.3 * (k as f64 * 0.7).floor()).collect();
             let weights = Weights::of(&Grid::at(times.clone()));
             let values = column(points, |k| ((k * 37 + 11) % 23) as f64 / 7.0 - 1.5);
-            let (spread, errors, Transfer { gross, power }, _, _) = Isa::best().run(Reduce(&weights, &values));
+            let (spread, errors, Transfer { gross, power }) = Isa::best().run(Reduce(&weights, &values));
             let v = &values[..points];
             let n = points as f64;
             assert_eq!(spread.min, v.iter().copied().fold(f64::INFINITY, f64::min));
@@ -382,17 +267,6 @@ mod tests {
         let values = column(101, |k| 1e6 + (k % 2) as f64);
         let (spread, ..) = Isa::best().run(Reduce(&weights, &values));
         assert_eq!(spread.mean, 1e6 + 50.0 / 101.0);
-    }
-
-    #[test]
-    fn a_series_is_correlated_with_itself_unless_it_is_constant() {
-        let weights = Weights::of(&Grid::uniform(1.0, 11));
-        let (.., same) = Isa::best().run(Reduce(&weights, &column(11, |k| (k * k) as f64)));
-        for c in same {
-            close(c, 1.0);
-        }
-        let (.., constant) = Isa::best().run(Reduce(&weights, &column(11, |_| 3.0)));
-        assert_eq!(constant, [0.0; 2]);
     }
 
     #[test]

@@ -113,10 +113,30 @@ impl Reduction {
     }
 }
 
+/// A set of order statistics: what is shown of them may need an elementary function each.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct OrderStatistics(u8);
+
+impl OrderStatistics {
+    const fn with(self, statistic: OrderStatistic) -> Self {
+        OrderStatistics(self.0 | 1 << statistic as u8)
+    }
+
+    /// Whether the set contains `statistic`.
+    pub(super) const fn has(self, statistic: OrderStatistic) -> bool {
+        self.0 & (1 << statistic as u8) != 0
+    }
+
+    /// Whether the set contains any statistic.
+    pub(super) const fn has_any(self) -> bool {
+        self.0 != 0
+    }
+}
+
 /// The passes over a series that its reductions need.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Passes {
-    pub(super) order: bool,
+    pub(super) order: OrderStatistics,
     pub(super) value: bool,
     pub(super) error: bool,
     pub(super) change: bool,
@@ -127,7 +147,7 @@ impl Passes {
     #[must_use]
     pub(super) const fn with(mut self, reduction: Reduction) -> Self {
         match reduction {
-            Reduction::Order(_) => self.order = true,
+            Reduction::Order(statistic) => self.order = self.order.with(statistic),
             Reduction::Value(_) | Reduction::Fraction => self.value = true,
             Reduction::Error(_) => self.error = true,
             Reduction::Change(_) => self.change = true,

@@ -201,7 +201,7 @@ mod tests {
         let reasons = request.reasons();
         assert_eq!(set(&reasons.iter().map(|(field, _)| *field).collect::<Vec<_>>()), request.fields());
         let (_, why) = reasons.iter().find(|(field, _)| *field == StateField::AngularImpulse).unwrap();
-        assert_eq!(why, "momentum_conservation (angular impulse of the thrusters)");
+        assert_eq!(why, "momentum_conservation (angular impulse of thrusters and torques on the body)");
     }
 
     #[test]

@@ -1,11 +1,9 @@
 //! [`Body`]: the constants of a run's rotation, as [`super::conditioning`] needs them.
 
-use crate::dynamics::environment::with_environment;
-use crate::math::Real;
+use super::acting::Acting;
 use crate::math::vector::{cross, difference, dot, product, scaled, sum};
 use crate::run::{StateField, StateTable};
 use crate::scene::mass::MassProperties;
-use crate::scene::{Actuation, Scene};
 
 /// The constants of a run.
 pub(super) struct Body<'a> {
@@ -21,13 +19,12 @@ pub(super) struct Body<'a> {
 }
 
 impl<'a> Body<'a> {
-    /// The constants of a run of `scene` for `duration` seconds with the states `table`.
-    pub(super) fn of(scene: &'a Scene, table: &StateTable, duration: f64) -> Self {
-        let mass = &scene.mass;
+    /// The constants of a run for `duration` seconds with the states `table`.
+    pub(super) fn of(acting: Acting<'a>, table: &StateTable, duration: f64) -> Self {
+        let mass = &acting.scene().mass;
         let inertia = mass.inertia_rotating();
         let [[x, xy, xz], [_, y, yz], [.., z]] = inertia;
-        let is_free = !scene.environment.acts() && scene.schedule.iter().all(|arc| arc.start >= duration);
-        let offset = is_free.then(|| {
+        let offset = acting.is_free(duration).then(|| {
             let omega = table.at::<3>(StateField::Rate, 0);
             let mut momentum = difference(product(mass.inertia, omega), product(inertia, omega));
             for (wheel, rate) in mass.wheels.iter().zip(table.at::<2>(StateField::WheelRates, 0)) {
@@ -55,27 +52,6 @@ impl<'a> Body<'a> {
 /// The adjugate of a symmetric matrix, by rows.
 pub(super) fn adjugate(m: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
     [cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])]
-}
-
-/// Upper bound of the torque on the fuselage, N m: the magnitudes of thrusters, motors and environment added.
-#[inline(always)]
-pub(super) fn largest_torque(scene: &Scene) -> f64 {
-    let environment = with_environment(scene, 0.0, Actuation::none(f64::INFINITY)).body_torque;
-    let environment = dot(environment, environment).sqrt();
-    let mut largest = environment;
-    for arc in &scene.schedule {
-        let applied = &arc.applied;
-        let thrust = scene.thruster_torque_s(applied.thrust);
-        let [first, second] = applied.motor_torque;
-        largest = largest.larger(dot(thrust, thrust).sqrt() + first.abs() + second.abs() + environment);
-    }
-    largest
-}
-
-/// Whether anything acts at `time`.
-#[inline(always)]
-pub(super) fn acts(scene: &Scene, time: f64) -> bool {
-    scene.environment.acts() || scene.schedule.iter().any(|arc| arc.start <= time && time <= arc.end())
 }
 
 #[cfg(test)]

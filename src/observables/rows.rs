@@ -90,7 +90,8 @@ macro_rules! series {
             pub(super) const COUNT: usize = Series::ALL.len();
         }
 
-        static SERIES: [SeriesRow; Series::COUNT] = [
+        /// The rows, by series.
+        pub(super) static SERIES: [SeriesRow; Series::COUNT] = [
             $(SeriesRow {
                 source: Source::$source,
                 stored: Stored::$stored,
@@ -115,7 +116,8 @@ macro_rules! direct_values {
             $(#[doc = $meaning] $name,)*
         }
 
-        static DIRECT_VALUES: &[DirectRow] = &[
+        /// The rows, by direct value.
+        pub(super) static DIRECT_VALUES: &[DirectRow] = &[
             $(DirectRow { needs: $needs, inputs: $inputs, after_failure: $after_failure }),*
         ];
     };

@@ -13,7 +13,8 @@ pub struct CompletedRun<'a> {
     pub table: &'a StateTable,
     /// How the run ended.
     pub outcome: &'a Outcome,
-    /// The arcs that were flown, in order, from time zero without a gap. As the schedule of a scene they give the same run.
+    /// The arcs that were flown, in order, from time zero without a gap, with the torques of the environment. As the schedule of a scene
+    /// without environment they give the same run.
     pub arcs: &'a [Arc],
 }
 

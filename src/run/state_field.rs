@@ -16,11 +16,11 @@ pub enum StateField {
     ComPosition,
     /// Velocity of c in F_e, m/s (3).
     ComVelocity,
-    /// Work done since time zero: by the thrusters, by the wheel motors (relative to the fuselage, tau_i Omega_i), J (2).
+    /// Work done since time zero: by the thrusters and torques on the body, by the wheel motors (relative to the fuselage, tau_i Omega_i), J (2).
     Work,
     /// Impulse of the thrusters since time zero in F_e, N s (3).
     Impulse,
-    /// Angular impulse of the thrusters about c since time zero in F_e, N m s (3).
+    /// Angular impulse of thrusters and torques on the body about c since time zero in F_e, N m s (3).
     AngularImpulse,
     /// Position of the centre of the debris in F_e, m (3).
     DebrisPosition,

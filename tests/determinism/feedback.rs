@@ -1,14 +1,16 @@
 //! Runs under laws of their own: bits do not depend on lanes, other runs, order, instruction set or threads, and the record of the
 //! arcs flown gives the same run again.
 
-use crate::support::feedback::{Flight, PERIOD, fly, fly_recorded, fly_schedules};
+use crate::support::feedback::{Flight, PERIOD, fly, fly_recorded, fly_schedules, law};
 use crate::support::runs::{Bits, adaptive, everything, fixed};
 use crate::support::scenes::mixed;
+use spindrift::dynamics::actuation::Laws;
 use spindrift::math::Isa;
+use spindrift::observables::{Groups, Observer, Request};
 use spindrift::ode::Control;
-use spindrift::propagation::{Method, PropagationSettings};
+use spindrift::propagation::{CompletedRun, Method, PropagationSettings};
 use spindrift::run::Grid;
-use spindrift::scene::Scene;
+use spindrift::scene::{Arc, Scene};
 
 /// s.
 const HORIZON: f64 = 3.1;
@@ -83,5 +85,67 @@ fn the_record_flown_again_gives_the_same_bits() {
         moved.applied.body_torque[0] += 1e-6 * (1.0 + moved.applied.body_torque[0].abs());
         let other = fly_schedules(Isa::best(), &settings, &scenes[..1]);
         assert!(other[0].run.bits() != flown[0].run.bits(), "{}", method.name());
+    }
+}
+
+/// What an observer is told of a run: whether its arcs are those flown, or those of the scene's schedule.
+type Observe = fn(&mut Observer, Isa, &Scene, &CompletedRun<'_>, &mut [f64]);
+
+fn flown(observer: &mut Observer, isa: Isa, scene: &Scene, run: &CompletedRun<'_>, row: &mut [f64]) {
+    observer.observe_flown(isa, (scene, run.arcs), run.table, run.outcome, row);
+}
+
+fn scheduled(observer: &mut Observer, isa: Isa, scene: &Scene, run: &CompletedRun<'_>, row: &mut [f64]) {
+    observer.observe(isa, scene, run.table, run.outcome, row);
+}
+
+/// Every column of the runs of `scenes` by `method`, as bits, and the arcs flown; under the laws of the scenes, or by their schedules.
+fn rows(
+    isa: Isa,
+    (method, control): (Method, Control),
+    scenes: &[Scene],
+    is_closed_loop: bool,
+    observe: Observe,
+) -> (Vec<Bits>, Vec<Vec<Arc>>) {
+    let constrained = method == Method::NullSpace;
+    let request = Request { groups: Groups::ALL, debris: true, actuated: true, constrained };
+    let settings = settings(method, control, scenes);
+    let mut observer = Observer::new(request, &Grid::uniform(HORIZON, 29));
+    let mut row = vec![0.0; request.columns().len()];
+    let (mut rows, mut records) = (vec![Bits::new(); scenes.len()], vec![Vec::new(); scenes.len()]);
+    let mut finish = |run: CompletedRun<'_>| {
+        observe(&mut observer, isa, &scenes[run.index], &run, &mut row);
+        rows[run.index] = row.iter().map(|value| value.to_bits()).collect();
+        records[run.index] = run.arcs.to_vec();
+    };
+    let mut engine = settings.engine(isa);
+    if is_closed_loop {
+        let mut laws: Vec<_> = scenes.iter().map(law).collect();
+        engine.propagate_under(Laws::Feedback(&mut laws), scenes, &mut finish);
+    } else {
+        engine.propagate(scenes, &mut finish);
+    }
+    (rows, records)
+}
+
+/// Law: on every instruction set, the columns of a run under a law are those of its record flown as an open-loop schedule, bit for bit.
+#[test]
+fn columns_are_those_of_the_record_replayed() {
+    for (method, control) in METHODS {
+        let mut scenes = mixed(5, false, HORIZON);
+        let method = (method, control);
+        let (best, _) = rows(Isa::best(), method, &scenes, true, flown);
+        let closed: Vec<_> = Isa::available().into_iter().map(|isa| rows(isa, method, &scenes, true, flown)).collect();
+        // an observer that reads the schedule of the scene takes the run for a free one
+        let (mistaken, _) = rows(Isa::best(), method, &scenes, true, scheduled);
+        assert!(mistaken.iter().zip(&best).all(|(a, b)| a != b), "{}", method.0.name());
+        for (isa, (observed, records)) in Isa::available().into_iter().zip(closed) {
+            assert!(observed == best, "{} on {}", method.0.name(), isa.name());
+            for (scene, record) in scenes.iter_mut().zip(records) {
+                scene.schedule = record;
+            }
+            let (replayed, _) = rows(isa, method, &scenes, false, scheduled);
+            assert!(replayed == best, "{} on {} replayed", method.0.name(), isa.name());
+        }
     }
 }

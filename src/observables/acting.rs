@@ -1,0 +1,60 @@
+//! [`Acting`]: when anything acts on a run, and how much torque that is at most.
+
+use crate::dynamics::environment::with_environment;
+use crate::math::Real;
+use crate::math::vector::dot;
+use crate::scene::{Actuation, Arc, Scene};
+
+/// What acts on a run.
+#[derive(Clone, Copy)]
+pub(super) struct Acting<'a> {
+    scene: &'a Scene,
+    /// The arcs of the actuators.
+    arcs: &'a [Arc],
+    /// Magnitude of the torque of the environment that is not part of the arcs, N m.
+    environment: f64,
+}
+
+impl<'a> Acting<'a> {
+    /// The schedule of `scene` and its environment.
+    pub(super) fn scheduled(scene: &'a Scene) -> Self {
+        let environment = with_environment(scene, 0.0, Actuation::none(f64::INFINITY)).body_torque;
+        Acting { scene, arcs: &scene.schedule, environment: dot(environment, environment).sqrt() }
+    }
+
+    /// The arcs that a run of `scene` has flown, which contain its environment.
+    pub(super) fn flown(scene: &'a Scene, arcs: &'a [Arc]) -> Self {
+        Acting { scene, arcs, environment: 0.0 }
+    }
+
+    /// The scene.
+    pub(super) fn scene(&self) -> &'a Scene {
+        self.scene
+    }
+
+    /// Whether nothing acts in the first `duration` seconds.
+    pub(super) fn is_free(&self, duration: f64) -> bool {
+        !self.scene.environment.acts() && self.arcs.iter().all(|arc| arc.start >= duration)
+    }
+
+    /// Whether anything acts at `time`.
+    #[inline(always)]
+    pub(super) fn acts(&self, time: f64) -> bool {
+        self.scene.environment.acts() || self.arcs.iter().any(|arc| arc.start <= time && time <= arc.end())
+    }
+
+    /// Upper bound of the torque on the fuselage, N m: the magnitudes of thrusters, motors, environment and the arcs' own torque on
+    /// the body added.
+    #[inline(always)]
+    pub(super) fn largest_torque(&self) -> f64 {
+        let mut largest = self.environment;
+        for arc in self.arcs {
+            let applied = &arc.applied;
+            let thrust = self.scene.thruster_torque_s(applied.thrust);
+            let [first, second] = applied.motor_torque;
+            let actuators = dot(thrust, thrust).sqrt() + first.abs() + second.abs() + self.environment;
+            largest = largest.larger(actuators + dot(applied.body_torque, applied.body_torque).sqrt());
+        }
+        largest
+    }
+}

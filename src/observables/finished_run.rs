@@ -1,0 +1,74 @@
+//! [`FinishedRun`]: the values of a run that are read and not reduced from a series.
+
+use super::conditioning::ErrorEstimate;
+use super::exchange::Exchange;
+use super::table::DirectValue;
+use crate::run::{Outcome, StateField, StateTable};
+
+/// An error of the state, from the rounding of the input alone, above which a run is ill conditioned: a thousandth of a radian or
+/// of the rate. No question that a campaign asks depends on less.
+const MEANINGLESS: f64 = 1e-3;
+
+/// A run as the direct values see it.
+pub(super) struct FinishedRun<'a> {
+    pub(super) table: &'a StateTable,
+    pub(super) outcome: &'a Outcome,
+    /// Times of the points, s.
+    pub(super) times: &'a [f64],
+    /// The last point with finite rotational states, where there is one and the final state is observed.
+    pub(super) final_point: Option<usize>,
+    pub(super) exchange: Exchange,
+    pub(super) estimate: ErrorEstimate,
+}
+
+/// The last of the first `filled` points of `table` with finite rotational states.
+pub(super) fn final_point(table: &StateTable, filled: usize) -> Option<usize> {
+    let finite = |point: &usize| {
+        table.at::<3>(StateField::Rate, *point).iter().all(|x| x.is_finite())
+            && table.at::<4>(StateField::Attitude, *point).iter().all(|x| x.is_finite())
+            && table.at::<2>(StateField::WheelRates, *point).iter().all(|x| x.is_finite())
+    };
+    (0..filled).rev().find(finite)
+}
+
+impl FinishedRun<'_> {
+    /// A direct value.
+    #[inline]
+    pub(super) fn value(&self, value: DirectValue) -> f64 {
+        match value {
+            DirectValue::WorkThrusters => self.last(StateField::Work, 0),
+            DirectValue::WorkMotors => self.last(StateField::Work, 1),
+            DirectValue::CorrelationWheel1 => self.exchange.correlations[0],
+            DirectValue::CorrelationWheel2 => self.exchange.correlations[1],
+            DirectValue::ExchangeFrequency => self.exchange.frequency,
+            DirectValue::TimeReached => self.outcome.time,
+            DirectValue::TimeFinal => self.final_point.map_or(f64::NAN, |point| self.times[point]),
+            DirectValue::AttitudeW => self.final_state(StateField::Attitude, 0),
+            DirectValue::AttitudeX => self.final_state(StateField::Attitude, 1),
+            DirectValue::AttitudeY => self.final_state(StateField::Attitude, 2),
+            DirectValue::AttitudeZ => self.final_state(StateField::Attitude, 3),
+            DirectValue::RateX => self.final_state(StateField::Rate, 0),
+            DirectValue::RateY => self.final_state(StateField::Rate, 1),
+            DirectValue::RateZ => self.final_state(StateField::Rate, 2),
+            DirectValue::WheelRate1 => self.final_state(StateField::WheelRates, 0),
+            DirectValue::WheelRate2 => self.final_state(StateField::WheelRates, 1),
+            DirectValue::Steps => self.outcome.effort.steps as f64,
+            DirectValue::Rejected => self.outcome.effort.rejected as f64,
+            DirectValue::Evaluations => self.outcome.effort.evaluations as f64,
+            DirectValue::StateError => self.estimate.error,
+            DirectValue::Amplification => self.estimate.amplification,
+            DirectValue::IllConditioned => {
+                f64::from(u8::from(self.estimate.amplification * f64::EPSILON > MEANINGLESS))
+            }
+        }
+    }
+
+    fn last(&self, field: StateField, component: usize) -> f64 {
+        self.table.column(field, component)[self.table.points() - 1]
+    }
+
+    #[inline]
+    fn final_state(&self, field: StateField, component: usize) -> f64 {
+        self.final_point.map_or(f64::NAN, |point| self.table.column(field, component)[point])
+    }
+}

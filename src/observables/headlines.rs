@@ -1,0 +1,53 @@
+//! [`HEADLINES`]: the columns of a summary.
+
+use super::group::Group;
+use super::reduction::{ChangeStatistic, ErrorStatistic, Reduction, ValueStatistic};
+use super::table::{ColumnId, DirectValue, Series, direct_id, error_id, series_id};
+
+/// The estimated error of the rotational state.
+pub const STATE_ERROR_ESTIMATE: ColumnId = direct_id(Group::Numerics, DirectValue::StateError);
+
+/// The columns of a summary, in its order: main errors, exchange, effort, numerics.
+pub const HEADLINES: &[ColumnId] = &{
+    use Group::{Attitude, Constraints, EnergiesCom, EnergyConservation, Exchange, MomentumConservation, Numerics};
+    use Series::{ComFuselage, ComWheel1, ComWheel2};
+    [
+        error_id(EnergyConservation, Series::EnergyError, ErrorStatistic::Max),
+        error_id(EnergyConservation, Series::EnergyError, ErrorStatistic::Slope),
+        error_id(MomentumConservation, Series::LinearMomentumError, ErrorStatistic::Max),
+        error_id(MomentumConservation, Series::AngularMomentumError, ErrorStatistic::Max),
+        error_id(MomentumConservation, Series::DebrisLinearError, ErrorStatistic::Max),
+        error_id(MomentumConservation, Series::DebrisAngularError, ErrorStatistic::Max),
+        error_id(Attitude, Series::Orthonormality, ErrorStatistic::Max),
+        error_id(Constraints, Series::ResidualKinematic, ErrorStatistic::Max),
+        error_id(Constraints, Series::ResidualCollocation, ErrorStatistic::Max),
+        error_id(Constraints, Series::ResidualAttitude, ErrorStatistic::Max),
+        error_id(EnergiesCom, Series::ComError, ErrorStatistic::Max),
+        series_id(Exchange, ComFuselage, Reduction::Value(ValueStatistic::PeakToPeak)),
+        series_id(Exchange, ComWheel1, Reduction::Value(ValueStatistic::PeakToPeak)),
+        series_id(Exchange, ComWheel2, Reduction::Value(ValueStatistic::PeakToPeak)),
+        series_id(Exchange, ComFuselage, Reduction::Fraction),
+        series_id(Exchange, ComWheel1, Reduction::Fraction),
+        series_id(Exchange, ComWheel2, Reduction::Fraction),
+        series_id(Exchange, ComWheel1, Reduction::Change(ChangeStatistic::Gross)),
+        series_id(Exchange, ComWheel2, Reduction::Change(ChangeStatistic::Gross)),
+        direct_id(Group::StepStatistics, DirectValue::Steps),
+        STATE_ERROR_ESTIMATE,
+        direct_id(Numerics, DirectValue::Amplification),
+        direct_id(Numerics, DirectValue::IllConditioned),
+    ]
+};
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::observables::table;
+
+    /// Law: every handle of a headline is that of a column; a number of one kind of scene is in no other.
+    #[test]
+    fn headlines_are_columns() {
+        for id in HEADLINES {
+            assert!(table::all().any(|column| column.id() == *id), "{id:?}");
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! What each series and each value of the table is made of: statistics, scales, fields of the state table.
+
+use super::reduction::Reduction;
+use super::rows::Need;
+use super::table::{DIRECT_VALUES, DirectRow, DirectValue, FRACTION_SCALE, SERIES, Series, SeriesRow, Value};
+use crate::run::Quantity;
+
+impl Series {
+    /// What the table says about the series.
+    pub(super) fn row(self) -> &'static SeriesRow {
+        &SERIES[self as usize]
+    }
+
+    /// The column of a time series that shows the series; `None` for the scale of another one.
+    pub fn quantity(self) -> Option<&'static Quantity> {
+        self.row().shown.as_ref()
+    }
+}
+
+impl DirectValue {
+    /// What the table says about the value.
+    pub(super) fn row(self) -> &'static DirectRow {
+        &DIRECT_VALUES[self as usize]
+    }
+}
+
+impl Value {
+    /// The statistic that the value is relative to.
+    pub(super) fn scale(self) -> Option<(Series, Reduction)> {
+        match self {
+            Value::Of(_, Reduction::Fraction) => Some(FRACTION_SCALE),
+            Value::Of(series, _) => series.row().scale,
+            Value::Direct(_) => None,
+        }
+    }
+
+    /// Every statistic that the value is made of.
+    pub(super) fn inputs(self) -> impl Iterator<Item = (Series, Reduction)> {
+        let (own, direct) = match self {
+            Value::Of(series, reduction) => (Some((series, reduction)), [].as_slice()),
+            Value::Direct(value) => (None, value.row().inputs),
+        };
+        own.into_iter().chain(self.scale()).chain(direct.iter().copied())
+    }
+
+    /// Every field that the value is computed from.
+    pub(super) fn needs(self) -> impl Iterator<Item = Need> {
+        let direct = match self {
+            Value::Of(..) => [].as_slice(),
+            Value::Direct(value) => value.row().needs,
+        };
+        let of_series = self.inputs().flat_map(|(series, _)| series.row().needs.iter().copied().flatten());
+        of_series.chain(direct).copied()
+    }
+
+    /// Whether the value is known of a run that failed.
+    pub(super) fn is_known_after_failure(self) -> bool {
+        match self {
+            Value::Of(..) => false,
+            Value::Direct(value) => value.row().after_failure,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::observables::reduction::Stored;
+    use crate::observables::table::all;
+
+    /// Law: every row of the tables of series and direct values is used by a column.
+    #[test]
+    fn no_row_is_idle() {
+        let used: Vec<Series> = all().flat_map(|column| column.value.inputs()).map(|(series, _)| series).collect();
+        assert!(Series::ALL.iter().all(|series| used.contains(series)));
+        let direct = all().filter(|column| matches!(column.value, Value::Direct(_))).count();
+        assert_eq!(direct, DIRECT_VALUES.len());
+    }
+
+    /// Law: only order statistics are made of a series that stores a function of its quantity.
+    #[test]
+    fn statistics_are_those_of_the_quantity() {
+        for column in all() {
+            for (series, reduction) in column.value.inputs() {
+                let is_order = matches!(reduction, Reduction::Order(_));
+                assert!(is_order || series.row().stored == Stored::Quantity, "{column:?}");
+            }
+        }
+    }
+
+    /// Law: a column that the work or the angular impulse of a torque on the body enters says so.
+    #[test]
+    fn torques_on_the_body_are_named() {
+        let mut named = 0;
+        for column in all() {
+            let name = column.quantity.name();
+            let enters = name == "work_thrusters_final_j"
+                || ["energy_error_", "angular_momentum_error_"].iter().any(|start| name.starts_with(start));
+            let says = column.quantity.meaning().contains("torques on the body");
+            assert_eq!(enters, says, "{name}");
+            named += usize::from(says);
+        }
+        assert_eq!(named, 9);
+    }
+}

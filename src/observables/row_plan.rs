@@ -1,0 +1,158 @@
+//! [`RowPlan`]: the columns of a request as flat lists of indices, and the statistics that they are filled from.
+//!
+//! The table of observables is resolved once per worker; a row is then filled without a look at the table.
+
+use std::ops::Range;
+
+use super::reduction::Reduction;
+use super::request::Request;
+use super::table::{DirectValue, Series, Value};
+
+/// The statistics of every series.
+#[derive(Clone, Debug)]
+pub(super) struct Statistics(Box<[[f64; Reduction::COUNT]; Series::COUNT]>);
+
+/// The index of a statistic among those of all series.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Slot(u16);
+
+impl Slot {
+    pub(super) const fn of((series, reduction): (Series, Reduction)) -> Self {
+        Slot((series as usize * Reduction::COUNT + reduction.index()) as u16)
+    }
+}
+
+impl Statistics {
+    /// All NaN until they are computed.
+    pub(super) fn unknown() -> Self {
+        Statistics(Box::new([[f64::NAN; Reduction::COUNT]; Series::COUNT]))
+    }
+
+    #[inline(always)]
+    pub(super) fn get(&self, slot: Slot) -> f64 {
+        self.0.as_flattened()[usize::from(slot.0)]
+    }
+
+    /// The value of a scale, or one where it is zero: errors are absolute there.
+    #[inline(always)]
+    pub(super) fn scale(&self, slot: Slot) -> f64 {
+        let scale = self.get(slot);
+        if scale == 0.0 { 1.0 } else { scale }
+    }
+
+    /// The statistics of `series`, at [`Reduction::index`].
+    #[inline(always)]
+    pub(super) fn of(&mut self, series: Series) -> &mut [f64; Reduction::COUNT] {
+        &mut self.0[series as usize]
+    }
+}
+
+/// Where the values of a row come from.
+#[derive(Clone, Debug)]
+pub(super) struct RowPlan {
+    /// The statistic of each column; any for a column that shows a direct value.
+    slots: Vec<Slot>,
+    /// Neighbouring columns that are relative to one scale, and that scale.
+    relative: Vec<(Range<usize>, Slot)>,
+    /// The columns that show a direct value.
+    direct_values: Vec<(usize, DirectValue)>,
+    /// For each column whether a run that failed has it too.
+    known_after_failure: Vec<bool>,
+}
+
+impl RowPlan {
+    /// The plan of the columns of `request`.
+    pub(super) fn of(request: &Request) -> Self {
+        let columns = request.columns();
+        let known_after_failure = columns.iter().map(|column| column.value.is_known_after_failure()).collect();
+        let mut plan =
+            RowPlan { slots: Vec::new(), relative: Vec::new(), direct_values: Vec::new(), known_after_failure };
+        for (place, column) in columns.iter().enumerate() {
+            plan.slots.push(match column.value {
+                Value::Of(series, reduction) => Slot::of((series, reduction)),
+                Value::Direct(value) => {
+                    plan.direct_values.push((place, value));
+                    Slot(0)
+                }
+            });
+            let Some(scale) = column.value.scale().map(Slot::of) else { continue };
+            match plan.relative.last_mut() {
+                Some((places, last)) if places.end == place && *last == scale => places.end += 1,
+                _ => plan.relative.push((place..place + 1, scale)),
+            }
+        }
+        plan
+    }
+
+    /// Number of columns.
+    pub(super) fn columns(&self) -> usize {
+        self.slots.len()
+    }
+
+    /// Fills `row` from `statistics` and from what `direct` answers.
+    #[inline(always)]
+    pub(super) fn fill(&self, statistics: &Statistics, direct: impl Fn(DirectValue) -> f64, row: &mut [f64]) {
+        for (value, slot) in row.iter_mut().zip(&self.slots) {
+            *value = statistics.get(*slot);
+        }
+        for (places, scale) in &self.relative {
+            let scale = statistics.scale(*scale);
+            row[places.clone()].iter_mut().for_each(|value| *value /= scale);
+        }
+        for (place, value) in &self.direct_values {
+            row[*place] = direct(*value);
+        }
+    }
+
+    /// Makes NaN of every value that a run that failed does not have.
+    pub(super) fn clear_unknown(&self, row: &mut [f64]) {
+        for (value, known) in row.iter_mut().zip(&self.known_after_failure) {
+            *value = if *known { *value } else { f64::NAN };
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::observables::group::Groups;
+    use crate::observables::table;
+
+    /// Law: every column of every request shows the statistic of the table, over the scale of the table, or its direct value.
+    #[test]
+    fn a_row_shows_what_the_table_says() {
+        let mut statistics = Statistics::unknown();
+        for (at, series) in Series::ALL.iter().enumerate() {
+            for (index, value) in statistics.of(*series).iter_mut().enumerate() {
+                *value = 1.5 + (at * Reduction::COUNT + index) as f64;
+            }
+        }
+        // a scale of zero counts as one
+        statistics.of(Series::DebrisLinearSquare).fill(0.0);
+        let number = |value: DirectValue| -(value as usize as f64) - 1.0;
+        for bits in 0..8 {
+            let [debris, actuated, constrained] = [1, 2, 4].map(|bit| bits & bit != 0);
+            let request = Request { groups: Groups::ALL, debris, actuated, constrained };
+            let plan = RowPlan::of(&request);
+            let mut row = vec![f64::NAN; plan.columns()];
+            plan.fill(&statistics, number, &mut row);
+            assert_eq!(row.len(), request.columns().len());
+            for (column, shown) in request.columns().iter().zip(&row) {
+                let expected = match column.value {
+                    Value::Of(series, reduction) => {
+                        let scale = column.value.scale().map(|(of, max)| statistics.of(of)[max.index()]);
+                        let scale = scale.filter(|scale| *scale != 0.0).unwrap_or(1.0);
+                        statistics.of(series)[reduction.index()] / scale
+                    }
+                    Value::Direct(value) => number(value),
+                };
+                assert_eq!(*shown, expected, "{}", column.quantity.name());
+            }
+            plan.clear_unknown(&mut row);
+            for (column, shown) in request.columns().iter().zip(&row) {
+                assert_eq!(shown.is_nan(), !column.value.is_known_after_failure(), "{}", column.quantity.name());
+            }
+        }
+        assert!(table::all().any(|column| column.value.scale() == table::Series::DebrisLinearError.row().scale));
+    }
+}

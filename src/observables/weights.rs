@@ -1,0 +1,75 @@
+//! [`Weights`]: what the passes over a series use of the grid; and how the lanes of an accumulator are joined.
+
+use fearless_simd::Simd;
+
+use crate::math::lanes::WIDTH;
+use crate::math::{Lanes, Real};
+use crate::run::Grid;
+
+/// What the reductions use of the grid, with zeros in the padding.
+#[derive(Clone, Debug)]
+pub(super) struct Weights {
+    /// Number of points.
+    pub(super) points: usize,
+    /// One at every point.
+    pub(super) one: Vec<[f64; WIDTH]>,
+    /// Least-squares slope of a series: sum of weight times value, 1/s.
+    pub(super) slope: Vec<[f64; WIDTH]>,
+    /// One over the distance to the next point, 1/s.
+    pub(super) inverse_step: Vec<[f64; WIDTH]>,
+}
+
+impl Weights {
+    /// For series on `grid`.
+    pub(super) fn of(grid: &Grid) -> Self {
+        let times = grid.times();
+        let points = times.len();
+        let mean = times.iter().sum::<f64>() / points as f64;
+        let centered: Vec<f64> = times.iter().map(|t| t - mean).collect();
+        let square: f64 = centered.iter().map(|t| t * t).sum();
+        let slope = centered.iter().map(|t| if square > 0.0 { t / square } else { 0.0 });
+        let inverse = times.windows(2).map(|t| if t[1] > t[0] { 1.0 / (t[1] - t[0]) } else { 0.0 });
+        let padded = |values: Vec<f64>| {
+            let mut values = values;
+            values.resize(points.next_multiple_of(WIDTH), 0.0);
+            values.as_chunks().0.to_vec()
+        };
+        Weights {
+            points,
+            one: padded(vec![1.0; points]),
+            slope: padded(slope.collect()),
+            inverse_step: padded(inverse.collect()),
+        }
+    }
+}
+
+/// The first `count` vectors of a column; columns of one common length need no check of bounds inside the loops.
+#[inline(always)]
+pub(super) fn vectors(column: &[f64], count: usize) -> &[[f64; WIDTH]] {
+    &column.as_chunks().0[..count]
+}
+
+/// The lanes joined as a fixed tree.
+#[inline(always)]
+fn joined(lanes: [f64; WIDTH], join: impl Fn(f64, f64) -> f64) -> f64 {
+    let [a, b, c, d, e, f, g, h] = lanes;
+    join(join(join(a, e), join(c, g)), join(join(b, f), join(d, h)))
+}
+
+/// The sum of the lanes.
+#[inline(always)]
+pub(super) fn total<S: Simd>(lanes: Lanes<S>) -> f64 {
+    joined(lanes.to_array(), |a, b| a + b)
+}
+
+/// The maximum of the lanes.
+#[inline(always)]
+pub(super) fn largest<S: Simd>(lanes: Lanes<S>) -> f64 {
+    joined(lanes.to_array(), |a, b| a.larger(b))
+}
+
+/// The minimum of the lanes.
+#[inline(always)]
+pub(super) fn smallest<S: Simd>(lanes: Lanes<S>) -> f64 {
+    joined(lanes.to_array(), |a, b| a.smaller(b))
+}
