@@ -1,14 +1,15 @@
 //! [`Dispersions`]: every dispersion of a campaign, checked against the nominal scene and ready to be drawn by a
 //! [`super::Sampler`].
 
+use super::columns::{Column, Columns};
 use super::copula::Copula;
-use super::dependence::{Correlation, Derivation, Derived};
+use super::correlation::Correlation;
+use super::derivation::{Derivation, Derived, derived};
 use super::design::{Design, Dimensions, MAX_SAMPLES, Points, Size};
 use super::distribution::target::{JointTarget, Target};
 use super::distribution::{Distribution, Joint, Map, Quantile, WrittenDistribution};
 use super::error::{DispersionError, Table, error, error_of};
 use super::keys::DataColumn;
-use super::sampler::Sampler;
 use crate::scene::parameter::Shape;
 use crate::scene::{Parameter, SceneInput};
 use std::sync::Arc;
@@ -22,17 +23,6 @@ pub struct Dispersion {
     pub component: Option<usize>,
     /// The distribution of its components: of each alone, or of all together.
     pub distribution: WrittenDistribution,
-}
-
-/// One number of the scene that a draw writes.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Column {
-    /// The parameter.
-    pub parameter: Parameter,
-    /// Its component.
-    pub component: usize,
-    /// The nominal value.
-    pub nominal: f64,
 }
 
 /// A distribution with the numbers u that it takes, and the columns that it writes.
@@ -96,7 +86,7 @@ pub struct Dispersions {
     seed: u64,
     samples: u64,
     design: Design,
-    pub(super) columns: Vec<Column>,
+    pub(super) columns: Columns,
     pub(super) assigned: Vec<Assigned>,
     /// The name of each dimension.
     pub(super) dimensions: Vec<String>,
@@ -116,7 +106,7 @@ impl Dispersions {
             seed: draws.seed,
             samples: 1,
             design: draws.design.clone(),
-            columns: Vec::new(),
+            columns: Columns::default(),
             assigned: Vec::new(),
             dimensions: Vec::new(),
             tabled: Vec::new(),
@@ -133,12 +123,25 @@ impl Dispersions {
         // the rest says nothing new where distributions are missing
         if errors.is_empty() {
             for (index, correlation) in draws.correlate.iter().enumerate() {
-                match correlation.copula(index, &these) {
+                let scalar = |component| match these.distribution_at(component) {
+                    Some(Assigned { first, map: Transform::Scalar(distribution), .. })
+                        if distribution.dimensions() == 1 =>
+                    {
+                        Some((*first, distribution))
+                    }
+                    _ => None,
+                };
+                let is_correlated = |dimension| these.copulas.iter().any(|one| one.dimensions.contains(&dimension));
+                match correlation.copula(index, scalar, is_correlated) {
                     Ok(copula) => these.copulas.push(copula),
                     Err(error) => errors.push(error),
                 }
             }
-            errors.extend(these.derive(draws.derive, nominal));
+            let assigned = &these.assigned;
+            let is_drawn = |columns: &Columns, component| assigned_to(assigned, columns, component).is_some();
+            let (list, wrong) = derived(draws.derive, &mut these.columns, is_drawn, nominal);
+            these.derived = list;
+            errors.extend(wrong);
             match fitting_samples(draws.design, draws.samples, &these) {
                 Ok(samples) => these.samples = samples,
                 Err(error) => errors.push(error),
@@ -149,7 +152,7 @@ impl Dispersions {
 
     /// The numbers that a draw writes, in the order of the file.
     pub fn columns(&self) -> &[Column] {
-        &self.columns
+        self.columns.list()
     }
 
     /// Number of samples, sample 0 included: the file's, or that of a design with a size of its own.
@@ -188,11 +191,6 @@ impl Dispersions {
         random.enumerate().flat_map(|(factor, count)| vec![factor; count]).collect()
     }
 
-    /// A sampler for one worker. Allocates; drawing does not.
-    pub fn sampler(&self) -> Sampler<'_> {
-        Sampler::new(self)
-    }
-
     /// The points of the design, for one worker.
     pub fn points(&self) -> Points {
         let factors = self.factors();
@@ -201,14 +199,8 @@ impl Dispersions {
     }
 
     /// The distribution of a component.
-    pub(super) fn distribution_at(&self, component: (Parameter, usize)) -> Option<&Assigned> {
-        let column = self.column_of(component)?;
-        self.assigned.iter().find(|assigned| assigned.columns.contains(&column))
-    }
-
-    /// The index of a component among the columns.
-    pub(super) fn column_of(&self, (parameter, component): (Parameter, usize)) -> Option<usize> {
-        self.columns.iter().position(|c| (c.parameter, c.component) == (parameter, component))
+    fn distribution_at(&self, component: (Parameter, usize)) -> Option<&Assigned> {
+        assigned_to(&self.assigned, &self.columns, component)
     }
 
     /// A parameter that is a column of the design's file.
@@ -230,15 +222,15 @@ impl Dispersions {
         if self.distribution_at((parameter, component)).is_some() {
             return refused("given a value once", "delete its [[disperse]] table, or take it out of parameters");
         }
-        if self.column_of((parameter, component)).is_some_and(is_taken) {
+        if self.columns.find((parameter, component)).is_some_and(is_taken) {
             return refused("given a value once", "name it once; the file may have it under two names");
         }
         if parameter.shape() == Shape::Quaternion {
             (0..parameter.width()).for_each(|component| {
-                self.column(parameter, component, nominal);
+                self.columns.add(parameter, component, nominal);
             });
         }
-        let column = self.column(parameter, component, nominal);
+        let column = self.columns.add(parameter, component, nominal);
         self.tabled.push((column, data.values.clone()));
         Ok(())
     }
@@ -264,7 +256,7 @@ impl Dispersions {
         // a quaternion is normalised as a whole: all of it is recorded
         if parameter.shape() == Shape::Quaternion {
             (0..parameter.width()).for_each(|component| {
-                self.column(parameter, component, nominal);
+                self.columns.add(parameter, component, nominal);
             });
         }
         for (components, map) in maps {
@@ -277,7 +269,7 @@ impl Dispersions {
                     self.dimensions.extend((0..joint.dimensions()).map(name));
                 }
             }
-            let columns = components.iter().map(|component| self.column(parameter, *component, nominal)).collect();
+            let columns = components.iter().map(|component| self.columns.add(parameter, *component, nominal)).collect();
             self.assigned.push(Assigned { first, columns, map });
         }
         Ok(())
@@ -299,7 +291,7 @@ impl Dispersions {
         }
         let taken = |component: &&usize| {
             let same = |column: &usize| {
-                let column = &self.columns[*column];
+                let column = &self.columns()[*column];
                 (column.parameter, column.component) == (parameter, **component)
             };
             self.assigned.iter().any(|assigned| assigned.columns.iter().any(same))
@@ -313,16 +305,12 @@ impl Dispersions {
             None => Ok(()),
         }
     }
+}
 
-    /// The index of a component among the columns, to which it is added if it is not there.
-    pub(super) fn column(&mut self, parameter: Parameter, component: usize, nominal: &SceneInput) -> usize {
-        let is_it = |column: &Column| (column.parameter, column.component) == (parameter, component);
-        self.columns.iter().position(is_it).unwrap_or_else(|| {
-            let nominal = parameter.value(nominal, component).unwrap_or(f64::NAN);
-            self.columns.push(Column { parameter, component, nominal });
-            self.columns.len() - 1
-        })
-    }
+/// The one of `assigned` that writes a component.
+fn assigned_to<'a>(assigned: &'a [Assigned], columns: &Columns, component: (Parameter, usize)) -> Option<&'a Assigned> {
+    let column = columns.find(component)?;
+    assigned.iter().find(|assigned| assigned.columns.contains(&column))
 }
 
 /// The number of samples, where it fits the design.

@@ -5,14 +5,17 @@
 //! 2. [`copula`]: dependence between the u of several dimensions;
 //! 3. [`distribution`]: from u to values, one quantile function each, for one number; one map each, for directions and
 //!    attitudes;
-//! 4. [`expression`]: values that follow from others ([`dependence`]: correlation and derivation as written);
+//! 4. [`expression`]: values that follow from others;
 //! 5. [`dispersions`]: which distribution writes what, checked against the nominal scene; [`sampler`]: values into the scene,
 //!    and what was applied out of it.
 //!
+//! [`correlation`], [`derivation`]: `[[correlate]]` and `[[derive]]` tables as written; [`columns`]: the numbers that a draw writes.
 //! [`keys`]: how distributions and designs read and write their keys; [`error`]: why something cannot be drawn.
 
+pub mod columns;
 pub mod copula;
-pub mod dependence;
+pub mod correlation;
+pub mod derivation;
 pub mod design;
 pub mod dispersions;
 pub mod distribution;
@@ -22,9 +25,11 @@ pub mod keys;
 pub mod sampler;
 pub mod stream;
 
-pub use dependence::{Correlation, Dependence, Derivation};
+pub use columns::Column;
+pub use correlation::{Correlation, Dependence};
+pub use derivation::Derivation;
 pub use design::{Design, Points};
-pub use dispersions::{Column, Dispersion, Dispersions, Draws, Transform};
+pub use dispersions::{Dispersion, Dispersions, Draws, Transform};
 pub use distribution::{Distribution, Joint, WrittenDistribution};
 pub use error::{DispersionError, Table};
 pub use keys::{DataColumn, Values};

@@ -3,8 +3,9 @@
 //! What is recorded is what was applied: values are written into the scene, made valid as a whole (a quaternion is
 //! renormalised) and read back. A draw that is physically impossible is not drawn again: the scene refuses it later.
 
+use super::columns::Column;
 use super::design::{BLOCK, PointSource, Points};
-use super::dispersions::{Assigned, Column, Dispersions, Transform};
+use super::dispersions::{Assigned, Dispersions, Transform};
 use super::distribution::traits::{MAX_COMPONENTS, MAX_DIMENSIONS};
 use super::distribution::{Joint, Map, Quantile};
 use super::stream::SampleId;
@@ -32,8 +33,15 @@ pub struct Sampler<'a> {
     normalised: Vec<Parameter>,
 }
 
+impl Dispersions {
+    /// A sampler for one worker. Allocates; drawing does not.
+    pub fn sampler(&self) -> Sampler<'_> {
+        Sampler::new(self)
+    }
+}
+
 impl<'a> Sampler<'a> {
-    pub(super) fn new(dispersions: &'a Dispersions) -> Self {
+    fn new(dispersions: &'a Dispersions) -> Self {
         Sampler {
             dispersions,
             points: dispersions.points(),
@@ -43,7 +51,7 @@ impl<'a> Sampler<'a> {
             scores: vec![[0.0; BLOCK]; dispersions.dimensions.len()],
             correlated: correlated(dispersions),
             // columns that no distribution writes keep their nominal
-            values: dispersions.columns.iter().map(|column| [column.nominal; BLOCK]).collect(),
+            values: dispersions.columns().iter().map(|column| [column.nominal; BLOCK]).collect(),
             normalised: normalised(dispersions),
         }
     }
@@ -54,7 +62,7 @@ impl<'a> Sampler<'a> {
     /// # Panics
     /// Where `applied` is not as long as [`Dispersions::columns`].
     pub fn draw(&mut self, sample: SampleId, scene: &mut SceneInput, applied: &mut [f64]) {
-        let columns = &self.dispersions.columns;
+        let columns = self.dispersions.columns();
         assert_eq!(applied.len(), columns.len(), "one applied value a column");
         if sample == SampleId(0) {
             for (column, applied) in columns.iter().zip(applied) {
@@ -158,7 +166,7 @@ impl<'a> Sampler<'a> {
             for lane in 0..BLOCK {
                 if self.nominal[dimensions.clone()].iter().all(|nominal| nominal[lane]) {
                     for column in &assigned.columns {
-                        self.values[*column][lane] = self.dispersions.columns[*column].nominal;
+                        self.values[*column][lane] = self.dispersions.columns()[*column].nominal;
                     }
                 }
             }
@@ -180,5 +188,5 @@ fn correlated(dispersions: &Dispersions) -> Vec<bool> {
 /// The quaternions among the columns, each once.
 fn normalised(dispersions: &Dispersions) -> Vec<Parameter> {
     let first = |column: &&Column| column.component == 0 && column.parameter.shape() == Shape::Quaternion;
-    dispersions.columns.iter().filter(first).map(|column| column.parameter).collect()
+    dispersions.columns().iter().filter(first).map(|column| column.parameter).collect()
 }

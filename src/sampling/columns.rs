@@ -1,0 +1,39 @@
+//! [`Columns`]: the numbers of the scene that a draw writes, each once.
+
+use crate::scene::{Parameter, SceneInput};
+
+/// One number of the scene that a draw writes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    /// The parameter.
+    pub parameter: Parameter,
+    /// Its component.
+    pub component: usize,
+    /// The nominal value.
+    pub nominal: f64,
+}
+
+/// The numbers that a draw writes, in the order of the file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Columns(Vec<Column>);
+
+impl Columns {
+    /// All of them.
+    pub fn list(&self) -> &[Column] {
+        &self.0
+    }
+
+    /// The index of a component, if it is there.
+    pub fn find(&self, (parameter, component): (Parameter, usize)) -> Option<usize> {
+        self.0.iter().position(|column| (column.parameter, column.component) == (parameter, component))
+    }
+
+    /// The index of a component, which is added if it is not there.
+    pub fn add(&mut self, parameter: Parameter, component: usize, nominal: &SceneInput) -> usize {
+        self.find((parameter, component)).unwrap_or_else(|| {
+            let nominal = parameter.value(nominal, component).unwrap_or(f64::NAN);
+            self.0.push(Column { parameter, component, nominal });
+            self.0.len() - 1
+        })
+    }
+}

@@ -1,0 +1,190 @@
+//! [`Derivation`]: a `[[derive]]` table as written, and its way to [`Derived`] columns.
+
+use super::columns::Columns;
+use super::error::{DispersionError, Table, error_of};
+use super::expression::Expression;
+use crate::scene::parameter::Shape;
+use crate::scene::{Parameter, SceneInput};
+
+/// A `[[derive]]` table as written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Derivation {
+    /// The parameter.
+    pub parameter: Parameter,
+    /// The component that is meant, if not all are.
+    pub component: Option<usize>,
+    /// The expression.
+    pub expression: String,
+}
+
+/// A column that is computed from others.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Derived {
+    /// The column.
+    pub column: usize,
+    /// How.
+    expression: Expression,
+    /// What each variable of the expression is.
+    sources: Vec<Source>,
+    /// The expression as written.
+    pub text: String,
+}
+
+/// Where a variable's value comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Source {
+    /// A column of the draw.
+    Column(usize),
+    /// A value that is the same in every sample.
+    Nominal(f64),
+}
+
+impl Derived {
+    /// The value, where `column` gives the values of other columns.
+    #[inline]
+    pub fn value(&self, column: impl Fn(usize) -> f64) -> f64 {
+        self.expression.value(|index| match self.sources[index] {
+            Source::Column(index) => column(index),
+            Source::Nominal(value) => value,
+        })
+    }
+}
+
+/// How far the value of an expression at the nominal scene may be from the nominal value, relative to the larger of the two.
+const NOMINAL_SLACK: f64 = 1e-9;
+
+/// The columns of `list`, added to `columns`, in an order in which each comes after what it is made of; and what is wrong.
+/// `is_drawn` tells whether a component has a distribution.
+pub(super) fn derived(
+    list: &[Derivation],
+    columns: &mut Columns,
+    is_drawn: impl Fn(&Columns, (Parameter, usize)) -> bool,
+    nominal: &SceneInput,
+) -> (Vec<Derived>, Vec<DispersionError>) {
+    let mut found = Vec::new();
+    let mut errors = Vec::new();
+    // what is to be computed: index of the table, parameter and component, expression
+    let mut open: Vec<(usize, (Parameter, usize), Expression, &str)> = Vec::new();
+    for (index, derivation) in list.iter().enumerate() {
+        let parameter = derivation.parameter;
+        let components: Vec<usize> = match derivation.component {
+            Some(component) => vec![component],
+            None => (0..parameter.width()).collect(),
+        };
+        let mut refuse = |key, value: String, allowed: String, remedy: &str| {
+            errors.push(error_of(Table::Derive(index), key, value, allowed, remedy));
+        };
+        let expression = match Expression::parse(&derivation.expression) {
+            Ok(expression) => expression,
+            Err(allowed) => {
+                let remedy = "operators are + - * / ^ and comparisons; names are those of parameters";
+                refuse("expression", format!("{:?}", derivation.expression), allowed, remedy);
+                continue;
+            }
+        };
+        for component in components {
+            let shown = format!("{:?}", parameter.component_name(component));
+            let is_taken = is_drawn(columns, (parameter, component))
+                || open.iter().any(|(_, target, ..)| *target == (parameter, component));
+            if !parameter.exists(nominal, component) {
+                refuse("parameter", shown, "a key that the scene has".to_owned(), parameter.remedy());
+            } else if parameter.shape() == Shape::Quaternion {
+                let allowed = "other than an attitude, which changes as a whole".to_owned();
+                refuse("parameter", shown, allowed, "disperse the attitude");
+            } else if is_taken {
+                refuse(
+                    "parameter",
+                    shown,
+                    "given a value once".to_owned(),
+                    "delete one of the tables that give it one",
+                );
+            } else {
+                open.push((index, (parameter, component), expression.clone(), &derivation.expression));
+                continue;
+            }
+            break;
+        }
+    }
+    // variables as parameters; what is wrong with them
+    open.retain(|(index, _, expression, _)| {
+        let wrong = expression.variables().iter().find_map(|name| variable(name, nominal).err().map(|why| (name, why)));
+        if let Some((name, (allowed, remedy))) = &wrong {
+            errors.push(error_of(
+                Table::Derive(*index),
+                "expression",
+                format!("{name:?}"),
+                allowed.clone(),
+                remedy.clone(),
+            ));
+        }
+        wrong.is_none()
+    });
+    while !open.is_empty() && errors.is_empty() {
+        let waits = |target: &(Parameter, usize)| open.iter().any(|(_, other, ..)| other == target);
+        let ready = open.iter().position(|(_, _, expression, _)| {
+            !expression.variables().iter().any(|name| variable(name, nominal).is_ok_and(|(target, _)| waits(&target)))
+        });
+        let Some(ready) = ready else {
+            let (index, target, _, text) = &open[0];
+            let allowed =
+                format!("made of values that do not depend on {} themselves", target.0.component_name(target.1));
+            let remedy = "break the cycle: one of them needs a value of its own";
+            errors.push(error_of(Table::Derive(*index), "expression", format!("{text:?}"), allowed, remedy));
+            break;
+        };
+        let (index, (parameter, component), expression, text) = open.remove(ready);
+        let sources = expression
+            .variables()
+            .iter()
+            .filter_map(|name| variable(name, nominal).ok())
+            .map(|(target, value)| match columns.find(target) {
+                Some(column) => Source::Column(column),
+                None => Source::Nominal(value),
+            })
+            .collect();
+        let column = columns.add(parameter, component, nominal);
+        let derived = Derived { column, expression, sources, text: text.to_owned() };
+        let at_nominal = derived.value(|column| columns.list()[column].nominal);
+        let written = columns.list()[column].nominal;
+        let near = (at_nominal - written).abs() <= NOMINAL_SLACK * at_nominal.abs().max(written.abs());
+        // a nominal that is not a number is the scene's error
+        if !at_nominal.is_finite() && written.is_finite() {
+            let allowed = "a finite number in the nominal scene".to_owned();
+            let remedy = "a division by zero, or a root or logarithm of a negative number: change the expression";
+            errors.push(error_of(Table::Derive(index), "expression", format!("{at_nominal:?}"), allowed, remedy));
+        } else if !near && written.is_finite() {
+            let allowed = format!(
+                "equal to the nominal {} = {written:?} in the nominal scene",
+                parameter.component_name(component)
+            );
+            let remedy = format!("write the nominal value {at_nominal:?}, or change the expression");
+            errors.push(error_of(Table::Derive(index), "expression", format!("{at_nominal:?}"), allowed, remedy));
+        }
+        found.push(derived);
+    }
+    (found, errors)
+}
+
+/// The parameter that a name in an expression means, and its nominal value; or what it must be and the remedy.
+fn variable(name: &str, nominal: &SceneInput) -> Result<((Parameter, usize), f64), (String, String)> {
+    let Some((parameter, component)) = Parameter::find(name) else {
+        let allowed = "a numeric key of scene or initial state, one component of it".to_owned();
+        return Err((allowed, "write names as in this file, wheel1.radius_m or initial.position_m.x".to_owned()));
+    };
+    if parameter.shape() == Shape::Quaternion {
+        let allowed = "other than an attitude, whose components are normalised after they were drawn".to_owned();
+        return Err((allowed, "leave it out".to_owned()));
+    }
+    let component = match component {
+        Some(component) => component,
+        None if parameter.width() == 1 => 0,
+        None => {
+            let remedy = format!("write {} or another", parameter.component_name(0));
+            return Err(("one component of a parameter".to_owned(), remedy));
+        }
+    };
+    match parameter.value(nominal, component).filter(|_| parameter.exists(nominal, component)) {
+        Some(value) => Ok(((parameter, component), value)),
+        None => Err(("a key that the scene has".to_owned(), parameter.remedy().to_owned())),
+    }
+}
