@@ -3,6 +3,7 @@
 use super::error::Problems;
 use super::input::SceneInput;
 use super::mass::MassProperties;
+use super::parameter::unit_quaternion;
 use super::schema::InitialInput;
 use super::{InitialState, Scene, SceneError, THRUSTER_DIRECTIONS, check, schedule};
 use crate::math::vector::{dcm_from_quaternion, hamilton, sum, transposed_product};
@@ -89,7 +90,7 @@ fn initial_state(input: &SceneInput) -> InitialState {
     } = input.initial;
     let of_present_wheels =
         |values: [f64; 2]| std::array::from_fn(|i| if input.wheels[i].is_some() { values[i] } else { 0.0 });
-    let q_es = normalised(attitude);
+    let q_es = unit_quaternion(attitude);
     let mut state = InitialState {
         r_po_e: position_m,
         v_po_e: velocity_m_s,
@@ -103,7 +104,7 @@ fn initial_state(input: &SceneInput) -> InitialState {
         omega_de_d: [0.0; 3],
     };
     if input.debris.is_some() {
-        let q_sd = normalised(debris_attitude);
+        let q_sd = unit_quaternion(debris_attitude);
         state.r_gdo_e = debris_position_m;
         state.v_gdo_e = debris_velocity_m_s;
         state.q_ed = hamilton(q_es, q_sd);
@@ -111,11 +112,6 @@ fn initial_state(input: &SceneInput) -> InitialState {
         state.omega_de_d = sum(debris_relative_angular_velocity_rad_s, omega_se_d);
     }
     state
-}
-
-fn normalised(q: [f64; 4]) -> [f64; 4] {
-    let norm = q.iter().map(|x| x * x).sum::<f64>().sqrt();
-    q.map(|x| x / norm)
 }
 
 #[cfg(test)]

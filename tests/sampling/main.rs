@@ -8,4 +8,5 @@ mod designs;
 mod dispersable;
 mod distributions;
 mod geometric;
+mod replay;
 mod streams;

@@ -1,0 +1,62 @@
+//! What is recorded is what is used: the recorded values of a sample, written into a campaign file as its nominal scene, give the
+//! same scene and the same columns, bit for bit.
+
+use std::path::{Path, PathBuf};
+
+use spindrift::campaign::{Overrides, Plan, SceneDraws, draw};
+use spindrift::ensemble::SingleRun;
+use spindrift::math::Isa;
+use spindrift::sampling::{Design, SampleId};
+
+/// Samples of each campaign that are written and read again.
+const SAMPLES: u64 = 24;
+/// Of these, samples that are run.
+const RUN: u64 = 3;
+
+fn shipped() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns");
+    let mut files: Vec<PathBuf> =
+        std::fs::read_dir(folder).expect("the folder").map(|entry| entry.expect("an entry").path()).collect();
+    files.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
+    files.sort();
+    files
+}
+
+/// The campaign whose nominal scene is written with the recorded values of `sample`, read from its text.
+fn written_again(plan: &Plan, sample: SampleId) -> Plan {
+    let mut draws = SceneDraws::new(plan);
+    draws.scene(sample).expect("a physical sample");
+    let mut again = plan.clone();
+    for (column, value) in plan.dispersions.columns().iter().zip(draws.applied()) {
+        column.parameter.set(&mut again.nominal, column.component, *value);
+    }
+    again.samples = 1;
+    again.design = Design::DEFAULT;
+    again.dispersed.clear();
+    again.correlated.clear();
+    again.derived.clear();
+    Plan::from_text("again.toml", &again.text(), Overrides::default()).expect("a legal file")
+}
+
+#[test]
+fn recorded_values_written_as_a_nominal_scene_give_the_same_columns() {
+    let isa = Isa::best();
+    let mut with_attitude = 0;
+    for file in shipped() {
+        let plan = Plan::load(&file, Overrides::default()).expect("a shipped file");
+        with_attitude += u32::from(plan.dispersions.columns().iter().any(|column| column.parameter.width() == 4));
+        for sample in (1..plan.samples.min(SAMPLES + 1)).map(SampleId) {
+            let again = written_again(&plan, sample);
+            let drawn = draw(&plan, sample).expect("a physical sample");
+            assert_eq!(draw(&again, SampleId(0)).expect("the same"), drawn, "{} {sample}", file.display());
+            if sample.0 <= RUN {
+                let row = |plan, sample| {
+                    let run = SingleRun::new(plan, sample, again.grid.clone(), isa).expect("a physical sample");
+                    run.row.iter().map(|value| value.to_bits()).collect::<Vec<_>>()
+                };
+                assert_eq!(row(&again, SampleId(0)), row(&plan, sample), "{} {sample}", file.display());
+            }
+        }
+    }
+    assert!(with_attitude >= 2, "campaigns that disperse an attitude");
+}
