@@ -37,6 +37,10 @@ impl Plan {
         for correlation in &self.correlated {
             correlation_lines(correlation, &mut lines);
         }
+        for replaced in self.dispersions.replaced_correlations() {
+            lines.note(&format!("components: {}", replaced.names.join(", ")));
+            lines.note(&format!("nearest correlation of the normal scores, which is used: {:?}", replaced.used));
+        }
         for derivation in &self.derived {
             derivation_lines(derivation, &mut lines);
         }

@@ -1,7 +1,7 @@
 //! What is drawn, as canonical text; see [`super::canonical`].
 
 use super::lines::Lines;
-use crate::sampling::{Correlation, Dependence, Derivation, Design, Dispersion};
+use crate::sampling::{Correlation, Derivation, Design, Dispersion, Numbers};
 use crate::scene::Parameter;
 
 /// Writes one `[[disperse]]` table.
@@ -30,10 +30,9 @@ pub(super) fn correlation_lines(correlation: &Correlation, lines: &mut Lines) {
         None => parameter.name().to_owned(),
     };
     lines.key("parameters", correlation.parameters.iter().map(name).collect::<Vec<_>>());
-    match &correlation.dependence {
-        Dependence::Scores(matrix) => lines.key("correlation", matrix),
-        Dependence::Ranks(matrix) => lines.key("rank_correlation", matrix),
-        Dependence::Covariance(matrix) => lines.key("covariance", matrix),
+    match &correlation.numbers {
+        Numbers::One(number) => lines.key(correlation.measure.key(), number),
+        Numbers::Rows(rows) => lines.key(correlation.measure.key(), rows),
     }
     if correlation.nearest_psd {
         lines.key("nearest_psd", true);

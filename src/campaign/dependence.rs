@@ -2,19 +2,11 @@
 
 use super::parameter::{parameter, unknown_parameter};
 use super::section::Section;
-use crate::sampling::{Correlation, Dependence, Derivation};
+use crate::sampling::{Correlation, Derivation, Measure};
 use crate::scene::Parameter;
-
-/// A dependence from its matrix.
-type Kind = fn(Vec<Vec<f64>>) -> Dependence;
 
 /// Reads one `[[correlate]]` table; `None` where something is wrong, which is then noted.
 pub fn correlation(table: &mut Section<'_, '_>) -> Option<Correlation> {
-    const KINDS: [(&str, Kind); 3] = [
-        ("correlation", Dependence::Scores),
-        ("rank_correlation", Dependence::Ranks),
-        ("covariance", Dependence::Covariance),
-    ];
     table.require("parameters", "an array of texts", "[\"wheel1.radius_m\", \"wheel1.length_m\"]");
     let names = table.texts("parameters", "[\"wheel1.radius_m\", \"wheel1.length_m\"]");
     let parameters = names.and_then(|names| {
@@ -29,29 +21,25 @@ pub fn correlation(table: &mut Section<'_, '_>) -> Option<Correlation> {
         }
         Some(parameters)
     });
-    let written: Vec<&str> = KINDS.iter().map(|(key, _)| *key).filter(|key| table.has(key)).collect();
+    let written: Vec<Measure> = Measure::ALL.into_iter().filter(|measure| table.has(measure.key())).collect();
     match written[..] {
         [_] => {}
-        [] => table.require(
-            "correlation",
-            "given (correlation, rank_correlation or covariance)",
-            "[[1.0, 0.5], [0.5, 1.0]]",
-        ),
+        [] => table.require("correlation", "given (correlation, rank_correlation or covariance)", "0.5"),
         [_, second, ..] => {
             let allowed = "the only one of correlation, rank_correlation, covariance";
-            table.refuse(second, allowed, "delete all but one of them");
+            table.refuse(second.key(), allowed, "delete all but one of them");
         }
     }
-    let mut dependences: Vec<Dependence> = Vec::new();
-    for (key, kind) in KINDS {
-        dependences.extend(table.square(key).map(kind));
+    let mut numbers = Vec::new();
+    for measure in Measure::ALL {
+        numbers.extend(table.correlations(measure.key()).map(|numbers| (measure, numbers)));
     }
     let nearest_psd = table.flag("nearest_psd");
     let flag_passed = !table.has("nearest_psd") || nearest_psd.is_some();
     table.finish();
-    match (parameters, dependences.pop()) {
-        (Some(parameters), Some(dependence)) if flag_passed && written.len() == 1 => {
-            Some(Correlation { parameters, dependence, nearest_psd: nearest_psd.unwrap_or(false) })
+    match (parameters, numbers.pop()) {
+        (Some(parameters), Some((measure, numbers))) if flag_passed && written.len() == 1 => {
+            Some(Correlation { parameters, measure, numbers, nearest_psd: nearest_psd.unwrap_or(false) })
         }
         _ => None,
     }

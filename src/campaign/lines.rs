@@ -21,6 +21,11 @@ impl Lines {
         self.0.push_str(&format!("{key} = {value:?}\n"));
     }
 
+    /// A comment on a line of its own.
+    pub(super) fn note(&mut self, text: &str) {
+        self.0.push_str(&format!("# {text}\n"));
+    }
+
     /// A table of the scene: every key that `scene` has.
     pub(super) fn keys_of(&mut self, header: &str, table: Table, instance: usize, scene: &SceneInput) {
         self.table(header);

@@ -1,6 +1,7 @@
-//! Lists of any length in a [`Section`]: numbers, texts, square matrices.
+//! Lists of any length in a [`Section`]: numbers, texts, matrices.
 
 use super::section::{Section, number};
+use crate::sampling::Numbers;
 use crate::sampling::keys::Counts;
 use toml::de::DeValue;
 
@@ -27,16 +28,24 @@ impl Section<'_, '_> {
         list
     }
 
-    /// A square matrix of finite numbers by rows, if it was written.
-    pub fn square(&mut self, key: &'static str) -> Option<Vec<Vec<f64>>> {
+    /// One finite number, or rows of equally many of them, if it was written.
+    pub fn correlations(&mut self, key: &'static str) -> Option<Numbers> {
         let value = self.take(key)?;
-        let rows: Option<Vec<Vec<f64>>> =
-            value.get_ref().as_array().and_then(|rows| rows.iter().map(|row| numbers(row.get_ref())).collect());
-        let square = rows.filter(|rows| !rows.is_empty() && rows.iter().all(|row| row.len() == rows.len()));
-        if square.is_none() {
-            self.refuse(key, "a square matrix of finite numbers by rows", "write it like [[1.0, 0.5], [0.5, 1.0]]");
+        let found = match value.get_ref() {
+            DeValue::Array(rows) => {
+                let rows: Option<Vec<Vec<f64>>> = rows.iter().map(|row| numbers(row.get_ref())).collect();
+                let is_matrix = |rows: &Vec<Vec<f64>>| {
+                    rows.first().is_some_and(|first| rows.iter().all(|row| row.len() == first.len()))
+                };
+                rows.filter(is_matrix).map(Numbers::Rows)
+            }
+            single => number(single).filter(|x| x.is_finite()).map(Numbers::One),
+        };
+        if found.is_none() {
+            let allowed = "one number for two parameters, or rows of equally many finite numbers";
+            self.refuse(key, allowed, "write it like 0.5 or [[1.0, 0.5], [0.5, 1.0]]");
         }
-        square
+        found
     }
 
     /// A whole number within `range` for all, or a list of them, if it was written.

@@ -7,6 +7,7 @@
 //!   [`design`], [`dependence`]: those that say what is drawn; `keys`: how a distribution or a design reads its own;
 //!   [`data`], `data_keys`: files of numbers; `parameter`: names of parameters; [`limits`]; [`compression`].
 //! - [`plan`]: defaults filled in, scene and dispersions checked against each other.
+//! - [`notes`]: what is allowed and probably not meant.
 //! - [`mod@draw`]: from a plan and the number of a sample to its scene.
 //! - [`canonical`], [`canonical_draws`], `lines`: the plan as text that reads back to the same plan, and its hash.
 //! - [`mod@find`]: which file a name means.
@@ -28,6 +29,7 @@ mod keys;
 pub mod limits;
 mod lines;
 pub mod lists;
+pub mod notes;
 mod parameter;
 pub mod plan;
 pub mod problem;

@@ -32,6 +32,11 @@ pub fn run(options: &CheckOptions) -> Result<CommandOutcome, Failure> {
         masses(&mut text, &scene.mass)?;
         section(&mut text, "Dispersions")?;
         dispersions::table(&mut text, &plan)?;
+        let notes = plan.notes();
+        if !notes.is_empty() {
+            section(&mut text, "Notes")?;
+        }
+        notes.iter().try_for_each(|note| writeln!(text, "{note}"))?;
         computed(&mut text, &ensemble)?;
         std::fmt::Result::Ok(())
     })();

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use crate::campaign::Plan;
 use crate::ensemble::DrawnScenes;
 use crate::report::number::short;
-use crate::sampling::{Design, Dispersions, SampleId};
+use crate::sampling::{Design, Dispersions, Replaced, SampleId};
 
 /// Draws behind the percentiles: the 1% and 99% lie within a tenth of the distribution's width of their true places.
 const DRAWS: u64 = 10_000;
@@ -50,7 +50,28 @@ pub fn table_of(text: &mut String, plan: &Plan, drawn: &DrawnScenes) -> std::fmt
         let names: Vec<String> = correlation.parameters.iter().map(name).collect();
         writeln!(text, "correlated: {}", names.join(", "))?;
     }
+    for replaced in plan.dispersions.replaced_correlations() {
+        writeln!(text, "{}", nearest(replaced))?;
+    }
     Ok(())
+}
+
+/// The matrix that is used in place of one that no numbers have.
+pub fn nearest(replaced: &Replaced) -> String {
+    let change = replaced.asked.iter().flatten().zip(replaced.used.iter().flatten());
+    let largest = change.fold(0.0f64, |most, (asked, used)| most.max((asked - used).abs()));
+    let mut text = format!(
+        "nearest_psd: correlations of the normal scores changed by up to {}; used for {}:",
+        short(largest),
+        replaced.names.join(", ")
+    );
+    for row in &replaced.used {
+        let _ = write!(text, "\n ");
+        row.iter().for_each(|r| {
+            let _ = write!(text, " {r:>9.6}");
+        });
+    }
+    text
 }
 
 /// Where the values of a column come from, in words.

@@ -58,6 +58,7 @@ fn run_all(
     if folder.restarted {
         screen::note(&format!("{}: unfinished result in {}, starting again", plan.name, root.display()));
     }
+    plan.notes().iter().for_each(|note| screen::note(note));
     let sink = PartSink::new(folder, ensemble).map_err(Failure::files)?;
     let parts = Parts::of(plan.samples);
     let bar = Bar::new(plan.samples);

@@ -37,6 +37,7 @@ pub fn run(options: &SampleOptions) -> Result<CommandOutcome, Failure> {
     };
     dispersions::table_of(&mut text, &plan, &dispersed).map_err(Failure::files)?;
     screen::print(&text)?;
+    plan.notes().iter().for_each(|note| screen::note(note));
     let invalid = drawn.physical.iter().filter(|physical| !**physical).count();
     if invalid > 0 {
         screen::note(&format!(

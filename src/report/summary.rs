@@ -10,7 +10,7 @@ use crate::dataset::tally::{Ended, Headline, Tally, Worst};
 use crate::report::audit_summary::{AuditSummary, Numerics};
 use crate::report::number::short;
 use crate::run::Status;
-use crate::sampling::SampleId;
+use crate::sampling::{Replaced, SampleId};
 use crate::statistics::sketch::RELATIVE_ERROR;
 
 /// Order statistics of one observable.
@@ -47,6 +47,7 @@ pub struct Summary {
     worst: Vec<Worst>,
     lines: Vec<Line>,
     audit: Option<AuditSummary>,
+    replaced: Vec<Replaced>,
 }
 
 impl Summary {
@@ -73,6 +74,7 @@ impl Summary {
             worst: tally.worst().to_vec(),
             lines: lines.collect(),
             audit: tally.audits().map(|audits| AuditSummary::new(audits, plan.audit_fraction)),
+            replaced: plan.dispersions.replaced_correlations().to_vec(),
         }
     }
 
@@ -107,6 +109,11 @@ impl Summary {
             },
             "observables": self.lines,
         });
+        if !self.replaced.is_empty() {
+            let list = self.replaced.iter();
+            let list = list.map(|one| json!({ "parameters": one.names, "asked": one.asked, "used": one.used }));
+            value["nearest_correlations_of_scores"] = Value::Array(list.collect());
+        }
         if let Some(audit) = &self.audit {
             value["audit"] = json!(audit);
         }

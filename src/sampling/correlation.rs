@@ -1,19 +1,47 @@
-//! [`Correlation`]: a `[[correlate]]` table as written, and its way to a [`Copula`].
+//! [`Correlation`]: a `[[correlate]]` table as written; [`copulas`]: all of them together as dependence of dimensions.
+//!
+//! A table says how pairs of components depend on each other: all pairs of its parameters (a square matrix), or each component of
+//! one parameter with each of another (a block; for two numbers, one number). Tables with a component in common make one matrix;
+//! pairs that none of them names are independent.
 
-use super::copula::{Copula, Matrix, nearest_correlation, score_correlation, smallest_negative_eigenvalue};
+use super::copula::{Copula, Matrix, nearest_correlation, smallest_negative_eigenvalue};
 use super::distribution::{Distribution, Quantile};
 use super::error::{DispersionError, Table, error_of};
+use super::rank::scores_of_ranks;
 use crate::scene::Parameter;
 
-/// How a dependence is written.
+/// What the numbers of a table are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measure {
+    /// Correlations of the normal scores: of the values where these are normal.
+    Scores,
+    /// Spearman's rank correlations.
+    Ranks,
+    /// Covariances of normal values.
+    Covariance,
+}
+
+impl Measure {
+    /// All of them.
+    pub const ALL: [Measure; 3] = [Measure::Scores, Measure::Ranks, Measure::Covariance];
+
+    /// The key in campaign files.
+    pub const fn key(self) -> &'static str {
+        match self {
+            Measure::Scores => "correlation",
+            Measure::Ranks => "rank_correlation",
+            Measure::Covariance => "covariance",
+        }
+    }
+}
+
+/// How the numbers of a table are written.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Dependence {
-    /// Correlations of the normal scores: of the values where these are normal (`correlation`).
-    Scores(Matrix),
-    /// Spearman's rank correlations (`rank_correlation`).
-    Ranks(Matrix),
-    /// Covariances of normal values, whose variances must be those of their distributions (`covariance`).
-    Covariance(Matrix),
+pub enum Numbers {
+    /// One, of two numbers.
+    One(f64),
+    /// Rows: a square matrix of all components, or the block of one parameter with another.
+    Rows(Matrix),
 }
 
 /// A `[[correlate]]` table as written.
@@ -21,142 +49,301 @@ pub enum Dependence {
 pub struct Correlation {
     /// The parameters, whole or by component.
     pub parameters: Vec<(Parameter, Option<usize>)>,
-    /// Their dependence, in the order of the parameters and their components.
-    pub dependence: Dependence,
+    /// What the numbers are.
+    pub measure: Measure,
+    /// The numbers, in the order of the parameters and their components.
+    pub numbers: Numbers,
     /// Whether a matrix that is not positive semidefinite is replaced by the nearest that is.
     pub nearest_psd: bool,
 }
 
+/// A correlation matrix that was replaced by the nearest that exists.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Replaced {
+    /// The components, in the order of the matrix.
+    pub names: Vec<String>,
+    /// The correlations of the normal scores that were asked.
+    pub asked: Matrix,
+    /// The correlations of the normal scores that are used.
+    pub used: Matrix,
+}
+
 /// A diagonal or a pair of mirror images that differ by more are two different numbers, not one in two roundings.
 const SAME: f64 = 1e-9;
-impl Correlation {
-    /// The dependence that table `index` asks for. `drawn` gives the dimension and the distribution of a component, if it has one of
-    /// one number; `is_correlated` tells whether another table has a dimension.
-    ///
-    /// # Errors
-    /// What is wrong with parameters or matrix.
-    #[expect(clippy::needless_range_loop, reason = "entries of a matrix are known by two indices")]
-    pub(super) fn copula<'d>(
-        &self,
-        index: usize,
-        drawn: impl Fn((Parameter, usize)) -> Option<(usize, &'d Distribution)>,
-        is_correlated: impl Fn(usize) -> bool,
-    ) -> Result<Copula, DispersionError> {
-        let refused = |key, value: String, allowed: String, remedy: &str| {
-            Err(error_of(Table::Correlate(index), key, value, allowed, remedy))
-        };
-        let components: Vec<(Parameter, usize)> = self
-            .parameters
-            .iter()
-            .flat_map(|(parameter, component)| match component {
-                Some(component) => vec![(*parameter, *component)],
-                None => (0..parameter.width()).map(|component| (*parameter, component)).collect(),
-            })
-            .collect();
-        let name = |(parameter, component): (Parameter, usize)| format!("{:?}", parameter.component_name(component));
-        let mut dimensions: Vec<usize> = Vec::with_capacity(components.len());
-        let mut distributions: Vec<&Distribution> = Vec::with_capacity(components.len());
-        for component in &components {
-            let Some((first, distribution)) = drawn(*component) else {
-                let allowed =
-                    "made of parameters that a [[disperse]] table gives a distribution of one number each".to_owned();
-                return refused("parameters", name(*component), allowed, "disperse it, or take it out of the list");
-            };
-            if is_correlated(first) || dimensions.contains(&first) {
-                let allowed = "correlated in one table".to_owned();
-                return refused("parameters", name(*component), allowed, "put all of its correlations into one matrix");
-            }
-            dimensions.push(first);
-            distributions.push(distribution);
-        }
-        let (key, matrix) = match &self.dependence {
-            Dependence::Scores(matrix) => ("correlation", matrix),
-            Dependence::Ranks(matrix) => ("rank_correlation", matrix),
-            Dependence::Covariance(matrix) => ("covariance", matrix),
-        };
-        let n = components.len();
-        if matrix.len() != n {
-            let (value, allowed) = (format!("{0} x {0}", matrix.len()), format!("{n} x {n}, as there are components"));
-            return refused(key, value, allowed, "give one row and column for each component, in their order");
-        }
-        for i in 0..n {
-            for j in 0..i {
-                let (a, b) = (matrix[i][j], matrix[j][i]);
-                if (a - b).abs() > SAME * a.abs().max(b.abs()) {
-                    let value = format!("{b:?} and {a:?} in rows {} and {}", j + 1, i + 1);
-                    return refused(key, value, "symmetric".to_owned(), "write each pair's number twice");
-                }
-            }
-        }
-        let scales = match &self.dependence {
-            Dependence::Covariance(matrix) => deviations(&distributions, matrix).map_err(|(place, allowed)| {
-                let remedy = "give it a normal distribution of that standard deviation, or use correlation";
-                error_of(
-                    Table::Correlate(index),
-                    key,
-                    format!("{:?} of {}", matrix[place][place], name(components[place])),
-                    allowed,
-                    remedy,
-                )
-            })?,
-            _ => vec![1.0; n],
-        };
-        let mut scores: Matrix = (0..n)
-            .map(|i| (0..n).map(|j| 0.5 * (matrix[i][j] + matrix[j][i]) / (scales[i] * scales[j])).collect())
-            .collect();
-        for i in 0..n {
-            if (scores[i][i] - 1.0).abs() > SAME {
-                let (value, allowed) = (format!("{:?}", matrix[i][i]), "1 on the diagonal".to_owned());
-                let remedy = "a parameter is correlated with itself by 1; for covariances write the key covariance";
-                return refused(key, value, allowed, remedy);
-            }
-            scores[i][i] = 1.0;
-            if let Some(j) = (0..n).find(|j| scores[i][*j].abs() > 1.0 + SAME) {
-                let allowed = "made of correlations from -1 to 1".to_owned();
-                let (value, remedy) = match &self.dependence {
-                    Dependence::Covariance(_) => {
-                        let r = scores[i][j];
-                        (
-                            format!("{:?} (a correlation of {r:?})", matrix[i][j]),
-                            "at most the product of the two standard deviations",
-                        )
-                    }
-                    _ => (format!("{:?}", matrix[i][j]), "for covariances write the key covariance"),
+
+/// A component with the dimension and the distribution that a `[[disperse]]` table gives it.
+type Drawn<'d> = (usize, &'d Distribution);
+
+/// What one table says.
+struct Pairs {
+    table: usize,
+    measure: Measure,
+    /// The numbers as written.
+    shown: String,
+    nearest_psd: bool,
+    /// The components, each with its dimension.
+    components: Vec<(usize, String)>,
+    /// Two dimensions and the correlation of their normal scores.
+    scores: Vec<(usize, usize, f64)>,
+}
+
+/// The dependence that the tables of `list` ask for. `drawn` gives the dimension and the distribution of a component, if it has a
+/// distribution of one number. Also which matrices were replaced, and what is wrong.
+pub(super) fn copulas<'d>(
+    list: &[Correlation],
+    drawn: impl Fn((Parameter, usize)) -> Option<Drawn<'d>>,
+) -> (Vec<Copula>, Vec<Replaced>, Vec<DispersionError>) {
+    let (mut groups, mut errors): (Vec<Vec<Pairs>>, Vec<_>) = (Vec::new(), Vec::new());
+    for (index, correlation) in list.iter().enumerate() {
+        match correlation.pairs(index, &drawn) {
+            Ok(pairs) => {
+                let shares = |group: &mut Vec<Pairs>| {
+                    let of_group = || group.iter().flat_map(|other| &other.components);
+                    pairs.components.iter().any(|(dimension, _)| of_group().any(|(other, _)| other == dimension))
                 };
-                return refused(key, value, allowed, remedy);
+                let mut joined: Vec<Pairs> = groups.extract_if(.., shares).flatten().collect();
+                errors.extend(pairs.named_twice(&joined));
+                joined.push(pairs);
+                groups.push(joined);
             }
+            Err(error) => errors.push(error),
         }
-        if matches!(self.dependence, Dependence::Ranks(_)) {
-            for i in 0..n {
-                for j in (0..n).filter(|j| *j != i) {
-                    scores[i][j] = score_correlation(scores[i][j]);
-                }
+    }
+    let (mut copulas, mut replaced) = (Vec::new(), Vec::new());
+    for group in &groups {
+        match copula(group) {
+            Ok((copula, other)) => {
+                copulas.push(copula);
+                replaced.extend(other);
             }
+            Err(error) => errors.push(error),
         }
-        if let Some(smallest) = smallest_negative_eigenvalue(&scores) {
-            if !self.nearest_psd {
-                let allowed = format!(
-                    "positive semidefinite (the smallest eigenvalue of the scores' correlation is {smallest:.6})"
-                );
-                let remedy = "no numbers have these correlations: change them, or add nearest_psd = true for the nearest that exist";
-                return refused(key, format!("{matrix:?}"), allowed, remedy);
-            }
-            scores = nearest_correlation(&scores);
+    }
+    (copulas, replaced, errors)
+}
+
+/// The dependence of the components of tables that belong together; and the matrix that was replaced, if it was.
+fn copula(group: &[Pairs]) -> Result<(Copula, Option<Replaced>), DispersionError> {
+    let mut components: Vec<&(usize, String)> = Vec::new();
+    for component in group.iter().flat_map(|pairs| &pairs.components) {
+        if !components.iter().any(|(dimension, _)| *dimension == component.0) {
+            components.push(component);
         }
-        Ok(Copula::new(dimensions, &scores))
+    }
+    let place = |dimension: usize| components.iter().position(|(other, _)| *other == dimension).unwrap_or(0);
+    let n = components.len();
+    let mut matrix: Matrix = (0..n).map(|i| (0..n).map(|j| if i == j { 1.0 } else { 0.0 }).collect()).collect();
+    for (a, b, score) in group.iter().flat_map(|pairs| &pairs.scores) {
+        let (i, j) = (place(*a), place(*b));
+        matrix[i][j] = *score;
+        matrix[j][i] = *score;
+    }
+    let dimensions = components.iter().map(|(dimension, _)| *dimension).collect();
+    let Some(smallest) = smallest_negative_eigenvalue(&matrix) else {
+        return Ok((Copula::new(dimensions, &matrix), None));
+    };
+    let Some(last) = group.last().filter(|_| !group.iter().any(|pairs| pairs.nearest_psd)) else {
+        let used = nearest_correlation(&matrix);
+        let names = components.iter().map(|(_, name)| name.clone()).collect();
+        return Ok((Copula::new(dimensions, &used), Some(Replaced { names, asked: matrix, used })));
+    };
+    let together = if group.len() > 1 { ", with the other tables of its parameters" } else { "" };
+    let allowed = format!(
+        "positive semidefinite{together} (the smallest eigenvalue of the scores' correlation is {smallest:.6})"
+    );
+    let remedy =
+        "no numbers have these correlations: change them, or add nearest_psd = true for the nearest that exist";
+    Err(error_of(Table::Correlate(last.table), last.measure.key(), last.shown.clone(), allowed, remedy))
+}
+
+impl Pairs {
+    /// That a pair of components is named by an earlier table too.
+    fn named_twice(&self, earlier: &[Pairs]) -> Option<DispersionError> {
+        let same =
+            |(a, b, _): &(usize, usize, f64), (c, d, _): &(usize, usize, f64)| (a, b) == (c, d) || (a, b) == (d, c);
+        let mut others = earlier.iter().flat_map(|pairs| &pairs.scores);
+        let twice = self.scores.iter().find(|pair| others.clone().any(|other| same(pair, other)))?;
+        others.next()?;
+        let name = |dimension: usize| {
+            let found = self.components.iter().find(|(other, _)| *other == dimension);
+            found.map_or(String::new(), |(_, name)| name.clone())
+        };
+        let (value, allowed) =
+            (format!("{:?}", [name(twice.0), name(twice.1)]), "pairs that are correlated in one table only");
+        let remedy = "take the pair out of one of the two tables";
+        Some(error_of(Table::Correlate(self.table), "parameters", value, allowed, remedy))
     }
 }
 
-/// The standard deviations of normal distributions whose variances are on the diagonal of `matrix`; the index of one that is not,
-/// and what it must be.
-fn deviations(distributions: &[&Distribution], matrix: &Matrix) -> Result<Vec<f64>, (usize, String)> {
-    distributions
-        .iter()
-        .enumerate()
-        .map(|(index, distribution)| match distribution.normal_std() {
-            Some(std) if (matrix[index][index] - std * std).abs() <= SAME * std * std && std > 0.0 => Ok(std),
-            Some(std) if std > 0.0 => Err((index, format!("the variance of its distribution ({:?})", std * std))),
-            _ => Err((index, "the variance of a normal distribution".to_owned())),
+impl Correlation {
+    /// What table `index` says.
+    fn pairs<'d>(
+        &self,
+        index: usize,
+        drawn: &impl Fn((Parameter, usize)) -> Option<Drawn<'d>>,
+    ) -> Result<Pairs, DispersionError> {
+        let key = self.measure.key();
+        let refused = |value: String, allowed: String, remedy: &str| {
+            Err(error_of(Table::Correlate(index), key, value, allowed, remedy))
+        };
+        let components: Vec<(Parameter, usize)> = self.parameters.iter().flat_map(components_of).collect();
+        let drawn = self.drawn(index, &components, drawn)?;
+        let names: Vec<String> = components.iter().map(|(parameter, k)| parameter.component_name(*k)).collect();
+        let n = components.len();
+        let first = self.parameters.first().map_or(0, |parameter| components_of(parameter).len());
+        let is_pair = self.parameters.len() == 2;
+        // rows and columns of the components that the numbers are of
+        let (rows, matrix) = match &self.numbers {
+            Numbers::One(number) if n == 2 => (0..1, vec![vec![*number]]),
+            Numbers::One(number) => {
+                let allowed = format!("rows of numbers for {n} components; one number is for two");
+                let remedy = "write a square matrix, or for two parameters a row for each component of the first";
+                return refused(format!("{number:?}"), allowed, remedy);
+            }
+            Numbers::Rows(rows) if rows.len() == n && rows.iter().all(|row| row.len() == n) => (0..n, rows.clone()),
+            Numbers::Rows(rows)
+                if is_pair && n > 2 && rows.len() == first && rows.iter().all(|row| row.len() == n - first) =>
+            {
+                (0..first, rows.clone())
+            }
+            Numbers::Rows(rows) => {
+                let value = format!("{} x {}", rows.len(), rows.first().map_or(0, Vec::len));
+                let block = if is_pair && n > 2 {
+                    format!(", or {first} x {} of the one with the other", n - first)
+                } else {
+                    String::new()
+                };
+                let allowed = format!("{n} x {n}, as there are components{block}");
+                let remedy = if n == 2 {
+                    "give one row and column for each component, in their order; or one number without brackets"
+                } else {
+                    "give one row and column for each component, in their order"
+                };
+                return refused(value, allowed, remedy);
+            }
+        };
+        let is_square = rows.len() == n && n > 0;
+        let scales = self.scales(index, &drawn, &names, is_square.then_some(&matrix))?;
+        let mut scores = Vec::new();
+        for i in rows {
+            for j in if is_square { 0..i } else { first..n } {
+                let written = matrix[i][if is_square { j } else { j - first }];
+                let mirror = if is_square { matrix[j][i] } else { written };
+                if (written - mirror).abs() > SAME * written.abs().max(mirror.abs()) {
+                    let value = format!("{mirror:?} and {written:?} in rows {} and {}", j + 1, i + 1);
+                    return refused(value, "symmetric".to_owned(), "write each pair's number twice");
+                }
+                let r = 0.5 * (written + mirror) / (scales[i] * scales[j]);
+                let score = self.score(r, drawn[i].1, drawn[j].1).map_err(|(allowed, remedy)| {
+                    let of = if self.measure == Measure::Covariance {
+                        format!(" (a correlation of {r:?})")
+                    } else {
+                        String::new()
+                    };
+                    error_of(Table::Correlate(index), key, format!("{written:?}{of}"), allowed, remedy)
+                })?;
+                scores.push((drawn[i].0, drawn[j].0, score));
+            }
+        }
+        let shown = match &self.numbers {
+            Numbers::One(number) => format!("{number:?}"),
+            Numbers::Rows(rows) => format!("{rows:?}"),
+        };
+        let components = drawn.iter().map(|(dimension, _)| *dimension).zip(names).collect();
+        Ok(Pairs { table: index, measure: self.measure, shown, nearest_psd: self.nearest_psd, components, scores })
+    }
+
+    /// Dimension and distribution of each component, each once.
+    fn drawn<'d>(
+        &self,
+        index: usize,
+        components: &[(Parameter, usize)],
+        drawn: &impl Fn((Parameter, usize)) -> Option<Drawn<'d>>,
+    ) -> Result<Vec<Drawn<'d>>, DispersionError> {
+        let mut found: Vec<Drawn<'d>> = Vec::with_capacity(components.len());
+        for (parameter, component) in components {
+            let refused = |allowed: &str, remedy: &str| {
+                let name = format!("{:?}", parameter.component_name(*component));
+                Err(error_of(Table::Correlate(index), "parameters", name, allowed, remedy))
+            };
+            let Some(one) = drawn((*parameter, *component)) else {
+                let allowed = "made of parameters that a [[disperse]] table gives a distribution of one number each";
+                return refused(allowed, "disperse it, or take it out of the list");
+            };
+            if found.iter().any(|(dimension, _)| *dimension == one.0) {
+                return refused("named once", "take it out of the list, where it is twice");
+            }
+            found.push(one);
+        }
+        Ok(found)
+    }
+
+    /// What each number is divided by to be a correlation; that the diagonal of a `square` matrix is right.
+    fn scales(
+        &self,
+        index: usize,
+        drawn: &[Drawn<'_>],
+        names: &[String],
+        square: Option<&Matrix>,
+    ) -> Result<Vec<f64>, DispersionError> {
+        let key = self.measure.key();
+        let refused = |value: String, allowed: String, remedy: &str| {
+            Err(error_of(Table::Correlate(index), key, value, allowed, remedy))
+        };
+        let mut scales = vec![1.0; drawn.len()];
+        for (place, (_, distribution)) in drawn.iter().enumerate() {
+            let diagonal = square.map(|matrix| matrix[place][place]);
+            let Measure::Covariance = self.measure else {
+                if let Some(value) = diagonal.filter(|value| (value - 1.0).abs() > SAME) {
+                    let remedy = "a parameter is correlated with itself by 1; for covariances write the key covariance";
+                    return refused(format!("{value:?}"), "1 on the diagonal".to_owned(), remedy);
+                }
+                continue;
+            };
+            let std = distribution.normal_std().filter(|std| *std > 0.0);
+            let is_variance = |std: f64| diagonal.is_none_or(|value| (value - std * std).abs() <= SAME * std * std);
+            let allowed = match std {
+                Some(std) if is_variance(std) => {
+                    scales[place] = std;
+                    continue;
+                }
+                Some(std) => format!("the variance of its distribution ({:?})", std * std),
+                None if diagonal.is_some() => "the variance of a normal distribution".to_owned(),
+                None => "a covariance of normal distributions".to_owned(),
+            };
+            let value = match diagonal {
+                Some(value) => format!("{value:?} of {}", names[place]),
+                None => format!("with {}", names[place]),
+            };
+            let remedy = "give it a normal distribution of that standard deviation, or use correlation";
+            return refused(value, allowed, remedy);
+        }
+        Ok(scales)
+    }
+
+    /// The correlation of the normal scores for the number `r` of two distributions; or what it must be, and the remedy.
+    fn score(&self, r: f64, a: &Distribution, b: &Distribution) -> Result<f64, (String, &'static str)> {
+        if r.abs() > 1.0 + SAME {
+            let remedy = match self.measure {
+                Measure::Covariance => "at most the product of the two standard deviations",
+                _ => "for covariances write the key covariance",
+            };
+            return Err(("made of correlations from -1 to 1".to_owned(), remedy));
+        }
+        if self.measure != Measure::Ranks {
+            return Ok(r);
+        }
+        scores_of_ranks(r, a, b).map_err(|[low, high]| {
+            let allowed = format!("from {low:.6} to {high:.6}, which these two discrete distributions can have");
+            (allowed, "write a number in this range; 1 needs the same probabilities in both")
         })
-        .collect()
+    }
+}
+
+/// The components of a parameter, or the one that is meant.
+fn components_of((parameter, component): &(Parameter, Option<usize>)) -> Vec<(Parameter, usize)> {
+    match component {
+        Some(component) => vec![(*parameter, *component)],
+        None => (0..parameter.width()).map(|component| (*parameter, component)).collect(),
+    }
 }

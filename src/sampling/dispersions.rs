@@ -3,7 +3,7 @@
 
 use super::columns::{Column, Columns};
 use super::copula::Copula;
-use super::correlation::Correlation;
+use super::correlation::{Correlation, Replaced, copulas};
 use super::derivation::{Derivation, Derived, derived};
 use super::design::{Design, Dimensions, MAX_SAMPLES, Points, Size};
 use super::distribution::target::{JointTarget, Target};
@@ -93,6 +93,7 @@ pub struct Dispersions {
     /// Columns whose values are in a file, and these values.
     pub(super) tabled: Vec<(usize, Arc<[f64]>)>,
     pub(super) copulas: Vec<Copula>,
+    replaced: Vec<Replaced>,
     pub(super) derived: Vec<Derived>,
 }
 
@@ -111,6 +112,7 @@ impl Dispersions {
             dimensions: Vec::new(),
             tabled: Vec::new(),
             copulas: Vec::new(),
+            replaced: Vec::new(),
             derived: Vec::new(),
         };
         let mut errors: Vec<DispersionError> = Vec::new();
@@ -122,21 +124,17 @@ impl Dispersions {
         }
         // the rest says nothing new where distributions are missing
         if errors.is_empty() {
-            for (index, correlation) in draws.correlate.iter().enumerate() {
-                let scalar = |component| match these.distribution_at(component) {
-                    Some(Assigned { first, map: Transform::Scalar(distribution), .. })
-                        if distribution.dimensions() == 1 =>
-                    {
-                        Some((*first, distribution))
-                    }
-                    _ => None,
-                };
-                let is_correlated = |dimension| these.copulas.iter().any(|one| one.dimensions.contains(&dimension));
-                match correlation.copula(index, scalar, is_correlated) {
-                    Ok(copula) => these.copulas.push(copula),
-                    Err(error) => errors.push(error),
+            let scalar = |component| match these.distribution_at(component) {
+                Some(Assigned { first, map: Transform::Scalar(distribution), .. })
+                    if distribution.dimensions() == 1 =>
+                {
+                    Some((*first, distribution))
                 }
-            }
+                _ => None,
+            };
+            let (list, replaced, wrong) = copulas(draws.correlate, scalar);
+            (these.copulas, these.replaced) = (list, replaced);
+            errors.extend(wrong);
             let assigned = &these.assigned;
             let is_drawn = |columns: &Columns, component| assigned_to(assigned, columns, component).is_some();
             let (list, wrong) = derived(draws.derive, &mut these.columns, is_drawn, nominal);
@@ -173,6 +171,17 @@ impl Dispersions {
     /// The expression that a column follows, if it does.
     pub fn expression_of(&self, column: usize) -> Option<&str> {
         self.derived.iter().find(|derived| derived.column == column).map(|derived| derived.text.as_str())
+    }
+
+    /// The names of the random dimensions that the samples, fewer than the design has points, do not vary.
+    pub fn unvaried(&self) -> Vec<&str> {
+        let unvaried = self.design.unvaried(self.dimensions.len(), self.samples.saturating_sub(1));
+        unvaried.into_iter().map(|dimension| self.dimensions[dimension].as_str()).collect()
+    }
+
+    /// The correlation matrices that were replaced by the nearest that exist.
+    pub fn replaced_correlations(&self) -> &[Replaced] {
+        &self.replaced
     }
 
     /// Whether a column's values are in a file.

@@ -9,7 +9,8 @@
 //! 5. [`dispersions`]: which distribution writes what, checked against the nominal scene; [`sampler`]: values into the scene,
 //!    and what was applied out of it.
 //!
-//! [`correlation`], [`derivation`]: `[[correlate]]` and `[[derive]]` tables as written; [`columns`]: the numbers that a draw writes.
+//! [`correlation`], [`derivation`]: `[[correlate]]` and `[[derive]]` tables as written; [`rank`]: rank correlations; [`columns`]: the
+//! numbers that a draw writes.
 //! [`keys`]: how distributions and designs read and write their keys; [`error`]: why something cannot be drawn.
 
 pub mod columns;
@@ -22,11 +23,12 @@ pub mod distribution;
 pub mod error;
 pub mod expression;
 pub mod keys;
+pub mod rank;
 pub mod sampler;
 pub mod stream;
 
 pub use columns::Column;
-pub use correlation::{Correlation, Dependence};
+pub use correlation::{Correlation, Measure, Numbers, Replaced};
 pub use derivation::Derivation;
 pub use design::{Design, Points};
 pub use dispersions::{Dispersion, Dispersions, Draws, Transform};

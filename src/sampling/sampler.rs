@@ -65,10 +65,12 @@ impl<'a> Sampler<'a> {
         let columns = self.dispersions.columns();
         assert_eq!(applied.len(), columns.len(), "one applied value a column");
         if sample == SampleId(0) {
-            for (column, applied) in columns.iter().zip(applied) {
+            for (column, applied) in columns.iter().zip(&mut *applied) {
                 column.parameter.set(scene, column.component, column.nominal);
                 *applied = column.nominal;
             }
+            self.normalised.iter().for_each(|parameter| parameter.normalise_written(scene));
+            self.read_back(scene, applied);
             return;
         }
         let (block, lane) = (sample.0 / BLOCK as u64, (sample.0 % BLOCK as u64) as usize);
@@ -79,8 +81,14 @@ impl<'a> Sampler<'a> {
             column.parameter.set(scene, column.component, values[lane]);
             *applied = values[lane];
         }
+        self.normalised.iter().for_each(|parameter| parameter.normalise(scene));
+        self.read_back(scene, applied);
+    }
+
+    /// Records the parameters that were normalised as a whole as they are in `scene`.
+    fn read_back(&self, scene: &SceneInput, applied: &mut [f64]) {
         for parameter in &self.normalised {
-            parameter.normalise(scene);
+            let columns = self.dispersions.columns().iter();
             for (applied, column) in applied.iter_mut().zip(columns).filter(|(_, c)| c.parameter == *parameter) {
                 *applied = parameter.value(scene, column.component).unwrap_or(f64::NAN);
             }

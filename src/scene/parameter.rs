@@ -185,16 +185,33 @@ impl Parameter {
         }
     }
 
+    /// Whether it is the attitude of a body at time zero.
+    fn is_attitude(self) -> bool {
+        self.key().table == Table::Initial && self.shape() == Shape::Quaternion
+    }
+
+    /// Makes a value that was written what [`super::Scene::resolve`] uses: an attitude goes through [`unit_quaternion`].
+    #[inline]
+    pub fn normalise_written(self, scene: &mut SceneInput) {
+        if self.is_attitude()
+            && let Some(Ok(numbers)) = (self.key().write)(scene, self.instance()).map(<&mut [f64; 4]>::try_from)
+        {
+            *numbers = unit_quaternion(*numbers);
+        }
+    }
+
     /// Makes the value valid as a whole after its components were changed: a quaternion is divided by its norm (one of norm
-    /// zero or not finite is left as it is: the scene refuses it). Twice: the second division removes what rounding left of the
-    /// first, and [`unit_quaternion`] then takes the numbers as they are, so that what is recorded is what is used.
+    /// zero or not finite is left as it is: the scene refuses it). An attitude twice: the second division removes what rounding left of
+    /// the first, and [`unit_quaternion`] then takes the numbers as they are, so that what is recorded is what is used. Principal
+    /// axes are taken as they are recorded.
     #[inline]
     pub fn normalise(self, scene: &mut SceneInput) {
         if self.shape() != Shape::Quaternion {
             return;
         }
         let Some(numbers) = (self.key().write)(scene, self.instance()) else { return };
-        for _ in 0..2 {
+        let divisions = if self.is_attitude() { 2 } else { 1 };
+        for _ in 0..divisions {
             let norm = numbers.iter().map(|x| x * x).sum::<f64>().sqrt();
             if norm > 0.0 && norm.is_finite() {
                 numbers.iter_mut().for_each(|x| *x /= norm);

@@ -120,6 +120,72 @@ fn rank_correlations_are_those_of_the_file() {
     }
 }
 
+/// Mean ranks of equal values.
+fn mid_ranks(values: &[f64]) -> Vec<f64> {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let rank = |x: &f64| (sorted.partition_point(|y| y < x) + sorted.partition_point(|y| y <= x)) as f64 / 2.0;
+    values.iter().map(rank).collect()
+}
+
+const DISCRETE: &str = "[[disperse]]\nparameter = \"fuselage.density_kg_m3\"\ndistribution = \"choice\"\n\
+     values = [2600, 2700, 2800]\nweights = [1, 2, 7]\n\
+     [[disperse]]\nparameter = \"wheel2.radius_m\"\ndistribution = \"bernoulli\"\nvalue = 0.3\nprobability = 0.5\n";
+
+fn discrete(parameters: [&str; 2], rank: f64) -> String {
+    format!("{DISCRETE}[[correlate]]\nparameters = {parameters:?}\nrank_correlation = {rank}\n")
+}
+
+/// H0: the rank correlation of discrete values, with mean ranks of equal ones, is the specified one. The formula for continuous
+/// values gives 0.42 in place of 0.6 (band: 0.03).
+#[test]
+fn rank_correlations_of_discrete_values_are_those_of_the_file() {
+    for (names, rank) in [
+        (["fuselage.density_kg_m3", "wheel2.radius_m"], 0.6),
+        (["fuselage.density_kg_m3", "wheel2.radius_m"], -0.5),
+        (["fuselage.density_kg_m3", "wheel1.radius_m"], 0.7),
+    ] {
+        let plan = plan(&discrete(names, rank));
+        let [a, b] = names.map(|name| mid_ranks(&column(&plan, name)));
+        let found = correlation(&a, &b);
+        assert!(in_band(found, rank), "{names:?}: {found} for {rank}");
+        assert!(!in_band(found, 0.9 * rank), "a tenth less is found");
+    }
+    let text = format!("{SCENE}{}", discrete(["fuselage.density_kg_m3", "wheel2.radius_m"], 0.8));
+    let refused = Plan::from_text("t.toml", &text, Overrides::default()).expect_err("more than can be reached");
+    let said = refused.to_string();
+    assert!(
+        said.contains("correlate[0].rank_correlation = 0.8: must be from -0.6") && said.contains("discrete"),
+        "{said}"
+    );
+}
+
+/// Law: one number for two, blocks of pairs of parameters, and the square matrix of all say the same, bit for bit.
+#[test]
+fn blocks_and_numbers_are_the_matrix_that_they_make() {
+    let all = plan(
+        "[[correlate]]\nparameters = [\"wheel1.density_kg_m3\", \"initial.angular_velocity_rad_s\", \"wheel1.radius_m\"]\n\
+         correlation = [[1, 0.5, 0, 0.25, 0.125], [0.5, 1, 0, 0, 0], [0, 0, 1, 0, 0], [0.25, 0, 0, 1, 0], [0.125, 0, 0, 0, 1]]\n",
+    );
+    let blocks = plan(
+        "[[correlate]]\nparameters = [\"wheel1.density_kg_m3\", \"initial.angular_velocity_rad_s\"]\n\
+         correlation = [[0.5, 0, 0.25]]\n\
+         [[correlate]]\nparameters = [\"wheel1.density_kg_m3\", \"wheel1.radius_m\"]\ncorrelation = 0.125\n",
+    );
+    for name in ["wheel1.density_kg_m3", "wheel1.radius_m", "initial.angular_velocity_rad_s.z"] {
+        assert_eq!(column(&all, name), column(&blocks, name), "{name}");
+    }
+    assert_ne!(column(&all, "wheel1.radius_m"), column(&plan(""), "wheel1.radius_m"));
+    // the text of a plan reads back to the same plan
+    assert_eq!(Plan::from_text("t.toml", &blocks.text(), Overrides::default()).expect("legal").hash(), blocks.hash());
+    // covariances of a block are those of normal distributions
+    let normal = "[[disperse]]\nparameter = \"initial.position_m.x\"\ndistribution = \"normal\"\nstd = 3\n\
+         [[correlate]]\nparameters = [\"initial.angular_velocity_rad_s.z\", \"initial.position_m.x\"]\ncovariance = 3.0\n";
+    let plan = plan(normal);
+    let (z, x) = (column(&plan, "initial.angular_velocity_rad_s.z"), column(&plan, "initial.position_m.x"));
+    assert!(in_band(correlation(&z, &x), 0.5));
+}
+
 /// H0: each value keeps its law inside a block. Kolmogorov-Smirnov, n = 20,000, alpha = 1e-3: sqrt(n) D < 1.949; a distribution
 /// function off by 0.03 somewhere gives 4.2 there, missed with probability < 1e-5.
 #[test]
@@ -174,6 +240,14 @@ fn a_singular_matrix_ties_values_and_an_impossible_one_is_repaired_on_request() 
     let repaired = plan(&format!("{matrix}nearest_psd = true\n"));
     let [x, y] = ["x", "y"].map(|c| column(&repaired, &format!("initial.angular_velocity_rad_s.{c}")));
     assert!(in_band(correlation(&x, &y), 0.7607), "the nearest matrix of Higham (2002)");
+    // what is used is said: in the plan, whose text reads back to it
+    let [replaced] = repaired.dispersions.replaced_correlations() else { panic!("one matrix was replaced") };
+    assert!((replaced.used[0][1] - 0.7607).abs() < 5e-5 && replaced.asked[0][1] == 1.0);
+    assert!(repaired.text().contains("# nearest correlation of the normal scores, which is used: [[1.0, 0.76"));
+    assert_eq!(
+        Plan::from_text("t.toml", &repaired.text(), Overrides::default()).expect("legal").hash(),
+        repaired.hash()
+    );
 }
 
 /// Law: a derived value is its expression of the values as applied, in any order of the tables; in sample 0 too.

@@ -366,3 +366,15 @@ const GOLDEN: [(&str, [[u64; 2]; 3]); 5] = [
         ],
     ),
 ];
+
+/// Law: a part of a grid in which a parameter never varies says which.
+#[test]
+fn a_partial_grid_says_what_never_varies() {
+    let grid = |samples: u64| {
+        let overrides = Overrides { samples: Some(samples), ..Overrides::default() };
+        planned(&format!("[design]\nkind = \"grid\"\nlevels = 5\n{LENGTH}{RADIUS}"), overrides).expect("legal").notes()
+    };
+    assert!(grid(26).is_empty() && grid(8).is_empty(), "the second parameter has two levels in seven points");
+    let notes = grid(6);
+    assert!(notes.len() == 1 && notes[0].contains("wheel1.radius_m is never varied"), "{notes:?}");
+}

@@ -66,6 +66,11 @@ macro_rules! designs {
                 match self { $( Self::$Name(kind) => kind.size(dimensions), )* }
             }
 
+            /// See [`Kind::unvaried`].
+            pub fn unvaried(&self, dimensions: usize, points: u64) -> Vec<usize> {
+                match self { $( Self::$Name(kind) => kind.unvaried(dimensions, points), )* }
+            }
+
             /// See [`Kind::check`].
             ///
             /// # Errors

@@ -67,6 +67,11 @@ impl Kind for OneAtATimeDesign {
         sum.map_or(Size::TooMany, Size::Points)
     }
 
+    fn unvaried(&self, dimensions: usize, points: u64) -> Vec<usize> {
+        let design = OneAtATime::new(self.0.clone(), dimensions);
+        (0..dimensions).filter(|k| design.starts[*k] >= points).collect()
+    }
+
     fn check(&self, dimensions: Dimensions<'_>, _samples: Option<u64>) -> Result<(), DispersionError> {
         self.0.check(dimensions.names.len())
     }

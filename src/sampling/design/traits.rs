@@ -66,6 +66,11 @@ pub trait Kind: Clone + Debug + PartialEq {
         Size::Any
     }
 
+    /// The dimensions that do not vary in the first `points` points, although they vary in all points.
+    fn unvaried(&self, _dimensions: usize, _points: u64) -> Vec<usize> {
+        Vec::new()
+    }
+
     /// What else keeps it from having these dimensions and samples (if the file gives a number).
     ///
     /// # Errors

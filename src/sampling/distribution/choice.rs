@@ -88,6 +88,11 @@ impl Quantile for ChoiceQuantile {
         self.values[place.min(self.values.len() - 1)]
     }
 
+    fn steps(&self) -> Option<Vec<f64>> {
+        let last = |k: &usize| self.values.get(k + 1) != Some(&self.values[*k]);
+        Some((0..self.values.len()).filter(last).map(|k| self.cumulative[k]).collect())
+    }
+
     fn text(&self, short: &dyn Fn(f64) -> String) -> String {
         let [low, high] = [f64::EPSILON, 1.0 - f64::EPSILON].map(|u| short(self.quantile(u)));
         format!("one of {} values, {low} to {high}", self.values.len())

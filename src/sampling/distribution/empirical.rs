@@ -94,6 +94,13 @@ impl Quantile for EmpiricalQuantile {
         }
     }
 
+    fn steps(&self) -> Option<Vec<f64>> {
+        let last = |k: &usize| self.values.get(k + 1) != Some(&self.values[*k]);
+        let count = self.values.len();
+        let below = (0..count).filter(last).map(|k| (k + 1) as f64 / count as f64);
+        (self.interpolation == Interpolation::None).then(|| below.collect())
+    }
+
     fn text(&self, short: &dyn Fn(f64) -> String) -> String {
         let [low, high] = [f64::EPSILON, 1.0 - f64::EPSILON].map(|u| short(self.quantile(u)));
         format!("as {} values of a file, {low} to {high}", self.values.len())

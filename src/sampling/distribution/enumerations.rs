@@ -109,6 +109,10 @@ macro_rules! distributions {
                 match self { $( Self::$Scalar(ready) => ready.normal_std(), )* }
             }
 
+            fn steps(&self) -> Option<Vec<f64>> {
+                match self { $( Self::$Scalar(ready) => ready.steps(), )* }
+            }
+
             fn text(&self, short: &dyn Fn(f64) -> String) -> String {
                 match self { $( Self::$Scalar(ready) => ready.text(short), )* }
             }

@@ -56,6 +56,11 @@ pub trait Quantile: Clone + Debug + PartialEq {
         None
     }
 
+    /// Of a discrete distribution, the probability of each value or a smaller one, ascending; the last is 1 to rounding.
+    fn steps(&self) -> Option<Vec<f64>> {
+        None
+    }
+
     /// In words; `short` writes a number.
     fn text(&self, short: &dyn Fn(f64) -> String) -> String;
 }

@@ -1,0 +1,31 @@
+//! [`Plan::notes`]: what is allowed in a campaign file, and is probably not what was meant.
+
+use super::plan::Plan;
+
+impl Plan {
+    /// What about this plan a person should know before it is run, one sentence each.
+    pub fn notes(&self) -> Vec<String> {
+        let mut notes = Vec::new();
+        let unvaried = self.dispersions.unvaried();
+        if !unvaried.is_empty() && self.samples > 1 {
+            notes.push(format!(
+                "{} samples are a part of the {} design: {} never varied; leave campaign.samples out for all points",
+                self.samples,
+                self.design.name(),
+                listed(&unvaried),
+            ));
+        }
+        for replaced in self.dispersions.replaced_correlations() {
+            notes.push(format!(
+                "nearest_psd: the correlations of {} cannot be had; `check`, plan.toml and summary.json state those used",
+                replaced.names.join(", ")
+            ));
+        }
+        notes
+    }
+}
+
+/// Names with the verb that follows them.
+fn listed(names: &[&str]) -> String {
+    format!("{} {}", names.join(", "), if names.len() == 1 { "is" } else { "are" })
+}
