@@ -61,7 +61,7 @@ fn observation(criterion: &mut Criterion) {
     group.throughput(Throughput::Elements(1));
     let numerics = Groups::NONE.with(Group::Numerics);
     for (name, groups) in [
-        ("all", Groups::ALL),
+        ("all", Group::DEFAULT.into_iter().collect()),
         ("energies_com and exchange", com.with(Group::Exchange)),
         ("energies_com", com),
         ("numerics", numerics),

@@ -196,7 +196,7 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
         }
     };
 
-    let mut groups = spec.groups.unwrap_or_else(|| Group::ALL.to_vec());
+    let mut groups = spec.groups.unwrap_or_else(|| Group::DEFAULT.to_vec());
     groups.sort_by_key(|group| Group::ALL.iter().position(|known| known == group));
     let dispersions = dispersions?;
     Some(Plan {

@@ -9,7 +9,7 @@
 
 use crate::campaign::Plan;
 use crate::dynamics::gyrostat::Gyrostat;
-use crate::ensemble::settings::{propagator, request};
+use crate::ensemble::settings::{nominal_attitude, propagator, request};
 use crate::math::Isa;
 use crate::observables::headlines::STATE_ERROR_ESTIMATE;
 use crate::observables::{Group, Observer, Request};
@@ -157,14 +157,15 @@ impl Auditor {
             .into_iter()
             .filter_map(|column| Some((request.position(column.id())?, reference_request.position(column.id()))))
             .collect();
+        let nominal = nominal_attitude(plan, &request, grid, isa);
         Auditor {
             isa,
             grid: grid.clone(),
             max_steps: plan.max_steps,
             engine: propagator(plan, grid.clone(), compared().union(request.fields())).engine(isa),
-            observer: Observer::new(request, grid),
+            observer: Observer::new(request, grid).with_nominal(nominal.clone()),
             row: vec![f64::NAN; request.columns().len()],
-            reference_observer: Observer::new(reference_request, grid),
+            reference_observer: Observer::new(reference_request, grid).with_nominal(nominal),
             reference_row: vec![f64::NAN; reference_request.columns().len()],
             indices,
             estimate: request.position(STATE_ERROR_ESTIMATE).expect("the group numerics has its column"),

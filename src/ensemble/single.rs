@@ -3,7 +3,7 @@
 //! The scene is drawn and propagated by the code that runs campaigns, so that the states are those behind the row.
 
 use crate::campaign::{Plan, draw};
-use crate::ensemble::settings::{propagator, request};
+use crate::ensemble::settings::{nominal_attitude, propagator, request};
 use crate::math::Isa;
 use crate::observables::{Group, Observer, Request, Series};
 use crate::propagation::CompletedRun;
@@ -47,7 +47,8 @@ impl SingleRun {
         let shown = Request { groups: GROUPS.into_iter().collect(), ..request };
         let fields = states(&request).union(shown.fields()).union(request.fields());
         let mut engine = propagator(plan, grid.clone(), fields).engine(isa);
-        let mut observer = Observer::new(request, &grid);
+        let nominal = nominal_attitude(plan, &request, &grid, isa);
+        let mut observer = Observer::new(request, &grid).with_nominal(nominal);
         let mut series_observer = Observer::new(shown, &grid);
         let mut row = vec![f64::NAN; request.columns().len()];
         let mut ignored = vec![f64::NAN; shown.columns().len()];

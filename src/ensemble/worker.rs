@@ -5,7 +5,7 @@ use crate::ensemble::audit::{Auditor, Selection};
 use crate::ensemble::cpu_clock::thread_seconds;
 use crate::ensemble::parts::Part;
 use crate::ensemble::rows::{Rows, Shape};
-use crate::ensemble::settings::{propagator, request};
+use crate::ensemble::settings::{nominal_attitude, propagator, request};
 use crate::math::Isa;
 use crate::observables::{Observer, Request};
 use crate::propagation::PropagationSettings;
@@ -61,14 +61,19 @@ impl<'p> Ensemble<'p> {
 
     /// Memory for one thread. Allocates; running samples in it does not, once it is warm.
     pub fn worker(&self) -> Worker<'_> {
-        let shape = self.shape();
+        let (shape, grid) = (self.shape(), &self.plan.grid);
         Worker {
             campaign: self,
             draws: SceneDraws::new(self.plan),
             scenes: Vec::new(),
             rows_of_scenes: Vec::with_capacity(BATCH),
             engine: self.propagator.engine(self.isa),
-            observer: Observer::new(self.request, &self.plan.grid),
+            observer: Observer::new(self.request, grid).with_nominal(nominal_attitude(
+                self.plan,
+                &self.request,
+                grid,
+                self.isa,
+            )),
             observed: vec![0.0; shape.observables],
             audits: (self.plan.audit_fraction > 0.0)
                 .then(|| (Selection::new(self.plan), Auditor::new(self.plan, self.isa, &self.plan.grid))),

@@ -23,11 +23,14 @@ pub enum Group {
     StepStatistics,
     /// Estimated error of the rotational state, and how much the motion amplifies errors.
     Numerics,
+    /// Angular rate, nutation, attitude relative to the nominal run, wheel speeds and momenta, direction of the debris. Only where a
+    /// campaign names it.
+    Motion,
 }
 
 impl Group {
     /// All groups, in the order of the columns.
-    pub const ALL: [Group; 10] = [
+    pub const ALL: [Group; 11] = [
         Group::EnergyConservation,
         Group::MomentumConservation,
         Group::Attitude,
@@ -38,7 +41,14 @@ impl Group {
         Group::FinalState,
         Group::StepStatistics,
         Group::Numerics,
+        Group::Motion,
     ];
+
+    /// The groups of a campaign that names none: all but [`Group::Motion`], whose angles cost about as much as a run.
+    pub const DEFAULT: [Group; 10] = {
+        let [a, b, c, d, e, f, g, h, i, j, Group::Motion] = Group::ALL else { panic!("motion is the last group") };
+        [a, b, c, d, e, f, g, h, i, j]
+    };
 
     /// The name in campaign files.
     pub const fn name(self) -> &'static str {
@@ -53,6 +63,7 @@ impl Group {
             Group::FinalState => "final_state",
             Group::StepStatistics => "effort",
             Group::Numerics => "numerics",
+            Group::Motion => "motion",
         }
     }
 

@@ -1,6 +1,6 @@
 //! States to series: the computation of each source, where one of its series is observed.
 //!
-//! Not here: the computations ([`super::energies`], [`super::momenta`], [`super::attitude`]), and the reduction of series to
+//! Not here: the computations ([`super::energies`], [`super::momenta`], [`super::attitude`], [`super::motion`]), and the reduction of series to
 //! numbers ([`super::reduce`]).
 
 use fearless_simd::Simd;
@@ -8,6 +8,7 @@ use fearless_simd::Simd;
 use super::attitude::attitude_series;
 use super::energies::energies;
 use super::momenta::{angular_momentum, debris_momenta, linear_momentum};
+use super::motion::motion;
 use super::points::{Column, MeasuredRun, SeriesTable, needed};
 use super::rows::Source;
 use super::table::Series;
@@ -24,6 +25,7 @@ pub(super) fn measure<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesT
             Source::Attitude => attitude_series(simd, run, out),
             Source::DebrisMomenta => debris_momenta(simd, run, out),
             Source::Residuals => residuals(run, out),
+            Source::Motion => motion(simd, run, out),
         }
     }
     out.pad(run.observed, run.points);

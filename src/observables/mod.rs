@@ -6,7 +6,8 @@
 //! - [`reduction`]: how a series becomes a number; `reduce`, `correlation`: the passes over series that compute it (`weights`).
 //! - [`request`]: what a campaign observes; from it the columns, and which fields of the state table they need and why.
 //! - [`observer`]: [`Observer`] reads a state table and writes a row, by a `row_plan` and with direct values of a `finished_run`.
-//! - `measure`: states to series, by `energies`, `momenta` and `attitude`, eight points at a time (`points`).
+//! - `measure`: states to series, by `energies`, `momenta`, `attitude` and `motion`, eight points at a time (`points`).
+//! - [`nominal_attitude`]: the attitude of the nominal run, with which those of the others are compared.
 //! - `conditioning`, `error_sums`, `rotor`, `acting`: how much the motion amplifies errors of its state.
 //! - `exchange`, `spectrum`: the exchange of energy between the bodies, and its frequency.
 //!
@@ -27,6 +28,8 @@ pub mod headlines;
 mod inputs;
 mod measure;
 mod momenta;
+mod motion;
+pub mod nominal_attitude;
 pub mod observer;
 mod points;
 mod reduce;

@@ -8,6 +8,7 @@ use super::exchange::{BodyEnergy, Exchange, exchange};
 use super::finished_run::{FinishedRun, final_point};
 use super::group::Group;
 use super::measure::measure;
+use super::nominal_attitude::NominalAttitude;
 use super::points::{MeasuredRun, SeriesTable};
 use super::reduce::reduce;
 use super::reduction::{OrderStatistic, Reduction, ValueStatistic};
@@ -39,6 +40,7 @@ pub struct Observer {
     conditioning: Option<Box<Conditioning>>,
     estimate: ErrorEstimate,
     exchange: Exchange,
+    nominal: Option<NominalAttitude>,
     /// Number of points of the run that was observed last.
     filled: usize,
 }
@@ -62,8 +64,15 @@ impl Observer {
             conditioning: request.groups.contains(Group::Numerics).then(|| Box::new(Conditioning::new())),
             estimate: ErrorEstimate::UNKNOWN,
             exchange: Exchange::UNKNOWN,
+            nominal: None,
             filled: 0,
         }
+    }
+
+    /// The same, with the attitude of the nominal run on the same grid. Without it the angles from that attitude are NaN.
+    #[must_use]
+    pub fn with_nominal(self, nominal: Option<NominalAttitude>) -> Self {
+        Observer { nominal, ..self }
     }
 
     /// What is observed.
@@ -175,7 +184,9 @@ impl Work for Observation<'_> {
         let scene = acting.scene();
         let debris = scene.mass.debris.as_ref().filter(|_| observer.request.debris);
         let (observed, points) = (observer.observed, observer.filled);
-        let run = MeasuredRun { observed, sources: &observer.sources, mass: &scene.mass, debris, table, points };
+        let nominal = observer.nominal.as_ref();
+        let run =
+            MeasuredRun { observed, sources: &observer.sources, mass: &scene.mass, debris, nominal, table, points };
         measure(simd, &run, &mut observer.series);
         observer.reduce(simd);
         if observer.request.groups.contains(Group::Exchange) {

@@ -4,6 +4,7 @@
 
 use fearless_simd::Simd;
 
+use super::nominal_attitude::NominalAttitude;
 use super::request::SeriesSet;
 use super::rows::Source;
 use super::table::Series;
@@ -26,6 +27,8 @@ pub(super) struct MeasuredRun<'a> {
     pub(super) mass: &'a MassProperties,
     /// The debris, where it is observed.
     pub(super) debris: Option<&'a Body>,
+    /// The attitude of the nominal run, where it is known.
+    pub(super) nominal: Option<&'a NominalAttitude>,
     /// The states.
     pub(super) table: &'a StateTable,
     /// Number of filled points, at least one.

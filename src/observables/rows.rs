@@ -54,17 +54,20 @@ pub(super) enum Source {
     Attitude,
     /// Copied from the state table.
     Residuals,
+    /// [`super::motion`].
+    Motion,
 }
 
 impl Source {
     /// Every source, in the order of the computation.
-    pub(super) const ALL: [Source; 6] = [
+    pub(super) const ALL: [Source; 7] = [
         Source::Energies,
         Source::LinearMomentum,
         Source::AngularMomentum,
         Source::Attitude,
         Source::DebrisMomenta,
         Source::Residuals,
+        Source::Motion,
     ];
 }
 

@@ -181,6 +181,12 @@ mod needs {
         need(StateField::Dcm, Scenes::Constrained, "direction of s3"),
         need(StateField::Attitude, Scenes::Unconstrained, "direction of s3"),
     ];
+    pub(super) const RATE: &[Need] = &[need(StateField::Rate, Scenes::All, "angular rate")];
+    pub(super) const FROM_NOMINAL: &[Need] = &[need(StateField::Attitude, Scenes::All, "attitude relative to the nominal run")];
+    pub(super) const DEBRIS_DIRECTION: &[Need] = &[
+        need(StateField::ComPosition, Scenes::Debris, "direction of the debris"),
+        need(StateField::DebrisPosition, Scenes::Debris, "direction of the debris"),
+    ];
     pub(super) const RESIDUALS: &[Need] = &[need(StateField::Residuals, Scenes::Constrained, "residuals of the constraints")];
     pub(super) const FINAL_STATE: &[Need] = &[
         need(StateField::Attitude, Scenes::All, "attitude at the end"),
@@ -195,8 +201,8 @@ mod needs {
     ];
 }
 use needs::{
-    ANGULAR, BODIES, DEBRIS_ANGULAR, DEBRIS_ENERGY, DEBRIS_LINEAR, FINAL_STATE, LINEAR, NUMERICS, ORTHONORMALITY,
-    REDUNDANT, RESIDUALS, SPIN, SPIN_AXIS, TOTAL, WORK,
+    ANGULAR, BODIES, DEBRIS_ANGULAR, DEBRIS_DIRECTION, DEBRIS_ENERGY, DEBRIS_LINEAR, FINAL_STATE, FROM_NOMINAL, LINEAR,
+    NUMERICS, ORTHONORMALITY, RATE, REDUNDANT, RESIDUALS, SPIN, SPIN_AXIS, TOTAL, WORK,
 };
 
 #[rustfmt::skip]
@@ -225,6 +231,14 @@ series! {
     ResidualKinematic: Residuals, Quantity, None, [RESIDUALS], Some(("residual_kinematic_m_s", "m/s")), "Residual of the kinematic constraints (angular components in rad/s).";
     ResidualCollocation: Residuals, Quantity, None, [RESIDUALS], Some(("residual_collocation_m", "m")), "Residual of the collocation constraints (tilts of wheel axes as sines).";
     ResidualAttitude: Residuals, Quantity, None, [RESIDUALS], Some(("residual_attitude", "")), "Residual of the attitude constraints.";
+    RateSquare: Motion, Square, None, [RATE], Some(("angular_rate_rad_s", "rad/s")), "Magnitude of the angular velocity of the fuselage relative to F_e.";
+    Nutation: Motion, Quantity, None, [SPIN], Some(("nutation_angle_rad", "rad")), "Angle between s3 and the angular momentum of the spacecraft about its centre of mass.";
+    FromNominal: Motion, HalfTangentSquare, None, [FROM_NOMINAL], Some(("attitude_from_nominal_rad", "rad")), "Angle of the rotation between the attitude and that of the nominal run at the same time.";
+    Wheel1Speed: Motion, Square, None, [SPIN], Some(("wheel1_speed_rad_s", "rad/s")), "Magnitude of the rate of wheel 1 relative to the fuselage.";
+    Wheel2Speed: Motion, Square, None, [SPIN], Some(("wheel2_speed_rad_s", "rad/s")), "Magnitude of the rate of wheel 2 relative to the fuselage.";
+    Wheel1Momentum: Motion, Square, None, [SPIN], Some(("wheel1_momentum_n_m_s", "N m s")), "Magnitude of the angular momentum of wheel 1 about its axis relative to F_e.";
+    Wheel2Momentum: Motion, Square, None, [SPIN], Some(("wheel2_momentum_n_m_s", "N m s")), "Magnitude of the angular momentum of wheel 2 about its axis relative to F_e.";
+    DebrisDirection: Motion, Quantity, None, [SPIN_AXIS, DEBRIS_DIRECTION], Some(("spin_axis_debris_angle_rad", "rad")), "Angle between s3 and the line from the spacecraft's centre of mass to the debris (0 where they coincide).";
 }
 
 /// A series that no time series shows: the scale of another one.
@@ -314,6 +328,22 @@ static FAMILIES: &[&[Column]] = &[
         direct!(Numerics, All, Float, StateError, "state_error_estimate", "", "Estimated largest error of the fuselage's rotation on the grid: of omega relative to the largest |omega|, or of the attitude in rad, whichever is larger."),
         direct!(Numerics, All, Float, Amplification, "error_amplification", "", "Estimated factor by which the motion amplifies relative errors of the rotational state that are made evenly along the run."),
         direct!(Numerics, All, Count, IllConditioned, "ill_conditioned", "", "1 where the rounding of the input alone may move the state by more than 1e-3 (error_amplification times 2^-52), else 0."),
+    ],
+    &[
+        of!(Motion, All, RateSquare, Order(OrderStatistic::Max), ["angular_rate_max_rad_s"], "rad/s", ["Maximum magnitude of the angular velocity of the fuselage relative to F_e."]),
+        of!(Motion, All, RateSquare, Order(OrderStatistic::Final), ["angular_rate_final_rad_s"], "rad/s", ["Magnitude of the angular velocity of the fuselage relative to F_e at the last point."]),
+        of!(Motion, All, Nutation, Value(ValueStatistic::Max), ["nutation_angle_max_rad"], "rad", ["Maximum angle between s3 and the angular momentum of the spacecraft about its centre of mass."]),
+        of!(Motion, All, Nutation, Value(ValueStatistic::Min), ["nutation_angle_min_rad"], "rad", ["Minimum angle between s3 and the angular momentum of the spacecraft about its centre of mass."]),
+        of!(Motion, All, Nutation, Value(ValueStatistic::Mean), ["nutation_angle_mean_rad"], "rad", ["Mean over the points of the angle between s3 and the angular momentum of the spacecraft about its centre of mass."]),
+        of!(Motion, All, FromNominal, Order(OrderStatistic::Max), ["attitude_from_nominal_max_rad"], "rad", ["Maximum angle of the rotation between the attitude and that of the nominal run at the same time."]),
+        of!(Motion, All, FromNominal, Order(OrderStatistic::Final), ["attitude_from_nominal_final_rad"], "rad", ["Angle of the rotation between the attitude and that of the nominal run at the last point."]),
+        of!(Motion, All, Wheel1Speed, Order(OrderStatistic::Max), ["wheel1_speed_max_rad_s"], "rad/s", ["Maximum magnitude of the rate of wheel 1 relative to the fuselage."]),
+        of!(Motion, All, Wheel2Speed, Order(OrderStatistic::Max), ["wheel2_speed_max_rad_s"], "rad/s", ["Maximum magnitude of the rate of wheel 2 relative to the fuselage."]),
+        of!(Motion, All, Wheel1Momentum, Order(OrderStatistic::Max), ["wheel1_momentum_max_n_m_s"], "N m s", ["Maximum magnitude of the angular momentum of wheel 1 about its axis relative to F_e."]),
+        of!(Motion, All, Wheel2Momentum, Order(OrderStatistic::Max), ["wheel2_momentum_max_n_m_s"], "N m s", ["Maximum magnitude of the angular momentum of wheel 2 about its axis relative to F_e."]),
+        of!(Motion, Debris, DebrisDirection, Value(ValueStatistic::Max), ["spin_axis_debris_angle_max_rad"], "rad", ["Maximum angle between s3 and the line from the spacecraft's centre of mass to the debris."]),
+        of!(Motion, Debris, DebrisDirection, Value(ValueStatistic::Min), ["spin_axis_debris_angle_min_rad"], "rad", ["Minimum angle between s3 and the line from the spacecraft's centre of mass to the debris."]),
+        of!(Motion, Debris, DebrisDirection, Value(ValueStatistic::Final), ["spin_axis_debris_angle_final_rad"], "rad", ["Angle between s3 and the line from the spacecraft's centre of mass to the debris at the last point."]),
     ],
 ];
 

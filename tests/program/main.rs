@@ -6,6 +6,7 @@ mod support;
 mod audit;
 mod cli;
 mod csv_digits;
+mod motion;
 mod observation;
 mod precision;
 mod result_files;

@@ -1,0 +1,114 @@
+//! Angular rate, nutation, attitude relative to the nominal run, wheels, and the direction of the debris.
+//!
+//! Angles between vectors are atan2(|a x b|, a . b), exact to rounding everywhere (W. Kahan, *How Futile are Mindless Assessments of
+//! Roundoff*, 2006, section 12). The angle of the rotation between two attitudes is kept as tan^2 of its half, |v|^2/s^2 of the
+//! quaternion conj(q_nominal) q = (s, v).
+
+use fearless_simd::Simd;
+
+use super::attitude::Attitude;
+use super::points::{Column, MeasuredRun, SeriesTable, constant, constant_matrix, four, needed, three};
+use super::table::Series;
+use crate::math::lanes::WIDTH;
+use crate::math::vector::{conjugate, cross, difference, dot, hamilton, norm, product, scaled, sum};
+use crate::math::{Lanes, Real};
+use crate::run::StateField;
+
+/// The series of the motion.
+#[inline(always)]
+pub(super) fn motion<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
+    let observed = run.observed;
+    if observed.has(Series::RateSquare) {
+        rate(simd, run, out);
+    }
+    if [Series::Nutation, Series::Wheel1Speed, Series::Wheel1Momentum].into_iter().any(|series| observed.has(series)) {
+        momentum(simd, run, out);
+    }
+    if observed.has(Series::FromNominal) {
+        from_nominal(simd, run, out);
+    }
+    if observed.has(Series::DebrisDirection) {
+        debris_direction(simd, run, out);
+    }
+}
+
+/// |omega|^2.
+#[inline(always)]
+fn rate<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
+    let omega: [Column<'_>; 3] = needed(run.table, StateField::Rate, run.vectors());
+    let [square] = out.write([Series::RateSquare], run.vectors());
+    for (at, value) in square.iter_mut().enumerate() {
+        let omega = three(simd, omega, at);
+        dot(omega, omega).store(value);
+    }
+}
+
+/// The angle of s3 from the angular momentum, squares of the wheels' rates and of their momenta J_i (Omega_i + a_i . omega).
+#[inline(always)]
+fn momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
+    let (mass, table, vectors) = (run.mass, run.table, run.vectors());
+    let omega: [_; 3] = needed(table, StateField::Rate, vectors);
+    let rates: [_; 2] = needed(table, StateField::WheelRates, vectors);
+    let inertia = constant_matrix(simd, mass.inertia);
+    let axials = mass.wheels.each_ref().map(|wheel| Lanes::broadcast(simd, wheel.axial));
+    let axes = mass.wheels.each_ref().map(|wheel| constant(simd, wheel.axis));
+    let [nutation, speed1, speed2, momentum1, momentum2] = out.write(
+        [Series::Nutation, Series::Wheel1Speed, Series::Wheel2Speed, Series::Wheel1Momentum, Series::Wheel2Momentum],
+        vectors,
+    );
+    let (speeds, momenta) = ([speed1, speed2], [momentum1, momentum2]);
+    for at in 0..vectors {
+        let omega = three(simd, omega, at);
+        let mut total = product(inertia, omega);
+        for wheel in 0..2 {
+            let rate = Lanes::load(simd, &rates[wheel][at]);
+            let own = axials[wheel] * (rate + dot(axes[wheel], omega));
+            total = sum(total, scaled(axials[wheel] * rate, axes[wheel]));
+            (rate * rate).store(&mut speeds[wheel][at]);
+            (own * own).store(&mut momenta[wheel][at]);
+        }
+        let [x, y, z] = total;
+        angle(x.mul_add(x, y * y).sqrt(), z, &mut nutation[at]);
+    }
+}
+
+/// tan^2 of half the angle from the attitude of the nominal run; NaN where that is not known.
+#[inline(always)]
+fn from_nominal<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
+    let vectors = run.vectors();
+    let [square] = out.write([Series::FromNominal], vectors);
+    let Some(nominal) = run.nominal else {
+        square.fill([f64::NAN; WIDTH]);
+        return;
+    };
+    let nominal = nominal.columns(vectors);
+    let attitude: [_; 4] = needed(run.table, StateField::Attitude, vectors);
+    for (at, value) in square.iter_mut().enumerate() {
+        let [s, x, y, z] = hamilton(conjugate(four(simd, nominal, at)), four(simd, attitude, at));
+        (dot([x, y, z], [x, y, z]) / (s * s)).store(value);
+    }
+}
+
+/// The angle of s3 from the line to the debris.
+#[inline(always)]
+fn debris_direction<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
+    let (table, vectors) = (run.table, run.vectors());
+    let attitude = Attitude::of(table, vectors);
+    let own: [_; 3] = needed(table, StateField::ComPosition, vectors);
+    let debris: [_; 3] = needed(table, StateField::DebrisPosition, vectors);
+    let [direction] = out.write([Series::DebrisDirection], vectors);
+    for (at, value) in direction.iter_mut().enumerate() {
+        let [[.., x], [.., y], [.., z]] = attitude.c_es(simd, at);
+        let s3 = [x, y, z];
+        let line = difference(three(simd, debris, at), three(simd, own, at));
+        angle(norm(cross(s3, line)), dot(s3, line), value);
+    }
+}
+
+/// atan2(y, x) of each lane.
+#[inline(always)]
+fn angle<S: Simd>(y: Lanes<S>, x: Lanes<S>, out: &mut [f64; WIDTH]) {
+    for ((out, y), x) in out.iter_mut().zip(y.to_array()).zip(x.to_array()) {
+        *out = libm::atan2(y, x);
+    }
+}
