@@ -80,8 +80,7 @@ fn near(found: f64, expected: f64) {
     assert!((found - expected).abs() <= ROUNDING * expected.abs().max(1.0), "{found:e} {expected:e}");
 }
 
-/// Law: s3 is at the angle atan2(|H across s3|, H along s3) from H; with a body rate of which only the direction across s3 changes, and
-/// wheels that change the size of H, the extremes are those of the formula.
+/// Law: s3 is at the angle atan2(|H across s3|, H along s3) from H. The extremes are those of the formula, also where wheels change H.
 #[test]
 fn rates_nutation_and_wheels() {
     let mut scene = scene();
@@ -137,7 +136,7 @@ fn attitudes_are_compared_with_the_nominal_run() {
         let negative = |t: f64| state(turned(t).0.map(|x| -x));
         near(row(&scene, Some(nominal()), &negative)["attitude_from_nominal_max_rad"], angle);
     }
-    assert_eq!(row(&scene, Some(nominal()), &nominal_motion)["attitude_from_nominal_max_rad"], 0.0);
+    near(row(&scene, Some(nominal()), &nominal_motion)["attitude_from_nominal_max_rad"], 0.0);
     // unknown where there is no nominal run, or where it did not reach the points
     assert!(row(&scene, None, &nominal_motion)["attitude_from_nominal_max_rad"].is_nan());
     let short = NominalAttitude::of(&table(&nominal_motion), &outcome(20));
@@ -166,7 +165,7 @@ fn the_debris_is_seen_at_its_angle() {
     assert_eq!(row(&scene, None, &together)["spin_axis_debris_angle_max_rad"], 0.0);
 }
 
-/// Law: in a campaign the reference is the nominal run of the plan: its own angle is zero, and that of any sample is the angle between
+/// Law: in a campaign the reference is the nominal run of the plan: its own angle is zero to rounding, and that of any sample is the angle between
 /// the states of the two runs.
 #[test]
 fn a_campaign_compares_with_its_nominal_run() {
@@ -180,7 +179,7 @@ fn a_campaign_compares_with_its_nominal_run() {
         let columns = run.request.columns();
         run.row[columns.iter().position(|column| column.quantity.name() == name).expect("a column")]
     };
-    assert_eq!(column(&nominal, "attitude_from_nominal_max_rad"), 0.0);
+    near(column(&nominal, "attitude_from_nominal_max_rad"), 0.0);
     let angle = |point: usize| {
         let [q, of_nominal] = [&other, &nominal].map(|run| run.table.at::<4>(StateField::Attitude, point));
         let [s, x, y, z] = hamilton(conjugate(of_nominal), q);

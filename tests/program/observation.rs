@@ -9,6 +9,7 @@ use std::collections::HashMap;
 use crate::support::golden::Golden;
 use spindrift::math::Isa;
 use spindrift::math::vector::{cross, dcm_from_quaternion, hamilton, product, sum};
+use spindrift::observables::nominal_attitude::NominalAttitude;
 use spindrift::observables::{Group, Groups, Observer, Request, Series};
 use spindrift::run::{Grid, StateField, StateFields, StateTable};
 use spindrift::run::{LocalErrors, Outcome, Status, StepStatistics};
@@ -77,7 +78,9 @@ fn motion_table(grid: &Grid, motion: Motion<'_>) -> StateTable {
 }
 
 fn row(isa: Isa, request: Request, grid: &Grid, scene: &Scene, table: &StateTable) -> HashMap<&'static str, f64> {
-    let mut observer = Observer::new(request, grid);
+    let has_attitude = table.has(StateField::Attitude);
+    let nominal = has_attitude.then(|| NominalAttitude::of(table, &done(grid.points(), grid.duration())));
+    let mut observer = Observer::new(request, grid).with_nominal(nominal);
     let columns = request.columns();
     let mut row = vec![0.0; columns.len()];
     observer.observe(isa, scene, table, &done(grid.points(), grid.duration()), &mut row);
