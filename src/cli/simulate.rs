@@ -135,7 +135,7 @@ fn audit(options: &SimulateOptions, plan: &Plan, run: &SingleRun, isa: Isa) -> R
         found.reference_tolerance
     );
     // the tolerance of the reference solution is in the first line
-    let values = AuditValue::ALL.into_iter().filter(|value| *value != AuditValue::Tolerance);
+    let values = AuditValue::of_scenes(run.request.debris).filter(|value| *value != AuditValue::Tolerance);
     let lines = values
         .map(|value| (value.quantity().name(), found.value(value)))
         .chain([(STATE_ERROR_ESTIMATE.quantity().name(), found.estimate)]);

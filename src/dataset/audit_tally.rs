@@ -24,6 +24,8 @@ pub struct AuditTally {
     pub omega: Sketch,
     /// Errors of the attitude, rad.
     pub attitude: Sketch,
+    /// Errors of the rotation of the debris, where there is one.
+    pub debris: Sketch,
     /// Estimate over true error, where the true error is above zero.
     pub ratio: Sketch,
     /// Errors of the observables that have statistics.
@@ -52,6 +54,9 @@ impl AuditTally {
             self.state.add(error);
             self.omega.add(audit.omega);
             self.attitude.add(audit.attitude);
+            if !audit.debris.is_nan() {
+                self.debris.add(audit.debris);
+            }
             if error > 0.0 {
                 self.ratio.add(audit.estimate / error);
             }
@@ -85,6 +90,7 @@ mod tests {
             let audit = audit.map(|(error, estimate)| Audit {
                 omega: error,
                 attitude: 0.5 * error,
+                debris: f64::NAN,
                 estimate,
                 reference_tolerance: reference_solution::TOLERANCE,
                 observables: vec![f64::NAN],

@@ -25,7 +25,8 @@ pub struct RowsFile {
     layout: Layout,
     /// Content of each observable.
     contents: Vec<Content>,
-    is_audited: bool,
+    /// The columns of audits; none where the campaign has no audits.
+    audits: Vec<AuditValue>,
 }
 
 /// The name of the file of `part`.
@@ -45,8 +46,7 @@ pub fn headings(ensemble: &Ensemble<'_>) -> Vec<Heading> {
         .into_iter()
         .map(|column| Heading::new(column.quantity.clone(), content(column.kind)).nullable());
     let audited = ensemble.plan().audit_fraction > 0.0;
-    let audits = AuditValue::ALL
-        .into_iter()
+    let audits = AuditValue::of_scenes(ensemble.request().debris)
         .filter(|_| audited)
         .map(|value| Heading::new(value.quantity().clone(), Content::Real).nullable());
     fixed.into_iter().chain(parameter_headings(ensemble.plan())).chain(observables).chain(audits).collect()
@@ -89,7 +89,9 @@ impl RowsFile {
     pub fn new(ensemble: &Ensemble<'_>) -> Result<Self, ParquetError> {
         let layout = Layout::new(&headings(ensemble), provenance(ensemble.plan()), packing(ensemble.plan()))?;
         let contents = ensemble.request().columns().into_iter().map(|column| content(column.kind)).collect();
-        Ok(RowsFile { layout, contents, is_audited: ensemble.plan().audit_fraction > 0.0 })
+        let is_audited = ensemble.plan().audit_fraction > 0.0;
+        let audits = AuditValue::of_scenes(ensemble.request().debris).filter(|_| is_audited).collect();
+        Ok(RowsFile { layout, contents, audits })
     }
 
     /// Number of columns.
@@ -132,21 +134,21 @@ impl RowsFile {
                 _ => Cells::Real(values, mask),
             }
         });
-        let (audited, audits) = if self.is_audited { audit_columns(rows) } else { (Vec::new(), Vec::new()) };
+        let (audited, audits) = audit_columns(rows, &self.audits);
         let audits = audits.iter().map(|column| Cells::Real(column, Some(&audited)));
         self.layout.write(out, &own, fixed.into_iter().chain(parameters).chain(observables).chain(audits))
     }
 }
 
-/// Which rows were audited, and the columns of the audits.
-fn audit_columns(rows: &Rows) -> (Vec<bool>, Vec<Vec<f64>>) {
+/// Which rows were audited, and the columns `values` of the audits.
+fn audit_columns(rows: &Rows, values: &[AuditValue]) -> (Vec<bool>, Vec<Vec<f64>>) {
     let mut audited = vec![false; rows.part().count];
-    let mut columns = vec![vec![f64::NAN; rows.part().count]; AuditValue::ALL.len()];
+    let mut columns = vec![vec![f64::NAN; rows.part().count]; values.len()];
     for (row, audit) in rows.audits() {
         let Some(audit) = audit else { continue };
         audited[*row] = true;
-        for (column, value) in columns.iter_mut().zip(AuditValue::ALL) {
-            column[*row] = audit.value(value);
+        for (column, value) in columns.iter_mut().zip(values) {
+            column[*row] = audit.value(*value);
         }
     }
     (audited, columns)

@@ -15,7 +15,9 @@ use crate::observables::headlines::STATE_ERROR_ESTIMATE;
 use crate::observables::{Group, Observer, Request};
 use crate::ode::{Control, Tolerance};
 use crate::propagation::taylor::reference_solution::{self, ReferenceSolution};
-use crate::propagation::{CompletedRun, Engine, Method, PropagationSettings, RotationError, rotation_errors};
+use crate::propagation::{
+    CompletedRun, Engine, Method, PropagationSettings, RotationError, debris_rotation_errors, rotation_errors,
+};
 use crate::run::{Grid, LocalErrors, Outcome, Quantity, StateField, StateFields, StateTable, Status, StepStatistics};
 use crate::sampling::{SampleId, Stream};
 use crate::scene::Scene;
@@ -37,6 +39,8 @@ pub enum AuditValue {
     Omega,
     /// Error of the attitude.
     Attitude,
+    /// Error of the rotation of the debris; only where there is one.
+    Debris,
     /// Tolerance of the reference solution.
     Tolerance,
 }
@@ -54,6 +58,11 @@ static COLUMNS: [Quantity; AuditValue::ALL.len()] = [
         "True largest error of the attitude on the grid, twice the distance of the quaternions: the angle where the norm is kept.",
     ),
     Quantity::new(
+        "audit_debris_error",
+        "",
+        "True largest error of the debris's rotation on the grid: of its omega relative to the largest, or of its attitude in rad, whichever is larger.",
+    ),
+    Quantity::new(
         "audit_truth_tolerance",
         "",
         "Tolerance of the reference solution that the run was compared with: 1e-31 in double-double, 1e-16 in plain doubles where the run was too long for double-double.",
@@ -62,8 +71,13 @@ static COLUMNS: [Quantity; AuditValue::ALL.len()] = [
 
 impl AuditValue {
     /// Every value, in the order of the columns.
-    pub const ALL: [AuditValue; 4] =
-        [AuditValue::State, AuditValue::Omega, AuditValue::Attitude, AuditValue::Tolerance];
+    pub const ALL: [AuditValue; 5] =
+        [AuditValue::State, AuditValue::Omega, AuditValue::Attitude, AuditValue::Debris, AuditValue::Tolerance];
+
+    /// The values of audits of scenes with or without debris, in the order of the columns.
+    pub fn of_scenes(has_debris: bool) -> impl Iterator<Item = AuditValue> + Clone {
+        Self::ALL.into_iter().filter(move |value| has_debris || *value != AuditValue::Debris)
+    }
 
     /// Name, unit and meaning of the column.
     pub fn quantity(self) -> &'static Quantity {
@@ -78,6 +92,8 @@ pub struct Audit {
     pub omega: f64,
     /// Largest error of the attitude on the grid, rad.
     pub attitude: f64,
+    /// Largest error of the debris's rotation on the grid, as the larger of the two; NaN where there is no debris.
+    pub debris: f64,
     /// The estimate of the larger of the two: `state_error_estimate`, whether it is observed or not.
     pub estimate: f64,
     /// Tolerance of the reference solution.
@@ -99,6 +115,7 @@ impl Audit {
             AuditValue::State => self.state(),
             AuditValue::Omega => self.omega,
             AuditValue::Attitude => self.attitude,
+            AuditValue::Debris => self.debris,
             AuditValue::Tolerance => self.reference_tolerance,
         }
     }
@@ -162,7 +179,7 @@ impl Auditor {
             isa,
             grid: grid.clone(),
             max_steps: plan.max_steps,
-            engine: propagator(plan, grid.clone(), compared().union(request.fields())).engine(isa),
+            engine: propagator(plan, grid.clone(), compared(&request).union(request.fields())).engine(isa),
             observer: Observer::new(request, grid).with_nominal(nominal.clone()),
             row: vec![f64::NAN; request.columns().len()],
             reference_observer: Observer::new(reference_request, grid).with_nominal(nominal),
@@ -181,7 +198,7 @@ impl Auditor {
 
     /// Audits the run of `run` against the reference solution of `scene`. Both are the same scene, except in tests of a wrong kernel.
     pub fn compare(&mut self, run: &Scene, scene: &Scene) -> Option<Audit> {
-        let fields = compared().union(self.reference_request.fields());
+        let fields = compared(&self.reference_request).union(self.reference_request.fields());
         let (reference, reference_tolerance) = self.reference_solution(scene, fields)?;
         let done = Outcome {
             status: Status::Done,
@@ -192,20 +209,22 @@ impl Auditor {
         };
         self.reference_observer.observe(self.isa, scene, &reference.high, &done, &mut self.reference_row);
         let (isa, observer, row) = (self.isa, &mut self.observer, &mut self.row);
-        let mut errors = None;
+        let (mut errors, has_debris) = (None, self.request.debris);
         self.engine.propagate(std::slice::from_ref(run), &mut |CompletedRun { table, outcome, .. }| {
             if outcome.status == Status::Done {
                 observer.observe(isa, run, table, outcome, row);
-                errors = Some(RotationError::largest(rotation_errors(&reference, table)));
+                let debris = has_debris.then(|| RotationError::largest(debris_rotation_errors(&reference, table)));
+                errors = Some((RotationError::largest(rotation_errors(&reference, table)), debris));
             }
         });
-        let RotationError { omega, attitude } = errors?;
+        let (RotationError { omega, attitude }, debris) = errors?;
+        let debris = debris.map_or(f64::NAN, |error| error.state());
         let error = |(own, of_reference): &(usize, Option<usize>)| match of_reference {
             Some(of_reference) => (self.row[*own] - self.reference_row[*of_reference]).abs(),
             None => f64::NAN,
         };
         let observables = self.indices.iter().map(error).collect();
-        Some(Audit { omega, attitude, estimate: self.row[self.estimate], reference_tolerance, observables })
+        Some(Audit { omega, attitude, debris, estimate: self.row[self.estimate], reference_tolerance, observables })
     }
 
     /// What is observed of the audited run: the columns of the campaign and of the group numerics.
@@ -237,7 +256,8 @@ impl Auditor {
     }
 }
 
-/// What is compared in every audit.
-fn compared() -> StateFields {
-    StateFields::NONE.with(StateField::Rate).with(StateField::Attitude)
+/// What is compared in every audit of scenes of the kind of `request`.
+fn compared(request: &Request) -> StateFields {
+    let spacecraft = StateFields::NONE.with(StateField::Rate).with(StateField::Attitude);
+    if request.debris { spacecraft.with(StateField::DebrisRate).with(StateField::DebrisAttitude) } else { spacecraft }
 }

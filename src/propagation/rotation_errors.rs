@@ -38,15 +38,31 @@ pub fn rotation_errors<'a>(
     reference: &'a ReferenceSolution,
     table: &'a StateTable,
 ) -> impl Iterator<Item = RotationError> + 'a {
+    errors_of(reference, table, [StateField::Rate, StateField::Attitude])
+}
+
+/// The same of the debris, whose rate and attitude are in `table`.
+pub fn debris_rotation_errors<'a>(
+    reference: &'a ReferenceSolution,
+    table: &'a StateTable,
+) -> impl Iterator<Item = RotationError> + 'a {
+    errors_of(reference, table, [StateField::DebrisRate, StateField::DebrisAttitude])
+}
+
+fn errors_of<'a>(
+    reference: &'a ReferenceSolution,
+    table: &'a StateTable,
+    [rate, attitude]: [StateField; 2],
+) -> impl Iterator<Item = RotationError> + 'a {
     let square = |omega: [f64; 3]| omega.iter().map(|x| x * x).sum::<f64>();
-    let squares = (0..table.points()).map(|point| square(reference.high.at(StateField::Rate, point)));
+    let squares = (0..table.points()).map(|point| square(reference.high.at(rate, point)));
     let largest = squares.fold(0.0, f64::max).sqrt();
     let scale = if largest > 0.0 { largest } else { 1.0 };
-    let has_attitude = reference.high.has(StateField::Attitude);
+    let has_attitude = reference.high.has(attitude);
     (0..table.points()).map(move |point| {
-        let turned = |sign| 2.0 * reference.distance::<4>(table, StateField::Attitude, point, sign);
+        let turned = |sign| 2.0 * reference.distance::<4>(table, attitude, point, sign);
         RotationError {
-            omega: reference.distance::<3>(table, StateField::Rate, point, 1.0) / scale,
+            omega: reference.distance::<3>(table, rate, point, 1.0) / scale,
             attitude: if has_attitude { turned(1.0).min(turned(-1.0)) } else { 0.0 },
         }
     })

@@ -78,6 +78,9 @@ pub struct AuditSummary {
     pub omega_error: Quantiles,
     /// Of the attitude, rad.
     pub attitude_error_rad: Quantiles,
+    /// Of the rotation of the debris, where there is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub debris_error: Option<Quantiles>,
     /// Comparison of the estimate with the true error.
     pub estimate: Estimate,
 }
@@ -112,6 +115,7 @@ impl AuditSummary {
             state_error: Quantiles::of(&audits.state),
             omega_error: Quantiles::of(&audits.omega),
             attitude_error_rad: Quantiles::of(&audits.attitude),
+            debris_error: (audits.debris.count() > 0).then(|| Quantiles::of(&audits.debris)),
             estimate: Estimate {
                 covered: audits.covered,
                 coverage: (audits.audited > 0).then(|| audits.covered as f64 / audits.audited as f64),
@@ -146,11 +150,13 @@ impl Display for AuditSummary {
             return Ok(());
         }
         writeln!(f, "  {:<28}{:>12}{:>12}{:>12}{:>12}", "true error of the rotation", "median", "p95", "p99", "max")?;
-        for (name, of) in [
+        let spacecraft = [
             (AuditValue::State, self.state_error),
             (AuditValue::Omega, self.omega_error),
             (AuditValue::Attitude, self.attitude_error_rad),
-        ] {
+        ];
+        let debris = self.debris_error.map(|errors| (AuditValue::Debris, errors));
+        for (name, of) in spacecraft.into_iter().chain(debris) {
             let name = name.quantity().name();
             write!(f, "  {name:<28}")?;
             for value in [of.median, of.p95, of.p99, of.max] {

@@ -18,7 +18,7 @@ use spindrift::math::Isa;
 use spindrift::ode::Tolerance;
 use spindrift::run::Status;
 use spindrift::sampling::SampleId;
-use spindrift::scene::Scene;
+use spindrift::scene::{DebrisInput, Scene, SceneInput};
 
 /// The shipped campaign of that name, with this number of samples, a fraction of them audited.
 fn plan(name: &str, samples: u64, fraction: f64) -> Plan {
@@ -163,6 +163,26 @@ fn a_wrong_kernel_is_caught() {
     assert!(caught.state() > 10.0 * caught.estimate && caught.state() > 1e-9, "{:e}", caught.state());
 }
 
+/// Law: the rotation of the debris is compared too: a moment of inertia that is wrong by 1e-4 shows in its error and in no other, and
+/// the error of a right run near the intermediate axis is what the instability makes of roundings.
+#[test]
+fn a_wrong_debris_is_caught() {
+    let mut plan = plan("spin_sweep", 1, 1.0);
+    plan.nominal.debris = Some(DebrisInput::Box { size_m: [0.2, 0.3, 0.4], density_kg_m3: 2700.0 });
+    let mut scene = Scene::resolve(&plan.nominal).expect("physical");
+    scene.initial.omega_de_d = [0.0, 1.0, 1e-3];
+    let mut wrong = scene.clone();
+    wrong.mass.debris.as_mut().expect("a debris").inertia[0][0] *= 1.0 + 1e-4;
+    let mut auditor = Auditor::new(&plan, Isa::best(), &plan.grid);
+    let (right, caught) = (auditor.audit(&scene).unwrap(), auditor.compare(&wrong, &scene).unwrap());
+    assert!(right.debris > 0.0 && right.debris < 1e-9, "{:e}", right.debris);
+    assert!(caught.debris > 1e-7 && caught.state().to_bits() == right.state().to_bits(), "{:e}", caught.debris);
+    let without = Plan { nominal: SceneInput { debris: None, ..plan.nominal.clone() }, ..plan };
+    let scene = Scene::resolve(&without.nominal).expect("physical");
+    let audit = Auditor::new(&without, Isa::best(), &without.grid).audit(&scene).unwrap();
+    assert!(audit.debris.is_nan() && audit.state() < 1e-9);
+}
+
 /// Law: a run too long for double-double is compared with plain Taylor integration at the smallest tolerance, and says so.
 #[test]
 fn a_long_run_is_audited_in_plain_doubles() {
@@ -202,6 +222,10 @@ fn the_program_audits() {
     };
     let [state, omega, attitude] = ["audit_state_error", "audit_omega_error", "audit_attitude_error_rad"].map(&column);
     let estimate = column("state_error_estimate");
+    // the debris of this campaign is a cube, whose rotation has a closed form
+    let debris = column("audit_debris_error");
+    assert!(debris.iter().zip(&state).all(|(debris, state)| debris.is_some() == state.is_some()));
+    assert!(debris.iter().flatten().all(|error| *error < 1e-12));
     let audited = state.iter().flatten().count();
     assert!((10..60).contains(&audited));
     let mut covered = 0;
