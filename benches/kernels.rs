@@ -30,6 +30,7 @@ use spindrift::math::isa::Work;
 use spindrift::math::lanes::WIDTH;
 use spindrift::math::{Isa, Lanes, Real};
 use spindrift::ode::Control;
+use spindrift::ode::Integrator;
 use spindrift::ode::Tolerance;
 use spindrift::propagation::CompletedRun;
 use spindrift::propagation::Engine;
@@ -51,10 +52,10 @@ const METHODS: [(Method, f64); 8] = [
     (Method::Auto, 1e-10),
     (Method::Auto, 1e-16),
     (Method::Taylor, 1e-10),
-    (Method::DormandPrince, 1e-8),
-    (Method::Dop853, 1e-10),
-    (Method::RungeKutta4, 1e-3),
-    (Method::GaussLegendre, 1e-2),
+    (Method::Gyrostat(Integrator::DormandPrince), 1e-8),
+    (Method::Gyrostat(Integrator::Dop853), 1e-10),
+    (Method::Gyrostat(Integrator::RungeKutta4), 1e-3),
+    (Method::Gyrostat(Integrator::GaussLegendre), 1e-2),
     (Method::NullSpace, 1e-8),
 ];
 

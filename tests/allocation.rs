@@ -17,6 +17,7 @@ use spindrift::ensemble::{Ensemble, Part, PartId, Rows};
 use spindrift::math::Isa;
 use spindrift::observables::{Groups, Observer, Request};
 use spindrift::ode::Control;
+use spindrift::ode::Integrator;
 use spindrift::propagation::CompletedRun;
 use spindrift::propagation::Method;
 use spindrift::propagation::PropagationSettings;
@@ -116,10 +117,10 @@ fn engines() {
         for (method, control) in [
             (Method::Auto, adaptive(1e-12)),
             (Method::Taylor, adaptive(1e-12)),
-            (Method::DormandPrince, adaptive(1e-6)),
-            (Method::Dop853, adaptive(1e-6)),
-            (Method::RungeKutta4, fixed(0.05)),
-            (Method::GaussLegendre, fixed(0.05)),
+            (Method::Gyrostat(Integrator::DormandPrince), adaptive(1e-6)),
+            (Method::Gyrostat(Integrator::Dop853), adaptive(1e-6)),
+            (Method::Gyrostat(Integrator::RungeKutta4), fixed(0.05)),
+            (Method::Gyrostat(Integrator::GaussLegendre), fixed(0.05)),
             (Method::NullSpace, adaptive(1e-3)),
         ] {
             let count = if method == Method::NullSpace { 4 } else { 128 };
@@ -133,7 +134,7 @@ fn engines() {
 fn engines_with_scenes_of_every_kind() {
     for forced in [false, true] {
         let scenes = mixed(24, forced, 10.0);
-        for method in [Method::Auto, Method::Taylor, Method::DormandPrince] {
+        for method in [Method::Auto, Method::Taylor, Method::Gyrostat(Integrator::DormandPrince)] {
             no_allocation(method, adaptive(1e-8), &scenes, &scenes, "every kind");
         }
     }
@@ -153,7 +154,9 @@ fn no_allocation(method: Method, control: Control, first: &[Scene], second: &[Sc
 #[test]
 fn engines_under_laws() {
     let scenes = mixed(24, false, 10.0);
-    for (method, tolerance) in [(Method::Auto, 1e-8), (Method::DormandPrince, 1e-6), (Method::NullSpace, 1e-3)] {
+    for (method, tolerance) in
+        [(Method::Auto, 1e-8), (Method::Gyrostat(Integrator::DormandPrince), 1e-6), (Method::NullSpace, 1e-3)]
+    {
         let count = if method == Method::NullSpace { 4 } else { 24 };
         let scenes = &scenes[..count];
         let grid = Grid::uniform(2.0, 21);

@@ -105,7 +105,7 @@ pub struct Limits {
 pub struct Precision<'p> {
     plan: &'p Plan,
     isa: Isa,
-    blocks: StateFields,
+    fields: StateFields,
     request: Request,
     scenes: Vec<Scene>,
     references: Vec<ReferenceSolution>,
@@ -124,14 +124,14 @@ impl<'p> Precision<'p> {
             .collect();
         let balances = [Group::EnergyConservation, Group::MomentumConservation];
         let plain = Request { constrained: false, ..request(plan) };
-        let (request, blocks) = match integrated {
+        let (request, fields) = match integrated {
             States::All => {
                 let request = Request { groups: balances.into_iter().collect(), ..plain };
                 (request, states(&plain).union(request.fields()))
             }
             States::Observed => (plain, plain.fields().with(StateField::Rate)),
         };
-        let compared = [StateField::Rate, StateField::Attitude].into_iter().filter(|block| blocks.contains(*block));
+        let compared = [StateField::Rate, StateField::Attitude].into_iter().filter(|field| fields.contains(*field));
         let compared = compared.fold(StateFields::NONE, StateFields::with);
         let solve = |(id, scene): &(SampleId, Scene)| {
             ReferenceSolution::new(isa, scene, &plan.grid, compared, reference_solution::TOLERANCE)
@@ -139,7 +139,7 @@ impl<'p> Precision<'p> {
         };
         let references = drawn.par_iter().map(solve).collect::<Result<Vec<_>, _>>()?;
         let scenes = drawn.into_iter().map(|(_, scene)| scene).collect();
-        Ok(Precision { plan, isa, blocks, request, scenes, references })
+        Ok(Precision { plan, isa, fields, request, scenes, references })
     }
 
     /// Number of samples.
@@ -211,7 +211,7 @@ impl<'p> Precision<'p> {
         let tolerance = Tolerance { relative: tolerance, absolute: tolerance };
         let control = Control { tolerance, step, max_steps: self.plan.max_steps };
         let nominal = self.scenes.first()?;
-        Some(PropagationSettings::new(method, control, self.plan.grid.clone(), self.blocks, nominal).engine(self.isa))
+        Some(PropagationSettings::new(method, control, self.plan.grid.clone(), self.fields, nominal).engine(self.isa))
     }
 
     /// Every sample once, compared with its reference solution; `None` where it takes too long.

@@ -21,10 +21,10 @@ pub fn request(plan: &Plan) -> Request {
     }
 }
 
-/// The settings for scenes of `plan` with states `blocks` at the times of `grid`.
-pub fn propagator(plan: &Plan, grid: Grid, blocks: StateFields) -> PropagationSettings {
+/// The settings for scenes of `plan` with states `fields` at the times of `grid`.
+pub fn propagator(plan: &Plan, grid: Grid, fields: StateFields) -> PropagationSettings {
     let control = Control { tolerance: plan.tolerance, step: plan.step_s, max_steps: plan.max_steps };
-    PropagationSettings::new(plan.method, control, grid, blocks, &nominal(plan))
+    PropagationSettings::new(plan.method, control, grid, fields, &nominal(plan))
 }
 
 /// The attitude of the nominal run at the times of `grid`, where `request` compares runs with it.

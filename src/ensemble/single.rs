@@ -78,5 +78,5 @@ pub fn states(request: &Request) -> StateFields {
         [StateField::DebrisPosition, StateField::DebrisVelocity, StateField::DebrisAttitude, StateField::DebrisRate];
     let constrained: &[StateField] = if request.constrained { &[StateField::Dcm] } else { &[] };
     let debris: &[StateField] = if request.debris { &debris } else { &[] };
-    spacecraft.iter().chain(debris).chain(constrained).fold(StateFields::NONE, |blocks, block| blocks.with(*block))
+    spacecraft.iter().chain(debris).chain(constrained).fold(StateFields::NONE, |fields, field| fields.with(*field))
 }

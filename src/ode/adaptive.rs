@@ -19,6 +19,7 @@ pub struct Adaptive<M>(pub M);
 
 impl<M: Embedded> Method for Adaptive<M> {
     const ERRORS: ErrorModel = ErrorModel::Estimated(M::ERRORS);
+    const HAS_FIXED_STEP: bool = false;
 
     type Stepper<R: Real, const N: usize> = AdaptiveStepper<M, R, N>;
 

@@ -66,6 +66,7 @@ pub struct Fixed<M>(pub M);
 
 impl<M: FixedStep> Method for Fixed<M> {
     const ERRORS: ErrorModel = ErrorModel::Remainder(M::REMAINDER);
+    const HAS_FIXED_STEP: bool = true;
 
     type Stepper<R: Real, const N: usize> = FixedStepper<M, R, N>;
 

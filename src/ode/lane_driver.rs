@@ -17,6 +17,8 @@ use crate::math::{Mask, Real};
 pub trait Method: Copy {
     /// What it knows about its errors.
     const ERRORS: ErrorModel;
+    /// Whether its steps have a given length instead of following the tolerance.
+    const HAS_FIXED_STEP: bool;
 
     /// Its steps in lanes.
     type Stepper<R: Real, const N: usize>: Stepper<R, N>;

@@ -2,8 +2,8 @@
 //!
 //! - [`System`]: the right-hand side and the norm of its errors. [`Runs`]: where runs come from; [`Recorder`]: where states go.
 //! - [`integrate`]: the driver of all methods: runs in lanes, arc by arc.
-//! - [`Adaptive`]: step control by the tolerance, for [`embedded`] pairs. [`Fixed`]: equal steps, for [`RungeKutta4`] and
-//!   [`GaussLegendre`].
+//! - [`integrators`]: the list of integrators. [`Adaptive`]: step control by the tolerance, for [`embedded`] pairs.
+//!   [`Fixed`]: equal steps.
 //! - [`tableau`]: the coefficients. `explicit`: stages of explicit methods and the compensated step.
 //! - [`ErrorModel`]: what a method knows about its errors.
 
@@ -12,22 +12,19 @@ pub mod embedded;
 mod error_model;
 pub mod explicit;
 pub mod fixed;
-mod gauss_legendre;
+pub mod integrators;
 pub mod lane_driver;
 mod lane_slot;
-mod runge_kutta_4;
 mod runs;
 mod step_control;
 mod system;
 pub mod tableau;
 
 pub use adaptive::Adaptive;
-pub use embedded::{Dop853, DormandPrince, DormandPrinceRestepped};
 pub use error_model::{ErrorModel, Remainder, StepErrors};
 pub use fixed::Fixed;
-pub use gauss_legendre::GaussLegendre;
+pub use integrators::{Dop853, DormandPrince, DormandPrinceRestepped, GaussLegendre, Integrator, RungeKutta4};
 pub use lane_driver::{Method, integrate};
-pub use runge_kutta_4::RungeKutta4;
 pub use runs::{Completion, Recorder, Runs, Termination};
 pub use step_control::Control;
 pub use system::{System, Tolerance};

@@ -1,4 +1,4 @@
-//! From settings to an [`Engine`]: the list of methods, each with the kernels and instruction sets that it is compiled for.
+//! From settings to an [`Engine`]: kernels and instruction sets that each method is compiled for.
 //!
 //! A separate file, because the engines know the settings, and the settings do not know the engines.
 
@@ -13,14 +13,16 @@ use super::taylor::engine::TaylorEngine;
 use crate::dynamics::gyrostat::{RATES_ONLY, WITH_ANGLES, WITH_ATTITUDE, WITH_MOTORS, WITH_THRUST};
 use crate::math::isa::{NarrowWork, WideWork};
 use crate::math::{Isa, Lanes, Real};
-use crate::ode::{self, Adaptive, Dop853, DormandPrince, Fixed, GaussLegendre, RungeKutta4};
+use crate::ode::integrators::Visitor;
+use crate::ode::{self, Adaptive, DormandPrince, Integrator};
 
 impl PropagationSettings {
     /// The engine for one worker on the instruction set `isa`.
     pub fn engine(&self, isa: Isa) -> Box<dyn Engine> {
         match self.method {
             Method::Auto | Method::Taylor => isa.run_wide(BuildTaylor(self)),
-            _ => isa.run_narrow(BuildRungeKutta(self)),
+            Method::Gyrostat(integrator) => isa.run_narrow(BuildGyrostat(self, integrator)),
+            Method::NullSpace => isa.run_narrow(BuildNullSpace(self)),
         }
     }
 }
@@ -36,18 +38,33 @@ impl WideWork for BuildTaylor<'_> {
     }
 }
 
-/// Builds the engine of a Runge-Kutta method.
-struct BuildRungeKutta<'a>(&'a PropagationSettings);
+/// Builds the engine of an integrator on gyrostats.
+struct BuildGyrostat<'a>(&'a PropagationSettings, Integrator);
 
-impl NarrowWork for BuildRungeKutta<'_> {
+impl NarrowWork for BuildGyrostat<'_> {
     type Output = Box<dyn Engine>;
 
     fn in_lanes<S: Simd>(self, simd: S) -> Self::Output {
-        runge_kutta(simd, Lanes::broadcast(simd, 0.0), self.0)
+        gyrostat(simd, Lanes::broadcast(simd, 0.0), self)
     }
 
     fn in_scalars<S: Simd>(self, simd: S) -> Self::Output {
-        runge_kutta(simd, 0.0, self.0)
+        gyrostat(simd, 0.0, self)
+    }
+}
+
+/// Builds the engine of the null-space formulation: one run after another.
+struct BuildNullSpace<'a>(&'a PropagationSettings);
+
+impl NarrowWork for BuildNullSpace<'_> {
+    type Output = Box<dyn Engine>;
+
+    fn in_lanes<S: Simd>(self, simd: S) -> Self::Output {
+        self.in_scalars(simd)
+    }
+
+    fn in_scalars<S: Simd>(self, simd: S) -> Self::Output {
+        Box::new(NullSpaceEngine::new(simd, self.0))
     }
 }
 
@@ -68,29 +85,34 @@ fn taylor<S: Simd, R: Real + Send + 'static>(simd: S, zero: R, settings: &Propag
     }
 }
 
-/// The engine of a Runge-Kutta method; `zero` determines the number of lanes.
-///
-/// Only Dormand-Prince has a separate kernel for scenes without actuation: every kernel costs compile time, and the other methods
-/// are for comparison.
-fn runge_kutta<S: Simd, R: Real + Send + 'static>(simd: S, zero: R, settings: &PropagationSettings) -> Box<dyn Engine> {
-    match settings.method {
-        Method::NullSpace => Box::new(NullSpaceEngine::new(simd, settings)),
-        Method::Dop853 => on_gyrostats::<WITH_THRUST, _, _, _>(simd, zero, settings, Adaptive(Dop853)),
-        Method::RungeKutta4 => on_gyrostats::<WITH_THRUST, _, _, _>(simd, zero, settings, Fixed(RungeKutta4)),
-        Method::GaussLegendre => on_gyrostats::<WITH_THRUST, _, _, _>(simd, zero, settings, Fixed(GaussLegendre)),
-        _ if settings.thrust || settings.motors => {
-            on_gyrostats::<WITH_THRUST, _, _, _>(simd, zero, settings, Adaptive(DormandPrince))
+/// The engine of an integrator; `zero` determines the number of lanes.
+fn gyrostat<S: Simd, R: Real + Send + 'static>(
+    simd: S,
+    zero: R,
+    BuildGyrostat(settings, integrator): BuildGyrostat<'_>,
+) -> Box<dyn Engine> {
+    match integrator {
+        // Only Dormand-Prince has a separate kernel for scenes without actuation: every kernel costs compile time, and the other
+        // integrators are for comparison.
+        Integrator::DormandPrince if !(settings.thrust || settings.motors) => {
+            Box::new(RungeKuttaEngine::<S, R, _, WITH_ANGLES>::new(simd, zero, Adaptive(DormandPrince), settings))
         }
-        _ => on_gyrostats::<WITH_ANGLES, _, _, _>(simd, zero, settings, Adaptive(DormandPrince)),
+        _ => integrator.visit(OnGyrostats { simd, zero, settings }),
     }
 }
 
-/// A method on the first `N` components of gyrostats.
-fn on_gyrostats<const N: usize, S: Simd, R: Real + Send + 'static, M: ode::Method + Send + 'static>(
+/// Makes the engine of an integrator's method.
+struct OnGyrostats<'a, S, R> {
     simd: S,
     zero: R,
-    settings: &PropagationSettings,
-    method: M,
-) -> Box<dyn Engine> {
-    Box::new(RungeKuttaEngine::<S, R, M, N>::new(simd, zero, method, settings))
+    settings: &'a PropagationSettings,
+}
+
+impl<S: Simd, R: Real + Send + 'static> Visitor for OnGyrostats<'_, S, R> {
+    type Output = Box<dyn Engine>;
+
+    fn visit<M: ode::Method + Send + 'static>(self, method: M) -> Box<dyn Engine> {
+        let OnGyrostats { simd, zero, settings } = self;
+        Box::new(RungeKuttaEngine::<S, R, M, WITH_THRUST>::new(simd, zero, method, settings))
+    }
 }

@@ -41,11 +41,11 @@ impl GyrostatBatch {
             runs: Vec::new(),
             completion: Completion {
                 grid: plan.grid.clone(),
-                observes_debris_rotation: observes_debris_rotation(plan.blocks),
+                observes_debris_rotation: observes_debris_rotation(plan.fields),
                 debris_runs: Vec::new(),
                 debris_trajectories: Vec::new(),
                 debris_is_integrated: false,
-                table: StateTable::new(plan.blocks, plan.grid.points()),
+                table: StateTable::new(plan.fields, plan.grid.points()),
                 arcs: Vec::new(),
             },
         }

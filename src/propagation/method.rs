@@ -1,5 +1,7 @@
 //! [`Method`]: the integration methods and their names in campaign files.
 
+use crate::ode::Integrator;
+
 /// A formulation of the equations of motion together with an integration method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Method {
@@ -7,39 +9,32 @@ pub enum Method {
     Auto,
     /// Gyrostat, Taylor series with order and step chosen from the tolerance (Jorba & Zou 2005).
     Taylor,
-    /// Gyrostat, Dormand-Prince 5(4).
-    DormandPrince,
-    /// Gyrostat, Dormand-Prince 8(5,3).
-    Dop853,
-    /// Gyrostat, the classical Runge-Kutta method of order 4 with a fixed step.
-    RungeKutta4,
-    /// Gyrostat, Gauss-Legendre collocation of order 6 with a fixed step.
-    GaussLegendre,
+    /// Gyrostat, an integrator of the list in [`crate::ode::integrators`].
+    Gyrostat(Integrator),
     /// The report's 62-state null-space formulation, Dormand-Prince 5(4).
     NullSpace,
 }
 
 impl Method {
     /// All methods, in the order in which they are listed to a user.
-    pub const ALL: [Method; 7] = [
-        Method::Auto,
-        Method::Taylor,
-        Method::DormandPrince,
-        Method::Dop853,
-        Method::RungeKutta4,
-        Method::GaussLegendre,
-        Method::NullSpace,
-    ];
+    pub const ALL: [Method; 3 + Integrator::ALL.len()] = {
+        let mut all = [Method::Auto; 3 + Integrator::ALL.len()];
+        all[1] = Method::Taylor;
+        let mut index = 0;
+        while index < Integrator::ALL.len() {
+            all[2 + index] = Method::Gyrostat(Integrator::ALL[index]);
+            index += 1;
+        }
+        all[2 + index] = Method::NullSpace;
+        all
+    };
 
     /// The name in campaign files and tables.
     pub const fn name(self) -> &'static str {
         match self {
             Method::Auto => "auto",
             Method::Taylor => "taylor",
-            Method::DormandPrince => "dormand_prince",
-            Method::Dop853 => "dop853",
-            Method::RungeKutta4 => "runge_kutta_4",
-            Method::GaussLegendre => "gauss_legendre_6",
+            Method::Gyrostat(integrator) => integrator.name(),
             Method::NullSpace => "null_space",
         }
     }
@@ -50,7 +45,7 @@ impl Method {
     }
 
     /// Whether the method takes steps of a fixed length (`integrator.step_s`) instead of following the tolerance.
-    pub const fn has_fixed_step(self) -> bool {
-        matches!(self, Method::RungeKutta4 | Method::GaussLegendre)
+    pub fn has_fixed_step(self) -> bool {
+        matches!(self, Method::Gyrostat(integrator) if integrator.has_fixed_step())
     }
 }

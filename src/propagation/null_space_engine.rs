@@ -32,7 +32,7 @@ impl<S: Simd> NullSpaceEngine<S> {
             simd,
             settings: settings.clone(),
             lanes: LaneTrajectory::for_lanes(1, COMPONENTS, points),
-            table: StateTable::new(settings.blocks, points),
+            table: StateTable::new(settings.fields, points),
             arcs: Vec::new(),
         }
     }

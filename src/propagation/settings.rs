@@ -18,7 +18,7 @@ pub struct PropagationSettings {
     /// Observation times.
     pub grid: Grid,
     /// The fields of the tables.
-    pub blocks: StateFields,
+    pub fields: StateFields,
     /// Whether thrust or body torque may act.
     pub thrust: bool,
     /// Whether motor torque may act.
@@ -29,12 +29,12 @@ pub struct PropagationSettings {
 
 impl PropagationSettings {
     /// Settings for scenes with the schedule of `nominal` (the magnitudes may differ from run to run).
-    pub fn new(method: Method, control: Control, grid: Grid, blocks: StateFields, nominal: &Scene) -> Self {
+    pub fn new(method: Method, control: Control, grid: Grid, fields: StateFields, nominal: &Scene) -> Self {
         PropagationSettings {
             method,
             control,
             grid,
-            blocks,
+            fields,
             thrust: nominal.commands_thrust || nominal.environment.acts(),
             motors: nominal.commands_torque,
             feedback: false,
@@ -61,11 +61,11 @@ impl PropagationSettings {
         if self.feedback {
             return WITH_THRUST;
         }
-        components(|block| self.blocks.contains(block), self.thrust, self.motors)
+        components(|field| self.fields.contains(field), self.thrust, self.motors)
     }
 }
 
 /// Whether the fields need the rotation of the debris.
-pub fn observes_debris_rotation(blocks: StateFields) -> bool {
-    blocks.contains(StateField::DebrisRate) || blocks.contains(StateField::DebrisAttitude)
+pub fn observes_debris_rotation(fields: StateFields) -> bool {
+    fields.contains(StateField::DebrisRate) || fields.contains(StateField::DebrisAttitude)
 }

@@ -4,6 +4,7 @@ use crate::support::runs::{Run, adaptive, everything, fixed, propagate};
 use crate::support::scenes::{Kind, random};
 use spindrift::math::Isa;
 use spindrift::ode::Control;
+use spindrift::ode::Integrator;
 use spindrift::propagation::Method;
 use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE};
 use spindrift::run::{Grid, StateField};
@@ -13,10 +14,10 @@ use spindrift::scene::{Scene, SceneInput};
 const METHODS: [(Method, Control, f64); 7] = [
     (Method::Auto, adaptive(1e-16), 1e-13),
     (Method::Taylor, adaptive(1e-16), 1e-13),
-    (Method::Dop853, adaptive(1e-13), 1e-11),
-    (Method::DormandPrince, adaptive(1e-12), 1e-10),
-    (Method::GaussLegendre, fixed(1e-3), 1e-10),
-    (Method::RungeKutta4, fixed(1e-3), 1e-7),
+    (Method::Gyrostat(Integrator::Dop853), adaptive(1e-13), 1e-11),
+    (Method::Gyrostat(Integrator::DormandPrince), adaptive(1e-12), 1e-10),
+    (Method::Gyrostat(Integrator::GaussLegendre), fixed(1e-3), 1e-10),
+    (Method::Gyrostat(Integrator::RungeKutta4), fixed(1e-3), 1e-7),
     (Method::NullSpace, adaptive(1e-11), 1e-8),
 ];
 

@@ -16,6 +16,7 @@ use spindrift::math::Isa;
 use spindrift::math::symmetric::principal_axes;
 use spindrift::observables::{Group, Observer, Request};
 use spindrift::ode::Control;
+use spindrift::ode::Integrator;
 use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE};
 use spindrift::propagation::{CompletedRun, Method, PropagationSettings, RotationError, rotation_errors};
 use spindrift::run::Status;
@@ -190,12 +191,12 @@ fn quantile(values: &[f64], p: f64) -> f64 {
 /// The settings of a method: tolerances, or steps.
 fn settings(method: Method) -> Vec<(f64, Control)> {
     let tolerances: &[f64] = match method {
-        Method::RungeKutta4 | Method::GaussLegendre => {
+        Method::Gyrostat(Integrator::RungeKutta4) | Method::Gyrostat(Integrator::GaussLegendre) => {
             return [1e-2, 3e-3, 1e-3].map(|step| (step, fixed(step))).to_vec();
         }
         Method::Auto | Method::Taylor => &[1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14, 1e-16],
-        Method::DormandPrince => &[1e-4, 1e-6, 1e-8, 1e-10],
-        Method::Dop853 => &[1e-4, 1e-6, 1e-8, 1e-10, 1e-12],
+        Method::Gyrostat(Integrator::DormandPrince) => &[1e-4, 1e-6, 1e-8, 1e-10],
+        Method::Gyrostat(Integrator::Dop853) => &[1e-4, 1e-6, 1e-8, 1e-10, 1e-12],
         Method::NullSpace => &[1e-4, 1e-6, 1e-8],
     };
     tolerances.iter().map(|tolerance| (*tolerance, adaptive(*tolerance))).collect()

@@ -5,6 +5,7 @@ use crate::support::runs::{adaptive, everything, fixed};
 use crate::support::scenes::mixed;
 use spindrift::math::Isa;
 use spindrift::ode::Control;
+use spindrift::ode::Integrator;
 use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE};
 use spindrift::propagation::{Method, PropagationSettings};
 use spindrift::run::{Grid, StateField, Status};
@@ -17,10 +18,10 @@ const HORIZON: f64 = 3.1;
 const BOUNDS: [(Method, Control, f64); 7] = [
     (Method::Auto, adaptive(1e-16), 2e-14),
     (Method::Taylor, adaptive(1e-16), 2e-14),
-    (Method::Dop853, adaptive(1e-13), 1e-12),
-    (Method::DormandPrince, adaptive(1e-12), 2e-11),
-    (Method::GaussLegendre, fixed(1e-3), 2e-14),
-    (Method::RungeKutta4, fixed(1e-3), 5e-10),
+    (Method::Gyrostat(Integrator::Dop853), adaptive(1e-13), 1e-12),
+    (Method::Gyrostat(Integrator::DormandPrince), adaptive(1e-12), 2e-11),
+    (Method::Gyrostat(Integrator::GaussLegendre), fixed(1e-3), 2e-14),
+    (Method::Gyrostat(Integrator::RungeKutta4), fixed(1e-3), 5e-10),
     (Method::NullSpace, adaptive(1e-11), 2e-10),
 ];
 

@@ -9,6 +9,7 @@ use crate::support::runs::{Run, adaptive, base_point, fixed, propagate, relative
 use spindrift::math::Isa;
 use spindrift::observables::{Groups, Observer, Request, Series};
 use spindrift::ode::Control;
+use spindrift::ode::Integrator;
 use spindrift::propagation::Method;
 use spindrift::run::Status;
 use spindrift::run::{Grid, StateField};
@@ -159,12 +160,12 @@ fn embedded(method: Method, bounds: Errors) {
 
 #[test]
 fn dormand_prince() {
-    embedded(Method::DormandPrince, Errors::all(EMBEDDED));
+    embedded(Method::Gyrostat(Integrator::DormandPrince), Errors::all(EMBEDDED));
 }
 
 #[test]
 fn dop853() {
-    embedded(Method::Dop853, Errors::all(EMBEDDED));
+    embedded(Method::Gyrostat(Integrator::Dop853), Errors::all(EMBEDDED));
 }
 
 #[test]
@@ -192,7 +193,10 @@ fn auto() {
 
 #[test]
 fn methods_with_fixed_steps() {
-    for (method, step, bound) in [(Method::RungeKutta4, 1e-3, 1e-7), (Method::GaussLegendre, 1e-3, 1e-10)] {
+    for (method, step, bound) in [
+        (Method::Gyrostat(Integrator::RungeKutta4), 1e-3, 1e-7),
+        (Method::Gyrostat(Integrator::GaussLegendre), 1e-3, 1e-10),
+    ] {
         for name in ["table1", "forced"] {
             let what = format!("{} in steps of {step} s, {name}", method.name());
             errors(name, method, fixed(step)).assert_below(Errors::all(bound), &what);
@@ -203,7 +207,7 @@ fn methods_with_fixed_steps() {
 /// Counter-test: a loose tolerance, and a wheel a hundred-millionth too heavy, are seen by the same comparison.
 #[test]
 fn the_comparison_can_fail() {
-    let loose = errors("table1", Method::DormandPrince, adaptive(1e-7));
+    let loose = errors("table1", Method::Gyrostat(Integrator::DormandPrince), adaptive(1e-7));
     assert!(loose.omega > EMBEDDED && loose.attitude > EMBEDDED, "{loose:?}");
     let golden = Golden::load("table1");
     let mut input = golden.scene.clone();

@@ -9,6 +9,7 @@ use crate::support::plans::{Table, rows, shipped};
 use crate::support::runs::{Run, adaptive, blocks, propagate_on};
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::math::Isa;
+use spindrift::ode::Integrator;
 use spindrift::ode::Tolerance;
 use spindrift::propagation::Method;
 use spindrift::propagation::PropagationSettings;
@@ -233,7 +234,13 @@ fn any_tolerance_passes() {
     let mut scene = table_one();
     scene.initial.angular_velocity_rad_s = [0.3, -0.2, 1.0];
     scene.initial.wheel_rates_rad_s = [20.0, -30.0];
-    for method in [Method::Auto, Method::Taylor, Method::DormandPrince, Method::Dop853, Method::NullSpace] {
+    for method in [
+        Method::Auto,
+        Method::Taylor,
+        Method::Gyrostat(Integrator::DormandPrince),
+        Method::Gyrostat(Integrator::Dop853),
+        Method::NullSpace,
+    ] {
         let errors = [1e-16, 1e-2].map(|tolerance| {
             let mut plan = plan(&scene, 0.25, 41);
             plan.method = method;

@@ -2,6 +2,7 @@
 
 use spindrift::campaign::{Compression, Overrides, Plan};
 use spindrift::observables::Group;
+use spindrift::ode::Integrator;
 use spindrift::propagation::Method;
 use spindrift::scene::Scene;
 use std::path::Path;
@@ -180,7 +181,7 @@ compression = "none"
 fn every_key_reads_back() {
     let plan = Plan::from_text("full.toml", FULL, Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!((plan.samples, plan.seed, plan.max_steps), (16, i64::MAX as u64, 5));
-    assert_eq!((plan.method, plan.step_s), (Method::RungeKutta4, Some(1e-4)));
+    assert_eq!((plan.method, plan.step_s), (Method::Gyrostat(Integrator::RungeKutta4), Some(1e-4)));
     assert_eq!((plan.tolerance.relative, plan.tolerance.absolute), (1e-9, 1e-12));
     assert_eq!(plan.groups, [Group::EnergyConservation, Group::StepStatistics], "in the order of the columns");
     assert_eq!(plan.compression, Compression::None);

@@ -8,6 +8,7 @@ use spindrift::dynamics::actuation::Laws;
 use spindrift::math::Isa;
 use spindrift::observables::{Groups, Observer, Request};
 use spindrift::ode::Control;
+use spindrift::ode::Integrator;
 use spindrift::propagation::{CompletedRun, Method, PropagationSettings};
 use spindrift::run::Grid;
 use spindrift::scene::{Arc, Scene};
@@ -18,10 +19,10 @@ const HORIZON: f64 = 3.1;
 const METHODS: [(Method, Control); 7] = [
     (Method::Auto, adaptive(1e-12)),
     (Method::Taylor, adaptive(1e-12)),
-    (Method::DormandPrince, adaptive(1e-8)),
-    (Method::Dop853, adaptive(1e-8)),
-    (Method::RungeKutta4, fixed(0.01)),
-    (Method::GaussLegendre, fixed(0.01)),
+    (Method::Gyrostat(Integrator::DormandPrince), adaptive(1e-8)),
+    (Method::Gyrostat(Integrator::Dop853), adaptive(1e-8)),
+    (Method::Gyrostat(Integrator::RungeKutta4), fixed(0.01)),
+    (Method::Gyrostat(Integrator::GaussLegendre), fixed(0.01)),
     (Method::NullSpace, adaptive(1e-5)),
 ];
 

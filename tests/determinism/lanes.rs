@@ -4,6 +4,7 @@ use crate::support::runs::{Bits, Run, adaptive, everything, fixed, hash, propaga
 use crate::support::scenes::mixed;
 use spindrift::math::Isa;
 use spindrift::ode::Control;
+use spindrift::ode::Integrator;
 use spindrift::propagation::CompletedRun;
 use spindrift::propagation::Method;
 use spindrift::propagation::PropagationSettings;
@@ -61,18 +62,18 @@ fn taylor() {
 
 #[test]
 fn dormand_prince() {
-    equal_in_any_company(Method::DormandPrince, adaptive(1e-8));
+    equal_in_any_company(Method::Gyrostat(Integrator::DormandPrince), adaptive(1e-8));
 }
 
 #[test]
 fn dop853() {
-    equal_in_any_company(Method::Dop853, adaptive(1e-8));
+    equal_in_any_company(Method::Gyrostat(Integrator::Dop853), adaptive(1e-8));
 }
 
 #[test]
 fn methods_with_fixed_steps() {
-    equal_in_any_company(Method::RungeKutta4, fixed(0.01));
-    equal_in_any_company(Method::GaussLegendre, fixed(0.01));
+    equal_in_any_company(Method::Gyrostat(Integrator::RungeKutta4), fixed(0.01));
+    equal_in_any_company(Method::Gyrostat(Integrator::GaussLegendre), fixed(0.01));
 }
 
 #[test]
@@ -118,22 +119,22 @@ const GOLDEN: [(Method, &str, &str); 7] = [
         "734625bee8aaeb0ec0983c683d6a54cd867b700a859434b64bcf52c09d761622",
     ),
     (
-        Method::DormandPrince,
+        Method::Gyrostat(Integrator::DormandPrince),
         "98b666c6598c06bfbc659c6daedf530b406ba72cea1f3c1c274f684af65d825a",
         "35453f7aadc57cfb35577b0d8f3d3bb071501230801766b2520bab6f07f1cc8b",
     ),
     (
-        Method::Dop853,
+        Method::Gyrostat(Integrator::Dop853),
         "09aaab6fca8de5d1a8dd4f40b9e5e871c57f2dd0872b686725f8792580a4996f",
         "c5927ff47dae48c177e950a70532e9857d2ddbb30eacef9cb0cc4fbbf988f619",
     ),
     (
-        Method::RungeKutta4,
+        Method::Gyrostat(Integrator::RungeKutta4),
         "b12204d809439ba8b0d36d2ab6d3064aa8c438d9b0c71cb9475da46e0cc4ce4f",
         "d8c41193ad6096294757d77b73dba655a4b32207c81e1247c06639b11f90abac",
     ),
     (
-        Method::GaussLegendre,
+        Method::Gyrostat(Integrator::GaussLegendre),
         "ffb8ee51245782fdd5503dab671360640093cef20f5415435cce774e55225272",
         "3f2593a94efcea1575f39642171e2f7bd96ad8fd868cde9ebb8ff402ea855701",
     ),
@@ -150,9 +151,9 @@ fn bits_are_golden() {
     for (method, free, forced) in GOLDEN {
         let control = match method {
             Method::Auto | Method::Taylor => adaptive(1e-12),
-            Method::RungeKutta4 | Method::GaussLegendre => fixed(0.01),
+            Method::Gyrostat(Integrator::RungeKutta4) | Method::Gyrostat(Integrator::GaussLegendre) => fixed(0.01),
             Method::NullSpace => adaptive(1e-5),
-            Method::DormandPrince | Method::Dop853 => adaptive(1e-8),
+            Method::Gyrostat(Integrator::DormandPrince) | Method::Gyrostat(Integrator::Dop853) => adaptive(1e-8),
         };
         for (expected, forced) in [(free, false), (forced, true)] {
             let scenes = mixed(16, forced, HORIZON);

@@ -5,6 +5,7 @@ use crate::support::scenes::mixed;
 use spindrift::math::Isa;
 use spindrift::observables::{Group, Groups, Observer, Request};
 use spindrift::ode::Control;
+use spindrift::ode::Integrator;
 use spindrift::propagation::CompletedRun;
 use spindrift::propagation::Method;
 use spindrift::propagation::PropagationSettings;
@@ -16,7 +17,7 @@ const HORIZON: f64 = 6.0;
 
 fn control(method: Method) -> Control {
     match method {
-        Method::RungeKutta4 | Method::GaussLegendre => fixed(0.01),
+        Method::Gyrostat(Integrator::RungeKutta4) | Method::Gyrostat(Integrator::GaussLegendre) => fixed(0.01),
         Method::Auto | Method::Taylor => adaptive(1e-12),
         _ => adaptive(1e-6),
     }
@@ -77,7 +78,12 @@ fn taylor() {
 
 #[test]
 fn comparison_methods() {
-    for method in [Method::DormandPrince, Method::Dop853, Method::RungeKutta4, Method::GaussLegendre] {
+    for method in [
+        Method::Gyrostat(Integrator::DormandPrince),
+        Method::Gyrostat(Integrator::Dop853),
+        Method::Gyrostat(Integrator::RungeKutta4),
+        Method::Gyrostat(Integrator::GaussLegendre),
+    ] {
         skipping_changes_nothing(method);
     }
 }
@@ -117,7 +123,7 @@ fn debris_changes_nothing_of_the_spacecraft() {
         for scene in &mut without {
             scene.mass.debris = None;
         }
-        for method in [Method::Auto, Method::Taylor, Method::DormandPrince] {
+        for method in [Method::Auto, Method::Taylor, Method::Gyrostat(Integrator::DormandPrince)] {
             let states = |scenes: &[Scene]| -> Vec<Bits> {
                 let plan =
                     PropagationSettings::new(method, control(method), grid.clone(), everything(method), &scenes[0]);
@@ -132,9 +138,12 @@ fn debris_changes_nothing_of_the_spacecraft() {
 #[test]
 fn groups_do_not_reach_each_other() {
     let grid = Grid::uniform(HORIZON, 29);
-    for (forced, method) in
-        [(false, Method::Auto), (true, Method::Auto), (true, Method::Taylor), (true, Method::DormandPrince)]
-    {
+    for (forced, method) in [
+        (false, Method::Auto),
+        (true, Method::Auto),
+        (true, Method::Taylor),
+        (true, Method::Gyrostat(Integrator::DormandPrince)),
+    ] {
         let scenes = mixed(13, forced, HORIZON);
         let rows = |groups: Groups| {
             let request = Request { groups, debris: true, actuated: forced, constrained: false };

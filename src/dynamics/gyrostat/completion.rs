@@ -13,7 +13,7 @@ use crate::math::vector::{
 use crate::math::{Lanes, Real};
 use crate::run::{Grid, StateField, StateTable, Trajectory};
 
-/// The smallest number of integrated components from which the spacecraft's blocks of `table` follow.
+/// The smallest number of integrated components from which the spacecraft's fields of `table` follow.
 ///
 /// `thrust` and `motors` say whether thrust or body torque, and motor torque, may act.
 pub fn components(has: impl Fn(StateField) -> bool, thrust: bool, motors: bool) -> usize {
@@ -35,7 +35,7 @@ pub fn components(has: impl Fn(StateField) -> bool, thrust: bool, motors: bool) 
     }
 }
 
-/// Fills the spacecraft's blocks of `table` from the first `N` integrated components; blocks that need components beyond
+/// Fills the spacecraft's fields of `table` from the first `N` integrated components; fields that need components beyond
 /// them are those of a run without thrust or motors.
 #[inline(always)]
 pub fn complete<S: Simd, const N: usize>(
@@ -55,7 +55,7 @@ pub fn complete<S: Simd, const N: usize>(
         StateField::AngularImpulse,
         StateField::Work,
     ];
-    let translation = translation.into_iter().any(|block| table.has(block));
+    let translation = translation.into_iter().any(|field| table.has(field));
     if !wheels && !translation {
         return;
     }
@@ -157,9 +157,9 @@ fn complete_wheels<S: Simd, const N: usize>(
         let inverse = run.inverse_axial(wheel);
         if inverse == 0.0 {
             // a missing wheel does not turn
-            for block in [StateField::WheelRates, StateField::WheelAngles] {
-                if table.has(block) {
-                    chunk.zero().store(&mut table.column_mut(block, wheel)[chunk.first..]);
+            for field in [StateField::WheelRates, StateField::WheelAngles] {
+                if table.has(field) {
+                    chunk.zero().store(&mut table.column_mut(field, wheel)[chunk.first..]);
                 }
             }
             continue;
@@ -301,10 +301,10 @@ impl<S: Simd> Chunk<S> {
     }
 
     #[inline(always)]
-    fn write3(self, table: &mut StateTable, block: StateField, values: [Lanes<S>; 3]) {
-        if table.has(block) {
+    fn write3(self, table: &mut StateTable, field: StateField, values: [Lanes<S>; 3]) {
+        if table.has(field) {
             for (i, value) in values.into_iter().enumerate() {
-                value.store(&mut table.column_mut(block, i)[self.first..]);
+                value.store(&mut table.column_mut(field, i)[self.first..]);
             }
         }
     }

@@ -51,14 +51,14 @@ pub struct ReferenceSolution {
 }
 
 impl ReferenceSolution {
-    /// The motion of `scene` by its own schedule, observed at the times of `grid`, in the blocks of `blocks` that a gyrostat has
+    /// The motion of `scene` by its own schedule, observed at the times of `grid`, in the fields of `fields` that a gyrostat has
     /// (all but [`StateField::Dcm`] and [`StateField::Residuals`], which stay zero). The debris is only integrated where it is
     /// observed.
     ///
     /// # Errors
     /// [`Status::NonFinite`] or [`Status::StepLimit`], where the run does not reach its end.
-    pub fn new(isa: Isa, scene: &Scene, grid: &Grid, blocks: StateFields, tolerance: f64) -> Result<Self, Status> {
-        Self::solve(isa, scene, None, grid, blocks, tolerance)
+    pub fn new(isa: Isa, scene: &Scene, grid: &Grid, fields: StateFields, tolerance: f64) -> Result<Self, Status> {
+        Self::solve(isa, scene, None, grid, fields, tolerance)
     }
 
     /// The same under `law` in place of the scene's schedule. The law sees the state rounded to `f64`.
@@ -73,10 +73,10 @@ impl ReferenceSolution {
         isa: Isa,
         scene: &Scene,
         grid: &Grid,
-        blocks: StateFields,
+        fields: StateFields,
         tolerance: f64,
     ) -> Result<Self, Status> {
-        Self::solve(isa, scene, Some(law), grid, blocks, tolerance)
+        Self::solve(isa, scene, Some(law), grid, fields, tolerance)
     }
 
     fn solve(
@@ -84,7 +84,7 @@ impl ReferenceSolution {
         scene: &Scene,
         law: Option<&mut dyn ActuationLaw>,
         grid: &Grid,
-        blocks: StateFields,
+        fields: StateFields,
         tolerance: f64,
     ) -> Result<Self, Status> {
         let rule = StepRule::new(tolerance);
@@ -94,7 +94,7 @@ impl ReferenceSolution {
         if law.is_none() {
             coarse.expect_schedule(scene, grid.duration());
         }
-        let mut solution = Self::blank(blocks, grid);
+        let mut solution = Self::blank(fields, grid);
         let states =
             isa.run_narrow(Integration { run: &mut run, coarse: &mut coarse, scene: Some(scene), law, grid, rule })?;
         for (point, state) in states.iter().enumerate() {
@@ -108,32 +108,32 @@ impl ReferenceSolution {
         Ok(solution)
     }
 
-    fn blank(blocks: StateFields, grid: &Grid) -> Self {
-        let table = StateTable::new(blocks, grid.points());
+    fn blank(fields: StateFields, grid: &Grid) -> Self {
+        let table = StateTable::new(fields, grid.points());
         ReferenceSolution { high: table.clone(), low: table }
     }
 
-    /// The components of `block` at point `point`, in all digits.
-    pub fn at<const K: usize>(&self, block: StateField, point: usize) -> [DoubleDouble; K] {
-        let (high, low) = (self.high.at::<K>(block, point), self.low.at::<K>(block, point));
+    /// The components of `field` at point `point`, in all digits.
+    pub fn at<const K: usize>(&self, field: StateField, point: usize) -> [DoubleDouble; K] {
+        let (high, low) = (self.high.at::<K>(field, point), self.low.at::<K>(field, point));
         std::array::from_fn(|i| DoubleDouble { high: high[i], low: low[i] })
     }
 
-    /// |`sign` x - reference| of the components x of `block` at `point` of `table`, in all digits of the reference.
-    pub fn distance<const K: usize>(&self, table: &StateTable, block: StateField, point: usize, sign: f64) -> f64 {
-        let (high, low) = (self.high.at::<K>(block, point), self.low.at::<K>(block, point));
-        let state = table.at::<K>(block, point);
+    /// |`sign` x - reference| of the components x of `field` at `point` of `table`, in all digits of the reference.
+    pub fn distance<const K: usize>(&self, table: &StateTable, field: StateField, point: usize, sign: f64) -> f64 {
+        let (high, low) = (self.high.at::<K>(field, point), self.low.at::<K>(field, point));
+        let state = table.at::<K>(field, point);
         (0..K).map(|i| (sign * state[i] - high[i]) - low[i]).map(|off| off * off).sum::<f64>().sqrt()
     }
 
-    fn put<const K: usize>(&mut self, block: StateField, point: usize, values: [DoubleDouble; K]) {
-        if self.high.has(block) {
-            self.high.set(block, point, values.map(|value| value.high));
-            self.low.set(block, point, values.map(|value| value.low));
+    fn put<const K: usize>(&mut self, field: StateField, point: usize, values: [DoubleDouble; K]) {
+        if self.high.has(field) {
+            self.high.set(field, point, values.map(|value| value.high));
+            self.low.set(field, point, values.map(|value| value.low));
         }
     }
 
-    /// Fills the spacecraft's blocks at `point` from the integrated components.
+    /// Fills the spacecraft's fields at `point` from the integrated components.
     fn complete(&mut self, run: &Gyrostat<DoubleDouble>, time: f64, point: usize, y: &[DoubleDouble; N]) {
         let zero = DoubleDouble::exact(0.0);
         let (omega_b, omega_s, q_es) = rotation(run, y);
@@ -161,7 +161,7 @@ impl ReferenceSolution {
         self.put(StateField::Work, point, [y[THRUST_WORK], motors]);
     }
 
-    /// Fills the blocks of the debris.
+    /// Fills the fields of the debris.
     fn complete_debris(&mut self, isa: Isa, scene: &Scene, grid: &Grid, rule: StepRule) -> Result<(), Status> {
         let (start, velocity) = (scene.initial.r_gdo_e, scene.initial.v_gdo_e.map(DoubleDouble::exact));
         for (point, time) in grid.times().iter().enumerate() {

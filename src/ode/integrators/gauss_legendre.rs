@@ -6,14 +6,14 @@
 
 #![allow(
     clippy::needless_range_loop,
-    reason = "iterators over lanes are not inlined always, see `super::explicit::each`"
+    reason = "iterators over lanes are not inlined always, see `super::super::explicit::each`"
 )]
 
-use super::error_model::Remainder;
-use super::explicit::{Carried, Step, chosen, each, poison, scaled, weighted};
-use super::fixed::{Advance, FixedStep};
-use super::system::{System, Tolerance};
-use super::tableau::{GaussLegendreTableau, Tableau};
+use super::super::error_model::Remainder;
+use super::super::explicit::{Carried, Step, chosen, each, poison, scaled, weighted};
+use super::super::fixed::{Advance, FixedStep};
+use super::super::system::{System, Tolerance};
+use super::super::tableau::{GaussLegendreTableau, Tableau};
 use crate::math::{Mask, Real};
 
 /// Sweeps after which a step counts as too long for the iteration; a contraction by one half reaches round-off in 52.

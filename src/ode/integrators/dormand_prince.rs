@@ -5,7 +5,7 @@ use super::super::explicit::{Carried, Step, each, fill_stages, poison, scaled, w
 use super::super::step_control::Controller;
 use super::super::system::{System, Tolerance};
 use super::super::tableau::{DormandPrinceTableau, Tableau};
-use super::pair::{Embedded, PairAttempt};
+use super::super::embedded::{Embedded, PairAttempt};
 use crate::math::Real;
 use crate::math::power::power;
 

@@ -1,10 +1,10 @@
 //! The classical Runge-Kutta method of order 4 with a fixed step.
 
-use super::error_model::Remainder;
-use super::explicit::{Carried, Step, fill_stages, poison, weighted};
-use super::fixed::{Advance, FixedStep};
-use super::system::{System, Tolerance};
-use super::tableau::{RungeKutta4Tableau, Tableau};
+use super::super::error_model::Remainder;
+use super::super::explicit::{Carried, Step, fill_stages, poison, weighted};
+use super::super::fixed::{Advance, FixedStep};
+use super::super::system::{System, Tolerance};
+use super::super::tableau::{RungeKutta4Tableau, Tableau};
 use crate::math::Real;
 
 /// The classical Runge-Kutta method of order 4.

@@ -1,9 +1,9 @@
 //! [`Embedded`]: an explicit method with an error estimate and dense output.
 
-use super::super::error_model::StepErrors;
-use super::super::explicit::{Carried, Step};
-use super::super::step_control::Controller;
-use super::super::system::{System, Tolerance};
+use super::error_model::StepErrors;
+use super::explicit::{Carried, Step};
+use super::step_control::Controller;
+use super::system::{System, Tolerance};
 use crate::math::Real;
 
 /// An attempted step, apart from the state at its end.
