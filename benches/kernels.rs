@@ -23,7 +23,7 @@ use fearless_simd::Simd;
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::dynamics::gyrostat::equations::Constants;
 use spindrift::dynamics::gyrostat::{ATTITUDE, Gyrostat, OMEGA, WITH_ANGLES};
-use spindrift::dynamics::null_space::{COMPONENTS, Kernel, sigma};
+use spindrift::dynamics::null_space::{Kernel, components, sigma};
 use spindrift::ensemble::Ensemble;
 use spindrift::ensemble::worker::BATCH;
 use spindrift::math::isa::Work;
@@ -78,15 +78,15 @@ fn scenes(plan: &Plan, count: usize) -> Vec<Scene> {
 
 /// A chain of evaluations of the null-space kernel.
 struct NullSpaceChain<'a> {
-    kernel: &'a Kernel,
-    state: [f64; COMPONENTS],
+    kernel: &'a Kernel<2>,
+    state: [f64; components(2)],
 }
 
 impl Work for NullSpaceChain<'_> {
-    type Output = [f64; COMPONENTS];
+    type Output = [f64; components(2)];
 
     #[inline(always)]
-    fn run<S: Simd>(self, _simd: S) -> [f64; COMPONENTS] {
+    fn run<S: Simd>(self, _simd: S) -> [f64; components(2)] {
         let mut x = self.state;
         for _ in 0..EVALUATIONS {
             let rate = self.kernel.derivative(&x);
@@ -141,7 +141,7 @@ fn chain<R: Real>(zero: R, run: &Gyrostat<f64>) -> f64 {
 fn right_hand_side(criterion: &mut Criterion) {
     let spin_sweep = plan("spin_sweep.toml");
     let scene = Scene::resolve(&spin_sweep.nominal).expect("the report's scene is physical");
-    let kernel = Kernel::new(&scene);
+    let kernel = Kernel::<2>::new(&scene);
     let gyrostat = Gyrostat::new(0.0, &scene, 10.0);
     let mut group = criterion.benchmark_group("right-hand side");
     for isa in Isa::available() {
@@ -153,7 +153,7 @@ fn right_hand_side(criterion: &mut Criterion) {
         }
         group.throughput(Throughput::Elements(EVALUATIONS as u64));
         group.bench_function(format!("reference/{}", isa.name()), |bencher| {
-            let state = sigma(&scene).components();
+            let state = sigma::<2>(&scene).components();
             bencher.iter(|| black_box(isa.run(NullSpaceChain { kernel: &kernel, state: black_box(state) })));
         });
     }

@@ -12,7 +12,7 @@ use spindrift::campaign::{Overrides, Plan};
 use spindrift::dynamics::actuation::Laws;
 use spindrift::dynamics::gyrostat::Gyrostat;
 use spindrift::dynamics::gyrostat::equations::Constants;
-use spindrift::dynamics::null_space::{Kernel, sigma};
+use spindrift::dynamics::null_space::{Kernel, components, sigma};
 use spindrift::ensemble::{Ensemble, Part, PartId, Rows};
 use spindrift::math::Isa;
 use spindrift::observables::{Groups, Observer, Request};
@@ -198,14 +198,14 @@ fn observation() {
 fn right_hand_sides() {
     let scene = &mixed(1, true, 1.0)[0];
     let actuation = scene.schedule[0].applied;
-    let state = sigma(scene).components();
+    let state: [f64; components(2)] = sigma::<2>(scene).components();
     let gyrostat = Gyrostat::new(0.0, scene, 1.0);
     let mut constants = Constants::zero(0.0);
     constants.set_run(0, &gyrostat, 1.0);
     constants.set_arc(0, &gyrostat, 0, 1.0);
     let reduced: [f64; 21] = std::array::from_fn(|i| 0.1 * i as f64);
     let counted = allocations(|| {
-        let mut kernel = Kernel::new(scene);
+        let mut kernel = Kernel::<2>::new(scene);
         kernel.drive(&actuation);
         black_box(kernel.derivative(black_box(&state)));
         black_box(constants.derivative(0.0, black_box(&reduced)));

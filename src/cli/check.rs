@@ -55,7 +55,7 @@ fn section(text: &mut String, title: &str) -> std::fmt::Result {
 /// Masses, centre of mass, inertia, with the convention.
 fn masses(text: &mut String, mass: &MassProperties) -> std::fmt::Result {
     section(text, "Mass properties of the nominal scene")?;
-    let [wheel1, wheel2] = &mass.wheels;
+    let (wheel1, wheel2) = (&mass.wheels[0], &mass.wheels[1]);
     let debris = mass.debris.as_ref().map(|debris| ("debris", debris.mass));
     for (body, mass) in [("fuselage", mass.fuselage.mass), ("wheel 1", wheel1.mass), ("wheel 2", wheel2.mass)]
         .into_iter()

@@ -13,7 +13,7 @@
 //! and control laws proper, and the equations on which the values act.
 
 use crate::scene::schedule::actuation_at;
-pub use crate::scene::{Actuation, Arc, THRUSTERS, WHEELS};
+pub use crate::scene::{Actuation, Arc, MAX_THRUSTERS, MAX_WHEELS};
 
 /// The motion of the spacecraft's body at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,15 +28,21 @@ pub struct BodyState {
     pub v_co_e: [f64; 3],
 }
 
-/// The motion of the wheels at a time. A wheel that the spacecraft does not have is at rest.
+/// The motion of the wheels at a time, in their order; zero beyond the wheels that the spacecraft has.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WheelState {
     /// Rates relative to the fuselage, rad/s.
-    pub rates: [f64; WHEELS],
+    pub rates: [f64; MAX_WHEELS],
     /// Angular momenta about their axes relative to F_e, J_i (Omega_i + a_i . omega), N m s.
-    pub momenta: [f64; WHEELS],
+    pub momenta: [f64; MAX_WHEELS],
     /// Angles relative to the fuselage, rad, not wrapped.
-    pub angles: [f64; WHEELS],
+    pub angles: [f64; MAX_WHEELS],
+}
+
+impl WheelState {
+    /// No wheel turns.
+    pub const AT_REST: WheelState =
+        WheelState { rates: [0.0; MAX_WHEELS], momenta: [0.0; MAX_WHEELS], angles: [0.0; MAX_WHEELS] };
 }
 
 /// Decides what acts on one run, arc by arc.
@@ -193,17 +199,16 @@ mod tests {
 
     const BODY: BodyState =
         BodyState { omega_se_s: [0.0; 3], q_es: [1.0, 0.0, 0.0, 0.0], r_co_e: [0.0; 3], v_co_e: [0.0; 3] };
-    const WHEEL: WheelState = WheelState { rates: [0.0; 2], momenta: [0.0; 2], angles: [0.0; 2] };
 
     fn thrust(until: f64, thrust: f64) -> Actuation {
-        Actuation { thrust: [thrust, 0.0, 0.0], ..Actuation::none(until) }
+        Actuation::none(until).with_thrust(&[thrust])
     }
 
     /// The arcs of `law` up to `duration`: start, end, thrust.
     fn arcs(law: &mut dyn ActuationLaw, duration: f64) -> Vec<(f64, f64, f64)> {
         let (mut time, mut list) = (0.0, Vec::new());
         while time < duration {
-            let arc = Arc::new(time, law.arc(time, &BODY, &WHEEL), duration);
+            let arc = Arc::new(time, law.arc(time, &BODY, &WheelState::AT_REST), duration);
             time = arc.end();
             list.push((arc.start, arc.end(), arc.applied.thrust[0]));
         }
@@ -227,8 +232,8 @@ mod tests {
             thrust(f64::INFINITY, time)
         });
         // in between, the answer is held
-        assert_eq!(law.arc(0.0, &BODY, &WHEEL), thrust(0.1, 0.0));
-        assert_eq!(law.arc(0.05, &BODY, &WHEEL), thrust(0.1, 0.0));
+        assert_eq!(law.arc(0.0, &BODY, &WheelState::AT_REST), thrust(0.1, 0.0));
+        assert_eq!(law.arc(0.05, &BODY, &WheelState::AT_REST), thrust(0.1, 0.0));
         let flown = arcs(&mut law, 0.35);
         assert_eq!(flown.len(), 4);
         let samples: Vec<f64> = (0..4).map(|k| f64::from(k) * 0.1).collect();

@@ -26,10 +26,7 @@ pub fn set_rotation<R: Real>(run: &mut Gyrostat<R>, scene: &Scene) -> bool {
     let Some(body) = &scene.mass.debris else { return false };
     let zero = run.mass.zero();
     run.set_body(zero, body.inertia);
-    run.axial = [zero; 2];
-    run.initial_momentum = [zero; 2];
-    run.held = [None; 2];
-    run.axes_b = [[zero; 3]; 2];
+    run.wheels.clear();
     run.mass = zero.splat(body.mass);
     let omega_b = run.into_b(constant(zero, scene.initial.omega_de_d));
     let q_ed = constant_quaternion(zero, scene.initial.q_ed);

@@ -251,7 +251,7 @@ impl Auditor {
             },
         );
         let high = found?;
-        let low = StateTable::new(high.fields(), high.points());
+        let low = StateTable::new(high.fields(), high.wheels(), high.points());
         Some((ReferenceSolution { high, low }, PLAIN_TOLERANCE))
     }
 }

@@ -15,6 +15,7 @@ pub mod double_double;
 pub mod incomplete_beta;
 pub mod isa;
 pub mod lanes;
+pub mod list;
 pub mod normal;
 pub mod pair;
 pub mod power;

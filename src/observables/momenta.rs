@@ -65,7 +65,7 @@ pub(super) fn angular_momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mu
     let [rate1, rate2]: [_; 2] = needed(table, StateField::WheelRates, vectors);
     let impulse: Option<[_; 3]> = columns(table, StateField::AngularImpulse, vectors);
     let inertia = constant_matrix(simd, mass.inertia);
-    let [w1, w2] = &mass.wheels;
+    let (w1, w2) = (&mass.wheels[0], &mass.wheels[1]);
     let axes = [constant(simd, scaled(w1.axial, w1.axis)), constant(simd, scaled(w2.axial, w2.axis))];
     let columns = out.write([Series::AngularMomentumError, Series::AngularMomentumSquare], vectors);
     let mut sink = Sink::new(simd, columns);

@@ -2,6 +2,7 @@
 
 use crate::dynamics::actuation::Laws;
 use crate::dynamics::applied::law_arc;
+use crate::dynamics::gyrostat::observed::observed_state;
 use crate::dynamics::gyrostat::{Gyrostat, WITH_THRUST};
 use crate::scene::Scene;
 
@@ -55,7 +56,7 @@ impl<'a> ArcSource<'a> {
         match &mut self.laws {
             Laws::OpenLoop => gyrostat.begin_scheduled_arc(scene, time, self.duration),
             Laws::Feedback(source) => {
-                let (body, wheels) = gyrostat.observed_state(time, &components());
+                let (body, wheels) = observed_state(gyrostat, time, &components());
                 let arc = law_arc(scene, source.law(run), time, (&body, &wheels), self.duration);
                 gyrostat.begin_arc(scene, arc);
                 gyrostat.note_rate();

@@ -6,7 +6,7 @@ use fearless_simd::Simd;
 
 use super::engine::Engine;
 use super::method::Method;
-use super::null_space_engine::NullSpaceEngine;
+use super::null_space_engine::{ALL_WHEELS, NullSpaceEngine, TWO_WHEELS};
 use super::runge_kutta_engine::RungeKuttaEngine;
 use super::settings::PropagationSettings;
 use super::taylor::engine::TaylorEngine;
@@ -15,6 +15,7 @@ use crate::math::isa::{NarrowWork, WideWork};
 use crate::math::{Isa, Lanes, Real};
 use crate::ode::integrators::Visitor;
 use crate::ode::{self, Adaptive, DormandPrince, Integrator};
+use crate::scene::MAX_WHEELS;
 
 impl PropagationSettings {
     /// The engine for one worker on the instruction set `isa`.
@@ -64,7 +65,12 @@ impl NarrowWork for BuildNullSpace<'_> {
     }
 
     fn in_scalars<S: Simd>(self, simd: S) -> Self::Output {
-        Box::new(NullSpaceEngine::new(simd, self.0))
+        // a kernel for the report's two wheels, and one for any number
+        if self.0.wheels <= 2 {
+            Box::new(NullSpaceEngine::<S, 2, TWO_WHEELS>::new(simd, self.0))
+        } else {
+            Box::new(NullSpaceEngine::<S, MAX_WHEELS, ALL_WHEELS>::new(simd, self.0))
+        }
     }
 }
 

@@ -45,7 +45,7 @@ impl GyrostatBatch {
                 debris_runs: Vec::new(),
                 debris_trajectories: Vec::new(),
                 debris_is_integrated: false,
-                table: StateTable::new(plan.fields, plan.grid.points()),
+                table: StateTable::new(plan.fields, plan.wheels, plan.grid.points()),
                 arcs: Vec::new(),
             },
         }

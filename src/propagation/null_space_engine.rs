@@ -1,4 +1,4 @@
-//! The report's 62-state form with Dormand-Prince 5(4), as an [`Engine`].
+//! The report's null-space formulation with Dormand-Prince 5(4), as an [`Engine`].
 
 use fearless_simd::Simd;
 
@@ -7,16 +7,21 @@ use super::null_space_runs::NullSpaceRuns;
 use super::settings::PropagationSettings;
 use super::trajectory_recorder::{LaneTrajectory, TrajectoryRecorder};
 use crate::dynamics::actuation::Laws;
-use crate::dynamics::null_space::{COMPONENTS, complete};
+use crate::dynamics::null_space::{complete, components};
 use crate::ode::{Adaptive, DormandPrinceRestepped, Method, integrate};
 use crate::run::{Outcome, StateTable, Trajectory};
-use crate::scene::{Arc, Scene};
+use crate::scene::{Arc, MAX_WHEELS, Scene};
 
 /// The method: points inside a step by a step of their own, which costs little beside the right-hand side.
 type Pair = Adaptive<DormandPrinceRestepped>;
 
-/// One worker's memory.
-pub struct NullSpaceEngine<S> {
+/// Number of components of the report's two wheels.
+pub const TWO_WHEELS: usize = components(2);
+/// Number of components of as many wheels as a spacecraft may have.
+pub const ALL_WHEELS: usize = components(MAX_WHEELS);
+
+/// One worker's memory, for kernels of `W` wheels and `N` components.
+pub struct NullSpaceEngine<S, const W: usize, const N: usize> {
     simd: S,
     settings: PropagationSettings,
     lanes: Vec<LaneTrajectory>,
@@ -24,15 +29,15 @@ pub struct NullSpaceEngine<S> {
     arcs: Vec<Arc>,
 }
 
-impl<S: Simd> NullSpaceEngine<S> {
+impl<S: Simd, const W: usize, const N: usize> NullSpaceEngine<S, W, N> {
     /// Memory for runs with `settings`.
     pub fn new(simd: S, settings: &PropagationSettings) -> Self {
         let points = settings.grid.points();
         NullSpaceEngine {
             simd,
             settings: settings.clone(),
-            lanes: LaneTrajectory::for_lanes(1, COMPONENTS, points),
-            table: StateTable::new(settings.fields, points),
+            lanes: LaneTrajectory::for_lanes(1, N, points),
+            table: StateTable::new(settings.fields, settings.wheels, points),
             arcs: Vec::new(),
         }
     }
@@ -45,14 +50,14 @@ impl<S: Simd> NullSpaceEngine<S> {
         let Self { settings, lanes, table, arcs, .. } = self;
         settings.check_laws(&laws);
         let (grid, control) = (&settings.grid, &settings.control);
-        let mut runs = NullSpaceRuns::new(scenes, grid.duration()).under(laws.reborrow(), std::mem::take(arcs));
+        let mut runs = NullSpaceRuns::<W>::new(scenes, grid.duration()).under(laws.reborrow(), std::mem::take(arcs));
         let mut recorder = TrajectoryRecorder::new(
             grid,
             lanes,
             Pair::ERRORS,
             control.tolerance.relative,
-            |runs: &NullSpaceRuns<'_>, _, index, trajectory: &Trajectory, outcome: &Outcome| {
-                complete(&scenes[index], trajectory, grid, table);
+            |runs: &NullSpaceRuns<'_, W>, _, index, trajectory: &Trajectory, outcome: &Outcome| {
+                complete::<W, N>(&scenes[index], trajectory, grid, table);
                 table.pad();
                 let mut outcome = *outcome;
                 // errors of the other states feed back into omega
@@ -60,12 +65,12 @@ impl<S: Simd> NullSpaceEngine<S> {
                 finish(CompletedRun { index, table, outcome: &outcome, arcs: runs.arcs() });
             },
         );
-        integrate::<_, _, _, _, COMPONENTS>(Adaptive(DormandPrinceRestepped), 0.0, &mut runs, &mut recorder, control);
+        integrate::<_, _, _, _, N>(Adaptive(DormandPrinceRestepped), 0.0, &mut runs, &mut recorder, control);
         *arcs = runs.into_arcs();
     }
 }
 
-impl<S: Simd> Engine for NullSpaceEngine<S> {
+impl<S: Simd, const W: usize, const N: usize> Engine for NullSpaceEngine<S, W, N> {
     fn propagate_under(&mut self, laws: Laws<'_>, scenes: &[Scene], finish: &mut CompletionCallback<'_>) {
         let simd = self.simd;
         simd.vectorize(

@@ -1,24 +1,24 @@
-//! [`NullSpaceRuns`]: runs of the null-space formulation, one at a time.
+//! [`NullSpaceRuns`]: runs of the null-space formulation, one at a time, with kernels of `W` wheels and `N` components.
 
 use crate::dynamics::actuation::Laws;
 use crate::dynamics::applied::{law_arc, scheduled_arc};
-use crate::dynamics::null_space::{COMPONENTS, Kernel, STATES, State, observed_state, sigma};
+use crate::dynamics::null_space::{Kernel, State, observed_state, sigma};
 use crate::ode::{Runs, System, Tolerance};
 use crate::scene::{Arc, Scene};
 
-/// Runs of the report's 62-state form for the scenes of a batch; `f64`, one lane.
-pub struct NullSpaceRuns<'a> {
+/// Runs of the null-space formulation for the scenes of a batch, each of at most `W` wheels; `f64`, one lane.
+pub struct NullSpaceRuns<'a, const W: usize> {
     scenes: &'a [Scene],
     laws: Laws<'a>,
     duration: f64,
     run: usize,
-    kernel: Kernel,
+    kernel: Kernel<W>,
     /// The attitude quaternion at the start of the arc: the next one has the nearer sign.
     q_es: [f64; 4],
     arcs: Vec<Arc>,
 }
 
-impl<'a> NullSpaceRuns<'a> {
+impl<'a, const W: usize> NullSpaceRuns<'a, W> {
     /// Runs of `scenes` from zero to `duration`, s.
     ///
     /// # Panics
@@ -53,25 +53,19 @@ impl<'a> NullSpaceRuns<'a> {
     }
 }
 
-impl System<f64, COMPONENTS> for NullSpaceRuns<'_> {
+impl<const W: usize, const N: usize> System<f64, N> for NullSpaceRuns<'_, W> {
     #[inline(always)]
-    fn derivative(&self, _time: f64, state: &[f64; COMPONENTS]) -> [f64; COMPONENTS] {
+    fn derivative(&self, _time: f64, state: &[f64; N]) -> [f64; N] {
         self.kernel.derivative(state)
     }
 
-    /// As MATLAB's ode45: max |e_i| / (rtol max(|y_i|, |y_i new|, atol / rtol)) over the 62 states (Shampine & Reichelt 1997);
+    /// As MATLAB's ode45: max |e_i| / (rtol max(|y_i|, |y_i new|, atol / rtol)) over the states (Shampine & Reichelt 1997);
     /// the quadrature states do not count. Not a number if any component is not finite.
     #[inline(always)]
-    fn error_ratio(
-        &self,
-        error: &[f64; COMPONENTS],
-        old: &[f64; COMPONENTS],
-        new: &[f64; COMPONENTS],
-        tolerance: Tolerance,
-    ) -> f64 {
+    fn error_ratio(&self, error: &[f64; N], old: &[f64; N], new: &[f64; N], tolerance: Tolerance) -> f64 {
         let threshold = tolerance.absolute / tolerance.relative;
         let (mut largest, mut poison) = (0.0_f64, 0.0_f64);
-        for i in 0..STATES {
+        for i in 0..State::<W>::STATES {
             let ratio = error[i].abs() / old[i].abs().max(new[i].abs()).max(threshold);
             poison = (error[i] + new[i]).mul_add(0.0, poison);
             largest = largest.max(ratio);
@@ -80,20 +74,20 @@ impl System<f64, COMPONENTS> for NullSpaceRuns<'_> {
     }
 }
 
-impl Runs<f64, COMPONENTS> for NullSpaceRuns<'_> {
+impl<const W: usize, const N: usize> Runs<f64, N> for NullSpaceRuns<'_, W> {
     fn count(&self) -> usize {
         self.scenes.len()
     }
 
-    fn load(&mut self, _lane: usize, run: usize) -> [f64; COMPONENTS] {
+    fn load(&mut self, _lane: usize, run: usize) -> [f64; N] {
         self.run = run;
         self.kernel = Kernel::new(&self.scenes[run]);
         self.q_es = self.scenes[run].initial.q_es;
         self.arcs.clear();
-        sigma(&self.scenes[run]).components()
+        sigma::<W>(&self.scenes[run]).components()
     }
 
-    fn next_arc(&mut self, _lane: usize, time: f64, state: &[f64; COMPONENTS]) -> Option<f64> {
+    fn next_arc(&mut self, _lane: usize, time: f64, state: &[f64; N]) -> Option<f64> {
         if time >= self.duration {
             return None;
         }
@@ -101,7 +95,7 @@ impl Runs<f64, COMPONENTS> for NullSpaceRuns<'_> {
         let arc = match &mut self.laws {
             Laws::OpenLoop => scheduled_arc(scene, time, self.duration),
             Laws::Feedback(source) => {
-                let state = State::from_components(state);
+                let state = State::<W>::from_components(state);
                 let (body, wheels) = observed_state(self.kernel.parameters(), &state, self.q_es);
                 self.q_es = body.q_es;
                 law_arc(scene, source.law(self.run), time, (&body, &wheels), self.duration)
@@ -116,12 +110,14 @@ impl Runs<f64, COMPONENTS> for NullSpaceRuns<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dynamics::null_space::components;
     use crate::scene::samples;
 
     #[test]
     fn the_error_norm_is_that_of_ode45() {
         let scenes = [Scene::resolve(&samples::table_two()).expect("the report's scene")];
-        let runs = NullSpaceRuns::new(&scenes, 1.0);
+        const COMPONENTS: usize = components(2);
+        let runs = NullSpaceRuns::<2>::new(&scenes, 1.0);
         let tolerance = Tolerance { relative: 1e-3, absolute: 1e-6 };
         let (mut error, mut old, mut new) = ([0.0; COMPONENTS], [0.0; COMPONENTS], [0.0; COMPONENTS]);
         (error[3], old[3], new[3]) = (1e-3, 1.0, -2.0); // relative to the larger end

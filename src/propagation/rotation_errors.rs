@@ -75,7 +75,7 @@ mod tests {
 
     /// Rates and attitudes at three points; the middle one is off by `rate` and `turn`, and `sign` is that of its quaternion.
     fn table([rate, turn, sign]: [f64; 3]) -> StateTable {
-        let mut table = StateTable::new(StateFields::NONE.with(StateField::Rate).with(StateField::Attitude), 3);
+        let mut table = StateTable::new(StateFields::NONE.with(StateField::Rate).with(StateField::Attitude), 0, 3);
         for point in 0..3 {
             let (rate, turn, sign) = if point == 1 { (rate, turn, sign) } else { (0.0, 0.0, 1.0) };
             table.set(StateField::Rate, point, [0.0, 2.0 + rate, 0.0]);
@@ -87,7 +87,7 @@ mod tests {
 
     fn largest(run: [f64; 3]) -> RotationError {
         let high = table([0.0, 0.0, 1.0]);
-        let low = StateTable::new(high.fields(), 3);
+        let low = StateTable::new(high.fields(), 0, 3);
         RotationError::largest(rotation_errors(&ReferenceSolution { high, low }, &table(run)))
     }
 

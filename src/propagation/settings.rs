@@ -19,6 +19,8 @@ pub struct PropagationSettings {
     pub grid: Grid,
     /// The fields of the tables.
     pub fields: StateFields,
+    /// Number of wheels of the spacecraft.
+    pub wheels: usize,
     /// Whether thrust or body torque may act.
     pub thrust: bool,
     /// Whether motor torque may act.
@@ -35,6 +37,7 @@ impl PropagationSettings {
             control,
             grid,
             fields,
+            wheels: nominal.mass.wheels.len(),
             thrust: nominal.commands_thrust || nominal.environment.acts(),
             motors: nominal.commands_torque,
             feedback: false,

@@ -8,9 +8,9 @@ pub enum StateField {
     Rate,
     /// Attitude quaternion q_es (4).
     Attitude,
-    /// Wheel rates alpha-dot, beta-dot, rad/s (2).
+    /// Wheel rates relative to the body, rad/s (one per wheel).
     WheelRates,
-    /// Wheel angles alpha, beta, rad, unbounded (2).
+    /// Wheel angles relative to the body, rad, unbounded (one per wheel).
     WheelAngles,
     /// Position of the centre of mass c of the spacecraft in F_e, m (3).
     ComPosition,
@@ -34,7 +34,7 @@ pub enum StateField {
     Dcm,
     /// Residuals of the constraints: kinematic, collocation, attitude (3).
     Residuals,
-    /// Kinetic energies of fuselage, wheels 1 and 2, and debris in F_e, from methods with redundant states, J (4).
+    /// Kinetic energies of body, debris, and each wheel in F_e, from methods with redundant states, J (2 and one per wheel).
     KineticEnergies,
 }
 
@@ -59,8 +59,8 @@ impl StateField {
         StateField::KineticEnergies,
     ];
 
-    /// Number of components.
-    pub const fn width(self) -> usize {
+    /// Number of components of a spacecraft with `wheels` wheels.
+    pub const fn width(self, wheels: usize) -> usize {
         match self {
             StateField::Rate
             | StateField::ComPosition
@@ -71,8 +71,10 @@ impl StateField {
             | StateField::DebrisVelocity
             | StateField::DebrisRate
             | StateField::Residuals => 3,
-            StateField::Attitude | StateField::DebrisAttitude | StateField::KineticEnergies => 4,
-            StateField::WheelRates | StateField::WheelAngles | StateField::Work => 2,
+            StateField::Attitude | StateField::DebrisAttitude => 4,
+            StateField::KineticEnergies => 2 + wheels,
+            StateField::WheelRates | StateField::WheelAngles => wheels,
+            StateField::Work => 2,
             StateField::Dcm => 9,
         }
     }

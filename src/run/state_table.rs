@@ -12,6 +12,7 @@ use super::{StateField, StateFields};
 #[derive(Clone, Debug)]
 pub struct StateTable {
     fields: StateFields,
+    wheels: usize,
     points: usize,
     stride: usize,
     /// The column of the first component of each field; [`ABSENT`] where the table does not have the field.
@@ -25,29 +26,40 @@ const ABSENT: usize = usize::MAX;
 /// Reports the read of a field that is not there. Out of line, so that the check costs one comparison.
 #[cold]
 #[inline(never)]
-fn refuse(field: StateField, component: usize) -> ! {
-    assert!(component < field.width(), "{field:?} has {} components, there is no component {component}", field.width());
+fn refuse(field: StateField, component: usize, width: usize) -> ! {
+    assert!(component < width, "{field:?} has {width} components, there is no component {component}");
     panic!("the state table does not have the field {field:?}: it was not requested when the table was made")
 }
 
 impl StateTable {
-    /// A table of `points` >= 1 observation points with the given fields; all values zero.
-    pub fn new(fields: StateFields, points: usize) -> Self {
+    /// A table of `points` >= 1 observation points with the given fields of a spacecraft with `wheels` wheels; all values zero.
+    pub fn new(fields: StateFields, wheels: usize, points: usize) -> Self {
         let stride = points.next_multiple_of(8);
         let mut columns = [ABSENT; StateField::ALL.len()];
         let mut count = 0;
         for field in StateField::ALL {
             if fields.contains(field) {
                 columns[field as usize] = count;
-                count += field.width();
+                count += field.width(wheels);
             }
         }
-        StateTable { fields, points, stride, columns, values: vec![0.0; count * stride] }
+        StateTable { fields, wheels, points, stride, columns, values: vec![0.0; count * stride] }
     }
 
     /// The fields of the table.
     pub fn fields(&self) -> StateFields {
         self.fields
+    }
+
+    /// Number of wheels of the spacecraft.
+    pub fn wheels(&self) -> usize {
+        self.wheels
+    }
+
+    /// Number of components of `field`.
+    #[inline]
+    pub fn width(&self, field: StateField) -> usize {
+        field.width(self.wheels)
     }
 
     /// Number of observation points.
@@ -69,8 +81,8 @@ impl StateTable {
     #[inline]
     fn start(&self, field: StateField, component: usize) -> usize {
         let column = self.columns[field as usize];
-        if column == ABSENT || component >= field.width() {
-            refuse(field, component);
+        if column == ABSENT || component >= self.width(field) {
+            refuse(field, component, self.width(field));
         }
         (column + component) * self.stride
     }
@@ -128,7 +140,7 @@ mod tests {
     use super::*;
 
     fn rates_and_wheels() -> StateTable {
-        StateTable::new(StateFields::NONE.with(StateField::WheelRates).with(StateField::Rate), 3)
+        StateTable::new(StateFields::NONE.with(StateField::WheelRates).with(StateField::Rate), 2, 3)
     }
 
     #[test]

@@ -10,6 +10,7 @@ use super::schema::{DebrisInput, FuselageInput, WheelInput, WheelMode};
 pub use super::solids::Body;
 use super::solids::{Cylinder, hollow_cylinder, solid_box, solid_cylinder};
 use crate::math::Real;
+use crate::math::list::List;
 use crate::math::vector::{constant, cross, difference, dot, norm, scaled, sum};
 
 /// A balanced axisymmetric wheel, fixed with its centre and axis in the fuselage. A missing wheel has mass and inertia zero.
@@ -29,13 +30,13 @@ pub struct Wheel<R = f64> {
     pub mode: WheelMode,
 }
 
-/// Mass properties of all bodies and of the spacecraft S + W1 + W2 as a whole.
+/// Mass properties of all bodies and of the spacecraft, its body and wheels, as a whole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MassProperties<R = f64> {
     /// The fuselage S.
     pub fuselage: Body<R>,
-    /// The wheels W1, W2.
-    pub wheels: [Wheel<R>; 2],
+    /// The wheels.
+    pub wheels: List<Wheel<R>, MAX_WHEELS>,
     /// The debris D, if present.
     pub debris: Option<Body<R>>,
     /// Mass m of the spacecraft, kg.
@@ -44,9 +45,12 @@ pub struct MassProperties<R = f64> {
     pub center: [R; 3],
     /// Inertia J of the spacecraft about c with wheels locked, F_s, kg m^2, by rows.
     pub inertia: [[R; 3]; 3],
-    /// J* = J - J_1 a1 a1^T - J_2 a2 a2^T, kg m^2, by rows: what resists a change of omega when the wheels turn freely.
+    /// J* = J - sum J_i a_i a_i^T, kg m^2, by rows: what resists a change of omega when the wheels turn freely.
     pub inertia_free: [[R; 3]; 3],
 }
+
+/// Largest number of wheels of a spacecraft.
+pub const MAX_WHEELS: usize = 8;
 
 /// The nominal spin axes of W1 and W2 in F_s: s2 and s3.
 pub const WHEEL_AXES: [[f64; 3]; 2] = [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
@@ -192,24 +196,32 @@ impl<R: Real> MassProperties<R> {
     /// The mass properties of `input`, in the number type of `one`; meaningful where [`super::Scene::resolve`] accepts the input.
     pub fn of(input: &SceneInput, one: R) -> Self {
         let fuselage = Body::fuselage(&input.fuselage, one);
-        let wheels: [Wheel<R>; 2] = std::array::from_fn(|i| Wheel::new(input.wheels[i].as_ref(), i, one));
+        let mut wheels = List::empty(Wheel::new(None, 0, one));
+        for (index, wheel) in input.wheels.iter().enumerate() {
+            wheels.push(Wheel::new(wheel.as_ref(), index, one));
+        }
         let debris = input.debris.as_ref().map(|debris| Body::debris(debris, one));
 
-        let points =
-            [(fuselage.mass, fuselage.center), (wheels[0].mass, wheels[0].center), (wheels[1].mass, wheels[1].center)];
-        let total = fuselage.mass + (wheels[0].mass + wheels[1].mass);
+        let wheel_mass = wheels.iter().map(|wheel| wheel.mass).reduce(|a, b| a + b);
+        let total = wheel_mass.map_or(fuselage.mass, |mass| fuselage.mass + mass);
         // from the fuselage's centre, so that equal wheels on both sides of it move nothing, to the last bit
         let shift = |wheel: &Wheel<R>| scaled(wheel.mass / total, difference(wheel.center, fuselage.center));
-        let center = sum(fuselage.center, sum(shift(&wheels[0]), shift(&wheels[1])));
+        let center = wheels.iter().map(shift).reduce(sum).map_or(fuselage.center, |shift| sum(fuselage.center, shift));
 
         let mut inertia_free = fuselage.inertia;
         for wheel in &wheels {
             inertia_free = matrix_sum(inertia_free, wheel.transverse_inertia());
         }
-        for (i, j) in [(0, 1), (0, 2), (1, 2)] {
-            let ((mass_i, center_i), (mass_j, center_j)) = (points[i], points[j]);
-            let pair = point_inertia(mass_i * mass_j / total, difference(center_i, center_j));
-            inertia_free = matrix_sum(inertia_free, pair);
+        let point = |index: usize| match index {
+            0 => (fuselage.mass, fuselage.center),
+            _ => (wheels[index - 1].mass, wheels[index - 1].center),
+        };
+        for i in 0..wheels.len() {
+            for j in i + 1..=wheels.len() {
+                let ((mass_i, center_i), (mass_j, center_j)) = (point(i), point(j));
+                let pair = point_inertia(mass_i * mass_j / total, difference(center_i, center_j));
+                inertia_free = matrix_sum(inertia_free, pair);
+            }
         }
         let inertia = wheels.iter().fold(inertia_free, |sum, wheel| matrix_sum(sum, wheel.axial_inertia()));
         MassProperties { fuselage, wheels, debris, total, center, inertia, inertia_free }
@@ -261,7 +273,7 @@ mod tests {
         assert_close("m_s", mass.fuselage.mass, 1982.7715926975181);
         assert_close("J_s transverse", mass.fuselage.inertia[0][0], 3026.338725586386);
         assert_close("J_s axial", mass.fuselage.inertia[2][2], 1684.750805384533);
-        for wheel in mass.wheels {
+        for wheel in &mass.wheels {
             assert_close("m_i", wheel.mass, 53.014376029327764);
             assert_close("J_i axial", wheel.axial, 1.6566992509164926);
             assert_close("J_i transverse", wheel.transverse, 0.8725282721493528);
@@ -287,7 +299,7 @@ mod tests {
         let mass = MassProperties::of(&input, 1.0);
         let about_c = |body_mass: f64, center: [f64; 3]| point_inertia(body_mass, difference(center, mass.center));
         let mut expected = matrix_sum(mass.fuselage.inertia, about_c(mass.fuselage.mass, mass.fuselage.center));
-        for wheel in mass.wheels {
+        for wheel in &mass.wheels {
             expected = matrix_sum(expected, matrix_sum(wheel.inertia(), about_c(wheel.mass, wheel.center)));
         }
         for i in 0..3 {

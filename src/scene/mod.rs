@@ -8,6 +8,7 @@
 //! - [`parameter`]: the numeric keys that can be dispersed.
 //! - [`check`], [`error`]: what makes a scene physical beyond single keys, and the message where it is not.
 //! - [`resolve`]: from an input to a [`Scene`].
+//! - [`thruster`]: force and torque of thrusters.
 //! - [`schedule`]: what the actuators make of the commands, and the arcs of constant actuation.
 
 pub mod check;
@@ -24,18 +25,19 @@ pub mod schedule;
 pub mod schema;
 pub mod second_moment;
 pub mod solids;
+pub mod thruster;
 
 pub use error::SceneError;
 pub use input::SceneInput;
-pub use mass::MassProperties;
+pub use mass::{MAX_WHEELS, MassProperties};
 pub use parameter::Parameter;
-pub use schedule::{Actuation, Arc, THRUSTERS, WHEELS};
+pub use schedule::{Actuation, Arc};
 pub use schema::{
     ActuationInput, ActuatorsInput, DebrisInput, EnvironmentInput, FuselageInput, InitialInput, MassErrors,
     PrincipalInertia, PrincipalMoments, WheelInput, WheelMode,
 };
 
-use crate::math::vector::{cross, difference, scaled, sum};
+pub use thruster::{MAX_THRUSTERS, Thruster};
 
 /// A physically valid scene: everything that a kernel starts from.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,12 +46,8 @@ pub struct Scene {
     pub mass: MassProperties,
     /// The state at time zero.
     pub initial: InitialState,
-    /// Distance rho_p of the thrusters P2 and P3 from the axis s3, m.
-    pub thruster_offset: f64,
-    /// Station l_s of the thrusters P2 and P3 on the axis s3, m.
-    pub thruster_station: f64,
-    /// Directions in which the thrusts P1, P2, P3 push, unit vectors in F_s: nominally s3, -s3, -s3.
-    pub thruster_directions: [[f64; 3]; 3],
+    /// The thrusters.
+    pub thrusters: Vec<Thruster>,
     /// Arcs of constant actuation as they are applied, in order, not overlapping, each with start < end.
     pub schedule: Vec<Arc>,
     /// Torques of the environment, as written.
@@ -59,9 +57,6 @@ pub struct Scene {
     /// The same of motor torque.
     pub commands_torque: bool,
 }
-
-/// The nominal directions of the thrusts P1, P2, P3 in F_s (72).
-pub const THRUSTER_DIRECTIONS: [[f64; 3]; 3] = [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [0.0, 0.0, -1.0]];
 
 /// The full state at time zero, in the frames that the kernels use.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,10 +69,10 @@ pub struct InitialState {
     pub q_es: [f64; 4],
     /// Angular velocity of the fuselage, rad/s.
     pub omega_se_s: [f64; 3],
-    /// Wheel angles alpha, beta, rad.
-    pub wheel_angles: [f64; 2],
-    /// Wheel rates relative to the fuselage, rad/s.
-    pub wheel_rates: [f64; 2],
+    /// Wheel angles relative to the body, in the order of the wheels, rad; zero beyond.
+    pub wheel_angles: [f64; MAX_WHEELS],
+    /// Wheel rates relative to the body, in the order of the wheels, rad/s; zero beyond.
+    pub wheel_rates: [f64; MAX_WHEELS],
     /// Position of the debris's centre, m.
     pub r_gdo_e: [f64; 3],
     /// Velocity of the debris's centre, m/s.
@@ -89,28 +84,13 @@ pub struct InitialState {
 }
 
 impl Scene {
-    /// Force of the thrusts P1, P2, P3 in F_s, N (72).
-    pub fn thruster_force_s(&self, thrust: [f64; 3]) -> [f64; 3] {
-        if self.thruster_directions == THRUSTER_DIRECTIONS {
-            return [0.0, 0.0, thrust[0] - thrust[1] - thrust[2]];
-        }
-        let [p1, p2, p3] = self.thruster_directions;
-        sum(scaled(thrust[0], p1), sum(scaled(thrust[1], p2), scaled(thrust[2], p3)))
+    /// Force of the thrusts `thrust` (N, in the order of the thrusters) in F_s, N (72).
+    pub fn thruster_force_s(&self, thrust: [f64; MAX_THRUSTERS]) -> [f64; 3] {
+        thruster::force_s(&self.thrusters, thrust)
     }
 
-    /// Torque of the thrusts P1, P2, P3 about the spacecraft's centre of mass c, in F_s, N m (72).
-    ///
-    /// P1 acts at p, P2 at (0, -rho_p, l_s), P3 at (0, +rho_p, l_s).
-    pub fn thruster_torque_s(&self, thrust: [f64; 3]) -> [f64; 3] {
-        let c = self.mass.center;
-        if self.thruster_directions != THRUSTER_DIRECTIONS {
-            let (offset, station) = (self.thruster_offset, self.thruster_station);
-            let points = [[0.0; 3], [0.0, -offset, station], [0.0, offset, station]];
-            let of = |k: usize| cross(difference(points[k], c), scaled(thrust[k], self.thruster_directions[k]));
-            return sum(of(0), sum(of(1), of(2)));
-        }
-        let force = thrust[0] - thrust[1] - thrust[2];
-        // about p, minus c x F
-        [self.thruster_offset * (thrust[1] - thrust[2]) - c[1] * force, c[0] * force, 0.0]
+    /// Torque of the thrusts `thrust` (N, in the order of the thrusters) about the spacecraft's centre of mass c, in F_s, N m (72).
+    pub fn thruster_torque_s(&self, thrust: [f64; MAX_THRUSTERS]) -> [f64; 3] {
+        thruster::torque_s(&self.thrusters, thrust, self.mass.center)
     }
 }

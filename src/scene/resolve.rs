@@ -5,7 +5,7 @@ use super::input::SceneInput;
 use super::mass::MassProperties;
 use super::parameter::unit_quaternion;
 use super::schema::InitialInput;
-use super::{InitialState, Scene, SceneError, THRUSTER_DIRECTIONS, check, schedule};
+use super::{InitialState, MAX_WHEELS, Scene, SceneError, check, schedule};
 use crate::math::vector::{dcm_from_quaternion, hamilton, sum, transposed_product};
 
 impl Scene {
@@ -19,9 +19,7 @@ impl Scene {
         let mut scene = Scene {
             mass,
             initial: initial_state(input),
-            thruster_offset: 0.0,
-            thruster_station: 0.0,
-            thruster_directions: THRUSTER_DIRECTIONS,
+            thrusters: Vec::new(),
             schedule: Vec::with_capacity(input.actuation.len()),
             environment: input.environment,
             commands_thrust: false,
@@ -46,9 +44,8 @@ impl Scene {
     fn take(&mut self, input: &SceneInput, mass: &MassProperties) {
         self.mass = *mass;
         self.initial = initial_state(input);
-        self.thruster_offset = input.fuselage.thruster_offset_m;
-        self.thruster_station = input.fuselage.length_m;
-        self.thruster_directions = schedule::thruster_directions(input);
+        self.thrusters.clear();
+        self.thrusters.extend(schedule::thrusters(input));
         self.schedule.clear();
         self.schedule.extend((0..input.actuation.len()).map(|index| schedule::applied(input, index)));
         self.environment = input.environment;
@@ -88,8 +85,13 @@ fn initial_state(input: &SceneInput) -> InitialState {
         debris_attitude,
         debris_relative_angular_velocity_rad_s,
     } = input.initial;
-    let of_present_wheels =
-        |values: [f64; 2]| std::array::from_fn(|i| if input.wheels[i].is_some() { values[i] } else { 0.0 });
+    let of_present_wheels = |values: [f64; 2]| {
+        let mut of_wheels = [0.0; MAX_WHEELS];
+        for (i, wheel) in input.wheels.iter().enumerate() {
+            of_wheels[i] = if wheel.is_some() { values[i] } else { 0.0 };
+        }
+        of_wheels
+    };
     let q_es = unit_quaternion(attitude);
     let mut state = InitialState {
         r_po_e: position_m,

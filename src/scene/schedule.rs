@@ -1,23 +1,18 @@
 //! The arcs of a run: intervals of constant actuation; and what the actuators make of the commands.
 
-use super::THRUSTER_DIRECTIONS;
 use super::input::SceneInput;
-use super::mass::turned;
-
-/// Number of thrusters.
-pub const THRUSTERS: usize = 3;
-/// Number of wheels.
-pub const WHEELS: usize = 2;
+use super::mass::{MAX_WHEELS, turned};
+use super::thruster::{MAX_THRUSTERS, REPORT_DIRECTIONS, Thruster};
 
 /// What acts on the spacecraft until a time: the values as they are applied, constant, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Actuation {
     /// The time since the start of the run until which the values are constant, s; infinite where nothing is to change.
     pub until: f64,
-    /// Thrusts P1, P2, P3 along the thrusters' directions (`thruster_directions`), N.
-    pub thrust: [f64; THRUSTERS],
-    /// Motor torques on W1, W2 about their axes, N m; the fuselage feels the opposite.
-    pub motor_torque: [f64; WHEELS],
+    /// Thrusts along the directions of the thrusters, in the order of [`super::Scene::thrusters`], N; zero beyond.
+    pub thrust: [f64; MAX_THRUSTERS],
+    /// Motor torques on the wheels about their axes, in the order of the wheels, N m; the body feels the opposite. Zero beyond.
+    pub motor_torque: [f64; MAX_WHEELS],
     /// External torque on the spacecraft beside that of the thrusters, in F_s, N m.
     pub body_torque: [f64; 3],
 }
@@ -45,8 +40,8 @@ pub fn applied(input: &SceneInput, index: usize) -> Arc {
         start: start(index),
         applied: Actuation {
             until: if next.is_some() { start(index + 1) } else { command.end_s + actuators.switch_off_delay_s },
-            thrust: std::array::from_fn(|i| actuators.thrust_scale[i] * command.thrust_n[i]),
-            motor_torque: std::array::from_fn(|i| {
+            thrust: filled(command.thrust_n.len(), |i| actuators.thrust_scale[i] * command.thrust_n[i]),
+            motor_torque: filled(command.torque_n_m.len(), |i| {
                 let torque = command.torque_n_m[i];
                 if torque == 0.0 { 0.0 } else { actuators.torque_scale[i] * torque + actuators.torque_bias_n_m[i] }
             }),
@@ -55,10 +50,27 @@ pub fn applied(input: &SceneInput, index: usize) -> Arc {
     }
 }
 
-/// The directions of the thrusts P1, P2, P3 with the misalignments of `input`, unit vectors in F_s.
-pub fn thruster_directions(input: &SceneInput) -> [[f64; 3]; 3] {
+/// The numbers, and zero beyond.
+fn first<const N: usize>(numbers: &[f64]) -> [f64; N] {
+    let mut all = [0.0; N];
+    all[..numbers.len()].copy_from_slice(numbers);
+    all
+}
+
+/// The first `count` numbers; zero beyond.
+fn filled<const N: usize>(count: usize, number: impl Fn(usize) -> f64) -> [f64; N] {
+    std::array::from_fn(|i| if i < count { number(i) } else { 0.0 })
+}
+
+/// The thrusters P1, P2, P3 with the misalignments of `input`.
+pub fn thrusters(input: &SceneInput) -> [Thruster; 3] {
     let tilts = input.actuators.tilts_rad();
-    std::array::from_fn(|k| turned(THRUSTER_DIRECTIONS[k], [tilts[k][0], tilts[k][1], 0.0], 1.0))
+    let (offset, station) = (input.fuselage.thruster_offset_m, input.fuselage.length_m);
+    let positions = [[0.0; 3], [0.0, -offset, station], [0.0, offset, station]];
+    std::array::from_fn(|k| Thruster {
+        position: positions[k],
+        direction: turned(REPORT_DIRECTIONS[k], [tilts[k][0], tilts[k][1], 0.0], 1.0),
+    })
 }
 
 /// What the commands of `schedule` (in order, not overlapping) apply at `time`, and until when: between them and after the last
@@ -75,13 +87,31 @@ pub fn actuation_at(schedule: &[Arc], time: f64) -> Actuation {
 impl Actuation {
     /// Nothing acts until `until`.
     pub const fn none(until: f64) -> Self {
-        Actuation { until, thrust: [0.0; THRUSTERS], motor_torque: [0.0; WHEELS], body_torque: [0.0; 3] }
+        Actuation { until, thrust: [0.0; MAX_THRUSTERS], motor_torque: [0.0; MAX_WHEELS], body_torque: [0.0; 3] }
+    }
+
+    /// The same with `thrust` (N) for the first thrusters, and none of the others.
+    ///
+    /// # Panics
+    /// Where there are more than [`MAX_THRUSTERS`].
+    #[must_use]
+    pub fn with_thrust(self, thrust: &[f64]) -> Self {
+        Actuation { thrust: first(thrust), ..self }
+    }
+
+    /// The same with `torque` (N m) on the first wheels, and none on the others.
+    ///
+    /// # Panics
+    /// Where there are more than [`MAX_WHEELS`].
+    #[must_use]
+    pub fn with_motor_torque(self, torque: &[f64]) -> Self {
+        Actuation { motor_torque: first(torque), ..self }
     }
 
     /// Whether any thrust, motor or body torque acts.
     #[inline]
     pub fn acts(&self) -> bool {
-        self.thrust != [0.0; THRUSTERS] || self.motor_torque != [0.0; WHEELS] || self.body_torque != [0.0; 3]
+        self.thrust != [0.0; MAX_THRUSTERS] || self.motor_torque != [0.0; MAX_WHEELS] || self.body_torque != [0.0; 3]
     }
 }
 
@@ -116,7 +146,10 @@ mod tests {
         let ideal = Scene::resolve(&input).expect("a legal schedule");
         for (arc, command) in ideal.schedule.iter().zip(&input.actuation) {
             assert_eq!((arc.start, arc.end()), (command.start_s, command.end_s));
-            assert_eq!((arc.applied.thrust, arc.applied.motor_torque), (command.thrust_n, command.torque_n_m));
+            assert_eq!(
+                (&arc.applied.thrust[..3], &arc.applied.motor_torque[..2]),
+                (&command.thrust_n[..], &command.torque_n_m[..])
+            );
         }
         input.actuators.thrust_scale = [0.5, 1.0, 1.5];
         input.actuators.torque_scale = [2.0, 1.0];
@@ -126,8 +159,9 @@ mod tests {
         let schedule = Scene::resolve(&input).expect("a legal schedule").schedule;
         let times: Vec<_> = schedule.iter().map(|arc| (arc.start, arc.end())).collect();
         assert_eq!(times, [(0.0, 0.75), (0.75, 2.5), (2.75, 4.5)], "one switch where commands meet, none before zero");
-        assert!(schedule.iter().all(|arc| arc.applied.thrust == [5.0, 20.0, 45.0]));
-        let torques: Vec<_> = schedule.iter().map(|arc| arc.applied.motor_torque).collect();
+        assert!(schedule.iter().all(|arc| arc.applied.thrust[..3] == [5.0, 20.0, 45.0]));
+        let torques: Vec<_> =
+            schedule.iter().map(|arc| [arc.applied.motor_torque[0], arc.applied.motor_torque[1]]).collect();
         assert_eq!(torques, [[4.25, 0.0], [0.0, 0.0], [-3.75, 0.0]], "no bias where nothing is commanded");
     }
 
@@ -138,15 +172,16 @@ mod tests {
         let scene = Scene::resolve(&input).expect("a legal scene");
         // -s3 turned about s1: towards +s2; at (0, -0.5, 3), 1.5 above c
         let (sine, cosine) = libm::sincos(0.1);
-        let force = scene.thruster_force_s([0.0, 10.0, 0.0]);
+        let thrust = |thrust: &[f64]| crate::scene::Actuation::none(1.0).with_thrust(thrust).thrust;
+        let force = scene.thruster_force_s(thrust(&[0.0, 10.0]));
         assert!((force[1] - 10.0 * sine).abs() < 1e-14 && (force[2] + 10.0 * cosine).abs() < 1e-14, "{force:?}");
-        let torque = scene.thruster_torque_s([0.0, 10.0, 0.0]);
+        let torque = scene.thruster_torque_s(thrust(&[0.0, 10.0]));
         assert!((torque[0] - (0.5 * 10.0 * cosine - 1.5 * 10.0 * sine)).abs() < 1e-13, "{torque:?}");
         // the general form is the plain one where nothing is tilted
         let aligned = Scene::resolve(&samples::table_two()).expect("a legal scene");
         let mut nearly = aligned.clone();
-        nearly.thruster_directions[0][0] = 1e-300;
-        let thrust = [10.0, 20.0, 35.0];
+        nearly.thrusters[0].direction[0] = 1e-300;
+        let thrust = thrust(&[10.0, 20.0, 35.0]);
         for (a, b) in aligned.thruster_torque_s(thrust).into_iter().zip(nearly.thruster_torque_s(thrust)) {
             assert!((a - b).abs() < 1e-13);
         }

@@ -195,7 +195,7 @@ fn one_rounding(scene: &Scene, grid: &Grid, truth: &ReferenceSolution) -> f64 {
         rest.mass.debris = None;
         rest.initial.omega_se_s = truth.high.at(StateField::Rate, point);
         rest.initial.q_es = truth.high.at(StateField::Attitude, point);
-        rest.initial.wheel_rates = truth.high.at(StateField::WheelRates, point);
+        rest.initial.wheel_rates[..2].copy_from_slice(&truth.high.at::<2>(StateField::WheelRates, point));
         let rest_grid = Grid::at(vec![0.0, grid.times()[last] - grid.times()[point]]);
         let fields = blocks([StateField::Rate, StateField::Attitude]);
         let end = ReferenceSolution::new(Isa::best(), &rest, &rest_grid, fields, TRUE)

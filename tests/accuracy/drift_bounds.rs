@@ -10,12 +10,13 @@
 //! A change of a kernel that changes these distributions on purpose writes the baseline again:
 //! `SPINDRIFT_WRITE_BASELINE=1 cargo test --release --test drift_bounds`.
 
+use crate::null_space_matrices::{COMPONENTS, Parameters, State};
 use crate::null_space_matrices::{SignOfANon, SignedRuns};
 use crate::support::claims::hold;
 use crate::support::plans::{rows, shipped};
 use serde_json::{Value, json};
 use spindrift::campaign::Plan;
-use spindrift::dynamics::null_space::{Parameters, State, kinetic_energies};
+use spindrift::dynamics::null_space::kinetic_energies;
 use spindrift::ensemble::{Ensemble, SingleRun};
 use spindrift::math::Isa;
 use spindrift::observables::Observer;
@@ -297,7 +298,7 @@ fn the_printed_sign_is_seen() {
         let mut runs = SignedRuns::new(&scenes[0], setting.horizon, sign);
         let mut x = runs.load(0, 0);
         runs.next_arc(0, 0.0, &x);
-        let total = |x: &[f64; _]| kinetic_energies(&parameters, &State::from_components(x)).iter().sum::<f64>();
+        let total = |x: &[f64; COMPONENTS]| kinetic_energies(&parameters, &State::from_components(x)).total();
         let start = total(&x);
         const STEPS: usize = 2000;
         let h = setting.horizon / STEPS as f64;

@@ -5,14 +5,14 @@
 //! a-hat_non,s energy is not conserved.
 
 use crate::null_space_matrices as matrices;
-use crate::null_space_matrices::{SignOfANon, SignedRuns, with_printed_sign};
+use crate::null_space_matrices::{
+    COMPONENTS, Kernel, Parameters, STATES, SignOfANon, SignedRuns, State, with_printed_sign,
+};
 use crate::support::extrapolation::integrate;
 use crate::support::golden::Golden;
 use nalgebra::{Matrix3, SVector, Vector3};
 use proptest::prelude::*;
-use spindrift::dynamics::null_space::{
-    COMPONENTS, Kernel, Parameters, STATES, State, complete, kinetic_energies, residuals, sigma,
-};
+use spindrift::dynamics::null_space::{complete, kinetic_energies, residuals, sigma};
 use spindrift::ode::Runs;
 use spindrift::ode::System;
 use spindrift::propagation::NullSpaceRuns;
@@ -58,9 +58,9 @@ fn scenes() -> impl Strategy<Value = (Scene, Actuation)> {
             input.initial.wheel_angles_rad = attitude.2;
             input.initial.position_m = linear.0;
             input.initial.velocity_m_s = linear.1;
-            let torque = std::array::from_fn(|i| if present[i] { torque[i] } else { 0.0 });
+            let torque: [f64; 2] = std::array::from_fn(|i| if present[i] { torque[i] } else { 0.0 });
             let scene = Scene::resolve(&input).expect("a physical scene");
-            Some((scene, Actuation { until: 1.0, thrust, motor_torque: torque, body_torque: [0.0; 3] }))
+            Some((scene, Actuation::none(1.0).with_thrust(&thrust).with_motor_torque(&torque)))
         },
     )
 }
@@ -68,7 +68,7 @@ fn scenes() -> impl Strategy<Value = (Scene, Actuation)> {
 fn derivative(scene: &Scene, actuation: &Actuation, sign: SignOfANon, state: &State) -> State {
     let mut kernel = Kernel::new(scene);
     kernel.drive(actuation);
-    let rate = State::from_components(&kernel.derivative(&state.components()));
+    let rate = State::from_components(&kernel.derivative(&state.components::<COMPONENTS>()));
     match sign {
         SignOfANon::Corrected => rate,
         SignOfANon::Printed => with_printed_sign(kernel.parameters(), state, &rate),
@@ -76,8 +76,8 @@ fn derivative(scene: &Scene, actuation: &Actuation, sign: SignOfANon, state: &St
 }
 
 fn inputs(actuation: &Actuation) -> [f64; 5] {
-    let ([p1, p2, p3], [t1, t2]) = (actuation.thrust, actuation.motor_torque);
-    [p1, p2, p3, t1, t2]
+    let (thrust, torque) = (actuation.thrust, actuation.motor_torque);
+    [thrust[0], thrust[1], thrust[2], torque[0], torque[1]]
 }
 
 fn rotation(columns: [[f64; 3]; 3]) -> Matrix3<f64> {
@@ -90,8 +90,8 @@ fn tensor(rows: [[f64; 3]; 3]) -> Matrix3<f64> {
 
 /// The state moved along its derivative.
 fn moved(state: &State, rate: &State, time: f64) -> State {
-    let (x, f) = (state.components(), rate.components());
-    State::from_components(&std::array::from_fn(|i| x[i] + time * f[i]))
+    let (x, f): ([f64; COMPONENTS], [f64; COMPONENTS]) = (state.components(), rate.components());
+    State::from_components::<COMPONENTS>(&std::array::from_fn(|i| x[i] + time * f[i]))
 }
 
 /// d(T)/dt in closed form, nu^T M nu-dot + 1/2 nu^T M-dot nu with nu-dot = Pi nu-hat-dot + Pi-dot nu-hat; and the sum of the
@@ -111,7 +111,7 @@ proptest! {
     #[test]
     fn block_form_equals_the_matrices_as_printed((scene, actuation) in scenes(), drift in prop::array::uniform32(-1e-3f64..1e-3)) {
         let parameters = Parameters::of(&scene);
-        let mut x = sigma(&scene).components();
+        let mut x: [f64; COMPONENTS] = sigma::<2>(&scene).components();
         for (x, drift) in x.iter_mut().zip(drift) {
             *x += drift; // off the constraints the forms must agree too
         }
@@ -120,7 +120,7 @@ proptest! {
             let rate = derivative(&scene, &actuation, sign, &state);
             let nu = matrices::pi(&parameters, &state) * matrices::reduced_speeds(&state);
             let q_dot = matrices::gamma(&state) * nu;
-            let components = rate.components();
+            let components: [f64; COMPONENTS] = rate.components();
             for i in 0..48 {
                 prop_assert!((components[i] - q_dot[i]).abs() <= 1e-12 * (1.0 + q_dot[i].abs() + nu.abs().max()), "q {}", i);
             }
@@ -145,7 +145,7 @@ proptest! {
         const STEP: f64 = 1e-6;
         const TOLERANCE: f64 = 1e-6;
         let parameters = Parameters::of(&scene);
-        let state = sigma(&scene);
+        let state: State = sigma(&scene);
         let rate = derivative(&scene, &actuation, SignOfANon::Corrected, &state);
         let (before, after) = (moved(&state, &rate, -STEP), moved(&state, &rate, STEP));
         let pi_dot = (matrices::pi(&parameters, &after) - matrices::pi(&parameters, &before)) / (2.0 * STEP);
@@ -161,12 +161,12 @@ proptest! {
         // a_non = Gamma^T (dT/dq)^T at fixed nu: so its sign is determined
         const STEP: f64 = 1e-5; // T is quadratic in q, central differences are exact but for rounding
         let parameters = Parameters::of(&scene);
-        let state = sigma(&scene);
+        let state: State = sigma(&scene);
         let nu = matrices::pi(&parameters, &state) * matrices::reduced_speeds(&state);
         let gamma = matrices::gamma(&state);
         let expected = matrices::a_non(&parameters, &state, 1.0);
         let energy = |sign: f64, direction: &SVector<f64, 48>| {
-            let mut x = state.components();
+            let mut x: [f64; COMPONENTS] = state.components();
             for i in 0..48 {
                 x[i] += sign * STEP * direction[i];
             }
@@ -184,10 +184,10 @@ proptest! {
     #[test]
     fn agrees_with_the_gyrostat((scene, actuation) in scenes()) {
         let mass = &scene.mass;
-        let state = sigma(&scene);
+        let state: State = sigma(&scene);
         let rate = derivative(&scene, &actuation, SignOfANon::Corrected, &state);
         let omega = Vector3::from(state.omega_s);
-        let c_es = rotation(state.dcm[0]);
+        let c_es = rotation(state.fuselage.dcm);
         let force = Vector3::from(scene.thruster_force_s(actuation.thrust));
 
         let j_free = tensor(mass.inertia_free);
@@ -227,13 +227,13 @@ proptest! {
     #[test]
     fn energy_and_momenta_change_by_what_is_fed_in((scene, actuation) in scenes()) {
         let parameters = Parameters::of(&scene);
-        let state = sigma(&scene);
+        let state: State = sigma(&scene);
         let rate = derivative(&scene, &actuation, SignOfANon::Corrected, &state);
         let (found, size) = energy_rate(&parameters, &state, &rate);
         let fed = rate.work[0] + rate.work[1];
         prop_assert!((found - fed).abs() <= RATE_TOLERANCE * size, "{} {} {}", found, fed, size);
 
-        let c_es = rotation(state.dcm[0]);
+        let c_es = rotation(state.fuselage.dcm);
         let (omega, omega_dot) = (Vector3::from(state.omega_s), Vector3::from(rate.omega_s));
         let c = Vector3::from(scene.mass.center);
         let p_dot = (Vector3::from(rate.v_p) + c_es * (omega_dot.cross(&c) + omega.cross(&omega.cross(&c)))) * scene.mass.total;
@@ -253,7 +253,7 @@ proptest! {
     #[test]
     fn constraints_hold_at_the_level_of_rates((scene, actuation) in scenes()) {
         let parameters = Parameters::of(&scene);
-        let state = sigma(&scene);
+        let state: State = sigma(&scene);
         for (kind, value) in residuals(&scene, &parameters, &state).into_iter().enumerate() {
             prop_assert!(value <= 1e-12, "{}: {}", kind, value); // speeds of some hundred rad/s, to rounding
         }
@@ -271,7 +271,7 @@ fn the_printed_sign_feeds_energy_from_nowhere() {
     let mut input = Golden::load("table1").scene;
     input.fuselage.center_of_mass_m = Some([0.1, 0.0, 1.5]);
     let scene = Scene::resolve(&input).expect("the report's scene");
-    let (parameters, state, coast) = (Parameters::of(&scene), sigma(&scene), Actuation::none(1.0));
+    let (parameters, state, coast): (_, State, _) = (Parameters::of(&scene), sigma(&scene), Actuation::none(1.0));
     let relative = |sign| {
         let (rate, size) = energy_rate(&parameters, &state, &derivative(&scene, &coast, sign, &state));
         rate.abs() / size
@@ -287,7 +287,7 @@ fn energy_error(sign: SignOfANon, substeps: usize) -> f64 {
     let mut runs = SignedRuns::new(&scenes[0], 2.0, sign);
     let mut x = runs.load(0, 0);
     runs.next_arc(0, 0.0, &x);
-    let total = |x: &[f64; COMPONENTS]| kinetic_energies(&parameters, &State::from_components(x)).iter().sum::<f64>();
+    let total = |x: &[f64; COMPONENTS]| kinetic_energies(&parameters, &State::from_components(x)).total();
     let start = total(&x);
     let mut worst = 0.0_f64;
     for _ in 0..200 {
@@ -326,7 +326,8 @@ fn energies_of_table_one_at_time_zero() {
     let scene = Scene::resolve(&golden.scene).expect("the report's scene");
     let energies = kinetic_energies(&Parameters::of(&scene), &sigma(&scene));
     let printed = [1060915.388498418, 88406.50864294029, 36464.21707185995, 1871.7717632047218];
-    for ((found, expected), printed) in energies.into_iter().zip(golden.truth[0].energies).zip(printed) {
+    let bodies = [energies.fuselage, energies.wheels[0], energies.wheels[1], energies.debris];
+    for ((found, expected), printed) in bodies.into_iter().zip(golden.truth[0].energies).zip(printed) {
         assert!((found / expected - 1.0).abs() < 1e-15, "{found:?} {expected:?}");
         assert!((found / printed - 1.0).abs() < 1e-15, "{found:?} {printed:?}");
     }
@@ -339,8 +340,8 @@ fn observed(input: &SceneInput, times: Vec<f64>) -> (Scene, Trajectory, StateTab
     let scene = Scene::resolve(input).expect("a golden scene");
     let grid = Grid::at(times);
     let scenes = [scene.clone()];
-    let mut runs = NullSpaceRuns::new(&scenes, grid.duration());
-    let mut x = runs.load(0, 0);
+    let mut runs = NullSpaceRuns::<2>::new(&scenes, grid.duration());
+    let mut x: [f64; COMPONENTS] = runs.load(0, 0);
     let mut trajectory = Trajectory::new(COMPONENTS, grid.points());
     trajectory.set(0, &x);
     let (mut time, mut point) = (0.0, 1);
@@ -357,8 +358,8 @@ fn observed(input: &SceneInput, times: Vec<f64>) -> (Scene, Trajectory, StateTab
     }
     assert_eq!(point, grid.points());
     let blocks = BLOCKS.into_iter().fold(StateFields::NONE, StateFields::with);
-    let mut table = StateTable::new(blocks, grid.points());
-    complete(&scene, &trajectory, &grid, &mut table);
+    let mut table = StateTable::new(blocks, 2, grid.points());
+    complete::<2, COMPONENTS>(&scene, &trajectory, &grid, &mut table);
     (scene, trajectory, table)
 }
 
@@ -386,7 +387,7 @@ fn golden_truth_is_reached() {
             let state = State::from_components(&trajectory.at::<COMPONENTS>(point));
             let check =
                 |what: &str, error: f64| assert!(error < TOLERANCE, "{name} t={}: {what} {error:e}", truth.time);
-            check("r_p", relative(state.position[0], truth.r_po_e));
+            check("r_p", relative(state.fuselage.position, truth.r_po_e));
             check("v_p", relative(state.v_p, truth.v_po_e));
             check("omega", relative(table.at(StateField::Rate, point), truth.omega_se_s));
             check("q_es", up_to_sign(table.at(StateField::Attitude, point), truth.q_es));
@@ -397,12 +398,13 @@ fn golden_truth_is_reached() {
             check("q_ed", up_to_sign(table.at(StateField::DebrisAttitude, point), truth.q_ed));
             check("omega_d", relative(table.at(StateField::DebrisRate, point), truth.omega_de_d));
             let energies = kinetic_energies(&parameters, &state);
-            for (found, expected) in energies.into_iter().zip(truth.energies) {
+            let [w1, w2] = energies.wheels;
+            for (found, expected) in [energies.fuselage, w1, w2, energies.debris].into_iter().zip(truth.energies) {
                 check("energy", (found / expected - 1.0).abs());
             }
             let work: [f64; 2] = table.at(StateField::Work, point);
             let start: f64 = golden.truth[0].energies.iter().sum();
-            check("energy balance", ((energies.iter().sum::<f64>() - start - work[0] - work[1]) / start).abs());
+            check("energy balance", ((energies.total() - start - work[0] - work[1]) / start).abs());
 
             let momentum = Vector3::from(table.at::<3>(StateField::ComVelocity, point)) * scene.mass.total;
             let first = Vector3::from(table.at::<3>(StateField::ComVelocity, 0)) * scene.mass.total;

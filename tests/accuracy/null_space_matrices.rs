@@ -6,18 +6,37 @@
 
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
-use spindrift::dynamics::null_space::state::{BODIES, COORDINATES, PER_BODY, SPEEDS};
-use spindrift::dynamics::null_space::{COMPONENTS, Parameters, State};
+use spindrift::dynamics::null_space;
+use spindrift::dynamics::null_space::state::{PER_BODY, coordinates, speeds};
 use spindrift::ode::{Runs, System, Tolerance};
 use spindrift::propagation::NullSpaceRuns;
 use spindrift::scene::Scene;
 
+/// Wheels of the report.
+const WHEELS: usize = 2;
+/// The state with the report's two wheels.
+pub type State = null_space::State<WHEELS>;
+/// The constants with the report's two wheels.
+pub type Parameters = null_space::Parameters<WHEELS>;
+/// The kernel of the report's two wheels.
+pub type Kernel = null_space::Kernel<WHEELS>;
+
+/// Bodies: fuselage, wheels, debris.
+pub const BODIES: usize = State::BODIES;
+/// Coordinates q.
+pub const COORDINATES: usize = coordinates(WHEELS);
+/// Reduced speeds nu-hat.
+pub const SPEEDS: usize = speeds(WHEELS);
+/// States x = [q; nu-hat] (41).
+pub const STATES: usize = null_space::states(WHEELS);
+/// Everything that is integrated.
+pub const COMPONENTS: usize = null_space::components(WHEELS);
 /// Speeds nu before reduction.
 pub const FULL_SPEEDS: usize = 24;
 
 /// nu-hat of a state.
 pub fn reduced_speeds(state: &State) -> SVector<f64, SPEEDS> {
-    SVector::from_column_slice(&state.components()[COORDINATES..COORDINATES + SPEEDS])
+    SVector::from_column_slice(&state.components::<COMPONENTS>()[COORDINATES..COORDINATES + SPEEDS])
 }
 
 /// r^x, so that r^x v = r x v.
@@ -26,7 +45,12 @@ pub fn skew(r: Vector3<f64>) -> Matrix3<f64> {
 }
 
 fn dcm(state: &State, body: usize) -> Matrix3<f64> {
-    Matrix3::from_columns(&state.dcm[body].map(Vector3::from))
+    let pose = match body {
+        0 => &state.fuselage,
+        body if body <= WHEELS => &state.wheels[body - 1],
+        _ => &state.debris,
+    };
+    Matrix3::from_columns(&pose.dcm.map(Vector3::from))
 }
 
 fn rows(m: [[f64; 3]; 3]) -> Matrix3<f64> {
@@ -138,9 +162,9 @@ pub fn a_non(parameters: &Parameters, state: &State, sign: f64) -> SVector<f64, 
 /// B (26), (72)-(74): forces and torques per unit of (P1, P2, P3, tau^W1, tau^W2).
 pub fn actuation(parameters: &Parameters, state: &State) -> SMatrix<f64, FULL_SPEEDS, 5> {
     let mut b: SMatrix<f64, FULL_SPEEDS, 5> = SMatrix::zeros();
-    for thruster in 0..3 {
-        let direction = Vector3::from(parameters.thruster_directions[thruster]);
-        let torque = skew(parameters.thruster_points[thruster].into()) * direction;
+    for (thruster, applied) in parameters.thrusters.iter().enumerate() {
+        let direction = Vector3::from(applied.direction);
+        let torque = skew(applied.position.into()) * direction;
         b.fixed_view_mut::<3, 1>(0, thruster).copy_from(&(dcm(state, 0) * direction));
         b.fixed_view_mut::<3, 1>(3, thruster).copy_from(&torque);
     }
@@ -186,7 +210,7 @@ pub fn with_printed_sign(parameters: &Parameters, state: &State, rate: &State) -
     let change = a_non(parameters, state, -1.0) - a_non(parameters, state, 1.0);
     let force = pi(parameters, state).transpose() * change;
     let speeds = reduced_mass(parameters, state).cholesky().expect("M-hat is positive definite").solve(&force);
-    let mut components = rate.components();
+    let mut components: [f64; COMPONENTS] = rate.components();
     for (component, change) in components[COORDINATES..COORDINATES + SPEEDS].iter_mut().zip(speeds.iter()) {
         *component += change;
     }
@@ -202,7 +226,7 @@ pub enum SignOfANon {
 
 /// The runs of [`NullSpaceRuns`] with either sign.
 pub struct SignedRuns<'a> {
-    runs: NullSpaceRuns<'a>,
+    runs: NullSpaceRuns<'a, WHEELS>,
     parameters: Parameters,
     sign: SignOfANon,
 }

@@ -4,10 +4,10 @@
 //! two seconds, observed at 201 points. Law: the error of the energy follows the tolerance. Counter-test: with the printed
 //! sign of a-hat_non,s it jumps to the size of the energy itself.
 
-use crate::null_space_matrices::{SignOfANon, SignedRuns};
+use crate::null_space_matrices::{COMPONENTS, Parameters, SignOfANon, SignedRuns, State};
 use crate::support::golden::Golden;
 use crate::support::runs::{adaptive, propagate};
-use spindrift::dynamics::null_space::{COMPONENTS, Parameters, State, kinetic_energies};
+use spindrift::dynamics::null_space::kinetic_energies;
 use spindrift::math::Isa;
 use spindrift::math::isa::Work;
 use spindrift::observables::{Groups, Observer, Request};
@@ -138,7 +138,7 @@ impl Work for Signed<'_> {
             steps = outcome.effort.steps;
             let total = |point| {
                 let state = State::from_components(&trajectory.at::<COMPONENTS>(point));
-                kinetic_energies(parameters, &state).iter().sum::<f64>()
+                kinetic_energies(parameters, &state).total()
             };
             let start = total(0);
             worst = (0..POINTS).map(|point| (total(point) / start - 1.0).abs()).fold(0.0, f64::max);

@@ -147,7 +147,8 @@ fn reversed(scene: &Scene, run: &Run, wheels: f64) -> Scene {
     let mut back = scene.clone();
     back.initial.q_es = run.table.at(StateField::Attitude, last);
     back.initial.omega_se_s = run.table.at::<3>(StateField::Rate, last).map(|x| -x);
-    back.initial.wheel_rates = run.table.at::<2>(StateField::WheelRates, last).map(|x| wheels * x);
+    let rates = run.table.at::<2>(StateField::WheelRates, last);
+    back.initial.wheel_rates[..2].copy_from_slice(&rates.map(|x| wheels * x));
     back
 }
 
@@ -162,7 +163,8 @@ fn there_and_back(method: Method, control: Control, horizon: f64, wheels: f64) -
         let (start, last) = (&scene.initial, run.table.points() - 1);
         let rate = relative(run.table.at(StateField::Rate, last), start.omega_se_s.map(|x| -x));
         let attitude = up_to_sign(run.table.at(StateField::Attitude, last), start.q_es);
-        let wheels = relative(run.table.at(StateField::WheelRates, last), start.wheel_rates.map(|x| -x));
+        let wheels =
+            relative(run.table.at(StateField::WheelRates, last), [0, 1].map(|wheel| -start.wheel_rates[wheel]));
         worst = worst.max(rate).max(attitude).max(wheels);
     }
     worst

@@ -113,7 +113,7 @@ fn distance(found: &Motion, expected: &Motion) -> f64 {
                 StateField::Attitude | StateField::DebrisAttitude => {
                     up_to_sign(found.at(block, point), expected.at(block, point))
                 }
-                _ if block.width() == 2 => off!(2),
+                _ if found.width(block) == 2 => off!(2),
                 _ => off!(3),
             });
         }

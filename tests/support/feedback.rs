@@ -32,10 +32,9 @@ impl ActuationLaw for ProportionalDerivative {
         // smooth in the state: a switch would tell rounding errors apart
         let thrust = 20.0 / (1.0 + speed);
         Actuation {
-            until: f64::INFINITY,
-            thrust: [thrust, 0.0, 0.5 * thrust],
             motor_torque: wheels.rates.map(|rate| -self.braking * rate),
             body_torque: [torque(0), torque(1), torque(2)],
+            ..Actuation::none(f64::INFINITY).with_thrust(&[thrust, 0.0, 0.5 * thrust])
         }
     }
 }

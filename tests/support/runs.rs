@@ -34,7 +34,7 @@ impl Run {
         let mut bits = vec![status as u64, time.to_bits(), points as u64];
         bits.extend([effort.steps, effort.rejected, effort.evaluations]);
         for block in StateField::ALL.into_iter().filter(|block| blocks.contains(*block)) {
-            for component in 0..block.width() {
+            for component in 0..self.table.width(block) {
                 let column = &self.table.column(block, component)[..self.table.points()];
                 bits.extend(column.iter().map(|x| x.to_bits()));
             }

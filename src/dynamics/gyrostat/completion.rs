@@ -141,7 +141,7 @@ pub fn rotation<S: Simd, const N: usize>(
     Rotation { rate, attitude: Some(q_es) }
 }
 
-/// Wheel rates Omega_i = h_i/J_i - a_i . omega and, where requested, the angles; for a held wheel the constant rate and a linear angle.
+/// Wheel rates and, where requested, the angles.
 #[inline(always)]
 fn complete_wheels<S: Simd, const N: usize>(
     chunk: Chunk<S>,
@@ -152,41 +152,29 @@ fn complete_wheels<S: Simd, const N: usize>(
     table: &mut StateTable,
 ) {
     let angles = N >= WITH_ANGLES && table.has(StateField::WheelAngles);
-    for wheel in 0..2 {
-        let axis = constant(chunk.zero(), run.axes_b[wheel]);
-        let inverse = run.inverse_axial(wheel);
-        if inverse == 0.0 {
+    for (index, wheel) in run.wheels.iter().enumerate() {
+        if wheel.is_missing() {
             // a missing wheel does not turn
             for field in [StateField::WheelRates, StateField::WheelAngles] {
                 if table.has(field) {
-                    chunk.zero().store(&mut table.column_mut(field, wheel)[chunk.first..]);
+                    chunk.zero().store(&mut table.column_mut(field, index)[chunk.first..]);
                 }
             }
             continue;
         }
-        if let Some(rate) = run.held[wheel] {
-            let rate = chunk.splat(rate);
-            if table.has(StateField::WheelRates) {
-                rate.store(&mut table.column_mut(StateField::WheelRates, wheel)[chunk.first..]);
-            }
-            if table.has(StateField::WheelAngles) {
-                let angle = rate.mul_add(Lanes::from_slice(chunk.simd, times), chunk.splat(run.wheel_angles[wheel]));
-                angle.store(&mut table.column_mut(StateField::WheelAngles, wheel)[chunk.first..]);
-            }
-            continue;
-        }
+        let lanes = wheel.in_lanes(chunk.zero());
         if table.has(StateField::WheelRates) {
             let momentum = chunk.along(
                 run,
                 times,
                 #[inline(always)]
                 |arc, since| {
-                    let motor = arc.arc.applied.motor_torque[wheel];
-                    chunk.splat(motor).mul_add(since, chunk.splat(arc.wheel_momentum[wheel]))
+                    let torque = chunk.splat(arc.arc.applied.motor_torque[index]);
+                    arc.wheels[index].in_lanes(since).momentum_after(torque, since)
                 },
             );
-            let rate = momentum * chunk.splat(inverse) - dot(axis, omega_b);
-            rate.store(&mut table.column_mut(StateField::WheelRates, wheel)[chunk.first..]);
+            let rate = lanes.rate(momentum, omega_b);
+            rate.store(&mut table.column_mut(StateField::WheelRates, index)[chunk.first..]);
         }
         if angles {
             let turn = chunk.along(
@@ -194,13 +182,13 @@ fn complete_wheels<S: Simd, const N: usize>(
                 times,
                 #[inline(always)]
                 |arc, since| {
-                    let (motor, momentum) = (arc.arc.applied.motor_torque[wheel], arc.wheel_momentum[wheel]);
-                    let mean = chunk.splat(0.5 * motor).mul_add(since, chunk.splat(momentum));
-                    (mean * chunk.splat(inverse)).mul_add(since, chunk.splat(arc.wheel_turn[wheel]))
+                    let torque = chunk.splat(arc.arc.applied.motor_torque[index]);
+                    arc.wheels[index].in_lanes(since).turn_after(&lanes, torque, since)
                 },
             );
-            let angle = chunk.splat(run.wheel_angles[wheel]) + (turn - dot(axis, chunk.read3(trajectory, ANGLE)));
-            angle.store(&mut table.column_mut(StateField::WheelAngles, wheel)[chunk.first..]);
+            let time = Lanes::from_slice(chunk.simd, times);
+            let angle = lanes.angle(time, turn, chunk.read3(trajectory, ANGLE));
+            angle.store(&mut table.column_mut(StateField::WheelAngles, index)[chunk.first..]);
         }
     }
 }

@@ -13,7 +13,7 @@ pub struct Constants<R> {
     pub inverse: [R; 3],
     /// Wheels' momentum vector at the start of the arc, B, N m s.
     pub momentum: [R; 3],
-    /// Its rate: tau_1 a1 + tau_2 a2, B, N m.
+    /// Its rate: the sum of tau_i a_i, B, N m.
     pub momentum_rate: [R; 3],
     /// External torque about c, of the thrusters and on the body, B, N m.
     pub torque: [R; 3],
@@ -69,8 +69,8 @@ impl<R: Real> Constants<R> {
     #[inline(always)]
     pub fn set_arc(&mut self, lane: usize, run: &Gyrostat<f64>, arc: usize, unit: f64) {
         let arc = &run.arcs[arc];
-        let momentum = run.wheel_momentum_b(arc.wheel_momentum);
-        let rate = run.wheel_momentum_b(arc.motor_torque());
+        let momentum = run.wheel_momentum_b(arc);
+        let rate = run.motor_torque_b(arc);
         for i in 0..3 {
             self.momentum[i].set_lane(lane, momentum[i] * unit);
             self.momentum_rate[i].set_lane(lane, rate[i] * unit * unit);
@@ -102,8 +102,8 @@ impl<R: Real> Constants<R> {
         }
         constants.velocity = scaled(unit, run.v_co_e);
         constants.inverse_mass = one / run.mass;
-        constants.momentum = scaled(unit, run.wheel_momentum_b(arc.wheel_momentum));
-        constants.momentum_rate = scaled(unit2, run.wheel_momentum_b(arc.motor_torque()));
+        constants.momentum = scaled(unit, run.wheel_momentum_b(arc));
+        constants.momentum_rate = scaled(unit2, run.motor_torque_b(arc));
         constants.torque = scaled(unit2, arc.torque_b);
         constants.force = scaled(unit2, arc.force_b);
         constants.motor_power = power * unit2 * unit;
@@ -112,7 +112,7 @@ impl<R: Real> Constants<R> {
         constants
     }
 
-    /// omega' in B: J* omega' = H x omega + tau_ext - tau_1 a1 - tau_2 a2, H = J* omega + h.
+    /// omega' in B: J* omega' = H x omega + tau_ext - sum tau_i a_i, H = J* omega + h.
     #[inline(always)]
     pub fn angular_acceleration(&self, time: R, omega: [R; 3]) -> [R; 3] {
         let since = time - self.start;

@@ -2,10 +2,10 @@
 //!
 //! For balanced axisymmetric wheels with fixed centres the inertia in F_s is constant, and the spacecraft is a
 //! Zhukovskii-Volterra gyrostat (N. E. Zhukovskii, 1885; V. Volterra, Acta Math. 22, 1899; J. Wittenburg, *Dynamics of
-//! Multibody Systems*, 2008, section 4.6). About the centre of mass c, with J* = J - J_1 a1 a1^T - J_2 a2 a2^T:
+//! Multibody Systems*, 2008, section 4.6). About the centre of mass c, with J* = J - sum J_i a_i a_i^T over any number of wheels:
 //!
 //! ```text
-//! H = J* omega + h_1 a1 + h_2 a2,    J* omega' = H x omega + tau_ext - tau_1 a1 - tau_2 a2,    h_i' = tau_i
+//! H = J* omega + sum h_i a_i,    J* omega' = H x omega + tau_ext - sum tau_i a_i,    h_i' = tau_i
 //! ```
 //!
 //! A wheel whose motor holds its speed has other constants: its axial inertia stays in the inertia that resists a change of
@@ -21,23 +21,27 @@
 //! inertia cost nothing: omega_i' is one product of two rates plus linear terms. Between switches the torques and thrusts
 //! are constant, h_i is linear in time and is not integrated.
 //!
-//! - [`Gyrostat`]: one run's constants, initial state and arcs.
+//! - [`Gyrostat`]: one run's constants, initial state and arcs. [`wheel`]: rate, momentum and angle of its wheels.
 //! - [`equations`]: the right-hand side, for Runge-Kutta methods in lanes.
-//! - [`completion`]: integrated components -> the physical [`crate::run::StateTable`].
+//! - [`completion`]: integrated components -> the physical [`crate::run::StateTable`]. [`observed`]: the state that a law sees.
+//! - `time_scale`: the time in which the motion changes.
 //!
 //! Not here: Taylor recurrences of the same equations (`propagation::taylor`), the debris (`super::debris`).
 
 pub mod completion;
 pub mod equations;
+pub mod observed;
+mod time_scale;
+pub mod wheel;
 
-use crate::dynamics::actuation::{BodyState, WheelState};
 use crate::dynamics::applied::scheduled_arc;
 use crate::math::Real;
 use crate::math::symmetric::principal_axes;
 use crate::math::vector::{
-    conjugate, constant, cross, dot, hamilton, product, quaternion_from_dcm, scaled, sum, transposed_product,
+    constant, cross, dcm_from_quaternion, dot, hamilton, product, quaternion_from_dcm, scaled, sum, transposed_product,
 };
-use crate::scene::{Actuation, Arc, Scene, WheelMode};
+use crate::scene::{Actuation, Arc, MAX_WHEELS, Scene, WheelMode};
+use wheel::{GyrostatWheel, WheelMotion};
 
 /// Index of the first component of the angular velocity in B, rad/s (3).
 pub const OMEGA: usize = 0;
@@ -76,20 +80,8 @@ pub struct GyrostatArc<R> {
     pub force_b: [R; 3],
     /// Torque of the thrusters about c plus the body torque, B, N m.
     pub torque_b: [R; 3],
-    /// Momenta of the wheels beside K omega at the start, N m s: h_i of a free wheel, J_i Omega_i of one whose speed is held.
-    pub wheel_momentum: [R; 2],
-    /// Integrals of h_i/J_i over time from zero to the start, rad (of free wheels).
-    pub wheel_turn: [R; 2],
-}
-
-impl<R: Real> GyrostatArc<R> {
-    /// Motor torques tau_1, tau_2 on the wheels, N m.
-    #[inline(always)]
-    pub fn motor_torque(&self) -> [R; 2] {
-        let zero = self.wheel_momentum[0];
-        let [first, second] = self.arc.applied.motor_torque;
-        [zero.splat(first), zero.splat(second)]
-    }
+    /// The wheels at the start, as many as the run has; zero beyond.
+    pub wheels: [WheelMotion<R>; MAX_WHEELS],
 }
 
 /// One run of the gyrostat: constants in the principal frame B of K, the initial state and the arcs flown so far.
@@ -101,12 +93,8 @@ pub struct Gyrostat<R> {
     pub q_sb: [R; 4],
     /// Principal moments of K, kg m^2.
     pub moments: [R; 3],
-    /// Wheel axes a1, a2 in B.
-    pub axes_b: [[R; 3]; 2],
-    /// Axial inertias J_1, J_2 of the wheels, kg m^2; zero for a wheel that is not there.
-    pub axial: [R; 2],
-    /// Rates relative to the fuselage of the wheels whose speed is held, rad/s; `None` of a free one.
-    pub held: [Option<R>; 2],
+    /// The wheels.
+    pub wheels: Vec<GyrostatWheel<R>>,
     /// Mass of the spacecraft, kg.
     pub mass: R,
     /// Angular velocity at time zero, B, rad/s.
@@ -117,10 +105,6 @@ pub struct Gyrostat<R> {
     pub r_co_e: [R; 3],
     /// Velocity of c at time zero, m/s.
     pub v_co_e: [R; 3],
-    /// Wheel angles at time zero, rad.
-    pub wheel_angles: [R; 2],
-    /// Momenta of the wheels at time zero, N m s, as [`GyrostatArc::wheel_momentum`].
-    pub initial_momentum: [R; 2],
     /// The arcs flown so far, which cover the time from zero to the end of the last without a gap.
     pub arcs: Vec<GyrostatArc<R>>,
     /// All arcs of the schedule, where it was laid out for the time scale: they need not be computed again.
@@ -145,16 +129,12 @@ impl<R: Real> Gyrostat<R> {
             c_sb: None,
             q_sb: [zero; 4],
             moments: z3,
-            axes_b: [z3; 2],
-            axial: [zero; 2],
-            held: [None; 2],
+            wheels: Vec::new(),
             mass: zero,
             omega_b: z3,
             q_eb: [zero; 4],
             r_co_e: z3,
             v_co_e: z3,
-            wheel_angles: [zero; 2],
-            initial_momentum: [zero; 2],
             arcs: Vec::new(),
             scheduled: Vec::new(),
             rate: 0.0,
@@ -167,30 +147,31 @@ impl<R: Real> Gyrostat<R> {
         let mass = &scene.mass;
         let initial = &scene.initial;
         self.set_body(zero, mass.inertia_rotating());
-        for (i, wheel) in mass.wheels.iter().enumerate() {
-            self.axes_b[i] = self.into_b(exact3(wheel.axis));
-            self.axial[i] = zero.splat(wheel.axial);
-            self.held[i] = match wheel.mode {
-                WheelMode::Free => None,
-                WheelMode::SpeedHeld => Some(zero.splat(initial.wheel_rates[i])),
-            };
-            self.wheel_angles[i] = zero.splat(initial.wheel_angles[i]);
-        }
         self.mass = zero.splat(mass.total);
         let omega_s = exact3(initial.omega_se_s);
         let q_es = initial.q_es.map(|x| zero.splat(x));
         let q_eb = if self.c_sb.is_some() { hamilton(q_es, self.q_sb) } else { q_es };
         self.start_from(self.into_b(omega_s), q_eb);
-        let c_es = crate::math::vector::dcm_from_quaternion(q_es);
+        let c_es = dcm_from_quaternion(q_es);
         let center = exact3(mass.center);
-        self.r_co_e = sum(exact3(initial.r_po_e), crate::math::vector::product(c_es, center));
-        self.v_co_e = sum(exact3(initial.v_po_e), crate::math::vector::product(c_es, cross(omega_s, center)));
-        for (wheel, rate) in initial.wheel_rates.into_iter().enumerate() {
-            self.initial_momentum[wheel] = self.axial[wheel]
-                * match self.held[wheel] {
-                    Some(rate) => rate,
-                    None => dot(self.axes_b[wheel], self.omega_b) + zero.splat(rate),
-                };
+        self.r_co_e = sum(exact3(initial.r_po_e), product(c_es, center));
+        self.v_co_e = sum(exact3(initial.v_po_e), product(c_es, cross(omega_s, center)));
+        self.set_wheels(zero, scene);
+    }
+
+    /// Takes the wheels of `scene` at time zero; body and angular velocity are known.
+    fn set_wheels(&mut self, zero: R, scene: &Scene) {
+        self.wheels.clear();
+        for (i, wheel) in scene.mass.wheels.iter().enumerate() {
+            let (angle, rate) = (zero.splat(scene.initial.wheel_angles[i]), zero.splat(scene.initial.wheel_rates[i]));
+            let axis_b = self.into_b(wheel.axis.map(|x| zero.splat(x)));
+            let axial = zero.splat(wheel.axial);
+            let inverse_axial = if wheel.axial == 0.0 { zero } else { zero.splat(1.0) / axial };
+            let (held, momentum) = match wheel.mode {
+                WheelMode::Free => (None, axial * (dot(axis_b, self.omega_b) + rate)),
+                WheelMode::SpeedHeld => (Some(rate), axial * rate),
+            };
+            self.wheels.push(GyrostatWheel { axis_b, axial, inverse_axial, held, angle, momentum });
         }
     }
 
@@ -198,7 +179,7 @@ impl<R: Real> Gyrostat<R> {
     pub fn start_from(&mut self, omega_b: [R; 3], q_eb: [R; 4]) {
         self.omega_b = omega_b;
         self.q_eb = q_eb;
-        self.rate = largest(first_lane(omega_b));
+        self.rate = time_scale::largest(omega_b);
         self.arcs.clear();
         self.scheduled.clear();
     }
@@ -236,13 +217,11 @@ impl<R: Real> Gyrostat<R> {
             // apart from the common case, in which a sum with zero could still turn -0 into 0
             torque_s = sum(torque_s, applied.body_torque);
         }
-        let (wheel_momentum, wheel_turn) = self.wheels_at(arc.start);
         self.arcs.push(GyrostatArc {
             force_b: self.into_b(constant(zero, scene.thruster_force_s(applied.thrust))),
             torque_b: self.into_b(constant(zero, torque_s)),
             arc,
-            wheel_momentum,
-            wheel_turn,
+            wheels: self.wheels_at(arc.start),
         });
     }
 
@@ -250,9 +229,8 @@ impl<R: Real> Gyrostat<R> {
     pub fn begin_free_arc(&mut self, end: f64) {
         let zero = [self.mass.zero(); 3];
         let start = self.arcs.last().map_or(0.0, |last| last.arc.end());
-        let (wheel_momentum, wheel_turn) = self.wheels_at(start);
         let arc = Arc { start, applied: Actuation::none(end) };
-        self.arcs.push(GyrostatArc { arc, force_b: zero, torque_b: zero, wheel_momentum, wheel_turn });
+        self.arcs.push(GyrostatArc { arc, force_b: zero, torque_b: zero, wheels: self.wheels_at(start) });
     }
 
     /// Starts all arcs of the schedule of `scene` up to `duration` seconds.
@@ -266,49 +244,17 @@ impl<R: Real> Gyrostat<R> {
         }
     }
 
-    /// Momenta of the wheels beside K omega, N m s, and integrals of h_i/J_i since time zero, rad, at `time` in the last arc (or zero
-    /// before the first).
-    fn wheels_at(&self, time: f64) -> ([R; 2], [R; 2]) {
-        let Some(last) = self.arcs.last() else { return (self.initial_momentum, [self.mass.zero(); 2]) };
-        let at = |wheel| (self.wheel_momentum_at(last, wheel, time), self.wheel_turn_at(last, wheel, time));
-        let (first, second) = (at(0), at(1));
-        ([first.0, second.0], [first.1, second.1])
-    }
-
-    /// The state that an actuation law sees at `time`, the end of the last arc (or zero before the first), from the integrated
-    /// components there, SI, in the order of the indices of this module.
-    pub fn observed_state(&self, time: f64, components: &[R; WITH_THRUST]) -> (BodyState, WheelState) {
-        let three = |first: usize| [components[first], components[first + 1], components[first + 2]];
-        let omega_b = three(OMEGA);
-        let [x, y, z] = three(ATTITUDE + 1);
-        let q_eb = [components[ATTITUDE], x, y, z];
-        let (omega_s, q_es) = match self.c_sb {
-            Some(c_sb) => (product(c_sb, omega_b), hamilton(q_eb, conjugate(self.q_sb))),
-            None => (omega_b, q_eb),
-        };
-        let since_start = self.mass.splat(time);
-        let inverse_mass = self.mass.splat(1.0) / self.mass;
-        let line = sum(self.r_co_e, scaled(since_start, self.v_co_e));
-        let body = BodyState {
-            omega_se_s: first_lane(omega_s),
-            q_es: first_lane(q_es),
-            r_co_e: first_lane(sum(line, scaled(inverse_mass, three(IMPULSE_INTEGRAL)))),
-            v_co_e: first_lane(sum(self.v_co_e, scaled(inverse_mass, three(IMPULSE)))),
-        };
-        let (momentum, turn) = self.wheels_at(time);
-        let mut wheels = WheelState { rates: [0.0; 2], momenta: [0.0; 2], angles: [0.0; 2] };
-        for i in 0..2 {
-            let body_rate = dot(self.axes_b[i], omega_b);
-            let (rate, absolute) = match self.held[i] {
-                Some(rate) => (rate, momentum[i] + self.axial[i] * body_rate),
-                None if self.is_missing(i) => (body_rate.zero(), body_rate.zero()),
-                None => (momentum[i] * self.inverse_axial(i) - body_rate, momentum[i]),
+    /// The motions of the wheels at `time` in the last arc (or zero before the first); zero beyond the wheels of the run.
+    pub fn wheels_at(&self, time: f64) -> [WheelMotion<R>; MAX_WHEELS] {
+        let zero = self.mass.zero();
+        let mut motions = [WheelMotion { momentum: zero, turn: zero }; MAX_WHEELS];
+        for (index, (wheel, motion)) in self.wheels.iter().zip(&mut motions).enumerate() {
+            *motion = match self.arcs.last() {
+                Some(last) => self.wheel_at(last, index, time),
+                None => wheel.start(),
             };
-            wheels.rates[i] = rate.lane(0);
-            wheels.momenta[i] = absolute.lane(0);
-            wheels.angles[i] = self.wheel_angle(i, time, turn[i], three(ANGLE)).lane(0);
         }
-        (body, wheels)
+        motions
     }
 
     /// The arc that `time` lies in; the one that ends there, at a switch.
@@ -323,94 +269,59 @@ impl<R: Real> Gyrostat<R> {
         self.arcs.partition_point(|arc| arc.arc.end() < time).min(self.arcs.len() - 1)
     }
 
-    /// Momentum of a wheel beside K omega at `time` within `arc`, N m s.
+    /// The motion of wheel `index` at `time` within `arc`.
     #[inline(always)]
-    pub fn wheel_momentum_at(&self, arc: &GyrostatArc<R>, wheel: usize, time: f64) -> R {
+    pub fn wheel_at(&self, arc: &GyrostatArc<R>, index: usize, time: f64) -> WheelMotion<R> {
         let since = self.mass.splat(time) - self.mass.splat(arc.arc.start);
-        arc.motor_torque()[wheel].mul_add(since, arc.wheel_momentum[wheel])
-    }
-
-    /// Integral of h_i/J_i from time zero to `time` within `arc`, rad: the wheel's angle is this minus a_i . (integral of omega).
-    #[inline(always)]
-    pub fn wheel_turn_at(&self, arc: &GyrostatArc<R>, wheel: usize, time: f64) -> R {
-        let since = self.mass.splat(time) - self.mass.splat(arc.arc.start);
-        let half = self.mass.splat(0.5);
-        let mean = (half * arc.motor_torque()[wheel]).mul_add(since, arc.wheel_momentum[wheel]);
-        (mean * self.inverse_axial(wheel)).mul_add(since, arc.wheel_turn[wheel])
-    }
-
-    /// 1/J_i, or zero for a wheel that is not there.
-    #[inline(always)]
-    pub fn inverse_axial(&self, wheel: usize) -> R {
-        let axial = self.axial[wheel];
-        if self.is_missing(wheel) { axial.zero() } else { axial.splat(1.0) / axial }
-    }
-
-    /// Rate of a wheel relative to the fuselage at `time` within `arc`, rad/s, where the body turns with `omega_b`:
-    /// h_i/J_i - a_i . omega, or what it is held at.
-    pub fn wheel_rate_at(&self, arc: &GyrostatArc<R>, wheel: usize, time: f64, omega_b: [R; 3]) -> R {
-        match self.held[wheel] {
-            Some(rate) => rate,
-            None if self.is_missing(wheel) => self.mass.zero(),
-            None => {
-                let absolute = self.wheel_momentum_at(arc, wheel, time) * self.inverse_axial(wheel);
-                absolute - dot(self.axes_b[wheel], omega_b)
-            }
-        }
-    }
-
-    /// Angle of a wheel at `time` within `arc`, rad, where the integral of omega since time zero is `turned_b`.
-    pub fn wheel_angle_at(&self, arc: &GyrostatArc<R>, wheel: usize, time: f64, turned_b: [R; 3]) -> R {
-        self.wheel_angle(wheel, time, self.wheel_turn_at(arc, wheel, time), turned_b)
-    }
-
-    /// Angle of a wheel, rad, given the integral of h_i/J_i since time zero.
-    fn wheel_angle(&self, wheel: usize, time: f64, absolute: R, turned_b: [R; 3]) -> R {
-        match self.held[wheel] {
-            Some(rate) => rate.mul_add(rate.splat(time), self.wheel_angles[wheel]),
-            None if self.is_missing(wheel) => self.mass.zero(),
-            None => self.wheel_angles[wheel] + (absolute - dot(self.axes_b[wheel], turned_b)),
-        }
-    }
-
-    /// Whether the spacecraft lacks a wheel.
-    #[inline(always)]
-    pub fn is_missing(&self, wheel: usize) -> bool {
-        self.axial[wheel].lane(0) == 0.0
+        let torque = self.mass.splat(arc.arc.applied.motor_torque[index]);
+        arc.wheels[index].after(&self.wheels[index], torque, since)
     }
 
     /// The sum of J_i Omega_i a_i over the wheels whose speed is held, B, N m s, where there are any. Since time zero their motors have
     /// done the work of this vector . (omega - omega(0)).
     pub fn held_momentum_b(&self) -> Option<[R; 3]> {
-        let of = |wheel: usize| self.held[wheel].map(|rate| scaled(self.axial[wheel] * rate, self.axes_b[wheel]));
-        match (of(0), of(1)) {
-            (Some(first), Some(second)) => Some(sum(first, second)),
-            (first, second) => first.or(second),
-        }
+        let of = |wheel: &GyrostatWheel<R>| wheel.held.map(|rate| scaled(wheel.axial * rate, wheel.axis_b));
+        self.wheels.iter().filter_map(of).reduce(sum)
     }
 
     /// Sum of tau_i h_i/J_i at the start of `arc`, W, and its rate, W/s.
     pub fn motor_power(&self, arc: &GyrostatArc<R>) -> [R; 2] {
-        let motor = arc.motor_torque();
-        let per_wheel = |i: usize| {
-            let scaled = motor[i] * self.inverse_axial(i);
-            [scaled * arc.wheel_momentum[i], scaled * motor[i]]
+        let zero = self.mass.zero();
+        let motions = self.wheels.iter().zip(&arc.wheels).zip(&arc.arc.applied.motor_torque);
+        let of = |((wheel, motion), torque): ((&GyrostatWheel<R>, &WheelMotion<R>), &f64)| {
+            let torque = zero.splat(*torque);
+            let per_momentum = torque * wheel.inverse_axial;
+            [per_momentum * motion.momentum, per_momentum * torque]
         };
-        let (first, second) = (per_wheel(0), per_wheel(1));
-        [first[0] + second[0], first[1] + second[1]]
+        motions.map(of).reduce(|a, b| [a[0] + b[0], a[1] + b[1]]).unwrap_or([zero; 2])
     }
 
-    /// The wheels' momenta as one vector in B, N m s.
+    /// The sum of m_i a_i over the wheels, in B, for a number of each wheel: its momentum, N m s, or its torque, N m.
     #[inline(always)]
-    pub fn wheel_momentum_b(&self, momentum: [R; 2]) -> [R; 3] {
-        sum(scaled(momentum[0], self.axes_b[0]), scaled(momentum[1], self.axes_b[1]))
+    pub fn along_axes_b(&self, numbers: impl Iterator<Item = R>) -> [R; 3] {
+        let zero = self.mass.zero();
+        self.wheels.iter().zip(numbers).map(|(wheel, m)| scaled(m, wheel.axis_b)).reduce(sum).unwrap_or([zero; 3])
+    }
+
+    /// The wheels' momenta beside K omega at the start of `arc` as one vector in B, N m s.
+    #[inline(always)]
+    pub fn wheel_momentum_b(&self, arc: &GyrostatArc<R>) -> [R; 3] {
+        self.along_axes_b(arc.wheels.iter().map(|wheel| wheel.momentum))
+    }
+
+    /// The motor torques of `arc` on the wheels as one vector in B, N m.
+    #[inline(always)]
+    pub fn motor_torque_b(&self, arc: &GyrostatArc<R>) -> [R; 3] {
+        let zero = self.mass.zero();
+        self.along_axes_b(arc.arc.applied.motor_torque.iter().map(|torque| zero.splat(*torque)))
     }
 
     /// Prepares the time scale of a run that will fly the schedule of `scene`, which is known before it starts.
     pub fn expect_schedule(&mut self, scene: &Scene, duration: f64) {
         if scene.schedule.is_empty() && !scene.environment.acts() {
             // one arc without torque: no need to lay it out for its rate
-            self.rate = self.rate.max(self.wheel_rate_of(self.initial_momentum));
+            let momentum_b = self.along_axes_b(self.wheels.iter().map(|wheel| wheel.momentum));
+            self.rate = self.rate.max(time_scale::rate_of_momentum(self.moments, momentum_b));
             return;
         }
         self.begin_schedule(scene, duration);
@@ -428,49 +339,14 @@ impl<R: Real> Gyrostat<R> {
     /// Takes the last arc into account in the time scale, for a run whose arcs are not known before it starts.
     pub fn note_rate(&mut self) {
         if let Some(last) = self.arcs.last() {
-            self.rate = self.rate.max(self.rate_of(last));
+            let rate = time_scale::rate_of_momentum(self.moments, self.wheel_momentum_b(last));
+            let torque = time_scale::rate_of_torques(self.moments, [last.torque_b, self.motor_torque_b(last)]);
+            self.rate = self.rate.max(rate.max(torque));
         }
-    }
-
-    /// The rate that an arc adds to the motion, rad/s: of the wheels' momenta, and of the torques after one radian.
-    fn rate_of(&self, arc: &GyrostatArc<R>) -> f64 {
-        let motors = first_lane(self.wheel_momentum_b(arc.motor_torque()));
-        let torque = largest(first_lane(arc.torque_b)).max(largest(motors));
-        self.wheel_rate_of(arc.wheel_momentum).max((torque / self.smallest_moment()).sqrt())
-    }
-
-    /// The rate that wheels of momenta `momentum` add to the motion, rad/s.
-    fn wheel_rate_of(&self, momentum: [R; 2]) -> f64 {
-        largest(first_lane(self.wheel_momentum_b(momentum))) / self.smallest_moment()
-    }
-
-    /// The smallest principal moment of K, kg m^2.
-    fn smallest_moment(&self) -> f64 {
-        let moments = first_lane(self.moments);
-        moments[0].min(moments[1]).min(moments[2])
     }
 
     /// A power of two near the time scale of the run, s: from its rates, its wheels and what acts on it.
     pub fn time_unit(&self) -> f64 {
-        let rate = self.rate;
-        if rate.is_nan() || rate <= SLOWEST {
-            return 1.0 / SLOWEST;
-        }
-        // the exponent alone: 2^-floor(log2 rate)
-        let exponent = (rate.to_bits() >> 52) & 0x7ff;
-        f64::from_bits((2046 - exponent) << 52)
+        time_scale::time_unit(self.rate)
     }
-}
-
-/// Below this rate, rad/s, nothing is resolved more finely: 2^-200.
-const SLOWEST: f64 = 6.223_015_277_861_142e-61;
-
-/// The components rounded to `f64`.
-fn first_lane<R: Real, const K: usize>(v: [R; K]) -> [f64; K] {
-    v.map(|component| component.lane(0))
-}
-
-/// The largest component.
-fn largest(v: [f64; 3]) -> f64 {
-    v[0].abs().max(v[1].abs()).max(v[2].abs())
 }

@@ -14,13 +14,19 @@ use crate::scene::Scene;
 /// Quaternions come from the integrated DCMs, of unit norm, with a sign that does not change from point to point, starting from
 /// the scene's own. Debris that the scene does not have is at rest. No allocation.
 #[inline(always)]
-pub fn complete(scene: &Scene, trajectory: &Trajectory, grid: &Grid, table: &mut StateTable) {
+pub fn complete<const W: usize, const N: usize>(
+    scene: &Scene,
+    trajectory: &Trajectory,
+    grid: &Grid,
+    table: &mut StateTable,
+) {
     debug_assert!(trajectory.points() == grid.points() && table.points() == grid.points());
-    let parameters = Parameters::of(scene);
+    let parameters = Parameters::<W>::of(scene);
+    let wheels = table.wheels();
     let (mut q_es, mut q_ed) = (scene.initial.q_es, scene.initial.q_ed);
     for point in 0..table.points() {
-        let state = State::from_components(&trajectory.at(point));
-        let c_es = state.dcm[0];
+        let state = State::<W>::from_components(&trajectory.at::<N>(point));
+        let c_es = state.fuselage.dcm;
         let mut set = |field: StateField, values: &[f64]| {
             if table.has(field) {
                 for (component, value) in values.iter().enumerate() {
@@ -29,23 +35,27 @@ pub fn complete(scene: &Scene, trajectory: &Trajectory, grid: &Grid, table: &mut
             }
         };
         q_es = quaternion(c_es, q_es);
-        q_ed = quaternion(state.dcm[3], q_ed);
+        q_ed = quaternion(state.debris.dcm, q_ed);
         set(StateField::Rate, &state.omega_s);
         set(StateField::Attitude, &q_es);
-        set(StateField::WheelRates, &state.wheel_rates);
-        set(StateField::WheelAngles, &state.wheel_angles);
-        set(StateField::ComPosition, &sum(state.position[0], rotated(c_es, parameters.center)));
+        set(StateField::WheelRates, &state.wheel_rates[..wheels]);
+        set(StateField::WheelAngles, &state.wheel_angles[..wheels]);
+        set(StateField::ComPosition, &sum(state.fuselage.position, rotated(c_es, parameters.center)));
         set(StateField::ComVelocity, &sum(state.v_p, rotated(c_es, cross(state.omega_s, parameters.center))));
         set(StateField::Work, &state.work);
         set(StateField::Impulse, &state.impulse);
         set(StateField::AngularImpulse, &state.angular_impulse);
-        set(StateField::DebrisPosition, &state.position[3]);
+        set(StateField::DebrisPosition, &state.debris.position);
         set(StateField::DebrisVelocity, &state.v_gd);
         set(StateField::DebrisAttitude, &q_ed);
         set(StateField::DebrisRate, &state.omega_d);
         set(StateField::Dcm, c_es.as_flattened());
         if table.has(StateField::KineticEnergies) {
-            table.set(StateField::KineticEnergies, point, kinetic_energies(&parameters, &state));
+            let energies = kinetic_energies(&parameters, &state);
+            let all = [energies.fuselage, energies.debris].into_iter().chain(energies.wheels);
+            for (component, energy) in all.take(2 + wheels).enumerate() {
+                table.column_mut(StateField::KineticEnergies, component)[point] = energy;
+            }
         }
         if table.has(StateField::Residuals) {
             table.set(StateField::Residuals, point, residuals(scene, &parameters, &state));
@@ -56,20 +66,26 @@ pub fn complete(scene: &Scene, trajectory: &Trajectory, grid: &Grid, table: &mut
 
 /// The state that an actuation law sees; of the two quaternions of the attitude the one nearer to `near`.
 #[inline(always)]
-pub fn observed_state(parameters: &Parameters, state: &State, near: [f64; 4]) -> (BodyState, WheelState) {
-    let c_es = state.dcm[0];
-    let mut momenta = [0.0; 2];
-    for (wheel, momentum) in momenta.iter_mut().enumerate() {
-        let WheelParameters { axis, inertia, .. } = parameters.wheels[wheel];
-        *momentum = dot(axis, product(inertia, axis)) * (state.wheel_rates[wheel] + dot(axis, state.omega_s));
+pub fn observed_state<const W: usize>(
+    parameters: &Parameters<W>,
+    state: &State<W>,
+    near: [f64; 4],
+) -> (BodyState, WheelState) {
+    let c_es = state.fuselage.dcm;
+    let mut wheels = WheelState::AT_REST;
+    for (i, WheelParameters { axis, inertia, .. }) in parameters.wheels.into_iter().enumerate() {
+        let rate = state.wheel_rates[i];
+        wheels.rates[i] = rate;
+        wheels.momenta[i] = dot(axis, product(inertia, axis)) * (rate + dot(axis, state.omega_s));
+        wheels.angles[i] = state.wheel_angles[i];
     }
     let body = BodyState {
         omega_se_s: state.omega_s,
         q_es: quaternion(c_es, near),
-        r_co_e: sum(state.position[0], rotated(c_es, parameters.center)),
+        r_co_e: sum(state.fuselage.position, rotated(c_es, parameters.center)),
         v_co_e: sum(state.v_p, rotated(c_es, cross(state.omega_s, parameters.center))),
     };
-    (body, WheelState { rates: state.wheel_rates, momenta, angles: state.wheel_angles })
+    (body, wheels)
 }
 
 /// The unit quaternion of a DCM by columns, the one of the two that is nearer to `near`.

@@ -7,7 +7,8 @@ use super::kinematics::WheelMotion;
 use super::parameters::{Parameters, WheelParameters};
 use super::state::{State, rotated, rotated_back};
 use crate::math::vector::{cross, difference, dot, product, scaled, sum};
-use crate::scene::{Actuation, THRUSTER_DIRECTIONS};
+use crate::scene::Actuation;
+use crate::scene::thruster::report_offset;
 
 /// A force in F_e and a torque in the body's frame about the body's point (p, g1, g2, g_d).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,34 +21,31 @@ pub struct Wrench {
 
 /// The applied forces of an arc: B u (26) and the body torque, in the frames of the bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Drive {
+pub struct Drive<const W: usize> {
     /// Force of the thrusters in F_s, N.
     pub force_s: [f64; 3],
     /// Torque of the thrusters about p plus the body torque, in F_s, N m.
     pub torque_p_s: [f64; 3],
     /// The same about c.
     pub torque_c_s: [f64; 3],
-    /// Motor torques tau^W1, tau^W2 on the wheels, N m.
-    pub motors: [f64; 2],
+    /// Motor torques on the wheels, N m.
+    pub motors: [f64; W],
 }
 
-impl Drive {
-    /// B_s u (72): P1 pushes along +s3 at p, P2 and P3 along -s3 at (0, -rho_p, l_s) and (0, +rho_p, l_s), each turned by its
-    /// misalignment.
-    pub fn of(parameters: &Parameters, actuation: &Actuation) -> Self {
-        let [p1, p2, p3] = actuation.thrust;
+impl<const W: usize> Drive<W> {
+    /// B_s u (72), each thruster turned by its misalignment.
+    pub fn of(parameters: &Parameters<W>, actuation: &Actuation) -> Self {
         let (mut force_s, mut torque_p_s) = ([0.0; 3], [0.0; 3]);
-        if parameters.thruster_directions == THRUSTER_DIRECTIONS {
+        if let Some(offset) = report_offset(&parameters.thrusters) {
             // written out, so that equal thrusts add up to exactly zero
+            let [p1, p2, p3] = [actuation.thrust[0], actuation.thrust[1], actuation.thrust[2]];
             force_s[2] = p1 - p2 - p3;
-            torque_p_s[0] = parameters.thruster_points[2][1] * (p2 - p3);
+            torque_p_s[0] = offset * (p2 - p3);
         } else {
-            for ((point, direction), thrust) in
-                parameters.thruster_points.into_iter().zip(parameters.thruster_directions).zip(actuation.thrust)
-            {
-                let force = scaled(thrust, direction);
+            for (thruster, thrust) in parameters.thrusters.iter().zip(actuation.thrust) {
+                let force = scaled(thrust, thruster.direction);
                 force_s = sum(force_s, force);
-                torque_p_s = sum(torque_p_s, cross(point, force));
+                torque_p_s = sum(torque_p_s, cross(thruster.position, force));
             }
         }
         if actuation.body_torque != [0.0; 3] {
@@ -57,7 +55,7 @@ impl Drive {
             force_s,
             torque_p_s,
             torque_c_s: difference(torque_p_s, cross(parameters.center, force_s)),
-            motors: actuation.motor_torque,
+            motors: std::array::from_fn(|w| actuation.motor_torque[w]),
         }
     }
 }
@@ -67,27 +65,27 @@ impl Drive {
 /// With w = C_es^T v_p, M-dot nu = [-C omega x (c x omega); -c x (omega x w)], Omega M nu = [0; omega x (c x w + J omega)],
 /// a_non = [0; w x (c x omega)].
 #[inline(always)]
-pub fn fuselage_inertial(parameters: &Parameters, state: &State) -> Wrench {
+pub fn fuselage_inertial<const W: usize>(parameters: &Parameters<W>, state: &State<W>) -> Wrench {
     let (omega, c) = (state.omega_s, parameters.fuselage_first);
-    let w = rotated_back(state.dcm[0], state.v_p);
+    let w = rotated_back(state.fuselage.dcm, state.v_p);
     let c_omega = cross(c, omega);
     let m_dot_nu = scaled(-1.0, cross(c, cross(omega, w)));
     let omega_m_nu = cross(omega, sum(cross(c, w), product(parameters.fuselage_inertia, omega)));
     let a_non = cross(w, c_omega);
     Wrench {
-        force: rotated(state.dcm[0], cross(omega, c_omega)),
+        force: rotated(state.fuselage.dcm, cross(omega, c_omega)),
         torque: difference(difference(a_non, m_dot_nu), omega_m_nu),
     }
 }
 
 /// B_s u (72): the thrusters, and the motors' reaction.
 #[inline(always)]
-pub fn fuselage_applied(parameters: &Parameters, state: &State, drive: &Drive) -> Wrench {
+pub fn fuselage_applied<const W: usize>(parameters: &Parameters<W>, state: &State<W>, drive: &Drive<W>) -> Wrench {
     let mut torque = drive.torque_p_s;
     for (wheel, motor) in parameters.wheels.iter().zip(drive.motors) {
         torque = difference(torque, scaled(motor, wheel.axis));
     }
-    Wrench { force: rotated(state.dcm[0], drive.force_s), torque }
+    Wrench { force: rotated(state.fuselage.dcm, drive.force_s), torque }
 }
 
 /// -M Pi-dot nu-hat - Omega M nu of a wheel, and its motor (73), (74). M-dot and a_non vanish about the centre of mass.
@@ -110,8 +108,12 @@ pub fn holding_torque(wheel: &WheelParameters, motion: &WheelMotion, omega_s_dot
 
 /// The power of the thrusters, F . v at the points where they act, and of the motors, tau . Omega; W.
 #[inline(always)]
-pub fn power(state: &State, drive: &Drive, motors: [f64; 2]) -> [f64; 2] {
-    let w = rotated_back(state.dcm[0], state.v_p);
-    let motors = motors[0].mul_add(state.wheel_rates[0], motors[1] * state.wheel_rates[1]);
-    [dot(drive.force_s, w) + dot(drive.torque_p_s, state.omega_s), motors]
+pub fn power<const W: usize>(state: &State<W>, drive: &Drive<W>, motors: [f64; W]) -> [f64; 2] {
+    let w = rotated_back(state.fuselage.dcm, state.v_p);
+    let mut motor_power = 0.0;
+    for w in (0..W).rev() {
+        let rate = state.wheel_rates[w];
+        motor_power = if w + 1 == W { motors[w] * rate } else { motors[w].mul_add(rate, motor_power) };
+    }
+    [dot(drive.force_s, w) + dot(drive.torque_p_s, state.omega_s), motor_power]
 }

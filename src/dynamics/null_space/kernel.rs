@@ -1,24 +1,26 @@
 //! [`Kernel`]: the right-hand side x-dot = f(x) (41).
 
+#![expect(clippy::needless_range_loop, reason = "indices of wheels, as in the formulas")]
+
 use super::forces::{self, Drive};
 use super::kinematics::{WheelMotion, dcm_rate};
 use super::mass_matrix::{Factor, SpacecraftMass, cholesky, solved};
 use super::parameters::Parameters;
-use super::state::{COMPONENTS, State, rotated};
+use super::state::{Pose, State, rotated};
 use crate::math::vector::{cross, product, scaled, sum};
 use crate::scene::{Actuation, Scene};
 
-/// The right-hand side for one scene and one arc of constant actuation.
-#[derive(Clone, Copy, Debug)]
-pub struct Kernel {
-    parameters: Parameters,
-    drive: Drive,
+/// The right-hand side for one scene of at most `W` wheels and one arc of constant actuation.
+#[derive(Clone, Debug)]
+pub struct Kernel<const W: usize> {
+    parameters: Parameters<W>,
+    drive: Drive<W>,
     debris_factor: Factor<3>,
     /// J_d - J_d,11 1: a multiple of the unit matrix causes no torque, and so the rate of a cube is constant to the last bit.
     debris_deviator: [[f64; 3]; 3],
 }
 
-impl Kernel {
+impl<const W: usize> Kernel<W> {
     /// The kernel of `scene`, without actuation.
     pub fn new(scene: &Scene) -> Self {
         let parameters = Parameters::of(scene);
@@ -40,7 +42,7 @@ impl Kernel {
     }
 
     /// The constants.
-    pub fn parameters(&self) -> &Parameters {
+    pub fn parameters(&self) -> &Parameters<W> {
         &self.parameters
     }
 
@@ -49,19 +51,21 @@ impl Kernel {
     ///
     /// Tests: `block_form_equals_the_matrices_as_printed`, `agrees_with_the_gyrostat`.
     #[inline(always)]
-    pub fn derivative(&self, x: &[f64; COMPONENTS]) -> [f64; COMPONENTS] {
-        let state = &State::from_components(x);
+    pub fn derivative<const N: usize>(&self, x: &[f64; N]) -> [f64; N] {
+        let state = &State::<W>::from_components(x);
         let parameters = &self.parameters;
-        let wheels =
-            [WheelMotion::of(&parameters.wheels[0], state, 0), WheelMotion::of(&parameters.wheels[1], state, 1)];
+        let mut wheels = [WheelMotion::AT_REST; W];
+        for w in 0..W {
+            wheels[w] = WheelMotion::of(&parameters.wheels[w], state, w);
+        }
 
         // f-hat_non + f-hat = Pi^T (...), spacecraft rows
         let inertial = forces::fuselage_inertial(parameters, state);
         let applied = forces::fuselage_applied(parameters, state, &self.drive);
         let mut force = sum(inertial.force, applied.force);
         let mut omega_row = sum(inertial.torque, applied.torque);
-        let mut wheel_row = [0.0; 2];
-        for w in 0..2 {
+        let mut wheel_row = [0.0; W];
+        for w in 0..W {
             let wheel = &parameters.wheels[w];
             let wrench = forces::wheel_wrench(wheel, &wheels[w], self.drive.motors[w]);
             let (torque, axial) = wheels[w].reduced(wrench.force, wrench.torque, wheel.axis);
@@ -70,12 +74,13 @@ impl Kernel {
             wheel_row[w] = axial;
         }
         let mass = SpacecraftMass::of(parameters, state, &wheels);
-        let free_row = [parameters.wheels[0].free * wheel_row[0], parameters.wheels[1].free * wheel_row[1]];
-        let (v_dot, rotation) =
-            mass.solution(force, [omega_row[0], omega_row[1], omega_row[2], free_row[0], free_row[1]]);
-        let omega_s_dot = [rotation[0], rotation[1], rotation[2]];
+        let mut free_row = wheel_row;
+        for w in 0..W {
+            free_row[w] = parameters.wheels[w].free * wheel_row[w];
+        }
+        let (v_dot, omega_s_dot, wheel_rates_dot) = mass.solution(force, omega_row, free_row);
         let mut motors = self.drive.motors;
-        for w in 0..2 {
+        for w in 0..W {
             let wheel = &parameters.wheels[w];
             let holding = forces::holding_torque(wheel, &wheels[w], omega_s_dot, wheel_row[w]);
             motors[w] = (1.0 - wheel.free).mul_add(holding, motors[w]);
@@ -85,18 +90,18 @@ impl Kernel {
         let momentum = product(self.debris_deviator, state.omega_d);
         let omega_d_dot = solved(&self.debris_factor, scaled(-1.0, cross(state.omega_d, momentum)));
 
-        let c_es = state.dcm[0];
+        let c_es = state.fuselage.dcm;
+        let mut poses = state.wheels;
+        for w in 0..W {
+            poses[w] = Pose { position: wheels[w].velocity, dcm: dcm_rate(state.wheels[w].dcm, wheels[w].omega) };
+        }
         State {
-            position: [state.v_p, wheels[0].velocity, wheels[1].velocity, state.v_gd],
-            dcm: [
-                dcm_rate(c_es, state.omega_s),
-                dcm_rate(state.dcm[1], wheels[0].omega),
-                dcm_rate(state.dcm[2], wheels[1].omega),
-                dcm_rate(state.dcm[3], state.omega_d),
-            ],
+            fuselage: Pose { position: state.v_p, dcm: dcm_rate(c_es, state.omega_s) },
+            wheels: poses,
+            debris: Pose { position: state.v_gd, dcm: dcm_rate(state.debris.dcm, state.omega_d) },
             v_p: v_dot,
             omega_s: omega_s_dot,
-            wheel_rates: [rotation[3], rotation[4]],
+            wheel_rates: wheel_rates_dot,
             v_gd: [0.0; 3],
             omega_d: omega_d_dot,
             work: forces::power(state, &self.drive, motors),

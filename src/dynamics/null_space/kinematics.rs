@@ -43,10 +43,20 @@ pub struct WheelMotion {
 }
 
 impl WheelMotion {
-    /// Wheel `index` (0, 1) in `state`.
+    /// Before anything is known.
+    pub const AT_REST: WheelMotion = WheelMotion {
+        lever: [[0.0; 3]; 3],
+        c_ws: [[0.0; 3]; 3],
+        velocity: [0.0; 3],
+        omega: [0.0; 3],
+        acceleration: [0.0; 3],
+        angular_acceleration: [0.0; 3],
+    };
+
+    /// Wheel `index` in `state`.
     #[inline(always)]
-    pub fn of(wheel: &WheelParameters, state: &State, index: usize) -> Self {
-        let (c_es, c_ew) = (state.dcm[0], state.dcm[index + 1]);
+    pub fn of<const W: usize>(wheel: &WheelParameters, state: &State<W>, index: usize) -> Self {
+        let (c_es, c_ew) = (state.fuselage.dcm, state.wheels[index].dcm);
         let (omega_s, rate) = (state.omega_s, state.wheel_rates[index]);
         let minus_lever = lever(c_es, wheel.center);
         let c_ws = [rotated_back(c_ew, c_es[0]), rotated_back(c_ew, c_es[1]), rotated_back(c_ew, c_es[2])];

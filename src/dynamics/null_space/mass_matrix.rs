@@ -1,7 +1,7 @@
 //! M-hat = Pi^T M Pi (25) and its solution by Cholesky's method.
 //!
-//! M-hat is block diagonal: the spacecraft's 8x8 (v_p, omega_s, alpha-dot, beta-dot), m_d 1, J_d. In the 8x8 the block of v_p is
-//! m 1, so that its part of the factor is sqrt(m) 1 and only a 5x5 remains to be factored.
+//! M-hat is block diagonal: the spacecraft's (v_p, omega_s, wheel rates), m_d 1, J_d. In the spacecraft's the block of v_p is m 1, so that
+//! its part of the factor is sqrt(m) 1 and only the block of omega_s and the wheel rates remains to be factored.
 //!
 //! The rate of a wheel of constant speed is not an unknown; its row and column are those of the unit matrix, so that its rate of
 //! change is zero.
@@ -16,26 +16,38 @@ use crate::math::vector::{dot, product, scaled};
 /// A lower triangular Cholesky factor with the reciprocals on its diagonal.
 pub type Factor<const N: usize> = [[f64; N]; N];
 
-/// The spacecraft's block of M-hat.
+/// The spacecraft's block of M-hat, with `W` wheels.
 #[derive(Clone, Copy, Debug)]
-pub struct SpacecraftMass {
+pub struct SpacecraftMass<const W: usize> {
     /// v_p with v_p: m, times the unit matrix, kg.
     pub total: f64,
-    /// v_p (rows) with omega_s (columns), by columns, kg m: -C_es (c_s + m_1 z_1 + m_2 z_2)^x.
+    /// v_p (rows) with omega_s (columns), by columns, kg m: -C_es (c_s + sum m_i z_i)^x.
     pub coupling: [[f64; 3]; 3],
-    /// (omega_s, alpha-dot, beta-dot) with themselves, kg m^2; the lower triangle is filled.
-    pub rotation: [[f64; 5]; 5],
+    /// The rates with themselves.
+    pub rotation: RotationBlock<W>,
 }
 
-impl SpacecraftMass {
+/// The block of omega_s and the wheel rates of a symmetric matrix, or of its lower triangular factor; kg m^2. Of the squares the lower
+/// triangle is filled.
+#[derive(Clone, Copy, Debug)]
+pub struct RotationBlock<const W: usize> {
+    /// omega_s with omega_s.
+    pub omega: [[f64; 3]; 3],
+    /// Wheel rates (rows) with omega_s.
+    pub mixed: [[f64; 3]; W],
+    /// Wheel rates with themselves.
+    pub wheels: [[f64; W]; W],
+}
+
+impl<const W: usize> SpacecraftMass<W> {
     /// Pi^T M Pi of fuselage and wheels.
     #[inline(always)]
-    pub fn of(parameters: &Parameters, state: &State, wheels: &[WheelMotion; 2]) -> Self {
-        let minus = lever(state.dcm[0], parameters.first);
-        let mut rotation = [[0.0; 5]; 5];
+    pub fn of(parameters: &Parameters<W>, state: &State<W>, wheels: &[WheelMotion; W]) -> Self {
+        let minus = lever(state.fuselage.dcm, parameters.first);
+        let mut rotation = RotationBlock { omega: [[0.0; 3]; 3], mixed: [[0.0; 3]; W], wheels: [[0.0; W]; W] };
         for i in 0..3 {
             for j in 0..=i {
-                rotation[i][j] = parameters.fuselage_inertia[i][j];
+                rotation.omega[i][j] = parameters.fuselage_inertia[i][j];
             }
         }
         for (w, motion) in wheels.iter().enumerate() {
@@ -49,12 +61,12 @@ impl SpacecraftMass {
             let axial = product(wheel.inertia, wheel.axis);
             for i in 0..3 {
                 for j in 0..=i {
-                    rotation[i][j] +=
+                    rotation.omega[i][j] +=
                         wheel.mass.mul_add(dot(motion.lever[i], motion.lever[j]), dot(motion.c_ws[i], turned[j]));
                 }
-                rotation[3 + w][i] = wheel.free * dot(axial, motion.c_ws[i]);
+                rotation.mixed[w][i] = wheel.free * dot(axial, motion.c_ws[i]);
             }
-            rotation[3 + w][3 + w] = wheel.free * dot(wheel.axis, axial) + wheel.idle;
+            rotation.wheels[w][w] = wheel.free * dot(wheel.axis, axial) + wheel.idle;
         }
         SpacecraftMass {
             total: parameters.total,
@@ -63,31 +75,81 @@ impl SpacecraftMass {
         }
     }
 
-    /// Solves for (v_p-dot, [omega_s-dot, alpha-dot-dot, beta-dot-dot]).
+    /// Solves for (v_p-dot, omega_s-dot, the rates of change of the wheel rates), given the rows of v_p, omega_s and the wheel rates.
     #[inline(always)]
-    pub fn solution(&self, force: [f64; 3], torque: [f64; 5]) -> ([f64; 3], [f64; 5]) {
+    pub fn solution(&self, force: [f64; 3], torque: [f64; 3], axial: [f64; W]) -> ([f64; 3], [f64; 3], [f64; W]) {
         let root = 1.0 / self.total.sqrt();
         // not `map`: it is compiled separately, without the instructions of the caller
         let b = [scaled(root, self.coupling[0]), scaled(root, self.coupling[1]), scaled(root, self.coupling[2])];
         let mut rest = self.rotation;
         for i in 0..3 {
             for j in 0..=i {
-                rest[i][j] -= dot(b[i], b[j]);
+                rest.omega[i][j] -= dot(b[i], b[j]);
             }
         }
-        let factor = cholesky(rest);
         let y = scaled(root, force);
         let mut right = torque;
         for i in 0..3 {
             right[i] -= dot(b[i], y);
         }
-        let rotation = solved(&factor, right);
+        let (omega, wheels) = rest.factor().solved(right, axial);
         let mut v = y;
         for i in 0..3 {
-            let sum = b[0][i].mul_add(rotation[0], b[1][i].mul_add(rotation[1], b[2][i] * rotation[2]));
+            let sum = b[0][i].mul_add(omega[0], b[1][i].mul_add(omega[1], b[2][i] * omega[2]));
             v[i] = (y[i] - sum) * root;
         }
-        (v, rotation)
+        (v, omega, wheels)
+    }
+}
+
+impl<const W: usize> RotationBlock<W> {
+    /// The Cholesky factor, with the reciprocals on its diagonal; the operations of [`cholesky`] on the whole block, in the same order.
+    #[inline(always)]
+    pub fn factor(&self) -> Self {
+        let omega = cholesky(self.omega);
+        let (mut mixed, mut wheels) = (self.mixed, self.wheels);
+        for w in 0..W {
+            for j in 0..3 {
+                let mut x = mixed[w][j];
+                for k in 0..j {
+                    x = (-mixed[w][k]).mul_add(omega[j][k], x);
+                }
+                mixed[w][j] = x * omega[j][j];
+            }
+        }
+        for j in 0..W {
+            for i in j..W {
+                let mut x = wheels[i][j];
+                for k in 0..3 {
+                    x = (-mixed[i][k]).mul_add(mixed[j][k], x);
+                }
+                wheels[i][j] = x;
+            }
+        }
+        RotationBlock { omega, mixed, wheels: cholesky(wheels) }
+    }
+
+    /// L^-T L^-1 of the rows of omega_s and the wheel rates, where this is the factor L.
+    #[inline(always)]
+    pub fn solved(&self, omega: [f64; 3], wheels: [f64; W]) -> ([f64; 3], [f64; W]) {
+        let mut x = forward(&self.omega, omega);
+        let mut y = wheels;
+        for w in 0..W {
+            for k in 0..3 {
+                y[w] = (-self.mixed[w][k]).mul_add(x[k], y[w]);
+            }
+        }
+        y = backward(&self.wheels, forward(&self.wheels, y));
+        for i in (0..3).rev() {
+            for k in i + 1..3 {
+                x[i] = (-self.omega[k][i]).mul_add(x[k], x[i]);
+            }
+            for w in 0..W {
+                x[i] = (-self.mixed[w][i]).mul_add(y[w], x[i]);
+            }
+            x[i] *= self.omega[i][i];
+        }
+        (x, y)
     }
 }
 
@@ -116,6 +178,12 @@ pub fn cholesky<const N: usize>(a: [[f64; N]; N]) -> Factor<N> {
 /// L^-T L^-1 `right`.
 #[inline(always)]
 pub fn solved<const N: usize>(l: &Factor<N>, right: [f64; N]) -> [f64; N] {
+    backward(l, forward(l, right))
+}
+
+/// L^-1 `right`.
+#[inline(always)]
+fn forward<const N: usize>(l: &Factor<N>, right: [f64; N]) -> [f64; N] {
     let mut x = right;
     for i in 0..N {
         for k in 0..i {
@@ -123,6 +191,13 @@ pub fn solved<const N: usize>(l: &Factor<N>, right: [f64; N]) -> [f64; N] {
         }
         x[i] *= l[i][i];
     }
+    x
+}
+
+/// L^-T `right`.
+#[inline(always)]
+fn backward<const N: usize>(l: &Factor<N>, right: [f64; N]) -> [f64; N] {
+    let mut x = right;
     for i in (0..N).rev() {
         for k in i + 1..N {
             x[i] = (-l[k][i]).mul_add(x[k], x[i]);

@@ -1,4 +1,4 @@
-//! The report's null-space formulation: fuselage, two wheels and debris in 62 redundant states.
+//! The report's null-space formulation: fuselage, wheels and debris in redundant states, 62 with the report's two wheels.
 //!
 //! Source: F. Berdoz, *Final Report - ADR Spacecraft*; equation numbers in this folder are those of that report. Notation of
 //! J. Forbes, *A systematic approach to dynamics* (2019); the report's own symbols (Gamma, S, Pi, M, Omega, a_non, B, nu-hat)
@@ -8,8 +8,10 @@
 //! - omega_e^se = C_es omega_s (section IX prints them as equal, which is true only while C_es = 1);
 //! - S (68) contains each body's own third column.
 //!
-//! The states: q (48) contains, for each of S, W1, W2, D, the position (p, g1, g2, g_d) and C_eb by columns; nu (24), per body,
-//! [velocity in F_e, angular velocity in the body's frame]; nu-hat (14) = [v_p, omega_s, alpha-dot, beta-dot, v_gd, omega_d].
+//! The states: q contains, for each of S, the wheels and D, the position (p, g_i, g_d) and C_eb by columns; nu, per body, [velocity in F_e,
+//! angular velocity in the body's frame]; nu-hat = [v_p, omega_s, the wheel rates, v_gd, omega_d]. With the report's two wheels they have
+//! 48, 24 and 14 components. A wheel's frame is F_s while its angle is zero, so that its axis has the same components in both frames: the
+//! second axis of the report's W1, the third of its W2, any unit vector in general.
 //! nu = Pi nu-hat (58), q-dot = Gamma nu (9), and with M-hat = Pi^T M Pi (25)
 //! `M-hat nu-hat-dot = Pi^T (-M-dot nu - M Pi-dot nu-hat - Omega M nu + a_non + B u)` (39).
 //!
@@ -36,8 +38,8 @@ pub mod residuals;
 pub mod state;
 
 pub use completion::{complete, observed_state};
-pub use energy::kinetic_energies;
+pub use energy::{KineticEnergies, kinetic_energies};
 pub use kernel::Kernel;
 pub use parameters::Parameters;
 pub use residuals::residuals;
-pub use state::{COMPONENTS, STATES, State, sigma};
+pub use state::{Pose, State, components, sigma, states};

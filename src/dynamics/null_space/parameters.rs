@@ -1,13 +1,12 @@
 //! The constants of a scene in the null-space formulation.
 
-use crate::scene::Scene;
-use crate::scene::WheelMode;
 use crate::scene::mass::{Body, Wheel};
+use crate::scene::{Scene, Thruster, WheelMode};
 
-/// The constants of a scene. Absent bodies remain in the equations, decoupled: a missing wheel has zero mass and inertia and a
-/// unit on its diagonal of M-hat, missing debris is a body of unit mass and inertia at rest.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Parameters {
+/// The constants of a scene for a kernel of `W` wheels. Absent bodies remain in the equations, decoupled: a missing wheel has zero
+/// mass and inertia and a unit on its diagonal of M-hat, missing debris is a body of unit mass and inertia at rest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameters<const W: usize> {
     /// Mass m_s of the fuselage, kg.
     pub fuselage_mass: f64,
     /// First moment c_s of the fuselage about p, in F_s, kg m.
@@ -15,7 +14,7 @@ pub struct Parameters {
     /// Inertia J_s of the fuselage about p, in F_s, kg m^2, by rows.
     pub fuselage_inertia: [[f64; 3]; 3],
     /// The wheels.
-    pub wheels: [WheelParameters; 2],
+    pub wheels: [WheelParameters; W],
     /// Mass of fuselage and wheels, kg.
     pub total: f64,
     /// First moment of fuselage and wheels about p, kg m.
@@ -24,10 +23,8 @@ pub struct Parameters {
     pub debris_mass: f64,
     /// Inertia of the debris about its centre, in F_d, kg m^2, by rows.
     pub debris_inertia: [[f64; 3]; 3],
-    /// Points of application of P1, P2, P3, from p in F_s, m: p, (0, -rho_p, l_s), (0, +rho_p, l_s).
-    pub thruster_points: [[f64; 3]; 3],
-    /// Directions of the thrusts, unit vectors in F_s.
-    pub thruster_directions: [[f64; 3]; 3],
+    /// The thrusters.
+    pub thrusters: Vec<Thruster>,
     /// Centre of mass c of the spacecraft from p in F_s, m.
     pub center: [f64; 3],
 }
@@ -51,6 +48,16 @@ pub struct WheelParameters {
 }
 
 impl WheelParameters {
+    /// A wheel that is missing.
+    const MISSING: WheelParameters = WheelParameters {
+        mass: 0.0,
+        center: [0.0; 3],
+        axis: [0.0, 1.0, 0.0],
+        inertia: [[0.0; 3]; 3],
+        free: 1.0,
+        idle: 1.0,
+    };
+
     fn of(wheel: &Wheel) -> Self {
         let is_free = wheel.mode == WheelMode::Free;
         WheelParameters {
@@ -64,13 +71,13 @@ impl WheelParameters {
     }
 }
 
-impl Parameters {
-    /// The constants of `scene`.
+impl<const W: usize> Parameters<W> {
+    /// The constants of `scene`, which has at most `W` wheels.
     pub fn of(scene: &Scene) -> Self {
         const UNIT: Body =
             Body { mass: 1.0, center: [0.0; 3], inertia: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] };
         let mass = &scene.mass;
-        let wheels = [WheelParameters::of(&mass.wheels[0]), WheelParameters::of(&mass.wheels[1])];
+        let wheels = std::array::from_fn(|i| mass.wheels.get(i).map_or(WheelParameters::MISSING, WheelParameters::of));
         let fuselage_first = mass.fuselage.first_moment();
         let mut first = fuselage_first;
         for wheel in &wheels {
@@ -88,12 +95,7 @@ impl Parameters {
             first,
             debris_mass: debris.mass,
             debris_inertia: debris.inertia,
-            thruster_points: [
-                [0.0; 3],
-                [0.0, -scene.thruster_offset, scene.thruster_station],
-                [0.0, scene.thruster_offset, scene.thruster_station],
-            ],
-            thruster_directions: scene.thruster_directions,
+            thrusters: scene.thrusters.clone(),
             center: mass.center,
         }
     }

@@ -7,6 +7,7 @@ use super::parameters::Parameters;
 use super::state::{Columns, State, rotated, rotated_back};
 use crate::math::vector::{cross, difference, dot, scaled, sum};
 use crate::scene::Scene;
+use crate::scene::mass::Wheel;
 
 /// The largest residual of each kind in `state`: [kinematic, collocation, attitude]. Bodies that the scene does not have do not count.
 ///
@@ -15,28 +16,28 @@ use crate::scene::Scene;
 /// - collocation (m, and sines of angles): the wheel's centre is at z_i, its axis along the fuselage's a_i;
 /// - attitude: entries of C^T C - 1 of all DCMs.
 #[inline(always)]
-pub fn residuals(scene: &Scene, parameters: &Parameters, state: &State) -> [f64; 3] {
+pub fn residuals<const W: usize>(scene: &Scene, parameters: &Parameters<W>, state: &State<W>) -> [f64; 3] {
     let (mut kinematic, mut collocation) = (0.0, 0.0);
-    let c_es = state.dcm[0];
+    let c_es = state.fuselage.dcm;
     let mut attitude = orthonormality(c_es);
     for (w, wheel) in parameters.wheels.iter().enumerate() {
-        if !scene.mass.wheels[w].is_present() {
+        if !scene.mass.wheels.get(w).is_some_and(Wheel::is_present) {
             continue;
         }
         let motion = WheelMotion::of(wheel, state, w);
-        let c_ew = state.dcm[w + 1];
+        let c_ew = state.wheels[w].dcm;
         let carried = sum(state.v_p, rotated(c_es, cross(state.omega_s, wheel.center)));
         let relative = difference(rotated_back(c_es, rotated(c_ew, motion.omega)), state.omega_s);
         let across = difference(relative, scaled(dot(relative, wheel.axis), wheel.axis));
         kinematic = largest(largest(kinematic, difference(motion.velocity, carried)), across);
 
-        let center = sum(state.position[0], rotated(c_es, wheel.center));
+        let center = sum(state.fuselage.position, rotated(c_es, wheel.center));
         let tilt = difference(rotated(c_ew, wheel.axis), rotated(c_es, wheel.axis));
-        collocation = largest(largest(collocation, difference(state.position[w + 1], center)), tilt);
+        collocation = largest(largest(collocation, difference(state.wheels[w].position, center)), tilt);
         attitude = attitude.max(orthonormality(c_ew));
     }
     if scene.mass.debris.is_some() {
-        attitude = attitude.max(orthonormality(state.dcm[3]));
+        attitude = attitude.max(orthonormality(state.debris.dcm));
     }
     [kinematic, collocation, attitude]
 }

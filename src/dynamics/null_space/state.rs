@@ -6,35 +6,54 @@ use crate::scene::Scene;
 /// A DCM by columns: `columns[j]` is C e_j.
 pub type Columns = [[f64; 3]; 3];
 
-/// Coordinates q.
-pub const COORDINATES: usize = 48;
-/// Reduced speeds nu-hat.
-pub const SPEEDS: usize = 14;
-/// States x = [q; nu-hat] (41).
-pub const STATES: usize = COORDINATES + SPEEDS;
-/// Quadrature states: thruster work, motor work, impulse (3), angular impulse (3), alpha, beta.
-pub const INTEGRALS: usize = 10;
-/// Everything that is integrated.
-pub const COMPONENTS: usize = STATES + INTEGRALS;
-
-/// The bodies, in the order of q.
-pub const BODIES: usize = 4;
-/// Coordinates per body: position and DCM.
+/// Coordinates of a body: position and DCM.
 pub const PER_BODY: usize = 12;
 
-/// The state by its parts. Frames and units as in [`crate::scene::InitialState`].
+/// Number of coordinates q with `wheels` wheels: fuselage, wheels, debris.
+pub const fn coordinates(wheels: usize) -> usize {
+    PER_BODY * (2 + wheels)
+}
+
+/// Number of reduced speeds nu-hat with `wheels` wheels.
+pub const fn speeds(wheels: usize) -> usize {
+    12 + wheels
+}
+
+/// Number of states x = [q; nu-hat] (41) with `wheels` wheels; 62 with the report's two.
+pub const fn states(wheels: usize) -> usize {
+    coordinates(wheels) + speeds(wheels)
+}
+
+/// Number of everything that is integrated with `wheels` wheels: the states, and the quadrature states, which are the work of
+/// thrusters and motors, impulse (3), angular impulse (3) and the angle of each wheel.
+pub const fn components(wheels: usize) -> usize {
+    states(wheels) + 8 + wheels
+}
+
+/// Position and attitude of a body, or their rates.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct State {
-    /// Positions of p, g1, g2, g_d in F_e, m.
-    pub position: [[f64; 3]; BODIES],
-    /// C_es, C_ea, C_eb, C_ed by columns.
-    pub dcm: [Columns; BODIES],
+pub struct Pose {
+    /// Position of the body's point (p, g_i, g_d) in F_e, m.
+    pub position: [f64; 3],
+    /// C_eb by columns.
+    pub dcm: Columns,
+}
+
+/// The state by its parts, with `W` wheels. Frames and units as in [`crate::scene::InitialState`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct State<const W: usize> {
+    /// The fuselage: p and C_es.
+    pub fuselage: Pose,
+    /// The wheels: g_i and C_ew.
+    pub wheels: [Pose; W],
+    /// The debris: g_d and C_ed.
+    pub debris: Pose,
     /// v_p in F_e, m/s.
     pub v_p: [f64; 3],
     /// omega^se in F_s, rad/s.
     pub omega_s: [f64; 3],
-    /// alpha-dot, beta-dot, rad/s.
-    pub wheel_rates: [f64; 2],
+    /// Wheel rates, rad/s.
+    pub wheel_rates: [f64; W],
     /// v_gd in F_e, m/s.
     pub v_gd: [f64; 3],
     /// omega^de in F_d, rad/s.
@@ -45,84 +64,127 @@ pub struct State {
     pub impulse: [f64; 3],
     /// Angular impulse about c in F_e, N m s.
     pub angular_impulse: [f64; 3],
-    /// alpha, beta, not wrapped, rad: the wheels' DCMs determine them only up to whole turns.
-    pub wheel_angles: [f64; 2],
+    /// Wheel angles, not wrapped, rad: the wheels' DCMs determine them only up to whole turns.
+    pub wheel_angles: [f64; W],
 }
 
 #[inline(always)]
-fn three(x: &[f64; COMPONENTS], start: usize) -> [f64; 3] {
-    [x[start], x[start + 1], x[start + 2]]
+fn part<const K: usize>(x: &[f64], start: usize) -> [f64; K] {
+    let mut part = [0.0; K];
+    part.copy_from_slice(&x[start..start + K]);
+    part
 }
 
-impl State {
+impl Pose {
+    #[inline(always)]
+    fn read(x: &[f64], body: usize) -> Self {
+        let start = PER_BODY * body;
+        Pose { position: part(x, start), dcm: [part(x, start + 3), part(x, start + 6), part(x, start + 9)] }
+    }
+
+    #[inline(always)]
+    fn write(&self, x: &mut [f64], body: usize) {
+        let start = PER_BODY * body;
+        x[start..start + 3].copy_from_slice(&self.position);
+        for j in 0..3 {
+            x[start + 3 + 3 * j..start + 6 + 3 * j].copy_from_slice(&self.dcm[j]);
+        }
+    }
+}
+
+impl<const W: usize> State<W> {
+    /// Number of bodies.
+    pub const BODIES: usize = 2 + W;
+    /// Number of states.
+    pub const STATES: usize = states(W);
+    /// Index of v_p, omega_s, the wheel rates, v_gd and omega_d.
+    const SPEED: [usize; 5] = {
+        let first = coordinates(W);
+        [first, first + 3, first + 6, first + 6 + W, first + 9 + W]
+    };
+    /// Index of the works, the impulse, the angular impulse and the wheel angles.
+    const INTEGRAL: [usize; 4] = [states(W), states(W) + 2, states(W) + 5, states(W) + 8];
+
     /// From the vector of components.
     #[inline(always)]
-    pub fn from_components(x: &[f64; COMPONENTS]) -> Self {
-        let column = |body: usize, j: usize| three(x, PER_BODY * body + 3 + 3 * j);
-        let body = |b: usize| [column(b, 0), column(b, 1), column(b, 2)];
+    pub fn from_components<const N: usize>(x: &[f64; N]) -> Self {
+        const { assert!(N == components(W), "as many components as the wheels make") }
+        let [v_p, omega_s, rates, v_gd, omega_d] = Self::SPEED;
+        let [work, impulse, angular_impulse, angles] = Self::INTEGRAL;
+        let fuselage = Pose::read(x, 0);
+        let mut wheels = [fuselage; W];
+        for (w, wheel) in wheels.iter_mut().enumerate() {
+            *wheel = Pose::read(x, 1 + w);
+        }
         State {
-            position: [three(x, 0), three(x, PER_BODY), three(x, 2 * PER_BODY), three(x, 3 * PER_BODY)],
-            dcm: [body(0), body(1), body(2), body(3)],
-            v_p: three(x, 48),
-            omega_s: three(x, 51),
-            wheel_rates: [x[54], x[55]],
-            v_gd: three(x, 56),
-            omega_d: three(x, 59),
-            work: [x[62], x[63]],
-            impulse: three(x, 64),
-            angular_impulse: three(x, 67),
-            wheel_angles: [x[70], x[71]],
+            fuselage,
+            wheels,
+            debris: Pose::read(x, 1 + W),
+            v_p: part(x, v_p),
+            omega_s: part(x, omega_s),
+            wheel_rates: part(x, rates),
+            v_gd: part(x, v_gd),
+            omega_d: part(x, omega_d),
+            work: part(x, work),
+            impulse: part(x, impulse),
+            angular_impulse: part(x, angular_impulse),
+            wheel_angles: part(x, angles),
         }
     }
 
     /// The vector of components; also of a derivative, which has the same layout.
     #[inline(always)]
-    pub fn components(&self) -> [f64; COMPONENTS] {
-        let mut x = [0.0; COMPONENTS];
-        for body in 0..BODIES {
-            let start = PER_BODY * body;
-            x[start..start + 3].copy_from_slice(&self.position[body]);
-            for j in 0..3 {
-                x[start + 3 + 3 * j..start + 6 + 3 * j].copy_from_slice(&self.dcm[body][j]);
-            }
+    pub fn components<const N: usize>(&self) -> [f64; N] {
+        const { assert!(N == components(W), "as many components as the wheels make") }
+        let [v_p, omega_s, rates, v_gd, omega_d] = Self::SPEED;
+        let [work, impulse, angular_impulse, angles] = Self::INTEGRAL;
+        let mut x = [0.0; N];
+        self.fuselage.write(&mut x, 0);
+        for (w, wheel) in self.wheels.iter().enumerate() {
+            wheel.write(&mut x, 1 + w);
         }
-        x[48..51].copy_from_slice(&self.v_p);
-        x[51..54].copy_from_slice(&self.omega_s);
-        x[54..56].copy_from_slice(&self.wheel_rates);
-        x[56..59].copy_from_slice(&self.v_gd);
-        x[59..62].copy_from_slice(&self.omega_d);
-        x[62..64].copy_from_slice(&self.work);
-        x[64..67].copy_from_slice(&self.impulse);
-        x[67..70].copy_from_slice(&self.angular_impulse);
-        x[70..72].copy_from_slice(&self.wheel_angles);
+        self.debris.write(&mut x, 1 + W);
+        x[v_p..v_p + 3].copy_from_slice(&self.v_p);
+        x[omega_s..omega_s + 3].copy_from_slice(&self.omega_s);
+        x[rates..rates + W].copy_from_slice(&self.wheel_rates);
+        x[v_gd..v_gd + 3].copy_from_slice(&self.v_gd);
+        x[omega_d..omega_d + 3].copy_from_slice(&self.omega_d);
+        x[work..work + 2].copy_from_slice(&self.work);
+        x[impulse..impulse + 3].copy_from_slice(&self.impulse);
+        x[angular_impulse..angular_impulse + 3].copy_from_slice(&self.angular_impulse);
+        x[angles..angles + W].copy_from_slice(&self.wheel_angles);
         x
     }
 }
 
 /// Sigma (59): the full state from the measurable one.
 ///
-/// C_es and C_ed from their quaternions; C_ea = C_es C_sa(alpha), C_eb = C_es C_sb(beta) (42), (43); wheel centres
-/// r_p + C_es z_i; the integrals start at zero, the angles at their initial values.
-pub fn sigma(scene: &Scene) -> State {
+/// C_es and C_ed from their quaternions; C_ew = C_es C_sw(angle) (42), (43); wheel centres r_p + C_es z_i; the integrals start at
+/// zero, the angles at their initial values. A missing wheel is at p and moves with the fuselage.
+pub fn sigma<const W: usize>(scene: &Scene) -> State<W> {
     let initial = &scene.initial;
     let c_es = transposed(dcm_from_quaternion(initial.q_es));
+    let fuselage = Pose { position: initial.r_po_e, dcm: c_es };
     let mut state = State {
-        position: [initial.r_po_e, initial.r_po_e, initial.r_po_e, initial.r_gdo_e],
-        dcm: [c_es, c_es, c_es, transposed(dcm_from_quaternion(initial.q_ed))],
+        fuselage,
+        wheels: [fuselage; W],
+        debris: Pose { position: initial.r_gdo_e, dcm: transposed(dcm_from_quaternion(initial.q_ed)) },
         v_p: initial.v_po_e,
         omega_s: initial.omega_se_s,
-        wheel_rates: initial.wheel_rates,
+        wheel_rates: part(&initial.wheel_rates, 0),
         v_gd: initial.v_gdo_e,
         omega_d: initial.omega_de_d,
         work: [0.0; 2],
         impulse: [0.0; 3],
         angular_impulse: [0.0; 3],
-        wheel_angles: initial.wheel_angles,
+        wheel_angles: part(&initial.wheel_angles, 0),
     };
     for (i, wheel) in scene.mass.wheels.iter().enumerate() {
-        state.position[i + 1] = sum(initial.r_po_e, transposed_product(c_es, wheel.center));
         let c_sw = wheel_columns(wheel.axis, initial.wheel_angles[i]);
-        state.dcm[i + 1] = c_sw.map(|column| transposed_product(c_es, column));
+        state.wheels[i] = Pose {
+            position: sum(initial.r_po_e, transposed_product(c_es, wheel.center)),
+            dcm: c_sw.map(|column| transposed_product(c_es, column)),
+        };
     }
     state
 }
@@ -164,8 +226,10 @@ mod tests {
 
     #[test]
     fn components_and_state_are_the_same_thing() {
-        let x: [f64; COMPONENTS] = std::array::from_fn(|i| i as f64 + 0.5);
-        assert_eq!(State::from_components(&x).components(), x);
+        let x: [f64; components(2)] = std::array::from_fn(|i| i as f64 + 0.5);
+        assert_eq!(State::<2>::from_components(&x).components(), x);
+        let y: [f64; components(8)] = std::array::from_fn(|i| i as f64 + 0.5);
+        assert_eq!(State::<8>::from_components(&y).components(), y);
     }
 
     #[test]
@@ -173,20 +237,20 @@ mod tests {
         let mut input = samples::table_two();
         input.initial.wheel_angles_rad = [0.3, -0.7];
         let scene = Scene::resolve(&input).expect("a legal scene");
-        let state = sigma(&scene);
+        let state = sigma::<2>(&scene);
         let (sa, ca) = libm::sincos(0.3);
         let (sb, cb) = libm::sincos(-0.7);
         // C_as = C_2(alpha) by rows is C_sa by columns
         let c2 = [[ca, 0.0, -sa], [0.0, 1.0, 0.0], [sa, 0.0, ca]];
         let c3 = [[cb, sb, 0.0], [-sb, cb, 0.0], [0.0, 0.0, 1.0]];
-        for (columns, expected) in [(state.dcm[1], c2), (state.dcm[2], c3)] {
+        for (columns, expected) in [(state.wheels[0].dcm, c2), (state.wheels[1].dcm, c3)] {
             for i in 0..3 {
                 for j in 0..3 {
                     assert!((columns[i][j] - expected[i][j]).abs() < 1e-15);
                 }
             }
         }
-        assert_eq!(state.position[1], [0.0, 0.0, 1.0]);
-        assert_eq!(state.position[2], [0.0, 0.0, 2.0]);
+        assert_eq!(state.wheels[0].position, [0.0, 0.0, 1.0]);
+        assert_eq!(state.wheels[1].position, [0.0, 0.0, 2.0]);
     }
 }

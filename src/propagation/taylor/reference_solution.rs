@@ -19,6 +19,7 @@ use crate::dynamics::actuation::ActuationLaw;
 use crate::dynamics::applied::{law_arc, scheduled_arc};
 use crate::dynamics::debris;
 use crate::dynamics::gyrostat::equations::Constants;
+use crate::dynamics::gyrostat::observed::observed_state;
 use crate::dynamics::gyrostat::{
     ANGLE, ANGULAR_IMPULSE, ATTITUDE, Gyrostat, IMPULSE, IMPULSE_INTEGRAL, MOTOR_WORK, OMEGA, THRUST_WORK, WITH_THRUST,
 };
@@ -29,6 +30,7 @@ use crate::math::{Isa, Real};
 use crate::propagation::settings::observes_debris_rotation;
 use crate::run::Status;
 use crate::run::{Grid, StateField, StateFields, StateTable};
+use crate::scene::MAX_WHEELS;
 use crate::scene::Scene;
 
 /// Relative tolerance of a reference solution: five times the rounding of double-double (2^-105 = 2.5e-32), below which
@@ -94,7 +96,7 @@ impl ReferenceSolution {
         if law.is_none() {
             coarse.expect_schedule(scene, grid.duration());
         }
-        let mut solution = Self::blank(fields, grid);
+        let mut solution = Self::blank(fields, scene.mass.wheels.len(), grid);
         let states =
             isa.run_narrow(Integration { run: &mut run, coarse: &mut coarse, scene: Some(scene), law, grid, rule })?;
         for (point, state) in states.iter().enumerate() {
@@ -108,8 +110,8 @@ impl ReferenceSolution {
         Ok(solution)
     }
 
-    fn blank(fields: StateFields, grid: &Grid) -> Self {
-        let table = StateTable::new(fields, grid.points());
+    fn blank(fields: StateFields, wheels: usize, grid: &Grid) -> Self {
+        let table = StateTable::new(fields, wheels, grid.points());
         ReferenceSolution { high: table.clone(), low: table }
     }
 
@@ -126,10 +128,12 @@ impl ReferenceSolution {
         (0..K).map(|i| (sign * state[i] - high[i]) - low[i]).map(|off| off * off).sum::<f64>().sqrt()
     }
 
-    fn put<const K: usize>(&mut self, field: StateField, point: usize, values: [DoubleDouble; K]) {
+    fn put(&mut self, field: StateField, point: usize, values: &[DoubleDouble]) {
         if self.high.has(field) {
-            self.high.set(field, point, values.map(|value| value.high));
-            self.low.set(field, point, values.map(|value| value.low));
+            for (component, value) in values.iter().enumerate() {
+                self.high.column_mut(field, component)[point] = value.high;
+                self.low.column_mut(field, component)[point] = value.low;
+            }
         }
     }
 
@@ -137,28 +141,29 @@ impl ReferenceSolution {
     fn complete(&mut self, run: &Gyrostat<DoubleDouble>, time: f64, point: usize, y: &[DoubleDouble; N]) {
         let zero = DoubleDouble::exact(0.0);
         let (omega_b, omega_s, q_es) = rotation(run, y);
-        self.put(StateField::Rate, point, omega_s);
-        self.put(StateField::Attitude, point, q_es);
+        self.put(StateField::Rate, point, &omega_s);
+        self.put(StateField::Attitude, point, &q_es);
         let arc = run.arc_at(time);
-        let (mut rates, mut angles) = ([zero; 2], [zero; 2]);
-        for i in 0..2 {
-            rates[i] = run.wheel_rate_at(arc, i, time, omega_b);
-            angles[i] = run.wheel_angle_at(arc, i, time, three(y, ANGLE));
+        let (mut rates, mut angles) = ([zero; MAX_WHEELS], [zero; MAX_WHEELS]);
+        for (i, wheel) in run.wheels.iter().enumerate().filter(|(_, wheel)| !wheel.is_missing()) {
+            let motion = run.wheel_at(arc, i, time);
+            rates[i] = wheel.rate(motion.momentum, omega_b);
+            angles[i] = wheel.angle(DoubleDouble::exact(time), motion.turn, three(y, ANGLE));
         }
-        self.put(StateField::WheelRates, point, rates);
-        self.put(StateField::WheelAngles, point, angles);
+        self.put(StateField::WheelRates, point, &rates[..run.wheels.len()]);
+        self.put(StateField::WheelAngles, point, &angles[..run.wheels.len()]);
         let inverse_mass = DoubleDouble::exact(1.0) / run.mass;
         let impulse = three(y, IMPULSE);
         let line = sum(run.r_co_e, scaled(DoubleDouble::exact(time), run.v_co_e));
-        self.put(StateField::ComPosition, point, sum(line, scaled(inverse_mass, three(y, IMPULSE_INTEGRAL))));
-        self.put(StateField::ComVelocity, point, sum(run.v_co_e, scaled(inverse_mass, impulse)));
-        self.put(StateField::Impulse, point, impulse);
-        self.put(StateField::AngularImpulse, point, three(y, ANGULAR_IMPULSE));
+        self.put(StateField::ComPosition, point, &sum(line, scaled(inverse_mass, three(y, IMPULSE_INTEGRAL))));
+        self.put(StateField::ComVelocity, point, &sum(run.v_co_e, scaled(inverse_mass, impulse)));
+        self.put(StateField::Impulse, point, &impulse);
+        self.put(StateField::AngularImpulse, point, &three(y, ANGULAR_IMPULSE));
         let mut motors = y[MOTOR_WORK];
         if let Some(held) = run.held_momentum_b() {
             motors += dot(held, difference(omega_b, run.omega_b));
         }
-        self.put(StateField::Work, point, [y[THRUST_WORK], motors]);
+        self.put(StateField::Work, point, &[y[THRUST_WORK], motors]);
     }
 
     /// Fills the fields of the debris.
@@ -166,8 +171,8 @@ impl ReferenceSolution {
         let (start, velocity) = (scene.initial.r_gdo_e, scene.initial.v_gdo_e.map(DoubleDouble::exact));
         for (point, time) in grid.times().iter().enumerate() {
             let position = sum(start.map(DoubleDouble::exact), scaled(DoubleDouble::exact(*time), velocity));
-            self.put(StateField::DebrisPosition, point, position);
-            self.put(StateField::DebrisVelocity, point, velocity);
+            self.put(StateField::DebrisPosition, point, &position);
+            self.put(StateField::DebrisVelocity, point, &velocity);
         }
         if !observes_debris_rotation(self.high.fields()) {
             return Ok(());
@@ -180,8 +185,8 @@ impl ReferenceSolution {
             isa.run_narrow(Integration { run: &mut run, coarse: &mut coarse, scene: None, law: None, grid, rule })?;
         for (point, state) in states.iter().enumerate() {
             let (_, omega_d, q_ed) = rotation(&run, state);
-            self.put(StateField::DebrisRate, point, omega_d);
-            self.put(StateField::DebrisAttitude, point, q_ed);
+            self.put(StateField::DebrisRate, point, &omega_d);
+            self.put(StateField::DebrisAttitude, point, &q_ed);
         }
         Ok(())
     }
@@ -246,7 +251,7 @@ impl Integration<'_, '_> {
             Some(law) => {
                 let mut components = *state;
                 scale(&mut components, si_factors(1.0 / unit));
-                let (body, wheels) = self.run.observed_state(time, &components);
+                let (body, wheels) = observed_state(self.run, time, &components);
                 law_arc(scene, &mut **law, time, (&body, &wheels), duration)
             }
         };

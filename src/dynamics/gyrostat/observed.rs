@@ -1,0 +1,43 @@
+//! [`observed_state`]: the state of a gyrostat that an actuation law sees.
+
+use super::{ANGLE, ATTITUDE, Gyrostat, IMPULSE, IMPULSE_INTEGRAL, OMEGA, WITH_THRUST};
+use crate::dynamics::actuation::{BodyState, WheelState};
+use crate::math::Real;
+use crate::math::vector::{conjugate, hamilton, product, scaled, sum};
+
+/// The state of `run` at `time`, the end of its last arc (or zero before the first), from the integrated components there, SI, in the
+/// order of the indices of the parent module.
+pub fn observed_state<R: Real>(run: &Gyrostat<R>, time: f64, components: &[R; WITH_THRUST]) -> (BodyState, WheelState) {
+    let three = |first: usize| [components[first], components[first + 1], components[first + 2]];
+    let (omega_b, turned_b) = (three(OMEGA), three(ANGLE));
+    let [x, y, z] = three(ATTITUDE + 1);
+    let q_eb = [components[ATTITUDE], x, y, z];
+    let (omega_s, q_es) = match run.c_sb {
+        Some(c_sb) => (product(c_sb, omega_b), hamilton(q_eb, conjugate(run.q_sb))),
+        None => (omega_b, q_eb),
+    };
+    let now = run.mass.splat(time);
+    let inverse_mass = run.mass.splat(1.0) / run.mass;
+    let line = sum(run.r_co_e, scaled(now, run.v_co_e));
+    let body = BodyState {
+        omega_se_s: first_lane(omega_s),
+        q_es: first_lane(q_es),
+        r_co_e: first_lane(sum(line, scaled(inverse_mass, three(IMPULSE_INTEGRAL)))),
+        v_co_e: first_lane(sum(run.v_co_e, scaled(inverse_mass, three(IMPULSE)))),
+    };
+    let mut wheels = WheelState::AT_REST;
+    for (i, (wheel, motion)) in run.wheels.iter().zip(run.wheels_at(time)).enumerate() {
+        if wheel.is_missing() {
+            continue;
+        }
+        wheels.rates[i] = wheel.rate(motion.momentum, omega_b).lane(0);
+        wheels.momenta[i] = wheel.absolute_momentum(motion.momentum, omega_b).lane(0);
+        wheels.angles[i] = wheel.angle(now, motion.turn, turned_b).lane(0);
+    }
+    (body, wheels)
+}
+
+/// The components rounded to `f64`.
+fn first_lane<R: Real, const K: usize>(v: [R; K]) -> [f64; K] {
+    v.map(|component| component.lane(0))
+}

@@ -1,0 +1,85 @@
+//! [`List`]: up to `N` values in place, for what a scene may have several of.
+//!
+//! Not a vector of the standard library, because a scene is resolved anew for every sample without allocating, and because its parts
+//! are copied as plain values.
+
+use core::ops::{Deref, DerefMut};
+
+/// Up to `N` values in place.
+#[derive(Clone, Copy, Debug)]
+pub struct List<T, const N: usize> {
+    items: [T; N],
+    len: usize,
+}
+
+impl<T: Copy, const N: usize> List<T, N> {
+    /// No values; `blank` fills the memory that is not used.
+    pub const fn empty(blank: T) -> Self {
+        List { items: [blank; N], len: 0 }
+    }
+
+    /// Adds a value at the end.
+    ///
+    /// # Panics
+    /// Where there are `N` values already.
+    pub fn push(&mut self, value: T) {
+        assert!(self.len < N, "a list of at most {N} values is full");
+        self.items[self.len] = value;
+        self.len += 1;
+    }
+}
+
+impl<T, const N: usize> Deref for List<T, N> {
+    type Target = [T];
+
+    #[inline(always)]
+    fn deref(&self) -> &[T] {
+        &self.items[..self.len]
+    }
+}
+
+impl<T, const N: usize> DerefMut for List<T, N> {
+    #[inline(always)]
+    fn deref_mut(&mut self) -> &mut [T] {
+        &mut self.items[..self.len]
+    }
+}
+
+impl<T: PartialEq, const N: usize> PartialEq for List<T, N> {
+    fn eq(&self, other: &Self) -> bool {
+        **self == **other
+    }
+}
+
+impl<'a, T, const N: usize> IntoIterator for &'a List<T, N> {
+    type Item = &'a T;
+    type IntoIter = core::slice::Iter<'a, T>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.iter()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_the_values_count() {
+        let (mut a, mut b) = (List::<u8, 3>::empty(0), List::<u8, 3>::empty(9));
+        assert_eq!(a, b);
+        a.push(1);
+        assert_ne!(a, b);
+        b.push(1);
+        assert_eq!((a, a.len(), a[0]), (b, 1, 1));
+        assert_eq!(a.iter().sum::<u8>(), 1);
+    }
+
+    #[test]
+    #[should_panic = "at most 1 values is full"]
+    fn a_full_list_takes_no_more() {
+        let mut list = List::<u8, 1>::empty(0);
+        list.push(1);
+        list.push(2);
+    }
+}
