@@ -6,7 +6,7 @@
 use super::canonical_draws::{correlation_lines, derivation_lines, design_lines, dispersion_lines};
 use super::lines::Lines;
 use super::plan::Plan;
-use crate::scene::schema::Table;
+use crate::scene::table::Table;
 use sha2::{Digest, Sha256};
 
 impl Plan {

@@ -1,7 +1,8 @@
 //! [`Lines`]: canonical text while it is written, table by table and key by key.
 
 use crate::scene::SceneInput;
-use crate::scene::schema::{Table, limit::shown};
+use crate::scene::schema::limit::shown;
+use crate::scene::table::Table;
 
 /// A table's lines while they are written.
 #[derive(Default)]
@@ -30,8 +31,8 @@ impl Lines {
     pub(super) fn keys_of(&mut self, header: &str, table: Table, instance: usize, scene: &SceneInput) {
         self.table(header);
         for key in table.keys() {
-            if let Some(numbers) = (key.read)(scene, instance) {
-                self.0.push_str(&format!("{} = {}\n", key.key, shown(numbers)));
+            if let Some(numbers) = key.read(scene, instance) {
+                self.0.push_str(&format!("{} = {}\n", key.facts().key, shown(numbers)));
             }
         }
     }

@@ -18,7 +18,8 @@ pub(super) fn parameter(table: &mut Section<'_, '_>, key: &'static str) -> Optio
 
 /// What is said of a name that is no parameter: what is allowed, and what was probably meant.
 pub(super) fn unknown_parameter(name: &str) -> (String, String) {
-    let remedy = match nearest(name, Parameter::all().map(Parameter::name)) {
+    let names: Vec<String> = Parameter::all().map(Parameter::name).collect();
+    let remedy = match nearest(name, names.iter().map(String::as_str)) {
         Some(meant) => format!("did you mean {meant:?}?"),
         None => "write table and key as in this file, \"wheel1.radius_m\"".to_owned(),
     };

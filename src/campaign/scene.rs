@@ -4,7 +4,7 @@
 //! there, and `wheel_mode`, which is no number.
 
 use super::section::Section;
-use crate::scene::schema::{Presence, Table};
+use crate::scene::table::Table;
 use crate::scene::{ActuationInput, DebrisInput, SceneInput, WheelInput, WheelMode};
 
 /// Reads every table of the scene. A number that is missing or wrong is NaN, and noted in the document.
@@ -62,25 +62,21 @@ pub(super) fn read(root: &mut Section<'_, '_>) -> SceneInput {
 /// Reads the keys of one table into the scene.
 fn read_keys(section: &mut Section<'_, '_>, table: Table, instance: usize, scene: &mut SceneInput) {
     // a key that is written may be another way to describe a body
-    for key in table.keys().filter(|key| section.has(key.key)) {
-        if (key.read)(scene, instance).is_none() {
-            (key.open)(scene, instance);
+    for key in table.keys().filter(|key| section.has(key.facts().key)) {
+        if key.read(scene, instance).is_none() {
+            key.open(scene, instance);
         }
     }
     for key in table.keys() {
-        let example = match key.presence {
-            Presence::Required(example) => Some(example),
-            Presence::RequiredIf(applies, example) => applies(scene).then_some(example),
-            Presence::Optional => None,
-        };
-        let Some(numbers) = (key.write)(scene, instance) else {
-            section.know(key.key);
+        let (name, example) = (key.facts().key, key.required(scene));
+        let Some(numbers) = key.write(scene, instance) else {
+            section.know(name);
             continue;
         };
         if let Some(example) = example {
-            section.require_numbers(key.key, numbers.len(), example);
+            section.require_numbers(name, numbers.len(), example);
         }
-        if !section.fill(key.key, numbers) && example.is_some() {
+        if !section.fill(name, numbers) && example.is_some() {
             numbers.fill(f64::NAN);
         }
     }
@@ -140,8 +136,12 @@ fn refuse_states_of_absent_bodies(section: &mut Section<'_, '_>, scene: &SceneIn
         }
     }
     let absent = |key: &&str| section.has(key);
-    let keys: Vec<&str> =
-        Table::Initial.keys().filter(|key| (key.read)(scene, 0).is_none()).map(|key| key.key).filter(absent).collect();
+    let keys: Vec<&str> = Table::Initial
+        .keys()
+        .filter(|key| key.read(scene, 0).is_none())
+        .map(|key| key.facts().key)
+        .filter(absent)
+        .collect();
     for key in keys {
         section.refuse(key, "left out where there is no debris", "delete this line, or add a [debris] table");
     }

@@ -51,8 +51,9 @@ impl<'a> Acting<'a> {
         for arc in self.arcs {
             let applied = &arc.applied;
             let thrust = self.scene.thruster_torque_s(applied.thrust);
-            let [first, second] = applied.motor_torque;
-            let actuators = dot(thrust, thrust).sqrt() + first.abs() + second.abs() + self.environment;
+            let thrust = dot(thrust, thrust).sqrt();
+            let actuators =
+                applied.motor_torque.iter().fold(thrust, |sum, torque| sum + torque.abs()) + self.environment;
             largest = largest.larger(actuators + dot(applied.body_torque, applied.body_torque).sqrt());
         }
         largest

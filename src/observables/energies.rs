@@ -208,7 +208,7 @@ pub(super) fn energies<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut Series
         }
 
         let v_c = three(simd, velocity, at);
-        if inertial && let Some([s, _, w1, w2]) = redundant {
+        if inertial && let Some([s, w1, w2, _]) = redundant {
             load(simd, s, at).store(&mut fuselage[at]);
             load(simd, w1, at).store(&mut wheel1[at]);
             load(simd, w2, at).store(&mut wheel2[at]);
@@ -221,7 +221,7 @@ pub(super) fn energies<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut Series
             constants.moving(2, about[2], square, turned).store(&mut wheel2[at]);
         }
         let mut energy = match redundant {
-            Some([s, _, w1, w2]) => load(simd, s, at) + (load(simd, w1, at) + load(simd, w2, at)),
+            Some([s, w1, w2, _]) => load(simd, s, at) + (load(simd, w1, at) + load(simd, w2, at)),
             None => constants.half_total.mul_add(dot(v_c, v_c), com),
         };
         if let Some((velocity, omega, form, half_mass)) = debris {

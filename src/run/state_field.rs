@@ -34,7 +34,7 @@ pub enum StateField {
     Dcm,
     /// Residuals of the constraints: kinematic, collocation, attitude (3).
     Residuals,
-    /// Kinetic energies of body, debris, and each wheel in F_e, from methods with redundant states, J (2 and one per wheel).
+    /// Kinetic energies of body, each wheel, and debris in F_e, from methods with redundant states, J (2 and one per wheel).
     KineticEnergies,
 }
 

@@ -7,29 +7,31 @@ use super::error::Problems;
 use super::input::SceneInput;
 use super::mass::{Body, MassProperties};
 use super::schedule::applied;
-use super::schema::{FuselageInput, Table, WheelMode, debris, limit::shown};
+use super::schema::{FuselageInput, WheelMode, limit::shown};
+use super::table::Table;
 use crate::math::symmetric::is_positive_definite;
 
 /// Collects what is wrong with the numbers as written.
 pub(super) fn written(input: &SceneInput, problems: &mut Problems) {
-    input.fuselage.check_all(input, problems);
+    let has_debris = input.debris.is_some();
+    input.fuselage.check_all(problems);
     geometry(&input.fuselage, problems);
     for (instance, wheel) in input.wheels.iter().enumerate() {
         if let Some(wheel) = wheel {
-            wheel.check(input, problems, |_, names| names[instance].into());
+            wheel.check(has_debris, problems, |key| format!("{}.{key}", Table::Wheel.headers()[instance]).into());
         }
     }
-    if input.debris.is_some() {
-        debris::check(input, problems);
+    if let Some(debris) = &input.debris {
+        debris.check(problems);
     }
-    input.initial.check(input, problems, |_, names| names[0].into());
-    input.environment.check(input, problems, |_, names| names[0].into());
+    input.initial.check(has_debris, problems, |key| format!("initial.{key}").into());
+    input.environment.check(has_debris, problems, |key| format!("environment.{key}").into());
     if input.actuation.is_empty() {
         return;
     }
     let before = problems.0.len();
     arcs(input, problems);
-    input.actuators.check(input, problems, |_, names| names[0].into());
+    input.actuators.check(has_debris, problems, |key| format!("actuators.{key}").into());
     if problems.0.len() == before {
         switches(input, problems);
     }
@@ -56,7 +58,7 @@ fn arcs(input: &SceneInput, problems: &mut Problems) {
     for (i, arc) in input.actuation.iter().enumerate() {
         let before = problems.0.len();
         let key = |name: &str| format!("actuation[{i}].{name}");
-        arc.check(input, problems, |name, _| key(name).into());
+        arc.check(false, problems, |name| key(name).into());
         if problems.0.len() > before {
             continue;
         }

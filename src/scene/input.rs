@@ -5,7 +5,8 @@
 //! physical.
 
 use super::schema::{
-    ActuationInput, ActuatorsInput, DebrisInput, EnvironmentInput, FuselageInput, InitialInput, WheelInput, WheelMode,
+    ActuationInput, ActuatorsInput, DebrisInput, EnvironmentInput, FuselageInput, InitialInput, Usage, WheelInput,
+    WheelMode,
 };
 
 /// A scene as written: bodies, initial state, actuation.
@@ -70,28 +71,16 @@ impl SceneInput {
         self
     }
 
-    /// The same scene with other numbers for a parameter, whole or one component, by its name in campaign files.
-    ///
-    /// # Panics
-    /// Where there is no such parameter, the scene has no such key, or the number of values is not that of its components.
-    pub fn with(mut self, name: &str, values: &[f64]) -> Self {
-        let (parameter, component) =
-            super::Parameter::find(name).unwrap_or_else(|| panic!("{name} is a parameter of the schema"));
-        let first = component.unwrap_or(0);
-        let count = if component.is_some() { 1 } else { parameter.width() };
-        assert_eq!(values.len(), count, "the number of values of {name}");
-        parameter.open(&mut self);
-        for (offset, value) in values.iter().enumerate() {
-            parameter.set(&mut self, first + offset, *value);
-            assert_eq!(parameter.value(&self, first + offset), Some(*value), "the scene has {name}");
+    /// What the scene has and commands, as far as keys of the schema depend on it.
+    pub fn usage(&self) -> Usage {
+        let fires = |thruster: usize| self.actuation.iter().any(|arc| arc.thrust_n[thruster] != 0.0);
+        let drives = |wheel: usize| self.actuation.iter().any(|arc| arc.torque_n_m[wheel] != 0.0);
+        Usage {
+            is_scheduled: !self.actuation.is_empty(),
+            fires: std::array::from_fn(fires),
+            drives: std::array::from_fn(|wheel| self.wheels[wheel].is_some() && drives(wheel)),
+            wheels: self.wheels.map(|wheel| wheel.is_some()),
+            debris: self.debris.is_some(),
         }
-        self
-    }
-
-    /// A scene in which every table is there, all at their defaults.
-    pub(super) fn with_every_table() -> Self {
-        let wheels = [Some(WheelInput::DEFAULT); 2];
-        let (debris, actuation) = (Some(DebrisInput::default()), vec![ActuationInput::DEFAULT]);
-        SceneInput { wheels, debris, actuation, ..SceneInput::default() }
     }
 }

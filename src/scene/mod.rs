@@ -1,7 +1,7 @@
 //! Layer 1: what is simulated. Bodies to mass properties, actuators, initial state; validated, immutable, SI, no serde.
 //!
 //! - [`schema`]: one row for each numeric key: unit, meaning, default, limit, where it is.
-//! - [`input`]: the scene as written.
+//! - [`input`]: the scene as written. [`table`]: where in it the tables of the schema are.
 //! - [`second_moment`]: inertia by second moments of mass, and errors of a distribution of mass.
 //! - [`solids`]: mass, centre and inertia of homogeneous solids (the report's (60)-(67), in closed form).
 //! - [`mass`]: mass properties of the bodies and of the whole.
@@ -25,6 +25,7 @@ pub mod schedule;
 pub mod schema;
 pub mod second_moment;
 pub mod solids;
+pub mod table;
 pub mod thruster;
 
 pub use error::SceneError;

@@ -5,53 +5,18 @@
 //! Not here: the keys of `[[actuation]]`, the commands, which the keys of `[actuators]` distort for all arcs alike.
 
 use super::input::SceneInput;
+use super::schema::Facts;
 pub use super::schema::Shape;
-use super::schema::{Key, Table};
+use super::table::{Key, Table};
 
 /// A numeric key of scene or initial state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Parameter {
-    /// Index of its row in [`KEYS`].
-    key: u8,
+    /// Its row in the schema.
+    key: Key,
     /// Which instance of the row's table.
     instance: u8,
 }
-
-/// Number of rows of the schema that can be dispersed.
-const COUNT: usize = {
-    let (mut count, mut table) = (0, 0);
-    while table < Table::ALL.len() {
-        let parts = Table::ALL[table].rows();
-        let mut part = 0;
-        while part < parts.len() && Table::ALL[table].is_dispersable() {
-            count += parts[part].len();
-            part += 1;
-        }
-        table += 1;
-    }
-    count
-};
-
-/// The rows of the schema that can be dispersed, in order.
-static KEYS: [&Key; COUNT] = {
-    let mut keys = [&Table::Fuselage.rows()[0][0]; COUNT];
-    let (mut count, mut table) = (0, 0);
-    while table < Table::ALL.len() {
-        let parts = Table::ALL[table].rows();
-        let mut part = 0;
-        while part < parts.len() && Table::ALL[table].is_dispersable() {
-            let mut row = 0;
-            while row < parts[part].len() {
-                keys[count] = &parts[part][row];
-                count += 1;
-                row += 1;
-            }
-            part += 1;
-        }
-        table += 1;
-    }
-    keys
-};
 
 /// Indices of the components of a symmetric tensor, and of their mirror images, among its nine numbers by rows.
 const SYMMETRIC: [(usize, usize); 6] = [(0, 0), (1, 3), (2, 6), (4, 4), (5, 7), (8, 8)];
@@ -59,11 +24,10 @@ const SYMMETRIC: [(usize, usize); 6] = [(0, 0), (1, 3), (2, 6), (4, 4), (5, 7), 
 impl Parameter {
     /// All parameters: table by table, instance by instance, in the order of the schema.
     pub fn all() -> impl Iterator<Item = Parameter> {
-        let of = |table: Table, instance: usize| {
-            let rows = KEYS.iter().enumerate().filter(move |(_, row)| row.table == table);
-            rows.map(move |(key, _)| Parameter { key: key as u8, instance: instance as u8 })
-        };
-        Table::ALL.into_iter().flat_map(move |table| (0..table.headers().len()).flat_map(move |i| of(table, i)))
+        let of =
+            |table: Table, instance: usize| table.keys().map(move |key| Parameter { key, instance: instance as u8 });
+        let dispersable = Table::ALL.iter().copied().filter(|table| table.is_dispersable());
+        dispersable.flat_map(move |table| (0..table.headers().len()).flat_map(move |i| of(table, i)))
     }
 
     /// The parameter called `name`, and the component if the name ends in one (`[1]`, counted from zero, or `.y`).
@@ -83,9 +47,9 @@ impl Parameter {
         (parameter.width() > 1 && component < parameter.width()).then_some((parameter, Some(component)))
     }
 
-    /// Its row of the schema.
-    pub fn key(self) -> &'static Key {
-        KEYS[usize::from(self.key)]
+    /// What is known of its key, without the instance of its table.
+    pub fn facts(self) -> &'static Facts {
+        self.key.facts()
     }
 
     fn instance(self) -> usize {
@@ -93,18 +57,18 @@ impl Parameter {
     }
 
     /// The dotted name, as in a campaign file.
-    pub fn name(self) -> &'static str {
-        self.key().name(self.instance())
+    pub fn name(self) -> String {
+        self.key.name(self.instance())
     }
 
     /// The unit, as people write it; `1` for a pure number.
     pub fn unit(self) -> &'static str {
-        self.key().unit
+        self.facts().unit
     }
 
     /// The names of the components; one empty name for a scalar.
     pub fn components(self) -> &'static [&'static str] {
-        self.key().components(self.instance())
+        self.facts().components(self.instance())
     }
 
     /// Number of components.
@@ -114,13 +78,13 @@ impl Parameter {
 
     /// How the components belong together.
     pub fn shape(self) -> Shape {
-        self.key().shape
+        self.facts().shape
     }
 
     /// The dotted name of a component: the parameter's name, `.`, the component's name; for a scalar the parameter's name.
     pub fn component_name(self, component: usize) -> String {
         match self.components()[component] {
-            "" => self.name().to_owned(),
+            "" => self.name(),
             suffix => format!("{}.{suffix}", self.name()),
         }
     }
@@ -131,7 +95,8 @@ impl Parameter {
             "1" => String::new(),
             unit => format!("_{}", unit.replace([' ', '/'], "_").replace('^', "").to_lowercase()),
         };
-        let stem = self.name().strip_suffix(unit.as_str()).unwrap_or(self.name()).replace('.', "_");
+        let name = self.name();
+        let stem = name.strip_suffix(unit.as_str()).unwrap_or(&name).replace('.', "_");
         match self.components()[component] {
             "" => format!("{stem}{unit}"),
             suffix => format!("{stem}_{suffix}{unit}"),
@@ -140,31 +105,30 @@ impl Parameter {
 
     /// Whether `scene` has the component and a change of it has an effect.
     pub fn exists(self, scene: &SceneInput, component: usize) -> bool {
-        let key = self.key();
-        (key.read)(scene, self.instance()).is_some() && (key.acts)(scene, self.instance(), component)
+        self.key.read(scene, self.instance()).is_some() && self.key.acts(scene, self.instance(), component)
     }
 
     /// What to write so that the parameter exists where [`Parameter::exists`] says that it does not.
     pub fn remedy(self) -> &'static str {
-        match (self.key().table, self.instance()) {
+        match (self.key.table, self.instance()) {
             (Table::Wheel, 0) => "add a [wheel1] table",
             (Table::Wheel, _) => "add a [wheel2] table",
-            _ => self.key().remedy,
+            _ => self.facts().remedy,
         }
     }
 
     /// Makes `scene` have the key, if its table is there: an optional value, a way to describe a body. Its numbers are then
     /// not numbers yet.
     pub fn open(self, scene: &mut SceneInput) {
-        if (self.key().read)(scene, self.instance()).is_none() {
-            (self.key().open)(scene, self.instance());
+        if self.key.read(scene, self.instance()).is_none() {
+            self.key.open(scene, self.instance());
         }
     }
 
     /// The value of a component, in SI; `None` where the scene has no such key.
     #[inline]
     pub fn value(self, scene: &SceneInput, component: usize) -> Option<f64> {
-        let numbers = (self.key().read)(scene, self.instance())?;
+        let numbers = self.key.read(scene, self.instance())?;
         Some(match self.shape() {
             Shape::Symmetric => numbers[SYMMETRIC[component].0],
             _ => numbers[component],
@@ -174,7 +138,7 @@ impl Parameter {
     /// Changes a component, and with it its mirror image in a symmetric tensor; nothing where the scene has no such key.
     #[inline]
     pub fn set(self, scene: &mut SceneInput, component: usize, value: f64) {
-        let Some(numbers) = (self.key().write)(scene, self.instance()) else { return };
+        let Some(numbers) = self.key.write(scene, self.instance()) else { return };
         match self.shape() {
             Shape::Symmetric => {
                 let (upper, mirror) = SYMMETRIC[component];
@@ -187,14 +151,14 @@ impl Parameter {
 
     /// Whether it is the attitude of a body at time zero.
     fn is_attitude(self) -> bool {
-        self.key().table == Table::Initial && self.shape() == Shape::Quaternion
+        self.key.table == Table::Initial && self.shape() == Shape::Quaternion
     }
 
     /// Makes a value that was written what [`super::Scene::resolve`] uses: an attitude goes through [`unit_quaternion`].
     #[inline]
     pub fn normalise_written(self, scene: &mut SceneInput) {
         if self.is_attitude()
-            && let Some(Ok(numbers)) = (self.key().write)(scene, self.instance()).map(<&mut [f64; 4]>::try_from)
+            && let Some(Ok(numbers)) = self.key.write(scene, self.instance()).map(<&mut [f64; 4]>::try_from)
         {
             *numbers = unit_quaternion(*numbers);
         }
@@ -209,7 +173,7 @@ impl Parameter {
         if self.shape() != Shape::Quaternion {
             return;
         }
-        let Some(numbers) = (self.key().write)(scene, self.instance()) else { return };
+        let Some(numbers) = self.key.write(scene, self.instance()) else { return };
         let divisions = if self.is_attitude() { 2 } else { 1 };
         for _ in 0..divisions {
             let norm = numbers.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -234,6 +198,26 @@ pub fn unit_quaternion(q: [f64; 4]) -> [f64; 4] {
     }
     let norm = square.sqrt();
     q.map(|x| x / norm)
+}
+
+impl SceneInput {
+    /// The same scene with other numbers for a parameter, whole or one component, by its name in campaign files.
+    ///
+    /// # Panics
+    /// Where there is no such parameter, the scene has no such key, or the number of values is not that of its components.
+    pub fn with(mut self, name: &str, values: &[f64]) -> Self {
+        let (parameter, component) =
+            Parameter::find(name).unwrap_or_else(|| panic!("{name} is a parameter of the schema"));
+        let first = component.unwrap_or(0);
+        let count = if component.is_some() { 1 } else { parameter.width() };
+        assert_eq!(values.len(), count, "the number of values of {name}");
+        parameter.open(&mut self);
+        for (offset, value) in values.iter().enumerate() {
+            parameter.set(&mut self, first + offset, *value);
+            assert_eq!(parameter.value(&self, first + offset), Some(*value), "the scene has {name}");
+        }
+        self
+    }
 }
 
 #[cfg(test)]
@@ -319,7 +303,7 @@ mod tests {
         let mut columns = std::collections::BTreeSet::new();
         for parameter in Parameter::all() {
             let nominal = variants.iter().find(|scene| parameter.exists(scene, 0)).expect("every key exists somewhere");
-            assert_eq!(Parameter::find(parameter.name()), Some((parameter, None)));
+            assert_eq!(Parameter::find(&parameter.name()), Some((parameter, None)));
             for component in 0..parameter.width() {
                 assert!(parameter.exists(nominal, component), "{}", parameter.name());
                 let mut scene = nominal.clone();

@@ -44,9 +44,6 @@ const CRATES: [(&str, &[&str]); 19] = [
     ("toml", &["campaign"]),
 ];
 
-/// Modules whose files still depend on each other in a circle. Remove a module once its circles are gone.
-const CYCLIC: [&str; 1] = ["scene"];
-
 /// Elementary functions whose last digits are the platform's own: rows take them from `libm`.
 const UNPORTABLE: [&str; 24] = [
     "sin", "cos", "tan", "sin_cos", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "asinh", "acosh", "atanh",
@@ -127,10 +124,7 @@ fn files_of_a_module_do_not_depend_on_each_other_in_circles() {
         .into_iter()
         .filter(|(_, found)| !found.is_empty())
         .collect();
-    let new: Vec<_> = cyclic.iter().filter(|(module, _)| !CYCLIC.contains(module)).collect();
-    assert!(new.is_empty(), "files that depend on each other: {new:#?}");
-    let is_cyclic = |module: &&str| cyclic.iter().any(|(other, _)| other == module);
-    assert!(CYCLIC.iter().all(is_cyclic), "a module without cycles is still listed in CYCLIC");
+    assert!(cyclic.is_empty(), "files that depend on each other: {cyclic:#?}");
 }
 
 #[test]

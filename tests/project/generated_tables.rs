@@ -12,7 +12,8 @@ use spindrift::ensemble::{Ensemble, SingleRun};
 use spindrift::math::Isa;
 use spindrift::observables::{Group, table};
 use spindrift::sampling::SampleId;
-use spindrift::scene::schema::{Presence, Table};
+use spindrift::scene::schema::Presence;
+use spindrift::scene::table::Table;
 
 /// If this variable is set, the tables are written and not compared.
 const WRITE: &str = "SPINDRIFT_WRITE_DOCS";
@@ -114,15 +115,16 @@ fn parameters() -> String {
             "| key | unit | components | default | limit | meaning |\n| --- | --- | --- | --- | --- | --- |"
         );
         for key in table.keys() {
-            let components = (0..table.headers().len()).map(|instance| key.components(instance).join(", "));
+            let components = (0..table.headers().len()).map(|instance| key.facts().components(instance).join(", "));
             let mut components: Vec<String> = components.collect();
             components.dedup();
-            let default = match key.presence {
+            let default = match key.facts().presence {
                 Presence::Required(_) => "required".to_owned(),
                 Presence::RequiredIf(..) => "required with `[[actuation]]`".to_owned(),
                 Presence::Optional => key.default_text().map_or("none".to_owned(), |text| format!("`{text}`")),
             };
-            let (name, unit, limit, meaning) = (key.key, key.unit, key.limit.words(), cell(key.meaning));
+            let facts = key.facts();
+            let (name, unit, limit, meaning) = (facts.key, facts.unit, facts.limit.words(), cell(facts.meaning));
             let _ =
                 writeln!(text, "| `{name}` | {unit} | {} | {default} | {limit} | {meaning} |", components.join("; "),);
         }

@@ -132,7 +132,7 @@ fn every_key_can_be_dispersed_and_moves_the_scene() {
     let second = "thruster_offset_m = 0.5\nprincipal_second_moments_kg_m2 = [800, 900, 2200]\n";
     let (bodies, cube) = ("thruster_offset_m = 0.5\n", "side_m = 0.2\ndensity_kg_m3 = 2700.0\n");
     for parameter in Parameter::all() {
-        let mut text = match parameter.name() {
+        let mut text = match parameter.name().as_str() {
             "fuselage.mass_kg" | "fuselage.center_of_mass_m" | "fuselage.inertia_kg_m2" => {
                 shipped.replacen(bodies, overrides, 1)
             }
@@ -151,7 +151,7 @@ fn every_key_can_be_dispersed_and_moves_the_scene() {
             "environment.body_torque_n_m" => format!("{shipped}[environment]\nbody_torque_n_m = [0, 0, 0]\n"),
             _ => shipped.to_owned(),
         };
-        text += &disperse(parameter.name(), "distribution = \"normal\"\nstd = 1e-4");
+        text += &disperse(&parameter.name(), "distribution = \"normal\"\nstd = 1e-4");
         let plan = Plan::from_text("key.toml", &text, Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
         assert_eq!(plan.dispersions.columns().len(), parameter.width());
         let (mut sampler, mut scene) = (plan.dispersions.sampler(), plan.nominal.clone());

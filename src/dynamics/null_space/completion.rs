@@ -52,8 +52,11 @@ pub fn complete<const W: usize, const N: usize>(
         set(StateField::Dcm, c_es.as_flattened());
         if table.has(StateField::KineticEnergies) {
             let energies = kinetic_energies(&parameters, &state);
-            let all = [energies.fuselage, energies.debris].into_iter().chain(energies.wheels);
-            for (component, energy) in all.take(2 + wheels).enumerate() {
+            let all = [energies.fuselage]
+                .into_iter()
+                .chain(energies.wheels.into_iter().take(wheels))
+                .chain([energies.debris]);
+            for (component, energy) in all.enumerate() {
                 table.column_mut(StateField::KineticEnergies, component)[point] = energy;
             }
         }

@@ -11,7 +11,7 @@ use crate::math::vector::{cross, product, scaled, sum};
 use crate::scene::{Actuation, Scene};
 
 /// The right-hand side for one scene of at most `W` wheels and one arc of constant actuation.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Kernel<const W: usize> {
     parameters: Parameters<W>,
     drive: Drive<W>,

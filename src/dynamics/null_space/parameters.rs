@@ -1,11 +1,12 @@
 //! The constants of a scene in the null-space formulation.
 
+use crate::math::list::List;
 use crate::scene::mass::{Body, Wheel};
-use crate::scene::{Scene, Thruster, WheelMode};
+use crate::scene::{MAX_THRUSTERS, Scene, Thruster, WheelMode};
 
 /// The constants of a scene for a kernel of `W` wheels. Absent bodies remain in the equations, decoupled: a missing wheel has zero
 /// mass and inertia and a unit on its diagonal of M-hat, missing debris is a body of unit mass and inertia at rest.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameters<const W: usize> {
     /// Mass m_s of the fuselage, kg.
     pub fuselage_mass: f64,
@@ -24,7 +25,7 @@ pub struct Parameters<const W: usize> {
     /// Inertia of the debris about its centre, in F_d, kg m^2, by rows.
     pub debris_inertia: [[f64; 3]; 3],
     /// The thrusters.
-    pub thrusters: Vec<Thruster>,
+    pub thrusters: List<Thruster, MAX_THRUSTERS>,
     /// Centre of mass c of the spacecraft from p in F_s, m.
     pub center: [f64; 3],
 }
@@ -86,6 +87,10 @@ impl<const W: usize> Parameters<W> {
             }
         }
         let debris = mass.debris.unwrap_or(UNIT);
+        let mut thrusters = List::empty(Thruster { position: [0.0; 3], direction: [0.0; 3] });
+        for thruster in &scene.thrusters {
+            thrusters.push(*thruster);
+        }
         Parameters {
             fuselage_mass: mass.fuselage.mass,
             fuselage_first,
@@ -95,7 +100,7 @@ impl<const W: usize> Parameters<W> {
             first,
             debris_mass: debris.mass,
             debris_inertia: debris.inertia,
-            thrusters: scene.thrusters.clone(),
+            thrusters,
             center: mass.center,
         }
     }

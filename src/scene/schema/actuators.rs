@@ -1,14 +1,10 @@
 //! `[actuators]`: what the actuators make of what the schedule commands.
 
-use super::fuselage::{AXES, SCALAR};
+use super::components::{AXES, SCALAR, WHEELS, XY};
+use super::limit::Limit;
 use super::numbers::Numbers;
 use super::rows::rows;
-use super::wheel::XY;
-use super::{Key, Limit};
-use crate::scene::error::Problems;
-use crate::scene::input::SceneInput;
-
-const WHEELS: &[&[&str]] = &[&["1", "2"]];
+use super::usage::Usage;
 
 const REMEDY: &str = "add [[actuation]] tables";
 const THRUSTER: &str = "command that thruster in an [[actuation]] table, or disperse only what is commanded";
@@ -16,7 +12,7 @@ const MOTOR: &str = "command that motor in an [[actuation]] table, or disperse o
 
 rows! {
     /// What the actuators make of what the schedule commands; as a whole, for all of its arcs.
-    pub struct ActuatorsInput in Actuators ["actuators"], actuators, actuators_mut {
+    pub struct ActuatorsInput in ActuatorsInput [table => table] {
     thrust_scale: [f64; 3] = [1.0; 3], "1", "Factors of the thrusts P1, P2, P3, never negative", AXES, Plain,
         Limit::Thrust("write zero for a thruster that does not work"), (optional), thruster_acts, THRUSTER;
     thruster1_tilt_rad: [f64; 2] = [0.0; 2], "rad",
@@ -50,39 +46,28 @@ impl ActuatorsInput {
     }
 }
 
-/// The rows of `[actuators]`.
-pub(super) const KEYS: &[&[Key]] = &[ActuatorsInput::ROWS];
-
-fn actuators(scene: &SceneInput, _: usize) -> Option<&ActuatorsInput> {
-    Some(&scene.actuators)
-}
-
-fn actuators_mut(scene: &mut SceneInput, _: usize) -> Option<&mut ActuatorsInput> {
-    Some(&mut scene.actuators)
-}
-
-fn schedule_acts(scene: &SceneInput, _: usize, _: usize) -> bool {
-    !scene.actuation.is_empty()
+fn schedule_acts(usage: &Usage, _: &ActuatorsInput, _: usize, _: usize) -> bool {
+    usage.is_scheduled
 }
 
 /// Whether the schedule ever fires a thruster.
-fn thruster_acts(scene: &SceneInput, _: usize, thruster: usize) -> bool {
-    scene.actuation.iter().any(|arc| arc.thrust_n[thruster] != 0.0)
+fn thruster_acts(usage: &Usage, _: &ActuatorsInput, _: usize, thruster: usize) -> bool {
+    usage.fires[thruster]
 }
 
-fn thruster1_acts(scene: &SceneInput, instance: usize, _: usize) -> bool {
-    thruster_acts(scene, instance, 0)
+fn thruster1_acts(usage: &Usage, _: &ActuatorsInput, _: usize, _: usize) -> bool {
+    usage.fires[0]
 }
 
-fn thruster2_acts(scene: &SceneInput, instance: usize, _: usize) -> bool {
-    thruster_acts(scene, instance, 1)
+fn thruster2_acts(usage: &Usage, _: &ActuatorsInput, _: usize, _: usize) -> bool {
+    usage.fires[1]
 }
 
-fn thruster3_acts(scene: &SceneInput, instance: usize, _: usize) -> bool {
-    thruster_acts(scene, instance, 2)
+fn thruster3_acts(usage: &Usage, _: &ActuatorsInput, _: usize, _: usize) -> bool {
+    usage.fires[2]
 }
 
 /// Whether the schedule ever commands a motor.
-fn motor_acts(scene: &SceneInput, _: usize, wheel: usize) -> bool {
-    scene.wheels[wheel].is_some() && scene.actuation.iter().any(|arc| arc.torque_n_m[wheel] != 0.0)
+fn motor_acts(usage: &Usage, _: &ActuatorsInput, _: usize, wheel: usize) -> bool {
+    usage.drives[wheel]
 }

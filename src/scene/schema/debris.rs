@@ -1,11 +1,12 @@
 //! `[debris]`: a cube, a box, or any rigid body by mass and inertia.
 
-use super::fuselage::{AXES, MOMENTS, PRINCIPAL_AXES, SCALAR, SECOND, SYMMETRIC, WXYZ, XYZ};
+use super::components::{AXES, SCALAR, SYMMETRIC, WXYZ, XYZ};
+use super::limit::Limit;
 use super::numbers::Numbers;
+use super::principal::{AXES_MEANING, MOMENTS, PrincipalInertia, PrincipalMoments, SECOND};
+use super::row::{Row, check_rows};
 use super::rows::row;
-use super::{Key, Limit, PrincipalInertia, PrincipalMoments};
 use crate::scene::error::Problems;
-use crate::scene::input::SceneInput;
 
 /// The debris: a solid homogeneous cube or box, or any rigid body; its centre of mass is the origin of F_d.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,57 +53,52 @@ const CUBE: DebrisInput = DebrisInput::Cube { side_m: NAN, density_kg_m3: NAN };
 const BOX: DebrisInput = DebrisInput::Box { size_m: [NAN; 3], density_kg_m3: NAN };
 const TENSOR: DebrisInput = DebrisInput::Tensor { mass_kg: NAN, inertia_kg_m2: [[NAN; 3]; 3] };
 
-/// Describes the debris in another way, if there is one.
-fn describe(scene: &mut SceneInput, debris: DebrisInput) {
-    if scene.debris.is_some() {
-        scene.debris = Some(debris);
-    }
-}
-
-fn is_irregular(scene: &SceneInput) -> bool {
-    matches!(scene.debris, Some(DebrisInput::Tensor { .. } | DebrisInput::Principal { .. }))
+fn is_irregular(debris: &DebrisInput) -> bool {
+    matches!(debris, DebrisInput::Tensor { .. } | DebrisInput::Principal { .. })
 }
 
 macro_rules! debris {
     ($key:ident, $unit:literal, $meaning:expr, $components:expr, $shape:ident, $limit:expr, ($($presence:tt)+), $open:expr,
         $pattern:pat => $value:ident) => {
-        row!(Debris ["debris"] $key, $unit, $meaning, $components, $shape, $limit, ($($presence)+),
-            concat!("describe the debris by debris.", stringify!($key)), $open,
-            SceneInput { debris: Some($pattern), .. } => $value)
+        row!($key, $unit, $meaning, $components, $shape, $limit, ($($presence)+),
+            concat!("describe the debris by debris.", stringify!($key)), $open, $pattern => $value)
     };
 }
 
-const ROWS: &[Key] = &[
+/// The rows of `[debris]`.
+const ROWS: &[Row<DebrisInput>] = &[
     debris!(side_m, "m", "Side l_d of a cube", SCALAR, Plain, Limit::Positive, (required "0.2"),
-        |scene, _| describe(scene, CUBE),
+        |debris| *debris = CUBE,
         DebrisInput::Cube { side_m: value, .. } => value),
     debris!(size_m, "m", "Sides of a box along d1, d2, d3", XYZ, Plain, Limit::Positive, (optional),
-        |scene, _| describe(scene, BOX),
+        |debris| *debris = BOX,
         DebrisInput::Box { size_m: value, .. } => value),
     debris!(density_kg_m3, "kg/m^3", "Density of a cube or box", SCALAR, Plain, Limit::Positive, (required "2700.0"),
-        |_, _| {},
+        |_| {},
         DebrisInput::Cube { density_kg_m3: value, .. } | DebrisInput::Box { density_kg_m3: value, .. } => value),
     debris!(mass_kg, "kg", "Mass of an irregular body", SCALAR, Plain, Limit::Positive, (required "21.6"),
-        |scene, _| if !is_irregular(scene) { describe(scene, TENSOR) },
+        |debris| if !is_irregular(debris) { *debris = TENSOR },
         DebrisInput::Tensor { mass_kg: value, .. } | DebrisInput::Principal { mass_kg: value, .. } => value),
     debris!(inertia_kg_m2, "kg m^2", "Inertia tensor about the centre of mass in F_d, by rows", SYMMETRIC, Symmetric,
         Limit::Inertia, (optional),
-        |scene, _| describe(scene, TENSOR),
+        |debris| *debris = TENSOR,
         DebrisInput::Tensor { inertia_kg_m2: value, .. } => value),
     debris!(principal_moments_kg_m2, "kg m^2", MOMENTS, AXES, Plain, Limit::PrincipalMoments, (optional),
-        |scene, _| describe(scene, DebrisInput::Principal { mass_kg: NAN, principal: PrincipalInertia::BLANK }),
+        |debris| *debris = DebrisInput::Principal { mass_kg: NAN, principal: PrincipalInertia::BLANK },
         DebrisInput::Principal { principal: PrincipalInertia { moments: PrincipalMoments::Inertia(value), .. }, .. } => value),
     debris!(principal_second_moments_kg_m2, "kg m^2", SECOND, AXES, Plain, Limit::Positive, (optional),
-        |scene, _| describe(scene, DebrisInput::Principal { mass_kg: NAN, principal: PrincipalInertia::BLANK_SECOND }),
+        |debris| *debris = DebrisInput::Principal { mass_kg: NAN, principal: PrincipalInertia::BLANK_SECOND },
         DebrisInput::Principal { principal: PrincipalInertia { moments: PrincipalMoments::Second(value), .. }, .. } => value),
-    debris!(principal_axes, "1", PRINCIPAL_AXES, WXYZ, Quaternion, Limit::UnitQuaternion, (optional), |_, _| {},
+    debris!(principal_axes, "1", AXES_MEANING, WXYZ, Quaternion, Limit::UnitQuaternion, (optional), |_| {},
         DebrisInput::Principal { principal: PrincipalInertia { axes: value, .. }, .. } => value),
 ];
 
-/// The rows of `[debris]`.
-pub(super) const KEYS: &[&[Key]] = &[ROWS];
+impl DebrisInput {
+    /// The rows of the schema.
+    pub const ROWS: &'static [Row<DebrisInput>] = ROWS;
 
-/// Notes what violates its limit in the table of a scene with debris.
-pub(in crate::scene) fn check(scene: &SceneInput, problems: &mut Problems) {
-    super::check_rows(ROWS, scene, problems);
+    /// Notes what violates its limit.
+    pub(in crate::scene) fn check(&self, problems: &mut Problems) {
+        check_rows(ROWS, self, problems, |key| format!("debris.{key}").into());
+    }
 }

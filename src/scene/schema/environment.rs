@@ -1,15 +1,14 @@
 //! `[environment]`: torques of the environment on the spacecraft.
 
-use super::fuselage::XYZ;
+use super::components::XYZ;
+use super::limit::Limit;
 use super::numbers::Numbers;
+use super::row::always;
 use super::rows::rows;
-use super::{Key, Limit, always};
-use crate::scene::error::Problems;
-use crate::scene::input::SceneInput;
 
 rows! {
     /// Torques of the environment on the spacecraft. A torque that is not written does not act.
-    pub struct EnvironmentInput in Environment ["environment"], environment, environment_mut {
+    pub struct EnvironmentInput in EnvironmentInput [table => table] {
     body_torque_n_m: Option<[f64; 3]> = None, "N m", "Constant torque on the spacecraft, in F_s", XYZ, Plain, Limit::Finite,
         (optional), always, "give environment.body_torque_n_m a nominal value, zero if need be";
     } others {}
@@ -20,15 +19,4 @@ impl EnvironmentInput {
     pub fn acts(&self) -> bool {
         *self != EnvironmentInput::DEFAULT
     }
-}
-
-/// The rows of `[environment]`.
-pub(super) const KEYS: &[&[Key]] = &[EnvironmentInput::ROWS];
-
-fn environment(scene: &SceneInput, _: usize) -> Option<&EnvironmentInput> {
-    Some(&scene.environment)
-}
-
-fn environment_mut(scene: &mut SceneInput, _: usize) -> Option<&mut EnvironmentInput> {
-    Some(&mut scene.environment)
 }

@@ -1,17 +1,14 @@
 //! `[fuselage]`: geometry, overrides of what follows from it, and errors of the true distribution of mass.
 
+use super::components::{AXES, SCALAR, SYMMETRIC, WXYZ, XYZ};
+use super::limit::Limit;
 use super::numbers::Numbers;
+use super::principal::{AXES_MEANING, MOMENTS, PrincipalInertia, PrincipalMoments, SECOND};
+use super::row::{Row, always, check_rows};
 use super::rows::{row, rows};
-use super::{Key, Limit, always};
+use super::usage::Usage;
 use crate::scene::error::Problems;
-use crate::scene::input::SceneInput;
 
-/// Names of components.
-pub(super) const SCALAR: &[&[&str]] = &[&[""]];
-pub(super) const XYZ: &[&[&str]] = &[&["x", "y", "z"]];
-pub(super) const WXYZ: &[&[&str]] = &[&["w", "x", "y", "z"]];
-pub(super) const AXES: &[&[&str]] = &[&["1", "2", "3"]];
-pub(super) const SYMMETRIC: &[&[&str]] = &[&["xx", "xy", "xz", "yy", "yz", "zz"]];
 const SHEARS: &[&[&str]] = &[&["xy", "xz", "yz"]];
 
 const HIDDEN: &str = "other keys override it: disperse those, or delete them";
@@ -28,7 +25,7 @@ rows! {
     ///
     /// A mass that is given scales the inertia that geometry gives; a centre of mass that is given leaves the inertia about it
     /// as it was; a tensor or principal moments replace it. The errors are applied last.
-    pub struct FuselageInput in Fuselage ["fuselage"], fuselage, fuselage_mut {
+    pub struct FuselageInput in FuselageInput [table => table] {
     wall_thickness_m: f64 = 0.03, "m", "Wall thickness t_s of shell and end plates", SCALAR, Plain, Limit::Positive,
         (required "0.03"), section_acts, HIDDEN;
     outer_radius_m: f64 = 1.0, "m", "Outer radius rho_o", SCALAR, Plain, Limit::Positive,
@@ -38,7 +35,7 @@ rows! {
     density_kg_m3: f64 = 2700.0, "kg/m^3", "Density sigma_s of the wall", SCALAR, Plain, Limit::Positive,
         (required "2700.0"), density_acts, HIDDEN;
     thruster_offset_m: f64 = 0.0, "m", "Distance rho_p of the thrusters P2 and P3 from the axis s3", SCALAR, Plain,
-        Limit::NotNegative, (required "0.5" if is_actuated), offset_acts,
+        Limit::NotNegative, (required "0.5" if is_scheduled), offset_acts,
         "fire P2 or P3 in an [[actuation]] table: nothing else depends on it";
     mass_kg: Option<f64> = None, "kg", "Mass instead of the one that geometry gives", SCALAR, Plain, Limit::Positive,
         (optional), always, given!("mass_kg");
@@ -65,7 +62,7 @@ rows! {
     /// always is. If S = L L^T then S' = k (A L)(A L)^T: these are the coordinates of the log-Cholesky form (C. Rucker & P. M.
     /// Wensing, *Smooth Parameterization of Rigid-Body Inertia*, IEEE Robotics and Automation Letters 7(2), 2022) about the
     /// nominal body; with mass and centre of mass they couple all ten numbers of a rigid body.
-    pub struct MassErrors in Fuselage ["fuselage"], errors, errors_mut {
+    pub struct MassErrors in FuselageInput [table => table.errors] {
     mass_scale: f64 = 1.0, "1", "Factor of all masses", SCALAR, Plain, Limit::Positive, (optional), always, "";
     inertia_scale: f64 = 1.0, "1", "Further factor of the inertia about the centre of mass, at the same mass", SCALAR, Plain,
         Limit::Positive, (optional), always, "";
@@ -84,117 +81,64 @@ impl MassErrors {
     pub const NONE: MassErrors = MassErrors::DEFAULT;
 }
 
-/// An inertia about the centre of mass by principal moments and axes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PrincipalInertia {
-    /// The moments.
-    pub moments: PrincipalMoments,
-    /// Attitude of the principal frame: quaternion that maps its components to the body's, scalar first.
-    pub axes: [f64; 4],
-}
-
-/// How principal moments were written.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum PrincipalMoments {
-    /// Moments of inertia J_1, J_2, J_3, kg m^2: none above the sum of the other two.
-    Inertia([f64; 3]),
-    /// Second moments of mass P_i, the integrals of x_i^2 dm, kg m^2: J_1 = P_2 + P_3 and so on, so that any positive three are
-    /// the inertia of some body.
-    Second([f64; 3]),
-}
-
-impl PrincipalInertia {
-    /// Along the body's axes, with moments of inertia that are not numbers yet.
-    pub(in crate::scene) const BLANK: PrincipalInertia =
-        PrincipalInertia { moments: PrincipalMoments::Inertia([f64::NAN; 3]), axes: [1.0, 0.0, 0.0, 0.0] };
-    /// The same with second moments.
-    pub(in crate::scene) const BLANK_SECOND: PrincipalInertia =
-        PrincipalInertia { moments: PrincipalMoments::Second([f64::NAN; 3]), ..Self::BLANK };
-}
-
-/// The meanings of the keys of a principal inertia, which the debris has as well.
-pub(super) const MOMENTS: &str = "Principal moments of inertia about the centre of mass";
-pub(super) const SECOND: &str =
-    "Principal second moments of mass, the integrals of x_i^2 dm about the centre of mass: J_1 = P_2 + P_3 and so on";
-pub(super) const PRINCIPAL_AXES: &str =
-    "Attitude of the principal frame: quaternion that maps its components to the body's, scalar first";
-
-const PRINCIPAL: &[Key] = &[
-    row!(Fuselage ["fuselage"] principal_moments_kg_m2, "kg m^2", MOMENTS, AXES, Plain,
+const PRINCIPAL: &[Row<FuselageInput>] = &[
+    row!(principal_moments_kg_m2, "kg m^2", MOMENTS, AXES, Plain,
         Limit::PrincipalMoments, (optional), "describe the fuselage's inertia by fuselage.principal_moments_kg_m2",
-        |scene, _| { scene.fuselage.principal.get_or_insert(PrincipalInertia::BLANK); },
-        SceneInput { fuselage: FuselageInput {
-            principal: Some(PrincipalInertia { moments: PrincipalMoments::Inertia(value), .. }), .. }, .. } => value),
-    row!(Fuselage ["fuselage"] principal_second_moments_kg_m2, "kg m^2", SECOND, AXES, Plain,
+        |fuselage| { fuselage.principal.get_or_insert(PrincipalInertia::BLANK); },
+        FuselageInput { principal: Some(PrincipalInertia { moments: PrincipalMoments::Inertia(value), .. }), .. } => value),
+    row!(principal_second_moments_kg_m2, "kg m^2", SECOND, AXES, Plain,
         Limit::Positive, (optional), "describe the fuselage's inertia by fuselage.principal_second_moments_kg_m2",
-        |scene, _| { scene.fuselage.principal.get_or_insert(PrincipalInertia::BLANK_SECOND); },
-        SceneInput { fuselage: FuselageInput {
-            principal: Some(PrincipalInertia { moments: PrincipalMoments::Second(value), .. }), .. }, .. } => value),
-    row!(Fuselage ["fuselage"] principal_axes, "1", PRINCIPAL_AXES, WXYZ, Quaternion,
+        |fuselage| { fuselage.principal.get_or_insert(PrincipalInertia::BLANK_SECOND); },
+        FuselageInput { principal: Some(PrincipalInertia { moments: PrincipalMoments::Second(value), .. }), .. } => value),
+    row!(principal_axes, "1", AXES_MEANING, WXYZ, Quaternion,
         Limit::UnitQuaternion, (optional), "describe the fuselage's inertia by fuselage.principal_axes",
-        |_, _| {},
-        SceneInput { fuselage: FuselageInput { principal: Some(PrincipalInertia { axes: value, .. }), .. }, .. } => value),
+        |_| {},
+        FuselageInput { principal: Some(PrincipalInertia { axes: value, .. }), .. } => value),
 ];
 
-/// The rows of `[fuselage]`.
-pub(super) const KEYS: &[&[Key]] = &[FuselageInput::ROWS, PRINCIPAL, MassErrors::ROWS];
-
 impl FuselageInput {
+    /// All rows of `[fuselage]`, in parts.
+    pub const PARTS: &'static [&'static [Row<FuselageInput>]] = &[FuselageInput::ROWS, PRINCIPAL, MassErrors::ROWS];
+
     /// Notes what violates its limit in the whole table.
     #[inline(always)]
-    pub(in crate::scene) fn check_all(&self, scene: &SceneInput, problems: &mut Problems) {
-        self.check(scene, problems, |_, names| names[0].into());
+    pub(in crate::scene) fn check_all(&self, problems: &mut Problems) {
+        let name = |key: &'static str| format!("fuselage.{key}").into();
+        self.check(false, problems, name);
         if self.principal.is_some() {
-            super::check_rows(PRINCIPAL, scene, problems);
+            check_rows(PRINCIPAL, self, problems, name);
         }
-        self.errors.check(scene, problems, |_, names| names[0].into());
+        self.errors.check(false, problems, name);
+    }
+
+    fn has_inertia(&self) -> bool {
+        self.inertia_kg_m2.is_some() || self.principal.is_some()
     }
 }
 
-fn fuselage(scene: &SceneInput, _: usize) -> Option<&FuselageInput> {
-    Some(&scene.fuselage)
-}
-
-fn fuselage_mut(scene: &mut SceneInput, _: usize) -> Option<&mut FuselageInput> {
-    Some(&mut scene.fuselage)
-}
-
-fn errors(scene: &SceneInput, _: usize) -> Option<&MassErrors> {
-    Some(&scene.fuselage.errors)
-}
-
-fn errors_mut(scene: &mut SceneInput, _: usize) -> Option<&mut MassErrors> {
-    Some(&mut scene.fuselage.errors)
-}
-
-fn is_actuated(scene: &SceneInput) -> bool {
-    !scene.actuation.is_empty()
+fn is_scheduled(usage: &Usage) -> bool {
+    usage.is_scheduled
 }
 
 /// Whether the schedule ever fires a thruster away from p: P2 or P3.
-fn fires_p2_or_p3(scene: &SceneInput) -> bool {
-    scene.actuation.iter().any(|arc| arc.thrust_n[1] != 0.0 || arc.thrust_n[2] != 0.0)
-}
-
-fn offset_acts(scene: &SceneInput, _: usize, _: usize) -> bool {
-    fires_p2_or_p3(scene)
-}
-
-fn has_inertia(fuselage: &FuselageInput) -> bool {
-    fuselage.inertia_kg_m2.is_some() || fuselage.principal.is_some()
+fn offset_acts(usage: &Usage, _: &FuselageInput, _: usize, _: usize) -> bool {
+    usage.fires[1] || usage.fires[2]
 }
 
 /// Density: a mass that is given scales what geometry gives, and replaces the density.
-fn density_acts(scene: &SceneInput, _: usize, _: usize) -> bool {
-    scene.fuselage.mass_kg.is_none()
+fn density_acts(_: &Usage, fuselage: &FuselageInput, _: usize, _: usize) -> bool {
+    fuselage.mass_kg.is_none()
 }
 
 /// Wall and radius give mass and inertia.
-fn section_acts(scene: &SceneInput, _: usize, _: usize) -> bool {
-    scene.fuselage.mass_kg.is_none() || !has_inertia(&scene.fuselage)
+fn section_acts(_: &Usage, fuselage: &FuselageInput, _: usize, _: usize) -> bool {
+    fuselage.mass_kg.is_none() || !fuselage.has_inertia()
 }
 
 /// The length also gives the centre of mass and the station of the thrusters.
-fn length_acts(scene: &SceneInput, instance: usize, component: usize) -> bool {
-    section_acts(scene, instance, component) || scene.fuselage.center_of_mass_m.is_none() || fires_p2_or_p3(scene)
+fn length_acts(usage: &Usage, fuselage: &FuselageInput, instance: usize, component: usize) -> bool {
+    let gives_center = fuselage.center_of_mass_m.is_none();
+    section_acts(usage, fuselage, instance, component)
+        || gives_center
+        || offset_acts(usage, fuselage, instance, component)
 }

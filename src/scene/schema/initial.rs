@@ -1,19 +1,18 @@
 //! `[initial]`: the state at time zero.
 
-use super::fuselage::{WXYZ, XYZ};
+use super::components::{WHEELS, WXYZ, XYZ};
+use super::limit::Limit;
 use super::numbers::Numbers;
+use super::row::always;
 use super::rows::rows;
-use super::{Key, Limit, always};
-use crate::scene::error::Problems;
-use crate::scene::input::SceneInput;
+use super::usage::Usage;
 
-const WHEELS: &[&[&str]] = &[&["1", "2"]];
 const WHEEL: &str = "add the wheel's table";
 const DEBRIS: &str = "add a [debris] table";
 
 rows! {
     /// The measurable state at time zero (the report's Sigma, (59), builds the full state from it).
-    pub struct InitialInput in Initial ["initial"], initial, initial_mut {
+    pub struct InitialInput in InitialInput [table => table] {
     position_m: [f64; 3] = [0.0; 3], "m", "Position of p from the inertial origin, in F_e", XYZ, Plain, Limit::Finite,
         (optional), always, "";
     velocity_m_s: [f64; 3] = [0.0; 3], "m/s", "Velocity of p relative to F_e, in F_e", XYZ, Plain, Limit::Finite,
@@ -27,33 +26,18 @@ rows! {
     wheel_rates_rad_s: [f64; 2] = [0.0; 2], "rad/s", "Wheel rates alpha-dot, beta-dot relative to the fuselage", WHEELS,
         Plain, Limit::Finite, (optional), wheel_acts, WHEEL;
     debris_position_m: [f64; 3] = [0.0; 3], "m", "Position of the debris's centre from the inertial origin, in F_e", XYZ, Plain,
-        Limit::Finite, (optional if has_debris), always, DEBRIS;
+        Limit::Finite, (optional with debris), always, DEBRIS;
     debris_velocity_m_s: [f64; 3] = [0.0; 3], "m/s", "Velocity of the debris's centre relative to F_e, in F_e", XYZ, Plain,
-        Limit::Finite, (optional if has_debris), always, DEBRIS;
+        Limit::Finite, (optional with debris), always, DEBRIS;
     debris_attitude: [f64; 4] = [1.0, 0.0, 0.0, 0.0], "1",
         "Attitude quaternion q_sd of the debris, F_d -> F_s, scalar first", WXYZ, Quaternion, Limit::UnitQuaternion,
-        (optional if has_debris), always, DEBRIS;
+        (optional with debris), always, DEBRIS;
     debris_relative_angular_velocity_rad_s: [f64; 3] = [0.0; 3], "rad/s",
         "Angular velocity omega^ds of the debris relative to the spacecraft, in F_d", XYZ, Plain, Limit::Finite,
-        (optional if has_debris), always, DEBRIS;
+        (optional with debris), always, DEBRIS;
     } others {}
 }
 
-/// The rows of `[initial]`.
-pub(super) const KEYS: &[&[Key]] = &[InitialInput::ROWS];
-
-fn initial(scene: &SceneInput, _: usize) -> Option<&InitialInput> {
-    Some(&scene.initial)
-}
-
-fn initial_mut(scene: &mut SceneInput, _: usize) -> Option<&mut InitialInput> {
-    Some(&mut scene.initial)
-}
-
-fn has_debris(scene: &SceneInput) -> bool {
-    scene.debris.is_some()
-}
-
-fn wheel_acts(scene: &SceneInput, _: usize, wheel: usize) -> bool {
-    scene.wheels[wheel].is_some()
+fn wheel_acts(usage: &Usage, _: &InitialInput, _: usize, wheel: usize) -> bool {
+    usage.wheels[wheel]
 }

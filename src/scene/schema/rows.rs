@@ -1,32 +1,25 @@
-//! The macros that turn rows of the schema into an input structure, its defaults, its checks and its [`super::Key`]s.
-
-/// The dotted names of a key, one for each header of its table.
-macro_rules! names {
-    ([$($header:literal),+], $key:ident) => {
-        &[$(concat!($header, ".", stringify!($key))),+]
-    };
-}
+//! The macros that turn rows of the schema into an input structure, its defaults, its checks and its [`super::row::Row`]s.
 
 /// Whether a key must be written, as in a row.
 macro_rules! presence {
     (optional $($gate:tt)*) => {
-        $crate::scene::schema::Presence::Optional
+        $crate::scene::schema::row::Presence::Optional
     };
     (required $example:literal) => {
-        $crate::scene::schema::Presence::Required($example)
+        $crate::scene::schema::row::Presence::Required($example)
     };
     (required $example:literal if $condition:path) => {
-        $crate::scene::schema::Presence::RequiredIf($condition, $example)
+        $crate::scene::schema::row::Presence::RequiredIf($condition, $example)
     };
 }
 
 /// What else the scene must have for the key to exist, as in a row.
 macro_rules! gate {
-    (optional if $condition:path) => {
-        $condition
+    (optional with debris) => {
+        $crate::scene::schema::row::Needs::Debris
     };
     ($($presence:tt)+) => {
-        $crate::scene::schema::in_every_scene
+        $crate::scene::schema::row::Needs::Nothing
     };
 }
 
@@ -36,11 +29,12 @@ macro_rules! gate {
 /// key: type = default, "unit", "meaning", components, shape, limit, (presence), acts, "remedy";
 /// ```
 ///
-/// and `of` and `of_mut` give the structure in a scene; `others` lists fields that are not numbers.
+/// `in Table [table => table.part]` says where in the structure of the whole table this one is; `others` lists fields that are not
+/// numbers.
 macro_rules! rows {
     (
         $(#[$doc:meta])*
-        pub struct $Struct:ident in $Table:ident $headers:tt, $of:path, $of_mut:path {
+        pub struct $Struct:ident in $Table:ident [$table:ident => $get:expr] {
         $(
             $key:ident: $type:ty = $default:expr, $unit:literal, $meaning:literal,
             $components:expr, $shape:ident, $limit:expr, ($($presence:tt)+), $acts:path, $remedy:expr;
@@ -62,51 +56,41 @@ macro_rules! rows {
             pub const DEFAULT: $Struct = $Struct { $( $key: $default, )* $( $field: $field_default, )* };
 
             /// The rows of the schema.
-            pub const ROWS: &'static [$crate::scene::schema::Key] = &[ $(
-                $crate::scene::schema::Key {
-                    table: $crate::scene::schema::Table::$Table,
-                    key: stringify!($key),
-                    names: $crate::scene::schema::rows::names!($headers, $key),
-                    unit: $unit,
-                    meaning: $meaning,
-                    components: $components,
-                    shape: $crate::scene::schema::Shape::$shape,
-                    presence: $crate::scene::schema::rows::presence!($($presence)+),
-                    limit: $limit,
-                    remedy: $remedy,
-                    read: |scene, instance| {
-                        let exists = $crate::scene::schema::rows::gate!($($presence)+)(scene);
-                        $of(scene, instance).filter(|_| exists).and_then(|table| Numbers::numbers(&table.$key))
+            pub const ROWS: &'static [$crate::scene::schema::row::Row<$Table>] = &[ $(
+                $crate::scene::schema::row::Row {
+                    facts: $crate::scene::schema::row::Facts {
+                        key: stringify!($key),
+                        unit: $unit,
+                        meaning: $meaning,
+                        components: $components,
+                        shape: $crate::scene::schema::row::Shape::$shape,
+                        presence: $crate::scene::schema::rows::presence!($($presence)+),
+                        needs: $crate::scene::schema::rows::gate!($($presence)+),
+                        limit: $limit,
+                        remedy: $remedy,
                     },
-                    write: |scene, instance| {
-                        let exists = $crate::scene::schema::rows::gate!($($presence)+)(scene);
-                        $of_mut(scene, instance).filter(|_| exists).and_then(|table| Numbers::numbers_mut(&mut table.$key))
-                    },
-                    open: |scene, instance| {
-                        if let Some(table) = $of_mut(scene, instance) {
-                            Numbers::open(&mut table.$key);
-                        }
-                    },
+                    read: |$table| Numbers::numbers(&$get.$key),
+                    write: |$table| Numbers::numbers_mut(&mut $get.$key),
+                    open: |$table| Numbers::open(&mut $get.$key),
                     acts: $acts,
                 },
             )* ];
 
-            /// Notes which values violate their limits; `name` makes a dotted name of the key and its names in the schema.
-            /// Without a loop over rows: every draw is checked.
+            /// Notes which values violate their limits; `name` makes a dotted name of the key. Without a loop over rows: every draw is
+            /// checked.
             #[inline(always)]
             #[allow(unused_variables, reason = "a table may have no keys")]
             pub(in crate::scene) fn check(
                 &self,
-                scene: &SceneInput,
-                problems: &mut Problems,
-                name: impl Fn(&'static str, &'static [&'static str]) -> std::borrow::Cow<'static, str>,
+                has_debris: bool,
+                problems: &mut $crate::scene::error::Problems,
+                name: impl Fn(&'static str) -> std::borrow::Cow<'static, str>,
             ) {
-                $( if $crate::scene::schema::rows::gate!($($presence)+)(scene)
+                $( if $crate::scene::schema::rows::gate!($($presence)+).are_met(has_debris)
                     && let Some(numbers) = Numbers::numbers(&self.$key)
                 {
-                    const NAMES: &[&str] = $crate::scene::schema::rows::names!($headers, $key);
                     const LIMIT: $crate::scene::schema::Limit = $limit;
-                    LIMIT.check(|| name(stringify!($key), NAMES), numbers, problems);
+                    LIMIT.check(|| name(stringify!($key)), numbers, problems);
                 } )*
             }
         }
@@ -119,35 +103,36 @@ macro_rules! rows {
     };
 }
 
-/// A row whose value a pattern finds in the scene, by shared or by mutable reference; `open` makes the scene match it.
+/// A row whose value a pattern finds in its table, by shared or by mutable reference; `open` makes the table match it.
 macro_rules! row {
     (
-        $Table:ident $headers:tt $key:ident, $unit:literal, $meaning:expr, $components:expr, $shape:ident, $limit:expr,
+        $key:ident, $unit:literal, $meaning:expr, $components:expr, $shape:ident, $limit:expr,
         ($($presence:tt)+), $remedy:expr, $open:expr, $pattern:pat => $value:ident
     ) => {
-        $crate::scene::schema::Key {
-            table: $crate::scene::schema::Table::$Table,
-            key: stringify!($key),
-            names: $crate::scene::schema::rows::names!($headers, $key),
-            unit: $unit,
-            meaning: $meaning,
-            components: $components,
-            shape: $crate::scene::schema::Shape::$shape,
-            presence: $crate::scene::schema::rows::presence!($($presence)+),
-            limit: $limit,
-            remedy: $remedy,
-            read: |scene, _| match scene {
+        $crate::scene::schema::row::Row {
+            facts: $crate::scene::schema::row::Facts {
+                key: stringify!($key),
+                unit: $unit,
+                meaning: $meaning,
+                components: $components,
+                shape: $crate::scene::schema::row::Shape::$shape,
+                presence: $crate::scene::schema::rows::presence!($($presence)+),
+                needs: $crate::scene::schema::row::Needs::Nothing,
+                limit: $limit,
+                remedy: $remedy,
+            },
+            read: |table| match table {
                 $pattern => Numbers::numbers($value),
                 _ => None,
             },
-            write: |scene, _| match scene {
+            write: |table| match table {
                 $pattern => Numbers::numbers_mut($value),
                 _ => None,
             },
             open: $open,
-            acts: $crate::scene::schema::always,
+            acts: $crate::scene::schema::row::always,
         }
     };
 }
 
-pub(super) use {gate, names, presence, row, rows};
+pub(super) use {gate, presence, row, rows};

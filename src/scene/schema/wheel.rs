@@ -1,22 +1,20 @@
 //! `[wheel1]`, `[wheel2]`: a wheel, one instance of the table each.
 
-use super::fuselage::SCALAR;
+use super::components::{SCALAR, XY};
+use super::limit::Limit;
 use super::numbers::Numbers;
+use super::row::always;
 use super::rows::rows;
-use super::{Key, Limit, always};
-use crate::scene::error::Problems;
-use crate::scene::input::SceneInput;
 
-pub(super) const XY: &[&[&str]] = &[&["x", "y"]];
 /// Across the nominal axes of the wheels: s2 of W1, s3 of W2.
 const ACROSS: &[&[&str]] = &[&["x", "z"], &["x", "y"]];
 
-/// What makes the keys of a wheel exist; [`super::super::Parameter::remedy`] names the table.
+/// What makes the keys of a wheel exist; `Parameter::remedy` names the table.
 const REMEDY: &str = "add a [wheel] table";
 
 rows! {
     /// A wheel: a solid balanced cylinder that spins about an axis through its centre, which is fixed in the fuselage.
-    pub struct WheelInput in Wheel ["wheel1", "wheel2"], wheel, wheel_mut {
+    pub struct WheelInput in WheelInput [table => table] {
     radius_m: f64 = 0.25, "m", "Radius", SCALAR, Plain, Limit::Positive, (required "0.25"), always, REMEDY;
     length_m: f64 = 0.1, "m", "Length along the spin axis", SCALAR, Plain, Limit::Positive, (required "0.1"), always,
         REMEDY;
@@ -32,17 +30,6 @@ rows! {
         /// What the wheel does when no torque is scheduled for it.
         mode: WheelMode = WheelMode::Free,
     }
-}
-
-/// The rows of a wheel's table.
-pub(super) const KEYS: &[&[Key]] = &[WheelInput::ROWS];
-
-fn wheel(scene: &SceneInput, instance: usize) -> Option<&WheelInput> {
-    scene.wheels.get(instance)?.as_ref()
-}
-
-fn wheel_mut(scene: &mut SceneInput, instance: usize) -> Option<&mut WheelInput> {
-    scene.wheels.get_mut(instance)?.as_mut()
 }
 
 /// What a wheel does when no torque is scheduled for it.

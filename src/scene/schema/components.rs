@@ -1,0 +1,16 @@
+//! Names of components.
+
+/// One number.
+pub(super) const SCALAR: &[&[&str]] = &[&[""]];
+/// Along the axes of a frame.
+pub(super) const XYZ: &[&[&str]] = &[&["x", "y", "z"]];
+/// Along s1 and s2.
+pub(super) const XY: &[&[&str]] = &[&["x", "y"]];
+/// A quaternion, scalar first.
+pub(super) const WXYZ: &[&[&str]] = &[&["w", "x", "y", "z"]];
+/// Three of a kind.
+pub(super) const AXES: &[&[&str]] = &[&["1", "2", "3"]];
+/// One for each wheel.
+pub(super) const WHEELS: &[&[&str]] = &[&["1", "2"]];
+/// A symmetric tensor.
+pub(super) const SYMMETRIC: &[&[&str]] = &[&["xx", "xy", "xz", "yy", "yz", "zz"]];

@@ -1,0 +1,113 @@
+//! [`Row`]: one numeric key of one table.
+
+use super::limit::Limit;
+use super::usage::Usage;
+use crate::scene::error::Problems;
+use std::borrow::Cow;
+
+/// How the components of a value belong together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// Independent numbers.
+    Plain,
+    /// A unit quaternion, scalar first: normalised after its components were changed.
+    Quaternion,
+    /// A symmetric 3x3 tensor by rows; the six entries on and above the diagonal are the components; a change of
+    /// one off the diagonal changes its mirror image too.
+    Symmetric,
+}
+
+/// Whether a key must be written.
+#[derive(Clone, Copy, Debug)]
+pub enum Presence {
+    /// Always; a message shows this example.
+    Required(&'static str),
+    /// Only where the scene says so.
+    RequiredIf(fn(&Usage) -> bool, &'static str),
+    /// Never: where it is left out, the default of the input structure applies.
+    Optional,
+}
+
+/// What a scene must have for a key to exist, beside its table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Needs {
+    /// Nothing else.
+    Nothing,
+    /// Debris.
+    Debris,
+}
+
+impl Needs {
+    /// Whether a scene has it.
+    #[inline(always)]
+    pub const fn are_met(self, has_debris: bool) -> bool {
+        match self {
+            Needs::Nothing => true,
+            Needs::Debris => has_debris,
+        }
+    }
+}
+
+/// What is known of a key, whatever its table is.
+#[derive(Clone, Copy, Debug)]
+pub struct Facts {
+    /// The key within its table.
+    pub key: &'static str,
+    /// The unit, as people write it; `1` for a pure number.
+    pub unit: &'static str,
+    /// What it is, without the unit.
+    pub meaning: &'static str,
+    /// The names of the components for each instance of the table, or one list for all; one empty name for a scalar.
+    pub components: &'static [&'static [&'static str]],
+    /// How the components belong together.
+    pub shape: Shape,
+    /// Whether it must be written.
+    pub presence: Presence,
+    /// What a scene must have for the key to exist, beside its table.
+    pub needs: Needs,
+    /// What its value must satisfy.
+    pub limit: Limit,
+    /// What to write so that a change of the key has an effect, where it has none.
+    pub remedy: &'static str,
+}
+
+impl Facts {
+    /// The names of the components in table `instance`.
+    pub const fn components(&self, instance: usize) -> &'static [&'static str] {
+        self.components[if instance < self.components.len() { instance } else { 0 }]
+    }
+}
+
+/// A row of the schema: one numeric key of the table `T`.
+#[derive(Debug)]
+pub struct Row<T: 'static> {
+    /// What is known of the key.
+    pub facts: Facts,
+    /// The numbers; `None` where the table has no such key. A symmetric tensor has nine.
+    pub read: fn(&T) -> Option<&[f64]>,
+    /// The same, to be changed.
+    pub write: fn(&mut T) -> Option<&mut [f64]>,
+    /// Makes the table have the key: an optional value, a way to describe a body.
+    pub open: fn(&mut T),
+    /// Whether a change of a component has an effect, where the scene has the key: instance of the table, component.
+    pub acts: fn(&Usage, &T, usize, usize) -> bool,
+}
+
+/// Every change has an effect.
+pub(super) fn always<T>(_: &Usage, _: &T, _: usize, _: usize) -> bool {
+    true
+}
+
+/// Notes which values of the rows that `table` has violate their limits.
+pub(super) fn check_rows<T>(
+    rows: &'static [Row<T>],
+    table: &T,
+    problems: &mut Problems,
+    name: impl Fn(&'static str) -> Cow<'static, str>,
+) {
+    for row in rows {
+        if let Some(numbers) = (row.read)(table) {
+            row.facts.limit.check(|| name(row.facts.key), numbers, problems);
+        }
+    }
+}

@@ -1,0 +1,177 @@
+//! [`Table`] and [`Key`]: where in a scene the tables of the schema are, and their keys, whatever the table.
+//!
+//! To add a table, write its rows ([`super::schema`]), its field ([`SceneInput`]) and its line in `tables!`.
+
+use super::input::SceneInput;
+use super::schema::limit::shown;
+use super::schema::{
+    ActuationInput, ActuatorsInput, DebrisInput, EnvironmentInput, Facts, FuselageInput, InitialInput, Presence, Row,
+    WheelInput,
+};
+
+/// A key of a table of the schema.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Key {
+    /// The table.
+    pub table: Table,
+    /// The row, counted through the parts of the table.
+    row: u8,
+}
+
+/// The row of index `index`, counted through `parts`.
+const fn row_of<T>(parts: &'static [&'static [Row<T>]], index: usize) -> &'static Row<T> {
+    let (mut part, mut index) = (0, index);
+    while index >= parts[part].len() {
+        index -= parts[part].len();
+        part += 1;
+    }
+    &parts[part][index]
+}
+
+/// Number of rows in `parts`.
+const fn count_of<T>(parts: &[&[Row<T>]]) -> usize {
+    let (mut part, mut count) = (0, 0);
+    while part < parts.len() {
+        count += parts[part].len();
+        part += 1;
+    }
+    count
+}
+
+/// For each table, in the order of the dispersable parameters: variant, names of the instances, whether its keys can be dispersed, its
+/// rows in parts, and the table itself in `scene`, shared and to be changed.
+macro_rules! tables {
+    (|$scene:ident, $instance:ident| $($Table:ident, $headers:expr, $dispersable:literal, $parts:expr,
+        $get:expr, $get_mut:expr;)+) => {
+        /// A table of a campaign file.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        pub enum Table {
+            $(#[doc = concat!("The table with the rows `", stringify!($parts), "`.")] $Table,)+
+        }
+
+        impl Table {
+            /// All tables, in the order of the dispersable parameters.
+            pub const ALL: &'static [Table] = &[$(Table::$Table),+];
+
+            /// The names of the table in a campaign file, one for each instance; one name for a list of tables.
+            pub const fn headers(self) -> &'static [&'static str] {
+                match self { $(Table::$Table => $headers),+ }
+            }
+
+            /// Whether its keys can be dispersed.
+            pub const fn is_dispersable(self) -> bool {
+                match self { $(Table::$Table => $dispersable),+ }
+            }
+
+            /// Number of its keys.
+            pub const fn count(self) -> usize {
+                match self { $(Table::$Table => const { count_of($parts) }),+ }
+            }
+        }
+
+        impl Key {
+            /// What is known of the key.
+            pub const fn facts(self) -> &'static Facts {
+                match self.table { $(Table::$Table => &row_of($parts, self.row as usize).facts),+ }
+            }
+
+            /// The numbers of the key in the table, whatever else the scene has.
+            #[inline]
+            fn in_table(self, $scene: &SceneInput, $instance: usize) -> Option<&[f64]> {
+                match self.table { $(Table::$Table => (row_of($parts, self.row as usize).read)($get?)),+ }
+            }
+
+            #[inline]
+            fn in_table_mut(self, $scene: &mut SceneInput, $instance: usize) -> Option<&mut [f64]> {
+                match self.table { $(Table::$Table => (row_of($parts, self.row as usize).write)($get_mut?)),+ }
+            }
+
+            /// Makes the scene have the key, if its table is there: an optional value, a way to describe a body.
+            pub fn open(self, $scene: &mut SceneInput, $instance: usize) {
+                match self.table {
+                    $(Table::$Table => if let Some(table) = $get_mut { (row_of($parts, self.row as usize).open)(table) },)+
+                }
+            }
+
+            /// Whether a change of a component has an effect, where the scene has the key.
+            pub fn acts(self, $scene: &SceneInput, $instance: usize, component: usize) -> bool {
+                let usage = $scene.usage();
+                match self.table {
+                    $(Table::$Table => $get.is_some_and(|table| {
+                        (row_of($parts, self.row as usize).acts)(&usage, table, $instance, component)
+                    })),+
+                }
+            }
+        }
+    };
+}
+
+tables! {
+    |scene, instance|
+    Fuselage, &["fuselage"], true, FuselageInput::PARTS, Some(&scene.fuselage), Some(&mut scene.fuselage);
+    Wheel, &["wheel1", "wheel2"], true, &[WheelInput::ROWS],
+        scene.wheels.get(instance).and_then(Option::as_ref), scene.wheels.get_mut(instance).and_then(Option::as_mut);
+    Debris, &["debris"], true, &[DebrisInput::ROWS], scene.debris.as_ref(), scene.debris.as_mut();
+    Actuators, &["actuators"], true, &[ActuatorsInput::ROWS], Some(&scene.actuators), Some(&mut scene.actuators);
+    Initial, &["initial"], true, &[InitialInput::ROWS], Some(&scene.initial), Some(&mut scene.initial);
+    Environment, &["environment"], true, &[EnvironmentInput::ROWS], Some(&scene.environment), Some(&mut scene.environment);
+    Actuation, &["actuation"], false, &[ActuationInput::ROWS],
+        scene.actuation.get(instance), scene.actuation.get_mut(instance);
+}
+
+impl Table {
+    /// The keys of the table, in the order in which they are written.
+    pub fn keys(self) -> impl Iterator<Item = Key> {
+        (0..self.count()).map(move |row| Key { table: self, row: row as u8 })
+    }
+
+    /// The key called `name`, written as in a campaign file.
+    pub fn key(self, name: &str) -> Option<Key> {
+        self.keys().find(|key| key.facts().key == name)
+    }
+}
+
+impl Key {
+    /// The dotted name in instance `instance` of the table.
+    pub fn name(self, instance: usize) -> String {
+        let headers = self.table.headers();
+        format!("{}.{}", headers[if instance < headers.len() { instance } else { 0 }], self.facts().key)
+    }
+
+    /// The numbers of the key in `scene`; `None` where the scene has no such key. A symmetric tensor has nine.
+    #[inline]
+    pub fn read(self, scene: &SceneInput, instance: usize) -> Option<&[f64]> {
+        if self.facts().needs.are_met(scene.debris.is_some()) { self.in_table(scene, instance) } else { None }
+    }
+
+    /// The same, to be changed.
+    #[inline]
+    pub fn write(self, scene: &mut SceneInput, instance: usize) -> Option<&mut [f64]> {
+        if self.facts().needs.are_met(scene.debris.is_some()) { self.in_table_mut(scene, instance) } else { None }
+    }
+
+    /// An example of the value, where `scene` requires the key to be written.
+    pub fn required(self, scene: &SceneInput) -> Option<&'static str> {
+        match self.facts().presence {
+            Presence::Required(example) => Some(example),
+            Presence::RequiredIf(applies, example) => applies(&scene.usage()).then_some(example),
+            Presence::Optional => None,
+        }
+    }
+
+    /// The numbers where the key is not written, as in a campaign file; `None` where it must be written, or where another
+    /// key takes its place.
+    pub fn default_text(self) -> Option<String> {
+        match self.facts().presence {
+            Presence::Required(_) => None,
+            _ => self.read(&with_every_table(), 0).map(shown),
+        }
+    }
+}
+
+/// A scene in which every table is there, all at their defaults.
+fn with_every_table() -> SceneInput {
+    let wheels = [Some(WheelInput::DEFAULT); 2];
+    let (debris, actuation) = (Some(DebrisInput::default()), vec![ActuationInput::DEFAULT]);
+    SceneInput { wheels, debris, actuation, ..SceneInput::default() }
+}
