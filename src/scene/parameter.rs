@@ -154,7 +154,7 @@ impl Parameter {
         self.key.table == Table::Initial && self.shape() == Shape::Quaternion
     }
 
-    /// Makes a value that was written what [`super::Scene::resolve`] uses: an attitude goes through [`unit_quaternion`].
+    /// Makes a value that was written what [`super::Scene::resolve`] uses: an attitude as [`unit_quaternion`] has it.
     #[inline]
     pub fn normalise_written(self, scene: &mut SceneInput) {
         if self.is_attitude()

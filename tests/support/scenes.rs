@@ -45,9 +45,11 @@ impl Uniform {
     pub fn unit_quaternion(&mut self) -> [f64; 4] {
         loop {
             let q: [f64; 4] = self.vector(1.0);
-            let norm = q.iter().map(|x| x * x).sum::<f64>().sqrt();
-            if (0.1..1.0).contains(&norm) {
-                return q.map(|x| x / norm);
+            let norm = |q: [f64; 4]| q.iter().map(|x| x * x).sum::<f64>().sqrt();
+            if (0.1..1.0).contains(&norm(q)) {
+                let unit = q.map(|x| x / norm(q));
+                // twice, as when a scene divided what it was given: the golden bits are of these numbers
+                return unit.map(|x| x / norm(unit));
             }
         }
     }
