@@ -50,8 +50,8 @@ fn momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let omega: [_; 3] = needed(table, StateField::Rate, vectors);
     let rates: [_; 2] = needed(table, StateField::WheelRates, vectors);
     let inertia = constant_matrix(simd, mass.inertia);
-    let axials = mass.wheels.each_ref().map(|wheel| Lanes::broadcast(simd, wheel.axial));
-    let axes = mass.wheels.each_ref().map(|wheel| constant(simd, wheel.axis));
+    let axials = [0, 1].map(|i| Lanes::broadcast(simd, mass.wheels[i].axial));
+    let axes = [0, 1].map(|i| constant(simd, mass.wheels[i].axis));
     let [nutation, speed1, speed2, momentum1, momentum2] = out.write(
         [Series::Nutation, Series::Wheel1Speed, Series::Wheel2Speed, Series::Wheel1Momentum, Series::Wheel2Momentum],
         vectors,
