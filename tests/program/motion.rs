@@ -35,7 +35,7 @@ fn table(motion: &dyn Fn(f64) -> State) -> StateTable {
         |field: &StateField| matches!(field, StateField::Dcm | StateField::Residuals | StateField::KineticEnergies);
     let fields =
         StateField::ALL.into_iter().filter(|field| !constrained(field)).fold(StateFields::NONE, StateFields::with);
-    let mut table = StateTable::new(fields, grid.points());
+    let mut table = StateTable::new(fields, 2, grid.points());
     for (point, time) in grid.times().iter().enumerate() {
         let (q, omega, rates, own, debris) = motion(*time);
         table.set(StateField::Attitude, point, q);
