@@ -22,7 +22,7 @@ use super::schema::{
 ///     .with("initial.angular_velocity_rad_s", &[0.0, 0.1, 0.5])
 ///     .with("initial.wheel_rates_rad_s.1", &[314.0]);
 /// let scene = Scene::resolve(&scene).expect("physical");
-/// assert_eq!(scene.initial.wheel_rates, [314.0, 0.0]);
+/// assert_eq!(scene.initial.wheel_rates[..2], [314.0, 0.0]);
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SceneInput {

@@ -227,7 +227,7 @@ fn omitted_keys_have_defaults() {
                 outer_radius_m = 1\nlength_m = 3\ndensity_kg_m3 = 2700\n[initial]\nangular_velocity_rad_s = [0, 0, 1]\n";
     let plan = Plan::from_text("small.toml", text, Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!((plan.method, plan.grid.points(), plan.grid.duration()), (Method::Auto, 101, 2.0));
-    assert_eq!(plan.groups, Group::ALL);
+    assert_eq!(plan.groups, Group::DEFAULT);
     assert_eq!(plan.nominal.initial.attitude, [1.0, 0.0, 0.0, 0.0]);
     assert_eq!((plan.nominal.wheels, plan.nominal.debris), ([None; 2], None));
     assert!(plan.dispersions.columns().is_empty());
