@@ -5,9 +5,11 @@
 //! Not here: the keys of `[[actuation]]`, the commands, which the keys of `[actuators]` distort for all arcs alike.
 
 use super::input::SceneInput;
+use super::name::Name;
 use super::schema::Facts;
 pub use super::schema::Shape;
 use super::table::{Key, Table};
+use super::unit_quaternion::unit_quaternion;
 
 /// A numeric key of scene or initial state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -16,23 +18,28 @@ pub struct Parameter {
     key: Key,
     /// Which instance of the row's table.
     instance: u8,
+    /// The name of that instance.
+    owner: Name,
 }
 
 /// Indices of the components of a symmetric tensor, and of their mirror images, among its nine numbers by rows.
 const SYMMETRIC: [(usize, usize); 6] = [(0, 0), (1, 3), (2, 6), (4, 4), (5, 7), (8, 8)];
 
 impl Parameter {
-    /// All parameters: table by table, instance by instance, in the order of the schema.
-    pub fn all() -> impl Iterator<Item = Parameter> {
-        let of =
-            |table: Table, instance: usize| table.keys().map(move |key| Parameter { key, instance: instance as u8 });
+    /// All parameters that a scene with the tables of `scene` may have: table by table, instance by instance, in the order of the schema.
+    pub fn all(scene: &SceneInput) -> impl Iterator<Item = Parameter> {
+        let of = |table: Table, (instance, owner): (usize, Name)| {
+            table.keys().map(move |key| Parameter { key, instance: instance as u8, owner })
+        };
         let dispersable = Table::ALL.iter().copied().filter(|table| table.is_dispersable());
-        dispersable.flat_map(move |table| (0..table.headers().len()).flat_map(move |i| of(table, i)))
+        dispersable.flat_map(move |table| {
+            table.owners(scene).into_iter().enumerate().flat_map(move |instance| of(table, instance))
+        })
     }
 
-    /// The parameter called `name`, and the component if the name ends in one (`[1]`, counted from zero, or `.y`).
-    pub fn find(name: &str) -> Option<(Parameter, Option<usize>)> {
-        let whole = |name: &str| Self::all().find(|parameter| parameter.name() == name);
+    /// The parameter of `scene` called `name`, and the component if the name ends in one (`[1]`, counted from zero, or `.y`).
+    pub fn find(scene: &SceneInput, name: &str) -> Option<(Parameter, Option<usize>)> {
+        let whole = |name: &str| Self::all(scene).find(|parameter| parameter.name() == name);
         if let Some(parameter) = whole(name) {
             return Some((parameter, None));
         }
@@ -58,7 +65,7 @@ impl Parameter {
 
     /// The dotted name, as in a campaign file.
     pub fn name(self) -> String {
-        self.key.name(self.instance())
+        self.key.name(self.owner)
     }
 
     /// The unit, as people write it; `1` for a pure number.
@@ -68,7 +75,7 @@ impl Parameter {
 
     /// The names of the components; one empty name for a scalar.
     pub fn components(self) -> &'static [&'static str] {
-        self.facts().components(self.instance())
+        self.facts().components
     }
 
     /// Number of components.
@@ -110,11 +117,7 @@ impl Parameter {
 
     /// What to write so that the parameter exists where [`Parameter::exists`] says that it does not.
     pub fn remedy(self) -> &'static str {
-        match (self.key.table, self.instance()) {
-            (Table::Wheel, 0) => "add a [wheel1] table",
-            (Table::Wheel, _) => "add a [wheel2] table",
-            _ => self.facts().remedy,
-        }
+        self.facts().remedy
     }
 
     /// Makes `scene` have the key, if its table is there: an optional value, a way to describe a body. Its numbers are then
@@ -184,22 +187,6 @@ impl Parameter {
     }
 }
 
-/// How far the sum of the squares of four numbers that were divided by their norm may be from one: 6 rounding units by the usual
-/// bounds (two for the sum, one and a half for root and division, counted twice in a square; two for the sum again), measured 3.
-const ROUNDED_UNIT: f64 = 8.0 * f64::EPSILON;
-
-/// `q` divided by its norm; unchanged where its norm is one to rounding, so that numbers which this function or
-/// [`Parameter::normalise`] returned, and were recorded and written again, keep their bits.
-#[inline]
-pub fn unit_quaternion(q: [f64; 4]) -> [f64; 4] {
-    let square = q.iter().map(|x| x * x).sum::<f64>();
-    if (square - 1.0).abs() <= ROUNDED_UNIT {
-        return q;
-    }
-    let norm = square.sqrt();
-    q.map(|x| x / norm)
-}
-
 impl SceneInput {
     /// The same scene with other numbers for a parameter, whole or one component, by its name in campaign files.
     ///
@@ -207,7 +194,7 @@ impl SceneInput {
     /// Where there is no such parameter, the scene has no such key, or the number of values is not that of its components.
     pub fn with(mut self, name: &str, values: &[f64]) -> Self {
         let (parameter, component) =
-            Parameter::find(name).unwrap_or_else(|| panic!("{name} is a parameter of the schema"));
+            Parameter::find(&self, name).unwrap_or_else(|| panic!("{name} is a parameter of the schema"));
         let first = component.unwrap_or(0);
         let count = if component.is_some() { 1 } else { parameter.width() };
         assert_eq!(values.len(), count, "the number of values of {name}");

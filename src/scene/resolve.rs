@@ -3,9 +3,9 @@
 use super::error::Problems;
 use super::input::SceneInput;
 use super::mass::MassProperties;
-use super::parameter::unit_quaternion;
-use super::schema::InitialInput;
-use super::{InitialState, MAX_WHEELS, Scene, SceneError, check, schedule};
+use super::schema::{InitialInput, MAX_WHEELS, WheelMode};
+use super::unit_quaternion::unit_quaternion;
+use super::{InitialState, Scene, SceneError, check, schedule};
 use crate::math::vector::{dcm_from_quaternion, hamilton, sum, transposed_product};
 
 impl Scene {
@@ -71,35 +71,31 @@ fn checked(input: &SceneInput, mass: &MassProperties) -> Result<(), Vec<SceneErr
 
 /// The state at time zero (59): debris q_ed = q_es (x) q_sd, omega^de = omega^ds + C_ds omega^se.
 ///
-/// What belongs to a body that the scene does not have is zero (attitude: identity): a missing wheel does not turn.
+/// What belongs to debris that the scene does not have is zero (attitude: identity).
 fn initial_state(input: &SceneInput) -> InitialState {
     let InitialInput {
         position_m,
         velocity_m_s,
         attitude,
         angular_velocity_rad_s,
-        wheel_angles_rad,
-        wheel_rates_rad_s,
         debris_position_m,
         debris_velocity_m_s,
         debris_attitude,
         debris_relative_angular_velocity_rad_s,
     } = input.initial;
-    let of_present_wheels = |values: [f64; 2]| {
-        let mut of_wheels = [0.0; MAX_WHEELS];
-        for (i, wheel) in input.wheels.iter().enumerate() {
-            of_wheels[i] = if wheel.is_some() { values[i] } else { 0.0 };
-        }
-        of_wheels
-    };
+    let (mut wheel_angles, mut wheel_rates) = ([0.0; MAX_WHEELS], [0.0; MAX_WHEELS]);
+    let turning = input.wheels.iter().filter(|wheel| wheel.mode != WheelMode::Locked);
+    for (i, wheel) in turning.enumerate() {
+        (wheel_angles[i], wheel_rates[i]) = (wheel.angle_rad, wheel.rate_rad_s);
+    }
     let q_es = unit_quaternion(attitude);
     let mut state = InitialState {
         r_po_e: position_m,
         v_po_e: velocity_m_s,
         q_es,
         omega_se_s: angular_velocity_rad_s,
-        wheel_angles: of_present_wheels(wheel_angles_rad),
-        wheel_rates: of_present_wheels(wheel_rates_rad_s),
+        wheel_angles,
+        wheel_rates,
         r_gdo_e: [0.0; 3],
         v_gdo_e: [0.0; 3],
         q_ed: [1.0, 0.0, 0.0, 0.0],

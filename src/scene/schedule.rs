@@ -1,8 +1,9 @@
 //! The arcs of a run: intervals of constant actuation; and what the actuators make of the commands.
 
+use super::alignment::aligned;
 use super::input::SceneInput;
-use super::mass::{MAX_WHEELS, turned};
-use super::thruster::{MAX_THRUSTERS, REPORT_DIRECTIONS, Thruster};
+use super::schema::{MAX_THRUSTERS, MAX_WHEELS, WheelMode};
+use super::thruster::Thruster;
 
 /// What acts on the spacecraft until a time: the values as they are applied, constant, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,11 +41,8 @@ pub fn applied(input: &SceneInput, index: usize) -> Arc {
         start: start(index),
         applied: Actuation {
             until: if next.is_some() { start(index + 1) } else { command.end_s + actuators.switch_off_delay_s },
-            thrust: filled(command.thrust_n.len(), |i| actuators.thrust_scale[i] * command.thrust_n[i]),
-            motor_torque: filled(command.torque_n_m.len(), |i| {
-                let torque = command.torque_n_m[i];
-                if torque == 0.0 { 0.0 } else { actuators.torque_scale[i] * torque + actuators.torque_bias_n_m[i] }
-            }),
+            thrust: thrusts(input, index),
+            motor_torque: motor_torques(input, index),
             body_torque: [0.0; 3],
         },
     }
@@ -57,19 +55,31 @@ fn first<const N: usize>(numbers: &[f64]) -> [f64; N] {
     all
 }
 
-/// The first `count` numbers; zero beyond.
-fn filled<const N: usize>(count: usize, number: impl Fn(usize) -> f64) -> [f64; N] {
-    std::array::from_fn(|i| if i < count { number(i) } else { 0.0 })
+/// The thrusts of command `index`, N.
+fn thrusts(input: &SceneInput, index: usize) -> [f64; MAX_THRUSTERS] {
+    let mut thrust = [0.0; MAX_THRUSTERS];
+    for (i, thruster) in input.thrusters.iter().enumerate() {
+        thrust[i] = thruster.thrust_scale * input.actuation[index].thrust_n[i];
+    }
+    thrust
 }
 
-/// The thrusters P1, P2, P3 with the misalignments of `input`.
-pub fn thrusters(input: &SceneInput) -> [Thruster; 3] {
-    let tilts = input.actuators.tilts_rad();
-    let (offset, station) = (input.fuselage.thruster_offset_m, input.fuselage.length_m);
-    let positions = [[0.0; 3], [0.0, -offset, station], [0.0, offset, station]];
-    std::array::from_fn(|k| Thruster {
-        position: positions[k],
-        direction: turned(REPORT_DIRECTIONS[k], [tilts[k][0], tilts[k][1], 0.0], 1.0),
+/// The motor torques of command `index` on the wheels that turn, in their order, N m.
+fn motor_torques(input: &SceneInput, index: usize) -> [f64; MAX_WHEELS] {
+    let mut torques = [0.0; MAX_WHEELS];
+    let turning = input.wheels.iter().enumerate().filter(|(_, wheel)| wheel.mode != WheelMode::Locked);
+    for (place, (i, wheel)) in turning.enumerate() {
+        let torque = input.actuation[index].torque_n_m[i];
+        torques[place] = if torque == 0.0 { 0.0 } else { wheel.torque_scale * torque + wheel.torque_bias_n_m };
+    }
+    torques
+}
+
+/// The thrusters with their alignment errors.
+pub fn thrusters(input: &SceneInput) -> impl Iterator<Item = Thruster> {
+    input.thrusters.iter().map(|thruster| Thruster {
+        position: thruster.position_m,
+        direction: aligned(thruster.direction, thruster.tilt_rad, 1.0),
     })
 }
 
