@@ -167,9 +167,9 @@ pub(super) fn derived(
 
 /// The parameter that a name in an expression means, and its nominal value; or what it must be and the remedy.
 fn variable(name: &str, nominal: &SceneInput) -> Result<((Parameter, usize), f64), (String, String)> {
-    let Some((parameter, component)) = Parameter::find(name) else {
+    let Some((parameter, component)) = Parameter::find(nominal, name) else {
         let allowed = "a numeric key of scene or initial state, one component of it".to_owned();
-        return Err((allowed, "write names as in this file, wheel1.radius_m or initial.position_m.x".to_owned()));
+        return Err((allowed, "write names as in this file, wheels.w1.radius_m or initial.position_m.x".to_owned()));
     };
     if parameter.shape() == Shape::Quaternion {
         let allowed = "other than an attitude, whose components are normalised after they were drawn".to_owned();

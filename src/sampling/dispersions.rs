@@ -217,7 +217,7 @@ impl Dispersions {
         let refused = |allowed: &str, remedy: &str| {
             Err(error_of(Table::Design, "parameters", format!("{:?}", data.column), allowed, remedy))
         };
-        let target = Parameter::find(&data.column).and_then(|(parameter, component)| match component {
+        let target = Parameter::find(nominal, &data.column).and_then(|(parameter, component)| match component {
             Some(component) => Some((parameter, component)),
             None => (parameter.width() == 1).then_some((parameter, 0)),
         });
