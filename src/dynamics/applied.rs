@@ -25,8 +25,8 @@ pub fn law_arc(
 ) -> Arc {
     let mut applied = law.arc(time, body, wheels);
     assert!(applied.until > time, "a law's arc from {time} s ends at {} s", applied.until);
-    for (torque, wheel) in applied.motor_torque.iter_mut().zip(&scene.mass.wheels) {
-        if !wheel.is_present() || wheel.mode != WheelMode::Free {
+    for (index, torque) in applied.motor_torque.iter_mut().enumerate() {
+        if scene.mass.wheels.get(index).is_none_or(|wheel| wheel.mode != WheelMode::Free) {
             *torque = 0.0;
         }
     }

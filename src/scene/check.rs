@@ -181,9 +181,7 @@ pub(super) fn derived(input: &SceneInput, mass: &MassProperties, problems: &mut 
     let diagonal = |tensor: [[f64; 3]; 3]| [tensor[0][0], tensor[1][1], tensor[2][2]];
     let Body { mass: own, inertia, .. } = mass.fuselage;
     let mut passed = true;
-    if input.body.includes_wheels {
-        passed &= without_wheels(own, inertia, problems);
-    } else {
+    if !input.body.includes_wheels {
         passed &= body("body".into(), own, diagonal(inertia));
     }
     let turning = input.wheels.iter().filter(|wheel| wheel.mode != WheelMode::Locked);
@@ -193,6 +191,9 @@ pub(super) fn derived(input: &SceneInput, mass: &MassProperties, problems: &mut 
     }
     if let Some(debris) = mass.debris {
         passed &= body("debris".into(), debris.mass, diagonal(debris.inertia));
+    }
+    if input.body.includes_wheels {
+        passed &= without_wheels(own, inertia, problems);
     }
     if passed {
         free_inertia(input.body.inertia_kg_m2.is_some(), mass, problems);

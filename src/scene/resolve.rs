@@ -49,8 +49,8 @@ impl Scene {
         self.schedule.clear();
         self.schedule.extend((0..input.actuation.len()).map(|index| schedule::applied(input, index)));
         self.environment = input.environment;
-        self.commands_thrust = input.actuation.iter().any(|arc| arc.thrust_n != [0.0; 3]);
-        self.commands_torque = input.actuation.iter().any(|arc| arc.torque_n_m != [0.0; 2]);
+        self.commands_thrust = input.actuation.iter().any(|arc| arc.thrust_n.iter().any(|thrust| *thrust != 0.0));
+        self.commands_torque = input.actuation.iter().any(|arc| arc.torque_n_m.iter().any(|torque| *torque != 0.0));
     }
 }
 

@@ -153,15 +153,6 @@ fn complete_wheels<S: Simd, const N: usize>(
 ) {
     let angles = N >= WITH_ANGLES && table.has(StateField::WheelAngles);
     for (index, wheel) in run.wheels.iter().enumerate() {
-        if wheel.is_missing() {
-            // a missing wheel does not turn
-            for field in [StateField::WheelRates, StateField::WheelAngles] {
-                if table.has(field) {
-                    chunk.zero().store(&mut table.column_mut(field, index)[chunk.first..]);
-                }
-            }
-            continue;
-        }
         let lanes = wheel.in_lanes(chunk.zero());
         if table.has(StateField::WheelRates) {
             let momentum = chunk.along(

@@ -145,7 +145,7 @@ impl ReferenceSolution {
         self.put(StateField::Attitude, point, &q_es);
         let arc = run.arc_at(time);
         let (mut rates, mut angles) = ([zero; MAX_WHEELS], [zero; MAX_WHEELS]);
-        for (i, wheel) in run.wheels.iter().enumerate().filter(|(_, wheel)| !wheel.is_missing()) {
+        for (i, wheel) in run.wheels.iter().enumerate() {
             let motion = run.wheel_at(arc, i, time);
             rates[i] = wheel.rate(motion.momentum, omega_b);
             angles[i] = wheel.angle(DoubleDouble::exact(time), motion.turn, three(y, ANGLE));
