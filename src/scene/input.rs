@@ -6,9 +6,10 @@
 
 use super::name::Name;
 use super::schema::{
-    ActuationInput, ActuatorsInput, BodyInput, DebrisInput, EnvironmentInput, InitialInput, PartInput, PartShape,
-    ThrusterInput, Usage, WheelInput, WheelMode,
+    ActuationInput, ActuatorsInput, BodyInput, DebrisInput, EnvironmentInput, InitialInput, MAX_WHEELS, PartInput,
+    PartShape, ThrusterInput, Usage, WheelInput, WheelMode,
 };
+use crate::math::list::List;
 
 /// A scene as written: bodies, initial state, actuation.
 ///
@@ -137,6 +138,14 @@ impl SceneInput {
     pub fn with_actuation(mut self, arc: ActuationInput) -> Self {
         self.actuation.push(arc);
         self
+    }
+
+    /// The names of the wheels that turn, in their order.
+    pub fn turning_wheels(&self) -> List<Name, MAX_WHEELS> {
+        let mut names = List::empty(Name::NONE);
+        let turning = self.wheels.iter().filter(|wheel| wheel.mode != WheelMode::Locked);
+        turning.for_each(|wheel| names.push(wheel.name));
+        names
     }
 
     /// What the scene has and commands, as far as keys of the schema depend on it.
