@@ -102,7 +102,6 @@ macro_rules! series {
                 stored: Stored::$stored,
                 scale: $scale,
                 needs: &[$($need),*],
-                is_of_wheel: $count > 1,
                 shown: match $shown {
                     Some((name, unit)) => Some(Quantity::new(name, unit, $meaning)),
                     None => None,

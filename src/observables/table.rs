@@ -216,8 +216,6 @@ pub(super) struct SeriesRow {
     pub(super) scale: Option<(Series, Reduction)>,
     /// What it is computed from.
     pub(super) needs: &'static [&'static [Need]],
-    /// Whether there is one for each wheel.
-    pub(super) is_of_wheel: bool,
     /// Its column in a time series, where it has one.
     pub(super) shown: Option<Quantity>,
 }
