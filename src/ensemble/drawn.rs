@@ -72,6 +72,6 @@ mod tests {
         assert!((r[0][1] - 1.0).abs() < 1e-15 && (r[0][2] + 1.0).abs() < 1e-15 && r[0][3] == 0.0);
         let [low, middle, high] = drawn.percentiles([0.0, 0.5, 0.99])[1].expect("four samples");
         assert_eq!((low, middle), (1.0, 17.5));
-        assert!((high - (64.0 - 0.03 * 37.0)).abs() < 1e-12, "99% of four draws is not their maximum: {high}");
+        assert!((high - (64.0 - 0.03 * 37.0)).abs() < 5e-14, "99% of four draws is not their maximum: {high}");
     }
 }

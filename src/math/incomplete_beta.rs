@@ -199,7 +199,7 @@ mod tests {
                 let [x, y] = inverse_incomplete_beta(p, 1.0 - p, a, b);
                 let found = incomplete_beta(x, y, a, b);
                 let error = ((found.lower - p) / p.min(1.0 - p)).abs();
-                assert!(error < 1e-10, "{a} {b} {p}: x {x} gives {found:?}");
+                assert!(error < 4e-12, "{a} {b} {p}: x {x} gives {found:?}");
             }
         }
     }
@@ -210,7 +210,7 @@ mod tests {
         for x in [1e-9, 0.2, 0.5, 0.8, 1.0 - 1e-9] {
             for shape in [0.05, 1.0, 7.5, 400.0] {
                 let (first, power) = (incomplete_beta(x, 1.0 - x, 1.0, shape).upper, libm::pow(1.0 - x, shape));
-                assert!((first - power).abs() <= 1e-12 * power, "{x} {shape} {first} {power}");
+                assert!((first - power).abs() <= 4e-13 * power, "{x} {shape} {first} {power}");
                 let (second, power) = (incomplete_beta(x, 1.0 - x, shape, 1.0).lower, libm::pow(x, shape));
                 assert!((second - power).abs() <= 1e-12 * power, "{x} {shape} {second} {power}");
             }

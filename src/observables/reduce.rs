@@ -201,7 +201,7 @@ mod tests {
     use crate::run::Grid;
 
     /// A few roundings of sums of up to a hundred terms of size one.
-    const ROUNDING: f64 = 1e-13;
+    const ROUNDING: f64 = 5e-14;
 
     struct Reduce<'a>(&'a Weights, &'a [f64]);
     impl Work for Reduce<'_> {

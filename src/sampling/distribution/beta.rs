@@ -171,14 +171,14 @@ mod tests {
             for shape in [0.05, 0.5, 1.0, 2.5, 40.0] {
                 let first = BetaQuantile::new(1.0, shape, 0.0, 1.0).quantile(u);
                 let expected = -libm::expm1(libm::log1p(-u) / shape);
-                assert!((first / expected - 1.0).abs() < 1e-12, "1, {shape}: {u} {first} {expected}");
+                assert!((first / expected - 1.0).abs() < 1e-13, "1, {shape}: {u} {first} {expected}");
                 let second = BetaQuantile::new(shape, 1.0, 0.0, 1.0).quantile(u);
                 let expected = libm::exp(libm::log(u) / shape);
-                assert!((second / expected - 1.0).abs() < 1e-12, "{shape}, 1: {u} {second} {expected}");
+                assert!((second / expected - 1.0).abs() < 5e-13, "{shape}, 1: {u} {second} {expected}");
             }
             let sine = libm::sin(core::f64::consts::FRAC_PI_2 * u);
             let arcsine = BetaQuantile::new(0.5, 0.5, 0.0, 1.0).quantile(u);
-            assert!((arcsine / (sine * sine) - 1.0).abs() < 1e-12, "{u} {arcsine}");
+            assert!((arcsine / (sine * sine) - 1.0).abs() < 3e-14, "{u} {arcsine}");
         }
     }
 

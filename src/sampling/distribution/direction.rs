@@ -312,6 +312,6 @@ mod tests {
         let mut vector = [0.0; 3];
         needle.values(&[0.25, 0.125], &mut vector);
         let [x, y, _] = vector;
-        assert!(((x * x + y * y).sqrt() / 0.5e-9 - 1.0).abs() < 1e-12, "angle = half-angle times sqrt(u)");
+        assert!(((x * x + y * y).sqrt() / 0.5e-9 - 1.0).abs() < 1e-15, "angle = half-angle times sqrt(u)");
     }
 }
