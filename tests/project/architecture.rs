@@ -45,7 +45,7 @@ const CRATES: [(&str, &[&str]); 20] = [
     ("toml", &["campaign"]),
 ];
 
-/// The dependency of which the program wants nothing but its features (`features.rs`).
+/// The dependency that is there for its features alone (`features.rs`).
 const FOR_ITS_FEATURES: &str = "either";
 
 /// Elementary functions whose last digits are the platform's own: rows take them from `libm`.
