@@ -117,10 +117,10 @@ impl<N: Nested> Direction<N> {
         target: &JointTarget<'_>,
     ) -> Result<DirectionMap<N::Quantile>, DispersionError> {
         let nominal = target.vector(name)?;
-        let length = norm(nominal);
+        let length = length_of(nominal);
         let axis = match self.axis {
             Some(axis) => target.axis(axis)?,
-            None if length > 0.0 => nominal,
+            None if length > 0.0 => target.axis(nominal)?,
             None if spread == DirectionSpread::Sphere => [0.0, 0.0, 1.0],
             None => {
                 let allowed = "given where the nominal vector is zero and has no direction";
@@ -255,6 +255,15 @@ impl<Q: Quantile> Map for DirectionMap<Q> {
             Magnitude::Drawn(quantile) => format!("{direction}, magnitude {}", quantile.text(short)),
         }
     }
+}
+
+/// The length of a vector whose square may overflow or vanish.
+fn length_of(vector: [f64; 3]) -> f64 {
+    let largest = vector.iter().fold(0.0f64, |largest, x| largest.max(x.abs()));
+    if largest == 0.0 || (1e-150..1e150).contains(&largest) {
+        return norm(vector);
+    }
+    largest * norm(vector.map(|x| x / largest))
 }
 
 /// Two unit vectors across `axis` and the unit vector along it, right-handed.

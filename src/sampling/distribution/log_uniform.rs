@@ -71,7 +71,14 @@ impl Scalar for LogUniform {
                 let remedy = "2 means from half to twice the nominal";
                 let factor = target.passing("factor", factor, |x| x > 1.0, "> 1", remedy)?;
                 let middle = target.positive_or_nominal("factor", &None)?;
-                target.all(|k| Ok(LogUniformQuantile::new(middle[k] / factor[k], middle[k] * factor[k])))
+                target.all(|k| {
+                    let (min, max) = (middle[k] / factor[k], middle[k] * factor[k]);
+                    if min > 0.0 && max.is_finite() {
+                        return Ok(LogUniformQuantile::new(min, max));
+                    }
+                    let allowed = "such that the ends are positive finite numbers";
+                    target.refused("factor", format!("{:?}", factor[k]), allowed, "write a smaller one")
+                })
             }
         }
     }
