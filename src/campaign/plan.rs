@@ -196,6 +196,8 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
         }
     };
 
+    refuse_after_the_end(spec.duration_s, &spec.scene, &drawn, document);
+
     let mut groups = spec.groups.unwrap_or_else(|| Group::DEFAULT.to_vec());
     groups.sort_by_key(|group| Group::ALL.iter().position(|known| known == group));
     let dispersions = dispersions?;
@@ -249,6 +251,31 @@ impl Drawn {
             other => other,
         };
         format!("{table}.{key}")
+    }
+}
+
+/// Refuses dispersions that act on arcs only which start at the end of a run or later.
+fn refuse_after_the_end(duration: Option<f64>, scene: &SceneInput, drawn: &Drawn, document: &mut Document<'_>) {
+    let Some(duration) = duration else { return };
+    let mut within = scene.clone();
+    within.actuation.retain(|arc| arc.start_s < duration);
+    let inputs: Vec<_> = drawn.derived.1.iter().flat_map(Derivation::inputs).collect();
+    for (index, dispersion) in drawn.dispersed.1.iter().enumerate() {
+        let components =
+            dispersion.component.map_or(0..dispersion.parameter.width(), |component| component..component + 1);
+        let is_late = |component: &usize| {
+            let target = (dispersion.parameter, *component);
+            let is_in = |scene| dispersion.parameter.exists(scene, *component);
+            is_in(scene) && !is_in(&within) && !inputs.contains(&target)
+        };
+        if let Some(late) = components.into_iter().find(is_late) {
+            let value = format!("{:?}", dispersion.parameter.component_name(late));
+            let allowed = format!(
+                "a key with an effect before campaign.duration_s ({duration:?}): the arcs that it acts on start later"
+            );
+            let remedy = "let an arc start earlier, or delete this table";
+            document.add(&drawn.path(Table::Disperse(index), "parameter"), Some(value), allowed, remedy);
+        }
     }
 }
 
