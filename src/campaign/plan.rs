@@ -3,7 +3,7 @@
 
 use super::compression::Compression;
 use super::document::Document;
-use super::limits::{FRACTION, LARGEST_SEED, MAX_SAMPLES};
+use super::limits::{FRACTION, LARGEST_SEED, MAX_SAMPLES, MOST_MEMORY, bytes_a_point};
 use super::problem::{CampaignError, Problem};
 use super::spec::Spec;
 use crate::observables::Group;
@@ -161,6 +161,7 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
     if spec.method.is_some() {
         check_step(&spec, method, document);
     }
+    check_memory(&spec, method, document);
     let relative = spec.relative_tolerance.or(spec.tolerance).unwrap_or(TOLERANCE);
     let absolute = spec.absolute_tolerance.or(spec.tolerance).unwrap_or(TOLERANCE);
     if spec.tolerance.is_some() && spec.relative_tolerance.is_some() && spec.absolute_tolerance.is_some() {
@@ -251,6 +252,24 @@ impl Drawn {
             other => other,
         };
         format!("{table}.{key}")
+    }
+}
+
+/// Refuses more observation points than a thread may have memory for.
+fn check_memory(spec: &Spec, method: Method, document: &mut Document<'_>) {
+    let (points, each) = (spec.points.unwrap_or(POINTS), bytes_a_point(method));
+    let bytes = points.saturating_mul(each);
+    if bytes > MOST_MEMORY {
+        let gigabytes = |bytes: u64| bytes as f64 / 1e9;
+        let allowed = format!(
+            "at most {}: method {:?} takes up to {each} bytes a point in each thread, here {:.1} GB of at most {:.1} GB",
+            MOST_MEMORY / each,
+            method.name(),
+            gigabytes(bytes),
+            gigabytes(MOST_MEMORY),
+        );
+        let remedy = "write fewer points; simulate --times shows one run at any times";
+        document.add("observe.points", Some(points.to_string()), allowed, remedy);
     }
 }
 

@@ -15,7 +15,7 @@ const TRIED: u64 = 3;
 /// Nothing is found out where that would take longer, s.
 const LONGEST_S: f64 = 5.0;
 
-/// The dispersed parameters of `plan` a change of which leaves every requested column of the nominal run as it is, bit for bit; inputs of
+/// The dispersed parameters of `plan` that leave every requested column of the nominal run as it is, bit for bit, when they change; inputs of
 /// derived parameters have an effect. `None` where the runs would take too long, or the nominal scene cannot be run.
 pub fn without_effect(plan: &Plan, isa: Isa) -> Option<Vec<Parameter>> {
     let columns = plan.dispersions.columns();

@@ -24,7 +24,7 @@ enum Columns {
 }
 
 impl Percentiles {
-    /// Of the samples of `plan`, none of which was seen yet.
+    /// Of the samples of `plan`; nothing is counted yet.
     pub fn new(plan: &Plan) -> Self {
         let nominal: Vec<f64> = plan.dispersions.columns().iter().map(|column| column.nominal).collect();
         let columns = if plan.samples <= CHUNK {

@@ -27,7 +27,9 @@ fn sample_draws_the_rows_of_the_campaign() {
     scratch.prints("campaign thin.toml --out r", 1);
     let rows: Vec<RecordBatch> =
         (0..3).flat_map(|part| batches(&scratch.path(&format!("r/runs/part-{part:06}.parquet")))).collect();
-    for name in &names[2..] {
+    // the last columns are the mass properties of what was drawn
+    assert_eq!(names[names.len() - 7..][..2], ["mass_kg", "center_of_mass_x_m"]);
+    for name in &names[2..names.len() - 7] {
         let run: Vec<u64> = rows.iter().flat_map(|batch| floats(batch, name)).map(f64::to_bits).collect();
         let drawn: Vec<u64> = floats(parquet, name).into_iter().map(f64::to_bits).collect();
         let column = names.iter().position(|other| other == name).unwrap();
@@ -40,6 +42,26 @@ fn sample_draws_the_rows_of_the_campaign() {
     assert!((100..300).contains(&invalid), "a third is thinner than nothing: {invalid}");
     assert!(fs::read_to_string(scratch.path("s.svg")).unwrap().contains("Rank correlation"));
     assert!(fs::read(scratch.path("s.png")).unwrap().starts_with(b"\x89PNG"));
+    let statuses: Vec<&str> = text.lines().skip(1).map(|line| line.split(',').nth(1).unwrap()).collect();
+    let [mass, a, b, c] = ["mass_kg", "principal_moment_1_kg_m2", "principal_moment_2_kg_m2", "principal_moment_3_kg_m2"]
+        .map(|column| floats(parquet, column));
+    for row in 0..600 {
+        assert_eq!(a[row].is_nan(), statuses[row] == "invalid_sample");
+        let is_physical = a[row] <= b[row] && b[row] <= c[row] && c[row] <= a[row] + b[row] && mass[row] > 0.0;
+        assert!(is_physical || a[row].is_nan(), "{row}");
+    }
+    // the nominal one is that of `check`
+    let check = scratch.prints("check thin.toml", 0);
+    assert!(check.contains(&format!("{:?} kg", mass[0])), "{check}");
+    // one sample, in all digits, here and in `simulate`
+    let sample = (1..600).find(|row| statuses[*row] != "invalid_sample").unwrap();
+    let line = text.lines().nth(sample + 1).unwrap().split(',').nth(2).unwrap();
+    for command in ["sample", "simulate"] {
+        let said = scratch.prints(&format!("{command} thin.toml --sample {sample}"), 0);
+        assert!(said.contains("initial.angular_velocity_rad_s.x") && said.contains(line), "{line} in:\n{said}");
+    }
+    assert!(scratch.prints(&format!("sample thin.toml --sample {sample}"), 0).contains("principal_moment_3_kg_m2"));
+    scratch.prints("sample thin.toml --sample 600", 2);
     scratch.prints("sample thin.toml --out s.txt", 2);
     scratch.prints("sample thin.toml --samples 0", 2);
 }
