@@ -262,7 +262,7 @@ fn check_memory(spec: &Spec, method: Method, document: &mut Document<'_>) {
     if bytes > MOST_MEMORY {
         let gigabytes = |bytes: u64| bytes as f64 / 1e9;
         let allowed = format!(
-            "at most {}: method {:?} takes up to {each} bytes a point in each thread, here {:.1} GB of at most {:.1} GB",
+            "at most {}: method {:?} takes some {each} bytes a point in each thread, here {:.1} GB of at most {:.1} GB",
             MOST_MEMORY / each,
             method.name(),
             gigabytes(bytes),

@@ -52,7 +52,7 @@ fn inputs_of_derived_parameters_count_as_used() {
 
 #[test]
 fn what_no_requested_column_shows_is_told() {
-    let names = |text: &str| -> Vec<&str> {
+    let names = |text: &str| -> Vec<String> {
         let plan = plan(text).unwrap_or_else(|error| panic!("{error}"));
         without_effect(&plan, Isa::best()).expect("short runs").iter().map(|parameter| parameter.name()).collect()
     };
