@@ -43,8 +43,9 @@ fn sample_draws_the_rows_of_the_campaign() {
     assert!(fs::read_to_string(scratch.path("s.svg")).unwrap().contains("Rank correlation"));
     assert!(fs::read(scratch.path("s.png")).unwrap().starts_with(b"\x89PNG"));
     let statuses: Vec<&str> = text.lines().skip(1).map(|line| line.split(',').nth(1).unwrap()).collect();
-    let [mass, a, b, c] = ["mass_kg", "principal_moment_1_kg_m2", "principal_moment_2_kg_m2", "principal_moment_3_kg_m2"]
-        .map(|column| floats(parquet, column));
+    let [mass, a, b, c] =
+        ["mass_kg", "principal_moment_1_kg_m2", "principal_moment_2_kg_m2", "principal_moment_3_kg_m2"]
+            .map(|column| floats(parquet, column));
     for row in 0..600 {
         assert_eq!(a[row].is_nan(), statuses[row] == "invalid_sample");
         let is_physical = a[row] <= b[row] && b[row] <= c[row] && c[row] <= a[row] + b[row] && mass[row] > 0.0;
