@@ -11,8 +11,8 @@ use spindrift::math::Isa;
 use spindrift::run::Status;
 
 /// A spacecraft whose spin is uncertain.
-const CAMPAIGN: &str = r#"
-[campaign]
+const CAMPAIGN: &str = concat!(
+    r#"[campaign]
 name = "campaign_in_memory"
 samples = 500
 seed = 7
@@ -26,27 +26,15 @@ groups = ["exchange", "energy_conservation"]
 method = "auto"
 tolerance = 1e-10
 
-[fuselage]
-outer_radius_m = 0.8
-length_m = 2.0
-wall_thickness_m = 0.02
-density_kg_m3 = 2700.0
-
-[wheel1]
-radius_m = 0.2
-length_m = 0.08
-station_m = 1.0
-density_kg_m3 = 7800.0
-
-[initial]
-angular_velocity_rad_s = [0.0, 0.2, 0.5]
-wheel_rates_rad_s = [300.0, 0.0]
-
+"#,
+    include_str!("spacecraft.toml"),
+    r#"
 [[disperse]]
 parameter = "initial.angular_velocity_rad_s.y"
 distribution = "normal"
 std = 0.05
-"#;
+"#
+);
 
 /// The column of the energy transfer between fuselage and wheel 1.
 const COLUMN: &str = "exchange_wheel1_peak_to_peak_j";

@@ -9,8 +9,8 @@ use spindrift::run::{StateField, Status};
 use spindrift::sampling::SampleId;
 
 /// A spacecraft with one wheel about s2. Keys that are not given have defaults.
-const SCENE: &str = r#"
-[campaign]
+const SCENE: &str = concat!(
+    r#"[campaign]
 name = "one_run"
 samples = 1
 seed = 1
@@ -23,22 +23,9 @@ points = 7
 method = "auto"
 tolerance = 1e-12
 
-[fuselage]
-outer_radius_m = 0.8
-length_m = 2.0
-wall_thickness_m = 0.02
-density_kg_m3 = 2700.0
-
-[wheel1]
-radius_m = 0.2
-length_m = 0.08
-station_m = 1.0
-density_kg_m3 = 7800.0
-
-[initial]
-angular_velocity_rad_s = [0.0, 0.2, 0.5]
-wheel_rates_rad_s = [300.0, 0.0]
-"#;
+"#,
+    include_str!("spacecraft.toml"),
+);
 
 /// Runs the nominal scene and prints the angular velocity of F_s relative to F_e at the observation points.
 pub fn main() {

@@ -9,6 +9,11 @@ use parquet::record::{Field, Row};
 use sha2::{Digest, Sha256};
 use std::path::Path;
 
+/// Most numbers of a file: 160 MB. A compressed column of equal values can be a thousand times as large as its file.
+pub const MOST_NUMBERS: u64 = 20_000_000;
+/// Largest file, bytes: [`MOST_NUMBERS`] in 25 characters each.
+const LARGEST_FILE: u64 = 25 * MOST_NUMBERS;
+
 /// A file of named columns of numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DataFile {
@@ -16,10 +21,34 @@ pub struct DataFile {
     pub sha256: String,
     /// The names of the columns.
     pub names: Vec<String>,
-    /// The cells of each column as numbers or as the text that is none.
-    columns: Vec<Vec<Result<f64, String>>>,
+    columns: Vec<Cells>,
     /// The number of the first row of data as people count them in this format.
     first_row: usize,
+}
+
+/// The cells of a column.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Cells {
+    /// Numbers; NaN for a text that is none.
+    numbers: Vec<f64>,
+    /// The first text that is no number.
+    text: Option<(usize, String)>,
+}
+
+impl Cells {
+    fn push(&mut self, cell: Result<f64, String>) {
+        if let (Err(text), None) = (&cell, &self.text) {
+            self.text = Some((self.numbers.len(), text.clone()));
+        }
+        self.numbers.push(cell.unwrap_or(f64::NAN));
+    }
+}
+
+/// Why a file could not be read: its format, or its size.
+enum ReadError {
+    Format(String),
+    /// It has at least so many numbers.
+    Size(u64),
 }
 
 /// What is wrong with a file: value, what is allowed, remedy.
@@ -34,20 +63,29 @@ impl DataFile {
         let shown = path.display().to_string();
         let unreadable =
             |why: String, remedy: &str| (format!("{shown:?}"), format!("a readable file ({why})"), remedy.to_owned());
+        let too_large = |size: String| {
+            let allowed = format!("a file of at most {MOST_NUMBERS} numbers (this one has {size})");
+            (format!("{shown:?}"), allowed, "keep fewer rows, or only the columns that are used".to_owned())
+        };
+        if let Some(size) = std::fs::metadata(path).ok().map(|file| file.len()).filter(|size| *size > LARGEST_FILE) {
+            return Err(too_large(format!("{size} bytes")));
+        }
         let bytes = std::fs::read(path)
             .map_err(|error| unreadable(error.to_string(), "its path counts from the folder of the campaign file"))?;
         let sha256 = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+        let refused = |error: ReadError| match error {
+            ReadError::Format(why) => unreadable(why, "correct the file"),
+            ReadError::Size(numbers) => too_large(format!("{numbers} numbers or more")),
+        };
         let extension = path.extension().and_then(|extension| extension.to_str()).map(str::to_ascii_lowercase);
         let (names, columns, first_row) = match extension.as_deref() {
             Some("csv") => {
-                let (names, columns) =
-                    csv_columns(&bytes).map_err(|error| unreadable(error.to_string(), "correct the file"))?;
+                let (names, columns) = csv_columns(&bytes).map_err(refused)?;
                 (names, columns, 2)
             }
             Some("parquet") => {
                 let file = std::fs::File::open(path).map_err(|error| unreadable(error.to_string(), "try again"))?;
-                let (names, columns) =
-                    parquet_columns(file).map_err(|error| unreadable(error.to_string(), "correct the file"))?;
+                let (names, columns) = parquet_columns(file).map_err(refused)?;
                 (names, columns, 1)
             }
             _ => {
@@ -64,51 +102,59 @@ impl DataFile {
     /// The first cell that is not a finite number, or that there is none.
     pub fn column(&self, name: &str) -> Option<Result<Vec<f64>, Refusal>> {
         let index = self.names.iter().position(|known| known == name)?;
-        let mut numbers = Vec::with_capacity(self.columns[index].len());
-        for (row, cell) in self.columns[index].iter().enumerate() {
-            match cell {
-                Ok(number) if number.is_finite() => numbers.push(*number),
-                other => {
-                    let value = match other {
-                        Ok(number) => number.to_string(),
-                        Err(text) => format!("{text:?}"),
-                    };
-                    let allowed = format!("a column of finite numbers ({name:?}, row {})", row + self.first_row);
-                    return Some(Err((value, allowed, "correct or delete that row of the file".to_owned())));
-                }
-            }
+        let Cells { numbers, text } = &self.columns[index];
+        if let Some(row) = numbers.iter().position(|number| !number.is_finite()) {
+            let value = match text {
+                Some((first, text)) if *first == row => format!("{text:?}"),
+                _ => numbers[row].to_string(),
+            };
+            let allowed = format!("a column of finite numbers ({name:?}, row {})", row + self.first_row);
+            return Some(Err((value, allowed, "correct or delete that row of the file".to_owned())));
         }
         if numbers.is_empty() {
             let allowed = format!("a column with at least one number ({name:?})");
             return Some(Err(("0 rows".to_owned(), allowed, "add rows to the file".to_owned())));
         }
-        Some(Ok(numbers))
+        Some(Ok(numbers.clone()))
     }
 }
 
 /// Names and columns of cells.
-type Columns = (Vec<String>, Vec<Vec<Result<f64, String>>>);
+type Columns = (Vec<String>, Vec<Cells>);
 
-fn csv_columns(bytes: &[u8]) -> Result<Columns, csv::Error> {
+/// That `rows` rows of `columns` columns are not too many numbers.
+fn fits(rows: u64, columns: usize) -> Result<(), ReadError> {
+    let numbers = rows.saturating_mul(columns as u64);
+    if numbers > MOST_NUMBERS { Err(ReadError::Size(numbers)) } else { Ok(()) }
+}
+
+fn csv_columns(bytes: &[u8]) -> Result<Columns, ReadError> {
+    let format = |error: csv::Error| ReadError::Format(error.to_string());
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(bytes);
-    let names: Vec<String> = reader.headers()?.iter().map(str::to_owned).collect();
-    let mut columns = vec![Vec::new(); names.len()];
-    for record in reader.records() {
-        for (column, cell) in columns.iter_mut().zip(record?.iter()) {
+    let names: Vec<String> = reader.headers().map_err(format)?.iter().map(str::to_owned).collect();
+    let mut columns = vec![Cells::default(); names.len()];
+    for (row, record) in reader.records().enumerate() {
+        fits(row as u64 + 1, names.len())?;
+        for (column, cell) in columns.iter_mut().zip(record.map_err(format)?.iter()) {
             column.push(cell.parse::<f64>().map_err(|_| cell.to_owned()));
         }
     }
     Ok((names, columns))
 }
 
-fn parquet_columns(file: std::fs::File) -> Result<Columns, parquet::errors::ParquetError> {
-    let reader = SerializedFileReader::new(file)?;
-    let schema = reader.metadata().file_metadata().schema_descr_ptr();
+fn parquet_columns(file: std::fs::File) -> Result<Columns, ReadError> {
+    let format = |error: parquet::errors::ParquetError| ReadError::Format(error.to_string());
+    let reader = SerializedFileReader::new(file).map_err(format)?;
+    let metadata = reader.metadata().file_metadata();
+    let schema = metadata.schema_descr_ptr();
     let names: Vec<String> = schema.root_schema().get_fields().iter().map(|field| field.name().to_owned()).collect();
-    let mut columns = vec![Vec::new(); names.len()];
-    for row in reader.get_row_iter(None)? {
-        let row: Row = row?;
-        for (column, (_, field)) in columns.iter_mut().zip(row.get_column_iter()) {
+    fits(u64::try_from(metadata.num_rows()).unwrap_or(u64::MAX), names.len())?;
+    let mut columns = vec![Cells::default(); names.len()];
+    for (row, found) in reader.get_row_iter(None).map_err(format)?.enumerate() {
+        // what the metadata say is not to be relied on
+        fits(row as u64 + 1, names.len())?;
+        let found: Row = found.map_err(format)?;
+        for (column, (_, field)) in columns.iter_mut().zip(found.get_column_iter()) {
             column.push(cell(field));
         }
     }
@@ -131,4 +177,39 @@ fn cell(field: &Field) -> Result<f64, String> {
         Field::Double(value) => *value,
         other => return Err(other.to_string()),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use parquet::data_type::DoubleType;
+    use parquet::file::properties::WriterProperties;
+    use parquet::file::writer::SerializedFileWriter;
+    use parquet::schema::parser::parse_message_type;
+    use std::sync::Arc;
+
+    /// Law: a small file of many equal values is refused before it is read, with the limit and its size.
+    #[test]
+    fn a_file_of_too_many_numbers_is_refused() {
+        let path = std::env::temp_dir().join(format!("spindrift-{}-many.parquet", std::process::id()));
+        let schema = Arc::new(parse_message_type("message m { required double x; }").expect("a schema"));
+        let file = std::fs::File::create(&path).expect("a file");
+        let properties = Arc::new(WriterProperties::builder().build());
+        let mut writer = SerializedFileWriter::new(file, schema, properties).expect("a writer");
+        let mut group = writer.next_row_group().expect("a group");
+        let mut column = group.next_column().expect("a column").expect("one");
+        let values = vec![1.5; 100_000];
+        for _ in 0..MOST_NUMBERS / 100_000 {
+            column.typed::<DoubleType>().write_batch(&values, None, None).expect("written");
+        }
+        column.typed::<DoubleType>().write_batch(&[1.5], None, None).expect("written");
+        column.close().expect("closed");
+        group.close().expect("closed");
+        writer.close().expect("closed");
+        let size = std::fs::metadata(&path).expect("a file").len();
+        let refused = DataFile::read(&path).expect_err("too many");
+        std::fs::remove_file(&path).expect("removed");
+        assert!(size < 1_000_000, "{size} bytes");
+        assert!(refused.1.contains("at most 20000000 numbers (this one has 20000001"), "{refused:?}");
+    }
 }

@@ -3,7 +3,7 @@
 
 use super::compression::Compression;
 use super::document::Document;
-use super::limits::{FRACTION, LARGEST_SEED, MAX_SAMPLES};
+use super::limits::{FRACTION, LARGEST_SEED, MAX_SAMPLES, MOST_MEMORY, bytes_a_point};
 use super::problem::{CampaignError, Problem};
 use super::spec::Spec;
 use crate::observables::Group;
@@ -161,6 +161,7 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
     if spec.method.is_some() {
         check_step(&spec, method, document);
     }
+    check_memory(&spec, method, document);
     let relative = spec.relative_tolerance.or(spec.tolerance).unwrap_or(TOLERANCE);
     let absolute = spec.absolute_tolerance.or(spec.tolerance).unwrap_or(TOLERANCE);
     if spec.tolerance.is_some() && spec.relative_tolerance.is_some() && spec.absolute_tolerance.is_some() {
@@ -195,6 +196,8 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
             None
         }
     };
+
+    refuse_after_the_end(spec.duration_s, &spec.scene, &drawn, document);
 
     let mut groups = spec.groups.unwrap_or_else(|| Group::DEFAULT.to_vec());
     groups.sort_by_key(|group| Group::ALL.iter().position(|known| known == group));
@@ -249,6 +252,49 @@ impl Drawn {
             other => other,
         };
         format!("{table}.{key}")
+    }
+}
+
+/// Refuses more observation points than a thread may have memory for.
+fn check_memory(spec: &Spec, method: Method, document: &mut Document<'_>) {
+    let (points, each) = (spec.points.unwrap_or(POINTS), bytes_a_point(method));
+    let bytes = points.saturating_mul(each);
+    if bytes > MOST_MEMORY {
+        let gigabytes = |bytes: u64| bytes as f64 / 1e9;
+        let allowed = format!(
+            "at most {}: method {:?} takes some {each} bytes a point in each thread, here {:.1} GB of at most {:.1} GB",
+            MOST_MEMORY / each,
+            method.name(),
+            gigabytes(bytes),
+            gigabytes(MOST_MEMORY),
+        );
+        let remedy = "write fewer points; simulate --times shows one run at any times";
+        document.add("observe.points", Some(points.to_string()), allowed, remedy);
+    }
+}
+
+/// Refuses dispersions that act on arcs only which start at the end of a run or later.
+fn refuse_after_the_end(duration: Option<f64>, scene: &SceneInput, drawn: &Drawn, document: &mut Document<'_>) {
+    let Some(duration) = duration else { return };
+    let mut within = scene.clone();
+    within.actuation.retain(|arc| arc.start_s < duration);
+    let inputs: Vec<_> = drawn.derived.1.iter().flat_map(|derivation| derivation.inputs(scene)).collect();
+    for (index, dispersion) in drawn.dispersed.1.iter().enumerate() {
+        let components =
+            dispersion.component.map_or(0..dispersion.parameter.width(), |component| component..component + 1);
+        let is_late = |component: &usize| {
+            let target = (dispersion.parameter, *component);
+            let is_in = |scene| dispersion.parameter.exists(scene, *component);
+            is_in(scene) && !is_in(&within) && !inputs.contains(&target)
+        };
+        if let Some(late) = components.into_iter().find(is_late) {
+            let value = format!("{:?}", dispersion.parameter.component_name(late));
+            let allowed = format!(
+                "a key with an effect before campaign.duration_s ({duration:?}): the arcs that it acts on start later"
+            );
+            let remedy = "let an arc start earlier, or delete this table";
+            document.add(&drawn.path(Table::Disperse(index), "parameter"), Some(value), allowed, remedy);
+        }
     }
 }
 

@@ -112,6 +112,9 @@ pub struct SampleOptions {
     /// Seed instead of the file's.
     #[arg(long, value_name = "S")]
     pub seed: Option<u64>,
+    /// Show the numbers that this sample applies, and nothing else.
+    #[arg(long, value_name = "K", conflicts_with_all = ["out", "plot"])]
+    pub sample: Option<u64>,
     /// Write the dispersed parameters of every sample to this file (.parquet or .csv).
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,

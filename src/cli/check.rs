@@ -8,6 +8,7 @@ use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::input::{isa, plan};
 use crate::cli::{dispersions, screen};
 use crate::dataset::rows_file::RowsFile;
+use crate::ensemble::influence::without_effect;
 use crate::ensemble::probe::{AuditProbe, RunProbe};
 use crate::ensemble::{Ensemble, Part, PartId, Parts};
 use crate::math::symmetric::principal_axes;
@@ -34,7 +35,11 @@ pub fn run(options: &CheckOptions) -> Result<CommandOutcome, Failure> {
         masses(&mut text, &plan.nominal, &scene.mass)?;
         section(&mut text, "Dispersions")?;
         dispersions::table(&mut text, &plan)?;
-        let notes = plan.notes();
+        let unseen = without_effect(&plan, ensemble.isa()).unwrap_or_default();
+        let unseen = unseen.iter().map(|parameter| {
+            format!("{} does not affect any requested column (observe.groups), in the nominal scene", parameter.name())
+        });
+        let notes: Vec<String> = plan.notes().into_iter().chain(unseen).collect();
         if !notes.is_empty() {
             section(&mut text, "Notes")?;
         }

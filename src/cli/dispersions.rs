@@ -2,8 +2,9 @@
 
 use std::fmt::Write as _;
 
-use crate::campaign::Plan;
-use crate::ensemble::DrawnScenes;
+use crate::campaign::{Plan, SceneDraws};
+use crate::ensemble::drawn::{MASS_COLUMNS, mass_properties};
+use crate::ensemble::{DrawnScenes, Percentiles};
 use crate::report::number::short;
 use crate::sampling::{Design, Dispersions, Replaced, SampleId};
 
@@ -15,14 +16,17 @@ const DRAWS: u64 = 10_000;
 /// # Errors
 /// What writing to `text` returns.
 pub fn table(text: &mut String, plan: &Plan) -> std::fmt::Result {
-    table_of(text, plan, &DrawnScenes::new(plan, SampleId(1), DRAWS))
+    let drawn = DrawnScenes::new(plan, SampleId(1), DRAWS);
+    let mut percentiles = Percentiles::new(plan);
+    percentiles.add(&drawn);
+    table_of(text, plan, &percentiles)
 }
 
 /// The same of samples that were drawn already.
 ///
 /// # Errors
 /// What writing to `text` returns.
-pub fn table_of(text: &mut String, plan: &Plan, drawn: &DrawnScenes) -> std::fmt::Result {
+pub fn table_of(text: &mut String, plan: &Plan, drawn: &Percentiles) -> std::fmt::Result {
     let columns = plan.dispersions.columns();
     if columns.is_empty() {
         return writeln!(text, "none: every sample is the nominal scene");
@@ -35,12 +39,15 @@ pub fn table_of(text: &mut String, plan: &Plan, drawn: &DrawnScenes) -> std::fmt
     let title = format!("parameter, of {} draws (sample 0 is nominal)", drawn.count());
     let width = names.iter().map(String::len).chain([title.len()]).max().unwrap_or(0);
     writeln!(text, "{title:<width$}  {:>12}  {:>12}{:>12}{:>12}  distribution", "nominal", "1%", "50%", "99%")?;
-    let percentiles = drawn.percentiles([0.01, 0.5, 0.99]);
+    let percentiles = drawn.quantiles([0.01, 0.5, 0.99]);
     for (index, ((name, column), values)) in names.iter().zip(columns).zip(percentiles).enumerate() {
         write!(text, "{name:<width$}  {:>12}  ", short(column.nominal))?;
         let values = values.map_or(["-".to_owned(), "-".to_owned(), "-".to_owned()], |values| values.map(short));
         let [low, middle, high] = values;
         writeln!(text, "{low:>12}{middle:>12}{high:>12}  {}", origin(&plan.dispersions, index))?;
+    }
+    if !drawn.is_exact() {
+        writeln!(text, "percentiles of so many draws are within 0.05% of their distance from the nominal value")?;
     }
     for correlation in &plan.correlated {
         let name = |(parameter, component): &(crate::scene::Parameter, Option<usize>)| match component {
@@ -54,6 +61,28 @@ pub fn table_of(text: &mut String, plan: &Plan, drawn: &DrawnScenes) -> std::fmt
         writeln!(text, "{}", nearest(replaced))?;
     }
     Ok(())
+}
+
+/// The numbers that sample `sample` applies, in all digits; with the mass properties that follow from them if `with_mass`, where they are
+/// physical. Nothing where nothing is dispersed.
+pub fn applied(plan: &Plan, sample: SampleId, with_mass: bool) -> String {
+    let columns = plan.dispersions.columns();
+    let mut draws = SceneDraws::new(plan);
+    let scene = draws.scene(sample);
+    let mut lines: Vec<(String, f64, String)> = Vec::new();
+    for (column, value) in columns.iter().zip(draws.applied()) {
+        let nominal = format!("nominal {:?}", column.nominal);
+        lines.push((column.parameter.component_name(column.component), *value, nominal));
+    }
+    if let Some(scene) = scene.ok().filter(|_| with_mass) {
+        let names = MASS_COLUMNS.map(|[name, ..]| name.to_owned());
+        lines.extend(names.into_iter().zip(mass_properties(&scene)).map(|(name, value)| (name, value, String::new())));
+    }
+    let width = lines.iter().map(|(name, ..)| name.len()).max().unwrap_or(0);
+    lines.iter().fold(String::new(), |mut text, (name, value, nominal)| {
+        let _ = writeln!(text, "{}", format!("{name:<width$}  {:>24}  {nominal}", format!("{value:?}")).trim_end());
+        text
+    })
 }
 
 /// The matrix that is used in place of one that no numbers have.

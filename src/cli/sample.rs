@@ -2,14 +2,14 @@
 
 use std::path::Path;
 
-use crate::campaign::Overrides;
+use crate::campaign::{Overrides, Plan, draw};
 use crate::cli::arguments::SampleOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::input::plan;
 use crate::cli::{dispersions, screen};
-use crate::dataset::drawn_table::DrawnTable;
+use crate::dataset::drawn_table;
 use crate::dataset::table::{TableError, TableFormat};
-use crate::ensemble::DrawnScenes;
+use crate::ensemble::{DrawnScenes, Percentiles};
 use crate::report::canvas::{Canvas, PlotError, PlotFormat};
 use crate::report::drawn_figure::DrawnFigure;
 use crate::sampling::SampleId;
@@ -27,32 +27,35 @@ pub fn run(options: &SampleOptions) -> Result<CommandOutcome, Failure> {
         PlotFormat::of(path).map_err(|error| Failure::Input(error.to_string()))?;
     }
     let plan = plan(&options.file, Overrides { samples: options.samples, seed: options.seed, ..Overrides::default() })?;
-    let drawn = DrawnScenes::new(&plan, SampleId(0), plan.samples);
+    if let Some(sample) = options.sample {
+        return one(&plan, sample);
+    }
+    let mut percentiles = Percentiles::new(&plan);
+    match &options.out {
+        Some(path) => save(path, &plan, &mut percentiles)?,
+        None => DrawnScenes::visit(&plan, false, |drawn| {
+            percentiles.add(drawn);
+            Ok::<(), Failure>(())
+        })?,
+    }
     let mut text = String::new();
-    // sample 0 is the nominal scene, which is not dispersed
-    let dispersed = DrawnScenes {
-        first: SampleId(1),
-        physical: drawn.physical.iter().skip(1).copied().collect(),
-        columns: drawn.columns.iter().map(|column| column.iter().skip(1).copied().collect()).collect(),
-    };
-    dispersions::table_of(&mut text, &plan, &dispersed).map_err(Failure::files)?;
+    dispersions::table_of(&mut text, &plan, &percentiles).map_err(Failure::files)?;
     screen::print(&text)?;
     plan.notes().iter().for_each(|note| screen::note(note));
-    let invalid = drawn.physical.iter().filter(|physical| !**physical).count();
-    if invalid > 0 {
+    if percentiles.invalid() > 0 {
         screen::note(&format!(
-            "{invalid} of {} samples are not physical: their status would be invalid_sample",
-            drawn.count()
+            "{} of {} samples are not physical: their status would be invalid_sample",
+            percentiles.invalid(),
+            plan.samples
         ));
-    }
-    if let Some(path) = &options.out {
-        save(path, &DrawnTable { plan: &plan, drawn: &drawn })?;
     }
     if let Some(path) = &options.plot {
         let columns = plan.dispersions.columns();
         if columns.is_empty() {
             return Err(Failure::Input(format!("{} has no dispersions: there is nothing to plot", plan.name)));
         }
+        // sample 0 is the nominal scene, which is not dispersed
+        let dispersed = DrawnScenes::new(&plan, SampleId(1), plan.samples);
         let figure = DrawnFigure {
             title: format!(
                 "{}, {} samples, {} design",
@@ -73,12 +76,25 @@ pub fn run(options: &SampleOptions) -> Result<CommandOutcome, Failure> {
     Ok(CommandOutcome::Done)
 }
 
-fn save(path: &Path, table: &DrawnTable<'_>) -> Result<(), Failure> {
-    table.save(path).map_err(|error| match error {
+/// The numbers that one sample applies.
+fn one(plan: &Plan, sample: u64) -> Result<CommandOutcome, Failure> {
+    if sample >= plan.samples {
+        let (last, name) = (plan.samples - 1, &plan.name);
+        return Err(Failure::Input(format!("--sample {sample}: must be 0 to {last}, the samples of {name}")));
+    }
+    screen::print(&dispersions::applied(plan, SampleId(sample), true))?;
+    if draw(plan, SampleId(sample)).is_err() {
+        screen::note(&format!("sample {sample} is not physical: its status would be invalid_sample"));
+    }
+    Ok(CommandOutcome::Done)
+}
+
+fn save(path: &Path, plan: &Plan, percentiles: &mut Percentiles) -> Result<(), Failure> {
+    drawn_table::save(plan, path, |drawn| percentiles.add(drawn)).map_err(|error| match error {
         TableError::Format(_) => Failure::Input(error.to_string()),
         _ => Failure::Files(format!("{}: {error}", path.display())),
     })?;
-    let (samples, columns) = (table.drawn.count(), table.headings().len());
+    let (samples, columns) = (plan.samples, drawn_table::headings(plan).len());
     screen::note(&format!("{}: {samples} samples, {columns} columns", path.display()));
     Ok(())
 }

@@ -7,7 +7,7 @@ use crate::campaign::{Overrides, Plan};
 use crate::cli::arguments::SimulateOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::input::{isa, plan};
-use crate::cli::screen;
+use crate::cli::{dispersions, screen};
 use crate::dataset::table::{TableError, TableFormat};
 use crate::dataset::timeseries::{TimeColumn, TimeSeries};
 use crate::ensemble::audit::AuditValue;
@@ -79,6 +79,9 @@ pub fn run(options: &SimulateOptions) -> Result<CommandOutcome, Failure> {
         }
     }
     if options.out.is_none() && options.plot.is_none() {
+        if options.sample > 0 {
+            screen::print(&dispersions::applied(&plan, SampleId(options.sample), false))?;
+        }
         screen::print(&table(&series))?;
         let (shown, points) = (shown_points(series.points()).len(), series.points());
         screen::note(&format!(

@@ -137,17 +137,18 @@ impl Layout {
         own: &[(&str, String)],
         cells: impl Iterator<Item = Cells<'a>>,
     ) -> Result<()> {
-        let mut writer = SerializedFileWriter::new(out, self.root.clone(), Arc::new(self.properties(own)))?;
-        let mut group = writer.next_row_group()?;
-        let mut scratch = Scratch::default();
-        for (field, cells) in self.schema.fields().iter().zip(cells) {
-            let Some(mut column) = group.next_column()? else { break };
-            scratch.write(&mut column, cells, field.is_nullable())?;
-            column.close()?;
-        }
-        group.close()?;
-        writer.close()?;
-        Ok(())
+        let mut writer = self.begin(out, own)?;
+        writer.group(cells)?;
+        writer.finish()
+    }
+
+    /// Begins a file of any number of row groups.
+    ///
+    /// # Errors
+    /// Where writing fails.
+    pub fn begin<W: Write + Send>(&self, out: W, own: &[(&str, String)]) -> Result<GroupWriter<'_, W>> {
+        let writer = SerializedFileWriter::new(out, self.root.clone(), Arc::new(self.properties(own)))?;
+        Ok(GroupWriter { layout: self, writer, scratch: Scratch::default() })
     }
 
     /// The properties of a file with the metadata `own`.
@@ -158,6 +159,42 @@ impl Layout {
         let pairs = pairs.into_iter().map(|(key, value)| KeyValue::new(key.to_owned(), value.clone()));
         let pairs = pairs.chain(self.arrow_schema.iter().cloned()).collect();
         self.properties.clone().into_builder().set_key_value_metadata(Some(pairs)).build()
+    }
+}
+
+/// A file that is written row group by row group.
+pub struct GroupWriter<'l, W: Write + Send> {
+    layout: &'l Layout,
+    writer: SerializedFileWriter<W>,
+    scratch: Scratch,
+}
+
+impl<W: Write + Send> GroupWriter<'_, W> {
+    /// Writes a row group: `cells`, column by column in the order of the headings, all of the same length.
+    ///
+    /// # Errors
+    /// Where writing fails.
+    ///
+    /// # Panics
+    /// Where the type of the cells differs from the heading's.
+    pub fn group<'a>(&mut self, cells: impl Iterator<Item = Cells<'a>>) -> Result<()> {
+        let mut group = self.writer.next_row_group()?;
+        for (field, cells) in self.layout.schema.fields().iter().zip(cells) {
+            let Some(mut column) = group.next_column()? else { break };
+            self.scratch.write(&mut column, cells, field.is_nullable())?;
+            column.close()?;
+        }
+        group.close()?;
+        Ok(())
+    }
+
+    /// Ends the file.
+    ///
+    /// # Errors
+    /// Where writing fails.
+    pub fn finish(self) -> Result<()> {
+        self.writer.close()?;
+        Ok(())
     }
 }
 

@@ -45,6 +45,15 @@ impl TableFormat {
     }
 }
 
+/// Writes the first line of a table as CSV: the names of `headings`.
+///
+/// # Errors
+/// What `out` returns.
+pub fn csv_header(out: &mut impl Write, headings: &[Heading]) -> io::Result<()> {
+    let names: Vec<&str> = headings.iter().map(|heading| heading.quantity.name()).collect();
+    writeln!(out, "{}", names.join(","))
+}
+
 /// Writes a table as CSV: the names of `headings`, then `rows` rows. `cells` writes the cells of one row, separated by commas.
 ///
 /// # Errors
@@ -55,8 +64,7 @@ pub fn write_csv<W: Write>(
     rows: usize,
     cells: impl Fn(&mut W, usize) -> io::Result<()>,
 ) -> io::Result<()> {
-    let names: Vec<&str> = headings.iter().map(|heading| heading.quantity.name()).collect();
-    writeln!(out, "{}", names.join(","))?;
+    csv_header(out, headings)?;
     for row in 0..rows {
         cells(out, row)?;
         writeln!(out)?;

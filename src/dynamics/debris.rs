@@ -5,6 +5,7 @@
 use fearless_simd::Simd;
 
 use super::gyrostat::Gyrostat;
+use super::gyrostat::completion::{body_attitude, body_rate};
 use crate::math::double_double::{DoubleDouble, two_product};
 use crate::math::lanes::WIDTH;
 use crate::math::sine::sin_cos_turns;
@@ -98,23 +99,15 @@ const FOUR_PI: DoubleDouble = DoubleDouble { high: 12.566_370_614_359_172, low: 
 
 /// Fills attitude and rate of a box from the components that a method integrated for [`set_rotation`]'s run.
 #[inline(always)]
-pub fn complete_rotation<S: Simd, const N: usize>(
-    simd: S,
-    run: &Gyrostat<f64>,
-    trajectory: &Trajectory,
-    table: &mut StateTable,
-) {
+pub fn complete_rotation<S: Simd>(simd: S, run: &Gyrostat<f64>, trajectory: &Trajectory, table: &mut StateTable) {
     for first in (0..table.stride()).step_by(WIDTH) {
-        let states = super::gyrostat::completion::rotation::<S, N>(simd, run, trajectory, first);
         if table.has(StateField::DebrisRate) {
-            for (i, component) in states.rate.into_iter().enumerate() {
+            for (i, component) in body_rate(simd, run, trajectory, first).into_iter().enumerate() {
                 component.store(&mut table.column_mut(StateField::DebrisRate, i)[first..]);
             }
         }
-        if let Some(attitude) = states.attitude
-            && table.has(StateField::DebrisAttitude)
-        {
-            for (i, component) in attitude.into_iter().enumerate() {
+        if table.has(StateField::DebrisAttitude) {
+            for (i, component) in body_attitude(simd, run, trajectory, first).into_iter().enumerate() {
                 component.store(&mut table.column_mut(StateField::DebrisAttitude, i)[first..]);
             }
         }

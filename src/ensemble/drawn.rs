@@ -1,10 +1,10 @@
 //! [`DrawnScenes`]: the samples of a campaign as they are drawn, without running them.
 
 use crate::campaign::{Plan, SceneDraws};
+use crate::math::symmetric::principal_axes;
 use crate::sampling::SampleId;
 use crate::scene::Scene;
 use crate::statistics::correlation::{matrix, mid_ranks, standardised};
-use crate::statistics::quantile::quantile;
 
 /// Samples as drawn: what was applied, and whether the scene is physical.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,41 +15,95 @@ pub struct DrawnScenes {
     pub physical: Vec<bool>,
     /// The applied values, column by column as [`crate::sampling::Dispersions::columns`] has them.
     pub columns: Vec<Vec<f64>>,
+    /// Mass properties of the spacecraft, column by column as [`MASS_COLUMNS`] has them; empty where they were not asked. NaN where a
+    /// sample is not physical.
+    pub mass: Vec<Vec<f64>>,
 }
+
+/// The mass properties of a drawn spacecraft: name of the column, unit, meaning.
+pub const MASS_COLUMNS: [[&str; 3]; 7] = [
+    ["mass_kg", "kg", "Mass of the spacecraft, wheels included."],
+    ["center_of_mass_x_m", "m", "Centre of mass of the spacecraft, from p in F_s."],
+    ["center_of_mass_y_m", "m", "Centre of mass of the spacecraft, from p in F_s."],
+    ["center_of_mass_z_m", "m", "Centre of mass of the spacecraft, from p in F_s."],
+    [
+        "principal_moment_1_kg_m2",
+        "kg m^2",
+        "Smallest principal moment of inertia of the spacecraft, wheels locked, about its centre of mass.",
+    ],
+    [
+        "principal_moment_2_kg_m2",
+        "kg m^2",
+        "Middle principal moment of inertia of the spacecraft, wheels locked, about its centre of mass.",
+    ],
+    [
+        "principal_moment_3_kg_m2",
+        "kg m^2",
+        "Largest principal moment of inertia of the spacecraft, wheels locked, about its centre of mass.",
+    ],
+];
+
+/// The numbers of [`MASS_COLUMNS`] of a scene.
+pub fn mass_properties(scene: &Scene) -> [f64; 7] {
+    let (mut moments, _) = principal_axes(scene.mass.inertia);
+    moments.sort_by(f64::total_cmp);
+    let ([x, y, z], [a, b, c]) = (scene.mass.center, moments);
+    [scene.mass.total, x, y, z, a, b, c]
+}
+
+/// Samples that [`DrawnScenes::visit`] holds at a time.
+pub const CHUNK: u64 = 1 << 16;
 
 impl DrawnScenes {
     /// Draws `count` samples of `plan` from `first` on, as far as it has them.
     pub fn new(plan: &Plan, first: SampleId, count: u64) -> Self {
-        let end = first.0.saturating_add(count).min(plan.samples);
-        let mut draws = SceneDraws::new(plan);
-        let mut scenes: Vec<Scene> = Vec::with_capacity(1);
-        let columns = plan.dispersions.columns().len();
-        let mut drawn = DrawnScenes { first, physical: Vec::new(), columns: vec![Vec::new(); columns] };
-        for sample in first.0..end {
-            drawn.physical.push(draws.scene_at(SampleId(sample), &mut scenes, 0));
-            drawn.columns.iter_mut().zip(draws.applied()).for_each(|(column, value)| column.push(*value));
-        }
+        let mut drawn = DrawnScenes::empty(plan, false);
+        drawn.draw(&mut SceneDraws::new(plan), first.0..first.0.saturating_add(count).min(plan.samples));
         drawn
+    }
+
+    /// Draws all samples of `plan`, at most [`CHUNK`] at a time, and shows them to `seen`; with their mass properties if `with_mass`.
+    ///
+    /// # Errors
+    /// The first error of `seen`, after which nothing is drawn.
+    pub fn visit<E>(plan: &Plan, with_mass: bool, mut seen: impl FnMut(&Self) -> Result<(), E>) -> Result<(), E> {
+        let (mut draws, mut drawn) = (SceneDraws::new(plan), DrawnScenes::empty(plan, with_mass));
+        let mut first = 0;
+        while first < plan.samples {
+            let end = (first + CHUNK).min(plan.samples);
+            drawn.draw(&mut draws, first..end);
+            seen(&drawn)?;
+            first = end;
+        }
+        Ok(())
+    }
+
+    fn empty(plan: &Plan, with_mass: bool) -> Self {
+        let mass = if with_mass { vec![Vec::new(); MASS_COLUMNS.len()] } else { Vec::new() };
+        let columns = vec![Vec::new(); plan.dispersions.columns().len()];
+        DrawnScenes { first: SampleId(0), physical: Vec::new(), columns, mass }
+    }
+
+    /// Draws `samples` in place of what is there.
+    fn draw(&mut self, draws: &mut SceneDraws<'_>, samples: std::ops::Range<u64>) {
+        self.first = SampleId(samples.start);
+        self.physical.clear();
+        self.columns.iter_mut().chain(&mut self.mass).for_each(Vec::clear);
+        let mut scenes: Vec<Scene> = Vec::with_capacity(1);
+        for sample in samples {
+            let physical = draws.scene_at(SampleId(sample), &mut scenes, 0);
+            self.physical.push(physical);
+            self.columns.iter_mut().zip(draws.applied()).for_each(|(column, value)| column.push(*value));
+            if !self.mass.is_empty() {
+                let values = scenes.first().filter(|_| physical).map_or([f64::NAN; 7], mass_properties);
+                self.mass.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
+            }
+        }
     }
 
     /// Number of samples.
     pub fn count(&self) -> usize {
         self.physical.len()
-    }
-
-    /// Quantiles of each column at the fractions `p`, of type 7 of R. J. Hyndman & Y. Fan (*Am. Stat.* 50 (1996) 361): linear
-    /// between neighbours; none where there are no samples.
-    pub fn percentiles<const N: usize>(&self, p: [f64; N]) -> Vec<Option<[f64; N]>> {
-        let of = |column: &Vec<f64>| {
-            let mut values = column.clone();
-            values.sort_by(f64::total_cmp);
-            let mut found = [f64::NAN; N];
-            for (found, p) in found.iter_mut().zip(p) {
-                *found = quantile(&values, p)?;
-            }
-            Some(found)
-        };
-        self.columns.iter().map(of).collect()
     }
 
     /// Spearman's rank correlation of each pair of columns; 0 for a column that does not vary. Equal values share their mean rank.
@@ -67,11 +121,8 @@ mod tests {
     fn rank_correlations_of_known_columns() {
         let columns =
             vec![vec![1.0, 2.0, 3.0, 4.0], vec![1.0, 8.0, 27.0, 64.0], vec![4.0, 3.0, 2.0, 1.0], vec![5.0; 4]];
-        let drawn = DrawnScenes { first: SampleId(0), physical: vec![true; 4], columns };
+        let drawn = DrawnScenes { first: SampleId(0), physical: vec![true; 4], columns, mass: Vec::new() };
         let r = drawn.rank_correlations();
         assert!((r[0][1] - 1.0).abs() < 1e-15 && (r[0][2] + 1.0).abs() < 1e-15 && r[0][3] == 0.0);
-        let [low, middle, high] = drawn.percentiles([0.0, 0.5, 0.99])[1].expect("four samples");
-        assert_eq!((low, middle), (1.0, 17.5));
-        assert!((high - (64.0 - 0.03 * 37.0)).abs() < 1e-12, "99% of four draws is not their maximum: {high}");
     }
 }

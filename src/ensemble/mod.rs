@@ -2,7 +2,8 @@
 //!
 //! - [`parts`]: how samples are divided into parts. - [`rows`]: the rows of a part. - [`sink`]: takes the rows.
 //! - [`worker`]: [`Ensemble`], shared by all threads, and [`Worker`], the memory of one thread.
-//! - [`runner`]: distributes parts to threads. - [`drawn`]: sampled parameters without runs. - [`single`]: one run with its states.
+//! - [`runner`]: distributes parts to threads. - [`drawn`]: sampled parameters without runs; [`percentiles`]: theirs.
+//! - [`influence`]: which of them change no requested column. - [`single`]: one run with its states.
 //! - [`audit`]: runs compared with a reference solution. - [`precision`]: run time against error for every method.
 //! - [`settings`]: observables and engine of a plan. - [`probe`]: time of a run and of an audit. - [`cpu_clock`]: CPU time of a thread.
 //!
@@ -11,7 +12,9 @@
 pub mod audit;
 pub mod cpu_clock;
 pub mod drawn;
+pub mod influence;
 pub mod parts;
+pub mod percentiles;
 pub mod precision;
 pub mod probe;
 pub mod rows;
@@ -24,6 +27,7 @@ pub mod worker;
 pub use audit::{Audit, Auditor};
 pub use drawn::DrawnScenes;
 pub use parts::{Part, PartId, Parts};
+pub use percentiles::Percentiles;
 pub use rows::{Rows, Shape};
 pub use runner::{RunError, run};
 pub use single::SingleRun;

@@ -3,6 +3,8 @@
 //! - [`real`]: [`Real`], the trait that kernels are generic over (`f64`, eight lanes of `f64`), and its [`Mask`].
 //! - [`double_double`]: 106 bits, for reference solutions.
 //! - [`lanes`]: [`Lanes`], eight `f64` in one vector of the chosen instruction set.
+//! - [`chebyshev`]: smooth functions as pieces of Chebyshev series. [`incomplete_beta`], [`incomplete_gamma`]: distribution functions and
+//!   their inverses.
 //! - [`isa`]: the run-time choice of instruction set; the only file that reads `SPINDRIFT_ISA`.
 //! - [`pair`]: [`Pair`], two numbers of one kind as one, to keep wide vector units busy.
 //! - [`power`]: powers, logarithms and exponentials for step control, the same bits in a scalar and in lanes.
@@ -11,8 +13,10 @@
 //! - [`symmetric`]: positive definiteness and principal axes of 3x3 matrices.
 //! - [`vector`]: three-vectors, 3x3 matrices and quaternions as plain arrays of `Real`.
 
+pub mod chebyshev;
 pub mod double_double;
 pub mod incomplete_beta;
+pub mod incomplete_gamma;
 pub mod isa;
 pub mod lanes;
 pub mod list;

@@ -11,20 +11,19 @@ pub(super) struct Acting<'a> {
     scene: &'a Scene,
     /// The arcs of the actuators.
     arcs: &'a [Arc],
-    /// Magnitude of the torque of the environment that is not part of the arcs, N m.
-    environment: f64,
+    /// Whether the arcs contain the torque of the environment.
+    has_environment: bool,
 }
 
 impl<'a> Acting<'a> {
     /// The schedule of `scene` and its environment.
     pub(super) fn scheduled(scene: &'a Scene) -> Self {
-        let environment = with_environment(scene, 0.0, Actuation::none(f64::INFINITY)).body_torque;
-        Acting { scene, arcs: &scene.schedule, environment: dot(environment, environment).sqrt() }
+        Acting { scene, arcs: &scene.schedule, has_environment: false }
     }
 
     /// The arcs that a run of `scene` has flown, which contain its environment.
     pub(super) fn flown(scene: &'a Scene, arcs: &'a [Arc]) -> Self {
-        Acting { scene, arcs, environment: 0.0 }
+        Acting { scene, arcs, has_environment: true }
     }
 
     /// The scene.
@@ -47,13 +46,18 @@ impl<'a> Acting<'a> {
     /// the body added.
     #[inline(always)]
     pub(super) fn largest_torque(&self) -> f64 {
-        let mut largest = self.environment;
+        let environment = if self.has_environment {
+            0.0
+        } else {
+            let torque = with_environment(self.scene, 0.0, Actuation::none(f64::INFINITY)).body_torque;
+            dot(torque, torque).sqrt()
+        };
+        let mut largest = environment;
         for arc in self.arcs {
             let applied = &arc.applied;
             let thrust = self.scene.thruster_torque_s(applied.thrust);
             let thrust = dot(thrust, thrust).sqrt();
-            let actuators =
-                applied.motor_torque.iter().fold(thrust, |sum, torque| sum + torque.abs()) + self.environment;
+            let actuators = applied.motor_torque.iter().fold(thrust, |sum, torque| sum + torque.abs()) + environment;
             largest = largest.larger(actuators + dot(applied.body_torque, applied.body_torque).sqrt());
         }
         largest

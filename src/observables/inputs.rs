@@ -21,6 +21,11 @@ impl Value {
         }
     }
 
+    /// Whether the value is a statistic of `series`.
+    pub(super) fn of(self, series: Series) -> bool {
+        matches!(self, Value::Of(own, _) if own == series)
+    }
+
     /// Every statistic that the value is made of.
     pub(super) fn inputs(self) -> impl Iterator<Item = (Series, Reduction)> {
         let (own, direct, wheel) = match self {

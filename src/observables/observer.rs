@@ -147,8 +147,9 @@ impl Observer {
     #[inline(always)]
     fn reduce<S: Simd>(&mut self, simd: S) {
         for task in &self.tasks {
+            let scale = task.scale.map_or(1.0, |scale| self.statistics.scale(Slot::of(scale)));
             let out = self.statistics.of(task.series);
-            reduce(simd, &self.weights, self.series.column(task.series), task.passes, task.stored, out);
+            reduce(simd, &self.weights, self.series.column(task.series), (task.passes, task.stored, scale), out);
         }
     }
 

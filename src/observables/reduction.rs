@@ -97,16 +97,17 @@ impl Reduction {
     const VALUE: usize = OrderStatistic::ALL.len();
     const ERROR: usize = Self::VALUE + ValueStatistic::ALL.len();
     const CHANGE: usize = Self::ERROR + ErrorStatistic::ALL.len();
+    const FRACTION: usize = Self::CHANGE + ChangeStatistic::ALL.len();
 
     /// Number of values that [`reduce`] writes for a series.
-    pub(super) const COUNT: usize = Self::CHANGE + ChangeStatistic::ALL.len();
+    pub(super) const COUNT: usize = Self::FRACTION + 1;
 
-    /// The index of the value among those that [`reduce`] writes; of a fraction that of its numerator.
+    /// The index of the value among those that [`reduce`] writes.
     pub(super) const fn index(self) -> usize {
         match self {
             Reduction::Order(statistic) => statistic as usize,
             Reduction::Value(statistic) => Self::VALUE + statistic as usize,
-            Reduction::Fraction => Reduction::Value(ValueStatistic::PeakToPeak).index(),
+            Reduction::Fraction => Self::FRACTION,
             Reduction::Error(statistic) => Self::ERROR + statistic as usize,
             Reduction::Change(statistic) => Self::CHANGE + statistic as usize,
         }

@@ -62,6 +62,8 @@ pub(super) struct SeriesTask {
     pub(super) series: Series,
     pub(super) passes: Passes,
     pub(super) stored: Stored,
+    /// What its errors or its fraction are relative to: a statistic of a task before this one.
+    pub(super) scale: Option<(Series, Reduction)>,
 }
 
 impl Request {
@@ -117,7 +119,7 @@ impl Request {
         self.inputs().fold(SeriesSet::default(), |set, (series, _)| set.with(series))
     }
 
-    /// What is computed of each observed series.
+    /// What is computed of each observed series: those that are scales of others first.
     pub(super) fn tasks(&self) -> Vec<SeriesTask> {
         let observed = self.observed();
         let passes = |series: Series| {
@@ -125,7 +127,18 @@ impl Request {
             of_series.fold(Passes::default(), |passes, (_, reduction)| passes.with(reduction))
         };
         let observed = Series::all().filter(|series| observed.has(*series));
-        observed.map(|series| SeriesTask { series, passes: passes(series), stored: series.row().stored }).collect()
+        let scale = |series: Series| {
+            self.columns().iter().filter(|column| column.value.of(series)).find_map(|c| c.value.scale())
+        };
+        let task = |series: Series| SeriesTask {
+            series,
+            passes: passes(series),
+            stored: series.row().stored,
+            scale: scale(series),
+        };
+        let mut tasks: Vec<SeriesTask> = observed.map(task).collect();
+        tasks.sort_by_key(|task| task.scale.is_some());
+        tasks
     }
 
     /// Every statistic that the columns are made of, some several times.

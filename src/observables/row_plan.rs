@@ -2,8 +2,6 @@
 //!
 //! The table of observables is resolved once per worker; a row is then filled without a look at the table.
 
-use std::ops::Range;
-
 use super::reduction::Reduction;
 use super::request::Request;
 use super::table::{DirectValue, Series, Value};
@@ -52,8 +50,6 @@ impl Statistics {
 pub(super) struct RowPlan {
     /// The statistic of each column; any for a column that shows a direct value.
     slots: Vec<Slot>,
-    /// Neighbouring columns that are relative to one scale, and that scale.
-    relative: Vec<(Range<usize>, Slot)>,
     /// The columns that show a direct value.
     direct_values: Vec<(usize, DirectValue, u8)>,
     /// For each column whether a run that failed has it too.
@@ -65,8 +61,7 @@ impl RowPlan {
     pub(super) fn of(request: &Request) -> Self {
         let columns = request.columns();
         let known_after_failure = columns.iter().map(|column| column.value.is_known_after_failure()).collect();
-        let mut plan =
-            RowPlan { slots: Vec::new(), relative: Vec::new(), direct_values: Vec::new(), known_after_failure };
+        let mut plan = RowPlan { slots: Vec::new(), direct_values: Vec::new(), known_after_failure };
         for (place, column) in columns.iter().enumerate() {
             plan.slots.push(match column.value {
                 Value::Of(series, reduction) => Slot::of((series, reduction)),
@@ -75,11 +70,6 @@ impl RowPlan {
                     Slot(0)
                 }
             });
-            let Some(scale) = column.value.scale().map(Slot::of) else { continue };
-            match plan.relative.last_mut() {
-                Some((places, last)) if places.end == place && *last == scale => places.end += 1,
-                _ => plan.relative.push((place..place + 1, scale)),
-            }
         }
         plan
     }
@@ -94,10 +84,6 @@ impl RowPlan {
     pub(super) fn fill(&self, statistics: &Statistics, direct: impl Fn(DirectValue, u8) -> f64, row: &mut [f64]) {
         for (value, slot) in row.iter_mut().zip(&self.slots) {
             *value = statistics.get(*slot);
-        }
-        for (places, scale) in &self.relative {
-            let scale = statistics.scale(*scale);
-            row[places.clone()].iter_mut().for_each(|value| *value /= scale);
         }
         for (place, value, wheel) in &self.direct_values {
             row[*place] = direct(*value, *wheel);
@@ -117,9 +103,8 @@ mod tests {
     use super::*;
     use crate::observables::group::Groups;
     use crate::observables::request::wheel_names;
-    use crate::observables::table;
 
-    /// Law: every column of every request shows the statistic of the table, over the scale of the table, or its direct value.
+    /// Law: every column of every request shows the statistic of the table or its direct value.
     #[test]
     fn a_row_shows_what_the_table_says() {
         let mut statistics = Statistics::unknown();
@@ -128,8 +113,6 @@ mod tests {
                 *value = 1.5 + (at * Reduction::COUNT + index) as f64;
             }
         }
-        // a scale of zero counts as one
-        statistics.of(Series::DebrisLinearSquare).fill(0.0);
         let number = |value: DirectValue, wheel: u8| -(value as usize as f64) - 1.0 - 100.0 * f64::from(wheel);
         for bits in 0..8 {
             let [debris, actuated, constrained] = [1, 2, 4].map(|bit| bits & bit != 0);
@@ -146,11 +129,7 @@ mod tests {
             assert_eq!(row.len(), request.columns().len());
             for (column, shown) in request.columns().iter().zip(&row) {
                 let expected = match column.value {
-                    Value::Of(series, reduction) => {
-                        let scale = column.value.scale().map(|(of, max)| statistics.of(of)[max.index()]);
-                        let scale = scale.filter(|scale| *scale != 0.0).unwrap_or(1.0);
-                        statistics.of(series)[reduction.index()] / scale
-                    }
+                    Value::Of(series, reduction) => statistics.of(series)[reduction.index()],
                     Value::Direct(value, wheel) => number(value, wheel),
                 };
                 assert_eq!(*shown, expected, "{}", column.quantity.name());
@@ -160,6 +139,5 @@ mod tests {
                 assert_eq!(shown.is_nan(), !column.value.is_known_after_failure(), "{}", column.quantity.name());
             }
         }
-        assert!(table::all().any(|column| column.value.scale() == table::Series::DebrisLinearError.row().scale));
     }
 }

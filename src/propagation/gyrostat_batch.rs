@@ -86,9 +86,9 @@ impl GyrostatBatch {
 }
 
 impl Completion {
-    /// Completes run `index`, `run`, whose first `N` components are `trajectory`, to physical states and passes it to `finish`.
+    /// Completes run `index`, `run`, whose integrated components are `trajectory`, to physical states and passes it to `finish`.
     #[expect(clippy::too_many_arguments, reason = "one call per engine; a struct would be taken apart at once")]
-    pub fn complete<S: Simd, const N: usize>(
+    pub fn complete<S: Simd>(
         &mut self,
         simd: S,
         scenes: &[Scene],
@@ -98,14 +98,14 @@ impl Completion {
         outcome: &Outcome,
         finish: &mut CompletionCallback<'_>,
     ) {
-        self.fill_table::<S, N>(simd, &scenes[index], index, run, trajectory);
+        self.fill_table(simd, &scenes[index], index, run, trajectory);
         self.arcs.clear();
         self.arcs.extend(run.arcs.iter().map(|arc| arc.arc));
         finish(CompletedRun { index, table: &self.table, outcome, arcs: &self.arcs });
     }
 
     #[inline(never)]
-    fn fill_table<S: Simd, const N: usize>(
+    fn fill_table<S: Simd>(
         &mut self,
         simd: S,
         scene: &Scene,
@@ -118,14 +118,14 @@ impl Completion {
         simd.vectorize(
             #[inline(always)]
             || {
-                complete::<S, N>(simd, run, trajectory, grid, table);
+                complete(simd, run, trajectory, grid, table);
                 if let Some(body) = &scene.mass.debris {
                     debris::complete_translation(simd, scene, grid, table);
                     if debris::is_isotropic(body) {
                         debris::complete_isotropic(simd, scene, grid, table);
                     } else if *debris_is_integrated {
                         let (run, states) = (&debris_runs[index], &debris_trajectories[index]);
-                        debris::complete_rotation::<S, WITH_ATTITUDE>(simd, run, states, table);
+                        debris::complete_rotation(simd, run, states, table);
                     }
                 }
             },

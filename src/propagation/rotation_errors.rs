@@ -96,7 +96,7 @@ mod tests {
     fn the_error_in_the_middle_of_a_run_counts() {
         let found = largest([0.5, 1e-3, 1.0]);
         assert_eq!(found.omega, 0.25);
-        assert!((found.attitude - 1e-3).abs() < 1e-9, "{:e}", found.attitude);
+        assert!((found.attitude - 1e-3).abs() < 1e-10, "{:e}", found.attitude);
         assert_eq!(found.state(), 0.25);
     }
 

@@ -67,7 +67,7 @@ impl<S: Simd, R: Real, M: Method, const N: usize> RungeKuttaEngine<S, R, M, N> {
             if let Some(remainders) = remainders {
                 outcome.local_errors = remainders.sum(run, trajectory, grid, &outcome);
             }
-            completion.complete::<S, N>(*simd, scenes, index, run, trajectory, &outcome, finish);
+            completion.complete(*simd, scenes, index, run, trajectory, &outcome, finish);
         });
     }
 }

@@ -206,7 +206,7 @@ mod tests {
     #[test]
     fn the_nominal_value_is_marked() {
         let columns = vec![(0..50).map(f64::from).collect::<Vec<_>>(), (0..50).map(|k| f64::from(k * k)).collect()];
-        let drawn = DrawnScenes { first: SampleId(1), physical: vec![true; 50], columns };
+        let drawn = DrawnScenes { first: SampleId(1), physical: vec![true; 50], columns, mass: Vec::new() };
         let names = vec!["one".to_owned(), "two".to_owned()];
         let figure = |nominal| DrawnFigure { title: "t".into(), names: names.clone(), nominal, drawn: &drawn };
         let svg = figure(vec![25.0, -3000.0]).svg().unwrap();

@@ -6,6 +6,7 @@
 /// multiple of eight, so that eight points are one vector; the padding after the last point repeats that point.
 #[derive(Clone, Debug)]
 pub struct Trajectory {
+    components: usize,
     points: usize,
     stride: usize,
     values: Vec<f64>,
@@ -15,7 +16,13 @@ impl Trajectory {
     /// `components` components at `points` points; all zero.
     pub fn new(components: usize, points: usize) -> Self {
         let stride = points.next_multiple_of(8);
-        Trajectory { points, stride, values: vec![0.0; components * stride] }
+        Trajectory { components, points, stride, values: vec![0.0; components * stride] }
+    }
+
+    /// Number of components.
+    #[inline]
+    pub fn components(&self) -> usize {
+        self.components
     }
 
     /// Number of observation points.

@@ -196,7 +196,7 @@ impl Correlation {
         let (rows, matrix) = match &self.numbers {
             Numbers::One(number) if n == 2 => (0..1, vec![vec![*number]]),
             Numbers::One(number) => {
-                let allowed = format!("rows of numbers for {n} components; one number is for two");
+                let allowed = format!("rows of numbers: one number is for two components, and here are {n}");
                 let remedy = "write a square matrix, or for two parameters a row for each component of the first";
                 return refused(format!("{number:?}"), allowed, remedy);
             }

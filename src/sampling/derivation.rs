@@ -17,6 +17,15 @@ pub struct Derivation {
     pub expression: String,
 }
 
+impl Derivation {
+    /// The numbers that the expression is made of.
+    pub fn inputs(&self, scene: &SceneInput) -> Vec<(Parameter, usize)> {
+        let Ok(expression) = Expression::parse(&self.expression) else { return Vec::new() };
+        let found = expression.variables().iter().filter_map(|name| Parameter::find(scene, name));
+        found.map(|(parameter, component)| (parameter, component.unwrap_or(0))).collect()
+    }
+}
+
 /// A column that is computed from others.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Derived {
@@ -183,7 +192,7 @@ fn variable(name: &str, nominal: &SceneInput) -> Result<((Parameter, usize), f64
             return Err(("one component of a parameter".to_owned(), remedy));
         }
     };
-    match parameter.value(nominal, component).filter(|_| parameter.exists(nominal, component)) {
+    match parameter.value(nominal, component) {
         Some(value) => Ok(((parameter, component), value)),
         None => Err(("a key that the scene has".to_owned(), parameter.remedy().to_owned())),
     }

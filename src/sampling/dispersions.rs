@@ -95,6 +95,8 @@ pub struct Dispersions {
     pub(super) copulas: Vec<Copula>,
     replaced: Vec<Replaced>,
     pub(super) derived: Vec<Derived>,
+    /// The inputs of derived parameters.
+    inputs: Vec<(Parameter, usize)>,
 }
 
 impl Dispersions {
@@ -114,6 +116,7 @@ impl Dispersions {
             copulas: Vec::new(),
             replaced: Vec::new(),
             derived: Vec::new(),
+            inputs: draws.derive.iter().flat_map(|derivation| derivation.inputs(nominal)).collect(),
         };
         let mut errors: Vec<DispersionError> = Vec::new();
         for (index, dispersion) in draws.disperse.iter().enumerate() {
@@ -295,7 +298,12 @@ impl Dispersions {
         let refused = |component: usize, allowed: &str, remedy: &str| {
             Err(error(index, "parameter", format!("{:?}", parameter.component_name(component)), allowed, remedy))
         };
-        if let Some(missing) = components.iter().find(|component| !parameter.exists(nominal, **component)) {
+        // what has no effect of its own may be an input of a derived parameter
+        let is_used = |component: usize| {
+            parameter.exists(nominal, component)
+                || parameter.value(nominal, component).is_some() && self.inputs.contains(&(parameter, component))
+        };
+        if let Some(missing) = components.iter().find(|component| !is_used(**component)) {
             return refused(*missing, "a key that the scene has", parameter.remedy());
         }
         let taken = |component: &&usize| {

@@ -361,7 +361,7 @@ mod tests {
         }
         for i in 0..3 {
             for j in 0..3 {
-                assert!((mass.inertia[i][j] - expected[i][j]).abs() < 1e-12 * expected[0][0]);
+                assert!((mass.inertia[i][j] - expected[i][j]).abs() < 1e-15 * expected[0][0]);
             }
         }
     }

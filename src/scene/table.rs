@@ -2,6 +2,9 @@
 //!
 //! To add a table, write its rows ([`super::schema`]), its field ([`SceneInput`]) and its line in `tables!`.
 
+use std::cmp::Ordering;
+use std::hash::{Hash, Hasher};
+
 use super::input::SceneInput;
 use super::name::Name;
 use super::schema::limit::shown;
@@ -11,12 +14,46 @@ use super::schema::{
 };
 
 /// A key of a table of the schema.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug)]
 pub struct Key {
     /// The table.
     pub table: Table,
     /// The row, counted through the parts of the table.
     row: u8,
+    /// What is known of it; here too, because every sample asks several times for each of its numbers.
+    facts: &'static Facts,
+}
+
+impl Key {
+    const fn place(&self) -> (Table, u8) {
+        (self.table, self.row)
+    }
+}
+
+impl PartialEq for Key {
+    fn eq(&self, other: &Self) -> bool {
+        self.place() == other.place()
+    }
+}
+
+impl Eq for Key {}
+
+impl Hash for Key {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.place().hash(state);
+    }
+}
+
+impl PartialOrd for Key {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Key {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.place().cmp(&other.place())
+    }
 }
 
 /// The row of index `index`, counted through `parts`.
@@ -70,12 +107,14 @@ macro_rules! tables {
             }
         }
 
-        impl Key {
-            /// What is known of the key.
-            pub const fn facts(self) -> &'static Facts {
-                match self.table { $(Table::$Table => &row_of($parts, self.row as usize).facts),+ }
+        impl Table {
+            /// What is known of the key of index `row`.
+            fn facts_at(self, row: usize) -> &'static Facts {
+                match self { $(Table::$Table => &row_of($parts, row).facts),+ }
             }
+        }
 
+        impl Key {
             /// The numbers of the key in the table, whatever else the scene has.
             #[inline]
             fn in_table(self, $scene: &SceneInput, $instance: usize) -> Option<&[f64]> {
@@ -144,7 +183,7 @@ impl Table {
 
     /// The keys of the table, in the order in which they are written.
     pub fn keys(self) -> impl Iterator<Item = Key> {
-        (0..self.count()).map(move |row| Key { table: self, row: row as u8 })
+        (0..self.count()).map(move |row| Key { table: self, row: row as u8, facts: self.facts_at(row) })
     }
 
     /// The key called `name`, written as in a campaign file.
@@ -154,6 +193,12 @@ impl Table {
 }
 
 impl Key {
+    /// What is known of the key.
+    #[inline(always)]
+    pub const fn facts(self) -> &'static Facts {
+        self.facts
+    }
+
     /// The dotted name, in the table of `owner` where it is one of a list.
     pub fn name(self, owner: Name) -> String {
         self.table.name(owner, self.facts().key)

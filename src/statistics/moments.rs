@@ -98,7 +98,7 @@ mod tests {
 
     fn close(found: Option<f64>, expected: f64) {
         let found = found.unwrap_or(f64::NAN);
-        assert!((found - expected).abs() <= 1e-13 * (1.0 + expected.abs()), "{found} {expected}");
+        assert!((found - expected).abs() <= 6e-16 * (1.0 + expected.abs()), "{found} {expected}");
     }
 
     #[test]

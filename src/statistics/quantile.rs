@@ -131,13 +131,13 @@ mod tests {
         let values = [1.0, 2.0, 4.0, 8.0];
         for (p, expected) in [(0.0, 1.0), (1.0, 8.0), (0.5, 3.0), (1.0 / 3.0, 2.0), (0.25, 1.75), (0.9, 6.8)] {
             let found = quantile(&values, p).unwrap_or(f64::NAN);
-            assert!((found - expected).abs() < 1e-14, "{p}: {found}");
+            assert!((found - expected).abs() < 8e-15, "{p}: {found}");
         }
         assert_eq!(quantile(&[], 0.5), None);
         assert_eq!(quantile(&[3.0], 0.99), Some(3.0));
         // 99% of 100 values is not their maximum
         let hundred: Vec<f64> = (0..100).map(f64::from).collect();
-        assert!((quantile(&hundred, 0.99).unwrap_or(0.0) - 98.01).abs() < 1e-12);
+        assert!((quantile(&hundred, 0.99).unwrap_or(0.0) - 98.01).abs() < 2e-14);
         assert_eq!(quantile(&[f64::NEG_INFINITY, f64::NEG_INFINITY, 1.0], 0.25), Some(f64::NEG_INFINITY));
     }
 

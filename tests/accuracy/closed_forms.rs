@@ -98,7 +98,7 @@ fn states(method: Method, tolerance: f64, scene: &Scene, times: &[f64]) -> State
 const HUNDRED_PERIODS: f64 = 1e-12;
 /// The same where the start is 3e-4 off the separatrix: a rounding on the way, 1e-16, moves the distance of the energies, 1e-7 of
 /// the whole, by 1e-9 of itself, and the next passage by 1e-9 of its time constant; two hundred passages of that are a random walk.
-const SEPARATRIX: f64 = 2e-9;
+const SEPARATRIX: f64 = 1.5e-9;
 /// Growth of the state error of `auto` with the angle of the body, up to a million seconds: an error of rounding in the period.
 const PER_RADIAN: f64 = 5e-16;
 
@@ -145,7 +145,7 @@ fn a_wrong_moment_is_seen() {
     }
 }
 
-/// Law: the adaptive Runge-Kutta methods and the report's own form agree with Jacobi within a hundred tolerances over a period.
+/// Law: the adaptive Runge-Kutta methods and the report's own form agree with Jacobi within twenty tolerances over a period.
 #[test]
 fn other_methods_move_as_jacobi_says() {
     const LOOSE: f64 = 1e-11;
@@ -157,7 +157,7 @@ fn other_methods_move_as_jacobi_says() {
         {
             let table = states(method, LOOSE, &case.scene, &times);
             let off = error(&table, 1, exact.at(StateField::Rate, 1), exact.at(StateField::Attitude, 1));
-            assert!(off < 100.0 * LOOSE, "{}, {method:?}: {off:e}", case.name);
+            assert!(off < 20.0 * LOOSE, "{}, {method:?}: {off:e}", case.name);
         }
     }
 }
@@ -173,7 +173,7 @@ fn published_campaigns_are_the_published_cases() {
         let inertia = scene.mass.inertia_free;
         assert_eq!([inertia[0][0], inertia[1][1], inertia[2][2]], case.moments, "{file}");
         assert_eq!(scene.initial.omega_se_s, case.scene.initial.omega_se_s, "{file}");
-        assert!((case.omega[0][0] - scene.initial.omega_se_s[0]).abs() < 1e-15);
+        assert_eq!(case.omega[0][0], scene.initial.omega_se_s[0]);
     }
 }
 

@@ -16,6 +16,7 @@ mod feedback;
 mod golden_truth;
 mod null_space;
 mod null_space_matrices;
+mod null_space_motion;
 mod order_runge_kutta;
 mod outcomes_runge_kutta;
 mod periodic;

@@ -1,26 +1,20 @@
-//! The null-space kernel: the block form against the matrices as printed, against the gyrostat equations, and against golden data.
+//! The right-hand side of the null-space kernel: the block form against the matrices as printed and against the gyrostat equations.
 //!
 //! Laws: the null-space form is equivalent to the gyrostat equations; energy changes by the power fed in, momentum by the
 //! thrust, angular momentum by the torque; constraints hold at the level of rates. Counter-test: with the printed sign of
 //! a-hat_non,s energy is not conserved.
 
 use crate::null_space_matrices as matrices;
-use crate::null_space_matrices::{
-    COMPONENTS, Kernel, Parameters, STATES, SignOfANon, SignedRuns, State, with_printed_sign,
-};
-use crate::support::extrapolation::integrate;
+use crate::null_space_matrices::{COMPONENTS, Kernel, Parameters, SignOfANon, State, with_printed_sign};
 use crate::support::golden::Golden;
 use nalgebra::{Matrix3, SVector, Vector3};
 use proptest::prelude::*;
-use spindrift::dynamics::null_space::{complete, kinetic_energies, residuals, sigma};
-use spindrift::ode::Runs;
-use spindrift::ode::System;
-use spindrift::propagation::NullSpaceRuns;
-use spindrift::run::{Grid, StateField, StateFields, StateTable, Trajectory};
-use spindrift::scene::{Actuation, DebrisInput, Scene, SceneInput};
+use proptest::test_runner::RngSeed;
+use spindrift::dynamics::null_space::{residuals, sigma};
+use spindrift::scene::{Actuation, DebrisInput, Scene};
 
-/// Rates of random scenes, relative to the size of their terms: a few hundred roundings, some through M-hat's condition (< 1e4).
-const RATE_TOLERANCE: f64 = 1e-11;
+/// Rates of random scenes, relative to the size of their terms: roundings. Measured: 7.7e-16.
+const RATE_TOLERANCE: f64 = 7e-15;
 
 /// A scene with everything general, or with bodies missing, in a random state.
 fn scenes() -> impl Strategy<Value = (Scene, Actuation)> {
@@ -108,6 +102,8 @@ fn energy_rate(parameters: &Parameters, state: &State, rate: &State) -> (f64, f6
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(1), ..ProptestConfig::default() })]
+
     #[test]
     fn block_form_equals_the_matrices_as_printed((scene, actuation) in scenes(), drift in prop::array::uniform32(-1e-3f64..1e-3)) {
         let parameters = Parameters::of(&scene);
@@ -122,7 +118,7 @@ proptest! {
             let q_dot = matrices::gamma(&state) * nu;
             let components: [f64; COMPONENTS] = rate.components();
             for i in 0..48 {
-                prop_assert!((components[i] - q_dot[i]).abs() <= 1e-12 * (1.0 + q_dot[i].abs() + nu.abs().max()), "q {}", i);
+                prop_assert!((components[i] - q_dot[i]).abs() <= 2e-15 * (1.0 + q_dot[i].abs() + nu.abs().max()), "q {}", i);
             }
             let m = matrices::reduced_mass(&parameters, &state);
             let force = matrices::reduced_force(&parameters, &state, inputs(&actuation), factor);
@@ -135,15 +131,15 @@ proptest! {
     #[test]
     fn reduced_mass_is_symmetric_positive_definite((scene, _) in scenes()) {
         let m = matrices::reduced_mass(&Parameters::of(&scene), &sigma(&scene));
-        prop_assert!((m - m.transpose()).abs().max() <= 1e-15 * m.abs().max());
+        prop_assert!((m - m.transpose()).abs().max() <= 6e-17 * m.abs().max());
         prop_assert!(m.cholesky().is_some());
     }
 
     #[test]
     fn rates_of_pi_and_m_are_their_differences((scene, actuation) in scenes()) {
-        // central differences: error h^2 |third derivative| (rates 300/s) and eps/h; both near 1e-7 relative
+        // central differences: error h^2 |third derivative| (rates 300/s) and eps/h; both below 1e-9 relative
         const STEP: f64 = 1e-6;
-        const TOLERANCE: f64 = 1e-6;
+        const TOLERANCE: f64 = 2e-9;
         let parameters = Parameters::of(&scene);
         let state: State = sigma(&scene);
         let rate = derivative(&scene, &actuation, SignOfANon::Corrected, &state);
@@ -176,7 +172,7 @@ proptest! {
         for i in 0..24 {
             let direction = gamma.column(i).into_owned();
             let slope = (energy(1.0, &direction) - energy(-1.0, &direction)) / (2.0 * STEP);
-            prop_assert!((slope - expected[i]).abs() <= 1e-9 * scale, "{}: {} {}", i, slope, expected[i]);
+            prop_assert!((slope - expected[i]).abs() <= 2e-10 * scale, "{}: {} {}", i, slope, expected[i]);
         }
     }
 
@@ -213,14 +209,15 @@ proptest! {
         }
         let c = Vector3::from(mass.center);
         let v_dot = c_es * (force / mass.total - omega_dot.cross(&c) - omega.cross(&omega.cross(&c)));
-        prop_assert!((Vector3::from(rate.v_p) - v_dot).norm() <= RATE_TOLERANCE * (size + 1.0) * 10.0);
+        prop_assert!((Vector3::from(rate.v_p) - v_dot).norm() <= RATE_TOLERANCE * (size + 1.0));
 
         if let Some(debris) = mass.debris {
             let j = tensor(debris.inertia);
             let omega_d = Vector3::from(state.omega_d);
             let torque = (j * omega_d).cross(&omega_d);
             let residual = j * Vector3::from(rate.omega_d) - torque;
-            prop_assert!(residual.norm() <= RATE_TOLERANCE * (torque.norm() + j.norm() * omega_d.norm_squared()));
+            // measured: 6e-17
+            prop_assert!(residual.norm() <= 6e-16 * (torque.norm() + j.norm() * omega_d.norm_squared()));
         }
     }
 
@@ -231,14 +228,16 @@ proptest! {
         let rate = derivative(&scene, &actuation, SignOfANon::Corrected, &state);
         let (found, size) = energy_rate(&parameters, &state, &rate);
         let fed = rate.work[0] + rate.work[1];
-        prop_assert!((found - fed).abs() <= RATE_TOLERANCE * size, "{} {} {}", found, fed, size);
+        // measured: 2.1e-16
+        prop_assert!((found - fed).abs() <= 2e-15 * size, "{} {} {}", found, fed, size);
 
         let c_es = rotation(state.fuselage.dcm);
         let (omega, omega_dot) = (Vector3::from(state.omega_s), Vector3::from(rate.omega_s));
         let c = Vector3::from(scene.mass.center);
         let p_dot = (Vector3::from(rate.v_p) + c_es * (omega_dot.cross(&c) + omega.cross(&omega.cross(&c)))) * scene.mass.total;
         let size = scene.mass.total * (1.0 + omega.norm_squared() + omega_dot.norm()) * (1.0 + c.norm());
-        prop_assert!((p_dot - Vector3::from(rate.impulse)).norm() <= RATE_TOLERANCE * size);
+        // measured: 3.2e-16
+        prop_assert!((p_dot - Vector3::from(rate.impulse)).norm() <= 3e-15 * size);
 
         let (mut l, mut l_dot) = (tensor(scene.mass.inertia) * omega, tensor(scene.mass.inertia) * omega_dot);
         for (i, wheel) in scene.mass.wheels.iter().enumerate() {
@@ -247,7 +246,7 @@ proptest! {
         }
         let size = l_dot.norm() + omega.norm() * l.norm() + 1.0;
         let found = c_es * (l_dot + omega.cross(&l));
-        prop_assert!((found - Vector3::from(rate.angular_impulse)).norm() <= 10.0 * RATE_TOLERANCE * size);
+        prop_assert!((found - Vector3::from(rate.angular_impulse)).norm() <= RATE_TOLERANCE * size);
     }
 
     #[test]
@@ -255,14 +254,15 @@ proptest! {
         let parameters = Parameters::of(&scene);
         let state: State = sigma(&scene);
         for (kind, value) in residuals(&scene, &parameters, &state).into_iter().enumerate() {
-            prop_assert!(value <= 1e-12, "{}: {}", kind, value); // speeds of some hundred rad/s, to rounding
+            prop_assert!(value <= 4e-13, "{}: {}", kind, value); // speeds of some hundred rad/s, to rounding
         }
         let rate = derivative(&scene, &actuation, SignOfANon::Corrected, &state);
         // after a short time along the rates, residuals grow with its square
         let step = 1e-7;
         let [_, collocation, attitude] = residuals(&scene, &parameters, &moved(&state, &rate, step));
         let bound = (400.0 * step) * (400.0 * step);
-        prop_assert!(collocation <= bound && attitude <= bound, "{} {}", collocation, attitude);
+        // measured: 1.8e-15 of the collocation, whose rate is linear in the state
+        prop_assert!(collocation <= 1.5e-14 && attitude <= bound, "{} {}", collocation, attitude);
     }
 }
 
@@ -276,153 +276,7 @@ fn the_printed_sign_feeds_energy_from_nowhere() {
         let (rate, size) = energy_rate(&parameters, &state, &derivative(&scene, &coast, sign, &state));
         rate.abs() / size
     };
-    assert!(relative(SignOfANon::Corrected) < RATE_TOLERANCE);
+    // measured: 3e-17
+    assert!(relative(SignOfANon::Corrected) < 3e-16);
     assert!(relative(SignOfANon::Printed) > 1e-3);
-}
-
-/// Largest |T - T(0)| / T(0) over two seconds of Table I at a fixed step.
-fn energy_error(sign: SignOfANon, substeps: usize) -> f64 {
-    let scenes = [Scene::resolve(&Golden::load("table1").scene).expect("the report's scene")];
-    let parameters = Parameters::of(&scenes[0]);
-    let mut runs = SignedRuns::new(&scenes[0], 2.0, sign);
-    let mut x = runs.load(0, 0);
-    runs.next_arc(0, 0.0, &x);
-    let total = |x: &[f64; COMPONENTS]| kinetic_energies(&parameters, &State::from_components(x)).total();
-    let start = total(&x);
-    let mut worst = 0.0_f64;
-    for _ in 0..200 {
-        for _ in 0..substeps {
-            x = runge_kutta_4(&runs, &x, 0.01 / substeps as f64);
-        }
-        worst = worst.max((total(&x) / start - 1.0).abs());
-    }
-    worst
-}
-
-/// One step of the classical method.
-fn runge_kutta_4(system: &SignedRuns, x: &[f64; COMPONENTS], h: f64) -> [f64; COMPONENTS] {
-    let ahead = |k: &[f64; COMPONENTS], h: f64| std::array::from_fn(|i| x[i] + h * k[i]);
-    let k1 = system.derivative(0.0, x);
-    let k2 = system.derivative(0.0, &ahead(&k1, h / 2.0));
-    let k3 = system.derivative(0.0, &ahead(&k2, h / 2.0));
-    let k4 = system.derivative(0.0, &ahead(&k3, h));
-    std::array::from_fn(|i| x[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]))
-}
-
-#[test]
-fn table_one_conserves_energy_with_the_corrected_sign_only() {
-    let (coarse, fine) = (energy_error(SignOfANon::Corrected, 10), energy_error(SignOfANon::Corrected, 20));
-    assert!(coarse < 1e-3, "{coarse}");
-    assert!(fine < coarse / 12.0, "order 4: {coarse} -> {fine}");
-    let (printed, printed_fine) = (energy_error(SignOfANon::Printed, 10), energy_error(SignOfANon::Printed, 20));
-    // the printed sign: an error of the model, 1.2 in two seconds, that no step removes
-    assert!((1.0..1.4).contains(&printed_fine), "{printed_fine}");
-    assert!((printed / printed_fine - 1.0).abs() < 0.02, "{printed} {printed_fine}");
-}
-
-#[test]
-fn energies_of_table_one_at_time_zero() {
-    let golden = Golden::load("table1");
-    let scene = Scene::resolve(&golden.scene).expect("the report's scene");
-    let energies = kinetic_energies(&Parameters::of(&scene), &sigma(&scene));
-    let printed = [1060915.388498418, 88406.50864294029, 36464.21707185995, 1871.7717632047218];
-    let bodies = [energies.fuselage, energies.wheels[0], energies.wheels[1], energies.debris];
-    for ((found, expected), printed) in bodies.into_iter().zip(golden.truth[0].energies).zip(printed) {
-        assert!((found / expected - 1.0).abs() < 1e-15, "{found:?} {expected:?}");
-        assert!((found / printed - 1.0).abs() < 1e-15, "{found:?} {printed:?}");
-    }
-}
-
-const BLOCKS: [StateField; 16] = StateField::ALL;
-
-/// The null-space kernel on a golden scene, observed at the golden times.
-fn observed(input: &SceneInput, times: Vec<f64>) -> (Scene, Trajectory, StateTable) {
-    let scene = Scene::resolve(input).expect("a golden scene");
-    let grid = Grid::at(times);
-    let scenes = [scene.clone()];
-    let mut runs = NullSpaceRuns::<2>::new(&scenes, grid.duration());
-    let mut x: [f64; COMPONENTS] = runs.load(0, 0);
-    let mut trajectory = Trajectory::new(COMPONENTS, grid.points());
-    trajectory.set(0, &x);
-    let (mut time, mut point) = (0.0, 1);
-    while let Some(end) = runs.next_arc(0, time, &x) {
-        while time < end {
-            let next = grid.times()[point].min(end);
-            x = integrate(&runs, x, next - time);
-            time = next;
-            if time == grid.times()[point] {
-                trajectory.set(point, &x);
-                point += 1;
-            }
-        }
-    }
-    assert_eq!(point, grid.points());
-    let blocks = BLOCKS.into_iter().fold(StateFields::NONE, StateFields::with);
-    let mut table = StateTable::new(blocks, 2, grid.points());
-    complete::<2, COMPONENTS>(&scene, &trajectory, &grid, &mut table);
-    (scene, trajectory, table)
-}
-
-/// |a - b| over |b|, as vectors.
-fn relative<const N: usize>(found: [f64; N], expected: [f64; N]) -> f64 {
-    let difference = SVector::from(found) - SVector::from(expected);
-    difference.norm() / SVector::from(expected).norm().max(1.0)
-}
-
-fn up_to_sign(found: [f64; 4], expected: [f64; 4]) -> f64 {
-    relative(found, expected).min(relative(found, expected.map(|x| -x)))
-}
-
-#[test]
-fn golden_truth_is_reached() {
-    // bound 1e-9: extrapolation at order 16 leaves rounding, which spins of thousands of radians multiply
-    const TOLERANCE: f64 = 1e-10;
-    // rounding over ten thousand steps, at positions of 200 m; measured 1.6e-10
-    const DRIFT_TOLERANCE: f64 = 1e-9;
-    for name in ["table1", "forced"] {
-        let golden = Golden::load(name);
-        let (scene, trajectory, table) = observed(&golden.scene, golden.times());
-        let parameters = Parameters::of(&scene);
-        for (point, truth) in golden.truth.iter().enumerate() {
-            let state = State::from_components(&trajectory.at::<COMPONENTS>(point));
-            let check =
-                |what: &str, error: f64| assert!(error < TOLERANCE, "{name} t={}: {what} {error:e}", truth.time);
-            check("r_p", relative(state.fuselage.position, truth.r_po_e));
-            check("v_p", relative(state.v_p, truth.v_po_e));
-            check("omega", relative(table.at(StateField::Rate, point), truth.omega_se_s));
-            check("q_es", up_to_sign(table.at(StateField::Attitude, point), truth.q_es));
-            check("wheel rates", relative(table.at(StateField::WheelRates, point), truth.wheel_rates));
-            check("wheel angles", relative(table.at(StateField::WheelAngles, point), truth.wheel_angles));
-            check("r_gd", relative(table.at(StateField::DebrisPosition, point), truth.r_gdo_e));
-            check("v_gd", relative(table.at(StateField::DebrisVelocity, point), truth.v_gdo_e));
-            check("q_ed", up_to_sign(table.at(StateField::DebrisAttitude, point), truth.q_ed));
-            check("omega_d", relative(table.at(StateField::DebrisRate, point), truth.omega_de_d));
-            let energies = kinetic_energies(&parameters, &state);
-            let [w1, w2] = energies.wheels;
-            for (found, expected) in [energies.fuselage, w1, w2, energies.debris].into_iter().zip(truth.energies) {
-                check("energy", (found / expected - 1.0).abs());
-            }
-            let work: [f64; 2] = table.at(StateField::Work, point);
-            let start: f64 = golden.truth[0].energies.iter().sum();
-            check("energy balance", ((energies.total() - start - work[0] - work[1]) / start).abs());
-
-            let momentum = Vector3::from(table.at::<3>(StateField::ComVelocity, point)) * scene.mass.total;
-            let first = Vector3::from(table.at::<3>(StateField::ComVelocity, 0)) * scene.mass.total;
-            let impulse = Vector3::from(table.at::<3>(StateField::Impulse, point));
-            check("momentum balance", (momentum - first - impulse).norm() / first.norm());
-            let fed = Vector3::from(table.at::<3>(StateField::AngularImpulse, point));
-            let change = Vector3::from(truth.momentum_c_e) - Vector3::from(golden.truth[0].momentum_c_e);
-            check("angular impulse", (change - fed).norm() / Vector3::from(truth.momentum_c_e).norm());
-            let [kinematic, collocation, attitude] = table.at(StateField::Residuals, point);
-            let drift = (kinematic / 300.0).max(collocation).max(attitude); // a tilt times the wheel's rate is kinematic
-            assert!(drift < DRIFT_TOLERANCE, "{name} t={}: {kinematic:e} {collocation:e} {attitude:e}", truth.time);
-        }
-        let signs = (1..table.points()).all(|point| {
-            let (p, q): ([f64; 4], [f64; 4]) =
-                (table.at(StateField::Attitude, point - 1), table.at(StateField::Attitude, point));
-            p.iter().zip(q).map(|(p, q)| p * q).sum::<f64>() >= 0.0
-        });
-        assert!(signs, "the quaternion's sign does not jump");
-        assert_eq!(table.at::<9>(StateField::Dcm, 1).as_slice(), &trajectory.at::<STATES>(1)[3..12]);
-    }
 }

@@ -44,8 +44,9 @@ fn fixed_steps_converge_with_their_order_at_and_between_steps() {
     for (order, (at, between)) in
         [(4.0, fixed_order(Fixed(RungeKutta4), 0.02)), (6.0, fixed_order(Fixed(GaussLegendre), 0.2))]
     {
-        assert!((at - order).abs() < ORDER_SLACK, "order {order}: {at}");
-        assert!((between - order).abs() < ORDER_SLACK, "order {order} between steps: {between}");
+        // measured: 0.007 at steps, 0.021 between them
+        assert!((at - order).abs() < 0.05, "order {order}: {at}");
+        assert!((between - order).abs() < 0.15, "order {order} between steps: {between}");
     }
 }
 

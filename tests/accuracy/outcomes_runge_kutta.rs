@@ -59,7 +59,8 @@ fn an_arc_is_a_run_of_its_own() {
     let second =
         scalar(Adaptive(DormandPrince), Oscillator, &[half(first[0].points[1], vec![1.0])], &grid, &control(1e-8, 0.0));
     for n in 0..2 {
-        assert!((whole[0].points[2][n] - second[0].points[1][n]).abs() < ROUND_OFF);
+        // an ulp; none is measured
+        assert!((whole[0].points[2][n] - second[0].points[1][n]).abs() <= f64::EPSILON);
     }
     let steps = |journey: &Journey<2>| journey.outcome.effort.steps;
     assert_eq!(steps(&whole[0]), steps(&first[0]) + steps(&second[0]));
@@ -87,7 +88,7 @@ fn a_pole_is_a_step_floor_or_not_finite() {
         scalar(Adaptive(Dop853), BlowUp, &[case], &Grid::uniform(2.0, 21), &control).remove(0),
     ] {
         assert!(matches!(journey.outcome.status, Status::StepFloor | Status::NonFinite), "{:?}", journey.outcome);
-        assert!((journey.outcome.time - 1.0).abs() < 1e-6, "the pole is at 1: {:?}", journey.outcome);
+        assert!((journey.outcome.time - 1.0).abs() < 1e-8, "the pole is at 1: {:?}", journey.outcome);
         assert_eq!(journey.outcome.points, 10 + usize::from(journey.outcome.time >= 1.0));
     }
     ends_as(Fixed(RungeKutta4), BlowUp, 1.0, &control, Status::NonFinite);

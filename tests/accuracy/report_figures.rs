@@ -59,7 +59,8 @@ fn the_error_of_the_energy_follows_the_tolerance() {
         let (all, effort) = figures(adaptive(tolerance));
         let error = largest(&series(&all, "energy_error"));
         println!("tolerance {tolerance:e}: energy error {error:e}, {} steps", effort.steps);
-        assert!(error < FACTOR * expected, "{error:e} at {tolerance:e}");
+        // the report's own figure, eleven times the measured one: it controlled the root mean square of a step's error
+        assert!(error < expected, "{error:e} at {tolerance:e}");
         error
     });
     let ratio = errors[0] / errors[1];
@@ -97,9 +98,9 @@ fn energy_moves_between_fuselage_and_wheels() {
     println!("swings {fuselage} {first} {second} of {total} J");
     // three kilojoules go from wheel to wheel and back, through the fuselage, which keeps seventy joules of them
     assert!(first.min(second) > 2e-3 * total && fuselage > 5e-5 * total, "{fuselage} {first} {second} of {total}");
-    assert!(swing("energy_total_j") < 1e-2 * fuselage);
+    assert!(swing("energy_total_j") < 5e-5 * fuselage);
     // the debris is a free cube: its energy is its own
-    assert!(swing("energy_debris_j") < 1e-6 * series(&all, "energy_debris_j")[0]);
+    assert_eq!(swing("energy_debris_j"), 0.0);
 }
 
 /// Counter-test. The printed sign: an error of the model, 1.2 in two seconds, whatever the tolerance.
@@ -108,7 +109,8 @@ fn with_the_printed_sign_the_energy_jumps() {
     let (corrected, printed) = (energy_error(SignOfANon::Corrected, 1e-6), energy_error(SignOfANon::Printed, 1e-6));
     println!("corrected {corrected:?}, printed {printed:?}");
     let ((corrected, _), (printed, _)) = (corrected, printed);
-    assert!(corrected < FACTOR * 6.2e-7, "{corrected:e}");
+    // as above
+    assert!(corrected < 6.2e-7, "{corrected:e}");
     assert!(printed > 0.5, "{printed}");
 }
 

@@ -124,8 +124,8 @@ fn flips_come_later_with_the_logarithm_of_the_offset() {
     let moment = |i: usize, j: usize| points.iter().map(|p| (p[i] - [x, y][i]) * (p[j] - [x, y][j])).sum::<f64>();
     let (slope, r2) = (moment(0, 1) / moment(0, 0), moment(0, 1).powi(2) / (moment(0, 0) * moment(1, 1)));
     println!("flip time: slope {slope}, 1/lambda {}, 1 - R^2 {:e}", 1.0 / lambda, 1.0 - r2);
-    hold(SECTION, "flip time against ln(1/delta), delta 1e-2 to 1e-15: 1 - R^2", 1e-3, 1.0 - r2);
-    hold(SECTION, "the same: relative distance of the slope from 1/lambda", 1e-2, (slope * lambda - 1.0).abs());
+    hold(SECTION, "flip time against ln(1/delta), delta 1e-2 to 1e-15: 1 - R^2", 5e-10, 1.0 - r2);
+    hold(SECTION, "the same: relative distance of the slope from 1/lambda", 3e-5, (slope * lambda - 1.0).abs());
 }
 
 /// Law: a row is marked ill conditioned exactly where a rounding decides the motion. Two minutes include the second approach to the
@@ -248,7 +248,8 @@ fn any_tolerance_passes() {
             largest_error(&format!("{method:?} at {tolerance:e}"), &rows(&plan))
         });
         println!("{method:?}: {errors:?}");
-        assert!(errors[0] < CONSERVED && errors[1] < 1.0, "{method:?}: {errors:?}");
+        // measured: 7.4e-16 and 1.4e-7
+        assert!(errors[0] < 6e-15 && errors[1] < 1e-6, "{method:?}: {errors:?}");
     }
 }
 
@@ -286,7 +287,7 @@ fn short_thrusts_are_not_missed() {
         println!("thrust for {length:e} s: impulse off by {off:e}");
         worst = worst.max(off);
     }
-    hold(SECTION, "thrust for 1e-6, 1e-9 and 1e-12 s: error of the impulse and of all balances", CONSERVED, worst);
+    hold(SECTION, "thrust for 1e-6, 1e-9 and 1e-12 s: error of the impulse and of all balances", 4e-15, worst);
 }
 
 /// The same scene in other units: lengths `length` and masses `mass` times as large.
@@ -347,5 +348,5 @@ fn units_do_not_matter() {
         let [rate, attitude] = crate::support::runs::rotation_distance(&other, &nominal);
         worst = worst.max(rate).max(attitude);
     }
-    hold(SECTION, "millimetres, kilometres, tonnes: distance from the same scene in metres after 10 s", 1e-12, worst);
+    hold(SECTION, "millimetres, kilometres, tonnes: distance from the same scene in metres after 10 s", 5e-14, worst);
 }

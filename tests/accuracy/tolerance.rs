@@ -111,8 +111,8 @@ fn methods_have_their_order() {
     }
 }
 
-/// How far a run may end from where it began, once forward and once back: 1e4 eps.
-const RETURN: f64 = 1e4 * f64::EPSILON;
+/// How far a run may end from where it began, once forward and once back: 1e3 eps.
+const RETURN: f64 = 1e3 * f64::EPSILON;
 
 /// Law: the equations do not know the direction of time: with all rates reversed a run returns to its start.
 #[test]

@@ -95,8 +95,8 @@ fn a_held_wheel_keeps_its_rate_and_its_angle_is_a_line() {
                 for (point, time) in grid.times().iter().enumerate() {
                     assert_eq!(run.table.column(StateField::WheelRates, w)[point].to_bits(), rate.to_bits());
                     let off = run.table.column(StateField::WheelAngles, w)[point] - (start + rate * time);
-                    // the null-space kernel adds up its steps
-                    assert!(off.abs() <= 1e-13 * (1.0 + rate.abs()), "{} {off:e}", method.name());
+                    // the null-space kernel adds up its steps; measured: 3e-16
+                    assert!(off.abs() <= 2e-15 * (1.0 + rate.abs()), "{} {off:e}", method.name());
                 }
             }
         }
@@ -130,7 +130,8 @@ fn mixing_up_the_two_inertias_is_seen() {
         }
         let wrong = distance(&run(Method::Taylor, TAYLOR, &mixed), &reference);
         println!("{:?}: right {right:e}, mixed up {wrong:e}", wheel.mode);
-        assert!(right < 1e-9 && wrong > 1e-6, "{right:e} {wrong:e}");
+        // measured: 4.7e-11
+        assert!(right < 4e-10 && wrong > 1e-6, "{right:e} {wrong:e}");
     }
     let (free, held) = (resolved(&free), resolved(&held));
     let apart = distance(&run(Method::Taylor, TAYLOR, &free), &run(Method::Taylor, TAYLOR, &held));
@@ -159,8 +160,8 @@ fn rotor(mode: WheelMode) -> SceneInput {
 #[test]
 fn a_torque_about_the_wheels_axis_has_a_closed_form() {
     const TAU: f64 = 0.5 * (200.0 - 100.0);
-    /// Rounding of a hundred steps; the axis is a quarter turn to 6e-17.
-    const BOUND: f64 = 1e-13;
+    /// Rounding of a hundred steps; the axis is a quarter turn to 6e-17. Measured: 5.6e-17, and 7.8e-17 of the work.
+    const BOUND: f64 = 5e-16;
     let grid = Grid::uniform(4.0, 9);
     for (method, tolerance) in
         [(Method::Taylor, TAYLOR), (Method::Gyrostat(Integrator::Dop853), 1e-13), (Method::NullSpace, 1e-13)]
@@ -207,10 +208,10 @@ fn an_axial_rotor_precesses_as_the_closed_form_says() {
             let (sine, cosine) = libm::sincos(rate * time);
             let expected = [0.3 * cosine - 0.4 * sine, 0.3 * sine + 0.4 * cosine, 1.5];
             let error = norm(difference(run.table.at(StateField::Rate, point), expected));
-            // an ulp of the rate of precession, times the time
-            assert!(error < 4.0 * f64::EPSILON * (1.0 + rate.abs() * time), "{}: {error:e} at {time}", method.name());
+            // an ulp of the rate of precession, times the time; measured: 0.3 of that
+            assert!(error < 2.0 * f64::EPSILON * (1.0 + rate.abs() * time), "{}: {error:e} at {time}", method.name());
             let work = wheel * scene.initial.wheel_rates[1] * (run.table.column(StateField::Rate, 2)[point] - 1.5);
-            assert!((run.table.column(StateField::Work, 1)[point] - work).abs() < 1e-12);
+            assert_eq!(run.table.column(StateField::Work, 1)[point], work);
         }
     }
 }
@@ -262,9 +263,10 @@ fn periods_carry_held_wheels_too() {
         folded += usize::from(auto.outcome.effort.steps * 4 < plain.outcome.effort.steps);
         let [rate, attitude] = rotation_distance(&auto.table, &plain.table);
         let angle = 200.0 * norm(scene.initial.omega_se_s);
-        assert!(rate.max(attitude) < 16.0 * f64::EPSILON * angle, "{rate:e} {attitude:e} over {angle} rad");
+        assert!(rate.max(attitude) < 2.0 * f64::EPSILON * angle, "{rate:e} {attitude:e} over {angle} rad");
         let [energy, momentum] = balances(&scene, &grid, &auto, true);
-        assert!(energy < BALANCE && momentum < BALANCE, "{energy:e} {momentum:e}");
+        // measured: 3.7e-16 and 3.5e-15
+        assert!(energy < 3e-15 && momentum < 3e-14, "{energy:e} {momentum:e}");
     }
     assert!(folded >= 4, "most of these have a period within the horizon: {folded}");
 }

@@ -1,385 +1,24 @@
 //! Bad campaign files: every message names file, line, key, value, what is allowed and a remedy; all errors of a file at once.
 
+use crate::bad_campaign_cases::{CASES, good};
 use spindrift::campaign::{CampaignError, Overrides, Plan, Problem};
-
-/// A valid file; each case changes some of its lines.
-const GOOD: &str = r#"[campaign]
-name = "bad"
-samples = 10
-seed = 1
-duration_s = 10.0
-[integrator]
-method = "dormand_prince"
-tolerance = 1e-10
-[observe]
-points = 11
-[fuselage]
-wall_thickness_m = 0.03
-outer_radius_m = 1.0
-length_m = 3.0
-density_kg_m3 = 2700.0
-thruster_offset_m = 0.5
-[wheel1]
-radius_m = 0.25
-length_m = 0.1
-station_m = 1.0
-density_kg_m3 = 2700.0
-[debris]
-side_m = 0.2
-density_kg_m3 = 2700.0
-[initial]
-attitude = [1, 0, 0, 0]
-angular_velocity_rad_s = [0, 3, 31]
-wheel_rates_rad_s = [314, 0]
-[[actuation]]
-start_s = 0.0
-end_s = 3.0
-thrust_n = [100, 0, 0]
-[[disperse]]
-parameter = "fuselage.density_kg_m3"
-distribution = "truncated_normal"
-relative_std = 0.02
-sigmas = 3
-"#;
 
 fn errors(text: &str) -> CampaignError {
     Plan::from_text("bad.toml", text, Overrides::default()).expect_err("a bad file")
 }
 
 fn changed(from: &str, to: &str) -> String {
-    assert!(GOOD.contains(from), "{from}");
-    GOOD.replacen(from, to, 1)
+    let good = good();
+    assert!(good.contains(from), "{from}");
+    good.replacen(from, to, 1)
 }
 
 #[test]
 fn the_good_file_is_good() {
-    if let Err(error) = Plan::from_text("bad.toml", GOOD, Overrides::default()) {
+    if let Err(error) = Plan::from_text("bad.toml", &good(), Overrides::default()) {
         panic!("{error}");
     }
 }
-
-/// What is changed, to what, and the whole message: exactly one problem each.
-const CASES: &[(&str, &str, &str)] = &[
-    // campaign
-    (
-        "name = \"bad\"\n",
-        "",
-        "bad.toml:1: campaign.name is missing: must be 1 to 100 letters, digits, _, - or . (not the first); add name = \"my_campaign\" to [campaign]",
-    ),
-    (
-        "name = \"bad\"",
-        "name = \"a/b\"",
-        "bad.toml:2: campaign.name = \"a/b\": must be 1 to 100 letters, digits, _, - or . (not the first); it names the folder of results: write it without spaces and slashes",
-    ),
-    ("name = \"bad\"", "name = 3", "bad.toml:2: campaign.name = 3: must be text; write it in quotes"),
-    (
-        "samples = 10",
-        "samples = 0",
-        "bad.toml:3: campaign.samples = 0: must be a whole number from 1 to 9007199254740992; write a number within this range",
-    ),
-    (
-        "samples = 10",
-        "samples = 1e3",
-        "bad.toml:3: campaign.samples = 1e3: must be a whole number from 1 to 9007199254740992; write it without a decimal point or exponent",
-    ),
-    (
-        "samples = 10",
-        "sampels = 10\nsamples = 10",
-        "bad.toml:3: campaign.sampels = 10: must be a key of [campaign] (name, samples, seed, duration_s); did you mean samples?",
-    ),
-    (
-        "seed = 1\n",
-        "seed = -1\n",
-        "bad.toml:4: campaign.seed = -1: must be a whole number from 0 to 9223372036854775807; write a number within this range",
-    ),
-    (
-        "seed = 1\n",
-        "",
-        "bad.toml:1: campaign.seed is missing: must be a whole number of at least 0; add seed = 1 to [campaign]",
-    ),
-    (
-        "duration_s = 10.0",
-        "duration_s = 0",
-        "bad.toml:5: campaign.duration_s = 0: must be a number > 0; write a positive number",
-    ),
-    (
-        "duration_s = 10.0",
-        "duration_s = inf",
-        "bad.toml:5: campaign.duration_s = inf: must be a number > 0; write a positive number",
-    ),
-    (
-        "duration_s = 10.0",
-        "duration_s = \"10\"",
-        "bad.toml:5: campaign.duration_s = \"10\": must be a number > 0; write it without quotes",
-    ),
-    // integrator
-    (
-        "\"dormand_prince\"",
-        "\"dormand_price\"",
-        "bad.toml:7: integrator.method = \"dormand_price\": must be one of auto, taylor, dormand_prince, dop853, runge_kutta_4, gauss_legendre_6, null_space; did you mean \"dormand_prince\"?",
-    ),
-    (
-        "\"dormand_prince\"",
-        "\"runge_kutta_4\"",
-        "bad.toml:6: integrator.step_s is missing: must be the step of method \"runge_kutta_4\", a number > 0; add step_s = 0.001 to [integrator]",
-    ),
-    (
-        "tolerance = 1e-10",
-        "step_s = 0.1",
-        "bad.toml:8: integrator.step_s = 0.1: must be left out with method \"dormand_prince\", which chooses its steps itself; delete it, or choose a method with a fixed step",
-    ),
-    (
-        "tolerance = 1e-10",
-        "tolerance = 1e-20",
-        "bad.toml:8: integrator.tolerance = 1e-20: must be a number from 1e-16 to 1e-2; 1e-10 is a good start",
-    ),
-    (
-        "tolerance = 1e-10",
-        "tolerance = [1e-10]",
-        "bad.toml:8: integrator.tolerance = [1e-10]: must be a number from 1e-16 to 1e-2; write one number, without brackets",
-    ),
-    (
-        "tolerance = 1e-10",
-        "max_steps = 0",
-        "bad.toml:8: integrator.max_steps = 0: must be a whole number from 1 to 9223372036854775807; write a number within this range",
-    ),
-    // observe, output, tables
-    (
-        "points = 11",
-        "points = 1",
-        "bad.toml:10: observe.points = 1: must be a whole number from 2 to 10000000; write a number within this range",
-    ),
-    ("points = 11", "groups = [\"enrgies\"]", "did you mean \"energies\"?"),
-    (
-        "points = 11",
-        "groups = []",
-        "bad.toml:10: observe.groups = []: must be at least one name; leave the key out for all of them",
-    ),
-    ("points = 11", "groups = \"effort\"", "must be an array of names; write it like ["),
-    (
-        "[observe]\npoints = 11",
-        "[output]\ncompression = \"zip\"",
-        "bad.toml:10: output.compression = \"zip\": must be one of lz4, zstd, none; choose one of these",
-    ),
-    ("[observe]", "[observ]", "bad.toml:9: observ = "),
-    (
-        "[[actuation]]",
-        "[actuation]",
-        "bad.toml:29: actuation = [actuation]: must be a list of tables; write [[actuation]] with two brackets",
-    ),
-    // scene
-    (
-        "wall_thickness_m = 0.03",
-        "wall_thickness_m = 1.2",
-        "bad.toml:12: fuselage.wall_thickness_m = 1.2: must be below fuselage.outer_radius_m = 1.0; make the wall thinner or the radius larger",
-    ),
-    (
-        "wall_thickness_m = 0.03",
-        "wall_thickness_m = \"thin\"",
-        "bad.toml:12: fuselage.wall_thickness_m = \"thin\": must be a finite number; write a number",
-    ),
-    (
-        "length_m = 3.0\n",
-        "",
-        "bad.toml:11: fuselage.length_m is missing: must be a finite number; add length_m = 3.0 to [fuselage]",
-    ),
-    (
-        "length_m = 3.0",
-        "length_m = nan",
-        "bad.toml:14: fuselage.length_m = nan: must be a finite number; write a number such as 1.5",
-    ),
-    (
-        "density_kg_m3 = 2700.0",
-        "density_kg_m3 = -1",
-        "bad.toml:15: fuselage.density_kg_m3 = -1.0: must be above zero; write a positive number",
-    ),
-    (
-        "thruster_offset_m = 0.5\n",
-        "",
-        "bad.toml:11: fuselage.thruster_offset_m is missing: must be a finite number; add thruster_offset_m = 0.5 to [fuselage]",
-    ),
-    (
-        "thruster_offset_m = 0.5",
-        "thruster_offset_m = 0.5\ninertia_kg_m2 = [[1, 0, 0], [0, 1, 0], [0, 0, 3]]",
-        "bad.toml:17: fuselage.inertia_kg_m2 = ",
-    ),
-    (
-        "thruster_offset_m = 0.5",
-        "thruster_offset_m = 0.5\ninertia_kg_m2 = [1, 1, 2]",
-        "bad.toml:17: fuselage.inertia_kg_m2 = [1, 1, 2]: must be three rows of three finite numbers; write it like [[3, 0, 0], [0, 3, 0], [0, 0, 2]]",
-    ),
-    (
-        "radius_m = 0.25",
-        "radius_m = 0",
-        "bad.toml:18: wheel1.radius_m = 0.0: must be above zero; write a positive number",
-    ),
-    (
-        "radius_m = 0.25",
-        "radius = 0.25\nradius_m = 0.25",
-        "bad.toml:18: wheel1.radius = 0.25: must be a key of [wheel1] (radius_m, length_m, station_m, density_kg_m3, offset_m, tilt_rad, wheel_mode); did you mean radius_m?",
-    ),
-    (
-        "side_m = 0.2",
-        "side_m = 0.2\nsize_m = [1, 1, 1]",
-        "bad.toml:24: debris.size_m = [1, 1, 1]: must be left out where side_m is given; delete side_m or size_m",
-    ),
-    (
-        "side_m = 0.2",
-        "size_m = [1, 1]",
-        "bad.toml:23: debris.size_m = [1, 1]: must be an array of 3 finite numbers; write it like [0, 0, 0]",
-    ),
-    // initial
-    (
-        "attitude = [1, 0, 0, 0]",
-        "attitude = [1, 1, 0, 0]",
-        "bad.toml:26: initial.attitude = [1.0, 1.0, 0.0, 0.0]: must be a quaternion of norm 1",
-    ),
-    (
-        "angular_velocity_rad_s = [0, 3, 31]\n",
-        "",
-        "bad.toml:25: initial.angular_velocity_rad_s is missing: must be an array of 3 finite numbers; add angular_velocity_rad_s = [0.0, 0.0, 1.0] to [initial]",
-    ),
-    (
-        "angular_velocity_rad_s = [0, 3, 31]",
-        "angular_velocity_rad_s = [0, 3, inf]",
-        "bad.toml:27: initial.angular_velocity_rad_s = [0, 3, inf]: must be an array of 3 finite numbers; write it like [0, 0, 0]",
-    ),
-    (
-        "wheel_rates_rad_s = [314, 0]",
-        "wheel_rates_rad_s = [314, 157]",
-        "bad.toml:28: initial.wheel_rates_rad_s = [314, 157]: must be 0 for wheel 2, which this spacecraft does not have; write 0 there, or add a [wheel2] table",
-    ),
-    (
-        "[debris]\nside_m = 0.2\ndensity_kg_m3 = 2700.0\n[initial]",
-        "[initial]\ndebris_position_m = [0, 0, 0]",
-        "bad.toml:23: initial.debris_position_m = [0, 0, 0]: must be left out where there is no debris; delete this line, or add a [debris] table",
-    ),
-    // actuation
-    (
-        "end_s = 3.0",
-        "end_s = 0.0",
-        "bad.toml:31: actuation[0].end_s = 0.0: must be later than its start_s = 0.0; end the arc after its start, or leave it out",
-    ),
-    (
-        "thrust_n = [100, 0, 0]",
-        "thrust_n = [-100, 0, 0]",
-        "bad.toml:32: actuation[0].thrust_n = [-100.0, 0.0, 0.0]: must be zero or above, each: a thruster does not pull; use the opposite thruster",
-    ),
-    (
-        "thrust_n = [100, 0, 0]",
-        "torque_n_m = [0, 1]",
-        "bad.toml:32: actuation[0].torque_n_m = [0.0, 1.0]: must be zero for wheel2",
-    ),
-    (
-        "thrust_n = [100, 0, 0]",
-        "thrust_n = [100, 0, 0]\n[[actuation]]\nstart_s = 2.0\nend_s = 4.0",
-        "bad.toml:34: actuation[1].start_s = 2.0: must be no earlier than actuation[0].end_s = 3.0; put the arcs in order, not overlapping",
-    ),
-    // disperse
-    (
-        "\"fuselage.density_kg_m3\"",
-        "\"fuselage.density\"",
-        "bad.toml:34: disperse[0].parameter = \"fuselage.density\": must be a numeric key of scene or initial state, as a whole or with a component ([0] or .x); did you mean \"fuselage.density_kg_m3\"?",
-    ),
-    (
-        "\"fuselage.density_kg_m3\"",
-        "\"fuselage.mass_kg\"",
-        "bad.toml:34: disperse[0].parameter = \"fuselage.mass_kg\": must be a key that the scene has; give fuselage.mass_kg a nominal value, or disperse the geometry that it would come from",
-    ),
-    (
-        "\"fuselage.density_kg_m3\"",
-        "\"wheel2.radius_m\"",
-        "bad.toml:34: disperse[0].parameter = \"wheel2.radius_m\": must be a key that the scene has; add a [wheel2] table",
-    ),
-    (
-        "\"fuselage.density_kg_m3\"",
-        "\"debris.size_m\"",
-        "bad.toml:34: disperse[0].parameter = \"debris.size_m.x\": must be a key that the scene has; describe the debris by debris.size_m",
-    ),
-    (
-        "\"truncated_normal\"",
-        "\"gaussian\"",
-        "bad.toml:35: disperse[0].distribution = \"gaussian\": must be one of normal, truncated_normal, uniform, log_normal, log_uniform, triangular, beta, pert, choice, bernoulli, empirical, offset, rayleigh, uniform_attitude, uniform_direction, cone, von_mises_fisher, attitude_error, about_axis; choose one of these",
-    ),
-    (
-        "\"truncated_normal\"",
-        "\"normal\"",
-        "bad.toml:37: disperse[0].sigmas = 3: must be a key of [disperse[0]] (parameter, distribution, std, relative_std); delete it",
-    ),
-    (
-        "relative_std = 0.02",
-        "relative_std = -0.02",
-        "bad.toml:36: disperse[0].relative_std = -0.02: must be >= 0; drop the minus sign",
-    ),
-    (
-        "relative_std = 0.02",
-        "relative_std = \"2%\"",
-        "bad.toml:36: disperse[0].relative_std = \"2%\": must be a finite number, or an array of one for each component; write a number",
-    ),
-    (
-        "relative_std = 0.02",
-        "relative_std = [0.1, 0.2]",
-        "bad.toml:36: disperse[0].relative_std = [0.1, 0.2]: must be 1 number; give one for each component",
-    ),
-    (
-        "relative_std = 0.02",
-        "std = 1\nrelative_std = 0.02",
-        "bad.toml:37: disperse[0].relative_std = 0.02: must be the only one of std, relative_std; delete all but one of them",
-    ),
-    (
-        "relative_std = 0.02\n",
-        "",
-        "bad.toml:33: disperse[0].std is missing: must be given (std or relative_std); add std = 0.1 to this table",
-    ),
-    (
-        "\"fuselage.density_kg_m3\"",
-        "\"initial.position_m\"",
-        "bad.toml:36: disperse[0].relative_std = 0.02: must be relative to a nominal value other than 0; use std in the parameter's unit",
-    ),
-    (
-        "sigmas = 3",
-        "sigmas = 0",
-        "bad.toml:37: disperse[0].sigmas = 0.0: must be > 0; 3 cuts off 0.27% of the normal distribution",
-    ),
-    (
-        "sigmas = 3",
-        "sigmas = 3\nupper = 3000",
-        "bad.toml:38: disperse[0].upper = 3000: must be the only one of sigmas, upper; delete all but one of them",
-    ),
-    (
-        "sigmas = 3",
-        "lower = 3000\nupper = 2000",
-        "bad.toml:37: disperse[0].lower = 3000.0: must be < upper (2000.0); swap lower and upper",
-    ),
-    (
-        "sigmas = 3",
-        "lower = 9000",
-        "must be bounds with some of the normal distribution of mean 2700.0 and standard deviation 54.0 between them; move the bounds to the nominal, or widen them",
-    ),
-    (
-        "\"truncated_normal\"\nrelative_std = 0.02\nsigmas = 3",
-        "\"uniform\"\nmin = 3000\nmax = 2000",
-        "bad.toml:36: disperse[0].min = 3000.0: must be < max (2000.0); swap min and max",
-    ),
-    (
-        "\"truncated_normal\"\nrelative_std = 0.02\nsigmas = 3",
-        "\"uniform\"\nmax = 2000",
-        "bad.toml:33: disperse[0].min is missing: must be given together with max; add min = 0.0 to this table",
-    ),
-    (
-        "\"truncated_normal\"\nrelative_std = 0.02\nsigmas = 3",
-        "\"uniform\"\nhalf_width = -1",
-        "bad.toml:36: disperse[0].half_width = -1.0: must be >= 0; drop the minus sign",
-    ),
-    (
-        "sigmas = 3\n",
-        "sigmas = 3\n[[disperse]]\nparameter = \"fuselage.density_kg_m3\"\ndistribution = \"normal\"\nstd = 1\n",
-        "bad.toml:39: disperse[1].parameter = \"fuselage.density_kg_m3\": must be dispersed once; delete one of the two [[disperse]] tables, or address different components",
-    ),
-    // TOML itself
-    ("seed = 1\n", "seed = = 1\n", "bad.toml:4: line = "),
-    ("seed = 1\n", "seed = 1\nseed = 2\n", "bad.toml:5: line = "),
-];
 
 #[test]
 fn every_error_gives_line_key_value_range_and_remedy() {
@@ -404,7 +43,7 @@ fn every_error_gives_line_key_value_range_and_remedy() {
 
 #[test]
 fn all_errors_of_a_file_come_at_once_in_the_order_of_lines() {
-    let mut text = GOOD.to_owned();
+    let mut text = good();
     for (from, to) in [
         ("seed = 1\n", "sede = 1\n"),
         ("1e-10", "\"fine\""),
@@ -450,8 +89,11 @@ fn an_empty_file_asks_for_its_tables() {
 
 #[test]
 fn overrides_are_checked_too() {
-    let error =
-        Plan::from_text("bad.toml", GOOD, Overrides { samples: Some(0), seed: Some(u64::MAX), ..Overrides::default() });
+    let error = Plan::from_text(
+        "bad.toml",
+        &good(),
+        Overrides { samples: Some(0), seed: Some(u64::MAX), ..Overrides::default() },
+    );
     let keys: Vec<String> = error.expect_err("bad overrides").problems.into_iter().map(|p| p.key).collect();
     assert_eq!(keys, ["--samples", "--seed"]);
 }

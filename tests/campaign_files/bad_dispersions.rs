@@ -141,6 +141,14 @@ const CASES: &[&str] = &[
     "[design]\nkind = \"table\"\nfile = \"data.csv\"\nparameters = [\"wheel1.radius_m\", \"wheel1.length_m\"]\n",
     "[design]\nkind = \"table\"\nfile = \"data.csv\"\nparameters = [\"wheel2.radius_m\"]\n",
     concat!("[design]\nkind = \"table\"\nfile = \"data.csv\"\nparameters = [\"wheel1.radius_m\"]\n", pair!("")),
+    // distributions with a shape; ends beyond the largest number
+    "[[disperse]]\nparameter = \"wheel1.radius_m\"\ndistribution = \"gamma\"\nshape = 0.001\nscale = 1\n",
+    "[[disperse]]\nparameter = \"wheel1.radius_m\"\ndistribution = \"weibull\"\nshape = 2\nscale = 0\n",
+    "[[disperse]]\nparameter = \"wheel1.radius_m\"\ndistribution = \"exponential\"\nmin = 0.1\n",
+    "[[disperse]]\nparameter = \"wheel1.radius_m\"\ndistribution = \"student_t\"\ndegrees_of_freedom = 0.1\nscale = 1\n",
+    "[[disperse]]\nparameter = \"wheel1.radius_m\"\ndistribution = \"student_t\"\ndegrees_of_freedom = 3\n",
+    "[[disperse]]\nparameter = \"fuselage.density_kg_m3\"\ndistribution = \"log_uniform\"\nfactor = 1e308\n",
+    "[[disperse]]\nparameter = \"fuselage.density_kg_m3\"\ndistribution = \"uniform\"\nrelative_half_width = 1e307\n",
     // correlation
     pair!("[[correlate]]\ncorrelation = [[1, 0], [0, 1]]"),
     pair!("[[correlate]]\nparameters = [\"fuselage.density_kg_m3\", \"wheel1.radius_m\"]"),
@@ -192,6 +200,11 @@ const CASES: &[&str] = &[
         pair!(
             "[[correlate]]\nparameters = [\"fuselage.density_kg_m3\", \"wheel1.radius_m\"]\ncorrelation = [[1, 0.5], [0.5, 1]]"
         )
+    ),
+    pair!("[[correlate]]\nparameters = [\"fuselage.density_kg_m3\", \"wheel1.radius_m\"]\ncorrelation = 1.5"),
+    pair!("[[correlate]]\nparameters = [\"wheel1.radius_m\"]\ncorrelation = 0.5"),
+    pair!(
+        "[[correlate]]\nparameters = [\"fuselage.density_kg_m3\", \"wheel1.radius_m\"]\ncorrelation = 0.5\n[[correlate]]\nparameters = [\"wheel1.radius_m\", \"fuselage.density_kg_m3\"]\nrank_correlation = 0.4"
     ),
     // derived
     "[[derive]]\nparameter = \"wheel1.radius_m\"\nexpression = \"0.25 / initial.position_m.x\"\n",

@@ -1,5 +1,9 @@
 //! Campaign files: what is read, what is refused, and the messages.
 
+#[path = "../support/mod.rs"]
+mod support;
+
+mod bad_campaign_cases;
 mod bad_campaigns;
 mod bad_dispersions;
 mod shipped;

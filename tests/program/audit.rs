@@ -145,7 +145,7 @@ fn a_loose_tolerance_is_caught() {
     };
     let (loose, tight, smallest) = (at(1e-6), at(1e-10), at(1e-16));
     assert!(loose > 1e3 * tight && tight > smallest, "{loose:e} {tight:e} {smallest:e}");
-    assert!(smallest < 1e-12 && loose > 1e-7, "{smallest:e} {loose:e}");
+    assert!(smallest < 5e-14 && loose > 1e-7, "{smallest:e} {loose:e}");
 }
 
 /// Law: a kernel with an error of 1e-9 in one moment of inertia is detected: its errors exceed every estimate.
@@ -159,7 +159,7 @@ fn a_wrong_kernel_is_caught() {
     wrong.mass.inertia[0][0] *= 1.0 + 1e-9;
     let mut auditor = Auditor::new(&plan, Isa::best(), &plan.grid);
     let (right, caught) = (auditor.audit(&scene).unwrap(), auditor.compare(&wrong, &scene).unwrap());
-    assert!(right.estimate >= right.state() && right.state() < 1e-11, "{:e}", right.state());
+    assert!(right.estimate >= right.state() && right.state() < 9e-13, "{:e}", right.state());
     assert!(caught.state() > 10.0 * caught.estimate && caught.state() > 1e-9, "{:e}", caught.state());
 }
 
@@ -233,7 +233,7 @@ fn the_program_audits() {
         assert_eq!(state[row].is_some(), attitude[row].is_some());
         if let (Some(state), Some(omega), Some(attitude)) = (state[row], omega[row], attitude[row]) {
             assert_eq!(state, omega.max(attitude));
-            assert!(state > 0.0 && state < 1e-7);
+            assert!(state > 0.0 && state < 8e-10);
             covered += usize::from(estimate[row].unwrap() >= state);
         }
     }
@@ -255,7 +255,7 @@ fn the_program_audits() {
     };
     // the energy transfer varies by tens of joules, for physical reasons; an energy error is purely numerical
     let share = |name: &str| line(name)["share_of_spread"].as_f64().unwrap();
-    assert!(share("exchange_wheel1_peak_to_peak_j") < 1e-6);
+    assert!(share("exchange_wheel1_peak_to_peak_j") < 6e-10);
     assert!(share("energy_error_max") > 0.1);
     assert!(line("steps").is_null(), "steps have no truth");
 

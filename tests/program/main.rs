@@ -4,9 +4,16 @@
 mod support;
 
 mod audit;
-mod cli;
+mod campaign_command;
+mod commands;
 mod csv_digits;
+mod memory;
 mod motion;
 mod observation;
+mod observation_columns;
+mod observation_golden;
+mod observed_tables;
 mod precision;
 mod result_files;
+mod simulate_command;
+mod small_campaign;

@@ -3,7 +3,6 @@
 
 use std::collections::BTreeMap;
 use std::fs::{self, File};
-use std::path::PathBuf;
 
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float64Type, UInt64Type};
@@ -16,10 +15,11 @@ use spindrift::campaign::{Overrides, Plan};
 use spindrift::ensemble::Ensemble;
 use spindrift::math::Isa;
 
+use crate::support::campaigns::{FUSELAGE, SPACECRAFT_STATE, SPIN_DISPERSION, WHEEL1, WHEEL2};
 use crate::support::scratch_folder::{ScratchFolder, batches};
 
 /// Spins differ from sample to sample, and some 7% of the runs need more steps than they may take.
-const CAMPAIGN: &str = r#"
+const HEAD: &str = r#"
 [campaign]
 name = "limited"
 samples = 1500
@@ -31,41 +31,11 @@ tolerance = 1e-9
 max_steps = 40
 [observe]
 points = 11
-[fuselage]
-wall_thickness_m = 0.03
-outer_radius_m = 1.0
-length_m = 3.0
-density_kg_m3 = 2700.0
-thruster_offset_m = 0.5
-[wheel1]
-radius_m = 0.25
-length_m = 0.1
-station_m = 1.0
-density_kg_m3 = 2700.0
-[wheel2]
-radius_m = 0.25
-length_m = 0.1
-station_m = 2.0
-density_kg_m3 = 2700.0
-[initial]
-position_m = [0, 0, 0]
-velocity_m_s = [10, 0, 0]
-attitude = [1, 0, 0, 0]
-angular_velocity_rad_s = [0, 3.141592653589793, 31.41592653589793]
-wheel_angles_rad = [0, 0]
-wheel_rates_rad_s = [314.1592653589793, 157.07963267948966]
-[[disperse]]
-parameter = "initial.angular_velocity_rad_s"
-distribution = "normal"
-std = [0.5, 0.5, 1.5]
 "#;
 
-/// The files of rows of the result in `folder`, in their order.
-fn parts(folder: &ScratchFolder, result: &str) -> Vec<PathBuf> {
-    let entries = fs::read_dir(folder.0.join(result).join("runs")).unwrap();
-    let mut files: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
-    files.sort();
-    files
+/// The text of the campaign.
+fn campaign() -> String {
+    [HEAD, FUSELAGE, WHEEL1, WHEEL2, SPACECRAFT_STATE, SPIN_DISPERSION].concat()
 }
 
 fn run(folder: &ScratchFolder, text: &str, arguments: &str, code: i32) -> String {
@@ -94,10 +64,10 @@ fn rows(batch: &RecordBatch, name: &str) -> Vec<(u64, String, Option<f64>)> {
 #[test]
 fn the_summary_is_that_of_the_files() {
     let folder = ScratchFolder::new("statistics");
-    let said = run(&folder, CAMPAIGN, "--out r", 1);
+    let said = run(&folder, &campaign(), "--out r", 1);
     assert!(said.contains("1499 dispersed + nominal"), "{said}");
     let summary: Value = serde_json::from_str(&fs::read_to_string(folder.0.join("r/summary.json")).unwrap()).unwrap();
-    let tables: Vec<RecordBatch> = parts(&folder, "r").iter().flat_map(|file| batches(file)).collect();
+    let tables: Vec<RecordBatch> = folder.part_files("r").iter().flat_map(|file| batches(file)).collect();
     let column =
         |name: &str| -> Vec<(u64, String, Option<f64>)> { tables.iter().flat_map(|t| rows(t, name)).collect() };
 
@@ -144,10 +114,10 @@ fn the_summary_is_that_of_the_files() {
 fn files_say_what_they_contain() {
     for (name, codec) in [("lz4", Compression::LZ4_RAW), ("none", Compression::UNCOMPRESSED)] {
         let folder = ScratchFolder::new(&format!("codec-{name}"));
-        let text = format!("{CAMPAIGN}[output]\ncompression = \"{name}\"\n");
+        let text = format!("{}[output]\ncompression = \"{name}\"\n", campaign());
         run(&folder, &text, "--samples 600 --out r", 1);
         let mut next = 0;
-        for (part, file) in parts(&folder, "r").iter().enumerate() {
+        for (part, file) in folder.part_files("r").iter().enumerate() {
             let reader = ParquetRecordBatchReaderBuilder::try_new(File::open(file).unwrap()).unwrap();
             let of_file: BTreeMap<String, String> =
                 reader.schema().metadata().iter().map(|(key, value)| (key.clone(), value.clone())).collect();
@@ -188,10 +158,11 @@ fn files_say_what_they_contain() {
 #[test]
 fn the_hash_covers_every_key() {
     let plan = |text: &str| Plan::from_text("own", text, Overrides::default());
-    let original = plan(CAMPAIGN).unwrap();
+    let text = campaign();
+    let original = plan(&text).unwrap();
     let digest: String = Sha256::digest(original.text().as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect();
     assert_eq!(original.hash(), digest);
-    let lines: Vec<&str> = CAMPAIGN.lines().collect();
+    let lines: Vec<&str> = text.lines().collect();
     let mut changed = 0;
     for (index, line) in lines.iter().enumerate() {
         let Some((key, value)) = line.split_once(" = ") else { continue };

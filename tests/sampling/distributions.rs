@@ -8,13 +8,18 @@ use spindrift::sampling::distribution::Quantile;
 use spindrift::sampling::distribution::beta::BetaQuantile;
 use spindrift::sampling::distribution::choice::ChoiceQuantile;
 use spindrift::sampling::distribution::empirical::{EmpiricalQuantile, Interpolation};
+use spindrift::sampling::distribution::exponential::ExponentialQuantile;
+use spindrift::sampling::distribution::gamma::GammaQuantile;
 use spindrift::sampling::distribution::log_normal::LogNormalQuantile;
 use spindrift::sampling::distribution::log_uniform::LogUniformQuantile;
 use spindrift::sampling::distribution::normal::NormalQuantile;
+use spindrift::sampling::distribution::pert::PertQuantile;
 use spindrift::sampling::distribution::rayleigh::RayleighQuantile;
+use spindrift::sampling::distribution::student_t::StudentTQuantile;
 use spindrift::sampling::distribution::triangular::TriangularQuantile;
 use spindrift::sampling::distribution::truncated_normal::TruncatedNormalQuantile;
 use spindrift::sampling::distribution::uniform::UniformQuantile;
+use spindrift::sampling::distribution::weibull::WeibullQuantile;
 use spindrift::sampling::{Distribution, SampleId, Stream};
 
 /// The law that a row of the golden table names.
@@ -26,7 +31,7 @@ fn law(name: &str, p: &[f64]) -> Distribution {
         "log_uniform" => Distribution::LogUniform(LogUniformQuantile::new(p[0], p[1])),
         "triangular" => Distribution::Triangular(TriangularQuantile { min: p[0], mode: p[1], max: p[2] }),
         "beta" => Distribution::Beta(BetaQuantile::new(p[0], p[1], p[2], p[3])),
-        "pert" => Distribution::Beta(BetaQuantile::pert(p[0], p[1], p[2])),
+        "pert" => Distribution::Pert(PertQuantile::new(p[0], p[1], p[2])),
         "truncated_normal" => Distribution::TruncatedNormal(
             TruncatedNormalQuantile::new(p[0], p[1], p[2], p[3]).expect("mass between the bounds"),
         ),
@@ -61,6 +66,71 @@ fn quantiles_are_those_of_scipy() {
         }
     }
     assert!(wrong.is_empty(), "{} of {}\n{}", wrong.len(), rows.len(), wrong.join("\n"));
+}
+
+/// The distributions that a row of mpmath's table names; of beta that from 0 to 1, and from -1 to 0.
+fn laws_of(name: &str, p: &[f64]) -> Vec<Distribution> {
+    let beta = |min, max| Distribution::Beta(BetaQuantile::new(p[0], p[1], min, max));
+    match name {
+        "beta" => vec![beta(0.0, 1.0), beta(-1.0, 0.0)],
+        "gamma" => vec![Distribution::Gamma(GammaQuantile::new(p[0], 1.0, 0.0))],
+        "student_t" => vec![Distribution::StudentT(StudentTQuantile::new(p[0], 0.0, 1.0))],
+        "weibull" => vec![Distribution::Weibull(WeibullQuantile { shape: p[0], scale: 1.0, min: 0.0 })],
+        "exponential" => vec![Distribution::Exponential(ExponentialQuantile { scale: 1.0, min: 0.0 })],
+        other => panic!("{other}"),
+    }
+}
+
+/// Quantiles in 30 digits (mpmath) of beta, gamma, Student's t, Weibull and exponential distributions, of very skewed shapes too:
+/// relative error of the value, of a beta distribution of its distance from either end, below 1e-12.
+#[test]
+fn quantiles_are_those_of_mpmath() {
+    let golden: Value = serde_json::from_str(include_str!("../golden/quantiles_mpmath.json")).expect("JSON");
+    let rows = golden["rows"].as_array().expect("rows");
+    let mut worst: std::collections::BTreeMap<String, f64> = Default::default();
+    let mut made: Option<(String, Vec<Distribution>)> = None;
+    for row in rows {
+        let p: Vec<f64> = row[1].as_array().expect("parameters").iter().map(number).collect();
+        let (name, u, value) = (row[0].as_str().expect("a name"), number(&row[2]), number(&row[3]));
+        let key = format!("{name} {p:?}");
+        if made.as_ref().is_none_or(|(other, _)| *other != key) {
+            made = Some((key.clone(), laws_of(name, &p)));
+        }
+        let ours: Vec<f64> = made.iter().flat_map(|(_, laws)| laws.iter().map(|law| law.quantile(u))).collect();
+        // the pairs (ours, theirs) that must agree; a median of zero is compared with 1
+        let pairs = match name {
+            "beta" => vec![(ours[0], value), (-ours[1], number(&row[4]))],
+            _ if value == 0.0 => vec![(1.0 + ours[0], 1.0)],
+            _ => vec![(ours[0], value)],
+        };
+        for (ours, theirs) in pairs {
+            let error = (ours / theirs - 1.0).abs();
+            let most = worst.entry(key.clone()).or_default();
+            *most = most.max(error);
+        }
+    }
+    assert!(rows.len() > 180, "{}", rows.len());
+    let wrong: Vec<_> = worst.iter().filter(|(_, error)| **error > 1e-12).collect();
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// Law: numbers near the largest give values all over their range.
+#[test]
+fn extremes_are_finite() {
+    let laws = [
+        law("log_uniform", &[1e-300, 1e300]),
+        law("triangular", &[-1e160, 0.0, 1e160]),
+        law("triangular", &[-1.7e308, 0.0, 1.7e308]),
+        law("uniform", &[-1.7e308, 1.7e308]),
+        law("beta", &[2.0, 3.0, -1.7e308, 1.7e308]),
+        law("pert", &[-1.7e308, 0.0, 1.7e308]),
+        Distribution::Empirical(EmpiricalQuantile::new(&[-1.7e308, 1.7e308], Interpolation::Linear)),
+    ];
+    for law in laws {
+        let values = [1e-16, 1e-3, 0.3, 0.5, 0.7, 0.999, 1.0 - 1e-16].map(|u| law.quantile(u));
+        assert!(values.iter().all(|x| x.is_finite()) && values.is_sorted(), "{law:?} {values:?}");
+        assert!(values[1] < values[2] && values[4] < values[5], "{law:?} {values:?}");
+    }
 }
 
 fn number(value: &Value) -> f64 {
@@ -121,7 +191,7 @@ fn draws_follow_their_distributions() {
     assert!(distance(&draws(&Distribution::Beta(BetaQuantile::new(2.0, 3.06, 0.0, 1.0))), beta) > CRITICAL);
     // PERT from 0 to 4 with mode 4/3: shapes 1 + 4/3 and 1 + 8/3; with mode 1: 2 and 4, I_x(2, 4) = 1 - (1-x)^4 (1 + 4 x)
     let pert = |x: f64| 1.0 - (1.0 - x / 4.0).powi(4) * (1.0 + x);
-    assert!(distance(&draws(&Distribution::Beta(BetaQuantile::pert(0.0, 1.0, 4.0))), pert) < CRITICAL);
+    assert!(distance(&draws(&Distribution::Pert(PertQuantile::new(0.0, 1.0, 4.0))), pert) < CRITICAL);
 
     let rayleigh = |scale: f64| move |x: f64| 1.0 - (-0.5 * (x / scale).powi(2)).exp();
     let values = draws(&Distribution::Rayleigh(RayleighQuantile::new(0.02)));

@@ -7,6 +7,7 @@ mod dependence;
 mod designs;
 mod dispersable;
 mod distributions;
+mod effect;
 mod geometric;
 mod replay;
 mod streams;

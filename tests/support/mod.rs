@@ -1,6 +1,7 @@
 //! Code that several test programs share; each of them uses a part.
 #![allow(dead_code)] // every file under tests/ is a program of its own and compiles all of this
 
+pub mod campaigns;
 pub mod claims;
 pub mod exact;
 pub mod extrapolation;

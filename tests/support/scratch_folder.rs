@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use arrow_array::RecordBatch;
+use arrow_array::cast::AsArray;
+use arrow_array::types::Float64Type;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 
 /// A folder of its own for each test, removed at its end.
@@ -19,18 +21,47 @@ impl ScratchFolder {
         ScratchFolder(folder)
     }
 
-    /// Runs a command on a shipped campaign and checks the exit code; returns both output streams.
+    /// Writes the file `name` with the content `text`.
+    pub fn file(&self, name: &str, text: &str) {
+        fs::write(self.path(name), text).unwrap();
+    }
+
+    /// The path of the file or folder `name`.
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.0.join(name)
+    }
+
+    /// Runs the program in the folder and checks the exit code; returns both output streams.
+    pub fn prints(&self, arguments: &str, code: i32) -> String {
+        self.outputs(Command::new(env!("CARGO_BIN_EXE_spindrift")).args(arguments.split_whitespace()), code)
+    }
+
+    /// The same with a command on a shipped campaign.
     pub fn says(&self, command: &str, campaign: &str, arguments: &str, code: i32) -> String {
-        let output = Command::new(env!("CARGO_BIN_EXE_spindrift"))
-            .arg(command)
-            .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns").join(campaign))
-            .args(arguments.split_whitespace())
-            .current_dir(&self.0)
-            .output()
-            .unwrap();
+        let campaign = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns").join(campaign);
+        let mut program = Command::new(env!("CARGO_BIN_EXE_spindrift"));
+        self.outputs(program.arg(command).arg(campaign).args(arguments.split_whitespace()), code)
+    }
+
+    fn outputs(&self, program: &mut Command, code: i32) -> String {
+        let output = program.current_dir(&self.0).output().unwrap();
         let said = format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
-        assert_eq!(output.status.code(), Some(code), "{command} {campaign} {arguments}:\n{said}");
+        assert_eq!(output.status.code(), Some(code), "{program:?}:\n{said}");
         said
+    }
+
+    /// The files of rows of `result`, in their order.
+    pub fn part_files(&self, result: &str) -> Vec<PathBuf> {
+        let entries = fs::read_dir(self.path(result).join("runs")).unwrap();
+        let mut files: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
+        files.sort();
+        files
+    }
+
+    /// Names and contents of the files of rows of `result`.
+    pub fn parts(&self, result: &str) -> Vec<(String, Vec<u8>)> {
+        let content = |path: PathBuf| (path.file_name().unwrap().to_str().unwrap().to_owned(), fs::read(path).unwrap());
+        self.part_files(result).into_iter().map(content).collect()
     }
 
     /// The first batch of a Parquet file in the folder.
@@ -40,10 +71,16 @@ impl ScratchFolder {
     }
 }
 
-/// All batches of a Parquet file.
+/// All batches of a Parquet file: one for each row group.
 pub fn batches(path: &Path) -> Vec<RecordBatch> {
-    let reader = ParquetRecordBatchReaderBuilder::try_new(File::open(path).unwrap()).unwrap().build().unwrap();
-    reader.map(|batch| batch.unwrap()).collect()
+    let reader = ParquetRecordBatchReaderBuilder::try_new(File::open(path).unwrap()).unwrap().with_batch_size(1 << 20);
+    reader.build().unwrap().map(Result::unwrap).collect()
+}
+
+/// The numbers of the column `name`.
+pub fn floats(batch: &RecordBatch, name: &str) -> Vec<f64> {
+    let column = batch.column_by_name(name).unwrap_or_else(|| panic!("no column {name}"));
+    column.as_primitive::<Float64Type>().values().to_vec()
 }
 
 impl Drop for ScratchFolder {

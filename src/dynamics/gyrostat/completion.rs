@@ -35,19 +35,16 @@ pub fn components(has: impl Fn(StateField) -> bool, thrust: bool, motors: bool) 
     }
 }
 
-/// Fills the spacecraft's fields of `table` from the first `N` integrated components; fields that need components beyond
-/// them are those of a run without thrust or motors.
+/// Fills the spacecraft's fields of `table` from the integrated components; fields that need components beyond those of
+/// `trajectory` are those of a run without thrust or motors.
+///
+/// How many components there are is asked here and not a parameter of the type: one copy for all kernels, at no measurable cost.
 #[inline(always)]
-pub fn complete<S: Simd, const N: usize>(
-    simd: S,
-    run: &Gyrostat<f64>,
-    trajectory: &Trajectory,
-    grid: &Grid,
-    table: &mut StateTable,
-) {
-    complete_rotation::<S, N>(simd, run, trajectory, table);
+pub fn complete<S: Simd>(simd: S, run: &Gyrostat<f64>, trajectory: &Trajectory, grid: &Grid, table: &mut StateTable) {
+    complete_rotation(simd, run, trajectory, table);
     let times = grid.padded_times();
-    let wheels = table.has(StateField::WheelRates) || N >= WITH_ANGLES && table.has(StateField::WheelAngles);
+    let wheels = table.has(StateField::WheelRates)
+        || trajectory.components() >= WITH_ANGLES && table.has(StateField::WheelAngles);
     let translation = [
         StateField::ComPosition,
         StateField::ComVelocity,
@@ -56,31 +53,22 @@ pub fn complete<S: Simd, const N: usize>(
         StateField::Work,
     ];
     let translation = translation.into_iter().any(|field| table.has(field));
-    if !wheels && !translation {
-        return;
+    if wheels {
+        for first in (0..table.stride()).step_by(WIDTH) {
+            complete_wheels(Chunk { simd, first }, run, trajectory, &times[first..first + WIDTH], table);
+        }
     }
-    for first in (0..table.stride()).step_by(WIDTH) {
-        let chunk = Chunk { simd, first };
-        let omega_b = chunk.read3(trajectory, OMEGA);
-        if wheels {
-            complete_wheels::<S, N>(chunk, run, trajectory, &times[first..first + WIDTH], omega_b, table);
-        }
-        if translation {
-            complete_translation::<S, N>(chunk, run, trajectory, &times[first..first + WIDTH], table);
-            complete_work::<S, N>(chunk, run, trajectory, omega_b, table);
-        }
+    match (translation, trajectory.components() >= WITH_THRUST) {
+        (false, _) => {}
+        (true, false) => complete_translations::<S, false>(simd, run, trajectory, times, table),
+        (true, true) => complete_translations::<S, true>(simd, run, trajectory, times, table),
     }
 }
 
 /// Rates and attitudes; where B is F_s the components are the states, and are copied.
 #[inline(always)]
-fn complete_rotation<S: Simd, const N: usize>(
-    simd: S,
-    run: &Gyrostat<f64>,
-    trajectory: &Trajectory,
-    table: &mut StateTable,
-) {
-    let attitude = N >= WITH_ATTITUDE && table.has(StateField::Attitude);
+fn complete_rotation<S: Simd>(simd: S, run: &Gyrostat<f64>, trajectory: &Trajectory, table: &mut StateTable) {
+    let attitude = trajectory.components() >= WITH_ATTITUDE && table.has(StateField::Attitude);
     if run.c_sb.is_none() {
         for i in 0..3 {
             if table.has(StateField::Rate) {
@@ -95,63 +83,49 @@ fn complete_rotation<S: Simd, const N: usize>(
         return;
     }
     for first in (0..table.stride()).step_by(WIDTH) {
-        let states = rotation::<S, N>(simd, run, trajectory, first);
-        Chunk { simd, first }.write3(table, StateField::Rate, states.rate);
-        if let Some(components) = states.attitude
-            && attitude
-        {
-            for (i, component) in components.into_iter().enumerate() {
+        Chunk { simd, first }.write3(table, StateField::Rate, body_rate(simd, run, trajectory, first));
+        if attitude {
+            for (i, component) in body_attitude(simd, run, trajectory, first).into_iter().enumerate() {
                 component.store(&mut table.column_mut(StateField::Attitude, i)[first..]);
             }
         }
     }
 }
 
-/// Rate and attitude of a body in its frame at eight points.
-pub struct Rotation<S: Simd> {
-    /// Angular velocity in the body's frame, rad/s.
-    pub rate: [Lanes<S>; 3],
-    /// Attitude quaternion, body -> F_e, if it was integrated.
-    pub attitude: Option<[Lanes<S>; 4]>,
-}
-
-/// The rotation at the eight points from `first` on, converted from the principal frame B to the body's frame.
+/// Angular velocity in the body's frame at the eight points from `first` on, rad/s, converted from the principal frame B.
 #[inline(always)]
-pub fn rotation<S: Simd, const N: usize>(
-    simd: S,
-    run: &Gyrostat<f64>,
-    trajectory: &Trajectory,
-    first: usize,
-) -> Rotation<S> {
+pub fn body_rate<S: Simd>(simd: S, run: &Gyrostat<f64>, trajectory: &Trajectory, first: usize) -> [Lanes<S>; 3] {
     let chunk = Chunk { simd, first };
     let omega_b = chunk.read3(trajectory, OMEGA);
-    let rate = match run.c_sb {
+    match run.c_sb {
         Some(c_sb) => product(constant_matrix(chunk.zero(), c_sb), omega_b),
         None => omega_b,
-    };
-    if N < WITH_ATTITUDE {
-        return Rotation { rate, attitude: None };
     }
+}
+
+/// Attitude quaternion, body -> F_e, at the same points; the attitude must be among the components.
+#[inline(always)]
+pub fn body_attitude<S: Simd>(simd: S, run: &Gyrostat<f64>, trajectory: &Trajectory, first: usize) -> [Lanes<S>; 4] {
+    let chunk = Chunk { simd, first };
     let [x, y, z] = chunk.read3(trajectory, ATTITUDE + 1);
     let q_eb = [chunk.read(trajectory, ATTITUDE), x, y, z];
-    let q_es = match run.c_sb {
+    match run.c_sb {
         Some(_) => hamilton(q_eb, conjugate(constant_quaternion(chunk.zero(), run.q_sb))),
         None => q_eb,
-    };
-    Rotation { rate, attitude: Some(q_es) }
+    }
 }
 
 /// Wheel rates and, where requested, the angles.
 #[inline(always)]
-fn complete_wheels<S: Simd, const N: usize>(
+fn complete_wheels<S: Simd>(
     chunk: Chunk<S>,
     run: &Gyrostat<f64>,
     trajectory: &Trajectory,
     times: &[f64],
-    omega_b: [Lanes<S>; 3],
     table: &mut StateTable,
 ) {
-    let angles = N >= WITH_ANGLES && table.has(StateField::WheelAngles);
+    let omega_b = chunk.read3(trajectory, OMEGA);
+    let angles = trajectory.components() >= WITH_ANGLES && table.has(StateField::WheelAngles);
     for (index, wheel) in run.wheels.iter().enumerate() {
         let lanes = wheel.in_lanes(chunk.zero());
         if table.has(StateField::WheelRates) {
@@ -184,22 +158,37 @@ fn complete_wheels<S: Simd, const N: usize>(
     }
 }
 
+/// Position, velocity, impulses and work at all points, of runs with `THRUST` or without.
+#[inline(always)]
+fn complete_translations<S: Simd, const THRUST: bool>(
+    simd: S,
+    run: &Gyrostat<f64>,
+    trajectory: &Trajectory,
+    times: &[f64],
+    table: &mut StateTable,
+) {
+    for first in (0..table.stride()).step_by(WIDTH) {
+        let chunk = Chunk { simd, first };
+        complete_translation::<S, THRUST>(chunk, run, trajectory, &times[first..first + WIDTH], table);
+        complete_work::<S, THRUST>(chunk, run, trajectory, table);
+    }
+}
+
 /// Work of the thrusters and body torque, and of the wheel motors, including those that hold a speed.
 #[inline(always)]
-fn complete_work<S: Simd, const N: usize>(
+fn complete_work<S: Simd, const THRUST: bool>(
     chunk: Chunk<S>,
     run: &Gyrostat<f64>,
     trajectory: &Trajectory,
-    omega_b: [Lanes<S>; 3],
     table: &mut StateTable,
 ) {
     if !table.has(StateField::Work) {
         return;
     }
-    let thrusters = chunk.read_if(N >= WITH_THRUST, trajectory, THRUST_WORK);
-    let mut motors = chunk.read_if(N >= WITH_MOTORS, trajectory, MOTOR_WORK);
+    let thrusters = chunk.read_if(THRUST, trajectory, THRUST_WORK);
+    let mut motors = chunk.read_if(trajectory.components() >= WITH_MOTORS, trajectory, MOTOR_WORK);
     if let Some(held) = run.held_momentum_b() {
-        let change = difference(omega_b, constant(chunk.zero(), run.omega_b));
+        let change = difference(chunk.read3(trajectory, OMEGA), constant(chunk.zero(), run.omega_b));
         motors += dot(constant(chunk.zero(), held), change);
     }
     thrusters.store(&mut table.column_mut(StateField::Work, 0)[chunk.first..]);
@@ -208,7 +197,7 @@ fn complete_work<S: Simd, const N: usize>(
 
 /// Position and velocity of c, and impulses.
 #[inline(always)]
-fn complete_translation<S: Simd, const N: usize>(
+fn complete_translation<S: Simd, const THRUST: bool>(
     chunk: Chunk<S>,
     run: &Gyrostat<f64>,
     trajectory: &Trajectory,
@@ -216,11 +205,10 @@ fn complete_translation<S: Simd, const N: usize>(
     table: &mut StateTable,
 ) {
     let zero = chunk.zero();
-    let thrust = N >= WITH_THRUST;
     let inverse_mass = chunk.splat(1.0 / run.mass);
     if table.has(StateField::ComPosition) {
         let time = Lanes::from_slice(chunk.simd, times);
-        let pushed = chunk.read3_if(thrust, trajectory, IMPULSE_INTEGRAL);
+        let pushed = chunk.read3_if(THRUST, trajectory, IMPULSE_INTEGRAL);
         let mut position = [zero; 3];
         for i in 0..3 {
             let line = chunk.splat(run.v_co_e[i]).mul_add(time, chunk.splat(run.r_co_e[i]));
@@ -228,7 +216,7 @@ fn complete_translation<S: Simd, const N: usize>(
         }
         chunk.write3(table, StateField::ComPosition, position);
     }
-    let impulse = chunk.read3_if(thrust, trajectory, IMPULSE);
+    let impulse = chunk.read3_if(THRUST, trajectory, IMPULSE);
     if table.has(StateField::ComVelocity) {
         let velocity = sum(constant(zero, run.v_co_e), scaled(inverse_mass, impulse));
         chunk.write3(table, StateField::ComVelocity, velocity);
@@ -237,7 +225,7 @@ fn complete_translation<S: Simd, const N: usize>(
         chunk.write3(table, StateField::Impulse, impulse);
     }
     if table.has(StateField::AngularImpulse) {
-        chunk.write3(table, StateField::AngularImpulse, chunk.read3_if(thrust, trajectory, ANGULAR_IMPULSE));
+        chunk.write3(table, StateField::AngularImpulse, chunk.read3_if(THRUST, trajectory, ANGULAR_IMPULSE));
     }
 }
 

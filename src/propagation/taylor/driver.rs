@@ -226,9 +226,15 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> Drive
         let folded = folded_lanes(states, grid);
         let Workspace { ring, folds, trajectories, .. } = &mut **work;
         let zero = vectors.time.zero();
-        let mut folding = PeriodFolding::<S, R, N, J> { simd, zero, grid, ring, folds, trajectories };
+        let mut folding = PeriodFolding::<S, R, J> { simd, zero, grid, ring, folds, trajectories };
         folding.evaluate(&folded);
         for share in folded.iter().flatten() {
+            if N > J {
+                simd.vectorize(
+                    #[inline(always)]
+                    || folding.fill_quadratures::<N>(share),
+                );
+            }
             if let Some(state) = &mut states[share.lane] {
                 state.point += share.points;
             }
@@ -237,7 +243,7 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> Drive
             {
                 let end = simd.vectorize(
                     #[inline(always)]
-                    || folding.state_at_end(share, period),
+                    || folding.state_at_end::<N>(share, period),
                 );
                 vectors.set_state(share.lane, &end);
             }

@@ -68,7 +68,7 @@ impl<S: Simd, R: Real + Send + 'static, const N: usize, const J: usize, const FO
             grid,
             workspace,
             &mut |index, run, states, outcome| {
-                completion.complete::<S, N>(*simd, scenes, index, run, states, outcome, finish);
+                completion.complete(*simd, scenes, index, run, states, outcome, finish);
             },
         );
     }

@@ -77,7 +77,7 @@ pub(super) fn folded_lanes(lanes: &[Option<LaneState>; WIDEST], grid: &Grid) -> 
 }
 
 /// What a folding reads and writes.
-pub(super) struct PeriodFolding<'a, S, R, const N: usize, const J: usize> {
+pub(super) struct PeriodFolding<'a, S, R, const J: usize> {
     pub simd: S,
     /// Says how many lanes.
     pub zero: R,
@@ -87,25 +87,26 @@ pub(super) struct PeriodFolding<'a, S, R, const N: usize, const J: usize> {
     pub trajectories: &'a mut [Trajectory],
 }
 
-impl<S: Simd, R: Real, const N: usize, const J: usize> PeriodFolding<'_, S, R, N, J> {
-    /// Fills the trajectories of `folded`.
-    #[inline(never)]
+impl<S: Simd, R: Real, const J: usize> PeriodFolding<'_, S, R, J> {
+    /// Fills the first `J` columns of the trajectories of `folded`: of all lanes together, or one after another where the buffer is
+    /// too small for all.
     pub(super) fn evaluate(&mut self, folded: &FoldedLanes) {
-        let simd = self.simd;
-        let together = simd.vectorize(
-            #[inline(always)]
-            || self.evaluate_together(folded),
-        );
-        if !together {
+        if !self.evaluate_vectorized(folded) {
             for lane in 0..R::LANES {
                 let mut alone = [None; WIDEST];
                 alone[lane] = folded[lane];
-                simd.vectorize(
-                    #[inline(always)]
-                    || self.evaluate_together(&alone),
-                );
+                self.evaluate_vectorized(&alone);
             }
         }
+    }
+
+    /// [`Self::evaluate_together`], compiled for its instruction set. Not inlined: so it is compiled once for both calls.
+    #[inline(never)]
+    fn evaluate_vectorized(&mut self, folded: &FoldedLanes) -> bool {
+        self.simd.vectorize(
+            #[inline(always)]
+            || self.evaluate_together(folded),
+        )
     }
 
     /// Fills the trajectories of `folded`; false, with nothing done, where together they need more vectors than the buffer has,
@@ -185,7 +186,7 @@ impl<S: Simd, R: Real, const N: usize, const J: usize> PeriodFolding<'_, S, R, N
         let simd = self.simd;
         let ring = self.ring;
         let per_unit = 1.0 / state.unit;
-        let factors = si_factors::<f64, N>(per_unit);
+        let factors = si_factors::<f64, J>(per_unit);
         let growth = match period {
             Some(period) => angle_growth(ring.segment(state.begun), ring.segment(end - 1), *lane, period),
             None => [0.0; 3],
@@ -229,20 +230,28 @@ impl<S: Simd, R: Real, const N: usize, const J: usize> PeriodFolding<'_, S, R, N
                 write_points(trajectory, i, state.point + first, left, components[i]);
             }
         }
-        if N > J {
-            for point in state.point..state.point + points {
-                let time = (self.grid.times()[point] - state.start) * per_unit;
-                let quadratures = state.quadratures_after::<N, J>(time);
-                for i in J..N {
-                    trajectory.column_mut(i)[point] = quadratures[i - J] * factors[i];
-                }
+    }
+
+    /// Fills the columns from `J` to `N`, those of quadrature states, of the trajectory of `share`. Apart from the others, so that
+    /// those are compiled once for all `N`.
+    #[inline(always)]
+    pub(super) fn fill_quadratures<const N: usize>(&mut self, share: &FoldedLane) {
+        let FoldedLane { lane, state, points, .. } = share;
+        let per_unit = 1.0 / state.unit;
+        let factors = si_factors::<f64, N>(per_unit);
+        let trajectory = &mut self.trajectories[*lane];
+        for point in state.point..state.point + points {
+            let time = (self.grid.times()[point] - state.start) * per_unit;
+            let quadratures = state.quadratures_after::<N, J>(time);
+            for i in J..N {
+                trajectory.column_mut(i)[point] = quadratures[i - J] * factors[i];
             }
         }
     }
 
     /// The state at the end of the arc of `share`, whose period is `period`.
     #[inline(always)]
-    pub(super) fn state_at_end(&self, share: &FoldedLane, period: &Period) -> [f64; N] {
+    pub(super) fn state_at_end<const N: usize>(&self, share: &FoldedLane, period: &Period) -> [f64; N] {
         let FoldedLane { lane, state, end, .. } = share;
         let lane = *lane;
         let (whole, rest) = period.fold(Lanes::broadcast(self.simd, state.length));

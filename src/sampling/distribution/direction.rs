@@ -117,10 +117,10 @@ impl<N: Nested> Direction<N> {
         target: &JointTarget<'_>,
     ) -> Result<DirectionMap<N::Quantile>, DispersionError> {
         let nominal = target.vector(name)?;
-        let length = norm(nominal);
+        let length = length_of(nominal);
         let axis = match self.axis {
             Some(axis) => target.axis(axis)?,
-            None if length > 0.0 => nominal,
+            None if length > 0.0 => target.axis(nominal)?,
             None if spread == DirectionSpread::Sphere => [0.0, 0.0, 1.0],
             None => {
                 let allowed = "given where the nominal vector is zero and has no direction";
@@ -257,6 +257,15 @@ impl<Q: Quantile> Map for DirectionMap<Q> {
     }
 }
 
+/// The length of a vector whose square may overflow or vanish.
+fn length_of(vector: [f64; 3]) -> f64 {
+    let largest = vector.iter().fold(0.0f64, |largest, x| largest.max(x.abs()));
+    if largest == 0.0 || (1e-150..1e150).contains(&largest) {
+        return norm(vector);
+    }
+    largest * norm(vector.map(|x| x / largest))
+}
+
 /// Two unit vectors across `axis` and the unit vector along it, right-handed.
 fn frame(axis: [f64; 3]) -> [[f64; 3]; 3] {
     let z = scaled(1.0 / norm(axis), axis);
@@ -312,6 +321,6 @@ mod tests {
         let mut vector = [0.0; 3];
         needle.values(&[0.25, 0.125], &mut vector);
         let [x, y, _] = vector;
-        assert!(((x * x + y * y).sqrt() / 0.5e-9 - 1.0).abs() < 1e-12, "angle = half-angle times sqrt(u)");
+        assert!(((x * x + y * y).sqrt() / 0.5e-9 - 1.0).abs() < 1e-15, "angle = half-angle times sqrt(u)");
     }
 }

@@ -16,18 +16,23 @@ pub mod choice;
 pub mod direction;
 pub mod empirical;
 mod enumerations;
+pub mod exponential;
+pub mod gamma;
 pub mod log_normal;
 pub mod log_uniform;
 pub mod normal;
+pub mod of_score;
 pub mod offset;
 pub mod pert;
 pub mod rayleigh;
+pub mod student_t;
 pub mod target;
 pub mod traits;
 pub mod triangular;
 pub mod truncated_normal;
 pub mod uniform;
 pub mod uniform_attitude;
+pub mod weibull;
 
 pub use traits::{Map, Nested, Quantile, Scalar, Together};
 
@@ -38,24 +43,28 @@ use self::beta::Beta;
 use self::choice::Choice;
 use self::direction::{Cone, UniformDirection, VonMisesFisher};
 use self::empirical::Empirical;
+use self::exponential::Exponential;
+use self::gamma::Gamma;
 use self::log_normal::LogNormal;
 use self::log_uniform::LogUniform;
 use self::normal::Normal;
 use self::offset::Offset;
 use self::pert::Pert;
 use self::rayleigh::Rayleigh;
+use self::student_t::StudentT;
 use self::target::{JointTarget, Target};
 use self::triangular::Triangular;
 use self::truncated_normal::TruncatedNormal;
 use self::uniform::Uniform;
 use self::uniform_attitude::UniformAttitude;
+use self::weibull::Weibull;
 use crate::sampling::error::{DispersionError, error};
 use crate::sampling::keys::{KeyReader, KeyWriter};
 
 enumerations::distributions! {
     one number:
         Normal, TruncatedNormal, Uniform, LogNormal, LogUniform, Triangular, Beta, Pert, Choice, Bernoulli, Empirical, Offset,
-        Rayleigh;
+        Rayleigh, Exponential, Gamma, Weibull, StudentT;
     several together:
         UniformAttitude = UniformAttitude,
         UniformDirection = UniformDirection<WrittenDistribution>,

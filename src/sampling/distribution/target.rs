@@ -68,6 +68,16 @@ impl Target<'_> {
         }
     }
 
+    /// The written values, else `default` for each.
+    pub(super) fn each_or(&self, key: &'static str, values: &Option<Values>, default: f64) -> Numbers {
+        values.as_ref().map_or_else(|| Ok(vec![default; self.nominals.len()]), |values| self.each(key, values))
+    }
+
+    /// Scales in the parameter's unit: above zero, each.
+    pub(super) fn scales(&self, key: &'static str, values: &Values) -> Numbers {
+        self.passing(key, values, |x| x > 0.0, "> 0", "write it in the parameter's unit")
+    }
+
     /// Zero or above, each.
     pub(super) fn not_negative(&self, key: &'static str, values: &Values) -> Numbers {
         self.passing(key, values, |x| x >= 0.0, ">= 0", "drop the minus sign")

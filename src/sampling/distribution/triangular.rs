@@ -50,6 +50,10 @@ impl Scalar for Triangular {
 
 impl Quantile for TriangularQuantile {
     fn quantile(&self, u: f64) -> f64 {
+        if !(self.max - self.min).is_finite() {
+            let [min, mode, max] = [self.min, self.mode, self.max].map(|x| 0.25 * x);
+            return 4.0 * TriangularQuantile { min, mode, max }.quantile(u);
+        }
         let (rise, fall, width) = (self.mode - self.min, self.max - self.mode, self.max - self.min);
         // a product of two lengths may be too large where each is a number
         let mean = |part: f64, side: f64| {
@@ -72,8 +76,10 @@ mod tests {
     fn lengths_whose_product_is_too_large_give_the_same_shape() {
         let unit = TriangularQuantile { min: -1.0, mode: 0.5, max: 1.0 };
         let large = TriangularQuantile { min: -1e160, mode: 0.5e160, max: 1e160 };
+        let largest = TriangularQuantile { min: -1.7e308, mode: 0.85e308, max: 1.7e308 };
         for u in [0.1, 0.5, 0.9] {
-            assert!((large.quantile(u) / 1e160 - unit.quantile(u)).abs() < 1e-15, "{u}");
+            assert!((largest.quantile(u) / 1.7e308 - unit.quantile(u)).abs() < 1e-15, "{u}");
+            assert!((large.quantile(u) / 1e160 - unit.quantile(u)).abs() < 5e-16, "{u}");
         }
     }
 }

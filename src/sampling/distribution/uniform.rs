@@ -67,6 +67,11 @@ impl Scalar for Uniform {
         };
         target.all(|k| {
             let nominal = target.nominals[k];
+            if !(nominal.abs() + half[k]).is_finite() && nominal.is_finite() {
+                let key = if matches!(self, Uniform::Around(_)) { "half_width" } else { "relative_half_width" };
+                let allowed = "such that its ends are finite numbers";
+                return target.refused(key, format!("{:?}", half[k]), allowed, "write a smaller one");
+            }
             Ok(UniformQuantile { min: nominal - half[k], max: nominal + half[k] })
         })
     }

@@ -1,0 +1,135 @@
+//! [`Percentiles`]: quantiles of drawn columns, exact for few samples, from sketches for any number of them.
+
+use crate::campaign::Plan;
+use crate::ensemble::drawn::{CHUNK, DrawnScenes};
+use crate::sampling::SampleId;
+use crate::statistics::quantile::quantile;
+use crate::statistics::sketch::Sketch;
+
+/// Quantiles of the columns of the samples of a plan, collected as they are drawn. The nominal sample 0 does not count.
+#[derive(Clone, Debug)]
+pub struct Percentiles {
+    count: u64,
+    invalid: u64,
+    nominal: Vec<f64>,
+    columns: Columns,
+}
+
+#[derive(Clone, Debug)]
+enum Columns {
+    /// All values.
+    Values(Vec<Vec<f64>>),
+    /// Differences from the nominal value.
+    Sketches(Vec<Sketch>),
+}
+
+impl Percentiles {
+    /// Of the samples of `plan`; nothing is counted yet.
+    pub fn new(plan: &Plan) -> Self {
+        let nominal: Vec<f64> = plan.dispersions.columns().iter().map(|column| column.nominal).collect();
+        let columns = if plan.samples <= CHUNK {
+            Columns::Values(vec![Vec::new(); nominal.len()])
+        } else {
+            Columns::Sketches(vec![Sketch::default(); nominal.len()])
+        };
+        Percentiles { count: 0, invalid: 0, nominal, columns }
+    }
+
+    /// Counts the samples of `drawn`.
+    pub fn add(&mut self, drawn: &DrawnScenes) {
+        self.invalid += drawn.physical.iter().filter(|physical| !**physical).count() as u64;
+        let from = usize::from(drawn.first == SampleId(0));
+        self.count += drawn.count().saturating_sub(from) as u64;
+        match &mut self.columns {
+            Columns::Values(columns) => {
+                columns.iter_mut().zip(&drawn.columns).for_each(|(held, new)| held.extend(&new[from..]));
+            }
+            Columns::Sketches(columns) => {
+                for ((sketch, nominal), new) in columns.iter_mut().zip(&self.nominal).zip(&drawn.columns) {
+                    new[from..].iter().for_each(|value| sketch.add(value - nominal));
+                }
+            }
+        }
+    }
+
+    /// Number of dispersed samples.
+    pub fn count(&self) -> u64 {
+        self.count
+    }
+
+    /// Number of samples, the nominal one among them, that are not physical.
+    pub fn invalid(&self) -> u64 {
+        self.invalid
+    }
+
+    /// Whether quantiles are those of the values themselves; else they are within 0.05% of their distance from the nominal value
+    /// ([`crate::statistics::sketch::RELATIVE_ERROR`]).
+    pub fn is_exact(&self) -> bool {
+        matches!(self.columns, Columns::Values(_))
+    }
+
+    /// Quantiles of each column at the fractions `p`, of type 7 of R. J. Hyndman & Y. Fan (*Am. Stat.* 50 (1996) 361): linear
+    /// between neighbours; none where there are no samples.
+    pub fn quantiles<const N: usize>(&self, p: [f64; N]) -> Vec<Option<[f64; N]>> {
+        let all = |of: &dyn Fn(f64) -> Option<f64>| {
+            let mut found = [f64::NAN; N];
+            for (found, p) in found.iter_mut().zip(p) {
+                *found = of(p)?;
+            }
+            Some(found)
+        };
+        match &self.columns {
+            Columns::Values(columns) => {
+                let sorted = columns.iter().map(|column| {
+                    let mut values = column.clone();
+                    values.sort_by(f64::total_cmp);
+                    values
+                });
+                sorted.map(|values| all(&|p| quantile(&values, p))).collect()
+            }
+            Columns::Sketches(columns) => {
+                let shifted = columns.iter().zip(&self.nominal);
+                shifted.map(|(sketch, nominal)| all(&|p| Some(nominal + sketch.quantile(p)?))).collect()
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn percentiles(columns: Columns) -> Percentiles {
+        Percentiles { count: 0, invalid: 0, nominal: vec![10.0], columns }
+    }
+
+    /// Law: sketches give the quantiles of the values, to 0.05% of the distance from the nominal value; sample 0 does not count.
+    #[test]
+    fn sketches_agree_with_values() {
+        let mut both =
+            [percentiles(Columns::Values(vec![Vec::new()])), percentiles(Columns::Sketches(vec![Sketch::default()]))];
+        for first in [0, 1000, 2000] {
+            let values: Vec<f64> = (first..first + 1000).map(|k| 10.0 + 1e-3 * (f64::from(k) - 1500.0)).collect();
+            let drawn = DrawnScenes {
+                first: SampleId(first as u64),
+                physical: vec![true; 1000],
+                columns: vec![values],
+                mass: Vec::new(),
+            };
+            both.iter_mut().for_each(|one| one.add(&drawn));
+        }
+        assert_eq!(both.each_ref().map(Percentiles::count), [2999; 2]);
+        let [exact, near] = both.map(|one| one.quantiles([0.01, 0.25, 0.99])[0].expect("values"));
+        for (exact, near) in exact.into_iter().zip(near) {
+            assert!((exact - near).abs() < 1e-3 * (exact - 10.0).abs() + 1e-3, "{exact} {near}");
+        }
+    }
+
+    #[test]
+    fn few_samples_have_the_quantiles_of_type_7() {
+        let one = percentiles(Columns::Values(vec![vec![1.0, 8.0, 27.0, 64.0]]));
+        let [low, middle, high] = one.quantiles([0.0, 0.5, 0.99])[0].expect("four samples");
+        assert_eq!((low, middle), (1.0, 17.5));
+        assert!((high - (64.0 - 0.03 * 37.0)).abs() < 1e-12, "99% of four draws is not their maximum: {high}");
+    }
+}

@@ -1,0 +1,102 @@
+//! [`Pieces`]: a smooth function on an interval as Chebyshev series, piece by piece: made once, evaluated in nanoseconds.
+//!
+//! A piece is halved until its last coefficients are below the tolerance (the rule of Chebfun, J. L. Aurentz & L. N. Trefethen,
+//! *Chopping a Chebyshev series*, ACM Trans. Math. Softw. 43 (2017), in its simplest form). Sums by Clenshaw's recurrence. Plain
+//! arithmetic and `libm`: the same bits everywhere.
+
+use core::f64::consts::PI;
+
+/// Coefficients of a piece: enough that few pieces are needed, few enough that one is quick.
+const ORDER: usize = 16;
+/// Halvings of the interval at most: a piece is then as wide as the narrowest feature of the functions here.
+const MOST_HALVINGS: u32 = 14;
+
+/// A function on an interval.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pieces {
+    /// The upper ends of the pieces, ascending.
+    ends: Vec<f64>,
+    pieces: Vec<Piece>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct Piece {
+    middle: f64,
+    /// 1 / half the width.
+    scale: f64,
+    coefficients: [f64; ORDER],
+}
+
+impl Pieces {
+    /// `f` on [`low`, `high`], each piece to the absolute error `tolerance(value)` for values of that size.
+    pub fn new(f: &dyn Fn(f64) -> f64, low: f64, high: f64, tolerance: &dyn Fn(f64) -> f64) -> Self {
+        let mut made = Pieces { ends: Vec::new(), pieces: Vec::new() };
+        made.add(f, [low, high], tolerance, MOST_HALVINGS);
+        made
+    }
+
+    fn add(&mut self, f: &dyn Fn(f64) -> f64, [low, high]: [f64; 2], tolerance: &dyn Fn(f64) -> f64, halvings: u32) {
+        let middle = 0.5 * (low + high);
+        let piece = Piece::new(f, middle, 0.5 * (high - low));
+        let tail: f64 = piece.coefficients[ORDER - 3..].iter().map(|c| c.abs()).sum();
+        if tail <= tolerance(piece.coefficients[0].abs()) || halvings == 0 {
+            self.ends.push(high);
+            self.pieces.push(piece);
+        } else {
+            self.add(f, [low, middle], tolerance, halvings - 1);
+            self.add(f, [middle, high], tolerance, halvings - 1);
+        }
+    }
+
+    /// The value at `x`, which is taken to the nearest end where it is outside of the interval.
+    #[inline]
+    pub fn value(&self, x: f64) -> f64 {
+        let index = self.ends.partition_point(|end| *end < x).min(self.pieces.len() - 1);
+        self.pieces[index].value(x)
+    }
+
+    /// Number of pieces.
+    pub fn count(&self) -> usize {
+        self.pieces.len()
+    }
+}
+
+impl Piece {
+    fn new(f: &dyn Fn(f64) -> f64, middle: f64, half: f64) -> Self {
+        let angle = |k: usize| PI * (k as f64 + 0.5) / ORDER as f64;
+        let values: [f64; ORDER] = core::array::from_fn(|k| f(middle + half * libm::cos(angle(k))));
+        let coefficients = core::array::from_fn(|j| {
+            let sum: f64 = (0..ORDER).map(|k| values[k] * libm::cos(j as f64 * angle(k))).sum();
+            sum * if j == 0 { 1.0 } else { 2.0 } / ORDER as f64
+        });
+        Piece { middle, scale: 1.0 / half, coefficients }
+    }
+
+    #[inline]
+    fn value(&self, x: f64) -> f64 {
+        let t = ((x - self.middle) * self.scale).clamp(-1.0, 1.0);
+        let (mut last, mut before) = (0.0, 0.0);
+        for c in self.coefficients[1..].iter().rev() {
+            (last, before) = (2.0 * t * last - before + c, last);
+        }
+        t * last - before + self.coefficients[0]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_smooth_function_and_one_with_a_corner_are_within_the_tolerance() {
+        let corner = |x: f64| (x * x + 1e-4).sqrt();
+        for f in [&libm::exp as &dyn Fn(f64) -> f64, &corner] {
+            let pieces = Pieces::new(f, -8.0, 3.0, &|value| 1e-14 * value.max(1.0));
+            for k in 0..=1000 {
+                let x = -8.0 + 11.0 * f64::from(k) / 1000.0;
+                assert!((pieces.value(x) - f(x)).abs() < 1e-13 * f(x).max(1.0), "{x}");
+            }
+            assert_eq!(pieces.value(9.0), pieces.value(3.0));
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! `gamma`: from `min` (0 where it is not written) on, with density proportional to x^(`shape` - 1) exp(-x/`scale`). Mean `min` +
+//! `shape` `scale`. From a table of its quantiles ([`super::of_score`]) of ln x.
+
+use super::of_score::OfScore;
+use super::target::Target;
+use super::traits::{Quantile, Scalar};
+use crate::math::incomplete_gamma::log_quantile;
+use crate::math::normal::quantile;
+use crate::sampling::error::DispersionError;
+use crate::sampling::keys::{KeyReader, KeyWriter, Values};
+
+/// As written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gamma {
+    /// Shape, pure; 1 is the exponential distribution.
+    pub shape: Values,
+    /// Scale, in the parameter's unit.
+    pub scale: Values,
+    /// Lower end.
+    pub min: Option<Values>,
+}
+
+/// Ready to be drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GammaQuantile {
+    shape: f64,
+    scale: f64,
+    min: f64,
+    /// ln of the value above `min` in units of the scale.
+    log: OfScore,
+}
+
+/// Allowed shapes: below, the distribution is a spike at its end; above, a normal one.
+const SHAPES: std::ops::RangeInclusive<f64> = 0.01..=1e4;
+
+impl GammaQuantile {
+    /// The distribution of `shape` from 0.01 to 1e4 and `scale` > 0, from `min` on.
+    pub fn new(shape: f64, scale: f64, min: f64) -> Self {
+        let log = OfScore::new(&|p, q| log_quantile(p, q, shape), shape);
+        GammaQuantile { shape, scale, min, log }
+    }
+
+    /// The value at the normal score `z`; relative error of what is above `min` below 1e-12 (test `quantiles_are_those_of_mpmath`).
+    fn at_score(&self, z: f64) -> f64 {
+        self.min + self.scale * libm::exp(self.log.value(z))
+    }
+}
+
+impl Scalar for Gamma {
+    const NAME: &'static str = "gamma";
+    type Quantile = GammaQuantile;
+
+    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
+        let (shape, scale) = (keys.required("shape", "2.0"), keys.required("scale", "0.1"));
+        let min = keys.optional("min");
+        let (shape, scale) = shape.zip(scale)?;
+        min.map(|min| Gamma { shape, scale, min })
+    }
+
+    fn write(&self, keys: &mut dyn KeyWriter) {
+        keys.values("shape", &self.shape);
+        keys.values("scale", &self.scale);
+        keys.optional("min", self.min.as_ref());
+    }
+
+    fn quantiles(&self, target: &Target<'_>) -> Result<Vec<GammaQuantile>, DispersionError> {
+        let remedy = "1 is the exponential distribution";
+        let shape =
+            target.passing("shape", &self.shape, |x| SHAPES.contains(&x), "a number from 0.01 to 1e4", remedy)?;
+        let scale = target.scales("scale", &self.scale)?;
+        let min = target.each_or("min", &self.min, 0.0)?;
+        target.all(|k| Ok(GammaQuantile::new(shape[k], scale[k], min[k])))
+    }
+}
+
+impl Quantile for GammaQuantile {
+    fn quantile(&self, u: f64) -> f64 {
+        self.at_score(quantile(u))
+    }
+
+    fn of_scores(&self, z: &[f64; 8], values: &mut [f64; 8]) -> bool {
+        values.iter_mut().zip(z).for_each(|(value, z)| *value = self.at_score(*z));
+        true
+    }
+
+    fn text(&self, short: &dyn Fn(f64) -> String) -> String {
+        format!("gamma, shape {}, scale {}, from {}", short(self.shape), short(self.scale), short(self.min))
+    }
+}

@@ -1,0 +1,68 @@
+//! Memory of commands: the peak that Linux reports.
+#![cfg(target_os = "linux")]
+
+use std::fs;
+use std::path::Path;
+
+use crate::support::scratch_folder::ScratchFolder;
+use spindrift::observables::Group;
+
+/// Peak memory of a command, kB.
+fn peak(scratch: &ScratchFolder, arguments: &str) -> u64 {
+    let program = env!("CARGO_BIN_EXE_spindrift");
+    let script = format!(
+        "{program} {arguments} > said.txt 2>&1 & pid=$!; peak=0; while kill -0 $pid 2>/dev/null; do \
+         now=$(awk '/VmHWM/ {{print $2}}' /proc/$pid/status 2>/dev/null); peak=${{now:-$peak}}; sleep 0.01; done; echo $peak"
+    );
+    let output = std::process::Command::new("sh").arg("-c").arg(script).current_dir(&scratch.0).output().unwrap();
+    String::from_utf8_lossy(&output.stdout).trim().parse().unwrap()
+}
+
+/// Law: any number of samples can be drawn in the same memory: 7e5 x 20 numbers alone, held once, would be 112 MB more.
+#[test]
+fn sample_holds_no_draws() {
+    let scratch = ScratchFolder::new("stream");
+    let small = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns/attitude.toml");
+    let small = small.display();
+    let few = peak(&scratch, &format!("sample {small} --samples 100000"));
+    let many = peak(&scratch, &format!("sample {small} --samples 800000"));
+    assert!(many < few + 8_000, "kB: {few} for 1e5 samples, {many} for 8e5");
+    assert!(fs::read_to_string(scratch.0.join("said.txt")).unwrap().contains("of 799999 draws"));
+    let written = peak(&scratch, &format!("sample {small} --samples 400000 --out s.parquet"));
+    assert!(written < few + 40_000, "kB: {written}");
+}
+
+/// Law: the memory of observation points is what the refusal of too many says: at most that, and at least 0.8 of it where the default groups are
+/// observed, with debris and thrust.
+#[test]
+fn memory_of_points_is_what_is_stated() {
+    let scratch = ScratchFolder::new("points");
+    let burn = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns/burn.toml")).unwrap();
+    let of = |method: &str, points: u64| {
+        let mut text = String::new();
+        let nominal = burn.lines().take_while(|line| !line.starts_with("[[disperse]]"));
+        for line in nominal.filter(|line| !line.starts_with("groups")) {
+            text += &match line.split(" = ").next() {
+                Some("method") => format!("method = {method:?}\n"),
+                Some("points") => format!("points = {points}\ngroups = {:?}\n", Group::DEFAULT.map(Group::name)),
+                Some("duration_s") => "duration_s = 0.05\n".to_owned(),
+                _ => format!("{line}\n"),
+            };
+        }
+        assert!(text.contains(&format!("points = {points}\n")) && text.contains(&format!("method = {method:?}\n")));
+        text
+    };
+    for (method, stated) in [("auto", 3500), ("dop853", 2150), ("null_space", 1500)] {
+        let peaks = [20_001, 120_001].map(|points| {
+            fs::write(scratch.0.join("burn.toml"), of(method, points)).unwrap();
+            peak(&scratch, "campaign burn.toml --samples 17 --threads 1 --overwrite")
+        });
+        let each = (peaks[1] - peaks[0]) * 1024 / 100_000;
+        assert!(each <= stated && 5 * each >= 4 * stated, "{method}: {each} bytes a point, stated {stated}");
+        fs::write(scratch.0.join("burn.toml"), of(method, 10_000_000)).unwrap();
+        peak(&scratch, "check burn.toml");
+        let said = fs::read_to_string(scratch.0.join("said.txt")).unwrap();
+        let gigabytes = format!("some {stated} bytes a point in each thread, here {:.1} GB", 0.01 * stated as f64);
+        assert!(said.contains("observe.points = 10000000") && said.contains(&gigabytes), "{said}");
+    }
+}

@@ -1,0 +1,112 @@
+//! `spindrift simulate` from outside: one run as table, file and plot.
+
+use std::fs;
+
+use super::small_campaign::folder;
+use crate::support::scratch_folder::{batches, floats};
+
+/// Law: `simulate --sample K` shows the run behind row K, bit for bit.
+#[test]
+fn simulate_shows_the_run_behind_the_row() {
+    let scratch = folder("sample");
+    scratch.prints("campaign small.toml", 0);
+    for sample in [0, 1, 255, 256, 599] {
+        scratch.prints(&format!("simulate small.toml --sample {sample} --out s.parquet"), 0);
+        let run = &batches(&scratch.path("s.parquet"))[0];
+        let part = &batches(&scratch.path(&format!("results/small/runs/part-{:06}.parquet", sample / 256)))[0];
+        let row = sample % 256;
+        assert_eq!(run.num_rows(), 11);
+        for (of_run, of_row) in [
+            ("omega_se_s_x_rad_s", "omega_se_s_x_final_rad_s"),
+            ("omega_se_s_z_rad_s", "omega_se_s_z_final_rad_s"),
+            ("q_es_w", "q_es_w_final"),
+            ("alpha_dot_rad_s", "alpha_dot_final_rad_s"),
+            ("energy_wheel1_j", "energy_wheel1_final_j"),
+        ] {
+            let (last, value) = (floats(run, of_run)[10], floats(part, of_row)[row]);
+            assert_eq!(last.to_bits(), value.to_bits(), "sample {sample}, {of_run}: {last:?} and {value:?}");
+        }
+        let largest = floats(run, "energy_error").iter().fold(0.0, |largest: f64, error| largest.max(error.abs()));
+        assert_eq!(largest, floats(part, "energy_error_max")[row]);
+    }
+    scratch.prints("simulate small.toml --sample 600", 2);
+}
+
+#[test]
+fn simulate_writes_the_promised_columns() {
+    let scratch = folder("columns");
+    scratch.prints("simulate small.toml --out s.csv", 0);
+    let text = fs::read_to_string(scratch.path("s.csv")).unwrap();
+    let expected = "time_s,r_po_e_x_m,r_po_e_y_m,r_po_e_z_m,v_po_e_x_m_s,v_po_e_y_m_s,v_po_e_z_m_s,q_es_w,q_es_x,q_es_y,q_es_z,\
+        omega_se_s_x_rad_s,omega_se_s_y_rad_s,omega_se_s_z_rad_s,alpha_rad,beta_rad,alpha_dot_rad_s,beta_dot_rad_s,\
+        r_gdo_e_x_m,r_gdo_e_y_m,r_gdo_e_z_m,v_gdo_e_x_m_s,v_gdo_e_y_m_s,v_gdo_e_z_m_s,q_ed_w,q_ed_x,q_ed_y,q_ed_z,\
+        omega_de_d_x_rad_s,omega_de_d_y_rad_s,omega_de_d_z_rad_s,\
+        energy_fuselage_j,energy_wheel1_j,energy_wheel2_j,energy_debris_j,energy_error,";
+    assert!(text.starts_with(expected), "{}", text.lines().next().unwrap());
+    assert_eq!(text.lines().count(), 12);
+
+    // the same numbers in both formats: CSV loses no bit
+    scratch.prints("simulate small.toml --out s.parquet", 0);
+    let batch = &batches(&scratch.path("s.parquet"))[0];
+    let names: Vec<&str> = text.lines().next().unwrap().split(',').collect();
+    for (point, line) in text.lines().skip(1).enumerate() {
+        for (name, cell) in names.iter().zip(line.split(',')) {
+            assert_eq!(cell.parse::<f64>().unwrap().to_bits(), floats(batch, name)[point].to_bits(), "{name}");
+        }
+    }
+    // the point p starts where the file says, although the states are those of the centre of mass
+    let start = |name: &str| floats(batch, name)[0];
+    assert_eq!([start("r_po_e_x_m"), start("r_po_e_y_m"), start("r_po_e_z_m")], [0.0; 3]);
+    assert_eq!([start("v_po_e_x_m_s"), start("v_po_e_y_m_s"), start("v_po_e_z_m_s")], [10.0, 0.0, 0.0]);
+}
+
+/// Law: the velocity of p is the derivative of its position (central differences, error h^2/6 times the third derivative).
+#[test]
+fn the_velocity_of_p_is_the_derivative_of_its_position() {
+    let scratch = folder("derivative");
+    const STEP: f64 = 1e-4;
+    scratch.prints("simulate small.toml --times 0.4999,0.5,0.5001 --out s.parquet", 0);
+    let batch = &batches(&scratch.path("s.parquet"))[0];
+    for axis in ["x", "y", "z"] {
+        let r = floats(batch, &format!("r_po_e_{axis}_m"));
+        let v = floats(batch, &format!("v_po_e_{axis}_m_s"))[1];
+        // the third derivative of a point 1.5 m off c that turns at 32 rad/s is below 5e4 m/s^3
+        let bound = STEP * STEP / 6.0 * 5e4 + 1e-11;
+        assert!(((r[2] - r[0]) / (2.0 * STEP) - v).abs() < bound, "{axis}: {r:?} {v}");
+    }
+}
+
+#[test]
+fn times_may_come_in_any_order_and_lie_beyond_the_duration() {
+    let scratch = folder("times");
+    scratch.prints("simulate small.toml --times 2.5,0.5,0.5,1 --out a.csv", 0);
+    scratch.prints("simulate small.toml --times 0.5,1,2.5 --out b.csv", 0);
+    let text = fs::read_to_string(scratch.path("a.csv")).unwrap();
+    assert_eq!(text, fs::read_to_string(scratch.path("b.csv")).unwrap());
+    let times: Vec<&str> = text.lines().skip(1).map(|line| line.split(',').next().unwrap()).collect();
+    assert_eq!(times, ["0.5", "1.0", "2.5"]);
+    scratch.prints("simulate small.toml --times 0 --out zero.csv", 0);
+    assert_eq!(fs::read_to_string(scratch.path("zero.csv")).unwrap().lines().count(), 2);
+    scratch.prints("simulate small.toml --times=-1", 2);
+    scratch.prints("simulate small.toml --times 1,x", 2);
+}
+
+#[test]
+fn plots_and_tables_are_made() {
+    let scratch = folder("plots");
+    scratch.prints("simulate small.toml --plot p.svg", 0);
+    let svg = fs::read_to_string(scratch.path("p.svg")).unwrap();
+    for title in
+        ["small, nominal", "wheel 1", "debris", "Angular velocity", "quaternion", "Relative errors of the balances"]
+    {
+        assert!(svg.contains(title), "{title}");
+    }
+    scratch.prints("simulate small.toml --plot p.png --times 0,0.1,0.2", 0);
+    assert!(fs::read(scratch.path("p.png")).unwrap().starts_with(b"\x89PNG"));
+    scratch.prints("simulate small.toml --plot p.pdf", 2);
+    scratch.prints("simulate small.toml --out s.xlsx", 2);
+    scratch.prints("simulate small.toml --out no/such/folder/s.csv", 4);
+    let said = scratch.prints("simulate small.toml", 0);
+    assert!(said.lines().all(|line| line.len() <= 132), "the table fits a terminal: {said}");
+    assert!(said.contains("omega_x") && said.contains("q_es_w") && said.lines().count() >= 12, "{said}");
+}

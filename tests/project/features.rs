@@ -1,0 +1,35 @@
+//! The library is compiled once for the program and its tests.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::process::Command;
+
+use crate::source::root;
+
+/// The features that Cargo chooses for each crate, with the dependencies of tests or without.
+fn features(edges: &[&str]) -> BTreeMap<String, BTreeSet<String>> {
+    let listing = Command::new(env!("CARGO"))
+        .args(["tree", "--offline", "--locked", "--prefix", "none", "--format", "{p}|{f}"])
+        .args(edges)
+        .current_dir(root())
+        .output()
+        .expect("cargo runs");
+    assert!(listing.status.success(), "{}", String::from_utf8_lossy(&listing.stderr));
+    let mut features: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    for line in String::from_utf8_lossy(&listing.stdout).lines() {
+        let (package, list) = line.split_once('|').expect("the format has a bar");
+        let list = list.trim_end_matches(" (*)").split(',').map(str::to_owned);
+        features.entry(package.to_owned()).or_default().extend(list);
+    }
+    features
+}
+
+/// Cargo compiles a crate once per set of features, and all that depends on it. A crate of the program from which the tests ask
+/// for more has those features in the program too; otherwise `cargo test` compiles the library a second time, for minutes.
+#[test]
+fn tests_ask_for_no_further_features() {
+    let (program, tests) = (features(&["--edges", "no-dev"]), features(&[]));
+    assert!(program.len() > 50 && tests.len() > program.len());
+    let differing = program.iter().filter(|(package, features)| tests.get(*package) != Some(features));
+    let differing: Vec<_> = differing.map(|(package, _)| (package, &program[package], &tests[package])).collect();
+    assert!(differing.is_empty(), "with other features in tests (program, tests): {differing:#?}");
+}
