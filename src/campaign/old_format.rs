@@ -1,5 +1,6 @@
 //! Files of the format before 0.2, with `[fuselage]`, `[wheel1]`, `[wheel2]` and thrusts by number: refused, with their new text.
 
+use super::document::Document;
 use super::section::Section;
 use std::fmt::Write;
 
@@ -33,10 +34,10 @@ const WHOLE: [&str; 11] = [
     "center_offset_m",
 ];
 
-/// Refuses the tables of the old format, each with its new text; whether there are any.
-pub(super) fn refuse(root: &mut Section<'_, '_>) -> bool {
+/// Refuses the tables of the old format, each with its new text; `None` where there are none.
+pub(super) fn refuse(root: &mut Section<'_, '_>) -> Option<Old> {
     if !TABLES.iter().any(|table| root.has(table)) {
-        return false;
+        return None;
     }
     let old = Old::read(root);
     for table in TABLES.into_iter().filter(|table| root.has(table)).collect::<Vec<_>>() {
@@ -44,40 +45,34 @@ pub(super) fn refuse(root: &mut Section<'_, '_>) -> bool {
         let text = if table == "fuselage" { old.body() } else { old.wheel(usize::from(table == "wheel2")) };
         root.refuse_value(table, "a table of the old format".to_owned(), "left out", format!("write instead\n{text}"));
     }
-    for (index, text) in old.arcs().into_iter().enumerate() {
-        let key = format!("actuation[{index}].thrust_n");
-        let allowed = "by the names of [[thrusters]] and [[wheels]]";
-        let mut remedy = format!("write instead\n{text}");
-        if index == 0 {
-            remedy.push_str(&old.thrusters());
+    Some(old)
+}
+
+/// Whether tables of the old format were refused.
+pub(super) fn is_refused(document: &Document<'_>) -> bool {
+    TABLES.iter().any(|table| document.is_reported(table))
+}
+
+/// Refuses the keys of `[initial]` that belong to wheels now.
+pub(super) fn refuse_initial(section: &mut Section<'_, '_>) {
+    for (key, new) in INITIAL.into_iter().zip(["angle_rad", "rate_rad_s"]) {
+        section.know(key);
+        if section.has(key) {
+            let allowed = format!("left out: {new} of each wheel says it");
+            section.refuse(key, allowed, "delete this line; the text for [[wheels]] has it");
         }
-        root.document.add(&key, Some("a list".to_owned()), allowed, remedy);
     }
-    for key in INITIAL.into_iter().filter(|key| old.initial.has(key)) {
-        let new = if key == INITIAL[0] { "angle_rad" } else { "rate_rad_s" };
-        let allowed = format!("left out: {new} of each wheel says it");
-        root.document.add(&format!("initial.{key}"), None, allowed, "delete this line; the text for [[wheels]] has it");
-    }
-    for key in ACTUATORS.into_iter().filter(|key| old.actuators.has(key)) {
-        let allowed = "left out: thrusters and wheels say it";
-        root.document.add(
-            &format!("actuators.{key}"),
-            None,
-            allowed,
-            "delete this line; the text for the tables has it",
-        );
-    }
-    true
 }
 
-/// Makes the old keys of `[initial]` known: they are refused already.
-pub(super) fn know_initial(section: &mut Section<'_, '_>) {
-    INITIAL.iter().for_each(|key| section.know(key));
-}
-
-/// Makes the old keys of `[actuators]` known: they are refused already.
-pub(super) fn know_actuators(section: &mut Section<'_, '_>) {
-    ACTUATORS.iter().for_each(|key| section.know(key));
+/// Refuses the keys of `[actuators]` that belong to thrusters and wheels now.
+pub(super) fn refuse_actuators(section: &mut Section<'_, '_>) {
+    for key in ACTUATORS {
+        section.know(key);
+        if section.has(key) {
+            let allowed = "left out: thrusters and wheels say it";
+            section.refuse(key, allowed, "delete this line; the text for the tables has it");
+        }
+    }
 }
 
 /// The new name of a parameter of the old format, if `name` is one.
@@ -94,8 +89,8 @@ pub(super) fn new_name(name: &str) -> Option<String> {
         }
         "fuselage" if SHELL.contains(&key) => Some(format!("body.parts.fuselage.{key}")),
         "fuselage" => Some(format!("body.{key}")),
-        "wheel1" => Some(format!("wheels.w1.{}", wheel_key(key))),
-        "wheel2" => Some(format!("wheels.w2.{}", wheel_key(key))),
+        "wheel1" => Some(wheel_key("wheels.w1", key)),
+        "wheel2" => Some(wheel_key("wheels.w2", key)),
         "initial" => {
             let rest = key.strip_prefix("wheel_rates_rad_s").map(|rest| (rest, "rate_rad_s"));
             let (rest, new) = rest.or_else(|| key.strip_prefix("wheel_angles_rad").map(|rest| (rest, "angle_rad")))?;
@@ -105,19 +100,44 @@ pub(super) fn new_name(name: &str) -> Option<String> {
             }
         }
         "actuators" if key.starts_with("thruster") => {
-            Some(format!("thrusters.p{}.tilt_rad", key.trim_start_matches("thruster").get(..1)?))
+            let (number, component) = key.strip_prefix("thruster")?.split_once("_tilt_rad")?;
+            Some(format!("thrusters.p{number}.tilt_rad{}", across(component)))
         }
-        "actuators" if key.starts_with("thrust_scale") => Some("thrusters.p1.thrust_scale, and so on".to_owned()),
-        "actuators" if key.starts_with("torque_") => Some(format!("wheels.w1.{}", key.split(['.', '[']).next()?)),
+        "actuators" if key.starts_with("thrust_scale") => Some(match &key["thrust_scale".len()..] {
+            "[0]" | ".1" => "thrusters.p1.thrust_scale".to_owned(),
+            "[1]" | ".2" => "thrusters.p2.thrust_scale".to_owned(),
+            "[2]" | ".3" => "thrusters.p3.thrust_scale".to_owned(),
+            _ => "thrusters.p1.thrust_scale, and so on".to_owned(),
+        }),
+        "actuators" if key.starts_with("torque_") => {
+            let (new, index) = key.split_at(key.find(['.', '[']).unwrap_or(key.len()));
+            Some(match wheel(index) {
+                Some(wheel) => format!("wheels.{wheel}.{new}"),
+                None => format!("wheels.w1.{new} and wheels.w2.{new}, one table each"),
+            })
+        }
         _ => None,
     }
 }
 
-/// The new key of an old key of a wheel.
-fn wheel_key(key: &str) -> String {
+/// The new name of an old key of a wheel, which is `wheel` now.
+fn wheel_key(wheel: &str, key: &str) -> String {
     match key {
-        "station_m" => "position_m.z".to_owned(),
-        key => key.replace("offset_m", "position_m"),
+        "station_m" => format!("{wheel}.position_m.z"),
+        "offset_m" => format!("{wheel}.position_m.x and {wheel}.position_m.y, one table each"),
+        _ => match key.strip_prefix("tilt_rad") {
+            Some(component) => format!("{wheel}.tilt_rad{}", across(component)),
+            None => format!("{wheel}.{}", key.replace("offset_m", "position_m")),
+        },
+    }
+}
+
+/// The component of an alignment error, which was named by an axis of F_s: the first is about s1 in each case.
+fn across(component: &str) -> &str {
+    match component {
+        ".x" => ".1",
+        ".y" | ".z" => ".2",
+        other => other,
     }
 }
 
@@ -148,7 +168,8 @@ impl OldTable {
 }
 
 /// The old tables of a file.
-struct Old {
+#[derive(Debug)]
+pub(super) struct Old {
     fuselage: OldTable,
     wheels: [OldTable; 2],
     initial: OldTable,
@@ -166,6 +187,17 @@ impl Old {
             actuators: table("actuators"),
             actuation: root.lists_of_entries("actuation").into_iter().map(OldTable).collect(),
         }
+    }
+
+    /// Refuses the commands of arc `index`, with the new text of its table; that of the first arc has the thrusters too.
+    pub(super) fn refuse_arc(&self, section: &mut Section<'_, '_>, index: usize) {
+        const COMMANDS: [&str; 2] = ["thrust_n", "torque_n_m"];
+        COMMANDS.into_iter().for_each(|key| section.know(key));
+        let Some(key) = COMMANDS.into_iter().find(|key| section.has(key)) else { return };
+        let thrusters = if index == 0 { self.thrusters() } else { String::new() };
+        let text = self.arcs().into_iter().nth(index).unwrap_or_default();
+        let allowed = "by the names of [[thrusters]] and [[wheels]]";
+        section.refuse(key, allowed, format!("write instead\n{text}{thrusters}"));
     }
 
     /// The body.

@@ -7,7 +7,7 @@ use crate::scene::{Parameter, SceneInput};
 
 /// The parameter, and the component if one is meant, that `key` names.
 pub(super) fn parameter(table: &mut Section<'_, '_>, key: &'static str) -> Option<(Parameter, Option<usize>)> {
-    table.require(key, "a numeric key of scene or initial state", "\"body.mass_kg\"");
+    table.require(key, "a numeric key of scene or initial state", "\"initial.angular_velocity_rad_s\"");
     let name = table.text(key)?;
     let found = Parameter::find(&table.document.scene, name);
     if found.is_none() {

@@ -15,8 +15,8 @@ use crate::scene::{
 /// Reads every table of the scene. A number that is missing or wrong is NaN, and noted in the document.
 pub(super) fn read(root: &mut Section<'_, '_>) -> SceneInput {
     let mut scene = SceneInput::blank();
-    let is_old = old_format::refuse(root);
-    if !is_old && !root.has("body") {
+    let old = old_format::refuse(root);
+    if old.is_none() && !root.has("body") {
         let content = "a table with the mass properties of the body, or its parts";
         root.document.add("body", None, content, "add a [body] table, or [[body.parts]] tables");
     }
@@ -29,8 +29,9 @@ pub(super) fn read(root: &mut Section<'_, '_>) -> SceneInput {
         scene.actuation.push(ActuationInput::DEFAULT);
         let arc = scene.actuation.len() - 1;
         read_keys(section, Table::Actuation, arc, &mut scene);
-        if !is_old {
-            read_commands(section, &mut scene, arc);
+        match &old {
+            Some(old) => old.refuse_arc(section, arc),
+            None => read_commands(section, &mut scene, arc),
         }
         section.finish();
     });
@@ -44,8 +45,8 @@ pub(super) fn read(root: &mut Section<'_, '_>) -> SceneInput {
     let mut section = root.section("initial");
     read_keys(&mut section, Table::Initial, 0, &mut scene);
     refuse_states_of_absent_debris(&mut section, &scene);
-    if is_old {
-        old_format::know_initial(&mut section);
+    if old.is_some() {
+        old_format::refuse_initial(&mut section);
     }
     section.finish();
     let mut section = root.section("environment");
@@ -57,8 +58,8 @@ pub(super) fn read(root: &mut Section<'_, '_>) -> SceneInput {
     }
     let mut section = root.section("actuators");
     read_keys(&mut section, Table::Actuators, 0, &mut scene);
-    if is_old {
-        old_format::know_actuators(&mut section);
+    if old.is_some() {
+        old_format::refuse_actuators(&mut section);
     }
     section.finish();
     scene

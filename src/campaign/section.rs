@@ -33,7 +33,7 @@ pub struct Section<'d, 'a> {
     path: String,
     table: Option<&'d DeTable<'a>>,
     known: Vec<String>,
-    /// The unit of what the table describes, of which its distances are: `std`, `min` and so on; `1` where there is none.
+    /// The unit of what the table describes and so of its distances, `std`, `min` and so on; `1` where there is none.
     unit: &'static str,
     /// The unit of every number of the table, where all are of one kind.
     every: Option<&'static str>,
@@ -106,7 +106,9 @@ impl<'d, 'a> Section<'d, 'a> {
             }
             None => None,
         };
-        Section { document: &mut *self.document, path, table, known: Vec::new(), unit: self.unit, every: None }
+        // a distribution of an angle, `angle_rad = { ... }`, has its own unit
+        let unit = Some(unit_in_name(key)).filter(|unit| *unit != "1").unwrap_or(self.unit);
+        Section { document: &mut *self.document, path, table, known: Vec::new(), unit, every: None }
     }
 
     /// The tables `[[key]]`, in order, each read by `read`.
@@ -421,8 +423,22 @@ pub fn choice(written: &str, names: &[&str]) -> (String, String) {
 }
 
 /// Keys of distributions whose values are in the unit of what is dispersed.
-const DISTANCES: [&str; 11] =
-    ["min", "max", "mode", "mean", "std", "half_width", "offset", "value", "values", "scale", "location"];
+const DISTANCES: [&str; 14] = [
+    "min",
+    "max",
+    "mode",
+    "mean",
+    "median",
+    "std",
+    "half_width",
+    "lower",
+    "upper",
+    "offset",
+    "value",
+    "values",
+    "scale",
+    "location",
+];
 
 /// The unit at the end of a key; `1` where there is none.
 fn unit_in_name(key: &str) -> &'static str {

@@ -40,10 +40,8 @@ mod tests {
 
     fn arcs(switches: &[[f64; 2]], duration: f64) -> Vec<(f64, f64, bool)> {
         let mut input = samples::table_two();
-        input.actuation = switches
-            .iter()
-            .map(|&[start_s, end_s]| ActuationInput { start_s, end_s, thrust_n: [1.0, 0.0, 0.0], torque_n_m: [0.0; 2] })
-            .collect();
+        input.actuation =
+            switches.iter().map(|&[start_s, end_s]| ActuationInput::idle(start_s, end_s).with_thrust(&[1.0])).collect();
         let scene = Scene::resolve(&input).expect("a legal schedule");
         let (mut time, mut list) = (0.0, Vec::new());
         while time < duration {

@@ -65,7 +65,7 @@ fn walls(part: &PartInput, problems: &mut Problems) {
 /// A body about an axis of symmetry: the axial moment is at most twice the transverse one.
 fn wheel_inertia(wheel: &WheelInput, problems: &mut Problems) {
     let (Some(axial), Some(transverse)) = (wheel.axial_inertia_kg_m2, wheel.transverse_inertia_kg_m2) else { return };
-    if axial > 2.0 * transverse * (1.0 + INERTIA_SLACK) {
+    if transverse > 0.0 && axial > 2.0 * transverse * (1.0 + INERTIA_SLACK) {
         problems.add(
             Table::Wheel.name(wheel.name, "axial_inertia_kg_m2"),
             shown(&[axial]),
@@ -192,7 +192,7 @@ pub(super) fn derived(input: &SceneInput, mass: &MassProperties, problems: &mut 
     if let Some(debris) = mass.debris {
         passed &= body("debris".into(), debris.mass, diagonal(debris.inertia));
     }
-    if input.body.includes_wheels {
+    if passed && input.body.includes_wheels {
         passed &= without_wheels(own, inertia, problems);
     }
     if passed {
@@ -248,7 +248,7 @@ mod tests {
         assert!(problems.0.is_empty());
         mass.inertia_free[2][2] = -1e-9;
         free_inertia(true, &mass, &mut problems);
-        assert_eq!(problems.0[0].key, "fuselage.inertia_kg_m2");
+        assert_eq!(problems.0[0].key, "body.inertia_kg_m2");
         assert!(problems.0[0].to_string().contains("J*"), "{}", problems.0[0]);
     }
 }

@@ -315,6 +315,7 @@ fn matrix_sum<R: Real>(a: [[R; 3]; 3], b: [[R; 3]; 3]) -> [[R; 3]; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::vector::norm;
     use crate::scene::samples;
 
     /// The check values have 16 digits.
@@ -352,7 +353,7 @@ mod tests {
     #[test]
     fn pairs_equal_parallel_axes() {
         let mut input = samples::table_two();
-        input.fuselage.center_of_mass_m = Some([0.05, -0.02, 1.4]);
+        input.body.center_of_mass_m = Some([0.05, -0.02, 1.4]);
         let mass = MassProperties::of(&input, 1.0);
         let about_c = |body_mass: f64, center: [f64; 3]| point_inertia(body_mass, difference(center, mass.center));
         let mut expected = matrix_sum(mass.fuselage.inertia, about_c(mass.fuselage.mass, mass.fuselage.center));
@@ -367,32 +368,14 @@ mod tests {
     }
 
     #[test]
-    fn a_tilt_turns_the_axis_by_its_angle_about_its_vector() {
-        assert_eq!(wheel_axis(0, [0.0; 2], 1.0), WHEEL_AXES[0]);
-        for (index, tilt, expected) in [
-            // about s1: s2 towards s3, s3 towards -s2; about s3: s2 towards -s1; about s2: s3 towards s1
-            (0, [0.3, 0.0], [0.0, 0.3f64.cos(), 0.3f64.sin()]),
-            (0, [0.0, 0.3], [-0.3f64.sin(), 0.3f64.cos(), 0.0]),
-            (1, [0.3, 0.0], [0.0, -0.3f64.sin(), 0.3f64.cos()]),
-            (1, [0.0, 0.3], [0.3f64.sin(), 0.0, 0.3f64.cos()]),
-        ] {
-            let axis = wheel_axis(index, tilt, 1.0);
-            assert!(norm(difference(axis, expected)) < 4e-16, "{axis:?} {expected:?}");
-        }
-        let axis = wheel_axis(1, [0.3, -0.4], 1.0);
-        assert!((axis[2] - 0.5f64.cos()).abs() < 4e-16, "the angle is the length of the vector");
-        assert!((axis[1] / axis[0] - 0.75).abs() < 4e-16, "{axis:?}");
-    }
-
-    #[test]
     fn held_wheels_turn_with_the_rest() {
         let mut input = samples::table_two();
         assert_eq!(MassProperties::of(&input, 1.0).inertia_rotating(), MassProperties::of(&input, 1.0).inertia_free);
-        input.wheels[0].as_mut().expect("Table II has it").mode = WheelMode::SpeedHeld;
+        input.wheels[0].mode = WheelMode::SpeedHeld;
         let mass = MassProperties::of(&input, 1.0);
         assert_eq!(mass.inertia_rotating()[1][1], mass.inertia[1][1]);
         assert_eq!(mass.inertia_rotating()[2][2], mass.inertia_free[2][2]);
-        input.wheels[1].as_mut().expect("Table II has it").mode = WheelMode::SpeedHeld;
+        input.wheels[1].mode = WheelMode::SpeedHeld;
         let mass = MassProperties::of(&input, 1.0);
         assert_eq!(mass.inertia_rotating(), mass.inertia);
     }
@@ -401,13 +384,102 @@ mod tests {
     fn a_mass_alone_scales_the_inertia_and_a_missing_wheel_weighs_nothing() {
         let mut input = samples::table_two();
         let nominal = MassProperties::of(&input, 1.0);
-        input.fuselage.mass_kg = Some(2.0 * nominal.fuselage.mass);
-        input.wheels = [None, None];
+        input.body.mass_kg = Some(2.0 * nominal.fuselage.mass);
+        input.wheels.clear();
         let mass = MassProperties::of(&input, 1.0);
         assert_eq!(mass.fuselage.inertia[0][0], 2.0 * nominal.fuselage.inertia[0][0]);
         assert_eq!(mass.inertia, mass.fuselage.inertia);
         assert_eq!(mass.inertia_free, mass.fuselage.inertia);
         assert_eq!(mass.total, mass.fuselage.mass);
         assert_eq!(mass.center, mass.fuselage.center);
+    }
+
+    /// Law: a locked wheel is a part of the body; the whole is that with the wheel at rest.
+    #[test]
+    fn a_locked_wheel_belongs_to_the_body() {
+        let free = MassProperties::of(&samples::table_two(), 1.0);
+        let mut input = samples::table_two();
+        input.wheels[0].mode = WheelMode::Locked;
+        let locked = MassProperties::of(&input, 1.0);
+        assert_eq!(locked.wheels.len(), 1);
+        assert_close("total", locked.total, free.total);
+        assert_close("body", locked.fuselage.mass, free.fuselage.mass + free.wheels[0].mass);
+        for i in 0..3 {
+            assert_close("inertia", locked.inertia[i][i], free.inertia[i][i]);
+        }
+        assert_eq!(locked.inertia_free[1][1], locked.inertia[1][1], "nothing turns about s2");
+    }
+
+    /// Law: mass properties that include the wheels give the same spacecraft as those without.
+    #[test]
+    fn wheels_are_taken_out_of_what_includes_them() {
+        let parts = MassProperties::of(&samples::table_two(), 1.0);
+        let mut input = samples::table_two();
+        input.parts.clear();
+        input.body.includes_wheels = true;
+        input.body.mass_kg = Some(parts.total);
+        input.body.center_of_mass_m = Some(parts.center);
+        input.body.inertia_kg_m2 = Some(parts.inertia);
+        let whole = MassProperties::of(&input, 1.0);
+        assert_close("total", whole.total, parts.total);
+        assert_close("body", whole.fuselage.mass, parts.fuselage.mass);
+        for i in 0..3 {
+            assert_close("inertia", whole.inertia[i][i], parts.inertia[i][i]);
+            assert_close("J*", whole.inertia_free[i][i], parts.inertia_free[i][i]);
+            assert!((whole.center[i] - parts.center[i]).abs() < 1e-15);
+        }
+    }
+
+    /// Law: parts together have the inertia that the theorem of parallel axes gives, whatever their attitude; halves of a box are the box.
+    #[test]
+    fn halves_of_a_box_are_the_box() {
+        let part = |size: [f64; 3], position_m: [f64; 3], attitude: [f64; 4]| PartInput {
+            shape: PartShape::Box,
+            size_m: Some(size),
+            density_kg_m3: Some(100.0),
+            position_m,
+            attitude,
+            ..PartInput::DEFAULT
+        };
+        let unit = [1.0, 0.0, 0.0, 0.0];
+        // a quarter turn about s3 exchanges the sides along s1 and s2
+        let quarter = [0.5f64.sqrt(), 0.0, 0.0, 0.5f64.sqrt()];
+        let mut input = SceneInput::blank();
+        input.parts = vec![part([2.0, 1.0, 0.5], [0.3, 0.0, 0.0], unit)];
+        let whole = Body::of_input(&input, 1.0);
+        for attitude in [unit, quarter] {
+            let size = [1.0, 1.0, 0.5];
+            input.parts = vec![part(size, [-0.2, 0.0, 0.0], attitude), part(size, [0.8, 0.0, 0.0], attitude)];
+            let halves = Body::of_input(&input, 1.0);
+            assert_close("mass", halves.mass, whole.mass);
+            assert!(norm(difference(halves.center, whole.center)) < 1e-15);
+            for i in 0..3 {
+                assert!(norm(difference(halves.inertia[i], whole.inertia[i])) < 4e-15 * whole.inertia[2][2]);
+            }
+        }
+        input.parts = vec![part([1.0, 2.0, 0.5], [0.3, 0.0, 0.0], quarter)];
+        let turned = Body::of_input(&input, 1.0);
+        for i in 0..3 {
+            assert!(norm(difference(turned.inertia[i], whole.inertia[i])) < 1e-15 * whole.inertia[2][2]);
+        }
+    }
+
+    #[test]
+    fn spheres_and_point_masses_have_their_moments() {
+        let mut input = SceneInput::blank();
+        let sphere =
+            PartInput { shape: PartShape::Sphere, radius_m: Some(0.5), mass_kg: Some(10.0), ..PartInput::DEFAULT };
+        input.parts = vec![sphere];
+        assert_close("2/5 m r^2", Body::of_input(&input, 1.0).inertia[1][1], 1.0);
+        let point = |x| PartInput {
+            shape: PartShape::PointMass,
+            mass_kg: Some(2.0),
+            position_m: [x, 0.0, 0.0],
+            ..PartInput::DEFAULT
+        };
+        input.parts = vec![point(-1.0), point(3.0)];
+        let pair = Body::of_input(&input, 1.0);
+        assert_eq!((pair.mass, pair.center), (4.0, [1.0, 0.0, 0.0]));
+        assert_eq!(pair.inertia, [[0.0; 3], [0.0, 16.0, 0.0], [0.0, 0.0, 16.0]]);
     }
 }

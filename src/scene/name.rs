@@ -13,7 +13,7 @@ pub struct Name {
 }
 
 impl Name {
-    /// No name: of a table of which there is one only.
+    /// No name: of a table that is there once.
     pub const NONE: Name = Name { bytes: [0; MAX_LETTERS], len: 0 };
 
     /// What a name must be, to follow "must be".

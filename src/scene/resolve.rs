@@ -131,11 +131,7 @@ mod tests {
     }
 
     fn arc(start_s: f64, end_s: f64) -> ActuationInput {
-        ActuationInput { start_s, end_s, thrust_n: [1.0, 0.0, 0.0], torque_n_m: [0.5, 0.25] }
-    }
-
-    fn wheel(input: &mut SceneInput, i: usize) -> &mut crate::scene::WheelInput {
-        input.wheels[i].as_mut().expect("Table II has both wheels")
+        ActuationInput::idle(start_s, end_s).with_thrust(&[1.0]).with_torque(&[0.5, 0.25])
     }
 
     #[test]
@@ -143,14 +139,19 @@ mod tests {
         let mut input = samples::table_two();
         let mut scene = Scene::resolve(&input).expect("the report's scene");
         let before = scene.clone();
-        input.fuselage.wall_thickness_m = 2.0;
-        wheel(&mut input, 1).radius_m = 0.0;
+        input.parts[0].wall_thickness_m = Some(2.0);
+        input.wheels[1].radius_m = Some(0.0);
         input.initial.attitude = [0.0; 4];
         let errors = scene.resolve_into(&input).expect_err("four problems");
         let keys: Vec<&str> = errors.iter().map(|error| &*error.key).collect();
         assert_eq!(
             keys,
-            ["fuselage.wall_thickness_m", "fuselage.wall_thickness_m", "wheel2.radius_m", "initial.attitude"]
+            [
+                "body.parts.fuselage.wall_thickness_m",
+                "body.parts.fuselage.wall_thickness_m",
+                "wheels.w2.radius_m",
+                "initial.attitude"
+            ]
         );
         assert_eq!(scene, before);
     }
@@ -159,7 +160,7 @@ mod tests {
     fn resolving_into_a_used_scene_gives_the_same_scene() {
         let input = changed(|_| ());
         let mut scene = Scene::resolve(&changed(|input| {
-            input.wheels = [None, None];
+            input.wheels.clear();
             input.debris = None;
             input.actuation.clear();
         }))
@@ -194,21 +195,20 @@ mod tests {
         ) {
             let size = sizes.map(|e| 10f64.powf(e));
             let mut input = samples::table_two();
-            input.fuselage.wall_thickness_m = size[0];
-            input.fuselage.outer_radius_m = size[1];
-            input.fuselage.length_m = size[2];
-            input.fuselage.mass_kg = mass;
+            input.parts[0].wall_thickness_m = Some(size[0]);
+            input.parts[0].outer_radius_m = Some(size[1]);
+            input.parts[0].length_m = Some(size[2]);
+            input.body.mass_kg = mass;
             for i in 0..2 {
-                wheel(&mut input, i).radius_m = 10f64.powf(wheels[2 * i]);
-                wheel(&mut input, i).station_m = wheels[2 * i + 1];
-                if !present[i] {
-                    input.wheels[i] = None;
-                }
+                input.wheels[i].radius_m = Some(10f64.powf(wheels[2 * i]));
+                input.wheels[i].position_m[2] = wheels[2 * i + 1];
             }
+            let mut present = present.into_iter();
+            input.wheels.retain(|_| present.next() == Some(true));
             if let Some(([a, b, c, d, e, f], center)) = overrides {
                 let (d, e, f) = (d - 1.0, e - 1.0, f - 1.0);
-                input.fuselage.inertia_kg_m2 = Some([[a, d, e], [d, b, f], [e, f, c]]);
-                input.fuselage.center_of_mass_m = Some(center);
+                input.body.inertia_kg_m2 = Some([[a, d, e], [d, b, f], [e, f, c]]);
+                input.body.center_of_mass_m = Some(center);
             }
             if let Ok(Scene { mass, .. }) = Scene::resolve(&input) {
                 prop_assert!(mass.total.is_finite() && mass.total > 0.0);

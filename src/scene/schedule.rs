@@ -146,24 +146,18 @@ mod tests {
     #[test]
     fn actuators_delay_and_scale_what_is_commanded() {
         let mut input = samples::table_two();
-        let command = |start_s, end_s, torque| ActuationInput {
-            start_s,
-            end_s,
-            thrust_n: [10.0, 20.0, 30.0],
-            torque_n_m: [torque, 0.0],
+        let command = |start_s, end_s, torque| {
+            ActuationInput::idle(start_s, end_s).with_thrust(&[10.0, 20.0, 30.0]).with_torque(&[torque])
         };
         input.actuation = vec![command(0.0, 1.0, 2.0), command(1.0, 2.0, 0.0), command(3.0, 4.0, -2.0)];
         let ideal = Scene::resolve(&input).expect("a legal schedule");
         for (arc, command) in ideal.schedule.iter().zip(&input.actuation) {
             assert_eq!((arc.start, arc.end()), (command.start_s, command.end_s));
-            assert_eq!(
-                (&arc.applied.thrust[..3], &arc.applied.motor_torque[..2]),
-                (&command.thrust_n[..], &command.torque_n_m[..])
-            );
+            assert_eq!((arc.applied.thrust, arc.applied.motor_torque), (command.thrust_n, command.torque_n_m));
         }
-        input.actuators.thrust_scale = [0.5, 1.0, 1.5];
-        input.actuators.torque_scale = [2.0, 1.0];
-        input.actuators.torque_bias_n_m = [0.25, 7.0];
+        (input.thrusters[0].thrust_scale, input.thrusters[2].thrust_scale) = (0.5, 1.5);
+        (input.wheels[0].torque_scale, input.wheels[0].torque_bias_n_m) = (2.0, 0.25);
+        input.wheels[1].torque_bias_n_m = 7.0;
         input.actuators.switch_on_delay_s = -0.25;
         input.actuators.switch_off_delay_s = 0.5;
         let schedule = Scene::resolve(&input).expect("a legal schedule").schedule;
@@ -176,9 +170,19 @@ mod tests {
     }
 
     #[test]
+    fn torques_are_those_of_the_wheels_that_turn() {
+        let mut input = samples::table_two();
+        input.actuation = vec![ActuationInput::idle(0.0, 1.0).with_torque(&[0.0, 2.0])];
+        input.wheels[0].mode = crate::scene::WheelMode::Locked;
+        let scene = Scene::resolve(&input).expect("a legal schedule");
+        assert_eq!(scene.schedule[0].applied.motor_torque[..2], [2.0, 0.0]);
+        assert_eq!((scene.mass.wheels.len(), scene.initial.wheel_rates[0]), (1, input.wheels[1].rate_rad_s));
+    }
+
+    #[test]
     fn a_misaligned_thruster_pushes_where_it_points() {
         let mut input = samples::table_two();
-        input.actuators.thruster2_tilt_rad = [0.1, 0.0];
+        input.thrusters[1].tilt_rad = [0.1, 0.0];
         let scene = Scene::resolve(&input).expect("a legal scene");
         // -s3 turned about s1: towards +s2; at (0, -0.5, 3), 1.5 above c
         let (sine, cosine) = libm::sincos(0.1);

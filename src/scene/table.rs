@@ -170,7 +170,7 @@ impl Table {
         if owner == Name::NONE { format!("{header}.{key}") } else { format!("{header}.{owner}.{key}") }
     }
 
-    /// The names of the instances of the table in `scene`; one that is no name for a table of which there is one only.
+    /// The names of the instances of the table in `scene`; one that is no name for a table that is there once.
     pub fn owners(self, scene: &SceneInput) -> Vec<Name> {
         match self {
             Table::Part | Table::PartErrors => scene.parts.iter().map(|part| part.name).collect(),

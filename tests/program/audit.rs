@@ -255,7 +255,7 @@ fn the_program_audits() {
     };
     // the energy transfer varies by tens of joules, for physical reasons; an energy error is purely numerical
     let share = |name: &str| line(name)["share_of_spread"].as_f64().unwrap();
-    assert!(share("exchange_wheel1_peak_to_peak_j") < 6e-10);
+    assert!(share("exchange_w1_peak_to_peak_j") < 6e-10);
     assert!(share("energy_error_max") > 0.1);
     assert!(line("steps").is_null(), "steps have no truth");
 

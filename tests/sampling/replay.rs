@@ -80,7 +80,12 @@ fn recorded_values_written_as_a_nominal_scene_give_the_same_columns() {
             if sample.0 <= RUN {
                 let row = |plan, sample| {
                     let run = SingleRun::new(plan, sample, again.grid.clone(), isa).expect("a physical sample");
-                    run.row.iter().map(|value| value.to_bits()).collect::<Vec<_>>()
+                    // the nominal run of the written file is this sample itself
+                    let columns = run.request.columns();
+                    let compared =
+                        columns.iter().map(|column| !column.quantity.name().starts_with("attitude_from_nominal"));
+                    let values = run.row.iter().zip(compared).filter(|(_, compared)| *compared);
+                    values.map(|(value, _)| value.to_bits()).collect::<Vec<_>>()
                 };
                 assert_eq!(row(&again, SampleId(0)), row(&plan, sample), "{} {sample}", file.display());
             }
