@@ -90,7 +90,6 @@ macro_rules! rows {
             /// Notes which values violate their limits; `name` makes a dotted name of the key. Without a loop over rows: every draw is
             /// checked.
             #[inline(always)]
-            #[allow(unused_variables, reason = "a table may have no keys")]
             pub(in crate::scene) fn check(
                 &self,
                 has_debris: bool,
