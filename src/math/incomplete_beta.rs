@@ -5,16 +5,9 @@
 //! C. Loader, *Fast and Accurate Computation of Binomial Probabilities* (2000): the logarithms of gamma functions would lose as
 //! many digits as the shapes have. Elementary functions from `libm`.
 
+use super::probability::{Probability, log_of_quantile};
+use super::saddle_point::{deviance, stirling_error};
 use core::f64::consts::PI;
-
-/// A probability and its complement. Each has its own relative accuracy, so neither tail loses digits.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Probability {
-    /// P.
-    pub lower: f64,
-    /// 1 - P.
-    pub upper: f64,
-}
 
 /// Terms after which the continued fraction is taken as converged; about 3 sqrt(max(a, b)) are needed in the worst place.
 const MAX_TERMS: u32 = 100_000_000;
@@ -88,33 +81,14 @@ fn log_beta(a: f64, b: f64) -> f64 {
 /// ln x with I_x(a, b) = p = 1 - q, x <= 1/2.
 fn log_of_smaller_root(p: f64, q: f64, a: f64, b: f64) -> f64 {
     // x is the exponential of the unknown: roots near zero keep their relative accuracy
-    let (mut low, mut high) = (-745.0_f64, -core::f64::consts::LN_2);
+    let (low, high) = (-745.0_f64, -core::f64::consts::LN_2);
     // the first term of the series x^a / (a B), and the mean where that is no use
     let mean = libm::log((a / (a + b)).clamp(1e-300, 0.5));
-    let mut log_x = mean.clamp(low, high);
-    for _ in 0..200 {
+    let log_x = mean.clamp(low, high);
+    log_of_quantile(Probability { lower: p, upper: q }, log_x, [low, high], |log_x| {
         let x = libm::exp(log_x);
-        let found = incomplete_beta(x, 1.0 - x, a, b);
-        // compare the smaller tails: they have the digits
-        let (ratio, slope) = if p <= q {
-            (libm::log(found.lower / p), front(x, 1.0 - x, a, b) / ((1.0 - x) * found.lower))
-        } else {
-            (-libm::log(found.upper / q), front(x, 1.0 - x, a, b) / ((1.0 - x) * found.upper))
-        };
-        if ratio > 0.0 {
-            high = high.min(log_x);
-        } else {
-            low = low.max(log_x);
-        }
-        let newton = log_x - ratio / slope;
-        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-        let moved = (next - log_x).abs();
-        log_x = next;
-        if moved <= f64::EPSILON * (1.0 + log_x.abs()) || high - low <= f64::EPSILON * log_x.abs() {
-            break;
-        }
-    }
-    log_x
+        (incomplete_beta(x, 1.0 - x, a, b), front(x, 1.0 - x, a, b) / (1.0 - x))
+    })
 }
 
 /// x^a y^b / B(a, b), y = 1 - x.
@@ -123,36 +97,6 @@ fn front(x: f64, y: f64, a: f64, b: f64) -> f64 {
     // binomial probability of a successes in n trials (Loader, equation 3), times a b / n
     let exponent = stirling_error(n) - stirling_error(a) - stirling_error(b) - deviance(a, n * x) - deviance(b, n * y);
     libm::exp(exponent) * libm::sqrt(a * b / (2.0 * PI * n))
-}
-
-/// ln(n!) - ln(sqrt(2 pi n) (n/e)^n), for n > 0 (Loader, section 2.1).
-pub(super) fn stirling_error(n: f64) -> f64 {
-    if n < 16.0 {
-        return libm::lgamma(n + 1.0) - (n + 0.5) * libm::log(n) + n - 0.5 * libm::log(2.0 * PI);
-    }
-    let square = n * n;
-    (1.0 / 12.0 - (1.0 / 360.0 - (1.0 / 1260.0 - (1.0 / 1680.0 - 1.0 / 1188.0 / square) / square) / square) / square)
-        / n
-}
-
-/// x ln(x/m) + m - x without cancellation, for x, m > 0 (Loader, section 2.2).
-pub(super) fn deviance(x: f64, m: f64) -> f64 {
-    let difference = x - m;
-    if difference.abs() < 0.1 * (x + m) {
-        let ratio = difference / (x + m);
-        let mut sum = difference * ratio;
-        let square = ratio * ratio;
-        let mut power = 2.0 * x * ratio;
-        for j in 1..1000 {
-            power *= square;
-            let next = sum + power / f64::from(2 * j + 1);
-            if next == sum {
-                return next;
-            }
-            sum = next;
-        }
-    }
-    x * libm::log(x / m) + m - x
 }
 
 /// The continued fraction of x^a y^b / (B(a, b) I_x(a, b)), y = 1 - x, for x below about its mean a/(a + b).

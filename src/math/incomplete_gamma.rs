@@ -4,7 +4,8 @@
 //! I. J. Thompson & A. R. Barnett, *J. Comput. Phys.* 64 (1986) 490). Their factor x^a e^-x / Gamma(a + 1) by the saddle-point form
 //! of C. Loader (2000), as for the incomplete beta function.
 
-use super::incomplete_beta::{Probability, deviance, stirling_error};
+use super::probability::{Probability, log_of_quantile};
+use super::saddle_point::{deviance, stirling_error};
 use core::f64::consts::PI;
 
 /// Terms after which series and fraction are taken as converged; about 9 sqrt(a) are needed in the worst place.
@@ -56,39 +57,18 @@ pub fn incomplete_gamma(a: f64, x: f64) -> Probability {
 }
 
 /// ln x with P(a, x) = `p` and Q(a, x) = `q` = 1 - p, both above zero.
-///
-/// Newton's method for the logarithm of the smaller probability as a function of ln x; a step that leaves the bracket is a bisection.
 pub fn log_quantile(p: f64, q: f64, a: f64) -> f64 {
     // the first term of the series, exact to the last digit below x = 1e-18
     let first = (libm::log(p) + libm::lgamma(a + 1.0)) / a;
     if first < -42.0 {
         return first;
     }
-    let (mut low, mut high) = (-50.0f64, libm::log(2.0 * a + 800.0));
-    let mut log_x = if p < 0.5 { first.min(libm::log(a)) } else { libm::log(a) }.clamp(low, high);
-    for _ in 0..200 {
+    let (low, high) = (-50.0f64, libm::log(2.0 * a + 800.0));
+    let log_x = if p < 0.5 { first.min(libm::log(a)) } else { libm::log(a) }.clamp(low, high);
+    log_of_quantile(Probability { lower: p, upper: q }, log_x, [low, high], |log_x| {
         let x = libm::exp(log_x);
-        let found = incomplete_gamma(a, x);
-        let density = a * front(a, x);
-        let (ratio, slope) = if p <= q {
-            (libm::log(found.lower / p), density / found.lower)
-        } else {
-            (-libm::log(found.upper / q), density / found.upper)
-        };
-        if ratio > 0.0 {
-            high = high.min(log_x);
-        } else {
-            low = low.max(log_x);
-        }
-        let newton = log_x - ratio / slope;
-        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-        let moved = (next - log_x).abs();
-        log_x = next;
-        if moved <= f64::EPSILON * (1.0 + log_x.abs()) || high - low <= f64::EPSILON * log_x.abs() {
-            break;
-        }
-    }
-    log_x
+        (incomplete_gamma(a, x), a * front(a, x))
+    })
 }
 
 #[cfg(test)]

@@ -61,14 +61,16 @@ pub trait Embedded: Copy {
         end: &mut Carried<R, N>,
     ) -> PairAttempt<R>;
 
-    /// Prepares [`Embedded::inside`] for the step that was attempted last.
+    /// Prepares [`Embedded::inside`] for the step that was attempted last; nothing, unless dense output has evaluations of its own.
+    #[inline(always)]
     fn prepare_inside<R: Real, Q: System<R, N>, const N: usize>(
-        system: &Q,
-        step: Step<R>,
-        start: &Carried<R, N>,
-        end: &[R; N],
-        stages: &mut Self::Stages<R, N>,
-    );
+        _system: &Q,
+        _step: Step<R>,
+        _start: &Carried<R, N>,
+        _end: &[R; N],
+        _stages: &mut Self::Stages<R, N>,
+    ) {
+    }
 
     /// The state at the fraction `s` of the step that was attempted last.
     fn inside<R: Real, Q: System<R, N>, const N: usize>(

@@ -1,4 +1,4 @@
-//! [`Correlation`]: a `[[correlate]]` table as written; [`copulas`]: all of them together as dependence of dimensions.
+//! [`Correlation`]: a `[[correlate]]` table as written; `copulas`: all of them together as dependence of dimensions.
 //!
 //! A table says how pairs of components depend on each other: all pairs of its parameters (a square matrix), or each component of
 //! one parameter with each of another (a block; for two numbers, one number). Tables with a component in common make one matrix;

@@ -9,7 +9,8 @@ use spindrift::math::vector::{conjugate, cross, dcm_from_quaternion, dot, hamilt
 use spindrift::sampling::SampleId;
 use spindrift::scene::{Scene, SceneInput};
 
-const SCENE: &str = "[campaign]\nname = \"test\"\nsamples = 10\nseed = 11\nduration_s = 1.0\n[[body.parts]]\n\
+/// A campaign without dispersions.
+pub const SCENE: &str = "[campaign]\nname = \"test\"\nsamples = 10\nseed = 11\nduration_s = 1.0\n[[body.parts]]\n\
     name = \"fuselage\"\nshape = \"hollow_cylinder\"\nposition_m = [0, 0, 1.5]\nwall_thickness_m = 0.03\nouter_radius_m = 1.0\nlength_m = 3.0\ndensity_kg_m3 = 2700.0\n[debris]\nmass_kg = 20.0\n\
     principal_second_moments_kg_m2 = [1.0, 2.0, 3.0]\n[initial]\nangular_velocity_rad_s = [1.0, -2.0, 2.0]\n\
     attitude = [0.5, 0.5, -0.5, 0.5]\n";
@@ -24,7 +25,8 @@ const CHI_3: f64 = 16.266;
 const CHI_5: f64 = 20.515;
 const CHI_9: f64 = 27.877;
 
-fn plan(disperse: &str) -> Plan {
+/// [`SCENE`] with one dispersion.
+pub fn plan(disperse: &str) -> Plan {
     let text = format!("{SCENE}[[disperse]]\n{disperse}");
     Plan::from_text("test.toml", &text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"))
 }
@@ -89,7 +91,8 @@ fn about(axis: [f64; 3], v: [f64; 3]) -> [f64; 2] {
     [dot(v, z), azimuth.rem_euclid(1.0)]
 }
 
-const RATE: &str = "parameter = \"initial.angular_velocity_rad_s\"\n";
+/// The angular velocity is dispersed.
+pub const RATE: &str = "parameter = \"initial.angular_velocity_rad_s\"\n";
 
 /// H0: directions are uniform on the sphere; the magnitude stays. Power: a law that prefers one direction by a concentration of 0.03, or one
 /// that shifts E[z^2] from 1/3 by 0.005, is missed with a probability below 1e-2.
@@ -307,109 +310,6 @@ fn a_million_bodies_and_none_impossible() {
     assert!(refused > 500, "{refused}");
 }
 
-#[test]
-fn what_cannot_be_drawn_is_refused() {
-    let refused = |disperse: &str| {
-        let text = format!("{SCENE}[[disperse]]\n{disperse}");
-        Plan::from_text("test.toml", &text, Overrides::default()).expect_err(disperse).to_string()
-    };
-    let attitude = "parameter = \"initial.attitude\"\n";
-    let speed = "parameter = \"initial.velocity_m_s\"\n";
-    for (disperse, key, says) in [
-        (
-            format!("{attitude}distribution = \"cone\"\nhalf_angle_rad = 0.1\n"),
-            "parameter",
-            "a vector (x, y, z) as a whole",
-        ),
-        (format!("{RATE}distribution = \"attitude_error\"\nstd_rad = 0.1\n"), "parameter", "an attitude (w, x, y, z)"),
-        (
-            "parameter = \"initial.velocity_m_s.x\"\ndistribution = \"cone\"\nhalf_angle_rad = 0.1\n".to_owned(),
-            "parameter",
-            "as a whole",
-        ),
-        (
-            "parameter = \"body.parts.fuselage.length_m\"\ndistribution = \"uniform_direction\"\n".to_owned(),
-            "parameter",
-            "a vector",
-        ),
-        ("parameter = \"body.shear\"\ndistribution = \"uniform_direction\"\n".to_owned(), "parameter", "a vector"),
-        (format!("{RATE}distribution = \"cone\"\n"), "half_angle_rad", "given"),
-        (format!("{RATE}distribution = \"cone\"\nhalf_angle_rad = 0\n"), "half_angle_rad", "at most pi"),
-        (format!("{RATE}distribution = \"cone\"\nhalf_angle_rad = 3.2\n"), "half_angle_rad", "at most pi"),
-        (format!("{RATE}distribution = \"cone\"\nhalf_angle_rad = 1\naxis = [0, 0, 0]\n"), "axis", "other than zero"),
-        (format!("{RATE}distribution = \"von_mises_fisher\"\nconcentration = -1\n"), "concentration", "above 0"),
-        (format!("{speed}distribution = \"cone\"\nhalf_angle_rad = 1\n"), "axis", "nominal vector is zero"),
-        (format!("{speed}distribution = \"uniform_direction\"\n"), "magnitude", "nominal vector is zero"),
-        (
-            format!(
-                "{RATE}distribution = \"cone\"\nhalf_angle_rad = 1\nmagnitude = {{ distribution = \"normal\", std = -1 }}\n"
-            ),
-            "magnitude",
-            ">= 0",
-        ),
-        (
-            format!(
-                "{RATE}distribution = \"cone\"\nhalf_angle_rad = 1\nmagnitude = {{ distribution = \"cone\", half_angle_rad = 1 }}\n"
-            ),
-            "magnitude",
-            "a distribution of one number",
-        ),
-        (
-            format!(
-                "{RATE}distribution = \"cone\"\nhalf_angle_rad = 1\nmagnitude = {{ distribution = \"normal\", sd = 1 }}\n"
-            ),
-            "magnitude.sd",
-            "std",
-        ),
-        (format!("{RATE}distribution = \"cone\"\nhalf_angle_rad = 1\nmagnitude = 3\n"), "magnitude", "a table"),
-        (format!("{attitude}distribution = \"attitude_error\"\nstd_rad = [0.1, 0.1]\n"), "std_rad", "3 in an array"),
-        (format!("{attitude}distribution = \"attitude_error\"\nstd_rad = -0.1\n"), "std_rad", ">= 0"),
-        (
-            format!(
-                "{attitude}distribution = \"attitude_error\"\ncovariance_rad2 = [[1, 2, 0], [2, 1, 0], [0, 0, 1]]\n"
-            ),
-            "covariance_rad2",
-            "positive semidefinite",
-        ),
-        (
-            format!(
-                "{attitude}distribution = \"attitude_error\"\nstd_rad = 1\ncovariance_rad2 = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\n"
-            ),
-            "covariance_rad2",
-            "the only one",
-        ),
-        (format!("{attitude}distribution = \"about_axis\"\naxis = [0, 0, 1]\n"), "angle_rad", "given"),
-        (
-            format!(
-                "{attitude}distribution = \"about_axis\"\naxis = [0, 0, 0]\nangle_rad = {{ distribution = \"normal\", std = 1 }}\n"
-            ),
-            "axis",
-            "other than zero",
-        ),
-    ] {
-        let message = refused(&disperse);
-        assert!(message.contains(&format!("disperse[0].{key}")) && message.contains(says), "{disperse}\n{message}");
-        assert!(message.contains("test.toml:"), "the line is said: {message}");
-    }
-}
-
-/// A geometric distribution survives the way to the plan's text and back.
-#[test]
-fn plans_keep_geometric_distributions() {
-    for disperse in [
-        format!("{RATE}distribution = \"uniform_direction\"\n"),
-        format!("{RATE}distribution = \"cone\"\nhalf_angle_rad = 0.25\naxis = [0, 1, 1]\nmagnitude = {{ distribution = \"truncated_normal\", relative_std = 0.1, sigmas = 3 }}\n"),
-        format!("{RATE}distribution = \"von_mises_fisher\"\nconcentration = 30\n"),
-        "parameter = \"initial.attitude\"\ndistribution = \"attitude_error\"\nstd_rad = 0.1\n".to_owned(),
-        "parameter = \"initial.attitude\"\ndistribution = \"attitude_error\"\ncovariance_rad2 = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\n".to_owned(),
-        "parameter = \"initial.attitude\"\ndistribution = \"about_axis\"\naxis = [0, 0, 1]\nangle_rad = { distribution = \"normal\", std = 0.1 }\n".to_owned(),
-    ] {
-        let plan = plan(&disperse);
-        let again = Plan::from_text("plan.toml", &plan.text(), Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
-        assert_eq!(again, plan);
-    }
-}
-
 /// Law: the mean direction follows the axis, in all eight octants and along all coordinate axes. The mean of cos(theta) of a cone of half-angle a is
 /// (1 + cos a)/2, of von Mises-Fisher coth(kappa) - 1/kappa; the mean direction of n draws is off by less than 5 of its standard deviations,
 /// some 0.01. An axis with one component mirrored is off by more than 1.
@@ -449,26 +349,4 @@ fn mean_directions_follow_the_axis_in_all_octants() {
             }
         }
     }
-}
-
-/// Law: the text of a geometric distribution gives magnitude, axis and covariance.
-#[test]
-fn texts_say_magnitude_axis_and_covariance() {
-    let text = |disperse: &str| {
-        let plan = plan(disperse);
-        let short = |x: f64| format!("{x:.4}");
-        plan.dispersions.distribution_of(0).expect("a distribution").text(&short)
-    };
-    let said = text(&format!("{RATE}distribution = \"uniform_direction\"\n"));
-    assert!(said.contains("magnitude 3.0000"), "{said}");
-    let said = text(&format!("{RATE}distribution = \"cone\"\nhalf_angle_rad = 0.1\naxis = [0, 3, 4]\n"));
-    assert!(said.contains("0.1000 rad about [0.0000, 0.6000, 0.8000], magnitude 3.0000"), "{said}");
-    let error = "parameter = \"initial.attitude\"\ndistribution = \"attitude_error\"\n";
-    let said = text(&format!("{error}std_rad = [0.1, 0.2, 0.3]\n"));
-    assert!(said.contains("std (rad) [0.1000, 0.2000, 0.3000]") && !said.contains("covariance"), "{said}");
-    let said = text(&format!("{error}covariance_rad2 = [[0.01, 0.01, 0], [0.01, 0.04, 0], [0, 0, 0.09]]\n"));
-    assert!(
-        said.contains("std (rad) [0.1000, 0.2000, 0.3000], correlations xy 0.5000, xz 0.0000, yz 0.0000"),
-        "{said}"
-    );
 }

@@ -9,5 +9,6 @@ mod dispersable;
 mod distributions;
 mod effect;
 mod geometric;
+mod geometric_files;
 mod replay;
 mod streams;

@@ -251,29 +251,3 @@ fn applied_values_are_pinned() {
         ]
     );
 }
-
-/// Not a test of speed: prints it. `cargo test --release --test sampling -- --ignored --nocapture`
-#[test]
-#[ignore = "prints a measurement"]
-fn print_the_time_of_a_draw() {
-    let plan =
-        Plan::from_text("spin_sweep.toml", include_str!("../../campaigns/spin_sweep.toml"), Overrides::default())
-            .expect("a shipped campaign");
-    let (mut sampler, mut scene) = (plan.dispersions.sampler(), plan.nominal.clone());
-    let mut applied = [0.0; 12];
-    const N: u64 = 1_000_000;
-    let start = std::time::Instant::now();
-    for k in 1..=N {
-        sampler.draw(SampleId(k), &mut scene, &mut applied);
-        std::hint::black_box(&applied);
-    }
-    println!("{:.1} ns a draw of 12 numbers", start.elapsed().as_secs_f64() * 1e9 / N as f64);
-    let mut resolved = spindrift::scene::Scene::resolve(&scene).expect("physical");
-    let start = std::time::Instant::now();
-    for k in 1..=N {
-        sampler.draw(SampleId(k), &mut scene, &mut applied);
-        resolved.resolve_into(&scene).expect("physical");
-        std::hint::black_box(&resolved);
-    }
-    println!("{:.1} ns drawn and resolved", start.elapsed().as_secs_f64() * 1e9 / N as f64);
-}

@@ -97,6 +97,7 @@ impl<R: Real> GyrostatWheel<R> {
 
     /// The same numbers in all lanes of `zero`.
     #[inline(always)]
+    #[expect(clippy::manual_map, reason = "a closure given to `map` is compiled outside the kernel's instruction set")]
     pub fn in_lanes<L: Real>(&self, zero: L) -> GyrostatWheel<L> {
         let splat = |value: R| zero.splat(value.lane(0));
         GyrostatWheel {

@@ -1,13 +1,13 @@
 //! Dormand-Prince 8(5,3) as in DOP853.
 
-use super::super::error_model::StepErrors;
-use super::super::explicit::{Carried, Step, each, fill_stages, poison, scaled, weighted};
-use super::super::step_control::Controller;
-use super::super::system::{System, Tolerance};
-use super::super::tableau::Dop853Tableau;
-use super::super::embedded::{Embedded, PairAttempt};
 use crate::math::Real;
 use crate::math::power::power;
+use crate::ode::embedded::{Embedded, PairAttempt};
+use crate::ode::error_model::StepErrors;
+use crate::ode::explicit::{Carried, Step, each, fill_stages, poison, scaled, weighted};
+use crate::ode::step_control::Controller;
+use crate::ode::system::{System, Tolerance};
+use crate::ode::tableau::Dop853Tableau;
 
 /// Dormand-Prince 8(5,3) as in DOP853.
 #[derive(Clone, Copy, Debug)]
@@ -155,23 +155,13 @@ impl Embedded for Dop853 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::tableau::Tableau;
-    use super::super::super::tableau::trees::largest_defect;
+    use super::super::still::Still;
     use super::*;
+    use crate::ode::tableau::Tableau;
+    use crate::ode::tableau::trees::largest_defect;
 
     /// Round-off of the conditions, with interpolation weights up to 500. Measured: 3e-15.
     const ROUND_OFF: f64 = 2e-14;
-
-    /// A right-hand side that is not used: the stages are set by hand.
-    struct Still;
-    impl<const N: usize> System<f64, N> for Still {
-        fn derivative(&self, _time: f64, _state: &[f64; N]) -> [f64; N] {
-            [0.0; N]
-        }
-        fn error_ratio(&self, _: &[f64; N], _: &[f64; N], _: &[f64; N], _: Tolerance) -> f64 {
-            0.0
-        }
-    }
 
     /// The weight of each stage at the fraction `s`, by interpolating stages that are unit vectors.
     fn dop853_weights(s: f64) -> [f64; 16] {

@@ -1,13 +1,13 @@
 //! Dormand-Prince 5(4) as in ode45, and a variant that reaches points inside a step by a shorter step.
 
-use super::super::error_model::StepErrors;
-use super::super::explicit::{Carried, Step, each, fill_stages, poison, scaled, weighted};
-use super::super::step_control::Controller;
-use super::super::system::{System, Tolerance};
-use super::super::tableau::{DormandPrinceTableau, Tableau};
-use super::super::embedded::{Embedded, PairAttempt};
 use crate::math::Real;
 use crate::math::power::power;
+use crate::ode::embedded::{Embedded, PairAttempt};
+use crate::ode::error_model::StepErrors;
+use crate::ode::explicit::{Carried, Step, each, fill_stages, poison, scaled, weighted};
+use crate::ode::step_control::Controller;
+use crate::ode::system::{System, Tolerance};
+use crate::ode::tableau::{DormandPrinceTableau, Tableau};
 
 /// The first step is chosen for this relative tolerance if the given one is smaller (ode45's limit, 100 eps).
 const FINEST: f64 = 100.0 * f64::EPSILON;
@@ -16,7 +16,33 @@ const FINEST: f64 = 100.0 * f64::EPSILON;
 #[derive(Clone, Copy, Debug)]
 pub struct DormandPrince;
 
-impl Embedded for DormandPrince {
+/// Dormand-Prince 5(4) that reaches a point inside a step by a shorter step from the same start.
+///
+/// The steps are those of [`DormandPrince`], and so of ode45, whose interpolant (ntrp45) is of order 4, with an error of the
+/// size of the tolerance; a shorter step has order 5 at the point. It costs five evaluations per point.
+#[derive(Clone, Copy, Debug)]
+pub struct DormandPrinceRestepped;
+
+/// How a state inside a step of the pair is found: in this alone its two variants differ.
+trait PointsInside: Copy {
+    /// Evaluations of the right-hand side for each point.
+    const EVALUATIONS: f64;
+    /// [`StepErrors::factor`].
+    const ERROR_FACTOR: f64;
+    /// [`StepErrors::dense`].
+    const DENSE_ERROR: f64;
+
+    /// The state at the fraction `s` of `step`, whose stages are known.
+    fn inside<R: Real, Q: System<R, N>, const N: usize>(
+        system: &Q,
+        step: Step<R>,
+        s: R,
+        start: &Carried<R, N>,
+        stages: &[[R; N]; 7],
+    ) -> [R; N];
+}
+
+impl<P: PointsInside> Embedded for P {
     const CONTROLLER: Controller = Controller {
         exponent: 1.0 / 5.0,
         safety: 0.8,
@@ -30,8 +56,8 @@ impl Embedded for DormandPrince {
     const EVALUATIONS: f64 = 6.0;
     const START_EVALUATIONS: f64 = 1.0;
     const DENSE_EVALUATIONS: f64 = 0.0;
-    const POINT_EVALUATIONS: f64 = 0.0;
-    const ERRORS: StepErrors = StepErrors { factor: 1.0, extrapolation: 0.2, dense: 1.0 };
+    const POINT_EVALUATIONS: f64 = P::EVALUATIONS;
+    const ERRORS: StepErrors = StepErrors { factor: P::ERROR_FACTOR, extrapolation: 0.2, dense: P::DENSE_ERROR };
 
     type Stages<R: Real, const N: usize> = [[R; N]; 7];
 
@@ -82,14 +108,21 @@ impl Embedded for DormandPrince {
     }
 
     #[inline(always)]
-    fn prepare_inside<R: Real, Q: System<R, N>, const N: usize>(
-        _system: &Q,
-        _step: Step<R>,
-        _start: &Carried<R, N>,
-        _end: &[R; N],
-        _stages: &mut [[R; N]; 7],
-    ) {
+    fn inside<R: Real, Q: System<R, N>, const N: usize>(
+        system: &Q,
+        step: Step<R>,
+        s: R,
+        start: &Carried<R, N>,
+        stages: &[[R; N]; 7],
+    ) -> [R; N] {
+        P::inside(system, step, s, start, stages)
     }
+}
+
+impl PointsInside for DormandPrince {
+    const EVALUATIONS: f64 = 0.0;
+    const ERROR_FACTOR: f64 = 1.0;
+    const DENSE_ERROR: f64 = 1.0;
 
     #[inline(always)]
     fn inside<R: Real, Q: System<R, N>, const N: usize>(
@@ -124,66 +157,11 @@ impl Embedded for DormandPrince {
     }
 }
 
-/// Dormand-Prince 5(4) that reaches a point inside a step by a shorter step from the same start.
-///
-/// The steps are those of [`DormandPrince`], and so of ode45, whose interpolant (ntrp45) is of order 4, with an error of the
-/// size of the tolerance; a shorter step has order 5 at the point. It costs five evaluations per point.
-#[derive(Clone, Copy, Debug)]
-pub struct DormandPrinceRestepped;
+impl PointsInside for DormandPrinceRestepped {
+    const EVALUATIONS: f64 = 5.0;
+    const ERROR_FACTOR: f64 = 0.5;
+    const DENSE_ERROR: f64 = 0.0;
 
-impl Embedded for DormandPrinceRestepped {
-    const CONTROLLER: Controller = DormandPrince::CONTROLLER;
-    const EVALUATIONS: f64 = DormandPrince::EVALUATIONS;
-    const START_EVALUATIONS: f64 = DormandPrince::START_EVALUATIONS;
-    const DENSE_EVALUATIONS: f64 = 0.0;
-    const POINT_EVALUATIONS: f64 = 5.0;
-    const ERRORS: StepErrors = StepErrors { factor: 0.5, dense: 0.0, ..DormandPrince::ERRORS };
-
-    type Stages<R: Real, const N: usize> = [[R; N]; 7];
-
-    #[inline(always)]
-    fn stages<R: Real, const N: usize>(zero: R) -> [[R; N]; 7] {
-        DormandPrince::stages(zero)
-    }
-    #[inline(always)]
-    fn first<R: Real, const N: usize>(stages: &mut [[R; N]; 7]) -> &mut [R; N] {
-        DormandPrince::first(stages)
-    }
-    #[inline(always)]
-    fn last<R: Real, const N: usize>(stages: &[[R; N]; 7]) -> &[R; N] {
-        DormandPrince::last(stages)
-    }
-    #[inline(always)]
-    fn first_step<R: Real, Q: System<R, N>, const N: usize>(
-        system: &Q,
-        time: R,
-        state: &[R; N],
-        slope: &[R; N],
-        longest: R,
-        tolerance: Tolerance,
-    ) -> R {
-        DormandPrince::first_step(system, time, state, slope, longest, tolerance)
-    }
-    #[inline(always)]
-    fn attempt<R: Real, Q: System<R, N>, const N: usize>(
-        system: &Q,
-        step: Step<R>,
-        start: &Carried<R, N>,
-        tolerance: Tolerance,
-        stages: &mut [[R; N]; 7],
-        end: &mut Carried<R, N>,
-    ) -> PairAttempt<R> {
-        DormandPrince::attempt(system, step, start, tolerance, stages, end)
-    }
-    #[inline(always)]
-    fn prepare_inside<R: Real, Q: System<R, N>, const N: usize>(
-        _system: &Q,
-        _step: Step<R>,
-        _start: &Carried<R, N>,
-        _end: &[R; N],
-        _stages: &mut [[R; N]; 7],
-    ) {
-    }
     #[inline(always)]
     fn inside<R: Real, Q: System<R, N>, const N: usize>(
         system: &Q,
@@ -203,22 +181,12 @@ impl Embedded for DormandPrinceRestepped {
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::tableau::trees::largest_defect;
+    use super::super::still::Still;
     use super::*;
+    use crate::ode::tableau::trees::largest_defect;
 
     /// Round-off of the conditions on the weights. Measured: 9e-16.
     const ROUND_OFF: f64 = 8e-15;
-
-    /// A right-hand side that is not used: the stages are set by hand.
-    struct Still;
-    impl<const N: usize> System<f64, N> for Still {
-        fn derivative(&self, _time: f64, _state: &[f64; N]) -> [f64; N] {
-            [0.0; N]
-        }
-        fn error_ratio(&self, _: &[f64; N], _: &[f64; N], _: &[f64; N], _: Tolerance) -> f64 {
-            0.0
-        }
-    }
 
     #[test]
     fn dense_output_of_dormand_prince_has_order_4() {
@@ -226,7 +194,7 @@ mod tests {
             let unit: [[f64; 7]; 7] = std::array::from_fn(|i| std::array::from_fn(|k| f64::from(u8::from(i == k))));
             let start = Carried { state: [0.0; 7], carry: [0.0; 7] };
             let step = Step { time: 0.0, end: 1.0, length: 1.0 };
-            let weights = DormandPrince::inside(&Still, step, s, &start, &unit);
+            let weights = <DormandPrince as Embedded>::inside(&Still, step, s, &start, &unit);
             assert!(largest_defect(&DormandPrinceTableau::A, &weights, s, 4) < ROUND_OFF);
             if s < 1.0 {
                 assert!(largest_defect(&DormandPrinceTableau::A, &weights, s, 5) > 1e-7);

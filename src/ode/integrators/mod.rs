@@ -57,6 +57,9 @@ integrators! {
 
 pub use dormand_prince::DormandPrinceRestepped;
 
+#[cfg(test)]
+mod still;
+
 impl Integrator {
     /// Whether it takes steps of a fixed length (`integrator.step_s`) instead of following the tolerance.
     pub fn has_fixed_step(self) -> bool {

@@ -1,7 +1,7 @@
 //! `log_normal`: normal in the natural logarithm, with standard deviation `log_std` and `median`, else the nominal value.
 
 use super::target::Target;
-use super::traits::{Quantile, Scalar};
+use super::traits::{Quantile, Scalar, each_score};
 use crate::math::normal::{quantile, quantiles};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{KeyReader, KeyWriter, Values};
@@ -61,10 +61,7 @@ impl Quantile for LogNormalQuantile {
 
     #[inline]
     fn of_scores(&self, z: &[f64; 8], values: &mut [f64; 8]) -> bool {
-        for (value, z) in values.iter_mut().zip(z) {
-            *value = self.median * libm::exp(self.log_std * z);
-        }
-        true
+        each_score(z, values, |z| self.median * libm::exp(self.log_std * z))
     }
 
     fn text(&self, short: &dyn Fn(f64) -> String) -> String {

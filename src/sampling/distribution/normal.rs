@@ -1,7 +1,7 @@
 //! `normal`: normal about the nominal value, with standard deviation `std` or `relative_std`.
 
 use super::target::{Numbers, Target};
-use super::traits::{Quantile, Scalar};
+use super::traits::{Quantile, Scalar, each_score};
 use crate::math::normal::{quantile, quantiles};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{KeyReader, KeyWriter, Values};
@@ -87,10 +87,7 @@ impl Quantile for NormalQuantile {
 
     #[inline]
     fn of_scores(&self, z: &[f64; 8], values: &mut [f64; 8]) -> bool {
-        for (value, z) in values.iter_mut().zip(z) {
-            *value = self.mean + self.std * z;
-        }
-        true
+        each_score(z, values, |z| self.mean + self.std * z)
     }
 
     fn normal_std(&self) -> Option<f64> {

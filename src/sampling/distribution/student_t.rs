@@ -3,7 +3,7 @@
 
 use super::of_score::OfScore;
 use super::target::Target;
-use super::traits::{Quantile, Scalar};
+use super::traits::{Quantile, Scalar, each_score};
 use crate::math::incomplete_beta::logit_quantile;
 use crate::math::normal::quantile;
 use crate::sampling::error::DispersionError;
@@ -113,8 +113,7 @@ impl Quantile for StudentTQuantile {
     }
 
     fn of_scores(&self, z: &[f64; 8], values: &mut [f64; 8]) -> bool {
-        values.iter_mut().zip(z).for_each(|(value, z)| *value = self.at_score(*z));
-        true
+        each_score(z, values, |z| self.at_score(z))
     }
 
     fn text(&self, short: &dyn Fn(f64) -> String) -> String {

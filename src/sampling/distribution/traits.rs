@@ -25,6 +25,15 @@ pub trait Scalar: Clone + Debug + PartialEq {
     fn quantiles(&self, target: &Target<'_>) -> Result<Vec<Self::Quantile>, DispersionError>;
 }
 
+/// For [`Quantile::of_scores`] of a distribution whose value is the function `of` of the normal score: the value of each.
+#[inline]
+pub fn each_score(z: &[f64; 8], values: &mut [f64; 8], of: impl Fn(f64) -> f64) -> bool {
+    for (value, z) in values.iter_mut().zip(z) {
+        *value = of(*z);
+    }
+    true
+}
+
 /// A quantile function.
 pub trait Quantile: Clone + Debug + PartialEq {
     /// The value below which the fraction `u` of the distribution lies, 0 < u < 1.

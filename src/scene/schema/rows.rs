@@ -20,6 +20,25 @@ macro_rules! gate {
     };
 }
 
+/// What a row says of its key, apart from where the value is.
+macro_rules! facts {
+    (
+        $key:ident, $unit:expr, $meaning:expr, $components:expr, $shape:ident, $limit:expr, ($($presence:tt)+), $remedy:expr
+    ) => {
+        $crate::scene::schema::row::Facts {
+            key: stringify!($key),
+            unit: $unit,
+            meaning: $meaning,
+            components: $components,
+            shape: $crate::scene::schema::row::Shape::$shape,
+            presence: $crate::scene::schema::rows::presence!($($presence)+),
+            needs: $crate::scene::schema::rows::gate!($($presence)+),
+            limit: $limit,
+            remedy: $remedy,
+        }
+    };
+}
+
 /// An input structure from its rows. A row reads
 ///
 /// ```text
@@ -55,17 +74,9 @@ macro_rules! rows {
             /// The rows of the schema.
             pub const ROWS: &'static [$crate::scene::schema::row::Row<$Table>] = &[ $(
                 $crate::scene::schema::row::Row {
-                    facts: $crate::scene::schema::row::Facts {
-                        key: stringify!($key),
-                        unit: $unit,
-                        meaning: $meaning,
-                        components: $components,
-                        shape: $crate::scene::schema::row::Shape::$shape,
-                        presence: $crate::scene::schema::rows::presence!($($presence)+),
-                        needs: $crate::scene::schema::rows::gate!($($presence)+),
-                        limit: $limit,
-                        remedy: $remedy,
-                    },
+                    facts: $crate::scene::schema::rows::facts!(
+                        $key, $unit, $meaning, $components, $shape, $limit, ($($presence)+), $remedy
+                    ),
                     read: |$table| Numbers::numbers(&$get.$key),
                     write: |$table| Numbers::numbers_mut(&mut $get.$key),
                     open: |$table| Numbers::open(&mut $get.$key),
@@ -76,7 +87,6 @@ macro_rules! rows {
             /// Notes which values violate their limits; `name` makes a dotted name of the key. Without a loop over rows: every draw is
             /// checked.
             #[inline(always)]
-            #[allow(unused_variables, reason = "a table may have no keys")]
             pub(in crate::scene) fn check(
                 &self,
                 has_debris: bool,
@@ -107,17 +117,9 @@ macro_rules! row {
         ($($presence:tt)+), $remedy:expr, $open:expr, $pattern:pat => $value:ident
     ) => {
         $crate::scene::schema::row::Row {
-            facts: $crate::scene::schema::row::Facts {
-                key: stringify!($key),
-                unit: $unit,
-                meaning: $meaning,
-                components: $components,
-                shape: $crate::scene::schema::row::Shape::$shape,
-                presence: $crate::scene::schema::rows::presence!($($presence)+),
-                needs: $crate::scene::schema::row::Needs::Nothing,
-                limit: $limit,
-                remedy: $remedy,
-            },
+            facts: $crate::scene::schema::rows::facts!(
+                $key, $unit, $meaning, $components, $shape, $limit, ($($presence)+), $remedy
+            ),
             read: |table| match table {
                 $pattern => Numbers::numbers($value),
                 _ => None,
@@ -132,4 +134,4 @@ macro_rules! row {
     };
 }
 
-pub(super) use {gate, presence, row, rows};
+pub(super) use {facts, gate, presence, row, rows};

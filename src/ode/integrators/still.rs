@@ -1,0 +1,14 @@
+//! For tests of dense output: a system whose right-hand side is zero.
+
+use crate::ode::system::{System, Tolerance};
+
+/// A right-hand side that is not used: the stages are set by hand.
+pub struct Still;
+impl<const N: usize> System<f64, N> for Still {
+    fn derivative(&self, _time: f64, _state: &[f64; N]) -> [f64; N] {
+        [0.0; N]
+    }
+    fn error_ratio(&self, _: &[f64; N], _: &[f64; N], _: &[f64; N], _: Tolerance) -> f64 {
+        0.0
+    }
+}
