@@ -17,9 +17,9 @@ pub const MOST_MEMORY: u64 = 4 << 30;
 /// `memory_of_points_is_what_is_stated`). Fewer groups need less.
 pub const fn bytes_a_point(method: Method) -> u64 {
     match method {
-        Method::Auto | Method::Taylor => 3500,
+        Method::Auto | Method::Taylor => 3600,
         Method::NullSpace => 1500,
-        _ => 2150,
+        _ => 2250,
     }
 }
 

@@ -22,8 +22,12 @@ pub fn without_effect(plan: &Plan, isa: Isa) -> Option<Vec<Parameter>> {
     let mut parameters: Vec<Parameter> = columns.iter().map(|column| column.parameter).collect();
     parameters.sort_unstable();
     parameters.dedup();
-    let inputs: Vec<Parameter> =
-        plan.derived.iter().flat_map(|derivation| derivation.inputs(&plan.nominal)).map(|(parameter, _)| parameter).collect();
+    let inputs: Vec<Parameter> = plan
+        .derived
+        .iter()
+        .flat_map(|derivation| derivation.inputs(&plan.nominal))
+        .map(|(parameter, _)| parameter)
+        .collect();
     parameters.retain(|parameter| !inputs.contains(parameter));
     let start = Instant::now();
     let nominal = row(plan, isa)?;

@@ -166,11 +166,11 @@ fn switches(input: &SceneInput, problems: &mut Problems) {
 /// Collects what is wrong with what follows from an input whose numbers all passed.
 pub(super) fn derived(input: &SceneInput, mass: &MassProperties, problems: &mut Problems) {
     let is_normal = |value: f64| value.is_finite() && value >= f64::MIN_POSITIVE;
-    let mut body = |key: String, mass: f64, moments: [f64; 3]| {
+    let mut body = |key: &dyn Fn() -> String, mass: f64, moments: [f64; 3]| {
         let passed = is_normal(mass) && moments.into_iter().all(is_normal);
         if !passed {
             problems.add(
-                key,
+                key(),
                 format!("{:?}", (mass, moments)),
                 "of a mass (kg) and moments of inertia (kg m^2) that are positive and finite numbers",
                 "check the units of sizes and densities",
@@ -182,15 +182,15 @@ pub(super) fn derived(input: &SceneInput, mass: &MassProperties, problems: &mut 
     let Body { mass: own, inertia, .. } = mass.fuselage;
     let mut passed = true;
     if !input.body.includes_wheels {
-        passed &= body("body".into(), own, diagonal(inertia));
+        passed &= body(&|| "body".to_owned(), own, diagonal(inertia));
     }
     let turning = input.wheels.iter().filter(|wheel| wheel.mode != WheelMode::Locked);
     for (written, wheel) in turning.zip(&mass.wheels) {
-        let name = format!("wheels.{}", written.name);
-        passed &= body(name, wheel.mass, [wheel.axial, wheel.transverse, wheel.transverse]);
+        let name = || format!("wheels.{}", written.name);
+        passed &= body(&name, wheel.mass, [wheel.axial, wheel.transverse, wheel.transverse]);
     }
     if let Some(debris) = mass.debris {
-        passed &= body("debris".into(), debris.mass, diagonal(debris.inertia));
+        passed &= body(&|| "debris".to_owned(), debris.mass, diagonal(debris.inertia));
     }
     if passed && input.body.includes_wheels {
         passed &= without_wheels(own, inertia, problems);

@@ -248,7 +248,7 @@ impl SceneInput {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{ActuationInput, DebrisInput, PrincipalInertia, PrincipalMoments, WheelMode};
+    use crate::scene::{ActuationInput, BodyInput, DebrisInput, PrincipalInertia, PrincipalMoments, WheelMode};
 
     const IDENTITY: [f64; 4] = [1.0, 0.0, 0.0, 0.0];
 
@@ -266,6 +266,8 @@ mod tests {
         let mut other = full();
         other.body.principal = Some(PrincipalInertia { moments: second, axes: IDENTITY });
         list.push(other);
+        // keys of a part have no effect where those of the whole body override them
+        list.push(SceneInput { body: BodyInput::DEFAULT, ..full() });
         list
     }
 
@@ -292,7 +294,10 @@ mod tests {
         let variants = variants();
         let mut columns = std::collections::BTreeSet::new();
         for parameter in Parameter::all(&full()) {
-            let nominal = variants.iter().find(|scene| parameter.exists(scene, 0)).expect("every key exists somewhere");
+            let nominal = variants
+                .iter()
+                .find(|scene| parameter.exists(scene, 0))
+                .unwrap_or_else(|| panic!("{} exists nowhere", parameter.name()));
             assert_eq!(Parameter::find(&full(), &parameter.name()), Some((parameter, None)));
             for component in 0..parameter.width() {
                 assert!(parameter.exists(nominal, component), "{}", parameter.name());

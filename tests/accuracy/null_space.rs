@@ -199,7 +199,7 @@ proptest! {
         let found = Vector3::from(rate.omega_s);
         prop_assert!((found - omega_dot).norm() <= RATE_TOLERANCE * size, "{} {}", found, omega_dot);
 
-        // the kernel has room for two wheels: one that the scene does not have stands still
+        // the kernel has entries for two wheels: the rate of one that the scene does not have is constant
         for i in 0..2 {
             if let Some(wheel) = mass.wheels.get(i) {
                 let expected = actuation.motor_torque[i] / wheel.axial - omega_dot.dot(&Vector3::from(wheel.axis));

@@ -53,7 +53,8 @@ fn largest_error(what: &str, table: &Table) -> f64 {
 /// A plan for one scene of this file: `auto` at 1e-16.
 fn plan(scene: &SceneInput, duration: f64, points: usize) -> Plan {
     let text = "[campaign]\nname = \"stress\"\nsamples = 1\nseed = 1\nduration_s = 1\n[integrator]\ntolerance = 1e-16\n\
-                [fuselage]\nwall_thickness_m = 0.03\nouter_radius_m = 1\nlength_m = 3\ndensity_kg_m3 = 2700\n[initial]\n\
+                [body]\nmass_kg = 1\ncenter_of_mass_m = [0, 0, 0]\ninertia_kg_m2 = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\n\
+                includes_wheels = false\n[initial]\n\
                 angular_velocity_rad_s = [0, 0, 1]\n";
     let mut plan = Plan::from_text("stress", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
     plan.nominal = scene.clone();

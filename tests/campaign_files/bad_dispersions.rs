@@ -209,7 +209,9 @@ const CASES: &[&str] = &[
             "[[correlate]]\nparameters = [\"body.parts.fuselage.density_kg_m3\", \"wheels.w1.radius_m\"]\ncorrelation = [[1, 0.5], [0.5, 1]]"
         )
     ),
-    pair!("[[correlate]]\nparameters = [\"body.parts.fuselage.density_kg_m3\", \"wheels.w1.radius_m\"]\ncorrelation = 1.5"),
+    pair!(
+        "[[correlate]]\nparameters = [\"body.parts.fuselage.density_kg_m3\", \"wheels.w1.radius_m\"]\ncorrelation = 1.5"
+    ),
     pair!("[[correlate]]\nparameters = [\"wheels.w1.radius_m\"]\ncorrelation = 0.5"),
     pair!(
         "[[correlate]]\nparameters = [\"body.parts.fuselage.density_kg_m3\", \"wheels.w1.radius_m\"]\ncorrelation = 0.5\n[[correlate]]\nparameters = [\"wheels.w1.radius_m\", \"body.parts.fuselage.density_kg_m3\"]\nrank_correlation = 0.4"

@@ -17,7 +17,7 @@ const HORIZON: f64 = 6.0;
 fn plan(method: Method, control: Control, scenes: &[Scene]) -> PropagationSettings {
     let settings =
         PropagationSettings::new(method, control, Grid::uniform(HORIZON, 29), everything(method), &scenes[0]);
-    // room for what any of the scenes has
+    // a table with columns for what any of the scenes has
     PropagationSettings {
         wheels: scenes.iter().map(|scene| scene.mass.wheels.len()).max().expect("there are scenes"),
         thrust: scenes.iter().any(|scene| scene.commands_thrust),
@@ -31,11 +31,11 @@ fn bits(runs: &[Run]) -> Vec<Bits> {
 }
 
 /// Law: the row of a scene is the same bits alone, together with other runs, in any order, and on every instruction set.
-fn equal_in_any_company(method: Method, control: Control) {
-    equal_in_company_of(method, control, &|forced| mixed(21, forced, HORIZON));
+fn equal_among_any_runs(method: Method, control: Control) {
+    equal_among_runs_of(method, control, &|forced| mixed(21, forced, HORIZON));
 }
 
-fn equal_in_company_of(method: Method, control: Control, scenes: &dyn Fn(bool) -> Vec<Scene>) {
+fn equal_among_runs_of(method: Method, control: Control, scenes: &dyn Fn(bool) -> Vec<Scene>) {
     for forced in [false, true] {
         let scenes = scenes(forced);
         let plan = plan(method, control, &scenes);
@@ -64,38 +64,38 @@ fn equal_in_company_of(method: Method, control: Control, scenes: &dyn Fn(bool) -
 
 #[test]
 fn auto() {
-    equal_in_any_company(Method::Auto, adaptive(1e-12));
+    equal_among_any_runs(Method::Auto, adaptive(1e-12));
 }
 
 #[test]
 fn taylor() {
-    equal_in_any_company(Method::Taylor, adaptive(1e-12));
+    equal_among_any_runs(Method::Taylor, adaptive(1e-12));
 }
 
 #[test]
 fn dormand_prince() {
-    equal_in_any_company(Method::Gyrostat(Integrator::DormandPrince), adaptive(1e-8));
+    equal_among_any_runs(Method::Gyrostat(Integrator::DormandPrince), adaptive(1e-8));
 }
 
 #[test]
 fn dop853() {
-    equal_in_any_company(Method::Gyrostat(Integrator::Dop853), adaptive(1e-8));
+    equal_among_any_runs(Method::Gyrostat(Integrator::Dop853), adaptive(1e-8));
 }
 
 #[test]
 fn methods_with_fixed_steps() {
-    equal_in_any_company(Method::Gyrostat(Integrator::RungeKutta4), fixed(0.01));
-    equal_in_any_company(Method::Gyrostat(Integrator::GaussLegendre), fixed(0.01));
+    equal_among_any_runs(Method::Gyrostat(Integrator::RungeKutta4), fixed(0.01));
+    equal_among_any_runs(Method::Gyrostat(Integrator::GaussLegendre), fixed(0.01));
 }
 
 #[test]
 fn reference() {
-    equal_in_any_company(Method::NullSpace, adaptive(1e-5));
+    equal_among_any_runs(Method::NullSpace, adaptive(1e-5));
 }
 
 /// The same with up to eight wheels and sixteen thrusters.
 #[test]
-fn many_wheels_in_any_company() {
+fn many_wheels_among_any_runs() {
     let scenes = |forced: bool| -> Vec<Scene> {
         let input = |k: u64| many_wheels([8, 4, 3, 1, 0][(k % 5) as usize], k, forced, HORIZON);
         (0..21).map(|k| Scene::resolve(&input(k)).expect("random scenes are physical")).collect()
@@ -107,7 +107,7 @@ fn many_wheels_in_any_company() {
         (Method::Gyrostat(Integrator::Dop853), adaptive(1e-8)),
         (Method::NullSpace, adaptive(1e-5)),
     ] {
-        equal_in_company_of(method, control, &scenes);
+        equal_among_runs_of(method, control, &scenes);
     }
 }
 

@@ -295,7 +295,7 @@ fn wrong_fractions_are_refused() {
             "fraction = -0.1",
             "audit.fraction = -0.1: must be a number from 0 to 1; 0.01 runs one sample in a hundred again",
         ),
-        ("fraction = \"all\"", "audit.fraction = \"all\": must be a number from 0 to 1"),
+        ("fraction = \"all\"", "audit.fraction = \"all\": must be a finite number, or one with a unit (%)"),
         ("fractions = 0.1", "audit.fractions"),
     ] {
         let text = format!("{text}\n[audit]\n{written}\n");

@@ -4,7 +4,7 @@
 use super::observed_tables::{Motion, done, free_row, golden_table, motion_table, request, rotation, row, table1};
 use spindrift::math::Isa;
 use spindrift::math::vector::dcm_from_quaternion;
-use spindrift::observables::{Group, Groups, Observer, Request, Series};
+use spindrift::observables::{Column, Group, Groups, Observer, Request, Series};
 use spindrift::run::{Grid, StateField, StateFields, StateTable};
 use spindrift::run::{LocalErrors, Outcome, Status, StepStatistics};
 

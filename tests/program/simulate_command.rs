@@ -96,7 +96,8 @@ fn plots_and_tables_are_made() {
     let scratch = folder("plots");
     scratch.prints("simulate small.toml --plot p.svg", 0);
     let svg = fs::read_to_string(scratch.path("p.svg")).unwrap();
-    for title in ["small, nominal", "wheel w1", "debris", "Angular velocity", "quaternion", "Relative errors of the balances"]
+    for title in
+        ["small, nominal", "wheel w1", "debris", "Angular velocity", "quaternion", "Relative errors of the balances"]
     {
         assert!(svg.contains(title), "{title}");
     }

@@ -314,7 +314,7 @@ fn sequences_integrate_smooth_functions_faster() {
 #[test]
 fn numbers_are_pinned() {
     // names of streams: the second was the name of a parameter once, and its numbers stay
-    let names: Vec<String> = ["initial.angular_velocity_rad_s.x", "body.parts.fuselage.density_kg_m3"].map(str::to_owned).to_vec();
+    let names: Vec<String> = ["initial.angular_velocity_rad_s.x", "fuselage.density_kg_m3"].map(str::to_owned).to_vec();
     let mut found = Vec::new();
     for design in [
         Design::Random(RandomDesign),

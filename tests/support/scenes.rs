@@ -76,7 +76,7 @@ pub fn keep_wheels(input: &mut SceneInput, present: [bool; 2]) {
     input.wheels.retain(|wheel| WHEELS.iter().zip(present).any(|(name, kept)| kept && wheel.name.as_str() == *name));
 }
 
-/// The scene with the most wheels, whose tables have room for the wheels of every other.
+/// The scene with the most wheels, whose tables have columns for the wheels of every other.
 pub fn of_most_wheels(scenes: &[Scene]) -> &Scene {
     scenes.iter().max_by_key(|scene| scene.mass.wheels.len()).expect("there are scenes")
 }

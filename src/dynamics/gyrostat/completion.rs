@@ -54,6 +54,7 @@ pub fn complete<S: Simd>(simd: S, run: &Gyrostat<f64>, trajectory: &Trajectory, 
     ];
     let translation = translation.into_iter().any(|field| table.has(field));
     if wheels {
+        table.clear_wheels(run.wheels.len());
         for first in (0..table.stride()).step_by(WIDTH) {
             complete_wheels(Chunk { simd, first }, run, trajectory, &times[first..first + WIDTH], table);
         }

@@ -112,6 +112,16 @@ impl<R: Real> Constants<R> {
         constants
     }
 
+    /// What constant torques - external ones and those of the motors - add to omega' in B.
+    #[inline(always)]
+    pub fn torque_acceleration(&self) -> [R; 3] {
+        let mut alpha = [self.start; 3];
+        for i in 0..3 {
+            alpha[i] = self.inverse[i] * (self.torque[i] - self.momentum_rate[i]);
+        }
+        alpha
+    }
+
     /// omega' in B: J* omega' = H x omega + tau_ext - sum tau_i a_i, H = J* omega + h.
     #[inline(always)]
     pub fn angular_acceleration(&self, time: R, omega: [R; 3]) -> [R; 3] {

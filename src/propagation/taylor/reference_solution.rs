@@ -308,7 +308,7 @@ impl Integration<'_, '_> {
                 now.motor_power = constants.motor_power_rate.mul_add(time, constants.motor_power);
                 jet[0] = state;
                 expand::<DoubleDouble, N, true>(&now, &reciprocals, order, &mut scratch, &mut jet);
-                let (proposed, left) = (share * rule.step(&jet), length - time);
+                let (proposed, left) = (share * rule.step(&jet, Some(constants.torque_acceleration())), length - time);
                 lands = !proposed.lt(left);
                 let step = if lands { left } else { proposed };
                 while let Some(at) = times.get(states.len()) {
