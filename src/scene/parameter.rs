@@ -9,7 +9,7 @@ use super::name::Name;
 pub use super::schema::Shape;
 use super::schema::{Facts, MassErrors, PartShape};
 use super::table::{Key, Table};
-use super::unit_quaternion::unit_quaternion;
+use super::unit_quaternion::{is_unit, unit_quaternion};
 
 /// A numeric key of scene or initial state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -203,6 +203,13 @@ impl Parameter {
         {
             *numbers = unit_quaternion(*numbers);
         }
+    }
+
+    /// Whether the numbers are those of a unit quaternion, to rounding; `false` of parameters that are none.
+    #[inline]
+    pub fn is_unit(self, scene: &SceneInput) -> bool {
+        let is_quaternion = self.shape() == Shape::Quaternion;
+        is_quaternion && self.key.read(scene, self.instance()).is_some_and(is_unit)
     }
 
     /// Makes the value valid as a whole after its components were changed: a quaternion is divided by its norm (one of norm

@@ -13,7 +13,7 @@ use spindrift::propagation::Method;
 use spindrift::run::Outcome;
 use spindrift::run::Status;
 use spindrift::run::{Grid, StateField, StateTable};
-use spindrift::scene::{Scene, SceneInput, WheelMode};
+use spindrift::scene::{Arc, Scene, SceneInput, WheelMode};
 
 /// Horizon, s: up to three turns of the body and twenty of a wheel, many steps of every method.
 pub const HORIZON: f64 = 1.0;
@@ -43,14 +43,23 @@ fn angle(scene: &Scene) -> f64 {
     HORIZON * norm(initial.omega_se_s).max(norm(initial.omega_de_d)).max(wheels)
 }
 
-/// What an error of the work is compared with, J, at least one. The motor of a wheel whose speed is held at Omega does the work
-/// A Omega (w(t) - w(0)), w being the rate of the fuselage along the axis: a difference of terms of the size A Omega |omega|,
-/// which is small where w returns to its first value. Rounding and tolerances act on the terms.
+/// What an error of the work is compared with, J, at least one: the largest of the terms whose difference it is. The motor of a wheel
+/// whose speed is held at Omega does the work A Omega (w(t) - w(0)), w being the rate of the body along the axis: terms of the size
+/// A Omega |omega|. That of a free wheel does the integral of tau (h/A - w), of a size |tau| |h/A| t with h/A = Omega + w. Both may
+/// cancel; rounding and tolerances act on the terms.
 fn work_scale(scene: &Scene, expected: &StateTable) -> f64 {
-    let omega = (0..expected.points()).map(|point| norm(expected.at::<3>(StateField::Rate, point))).fold(0.0, f64::max);
-    let wheels = scene.mass.wheels.iter().zip(scene.initial.wheel_rates);
-    let held = wheels.filter(|(wheel, _)| wheel.mode == WheelMode::SpeedHeld);
-    held.map(|(wheel, rate)| (wheel.axial * rate).abs() * omega).fold(1.0, f64::max)
+    let points = 0..expected.points();
+    let omega = points.clone().map(|point| norm(expected.at::<3>(StateField::Rate, point))).fold(0.0, f64::max);
+    let terms = scene.mass.wheels.iter().zip(scene.initial.wheel_rates).enumerate().map(|(index, (wheel, rate))| {
+        if wheel.mode == WheelMode::SpeedHeld {
+            return (wheel.axial * rate).abs() * omega;
+        }
+        let rates = expected.column(StateField::WheelRates, index);
+        let fastest = rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs())) + omega;
+        let on = |arc: &Arc| arc.applied.motor_torque[index].abs() * (arc.end() - arc.start);
+        scene.schedule.iter().map(on).sum::<f64>() * fastest
+    });
+    terms.fold(1.0, f64::max)
 }
 
 /// The largest distance of any state at any point, relative to its size (at least one in its unit).
