@@ -147,7 +147,7 @@ impl Tally {
         }
     }
 
-    /// The statistics of the observables in the order of [`HEADLINES`], without those that the campaign does not have.
+    /// The statistics of the observables in the order of [`crate::observables::headlines`], without those that the campaign does not have.
     pub fn headlines(&self) -> &[Headline] {
         &self.headlines
     }

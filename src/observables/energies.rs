@@ -4,6 +4,7 @@
 //! about c, a quadratic form of omega with constant coefficients, and what the motion of c adds:
 //! T_b = T_b^c + m_b (u . (omega x d_b) + u . u / 2). A wheel adds J_i Omega_i (omega . a_i + Omega_i / 2).
 //! Over the spacecraft the mixed terms cancel: T = T^c + m v_c . v_c / 2, which needs no attitude.
+#![expect(clippy::needless_range_loop, reason = "wheels and vectors are numbered alike in several arrays")]
 
 use fearless_simd::Simd;
 

@@ -2,6 +2,7 @@
 //!
 //! p = m v_c minus the thrusters' impulse; L = C_es (J omega + sum J_i Omega_i a_i) about c, J with wheels locked, minus the
 //! angular impulse of thrusters and torques on the body; of the debris m_d v_d and C_ed J_d omega_d, on which nothing acts.
+#![expect(clippy::needless_range_loop, reason = "wheels and vectors are numbered alike in several arrays")]
 
 use fearless_simd::Simd;
 

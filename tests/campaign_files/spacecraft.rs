@@ -112,7 +112,7 @@ fn units_in_values_give_si() {
     let plan = plan(NEWCOMER);
     let degree = std::f64::consts::PI / 180.0;
     let near = |found: f64, expected: f64| {
-        assert!((found / expected - 1.0).abs() <= 2.0 * f64::EPSILON, "{found:?} {expected:?}")
+        assert!((found / expected - 1.0).abs() <= 2.0 * f64::EPSILON, "{found:?} {expected:?}");
     };
     near(plan.nominal.wheels[0].rate_rad_s, 100.0 * std::f64::consts::PI);
     near(plan.nominal.thrusters[0].tilt_rad[0], 0.5 * degree);

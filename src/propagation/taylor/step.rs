@@ -71,8 +71,7 @@ impl StepRule {
     ///
     /// Where the rate is a polynomial of low order its own series ends, and only the attitude's limits the step: at a constant rate
     /// omega that of exp(omega t/2), at a constant angular acceleration alpha that of exp(alpha t^2/4). Constant torques make the
-    /// second: `alpha` is what they add to the acceleration, `None` of free runs. See [`EQUAL_TIMES`] for where
-    /// both count.
+    /// second: `alpha` is what they add to the acceleration, `None` of free runs. See `EQUAL_TIMES` for where both count.
     #[inline(always)]
     pub fn step<R: Real, const N: usize>(&self, jet: &[[R; N]], alpha: Option<[R; 3]>) -> R {
         let scale = rate_squared(&jet[0]) + rate_squared(&jet[1]);
