@@ -36,8 +36,8 @@ std = 0.05
 "#
 );
 
-/// The column of the energy transfer between fuselage and wheel 1.
-const COLUMN: &str = "exchange_wheel1_peak_to_peak_j";
+/// The column of the energy transfer between body and wheel w1.
+const COLUMN: &str = "exchange_w1_peak_to_peak_j";
 
 /// Keeps one column of every row with the value of the first dispersed parameter.
 struct Collected {

@@ -24,11 +24,14 @@ points = 13
 method = "auto"
 tolerance = 1e-12
 
-[fuselage]
+[[body.parts]]
+name = "fuselage"
+shape = "hollow_cylinder"
 outer_radius_m = 0.8
 length_m = 2.0
 wall_thickness_m = 0.02
 density_kg_m3 = 2700.0
+position_m = [0, 0, 1]
 
 [initial]
 angular_velocity_rad_s = [0.02, -0.03, 0.1]

@@ -39,7 +39,8 @@ pub fn main() {
         println!("{time:6.1}  {x:10.6} {y:10.6} {z:10.6}");
     }
     for (series, errors) in &run.series {
-        let name = series.quantity().map_or("", |quantity| quantity.name());
+        let quantity = series.quantity(&run.request.wheels);
+        let name = quantity.as_ref().map_or("", |quantity| quantity.name());
         if name.ends_with("_error") {
             let maximum = errors.iter().fold(0.0_f64, |maximum, error| maximum.max(error.abs()));
             println!("maximum of {name}: {maximum:.1e}");

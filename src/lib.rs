@@ -15,8 +15,13 @@
 //!     campaign = { name = "doc", samples = 100, seed = 1, duration_s = 10.0 }
 //!     integrator = { method = "auto", tolerance = 1e-10 }
 //!     observe = { points = 11 }
-//!     fuselage = { outer_radius_m = 1.0, length_m = 3.0, wall_thickness_m = 0.03, density_kg_m3 = 2700.0 }
 //!     initial = { angular_velocity_rad_s = [0.0, 0.1, 0.5] }
+//!
+//!     [body]
+//!     mass_kg = 500.0
+//!     center_of_mass_m = [0.0, 0.0, 0.0]
+//!     inertia_kg_m2 = [[120.0, -3.0, 1.0], [-3.0, 150.0, 2.0], [1.0, 2.0, 90.0]]
+//!     includes_wheels = false
 //!
 //!     [[disperse]]
 //!     parameter = "initial.angular_velocity_rad_s.x"

@@ -178,7 +178,9 @@ fn observation() {
         let scenes = drawn(&plan, 0..3);
         let actuated = !plan.nominal.actuation.is_empty();
         let constrained = method == Method::NullSpace;
-        let request = Request { groups: Groups::ALL, debris: plan.nominal.debris.is_some(), actuated, constrained };
+        let wheels = plan.nominal.turning_wheels();
+        let request =
+            Request { groups: Groups::ALL, debris: plan.nominal.debris.is_some(), actuated, constrained, wheels };
         let mut observer = Observer::new(request, &plan.grid);
         let mut row = vec![0.0; request.columns().len()];
         let control = adaptive(if constrained { 1e-3 } else { 1e-12 });

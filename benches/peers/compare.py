@@ -28,8 +28,8 @@ ACTUATION = """
 [[actuation]]
 start_s = 0.0
 end_s = 10.0
-thrust_n = [100, 40, 15]
-torque_n_m = [0.5, -0.25]
+thrust_n = { p1 = 100, p2 = 40, p3 = 15 }
+torque_n_m = { w1 = 0.5, w2 = -0.25 }
 """
 # name: (changes of the campaign file, appended text, system, points, further options of `spindrift precision`)
 CASES = {
@@ -93,26 +93,32 @@ def drawn(spindrift, file, samples, folder):
 def scene(nominal, row):
     """Initial state and parameters of one sample for `system`."""
 
-    def value(table, key, component=None):
-        column = parameter_column(table, key, component)
+    def value(table, prefix, key, component=None):
+        column = parameter_column(prefix, key, component)
         if column in row:
             return row[column]
-        written = nominal[table][key]
+        written = table[key]
         return float(written if component is None else written[component])
 
-    body = {key: value("fuselage", key) for key in nominal["fuselage"]}
-    wheels = [{key: value(name, key) for key in nominal[name]} for name in ("wheel1", "wheel2")]
-    omega = [value("initial", "angular_velocity_rad_s", i) for i in range(3)]
-    spin = [value("initial", "wheel_rates_rad_s", i) for i in range(2)]
+    [part] = nominal["body"]["parts"]
+    sizes = ("wall_thickness_m", "outer_radius_m", "length_m", "density_kg_m3")
+    body = {key: value(part, f"body_parts_{part['name']}", key) for key in sizes}
+    numbers = ("radius_m", "length_m", "density_kg_m3", "rate_rad_s")
+    wheels = [
+        {key: value({"rate_rad_s": 0.0} | wheel, f"wheels_{wheel['name']}", key) for key in numbers}
+        | {"station_m": value(wheel, f"wheels_{wheel['name']}", "position_m", 2)}
+        for wheel in nominal["wheels"]
+    ]
+    omega = [value(nominal["initial"], "initial", "angular_velocity_rad_s", i) for i in range(3)]
+    spin = [wheel["rate_rad_s"] for wheel in wheels]
 
-    t, radius, length, density = (
-        body[key] for key in ("wall_thickness_m", "outer_radius_m", "length_m", "density_kg_m3"))
+    t, radius, length, density = (body[key] for key in sizes)
     bore, height = radius - t, length - 2 * t
     shell = density * math.pi * t * (radius + bore) * height
     plates = 2 * density * math.pi * radius**2 * t
     arm = 0.5 * (length - t)
     mass = [shell + plates]
-    station = [0.5 * length]
+    station = [value(part, f"body_parts_{part['name']}", "position_m", 2)]
     axial = 0.5 * (shell * (radius**2 + bore**2) + plates * radius**2)
     across = shell * ((radius**2 + bore**2) / 4 + height**2 / 12) + plates * (radius**2 / 4 + t * t / 12 + arm**2)
     j = [across, across, axial]
@@ -130,10 +136,12 @@ def scene(nominal, row):
     pairs = sum(mass[k] * mass[n] / total * (station[k] - station[n]) ** 2 for k, n in ((0, 1), (0, 2), (1, 2)))
     j = [j[0] + pairs, j[1] + pairs, j[2]]
 
-    act = nominal.get("actuation", [{"thrust_n": [0, 0, 0], "torque_n_m": [0, 0]}])[0]
-    thrust, motor = act["thrust_n"], act["torque_n_m"]
+    act = nominal.get("actuation", [{"thrust_n": {}, "torque_n_m": {}}])[0]
+    thrust = [act["thrust_n"].get(name, 0.0) for name in ("p1", "p2", "p3")]
+    motor = [act["torque_n_m"].get(name, 0.0) for name in ("w1", "w2")]
     force = thrust[0] - thrust[1] - thrust[2]
-    torque = [body["thruster_offset_m"] * (thrust[1] - thrust[2]), -motor[0], -motor[1]]
+    offsets = {thruster["name"]: thruster["position_m"][1] for thruster in nominal.get("thrusters", [])}
+    torque = [offsets.get("p3", 0.0) * (thrust[1] - thrust[2]), -motor[0], -motor[1]]
     h = [wheel_axial[i] * (omega[i + 1] + spin[i]) for i in range(2)]
     par = [(j[(i + 1) % 3] - j[(i + 2) % 3]) / j[i] for i in range(3)] + [1 / x for x in j] + h
     par += [1 / x for x in wheel_axial] + torque + list(motor) + [force / total]
@@ -153,9 +161,8 @@ def parameter_column(table, key, component):
     name = f"{table}_{key}"
     if component is None:
         return name
-    quantity, unit = name.rsplit("_rad_s", 1)[0], "rad_s"
-    axis = "xyz"[component] if "angular" in key else "12"[component]
-    return f"{quantity}_{axis}_{unit}"
+    unit = "rad_s" if name.endswith("_rad_s") else "m"
+    return f"{name.removesuffix('_' + unit)}_{'xyz'[component]}_{unit}"
 
 
 def errors(states, truth, kind):

@@ -58,13 +58,30 @@ impl Plan {
 
     /// The tables of the nominal scene, every key that it has in the order of the schema.
     fn write_scene(&self, lines: &mut Lines) {
-        lines.keys_of("[fuselage]", Table::Fuselage, 0, &self.nominal);
-        for (instance, wheel) in self.nominal.wheels.iter().enumerate() {
-            if let Some(wheel) = wheel {
-                let header = format!("[{}]", Table::Wheel.headers()[instance]);
-                lines.keys_of(&header, Table::Wheel, instance, &self.nominal);
-                lines.key("wheel_mode", wheel.mode.name());
-            }
+        let scene = &self.nominal;
+        lines.table("[body]");
+        lines.keys(Table::Body, 0, scene);
+        lines.keys(Table::BodyErrors, 0, scene);
+        if scene.parts.is_empty() {
+            lines.key("includes_wheels", scene.body.includes_wheels);
+        }
+        for (instance, part) in scene.parts.iter().enumerate() {
+            lines.table("[[body.parts]]");
+            lines.key("name", part.name);
+            lines.key("shape", part.shape.name());
+            lines.keys(Table::Part, instance, scene);
+            lines.keys(Table::PartErrors, instance, scene);
+        }
+        for (instance, wheel) in scene.wheels.iter().enumerate() {
+            lines.table("[[wheels]]");
+            lines.key("name", wheel.name);
+            lines.key("mode", wheel.mode.name());
+            lines.keys(Table::Wheel, instance, scene);
+        }
+        for (instance, thruster) in scene.thrusters.iter().enumerate() {
+            lines.table("[[thrusters]]");
+            lines.key("name", thruster.name);
+            lines.keys(Table::Thruster, instance, scene);
         }
         if self.nominal.debris.is_some() {
             lines.keys_of("[debris]", Table::Debris, 0, &self.nominal);
@@ -75,6 +92,9 @@ impl Plan {
         }
         for arc in 0..self.nominal.actuation.len() {
             lines.keys_of("[[actuation]]", Table::Actuation, arc, &self.nominal);
+            let command = &self.nominal.actuation[arc];
+            lines.by_name("thrust_n", self.nominal.thrusters.iter().map(|thruster| thruster.name), command.thrust_n);
+            lines.by_name("torque_n_m", self.nominal.wheels.iter().map(|wheel| wheel.name), command.torque_n_m);
         }
         if !self.nominal.actuation.is_empty() {
             lines.keys_of("[actuators]", Table::Actuators, 0, &self.nominal);

@@ -60,7 +60,7 @@ fn file(table: &mut Section<'_, '_>) -> Option<(String, DataFile)> {
 
 /// The columns of a file that are parameters: those that are listed, else all but `sample_id`.
 pub(super) fn columns(table: &mut Section<'_, '_>) -> Option<Vec<DataColumn>> {
-    let listed = table.texts("parameters", "[\"wheel1.radius_m\"]");
+    let listed = table.texts("parameters", "[\"wheels.w1.radius_m\"]");
     if table.has("parameters") && listed.as_ref().is_none_or(Vec::is_empty) {
         if listed.is_some() {
             table.refuse("parameters", "at least one name", "leave the key out for all columns of the file");
@@ -73,7 +73,7 @@ pub(super) fn columns(table: &mut Section<'_, '_>) -> Option<Vec<DataColumn>> {
         table.refuse(
             "file",
             "a file with columns that are named like parameters",
-            "name its columns wheel1.radius_m, ...",
+            "name its columns wheels.w1.radius_m, ...",
         );
         return None;
     }
@@ -87,8 +87,8 @@ pub(super) fn columns(table: &mut Section<'_, '_>) -> Option<Vec<DataColumn>> {
 /// The column of a parameter: by its dotted name, or by the name of its column in rows.
 fn parameter_column(table: &mut Section<'_, '_>, file: &str, data: &DataFile, parameter: &str) -> Option<DataColumn> {
     let key = if table.has("parameters") { "parameters" } else { "file" };
-    let Some(component) = named(parameter) else {
-        let (allowed, remedy) = unknown_parameter(parameter);
+    let Some(component) = named(&table.document.scene, parameter) else {
+        let (allowed, remedy) = unknown_parameter(&table.document.scene, parameter);
         table.refuse_value(key, format!("{parameter:?}"), format!("made of names, each {allowed}"), remedy);
         return None;
     };

@@ -7,13 +7,13 @@ use crate::scene::Parameter;
 
 /// Reads one `[[correlate]]` table; `None` where something is wrong, which is then noted.
 pub fn correlation(table: &mut Section<'_, '_>) -> Option<Correlation> {
-    table.require("parameters", "an array of texts", "[\"wheel1.radius_m\", \"wheel1.length_m\"]");
-    let names = table.texts("parameters", "[\"wheel1.radius_m\", \"wheel1.length_m\"]");
+    table.require("parameters", "an array of texts", "[\"wheels.w1.radius_m\", \"wheels.w1.length_m\"]");
+    let names = table.texts("parameters", "[\"wheels.w1.radius_m\", \"wheels.w1.length_m\"]");
     let parameters = names.and_then(|names| {
         let mut parameters = Vec::with_capacity(names.len());
         for name in names {
-            let Some(found) = Parameter::find(&name) else {
-                let (allowed, remedy) = unknown_parameter(&name);
+            let Some(found) = Parameter::find(&table.document.scene, &name) else {
+                let (allowed, remedy) = unknown_parameter(&table.document.scene, &name);
                 table.refuse_value("parameters", format!("{name:?}"), format!("made of names, each {allowed}"), remedy);
                 return None;
             };
@@ -48,7 +48,7 @@ pub fn correlation(table: &mut Section<'_, '_>) -> Option<Correlation> {
 /// Reads one `[[derive]]` table; `None` where something is wrong, which is then noted.
 pub fn derivation(table: &mut Section<'_, '_>) -> Option<Derivation> {
     let target = parameter(table, "parameter");
-    table.require("expression", "arithmetic over other parameters", "\"wheel1.density_kg_m3\"");
+    table.require("expression", "arithmetic over other parameters", "\"wheels.w1.density_kg_m3\"");
     let expression = table.text("expression").map(str::to_owned);
     table.finish();
     let ((parameter, component), expression) = target.zip(expression)?;

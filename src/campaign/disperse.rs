@@ -9,6 +9,9 @@ use crate::sampling::{Dispersion, WrittenDistribution};
 /// Reads one table; `None` where something is wrong, which is then noted.
 pub fn read(table: &mut Section<'_, '_>) -> Option<Dispersion> {
     let target = parameter(table, "parameter");
+    if let Some((parameter, _)) = target {
+        table.describes(parameter.unit());
+    }
     let distribution = WrittenDistribution::read(table);
     // without a distribution nobody can say which other keys belong here
     if distribution.is_some() || table.is_name_of("distribution", WrittenDistribution::NAMES) {

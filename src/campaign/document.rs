@@ -5,6 +5,7 @@
 //! what they report about a key that was reported already is dropped ([`Document::add_from_below`]).
 
 use super::problem::{CampaignError, Problem};
+use crate::scene::SceneInput;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
@@ -19,12 +20,21 @@ pub struct Document<'a> {
     pub(super) lines: BTreeMap<String, usize>,
     /// The folder from which paths in the document count.
     folder: PathBuf,
+    /// The scene of the document, once it is read: names of parameters are those of its tables.
+    pub(super) scene: SceneInput,
 }
 
 impl<'a> Document<'a> {
     /// A document before anything has been read.
     pub fn new(file: &'a str, text: &'a str) -> Self {
-        Document { file, text, problems: Vec::new(), lines: BTreeMap::new(), folder: PathBuf::new() }
+        Document {
+            file,
+            text,
+            problems: Vec::new(),
+            lines: BTreeMap::new(),
+            folder: PathBuf::new(),
+            scene: SceneInput::blank(),
+        }
     }
 
     /// The same document in `folder`, from which its paths count; without, they count from the working directory.
@@ -113,6 +123,11 @@ impl<'a> Document<'a> {
 
     pub(super) fn line_at(&self, offset: usize) -> usize {
         1 + self.text.as_bytes()[..offset.min(self.text.len())].iter().filter(|byte| **byte == b'\n').count()
+    }
+
+    /// A value as written.
+    pub(super) fn text_of(&self, value: &Spanned<DeValue<'a>>) -> &'a str {
+        self.text.get(value.span()).unwrap_or("")
     }
 
     pub(super) fn written(&self, value: &Spanned<DeValue<'a>>) -> String {

@@ -7,17 +7,17 @@ use toml::de::DeValue;
 
 impl Section<'_, '_> {
     /// A list of finite numbers, if it was written.
-    pub fn numbers(&mut self, key: &'static str) -> Option<Vec<f64>> {
+    pub fn numbers(&mut self, key: &str) -> Option<Vec<f64>> {
         let value = self.take(key)?;
-        let list = numbers(value.get_ref());
+        let list = numbers(value.get_ref(), self.unit_of(key));
         if list.is_none() {
-            self.refuse(key, "an array of finite numbers", "write it like [1.0, 2.0]");
+            self.refuse_number(key, value.get_ref(), "an array of finite numbers", "write it like [1.0, 2.0]");
         }
         list
     }
 
     /// A list of texts, if it was written.
-    pub fn texts(&mut self, key: &'static str, example: &str) -> Option<Vec<String>> {
+    pub fn texts(&mut self, key: &str, example: &str) -> Option<Vec<String>> {
         let value = self.take(key)?;
         let text = |item: &DeValue<'_>| item.as_str().map(str::to_owned);
         let list: Option<Vec<String>> =
@@ -29,17 +29,17 @@ impl Section<'_, '_> {
     }
 
     /// One finite number, or rows of equally many of them, if it was written.
-    pub fn correlations(&mut self, key: &'static str) -> Option<Numbers> {
+    pub fn correlations(&mut self, key: &str) -> Option<Numbers> {
         let value = self.take(key)?;
         let found = match value.get_ref() {
             DeValue::Array(rows) => {
-                let rows: Option<Vec<Vec<f64>>> = rows.iter().map(|row| numbers(row.get_ref())).collect();
+                let rows: Option<Vec<Vec<f64>>> = rows.iter().map(|row| numbers(row.get_ref(), "1")).collect();
                 let is_matrix = |rows: &Vec<Vec<f64>>| {
                     rows.first().is_some_and(|first| rows.iter().all(|row| row.len() == first.len()))
                 };
                 rows.filter(is_matrix).map(Numbers::Rows)
             }
-            single => number(single).filter(|x| x.is_finite()).map(Numbers::One),
+            single => number(single, "1").filter(|x| x.is_finite()).map(Numbers::One),
         };
         if found.is_none() {
             let allowed = "one number for two parameters, or rows of equally many finite numbers";
@@ -49,7 +49,7 @@ impl Section<'_, '_> {
     }
 
     /// A whole number within `range` for all, or a list of them, if it was written.
-    pub fn counts(&mut self, key: &'static str, range: std::ops::RangeInclusive<u64>) -> Option<Counts> {
+    pub fn counts(&mut self, key: &str, range: std::ops::RangeInclusive<u64>) -> Option<Counts> {
         let value = self.take(key)?;
         let count = |value: &DeValue<'_>| {
             let count = value.as_integer().and_then(|x| u64::from_str_radix(x.as_str(), x.radix()).ok());
@@ -69,7 +69,7 @@ impl Section<'_, '_> {
     }
 
     /// Yes or no, if it was written.
-    pub fn flag(&mut self, key: &'static str) -> Option<bool> {
+    pub fn flag(&mut self, key: &str) -> Option<bool> {
         let value = self.take(key)?;
         let flag = value.get_ref().as_bool();
         if flag.is_none() {
@@ -79,6 +79,6 @@ impl Section<'_, '_> {
     }
 }
 
-fn numbers(value: &DeValue<'_>) -> Option<Vec<f64>> {
-    value.as_array()?.iter().map(|item| number(item.get_ref()).filter(|x| x.is_finite())).collect()
+fn numbers(value: &DeValue<'_>, unit: &str) -> Option<Vec<f64>> {
+    value.as_array()?.iter().map(|item| number(item.get_ref(), unit).filter(|x| x.is_finite())).collect()
 }

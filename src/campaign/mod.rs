@@ -7,6 +7,7 @@
 //!   [`design`], [`dependence`]: those that say what is drawn; `keys`: how a distribution or a design reads its own;
 //!   [`data`], `data_keys`: files of numbers; `parameter`: names of parameters; [`limits`]; [`compression`].
 //! - [`plan`]: defaults filled in, scene and dispersions checked against each other.
+//! - `units`: units in values. `old_format`: files of the format before 0.2, and their new text.
 //! - [`notes`]: what is allowed and probably not meant.
 //! - [`mod@draw`]: from a plan and the number of a sample to its scene.
 //! - [`canonical`], [`canonical_draws`], `lines`: the plan as text that reads back to the same plan, and its hash.
@@ -30,12 +31,14 @@ pub mod limits;
 mod lines;
 pub mod lists;
 pub mod notes;
+mod old_format;
 mod parameter;
 pub mod plan;
 pub mod problem;
 mod scene;
 pub mod section;
 pub mod spec;
+mod units;
 
 pub use compression::Compression;
 pub use draw::{SceneDraws, draw};

@@ -1,39 +1,44 @@
 //! Names of parameters in campaign files.
 
+use super::old_format;
 use super::problem::nearest;
 use super::section::Section;
-use crate::scene::Parameter;
+use crate::scene::{Parameter, SceneInput};
 
 /// The parameter, and the component if one is meant, that `key` names.
 pub(super) fn parameter(table: &mut Section<'_, '_>, key: &'static str) -> Option<(Parameter, Option<usize>)> {
-    table.require(key, "a numeric key of scene or initial state", "\"fuselage.density_kg_m3\"");
+    table.require(key, "a numeric key of scene or initial state", "\"initial.angular_velocity_rad_s\"");
     let name = table.text(key)?;
-    let found = Parameter::find(name);
+    let found = Parameter::find(&table.document.scene, name);
     if found.is_none() {
-        let (allowed, remedy) = unknown_parameter(name);
+        let (allowed, remedy) = unknown_parameter(&table.document.scene, name);
         table.refuse(key, allowed, remedy);
     }
     found
 }
 
 /// What is said of a name that is no parameter: what is allowed, and what was probably meant.
-pub(super) fn unknown_parameter(name: &str) -> (String, String) {
-    let names: Vec<String> = Parameter::all().map(Parameter::name).collect();
+pub(super) fn unknown_parameter(scene: &SceneInput, name: &str) -> (String, String) {
+    let names: Vec<String> = Parameter::all(scene).map(Parameter::name).collect();
+    if let Some(new) = old_format::new_name(name) {
+        let allowed = "a numeric key of scene or initial state, by its name in this format".to_owned();
+        return (allowed, format!("write {new}"));
+    }
     let remedy = match nearest(name, names.iter().map(String::as_str)) {
         Some(meant) => format!("did you mean {meant:?}?"),
-        None => "write table and key as in this file, \"wheel1.radius_m\"".to_owned(),
+        None => "write table and key as in this file, \"wheels.w1.radius_m\"".to_owned(),
     };
     ("a numeric key of scene or initial state, as a whole or with a component ([0] or .x)".to_owned(), remedy)
 }
 
 /// The component that a name means: dotted, or as a column of rows.
-pub(super) fn named(name: &str) -> Option<(Parameter, usize)> {
+pub(super) fn named(scene: &SceneInput, name: &str) -> Option<(Parameter, usize)> {
     let flat = || {
-        Parameter::all().find_map(|parameter| {
+        Parameter::all(scene).find_map(|parameter| {
             (0..parameter.width()).map(|k| (parameter, k)).find(|(parameter, k)| parameter.column_name(*k) == name)
         })
     };
-    match Parameter::find(name) {
+    match Parameter::find(scene, name) {
         Some((parameter, Some(component))) => Some((parameter, component)),
         Some((parameter, None)) if parameter.width() == 1 => Some((parameter, 0)),
         _ => flat(),

@@ -4,6 +4,7 @@
 use super::compression::Compression;
 use super::document::Document;
 use super::limits::{FRACTION, LARGEST_SEED, MAX_SAMPLES, MOST_MEMORY, bytes_a_point};
+use super::old_format;
 use super::problem::{CampaignError, Problem};
 use super::spec::Spec;
 use crate::observables::Group;
@@ -174,6 +175,10 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
         );
     }
 
+    // of a file of the old format the new text is said, and nothing of the scene that is not there
+    if old_format::is_refused(document) {
+        return None;
+    }
     if let Err(errors) = Scene::resolve(&spec.scene) {
         let found = errors.into_iter().map(|e| (e.key.into_owned(), e.value, e.allowed, e.remedy.to_owned()));
         document.add_from_below(found.collect());
@@ -278,7 +283,7 @@ fn refuse_after_the_end(duration: Option<f64>, scene: &SceneInput, drawn: &Drawn
     let Some(duration) = duration else { return };
     let mut within = scene.clone();
     within.actuation.retain(|arc| arc.start_s < duration);
-    let inputs: Vec<_> = drawn.derived.1.iter().flat_map(Derivation::inputs).collect();
+    let inputs: Vec<_> = drawn.derived.1.iter().flat_map(|derivation| derivation.inputs(scene)).collect();
     for (index, dispersion) in drawn.dispersed.1.iter().enumerate() {
         let components =
             dispersion.component.map_or(0..dispersion.parameter.width(), |component| component..component + 1);

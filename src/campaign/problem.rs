@@ -57,6 +57,10 @@ impl std::error::Error for CampaignError {}
 /// these are at most a third of them.
 pub fn nearest<'a>(written: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let candidates: Vec<&str> = candidates.into_iter().collect();
+    // a name that was not written to its end
+    if let Some(whole) = candidates.iter().find(|c| written.len() > 3 && c.starts_with(written)) {
+        return Some(whole);
+    }
     let close = candidates
         .iter()
         .map(|candidate| (changes(written, candidate), *candidate))
@@ -92,6 +96,10 @@ mod tests {
         assert_eq!(nearest("sampels", names), Some("samples"));
         assert_eq!(nearest("duration", names), Some("duration_s"));
         assert_eq!(nearest("angular_velocity", names), Some("initial.angular_velocity_rad_s"));
+        assert_eq!(
+            nearest("body.tank.density", ["body.tank.length_m", "body.tank.density_kg_m3"]),
+            Some("body.tank.density_kg_m3")
+        );
         assert_eq!(nearest("colour", names), None);
         assert_eq!(changes("kitten", "sitting"), 3);
     }

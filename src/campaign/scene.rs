@@ -1,40 +1,40 @@
 //! The tables that describe the scene: which keys, with which defaults, says [`crate::scene::schema`].
 //!
-//! Here is what no single row can say: which ways to describe a body exclude each other, what belongs to a body that is not
-//! there, and `wheel_mode`, which is no number.
+//! Here is what no single row can say: names, which ways to describe a body exclude each other, what belongs to a body that is not
+//! there, and keys that are no numbers. Tables of the format before 0.2 are refused by [`super::old_format`].
 
+use super::old_format;
 use super::section::Section;
+use crate::scene::mass::MAX_PARTS;
 use crate::scene::table::Table;
-use crate::scene::{ActuationInput, DebrisInput, SceneInput, WheelInput, WheelMode};
+use crate::scene::{
+    ActuationInput, DebrisInput, MAX_THRUSTERS, MAX_WHEELS, Name, PartInput, PartShape, SceneInput, ThrusterInput,
+    WheelInput, WheelMode,
+};
 
 /// Reads every table of the scene. A number that is missing or wrong is NaN, and noted in the document.
 pub(super) fn read(root: &mut Section<'_, '_>) -> SceneInput {
-    let mut scene = SceneInput::default();
-    // whether there is a schedule decides which keys of the fuselage are required
+    let mut scene = SceneInput::blank();
+    let old = old_format::refuse(root);
+    if old.is_none() && !root.has("body") {
+        let content = "a table with the mass properties of the body, or its parts";
+        root.document.add("body", None, content, "add a [body] table, or [[body.parts]] tables");
+    }
+    read_wheels(root, &mut scene);
+    read_thrusters(root, &mut scene);
+    if root.has("body") {
+        read_body(root, &mut scene);
+    }
     root.sections("actuation", |section| {
         scene.actuation.push(ActuationInput::DEFAULT);
         let arc = scene.actuation.len() - 1;
         read_keys(section, Table::Actuation, arc, &mut scene);
+        match &old {
+            Some(old) => old.refuse_arc(section, arc),
+            None => read_commands(section, &mut scene, arc),
+        }
         section.finish();
     });
-    {
-        let mut section = root.section("fuselage");
-        exclude_inertias(&mut section);
-        read_keys(&mut section, Table::Fuselage, 0, &mut scene);
-        section.finish();
-    }
-    for (instance, header) in Table::Wheel.headers().iter().enumerate() {
-        let mut section = root.section(header);
-        if section.is_present() {
-            scene.wheels[instance] = Some(WheelInput::DEFAULT);
-            read_keys(&mut section, Table::Wheel, instance, &mut scene);
-            let mode = section.name("wheel_mode", &WheelMode::ALL.map(WheelMode::name), WheelMode::from_name);
-            if let (Some(wheel), Some(mode)) = (&mut scene.wheels[instance], mode) {
-                wheel.mode = mode;
-            }
-            section.finish();
-        }
-    }
     let mut section = root.section("debris");
     if section.is_present() {
         scene.debris = Some(DebrisInput::default());
@@ -44,7 +44,10 @@ pub(super) fn read(root: &mut Section<'_, '_>) -> SceneInput {
     }
     let mut section = root.section("initial");
     read_keys(&mut section, Table::Initial, 0, &mut scene);
-    refuse_states_of_absent_bodies(&mut section, &scene);
+    refuse_states_of_absent_debris(&mut section, &scene);
+    if old.is_some() {
+        old_format::refuse_initial(&mut section);
+    }
     section.finish();
     let mut section = root.section("environment");
     read_keys(&mut section, Table::Environment, 0, &mut scene);
@@ -55,6 +58,9 @@ pub(super) fn read(root: &mut Section<'_, '_>) -> SceneInput {
     }
     let mut section = root.section("actuators");
     read_keys(&mut section, Table::Actuators, 0, &mut scene);
+    if old.is_some() {
+        old_format::refuse_actuators(&mut section);
+    }
     section.finish();
     scene
 }
@@ -68,7 +74,7 @@ fn read_keys(section: &mut Section<'_, '_>, table: Table, instance: usize, scene
         }
     }
     for key in table.keys() {
-        let (name, example) = (key.facts().key, key.required(scene));
+        let (name, example) = (key.facts().key, key.required());
         let Some(numbers) = key.write(scene, instance) else {
             section.know(name);
             continue;
@@ -80,6 +86,191 @@ fn read_keys(section: &mut Section<'_, '_>, table: Table, instance: usize, scene
             numbers.fill(f64::NAN);
         }
     }
+}
+
+/// The name of one of a list of tables, different from `taken`; the table is called by it from now on.
+fn read_name(section: &mut Section<'_, '_>, table: Table, taken: &[Name]) -> Name {
+    section.require("name", Name::ALLOWED, "\"a1\"");
+    let Some(text) = section.text("name") else { return Name::of("unnamed") };
+    let Some(name) = Name::new(text) else {
+        section.refuse("name", Name::ALLOWED, "write a name such as \"w1\"");
+        return Name::of("unnamed");
+    };
+    if taken.contains(&name) {
+        let allowed = format!("another name than that of the other [[{}]] tables", table.header());
+        section.refuse("name", allowed, "give each its own name");
+    }
+    section.rename(format!("{}.{name}", table.header()));
+    name
+}
+
+/// Refuses more tables than a spacecraft may have.
+fn refuse_many(root: &mut Section<'_, '_>, key: &str, count: usize, most: usize) {
+    if count > most {
+        let path = root.path(key);
+        root.document.add(
+            &path,
+            Some(format!("{count} tables")),
+            format!("at most {most} tables"),
+            "delete some of them",
+        );
+    }
+}
+
+fn read_wheels(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
+    root.sections("wheels", |section| {
+        let taken: Vec<Name> = scene.wheels.iter().map(|wheel| wheel.name).collect();
+        let name = read_name(section, Table::Wheel, &taken);
+        exclude_wheel_masses(section);
+        scene.wheels.push(WheelInput { name, ..WheelInput::BLANK });
+        let wheel = scene.wheels.len() - 1;
+        read_keys(section, Table::Wheel, wheel, scene);
+        let mode = section.name("mode", &WheelMode::ALL.map(WheelMode::name), WheelMode::from_name);
+        scene.wheels[wheel].mode = mode.unwrap_or_default();
+        if mode == Some(WheelMode::Locked) && scene.wheels[wheel].rate_rad_s != 0.0 {
+            section.refuse(
+                "rate_rad_s",
+                "left out (or 0) where mode is \"locked\"",
+                "delete it, or choose another mode",
+            );
+        }
+        section.finish();
+    });
+    refuse_many(root, "wheels", scene.wheels.len(), MAX_WHEELS);
+    scene.wheels.truncate(MAX_WHEELS);
+}
+
+/// A wheel is a solid cylinder, or given by mass and inertias.
+fn exclude_wheel_masses(section: &mut Section<'_, '_>) {
+    let by_mass = WheelInput::MASSES.iter().any(|key| section.has(key));
+    let (asked, excluded) =
+        if by_mass { (WheelInput::MASSES, WheelInput::SIZES) } else { (WheelInput::SIZES, WheelInput::MASSES) };
+    for key in excluded {
+        if section.has(key) {
+            section.refuse(key, "left out where the wheel is given by mass and inertias", "delete this line");
+        }
+    }
+    for (key, example) in
+        asked.into_iter().zip(if by_mass { ["5.0", "0.01", "0.005"] } else { ["0.25", "0.1", "2700.0"] })
+    {
+        section.require(key, "a finite number", example);
+    }
+}
+
+fn read_thrusters(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
+    root.sections("thrusters", |section| {
+        let taken: Vec<Name> = scene.thrusters.iter().map(|thruster| thruster.name).collect();
+        let name = read_name(section, Table::Thruster, &taken);
+        scene.thrusters.push(ThrusterInput { name, ..ThrusterInput::DEFAULT });
+        let thruster = scene.thrusters.len() - 1;
+        read_keys(section, Table::Thruster, thruster, scene);
+        section.finish();
+    });
+    refuse_many(root, "thrusters", scene.thrusters.len(), MAX_THRUSTERS);
+    scene.thrusters.truncate(MAX_THRUSTERS);
+}
+
+fn read_body(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
+    let mut section = root.section("body");
+    section.sections("parts", |section| {
+        let taken: Vec<Name> = scene.parts.iter().map(|part| part.name).collect();
+        let name = read_name(section, Table::Part, &taken);
+        section.require("shape", &format!("one of {}", PartShape::ALL.map(PartShape::name).join(", ")), "\"box\"");
+        let shape = section.name("shape", &PartShape::ALL.map(PartShape::name), PartShape::from_name);
+        if let Some(shape) = shape {
+            exclude_sizes(section, shape);
+        }
+        scene.parts.push(PartInput { name, shape: shape.unwrap_or(PartShape::PointMass), ..PartInput::DEFAULT });
+        let part = scene.parts.len() - 1;
+        read_keys(section, Table::Part, part, scene);
+        read_keys(section, Table::PartErrors, part, scene);
+        section.finish();
+    });
+    let (has_parts, has_wheels) = (!scene.parts.is_empty(), !scene.wheels.is_empty());
+    exclude_inertias(&mut section);
+    if !has_parts {
+        section.require("mass_kg", "a finite number (or describe the body by [[body.parts]])", "500.0");
+        if ![MOMENTS, SECOND].iter().any(|key| section.has(key)) {
+            let allowed = format!("given (or {MOMENTS}, {SECOND}, or [[body.parts]])");
+            section.require(TENSOR, &allowed, "[[100, 0, 0], [0, 120, 0], [0, 0, 80]]");
+        }
+    }
+    read_keys(&mut section, Table::Body, 0, scene);
+    read_keys(&mut section, Table::BodyErrors, 0, scene);
+    let is_direct = section.has("mass_kg") || section.has(TENSOR) || section.has(MOMENTS) || section.has(SECOND);
+    if is_direct && !has_parts && has_wheels {
+        let allowed = "true or false: whether mass, centre and inertia of the body are those with the wheels";
+        section.require("includes_wheels", allowed, "false");
+    }
+    scene.body.includes_wheels = section.flag("includes_wheels").unwrap_or(false);
+    if has_parts && scene.body.includes_wheels {
+        let allowed = "false, or left out, where the body has parts: they do not include the wheels";
+        section.refuse("includes_wheels", allowed, "delete this line");
+    }
+    section.finish();
+    let count = scene.parts.len();
+    refuse_many(root, "body.parts", count, MAX_PARTS);
+    scene.parts.truncate(MAX_PARTS);
+}
+
+/// A part has the sizes of its shape, and a density or a mass.
+fn exclude_sizes(section: &mut Section<'_, '_>, shape: PartShape) {
+    const SIZES: [(&str, &str); 5] = [
+        ("outer_radius_m", "1.0"),
+        ("wall_thickness_m", "0.03"),
+        ("radius_m", "0.5"),
+        ("length_m", "1.0"),
+        ("size_m", "[1.0, 1.0, 1.0]"),
+    ];
+    for (key, example) in SIZES {
+        if shape.sizes().contains(&key) {
+            section.require(key, "given", example);
+        } else if section.has(key) {
+            let sizes = shape.sizes().join(", ");
+            let has = if sizes.is_empty() { "has no size".to_owned() } else { format!("has {sizes}") };
+            section.refuse(key, format!("left out: a {} {has}", shape.name()), "delete this line, or change the shape");
+        }
+    }
+    if shape == PartShape::PointMass {
+        if section.has("density_kg_m3") {
+            section.refuse("density_kg_m3", "left out: a point has no volume", "write mass_kg");
+        }
+        section.require("mass_kg", "a finite number", "10.0");
+    } else if !section.has("mass_kg") {
+        section.require("density_kg_m3", "given (or mass_kg)", "2700.0");
+    } else if section.has("density_kg_m3") {
+        section.refuse("density_kg_m3", "left out where mass_kg is given", "delete one of the two");
+    }
+}
+
+/// The thrusts and torques of an arc, by the names of thrusters and wheels.
+fn read_commands(section: &mut Section<'_, '_>, scene: &mut SceneInput, arc: usize) {
+    let thrusters: Vec<Name> = scene.thrusters.iter().map(|thruster| thruster.name).collect();
+    let wheels: Vec<Name> = scene.wheels.iter().map(|wheel| wheel.name).collect();
+    let command = &mut scene.actuation[arc];
+    read_by_name(section, "thrust_n", &thrusters, "thrusters", &mut command.thrust_n);
+    read_by_name(section, "torque_n_m", &wheels, "wheels", &mut command.torque_n_m);
+}
+
+fn read_by_name(section: &mut Section<'_, '_>, key: &'static str, names: &[Name], list: &str, numbers: &mut [f64]) {
+    if section.has(key) && !section.is_table(key) {
+        section.know(key);
+        let entries: Vec<String> = names.iter().map(|name| format!("{name} = 0.0")).collect();
+        let allowed = format!("a table of numbers by the names of [[{list}]]");
+        section.refuse(key, allowed, format!("write {key} = {{ {} }}", entries.join(", ")));
+        return;
+    }
+    let unit = section.unit_of(key);
+    let mut table = section.section(key);
+    table.measures(unit);
+    for (name, number) in names.iter().zip(numbers) {
+        if table.has(name.as_str()) {
+            table.fill(name.as_str(), std::slice::from_mut(number));
+        } else {
+            table.know(name.as_str());
+        }
+    }
+    table.finish();
 }
 
 const MOMENTS: &str = "principal_moments_kg_m2";
@@ -123,18 +314,8 @@ fn exclude_shapes(section: &mut Section<'_, '_>) {
     }
 }
 
-/// What belongs to a wheel or to debris that the scene does not have.
-fn refuse_states_of_absent_bodies(section: &mut Section<'_, '_>, scene: &SceneInput) {
-    for (key, values) in
-        [("wheel_angles_rad", scene.initial.wheel_angles_rad), ("wheel_rates_rad_s", scene.initial.wheel_rates_rad_s)]
-    {
-        let moves =
-            |wheel: &usize| scene.wheels[*wheel].is_none() && values[*wheel] != 0.0 && values[*wheel].is_finite();
-        if let Some(wheel) = (0..values.len()).find(moves) {
-            let allowed = format!("0 for wheel {}, which this spacecraft does not have", wheel + 1);
-            section.refuse(key, allowed, format!("write 0 there, or add a [{}] table", Table::Wheel.headers()[wheel]));
-        }
-    }
+/// What belongs to debris that the scene does not have.
+fn refuse_states_of_absent_debris(section: &mut Section<'_, '_>, scene: &SceneInput) {
     let absent = |key: &&str| section.has(key);
     let keys: Vec<&str> = Table::Initial
         .keys()

@@ -2,6 +2,7 @@
 
 use super::document::Document;
 use super::problem::nearest;
+use super::units::{self, UnitProblem};
 use crate::sampling::Values;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -31,13 +32,17 @@ pub struct Section<'d, 'a> {
     pub document: &'d mut Document<'a>,
     path: String,
     table: Option<&'d DeTable<'a>>,
-    known: Vec<&'static str>,
+    known: Vec<String>,
+    /// The unit of what the table describes and so of its distances, `std`, `min` and so on; `1` where there is none.
+    unit: &'static str,
+    /// The unit of every number of the table, where all are of one kind.
+    every: Option<&'static str>,
 }
 
 impl<'d, 'a> Section<'d, 'a> {
     /// The whole document.
     pub fn root(document: &'d mut Document<'a>, table: &'d DeTable<'a>) -> Self {
-        Section { document, path: String::new(), table: Some(table), known: Vec::new() }
+        Section { document, path: String::new(), table: Some(table), known: Vec::new(), unit: "1", every: None }
     }
 
     /// The dotted path of a key of this table.
@@ -56,14 +61,14 @@ impl<'d, 'a> Section<'d, 'a> {
     }
 
     /// The value of `key` if it was written; the key is known from now on, and so is its line.
-    pub(super) fn take(&mut self, key: &'static str) -> Option<&'d Spanned<DeValue<'a>>> {
+    pub(super) fn take(&mut self, key: &str) -> Option<&'d Spanned<DeValue<'a>>> {
         self.know(key);
         self.table?.get(key)
     }
 
     /// Makes `key` a key of this table.
-    pub(super) fn know(&mut self, key: &'static str) {
-        self.known.push(key);
+    pub(super) fn know(&mut self, key: &str) {
+        self.known.push(key.to_owned());
         self.note_line(key);
     }
 
@@ -91,7 +96,7 @@ impl<'d, 'a> Section<'d, 'a> {
     }
 
     /// The table called `key`; one that was not written reads as empty.
-    pub fn section(&mut self, key: &'static str) -> Section<'_, 'a> {
+    pub fn section(&mut self, key: &str) -> Section<'_, 'a> {
         let path = self.path(key);
         let table = match self.take(key).map(Spanned::get_ref) {
             Some(DeValue::Table(table)) => Some(table),
@@ -101,11 +106,13 @@ impl<'d, 'a> Section<'d, 'a> {
             }
             None => None,
         };
-        Section { document: &mut *self.document, path, table, known: Vec::new() }
+        // a distribution of an angle, `angle_rad = { ... }`, has its own unit
+        let unit = Some(unit_in_name(key)).filter(|unit| *unit != "1").unwrap_or(self.unit);
+        Section { document: &mut *self.document, path, table, known: Vec::new(), unit, every: None }
     }
 
     /// The tables `[[key]]`, in order, each read by `read`.
-    pub fn sections<T>(&mut self, key: &'static str, mut read: impl FnMut(&mut Section<'_, 'a>) -> T) -> Vec<T> {
+    pub fn sections<T>(&mut self, key: &str, mut read: impl FnMut(&mut Section<'_, 'a>) -> T) -> Vec<T> {
         let Some(value) = self.take(key) else { return Vec::new() };
         let tables: Option<Vec<_>> = value.get_ref().as_array().and_then(|list| {
             list.iter().map(|item| item.get_ref().as_table().map(|table| (item.span().start, table))).collect()
@@ -119,14 +126,21 @@ impl<'d, 'a> Section<'d, 'a> {
             let path = format!("{}[{index}]", self.path(key));
             let line = self.document.line_at(start);
             self.document.lines.insert(path.clone(), line);
-            let mut section = Section { document: &mut *self.document, path, table: Some(table), known: Vec::new() };
+            let mut section = Section {
+                document: &mut *self.document,
+                path,
+                table: Some(table),
+                known: Vec::new(),
+                unit: "1",
+                every: None,
+            };
             list.push(read(&mut section));
         }
         list
     }
 
     /// Notes that `key` is missing, unless it was written (and is wrong in another way).
-    pub fn require(&mut self, key: &'static str, allowed: &str, example: &str) {
+    pub fn require(&mut self, key: &str, allowed: &str, example: &str) {
         let is_reported = !self.is_present() && self.document.is_reported(&self.path);
         if !self.has(key) && !is_reported {
             let remedy = if self.path.ends_with(']') {
@@ -140,45 +154,126 @@ impl<'d, 'a> Section<'d, 'a> {
     }
 
     /// A number, if it was written and is allowed.
-    pub fn number(&mut self, key: &'static str, limit: Limit) -> Option<f64> {
+    pub fn number(&mut self, key: &str, limit: Limit) -> Option<f64> {
         let value = self.take(key)?;
-        match number(value.get_ref()) {
+        let unit = self.unit_of(key);
+        match number(value.get_ref(), unit) {
             Some(number) if (limit.test)(number) => Some(number),
             Some(_) => {
                 self.refuse(key, limit.allowed, limit.remedy);
                 None
             }
             None => {
-                self.refuse(key, limit.allowed, remedy_for_text(value.get_ref()));
+                self.refuse_number(key, value.get_ref(), limit.allowed, remedy_for_text(value.get_ref()));
                 None
             }
         }
     }
 
+    /// Notes that `value` of `key` is no number or numbers: what is wrong with a unit in it, if there is one, else `allowed` and `remedy`.
+    pub(super) fn refuse_number(
+        &mut self,
+        key: &str,
+        value: &DeValue<'_>,
+        allowed: impl Into<String>,
+        remedy: impl Into<String>,
+    ) {
+        match unit_problem(value, self.unit_of(key)) {
+            Some(problem) => self.refuse(key, problem.allowed, problem.remedy),
+            None => self.refuse(key, allowed, remedy),
+        }
+    }
+
+    /// The unit in which the numbers of `key` are: that of what the table describes, or the one at the end of the key.
+    pub(super) fn unit_of(&self, key: &str) -> &'static str {
+        match self.every {
+            Some(unit) => unit,
+            None if DISTANCES.contains(&key) => self.unit,
+            None => unit_in_name(key),
+        }
+    }
+
+    /// Whether `key` was written as a table.
+    pub(super) fn is_table(&self, key: &str) -> bool {
+        self.table.and_then(|table| table.get(key)).is_some_and(|value| value.get_ref().as_table().is_some())
+    }
+
+    /// The keys of the table `key` and their values as written.
+    pub(super) fn entries(&self, key: &str) -> Vec<(String, String)> {
+        match self.table.and_then(|table| table.get(key)).map(Spanned::get_ref) {
+            Some(DeValue::Table(table)) => self.written_entries(table),
+            _ => Vec::new(),
+        }
+    }
+
+    /// The same of each of the tables `[[key]]`.
+    pub(super) fn lists_of_entries(&self, key: &str) -> Vec<Vec<(String, String)>> {
+        match self.table.and_then(|table| table.get(key)).map(Spanned::get_ref) {
+            Some(DeValue::Array(list)) => {
+                list.iter().filter_map(|item| Some(self.written_entries(item.get_ref().as_table()?))).collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    fn written_entries(&self, table: &DeTable<'a>) -> Vec<(String, String)> {
+        let entry = |(key, value): (&Spanned<_>, &Spanned<DeValue<'a>>)| {
+            let key: &toml::de::DeString<'a> = key.get_ref();
+            (key.to_string(), self.document.text_of(value).to_owned())
+        };
+        table.iter().map(entry).collect()
+    }
+
+    /// Says that every number of this table is in `unit`.
+    pub(super) fn measures(&mut self, unit: &'static str) {
+        self.every = Some(unit);
+    }
+
+    /// Says in which unit the distances of this table are.
+    pub(super) fn describes(&mut self, unit: &'static str) {
+        self.unit = unit;
+    }
+
+    /// Says that this table is called `path`, and no longer by its place in a list.
+    pub(super) fn rename(&mut self, path: String) {
+        if let Some(line) = self.document.lines.get(&self.path).copied() {
+            self.document.lines.insert(path.clone(), line);
+        }
+        let inner: Vec<(String, usize)> = self
+            .document
+            .lines
+            .iter()
+            .filter_map(|(key, line)| Some((format!("{path}{}", key.strip_prefix(&self.path)?), *line)))
+            .collect();
+        self.document.lines.extend(inner);
+        self.path = path;
+    }
+
     /// Notes that `key`, of `count` numbers, is missing, unless it was written.
-    pub(super) fn require_numbers(&mut self, key: &'static str, count: usize, example: &str) {
+    pub(super) fn require_numbers(&mut self, key: &str, count: usize, example: &str) {
         self.require(key, &numbers_in_words(count), example);
     }
 
     /// Fills `numbers` with the finite numbers of `key`: one, a list, or for nine of them three rows; whether the key was
     /// written. What is wrong is noted, and the numbers are then NaN.
-    pub(super) fn fill(&mut self, key: &'static str, numbers: &mut [f64]) -> bool {
+    pub(super) fn fill(&mut self, key: &str, numbers: &mut [f64]) -> bool {
         let Some(value) = self.take(key) else { return false };
+        let unit = self.unit_of(key);
         let found = match numbers.len() {
-            1 => number(value.get_ref()).map(|number| vec![number]),
-            9 => rows_of_three(value.get_ref()),
-            _ => list(value.get_ref()),
+            1 => number(value.get_ref(), unit).map(|number| vec![number]),
+            9 => rows_of_three(value.get_ref(), unit),
+            _ => list(value.get_ref(), unit),
         };
         match found.filter(|found| found.len() == numbers.len() && found.iter().all(|x| x.is_finite())) {
             Some(found) => numbers.copy_from_slice(&found),
             None => {
                 let remedy = match numbers.len() {
-                    1 if number(value.get_ref()).is_some() => FINITE.remedy.to_owned(),
+                    1 if number(value.get_ref(), unit).is_some() => FINITE.remedy.to_owned(),
                     1 => remedy_for_text(value.get_ref()).to_owned(),
                     9 => "write it like [[3, 0, 0], [0, 3, 0], [0, 0, 2]]".to_owned(),
                     count => format!("write it like [{}]", vec!["0"; count].join(", ")),
                 };
-                self.refuse(key, numbers_in_words(numbers.len()), remedy);
+                self.refuse_number(key, value.get_ref(), numbers_in_words(numbers.len()), remedy);
                 numbers.fill(f64::NAN);
             }
         }
@@ -186,31 +281,33 @@ impl<'d, 'a> Section<'d, 'a> {
     }
 
     /// `N` finite numbers, if they were written; NaN each where they are wrong.
-    pub fn vector<const N: usize>(&mut self, key: &'static str) -> Option<[f64; N]> {
+    pub fn vector<const N: usize>(&mut self, key: &str) -> Option<[f64; N]> {
         let mut vector = [f64::NAN; N];
         self.fill(key, &mut vector).then_some(vector)
     }
 
     /// A 3x3 matrix of finite numbers by rows, if it was written; NaN where it is wrong.
-    pub fn matrix(&mut self, key: &'static str) -> Option<[[f64; 3]; 3]> {
+    pub fn matrix(&mut self, key: &str) -> Option<[[f64; 3]; 3]> {
         let mut matrix = [[f64::NAN; 3]; 3];
         self.fill(key, matrix.as_flattened_mut()).then_some(matrix)
     }
 
     /// One finite number, or an array of them, if written.
-    pub fn values(&mut self, key: &'static str) -> Option<Values> {
+    pub fn values(&mut self, key: &str) -> Option<Values> {
         let value = self.take(key)?;
+        let unit = self.unit_of(key);
         let values = match value.get_ref() {
-            DeValue::Array(_) => list(value.get_ref()).map(Values::Each),
-            single => number(single).map(Values::All),
+            DeValue::Array(_) => list(value.get_ref(), unit).map(Values::Each),
+            single => number(single, unit).map(Values::All),
         };
         let finite = |values: &Values| match values {
             Values::All(x) => x.is_finite(),
             Values::Each(list) => list.iter().all(|x| x.is_finite()),
         };
         if !values.as_ref().is_some_and(finite) {
-            self.refuse(
+            self.refuse_number(
                 key,
+                value.get_ref(),
                 "a finite number, or an array of one for each component",
                 remedy_for_text(value.get_ref()),
             );
@@ -220,7 +317,7 @@ impl<'d, 'a> Section<'d, 'a> {
     }
 
     /// A whole number within `range`, if it was written.
-    pub fn count(&mut self, key: &'static str, range: std::ops::RangeInclusive<u64>) -> Option<u64> {
+    pub fn count(&mut self, key: &str, range: std::ops::RangeInclusive<u64>) -> Option<u64> {
         let value = self.take(key)?;
         let count = value.get_ref().as_integer().and_then(|x| u64::from_str_radix(x.as_str(), x.radix()).ok());
         if let Some(count) = count.filter(|count| range.contains(count)) {
@@ -236,7 +333,7 @@ impl<'d, 'a> Section<'d, 'a> {
     }
 
     /// Text, if it was written.
-    pub fn text(&mut self, key: &'static str) -> Option<&'d str> {
+    pub fn text(&mut self, key: &str) -> Option<&'d str> {
         let value = self.take(key)?;
         let text = value.get_ref().as_str();
         if text.is_none() {
@@ -246,7 +343,7 @@ impl<'d, 'a> Section<'d, 'a> {
     }
 
     /// One of the names that `parse` knows, if it was written.
-    pub fn name<T>(&mut self, key: &'static str, names: &[&str], parse: impl Fn(&str) -> Option<T>) -> Option<T> {
+    pub fn name<T>(&mut self, key: &str, names: &[&str], parse: impl Fn(&str) -> Option<T>) -> Option<T> {
         let text = self.text(key)?;
         let parsed = parse(text);
         if parsed.is_none() {
@@ -259,7 +356,7 @@ impl<'d, 'a> Section<'d, 'a> {
     /// A list of different names that `parse` knows, if it was written.
     pub fn names<T: PartialEq>(
         &mut self,
-        key: &'static str,
+        key: &str,
         names: &[&str],
         parse: impl Fn(&str) -> Option<T>,
     ) -> Option<Vec<T>> {
@@ -306,7 +403,7 @@ impl<'d, 'a> Section<'d, 'a> {
             if self.known.iter().any(|known| known == name) {
                 continue;
             }
-            let remedy = match nearest(name, self.known.iter().copied()) {
+            let remedy = match nearest(name, self.known.iter().map(String::as_str)) {
                 Some(meant) => format!("did you mean {meant}?"),
                 None => "delete it".to_owned(),
             };
@@ -325,23 +422,69 @@ pub fn choice(written: &str, names: &[&str]) -> (String, String) {
     (format!("one of {}", names.join(", ")), remedy)
 }
 
-/// The number of an integer or a float; NaN and infinities too.
-pub(super) fn number(value: &DeValue<'_>) -> Option<f64> {
+/// Keys of distributions whose values are in the unit of what is dispersed.
+const DISTANCES: [&str; 14] = [
+    "min",
+    "max",
+    "mode",
+    "mean",
+    "median",
+    "std",
+    "half_width",
+    "lower",
+    "upper",
+    "offset",
+    "value",
+    "values",
+    "scale",
+    "location",
+];
+
+/// The unit at the end of a key; `1` where there is none.
+fn unit_in_name(key: &str) -> &'static str {
+    const ENDINGS: [(&str, &str); 11] = [
+        ("_rad_s", "rad/s"),
+        ("_kg_m3", "kg/m^3"),
+        ("_kg_m2", "kg m^2"),
+        ("_m_s", "m/s"),
+        ("_n_m", "N m"),
+        ("_rad", "rad"),
+        ("_kg", "kg"),
+        ("_n", "N"),
+        ("_s", "s"),
+        ("_m", "m"),
+        ("_j", "J"),
+    ];
+    ENDINGS.iter().find(|(ending, _)| key.ends_with(ending)).map_or("1", |(_, unit)| unit)
+}
+
+/// The number of an integer, a float, or a text with a unit, in the SI unit `unit`; NaN and infinities too.
+pub(super) fn number(value: &DeValue<'_>, unit: &str) -> Option<f64> {
     match value {
         DeValue::Float(float) => float.as_str().parse().ok(),
         DeValue::Integer(integer) => i128::from_str_radix(integer.as_str(), integer.radix()).ok().map(|x| x as f64),
+        DeValue::String(text) => units::parsed(text, unit).ok(),
+        _ => None,
+    }
+}
+
+/// What is wrong with the first text in a value, if it should be a number of the SI unit `unit`.
+fn unit_problem(value: &DeValue<'_>, unit: &str) -> Option<UnitProblem> {
+    match value {
+        DeValue::String(text) => units::parsed(text, unit).err(),
+        DeValue::Array(list) => list.iter().find_map(|item| unit_problem(item.get_ref(), unit)),
         _ => None,
     }
 }
 
 /// A list of numbers.
-fn list(value: &DeValue<'_>) -> Option<Vec<f64>> {
-    value.as_array()?.iter().map(|item| number(item.get_ref())).collect()
+fn list(value: &DeValue<'_>, unit: &str) -> Option<Vec<f64>> {
+    value.as_array()?.iter().map(|item| number(item.get_ref(), unit)).collect()
 }
 
 /// Three lists of three numbers, one after the other.
-fn rows_of_three(value: &DeValue<'_>) -> Option<Vec<f64>> {
-    let rows: Option<Vec<Vec<f64>>> = value.as_array()?.iter().map(|item| list(item.get_ref())).collect();
+fn rows_of_three(value: &DeValue<'_>, unit: &str) -> Option<Vec<f64>> {
+    let rows: Option<Vec<Vec<f64>>> = value.as_array()?.iter().map(|item| list(item.get_ref(), unit)).collect();
     rows.filter(|rows| rows.len() == 3 && rows.iter().all(|row| row.len() == 3)).map(|rows| rows.concat())
 }
 

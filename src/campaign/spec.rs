@@ -63,7 +63,6 @@ impl Spec {
         let mut root = Section::root(document, &table);
         for (key, content) in [
             ("campaign", "a table with name, samples, seed, duration_s"),
-            ("fuselage", "a table with the fuselage's sizes and density"),
             ("initial", "a table with the state at time zero"),
         ] {
             if !root.has(key) {
@@ -71,6 +70,8 @@ impl Spec {
             }
         }
 
+        let scene = scene::read(&mut root);
+        root.document.scene = scene.clone();
         let design = design::read(&mut root.section("design"));
         let has_size = design.as_ref().is_none_or(Design::has_size);
 
@@ -100,7 +101,6 @@ impl Spec {
         let groups = section.names("groups", &Group::ALL.map(Group::name), Group::from_name);
         section.finish();
 
-        let scene = scene::read(&mut root);
         let dispersions = root.sections("disperse", disperse::read);
         let correlations = root.sections("correlate", dependence::correlation);
         let derivations = root.sections("derive", dependence::derivation);

@@ -11,11 +11,13 @@ use crate::dataset::rows_file::RowsFile;
 use crate::ensemble::influence::without_effect;
 use crate::ensemble::probe::{AuditProbe, RunProbe};
 use crate::ensemble::{Ensemble, Part, PartId, Parts};
+use crate::math::symmetric::principal_axes;
 use crate::observables::Request;
 use crate::report::number::{bytes, short};
 use crate::run::StateField;
 use crate::sampling::SampleId;
-use crate::scene::{MassProperties, Scene};
+use crate::scene::mass::{Body, Wheel};
+use crate::scene::{MassProperties, Scene, SceneInput};
 
 /// Runs the command.
 ///
@@ -30,7 +32,7 @@ pub fn run(options: &CheckOptions) -> Result<CommandOutcome, Failure> {
     let written = (|| {
         section(&mut text, &format!("Plan (hash {})", plan.hash()))?;
         text.push_str(&plan.text());
-        masses(&mut text, &scene.mass)?;
+        masses(&mut text, &plan.nominal, &scene.mass)?;
         section(&mut text, "Dispersions")?;
         dispersions::table(&mut text, &plan)?;
         let unseen = without_effect(&plan, ensemble.isa()).unwrap_or_default();
@@ -57,44 +59,59 @@ fn section(text: &mut String, title: &str) -> std::fmt::Result {
     writeln!(text, "{gap}== {title}")
 }
 
-/// Masses, centre of mass, inertia, with the convention.
-fn masses(text: &mut String, mass: &MassProperties) -> std::fmt::Result {
+/// Masses, centre of mass, inertia, principal axes, with the convention, and what contributes most.
+fn masses(text: &mut String, input: &SceneInput, mass: &MassProperties) -> std::fmt::Result {
     section(text, "Mass properties of the nominal scene")?;
-    let (wheel1, wheel2) = (&mass.wheels[0], &mass.wheels[1]);
-    let debris = mass.debris.as_ref().map(|debris| ("debris", debris.mass));
-    for (body, mass) in [("fuselage", mass.fuselage.mass), ("wheel 1", wheel1.mass), ("wheel 2", wheel2.mass)]
-        .into_iter()
-        .chain([("spacecraft", mass.total)])
-        .chain(debris)
-    {
-        writeln!(text, "{body:<12}{mass:>24?} kg")?;
+    let names = input.turning_wheels();
+    let wheels = names.iter().zip(&mass.wheels).map(|(name, wheel)| (format!("wheel {name}"), wheel.mass));
+    let debris = mass.debris.as_ref().map(|debris| ("debris".to_owned(), debris.mass));
+    let body = [("body".to_owned(), mass.fuselage.mass)];
+    let all = body.into_iter().chain(wheels).chain([("spacecraft".to_owned(), mass.total)]).chain(debris);
+    for (body, mass) in all {
+        writeln!(text, "{body:<24}{mass:>24?} kg")?;
     }
     let [x, y, z] = mass.center;
     writeln!(text, "centre of mass of the spacecraft, from p in F_s: [{x:?}, {y:?}, {z:?}] m")?;
     tensor(text, "inertia of the spacecraft, wheels locked, about its centre of mass", mass.inertia)?;
-    tensor(text, "the same minus the wheels' axial inertias (J*, wheels free)", mass.inertia_free)?;
-    tensor(text, "inertia of the fuselage about its own centre of mass", mass.fuselage.inertia)?;
-    for (number, wheel) in [(1, wheel1), (2, wheel2)] {
+    let (moments, axes) = principal_axes(mass.inertia);
+    writeln!(text, "its principal moments {moments:?} kg m^2; principal axes in F_s, by columns:")?;
+    rows(text, axes)?;
+    if !mass.wheels.is_empty() {
+        tensor(text, "the same minus the wheels' axial inertias (J*, wheels free)", mass.inertia_free)?;
+        tensor(text, "inertia of the body about its own centre of mass", mass.fuselage.inertia)?;
+    }
+    for (name, wheel) in names.iter().zip(&mass.wheels) {
         let (axial, transverse, mode) = (wheel.axial, wheel.transverse, wheel.mode.name());
         writeln!(
             text,
-            "wheel {number}: axial {axial:?}, transverse {transverse:?} kg m^2, {mode}, axis {:?} in F_s",
+            "wheel {name}: axial {axial:?}, transverse {transverse:?} kg m^2, {mode}, axis {:?} in F_s",
             wheel.axis
         )?;
     }
+    if let Some((name, share)) = largest_part(input, mass) {
+        writeln!(text, "largest part: {name}, {:.1} % of the mass of the spacecraft", 100.0 * share)?;
+    }
     writeln!(
         text,
-        "Convention: tensors in F_s (origin p, s3 along the fuselage's axis, wheel 1 spins about s2, wheel 2 about s3);\n\
-         off-diagonal entries are those of the tensor, J_xy = -integral of x y dm."
+        "Convention: tensors in F_s, whose origin is p; off-diagonal entries are those of the tensor, J_xy = -integral of x y dm."
     )
+}
+
+/// The part of the body, or the wheel, with the largest mass, and its share of the total.
+fn largest_part(input: &SceneInput, mass: &MassProperties) -> Option<(String, f64)> {
+    let parts = input.parts.iter().map(|part| (format!("body.parts.{}", part.name), Body::part(part, 1.0).mass));
+    let wheels = input.wheels.iter().map(|wheel| (format!("wheels.{}", wheel.name), Wheel::new(wheel, 1.0).mass));
+    let largest = parts.chain(wheels).max_by(|(_, a), (_, b)| a.total_cmp(b))?;
+    (!input.parts.is_empty()).then_some((largest.0, largest.1 / mass.total))
 }
 
 fn tensor(text: &mut String, name: &str, rows: [[f64; 3]; 3]) -> std::fmt::Result {
     writeln!(text, "{name}, kg m^2:")?;
-    for [x, y, z] in rows {
-        writeln!(text, "  {x:>24?}{y:>24?}{z:>24?}")?;
-    }
-    Ok(())
+    self::rows(text, rows)
+}
+
+fn rows(text: &mut String, rows: [[f64; 3]; 3]) -> std::fmt::Result {
+    rows.iter().try_for_each(|[x, y, z]| writeln!(text, "  {x:>24?}{y:>24?}{z:>24?}"))
 }
 
 /// What is integrated and why, and what is not.
@@ -128,6 +145,7 @@ fn absence(request: &Request, field: StateField) -> &'static str {
         {
             "there is no debris"
         }
+        StateField::WheelRates | StateField::WheelAngles if request.wheels.is_empty() => "there is no wheel that turns",
         StateField::Work | StateField::Impulse | StateField::AngularImpulse if !request.actuated => {
             "there is no actuation"
         }
@@ -140,7 +158,7 @@ fn absence(request: &Request, field: StateField) -> &'static str {
 
 fn field_name(field: StateField) -> &'static str {
     match field {
-        StateField::Rate => "angular velocity of the fuselage",
+        StateField::Rate => "angular velocity of the body",
         StateField::Attitude => "attitude quaternion",
         StateField::WheelRates => "wheel rates",
         StateField::WheelAngles => "wheel angles",

@@ -22,7 +22,7 @@ use crate::run::{Grid, StateField, Status};
 use crate::sampling::SampleId;
 
 /// The states on the screen, with short names; all columns in all digits are in the files.
-const ON_SCREEN: [(TimeColumn, &str); 12] = [
+const ON_SCREEN: [(TimeColumn, &str); 10] = [
     (TimeColumn::Time, "time s"),
     (TimeColumn::State(StateField::Rate, 0), "omega_x"),
     (TimeColumn::State(StateField::Rate, 1), "omega_y"),
@@ -31,8 +31,6 @@ const ON_SCREEN: [(TimeColumn, &str); 12] = [
     (TimeColumn::State(StateField::Attitude, 1), "q_es_x"),
     (TimeColumn::State(StateField::Attitude, 2), "q_es_y"),
     (TimeColumn::State(StateField::Attitude, 3), "q_es_z"),
-    (TimeColumn::State(StateField::WheelRates, 0), "wheel 1"),
-    (TimeColumn::State(StateField::WheelRates, 1), "wheel 2"),
     (TimeColumn::Series(Series::EnergyError), "energy err"),
     (TimeColumn::Series(Series::AngularMomentumError), "ang.m. err"),
 ];
@@ -141,7 +139,7 @@ fn audit(options: &SimulateOptions, plan: &Plan, run: &SingleRun, isa: Isa) -> R
     let values = AuditValue::of_scenes(run.request.debris).filter(|value| *value != AuditValue::Tolerance);
     let lines = values
         .map(|value| (value.quantity().name(), found.value(value)))
-        .chain([(STATE_ERROR_ESTIMATE.quantity().name(), found.estimate)]);
+        .chain([(STATE_ERROR_ESTIMATE.name(), found.estimate)]);
     let columns = run.request.columns();
     let observed = columns.iter().zip(&found.observables).filter(|(_, error)| !error.is_nan());
     let errors = observed.map(|(column, error)| (column.quantity.name(), *error));
@@ -187,21 +185,27 @@ fn plot(path: &Path, options: &SimulateOptions, plan: &Plan, series: &TimeSeries
     Ok(())
 }
 
-/// The main states at some of the points, in columns of four digits. A wheel that never turns has no column.
+/// The rates of more wheels than these are not on the screen.
+const WHEELS_ON_SCREEN: usize = 4;
+
+/// The main states at some of the points, in columns of four digits.
 fn table(series: &TimeSeries) -> String {
-    let is_shown = |key: TimeColumn, values: &[f64]| {
-        !matches!(key, TimeColumn::State(StateField::WheelRates, _)) || values.iter().any(|value| *value != 0.0)
-    };
-    let columns: Vec<(&str, &[f64])> = ON_SCREEN
+    let wheels = series.wheels().iter().enumerate().take(WHEELS_ON_SCREEN);
+    let wheels = wheels.map(|(wheel, name)| (TimeColumn::State(StateField::WheelRates, wheel), format!("rate {name}")));
+    let shown = ON_SCREEN.into_iter().map(|(key, title)| (key, title.to_owned()));
+    let (states, errors): (Vec<_>, Vec<_>) = shown.partition(|(key, _)| !matches!(key, TimeColumn::Series(_)));
+    let columns: Vec<(String, &[f64])> = states
         .into_iter()
-        .filter_map(|(key, title)| Some((title, series.column(key)?.1)).filter(|(_, values)| is_shown(key, values)))
+        .chain(wheels)
+        .chain(errors)
+        .filter_map(|(key, title)| Some((title, series.column(key)?.1)))
         .collect();
     let mut text = String::new();
     let mut line = |cells: &mut dyn Iterator<Item = String>| {
         let cells: Vec<String> = cells.map(|cell| format!("{cell:>10}")).collect();
         let _ = writeln!(text, "{}", cells.join(" ")); // writing to a String does not fail
     };
-    line(&mut columns.iter().map(|(title, _)| (*title).to_owned()));
+    line(&mut columns.iter().map(|(title, _)| title.chars().take(10).collect()));
     for point in shown_points(series.points()) {
         line(&mut columns.iter().map(|(_, values)| short(values[point])));
     }

@@ -5,7 +5,7 @@
 
 use crate::dataset::audit_tally::AuditTally;
 use crate::ensemble::{Ensemble, Rows};
-use crate::observables::headlines::{HEADLINES, STATE_ERROR_ESTIMATE};
+use crate::observables::headlines::{STATE_ERROR_ESTIMATE, headlines};
 use crate::observables::table::error_id;
 use crate::observables::{ColumnId, ErrorStatistic, Group, Kind, Series};
 use crate::run::{Quantity, Status};
@@ -18,7 +18,7 @@ pub struct Headline {
     /// Index among the observables of a row.
     index: usize,
     /// Name, unit and meaning.
-    pub quantity: &'static Quantity,
+    pub quantity: Quantity,
     kind: Kind,
     /// Its values over the runs that are `ok`.
     pub sketch: Sketch,
@@ -100,12 +100,11 @@ impl Tally {
     /// Nothing counted yet.
     pub fn new(ensemble: &Ensemble<'_>) -> Self {
         let columns = ensemble.request().columns();
-        let headline = |id: &ColumnId| {
-            let index = ensemble.request().position(*id)?;
-            let column = columns[index];
-            Some(Headline { index, quantity: &column.quantity, kind: column.kind, sketch: Sketch::default() })
+        let headline = |index: usize| {
+            let column = &columns[index];
+            Headline { index, quantity: column.quantity.clone(), kind: column.kind, sketch: Sketch::default() }
         };
-        let headlines: Vec<Headline> = HEADLINES.iter().filter_map(headline).collect();
+        let headlines: Vec<Headline> = headlines(ensemble.request()).into_iter().map(headline).collect();
         let audits = (ensemble.plan().audit_fraction > 0.0).then(|| AuditTally::new(headlines.len()));
         let index = |id: &ColumnId| ensemble.request().position(*id);
         let worst =
@@ -148,7 +147,7 @@ impl Tally {
         }
     }
 
-    /// The statistics of the observables in the order of [`HEADLINES`], without those that the campaign does not have.
+    /// The statistics of the observables in the order of [`crate::observables::headlines`], without those that the campaign does not have.
     pub fn headlines(&self) -> &[Headline] {
         &self.headlines
     }

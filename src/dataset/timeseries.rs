@@ -17,6 +17,7 @@ use crate::math::vector::{cross, dcm_from_quaternion, difference, product};
 use crate::observables::Series;
 use crate::run::{Quantity, StateField};
 use crate::sampling::SampleId;
+use crate::scene::Name;
 
 /// A series of the observables that is not a column here: the total is the sum of its bodies.
 const LEFT_OUT: Series = Series::EnergyTotal;
@@ -39,6 +40,7 @@ pub struct TimeSeries {
     /// What each column shows.
     keys: Vec<TimeColumn>,
     columns: Vec<Vec<f64>>,
+    wheels: Vec<Name>,
     origin: HashMap<String, String>,
 }
 
@@ -54,14 +56,25 @@ impl TimeSeries {
             debris(run, &mut table);
         }
         for (series, values) in &run.series {
-            if let Some(quantity) = series.quantity().filter(|_| *series != LEFT_OUT) {
-                table.push(TimeColumn::Series(*series), quantity.clone(), |point| values[point]);
+            if let Some(quantity) = series.quantity(&run.request.wheels).filter(|_| *series != LEFT_OUT) {
+                table.push(TimeColumn::Series(*series), quantity, |point| values[point]);
             }
         }
         let mut origin = provenance(plan);
         origin.insert("spindrift.sample_id".to_owned(), sample.to_string());
         origin.insert("spindrift.status".to_owned(), run.outcome.status.name().to_owned());
-        TimeSeries { headings: table.headings, keys: table.keys, columns: table.columns, origin }
+        TimeSeries {
+            headings: table.headings,
+            keys: table.keys,
+            columns: table.columns,
+            wheels: run.request.wheels.to_vec(),
+            origin,
+        }
+    }
+
+    /// The names of the wheels that turn.
+    pub fn wheels(&self) -> &[Name] {
+        &self.wheels
     }
 
     /// The columns.
@@ -158,14 +171,14 @@ fn spacecraft(run: &SingleRun, table: &mut Columns<'_>) {
         StateField::ComPosition,
         "r_po_e",
         ("m", "m"),
-        "Position of the fuselage's base centre p, in F_e.",
+        "Position of p, the origin of F_s, in F_e.",
         |point| difference(states.at(StateField::ComPosition, point), rotated(point, center)),
     );
     table.push_vector::<3>(
         StateField::ComVelocity,
         "v_po_e",
         ("m/s", "m_s"),
-        "Velocity of the fuselage's base centre p, in F_e.",
+        "Velocity of p, the origin of F_s, in F_e.",
         |point| {
             let relative = cross(states.at(StateField::Rate, point), center);
             difference(states.at(StateField::ComVelocity, point), rotated(point, relative))
@@ -175,31 +188,25 @@ fn spacecraft(run: &SingleRun, table: &mut Columns<'_>) {
         StateField::Attitude,
         "q_es",
         ("", ""),
-        "Attitude quaternion of the fuselage, F_s to F_e.",
+        "Attitude quaternion of the body, F_s to F_e.",
         |point| states.at(StateField::Attitude, point),
     );
     table.push_vector::<3>(
         StateField::Rate,
         "omega_se_s",
         ("rad/s", "rad_s"),
-        "Angular velocity of the fuselage, in F_s.",
+        "Angular velocity of the body, in F_s.",
         |point| states.at(StateField::Rate, point),
     );
-    for (field, wheel, quantity) in [
-        (StateField::WheelAngles, 0, Quantity::new("alpha_rad", "rad", "Angle of wheel 1, unbounded.")),
-        (StateField::WheelAngles, 1, Quantity::new("beta_rad", "rad", "Angle of wheel 2, unbounded.")),
-        (
-            StateField::WheelRates,
-            0,
-            Quantity::new("alpha_dot_rad_s", "rad/s", "Rate of wheel 1 relative to the fuselage."),
-        ),
-        (
-            StateField::WheelRates,
-            1,
-            Quantity::new("beta_dot_rad_s", "rad/s", "Rate of wheel 2 relative to the fuselage."),
-        ),
-    ] {
-        table.push(TimeColumn::State(field, wheel), quantity, |point| states.column(field, wheel)[point]);
+    for (wheel, name) in run.request.wheels.iter().enumerate() {
+        for (field, what, unit, suffix, meaning) in [
+            (StateField::WheelAngles, "angle", "rad", "rad", "Angle of wheel {} relative to the body, unbounded."),
+            (StateField::WheelRates, "rate", "rad/s", "rad_s", "Rate of wheel {} relative to the body."),
+        ] {
+            let meaning = meaning.replace("{}", name.as_str());
+            let quantity = Quantity::named(format!("{what}_{name}_{suffix}"), unit.to_owned(), meaning);
+            table.push(TimeColumn::State(field, wheel), quantity, |point| states.column(field, wheel)[point]);
+        }
     }
 }
 

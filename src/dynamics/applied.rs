@@ -25,8 +25,8 @@ pub fn law_arc(
 ) -> Arc {
     let mut applied = law.arc(time, body, wheels);
     assert!(applied.until > time, "a law's arc from {time} s ends at {} s", applied.until);
-    for (torque, wheel) in applied.motor_torque.iter_mut().zip(&scene.mass.wheels) {
-        if !wheel.is_present() || wheel.mode != WheelMode::Free {
+    for (index, torque) in applied.motor_torque.iter_mut().enumerate() {
+        if scene.mass.wheels.get(index).is_none_or(|wheel| wheel.mode != WheelMode::Free) {
             *torque = 0.0;
         }
     }
@@ -40,10 +40,8 @@ mod tests {
 
     fn arcs(switches: &[[f64; 2]], duration: f64) -> Vec<(f64, f64, bool)> {
         let mut input = samples::table_two();
-        input.actuation = switches
-            .iter()
-            .map(|&[start_s, end_s]| ActuationInput { start_s, end_s, thrust_n: [1.0, 0.0, 0.0], torque_n_m: [0.0; 2] })
-            .collect();
+        input.actuation =
+            switches.iter().map(|&[start_s, end_s]| ActuationInput::idle(start_s, end_s).with_thrust(&[1.0])).collect();
         let scene = Scene::resolve(&input).expect("a legal schedule");
         let (mut time, mut list) = (0.0, Vec::new());
         while time < duration {

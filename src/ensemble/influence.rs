@@ -7,7 +7,7 @@ use crate::campaign::{Plan, SceneDraws};
 use crate::ensemble::single::SingleRun;
 use crate::math::Isa;
 use crate::sampling::dispersions::Draws;
-use crate::sampling::{Derivation, Design, Dispersions, SampleId};
+use crate::sampling::{Design, Dispersions, SampleId};
 use crate::scene::Parameter;
 
 /// Samples whose values are tried: a discrete distribution may give the nominal value once.
@@ -22,8 +22,12 @@ pub fn without_effect(plan: &Plan, isa: Isa) -> Option<Vec<Parameter>> {
     let mut parameters: Vec<Parameter> = columns.iter().map(|column| column.parameter).collect();
     parameters.sort_unstable();
     parameters.dedup();
-    let inputs: Vec<Parameter> =
-        plan.derived.iter().flat_map(Derivation::inputs).map(|(parameter, _)| parameter).collect();
+    let inputs: Vec<Parameter> = plan
+        .derived
+        .iter()
+        .flat_map(|derivation| derivation.inputs(&plan.nominal))
+        .map(|(parameter, _)| parameter)
+        .collect();
     parameters.retain(|parameter| !inputs.contains(parameter));
     let start = Instant::now();
     let nominal = row(plan, isa)?;

@@ -18,6 +18,7 @@ pub fn request(plan: &Plan) -> Request {
         debris: plan.nominal.debris.is_some(),
         actuated: plan.nominal.is_actuated(),
         constrained: plan.method == Method::NullSpace,
+        wheels: plan.nominal.turning_wheels(),
     }
 }
 

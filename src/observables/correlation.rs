@@ -1,40 +1,33 @@
-//! Correlations of series, and the slope of a series, each in one fixed order of operations (see [`super::reduce`]).
+//! Correlation of two series, and the slope of a series, each in one fixed order of operations (see [`super::reduce`]).
 
 use fearless_simd::Simd;
 
 use super::weights::{Weights, total, vectors};
 use crate::math::{Lanes, Real};
 
-/// Correlation of `a` with `b[0]` and with `b[1]` (each with its mean); zero where one of the two does not vary.
+/// Correlation of `a` with `b` (each with its mean); zero where one of the two does not vary.
 #[inline(always)]
-pub(super) fn correlations<S: Simd>(
+pub(super) fn correlation<S: Simd>(
     simd: S,
     weights: &Weights,
     (a, a_mean): (&[f64], f64),
-    b: [(&[f64], f64); 2],
-) -> [f64; 2] {
+    (b, b_mean): (&[f64], f64),
+) -> f64 {
     let zero = Lanes::broadcast(simd, 0.0);
-    let means = [Lanes::broadcast(simd, a_mean), Lanes::broadcast(simd, b[0].1), Lanes::broadcast(simd, b[1].1)];
-    let (mut aa, mut ab0, mut ab1, mut bb0, mut bb1) = (zero, zero, zero, zero, zero);
+    let (a_mean, b_mean) = (Lanes::broadcast(simd, a_mean), Lanes::broadcast(simd, b_mean));
+    let (mut aa, mut ab, mut bb) = (zero, zero, zero);
     let count = weights.one.len();
-    let (a, b0, b1) = (vectors(a, count), vectors(b[0].0, count), vectors(b[1].0, count));
+    let (a, b) = (vectors(a, count), vectors(b, count));
     for at in 0..count {
         let one = Lanes::load(simd, &weights.one[at]);
-        let x = (Lanes::load(simd, &a[at]) - means[0]) * one;
-        let y0 = (Lanes::load(simd, &b0[at]) - means[1]) * one;
-        let y1 = (Lanes::load(simd, &b1[at]) - means[2]) * one;
+        let x = (Lanes::load(simd, &a[at]) - a_mean) * one;
+        let y = (Lanes::load(simd, &b[at]) - b_mean) * one;
         aa = x.mul_add(x, aa);
-        ab0 = x.mul_add(y0, ab0);
-        ab1 = x.mul_add(y1, ab1);
-        bb0 = y0.mul_add(y0, bb0);
-        bb1 = y1.mul_add(y1, bb1);
+        ab = x.mul_add(y, ab);
+        bb = y.mul_add(y, bb);
     }
-    let aa = total(aa);
-    let correlation = |ab: f64, bb: f64| {
-        let scale = aa.sqrt() * bb.sqrt();
-        if scale == 0.0 { 0.0 } else { (ab / scale).clamp(-1.0, 1.0) }
-    };
-    [correlation(total(ab0), total(bb0)), correlation(total(ab1), total(bb1))]
+    let scale = total(aa).sqrt() * total(bb).sqrt();
+    if scale == 0.0 { 0.0 } else { (total(ab) / scale).clamp(-1.0, 1.0) }
 }
 
 /// Slope of the least-squares line through a series, per second.
@@ -62,16 +55,16 @@ mod tests {
 
     struct Correlate<'a>(&'a Weights, &'a [f64], f64);
     impl Work for Correlate<'_> {
-        type Output = (f64, [f64; 2]);
+        type Output = (f64, f64);
         #[inline(always)]
         fn run<S: Simd>(self, simd: S) -> Self::Output {
             let own = (self.1, self.2);
-            (slope(simd, self.0, self.1, self.2), correlations(simd, self.0, own, [own, own]))
+            (slope(simd, self.0, self.1, self.2), correlation(simd, self.0, own, own))
         }
     }
 
     /// Slope and correlations with itself of the series f(0), f(1), ... at `times`.
-    fn correlated(times: &[f64], f: impl Fn(usize) -> f64) -> (f64, [f64; 2]) {
+    fn correlated(times: &[f64], f: impl Fn(usize) -> f64) -> (f64, f64) {
         let mut values: Vec<f64> = (0..times.len()).map(f).collect();
         let mean = values.iter().sum::<f64>() / times.len() as f64;
         let last = values[times.len() - 1];
@@ -95,8 +88,8 @@ mod tests {
     fn a_series_is_correlated_with_itself_unless_it_is_constant() {
         let times: Vec<f64> = (0..11).map(|k| 0.1 * f64::from(k)).collect();
         let (_, same) = correlated(&times, |k| (k * k) as f64);
-        assert!(same.iter().all(|c| (c - 1.0).abs() <= ROUNDING), "{same:?}");
+        assert!((same - 1.0).abs() <= ROUNDING, "{same:?}");
         let (_, constant) = correlated(&times, |_| 3.0);
-        assert_eq!(constant, [0.0; 2]);
+        assert_eq!(constant, 0.0);
     }
 }

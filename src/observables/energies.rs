@@ -4,15 +4,17 @@
 //! about c, a quadratic form of omega with constant coefficients, and what the motion of c adds:
 //! T_b = T_b^c + m_b (u . (omega x d_b) + u . u / 2). A wheel adds J_i Omega_i (omega . a_i + Omega_i / 2).
 //! Over the spacecraft the mixed terms cancel: T = T^c + m v_c . v_c / 2, which needs no attitude.
+#![expect(clippy::needless_range_loop, reason = "wheels and vectors are numbered alike in several arrays")]
 
 use fearless_simd::Simd;
 
 use super::attitude::Attitude;
-use super::points::{Column, MeasuredRun, SeriesTable, columns, constant, first, needed, three};
+use super::points::{Column, MeasuredRun, SeriesTable, columns, constant, first, needed, of_wheels, three};
 use super::table::Series;
 use crate::math::vector::{cross, difference, dot, scaled, transposed_product};
 use crate::math::{Lanes, Real};
-use crate::run::StateField;
+use crate::run::{StateField, StateTable};
+use crate::scene::MAX_WHEELS;
 use crate::scene::mass::{MassProperties, Wheel};
 
 /// The quadratic form of a symmetric matrix: coefficients of xx, yy, zz, xy, xz, yz.
@@ -64,60 +66,80 @@ fn constant_form<S: Simd>(simd: S, a: Form) -> [Lanes<S>; 6] {
     [x, y, z, u, v, w]
 }
 
-/// The constants of the energies of a run, in all lanes.
-struct Constants<S: Simd> {
-    /// Energy of S, W1, W2 about c, the wheels locked, as forms of omega.
-    forms: [[Lanes<S>; 6]; 3],
+/// The constants of the energies of a body of the spacecraft, in all lanes.
+#[derive(Clone, Copy)]
+struct BodyConstants<S: Simd> {
+    /// Energy about c, the wheels locked, as a form of omega.
+    form: [Lanes<S>; 6],
     /// m_b d_b, since m_b u . (omega x d_b) = m_b d_b . (u x omega).
-    arms: [[Lanes<S>; 3]; 3],
+    arm: [Lanes<S>; 3],
     /// m_b / 2.
-    halves: [Lanes<S>; 3],
+    half_mass: Lanes<S>,
+}
+
+impl<S: Simd> BodyConstants<S> {
+    // Closures that compute with lanes are avoided here and below: one that is not inlined loses the instruction set.
+    #[inline(always)]
+    fn of(simd: S, mass: f64, offset: [f64; 3], inertia: [[f64; 3]; 3]) -> Self {
+        BodyConstants {
+            form: constant_form(simd, form(mass, offset, inertia)),
+            arm: constant(simd, scaled(mass, offset)),
+            half_mass: Lanes::broadcast(simd, 0.5 * mass),
+        }
+    }
+
+    /// The energy in F_e from the one about c: `square` = u . u, `turned` = u x omega.
+    #[inline(always)]
+    fn moving(&self, about: Lanes<S>, square: Lanes<S>, turned: [Lanes<S>; 3]) -> Lanes<S> {
+        self.half_mass.mul_add(square, dot(self.arm, turned) + about)
+    }
+}
+
+/// The constants of a wheel.
+#[derive(Clone, Copy)]
+struct WheelConstants<S: Simd> {
+    body: BodyConstants<S>,
     /// a_i.
-    axes: [[Lanes<S>; 3]; 2],
+    axis: [Lanes<S>; 3],
     /// J_i.
-    axial: [Lanes<S>; 2],
+    axial: Lanes<S>,
+}
+
+/// The constants of the energies of a run.
+struct Constants<S: Simd> {
+    body: BodyConstants<S>,
+    /// The first as many as there are wheels.
+    wheels: [WheelConstants<S>; MAX_WHEELS],
     /// m / 2.
     half_total: Lanes<S>,
     half: Lanes<S>,
 }
 
 impl<S: Simd> Constants<S> {
-    // Closures that compute with lanes are avoided here and below: one that is not inlined loses the instruction set.
     #[inline(always)]
     fn of(simd: S, mass: &MassProperties) -> Self {
         let s = &mass.fuselage;
-        let (w1, w2) = (&mass.wheels[0], &mass.wheels[1]);
-        let d =
-            [difference(s.center, mass.center), difference(w1.center, mass.center), difference(w2.center, mass.center)];
+        let body = BodyConstants::of(simd, s.mass, difference(s.center, mass.center), s.inertia);
+        let zero = Lanes::broadcast(simd, 0.0);
+        let mut wheels = [WheelConstants { body, axis: [zero; 3], axial: zero }; MAX_WHEELS];
+        for (constants, wheel) in wheels.iter_mut().zip(&mass.wheels) {
+            let offset = difference(wheel.center, mass.center);
+            constants.body = BodyConstants::of(simd, wheel.mass, offset, wheel_inertia(wheel));
+            constants.axis = constant(simd, wheel.axis);
+            constants.axial = Lanes::broadcast(simd, wheel.axial);
+        }
         Constants {
-            forms: [
-                constant_form(simd, form(s.mass, d[0], s.inertia)),
-                constant_form(simd, form(w1.mass, d[1], wheel_inertia(w1))),
-                constant_form(simd, form(w2.mass, d[2], wheel_inertia(w2))),
-            ],
-            arms: [
-                constant(simd, scaled(s.mass, d[0])),
-                constant(simd, scaled(w1.mass, d[1])),
-                constant(simd, scaled(w2.mass, d[2])),
-            ],
-            halves: constant(simd, [0.5 * s.mass, 0.5 * w1.mass, 0.5 * w2.mass]),
-            axes: [constant(simd, w1.axis), constant(simd, w2.axis)],
-            axial: [Lanes::broadcast(simd, w1.axial), Lanes::broadcast(simd, w2.axial)],
+            body,
+            wheels,
             half_total: Lanes::broadcast(simd, 0.5 * mass.total),
             half: Lanes::broadcast(simd, 0.5),
         }
     }
 
-    /// What the rate of wheel `i` adds to its energy: J_i Omega_i (omega . a_i + Omega_i / 2).
+    /// What the rate of a wheel adds to its energy: J_i Omega_i (omega . a_i + Omega_i / 2).
     #[inline(always)]
-    fn spin(&self, i: usize, omega: [Lanes<S>; 3], rate: Lanes<S>) -> Lanes<S> {
-        self.axial[i] * rate * self.half.mul_add(rate, dot(self.axes[i], omega))
-    }
-
-    /// Energy of body `b` in F_e from the one about c: `square` = u . u, `turned` = u x omega.
-    #[inline(always)]
-    fn moving(&self, b: usize, about: Lanes<S>, square: Lanes<S>, turned: [Lanes<S>; 3]) -> Lanes<S> {
-        self.halves[b].mul_add(square, dot(self.arms[b], turned) + about)
+    fn spin(&self, wheel: &WheelConstants<S>, omega: [Lanes<S>; 3], rate: Lanes<S>) -> Lanes<S> {
+        wheel.axial * rate * self.half.mul_add(rate, dot(wheel.axis, omega))
     }
 }
 
@@ -127,6 +149,42 @@ fn load<S: Simd>(simd: S, column: Column<'_>, at: usize) -> Lanes<S> {
     Lanes::load(simd, &column[at])
 }
 
+/// The kinetic energies of redundant states, where there are any.
+struct Redundant<'a> {
+    body: Column<'a>,
+    /// The first as many as there are wheels.
+    wheels: [Column<'a>; MAX_WHEELS],
+}
+
+impl<'a> Redundant<'a> {
+    #[inline(always)]
+    fn of(table: &'a StateTable, vectors: usize) -> Option<Self> {
+        if !table.has(StateField::KineticEnergies) {
+            return None;
+        }
+        let mut wheels: [Column<'a>; MAX_WHEELS] = [&[]; MAX_WHEELS];
+        let column = |component: usize| &table.column(StateField::KineticEnergies, component).as_chunks().0[..vectors];
+        for (wheel, energies) in wheels.iter_mut().enumerate().take(table.wheels()) {
+            *energies = column(1 + wheel);
+        }
+        Some(Redundant { body: column(0), wheels })
+    }
+
+    /// The energy of the spacecraft.
+    #[inline(always)]
+    fn spacecraft<S: Simd>(&self, simd: S, wheels: usize, at: usize) -> Lanes<S> {
+        let body = load(simd, self.body, at);
+        if wheels == 0 {
+            return body;
+        }
+        let mut together = load(simd, self.wheels[0], at);
+        for wheel in 1..wheels {
+            together += load(simd, self.wheels[wheel], at);
+        }
+        body + together
+    }
+}
+
 #[inline(always)]
 pub(super) fn energies<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let MeasuredRun { observed, mass, debris, table, .. } = *run;
@@ -134,16 +192,17 @@ pub(super) fn energies<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut Series
     let attitude = Attitude::of(table, vectors);
     let constants = Constants::of(simd, mass);
     let omega_columns: [_; 3] = needed(table, StateField::Rate, vectors);
-    let rate_columns: [_; 2] = needed(table, StateField::WheelRates, vectors);
+    let wheels = mass.wheels.len();
+    let rate_columns = of_wheels(table, StateField::WheelRates, vectors);
     let total = observed.has(Series::EnergyTotal);
-    let inertial = [Series::EnergyFuselage, Series::EnergyWheel1, Series::EnergyWheel2, Series::EnergyDebris];
+    let inertial = [Series::EnergyBody, Series::EnergyWheel, Series::EnergyDebris];
     let inertial = inertial.into_iter().any(|series| observed.has(series));
     let velocity = if total || inertial { needed(table, StateField::ComVelocity, vectors) } else { [&[][..]; 3] };
     let work: Option<[_; 2]> =
         if observed.has(Series::EnergyError) { columns(table, StateField::Work, vectors) } else { None };
     // a kernel with redundant states conserves the energy of these states (36); where the wheels have drifted off their
     // constraints, the energy computed from the rates alone differs
-    let redundant: Option<[_; 4]> = columns(table, StateField::KineticEnergies, vectors);
+    let redundant = Redundant::of(table, vectors);
     // the debris is a body whose centre of mass is c
     let debris = match debris {
         Some(body) if total || observed.has(Series::EnergyDebris) => {
@@ -154,81 +213,63 @@ pub(super) fn energies<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut Series
         }
         _ => None,
     };
-    use Series::*;
-    let [
-        com_fuselage,
-        com_wheel1,
-        com_wheel2,
-        com_total,
-        com_error,
-        fuselage,
-        wheel1,
-        wheel2,
-        debris_energy,
-        total_energy,
-        energy_error,
-    ] = out.write(
-        [
-            ComFuselage,
-            ComWheel1,
-            ComWheel2,
-            ComTotal,
-            ComError,
-            EnergyFuselage,
-            EnergyWheel1,
-            EnergyWheel2,
-            EnergyDebris,
-            EnergyTotal,
-            EnergyError,
-        ],
-        vectors,
-    );
     let mut com_first = Lanes::broadcast(simd, 0.0);
     let mut balance_first = com_first;
     for at in 0..vectors {
         let omega = three(simd, omega_columns, at);
         let p = products(omega);
-        let rates = [Lanes::load(simd, &rate_columns[0][at]), Lanes::load(simd, &rate_columns[1][at])];
-        let about = [
-            quadratic(constants.forms[0], p),
-            quadratic(constants.forms[1], p) + constants.spin(0, omega, rates[0]),
-            quadratic(constants.forms[2], p) + constants.spin(1, omega, rates[1]),
-        ];
-        let com = about[0] + (about[1] + about[2]);
+        let body = quadratic(constants.body.form, p);
+        let mut about = [body; MAX_WHEELS];
+        let mut com = body;
+        if wheels > 0 {
+            for wheel in 0..wheels {
+                let own = &constants.wheels[wheel];
+                let rate = Lanes::load(simd, &rate_columns[wheel][at]);
+                about[wheel] = quadratic(own.body.form, p) + constants.spin(own, omega, rate);
+                about[wheel].store(out.at(Series::ComWheel.of_wheel(wheel), at));
+            }
+            let mut together = about[0];
+            for other in &about[1..wheels] {
+                together += *other;
+            }
+            together.store(out.at(Series::ComWheels, at));
+            com = body + together;
+        }
         if at == 0 {
             com_first = first(simd, com);
         }
-        about[0].store(&mut com_fuselage[at]);
-        about[1].store(&mut com_wheel1[at]);
-        about[2].store(&mut com_wheel2[at]);
-        com.store(&mut com_total[at]);
-        (com - com_first).store(&mut com_error[at]);
+        body.store(out.at(Series::ComBody, at));
+        com.store(out.at(Series::ComTotal, at));
+        (com - com_first).store(out.at(Series::ComError, at));
         if !(total || inertial) {
             continue;
         }
 
         let v_c = three(simd, velocity, at);
-        if inertial && let Some([s, w1, w2, _]) = redundant {
-            load(simd, s, at).store(&mut fuselage[at]);
-            load(simd, w1, at).store(&mut wheel1[at]);
-            load(simd, w2, at).store(&mut wheel2[at]);
+        if inertial && let Some(redundant) = &redundant {
+            load(simd, redundant.body, at).store(out.at(Series::EnergyBody, at));
+            for wheel in 0..wheels {
+                load(simd, redundant.wheels[wheel], at).store(out.at(Series::EnergyWheel.of_wheel(wheel), at));
+            }
         } else if inertial {
             let u = transposed_product(attitude.c_es(simd, at), v_c);
             let square = dot(u, u);
             let turned = cross(u, omega);
-            constants.moving(0, about[0], square, turned).store(&mut fuselage[at]);
-            constants.moving(1, about[1], square, turned).store(&mut wheel1[at]);
-            constants.moving(2, about[2], square, turned).store(&mut wheel2[at]);
+            constants.body.moving(body, square, turned).store(out.at(Series::EnergyBody, at));
+            for wheel in 0..wheels {
+                let energy = constants.wheels[wheel].body.moving(about[wheel], square, turned);
+                energy.store(out.at(Series::EnergyWheel.of_wheel(wheel), at));
+            }
         }
-        let mut energy = match redundant {
-            Some([s, w1, w2, _]) => load(simd, s, at) + (load(simd, w1, at) + load(simd, w2, at)),
+        let mut energy = match &redundant {
+            Some(redundant) => redundant.spacecraft(simd, wheels, at),
             None => constants.half_total.mul_add(dot(v_c, v_c), com),
         };
         if let Some((velocity, omega, form, half_mass)) = debris {
             let v = three(simd, velocity, at);
             let omega = three(simd, omega, at);
             let debris = half_mass.mul_add(dot(v, v), quadratic(form, products(omega)));
-            debris.store(&mut debris_energy[at]);
+            debris.store(out.at(Series::EnergyDebris, at));
             energy += debris;
         }
         let mut balance = energy;
@@ -238,7 +279,7 @@ pub(super) fn energies<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut Series
         if at == 0 {
             balance_first = first(simd, balance);
         }
-        energy.store(&mut total_energy[at]);
-        (balance - balance_first).store(&mut energy_error[at]);
+        energy.store(out.at(Series::EnergyTotal, at));
+        (balance - balance_first).store(out.at(Series::EnergyError, at));
     }
 }

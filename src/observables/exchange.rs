@@ -3,9 +3,10 @@
 
 use fearless_simd::Simd;
 
-use super::correlation::{correlations, slope};
+use super::correlation::{correlation, slope};
 use super::spectrum::Spectrum;
 use super::weights::Weights;
+use crate::scene::MAX_WHEELS;
 
 /// Swing of a body's energy, relative to the total about the centre of mass, up to which the energy counts as constant: some
 /// dozens of roundings of the total, from its sum of squares and from the integration of omega.
@@ -23,38 +24,41 @@ pub(super) struct BodyEnergy<'a> {
 /// How the bodies exchange energy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Exchange {
-    /// Correlation of the fuselage with each wheel; zero where one of the two is constant.
-    pub(super) correlations: [f64; 2],
+    /// Correlation of the body with each wheel; zero where one of the two is constant.
+    pub(super) correlations: [f64; MAX_WHEELS],
     /// Dominant frequency of the fuselage, Hz; zero where it is constant, NaN on a grid that has no spectrum.
     pub(super) frequency: f64,
 }
 
 impl Exchange {
     /// Of a run that was not observed.
-    pub(super) const UNKNOWN: Exchange = Exchange { correlations: [f64::NAN; 2], frequency: f64::NAN };
+    pub(super) const UNKNOWN: Exchange = Exchange { correlations: [f64::NAN; MAX_WHEELS], frequency: f64::NAN };
 }
 
-/// The exchange of `fuselage` with `wheels`; `total` is the largest energy of all three.
+/// The exchange of `body` with `wheels`; `total` is the largest energy of all together.
 #[inline(always)]
-pub(super) fn exchange<S: Simd>(
+pub(super) fn exchange<'w, S: Simd>(
     simd: S,
     weights: &Weights,
     spectrum: Option<&mut Spectrum>,
     total: f64,
-    fuselage: BodyEnergy<'_>,
-    wheels: [BodyEnergy<'_>; 2],
+    body: BodyEnergy<'_>,
+    wheels: impl Iterator<Item = BodyEnergy<'w>>,
 ) -> Exchange {
-    let varies = |body: BodyEnergy<'_>| body.swing > EXCHANGE_FLOOR * total;
-    let [first, second] = wheels.map(|wheel| (wheel.column, wheel.mean));
-    let found = correlations(simd, weights, (fuselage.column, fuselage.mean), [first, second]);
-    let correlation = |wheel: usize| if varies(fuselage) && varies(wheels[wheel]) { found[wheel] } else { 0.0 };
+    let varies = |one: BodyEnergy<'_>| one.swing > EXCHANGE_FLOOR * total;
+    let mut correlations = [0.0; MAX_WHEELS];
+    for (found, wheel) in correlations.iter_mut().zip(wheels) {
+        if varies(body) && varies(wheel) {
+            *found = correlation(simd, weights, (body.column, body.mean), (wheel.column, wheel.mean));
+        }
+    }
     let frequency = match spectrum {
-        Some(_) if !varies(fuselage) => 0.0,
+        Some(_) if !varies(body) => 0.0,
         Some(spectrum) => {
-            let slope = slope(simd, weights, fuselage.column, fuselage.mean);
-            spectrum.peak(simd, fuselage.column, fuselage.mean, slope)
+            let slope = slope(simd, weights, body.column, body.mean);
+            spectrum.peak(simd, body.column, body.mean, slope)
         }
         None => f64::NAN,
     };
-    Exchange { correlations: [correlation(0), correlation(1)], frequency }
+    Exchange { correlations, frequency }
 }

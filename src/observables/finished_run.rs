@@ -26,20 +26,19 @@ pub(super) fn final_point(table: &StateTable, filled: usize) -> Option<usize> {
     let finite = |point: &usize| {
         table.at::<3>(StateField::Rate, *point).iter().all(|x| x.is_finite())
             && table.at::<4>(StateField::Attitude, *point).iter().all(|x| x.is_finite())
-            && table.at::<2>(StateField::WheelRates, *point).iter().all(|x| x.is_finite())
+            && (0..table.wheels()).all(|wheel| table.column(StateField::WheelRates, wheel)[*point].is_finite())
     };
     (0..filled).rev().find(finite)
 }
 
 impl FinishedRun<'_> {
-    /// A direct value.
+    /// A direct value, of a wheel where wheels have it.
     #[inline]
-    pub(super) fn value(&self, value: DirectValue) -> f64 {
+    pub(super) fn value(&self, value: DirectValue, wheel: usize) -> f64 {
         match value {
             DirectValue::WorkThrusters => self.last(StateField::Work, 0),
             DirectValue::WorkMotors => self.last(StateField::Work, 1),
-            DirectValue::CorrelationWheel1 => self.exchange.correlations[0],
-            DirectValue::CorrelationWheel2 => self.exchange.correlations[1],
+            DirectValue::Correlation => self.exchange.correlations[wheel],
             DirectValue::ExchangeFrequency => self.exchange.frequency,
             DirectValue::TimeReached => self.outcome.time,
             DirectValue::TimeFinal => self.final_point.map_or(f64::NAN, |point| self.times[point]),
@@ -50,8 +49,7 @@ impl FinishedRun<'_> {
             DirectValue::RateX => self.final_state(StateField::Rate, 0),
             DirectValue::RateY => self.final_state(StateField::Rate, 1),
             DirectValue::RateZ => self.final_state(StateField::Rate, 2),
-            DirectValue::WheelRate1 => self.final_state(StateField::WheelRates, 0),
-            DirectValue::WheelRate2 => self.final_state(StateField::WheelRates, 1),
+            DirectValue::WheelRate => self.final_state(StateField::WheelRates, wheel),
             DirectValue::Steps => self.outcome.effort.steps as f64,
             DirectValue::Rejected => self.outcome.effort.rejected as f64,
             DirectValue::Evaluations => self.outcome.effort.evaluations as f64,

@@ -2,15 +2,15 @@
 
 use super::group::Group;
 use super::reduction::{ChangeStatistic, ErrorStatistic, Reduction, ValueStatistic};
+use super::request::Request;
 use super::table::{ColumnId, DirectValue, Series, direct_id, error_id, series_id};
 
 /// The estimated error of the rotational state.
 pub const STATE_ERROR_ESTIMATE: ColumnId = direct_id(Group::Numerics, DirectValue::StateError);
 
-/// The columns of a summary, in its order: main errors, exchange, effort, numerics.
+/// The columns of a summary, in its order: main errors, exchange, effort, numerics; those of wheels stand for those of each.
 pub const HEADLINES: &[ColumnId] = &{
     use Group::{Attitude, Constraints, EnergiesCom, EnergyConservation, Exchange, MomentumConservation, Numerics};
-    use Series::{ComFuselage, ComWheel1, ComWheel2};
     [
         error_id(EnergyConservation, Series::EnergyError, ErrorStatistic::Max),
         error_id(EnergyConservation, Series::EnergyError, ErrorStatistic::Slope),
@@ -23,20 +23,26 @@ pub const HEADLINES: &[ColumnId] = &{
         error_id(Constraints, Series::ResidualCollocation, ErrorStatistic::Max),
         error_id(Constraints, Series::ResidualAttitude, ErrorStatistic::Max),
         error_id(EnergiesCom, Series::ComError, ErrorStatistic::Max),
-        series_id(Exchange, ComFuselage, Reduction::Value(ValueStatistic::PeakToPeak)),
-        series_id(Exchange, ComWheel1, Reduction::Value(ValueStatistic::PeakToPeak)),
-        series_id(Exchange, ComWheel2, Reduction::Value(ValueStatistic::PeakToPeak)),
-        series_id(Exchange, ComFuselage, Reduction::Fraction),
-        series_id(Exchange, ComWheel1, Reduction::Fraction),
-        series_id(Exchange, ComWheel2, Reduction::Fraction),
-        series_id(Exchange, ComWheel1, Reduction::Change(ChangeStatistic::Gross)),
-        series_id(Exchange, ComWheel2, Reduction::Change(ChangeStatistic::Gross)),
+        series_id(Exchange, Series::ComBody, Reduction::Value(ValueStatistic::PeakToPeak)),
+        series_id(Exchange, Series::ComWheel, Reduction::Value(ValueStatistic::PeakToPeak)),
+        series_id(Exchange, Series::ComBody, Reduction::Fraction),
+        series_id(Exchange, Series::ComWheel, Reduction::Fraction),
+        series_id(Exchange, Series::ComWheel, Reduction::Change(ChangeStatistic::Gross)),
         direct_id(Group::StepStatistics, DirectValue::Steps),
         STATE_ERROR_ESTIMATE,
         direct_id(Numerics, DirectValue::Amplification),
         direct_id(Numerics, DirectValue::IllConditioned),
     ]
 };
+
+/// The places in a row of the columns of a summary.
+pub fn headlines(request: &Request) -> Vec<usize> {
+    let of_wheels = |id: &ColumnId| {
+        let wheels = if id.is_of_wheel() { request.wheels.len() } else { 1 };
+        (0..wheels).filter_map(|wheel| request.position(id.of_wheel(wheel))).collect::<Vec<_>>()
+    };
+    HEADLINES.iter().flat_map(of_wheels).collect()
+}
 
 #[cfg(test)]
 mod tests {

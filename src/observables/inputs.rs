@@ -2,20 +2,7 @@
 
 use super::reduction::Reduction;
 use super::rows::Need;
-use super::table::{DIRECT_VALUES, DirectRow, DirectValue, FRACTION_SCALE, SERIES, Series, SeriesRow, Value};
-use crate::run::Quantity;
-
-impl Series {
-    /// What the table says about the series.
-    pub(super) fn row(self) -> &'static SeriesRow {
-        &SERIES[self as usize]
-    }
-
-    /// The column of a time series that shows the series; `None` for the scale of another one.
-    pub fn quantity(self) -> Option<&'static Quantity> {
-        self.row().shown.as_ref()
-    }
-}
+use super::table::{DIRECT_VALUES, DirectRow, DirectValue, FRACTION_SCALE, Series, Value};
 
 impl DirectValue {
     /// What the table says about the value.
@@ -30,7 +17,7 @@ impl Value {
         match self {
             Value::Of(_, Reduction::Fraction) => Some(FRACTION_SCALE),
             Value::Of(series, _) => series.row().scale,
-            Value::Direct(_) => None,
+            Value::Direct(..) => None,
         }
     }
 
@@ -41,18 +28,19 @@ impl Value {
 
     /// Every statistic that the value is made of.
     pub(super) fn inputs(self) -> impl Iterator<Item = (Series, Reduction)> {
-        let (own, direct) = match self {
-            Value::Of(series, reduction) => (Some((series, reduction)), [].as_slice()),
-            Value::Direct(value) => (None, value.row().inputs),
+        let (own, direct, wheel) = match self {
+            Value::Of(series, reduction) => (Some((series, reduction)), [].as_slice(), 0),
+            Value::Direct(value, wheel) => (None, value.row().inputs, usize::from(wheel)),
         };
-        own.into_iter().chain(self.scale()).chain(direct.iter().copied())
+        let direct = direct.iter().map(move |(series, reduction)| (series.of_wheel(wheel), *reduction));
+        own.into_iter().chain(self.scale()).chain(direct)
     }
 
     /// Every field that the value is computed from.
     pub(super) fn needs(self) -> impl Iterator<Item = Need> {
         let direct = match self {
             Value::Of(..) => [].as_slice(),
-            Value::Direct(value) => value.row().needs,
+            Value::Direct(value, _) => value.row().needs,
         };
         let of_series = self.inputs().flat_map(|(series, _)| series.row().needs.iter().copied().flatten());
         of_series.chain(direct).copied()
@@ -62,7 +50,7 @@ impl Value {
     pub(super) fn is_known_after_failure(self) -> bool {
         match self {
             Value::Of(..) => false,
-            Value::Direct(value) => value.row().after_failure,
+            Value::Direct(value, _) => value.row().after_failure,
         }
     }
 }
@@ -77,8 +65,12 @@ mod tests {
     #[test]
     fn no_row_is_idle() {
         let used: Vec<Series> = all().flat_map(|column| column.value.inputs()).map(|(series, _)| series).collect();
-        assert!(Series::ALL.iter().all(|series| used.contains(series)));
-        let direct = all().filter(|column| matches!(column.value, Value::Direct(_))).count();
+        assert!(
+            Series::all()
+                .filter(|series| series.wheel().is_none_or(|wheel| wheel == 0))
+                .all(|series| used.contains(&series))
+        );
+        let direct = all().filter(|column| matches!(column.value, Value::Direct(..))).count();
         assert_eq!(direct, DIRECT_VALUES.len());
     }
 

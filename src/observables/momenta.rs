@@ -2,16 +2,20 @@
 //!
 //! p = m v_c minus the thrusters' impulse; L = C_es (J omega + sum J_i Omega_i a_i) about c, J with wheels locked, minus the
 //! angular impulse of thrusters and torques on the body; of the debris m_d v_d and C_ed J_d omega_d, on which nothing acts.
+#![expect(clippy::needless_range_loop, reason = "wheels and vectors are numbered alike in several arrays")]
 
 use fearless_simd::Simd;
 
 use super::attitude::Attitude;
-use super::points::{MeasuredRun, SeriesTable, columns, constant, constant_matrix, first_vector, four, needed, three};
+use super::points::{
+    MeasuredRun, SeriesTable, columns, constant, constant_matrix, first_vector, four, needed, of_wheels, three,
+};
 use super::table::Series;
 use crate::math::Lanes;
 use crate::math::lanes::WIDTH;
 use crate::math::vector::{dcm_from_quaternion, difference, dot, norm, product, scaled, sum};
 use crate::run::StateField;
+use crate::scene::MAX_WHEELS;
 
 /// Where |balance - its first value| and |momentum|^2 of a momentum are written.
 struct Sink<'a, S: Simd> {
@@ -62,17 +66,25 @@ pub(super) fn angular_momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mu
     let (mass, table, vectors) = (run.mass, run.table, run.vectors());
     let attitude = Attitude::of(table, vectors);
     let omega: [_; 3] = needed(table, StateField::Rate, vectors);
-    let [rate1, rate2]: [_; 2] = needed(table, StateField::WheelRates, vectors);
+    let rates = of_wheels(table, StateField::WheelRates, vectors);
     let impulse: Option<[_; 3]> = columns(table, StateField::AngularImpulse, vectors);
     let inertia = constant_matrix(simd, mass.inertia);
-    let (w1, w2) = (&mass.wheels[0], &mass.wheels[1]);
-    let axes = [constant(simd, scaled(w1.axial, w1.axis)), constant(simd, scaled(w2.axial, w2.axis))];
+    let mut axes = [constant(simd, [0.0; 3]); MAX_WHEELS];
+    for (axis, wheel) in axes.iter_mut().zip(&mass.wheels) {
+        *axis = constant(simd, scaled(wheel.axial, wheel.axis));
+    }
+    let wheels = mass.wheels.len();
     let columns = out.write([Series::AngularMomentumError, Series::AngularMomentumSquare], vectors);
     let mut sink = Sink::new(simd, columns);
     for at in 0..vectors {
-        let wheels =
-            sum(scaled(Lanes::load(simd, &rate1[at]), axes[0]), scaled(Lanes::load(simd, &rate2[at]), axes[1]));
-        let h_s = sum(product(inertia, three(simd, omega, at)), wheels);
+        let mut h_s = product(inertia, three(simd, omega, at));
+        if wheels > 0 {
+            let mut of_wheels = scaled(Lanes::load(simd, &rates[0][at]), axes[0]);
+            for wheel in 1..wheels {
+                of_wheels = sum(of_wheels, scaled(Lanes::load(simd, &rates[wheel][at]), axes[wheel]));
+            }
+            h_s = sum(h_s, of_wheels);
+        }
         let momentum = product(attitude.c_es(simd, at), h_s);
         let balance = match impulse {
             Some(impulse) => difference(momentum, three(simd, impulse, at)),

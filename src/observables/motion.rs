@@ -3,16 +3,18 @@
 //! Angles between vectors are atan2(|a x b|, a . b), exact to rounding everywhere (W. Kahan, *How Futile are Mindless Assessments of
 //! Roundoff*, 2006, section 12). The angle of the rotation between two attitudes is kept as tan^2 of its half, |v|^2/s^2 of the
 //! quaternion conj(q_nominal) q = (s, v).
+#![expect(clippy::needless_range_loop, reason = "wheels and vectors are numbered alike in several arrays")]
 
 use fearless_simd::Simd;
 
 use super::attitude::Attitude;
-use super::points::{Column, MeasuredRun, SeriesTable, constant, constant_matrix, four, needed, three};
+use super::points::{Column, MeasuredRun, SeriesTable, constant, constant_matrix, four, needed, of_wheels, three};
 use super::table::Series;
 use crate::math::lanes::WIDTH;
 use crate::math::vector::{conjugate, cross, difference, dot, hamilton, norm, product, scaled, sum};
 use crate::math::{Lanes, Real};
 use crate::run::StateField;
+use crate::scene::MAX_WHEELS;
 
 /// The series of the motion.
 #[inline(always)]
@@ -21,7 +23,7 @@ pub(super) fn motion<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTa
     if observed.has(Series::RateSquare) {
         rate(simd, run, out);
     }
-    if [Series::Nutation, Series::Wheel1Speed, Series::Wheel1Momentum].into_iter().any(|series| observed.has(series)) {
+    if [Series::Nutation, Series::WheelSpeed, Series::WheelMomentum].into_iter().any(|series| observed.has(series)) {
         momentum(simd, run, out);
     }
     if observed.has(Series::FromNominal) {
@@ -48,27 +50,26 @@ fn rate<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
 fn momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let (mass, table, vectors) = (run.mass, run.table, run.vectors());
     let omega: [_; 3] = needed(table, StateField::Rate, vectors);
-    let rates: [_; 2] = needed(table, StateField::WheelRates, vectors);
+    let rates = of_wheels(table, StateField::WheelRates, vectors);
     let inertia = constant_matrix(simd, mass.inertia);
-    let axials = [0, 1].map(|i| Lanes::broadcast(simd, mass.wheels[i].axial));
-    let axes = [0, 1].map(|i| constant(simd, mass.wheels[i].axis));
-    let [nutation, speed1, speed2, momentum1, momentum2] = out.write(
-        [Series::Nutation, Series::Wheel1Speed, Series::Wheel2Speed, Series::Wheel1Momentum, Series::Wheel2Momentum],
-        vectors,
-    );
-    let (speeds, momenta) = ([speed1, speed2], [momentum1, momentum2]);
+    let zero = Lanes::broadcast(simd, 0.0);
+    let (mut axials, mut axes) = ([zero; MAX_WHEELS], [[zero; 3]; MAX_WHEELS]);
+    for (index, wheel) in mass.wheels.iter().enumerate() {
+        axials[index] = Lanes::broadcast(simd, wheel.axial);
+        axes[index] = constant(simd, wheel.axis);
+    }
     for at in 0..vectors {
         let omega = three(simd, omega, at);
         let mut total = product(inertia, omega);
-        for wheel in 0..2 {
+        for wheel in 0..mass.wheels.len() {
             let rate = Lanes::load(simd, &rates[wheel][at]);
             let own = axials[wheel] * (rate + dot(axes[wheel], omega));
             total = sum(total, scaled(axials[wheel] * rate, axes[wheel]));
-            (rate * rate).store(&mut speeds[wheel][at]);
-            (own * own).store(&mut momenta[wheel][at]);
+            (rate * rate).store(out.at(Series::WheelSpeed.of_wheel(wheel), at));
+            (own * own).store(out.at(Series::WheelMomentum.of_wheel(wheel), at));
         }
         let [x, y, z] = total;
-        angle(x.mul_add(x, y * y).sqrt(), z, &mut nutation[at]);
+        angle(x.mul_add(x, y * y).sqrt(), z, out.at(Series::Nutation, at));
     }
 }
 

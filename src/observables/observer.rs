@@ -126,7 +126,7 @@ impl Observer {
             exchange: self.exchange,
             estimate: self.estimate,
         };
-        self.plan.fill(&self.statistics, |value| run.value(value), row);
+        self.plan.fill(&self.statistics, |value, wheel| run.value(value, usize::from(wheel)), row);
         if outcome.status != Status::Done {
             self.plan.clear_unknown(row);
         }
@@ -153,7 +153,7 @@ impl Observer {
         }
     }
 
-    /// Exchange between fuselage and wheels about the centre of mass.
+    /// Exchange between body and wheels about the centre of mass.
     #[inline(always)]
     fn find_exchange<S: Simd>(&mut self, simd: S) {
         let (series, values) = (&self.series, &self.statistics);
@@ -163,9 +163,9 @@ impl Observer {
             swing: values.get(Slot::of((of, Reduction::Value(ValueStatistic::PeakToPeak)))),
         };
         let total = values.get(Slot::of((Series::ComTotal, Reduction::Order(OrderStatistic::Max))));
-        let wheels = [body(Series::ComWheel1), body(Series::ComWheel2)];
+        let wheels = (0..self.request.wheels.len()).map(|wheel| body(Series::ComWheel.of_wheel(wheel)));
         let spectrum = self.spectrum.as_mut();
-        self.exchange = exchange(simd, &self.weights, spectrum, total, body(Series::ComFuselage), wheels);
+        self.exchange = exchange(simd, &self.weights, spectrum, total, body(Series::ComBody), wheels);
     }
 }
 

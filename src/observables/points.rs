@@ -11,6 +11,7 @@ use super::table::Series;
 use crate::math::lanes::WIDTH;
 use crate::math::{Lanes, Real};
 use crate::run::{StateField, StateTable};
+use crate::scene::MAX_WHEELS;
 use crate::scene::mass::{Body, MassProperties};
 
 /// A component of a field as vectors of eight neighbouring points. Columns with one common number of vectors need no check of
@@ -60,21 +61,27 @@ impl SeriesTable {
     /// The values of a series, with padding.
     #[inline(always)]
     pub(super) fn column(&self, series: Series) -> &[f64] {
-        self.columns[series as usize].as_flattened()
+        self.columns[series.index()].as_flattened()
     }
 
     /// The first `vectors` vectors of some series, to write.
     #[inline(always)]
     pub(super) fn write<const N: usize>(&mut self, series: [Series; N], vectors: usize) -> [&mut [[f64; WIDTH]]; N] {
-        let columns = self.columns.get_disjoint_mut(series.map(|series| series as usize));
+        let columns = self.columns.get_disjoint_mut(series.map(Series::index));
         columns.expect("no series is written twice at once").map(|column| &mut column[..vectors])
+    }
+
+    /// Vector `at` of a series, to write.
+    #[inline(always)]
+    pub(super) fn at(&mut self, series: Series, at: usize) -> &mut [f64; WIDTH] {
+        &mut self.columns[series.index()][at]
     }
 
     /// Repeats point `points - 1` in all that follow it.
     #[inline(always)]
     pub(super) fn pad(&mut self, observed: SeriesSet, points: usize) {
-        for (series, column) in Series::ALL.iter().zip(&mut self.columns) {
-            if observed.has(*series) {
+        for (series, column) in Series::all().zip(&mut self.columns) {
+            if observed.has(series) {
                 let (whole, rest) = (points / WIDTH, points % WIDTH);
                 let last = column[(points - 1) / WIDTH][(points - 1) % WIDTH];
                 for (lane, value) in column[whole].iter_mut().enumerate() {
@@ -136,6 +143,16 @@ pub(super) fn columns<const N: usize>(
         *column = &table.column(field, component).as_chunks().0[..vectors];
     }
     Some(columns)
+}
+
+/// The columns of a field of each wheel; empty beyond the wheels that there are.
+#[inline(always)]
+pub(super) fn of_wheels<'a>(table: &'a StateTable, field: StateField, vectors: usize) -> [Column<'a>; MAX_WHEELS] {
+    let mut columns: [Column<'a>; MAX_WHEELS] = [&[]; MAX_WHEELS];
+    for (wheel, column) in columns.iter_mut().enumerate().take(table.wheels()) {
+        *column = &table.column(field, wheel).as_chunks().0[..vectors];
+    }
+    columns
 }
 
 /// The columns of a field that the table of observables says is needed.

@@ -4,10 +4,12 @@ use super::group::{Group, Groups};
 use super::reduction::{Passes, Reduction, Stored};
 use super::rows::{Scenes, Source};
 use super::table::{self, Column, ColumnId, Series};
+use crate::math::list::List;
 use crate::run::{StateField, StateFields};
+use crate::scene::{MAX_WHEELS, Name};
 
 /// What is observed, and of what kind of scene.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Request {
     /// The groups to observe.
     pub groups: Groups,
@@ -17,25 +19,40 @@ pub struct Request {
     pub actuated: bool,
     /// Whether the method integrates constraints (and the DCM itself): the null-space method.
     pub constrained: bool,
+    /// The names of the wheels that turn.
+    pub wheels: List<Name, MAX_WHEELS>,
+}
+
+/// The names of wheels.
+pub type WheelNames = List<Name, MAX_WHEELS>;
+
+/// A list of the names of wheels.
+///
+/// # Panics
+/// Where one is no name, or there are more than a spacecraft may have.
+pub fn wheel_names(names: &[&str]) -> WheelNames {
+    let mut list = List::empty(Name::NONE);
+    names.iter().for_each(|name| list.push(Name::of(name)));
+    list
 }
 
 /// A set of series.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct SeriesSet(u64);
+pub(super) struct SeriesSet(u128);
 
 impl SeriesSet {
     const fn with(self, series: Series) -> Self {
-        SeriesSet(self.0 | 1 << series as u64)
+        SeriesSet(self.0 | 1 << series.index())
     }
 
     /// Whether the set contains `series`.
     pub(super) const fn has(self, series: Series) -> bool {
-        self.0 & (1 << series as u64) != 0
+        self.0 & (1 << series.index()) != 0
     }
 
     /// Whether the set contains any series of `source`.
     pub(super) fn has_any_of(self, source: Source) -> bool {
-        Series::ALL.iter().any(|series| self.has(*series) && series.row().source == source)
+        Series::all().any(|series| self.has(series) && series.row().source == source)
     }
 }
 
@@ -51,8 +68,20 @@ pub(super) struct SeriesTask {
 
 impl Request {
     /// The columns of a row, in order: those of the groups that apply to such a scene.
-    pub fn columns(&self) -> Vec<&'static Column> {
-        table::all().filter(|column| self.groups.contains(column.group) && self.includes(column.scenes)).collect()
+    pub fn columns(&self) -> Vec<Column> {
+        let is_asked = |column: &&Column| self.groups.contains(column.group) && self.includes(column.scenes);
+        let mut columns = Vec::new();
+        for family in table::families() {
+            let asked: Vec<&Column> = family.iter().filter(is_asked).collect();
+            if !asked.iter().any(|column| column.is_of_wheel()) {
+                columns.extend(asked.into_iter().cloned());
+                continue;
+            }
+            for (index, name) in self.wheels.iter().enumerate() {
+                columns.extend(asked.iter().map(|column| column.of_wheel(index, *name)));
+            }
+        }
+        columns
     }
 
     /// The place of a column in a row; `None` where the row does not have it.
@@ -63,7 +92,7 @@ impl Request {
     /// The columns of a time series, in order: the series behind [`Request::columns`] that have one.
     pub fn series(&self) -> Vec<Series> {
         let observed = self.observed();
-        Series::ALL.iter().copied().filter(|series| observed.has(*series) && series.quantity().is_some()).collect()
+        Series::all().filter(|series| observed.has(*series) && series.quantity(&self.wheels).is_some()).collect()
     }
 
     /// The fields of the state table that the columns need; no other is read.
@@ -97,7 +126,7 @@ impl Request {
             let of_series = self.inputs().filter(|(other, _)| *other == series);
             of_series.fold(Passes::default(), |passes, (_, reduction)| passes.with(reduction))
         };
-        let observed = Series::ALL.iter().copied().filter(|series| observed.has(*series));
+        let observed = Series::all().filter(|series| observed.has(*series));
         let scale = |series: Series| {
             self.columns().iter().filter(|column| column.value.of(series)).find_map(|c| c.value.scale())
         };
@@ -114,7 +143,7 @@ impl Request {
 
     /// Every statistic that the columns are made of, some several times.
     fn inputs(&self) -> impl Iterator<Item = (Series, Reduction)> {
-        self.columns().into_iter().flat_map(|column| column.value.inputs())
+        self.columns().into_iter().flat_map(|column| column.value.inputs().collect::<Vec<_>>())
     }
 
     fn includes(&self, scenes: Scenes) -> bool {
@@ -125,6 +154,8 @@ impl Request {
             Scenes::Free => !self.actuated,
             Scenes::Constrained => self.constrained,
             Scenes::Unconstrained => !self.constrained,
+            Scenes::Wheels => !self.wheels.is_empty(),
+            Scenes::SeveralWheels => self.wheels.len() > 1,
         }
     }
 
@@ -148,7 +179,13 @@ mod tests {
     use super::*;
 
     fn request(groups: &[Group], debris: bool, actuated: bool, constrained: bool) -> Request {
-        Request { groups: groups.iter().copied().collect(), debris, actuated, constrained }
+        Request {
+            groups: groups.iter().copied().collect(),
+            debris,
+            actuated,
+            constrained,
+            wheels: wheel_names(&["w1", "w2"]),
+        }
     }
 
     fn set(fields: &[StateField]) -> StateFields {
@@ -202,7 +239,7 @@ mod tests {
     fn wheel_angles_and_positions_are_never_read() {
         for [debris, actuated, constrained] in [[false; 3], [true; 3]] {
             let groups = Group::DEFAULT.into_iter().collect();
-            let fields = Request { groups, debris, actuated, constrained }.fields();
+            let fields = Request { groups, debris, actuated, constrained, wheels: wheel_names(&["w1", "w2"]) }.fields();
             for field in [StateField::WheelAngles, StateField::ComPosition, StateField::DebrisPosition] {
                 assert!(!fields.contains(field));
             }
@@ -211,7 +248,13 @@ mod tests {
 
     #[test]
     fn reasons_name_every_needed_field_and_no_other() {
-        let request = Request { groups: Groups::ALL, debris: true, actuated: true, constrained: true };
+        let request = Request {
+            groups: Groups::ALL,
+            debris: true,
+            actuated: true,
+            constrained: true,
+            wheels: wheel_names(&["w1", "w2"]),
+        };
         let reasons = request.reasons();
         assert_eq!(set(&reasons.iter().map(|(field, _)| *field).collect::<Vec<_>>()), request.fields());
         let (_, why) = reasons.iter().find(|(field, _)| *field == StateField::AngularImpulse).unwrap();
@@ -220,11 +263,11 @@ mod tests {
 
     #[test]
     fn columns_apply_to_scenes_that_have_what_they_measure() {
-        let names = |debris, actuated, constrained| -> Vec<&str> {
-            Request { groups: Groups::ALL, debris, actuated, constrained }
+        let names = |debris, actuated, constrained| -> Vec<String> {
+            Request { groups: Groups::ALL, debris, actuated, constrained, wheels: wheel_names(&["w1", "w2"]) }
                 .columns()
                 .iter()
-                .map(|c| c.quantity.name())
+                .map(|c| c.quantity.name().to_owned())
                 .collect()
         };
         let bare = names(false, false, false);
@@ -236,8 +279,8 @@ mod tests {
             ("energy_com_error_max", true, false),
             ("energy_error_max", true, true),
         ] {
-            assert_eq!(bare.contains(&name), in_bare, "{name}");
-            assert_eq!(full.contains(&name), in_full, "{name}");
+            assert_eq!(bare.iter().any(|other| other == name), in_bare, "{name}");
+            assert_eq!(full.iter().any(|other| other == name), in_full, "{name}");
         }
     }
 }

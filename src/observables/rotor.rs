@@ -27,7 +27,8 @@ impl<'a> Body<'a> {
         let offset = acting.is_free(duration).then(|| {
             let omega = table.at::<3>(StateField::Rate, 0);
             let mut momentum = difference(product(mass.inertia, omega), product(inertia, omega));
-            for (wheel, rate) in mass.wheels.iter().zip(table.at::<2>(StateField::WheelRates, 0)) {
+            for (index, wheel) in mass.wheels.iter().enumerate() {
+                let rate = table.column(StateField::WheelRates, index)[0];
                 momentum = sum(momentum, scaled(wheel.axial * rate, wheel.axis));
             }
             momentum

@@ -16,7 +16,7 @@ pub(super) struct Slot(u16);
 
 impl Slot {
     pub(super) const fn of((series, reduction): (Series, Reduction)) -> Self {
-        Slot((series as usize * Reduction::COUNT + reduction.index()) as u16)
+        Slot((series.index() * Reduction::COUNT + reduction.index()) as u16)
     }
 }
 
@@ -41,7 +41,7 @@ impl Statistics {
     /// The statistics of `series`, at [`Reduction::index`].
     #[inline(always)]
     pub(super) fn of(&mut self, series: Series) -> &mut [f64; Reduction::COUNT] {
-        &mut self.0[series as usize]
+        &mut self.0[series.index()]
     }
 }
 
@@ -51,7 +51,7 @@ pub(super) struct RowPlan {
     /// The statistic of each column; any for a column that shows a direct value.
     slots: Vec<Slot>,
     /// The columns that show a direct value.
-    direct_values: Vec<(usize, DirectValue)>,
+    direct_values: Vec<(usize, DirectValue, u8)>,
     /// For each column whether a run that failed has it too.
     known_after_failure: Vec<bool>,
 }
@@ -65,8 +65,8 @@ impl RowPlan {
         for (place, column) in columns.iter().enumerate() {
             plan.slots.push(match column.value {
                 Value::Of(series, reduction) => Slot::of((series, reduction)),
-                Value::Direct(value) => {
-                    plan.direct_values.push((place, value));
+                Value::Direct(value, wheel) => {
+                    plan.direct_values.push((place, value, wheel));
                     Slot(0)
                 }
             });
@@ -81,12 +81,12 @@ impl RowPlan {
 
     /// Fills `row` from `statistics` and from what `direct` answers.
     #[inline(always)]
-    pub(super) fn fill(&self, statistics: &Statistics, direct: impl Fn(DirectValue) -> f64, row: &mut [f64]) {
+    pub(super) fn fill(&self, statistics: &Statistics, direct: impl Fn(DirectValue, u8) -> f64, row: &mut [f64]) {
         for (value, slot) in row.iter_mut().zip(&self.slots) {
             *value = statistics.get(*slot);
         }
-        for (place, value) in &self.direct_values {
-            row[*place] = direct(*value);
+        for (place, value, wheel) in &self.direct_values {
+            row[*place] = direct(*value, *wheel);
         }
     }
 
@@ -102,20 +102,27 @@ impl RowPlan {
 mod tests {
     use super::*;
     use crate::observables::group::Groups;
+    use crate::observables::request::wheel_names;
 
     /// Law: every column of every request shows the statistic of the table or its direct value.
     #[test]
     fn a_row_shows_what_the_table_says() {
         let mut statistics = Statistics::unknown();
-        for (at, series) in Series::ALL.iter().enumerate() {
-            for (index, value) in statistics.of(*series).iter_mut().enumerate() {
+        for (at, series) in Series::all().enumerate() {
+            for (index, value) in statistics.of(series).iter_mut().enumerate() {
                 *value = 1.5 + (at * Reduction::COUNT + index) as f64;
             }
         }
-        let number = |value: DirectValue| -(value as usize as f64) - 1.0;
+        let number = |value: DirectValue, wheel: u8| -(value as usize as f64) - 1.0 - 100.0 * f64::from(wheel);
         for bits in 0..8 {
             let [debris, actuated, constrained] = [1, 2, 4].map(|bit| bits & bit != 0);
-            let request = Request { groups: Groups::ALL, debris, actuated, constrained };
+            let request = Request {
+                groups: Groups::ALL,
+                debris,
+                actuated,
+                constrained,
+                wheels: wheel_names(&["w1", "w2", "w3"]),
+            };
             let plan = RowPlan::of(&request);
             let mut row = vec![f64::NAN; plan.columns()];
             plan.fill(&statistics, number, &mut row);
@@ -123,7 +130,7 @@ mod tests {
             for (column, shown) in request.columns().iter().zip(&row) {
                 let expected = match column.value {
                     Value::Of(series, reduction) => statistics.of(series)[reduction.index()],
-                    Value::Direct(value) => number(value),
+                    Value::Direct(value, wheel) => number(value, wheel),
                 };
                 assert_eq!(*shown, expected, "{}", column.quantity.name());
             }

@@ -28,6 +28,10 @@ pub(super) enum Scenes {
     Constrained,
     /// Integrated without constraints.
     Unconstrained,
+    /// With wheels that turn.
+    Wheels,
+    /// With several of them.
+    SeveralWheels,
 }
 
 /// A field of the state table that a value is computed from, for which scenes, and why.
@@ -75,26 +79,24 @@ pub(super) const fn need(field: StateField, scenes: Scenes, why: &'static str) -
     Need { field, scenes, why }
 }
 
-/// The table of series: `name: source, what is stored, scale, needs, column of a time series, meaning`.
+/// The table of series: `name [how many]: source, what is stored, scale, needs, column of a time series, meaning`. A series of each wheel
+/// has as many places as a spacecraft may have wheels; its name and meaning have `{wheel}` where that of the wheel belongs.
 macro_rules! series {
-    ($($name:ident: $source:ident, $stored:ident, $scale:expr, [$($need:ident),*], $shown:expr, $meaning:literal;)*) => {
-        /// A quantity at every observation point.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-        #[repr(usize)]
-        pub enum Series {
-            $(#[doc = $meaning] $name,)*
-        }
+    ($($name:ident [$count:expr]: $source:ident, $stored:ident, $scale:expr, [$($need:ident),*], $shown:expr, $meaning:literal;)*) => {
+        /// The rows of the table of series.
+        #[derive(Clone, Copy)]
+        enum SeriesKind { $($name,)* }
 
+        /// How many places each row has.
+        const PLACES: &[usize] = &[$($count),*];
+
+        #[allow(non_upper_case_globals, reason = "names of series, as those of variants")]
         impl Series {
-            /// Every series, in the order of a time series.
-            pub const ALL: &[Series] = &[$(Series::$name),*];
-
-            /// Number of series.
-            pub(super) const COUNT: usize = Series::ALL.len();
+            $(#[doc = $meaning] pub const $name: Series = Series::first(SeriesKind::$name as usize);)*
         }
 
-        /// The rows, by series.
-        pub(super) static SERIES: [SeriesRow; Series::COUNT] = [
+        /// The rows, by kind of series.
+        static SERIES: [SeriesRow; PLACES.len()] = [
             $(SeriesRow {
                 source: Source::$source,
                 stored: Stored::$stored,
@@ -135,6 +137,7 @@ macro_rules! column {
             kind: Kind::$kind,
             scenes: Scenes::$scenes,
             value: $value,
+            wheel: None,
         }
     };
 }
@@ -152,7 +155,7 @@ macro_rules! of {
 /// One column that shows a direct value.
 macro_rules! direct {
     ($group:ident, $scenes:ident, $kind:ident, $value:ident, $name:literal, $unit:literal, $meaning:literal) => {
-        column!($group, $scenes, $kind, Value::Direct(DirectValue::$value), [$name], $unit, [$meaning])
+        column!($group, $scenes, $kind, Value::Direct(DirectValue::$value, 0), [$name], $unit, [$meaning])
     };
 }
 
@@ -201,13 +204,13 @@ macro_rules! energies {
 /// Swing, transfer and power of an energy about the centre of mass.
 #[rustfmt::skip]
 macro_rules! exchange {
-    ($series:ident, $body:literal, $what:literal) => {
+    ($series:ident, $scenes:ident, $body:literal, $what:literal) => {
         &[
-            of!(Exchange, All, $series, Value(ValueStatistic::PeakToPeak), ["exchange_", $body, "_peak_to_peak_j"], "J", ["Maximum minus minimum of the kinetic energy of ", $what, " about the centre of mass."]),
-            of!(Exchange, All, $series, Fraction, ["exchange_", $body, "_fraction"], "", ["Maximum minus minimum of the kinetic energy of ", $what, ", relative to the largest total about the centre of mass (0 where that is 0)."]),
-            of!(Exchange, All, $series, Value(ValueStatistic::Net), ["exchange_", $body, "_net_j"], "J", ["Last minus first kinetic energy of ", $what, " about the centre of mass."]),
-            of!(Exchange, All, $series, Change(ChangeStatistic::Gross), ["exchange_", $body, "_gross_j"], "J", ["Sum of |dT| between neighbouring points of ", $what, " about the centre of mass."]),
-            of!(Exchange, All, $series, Change(ChangeStatistic::Power), ["exchange_", $body, "_power_max_w"], "W", ["Maximum of |dT/dt| between neighbouring points of ", $what, " about the centre of mass."]),
+            of!(Exchange, $scenes, $series, Value(ValueStatistic::PeakToPeak), ["exchange_", $body, "_peak_to_peak_j"], "J", ["Maximum minus minimum of the kinetic energy of ", $what, " about the centre of mass."]),
+            of!(Exchange, $scenes, $series, Fraction, ["exchange_", $body, "_fraction"], "", ["Maximum minus minimum of the kinetic energy of ", $what, ", relative to the largest total about the centre of mass (0 where that is 0)."]),
+            of!(Exchange, $scenes, $series, Value(ValueStatistic::Net), ["exchange_", $body, "_net_j"], "J", ["Last minus first kinetic energy of ", $what, " about the centre of mass."]),
+            of!(Exchange, $scenes, $series, Change(ChangeStatistic::Gross), ["exchange_", $body, "_gross_j"], "J", ["Sum of |dT| between neighbouring points of ", $what, " about the centre of mass."]),
+            of!(Exchange, $scenes, $series, Change(ChangeStatistic::Power), ["exchange_", $body, "_power_max_w"], "W", ["Maximum of |dT/dt| between neighbouring points of ", $what, " about the centre of mass."]),
         ]
     };
 }

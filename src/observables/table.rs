@@ -12,6 +12,7 @@ use super::group::Group;
 use super::reduction::{ChangeStatistic, ErrorStatistic, OrderStatistic, Reduction, Stored, ValueStatistic};
 use super::rows::{Kind, Need, Scenes, Source};
 use crate::run::Quantity;
+use crate::scene::{MAX_WHEELS, Name};
 
 /// A column of a row.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,6 +27,8 @@ pub struct Column {
     pub(super) scenes: Scenes,
     /// What it shows.
     pub(super) value: Value,
+    /// Which wheel it is of, in the columns of a request.
+    pub(super) wheel: Option<u8>,
 }
 
 impl Column {
@@ -38,7 +41,23 @@ impl Column {
             Scenes::Free => "without actuation",
             Scenes::Constrained => "null-space method",
             Scenes::Unconstrained => "not the null-space method",
+            Scenes::Wheels => "with wheels that turn",
+            Scenes::SeveralWheels => "with several wheels",
         }
+    }
+
+    /// Whether there is one such column for each wheel that turns.
+    pub fn is_of_wheel(&self) -> bool {
+        self.quantity.name().contains(WHEEL)
+    }
+
+    /// The column of wheel `index`, called `name`.
+    pub(super) fn of_wheel(&self, index: usize, name: Name) -> Column {
+        let value = match self.value {
+            Value::Of(series, reduction) => Value::Of(series.of_wheel(index), reduction),
+            Value::Direct(value, _) => Value::Direct(value, index as u8),
+        };
+        Column { quantity: named(&self.quantity, name), value, wheel: Some(index as u8), ..self.clone() }
     }
 
     /// The handle of the column.
@@ -52,8 +71,8 @@ impl Column {
 pub enum Value {
     /// A series, reduced to a number.
     Of(Series, Reduction),
-    /// A number that is not made of a single series.
-    Direct(DirectValue),
+    /// A number that is not made of a single series, of a wheel where wheels have it.
+    Direct(DirectValue, u8),
 }
 
 /// The handle of a column: a value of a group. [`super::Request::position`] finds its place in a row.
@@ -64,13 +83,111 @@ pub struct ColumnId {
 }
 
 impl ColumnId {
-    /// Name, unit and meaning of the column.
+    /// Whether there is one such column for each wheel.
+    pub(super) fn is_of_wheel(self) -> bool {
+        all().any(|column| column.id() == self && column.is_of_wheel())
+    }
+
+    /// The handle of the same column of wheel `wheel`, where wheels have it; else itself.
+    #[must_use]
+    pub fn of_wheel(self, wheel: usize) -> Self {
+        let value = match self.value {
+            Value::Of(series, reduction) => Value::Of(series.of_wheel(wheel), reduction),
+            Value::Direct(value, _) if self.is_of_wheel() => Value::Direct(value, wheel as u8),
+            direct => direct,
+        };
+        ColumnId { value, ..self }
+    }
+
+    /// The name of the column, where it is of no wheel.
     ///
     /// # Panics
     /// Where the table has no such column.
-    pub fn quantity(self) -> &'static Quantity {
+    pub fn name(self) -> &'static str {
         let column = all().find(|column| column.id() == self);
-        &column.expect("a handle is that of a column").quantity
+        column.expect("a handle is that of a column").quantity.name()
+    }
+}
+
+/// Where the name of a wheel belongs in the name or meaning of a column.
+const WHEEL: &str = "{wheel}";
+
+/// `quantity` of the wheel `name`.
+fn named(quantity: &Quantity, name: Name) -> Quantity {
+    let of_wheel = |text: &str| text.replace(WHEEL, name.as_str());
+    Quantity::named(of_wheel(quantity.name()), quantity.unit().to_owned(), of_wheel(quantity.meaning()))
+}
+
+/// A quantity at every observation point; of a wheel where wheels have it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Series(u8);
+
+impl Series {
+    /// Number of series, with one of each wheel that a spacecraft may have.
+    pub(super) const COUNT: usize = {
+        let (mut count, mut kind) = (0, 0);
+        while kind < PLACES.len() {
+            count += PLACES[kind];
+            kind += 1;
+        }
+        count
+    };
+
+    /// Every series, in the order of a time series.
+    pub fn all() -> impl Iterator<Item = Series> {
+        (0..Self::COUNT).map(|index| Series(index as u8))
+    }
+
+    /// The first series of a row.
+    const fn first(kind: usize) -> Series {
+        let (mut first, mut other) = (0, 0);
+        while other < kind {
+            first += PLACES[other];
+            other += 1;
+        }
+        Series(first as u8)
+    }
+
+    /// The place among all series.
+    #[inline(always)]
+    pub(super) const fn index(self) -> usize {
+        self.0 as usize
+    }
+
+    /// The same series of wheel `wheel`, where wheels have it; else itself.
+    pub const fn of_wheel(self, wheel: usize) -> Series {
+        let (kind, _) = self.place();
+        if PLACES[kind] > 1 { Series(Series::first(kind).0 + wheel as u8) } else { self }
+    }
+
+    /// The row, and the place within it.
+    const fn place(self) -> (usize, usize) {
+        let (mut kind, mut place) = (0, self.0 as usize);
+        while place >= PLACES[kind] {
+            place -= PLACES[kind];
+            kind += 1;
+        }
+        (kind, place)
+    }
+
+    /// The wheel that it is of.
+    pub(super) fn wheel(self) -> Option<usize> {
+        let (kind, place) = self.place();
+        (PLACES[kind] > 1).then_some(place)
+    }
+
+    /// What the table says about the series.
+    pub(super) fn row(self) -> &'static SeriesRow {
+        &SERIES[self.place().0]
+    }
+
+    /// The column of a time series that shows the series, where the wheels are called `wheels`; `None` for the scale of another series.
+    pub fn quantity(self, wheels: &[Name]) -> Option<Quantity> {
+        let shown = self.row().shown.as_ref()?;
+        match self.wheel() {
+            Some(wheel) => wheels.get(wheel).map(|name| named(shown, *name)),
+            None => Some(shown.clone()),
+        }
     }
 }
 
@@ -86,7 +203,7 @@ pub const fn error_id(group: Group, series: Series, statistic: ErrorStatistic) -
 
 /// The handle of a direct value.
 pub const fn direct_id(group: Group, value: DirectValue) -> ColumnId {
-    ColumnId { group, value: Value::Direct(value) }
+    ColumnId { group, value: Value::Direct(value, 0) }
 }
 
 /// What the table says about a series.
@@ -120,21 +237,14 @@ const MEAN: Reduction = Reduction::Value(ValueStatistic::Mean);
 /// The denominator of [`Reduction::Fraction`].
 pub(super) const FRACTION_SCALE: (Series, Reduction) = (Series::ComTotal, MAX);
 
-const CORRELATION1: &[(Series, Reduction)] = &[
+const CORRELATION: &[(Series, Reduction)] = &[
     FRACTION_SCALE,
-    (Series::ComFuselage, SWING),
-    (Series::ComFuselage, MEAN),
-    (Series::ComWheel1, SWING),
-    (Series::ComWheel1, MEAN),
+    (Series::ComBody, SWING),
+    (Series::ComBody, MEAN),
+    (Series::ComWheel, SWING),
+    (Series::ComWheel, MEAN),
 ];
-const CORRELATION2: &[(Series, Reduction)] = &[
-    FRACTION_SCALE,
-    (Series::ComFuselage, SWING),
-    (Series::ComFuselage, MEAN),
-    (Series::ComWheel2, SWING),
-    (Series::ComWheel2, MEAN),
-];
-const FREQUENCY: &[(Series, Reduction)] = &[FRACTION_SCALE, (Series::ComFuselage, SWING), (Series::ComFuselage, MEAN)];
+const FREQUENCY: &[(Series, Reduction)] = &[FRACTION_SCALE, (Series::ComBody, SWING), (Series::ComBody, MEAN)];
 
 #[rustfmt::skip]
 mod needs {
@@ -144,7 +254,7 @@ mod needs {
     use crate::run::StateField;
 
     pub(super) const SPIN: &[Need] = &[
-        need(StateField::Rate, Scenes::All, "rotation of the fuselage"),
+        need(StateField::Rate, Scenes::All, "rotation of the body"),
         need(StateField::WheelRates, Scenes::All, "rotation of the wheels"),
     ];
     pub(super) const BODIES: &[Need] = &[
@@ -207,38 +317,35 @@ use needs::{
 
 #[rustfmt::skip]
 series! {
-    EnergyFuselage: Energies, Quantity, None, [SPIN, BODIES, REDUNDANT], Some(("energy_fuselage_j", "J")), "Kinetic energy of the fuselage in F_e.";
-    EnergyWheel1: Energies, Quantity, None, [SPIN, BODIES, REDUNDANT], Some(("energy_wheel1_j", "J")), "Kinetic energy of wheel 1 in F_e.";
-    EnergyWheel2: Energies, Quantity, None, [SPIN, BODIES, REDUNDANT], Some(("energy_wheel2_j", "J")), "Kinetic energy of wheel 2 in F_e.";
-    EnergyDebris: Energies, Quantity, None, [SPIN, DEBRIS_ENERGY], Some(("energy_debris_j", "J")), "Kinetic energy of the debris in F_e.";
-    EnergyTotal: Energies, Quantity, None, [SPIN, TOTAL, REDUNDANT, DEBRIS_ENERGY], Some(("energy_total_j", "J")), "Total kinetic energy in F_e, debris included.";
-    ComFuselage: Energies, Quantity, None, [SPIN], Some(("energy_com_fuselage_j", "J")), "Kinetic energy of the fuselage about the spacecraft's centre of mass.";
-    ComWheel1: Energies, Quantity, None, [SPIN], Some(("energy_com_wheel1_j", "J")), "Kinetic energy of wheel 1 about the spacecraft's centre of mass.";
-    ComWheel2: Energies, Quantity, None, [SPIN], Some(("energy_com_wheel2_j", "J")), "Kinetic energy of wheel 2 about the spacecraft's centre of mass.";
-    ComTotal: Energies, Quantity, None, [SPIN], Some(("energy_com_total_j", "J")), "Kinetic energy of the spacecraft about its centre of mass.";
-    EnergyError: Energies, Quantity, Some((Series::EnergyTotal, MAX)), [SPIN, TOTAL, REDUNDANT, DEBRIS_ENERGY, WORK], Some(("energy_error", "")), "Change of total kinetic energy minus the work of actuators and torques on the body, relative to the largest total.";
-    ComError: Energies, Quantity, Some((Series::ComTotal, MAX)), [SPIN], Some(("energy_com_error", "")), "Change of kinetic energy about the centre of mass, relative to the largest (without actuators).";
-    LinearMomentumError: LinearMomentum, Quantity, Some((Series::LinearMomentumSquare, MAX)), [LINEAR], Some(("linear_momentum_error", "")), "Change of the spacecraft's linear momentum minus the impulse, relative to the largest.";
-    LinearMomentumSquare: LinearMomentum, Square, None, [LINEAR], NOT_SHOWN, "Square of the spacecraft's linear momentum, N^2 s^2.";
-    AngularMomentumError: AngularMomentum, Quantity, Some((Series::AngularMomentumSquare, MAX)), [SPIN, ANGULAR], Some(("angular_momentum_error", "")), "Change of the spacecraft's angular momentum about its centre of mass in F_e minus the angular impulse of thrusters and torques on the body, relative to the largest.";
-    AngularMomentumSquare: AngularMomentum, Square, None, [SPIN, ANGULAR], NOT_SHOWN, "Square of the spacecraft's angular momentum about its centre of mass, N^2 m^2 s^2.";
-    DebrisLinearError: DebrisMomenta, Quantity, Some((Series::DebrisLinearSquare, MAX)), [DEBRIS_LINEAR, DEBRIS_ANGULAR], Some(("debris_linear_momentum_error", "")), "Change of the debris's linear momentum, relative to the largest.";
-    DebrisLinearSquare: DebrisMomenta, Square, None, [DEBRIS_LINEAR, DEBRIS_ANGULAR], NOT_SHOWN, "Square of the debris's linear momentum, N^2 s^2.";
-    DebrisAngularError: DebrisMomenta, Quantity, Some((Series::DebrisAngularSquare, MAX)), [DEBRIS_LINEAR, DEBRIS_ANGULAR], Some(("debris_angular_momentum_error", "")), "Change of the debris's angular momentum about its centre in F_e, relative to the largest.";
-    DebrisAngularSquare: DebrisMomenta, Square, None, [DEBRIS_LINEAR, DEBRIS_ANGULAR], NOT_SHOWN, "Square of the debris's angular momentum about its centre, N^2 m^2 s^2.";
-    Orthonormality: Attitude, Quantity, None, [ORTHONORMALITY], Some(("dcm_orthonormality", "")), "Largest entry of |C_es^T C_es - 1|.";
-    SpinAxisAngle: Attitude, HalfTangentSquare, None, [SPIN_AXIS], Some(("spin_axis_angle_rad", "rad")), "Angle of s3 from its initial direction in F_e.";
-    ResidualKinematic: Residuals, Quantity, None, [RESIDUALS], Some(("residual_kinematic_m_s", "m/s")), "Residual of the kinematic constraints (angular components in rad/s).";
-    ResidualCollocation: Residuals, Quantity, None, [RESIDUALS], Some(("residual_collocation_m", "m")), "Residual of the collocation constraints (tilts of wheel axes as sines).";
-    ResidualAttitude: Residuals, Quantity, None, [RESIDUALS], Some(("residual_attitude", "")), "Residual of the attitude constraints.";
-    RateSquare: Motion, Square, None, [RATE], Some(("angular_rate_rad_s", "rad/s")), "Magnitude of the angular velocity of the fuselage relative to F_e.";
-    Nutation: Motion, Quantity, None, [SPIN], Some(("nutation_angle_rad", "rad")), "Angle between s3 and the angular momentum of the spacecraft about its centre of mass.";
-    FromNominal: Motion, HalfTangentSquare, None, [FROM_NOMINAL], Some(("attitude_from_nominal_rad", "rad")), "Angle of the rotation between the attitude and that of the nominal run at the same time.";
-    Wheel1Speed: Motion, Square, None, [SPIN], Some(("wheel1_speed_rad_s", "rad/s")), "Magnitude of the rate of wheel 1 relative to the fuselage.";
-    Wheel2Speed: Motion, Square, None, [SPIN], Some(("wheel2_speed_rad_s", "rad/s")), "Magnitude of the rate of wheel 2 relative to the fuselage.";
-    Wheel1Momentum: Motion, Square, None, [SPIN], Some(("wheel1_momentum_n_m_s", "N m s")), "Magnitude of the angular momentum of wheel 1 about its axis relative to F_e.";
-    Wheel2Momentum: Motion, Square, None, [SPIN], Some(("wheel2_momentum_n_m_s", "N m s")), "Magnitude of the angular momentum of wheel 2 about its axis relative to F_e.";
-    DebrisDirection: Motion, Quantity, None, [SPIN_AXIS, DEBRIS_DIRECTION], Some(("spin_axis_debris_angle_rad", "rad")), "Angle between s3 and the line from the spacecraft's centre of mass to the debris (0 where they coincide).";
+    EnergyBody [1]: Energies, Quantity, None, [SPIN, BODIES, REDUNDANT], Some(("energy_body_j", "J")), "Kinetic energy of the body in F_e.";
+    EnergyWheel [MAX_WHEELS]: Energies, Quantity, None, [SPIN, BODIES, REDUNDANT], Some(("energy_{wheel}_j", "J")), "Kinetic energy of wheel {wheel} in F_e.";
+    EnergyDebris [1]: Energies, Quantity, None, [SPIN, DEBRIS_ENERGY], Some(("energy_debris_j", "J")), "Kinetic energy of the debris in F_e.";
+    EnergyTotal [1]: Energies, Quantity, None, [SPIN, TOTAL, REDUNDANT, DEBRIS_ENERGY], Some(("energy_total_j", "J")), "Total kinetic energy in F_e, debris included.";
+    ComBody [1]: Energies, Quantity, None, [SPIN], Some(("energy_com_body_j", "J")), "Kinetic energy of the body about the spacecraft's centre of mass.";
+    ComWheel [MAX_WHEELS]: Energies, Quantity, None, [SPIN], Some(("energy_com_{wheel}_j", "J")), "Kinetic energy of wheel {wheel} about the spacecraft's centre of mass.";
+    ComWheels [1]: Energies, Quantity, None, [SPIN], Some(("energy_com_wheels_j", "J")), "Kinetic energy of all wheels together about the spacecraft's centre of mass.";
+    ComTotal [1]: Energies, Quantity, None, [SPIN], Some(("energy_com_total_j", "J")), "Kinetic energy of the spacecraft about its centre of mass.";
+    EnergyError [1]: Energies, Quantity, Some((Series::EnergyTotal, MAX)), [SPIN, TOTAL, REDUNDANT, DEBRIS_ENERGY, WORK], Some(("energy_error", "")), "Change of total kinetic energy minus the work of actuators and torques on the body, relative to the largest total.";
+    ComError [1]: Energies, Quantity, Some((Series::ComTotal, MAX)), [SPIN], Some(("energy_com_error", "")), "Change of kinetic energy about the centre of mass, relative to the largest (without actuators).";
+    LinearMomentumError [1]: LinearMomentum, Quantity, Some((Series::LinearMomentumSquare, MAX)), [LINEAR], Some(("linear_momentum_error", "")), "Change of the spacecraft's linear momentum minus the impulse, relative to the largest.";
+    LinearMomentumSquare [1]: LinearMomentum, Square, None, [LINEAR], NOT_SHOWN, "Square of the spacecraft's linear momentum, N^2 s^2.";
+    AngularMomentumError [1]: AngularMomentum, Quantity, Some((Series::AngularMomentumSquare, MAX)), [SPIN, ANGULAR], Some(("angular_momentum_error", "")), "Change of the spacecraft's angular momentum about its centre of mass in F_e minus the angular impulse of thrusters and torques on the body, relative to the largest.";
+    AngularMomentumSquare [1]: AngularMomentum, Square, None, [SPIN, ANGULAR], NOT_SHOWN, "Square of the spacecraft's angular momentum about its centre of mass, N^2 m^2 s^2.";
+    DebrisLinearError [1]: DebrisMomenta, Quantity, Some((Series::DebrisLinearSquare, MAX)), [DEBRIS_LINEAR, DEBRIS_ANGULAR], Some(("debris_linear_momentum_error", "")), "Change of the debris's linear momentum, relative to the largest.";
+    DebrisLinearSquare [1]: DebrisMomenta, Square, None, [DEBRIS_LINEAR, DEBRIS_ANGULAR], NOT_SHOWN, "Square of the debris's linear momentum, N^2 s^2.";
+    DebrisAngularError [1]: DebrisMomenta, Quantity, Some((Series::DebrisAngularSquare, MAX)), [DEBRIS_LINEAR, DEBRIS_ANGULAR], Some(("debris_angular_momentum_error", "")), "Change of the debris's angular momentum about its centre in F_e, relative to the largest.";
+    DebrisAngularSquare [1]: DebrisMomenta, Square, None, [DEBRIS_LINEAR, DEBRIS_ANGULAR], NOT_SHOWN, "Square of the debris's angular momentum about its centre, N^2 m^2 s^2.";
+    Orthonormality [1]: Attitude, Quantity, None, [ORTHONORMALITY], Some(("dcm_orthonormality", "")), "Largest entry of |C_es^T C_es - 1|.";
+    SpinAxisAngle [1]: Attitude, HalfTangentSquare, None, [SPIN_AXIS], Some(("spin_axis_angle_rad", "rad")), "Angle of s3 from its initial direction in F_e.";
+    ResidualKinematic [1]: Residuals, Quantity, None, [RESIDUALS], Some(("residual_kinematic_m_s", "m/s")), "Residual of the kinematic constraints (angular components in rad/s).";
+    ResidualCollocation [1]: Residuals, Quantity, None, [RESIDUALS], Some(("residual_collocation_m", "m")), "Residual of the collocation constraints (tilts of wheel axes as sines).";
+    ResidualAttitude [1]: Residuals, Quantity, None, [RESIDUALS], Some(("residual_attitude", "")), "Residual of the attitude constraints.";
+    RateSquare [1]: Motion, Square, None, [RATE], Some(("angular_rate_rad_s", "rad/s")), "Magnitude of the angular velocity of the body relative to F_e.";
+    Nutation [1]: Motion, Quantity, None, [SPIN], Some(("nutation_angle_rad", "rad")), "Angle between s3 and the angular momentum of the spacecraft about its centre of mass.";
+    FromNominal [1]: Motion, HalfTangentSquare, None, [FROM_NOMINAL], Some(("attitude_from_nominal_rad", "rad")), "Angle of the rotation between the attitude and that of the nominal run at the same time.";
+    WheelSpeed [MAX_WHEELS]: Motion, Square, None, [SPIN], Some(("speed_{wheel}_rad_s", "rad/s")), "Magnitude of the rate of wheel {wheel} relative to the body.";
+    WheelMomentum [MAX_WHEELS]: Motion, Square, None, [SPIN], Some(("momentum_{wheel}_n_m_s", "N m s")), "Magnitude of the angular momentum of wheel {wheel} about its axis relative to F_e.";
+    DebrisDirection [1]: Motion, Quantity, None, [SPIN_AXIS, DEBRIS_DIRECTION], Some(("spin_axis_debris_angle_rad", "rad")), "Angle between s3 and the line from the spacecraft's centre of mass to the debris (0 where they coincide).";
 }
 
 /// A series that no time series shows: the scale of another one.
@@ -248,9 +355,8 @@ const NOT_SHOWN: Option<(&str, &str)> = None;
 direct_values! {
     WorkThrusters: WORK, &[], false, "Work of the thrusters and of torques on the body, J.";
     WorkMotors: WORK, &[], false, "Work of the wheel motors, J.";
-    CorrelationWheel1: &[], CORRELATION1, false, "Correlation of the energies of fuselage and wheel 1.";
-    CorrelationWheel2: &[], CORRELATION2, false, "Correlation of the energies of fuselage and wheel 2.";
-    ExchangeFrequency: &[], FREQUENCY, false, "Dominant frequency of the fuselage's energy, Hz.";
+    Correlation: &[], CORRELATION, false, "Correlation of the energies of body and wheel.";
+    ExchangeFrequency: &[], FREQUENCY, false, "Dominant frequency of the body's energy, Hz.";
     TimeReached: &[], &[], true, "Time that the integration reached, s.";
     TimeFinal: FINAL_STATE, &[], true, "Time of the last finite state, s.";
     AttitudeW: FINAL_STATE, &[], true, "Scalar part of the attitude quaternion at the final time.";
@@ -260,8 +366,7 @@ direct_values! {
     RateX: FINAL_STATE, &[], true, "Angular velocity about s1 at the final time, rad/s.";
     RateY: FINAL_STATE, &[], true, "Angular velocity about s2 at the final time, rad/s.";
     RateZ: FINAL_STATE, &[], true, "Angular velocity about s3 at the final time, rad/s.";
-    WheelRate1: FINAL_STATE, &[], true, "Rate of wheel 1 at the final time, rad/s.";
-    WheelRate2: FINAL_STATE, &[], true, "Rate of wheel 2 at the final time, rad/s.";
+    WheelRate: FINAL_STATE, &[], true, "Rate of a wheel at the final time, rad/s.";
     Steps: &[], &[], true, "Accepted steps.";
     Rejected: &[], &[], true, "Rejected steps.";
     Evaluations: &[], &[], true, "Evaluations of the right-hand side.";
@@ -295,59 +400,63 @@ static FAMILIES: &[&[Column]] = &[
     errors!(Constraints, Constrained, ResidualKinematic, "residual_kinematic", ["m/s", "_m_s"], ["m/s^2", "_m_s2"], "the residual of the kinematic constraints (angular components in rad/s)."),
     errors!(Constraints, Constrained, ResidualCollocation, "residual_collocation", ["m", "_m"], ["m/s", "_m_s"], "the residual of the collocation constraints (tilts of wheel axes as sines)."),
     errors!(Constraints, Constrained, ResidualAttitude, "residual_attitude", "the residual of the attitude constraints."),
-    energies!(Energies, All, EnergyFuselage, "energy_fuselage", "kinetic energy of the fuselage in F_e"),
-    energies!(Energies, All, EnergyWheel1, "energy_wheel1", "kinetic energy of wheel 1 in F_e"),
-    energies!(Energies, All, EnergyWheel2, "energy_wheel2", "kinetic energy of wheel 2 in F_e"),
+    energies!(Energies, All, EnergyBody, "energy_body", "kinetic energy of the body in F_e"),
+    energies!(Energies, Wheels, EnergyWheel, "energy_{wheel}", "kinetic energy of wheel {wheel} in F_e"),
     energies!(Energies, Debris, EnergyDebris, "energy_debris", "kinetic energy of the debris in F_e"),
-    energies!(EnergiesCom, All, ComFuselage, "energy_com_fuselage", "kinetic energy of the fuselage about the spacecraft's centre of mass"),
-    energies!(EnergiesCom, All, ComWheel1, "energy_com_wheel1", "kinetic energy of wheel 1 about the spacecraft's centre of mass"),
-    energies!(EnergiesCom, All, ComWheel2, "energy_com_wheel2", "kinetic energy of wheel 2 about the spacecraft's centre of mass"),
+    energies!(EnergiesCom, All, ComBody, "energy_com_body", "kinetic energy of the body about the spacecraft's centre of mass"),
+    energies!(EnergiesCom, Wheels, ComWheel, "energy_com_{wheel}", "kinetic energy of wheel {wheel} about the spacecraft's centre of mass"),
+    energies!(EnergiesCom, SeveralWheels, ComWheels, "energy_com_wheels", "kinetic energy of all wheels together about the spacecraft's centre of mass"),
     scales!(EnergiesCom, All, ComTotal, "energy_com_total", ["J", "_j"], "kinetic energy of the spacecraft about its centre of mass"),
     errors!(EnergiesCom, Free, ComError, "energy_com_error", "the change of kinetic energy about the centre of mass, relative to the largest (only where no actuator works)."),
-    exchange!(ComFuselage, "fuselage", "the fuselage"),
-    exchange!(ComWheel1, "wheel1", "wheel 1"),
-    exchange!(ComWheel2, "wheel2", "wheel 2"),
+    exchange!(ComBody, Wheels, "body", "the body"),
+    exchange!(ComWheel, Wheels, "{wheel}", "wheel {wheel}"),
+    exchange!(ComWheels, SeveralWheels, "wheels", "all wheels together"),
+    &[direct!(Exchange, Wheels, Float, Correlation, "exchange_{wheel}_correlation", "", "Correlation over the points of the energies of body and wheel {wheel} about the centre of mass (0 where one of them is constant).")],
     &[
-        direct!(Exchange, All, Float, CorrelationWheel1, "exchange_wheel1_correlation", "", "Correlation over the points of the energies of fuselage and wheel 1 about the centre of mass (0 where one of them is constant)."),
-        direct!(Exchange, All, Float, CorrelationWheel2, "exchange_wheel2_correlation", "", "Correlation over the points of the energies of fuselage and wheel 2 about the centre of mass (0 where one of them is constant)."),
-        direct!(Exchange, All, Float, ExchangeFrequency, "exchange_frequency_hz", "Hz", "Dominant frequency of the fuselage's energy about the centre of mass (0 where it is constant; none on uneven grids)."),
+        direct!(Exchange, Wheels, Float, ExchangeFrequency, "exchange_frequency_hz", "Hz", "Dominant frequency of the body's energy about the centre of mass (0 where it is constant; none on uneven grids)."),
         direct!(FinalState, All, Float, TimeReached, "time_reached_s", "s", "Time that the integration reached."),
         direct!(FinalState, All, Float, TimeFinal, "time_final_s", "s", "Time of the last finite state at an observation point; the other columns of this group show that state."),
         direct!(FinalState, All, Float, AttitudeW, "q_es_w_final", "", "Attitude quaternion, scalar part, at the final time."),
         direct!(FinalState, All, Float, AttitudeX, "q_es_x_final", "", "Attitude quaternion, first vector part, at the final time."),
         direct!(FinalState, All, Float, AttitudeY, "q_es_y_final", "", "Attitude quaternion, second vector part, at the final time."),
         direct!(FinalState, All, Float, AttitudeZ, "q_es_z_final", "", "Attitude quaternion, third vector part, at the final time."),
-        direct!(FinalState, All, Float, RateX, "omega_se_s_x_final_rad_s", "rad/s", "Angular velocity of the fuselage about s1 at the final time."),
-        direct!(FinalState, All, Float, RateY, "omega_se_s_y_final_rad_s", "rad/s", "Angular velocity of the fuselage about s2 at the final time."),
-        direct!(FinalState, All, Float, RateZ, "omega_se_s_z_final_rad_s", "rad/s", "Angular velocity of the fuselage about s3 at the final time."),
-        direct!(FinalState, All, Float, WheelRate1, "alpha_dot_final_rad_s", "rad/s", "Rate of wheel 1 relative to the fuselage at the final time."),
-        direct!(FinalState, All, Float, WheelRate2, "beta_dot_final_rad_s", "rad/s", "Rate of wheel 2 relative to the fuselage at the final time."),
+        direct!(FinalState, All, Float, RateX, "omega_se_s_x_final_rad_s", "rad/s", "Angular velocity of the body about s1 at the final time."),
+        direct!(FinalState, All, Float, RateY, "omega_se_s_y_final_rad_s", "rad/s", "Angular velocity of the body about s2 at the final time."),
+        direct!(FinalState, All, Float, RateZ, "omega_se_s_z_final_rad_s", "rad/s", "Angular velocity of the body about s3 at the final time."),
+    ],
+    &[direct!(FinalState, Wheels, Float, WheelRate, "rate_{wheel}_final_rad_s", "rad/s", "Rate of wheel {wheel} relative to the body at the final time.")],
+    &[
         direct!(StepStatistics, All, Count, Steps, "steps", "", "Accepted steps."),
         direct!(StepStatistics, All, Count, Rejected, "steps_rejected", "", "Rejected steps."),
         direct!(StepStatistics, All, Count, Evaluations, "evaluations", "", "Evaluations of the right-hand side (for Taylor methods: jets)."),
-        direct!(Numerics, All, Float, StateError, "state_error_estimate", "", "Estimated largest error of the fuselage's rotation on the grid: of omega relative to the largest |omega|, or of the attitude in rad, whichever is larger."),
+        direct!(Numerics, All, Float, StateError, "state_error_estimate", "", "Estimated largest error of the body's rotation on the grid: of omega relative to the largest |omega|, or of the attitude in rad, whichever is larger."),
         direct!(Numerics, All, Float, Amplification, "error_amplification", "", "Estimated factor by which the motion amplifies relative errors of the rotational state that are made evenly along the run."),
         direct!(Numerics, All, Count, IllConditioned, "ill_conditioned", "", "1 where the rounding of the input alone may move the state by more than 1e-3 (error_amplification times 2^-52), else 0."),
     ],
     &[
-        of!(Motion, All, RateSquare, Order(OrderStatistic::Max), ["angular_rate_max_rad_s"], "rad/s", ["Maximum magnitude of the angular velocity of the fuselage relative to F_e."]),
-        of!(Motion, All, RateSquare, Order(OrderStatistic::Final), ["angular_rate_final_rad_s"], "rad/s", ["Magnitude of the angular velocity of the fuselage relative to F_e at the last point."]),
+        of!(Motion, All, RateSquare, Order(OrderStatistic::Max), ["angular_rate_max_rad_s"], "rad/s", ["Maximum magnitude of the angular velocity of the body relative to F_e."]),
+        of!(Motion, All, RateSquare, Order(OrderStatistic::Final), ["angular_rate_final_rad_s"], "rad/s", ["Magnitude of the angular velocity of the body relative to F_e at the last point."]),
         of!(Motion, All, Nutation, Value(ValueStatistic::Max), ["nutation_angle_max_rad"], "rad", ["Maximum angle between s3 and the angular momentum of the spacecraft about its centre of mass."]),
         of!(Motion, All, Nutation, Value(ValueStatistic::Min), ["nutation_angle_min_rad"], "rad", ["Minimum angle between s3 and the angular momentum of the spacecraft about its centre of mass."]),
         of!(Motion, All, Nutation, Value(ValueStatistic::Mean), ["nutation_angle_mean_rad"], "rad", ["Mean over the points of the angle between s3 and the angular momentum of the spacecraft about its centre of mass."]),
         of!(Motion, All, FromNominal, Order(OrderStatistic::Max), ["attitude_from_nominal_max_rad"], "rad", ["Maximum angle of the rotation between the attitude and that of the nominal run at the same time."]),
         of!(Motion, All, FromNominal, Order(OrderStatistic::Final), ["attitude_from_nominal_final_rad"], "rad", ["Angle of the rotation between the attitude and that of the nominal run at the last point."]),
-        of!(Motion, All, Wheel1Speed, Order(OrderStatistic::Max), ["wheel1_speed_max_rad_s"], "rad/s", ["Maximum magnitude of the rate of wheel 1 relative to the fuselage."]),
-        of!(Motion, All, Wheel2Speed, Order(OrderStatistic::Max), ["wheel2_speed_max_rad_s"], "rad/s", ["Maximum magnitude of the rate of wheel 2 relative to the fuselage."]),
-        of!(Motion, All, Wheel1Momentum, Order(OrderStatistic::Max), ["wheel1_momentum_max_n_m_s"], "N m s", ["Maximum magnitude of the angular momentum of wheel 1 about its axis relative to F_e."]),
-        of!(Motion, All, Wheel2Momentum, Order(OrderStatistic::Max), ["wheel2_momentum_max_n_m_s"], "N m s", ["Maximum magnitude of the angular momentum of wheel 2 about its axis relative to F_e."]),
+    ],
+    &[of!(Motion, Wheels, WheelSpeed, Order(OrderStatistic::Max), ["speed_{wheel}_max_rad_s"], "rad/s", ["Maximum magnitude of the rate of wheel {wheel} relative to the body."])],
+    &[of!(Motion, Wheels, WheelMomentum, Order(OrderStatistic::Max), ["momentum_{wheel}_max_n_m_s"], "N m s", ["Maximum magnitude of the angular momentum of wheel {wheel} about its axis relative to F_e."])],
+    &[
         of!(Motion, Debris, DebrisDirection, Value(ValueStatistic::Max), ["spin_axis_debris_angle_max_rad"], "rad", ["Maximum angle between s3 and the line from the spacecraft's centre of mass to the debris."]),
         of!(Motion, Debris, DebrisDirection, Value(ValueStatistic::Min), ["spin_axis_debris_angle_min_rad"], "rad", ["Minimum angle between s3 and the line from the spacecraft's centre of mass to the debris."]),
         of!(Motion, Debris, DebrisDirection, Value(ValueStatistic::Final), ["spin_axis_debris_angle_final_rad"], "rad", ["Angle between s3 and the line from the spacecraft's centre of mass to the debris at the last point."]),
     ],
 ];
 
-/// Every column, in the order of a row.
+/// The families of columns, in the order of a row: a family of wheels has its columns for each wheel.
+pub(super) fn families() -> impl Iterator<Item = &'static [Column]> {
+    FAMILIES.iter().copied()
+}
+
+/// Every column, in the order of a row; those of wheels once.
 pub fn all() -> impl Iterator<Item = &'static Column> {
     FAMILIES.iter().copied().flatten()
 }

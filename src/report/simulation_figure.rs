@@ -6,6 +6,7 @@ use crate::dataset::timeseries::{TimeColumn, TimeSeries};
 use crate::observables::Series;
 use crate::report::plot::{Curve, Figure, Panel};
 use crate::run::StateField;
+use crate::scene::Name;
 
 /// Column and label of a curve.
 type Column = (TimeColumn, &'static str);
@@ -14,9 +15,9 @@ type Column = (TimeColumn, &'static str);
 type States = (&'static str, &'static str, &'static [Column]);
 
 /// Panels of states.
-const STATES: [States; 5] = [
+const STATES: [States; 4] = [
     (
-        "Angular velocity of the fuselage, in F_s",
+        "Angular velocity of the body, in F_s",
         "rad/s",
         &[
             (TimeColumn::State(StateField::Rate, 0), "x"),
@@ -25,21 +26,13 @@ const STATES: [States; 5] = [
         ],
     ),
     (
-        "Attitude quaternion of the fuselage, F_s to F_e",
+        "Attitude quaternion of the body, F_s to F_e",
         "",
         &[
             (TimeColumn::State(StateField::Attitude, 0), "w"),
             (TimeColumn::State(StateField::Attitude, 1), "x"),
             (TimeColumn::State(StateField::Attitude, 2), "y"),
             (TimeColumn::State(StateField::Attitude, 3), "z"),
-        ],
-    ),
-    (
-        "Wheel rates",
-        "rad/s",
-        &[
-            (TimeColumn::State(StateField::WheelRates, 0), "wheel 1"),
-            (TimeColumn::State(StateField::WheelRates, 1), "wheel 2"),
         ],
     ),
     (
@@ -61,14 +54,6 @@ const STATES: [States; 5] = [
             (TimeColumn::State(StateField::DebrisAttitude, 3), "z"),
         ],
     ),
-];
-
-/// The kinetic energy of each body.
-const ENERGIES: [Column; 4] = [
-    (TimeColumn::Series(Series::EnergyFuselage), "fuselage"),
-    (TimeColumn::Series(Series::EnergyWheel1), "wheel 1"),
-    (TimeColumn::Series(Series::EnergyWheel2), "wheel 2"),
-    (TimeColumn::Series(Series::EnergyDebris), "debris"),
 ];
 
 /// Relative errors of the balances.
@@ -95,7 +80,19 @@ pub fn simulation_figure(title: &str, series: &TimeSeries, tolerance: f64) -> Fi
         tolerance,
     };
     let states = STATES.map(|(title, unit, columns)| panel(title.to_owned(), unit, curves(columns), None));
-    let bodies = curves(&ENERGIES);
+    let of_wheels = |key: &dyn Fn(usize) -> TimeColumn| -> Vec<Curve> {
+        let curve = |(wheel, name): (usize, &Name)| {
+            Some(Curve { label: format!("wheel {name}"), values: series.column(key(wheel))?.1.to_vec() })
+        };
+        series.wheels().iter().enumerate().filter_map(curve).collect()
+    };
+    let rates = of_wheels(&|wheel| TimeColumn::State(StateField::WheelRates, wheel));
+    let states = states.into_iter().chain([panel("Wheel rates".to_owned(), "rad/s", rates, None)]);
+    let bodies: Vec<Curve> = curves(&[(TimeColumn::Series(Series::EnergyBody), "body")])
+        .into_iter()
+        .chain(of_wheels(&|wheel| TimeColumn::Series(Series::EnergyWheel.of_wheel(wheel))))
+        .chain(curves(&[(TimeColumn::Series(Series::EnergyDebris), "debris")]))
+        .collect();
     let energy = |body: &Curve| panel(format!("Kinetic energy, {}", body.label), "J", vec![body.clone()], None);
     let sum = |point: usize| bodies.iter().map(|body| body.values[point]).sum();
     let total = Curve { label: "total".to_owned(), values: (0..series.points()).map(sum).collect() };
@@ -104,7 +101,7 @@ pub fn simulation_figure(title: &str, series: &TimeSeries, tolerance: f64) -> Fi
         values: body.values.iter().map(|value| value - body.values[0]).collect(),
     };
     let transfers = bodies.iter().map(transfer).collect();
-    let mut panels: Vec<Panel> = states.into_iter().chain(bodies.iter().map(energy)).collect();
+    let mut panels: Vec<Panel> = states.chain(bodies.iter().map(energy)).collect();
     if bodies.len() > 1 {
         panels.push(panel("Kinetic energy, total".to_owned(), "J", vec![total], None));
         panels.push(panel(

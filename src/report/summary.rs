@@ -17,9 +17,9 @@ use crate::statistics::sketch::RELATIVE_ERROR;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Line {
     /// The observable.
-    pub name: &'static str,
+    pub name: String,
     /// Its unit; empty for a pure number.
-    pub unit: &'static str,
+    pub unit: String,
     /// Number of values.
     pub count: u64,
     /// Median.
@@ -55,8 +55,8 @@ impl Summary {
     pub fn new(plan: &Plan, tally: &Tally) -> Self {
         let numerics = |index, headline: &Headline| Numerics::new(tally.audits()?, index, &headline.sketch);
         let lines = tally.headlines().iter().enumerate().map(|(index, headline)| Line {
-            name: headline.quantity.name(),
-            unit: headline.quantity.unit(),
+            name: headline.quantity.name().to_owned(),
+            unit: headline.quantity.unit().to_owned(),
             count: headline.sketch.count(),
             median: headline.quantile(0.5),
             p95: headline.quantile(0.95),
@@ -180,7 +180,7 @@ impl Display for Summary {
         let counted = if self.without_nominal { "dispersed samples" } else { "nominal sample" };
         writeln!(f, "\n  {counted:<width$}  {:>6}{:>12}{:>12}{:>12}{:>12}", "unit", "median", "p95", "p99.9", "max")?;
         for line in &self.lines {
-            write!(f, "  {:<width$}  {:>6}", line.name, if line.unit.is_empty() { "-" } else { line.unit })?;
+            write!(f, "  {:<width$}  {:>6}", line.name, if line.unit.is_empty() { "-" } else { &line.unit })?;
             for value in [line.median, line.p95, line.p99_9, line.max] {
                 match value {
                     Some(value) => write!(f, "{:>12}", short(value))?,
@@ -199,7 +199,7 @@ impl Display for Summary {
             "", "unit", "median", "p95", "max", "share"
         )?;
         for (line, numerics) in audited {
-            write!(f, "  {:<width$}  {:>6}", line.name, if line.unit.is_empty() { "-" } else { line.unit })?;
+            write!(f, "  {:<width$}  {:>6}", line.name, if line.unit.is_empty() { "-" } else { &line.unit })?;
             for value in [numerics.median, numerics.p95, numerics.max, numerics.share_of_spread] {
                 write!(f, "{:>12}", value.map_or("-".to_owned(), short))?;
             }

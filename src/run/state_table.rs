@@ -125,6 +125,18 @@ impl StateTable {
         }
     }
 
+    /// Writes zero for the wheels from `first` on: a run with fewer wheels than the table has columns for leaves no number of an
+    /// earlier run behind. Without such wheels it writes nothing.
+    pub fn clear_wheels(&mut self, first: usize) {
+        for wheel in first..self.wheels {
+            for field in [StateField::WheelRates, StateField::WheelAngles] {
+                if self.has(field) {
+                    self.column_mut(field, wheel).fill(0.0);
+                }
+            }
+        }
+    }
+
     /// Fills the padding of every component with its last point.
     pub fn pad(&mut self) {
         let (points, stride) = (self.points, self.stride);

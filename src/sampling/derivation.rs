@@ -19,9 +19,9 @@ pub struct Derivation {
 
 impl Derivation {
     /// The numbers that the expression is made of.
-    pub fn inputs(&self) -> Vec<(Parameter, usize)> {
+    pub fn inputs(&self, scene: &SceneInput) -> Vec<(Parameter, usize)> {
         let Ok(expression) = Expression::parse(&self.expression) else { return Vec::new() };
-        let found = expression.variables().iter().filter_map(|name| Parameter::find(name));
+        let found = expression.variables().iter().filter_map(|name| Parameter::find(scene, name));
         found.map(|(parameter, component)| (parameter, component.unwrap_or(0))).collect()
     }
 }
@@ -176,9 +176,9 @@ pub(super) fn derived(
 
 /// The parameter that a name in an expression means, and its nominal value; or what it must be and the remedy.
 fn variable(name: &str, nominal: &SceneInput) -> Result<((Parameter, usize), f64), (String, String)> {
-    let Some((parameter, component)) = Parameter::find(name) else {
+    let Some((parameter, component)) = Parameter::find(nominal, name) else {
         let allowed = "a numeric key of scene or initial state, one component of it".to_owned();
-        return Err((allowed, "write names as in this file, wheel1.radius_m or initial.position_m.x".to_owned()));
+        return Err((allowed, "write names as in this file, wheels.w1.radius_m or initial.position_m.x".to_owned()));
     };
     if parameter.shape() == Shape::Quaternion {
         let allowed = "other than an attitude, whose components are normalised after they were drawn".to_owned();

@@ -116,7 +116,7 @@ impl Dispersions {
             copulas: Vec::new(),
             replaced: Vec::new(),
             derived: Vec::new(),
-            inputs: draws.derive.iter().flat_map(Derivation::inputs).collect(),
+            inputs: draws.derive.iter().flat_map(|derivation| derivation.inputs(nominal)).collect(),
         };
         let mut errors: Vec<DispersionError> = Vec::new();
         for (index, dispersion) in draws.disperse.iter().enumerate() {
@@ -220,7 +220,7 @@ impl Dispersions {
         let refused = |allowed: &str, remedy: &str| {
             Err(error_of(Table::Design, "parameters", format!("{:?}", data.column), allowed, remedy))
         };
-        let target = Parameter::find(&data.column).and_then(|(parameter, component)| match component {
+        let target = Parameter::find(nominal, &data.column).and_then(|(parameter, component)| match component {
             Some(component) => Some((parameter, component)),
             None => (parameter.width() == 1).then_some((parameter, 0)),
         });

@@ -31,6 +31,8 @@ pub struct Sampler<'a> {
     values: Vec<[f64; BLOCK]>,
     /// Parameters that are normalised as a whole once they are written.
     normalised: Vec<Parameter>,
+    /// Those of them that a table gives as a whole: recorded values keep their bits.
+    recorded: Vec<Parameter>,
 }
 
 impl Dispersions {
@@ -53,6 +55,7 @@ impl<'a> Sampler<'a> {
             // columns that no distribution writes keep their nominal
             values: dispersions.columns().iter().map(|column| [column.nominal; BLOCK]).collect(),
             normalised: normalised(dispersions),
+            recorded: recorded(dispersions),
         }
     }
 
@@ -81,7 +84,11 @@ impl<'a> Sampler<'a> {
             column.parameter.set(scene, column.component, values[lane]);
             *applied = values[lane];
         }
-        self.normalised.iter().for_each(|parameter| parameter.normalise(scene));
+        for parameter in &self.normalised {
+            if !(self.recorded.contains(parameter) && parameter.is_unit(scene)) {
+                parameter.normalise(scene);
+            }
+        }
         self.read_back(scene, applied);
     }
 
@@ -191,6 +198,15 @@ fn correlated(dispersions: &Dispersions) -> Vec<bool> {
         .flat_map(|copula| &copula.dimensions)
         .for_each(|dimension| correlated[*dimension] = true);
     correlated
+}
+
+/// The quaternions all of whose numbers are in a table.
+fn recorded(dispersions: &Dispersions) -> Vec<Parameter> {
+    let tabled = dispersions.columns().iter().enumerate().filter(|(index, _)| dispersions.is_tabled(*index));
+    let numbers: Vec<Parameter> = tabled.map(|(_, column)| column.parameter).collect();
+    let is_whole =
+        |parameter: &Parameter| numbers.iter().filter(|other| *other == parameter).count() == parameter.width();
+    normalised(dispersions).into_iter().filter(is_whole).collect()
 }
 
 /// The quaternions among the columns, each once.

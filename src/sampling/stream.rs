@@ -109,7 +109,7 @@ pub(super) fn unit(bits: u64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Parameter;
+    use crate::scene::{Parameter, SceneInput};
 
     /// ChaCha8, key and nonce zero: first bytes of the key stream (J. Strombergson, *Test Vectors for the Stream Cipher
     /// ChaCha*, draft-strombergson-chacha-test-vectors-01, TC1, 256-bit key, 8 rounds).
@@ -147,11 +147,11 @@ mod tests {
 
     #[test]
     fn a_sample_is_the_same_alone_backwards_and_in_order() {
-        let mut stream = Stream::new(7, "wheel1.radius_m");
+        let mut stream = Stream::new(7, "wheels.w1.radius_m");
         let forward: Vec<u64> = (0..100).map(|k| stream.bits(SampleId(k))).collect();
         let mut backward: Vec<u64> = (0..100).rev().map(|k| stream.bits(SampleId(k))).collect();
         backward.reverse();
-        let alone: Vec<u64> = (0..100).map(|k| Stream::new(7, "wheel1.radius_m").bits(SampleId(k))).collect();
+        let alone: Vec<u64> = (0..100).map(|k| Stream::new(7, "wheels.w1.radius_m").bits(SampleId(k))).collect();
         assert_eq!(forward, backward);
         assert_eq!(forward, alone);
     }
@@ -159,7 +159,8 @@ mod tests {
     #[test]
     fn every_component_of_every_parameter_has_its_own_stream() {
         let mut seen = std::collections::HashSet::new();
-        for parameter in Parameter::all() {
+        let scene = SceneInput::report();
+        for parameter in Parameter::all(&scene) {
             for component in 0..parameter.width() {
                 for seed in [0, 1, 20260101] {
                     assert!(seen.insert(Stream::new(seed, &parameter.component_name(component)).bits(SampleId(1))));

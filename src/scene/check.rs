@@ -7,19 +7,27 @@ use super::error::Problems;
 use super::input::SceneInput;
 use super::mass::{Body, MassProperties};
 use super::schedule::applied;
-use super::schema::{FuselageInput, WheelMode, limit::shown};
+use super::schema::limit::{INERTIA_SLACK, shown};
+use super::schema::{PartInput, WheelInput, WheelMode};
 use super::table::Table;
-use crate::math::symmetric::is_positive_definite;
+use crate::math::symmetric::{is_positive_definite, principal_axes};
 
 /// Collects what is wrong with the numbers as written.
 pub(super) fn written(input: &SceneInput, problems: &mut Problems) {
     let has_debris = input.debris.is_some();
-    input.fuselage.check_all(problems);
-    geometry(&input.fuselage, problems);
-    for (instance, wheel) in input.wheels.iter().enumerate() {
-        if let Some(wheel) = wheel {
-            wheel.check(has_debris, problems, |key| format!("{}.{key}", Table::Wheel.headers()[instance]).into());
-        }
+    input.body.check_all(problems);
+    for part in &input.parts {
+        let name = |key: &'static str| Table::Part.name(part.name, key).into();
+        part.check(has_debris, problems, name);
+        part.errors.check(has_debris, problems, name);
+        walls(part, problems);
+    }
+    for wheel in &input.wheels {
+        wheel.check(has_debris, problems, |key| Table::Wheel.name(wheel.name, key).into());
+        wheel_inertia(wheel, problems);
+    }
+    for thruster in &input.thrusters {
+        thruster.check(has_debris, problems, |key| Table::Thruster.name(thruster.name, key).into());
     }
     if let Some(debris) = &input.debris {
         debris.check(problems);
@@ -37,18 +45,33 @@ pub(super) fn written(input: &SceneInput, problems: &mut Problems) {
     }
 }
 
-/// Collects what keeps the walls of the fuselage from enclosing a volume.
-fn geometry(fuselage: &FuselageInput, problems: &mut Problems) {
-    let (wall, radius, length) = (fuselage.wall_thickness_m, fuselage.outer_radius_m, fuselage.length_m);
+/// Collects what keeps the walls of a hollow cylinder from enclosing a volume.
+fn walls(part: &PartInput, problems: &mut Problems) {
+    let (Some(wall), Some(radius), Some(length)) = (part.wall_thickness_m, part.outer_radius_m, part.length_m) else {
+        return;
+    };
     let passed = |value: f64| value.is_finite() && value > 0.0;
-    const KEY: &str = "fuselage.wall_thickness_m";
+    let key = || Table::Part.name(part.name, "wall_thickness_m");
     if passed(wall) && passed(radius) && wall >= radius {
-        let allowed = format!("below fuselage.outer_radius_m = {radius:?}");
-        problems.add(KEY, shown(&[wall]), allowed, "make the wall thinner or the radius larger");
+        let allowed = format!("below outer_radius_m = {radius:?} of that part");
+        problems.add(key(), shown(&[wall]), allowed, "make the wall thinner or the radius larger");
     }
     if passed(wall) && passed(length) && 2.0 * wall >= length {
-        let allowed = format!("below half of fuselage.length_m = {length:?}");
-        problems.add(KEY, shown(&[wall]), allowed, "make the end plates thinner or the fuselage longer");
+        let allowed = format!("below half of length_m = {length:?} of that part");
+        problems.add(key(), shown(&[wall]), allowed, "make the end plates thinner or the part longer");
+    }
+}
+
+/// A body about an axis of symmetry: the axial moment is at most twice the transverse one.
+fn wheel_inertia(wheel: &WheelInput, problems: &mut Problems) {
+    let (Some(axial), Some(transverse)) = (wheel.axial_inertia_kg_m2, wheel.transverse_inertia_kg_m2) else { return };
+    if transverse > 0.0 && axial > 2.0 * transverse * (1.0 + INERTIA_SLACK) {
+        problems.add(
+            Table::Wheel.name(wheel.name, "axial_inertia_kg_m2"),
+            shown(&[axial]),
+            format!("at most twice transverse_inertia_kg_m2 = {transverse:?}"),
+            "no distribution of mass has these moments; a thin disk has twice",
+        );
     }
 }
 
@@ -76,26 +99,42 @@ fn arcs(input: &SceneInput, problems: &mut Problems) {
             problems.add(key("end_s"), shown(&[arc.end_s]), allowed, "end the arc after its start, or leave it out");
         }
         previous_end = arc.end_s.max(previous_end);
-        torques(input, i, problems);
+        commands(input, i, problems);
     }
 }
 
-/// Collects the motor torques of arc `index` on wheels that take none.
-fn torques(input: &SceneInput, index: usize, problems: &mut Problems) {
-    let torque_n_m = input.actuation[index].torque_n_m;
-    for (wheel, header) in Table::Wheel.headers().iter().enumerate().filter(|(wheel, _)| torque_n_m[*wheel] != 0.0) {
-        let (allowed, remedy) = match input.wheels[wheel].map(|wheel| wheel.mode) {
-            Some(WheelMode::Free) => continue,
-            Some(WheelMode::SpeedHeld) => (
-                format!("zero for {header}, whose speed its motor holds"),
-                "set that torque to zero, or the wheel's wheel_mode to \"free\"",
-            ),
-            None => (
-                format!("zero for {header}, which this spacecraft does not have"),
-                "set that torque to zero or describe the wheel",
-            ),
+/// Collects thrusts below zero of arc `index`, and motor torques on wheels that take none.
+fn commands(input: &SceneInput, index: usize, problems: &mut Problems) {
+    let arc = &input.actuation[index];
+    for (thruster, thrust) in input.thrusters.iter().zip(arc.thrust_n) {
+        let key = || format!("actuation[{index}].thrust_n.{}", thruster.name);
+        if !thrust.is_finite() {
+            problems.add(key(), shown(&[thrust]), "a finite number", "write a finite number");
+        } else if thrust < 0.0 {
+            let allowed = "zero or above: a thruster does not pull";
+            problems.add(key(), shown(&[thrust]), allowed, "use the opposite thruster");
+        }
+    }
+    for (wheel, torque) in input.wheels.iter().zip(arc.torque_n_m) {
+        let key = || format!("actuation[{index}].torque_n_m.{}", wheel.name);
+        if !torque.is_finite() {
+            problems.add(key(), shown(&[torque]), "a finite number", "write a finite number");
+            continue;
+        }
+        let why = match wheel.mode {
+            WheelMode::SpeedHeld => "whose speed its motor holds",
+            WheelMode::Locked => "which is locked",
+            WheelMode::Free => continue,
         };
-        problems.add(format!("actuation[{index}].torque_n_m"), shown(&torque_n_m), allowed, remedy);
+        if torque != 0.0 {
+            let allowed = format!("zero for {}, {why}", wheel.name);
+            problems.add(
+                key(),
+                shown(&[torque]),
+                allowed,
+                "leave that torque out, or set the wheel's mode to \"free\"",
+            );
+        }
     }
 }
 
@@ -127,11 +166,11 @@ fn switches(input: &SceneInput, problems: &mut Problems) {
 /// Collects what is wrong with what follows from an input whose numbers all passed.
 pub(super) fn derived(input: &SceneInput, mass: &MassProperties, problems: &mut Problems) {
     let is_normal = |value: f64| value.is_finite() && value >= f64::MIN_POSITIVE;
-    let mut body = |key: &'static str, mass: f64, moments: [f64; 3]| {
+    let mut body = |key: &dyn Fn() -> String, mass: f64, moments: [f64; 3]| {
         let passed = is_normal(mass) && moments.into_iter().all(is_normal);
         if !passed {
             problems.add(
-                key,
+                key(),
                 format!("{:?}", (mass, moments)),
                 "of a mass (kg) and moments of inertia (kg m^2) that are positive and finite numbers",
                 "check the units of sizes and densities",
@@ -140,19 +179,47 @@ pub(super) fn derived(input: &SceneInput, mass: &MassProperties, problems: &mut 
         passed
     };
     let diagonal = |tensor: [[f64; 3]; 3]| [tensor[0][0], tensor[1][1], tensor[2][2]];
-    let Body { mass: fuselage, inertia, .. } = mass.fuselage;
-    let mut passed = body("fuselage", fuselage, diagonal(inertia));
-    for (i, wheel) in mass.wheels.iter().enumerate() {
-        if input.wheels[i].is_some() {
-            passed &= body(Table::Wheel.headers()[i], wheel.mass, [wheel.axial, wheel.transverse, wheel.transverse]);
-        }
+    let Body { mass: own, inertia, .. } = mass.fuselage;
+    let mut passed = true;
+    if !input.body.includes_wheels {
+        passed &= body(&|| "body".to_owned(), own, diagonal(inertia));
+    }
+    let turning = input.wheels.iter().filter(|wheel| wheel.mode != WheelMode::Locked);
+    for (written, wheel) in turning.zip(&mass.wheels) {
+        let name = || format!("wheels.{}", written.name);
+        passed &= body(&name, wheel.mass, [wheel.axial, wheel.transverse, wheel.transverse]);
     }
     if let Some(debris) = mass.debris {
-        passed &= body("debris", debris.mass, diagonal(debris.inertia));
+        passed &= body(&|| "debris".to_owned(), debris.mass, diagonal(debris.inertia));
+    }
+    if passed && input.body.includes_wheels {
+        passed &= without_wheels(own, inertia, problems);
     }
     if passed {
-        free_inertia(input.fuselage.inertia_kg_m2.is_some(), mass, problems);
+        free_inertia(input.body.inertia_kg_m2.is_some(), mass, problems);
     }
+}
+
+/// What is left of mass properties that include the wheels is a body.
+fn without_wheels(own: f64, inertia: [[f64; 3]; 3], problems: &mut Problems) -> bool {
+    if !(own.is_finite() && own > 0.0) {
+        let allowed = "such that the body without its wheels has a mass above zero (the value shown, kg)";
+        let remedy = "check the masses of body and wheels, or set body.includes_wheels = false";
+        problems.add("body.mass_kg", shown(&[own]), allowed, remedy);
+        return false;
+    }
+    let (moments, _) = principal_axes(inertia);
+    let largest = moments.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let smallest = moments.iter().copied().fold(f64::INFINITY, f64::min);
+    let total = moments.iter().sum::<f64>();
+    if !(smallest > 0.0 && largest <= (total - largest) + 2.0 * INERTIA_SLACK * total) {
+        let allowed =
+            "such that what is left without the wheels is the inertia of a body (the principal moments shown, kg m^2)";
+        let remedy = "check the inertias of body and wheels and the positions of the wheels, or set body.includes_wheels = false";
+        problems.add("body.inertia_kg_m2", format!("{moments:?}"), allowed, remedy);
+        return false;
+    }
+    true
 }
 
 /// J* resists every change of omega, or the motion is not determined.
@@ -160,7 +227,7 @@ fn free_inertia(overridden: bool, mass: &MassProperties, problems: &mut Problems
     let finite = mass.inertia.iter().flatten().all(|entry| entry.is_finite()) && mass.total.is_finite();
     if !finite || !is_positive_definite(mass.inertia_free) {
         problems.add(
-            if overridden { "fuselage.inertia_kg_m2" } else { "fuselage" },
+            if overridden { "body.inertia_kg_m2" } else { "body" },
             format!("{:?}", mass.inertia_free),
             "such that the spacecraft's inertia with freely turning wheels, J* (the value shown, kg m^2), is positive definite",
             "check the inertia override, and the units of sizes and densities",
@@ -181,7 +248,7 @@ mod tests {
         assert!(problems.0.is_empty());
         mass.inertia_free[2][2] = -1e-9;
         free_inertia(true, &mass, &mut problems);
-        assert_eq!(problems.0[0].key, "fuselage.inertia_kg_m2");
+        assert_eq!(problems.0[0].key, "body.inertia_kg_m2");
         assert!(problems.0[0].to_string().contains("J*"), "{}", problems.0[0]);
     }
 }

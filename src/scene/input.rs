@@ -4,83 +4,156 @@
 //! defaults come from [`super::schema`]. [`super::Scene::resolve`] turns a scene into a [`super::Scene`] or says why it is not
 //! physical.
 
+use super::name::Name;
 use super::schema::{
-    ActuationInput, ActuatorsInput, DebrisInput, EnvironmentInput, FuselageInput, InitialInput, Usage, WheelInput,
-    WheelMode,
+    ActuationInput, ActuatorsInput, BodyInput, DebrisInput, EnvironmentInput, InitialInput, MAX_WHEELS, PartInput,
+    PartShape, ThrusterInput, Usage, WheelInput, WheelMode,
 };
+use crate::math::list::List;
 
 /// A scene as written: bodies, initial state, actuation.
 ///
-/// The default is the report's fuselage (Table II) alone, at rest at the inertial origin, without wheels, debris and actuation.
+/// The default is a box of 1 m and 100 kg/m^3 alone, at rest at the inertial origin, without wheels, thrusters, debris and actuation.
 ///
 /// ```
 /// use spindrift::scene::{DebrisInput, Scene, SceneInput, WheelInput};
 ///
-/// let scene = SceneInput::default()
-///     .with_wheel(0, WheelInput { station_m: 1.0, ..WheelInput::default() })
+/// let scene = SceneInput::report()
+///     .with_wheel(WheelInput::named("w3", [1.0, 0.0, 0.0], [0.0, 0.0, 1.5]))
 ///     .with_debris(DebrisInput::Cube { side_m: 0.2, density_kg_m3: 2700.0 })
 ///     .with("initial.angular_velocity_rad_s", &[0.0, 0.1, 0.5])
-///     .with("initial.wheel_rates_rad_s.1", &[314.0]);
+///     .with("wheels.w3.rate_rad_s", &[314.0]);
 /// let scene = Scene::resolve(&scene).expect("physical");
-/// assert_eq!(scene.initial.wheel_rates[..2], [314.0, 0.0]);
+/// assert_eq!(scene.initial.wheel_rates[..3], [0.0, 0.0, 314.0]);
 /// ```
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct SceneInput {
-    /// The fuselage S.
-    pub fuselage: FuselageInput,
-    /// The wheels W1 (axis s2) and W2 (axis s3); `None` where the spacecraft has no such wheel.
-    pub wheels: [Option<WheelInput>; 2],
+    /// The body as a whole.
+    pub body: BodyInput,
+    /// The parts of the body.
+    pub parts: Vec<PartInput>,
+    /// The wheels.
+    pub wheels: Vec<WheelInput>,
+    /// The thrusters.
+    pub thrusters: Vec<ThrusterInput>,
     /// The debris body D, if there is one.
     pub debris: Option<DebrisInput>,
     /// The state at time zero.
     pub initial: InitialInput,
     /// Arcs of constant thrust and torque, in order and not overlapping.
     pub actuation: Vec<ActuationInput>,
-    /// What the actuators make of it.
+    /// How late the actuators are.
     pub actuators: ActuatorsInput,
     /// Torques of the environment.
     pub environment: EnvironmentInput,
 }
 
+impl Default for SceneInput {
+    fn default() -> Self {
+        let cube = PartInput {
+            name: Name::of("cube"),
+            shape: PartShape::Box,
+            size_m: Some([1.0; 3]),
+            density_kg_m3: Some(100.0),
+            ..PartInput::DEFAULT
+        };
+        SceneInput { parts: vec![cube], ..SceneInput::blank() }
+    }
+}
+
 impl SceneInput {
+    /// Nothing: no body, no wheels, no thrusters; at rest.
+    pub const fn blank() -> Self {
+        SceneInput {
+            body: BodyInput::DEFAULT,
+            parts: Vec::new(),
+            wheels: Vec::new(),
+            thrusters: Vec::new(),
+            debris: None,
+            initial: InitialInput::DEFAULT,
+            actuation: Vec::new(),
+            actuators: ActuatorsInput::DEFAULT,
+            environment: EnvironmentInput::DEFAULT,
+        }
+    }
+
+    /// The spacecraft of the report (F. Berdoz, *Final Report - ADR Spacecraft*, Table II) at rest: a hollow cylinder, the wheels w1
+    /// about s2 and w2 about s3, the thrusters p1, p2, p3; without debris.
+    pub fn report() -> Self {
+        let fuselage = PartInput {
+            name: Name::of("fuselage"),
+            shape: PartShape::HollowCylinder,
+            outer_radius_m: Some(1.0),
+            wall_thickness_m: Some(0.03),
+            length_m: Some(3.0),
+            density_kg_m3: Some(2700.0),
+            position_m: [0.0, 0.0, 1.5],
+            ..PartInput::DEFAULT
+        };
+        SceneInput {
+            parts: vec![fuselage],
+            wheels: vec![
+                WheelInput::named("w1", [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]),
+                WheelInput::named("w2", [0.0, 0.0, 1.0], [0.0, 0.0, 2.0]),
+            ],
+            thrusters: vec![
+                ThrusterInput::named("p1", [0.0; 3], [0.0, 0.0, 1.0]),
+                ThrusterInput::named("p2", [0.0, -0.5, 3.0], [0.0, 0.0, -1.0]),
+                ThrusterInput::named("p3", [0.0, 0.5, 3.0], [0.0, 0.0, -1.0]),
+            ],
+            ..SceneInput::blank()
+        }
+    }
+
     /// Whether anything does work on the spacecraft: a schedule, a torque of the environment, or a motor that holds its wheel's
     /// speed.
     pub fn is_actuated(&self) -> bool {
-        let is_held = |wheel: &Option<WheelInput>| wheel.is_some_and(|wheel| wheel.mode == WheelMode::SpeedHeld);
+        let is_held = |wheel: &WheelInput| wheel.mode == WheelMode::SpeedHeld;
         !self.actuation.is_empty() || self.environment.acts() || self.wheels.iter().any(is_held)
     }
 
-    /// The same scene with wheel `index`: 0 is W1, 1 is W2.
-    ///
-    /// # Panics
-    /// Where `index` is neither.
-    pub fn with_wheel(mut self, index: usize, wheel: WheelInput) -> Self {
-        self.wheels[index] = Some(wheel);
+    /// The same scene with another wheel.
+    #[must_use]
+    pub fn with_wheel(mut self, wheel: WheelInput) -> Self {
+        self.wheels.push(wheel);
+        self
+    }
+
+    /// The same scene with another thruster.
+    #[must_use]
+    pub fn with_thruster(mut self, thruster: ThrusterInput) -> Self {
+        self.thrusters.push(thruster);
         self
     }
 
     /// The same scene with debris.
+    #[must_use]
     pub fn with_debris(mut self, debris: DebrisInput) -> Self {
         self.debris = Some(debris);
         self
     }
 
     /// The same scene with another arc at the end of its schedule.
+    #[must_use]
     pub fn with_actuation(mut self, arc: ActuationInput) -> Self {
         self.actuation.push(arc);
         self
     }
 
+    /// The names of the wheels that turn, in their order.
+    pub fn turning_wheels(&self) -> List<Name, MAX_WHEELS> {
+        let mut names = List::empty(Name::NONE);
+        let turning = self.wheels.iter().filter(|wheel| wheel.mode != WheelMode::Locked);
+        turning.for_each(|wheel| names.push(wheel.name));
+        names
+    }
+
     /// What the scene has and commands, as far as keys of the schema depend on it.
     pub fn usage(&self) -> Usage {
-        let fires = |thruster: usize| self.actuation.iter().any(|arc| arc.thrust_n[thruster] != 0.0);
-        let drives = |wheel: usize| self.actuation.iter().any(|arc| arc.torque_n_m[wheel] != 0.0);
         Usage {
             is_scheduled: !self.actuation.is_empty(),
-            fires: std::array::from_fn(fires),
-            drives: std::array::from_fn(|wheel| self.wheels[wheel].is_some() && drives(wheel)),
-            wheels: self.wheels.map(|wheel| wheel.is_some()),
-            debris: self.debris.is_some(),
+            fires: std::array::from_fn(|thruster| self.actuation.iter().any(|arc| arc.thrust_n[thruster] != 0.0)),
+            drives: std::array::from_fn(|wheel| self.actuation.iter().any(|arc| arc.torque_n_m[wheel] != 0.0)),
         }
     }
 }

@@ -8,13 +8,16 @@
 //! - [`parameter`]: the numeric keys that can be dispersed.
 //! - [`check`], [`error`]: what makes a scene physical beyond single keys, and the message where it is not.
 //! - [`resolve`]: from an input to a [`Scene`].
-//! - [`thruster`]: force and torque of thrusters.
+//! - [`thruster`]: force and torque of thrusters. [`alignment`]: axes and directions, and their errors. [`name`]: names.
+//! - [`unit_quaternion`]: the attitude that is used where one is written.
 //! - [`schedule`]: what the actuators make of the commands, and the arcs of constant actuation.
 
+pub mod alignment;
 pub mod check;
 pub mod error;
 pub mod input;
 pub mod mass;
+pub mod name;
 pub mod parameter;
 #[cfg(test)]
 mod refusals;
@@ -27,18 +30,20 @@ pub mod second_moment;
 pub mod solids;
 pub mod table;
 pub mod thruster;
+pub mod unit_quaternion;
 
 pub use error::SceneError;
 pub use input::SceneInput;
-pub use mass::{MAX_WHEELS, MassProperties};
+pub use mass::MassProperties;
+pub use name::Name;
 pub use parameter::Parameter;
 pub use schedule::{Actuation, Arc};
 pub use schema::{
-    ActuationInput, ActuatorsInput, DebrisInput, EnvironmentInput, FuselageInput, InitialInput, MassErrors,
-    PrincipalInertia, PrincipalMoments, WheelInput, WheelMode,
+    ActuationInput, ActuatorsInput, BodyInput, DebrisInput, EnvironmentInput, InitialInput, MAX_THRUSTERS, MAX_WHEELS,
+    MassErrors, PartInput, PartShape, PrincipalInertia, PrincipalMoments, ThrusterInput, WheelInput, WheelMode,
 };
 
-pub use thruster::{MAX_THRUSTERS, Thruster};
+pub use thruster::Thruster;
 
 /// A physically valid scene: everything that a kernel starts from.
 #[derive(Clone, Debug, PartialEq)]

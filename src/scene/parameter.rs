@@ -5,9 +5,11 @@
 //! Not here: the keys of `[[actuation]]`, the commands, which the keys of `[actuators]` distort for all arcs alike.
 
 use super::input::SceneInput;
-use super::schema::Facts;
+use super::name::Name;
 pub use super::schema::Shape;
+use super::schema::{Facts, MassErrors, PartShape};
 use super::table::{Key, Table};
+use super::unit_quaternion::{is_unit, unit_quaternion};
 
 /// A numeric key of scene or initial state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -16,23 +18,28 @@ pub struct Parameter {
     key: Key,
     /// Which instance of the row's table.
     instance: u8,
+    /// The name of that instance.
+    owner: Name,
 }
 
 /// Indices of the components of a symmetric tensor, and of their mirror images, among its nine numbers by rows.
 const SYMMETRIC: [(usize, usize); 6] = [(0, 0), (1, 3), (2, 6), (4, 4), (5, 7), (8, 8)];
 
 impl Parameter {
-    /// All parameters: table by table, instance by instance, in the order of the schema.
-    pub fn all() -> impl Iterator<Item = Parameter> {
-        let of =
-            |table: Table, instance: usize| table.keys().map(move |key| Parameter { key, instance: instance as u8 });
+    /// All parameters that a scene with the tables of `scene` may have: table by table, instance by instance, in the order of the schema.
+    pub fn all(scene: &SceneInput) -> impl Iterator<Item = Parameter> {
+        let of = |table: Table, (instance, owner): (usize, Name)| {
+            table.keys().map(move |key| Parameter { key, instance: instance as u8, owner })
+        };
         let dispersable = Table::ALL.iter().copied().filter(|table| table.is_dispersable());
-        dispersable.flat_map(move |table| (0..table.headers().len()).flat_map(move |i| of(table, i)))
+        dispersable.flat_map(move |table| {
+            table.owners(scene).into_iter().enumerate().flat_map(move |instance| of(table, instance))
+        })
     }
 
-    /// The parameter called `name`, and the component if the name ends in one (`[1]`, counted from zero, or `.y`).
-    pub fn find(name: &str) -> Option<(Parameter, Option<usize>)> {
-        let whole = |name: &str| Self::all().find(|parameter| parameter.name() == name);
+    /// The parameter of `scene` called `name`, and the component if the name ends in one (`[1]`, counted from zero, or `.y`).
+    pub fn find(scene: &SceneInput, name: &str) -> Option<(Parameter, Option<usize>)> {
+        let whole = |name: &str| Self::all(scene).find(|parameter| parameter.name() == name);
         if let Some(parameter) = whole(name) {
             return Some((parameter, None));
         }
@@ -58,7 +65,7 @@ impl Parameter {
 
     /// The dotted name, as in a campaign file.
     pub fn name(self) -> String {
-        self.key.name(self.instance())
+        self.key.name(self.owner)
     }
 
     /// The unit, as people write it; `1` for a pure number.
@@ -68,7 +75,7 @@ impl Parameter {
 
     /// The names of the components; one empty name for a scalar.
     pub fn components(self) -> &'static [&'static str] {
-        self.facts().components(self.instance())
+        self.facts().components
     }
 
     /// Number of components.
@@ -105,14 +112,48 @@ impl Parameter {
 
     /// Whether `scene` has the component and a change of it has an effect.
     pub fn exists(self, scene: &SceneInput, component: usize) -> bool {
-        self.key.read(scene, self.instance()).is_some() && self.key.acts(scene, self.instance(), component)
+        let has = self.key.read(scene, self.instance()).is_some();
+        has && self.key.acts(scene, self.instance(), component) && !self.is_idle_part(scene)
+    }
+
+    /// Whether it is of a part, and has no effect: keys of the body as a whole override all that it gives, or the part looks the same from
+    /// everywhere, or is a point.
+    fn is_idle_part(self, scene: &SceneInput) -> bool {
+        if !matches!(self.key.table, Table::Part | Table::PartErrors) {
+            return false;
+        }
+        let Some(part) = scene.parts.get(self.instance()) else { return false };
+        let (body, is_point) = (&scene.body, part.shape == PartShape::PointMass);
+        let MassErrors { stretch_log, shear, center_offset_m, .. } = part.errors;
+        let is_round = is_point || (part.shape == PartShape::Sphere && [stretch_log, shear] == [[0.0; 3]; 2]);
+        match self.facts().key {
+            "attitude" if is_round && center_offset_m == [0.0; 3] => return true,
+            "inertia_scale" | "stretch_log" | "shear" if is_point => return true,
+            _ => {}
+        }
+        match &scene.parts[..] {
+            // a single part: its mass, its centre and its inertia are overridden each on its own
+            [_] => match self.facts().key {
+                "density_kg_m3" | "mass_kg" | "mass_scale" => body.mass_kg.is_some(),
+                "position_m" | "center_offset_m" => body.center_of_mass_m.is_some(),
+                "inertia_scale" | "stretch_log" | "shear" => body.has_inertia(),
+                "attitude" => {
+                    let moves_center = body.center_of_mass_m.is_none() && center_offset_m != [0.0; 3];
+                    body.has_inertia() && !moves_center
+                }
+                // sizes: with a mass of its own the part has an inertia from them, and nothing else
+                _ => body.has_inertia() && (body.mass_kg.is_some() || part.mass_kg.is_some()),
+            },
+            _ => body.replaces_parts(),
+        }
     }
 
     /// What to write so that the parameter exists where [`Parameter::exists`] says that it does not.
     pub fn remedy(self) -> &'static str {
-        match (self.key.table, self.instance()) {
-            (Table::Wheel, 0) => "add a [wheel1] table",
-            (Table::Wheel, _) => "add a [wheel2] table",
+        match self.key.table {
+            Table::Part | Table::PartErrors => {
+                "describe the part by that key; where keys of [body] override it, disperse those, or delete them"
+            }
             _ => self.facts().remedy,
         }
     }
@@ -164,6 +205,13 @@ impl Parameter {
         }
     }
 
+    /// Whether the numbers are those of a unit quaternion, to rounding; `false` of parameters that are none.
+    #[inline]
+    pub fn is_unit(self, scene: &SceneInput) -> bool {
+        let is_quaternion = self.shape() == Shape::Quaternion;
+        is_quaternion && self.key.read(scene, self.instance()).is_some_and(is_unit)
+    }
+
     /// Makes the value valid as a whole after its components were changed: a quaternion is divided by its norm (one of norm
     /// zero or not finite is left as it is: the scene refuses it). An attitude twice: the second division removes what rounding left of
     /// the first, and [`unit_quaternion`] then takes the numbers as they are, so that what is recorded is what is used. Principal
@@ -184,22 +232,6 @@ impl Parameter {
     }
 }
 
-/// How far the sum of the squares of four numbers that were divided by their norm may be from one: 6 rounding units by the usual
-/// bounds (two for the sum, one and a half for root and division, counted twice in a square; two for the sum again), measured 3.
-const ROUNDED_UNIT: f64 = 8.0 * f64::EPSILON;
-
-/// `q` divided by its norm; unchanged where its norm is one to rounding, so that numbers which this function or
-/// [`Parameter::normalise`] returned, and were recorded and written again, keep their bits.
-#[inline]
-pub fn unit_quaternion(q: [f64; 4]) -> [f64; 4] {
-    let square = q.iter().map(|x| x * x).sum::<f64>();
-    if (square - 1.0).abs() <= ROUNDED_UNIT {
-        return q;
-    }
-    let norm = square.sqrt();
-    q.map(|x| x / norm)
-}
-
 impl SceneInput {
     /// The same scene with other numbers for a parameter, whole or one component, by its name in campaign files.
     ///
@@ -207,7 +239,7 @@ impl SceneInput {
     /// Where there is no such parameter, the scene has no such key, or the number of values is not that of its components.
     pub fn with(mut self, name: &str, values: &[f64]) -> Self {
         let (parameter, component) =
-            Parameter::find(name).unwrap_or_else(|| panic!("{name} is a parameter of the schema"));
+            Parameter::find(&self, name).unwrap_or_else(|| panic!("{name} is a parameter of the schema"));
         let first = component.unwrap_or(0);
         let count = if component.is_some() { 1 } else { parameter.width() };
         assert_eq!(values.len(), count, "the number of values of {name}");
@@ -223,92 +255,62 @@ impl SceneInput {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{
-        ActuationInput, ActuatorsInput, DebrisInput, FuselageInput, InitialInput, MassErrors, PrincipalInertia,
-        PrincipalMoments, WheelInput,
-    };
+    use crate::scene::{ActuationInput, BodyInput, DebrisInput, PrincipalInertia, PrincipalMoments, WheelMode};
 
     const IDENTITY: [f64; 4] = [1.0, 0.0, 0.0, 0.0];
 
-    /// Scenes: every key exists in at least one of them.
+    /// Scenes of the same tables: every key exists in at least one of them.
     fn variants() -> Vec<SceneInput> {
         let second = PrincipalMoments::Second([1.0, 2.0, 3.0]);
         let debris = [
             DebrisInput::Box { size_m: [1.0, 2.0, 3.0], density_kg_m3: 1.0 },
             DebrisInput::Tensor { mass_kg: 1.0, inertia_kg_m2: [[3.0, 0.1, 0.2], [0.1, 3.0, 0.3], [0.2, 0.3, 3.0]] },
-            DebrisInput::Principal { mass_kg: 1.0, principal: full().fuselage.principal.expect("full") },
+            DebrisInput::Principal { mass_kg: 1.0, principal: full().body.principal.expect("full") },
             DebrisInput::Principal { mass_kg: 1.0, principal: PrincipalInertia { moments: second, axes: IDENTITY } },
         ];
         let mut list = vec![full()];
         list.extend(debris.map(|debris| SceneInput { debris: Some(debris), ..full() }));
-        let mut plain = full();
-        plain.fuselage.mass_kg = None;
-        list.push(plain);
         let mut other = full();
-        other.fuselage.principal = Some(PrincipalInertia { moments: second, axes: IDENTITY });
+        other.body.principal = Some(PrincipalInertia { moments: second, axes: IDENTITY });
         list.push(other);
+        // keys of a part have no effect where those of the whole body override them
+        list.push(SceneInput { body: BodyInput::DEFAULT, ..full() });
         list
     }
 
-    /// A scene in which most keys exist.
+    /// A scene in which most keys exist: a part and a wheel with every size and mass.
     fn full() -> SceneInput {
-        let wheel = WheelInput {
-            radius_m: 0.25,
-            length_m: 0.1,
-            station_m: 1.0,
-            density_kg_m3: 2700.0,
-            offset_m: [0.0; 2],
-            tilt_rad: [0.0; 2],
-            mode: crate::scene::WheelMode::Free,
-        };
-        SceneInput {
-            fuselage: FuselageInput {
-                wall_thickness_m: 0.03,
-                outer_radius_m: 1.0,
-                length_m: 3.0,
-                density_kg_m3: 2700.0,
-                thruster_offset_m: 0.5,
-                mass_kg: Some(2000.0),
-                center_of_mass_m: Some([0.0, 0.0, 1.5]),
-                inertia_kg_m2: Some([[3.0, 0.1, 0.2], [0.1, 3.0, 0.3], [0.2, 0.3, 3.0]]),
-                principal: Some(PrincipalInertia {
-                    moments: PrincipalMoments::Inertia([2.0, 3.0, 4.0]),
-                    axes: IDENTITY,
-                }),
-                errors: MassErrors::NONE,
-            },
-            wheels: [Some(wheel); 2],
-            debris: Some(DebrisInput::Cube { side_m: 0.2, density_kg_m3: 2700.0 }),
-            initial: InitialInput {
-                position_m: [0.0; 3],
-                velocity_m_s: [0.0; 3],
-                attitude: [1.0, 0.0, 0.0, 0.0],
-                angular_velocity_rad_s: [0.0; 3],
-                wheel_angles_rad: [0.0; 2],
-                wheel_rates_rad_s: [0.0; 2],
-                debris_position_m: [0.0; 3],
-                debris_velocity_m_s: [0.0; 3],
-                debris_attitude: [1.0, 0.0, 0.0, 0.0],
-                debris_relative_angular_velocity_rad_s: [0.0; 3],
-            },
-            actuation: vec![ActuationInput { start_s: 0.0, end_s: 1.0, thrust_n: [1.0; 3], torque_n_m: [1.0; 2] }],
-            actuators: ActuatorsInput::IDEAL,
-            environment: crate::scene::schema::EnvironmentInput { body_torque_n_m: Some([0.0; 3]) },
+        let principal = PrincipalInertia { moments: PrincipalMoments::Inertia([2.0, 3.0, 4.0]), axes: IDENTITY };
+        let mut scene = SceneInput::report().with_debris(DebrisInput::Cube { side_m: 0.2, density_kg_m3: 2700.0 });
+        let part = &mut scene.parts[0];
+        (part.radius_m, part.mass_kg, part.size_m) = (Some(1.0), Some(1.0), Some([1.0; 3]));
+        for wheel in &mut scene.wheels {
+            (wheel.mass_kg, wheel.axial_inertia_kg_m2, wheel.transverse_inertia_kg_m2) =
+                (Some(1.0), Some(1.0), Some(1.0));
         }
+        scene.body.mass_kg = Some(2000.0);
+        scene.body.center_of_mass_m = Some([0.0, 0.0, 1.5]);
+        scene.body.inertia_kg_m2 = Some([[3.0, 0.1, 0.2], [0.1, 3.0, 0.3], [0.2, 0.3, 3.0]]);
+        scene.body.principal = Some(principal);
+        scene.environment.body_torque_n_m = Some([0.0; 3]);
+        scene.with_actuation(ActuationInput::idle(0.0, 1.0).with_thrust(&[1.0; 3]).with_torque(&[1.0; 2]))
     }
 
     #[test]
     fn every_component_is_its_own_number_and_found_by_name() {
         let variants = variants();
         let mut columns = std::collections::BTreeSet::new();
-        for parameter in Parameter::all() {
-            let nominal = variants.iter().find(|scene| parameter.exists(scene, 0)).expect("every key exists somewhere");
-            assert_eq!(Parameter::find(&parameter.name()), Some((parameter, None)));
+        for parameter in Parameter::all(&full()) {
+            let nominal = variants
+                .iter()
+                .find(|scene| parameter.exists(scene, 0))
+                .unwrap_or_else(|| panic!("{} exists nowhere", parameter.name()));
+            assert_eq!(Parameter::find(&full(), &parameter.name()), Some((parameter, None)));
             for component in 0..parameter.width() {
                 assert!(parameter.exists(nominal, component), "{}", parameter.name());
                 let mut scene = nominal.clone();
                 parameter.set(&mut scene, component, 42.5);
-                for other in Parameter::all() {
+                for other in Parameter::all(&full()) {
                     for index in 0..other.width() {
                         let expected = if (other, index) == (parameter, component) {
                             Some(42.5)
@@ -321,8 +323,8 @@ mod tests {
                 assert!(columns.insert(parameter.column_name(component)));
                 if parameter.width() > 1 {
                     let found = Some((parameter, Some(component)));
-                    assert_eq!(Parameter::find(&parameter.component_name(component)), found);
-                    assert_eq!(Parameter::find(&format!("{}[{component}]", parameter.name())), found);
+                    assert_eq!(Parameter::find(&full(), &parameter.component_name(component)), found);
+                    assert_eq!(Parameter::find(&full(), &format!("{}[{component}]", parameter.name())), found);
                 }
             }
             let unit = parameter.unit().replace([' ', '/'], "_").replace('^', "").to_lowercase();
@@ -333,31 +335,33 @@ mod tests {
     #[test]
     fn columns_carry_the_unit_last() {
         let column = |name| {
-            let (parameter, component) = Parameter::find(name).expect("in the table");
+            let (parameter, component) = Parameter::find(&full(), name).expect("in the table");
             parameter.column_name(component.unwrap_or(0))
         };
         assert_eq!(column("initial.angular_velocity_rad_s.x"), "initial_angular_velocity_x_rad_s");
         assert_eq!(column("initial.attitude"), "initial_attitude_w");
-        assert_eq!(column("fuselage.density_kg_m3"), "fuselage_density_kg_m3");
-        assert_eq!(column("fuselage.inertia_kg_m2.xy"), "fuselage_inertia_xy_kg_m2");
-        assert_eq!(column("initial.wheel_rates_rad_s[1]"), "initial_wheel_rates_2_rad_s");
+        assert_eq!(column("body.parts.fuselage.density_kg_m3"), "body_parts_fuselage_density_kg_m3");
+        assert_eq!(column("body.inertia_kg_m2.xy"), "body_inertia_xy_kg_m2");
+        assert_eq!(column("wheels.w2.rate_rad_s"), "wheels_w2_rate_rad_s");
         for wrong in [
-            "fuselage.density",
+            "body.parts.fuselage.density",
             "initial.attitude[4]",
             "initial.attitude.u",
-            "fuselage.mass_kg[0]",
-            "fuselage.mass_kg.",
+            "body.mass_kg[0]",
+            "body.mass_kg.",
+            "wheels.w3.radius_m",
+            "wheels.radius_m",
         ] {
-            assert_eq!(Parameter::find(wrong), None, "{wrong}");
+            assert_eq!(Parameter::find(&full(), wrong), None, "{wrong}");
         }
     }
 
     #[test]
     fn a_symmetric_tensor_stays_symmetric_and_a_quaternion_stays_unit() {
         let mut scene = full();
-        Parameter::find("fuselage.inertia_kg_m2").expect("in the table").0.set(&mut scene, 4, 7.0);
-        assert_eq!(scene.fuselage.inertia_kg_m2, Some([[3.0, 0.1, 0.2], [0.1, 3.0, 7.0], [0.2, 7.0, 3.0]]));
-        let attitude = Parameter::find("initial.attitude").expect("in the table").0;
+        Parameter::find(&full(), "body.inertia_kg_m2").expect("in the table").0.set(&mut scene, 4, 7.0);
+        assert_eq!(scene.body.inertia_kg_m2, Some([[3.0, 0.1, 0.2], [0.1, 3.0, 7.0], [0.2, 7.0, 3.0]]));
+        let attitude = Parameter::find(&full(), "initial.attitude").expect("in the table").0;
         attitude.set(&mut scene, 0, 3.0);
         attitude.set(&mut scene, 3, 4.0);
         attitude.normalise(&mut scene);
@@ -368,7 +372,7 @@ mod tests {
     /// before, changes a third of all quaternions.
     #[test]
     fn a_normalised_quaternion_keeps_its_bits() {
-        let (attitude, _) = Parameter::find("initial.attitude").expect("in the table");
+        let (attitude, _) = Parameter::find(&full(), "initial.attitude").expect("in the table");
         let mut scene = full();
         let mut changed_by_division = 0;
         for k in 0..10_000u32 {
@@ -389,46 +393,53 @@ mod tests {
     #[test]
     fn what_is_left_out_does_not_exist() {
         let mut scene = full();
-        scene.wheels[1] = None;
+        scene.wheels[1].mode = WheelMode::Locked;
         scene.debris = None;
-        scene.fuselage.mass_kg = None;
+        scene.body.mass_kg = None;
         scene.actuation.clear();
-        let exists = |name, component| Parameter::find(name).expect("in the table").0.exists(&scene, component);
-        assert!(exists("initial.wheel_rates_rad_s", 0) && exists("wheel1.radius_m", 0));
+        let exists =
+            |name, component| Parameter::find(&full(), name).expect("in the table").0.exists(&scene, component);
+        assert!(
+            exists("wheels.w1.rate_rad_s", 0) && exists("wheels.w1.radius_m", 0) && exists("wheels.w2.radius_m", 0)
+        );
         for (name, component) in [
-            ("initial.wheel_rates_rad_s", 1),
-            ("wheel2.radius_m", 0),
-            ("fuselage.mass_kg", 0),
+            ("wheels.w2.rate_rad_s", 0),
+            ("wheels.w2.angle_rad", 0),
+            ("body.mass_kg", 0),
             ("debris.side_m", 0),
             ("debris.size_m", 0),
-            ("fuselage.principal_second_moments_kg_m2", 0),
-            ("fuselage.thruster_offset_m", 0),
-            ("actuators.thrust_scale", 2),
+            ("body.principal_second_moments_kg_m2", 0),
+            ("thrusters.p3.position_m", 0),
+            ("thrusters.p3.thrust_scale", 0),
+            ("wheels.w1.torque_scale", 0),
+            ("actuators.switch_on_delay_s", 0),
             ("initial.debris_attitude", 0),
         ] {
             assert!(!exists(name, component), "{name}");
         }
+        scene.wheels.pop();
+        let second = Parameter::find(&full(), "wheels.w2.radius_m").expect("in the table").0;
+        assert!(!second.exists(&scene, 0) && Parameter::find(&scene, "wheels.w2.radius_m").is_none());
     }
 
     /// Law: what the schedule never commands has no effect, and cannot be dispersed.
     #[test]
     fn actuators_that_are_never_commanded_have_no_effect() {
         let mut scene = full();
-        scene.actuation[0].thrust_n = [1.0, 0.0, 0.0];
-        scene.actuation[0].torque_n_m = [0.0, 1.0];
+        scene.actuation[0] = ActuationInput::idle(0.0, 1.0).with_thrust(&[1.0]).with_torque(&[0.0, 1.0]);
         let acts = |name| {
-            let (parameter, component) = Parameter::find(name).expect("in the schema");
+            let (parameter, component) = Parameter::find(&scene, name).expect("in the schema");
             parameter.exists(&scene, component.unwrap_or(0))
         };
-        for name in ["actuators.thrust_scale.1", "actuators.thruster1_tilt_rad", "actuators.torque_bias_n_m.2"] {
+        for name in ["thrusters.p1.thrust_scale", "thrusters.p1.tilt_rad", "wheels.w2.torque_bias_n_m"] {
             assert!(acts(name), "{name}");
         }
         for name in [
-            "actuators.thrust_scale.2",
-            "actuators.thruster2_tilt_rad",
-            "actuators.thruster3_tilt_rad",
-            "actuators.torque_scale.1",
-            "fuselage.thruster_offset_m",
+            "thrusters.p2.thrust_scale",
+            "thrusters.p2.tilt_rad",
+            "thrusters.p3.tilt_rad",
+            "thrusters.p3.position_m",
+            "wheels.w1.torque_scale",
         ] {
             assert!(!acts(name), "{name}");
         }

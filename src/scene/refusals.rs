@@ -2,7 +2,7 @@
 
 use super::input::SceneInput;
 use super::schema::{ActuationInput, DebrisInput, PrincipalInertia, PrincipalMoments, WheelInput, WheelMode};
-use super::{Scene, samples};
+use super::{Name, Scene, samples};
 
 /// A change of the report's scene.
 type Change = fn(&mut SceneInput);
@@ -15,7 +15,7 @@ fn changed(change: Change) -> SceneInput {
 }
 
 fn arc(start_s: f64, end_s: f64) -> ActuationInput {
-    ActuationInput { start_s, end_s, thrust_n: [1.0, 0.0, 0.0], torque_n_m: [0.5, 0.25] }
+    ActuationInput::idle(start_s, end_s).with_thrust(&[1.0]).with_torque(&[0.5, 0.25])
 }
 
 fn below(x: f64) -> f64 {
@@ -34,114 +34,171 @@ fn irregular(moments: PrincipalMoments) -> DebrisInput {
 }
 
 fn wheel(input: &mut SceneInput, i: usize) -> &mut WheelInput {
-    input.wheels[i].as_mut().expect("Table II has both wheels")
+    &mut input.wheels[i]
+}
+
+/// A wheel by mass and inertias, the transverse one 1 kg m^2.
+fn by_mass(axial: f64) -> WheelInput {
+    WheelInput {
+        mass_kg: Some(50.0),
+        axial_inertia_kg_m2: Some(axial),
+        transverse_inertia_kg_m2: Some(1.0),
+        ..WheelInput { name: Name::of("w1"), axis: [0.0, 1.0, 0.0], ..WheelInput::BLANK }
+    }
+}
+
+/// Gives the body's mass with its wheels, which have 106.03 kg.
+fn includes_wheels(input: &mut SceneInput, mass_kg: f64) {
+    input.parts.clear();
+    input.body.includes_wheels = true;
+    input.body.mass_kg = Some(mass_kg);
+    input.body.center_of_mass_m = Some([0.0, 0.0, 1.5]);
+    input.body.inertia_kg_m2 = Some([[300.0, 0.0, 0.0], [0.0, 300.0, 0.0], [0.0, 0.0, 200.0]]);
 }
 
 /// Key, what the message must say, the change that is refused, and its nearest neighbour that is accepted.
 const REFUSALS: &[(&str, &str, Change, Change)] = &[
     (
-        "fuselage.wall_thickness_m",
-        "below fuselage.outer_radius_m = 1.0",
-        |input| input.fuselage.wall_thickness_m = 1.0,
-        |input| input.fuselage.wall_thickness_m = below(1.0),
+        "body.parts.fuselage.wall_thickness_m",
+        "below outer_radius_m = 1.0",
+        |input| input.parts[0].wall_thickness_m = Some(1.0),
+        |input| input.parts[0].wall_thickness_m = Some(below(1.0)),
     ),
     (
-        "fuselage.wall_thickness_m",
-        "below half of fuselage.length_m = 0.06",
-        |input| input.fuselage.length_m = 0.06,
-        |input| input.fuselage.length_m = 0.06 + 1e-17,
+        "body.parts.fuselage.wall_thickness_m",
+        "below half of length_m = 0.06",
+        |input| input.parts[0].length_m = Some(0.06),
+        |input| input.parts[0].length_m = Some(0.06 + 1e-17),
     ),
     (
-        "fuselage.wall_thickness_m",
+        "body.parts.fuselage.wall_thickness_m",
         "above zero",
-        |input| input.fuselage.wall_thickness_m = 0.0,
-        |input| input.fuselage.wall_thickness_m = TINY,
+        |input| input.parts[0].wall_thickness_m = Some(0.0),
+        |input| input.parts[0].wall_thickness_m = Some(TINY),
     ),
     (
-        "fuselage.outer_radius_m",
+        "body.parts.fuselage.outer_radius_m",
         "above zero",
-        |input| input.fuselage.outer_radius_m = -1.0,
-        |input| input.fuselage.outer_radius_m = 0.031,
+        |input| input.parts[0].outer_radius_m = Some(-1.0),
+        |input| input.parts[0].outer_radius_m = Some(0.031),
     ),
     (
-        "fuselage.length_m",
+        "body.parts.fuselage.length_m",
         "a finite number",
-        |input| input.fuselage.length_m = f64::NAN,
-        |input| input.fuselage.length_m = 0.061,
+        |input| input.parts[0].length_m = Some(f64::NAN),
+        |input| input.parts[0].length_m = Some(0.061),
     ),
     (
-        "fuselage.density_kg_m3",
+        "body.parts.fuselage.density_kg_m3",
         "above zero",
-        |input| input.fuselage.density_kg_m3 = 0.0,
-        |input| input.fuselage.density_kg_m3 = TINY,
+        |input| input.parts[0].density_kg_m3 = Some(0.0),
+        |input| input.parts[0].density_kg_m3 = Some(TINY),
     ),
     (
-        "fuselage.thruster_offset_m",
-        "zero or above",
-        |input| input.fuselage.thruster_offset_m = -TINY,
-        |input| input.fuselage.thruster_offset_m = 0.0,
-    ),
-    (
-        "fuselage.mass_kg",
-        "above zero",
-        |input| input.fuselage.mass_kg = Some(0.0),
-        |input| input.fuselage.mass_kg = Some(TINY),
-    ),
-    (
-        "fuselage.center_of_mass_m",
-        "finite numbers",
-        |input| input.fuselage.center_of_mass_m = Some([0.0, f64::INFINITY, 0.0]),
-        |input| input.fuselage.center_of_mass_m = Some([0.0, 1e3, 0.0]),
-    ),
-    (
-        "fuselage.inertia_kg_m2",
-        "symmetric",
-        |input| input.fuselage.inertia_kg_m2 = Some([[1.0, 2e-14, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),
-        |input| input.fuselage.inertia_kg_m2 = Some([[1.0, 1e-14, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),
-    ),
-    (
-        "fuselage.inertia_kg_m2",
-        "positive definite",
-        |input| input.fuselage.inertia_kg_m2 = Some([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.0]]),
-        |input| input.fuselage.inertia_kg_m2 = Some([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, TINY]]),
-    ),
-    (
-        "fuselage.inertia_kg_m2",
-        "exceeds the sum of the other two",
-        |input| input.fuselage.inertia_kg_m2 = Some([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 2.0 + 1e-13]]),
-        |input| input.fuselage.inertia_kg_m2 = Some([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 2.0]]),
-    ),
-    ("wheel1.radius_m", "above zero", |input| wheel(input, 0).radius_m = 0.0, |input| wheel(input, 0).radius_m = TINY),
-    ("wheel2.length_m", "above zero", |input| wheel(input, 1).length_m = -0.1, |input| wheel(input, 1).length_m = TINY),
-    (
-        "wheel2.station_m",
-        "a finite number",
-        |input| wheel(input, 1).station_m = f64::INFINITY,
-        |input| wheel(input, 1).station_m = -1.0,
-    ),
-    (
-        "wheel1.density_kg_m3",
-        "above zero",
-        |input| wheel(input, 0).density_kg_m3 = 0.0,
-        |input| wheel(input, 0).density_kg_m3 = TINY,
-    ),
-    (
-        "wheel2.offset_m",
+        "thrusters.p2.position_m",
         "finite",
-        |input| wheel(input, 1).offset_m[0] = f64::NAN,
-        |input| wheel(input, 1).offset_m = [-1.0, 1.0],
+        |input| input.thrusters[1].position_m[1] = f64::NAN,
+        |input| input.thrusters[1].position_m[1] = 0.0,
     ),
     (
-        "wheel1.tilt_rad",
+        "thrusters.p1.direction",
+        "not all zero",
+        |input| input.thrusters[0].direction = [0.0; 3],
+        |input| input.thrusters[0].direction = [0.0, TINY, 0.0],
+    ),
+    (
+        "wheels.w1.axis",
+        "not all zero",
+        |input| wheel(input, 0).axis = [0.0; 3],
+        |input| wheel(input, 0).axis = [0.0, -2.0, 1.0],
+    ),
+    (
+        "wheels.w1.axial_inertia_kg_m2",
+        "at most twice",
+        |input| *wheel(input, 0) = by_mass(2.0 + 1e-12),
+        |input| *wheel(input, 0) = by_mass(2.0),
+    ),
+    (
+        "body.mass_kg",
+        "without its wheels",
+        |input| includes_wheels(input, 106.0),
+        |input| includes_wheels(input, 107.0),
+    ),
+    (
+        "body.inertia_kg_m2",
+        "is the inertia of a body",
+        |input| {
+            includes_wheels(input, 500.0);
+            input.body.inertia_kg_m2 = Some([[90.0, 0.0, 0.0], [0.0, 90.0, 0.0], [0.0, 0.0, 3.0]]);
+        },
+        |input| includes_wheels(input, 500.0),
+    ),
+    ("body.mass_kg", "above zero", |input| input.body.mass_kg = Some(0.0), |input| input.body.mass_kg = Some(TINY)),
+    (
+        "body.center_of_mass_m",
+        "finite numbers",
+        |input| input.body.center_of_mass_m = Some([0.0, f64::INFINITY, 0.0]),
+        |input| input.body.center_of_mass_m = Some([0.0, 1e3, 0.0]),
+    ),
+    (
+        "body.inertia_kg_m2",
+        "symmetric",
+        |input| input.body.inertia_kg_m2 = Some([[1.0, 2e-14, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),
+        |input| input.body.inertia_kg_m2 = Some([[1.0, 1e-14, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),
+    ),
+    (
+        "body.inertia_kg_m2",
+        "positive definite",
+        |input| input.body.inertia_kg_m2 = Some([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.0]]),
+        |input| input.body.inertia_kg_m2 = Some([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, TINY]]),
+    ),
+    (
+        "body.inertia_kg_m2",
+        "exceeds the sum of the other two",
+        |input| input.body.inertia_kg_m2 = Some([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 2.0 + 1e-13]]),
+        |input| input.body.inertia_kg_m2 = Some([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 2.0]]),
+    ),
+    (
+        "wheels.w1.radius_m",
+        "above zero",
+        |input| wheel(input, 0).radius_m = Some(0.0),
+        |input| wheel(input, 0).radius_m = Some(TINY),
+    ),
+    (
+        "wheels.w2.length_m",
+        "above zero",
+        |input| wheel(input, 1).length_m = Some(-0.1),
+        |input| wheel(input, 1).length_m = Some(TINY),
+    ),
+    (
+        "wheels.w2.position_m",
+        "finite numbers",
+        |input| wheel(input, 1).position_m[2] = f64::INFINITY,
+        |input| wheel(input, 1).position_m[2] = -1.0,
+    ),
+    (
+        "wheels.w1.density_kg_m3",
+        "above zero",
+        |input| wheel(input, 0).density_kg_m3 = Some(0.0),
+        |input| wheel(input, 0).density_kg_m3 = Some(TINY),
+    ),
+    (
+        "wheels.w2.position_m",
+        "finite",
+        |input| wheel(input, 1).position_m[0] = f64::NAN,
+        |input| wheel(input, 1).position_m = [-1.0, 1.0, 2.0],
+    ),
+    (
+        "wheels.w1.tilt_rad",
         "finite",
         |input| wheel(input, 0).tilt_rad[1] = f64::INFINITY,
         |input| wheel(input, 0).tilt_rad = [-1.0, 4.0],
     ),
     (
-        "wheel1",
+        "wheels.w1",
         "positive and finite",
-        |input| wheel(input, 0).radius_m = 1e-160,
-        |input| wheel(input, 0).radius_m = 1e-75,
+        |input| wheel(input, 0).radius_m = Some(1e-160),
+        |input| wheel(input, 0).radius_m = Some(1e-75),
     ),
     (
         "debris.side_m",
@@ -180,67 +237,67 @@ const REFUSALS: &[(&str, &str, Change, Change)] = &[
         |input| input.debris = Some(irregular(PrincipalMoments::Inertia([1.0, 1.0, 2.0]))),
     ),
     (
-        "fuselage.principal_moments_kg_m2",
+        "body.principal_moments_kg_m2",
         "above zero, each",
-        |input| input.fuselage.principal = Some(principal(PrincipalMoments::Inertia([1.0, 1.0, 0.0]))),
-        |input| input.fuselage.principal = Some(principal(PrincipalMoments::Inertia([1.0, 1.0, TINY]))),
+        |input| input.body.principal = Some(principal(PrincipalMoments::Inertia([1.0, 1.0, 0.0]))),
+        |input| input.body.principal = Some(principal(PrincipalMoments::Inertia([1.0, 1.0, TINY]))),
     ),
     (
-        "fuselage.principal_second_moments_kg_m2",
+        "body.principal_second_moments_kg_m2",
         "above zero, each",
-        |input| input.fuselage.principal = Some(principal(PrincipalMoments::Second([1.0, -TINY, 1.0]))),
-        |input| input.fuselage.principal = Some(principal(PrincipalMoments::Second([1.0, TINY, 1e9]))),
+        |input| input.body.principal = Some(principal(PrincipalMoments::Second([1.0, -TINY, 1.0]))),
+        |input| input.body.principal = Some(principal(PrincipalMoments::Second([1.0, TINY, 1e9]))),
     ),
     (
-        "fuselage.principal_axes",
+        "body.principal_axes",
         "norm 1",
         |input| {
             let axes = [0.0; 4];
-            input.fuselage.principal = Some(PrincipalInertia { moments: PrincipalMoments::Inertia([1.0; 3]), axes });
+            input.body.principal = Some(PrincipalInertia { moments: PrincipalMoments::Inertia([1.0; 3]), axes });
         },
-        |input| input.fuselage.principal = Some(principal(PrincipalMoments::Inertia([1.0; 3]))),
+        |input| input.body.principal = Some(principal(PrincipalMoments::Inertia([1.0; 3]))),
     ),
     (
-        "fuselage.mass_scale",
+        "body.mass_scale",
         "above zero",
-        |input| input.fuselage.errors.mass_scale = 0.0,
-        |input| input.fuselage.errors.mass_scale = TINY,
+        |input| input.body.errors.mass_scale = 0.0,
+        |input| input.body.errors.mass_scale = TINY,
     ),
     (
-        "fuselage.inertia_scale",
+        "body.inertia_scale",
         "above zero",
-        |input| input.fuselage.errors.inertia_scale = -TINY,
-        |input| input.fuselage.errors.inertia_scale = TINY,
+        |input| input.body.errors.inertia_scale = -TINY,
+        |input| input.body.errors.inertia_scale = TINY,
     ),
     (
-        "fuselage.stretch_log",
+        "body.stretch_log",
         "finite",
-        |input| input.fuselage.errors.stretch_log[1] = f64::NAN,
-        |input| input.fuselage.errors.stretch_log[1] = -3.0,
+        |input| input.body.errors.stretch_log[1] = f64::NAN,
+        |input| input.body.errors.stretch_log[1] = -3.0,
     ),
     (
-        "fuselage.shear",
+        "body.shear",
         "finite",
-        |input| input.fuselage.errors.shear[1] = f64::INFINITY,
-        |input| input.fuselage.errors.shear[1] = -3.0,
+        |input| input.body.errors.shear[1] = f64::INFINITY,
+        |input| input.body.errors.shear[1] = -3.0,
     ),
     (
-        "fuselage.center_offset_m",
+        "body.center_offset_m",
         "finite",
-        |input| input.fuselage.errors.center_offset_m[1] = f64::INFINITY,
-        |input| input.fuselage.errors.center_offset_m[1] = -3.0,
+        |input| input.body.errors.center_offset_m[1] = f64::INFINITY,
+        |input| input.body.errors.center_offset_m[1] = -3.0,
     ),
     (
-        "actuators.thrust_scale",
+        "thrusters.p2.thrust_scale",
         "does not pull",
-        |input| input.actuators.thrust_scale[1] = -TINY,
-        |input| input.actuators.thrust_scale[1] = 0.0,
+        |input| input.thrusters[1].thrust_scale = -TINY,
+        |input| input.thrusters[1].thrust_scale = 0.0,
     ),
     (
-        "actuators.torque_scale",
+        "wheels.w2.torque_scale",
         "finite",
-        |input| input.actuators.torque_scale[1] = f64::NAN,
-        |input| input.actuators.torque_scale[1] = -1.0,
+        |input| wheel(input, 1).torque_scale = f64::NAN,
+        |input| wheel(input, 1).torque_scale = -1.0,
     ),
     (
         "actuators.switch_off_delay_s",
@@ -273,10 +330,10 @@ const REFUSALS: &[(&str, &str, Change, Change)] = &[
         |input| input.initial.angular_velocity_rad_s[1] = 0.0,
     ),
     (
-        "initial.wheel_rates_rad_s",
+        "wheels.w2.rate_rad_s",
         "finite",
-        |input| input.initial.wheel_rates_rad_s[1] = f64::NEG_INFINITY,
-        |input| input.initial.wheel_rates_rad_s[1] = 0.0,
+        |input| wheel(input, 1).rate_rad_s = f64::NEG_INFINITY,
+        |input| wheel(input, 1).rate_rad_s = 0.0,
     ),
     (
         "actuation[0].start_s",
@@ -297,33 +354,33 @@ const REFUSALS: &[(&str, &str, Change, Change)] = &[
         |input| input.actuation[1].start_s = 1.0,
     ),
     (
-        "actuation[1].thrust_n",
+        "actuation[1].thrust_n.p3",
         "does not pull",
         |input| input.actuation[1].thrust_n[2] = -TINY,
         |input| input.actuation[1].thrust_n[2] = 0.0,
     ),
     (
-        "actuation[1].torque_n_m",
+        "actuation[1].torque_n_m.w1",
         "finite",
         |input| input.actuation[1].torque_n_m[0] = f64::NAN,
         |input| input.actuation[1].torque_n_m[0] = -1.0,
     ),
     (
-        "actuation[0].torque_n_m",
-        "wheel1",
+        "actuation[0].torque_n_m.w1",
+        "w1, which is locked",
         |input| {
-            input.wheels[0] = None;
+            wheel(input, 0).mode = WheelMode::Locked;
             input.actuation[1].torque_n_m[0] = 0.0;
         },
         |input| {
-            input.wheels[0] = None;
+            wheel(input, 0).mode = WheelMode::Locked;
             input.actuation[0].torque_n_m[0] = 0.0;
             input.actuation[1].torque_n_m[0] = 0.0;
         },
     ),
     (
-        "actuation[1].torque_n_m",
-        "wheel2, whose speed its motor holds",
+        "actuation[1].torque_n_m.w2",
+        "w2, whose speed its motor holds",
         |input| {
             input.actuation[0].torque_n_m[1] = 0.0;
             wheel(input, 1).mode = WheelMode::SpeedHeld;

@@ -3,9 +3,9 @@
 use super::error::Problems;
 use super::input::SceneInput;
 use super::mass::MassProperties;
-use super::parameter::unit_quaternion;
-use super::schema::InitialInput;
-use super::{InitialState, MAX_WHEELS, Scene, SceneError, check, schedule};
+use super::schema::{InitialInput, MAX_WHEELS, WheelMode};
+use super::unit_quaternion::unit_quaternion;
+use super::{InitialState, Scene, SceneError, check, schedule};
 use crate::math::vector::{dcm_from_quaternion, hamilton, sum, transposed_product};
 
 impl Scene {
@@ -49,8 +49,8 @@ impl Scene {
         self.schedule.clear();
         self.schedule.extend((0..input.actuation.len()).map(|index| schedule::applied(input, index)));
         self.environment = input.environment;
-        self.commands_thrust = input.actuation.iter().any(|arc| arc.thrust_n != [0.0; 3]);
-        self.commands_torque = input.actuation.iter().any(|arc| arc.torque_n_m != [0.0; 2]);
+        self.commands_thrust = input.actuation.iter().any(|arc| arc.thrust_n.iter().any(|thrust| *thrust != 0.0));
+        self.commands_torque = input.actuation.iter().any(|arc| arc.torque_n_m.iter().any(|torque| *torque != 0.0));
     }
 }
 
@@ -71,35 +71,31 @@ fn checked(input: &SceneInput, mass: &MassProperties) -> Result<(), Vec<SceneErr
 
 /// The state at time zero (59): debris q_ed = q_es (x) q_sd, omega^de = omega^ds + C_ds omega^se.
 ///
-/// What belongs to a body that the scene does not have is zero (attitude: identity): a missing wheel does not turn.
+/// What belongs to debris that the scene does not have is zero (attitude: identity).
 fn initial_state(input: &SceneInput) -> InitialState {
     let InitialInput {
         position_m,
         velocity_m_s,
         attitude,
         angular_velocity_rad_s,
-        wheel_angles_rad,
-        wheel_rates_rad_s,
         debris_position_m,
         debris_velocity_m_s,
         debris_attitude,
         debris_relative_angular_velocity_rad_s,
     } = input.initial;
-    let of_present_wheels = |values: [f64; 2]| {
-        let mut of_wheels = [0.0; MAX_WHEELS];
-        for (i, wheel) in input.wheels.iter().enumerate() {
-            of_wheels[i] = if wheel.is_some() { values[i] } else { 0.0 };
-        }
-        of_wheels
-    };
+    let (mut wheel_angles, mut wheel_rates) = ([0.0; MAX_WHEELS], [0.0; MAX_WHEELS]);
+    let turning = input.wheels.iter().filter(|wheel| wheel.mode != WheelMode::Locked);
+    for (i, wheel) in turning.enumerate() {
+        (wheel_angles[i], wheel_rates[i]) = (wheel.angle_rad, wheel.rate_rad_s);
+    }
     let q_es = unit_quaternion(attitude);
     let mut state = InitialState {
         r_po_e: position_m,
         v_po_e: velocity_m_s,
         q_es,
         omega_se_s: angular_velocity_rad_s,
-        wheel_angles: of_present_wheels(wheel_angles_rad),
-        wheel_rates: of_present_wheels(wheel_rates_rad_s),
+        wheel_angles,
+        wheel_rates,
         r_gdo_e: [0.0; 3],
         v_gdo_e: [0.0; 3],
         q_ed: [1.0, 0.0, 0.0, 0.0],
@@ -135,11 +131,7 @@ mod tests {
     }
 
     fn arc(start_s: f64, end_s: f64) -> ActuationInput {
-        ActuationInput { start_s, end_s, thrust_n: [1.0, 0.0, 0.0], torque_n_m: [0.5, 0.25] }
-    }
-
-    fn wheel(input: &mut SceneInput, i: usize) -> &mut crate::scene::WheelInput {
-        input.wheels[i].as_mut().expect("Table II has both wheels")
+        ActuationInput::idle(start_s, end_s).with_thrust(&[1.0]).with_torque(&[0.5, 0.25])
     }
 
     #[test]
@@ -147,14 +139,19 @@ mod tests {
         let mut input = samples::table_two();
         let mut scene = Scene::resolve(&input).expect("the report's scene");
         let before = scene.clone();
-        input.fuselage.wall_thickness_m = 2.0;
-        wheel(&mut input, 1).radius_m = 0.0;
+        input.parts[0].wall_thickness_m = Some(2.0);
+        input.wheels[1].radius_m = Some(0.0);
         input.initial.attitude = [0.0; 4];
         let errors = scene.resolve_into(&input).expect_err("four problems");
         let keys: Vec<&str> = errors.iter().map(|error| &*error.key).collect();
         assert_eq!(
             keys,
-            ["fuselage.wall_thickness_m", "fuselage.wall_thickness_m", "wheel2.radius_m", "initial.attitude"]
+            [
+                "body.parts.fuselage.wall_thickness_m",
+                "body.parts.fuselage.wall_thickness_m",
+                "wheels.w2.radius_m",
+                "initial.attitude"
+            ]
         );
         assert_eq!(scene, before);
     }
@@ -163,7 +160,7 @@ mod tests {
     fn resolving_into_a_used_scene_gives_the_same_scene() {
         let input = changed(|_| ());
         let mut scene = Scene::resolve(&changed(|input| {
-            input.wheels = [None, None];
+            input.wheels.clear();
             input.debris = None;
             input.actuation.clear();
         }))
@@ -198,21 +195,20 @@ mod tests {
         ) {
             let size = sizes.map(|e| 10f64.powf(e));
             let mut input = samples::table_two();
-            input.fuselage.wall_thickness_m = size[0];
-            input.fuselage.outer_radius_m = size[1];
-            input.fuselage.length_m = size[2];
-            input.fuselage.mass_kg = mass;
+            input.parts[0].wall_thickness_m = Some(size[0]);
+            input.parts[0].outer_radius_m = Some(size[1]);
+            input.parts[0].length_m = Some(size[2]);
+            input.body.mass_kg = mass;
             for i in 0..2 {
-                wheel(&mut input, i).radius_m = 10f64.powf(wheels[2 * i]);
-                wheel(&mut input, i).station_m = wheels[2 * i + 1];
-                if !present[i] {
-                    input.wheels[i] = None;
-                }
+                input.wheels[i].radius_m = Some(10f64.powf(wheels[2 * i]));
+                input.wheels[i].position_m[2] = wheels[2 * i + 1];
             }
+            let mut present = present.into_iter();
+            input.wheels.retain(|_| present.next() == Some(true));
             if let Some(([a, b, c, d, e, f], center)) = overrides {
                 let (d, e, f) = (d - 1.0, e - 1.0, f - 1.0);
-                input.fuselage.inertia_kg_m2 = Some([[a, d, e], [d, b, f], [e, f, c]]);
-                input.fuselage.center_of_mass_m = Some(center);
+                input.body.inertia_kg_m2 = Some([[a, d, e], [d, b, f], [e, f, c]]);
+                input.body.center_of_mass_m = Some(center);
             }
             if let Ok(Scene { mass, .. }) = Scene::resolve(&input) {
                 prop_assert!(mass.total.is_finite() && mass.total > 0.0);

@@ -1,8 +1,9 @@
 //! The arcs of a run: intervals of constant actuation; and what the actuators make of the commands.
 
+use super::alignment::aligned;
 use super::input::SceneInput;
-use super::mass::{MAX_WHEELS, turned};
-use super::thruster::{MAX_THRUSTERS, REPORT_DIRECTIONS, Thruster};
+use super::schema::{MAX_THRUSTERS, MAX_WHEELS, WheelMode};
+use super::thruster::Thruster;
 
 /// What acts on the spacecraft until a time: the values as they are applied, constant, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,11 +41,8 @@ pub fn applied(input: &SceneInput, index: usize) -> Arc {
         start: start(index),
         applied: Actuation {
             until: if next.is_some() { start(index + 1) } else { command.end_s + actuators.switch_off_delay_s },
-            thrust: filled(command.thrust_n.len(), |i| actuators.thrust_scale[i] * command.thrust_n[i]),
-            motor_torque: filled(command.torque_n_m.len(), |i| {
-                let torque = command.torque_n_m[i];
-                if torque == 0.0 { 0.0 } else { actuators.torque_scale[i] * torque + actuators.torque_bias_n_m[i] }
-            }),
+            thrust: thrusts(input, index),
+            motor_torque: motor_torques(input, index),
             body_torque: [0.0; 3],
         },
     }
@@ -57,19 +55,31 @@ fn first<const N: usize>(numbers: &[f64]) -> [f64; N] {
     all
 }
 
-/// The first `count` numbers; zero beyond.
-fn filled<const N: usize>(count: usize, number: impl Fn(usize) -> f64) -> [f64; N] {
-    std::array::from_fn(|i| if i < count { number(i) } else { 0.0 })
+/// The thrusts of command `index`, N.
+fn thrusts(input: &SceneInput, index: usize) -> [f64; MAX_THRUSTERS] {
+    let mut thrust = [0.0; MAX_THRUSTERS];
+    for (i, thruster) in input.thrusters.iter().enumerate() {
+        thrust[i] = thruster.thrust_scale * input.actuation[index].thrust_n[i];
+    }
+    thrust
 }
 
-/// The thrusters P1, P2, P3 with the misalignments of `input`.
-pub fn thrusters(input: &SceneInput) -> [Thruster; 3] {
-    let tilts = input.actuators.tilts_rad();
-    let (offset, station) = (input.fuselage.thruster_offset_m, input.fuselage.length_m);
-    let positions = [[0.0; 3], [0.0, -offset, station], [0.0, offset, station]];
-    std::array::from_fn(|k| Thruster {
-        position: positions[k],
-        direction: turned(REPORT_DIRECTIONS[k], [tilts[k][0], tilts[k][1], 0.0], 1.0),
+/// The motor torques of command `index` on the wheels that turn, in their order, N m.
+fn motor_torques(input: &SceneInput, index: usize) -> [f64; MAX_WHEELS] {
+    let mut torques = [0.0; MAX_WHEELS];
+    let turning = input.wheels.iter().enumerate().filter(|(_, wheel)| wheel.mode != WheelMode::Locked);
+    for (place, (i, wheel)) in turning.enumerate() {
+        let torque = input.actuation[index].torque_n_m[i];
+        torques[place] = if torque == 0.0 { 0.0 } else { wheel.torque_scale * torque + wheel.torque_bias_n_m };
+    }
+    torques
+}
+
+/// The thrusters with their alignment errors.
+pub fn thrusters(input: &SceneInput) -> impl Iterator<Item = Thruster> {
+    input.thrusters.iter().map(|thruster| Thruster {
+        position: thruster.position_m,
+        direction: aligned(thruster.direction, thruster.tilt_rad, 1.0),
     })
 }
 
@@ -136,24 +146,18 @@ mod tests {
     #[test]
     fn actuators_delay_and_scale_what_is_commanded() {
         let mut input = samples::table_two();
-        let command = |start_s, end_s, torque| ActuationInput {
-            start_s,
-            end_s,
-            thrust_n: [10.0, 20.0, 30.0],
-            torque_n_m: [torque, 0.0],
+        let command = |start_s, end_s, torque| {
+            ActuationInput::idle(start_s, end_s).with_thrust(&[10.0, 20.0, 30.0]).with_torque(&[torque])
         };
         input.actuation = vec![command(0.0, 1.0, 2.0), command(1.0, 2.0, 0.0), command(3.0, 4.0, -2.0)];
         let ideal = Scene::resolve(&input).expect("a legal schedule");
         for (arc, command) in ideal.schedule.iter().zip(&input.actuation) {
             assert_eq!((arc.start, arc.end()), (command.start_s, command.end_s));
-            assert_eq!(
-                (&arc.applied.thrust[..3], &arc.applied.motor_torque[..2]),
-                (&command.thrust_n[..], &command.torque_n_m[..])
-            );
+            assert_eq!((arc.applied.thrust, arc.applied.motor_torque), (command.thrust_n, command.torque_n_m));
         }
-        input.actuators.thrust_scale = [0.5, 1.0, 1.5];
-        input.actuators.torque_scale = [2.0, 1.0];
-        input.actuators.torque_bias_n_m = [0.25, 7.0];
+        (input.thrusters[0].thrust_scale, input.thrusters[2].thrust_scale) = (0.5, 1.5);
+        (input.wheels[0].torque_scale, input.wheels[0].torque_bias_n_m) = (2.0, 0.25);
+        input.wheels[1].torque_bias_n_m = 7.0;
         input.actuators.switch_on_delay_s = -0.25;
         input.actuators.switch_off_delay_s = 0.5;
         let schedule = Scene::resolve(&input).expect("a legal schedule").schedule;
@@ -166,9 +170,19 @@ mod tests {
     }
 
     #[test]
+    fn torques_are_those_of_the_wheels_that_turn() {
+        let mut input = samples::table_two();
+        input.actuation = vec![ActuationInput::idle(0.0, 1.0).with_torque(&[0.0, 2.0])];
+        input.wheels[0].mode = crate::scene::WheelMode::Locked;
+        let scene = Scene::resolve(&input).expect("a legal schedule");
+        assert_eq!(scene.schedule[0].applied.motor_torque[..2], [2.0, 0.0]);
+        assert_eq!((scene.mass.wheels.len(), scene.initial.wheel_rates[0]), (1, input.wheels[1].rate_rad_s));
+    }
+
+    #[test]
     fn a_misaligned_thruster_pushes_where_it_points() {
         let mut input = samples::table_two();
-        input.actuators.thruster2_tilt_rad = [0.1, 0.0];
+        input.thrusters[1].tilt_rad = [0.1, 0.0];
         let scene = Scene::resolve(&input).expect("a legal scene");
         // -s3 turned about s1: towards +s2; at (0, -0.5, 3), 1.5 above c
         let (sine, cosine) = libm::sincos(0.1);

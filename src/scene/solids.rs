@@ -80,6 +80,22 @@ pub fn solid_cylinder<R: Real>(radius: R, length: R, density: R) -> Cylinder<R> 
     }
 }
 
+impl<R: Real> Cylinder<R> {
+    /// As a body with its centre at the origin and its axis along the third axis.
+    pub fn body(self) -> Body<R> {
+        let inertia = diagonal([self.transverse, self.transverse, self.axial]);
+        Body { mass: self.mass, center: [self.mass.zero(); 3], inertia }
+    }
+}
+
+/// A solid sphere, centre at the origin. Radius in m, density in kg/m^3.
+pub fn sphere<R: Real>(radius: R, density: R) -> Body<R> {
+    let k = |value: f64| radius.splat(value);
+    let mass = k(4.0) / k(3.0) * (density * pi(radius) * (radius * radius * radius));
+    let moment = k(2.0) / k(5.0) * (mass * (radius * radius));
+    Body { mass, center: [k(0.0); 3], inertia: diagonal([moment; 3]) }
+}
+
 /// A solid box with sides along the axes, centre at the origin (60)-(67). Sizes in m, density in kg/m^3.
 pub fn solid_box<R: Real>(size: [R; 3], density: R) -> Body<R> {
     let [a, b, c] = size;

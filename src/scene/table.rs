@@ -6,10 +6,11 @@ use std::cmp::Ordering;
 use std::hash::{Hash, Hasher};
 
 use super::input::SceneInput;
+use super::name::Name;
 use super::schema::limit::shown;
 use super::schema::{
-    ActuationInput, ActuatorsInput, DebrisInput, EnvironmentInput, Facts, FuselageInput, InitialInput, Presence, Row,
-    WheelInput,
+    ActuationInput, ActuatorsInput, BodyInput, DebrisInput, EnvironmentInput, Facts, InitialInput, MassErrors,
+    PartInput, Presence, Row, ThrusterInput, WheelInput,
 };
 
 /// A key of a table of the schema.
@@ -75,10 +76,10 @@ const fn count_of<T>(parts: &[&[Row<T>]]) -> usize {
     count
 }
 
-/// For each table, in the order of the dispersable parameters: variant, names of the instances, whether its keys can be dispersed, its
+/// For each table, in the order of the dispersable parameters: variant, header, whether its keys can be dispersed, its
 /// rows in parts, and the table itself in `scene`, shared and to be changed.
 macro_rules! tables {
-    (|$scene:ident, $instance:ident| $($Table:ident, $headers:expr, $dispersable:literal, $parts:expr,
+    (|$scene:ident, $instance:ident| $($Table:ident, $header:literal, $dispersable:literal, $parts:expr,
         $get:expr, $get_mut:expr;)+) => {
         /// A table of a campaign file.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -90,9 +91,9 @@ macro_rules! tables {
             /// All tables, in the order of the dispersable parameters.
             pub const ALL: &'static [Table] = &[$(Table::$Table),+];
 
-            /// The names of the table in a campaign file, one for each instance; one name for a list of tables.
-            pub const fn headers(self) -> &'static [&'static str] {
-                match self { $(Table::$Table => $headers),+ }
+            /// The name of the table in a campaign file.
+            pub const fn header(self) -> &'static str {
+                match self { $(Table::$Table => $header),+ }
             }
 
             /// Whether its keys can be dispersed.
@@ -147,18 +148,39 @@ macro_rules! tables {
 
 tables! {
     |scene, instance|
-    Fuselage, &["fuselage"], true, FuselageInput::PARTS, Some(&scene.fuselage), Some(&mut scene.fuselage);
-    Wheel, &["wheel1", "wheel2"], true, &[WheelInput::ROWS],
-        scene.wheels.get(instance).and_then(Option::as_ref), scene.wheels.get_mut(instance).and_then(Option::as_mut);
-    Debris, &["debris"], true, &[DebrisInput::ROWS], scene.debris.as_ref(), scene.debris.as_mut();
-    Actuators, &["actuators"], true, &[ActuatorsInput::ROWS], Some(&scene.actuators), Some(&mut scene.actuators);
-    Initial, &["initial"], true, &[InitialInput::ROWS], Some(&scene.initial), Some(&mut scene.initial);
-    Environment, &["environment"], true, &[EnvironmentInput::ROWS], Some(&scene.environment), Some(&mut scene.environment);
-    Actuation, &["actuation"], false, &[ActuationInput::ROWS],
+    Body, "body", true, BodyInput::PARTS, Some(&scene.body), Some(&mut scene.body);
+    BodyErrors, "body", true, &[MassErrors::ROWS], Some(&scene.body.errors), Some(&mut scene.body.errors);
+    Part, "body.parts", true, &[PartInput::ROWS], scene.parts.get(instance), scene.parts.get_mut(instance);
+    PartErrors, "body.parts", true, &[MassErrors::ROWS],
+        scene.parts.get(instance).map(|part| &part.errors), scene.parts.get_mut(instance).map(|part| &mut part.errors);
+    Wheel, "wheels", true, &[WheelInput::ROWS], scene.wheels.get(instance), scene.wheels.get_mut(instance);
+    Thruster, "thrusters", true, &[ThrusterInput::ROWS], scene.thrusters.get(instance), scene.thrusters.get_mut(instance);
+    Debris, "debris", true, &[DebrisInput::ROWS], scene.debris.as_ref(), scene.debris.as_mut();
+    Actuators, "actuators", true, &[ActuatorsInput::ROWS], Some(&scene.actuators), Some(&mut scene.actuators);
+    Initial, "initial", true, &[InitialInput::ROWS], Some(&scene.initial), Some(&mut scene.initial);
+    Environment, "environment", true, &[EnvironmentInput::ROWS], Some(&scene.environment), Some(&mut scene.environment);
+    Actuation, "actuation", false, &[ActuationInput::ROWS],
         scene.actuation.get(instance), scene.actuation.get_mut(instance);
 }
 
 impl Table {
+    /// The dotted name of `key` in the table, in that of `owner` where it is one of a list.
+    pub fn name(self, owner: Name, key: &str) -> String {
+        let header = self.header();
+        if owner == Name::NONE { format!("{header}.{key}") } else { format!("{header}.{owner}.{key}") }
+    }
+
+    /// The names of the instances of the table in `scene`; one that is no name for a table that is there once.
+    pub fn owners(self, scene: &SceneInput) -> Vec<Name> {
+        match self {
+            Table::Part | Table::PartErrors => scene.parts.iter().map(|part| part.name).collect(),
+            Table::Wheel => scene.wheels.iter().map(|wheel| wheel.name).collect(),
+            Table::Thruster => scene.thrusters.iter().map(|thruster| thruster.name).collect(),
+            Table::Actuation => vec![Name::NONE; scene.actuation.len()],
+            _ => vec![Name::NONE],
+        }
+    }
+
     /// The keys of the table, in the order in which they are written.
     pub fn keys(self) -> impl Iterator<Item = Key> {
         (0..self.count()).map(move |row| Key { table: self, row: row as u8, facts: self.facts_at(row) })
@@ -177,10 +199,9 @@ impl Key {
         self.facts
     }
 
-    /// The dotted name in instance `instance` of the table.
-    pub fn name(self, instance: usize) -> String {
-        let headers = self.table.headers();
-        format!("{}.{}", headers[if instance < headers.len() { instance } else { 0 }], self.facts().key)
+    /// The dotted name, in the table of `owner` where it is one of a list.
+    pub fn name(self, owner: Name) -> String {
+        self.table.name(owner, self.facts().key)
     }
 
     /// The numbers of the key in `scene`; `None` where the scene has no such key. A symmetric tensor has nine.
@@ -195,11 +216,10 @@ impl Key {
         if self.facts().needs.are_met(scene.debris.is_some()) { self.in_table_mut(scene, instance) } else { None }
     }
 
-    /// An example of the value, where `scene` requires the key to be written.
-    pub fn required(self, scene: &SceneInput) -> Option<&'static str> {
+    /// An example of the value, where the key must be written.
+    pub fn required(self) -> Option<&'static str> {
         match self.facts().presence {
             Presence::Required(example) => Some(example),
-            Presence::RequiredIf(applies, example) => applies(&scene.usage()).then_some(example),
             Presence::Optional => None,
         }
     }
@@ -216,7 +236,9 @@ impl Key {
 
 /// A scene in which every table is there, all at their defaults.
 fn with_every_table() -> SceneInput {
-    let wheels = [Some(WheelInput::DEFAULT); 2];
-    let (debris, actuation) = (Some(DebrisInput::default()), vec![ActuationInput::DEFAULT]);
-    SceneInput { wheels, debris, actuation, ..SceneInput::default() }
+    let part = PartInput { name: Name::of("part"), ..PartInput::DEFAULT };
+    let scene = SceneInput { parts: vec![part], ..SceneInput::blank() };
+    let scene = scene.with_wheel(WheelInput { name: Name::of("wheel"), ..WheelInput::BLANK });
+    let scene = scene.with_thruster(ThrusterInput { name: Name::of("thruster"), ..ThrusterInput::DEFAULT });
+    scene.with_debris(DebrisInput::default()).with_actuation(ActuationInput::DEFAULT)
 }

@@ -1,9 +1,7 @@
 //! [`Thruster`]: where a thruster pushes and in which direction; force and torque of several (the report's (72)).
 
+use super::schema::MAX_THRUSTERS;
 use crate::math::vector::{cross, difference, scaled, sum};
-
-/// Largest number of thrusters of a spacecraft.
-pub const MAX_THRUSTERS: usize = 16;
 
 /// A thruster, fixed in the body.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,7 +6,7 @@ use crate::support::exact::distance;
 use crate::support::golden::Golden;
 use crate::support::invariants::Invariants;
 use crate::support::runs::{Run, adaptive, blocks, propagate_on};
-use crate::support::scenes::{Kind, random};
+use crate::support::scenes::{Kind, keep_wheels, random, set_wheel_rates};
 use rayon::prelude::*;
 use spindrift::math::Isa;
 use spindrift::math::vector::norm;
@@ -37,7 +37,7 @@ fn gyrostats(count: u64, mode: WheelMode) -> Vec<(Scene, f64)> {
     let kind = Kind { wheels: [true; 2], debris: 0, products: true, offset: true, forced: false };
     let scene = |seed: u64| {
         let mut input = random(kind, 500_000 + seed, 1.0);
-        for wheel in input.wheels.iter_mut().flatten() {
+        for wheel in &mut input.wheels {
             wheel.mode = mode;
         }
         let scene = Scene::resolve(&input).expect("a physical scene");
@@ -162,7 +162,7 @@ fn hard() -> Vec<Hard> {
     let mut list = vec![Hard { name: "Table I, 100 s", scene: scene(&table1), horizon: 100.0 }];
 
     let mut fast = table1.clone();
-    fast.initial.wheel_rates_rad_s = [1e4, -7e3];
+    set_wheel_rates(&mut fast, [1e4, -7e3]);
     fast.initial.angular_velocity_rad_s = [0.5, -1.0, 2.0];
     list.push(Hard { name: "wheels at 1e4 rad/s, 20 s", scene: scene(&fast), horizon: 20.0 });
 
@@ -174,10 +174,10 @@ fn hard() -> Vec<Hard> {
     // products of inertia, an offset centre of mass, wheels that turn; the start is 1e-4 off the unstable axis of J
     let mut near = table1.clone();
     near.debris = None;
-    near.fuselage.inertia_kg_m2 = Some([[3000.0, 120.0, -80.0], [120.0, 2400.0, 60.0], [-80.0, 60.0, 1700.0]]);
-    near.fuselage.center_of_mass_m = Some([0.05, -0.03, 1.45]);
-    near.wheels[0] = None;
-    near.initial.wheel_rates_rad_s = [0.0, 0.0];
+    near.body.inertia_kg_m2 = Some([[3000.0, 120.0, -80.0], [120.0, 2400.0, 60.0], [-80.0, 60.0, 1700.0]]);
+    near.body.center_of_mass_m = Some([0.05, -0.03, 1.45]);
+    keep_wheels(&mut near, [false, true]);
+    set_wheel_rates(&mut near, [0.0, 0.0]);
     let free = scene(&near).mass.inertia_free;
     let (moments, axes) = spindrift::math::symmetric::principal_axes(free);
     let middle = (0..3).find(|i| (0..3).filter(|j| moments[*j] < moments[*i]).count() == 1).expect("distinct moments");
@@ -195,7 +195,9 @@ fn one_rounding(scene: &Scene, grid: &Grid, truth: &ReferenceSolution) -> f64 {
         rest.mass.debris = None;
         rest.initial.omega_se_s = truth.high.at(StateField::Rate, point);
         rest.initial.q_es = truth.high.at(StateField::Attitude, point);
-        rest.initial.wheel_rates[..2].copy_from_slice(&truth.high.at::<2>(StateField::WheelRates, point));
+        for wheel in 0..scene.mass.wheels.len() {
+            rest.initial.wheel_rates[wheel] = truth.high.column(StateField::WheelRates, wheel)[point];
+        }
         let rest_grid = Grid::at(vec![0.0, grid.times()[last] - grid.times()[point]]);
         let fields = blocks([StateField::Rate, StateField::Attitude]);
         let end = ReferenceSolution::new(Isa::best(), &rest, &rest_grid, fields, TRUE)

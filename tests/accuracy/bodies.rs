@@ -7,38 +7,102 @@ use spindrift::math::vector::{difference, norm};
 use spindrift::propagation::Method;
 use spindrift::run::{Grid, StateField};
 use spindrift::sampling::SampleId;
-use spindrift::scene::{ActuatorsInput, DebrisInput, MassErrors, PrincipalInertia, PrincipalMoments, Scene};
+use spindrift::scene::{
+    ActuatorsInput, DebrisInput, MassErrors, PrincipalInertia, PrincipalMoments, Scene, WheelInput,
+};
 
-/// A campaign whose tables `fuselage`, `debris` and `rest` are filled in.
-fn file(fuselage: &str, debris: &str, rest: &str) -> String {
+/// What a campaign says beyond the plainest spacecraft: keys of the tables of these names, and tables of its own.
+#[derive(Clone, Copy, Default)]
+struct Told<'a> {
+    body: &'a str,
+    wheel: &'a str,
+    debris: &'a str,
+    /// Of each thruster.
+    thrusters: [&'a str; 3],
+    rest: &'a str,
+}
+
+/// A campaign whose tables are filled in.
+fn file(told: &Told<'_>) -> String {
+    let Told { body, wheel, debris, thrusters: [p1, p2, p3], rest } = told;
     format!(
-        "[campaign]\nname = \"bodies\"\nsamples = 4\nseed = 1\nduration_s = 1.0\n[fuselage]\nwall_thickness_m = 0.03\n\
-         outer_radius_m = 1.0\nlength_m = 3.0\ndensity_kg_m3 = 2700.0\nthruster_offset_m = 0.5\n{fuselage}\n[wheel1]\n\
-         radius_m = 0.25\nlength_m = 0.1\nstation_m = 1.0\ndensity_kg_m3 = 2700.0\n[debris]\n{debris}\n[initial]\n\
-         angular_velocity_rad_s = [0.1, 0.2, 1.0]\n{rest}"
+        r#"
+        [campaign]
+        name = "bodies"
+        samples = 4
+        seed = 1
+        duration_s = 1.0
+        [body]
+        {body}
+        [[body.parts]]
+        name = "fuselage"
+        shape = "hollow_cylinder"
+        wall_thickness_m = 0.03
+        outer_radius_m = 1.0
+        length_m = 3.0
+        density_kg_m3 = 2700.0
+        position_m = [0, 0, 1.5]
+        [[wheels]]
+        name = "w1"
+        axis = [0, 1, 0]
+        position_m = [0, 0, 1]
+        radius_m = 0.25
+        length_m = 0.1
+        density_kg_m3 = 2700.0
+        {wheel}
+        [[thrusters]]
+        name = "p1"
+        position_m = [0, 0, 0]
+        direction = [0, 0, 1]
+        {p1}
+        [[thrusters]]
+        name = "p2"
+        position_m = [0, -0.5, 3]
+        direction = [0, 0, -1]
+        {p2}
+        [[thrusters]]
+        name = "p3"
+        position_m = [0, 0.5, 3]
+        direction = [0, 0, -1]
+        {p3}
+        [debris]
+        {debris}
+        [initial]
+        angular_velocity_rad_s = [0.1, 0.2, 1.0]
+        {rest}
+        "#
     )
 }
 
-fn plan(fuselage: &str, debris: &str, rest: &str) -> Result<Plan, String> {
-    Plan::from_text("bodies.toml", &file(fuselage, debris, rest), Overrides::default()).map_err(|e| e.to_string())
+fn plan(told: Told<'_>) -> Result<Plan, String> {
+    Plan::from_text("bodies.toml", &file(&told), Overrides::default()).map_err(|e| e.to_string())
 }
 
 const CUBE: &str = "side_m = 0.2\ndensity_kg_m3 = 2700.0";
-const BURN: &str = "[[actuation]]\nstart_s = 0.25\nend_s = 0.5\nthrust_n = [10, 20, 30]\ntorque_n_m = [1, 0]\n";
-const ACTUATORS: &str = "[actuators]\nthrust_scale = [1, 0.5, 2]\nthruster1_tilt_rad = [0.01, 0.02]\nthruster2_tilt_rad = [0.03, 0.04]\n\
-    thruster3_tilt_rad = [0.05, 0.06]\nswitch_on_delay_s = 0.1\nswitch_off_delay_s = 0.2\ntorque_scale = [2, 3]\n\
-    torque_bias_n_m = [4, 5]\n";
+const BURN: &str =
+    "[[actuation]]\nstart_s = 0.25\nend_s = 0.5\nthrust_n = { p1 = 10, p2 = 20, p3 = 30 }\ntorque_n_m = { w1 = 1 }\n";
+const ACTUATORS: &str = "[actuators]\nswitch_on_delay_s = 0.1\nswitch_off_delay_s = 0.2\n";
 
 #[test]
 fn every_key_is_read_and_reads_back() {
-    let fuselage = "principal_second_moments_kg_m2 = [100, 200, 300]\nprincipal_axes = [0.5, 0.5, -0.5, 0.5]\nmass_scale = 1.5\n\
+    let body = "principal_second_moments_kg_m2 = [100, 200, 300]\nprincipal_axes = [0.5, 0.5, -0.5, 0.5]\nmass_scale = 1.5\n\
         inertia_scale = 1.25\nstretch_log = [0.1, 0.2, 0.3]\nshear = [0.4, 0.5, 0.6]\ncenter_offset_m = [0.7, 0.8, 0.9]";
-    let debris = "mass_kg = 3\nprincipal_moments_kg_m2 = [3, 4, 5]";
-    let plan = plan(fuselage, debris, &format!("{BURN}{ACTUATORS}")).unwrap_or_else(|e| panic!("{e}"));
+    let told = Told {
+        body,
+        wheel: "torque_scale = 2\ntorque_bias_n_m = 4\ntilt_rad = [0.07, 0.08]\nrate_rad_s = 9\nangle_rad = 10",
+        debris: "mass_kg = 3\nprincipal_moments_kg_m2 = [3, 4, 5]",
+        thrusters: [
+            "tilt_rad = [0.01, 0.02]",
+            "tilt_rad = [0.03, 0.04]\nthrust_scale = 0.5",
+            "tilt_rad = [0.05, 0.06]\nthrust_scale = 2",
+        ],
+        rest: &format!("{BURN}{ACTUATORS}"),
+    };
+    let plan = plan(told).unwrap_or_else(|e| panic!("{e}"));
     let scene = &plan.nominal;
     let axes = [0.5, 0.5, -0.5, 0.5];
     let second = PrincipalMoments::Second([100.0, 200.0, 300.0]);
-    assert_eq!(scene.fuselage.principal, Some(PrincipalInertia { moments: second, axes }));
+    assert_eq!(scene.body.principal, Some(PrincipalInertia { moments: second, axes }));
     let errors = MassErrors {
         mass_scale: 1.5,
         inertia_scale: 1.25,
@@ -46,21 +110,22 @@ fn every_key_is_read_and_reads_back() {
         shear: [0.4, 0.5, 0.6],
         center_offset_m: [0.7, 0.8, 0.9],
     };
-    assert_eq!(scene.fuselage.errors, errors);
+    assert_eq!(scene.body.errors, errors);
     let moments = PrincipalMoments::Inertia([3.0, 4.0, 5.0]);
     let principal = PrincipalInertia { moments, axes: [1.0, 0.0, 0.0, 0.0] };
     assert_eq!(scene.debris, Some(DebrisInput::Principal { mass_kg: 3.0, principal }));
-    let actuators = ActuatorsInput {
-        thrust_scale: [1.0, 0.5, 2.0],
-        thruster1_tilt_rad: [0.01, 0.02],
-        thruster2_tilt_rad: [0.03, 0.04],
-        thruster3_tilt_rad: [0.05, 0.06],
-        switch_on_delay_s: 0.1,
-        switch_off_delay_s: 0.2,
-        torque_scale: [2.0, 3.0],
-        torque_bias_n_m: [4.0, 5.0],
+    let errors: Vec<_> = scene.thrusters.iter().map(|thruster| (thruster.tilt_rad, thruster.thrust_scale)).collect();
+    assert_eq!(errors, [([0.01, 0.02], 1.0), ([0.03, 0.04], 0.5), ([0.05, 0.06], 2.0)]);
+    let wheel = WheelInput {
+        torque_scale: 2.0,
+        torque_bias_n_m: 4.0,
+        tilt_rad: [0.07, 0.08],
+        rate_rad_s: 9.0,
+        angle_rad: 10.0,
+        ..WheelInput::named("w1", [0.0, 1.0, 0.0], [0.0, 0.0, 1.0])
     };
-    assert_eq!(scene.actuators, actuators);
+    assert_eq!(scene.wheels, [wheel]);
+    assert_eq!(scene.actuators, ActuatorsInput { switch_on_delay_s: 0.1, switch_off_delay_s: 0.2 });
     let again = Plan::from_text("plan.toml", &plan.text(), Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(again, plan);
 }
@@ -68,71 +133,55 @@ fn every_key_is_read_and_reads_back() {
 #[test]
 fn contradictions_are_refused_by_key_with_a_remedy() {
     let unit = "inertia_kg_m2 = [[3, 0, 0], [0, 3, 0], [0, 0, 2]]";
-    for (fuselage, debris, rest, key, says) in [
+    let told = Told { debris: CUBE, ..Told::default() };
+    let late = format!("{BURN}[actuators]\nswitch_off_delay_s = -0.25\n");
+    let misspelt = format!("{BURN}[actuators]\nswitch_on_delay = 1\n");
+    for (told, key, says) in [
         (
-            &*format!("{unit}\nprincipal_moments_kg_m2 = [3, 3, 2]"),
-            CUBE,
-            "",
-            "fuselage.inertia_kg_m2",
+            Told { body: &format!("{unit}\nprincipal_moments_kg_m2 = [3, 3, 2]"), ..told },
+            "body.inertia_kg_m2",
             "left out where principal_moments",
         ),
         (
-            "principal_moments_kg_m2 = [3, 3, 2]\nprincipal_second_moments_kg_m2 = [1, 1, 1]",
-            CUBE,
-            "",
-            "fuselage.principal_second_moments_kg_m2",
+            Told { body: "principal_moments_kg_m2 = [3, 3, 2]\nprincipal_second_moments_kg_m2 = [1, 1, 1]", ..told },
+            "body.principal_second_moments_kg_m2",
             "left out where",
         ),
-        ("principal_axes = [1, 0, 0, 0]", CUBE, "", "fuselage.principal_axes", "no principal moments"),
+        (Told { body: "principal_axes = [1, 0, 0, 0]", ..told }, "body.principal_axes", "no principal moments"),
         (
-            "principal_moments_kg_m2 = [1, 1, 3]",
-            CUBE,
-            "",
-            "fuselage.principal_moments_kg_m2",
+            Told { body: "principal_moments_kg_m2 = [1, 1, 3]", ..told },
+            "body.principal_moments_kg_m2",
             "cannot fail in this way",
         ),
-        ("mass_scale = 0", CUBE, "", "fuselage.mass_scale", "above zero"),
-        ("stretch_log = [0, 0]", CUBE, "", "fuselage.stretch_log", "3 finite numbers"),
-        ("", "mass_kg = 3", "", "debris.inertia_kg_m2", "given with mass_kg"),
+        (Told { body: "mass_scale = 0", ..told }, "body.mass_scale", "above zero"),
+        (Told { body: "stretch_log = [0, 0]", ..told }, "body.stretch_log", "3 finite numbers"),
+        (Told { debris: "mass_kg = 3", ..told }, "debris.inertia_kg_m2", "given with mass_kg"),
         (
-            "",
-            &*format!("mass_kg = 3\nside_m = 0.2\n{unit}"),
-            "",
+            Told { debris: &format!("mass_kg = 3\nside_m = 0.2\n{unit}"), ..told },
             "debris.side_m",
             "left out where the debris is given by mass",
         ),
-        ("", unit, "", "debris.mass_kg", "add mass_kg"),
+        (Told { debris: unit, ..told }, "debris.mass_kg", "add mass_kg"),
         (
-            "",
-            "side_m = 0.2\nsize_m = [1, 1, 1]\ndensity_kg_m3 = 1",
-            "",
+            Told { debris: "side_m = 0.2\nsize_m = [1, 1, 1]\ndensity_kg_m3 = 1", ..told },
             "debris.size_m",
             "left out where side_m is given",
         ),
-        ("", CUBE, ACTUATORS, "actuators", "no [[actuation]]"),
+        (Told { rest: ACTUATORS, ..told }, "actuators", "no [[actuation]]"),
         (
-            "",
-            CUBE,
-            &*format!("{BURN}[actuators]\nthrust_scale = [-1, 1, 1]\n"),
-            "actuators.thrust_scale",
+            Told { thrusters: ["thrust_scale = -1", "", ""], rest: BURN, ..told },
+            "thrusters.p1.thrust_scale",
             "does not pull",
         ),
+        (Told { rest: &late, ..told }, "actuators.switch_off_delay_s", "ends after it starts"),
         (
-            "",
-            CUBE,
-            &*format!("{BURN}[actuators]\nswitch_off_delay_s = -0.25\n"),
-            "actuators.switch_off_delay_s",
-            "ends after it starts",
-        ),
-        (
-            "",
-            CUBE,
-            &*format!("{BURN}[actuators]\nthrust_scales = 1\n"),
-            "actuators.thrust_scales",
+            Told { thrusters: ["", "thrust_scales = 1", ""], rest: BURN, ..told },
+            "thrusters.p2.thrust_scales",
             "did you mean thrust_scale?",
         ),
+        (Told { rest: &misspelt, ..told }, "actuators.switch_on_delay", "did you mean switch_on_delay_s?"),
     ] {
-        let message = plan(fuselage, debris, rest).expect_err(key);
+        let message = plan(told).map(|_| ()).expect_err(key);
         assert!(message.contains(&format!(" {key}")) && message.contains(says), "{key}: {message}");
     }
 }
@@ -141,11 +190,16 @@ fn contradictions_are_refused_by_key_with_a_remedy() {
 #[test]
 fn draws_that_pull_or_turn_inside_out_are_invalid() {
     let disperse = |key: &str, std: f64| {
-        format!("[[disperse]]\nparameter = \"actuators.{key}\"\ndistribution = \"normal\"\nstd = {std:?}\n")
+        format!("[[disperse]]\nparameter = \"{key}\"\ndistribution = \"normal\"\nstd = {std:?}\n")
     };
+    let thrust_scales = ["p1", "p2", "p3"].map(|name| format!("thrusters.{name}.thrust_scale"));
     // P(1 + z < 0) for any of three: 1 - 0.8413^3 = 0.404; P(0.25 + 0.25 z < 0): 0.159
-    for (key, std, share) in [("thrust_scale", 1.0, 0.404), ("switch_off_delay_s", 0.25, 0.159)] {
-        let plan = plan("", CUBE, &format!("{BURN}{}", disperse(key, std))).unwrap_or_else(|e| panic!("{e}"));
+    for (keys, std, share) in
+        [(&thrust_scales[..], 1.0, 0.404), (&["actuators.switch_off_delay_s".to_owned()][..], 0.25, 0.159)]
+    {
+        let dispersed: String = keys.iter().map(|key| disperse(key, std)).collect();
+        let plan = plan(Told { debris: CUBE, rest: &format!("{BURN}{dispersed}"), ..Told::default() })
+            .unwrap_or_else(|e| panic!("{e}"));
         let (mut sampler, mut input) = (plan.dispersions.sampler(), plan.nominal.clone());
         let mut applied = vec![0.0; plan.dispersions.columns().len()];
         const COUNT: u64 = 2000;
@@ -153,13 +207,13 @@ fn draws_that_pull_or_turn_inside_out_are_invalid() {
         for sample in 1..=COUNT {
             sampler.draw(SampleId(sample), &mut input, &mut applied);
             if let Err(errors) = Scene::resolve(&input) {
-                assert_eq!(errors[0].key, format!("actuators.{key}"));
+                assert!(keys.contains(&errors[0].key.to_string()), "{}", errors[0].key);
                 refused += 1;
             }
         }
         let sigma = (share * (1.0 - share) / COUNT as f64).sqrt();
         let found = f64::from(refused) / COUNT as f64;
-        assert!((found - share).abs() < 3.29 * sigma, "{key}: {found} {share}");
+        assert!((found - share).abs() < 3.29 * sigma, "{keys:?}: {found} {share}");
     }
 }
 
@@ -169,15 +223,17 @@ fn a_scaled_actuator_is_a_scaled_command() {
     let kind = Kind { wheels: [true; 2], debris: 0, products: true, offset: true, forced: true };
     let mut scaled = random(kind, 21, 1.0);
     for interval in &mut scaled.actuation {
-        interval.thrust_n = [interval.thrust_n[0] * 2.0, interval.thrust_n[1], 0.0];
+        interval.thrust_n[0] *= 2.0;
+        interval.thrust_n[2] = 0.0;
         interval.torque_n_m[1] *= 0.5;
     }
     let mut errors = random(kind, 21, 1.0);
-    errors.actuators.thrust_scale = [2.0, 1.0, 0.0];
-    errors.actuators.torque_scale = [1.0, 0.5];
+    errors.thrusters[0].thrust_scale = 2.0;
+    errors.thrusters[2].thrust_scale = 0.0;
+    errors.wheels[1].torque_scale = 0.5;
     let mut off = errors.clone();
-    off.actuators.thrust_scale = [0.0; 3];
-    off.actuators.torque_scale = [0.0; 2];
+    off.thrusters.iter_mut().for_each(|thruster| thruster.thrust_scale = 0.0);
+    off.wheels.iter_mut().for_each(|wheel| wheel.torque_scale = 0.0);
     let scene = |input| Scene::resolve(input).expect("a physical scene");
     // the first scene says what is integrated: that nothing works in it must not matter to the others
     let scenes = [scene(&off), scene(&errors), scene(&scaled)];

@@ -234,7 +234,8 @@ fn drift_scales_with_the_tolerance() {
 fn faulty(plan: &Plan, count: u64, fault: impl Fn(&mut Scene)) -> [Vec<f64>; 2] {
     let isa = Isa::best();
     let campaign = Ensemble::new(plan, isa);
-    let names: Vec<&str> = campaign.request().columns().iter().map(|column| column.quantity.name()).collect();
+    let columns = campaign.request().columns();
+    let names: Vec<&str> = columns.iter().map(|column| column.quantity.name()).collect();
     let place = |name: &str| names.iter().position(|known| *known == name).expect("the column is there");
     let propagator: &PropagationSettings = campaign.propagator();
     let (mut engine, mut observer) = (propagator.engine(isa), Observer::new(*campaign.request(), &plan.grid));

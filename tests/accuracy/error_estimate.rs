@@ -10,10 +10,11 @@
 //! Beyond a tenth an error is not linear any more and soon bounded: there it is covered by any estimate above a twentieth.
 
 use crate::support::runs::{adaptive, fixed};
-use crate::support::scenes::{Kind, Uniform, mixed, random, speed_held};
+use crate::support::scenes::{Kind, Uniform, WHEELS, mixed, of_most_wheels, random, set_wheel_rates, speed_held};
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::math::Isa;
 use spindrift::math::symmetric::principal_axes;
+use spindrift::observables::request::wheel_names;
 use spindrift::observables::{Group, Observer, Request};
 use spindrift::ode::Control;
 use spindrift::ode::Integrator;
@@ -81,10 +82,10 @@ fn separatrix(count: u64) -> Family {
         let kind = Kind { wheels: [wheels, k % 4 == 1], debris: 0, products: true, offset: !is_aligned, forced: false };
         let mut input = random(kind, 500 + k, 10.0);
         if is_aligned {
-            input.fuselage.inertia_kg_m2 = Some([[900.0, 0.0, 0.0], [0.0, 1400.0, 0.0], [0.0, 0.0, 1800.0]]);
-            input.fuselage.center_of_mass_m = None;
+            input.body.inertia_kg_m2 = Some([[900.0, 0.0, 0.0], [0.0, 1400.0, 0.0], [0.0, 0.0, 1800.0]]);
+            input.body.center_of_mass_m = None;
         }
-        input.initial.wheel_rates_rad_s = [if wheels { u.between(-30.0, 30.0) } else { 0.0 }, 0.0];
+        set_wheel_rates(&mut input, [if wheels { u.between(-30.0, 30.0) } else { 0.0 }, 0.0]);
         let (moments, axes) = principal_axes(Scene::resolve(&input).expect("physical").mass.inertia_free);
         let mut order = [0, 1, 2];
         order.sort_by(|a, b| moments[*a].total_cmp(&moments[*b]));
@@ -110,8 +111,7 @@ fn nutating(count: u64) -> Family {
         let off = libm::pow(10.0, u.between(-14.0, -1.0));
         let rate = u.between(0.5, 30.0);
         input.initial.angular_velocity_rad_s = [rate * off * u.between(-1.0, 1.0), rate * off, rate];
-        let speeds = u.vector::<2>(300.0);
-        input.initial.wheel_rates_rad_s = std::array::from_fn(|i| if wheels[i] { speeds[i] } else { 0.0 });
+        set_wheel_rates(&mut input, u.vector(300.0));
         Scene::resolve(&input).expect("physical")
     };
     Family::new("nutating", Grid::uniform(10.0, 101), (0..count).map(scene).collect())
@@ -147,16 +147,19 @@ impl Found {
 
 /// Every complete run of a family by `method`; `observed` are the scenes that the observer is given.
 fn found(family: &Family, observed: &[Scene], method: Method, control: Control) -> Vec<Found> {
+    let widest = of_most_wheels(&family.scenes);
     let request = Request {
         groups: [Group::Numerics].into_iter().collect(),
         debris: false,
         actuated: !family.scenes[0].schedule.is_empty(),
         constrained: method == Method::NullSpace,
+        wheels: wheel_names(&WHEELS[..widest.mass.wheels.len()]),
     };
     let blocks = request.fields().union(compared());
-    let plan = PropagationSettings::new(method, control, family.grid.clone(), blocks, &family.scenes[0]);
+    let plan = PropagationSettings::new(method, control, family.grid.clone(), blocks, widest);
     let mut observer = Observer::new(request, &family.grid);
-    let names: Vec<&str> = request.columns().iter().map(|column| column.quantity.name()).collect();
+    let columns = request.columns();
+    let names: Vec<&str> = columns.iter().map(|column| column.quantity.name()).collect();
     assert_eq!(names, ["state_error_estimate", "error_amplification", "ill_conditioned"]);
     let mut row = vec![0.0; names.len()];
     let mut list = vec![None; observed.len()];
@@ -302,7 +305,7 @@ fn what_rounding_decides_is_ill_conditioned() {
     let spin = |axis: usize, off: f64| {
         let kind = Kind { wheels: [false; 2], debris: 0, products: false, offset: false, forced: false };
         let mut input = random(kind, 5, 10.0);
-        input.fuselage.inertia_kg_m2 = Some([[900.0, 0.0, 0.0], [0.0, 1400.0, 0.0], [0.0, 0.0, 1800.0]]);
+        input.body.inertia_kg_m2 = Some([[900.0, 0.0, 0.0], [0.0, 1400.0, 0.0], [0.0, 0.0, 1800.0]]);
         input.initial.angular_velocity_rad_s = std::array::from_fn(|i| if i == axis { 3.0 } else { 3.0 * off });
         Scene::resolve(&input).expect("physical")
     };

@@ -14,6 +14,7 @@ mod environment;
 mod error_estimate;
 mod feedback;
 mod golden_truth;
+mod many_wheels;
 mod null_space;
 mod null_space_matrices;
 mod null_space_motion;

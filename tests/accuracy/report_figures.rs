@@ -7,9 +7,11 @@
 use crate::null_space_matrices::{COMPONENTS, Parameters, SignOfANon, SignedRuns, State};
 use crate::support::golden::Golden;
 use crate::support::runs::{adaptive, propagate};
+use crate::support::scenes::WHEELS;
 use spindrift::dynamics::null_space::kinetic_energies;
 use spindrift::math::Isa;
 use spindrift::math::isa::Work;
+use spindrift::observables::request::wheel_names;
 use spindrift::observables::{Groups, Observer, Request};
 use spindrift::ode::Control;
 use spindrift::ode::{Adaptive, DormandPrinceRestepped, Method as _, integrate};
@@ -31,20 +33,26 @@ fn table_one() -> Scene {
 }
 
 /// Every published series of the null-space kernel's run, and its effort.
-fn figures(control: Control) -> (Vec<(&'static str, Vec<f64>)>, StepStatistics) {
+fn figures(control: Control) -> (Vec<(String, Vec<f64>)>, StepStatistics) {
     let (scene, grid) = (table_one(), Grid::uniform(HORIZON, POINTS));
     let run = propagate(Method::NullSpace, control, &grid, std::slice::from_ref(&scene)).remove(0);
-    let request = Request { groups: Groups::ALL, debris: true, actuated: false, constrained: true };
+    let wheels = wheel_names(&WHEELS);
+    let request = Request { groups: Groups::ALL, debris: true, actuated: false, constrained: true, wheels };
     let mut observer = Observer::new(request, &grid);
     let mut row = vec![0.0; request.columns().len()];
     observer.observe(Isa::best(), &scene, &run.table, &run.outcome, &mut row);
     (
-        observer.series().map(|(series, values)| (series.quantity().unwrap().name(), values.collect())).collect(),
+        observer
+            .series()
+            .map(|(series, values)| {
+                (series.quantity(&wheels).expect("it is shown").name().to_owned(), values.collect())
+            })
+            .collect(),
         run.outcome.effort,
     )
 }
 
-fn series(all: &[(&str, Vec<f64>)], name: &str) -> Vec<f64> {
+fn series(all: &[(String, Vec<f64>)], name: &str) -> Vec<f64> {
     all.iter().find(|(column, _)| *column == name).unwrap_or_else(|| panic!("no series {name}")).1.clone()
 }
 
@@ -94,7 +102,7 @@ fn energy_moves_between_fuselage_and_wheels() {
         high - low
     };
     let total = series(&all, "energy_total_j")[0];
-    let [fuselage, first, second] = ["energy_fuselage_j", "energy_wheel1_j", "energy_wheel2_j"].map(swing);
+    let [fuselage, first, second] = ["energy_body_j", "energy_w1_j", "energy_w2_j"].map(swing);
     println!("swings {fuselage} {first} {second} of {total} J");
     // three kilojoules go from wheel to wheel and back, through the fuselage, which keeps seventy joules of them
     assert!(first.min(second) > 2e-3 * total && fuselage > 5e-5 * total, "{fuselage} {first} {second} of {total}");

@@ -7,6 +7,7 @@ use crate::support::claims::hold;
 use crate::support::golden::Golden;
 use crate::support::plans::{Table, rows, shipped};
 use crate::support::runs::{Run, adaptive, blocks, propagate_on};
+use crate::support::scenes::set_wheel_rates;
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::math::Isa;
 use spindrift::ode::Integrator;
@@ -52,7 +53,8 @@ fn largest_error(what: &str, table: &Table) -> f64 {
 /// A plan for one scene of this file: `auto` at 1e-16.
 fn plan(scene: &SceneInput, duration: f64, points: usize) -> Plan {
     let text = "[campaign]\nname = \"stress\"\nsamples = 1\nseed = 1\nduration_s = 1\n[integrator]\ntolerance = 1e-16\n\
-                [fuselage]\nwall_thickness_m = 0.03\nouter_radius_m = 1\nlength_m = 3\ndensity_kg_m3 = 2700\n[initial]\n\
+                [body]\nmass_kg = 1\ncenter_of_mass_m = [0, 0, 0]\ninertia_kg_m2 = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\n\
+                includes_wheels = false\n[initial]\n\
                 angular_velocity_rad_s = [0, 0, 1]\n";
     let mut plan = Plan::from_text("stress", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
     plan.nominal = scene.clone();
@@ -74,11 +76,10 @@ fn table_one() -> SceneInput {
 /// A body with moments of inertia of its own and no wheels.
 fn body(inertia: [[f64; 3]; 3], omega: [f64; 3]) -> SceneInput {
     let mut input = table_one();
-    input.fuselage.inertia_kg_m2 = Some(inertia);
-    input.wheels = [None, None];
+    input.body.inertia_kg_m2 = Some(inertia);
+    input.wheels.clear();
     input.debris = None;
     input.initial.angular_velocity_rad_s = omega;
-    input.initial.wheel_rates_rad_s = [0.0; 2];
     input
 }
 
@@ -158,14 +159,14 @@ fn any_rate_passes() {
         input.initial.debris_relative_angular_velocity_rad_s = [spin, -0.5 * spin, 0.2 * spin];
         input.debris = Some(DebrisInput::Box { size_m: [0.1, 0.2, 0.4], density_kg_m3: 2700.0 });
         for wheels in [[0.0, 0.0], [3.0 * spin, -spin]] {
-            input.initial.wheel_rates_rad_s = wheels;
+            set_wheel_rates(&mut input, wheels);
             worst =
                 worst.max(error_of(&format!("spin {spin:e} over {horizon:e} s, wheels {wheels:?}"), &input, horizon));
         }
     }
     for wheels in [[1e5, 1e5], [1e5, -1e5], [0.0, 0.0], [1e5, 0.0]] {
         let mut input = table_one();
-        input.initial.wheel_rates_rad_s = wheels;
+        set_wheel_rates(&mut input, wheels);
         worst = worst.max(error_of(&format!("wheels {wheels:?}"), &input, 10.0));
     }
     let mut input = table_one();
@@ -207,15 +208,15 @@ fn any_shape_passes() {
     bodies.push(("flat and turned".to_owned(), body(turned, omega)));
     for ratio in [1e-9, 1e-3, 1e3, 1e9] {
         let mut input = table_one();
-        for wheel in input.wheels.iter_mut().flatten() {
-            wheel.density_kg_m3 = 2700.0 * ratio;
+        for wheel in &mut input.wheels {
+            wheel.density_kg_m3 = Some(2700.0 * ratio);
         }
-        input.initial.wheel_rates_rad_s = [30.0, -10.0];
+        set_wheel_rates(&mut input, [30.0, -10.0]);
         bodies.push((format!("wheels {ratio:e} as dense as the fuselage"), input));
     }
     for offset in [1e-3, 1.0, 1e3] {
         let mut input = table_one();
-        input.fuselage.center_of_mass_m = Some([offset, -0.5 * offset, 1.5 + offset]);
+        input.body.center_of_mass_m = Some([offset, -0.5 * offset, 1.5 + offset]);
         bodies.push((format!("centre of mass {offset:e} m off"), input));
     }
     let mut worst = 0.0_f64;
@@ -233,7 +234,7 @@ fn any_shape_passes() {
 fn any_tolerance_passes() {
     let mut scene = table_one();
     scene.initial.angular_velocity_rad_s = [0.3, -0.2, 1.0];
-    scene.initial.wheel_rates_rad_s = [20.0, -30.0];
+    set_wheel_rates(&mut scene, [20.0, -30.0]);
     for method in [
         Method::Auto,
         Method::Taylor,
@@ -261,13 +262,9 @@ fn short_thrusts_are_not_missed() {
         let mut input = table_one();
         input.debris = None;
         input.initial.angular_velocity_rad_s = [0.0, 0.0, 0.5];
-        input.initial.wheel_rates_rad_s = [0.0; 2];
-        let interval = |start_s: f64, thrust_n: [f64; 3]| ActuationInput {
-            start_s,
-            end_s: start_s + length,
-            thrust_n,
-            torque_n_m: [0.0; 2],
-        };
+        set_wheel_rates(&mut input, [0.0; 2]);
+        let interval =
+            |start_s: f64, thrust_n: [f64; 3]| ActuationInput::idle(start_s, start_s + length).with_thrust(&thrust_n);
         input.actuation = vec![
             interval(0.5, [1e9, 0.0, 0.0]),
             interval(0.5 + length, [2e9, 0.0, 0.0]),
@@ -294,16 +291,21 @@ fn short_thrusts_are_not_missed() {
 fn scaled(input: &SceneInput, length: f64, mass: f64) -> SceneInput {
     let mut input = input.clone();
     let density = mass / (length * length * length);
-    let fuselage = &mut input.fuselage;
+    let times = |number: &mut Option<f64>, factor: f64| *number = number.map(|x| x * factor);
+    let fuselage = &mut input.parts[0];
     for size in [&mut fuselage.wall_thickness_m, &mut fuselage.outer_radius_m, &mut fuselage.length_m] {
-        *size *= length;
+        times(size, length);
     }
-    fuselage.density_kg_m3 *= density;
-    for wheel in input.wheels.iter_mut().flatten() {
-        wheel.radius_m *= length;
-        wheel.length_m *= length;
-        wheel.station_m *= length;
-        wheel.density_kg_m3 *= density;
+    fuselage.position_m = fuselage.position_m.map(|x| x * length);
+    times(&mut fuselage.density_kg_m3, density);
+    for wheel in &mut input.wheels {
+        times(&mut wheel.radius_m, length);
+        times(&mut wheel.length_m, length);
+        wheel.position_m = wheel.position_m.map(|x| x * length);
+        times(&mut wheel.density_kg_m3, density);
+    }
+    for thruster in &mut input.thrusters {
+        thruster.position_m = thruster.position_m.map(|x| x * length);
     }
     let initial = &mut input.initial;
     for vector in [&mut initial.position_m, &mut initial.velocity_m_s] {

@@ -6,11 +6,12 @@
 
 use crate::support::golden::Golden;
 use crate::support::runs::{Run, adaptive, everything, propagate, relative, rotation_distance, up_to_sign};
-use crate::support::scenes::{Kind, misaligned, random, speed_held};
+use crate::support::scenes::{Kind, WHEELS, keep_wheels, misaligned, random, speed_held};
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::ensemble::SingleRun;
 use spindrift::math::Isa;
 use spindrift::math::vector::{difference, norm};
+use spindrift::observables::request::wheel_names;
 use spindrift::observables::{Groups, Observer, Request};
 use spindrift::ode::Integrator;
 use spindrift::propagation::Method;
@@ -39,7 +40,13 @@ fn held_scenes(count: u64, forced: bool) -> Vec<Scene> {
 /// The largest errors of energy balance and angular momentum of a run, as a campaign measures them; `actuated` says whether work
 /// is counted.
 fn balances(scene: &Scene, grid: &Grid, run: &Run, actuated: bool) -> [f64; 2] {
-    let request = Request { groups: Groups::ALL, debris: false, actuated, constrained: false };
+    let request = Request {
+        groups: Groups::ALL,
+        debris: false,
+        actuated,
+        constrained: false,
+        wheels: wheel_names(&WHEELS[..scene.mass.wheels.len()]),
+    };
     let mut observer = Observer::new(request, grid);
     let columns = request.columns();
     let mut row = vec![0.0; columns.len()];
@@ -143,15 +150,14 @@ fn mixing_up_the_two_inertias_is_seen() {
 fn rotor(mode: WheelMode) -> SceneInput {
     let mut input = Golden::load("table1").scene;
     input.debris = None;
-    input.wheels[1] = None;
-    let wheel = input.wheels[0].as_mut().expect("Table II has it");
+    keep_wheels(&mut input, [true, false]);
+    let wheel = &mut input.wheels[0];
     wheel.tilt_rad = [0.0, -std::f64::consts::FRAC_PI_2];
     wheel.mode = mode;
+    wheel.rate_rad_s = 120.0;
     input.initial.velocity_m_s = [0.0; 3];
     input.initial.angular_velocity_rad_s = [0.25, 0.0, 0.0];
-    input.initial.wheel_rates_rad_s = [120.0, 0.0];
-    input.actuation =
-        vec![ActuationInput { start_s: 0.0, end_s: 4.0, thrust_n: [300.0, 200.0, 100.0], torque_n_m: [0.0; 2] }];
+    input.actuation = vec![ActuationInput::idle(0.0, 4.0).with_thrust(&[300.0, 200.0, 100.0])];
     input
 }
 
@@ -167,7 +173,7 @@ fn a_torque_about_the_wheels_axis_has_a_closed_form() {
         [(Method::Taylor, TAYLOR), (Method::Gyrostat(Integrator::Dop853), 1e-13), (Method::NullSpace, 1e-13)]
     {
         let mut rates = [0.0; 2];
-        for mode in WheelMode::ALL {
+        for mode in [WheelMode::Free, WheelMode::SpeedHeld] {
             let scene = Scene::resolve(&rotor(mode)).expect("a physical scene");
             let (wheel, locked) = (scene.mass.wheels[0], scene.mass.inertia[0][0]);
             let held = mode == WheelMode::SpeedHeld;
@@ -195,12 +201,12 @@ fn a_torque_about_the_wheels_axis_has_a_closed_form() {
 fn an_axial_rotor_precesses_as_the_closed_form_says() {
     let mut input = Golden::load("table1").scene;
     input.debris = None;
-    input.wheels[0] = None;
+    keep_wheels(&mut input, [false, true]);
     input = speed_held(input, [false, true]);
     input.initial.angular_velocity_rad_s = [0.3, 0.4, 1.5];
     let scene = Scene::resolve(&input).expect("a physical scene");
-    let (a, c, wheel) = (scene.mass.inertia[0][0], scene.mass.inertia[2][2], scene.mass.wheels[1].axial);
-    let rate = ((c - a) * 1.5 + wheel * scene.initial.wheel_rates[1]) / a;
+    let (a, c, wheel) = (scene.mass.inertia[0][0], scene.mass.inertia[2][2], scene.mass.wheels[0].axial);
+    let rate = ((c - a) * 1.5 + wheel * scene.initial.wheel_rates[0]) / a;
     let grid = Grid::uniform(200.0, 41);
     for method in [Method::Auto, Method::Taylor] {
         let run = propagate(method, adaptive(TAYLOR), &grid, std::slice::from_ref(&scene)).remove(0);
@@ -210,7 +216,7 @@ fn an_axial_rotor_precesses_as_the_closed_form_says() {
             let error = norm(difference(run.table.at(StateField::Rate, point), expected));
             // an ulp of the rate of precession, times the time; measured: 0.3 of that
             assert!(error < 2.0 * f64::EPSILON * (1.0 + rate.abs() * time), "{}: {error:e} at {time}", method.name());
-            let work = wheel * scene.initial.wheel_rates[1] * (run.table.column(StateField::Rate, 2)[point] - 1.5);
+            let work = wheel * scene.initial.wheel_rates[0] * (run.table.column(StateField::Rate, 2)[point] - 1.5);
             assert_eq!(run.table.column(StateField::Work, 1)[point], work);
         }
     }
@@ -271,17 +277,18 @@ fn periods_carry_held_wheels_too() {
     assert!(folded >= 4, "most of these have a period within the horizon: {folded}");
 }
 
-const FILE: &str = "[campaign]\nname = \"held\"\nsamples = 2\nseed = 1\nduration_s = 1.0\n[fuselage]\n\
-    wall_thickness_m = 0.03\nouter_radius_m = 1\nlength_m = 3\ndensity_kg_m3 = 2700\n[wheel1]\nradius_m = 0.25\n\
-    length_m = 0.1\nstation_m = 1.0\ndensity_kg_m3 = 2700\nwheel_mode = \"speed_held\"\ntilt_rad = [0.01, 0.02]\n\
-    offset_m = [0.0, 0.1]\n[initial]\nangular_velocity_rad_s = [0.1, 0.2, 1.0]\nwheel_rates_rad_s = [100, 0]\n";
+const FILE: &str = "[campaign]\nname = \"held\"\nsamples = 2\nseed = 1\nduration_s = 1.0\n[[body.parts]]\n\
+    name = \"fuselage\"\nshape = \"hollow_cylinder\"\nwall_thickness_m = 0.03\nouter_radius_m = 1\nlength_m = 3\n\
+    density_kg_m3 = 2700\nposition_m = [0, 0, 1.5]\n[[wheels]]\nname = \"w1\"\naxis = [0, 1, 0]\nradius_m = 0.25\n\
+    length_m = 0.1\nposition_m = [0.0, 0.1, 1.0]\ndensity_kg_m3 = 2700\nmode = \"speed_held\"\ntilt_rad = [0.01, 0.02]\n\
+    rate_rad_s = 100\n[initial]\nangular_velocity_rad_s = [0.1, 0.2, 1.0]\n";
 
 #[test]
 fn a_campaign_says_how_a_wheel_runs_and_gets_the_motors_work() {
     let plan = |text: &str| Plan::from_text("held.toml", text, Overrides::default());
     let held = plan(FILE).expect("a legal campaign");
-    let wheel = held.nominal.wheels[0].expect("the file has it");
-    assert_eq!((wheel.mode, wheel.tilt_rad, wheel.offset_m), (WheelMode::SpeedHeld, [0.01, 0.02], [0.0, 0.1]));
+    let wheel = held.nominal.wheels[0];
+    assert_eq!((wheel.mode, wheel.tilt_rad, wheel.position_m), (WheelMode::SpeedHeld, [0.01, 0.02], [0.0, 0.1, 1.0]));
     assert_eq!(plan(&held.text()).expect("a plan is a campaign").nominal, held.nominal);
     let run = SingleRun::new(&held, SampleId(0), held.grid.clone(), Isa::best()).expect("a physical scene");
     let value = |name: &str| {
@@ -293,9 +300,8 @@ fn a_campaign_says_how_a_wheel_runs_and_gets_the_motors_work() {
     let free = plan(&FILE.replace("speed_held", "free")).expect("a legal campaign");
     assert!(!free.nominal.is_actuated());
     let wrong = plan(&FILE.replace("speed_held", "held")).expect_err("no such mode").to_string();
-    assert!(wrong.contains("wheel1.wheel_mode") && wrong.contains("free, speed_held"), "{wrong}");
-    let pushed = format!("{FILE}[[actuation]]\nstart_s = 0\nend_s = 1\nthrust_n = [0, 0, 0]\ntorque_n_m = [1, 0]\n")
-        .replace("[wheel1]", "thruster_offset_m = 0.5\n[wheel1]");
+    assert!(wrong.contains("wheels.w1.mode") && wrong.contains("free, speed_held, locked"), "{wrong}");
+    let pushed = format!("{FILE}[[actuation]]\nstart_s = 0\nend_s = 1\ntorque_n_m = {{ w1 = 1 }}\n");
     let wrong = plan(&pushed).expect_err("a torque on a held wheel").to_string();
-    assert!(wrong.contains("actuation[0].torque_n_m") && wrong.contains("wheel_mode"), "{wrong}");
+    assert!(wrong.contains("actuation[0].torque_n_m") && wrong.contains("mode"), "{wrong}");
 }

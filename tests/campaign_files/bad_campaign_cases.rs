@@ -19,13 +19,16 @@ points = 11
 const REST: &str = r#"[initial]
 attitude = [1, 0, 0, 0]
 angular_velocity_rad_s = [0, 3, 31]
-wheel_rates_rad_s = [314, 0]
+[[thrusters]]
+name = "p1"
+position_m = [0, 0, 0]
+direction = [0, 0, 1]
 [[actuation]]
 start_s = 0.0
 end_s = 3.0
-thrust_n = [100, 0, 0]
+thrust_n = { p1 = 100 }
 [[disperse]]
-parameter = "fuselage.density_kg_m3"
+parameter = "body.parts.fuselage.density_kg_m3"
 distribution = "truncated_normal"
 relative_std = 0.02
 sigmas = 3
@@ -88,7 +91,7 @@ pub const CASES: &[(&str, &str, &str)] = &[
     (
         "duration_s = 10.0",
         "duration_s = \"10\"",
-        "bad.toml:5: campaign.duration_s = \"10\": must be a number > 0; write it without quotes",
+        "bad.toml:5: campaign.duration_s = \"10\": must be a finite number, or one with a unit (s, ms, min, h, day); write it without quotes, or add the unit",
     ),
     // integrator
     (
@@ -143,191 +146,191 @@ pub const CASES: &[(&str, &str, &str)] = &[
     (
         "[[actuation]]",
         "[actuation]",
-        "bad.toml:29: actuation = [actuation]: must be a list of tables; write [[actuation]] with two brackets",
+        "bad.toml:37: actuation = [actuation]: must be a list of tables; write [[actuation]] with two brackets",
     ),
     // scene
     (
         "wall_thickness_m = 0.03",
         "wall_thickness_m = 1.2",
-        "bad.toml:12: fuselage.wall_thickness_m = 1.2: must be below fuselage.outer_radius_m = 1.0; make the wall thinner or the radius larger",
+        "bad.toml:14: body.parts.fuselage.wall_thickness_m = 1.2: must be below outer_radius_m = 1.0 of that part; make the wall thinner or the radius larger",
     ),
     (
         "wall_thickness_m = 0.03",
         "wall_thickness_m = \"thin\"",
-        "bad.toml:12: fuselage.wall_thickness_m = \"thin\": must be a finite number; write a number",
+        "bad.toml:14: body.parts.fuselage.wall_thickness_m = \"thin\": must be a finite number, or one with a unit (m, mm, cm, km); write a number, or a number with its unit in quotes, such as \"5 mm\"",
     ),
     (
         "length_m = 3.0\n",
         "",
-        "bad.toml:11: fuselage.length_m is missing: must be a finite number; add length_m = 3.0 to [fuselage]",
+        "bad.toml:11: body.parts.fuselage.length_m is missing: must be given; add length_m = 1.0 to [body.parts.fuselage]",
     ),
     (
         "length_m = 3.0",
         "length_m = nan",
-        "bad.toml:14: fuselage.length_m = nan: must be a finite number; write a number such as 1.5",
+        "bad.toml:16: body.parts.fuselage.length_m = nan: must be a finite number; write a number such as 1.5",
     ),
     (
         "density_kg_m3 = 2700.0",
         "density_kg_m3 = -1",
-        "bad.toml:15: fuselage.density_kg_m3 = -1.0: must be above zero; write a positive number",
+        "bad.toml:17: body.parts.fuselage.density_kg_m3 = -1.0: must be above zero; write a positive number",
     ),
     (
-        "thruster_offset_m = 0.5\n",
+        "position_m = [0, 0, 0]\n",
         "",
-        "bad.toml:11: fuselage.thruster_offset_m is missing: must be a finite number; add thruster_offset_m = 0.5 to [fuselage]",
+        "bad.toml:33: thrusters.p1.position_m is missing: must be an array of 3 finite numbers; add position_m = [0, 0, 0] to [thrusters.p1]",
     ),
     (
-        "thruster_offset_m = 0.5",
-        "thruster_offset_m = 0.5\ninertia_kg_m2 = [[1, 0, 0], [0, 1, 0], [0, 0, 3]]",
-        "bad.toml:17: fuselage.inertia_kg_m2 = ",
+        "[[body.parts]]",
+        "[body]\ninertia_kg_m2 = [[1, 0, 0], [0, 1, 0], [0, 0, 3]]\n[[body.parts]]",
+        "bad.toml:12: body.inertia_kg_m2 = ",
     ),
     (
-        "thruster_offset_m = 0.5",
-        "thruster_offset_m = 0.5\ninertia_kg_m2 = [1, 1, 2]",
-        "bad.toml:17: fuselage.inertia_kg_m2 = [1, 1, 2]: must be three rows of three finite numbers; write it like [[3, 0, 0], [0, 3, 0], [0, 0, 2]]",
+        "[[body.parts]]",
+        "[body]\ninertia_kg_m2 = [1, 1, 2]\n[[body.parts]]",
+        "bad.toml:12: body.inertia_kg_m2 = [1, 1, 2]: must be three rows of three finite numbers; write it like [[3, 0, 0], [0, 3, 0], [0, 0, 2]]",
     ),
     (
         "radius_m = 0.25",
         "radius_m = 0",
-        "bad.toml:18: wheel1.radius_m = 0.0: must be above zero; write a positive number",
+        "bad.toml:23: wheels.w1.radius_m = 0.0: must be above zero; write a positive number",
     ),
     (
         "radius_m = 0.25",
         "radius = 0.25\nradius_m = 0.25",
-        "bad.toml:18: wheel1.radius = 0.25: must be a key of [wheel1] (radius_m, length_m, station_m, density_kg_m3, offset_m, tilt_rad, wheel_mode); did you mean radius_m?",
+        "bad.toml:23: wheels.w1.radius = 0.25: must be a key of [wheels.w1] (name, axis, position_m, radius_m, length_m, density_kg_m3, mass_kg, axial_inertia_kg_m2, transverse_inertia_kg_m2, tilt_rad, rate_rad_s, angle_rad, torque_scale, torque_bias_n_m, mode); did you mean radius_m?",
     ),
     (
         "side_m = 0.2",
         "side_m = 0.2\nsize_m = [1, 1, 1]",
-        "bad.toml:24: debris.size_m = [1, 1, 1]: must be left out where side_m is given; delete side_m or size_m",
+        "bad.toml:29: debris.size_m = [1, 1, 1]: must be left out where side_m is given; delete side_m or size_m",
     ),
     (
         "side_m = 0.2",
         "size_m = [1, 1]",
-        "bad.toml:23: debris.size_m = [1, 1]: must be an array of 3 finite numbers; write it like [0, 0, 0]",
+        "bad.toml:28: debris.size_m = [1, 1]: must be an array of 3 finite numbers; write it like [0, 0, 0]",
     ),
     // initial
     (
         "attitude = [1, 0, 0, 0]",
         "attitude = [1, 1, 0, 0]",
-        "bad.toml:26: initial.attitude = [1.0, 1.0, 0.0, 0.0]: must be a quaternion of norm 1",
+        "bad.toml:31: initial.attitude = [1.0, 1.0, 0.0, 0.0]: must be a quaternion of norm 1",
     ),
     (
         "angular_velocity_rad_s = [0, 3, 31]\n",
         "",
-        "bad.toml:25: initial.angular_velocity_rad_s is missing: must be an array of 3 finite numbers; add angular_velocity_rad_s = [0.0, 0.0, 1.0] to [initial]",
+        "bad.toml:30: initial.angular_velocity_rad_s is missing: must be an array of 3 finite numbers; add angular_velocity_rad_s = [0.0, 0.0, 1.0] to [initial]",
     ),
     (
         "angular_velocity_rad_s = [0, 3, 31]",
         "angular_velocity_rad_s = [0, 3, inf]",
-        "bad.toml:27: initial.angular_velocity_rad_s = [0, 3, inf]: must be an array of 3 finite numbers; write it like [0, 0, 0]",
+        "bad.toml:32: initial.angular_velocity_rad_s = [0, 3, inf]: must be an array of 3 finite numbers; write it like [0, 0, 0]",
     ),
     (
-        "wheel_rates_rad_s = [314, 0]",
-        "wheel_rates_rad_s = [314, 157]",
-        "bad.toml:28: initial.wheel_rates_rad_s = [314, 157]: must be 0 for wheel 2, which this spacecraft does not have; write 0 there, or add a [wheel2] table",
+        "rate_rad_s = 314.1592653589793",
+        "rate_rad_s = 314.1592653589793\nmode = \"locked\"",
+        "bad.toml:26: wheels.w1.rate_rad_s = 314.1592653589793: must be left out (or 0) where mode is \"locked\"; delete it, or choose another mode",
     ),
     (
         "[debris]\nside_m = 0.2\ndensity_kg_m3 = 2700.0\n[initial]",
         "[initial]\ndebris_position_m = [0, 0, 0]",
-        "bad.toml:23: initial.debris_position_m = [0, 0, 0]: must be left out where there is no debris; delete this line, or add a [debris] table",
+        "bad.toml:28: initial.debris_position_m = [0, 0, 0]: must be left out where there is no debris; delete this line, or add a [debris] table",
     ),
     // actuation
     (
         "end_s = 3.0",
         "end_s = 0.0",
-        "bad.toml:31: actuation[0].end_s = 0.0: must be later than its start_s = 0.0; end the arc after its start, or leave it out",
+        "bad.toml:39: actuation[0].end_s = 0.0: must be later than its start_s = 0.0; end the arc after its start, or leave it out",
     ),
     (
-        "thrust_n = [100, 0, 0]",
-        "thrust_n = [-100, 0, 0]",
-        "bad.toml:32: actuation[0].thrust_n = [-100.0, 0.0, 0.0]: must be zero or above, each: a thruster does not pull; use the opposite thruster",
+        "thrust_n = { p1 = 100 }",
+        "thrust_n = { p1 = -100 }",
+        "bad.toml:40: actuation[0].thrust_n.p1 = -100.0: must be zero or above: a thruster does not pull; use the opposite thruster",
     ),
     (
-        "thrust_n = [100, 0, 0]",
-        "torque_n_m = [0, 1]",
-        "bad.toml:32: actuation[0].torque_n_m = [0.0, 1.0]: must be zero for wheel2",
+        "thrust_n = { p1 = 100 }",
+        "torque_n_m = { w2 = 1 }",
+        "bad.toml:40: actuation[0].torque_n_m.w2 = 1: must be a key of [actuation[0].torque_n_m] (w1); did you mean w1?",
     ),
     (
-        "thrust_n = [100, 0, 0]",
-        "thrust_n = [100, 0, 0]\n[[actuation]]\nstart_s = 2.0\nend_s = 4.0",
-        "bad.toml:34: actuation[1].start_s = 2.0: must be no earlier than actuation[0].end_s = 3.0; put the arcs in order, not overlapping",
+        "thrust_n = { p1 = 100 }",
+        "thrust_n = { p1 = 100 }\n[[actuation]]\nstart_s = 2.0\nend_s = 4.0",
+        "bad.toml:42: actuation[1].start_s = 2.0: must be no earlier than actuation[0].end_s = 3.0; put the arcs in order, not overlapping",
     ),
     // disperse
     (
-        "\"fuselage.density_kg_m3\"",
-        "\"fuselage.density\"",
-        "bad.toml:34: disperse[0].parameter = \"fuselage.density\": must be a numeric key of scene or initial state, as a whole or with a component ([0] or .x); did you mean \"fuselage.density_kg_m3\"?",
+        "\"body.parts.fuselage.density_kg_m3\"",
+        "\"body.parts.fuselage.density\"",
+        "bad.toml:42: disperse[0].parameter = \"body.parts.fuselage.density\": must be a numeric key of scene or initial state, as a whole or with a component ([0] or .x); did you mean \"body.parts.fuselage.density_kg_m3\"?",
     ),
     (
-        "\"fuselage.density_kg_m3\"",
-        "\"fuselage.mass_kg\"",
-        "bad.toml:34: disperse[0].parameter = \"fuselage.mass_kg\": must be a key that the scene has; give fuselage.mass_kg a nominal value, or disperse the geometry that it would come from",
+        "\"body.parts.fuselage.density_kg_m3\"",
+        "\"body.mass_kg\"",
+        "bad.toml:42: disperse[0].parameter = \"body.mass_kg\": must be a key that the scene has; give body.mass_kg a nominal value, or disperse the parts that it would come from",
     ),
     (
-        "\"fuselage.density_kg_m3\"",
-        "\"wheel2.radius_m\"",
-        "bad.toml:34: disperse[0].parameter = \"wheel2.radius_m\": must be a key that the scene has; add a [wheel2] table",
+        "\"body.parts.fuselage.density_kg_m3\"",
+        "\"wheels.w2.radius_m\"",
+        "bad.toml:42: disperse[0].parameter = \"wheels.w2.radius_m\": must be a numeric key of scene or initial state, as a whole or with a component ([0] or .x); did you mean \"wheels.w1.radius_m\"?",
     ),
     (
-        "\"fuselage.density_kg_m3\"",
+        "\"body.parts.fuselage.density_kg_m3\"",
         "\"debris.size_m\"",
-        "bad.toml:34: disperse[0].parameter = \"debris.size_m.x\": must be a key that the scene has; describe the debris by debris.size_m",
+        "bad.toml:42: disperse[0].parameter = \"debris.size_m.x\": must be a key that the scene has; describe the debris by debris.size_m",
     ),
     (
         "\"truncated_normal\"",
         "\"gaussian\"",
-        "bad.toml:35: disperse[0].distribution = \"gaussian\": must be one of normal, truncated_normal, uniform, log_normal, log_uniform, triangular, beta, pert, choice, bernoulli, empirical, offset, rayleigh, exponential, gamma, weibull, student_t, uniform_attitude, uniform_direction, cone, von_mises_fisher, attitude_error, about_axis; choose one of these",
+        "bad.toml:43: disperse[0].distribution = \"gaussian\": must be one of normal, truncated_normal, uniform, log_normal, log_uniform, triangular, beta, pert, choice, bernoulli, empirical, offset, rayleigh, exponential, gamma, weibull, student_t, uniform_attitude, uniform_direction, cone, von_mises_fisher, attitude_error, about_axis; choose one of these",
     ),
     (
         "\"truncated_normal\"",
         "\"normal\"",
-        "bad.toml:37: disperse[0].sigmas = 3: must be a key of [disperse[0]] (parameter, distribution, std, relative_std); delete it",
+        "bad.toml:45: disperse[0].sigmas = 3: must be a key of [disperse[0]] (parameter, distribution, std, relative_std); delete it",
     ),
     (
         "relative_std = 0.02",
         "relative_std = -0.02",
-        "bad.toml:36: disperse[0].relative_std = -0.02: must be >= 0; drop the minus sign",
+        "bad.toml:44: disperse[0].relative_std = -0.02: must be >= 0; drop the minus sign",
     ),
     (
         "relative_std = 0.02",
-        "relative_std = \"2%\"",
-        "bad.toml:36: disperse[0].relative_std = \"2%\": must be a finite number, or an array of one for each component; write a number",
+        "relative_std = \"2 deg\"",
+        "bad.toml:44: disperse[0].relative_std = \"2 deg\": must be a finite number, or one with a unit (%); deg is a unit of other quantities (rad); check key and unit",
     ),
     (
         "relative_std = 0.02",
         "relative_std = [0.1, 0.2]",
-        "bad.toml:36: disperse[0].relative_std = [0.1, 0.2]: must be 1 number; give one for each component",
+        "bad.toml:44: disperse[0].relative_std = [0.1, 0.2]: must be 1 number; give one for each component",
     ),
     (
         "relative_std = 0.02",
         "std = 1\nrelative_std = 0.02",
-        "bad.toml:37: disperse[0].relative_std = 0.02: must be the only one of std, relative_std; delete all but one of them",
+        "bad.toml:45: disperse[0].relative_std = 0.02: must be the only one of std, relative_std; delete all but one of them",
     ),
     (
         "relative_std = 0.02\n",
         "",
-        "bad.toml:33: disperse[0].std is missing: must be given (std or relative_std); add std = 0.1 to this table",
+        "bad.toml:41: disperse[0].std is missing: must be given (std or relative_std); add std = 0.1 to this table",
     ),
     (
-        "\"fuselage.density_kg_m3\"",
+        "\"body.parts.fuselage.density_kg_m3\"",
         "\"initial.position_m\"",
-        "bad.toml:36: disperse[0].relative_std = 0.02: must be relative to a nominal value other than 0; use std in the parameter's unit",
+        "bad.toml:44: disperse[0].relative_std = 0.02: must be relative to a nominal value other than 0; use std in the parameter's unit",
     ),
     (
         "sigmas = 3",
         "sigmas = 0",
-        "bad.toml:37: disperse[0].sigmas = 0.0: must be > 0; 3 cuts off 0.27% of the normal distribution",
+        "bad.toml:45: disperse[0].sigmas = 0.0: must be > 0; 3 cuts off 0.27% of the normal distribution",
     ),
     (
         "sigmas = 3",
         "sigmas = 3\nupper = 3000",
-        "bad.toml:38: disperse[0].upper = 3000: must be the only one of sigmas, upper; delete all but one of them",
+        "bad.toml:46: disperse[0].upper = 3000: must be the only one of sigmas, upper; delete all but one of them",
     ),
     (
         "sigmas = 3",
         "lower = 3000\nupper = 2000",
-        "bad.toml:37: disperse[0].lower = 3000.0: must be < upper (2000.0); swap lower and upper",
+        "bad.toml:45: disperse[0].lower = 3000.0: must be < upper (2000.0); swap lower and upper",
     ),
     (
         "sigmas = 3",
@@ -337,22 +340,22 @@ pub const CASES: &[(&str, &str, &str)] = &[
     (
         "\"truncated_normal\"\nrelative_std = 0.02\nsigmas = 3",
         "\"uniform\"\nmin = 3000\nmax = 2000",
-        "bad.toml:36: disperse[0].min = 3000.0: must be < max (2000.0); swap min and max",
+        "bad.toml:44: disperse[0].min = 3000.0: must be < max (2000.0); swap min and max",
     ),
     (
         "\"truncated_normal\"\nrelative_std = 0.02\nsigmas = 3",
         "\"uniform\"\nmax = 2000",
-        "bad.toml:33: disperse[0].min is missing: must be given together with max; add min = 0.0 to this table",
+        "bad.toml:41: disperse[0].min is missing: must be given together with max; add min = 0.0 to this table",
     ),
     (
         "\"truncated_normal\"\nrelative_std = 0.02\nsigmas = 3",
         "\"uniform\"\nhalf_width = -1",
-        "bad.toml:36: disperse[0].half_width = -1.0: must be >= 0; drop the minus sign",
+        "bad.toml:44: disperse[0].half_width = -1.0: must be >= 0; drop the minus sign",
     ),
     (
         "sigmas = 3\n",
-        "sigmas = 3\n[[disperse]]\nparameter = \"fuselage.density_kg_m3\"\ndistribution = \"normal\"\nstd = 1\n",
-        "bad.toml:39: disperse[1].parameter = \"fuselage.density_kg_m3\": must be dispersed once; delete one of the two [[disperse]] tables, or address different components",
+        "sigmas = 3\n[[disperse]]\nparameter = \"body.parts.fuselage.density_kg_m3\"\ndistribution = \"normal\"\nstd = 1\n",
+        "bad.toml:47: disperse[1].parameter = \"body.parts.fuselage.density_kg_m3\": must be dispersed once; delete one of the two [[disperse]] tables, or address different components",
     ),
     // TOML itself
     ("seed = 1\n", "seed = = 1\n", "bad.toml:4: line = "),

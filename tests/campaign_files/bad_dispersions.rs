@@ -7,42 +7,44 @@ use spindrift::campaign::{Overrides, Plan};
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// A valid campaign of 20 lines; a case follows from line 21 on.
+/// A valid campaign of 22 lines; a case follows from line 23 on.
 const START: &str = r#"[campaign]
 name = "bad"
 samples = 10
 seed = 1
 duration_s = 10.0
-[fuselage]
-wall_thickness_m = 0.03
+[[body.parts]]
+name = "fuselage"
+shape = "hollow_cylinder"
 outer_radius_m = 1.0
+wall_thickness_m = 0.03
 length_m = 3.0
 density_kg_m3 = 2700.0
-[wheel1]
+position_m = [0, 0, 1.5]
+[[wheels]]
+name = "w1"
+axis = [0, 1, 0]
+position_m = [0, 0, 1]
 radius_m = 0.25
 length_m = 0.1
-station_m = 1.0
 density_kg_m3 = 2700.0
 [initial]
 angular_velocity_rad_s = [0, 3, 31]
-
-
-
 "#;
 
 /// The density of the fuselage with a law.
 macro_rules! density {
     ($law:literal) => {
-        concat!("[[disperse]]\nparameter = \"fuselage.density_kg_m3\"\n", $law, "\n")
+        concat!("[[disperse]]\nparameter = \"body.parts.fuselage.density_kg_m3\"\n", $law, "\n")
     };
 }
 
-/// Two distributions that can be correlated, three components in all, on lines 21 to 28.
+/// Two distributions that can be correlated, three components in all, on lines 23 to 30.
 macro_rules! pair {
     ($rest:literal) => {
         concat!(
-            "[[disperse]]\nparameter = \"fuselage.density_kg_m3\"\ndistribution = \"uniform\"\nhalf_width = 10\n",
-            "[[disperse]]\nparameter = \"wheel1.radius_m\"\ndistribution = \"normal\"\nstd = 0.01\n",
+            "[[disperse]]\nparameter = \"body.parts.fuselage.density_kg_m3\"\ndistribution = \"uniform\"\nhalf_width = 10\n",
+            "[[disperse]]\nparameter = \"wheels.w1.radius_m\"\ndistribution = \"normal\"\nstd = 0.01\n",
             $rest,
             "\n"
         )
@@ -51,19 +53,19 @@ macro_rules! pair {
 
 const CASES: &[&str] = &[
     // the table itself
-    "[disperse]\nparameter = \"fuselage.density_kg_m3\"\n",
+    "[disperse]\nparameter = \"body.parts.fuselage.density_kg_m3\"\n",
     "[[disperse]]\ndistribution = \"normal\"\nstd = 1\n",
     "[[disperse]]\nparameter = 3\ndistribution = \"normal\"\nstd = 1\n",
-    "[[disperse]]\nparameter = \"fuselage.densty_kg_m3\"\ndistribution = \"normal\"\nstd = 1\n",
+    "[[disperse]]\nparameter = \"body.parts.fuselage.densty_kg_m3\"\ndistribution = \"normal\"\nstd = 1\n",
     "[[disperse]]\nparameter = \"initial.angular_velocity_rad_s[3]\"\ndistribution = \"normal\"\nstd = 1\n",
-    "[[disperse]]\nparameter = \"wheel2.radius_m\"\ndistribution = \"normal\"\nstd = 1\n",
-    "[[disperse]]\nparameter = \"initial.wheel_rates_rad_s\"\ndistribution = \"normal\"\nstd = 1\n",
-    "[[disperse]]\nparameter = \"fuselage.mass_kg\"\ndistribution = \"normal\"\nstd = 1\n",
+    "[[disperse]]\nparameter = \"wheels.w2.radius_m\"\ndistribution = \"normal\"\nstd = 1\n",
+    "[[disperse]]\nparameter = \"wheels.w1.rate_rad\"\ndistribution = \"normal\"\nstd = 1\n",
+    "[[disperse]]\nparameter = \"body.mass_kg\"\ndistribution = \"normal\"\nstd = 1\n",
     density!("std = 1"),
     density!("distribution = \"Normal\"\nstd = 1"),
     density!("distribution = \"normal\"\nstd = 1\nsigma = 1"),
     density!(
-        "distribution = \"normal\"\nstd = 1\n[[disperse]]\nparameter = \"fuselage.density_kg_m3\"\ndistribution = \"uniform\"\nhalf_width = 1"
+        "distribution = \"normal\"\nstd = 1\n[[disperse]]\nparameter = \"body.parts.fuselage.density_kg_m3\"\ndistribution = \"uniform\"\nhalf_width = 1"
     ),
     "[[disperse]]\nparameter = \"initial.angular_velocity_rad_s\"\ndistribution = \"normal\"\nstd = 1\n[[disperse]]\nparameter = \"initial.angular_velocity_rad_s.y\"\ndistribution = \"normal\"\nstd = 1\n",
     // normal and truncated normal
@@ -138,87 +140,95 @@ const CASES: &[&str] = &[
     concat!("[design]\nkind = \"saltelli\"\n", pair!("")),
     "[design]\nkind = \"table\"\n",
     "[design]\nkind = \"table\"\nfile = \"data.csv\"\n",
-    "[design]\nkind = \"table\"\nfile = \"data.csv\"\nparameters = [\"wheel1.radius_m\", \"wheel1.length_m\"]\n",
-    "[design]\nkind = \"table\"\nfile = \"data.csv\"\nparameters = [\"wheel2.radius_m\"]\n",
-    concat!("[design]\nkind = \"table\"\nfile = \"data.csv\"\nparameters = [\"wheel1.radius_m\"]\n", pair!("")),
+    "[design]\nkind = \"table\"\nfile = \"data.csv\"\nparameters = [\"wheels.w1.radius_m\", \"wheels.w1.length_m\"]\n",
+    "[design]\nkind = \"table\"\nfile = \"data.csv\"\nparameters = [\"wheels.w2.radius_m\"]\n",
+    concat!("[design]\nkind = \"table\"\nfile = \"data.csv\"\nparameters = [\"wheels.w1.radius_m\"]\n", pair!("")),
     // distributions with a shape; ends beyond the largest number
-    "[[disperse]]\nparameter = \"wheel1.radius_m\"\ndistribution = \"gamma\"\nshape = 0.001\nscale = 1\n",
-    "[[disperse]]\nparameter = \"wheel1.radius_m\"\ndistribution = \"weibull\"\nshape = 2\nscale = 0\n",
-    "[[disperse]]\nparameter = \"wheel1.radius_m\"\ndistribution = \"exponential\"\nmin = 0.1\n",
-    "[[disperse]]\nparameter = \"wheel1.radius_m\"\ndistribution = \"student_t\"\ndegrees_of_freedom = 0.1\nscale = 1\n",
-    "[[disperse]]\nparameter = \"wheel1.radius_m\"\ndistribution = \"student_t\"\ndegrees_of_freedom = 3\n",
-    "[[disperse]]\nparameter = \"fuselage.density_kg_m3\"\ndistribution = \"log_uniform\"\nfactor = 1e308\n",
-    "[[disperse]]\nparameter = \"fuselage.density_kg_m3\"\ndistribution = \"uniform\"\nrelative_half_width = 1e307\n",
+    "[[disperse]]\nparameter = \"wheels.w1.radius_m\"\ndistribution = \"gamma\"\nshape = 0.001\nscale = 1\n",
+    "[[disperse]]\nparameter = \"wheels.w1.radius_m\"\ndistribution = \"weibull\"\nshape = 2\nscale = 0\n",
+    "[[disperse]]\nparameter = \"wheels.w1.radius_m\"\ndistribution = \"exponential\"\nmin = 0.1\n",
+    "[[disperse]]\nparameter = \"wheels.w1.radius_m\"\ndistribution = \"student_t\"\ndegrees_of_freedom = 0.1\nscale = 1\n",
+    "[[disperse]]\nparameter = \"wheels.w1.radius_m\"\ndistribution = \"student_t\"\ndegrees_of_freedom = 3\n",
+    "[[disperse]]\nparameter = \"body.parts.fuselage.density_kg_m3\"\ndistribution = \"log_uniform\"\nfactor = 1e308\n",
+    "[[disperse]]\nparameter = \"body.parts.fuselage.density_kg_m3\"\ndistribution = \"uniform\"\nrelative_half_width = 1e307\n",
     // correlation
     pair!("[[correlate]]\ncorrelation = [[1, 0], [0, 1]]"),
-    pair!("[[correlate]]\nparameters = [\"fuselage.density_kg_m3\", \"wheel1.radius_m\"]"),
+    pair!("[[correlate]]\nparameters = [\"body.parts.fuselage.density_kg_m3\", \"wheels.w1.radius_m\"]"),
     pair!(
-        "[[correlate]]\nparameters = [\"fuselage.density_kg_m3\", \"wheel1.length_m\"]\ncorrelation = [[1, 0], [0, 1]]"
+        "[[correlate]]\nparameters = [\"body.parts.fuselage.density_kg_m3\", \"wheels.w1.length_m\"]\ncorrelation = [[1, 0], [0, 1]]"
     ),
     pair!(
-        "[[correlate]]\nparameters = [\"fuselage.density_kg_m3\", \"wheel1.radios_m\"]\ncorrelation = [[1, 0], [0, 1]]"
-    ),
-    pair!("[[correlate]]\nparameters = [\"fuselage.density_kg_m3\", \"wheel1.radius_m\"]\ncorrelation = [[1, 0], [0]]"),
-    pair!("[[correlate]]\nparameters = [\"fuselage.density_kg_m3\", \"wheel1.radius_m\"]\ncorrelation = [[1]]"),
-    pair!(
-        "[[correlate]]\nparameters = [\"fuselage.density_kg_m3\", \"wheel1.radius_m\"]\ncorrelation = [[1, 0.5], [0.4, 1]]"
+        "[[correlate]]\nparameters = [\"body.parts.fuselage.density_kg_m3\", \"wheels.w1.radios_m\"]\ncorrelation = [[1, 0], [0, 1]]"
     ),
     pair!(
-        "[[correlate]]\nparameters = [\"fuselage.density_kg_m3\", \"wheel1.radius_m\"]\ncorrelation = [[1, 1.5], [1.5, 1]]"
+        "[[correlate]]\nparameters = [\"body.parts.fuselage.density_kg_m3\", \"wheels.w1.radius_m\"]\ncorrelation = [[1, 0], [0]]"
     ),
     pair!(
-        "[[correlate]]\nparameters = [\"fuselage.density_kg_m3\", \"wheel1.radius_m\"]\ncorrelation = [[2, 0.5], [0.5, 2]]"
+        "[[correlate]]\nparameters = [\"body.parts.fuselage.density_kg_m3\", \"wheels.w1.radius_m\"]\ncorrelation = [[1]]"
     ),
     pair!(
-        "[[correlate]]\nparameters = [\"fuselage.density_kg_m3\", \"wheel1.radius_m\"]\ncovariance = [[100, 0.1], [0.1, 1e-4]]"
+        "[[correlate]]\nparameters = [\"body.parts.fuselage.density_kg_m3\", \"wheels.w1.radius_m\"]\ncorrelation = [[1, 0.5], [0.4, 1]]"
     ),
-    pair!("[[correlate]]\nparameters = [\"wheel1.radius_m\"]\ncovariance = [[2e-4]]"),
-    pair!("[[correlate]]\nparameters = [\"wheel1.radius_m\", \"wheel1.radius_m\"]\ncorrelation = [[1, 0], [0, 1]]"),
-    pair!("[[correlate]]\nparameters = [\"wheel1.radius_m\"]\ncorrelation = [[1]]\nrank_correlation = [[1]]"),
-    pair!("[[correlate]]\nparameters = [\"wheel1.radius_m\"]\ncorrelation = [[1]]\nnearest_psd = \"yes\""),
+    pair!(
+        "[[correlate]]\nparameters = [\"body.parts.fuselage.density_kg_m3\", \"wheels.w1.radius_m\"]\ncorrelation = [[1, 1.5], [1.5, 1]]"
+    ),
+    pair!(
+        "[[correlate]]\nparameters = [\"body.parts.fuselage.density_kg_m3\", \"wheels.w1.radius_m\"]\ncorrelation = [[2, 0.5], [0.5, 2]]"
+    ),
+    pair!(
+        "[[correlate]]\nparameters = [\"body.parts.fuselage.density_kg_m3\", \"wheels.w1.radius_m\"]\ncovariance = [[100, 0.1], [0.1, 1e-4]]"
+    ),
+    pair!("[[correlate]]\nparameters = [\"wheels.w1.radius_m\"]\ncovariance = [[2e-4]]"),
+    pair!(
+        "[[correlate]]\nparameters = [\"wheels.w1.radius_m\", \"wheels.w1.radius_m\"]\ncorrelation = [[1, 0], [0, 1]]"
+    ),
+    pair!("[[correlate]]\nparameters = [\"wheels.w1.radius_m\"]\ncorrelation = [[1]]\nrank_correlation = [[1]]"),
+    pair!("[[correlate]]\nparameters = [\"wheels.w1.radius_m\"]\ncorrelation = [[1]]\nnearest_psd = \"yes\""),
     "[[disperse]]\nparameter = \"initial.angular_velocity_rad_s\"\ndistribution = \"normal\"\nstd = 1\n[[correlate]]\nparameters = [\"initial.angular_velocity_rad_s\"]\ncorrelation = [[1, 0.9, 0.9], [0.9, 1, -0.9], [0.9, -0.9, 1]]\n",
     concat!(
         "[design]\nkind = \"one_at_a_time\"\nlevels = 5\n",
         pair!(
-            "[[correlate]]\nparameters = [\"fuselage.density_kg_m3\", \"wheel1.radius_m\"]\ncorrelation = [[1, 0.5], [0.5, 1]]"
+            "[[correlate]]\nparameters = [\"body.parts.fuselage.density_kg_m3\", \"wheels.w1.radius_m\"]\ncorrelation = [[1, 0.5], [0.5, 1]]"
         )
     ),
     concat!(
         "[design]\nkind = \"grid\"\nlevels = 5\n",
         pair!(
-            "[[correlate]]\nparameters = [\"fuselage.density_kg_m3\", \"wheel1.radius_m\"]\ncorrelation = [[1, 0.5], [0.5, 1]]"
+            "[[correlate]]\nparameters = [\"body.parts.fuselage.density_kg_m3\", \"wheels.w1.radius_m\"]\ncorrelation = [[1, 0.5], [0.5, 1]]"
         )
     ),
     concat!(
         "[design]\nkind = \"latin_hypercube\"\n",
         pair!(
-            "[[correlate]]\nparameters = [\"fuselage.density_kg_m3\", \"wheel1.radius_m\"]\ncorrelation = [[1, 0.5], [0.5, 1]]"
+            "[[correlate]]\nparameters = [\"body.parts.fuselage.density_kg_m3\", \"wheels.w1.radius_m\"]\ncorrelation = [[1, 0.5], [0.5, 1]]"
         )
     ),
     concat!(
         "[design]\nkind = \"saltelli\"\n",
         pair!(
-            "[[correlate]]\nparameters = [\"fuselage.density_kg_m3\", \"wheel1.radius_m\"]\ncorrelation = [[1, 0.5], [0.5, 1]]"
+            "[[correlate]]\nparameters = [\"body.parts.fuselage.density_kg_m3\", \"wheels.w1.radius_m\"]\ncorrelation = [[1, 0.5], [0.5, 1]]"
         )
     ),
-    pair!("[[correlate]]\nparameters = [\"fuselage.density_kg_m3\", \"wheel1.radius_m\"]\ncorrelation = 1.5"),
-    pair!("[[correlate]]\nparameters = [\"wheel1.radius_m\"]\ncorrelation = 0.5"),
     pair!(
-        "[[correlate]]\nparameters = [\"fuselage.density_kg_m3\", \"wheel1.radius_m\"]\ncorrelation = 0.5\n[[correlate]]\nparameters = [\"wheel1.radius_m\", \"fuselage.density_kg_m3\"]\nrank_correlation = 0.4"
+        "[[correlate]]\nparameters = [\"body.parts.fuselage.density_kg_m3\", \"wheels.w1.radius_m\"]\ncorrelation = 1.5"
+    ),
+    pair!("[[correlate]]\nparameters = [\"wheels.w1.radius_m\"]\ncorrelation = 0.5"),
+    pair!(
+        "[[correlate]]\nparameters = [\"body.parts.fuselage.density_kg_m3\", \"wheels.w1.radius_m\"]\ncorrelation = 0.5\n[[correlate]]\nparameters = [\"wheels.w1.radius_m\", \"body.parts.fuselage.density_kg_m3\"]\nrank_correlation = 0.4"
     ),
     // derived
-    "[[derive]]\nparameter = \"wheel1.radius_m\"\nexpression = \"0.25 / initial.position_m.x\"\n",
-    "[[derive]]\nparameter = \"wheel1.radius_m\"\n",
-    "[[derive]]\nparameter = \"wheel1.radius_m\"\nexpression = \"2 *\"\n",
-    "[[derive]]\nparameter = \"wheel1.radius_m\"\nexpression = \"wheel1.radius\"\n",
-    "[[derive]]\nparameter = \"wheel1.radius_m\"\nexpression = \"cosh(wheel1.length_m)\"\n",
-    "[[derive]]\nparameter = \"wheel1.radius_m\"\nexpression = \"wheel2.radius_m\"\n",
-    "[[derive]]\nparameter = \"wheel1.radius_m\"\nexpression = \"initial.angular_velocity_rad_s\"\n",
-    "[[derive]]\nparameter = \"wheel1.radius_m\"\nexpression = \"wheel1.length_m\"\n",
-    "[[derive]]\nparameter = \"wheel1.radius_m\"\nexpression = \"wheel1.radius_m\"\n",
-    "[[derive]]\nparameter = \"wheel1.radius_m\"\nexpression = \"wheel1.length_m * 2.5\"\n[[derive]]\nparameter = \"wheel1.length_m\"\nexpression = \"wheel1.radius_m / 2.5\"\n",
+    "[[derive]]\nparameter = \"wheels.w1.radius_m\"\nexpression = \"0.25 / initial.position_m.x\"\n",
+    "[[derive]]\nparameter = \"wheels.w1.radius_m\"\n",
+    "[[derive]]\nparameter = \"wheels.w1.radius_m\"\nexpression = \"2 *\"\n",
+    "[[derive]]\nparameter = \"wheels.w1.radius_m\"\nexpression = \"wheels.w1.radius\"\n",
+    "[[derive]]\nparameter = \"wheels.w1.radius_m\"\nexpression = \"cosh(wheels.w1.length_m)\"\n",
+    "[[derive]]\nparameter = \"wheels.w1.radius_m\"\nexpression = \"wheels.w2.radius_m\"\n",
+    "[[derive]]\nparameter = \"wheels.w1.radius_m\"\nexpression = \"initial.angular_velocity_rad_s\"\n",
+    "[[derive]]\nparameter = \"wheels.w1.radius_m\"\nexpression = \"wheels.w1.length_m\"\n",
+    "[[derive]]\nparameter = \"wheels.w1.radius_m\"\nexpression = \"wheels.w1.radius_m\"\n",
+    "[[derive]]\nparameter = \"wheels.w1.radius_m\"\nexpression = \"wheels.w1.length_m * 2.5\"\n[[derive]]\nparameter = \"wheels.w1.length_m\"\nexpression = \"wheels.w1.radius_m / 2.5\"\n",
     "[[derive]]\nparameter = \"initial.attitude.w\"\nexpression = \"1\"\n",
-    pair!("[[derive]]\nparameter = \"wheel1.radius_m\"\nexpression = \"wheel1.length_m * 2.5\""),
+    pair!("[[derive]]\nparameter = \"wheels.w1.radius_m\"\nexpression = \"wheels.w1.length_m * 2.5\""),
 ];
 
 /// The folder with the files that cases name.
@@ -226,7 +236,7 @@ fn folder() -> std::path::PathBuf {
     let folder = std::env::temp_dir().join(format!("spindrift-bad-{}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("a folder");
     for (name, text) in [
-        ("data.csv", "density,name,wheel1.radius_m,wheel2.radius_m\n2600,a,0.25,0.25\n2700,b,0.26,0.26\n"),
+        ("data.csv", "density,name,wheels.w1.radius_m,wheels.w2.radius_m\n2600,a,0.25,0.25\n2700,b,0.26,0.26\n"),
         ("data.txt", "density\n2600\n"),
         ("empty.csv", "density\n"),
         ("ragged.csv", "density,name\n1,2,3\n"),
@@ -238,7 +248,7 @@ fn folder() -> std::path::PathBuf {
 
 #[test]
 fn every_error_gives_line_key_value_range_and_remedy() {
-    assert_eq!(START.lines().count(), 20);
+    assert_eq!(START.lines().count(), 22);
     assert!(CASES.len() >= 60);
     let folder = folder();
     assert!(Plan::from_text_in(&folder, "bad.toml", START, Overrides::default()).is_ok(), "the start is good");
@@ -259,7 +269,7 @@ fn every_error_gives_line_key_value_range_and_remedy() {
             wrong.push(format!("{} problems, not one:\n{case}{error}", error.problems.len()));
         }
         let said = error.to_string().replace(&format!("{}/", folder.display()), "");
-        let lines = case.lines().enumerate().map(|(k, line)| format!("{:>3} {line}\n", k + 21));
+        let lines = case.lines().enumerate().map(|(k, line)| format!("{:>3} {line}\n", k + 23));
         let _ = writeln!(snapshot, "{}{said}\n", lines.collect::<String>()); // writing to a String does not fail
     }
     std::fs::remove_dir_all(&folder).expect("removed");

@@ -6,4 +6,7 @@ mod support;
 mod bad_campaign_cases;
 mod bad_campaigns;
 mod bad_dispersions;
+mod bad_spacecraft;
+mod old_format;
 mod shipped;
+mod spacecraft;

@@ -4,7 +4,7 @@ use spindrift::campaign::{Compression, Overrides, Plan};
 use spindrift::observables::Group;
 use spindrift::ode::Integrator;
 use spindrift::propagation::Method;
-use spindrift::scene::Scene;
+use spindrift::scene::{Scene, WheelMode};
 use std::path::Path;
 
 fn shipped() -> Vec<std::path::PathBuf> {
@@ -62,19 +62,88 @@ max_steps = 5
 [observe]
 points = 2
 groups = ["effort", "energy_conservation"]
-[fuselage]
+[body]
+mass_kg = 2000
+center_of_mass_m = [0.01, -0.02, 1.5]
+inertia_kg_m2 = [[3000, 0.1, 0.2], [0.1, 3100, 0.3], [0.2, 0.3, 1700]]
+mass_scale = 1.01
+center_offset_m = [0.001, 0, 0]
+[[body.parts]]
+name = "fuselage"
+shape = "hollow_cylinder"
 wall_thickness_m = 0.030000000000000002
 outer_radius_m = 1
 length_m = 3
 density_kg_m3 = 2.7e3
-mass_kg = 2000
-center_of_mass_m = [0.01, -0.02, 1.5]
-inertia_kg_m2 = [[3000, 0.1, 0.2], [0.1, 3100, 0.3], [0.2, 0.3, 1700]]
-[wheel2]
+position_m = [0, 0, 1.5]
+[[body.parts]]
+name = "rod"
+shape = "solid_cylinder"
+radius_m = 0.01
+length_m = "50 cm"
+mass_kg = 2
+attitude = [0.6, 0, 0.8, 0]
+[[body.parts]]
+name = "panel"
+shape = "box"
+size_m = [2, 1, "3 mm"]
+mass_kg = 7
+stretch_log = [0.1, 0, 0]
+[[body.parts]]
+name = "ball"
+shape = "sphere"
+radius_m = 0.1
+density_kg_m3 = 1
+[[body.parts]]
+name = "tip"
+shape = "point_mass"
+mass_kg = "250 g"
+position_m = [0, 0, 4]
+[[wheels]]
+name = "parked"
+axis = [1, 1, 0]
+mass_kg = 5
+axial_inertia_kg_m2 = 0.01
+transverse_inertia_kg_m2 = 0.006
+mode = "locked"
+[[wheels]]
+name = "w2"
+axis = [0, 0, 1]
+position_m = [0, 0, -0.0]
 radius_m = 0.25
 length_m = 0.1
-station_m = -0.0
 density_kg_m3 = 2700
+angle_rad = 0.5
+torque_scale = 0.9
+torque_bias_n_m = 0.01
+[[wheels]]
+name = "held"
+axis = [0, 2, 0]
+radius_m = 0.25
+length_m = 0.1
+density_kg_m3 = 2700
+tilt_rad = ["0.1 deg", 0]
+mode = "speed_held"
+rate_rad_s = "3000 rpm"
+[[thrusters]]
+name = "p1"
+position_m = [0, 0, 0]
+direction = [0, 0, 1]
+[[thrusters]]
+name = "side"
+position_m = [1, 0, 1]
+direction = [-1, 0.5, 0]
+tilt_rad = [0.01, -0.02]
+thrust_scale = 0.98
+[[actuation]]
+start_s = 0
+end_s = "0.5 ms"
+thrust_n = { side = 2.5 }
+torque_n_m = { w2 = -0.25 }
+[actuators]
+switch_on_delay_s = 1e-5
+[environment]
+body_torque_n_m = [0, 1e-3, 0]
 [debris]
 size_m = [0.1, 0.2, 0.3]
 density_kg_m3 = 1e3
@@ -91,11 +160,11 @@ distribution = "uniform"
 min = [0.05, 0.1, 0.2]
 max = 0.5
 [[disperse]]
-parameter = "fuselage.inertia_kg_m2"
+parameter = "body.inertia_kg_m2"
 distribution = "normal"
 std = [1, 0.1, 0.1, 1, 0.1, 1]
 [[disperse]]
-parameter = "fuselage.mass_kg"
+parameter = "body.mass_kg"
 distribution = "uniform"
 relative_half_width = 0.01
 [[disperse]]
@@ -103,18 +172,18 @@ parameter = "initial.debris_attitude"
 distribution = "normal"
 std = 0.1
 [[disperse]]
-parameter = "fuselage.center_of_mass_m.z"
+parameter = "body.center_of_mass_m.z"
 distribution = "truncated_normal"
 relative_std = 0.1
 relative_lower = -0.2
 upper_sigmas = 1.5
 [[disperse]]
-parameter = "wheel2.radius_m"
+parameter = "wheels.w2.radius_m"
 distribution = "log_normal"
 log_std = 0.1
 median = 0.26
 [[disperse]]
-parameter = "wheel2.density_kg_m3"
+parameter = "wheels.w2.density_kg_m3"
 distribution = "log_uniform"
 factor = 1.1
 [[disperse]]
@@ -146,7 +215,7 @@ distribution = "choice"
 values = [1, 2, 4]
 weights = [1, 1, 2]
 [[disperse]]
-parameter = "initial.wheel_rates_rad_s[1]"
+parameter = "wheels.w2.rate_rad_s"
 distribution = "bernoulli"
 value = 100
 probability = 0.05
@@ -154,7 +223,7 @@ probability = 0.05
 parameter = "initial.debris_position_m"
 distribution = "empirical"
 file = "campaigns/table.csv"
-column = "wheel1.radius_m"
+column = "wheels.w1.radius_m"
 interpolation = "linear"
 [[disperse]]
 parameter = "initial.debris_velocity_m_s"
@@ -164,15 +233,15 @@ offset = [0.1, 0.2, 0.3]
 parameter = "initial.attitude"
 distribution = "uniform_attitude"
 [[correlate]]
-parameters = ["wheel2.radius_m", "wheel2.density_kg_m3", "initial.velocity_m_s.y"]
+parameters = ["wheels.w2.radius_m", "wheels.w2.density_kg_m3", "initial.velocity_m_s.y"]
 correlation = [[1, 0.9, 0.9], [0.9, 1, -0.9], [0.9, -0.9, 1]]
 nearest_psd = true
 [[correlate]]
 parameters = ["initial.velocity_m_s.x", "initial.velocity_m_s.z"]
 rank_correlation = [[1, 0.5], [0.5, 1]]
 [[derive]]
-parameter = "wheel2.length_m"
-expression = "0.4 * wheel2.radius_m + max(0, if(wheel2.radius_m > 0.25, wheel2.radius_m - 0.25, 0))"
+parameter = "wheels.w2.length_m"
+expression = "0.4 * wheels.w2.radius_m + max(0, if(wheels.w2.radius_m > 0.25, wheels.w2.radius_m - 0.25, 0))"
 [output]
 compression = "none"
 "#;
@@ -185,7 +254,12 @@ fn every_key_reads_back() {
     assert_eq!((plan.tolerance.relative, plan.tolerance.absolute), (1e-9, 1e-12));
     assert_eq!(plan.groups, [Group::EnergyConservation, Group::StepStatistics], "in the order of the columns");
     assert_eq!(plan.compression, Compression::None);
-    assert_eq!(plan.nominal.fuselage.thruster_offset_m, 0.0);
+    assert!(plan.nominal.wheels[1].position_m[2].is_sign_negative(), "the sign of zero too");
+    let modes = plan.nominal.wheels.iter().map(|wheel| wheel.mode).collect::<Vec<_>>();
+    assert_eq!(modes, [WheelMode::Locked, WheelMode::Free, WheelMode::SpeedHeld]);
+    assert_eq!((plan.nominal.parts.len(), plan.nominal.thrusters.len()), (5, 2));
+    assert_eq!(plan.nominal.actuation[0].thrust_n[..2], [0.0, 2.5]);
+    assert_eq!(plan.nominal.actuation[0].torque_n_m[..3], [0.0, -0.25, 0.0]);
     let again = Plan::from_text("plan.toml", &plan.text(), Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(again, plan);
     // every digit counts in the hash
@@ -199,7 +273,7 @@ fn every_key_reads_back() {
 #[test]
 fn every_design_reads_back() {
     let start = &FULL[..FULL.find("[[disperse]]").expect("dispersions")];
-    let law = "[[disperse]]\nparameter = \"wheel2.radius_m\"\ndistribution = \"uniform\"\nhalf_width = 0.01\n";
+    let law = "[[disperse]]\nparameter = \"wheels.w2.radius_m\"\ndistribution = \"uniform\"\nhalf_width = 0.01\n";
     for (design, samples) in [
         ("kind = \"random\"", 16),
         ("kind = \"latin_hypercube\"", 16),
@@ -223,12 +297,16 @@ fn every_design_reads_back() {
 
 #[test]
 fn omitted_keys_have_defaults() {
-    let text = "[campaign]\nname = \"small\"\nsamples = 1\nseed = 0\nduration_s = 2\n[fuselage]\nwall_thickness_m = 0.03\n\
-                outer_radius_m = 1\nlength_m = 3\ndensity_kg_m3 = 2700\n[initial]\nangular_velocity_rad_s = [0, 0, 1]\n";
+    let text = "[campaign]\nname = \"small\"\nsamples = 1\nseed = 0\nduration_s = 2\n[body]\nmass_kg = 10\n\
+                inertia_kg_m2 = [[3, 0, 0], [0, 3, 0], [0, 0, 2]]\n[initial]\nangular_velocity_rad_s = [0, 0, 1]\n";
     let plan = Plan::from_text("small.toml", text, Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!((plan.method, plan.grid.points(), plan.grid.duration()), (Method::Auto, 101, 2.0));
     assert_eq!(plan.groups, Group::DEFAULT);
     assert_eq!(plan.nominal.initial.attitude, [1.0, 0.0, 0.0, 0.0]);
-    assert_eq!((plan.nominal.wheels, plan.nominal.debris), ([None; 2], None));
+    let scene = &plan.nominal;
+    assert!(scene.wheels.is_empty() && scene.thrusters.is_empty() && scene.parts.is_empty() && scene.debris.is_none());
+    assert_eq!((scene.body.center_of_mass_m, scene.body.includes_wheels), (None, false));
+    let mass = Scene::resolve(scene).expect("physical").mass;
+    assert_eq!((mass.total, mass.center), (10.0, [0.0; 3]));
     assert!(plan.dispersions.columns().is_empty());
 }

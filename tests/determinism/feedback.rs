@@ -3,9 +3,10 @@
 
 use crate::support::feedback::{Flight, PERIOD, fly, fly_recorded, fly_schedules, law};
 use crate::support::runs::{Bits, adaptive, everything, fixed};
-use crate::support::scenes::mixed;
+use crate::support::scenes::{WHEELS, mixed};
 use spindrift::dynamics::actuation::Laws;
 use spindrift::math::Isa;
+use spindrift::observables::request::wheel_names;
 use spindrift::observables::{Groups, Observer, Request};
 use spindrift::ode::Control;
 use spindrift::ode::Integrator;
@@ -109,7 +110,8 @@ fn rows(
     observe: Observe,
 ) -> (Vec<Bits>, Vec<Vec<Arc>>) {
     let constrained = method == Method::NullSpace;
-    let request = Request { groups: Groups::ALL, debris: true, actuated: true, constrained };
+    let request =
+        Request { groups: Groups::ALL, debris: true, actuated: true, constrained, wheels: wheel_names(&WHEELS) };
     let settings = settings(method, control, scenes);
     let mut observer = Observer::new(request, &Grid::uniform(HORIZON, 29));
     let mut row = vec![0.0; request.columns().len()];
@@ -133,7 +135,9 @@ fn rows(
 #[test]
 fn columns_are_those_of_the_record_replayed() {
     for (method, control) in METHODS {
-        let mut scenes = mixed(5, false, HORIZON);
+        // a row has columns for as many wheels as its spacecraft
+        let mut scenes = mixed(10, false, HORIZON);
+        scenes.retain(|scene| scene.mass.wheels.len() == WHEELS.len());
         let method = (method, control);
         let (best, _) = rows(Isa::best(), method, &scenes, true, flown);
         let closed: Vec<_> = Isa::available().into_iter().map(|isa| rows(isa, method, &scenes, true, flown)).collect();

@@ -1,8 +1,9 @@
 //! Groups that are not requested are not computed, and their absence changes no bit of the others.
 
 use crate::support::runs::{Bits, adaptive, blocks, everything, fixed, propagate_on};
-use crate::support::scenes::mixed;
+use crate::support::scenes::{WHEELS, mixed};
 use spindrift::math::Isa;
+use spindrift::observables::request::wheel_names;
 use spindrift::observables::{Group, Groups, Observer, Request};
 use spindrift::ode::Control;
 use spindrift::ode::Integrator;
@@ -146,10 +147,11 @@ fn groups_do_not_reach_each_other() {
     ] {
         let scenes = mixed(13, forced, HORIZON);
         let rows = |groups: Groups| {
-            let request = Request { groups, debris: true, actuated: forced, constrained: false };
+            let request =
+                Request { groups, debris: true, actuated: forced, constrained: false, wheels: wheel_names(&WHEELS) };
             let plan = PropagationSettings::new(method, control(method), grid.clone(), request.fields(), &scenes[0]);
             let mut observer = Observer::new(request, &grid);
-            let names: Vec<&str> = request.columns().iter().map(|column| column.quantity.name()).collect();
+            let names: Vec<String> = request.columns().iter().map(|column| column.quantity.name().to_owned()).collect();
             let mut rows = vec![vec![0.0; names.len()]; scenes.len()];
             plan.engine(Isa::best()).propagate(&scenes, &mut |CompletedRun { index, table, outcome, .. }| {
                 observer.observe(Isa::best(), &scenes[index], table, outcome, &mut rows[index]);
@@ -157,9 +159,9 @@ fn groups_do_not_reach_each_other() {
             let bits = rows.iter().map(|row| row.iter().map(|x| x.to_bits()).collect()).collect();
             (names, bits)
         };
-        let (all_names, all): (Vec<&str>, Vec<Bits>) = rows(Groups::ALL);
+        let (all_names, all): (Vec<String>, Vec<Bits>) = rows(Groups::ALL);
         for group in Group::ALL {
-            let (names, some): (Vec<&str>, Vec<Bits>) = rows(Groups::NONE.with(group));
+            let (names, some): (Vec<String>, Vec<Bits>) = rows(Groups::NONE.with(group));
             for (row, whole) in some.iter().zip(&all) {
                 for (name, value) in names.iter().zip(row) {
                     let at = all_names.iter().position(|other| other == name).expect("the whole row has every column");

@@ -16,7 +16,7 @@ fn plan(name: &str, samples: u64, with_failures: bool) -> Plan {
     let mut text = std::fs::read_to_string(path).unwrap();
     if with_failures {
         text.push_str(
-            "\n[[disperse]]\nparameter = \"wheel2.length_m\"\ndistribution = \"uniform\"\nmin = -0.05\nmax = 0.1\n",
+            "\n[[disperse]]\nparameter = \"wheels.w2.length_m\"\ndistribution = \"uniform\"\nmin = -0.05\nmax = 0.1\n",
         );
     }
     Plan::from_text(name, &text, Overrides { samples: Some(samples), ..Overrides::default() })
@@ -99,7 +99,7 @@ fn the_comparison_can_fail() {
     let plan = plan("spin_sweep", 64, false);
     let rows = |plan: &Plan| whole(&Ensemble::new(plan, Isa::best()), 1);
     let mut other = plan.clone();
-    let side = &mut other.nominal.wheels[1].as_mut().unwrap().length_m;
+    let side = other.nominal.wheels[1].length_m.as_mut().unwrap();
     *side = f64::from_bits(side.to_bits() + 1);
     assert!(rows(&plan) == rows(&plan));
     assert!(rows(&plan) != rows(&other));

@@ -128,7 +128,7 @@ fn failed_runs_are_rows() {
     scratch.prints("campaign thin.toml --samples 100", 1);
     let batch = &batches(&scratch.path("results/small/runs/part-000000.parquet"))[0];
     let statuses: Vec<&str> = batch.column_by_name("status").unwrap().as_string::<i32>().iter().flatten().collect();
-    let walls = floats(batch, "fuselage_wall_thickness_m");
+    let walls = floats(batch, "body_parts_fuselage_wall_thickness_m");
     let errors = batch.column_by_name("energy_error_max").unwrap();
     assert_eq!(statuses.len(), 100);
     for row in 0..100 {
@@ -143,7 +143,7 @@ fn failed_runs_are_rows() {
 
     let row = statuses.iter().position(|status| *status == "invalid_sample").unwrap();
     let said = scratch.prints(&format!("simulate thin.toml --sample {row}"), 2);
-    assert!(said.contains("invalid_sample") && said.contains("fuselage.wall_thickness_m"), "{said}");
+    assert!(said.contains("invalid_sample") && said.contains("body.parts.fuselage.wall_thickness_m"), "{said}");
 
     scratch.file("short.toml", &campaign().replace("tolerance = 1e-10", "tolerance = 1e-10\nmax_steps = 1"));
     scratch.prints("campaign short.toml --samples 5 --out short", 1);

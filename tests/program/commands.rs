@@ -14,7 +14,8 @@ fn sample_draws_the_rows_of_the_campaign() {
     let scratch = folder("drawn");
     scratch.file("thin.toml", &(campaign() + NEGATIVE_WALLS));
     let said = scratch.prints("sample thin.toml --out s.csv --plot s.svg", 0);
-    for expected in ["of 599 draws", "fuselage.wall_thickness_m", "uniform, -0.02", "initial.angular_velocity_rad_s.z"]
+    for expected in
+        ["of 599 draws", "body.parts.fuselage.wall_thickness_m", "uniform, -0.02", "initial.angular_velocity_rad_s.z"]
     {
         assert!(said.contains(expected), "{expected} in:\n{said}");
     }

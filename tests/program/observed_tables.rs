@@ -6,6 +6,7 @@ use crate::support::golden::Golden;
 use spindrift::math::Isa;
 use spindrift::math::vector::{cross, dcm_from_quaternion, product, sum};
 use spindrift::observables::nominal_attitude::NominalAttitude;
+use spindrift::observables::request::wheel_names;
 use spindrift::observables::{Groups, Observer, Request};
 use spindrift::run::{Grid, StateField, StateFields, StateTable};
 use spindrift::run::{LocalErrors, Outcome, Status, StepStatistics};
@@ -27,7 +28,7 @@ pub fn table1() -> (Golden, Scene) {
 
 /// What is observed of an unconstrained scene.
 pub fn request(groups: Groups, debris: bool, actuated: bool) -> Request {
-    Request { groups, debris, actuated, constrained: false }
+    Request { groups, debris, actuated, constrained: false, wheels: wheel_names(&["w1", "w2"]) }
 }
 
 /// A run that ended as planned.
@@ -78,18 +79,18 @@ pub fn motion_table(grid: &Grid, motion: Motion<'_>) -> StateTable {
 }
 
 /// The row of a table, by column name.
-pub fn row(isa: Isa, request: Request, grid: &Grid, scene: &Scene, table: &StateTable) -> HashMap<&'static str, f64> {
+pub fn row(isa: Isa, request: Request, grid: &Grid, scene: &Scene, table: &StateTable) -> HashMap<String, f64> {
     let has_attitude = table.has(StateField::Attitude);
     let nominal = has_attitude.then(|| NominalAttitude::of(table, &done(grid.points(), grid.duration())));
     let mut observer = Observer::new(request, grid).with_nominal(nominal);
     let columns = request.columns();
     let mut row = vec![0.0; columns.len()];
     observer.observe(isa, scene, table, &done(grid.points(), grid.duration()), &mut row);
-    columns.iter().map(|column| column.quantity.name()).zip(row).collect()
+    columns.iter().map(|column| column.quantity.name().to_owned()).zip(row).collect()
 }
 
 /// The row of a scene without debris and actuation.
-pub fn free_row(grid: &Grid, scene: &Scene, table: &StateTable) -> HashMap<&'static str, f64> {
+pub fn free_row(grid: &Grid, scene: &Scene, table: &StateTable) -> HashMap<String, f64> {
     row(Isa::best(), request(Groups::ALL, false, false), grid, scene, table)
 }
 

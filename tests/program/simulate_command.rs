@@ -20,8 +20,8 @@ fn simulate_shows_the_run_behind_the_row() {
             ("omega_se_s_x_rad_s", "omega_se_s_x_final_rad_s"),
             ("omega_se_s_z_rad_s", "omega_se_s_z_final_rad_s"),
             ("q_es_w", "q_es_w_final"),
-            ("alpha_dot_rad_s", "alpha_dot_final_rad_s"),
-            ("energy_wheel1_j", "energy_wheel1_final_j"),
+            ("rate_w1_rad_s", "rate_w1_final_rad_s"),
+            ("energy_w1_j", "energy_w1_final_j"),
         ] {
             let (last, value) = (floats(run, of_run)[10], floats(part, of_row)[row]);
             assert_eq!(last.to_bits(), value.to_bits(), "sample {sample}, {of_run}: {last:?} and {value:?}");
@@ -38,10 +38,10 @@ fn simulate_writes_the_promised_columns() {
     scratch.prints("simulate small.toml --out s.csv", 0);
     let text = fs::read_to_string(scratch.path("s.csv")).unwrap();
     let expected = "time_s,r_po_e_x_m,r_po_e_y_m,r_po_e_z_m,v_po_e_x_m_s,v_po_e_y_m_s,v_po_e_z_m_s,q_es_w,q_es_x,q_es_y,q_es_z,\
-        omega_se_s_x_rad_s,omega_se_s_y_rad_s,omega_se_s_z_rad_s,alpha_rad,beta_rad,alpha_dot_rad_s,beta_dot_rad_s,\
+        omega_se_s_x_rad_s,omega_se_s_y_rad_s,omega_se_s_z_rad_s,angle_w1_rad,rate_w1_rad_s,angle_w2_rad,rate_w2_rad_s,\
         r_gdo_e_x_m,r_gdo_e_y_m,r_gdo_e_z_m,v_gdo_e_x_m_s,v_gdo_e_y_m_s,v_gdo_e_z_m_s,q_ed_w,q_ed_x,q_ed_y,q_ed_z,\
         omega_de_d_x_rad_s,omega_de_d_y_rad_s,omega_de_d_z_rad_s,\
-        energy_fuselage_j,energy_wheel1_j,energy_wheel2_j,energy_debris_j,energy_error,";
+        energy_body_j,energy_w1_j,energy_w2_j,energy_debris_j,energy_error,";
     assert!(text.starts_with(expected), "{}", text.lines().next().unwrap());
     assert_eq!(text.lines().count(), 12);
 
@@ -97,7 +97,7 @@ fn plots_and_tables_are_made() {
     scratch.prints("simulate small.toml --plot p.svg", 0);
     let svg = fs::read_to_string(scratch.path("p.svg")).unwrap();
     for title in
-        ["small, nominal", "wheel 1", "debris", "Angular velocity", "quaternion", "Relative errors of the balances"]
+        ["small, nominal", "wheel w1", "debris", "Angular velocity", "quaternion", "Relative errors of the balances"]
     {
         assert!(svg.contains(title), "{title}");
     }

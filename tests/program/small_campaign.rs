@@ -22,7 +22,7 @@ points = 11
 /// A third of these wall thicknesses is negative.
 pub const NEGATIVE_WALLS: &str = r#"
 [[disperse]]
-parameter = "fuselage.wall_thickness_m"
+parameter = "body.parts.fuselage.wall_thickness_m"
 distribution = "uniform"
 min = -0.02
 max = 0.04

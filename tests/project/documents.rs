@@ -197,7 +197,10 @@ fn every_queried_column_exists() {
             let names = block.text.split(|letter: char| !letter.is_ascii_alphanumeric() && letter != '_');
             for name in names.filter(|name| name.matches('_').count() >= 2) {
                 count += 1;
-                assert!(columns.contains(&format!("`{name}`")), "{}: there is no column {name}", file.display());
+                // a column of wheels is listed once, with the place of the name
+                let listed = [name.to_owned(), name.replace("_w1_", "_{wheel}_")];
+                let is_listed = listed.iter().any(|name| columns.contains(&format!("`{name}`")));
+                assert!(is_listed, "{}: there is no column {name}", file.display());
             }
         }
     }

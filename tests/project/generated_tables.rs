@@ -12,6 +12,7 @@ use spindrift::ensemble::{Ensemble, SingleRun};
 use spindrift::math::Isa;
 use spindrift::observables::{Group, table};
 use spindrift::sampling::SampleId;
+use spindrift::scene::SceneInput;
 use spindrift::scene::schema::Presence;
 use spindrift::scene::table::Table;
 
@@ -105,32 +106,40 @@ fn dependencies() -> String {
     table
 }
 
-/// Every numeric key that describes the scene, table by table, from the schema.
+/// Every numeric key that describes the scene, table by table, from the schema; `[[...]]` where there may be several tables.
 fn parameters() -> String {
     let mut text = String::new();
+    let mut last = "";
     for table in Table::ALL {
-        let _ = writeln!(text, "## `[{}]`\n", table.headers().join("]`, `["));
-        let _ = writeln!(
-            text,
-            "| key | unit | components | default | limit | meaning |\n| --- | --- | --- | --- | --- | --- |"
-        );
+        // the errors of a table are keys of it too
+        if table.header() != last {
+            let header =
+                if is_list(*table) { format!("[[{}]]", table.header()) } else { format!("[{}]", table.header()) };
+            let newline = if last.is_empty() { "" } else { "\n" };
+            let _ = writeln!(text, "{newline}## `{header}`\n");
+            let _ = writeln!(
+                text,
+                "| key | unit | components | default | limit | meaning |\n| --- | --- | --- | --- | --- | --- |"
+            );
+            last = table.header();
+        }
         for key in table.keys() {
-            let components = (0..table.headers().len()).map(|instance| key.facts().components(instance).join(", "));
-            let mut components: Vec<String> = components.collect();
-            components.dedup();
-            let default = match key.facts().presence {
+            let facts = key.facts();
+            let default = match facts.presence {
                 Presence::Required(_) => "required".to_owned(),
-                Presence::RequiredIf(..) => "required with `[[actuation]]`".to_owned(),
                 Presence::Optional => key.default_text().map_or("none".to_owned(), |text| format!("`{text}`")),
             };
-            let facts = key.facts();
-            let (name, unit, limit, meaning) = (facts.key, facts.unit, facts.limit.words(), cell(facts.meaning));
+            let (components, limit, meaning) = (facts.components.join(", "), facts.limit.words(), cell(facts.meaning));
             let _ =
-                writeln!(text, "| `{name}` | {unit} | {} | {default} | {limit} | {meaning} |", components.join("; "),);
+                writeln!(text, "| `{}` | {} | {components} | {default} | {limit} | {meaning} |", facts.key, facts.unit);
         }
-        text.push('\n');
     }
     text
+}
+
+/// Whether a file may have several of these tables.
+fn is_list(table: Table) -> bool {
+    table.owners(&SceneInput::blank()).is_empty()
 }
 
 /// `document` with the text between the marks of `name` replaced.

@@ -16,24 +16,33 @@ name = "test"
 samples = 65
 seed = 7
 duration_s = 1.0
-[fuselage]
-wall_thickness_m = 0.03
+[[body.parts]]
+name = "fuselage"
+shape = "hollow_cylinder"
 outer_radius_m = 1.0
+wall_thickness_m = 0.03
 length_m = 3.0
 density_kg_m3 = 2700.0
-[wheel1]
+position_m = [0, 0, 1.5]
+
+[[wheels]]
+name = "w1"
+axis = [0, 1, 0]
+position_m = [0, 0, 1]
 radius_m = 0.25
 length_m = 0.1
-station_m = 1.0
 density_kg_m3 = 2700.0
+
 [initial]
 angular_velocity_rad_s = [0, 3, 31]
 "#;
 
 const RATE: &str =
     "[[disperse]]\nparameter = \"initial.angular_velocity_rad_s\"\ndistribution = \"normal\"\nstd = 0.5\n";
-const LENGTH: &str = "[[disperse]]\nparameter = \"fuselage.length_m\"\ndistribution = \"uniform\"\nhalf_width = 0.1\n";
-const RADIUS: &str = "[[disperse]]\nparameter = \"wheel1.radius_m\"\ndistribution = \"pert\"\nmin = 0.2\nmax = 0.3\n";
+const LENGTH: &str =
+    "[[disperse]]\nparameter = \"body.parts.fuselage.length_m\"\ndistribution = \"uniform\"\nhalf_width = 0.1\n";
+const RADIUS: &str =
+    "[[disperse]]\nparameter = \"wheels.w1.radius_m\"\ndistribution = \"pert\"\nmin = 0.2\nmax = 0.3\n";
 
 fn planned(text: &str, overrides: Overrides) -> Result<Plan, CampaignError> {
     Plan::from_text("test.toml", &format!("{SCENE}{text}"), overrides)
@@ -75,7 +84,7 @@ fn draws_do_not_depend_on_company() {
         // one more, at the end
         let mut more = draws(&plan(&format!("{head}{RATE}{LENGTH}{RADIUS}")), 0..65);
         more.iter_mut().for_each(|row| {
-            row.remove("wheel1_radius_m");
+            row.remove("wheels_w1_radius_m");
         });
         assert_eq!(more, rows, "{kind}");
         // another order: all but the sequences, whose dimensions are counted in the order of the file
@@ -85,7 +94,7 @@ fn draws_do_not_depend_on_company() {
         let backward: Vec<_> = (0..65).rev().map(|id| draws(&two, [id]).remove(0)).collect();
         assert!(backward.iter().rev().eq(rows.iter()), "{kind}");
         // sample 0 is nominal
-        assert_eq!(value(&rows[0], "fuselage_length_m"), 3.0);
+        assert_eq!(value(&rows[0], "body_parts_fuselage_length_m"), 3.0);
         assert_ne!(rows[1], rows[2]);
         // and another seed another draw
         let other = planned(&format!("{head}{RATE}{LENGTH}"), Overrides { seed: Some(8), ..Overrides::default() })
@@ -121,8 +130,10 @@ fn samples_can_be_added() {
 #[test]
 fn a_latin_hypercube_has_one_value_in_each_stratum() {
     let plan = plan(&format!("{}{RATE}{LENGTH}", design("latin_hypercube")));
-    let mut strata: Vec<usize> =
-        draws(&plan, 1..65).iter().map(|row| ((value(row, "fuselage_length_m") - 2.9) / 0.2 * 64.0) as usize).collect();
+    let mut strata: Vec<usize> = draws(&plan, 1..65)
+        .iter()
+        .map(|row| ((value(row, "body_parts_fuselage_length_m") - 2.9) / 0.2 * 64.0) as usize)
+        .collect();
     strata.sort_unstable();
     assert!(strata.into_iter().eq(0..64));
 }
@@ -137,7 +148,7 @@ fn a_grid_and_one_at_a_time_have_their_own_size() {
     let rows = draws(&grid, 1..25);
     let distinct: std::collections::BTreeSet<_> = rows.iter().map(|row| format!("{row:?}")).collect();
     assert_eq!(distinct.len(), 24);
-    assert!((value(&rows[6], "fuselage_length_m") - 2.975).abs() < 1e-15, "the fourth dimension is slowest");
+    assert!((value(&rows[6], "body_parts_fuselage_length_m") - 2.975).abs() < 1e-15, "the fourth dimension is slowest");
 
     let text = format!("{}quantiles = [0.1, 0.9]\n{RATE}{LENGTH}{RADIUS}", design("one_at_a_time"));
     let one = read(&text).unwrap_or_else(|e| panic!("{e}"));
@@ -147,16 +158,16 @@ fn a_grid_and_one_at_a_time_have_their_own_size() {
         let moved: Vec<&String> = row.keys().filter(|name| row[*name] != rows[0][*name]).collect();
         assert_eq!(moved.len(), 1, "sample {id}");
     }
-    assert!((value(&rows[7], "fuselage_length_m") - 2.92).abs() < 1e-15);
-    assert!((value(&rows[8], "fuselage_length_m") - 3.08).abs() < 1e-15);
-    assert_eq!(value(&rows[8], "wheel1_radius_m"), 0.25, "the nominal, not the median");
+    assert!((value(&rows[7], "body_parts_fuselage_length_m") - 2.92).abs() < 1e-15);
+    assert!((value(&rows[8], "body_parts_fuselage_length_m") - 3.08).abs() < 1e-15);
+    assert_eq!(value(&rows[8], "wheels_w1_radius_m"), 0.25, "the nominal, not the median");
 }
 
 #[test]
 fn a_table_gives_its_rows() {
     let folder = std::env::temp_dir().join(format!("spindrift-table-{}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("a folder");
-    let rows = "sample_id, wheel1.radius_m, initial_angular_velocity_x_rad_s, fuselage.length_m\n0, 0.21, 1.5, 3.5\n1, 0.22, -1, 3.25\n";
+    let rows = "sample_id, wheels.w1.radius_m, initial_angular_velocity_x_rad_s, body.parts.fuselage.length_m\n0, 0.21, 1.5, 3.5\n1, 0.22, -1, 3.25\n";
     std::fs::write(folder.join("rows.csv"), rows).expect("written");
     let scene = SCENE.replace("samples = 65\n", "");
     let read = |text: &str| Plan::from_text_in(&folder, "t.toml", &format!("{scene}{text}"), Overrides::default());
@@ -165,13 +176,14 @@ fn a_table_gives_its_rows() {
     assert_eq!(plan.samples, 3);
     let drawn = draws(&plan, 0..3);
     let column = |name: &str| drawn.iter().map(|row| value(row, name)).collect::<Vec<_>>();
-    assert_eq!(column("wheel1_radius_m"), [0.25, 0.21, 0.22]);
+    assert_eq!(column("wheels_w1_radius_m"), [0.25, 0.21, 0.22]);
     assert_eq!(column("initial_angular_velocity_x_rad_s"), [0.0, 1.5, -1.0]);
     // others are drawn beside it, as in the random design
-    let mixed = read(&format!("{table}parameters = [\"wheel1.radius_m\"]\n{LENGTH}")).unwrap_or_else(|e| panic!("{e}"));
+    let mixed =
+        read(&format!("{table}parameters = [\"wheels.w1.radius_m\"]\n{LENGTH}")).unwrap_or_else(|e| panic!("{e}"));
     let random = Plan::from_text("t.toml", &format!("{SCENE}{LENGTH}"), Overrides::default()).expect("valid");
     for (mixed, random) in draws(&mixed, 0..3).iter().zip(draws(&random, 0..3)) {
-        assert_eq!(mixed["fuselage_length_m"], random["fuselage_length_m"]);
+        assert_eq!(mixed["body_parts_fuselage_length_m"], random["body_parts_fuselage_length_m"]);
     }
     // the data is part of the plan's identity
     let hash = plan.hash();
@@ -301,6 +313,7 @@ fn sequences_integrate_smooth_functions_faster() {
 /// tests/golden/designs.py.
 #[test]
 fn numbers_are_pinned() {
+    // names of streams: the second was the name of a parameter once, and its numbers stay
     let names: Vec<String> = ["initial.angular_velocity_rad_s.x", "fuselage.density_kg_m3"].map(str::to_owned).to_vec();
     let mut found = Vec::new();
     for design in [
@@ -376,5 +389,5 @@ fn a_partial_grid_says_what_never_varies() {
     };
     assert!(grid(26).is_empty() && grid(8).is_empty(), "the second parameter has two levels in seven points");
     let notes = grid(6);
-    assert!(notes.len() == 1 && notes[0].contains("wheel1.radius_m is never varied"), "{notes:?}");
+    assert!(notes.len() == 1 && notes[0].contains("wheels.w1.radius_m is never varied"), "{notes:?}");
 }

@@ -14,7 +14,10 @@ use spindrift::sampling::dispersions::Draws;
 use spindrift::sampling::distribution::normal::{Normal, Spread};
 use spindrift::sampling::{Design, Dispersion, DispersionError, Dispersions, SampleId, Values, WrittenDistribution};
 use spindrift::scene::parameter::Shape as ParameterShape;
-use spindrift::scene::{DebrisInput, Parameter, PrincipalInertia, PrincipalMoments, Scene, SceneInput};
+use spindrift::scene::{
+    DebrisInput, Name, Parameter, PartInput, PartShape, PrincipalInertia, PrincipalMoments, Scene, SceneInput,
+    WheelInput,
+};
 
 /// Horizon, s.
 const HORIZON: f64 = 1.0;
@@ -34,10 +37,10 @@ fn variants() -> Vec<SceneInput> {
     let axes = [0.5, 0.1, -0.7, 0.5];
     let principal = |moments| Some(PrincipalInertia { moments, axes });
     let mut by_moments = scene(1);
-    by_moments.fuselage.inertia_kg_m2 = None;
-    by_moments.fuselage.principal = principal(PrincipalMoments::Inertia([1000.0, 1500.0, 1200.0]));
+    by_moments.body.inertia_kg_m2 = None;
+    by_moments.body.principal = principal(PrincipalMoments::Inertia([1000.0, 1500.0, 1200.0]));
     let mut by_second = by_moments.clone();
-    by_second.fuselage.principal = principal(PrincipalMoments::Second([300.0, 500.0, 900.0]));
+    by_second.body.principal = principal(PrincipalMoments::Second([300.0, 500.0, 900.0]));
     // by geometry alone
     let plain = random(Kind { products: false, offset: false, ..kind(2) }, 12, HORIZON);
     let tensor = [[3.0, 0.2, -0.1], [0.2, 4.0, 0.3], [-0.1, 0.3, 5.0]];
@@ -54,8 +57,42 @@ fn variants() -> Vec<SceneInput> {
     ];
     let mut list = vec![plain, scene(1), scene(2), by_moments, by_second];
     list.extend(irregular.map(|debris| SceneInput { debris: Some(debris), ..scene(1) }));
+    // parts of every shape, one of them given by mass, and a wheel given by mass and inertias
+    let mut parts = random(Kind { products: false, offset: false, ..kind(2) }, 13, HORIZON);
+    let part = |name, shape, position_m| PartInput {
+        name: Name::of(name),
+        shape,
+        position_m,
+        attitude: axes,
+        ..PartInput::DEFAULT
+    };
+    let (density_kg_m3, radius_m, length_m) = (Some(2000.0), Some(0.3), Some(1.2));
+    parts.parts.extend([
+        PartInput { radius_m, length_m, density_kg_m3, ..part("rod", PartShape::SolidCylinder, [0.3, -0.5, 1.0]) },
+        PartInput { size_m: Some([2.0, 1.0, 0.4]), density_kg_m3, ..part("crate", PartShape::Box, [-0.3, 0.8, 0.2]) },
+        PartInput { radius_m, density_kg_m3, ..part("ball", PartShape::Sphere, [0.7, 0.1, 2.0]) },
+        PartInput { mass_kg: Some(90.0), ..part("tip", PartShape::PointMass, [0.2, -0.4, 3.0]) },
+    ]);
+    parts.parts[3].errors.shear = [0.1, 0.0, 0.0];
+    let by_mass = WheelInput {
+        mass_kg: Some(60.0),
+        axial_inertia_kg_m2: Some(2.0),
+        transverse_inertia_kg_m2: Some(1.2),
+        ..WheelInput::BLANK
+    };
+    let WheelInput { name, axis, position_m, rate_rad_s, .. } = parts.wheels[0];
+    parts.wheels[0] = WheelInput { name, axis, position_m, rate_rad_s, ..by_mass };
+    list.push(parts);
     list.push(scene(1).with("environment.body_torque_n_m", &[30.0, -20.0, 10.0]));
     for input in &mut list {
+        input.parts[0].attitude = axes;
+        // oblique, so that each component of an axis turns it
+        for wheel in &mut input.wheels {
+            wheel.axis = wheel.axis.map(|x| 2.0 * x + 0.3);
+        }
+        for thruster in &mut input.thrusters {
+            thruster.direction = thruster.direction.map(|x| 2.0 * x + 0.3);
+        }
         for q in [&mut input.initial.attitude, &mut input.initial.debris_attitude] {
             let norm = q.iter().map(|x| x * x).sum::<f64>().sqrt();
             q.iter_mut().for_each(|x| *x /= norm);
@@ -64,12 +101,18 @@ fn variants() -> Vec<SceneInput> {
     list
 }
 
-/// The scene in which `parameter` is to be tested: its geometry counts where no other key overrides it.
-fn nominal_for(parameter: Parameter, variants: &[SceneInput]) -> &SceneInput {
-    variants
-        .iter()
-        .find(|scene| parameter.exists(scene, 0))
-        .unwrap_or_else(|| panic!("no scene has {}", parameter.name()))
+/// Every parameter that a scene of `variants` has, once, with the place of the first scene in which a change of it has an effect:
+/// its geometry counts where no other key overrides it.
+fn parameters(variants: &[SceneInput]) -> Vec<(Parameter, usize)> {
+    let mut found: Vec<(Parameter, usize)> = Vec::new();
+    for parameter in variants.iter().flat_map(Parameter::all) {
+        if found.iter().all(|(other, _)| other.name() != parameter.name())
+            && let Some(place) = variants.iter().position(|scene| parameter.exists(scene, 0))
+        {
+            found.push((parameter, place));
+        }
+    }
+    found
 }
 
 /// What is known of a run: its states, and the energies in its row (the rotation of a cube does not depend on its mass).
@@ -86,7 +129,8 @@ fn motion(method: Method, input: &SceneInput) -> Motion {
     let run = propagate(method, adaptive(tolerance), &grid, std::slice::from_ref(&scene)).remove(0);
     assert_eq!(run.outcome.status, Status::Done);
     let groups = [Group::Energies, Group::EnergiesCom].into_iter().collect();
-    let request = Request { groups, debris: true, actuated: true, constrained: method == Method::NullSpace };
+    let wheels = input.turning_wheels();
+    let request = Request { groups, debris: true, actuated: true, constrained: method == Method::NullSpace, wheels };
     let mut observer = Observer::new(request, &grid);
     let mut row = vec![f64::NAN; request.columns().len()];
     observer.observe(Isa::best(), &scene, &run.table, &run.outcome, &mut row);
@@ -146,9 +190,8 @@ fn every_key_moves_the_motion_and_both_kernels_agree_where_to() {
     let variants = variants();
     let nominal_motions: Vec<Motion> = variants.iter().map(|input| motion(Method::Taylor, input)).collect();
     let (mut least, mut most, mut count) = (f64::INFINITY, 0.0_f64, 0);
-    for parameter in Parameter::all() {
-        let nominal = nominal_for(parameter, &variants);
-        let place = variants.iter().position(|scene| std::ptr::eq(scene, nominal)).expect("one of them");
+    for (parameter, place) in parameters(&variants) {
+        let nominal = &variants[place];
         for component in 0..parameter.width() {
             let name = parameter.component_name(component);
             let (scene, recorded) = drawn(parameter, component, nominal);
@@ -179,13 +222,17 @@ fn every_key_moves_the_motion_and_both_kernels_agree_where_to() {
 #[test]
 fn a_key_without_effect_is_seen_and_refused() {
     let hidden = &variants()[1];
-    assert!(hidden.fuselage.mass_kg.is_some() && hidden.fuselage.inertia_kg_m2.is_some());
+    assert!(hidden.body.mass_kg.is_some() && hidden.body.inertia_kg_m2.is_some());
     let nominal = motion(Method::Taylor, hidden);
     let mut denser = hidden.clone();
-    denser.fuselage.density_kg_m3 *= 1.1;
+    denser.parts[0].density_kg_m3 = denser.parts[0].density_kg_m3.map(|density| 1.1 * density);
     assert_eq!(distance(&motion(Method::Taylor, &denser), &nominal), 0.0);
-    for name in ["fuselage.density_kg_m3", "fuselage.wall_thickness_m", "fuselage.outer_radius_m"] {
-        let parameter = Parameter::find(name).expect("in the table").0;
+    for name in [
+        "body.parts.fuselage.density_kg_m3",
+        "body.parts.fuselage.wall_thickness_m",
+        "body.parts.fuselage.outer_radius_m",
+    ] {
+        let parameter = Parameter::find(hidden, name).expect("in the table").0;
         let distribution = WrittenDistribution::Normal(Normal(Spread::Relative(Values::All(SPREAD))));
         let errors =
             dispersions(hidden, &[Dispersion { parameter, component: None, distribution }]).expect_err("hidden");

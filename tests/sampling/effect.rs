@@ -4,10 +4,46 @@ use spindrift::campaign::{Overrides, Plan};
 use spindrift::ensemble::influence::without_effect;
 use spindrift::math::Isa;
 
-const SCENE: &str = "[campaign]\nname = \"test\"\nsamples = 9\nseed = 1\nduration_s = 1.0\n[observe]\npoints = 11\n\
-    groups = [\"energy_conservation\"]\n[fuselage]\nwall_thickness_m = 0.03\nouter_radius_m = 1.0\nlength_m = 3.0\n\
-    density_kg_m3 = 2700.0\nthruster_offset_m = 0.5\n[wheel1]\nradius_m = 0.25\nlength_m = 0.1\nstation_m = 1.0\n\
-    density_kg_m3 = 2700.0\n[initial]\nangular_velocity_rad_s = [0, 3, 31]\n";
+/// A campaign with one wheel and the thrusters `p1`, `p2` and `p3`, without actuation.
+const SCENE: &str = r#"
+[campaign]
+name = "test"
+samples = 9
+seed = 1
+duration_s = 1.0
+[observe]
+points = 11
+groups = ["energy_conservation"]
+[[body.parts]]
+name = "fuselage"
+shape = "hollow_cylinder"
+wall_thickness_m = 0.03
+outer_radius_m = 1.0
+length_m = 3.0
+density_kg_m3 = 2700.0
+position_m = [0, 0, 1.5]
+[[wheels]]
+name = "w1"
+axis = [0, 1, 0]
+position_m = [0, 0, 1]
+radius_m = 0.25
+length_m = 0.1
+density_kg_m3 = 2700.0
+[[thrusters]]
+name = "p1"
+position_m = [0, 0, 0]
+direction = [0, 0, 1]
+[[thrusters]]
+name = "p2"
+position_m = [0, -0.5, 3]
+direction = [0, 0, -1]
+[[thrusters]]
+name = "p3"
+position_m = [0, 0.5, 3]
+direction = [0, 0, -1]
+[initial]
+angular_velocity_rad_s = [0, 3, 31]
+"#;
 
 fn plan(text: &str) -> Result<Plan, String> {
     Plan::from_text("test.toml", &format!("{SCENE}{text}"), Overrides::default()).map_err(|error| error.to_string())
@@ -19,15 +55,14 @@ fn dispersed(parameter: &str) -> String {
 
 fn arc(start: f64) -> String {
     format!(
-        "[[actuation]]\nstart_s = {start:?}\nend_s = {:?}\nthrust_n = [10, 0, 5]\ntorque_n_m = [1, 0]\n",
+        "[[actuation]]\nstart_s = {start:?}\nend_s = {:?}\nthrust_n = {{ p1 = 10, p3 = 5 }}\ntorque_n_m = {{ w1 = 1 }}\n",
         start + 1.0
     )
 }
 
 #[test]
 fn what_acts_after_the_end_only_is_refused() {
-    for parameter in ["actuators.thrust_scale", "actuators.torque_scale[0]", "actuators.switch_on_delay_s"] {
-        let parameter = if parameter == "actuators.thrust_scale" { "actuators.thrust_scale[2]" } else { parameter };
+    for parameter in ["thrusters.p3.thrust_scale", "wheels.w1.torque_scale", "actuators.switch_on_delay_s"] {
         let refused = plan(&format!("{}{}", arc(1.0), dispersed(parameter))).expect_err(parameter);
         assert!(refused.contains("disperse[0].parameter") && refused.contains("start later"), "{refused}");
         plan(&format!("{}{}", arc(0.999), dispersed(parameter))).expect("an arc within the run");
@@ -38,11 +73,11 @@ fn what_acts_after_the_end_only_is_refused() {
 /// A scale of a thruster that is never fired has no effect of its own; where a derived parameter is made of it, it has.
 #[test]
 fn inputs_of_derived_parameters_count_as_used() {
-    let scale = "actuators.thrust_scale[1]";
+    let scale = "thrusters.p2.thrust_scale";
     let refused = plan(&format!("{}{}", arc(0.0), dispersed(scale))).expect_err("never fired");
     assert!(refused.contains("a key that the scene has"), "{refused}");
     let derived = format!(
-        "{}{}[[derive]]\nparameter = \"wheel1.radius_m\"\nexpression = \"0.25 * actuators.thrust_scale[1]\"\n",
+        "{}{}[[derive]]\nparameter = \"wheels.w1.radius_m\"\nexpression = \"0.25 * thrusters.p2.thrust_scale\"\n",
         arc(0.0),
         dispersed(scale)
     );
@@ -58,6 +93,6 @@ fn what_no_requested_column_shows_is_told() {
     };
     let both = format!("{}{}", dispersed("initial.position_m"), dispersed("initial.angular_velocity_rad_s"));
     assert_eq!(names(&both), ["initial.position_m"]);
-    let used = "[[derive]]\nparameter = \"wheel1.length_m\"\nexpression = \"0.1 + 0.1 * initial.position_m.x\"\n";
+    let used = "[[derive]]\nparameter = \"wheels.w1.length_m\"\nexpression = \"0.1 + 0.1 * initial.position_m.x\"\n";
     assert!(names(&format!("{both}{used}")).is_empty());
 }

@@ -10,8 +10,8 @@ use spindrift::sampling::SampleId;
 use spindrift::scene::{Scene, SceneInput};
 
 /// A campaign without dispersions.
-pub const SCENE: &str = "[campaign]\nname = \"test\"\nsamples = 10\nseed = 11\nduration_s = 1.0\n[fuselage]\n\
-    wall_thickness_m = 0.03\nouter_radius_m = 1.0\nlength_m = 3.0\ndensity_kg_m3 = 2700.0\n[debris]\nmass_kg = 20.0\n\
+pub const SCENE: &str = "[campaign]\nname = \"test\"\nsamples = 10\nseed = 11\nduration_s = 1.0\n[[body.parts]]\n\
+    name = \"fuselage\"\nshape = \"hollow_cylinder\"\nposition_m = [0, 0, 1.5]\nwall_thickness_m = 0.03\nouter_radius_m = 1.0\nlength_m = 3.0\ndensity_kg_m3 = 2700.0\n[debris]\nmass_kg = 20.0\n\
     principal_second_moments_kg_m2 = [1.0, 2.0, 3.0]\n[initial]\nangular_velocity_rad_s = [1.0, -2.0, 2.0]\n\
     attitude = [0.5, 0.5, -0.5, 0.5]\n";
 
@@ -284,11 +284,11 @@ fn a_million_bodies_and_none_impossible() {
     };
     let second = "[[disperse]]\nparameter = \"debris.principal_second_moments_kg_m2\"\ndistribution = \"log_normal\"\nlog_std = 2.0\n\
         [[disperse]]\nparameter = \"debris.principal_axes\"\ndistribution = \"uniform_attitude\"\n";
-    let scale = "[[disperse]]\nparameter = \"fuselage.mass_scale\"\ndistribution = \"log_normal\"\nlog_std = 0.5\n";
+    let scale = "[[disperse]]\nparameter = \"body.mass_scale\"\ndistribution = \"log_normal\"\nlog_std = 0.5\n";
     let all = [
-        normal("fuselage.stretch_log", 1.0),
-        normal("fuselage.shear", 1.0),
-        normal("fuselage.center_offset_m", 1.0),
+        normal("body.stretch_log", 1.0),
+        normal("body.shear", 1.0),
+        normal("body.center_offset_m", 1.0),
         scale.to_owned(),
         second.to_owned(),
     ]

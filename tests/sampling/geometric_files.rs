@@ -25,11 +25,11 @@ fn what_cannot_be_drawn_is_refused() {
             "as a whole",
         ),
         (
-            "parameter = \"fuselage.length_m\"\ndistribution = \"uniform_direction\"\n".to_owned(),
+            "parameter = \"body.parts.fuselage.length_m\"\ndistribution = \"uniform_direction\"\n".to_owned(),
             "parameter",
             "a vector",
         ),
-        ("parameter = \"fuselage.shear\"\ndistribution = \"uniform_direction\"\n".to_owned(), "parameter", "a vector"),
+        ("parameter = \"body.shear\"\ndistribution = \"uniform_direction\"\n".to_owned(), "parameter", "a vector"),
         (format!("{RATE}distribution = \"cone\"\n"), "half_angle_rad", "given"),
         (format!("{RATE}distribution = \"cone\"\nhalf_angle_rad = 0\n"), "half_angle_rad", "at most pi"),
         (format!("{RATE}distribution = \"cone\"\nhalf_angle_rad = 3.2\n"), "half_angle_rad", "at most pi"),

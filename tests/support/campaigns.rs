@@ -2,30 +2,38 @@
 
 /// The fuselage.
 pub const FUSELAGE: &str = "\
-[fuselage]
+[[body.parts]]
+name = \"fuselage\"
+shape = \"hollow_cylinder\"
 wall_thickness_m = 0.03
 outer_radius_m = 1.0
 length_m = 3.0
 density_kg_m3 = 2700.0
-thruster_offset_m = 0.5
+position_m = [0, 0, 1.5]
 ";
 
-/// Wheel 1.
+/// Wheel 1, with its initial rate.
 pub const WHEEL1: &str = "\
-[wheel1]
+[[wheels]]
+name = \"w1\"
+axis = [0, 1, 0]
+position_m = [0, 0, 1]
 radius_m = 0.25
 length_m = 0.1
-station_m = 1.0
 density_kg_m3 = 2700.0
+rate_rad_s = 314.1592653589793
 ";
 
-/// Wheel 2.
+/// Wheel 2, with its initial rate.
 pub const WHEEL2: &str = "\
-[wheel2]
+[[wheels]]
+name = \"w2\"
+axis = [0, 0, 1]
+position_m = [0, 0, 2]
 radius_m = 0.25
 length_m = 0.1
-station_m = 2.0
 density_kg_m3 = 2700.0
+rate_rad_s = 157.07963267948966
 ";
 
 /// The debris.
@@ -35,15 +43,13 @@ side_m = 0.2
 density_kg_m3 = 2700.0
 ";
 
-/// The initial state of the spacecraft with both wheels: the last table of a scene, so that [`DEBRIS_STATE`] may follow.
+/// The initial state of the spacecraft: the last table of a scene, so that [`DEBRIS_STATE`] may follow.
 pub const SPACECRAFT_STATE: &str = "\
 [initial]
 position_m = [0, 0, 0]
 velocity_m_s = [10, 0, 0]
 attitude = [1, 0, 0, 0]
 angular_velocity_rad_s = [0, 3.141592653589793, 31.41592653589793]
-wheel_angles_rad = [0, 0]
-wheel_rates_rad_s = [314.1592653589793, 157.07963267948966]
 ";
 
 /// The initial state of the debris.

@@ -5,10 +5,7 @@
 use std::path::Path;
 
 use serde_json::Value;
-use spindrift::scene::{
-    ActuationInput, ActuatorsInput, DebrisInput, FuselageInput, InitialInput, MassErrors, SceneInput, WheelInput,
-    WheelMode,
-};
+use spindrift::scene::{ActuationInput, DebrisInput, InitialInput, SceneInput, ThrusterInput};
 
 /// A scene, and the truth at some times.
 pub struct Golden {
@@ -80,61 +77,54 @@ fn numbers<const N: usize>(value: &Value) -> [f64; N] {
 }
 
 fn scene(scene: &Value) -> SceneInput {
-    let (fuselage, debris, initial) = (&scene["fuselage"], &scene["debris"], &scene["initial"]);
-    let wheel = |wheel: &Value| {
-        (!wheel.is_null()).then(|| WheelInput {
-            radius_m: number(&wheel["radius"]),
-            length_m: number(&wheel["length"]),
-            station_m: number(&wheel["station"]),
-            density_kg_m3: number(&wheel["density"]),
-            offset_m: [0.0; 2],
-            tilt_rad: [0.0; 2],
-            mode: WheelMode::Free,
-        })
-    };
+    let (debris, initial) = (&scene["debris"], &scene["initial"]);
+    let mut input = SceneInput::report();
+    let fuselage = &mut input.parts[0];
+    let length_m = number(&scene["fuselage"]["length"]);
+    fuselage.wall_thickness_m = Some(number(&scene["fuselage"]["wall_thickness"]));
+    fuselage.outer_radius_m = Some(number(&scene["fuselage"]["outer_radius"]));
+    fuselage.length_m = Some(length_m);
+    fuselage.density_kg_m3 = Some(number(&scene["fuselage"]["density"]));
+    fuselage.position_m = [0.0, 0.0, 0.5 * length_m];
+    let offset_m = number(&scene["fuselage"]["thruster_offset"]);
+    input.thrusters = vec![
+        ThrusterInput::named("p1", [0.0; 3], [0.0, 0.0, 1.0]),
+        ThrusterInput::named("p2", [0.0, -offset_m, length_m], [0.0, 0.0, -1.0]),
+        ThrusterInput::named("p3", [0.0, offset_m, length_m], [0.0, 0.0, -1.0]),
+    ];
+    let (rates, angles) = (numbers::<2>(&initial["wheel_rates"]), numbers::<2>(&initial["wheel_angles"]));
+    let written = [&scene["wheel1"], &scene["wheel2"]];
+    assert!(written.iter().all(|wheel| !wheel.is_null()), "the golden scenes have both wheels");
+    for (i, (wheel, written)) in input.wheels.iter_mut().zip(written).enumerate() {
+        wheel.radius_m = Some(number(&written["radius"]));
+        wheel.length_m = Some(number(&written["length"]));
+        wheel.density_kg_m3 = Some(number(&written["density"]));
+        wheel.position_m = [0.0, 0.0, number(&written["station"])];
+        wheel.rate_rad_s = rates[i];
+        wheel.angle_rad = angles[i];
+    }
     let mut start_s = 0.0;
     let actuation = scene["segments"].as_array().expect("segments is a list").iter().map(|segment| {
-        let interval = ActuationInput {
-            start_s,
-            end_s: number(&segment["until"]),
-            thrust_n: numbers(&segment["thrust"]),
-            torque_n_m: numbers(&segment["torque"]),
-        };
+        let interval = ActuationInput::idle(start_s, number(&segment["until"]))
+            .with_thrust(&numbers::<3>(&segment["thrust"]))
+            .with_torque(&numbers::<2>(&segment["torque"]));
         start_s = interval.end_s;
         interval
     });
-    SceneInput {
-        fuselage: FuselageInput {
-            wall_thickness_m: number(&fuselage["wall_thickness"]),
-            outer_radius_m: number(&fuselage["outer_radius"]),
-            length_m: number(&fuselage["length"]),
-            density_kg_m3: number(&fuselage["density"]),
-            thruster_offset_m: number(&fuselage["thruster_offset"]),
-            mass_kg: None,
-            center_of_mass_m: None,
-            inertia_kg_m2: None,
-            principal: None,
-            errors: MassErrors::NONE,
-        },
-        wheels: [wheel(&scene["wheel1"]), wheel(&scene["wheel2"])],
-        debris: (!debris.is_null())
-            .then(|| DebrisInput::Cube { side_m: number(&debris["side"]), density_kg_m3: number(&debris["density"]) }),
-        initial: InitialInput {
-            position_m: numbers(&initial["position"]),
-            velocity_m_s: numbers(&initial["velocity"]),
-            attitude: numbers(&initial["attitude"]),
-            angular_velocity_rad_s: numbers(&initial["angular_velocity"]),
-            wheel_angles_rad: numbers(&initial["wheel_angles"]),
-            wheel_rates_rad_s: numbers(&initial["wheel_rates"]),
-            debris_position_m: numbers(&initial["debris_position"]),
-            debris_velocity_m_s: numbers(&initial["debris_velocity"]),
-            debris_attitude: numbers(&initial["debris_attitude"]),
-            debris_relative_angular_velocity_rad_s: numbers(&initial["debris_relative_angular_velocity"]),
-        },
-        actuation: actuation.collect(),
-        actuators: ActuatorsInput::IDEAL,
-        ..SceneInput::default()
-    }
+    input.actuation = actuation.collect();
+    input.debris = (!debris.is_null())
+        .then(|| DebrisInput::Cube { side_m: number(&debris["side"]), density_kg_m3: number(&debris["density"]) });
+    input.initial = InitialInput {
+        position_m: numbers(&initial["position"]),
+        velocity_m_s: numbers(&initial["velocity"]),
+        attitude: numbers(&initial["attitude"]),
+        angular_velocity_rad_s: numbers(&initial["angular_velocity"]),
+        debris_position_m: numbers(&initial["debris_position"]),
+        debris_velocity_m_s: numbers(&initial["debris_velocity"]),
+        debris_attitude: numbers(&initial["debris_attitude"]),
+        debris_relative_angular_velocity_rad_s: numbers(&initial["debris_relative_angular_velocity"]),
+    };
+    input
 }
 
 fn row(row: &Value) -> ReferenceSolution {

@@ -5,6 +5,7 @@ use spindrift::math::double_double::DoubleDouble;
 use spindrift::math::vector::{constant, constant_matrix, dcm_from_quaternion, dot, product, scaled, sum};
 use spindrift::math::{Real, vector};
 use spindrift::run::{StateField, StateTable};
+use spindrift::scene::mass::Wheel;
 use spindrift::scene::{Scene, WheelMode};
 
 /// What a free spacecraft conserves, at one point.
@@ -22,17 +23,18 @@ pub struct Invariants {
 }
 
 /// The wheels' momenta that nothing changes, N m s: h_i of a free wheel, J_i Omega_i of one whose speed is held.
-fn wheel_momenta(scene: &Scene) -> [DoubleDouble; 2] {
+fn wheel_momenta(scene: &Scene) -> Vec<DoubleDouble> {
     let zero = DoubleDouble::exact(0.0);
     let omega = constant(zero, scene.initial.omega_se_s);
-    std::array::from_fn(|i| {
-        let wheel = &scene.mass.wheels[i];
+    let momentum = |(wheel, rate): (&Wheel, f64)| {
         let carried = match wheel.mode {
             WheelMode::Free => dot(constant(zero, wheel.axis), omega),
             WheelMode::SpeedHeld => zero,
+            WheelMode::Locked => unreachable!("a locked wheel is a part of the body"),
         };
-        zero.splat(wheel.axial) * (carried + zero.splat(scene.initial.wheel_rates[i]))
-    })
+        zero.splat(wheel.axial) * (carried + zero.splat(rate))
+    };
+    scene.mass.wheels.iter().zip(scene.initial.wheel_rates).map(momentum).collect()
 }
 
 impl Invariants {
@@ -44,10 +46,8 @@ impl Invariants {
         let mut momentum = product(constant_matrix(zero, scene.mass.inertia_rotating()), omega);
         let mut energy = half * dot(momentum, omega);
         for (wheel, h) in scene.mass.wheels.iter().zip(wheel_momenta(scene)) {
-            if wheel.axial != 0.0 {
-                momentum = sum(momentum, scaled(h, constant(zero, wheel.axis)));
-                energy += half * h * h / zero.splat(wheel.axial);
-            }
+            momentum = sum(momentum, scaled(h, constant(zero, wheel.axis)));
+            energy += half * h * h / zero.splat(wheel.axial);
         }
         let q = table.at::<4>(StateField::Attitude, point).map(DoubleDouble::exact);
         let norm = (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]).sqrt();

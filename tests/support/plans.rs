@@ -17,7 +17,7 @@ pub fn shipped(name: &str, samples: Option<u64>) -> Plan {
 
 /// The rows of a campaign, in the order of samples.
 pub struct Table {
-    names: Vec<&'static str>,
+    names: Vec<String>,
     pub statuses: Vec<Status>,
     /// Column by column.
     values: Vec<Vec<f64>>,
@@ -38,8 +38,8 @@ impl Table {
     }
 
     /// Names and values of all columns.
-    pub fn columns(&self) -> impl Iterator<Item = (&'static str, &[f64])> {
-        self.names.iter().copied().zip(self.values.iter().map(Vec::as_slice))
+    pub fn columns(&self) -> impl Iterator<Item = (&str, &[f64])> {
+        self.names.iter().map(String::as_str).zip(self.values.iter().map(Vec::as_slice))
     }
 }
 
@@ -62,7 +62,7 @@ impl Sink for Memory {
 /// Runs `plan` on all cores.
 pub fn rows(plan: &Plan) -> Table {
     let campaign = Ensemble::new(plan, Isa::best());
-    let names = campaign.request().columns().iter().map(|column| column.quantity.name()).collect::<Vec<_>>();
+    let names = campaign.request().columns().iter().map(|column| column.quantity.name().to_owned()).collect::<Vec<_>>();
     let sink = Memory::default();
     run(&campaign, Parts::of(plan.samples), None, &sink, &|_| {}).expect("threads");
     let mut kept = sink.0.into_inner().expect("no thread panicked");

@@ -30,16 +30,24 @@ impl Run {
 
     /// Outcome and the states of `blocks`, as bits.
     pub fn bits_of(&self, blocks: StateFields) -> Bits {
-        let Outcome { status, time, points, effort, .. } = self.outcome;
-        let mut bits = vec![status as u64, time.to_bits(), points as u64];
-        bits.extend([effort.steps, effort.rejected, effort.evaluations]);
+        let mut bits = self.outcome_bits();
         for block in StateField::ALL.into_iter().filter(|block| blocks.contains(*block)) {
             for component in 0..self.table.width(block) {
-                let column = &self.table.column(block, component)[..self.table.points()];
-                bits.extend(column.iter().map(|x| x.to_bits()));
+                bits.extend(self.column_bits(block, component));
             }
         }
         bits
+    }
+
+    /// The outcome, as bits.
+    pub fn outcome_bits(&self) -> Bits {
+        let Outcome { status, time, points, effort, .. } = self.outcome;
+        vec![status as u64, time.to_bits(), points as u64, effort.steps, effort.rejected, effort.evaluations]
+    }
+
+    /// One component of a block at all points, as bits.
+    pub fn column_bits(&self, block: StateField, component: usize) -> impl Iterator<Item = u64> {
+        self.table.column(block, component)[..self.table.points()].iter().map(|x| x.to_bits())
     }
 }
 
@@ -93,9 +101,22 @@ pub fn propagate(method: Method, control: Control, grid: &Grid, scenes: &[Scene]
 
 /// |a - b| over |b|, as vectors; over one where |b| is smaller.
 pub fn relative<const N: usize>(found: [f64; N], expected: [f64; N]) -> f64 {
+    relative_of(&found, &expected)
+}
+
+/// The same of a field at one point, whatever its width: all wheels together.
+pub fn relative_field(found: &StateTable, expected: &StateTable, field: StateField, point: usize) -> f64 {
+    let at = |table: &StateTable| -> Vec<f64> {
+        (0..table.width(field)).map(|component| table.column(field, component)[point]).collect()
+    };
+    relative_of(&at(found), &at(expected))
+}
+
+fn relative_of(found: &[f64], expected: &[f64]) -> f64 {
+    assert_eq!(found.len(), expected.len(), "vectors of the same space");
     let mut off = 0.0;
     let mut size = 0.0;
-    for (a, b) in found.into_iter().zip(expected) {
+    for (a, b) in found.iter().zip(expected) {
         off += (a - b) * (a - b);
         size += b * b;
     }

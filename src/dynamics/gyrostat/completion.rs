@@ -54,6 +54,7 @@ pub fn complete<S: Simd>(simd: S, run: &Gyrostat<f64>, trajectory: &Trajectory, 
     ];
     let translation = translation.into_iter().any(|field| table.has(field));
     if wheels {
+        table.clear_wheels(run.wheels.len());
         for first in (0..table.stride()).step_by(WIDTH) {
             complete_wheels(Chunk { simd, first }, run, trajectory, &times[first..first + WIDTH], table);
         }
@@ -127,15 +128,6 @@ fn complete_wheels<S: Simd>(
     let omega_b = chunk.read3(trajectory, OMEGA);
     let angles = trajectory.components() >= WITH_ANGLES && table.has(StateField::WheelAngles);
     for (index, wheel) in run.wheels.iter().enumerate() {
-        if wheel.is_missing() {
-            // a missing wheel does not turn
-            for field in [StateField::WheelRates, StateField::WheelAngles] {
-                if table.has(field) {
-                    chunk.zero().store(&mut table.column_mut(field, index)[chunk.first..]);
-                }
-            }
-            continue;
-        }
         let lanes = wheel.in_lanes(chunk.zero());
         if table.has(StateField::WheelRates) {
             let momentum = chunk.along(

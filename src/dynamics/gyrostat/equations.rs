@@ -2,7 +2,7 @@
 
 use super::{ANGLE, ANGULAR_IMPULSE, ATTITUDE, Gyrostat, IMPULSE, IMPULSE_INTEGRAL, MOTOR_WORK, OMEGA, THRUST_WORK};
 use crate::math::Real;
-use crate::math::vector::{cross, dcm_from_quaternion, dot, product, scaled, sum};
+use crate::math::vector::{cross, dcm_from_quaternion, difference, dot, product, scaled, sum};
 
 /// The constants of the equations, one run per lane; those of an arc are set at its start.
 #[derive(Clone, Copy, Debug)]
@@ -110,6 +110,13 @@ impl<R: Real> Constants<R> {
         constants.motor_power_rate = power_rate * unit2 * unit2;
         constants.start = one.splat(arc.arc.start) / unit;
         constants
+    }
+
+    /// What constant torques - external ones and those of the motors - add to omega' in B.
+    #[inline(always)]
+    pub fn torque_acceleration(&self) -> [R; 3] {
+        let [x, y, z] = difference(self.torque, self.momentum_rate);
+        [self.inverse[0] * x, self.inverse[1] * y, self.inverse[2] * z]
     }
 
     /// omega' in B: J* omega' = H x omega + tau_ext - sum tau_i a_i, H = J* omega + h.

@@ -166,10 +166,11 @@ impl<R: Real> Gyrostat<R> {
             let (angle, rate) = (zero.splat(scene.initial.wheel_angles[i]), zero.splat(scene.initial.wheel_rates[i]));
             let axis_b = self.into_b(wheel.axis.map(|x| zero.splat(x)));
             let axial = zero.splat(wheel.axial);
-            let inverse_axial = if wheel.axial == 0.0 { zero } else { zero.splat(1.0) / axial };
+            let inverse_axial = zero.splat(1.0) / axial;
             let (held, momentum) = match wheel.mode {
                 WheelMode::Free => (None, axial * (dot(axis_b, self.omega_b) + rate)),
-                WheelMode::SpeedHeld => (Some(rate), axial * rate),
+                // a locked wheel is a part of the body, and not in the list
+                WheelMode::SpeedHeld | WheelMode::Locked => (Some(rate), axial * rate),
             };
             self.wheels.push(GyrostatWheel { axis_b, axial, inverse_axial, held, angle, momentum });
         }

@@ -27,9 +27,6 @@ pub fn observed_state<R: Real>(run: &Gyrostat<R>, time: f64, components: &[R; WI
     };
     let mut wheels = WheelState::AT_REST;
     for (i, (wheel, motion)) in run.wheels.iter().zip(run.wheels_at(time)).enumerate() {
-        if wheel.is_missing() {
-            continue;
-        }
         wheels.rates[i] = wheel.rate(motion.momentum, omega_b).lane(0);
         wheels.momenta[i] = wheel.absolute_momentum(motion.momentum, omega_b).lane(0);
         wheels.angles[i] = wheel.angle(now, motion.turn, turned_b).lane(0);

@@ -11,9 +11,9 @@ use crate::math::vector::{constant, dot};
 pub struct GyrostatWheel<R> {
     /// Unit spin axis a_i in B.
     pub axis_b: [R; 3],
-    /// Axial inertia J_i, kg m^2; zero for a wheel that is not there.
+    /// Axial inertia J_i, kg m^2.
     pub axial: R,
-    /// 1/J_i; zero for a wheel that is not there.
+    /// 1/J_i, 1/(kg m^2).
     pub inverse_axial: R,
     /// Rate relative to the body where a motor holds it, rad/s; `None` of a free wheel.
     pub held: Option<R>,
@@ -60,12 +60,6 @@ impl<R: Real> WheelMotion<R> {
 }
 
 impl<R: Real> GyrostatWheel<R> {
-    /// Whether the spacecraft lacks the wheel.
-    #[inline(always)]
-    pub fn is_missing(&self) -> bool {
-        self.axial.lane(0) == 0.0
-    }
-
     /// The motion at time zero.
     #[inline(always)]
     pub fn start(&self) -> WheelMotion<R> {

@@ -67,7 +67,7 @@ impl WheelParameters {
             axis: wheel.axis,
             inertia: wheel.inertia(),
             free: if is_free { 1.0 } else { 0.0 },
-            idle: if wheel.is_present() && is_free { 0.0 } else { 1.0 },
+            idle: if is_free { 0.0 } else { 1.0 },
         }
     }
 }

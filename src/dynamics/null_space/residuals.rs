@@ -7,7 +7,6 @@ use super::parameters::Parameters;
 use super::state::{Columns, State, rotated, rotated_back};
 use crate::math::vector::{cross, difference, dot, scaled, sum};
 use crate::scene::Scene;
-use crate::scene::mass::Wheel;
 
 /// The largest residual of each kind in `state`: [kinematic, collocation, attitude]. Bodies that the scene does not have do not count.
 ///
@@ -21,7 +20,7 @@ pub fn residuals<const W: usize>(scene: &Scene, parameters: &Parameters<W>, stat
     let c_es = state.fuselage.dcm;
     let mut attitude = orthonormality(c_es);
     for (w, wheel) in parameters.wheels.iter().enumerate() {
-        if !scene.mass.wheels.get(w).is_some_and(Wheel::is_present) {
+        if w >= scene.mass.wheels.len() {
             continue;
         }
         let motion = WheelMotion::of(wheel, state, w);

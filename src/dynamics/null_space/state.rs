@@ -235,7 +235,8 @@ mod tests {
     #[test]
     fn sigma_turns_wheels_as_the_report_has_it() {
         let mut input = samples::table_two();
-        input.initial.wheel_angles_rad = [0.3, -0.7];
+        input.wheels[0].angle_rad = 0.3;
+        input.wheels[1].angle_rad = -0.7;
         let scene = Scene::resolve(&input).expect("a legal scene");
         let state = sigma::<2>(&scene);
         let (sa, ca) = libm::sincos(0.3);

@@ -72,7 +72,7 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> Drive
         segment.start_low = vectors.time_low;
         let order = work.rule.order;
         expand::<R, J, FORCED>(&constants, &work.reciprocals, order, &mut work.scratch, &mut segment.jet);
-        let proposed = work.rule.step(&segment.jet);
+        let proposed = work.rule.step(&segment.jet, if FORCED { Some(constants.torque_acceleration()) } else { None });
         let left = (vectors.length - vectors.time) - vectors.time_low;
         let length = R::select(left.lt(proposed), left, proposed);
         truncation.add(&segment.jet, length);

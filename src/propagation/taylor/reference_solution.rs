@@ -145,7 +145,7 @@ impl ReferenceSolution {
         self.put(StateField::Attitude, point, &q_es);
         let arc = run.arc_at(time);
         let (mut rates, mut angles) = ([zero; MAX_WHEELS], [zero; MAX_WHEELS]);
-        for (i, wheel) in run.wheels.iter().enumerate().filter(|(_, wheel)| !wheel.is_missing()) {
+        for (i, wheel) in run.wheels.iter().enumerate() {
             let motion = run.wheel_at(arc, i, time);
             rates[i] = wheel.rate(motion.momentum, omega_b);
             angles[i] = wheel.angle(DoubleDouble::exact(time), motion.turn, three(y, ANGLE));
@@ -308,7 +308,7 @@ impl Integration<'_, '_> {
                 now.motor_power = constants.motor_power_rate.mul_add(time, constants.motor_power);
                 jet[0] = state;
                 expand::<DoubleDouble, N, true>(&now, &reciprocals, order, &mut scratch, &mut jet);
-                let (proposed, left) = (share * rule.step(&jet), length - time);
+                let (proposed, left) = (share * rule.step(&jet, Some(constants.torque_acceleration())), length - time);
                 lands = !proposed.lt(left);
                 let step = if lands { left } else { proposed };
                 while let Some(at) = times.get(states.len()) {

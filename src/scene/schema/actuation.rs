@@ -1,20 +1,49 @@
 //! `[[actuation]]`: the schedule, one arc of constant thrust and torque each; commands, which are not dispersed.
 
-use super::components::{AXES, SCALAR, WHEELS};
+use super::components::SCALAR;
 use super::limit::Limit;
 use super::numbers::Numbers;
 use super::row::always;
 use super::rows::rows;
+use super::usage::{MAX_THRUSTERS, MAX_WHEELS};
 
 rows! {
     /// An arc of constant thrust and torque, as commanded.
     pub struct ActuationInput in ActuationInput [table => table] {
     start_s: f64 = 0.0, "s", "Start", SCALAR, Plain, Limit::Finite, (required "0.0"), always, "";
     end_s: f64 = 1.0, "s", "End", SCALAR, Plain, Limit::Finite, (required "1.0"), always, "";
-    thrust_n: [f64; 3] = [0.0; 3], "N", "Thrusts P1, P2, P3, never negative", AXES, Plain,
-        Limit::Thrust("use the opposite thruster"), (optional), always, "";
-    torque_n_m: [f64; 2] = [0.0; 2], "N m",
-        "Motor torques tau^W1, tau^W2 on the wheels about their axes; the fuselage feels the opposite", WHEELS, Plain,
-        Limit::Finite, (optional), always, "";
-    } others {}
+    } others {
+        /// Thrusts in the order of the thrusters, never negative, N; zero beyond. In a file a table by name, `thrust_n = { p1 = 100.0 }`.
+        thrust_n: [f64; MAX_THRUSTERS] = [0.0; MAX_THRUSTERS],
+        /// Motor torques on the wheels about their axes, in the order of the wheels, N m; the body feels the opposite. In a file a table
+        /// by name, `torque_n_m = { w1 = 0.5 }`.
+        torque_n_m: [f64; MAX_WHEELS] = [0.0; MAX_WHEELS],
+    }
+}
+
+impl ActuationInput {
+    /// Nothing acts from `start_s` to `end_s`.
+    pub const fn idle(start_s: f64, end_s: f64) -> Self {
+        ActuationInput { start_s, end_s, ..ActuationInput::DEFAULT }
+    }
+
+    /// The same with `thrust_n` for the first thrusters.
+    ///
+    /// # Panics
+    /// Where there are more than a spacecraft may have.
+    #[must_use]
+    pub fn with_thrust(mut self, thrust_n: &[f64]) -> Self {
+        self.thrust_n[..thrust_n.len()].copy_from_slice(thrust_n);
+        self
+    }
+
+    /// The same with `torque_n_m` for the first wheels.
+    ///
+    /// # Panics
+    /// Where there are more than a spacecraft may have.
+    #[must_use]
+    pub fn with_torque(mut self, torque_n_m: &[f64]) -> Self {
+        self.torque_n_m[..torque_n_m.len()].copy_from_slice(torque_n_m);
+        self
+    }
 }

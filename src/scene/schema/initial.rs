@@ -1,13 +1,11 @@
 //! `[initial]`: the state at time zero.
 
-use super::components::{WHEELS, WXYZ, XYZ};
+use super::components::{WXYZ, XYZ};
 use super::limit::Limit;
 use super::numbers::Numbers;
 use super::row::always;
 use super::rows::rows;
-use super::usage::Usage;
 
-const WHEEL: &str = "add the wheel's table";
 const DEBRIS: &str = "add a [debris] table";
 
 rows! {
@@ -21,10 +19,6 @@ rows! {
         Limit::UnitQuaternion, (optional), always, "";
     angular_velocity_rad_s: [f64; 3] = [0.0; 3], "rad/s", "Angular velocity omega^se, in F_s", XYZ, Plain, Limit::Finite,
         (required "[0.0, 0.0, 1.0]"), always, "";
-    wheel_angles_rad: [f64; 2] = [0.0; 2], "rad", "Wheel angles alpha, beta", WHEELS, Plain, Limit::Finite, (optional),
-        wheel_acts, WHEEL;
-    wheel_rates_rad_s: [f64; 2] = [0.0; 2], "rad/s", "Wheel rates alpha-dot, beta-dot relative to the fuselage", WHEELS,
-        Plain, Limit::Finite, (optional), wheel_acts, WHEEL;
     debris_position_m: [f64; 3] = [0.0; 3], "m", "Position of the debris's centre from the inertial origin, in F_e", XYZ, Plain,
         Limit::Finite, (optional with debris), always, DEBRIS;
     debris_velocity_m_s: [f64; 3] = [0.0; 3], "m/s", "Velocity of the debris's centre relative to F_e, in F_e", XYZ, Plain,
@@ -36,8 +30,4 @@ rows! {
         "Angular velocity omega^ds of the debris relative to the spacecraft, in F_d", XYZ, Plain, Limit::Finite,
         (optional with debris), always, DEBRIS;
     } others {}
-}
-
-fn wheel_acts(usage: &Usage, _: &InitialInput, _: usize, wheel: usize) -> bool {
-    usage.wheels[wheel]
 }

@@ -22,6 +22,8 @@ pub enum Limit {
     NotNegative,
     /// A thrust or a factor of one: zero or above. The remedy says what to write.
     Thrust(&'static str),
+    /// A direction: not all zero.
+    Direction,
     /// A quaternion of norm one, to [`UNIT_NORM_TOLERANCE`].
     UnitQuaternion,
     /// An inertia tensor about a centre of mass: symmetric, positive definite, triangle inequality, to [`INERTIA_SLACK`].
@@ -37,6 +39,7 @@ impl Limit {
             Limit::Finite => "finite",
             Limit::Positive => "above zero",
             Limit::NotNegative | Limit::Thrust(_) => "zero or above",
+            Limit::Direction => "not all zero",
             Limit::UnitQuaternion => "a quaternion of norm 1",
             Limit::Inertia => "symmetric, positive definite, no principal moment above the sum of the other two",
             Limit::PrincipalMoments => "above zero, no moment above the sum of the other two",
@@ -67,6 +70,14 @@ impl Limit {
             Limit::Thrust(remedy) => {
                 if !numbers.iter().all(|number| *number >= 0.0) {
                     problems.add(key(), shown(numbers), "zero or above, each: a thruster does not pull", remedy);
+                }
+            }
+            Limit::Direction => {
+                // a length whose square neither vanishes nor overflows, so that it can be divided by
+                let square = numbers.iter().map(|x| x * x).sum::<f64>();
+                if !(f64::MIN_POSITIVE..f64::INFINITY).contains(&square) {
+                    let allowed = "a direction: three numbers, not all zero, with a length between 1e-150 and 1e150";
+                    problems.add(key(), shown(numbers), allowed, "write an axis such as [0, 0, 1]");
                 }
             }
             Limit::UnitQuaternion => unit_quaternion(key, numbers, problems),

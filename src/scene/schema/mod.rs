@@ -5,37 +5,44 @@
 //! dispersable [`super::Parameter`]s and the table of keys in the documents. To add a parameter, add a row here and use the
 //! field where it acts.
 //!
-//! - [`fuselage`], [`wheel`], [`debris`], [`initial`], [`environment`], [`actuators`], [`actuation`]: the rows, table by table.
+//! - [`body`], [`part`], [`mass_errors`], [`wheel`], [`thruster`], [`debris`], [`initial`], [`environment`], [`actuators`], [`actuation`]: the
+//!   rows, table by table.
 //! - [`row`]: what a row is. [`limit`]: what a value must satisfy. [`numbers`]: values seen as plain numbers.
 //! - [`usage`]: what a scene has and commands, as far as rows depend on it.
 //!
 //! A row knows its own table only; [`super::table`] says where in a scene the tables are. A table may have several instances.
 //!
-//! Not here: conditions on several keys together ([`super::check`]), keys that are not numbers (`wheel_mode`).
+//! Not here: conditions on several keys together ([`super::check`]), keys that are not numbers (`mode`, `shape`, names).
 
 pub mod actuation;
 pub mod actuators;
+pub mod body;
 mod components;
 pub mod debris;
 pub mod environment;
-pub mod fuselage;
 pub mod initial;
 pub mod limit;
+pub mod mass_errors;
 pub mod numbers;
+pub mod part;
 pub mod principal;
 pub mod row;
 mod rows;
+pub mod thruster;
 pub mod usage;
 pub mod wheel;
 
 pub use actuation::ActuationInput;
 pub use actuators::ActuatorsInput;
+pub use body::BodyInput;
 pub use debris::DebrisInput;
 pub use environment::EnvironmentInput;
-pub use fuselage::{FuselageInput, MassErrors};
 pub use initial::InitialInput;
 pub use limit::Limit;
+pub use mass_errors::MassErrors;
+pub use part::{PartInput, PartShape};
 pub use principal::{PrincipalInertia, PrincipalMoments};
 pub use row::{Facts, Needs, Presence, Row, Shape};
-pub use usage::Usage;
+pub use thruster::ThrusterInput;
+pub use usage::{MAX_THRUSTERS, MAX_WHEELS, Usage};
 pub use wheel::{WheelInput, WheelMode};

@@ -22,8 +22,6 @@ pub enum Shape {
 pub enum Presence {
     /// Always; a message shows this example.
     Required(&'static str),
-    /// Only where the scene says so.
-    RequiredIf(fn(&Usage) -> bool, &'static str),
     /// Never: where it is left out, the default of the input structure applies.
     Optional,
 }
@@ -57,8 +55,8 @@ pub struct Facts {
     pub unit: &'static str,
     /// What it is, without the unit.
     pub meaning: &'static str,
-    /// The names of the components for each instance of the table, or one list for all; one empty name for a scalar.
-    pub components: &'static [&'static [&'static str]],
+    /// The names of the components; one empty name for a scalar.
+    pub components: &'static [&'static str],
     /// How the components belong together.
     pub shape: Shape,
     /// Whether it must be written.
@@ -69,13 +67,6 @@ pub struct Facts {
     pub limit: Limit,
     /// What to write so that a change of the key has an effect, where it has none.
     pub remedy: &'static str,
-}
-
-impl Facts {
-    /// The names of the components in table `instance`.
-    pub const fn components(&self, instance: usize) -> &'static [&'static str] {
-        self.components[if instance < self.components.len() { instance } else { 0 }]
-    }
 }
 
 /// A row of the schema: one numeric key of the table `T`.

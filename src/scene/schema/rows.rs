@@ -8,9 +8,6 @@ macro_rules! presence {
     (required $example:literal) => {
         $crate::scene::schema::row::Presence::Required($example)
     };
-    (required $example:literal if $condition:path) => {
-        $crate::scene::schema::row::Presence::RequiredIf($condition, $example)
-    };
 }
 
 /// What else the scene must have for the key to exist, as in a row.

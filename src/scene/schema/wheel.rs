@@ -1,34 +1,79 @@
-//! `[wheel1]`, `[wheel2]`: a wheel, one instance of the table each.
+//! `[[wheels]]`: a wheel.
 
-use super::components::{SCALAR, XY};
+use super::components::{ACROSS, SCALAR, XYZ};
 use super::limit::Limit;
 use super::numbers::Numbers;
 use super::row::always;
 use super::rows::rows;
+use super::usage::Usage;
+use crate::scene::name::Name;
 
-/// Across the nominal axes of the wheels: s2 of W1, s3 of W2.
-const ACROSS: &[&[&str]] = &[&["x", "z"], &["x", "y"]];
-
-/// What makes the keys of a wheel exist; `Parameter::remedy` names the table.
-const REMEDY: &str = "add a [wheel] table";
+const SIZES: &str = "describe the wheel by radius_m, length_m and density_kg_m3";
+const MASS: &str = "describe the wheel by mass_kg, axial_inertia_kg_m2 and transverse_inertia_kg_m2";
+const MOTOR: &str = "command the motor of that wheel in an [[actuation]] table, or disperse only what is commanded";
+const TURNS: &str = "set the mode of the wheel to \"free\" or \"speed_held\"";
 
 rows! {
-    /// A wheel: a solid balanced cylinder that spins about an axis through its centre, which is fixed in the fuselage.
+    /// A balanced axisymmetric wheel that spins about an axis through its centre, which is fixed in the body.
+    ///
+    /// By radius, length and density it is a solid cylinder; otherwise mass and inertias are given.
     pub struct WheelInput in WheelInput [table => table] {
-    radius_m: f64 = 0.25, "m", "Radius", SCALAR, Plain, Limit::Positive, (required "0.25"), always, REMEDY;
-    length_m: f64 = 0.1, "m", "Length along the spin axis", SCALAR, Plain, Limit::Positive, (required "0.1"), always,
-        REMEDY;
-    station_m: f64 = 1.0, "m", "Station z of the wheel's centre along s3, from p", SCALAR, Plain, Limit::Finite,
-        (required "1.0"), always, REMEDY;
-    density_kg_m3: f64 = 2700.0, "kg/m^3", "Density", SCALAR, Plain, Limit::Positive, (required "2700.0"), always, REMEDY;
-    offset_m: [f64; 2] = [0.0; 2], "m", "Offset of the wheel's centre from the axis s3, along s1 and s2", XY, Plain,
-        Limit::Finite, (optional), always, REMEDY;
+    axis: [f64; 3] = [0.0, 0.0, 1.0], "1", "Spin axis in F_s; need not have length one", XYZ, Plain, Limit::Direction,
+        (required "[0, 0, 1]"), always, "";
+    position_m: [f64; 3] = [0.0; 3], "m", "Centre of the wheel from p, in F_s", XYZ, Plain, Limit::Finite, (optional), always,
+        "";
+    radius_m: Option<f64> = Some(0.25), "m", "Radius", SCALAR, Plain, Limit::Positive, (optional), always, SIZES;
+    length_m: Option<f64> = Some(0.1), "m", "Length along the spin axis", SCALAR, Plain, Limit::Positive, (optional), always,
+        SIZES;
+    density_kg_m3: Option<f64> = Some(2700.0), "kg/m^3", "Density", SCALAR, Plain, Limit::Positive, (optional), always, SIZES;
+    mass_kg: Option<f64> = None, "kg", "Mass", SCALAR, Plain, Limit::Positive, (optional), always, MASS;
+    axial_inertia_kg_m2: Option<f64> = None, "kg m^2", "Moment of inertia about the spin axis", SCALAR, Plain,
+        Limit::Positive, (optional), always, MASS;
+    transverse_inertia_kg_m2: Option<f64> = None, "kg m^2",
+        "Moment of inertia about any axis through the centre across the spin axis", SCALAR, Plain, Limit::Positive, (optional),
+        always, MASS;
     tilt_rad: [f64; 2] = [0.0; 2], "rad",
-        "Alignment error of the spin axis: the rotation vector, in F_s, that turns the nominal axis (s2 of W1, s3 of W2) into the true one; its two components across the nominal axis, (s1, s3) of W1, (s1, s2) of W2",
-        ACROSS, Plain, Limit::Finite, (optional), always, REMEDY;
+        "Alignment error of the spin axis: components of the rotation vector that turns the nominal axis into the true one, along the two axes of F_s across it (of an oblique axis: across it as the documents say)",
+        ACROSS, Plain, Limit::Finite, (optional), always, "";
+    rate_rad_s: f64 = 0.0, "rad/s", "Rate relative to the body at the start", SCALAR, Plain, Limit::Finite, (optional), turns,
+        TURNS;
+    angle_rad: f64 = 0.0, "rad", "Angle relative to the body at the start", SCALAR, Plain, Limit::Finite, (optional), turns,
+        TURNS;
+    torque_scale: f64 = 1.0, "1", "Factor of the commanded motor torque", SCALAR, Plain, Limit::Finite, (optional), is_driven,
+        MOTOR;
+    torque_bias_n_m: f64 = 0.0, "N m", "What the motor gives beyond the scaled torque while a torque other than zero is commanded",
+        SCALAR, Plain, Limit::Finite, (optional), is_driven, MOTOR;
     } others {
+        /// The name.
+        name: Name = Name::NONE,
         /// What the wheel does when no torque is scheduled for it.
         mode: WheelMode = WheelMode::Free,
+    }
+}
+
+fn turns(_: &Usage, wheel: &WheelInput, _: usize, _: usize) -> bool {
+    wheel.mode != WheelMode::Locked
+}
+
+fn is_driven(usage: &Usage, _: &WheelInput, instance: usize, _: usize) -> bool {
+    usage.drives[instance]
+}
+
+impl WheelInput {
+    /// A wheel without sizes and masses, before it is read.
+    pub const BLANK: WheelInput =
+        WheelInput { radius_m: None, length_m: None, density_kg_m3: None, ..WheelInput::DEFAULT };
+    /// The keys of the sizes of a solid cylinder.
+    pub const SIZES: [&'static str; 3] = ["radius_m", "length_m", "density_kg_m3"];
+    /// The keys of mass and inertias.
+    pub const MASSES: [&'static str; 3] = ["mass_kg", "axial_inertia_kg_m2", "transverse_inertia_kg_m2"];
+
+    /// The report's wheel (Table II) called `name` about `axis` with its centre at `position_m`.
+    ///
+    /// # Panics
+    /// Where `name` is no name.
+    pub fn named(name: &str, axis: [f64; 3], position_m: [f64; 3]) -> Self {
+        WheelInput { name: Name::of(name), axis, position_m, ..WheelInput::DEFAULT }
     }
 }
 
@@ -38,20 +83,23 @@ pub enum WheelMode {
     /// It turns freely in its bearing: its absolute axial momentum h_i is constant, and J* resists a change of omega.
     #[default]
     Free,
-    /// Its motor keeps its rate relative to the fuselage at the initial value with whatever torque that takes: its momentum
-    /// relative to the fuselage, J_i Omega_i, is constant, and its axial inertia resists a change of omega with the rest.
+    /// Its motor keeps its rate relative to the body at the initial value with whatever torque that takes: its momentum
+    /// relative to the body, J_i Omega_i, is constant, and its axial inertia resists a change of omega with the rest.
     SpeedHeld,
+    /// It does not turn relative to the body: a part of it.
+    Locked,
 }
 
 impl WheelMode {
     /// All values.
-    pub const ALL: [WheelMode; 2] = [WheelMode::Free, WheelMode::SpeedHeld];
+    pub const ALL: [WheelMode; 3] = [WheelMode::Free, WheelMode::SpeedHeld, WheelMode::Locked];
 
     /// The name in campaign files.
     pub const fn name(self) -> &'static str {
         match self {
             WheelMode::Free => "free",
             WheelMode::SpeedHeld => "speed_held",
+            WheelMode::Locked => "locked",
         }
     }
 

@@ -1,0 +1,151 @@
+//! Units in values: `"5 deg/s"` where a key asks for rad/s. Plain numbers are in the unit of the key, and need none.
+
+use core::f64::consts::PI;
+
+/// Units that people write, each with the SI unit that it measures in and its size there as a fraction.
+const UNITS: &[(&str, &str, f64, f64)] = &[
+    ("deg", "rad", PI, 180.0),
+    ("arcmin", "rad", PI, 10_800.0),
+    ("arcsec", "rad", PI, 648_000.0),
+    ("mrad", "rad", 1.0, 1e3),
+    ("rev", "rad", 2.0 * PI, 1.0),
+    ("deg/s", "rad/s", PI, 180.0),
+    ("deg/min", "rad/s", PI, 10_800.0),
+    ("deg/h", "rad/s", PI, 648_000.0),
+    ("mrad/s", "rad/s", 1.0, 1e3),
+    ("rpm", "rad/s", PI, 30.0),
+    ("rev/s", "rad/s", 2.0 * PI, 1.0),
+    ("ms", "s", 1.0, 1e3),
+    ("min", "s", 60.0, 1.0),
+    ("h", "s", 3600.0, 1.0),
+    ("day", "s", 86_400.0, 1.0),
+    ("mm", "m", 1.0, 1e3),
+    ("cm", "m", 1.0, 1e2),
+    ("km", "m", 1e3, 1.0),
+    ("mm/s", "m/s", 1.0, 1e3),
+    ("cm/s", "m/s", 1.0, 1e2),
+    ("km/s", "m/s", 1e3, 1.0),
+    ("km/h", "m/s", 1.0, 3.6),
+    ("g", "kg", 1.0, 1e3),
+    ("t", "kg", 1e3, 1.0),
+    ("g/cm^3", "kg/m^3", 1e3, 1.0),
+    ("kg cm^2", "kg m^2", 1.0, 1e4),
+    ("g cm^2", "kg m^2", 1.0, 1e7),
+    ("mN", "N", 1.0, 1e3),
+    ("kN", "N", 1e3, 1.0),
+    ("mN m", "N m", 1.0, 1e3),
+    ("kN m", "N m", 1e3, 1.0),
+    ("%", "1", 1.0, 1e2),
+];
+
+/// What is wrong with a text where a number is wanted.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct UnitProblem {
+    /// What is allowed, to follow "must be".
+    pub allowed: String,
+    /// What to do.
+    pub remedy: String,
+}
+
+/// The number that `text`, a number and a unit, means in the SI unit `unit`.
+///
+/// # Errors
+/// What is wrong, where it is no number and unit of that kind.
+pub(super) fn parsed(text: &str, unit: &str) -> Result<f64, UnitProblem> {
+    let text = text.trim();
+    let end = text.char_indices().find(|(at, c)| !is_of_number(text, *at, *c)).map_or(text.len(), |(at, _)| at);
+    let (number, written) = (&text[..end], text[end..].trim());
+    let problem = |remedy: String| Err(UnitProblem { allowed: allowed(unit), remedy });
+    let Some(number) = number.parse::<f64>().ok().filter(|number| number.is_finite()) else {
+        return problem(format!("write a number, or a number with its unit in quotes, {}", example(unit)));
+    };
+    if written.is_empty() {
+        return problem("write it without quotes, or add the unit".to_owned());
+    }
+    if written == unit {
+        return Ok(number);
+    }
+    match UNITS.iter().find(|(name, ..)| *name == written) {
+        Some((_, of, numerator, denominator)) if *of == unit => Ok(number * numerator / denominator),
+        Some((_, of, ..)) => problem(format!("{written} is a unit of other quantities ({of}); check key and unit")),
+        None if UNITS.iter().any(|(_, of, ..)| *of == written) => {
+            problem(format!("{written} is the unit of other quantities; check key and unit"))
+        }
+        None => problem(format!("{written:?} is no unit that is known here; {}", example(unit))),
+    }
+}
+
+/// Whether the character at `at` belongs to the number at the start of `text`.
+fn is_of_number(text: &str, at: usize, c: char) -> bool {
+    match c {
+        '0'..='9' | '.' | '+' | '-' | '_' => true,
+        // the exponent, and not the first letter of a unit
+        'e' | 'E' => text[at + 1..].starts_with(|next: char| next.is_ascii_digit() || next == '+' || next == '-'),
+        _ => false,
+    }
+}
+
+/// The units in which a value of the SI unit `unit` may be written.
+fn units(unit: &str) -> Vec<&str> {
+    let own = (unit != "1").then_some(unit);
+    own.into_iter().chain(UNITS.iter().filter(|(_, of, ..)| *of == unit).map(|(name, ..)| *name)).collect()
+}
+
+/// What is allowed of a value of the SI unit `unit`.
+fn allowed(unit: &str) -> String {
+    match units(unit)[..] {
+        [] => "a finite number".to_owned(),
+        ref units => format!("a finite number, or one with a unit ({})", units.join(", ")),
+    }
+}
+
+fn example(unit: &str) -> String {
+    match UNITS.iter().find(|(_, of, ..)| *of == unit) {
+        Some((name, ..)) => format!("such as \"5 {name}\""),
+        None => "such as 5.0".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_are_converted() {
+        for (text, unit, expected) in [
+            ("180 deg", "rad", PI),
+            ("0.5deg", "rad", PI / 360.0),
+            ("3000 rpm", "rad/s", 100.0 * PI),
+            ("-5 deg/s", "rad/s", -PI / 36.0),
+            ("20 min", "s", 1200.0),
+            ("1e3 mm", "m", 1.0),
+            ("2.5e-1 kN", "N", 250.0),
+            ("7 kg", "kg", 7.0),
+            ("5 %", "1", 0.05),
+            ("2.7 g/cm^3", "kg/m^3", 2700.0),
+        ] {
+            let found = parsed(text, unit).expect(text);
+            assert!((found / expected - 1.0).abs() <= 2.0 * f64::EPSILON, "{text}: {found:?}");
+        }
+    }
+
+    #[test]
+    fn wrong_dimensions_and_unknown_units_are_refused() {
+        for (text, unit, told) in [
+            ("5 deg", "rad/s", "unit of other quantities"),
+            ("5 rad/s", "rad", "unit of other quantities"),
+            ("5 degs", "rad", "no unit that is known"),
+            ("5", "rad", "without quotes"),
+            ("five deg", "rad", "write a number"),
+            ("inf deg", "rad", "write a number"),
+            ("5 deg", "1", "unit of other quantities"),
+        ] {
+            let problem = parsed(text, unit).expect_err(text);
+            assert!(problem.remedy.contains(told), "{text}: {problem:?}");
+        }
+        assert_eq!(
+            parsed("x", "s").expect_err("no number").allowed,
+            "a finite number, or one with a unit (s, ms, min, h, day)"
+        );
+    }
+}

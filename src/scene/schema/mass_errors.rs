@@ -1,0 +1,37 @@
+//! [`MassErrors`]: how a true distribution of mass differs from the nominal one, of the body as a whole or of a part.
+
+use super::components::{SCALAR, XYZ};
+use super::limit::Limit;
+use super::numbers::Numbers;
+use super::row::always;
+use super::rows::rows;
+
+const SHEARS: &[&str] = &["xy", "xz", "yz"];
+
+rows! {
+    /// How a distribution of mass differs from the nominal one: the same matter, moved by a linear map about the centre of
+    /// mass, with another mass, at another place.
+    ///
+    /// The second moments of mass about the centre become S' = k A S A^T with k = `mass_scale` times `inertia_scale` and A lower triangular,
+    /// exp(`stretch_log`) on its diagonal and `shear` below: positive definite whatever the numbers, as the inertia of a body
+    /// always is. If S = L L^T then S' = k (A L)(A L)^T: these are the coordinates of the log-Cholesky form (C. Rucker & P. M.
+    /// Wensing, *Smooth Parameterization of Rigid-Body Inertia*, IEEE Robotics and Automation Letters 7(2), 2022) about the
+    /// nominal body; with mass and centre of mass they couple all ten numbers of a rigid body.
+    pub struct MassErrors in MassErrors [table => table] {
+    mass_scale: f64 = 1.0, "1", "Factor of all masses", SCALAR, Plain, Limit::Positive, (optional), always, "";
+    inertia_scale: f64 = 1.0, "1", "Further factor of the inertia about the centre of mass, at the same mass", SCALAR, Plain,
+        Limit::Positive, (optional), always, "";
+    stretch_log: [f64; 3] = [0.0; 3], "1", "Logarithms of the linear scale factors of the mass distribution along s1, s2, s3",
+        XYZ, Plain, Limit::Finite, (optional), always, "";
+    shear: [f64; 3] = [0.0; 3], "1",
+        "Shears xy, xz, yz: matter at x moves by xy x along s2 and by xz x along s3, matter at y by yz y along s3", SHEARS,
+        Plain, Limit::Finite, (optional), always, "";
+    center_offset_m: [f64; 3] = [0.0; 3], "m", "Offset of the centre of mass, in F_s (of a part: in the frame of the part)", XYZ, Plain,
+        Limit::Finite, (optional), always, "";
+    } others {}
+}
+
+impl MassErrors {
+    /// No difference.
+    pub const NONE: MassErrors = MassErrors::DEFAULT;
+}

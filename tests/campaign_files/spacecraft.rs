@@ -1,0 +1,180 @@
+//! A spacecraft as its file describes it: names, units in values, and how little a first campaign needs.
+
+use spindrift::campaign::{CampaignError, Overrides, Plan};
+use spindrift::ensemble::SingleRun;
+use spindrift::math::Isa;
+use spindrift::run::Status;
+use spindrift::sampling::SampleId;
+
+/// 500 kg by mass and tensor, one wheel, a thruster with an alignment error, a spin in degrees per second.
+const NEWCOMER: &str = r#"[campaign]
+name = "first"
+samples = 8
+seed = 1
+duration_s = "20 min"
+[body]
+mass_kg = 500
+inertia_kg_m2 = [[120, -3, 1], [-3, 150, 2], [1, 2, 90]]
+includes_wheels = false
+[[wheels]]
+name = "w1"
+axis = [0, 1, 0]
+mass_kg = 53
+axial_inertia_kg_m2 = 1.66
+transverse_inertia_kg_m2 = 0.87
+rate_rad_s = "3000 rpm"
+[[thrusters]]
+name = "p1"
+position_m = [0, 0, -1]
+direction = [0, 0, 1]
+tilt_rad = ["0.5 deg", 0]
+[initial]
+angular_velocity_rad_s = [0, 0, "5 deg/s"]
+"#;
+
+fn read(text: &str) -> Result<Plan, CampaignError> {
+    Plan::from_text("bad.toml", text, Overrides::default())
+}
+
+fn plan(text: &str) -> Plan {
+    read(text).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn changed(from: &str, to: &str) -> String {
+    assert!(NEWCOMER.contains(from), "{from}");
+    NEWCOMER.replacen(from, to, 1)
+}
+
+/// Law: the newcomer's spacecraft takes at most 25 lines, runs to its end, and its energy and momentum are kept.
+#[test]
+fn the_newcomers_spacecraft_takes_25_lines_and_runs() {
+    assert!(NEWCOMER.lines().count() <= 25, "{} lines", NEWCOMER.lines().count());
+    let plan = plan(NEWCOMER);
+    let run = SingleRun::new(&plan, SampleId(0), plan.grid.clone(), Isa::best()).expect("a physical scene");
+    assert_eq!(run.outcome.status, Status::Done);
+    let columns = run.request.columns();
+    let value = |name: &str| {
+        run.row[columns.iter().position(|column| column.quantity.name() == name).unwrap_or_else(|| panic!("{name}"))]
+    };
+    for name in ["energy_error_max", "angular_momentum_error_max"] {
+        assert!(value(name) < 1e-9, "{name}: {:e}", value(name));
+    }
+    // half of 1.66 kg m^2 times (100 pi rad/s)^2, and little more from the rotation of the body
+    let energy = value("energy_w1_initial_j");
+    assert!((energy / (0.5 * 1.66 * (100.0 * std::f64::consts::PI).powi(2)) - 1.0).abs() < 1e-3, "{energy}");
+    let names: Vec<&str> = columns.iter().map(|column| column.quantity.name()).collect();
+    assert!(names.contains(&"exchange_w1_peak_to_peak_j") && !names.iter().any(|name| name.contains("_w2_")));
+    assert!(!names.iter().any(|name| name.contains("_wheels_")), "one wheel is all wheels together");
+}
+
+/// Law: names are a small letter, then small letters, digits and underscores, at most 23 of them; each list has each name once.
+#[test]
+fn names_are_small_letters_digits_and_underscores_and_unique() {
+    for name in ["a", "w1", "wheel_1", "x23456789012345678901_3"] {
+        let plan = plan(&changed("\"w1\"", &format!("{name:?}")));
+        assert_eq!(plan.nominal.wheels[0].name.as_str(), name);
+        plan_of_thruster(name);
+    }
+    let lists = [("\"w1\"", "wheels"), ("\"p1\"", "thrusters")];
+    for name in ["", "1w", "_w", "W1", "w-1", "w 1", "w.1", "räder", "a23456789012345678901234"] {
+        for (written, list) in lists {
+            let error = read(&changed(written, &format!("{name:?}"))).expect_err(name);
+            assert_eq!(error.problems.len(), 1, "{error}");
+            let problem = &error.problems[0];
+            assert_eq!(
+                (problem.key.as_str(), problem.value.as_deref()),
+                (&*format!("{list}[0].name"), Some(&*format!("{name:?}")))
+            );
+            assert!(problem.allowed.contains("small letters, digits and underscores"), "{problem}");
+        }
+    }
+    let part = |name: &str| format!("[[body.parts]]\nname = {name:?}\nshape = \"point_mass\"\nmass_kg = 1\n");
+    let twice = |first: &str, second: &str| {
+        let parts = NEWCOMER.find("[body]").expect("a body")..NEWCOMER.find("[[wheels]]").expect("wheels");
+        let mut text = NEWCOMER.to_owned();
+        text.replace_range(parts, &format!("[body]\ninertia_scale = 1\n{}{}[[body.parts]]\nname = \"box\"\nshape = \"box\"\nsize_m = [1, 1, 1]\nmass_kg = 9\n", part(first), part(second)));
+        read(&text)
+    };
+    assert!(twice("tip", "top").is_ok());
+    let error = twice("tip", "tip").expect_err("two parts of one name");
+    assert!(error.to_string().contains("must be another name than that of the other [[body.parts]] tables"), "{error}");
+    // one name in two lists is two names: wheels.a and thrusters.a
+    plan(&changed("\"w1\"", "\"p1\""));
+}
+
+fn plan_of_thruster(name: &str) {
+    assert_eq!(plan(&changed("\"p1\"", &format!("{name:?}"))).nominal.thrusters[0].name.as_str(), name);
+}
+
+/// Law: a value with its unit is the value in SI, also in the plan, which a reader finds without units.
+#[test]
+fn units_in_values_give_si() {
+    let plan = plan(NEWCOMER);
+    let degree = std::f64::consts::PI / 180.0;
+    let near = |found: f64, expected: f64| {
+        assert!((found / expected - 1.0).abs() <= 2.0 * f64::EPSILON, "{found:?} {expected:?}");
+    };
+    near(plan.nominal.wheels[0].rate_rad_s, 100.0 * std::f64::consts::PI);
+    near(plan.nominal.thrusters[0].tilt_rad[0], 0.5 * degree);
+    near(plan.nominal.initial.angular_velocity_rad_s[2], 5.0 * degree);
+    assert_eq!(plan.grid.duration(), 1200.0);
+    let text = plan.text();
+    assert!(text.contains("duration_s = 1200.0\n") && text.contains("rate_rad_s = 314.159265358979"), "{text}");
+    for unit in ["deg", "rpm", "min\""] {
+        assert!(!text.lines().any(|line| line.contains('=') && line.contains(unit)), "{unit} in\n{text}");
+    }
+    let again = self::plan(&text);
+    assert_eq!(again, plan);
+    // the same numbers without units
+    let plain =
+        changed("\"20 min\"", "1200").replace("\"3000 rpm\"", &format!("{:?}", plan.nominal.wheels[0].rate_rad_s));
+    assert_eq!(self::plan(&plain).hash(), plan.hash());
+}
+
+/// Law: distributions, schedules and schedules have units like the values that they are about.
+#[test]
+fn units_hold_in_distributions_and_schedules() {
+    let more = "[[actuation]]\nstart_s = 0\nend_s = \"500 ms\"\nthrust_n = { p1 = \"2 mN\" }\ntorque_n_m = { w1 = \"-5 mN m\" }\n\
+        [[disperse]]\nparameter = \"wheels.w1.rate_rad_s\"\ndistribution = \"normal\"\nstd = \"60 rpm\"\n\
+        [[disperse]]\nparameter = \"initial.attitude\"\ndistribution = \"attitude_error\"\nstd_rad = \"1 deg\"\n\
+        [[disperse]]\nparameter = \"body.mass_kg\"\ndistribution = \"truncated_normal\"\nrelative_std = \"2 %\"\nlower = \"0.4 t\"\n";
+    let plan = plan(&format!("{NEWCOMER}{more}"));
+    let arc = plan.nominal.actuation[0];
+    assert_eq!((arc.end_s, arc.thrust_n[0], arc.torque_n_m[0]), (0.5, 0.002, -0.005));
+    let pi = std::f64::consts::PI;
+    let plain = more.replace("\"500 ms\"", "0.5").replace("\"2 mN\"", "0.002").replace("\"-5 mN m\"", "-0.005");
+    let plain = plain.replace("\"60 rpm\"", &format!("{:?}", 60.0 * pi / 30.0));
+    let plain =
+        plain.replace("\"1 deg\"", &format!("{:?}", pi / 180.0)).replace("\"2 %\"", "0.02").replace("\"0.4 t\"", "400");
+    let plain = self::plan(&format!("{NEWCOMER}{plain}"));
+    assert_eq!(plain.text(), plan.text());
+}
+
+/// Law: a unit of another quantity is refused with line, value and the units that are allowed.
+#[test]
+fn a_wrong_dimension_is_refused() {
+    for (from, to, line, allowed, remedy) in [
+        (
+            "\"5 deg/s\"",
+            "\"5 deg\"",
+            23,
+            "rad/s, deg/s, deg/min, deg/h, mrad/s, rpm, rev/s",
+            "deg is a unit of other quantities (rad)",
+        ),
+        ("\"3000 rpm\"", "\"3000 deg\"", 16, "rpm", "deg is a unit of other quantities (rad)"),
+        ("\"0.5 deg\"", "\"0.5 deg/s\"", 21, "rad, deg, arcmin", "deg/s is a unit of other quantities (rad/s)"),
+        ("\"20 min\"", "\"20 m\"", 5, "s, ms, min, h, day", "m is the unit of other quantities"),
+        ("mass_kg = 500", "mass_kg = \"500 m\"", 7, "kg, g, t", "m is the unit of other quantities"),
+        ("\"3000 rpm\"", "\"3000 rmp\"", 16, "rpm", "is no unit that is known here"),
+        ("\"3000 rpm\"", "\"3000\"", 16, "rpm", "without quotes, or add the unit"),
+        ("axis = [0, 1, 0]", "axis = [0, \"1 m\", 0]", 12, "%", "m is the unit of other quantities"),
+    ] {
+        let error = read(&changed(from, to)).expect_err(to);
+        assert_eq!(error.problems.len(), 1, "{error}");
+        let problem = &error.problems[0];
+        assert_eq!(problem.line, Some(line), "{problem}");
+        let quoted = to[to.find('"').expect("a quoted value")..].trim_end_matches(", 0]");
+        assert!(problem.value.as_deref().is_some_and(|value| value.contains(quoted)), "{problem}");
+        assert!(problem.allowed.contains(allowed) && problem.remedy.contains(remedy), "{problem}");
+    }
+}
