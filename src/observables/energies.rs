@@ -9,7 +9,9 @@
 use fearless_simd::Simd;
 
 use super::attitude::Attitude;
-use super::points::{Column, MeasuredRun, SeriesTable, columns, constant, first, needed, of_wheels, three};
+use super::points::{
+    Column, MeasuredRun, SeriesTable, columns, constant, count_of_wheels, each, first, needed, of_wheels, only, three,
+};
 use super::table::Series;
 use crate::math::vector::{cross, difference, dot, scaled, transposed_product};
 use crate::math::{Lanes, Real};
@@ -106,22 +108,22 @@ struct WheelConstants<S: Simd> {
 }
 
 /// The constants of the energies of a run.
-struct Constants<S: Simd> {
+struct Constants<S: Simd, const W: usize> {
     body: BodyConstants<S>,
     /// The first as many as there are wheels.
-    wheels: [WheelConstants<S>; MAX_WHEELS],
+    wheels: [WheelConstants<S>; W],
     /// m / 2.
     half_total: Lanes<S>,
     half: Lanes<S>,
 }
 
-impl<S: Simd> Constants<S> {
+impl<S: Simd, const W: usize> Constants<S, W> {
     #[inline(always)]
     fn of(simd: S, mass: &MassProperties) -> Self {
         let s = &mass.fuselage;
         let body = BodyConstants::of(simd, s.mass, difference(s.center, mass.center), s.inertia);
         let zero = Lanes::broadcast(simd, 0.0);
-        let mut wheels = [WheelConstants { body, axis: [zero; 3], axial: zero }; MAX_WHEELS];
+        let mut wheels = [WheelConstants { body, axis: [zero; 3], axial: zero }; W];
         for (constants, wheel) in wheels.iter_mut().zip(&mass.wheels) {
             let offset = difference(wheel.center, mass.center);
             constants.body = BodyConstants::of(simd, wheel.mass, offset, wheel_inertia(wheel));
@@ -150,24 +152,20 @@ fn load<S: Simd>(simd: S, column: Column<'_>, at: usize) -> Lanes<S> {
 }
 
 /// The kinetic energies of redundant states, where there are any.
-struct Redundant<'a> {
+struct Redundant<'a, const W: usize> {
     body: Column<'a>,
     /// The first as many as there are wheels.
-    wheels: [Column<'a>; MAX_WHEELS],
+    wheels: [Column<'a>; W],
 }
 
-impl<'a> Redundant<'a> {
+impl<'a, const W: usize> Redundant<'a, W> {
     #[inline(always)]
     fn of(table: &'a StateTable, vectors: usize) -> Option<Self> {
         if !table.has(StateField::KineticEnergies) {
             return None;
         }
-        let mut wheels: [Column<'a>; MAX_WHEELS] = [&[]; MAX_WHEELS];
-        let column = |component: usize| &table.column(StateField::KineticEnergies, component).as_chunks().0[..vectors];
-        for (wheel, energies) in wheels.iter_mut().enumerate().take(table.wheels()) {
-            *energies = column(1 + wheel);
-        }
-        Some(Redundant { body: column(0), wheels })
+        let body = &table.column(StateField::KineticEnergies, 0).as_chunks().0[..vectors];
+        Some(Redundant { body, wheels: of_wheels(table, (StateField::KineticEnergies, 1), vectors) })
     }
 
     /// The energy of the spacecraft.
@@ -185,15 +183,29 @@ impl<'a> Redundant<'a> {
     }
 }
 
+/// The energies of a run and their balance. Loops over the wheels of common numbers of them are unrolled.
 #[inline(always)]
 pub(super) fn energies<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
+    match run.mass.wheels.len() {
+        0 => of_bodies::<S, 0>(simd, run, out),
+        1 => of_bodies::<S, 1>(simd, run, out),
+        2 => of_bodies::<S, 2>(simd, run, out),
+        3 => of_bodies::<S, 3>(simd, run, out),
+        4 => of_bodies::<S, 4>(simd, run, out),
+        _ => of_bodies::<S, MAX_WHEELS>(simd, run, out),
+    }
+}
+
+/// The same with arrays for `W` wheels.
+#[inline(always)]
+fn of_bodies<S: Simd, const W: usize>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let MeasuredRun { observed, mass, debris, table, .. } = *run;
     let vectors = run.vectors();
     let attitude = Attitude::of(table, vectors);
-    let constants = Constants::of(simd, mass);
+    let constants = Constants::<S, W>::of(simd, mass);
     let omega_columns: [_; 3] = needed(table, StateField::Rate, vectors);
-    let wheels = mass.wheels.len();
-    let rate_columns = of_wheels(table, StateField::WheelRates, vectors);
+    let wheels = count_of_wheels::<W>(mass.wheels.len());
+    let rate_columns: [_; W] = of_wheels(table, (StateField::WheelRates, 0), vectors);
     let total = observed.has(Series::EnergyTotal);
     let inertial = [Series::EnergyBody, Series::EnergyWheel, Series::EnergyDebris];
     let inertial = inertial.into_iter().any(|series| observed.has(series));
@@ -202,7 +214,7 @@ pub(super) fn energies<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut Series
         if observed.has(Series::EnergyError) { columns(table, StateField::Work, vectors) } else { None };
     // a kernel with redundant states conserves the energy of these states (36); where the wheels have drifted off their
     // constraints, the energy computed from the rates alone differs
-    let redundant = Redundant::of(table, vectors);
+    let redundant = Redundant::<W>::of(table, vectors);
     // the debris is a body whose centre of mass is c
     let debris = match debris {
         Some(body) if total || observed.has(Series::EnergyDebris) => {
@@ -213,52 +225,85 @@ pub(super) fn energies<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut Series
         }
         _ => None,
     };
+    let blocks = out.blocks(
+        const {
+            [
+                Series::ComBody.block(1),
+                Series::ComWheel.block(W),
+                Series::ComWheels.block(1),
+                Series::ComTotal.block(1),
+                Series::ComError.block(1),
+                Series::EnergyBody.block(1),
+                Series::EnergyWheel.block(W),
+                Series::EnergyDebris.block(1),
+                Series::EnergyTotal.block(1),
+                Series::EnergyError.block(1),
+            ]
+        },
+    );
+    let [
+        com_body,
+        com_wheel,
+        com_wheels,
+        com_total,
+        com_error,
+        energy_body,
+        energy_wheel,
+        energy_debris,
+        energy_total,
+        energy_error,
+    ] = blocks;
+    let [com_body, com_wheels, com_total, com_error] =
+        [com_body, com_wheels, com_total, com_error].map(|block| only(block, vectors));
+    let [energy_body, energy_debris, energy_total, energy_error] =
+        [energy_body, energy_debris, energy_total, energy_error].map(|block| only(block, vectors));
+    let [com_wheel, energy_wheel]: [[_; W]; 2] = [each(com_wheel, vectors), each(energy_wheel, vectors)];
     let mut com_first = Lanes::broadcast(simd, 0.0);
     let mut balance_first = com_first;
     for at in 0..vectors {
         let omega = three(simd, omega_columns, at);
         let p = products(omega);
         let body = quadratic(constants.body.form, p);
-        let mut about = [body; MAX_WHEELS];
+        let mut about = [body; W];
         let mut com = body;
         if wheels > 0 {
             for wheel in 0..wheels {
                 let own = &constants.wheels[wheel];
                 let rate = Lanes::load(simd, &rate_columns[wheel][at]);
                 about[wheel] = quadratic(own.body.form, p) + constants.spin(own, omega, rate);
-                about[wheel].store(out.at(Series::ComWheel.of_wheel(wheel), at));
+                about[wheel].store(&mut com_wheel[wheel][at]);
             }
             let mut together = about[0];
             for other in &about[1..wheels] {
                 together += *other;
             }
-            together.store(out.at(Series::ComWheels, at));
+            together.store(&mut com_wheels[at]);
             com = body + together;
         }
         if at == 0 {
             com_first = first(simd, com);
         }
-        body.store(out.at(Series::ComBody, at));
-        com.store(out.at(Series::ComTotal, at));
-        (com - com_first).store(out.at(Series::ComError, at));
+        body.store(&mut com_body[at]);
+        com.store(&mut com_total[at]);
+        (com - com_first).store(&mut com_error[at]);
         if !(total || inertial) {
             continue;
         }
 
         let v_c = three(simd, velocity, at);
         if inertial && let Some(redundant) = &redundant {
-            load(simd, redundant.body, at).store(out.at(Series::EnergyBody, at));
+            load(simd, redundant.body, at).store(&mut energy_body[at]);
             for wheel in 0..wheels {
-                load(simd, redundant.wheels[wheel], at).store(out.at(Series::EnergyWheel.of_wheel(wheel), at));
+                load(simd, redundant.wheels[wheel], at).store(&mut energy_wheel[wheel][at]);
             }
         } else if inertial {
             let u = transposed_product(attitude.c_es(simd, at), v_c);
             let square = dot(u, u);
             let turned = cross(u, omega);
-            constants.body.moving(body, square, turned).store(out.at(Series::EnergyBody, at));
+            constants.body.moving(body, square, turned).store(&mut energy_body[at]);
             for wheel in 0..wheels {
                 let energy = constants.wheels[wheel].body.moving(about[wheel], square, turned);
-                energy.store(out.at(Series::EnergyWheel.of_wheel(wheel), at));
+                energy.store(&mut energy_wheel[wheel][at]);
             }
         }
         let mut energy = match &redundant {
@@ -269,7 +314,7 @@ pub(super) fn energies<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut Series
             let v = three(simd, velocity, at);
             let omega = three(simd, omega, at);
             let debris = half_mass.mul_add(dot(v, v), quadratic(form, products(omega)));
-            debris.store(out.at(Series::EnergyDebris, at));
+            debris.store(&mut energy_debris[at]);
             energy += debris;
         }
         let mut balance = energy;
@@ -279,7 +324,7 @@ pub(super) fn energies<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut Series
         if at == 0 {
             balance_first = first(simd, balance);
         }
-        energy.store(out.at(Series::EnergyTotal, at));
-        (balance - balance_first).store(out.at(Series::EnergyError, at));
+        energy.store(&mut energy_total[at]);
+        (balance - balance_first).store(&mut energy_error[at]);
     }
 }

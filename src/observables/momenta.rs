@@ -8,7 +8,8 @@ use fearless_simd::Simd;
 
 use super::attitude::Attitude;
 use super::points::{
-    MeasuredRun, SeriesTable, columns, constant, constant_matrix, first_vector, four, needed, of_wheels, three,
+    MeasuredRun, SeriesTable, columns, constant, constant_matrix, count_of_wheels, first_vector, four, needed,
+    of_wheels, three,
 };
 use super::table::Series;
 use crate::math::Lanes;
@@ -63,17 +64,30 @@ pub(super) fn linear_momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut
 /// Angular momentum of the spacecraft about c.
 #[inline(always)]
 pub(super) fn angular_momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
+    match run.mass.wheels.len() {
+        0 => with_wheels::<S, 0>(simd, run, out),
+        1 => with_wheels::<S, 1>(simd, run, out),
+        2 => with_wheels::<S, 2>(simd, run, out),
+        3 => with_wheels::<S, 3>(simd, run, out),
+        4 => with_wheels::<S, 4>(simd, run, out),
+        _ => with_wheels::<S, MAX_WHEELS>(simd, run, out),
+    }
+}
+
+/// The same with arrays for `W` wheels.
+#[inline(always)]
+fn with_wheels<S: Simd, const W: usize>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let (mass, table, vectors) = (run.mass, run.table, run.vectors());
     let attitude = Attitude::of(table, vectors);
     let omega: [_; 3] = needed(table, StateField::Rate, vectors);
-    let rates = of_wheels(table, StateField::WheelRates, vectors);
+    let rates: [_; W] = of_wheels(table, (StateField::WheelRates, 0), vectors);
     let impulse: Option<[_; 3]> = columns(table, StateField::AngularImpulse, vectors);
     let inertia = constant_matrix(simd, mass.inertia);
-    let mut axes = [constant(simd, [0.0; 3]); MAX_WHEELS];
+    let mut axes = [constant(simd, [0.0; 3]); W];
     for (axis, wheel) in axes.iter_mut().zip(&mass.wheels) {
         *axis = constant(simd, scaled(wheel.axial, wheel.axis));
     }
-    let wheels = mass.wheels.len();
+    let wheels = count_of_wheels::<W>(mass.wheels.len());
     let columns = out.write([Series::AngularMomentumError, Series::AngularMomentumSquare], vectors);
     let mut sink = Sink::new(simd, columns);
     for at in 0..vectors {

@@ -8,7 +8,9 @@
 use fearless_simd::Simd;
 
 use super::attitude::Attitude;
-use super::points::{Column, MeasuredRun, SeriesTable, constant, constant_matrix, four, needed, of_wheels, three};
+use super::points::{
+    Column, MeasuredRun, SeriesTable, constant, constant_matrix, four, needed, of_wheels, only, three,
+};
 use super::table::Series;
 use crate::math::lanes::WIDTH;
 use crate::math::vector::{conjugate, cross, difference, dot, hamilton, norm, product, scaled, sum};
@@ -50,7 +52,7 @@ fn rate<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
 fn momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let (mass, table, vectors) = (run.mass, run.table, run.vectors());
     let omega: [_; 3] = needed(table, StateField::Rate, vectors);
-    let rates = of_wheels(table, StateField::WheelRates, vectors);
+    let rates: [_; MAX_WHEELS] = of_wheels(table, (StateField::WheelRates, 0), vectors);
     let inertia = constant_matrix(simd, mass.inertia);
     let zero = Lanes::broadcast(simd, 0.0);
     let (mut axials, mut axes) = ([zero; MAX_WHEELS], [[zero; 3]; MAX_WHEELS]);
@@ -58,6 +60,11 @@ fn momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
         axials[index] = Lanes::broadcast(simd, wheel.axial);
         axes[index] = constant(simd, wheel.axis);
     }
+    let blocks = const {
+        [Series::Nutation.block(1), Series::WheelSpeed.block(MAX_WHEELS), Series::WheelMomentum.block(MAX_WHEELS)]
+    };
+    let [nutation, speeds, momenta] = out.blocks(blocks);
+    let nutation = only(nutation, vectors);
     for at in 0..vectors {
         let omega = three(simd, omega, at);
         let mut total = product(inertia, omega);
@@ -65,11 +72,11 @@ fn momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
             let rate = Lanes::load(simd, &rates[wheel][at]);
             let own = axials[wheel] * (rate + dot(axes[wheel], omega));
             total = sum(total, scaled(axials[wheel] * rate, axes[wheel]));
-            (rate * rate).store(out.at(Series::WheelSpeed.of_wheel(wheel), at));
-            (own * own).store(out.at(Series::WheelMomentum.of_wheel(wheel), at));
+            (rate * rate).store(&mut speeds[wheel][at]);
+            (own * own).store(&mut momenta[wheel][at]);
         }
         let [x, y, z] = total;
-        angle(x.mul_add(x, y * y).sqrt(), z, out.at(Series::Nutation, at));
+        angle(x.mul_add(x, y * y).sqrt(), z, &mut nutation[at]);
     }
 }
 

@@ -2,6 +2,8 @@
 //!
 //! Not here: what is computed from these columns (`energies`, `momenta`, `attitude`).
 
+use core::ops::Range;
+
 use fearless_simd::Simd;
 
 use super::nominal_attitude::NominalAttitude;
@@ -71,10 +73,10 @@ impl SeriesTable {
         columns.expect("no series is written twice at once").map(|column| &mut column[..vectors])
     }
 
-    /// Vector `at` of a series, to write.
+    /// The columns of blocks of series that have no series in common ([`Series::block`]), to write.
     #[inline(always)]
-    pub(super) fn at(&mut self, series: Series, at: usize) -> &mut [f64; WIDTH] {
-        &mut self.columns[series.index()][at]
+    pub(super) fn blocks<const N: usize>(&mut self, blocks: [Range<usize>; N]) -> [&mut [Vec<[f64; WIDTH]>]; N] {
+        self.columns.get_disjoint_mut(blocks).expect("no series is written twice at once")
     }
 
     /// Repeats point `points - 1` in all that follow it.
@@ -91,6 +93,26 @@ impl SeriesTable {
             }
         }
     }
+}
+
+/// The first `vectors` vectors of the only column of a block.
+#[inline(always)]
+pub(super) fn only(block: &mut [Vec<[f64; WIDTH]>], vectors: usize) -> &mut [[f64; WIDTH]] {
+    &mut block[0][..vectors]
+}
+
+/// The first `vectors` vectors of each column of a block.
+#[inline(always)]
+pub(super) fn each<const W: usize>(block: &mut [Vec<[f64; WIDTH]>], vectors: usize) -> [&mut [[f64; WIDTH]]; W] {
+    let columns: &mut [Vec<[f64; WIDTH]>; W] = block.try_into().expect("a block of so many series");
+    columns.each_mut().map(|column| &mut column[..vectors])
+}
+
+/// How many wheels a loop over arrays of `W` runs through: `W`, known when the program is compiled, or, of a loop for any number,
+/// as many as there are.
+#[inline(always)]
+pub(super) fn count_of_wheels<const W: usize>(wheels: usize) -> usize {
+    if W < MAX_WHEELS { W } else { wheels }
 }
 
 /// Three components of a field at the eight points of vector `at`.
@@ -145,12 +167,16 @@ pub(super) fn columns<const N: usize>(
     Some(columns)
 }
 
-/// The columns of a field of each wheel; empty beyond the wheels that there are.
+/// The columns of a field of each wheel, from component `first` on; empty beyond the wheels that there are.
 #[inline(always)]
-pub(super) fn of_wheels<'a>(table: &'a StateTable, field: StateField, vectors: usize) -> [Column<'a>; MAX_WHEELS] {
-    let mut columns: [Column<'a>; MAX_WHEELS] = [&[]; MAX_WHEELS];
-    for (wheel, column) in columns.iter_mut().enumerate().take(table.wheels()) {
-        *column = &table.column(field, wheel).as_chunks().0[..vectors];
+pub(super) fn of_wheels<const W: usize>(
+    table: &StateTable,
+    (field, first): (StateField, usize),
+    vectors: usize,
+) -> [Column<'_>; W] {
+    let mut columns: [Column<'_>; W] = [&[]; W];
+    for (wheel, column) in columns.iter_mut().enumerate().take(count_of_wheels::<W>(table.wheels())) {
+        *column = &table.column(field, first + wheel).as_chunks().0[..vectors];
     }
     columns
 }

@@ -8,6 +8,8 @@
 //! observation point 0. Energy errors are relative to the largest total energy on the grid, momentum errors to the largest |p|
 //! or |L| on the grid. Where that is exactly zero the error is absolute (the scale is one); the scales are columns themselves.
 
+use core::ops::Range;
+
 use super::group::Group;
 use super::reduction::{ChangeStatistic, ErrorStatistic, OrderStatistic, Reduction, Stored, ValueStatistic};
 use super::rows::{Kind, Need, Scenes, Source};
@@ -152,6 +154,11 @@ impl Series {
     #[inline(always)]
     pub(super) const fn index(self) -> usize {
         self.0 as usize
+    }
+
+    /// The indices of the series and of those that follow it, `count` together: of the first wheels, where wheels have it.
+    pub(super) const fn block(self, count: usize) -> Range<usize> {
+        self.index()..self.index() + count
     }
 
     /// The same series of wheel `wheel`, where wheels have it; else itself.
