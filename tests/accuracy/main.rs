@@ -10,6 +10,7 @@ mod bodies;
 mod closed_forms;
 mod cross_kernel;
 mod drift_bounds;
+mod dual_spin;
 mod environment;
 mod error_estimate;
 mod feedback;
