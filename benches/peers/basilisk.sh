@@ -1,0 +1,27 @@
+#!/bin/sh
+# Runs spindrift and Basilisk on the same spacecraft with four wheels, one after the other on one core. Fails if they do not agree.
+# See benches/README.md.
+#
+#   benches/peers/basilisk.sh [options of basilisk.py, for example --samples 32 --repeats 3 --limit 1e-9]
+#
+# The scratch environment is PEERS (default: a folder in the system's temporary folder) and is reused. It is apart from that of run.sh,
+# so that neither decides the other's versions. SPINDRIFT=program takes this program instead of building one.
+set -eu
+here=$(cd "$(dirname "$0")" && pwd)
+root=$(cd "$here/../.." && pwd)
+scratch=${PEERS:-${TMPDIR:-/tmp}/spindrift-peers}
+python=${PYTHON:-python3}
+
+mkdir -p "$scratch/basilisk"
+[ -x "$scratch/venv-basilisk/bin/python" ] || "$python" -m venv "$scratch/venv-basilisk"
+"$scratch/venv-basilisk/bin/python" -c 'import Basilisk, numpy, pyarrow' 2>/dev/null ||
+    "$scratch/venv-basilisk/bin/pip" install --quiet bsk numpy pyarrow
+if [ -z "${SPINDRIFT:-}" ]; then
+    (cd "$root" && cargo build --release --bin spindrift)
+    SPINDRIFT=${CARGO_TARGET_DIR:-$root/target}/release/spindrift
+fi
+
+# one core for everybody, the last one: interrupts prefer the first
+pin=
+if command -v taskset >/dev/null; then pin="taskset -c $(($(nproc) - 1))"; fi
+exec $pin "$scratch/venv-basilisk/bin/python" "$here/basilisk.py" --spindrift "$SPINDRIFT" --scratch "$scratch/basilisk" "$@"
