@@ -187,7 +187,9 @@ fn observation() {
         let propagator = PropagationSettings::new(method, control, plan.grid.clone(), request.fields(), &scenes[0]);
         let mut observed = 0;
         propagator.engine(Isa::best()).propagate(&scenes, &mut |CompletedRun { index, table, outcome, .. }| {
-            let counted = allocations(|| observer.observe(Isa::best(), &scenes[index], table, outcome, &mut row));
+            let counted = allocations(|| {
+                observer.observe(Isa::best(), &scenes[index], table, outcome, &mut row);
+            });
             assert_eq!(counted, 0, "observing {name}");
             observed += 1;
         });

@@ -39,13 +39,16 @@ impl<'p> SceneDraws<'p> {
         Scene::resolve(&self.input)
     }
 
-    /// The same into `scenes[index]`, which is reused if it is there and else added; whether the scene is physical. Where it is
-    /// not, an existing scene stays as it was.
-    pub fn scene_at(&mut self, sample: SampleId, scenes: &mut Vec<Scene>, index: usize) -> bool {
+    /// The same into `scenes[index]`, which is reused if it is there and else added; where it is not physical, an
+    /// existing scene stays as it was.
+    ///
+    /// # Errors
+    /// Why the drawn scene is not physical.
+    pub fn scene_at(&mut self, sample: SampleId, scenes: &mut Vec<Scene>, index: usize) -> Result<(), Vec<SceneError>> {
         self.sampler.draw(sample, &mut self.input, &mut self.applied);
         match scenes.get_mut(index) {
-            Some(scene) => scene.resolve_into(&self.input).is_ok(),
-            None => Scene::resolve(&self.input).map(|scene| scenes.push(scene)).is_ok(),
+            Some(scene) => scene.resolve_into(&self.input),
+            None => Scene::resolve(&self.input).map(|scene| scenes.push(scene)),
         }
     }
 

@@ -89,8 +89,9 @@ pub fn run(options: &SimulateOptions) -> Result<CommandOutcome, Failure> {
         ));
     }
     if run.outcome.status != Status::Done {
-        let (status, time) = (run.outcome.status.name(), run.outcome.time);
-        screen::note(&format!("the run ended with {status} at {time:?} s; later points are not shown"));
+        let (status, reason) = (run.outcome.status.name(), &run.reason);
+        let later = if run.outcome.status == Status::Inaccurate { "" } else { "; later points are not shown" };
+        screen::note(&format!("the run ended with {status}: {reason}{later}"));
     }
     Ok(CommandOutcome::of(run.outcome.status))
 }

@@ -76,6 +76,8 @@ pub enum Cells<'a> {
     Count(Vec<u64>, Option<&'a [bool]>),
     /// Words.
     Word(Vec<&'static str>),
+    /// Texts; absent ones are null.
+    Text(Vec<Option<&'a str>>),
 }
 
 /// How a file is packed.
@@ -264,6 +266,12 @@ impl Scratch {
                 let levels = self.levels(words.len(), None, nullable);
                 let words: Vec<ByteArray> = words.into_iter().map(ByteArray::from).collect();
                 column.typed::<ByteArrayType>().write_batch(&words, levels.then_some(&self.levels[..]), None)?;
+            }
+            Cells::Text(texts) => {
+                let mask: Vec<bool> = texts.iter().map(Option::is_some).collect();
+                let levels = self.levels(texts.len(), Some(&mask), nullable);
+                let texts: Vec<ByteArray> = texts.into_iter().flatten().map(ByteArray::from).collect();
+                column.typed::<ByteArrayType>().write_batch(&texts, levels.then_some(&self.levels[..]), None)?;
             }
         }
         Ok(())

@@ -19,6 +19,9 @@ pub const SAMPLE_ID: &str = "sample_id";
 /// Name of the column that says how a run ended.
 pub const STATUS: &str = "status";
 
+/// Name of the column that says why a run is not `ok`.
+pub const REASON: &str = "reason";
+
 /// Layout of the files of rows of one campaign.
 #[derive(Clone, Debug)]
 pub struct RowsFile {
@@ -37,9 +40,11 @@ pub fn file_name(part: PartId) -> String {
 /// The columns of a row.
 pub fn headings(ensemble: &Ensemble<'_>) -> Vec<Heading> {
     let number = "Number of the sample within the campaign; 0 is the nominal scene.";
-    let status = "How the run ended: ok, step_limit, step_floor, non_finite, invalid_sample.";
-    let fixed = [(SAMPLE_ID, number, Content::Count), (STATUS, status, Content::Word)]
-        .map(|(name, meaning, content)| Heading::new(Quantity::new(name, "", meaning), content));
+    let status = "How the run ended: ok, step_limit, step_floor, non_finite, invalid_sample, inaccurate.";
+    let reason = "Why the run is not ok.";
+    let fixed = [(SAMPLE_ID, number, Content::Count), (STATUS, status, Content::Word), (REASON, reason, Content::Word)]
+        .map(|(name, meaning, content)| Heading::new(Quantity::new(name, "", meaning), content))
+        .map(|heading| if heading.quantity.name() == REASON { heading.nullable() } else { heading });
     let observables = ensemble
         .request()
         .columns()
@@ -122,9 +127,12 @@ impl RowsFile {
         ];
         let shape = rows.shape();
         let masks = masks(rows);
+        let mut reasons = vec![None; rows.part().count];
+        rows.reasons().iter().for_each(|(row, reason)| reasons[*row] = Some(reason.as_str()));
         let fixed = [
             Cells::Count(rows.part().samples().map(|sample| sample.0).collect(), None),
             Cells::Word(rows.statuses().iter().map(|status| status.name()).collect()),
+            Cells::Text(reasons),
         ];
         let parameters = (0..shape.parameters).map(|index| Cells::Real(rows.parameter(index), None));
         let observables = (0..shape.observables).map(|index| {

@@ -91,7 +91,7 @@ impl DrawnScenes {
         self.columns.iter_mut().chain(&mut self.mass).for_each(Vec::clear);
         let mut scenes: Vec<Scene> = Vec::with_capacity(1);
         for sample in samples {
-            let physical = draws.scene_at(SampleId(sample), &mut scenes, 0);
+            let physical = draws.scene_at(SampleId(sample), &mut scenes, 0).is_ok();
             self.physical.push(physical);
             self.columns.iter_mut().zip(draws.applied()).for_each(|(column, value)| column.push(*value));
             if !self.mass.is_empty() {

@@ -32,6 +32,7 @@ pub struct Rows {
     statuses: Vec<Status>,
     values: Vec<f64>,
     audits: Vec<(usize, Option<Audit>)>,
+    reasons: Vec<(usize, String)>,
     seconds: [f64; 2],
 }
 
@@ -47,6 +48,7 @@ impl Rows {
             statuses: vec![Status::InvalidSample; capacity],
             values: vec![f64::NAN; (shape.parameters + shape.observables) * stride],
             audits: Vec::new(),
+            reasons: Vec::new(),
             seconds: [0.0; 2],
         }
     }
@@ -61,6 +63,7 @@ impl Rows {
         self.statuses.fill(Status::InvalidSample);
         self.values.fill(f64::NAN);
         self.audits.clear();
+        self.reasons.clear();
         self.seconds = [0.0; 2];
     }
 
@@ -108,6 +111,17 @@ impl Rows {
     pub fn set_audit(&mut self, row: usize, audit: Option<Audit>) {
         assert!(row < self.part.count);
         self.audits.push((row, audit));
+    }
+
+    /// Says why row `row` is not `ok`.
+    pub fn set_reason(&mut self, row: usize, reason: String) {
+        assert!(row < self.part.count);
+        self.reasons.push((row, reason));
+    }
+
+    /// The rows that are not `ok`, with the reason of each, in any order.
+    pub fn reasons(&self) -> &[(usize, String)] {
+        &self.reasons
     }
 
     /// The rows that were audited, with their audits.

@@ -27,6 +27,8 @@ pub struct SingleRun {
     pub table: StateTable,
     /// How the run ended.
     pub outcome: Outcome,
+    /// Why it is not `ok`; empty where it is.
+    pub reason: String,
     /// Energies and conservation errors at the points that were reached.
     pub series: Vec<(Series, Vec<f64>)>,
     /// The row of the sample, as a campaign on this grid has it, with the columns of [`SingleRun::request`].
@@ -52,15 +54,16 @@ impl SingleRun {
         let mut series_observer = Observer::new(shown, &grid);
         let mut row = vec![f64::NAN; request.columns().len()];
         let mut ignored = vec![f64::NAN; shown.columns().len()];
-        let mut result = None;
+        let (mut result, mut reason) = (None, String::new());
         engine.propagate(std::slice::from_ref(&scene), &mut |CompletedRun { table, outcome, .. }| {
-            observer.observe(isa, &scene, table, outcome, &mut row);
+            let status = observer.observe(isa, &scene, table, outcome, &mut row);
             series_observer.observe(isa, &scene, table, outcome, &mut ignored);
-            result = Some((table.clone(), *outcome));
+            reason = observer.reason(status, outcome, &row);
+            result = Some((table.clone(), Outcome { status, ..*outcome }));
         });
         let (table, outcome) = result.expect("the propagator finishes every scene that it is given");
         let series = series_observer.series().map(|(series, values)| (series, values.collect())).collect();
-        Ok(SingleRun { scene, grid, table, outcome, series, row, request })
+        Ok(SingleRun { scene, grid, table, outcome, reason, series, row, request })
     }
 }
 

@@ -10,6 +10,7 @@ use crate::math::Isa;
 use crate::observables::{Observer, Request};
 use crate::propagation::PropagationSettings;
 use crate::propagation::{CompletedRun, Engine};
+use crate::run::Status;
 use crate::sampling::SampleId;
 use crate::scene::Scene;
 
@@ -119,8 +120,12 @@ impl Worker<'_> {
             let physical =
                 self.draws.scene_at(SampleId(part.first.0 + row as u64), &mut self.scenes, self.rows_of_scenes.len());
             rows.set_parameters(row, self.draws.applied());
-            if physical {
-                self.rows_of_scenes.push(row);
+            match physical {
+                Ok(()) => self.rows_of_scenes.push(row),
+                Err(errors) => {
+                    let errors: Vec<String> = errors.iter().map(ToString::to_string).collect();
+                    rows.set_reason(row, errors.join("; "));
+                }
             }
         }
     }
@@ -139,8 +144,12 @@ impl Worker<'_> {
         let (isa, scenes) = (self.campaign.isa, &self.scenes[..self.rows_of_scenes.len()]);
         let (rows_of_scenes, observer, observed) = (&self.rows_of_scenes, &mut self.observer, &mut self.observed);
         self.engine.propagate(scenes, &mut |CompletedRun { index, table, outcome, .. }| {
-            observer.observe(isa, &scenes[index], table, outcome, observed);
-            rows.set_result(rows_of_scenes[index], outcome.status, observed);
+            let (status, row) =
+                (observer.observe(isa, &scenes[index], table, outcome, observed), rows_of_scenes[index]);
+            rows.set_result(row, status, observed);
+            if status != Status::Done {
+                rows.set_reason(row, observer.reason(status, outcome, observed));
+            }
         });
     }
 }

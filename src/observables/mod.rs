@@ -15,6 +15,7 @@
 //! (Zhukovskii; Volterra 1899). Nothing here depends on how a run was integrated, and nothing is assumed to be conserved: every
 //! error is measured from the computed states.
 
+pub mod accuracy;
 mod acting;
 mod attitude;
 mod conditioning;

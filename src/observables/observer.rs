@@ -2,6 +2,7 @@
 
 use fearless_simd::Simd;
 
+use super::accuracy::Accuracy;
 use super::acting::Acting;
 use super::conditioning::{Conditioning, ErrorEstimate};
 use super::exchange::{BodyEnergy, Exchange, exchange};
@@ -42,6 +43,7 @@ pub struct Observer {
     exchange: Exchange,
     nominal: Option<NominalAttitude>,
     /// Number of points of the run that was observed last.
+    accuracy: Accuracy,
     filled: usize,
 }
 
@@ -65,6 +67,7 @@ impl Observer {
             estimate: ErrorEstimate::UNKNOWN,
             exchange: Exchange::UNKNOWN,
             nominal: None,
+            accuracy: Accuracy::new(&request),
             filled: 0,
         }
     }
@@ -82,14 +85,24 @@ impl Observer {
 
     /// Writes the values of [`Request::columns`], in that order, of the run of `scene` by its own schedule whose states are in `table`.
     ///
+    /// Returns the status of the run: that of `outcome`, or [`Status::Inaccurate`] of a run that reached its end with errors beyond any
+    /// use ([`super::accuracy`]); all of its columns have values.
+    ///
     /// Of a run that is not [`Status::Done`] only step statistics and final state are numbers, the latter at the last point with
     /// finite values; everything else is NaN. Counts are whole numbers.
     ///
     /// # Panics
     /// Where the table lacks a field of [`Request::fields`] or has other points than the grid, the scene has no debris although
     /// the request says so, or `row` has another length than [`Request::columns`].
-    pub fn observe(&mut self, isa: Isa, scene: &Scene, table: &StateTable, outcome: &Outcome, row: &mut [f64]) {
-        self.observe_acting(isa, Acting::scheduled(scene), table, outcome, row);
+    pub fn observe(
+        &mut self,
+        isa: Isa,
+        scene: &Scene,
+        table: &StateTable,
+        outcome: &Outcome,
+        row: &mut [f64],
+    ) -> Status {
+        self.observe_acting(isa, Acting::scheduled(scene), table, outcome, row)
     }
 
     /// The same of a run under an actuation law, in which `arcs` were flown: the schedule of `scene` did not act. The values are those
@@ -104,11 +117,18 @@ impl Observer {
         table: &StateTable,
         outcome: &Outcome,
         row: &mut [f64],
-    ) {
-        self.observe_acting(isa, Acting::flown(scene, arcs), table, outcome, row);
+    ) -> Status {
+        self.observe_acting(isa, Acting::flown(scene, arcs), table, outcome, row)
     }
 
-    fn observe_acting(&mut self, isa: Isa, acting: Acting<'_>, table: &StateTable, outcome: &Outcome, row: &mut [f64]) {
+    fn observe_acting(
+        &mut self,
+        isa: Isa,
+        acting: Acting<'_>,
+        table: &StateTable,
+        outcome: &Outcome,
+        row: &mut [f64],
+    ) -> Status {
         assert_eq!(row.len(), self.plan.columns(), "a row has one value a column");
         assert_eq!(table.points(), self.times.len(), "the table has the points of the grid");
         let has_debris = acting.scene().mass.debris.is_some();
@@ -129,6 +149,16 @@ impl Observer {
         self.plan.fill(&self.statistics, |value, wheel| run.value(value, usize::from(wheel)), row);
         if outcome.status != Status::Done {
             self.plan.clear_unknown(row);
+            return outcome.status;
+        }
+        if self.accuracy.holds(row) { Status::Done } else { Status::Inaccurate }
+    }
+
+    /// Why the run of `row`, which ended with `status` (what [`Observer::observe`] returned), is not `ok`, in words; empty where it is.
+    pub fn reason(&self, status: Status, outcome: &Outcome, row: &[f64]) -> String {
+        match status {
+            Status::Inaccurate => self.accuracy.reason(row),
+            other => other.reason(outcome.time).unwrap_or_default(),
         }
     }
 

@@ -13,12 +13,20 @@ pub enum Status {
     NonFinite,
     /// The sampled scene is physically impossible; nothing was integrated.
     InvalidSample,
+    /// Reached the end of its horizon with errors beyond any use: see [`crate::observables::accuracy`].
+    Inaccurate,
 }
 
 impl Status {
     /// All values, in the order of their codes.
-    pub const ALL: [Status; 5] =
-        [Status::Done, Status::StepLimit, Status::StepFloor, Status::NonFinite, Status::InvalidSample];
+    pub const ALL: [Status; 6] = [
+        Status::Done,
+        Status::StepLimit,
+        Status::StepFloor,
+        Status::NonFinite,
+        Status::InvalidSample,
+        Status::Inaccurate,
+    ];
 
     /// The name in rows and summaries.
     pub const fn name(self) -> &'static str {
@@ -28,7 +36,18 @@ impl Status {
             Status::StepFloor => "step_floor",
             Status::NonFinite => "non_finite",
             Status::InvalidSample => "invalid_sample",
+            Status::Inaccurate => "inaccurate",
         }
+    }
+
+    /// Why a run ended in this way after `time` seconds, in words; nothing where the run itself has to say it.
+    pub fn reason(self, time: f64) -> Option<String> {
+        Some(match self {
+            Status::Done | Status::InvalidSample | Status::Inaccurate => return None,
+            Status::StepLimit => format!("integrator.max_steps was reached at {time:?} s"),
+            Status::StepFloor => format!("the step fell below the resolution of time at {time:?} s"),
+            Status::NonFinite => format!("a state became infinite or not a number after {time:?} s"),
+        })
     }
 }
 

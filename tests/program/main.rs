@@ -7,6 +7,7 @@ mod audit;
 mod campaign_command;
 mod commands;
 mod csv_digits;
+mod failed_runs;
 mod memory;
 mod motion;
 mod observation;

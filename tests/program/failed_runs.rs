@@ -1,0 +1,75 @@
+//! Runs that are not `ok`: garbage is not `ok`, every such row says why, and so do the screen and `simulate`.
+
+use arrow_array::cast::AsArray;
+use arrow_array::{Array, RecordBatch};
+
+use super::small_campaign::{NEGATIVE_WALLS, campaign, folder};
+use crate::support::scratch_folder::{batches, floats};
+
+/// Status and reason of every row.
+fn ends(batch: &RecordBatch) -> Vec<(String, Option<String>)> {
+    let statuses = batch.column_by_name("status").expect("a status").as_string::<i32>();
+    let reasons = batch.column_by_name("reason").expect("a reason").as_string::<i32>();
+    let text = |row: usize| (!reasons.is_null(row)).then(|| reasons.value(row).to_owned());
+    (0..batch.num_rows()).map(|row| (statuses.value(row).to_owned(), text(row))).collect()
+}
+
+/// Law: with a fixed step that is far too long every run is `inaccurate`: its numbers are kept, its reason names the columns beyond
+/// their limits and no other, it counts as failed, and it is in no statistics.
+#[test]
+fn garbage_is_inaccurate() {
+    let scratch = folder("inaccurate");
+    let too_long =
+        campaign().replace("method = \"auto\"\ntolerance = 1e-10", "method = \"runge_kutta_4\"\nstep_s = 0.25");
+    scratch.file("long.toml", &too_long);
+    let said = scratch.prints("campaign long.toml --samples 40 --out long", 1);
+    assert!(said.contains("inaccurate") && said.contains("samples 0, 1, 2, ..."), "{said}");
+    let batch = &batches(&scratch.path("long/runs/part-000000.parquet"))[0];
+    let estimates = floats(batch, "state_error_estimate");
+    let balances = ["energy_error_max", "angular_momentum_error_max"].map(|name| (name, floats(batch, name)));
+    for (row, (status, reason)) in ends(batch).into_iter().enumerate() {
+        assert_eq!(status, "inaccurate", "row {row}");
+        let reason = reason.expect("a run that is not ok has a reason");
+        assert_eq!(reason.contains("state_error_estimate"), estimates[row] >= 0.1, "row {row}: {reason}");
+        for (name, values) in &balances {
+            assert_eq!(reason.contains(name), values[row] >= 1e-2, "row {row}: {reason}");
+        }
+    }
+    let summary: serde_json::Value =
+        serde_json::from_str(&std::fs::read_to_string(scratch.path("long/summary.json")).expect("a summary"))
+            .expect("JSON");
+    assert_eq!(summary["statuses"]["inaccurate"], 40);
+    let said = scratch.prints("simulate long.toml --sample 3", 1);
+    assert!(said.contains("the run ended with inaccurate: "), "{said}");
+    // the counter-test: with steps that are short enough no run is
+    scratch.file("short.toml", &too_long.replace("step_s = 0.25", "step_s = 0.001"));
+    scratch.prints("campaign short.toml --samples 40 --out short", 0);
+    let batch = &batches(&scratch.path("short/runs/part-000000.parquet"))[0];
+    for (row, end) in ends(batch).into_iter().enumerate() {
+        assert_eq!(end, ("ok".to_owned(), None), "row {row}");
+    }
+}
+
+/// Law: rows of unphysical samples, and of runs that met the limit of steps, say why.
+#[test]
+fn failed_rows_have_reasons() {
+    let scratch = folder("reasons");
+    scratch.file("thin.toml", &(campaign() + NEGATIVE_WALLS));
+    scratch.prints("campaign thin.toml --samples 100 --out thin", 1);
+    let batch = &batches(&scratch.path("thin/runs/part-000000.parquet"))[0];
+    let mut invalid = 0;
+    for (row, (status, reason)) in ends(batch).into_iter().enumerate() {
+        assert_eq!(reason.is_some(), status != "ok", "row {row}: {status}, {reason:?}");
+        if let Some(reason) = reason {
+            assert!(reason.contains("body.parts.fuselage.wall_thickness_m"), "row {row}: {reason}");
+            invalid += 1;
+        }
+    }
+    assert!(invalid > 10, "{invalid} of 100");
+    scratch.file("short.toml", &campaign().replace("tolerance = 1e-10", "tolerance = 1e-10\nmax_steps = 1"));
+    scratch.prints("campaign short.toml --samples 5 --out short", 1);
+    for (status, reason) in ends(&batches(&scratch.path("short/runs/part-000000.parquet"))[0]) {
+        let reason = reason.expect("a reason");
+        assert!(status == "step_limit" && reason.starts_with("integrator.max_steps was reached at 0."), "{reason}");
+    }
+}
