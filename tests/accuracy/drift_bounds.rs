@@ -88,7 +88,9 @@ fn plan(campaign: &str, setting: &Setting) -> Plan {
 /// The sizes of a column's values, ascending.
 fn sorted(values: &[f64]) -> Vec<f64> {
     let mut sizes: Vec<f64> = values.iter().map(|value| value.abs()).collect();
-    assert!(sizes.iter().all(|size| size.is_finite()));
+    for (sample, size) in sizes.iter().enumerate() {
+        assert!(size.is_finite(), "sample {sample}: {size}");
+    }
     sizes.sort_by(f64::total_cmp);
     sizes
 }
@@ -154,7 +156,9 @@ fn shipped_campaigns_drift_as_before() {
         let (mut middle, mut largest, mut secular) = (0.0_f64, 0.0_f64, 0.0_f64);
         for campaign in CAMPAIGNS {
             let table = rows(&plan(campaign, &setting));
-            assert!(table.statuses.iter().all(|status| *status == Status::Done), "{campaign}");
+            for (sample, status) in table.statuses.iter().enumerate() {
+                assert_eq!(*status, Status::Done, "{campaign} {}, sample {sample}", setting.method.name());
+            }
             for column in COLUMNS {
                 let found = sorted(table.column(column));
                 let key = key(campaign, setting.method, column);

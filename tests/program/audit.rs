@@ -72,7 +72,9 @@ fn bits(audit: &Option<Option<Audit>>) -> Option<Option<Vec<u64>>> {
 fn rows_keep_their_bits_and_audits_are_those_of_any_thread() {
     for name in ["spin_sweep", "burn"] {
         let plain = rows(&plan(name, 300, 0.0), 1);
-        assert!(plain.values().all(|(.., audit)| audit.is_none()));
+        for (sample, (.., audit)) in &plain {
+            assert!(audit.is_none(), "{name}, sample {sample} was audited at fraction 0");
+        }
         let some = rows(&plan(name, 300, 0.1), 1);
         let again = rows(&plan(name, 300, 0.1), 3);
         let audited = some.values().filter(|(.., audit)| audit.is_some()).count();
@@ -82,7 +84,9 @@ fn rows_keep_their_bits_and_audits_are_those_of_any_thread() {
             assert!(bits(&some[sample].2) == bits(&again[sample].2), "{name}, sample {sample}");
         }
         let all = rows(&plan(name, 24, 1.0), 2);
-        assert!(all.values().all(|(.., audit)| audit.as_ref().is_some_and(Option::is_some)), "{name}");
+        for (sample, (.., audit)) in &all {
+            assert!(audit.as_ref().is_some_and(Option::is_some), "{name}, sample {sample} has no audit at fraction 1");
+        }
     }
 }
 
@@ -97,7 +101,9 @@ fn the_selection_is_a_share_and_grows_with_it() {
     let (small, large) = (selected(0.01), selected(0.1));
     // 4.9 standard deviations of 31.5
     assert!((845..=1155).contains(&small.len()), "{}", small.len());
-    assert!(small.iter().all(|sample| large.contains(sample)));
+    for sample in &small {
+        assert!(large.contains(sample), "sample {sample} is selected at 0.01 but not at 0.1");
+    }
     assert_eq!((selected(0.0).len(), selected(1.0).len()), (0, 100_000));
     let mut backwards = Selection::new(&plan("no_debris", 100_000, 0.01));
     let mut found: Vec<u64> = (0..100_000).rev().filter(|sample| backwards.contains(SampleId(*sample))).collect();
@@ -224,8 +230,10 @@ fn the_program_audits() {
     let estimate = column("state_error_estimate");
     // the debris of this campaign is a cube, whose rotation has a closed form
     let debris = column("audit_debris_error");
-    assert!(debris.iter().zip(&state).all(|(debris, state)| debris.is_some() == state.is_some()));
-    assert!(debris.iter().flatten().all(|error| *error < 1e-12));
+    for (row, (debris, state)) in debris.iter().zip(&state).enumerate() {
+        assert_eq!(debris.is_some(), state.is_some(), "row {row}");
+        assert!(debris.is_none_or(|error| error < 1e-12), "row {row}: {debris:?}");
+    }
     let audited = state.iter().flatten().count();
     assert!((10..60).contains(&audited));
     let mut covered = 0;
@@ -239,7 +247,9 @@ fn the_program_audits() {
     }
     assert!(covered as f64 >= 0.95 * audited as f64, "{covered} of {audited}");
     let ill = table.column_by_name("ill_conditioned").unwrap().as_primitive::<UInt64Type>();
-    assert!(ill.null_count() == 0 && ill.values().iter().all(|value| *value == 0));
+    for (row, value) in ill.iter().enumerate() {
+        assert_eq!(value, Some(0), "row {row} is marked ill conditioned, or not known");
+    }
 
     let summary: Value =
         serde_json::from_str(&fs::read_to_string(scratch.0.join("one/summary.json")).unwrap()).unwrap();

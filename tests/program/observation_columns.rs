@@ -169,5 +169,7 @@ fn a_failed_run_has_its_effort_and_its_last_finite_state() {
         let known = column.group == Group::StepStatistics || column.quantity.name() == "time_reached_s";
         assert_eq!(value.is_finite(), known, "{}", column.quantity.name());
     }
-    assert!(observer.series().all(|(_, values)| values.len() == 0));
+    for (series, values) in observer.series() {
+        assert_eq!(values.len(), 0, "{series:?}");
+    }
 }

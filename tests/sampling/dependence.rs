@@ -220,7 +220,9 @@ fn correlation_preserves_the_distributions() {
     let (low, high) = (probability(-2.0), probability(2.0));
     assert!(distance("wheels.w1.radius_m", &|x| (probability((x - 0.25) / 0.01) - low) / (high - low)) < 1.949);
     assert!(distance("wheels.w1.density_kg_m3", &|x| (x - 2606.0) / 200.0) > 1.949, "a law off by 0.03 is found");
-    assert!(column(&plan, "wheels.w1.radius_m").iter().all(|x| (0.23..=0.27).contains(x)), "bounds hold");
+    for (row, x) in column(&plan, "wheels.w1.radius_m").into_iter().enumerate() {
+        assert!((0.23..=0.27).contains(&x), "row {row}: the bounds hold: {x}");
+    }
 }
 
 /// H0: the covariance of normal values is the one that is asked for. The standard deviation of a sample variance is

@@ -99,7 +99,9 @@ pub const RATE: &str = "parameter = \"initial.angular_velocity_rad_s\"\n";
 #[test]
 fn directions_are_uniform_on_the_sphere() {
     let rates = draws(&format!("{RATE}distribution = \"uniform_direction\"\n"), rate);
-    assert!(rates.iter().all(|v| (norm(*v) / 3.0 - 1.0).abs() < 1e-15 * 8.0));
+    for (row, v) in rates.iter().enumerate() {
+        assert!((norm(*v) / 3.0 - 1.0).abs() < 1e-15 * 8.0, "row {row}: {v:?}");
+    }
     let directions: Vec<[f64; 3]> = rates.iter().map(|v| scaled(1.0 / 3.0, *v)).collect();
     let (first, second) = (rayleigh(&directions), bingham(&directions));
     assert!(first < CHI_3 && second < CHI_5, "{first} {second}");
@@ -223,7 +225,9 @@ fn attitudes_turn_about_an_axis() {
     let law = "parameter = \"initial.attitude\"\ndistribution = \"about_axis\"\naxis = [0, 3, 4]\n\
         angle_rad = { distribution = \"uniform\", min = -1, max = 2 }\n";
     let thetas = draws(law, |s| error(s.initial.attitude));
-    assert!(thetas.iter().all(|t| t[0].abs() < 1e-14 && (t[1] * 0.8 - t[2] * 0.6).abs() < 1e-14));
+    for (row, t) in thetas.iter().enumerate() {
+        assert!(t[0].abs() < 1e-14 && (t[1] * 0.8 - t[2] * 0.6).abs() < 1e-14, "row {row}: {t:?}");
+    }
     let far = distance(thetas.iter().map(|t| 0.6 * t[1] + 0.8 * t[2]), |x| (x + 1.0) / 3.0);
     assert!(far < KS, "{far}");
 }
