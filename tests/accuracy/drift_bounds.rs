@@ -49,6 +49,7 @@ const QUANTILES: usize = 33;
 const KOLMOGOROV: f64 = 2.225;
 
 /// How a method is set, and the largest relative error of energy that is allowed over the cell's horizon: (median, largest).
+/// The bounds are 1.6 to 4 times the measured values, which `docs/accuracy.md` lists.
 #[derive(Clone, Copy)]
 struct Setting {
     method: Method,
@@ -286,9 +287,11 @@ fn faults_are_seen() {
     }
     // a term is omitted: J instead of J* = J - J_1 a1 a1^T - J_2 a2 a2^T
     let (off, beyond) = seen(&|scene| scene.mass.inertia_free = scene.mass.inertia);
+    // measured: 1, no faulty run is within the range of the baseline
     assert!(off > 0.99 && beyond, "{off}");
     // a wrong sign: wheel 1 couples as if it turned about -s2
     let (off, beyond) = seen(&|scene| scene.mass.wheels[0].axis = scene.mass.wheels[0].axis.map(|x| -x));
+    // measured: 1, no faulty run is within the range of the baseline
     assert!(off > 0.99 && beyond, "{off}");
 }
 
@@ -319,5 +322,6 @@ fn the_printed_sign_is_seen() {
     };
     let (corrected, printed) = (error(SignOfANon::Corrected), error(SignOfANon::Printed));
     println!("corrected {corrected:e}, printed {printed:e}");
+    // the bound is 2e-10; measured: 3.2e-11 and 0.047
     assert!(corrected < setting.energy[1] && printed > 1e3 * setting.energy[1], "{corrected:e} {printed:e}");
 }
