@@ -7,7 +7,6 @@ use std::path::Path;
 use std::sync::Mutex;
 
 use crate::support::scratch_folder::ScratchFolder;
-use arrow_array::Array;
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float64Type, UInt64Type};
 use serde_json::Value;
@@ -150,6 +149,7 @@ fn a_loose_tolerance_is_caught() {
         median(audits.iter().map(Audit::state))
     };
     let (loose, tight, smallest) = (at(1e-6), at(1e-10), at(1e-16));
+    // measured: 2.1e-5, 2.3e-11 and 8.3e-15
     assert!(loose > 1e3 * tight && tight > smallest, "{loose:e} {tight:e} {smallest:e}");
     assert!(smallest < 5e-14 && loose > 1e-7, "{smallest:e} {loose:e}");
 }
@@ -165,6 +165,7 @@ fn a_wrong_kernel_is_caught() {
     wrong.mass.inertia[0][0] *= 1.0 + 1e-9;
     let mut auditor = Auditor::new(&plan, Isa::best(), &plan.grid);
     let (right, caught) = (auditor.audit(&scene).unwrap(), auditor.compare(&wrong, &scene).unwrap());
+    // measured: 9.5e-14, and 1.8e-8, which is 3700 times the estimate
     assert!(right.estimate >= right.state() && right.state() < 9e-13, "{:e}", right.state());
     assert!(caught.state() > 10.0 * caught.estimate && caught.state() > 1e-9, "{:e}", caught.state());
 }
@@ -181,11 +182,13 @@ fn a_wrong_debris_is_caught() {
     wrong.mass.debris.as_mut().expect("a debris").inertia[0][0] *= 1.0 + 1e-4;
     let mut auditor = Auditor::new(&plan, Isa::best(), &plan.grid);
     let (right, caught) = (auditor.audit(&scene).unwrap(), auditor.compare(&wrong, &scene).unwrap());
+    // measured: 8.0e-10 and 9.6e-6
     assert!(right.debris > 0.0 && right.debris < 1e-9, "{:e}", right.debris);
     assert!(caught.debris > 1e-7 && caught.state().to_bits() == right.state().to_bits(), "{:e}", caught.debris);
     let without = Plan { nominal: SceneInput { debris: None, ..plan.nominal.clone() }, ..plan };
     let scene = Scene::resolve(&without.nominal).expect("physical");
     let audit = Auditor::new(&without, Isa::best(), &without.grid).audit(&scene).unwrap();
+    // measured: 2.3e-11
     assert!(audit.debris.is_nan() && audit.state() < 1e-9);
 }
 
@@ -232,6 +235,7 @@ fn the_program_audits() {
     let debris = column("audit_debris_error");
     for (row, (debris, state)) in debris.iter().zip(&state).enumerate() {
         assert_eq!(debris.is_some(), state.is_some(), "row {row}");
+        // measured: 5.3e-16
         assert!(debris.is_none_or(|error| error < 1e-12), "row {row}: {debris:?}");
     }
     let audited = state.iter().flatten().count();
@@ -241,10 +245,12 @@ fn the_program_audits() {
         assert_eq!(state[row].is_some(), attitude[row].is_some());
         if let (Some(state), Some(omega), Some(attitude)) = (state[row], omega[row], attitude[row]) {
             assert_eq!(state, omega.max(attitude));
+            // measured: 7.7e-11
             assert!(state > 0.0 && state < 8e-10);
             covered += usize::from(estimate[row].unwrap() >= state);
         }
     }
+    // the claimed coverage; measured: all 27
     assert!(covered as f64 >= 0.95 * audited as f64, "{covered} of {audited}");
     let ill = table.column_by_name("ill_conditioned").unwrap().as_primitive::<UInt64Type>();
     for (row, value) in ill.iter().enumerate() {
@@ -265,6 +271,7 @@ fn the_program_audits() {
     };
     // the energy transfer varies by tens of joules, for physical reasons; an energy error is purely numerical
     let share = |name: &str| line(name)["share_of_spread"].as_f64().unwrap();
+    // measured: 7.4e-11 and 3.6
     assert!(share("exchange_w1_peak_to_peak_j") < 6e-10);
     assert!(share("energy_error_max") > 0.1);
     assert!(line("steps").is_null(), "steps have no truth");
