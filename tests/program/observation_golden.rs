@@ -20,6 +20,7 @@ fn energies_at_time_zero_are_those_of_the_report() {
         ("energy_w2_initial_j", 36464.21707185995),
         ("energy_debris_initial_j", 1871.7717632047218),
     ] {
+        // the digits printed are rounded by up to 5e-16, the sums here by some ulps
         close(row[name], energy, 1e-15 * 4.0);
     }
     close(
