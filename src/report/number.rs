@@ -39,7 +39,9 @@ mod tests {
         {
             assert_eq!(short(value), text);
         }
-        assert!([f64::MIN, f64::MIN_POSITIVE, f64::NAN, f64::INFINITY].iter().all(|value| short(*value).len() <= 11));
+        for value in [f64::MIN, f64::MIN_POSITIVE, f64::NAN, f64::INFINITY] {
+            assert!(short(value).len() <= 11, "{value:e}: {}", short(value));
+        }
     }
 
     #[test]

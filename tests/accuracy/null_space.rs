@@ -118,6 +118,7 @@ proptest! {
             let q_dot = matrices::gamma(&state) * nu;
             let components: [f64; COMPONENTS] = rate.components();
             for i in 0..48 {
+                // two or three products and their sum; measured: 2.6e-16
                 prop_assert!((components[i] - q_dot[i]).abs() <= 2e-15 * (1.0 + q_dot[i].abs() + nu.abs().max()), "q {}", i);
             }
             let m = matrices::reduced_mass(&parameters, &state);
@@ -131,13 +132,15 @@ proptest! {
     #[test]
     fn reduced_mass_is_symmetric_positive_definite((scene, _) in scenes()) {
         let m = matrices::reduced_mass(&Parameters::of(&scene), &sigma(&scene));
+        // a quarter of an ulp of the largest entry: smaller entries round less; measured: 8.6e-18
         prop_assert!((m - m.transpose()).abs().max() <= 6e-17 * m.abs().max());
         prop_assert!(m.cholesky().is_some());
     }
 
     #[test]
     fn rates_of_pi_and_m_are_their_differences((scene, actuation) in scenes()) {
-        // central differences: error h^2 |third derivative| (rates 300/s) and eps/h; both below 1e-9 relative
+        // central differences: error h^2 |third derivative| (rates 300/s) and eps/h; both below 1e-9 relative.
+        // Measured: 2.2e-10 of Pi, 6.3e-11 of M
         const STEP: f64 = 1e-6;
         const TOLERANCE: f64 = 2e-9;
         let parameters = Parameters::of(&scene);
@@ -172,6 +175,7 @@ proptest! {
         for i in 0..24 {
             let direction = gamma.column(i).into_owned();
             let slope = (energy(1.0, &direction) - energy(-1.0, &direction)) / (2.0 * STEP);
+            // eps / (2 STEP) is 1.1e-11 for each rounding of the energy; measured: 2.2e-11
             prop_assert!((slope - expected[i]).abs() <= 2e-10 * scale, "{}: {} {}", i, slope, expected[i]);
         }
     }
@@ -279,5 +283,6 @@ fn the_printed_sign_feeds_energy_from_nowhere() {
     };
     // measured: 3e-17
     assert!(relative(SignOfANon::Corrected) < 3e-16);
+    // measured: 0.33
     assert!(relative(SignOfANon::Printed) > 1e-3);
 }

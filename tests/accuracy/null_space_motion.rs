@@ -44,11 +44,13 @@ fn runge_kutta_4(system: &SignedRuns, x: &[f64; COMPONENTS], h: f64) -> [f64; CO
 #[test]
 fn table_one_conserves_energy_with_the_corrected_sign_only() {
     let (coarse, fine) = (energy_error(SignOfANon::Corrected, 10), energy_error(SignOfANon::Corrected, 20));
+    // measured: 1.0e-5 in steps of 1 ms, and a 31st of it in half the step: energy gains an order on the states
     assert!(coarse < 5e-5, "{coarse}");
     assert!(fine < coarse / 12.0, "order 4: {coarse} -> {fine}");
     let (printed, printed_fine) = (energy_error(SignOfANon::Printed, 10), energy_error(SignOfANon::Printed, 20));
     // the printed sign: an error of the model, 1.2 in two seconds, that no step removes
     assert!((1.0..1.4).contains(&printed_fine), "{printed_fine}");
+    // measured: 0.0024
     assert!((printed / printed_fine - 1.0).abs() < 0.02, "{printed} {printed_fine}");
 }
 
@@ -60,6 +62,7 @@ fn energies_of_table_one_at_time_zero() {
     let printed = [1060915.388498418, 88406.50864294029, 36464.21707185995, 1871.7717632047218];
     let bodies = [energies.fuselage, energies.wheels[0], energies.wheels[1], energies.debris];
     for ((found, expected), printed) in bodies.into_iter().zip(golden.truth[0].energies).zip(printed) {
+        // four ulps of a sum of a dozen products; measured: one, and three from the printed digits
         assert!((found / expected - 1.0).abs() < 1e-15, "{found:?} {expected:?}");
         assert!((found / printed - 1.0).abs() < 1e-15, "{found:?} {printed:?}");
     }
@@ -107,7 +110,7 @@ fn up_to_sign(found: [f64; 4], expected: [f64; 4]) -> f64 {
 
 #[test]
 fn golden_truth_is_reached() {
-    // bound 1e-9: extrapolation at order 16 leaves rounding, which spins of thousands of radians multiply
+    // extrapolation at order 16 leaves rounding, which spins of thousands of radians multiply
     const TOLERANCE: f64 = 1e-10;
     // rounding over ten thousand steps, at positions of 200 m; measured 1.6e-10
     const DRIFT_TOLERANCE: f64 = 1e-9;
@@ -149,12 +152,12 @@ fn golden_truth_is_reached() {
             let drift = (kinematic / 300.0).max(collocation).max(attitude); // a tilt times the wheel's rate is kinematic
             assert!(drift < DRIFT_TOLERANCE, "{name} t={}: {kinematic:e} {collocation:e} {attitude:e}", truth.time);
         }
-        let signs = (1..table.points()).all(|point| {
+        for point in 1..table.points() {
             let (p, q): ([f64; 4], [f64; 4]) =
                 (table.at(StateField::Attitude, point - 1), table.at(StateField::Attitude, point));
-            p.iter().zip(q).map(|(p, q)| p * q).sum::<f64>() >= 0.0
-        });
-        assert!(signs, "the quaternion's sign does not jump");
+            let product = p.iter().zip(q).map(|(p, q)| p * q).sum::<f64>();
+            assert!(product >= 0.0, "{name}, point {point}: the quaternion's sign jumps: {p:?} {q:?}");
+        }
         assert_eq!(table.at::<9>(StateField::Dcm, 1).as_slice(), &trajectory.at::<STATES>(1)[3..12]);
     }
 }

@@ -68,6 +68,8 @@ fn angle(table: &StateTable, horizon: f64) -> f64 {
 }
 
 /// Energy and angular momentum along one period, for any duration: rounding of a few dozen operations.
+///
+/// Measured: 5.9e-16 and 1.4e-15.
 const CONSERVATION: f64 = 2e-14;
 
 /// Law: ten thousand seconds take the steps of ten, and conserve as well.
@@ -89,13 +91,14 @@ fn a_horizon_costs_one_period() {
     assert!(worst.iter().flatten().all(|error| *error < CONSERVATION), "{worst:?}");
     // counter-test: plain integration pays for every second
     let taylor = |horizon| runs(Method::Taylor, horizon, &scenes[..1])[0].outcome.effort.steps;
+    // measured: 1688 and 169 steps
     assert!(taylor(100.0) > 9 * taylor(10.0));
 }
 
 /// Distance between periodic and plain propagation, over one plus the angle that the body has turned by: an error of rounding
 /// in the rate, or in the period, grows no faster than that.
 ///
-/// Measured: 2e-16 at 10 s, 3e-16 at 100 s and 1000 s.
+/// Measured: 2e-16 at 10 s, 3e-16 at 100 s, 8e-16 at 1000 s.
 const PER_RADIAN: f64 = 2e-15;
 
 /// Law: periodic and plain propagation are the same to a bound that grows linearly with the horizon.
@@ -118,6 +121,7 @@ fn periodic_is_plain_propagation() {
         }
         println!("{horizon} s: {worst:?} per radian, {folded} of {} folded", auto.len());
         assert!(worst.iter().all(|error| *error < PER_RADIAN), "{horizon}: {worst:?}");
+        // measured: 26 of 32 at 10 s, 31 at 100 s and 1000 s
         assert!(folded >= 8, "most scenes of Table I have their period within ten seconds");
         assert!(horizon < 100.0 || folded + 2 >= auto.len(), "{folded} of {} at {horizon} s", auto.len());
     }
@@ -194,6 +198,7 @@ fn specials() -> Vec<Special> {
     // an error along the unstable axis grows as exp(lambda t) on every pass, lambda = 3 sqrt(1/8) = 1.06/s; from one pass to the
     // next what counts is the distance in energy, the square of the offset: below 1e-8 rounding decides the side
     for (name, off, horizon, amplification) in [
+        // measured per radian with a period found: 8e-13 of 2e-11, and 1e-6 of 2e-3; shorter than a period both are the same bits
         ("near the separatrix, shorter than a period", 1e-3, 12.0, 1e3),
         ("near the separatrix, with its period", 1e-3, 60.0, 1e4),
         ("very near the separatrix, shorter than a period", 1e-9, 30.0, 1e9),
@@ -332,10 +337,13 @@ fn a_wrong_period_is_noticed() {
     let horizon = 1000.0;
     let scenes = table_one(1);
     let late = runs(Method::Auto, horizon * (1.0 + 1e-10), &scenes).remove(0);
-    assert!(conservation(&scenes[0], horizon, &late).iter().all(|error| *error < CONSERVATION));
+    for (name, error) in ["energy", "angular momentum"].into_iter().zip(conservation(&scenes[0], horizon, &late)) {
+        assert!(error < CONSERVATION, "{name}: {error:e}");
+    }
     let taylor = runs(Method::Taylor, horizon, &scenes).remove(0);
     let [rate, attitude] = rotation_distance(&late.table, &taylor.table);
     let size = 1.0 + angle(&taylor.table, horizon);
     assert!(rate > PER_RADIAN * size || attitude > PER_RADIAN * size, "{rate:e} {attitude:e}");
+    // 1e-7 s late at some 30 rad/s; measured: 1.6e-6 rad, 2.5e4 times the bound
     assert!(attitude > 100.0 * PER_RADIAN * size, "{attitude:e}");
 }

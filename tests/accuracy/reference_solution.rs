@@ -83,6 +83,7 @@ fn two_tolerances_agree() {
         }
         println!("{name}: {worst:e}, from 1e-20: {worst_poor:e}");
         assert!(worst < SELF_CONSISTENT, "{name}: {worst:e}");
+        // measured: 6.3e-22 and 8.6e-21
         assert!(worst_poor > 1e-24, "{name}: a tolerance of 1e-20 must show: {worst_poor:e}");
     }
 }
@@ -128,6 +129,7 @@ fn balances_hold_to_the_last_digits() {
         assert!(worst < BALANCED, "{name}: {worst:e}");
         if name == "forced" {
             let broken = off(balances(last, 1));
+            // measured: 5.8e-3, 0.045 and 4.9e-3
             assert!(broken.iter().all(|error| *error > 1e-3), "work of another time must show: {broken:?}");
         }
     }

@@ -113,7 +113,9 @@ fn taylor(steps: &[f64]) -> [Walk; 4] {
     let mean = libm::exp(rates.iter().map(|rate| libm::log(*rate)).sum::<f64>() / rates.len() as f64);
     let times: Vec<f64> = std::iter::once(0.0).chain(steps.iter().map(|n| n / mean)).collect();
     let runs = run(times.clone(), &scenes);
-    assert!(runs.iter().all(|run| run.outcome.status == Status::Done));
+    for (scene, run) in runs.iter().enumerate() {
+        assert_eq!(run.outcome.status, Status::Done, "scene {scene}");
+    }
     std::array::from_fn(|quantity| {
         let mut walk = Walk { steps: steps.to_vec(), errors: Vec::new(), scaled: Vec::new() };
         for (point, time) in times.iter().enumerate().skip(1) {

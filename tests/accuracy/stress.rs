@@ -22,7 +22,7 @@ use spindrift::scene::{ActuationInput, DebrisInput, Scene, SceneInput};
 const SECTION: &str = "stress";
 /// Samples of a campaign in its small version.
 const SMALL: u64 = 48;
-/// Errors of energy, linear and angular momentum and attitude: some hundred roundings.
+/// Errors of energy, linear and angular momentum and attitude: some hundred roundings. Measured: 1.5e-14 at most (`stress_rates`).
 const CONSERVED: f64 = 1e-13;
 /// The columns that hold them.
 const ERRORS: [&str; 6] = [
@@ -131,6 +131,7 @@ fn flips_come_later_with_the_logarithm_of_the_offset() {
     let moment = |i: usize, j: usize| points.iter().map(|p| (p[i] - [x, y][i]) * (p[j] - [x, y][j])).sum::<f64>();
     let (slope, r2) = (moment(0, 1) / moment(0, 0), moment(0, 1).powi(2) / (moment(0, 0) * moment(1, 1)));
     println!("flip time: slope {slope}, 1/lambda {}, 1 - R^2 {:e}", 1.0 / lambda, 1.0 - r2);
+    // what the next orders in delta and the interpolation on a grid of 10 ms leave; measured: 5.5e-11 and 3.8e-6
     hold(SECTION, "flip time against ln(1/delta), delta 1e-2 to 1e-15: 1 - R^2", 5e-10, 1.0 - r2);
     hold(SECTION, "the same: relative distance of the slope from 1/lambda", 3e-5, (slope * lambda - 1.0).abs());
 }
@@ -290,6 +291,7 @@ fn short_thrusts_are_not_missed() {
         println!("thrust for {length:e} s: impulse off by {off:e}");
         worst = worst.max(off);
     }
+    // nine times the measured 4.4e-16, two ulps
     hold(SECTION, "thrust for 1e-6, 1e-9 and 1e-12 s: error of the impulse and of all balances", 4e-15, worst);
 }
 
@@ -356,5 +358,6 @@ fn units_do_not_matter() {
         let [rate, attitude] = crate::support::runs::rotation_distance(&other, &nominal);
         worst = worst.max(rate).max(attitude);
     }
+    // other units round the moments by an ulp or two, which the angle of ten seconds multiplies; measured: 5.5e-15
     hold(SECTION, "millimetres, kilometres, tonnes: distance from the same scene in metres after 10 s", 5e-14, worst);
 }

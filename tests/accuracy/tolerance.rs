@@ -65,6 +65,7 @@ fn errors_fall_in_proportion_to_the_tolerance() {
             largest = largest.max(error / tolerance.max(FLOOR));
             if error > FLOOR {
                 points.push([libm::log(tolerance), libm::log(error)]);
+                // a tenth is the law; measured at most: 0.28 `auto`, 0.14 `taylor`, 0.12 the others
                 assert!(error < 0.5 * former, "{method:?}: {error:e} at 1e-{exponent} after {former:e}");
             }
             former = error;
@@ -124,6 +125,7 @@ fn runs_are_reversible() {
     }
     // counter-test: with the wheels' rates a part in 1e9 too large it does not
     let off = there_and_back(Method::Taylor, adaptive(1e-16), 10.0, -(1.0 + 1e-9));
+    // measured: 2.5e-9
     assert!(off > 100.0 * RETURN, "{off:e}");
 }
 

@@ -61,8 +61,9 @@ fn balances(scene: &Scene, grid: &Grid, run: &Run, actuated: bool) -> [f64; 2] {
 }
 
 /// Energy and momentum of runs that are accurate to rounding: some hundred roundings of the observables and of the states.
+/// Measured: 6.0e-16 and 1.1e-15; 2.1e-14 at the tolerance of the campaign below.
 const BALANCE: f64 = 1e-13;
-/// The same of the report's form at 1e-11: steps times tolerance, with the drift of its DCMs.
+/// The same of the report's form at 1e-11: steps times tolerance, with the drift of its DCMs. Measured: 1.5e-13 and 1.2e-11.
 const REFERENCE_BALANCE: f64 = 1e-8;
 
 #[test]
@@ -83,6 +84,7 @@ fn energy_balances_with_the_work_of_the_motors_and_momentum_does_without() {
             worst = [worst[0].max(energy), worst[1].max(momentum)];
             let work = run.table.column(StateField::Work, 1).iter().fold(0.0, |most: f64, w| most.max(w.abs()));
             let [without, _] = balances(scene, &grid, &run, false);
+            // measured by `null_space`: 860 bounds or more, but 13 in the one scene whose motors do no more than 0.03 J
             seen += usize::from(work > 1e-6 && without > 100.0 * bound);
         }
         println!("{}: energy {:e}, angular momentum {:e}", method.name(), worst[0], worst[1]);
@@ -137,11 +139,12 @@ fn mixing_up_the_two_inertias_is_seen() {
         }
         let wrong = distance(&run(Method::Taylor, TAYLOR, &mixed), &reference);
         println!("{:?}: right {right:e}, mixed up {wrong:e}", wheel.mode);
-        // measured: 4.7e-11
+        // measured: 4.7e-11 and 1.3e-4
         assert!(right < 4e-10 && wrong > 1e-6, "{right:e} {wrong:e}");
     }
     let (free, held) = (resolved(&free), resolved(&held));
     let apart = distance(&run(Method::Taylor, TAYLOR, &free), &run(Method::Taylor, TAYLOR, &held));
+    // measured: 2.5e-5
     assert!(apart > 1e-6, "free and held are different motions: {apart:e}");
 }
 
@@ -184,6 +187,7 @@ fn a_torque_about_the_wheels_axis_has_a_closed_form() {
                 let omega: [f64; 3] = run.table.at(StateField::Rate, point);
                 assert!(norm(difference(omega, [0.25 + gained, 0.0, 0.0])) < BOUND, "{} {omega:?}", method.name());
                 let (lag, work) = if held { (0.0, 120.0 * wheel.axial * gained) } else { (gained, 0.0) };
+                // relative to the 120 rad/s of the wheel; measured: 0, and 9.3e-15 J of the work
                 let rate = run.table.column(StateField::WheelRates, 0)[point];
                 assert!((rate - (120.0 - lag)).abs() < 120.0 * BOUND, "{} {rate}", method.name());
                 let done = run.table.column(StateField::Work, 1)[point];
@@ -191,6 +195,7 @@ fn a_torque_about_the_wheels_axis_has_a_closed_form() {
             }
             rates[usize::from(held)] = run.table.column(StateField::Rate, 0)[grid.points() - 1];
         }
+        // measured: 3.6e-5
         assert!((rates[0] - rates[1]).abs() > 1e-5, "J and J* differ: {rates:?}");
     }
 }
@@ -252,6 +257,7 @@ fn taylor_is_the_rounded_truth() {
         }
     }
     println!("rate, attitude, wheel rates, wheel angles, work: {worst:?}");
+    // measured: 8.1e-16 of the states; 2.0e-14 of the work, which is a difference of larger terms
     assert!(worst.iter().all(|error| *error < 1e-13), "{worst:?}");
 }
 
@@ -269,6 +275,7 @@ fn periods_carry_held_wheels_too() {
         folded += usize::from(auto.outcome.effort.steps * 4 < plain.outcome.effort.steps);
         let [rate, attitude] = rotation_distance(&auto.table, &plain.table);
         let angle = 200.0 * norm(scene.initial.omega_se_s);
+        // two ulps a radian: a rounding of the period and those of plain integration; measured: 0.54
         assert!(rate.max(attitude) < 2.0 * f64::EPSILON * angle, "{rate:e} {attitude:e} over {angle} rad");
         let [energy, momentum] = balances(&scene, &grid, &auto, true);
         // measured: 3.7e-16 and 3.5e-15
@@ -295,6 +302,7 @@ fn a_campaign_says_how_a_wheel_runs_and_gets_the_motors_work() {
         let place = run.request.columns().iter().position(|column| column.quantity.name() == name);
         run.row[place.unwrap_or_else(|| panic!("no column {name}"))]
     };
+    // measured: 12.5 J
     assert!(value("work_motors_final_j").abs() > 1e-3);
     assert!(value("energy_error_max") < BALANCE);
     let free = plan(&FILE.replace("speed_held", "free")).expect("a legal campaign");

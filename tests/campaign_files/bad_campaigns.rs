@@ -87,7 +87,9 @@ fn an_empty_file_asks_for_its_tables() {
     let error = errors("");
     let keys: Vec<&str> = error.problems.iter().map(|p| p.key.as_str()).collect();
     assert_eq!(keys, ["campaign", "initial", "body"], "{error}");
-    assert!(error.problems.iter().all(|p| p.line.is_none() && p.value.is_none()));
+    for p in &error.problems {
+        assert!(p.line.is_none() && p.value.is_none(), "{}: line {:?}, value {:?}", p.key, p.line, p.value);
+    }
 }
 
 #[test]

@@ -47,11 +47,15 @@ fn bits_are_a_run_s_own() {
             scenes.iter().map(|scene| fly(Isa::best(), &settings, std::slice::from_ref(scene)).remove(0)).collect();
         let expected = bits(&alone);
         let samples = (HORIZON / PERIOD).ceil() as usize;
-        assert!(alone.iter().all(|flight| flight.arcs.len() == samples), "one arc per control period");
+        for (run, flight) in alone.iter().enumerate() {
+            assert_eq!(flight.arcs.len(), samples, "{}, run {run}: one arc per control period", method.name());
+        }
         for isa in Isa::available() {
             let together = fly(isa, &settings, &scenes);
             assert!(bits(&together) == expected, "{} on {}", method.name(), isa.name());
-            assert!(together.iter().zip(&alone).all(|(a, b)| a.arcs == b.arcs), "{}", method.name());
+            for (run, (a, b)) in together.iter().zip(&alone).enumerate() {
+                assert!(a.arcs == b.arcs, "{} on {}: arcs of run {run}", method.name(), isa.name());
+            }
         }
         let backwards: Vec<Scene> = scenes.iter().rev().cloned().collect();
         assert!(bits(&fly(Isa::best(), &settings, &backwards)).iter().rev().eq(&expected), "{}", method.name());
@@ -80,7 +84,9 @@ fn the_record_flown_again_gives_the_same_bits() {
             scene.schedule = record.clone();
         }
         let replayed = fly_schedules(Isa::best(), &settings, &scenes);
-        assert!(replayed.iter().zip(&records).all(|(flight, record)| flight.arcs == *record), "{}", method.name());
+        for (run, (flight, record)) in replayed.iter().zip(&records).enumerate() {
+            assert!(flight.arcs == *record, "{}: arcs of run {run}", method.name());
+        }
         assert!(bits(&replayed) == bits(&flown), "{} as schedules", method.name());
         // the law can fail: a record with one switch moved gives another run
         let moved = &mut scenes[0].schedule[3];
@@ -143,7 +149,9 @@ fn columns_are_those_of_the_record_replayed() {
         let closed: Vec<_> = Isa::available().into_iter().map(|isa| rows(isa, method, &scenes, true, flown)).collect();
         // an observer that reads the schedule of the scene takes the run for a free one
         let (mistaken, _) = rows(Isa::best(), method, &scenes, true, scheduled);
-        assert!(mistaken.iter().zip(&best).all(|(a, b)| a != b), "{}", method.0.name());
+        for (run, (a, b)) in mistaken.iter().zip(&best).enumerate() {
+            assert!(a != b, "{}: run {run} has the same row", method.0.name());
+        }
         for (isa, (observed, records)) in Isa::available().into_iter().zip(closed) {
             assert!(observed == best, "{} on {}", method.0.name(), isa.name());
             for (scene, record) in scenes.iter_mut().zip(records) {

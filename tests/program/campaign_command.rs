@@ -148,9 +148,9 @@ fn failed_runs_are_rows() {
     scratch.file("short.toml", &campaign().replace("tolerance = 1e-10", "tolerance = 1e-10\nmax_steps = 1"));
     scratch.prints("campaign short.toml --samples 5 --out short", 1);
     let batch = &batches(&scratch.path("short/runs/part-000000.parquet"))[0];
-    assert!(
-        batch.column_by_name("status").unwrap().as_string::<i32>().iter().all(|status| status == Some("step_limit"))
-    );
+    for (row, status) in batch.column_by_name("status").unwrap().as_string::<i32>().iter().enumerate() {
+        assert_eq!(status, Some("step_limit"), "row {row}");
+    }
     assert_eq!(batch.column_by_name("energy_error_max").unwrap().null_count(), 5);
     scratch.prints("simulate short.toml", 1);
 }

@@ -58,13 +58,17 @@ fn outcome(points: usize) -> Outcome {
 
 fn row(scene: &Scene, nominal: Option<NominalAttitude>, motion: &dyn Fn(f64) -> State) -> HashMap<String, f64> {
     let mut observer = Observer::new(request(), &grid()).with_nominal(nominal);
-    let mut rows = Vec::new();
+    let mut rows: Vec<Vec<f64>> = Vec::new();
     for isa in Isa::available() {
         let mut row = vec![0.0; request().columns().len()];
         observer.observe(isa, scene, &table(motion), &outcome(21), &mut row);
         rows.push(row);
     }
-    assert!(rows.iter().all(|row| row.iter().zip(&rows[0]).all(|(a, b)| a.to_bits() == b.to_bits())), "every path");
+    for (isa, row) in Isa::available().into_iter().zip(&rows) {
+        for ((column, a), b) in request().columns().iter().zip(row).zip(&rows[0]) {
+            assert!(a.to_bits() == b.to_bits(), "{} on {}: {a:e} {b:e}", column.quantity.name(), isa.name());
+        }
+    }
     request().columns().iter().map(|column| column.quantity.name().to_owned()).zip(rows.swap_remove(0)).collect()
 }
 
@@ -116,6 +120,7 @@ fn rates_nutation_and_wheels() {
     near(found["nutation_angle_max_rad"], angles.iter().copied().fold(0.0, f64::max));
     near(found["nutation_angle_min_rad"], angles.iter().copied().fold(9.0, f64::min));
     near(found["nutation_angle_mean_rad"], angles.iter().sum::<f64>() / angles.len() as f64);
+    // measured: 0.22 rad apart
     assert!(angles[0] > angles[20] + 1e-3);
 }
 
@@ -189,8 +194,10 @@ fn a_campaign_compares_with_its_nominal_run() {
         2.0 * libm::atan2(libm::sqrt(x * x + y * y + z * z), s.abs())
     };
     let largest = (0..plan.grid.points()).map(angle).fold(0.0, f64::max);
+    // measured: 3.1 rad
     assert!(largest > 0.1, "{largest}");
     near(column(&other, "attitude_from_nominal_max_rad"), largest);
     near(column(&other, "attitude_from_nominal_final_rad"), angle(plan.grid.points() - 1));
+    // 10 pi about s3 and pi about s2 at the start; measured: 31.57
     assert!(column(&nominal, "angular_rate_max_rad_s") > 31.0);
 }

@@ -20,6 +20,7 @@ fn energies_at_time_zero_are_those_of_the_report() {
         ("energy_w2_initial_j", 36464.21707185995),
         ("energy_debris_initial_j", 1871.7717632047218),
     ] {
+        // the digits printed are rounded by up to 5e-16, the sums here by some ulps
         close(row[name], energy, 1e-15 * 4.0);
     }
     close(
@@ -60,6 +61,7 @@ fn golden_truth_has_the_energies_of_the_equations_and_conserves() {
                 assert!(value(&format!("{error}_max")) <= ROUNDING, "{error} {}", value(&format!("{error}_max")));
             }
             assert!(value("debris_angular_momentum_error_max") <= ROUNDING);
+            // four ulps of sums of three squares; measured: 3.1e-16
             assert!(value("dcm_orthonormality_max") <= 1e-15);
         } else {
             // actuators work in this scene, and the request above does not count their work: the balance must not close
@@ -71,6 +73,7 @@ fn golden_truth_has_the_energies_of_the_equations_and_conserves() {
 
 #[test]
 fn a_perturbed_state_or_inertia_shows_in_the_errors() {
+    // a fault of an inertia; that of a state is a hundred times as large. Measured: 5100 times ROUNDING or more
     const OFF: f64 = 1e-9;
     let (golden, scene) = table1();
     let (grid, table) = golden_table(&golden, &scene);
@@ -127,11 +130,13 @@ fn the_dcm_gives_the_attitude_where_the_method_integrates_it() {
     for name in ["energy_w1_mean_j", "energy_body_final_j"] {
         close(good[name], plain[name], ROUNDING);
     }
+    // measured: 3.3e-16 and 1.7e-16
     assert!(good["dcm_orthonormality_max"] <= 2e-15 && good["angular_momentum_error_max"] <= ROUNDING);
     with.column_mut(StateField::Dcm, 5)[2] += 1e-9;
     // the energies of redundant states are the kernel's own: one joule too much in one of them is seen
     with.column_mut(StateField::KineticEnergies, 1)[3] += 1.0;
     let bad = row(Isa::best(), constrained, &grid, &scene, &with);
+    // 1 J of 1.19 MJ is 8.4e-7; the entry of 1e-9 makes 9.4e-10 of orthonormality and 4700 times ROUNDING of momentum
     assert!(good["energy_error_max"] <= ROUNDING && bad["energy_error_max"] > 1e-7);
     assert!(bad["dcm_orthonormality_max"] > 1e-11 && bad["angular_momentum_error_max"] > 10.0 * ROUNDING);
 }

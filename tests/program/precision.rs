@@ -13,6 +13,7 @@ fn floats(batch: &RecordBatch, name: &str) -> Vec<Option<f64>> {
 }
 
 /// A tolerance 1e4 smaller, or a step four times smaller at order four, reduces the error at least by this factor.
+/// Measured: 8.5e-3 with the step (1/256 by the order), 1.1e-4 with the tolerance.
 const LESS: f64 = 0.01;
 
 /// Law: every requested method is measured at every setting, and smaller settings have smaller errors.
@@ -33,7 +34,10 @@ fn errors_follow_the_settings() {
             assert!(fine < LESS * coarse, "{name} of {}: {coarse:e} {fine:e}", methods[first]);
         }
     }
-    assert!(floats(&table, "cpu_s").iter().all(|cpu| cpu.is_some_and(|cpu| cpu > 0.0 && cpu < 10.0)));
+    for (row, cpu) in floats(&table, "cpu_s").into_iter().enumerate() {
+        // a median over runs of milliseconds at most; measured: 9e-5
+        assert!(cpu.is_some_and(|cpu| cpu > 0.0 && cpu < 10.0), "row {row}: {cpu:?} s");
+    }
     let (tolerances, steps) = (floats(&table, "tolerance"), floats(&table, "step_s"));
     assert_eq!((tolerances[3], steps[3]), (Some(1e-4), None));
     assert_eq!(tolerances[8], None);
@@ -52,6 +56,7 @@ fn balances_are_measured_and_omissions_named() {
     assert!(said.contains("skipped: null_space") && said.contains("--limit-s"), "{said}");
     let table = scratch.table("p/precision.parquet");
     let energy = floats(&table, "energy_error_max");
+    // measured: 2.6e-16 and 1.3e-11, rate 7.3e-15
     assert!(energy[1].unwrap() < 2e-15 && energy[0].unwrap() > energy[1].unwrap(), "{energy:?}");
     assert!(floats(&table, "rate_error_max")[1].unwrap() < 7e-14);
 }

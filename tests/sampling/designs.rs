@@ -148,6 +148,7 @@ fn a_grid_and_one_at_a_time_have_their_own_size() {
     let rows = draws(&grid, 1..25);
     let distinct: std::collections::BTreeSet<_> = rows.iter().map(|row| format!("{row:?}")).collect();
     assert_eq!(distinct.len(), 24);
+    // two ulps of a length of 3 m; measured: none
     assert!((value(&rows[6], "body_parts_fuselage_length_m") - 2.975).abs() < 1e-15, "the fourth dimension is slowest");
 
     let text = format!("{}quantiles = [0.1, 0.9]\n{RATE}{LENGTH}{RADIUS}", design("one_at_a_time"));
@@ -158,6 +159,7 @@ fn a_grid_and_one_at_a_time_have_their_own_size() {
         let moved: Vec<&String> = row.keys().filter(|name| row[*name] != rows[0][*name]).collect();
         assert_eq!(moved.len(), 1, "sample {id}");
     }
+    // the same
     assert!((value(&rows[7], "body_parts_fuselage_length_m") - 2.92).abs() < 1e-15);
     assert!((value(&rows[8], "body_parts_fuselage_length_m") - 3.08).abs() < 1e-15);
     assert_eq!(value(&rows[8], "wheels_w1_radius_m"), 0.25, "the nominal, not the median");
@@ -232,8 +234,10 @@ fn slope(points: &[(f64, f64)]) -> f64 {
 
 #[test]
 fn the_discrepancy_of_known_points() {
+    // sums and products of halves have no rounding; measured: none
     assert!((star_discrepancy(&[(0.5, 0.5)]) - 0.75).abs() < 1e-15, "the closed box to the point has area 1/4");
     let diagonal: Vec<(f64, f64)> = (0..100).map(|k| (f64::from(k) / 100.0, f64::from(k) / 100.0)).collect();
+    // 1/4 from the empty corner of side 1/2, and a hundredth for the closed box; measured: 0.26
     assert!(star_discrepancy(&diagonal) > 0.25, "far from even");
 }
 
@@ -257,6 +261,8 @@ fn sequences_are_more_even_than_random_points() {
     println!(
         "star discrepancy of 2048 points and slope: Sobol {sobol_last:.5} {sobol_slope:.2}, Halton {halton_last:.5} {halton_slope:.2}, random {random_last:.5} {random_slope:.2}"
     );
+    // the logarithm makes a slope of -1 less steep; measured: Sobol -0.84, Halton -0.82, random -0.48; at 2048 points the
+    // sequences are 15 and 10 times as even
     assert!(sobol_slope < -0.8 && halton_slope < -0.75, "{sobol_slope} {halton_slope}");
     assert!(random_slope > -0.7, "{random_slope}");
     assert!(8.0 * sobol_last < random_last && 8.0 * halton_last < random_last);
@@ -301,10 +307,11 @@ fn sequences_integrate_smooth_functions_faster() {
     ]
     .map(|design| fall(&design));
     println!("slope and rms error at 4096: random {random:?}, latin {latin:?}, sobol {sobol:?}, halton {halton:?}");
+    // measured slopes: random -0.47, Sobol -1.35, Halton -0.94; errors: Sobol 1/509 of random, Halton 1/24
     assert!((random.0 + 0.5).abs() < 0.15, "{random:?}");
     assert!(sobol.0 < -0.95 && halton.0 < -0.85, "{sobol:?} {halton:?}");
     assert!(sobol.1 * 50.0 < random.1 && halton.1 * 20.0 < random.1);
-    // a Latin hypercube takes the sums out of the error, not its rate
+    // a Latin hypercube takes the sums out of the error, not its rate; measured: 1/4.8 of random
     assert!(latin.1 * 3.0 < random.1, "{latin:?} {random:?}");
 }
 

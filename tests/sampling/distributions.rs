@@ -222,6 +222,7 @@ fn listed_values_come_in_proportion() {
     // Bernoulli is a choice of two; and an empirical law without interpolation gives every value its share
     let values = draws(&Distribution::Empirical(EmpiricalQuantile::new(&[1.0, 2.0, 2.0, 5.0], Interpolation::None)));
     let twos = values.iter().filter(|x| **x == 2.0).count() as f64;
+    // 3.29 standard errors of a share of one half: two-sided alpha = 1e-3
     assert!((twos / N as f64 - 0.5).abs() < 3.29 * 0.5 / (N as f64).sqrt());
 }
 

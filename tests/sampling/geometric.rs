@@ -99,7 +99,10 @@ pub const RATE: &str = "parameter = \"initial.angular_velocity_rad_s\"\n";
 #[test]
 fn directions_are_uniform_on_the_sphere() {
     let rates = draws(&format!("{RATE}distribution = \"uniform_direction\"\n"), rate);
-    assert!(rates.iter().all(|v| (norm(*v) / 3.0 - 1.0).abs() < 1e-15 * 8.0));
+    for (row, v) in rates.iter().enumerate() {
+        // rounding of a direction, its factor and the norm: some ulps; measured: two
+        assert!((norm(*v) / 3.0 - 1.0).abs() < 1e-15 * 8.0, "row {row}: {v:?}");
+    }
     let directions: Vec<[f64; 3]> = rates.iter().map(|v| scaled(1.0 / 3.0, *v)).collect();
     let (first, second) = (rayleigh(&directions), bingham(&directions));
     assert!(first < CHI_3 && second < CHI_5, "{first} {second}");
@@ -161,6 +164,7 @@ fn magnitude_and_direction_are_apart() {
         squares = [squares[0] + a * a, squares[1] + b * b];
     }
     let correlation = covariance / (squares[0] * squares[1]).sqrt();
+    // 3.29 standard errors 1/sqrt(n) of a correlation of independent numbers: two-sided alpha = 1e-3
     assert!(correlation.abs() * (N as f64).sqrt() < 3.29, "{correlation}");
     // a zero nominal has neither: both are given
     let zero = "parameter = \"initial.velocity_m_s\"\ndistribution = \"uniform_direction\"\n\
@@ -223,7 +227,10 @@ fn attitudes_turn_about_an_axis() {
     let law = "parameter = \"initial.attitude\"\ndistribution = \"about_axis\"\naxis = [0, 3, 4]\n\
         angle_rad = { distribution = \"uniform\", min = -1, max = 2 }\n";
     let thetas = draws(law, |s| error(s.initial.attitude));
-    assert!(thetas.iter().all(|t| t[0].abs() < 1e-14 && (t[1] * 0.8 - t[2] * 0.6).abs() < 1e-14));
+    for (row, t) in thetas.iter().enumerate() {
+        // angles to 2 rad from products of two quaternions, some dozen roundings; measured: 6.7e-16
+        assert!(t[0].abs() < 1e-14 && (t[1] * 0.8 - t[2] * 0.6).abs() < 1e-14, "row {row}: {t:?}");
+    }
     let far = distance(thetas.iter().map(|t| 0.6 * t[1] + 0.8 * t[2]), |x| (x + 1.0) / 3.0);
     assert!(far < KS, "{far}");
 }
@@ -234,11 +241,12 @@ fn usual_mistakes_are_caught() {
     let uniform = draws(&format!("{RATE}distribution = \"uniform\"\nmin = -1\nmax = 1\n"), rate);
     // components of a cube, normalised: towards its corners. No preferred axis, so second moments are blind; the component is not
     let cube: Vec<f64> = uniform.iter().map(|v| v[2] / norm(*v)).collect();
+    // measured: 5.5 KS
     assert!(distance(cube, |x| (1.0 + x) / 2.0) > 3.0 * KS);
-    // two quadrants only
+    // two quadrants only; measured: 4905 times the critical value
     let half: Vec<[f64; 3]> = uniform.iter().map(|v| scaled(1.0 / norm(*v), [v[0].abs(), v[1], v[2]])).collect();
     assert!(rayleigh(&half) > 100.0 * CHI_3);
-    // uniform angles to the axis: towards the pole
+    // uniform angles to the axis: towards the pole; measured: 1521 times the critical value
     let polar: Vec<[f64; 3]> = uniform
         .iter()
         .map(|v| {
@@ -247,10 +255,10 @@ fn usual_mistakes_are_caught() {
         })
         .collect();
     assert!(bingham(&polar) > 100.0 * CHI_5);
-    // uniform Euler angles: E[C33^2] = 1/2
+    // uniform Euler angles: E[C33^2] = 1/2, which is 177 standard errors off; measured: 178
     let mean = uniform.iter().map(|v| libm::cos(PI * v[0]).powi(2)).sum::<f64>() / N as f64;
     assert!((mean - 1.0 / 3.0).abs() > 100.0 * (4.0 / 45.0 / N as f64).sqrt());
-    // a quaternion of uniform numbers, normalised
+    // a quaternion of uniform numbers, normalised; measured: 12.1 KS
     let uniform = draws("parameter = \"initial.attitude\"\ndistribution = \"uniform\"\nmin = -1\nmax = 1\n", |s| {
         s.initial.attitude
     });
@@ -307,6 +315,7 @@ fn a_million_bodies_and_none_impossible() {
         refused += usize::from(Scene::resolve(&input).is_err());
     }
     println!("free principal moments: {refused} of 10000 impossible");
+    // measured: 2415
     assert!(refused > 500, "{refused}");
 }
 
@@ -345,6 +354,9 @@ fn mean_directions_follow_the_axis_in_all_octants() {
                 }
                 let expected = scaled(cosine / norm(axis), axis);
                 let off: f64 = (0..3).map(|i| (mean[i] - expected[i]).powi(2)).sum::<f64>().sqrt();
+                // the mean of 4000 draws is off by sqrt((1 - cosine^2)/4000) in the root mean square: 0.0084 (cone) and 0.0049. The
+                // cone has 0.0058 in either direction across the axis, so that 0.04 is exceeded with a probability below 1e-10.
+                // Measured: 0.006
                 assert!(off < 0.04, "{law} about {axis:?}: mean {mean:?}, expected {expected:?}");
             }
         }

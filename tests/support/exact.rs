@@ -42,7 +42,9 @@ impl Exact {
         let plan = PropagationSettings::new(method, control, self.grid.clone(), fields, &self.scenes[0]);
         let parts: Vec<_> = self.scenes.par_chunks(8).map(|part| propagate_on(Isa::best(), &plan, part)).collect();
         let runs: Vec<Run> = parts.into_iter().flatten().collect();
-        assert!(runs.iter().all(|run| run.outcome.status == Status::Done), "{method:?}");
+        for (scene, run) in runs.iter().enumerate() {
+            assert_eq!(run.outcome.status, Status::Done, "{method:?}, scene {scene}");
+        }
         runs
     }
 

@@ -94,7 +94,9 @@ fn scene(scene: &Value) -> SceneInput {
     ];
     let (rates, angles) = (numbers::<2>(&initial["wheel_rates"]), numbers::<2>(&initial["wheel_angles"]));
     let written = [&scene["wheel1"], &scene["wheel2"]];
-    assert!(written.iter().all(|wheel| !wheel.is_null()), "the golden scenes have both wheels");
+    for (wheel, written) in written.iter().enumerate() {
+        assert!(!written.is_null(), "the golden scenes have both wheels; this one has no wheel {}", wheel + 1);
+    }
     for (i, (wheel, written)) in input.wheels.iter_mut().zip(written).enumerate() {
         wheel.radius_m = Some(number(&written["radius"]));
         wheel.length_m = Some(number(&written["length"]));

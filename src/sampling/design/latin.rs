@@ -124,7 +124,7 @@ mod tests {
             let permutation = Permutation::new(n, 99);
             let mut seen = vec![false; n as usize];
             (0..n).for_each(|place| seen[permutation.image(place) as usize] = true);
-            assert!(seen.iter().all(|seen| *seen), "{n}");
+            assert_eq!(seen.iter().position(|seen| !seen), None, "an image that is never taken, of {n}");
         }
     }
 
@@ -160,7 +160,10 @@ mod tests {
                     }
                 }
             }
-            assert!(counts.iter().flatten().all(|count| *count == 1), "{samples}: {counts:?}");
+            for (name, counts) in names.iter().zip(&counts) {
+                let other = counts.iter().position(|count| *count != 1);
+                assert_eq!(other, None, "a stratum of {name} without exactly one of {samples} samples: {counts:?}");
+            }
         }
     }
 }

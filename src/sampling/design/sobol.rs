@@ -153,7 +153,8 @@ mod tests {
         for dimension in 0..60 {
             let mut counts = [0; 1 << M];
             (0..1 << M).for_each(|point| counts[(sobol.number(dimension, point) * 256.0) as usize] += 1);
-            assert!(counts.iter().all(|count| *count == 1), "dimension {dimension}");
+            let other = counts.iter().position(|count| *count != 1);
+            assert_eq!(other, None, "an interval of dimension {dimension} without exactly one point: {counts:?}");
         }
         for wide in 0..=M {
             let mut counts = vec![0; 1 << M];
@@ -163,7 +164,8 @@ mod tests {
                 let row = (y * f64::from(1 << (M - wide))) as usize;
                 counts[(column << (M - wide)) + row] += 1;
             }
-            assert!(counts.iter().all(|count| *count == 1), "{wide}");
+            let other = counts.iter().position(|count| *count != 1);
+            assert_eq!(other, None, "a box of 2^{wide} columns without exactly one point: {counts:?}");
         }
     }
 
