@@ -3,7 +3,6 @@
 //! Angles between vectors are atan2(|a x b|, a . b), exact to rounding everywhere (W. Kahan, *How Futile are Mindless Assessments of
 //! Roundoff*, 2006, section 12). The angle of the rotation between two attitudes is kept as tan^2 of its half, |v|^2/s^2 of the
 //! quaternion conj(q_nominal) q = (s, v).
-#![expect(clippy::needless_range_loop, reason = "wheels and vectors are numbered alike in several arrays")]
 
 use fearless_simd::Simd;
 

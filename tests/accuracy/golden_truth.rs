@@ -1,7 +1,7 @@
 //! Every method against golden truth (25 digits, from a 40-digit Taylor solution), through [`PropagationSettings`] as campaigns run.
 //!
 //! Law: at every listed time the states and energies are those of the truth, to the accuracy that the method's tolerance or
-//! step promises. Bounds are those asked of the program where the constant says so; `cargo test --test golden_truth --
+//! step promises. Bounds are those asked of the program where the constant says so; `cargo test --release --test accuracy golden_truth --
 //! --nocapture` prints the largest error of each kind beside them.
 
 use crate::support::golden::Golden;
