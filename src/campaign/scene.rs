@@ -150,10 +150,11 @@ fn exclude_wheel_masses(section: &mut Section<'_, '_>) {
             section.refuse(key, "left out where the wheel is given by mass and inertias", "delete this line");
         }
     }
-    for (key, example) in
-        asked.into_iter().zip(if by_mass { ["5.0", "0.01", "0.005"] } else { ["0.25", "0.1", "2700.0"] })
-    {
-        section.require(key, "a finite number", example);
+    // a thin disc has a transverse moment of half its axial one
+    let (axial, transverse) = (section.written(WheelInput::MASSES[1]), section.written(WheelInput::MASSES[2]));
+    let of_mass = [5.0, transverse.map_or(0.01, |moment| 1.6 * moment), axial.map_or(0.006, |moment| 0.6 * moment)];
+    for (key, example) in asked.into_iter().zip(if by_mass { of_mass } else { [0.25, 0.1, 2700.0] }) {
+        section.require(key, "a finite number", &format!("{example:?}"));
     }
 }
 

@@ -139,6 +139,11 @@ impl<'d, 'a> Section<'d, 'a> {
         list
     }
 
+    /// The plain number of `key`, if one was written, whether it is allowed or not: for examples near what else was written.
+    pub fn written(&self, key: &str) -> Option<f64> {
+        number(self.table?.get(key)?.get_ref(), self.unit_of(key))
+    }
+
     /// Notes that `key` is missing, unless it was written (and is wrong in another way).
     pub fn require(&mut self, key: &str, allowed: &str, example: &str) {
         let is_reported = !self.is_present() && self.document.is_reported(&self.path);
@@ -146,7 +151,13 @@ impl<'d, 'a> Section<'d, 'a> {
             let remedy = if self.path.ends_with(']') {
                 format!("add {key} = {example} to this table")
             } else {
-                format!("add {key} = {example} to [{}]", self.path)
+                match self.path.rsplit_once('.') {
+                    // the table of a list is known by its name
+                    Some((list, name)) if ["wheels", "thrusters", "body.parts"].contains(&list) => {
+                        format!("add {key} = {example} to the table [[{list}]] with name = \"{name}\"")
+                    }
+                    _ => format!("add {key} = {example} to [{}]", self.path),
+                }
             };
             let path = self.path(key);
             self.document.add(&path, None, allowed, remedy);

@@ -162,7 +162,7 @@ pub const CASES: &[(&str, &str, &str)] = &[
     (
         "length_m = 3.0\n",
         "",
-        "bad.toml:11: body.parts.fuselage.length_m is missing: must be given; add length_m = 1.0 to [body.parts.fuselage]",
+        "bad.toml:11: body.parts.fuselage.length_m is missing: must be given; add length_m = 1.0 to the table [[body.parts]] with name = \"fuselage\"",
     ),
     (
         "length_m = 3.0",
@@ -177,7 +177,7 @@ pub const CASES: &[(&str, &str, &str)] = &[
     (
         "position_m = [0, 0, 0]\n",
         "",
-        "bad.toml:33: thrusters.p1.position_m is missing: must be an array of 3 finite numbers; add position_m = [0, 0, 0] to [thrusters.p1]",
+        "bad.toml:33: thrusters.p1.position_m is missing: must be an array of 3 finite numbers; add position_m = [0, 0, 0] to the table [[thrusters]] with name = \"p1\"",
     ),
     (
         "[[body.parts]]",

@@ -145,7 +145,7 @@ const OF_DIRECT: &[Case] = &[
         "wheels.w1.axis",
         None,
         "an array of 3 finite numbers",
-        "add axis = [0, 0, 1] to [wheels.w1]",
+        "add axis = [0, 0, 1] to the table [[wheels]] with name = \"w1\"",
     ),
     ("axis = [0, 1, 0]", "axis = \"s2\"", 13, "wheels.w1.axis", Some("\"s2\""), "a finite number", "write a number"),
     (
@@ -164,7 +164,7 @@ const OF_DIRECT: &[Case] = &[
         "thrusters.p1.direction",
         None,
         "an array of 3 finite numbers",
-        "add direction = [0, 0, 1] to [thrusters.p1]",
+        "add direction = [0, 0, 1] to the table [[thrusters]] with name = \"p1\"",
     ),
     (
         "position_m = [0, 0, -1]\n",
@@ -223,7 +223,15 @@ const OF_DIRECT: &[Case] = &[
     ),
     ("name = \"w2\"", "name = 2", 20, "wheels[1].name", Some("2"), "text", "write it in quotes"),
     // mass and inertia of a wheel
-    ("mass_kg = 5.0\n", "", 11, "wheels.w1.mass_kg", None, "a finite number", "add mass_kg = 5.0 to [wheels.w1]"),
+    (
+        "mass_kg = 5.0\n",
+        "",
+        11,
+        "wheels.w1.mass_kg",
+        None,
+        "a finite number",
+        "add mass_kg = 5.0 to the table [[wheels]] with name = \"w1\"",
+    ),
     (
         "axial_inertia_kg_m2 = 0.02\n",
         "",
@@ -279,7 +287,15 @@ const OF_DIRECT: &[Case] = &[
         "above zero",
         "write a positive number",
     ),
-    ("radius_m = 0.2\n", "", 19, "wheels.w2.radius_m", None, "a finite number", "add radius_m = 0.25 to [wheels.w2]"),
+    (
+        "radius_m = 0.2\n",
+        "",
+        19,
+        "wheels.w2.radius_m",
+        None,
+        "a finite number",
+        "add radius_m = 0.25 to the table [[wheels]] with name = \"w2\"",
+    ),
     (
         "density_kg_m3 = 2700.0\n",
         "",
@@ -574,7 +590,7 @@ const OF_PARTS: &[Case] = &[
         "body.parts.tank.density_kg_m3",
         None,
         "given (or mass_kg)",
-        "add density_kg_m3 = 2700.0 to [body.parts.tank]",
+        "add density_kg_m3 = 2700.0 to the table [[body.parts]] with name = \"tank\"",
     ),
     (
         "outer_radius_m = 1.0",
@@ -601,7 +617,7 @@ const OF_PARTS: &[Case] = &[
         "body.parts.panel.size_m",
         None,
         "given",
-        "add size_m = [1.0, 1.0, 1.0] to [body.parts.panel]",
+        "add size_m = [1.0, 1.0, 1.0] to the table [[body.parts]] with name = \"panel\"",
     ),
     (
         "size_m = [2, 1, 0.01]",
@@ -664,7 +680,7 @@ const OF_PARTS: &[Case] = &[
         "body.parts.tip.mass_kg",
         None,
         "a finite number",
-        "add mass_kg = 10.0 to [body.parts.tip]",
+        "add mass_kg = 10.0 to the table [[body.parts]] with name = \"tip\"",
     ),
     (
         "shape = \"point_mass\"\n",
