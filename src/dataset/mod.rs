@@ -1,7 +1,7 @@
 //! Layer 6: results on disk.
 //!
 //! - [`folder`]: the folder of a result: claim, commit, completeness. - [`part_sink`]: writes finished parts.
-//! - [`rows_file`]: the files of rows. - [`columnar`]: columns to Parquet. - [`atomic`]: files that are whole or absent.
+//! - [`rows_file`]: the files of rows; [`rows_reader`] reads them. - [`columnar`]: columns to Parquet. - [`atomic`]: files that are whole or absent.
 //! - [`tally`], [`audit_tally`]: statistics counted while rows are written. - [`provenance`]: metadata on the origin.
 //! - [`table`]: tables in a single file: [`timeseries`], [`drawn_table`], [`precision_table`].
 //!
@@ -16,6 +16,7 @@ pub mod part_sink;
 pub mod precision_table;
 pub mod provenance;
 pub mod rows_file;
+pub mod rows_reader;
 pub mod table;
 pub mod tally;
 pub mod timeseries;
