@@ -1,10 +1,18 @@
 //! Layer 2: statistics of many runs: pure functions of numbers.
+//!
+//! - [`moments`], [`quantile`], [`sketch`]: what describes one column. - [`student`], [`binomial`], [`replicates`]: intervals.
+//! - [`gate`]: requirements decided. - [`looks`]: when to stop. - [`two_sample`]: two campaigns compared.
+//! - [`correlation`], [`regression`], [`sensitivity`]: which input matters.
 
 pub mod binomial;
 pub mod correlation;
+pub mod gate;
+pub mod looks;
 pub mod moments;
 pub mod quantile;
 pub mod regression;
+pub mod replicates;
 pub mod sensitivity;
 pub mod sketch;
 pub mod student;
+pub mod two_sample;

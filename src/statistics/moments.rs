@@ -1,8 +1,9 @@
-//! [`Moments`]: count, extremes, mean, standard deviation and skewness of a stream of numbers, in one pass and mergeable.
+//! [`Moments`]: count, extremes, mean, standard deviation and skewness of a stream of numbers, mergeable.
 //!
-//! Central moments are updated and merged by the formulas of P. Pébay, *Formulas for Robust, One-Pass Parallel Computation of
-//! Covariances and Arbitrary-Order Statistical Moments*, SAND2008-6212 (2008), equations (1.1) to (1.4). Merging parts in their order gives
-//! the same bits for any number of threads.
+//! Central moments of a block are those about its mean, in two passes with the correction for the rounding of that mean (T. F. Chan,
+//! G. H. Golub & R. J. LeVeque, *Am. Stat.* 37 (1983) 242). Blocks are merged by the formulas of P. Pébay, *Formulas for Robust, One-Pass
+//! Parallel Computation of Covariances and Arbitrary-Order Statistical Moments*, SAND2008-6212 (2008), for orders two to four. Merging
+//! parts in their order gives the same bits for any number of threads.
 
 /// Moments of the numbers that were added.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,13 +14,15 @@ pub struct Moments {
     m2: f64,
     /// Sum of cubed deviations from the mean.
     m3: f64,
+    /// Sum of their fourth powers.
+    m4: f64,
     min: f64,
     max: f64,
 }
 
 impl Default for Moments {
     fn default() -> Self {
-        Moments { count: 0, mean: 0.0, m2: 0.0, m3: 0.0, min: f64::INFINITY, max: f64::NEG_INFINITY }
+        Moments { count: 0, mean: 0.0, m2: 0.0, m3: 0.0, m4: 0.0, min: f64::INFINITY, max: f64::NEG_INFINITY }
     }
 }
 
@@ -31,9 +34,49 @@ impl Moments {
         moments
     }
 
+    /// Moments of a block of numbers: as [`Moments::of`] to rounding, several times as fast and with fewer rounding errors.
+    pub fn of_block(values: &[f64]) -> Self {
+        let n = values.len() as f64;
+        let [sum, min, max] = in_lanes(
+            values,
+            [0.0, f64::INFINITY, f64::NEG_INFINITY],
+            |[sum, min, max], x| [sum + x, if x < min { x } else { min }, if x > max { x } else { max }],
+            |a, b| [a[0] + b[0], a[1].min(b[1]), a[2].max(b[2])],
+        );
+        if values.is_empty() {
+            return Moments::default();
+        }
+        if min == max && !sum.is_nan() {
+            // the mean of equal numbers is that number, without the rounding of their sum
+            return Moments { count: values.len() as u64, mean: min, m2: 0.0, m3: 0.0, m4: 0.0, min, max };
+        }
+        let near = sum / n;
+        let [s1, s2, s3, s4] = in_lanes(
+            values,
+            [0.0; 4],
+            |[s1, s2, s3, s4], x| {
+                let d = x - near;
+                let square = d * d;
+                [s1 + d, s2 + square, s3 + square * d, s4 + square * square]
+            },
+            |a, b| [a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]],
+        );
+        // what the rounding of the mean left
+        let e = s1 / n;
+        Moments {
+            count: values.len() as u64,
+            mean: near + e,
+            m2: (s2 - e * s1).max(0.0),
+            m3: s3 - 3.0 * e * s2 + 2.0 * n * e * e * e,
+            m4: (s4 - 4.0 * e * s3 + 6.0 * e * e * s2 - 3.0 * n * e * e * e * e).max(0.0),
+            min,
+            max,
+        }
+    }
+
     /// Adds one number. NaN makes every moment NaN: leave out what has no value.
     pub fn add(&mut self, value: f64) {
-        self.merge(&Moments { count: 1, mean: value, m2: 0.0, m3: 0.0, min: value, max: value });
+        self.merge(&Moments { count: 1, mean: value, m2: 0.0, m3: 0.0, m4: 0.0, min: value, max: value });
     }
 
     /// Adds everything that `other` has.
@@ -49,6 +92,11 @@ impl Moments {
         let total = mine + theirs;
         let delta = other.mean - self.mean;
         let share = theirs / total;
+        let square = delta * delta;
+        self.m4 += other.m4
+            + square * square * mine * share * ((mine * mine - mine * theirs + theirs * theirs) / (total * total))
+            + 6.0 * square * (mine / total * (mine / total) * other.m2 + share * share * self.m2)
+            + 4.0 * delta * (mine / total * other.m3 - share * self.m3);
         self.m3 += other.m3
             + delta * delta * delta * mine * share * ((mine - theirs) / total)
             + 3.0 * delta * (mine / total * other.m2 - share * self.m2);
@@ -90,6 +138,43 @@ impl Moments {
         let skewness = libm::sqrt(n) * self.m3 / (self.m2 * libm::sqrt(self.m2));
         (self.count > 1 && self.m2 > 0.0).then_some(skewness)
     }
+
+    /// Standard error of the mean of independent numbers, s/sqrt(n); `None` for fewer than two.
+    pub fn mean_error(&self) -> Option<f64> {
+        Some(self.standard_deviation()? / libm::sqrt(self.count as f64))
+    }
+
+    /// Standard error of the standard deviation of independent numbers, sqrt((m_4 - m_2^2)/n)/(2 s) for large n (H. Cramér, *Mathematical
+    /// Methods of Statistics*, 1946, section 28.4); `None` where all numbers are alike.
+    pub fn standard_deviation_error(&self) -> Option<f64> {
+        let n = self.count as f64;
+        let deviation = self.standard_deviation().filter(|deviation| *deviation > 0.0)?;
+        let (second, fourth) = (self.m2 / n, self.m4 / n);
+        Some(libm::sqrt((fourth - second * second).max(0.0) / n) / (2.0 * deviation))
+    }
+}
+
+/// Accumulators beside each other, so that the processor need not wait for one sum.
+const LANES: usize = 8;
+
+/// Folds `values` in [`LANES`] accumulators, number k in accumulator k mod [`LANES`], and these in one order: the same bits everywhere.
+fn in_lanes<const N: usize>(
+    values: &[f64],
+    start: [f64; N],
+    add: impl Fn([f64; N], f64) -> [f64; N],
+    merge: impl Fn([f64; N], [f64; N]) -> [f64; N],
+) -> [f64; N] {
+    let mut lanes = [start; LANES];
+    let mut blocks = values.chunks_exact(LANES);
+    for block in &mut blocks {
+        for (lane, value) in lanes.iter_mut().zip(block) {
+            *lane = add(*lane, *value);
+        }
+    }
+    for (lane, value) in lanes.iter_mut().zip(blocks.remainder()) {
+        *lane = add(*lane, *value);
+    }
+    lanes.into_iter().reduce(merge).unwrap_or(start)
 }
 
 #[cfg(test)]
@@ -119,6 +204,41 @@ mod tests {
         let one = Moments::of([7.0]);
         assert_eq!((one.mean(), one.standard_deviation(), one.skewness()), (Some(7.0), None, None));
         assert_eq!(Moments::of([7.0, 7.0]).skewness(), None);
+    }
+
+    /// Law: a block has the moments of its numbers, whatever its length; equal numbers have no spread.
+    #[test]
+    fn a_block_is_its_numbers() {
+        for length in [0, 1, 7, 8, 9, 100, 1001] {
+            let values: Vec<f64> = (0..length).map(|k| libm::sin(f64::from(k) * 0.7) * f64::from(k % 17)).collect();
+            let (block, one_by_one) = (Moments::of_block(&values), Moments::of(values.iter().copied()));
+            let numbers = |m: &Moments| {
+                [m.mean(), m.standard_deviation(), m.skewness(), m.mean_error(), m.standard_deviation_error()]
+            };
+            assert_eq!((block.count, block.min(), block.max()), (one_by_one.count, one_by_one.min(), one_by_one.max()));
+            for (a, b) in numbers(&block).into_iter().zip(numbers(&one_by_one)) {
+                // the bound: some rounding errors of sums of up to 1001 numbers; measured 3e-14
+                let error = (a.unwrap_or(-1.0) - b.unwrap_or(-1.0)).abs();
+                assert!(error <= 2e-13, "{length}: {a:?} {b:?}");
+            }
+        }
+        let equal = Moments::of_block(&[0.1; 1000]);
+        assert_eq!((equal.mean(), equal.standard_deviation(), equal.skewness()), (Some(0.1), Some(0.0), None));
+        assert!(Moments::of_block(&[1.0, f64::NAN]).mean().is_some_and(f64::is_nan));
+    }
+
+    /// Known: of n numbers +1 and n numbers -1, m_4 = m_2 = 1: the standard deviation has no error of this order. Of 0 (n - 1 times) and
+    /// 1 the error is sqrt((m_4 - m_2^2)/n)/(2 s).
+    #[test]
+    fn known_error_of_a_standard_deviation() {
+        let two = Moments::of((0..100).map(|k| if k % 2 == 0 { 1.0 } else { -1.0 }));
+        // the square root of a rounding error
+        assert!(two.standard_deviation_error().is_some_and(|error| error < 5e-9));
+        let rare = Moments::of((0..4).map(|k| if k == 0 { 1.0 } else { 0.0 }));
+        // mean 1/4: m_2 = 3/16, m_4 = (81 + 3)/1024
+        let (m2, m4) = (3.0 / 16.0, 84.0 / 1024.0);
+        close(rare.standard_deviation_error(), libm::sqrt((m4 - m2 * m2) / 4.0) / (2.0 * 0.5));
+        close(rare.mean_error(), 0.25);
     }
 
     /// Law: merging is adding. A large offset costs no more digits than it has.

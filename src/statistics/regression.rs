@@ -22,6 +22,39 @@ pub struct Regression {
     pub r_squared: f64,
 }
 
+/// The interval of R^2 from `count` rows and `inputs` inputs, for many rows (I. Olkin & J. D. Finn, *Psychol. Bull.* 118 (1995) 155).
+pub fn r_squared_interval(r_squared: f64, count: usize, inputs: usize, confidence: f64) -> Estimate {
+    let (n, k) = (count as f64, inputs as f64);
+    let rest = (1.0 - r_squared) * (n - k - 1.0).max(0.0);
+    let variance = 4.0 * r_squared * rest * rest / ((n * n - 1.0) * (n + 3.0));
+    let half = crate::math::normal::quantile(0.5 + 0.5 * confidence) * libm::sqrt(variance);
+    Estimate { value: r_squared, lower: (r_squared - half).max(0.0), upper: (r_squared + half).min(1.0) }
+}
+
+/// Which of the `inputs`, all [`standardised`](super::correlation::standardised), are no linear combination of those before them.
+pub fn independent_inputs(inputs: &[Vec<f64>]) -> Vec<bool> {
+    // Gram and Schmidt, twice for the rounding of the first time
+    let mut basis: Vec<Vec<f64>> = Vec::new();
+    let mut independent = Vec::with_capacity(inputs.len());
+    for input in inputs {
+        let mut rest = input.clone();
+        for unit in basis.iter().chain(&basis) {
+            let part = product(&rest, unit);
+            rest.iter_mut().zip(unit).for_each(|(rest, unit)| *rest -= part * unit);
+        }
+        let square = product(&rest, &rest);
+        // with a margin, so that the regression on those that are kept has its pivots
+        let is_new = square > 10.0 * SMALLEST_PIVOT;
+        if is_new {
+            let length = libm::sqrt(square);
+            rest.iter_mut().for_each(|value| *value /= length);
+            basis.push(rest);
+        }
+        independent.push(is_new);
+    }
+    independent
+}
+
 /// A pivot below this: the input is a linear combination of those before it. Correlations have about 1e-15.
 const SMALLEST_PIVOT: f64 = 1e-10;
 
@@ -107,6 +140,26 @@ mod tests {
         assert!((found.partial[0] - expected).abs() < 2e-15, "{} {expected}", found.partial[0]);
         let interval = found.coefficients[0];
         assert!(interval.lower < interval.value && interval.value < interval.upper);
+    }
+
+    /// Law: an input that is a combination of those before it, or constant, is not independent; the rest have a regression.
+    #[test]
+    fn dependent_inputs_are_found() {
+        let [a, b, c] = inputs();
+        let sum: Vec<f64> = a.iter().zip(&b).map(|(a, b)| 2.0 * a - b).collect();
+        let columns: Vec<Vec<f64>> = [&a, &b, &sum, &vec![7.0; 500], &c].map(|x| standardised(x)).to_vec();
+        assert_eq!(independent_inputs(&columns), [true, true, false, false, true]);
+        let kept = [columns[0].clone(), columns[1].clone(), columns[4].clone()];
+        assert!(regression(&kept, &columns[2], 0.95).is_some() && regression(&columns, &columns[2], 0.95).is_none());
+    }
+
+    /// Known: R^2 = 0.5, n = 103, k = 2: variance 4 * 0.5 * (0.5 * 100)^2/((103^2 - 1) * 106) = 0.0044464.
+    #[test]
+    fn known_interval_of_r_squared() {
+        let found = r_squared_interval(0.5, 103, 2, 0.95);
+        let half = 1.959_963_984_540_054 * libm::sqrt(5000.0 / (10_608.0 * 106.0));
+        assert!((found.upper - 0.5 - half).abs() < 1e-14 && (found.lower - 0.5 + half).abs() < 1e-14, "{found:?}");
+        assert_eq!(r_squared_interval(1.0, 103, 2, 0.95).upper, 1.0);
     }
 
     #[test]

@@ -55,6 +55,25 @@ impl Sketch {
         self.max = self.max.max(value);
     }
 
+    /// Counts the numbers of a list; NaN is not counted.
+    pub fn add_all(&mut self, values: &[f64]) {
+        // numbers of a column have few exponents: mostly the page is that of the number before
+        let (mut number, mut at) = (None, 0);
+        for value in values.iter().filter(|value| !value.is_nan()) {
+            let value = value + 0.0;
+            let key = ordered(value) >> SHIFT;
+            let page = (key >> MANTISSA_BITS) as u16;
+            if number != Some(page) {
+                at = self.page_index(page);
+                number = Some(page);
+            }
+            self.pages[at].1[key as usize % PAGE] += 1;
+            self.count += 1;
+            self.min = self.min.min(value);
+            self.max = self.max.max(value);
+        }
+    }
+
     /// Counts all that `other` has counted.
     pub fn merge(&mut self, other: &Sketch) {
         for (number, counts) in &other.pages {
@@ -93,13 +112,7 @@ impl Sketch {
             for (bucket, count) in counts.iter().enumerate() {
                 seen += count;
                 if seen >= rank {
-                    let low = (u64::from(*number) << MANTISSA_BITS | bucket as u64) << SHIFT;
-                    // half of each end: the difference of the ends may overflow, and zero's bucket must answer zero
-                    let (low, high) = (unordered(low), unordered(low | ((1 << SHIFT) - 1)));
-                    let middle = 0.5 * low + 0.5 * high;
-                    // the bucket of an infinity reaches into the NaNs
-                    return Some(if middle.is_nan() { if low.is_nan() { high } else { low } } else { middle })
-                        .map(|middle| middle.clamp(self.min, self.max));
+                    return Some(middle(ends(*number, bucket)).clamp(self.min, self.max));
                 }
             }
         }
@@ -107,14 +120,98 @@ impl Sketch {
     }
 
     fn page(&mut self, number: u16) -> &mut [u64; PAGE] {
-        let at = match self.pages.binary_search_by_key(&number, |(number, _)| *number) {
+        let at = self.page_index(number);
+        &mut self.pages[at].1
+    }
+
+    /// The index of a page, which is added where it is not there.
+    fn page_index(&mut self, number: u16) -> usize {
+        match self.pages.binary_search_by_key(&number, |(number, _)| *number) {
             Ok(at) => at,
             Err(at) => {
                 self.pages.insert(at, (number, Box::new([0; PAGE])));
                 at
             }
-        };
-        &mut self.pages[at].1
+        }
+    }
+
+    /// Where numbers were counted, in ascending order: for many questions to one sketch.
+    pub fn ranks(&self) -> Ranks {
+        let mut seen = 0;
+        let mut buckets = Vec::new();
+        for (number, counts) in &self.pages {
+            for (bucket, count) in counts.iter().enumerate().filter(|(_, count)| **count > 0) {
+                seen += count;
+                let [low, high] = ends(*number, bucket);
+                // the bucket of an infinity reaches into the NaNs; extremes are known exactly
+                let [low, high] = [if low.is_nan() { high } else { low }, if high.is_nan() { low } else { high }];
+                buckets.push(Bucket { low: low.max(self.min), high: high.min(self.max), up_to: seen });
+            }
+        }
+        Ranks { buckets, count: self.count }
+    }
+}
+
+/// A bucket with numbers in it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bucket {
+    /// No number in it is smaller.
+    pub low: f64,
+    /// No number in it is larger.
+    pub high: f64,
+    /// How many numbers are in it and in those below.
+    pub up_to: u64,
+}
+
+/// The order statistics of a [`Sketch`], each between two bounds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ranks {
+    /// The buckets with numbers, ascending.
+    pub buckets: Vec<Bucket>,
+    count: u64,
+}
+
+impl Ranks {
+    /// Bounds of the number of rank `rank`, from 1; `None` where there is none.
+    pub fn bounds(&self, rank: u64) -> Option<[f64; 2]> {
+        let bucket = self.buckets.get(self.buckets.partition_point(|bucket| bucket.up_to < rank))?;
+        Some([bucket.low, bucket.high])
+    }
+
+    /// The `p`-quantile of type 7 ([`super::quantile::quantile`]), 0 <= p <= 1: between two order statistics, each within
+    /// [`RELATIVE_ERROR`], and so within that fraction of the magnitude of the greater.
+    pub fn quantile(&self, p: f64) -> Option<f64> {
+        let last = self.count.checked_sub(1)?;
+        let place = last as f64 * p;
+        let below = (place.floor() as u64).min(last);
+        let near = |rank: u64| self.bounds(rank.min(self.count)).map(middle);
+        super::quantile::quantile(&[near(below + 1)?, near(below + 2)?], place - below as f64)
+    }
+
+    /// At least and at most how many numbers are no greater than `limit`: they differ by the bucket that `limit` is in.
+    pub fn at_most(&self, limit: f64) -> [u64; 2] {
+        let whole = self.buckets.partition_point(|bucket| bucket.high <= limit);
+        let touched = self.buckets.partition_point(|bucket| bucket.low <= limit);
+        [whole, touched].map(|buckets| buckets.checked_sub(1).map_or(0, |last| self.buckets[last].up_to))
+    }
+}
+
+/// The ends of a bucket, as far as numbers of these leading bits reach; the bucket of an infinity reaches into the NaNs.
+fn ends(number: u16, bucket: usize) -> [f64; 2] {
+    let low = (u64::from(number) << MANTISSA_BITS | bucket as u64) << SHIFT;
+    [unordered(low), unordered(low | ((1 << SHIFT) - 1))]
+}
+
+/// The middle of a bucket.
+fn middle([low, high]: [f64; 2]) -> f64 {
+    // half of each end: the difference of the ends may overflow, and zero's bucket must answer zero
+    let middle = 0.5 * low + 0.5 * high;
+    if !middle.is_nan() {
+        middle
+    } else if low.is_nan() {
+        high
+    } else {
+        low
     }
 }
 
@@ -161,6 +258,40 @@ mod tests {
         let values: Vec<f64> = (0..20_000).map(spread).collect();
         let (got, want) = (sketch(&values).quantile(0.51).unwrap(), exact(&values, 0.5));
         assert!((got - want).abs() > RELATIVE_ERROR * want.abs());
+    }
+
+    /// Law: bounds of a rank enclose the order statistic, counts at a limit enclose the true count, and a quantile of type 7 is within the
+    /// relative error of the order statistics between which it lies.
+    #[test]
+    fn ranks_are_bounded() {
+        let mut values: Vec<f64> = (0..20_000).map(spread).collect();
+        let mut added = Sketch::default();
+        values.chunks(999).for_each(|part| added.add_all(part));
+        assert_eq!(added, sketch(&values));
+        let ranks = added.ranks();
+        values.sort_by(f64::total_cmp);
+        for rank in [1, 2, 57, 10_000, 19_999, 20_000] {
+            let [low, high] = ranks.bounds(rank).unwrap();
+            let exact = values[rank as usize - 1];
+            assert!(low <= exact && exact <= high && high - low <= 2.1 * RELATIVE_ERROR * exact.abs(), "{rank}");
+            for limit in [exact, exact * 1.0003] {
+                let [least, most] = ranks.at_most(limit);
+                let exactly = values.partition_point(|value| *value <= limit) as u64;
+                assert!(least <= exactly && exactly <= most && most - least < 30, "{limit}: {least} {exactly} {most}");
+            }
+        }
+        assert_eq!((ranks.bounds(1).unwrap()[0], ranks.bounds(20_000).unwrap()[1]), (values[0], values[19_999]));
+        assert_eq!((ranks.bounds(20_001), ranks.at_most(-1e99), ranks.at_most(1e99)), (None, [0; 2], [20_000; 2]));
+        for p in [0.0, 1e-4, 0.01, 0.3, 0.5, 0.95, 0.999, 1.0] {
+            let (found, exact) =
+                (ranks.quantile(p).unwrap(), crate::statistics::quantile::quantile(&values, p).unwrap());
+            let below = (p * 19_999.0) as usize;
+            let greater = values[below].abs().max(values[(below + 1).min(19_999)].abs());
+            assert!((found - exact).abs() <= RELATIVE_ERROR * greater, "{p}: {found} {exact}");
+        }
+        assert_eq!(Sketch::default().ranks().quantile(0.5), None);
+        let infinite = sketch(&[f64::NEG_INFINITY, 1.0, f64::INFINITY]).ranks();
+        assert_eq!((infinite.bounds(1), infinite.bounds(3)), (Some([f64::NEG_INFINITY; 2]), Some([f64::INFINITY; 2])));
     }
 
     #[test]

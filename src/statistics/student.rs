@@ -2,13 +2,20 @@
 //!
 //! By the incomplete beta function (Abramowitz & Stegun 26.7.1).
 
-use crate::math::incomplete_beta::inverse_incomplete_beta;
+use crate::math::incomplete_beta::{incomplete_beta, inverse_incomplete_beta};
 
 /// t with P(|T| <= t) = `confidence` for `degrees` >= 1 degrees of freedom.
 pub fn two_sided_quantile(confidence: f64, degrees: f64) -> f64 {
     // 1 - P(|T| <= t) = I_x(degrees/2, 1/2) with x = degrees/(degrees + t^2)
     let [x, y] = inverse_incomplete_beta(1.0 - confidence, confidence, 0.5 * degrees, 0.5);
     libm::sqrt(degrees * y / x)
+}
+
+/// P(|T| > `t`) for `t` >= 0 and `degrees` >= 1 degrees of freedom.
+pub fn two_sided_tail(t: f64, degrees: f64) -> f64 {
+    let square = t * t;
+    let [x, y] = [degrees / (degrees + square), square / (degrees + square)];
+    incomplete_beta(x, y, 0.5 * degrees, 0.5).lower
 }
 
 /// Half width of the interval in which the mean lies with `confidence`: t s / sqrt(n), from the `standard_deviation` of `count` values.
@@ -37,6 +44,16 @@ mod tests {
             assert!((two_sided_quantile(confidence, degrees) / t - 1.0).abs() < 1e-14, "{degrees}");
         }
         assert_eq!(half_width(1.0, 1, 0.95), f64::INFINITY);
+    }
+
+    /// Law: the tail inverts the quantile.
+    #[test]
+    fn tails_invert_quantiles() {
+        for (confidence, degrees, t) in KNOWN {
+            let tail = two_sided_tail(t, degrees);
+            assert!((tail / (1.0 - confidence) - 1.0).abs() < 1e-12, "{degrees}: {tail}");
+        }
+        assert_eq!(two_sided_tail(0.0, 5.0), 1.0);
     }
 
     /// (confidence, degrees, t), `scipy.stats.t.ppf(0.5 + confidence/2, degrees)`.

@@ -1,0 +1,192 @@
+//! What numbers say of a requirement: met, missed, or undecided and how many runs would decide.
+//!
+//! Fractions and quantiles are one exact binomial test ([`super::binomial::decide`]): that the `p`-quantile is at most a limit says that at
+//! least the fraction p of runs is. Means are a test by Student's t; fractions of replicates too. Each error, to pass what should fail or to
+//! fail what should pass, has at most the probability 1 - confidence.
+
+use super::binomial::{Decision, MAX_RUNS, decide, lower_bound, upper_bound};
+use super::moments::Moments;
+use super::student::two_sided_quantile;
+
+/// On which side of a limit a number must be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Limit {
+    /// At most this.
+    AtMost(f64),
+    /// At least this.
+    AtLeast(f64),
+}
+
+impl Limit {
+    /// Whether `value` is within the limit; NaN is not.
+    pub fn is_met(self, value: f64) -> bool {
+        match self {
+            Limit::AtMost(limit) => value <= limit,
+            Limit::AtLeast(limit) => value >= limit,
+        }
+    }
+
+    /// The fraction of runs that must be within the limit where the `p`-quantile must be.
+    pub fn fraction(self, p: f64) -> f64 {
+        match self {
+            Limit::AtMost(_) => p,
+            Limit::AtLeast(_) => 1.0 - p,
+        }
+    }
+
+    /// The limit itself.
+    pub fn value(self) -> f64 {
+        match self {
+            Limit::AtMost(limit) | Limit::AtLeast(limit) => limit,
+        }
+    }
+}
+
+/// What was decided, and from what.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gate {
+    /// What is decided.
+    pub decision: Decision,
+    /// The estimate: a fraction, or a mean.
+    pub estimate: f64,
+    /// One-sided bounds of what is estimated, each at the confidence.
+    pub bounds: [f64; 2],
+}
+
+/// The gate that at least the fraction `target` of runs succeeds, from `successes` in `trials` independent ones.
+pub fn fraction_gate(successes: u64, trials: u64, target: f64, confidence: f64) -> Gate {
+    Gate {
+        decision: decide(successes, trials, target, confidence),
+        estimate: if trials == 0 { f64::NAN } else { successes as f64 / trials as f64 },
+        bounds: match trials {
+            0 => [0.0, 1.0],
+            _ => [lower_bound(successes, trials, confidence), upper_bound(successes, trials, confidence)],
+        },
+    }
+}
+
+/// The same where only bounds of the number of successes are known, `successes[0] <= successes[1]`: what both bounds decide.
+pub fn fraction_gate_within(successes: [u64; 2], trials: u64, target: f64, confidence: f64) -> Gate {
+    let [least, most] = successes.map(|successes| fraction_gate(successes, trials, target, confidence));
+    let decision = match (least.decision, most.decision) {
+        (Decision::Pass, _) => Decision::Pass,
+        (_, Decision::Fail) => Decision::Fail,
+        // what is between cannot be told apart by more runs
+        (Decision::Undecided(runs), Decision::Undecided(other)) => {
+            Decision::Undecided(runs.zip(other).map(|(a, b)| a.max(b)))
+        }
+        _ => Decision::Undecided(None),
+    };
+    Gate { decision, estimate: 0.5 * (least.estimate + most.estimate), bounds: [least.bounds[0], most.bounds[1]] }
+}
+
+/// The gate that the mean of independent runs is within `limit`.
+pub fn mean_gate(moments: &Moments, limit: Limit, confidence: f64) -> Gate {
+    let (count, mean) = (moments.count(), moments.mean().unwrap_or(f64::NAN));
+    let Some(deviation) = moments.standard_deviation() else {
+        let bounds = [f64::NEG_INFINITY, f64::INFINITY];
+        return Gate { decision: Decision::Undecided(None), estimate: mean, bounds };
+    };
+    let half = |n: u64| one_sided(confidence, n as f64 - 1.0) * deviation / libm::sqrt(n as f64);
+    let decides = |n: u64| half(n) < (mean - limit.value()).abs();
+    let decision = decision([mean - half(count), mean + half(count)], limit, || smallest(count, decides));
+    Gate { decision, estimate: mean, bounds: [mean - half(count), mean + half(count)] }
+}
+
+/// The gate that a mean, or a fraction (`limit` is then [`Limit::AtLeast`]), is within `limit`, from the estimates of independent replicates of
+/// `runs` runs together. More runs are more runs of each replicate, whose variance then falls at least in proportion.
+pub fn replicate_gate(estimates: &[f64], runs: u64, limit: Limit, confidence: f64) -> Gate {
+    let gate = mean_gate(&Moments::of(estimates.iter().copied()), limit, confidence);
+    let Decision::Undecided(_) = gate.decision else { return gate };
+    let half = 0.5 * (gate.bounds[1] - gate.bounds[0]);
+    let distance = (gate.estimate - limit.value()).abs();
+    let factor = half / distance * (half / distance);
+    let needed = (half.is_finite() && distance > 0.0).then(|| (runs as f64 * factor).ceil());
+    let needed = needed.filter(|needed| *needed <= MAX_RUNS as f64).map(|needed| needed as u64);
+    Gate { decision: Decision::Undecided(needed), ..gate }
+}
+
+fn decision([lower, upper]: [f64; 2], limit: Limit, needed: impl FnOnce() -> Option<u64>) -> Decision {
+    let [inside, outside] = match limit {
+        Limit::AtMost(limit) => [upper <= limit, lower > limit],
+        Limit::AtLeast(limit) => [lower >= limit, upper < limit],
+    };
+    match (inside, outside) {
+        (true, _) => Decision::Pass,
+        (_, true) => Decision::Fail,
+        _ => Decision::Undecided(needed()),
+    }
+}
+
+/// t with P(T <= t) = `confidence` >= 1/2.
+fn one_sided(confidence: f64, degrees: f64) -> f64 {
+    if confidence <= 0.5 { 0.0 } else { two_sided_quantile(2.0 * confidence - 1.0, degrees) }
+}
+
+/// The smallest number above `from` that `decides`, which holds from some number on; `None` where that is above [`MAX_RUNS`].
+fn smallest(from: u64, decides: impl Fn(u64) -> bool) -> Option<u64> {
+    let (mut low, mut high) = (from, from);
+    while !decides(high) {
+        low = high;
+        high = high.checked_mul(2).filter(|high| *high <= MAX_RUNS)?;
+    }
+    while high - low > 1 {
+        let middle = low + (high - low) / 2;
+        if decides(middle) { high = middle } else { low = middle }
+    }
+    Some(high)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Published: 59 runs within the limit show that p95 is (Wilks 1941); the 5% quantile from below is the same by symmetry.
+    #[test]
+    fn quantile_gates_are_fraction_gates() {
+        for (limit, p) in [(Limit::AtMost(1.0), 0.95), (Limit::AtLeast(1.0), 0.05)] {
+            let of = |runs: u64| fraction_gate(runs, runs, limit.fraction(p), 0.95).decision;
+            assert_eq!((of(59), of(58)), (Decision::Pass, Decision::Undecided(Some(59))));
+        }
+        assert!(Limit::AtMost(1.0).is_met(1.0) && !Limit::AtMost(1.0).is_met(f64::NAN));
+        assert!(Limit::AtLeast(1.0).is_met(1.0) && !Limit::AtLeast(1.0).is_met(0.999));
+    }
+
+    /// Law: bounds of the number of successes decide only what every number between them decides.
+    #[test]
+    fn what_is_between_is_undecided() {
+        let of = |least, most| fraction_gate_within([least, most], 1000, 0.9, 0.95).decision;
+        assert_eq!((of(950, 960), of(800, 850)), (Decision::Pass, Decision::Fail));
+        assert_eq!(of(800, 960), Decision::Undecided(None));
+        assert!(matches!(of(905, 906), Decision::Undecided(Some(runs)) if runs > 1000));
+    }
+
+    /// Known: mean 2.5, s/sqrt(4) = 0.6455, t(0.95, 3) = 2.3533634348018264: one-sided bounds 2.5 -+ 1.5191.
+    #[test]
+    fn known_gates_on_a_mean() {
+        let moments = Moments::of([1.0, 2.0, 3.0, 4.0]);
+        let of = |limit| mean_gate(&moments, limit, 0.95);
+        let half = 2.353_363_434_801_826_4 * libm::sqrt(5.0 / 3.0) / 2.0;
+        let found = of(Limit::AtMost(4.1));
+        assert!((found.bounds[1] - 2.5 - half).abs() < 1e-13, "{found:?}");
+        assert_eq!((found.decision, of(Limit::AtMost(0.9)).decision), (Decision::Pass, Decision::Fail));
+        assert_eq!(
+            (of(Limit::AtLeast(0.9)).decision, of(Limit::AtLeast(4.1)).decision),
+            (Decision::Pass, Decision::Fail)
+        );
+        let Decision::Undecided(Some(needed)) = of(Limit::AtMost(3.0)).decision else { panic!("undecided") };
+        // t s/sqrt(n) < 1/2 from n = 20 on: 1.729 * 1.291/4.472 = 0.499
+        assert_eq!(needed, 20);
+        assert_eq!(of(Limit::AtMost(2.5)).decision, Decision::Undecided(None), "at the limit nothing decides");
+        assert_eq!(mean_gate(&Moments::of([1.0]), Limit::AtMost(9.0), 0.95).decision, Decision::Undecided(None));
+    }
+
+    #[test]
+    fn replicates_ask_for_more_runs() {
+        let estimates = [0.95, 0.97, 0.96, 0.96];
+        let of = |target| replicate_gate(&estimates, 4000, Limit::AtLeast(target), 0.95).decision;
+        assert_eq!((of(0.9), of(0.99)), (Decision::Pass, Decision::Fail));
+        assert!(matches!(of(0.957), Decision::Undecided(Some(runs)) if runs > 8000), "{:?}", of(0.957));
+        assert_eq!(of(0.96), Decision::Undecided(None));
+    }
+}

@@ -1,0 +1,178 @@
+//! Tests whether two campaigns differ: in their means, in their distributions, sample by sample.
+//!
+//! - Means: B. L. Welch, *Biometrika* 34 (1947) 28, which does not assume equal variances. - Distributions: Kolmogorov and Smirnov's largest
+//!   difference of the empirical distribution functions, with the tail of the limiting distribution as corrected by M. A. Stephens, *J. Roy.
+//!   Stat. Soc. B* 32 (1970) 115. - Pairs: Student's t of the differences, and F. Wilcoxon's signed ranks (*Biometrics* 1 (1945) 80) in the
+//!   normal approximation, corrected for ties, without zeros.
+//!
+//! All are two-sided and for independent runs, or pairs.
+
+use super::correlation::{Estimate, mid_ranks};
+use super::moments::Moments;
+use super::student::{two_sided_quantile, two_sided_tail};
+
+/// A test of one difference.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Difference {
+    /// The difference, second minus first, with its interval.
+    pub shift: Estimate,
+    /// Probability of a difference at least as large where there is none.
+    pub p_value: f64,
+}
+
+/// Welch's test of the means of two campaigns; `None` where one has fewer than two runs. Where neither varies, the difference is certain.
+pub fn welch(first: &Moments, second: &Moments, confidence: f64) -> Option<Difference> {
+    let shift = second.mean()? - first.mean()?;
+    let (a, b) = (first.mean_error()?, second.mean_error()?);
+    let (a, b) = (a * a, b * b);
+    let error = libm::sqrt(a + b);
+    if error == 0.0 {
+        return Some(certain(shift));
+    }
+    let degrees = (a + b) * (a + b) / (a * a / (first.count() - 1) as f64 + b * b / (second.count() - 1) as f64);
+    Some(difference(shift, error, degrees, confidence))
+}
+
+/// Student's test of the mean of paired differences, second minus first; `None` for fewer than two.
+pub fn paired(differences: &Moments, confidence: f64) -> Option<Difference> {
+    let (shift, error) = (differences.mean()?, differences.mean_error()?);
+    if error == 0.0 {
+        return Some(certain(shift));
+    }
+    Some(difference(shift, error, (differences.count() - 1) as f64, confidence))
+}
+
+fn certain(shift: f64) -> Difference {
+    let p_value = if shift == 0.0 { 1.0 } else { 0.0 };
+    Difference { shift: Estimate { value: shift, lower: shift, upper: shift }, p_value }
+}
+
+fn difference(shift: f64, error: f64, degrees: f64, confidence: f64) -> Difference {
+    let half = two_sided_quantile(confidence, degrees) * error;
+    let shift = Estimate { value: shift, lower: shift - half, upper: shift + half };
+    Difference { shift, p_value: two_sided_tail(shift.value.abs() / error, degrees) }
+}
+
+/// Kolmogorov and Smirnov's statistic of two samples in ascending order, and its p-value.
+pub fn kolmogorov_smirnov(first: &[f64], second: &[f64]) -> Option<(f64, f64)> {
+    if first.is_empty() || second.is_empty() {
+        return None;
+    }
+    let (n, m) = (first.len() as f64, second.len() as f64);
+    let (mut i, mut j, mut largest) = (0, 0, 0.0_f64);
+    while i < first.len() && j < second.len() {
+        // all numbers that are equal to the smaller of the next two, on both sides
+        let next = if first[i] <= second[j] { first[i] } else { second[j] };
+        while i < first.len() && first[i] <= next {
+            i += 1;
+        }
+        while j < second.len() && second[j] <= next {
+            j += 1;
+        }
+        largest = largest.max((i as f64 / n - j as f64 / m).abs());
+    }
+    let root = libm::sqrt(n * m / (n + m));
+    Some((largest, kolmogorov_tail((root + 0.12 + 0.11 / root) * largest)))
+}
+
+/// P(K > x) = 2 sum (-1)^(k-1) exp(-2 k^2 x^2) (A. N. Kolmogorov 1933).
+fn kolmogorov_tail(x: f64) -> f64 {
+    // below, the tail is 1 to the last digit but two, and the series converges slowly
+    if x < 0.2 {
+        return 1.0;
+    }
+    let term = |k: i32| {
+        let k = f64::from(k);
+        libm::exp(-2.0 * k * k * x * x)
+    };
+    let sum: f64 = (1..=40).map(|k| if k % 2 == 1 { term(k) } else { -term(k) }).sum();
+    (2.0 * sum).clamp(0.0, 1.0)
+}
+
+/// Wilcoxon's signed-rank test of paired differences: its p-value; `None` where all are zero.
+pub fn signed_ranks(differences: &[f64]) -> Option<f64> {
+    let differences: Vec<f64> = differences.iter().copied().filter(|d| *d != 0.0 && !d.is_nan()).collect();
+    if differences.is_empty() {
+        return None;
+    }
+    let sizes: Vec<f64> = differences.iter().map(|difference| difference.abs()).collect();
+    let ranks = mid_ranks(&sizes);
+    // ranks from one; what is above zero against half of all
+    let positive: f64 = differences.iter().zip(&ranks).filter(|(d, _)| **d > 0.0).map(|(_, rank)| rank + 1.0).sum();
+    let n = differences.len() as f64;
+    let mean = n * (n + 1.0) / 4.0;
+    // the sum of squares of the ranks, over four: ties make it smaller
+    let variance: f64 = ranks.iter().map(|rank| (rank + 1.0) * (rank + 1.0)).sum::<f64>() / 4.0;
+    let z = (positive - mean).abs() / libm::sqrt(variance);
+    Some(libm::erfc(z / core::f64::consts::SQRT_2))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Twenty and thirty numbers without a pattern.
+    fn samples() -> [Vec<f64>; 2] {
+        let irregular = |k: i32, root: f64| libm::fmod(f64::from(k) * root, 1.0);
+        [
+            (1..=20).map(|k| irregular(k, core::f64::consts::SQRT_2)).collect(),
+            (1..=30).map(|k| 0.2 + 1.3 * irregular(k, 1.732_050_807_568_877_2)).collect(),
+        ]
+    }
+
+    fn ascending(values: &[f64]) -> Vec<f64> {
+        let mut values = values.to_vec();
+        values.sort_by(f64::total_cmp);
+        values
+    }
+
+    /// Expected values: scipy.stats 1.x, of `x = [k sqrt(2) % 1 for k in 1..20]`, `y = [0.2 + 1.3 (k sqrt(3) % 1) for k in 1..30]`:
+    /// `ttest_ind(y, x, equal_var=False)`, `ttest_rel(y[:20], x)`, `wilcoxon(y[:20] - x, mode="approx")`, `ks_2samp(x, y)`.
+    #[test]
+    fn tests_are_those_of_scipy() {
+        let [x, y] = samples();
+        let (of_x, of_y) = (Moments::of_block(&x), Moments::of_block(&y));
+        let found = welch(&of_x, &of_y, 0.95).expect("enough");
+        assert!((found.p_value - WELCH[0]).abs() < 1e-12, "{found:?}");
+        assert!(
+            (found.shift.lower - WELCH[1]).abs() < 1e-12 && (found.shift.upper - WELCH[2]).abs() < 1e-12,
+            "{found:?}"
+        );
+        let differences: Vec<f64> = x.iter().zip(&y).map(|(x, y)| y - x).collect();
+        let found = paired(&Moments::of_block(&differences), 0.95).expect("enough");
+        assert!((found.p_value - PAIRED).abs() < 1e-12, "{found:?}");
+        assert!((signed_ranks(&differences).expect("differences") - WILCOXON).abs() < 1e-12);
+        let (statistic, p) = kolmogorov_smirnov(&ascending(&x), &ascending(&y)).expect("both");
+        // the p-value of scipy is exact; Stephens states an error of some percent of it for samples as small as these
+        assert!((statistic - KOLMOGOROV[0]).abs() < 1e-15 && (p / KOLMOGOROV[1] - 1.0).abs() < 0.15, "{statistic} {p}");
+    }
+
+    const WELCH: [f64; 3] = [0.0003244771923555467, 0.17728290091345167, 0.5592131676106349];
+    const PAIRED: f64 = 0.0012955505685977547;
+    const WILCOXON: f64 = 0.0057339909503071225;
+    const KOLMOGOROV: [f64; 2] = [5.0 / 12.0, 0.024351206903677477];
+
+    /// Known: P(K > 1.3581) = 0.05 and P(K > 1.6276) = 0.01 (N. Smirnov, Ann. Math. Statist. 19 (1948) 279).
+    #[test]
+    fn kolmogorov_distribution() {
+        for (x, tail) in [(1.3581, 0.05), (1.6276, 0.01), (0.8276, 0.5)] {
+            // four digits of x, and a density of at most 1.7
+            assert!((kolmogorov_tail(x) - tail).abs() < 1e-4, "{x}: {}", kolmogorov_tail(x));
+        }
+        assert_eq!((kolmogorov_tail(0.0), kolmogorov_tail(9.0)), (1.0, 2.0 * libm::exp(-162.0)));
+    }
+
+    /// Law: what is the same has no difference; what does not vary differs certainly or not at all.
+    #[test]
+    fn equal_samples_do_not_differ() {
+        let [x, _] = samples();
+        let of = Moments::of_block(&x);
+        assert_eq!(welch(&of, &of, 0.95).map(|found| (found.shift.value, found.p_value)), Some((0.0, 1.0)));
+        assert_eq!(kolmogorov_smirnov(&ascending(&x), &ascending(&x)), Some((0.0, 1.0)));
+        assert_eq!(signed_ranks(&[0.0; 9]), None);
+        let constant = |value: f64| Moments::of_block(&[value; 9]);
+        assert_eq!(welch(&constant(1.0), &constant(2.0), 0.95).map(|found| found.p_value), Some(0.0));
+        assert_eq!(paired(&constant(0.0), 0.95).map(|found| found.p_value), Some(1.0));
+        assert_eq!((welch(&of, &Moments::of([1.0]), 0.95), kolmogorov_smirnov(&x, &[])), (None, None));
+    }
+}
