@@ -48,6 +48,7 @@ impl Plan {
         lines.key("fraction", self.audit_fraction);
         lines.table("[output]");
         lines.key("compression", self.compression.name());
+        self.analysis.write(&mut lines);
         lines.into_text()
     }
 

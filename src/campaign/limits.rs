@@ -30,6 +30,17 @@ pub const TOLERANCE: Limit = Limit {
     test: |x| (1e-16..=1e-2).contains(&x),
 };
 
+/// A probability that is neither impossible nor certain.
+pub const PROBABILITY: Limit = Limit {
+    allowed: "a number between 0 and 1, neither included",
+    remedy: "write it like 0.99",
+    test: |x| x > 0.0 && x < 1.0,
+};
+
+/// Confidence of an interval or a decision.
+pub const CONFIDENCE: Limit =
+    Limit { allowed: "a number from 0.5 to below 1", remedy: "0.95 is usual", test: |x| (0.5..1.0).contains(&x) };
+
 /// A share of the samples.
 pub const FRACTION: Limit = Limit {
     allowed: "a number from 0 to 1",

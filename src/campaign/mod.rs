@@ -6,6 +6,7 @@
 //! - [`spec`]: the keys of a campaign file; `scene`: those of the scene, from [`crate::scene::schema`]; [`disperse`],
 //!   [`design`], [`dependence`]: those that say what is drawn; `keys`: how a distribution or a design reads its own;
 //!   [`data`], `data_keys`: files of numbers; `parameter`: names of parameters; [`limits`]; [`compression`].
+//! - [`analysis`]: what is made of the rows: [`requirement`], [`derived_observable`], [`stop`]; [`columns`]: what they can name.
 //! - [`plan`]: defaults filled in, scene and dispersions checked against each other.
 //! - `units`: units in values. `old_format`: files of the format before 0.2, and their new text.
 //! - [`notes`]: what is allowed and probably not meant.
@@ -15,12 +16,15 @@
 //!
 //! Not here: what is physical ([`crate::scene`]) and what can be drawn ([`crate::sampling`]); their errors get lines here.
 
+pub mod analysis;
 pub mod canonical;
 pub mod canonical_draws;
+pub mod columns;
 pub mod compression;
 pub mod data;
 mod data_keys;
 pub mod dependence;
+pub mod derived_observable;
 pub mod design;
 pub mod disperse;
 pub mod document;
@@ -35,14 +39,20 @@ mod old_format;
 mod parameter;
 pub mod plan;
 pub mod problem;
+pub mod requirement;
 mod scene;
 pub mod section;
 pub mod spec;
+pub mod stop;
 mod units;
 
+pub use analysis::Analysis;
 pub use compression::Compression;
+pub use derived_observable::DerivedObservable;
 pub use draw::{SceneDraws, draw};
 pub use find::find;
 pub use plan::{Overrides, Plan};
 pub use problem::{CampaignError, Problem};
+pub use requirement::{Requirement, Statement};
 pub use spec::Spec;
+pub use stop::Stop;

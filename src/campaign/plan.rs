@@ -1,13 +1,15 @@
 //! [`Plan`]: what will run. Defaults are filled in, scene and dispersions are checked; a row is a pure function of the plan and
 //! a sample's id.
 
+use super::analysis::Analysis;
+use super::columns::{KnownColumns, request};
 use super::compression::Compression;
 use super::document::Document;
 use super::limits::{FRACTION, LARGEST_SEED, MAX_SAMPLES, MOST_MEMORY, bytes_a_point};
 use super::old_format;
 use super::problem::{CampaignError, Problem};
 use super::spec::Spec;
-use crate::observables::Group;
+use crate::observables::{Group, Request};
 use crate::ode::Tolerance;
 use crate::propagation::Method;
 use crate::run::Grid;
@@ -52,6 +54,8 @@ pub struct Plan {
     pub audit_fraction: f64,
     /// Compression of the files of rows.
     pub compression: Compression,
+    /// What is made of the rows.
+    pub analysis: Analysis,
 }
 
 /// What the command line says instead of the file.
@@ -105,6 +109,11 @@ impl Plan {
     /// Everything that is wrong with the text.
     pub fn from_text(file: &str, text: &str, overrides: Overrides) -> Result<Plan, CampaignError> {
         Self::from_text_in(Path::new(""), file, text, overrides)
+    }
+
+    /// The observables that it requests.
+    pub fn request(&self) -> Request {
+        request(&self.groups, &self.nominal, self.method)
     }
 
     /// The same of a file in `folder`, from which the paths in the text count.
@@ -214,6 +223,9 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
     let mut groups = spec.groups.unwrap_or_else(|| Group::DEFAULT.to_vec());
     groups.sort_by_key(|group| Group::ALL.iter().position(|known| known == group));
     let dispersions = dispersions?;
+    let known = KnownColumns::new(request(&groups, &spec.scene, method));
+    let design = spec.design.as_ref().unwrap_or(&Design::DEFAULT);
+    spec.analysis.check(document, &known, dispersions.columns(), dispersions.samples(), design);
     Some(Plan {
         name: spec.name?,
         samples: dispersions.samples(),
@@ -232,6 +244,7 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
         dispersions,
         audit_fraction: spec.audit_fraction.unwrap_or(0.0),
         compression: spec.compression.unwrap_or(Compression::Lz4),
+        analysis: spec.analysis,
     })
 }
 

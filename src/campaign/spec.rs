@@ -3,6 +3,7 @@
 //! Every key of the file is read here (those of `[[disperse]]` in [`super::disperse`]); a number that is missing or wrong is
 //! NaN here and noted in the document. What is left out stays `None`: the plan fills it in.
 
+use super::analysis::{Analysis, request_of};
 use super::compression::Compression;
 use super::document::Document;
 use super::limits::{FRACTION, LARGEST_SEED, MAX_POINTS, MAX_SAMPLES, TOLERANCE};
@@ -54,6 +55,8 @@ pub struct Spec {
     pub audit_fraction: Option<f64>,
     /// `output.compression`.
     pub compression: Option<Compression>,
+    /// What is made of the rows; without the tables that are wrong.
+    pub analysis: Analysis,
 }
 
 impl Spec {
@@ -113,6 +116,9 @@ impl Spec {
         let names = Compression::ALL.map(Compression::name);
         let compression = section.name("compression", &names, Compression::from_name);
         section.finish();
+
+        let observed = request_of(groups.as_deref(), &scene, method.unwrap_or(Method::Auto));
+        let analysis = Analysis::read(&mut root, observed);
         root.finish();
 
         Spec {
@@ -135,6 +141,7 @@ impl Spec {
             derivations,
             audit_fraction,
             compression,
+            analysis,
         }
     }
 }

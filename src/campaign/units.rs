@@ -38,6 +38,15 @@ const UNITS: &[(&str, &str, f64, f64)] = &[
     ("%", "1", 1.0, 1e2),
 ];
 
+/// SI units of columns that have no other names here.
+const MORE: [&str; 4] = ["J", "W", "N m s", "Hz"];
+
+/// The unit `unit`, where a value can be written in it; of a pure number "1".
+pub(super) fn known(unit: &str) -> Option<&'static str> {
+    let names = UNITS.iter().flat_map(|(name, si, ..)| [*name, *si]);
+    if unit.is_empty() { Some("1") } else { names.chain(MORE).find(|name| *name == unit) }
+}
+
 /// What is wrong with a text where a number is wanted.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct UnitProblem {

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use parquet::errors::ParquetError;
 
+use crate::campaign::columns::parameter_quantity;
 use crate::campaign::{Compression, Plan};
 use crate::dataset::atomic;
 use crate::dataset::columnar::{Cells, Content, Heading, Layout, Packing};
@@ -59,15 +60,8 @@ pub fn headings(ensemble: &Ensemble<'_>) -> Vec<Heading> {
 
 /// The columns of dispersed values.
 pub fn parameter_headings(plan: &Plan) -> impl Iterator<Item = Heading> {
-    plan.dispersions.columns().iter().map(|column| {
-        let unit = match column.parameter.unit() {
-            "1" => String::new(),
-            unit => unit.to_owned(),
-        };
-        let meaning = format!("{} as applied.", column.parameter.component_name(column.component));
-        let name = column.parameter.column_name(column.component);
-        Heading::new(Quantity::named(name, unit, meaning), Content::Real)
-    })
+    let columns = plan.dispersions.columns().iter();
+    columns.map(|column| Heading::new(parameter_quantity(column.parameter, column.component), Content::Real))
 }
 
 fn content(kind: Kind) -> Content {

@@ -6,20 +6,13 @@ use crate::math::Isa;
 use crate::observables::nominal_attitude::NominalAttitude;
 use crate::observables::{Group, Request};
 use crate::ode::Control;
-use crate::propagation::Method;
 use crate::propagation::PropagationSettings;
 use crate::run::{Grid, StateField, StateFields};
 use crate::scene::Scene;
 
 /// The observables that `plan` requests.
 pub fn request(plan: &Plan) -> Request {
-    Request {
-        groups: plan.groups.iter().copied().collect(),
-        debris: plan.nominal.debris.is_some(),
-        actuated: plan.nominal.is_actuated(),
-        constrained: plan.method == Method::NullSpace,
-        wheels: plan.nominal.turning_wheels(),
-    }
+    plan.request()
 }
 
 /// The settings for scenes of `plan` with states `fields` at the times of `grid`.

@@ -1,0 +1,93 @@
+//! The columns of the rows of a plan by name: what requirements, expressions and lists of columns in a campaign file mean.
+
+use super::problem::nearest;
+use super::units;
+use crate::observables::{Group, Request, table};
+use crate::propagation::Method;
+use crate::run::Quantity;
+use crate::scene::{Parameter, SceneInput};
+
+/// The observables of campaigns with these groups, this scene and this method.
+pub fn request(groups: &[Group], nominal: &SceneInput, method: Method) -> Request {
+    Request {
+        groups: groups.iter().copied().collect(),
+        debris: nominal.debris.is_some(),
+        actuated: nominal.is_actuated(),
+        constrained: method == Method::NullSpace,
+        wheels: nominal.turning_wheels(),
+    }
+}
+
+/// The column of a component of a dispersed parameter.
+pub fn parameter_quantity(parameter: Parameter, component: usize) -> Quantity {
+    let unit = match parameter.unit() {
+        "1" => String::new(),
+        unit => unit.to_owned(),
+    };
+    let meaning = format!("{} as applied.", parameter.component_name(component));
+    Quantity::named(parameter.column_name(component), unit, meaning)
+}
+
+/// What can be named in a campaign file.
+#[derive(Clone, Debug)]
+pub struct KnownColumns {
+    request: Request,
+    /// Observables, and then those that the file derives.
+    observables: Vec<Quantity>,
+}
+
+impl KnownColumns {
+    /// The observables of `request`.
+    pub fn new(request: Request) -> Self {
+        let observables = request.columns().into_iter().map(|column| column.quantity).collect();
+        KnownColumns { request, observables }
+    }
+
+    /// Adds an observable that the file derives.
+    pub fn add(&mut self, quantity: Quantity) {
+        self.observables.push(quantity);
+    }
+
+    /// The observable called `name`.
+    pub fn observable(&self, name: &str) -> Option<&Quantity> {
+        self.observables.iter().find(|quantity| quantity.name() == name)
+    }
+
+    /// What is allowed in place of `name`, which is no observable, and what to do.
+    pub fn refusal(&self, name: &str) -> (String, String) {
+        let allowed = "an observable of this campaign: a column of its rows, or a [[observable]] of this file";
+        let everything = Request { groups: Group::ALL.into_iter().collect(), ..self.request };
+        if let Some(column) = everything.columns().iter().find(|column| column.quantity.name() == name) {
+            let remedy = format!("it is in the group {0}: add {0:?} to observe.groups", column.group.name());
+            return (allowed.to_owned(), remedy);
+        }
+        let remedy = if table::all().any(|column| column.quantity.name() == name) {
+            "this scene or method does not have it: name another".to_owned()
+        } else {
+            match nearest(name, self.observables.iter().map(Quantity::name)) {
+                Some(meant) => format!("did you mean {meant:?}?"),
+                None => "docs/columns.md lists them".to_owned(),
+            }
+        };
+        (allowed.to_owned(), remedy)
+    }
+}
+
+/// The unit of `quantity` as keys have theirs; `1` for a pure number, and for a unit that texts cannot have.
+pub fn unit_of(quantity: &Quantity) -> &'static str {
+    units::known(quantity.unit()).unwrap_or("1")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: limits can be written in the unit of every column.
+    #[test]
+    fn units_of_columns_are_known() {
+        for column in table::all() {
+            let unit = column.quantity.unit();
+            assert!(unit.is_empty() || unit_of(&column.quantity) == unit, "{}: {unit}", column.quantity.name());
+        }
+    }
+}

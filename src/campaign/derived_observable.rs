@@ -1,0 +1,151 @@
+//! [`DerivedObservable`]: a `[[observable]]` table, an observable that follows from the columns of a row.
+//!
+//! It is evaluated when statistics are made, from the rows as they are on the disk: no row has it.
+
+use super::columns::{KnownColumns, parameter_quantity};
+use super::lines::Lines;
+use super::section::Section;
+use crate::run::Quantity;
+use crate::sampling::Column;
+use crate::sampling::expression::Expression;
+use crate::scene::{Parameter, SceneInput};
+
+/// An observable that follows from others and from dispersed parameters.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DerivedObservable {
+    /// Its name.
+    pub name: String,
+    /// Its unit; empty for a pure number.
+    pub unit: String,
+    /// The expression, over names of columns and of dispersed parameters.
+    pub expression: String,
+}
+
+/// What a name must be.
+const NAME: &str = "1 to 60 small letters, digits and underscores, the first a letter";
+
+/// A variable of an expression.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Variable {
+    /// The column of this name.
+    Observable(String),
+    /// A component of a parameter, which must be dispersed.
+    Parameter(Parameter, usize),
+}
+
+impl Variable {
+    /// The name of its column.
+    pub fn column(&self) -> String {
+        match self {
+            Variable::Observable(name) => name.clone(),
+            Variable::Parameter(parameter, component) => parameter.column_name(*component),
+        }
+    }
+}
+
+/// What `name` means in an expression.
+fn variable(name: &str, scene: &SceneInput, known: &KnownColumns) -> Option<Variable> {
+    if known.observable(name).is_some() {
+        return Some(Variable::Observable(name.to_owned()));
+    }
+    if let Some((parameter, component)) = Parameter::find(scene, name) {
+        let component = component.or((parameter.width() == 1).then_some(0))?;
+        return Some(Variable::Parameter(parameter, component));
+    }
+    let of = |parameter: Parameter| (0..parameter.width()).map(move |component| (parameter, component));
+    let mut components = Parameter::all(scene).flat_map(of);
+    let found = components.find(|(parameter, component)| parameter.column_name(*component) == name);
+    found.map(|(parameter, component)| Variable::Parameter(parameter, component))
+}
+
+impl DerivedObservable {
+    /// Reads one table; `None` where something is wrong, which is then noted. `known` has the observables of the rows.
+    pub(super) fn read(table: &mut Section<'_, '_>, known: &KnownColumns) -> Option<Self> {
+        table.require("name", NAME, "\"pointing_error_deg\"");
+        table.require("expression", "arithmetic over columns and dispersed parameters", "\"2 * energy_error_max\"");
+        let name = name(table, known);
+        let unit = table.text("unit").map(str::to_owned);
+        let expression = table.text("expression").map(str::to_owned);
+        let unit_passed = !table.has("unit") || unit.is_some();
+        table.finish();
+        let expression = expression?;
+        let parsed = match Expression::parse(&expression) {
+            Ok(parsed) => parsed,
+            Err(error) => {
+                table.refuse("expression", error, "correct the expression");
+                return None;
+            }
+        };
+        for variable_name in parsed.variables() {
+            if variable(variable_name, &table.document.scene, known).is_none() {
+                let (_, remedy) = known.refusal(variable_name);
+                let allowed = "made of columns of the rows and of dispersed parameters";
+                table.refuse_value("expression", format!("{variable_name:?}"), allowed, remedy);
+                return None;
+            }
+        }
+        let unit = unit.unwrap_or_default();
+        name.filter(|_| unit_passed).map(|name| DerivedObservable { name, unit, expression })
+    }
+
+    /// Name, unit and meaning.
+    pub fn quantity(&self) -> Quantity {
+        Quantity::named(self.name.clone(), self.unit.clone(), format!("{}.", self.expression))
+    }
+
+    /// The expression, and what its variables are; `None` only for what [`DerivedObservable::read`] refuses.
+    pub fn parsed(&self, scene: &SceneInput, known: &KnownColumns) -> Option<(Expression, Vec<Variable>)> {
+        let expression = Expression::parse(&self.expression).ok()?;
+        let variables: Option<_> = expression.variables().iter().map(|name| variable(name, scene, known)).collect();
+        Some((expression, variables?))
+    }
+
+    /// The first parameter in the expression that is no column of the rows, which have those in `dispersed`.
+    pub(super) fn undispersed(
+        &self,
+        scene: &SceneInput,
+        known: &KnownColumns,
+        dispersed: &[Column],
+    ) -> Option<(Parameter, usize)> {
+        let (_, variables) = self.parsed(scene, known)?;
+        let is_column = |parameter: &Parameter, component: &usize| {
+            dispersed.iter().any(|column| (column.parameter, column.component) == (*parameter, *component))
+        };
+        variables.into_iter().find_map(|variable| match variable {
+            Variable::Parameter(parameter, component) if !is_column(&parameter, &component) => {
+                Some((parameter, component))
+            }
+            _ => None,
+        })
+    }
+
+    /// Writes the table.
+    pub(super) fn write(&self, lines: &mut Lines) {
+        lines.table("[[observable]]");
+        lines.key("name", &self.name);
+        if !self.unit.is_empty() {
+            lines.key("unit", &self.unit);
+        }
+        lines.key("expression", &self.expression);
+    }
+}
+
+/// A name that no column has.
+fn name(table: &mut Section<'_, '_>, known: &KnownColumns) -> Option<String> {
+    let name = table.text("name")?;
+    let is_letter = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
+    if !name.starts_with(|c: char| c.is_ascii_lowercase()) || !name.chars().all(is_letter) || name.len() > 60 {
+        table.refuse("name", NAME, "write it like pointing_error_deg");
+        return None;
+    }
+    let scene = &table.document.scene;
+    let of = |parameter: Parameter| (0..parameter.width()).map(move |c| parameter_quantity(parameter, c));
+    let is_column = known.observable(name).is_some()
+        || crate::observables::table::all().any(|column| column.quantity.name() == name)
+        || Parameter::all(scene).flat_map(of).any(|quantity| quantity.name() == name);
+    if is_column || ["sample_id", "status", "reason"].contains(&name) {
+        table.refuse("name", "a name that no column has", "choose another name");
+        return None;
+    }
+    Some(name.to_owned())
+}
