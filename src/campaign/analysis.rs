@@ -1,6 +1,6 @@
 //! [`Analysis`]: what is made of the rows: `[statistics]`, `[summary]`, `[[observable]]`, `[[require]]`, `[stop]`. No row depends on it.
 
-use super::columns::{KnownColumns, request};
+use super::columns::KnownColumns;
 use super::derived_observable::DerivedObservable;
 use super::document::Document;
 use super::limits::{CONFIDENCE, MAX_SAMPLES};
@@ -8,9 +8,8 @@ use super::lines::Lines;
 use super::requirement::{DEFAULT_CONFIDENCE, Requirement};
 use super::section::Section;
 use super::stop::Stop;
-use crate::observables::{Group, Request};
+use crate::observables::Request;
 use crate::sampling::{Column, Design};
-use crate::scene::SceneInput;
 
 /// What is made of the rows of a campaign.
 #[derive(Clone, Debug, PartialEq)]
@@ -128,11 +127,6 @@ impl Analysis {
             stop.write(lines);
         }
     }
-}
-
-/// The observables of a scene in a campaign file that is being read.
-pub(super) fn request_of(groups: Option<&[Group]>, scene: &SceneInput, method: crate::propagation::Method) -> Request {
-    request(groups.unwrap_or(&Group::DEFAULT), scene, method)
 }
 
 fn quantiles(section: &mut Section<'_, '_>) -> Option<Vec<f64>> {

@@ -3,7 +3,8 @@
 //! Every key of the file is read here (those of `[[disperse]]` in [`super::disperse`]); a number that is missing or wrong is
 //! NaN here and noted in the document. What is left out stays `None`: the plan fills it in.
 
-use super::analysis::{Analysis, request_of};
+use super::analysis::Analysis;
+use super::columns::request;
 use super::compression::Compression;
 use super::document::Document;
 use super::limits::{FRACTION, LARGEST_SEED, MAX_POINTS, MAX_SAMPLES, TOLERANCE};
@@ -117,7 +118,7 @@ impl Spec {
         let compression = section.name("compression", &names, Compression::from_name);
         section.finish();
 
-        let observed = request_of(groups.as_deref(), &scene, method.unwrap_or(Method::Auto));
+        let observed = request(groups.as_deref().unwrap_or(&Group::DEFAULT), &scene, method.unwrap_or(Method::Auto));
         let analysis = Analysis::read(&mut root, observed);
         root.finish();
 

@@ -3,6 +3,7 @@
 //! - [`folder`]: the folder of a result: claim, commit, completeness. - [`part_sink`]: writes finished parts.
 //! - [`rows_file`]: the files of rows; [`rows_reader`] reads them. - [`columnar`]: columns to Parquet. - [`atomic`]: files that are whole or absent.
 //! - [`tally`], [`audit_tally`]: statistics counted while rows are written. - [`provenance`]: metadata on the origin.
+//! - [`statistics`]: what the rows say of every observable ([`observed`], [`population`]).
 //! - [`table`]: tables in a single file: [`timeseries`], [`drawn_table`], [`precision_table`].
 //!
 //! Not here: text and figures for people (`report`), and reading tables for a campaign (`campaign`).
@@ -12,11 +13,14 @@ pub mod audit_tally;
 pub mod columnar;
 pub mod drawn_table;
 pub mod folder;
+pub mod observed;
 pub mod part_sink;
+pub mod population;
 pub mod precision_table;
 pub mod provenance;
 pub mod rows_file;
 pub mod rows_reader;
+pub mod statistics;
 pub mod table;
 pub mod tally;
 pub mod timeseries;

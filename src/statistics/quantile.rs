@@ -26,6 +26,20 @@ pub fn quantile(ascending: &[f64], p: f64) -> Option<f64> {
     Some(if part < 0.5 { low + part * width } else { high - (1.0 - part) * width })
 }
 
+/// `p` in percent, in the digits that `p` has: "99.9" for 0.999.
+pub fn percent(p: f64) -> String {
+    let text = format!("{p:.20}");
+    // the fewest digits that read back as p; then the point two places on
+    let digits = (1..=20).map(|digits| format!("{p:.digits$}")).find(|text| text.parse() == Ok(p)).unwrap_or(text);
+    let (whole, fraction) = digits.split_once('.').unwrap_or((&digits, ""));
+    let fraction = format!("{fraction:0<2}");
+    let whole = format!("{whole}{}", &fraction[..2]);
+    let whole = whole.trim_start_matches('0');
+    let fraction = fraction[2..].trim_end_matches('0');
+    let whole = if whole.is_empty() { "0" } else { whole };
+    if fraction.is_empty() { whole.to_owned() } else { format!("{whole}.{fraction}") }
+}
+
 /// Ranks (from 1) of the order statistics that bound a quantile; `None` where the sample is too small for that end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ranks {
@@ -139,6 +153,24 @@ mod tests {
         let hundred: Vec<f64> = (0..100).map(f64::from).collect();
         assert!((quantile(&hundred, 0.99).unwrap_or(0.0) - 98.01).abs() < 2e-14);
         assert_eq!(quantile(&[f64::NEG_INFINITY, f64::NEG_INFINITY, 1.0], 0.25), Some(f64::NEG_INFINITY));
+    }
+
+    #[test]
+    fn percents_have_the_digits_of_the_fraction() {
+        for (p, text) in [
+            (0.999, "99.9"),
+            (0.5, "50"),
+            (0.07, "7"),
+            (0.001, "0.1"),
+            (0.9987, "99.87"),
+            (0.05, "5"),
+            (1e-6, "0.0001"),
+            (0.1, "10"),
+            (0.3, "30"),
+            (0.123_456_7, "12.34567"),
+        ] {
+            assert_eq!(percent(p), text);
+        }
     }
 
     /// Published ranks and numbers of runs.

@@ -1,0 +1,393 @@
+//! [`Statistics`]: what the runs of a campaign say of every observable, from the files of its rows.
+//!
+//! A pure function of plan and files: it can be made again without running anything. Counts and extremes are exact. Moments are merged in
+//! the order of the parts, and the contents of sketches are counts, so that no bit depends on threads. Up to [`MOST_EXACT`] rows quantiles
+//! are those of the values themselves; beyond, those of sketches, with their bound. A few columns are read at a time: memory
+//! does not depend on the number of rows.
+//!
+//! The nominal sample 0 is no part of it where there are others. A run that is not `ok` is counted and has no part in any number.
+
+use std::num::NonZeroUsize;
+use std::sync::{Mutex, PoisonError};
+
+use crate::campaign::Plan;
+use crate::dataset::observed::Observed;
+use crate::dataset::population::Population;
+use crate::dataset::rows_reader::{PartReader, RowsError, RowsReader};
+use crate::run::{Quantity, Status};
+use crate::statistics::correlation::Estimate;
+use crate::statistics::moments::Moments;
+use crate::statistics::quantile::{interval_ranks, percent, quantile, runs_for_bound, runs_for_interval};
+use crate::statistics::replicates::{self, Step, mean_interval};
+use crate::statistics::sketch::{RELATIVE_ERROR, Ranks, Sketch};
+use crate::statistics::student::half_width;
+
+/// Most rows whose quantiles are exact.
+pub const MOST_EXACT: u64 = 100_000;
+/// Columns that are read at a time, and groups of samples of them that are held.
+const GROUPS_AT_A_TIME: usize = 16;
+
+/// A quantile of the runs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct QuantileStatistic {
+    /// Which.
+    pub p: f64,
+    /// The sample quantile (type 7).
+    pub value: Option<f64>,
+    /// Ends of its interval, rounded outward; `None` where the runs do not bound it on that side, or no interval holds.
+    pub interval: [Option<f64>; 2],
+    /// What it takes to bound it, where there are too few runs.
+    pub note: Option<String>,
+}
+
+/// What the runs say of one observable.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ColumnStatistics {
+    /// Name, unit and meaning.
+    pub quantity: Quantity,
+    /// Whether its values are counts.
+    pub is_count: bool,
+    /// Runs that are `ok` and have no value of it.
+    pub without_value: u64,
+    /// Of the runs that are `ok` and have a value.
+    pub moments: Moments,
+    /// The interval of the mean; `None` where none holds.
+    pub mean_interval: Option<[f64; 2]>,
+    /// Standard error of the mean: of independent samples, or of replicates.
+    pub mean_error: Option<f64>,
+    /// The quantiles of the plan, ascending.
+    pub quantiles: Vec<QuantileStatistic>,
+}
+
+/// What the runs of a campaign say.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Statistics {
+    /// How the samples represent the population.
+    pub population: Population,
+    /// Confidence of the intervals.
+    pub confidence: f64,
+    /// How many of the samples that statistics are about ended with each status, in the order of [`Status::ALL`].
+    pub statuses: [u64; Status::ALL.len()],
+    /// Bound of the error of quantiles, relative to their magnitude; 0 where they are exact.
+    pub quantile_error: f64,
+    /// Every observable.
+    pub columns: Vec<ColumnStatistics>,
+}
+
+impl Statistics {
+    /// The number of samples that statistics are about.
+    pub fn samples(&self) -> u64 {
+        self.statuses.iter().sum()
+    }
+
+    /// How many of them are `ok`.
+    pub fn ok(&self) -> u64 {
+        Status::ALL
+            .iter()
+            .zip(self.statuses)
+            .filter(|(status, _)| **status == Status::Done)
+            .map(|(_, count)| count)
+            .sum()
+    }
+
+    /// The observable called `name`.
+    pub fn column(&self, name: &str) -> Option<&ColumnStatistics> {
+        self.columns.iter().find(|column| column.quantity.name() == name)
+    }
+
+    /// How failed runs are treated, in words.
+    pub fn treatment(&self) -> String {
+        match self.samples() - self.ok() {
+            0 => "every run is ok".to_owned(),
+            failed => format!("{failed} of {} runs are not ok and are left out", self.samples()),
+        }
+    }
+}
+
+/// The statistics of `plan` from the files of its rows, on `threads` threads (`None`: one per core).
+///
+/// # Errors
+/// Where a file cannot be read.
+pub fn compute(plan: &Plan, reader: &RowsReader, threads: Option<NonZeroUsize>) -> Result<Statistics, RowsError> {
+    let population = Population::of(plan);
+    let mut statuses = [0; Status::ALL.len()];
+    let mut rows = 0;
+    reader.visit(
+        threads,
+        |part| statuses_of(part, population),
+        |of_part| {
+            statuses.iter_mut().zip(of_part).for_each(|(sum, count)| *sum += count);
+            rows += of_part.iter().sum::<u64>();
+            Ok::<(), RowsError>(())
+        },
+    )?;
+    let is_exact = rows <= MOST_EXACT;
+    let observed = Observed::all(plan);
+    let at_a_time = (GROUPS_AT_A_TIME / population.groups()).max(1);
+    let mut columns = Vec::with_capacity(observed.len());
+    for batch in observed.chunks(at_a_time) {
+        let collected = collect(batch, population, is_exact, reader, threads)?;
+        let describe = |(observed, collected)| described(plan, population, observed, collected);
+        columns.extend(in_parallel(batch.iter().zip(collected).collect(), threads, describe));
+    }
+    let quantile_error = if is_exact { 0.0 } else { RELATIVE_ERROR };
+    Ok(Statistics { population, confidence: plan.analysis.confidence, statuses, quantile_error, columns })
+}
+
+fn statuses_of(part: &PartReader, population: Population) -> Result<[u64; Status::ALL.len()], RowsError> {
+    let mut counts = [0; Status::ALL.len()];
+    for (sample, status) in part.samples()?.into_iter().zip(part.statuses()?) {
+        if population.contains(sample)
+            && let Some(index) = Status::ALL.iter().position(|known| *known == status)
+        {
+            counts[index] += 1;
+        }
+    }
+    Ok(counts)
+}
+
+/// The values of one observable, group by group.
+struct Collected {
+    without_value: u64,
+    moments: Moments,
+    groups: Vec<Group>,
+}
+
+/// The values of a group of samples: themselves, or a sketch of them.
+#[derive(Clone, Default)]
+struct Group {
+    moments: Moments,
+    values: Vec<f64>,
+    sketch: Sketch,
+}
+
+/// What a part adds to an observable: the runs without a value, and for each group its values where they are kept.
+struct OfPart {
+    without_value: u64,
+    moments: Moments,
+    groups: Vec<(Moments, Vec<f64>)>,
+}
+
+fn collect(
+    batch: &[Observed],
+    population: Population,
+    is_exact: bool,
+    reader: &RowsReader,
+    threads: Option<NonZeroUsize>,
+) -> Result<Vec<Collected>, RowsError> {
+    let groups = population.groups();
+    // counts do not depend on the order in which parts are added
+    let sketches: Vec<Mutex<Vec<Sketch>>> = batch.iter().map(|_| Mutex::new(vec![Sketch::default(); groups])).collect();
+    let nothing =
+        || Collected { without_value: 0, moments: Moments::default(), groups: vec![Group::default(); groups] };
+    let mut collected: Vec<Collected> = batch.iter().map(|_| nothing()).collect();
+    let read = |part: &mut PartReader| {
+        let rows: Vec<Option<usize>> = part
+            .samples()?
+            .into_iter()
+            .zip(part.statuses()?)
+            .map(|(sample, status)| {
+                (population.contains(sample) && status == Status::Done).then(|| population.group(sample))
+            })
+            .collect();
+        let of_column = |(observed, sketches): (&Observed, &Mutex<Vec<Sketch>>)| {
+            let mut of_groups = vec![Vec::new(); groups];
+            if let [only] = &mut of_groups[..] {
+                only.reserve(rows.len());
+            }
+            let mut without_value = 0;
+            for (value, group) in observed.values(part)?.into_iter().zip(&rows) {
+                match group {
+                    Some(_) if value.is_nan() => without_value += 1,
+                    Some(group) => of_groups[*group].push(value),
+                    None => {}
+                }
+            }
+            if !is_exact {
+                let mut sketches = sketches.lock().unwrap_or_else(PoisonError::into_inner);
+                sketches.iter_mut().zip(&of_groups).for_each(|(sketch, values)| sketch.add_all(values));
+            }
+            let of_groups = of_groups
+                .into_iter()
+                .map(|values| (Moments::of_block(&values), if is_exact { values } else { Vec::new() }));
+            let groups: Vec<(Moments, Vec<f64>)> = of_groups.collect();
+            let mut moments = Moments::default();
+            groups.iter().for_each(|(group, _)| moments.merge(group));
+            Ok(OfPart { without_value, moments, groups })
+        };
+        batch.iter().zip(&sketches).map(of_column).collect::<Result<Vec<OfPart>, RowsError>>()
+    };
+    reader.visit(threads, read, |of_part: Vec<OfPart>| {
+        for (column, of_part) in collected.iter_mut().zip(of_part) {
+            column.without_value += of_part.without_value;
+            column.moments.merge(&of_part.moments);
+            for (group, (moments, values)) in column.groups.iter_mut().zip(of_part.groups) {
+                group.moments.merge(&moments);
+                group.values.extend(values);
+            }
+        }
+        Ok::<(), RowsError>(())
+    })?;
+    for (column, sketches) in collected.iter_mut().zip(sketches) {
+        let sketches = sketches.into_inner().unwrap_or_else(PoisonError::into_inner);
+        column.groups.iter_mut().zip(sketches).for_each(|(group, sketch)| group.sketch = sketch);
+    }
+    Ok(collected)
+}
+
+/// `each` of the items, on `threads` threads, in their order.
+fn in_parallel<T: Send, U: Send>(items: Vec<T>, threads: Option<NonZeroUsize>, each: impl Fn(T) -> U + Sync) -> Vec<U> {
+    let cores = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+    let threads = threads.map_or_else(cores, NonZeroUsize::get).min(items.len());
+    if threads <= 1 {
+        return items.into_iter().map(each).collect();
+    }
+    let waiting = Mutex::new(items.into_iter().enumerate());
+    let done = Mutex::new(Vec::new());
+    std::thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(|| {
+                loop {
+                    let next = waiting.lock().unwrap_or_else(PoisonError::into_inner).next();
+                    let Some((index, item)) = next else { return };
+                    let found = each(item);
+                    done.lock().unwrap_or_else(PoisonError::into_inner).push((index, found));
+                }
+            });
+        }
+    });
+    let mut done = done.into_inner().unwrap_or_else(PoisonError::into_inner);
+    done.sort_by_key(|(index, _)| *index);
+    done.into_iter().map(|(_, found)| found).collect()
+}
+
+/// The order statistics of a group of values.
+enum Order {
+    Exact(Vec<f64>),
+    Sketched(Ranks),
+}
+
+impl Order {
+    fn quantile(&self, p: f64) -> Option<f64> {
+        match self {
+            Order::Exact(ascending) => quantile(ascending, p),
+            Order::Sketched(ranks) => ranks.quantile(p),
+        }
+    }
+
+    /// Bounds of the number of rank `rank`, from 1.
+    fn bounds(&self, rank: u64) -> Option<[f64; 2]> {
+        match self {
+            Order::Exact(ascending) => ascending.get(rank as usize - 1).map(|value| [*value; 2]),
+            Order::Sketched(ranks) => ranks.bounds(rank),
+        }
+    }
+
+    /// The steps of the distribution function of replicate `replicate`.
+    fn steps(&self, replicate: usize) -> Vec<Step> {
+        match self {
+            Order::Exact(ascending) => {
+                ascending.iter().map(|value| Step { value: *value, lower: *value, replicate, count: 1 }).collect()
+            }
+            Order::Sketched(ranks) => {
+                let counts = std::iter::once(0).chain(ranks.buckets.iter().map(|bucket| bucket.up_to));
+                let steps = ranks.buckets.iter().zip(counts);
+                // a bucket has its ends from its group; of all groups they are those of the widest
+                steps
+                    .map(|(bucket, before)| Step {
+                        value: bucket.high,
+                        lower: bucket.low,
+                        replicate,
+                        count: bucket.up_to - before,
+                    })
+                    .collect()
+            }
+        }
+    }
+}
+
+fn described(plan: &Plan, population: Population, observed: &Observed, mut collected: Collected) -> ColumnStatistics {
+    let confidence = plan.analysis.confidence;
+    let mut whole = Sketch::default();
+    let mut values = Vec::new();
+    let groups = std::mem::take(&mut collected.groups);
+    let sizes: Vec<u64> = groups.iter().map(|group| group.moments.count()).collect();
+    let means: Vec<f64> = groups.iter().filter_map(|group| group.moments.mean()).collect();
+    let mut steps = Vec::new();
+    let is_sketched = groups.iter().any(|group| group.sketch.count() > 0);
+    for (replicate, group) in groups.into_iter().enumerate() {
+        if is_sketched {
+            whole.merge(&group.sketch);
+        }
+        if matches!(population, Population::Replicated(_)) {
+            let order =
+                if is_sketched { Order::Sketched(group.sketch.ranks()) } else { Order::Exact(group.values.clone()) };
+            steps.extend(order.steps(replicate));
+        }
+        values.extend(group.values);
+    }
+    steps.sort_by(|a, b| a.value.total_cmp(&b.value));
+    values.sort_unstable_by(f64::total_cmp);
+    let order = if is_sketched { Order::Sketched(whole.ranks()) } else { Order::Exact(values) };
+    let moments = collected.moments;
+    let (mean_interval, mean_error) = of_mean(population, &moments, &means, confidence);
+    let quantiles = plan.analysis.quantiles.iter().map(|p| {
+        let mut found = of_quantile(population, &order, moments.count(), *p, confidence);
+        if matches!(population, Population::Replicated(_)) && found.note.is_none() {
+            found.interval = replicates::quantile_interval(&steps, &sizes, *p, confidence);
+        }
+        found
+    });
+    ColumnStatistics {
+        quantity: observed.quantity.clone(),
+        is_count: observed.is_count,
+        without_value: collected.without_value,
+        moments,
+        mean_interval,
+        mean_error,
+        quantiles: quantiles.collect(),
+    }
+}
+
+/// The interval of the mean, and its standard error.
+fn of_mean(
+    population: Population,
+    moments: &Moments,
+    means: &[f64],
+    confidence: f64,
+) -> (Option<[f64; 2]>, Option<f64>) {
+    let finite = |interval: [f64; 2]| interval.iter().all(|end| end.is_finite()).then_some(interval);
+    match population {
+        Population::Independent => {
+            let Some((mean, deviation)) = moments.mean().zip(moments.standard_deviation()) else { return (None, None) };
+            let half = half_width(deviation, moments.count(), confidence);
+            (finite([mean - half, mean + half]), moments.mean_error())
+        }
+        Population::Replicated(_) => {
+            let Estimate { lower, upper, .. } = mean_interval(means, confidence);
+            (finite([lower, upper]), Moments::of(means.iter().copied()).mean_error())
+        }
+        _ => (None, None),
+    }
+}
+
+/// A quantile with the interval of independent samples, where they are.
+fn of_quantile(population: Population, order: &Order, count: u64, p: f64, confidence: f64) -> QuantileStatistic {
+    let mut found = QuantileStatistic { p, value: order.quantile(p), interval: [None; 2], note: None };
+    if matches!(population, Population::Dependent(_) | Population::Chosen(_) | Population::Nominal) {
+        return found;
+    }
+    let ranks = interval_ranks(count, p, confidence);
+    let end = |rank: Option<u64>, which: usize| rank.and_then(|rank| order.bounds(rank)).map(|bounds| bounds[which]);
+    found.interval = [end(ranks.lower, 0), end(ranks.upper, 1)];
+    if found.interval.contains(&None) {
+        found.note = Some(format!(
+            "p{} with {}% confidence needs {} runs ({} for a bound on one side)",
+            percent(p),
+            percent(confidence),
+            runs_for_interval(p, confidence),
+            runs_for_bound(p, confidence),
+        ));
+    }
+    found
+}
