@@ -46,6 +46,8 @@ impl Plan {
         }
         lines.table("[audit]");
         lines.key("fraction", self.audit_fraction);
+        lines.table("[bands]");
+        lines.key("points", self.band_points);
         lines.table("[output]");
         lines.key("compression", self.compression.name());
         self.analysis.write(&mut lines);

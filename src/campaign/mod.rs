@@ -5,7 +5,7 @@
 //!   serde's derive, which stops at the first error and knows no line of a key that passed.
 //! - [`spec`]: the keys of a campaign file; `scene`: those of the scene, from [`crate::scene::schema`]; [`disperse`],
 //!   [`design`], [`dependence`]: those that say what is drawn; `keys`: how a distribution or a design reads its own;
-//!   [`data`], `data_keys`: files of numbers; `parameter`: names of parameters; [`limits`]; [`compression`].
+//!   [`data`], `data_keys`: files of numbers; `parameter`: names of parameters; [`limits`]; [`compression`]; [`bands`].
 //! - [`analysis`]: what is made of the rows: [`requirement`], [`derived_observable`], [`stop`]; [`columns`]: what they can name.
 //! - [`plan`]: defaults filled in, scene and dispersions checked against each other.
 //! - `units`: units in values. `old_format`: files of the format before 0.2, and their new text.
@@ -17,6 +17,7 @@
 //! Not here: what is physical ([`crate::scene`]) and what can be drawn ([`crate::sampling`]); their errors get lines here.
 
 pub mod analysis;
+pub mod bands;
 pub mod canonical;
 pub mod canonical_draws;
 pub mod columns;

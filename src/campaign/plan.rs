@@ -2,6 +2,7 @@
 //! a sample's id.
 
 use super::analysis::Analysis;
+use super::bands;
 use super::columns::{KnownColumns, request};
 use super::compression::Compression;
 use super::document::Document;
@@ -52,6 +53,8 @@ pub struct Plan {
     pub dispersions: Dispersions,
     /// Fraction of the samples that are audited: compared with a reference solution.
     pub audit_fraction: f64,
+    /// Number of points at which quantiles over time are counted; 0 for none.
+    pub band_points: usize,
     /// Compression of the files of rows.
     pub compression: Compression,
     /// What is made of the rows.
@@ -222,6 +225,8 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
 
     let mut groups = spec.groups.unwrap_or_else(|| Group::DEFAULT.to_vec());
     groups.sort_by_key(|group| Group::ALL.iter().position(|known| known == group));
+    let points = spec.points.unwrap_or(POINTS);
+    let band_points = bands::resolve(spec.band_points, points, document);
     let dispersions = dispersions?;
     let known = KnownColumns::new(request(&groups, &spec.scene, method));
     let design = spec.design.as_ref().unwrap_or(&Design::DEFAULT);
@@ -230,7 +235,7 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
         name: spec.name?,
         samples: dispersions.samples(),
         seed: spec.seed?,
-        grid: Grid::uniform(spec.duration_s?, usize::try_from(spec.points.unwrap_or(POINTS)).ok()?),
+        grid: Grid::uniform(spec.duration_s?, usize::try_from(points).ok()?),
         method,
         tolerance: Tolerance { relative, absolute },
         step_s: spec.step_s,
@@ -243,6 +248,7 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
         derived: drawn.derived.1,
         dispersions,
         audit_fraction: spec.audit_fraction.unwrap_or(0.0),
+        band_points: usize::try_from(band_points).ok()?,
         compression: spec.compression.unwrap_or(Compression::Lz4),
         analysis: spec.analysis,
     })

@@ -9,7 +9,7 @@ use super::compression::Compression;
 use super::document::Document;
 use super::limits::{FRACTION, LARGEST_SEED, MAX_POINTS, MAX_SAMPLES, TOLERANCE};
 use super::section::{POSITIVE, Section};
-use super::{dependence, design, disperse, scene};
+use super::{bands, dependence, design, disperse, scene};
 use crate::observables::Group;
 use crate::propagation::Method;
 use crate::sampling::{Correlation, Derivation, Design, Dispersion};
@@ -54,6 +54,8 @@ pub struct Spec {
     pub derivations: Vec<Option<Derivation>>,
     /// `audit.fraction`.
     pub audit_fraction: Option<f64>,
+    /// `bands.points`.
+    pub band_points: Option<u64>,
     /// `output.compression`.
     pub compression: Option<Compression>,
     /// What is made of the rows; without the tables that are wrong.
@@ -109,6 +111,8 @@ impl Spec {
         let correlations = root.sections("correlate", dependence::correlation);
         let derivations = root.sections("derive", dependence::derivation);
 
+        let band_points = bands::read(&mut root.section("bands"));
+
         let mut section = root.section("audit");
         let audit_fraction = section.number("fraction", FRACTION);
         section.finish();
@@ -141,6 +145,7 @@ impl Spec {
             correlations,
             derivations,
             audit_fraction,
+            band_points,
             compression,
             analysis,
         }

@@ -1,15 +1,17 @@
 //! Layer 6: results on disk.
 //!
 //! - [`folder`]: the folder of a result: claim, commit, completeness. - [`part_sink`]: writes finished parts.
-//! - [`rows_file`]: the files of rows; [`rows_reader`] reads them. - [`columnar`]: columns to Parquet. - [`atomic`]: files that are whole or absent.
+//! - [`rows_file`]: the files of rows; [`rows_reader`] reads them. - [`bands_file`]: the files of bands. - [`columnar`]: columns to Parquet. - [`atomic`]: files that are whole or absent.
 //! - [`tally`], [`audit_tally`]: statistics counted while rows are written. - [`provenance`]: metadata on the origin.
 //! - [`statistics`]: what the rows say of every observable ([`observed`], [`population`]).
-//! - [`table`]: tables in a single file: [`timeseries`], [`drawn_table`], [`precision_table`].
+//! - [`table`]: tables in a single file: [`timeseries`], [`bands_table`], [`drawn_table`], [`precision_table`].
 //!
 //! Not here: text and figures for people (`report`), and reading tables for a campaign (`campaign`).
 
 pub mod atomic;
 pub mod audit_tally;
+pub mod bands_file;
+pub mod bands_table;
 pub mod columnar;
 pub mod drawn_table;
 pub mod folder;

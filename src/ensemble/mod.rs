@@ -3,6 +3,7 @@
 //! - [`parts`]: how samples are divided into parts. - [`rows`]: the rows of a part. - [`sink`]: takes the rows.
 //! - [`worker`]: [`Ensemble`], shared by all threads, and [`Worker`], the memory of one thread.
 //! - [`runner`]: distributes parts to threads. - [`drawn`]: sampled parameters without runs; [`percentiles`]: theirs.
+//! - [`bands`]: quantiles over time, counted run by run.
 //! - [`influence`]: which of them change no requested column. - [`single`]: one run with its states.
 //! - [`audit`]: runs compared with a reference solution. - [`precision`]: run time against error for every method.
 //! - [`settings`]: observables and engine of a plan. - [`probe`]: time of a run and of an audit. - [`cpu_clock`]: CPU time of a thread.
@@ -10,6 +11,7 @@
 //! Not here: file formats (`dataset`), and what a run is (`run`, `propagation`).
 
 pub mod audit;
+pub mod bands;
 pub mod cpu_clock;
 pub mod drawn;
 pub mod influence;
@@ -25,6 +27,7 @@ pub mod sink;
 pub mod worker;
 
 pub use audit::{Audit, Auditor};
+pub use bands::{Bands, PartBands};
 pub use drawn::DrawnScenes;
 pub use parts::{Part, PartId, Parts};
 pub use percentiles::Percentiles;

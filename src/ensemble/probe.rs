@@ -29,7 +29,7 @@ impl RunProbe {
     /// Runs the first samples of `ensemble` for about half a second.
     pub fn new(ensemble: &Ensemble<'_>) -> Self {
         let most = usize::try_from(ensemble.plan().samples).unwrap_or(usize::MAX).min(MOST_SAMPLES);
-        let mut rows = Rows::new(ensemble.shape(), most);
+        let mut rows = ensemble.rows(most);
         let mut worker = ensemble.worker();
         let mut timed = |count: usize| {
             let start = Instant::now();

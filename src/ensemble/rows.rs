@@ -4,6 +4,7 @@
 //! columns is in the plan's dispersions and in the table of observables; here they are numbers by index.
 
 use crate::ensemble::audit::Audit;
+use crate::ensemble::bands::PartBands;
 use crate::ensemble::parts::Part;
 use crate::run::Status;
 use crate::sampling::SampleId;
@@ -34,6 +35,7 @@ pub struct Rows {
     audits: Vec<(usize, Option<Audit>)>,
     reasons: Vec<(usize, String)>,
     seconds: [f64; 2],
+    bands: Option<PartBands>,
 }
 
 impl Rows {
@@ -50,7 +52,14 @@ impl Rows {
             audits: Vec::new(),
             reasons: Vec::new(),
             seconds: [0.0; 2],
+            bands: None,
         }
+    }
+
+    /// The same with bands.
+    #[must_use]
+    pub fn with_bands(self, bands: Option<PartBands>) -> Self {
+        Rows { bands, ..self }
     }
 
     /// Clears the block for `part`: a row that is not written yet is an invalid sample without numbers.
@@ -65,6 +74,7 @@ impl Rows {
         self.audits.clear();
         self.reasons.clear();
         self.seconds = [0.0; 2];
+        self.bands.iter_mut().for_each(PartBands::start);
     }
 
     /// The part whose rows these are.
@@ -127,6 +137,16 @@ impl Rows {
     /// The rows that were audited, with their audits.
     pub fn audits(&self) -> &[(usize, Option<Audit>)] {
         &self.audits
+    }
+
+    /// The bands of the part, where the campaign has bands.
+    pub fn bands(&self) -> Option<&PartBands> {
+        self.bands.as_ref()
+    }
+
+    /// The same, to add runs.
+    pub fn bands_mut(&mut self) -> Option<&mut PartBands> {
+        self.bands.as_mut()
     }
 
     /// Adds CPU time of the runs and of their audits, s.

@@ -12,7 +12,6 @@ use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 use thiserror::Error;
 
 use crate::ensemble::parts::{PartId, Parts};
-use crate::ensemble::rows::Rows;
 use crate::ensemble::sink::Sink;
 use crate::ensemble::worker::Ensemble;
 
@@ -48,7 +47,7 @@ pub fn run<S: Sink>(
         let mut memory = None;
         while let Some(part) = parts.part(PartId(next.fetch_add(1, Ordering::Relaxed))) {
             let (worker, rows) =
-                memory.get_or_insert_with(|| (ensemble.worker(), Rows::new(ensemble.shape(), parts.size())));
+                memory.get_or_insert_with(|| (ensemble.worker(), ensemble.rows(parts.size())));
             worker.run(part, rows, &|samples| progress(samples));
             if let Err(error) = sink.take(rows) {
                 next.store(parts.count(), Ordering::Relaxed);

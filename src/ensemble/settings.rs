@@ -1,5 +1,5 @@
 //! What a plan means for its runs: the observables it requests ([`request`]), the settings of the engine ([`propagator`]),
-//! and the nominal run that others are compared with ([`nominal_attitude`]).
+//! and the nominal run that others are compared with ([`nominal()`], [`nominal_attitude`]).
 
 use crate::campaign::Plan;
 use crate::math::Isa;
@@ -34,6 +34,7 @@ pub fn nominal_attitude(plan: &Plan, request: &Request, grid: &Grid, isa: Isa) -
     found
 }
 
-fn nominal(plan: &Plan) -> Scene {
+/// The nominal scene of `plan`.
+pub fn nominal(plan: &Plan) -> Scene {
     Scene::resolve(&plan.nominal).expect("a plan's nominal scene was resolved when the plan was made")
 }

@@ -1,12 +1,16 @@
 //! [`Ensemble`]: a plan made ready to run; [`Worker`]: the memory in which one thread runs samples of it.
 
+use std::sync::{Arc, OnceLock};
+
 use crate::campaign::{Plan, SceneDraws};
 use crate::ensemble::audit::{Auditor, Selection};
+use crate::ensemble::bands::{BandLayout, PartBands, band_points};
 use crate::ensemble::cpu_clock::thread_seconds;
 use crate::ensemble::parts::Part;
 use crate::ensemble::rows::{Rows, Shape};
-use crate::ensemble::settings::{nominal_attitude, propagator, request};
+use crate::ensemble::settings::{nominal, nominal_attitude, propagator, request};
 use crate::math::Isa;
+use crate::observables::band_series::band_series;
 use crate::observables::{Observer, Request};
 use crate::propagation::PropagationSettings;
 use crate::propagation::{CompletedRun, Engine};
@@ -25,6 +29,8 @@ pub struct Ensemble<'p> {
     isa: Isa,
     request: Request,
     propagator: PropagationSettings,
+    /// The bands of no run yet, made where they are asked for first: they need the nominal run.
+    bands: OnceLock<Option<PartBands>>,
 }
 
 impl<'p> Ensemble<'p> {
@@ -32,7 +38,7 @@ impl<'p> Ensemble<'p> {
     pub fn new(plan: &'p Plan, isa: Isa) -> Self {
         let request = request(plan);
         let propagator = propagator(plan, plan.grid.clone(), request.fields());
-        Ensemble { plan, isa, request, propagator }
+        Ensemble { plan, isa, request, propagator, bands: OnceLock::new() }
     }
 
     /// The plan.
@@ -60,22 +66,54 @@ impl<'p> Ensemble<'p> {
         Shape { parameters: self.plan.dispersions.columns().len(), observables: self.request.columns().len() }
     }
 
+    /// Rows of parts of up to `capacity` samples, with bands where the campaign has them.
+    pub fn rows(&self, capacity: usize) -> Rows {
+        Rows::new(self.shape(), capacity).with_bands(self.bands().cloned())
+    }
+
+    /// The bands of no run; `None` where the plan asks for none, or observes no quantity that has bands.
+    pub fn bands(&self) -> Option<&PartBands> {
+        self.bands.get_or_init(|| self.no_bands()).as_ref()
+    }
+
+    fn no_bands(&self) -> Option<PartBands> {
+        let points: Arc<[usize]> = band_points(self.plan.grid.points(), self.plan.band_points).into();
+        let sources: Arc<[_]> = band_series(&self.request).into();
+        if points.is_empty() || sources.is_empty() {
+            return None;
+        }
+        let mut kept = vec![f64::NAN; sources.len() * points.len()];
+        let (scene, mut observer) = (nominal(self.plan), self.observer());
+        let mut ignored = vec![f64::NAN; self.shape().observables];
+        self.propagator.engine(self.isa).propagate(std::slice::from_ref(&scene), &mut |run| {
+            observer.observe(self.isa, &scene, run.table, run.outcome, &mut ignored);
+            for (source, kept) in sources.iter().zip(kept.chunks_exact_mut(points.len())) {
+                observer.over_time(source, &points, kept);
+            }
+        });
+        let layout = BandLayout {
+            series: sources.iter().map(|source| (source.quantity.clone(), source.form)).collect(),
+            times: points.iter().map(|point| self.plan.grid.times()[*point]).collect(),
+            nominal: kept,
+        };
+        Some(PartBands::new(Arc::new(layout), sources, points))
+    }
+
+    fn observer(&self) -> Observer {
+        let (plan, grid) = (self.plan, &self.plan.grid);
+        Observer::new(self.request, grid).with_nominal(nominal_attitude(plan, &self.request, grid, self.isa))
+    }
+
     /// Memory for one thread. Allocates; running samples in it does not, once it is warm.
     pub fn worker(&self) -> Worker<'_> {
-        let (shape, grid) = (self.shape(), &self.plan.grid);
         Worker {
             campaign: self,
             draws: SceneDraws::new(self.plan),
             scenes: Vec::new(),
             rows_of_scenes: Vec::with_capacity(BATCH),
             engine: self.propagator.engine(self.isa),
-            observer: Observer::new(self.request, grid).with_nominal(nominal_attitude(
-                self.plan,
-                &self.request,
-                grid,
-                self.isa,
-            )),
-            observed: vec![0.0; shape.observables],
+            observer: self.observer(),
+            observed: vec![0.0; self.shape().observables],
             audits: (self.plan.audit_fraction > 0.0)
                 .then(|| (Selection::new(self.plan), Auditor::new(self.plan, self.isa, &self.plan.grid))),
         }
@@ -111,6 +149,7 @@ impl Worker<'_> {
             }
             progress((end - start) as u64);
         }
+        rows.bands_mut().into_iter().for_each(PartBands::count);
     }
 
     /// Draws the samples of `batch`. One that is not physical keeps the row of [`Rows::start`]: `invalid_sample`.
@@ -143,12 +182,15 @@ impl Worker<'_> {
     fn propagate(&mut self, rows: &mut Rows) {
         let (isa, scenes) = (self.campaign.isa, &self.scenes[..self.rows_of_scenes.len()]);
         let (rows_of_scenes, observer, observed) = (&self.rows_of_scenes, &mut self.observer, &mut self.observed);
+        let first = rows.part().first.0;
         self.engine.propagate(scenes, &mut |CompletedRun { index, table, outcome, .. }| {
             let (status, row) =
                 (observer.observe(isa, &scenes[index], table, outcome, observed), rows_of_scenes[index]);
             rows.set_result(row, status, observed);
             if status != Status::Done {
                 rows.set_reason(row, observer.reason(status, outcome, observed));
+            } else if let Some(bands) = rows.bands_mut().filter(|_| first + row as u64 > 0) {
+                bands.add(|source, points, kept| observer.over_time(source, points, kept));
             }
         });
     }

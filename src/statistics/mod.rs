@@ -6,6 +6,7 @@
 
 pub mod binomial;
 pub mod correlation;
+pub mod deviation;
 pub mod gate;
 pub mod looks;
 pub mod moments;

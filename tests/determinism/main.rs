@@ -5,6 +5,7 @@ mod support;
 #[path = "../textbook/mod.rs"]
 mod textbook;
 
+mod bands;
 mod feedback;
 mod lanes;
 mod lanes_runge_kutta;

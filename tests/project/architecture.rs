@@ -22,9 +22,10 @@ const LAYERS: [(&str, u32); 15] = [
 ];
 
 /// Where each dependency may be used: modules, or single files. An empty list means everywhere.
-const CRATES: [(&str, &[&str]); 20] = [
+const CRATES: [(&str, &[&str]); 21] = [
     ("arrow_schema", &["dataset"]),
     ("clap", &["cli"]),
+    ("crc32fast", &["dataset"]),
     ("csv", &["campaign/data.rs"]),
     (FOR_ITS_FEATURES, &["no file"]),
     ("fearless_simd", &["math", "dynamics", "ode", "propagation", "observables"]),

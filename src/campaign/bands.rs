@@ -1,0 +1,28 @@
+//! The `[bands]` table: at how many points quantiles over time are counted.
+
+use super::document::Document;
+use super::section::Section;
+
+/// Points of bands where the file does not say and the grid has as many.
+const POINTS: u64 = 33;
+/// Most points: counts at a point take some 10 kB for each series in each thread.
+const MOST_POINTS: u64 = 257;
+/// The key.
+const KEY: &str = "bands.points";
+
+/// `bands.points`, if it was written.
+pub fn read(section: &mut Section<'_, '_>) -> Option<u64> {
+    let points = section.count("points", 0..=MOST_POINTS);
+    section.finish();
+    points
+}
+
+/// The number of points of a campaign whose grid has `grid` points; what is wrong with it is noted.
+pub fn resolve(written: Option<u64>, grid: u64, document: &mut Document<'_>) -> u64 {
+    let Some(points) = written else { return POINTS.min(grid) };
+    if points == 1 || points > grid {
+        let allowed = format!("0 (no bands), or 2 to {}: the grid has {grid} points", grid.min(MOST_POINTS));
+        document.add(KEY, Some(points.to_string()), allowed, "write fewer points, or more in observe.points");
+    }
+    points
+}

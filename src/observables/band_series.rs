@@ -1,0 +1,185 @@
+//! [`BandSeries`]: the quantities over time whose quantiles over a campaign are bands.
+//!
+//! They are series of the table of observables, and changes of such series since the start (the energy transfer). Nothing is
+//! computed for them that the observed columns do not need.
+
+use super::reduction::Stored;
+use super::request::Request;
+use super::table::Series;
+use crate::run::Quantity;
+
+/// In what form a quantity is kept: so that it is cheap to compute at every point of every run, and a deviation of it to count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// The quantity itself.
+    Value,
+    /// The tangent of half of it: of angles from 0 to pi, without an arc tangent at every point.
+    HalfTangent,
+}
+
+/// The tangent of a right angle: finite, as are products of two.
+const VERTICAL: f64 = 1e100;
+
+impl Form {
+    /// The deviation of `kept` from `nominal`, in the same form. Of half tangents, tan(a - b) = (tan a - tan b)/(1 + tan a tan b);
+    /// a relative error of it is at least as large as that of the angle.
+    #[inline(always)]
+    pub fn deviation(self, kept: f64, nominal: f64) -> f64 {
+        match self {
+            Form::Value => kept - nominal,
+            Form::HalfTangent => (kept - nominal) / (1.0 + kept * nominal),
+        }
+    }
+
+    /// The quantity of a kept number; also the deviation of a kept deviation.
+    pub fn shown(self, kept: f64) -> f64 {
+        match self {
+            Form::Value => kept,
+            Form::HalfTangent => 2.0 * libm::atan(kept),
+        }
+    }
+}
+
+/// A quantity over time that has bands.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BandSeries {
+    pub(super) series: Series,
+    /// Whether it is the change of the series since the start.
+    pub(super) is_change: bool,
+    /// Name, unit and meaning.
+    pub quantity: Quantity,
+    /// In what form its values are kept.
+    pub form: Form,
+}
+
+/// The change of a body's energy about the centre of mass since the start, for each body: series, name and meaning of the change.
+const TRANSFER: [(Series, &str, &str); 2] = [
+    (
+        Series::ComBody,
+        "exchange_body_j",
+        "Change since the start of the kinetic energy of the body about the spacecraft's centre of mass.",
+    ),
+    (
+        Series::ComWheel,
+        "exchange_{wheel}_j",
+        "Change since the start of the kinetic energy of wheel {wheel} about the spacecraft's centre of mass.",
+    ),
+];
+
+/// The quantities of runs of `request` that have bands, those of them that are observed: conservation errors, energy of each body, energy
+/// transfer, angles, |omega|, wheel speeds.
+pub fn band_series(request: &Request) -> Vec<BandSeries> {
+    let errors = [Series::EnergyError, Series::LinearMomentumError, Series::AngularMomentumError];
+    let energies = [Series::EnergyBody, Series::EnergyWheel];
+    let motion = [
+        Series::SpinAxisAngle,
+        Series::FromNominal,
+        Series::Nutation,
+        Series::DebrisDirection,
+        Series::RateSquare,
+        Series::WheelSpeed,
+    ];
+    let plain = |series: Series| (series, None);
+    let kinds = errors.into_iter().chain(energies).map(plain);
+    let kinds = kinds.chain(TRANSFER.map(|(series, name, meaning)| (series, Some((name, meaning)))));
+    let kinds = kinds.chain(motion.map(plain));
+    kinds.flat_map(|(series, change)| of_series(request, series, change)).collect()
+}
+
+/// The bands of `series`, of each wheel where wheels have it, or of its change, if it is observed.
+fn of_series(request: &Request, series: Series, change: Option<(&str, &str)>) -> Vec<BandSeries> {
+    let places = if series.wheel().is_some() { request.wheels.len() } else { 1 };
+    let observed = request.series();
+    let of_place = |place: usize| {
+        let series = series.of_wheel(place);
+        let shown = series.quantity(&request.wheels).filter(|_| observed.contains(&series))?;
+        let quantity = match change {
+            None => shown,
+            Some((name, meaning)) => {
+                let named = |text: &str| match series.wheel() {
+                    Some(wheel) => text.replace("{wheel}", request.wheels[wheel].as_str()),
+                    None => text.to_owned(),
+                };
+                Quantity::named(named(name), shown.unit().to_owned(), named(meaning))
+            }
+        };
+        let form = match series.row().stored {
+            Stored::HalfTangentSquare => Form::HalfTangent,
+            Stored::Quantity | Stored::Square => Form::Value,
+        };
+        Some(BandSeries { series, is_change: change.is_some(), quantity, form })
+    };
+    (0..places).filter_map(of_place).collect()
+}
+
+/// The kept numbers at `points` of a stored `column`; relative errors are divided by `scale`.
+#[inline(always)]
+pub(super) fn keep(band: &BandSeries, column: &[f64], scale: f64, points: &[usize], out: &mut [f64]) {
+    let taken = out.iter_mut().zip(points);
+    match band.series.row().stored {
+        Stored::Quantity if band.is_change => taken.for_each(|(out, point)| *out = column[*point] - column[0]),
+        Stored::Quantity if scale == 1.0 => taken.for_each(|(out, point)| *out = column[*point]),
+        Stored::Quantity => taken.for_each(|(out, point)| *out = column[*point] / scale),
+        Stored::Square => taken.for_each(|(out, point)| *out = column[*point].sqrt()),
+        Stored::HalfTangentSquare => taken.for_each(|(out, point)| {
+            let tangent = column[*point].sqrt();
+            // unlike f64::min this keeps what is not a number
+            *out = if tangent > VERTICAL { VERTICAL } else { tangent };
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::observables::request::wheel_names;
+    use crate::observables::{Group, Groups};
+
+    fn names(groups: Groups, wheels: &[&str]) -> Vec<String> {
+        let request =
+            Request { groups, debris: true, actuated: false, constrained: false, wheels: wheel_names(wheels) };
+        band_series(&request).iter().map(|band| band.quantity.name().to_owned()).collect()
+    }
+
+    #[test]
+    fn bands_are_those_of_the_observed_groups() {
+        let all = [
+            "energy_error",
+            "linear_momentum_error",
+            "angular_momentum_error",
+            "energy_body_j",
+            "energy_w1_j",
+            "energy_w2_j",
+            "exchange_body_j",
+            "exchange_w1_j",
+            "exchange_w2_j",
+            "spin_axis_angle_rad",
+            "attitude_from_nominal_rad",
+            "nutation_angle_rad",
+            "spin_axis_debris_angle_rad",
+            "angular_rate_rad_s",
+            "speed_w1_rad_s",
+            "speed_w2_rad_s",
+        ];
+        assert_eq!(names(Groups::ALL, &["w1", "w2"]), all);
+        assert_eq!(names(Group::DEFAULT.into_iter().collect(), &["w1", "w2"]), all[..10]);
+        let exchange = [Group::Exchange].into_iter().collect();
+        assert_eq!(names(exchange, &["flywheel"]), ["exchange_body_j", "exchange_flywheel_j"]);
+        assert!(names([Group::StepStatistics].into_iter().collect(), &["w1"]).is_empty());
+    }
+
+    /// Law: the deviation of half tangents is that of the angles, to rounding, also where one of them is half a turn.
+    #[test]
+    fn deviations_of_angles() {
+        use core::f64::consts::PI;
+        let kept = |angle: f64| libm::tan(0.5 * angle).min(VERTICAL);
+        for (angle, nominal) in [(0.3, 0.1), (0.1, 0.3), (1.0, 1.0 + 1e-9), (3.0, 1e-9), (2.0, 1.0), (0.0, 0.0)] {
+            let found = Form::HalfTangent.shown(Form::HalfTangent.deviation(kept(angle), kept(nominal)));
+            assert!((found - (angle - nominal)).abs() < 1e-15, "{angle} {nominal}: {found}");
+        }
+        for (kept_nominal, expected) in [(0.0, PI), (1.0, 0.5 * PI), (VERTICAL, 0.0)] {
+            let found = Form::HalfTangent.shown(Form::HalfTangent.deviation(VERTICAL, kept_nominal));
+            assert!((found - expected).abs() < 1e-15, "{kept_nominal}: {found}");
+        }
+    }
+}

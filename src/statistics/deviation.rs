@@ -1,0 +1,242 @@
+//! [`DeviationCounts`]: a histogram of deviations from a nominal value, from which quantiles are read.
+//!
+//! Buckets are the leading bits of the deviation: sign, exponent and the first [`MANTISSA_BITS`] bits of the mantissa, as in
+//! [`super::sketch`], but coarser and in 16 bits, so that hundreds of millions of deviations can be counted while a campaign runs.
+//! A bucket is at most 2^-6 of its value wide; a quantile is answered by the middle of its bucket, hence within
+//! [`RELATIVE_ERROR`] of the deviation. Contents are counts, so merging is addition: the result does not depend on order.
+//!
+//! Magnitudes below 2^-256 (9e-78) count as zero, those from 2^256 (1.2e77) on are in the last bucket.
+
+use std::cmp::Ordering;
+
+/// Leading mantissa bits that tell buckets apart.
+pub const MANTISSA_BITS: u32 = 6;
+
+/// Bound of the relative error of a deviation: half a bucket.
+pub const RELATIVE_ERROR: f64 = 1.0 / 128.0;
+
+/// A bucket: twice the number of its magnitude, in ascending order from 1, plus one where the deviation is negative.
+pub type Code = u16;
+
+/// The bucket of zero.
+pub const ZERO: Code = 0;
+
+/// The code of what is not a number. It is in no bucket.
+pub const NOT_A_NUMBER: Code = 1;
+
+/// Bits of the upper half of a number that are below its bucket.
+const SHIFT: u32 = 20 - MANTISSA_BITS;
+
+/// The leading bits of the smallest magnitude that is not zero, 2^-256.
+const LOWEST: i32 = (1023 - 256) << MANTISSA_BITS;
+
+/// The number of the last magnitude.
+const LAST: i32 = Code::MAX as i32 / 2;
+
+/// The bucket of a deviation. Without branches: a loop over many of them is one over vectors.
+#[inline(always)]
+pub fn code(deviation: f64) -> Code {
+    let upper = (deviation.to_bits() >> 32) as u32;
+    let leading = ((upper & 0x7fff_ffff) >> SHIFT).cast_signed();
+    let magnitude = (leading - (LOWEST - 1)).clamp(0, LAST);
+    let sign = (upper >> 31) & u32::from(magnitude != 0);
+    let code = (magnitude as u32) << 1 | sign;
+    (if deviation.is_nan() { u32::from(NOT_A_NUMBER) } else { code }) as Code
+}
+
+/// The middle of a bucket.
+pub fn middle(code: Code) -> f64 {
+    let magnitude = i32::from(code >> 1);
+    if magnitude == 0 {
+        return 0.0;
+    }
+    let end = |leading: i32| f64::from_bits((leading as u64) << (32 + SHIFT));
+    let leading = magnitude + (LOWEST - 1);
+    let middle = 0.5 * (end(leading) + end(leading + 1));
+    if is_negative(code) { -middle } else { middle }
+}
+
+fn is_negative(code: Code) -> bool {
+    code & 1 == 1
+}
+
+/// Counts of deviations by bucket.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct DeviationCounts {
+    /// The buckets that are not empty, by code.
+    buckets: Vec<(Code, u64)>,
+    count: u64,
+}
+
+impl DeviationCounts {
+    /// The counts of `buckets`, which come in ascending order of their codes, none of them empty; `None` where they do not, or
+    /// where they count more than 2^64.
+    pub fn of(buckets: Vec<(Code, u64)>) -> Option<Self> {
+        let is_ascending = buckets.windows(2).all(|pair| pair[0].0 < pair[1].0);
+        let is_bucket = |(code, count): &(Code, u64)| *code != NOT_A_NUMBER && *count > 0;
+        if !is_ascending || !buckets.iter().all(is_bucket) {
+            return None;
+        }
+        let count = buckets.iter().try_fold(0_u64, |sum, (_, count)| sum.checked_add(*count))?;
+        Some(DeviationCounts { buckets, count })
+    }
+
+    /// The buckets that are not empty, in ascending order of their codes.
+    pub fn buckets(&self) -> &[(Code, u64)] {
+        &self.buckets
+    }
+
+    /// How many deviations were counted.
+    pub fn count(&self) -> u64 {
+        self.count
+    }
+
+    /// Counts all that `other` has counted.
+    pub fn merge(&mut self, other: &DeviationCounts) {
+        let mut merged = Vec::with_capacity(self.buckets.len() + other.buckets.len());
+        let (mut mine, mut theirs) = (self.buckets.as_slice(), other.buckets.as_slice());
+        while let (Some((first, rest)), Some((other_first, other_rest))) = (mine.split_first(), theirs.split_first()) {
+            match first.0.cmp(&other_first.0) {
+                Ordering::Less => {
+                    merged.push(*first);
+                    mine = rest;
+                }
+                Ordering::Greater => {
+                    merged.push(*other_first);
+                    theirs = other_rest;
+                }
+                Ordering::Equal => {
+                    merged.push((first.0, first.1 + other_first.1));
+                    (mine, theirs) = (rest, other_rest);
+                }
+            }
+        }
+        merged.extend_from_slice(mine);
+        merged.extend_from_slice(theirs);
+        self.buckets = merged;
+        self.count += other.count;
+    }
+
+    /// The buckets in ascending order of deviation.
+    fn ascending(&self) -> impl Iterator<Item = (Code, u64)> {
+        let negative = self.buckets.iter().rev().filter(|(code, _)| is_negative(*code));
+        negative.chain(self.buckets.iter().filter(|(code, _)| !is_negative(*code))).copied()
+    }
+
+    /// The deviation of rank `rank`, from 1, within [`RELATIVE_ERROR`]; `None` where there are fewer.
+    fn order_statistic(&self, rank: u64) -> Option<f64> {
+        let mut seen = 0;
+        self.ascending().find_map(|(code, count)| {
+            seen += count;
+            (seen >= rank).then(|| middle(code))
+        })
+    }
+
+    /// The neighbours between which the `p`-quantile of type 7 (R. J. Hyndman & Y. Fan, *Am. Stat.* 50 (1996) 361) is, and its
+    /// part of the way from the first to the second; `None` where nothing was counted.
+    pub fn neighbours(&self, p: f64) -> Option<([f64; 2], f64)> {
+        let last = self.count.checked_sub(1)?;
+        let place = last as f64 * p;
+        let below = (place as u64).min(last);
+        let neighbours = [self.order_statistic(below + 1)?, self.order_statistic((below + 2).min(self.count))?];
+        Some((neighbours, place - below as f64))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::statistics::quantile::quantile;
+    use proptest::prelude::*;
+
+    fn counted(values: &[f64]) -> DeviationCounts {
+        let mut codes: Vec<Code> = values.iter().map(|value| code(*value)).filter(|c| *c != NOT_A_NUMBER).collect();
+        codes.sort_unstable();
+        let buckets = codes.chunk_by(|a, b| a == b).map(|run| (run[0], run.len() as u64));
+        DeviationCounts::of(buckets.collect()).expect("ascending codes")
+    }
+
+    /// A number that follows from `k`, spread over 80 octaves and both signs.
+    fn spread(k: u64) -> f64 {
+        let bits = k.wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        let magnitude = libm::exp2((bits >> 40) as f64 / f64::from(1 << 24) * 80.0 - 60.0);
+        if bits & 1 == 0 { magnitude } else { -magnitude }
+    }
+
+    /// Law: the middle of the bucket of a deviation is within the stated error of it, with its sign, from 2^-256 to 2^255.
+    #[test]
+    fn a_bucket_is_as_narrow_as_stated() {
+        let mut widest = 0.0f64;
+        for octave in -256..255 {
+            for step in 0..257 {
+                let value = libm::exp2(f64::from(octave)) * (1.0 + f64::from(step) / 257.0);
+                for value in [value, -value] {
+                    let found = middle(code(value));
+                    widest = widest.max((found - value).abs() / value.abs());
+                    assert!((found - value).abs() <= RELATIVE_ERROR * value.abs(), "{value}: {found}");
+                }
+            }
+        }
+        // counter-test: the bound is not idle
+        assert!(widest > 0.99 * RELATIVE_ERROR, "{widest}");
+    }
+
+    #[test]
+    fn what_is_beyond_the_buckets() {
+        for tiny in [0.0, -0.0, 1e-78, -1e-78, f64::from_bits(1)] {
+            assert_eq!((code(tiny), middle(code(tiny))), (ZERO, 0.0), "{tiny}");
+        }
+        assert_eq!([code(f64::NAN), code(-f64::NAN)], [NOT_A_NUMBER; 2]);
+        assert_eq!([code(1.2e77), code(f64::INFINITY)], [Code::MAX - 1; 2]);
+        assert_eq!([code(-1.2e77), code(f64::NEG_INFINITY)], [Code::MAX; 2]);
+        assert!(DeviationCounts::default().neighbours(0.5).is_none());
+    }
+
+    /// Law: neighbours and their part give the quantile of type 7 within the stated error of the larger neighbour.
+    #[test]
+    fn quantiles_are_within_the_bound() {
+        let mut values: Vec<f64> = (0..5_000).map(spread).chain([0.0; 100]).collect();
+        let counts = counted(&values);
+        values.sort_by(f64::total_cmp);
+        for p in [0.0, 1e-3, 0.01, 0.25, 0.5, 0.505, 0.75, 0.99, 1.0] {
+            let ([low, high], part) = counts.neighbours(p).expect("values");
+            let below = (p * (values.len() - 1) as f64) as usize;
+            let bound = RELATIVE_ERROR * values[below].abs().max(values[(below + 1).min(values.len() - 1)].abs());
+            let (found, exact) = (low + part * (high - low), quantile(&values, p).expect("values"));
+            assert!((found - exact).abs() <= bound, "{p}: {found} for {exact}");
+        }
+        // counter-test: another quantile is beyond the bound
+        let ([other, _], _) = counts.neighbours(0.52).expect("values");
+        let exact = quantile(&values, 0.75).expect("values");
+        assert!((other - exact).abs() > RELATIVE_ERROR * exact.abs());
+    }
+
+    #[test]
+    fn what_cannot_be_counts_is_refused() {
+        assert!(DeviationCounts::of(vec![(0, 1), (2, 5), (3, 1)]).is_some());
+        for wrong in [vec![(2, 1), (0, 1)], vec![(2, 1), (2, 1)], vec![(1, 1)], vec![(2, 0)], vec![(2, u64::MAX), (3, 1)]] {
+            assert_eq!(DeviationCounts::of(wrong.clone()), None, "{wrong:?}");
+        }
+    }
+
+    proptest! {
+        /// Law: however deviations are divided into parts and in whichever order the parts are merged, the counts are the same.
+        #[test]
+        fn merging_does_not_know_order(values in prop::collection::vec(prop::num::f64::ANY, 1..200), cut in 0usize..200) {
+            let (left, right) = values.split_at(cut.min(values.len()));
+            let (left, right) = (counted(left), counted(right));
+            let (mut forward, mut backward) = (left.clone(), right.clone());
+            forward.merge(&right);
+            backward.merge(&left);
+            prop_assert_eq!(&forward, &backward);
+            prop_assert_eq!(&forward, &counted(&values));
+        }
+
+        /// Law: the order of codes is that of magnitudes, so that buckets in ascending order have ascending middles.
+        #[test]
+        fn buckets_are_in_order(values in prop::collection::vec(prop::num::f64::NORMAL, 2..100)) {
+            let middles: Vec<f64> = counted(&values).ascending().map(|(code, _)| middle(code)).collect();
+            prop_assert!(middles.is_sorted_by(|a, b| a < b), "{:?}", middles);
+        }
+    }
+}

@@ -1,0 +1,185 @@
+//! Bands: quantiles over time equal those of the runs themselves, and depend on nothing but the plan.
+
+use std::collections::BTreeMap;
+use std::num::NonZeroUsize;
+use std::sync::Mutex;
+
+use spindrift::campaign::{Overrides, Plan};
+use spindrift::dataset::bands_file::{from_bytes, to_bytes};
+use spindrift::ensemble::bands::band_points;
+use spindrift::ensemble::{Bands, Ensemble, Parts, Rows, Sink, SingleRun, run};
+use spindrift::math::Isa;
+use spindrift::observables::nominal_attitude::NominalAttitude;
+use spindrift::observables::{Group, Observer, Series};
+use spindrift::run::Status;
+use spindrift::sampling::SampleId;
+use spindrift::statistics::deviation::RELATIVE_ERROR;
+use spindrift::statistics::quantile::quantile;
+
+const SAMPLES: u64 = 700;
+
+/// `spin_sweep` with all groups and a wheel that is sometimes impossible, and bands at `points` points.
+fn plan(points: usize) -> Plan {
+    let path = format!("{}/campaigns/spin_sweep.toml", env!("CARGO_MANIFEST_DIR"));
+    let mut text = std::fs::read_to_string(path).unwrap();
+    text.push_str(
+        "\n[[disperse]]\nparameter = \"wheels.w2.length_m\"\ndistribution = \"uniform\"\nmin = -0.05\nmax = 0.1\n",
+    );
+    text.push_str(&format!("\n[bands]\npoints = {points}\n"));
+    let mut plan = Plan::from_text("bands", &text, Overrides { samples: Some(SAMPLES), ..Overrides::default() })
+        .unwrap_or_else(|error| panic!("{error}"));
+    plan.groups = Group::ALL.to_vec();
+    plan
+}
+
+/// Keeps the bytes of the bands of each part.
+#[derive(Default)]
+struct Memory(Mutex<BTreeMap<u64, Vec<u8>>>);
+
+impl Sink for Memory {
+    type Error = String;
+
+    fn take(&self, rows: &Rows) -> Result<(), String> {
+        let bands = rows.bands().ok_or("rows without bands")?;
+        self.0.lock().unwrap().insert(rows.part().id.0, to_bytes(rows.part(), &bands.bands()));
+        Ok(())
+    }
+}
+
+fn files(plan: &Plan, threads: usize) -> Vec<Vec<u8>> {
+    let (sink, ensemble) = (Memory::default(), Ensemble::new(plan, Isa::best()));
+    run(&ensemble, Parts::of(plan.samples), NonZeroUsize::new(threads), &sink, &|_| {}).unwrap();
+    sink.0.into_inner().unwrap().into_values().collect()
+}
+
+fn merged<'a>(files: impl IntoIterator<Item = &'a Vec<u8>>) -> Bands {
+    let mut all: Option<Bands> = None;
+    for file in files {
+        let (_, bands) = from_bytes(file).unwrap();
+        match &mut all {
+            Some(all) => all.merge(&bands).unwrap(),
+            None => all = Some(bands),
+        }
+    }
+    all.unwrap()
+}
+
+/// For each series with bands its values at the points of the bands, sample by sample, from runs as `simulate` makes them; those of
+/// the nominal run first.
+fn exact(plan: &Plan, points: &[usize]) -> BTreeMap<String, Vec<Vec<f64>>> {
+    let isa = Isa::best();
+    let simulated = |sample: u64| SingleRun::new(plan, SampleId(sample), plan.grid.clone(), isa);
+    let nominal = simulated(0).unwrap();
+    let mut observer = Observer::new(nominal.request, &plan.grid)
+        .with_nominal(Some(NominalAttitude::of(&nominal.table, &nominal.outcome)));
+    let mut row = vec![0.0; nominal.request.columns().len()];
+    let mut found: BTreeMap<String, Vec<Vec<f64>>> = BTreeMap::new();
+    for run in (0..SAMPLES).filter_map(|sample| simulated(sample).ok()) {
+        assert_eq!(run.outcome.status, Status::Done);
+        observer.observe(isa, &run.scene, &run.table, &run.outcome, &mut row);
+        for (series, values) in observer.series() {
+            let name = series.quantity(&nominal.request.wheels).unwrap().name().to_owned();
+            let all: Vec<f64> = values.collect();
+            let is_com = (0..2).map(|wheel| Series::ComWheel.of_wheel(wheel)).any(|wheel| wheel == series);
+            if is_com || series == Series::ComBody {
+                let change = points.iter().map(|point| all[*point] - all[0]).collect();
+                found.entry(name.replace("energy_com", "exchange")).or_default().push(change);
+            }
+            found.entry(name).or_default().push(points.iter().map(|point| all[*point]).collect());
+        }
+    }
+    found
+}
+
+/// Every quantile that is beyond its bound, every other number that is not exact.
+fn deviations(bands: &Bands, exact: &BTreeMap<String, Vec<Vec<f64>>>) -> Vec<String> {
+    /// Roundings of an angle that is kept as the tangent of its half, and of a sum: some units in the last place.
+    const ROUNDING: f64 = 16.0 * f64::EPSILON;
+    let mut wrong = Vec::new();
+    for series in 0..bands.layout().series.len() {
+        let name = bands.quantity(series).name();
+        let [nominal, runs @ ..] = &exact[name][..] else { panic!("no runs of {name}") };
+        for (point, nominal) in nominal.iter().enumerate() {
+            let mut values: Vec<f64> = runs.iter().map(|run| run[point]).collect();
+            values.sort_by(f64::total_cmp);
+            let near = |found: f64, value: f64| (found - value).abs() <= ROUNDING * value.abs();
+            let [min, max] = bands.extremes(series, point).unwrap();
+            let is_exact = bands.count(series, point) == values.len() as u64
+                && bands.nominal(series, point).is_some_and(|found| near(found, *nominal))
+                && near(min, values[0])
+                && near(max, values[values.len() - 1]);
+            if !is_exact {
+                wrong.push(format!("{name} at point {point}: count, nominal or extremes"));
+            }
+            for p in [0.0, 0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99, 1.0] {
+                let (found, expected) = (bands.quantile(series, point, p).unwrap(), quantile(&values, p).unwrap());
+                let below = (p * (values.len() - 1) as f64) as usize;
+                let neighbours = [values[below], values[(below + 1).min(values.len() - 1)]];
+                let largest = neighbours.map(|value| (value - nominal).abs()).into_iter().fold(0.0, f64::max);
+                let bound = RELATIVE_ERROR * largest + ROUNDING * (expected.abs() + nominal.abs());
+                if (found - expected).abs() > bound {
+                    wrong.push(format!("{name} at point {point}, {p}: {found} for {expected}"));
+                }
+            }
+        }
+    }
+    wrong
+}
+
+/// Law: count, nominal value, extremes and quantiles are those of the runs, as each sample alone gives them; runs that fail and the
+/// nominal run are not counted. Counter-tests: quantiles of another point, and of runs with the nominal one, are beyond the bounds.
+#[test]
+fn bands_are_the_quantiles_of_the_runs() {
+    let plan = plan(9);
+    let points = band_points(plan.grid.points(), 9);
+    assert_eq!(points, [0, 13, 25, 38, 50, 63, 75, 88, 100]);
+    let bands = merged(&files(&plan, 2));
+    assert_eq!(bands.layout().series.len(), 16);
+    let mut exact = exact(&plan, &points);
+    let runs = exact["energy_error"].len() as u64 - 1;
+    assert!(runs < SAMPLES - 100, "some samples are impossible: {runs} runs");
+    assert_eq!(bands.runs(), runs);
+    let wrong = deviations(&bands, &exact);
+    assert!(wrong.is_empty(), "{}: {wrong:#?}", wrong.len());
+    // the spread is wider than the bound: the test sees something
+    let body = bands.find("energy_body_j").unwrap();
+    let [low, high] = [0.05, 0.95].map(|p| bands.quantile(body, 5, p).unwrap());
+    assert!(high - low > 100.0 * RELATIVE_ERROR * (high - bands.nominal(body, 5).unwrap()).abs());
+
+    let mut shifted = exact.clone();
+    shifted.values_mut().flatten().for_each(|run| run.rotate_right(1));
+    assert!(deviations(&bands, &shifted).len() > 500, "{}", deviations(&bands, &shifted).len());
+    exact.values_mut().for_each(|runs| runs.push(runs[0].clone()));
+    assert!(deviations(&bands, &exact).len() >= 16 * 9);
+}
+
+/// Law: bands of a part depend on the plan only: not on threads, nor on what a worker did before; merged in any order they are the
+/// same. Counter-test: a plan with another seed gives others.
+#[test]
+fn bands_depend_on_the_plan_only() {
+    let plan = plan(5);
+    let one = files(&plan, 1);
+    assert_eq!(one.len(), 3);
+    for threads in [2, 7] {
+        assert!(one == files(&plan, threads), "{threads} threads");
+    }
+    let forward = merged(&one);
+    assert!(forward == merged(one.iter().rev()) && forward == merged([&one[1], &one[0], &one[2]]));
+    let text = plan.text().replace(&format!("seed = {}", plan.seed), "seed = 4");
+    let other = Plan::from_text("bands", &text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
+    assert!(one != files(&other, 1));
+}
+
+/// Law: a campaign without bands, or without a quantity that has bands, has none.
+#[test]
+fn no_bands_where_none_are_asked_for() {
+    let mut plan = plan(0);
+    assert!(Ensemble::new(&plan, Isa::best()).bands().is_none());
+    plan.band_points = 3;
+    assert!(Ensemble::new(&plan, Isa::best()).bands().is_some());
+    plan.groups = vec![Group::StepStatistics];
+    assert!(Ensemble::new(&plan, Isa::best()).bands().is_none());
+    assert_eq!(band_points(2, 33), [0, 1]);
+    assert_eq!(band_points(11, 11), (0..11).collect::<Vec<_>>());
+    assert!(band_points(11, 0).is_empty());
+}
