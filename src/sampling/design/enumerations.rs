@@ -71,6 +71,22 @@ macro_rules! designs {
                 match self { $( Self::$Name(kind) => kind.unvaried(dimensions, points), )* }
             }
 
+            /// See [`Kind::HAS_REPLICATES`].
+            pub fn has_replicates(&self) -> bool {
+                match self { $( Self::$Name(_) => <$Kind as Kind>::HAS_REPLICATES, )* }
+            }
+
+            /// See [`Kind::replicates`].
+            pub fn replicates(&self) -> u64 {
+                match self { $( Self::$Name(kind) => kind.replicates(), )* }
+            }
+
+            /// The names of the designs that can have replicates.
+            fn names_with_replicates() -> Vec<&'static str> {
+                let all = [$((<$Kind as Kind>::NAME, <$Kind as Kind>::HAS_REPLICATES)),*];
+                all.into_iter().filter(|(_, has)| *has).map(|(name, _)| name).collect()
+            }
+
             /// See [`Kind::check`].
             ///
             /// # Errors

@@ -8,7 +8,9 @@
 
 use super::hash::{below, keyed};
 use super::sobol::MAX_DIMENSIONS;
-use super::traits::{BLOCK, Dimensions, Kind, PointSource, by_point};
+use super::replicates::{Replicates, by_replicate};
+use super::traits::{BLOCK, Dimensions, Kind, PointSource};
+use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{KeyReader, KeyWriter};
 use crate::sampling::stream::key;
 
@@ -114,29 +116,45 @@ fn primes(count: usize) -> Vec<u64> {
     primes
 }
 
-impl PointSource for Halton {
+/// The points of all replicates.
+#[derive(Clone, Debug)]
+pub struct HaltonPoints(Vec<Halton>);
+
+impl PointSource for HaltonPoints {
     fn fill(&mut self, block: u64, u: &mut [[f64; BLOCK]]) {
-        by_point(block, u, |dimension, point| self.number(dimension, point));
+        by_replicate(&self.0, block, u, Halton::number);
     }
 }
 
 /// Halton's sequence, scrambled.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HaltonDesign;
+pub struct HaltonDesign(pub Replicates);
 
 impl Kind for HaltonDesign {
     const NAME: &'static str = "halton";
     const MAX_DIMENSIONS: usize = MAX_DIMENSIONS;
-    type Points = Halton;
+    const HAS_REPLICATES: bool = true;
+    type Points = HaltonPoints;
 
-    fn read(_keys: &mut dyn KeyReader) -> Option<Self> {
-        Some(HaltonDesign)
+    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
+        Replicates::read(keys).map(HaltonDesign)
     }
 
-    fn write(&self, _keys: &mut dyn KeyWriter) {}
+    fn write(&self, keys: &mut dyn KeyWriter) {
+        self.0.write(keys);
+    }
 
-    fn points(&self, dimensions: Dimensions<'_>) -> Halton {
-        Halton::new(dimensions.seed, dimensions.names)
+    fn replicates(&self) -> u64 {
+        self.0.count()
+    }
+
+    fn check(&self, _dimensions: Dimensions<'_>, samples: Option<u64>) -> Result<(), DispersionError> {
+        self.0.check(samples)
+    }
+
+    fn points(&self, dimensions: Dimensions<'_>) -> HaltonPoints {
+        let replicates = self.0.names(dimensions.names);
+        HaltonPoints(replicates.iter().map(|names| Halton::new(dimensions.seed, names)).collect())
     }
 }
 

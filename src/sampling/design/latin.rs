@@ -7,7 +7,9 @@
 //! n = samples - 1, since sample 0 is the nominal scene.
 
 use super::hash::keyed;
+use super::replicates::Replicates;
 use super::traits::{BLOCK, Dimensions, Kind, PointSource, streams};
+use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{KeyReader, KeyWriter};
 use crate::sampling::stream::{Stream, key};
 
@@ -54,20 +56,25 @@ impl Permutation {
     }
 }
 
-/// The points of a Latin hypercube.
+/// The points of a Latin hypercube, or of several.
 #[derive(Debug)]
 pub struct LatinHypercube {
+    /// Strata of each hypercube.
     strata: u64,
-    permutations: Vec<Permutation>,
+    /// The permutations of each dimension, one for each hypercube.
+    permutations: Vec<Vec<Permutation>>,
     within: Vec<Stream>,
 }
 
 impl LatinHypercube {
-    /// `samples` samples with sample 0, for the dimensions `names`.
-    pub fn new(seed: u64, samples: u64, names: &[String]) -> Self {
-        let strata = samples.saturating_sub(1).max(1);
+    /// `samples` samples with sample 0, for the dimensions `names`, in `replicates` hypercubes.
+    pub fn new(seed: u64, samples: u64, names: &[String], replicates: Replicates) -> Self {
+        let strata = (samples.saturating_sub(1) / replicates.count()).max(1);
         let permutation = |name: &String| Permutation::new(strata, key(seed, name, *b"latin   "));
-        LatinHypercube { strata, permutations: names.iter().map(permutation).collect(), within: streams(seed, names) }
+        let scrambled = replicates.names(names);
+        let of_dimension = |dimension: usize| scrambled.iter().map(|names| permutation(&names[dimension])).collect();
+        let permutations = (0..names.len()).map(of_dimension).collect();
+        LatinHypercube { strata, permutations, within: streams(seed, names) }
     }
 }
 
@@ -76,12 +83,14 @@ impl PointSource for LatinHypercube {
         /// The largest number below one that a draw can be.
         const LAST: f64 = 1.0 - f64::EPSILON / 2.0;
         let n = self.strata as f64;
-        for ((permutation, within), u) in self.permutations.iter().zip(&mut self.within).zip(u) {
+        for ((permutations, within), u) in self.permutations.iter().zip(&mut self.within).zip(u) {
             within.uniforms(block, u);
+            let replicates = permutations.len() as u64;
             for (lane, u) in u.iter_mut().enumerate() {
                 let point = (block * BLOCK as u64 + lane as u64).saturating_sub(1);
+                let permutation = &permutations[(point % replicates) as usize];
                 // a sample beyond the last has no stratum of its own
-                *u = ((permutation.image(point % self.strata) as f64 + *u) / n).min(LAST);
+                *u = ((permutation.image(point / replicates % self.strata) as f64 + *u) / n).min(LAST);
             }
         }
     }
@@ -89,7 +98,7 @@ impl PointSource for LatinHypercube {
 
 /// One sample in each of n equal strata of each dimension.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LatinHypercubeDesign;
+pub struct LatinHypercubeDesign(pub Replicates);
 
 impl Kind for LatinHypercubeDesign {
     const NAME: &'static str = "latin_hypercube";
@@ -101,16 +110,27 @@ impl Kind for LatinHypercubeDesign {
         "a design for correlated parameters: with [[correlate]] only the first would stay stratified",
         "delete [[correlate]], or use sobol",
     ]);
+    const HAS_REPLICATES: bool = true;
     type Points = LatinHypercube;
 
-    fn read(_keys: &mut dyn KeyReader) -> Option<Self> {
-        Some(LatinHypercubeDesign)
+    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
+        Replicates::read(keys).map(LatinHypercubeDesign)
     }
 
-    fn write(&self, _keys: &mut dyn KeyWriter) {}
+    fn write(&self, keys: &mut dyn KeyWriter) {
+        self.0.write(keys);
+    }
+
+    fn replicates(&self) -> u64 {
+        self.0.count()
+    }
+
+    fn check(&self, _dimensions: Dimensions<'_>, samples: Option<u64>) -> Result<(), DispersionError> {
+        self.0.check(samples)
+    }
 
     fn points(&self, dimensions: Dimensions<'_>) -> LatinHypercube {
-        LatinHypercube::new(dimensions.seed, dimensions.samples, dimensions.names)
+        LatinHypercube::new(dimensions.seed, dimensions.samples, dimensions.names, self.0)
     }
 }
 
@@ -146,7 +166,7 @@ mod tests {
     fn each_stratum_holds_one_sample() {
         let names: Vec<String> = ["a", "b", "c"].map(str::to_owned).to_vec();
         for samples in [2, 9, 101, 4097] {
-            let (strata, mut points) = (samples - 1, LatinHypercube::new(5, samples, &names));
+            let (strata, mut points) = (samples - 1, LatinHypercube::new(5, samples, &names, Replicates::ONE));
             let mut counts = vec![vec![0; strata as usize]; names.len()];
             let mut u = vec![[0.0; BLOCK]; names.len()];
             for block in 0..=samples / 8 {

@@ -14,6 +14,8 @@
 //! | Saltelli | [`saltelli`] | yes, by whole blocks | no |
 //! | table | [`table`] | they have a size of their own | yes |
 //!
+//! Latin hypercube, Sobol and Halton may be several designs of their kind, each scrambled on its own: [`replicates`].
+//!
 //! Dimensions are known by name (the component's, or the parameter's and a number for a distribution of several components). Samples
 //! come in blocks of eight consecutive ones, [`BLOCK`], the size of a block of ChaCha and of a call of the quantiles; a number never depends on what was asked before.
 
@@ -25,6 +27,7 @@ pub mod latin;
 pub mod levels;
 pub mod one_at_a_time;
 pub mod random;
+pub mod replicates;
 pub mod saltelli;
 pub mod sobol;
 pub mod table;
@@ -42,6 +45,7 @@ use self::sobol::SobolDesign;
 use self::table::TableDesign;
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{DataColumn, KeyReader, KeyWriter};
+use crate::sampling::stream::SampleId;
 
 enumerations::designs! {
     Random = RandomDesign,
@@ -61,7 +65,21 @@ impl Design {
     /// Reads `kind` and the keys of the design that it names.
     pub fn read(keys: &mut dyn KeyReader) -> Option<Self> {
         let name = keys.kind("kind", Self::NAMES, "\"sobol\"")?;
-        Self::read_named(name, keys)
+        let design = Self::read_named(name, keys)?;
+        if !design.has_replicates() && keys.has(replicates::KEY) && keys.counts(replicates::KEY).is_some() {
+            let allowed = format!(
+                "left out with design {name:?}: designs with replicates are {}",
+                Self::names_with_replicates().join(", ")
+            );
+            keys.refuse(replicates::KEY, &allowed, "delete it, or choose one of these designs");
+            return None;
+        }
+        Some(design)
+    }
+
+    /// The replicate in which `sample` is, from zero ([`replicates`]); `None` for the nominal sample, which is in none.
+    pub fn replicate_of(&self, sample: SampleId) -> Option<u64> {
+        sample.0.checked_sub(1).map(|point| point % self.replicates())
     }
 }
 

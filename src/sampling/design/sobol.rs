@@ -8,7 +8,9 @@
 //! scrambled sequence is best in 2^m points, which are 2^m + 1 samples with the nominal one.
 
 use super::hash::keyed;
-use super::traits::{BLOCK, Dimensions, Kind, PointSource, by_point};
+use super::replicates::{Replicates, by_replicate};
+use super::traits::{BLOCK, Dimensions, Kind, PointSource};
+use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{KeyReader, KeyWriter};
 use crate::sampling::stream::{key, unit};
 
@@ -91,29 +93,45 @@ fn scrambled(bits: u64, key: u64) -> u64 {
 /// Tells the key of the nodes from that of the bits below them.
 const NODES: u64 = 0x6e6f_6465_735f_6f66;
 
-impl PointSource for Sobol {
+/// The points of all replicates.
+#[derive(Clone, Debug)]
+pub struct SobolPoints(Vec<Sobol>);
+
+impl PointSource for SobolPoints {
     fn fill(&mut self, block: u64, u: &mut [[f64; BLOCK]]) {
-        by_point(block, u, |dimension, point| self.number(dimension, point));
+        by_replicate(&self.0, block, u, Sobol::number);
     }
 }
 
 /// Sobol's sequence, scrambled.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SobolDesign;
+pub struct SobolDesign(pub Replicates);
 
 impl Kind for SobolDesign {
     const NAME: &'static str = "sobol";
     const MAX_DIMENSIONS: usize = MAX_DIMENSIONS;
-    type Points = Sobol;
+    const HAS_REPLICATES: bool = true;
+    type Points = SobolPoints;
 
-    fn read(_keys: &mut dyn KeyReader) -> Option<Self> {
-        Some(SobolDesign)
+    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
+        Replicates::read(keys).map(SobolDesign)
     }
 
-    fn write(&self, _keys: &mut dyn KeyWriter) {}
+    fn write(&self, keys: &mut dyn KeyWriter) {
+        self.0.write(keys);
+    }
 
-    fn points(&self, dimensions: Dimensions<'_>) -> Sobol {
-        Sobol::new(dimensions.seed, dimensions.names)
+    fn replicates(&self) -> u64 {
+        self.0.count()
+    }
+
+    fn check(&self, _dimensions: Dimensions<'_>, samples: Option<u64>) -> Result<(), DispersionError> {
+        self.0.check(samples)
+    }
+
+    fn points(&self, dimensions: Dimensions<'_>) -> SobolPoints {
+        let replicates = self.0.names(dimensions.names);
+        SobolPoints(replicates.iter().map(|names| Sobol::new(dimensions.seed, names)).collect())
     }
 }
 

@@ -52,6 +52,8 @@ pub trait Kind: Clone + Debug + PartialEq {
     const DEPENDS_ON_SAMPLES: Option<[&'static str; 2]> = None;
     /// Why parameters cannot be correlated, if they cannot; and the remedy.
     const EXCLUDES_CORRELATION: Option<[&'static str; 2]> = None;
+    /// Whether it can have replicates ([`super::replicates`]).
+    const HAS_REPLICATES: bool = false;
     /// Its points.
     type Points: PointSource;
 
@@ -69,6 +71,11 @@ pub trait Kind: Clone + Debug + PartialEq {
     /// The dimensions that do not vary in the first `points` points, although they vary in all points.
     fn unvaried(&self, _dimensions: usize, _points: u64) -> Vec<usize> {
         Vec::new()
+    }
+
+    /// How many designs of the kind it consists of.
+    fn replicates(&self) -> u64 {
+        1
     }
 
     /// What else keeps it from having these dimensions and samples (if the file gives a number).
