@@ -18,7 +18,7 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use spindrift::campaign::{Compression, Overrides, Plan};
 use spindrift::dataset::rows_file::RowsFile;
 use spindrift::ensemble::settings::propagator;
-use spindrift::ensemble::{Ensemble, Part, PartId, Parts, Rows, Sink, run};
+use spindrift::ensemble::{Ensemble, Part, PartId, Parts, Rows, Sink, Supervision, run};
 use spindrift::math::Isa;
 use spindrift::observables::{Group, Groups, Observer, Request};
 use spindrift::propagation::CompletedRun;
@@ -84,7 +84,7 @@ fn writing(criterion: &mut Criterion) {
     let campaign = Ensemble::new(&plan, Isa::best());
     let count = SAMPLES as usize;
     let mut rows = Rows::new(campaign.shape(), count);
-    campaign.worker().run(Part { id: PartId(0), first: SampleId(0), count }, &mut rows, &|_| {});
+    campaign.worker().run(Part { id: PartId(0), first: SampleId(0), count }, &mut rows, Supervision::progress(&|_| {}));
     let mut bytes = Vec::new();
     let mut group = criterion.benchmark_group("writing");
     group.throughput(Throughput::Elements(SAMPLES));
@@ -133,10 +133,10 @@ fn campaign(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("campaign");
     group.throughput(Throughput::Elements(SAMPLES));
     group.bench_function("rows dropped", |bencher| {
-        bencher.iter(|| run(&campaign, parts, one, &Drain, &|_| {}).expect("nothing fails"));
+        bencher.iter(|| run(&campaign, parts, one, &Drain, Supervision::progress(&|_| {})).expect("nothing fails"));
     });
     group.bench_function("rows written", |bencher| {
-        bencher.iter(|| run(&campaign, parts, one, &written, &|_| {}).expect("nothing fails"));
+        bencher.iter(|| run(&campaign, parts, one, &written, Supervision::progress(&|_| {})).expect("nothing fails"));
     });
     group.finish();
 }

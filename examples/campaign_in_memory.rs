@@ -6,7 +6,7 @@ use std::convert::Infallible;
 use std::sync::Mutex;
 
 use spindrift::campaign::{Overrides, Plan};
-use spindrift::ensemble::{Ensemble, Parts, Rows, Sink, run};
+use spindrift::ensemble::{Ensemble, Parts, Rows, Sink, Supervision, run};
 use spindrift::math::Isa;
 use spindrift::run::Status;
 
@@ -67,7 +67,8 @@ pub fn main() {
     let column = columns.iter().position(|column| column.quantity.name() == COLUMN);
     let column = column.expect("the group `exchange` is observed");
     let sink = Collected { column, pairs: Mutex::new(Vec::new()) };
-    run(&ensemble, Parts::of(plan.samples), None, &sink, &|_| ()).unwrap_or_else(|error| panic!("{error}"));
+    run(&ensemble, Parts::of(plan.samples), None, &sink, Supervision::progress(&|_| ()))
+        .unwrap_or_else(|error| panic!("{error}"));
 
     let pairs = sink.pairs.into_inner().expect("no thread panicked");
     assert_eq!(pairs.len(), 500, "every run is ok");

@@ -5,11 +5,13 @@
 use std::process::ExitCode;
 
 use spindrift::cli::arguments::{Command, arguments};
-use spindrift::cli::{check, command_outcome, precision, run_campaign, sample, simulate};
+use spindrift::cli::{check, command_outcome, finish_campaign, precision, run_campaign, sample, simulate, verify};
 
 fn main() -> ExitCode {
     let ended = match arguments().command {
         Command::Campaign(options) => run_campaign::run(&options),
+        Command::Finish(options) => finish_campaign::run(&options),
+        Command::Verify(options) => verify::run(&options),
         Command::Check(options) => check::run(&options),
         Command::Precision(options) => precision::run(&options),
         Command::Sample(options) => sample::run(&options),

@@ -13,7 +13,7 @@ use spindrift::dynamics::actuation::Laws;
 use spindrift::dynamics::gyrostat::Gyrostat;
 use spindrift::dynamics::gyrostat::equations::Constants;
 use spindrift::dynamics::null_space::{Kernel, components, sigma};
-use spindrift::ensemble::{Ensemble, Part, PartId, Rows};
+use spindrift::ensemble::{Ensemble, Part, PartId, Rows, Supervision};
 use spindrift::math::Isa;
 use spindrift::observables::{Groups, Observer, Request};
 use spindrift::ode::Control;
@@ -248,7 +248,11 @@ fn a_worker() {
         let mut worker = campaign.worker();
         let mut rows = Rows::new(campaign.shape(), 256);
         let mut part = |first, count| {
-            worker.run(Part { id: PartId(0), first: SampleId(first), count }, &mut rows, &|_| {});
+            worker.run(
+                Part { id: PartId(0), first: SampleId(first), count },
+                &mut rows,
+                Supervision::progress(&|_| {}),
+            );
         };
         part(0, 256);
         assert_eq!(allocations(|| part(256, 256)), 0, "{name}, {method}");

@@ -2,6 +2,9 @@
 //!
 //! Its SHA-256 (FIPS 180-4) is the plan's identity, which `sha256sum` reproduces. Floats are written with the fewest digits
 //! that read back to the same bits.
+//!
+//! The row plan is the part of it that changes rows or their encoding: without the campaign's name, and with the number of samples only
+//! where the design's points depend on it. Two campaigns with the same row hash have the same rows, sample by sample.
 
 use super::canonical_draws::{correlation_lines, derivation_lines, design_lines, dispersion_lines};
 use super::lines::Lines;
@@ -9,13 +12,39 @@ use super::plan::Plan;
 use crate::scene::table::Table;
 use sha2::{Digest, Sha256};
 
+fn digest(text: &str) -> String {
+    Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
 impl Plan {
     /// The plan as canonical text.
     pub fn text(&self) -> String {
+        self.text_of(true)
+    }
+
+    /// The part of the canonical text that changes rows or their encoding.
+    pub fn row_text(&self) -> String {
+        self.text_of(false)
+    }
+
+    /// SHA-256 of the row plan, in hexadecimal.
+    pub fn row_hash(&self) -> String {
+        digest(&self.row_text())
+    }
+
+    /// The keys that do not change rows, by the beginning of their path.
+    pub const OUTSIDE_ROWS: [&'static str; 2] = ["campaign.name", "campaign.samples"];
+
+    /// The canonical text: `whole`, or the row plan.
+    fn text_of(&self, whole: bool) -> String {
         let mut lines = Lines::default();
         lines.table("[campaign]");
-        lines.key("name", &self.name);
-        lines.key("samples", self.samples);
+        if whole {
+            lines.key("name", &self.name);
+        }
+        if whole || self.design.depends_on_samples().is_some() {
+            lines.key("samples", self.samples);
+        }
         lines.key("seed", self.seed);
         lines.key("duration_s", self.grid.duration());
         lines.table("[integrator]");
@@ -56,7 +85,7 @@ impl Plan {
 
     /// SHA-256 of the canonical text, in hexadecimal.
     pub fn hash(&self) -> String {
-        Sha256::digest(self.text().as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
+        digest(&self.text())
     }
 
     /// The tables of the nominal scene, every key that it has in the order of the schema.

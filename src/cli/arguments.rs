@@ -4,7 +4,11 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+use crate::dataset::claim::Shard;
 use crate::propagation::Method;
+
+/// Most shards of a campaign.
+const MOST_SHARDS: u64 = 1_000_000;
 
 /// Shown at the end of every help text.
 const EXIT_CODES: &str = "\
@@ -13,6 +17,7 @@ Exit codes:
   1  ran, but some runs failed (their rows say how)
   2  bad input: arguments, campaign file, or a sample that is not physical
   4  input/output error, or the folder has a result that may not be overwritten
+  129, 130, 138, 143  stopped by SIGHUP, SIGINT, SIGUSR1, SIGTERM; the same command continues
 
 A FILE without a folder, with or without .toml, is also looked for in campaigns/.
 SPINDRIFT_ISA=avx512|avx2|plain selects an instruction set; results do not depend on it.";
@@ -32,6 +37,12 @@ pub enum Command {
     /// Run every sample of a campaign: rows to Parquet files, a summary to the screen.
     #[command(after_help = EXIT_CODES)]
     Campaign(CampaignOptions),
+    /// Complete a result whose parts several processes have made: check that all parts are there, make the summary.
+    #[command(after_help = EXIT_CODES)]
+    Finish(FinishOptions),
+    /// Check a result: every checksum, and for a fraction of the parts every bit of every row.
+    #[command(after_help = EXIT_CODES)]
+    Verify(VerifyOptions),
     /// Show what a campaign would run: plan, mass properties, dispersions, what is integrated and why, time and disk space.
     #[command(after_help = EXIT_CODES)]
     Check(CheckOptions),
@@ -66,9 +77,41 @@ pub struct CampaignOptions {
     /// Fraction of the samples to compare with a reference solution, instead of the file's.
     #[arg(long, value_name = "F")]
     pub audit: Option<f64>,
-    /// Replace an existing result.
+    /// Replace an existing result, which stays as it is until the new one is complete.
     #[arg(long)]
     pub overwrite: bool,
+    /// Run part K of N of the work, for instance on one machine of N; `finish` then completes the result.
+    #[arg(long, value_name = "K/N", value_parser = shard, conflicts_with = "overwrite")]
+    pub shard: Option<Shard>,
+    /// Stop at the first run that is not ok.
+    #[arg(long)]
+    pub fail_fast: bool,
+}
+
+/// Arguments of `finish`.
+#[derive(Debug, Args)]
+pub struct FinishOptions {
+    /// The folder of the result.
+    pub folder: PathBuf,
+    /// Number of threads [default: one for each core].
+    #[arg(long, value_name = "N")]
+    pub threads: Option<std::num::NonZeroUsize>,
+}
+
+/// Arguments of `verify`.
+#[derive(Debug, Args)]
+pub struct VerifyOptions {
+    /// The folder of the result.
+    pub folder: PathBuf,
+    /// Fraction of the parts whose rows are computed again and compared bit for bit.
+    #[arg(long, value_name = "F", default_value_t = 0.01, value_parser = fraction)]
+    pub fraction: f64,
+    /// Make damaged or differing parts again.
+    #[arg(long)]
+    pub repair: bool,
+    /// Number of threads [default: one for each core].
+    #[arg(long, value_name = "N")]
+    pub threads: Option<std::num::NonZeroUsize>,
 }
 
 /// Arguments of `check`.
@@ -169,6 +212,20 @@ fn tolerance(text: &str) -> Result<f64, String> {
     text.parse().ok().filter(|value| (1e-16..=0.1).contains(value)).ok_or_else(allowed)
 }
 
+/// A fraction from 0 to 1; otherwise the allowed range.
+fn fraction(text: &str) -> Result<f64, String> {
+    let allowed = || "must be a number from 0 to 1".to_owned();
+    text.parse().ok().filter(|value| (0.0..=1.0).contains(value)).ok_or_else(allowed)
+}
+
+/// A shard, for instance 3/8; otherwise the allowed form.
+fn shard(text: &str) -> Result<Shard, String> {
+    let numbers = text.split_once('/').and_then(|(number, of)| Some((number.parse().ok()?, of.parse().ok()?)));
+    let shard = numbers.map(|(number, of)| Shard { number, of });
+    let allowed = || format!("must be K/N with 1 <= K <= N <= {MOST_SHARDS}, for instance 3/8");
+    shard.filter(|shard| (1..=shard.of).contains(&shard.number) && shard.of <= MOST_SHARDS).ok_or_else(allowed)
+}
+
 /// A positive time in seconds; otherwise the allowed range.
 fn seconds(text: &str) -> Result<f64, String> {
     let allowed = || "must be a number of seconds above 0".to_owned();
@@ -193,7 +250,7 @@ mod tests {
         // `help` is clap's own
         let ours = command.get_subcommands_mut().filter(|command| command.get_name() != "help");
         helps.extend(ours.map(|command| command.render_help().to_string()));
-        assert_eq!(helps.len(), 6);
+        assert_eq!(helps.len(), 8);
         for help in helps {
             for code in ["0  done", "1  ran", "2  bad input", "4  input/output"] {
                 assert!(help.contains(code), "{help}");

@@ -10,7 +10,8 @@ use crate::cli::{dispersions, screen};
 use crate::dataset::rows_file::RowsFile;
 use crate::ensemble::influence::without_effect;
 use crate::ensemble::probe::{AuditProbe, RunProbe};
-use crate::ensemble::{Ensemble, Part, PartId, Parts};
+use crate::ensemble::run_cost::parts;
+use crate::ensemble::{Ensemble, Part, PartId};
 use crate::math::symmetric::principal_axes;
 use crate::observables::Request;
 use crate::report::number::{bytes, short};
@@ -194,7 +195,7 @@ fn estimate(ensemble: &Ensemble<'_>) -> Result<String, Failure> {
     } else {
         (file.columns() * size_of::<f64>()) as f64
     };
-    let parts = Parts::of(plan.samples);
+    let parts = parts(plan, ensemble.isa());
     let disk = row * plan.samples as f64 + empty.len() as f64 * parts.count() as f64;
     let cores = cores();
     let seconds = probe.seconds * plan.samples as f64 / cores as f64;

@@ -2,7 +2,7 @@
 
 use std::process::ExitCode;
 
-use crate::cli::screen;
+use crate::cli::{screen, signals};
 use crate::run::Status;
 
 /// How a command ended that could run.
@@ -12,6 +12,8 @@ pub enum CommandOutcome {
     Done,
     /// This many runs failed: code 1.
     SomeFailed(u64),
+    /// A signal stopped it: code 128 and the signal's number.
+    Stopped(i32),
 }
 
 /// A command that could not run.
@@ -48,6 +50,7 @@ pub fn exit_code(ended: Result<CommandOutcome, Failure>) -> ExitCode {
     ExitCode::from(match ended {
         Ok(CommandOutcome::Done) => 0,
         Ok(CommandOutcome::SomeFailed(_)) => 1,
+        Ok(CommandOutcome::Stopped(signal)) => signals::exit_code(signal),
         Err(Failure::Input(reason)) => {
             screen::note(&format!("error: {reason}"));
             2

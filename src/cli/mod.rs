@@ -1,8 +1,8 @@
 //! Layer 8: the command line.
 //!
 //! - [`arguments`]: commands and options. - [`input`]: the plan and the instruction set of a command.
-//! - [`run_campaign`], [`check`], [`precision`], [`sample`], [`simulate`]: one command each.
-//! - [`dispersions`]: the dispersions of a plan as text. - [`progress`]: the progress bar. - [`screen`]: printing.
+//! - [`run_campaign`], [`finish_campaign`], [`verify`], [`check`], [`precision`], [`sample`], [`simulate`]: one command each.
+//! - [`dispersions`]: the dispersions of a plan as text. - [`progress`]: the progress bar. - [`screen`]: printing; [`signals`].
 //! - [`command_outcome`]: how a command ends, and its exit code.
 //!
 //! Not here: physics, sampling, file formats.
@@ -11,10 +11,13 @@ pub mod arguments;
 pub mod check;
 pub mod command_outcome;
 pub mod dispersions;
+pub mod finish_campaign;
 pub mod input;
 pub mod precision;
 pub mod progress;
 pub mod run_campaign;
 pub mod sample;
 pub mod screen;
+pub mod signals;
 pub mod simulate;
+pub mod verify;

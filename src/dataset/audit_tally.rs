@@ -30,7 +30,6 @@ pub struct AuditTally {
     pub ratio: Sketch,
     /// Errors of the observables that have statistics.
     pub observables: Vec<Sketch>,
-    seconds: [f64; 2],
 }
 
 impl AuditTally {
@@ -64,14 +63,6 @@ impl AuditTally {
                 sketch.add(audit.observables[index]);
             }
         }
-        for (sum, seconds) in self.seconds.iter_mut().zip(rows.seconds()) {
-            *sum += seconds;
-        }
-    }
-
-    /// CPU time of the runs and of their audits, s.
-    pub fn seconds(&self) -> [f64; 2] {
-        self.seconds
     }
 }
 

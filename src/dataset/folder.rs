@@ -1,228 +1,262 @@
-//! [`Folder`]: the folder of one result.
+//! [`Folder`]: a dataset on the disk, and the protocol by which parts are added to it.
 //!
 //! ```text
-//! results/<name>/plan.toml                 the resolved plan, written first
-//! results/<name>/runs/part-000000.parquet  one file per part, each whole or absent
-//! results/<name>/summary.json              written last: it marks the result as complete
+//! results/<name>/plan.toml                 the resolved plan
+//! results/<name>/manifest.jsonl            what is there: only what it lists exists
+//! results/<name>/runs/part-000000.parquet  rows, part by part
+//! results/<name>/_SUCCESS                  everything is there
 //! ```
-//! A folder with a plan and without a summary is an unfinished result. Only files of these names are ever removed.
+//! A part is written under a temporary name, flushed to the disk, read back and compared, and renamed; its folder is flushed; then one line
+//! of the manifest lists it. Whatever stops the program, the parts that are listed are whole, and the others are made again.
 
-use std::fs::{self, File, TryLockError};
-use std::io;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use serde_json::Value;
-use thiserror::Error;
+use crate::dataset::identity::sha256;
+use crate::dataset::manifest::{FileRecord, Identity, Manifest, PartRecord, Record};
+use crate::dataset::names::{FOLDERS, MANIFEST, PLAN, RUNS, SHARDS, SUCCESS, UNFINISHED};
+use crate::dataset::storage::{Storage, StorageError, at};
+use crate::ensemble::Part;
 
-use crate::campaign::Plan;
-use crate::dataset::atomic;
-use crate::dataset::rows_file::file_name;
-use crate::ensemble::{PartId, Parts};
+/// Most bytes of a manifest: a line is some 400 bytes, and a campaign of 10^12 samples has 61 million parts.
+pub const MOST_MANIFEST: u64 = 1 << 36;
 
-const PLAN: &str = "plan.toml";
-const RUNS: &str = "runs";
-const SUMMARY: &str = "summary.json";
-
-/// Why a folder cannot take a result.
-#[derive(Debug, Error)]
-pub enum FolderError {
-    /// It has the result of another plan.
-    #[error(
-        "`{folder}` contains the result of another plan (hash {found}, this one is {expected}); choose another --out, or replace it with --overwrite"
-    )]
-    Occupied {
-        /// The folder.
-        folder: String,
-        /// Hash of the plan that is there.
-        found: String,
-        /// Hash of the plan to be run.
-        expected: String,
-    },
-    /// It has the unfinished result of another plan.
-    #[error(
-        "`{folder}` contains an unfinished result of another plan; choose another --out, or replace it with --overwrite"
-    )]
-    Leftover {
-        /// The folder.
-        folder: String,
-    },
-    /// It is marked as complete, and files are missing.
-    #[error("`{folder}` is damaged: `{missing}` is missing; run it again with --overwrite")]
-    Damaged {
-        /// The folder.
-        folder: String,
-        /// The file.
-        missing: String,
-    },
-    /// It has something else.
-    #[error("`{folder}` exists and is not a result of spindrift; choose another --out")]
-    Foreign {
-        /// The folder.
-        folder: String,
-    },
-    /// Another process writes to it.
-    #[error("another process is writing to `{folder}`; wait for it, or choose another --out")]
-    Busy {
-        /// The folder.
-        folder: String,
-    },
-    /// A file operation failed.
-    #[error("{path}: {source}")]
-    Io {
-        /// The file or folder.
-        path: String,
-        /// Why.
-        source: io::Error,
-    },
+/// A file of a part: its name below the folder of the dataset, and its content.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PartFile {
+    /// The name.
+    pub name: String,
+    /// The content.
+    pub bytes: Vec<u8>,
+    /// SHA-256 of the content, in hexadecimal.
+    pub sha256: String,
 }
 
-/// The state of the folder of a result.
-#[derive(Debug)]
-pub enum Claim {
-    /// The folder is ready for the result.
-    Ready(Folder),
-    /// The result of the same plan is complete there; the text of its summary.
-    Finished(String),
+impl PartFile {
+    /// A file with its checksum.
+    pub fn new(name: String, bytes: Vec<u8>) -> Self {
+        PartFile { sha256: sha256(&bytes), name, bytes }
+    }
 }
 
-/// A folder that is ready for a result, locked against other processes until it is dropped.
+/// A dataset that parts are added to. One process writes to a manifest ([`super::claim`]).
 #[derive(Debug)]
 pub struct Folder {
+    storage: &'static dyn Storage,
     root: PathBuf,
-    /// Whether an unfinished result of the same plan was found and cleared.
-    pub restarted: bool,
-    _lock: Option<File>,
+    identity: Identity,
+    /// Name of the manifest that this process appends to.
+    manifest: String,
+    state: Mutex<State>,
 }
 
-fn failed(path: &Path) -> impl FnOnce(io::Error) -> FolderError + use<> {
-    let path = path.display().to_string();
-    move |source| FolderError::Io { path, source }
+#[derive(Debug, Default)]
+struct State {
+    /// Length of the manifest up to its last whole line, bytes; `None` where it does not exist yet.
+    length: Option<u64>,
+    /// All parts that are whole, those of other manifests too.
+    parts: BTreeMap<u64, PartRecord>,
 }
 
 impl Folder {
-    /// Prepares `root` for the result of `plan`, unless that result is already complete.
-    ///
-    /// # Errors
-    /// Where the folder has something that must not be replaced, or a file operation fails.
-    pub fn claim(root: &Path, plan: &Plan, overwrite: bool) -> Result<Claim, FolderError> {
-        let folder = root.display().to_string();
-        fs::create_dir_all(root).map_err(failed(root))?;
-        let lock = lock(root)?;
-        let summary = root.join(SUMMARY);
-        let unfinished = root.join(PLAN).is_file();
-        let mut restarted = false;
-        if summary.is_file() {
-            let text = fs::read_to_string(&summary).map_err(failed(&summary))?;
-            let Some(found) = plan_hash(&text) else { return Err(FolderError::Foreign { folder }) };
-            if !overwrite {
-                let expected = plan.hash();
-                if found != expected {
-                    return Err(FolderError::Occupied { folder, found, expected });
-                }
-                return match missing(root, plan) {
-                    Some(missing) => Err(FolderError::Damaged { folder, missing }),
-                    None => Ok(Claim::Finished(text)),
-                };
-            }
-        } else if unfinished {
-            restarted = fs::read_to_string(root.join(PLAN)).is_ok_and(|text| text == plan.text());
-            if !restarted && !overwrite {
-                return Err(FolderError::Leftover { folder });
-            }
-        } else if !is_blank(root).map_err(failed(root))? {
-            return Err(FolderError::Foreign { folder });
-        }
-        clear(root)?;
-        let runs = root.join(RUNS);
-        fs::create_dir_all(&runs).map_err(failed(&runs))?;
-        let path = root.join(PLAN);
-        atomic::write_bytes(&path, plan.text().as_bytes()).map_err(failed(&path))?;
-        Ok(Claim::Ready(Folder { root: root.to_owned(), restarted, _lock: lock }))
-    }
-
-    /// The file of `part`.
-    pub fn part(&self, part: PartId) -> PathBuf {
-        self.root.join(RUNS).join(file_name(part))
-    }
-
-    /// Completes the result with its summary, after everything else is on the disk.
+    /// The dataset in `root`, whose manifest `manifest` (its name below `root`) has so far the records `own`; `others` are the parts of other
+    /// manifests. What was damaged in the manifest is left out of its new text.
     ///
     /// # Errors
     /// Where a file operation fails.
-    pub fn finish(&self, summary: &str) -> Result<(), FolderError> {
-        let runs = self.root.join(RUNS);
-        atomic::sync_folder(&runs).map_err(failed(&runs))?;
-        let path = self.root.join(SUMMARY);
-        atomic::write_bytes(&path, summary.as_bytes()).map_err(failed(&path))?;
-        atomic::sync_folder(&self.root).map_err(failed(&self.root))
+    pub fn open(
+        storage: &'static dyn Storage,
+        root: &Path,
+        identity: Identity,
+        (manifest, own): (String, Option<Manifest>),
+        others: BTreeMap<u64, PartRecord>,
+    ) -> Result<Folder, StorageError> {
+        let mut folder =
+            Folder { storage, root: root.to_owned(), identity, manifest, state: Mutex::new(State::default()) };
+        for name in FOLDERS {
+            let path = root.join(name);
+            if name == RUNS || (name == SHARDS && folder.manifest.starts_with(SHARDS)) {
+                storage.create_folder(&path).map_err(at(&path))?;
+            }
+        }
+        let (is_new, own) = (own.is_none(), own.unwrap_or_default());
+        let text = Manifest::text(&folder.identity, own.parts.values(), false);
+        // a manifest with damage, or one that says that it is finished, is written anew: what is appended must follow its last part
+        if is_new || !own.damaged.is_empty() || own.is_finished || own.identity.as_ref() != Some(&folder.identity) {
+            folder.write(&folder.manifest, text.as_bytes())?;
+        }
+        let path = folder.path(&folder.manifest);
+        let length = storage.read(&path, MOST_MANIFEST).map_err(at(&path))?.len() as u64;
+        let mut parts = others;
+        parts.extend(own.parts);
+        folder.state = Mutex::new(State { length: Some(length), parts });
+        Ok(folder)
     }
 
-    /// Total size of the files of rows, bytes.
+    /// The path of the file `name`.
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.root.join(name)
+    }
+
+    /// The folder.
+    pub fn root(&self) -> &Path {
+        &self.root
+    }
+
+    /// The file operations.
+    pub fn storage(&self) -> &'static dyn Storage {
+        self.storage
+    }
+
+    /// What the rows are.
+    pub fn identity(&self) -> &Identity {
+        &self.identity
+    }
+
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The parts that are whole, in order.
+    pub fn parts(&self) -> Vec<PartRecord> {
+        self.state().parts.values().cloned().collect()
+    }
+
+    /// Those of `parts` that are not there yet.
+    pub fn missing(&self, parts: impl Iterator<Item = Part>) -> Vec<Part> {
+        let state = self.state();
+        parts.filter(|part| state.parts.get(&part.id.0).is_none_or(|record| record.samples() != *part)).collect()
+    }
+
+    /// Writes a whole file, durably; an older file of that name is replaced only when the new one is whole.
+    ///
+    /// # Errors
+    /// Where a file operation fails; the temporary file is removed.
+    pub fn write(&self, name: &str, bytes: &[u8]) -> Result<(), StorageError> {
+        let path = self.path(name);
+        self.place(&path, bytes)?;
+        let folder = path.parent().unwrap_or(&self.root);
+        self.storage.sync_folder(folder).map_err(at(folder))
+    }
+
+    /// Writes a file under a temporary name, checks it, and renames it.
+    fn place(&self, path: &Path, bytes: &[u8]) -> Result<(), StorageError> {
+        let mut temporary = path.as_os_str().to_owned();
+        temporary.push(UNFINISHED);
+        let temporary = PathBuf::from(temporary);
+        let write = || {
+            // what an earlier process left, or a link that somebody put there, is removed and not written to
+            self.storage.remove(&temporary).map_err(at(&temporary))?;
+            self.storage.create(&temporary, bytes).map_err(at(&temporary))?;
+            let found = self.storage.read(&temporary, bytes.len() as u64).map_err(at(&temporary))?;
+            if found != bytes {
+                let differs = std::io::Error::other("what was read back is not what was written");
+                return Err(at(&temporary)(differs));
+            }
+            Ok(())
+        };
+        // after a failed flush the state of the file is unknown: it is written anew, once
+        let placed =
+            write().or_else(|_| write()).and_then(|()| self.storage.rename(&temporary, path).map_err(at(path)));
+        if placed.is_err() {
+            // the first error is reported; a file that cannot be removed is recognised by its name
+            let _ = self.storage.remove(&temporary);
+        }
+        placed
+    }
+
+    /// Adds a part: its files, then its line in the manifest.
+    ///
+    /// # Errors
+    /// Where a file operation fails; the part is then not listed.
+    pub fn commit(&self, part: Part, files: &[PartFile]) -> Result<(), StorageError> {
+        let mut folders: Vec<PathBuf> = Vec::new();
+        for file in files {
+            let path = self.path(&file.name);
+            self.place(&path, &file.bytes)?;
+            let folder = path.parent().unwrap_or(&self.root).to_owned();
+            if !folders.contains(&folder) {
+                folders.push(folder);
+            }
+        }
+        for folder in &folders {
+            self.storage.sync_folder(folder).map_err(at(folder))?;
+        }
+        let records = files.iter().map(|file| FileRecord {
+            name: file.name.clone(),
+            bytes: file.bytes.len() as u64,
+            sha256: file.sha256.clone(),
+        });
+        let record = PartRecord {
+            part: part.id.0,
+            first_sample: part.first.0,
+            rows: part.count as u64,
+            files: records.collect(),
+        };
+        self.append(&Record::Part(record.clone()))?;
+        self.state().parts.insert(record.part, record);
+        Ok(())
+    }
+
+    /// Takes parts out of the dataset, so that they are made again.
     ///
     /// # Errors
     /// Where a file operation fails.
-    pub fn size(&self) -> Result<u64, FolderError> {
-        let runs = self.root.join(RUNS);
-        let mut size = 0;
-        for entry in fs::read_dir(&runs).map_err(failed(&runs))? {
-            size += entry.and_then(|entry| entry.metadata()).map_err(failed(&runs))?.len();
+    pub fn drop_parts(&self, parts: impl IntoIterator<Item = u64>) -> Result<(), StorageError> {
+        for dropped in parts {
+            self.append(&Record::Dropped { dropped })?;
+            self.state().parts.remove(&dropped);
         }
-        Ok(size)
+        Ok(())
     }
-}
 
-/// Locks `root` against other processes of this program; no lock where the file system has none.
-fn lock(root: &Path) -> Result<Option<File>, FolderError> {
-    let Ok(file) = File::open(root) else { return Ok(None) };
-    match file.try_lock() {
-        Ok(()) => Ok(Some(file)),
-        Err(TryLockError::WouldBlock) => Err(FolderError::Busy { folder: root.display().to_string() }),
-        Err(TryLockError::Error(_)) => Ok(None),
+    fn append(&self, record: &Record) -> Result<(), StorageError> {
+        let (path, line) = (self.path(&self.manifest), record.line());
+        let mut state = self.state();
+        let length = state.length.unwrap_or(0);
+        self.storage.append(&path, length, line.as_bytes()).map_err(at(&path))?;
+        state.length = Some(length + line.len() as u64);
+        Ok(())
     }
-}
 
-/// The hash in a summary; `None` where it is not one of this program.
-fn plan_hash(summary: &str) -> Option<String> {
-    let value: Value = serde_json::from_str(summary).ok()?;
-    Some(value.get("plan_hash")?.as_str()?.to_owned())
-}
+    /// Writes the plan.
+    ///
+    /// # Errors
+    /// Where a file operation fails.
+    pub fn write_plan(&self, text: &str) -> Result<(), StorageError> {
+        self.write(PLAN, text.as_bytes())
+    }
 
-/// The first file that a complete result of `plan` should have and does not have.
-fn missing(root: &Path, plan: &Plan) -> Option<String> {
-    let files = Parts::of(plan.samples).iter().map(|part| Path::new(RUNS).join(file_name(part.id)));
-    files.chain([PathBuf::from(PLAN)]).find(|file| !root.join(file).is_file()).map(|file| file.display().to_string())
-}
+    /// Takes back that everything is there, before anything of it is replaced.
+    ///
+    /// # Errors
+    /// Where a file operation fails.
+    pub fn unfinish(&self) -> Result<(), StorageError> {
+        let path = self.path(SUCCESS);
+        self.storage.remove(&path).map_err(at(&path))?;
+        self.storage.sync_folder(&self.root).map_err(at(&self.root))
+    }
 
-/// Whether `root` has nothing but temporary files of a campaign that was stopped before it wrote its plan.
-fn is_blank(root: &Path) -> io::Result<bool> {
-    for entry in fs::read_dir(root)? {
-        if !entry?.file_name().to_string_lossy().ends_with(atomic::UNFINISHED) {
-            return Ok(false);
+    /// Says that everything is there: the manifest lists all parts in order, whichever manifests listed them before, and the mark is set.
+    ///
+    /// # Errors
+    /// Where a file operation fails.
+    pub fn finish(&self) -> Result<(), StorageError> {
+        let text = Manifest::text(&self.identity, self.state().parts.values(), true);
+        self.write(MANIFEST, text.as_bytes())?;
+        self.state().length = None;
+        let shards = self.path(SHARDS);
+        for entry in self.storage.list(&shards).map_err(at(&shards))? {
+            let path = shards.join(entry.name);
+            self.storage.remove(&path).map_err(at(&path))?;
         }
+        self.storage.remove_folder(&shards).map_err(at(&shards))?;
+        self.write(SUCCESS, b"")
     }
-    Ok(true)
-}
 
-/// Removes the files of a result: first the summary, so that a partly removed result is never taken for a complete one.
-fn clear(root: &Path) -> Result<(), FolderError> {
-    let runs = root.join(RUNS);
-    let mut files = vec![root.join(SUMMARY), atomic::unfinished(&root.join(SUMMARY))];
-    if runs.is_dir() {
-        for entry in fs::read_dir(&runs).map_err(failed(&runs))? {
-            let path = entry.map_err(failed(&runs))?.path();
-            let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-            let whole = name.strip_suffix(atomic::UNFINISHED).unwrap_or(&name);
-            if whole.starts_with("part-") && whole.ends_with(".parquet") {
-                files.push(path);
-            }
-        }
+    /// Total size of the files of parts, bytes.
+    pub fn size(&self) -> u64 {
+        self.state().parts.values().flat_map(|part| &part.files).map(|file| file.bytes).sum()
     }
-    files.extend([atomic::unfinished(&root.join(PLAN)), root.join(PLAN)]);
-    for path in files {
-        match fs::remove_file(&path) {
-            Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(failed(&path)(error)),
-            _ => {}
-        }
-    }
-    Ok(())
 }

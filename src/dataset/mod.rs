@@ -1,7 +1,9 @@
 //! Layer 6: results on disk.
 //!
-//! - [`folder`]: the folder of a result: claim, commit, completeness. - [`part_sink`]: writes finished parts.
-//! - [`rows_file`]: the files of rows; [`rows_reader`] reads them. - [`bands_file`]: the files of bands. - [`columnar`]: columns to Parquet. - [`atomic`]: files that are whole or absent.
+//! - [`mod@claim`]: what is in the folder of a result, and whether a campaign may write there. - [`folder`]: the dataset, and the protocol by
+//!   which parts are added. - [`manifest`]: what it consists of. - [`mod@identity`]: what its rows are. - [`names`]: of its files.
+//! - [`storage`]: file operations. - [`verify`]: whether files are what was written. - [`part_sink`]: writes finished parts.
+//! - [`rows_file`]: the files of rows; [`rows_reader`] reads them. - [`bands_file`]: of bands. - [`columnar`]: columns to Parquet. - [`atomic`]: files that are whole or absent.
 //! - [`tally`], [`audit_tally`]: statistics counted while rows are written. - [`provenance`]: metadata on the origin.
 //! - [`statistics`]: what the rows say of every observable ([`observed`], [`population`]).
 //! - [`table`]: tables in a single file: [`timeseries`], [`bands_table`], [`drawn_table`], [`precision_table`].
@@ -12,9 +14,13 @@ pub mod atomic;
 pub mod audit_tally;
 pub mod bands_file;
 pub mod bands_table;
+pub mod claim;
 pub mod columnar;
 pub mod drawn_table;
 pub mod folder;
+pub mod identity;
+pub mod manifest;
+pub mod names;
 pub mod observed;
 pub mod part_sink;
 pub mod population;
@@ -23,6 +29,8 @@ pub mod provenance;
 pub mod rows_file;
 pub mod rows_reader;
 pub mod statistics;
+pub mod storage;
 pub mod table;
 pub mod tally;
 pub mod timeseries;
+pub mod verify;

@@ -1,55 +1,88 @@
-//! [`PartSink`]: writes each part to a Parquet file of its own and counts its rows in the tally.
+//! [`write_parts`]: adds each finished part to a dataset.
+//!
+//! Threads encode their own parts; one thread more writes the files and waits for the disk, so that no run waits for it.
 
+use std::sync::mpsc::{SyncSender, sync_channel};
 use std::sync::{Mutex, PoisonError};
 
 use parquet::errors::ParquetError;
 use thiserror::Error;
 
-use crate::dataset::folder::Folder;
+use crate::dataset::folder::{Folder, PartFile};
+use crate::dataset::names::rows_of;
 use crate::dataset::rows_file::RowsFile;
-use crate::dataset::tally::Tally;
-use crate::ensemble::{Ensemble, Rows, Sink};
+use crate::dataset::storage::StorageError;
+use crate::ensemble::{Ensemble, Part, Rows, Sink};
+
+/// Encoded parts that may wait for the disk: memory for them is some 10 MB each.
+const WAITING: usize = 1;
 
 /// Why rows could not be written.
 #[derive(Debug, Error)]
-#[error("{path}: {source}")]
-pub struct PartError {
-    /// The file.
-    path: String,
-    /// Why.
-    source: ParquetError,
+pub enum PartError {
+    /// They could not be encoded.
+    #[error("a part could not be encoded: {0}")]
+    Encoding(#[from] ParquetError),
+    /// A file operation failed.
+    #[error(transparent)]
+    Storage(#[from] StorageError),
+    /// The thread that writes has ended, after an error of its own.
+    #[error("parts are no longer written")]
+    Ended,
 }
 
-/// Writes parts into the folder of a result.
+/// An encoded part.
+type Encoded = (Part, Vec<PartFile>);
+
+/// Encodes parts and hands them to the thread that writes.
 #[derive(Debug)]
-pub struct PartSink<'f> {
-    folder: &'f Folder,
+pub struct PartSink {
     file: RowsFile,
-    tally: Mutex<Tally>,
+    encoded: SyncSender<Encoded>,
+    seconds: Mutex<[f64; 2]>,
 }
 
-impl<'f> PartSink<'f> {
-    /// A sink for the rows of `ensemble`.
-    ///
-    /// # Errors
-    /// Where two columns have the same name.
-    pub fn new(folder: &'f Folder, ensemble: &Ensemble<'_>) -> Result<Self, ParquetError> {
-        Ok(PartSink { folder, file: RowsFile::new(ensemble)?, tally: Mutex::new(Tally::new(ensemble)) })
-    }
-
-    /// The statistics of all parts.
-    pub fn into_tally(self) -> Tally {
-        self.tally.into_inner().unwrap_or_else(PoisonError::into_inner)
+impl PartSink {
+    /// CPU time of runs and of audits so far, s; measured where there are audits.
+    pub fn seconds(&self) -> [f64; 2] {
+        *self.seconds.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-impl Sink for PartSink<'_> {
+impl Sink for PartSink {
     type Error = PartError;
 
     fn take(&self, rows: &Rows) -> Result<(), PartError> {
-        let path = self.folder.part(rows.part().id);
-        self.file.save(rows, &path).map_err(|source| PartError { path: path.display().to_string(), source })?;
-        self.tally.lock().unwrap_or_else(PoisonError::into_inner).add(rows);
+        let part = rows.part();
+        let mut bytes = Vec::new();
+        self.file.write(rows, &mut bytes)?;
+        let files = vec![PartFile::new(rows_of(part.id), bytes)];
+        self.encoded.send((part, files)).map_err(|_| PartError::Ended)?;
+        let mut sums = self.seconds.lock().unwrap_or_else(PoisonError::into_inner);
+        sums.iter_mut().zip(rows.seconds()).for_each(|(sum, seconds)| *sum += seconds);
         Ok(())
     }
+}
+
+/// Runs `body` with a sink for the rows of `ensemble`; when this returns, every part that the sink took is in `folder`, or an error says why
+/// not. An error of writing goes before one of `body`.
+///
+/// # Errors
+/// Where parts could not be encoded or written.
+pub fn write_parts<R>(
+    folder: &Folder,
+    ensemble: &Ensemble<'_>,
+    body: impl FnOnce(&PartSink) -> R,
+) -> Result<R, PartError> {
+    let (encoded, waiting) = sync_channel::<Encoded>(WAITING);
+    let sink = PartSink { file: RowsFile::new(ensemble)?, encoded, seconds: Mutex::new([0.0; 2]) };
+    std::thread::scope(|scope| {
+        let writer = scope.spawn(move || -> Result<(), StorageError> {
+            waiting.iter().try_for_each(|(part, files)| folder.commit(part, &files))
+        });
+        let result = body(&sink);
+        drop(sink);
+        writer.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
+        Ok(result)
+    })
 }

@@ -1,18 +1,17 @@
 //! [`RowsFile`]: the files of rows: dispersed parameters, observables, audits.
 
 use std::io::Write;
-use std::path::Path;
 
 use parquet::errors::ParquetError;
 
 use crate::campaign::columns::parameter_quantity;
 use crate::campaign::{Compression, Plan};
-use crate::dataset::atomic;
 use crate::dataset::columnar::{Cells, Content, Heading, Layout, Packing};
-use crate::dataset::provenance::provenance;
+use crate::dataset::provenance::row_provenance;
 use crate::ensemble::audit::AuditValue;
-use crate::ensemble::{Ensemble, PartId, Rows};
+use crate::ensemble::{Ensemble, Rows};
 use crate::observables::Kind;
+use crate::observables::headlines::headlines;
 use crate::run::{Quantity, Status};
 
 /// Name of the column that numbers the samples.
@@ -31,11 +30,33 @@ pub struct RowsFile {
     contents: Vec<Content>,
     /// The columns of audits; none where the campaign has no audits.
     audits: Vec<AuditValue>,
+    /// The observables whose numerical errors are columns too, by their indices.
+    audited: Vec<usize>,
 }
 
-/// The name of the file of `part`.
-pub fn file_name(part: PartId) -> String {
-    format!("part-{:06}.parquet", part.0)
+/// The name of the column with the numerical error of the observable `name`.
+pub fn audit_error_name(name: &str) -> String {
+    format!("audit_error_{name}")
+}
+
+/// The columns of numerical errors of the observables `indices`.
+fn error_headings(ensemble: &Ensemble<'_>, indices: Vec<usize>) -> Vec<Heading> {
+    let columns = ensemble.request().columns();
+    let heading = |index: usize| {
+        let quantity = &columns[index].quantity;
+        let meaning =
+            format!("True numerical error of {} in an audited run: |observed - reference solution|.", quantity.name());
+        Heading::new(
+            Quantity::named(audit_error_name(quantity.name()), quantity.unit().to_owned(), meaning),
+            Content::Real,
+        )
+    };
+    indices.into_iter().map(|index| heading(index).nullable()).collect()
+}
+
+/// The observables whose numerical errors are columns: those with statistics in the summary, where the campaign has audits.
+pub fn audited_observables(ensemble: &Ensemble<'_>) -> Vec<usize> {
+    if ensemble.plan().audit_fraction > 0.0 { headlines(ensemble.request()) } else { Vec::new() }
 }
 
 /// The columns of a row.
@@ -55,7 +76,14 @@ pub fn headings(ensemble: &Ensemble<'_>) -> Vec<Heading> {
     let audits = AuditValue::of_scenes(ensemble.request().debris)
         .filter(|_| audited)
         .map(|value| Heading::new(value.quantity().clone(), Content::Real).nullable());
-    fixed.into_iter().chain(parameter_headings(ensemble.plan())).chain(observables).chain(audits).collect()
+    let errors = error_headings(ensemble, audited_observables(ensemble));
+    fixed
+        .into_iter()
+        .chain(parameter_headings(ensemble.plan()))
+        .chain(observables)
+        .chain(audits)
+        .chain(errors)
+        .collect()
 }
 
 /// The columns of dispersed values.
@@ -86,24 +114,16 @@ impl RowsFile {
     /// # Errors
     /// Where two columns have the same name.
     pub fn new(ensemble: &Ensemble<'_>) -> Result<Self, ParquetError> {
-        let layout = Layout::new(&headings(ensemble), provenance(ensemble.plan()), packing(ensemble.plan()))?;
+        let layout = Layout::new(&headings(ensemble), row_provenance(ensemble.plan()), packing(ensemble.plan()))?;
         let contents = ensemble.request().columns().into_iter().map(|column| content(column.kind)).collect();
         let is_audited = ensemble.plan().audit_fraction > 0.0;
         let audits = AuditValue::of_scenes(ensemble.request().debris).filter(|_| is_audited).collect();
-        Ok(RowsFile { layout, contents, audits })
+        Ok(RowsFile { layout, contents, audits, audited: audited_observables(ensemble) })
     }
 
     /// Number of columns.
     pub fn columns(&self) -> usize {
         self.layout.schema().fields().len()
-    }
-
-    /// Writes `rows` as the file `path`, which is whole or absent.
-    ///
-    /// # Errors
-    /// Where writing fails.
-    pub fn save(&self, rows: &Rows, path: &Path) -> Result<(), ParquetError> {
-        atomic::write(path, |file| self.write(rows, file))
     }
 
     /// Writes `rows` to `out`.
@@ -136,21 +156,24 @@ impl RowsFile {
                 _ => Cells::Real(values, mask),
             }
         });
-        let (audited, audits) = audit_columns(rows, &self.audits);
+        let (audited, audits) = audit_columns(rows, &self.audits, &self.audited);
         let audits = audits.iter().map(|column| Cells::Real(column, Some(&audited)));
         self.layout.write(out, &own, fixed.into_iter().chain(parameters).chain(observables).chain(audits))
     }
 }
 
-/// Which rows were audited, and the columns `values` of the audits.
-fn audit_columns(rows: &Rows, values: &[AuditValue]) -> (Vec<bool>, Vec<Vec<f64>>) {
+/// Which rows were audited, and the columns `values` of the audits with the errors of the observables `indices`.
+fn audit_columns(rows: &Rows, values: &[AuditValue], indices: &[usize]) -> (Vec<bool>, Vec<Vec<f64>>) {
     let mut audited = vec![false; rows.part().count];
-    let mut columns = vec![vec![f64::NAN; rows.part().count]; values.len()];
+    let mut columns = vec![vec![f64::NAN; rows.part().count]; values.len() + indices.len()];
     for (row, audit) in rows.audits() {
         let Some(audit) = audit else { continue };
         audited[*row] = true;
         for (column, value) in columns.iter_mut().zip(values) {
             column[*row] = audit.value(*value);
+        }
+        for (column, index) in columns[values.len()..].iter_mut().zip(indices) {
+            column[*row] = audit.observables[*index];
         }
     }
     (audited, columns)

@@ -3,8 +3,13 @@
 //! Only counts, extremes and the numbers of samples are kept and no floating-point sums, so that the statistics do not depend on
 //! the order of the parts. Sample 0 is the nominal scene: where there are others, the statistics are those of the others.
 
+use std::num::NonZeroUsize;
+
 use crate::dataset::audit_tally::AuditTally;
-use crate::ensemble::{Ensemble, Rows};
+use crate::dataset::rows_file::{audit_error_name, audited_observables};
+use crate::dataset::rows_reader::{PartReader, RowsError, RowsReader};
+use crate::ensemble::audit::{AuditValue, Selection};
+use crate::ensemble::{Audit, Ensemble, Part, PartId, Rows};
 use crate::observables::headlines::{STATE_ERROR_ESTIMATE, headlines};
 use crate::observables::table::error_id;
 use crate::observables::{ColumnId, ErrorStatistic, Group, Kind, Series};
@@ -120,6 +125,41 @@ impl Tally {
         }
     }
 
+    /// The tally of rows that are in files: `ensemble` is the campaign, `threads` read at the same time (`None`: one per core).
+    ///
+    /// # Errors
+    /// Where a file cannot be read.
+    pub fn of_files(
+        ensemble: &Ensemble<'_>,
+        files: &RowsReader,
+        threads: Option<NonZeroUsize>,
+    ) -> Result<Tally, RowsError> {
+        let mut tally = Tally::new(ensemble);
+        let columns = ensemble.request().columns();
+        let mut wanted: Vec<usize> = tally.headlines.iter().map(|headline| headline.index).collect();
+        wanted.extend(tally.worst.iter().flat_map(|worst| &worst.indices));
+        wanted.sort_unstable();
+        wanted.dedup();
+        let audited: Vec<usize> = audited_observables(ensemble);
+        let read = |part: &mut PartReader| -> Result<Rows, RowsError> {
+            let samples = part.samples()?;
+            let first = samples.first().copied().unwrap_or(SampleId(0));
+            let mut rows = Rows::new(ensemble.shape(), samples.len());
+            rows.start(Part { id: PartId(0), first, count: samples.len() });
+            let values = wanted.iter().map(|index| Ok((*index, part.numbers(columns[*index].quantity.name())?)));
+            rows.restore(&part.statuses()?, values.collect::<Result<Vec<_>, RowsError>>()?);
+            if !audited.is_empty() {
+                audits(ensemble, part, &audited, &mut rows)?;
+            }
+            Ok(rows)
+        };
+        files.visit(threads, read, |rows| {
+            tally.add(&rows);
+            Ok(())
+        })?;
+        Ok(tally)
+    }
+
     /// Counts the rows of a part.
     pub fn add(&mut self, rows: &Rows) {
         for (sample, status) in rows.part().samples().zip(rows.statuses()) {
@@ -184,6 +224,38 @@ impl Tally {
     }
 }
 
+/// Reads the audits of a part, of the observables `audited`. A sample that is to be audited and was not is an audit that failed.
+fn audits(ensemble: &Ensemble<'_>, part: &PartReader, audited: &[usize], rows: &mut Rows) -> Result<(), RowsError> {
+    let names = ensemble.request().columns();
+    let read = |value: AuditValue| part.numbers(value.quantity().name());
+    let (omega, attitude, estimate) =
+        (read(AuditValue::Omega)?, read(AuditValue::Attitude)?, read(AuditValue::Estimate)?);
+    let tolerance = read(AuditValue::Tolerance)?;
+    let debris = if ensemble.request().debris { read(AuditValue::Debris)? } else { vec![f64::NAN; omega.len()] };
+    let error = |index: &usize| part.numbers(&audit_error_name(names[*index].quantity.name()));
+    let errors = audited.iter().map(error).collect::<Result<Vec<_>, RowsError>>()?;
+    let mut selection = Selection::new(ensemble.plan());
+    let samples: Vec<SampleId> = rows.part().samples().collect();
+    let is_physical: Vec<bool> = rows.statuses().iter().map(|status| *status != Status::InvalidSample).collect();
+    for (row, sample) in samples.into_iter().enumerate() {
+        if !is_physical[row] || !selection.contains(sample) {
+            continue;
+        }
+        let mut observables = vec![f64::NAN; names.len()];
+        audited.iter().zip(&errors).for_each(|(index, errors)| observables[*index] = errors[row]);
+        let audit = Audit {
+            omega: omega[row],
+            attitude: attitude[row],
+            debris: debris[row],
+            estimate: estimate[row],
+            reference_tolerance: tolerance[row],
+            observables,
+        };
+        rows.set_audit(row, (!tolerance[row].is_nan()).then_some(audit));
+    }
+    Ok(())
+}
+
 fn status_index(status: Status) -> usize {
     Status::ALL.iter().position(|known| *known == status).expect("every status is in the list of all")
 }
@@ -192,7 +264,6 @@ fn status_index(status: Status) -> usize {
 mod tests {
     use super::*;
     use crate::campaign::{Overrides, Plan};
-    use crate::ensemble::{Part, PartId};
     use crate::math::Isa;
 
     /// The tally of parts whose rows are (sample, status, error), of a campaign of `samples` samples.

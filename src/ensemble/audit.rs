@@ -43,6 +43,8 @@ pub enum AuditValue {
     Debris,
     /// Tolerance of the reference solution.
     Tolerance,
+    /// What the run itself estimates its error to be.
+    Estimate,
 }
 
 static COLUMNS: [Quantity; AuditValue::ALL.len()] = [
@@ -67,12 +69,23 @@ static COLUMNS: [Quantity; AuditValue::ALL.len()] = [
         "",
         "Tolerance of the reference solution that the run was compared with: 1e-31 in double-double, 1e-16 in plain doubles where the run was too long for double-double.",
     ),
+    Quantity::new(
+        "audit_state_error_estimate",
+        "",
+        "What the run estimates audit_state_error to be: state_error_estimate, whether it is observed or not.",
+    ),
 ];
 
 impl AuditValue {
     /// Every value, in the order of the columns.
-    pub const ALL: [AuditValue; 5] =
-        [AuditValue::State, AuditValue::Omega, AuditValue::Attitude, AuditValue::Debris, AuditValue::Tolerance];
+    pub const ALL: [AuditValue; 6] = [
+        AuditValue::State,
+        AuditValue::Omega,
+        AuditValue::Attitude,
+        AuditValue::Debris,
+        AuditValue::Tolerance,
+        AuditValue::Estimate,
+    ];
 
     /// The values of audits of scenes with or without debris, in the order of the columns.
     pub fn of_scenes(has_debris: bool) -> impl Iterator<Item = AuditValue> + Clone {
@@ -117,6 +130,7 @@ impl Audit {
             AuditValue::Attitude => self.attitude,
             AuditValue::Debris => self.debris,
             AuditValue::Tolerance => self.reference_tolerance,
+            AuditValue::Estimate => self.estimate,
         }
     }
 }

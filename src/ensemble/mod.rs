@@ -1,6 +1,6 @@
 //! Layer 5: many runs on all cores. A row is a pure function of (plan, sample).
 //!
-//! - [`parts`]: how samples are divided into parts. - [`rows`]: the rows of a part. - [`sink`]: takes the rows.
+//! - [`mod@parts`]: how samples are divided into parts; [`run_cost`]: their size. - [`rows`]: the rows of a part. - [`sink`]: takes the rows.
 //! - [`worker`]: [`Ensemble`], shared by all threads, and [`Worker`], the memory of one thread.
 //! - [`runner`]: distributes parts to threads. - [`drawn`]: sampled parameters without runs; [`percentiles`]: theirs.
 //! - [`bands`]: quantiles over time, counted run by run.
@@ -20,6 +20,7 @@ pub mod percentiles;
 pub mod precision;
 pub mod probe;
 pub mod rows;
+pub mod run_cost;
 pub mod runner;
 pub mod settings;
 pub mod single;
@@ -32,7 +33,7 @@ pub use drawn::DrawnScenes;
 pub use parts::{Part, PartId, Parts};
 pub use percentiles::Percentiles;
 pub use rows::{Rows, Shape};
-pub use runner::{RunError, run};
+pub use runner::{RunError, Supervision, run};
 pub use single::SingleRun;
 pub use sink::Sink;
 pub use worker::{Ensemble, Worker};

@@ -1,18 +1,20 @@
 //! [`Parts`]: the samples of a campaign divided into parts of consecutive samples.
 //!
-//! The division depends on the number of samples only, not on threads or machine: a part is the unit of work of a thread, the
-//! content of a file, and the unit in which a campaign can be resumed or divided among machines.
+//! A part is the unit of work of a thread, the content of a file, and the unit in which a campaign is resumed or divided among machines.
+//! Its boundaries depend on what the rows are and on nothing else: not on threads, machine or shards, and not on the number of samples, so
+//! that a campaign with more samples has the same parts and some more. Parts grow with their number: those of a small campaign are small
+//! enough for all threads to have work, those of a large one large enough for files to be few.
 
 use crate::sampling::SampleId;
 
-/// The smallest part: for a smaller one, creating the file costs more than the runs.
+/// The size of the first parts: for a smaller one, creating the file costs more than the runs.
 const SMALLEST: u64 = 256;
 
 /// The largest part: its rows (about a hundred columns) take some 10 MB per thread.
 const LARGEST: u64 = 16_384;
 
-/// A campaign has about this many parts, so that all threads end at nearly the same time.
-const AIM: u64 = 32;
+/// After so many parts of one size, parts are twice as large.
+const OF_ONE_SIZE: u64 = 16;
 
 /// The number of a part, from zero in the order of its samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -40,31 +42,69 @@ impl Part {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Parts {
     samples: u64,
-    size: u64,
+    largest: u64,
 }
 
 impl Parts {
-    /// The parts of a campaign of `samples` samples.
+    /// The parts of a campaign of `samples` samples whose runs are short.
     pub fn of(samples: u64) -> Self {
-        let size = samples.div_ceil(AIM).next_multiple_of(64).clamp(SMALLEST, LARGEST);
-        Parts { samples, size }
+        Self::up_to(samples, LARGEST)
+    }
+
+    /// The parts of a campaign of `samples` samples, none larger than `largest` (at least 1).
+    pub fn up_to(samples: u64, largest: u64) -> Self {
+        Parts { samples, largest: largest.clamp(1, LARGEST) }
+    }
+
+    /// Sizes with their number of parts, in order; the last size goes on without end.
+    fn sizes(self) -> impl Iterator<Item = (u64, Option<u64>)> {
+        let mut size = SMALLEST.min(self.largest);
+        std::iter::from_fn(move || {
+            let now = size;
+            size = (2 * size).min(self.largest);
+            Some((now, (now < self.largest).then_some(OF_ONE_SIZE)))
+        })
     }
 
     /// Number of parts.
     pub fn count(self) -> u64 {
-        self.samples.div_ceil(self.size)
-    }
-
-    /// Number of samples of every part but the last, which may have fewer.
-    pub fn size(self) -> usize {
-        self.size as usize
+        let (mut left, mut parts) = (self.samples, 0);
+        for (size, many) in self.sizes() {
+            let needed = left.div_ceil(size);
+            match many {
+                Some(many) if needed > many => (left, parts) = (left - many * size, parts + many),
+                _ => return parts + needed,
+            }
+        }
+        parts
     }
 
     /// The part `id`; `None` after the last.
     pub fn part(self, id: PartId) -> Option<Part> {
-        let first = id.0.checked_mul(self.size).filter(|first| *first < self.samples)?;
-        let count = self.size.min(self.samples - first) as usize;
-        Some(Part { id, first: SampleId(first), count })
+        let (mut first, mut index) = (0_u64, id.0);
+        for (size, many) in self.sizes() {
+            match many {
+                Some(many) if index >= many => (first, index) = (first + many * size, index - many),
+                _ => {
+                    let first = first.checked_add(index.checked_mul(size)?).filter(|first| *first < self.samples)?;
+                    let count = size.min(self.samples - first) as usize;
+                    return Some(Part { id, first: SampleId(first), count });
+                }
+            }
+        }
+        None
+    }
+
+    /// The part with sample `sample`; `None` after the last.
+    pub fn with(self, sample: SampleId) -> Option<Part> {
+        let (mut first, mut id) = (0_u64, 0_u64);
+        for (size, many) in self.sizes() {
+            match many {
+                Some(many) if sample.0 - first >= many * size => (first, id) = (first + many * size, id + many),
+                _ => return self.part(PartId(id + (sample.0 - first) / size)),
+            }
+        }
+        None
     }
 
     /// All parts in order.
@@ -73,20 +113,35 @@ impl Parts {
     }
 }
 
+impl IntoIterator for Parts {
+    type Item = Part;
+    type IntoIter = Box<dyn Iterator<Item = Part>>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        Box::new(self.iter())
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    const NUMBERS: [u64; 11] = [0, 1, 255, 256, 257, 4096, 4097, 100_000, 1_000_000, 1_000_003, 5_000_000];
+
     /// Law: every sample is in exactly one part, in order, and sizes are within their bounds.
     #[test]
     fn parts_tile_the_samples() {
-        for samples in [0, 1, 255, 256, 257, 4096, 4097, 100_000, 1_000_000, 1_000_003] {
-            let parts = Parts::of(samples);
+        for (samples, largest) in
+            NUMBERS.into_iter().flat_map(|samples| [(samples, LARGEST), (samples, 1000), (samples.min(3000), 7)])
+        {
+            let parts = Parts::up_to(samples, largest);
             let mut next = 0;
             for part in parts.iter() {
                 assert_eq!(part.first.0, next, "{samples} samples");
-                assert!(part.count >= 1 && part.count <= LARGEST as usize);
+                assert!(part.count >= 1 && part.count <= largest as usize);
                 assert_eq!(part.samples().count(), part.count);
+                assert_eq!(parts.with(part.first), Some(part));
+                assert_eq!(parts.with(SampleId(next + part.count as u64 - 1)), Some(part));
                 next += part.count as u64;
             }
             assert_eq!(next, samples);
@@ -94,12 +149,30 @@ mod tests {
         }
     }
 
-    /// Law: the size of a part is bounded, and so is memory.
+    /// Law: boundaries do not depend on the number of samples: all parts but the last are those of any larger campaign.
     #[test]
-    fn size_is_bounded() {
-        assert_eq!(Parts::of(1).size(), SMALLEST as usize);
-        assert_eq!(Parts::of(u64::MAX / 2).size(), LARGEST as usize);
-        assert_eq!(Parts::of(4096).size(), 256);
+    fn boundaries_do_not_depend_on_the_number_of_samples() {
+        for largest in [LARGEST, 1000, 7] {
+            let all = Parts::up_to(200_000, largest);
+            for samples in [1_u64, 300, 4097, 77_777, 199_999] {
+                let parts = Parts::up_to(samples, largest);
+                for part in parts.iter().take(parts.count() as usize - 1) {
+                    assert_eq!(all.part(part.id), Some(part), "{samples} samples");
+                }
+                let last = parts.part(PartId(parts.count() - 1)).unwrap();
+                assert_eq!(all.part(last.id).unwrap().first, last.first, "{samples} samples");
+            }
+        }
+    }
+
+    /// Law: a small campaign has several parts, and the size of a part is bounded, and so is memory.
+    #[test]
+    fn sizes_grow_up_to_the_largest() {
+        assert_eq!((Parts::of(4096).count(), Parts::of(1000).count()), (16, 4));
+        let parts = Parts::of(u64::MAX / 2);
+        assert_eq!(parts.part(PartId(0)).unwrap().count, SMALLEST as usize);
+        assert_eq!(parts.part(PartId(10_000)).unwrap().count, LARGEST as usize);
+        assert!(Parts::of(1_000_000).count() < 200);
     }
 
     /// Law: there is no part after the last, however large its number is.

@@ -6,6 +6,7 @@ use crate::campaign::SceneDraws;
 use crate::ensemble::audit::Auditor;
 use crate::ensemble::parts::{Part, PartId};
 use crate::ensemble::rows::Rows;
+use crate::ensemble::runner::Supervision;
 use crate::ensemble::worker::Ensemble;
 use crate::run::Status;
 use crate::sampling::SampleId;
@@ -33,7 +34,7 @@ impl RunProbe {
         let mut worker = ensemble.worker();
         let mut timed = |count: usize| {
             let start = Instant::now();
-            worker.run(Part { id: PartId(0), first: SampleId(0), count }, &mut rows, &|_| {});
+            worker.run(Part { id: PartId(0), first: SampleId(0), count }, &mut rows, Supervision::progress(&|_| {}));
             start.elapsed().as_secs_f64()
         };
         timed(1); // allocates and fills the caches

@@ -1,17 +1,17 @@
-//! [`run`]: the parts of a campaign over threads.
+//! [`run`]: parts of a campaign over threads.
 //!
 //! A free thread takes the next part in order, and works in memory of its own. Nothing in a row depends on the thread.
 //! Rayon's parallel iterators, which split ranges in halves, were rejected: the parts completed at any moment would be scattered
 //! over the campaign instead of being its first ones, apart from those under way.
 
 use std::num::NonZeroUsize;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 use thiserror::Error;
 
-use crate::ensemble::parts::{PartId, Parts};
+use crate::ensemble::parts::Part;
 use crate::ensemble::sink::Sink;
 use crate::ensemble::worker::Ensemble;
 
@@ -26,31 +26,64 @@ pub enum RunError<E> {
     Sink(E),
 }
 
-/// Runs every part of `ensemble` and passes the rows to `sink`. `threads` of `None` means one per core.
-///
-/// `progress` is called from any thread with the number of samples completed since its last call there.
+/// What a campaign is told while it runs, and what it tells.
+#[derive(Clone, Copy)]
+pub struct Supervision<'a> {
+    /// Called from any thread with the number of samples completed since its last call there.
+    pub progress: &'a (dyn Fn(u64) + Sync),
+    /// No further part is started once this is set.
+    pub stop: &'a AtomicBool,
+    /// Parts under way are given up once this is set.
+    pub abandon: &'a AtomicBool,
+}
+
+/// A flag that nobody sets.
+static NEVER: AtomicBool = AtomicBool::new(false);
+
+impl<'a> Supervision<'a> {
+    /// A campaign that nobody stops.
+    pub fn progress(progress: &'a (dyn Fn(u64) + Sync)) -> Self {
+        Supervision { progress, stop: &NEVER, abandon: &NEVER }
+    }
+}
+
+/// How many threads have work, of those that are asked for (`None`: one per core), with so many parts.
+pub fn threads(asked: Option<NonZeroUsize>, parts: usize) -> usize {
+    let cores = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+    asked.map_or_else(cores, NonZeroUsize::get).min(parts.max(1))
+}
+
+/// Runs `parts` of `ensemble` and passes the rows to `sink`, each part once. `asked` threads work on them, but no more than there are
+/// parts ([`threads`]).
 ///
 /// # Errors
 /// Where threads could not be started, or the first error of the sink; no part is started after it.
 pub fn run<S: Sink>(
     ensemble: &Ensemble<'_>,
-    parts: Parts,
-    threads: Option<NonZeroUsize>,
+    parts: impl IntoIterator<Item = Part>,
+    asked: Option<NonZeroUsize>,
     sink: &S,
-    progress: &(dyn Fn(u64) + Sync),
+    supervision: Supervision<'_>,
 ) -> Result<(), RunError<S::Error>> {
-    let pool = ThreadPoolBuilder::new().num_threads(threads.map_or(0, NonZeroUsize::get)).build()?;
-    let next = AtomicU64::new(0);
+    let parts: Vec<Part> = parts.into_iter().collect();
+    let largest = parts.iter().map(|part| part.count).max().unwrap_or(0);
+    let pool = ThreadPoolBuilder::new().num_threads(threads(asked, parts.len())).build()?;
+    let (next, is_failed) = (AtomicUsize::new(0), AtomicBool::new(false));
     let failure: Mutex<Option<S::Error>> = Mutex::new(None);
+    let is_on = || !supervision.stop.load(Ordering::Relaxed) && !is_failed.load(Ordering::Relaxed);
     pool.broadcast(|_| {
         // Memory is allocated on the thread that uses it, and only where it gets a part.
         let mut memory = None;
-        while let Some(part) = parts.part(PartId(next.fetch_add(1, Ordering::Relaxed))) {
+        while is_on()
+            && let Some(part) = parts.get(next.fetch_add(1, Ordering::Relaxed))
+        {
             let (worker, rows) =
-                memory.get_or_insert_with(|| (ensemble.worker(), ensemble.rows(parts.size())));
-            worker.run(part, rows, &|samples| progress(samples));
+                memory.get_or_insert_with(|| (ensemble.worker(), ensemble.rows(largest)));
+            if !worker.run(*part, rows, supervision) {
+                break;
+            }
             if let Err(error) = sink.take(rows) {
-                next.store(parts.count(), Ordering::Relaxed);
+                is_failed.store(true, Ordering::Relaxed);
                 failure.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
             }
         }

@@ -1,5 +1,6 @@
 //! [`Ensemble`]: a plan made ready to run; [`Worker`]: the memory in which one thread runs samples of it.
 
+use std::sync::atomic::Ordering;
 use std::sync::{Arc, OnceLock};
 
 use crate::campaign::{Plan, SceneDraws};
@@ -8,6 +9,7 @@ use crate::ensemble::bands::{BandLayout, PartBands, band_points};
 use crate::ensemble::cpu_clock::thread_seconds;
 use crate::ensemble::parts::Part;
 use crate::ensemble::rows::{Rows, Shape};
+use crate::ensemble::runner::Supervision;
 use crate::ensemble::settings::{nominal, nominal_attitude, propagator, request};
 use crate::math::Isa;
 use crate::observables::band_series::band_series;
@@ -134,10 +136,13 @@ pub struct Worker<'c> {
 }
 
 impl Worker<'_> {
-    /// Runs the samples of `part` and writes their rows; `progress` is told the number of samples of each batch.
-    pub fn run(&mut self, part: Part, rows: &mut Rows, progress: &dyn Fn(u64)) {
+    /// Runs the samples of `part` and writes their rows; false where it was given up.
+    pub fn run(&mut self, part: Part, rows: &mut Rows, supervision: Supervision<'_>) -> bool {
         rows.start(part);
         for start in (0..part.count).step_by(BATCH) {
+            if supervision.abandon.load(Ordering::Relaxed) {
+                return false;
+            }
             let end = part.count.min(start + BATCH);
             let begun = self.audits.as_ref().map(|_| thread_seconds());
             self.draw(part, start..end, rows);
@@ -147,9 +152,10 @@ impl Worker<'_> {
                 self.audit(part, rows);
                 rows.add_seconds(done - begun, thread_seconds() - done);
             }
-            progress((end - start) as u64);
+            (supervision.progress)((end - start) as u64);
         }
         rows.bands_mut().into_iter().for_each(PartBands::count);
+        true
     }
 
     /// Draws the samples of `batch`. One that is not physical keeps the row of [`Rows::start`]: `invalid_sample`.

@@ -125,9 +125,8 @@ impl AuditSummary {
     }
 }
 
-/// CPU time of the audits, and its share of the total.
-pub fn cost(audits: &AuditTally) -> String {
-    let [runs, audits] = audits.seconds();
+/// CPU time of the audits, and its share of the total; of CPU time of runs and of audits, s.
+pub fn cost([runs, audits]: [f64; 2]) -> String {
     format!("{} s of CPU time, {:.1}% of the total", short(audits), 100.0 * audits / (runs + audits).max(1e-9))
 }
 

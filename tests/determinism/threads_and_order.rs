@@ -5,7 +5,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use spindrift::campaign::{Overrides, Plan};
-use spindrift::ensemble::{Ensemble, Part, PartId, Parts, Rows, RunError, Sink, run};
+use spindrift::ensemble::{Ensemble, Part, PartId, Parts, Rows, RunError, Sink, Supervision, run};
 use spindrift::math::Isa;
 use spindrift::run::Status;
 use spindrift::sampling::SampleId;
@@ -59,7 +59,7 @@ impl Sink for Memory {
 fn whole(campaign: &Ensemble<'_>, threads: usize) -> Vec<(u64, Bits)> {
     let sink = Memory::default();
     let parts = Parts::of(campaign.plan().samples);
-    run(campaign, parts, NonZeroUsize::new(threads), &sink, &|_| {}).unwrap();
+    run(campaign, parts, NonZeroUsize::new(threads), &sink, Supervision::progress(&|_| {})).unwrap();
     let mut rows = sink.rows.into_inner().unwrap();
     rows.sort_by_key(|(sample, _)| *sample);
     rows
@@ -86,7 +86,7 @@ fn rows_do_not_depend_on_company() {
     let expected = whole(&campaign, 1);
     let (mut worker, mut rows) = (campaign.worker(), Rows::new(campaign.shape(), 300));
     for (first, count) in [(999, 1), (0, 1), (517, 1), (3, 300), (250, 13), (998, 2), (0, 129)] {
-        worker.run(Part { id: PartId(0), first: SampleId(first), count }, &mut rows, &|_| {});
+        worker.run(Part { id: PartId(0), first: SampleId(first), count }, &mut rows, Supervision::progress(&|_| {}));
         for row in 0..count {
             assert!(bits(&rows, row) == expected[first as usize + row].1, "sample {}", first as usize + row);
         }
@@ -115,7 +115,7 @@ fn a_full_sink_stops_the_campaign() {
     assert!(parts.count() > 8);
     let offered = |threads: usize, first_refused: u64| {
         let sink = Memory { full_from: Some(first_refused), ..Memory::default() };
-        let ended = run(&ensemble, parts, NonZeroUsize::new(threads), &sink, &|_| {});
+        let ended = run(&ensemble, parts, NonZeroUsize::new(threads), &sink, Supervision::progress(&|_| {}));
         assert!(matches!(ended, Err(RunError::Sink(error)) if error.starts_with("no space for part ")));
         sink.parts.into_inner()
     };
@@ -135,6 +135,6 @@ fn progress_counts_every_sample() {
     let count = |samples| {
         heard.fetch_add(samples, Ordering::Relaxed);
     };
-    run(&campaign, Parts::of(777), None, &Memory::default(), &count).unwrap();
+    run(&campaign, Parts::of(777), None, &Memory::default(), Supervision::progress(&count)).unwrap();
     assert_eq!(heard.into_inner(), 777);
 }

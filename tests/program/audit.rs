@@ -12,7 +12,7 @@ use arrow_array::types::{Float64Type, UInt64Type};
 use serde_json::Value;
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::ensemble::audit::Selection;
-use spindrift::ensemble::{Audit, Auditor, Ensemble, Parts, Rows, Sink, run};
+use spindrift::ensemble::{Audit, Auditor, Ensemble, Parts, Rows, Sink, Supervision, run};
 use spindrift::math::Isa;
 use spindrift::ode::Tolerance;
 use spindrift::run::Status;
@@ -52,8 +52,14 @@ impl Sink for Memory {
 
 fn rows(plan: &Plan, threads: usize) -> BTreeMap<u64, Row> {
     let sink = Memory::default();
-    run(&Ensemble::new(plan, Isa::best()), Parts::of(plan.samples), NonZeroUsize::new(threads), &sink, &|_| {})
-        .unwrap();
+    run(
+        &Ensemble::new(plan, Isa::best()),
+        Parts::of(plan.samples),
+        NonZeroUsize::new(threads),
+        &sink,
+        Supervision::progress(&|_| {}),
+    )
+    .unwrap();
     sink.0.into_inner().unwrap()
 }
 

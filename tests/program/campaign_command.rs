@@ -82,12 +82,15 @@ fn leftovers_are_recognised() {
     let said = scratch.prints("campaign small.toml --seed 9 --out half", 4);
     assert!(said.contains("unfinished result of another plan"), "{said}");
     let said = scratch.prints("campaign small.toml --out half", 0);
-    assert!(said.contains("starting again"), "{said}");
+    assert!(said.contains("344 samples are there already, 256 to run"), "{said}");
     assert_eq!(scratch.parts("half"), scratch.parts("whole"));
+    assert!(!scratch.path("half/summary.json.tmp").exists(), "no temporary file is left");
 
+    let before = scratch.parts("whole");
     fs::remove_file(scratch.path("whole/runs/part-000001.parquet")).unwrap();
-    let said = scratch.prints("campaign small.toml --out whole", 4);
+    let said = scratch.prints("campaign small.toml --out whole", 0);
     assert!(said.contains("damaged") && said.contains("part-000001.parquet"), "{said}");
+    assert_eq!(scratch.parts("whole"), before);
 }
 
 #[test]
@@ -97,7 +100,7 @@ fn what_is_not_a_result_is_left_alone() {
     scratch.file("thesis/chapter1.tex", "precious");
     for flags in ["", "--overwrite"] {
         let said = scratch.prints(&format!("campaign small.toml --out thesis {flags}"), 4);
-        assert!(said.contains("not a result of spindrift"), "{said}");
+        assert!(said.contains("not part of a result of spindrift"), "{said}");
     }
     scratch.file("thesis/summary.json", r#"{"of": "chapter 1"}"#);
     scratch.prints("campaign small.toml --out thesis --overwrite", 4);

@@ -131,7 +131,8 @@ fn files_say_what_they_contain() {
             for column in reader.metadata().row_group(0).columns() {
                 assert_eq!(column.compression(), codec, "{}", column.column_path());
             }
-            let plan = Plan::from_text("r", &says("spindrift.plan"), Overrides::default()).unwrap();
+            let plan = Plan::from_text("r", &text, Overrides::default()).unwrap();
+            assert_eq!((says("spindrift.row_plan"), says("spindrift.row_hash")), (plan.row_text(), plan.row_hash()));
             let ensemble = Ensemble::new(&plan, Isa::best());
             let columns = ensemble.request().columns();
             for field in reader.schema().fields() {

@@ -22,7 +22,7 @@ const LAYERS: [(&str, u32); 15] = [
 ];
 
 /// Where each dependency may be used: modules, or single files. An empty list means everywhere.
-const CRATES: [(&str, &[&str]); 21] = [
+const CRATES: [(&str, &[&str]); 22] = [
     ("arrow_schema", &["dataset"]),
     ("clap", &["cli"]),
     ("crc32fast", &["dataset"]),
@@ -40,8 +40,9 @@ const CRATES: [(&str, &[&str]); 21] = [
     ("rayon", &["ensemble"]),
     ("rustix", &["ensemble/cpu_clock.rs"]),
     ("serde", &["dataset", "report"]),
-    ("serde_json", &["dataset", "report"]),
-    ("sha2", &["campaign"]),
+    ("serde_json", &["cli/finish_campaign.rs", "dataset", "report"]),
+    ("sha2", &["campaign", "dataset"]),
+    ("signal_hook", &["cli/signals.rs"]),
     ("thiserror", &[]),
     ("toml", &["campaign"]),
 ];

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Mutex;
 
 use spindrift::campaign::{Overrides, Plan};
-use spindrift::ensemble::{Ensemble, Parts, Rows, Sink, run};
+use spindrift::ensemble::{Ensemble, Parts, Rows, Sink, Supervision, run};
 use spindrift::math::Isa;
 use spindrift::run::Status;
 
@@ -64,7 +64,7 @@ pub fn rows(plan: &Plan) -> Table {
     let campaign = Ensemble::new(plan, Isa::best());
     let names = campaign.request().columns().iter().map(|column| column.quantity.name().to_owned()).collect::<Vec<_>>();
     let sink = Memory::default();
-    run(&campaign, Parts::of(plan.samples), None, &sink, &|_| {}).expect("threads");
+    run(&campaign, Parts::of(plan.samples), None, &sink, Supervision::progress(&|_| {})).expect("threads");
     let mut kept = sink.0.into_inner().expect("no thread panicked");
     kept.sort_by_key(|(sample, ..)| *sample);
     let values = (0..names.len()).map(|place| kept.iter().map(|(.., row)| row[place]).collect()).collect();

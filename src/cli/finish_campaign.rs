@@ -1,0 +1,147 @@
+//! [`finish`]: what is made of the rows of a campaign once all of them are there; `spindrift finish`.
+//!
+//! It is a function of the plan and the rows: whichever processes made them, and however often they were stopped, the files are the same.
+
+use std::num::NonZeroUsize;
+use std::path::Path;
+use std::time::Duration;
+
+use serde_json::Value;
+
+use crate::campaign::{Overrides, Plan};
+use crate::cli::arguments::FinishOptions;
+use crate::cli::command_outcome::{CommandOutcome, Failure};
+use crate::cli::input::{isa, plan};
+use crate::cli::screen;
+use crate::dataset::claim::{Claim, ClaimOptions, Ready, claim, open, replace};
+use crate::dataset::identity::identity;
+use crate::dataset::names::{PLAN, SUMMARY};
+use crate::dataset::rows_reader::RowsReader;
+use crate::dataset::storage::Disk;
+use crate::dataset::tally::Tally;
+use crate::ensemble::Ensemble;
+use crate::ensemble::run_cost::parts;
+use crate::ensemble::runner::threads;
+use crate::report::audit_summary::cost;
+use crate::report::number::bytes;
+use crate::report::summary::Summary;
+
+/// A dataset whose parts are all there.
+#[derive(Clone, Copy, Debug)]
+pub struct Finishing<'a> {
+    /// The campaign.
+    pub ensemble: &'a Ensemble<'a>,
+    /// The dataset.
+    pub ready: &'a Ready,
+    /// Where it is for its user.
+    pub root: &'a Path,
+    /// How many threads read.
+    pub threads: Option<NonZeroUsize>,
+    /// The campaign file as `simulate` takes it.
+    pub replayed: &'a str,
+    /// Samples that this process ran, and how long that took.
+    pub made: Option<(u64, Duration)>,
+    /// CPU time of runs and audits of this process, s.
+    pub seconds: [f64; 2],
+}
+
+/// Makes everything that follows from the rows, marks the dataset as finished, and says what was found.
+///
+/// # Errors
+/// Where rows cannot be read or a file operation fails.
+pub fn finish(job: &Finishing<'_>) -> Result<CommandOutcome, Failure> {
+    let (plan, folder) = (job.ensemble.plan(), &job.ready.folder);
+    let records = folder.parts();
+    let files = records.iter().flat_map(|part| part.files.first()).map(|file| folder.path(&file.name)).collect();
+    let reader = RowsReader::new(files);
+    let tally = Tally::of_files(job.ensemble, &reader, job.threads).map_err(Failure::files)?;
+    let summary = Summary::new(plan, &tally);
+    let outcome = match tally.failed() {
+        0 => CommandOutcome::Done,
+        failed => CommandOutcome::SomeFailed(failed),
+    };
+    folder.write(SUMMARY, summary.json().as_bytes()).map_err(Failure::files)?;
+    folder.finish().map_err(Failure::files)?;
+    if let Some(old) = &job.ready.replaces {
+        replace(folder.storage(), folder.root(), old).map_err(Failure::files)?;
+    }
+    let audits = match (tally.audits(), job.seconds) {
+        (Some(_), seconds) if seconds[1] > 0.0 => format!("\n  audits: {}\n", cost(seconds)),
+        _ => String::new(),
+    };
+    screen::print(&format!(
+        "{}\n{summary}{audits}\n{}\n  {}: {} file{} of rows, {}\n",
+        headline(plan, &summary, job.made),
+        summary.replay(job.replayed),
+        job.root.display(),
+        records.len(),
+        if records.len() == 1 { "" } else { "s" },
+        bytes(folder.size()),
+    ))?;
+    Ok(outcome)
+}
+
+fn headline(plan: &Plan, summary: &Summary, made: Option<(u64, Duration)>) -> String {
+    let (name, samples, seed) = (&plan.name, plan.samples, plan.seed);
+    let run = match made {
+        Some((made, elapsed)) if made > 0 => {
+            let seconds = elapsed.as_secs_f64();
+            let which = if made == samples { String::new() } else { format!("{made} of them now, ") };
+            format!(", {which}in {seconds:.2} s ({:.0}/s)", made as f64 / seconds.max(1e-9))
+        }
+        _ => String::new(),
+    };
+    format!("{name}: {samples} samples ({}){run}, seed {seed}", summary.samples())
+}
+
+/// How a command ends that finds the summary of a finished result: as the one that finished it.
+pub fn outcome_of(summary: &str) -> CommandOutcome {
+    let value: Value = serde_json::from_str(summary).unwrap_or_default();
+    let statuses = value.get("statuses").and_then(Value::as_object);
+    let failed =
+        statuses.into_iter().flatten().filter(|(name, _)| *name != "ok").filter_map(|(_, count)| count.as_u64()).sum();
+    if failed == 0 { CommandOutcome::Done } else { CommandOutcome::SomeFailed(failed) }
+}
+
+/// Runs the command `finish`.
+///
+/// # Errors
+/// Where parts are missing or damaged, or a file operation fails.
+pub fn run(options: &FinishOptions) -> Result<CommandOutcome, Failure> {
+    let root = &options.folder;
+    drop(open(&Disk, root).map_err(Failure::files)?); // a folder that is none is not created
+    let plan = plan(&root.join(PLAN), Overrides::default())?;
+    let ensemble = Ensemble::new(&plan, isa()?);
+    let claimed = ClaimOptions { overwrite: false, shard: None, threads: threads(options.threads, usize::MAX) };
+    let ready = match claim(&Disk, root, (&plan, &identity(&ensemble)), claimed).map_err(Failure::files)? {
+        Claim::Finished(summary) => {
+            screen::print(&format!("{}: already finished, every checksum verified\n", root.display()))?;
+            return Ok(outcome_of(&summary));
+        }
+        Claim::Ready(ready) => *ready,
+    };
+    ready.damaged.iter().for_each(|what| screen::note(&format!("{}: damaged: {what}", root.display())));
+    let missing = ready.folder.missing(parts(&plan, ensemble.isa()).iter());
+    if let (Some(first), Some(last)) = (missing.first(), missing.last()) {
+        let plan_file = root.join(PLAN);
+        return Err(Failure::Files(format!(
+            "{}: {} parts are missing, from part {} to part {}; this makes them and finishes: spindrift campaign {} --out {}",
+            root.display(),
+            missing.len(),
+            first.id.0,
+            last.id.0,
+            plan_file.display(),
+            root.display(),
+        )));
+    }
+    let replayed = root.join(PLAN).display().to_string();
+    finish(&Finishing {
+        ensemble: &ensemble,
+        ready: &ready,
+        root,
+        threads: options.threads,
+        replayed: &replayed,
+        made: None,
+        seconds: [0.0; 2],
+    })
+}

@@ -1,0 +1,103 @@
+//! The names of the files of a dataset. What has another name is not ours, and is never changed.
+
+use crate::ensemble::PartId;
+
+/// The resolved plan.
+pub const PLAN: &str = "plan.toml";
+/// What the dataset consists of.
+pub const MANIFEST: &str = "manifest.jsonl";
+/// The empty file that says that everything is there.
+pub const SUCCESS: &str = "_SUCCESS";
+/// The summary for programs.
+pub const SUMMARY: &str = "summary.json";
+/// Statistics of every observable.
+pub const STATISTICS: &str = "statistics.parquet";
+/// What drives the observables.
+pub const SENSITIVITY: &str = "sensitivity.parquet";
+/// Quantiles over time.
+pub const BANDS: &str = "bands.parquet";
+/// The page.
+pub const REPORT: &str = "report.html";
+/// Folder of the files of rows.
+pub const RUNS: &str = "runs";
+/// Folder of the bands of parts.
+pub const PART_BANDS: &str = "bands";
+/// Folder of the manifests of shards.
+pub const SHARDS: &str = "shards";
+/// Folder of the time series that are kept.
+pub const TRAJECTORIES: &str = "trajectories";
+/// Folder of the log by which table engines read the rows.
+pub const TABLE_LOG: &str = "_delta_log";
+/// Suffix of a file that is not whole yet.
+pub const UNFINISHED: &str = ".tmp";
+
+/// The files at the top of a dataset.
+pub const TOP_FILES: [&str; 8] = [PLAN, MANIFEST, SUCCESS, SUMMARY, STATISTICS, SENSITIVITY, BANDS, REPORT];
+
+/// The folders of a dataset.
+pub const FOLDERS: [&str; 5] = [RUNS, PART_BANDS, SHARDS, TRAJECTORIES, TABLE_LOG];
+
+/// The name of the file of rows of `part`, below the folder of the dataset.
+pub fn rows_of(part: PartId) -> String {
+    format!("{RUNS}/part-{:06}.parquet", part.0)
+}
+
+/// The name of the file of bands of `part`, below the folder of the dataset.
+pub fn bands_of(part: PartId) -> String {
+    format!("{PART_BANDS}/part-{:06}.bands", part.0)
+}
+
+/// The name of the manifest of shard `shard` of `shards`, counted from 1.
+pub fn manifest_of(shard: u64, shards: u64) -> String {
+    format!("{SHARDS}/{shard}-of-{shards}.jsonl")
+}
+
+/// Whether a dataset may have a file `name` in `folder`, whole or not.
+pub fn is_ours(folder: &str, name: &str) -> bool {
+    let name = name.strip_suffix(UNFINISHED).unwrap_or(name);
+    let numbered = |start: &str, end: &str, digits: usize| {
+        let number = name.strip_prefix(start).and_then(|rest| rest.strip_suffix(end));
+        number.is_some_and(|number| number.len() >= digits && number.bytes().all(|byte| byte.is_ascii_digit()))
+    };
+    match folder {
+        "" => TOP_FILES.contains(&name),
+        RUNS => numbered("part-", ".parquet", 6),
+        PART_BANDS => numbered("part-", ".bands", 6),
+        TRAJECTORIES => numbered("sample-", ".parquet", 6),
+        TABLE_LOG => numbered("", ".json", 20),
+        SHARDS => shard_of(name).is_some(),
+        _ => false,
+    }
+}
+
+/// Shard and number of shards of the manifest `name` in the folder of shards.
+pub fn shard_of(name: &str) -> Option<(u64, u64)> {
+    let (shard, shards) = name.strip_suffix(".jsonl")?.split_once("-of-")?;
+    Some((shard.parse().ok()?, shards.parse().ok()?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: every name that a dataset gives is its own, whole or not; names of other programs are not.
+    #[test]
+    fn own_names_are_recognised() {
+        for name in [rows_of(PartId(3)), bands_of(PartId(3)), rows_of(PartId(12_345_678)), manifest_of(2, 13)] {
+            let (folder, file) = name.split_once('/').unwrap();
+            assert!(is_ours(folder, file) && is_ours(folder, &format!("{file}{UNFINISHED}")), "{name}");
+        }
+        assert!(TOP_FILES.iter().all(|name| is_ours("", name)));
+        assert_eq!(shard_of("2-of-13.jsonl"), Some((2, 13)));
+        for (folder, name) in [
+            ("", "terraform.plan"),
+            ("", "notes.txt"),
+            (RUNS, "part-00000-6f1c.snappy.parquet"),
+            (RUNS, "part-.parquet"),
+            (SHARDS, "x.jsonl"),
+            ("other", "part-000000.parquet"),
+        ] {
+            assert!(!is_ours(folder, name), "{folder}/{name}");
+        }
+    }
+}

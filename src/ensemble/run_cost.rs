@@ -1,0 +1,48 @@
+//! [`parts`]: the parts of a plan, sized by what its runs cost.
+//!
+//! The cost of a run is the work of the nominal one, which the machine does not change, times what a unit of work takes at most on a slow
+//! core. A clock would give other parts on another machine, or on the same one an hour later.
+
+use crate::campaign::Plan;
+use crate::ensemble::parts::Parts;
+use crate::ensemble::settings::{propagator, request};
+use crate::math::Isa;
+use crate::ode::Control;
+use crate::propagation::Method;
+use crate::run::Outcome;
+use crate::scene::Scene;
+
+/// Work of one thread that may be lost when a campaign is stopped, s.
+const LOST_S: f64 = 10.0;
+/// Most steps of the nominal run whose work is counted; a longer one is extrapolated.
+const COUNTED_STEPS: u64 = 20_000;
+/// Time of an evaluation, s, three times that of one alone in its vector on the reference machine (`cargo bench --bench kernels`).
+const EVALUATION_S: [(fn(Method) -> bool, f64); 2] =
+    [(|method| matches!(method, Method::NullSpace), 6e-6), (|_| true, 3e-6)];
+/// Time of an observed point with all columns, s.
+const POINT_S: f64 = 5e-7;
+/// Work of an audit over the work of its run: a reference solution in double-double at a tolerance of 1e-28.
+const AUDIT: f64 = 300.0;
+
+/// The parts of a campaign of `plan`.
+pub fn parts(plan: &Plan, isa: Isa) -> Parts {
+    Parts::up_to(plan.samples, (LOST_S / run_seconds(plan, isa)) as u64)
+}
+
+/// What a run of `plan` takes at most on one core, s.
+fn run_seconds(plan: &Plan, isa: Isa) -> f64 {
+    let Ok(scene) = Scene::resolve(&plan.nominal) else { return POINT_S };
+    let mut settings = propagator(plan, plan.grid.clone(), request(plan).fields());
+    settings.control = Control { max_steps: plan.max_steps.min(COUNTED_STEPS), ..settings.control };
+    let mut found: Option<Outcome> = None;
+    settings.engine(isa).propagate(&[scene], &mut |run| found = Some(*run.outcome));
+    let evaluations = found.map_or(COUNTED_STEPS as f64, |outcome| {
+        let share = (outcome.time / plan.grid.duration()).clamp(1e-9, 1.0);
+        outcome.effort.evaluations as f64 / share
+    });
+    // of a run that stops at the limit no more than the limit is done
+    let most = plan.max_steps.saturating_mul(16) as f64;
+    let each = EVALUATION_S.iter().find(|(is_of, _)| is_of(plan.method)).map_or(0.0, |(_, seconds)| *seconds);
+    let run = evaluations.min(most) * each + plan.grid.points() as f64 * POINT_S;
+    run * (1.0 + AUDIT * plan.audit_fraction)
+}
