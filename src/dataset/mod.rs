@@ -5,8 +5,9 @@
 //! - [`storage`]: file operations. - [`verify`]: whether files are what was written. - [`part_sink`]: writes finished parts.
 //! - [`rows_file`]: the files of rows; [`rows_reader`] reads them. - [`bands_file`]: of bands. - [`columnar`]: columns to Parquet. - [`atomic`]: files that are whole or absent.
 //! - [`tally`], [`audit_tally`]: statistics counted while rows are written. - [`provenance`]: metadata on the origin.
-//! - [`statistics`]: what the rows say of every observable ([`observed`], [`population`]).
 //! - [`table`]: tables in a single file: [`timeseries`], [`bands_table`], [`drawn_table`], [`precision_table`].
+//! - [`statistics`]: what the rows say of every observable ([`observed`], [`population`]); [`verdicts`]: of the requirements.
+//! - [`sensitivity`]: which input matters. - [`statistics_table`], [`sensitivity_table`]: both as files, by [`described_table`]. - [`parallel`]: threads.
 //!
 //! Not here: text and figures for people (`report`), and reading tables for a campaign (`campaign`).
 
@@ -16,21 +17,27 @@ pub mod bands_file;
 pub mod bands_table;
 pub mod claim;
 pub mod columnar;
+pub mod described_table;
 pub mod drawn_table;
 pub mod folder;
 pub mod identity;
 pub mod manifest;
 pub mod names;
 pub mod observed;
+pub mod parallel;
 pub mod part_sink;
 pub mod population;
 pub mod precision_table;
 pub mod provenance;
 pub mod rows_file;
 pub mod rows_reader;
+pub mod sensitivity;
+pub mod sensitivity_table;
 pub mod statistics;
+pub mod statistics_table;
 pub mod storage;
 pub mod table;
 pub mod tally;
 pub mod timeseries;
+pub mod verdicts;
 pub mod verify;

@@ -12,6 +12,7 @@ use std::sync::{Mutex, PoisonError};
 
 use crate::campaign::Plan;
 use crate::dataset::observed::Observed;
+use crate::dataset::parallel::in_parallel;
 use crate::dataset::population::Population;
 use crate::dataset::rows_reader::{PartReader, RowsError, RowsReader};
 use crate::run::{Quantity, Status};
@@ -233,32 +234,6 @@ fn collect(
         column.groups.iter_mut().zip(sketches).for_each(|(group, sketch)| group.sketch = sketch);
     }
     Ok(collected)
-}
-
-/// `each` of the items, on `threads` threads, in their order.
-fn in_parallel<T: Send, U: Send>(items: Vec<T>, threads: Option<NonZeroUsize>, each: impl Fn(T) -> U + Sync) -> Vec<U> {
-    let cores = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
-    let threads = threads.map_or_else(cores, NonZeroUsize::get).min(items.len());
-    if threads <= 1 {
-        return items.into_iter().map(each).collect();
-    }
-    let waiting = Mutex::new(items.into_iter().enumerate());
-    let done = Mutex::new(Vec::new());
-    std::thread::scope(|scope| {
-        for _ in 0..threads {
-            scope.spawn(|| {
-                loop {
-                    let next = waiting.lock().unwrap_or_else(PoisonError::into_inner).next();
-                    let Some((index, item)) = next else { return };
-                    let found = each(item);
-                    done.lock().unwrap_or_else(PoisonError::into_inner).push((index, found));
-                }
-            });
-        }
-    });
-    let mut done = done.into_inner().unwrap_or_else(PoisonError::into_inner);
-    done.sort_by_key(|(index, _)| *index);
-    done.into_iter().map(|(_, found)| found).collect()
 }
 
 /// The order statistics of a group of values.

@@ -62,11 +62,33 @@ const SMALLEST_PIVOT: f64 = 1e-10;
 ///
 /// `None` where the inputs are linearly dependent (a constant input included), or where there are not more rows than inputs and two.
 pub fn regression(inputs: &[Vec<f64>], y: &[f64], confidence: f64) -> Option<Regression> {
+    Regressors::new(inputs)?.regression(y, confidence)
+}
+
+/// Inputs that are ready for the regression of any number of columns.
+#[derive(Clone, Debug)]
+pub struct Regressors<'x> {
+    inputs: &'x [Vec<f64>],
+    inverse: DMatrix<f64>,
+}
+
+impl<'x> Regressors<'x> {
+    /// `inputs`, all [`standardised`](super::correlation::standardised); `None` where they are linearly dependent.
+    pub fn new(inputs: &'x [Vec<f64>]) -> Option<Self> {
+        Some(Regressors { inputs, inverse: inverse(&super::correlation::matrix(inputs))? })
+    }
+
+    /// As [`regression()`].
+    pub fn regression(&self, y: &[f64], confidence: f64) -> Option<Regression> {
+        of_inverse(self.inputs, &self.inverse, y, confidence)
+    }
+}
+
+fn of_inverse(inputs: &[Vec<f64>], inverse: &DMatrix<f64>, y: &[f64], confidence: f64) -> Option<Regression> {
     let count = inputs.len();
     let freedom = y.len().checked_sub(count + 1).filter(|freedom| *freedom > 0)? as f64;
     let r = DVector::from_iterator(count, inputs.iter().map(|x| product(x, y)));
-    let inverse = inverse(&super::correlation::matrix(inputs))?;
-    let beta = &inverse * &r;
+    let beta = inverse * &r;
     let r_squared = beta.dot(&r).clamp(0.0, 1.0);
     let t = two_sided_quantile(confidence, freedom);
     let estimate = |j: usize| {

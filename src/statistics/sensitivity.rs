@@ -41,14 +41,24 @@ pub fn saltelli_indices(blocks: &[Block], confidence: f64) -> Option<[Estimate; 
 ///
 /// Rows are put into bins of ascending `x`, equal values into one bin.
 pub fn first_order_index(x: &[f64], y: &[f64], confidence: f64) -> Option<Estimate> {
+    first_order_index_in_order(&ascending_order(x), x, y, confidence)
+}
+
+/// The rows of `x` in ascending order: for the indices of many observables.
+pub fn ascending_order(x: &[f64]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..x.len()).collect();
+    order.sort_by(|a, b| x[*a].total_cmp(&x[*b]));
+    order
+}
+
+/// As [`first_order_index`], for the [`ascending_order`] of `x`.
+pub fn first_order_index_in_order(order: &[usize], x: &[f64], y: &[f64], confidence: f64) -> Option<Estimate> {
     let rows = x.len();
     if rows < MIN_ROWS {
         return None;
     }
     let n = rows as f64;
     let mean = y.iter().sum::<f64>() / n;
-    let mut order: Vec<usize> = (0..rows).collect();
-    order.sort_by(|a, b| x[*a].total_cmp(&x[*b]));
     let size = n / (0.5 * libm::sqrt(n)).floor().min(MAX_BINS);
     let (mut explained, mut whole) = (Vec::with_capacity(rows), Vec::with_capacity(rows));
     let (mut start, mut bins) = (0, 0);

@@ -1,0 +1,73 @@
+//! `sensitivity.parquet`: what each input means for each observable, one row for each pair.
+
+use std::path::Path;
+
+use parquet::errors::ParquetError;
+
+use crate::campaign::Plan;
+use crate::dataset::described_table::{self, DescribedColumn};
+use crate::dataset::sensitivity::InputSensitivity;
+use crate::statistics::correlation::Estimate;
+
+/// Name of the file in the folder of a result.
+pub const FILE: &str = "sensitivity.parquet";
+
+/// A measure of sensitivity: name of its column, meaning, value.
+type Measure = (&'static str, &'static str, fn(&InputSensitivity) -> Option<Estimate>);
+
+/// The measures.
+const MEASURES: [Measure; 7] = [
+    ("pearson", "Pearson's correlation coefficient", |one| one.pearson),
+    ("spearman", "Spearman's rank correlation coefficient", |one| one.spearman),
+    ("partial_rank", "Partial rank correlation coefficient, the other inputs held fixed", |one| one.partial_rank),
+    ("regression", "Standardised regression coefficient", |one| one.regression),
+    ("r_squared", "Share of the variance that the regression on all inputs explains", |one| one.r_squared),
+    ("first_order", "First-order sensitivity index, the share of the variance of this input alone", |one| {
+        one.first_order
+    }),
+    ("total", "Total sensitivity index, with the interactions of this input", |one| one.total),
+];
+
+fn table(list: &[InputSensitivity]) -> Vec<DescribedColumn> {
+    let text = |name: &str, meaning: &str, of: &dyn Fn(&InputSensitivity) -> Option<String>| {
+        DescribedColumn::texts(name, meaning, list.iter().map(of))
+    };
+    let mut table = vec![
+        text("observable", "Name of the observable.", &|one| Some(one.observable.clone())),
+        text("input", "Column of the input; of a saltelli design what one distribution disperses.", &|one| {
+            Some(one.input.clone())
+        }),
+        DescribedColumn::counts("rows", "Number of rows: the first that are ok.", list.iter().map(|one| one.rows)),
+    ];
+    for (name, meaning, of) in MEASURES {
+        let ends: [(&str, &str, fn(Estimate) -> f64); 3] = [
+            ("", "", |estimate| estimate.value),
+            ("_lower", ": lower end of its interval", |estimate| estimate.lower),
+            ("_upper", ": upper end of its interval", |estimate| estimate.upper),
+        ];
+        for (suffix, what, end) in ends {
+            let values = list.iter().map(|one| of(one).map(end));
+            table.push(DescribedColumn::numbers(&format!("{name}{suffix}"), &format!("{meaning}{what}."), values));
+        }
+    }
+    table.extend([
+        text("correlated_with", "The input that this one is most correlated with, where that is notable.", &|one| {
+            one.correlated_with.as_ref().map(|(name, _)| name.clone())
+        }),
+        DescribedColumn::numbers(
+            "largest_correlation",
+            "Rank correlation of the two.",
+            list.iter().map(|one| one.correlated_with.as_ref().map(|(_, r)| *r)),
+        ),
+        text("note", "What to know about these numbers.", &|one| one.note.clone()),
+    ]);
+    table
+}
+
+/// Writes `list` of `plan` as the file `path`, which is whole or absent.
+///
+/// # Errors
+/// Where writing fails.
+pub fn save(plan: &Plan, list: &[InputSensitivity], path: &Path) -> Result<(), ParquetError> {
+    described_table::save(plan, &table(list), path)
+}

@@ -1,0 +1,350 @@
+//! [`Verdicts`]: what the runs of a campaign say of its requirements, from the files of its rows.
+//!
+//! Quantiles and fractions are decided by exact counts, never by a sketch. Outside of the population, and so of every count, are samples that are
+//! not physical; any other run that is not `ok` violates every requirement, and so does one without a value.
+
+use std::num::NonZeroUsize;
+
+use crate::campaign::{Plan, Requirement, Statement};
+use crate::dataset::observed::Observed;
+use crate::dataset::population::Population;
+use crate::dataset::rows_reader::{PartReader, RowsError, RowsReader};
+use crate::run::Status;
+use crate::statistics::binomial::Decision;
+use crate::statistics::gate::{Gate, Limit, fraction_gate, mean_gate, replicate_gate};
+use crate::statistics::moments::Moments;
+use crate::statistics::quantile::percent;
+use crate::statistics::sketch::Sketch;
+
+/// What the runs say of one requirement.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Assessment {
+    /// The requirement.
+    pub requirement: Requirement,
+    /// Unit of its limit; empty for a pure number.
+    pub unit: String,
+    /// What is decided, and from which estimate with which one-sided bounds: of the fraction of runs within the limit, or of the mean.
+    pub gate: Gate,
+    /// The quantile (within 0.05%) or the mean over the runs that have a value; `None` for fractions.
+    pub value: Option<f64>,
+    /// Runs that count: dispersed and physical.
+    pub runs: u64,
+    /// Runs of those that are not within the limit, or have no value.
+    pub violations: u64,
+    /// Runs of those that are not `ok`.
+    pub failed: u64,
+    /// Why nothing, or something else than the numbers say, was decided.
+    pub reason: Option<String>,
+}
+
+/// What the runs of a campaign say of its requirements.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Verdicts {
+    /// One for each requirement, in the order of the file.
+    pub list: Vec<Assessment>,
+    /// Dispersed samples that are not physical: outside of the population.
+    pub invalid: u64,
+    /// All dispersed samples.
+    pub samples: u64,
+}
+
+impl Verdicts {
+    /// How many requirements failed.
+    pub fn failed(&self) -> usize {
+        self.list.iter().filter(|one| one.gate.decision == Decision::Fail).count()
+    }
+
+    /// How many requirements are undecided.
+    pub fn undecided(&self) -> usize {
+        self.list.iter().filter(|one| matches!(one.gate.decision, Decision::Undecided(_))).count()
+    }
+}
+
+impl Assessment {
+    /// PASS, FAIL or UNDECIDED.
+    pub fn word(&self) -> &'static str {
+        match self.gate.decision {
+            Decision::Pass => "PASS",
+            Decision::Fail => "FAIL",
+            Decision::Undecided(_) => "UNDECIDED",
+        }
+    }
+
+    /// The requirement in words.
+    pub fn sentence(&self) -> String {
+        let requirement = &self.requirement;
+        let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
+        let limit = match requirement.limit {
+            Limit::AtMost(limit) => format!("at most {limit:?}{unit}"),
+            Limit::AtLeast(limit) => format!("at least {limit:?}{unit}"),
+        };
+        let (name, confidence) = (&requirement.observable, percent(requirement.confidence));
+        let what = match requirement.statement {
+            Statement::Quantile(p) => format!("p{} of {name} {limit}", percent(p)),
+            Statement::Fraction(fraction) => format!("{}% of runs with {name} {limit}", percent(fraction)),
+            Statement::Mean => format!("mean of {name} {limit}"),
+        };
+        format!("{what}, with {confidence}% confidence")
+    }
+
+    /// What was found, in words: the estimate with its bounds, and how many runs would decide.
+    pub fn finding(&self) -> String {
+        let [lower, upper] = self.gate.bounds;
+        let found = match self.requirement.statement {
+            Statement::Mean => format!("mean {:.4e}, between {lower:.4e} and {upper:.4e}", self.gate.estimate),
+            _ => {
+                let value = self.value.map_or(String::new(), |value| format!("{value:.4e}; "));
+                let of = [lower, upper].map(|bound| format!("{:.4}%", 100.0 * bound));
+                format!(
+                    "{value}{} of {} runs within the limit, between {} and {}",
+                    self.runs - self.violations,
+                    self.runs,
+                    of[0],
+                    of[1]
+                )
+            }
+        };
+        let needed = match (&self.reason, self.gate.decision) {
+            (Some(reason), _) => format!("; {reason}"),
+            (None, Decision::Undecided(Some(runs))) => format!("; {runs} runs would decide"),
+            (None, Decision::Undecided(None)) => "; no number of runs decides at this estimate".to_owned(),
+            _ => String::new(),
+        };
+        format!("{found}{needed}")
+    }
+}
+
+/// What is counted of one requirement in a group of samples.
+#[derive(Clone, Debug, Default)]
+struct Counted {
+    runs: u64,
+    within: u64,
+    moments: Moments,
+}
+
+/// What is counted of one requirement.
+#[derive(Clone, Debug)]
+struct Counts {
+    groups: Vec<Counted>,
+    sketch: Sketch,
+    failed: u64,
+}
+
+impl Counts {
+    fn new(groups: usize) -> Self {
+        Counts { groups: vec![Counted::default(); groups], sketch: Sketch::default(), failed: 0 }
+    }
+
+    fn merge(&mut self, other: &Counts) {
+        for (mine, theirs) in self.groups.iter_mut().zip(&other.groups) {
+            mine.runs += theirs.runs;
+            mine.within += theirs.within;
+            mine.moments.merge(&theirs.moments);
+        }
+        self.sketch.merge(&other.sketch);
+        self.failed += other.failed;
+    }
+
+    /// The sum of a count over the groups.
+    fn sum(&self, count: impl Fn(&Counted) -> u64) -> u64 {
+        self.groups.iter().map(count).sum()
+    }
+}
+
+/// What the files of the rows of `plan` say of its requirements, on `threads` threads (`None`: one per core).
+///
+/// # Errors
+/// Where a file cannot be read.
+pub fn assess(plan: &Plan, reader: &RowsReader, threads: Option<NonZeroUsize>) -> Result<Verdicts, RowsError> {
+    let requirements = &plan.analysis.requirements;
+    if requirements.is_empty() {
+        return Ok(Verdicts::default());
+    }
+    let population = Population::of(plan);
+    let observed = Observed::named(plan, requirements.iter().map(|requirement| requirement.observable.as_str()));
+    let index = |name: &str| observed.iter().position(|observed| observed.quantity.name() == name);
+    let of: Vec<usize> = requirements.iter().filter_map(|requirement| index(&requirement.observable)).collect();
+    let mut counts = vec![Counts::new(population.groups()); requirements.len()];
+    let (mut invalid, mut samples) = (0, 0);
+    reader.visit(
+        threads,
+        |part| count(part, requirements, &observed, &of, population),
+        |(of_part, invalid_of_part, samples_of_part)| {
+            counts.iter_mut().zip(&of_part).for_each(|(mine, theirs)| mine.merge(theirs));
+            invalid += invalid_of_part;
+            samples += samples_of_part;
+            Ok::<(), RowsError>(())
+        },
+    )?;
+    let assessed = requirements.iter().zip(&of).zip(&counts).map(|((requirement, index), counts)| {
+        let unit = observed[*index].quantity.unit().to_owned();
+        assessment(requirement.clone(), unit, counts, population)
+    });
+    Ok(Verdicts { list: assessed.collect(), invalid, samples })
+}
+
+/// The counts of a part: for each requirement, then samples that are not physical, and all dispersed ones.
+fn count(
+    part: &PartReader,
+    requirements: &[Requirement],
+    observed: &[Observed],
+    of: &[usize],
+    population: Population,
+) -> Result<(Vec<Counts>, u64, u64), RowsError> {
+    let columns: Vec<Vec<f64>> = observed.iter().map(|one| one.values(part)).collect::<Result<_, _>>()?;
+    let (samples, statuses) = (part.samples()?, part.statuses()?);
+    let counted = || samples.iter().zip(&statuses).enumerate().filter(|(_, (sample, _))| population.contains(**sample));
+    let of_requirement = |(requirement, index): (&Requirement, &usize)| {
+        let mut counts = Counts::new(population.groups());
+        let mut kept = vec![Vec::new(); population.groups()];
+        let has_value = !matches!(requirement.statement, Statement::Fraction(_));
+        for (row, (sample, status)) in counted() {
+            if *status == Status::InvalidSample {
+                continue;
+            }
+            let (group, value) = (population.group(*sample), columns[*index][row]);
+            let is_ok = *status == Status::Done;
+            counts.groups[group].runs += 1;
+            counts.groups[group].within += u64::from(is_ok && requirement.limit.is_met(value));
+            counts.failed += u64::from(!is_ok);
+            if is_ok && has_value && !value.is_nan() {
+                kept[group].push(value);
+            }
+        }
+        for (group, values) in counts.groups.iter_mut().zip(&kept) {
+            group.moments = Moments::of_block(values);
+            if matches!(requirement.statement, Statement::Quantile(_)) {
+                counts.sketch.add_all(values);
+            }
+        }
+        counts
+    };
+    let counts = requirements.iter().zip(of).map(of_requirement).collect();
+    let invalid = counted().filter(|(_, (_, status))| **status == Status::InvalidSample).count();
+    Ok((counts, invalid as u64, counted().count() as u64))
+}
+
+fn assessment(requirement: Requirement, unit: String, counts: &Counts, population: Population) -> Assessment {
+    let (runs, within) = (counts.sum(|group| group.runs), counts.sum(|group| group.within));
+    let (limit, confidence) = (requirement.limit, requirement.confidence);
+    let mut whole = Moments::default();
+    counts.groups.iter().for_each(|group| whole.merge(&group.moments));
+    let target = match requirement.statement {
+        Statement::Quantile(p) => Some(limit.fraction(p)),
+        Statement::Fraction(fraction) => Some(fraction),
+        Statement::Mean => None,
+    };
+    let mut gate = match target {
+        Some(target) => of_fraction(counts, target, confidence, population),
+        None => of_mean(counts, &whole, limit, confidence, population),
+    };
+    let mut reason = None;
+    let missing = runs - whole.count();
+    if target.is_none() && missing > 0 {
+        // a mean over all runs is not known where a run has no value
+        gate.decision = Decision::Fail;
+        reason = Some(format!("{missing} runs without a value violate it"));
+    }
+    if matches!(population, Population::Dependent(_) | Population::Chosen(_) | Population::Nominal) {
+        gate = Gate { decision: Decision::Undecided(None), bounds: [f64::NAN; 2], ..gate };
+        reason = Some(format!("intervals: {}", population.intervals()));
+    } else if runs == 0 {
+        reason = Some("there are no runs that count".to_owned());
+    }
+    let value = match requirement.statement {
+        Statement::Quantile(p) => counts.sketch.ranks().quantile(p),
+        Statement::Mean => whole.mean(),
+        Statement::Fraction(_) => None,
+    };
+    Assessment { requirement, unit, gate, value, runs, violations: runs - within, failed: counts.failed, reason }
+}
+
+/// The gate on the fraction of runs within the limit.
+fn of_fraction(counts: &Counts, target: f64, confidence: f64, population: Population) -> Gate {
+    let (runs, within) = (counts.sum(|group| group.runs), counts.sum(|group| group.within));
+    let binomial = fraction_gate(within, runs, target, confidence);
+    let groups = counts.groups.iter().filter(|group| group.runs > 0);
+    let fractions: Vec<f64> = groups.map(|group| group.within as f64 / group.runs as f64).collect();
+    // replicates that all agree say nothing of their spread: then counts alone decide
+    let is_spread = fractions.windows(2).any(|pair| pair[0] != pair[1]);
+    match population {
+        Population::Replicated(_) if is_spread => replicate_gate(&fractions, runs, Limit::AtLeast(target), confidence),
+        _ => binomial,
+    }
+}
+
+/// The gate on the mean.
+fn of_mean(counts: &Counts, whole: &Moments, limit: Limit, confidence: f64, population: Population) -> Gate {
+    match population {
+        Population::Replicated(_) => {
+            let means: Vec<f64> = counts.groups.iter().filter_map(|group| group.moments.mean()).collect();
+            replicate_gate(&means, whole.count(), limit, confidence)
+        }
+        _ => mean_gate(whole, limit, confidence),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn requirement(statement: Statement, limit: Limit) -> Requirement {
+        Requirement { observable: "x".to_owned(), statement, limit, confidence: 0.95 }
+    }
+
+    /// Counts of groups: runs, runs within the limit, values.
+    fn counts(groups: &[(u64, u64, &[f64])]) -> Counts {
+        let mut counts = Counts::new(0);
+        for (runs, within, values) in groups {
+            let moments = Moments::of_block(values);
+            counts.groups.push(Counted { runs: *runs, within: *within, moments });
+            counts.sketch.add_all(values);
+        }
+        counts
+    }
+
+    /// Published: 59 runs within the limit show p95, 58 do not; a violation more and 59 do not.
+    #[test]
+    fn counts_decide() {
+        let p95 = requirement(Statement::Quantile(0.95), Limit::AtMost(1.0));
+        let of = |runs, within| {
+            assessment(p95.clone(), "J".to_owned(), &counts(&[(runs, within, &[0.5])]), Population::Independent)
+        };
+        let found = of(59, 59);
+        assert_eq!((found.word(), found.value), ("PASS", Some(0.5)));
+        assert_eq!(found.sentence(), "p95 of x at most 1.0 J, with 95% confidence");
+        assert_eq!((of(58, 58).word(), of(59, 58).word(), of(59, 10).word()), ("UNDECIDED", "UNDECIDED", "FAIL"));
+        assert!(of(58, 58).finding().ends_with("; 59 runs would decide"), "{}", of(58, 58).finding());
+        assert!(of(0, 0).finding().ends_with("no runs that count"));
+    }
+
+    /// Law: a run without a value violates a requirement on the mean; designs without a population decide nothing.
+    #[test]
+    fn what_numbers_cannot_say_is_not_decided_by_them() {
+        let mean = requirement(Statement::Mean, Limit::AtMost(9.0));
+        let of = |runs, population| {
+            assessment(mean.clone(), String::new(), &counts(&[(runs, runs, &[1.0, 2.0, 3.0])]), population)
+        };
+        assert_eq!(of(3, Population::Independent).word(), "PASS");
+        let missing = of(4, Population::Independent);
+        assert_eq!((missing.word(), missing.reason.as_deref()), ("FAIL", Some("1 runs without a value violate it")));
+        for population in [Population::Dependent("sobol"), Population::Chosen("grid"), Population::Nominal] {
+            let found = of(3, population);
+            assert!(found.word() == "UNDECIDED" && found.reason.is_some_and(|reason| reason.contains("none")));
+        }
+    }
+
+    /// Law: replicates decide by their spread; where all agree, by counts.
+    #[test]
+    fn replicates_decide_by_their_spread() {
+        let p90 = requirement(Statement::Fraction(0.9), Limit::AtMost(1.0));
+        let of = |groups: &[(u64, u64, &[f64])]| {
+            assessment(p90.clone(), String::new(), &counts(groups), Population::Replicated(4)).word()
+        };
+        assert_eq!(of(&[(10, 10, &[]), (10, 10, &[]), (10, 10, &[]), (10, 10, &[])]), "PASS");
+        assert_eq!(of(&[(2, 2, &[]), (2, 2, &[]), (2, 2, &[]), (2, 2, &[])]), "UNDECIDED");
+        assert_eq!(of(&[(100, 98, &[]), (100, 96, &[]), (100, 97, &[]), (100, 97, &[])]), "PASS");
+        assert_eq!(of(&[(100, 80, &[]), (100, 99, &[]), (100, 85, &[]), (100, 98, &[])]), "UNDECIDED");
+        assert_eq!(of(&[(100, 80, &[]), (100, 81, &[]), (100, 82, &[]), (100, 79, &[])]), "FAIL");
+    }
+}
