@@ -33,7 +33,8 @@ impl Plan {
     }
 
     /// The keys that do not change rows, by the beginning of their path.
-    pub const OUTSIDE_ROWS: [&'static str; 2] = ["campaign.name", "campaign.samples"];
+    pub const OUTSIDE_ROWS: [&'static str; 7] =
+        ["campaign.name", "campaign.samples", "statistics.", "summary.", "observable[", "require[", "stop."];
 
     /// The canonical text: `whole`, or the row plan.
     fn text_of(&self, whole: bool) -> String {
@@ -79,7 +80,9 @@ impl Plan {
         lines.key("points", self.band_points);
         lines.table("[output]");
         lines.key("compression", self.compression.name());
-        self.analysis.write(&mut lines);
+        if whole {
+            self.analysis.write(&mut lines);
+        }
         lines.into_text()
     }
 

@@ -16,8 +16,11 @@ Exit codes:
   0  done (also: the same campaign was already complete)
   1  ran, but some runs failed (their rows say how)
   2  bad input: arguments, campaign file, or a sample that is not physical
+  3  ran, and a requirement failed
   4  input/output error, or the folder has a result that may not be overwritten
+  5  ran, and no requirement failed, but one is undecided
   129, 130, 138, 143  stopped by SIGHUP, SIGINT, SIGUSR1, SIGTERM; the same command continues
+Of several codes the first of 2, 4, that of a signal, 3, 5, 1, 0 is returned.
 
 A FILE without a folder, with or without .toml, is also looked for in campaigns/.
 SPINDRIFT_ISA=avx512|avx2|plain selects an instruction set; results do not depend on it.";
@@ -80,6 +83,9 @@ pub struct CampaignOptions {
     /// Replace an existing result, which stays as it is until the new one is complete.
     #[arg(long)]
     pub overwrite: bool,
+    /// Write the verdicts on the requirements to this file, as JUnit XML.
+    #[arg(long, value_name = "FILE")]
+    pub junit: Option<PathBuf>,
     /// Run part K of N of the work, for instance on one machine of N; `finish` then completes the result.
     #[arg(long, value_name = "K/N", value_parser = shard, conflicts_with = "overwrite")]
     pub shard: Option<Shard>,
@@ -93,6 +99,9 @@ pub struct CampaignOptions {
 pub struct FinishOptions {
     /// The folder of the result.
     pub folder: PathBuf,
+    /// Write the verdicts on the requirements to this file, as JUnit XML.
+    #[arg(long, value_name = "FILE")]
+    pub junit: Option<PathBuf>,
     /// Number of threads [default: one for each core].
     #[arg(long, value_name = "N")]
     pub threads: Option<std::num::NonZeroUsize>,
@@ -252,7 +261,7 @@ mod tests {
         helps.extend(ours.map(|command| command.render_help().to_string()));
         assert_eq!(helps.len(), 8);
         for help in helps {
-            for code in ["0  done", "1  ran", "2  bad input", "4  input/output"] {
+            for code in ["0  done", "1  ran", "2  bad input", "3  ran", "4  input/output", "5  ran"] {
                 assert!(help.contains(code), "{help}");
             }
         }

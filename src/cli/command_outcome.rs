@@ -14,6 +14,10 @@ pub enum CommandOutcome {
     SomeFailed(u64),
     /// A signal stopped it: code 128 and the signal's number.
     Stopped(i32),
+    /// This many requirements failed: code 3.
+    RequirementsFailed(usize),
+    /// No requirement failed, and this many are undecided: code 5.
+    RequirementsUndecided(usize),
 }
 
 /// A command that could not run.
@@ -28,7 +32,18 @@ pub enum Failure {
 impl CommandOutcome {
     /// The outcome of a command that made one run.
     pub fn of(status: Status) -> Self {
-        if status == Status::Done { CommandOutcome::Done } else { CommandOutcome::SomeFailed(1) }
+        Self::of_campaign(u64::from(status != Status::Done), 0, 0)
+    }
+
+    /// The outcome of a campaign with so many runs and requirements that failed, and requirements that are undecided. A requirement that failed
+    /// matters most, then one that is undecided, then failed runs.
+    pub fn of_campaign(failed_runs: u64, failed: usize, undecided: usize) -> Self {
+        match (failed, undecided, failed_runs) {
+            (0, 0, 0) => CommandOutcome::Done,
+            (0, 0, runs) => CommandOutcome::SomeFailed(runs),
+            (0, undecided, _) => CommandOutcome::RequirementsUndecided(undecided),
+            (failed, ..) => CommandOutcome::RequirementsFailed(failed),
+        }
     }
 }
 
@@ -51,6 +66,8 @@ pub fn exit_code(ended: Result<CommandOutcome, Failure>) -> ExitCode {
         Ok(CommandOutcome::Done) => 0,
         Ok(CommandOutcome::SomeFailed(_)) => 1,
         Ok(CommandOutcome::Stopped(signal)) => signals::exit_code(signal),
+        Ok(CommandOutcome::RequirementsFailed(_)) => 3,
+        Ok(CommandOutcome::RequirementsUndecided(_)) => 5,
         Err(Failure::Input(reason)) => {
             screen::note(&format!("error: {reason}"));
             2
@@ -60,4 +77,24 @@ pub fn exit_code(ended: Result<CommandOutcome, Failure>) -> ExitCode {
             4
         }
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: of several codes the one that comes first in 3, 5, 1, 0 is returned.
+    #[test]
+    fn codes_have_an_order() {
+        for ((runs, failed, undecided), expected) in [
+            ((0, 0, 0), CommandOutcome::Done),
+            ((7, 0, 0), CommandOutcome::SomeFailed(7)),
+            ((0, 0, 2), CommandOutcome::RequirementsUndecided(2)),
+            ((7, 0, 2), CommandOutcome::RequirementsUndecided(2)),
+            ((0, 3, 0), CommandOutcome::RequirementsFailed(3)),
+            ((7, 3, 2), CommandOutcome::RequirementsFailed(3)),
+        ] {
+            assert_eq!(CommandOutcome::of_campaign(runs, failed, undecided), expected);
+        }
+    }
 }

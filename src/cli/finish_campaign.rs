@@ -3,12 +3,13 @@
 //! It is a function of the plan and the rows: whichever processes made them, and however often they were stopped, the files are the same.
 
 use std::num::NonZeroUsize;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use serde_json::Value;
 
 use crate::campaign::{Overrides, Plan};
+use crate::cli::analysis::{analyse, write_junit};
 use crate::cli::arguments::FinishOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::input::{isa, plan};
@@ -39,6 +40,8 @@ pub struct Finishing<'a> {
     pub threads: Option<NonZeroUsize>,
     /// The campaign file as `simulate` takes it.
     pub replayed: &'a str,
+    /// Where the verdicts go as JUnit XML.
+    pub junit: Option<&'a Path>,
     /// Samples that this process ran, and how long that took.
     pub made: Option<(u64, Duration)>,
     /// CPU time of runs and audits of this process, s.
@@ -52,14 +55,18 @@ pub struct Finishing<'a> {
 pub fn finish(job: &Finishing<'_>) -> Result<CommandOutcome, Failure> {
     let (plan, folder) = (job.ensemble.plan(), &job.ready.folder);
     let records = folder.parts();
-    let files = records.iter().flat_map(|part| part.files.first()).map(|file| folder.path(&file.name)).collect();
-    let reader = RowsReader::new(files);
+    let (rows, bands): (Vec<PathBuf>, Vec<PathBuf>) = records
+        .iter()
+        .flat_map(|part| &part.files)
+        .map(|file| folder.path(&file.name))
+        .partition(|path| path.extension().is_some_and(|extension| extension == "parquet"));
+    let reader = RowsReader::new(rows);
     let tally = Tally::of_files(job.ensemble, &reader, job.threads).map_err(Failure::files)?;
-    let summary = Summary::new(plan, &tally);
-    let outcome = match tally.failed() {
-        0 => CommandOutcome::Done,
-        failed => CommandOutcome::SomeFailed(failed),
-    };
+    let analysed = analyse(plan, &reader, &bands, folder.root(), job.threads)?;
+    write_junit(plan, &analysed.verdicts, tally.failed(), job.junit)?;
+    let (failed, undecided) = (analysed.verdicts.failed(), analysed.verdicts.undecided());
+    let outcome = CommandOutcome::of_campaign(tally.failed(), failed, undecided);
+    let summary = Summary::new(plan, &tally, &analysed.statistics, analysed.verdicts);
     folder.write(SUMMARY, summary.json().as_bytes()).map_err(Failure::files)?;
     folder.finish().map_err(Failure::files)?;
     if let Some(old) = &job.ready.replaces {
@@ -99,8 +106,11 @@ pub fn outcome_of(summary: &str) -> CommandOutcome {
     let value: Value = serde_json::from_str(summary).unwrap_or_default();
     let statuses = value.get("statuses").and_then(Value::as_object);
     let failed =
-        statuses.into_iter().flatten().filter(|(name, _)| *name != "ok").filter_map(|(_, count)| count.as_u64()).sum();
-    if failed == 0 { CommandOutcome::Done } else { CommandOutcome::SomeFailed(failed) }
+        statuses.into_iter().flatten().filter(|(name, _)| *name != "ok").filter_map(|(_, count)| count.as_u64());
+    let list = value.pointer("/requirements/list").and_then(Value::as_array);
+    let verdicts: Vec<&str> = list.into_iter().flatten().filter_map(|one| one.get("verdict")?.as_str()).collect();
+    let count = |word: &str| verdicts.iter().filter(|verdict| **verdict == word).count();
+    CommandOutcome::of_campaign(failed.sum(), count("FAIL"), count("UNDECIDED"))
 }
 
 /// Runs the command `finish`.
@@ -141,6 +151,7 @@ pub fn run(options: &FinishOptions) -> Result<CommandOutcome, Failure> {
         root,
         threads: options.threads,
         replayed: &replayed,
+        junit: options.junit.as_deref(),
         made: None,
         seconds: [0.0; 2],
     })

@@ -118,6 +118,7 @@ fn run_missing(
             root,
             threads: options.threads,
             replayed: &replayed(options, root),
+            junit: options.junit.as_deref(),
             made: Some((made, elapsed)),
             seconds,
         }),

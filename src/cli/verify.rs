@@ -158,6 +158,7 @@ fn repair(options: &VerifyOptions, ensemble: &Ensemble<'_>, differing: &[Part]) 
         root,
         threads: options.threads,
         replayed: &replayed,
+        junit: None,
         made: None,
         seconds: [0.0; 2],
     };

@@ -241,11 +241,8 @@ impl<'a> Reader<'a> {
         let runs = self.number().filter(|runs| *runs <= part.count as u64)?;
         let series = (0..self.length(4)?).map(|_| self.series()).collect::<Option<Vec<_>>>()?;
         let points = self.length(8)?;
-        let layout = BandLayout {
-            times: self.reals(points)?,
-            nominal: self.reals(points.checked_mul(series.len())?)?,
-            series,
-        };
+        let layout =
+            BandLayout { times: self.reals(points)?, nominal: self.reals(points.checked_mul(series.len())?)?, series };
         let columns = (0..layout.columns()).map(|_| self.column(runs)).collect::<Option<Vec<_>>>()?;
         Some((part, Bands::new(Arc::new(layout), runs, columns)?))
     }

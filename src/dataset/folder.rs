@@ -15,7 +15,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use crate::dataset::identity::sha256;
 use crate::dataset::manifest::{FileRecord, Identity, Manifest, PartRecord, Record};
-use crate::dataset::names::{FOLDERS, MANIFEST, PLAN, RUNS, SHARDS, SUCCESS, UNFINISHED};
+use crate::dataset::names::{MANIFEST, PLAN, SHARDS, SUCCESS, UNFINISHED};
 use crate::dataset::storage::{Storage, StorageError, at};
 use crate::ensemble::Part;
 
@@ -74,11 +74,9 @@ impl Folder {
     ) -> Result<Folder, StorageError> {
         let mut folder =
             Folder { storage, root: root.to_owned(), identity, manifest, state: Mutex::new(State::default()) };
-        for name in FOLDERS {
-            let path = root.join(name);
-            if name == RUNS || (name == SHARDS && folder.manifest.starts_with(SHARDS)) {
-                storage.create_folder(&path).map_err(at(&path))?;
-            }
+        if folder.manifest.starts_with(SHARDS) {
+            let path = root.join(SHARDS);
+            storage.create_folder(&path).map_err(at(&path))?;
         }
         let (is_new, own) = (own.is_none(), own.unwrap_or_default());
         let text = Manifest::text(&folder.identity, own.parts.values(), false);
@@ -174,11 +172,12 @@ impl Folder {
         let mut folders: Vec<PathBuf> = Vec::new();
         for file in files {
             let path = self.path(&file.name);
-            self.place(&path, &file.bytes)?;
             let folder = path.parent().unwrap_or(&self.root).to_owned();
             if !folders.contains(&folder) {
+                self.storage.create_folder(&folder).map_err(at(&folder))?;
                 folders.push(folder);
             }
+            self.place(&path, &file.bytes)?;
         }
         for folder in &folders {
             self.storage.sync_folder(folder).map_err(at(folder))?;

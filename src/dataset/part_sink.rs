@@ -8,8 +8,9 @@ use std::sync::{Mutex, PoisonError};
 use parquet::errors::ParquetError;
 use thiserror::Error;
 
+use crate::dataset::bands_file;
 use crate::dataset::folder::{Folder, PartFile};
-use crate::dataset::names::rows_of;
+use crate::dataset::names::{bands_of, rows_of};
 use crate::dataset::rows_file::RowsFile;
 use crate::dataset::storage::StorageError;
 use crate::ensemble::{Ensemble, Part, Rows, Sink};
@@ -56,7 +57,10 @@ impl Sink for PartSink {
         let part = rows.part();
         let mut bytes = Vec::new();
         self.file.write(rows, &mut bytes)?;
-        let files = vec![PartFile::new(rows_of(part.id), bytes)];
+        let mut files = vec![PartFile::new(rows_of(part.id), bytes)];
+        files.extend(
+            rows.bands().map(|bands| PartFile::new(bands_of(part.id), bands_file::to_bytes(part, &bands.bands()))),
+        );
         self.encoded.send((part, files)).map_err(|_| PartError::Ended)?;
         let mut sums = self.seconds.lock().unwrap_or_else(PoisonError::into_inner);
         sums.iter_mut().zip(rows.seconds()).for_each(|(sum, seconds)| *sum += seconds);

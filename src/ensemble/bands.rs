@@ -216,11 +216,7 @@ impl PartBands {
             extremes: (self.min[index] <= self.max[index]).then_some([self.min[index], self.max[index]]),
             counts: DeviationCounts::of(self.windows[index].buckets()).expect("a window is in the order of its codes"),
         };
-        Bands {
-            layout: self.layout.clone(),
-            runs: self.runs,
-            columns: (0..self.values.len()).map(column).collect(),
-        }
+        Bands { layout: self.layout.clone(), runs: self.runs, columns: (0..self.values.len()).map(column).collect() }
     }
 }
 

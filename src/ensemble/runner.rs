@@ -77,8 +77,7 @@ pub fn run<S: Sink>(
         while is_on()
             && let Some(part) = parts.get(next.fetch_add(1, Ordering::Relaxed))
         {
-            let (worker, rows) =
-                memory.get_or_insert_with(|| (ensemble.worker(), ensemble.rows(largest)));
+            let (worker, rows) = memory.get_or_insert_with(|| (ensemble.worker(), ensemble.rows(largest)));
             if !worker.run(*part, rows, supervision) {
                 break;
             }

@@ -1,6 +1,6 @@
 //! Layer 7: text and figures for people.
 //!
-//! - [`summary`], [`audit_summary`]: statistics of a campaign. - [`precision_text`]: work-precision measurements as text.
+//! - [`summary`], [`observable_lines`], [`audit_summary`]: statistics of a campaign. - [`requirements`]: verdicts, also as JUnit XML. - [`precision_text`]: work-precision measurements as text.
 //! - [`canvas`]: figures as SVG and PNG. - [`plot`]: curves in panels. - [`simulation_figure`], [`drawn_figure`], [`precision_figure`]: the figures of the commands.
 //! - [`number`]: numbers in text.
 
@@ -10,8 +10,10 @@ mod bitmap;
 pub mod canvas;
 pub mod drawn_figure;
 pub mod number;
+pub mod observable_lines;
 pub mod plot;
 pub mod precision_figure;
 pub mod precision_text;
+pub mod requirements;
 pub mod simulation_figure;
 pub mod summary;

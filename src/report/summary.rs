@@ -2,38 +2,18 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use serde::Serialize;
 use serde_json::{Map, Value, json};
 
 use crate::campaign::Plan;
-use crate::dataset::tally::{Ended, Headline, Tally, Worst};
+use crate::dataset::statistics::Statistics;
+use crate::dataset::tally::{Ended, Tally, Worst};
+use crate::dataset::verdicts::Verdicts;
 use crate::report::audit_summary::{AuditSummary, Numerics};
 use crate::report::number::short;
+use crate::report::observable_lines::{ObservableLine, lines, write_table};
+use crate::report::requirements;
 use crate::run::Status;
 use crate::sampling::{Replaced, SampleId};
-use crate::statistics::sketch::RELATIVE_ERROR;
-
-/// Order statistics of one observable.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Line {
-    /// The observable.
-    pub name: String,
-    /// Its unit; empty for a pure number.
-    pub unit: String,
-    /// Number of values.
-    pub count: u64,
-    /// Median.
-    pub median: Option<f64>,
-    /// Rank ceil(0.95 n).
-    pub p95: Option<f64>,
-    /// Rank ceil(0.999 n).
-    pub p99_9: Option<f64>,
-    /// Maximum.
-    pub max: Option<f64>,
-    /// Its numerical error over the audited runs, where there are any that have one.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub numerical_error: Option<Numerics>,
-}
 
 /// The statistics of a campaign.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,25 +25,24 @@ pub struct Summary {
     without_nominal: bool,
     statuses: Vec<(&'static str, Ended)>,
     worst: Vec<Worst>,
-    lines: Vec<Line>,
+    lines: Vec<ObservableLine>,
+    verdicts: Verdicts,
+    /// How statistics were made.
+    intervals: String,
+    treatment: String,
+    confidence: f64,
+    quantile_error: f64,
     audit: Option<AuditSummary>,
     replaced: Vec<Replaced>,
 }
 
 impl Summary {
-    /// The statistics in `tally` of the campaign `plan`.
-    pub fn new(plan: &Plan, tally: &Tally) -> Self {
-        let numerics = |index, headline: &Headline| Numerics::new(tally.audits()?, index, &headline.sketch);
-        let lines = tally.headlines().iter().enumerate().map(|(index, headline)| Line {
-            name: headline.quantity.name().to_owned(),
-            unit: headline.quantity.unit().to_owned(),
-            count: headline.sketch.count(),
-            median: headline.quantile(0.5),
-            p95: headline.quantile(0.95),
-            p99_9: headline.quantile(0.999),
-            max: headline.sketch.max(),
-            numerical_error: numerics(index, headline),
-        });
+    /// The `statistics` and `verdicts` of the campaign `plan`, with the audits and the worst runs in `tally`.
+    pub fn new(plan: &Plan, tally: &Tally, statistics: &Statistics, verdicts: Verdicts) -> Self {
+        let numerics = |name: &str| {
+            let index = tally.headlines().iter().position(|headline| headline.quantity.name() == name)?;
+            Numerics::new(tally.audits()?, index, &tally.headlines()[index].sketch)
+        };
         Summary {
             name: plan.name.clone(),
             seed: plan.seed,
@@ -72,7 +51,12 @@ impl Summary {
             statuses: Status::ALL.into_iter().map(|status| (status.name(), tally.ended(status).clone())).collect(),
             without_nominal: tally.without_nominal(),
             worst: tally.worst().to_vec(),
-            lines: lines.collect(),
+            lines: lines(plan, statistics, numerics),
+            verdicts,
+            intervals: statistics.population.intervals(),
+            treatment: statistics.treatment(),
+            confidence: statistics.confidence,
+            quantile_error: statistics.quantile_error,
             audit: tally.audits().map(|audits| AuditSummary::new(audits, plan.audit_fraction)),
             replaced: plan.dispersions.replaced_correlations().to_vec(),
         }
@@ -101,12 +85,15 @@ impl Summary {
             "statuses": statuses,
             "first_failed": first_failed,
             "worst_runs": worst,
-            "quantiles": {
-                "rank": "ceil(p n), over the runs that are ok",
+            "statistics": {
                 "samples": if self.without_nominal { "dispersed, without the nominal sample 0" } else { "nominal" },
-                "relative_error_bound": RELATIVE_ERROR,
-                "max": "exact",
+                "failed_runs": self.treatment,
+                "quantiles": "type 7 of Hyndman and Fan, over the runs that are ok",
+                "relative_error_of_quantiles": self.quantile_error,
+                "intervals": self.intervals,
+                "confidence": self.confidence,
             },
+            "requirements": requirements::json(&self.verdicts),
             "observables": self.lines,
         });
         if !self.replaced.is_empty() {
@@ -178,17 +165,11 @@ impl Display for Summary {
         }
         let width = self.lines.iter().map(|line| line.name.len()).max().unwrap_or(0);
         let counted = if self.without_nominal { "dispersed samples" } else { "nominal sample" };
-        writeln!(f, "\n  {counted:<width$}  {:>6}{:>12}{:>12}{:>12}{:>12}", "unit", "median", "p95", "p99.9", "max")?;
-        for line in &self.lines {
-            write!(f, "  {:<width$}  {:>6}", line.name, if line.unit.is_empty() { "-" } else { &line.unit })?;
-            for value in [line.median, line.p95, line.p99_9, line.max] {
-                match value {
-                    Some(value) => write!(f, "{:>12}", short(value))?,
-                    None => write!(f, "{:>12}", "-")?,
-                }
-            }
-            writeln!(f)?;
+        write_table(f, &self.lines, counted, self.confidence)?;
+        if self.intervals.starts_with("none") {
+            writeln!(f, "  intervals: {}", self.intervals)?;
         }
+        f.write_str(&requirements::text(&self.verdicts))?;
         let Some(audit) = &self.audit else { return Ok(()) };
         write!(f, "\n{audit}")?;
         let audited = self.lines.iter().filter_map(|line| Some((line, line.numerical_error.as_ref()?)));

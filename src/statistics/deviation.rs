@@ -214,7 +214,9 @@ mod tests {
     #[test]
     fn what_cannot_be_counts_is_refused() {
         assert!(DeviationCounts::of(vec![(0, 1), (2, 5), (3, 1)]).is_some());
-        for wrong in [vec![(2, 1), (0, 1)], vec![(2, 1), (2, 1)], vec![(1, 1)], vec![(2, 0)], vec![(2, u64::MAX), (3, 1)]] {
+        for wrong in
+            [vec![(2, 1), (0, 1)], vec![(2, 1), (2, 1)], vec![(1, 1)], vec![(2, 0)], vec![(2, u64::MAX), (3, 1)]]
+        {
             assert_eq!(DeviationCounts::of(wrong.clone()), None, "{wrong:?}");
         }
     }

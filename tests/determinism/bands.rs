@@ -7,7 +7,7 @@ use std::sync::Mutex;
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::dataset::bands_file::{from_bytes, to_bytes};
 use spindrift::ensemble::bands::band_points;
-use spindrift::ensemble::{Bands, Ensemble, Parts, Rows, Sink, SingleRun, run};
+use spindrift::ensemble::{Bands, Ensemble, Parts, Rows, SingleRun, Sink, Supervision, run};
 use spindrift::math::Isa;
 use spindrift::observables::nominal_attitude::NominalAttitude;
 use spindrift::observables::{Group, Observer, Series};
@@ -48,7 +48,7 @@ impl Sink for Memory {
 
 fn files(plan: &Plan, threads: usize) -> Vec<Vec<u8>> {
     let (sink, ensemble) = (Memory::default(), Ensemble::new(plan, Isa::best()));
-    run(&ensemble, Parts::of(plan.samples), NonZeroUsize::new(threads), &sink, &|_| {}).unwrap();
+    run(&ensemble, Parts::of(plan.samples), NonZeroUsize::new(threads), &sink, Supervision::progress(&|_| {})).unwrap();
     sink.0.into_inner().unwrap().into_values().collect()
 }
 

@@ -7,8 +7,8 @@
 //! number is uniform, down to about 2^-52.
 
 use super::hash::{below, keyed};
-use super::sobol::MAX_DIMENSIONS;
 use super::replicates::{Replicates, by_replicate};
+use super::sobol::MAX_DIMENSIONS;
 use super::traits::{BLOCK, Dimensions, Kind, PointSource};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{KeyReader, KeyWriter};

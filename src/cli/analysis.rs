@@ -1,0 +1,67 @@
+//! What is made of the rows of a campaign once they are on the disk: statistics, sensitivities, verdicts. It depends on plan and files only.
+
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+use crate::campaign::Plan;
+use crate::cli::command_outcome::Failure;
+use crate::dataset::names::BANDS;
+use crate::dataset::rows_reader::RowsReader;
+use crate::dataset::statistics::Statistics;
+use crate::dataset::verdicts::Verdicts;
+use crate::dataset::{
+    atomic, bands_file, bands_table, sensitivity, sensitivity_table, statistics, statistics_table, verdicts,
+};
+use crate::ensemble::Bands;
+use crate::report::requirements;
+
+/// What the rows say.
+#[derive(Clone, Debug)]
+pub struct Analysed {
+    /// Of every observable.
+    pub statistics: Statistics,
+    /// Of the requirements.
+    pub verdicts: Verdicts,
+    /// Over time, where the campaign has bands.
+    pub bands: Option<Bands>,
+}
+
+/// Makes the tables of the result of `plan` in the folder `root` from its rows, and the files `bands` of its bands.
+///
+/// # Errors
+/// Where a file cannot be read or written.
+pub fn analyse(
+    plan: &Plan,
+    reader: &RowsReader,
+    bands: &[PathBuf],
+    root: &Path,
+    threads: Option<NonZeroUsize>,
+) -> Result<Analysed, Failure> {
+    let statistics = statistics::compute(plan, reader, threads).map_err(Failure::files)?;
+    let path = root.join(statistics_table::FILE);
+    statistics_table::save(plan, &statistics, &path).map_err(|error| in_file(&path, &error))?;
+    let inputs = sensitivity::compute(plan, reader, threads).map_err(Failure::files)?;
+    let path = root.join(sensitivity_table::FILE);
+    sensitivity_table::save(plan, &inputs, &path).map_err(|error| in_file(&path, &error))?;
+    let verdicts = verdicts::assess(plan, reader, threads).map_err(Failure::files)?;
+    let bands = bands_file::read(bands).map_err(Failure::files)?;
+    if let Some(bands) = &bands {
+        let path = root.join(BANDS);
+        bands_table::save(plan, bands, &path).map_err(|error| in_file(&path, &error))?;
+    }
+    Ok(Analysed { statistics, verdicts, bands })
+}
+
+/// Writes the verdicts as JUnit XML, where a file for it was named; `failed` runs are not `ok`.
+///
+/// # Errors
+/// Where the file cannot be written.
+pub fn write_junit(plan: &Plan, verdicts: &Verdicts, failed: u64, file: Option<&Path>) -> Result<(), Failure> {
+    let Some(file) = file else { return Ok(()) };
+    let text = requirements::junit(plan, verdicts, failed);
+    atomic::write_bytes(file, text.as_bytes()).map_err(|error| in_file(file, &error))
+}
+
+fn in_file(path: &Path, error: &dyn std::fmt::Display) -> Failure {
+    Failure::files(format!("{}: {error}", path.display()))
+}

@@ -1,0 +1,135 @@
+//! Verdicts on requirements: as text for the screen, as values for `summary.json`, as JUnit XML for build servers.
+
+use std::fmt::Write;
+
+use serde_json::{Value, json};
+
+use crate::campaign::{Plan, Statement};
+use crate::dataset::verdicts::{Assessment, Verdicts};
+use crate::statistics::binomial::Decision;
+use crate::statistics::gate::Limit;
+
+/// One line for each requirement, and what was found; nothing where there are none.
+pub fn text(verdicts: &Verdicts) -> String {
+    let mut text = String::new();
+    if verdicts.list.is_empty() {
+        return text;
+    }
+    text += "\n  requirements\n";
+    for one in &verdicts.list {
+        text += &format!("  {:<10} {}\n             {}\n", one.word(), one.sentence(), one.finding());
+    }
+    if verdicts.invalid > 0 {
+        let share = 100.0 * verdicts.invalid as f64 / verdicts.samples as f64;
+        text += &format!(
+            "  {} of {} samples ({share:.2}%) are not physical and outside of the population\n",
+            verdicts.invalid, verdicts.samples
+        );
+    }
+    text
+}
+
+/// The values of `summary.json`.
+pub fn json(verdicts: &Verdicts) -> Value {
+    let finite = |value: f64| value.is_finite().then_some(value);
+    let one = |one: &Assessment| {
+        let requirement = &one.requirement;
+        let (statement, target) = match requirement.statement {
+            Statement::Quantile(p) => ("quantile", Some(p)),
+            Statement::Fraction(fraction) => ("fraction", Some(fraction)),
+            Statement::Mean => ("mean", None),
+        };
+        let (side, limit) = match requirement.limit {
+            Limit::AtMost(limit) => ("at_most", limit),
+            Limit::AtLeast(limit) => ("at_least", limit),
+        };
+        let needed = match one.gate.decision {
+            Decision::Undecided(runs) => runs,
+            _ => None,
+        };
+        json!({
+            "requirement": one.sentence(),
+            "verdict": one.word(),
+            "observable": requirement.observable,
+            "unit": one.unit,
+            "statement": statement,
+            "target": target,
+            side: limit,
+            "confidence": requirement.confidence,
+            "estimate": finite(one.gate.estimate),
+            "bounds": one.gate.bounds.map(finite),
+            "value": one.value.and_then(finite),
+            "runs": one.runs,
+            "violations": one.violations,
+            "failed_runs": one.failed,
+            "runs_that_would_decide": needed,
+            "reason": one.reason,
+        })
+    };
+    json!({
+        "list": verdicts.list.iter().map(one).collect::<Vec<_>>(),
+        "samples": verdicts.samples,
+        "samples_that_are_not_physical": verdicts.invalid,
+    })
+}
+
+/// The verdicts as JUnit XML: one test case for each requirement, an undecided one is an error; and one that every run is `ok`, of
+/// which `failed` are not. No clock time: the same campaign gives the same bytes.
+pub fn junit(plan: &Plan, verdicts: &Verdicts, failed: u64) -> String {
+    let name = escaped(&plan.name);
+    let (failures, errors) = (verdicts.failed() + usize::from(failed > 0), verdicts.undecided());
+    let tests = verdicts.list.len() + 1;
+    let counts = format!("tests=\"{tests}\" failures=\"{failures}\" errors=\"{errors}\"");
+    let mut xml = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
+    xml += &format!("<testsuites name=\"spindrift\" {counts}>\n  <testsuite name=\"{name}\" {counts}>\n");
+    let mut case = |title: &str, problem: Option<(&str, &str, &str)>| {
+        let title = escaped(title);
+        let _ = match problem {
+            None => writeln!(xml, "    <testcase classname=\"{name}\" name=\"{title}\"/>"),
+            Some((element, kind, message)) => writeln!(
+                xml,
+                "    <testcase classname=\"{name}\" name=\"{title}\">\n      <{element} type=\"{kind}\" message=\"{}\"/>\n    </testcase>",
+                escaped(message)
+            ),
+        };
+    };
+    let message = format!("{failed} runs are not ok");
+    case("every run is ok", (failed > 0).then_some(("failure", "failed runs", message.as_str())));
+    for one in &verdicts.list {
+        let finding = one.finding();
+        let problem = match one.gate.decision {
+            Decision::Pass => None,
+            Decision::Fail => Some(("failure", "requirement", finding.as_str())),
+            Decision::Undecided(_) => Some(("error", "undecided", finding.as_str())),
+        };
+        case(&one.sentence(), problem);
+    }
+    xml + "  </testsuite>\n</testsuites>\n"
+}
+
+/// `text` within a double-quoted attribute of XML 1.0: markup as entities, characters that XML cannot have replaced.
+fn escaped(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => escaped += "&amp;",
+            '<' => escaped += "&lt;",
+            '>' => escaped += "&gt;",
+            '"' => escaped += "&quot;",
+            '\t' | '\n' | '\r' => escaped += &format!("&#{};", u32::from(c)),
+            '\0'..='\u{1f}' | '\u{fffe}' | '\u{ffff}' => escaped.push('\u{fffd}'),
+            c => escaped.push(c),
+        }
+    }
+    escaped
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn markup_is_escaped() {
+        assert_eq!(escaped("a<b> & \"c\"\n\u{1}"), "a&lt;b&gt; &amp; &quot;c&quot;&#10;\u{fffd}");
+    }
+}
