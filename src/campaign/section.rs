@@ -68,7 +68,9 @@ impl<'d, 'a> Section<'d, 'a> {
 
     /// Makes `key` a key of this table.
     pub(super) fn know(&mut self, key: &str) {
-        self.known.push(key.to_owned());
+        if !self.known.iter().any(|known| known == key) {
+            self.known.push(key.to_owned());
+        }
         self.note_line(key);
     }
 

@@ -86,32 +86,6 @@ impl Assessment {
         };
         format!("{what}, with {confidence}% confidence")
     }
-
-    /// What was found, in words: the estimate with its bounds, and how many runs would decide.
-    pub fn finding(&self) -> String {
-        let [lower, upper] = self.gate.bounds;
-        let found = match self.requirement.statement {
-            Statement::Mean => format!("mean {:.4e}, between {lower:.4e} and {upper:.4e}", self.gate.estimate),
-            _ => {
-                let value = self.value.map_or(String::new(), |value| format!("{value:.4e}; "));
-                let of = [lower, upper].map(|bound| format!("{:.4}%", 100.0 * bound));
-                format!(
-                    "{value}{} of {} runs within the limit, between {} and {}",
-                    self.runs - self.violations,
-                    self.runs,
-                    of[0],
-                    of[1]
-                )
-            }
-        };
-        let needed = match (&self.reason, self.gate.decision) {
-            (Some(reason), _) => format!("; {reason}"),
-            (None, Decision::Undecided(Some(runs))) => format!("; {runs} runs would decide"),
-            (None, Decision::Undecided(None)) => "; no number of runs decides at this estimate".to_owned(),
-            _ => String::new(),
-        };
-        format!("{found}{needed}")
-    }
 }
 
 /// What is counted of one requirement in a group of samples.
@@ -314,8 +288,8 @@ mod tests {
         assert_eq!((found.word(), found.value), ("PASS", Some(0.5)));
         assert_eq!(found.sentence(), "p95 of x at most 1.0 J, with 95% confidence");
         assert_eq!((of(58, 58).word(), of(59, 58).word(), of(59, 10).word()), ("UNDECIDED", "UNDECIDED", "FAIL"));
-        assert!(of(58, 58).finding().ends_with("; 59 runs would decide"), "{}", of(58, 58).finding());
-        assert!(of(0, 0).finding().ends_with("no runs that count"));
+        assert_eq!(of(58, 58).gate.decision, Decision::Undecided(Some(59)));
+        assert_eq!(of(0, 0).reason.as_deref(), Some("there are no runs that count"));
     }
 
     /// Law: a run without a value violates a requirement on the mean; designs without a population decide nothing.

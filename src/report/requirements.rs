@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 
 use crate::campaign::{Plan, Statement};
 use crate::dataset::verdicts::{Assessment, Verdicts};
+use crate::report::number::short;
 use crate::statistics::binomial::Decision;
 use crate::statistics::gate::Limit;
 
@@ -17,7 +18,7 @@ pub fn text(verdicts: &Verdicts) -> String {
     }
     text += "\n  requirements\n";
     for one in &verdicts.list {
-        text += &format!("  {:<10} {}\n             {}\n", one.word(), one.sentence(), one.finding());
+        text += &format!("  {:<10} {}\n             {}\n", one.word(), one.sentence(), finding(one));
     }
     if verdicts.invalid > 0 {
         let share = 100.0 * verdicts.invalid as f64 / verdicts.samples as f64;
@@ -27,6 +28,31 @@ pub fn text(verdicts: &Verdicts) -> String {
         );
     }
     text
+}
+
+/// What was found, in words: the estimate with its bounds, and how many runs would decide.
+fn finding(one: &Assessment) -> String {
+    let [lower, upper] = one.gate.bounds;
+    let percent = |fraction: f64| format!("{:.4}%", 100.0 * fraction);
+    let bounds = |show: &dyn Fn(f64) -> String| match lower.is_nan() {
+        true => String::new(),
+        false => format!(", between {} and {}", show(lower), show(upper)),
+    };
+    let found = match one.requirement.statement {
+        Statement::Mean => format!("mean {}{}", short(one.gate.estimate), bounds(&short)),
+        _ => {
+            let value = one.value.map_or(String::new(), |value| format!("{}; ", short(value)));
+            let within = one.runs - one.violations;
+            format!("{value}{within} of {} runs within the limit{}", one.runs, bounds(&percent))
+        }
+    };
+    let needed = match (&one.reason, one.gate.decision) {
+        (Some(reason), _) => format!("; {reason}"),
+        (None, Decision::Undecided(Some(runs))) => format!("; {runs} runs would decide"),
+        (None, Decision::Undecided(None)) => "; no number of runs decides at this estimate".to_owned(),
+        _ => String::new(),
+    };
+    format!("{found}{needed}")
 }
 
 /// The values of `summary.json`.
@@ -96,7 +122,7 @@ pub fn junit(plan: &Plan, verdicts: &Verdicts, failed: u64) -> String {
     let message = format!("{failed} runs are not ok");
     case("every run is ok", (failed > 0).then_some(("failure", "failed runs", message.as_str())));
     for one in &verdicts.list {
-        let finding = one.finding();
+        let finding = finding(one);
         let problem = match one.gate.decision {
             Decision::Pass => None,
             Decision::Fail => Some(("failure", "requirement", finding.as_str())),

@@ -3,6 +3,7 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod analysis;
 mod bad_campaign_cases;
 mod bad_campaigns;
 mod bad_dispersions;

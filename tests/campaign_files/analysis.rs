@@ -1,0 +1,266 @@
+//! The tables that say what is made of the rows: what they mean, what is refused and how, and that no row depends on them.
+
+use crate::bad_campaign_cases::good;
+use spindrift::campaign::{Analysis, Overrides, Plan, Requirement, Statement};
+use spindrift::statistics::gate::Limit;
+
+fn plan(more: &str) -> Plan {
+    Plan::from_text("good.toml", &(good() + more), Overrides::default()).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Every key.
+const FULL: &str = r#"
+[statistics]
+quantiles = [0.05, 0.5, "99.87 %"]
+confidence = 0.9
+[summary]
+columns = ["steps", "margin_deg"]
+[[observable]]
+name = "margin_deg"
+unit = "deg"
+expression = "57.29577951308232 * abs(energy_error_max) / body.parts.fuselage.density_kg_m3"
+[[require]]
+observable = "energy_body_max_j"
+quantile = 0.99
+at_most = "5 J"
+[[require]]
+observable = "margin_deg"
+fraction = 0.999
+at_most = "1.5 deg"
+confidence = 0.99
+[[require]]
+observable = "steps"
+mean = true
+at_least = 3
+[stop]
+observable = "energy_error_max"
+quantile = 0.95
+half_width = 1e-12
+max_samples = 5000
+"#;
+
+#[test]
+fn every_key_is_read_and_written() {
+    let plan = plan(FULL);
+    let Analysis { quantiles, confidence, summary_columns, derived, requirements, stop } = &plan.analysis;
+    assert_eq!((quantiles.as_slice(), *confidence), (&[0.05, 0.5, 0.9987][..], 0.9));
+    assert_eq!((summary_columns.len(), derived.len(), requirements.len()), (2, 1, 3));
+    let expected = Requirement {
+        observable: "margin_deg".to_owned(),
+        statement: Statement::Fraction(0.999),
+        limit: Limit::AtMost(1.5),
+        confidence: 0.99,
+    };
+    assert_eq!(requirements[1], expected);
+    assert_eq!((requirements[0].limit, requirements[0].confidence), (Limit::AtMost(5.0), 0.95));
+    assert_eq!((requirements[2].statement, requirements[2].limit), (Statement::Mean, Limit::AtLeast(3.0)));
+    let stop = stop.as_ref().expect("a goal");
+    assert_eq!((stop.goal.half_width, stop.goal.confidence, stop.max_samples), (1e-12, 0.95, 5000));
+    let again = Plan::from_text("plan.toml", &plan.text(), Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!((&again, again.text()), (&plan, plan.text()));
+}
+
+/// Law: nothing of this changes what is drawn or observed.
+#[test]
+fn rows_do_not_depend_on_it() {
+    let (with, without) = (plan(FULL), plan(""));
+    assert_eq!(with.request(), without.request());
+    assert_eq!(Plan { analysis: without.analysis.clone(), ..with }, without);
+    assert_eq!(without.analysis, Analysis::default());
+}
+
+const REQUIRE: &str = "[[require]]\nobservable = \"energy_error_max\"\nquantile = 0.99\nat_most = 1e-9\n";
+const OBSERVABLE: &str = "[[observable]]\nname = \"twice\"\nexpression = \"2 * energy_error_max\"\n";
+const STOP: &str =
+    "[stop]\nobservable = \"energy_error_max\"\nquantile = 0.95\nhalf_width = 1e-12\nmax_samples = 5000\n";
+
+/// A table, what is changed in it, to what, and a part of the only message.
+const CASES: &[(&str, &str, &str, &str)] = &[
+    (
+        REQUIRE,
+        "energy_error_max",
+        "energy_eror_max",
+        "require[0].observable = \"energy_eror_max\": must be an observable of this campaign: a column of its rows, or a [[observable]] of this file; did you mean \"energy_error_max\"?",
+    ),
+    (
+        REQUIRE,
+        "energy_error_max",
+        "nutation_angle_max_rad",
+        "it is in the group motion: add \"motion\" to observe.groups",
+    ),
+    (REQUIRE, "energy_error_max", "residual_collocation_max_m", "this scene or method does not have it"),
+    (
+        REQUIRE,
+        "observable = \"energy_error_max\"\n",
+        "",
+        "require[0].observable is missing: must be the name of an observable; add observable = \"energy_error_max\" to this table",
+    ),
+    (
+        REQUIRE,
+        "quantile = 0.99\n",
+        "",
+        "require[0].quantile is missing: must be given (one of quantile, fraction, mean); add quantile = 0.99 to this table",
+    ),
+    (
+        REQUIRE,
+        "at_most = 1e-9\n",
+        "",
+        "require[0].at_most is missing: must be given (one of at_most, at_least); add at_most = 1e-9 to this table",
+    ),
+    (
+        REQUIRE,
+        "quantile = 0.99",
+        "quantile = 99",
+        "require[0].quantile = 99: must be a number between 0 and 1, neither included; write it like 0.99",
+    ),
+    (
+        REQUIRE,
+        "quantile = 0.99",
+        "fraction = 1.0",
+        "require[0].fraction = 1.0: must be a number between 0 and 1, neither included",
+    ),
+    (
+        REQUIRE,
+        "quantile = 0.99",
+        "mean = false",
+        "require[0].mean = false: must be true where it is written; delete it, or write mean = true",
+    ),
+    (REQUIRE, "quantile = 0.99", "mean = 1", "require[0].mean = 1: must be true or false"),
+    (
+        REQUIRE,
+        "quantile = 0.99",
+        "quantile = 0.99\nmean = true",
+        "require[0].mean = true: must be the only one of quantile, fraction, mean; write a [[require]] table for each",
+    ),
+    (
+        REQUIRE,
+        "at_most = 1e-9",
+        "at_most = 1e-9\nat_least = 0",
+        "require[0].at_least = 0: must be the only one of at_most, at_least; write a [[require]] table for each",
+    ),
+    (REQUIRE, "at_most = 1e-9", "at_most = nan", "require[0].at_most = nan: must be a finite number"),
+    (
+        REQUIRE,
+        "at_most = 1e-9",
+        "at_most = \"5 deg\"",
+        "require[0].at_most = \"5 deg\": must be a finite number, or one with a unit (%); deg is a unit of other quantities",
+    ),
+    (
+        REQUIRE,
+        "at_most = 1e-9",
+        "at_most = 1e-9\nconfidence = 95",
+        "require[0].confidence = 95: must be a number from 0.5 to below 1; 0.95 is usual",
+    ),
+    (
+        REQUIRE,
+        "at_most = 1e-9",
+        "at_most = 1e-9\nat_mots = 1",
+        "require[0].at_mots = 1: must be a key of [require[0]] (observable, confidence, quantile, at_most, fraction, mean, at_least); did you mean at_most?",
+    ),
+    (
+        OBSERVABLE,
+        "twice",
+        "Twice",
+        "observable[0].name = \"Twice\": must be 1 to 60 small letters, digits and underscores, the first a letter; write it like pointing_error_deg",
+    ),
+    (
+        OBSERVABLE,
+        "\"twice\"",
+        "\"steps\"",
+        "observable[0].name = \"steps\": must be a name that no column has; choose another name",
+    ),
+    (OBSERVABLE, "\"twice\"", "\"body_parts_fuselage_density_kg_m3\"", "must be a name that no column has"),
+    (OBSERVABLE, "name = \"twice\"\n", "", "observable[0].name is missing"),
+    (
+        OBSERVABLE,
+        "2 * energy_error_max",
+        "2 *",
+        "observable[0].expression = \"2 *\": must be an expression: a number, a name, \"(\" or \"-\" instead of the end at character 4; correct the expression",
+    ),
+    (
+        OBSERVABLE,
+        "2 * energy_error_max",
+        "2 * energy_eror_max",
+        "observable[0].expression = \"energy_eror_max\": must be made of columns of the rows and of dispersed parameters; did you mean \"energy_error_max\"?",
+    ),
+    (
+        OBSERVABLE,
+        "energy_error_max",
+        "wheels.w1.radius_m",
+        "observable[0].expression = \"wheels.w1.radius_m\": must be made of columns of the rows and of dispersed parameters; disperse it, or write its number",
+    ),
+    (OBSERVABLE, "name = \"twice\"", "name = \"twice\"\nunit = 3", "observable[0].unit = 3: must be text"),
+    (STOP, "energy_error_max", "energy", "stop.observable = \"energy\": must be an observable of this campaign"),
+    (
+        STOP,
+        "quantile = 0.95\n",
+        "",
+        "stop.quantile is missing: must be a number between 0 and 1, neither included; add quantile = 0.95 to [stop]",
+    ),
+    (STOP, "half_width = 1e-12", "half_width = 0", "stop.half_width = 0: must be a number > 0"),
+    (
+        STOP,
+        "max_samples = 5000",
+        "max_samples = 9",
+        "stop.max_samples = 9: must be a whole number from campaign.samples (10) to 9007199254740992; write at least the samples of the first look",
+    ),
+    (
+        STOP,
+        "max_samples = 5000\n",
+        "max_samples = 5000\n[design]\nkind = \"sobol\"\n",
+        "stop = [stop]: must be left out with design \"sobol\": its samples are not independent",
+    ),
+    (
+        "[statistics]\nquantiles = [0.5]\n",
+        "[0.5]",
+        "[0.5, 0.05]",
+        "statistics.quantiles = [0.5, 0.05]: must be 1 to 100 numbers between 0 and 1, neither included, in ascending order; write it like [0.05, 0.5, 0.95]",
+    ),
+    ("[statistics]\nquantiles = [0.5]\n", "[0.5]", "[]", "statistics.quantiles = []: must be 1 to 100 numbers"),
+    ("[statistics]\nquantiles = [0.5]\n", "[0.5]", "[1.0]", "statistics.quantiles = [1.0]: must be 1 to 100 numbers"),
+    (
+        "[statistics]\nconfidence = 0.9\n",
+        "0.9",
+        "1.0",
+        "statistics.confidence = 1.0: must be a number from 0.5 to below 1",
+    ),
+    (
+        "[summary]\ncolumns = [\"steps\"]\n",
+        "steps",
+        "stepps",
+        "summary.columns = \"stepps\": must be made of names, each an observable of this campaign: a column of its rows, or a [[observable]] of this file; did you mean \"steps\"?",
+    ),
+    (
+        "[summary]\ncolumns = [\"steps\"]\n",
+        "\"steps\"",
+        "\"steps\", \"steps\"",
+        "must be different names; delete the second \"steps\"",
+    ),
+];
+
+#[test]
+fn what_is_wrong_is_told() {
+    let mut wrong = Vec::new();
+    for (table, from, to, expected) in CASES {
+        assert!(table.contains(from), "{from} in {table}");
+        plan(table);
+        let text = good() + &table.replacen(from, to, 1);
+        let said = match Plan::from_text("bad.toml", &text, Overrides::default()) {
+            Ok(_) => "accepted".to_owned(),
+            Err(error) if error.problems.len() > 1 => format!("{} problems: {error}", error.problems.len()),
+            Err(error) => error.to_string(),
+        };
+        if !said.contains(expected) || !said.starts_with("bad.toml:") {
+            wrong.push(format!("{to:?}\n  expected {expected}\n  said     {said}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), CASES.len(), wrong.join("\n"));
+}
+
+/// Law: two observables have two names.
+#[test]
+fn an_observable_is_derived_once() {
+    let error = Plan::from_text("bad.toml", &(good() + OBSERVABLE + OBSERVABLE), Overrides::default());
+    let said = error.expect_err("twice").to_string();
+    assert!(said.contains("observable[1].name = \"twice\": must be a name of its own"), "{said}");
+}

@@ -1,0 +1,160 @@
+//! `statistics.parquet` and `sensitivity.parquet` are those of the files of rows, and the same bytes for any number of threads.
+
+use std::fs;
+
+use arrow_array::cast::AsArray;
+use arrow_array::types::{Float64Type, UInt64Type};
+use arrow_array::{Array, RecordBatch};
+
+use super::small_campaign::{NEGATIVE_WALLS, campaign, folder};
+use crate::support::scratch_folder::{ScratchFolder, batches};
+
+const MORE: &str = r#"
+[[observable]]
+name = "error_ratio"
+expression = "energy_error_max / angular_momentum_error_max"
+[[observable]]
+name = "spin"
+unit = "rad/s"
+expression = "sqrt(initial.angular_velocity_rad_s.x^2 + initial_angular_velocity_y_rad_s^2)"
+[summary]
+columns = ["spin", "steps", "energy_body_max_j"]
+"#;
+
+/// The rows of a result that statistics are about, column by column: of dispersed samples that are ok, with a value.
+fn values(tables: &[RecordBatch], name: &str) -> Vec<f64> {
+    let mut found = Vec::new();
+    for table in tables {
+        let ids = table.column_by_name("sample_id").expect("ids").as_primitive::<UInt64Type>();
+        let statuses = table.column_by_name("status").expect("statuses").as_string::<i32>();
+        let column = table.column_by_name(name).unwrap_or_else(|| panic!("no column {name}"));
+        for row in 0..table.num_rows() {
+            if ids.value(row) > 0 && statuses.value(row) == "ok" && !column.is_null(row) {
+                found.push(match column.as_primitive_opt::<Float64Type>() {
+                    Some(values) => values.value(row),
+                    None => column.as_primitive::<UInt64Type>().value(row) as f64,
+                });
+            }
+        }
+    }
+    found
+}
+
+fn tables(scratch: &ScratchFolder, result: &str) -> Vec<RecordBatch> {
+    scratch.part_files(result).iter().flat_map(|file| batches(file)).collect()
+}
+
+/// The number of a row of a table; `None` where it is null.
+fn number(table: &RecordBatch, name: &str, row: usize) -> Option<f64> {
+    let column = table.column_by_name(name).unwrap_or_else(|| panic!("no column {name}"));
+    let column = column.as_primitive::<Float64Type>();
+    (!column.is_null(row)).then(|| column.value(row))
+}
+
+/// Law: counts and extremes are exact, moments are those of the rows to 1e-12 of their size, quantiles are of type 7; failed runs are
+/// counted and left out; a quantile that the runs cannot bound says what it takes.
+#[test]
+fn statistics_are_those_of_the_files() {
+    let scratch = folder("statistics-table");
+    scratch.file("thin.toml", &(campaign() + NEGATIVE_WALLS + MORE));
+    scratch.prints("campaign thin.toml --out r", 1);
+    let rows = tables(&scratch, "r");
+    let table = scratch.table("r/statistics.parquet");
+    let names = table.column_by_name("observable").expect("names").as_string::<i32>();
+    assert!(table.num_rows() > 100);
+    let mut checked = 0;
+    for row in 0..table.num_rows() {
+        let name = names.value(row);
+        let of = |column: &str| number(&table, column, row);
+        let count = |column: &str| table.column_by_name(column).expect(column).as_primitive::<UInt64Type>().value(row);
+        let mut x = match name {
+            "error_ratio" => {
+                let [a, b] = ["energy_error_max", "angular_momentum_error_max"].map(|name| values(&rows, name));
+                a.iter().zip(&b).map(|(a, b)| a / b).collect()
+            }
+            "spin" => {
+                let [a, b] = ["x", "y"].map(|axis| values(&rows, &format!("initial_angular_velocity_{axis}_rad_s")));
+                a.iter().zip(&b).map(|(a, b)| (libm::pow(*a, 2.0) + libm::pow(*b, 2.0)).sqrt()).collect()
+            }
+            _ => values(&rows, name),
+        };
+        let n = x.len();
+        assert_eq!(count("count"), n as u64, "{name}");
+        assert_eq!(count("count_ok") + count("count_invalid_sample"), 599);
+        assert!(count("count_invalid_sample") > 100 && n > 300, "{name}: {n}");
+        x.sort_by(f64::total_cmp);
+        assert_eq!((of("min"), of("max")), (Some(x[0]), Some(x[n - 1])), "{name}");
+        let mean = x.iter().sum::<f64>() / n as f64;
+        let deviation = (x.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / (n - 1) as f64).sqrt();
+        let scale = 1e-12 * mean.abs().max(deviation);
+        assert!((of("mean").expect("a mean") - mean).abs() <= scale, "{name}");
+        assert!((of("standard_deviation").expect("one") - deviation).abs() <= scale, "{name}");
+        for (column, p) in [("p0_1", 0.001), ("p5", 0.05), ("p50", 0.5), ("p99_9", 0.999)] {
+            let place = (n - 1) as f64 * p;
+            let (low, part) = (x[place as usize], place.fract());
+            let high = x[(place as usize + 1).min(n - 1)];
+            let exact = if part < 0.5 { low + part * (high - low) } else { high - (1.0 - part) * (high - low) };
+            assert_eq!(of(column), Some(exact), "{name} {column}");
+        }
+        // some 400 runs bound the median, and p99.9 from below only
+        let (lower, upper) = (of("p50_lower").expect("bounded"), of("p50_upper").expect("bounded"));
+        assert!(lower <= of("p50").expect("a median") && of("p50").expect("a median") <= upper, "{name}");
+        assert!(of("p99_9_lower").is_some() && of("p99_9_upper").is_none() && of("p0_1_lower").is_none(), "{name}");
+        let notes = table.column_by_name("p99_9_note").expect("notes").as_string::<i32>();
+        // ln 0.025 / ln 0.999 = 3687.04, ln 0.05 / ln 0.999 = 2994.2
+        assert_eq!(notes.value(row), "p99.9 with 95% confidence needs 3688 runs (2995 for a bound on one side)");
+        checked += 1;
+    }
+    assert_eq!(names.iter().flatten().filter(|name| ["spin", "error_ratio"].contains(name)).count(), 2);
+    assert_eq!(checked, table.num_rows());
+}
+
+/// Law: both tables and the summary are the same bytes for any number of threads.
+#[test]
+fn threads_do_not_change_a_byte_of_statistics() {
+    let scratch = folder("statistics-threads");
+    scratch.file("more.toml", &(campaign() + MORE));
+    let files = ["statistics.parquet", "sensitivity.parquet", "summary.json"];
+    let read = |threads: u32| files.map(|file| fs::read(scratch.path(&format!("t{threads}/{file}"))).expect(file));
+    for threads in [1, 2, 3, 7] {
+        scratch.prints(&format!("campaign more.toml --threads {threads} --out t{threads}"), 0);
+        assert!(read(1) == read(threads), "{threads} threads");
+    }
+    scratch.prints("campaign more.toml --seed 8 --out t8", 0);
+    assert!(read(1) != read(8), "the counter-test: another seed");
+}
+
+/// Law: under designs whose samples are not independent there is no interval, and the table says why; estimates are there.
+#[test]
+fn designs_without_independent_samples_have_no_intervals() {
+    let scratch = folder("statistics-designs");
+    for (design, says) in [
+        ("kind = \"sobol\"", "not independent"),
+        ("kind = \"latin_hypercube\"", "not independent"),
+        ("kind = \"halton\"", "not independent"),
+        ("kind = \"saltelli\"", "chosen"),
+        ("kind = \"one_at_a_time\"\nlevels = 5", "chosen"),
+    ] {
+        let samples = if design.contains("saltelli") { "101" } else { "65" };
+        let samples = if design.contains("one_at") { String::new() } else { format!("--samples {samples}") };
+        let text = if design.contains("one_at") { campaign().replace("samples = 600\n", "") } else { campaign() };
+        scratch.file("design.toml", &format!("{text}[design]\n{design}\n"));
+        scratch.prints(&format!("campaign design.toml --out r --overwrite {samples}"), 0);
+        let table = scratch.table("r/statistics.parquet");
+        let intervals = table.column_by_name("intervals").expect("intervals").as_string::<i32>();
+        assert!(
+            intervals.value(0).starts_with("none: ") && intervals.value(0).contains(says),
+            "{}",
+            intervals.value(0)
+        );
+        for row in 0..table.num_rows() {
+            assert!(number(&table, "p50", row).is_some() && number(&table, "mean", row).is_some());
+            for name in ["p50_lower", "p50_upper", "mean_lower", "mean_upper", "mean_standard_error"] {
+                assert_eq!(number(&table, name, row), None, "{design}: {name}");
+            }
+        }
+        let inputs = scratch.table("r/sensitivity.parquet");
+        let total = inputs.column_by_name("total").expect("total");
+        assert_eq!(total.null_count() == total.len(), !design.contains("saltelli"), "{design}");
+    }
+}
