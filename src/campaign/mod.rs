@@ -11,9 +11,8 @@
 //! - `units`: units in values. `old_format`: files of the format before 0.2, and their new text.
 //! - [`notes`]: what is allowed and probably not meant.
 //! - [`mod@draw`]: from a plan and the number of a sample to its scene.
-//! - [`canonical`], [`canonical_draws`], `lines`: the plan as text that reads back to the same plan, and its hash;
-//!   [`mod@differences`]: the keys in which two plans differ.
-//! - [`mod@find`]: which file a name means.
+//! - [`canonical`], [`canonical_draws`], `lines`: the plan as text that reads back to the same plan, and its hash.
+//! - [`difference`]: the keys in which two plans differ. - [`mod@find`]: which file a name means.
 //!
 //! Not here: what is physical ([`crate::scene`]) and what can be drawn ([`crate::sampling`]); their errors get lines here.
 
@@ -28,7 +27,7 @@ mod data_keys;
 pub mod dependence;
 pub mod derived_observable;
 pub mod design;
-pub mod differences;
+pub mod difference;
 pub mod disperse;
 pub mod document;
 pub mod draw;

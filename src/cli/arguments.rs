@@ -49,6 +49,9 @@ pub enum Command {
     /// Show what a campaign would run: plan, mass properties, dispersions, what is integrated and why, time and disk space.
     #[command(after_help = EXIT_CODES)]
     Check(CheckOptions),
+    /// Compare two results: their plans, and the shift of every statistic, sample by sample where they drew the same samples.
+    #[command(after_help = EXIT_CODES)]
+    Compare(CompareOptions),
     /// Run one sample as a time series: to a table, a Parquet or CSV file, a plot.
     #[command(after_help = EXIT_CODES)]
     Simulate(SimulateOptions),
@@ -128,6 +131,22 @@ pub struct VerifyOptions {
 pub struct CheckOptions {
     /// The campaign file.
     pub file: PathBuf,
+}
+
+/// Arguments of `compare`.
+#[derive(Debug, Args)]
+pub struct CompareOptions {
+    /// The folder of the first result: the baseline.
+    pub first: PathBuf,
+    /// The folder of the second.
+    pub second: PathBuf,
+    /// End with code 3 where a statistic is shifted by more than this fraction of the standard deviation in the first result; 0
+    /// allows no difference.
+    #[arg(long, value_name = "F", value_parser = shift)]
+    pub tolerance: Option<f64>,
+    /// Number of threads [default: one for each core].
+    #[arg(long, value_name = "N")]
+    pub threads: Option<std::num::NonZeroUsize>,
 }
 
 /// Arguments of `simulate`.
@@ -235,6 +254,12 @@ fn shard(text: &str) -> Result<Shard, String> {
     shard.filter(|shard| (1..=shard.of).contains(&shard.number) && shard.of <= MOST_SHARDS).ok_or_else(allowed)
 }
 
+/// A shift, zero or above; otherwise the allowed range.
+fn shift(text: &str) -> Result<f64, String> {
+    let allowed = || "must be a number of at least 0".to_owned();
+    text.parse().ok().filter(|value: &f64| value.is_finite() && *value >= 0.0).ok_or_else(allowed)
+}
+
 /// A positive time in seconds; otherwise the allowed range.
 fn seconds(text: &str) -> Result<f64, String> {
     let allowed = || "must be a number of seconds above 0".to_owned();
@@ -259,7 +284,7 @@ mod tests {
         // `help` is clap's own
         let ours = command.get_subcommands_mut().filter(|command| command.get_name() != "help");
         helps.extend(ours.map(|command| command.render_help().to_string()));
-        assert_eq!(helps.len(), 8);
+        assert_eq!(helps.len(), 9);
         for help in helps {
             for code in ["0  done", "1  ran", "2  bad input", "3  ran", "4  input/output", "5  ran"] {
                 assert!(help.contains(code), "{help}");

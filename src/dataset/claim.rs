@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 use crate::campaign::Plan;
-use crate::campaign::differences::differences;
+use crate::campaign::difference::{KeyDifference, text_differences};
 use crate::dataset::folder::{Folder, MOST_MANIFEST};
 use crate::dataset::manifest::{Identity, Manifest, PartRecord};
 use crate::dataset::names::{FOLDERS, MANIFEST, PLAN, SHARDS, SUCCESS, SUMMARY, UNFINISHED, is_ours, manifest_of};
@@ -115,6 +115,12 @@ impl Found {
     /// All parts that are listed, by number.
     pub fn parts(&self) -> BTreeMap<u64, PartRecord> {
         self.manifests.values().flat_map(|manifest| manifest.parts.clone()).collect()
+    }
+
+    /// The files of rows of the dataset in `root`, in the order of their samples.
+    pub fn row_files(&self, root: &Path) -> Vec<PathBuf> {
+        let files = self.parts().into_values().flat_map(|part| part.files.into_iter().take(1));
+        files.map(|file| root.join(file.name)).collect()
     }
 
     /// Number of rows.
@@ -300,9 +306,14 @@ pub fn claim(
 }
 
 fn occupied(folder: String, found: &Found, there: &Identity, (plan, identity): (&Plan, &Identity)) -> FolderError {
-    let mut list = differences(&found.plan, &plan.text());
     // keys that do not change rows are no reason
-    list.retain(|difference| !Plan::OUTSIDE_ROWS.iter().any(|key| difference.starts_with(key)));
+    let is_reason = |one: &KeyDifference| !Plan::OUTSIDE_ROWS.iter().any(|key| one.key.starts_with(key));
+    let value = |value: Option<String>| value.unwrap_or_else(|| "absent".to_owned());
+    let mut list: Vec<String> = text_differences(&found.plan, &plan.text())
+        .into_iter()
+        .filter(is_reason)
+        .map(|one| format!("{}: {} there, {} here", one.key, value(one.first), value(one.second)))
+        .collect();
     if there.arithmetic != identity.arithmetic || there.format != identity.format {
         list.push(format!(
             "version of the row arithmetic: {}.{} there, {}.{} here",

@@ -8,6 +8,7 @@
 //! - [`table`]: tables in a single file: [`timeseries`], [`bands_table`], [`drawn_table`], [`precision_table`].
 //! - [`statistics`]: what the rows say of every observable ([`observed`], [`population`]); [`verdicts`]: of the requirements.
 //! - [`sensitivity`]: which input matters. - [`statistics_table`], [`sensitivity_table`]: both as files, by [`described_table`]. - [`parallel`]: threads.
+//! - [`comparison`]: two results.
 //!
 //! Not here: text and figures for people (`report`), and reading tables for a campaign (`campaign`).
 
@@ -17,6 +18,7 @@ pub mod bands_file;
 pub mod bands_table;
 pub mod claim;
 pub mod columnar;
+pub mod comparison;
 pub mod described_table;
 pub mod drawn_table;
 pub mod folder;

@@ -2,12 +2,13 @@
 //!
 //! - [`summary`], [`observable_lines`], [`audit_summary`]: statistics of a campaign. - [`requirements`]: verdicts, also as JUnit XML. - [`precision_text`]: work-precision measurements as text.
 //! - [`canvas`]: figures as SVG and PNG. - [`plot`]: curves in panels. - [`simulation_figure`], [`drawn_figure`], [`precision_figure`]: the figures of the commands.
-//! - [`number`]: numbers in text.
+//! - [`comparison_text`]: two results compared. - [`number`]: numbers in text.
 
 pub mod audit_summary;
 mod axis;
 mod bitmap;
 pub mod canvas;
+pub mod comparison_text;
 pub mod drawn_figure;
 pub mod number;
 pub mod observable_lines;

@@ -6,6 +6,7 @@ mod support;
 mod audit;
 mod campaign_command;
 mod commands;
+mod compare_command;
 mod csv_digits;
 mod exit_codes;
 mod failed_runs;

@@ -1,0 +1,43 @@
+//! `spindrift compare`: equal results, results of other methods, seeds and plans; what is beyond the tolerance.
+
+use super::small_campaign::{campaign, folder};
+
+/// Law: the same campaign has no shift, also from other files; another method on the same samples is compared pair by pair and differs
+/// by rounding only; another seed is compared as independent samples.
+#[test]
+fn results_are_compared() {
+    let scratch = folder("compare");
+    scratch.prints("campaign small.toml --out a", 0);
+    scratch.prints("campaign small.toml --out b --threads 1", 0);
+    let said = scratch.prints("compare a b --tolerance 0", 0);
+    for words in
+        ["the plans are the same", "599 samples were drawn alike", "have the same statistics", "PASS: no shift"]
+    {
+        assert!(said.contains(words), "{words}: {said}");
+    }
+
+    let other = campaign().replace("method = \"auto\"", "method = \"dop853\"");
+    scratch.file("other.toml", &other);
+    scratch.prints("campaign other.toml --out c", 0);
+    let said = scratch.prints("compare a c --tolerance 0", 3);
+    assert!(said.contains("1 keys differ\n    integrator.method: \"auto\" | \"dop853\""), "{said}");
+    assert!(said.contains("599 samples were drawn alike") && said.contains("FAIL: a shift is beyond 0.0"), "{said}");
+    assert!(said.contains("steps "), "other methods take other steps: {said}");
+
+    scratch.prints("campaign small.toml --seed 8 --out d", 0);
+    let said = scratch.prints("compare a d", 0);
+    assert!(said.contains("campaign.seed: 7 | 8") && said.contains("compared as independent samples"), "{said}");
+    // a hundredth of the spread is less than chance makes of 599 runs
+    scratch.prints("compare a d --tolerance 0.01", 3);
+
+    // fewer samples of the same draws are pairs too
+    scratch.prints("campaign small.toml --samples 300 --out e", 0);
+    let said = scratch.prints("compare a e", 0);
+    assert!(said.contains("299 samples were drawn alike") && said.contains("campaign.samples: 600 | 300"), "{said}");
+
+    scratch.prints("compare a nothing", 2);
+    scratch.prints("compare a b --tolerance -1", 2);
+    std::fs::write(scratch.path("b/runs/part-000001.parquet"), "damaged").expect("written");
+    let said = scratch.prints("compare a b", 4);
+    assert!(said.contains("part-000001.parquet"), "{said}");
+}

@@ -1,0 +1,247 @@
+//! Intervals cover, gates err and sketches are off as often and as much as stated: 10,000 small campaigns of known distributions.
+//!
+//! Seeds are fixed, so each test passes or fails for good. H0 of each: the probability is what is stated; two-sided (or one-sided, where
+//! only a bound is stated) at three standard errors, alpha = 0.0027 (0.0013). Power: what breaks each law on purpose is beside it.
+
+use spindrift::math::normal;
+use spindrift::sampling::design::sobol::Sobol;
+use spindrift::statistics::binomial::{self, Decision};
+use spindrift::statistics::gate::{Limit, fraction_gate, mean_gate};
+use spindrift::statistics::looks::{Goal, decision, looks};
+use spindrift::statistics::moments::Moments;
+use spindrift::statistics::quantile::{Ranks, coverage, interval_ranks, quantile};
+use spindrift::statistics::replicates::{Step, mean_interval, quantile_interval};
+use spindrift::statistics::sketch::{RELATIVE_ERROR, Sketch};
+use spindrift::statistics::student::half_width;
+
+const CAMPAIGNS: u32 = 10_000;
+const SIGMAS: f64 = 3.0;
+
+/// SplitMix64 (G. L. Steele, D. Lea & C. H. Flood 2014).
+struct Random(u64);
+
+impl Random {
+    fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ z >> 31
+    }
+
+    /// Uniform in (0, 1).
+    fn uniform(&mut self) -> f64 {
+        ((self.bits() >> 12) as f64 + 0.5) / (1_u64 << 52) as f64
+    }
+}
+
+/// A distribution: its quantile function.
+type Distribution = (&'static str, fn(f64) -> f64);
+
+const DISTRIBUTIONS: [Distribution; 3] =
+    [("uniform", |u| u), ("normal", normal::quantile), ("exponential", |u| -libm::log1p(-u))];
+
+/// The standard error of a fraction of [`CAMPAIGNS`].
+fn error(p: f64) -> f64 {
+    (p * (1.0 - p) / f64::from(CAMPAIGNS)).sqrt()
+}
+
+fn fraction(count: u32) -> f64 {
+    f64::from(count) / f64::from(CAMPAIGNS)
+}
+
+fn sample(random: &mut Random, count: usize, quantile: fn(f64) -> f64) -> Vec<f64> {
+    let mut values: Vec<f64> = (0..count).map(|_| quantile(random.uniform())).collect();
+    values.sort_unstable_by(f64::total_cmp);
+    values
+}
+
+/// How often order statistics of these ranks enclose the `p`-quantile.
+fn covered(seed: u64, count: usize, p: f64, ranks: Ranks, of: fn(f64) -> f64) -> f64 {
+    let mut random = Random(seed);
+    let truth = of(p);
+    let covers = |values: &[f64]| {
+        ranks.lower.is_none_or(|rank| values[rank as usize - 1] <= truth)
+            && ranks.upper.is_none_or(|rank| truth <= values[rank as usize - 1])
+    };
+    fraction((0..CAMPAIGNS).map(|_| u32::from(covers(&sample(&mut random, count, of)))).sum())
+}
+
+/// Law: order statistics cover a quantile with exactly their binomial probability, whatever the distribution; a rank off by one does not.
+#[test]
+fn order_statistics_cover_with_their_binomial_probability() {
+    for (index, (name, of)) in DISTRIBUTIONS.into_iter().enumerate() {
+        for (count, p) in [(60, 0.95), (100, 0.5), (100, 0.05), (80, 0.75)] {
+            let ranks = interval_ranks(count, p, 0.95);
+            let stated = coverage(count, p, ranks);
+            let found = covered(index as u64 + 1, count as usize, p, ranks, of);
+            assert!((found - stated).abs() <= SIGMAS * error(stated), "{name} n {count} p {p}: {found} for {stated}");
+            assert!(stated >= 0.95, "{stated}");
+            // one rank narrower on the side that is there
+            let narrow = match ranks {
+                Ranks { lower: Some(lower), .. } => Ranks { lower: Some(lower + 1), ..ranks },
+                Ranks { lower: None, .. } => continue,
+            };
+            assert!((covered(9, count as usize, p, narrow, of) - stated).abs() > SIGMAS * error(stated), "{narrow:?}");
+        }
+    }
+}
+
+/// Law: Clopper and Pearson's interval covers with exactly the probability of the counts whose interval has the fraction in it.
+#[test]
+fn clopper_pearson_covers_with_its_exact_probability() {
+    for (count, p, confidence) in [(50_u64, 0.9, 0.95), (20, 0.5, 0.9), (200, 0.99, 0.95)] {
+        let covers: Vec<bool> = (0..=count)
+            .map(|k| {
+                let [lower, upper] = binomial::interval(k, count, confidence);
+                lower <= p && p <= upper
+            })
+            .collect();
+        let term =
+            |k: u64| binomial::at_most(k, count, p) - if k == 0 { 0.0 } else { binomial::at_most(k - 1, count, p) };
+        let stated: f64 = (0..=count).filter(|k| covers[*k as usize]).map(term).sum();
+        let mut random = Random(21);
+        let campaign = |random: &mut Random| (0..count).filter(|_| random.uniform() < p).count();
+        let found = fraction((0..CAMPAIGNS).map(|_| u32::from(covers[campaign(&mut random)])).sum());
+        assert!((found - stated).abs() <= SIGMAS * error(stated), "{count} {p}: {found} for {stated}");
+        assert!(stated >= confidence, "{stated}");
+    }
+}
+
+/// Law: Student's interval of the mean of independent runs covers as often as stated.
+#[test]
+fn means_are_covered() {
+    for (index, (name, of, mean)) in
+        [("normal", normal::quantile as fn(f64) -> f64, 0.0), ("uniform", |u| u, 0.5)].into_iter().enumerate()
+    {
+        let mut random = Random(31 + index as u64);
+        let mut counts = [0; 2];
+        for _ in 0..CAMPAIGNS {
+            let moments = Moments::of_block(&sample(&mut random, 20, of));
+            let half = half_width(moments.standard_deviation().expect("twenty"), moments.count(), 0.95);
+            let off = (moments.mean().expect("twenty") - mean).abs();
+            // the counter-test: an interval of three quarters of the width
+            for (count, half) in counts.iter_mut().zip([half, 0.75 * half]) {
+                *count += u32::from(off <= half);
+            }
+        }
+        let [found, narrow] = counts.map(fraction);
+        assert!(found >= 0.95 - SIGMAS * error(0.95), "{name}: {found}");
+        assert!(narrow < 0.95 - SIGMAS * error(0.95), "{name}: {narrow}");
+    }
+}
+
+/// Law: intervals of replicated scrambles cover a mean, a fraction and a quantile as often as stated; that of all points as if they were
+/// independent is many times too wide for the mean.
+#[test]
+fn replicated_scrambles_cover() {
+    const REPLICATES: usize = 16;
+    const POINTS: u64 = 16;
+    // x + y, x and y uniform: mean 1, P(x + y <= 0.8) = 0.32, and 0.8 is the 0.32-quantile
+    let names = ["x", "y"].map(str::to_owned);
+    let (mut covered, mut widths) = ([0_u32; 3], [0.0; 2]);
+    for campaign in 0..u64::from(CAMPAIGNS) {
+        let replicates: Vec<Vec<f64>> = (0..REPLICATES as u64)
+            .map(|replicate| {
+                let sobol = Sobol::new(campaign * 1000 + replicate, &names);
+                (0..POINTS).map(|point| sobol.number(0, point) + sobol.number(1, point)).collect()
+            })
+            .collect();
+        let mean = |values: &Vec<f64>| values.iter().sum::<f64>() / values.len() as f64;
+        let below = |values: &Vec<f64>| values.iter().filter(|x| **x <= 0.8).count() as f64 / values.len() as f64;
+        let of_mean = mean_interval(&replicates.iter().map(mean).collect::<Vec<_>>(), 0.95);
+        let of_fraction = mean_interval(&replicates.iter().map(below).collect::<Vec<_>>(), 0.95);
+        let mut steps: Vec<Step> = (0..REPLICATES)
+            .flat_map(|replicate| {
+                replicates[replicate].iter().map(move |x| Step { value: *x, lower: *x, replicate, count: 1 })
+            })
+            .collect();
+        steps.sort_unstable_by(|a, b| a.value.total_cmp(&b.value));
+        let [lower, upper] = quantile_interval(&steps, &[POINTS; REPLICATES], 0.32, 0.95);
+        covered[0] += u32::from(of_mean.lower <= 1.0 && 1.0 <= of_mean.upper);
+        covered[1] += u32::from(of_fraction.lower <= 0.32 && 0.32 <= of_fraction.upper);
+        covered[2] += u32::from(lower.is_some_and(|end| end <= 0.8) && upper.is_some_and(|end| 0.8 <= end));
+        let all = Moments::of(replicates.iter().flatten().copied());
+        widths[0] += of_mean.upper - of_mean.lower;
+        widths[1] += 2.0 * half_width(all.standard_deviation().unwrap_or(0.0), all.count(), 0.95);
+    }
+    for found in covered.map(fraction) {
+        assert!(found >= 0.95 - SIGMAS * error(0.95), "{covered:?}");
+    }
+    assert!(widths[1] > 4.0 * widths[0], "{widths:?}");
+}
+
+/// Law: a campaign that stops at the first narrow interval covers as often as stated; without the correction for the looks it would not.
+#[test]
+fn stopped_campaigns_cover() {
+    let runs = looks(40, 640);
+    let goal = Goal { quantile: 0.5, half_width: 0.17, confidence: 0.95 };
+    let mut random = Random(41);
+    let (mut covered, mut uncorrected, mut stopped) = (0, 0, vec![0_u32; runs.len()]);
+    for _ in 0..CAMPAIGNS {
+        let values: Vec<f64> = (0..640).map(|_| normal::quantile(random.uniform())).collect();
+        let stop = |looks_counted: usize| {
+            let found = runs.iter().map(|runs| decision(&values[..*runs as usize], goal, looks_counted));
+            let found: Vec<_> = found.collect();
+            let at = found.iter().position(|look| look.stops).unwrap_or(runs.len() - 1);
+            let [lower, upper] = found[at].interval.map(|end| end.expect("forty runs bound a median"));
+            (at, u32::from(lower <= 0.0 && 0.0 <= upper))
+        };
+        let (at, covers) = stop(runs.len());
+        stopped[at] += 1;
+        covered += covers;
+        uncorrected += stop(1).1;
+    }
+    assert!(fraction(covered) >= 0.95 - SIGMAS * error(0.95), "{covered}");
+    assert!(stopped.iter().filter(|count| **count > 100).count() >= 2, "several looks stop: {stopped:?}");
+    assert!(uncorrected < covered, "{uncorrected} {covered}");
+}
+
+/// Law: at the limit itself, where every decision is an error, gates decide at most as often as 1 - confidence on each side; they are not
+/// silent either.
+#[test]
+fn gates_err_as_seldom_as_stated() {
+    let mut random = Random(51);
+    let (mut fractions, mut means) = ([0_u32; 2], [0_u32; 2]);
+    for _ in 0..CAMPAIGNS {
+        let within = (0..300).filter(|_| random.uniform() < 0.95).count() as u64;
+        let gate = fraction_gate(within, 300, 0.95, 0.95);
+        let moments = Moments::of((0..20).map(|_| normal::quantile(random.uniform())));
+        for (counts, gate) in [(&mut fractions, gate), (&mut means, mean_gate(&moments, Limit::AtMost(0.0), 0.95))] {
+            match gate.decision {
+                Decision::Pass => counts[0] += 1,
+                Decision::Fail => counts[1] += 1,
+                Decision::Undecided(_) => {}
+            }
+        }
+    }
+    for count in fractions.into_iter().chain(means) {
+        let found = fraction(count);
+        assert!(found <= 0.05 + SIGMAS * error(0.05) && found > 0.02, "{fractions:?} {means:?}");
+    }
+}
+
+/// Law: quantiles of a sketch of ten million numbers are within the stated error of the exact ones, and so are the bounds of ranks.
+#[test]
+fn a_sketch_of_ten_million_is_within_its_error() {
+    const COUNT: usize = 10_000_000;
+    let mut random = Random(61);
+    let mut values: Vec<f64> = (0..COUNT).map(|_| libm::exp(8.0 * random.uniform()) - 40.0).collect();
+    let mut sketch = Sketch::default();
+    values.chunks(16_384).for_each(|part| sketch.add_all(part));
+    values.sort_unstable_by(f64::total_cmp);
+    let ranks = sketch.ranks();
+    for p in [1e-6, 0.001, 0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99, 0.999, 1.0 - 1e-6] {
+        let (found, exact) = (ranks.quantile(p).expect("many"), quantile(&values, p).expect("many"));
+        assert!((found - exact).abs() <= RELATIVE_ERROR * exact.abs(), "{p}: {found} for {exact}");
+        let rank = 1 + (p * (COUNT - 1) as f64) as u64;
+        let [lower, upper] = ranks.bounds(rank).expect("a rank");
+        assert!(lower <= values[rank as usize - 1] && values[rank as usize - 1] <= upper, "{p}");
+        // the counter-test: the quantile next to it is further away
+        assert!(
+            (ranks.quantile(p * 0.99).expect("many") - exact).abs() > RELATIVE_ERROR * exact.abs() || p < 1e-3,
+            "{p}"
+        );
+    }
+    assert_eq!((sketch.min(), sketch.max()), (values.first().copied(), values.last().copied()));
+}
