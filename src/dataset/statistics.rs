@@ -290,20 +290,24 @@ fn described(plan: &Plan, population: Population, observed: &Observed, mut colle
     let means: Vec<f64> = groups.iter().filter_map(|group| group.moments.mean()).collect();
     let mut steps = Vec::new();
     let is_sketched = groups.iter().any(|group| group.sketch.count() > 0);
+    let ranks = |sketch: &Sketch| {
+        let ranks = sketch.ranks();
+        if observed.is_count { ranks.of_whole_numbers() } else { ranks }
+    };
     for (replicate, group) in groups.into_iter().enumerate() {
         if is_sketched {
             whole.merge(&group.sketch);
         }
         if matches!(population, Population::Replicated(_)) {
             let order =
-                if is_sketched { Order::Sketched(group.sketch.ranks()) } else { Order::Exact(group.values.clone()) };
+                if is_sketched { Order::Sketched(ranks(&group.sketch)) } else { Order::Exact(group.values.clone()) };
             steps.extend(order.steps(replicate));
         }
         values.extend(group.values);
     }
     steps.sort_by(|a, b| a.value.total_cmp(&b.value));
     values.sort_unstable_by(f64::total_cmp);
-    let order = if is_sketched { Order::Sketched(whole.ranks()) } else { Order::Exact(values) };
+    let order = if is_sketched { Order::Sketched(ranks(&whole)) } else { Order::Exact(values) };
     let moments = collected.moments;
     let (mean_interval, mean_error) = of_mean(population, &moments, &means, confidence);
     let quantiles = plan.analysis.quantiles.iter().map(|p| {

@@ -80,6 +80,34 @@ pub fn fraction_gate_within(successes: [u64; 2], trials: u64, target: f64, confi
     Gate { decision, estimate: 0.5 * (least.estimate + most.estimate), bounds: [least.bounds[0], most.bounds[1]] }
 }
 
+/// The gate that at every one of several points, of the same runs, at least the fraction `target` succeeds: for each point the bounds of the
+/// number of successes, and the number of runs.
+///
+/// It passes where every point does: for any point that misses the target that is an error of at most 1 - confidence, so no correction is
+/// needed (R. L. Berger, *Technometrics* 24 (1982) 295). It fails where a point does at the confidence 1 - (1 - c)/points (Bonferroni). The
+/// estimate and the bounds are those of the point with the smallest estimate.
+pub fn points_gate(points: &[([u64; 2], u64)], target: f64, confidence: f64) -> Gate {
+    let at = |confidence: f64| {
+        points.iter().map(move |(counts, runs)| fraction_gate_within(*counts, *runs, target, confidence))
+    };
+    let worst = at(confidence).min_by(|a, b| a.estimate.total_cmp(&b.estimate));
+    let Some(worst) = worst else {
+        return Gate { decision: Decision::Undecided(None), estimate: f64::NAN, bounds: [0.0, 1.0] };
+    };
+    let each = 1.0 - (1.0 - confidence) / points.len() as f64;
+    let decision = if at(confidence).all(|gate| gate.decision == Decision::Pass) {
+        Decision::Pass
+    } else if at(each).any(|gate| gate.decision == Decision::Fail) {
+        Decision::Fail
+    } else {
+        match worst.decision {
+            Decision::Undecided(runs) => Decision::Undecided(runs),
+            _ => Decision::Undecided(None),
+        }
+    };
+    Gate { decision, ..worst }
+}
+
 /// The gate that the mean of independent runs is within `limit`.
 pub fn mean_gate(moments: &Moments, limit: Limit, confidence: f64) -> Gate {
     let (count, mean) = (moments.count(), moments.mean().unwrap_or(f64::NAN));
@@ -159,6 +187,24 @@ mod tests {
         assert_eq!((of(950, 960), of(800, 850)), (Decision::Pass, Decision::Fail));
         assert_eq!(of(800, 960), Decision::Undecided(None));
         assert!(matches!(of(905, 906), Decision::Undecided(Some(runs)) if runs > 1000));
+    }
+
+    /// Law: several points pass where each does, and fail where one does at the corrected confidence.
+    #[test]
+    fn every_point_must_pass() {
+        let of = |successes: &[u64]| {
+            let points: Vec<([u64; 2], u64)> = successes.iter().map(|count| ([*count; 2], 1000)).collect();
+            points_gate(&points, 0.9, 0.95)
+        };
+        assert_eq!((of(&[950, 960, 999]).decision, of(&[950, 960, 840]).decision), (Decision::Pass, Decision::Fail));
+        let found = of(&[950, 905, 999]);
+        assert!(matches!(found.decision, Decision::Undecided(Some(_))) && found.estimate == 0.905, "{found:?}");
+        // 883 of 1000 misses 0.9 at 95% (P = 0.042), and not at 99.9%, as fifty points need
+        assert_eq!(of(&[883]).decision, Decision::Fail);
+        let mut many = vec![999; 49];
+        many.push(883);
+        assert!(matches!(of(&many).decision, Decision::Undecided(_)));
+        assert_eq!(of(&[]).decision, Decision::Undecided(None));
     }
 
     /// Known: mean 2.5, s/sqrt(4) = 0.6455, t(0.95, 3) = 2.3533634348018264: one-sided bounds 2.5 -+ 1.5191.

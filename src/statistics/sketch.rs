@@ -172,6 +172,15 @@ pub struct Ranks {
 }
 
 impl Ranks {
+    /// The same where all numbers are whole: a bucket is then as wide as the whole numbers in it, and those below 2048 are exact.
+    #[must_use]
+    pub fn of_whole_numbers(mut self) -> Self {
+        for bucket in &mut self.buckets {
+            (bucket.low, bucket.high) = (libm::ceil(bucket.low), libm::floor(bucket.high));
+        }
+        self
+    }
+
     /// Bounds of the number of rank `rank`, from 1; `None` where there is none.
     pub fn bounds(&self, rank: u64) -> Option<[f64; 2]> {
         let bucket = self.buckets.get(self.buckets.partition_point(|bucket| bucket.up_to < rank))?;
@@ -292,6 +301,19 @@ mod tests {
         assert_eq!(Sketch::default().ranks().quantile(0.5), None);
         let infinite = sketch(&[f64::NEG_INFINITY, 1.0, f64::INFINITY]).ranks();
         assert_eq!((infinite.bounds(1), infinite.bounds(3)), (Some([f64::NEG_INFINITY; 2]), Some([f64::INFINITY; 2])));
+    }
+
+    /// Law: whole numbers below 2048 have exact quantiles; larger ones are within their bounds.
+    #[test]
+    fn whole_numbers_stay_whole() {
+        let values: Vec<f64> = (0..1000).map(|k| f64::from(k * 7)).collect();
+        let ranks = sketch(&values).ranks().of_whole_numbers();
+        for (rank, exact) in (1..).zip(&values) {
+            let [low, high] = ranks.bounds(rank).unwrap();
+            assert!(low <= *exact && *exact <= high && low.fract() == 0.0 && high.fract() == 0.0, "{rank}");
+            assert!(*exact >= 2048.0 || low == high, "{rank}: {low} {high}");
+        }
+        assert_eq!(ranks.quantile(0.1), Some(699.3));
     }
 
     #[test]

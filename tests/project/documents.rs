@@ -104,6 +104,8 @@ fn program_problem(words: &[&str]) -> Option<String> {
     let file = match &arguments.command {
         Command::Campaign(options) => &options.file,
         Command::Check(options) => &options.file,
+        // folders of results, which are not shipped
+        Command::Compare(_) => return None,
         Command::Simulate(options) => &options.file,
         Command::Sample(options) => &options.file,
         Command::Precision(options) => &options.file,
