@@ -5,7 +5,9 @@
 use std::process::ExitCode;
 
 use spindrift::cli::arguments::{Command, arguments};
-use spindrift::cli::{check, command_outcome, compare, finish_campaign, precision, run_campaign, sample, simulate, verify};
+use spindrift::cli::{
+    check, columns, command_outcome, compare, finish_campaign, precision, run_campaign, sample, simulate, verify,
+};
 
 fn main() -> ExitCode {
     let ended = match arguments().command {
@@ -14,6 +16,7 @@ fn main() -> ExitCode {
         Command::Verify(options) => verify::run(&options),
         Command::Check(options) => check::run(&options),
         Command::Compare(options) => compare::run(&options),
+        Command::Columns(options) => columns::run(&options),
         Command::Precision(options) => precision::run(&options),
         Command::Sample(options) => sample::run(&options),
         Command::Simulate(options) => simulate::run(&options),

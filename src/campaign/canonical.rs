@@ -33,8 +33,8 @@ impl Plan {
     }
 
     /// The keys that do not change rows, by the beginning of their path.
-    pub const OUTSIDE_ROWS: [&'static str; 7] =
-        ["campaign.name", "campaign.samples", "statistics.", "summary.", "observable[", "require[", "stop."];
+    pub const OUTSIDE_ROWS: [&'static str; 8] =
+        ["retain.", "campaign.name", "campaign.samples", "statistics.", "summary.", "observable[", "require[", "stop."];
 
     /// The canonical text: `whole`, or the row plan.
     fn text_of(&self, whole: bool) -> String {
@@ -82,6 +82,7 @@ impl Plan {
         lines.key("compression", self.compression.name());
         if whole {
             self.analysis.write(&mut lines);
+            self.retention.write(&mut lines);
         }
         lines.into_text()
     }

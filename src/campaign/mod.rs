@@ -7,6 +7,7 @@
 //!   [`design`], [`dependence`]: those that say what is drawn; `keys`: how a distribution or a design reads its own;
 //!   [`data`], `data_keys`: files of numbers; `parameter`: names of parameters; [`limits`]; [`compression`]; [`bands`].
 //! - [`analysis`]: what is made of the rows: [`requirement`], [`derived_observable`], [`stop`]; [`columns`]: what they can name.
+//!   [`retention`]: which runs keep their time series.
 //! - [`plan`]: defaults filled in, scene and dispersions checked against each other.
 //! - `units`: units in values. `old_format`: files of the format before 0.2, and their new text.
 //! - [`notes`]: what is allowed and probably not meant.
@@ -42,6 +43,7 @@ mod parameter;
 pub mod plan;
 pub mod problem;
 pub mod requirement;
+pub mod retention;
 mod scene;
 pub mod section;
 pub mod spec;
@@ -56,5 +58,6 @@ pub use find::find;
 pub use plan::{Overrides, Plan};
 pub use problem::{CampaignError, Problem};
 pub use requirement::{Requirement, Statement};
+pub use retention::Retention;
 pub use spec::Spec;
 pub use stop::Stop;

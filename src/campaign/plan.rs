@@ -9,6 +9,7 @@ use super::document::Document;
 use super::limits::{FRACTION, LARGEST_SEED, MAX_SAMPLES, MOST_MEMORY, bytes_a_point};
 use super::old_format;
 use super::problem::{CampaignError, Problem};
+use super::retention::Retention;
 use super::spec::Spec;
 use crate::observables::{Group, Request};
 use crate::ode::Tolerance;
@@ -59,6 +60,8 @@ pub struct Plan {
     pub compression: Compression,
     /// What is made of the rows.
     pub analysis: Analysis,
+    /// Which runs keep their full time series.
+    pub retention: Retention,
 }
 
 /// What the command line says instead of the file.
@@ -251,6 +254,7 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
         band_points: usize::try_from(band_points).ok()?,
         compression: spec.compression.unwrap_or(Compression::Lz4),
         analysis: spec.analysis,
+        retention: spec.retention.unwrap_or_default(),
     })
 }
 

@@ -4,10 +4,11 @@
 //! NaN here and noted in the document. What is left out stays `None`: the plan fills it in.
 
 use super::analysis::Analysis;
-use super::columns::request;
+use super::columns::{KnownColumns, request};
 use super::compression::Compression;
 use super::document::Document;
 use super::limits::{FRACTION, LARGEST_SEED, MAX_POINTS, MAX_SAMPLES, TOLERANCE};
+use super::retention::Retention;
 use super::section::{POSITIVE, Section};
 use super::{bands, dependence, design, disperse, scene};
 use crate::observables::Group;
@@ -60,6 +61,8 @@ pub struct Spec {
     pub compression: Option<Compression>,
     /// What is made of the rows; without the tables that are wrong.
     pub analysis: Analysis,
+    /// `retain.trajectories`.
+    pub retention: Option<Retention>,
 }
 
 impl Spec {
@@ -124,6 +127,9 @@ impl Spec {
 
         let observed = request(groups.as_deref().unwrap_or(&Group::DEFAULT), &scene, method.unwrap_or(Method::Auto));
         let analysis = Analysis::read(&mut root, observed);
+        let mut known = KnownColumns::new(observed);
+        analysis.derived.iter().for_each(|derived| known.add(derived.quantity()));
+        let retention = Retention::read(&mut root.section("retain"), &known);
         root.finish();
 
         Spec {
@@ -148,6 +154,7 @@ impl Spec {
             band_points,
             compression,
             analysis,
+            retention,
         }
     }
 }

@@ -4,7 +4,9 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+use crate::campaign::section::choice;
 use crate::dataset::claim::Shard;
+use crate::observables::Group;
 use crate::propagation::Method;
 
 /// Most shards of a campaign.
@@ -61,6 +63,9 @@ pub enum Command {
     /// Measure run time against error for every method and tolerance: a table, a Parquet file, a plot.
     #[command(after_help = EXIT_CODES)]
     Precision(PrecisionOptions),
+    /// Show the columns of the rows of a result: name, unit, meaning.
+    #[command(after_help = EXIT_CODES)]
+    Columns(ColumnsOptions),
 }
 
 /// Arguments of `campaign`.
@@ -223,9 +228,28 @@ pub struct PrecisionOptions {
     pub out: Option<PathBuf>,
 }
 
+/// Arguments of `columns`.
+#[derive(Debug, Args)]
+pub struct ColumnsOptions {
+    /// A group of columns, named as in campaign files [default: all].
+    #[arg(value_parser = group)]
+    pub group: Option<Group>,
+    /// Show the columns of this campaign, with the names of its wheels, its dispersed values and audits.
+    #[arg(long, value_name = "FILE")]
+    pub campaign: Option<PathBuf>,
+}
+
 /// The arguments of this process; invalid ones end it with a message and code 2.
 pub fn arguments() -> Arguments {
     Arguments::parse()
+}
+
+/// The group of that name; otherwise the list of names.
+fn group(name: &str) -> Result<Group, String> {
+    Group::from_name(name).ok_or_else(|| {
+        let (allowed, remedy) = choice(name, &Group::ALL.map(Group::name));
+        format!("must be {allowed}; {remedy}")
+    })
 }
 
 /// The method of that name; otherwise the list of names.
@@ -284,7 +308,7 @@ mod tests {
         // `help` is clap's own
         let ours = command.get_subcommands_mut().filter(|command| command.get_name() != "help");
         helps.extend(ours.map(|command| command.render_help().to_string()));
-        assert_eq!(helps.len(), 9);
+        assert_eq!(helps.len(), 10);
         for help in helps {
             for code in ["0  done", "1  ran", "2  bad input", "3  ran", "4  input/output", "5  ran"] {
                 assert!(help.contains(code), "{help}");

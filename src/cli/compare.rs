@@ -7,8 +7,8 @@ use crate::campaign::{Overrides, Plan};
 use crate::cli::arguments::CompareOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::screen;
-use crate::dataset::comparison::{ResultRows, compare};
 use crate::dataset::claim::open;
+use crate::dataset::comparison::{ResultRows, compare};
 use crate::dataset::names::PLAN;
 use crate::dataset::rows_reader::RowsReader;
 use crate::dataset::storage::Disk;
@@ -40,10 +40,7 @@ pub fn run(options: &CompareOptions) -> Result<CommandOutcome, Failure> {
 fn result(folder: &Path) -> Result<(Plan, RowsReader), Failure> {
     let plan = folder.join(PLAN);
     if !plan.is_file() {
-        return Err(Failure::Input(format!(
-            "`{}` has no result of spindrift: there is no {PLAN}",
-            folder.display()
-        )));
+        return Err(Failure::Input(format!("`{}` has no result of spindrift: there is no {PLAN}", folder.display())));
     }
     let plan = Plan::load(&plan, Overrides::default()).map_err(|error| Failure::Input(error.to_string()))?;
     let (found, _) = open(&Disk, folder).map_err(Failure::files)?;

@@ -2,7 +2,7 @@
 //!
 //! - [`arguments`]: commands and options. - [`input`]: the plan and the instruction set of a command.
 //! - [`analysis`]: what is made of the rows at the end of a campaign.
-//! - [`run_campaign`], [`finish_campaign`], [`verify`], [`check`], [`compare`], [`precision`], [`sample`], [`simulate`]: one command each.
+//! - [`run_campaign`], [`finish_campaign`], [`verify`], [`check`], [`columns`], [`compare`], [`precision`], [`sample`], [`simulate`]: one command each.
 //! - [`dispersions`]: the dispersions of a plan as text. - [`progress`]: the progress bar. - [`screen`]: printing; [`signals`].
 //! - [`command_outcome`]: how a command ends, and its exit code.
 //!
@@ -11,6 +11,7 @@
 pub mod analysis;
 pub mod arguments;
 pub mod check;
+pub mod columns;
 pub mod command_outcome;
 pub mod compare;
 pub mod dispersions;

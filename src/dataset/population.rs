@@ -24,6 +24,7 @@ impl Population {
         let name = plan.design.name();
         match &plan.design {
             _ if plan.samples < 2 => Population::Nominal,
+            design if design.replicates() > 1 => Population::Replicated(design.replicates()),
             Design::Random(_) => Population::Independent,
             Design::LatinHypercube(_) | Design::Sobol(_) | Design::Halton(_) => Population::Dependent(name),
             Design::Grid(_) | Design::OneAtATime(_) | Design::Saltelli(_) | Design::Table(_) => {

@@ -3,7 +3,7 @@
 //! They are series of the table of observables, and changes of such series since the start (the energy transfer). Nothing is
 //! computed for them that the observed columns do not need.
 
-use super::reduction::Stored;
+use super::reduction::{Reduction, Stored};
 use super::request::Request;
 use super::table::Series;
 use crate::run::Quantity;
@@ -44,6 +44,10 @@ impl Form {
 #[derive(Clone, Debug, PartialEq)]
 pub struct BandSeries {
     pub(super) series: Series,
+    /// What the series stores.
+    stored: Stored,
+    /// What its values are divided by.
+    pub(super) scale: Option<(Series, Reduction)>,
     /// Whether it is the change of the series since the start.
     pub(super) is_change: bool,
     /// Name, unit and meaning.
@@ -103,11 +107,12 @@ fn of_series(request: &Request, series: Series, change: Option<(&str, &str)>) ->
                 Quantity::named(named(name), shown.unit().to_owned(), named(meaning))
             }
         };
-        let form = match series.row().stored {
+        let (stored, scale) = (series.row().stored, series.row().scale);
+        let form = match stored {
             Stored::HalfTangentSquare => Form::HalfTangent,
             Stored::Quantity | Stored::Square => Form::Value,
         };
-        Some(BandSeries { series, is_change: change.is_some(), quantity, form })
+        Some(BandSeries { series, stored, scale, is_change: change.is_some(), quantity, form })
     };
     (0..places).filter_map(of_place).collect()
 }
@@ -116,7 +121,7 @@ fn of_series(request: &Request, series: Series, change: Option<(&str, &str)>) ->
 #[inline(always)]
 pub(super) fn keep(band: &BandSeries, column: &[f64], scale: f64, points: &[usize], out: &mut [f64]) {
     let taken = out.iter_mut().zip(points);
-    match band.series.row().stored {
+    match band.stored {
         Stored::Quantity if band.is_change => taken.for_each(|(out, point)| *out = column[*point] - column[0]),
         Stored::Quantity if scale == 1.0 => taken.for_each(|(out, point)| *out = column[*point]),
         Stored::Quantity => taken.for_each(|(out, point)| *out = column[*point] / scale),

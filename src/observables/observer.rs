@@ -180,7 +180,7 @@ impl Observer {
     /// # Panics
     /// Where a point is beyond the grid.
     pub fn over_time(&self, band: &BandSeries, points: &[usize], out: &mut [f64]) {
-        let scale = band.series.row().scale.map_or(1.0, |scale| self.statistics.scale(Slot::of(scale)));
+        let scale = band.scale.map_or(1.0, |scale| self.statistics.scale(Slot::of(scale)));
         let reached = points.partition_point(|point| *point < self.filled);
         keep(band, self.series.column(band.series), scale, &points[..reached], &mut out[..reached]);
         out[reached..].fill(f64::NAN);

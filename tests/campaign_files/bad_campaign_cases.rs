@@ -357,6 +357,62 @@ pub const CASES: &[(&str, &str, &str)] = &[
         "sigmas = 3\n[[disperse]]\nparameter = \"body.parts.fuselage.density_kg_m3\"\ndistribution = \"normal\"\nstd = 1\n",
         "bad.toml:47: disperse[1].parameter = \"body.parts.fuselage.density_kg_m3\": must be dispersed once; delete one of the two [[disperse]] tables, or address different components",
     ),
+    // bands and retained runs
+    (
+        "points = 11\n",
+        "points = 11\n[bands]\npoints = 12\n",
+        "bad.toml:12: bands.points = 12: must be 0 (no bands), or 2 to 11: the grid has 11 points; write fewer points, or more in observe.points",
+    ),
+    (
+        "points = 11\n",
+        "points = 11\n[bands]\npoints = 1\n",
+        "bad.toml:12: bands.points = 1: must be 0 (no bands), or 2 to 11: the grid has 11 points; write fewer points, or more in observe.points",
+    ),
+    (
+        "points = 11\n",
+        "points = 11\n[bands]\npoints = 1000\n",
+        "bad.toml:12: bands.points = 1000: must be a whole number from 0 to 257; write a number within this range",
+    ),
+    (
+        "points = 11\n",
+        "points = 11\n[bands]\npiont = 3\n",
+        "bad.toml:12: bands.piont = 3: must be a key of [bands] (points); did you mean points?",
+    ),
+    (
+        "points = 11\n",
+        "points = 11\n[retain]\ntrajectories = \"faild\"\n",
+        "bad.toml:12: retain.trajectories = \"faild\": must be \"none\", \"all\", \"failed\", \"worst:20 by energy_error_max\" or \"sample:100\"; did you mean \"failed\"?",
+    ),
+    (
+        "points = 11\n",
+        "points = 11\n[retain]\ntrajectories = \"sample\"\n",
+        "\"sample:100\"; write how many: \"sample:100\"",
+    ),
+    (
+        "points = 11\n",
+        "points = 11\n[retain]\ntrajectories = \"worst:20\"\n",
+        "name the observable: \"worst:20 by energy_error_max\"",
+    ),
+    (
+        "points = 11\n",
+        "points = 11\n[retain]\ntrajectories = \"worst:0 by energy_error_max\"\n",
+        "write a whole number of runs from 1 to 1000000",
+    ),
+    (
+        "points = 11\n",
+        "points = 11\n[retain]\ntrajectories = \"worst:20 by energy_eror_max\"\n",
+        "did you mean \"energy_error_max\"?",
+    ),
+    (
+        "points = 11\n",
+        "points = 11\n[retain]\ntrajectories = \"worst:20 by nutation_angle_max_rad\"\n",
+        "it is in the group motion: add \"motion\" to observe.groups",
+    ),
+    (
+        "points = 11\n",
+        "points = 11\n[retain]\ntrajectories = 3\n",
+        "bad.toml:12: retain.trajectories = 3: must be text; write it in quotes",
+    ),
     // TOML itself
     ("seed = 1\n", "seed = = 1\n", "bad.toml:4: line = "),
     ("seed = 1\n", "seed = 1\nseed = 2\n", "bad.toml:5: line = "),

@@ -1,6 +1,6 @@
 //! Campaign files: the shipped ones, defaults, and the plan as text.
 
-use spindrift::campaign::{Compression, Overrides, Plan};
+use spindrift::campaign::{Compression, Overrides, Plan, Retention};
 use spindrift::observables::Group;
 use spindrift::ode::Integrator;
 use spindrift::propagation::Method;
@@ -244,6 +244,10 @@ parameter = "wheels.w2.length_m"
 expression = "0.4 * wheels.w2.radius_m + max(0, if(wheels.w2.radius_m > 0.25, wheels.w2.radius_m - 0.25, 0))"
 [output]
 compression = "none"
+[bands]
+points = 2
+[retain]
+trajectories = "worst:3 by energy_error_max"
 "#;
 
 #[test]
@@ -254,6 +258,8 @@ fn every_key_reads_back() {
     assert_eq!((plan.tolerance.relative, plan.tolerance.absolute), (1e-9, 1e-12));
     assert_eq!(plan.groups, [Group::EnergyConservation, Group::StepStatistics], "in the order of the columns");
     assert_eq!(plan.compression, Compression::None);
+    let retention = Retention::Worst { count: 3, observable: "energy_error_max".to_owned() };
+    assert_eq!((plan.band_points, &plan.retention), (2, &retention));
     assert!(plan.nominal.wheels[1].position_m[2].is_sign_negative(), "the sign of zero too");
     let modes = plan.nominal.wheels.iter().map(|wheel| wheel.mode).collect::<Vec<_>>();
     assert_eq!(modes, [WheelMode::Locked, WheelMode::Free, WheelMode::SpeedHeld]);
@@ -279,6 +285,9 @@ fn every_design_reads_back() {
         ("kind = \"latin_hypercube\"", 16),
         ("kind = \"sobol\"", 16),
         ("kind = \"halton\"", 16),
+        ("kind = \"latin_hypercube\"\nreplicates = 3", 16),
+        ("kind = \"sobol\"\nreplicates = 5", 16),
+        ("kind = \"halton\"\nreplicates = 15", 16),
         ("kind = \"saltelli\"", 16),
         ("kind = \"grid\"\nlevels = 15", 16),
         ("kind = \"grid\"\nquantiles = [0.25, 0.75]", 3),
@@ -309,4 +318,7 @@ fn omitted_keys_have_defaults() {
     let mass = Scene::resolve(scene).expect("physical").mass;
     assert_eq!((mass.total, mass.center), (10.0, [0.0; 3]));
     assert!(plan.dispersions.columns().is_empty());
+    assert_eq!((plan.band_points, &plan.retention), (33, &Retention::None));
+    let few = Plan::from_text("small.toml", &format!("{text}[observe]\npoints = 5\n"), Overrides::default());
+    assert_eq!(few.unwrap_or_else(|e| panic!("{e}")).band_points, 5, "no more than the grid has");
 }

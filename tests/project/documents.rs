@@ -111,6 +111,7 @@ fn program_problem(words: &[&str]) -> Option<String> {
         Command::Precision(options) => &options.file,
         // a folder that a campaign has made
         Command::Finish(_) | Command::Verify(_) => return None,
+        Command::Columns(options) => options.campaign.as_ref()?,
     };
     // `my_sweep.toml` is the file that the README asks the reader to save; FILE means any
     let shipped = || root().join("campaigns").join(file).is_file() || find(file).is_ok();

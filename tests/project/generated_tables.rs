@@ -10,7 +10,9 @@ use spindrift::dataset::rows_file::headings;
 use spindrift::dataset::timeseries::TimeSeries;
 use spindrift::ensemble::{Ensemble, SingleRun};
 use spindrift::math::Isa;
-use spindrift::observables::{Group, table};
+use spindrift::observables::band_series::band_series;
+use spindrift::observables::request::wheel_names;
+use spindrift::observables::{Group, Groups, Request, table};
 use spindrift::sampling::SampleId;
 use spindrift::scene::SceneInput;
 use spindrift::scene::schema::Presence;
@@ -83,6 +85,18 @@ fn columns_of_series() -> String {
     format!("{}.\n", names.join(", "))
 }
 
+/// The quantities that have bands, of a scene that has all.
+fn quantities_over_time() -> String {
+    let request =
+        Request { groups: Groups::ALL, debris: true, actuated: true, constrained: false, wheels: wheel_names(&["w1"]) };
+    let mut table = String::from("| series | unit | what it is |\n| --- | --- | --- |\n");
+    for band in band_series(&request) {
+        let quantity = &band.quantity;
+        let _ = writeln!(table, "| `{}` | {} | {} |", quantity.name(), quantity.unit(), cell(quantity.meaning()));
+    }
+    table
+}
+
 /// The dependencies with the comments that stand above them in Cargo.toml.
 fn dependencies() -> String {
     let mut table = String::from("| crate | version | why | where |\n| --- | --- | --- | --- |\n");
@@ -153,7 +167,7 @@ fn replaced(document: &str, name: &str, table: &str) -> String {
 /// Checked: what the documents say of columns and dependencies is what the source says.
 #[test]
 fn the_generated_tables_are_up_to_date() {
-    let columns = [("columns", columns_of_rows()), ("series", columns_of_series())];
+    let columns = [("columns", columns_of_rows()), ("series", columns_of_series()), ("bands", quantities_over_time())];
     let dependencies = [("dependencies", dependencies())];
     let parameters = [("parameters", parameters())];
     for (file, tables) in [

@@ -4,6 +4,7 @@ use spindrift::campaign::{CampaignError, Overrides, Plan};
 use spindrift::sampling::design::halton::{Halton, HaltonDesign};
 use spindrift::sampling::design::latin::LatinHypercubeDesign;
 use spindrift::sampling::design::random::RandomDesign;
+use spindrift::sampling::design::replicates::Replicates;
 use spindrift::sampling::design::saltelli::SaltelliDesign;
 use spindrift::sampling::design::sobol::{Sobol, SobolDesign};
 use spindrift::sampling::design::{Dimensions, PointSource, Points};
@@ -301,9 +302,9 @@ fn sequences_integrate_smooth_functions_faster() {
     };
     let [random, latin, sobol, halton] = [
         Design::Random(RandomDesign),
-        Design::LatinHypercube(LatinHypercubeDesign),
-        Design::Sobol(SobolDesign),
-        Design::Halton(HaltonDesign),
+        Design::LatinHypercube(LatinHypercubeDesign(Replicates::ONE)),
+        Design::Sobol(SobolDesign(Replicates::ONE)),
+        Design::Halton(HaltonDesign(Replicates::ONE)),
     ]
     .map(|design| fall(&design));
     println!("slope and rms error at 4096: random {random:?}, latin {latin:?}, sobol {sobol:?}, halton {halton:?}");
@@ -325,9 +326,9 @@ fn numbers_are_pinned() {
     let mut found = Vec::new();
     for design in [
         Design::Random(RandomDesign),
-        Design::LatinHypercube(LatinHypercubeDesign),
-        Design::Sobol(SobolDesign),
-        Design::Halton(HaltonDesign),
+        Design::LatinHypercube(LatinHypercubeDesign(Replicates::ONE)),
+        Design::Sobol(SobolDesign(Replicates::ONE)),
+        Design::Halton(HaltonDesign(Replicates::ONE)),
         Design::Saltelli(SaltelliDesign),
     ] {
         let mut points =

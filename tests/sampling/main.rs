@@ -12,4 +12,5 @@ mod effect;
 mod geometric;
 mod geometric_files;
 mod replay;
+mod replicates;
 mod streams;

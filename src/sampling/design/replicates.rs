@@ -26,19 +26,24 @@ impl Replicates {
     /// The design itself.
     pub const ONE: Replicates = Replicates(1);
 
+    /// So many, from 1 to 1024; `None` for other numbers.
+    pub fn of(count: u64) -> Option<Self> {
+        (1..=MOST).contains(&count).then_some(Replicates(count))
+    }
+
     /// The number that the key gives, one without it; `None` where it is wrong, which is then noted.
     pub fn read(keys: &mut dyn KeyReader) -> Option<Self> {
         if !keys.has(KEY) {
             return Some(Replicates::ONE);
         }
-        match keys.counts(KEY)? {
-            Counts::All(count) if count <= MOST => Some(Replicates(count)),
-            _ => {
-                let allowed = format!("a whole number from 1 to {MOST}");
-                keys.refuse(KEY, &allowed, "16 replicates are usual");
-                None
-            }
+        let found = match keys.counts(KEY)? {
+            Counts::All(count) => Replicates::of(count),
+            Counts::Each(_) => None,
+        };
+        if found.is_none() {
+            keys.refuse(KEY, &format!("a whole number from 1 to {MOST}"), "write 16, which is usual");
         }
+        found
     }
 
     /// Writes the key, where there are several.

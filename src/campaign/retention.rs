@@ -1,0 +1,105 @@
+//! The `[retain]` table: which runs keep their full time series. No row depends on it.
+
+use super::columns::KnownColumns;
+use super::lines::Lines;
+use super::section::{Section, choice};
+
+/// Which runs keep their full time series.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum Retention {
+    /// None.
+    #[default]
+    None,
+    /// All, the nominal one among them.
+    All,
+    /// Those that are not `ok`.
+    Failed,
+    /// The dispersed runs with the largest magnitudes of an observable, this many.
+    Worst {
+        /// How many.
+        count: u64,
+        /// The observable.
+        observable: String,
+    },
+    /// This many dispersed runs, chosen at random.
+    Sample(u64),
+}
+
+/// The key.
+const KEY: &str = "trajectories";
+/// What it may be.
+const ALLOWED: &str = "\"none\", \"all\", \"failed\", \"worst:20 by energy_error_max\" or \"sample:100\"";
+/// Most runs of `worst` and `sample`.
+const MOST: u64 = 1_000_000;
+
+impl Retention {
+    /// Reads the table; `None` without the key, and where it is wrong, which is then noted.
+    pub(super) fn read(section: &mut Section<'_, '_>, known: &KnownColumns) -> Option<Self> {
+        let found = section.text(KEY).and_then(|text| parsed(section, text, known));
+        section.finish();
+        found
+    }
+
+    /// Writes the table.
+    pub(super) fn write(&self, lines: &mut Lines) {
+        lines.table("[retain]");
+        lines.key(KEY, self.text());
+    }
+
+    /// As in a campaign file.
+    pub fn text(&self) -> String {
+        match self {
+            Retention::None => "none".to_owned(),
+            Retention::All => "all".to_owned(),
+            Retention::Failed => "failed".to_owned(),
+            Retention::Worst { count, observable } => format!("worst:{count} by {observable}"),
+            Retention::Sample(count) => format!("sample:{count}"),
+        }
+    }
+}
+
+fn parsed(section: &mut Section<'_, '_>, text: &str, known: &KnownColumns) -> Option<Retention> {
+    let text = text.trim();
+    let (word, rest) = text.split_once(':').map_or((text, None), |(word, rest)| (word.trim(), Some(rest.trim())));
+    match (word, rest) {
+        ("none", None) => Some(Retention::None),
+        ("all", None) => Some(Retention::All),
+        ("failed", None) => Some(Retention::Failed),
+        ("sample", Some(count)) => runs(section, count).map(Retention::Sample),
+        ("worst", Some(rest)) => {
+            let (count, observable) = rest.split_once(" by ").map_or((rest, ""), |(count, name)| (count, name.trim()));
+            let count = runs(section, count)?;
+            if observable.is_empty() {
+                let remedy = format!("name the observable: \"worst:{count} by energy_error_max\"");
+                section.refuse(KEY, ALLOWED, remedy);
+                return None;
+            }
+            if known.observable(observable).is_none() {
+                let (allowed, remedy) = known.refusal(observable);
+                let value = format!("{text:?}");
+                section.refuse_value(KEY, value, format!("{ALLOWED} with {allowed}"), remedy);
+                return None;
+            }
+            Some(Retention::Worst { count, observable: observable.to_owned() })
+        }
+        _ => {
+            let (_, remedy) = choice(word, &["none", "all", "failed", "worst", "sample"]);
+            let remedy = match (word, rest) {
+                ("sample", None) => "write how many: \"sample:100\"".to_owned(),
+                ("worst", None) => "write how many, and by what: \"worst:20 by energy_error_max\"".to_owned(),
+                _ => remedy,
+            };
+            section.refuse(KEY, ALLOWED, remedy);
+            None
+        }
+    }
+}
+
+/// A number of runs.
+fn runs(section: &mut Section<'_, '_>, text: &str) -> Option<u64> {
+    let count = text.trim().parse().ok().filter(|count| (1..=MOST).contains(count));
+    if count.is_none() {
+        section.refuse(KEY, ALLOWED, format!("write a whole number of runs from 1 to {MOST}"));
+    }
+    count
+}

@@ -1,0 +1,92 @@
+//! `spindrift columns`: the columns of the rows of a result, with unit and meaning.
+
+use std::fmt::Write as _;
+
+use crate::campaign::{Overrides, Plan};
+use crate::cli::arguments::ColumnsOptions;
+use crate::cli::command_outcome::{CommandOutcome, Failure};
+use crate::cli::input::{isa, plan};
+use crate::cli::screen;
+use crate::dataset::rows_file::headings;
+use crate::ensemble::Ensemble;
+use crate::observables::{Group, table};
+use crate::run::Quantity;
+
+/// Runs the command.
+///
+/// # Errors
+/// Where the campaign file is wrong, or does not observe the group.
+pub fn run(options: &ColumnsOptions) -> Result<CommandOutcome, Failure> {
+    let sections = match &options.campaign {
+        None => of_all_campaigns(),
+        Some(file) => of_campaign(&plan(file, Overrides::default())?)?,
+    };
+    let is_asked = |section: &Section| options.group.is_none_or(|group| section.title == group.name());
+    let shown: Vec<&Section> = sections.iter().filter(|section| is_asked(section)).collect();
+    if shown.is_empty() {
+        let groups: Vec<&str> = sections.iter().map(|section| section.title.as_str()).collect();
+        let group = options.group.map_or("", Group::name);
+        return Err(Failure::Input(format!("{group}: the rows of this campaign have {}", groups.join(", "))));
+    }
+    screen::print(&text(&shown))?;
+    Ok(CommandOutcome::Done)
+}
+
+/// Columns with a title.
+struct Section {
+    title: String,
+    columns: Vec<(Quantity, &'static str)>,
+}
+
+/// The columns of every group; those of wheels once, with the place of the name.
+fn of_all_campaigns() -> Vec<Section> {
+    let section = |group: Group| Section {
+        title: group.name().to_owned(),
+        columns: table::all()
+            .filter(|column| column.group == group)
+            .map(|column| (column.quantity.clone(), column.scenes()))
+            .collect(),
+    };
+    Group::ALL.into_iter().map(section).collect()
+}
+
+/// The columns of the rows of `plan`: what is of the sample, its groups, and audits.
+fn of_campaign(plan: &Plan) -> Result<Vec<Section>, Failure> {
+    let ensemble = Ensemble::new(plan, isa()?);
+    let observed = ensemble.request().columns();
+    let title = |quantity: &Quantity| {
+        observed.iter().find(|column| column.quantity.name() == quantity.name()).map(|column| column.group.name())
+    };
+    let mut sections: Vec<Section> = Vec::new();
+    for heading in headings(&ensemble) {
+        let is_first = sections.iter().all(|section| section.title == SAMPLE);
+        let title = title(&heading.quantity).unwrap_or(if is_first { SAMPLE } else { AUDIT });
+        match sections.last_mut().filter(|section| section.title == title) {
+            Some(section) => section.columns.push((heading.quantity, "")),
+            None => sections.push(Section { title: title.to_owned(), columns: vec![(heading.quantity, "")] }),
+        }
+    }
+    Ok(sections)
+}
+
+/// Title of the columns before the observables.
+const SAMPLE: &str = "the sample and what it applies";
+/// Title of the columns after them.
+const AUDIT: &str = "audit";
+
+fn text(sections: &[&Section]) -> String {
+    let all = || sections.iter().flat_map(|section| &section.columns);
+    let width = |text: fn(&Quantity) -> &str| all().map(|(q, _)| text(q).chars().count()).max().unwrap_or(0);
+    let (names, units) = (width(Quantity::name), width(Quantity::unit));
+    let mut text = String::new();
+    for section in sections {
+        let newline = if text.is_empty() { "" } else { "\n" };
+        let _ = writeln!(text, "{newline}{}", section.title); // writing to a String does not fail
+        for (quantity, scenes) in &section.columns {
+            let only = if scenes.is_empty() { String::new() } else { format!(" ({scenes})") };
+            let (name, unit, meaning) = (quantity.name(), quantity.unit(), quantity.meaning());
+            let _ = writeln!(text, "  {name:<names$}  {unit:<units$}  {meaning}{only}");
+        }
+    }
+    text
+}

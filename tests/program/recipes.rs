@@ -1,0 +1,115 @@
+//! The Python recipes of `docs/results.md`, run as they stand there.
+//!
+//! `SPINDRIFT_PYTHON` names the interpreter (default: `python3`); a recipe whose packages it does not have is skipped, and said so.
+
+use std::path::Path;
+use std::process::Command;
+
+use spindrift::campaign::{Overrides, Plan};
+use spindrift::dataset::bands_table;
+use spindrift::dataset::rows_reader::RowsReader;
+use spindrift::ensemble::{Bands, Ensemble, Parts, Rows, Sink, run};
+use spindrift::math::Isa;
+use spindrift::run::Status;
+use spindrift::statistics::quantile::quantile;
+
+use crate::support::scratch_folder::ScratchFolder;
+
+/// The variable with the interpreter.
+const PYTHON: &str = "SPINDRIFT_PYTHON";
+
+/// The Python blocks of the section of recipes.
+fn recipes() -> Vec<String> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/results.md");
+    let text = std::fs::read_to_string(path).unwrap();
+    let section = text.split("\n## ").find(|section| section.starts_with("Recipes")).expect("a section of recipes");
+    let blocks = section.split("```python\n").skip(1);
+    blocks.map(|block| block.split("```").next().unwrap_or_default().to_owned()).collect()
+}
+
+/// The packages that a block imports.
+fn packages(block: &str) -> Vec<String> {
+    let imports = block.lines().filter_map(|line| line.strip_prefix("import "));
+    let names = imports.flat_map(|line| line.split(','));
+    let package = |name: &str| name.trim().split([' ', '.']).next().unwrap_or_default().to_owned();
+    names.map(package).collect()
+}
+
+/// The number after `word` in what a recipe printed.
+fn after(printed: &str, word: &str) -> f64 {
+    let mut words = printed.split_whitespace();
+    words.find(|other| *other == word).unwrap_or_else(|| panic!("no {word} in:\n{printed}"));
+    words.next().and_then(|number| number.parse().ok()).unwrap_or_else(|| panic!("no number after {word}:\n{printed}"))
+}
+
+/// Takes the bands of a campaign of one part.
+struct One(std::sync::Mutex<Option<Bands>>);
+
+impl Sink for One {
+    type Error = String;
+
+    fn take(&self, rows: &Rows) -> Result<(), String> {
+        let found = rows.bands().map(|bands| bands.bands());
+        let mut all = self.0.lock().unwrap();
+        match (&mut *all, found) {
+            (Some(all), Some(found)) => all.merge(&found).map_err(|error| error.to_string()),
+            (all, found) => {
+                *all = found;
+                Ok(())
+            }
+        }
+    }
+}
+
+/// Law: each recipe runs as it is printed, and gives the numbers of the rows and of the bands.
+#[test]
+fn recipes_give_the_numbers_of_the_rows() {
+    let scratch = ScratchFolder::new("recipes");
+    scratch.says("campaign", "spin_sweep.toml", "--samples 300", 0);
+    let reader = RowsReader::new(scratch.part_files("results/spin_sweep"));
+    let mut errors = Vec::new();
+    for part in (0..).map_while(|index| reader.part(index)) {
+        let part = part.unwrap();
+        let rows = part.statuses().unwrap().into_iter().zip(part.numbers("energy_error_max").unwrap());
+        errors.extend(rows.filter(|(status, _)| *status == Status::Done).map(|(_, error)| error));
+    }
+    errors.sort_by(f64::total_cmp);
+
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns/spin_sweep.toml");
+    let plan = Plan::load(&path, Overrides { samples: Some(300), ..Overrides::default() }).unwrap();
+    let (sink, ensemble) = (One(None.into()), Ensemble::new(&plan, Isa::best()));
+    run(&ensemble, Parts::of(plan.samples), None, &sink, &|_| {}).unwrap();
+    let bands = sink.0.into_inner().unwrap().expect("bands");
+    bands_table::save(&plan, &bands, &scratch.path("results/spin_sweep/bands.parquet")).unwrap();
+    let wheel = bands.find("exchange_w1_j").expect("bands of wheel 1");
+    let p95 = (0..bands.times().len()).filter_map(|point| bands.quantile(wheel, point, 0.95)).fold(0.0, f64::max);
+
+    let python = std::env::var(PYTHON).unwrap_or_else(|_| "python3".to_owned());
+    let recipes = recipes();
+    assert_eq!(recipes.len(), 3, "polars, DuckDB, pandas");
+    for recipe in recipes {
+        assert!(recipe.lines().count() <= 10, "a recipe of ten lines:\n{recipe}");
+        let packages = packages(&recipe);
+        let check = format!("import {}", packages.join(", "));
+        let is_there = Command::new(&python).args(["-c", &check]).output().is_ok_and(|output| output.status.success());
+        if !is_there {
+            println!("skipped: {python} does not have {}", packages.join(", "));
+            continue;
+        }
+        let output = Command::new(&python).args(["-c", &recipe]).current_dir(&scratch.0).output().unwrap();
+        let printed = String::from_utf8_lossy(&output.stdout);
+        assert!(output.status.success(), "{recipe}\n{printed}\n{}", String::from_utf8_lossy(&output.stderr));
+        assert_eq!(after(&printed, "runs"), errors.len() as f64, "{recipe}");
+        assert_eq!(Some(after(&printed, "median")), quantile(&errors, 0.5), "{recipe}");
+        assert_eq!(after(&printed, "p95"), p95, "{recipe}");
+        println!("ran the recipe with {}", packages.join(", "));
+    }
+}
+
+/// Counter-test: what the test looks for is found where it is, and only there.
+#[test]
+fn the_reading_can_fail() {
+    assert_eq!(packages("import a as b, c.d as e\nx = 1\nimport f"), ["a", "c", "f"]);
+    assert_eq!(after("x\nruns 12 median 3e-4", "median"), 3e-4);
+    assert!(std::panic::catch_unwind(|| after("runs 12", "median")).is_err());
+}
