@@ -16,10 +16,11 @@ use crate::cli::input::{isa, plan};
 use crate::cli::screen;
 use crate::dataset::claim::{Claim, ClaimOptions, Ready, claim, open, replace};
 use crate::dataset::identity::identity;
-use crate::dataset::names::{PLAN, SUMMARY};
+use crate::dataset::names::{PLAN, SUMMARY, TRAJECTORIES};
 use crate::dataset::rows_reader::RowsReader;
 use crate::dataset::storage::Disk;
 use crate::dataset::tally::Tally;
+use crate::dataset::trajectories;
 use crate::ensemble::Ensemble;
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::runner::threads;
@@ -63,6 +64,7 @@ pub fn finish(job: &Finishing<'_>) -> Result<CommandOutcome, Failure> {
     let reader = RowsReader::new(rows);
     let tally = Tally::of_files(job.ensemble, &reader, job.threads).map_err(Failure::files)?;
     let analysed = analyse(plan, &reader, &bands, folder.root(), job.threads)?;
+    retain(job, &reader)?;
     write_junit(plan, &analysed.verdicts, tally.failed(), job.junit)?;
     let (failed, undecided) = (analysed.verdicts.failed(), analysed.verdicts.undecided());
     let outcome = CommandOutcome::of_campaign(tally.failed(), failed, undecided);
@@ -86,6 +88,18 @@ pub fn finish(job: &Finishing<'_>) -> Result<CommandOutcome, Failure> {
         bytes(folder.size()),
     ))?;
     Ok(outcome)
+}
+
+/// Writes the time series that the plan retains.
+fn retain(job: &Finishing<'_>, reader: &RowsReader) -> Result<(), Failure> {
+    let (plan, folder) = (job.ensemble.plan(), &job.ready.folder);
+    let path = folder.clear(TRAJECTORIES).map_err(Failure::files)?;
+    let samples = trajectories::retained(plan, reader, job.threads).map_err(Failure::files)?;
+    if samples.is_empty() {
+        return Ok(());
+    }
+    folder.storage().create_folder(&path).map_err(|error| Failure::files(format!("{}: {error}", path.display())))?;
+    trajectories::save(plan, &samples, &path, job.ensemble.isa(), job.threads).map_err(Failure::files)
 }
 
 fn headline(plan: &Plan, summary: &Summary, made: Option<(u64, Duration)>) -> String {

@@ -15,7 +15,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use crate::dataset::identity::sha256;
 use crate::dataset::manifest::{FileRecord, Identity, Manifest, PartRecord, Record};
-use crate::dataset::names::{MANIFEST, PLAN, SHARDS, SUCCESS, UNFINISHED};
+use crate::dataset::names::{MANIFEST, PLAN, SHARDS, SUCCESS, UNFINISHED, is_ours};
 use crate::dataset::storage::{Storage, StorageError, at};
 use crate::ensemble::Part;
 
@@ -235,6 +235,22 @@ impl Folder {
         let path = self.path(SUCCESS);
         self.storage.remove(&path).map_err(at(&path))?;
         self.storage.sync_folder(&self.root).map_err(at(&self.root))
+    }
+
+    /// Prepares the folder `name` for files that are made anew: without those that an earlier end of the campaign left there.
+    ///
+    /// # Errors
+    /// Where a file operation fails.
+    pub fn clear(&self, name: &str) -> Result<PathBuf, StorageError> {
+        let path = self.path(name);
+        for entry in self.storage.list(&path).map_err(at(&path))? {
+            if entry.is_file && is_ours(name, &entry.name) {
+                let file = path.join(&entry.name);
+                self.storage.remove(&file).map_err(at(&file))?;
+            }
+        }
+        self.storage.remove_folder(&path).map_err(at(&path))?;
+        Ok(path)
     }
 
     /// Says that everything is there: the manifest lists all parts in order, whichever manifests listed them before, and the mark is set.

@@ -6,9 +6,12 @@
 
 use std::sync::Arc;
 
-use crate::observables::band_series::{BandSeries, Form};
+use crate::math::Isa;
+use crate::observables::Observer;
+use crate::observables::band_reader::{BandColumns, BandReader};
+use crate::observables::band_series::Form;
 use crate::run::Quantity;
-use crate::statistics::deviation::{Code, DeviationCounts, NOT_A_NUMBER, ZERO, code};
+use crate::statistics::deviation::{Code, DeviationCounts, MANTISSA_BITS, NOT_A_NUMBER, ZERO};
 
 /// The runs whose codes are kept before they are counted: enough that the counts of a column are fetched seldom, few enough that the
 /// codes of all columns stay in the second-level cache.
@@ -57,18 +60,22 @@ pub fn band_points(points: usize, count: usize) -> Vec<usize> {
     (0..count).map(|index| (index * (points - 1) + intervals / 2) / intervals).collect()
 }
 
-/// The counts of the buckets between two magnitudes, for one column.
+/// The counts of the buckets between two magnitudes, for one column. Of 16 bits, so that those of all columns fit in the second-level
+/// cache.
 #[derive(Clone, Debug, Default)]
 struct Window {
     /// The code of the first count.
     first: Code,
-    counts: Vec<u32>,
-    zeros: u32,
+    counts: Vec<u16>,
+    zeros: u16,
 }
 
+/// Runs after which counts of 16 bits may be full.
+const FULL: usize = u16::MAX as usize;
+
 impl Window {
-    /// Counts of a window grow by an octave at a time.
-    const GROWTH: usize = 128;
+    /// Windows grow by whole octaves, of both signs.
+    const OCTAVE: usize = 2 << MANTISSA_BITS;
 
     fn clear(&mut self) {
         self.counts.fill(0);
@@ -93,10 +100,10 @@ impl Window {
         }
     }
 
-    /// Widens the window until it has `code`; whole octaves, never the codes of zero and of what is not a number.
+    /// Widens the window until it has `code`; never by the codes of zero and of what is not a number.
     fn include(&mut self, code: usize) {
-        let from = (code / Self::GROWTH * Self::GROWTH).max(2);
-        let to = (code / Self::GROWTH + 1) * Self::GROWTH;
+        let from = (code / Self::OCTAVE * Self::OCTAVE).max(usize::from(NOT_A_NUMBER) + 1);
+        let to = (code / Self::OCTAVE + 1) * Self::OCTAVE;
         if self.counts.is_empty() {
             (self.first, self.counts) = (from as Code, vec![0; to - from]);
             return;
@@ -111,10 +118,11 @@ impl Window {
     }
 
     /// The buckets that are not empty.
-    fn buckets(&self) -> Vec<(Code, u64)> {
+    fn counted(&self) -> DeviationCounts {
         let zeros = (self.zeros > 0).then_some((ZERO, u64::from(self.zeros)));
-        let window = self.counts.iter().zip(self.first..).filter(|(count, _)| **count > 0);
-        zeros.into_iter().chain(window.map(|(count, code)| (code, u64::from(*count)))).collect()
+        let window = self.counts.iter().zip(usize::from(self.first)..).filter(|(count, _)| **count > 0);
+        let window = window.map(|(count, code)| (code as Code, u64::from(*count)));
+        DeviationCounts::of(zeros.into_iter().chain(window).collect()).expect("a window is in the order of its codes")
     }
 }
 
@@ -123,71 +131,59 @@ impl Window {
 #[derive(Clone, Debug)]
 pub struct PartBands {
     layout: Arc<BandLayout>,
-    sources: Arc<[BandSeries]>,
-    points: Arc<[usize]>,
-    reference: Vec<f64>,
+    reader: BandReader,
     runs: u64,
-    values: Vec<f64>,
     /// Codes that are not counted yet, run by run.
     codes: Vec<Code>,
     pending: usize,
     min: Vec<f64>,
     max: Vec<f64>,
     windows: Vec<Window>,
+    /// Runs that are counted in the windows.
+    counted: usize,
+    /// What was in the windows when they were full; empty until then.
+    earlier: Vec<DeviationCounts>,
 }
 
 impl PartBands {
-    /// Of runs observed as `sources` at the observation points `points`, whose nominal run is that of `layout`.
+    /// Of runs that `reader` reads, whose nominal run is that of `layout`.
     ///
     /// # Panics
     /// Where the layout has other series or points.
-    pub fn new(layout: Arc<BandLayout>, sources: Arc<[BandSeries]>, points: Arc<[usize]>) -> Self {
-        assert_eq!((layout.series.len(), layout.times.len()), (sources.len(), points.len()), "one layout of bands");
+    pub fn new(layout: Arc<BandLayout>, mut reader: BandReader) -> Self {
+        let shape = (reader.sources().len(), reader.points().len());
+        assert_eq!((layout.series.len(), layout.times.len()), shape, "one layout of bands");
+        reader.compare_with(&layout.nominal);
         let columns = layout.columns();
         PartBands {
-            reference: (0..columns).map(|column| layout.reference(column)).collect(),
             layout,
-            sources,
-            points,
+            reader,
             runs: 0,
-            values: vec![0.0; columns],
             codes: vec![ZERO; columns * PENDING],
             pending: 0,
             min: vec![f64::INFINITY; columns],
             max: vec![f64::NEG_INFINITY; columns],
             windows: vec![Window::default(); columns],
+            counted: 0,
+            earlier: Vec::new(),
         }
     }
 
     /// Clears what an earlier part left.
     pub fn start(&mut self) {
-        (self.runs, self.pending) = (0, 0);
+        (self.runs, self.pending, self.counted) = (0, 0, 0);
         self.min.fill(f64::INFINITY);
         self.max.fill(f64::NEG_INFINITY);
         self.windows.iter_mut().for_each(Window::clear);
+        self.earlier.clear();
     }
 
-    /// Adds a run. `read` is called for each series, with the points, and writes the kept numbers.
+    /// Adds the run that `observer` observed last.
     #[inline]
-    pub fn add(&mut self, mut read: impl FnMut(&BandSeries, &[usize], &mut [f64])) {
-        let points = self.points.len();
-        let codes = &mut self.codes[self.pending * self.values.len()..][..self.values.len()];
-        for (index, source) in self.sources.iter().enumerate() {
-            let columns = index * points..(index + 1) * points;
-            let values = &mut self.values[columns.clone()];
-            read(source, &self.points, values);
-            let (min, max) = (&mut self.min[columns.clone()], &mut self.max[columns.clone()]);
-            for ((min, max), value) in min.iter_mut().zip(max).zip(&mut *values) {
-                *value += 0.0; // one zero, so that the extremes do not depend on order
-                *min = if *value < *min { *value } else { *min };
-                *max = if *value > *max { *value } else { *max };
-            }
-            let terms = codes[columns.clone()].iter_mut().zip(values).zip(&self.reference[columns]);
-            match source.form {
-                Form::Value => terms.for_each(|((c, v), r)| *c = code(Form::Value.deviation(*v, *r))),
-                Form::HalfTangent => terms.for_each(|((c, v), r)| *c = code(Form::HalfTangent.deviation(*v, *r))),
-            }
-        }
+    pub fn add(&mut self, isa: Isa, observer: &Observer) {
+        let columns = self.reader.columns();
+        let codes = &mut self.codes[self.pending * columns..][..columns];
+        self.reader.read(isa, observer, BandColumns { min: &mut self.min, max: &mut self.max, codes });
         self.runs += 1;
         self.pending += 1;
         if self.pending == PENDING {
@@ -197,12 +193,20 @@ impl PartBands {
 
     /// Counts the codes that are pending; after the last run of a part.
     pub fn count(&mut self) {
-        let columns = self.values.len();
+        if self.counted + self.pending > FULL {
+            let windows: Vec<DeviationCounts> = self.windows.iter().map(Window::counted).collect();
+            self.earlier.resize(windows.len(), DeviationCounts::default());
+            self.earlier.iter_mut().zip(&windows).for_each(|(earlier, window)| earlier.merge(window));
+            self.windows.iter_mut().for_each(Window::clear);
+            self.counted = 0;
+        }
+        let columns = self.reader.columns();
         for (column, window) in self.windows.iter_mut().enumerate() {
-            for codes in self.codes.chunks_exact(columns.max(1)).take(self.pending) {
+            for codes in self.codes.chunks_exact(columns).take(self.pending) {
                 window.add(codes[column]);
             }
         }
+        self.counted += self.pending;
         self.pending = 0;
     }
 
@@ -212,11 +216,13 @@ impl PartBands {
     /// Where runs are pending.
     pub fn bands(&self) -> Bands {
         assert_eq!(self.pending, 0, "all runs of the part are counted");
-        let column = |index: usize| BandColumn {
-            extremes: (self.min[index] <= self.max[index]).then_some([self.min[index], self.max[index]]),
-            counts: DeviationCounts::of(self.windows[index].buckets()).expect("a window is in the order of its codes"),
+        let column = |index: usize| {
+            let mut counts = self.windows[index].counted();
+            self.earlier.get(index).into_iter().for_each(|earlier| counts.merge(earlier));
+            let extremes = [self.min[index], self.max[index]];
+            BandColumn { extremes: (extremes[0] <= extremes[1]).then_some(extremes), counts }
         };
-        Bands { layout: self.layout.clone(), runs: self.runs, columns: (0..self.values.len()).map(column).collect() }
+        Bands { layout: self.layout.clone(), runs: self.runs, columns: (0..self.windows.len()).map(column).collect() }
     }
 }
 
@@ -339,5 +345,45 @@ impl Bands {
         let (low, high) = (form.shown(low), form.shown(high));
         let [min, max] = self.extremes(series, point)?;
         Some((form.shown(reference) + (low + part * (high - low))).clamp(min, max))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::statistics::deviation::code;
+
+    /// Law: a window counts every code once, in whichever order they come and however it has to grow; zero is counted, what is not a
+    /// number is not.
+    #[test]
+    fn a_window_counts_every_code() {
+        let values = [1.0, -1.0, 1e-9, 0.0, f64::NAN, 1e12, -3e-200, 1.0, 1e77, f64::INFINITY, 0.0, 1e-77, -1e-77];
+        for turn in 0..values.len() {
+            let mut window = Window::default();
+            let mut turned = values;
+            turned.rotate_left(turn);
+            turned.iter().for_each(|value| window.add(code(*value)));
+            let mut codes: Vec<Code> = values.iter().map(|value| code(*value)).filter(|c| *c != NOT_A_NUMBER).collect();
+            codes.sort_unstable();
+            let expected = codes.chunk_by(|a, b| a == b).map(|run| (run[0], run.len() as u64)).collect();
+            assert_eq!(Some(window.counted()), DeviationCounts::of(expected), "{turn}");
+            window.clear();
+            assert_eq!(window.counted(), DeviationCounts::default());
+        }
+    }
+
+    #[test]
+    fn points_are_evenly_distributed() {
+        assert_eq!(band_points(101, 33).first(), Some(&0));
+        assert_eq!(band_points(101, 33).last(), Some(&100));
+        assert_eq!(band_points(33, 33), (0..33).collect::<Vec<_>>());
+        for (points, count) in [(101, 33), (11, 33), (2, 2), (10_000_000, 257), (100, 99)] {
+            let found = band_points(points, count);
+            assert_eq!(found.len(), count.min(points));
+            let gaps: Vec<usize> = found.windows(2).map(|pair| pair[1] - pair[0]).collect();
+            let (least, most) = (gaps.iter().min(), gaps.iter().max());
+            assert!(least > Some(&0) && most <= least.map(|least| least + 1).as_ref(), "{points} {count}: {found:?}");
+        }
+        assert!(band_points(11, 0).is_empty());
     }
 }

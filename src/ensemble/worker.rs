@@ -12,6 +12,7 @@ use crate::ensemble::rows::{Rows, Shape};
 use crate::ensemble::runner::Supervision;
 use crate::ensemble::settings::{nominal, nominal_attitude, propagator, request};
 use crate::math::Isa;
+use crate::observables::band_reader::BandReader;
 use crate::observables::band_series::band_series;
 use crate::observables::{Observer, Request};
 use crate::propagation::PropagationSettings;
@@ -79,26 +80,22 @@ impl<'p> Ensemble<'p> {
     }
 
     fn no_bands(&self) -> Option<PartBands> {
-        let points: Arc<[usize]> = band_points(self.plan.grid.points(), self.plan.band_points).into();
-        let sources: Arc<[_]> = band_series(&self.request).into();
+        let points = band_points(self.plan.grid.points(), self.plan.band_points);
+        let sources = band_series(&self.request);
         if points.is_empty() || sources.is_empty() {
             return None;
         }
-        let mut kept = vec![f64::NAN; sources.len() * points.len()];
+        let series = sources.iter().map(|source| (source.quantity.clone(), source.form)).collect();
+        let times = points.iter().map(|point| self.plan.grid.times()[*point]).collect();
+        let mut reader = BandReader::new(sources, points);
         let (scene, mut observer) = (nominal(self.plan), self.observer());
         let mut ignored = vec![f64::NAN; self.shape().observables];
+        let mut kept = vec![f64::NAN; reader.columns()];
         self.propagator.engine(self.isa).propagate(std::slice::from_ref(&scene), &mut |run| {
             observer.observe(self.isa, &scene, run.table, run.outcome, &mut ignored);
-            for (source, kept) in sources.iter().zip(kept.chunks_exact_mut(points.len())) {
-                observer.over_time(source, &points, kept);
-            }
+            kept.copy_from_slice(reader.kept(&observer));
         });
-        let layout = BandLayout {
-            series: sources.iter().map(|source| (source.quantity.clone(), source.form)).collect(),
-            times: points.iter().map(|point| self.plan.grid.times()[*point]).collect(),
-            nominal: kept,
-        };
-        Some(PartBands::new(Arc::new(layout), sources, points))
+        Some(PartBands::new(Arc::new(BandLayout { series, times, nominal: kept }), reader))
     }
 
     fn observer(&self) -> Observer {
@@ -196,7 +193,7 @@ impl Worker<'_> {
             if status != Status::Done {
                 rows.set_reason(row, observer.reason(status, outcome, observed));
             } else if let Some(bands) = rows.bands_mut().filter(|_| first + row as u64 > 0) {
-                bands.add(|source, points, kept| observer.over_time(source, points, kept));
+                bands.add(isa, observer);
             }
         });
     }

@@ -120,17 +120,24 @@ fn of_series(request: &Request, series: Series, change: Option<(&str, &str)>) ->
 /// The kept numbers at `points` of a stored `column`; relative errors are divided by `scale`.
 #[inline(always)]
 pub(super) fn keep(band: &BandSeries, column: &[f64], scale: f64, points: &[usize], out: &mut [f64]) {
-    let taken = out.iter_mut().zip(points);
+    for (out, point) in out.iter_mut().zip(points) {
+        *out = column[*point];
+    }
     match band.stored {
-        Stored::Quantity if band.is_change => taken.for_each(|(out, point)| *out = column[*point] - column[0]),
-        Stored::Quantity if scale == 1.0 => taken.for_each(|(out, point)| *out = column[*point]),
-        Stored::Quantity => taken.for_each(|(out, point)| *out = column[*point] / scale),
-        Stored::Square => taken.for_each(|(out, point)| *out = column[*point].sqrt()),
-        Stored::HalfTangentSquare => taken.for_each(|(out, point)| {
-            let tangent = column[*point].sqrt();
-            // unlike f64::min this keeps what is not a number
-            *out = if tangent > VERTICAL { VERTICAL } else { tangent };
-        }),
+        Stored::Quantity if band.is_change => {
+            let start = column.first().copied().unwrap_or(f64::NAN);
+            out.iter_mut().for_each(|out| *out -= start);
+        }
+        Stored::Quantity if scale == 1.0 => {}
+        Stored::Quantity => out.iter_mut().for_each(|out| *out /= scale),
+        Stored::Square => out.iter_mut().for_each(|out| *out = out.sqrt()),
+        Stored::HalfTangentSquare => {
+            for out in out {
+                let tangent = out.sqrt();
+                // unlike f64::min this keeps what is not a number
+                *out = if tangent > VERTICAL { VERTICAL } else { tangent };
+            }
+        }
     }
 }
 

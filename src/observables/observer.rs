@@ -4,7 +4,7 @@ use fearless_simd::Simd;
 
 use super::accuracy::Accuracy;
 use super::acting::Acting;
-use super::band_series::{BandSeries, keep};
+use super::band_series::BandSeries;
 use super::conditioning::{Conditioning, ErrorEstimate};
 use super::exchange::{BodyEnergy, Exchange, exchange};
 use super::finished_run::{FinishedRun, final_point};
@@ -174,16 +174,11 @@ impl Observer {
         })
     }
 
-    /// The numbers that `band`, one of [`super::band_series::band_series`] of this request, keeps of the run that was observed last, at the
-    /// observation points `points` in ascending order; NaN at those that the run did not reach.
-    ///
-    /// # Panics
-    /// Where a point is beyond the grid.
-    pub fn over_time(&self, band: &BandSeries, points: &[usize], out: &mut [f64]) {
+    /// The stored numbers of the series of `band` at the points that the run reached, and what they are divided by.
+    #[inline(always)]
+    pub(super) fn observed_column(&self, band: &BandSeries) -> (&[f64], f64) {
         let scale = band.scale.map_or(1.0, |scale| self.statistics.scale(Slot::of(scale)));
-        let reached = points.partition_point(|point| *point < self.filled);
-        keep(band, self.series.column(band.series), scale, &points[..reached], &mut out[..reached]);
-        out[reached..].fill(f64::NAN);
+        (&self.series.column(band.series)[..self.filled], scale)
     }
 
     /// Reduces the observed series to statistics.

@@ -1,0 +1,130 @@
+//! [`BandReader`]: the numbers of a run at the points of its bands, and the buckets of their deviations from the nominal run.
+//!
+//! Hundreds of numbers of every run of a campaign: loops without branches over flat arrays, compiled for each instruction set
+//! ([`crate::math::isa::Work`]). The operations are IEEE 754, so all instruction sets give the same buckets.
+//!
+//! Not here: counting the buckets (`ensemble`).
+
+use fearless_simd::Simd;
+
+use super::band_series::{BandSeries, Form, keep};
+use super::observer::Observer;
+use crate::math::Isa;
+use crate::math::isa::Work;
+use crate::statistics::deviation::{Code, code};
+
+/// Reads runs; one per worker, reused from run to run without allocating.
+#[derive(Clone, Debug)]
+pub struct BandReader {
+    sources: Vec<BandSeries>,
+    /// Observation points, ascending.
+    points: Vec<usize>,
+    /// What deviations are from, series by series and point by point.
+    reference: Vec<f64>,
+    kept: Vec<f64>,
+    deviations: Vec<f64>,
+}
+
+/// Where what is read of a run is written, series by series and point by point.
+pub struct BandColumns<'a> {
+    /// The smallest kept numbers so far.
+    pub min: &'a mut [f64],
+    /// The largest kept numbers so far.
+    pub max: &'a mut [f64],
+    /// The buckets of the deviations of this run.
+    pub codes: &'a mut [Code],
+}
+
+impl BandReader {
+    /// Reads `sources` at `points`, in ascending order; deviations are from zero until [`BandReader::compare_with`].
+    pub fn new(sources: Vec<BandSeries>, points: Vec<usize>) -> Self {
+        let columns = sources.len() * points.len();
+        BandReader {
+            sources,
+            points,
+            reference: vec![0.0; columns],
+            kept: vec![f64::NAN; columns],
+            deviations: vec![f64::NAN; columns],
+        }
+    }
+
+    /// The series.
+    pub fn sources(&self) -> &[BandSeries] {
+        &self.sources
+    }
+
+    /// The observation points.
+    pub fn points(&self) -> &[usize] {
+        &self.points
+    }
+
+    /// Number of columns: of series times points.
+    pub fn columns(&self) -> usize {
+        self.reference.len()
+    }
+
+    /// Deviations are from the kept numbers `nominal`, from zero where these are NaN.
+    pub fn compare_with(&mut self, nominal: &[f64]) {
+        for (reference, nominal) in self.reference.iter_mut().zip(nominal) {
+            *reference = if nominal.is_nan() { 0.0 } else { *nominal };
+        }
+    }
+
+    /// The numbers that are kept of the run that `observer` observed last; NaN at points that it did not reach.
+    pub fn kept(&mut self, observer: &Observer) -> &[f64] {
+        self.keep(observer);
+        &self.kept
+    }
+
+    /// Reads the run that `observer` observed last, on `isa`.
+    ///
+    /// # Panics
+    /// Where a list has another length than [`BandReader::columns`].
+    pub fn read(&mut self, isa: Isa, observer: &Observer, out: BandColumns<'_>) {
+        isa.run(Reading { reader: self, observer, out });
+    }
+
+    #[inline(always)]
+    fn keep(&mut self, observer: &Observer) {
+        for (source, kept) in self.sources.iter().zip(self.kept.chunks_exact_mut(self.points.len())) {
+            let (column, scale) = observer.observed_column(source);
+            let reached = self.points.partition_point(|point| *point < column.len());
+            keep(source, column, scale, &self.points[..reached], &mut kept[..reached]);
+            kept[reached..].fill(f64::NAN);
+        }
+    }
+}
+
+struct Reading<'a> {
+    reader: &'a mut BandReader,
+    observer: &'a Observer,
+    out: BandColumns<'a>,
+}
+
+impl Work for Reading<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self, _: S) {
+        let Reading { reader, observer, out } = self;
+        reader.keep(observer);
+        let (count, points) = (reader.columns(), reader.points.len());
+        let (kept, reference) = (&reader.kept[..count], &reader.reference[..count]);
+        let deviations = &mut reader.deviations[..count];
+        let (min, max, codes) = (&mut out.min[..count], &mut out.max[..count], &mut out.codes[..count]);
+        for at in 0..count {
+            let value = kept[at] + 0.0; // one zero, so that the extremes do not depend on order
+            min[at] = if value < min[at] { value } else { min[at] };
+            max[at] = if value > max[at] { value } else { max[at] };
+            deviations[at] = Form::Value.deviation(value, reference[at]);
+        }
+        for (index, _) in reader.sources.iter().enumerate().filter(|(_, source)| source.form == Form::HalfTangent) {
+            for at in index * points..(index + 1) * points {
+                deviations[at] = Form::HalfTangent.deviation(kept[at], reference[at]);
+            }
+        }
+        for (code_at, deviation) in codes.iter_mut().zip(deviations) {
+            *code_at = code(*deviation);
+        }
+    }
+}
