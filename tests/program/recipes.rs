@@ -8,7 +8,7 @@ use std::process::Command;
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::dataset::bands_table;
 use spindrift::dataset::rows_reader::RowsReader;
-use spindrift::ensemble::{Bands, Ensemble, Parts, Rows, Sink, run};
+use spindrift::ensemble::{Bands, Ensemble, Parts, Rows, Sink, Supervision, run};
 use spindrift::math::Isa;
 use spindrift::run::Status;
 use spindrift::statistics::quantile::quantile;
@@ -78,7 +78,7 @@ fn recipes_give_the_numbers_of_the_rows() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns/spin_sweep.toml");
     let plan = Plan::load(&path, Overrides { samples: Some(300), ..Overrides::default() }).unwrap();
     let (sink, ensemble) = (One(None.into()), Ensemble::new(&plan, Isa::best()));
-    run(&ensemble, Parts::of(plan.samples), None, &sink, &|_| {}).unwrap();
+    run(&ensemble, Parts::of(plan.samples), None, &sink, Supervision::progress(&|_| {})).unwrap();
     let bands = sink.0.into_inner().unwrap().expect("bands");
     bands_table::save(&plan, &bands, &scratch.path("results/spin_sweep/bands.parquet")).unwrap();
     let wheel = bands.find("exchange_w1_j").expect("bands of wheel 1");
