@@ -1,5 +1,6 @@
 //! Bodies and actuators as files describe them: what is read, what is refused, and what errors of actuators do.
 
+use crate::support::campaigns::{FUSELAGE, THRUSTERS, WHEEL1_AT_REST};
 use crate::support::runs::{Run, adaptive, propagate};
 use crate::support::scenes::{Kind, random};
 use spindrift::campaign::{Overrides, Plan};
@@ -26,51 +27,10 @@ struct Told<'a> {
 fn file(told: &Told<'_>) -> String {
     let Told { body, wheel, debris, thrusters: [p1, p2, p3], rest } = told;
     format!(
-        r#"
-        [campaign]
-        name = "bodies"
-        samples = 4
-        seed = 1
-        duration_s = 1.0
-        [body]
-        {body}
-        [[body.parts]]
-        name = "fuselage"
-        shape = "hollow_cylinder"
-        wall_thickness_m = 0.03
-        outer_radius_m = 1.0
-        length_m = 3.0
-        density_kg_m3 = 2700.0
-        position_m = [0, 0, 1.5]
-        [[wheels]]
-        name = "w1"
-        axis = [0, 1, 0]
-        position_m = [0, 0, 1]
-        radius_m = 0.25
-        length_m = 0.1
-        density_kg_m3 = 2700.0
-        {wheel}
-        [[thrusters]]
-        name = "p1"
-        position_m = [0, 0, 0]
-        direction = [0, 0, 1]
-        {p1}
-        [[thrusters]]
-        name = "p2"
-        position_m = [0, -0.5, 3]
-        direction = [0, 0, -1]
-        {p2}
-        [[thrusters]]
-        name = "p3"
-        position_m = [0, 0.5, 3]
-        direction = [0, 0, -1]
-        {p3}
-        [debris]
-        {debris}
-        [initial]
-        angular_velocity_rad_s = [0.1, 0.2, 1.0]
-        {rest}
-        "#
+        "[campaign]\nname = \"bodies\"\nsamples = 4\nseed = 1\nduration_s = 1.0\n\
+         [body]\n{body}\n{FUSELAGE}{WHEEL1_AT_REST}{wheel}\n{}{p1}\n{}{p2}\n{}{p3}\n\
+         [debris]\n{debris}\n[initial]\nangular_velocity_rad_s = [0.1, 0.2, 1.0]\n{rest}\n",
+        THRUSTERS[0], THRUSTERS[1], THRUSTERS[2]
     )
 }
 

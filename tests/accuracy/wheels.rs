@@ -4,6 +4,7 @@
 //! for any motors and tilts; a body rotated by a known torque about a wheel's axis has J with the wheel held and J* with
 //! the wheel free. Counter-tests: J and J* mixed up, either way, and work omitted.
 
+use crate::support::campaigns::FUSELAGE;
 use crate::support::golden::Golden;
 use crate::support::runs::{Run, adaptive, everything, propagate, relative, rotation_distance, up_to_sign};
 use crate::support::scenes::{Kind, WHEELS, keep_wheels, misaligned, random, speed_held};
@@ -284,16 +285,16 @@ fn periods_carry_held_wheels_too() {
     assert!(folded >= 4, "most of these have a period within the horizon: {folded}");
 }
 
-const FILE: &str = "[campaign]\nname = \"held\"\nsamples = 2\nseed = 1\nduration_s = 1.0\n[[body.parts]]\n\
-    name = \"fuselage\"\nshape = \"hollow_cylinder\"\nwall_thickness_m = 0.03\nouter_radius_m = 1\nlength_m = 3\n\
-    density_kg_m3 = 2700\nposition_m = [0, 0, 1.5]\n[[wheels]]\nname = \"w1\"\naxis = [0, 1, 0]\nradius_m = 0.25\n\
+const HEAD: &str = "[campaign]\nname = \"held\"\nsamples = 2\nseed = 1\nduration_s = 1.0\n";
+const HELD_WHEEL: &str = "[[wheels]]\nname = \"w1\"\naxis = [0, 1, 0]\nradius_m = 0.25\n\
     length_m = 0.1\nposition_m = [0.0, 0.1, 1.0]\ndensity_kg_m3 = 2700\nmode = \"speed_held\"\ntilt_rad = [0.01, 0.02]\n\
     rate_rad_s = 100\n[initial]\nangular_velocity_rad_s = [0.1, 0.2, 1.0]\n";
 
 #[test]
 fn a_campaign_says_how_a_wheel_runs_and_gets_the_motors_work() {
     let plan = |text: &str| Plan::from_text("held.toml", text, Overrides::default());
-    let held = plan(FILE).expect("a legal campaign");
+    let file = [HEAD, FUSELAGE, HELD_WHEEL].concat();
+    let held = plan(&file).expect("a legal campaign");
     let wheel = held.nominal.wheels[0];
     assert_eq!((wheel.mode, wheel.tilt_rad, wheel.position_m), (WheelMode::SpeedHeld, [0.01, 0.02], [0.0, 0.1, 1.0]));
     assert_eq!(plan(&held.text()).expect("a plan is a campaign").nominal, held.nominal);
@@ -305,11 +306,11 @@ fn a_campaign_says_how_a_wheel_runs_and_gets_the_motors_work() {
     // measured: 12.5 J
     assert!(value("work_motors_final_j").abs() > 1e-3);
     assert!(value("energy_error_max") < BALANCE);
-    let free = plan(&FILE.replace("speed_held", "free")).expect("a legal campaign");
+    let free = plan(&file.replace("speed_held", "free")).expect("a legal campaign");
     assert!(!free.nominal.is_actuated());
-    let wrong = plan(&FILE.replace("speed_held", "held")).expect_err("no such mode").to_string();
+    let wrong = plan(&file.replace("speed_held", "held")).expect_err("no such mode").to_string();
     assert!(wrong.contains("wheels.w1.mode") && wrong.contains("free, speed_held, locked"), "{wrong}");
-    let pushed = format!("{FILE}[[actuation]]\nstart_s = 0\nend_s = 1\ntorque_n_m = {{ w1 = 1 }}\n");
+    let pushed = format!("{file}[[actuation]]\nstart_s = 0\nend_s = 1\ntorque_n_m = {{ w1 = 1 }}\n");
     let wrong = plan(&pushed).expect_err("a torque on a held wheel").to_string();
     assert!(wrong.contains("actuation[0].torque_n_m") && wrong.contains("mode"), "{wrong}");
 }

@@ -6,37 +6,18 @@ use spindrift::campaign::{Overrides, Plan};
 use spindrift::math::normal::probability;
 use spindrift::sampling::SampleId;
 
-const SCENE: &str = r#"
+use crate::support::campaigns::{FUSELAGE, WHEEL1_AT_REST, WHEEL2_AT_REST};
+
+const HEAD: &str = r#"
 [campaign]
 name = "test"
 samples = 20001
 seed = 3
 duration_s = 1.0
-[[body.parts]]
-name = "fuselage"
-shape = "hollow_cylinder"
-outer_radius_m = 1.0
-wall_thickness_m = 0.03
-length_m = 3.0
-density_kg_m3 = 2700.0
-position_m = [0, 0, 1.5]
+"#;
 
-[[wheels]]
-name = "w1"
-axis = [0, 1, 0]
-position_m = [0, 0, 1]
-radius_m = 0.25
-length_m = 0.1
-density_kg_m3 = 2700.0
-
-[[wheels]]
-name = "w2"
-axis = [0, 0, 1]
-position_m = [0, 0, 2]
-radius_m = 0.25
-length_m = 0.1
-density_kg_m3 = 2700.0
-
+/// The initial state, and three parameters with distributions of their own.
+const DISPERSED: &str = r#"
 [initial]
 angular_velocity_rad_s = [0, 3, 31]
 [[disperse]]
@@ -58,8 +39,13 @@ distribution = "normal"
 std = [0.5, 1.0, 2.0]
 "#;
 
+/// The text of a campaign with two wheels, and what `text` adds.
+fn campaign(text: &str) -> String {
+    [HEAD, FUSELAGE, WHEEL1_AT_REST, WHEEL2_AT_REST, DISPERSED, text].concat()
+}
+
 fn plan(text: &str) -> Plan {
-    Plan::from_text("test.toml", &format!("{SCENE}{text}"), Overrides::default()).unwrap_or_else(|e| panic!("{e}"))
+    Plan::from_text("test.toml", &campaign(text), Overrides::default()).unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// Number of dispersed samples.
@@ -164,7 +150,7 @@ fn rank_correlations_of_discrete_values_are_those_of_the_file() {
         assert!(in_band(found, rank), "{names:?}: {found} for {rank}");
         assert!(!in_band(found, 0.9 * rank), "a tenth less is found");
     }
-    let text = format!("{SCENE}{}", discrete(["body.parts.fuselage.density_kg_m3", "wheels.w2.radius_m"], 0.8));
+    let text = campaign(&discrete(["body.parts.fuselage.density_kg_m3", "wheels.w2.radius_m"], 0.8));
     let refused = Plan::from_text("t.toml", &text, Overrides::default()).expect_err("more than can be reached");
     let said = refused.to_string();
     assert!(
@@ -253,8 +239,7 @@ fn a_singular_matrix_ties_values_and_an_impossible_one_is_repaired_on_request() 
     // the ranks are the same list; measured: no rounding at all
     assert!((rank_correlation(&a, &b) - 1.0).abs() < 1e-15);
     let matrix = "[[correlate]]\nparameters = [\"initial.angular_velocity_rad_s\"]\ncorrelation = [[1, 1, 0], [1, 1, 1], [0, 1, 1]]\n";
-    let refused =
-        Plan::from_text("t.toml", &format!("{SCENE}{matrix}"), Overrides::default()).expect_err("refused").to_string();
+    let refused = Plan::from_text("t.toml", &campaign(matrix), Overrides::default()).expect_err("refused").to_string();
     assert!(refused.contains("smallest eigenvalue") && refused.contains("-0.414214"), "{refused}");
     let repaired = plan(&format!("{matrix}nearest_psd = true\n"));
     let [x, y] = ["x", "y"].map(|c| column(&repaired, &format!("initial.angular_velocity_rad_s.{c}")));

@@ -11,32 +11,17 @@ use spindrift::sampling::design::{Dimensions, PointSource, Points};
 use spindrift::sampling::{Design, SampleId, Stream};
 use std::collections::BTreeMap;
 
-const SCENE: &str = r#"
+use crate::support::campaigns::{FUSELAGE, WHEEL1_AT_REST};
+
+const HEAD: &str = r#"
 [campaign]
 name = "test"
 samples = 65
 seed = 7
 duration_s = 1.0
-[[body.parts]]
-name = "fuselage"
-shape = "hollow_cylinder"
-outer_radius_m = 1.0
-wall_thickness_m = 0.03
-length_m = 3.0
-density_kg_m3 = 2700.0
-position_m = [0, 0, 1.5]
-
-[[wheels]]
-name = "w1"
-axis = [0, 1, 0]
-position_m = [0, 0, 1]
-radius_m = 0.25
-length_m = 0.1
-density_kg_m3 = 2700.0
-
-[initial]
-angular_velocity_rad_s = [0, 3, 31]
 "#;
+
+const INITIAL: &str = "[initial]\nangular_velocity_rad_s = [0, 3, 31]\n";
 
 const RATE: &str =
     "[[disperse]]\nparameter = \"initial.angular_velocity_rad_s\"\ndistribution = \"normal\"\nstd = 0.5\n";
@@ -45,8 +30,13 @@ const LENGTH: &str =
 const RADIUS: &str =
     "[[disperse]]\nparameter = \"wheels.w1.radius_m\"\ndistribution = \"pert\"\nmin = 0.2\nmax = 0.3\n";
 
+/// The text of a campaign with one wheel, and what `text` adds.
+fn campaign(text: &str) -> String {
+    [HEAD, FUSELAGE, WHEEL1_AT_REST, INITIAL, text].concat()
+}
+
 fn planned(text: &str, overrides: Overrides) -> Result<Plan, CampaignError> {
-    Plan::from_text("test.toml", &format!("{SCENE}{text}"), overrides)
+    Plan::from_text("test.toml", &campaign(text), overrides)
 }
 
 fn plan(text: &str) -> Plan {
@@ -141,8 +131,8 @@ fn a_latin_hypercube_has_one_value_in_each_stratum() {
 
 #[test]
 fn a_grid_and_one_at_a_time_have_their_own_size() {
-    let scene = SCENE.replace("samples = 65\n", "");
-    let read = |text: &str| Plan::from_text("t.toml", &format!("{scene}{text}"), Overrides::default());
+    let without_samples = |text: &str| campaign(text).replace("samples = 65\n", "");
+    let read = |text: &str| Plan::from_text("t.toml", &without_samples(text), Overrides::default());
     let grid =
         read(&format!("{}levels = [3, 1, 2, 4]\n{RATE}{LENGTH}", design("grid"))).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(grid.samples, 25);
@@ -172,8 +162,8 @@ fn a_table_gives_its_rows() {
     std::fs::create_dir_all(&folder).expect("a folder");
     let rows = "sample_id, wheels.w1.radius_m, initial_angular_velocity_x_rad_s, body.parts.fuselage.length_m\n0, 0.21, 1.5, 3.5\n1, 0.22, -1, 3.25\n";
     std::fs::write(folder.join("rows.csv"), rows).expect("written");
-    let scene = SCENE.replace("samples = 65\n", "");
-    let read = |text: &str| Plan::from_text_in(&folder, "t.toml", &format!("{scene}{text}"), Overrides::default());
+    let without_samples = |text: &str| campaign(text).replace("samples = 65\n", "");
+    let read = |text: &str| Plan::from_text_in(&folder, "t.toml", &without_samples(text), Overrides::default());
     let table = format!("{}file = \"rows.csv\"\n", design("table"));
     let plan = read(&table).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(plan.samples, 3);
@@ -184,7 +174,7 @@ fn a_table_gives_its_rows() {
     // others are drawn beside it, as in the random design
     let mixed =
         read(&format!("{table}parameters = [\"wheels.w1.radius_m\"]\n{LENGTH}")).unwrap_or_else(|e| panic!("{e}"));
-    let random = Plan::from_text("t.toml", &format!("{SCENE}{LENGTH}"), Overrides::default()).expect("valid");
+    let random = Plan::from_text("t.toml", &campaign(LENGTH), Overrides::default()).expect("valid");
     for (mixed, random) in draws(&mixed, 0..3).iter().zip(draws(&random, 0..3)) {
         assert_eq!(mixed["body_parts_fuselage_length_m"], random["body_parts_fuselage_length_m"]);
     }

@@ -4,8 +4,9 @@ use spindrift::campaign::{Overrides, Plan};
 use spindrift::ensemble::influence::without_effect;
 use spindrift::math::Isa;
 
-/// A campaign with one wheel and the thrusters `p1`, `p2` and `p3`, without actuation.
-const SCENE: &str = r#"
+use crate::support::campaigns::{FUSELAGE, THRUSTERS, WHEEL1_AT_REST};
+
+const HEAD: &str = r#"
 [campaign]
 name = "test"
 samples = 9
@@ -14,39 +15,14 @@ duration_s = 1.0
 [observe]
 points = 11
 groups = ["energy_conservation"]
-[[body.parts]]
-name = "fuselage"
-shape = "hollow_cylinder"
-wall_thickness_m = 0.03
-outer_radius_m = 1.0
-length_m = 3.0
-density_kg_m3 = 2700.0
-position_m = [0, 0, 1.5]
-[[wheels]]
-name = "w1"
-axis = [0, 1, 0]
-position_m = [0, 0, 1]
-radius_m = 0.25
-length_m = 0.1
-density_kg_m3 = 2700.0
-[[thrusters]]
-name = "p1"
-position_m = [0, 0, 0]
-direction = [0, 0, 1]
-[[thrusters]]
-name = "p2"
-position_m = [0, -0.5, 3]
-direction = [0, 0, -1]
-[[thrusters]]
-name = "p3"
-position_m = [0, 0.5, 3]
-direction = [0, 0, -1]
-[initial]
-angular_velocity_rad_s = [0, 3, 31]
 "#;
 
+const INITIAL: &str = "[initial]\nangular_velocity_rad_s = [0, 3, 31]\n";
+
+/// The plan of a campaign with one wheel and three thrusters, and what `text` adds.
 fn plan(text: &str) -> Result<Plan, String> {
-    Plan::from_text("test.toml", &format!("{SCENE}{text}"), Overrides::default()).map_err(|error| error.to_string())
+    let scene = [HEAD, FUSELAGE, WHEEL1_AT_REST, &THRUSTERS.concat(), INITIAL].concat();
+    Plan::from_text("test.toml", &format!("{scene}{text}"), Overrides::default()).map_err(|error| error.to_string())
 }
 
 fn dispersed(parameter: &str) -> String {

@@ -9,11 +9,17 @@ use spindrift::math::vector::{conjugate, cross, dcm_from_quaternion, dot, hamilt
 use spindrift::sampling::SampleId;
 use spindrift::scene::{Scene, SceneInput};
 
-/// A campaign without dispersions.
-pub const SCENE: &str = "[campaign]\nname = \"test\"\nsamples = 10\nseed = 11\nduration_s = 1.0\n[[body.parts]]\n\
-    name = \"fuselage\"\nshape = \"hollow_cylinder\"\nposition_m = [0, 0, 1.5]\nwall_thickness_m = 0.03\nouter_radius_m = 1.0\nlength_m = 3.0\ndensity_kg_m3 = 2700.0\n[debris]\nmass_kg = 20.0\n\
-    principal_second_moments_kg_m2 = [1.0, 2.0, 3.0]\n[initial]\nangular_velocity_rad_s = [1.0, -2.0, 2.0]\n\
-    attitude = [0.5, 0.5, -0.5, 0.5]\n";
+use crate::support::campaigns::FUSELAGE;
+
+const HEAD: &str = "[campaign]\nname = \"test\"\nsamples = 10\nseed = 11\nduration_s = 1.0\n";
+
+const DEBRIS_AND_STATE: &str = "[debris]\nmass_kg = 20.0\nprincipal_second_moments_kg_m2 = [1.0, 2.0, 3.0]\n\
+    [initial]\nangular_velocity_rad_s = [1.0, -2.0, 2.0]\nattitude = [0.5, 0.5, -0.5, 0.5]\n";
+
+/// A campaign, and what `text` adds.
+pub fn campaign(text: &str) -> String {
+    [HEAD, FUSELAGE, DEBRIS_AND_STATE, text].concat()
+}
 
 /// Draws of every statistical test.
 const N: usize = 100_000;
@@ -25,9 +31,9 @@ const CHI_3: f64 = 16.266;
 const CHI_5: f64 = 20.515;
 const CHI_9: f64 = 27.877;
 
-/// [`SCENE`] with one dispersion.
+/// The plan of [`campaign`] with one dispersion.
 pub fn plan(disperse: &str) -> Plan {
-    let text = format!("{SCENE}[[disperse]]\n{disperse}");
+    let text = campaign(&format!("[[disperse]]\n{disperse}"));
     Plan::from_text("test.toml", &text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -270,7 +276,7 @@ fn usual_mistakes_are_caught() {
 
 /// Draws of a million bodies, and how many of them are impossible.
 fn impossible(dispersions: &str, count: u64) -> u64 {
-    let text = format!("{SCENE}{dispersions}");
+    let text = campaign(dispersions);
     let plan = Plan::from_text("test.toml", &text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
     let (mut sampler, mut input) = (plan.dispersions.sampler(), plan.nominal.clone());
     let mut applied = vec![0.0; plan.dispersions.columns().len()];
@@ -305,9 +311,9 @@ fn a_million_bodies_and_none_impossible() {
 
     let free =
         "[[disperse]]\nparameter = \"debris.principal_moments_kg_m2\"\ndistribution = \"normal\"\nrelative_std = 0.1\n";
-    let moments =
-        SCENE.replace("principal_second_moments_kg_m2 = [1.0, 2.0, 3.0]", "principal_moments_kg_m2 = [1.0, 1.5, 2.3]");
-    let plan = Plan::from_text("test.toml", &format!("{moments}{free}"), Overrides::default()).expect("a valid file");
+    let moments = campaign(free)
+        .replace("principal_second_moments_kg_m2 = [1.0, 2.0, 3.0]", "principal_moments_kg_m2 = [1.0, 1.5, 2.3]");
+    let plan = Plan::from_text("test.toml", &moments, Overrides::default()).expect("a valid file");
     let (mut sampler, mut input) = (plan.dispersions.sampler(), plan.nominal.clone());
     let (mut applied, mut refused) = ([0.0; 3], 0);
     for sample in 1..=10_000 {
@@ -338,11 +344,9 @@ fn mean_directions_follow_the_axis_in_all_octants() {
         for (law, cosine) in laws {
             // the axis as written, and as the nominal vector
             let written = plan(&format!("{RATE}{law}axis = {axis:?}\n"));
-            let nominal = Plan::from_text(
-                "test.toml",
-                &format!("{}[[disperse]]\n{RATE}{law}", SCENE.replace("[1.0, -2.0, 2.0]", &format!("{axis:?}"))),
-                Overrides::default(),
-            );
+            let along =
+                campaign(&format!("[[disperse]]\n{RATE}{law}")).replace("[1.0, -2.0, 2.0]", &format!("{axis:?}"));
+            let nominal = Plan::from_text("test.toml", &along, Overrides::default());
             for plan in [written, nominal.unwrap_or_else(|error| panic!("{error}"))] {
                 let (mut sampler, mut scene) = (plan.dispersions.sampler(), plan.nominal.clone());
                 let mut applied = [0.0; 3];

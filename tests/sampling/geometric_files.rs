@@ -1,13 +1,13 @@
 //! How distributions of directions, attitudes and inertias are written: what is refused, the way to a plan's text and back, and what is
 //! said of each.
 
-use crate::geometric::{RATE, SCENE, plan};
+use crate::geometric::{RATE, campaign, plan};
 use spindrift::campaign::{Overrides, Plan};
 
 #[test]
 fn what_cannot_be_drawn_is_refused() {
     let refused = |disperse: &str| {
-        let text = format!("{SCENE}[[disperse]]\n{disperse}");
+        let text = campaign(&format!("[[disperse]]\n{disperse}"));
         Plan::from_text("test.toml", &text, Overrides::default()).expect_err(disperse).to_string()
     };
     let attitude = "parameter = \"initial.attitude\"\n";

@@ -6,7 +6,9 @@ use spindrift::campaign::{Overrides, Plan};
 use spindrift::sampling::{Dispersions, SampleId};
 use spindrift::scene::Parameter;
 
-const SCENE: &str = r#"
+use crate::support::campaigns::{FUSELAGE, WHEEL1_AT_REST};
+
+const HEAD: &str = r#"
 [campaign]
 name = "test"
 samples = 10
@@ -16,30 +18,17 @@ duration_s = 1.0
 mass_kg = 2000.0
 center_of_mass_m = [0, 0, 1.5]
 inertia_kg_m2 = [[3000, 1, 2], [1, 3000, 3], [2, 3, 1700]]
-
-[[body.parts]]
-name = "fuselage"
-shape = "hollow_cylinder"
-outer_radius_m = 1.0
-wall_thickness_m = 0.03
-length_m = 3.0
-density_kg_m3 = 2700.0
-position_m = [0, 0, 1.5]
-
-[[wheels]]
-name = "w1"
-axis = [0, 1, 0]
-position_m = [0, 0, 1]
-radius_m = 0.25
-length_m = 0.1
-density_kg_m3 = 2700.0
-
-[initial]
-angular_velocity_rad_s = [0, 3, 31]
 "#;
 
+const INITIAL: &str = "[initial]\nangular_velocity_rad_s = [0, 3, 31]\n";
+
+/// The text of a campaign with one wheel, and these dispersions.
+fn campaign(dispersions: &str) -> String {
+    [HEAD, FUSELAGE, WHEEL1_AT_REST, INITIAL, dispersions].concat()
+}
+
 fn plan(dispersions: &str) -> Plan {
-    Plan::from_text("test.toml", &format!("{SCENE}{dispersions}"), Overrides::default()).expect("a valid file")
+    Plan::from_text("test.toml", &campaign(dispersions), Overrides::default()).expect("a valid file")
 }
 
 fn disperse(parameter: &str, law: &str) -> String {
@@ -88,7 +77,7 @@ fn a_draw_depends_on_its_own_name_alone() {
     // samples and seeds differ
     assert_ne!(both[0], both[1]);
     let other = Overrides { seed: Some(8), ..Overrides::default() };
-    let text = format!("{SCENE}{rate}{length}");
+    let text = campaign(&format!("{rate}{length}"));
     assert_ne!(both, draws(&Plan::from_text("test.toml", &text, other).expect("a valid file"), ids()));
 }
 

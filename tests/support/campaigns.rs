@@ -12,29 +12,39 @@ density_kg_m3 = 2700.0
 position_m = [0, 0, 1.5]
 ";
 
+/// A wheel by name, axis and position, as literals.
+macro_rules! wheel {
+    ($name:literal, $axis:literal, $position:literal) => {
+        concat!(
+            "[[wheels]]\nname = \"",
+            $name,
+            "\"\naxis = ",
+            $axis,
+            "\nposition_m = ",
+            $position,
+            "\nradius_m = 0.25\nlength_m = 0.1\ndensity_kg_m3 = 2700.0\n"
+        )
+    };
+}
+
+/// Wheel 1, at rest.
+pub const WHEEL1_AT_REST: &str = wheel!("w1", "[0, 1, 0]", "[0, 0, 1]");
+
+/// Wheel 2, at rest.
+pub const WHEEL2_AT_REST: &str = wheel!("w2", "[0, 0, 1]", "[0, 0, 2]");
+
 /// Wheel 1, with its initial rate.
-pub const WHEEL1: &str = "\
-[[wheels]]
-name = \"w1\"
-axis = [0, 1, 0]
-position_m = [0, 0, 1]
-radius_m = 0.25
-length_m = 0.1
-density_kg_m3 = 2700.0
-rate_rad_s = 314.1592653589793
-";
+pub const WHEEL1: &str = concat!(wheel!("w1", "[0, 1, 0]", "[0, 0, 1]"), "rate_rad_s = 314.1592653589793\n");
 
 /// Wheel 2, with its initial rate.
-pub const WHEEL2: &str = "\
-[[wheels]]
-name = \"w2\"
-axis = [0, 0, 1]
-position_m = [0, 0, 2]
-radius_m = 0.25
-length_m = 0.1
-density_kg_m3 = 2700.0
-rate_rad_s = 157.07963267948966
-";
+pub const WHEEL2: &str = concat!(wheel!("w2", "[0, 0, 1]", "[0, 0, 2]"), "rate_rad_s = 157.07963267948966\n");
+
+/// The thrusters p1, p2 and p3, each a table of its own, so that keys may follow.
+pub const THRUSTERS: [&str; 3] = [
+    "[[thrusters]]\nname = \"p1\"\nposition_m = [0, 0, 0]\ndirection = [0, 0, 1]\n",
+    "[[thrusters]]\nname = \"p2\"\nposition_m = [0, -0.5, 3]\ndirection = [0, 0, -1]\n",
+    "[[thrusters]]\nname = \"p3\"\nposition_m = [0, 0.5, 3]\ndirection = [0, 0, -1]\n",
+];
 
 /// The debris.
 pub const DEBRIS: &str = "\
