@@ -3,7 +3,8 @@
 use super::data_keys;
 use super::limits::MAX_SAMPLES;
 use super::lines::Lines;
-use super::section::{FINITE, Section};
+use super::numbers::FINITE;
+use super::section::Section;
 use crate::sampling::keys::{Counts, KeyReader, KeyWriter};
 use crate::sampling::{DataColumn, Values, WrittenDistribution};
 

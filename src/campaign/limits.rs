@@ -1,6 +1,6 @@
 //! Limits of the keys of a campaign file that are not scene parameters.
 
-use super::section::Limit;
+use super::numbers::Limit;
 use crate::propagation::Method;
 
 /// Largest number of samples of a campaign: ids stay exact in a double.

@@ -1,6 +1,7 @@
 //! Lists of any length in a [`Section`]: numbers, texts, matrices.
 
-use super::section::{Section, number};
+use super::numbers::number;
+use super::section::Section;
 use crate::sampling::Numbers;
 use crate::sampling::keys::Counts;
 use toml::de::DeValue;

@@ -1,7 +1,7 @@
 //! Layer 4: campaign files. What was written ([`Spec`]) -> what will run ([`Plan`]), or every reason why not ([`CampaignError`]).
 //!
 //! - [`problem`]: one reason, with file, line, key, value, allowed range and remedy.
-//! - [`document`], [`section`], [`lists`]: a TOML document that is read key by key and remembers the lines. By hand and not by
+//! - [`document`], [`section`], [`numbers`], [`lists`]: a TOML document that is read key by key and remembers the lines. By hand and not by
 //!   serde's derive, which stops at the first error and knows no line of a key that passed.
 //! - [`spec`]: the keys of a campaign file; `scene`: those of the scene, from [`crate::scene::schema`]; [`disperse`],
 //!   [`design`], [`dependence`]: those that say what is drawn; `keys`: how a distribution or a design reads its own;
@@ -38,6 +38,7 @@ pub mod limits;
 mod lines;
 pub mod lists;
 pub mod notes;
+pub mod numbers;
 mod old_format;
 mod parameter;
 pub mod plan;

@@ -100,7 +100,7 @@ fn read_name(section: &mut Section<'_, '_>, table: Table, taken: &[Name]) -> Nam
         let allowed = format!("another name than that of the other [[{}]] tables", table.header());
         section.refuse("name", allowed, "give each its own name");
     }
-    section.rename(format!("{}.{name}", table.header()));
+    section.rename(table.header(), name.as_str());
     name
 }
 

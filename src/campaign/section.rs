@@ -1,29 +1,10 @@
-//! [`Section`]: one table of a [`Document`] while it is read, key by key.
+//! [`Section`]: one table of a [`Document`] while it is read, key by key: tables, texts and names. Numbers are in [`super::numbers`].
 
 use super::document::Document;
 use super::problem::nearest;
-use super::units::{self, UnitProblem};
-use crate::sampling::Values;
+use super::units;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
-
-/// What a number may be.
-#[derive(Clone, Copy, Debug)]
-pub struct Limit {
-    /// In words, to follow `must be`.
-    pub allowed: &'static str,
-    /// What to do otherwise.
-    pub remedy: &'static str,
-    /// Whether a number is allowed.
-    pub test: fn(f64) -> bool,
-}
-
-/// Any finite number.
-pub const FINITE: Limit =
-    Limit { allowed: "a finite number", remedy: "write a number such as 1.5", test: |x| x.is_finite() };
-/// A number above zero.
-pub const POSITIVE: Limit =
-    Limit { allowed: "a number > 0", remedy: "write a positive number", test: |x| x.is_finite() && x > 0.0 };
 
 /// One table of a document while it is read.
 #[derive(Debug)]
@@ -31,18 +12,28 @@ pub struct Section<'d, 'a> {
     /// Where problems go.
     pub document: &'d mut Document<'a>,
     path: String,
+    /// What a table of a list is called in messages, once its name is known.
+    title: Option<String>,
     table: Option<&'d DeTable<'a>>,
     known: Vec<String>,
     /// The unit of what the table describes and so of its distances, `std`, `min` and so on; `1` where there is none.
-    unit: &'static str,
+    pub(super) unit: &'static str,
     /// The unit of every number of the table, where all are of one kind.
-    every: Option<&'static str>,
+    pub(super) every: Option<&'static str>,
 }
 
 impl<'d, 'a> Section<'d, 'a> {
     /// The whole document.
     pub fn root(document: &'d mut Document<'a>, table: &'d DeTable<'a>) -> Self {
-        Section { document, path: String::new(), table: Some(table), known: Vec::new(), unit: "1", every: None }
+        Section {
+            document,
+            path: String::new(),
+            title: None,
+            table: Some(table),
+            known: Vec::new(),
+            unit: "1",
+            every: None,
+        }
     }
 
     /// The dotted path of a key of this table.
@@ -63,6 +54,11 @@ impl<'d, 'a> Section<'d, 'a> {
     /// The value of `key` if it was written; the key is known from now on, and so is its line.
     pub(super) fn take(&mut self, key: &str) -> Option<&'d Spanned<DeValue<'a>>> {
         self.know(key);
+        self.value(key)
+    }
+
+    /// The value of `key` if it was written, without making it a key of this table.
+    pub(super) fn value(&self, key: &str) -> Option<&'d Spanned<DeValue<'a>>> {
         self.table?.get(key)
     }
 
@@ -91,7 +87,7 @@ impl<'d, 'a> Section<'d, 'a> {
 
     /// Notes that the value of `key` is wrong.
     pub fn refuse(&mut self, key: &str, allowed: impl Into<String>, remedy: impl Into<String>) {
-        let value = self.table.and_then(|table| table.get(key)).map(|value| self.document.written(value));
+        let value = self.value(key).map(|value| self.document.written(value));
         self.note_line(key);
         let path = self.path(key);
         self.document.add(&path, value, allowed, remedy);
@@ -109,8 +105,8 @@ impl<'d, 'a> Section<'d, 'a> {
             None => None,
         };
         // a distribution of an angle, `angle_rad = { ... }`, has its own unit
-        let unit = Some(unit_in_name(key)).filter(|unit| *unit != "1").unwrap_or(self.unit);
-        Section { document: &mut *self.document, path, table, known: Vec::new(), unit, every: None }
+        let unit = Some(units::in_name(key)).filter(|unit| *unit != "1").unwrap_or(self.unit);
+        Section { document: &mut *self.document, path, title: None, table, known: Vec::new(), unit, every: None }
     }
 
     /// The tables `[[key]]`, in order, each read by `read`.
@@ -131,6 +127,7 @@ impl<'d, 'a> Section<'d, 'a> {
             let mut section = Section {
                 document: &mut *self.document,
                 path,
+                title: None,
                 table: Some(table),
                 known: Vec::new(),
                 unit: "1",
@@ -141,79 +138,29 @@ impl<'d, 'a> Section<'d, 'a> {
         list
     }
 
-    /// The plain number of `key`, if one was written, whether it is allowed or not: for examples near what else was written.
-    pub fn written(&self, key: &str) -> Option<f64> {
-        number(self.table?.get(key)?.get_ref(), self.unit_of(key))
-    }
-
     /// Notes that `key` is missing, unless it was written (and is wrong in another way).
     pub fn require(&mut self, key: &str, allowed: &str, example: &str) {
         let is_reported = !self.is_present() && self.document.is_reported(&self.path);
         if !self.has(key) && !is_reported {
-            let remedy = if self.path.ends_with(']') {
-                format!("add {key} = {example} to this table")
-            } else {
-                match self.path.rsplit_once('.') {
-                    // the table of a list is known by its name
-                    Some((list, name)) if ["wheels", "thrusters", "body.parts"].contains(&list) => {
-                        format!("add {key} = {example} to the table [[{list}]] with name = \"{name}\"")
-                    }
-                    _ => format!("add {key} = {example} to [{}]", self.path),
-                }
+            let place = match &self.title {
+                Some(title) => format!("the table {title}"),
+                None if self.path.ends_with(']') => "this table".to_owned(),
+                None => format!("[{}]", self.path),
             };
+            let remedy = format!("add {key} = {example} to {place}");
             let path = self.path(key);
             self.document.add(&path, None, allowed, remedy);
         }
     }
 
-    /// A number, if it was written and is allowed.
-    pub fn number(&mut self, key: &str, limit: Limit) -> Option<f64> {
-        let value = self.take(key)?;
-        let unit = self.unit_of(key);
-        match number(value.get_ref(), unit) {
-            Some(number) if (limit.test)(number) => Some(number),
-            Some(_) => {
-                self.refuse(key, limit.allowed, limit.remedy);
-                None
-            }
-            None => {
-                self.refuse_number(key, value.get_ref(), limit.allowed, remedy_for_text(value.get_ref()));
-                None
-            }
-        }
-    }
-
-    /// Notes that `value` of `key` is no number or numbers: what is wrong with a unit in it, if there is one, else `allowed` and `remedy`.
-    pub(super) fn refuse_number(
-        &mut self,
-        key: &str,
-        value: &DeValue<'_>,
-        allowed: impl Into<String>,
-        remedy: impl Into<String>,
-    ) {
-        match unit_problem(value, self.unit_of(key)) {
-            Some(problem) => self.refuse(key, problem.allowed, problem.remedy),
-            None => self.refuse(key, allowed, remedy),
-        }
-    }
-
-    /// The unit in which the numbers of `key` are: that of what the table describes, or the one at the end of the key.
-    pub(super) fn unit_of(&self, key: &str) -> &'static str {
-        match self.every {
-            Some(unit) => unit,
-            None if DISTANCES.contains(&key) => self.unit,
-            None => unit_in_name(key),
-        }
-    }
-
     /// Whether `key` was written as a table.
     pub(super) fn is_table(&self, key: &str) -> bool {
-        self.table.and_then(|table| table.get(key)).is_some_and(|value| value.get_ref().as_table().is_some())
+        self.value(key).is_some_and(|value| value.get_ref().as_table().is_some())
     }
 
     /// The keys of the table `key` and their values as written.
     pub(super) fn entries(&self, key: &str) -> Vec<(String, String)> {
-        match self.table.and_then(|table| table.get(key)).map(Spanned::get_ref) {
+        match self.value(key).map(Spanned::get_ref) {
             Some(DeValue::Table(table)) => self.written_entries(table),
             _ => Vec::new(),
         }
@@ -221,7 +168,7 @@ impl<'d, 'a> Section<'d, 'a> {
 
     /// The same of each of the tables `[[key]]`.
     pub(super) fn lists_of_entries(&self, key: &str) -> Vec<Vec<(String, String)>> {
-        match self.table.and_then(|table| table.get(key)).map(Spanned::get_ref) {
+        match self.value(key).map(Spanned::get_ref) {
             Some(DeValue::Array(list)) => {
                 list.iter().filter_map(|item| Some(self.written_entries(item.get_ref().as_table()?))).collect()
             }
@@ -237,18 +184,9 @@ impl<'d, 'a> Section<'d, 'a> {
         table.iter().map(entry).collect()
     }
 
-    /// Says that every number of this table is in `unit`.
-    pub(super) fn measures(&mut self, unit: &'static str) {
-        self.every = Some(unit);
-    }
-
-    /// Says in which unit the distances of this table are.
-    pub(super) fn describes(&mut self, unit: &'static str) {
-        self.unit = unit;
-    }
-
-    /// Says that this table is called `path`, and no longer by its place in a list.
-    pub(super) fn rename(&mut self, path: String) {
+    /// Says that this table of the list `[[header]]` is known by its name, and no longer by its place.
+    pub(super) fn rename(&mut self, header: &str, name: &str) {
+        let path = format!("{header}.{name}");
         if let Some(line) = self.document.lines.get(&self.path).copied() {
             self.document.lines.insert(path.clone(), line);
         }
@@ -260,89 +198,7 @@ impl<'d, 'a> Section<'d, 'a> {
             .collect();
         self.document.lines.extend(inner);
         self.path = path;
-    }
-
-    /// Notes that `key`, of `count` numbers, is missing, unless it was written.
-    pub(super) fn require_numbers(&mut self, key: &str, count: usize, example: &str) {
-        self.require(key, &numbers_in_words(count), example);
-    }
-
-    /// Fills `numbers` with the finite numbers of `key`: one, a list, or for nine of them three rows; whether the key was
-    /// written. What is wrong is noted, and the numbers are then NaN.
-    pub(super) fn fill(&mut self, key: &str, numbers: &mut [f64]) -> bool {
-        let Some(value) = self.take(key) else { return false };
-        let unit = self.unit_of(key);
-        let found = match numbers.len() {
-            1 => number(value.get_ref(), unit).map(|number| vec![number]),
-            9 => rows_of_three(value.get_ref(), unit),
-            _ => list(value.get_ref(), unit),
-        };
-        match found.filter(|found| found.len() == numbers.len() && found.iter().all(|x| x.is_finite())) {
-            Some(found) => numbers.copy_from_slice(&found),
-            None => {
-                let remedy = match numbers.len() {
-                    1 if number(value.get_ref(), unit).is_some() => FINITE.remedy.to_owned(),
-                    1 => remedy_for_text(value.get_ref()).to_owned(),
-                    9 => "write it like [[3, 0, 0], [0, 3, 0], [0, 0, 2]]".to_owned(),
-                    count => format!("write it like [{}]", vec!["0"; count].join(", ")),
-                };
-                self.refuse_number(key, value.get_ref(), numbers_in_words(numbers.len()), remedy);
-                numbers.fill(f64::NAN);
-            }
-        }
-        true
-    }
-
-    /// `N` finite numbers, if they were written; NaN each where they are wrong.
-    pub fn vector<const N: usize>(&mut self, key: &str) -> Option<[f64; N]> {
-        let mut vector = [f64::NAN; N];
-        self.fill(key, &mut vector).then_some(vector)
-    }
-
-    /// A 3x3 matrix of finite numbers by rows, if it was written; NaN where it is wrong.
-    pub fn matrix(&mut self, key: &str) -> Option<[[f64; 3]; 3]> {
-        let mut matrix = [[f64::NAN; 3]; 3];
-        self.fill(key, matrix.as_flattened_mut()).then_some(matrix)
-    }
-
-    /// One finite number, or an array of them, if written.
-    pub fn values(&mut self, key: &str) -> Option<Values> {
-        let value = self.take(key)?;
-        let unit = self.unit_of(key);
-        let values = match value.get_ref() {
-            DeValue::Array(_) => list(value.get_ref(), unit).map(Values::Each),
-            single => number(single, unit).map(Values::All),
-        };
-        let finite = |values: &Values| match values {
-            Values::All(x) => x.is_finite(),
-            Values::Each(list) => list.iter().all(|x| x.is_finite()),
-        };
-        if !values.as_ref().is_some_and(finite) {
-            self.refuse_number(
-                key,
-                value.get_ref(),
-                "a finite number, or an array of one for each component",
-                remedy_for_text(value.get_ref()),
-            );
-            return None;
-        }
-        values
-    }
-
-    /// A whole number within `range`, if it was written.
-    pub fn count(&mut self, key: &str, range: std::ops::RangeInclusive<u64>) -> Option<u64> {
-        let value = self.take(key)?;
-        let count = value.get_ref().as_integer().and_then(|x| u64::from_str_radix(x.as_str(), x.radix()).ok());
-        if let Some(count) = count.filter(|count| range.contains(count)) {
-            return Some(count);
-        }
-        let remedy = match value.get_ref() {
-            DeValue::Float(_) => "write it without a decimal point or exponent",
-            DeValue::Integer(_) => "write a number within this range",
-            other => remedy_for_text(other),
-        };
-        self.refuse(key, format!("a whole number from {} to {}", range.start(), range.end()), remedy);
-        None
+        self.title = Some(format!("[[{header}]] with name = \"{name}\""));
     }
 
     /// Text, if it was written.
@@ -404,7 +260,7 @@ impl<'d, 'a> Section<'d, 'a> {
 
     /// Whether `key` was written and is one of `names`.
     pub(super) fn is_name_of(&self, key: &str, names: &[&str]) -> bool {
-        let value = self.table.and_then(|table| table.get(key)).and_then(|value| value.get_ref().as_str());
+        let value = self.value(key).and_then(|value| value.get_ref().as_str());
         value.is_some_and(|name| names.contains(&name))
     }
 
@@ -420,7 +276,11 @@ impl<'d, 'a> Section<'d, 'a> {
                 Some(meant) => format!("did you mean {meant}?"),
                 None => "delete it".to_owned(),
             };
-            let place = if self.path.is_empty() { "this file".to_owned() } else { format!("[{}]", self.path) };
+            let place = match &self.title {
+                Some(title) => title.clone(),
+                None if self.path.is_empty() => "this file".to_owned(),
+                None => format!("[{}]", self.path),
+            };
             self.refuse(name, format!("a key of {place} ({})", self.known.join(", ")), remedy);
         }
     }
@@ -433,87 +293,4 @@ pub fn choice(written: &str, names: &[&str]) -> (String, String) {
         None => "choose one of these".to_owned(),
     };
     (format!("one of {}", names.join(", ")), remedy)
-}
-
-/// Keys of distributions whose values are in the unit of what is dispersed.
-const DISTANCES: [&str; 14] = [
-    "min",
-    "max",
-    "mode",
-    "mean",
-    "median",
-    "std",
-    "half_width",
-    "lower",
-    "upper",
-    "offset",
-    "value",
-    "values",
-    "scale",
-    "location",
-];
-
-/// The unit at the end of a key; `1` where there is none.
-fn unit_in_name(key: &str) -> &'static str {
-    const ENDINGS: [(&str, &str); 11] = [
-        ("_rad_s", "rad/s"),
-        ("_kg_m3", "kg/m^3"),
-        ("_kg_m2", "kg m^2"),
-        ("_m_s", "m/s"),
-        ("_n_m", "N m"),
-        ("_rad", "rad"),
-        ("_kg", "kg"),
-        ("_n", "N"),
-        ("_s", "s"),
-        ("_m", "m"),
-        ("_j", "J"),
-    ];
-    ENDINGS.iter().find(|(ending, _)| key.ends_with(ending)).map_or("1", |(_, unit)| unit)
-}
-
-/// The number of an integer, a float, or a text with a unit, in the SI unit `unit`; NaN and infinities too.
-pub(super) fn number(value: &DeValue<'_>, unit: &str) -> Option<f64> {
-    match value {
-        DeValue::Float(float) => float.as_str().parse().ok(),
-        DeValue::Integer(integer) => i128::from_str_radix(integer.as_str(), integer.radix()).ok().map(|x| x as f64),
-        DeValue::String(text) => units::parsed(text, unit).ok(),
-        _ => None,
-    }
-}
-
-/// What is wrong with the first text in a value, if it should be a number of the SI unit `unit`.
-fn unit_problem(value: &DeValue<'_>, unit: &str) -> Option<UnitProblem> {
-    match value {
-        DeValue::String(text) => units::parsed(text, unit).err(),
-        DeValue::Array(list) => list.iter().find_map(|item| unit_problem(item.get_ref(), unit)),
-        _ => None,
-    }
-}
-
-/// A list of numbers.
-fn list(value: &DeValue<'_>, unit: &str) -> Option<Vec<f64>> {
-    value.as_array()?.iter().map(|item| number(item.get_ref(), unit)).collect()
-}
-
-/// Three lists of three numbers, one after the other.
-fn rows_of_three(value: &DeValue<'_>, unit: &str) -> Option<Vec<f64>> {
-    let rows: Option<Vec<Vec<f64>>> = value.as_array()?.iter().map(|item| list(item.get_ref(), unit)).collect();
-    rows.filter(|rows| rows.len() == 3 && rows.iter().all(|row| row.len() == 3)).map(|rows| rows.concat())
-}
-
-/// What a value of `count` numbers must be.
-fn numbers_in_words(count: usize) -> String {
-    match count {
-        1 => FINITE.allowed.to_owned(),
-        9 => "three rows of three finite numbers".to_owned(),
-        count => format!("an array of {count} finite numbers"),
-    }
-}
-
-fn remedy_for_text(value: &DeValue<'_>) -> &'static str {
-    match value {
-        DeValue::String(text) if text.trim().parse::<f64>().is_ok() => "write it without quotes",
-        DeValue::Array(_) => "write one number, without brackets",
-        _ => "write a number",
-    }
 }

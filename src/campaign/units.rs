@@ -47,6 +47,24 @@ pub(super) fn known(unit: &str) -> Option<&'static str> {
     if unit.is_empty() { Some("1") } else { names.chain(MORE).find(|name| *name == unit) }
 }
 
+/// The unit at the end of a key; `1` where there is none.
+pub(super) fn in_name(key: &str) -> &'static str {
+    const ENDINGS: [(&str, &str); 11] = [
+        ("_rad_s", "rad/s"),
+        ("_kg_m3", "kg/m^3"),
+        ("_kg_m2", "kg m^2"),
+        ("_m_s", "m/s"),
+        ("_n_m", "N m"),
+        ("_rad", "rad"),
+        ("_kg", "kg"),
+        ("_n", "N"),
+        ("_s", "s"),
+        ("_m", "m"),
+        ("_j", "J"),
+    ];
+    ENDINGS.iter().find(|(ending, _)| key.ends_with(ending)).map_or("1", |(_, unit)| unit)
+}
+
 /// What is wrong with a text where a number is wanted.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct UnitProblem {

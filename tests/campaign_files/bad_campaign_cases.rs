@@ -197,7 +197,7 @@ pub const CASES: &[(&str, &str, &str)] = &[
     (
         "radius_m = 0.25",
         "radius = 0.25\nradius_m = 0.25",
-        "bad.toml:23: wheels.w1.radius = 0.25: must be a key of [wheels.w1] (name, axis, position_m, radius_m, length_m, density_kg_m3, mass_kg, axial_inertia_kg_m2, transverse_inertia_kg_m2, tilt_rad, rate_rad_s, angle_rad, torque_scale, torque_bias_n_m, mode); did you mean radius_m?",
+        "bad.toml:23: wheels.w1.radius = 0.25: must be a key of [[wheels]] with name = \"w1\" (name, axis, position_m, radius_m, length_m, density_kg_m3, mass_kg, axial_inertia_kg_m2, transverse_inertia_kg_m2, tilt_rad, rate_rad_s, angle_rad, torque_scale, torque_bias_n_m, mode); did you mean radius_m?",
     ),
     (
         "side_m = 0.2",

@@ -312,7 +312,7 @@ const OF_DIRECT: &[Case] = &[
         23,
         "wheels.w2.lenght_m",
         Some("0.05"),
-        "a key of [wheels.w2]",
+        "a key of [[wheels]] with name = \"w2\"",
         "did you mean length_m?",
     ),
     (
@@ -321,7 +321,7 @@ const OF_DIRECT: &[Case] = &[
         23,
         "wheels.w2.station_m",
         Some("1.0"),
-        "a key of [wheels.w2]",
+        "a key of [[wheels]] with name = \"w2\"",
         "delete it",
     ),
     // mode

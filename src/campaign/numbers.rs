@@ -1,0 +1,229 @@
+//! Numbers in a [`Section`]: one, a vector, a matrix, with units in text, and what is said where there is none.
+
+use super::section::Section;
+use super::units::{self, UnitProblem};
+use crate::sampling::Values;
+use toml::de::DeValue;
+
+/// What a number may be.
+#[derive(Clone, Copy, Debug)]
+pub struct Limit {
+    /// In words, to follow `must be`.
+    pub allowed: &'static str,
+    /// What to do otherwise.
+    pub remedy: &'static str,
+    /// Whether a number is allowed.
+    pub test: fn(f64) -> bool,
+}
+
+/// Any finite number.
+pub const FINITE: Limit =
+    Limit { allowed: "a finite number", remedy: "write a number such as 1.5", test: |x| x.is_finite() };
+/// A number above zero.
+pub const POSITIVE: Limit =
+    Limit { allowed: "a number > 0", remedy: "write a positive number", test: |x| x.is_finite() && x > 0.0 };
+
+/// Keys of distributions whose values are in the unit of what is dispersed.
+const DISTANCES: [&str; 14] = [
+    "min",
+    "max",
+    "mode",
+    "mean",
+    "median",
+    "std",
+    "half_width",
+    "lower",
+    "upper",
+    "offset",
+    "value",
+    "values",
+    "scale",
+    "location",
+];
+
+impl Section<'_, '_> {
+    /// Says that every number of this table is in `unit`.
+    pub(super) fn measures(&mut self, unit: &'static str) {
+        self.every = Some(unit);
+    }
+
+    /// Says in which unit the distances of this table are.
+    pub(super) fn describes(&mut self, unit: &'static str) {
+        self.unit = unit;
+    }
+
+    /// The unit in which the numbers of `key` are: that of what the table describes, or the one at the end of the key.
+    pub(super) fn unit_of(&self, key: &str) -> &'static str {
+        match self.every {
+            Some(unit) => unit,
+            None if DISTANCES.contains(&key) => self.unit,
+            None => units::in_name(key),
+        }
+    }
+
+    /// The plain number of `key`, if one was written, whether it is allowed or not: for examples near what else was written.
+    pub fn written(&self, key: &str) -> Option<f64> {
+        number(self.value(key)?.get_ref(), self.unit_of(key))
+    }
+
+    /// A number, if it was written and is allowed.
+    pub fn number(&mut self, key: &str, limit: Limit) -> Option<f64> {
+        let value = self.take(key)?;
+        let unit = self.unit_of(key);
+        match number(value.get_ref(), unit) {
+            Some(number) if (limit.test)(number) => Some(number),
+            Some(_) => {
+                self.refuse(key, limit.allowed, limit.remedy);
+                None
+            }
+            None => {
+                self.refuse_number(key, value.get_ref(), limit.allowed, remedy_for_text(value.get_ref()));
+                None
+            }
+        }
+    }
+
+    /// Notes that `value` of `key` is no number or numbers: what is wrong with a unit in it, if there is one, else `allowed` and `remedy`.
+    pub(super) fn refuse_number(
+        &mut self,
+        key: &str,
+        value: &DeValue<'_>,
+        allowed: impl Into<String>,
+        remedy: impl Into<String>,
+    ) {
+        match unit_problem(value, self.unit_of(key)) {
+            Some(problem) => self.refuse(key, problem.allowed, problem.remedy),
+            None => self.refuse(key, allowed, remedy),
+        }
+    }
+
+    /// Notes that `key`, of `count` numbers, is missing, unless it was written.
+    pub(super) fn require_numbers(&mut self, key: &str, count: usize, example: &str) {
+        self.require(key, &numbers_in_words(count), example);
+    }
+
+    /// Fills `numbers` with the finite numbers of `key`: one, a list, or for nine of them three rows; whether the key was
+    /// written. What is wrong is noted, and the numbers are then NaN.
+    pub(super) fn fill(&mut self, key: &str, numbers: &mut [f64]) -> bool {
+        let Some(value) = self.take(key) else { return false };
+        let unit = self.unit_of(key);
+        let found = match numbers.len() {
+            1 => number(value.get_ref(), unit).map(|number| vec![number]),
+            9 => rows_of_three(value.get_ref(), unit),
+            _ => list(value.get_ref(), unit),
+        };
+        match found.filter(|found| found.len() == numbers.len() && found.iter().all(|x| x.is_finite())) {
+            Some(found) => numbers.copy_from_slice(&found),
+            None => {
+                let remedy = match numbers.len() {
+                    1 if number(value.get_ref(), unit).is_some() => FINITE.remedy.to_owned(),
+                    1 => remedy_for_text(value.get_ref()).to_owned(),
+                    9 => "write it like [[3, 0, 0], [0, 3, 0], [0, 0, 2]]".to_owned(),
+                    count => format!("write it like [{}]", vec!["0"; count].join(", ")),
+                };
+                self.refuse_number(key, value.get_ref(), numbers_in_words(numbers.len()), remedy);
+                numbers.fill(f64::NAN);
+            }
+        }
+        true
+    }
+
+    /// `N` finite numbers, if they were written; NaN each where they are wrong.
+    pub fn vector<const N: usize>(&mut self, key: &str) -> Option<[f64; N]> {
+        let mut vector = [f64::NAN; N];
+        self.fill(key, &mut vector).then_some(vector)
+    }
+
+    /// A 3x3 matrix of finite numbers by rows, if it was written; NaN where it is wrong.
+    pub fn matrix(&mut self, key: &str) -> Option<[[f64; 3]; 3]> {
+        let mut matrix = [[f64::NAN; 3]; 3];
+        self.fill(key, matrix.as_flattened_mut()).then_some(matrix)
+    }
+
+    /// One finite number, or an array of them, if written.
+    pub fn values(&mut self, key: &str) -> Option<Values> {
+        let value = self.take(key)?;
+        let unit = self.unit_of(key);
+        let values = match value.get_ref() {
+            DeValue::Array(_) => list(value.get_ref(), unit).map(Values::Each),
+            single => number(single, unit).map(Values::All),
+        };
+        let finite = |values: &Values| match values {
+            Values::All(x) => x.is_finite(),
+            Values::Each(list) => list.iter().all(|x| x.is_finite()),
+        };
+        if !values.as_ref().is_some_and(finite) {
+            self.refuse_number(
+                key,
+                value.get_ref(),
+                "a finite number, or an array of one for each component",
+                remedy_for_text(value.get_ref()),
+            );
+            return None;
+        }
+        values
+    }
+
+    /// A whole number within `range`, if it was written.
+    pub fn count(&mut self, key: &str, range: std::ops::RangeInclusive<u64>) -> Option<u64> {
+        let value = self.take(key)?;
+        let count = value.get_ref().as_integer().and_then(|x| u64::from_str_radix(x.as_str(), x.radix()).ok());
+        if let Some(count) = count.filter(|count| range.contains(count)) {
+            return Some(count);
+        }
+        let remedy = match value.get_ref() {
+            DeValue::Float(_) => "write it without a decimal point or exponent",
+            DeValue::Integer(_) => "write a number within this range",
+            other => remedy_for_text(other),
+        };
+        self.refuse(key, format!("a whole number from {} to {}", range.start(), range.end()), remedy);
+        None
+    }
+}
+
+/// The number of an integer, a float, or a text with a unit, in the SI unit `unit`; NaN and infinities too.
+pub(super) fn number(value: &DeValue<'_>, unit: &str) -> Option<f64> {
+    match value {
+        DeValue::Float(float) => float.as_str().parse().ok(),
+        DeValue::Integer(integer) => i128::from_str_radix(integer.as_str(), integer.radix()).ok().map(|x| x as f64),
+        DeValue::String(text) => units::parsed(text, unit).ok(),
+        _ => None,
+    }
+}
+
+/// What is wrong with the first text in a value, if it should be a number of the SI unit `unit`.
+fn unit_problem(value: &DeValue<'_>, unit: &str) -> Option<UnitProblem> {
+    match value {
+        DeValue::String(text) => units::parsed(text, unit).err(),
+        DeValue::Array(list) => list.iter().find_map(|item| unit_problem(item.get_ref(), unit)),
+        _ => None,
+    }
+}
+
+/// A list of numbers.
+fn list(value: &DeValue<'_>, unit: &str) -> Option<Vec<f64>> {
+    value.as_array()?.iter().map(|item| number(item.get_ref(), unit)).collect()
+}
+
+/// Three lists of three numbers, one after the other.
+fn rows_of_three(value: &DeValue<'_>, unit: &str) -> Option<Vec<f64>> {
+    let rows: Option<Vec<Vec<f64>>> = value.as_array()?.iter().map(|item| list(item.get_ref(), unit)).collect();
+    rows.filter(|rows| rows.len() == 3 && rows.iter().all(|row| row.len() == 3)).map(|rows| rows.concat())
+}
+
+/// What a value of `count` numbers must be.
+fn numbers_in_words(count: usize) -> String {
+    match count {
+        1 => FINITE.allowed.to_owned(),
+        9 => "three rows of three finite numbers".to_owned(),
+        count => format!("an array of {count} finite numbers"),
+    }
+}
+
+fn remedy_for_text(value: &DeValue<'_>) -> &'static str {
+    match value {
+        DeValue::String(text) if text.trim().parse::<f64>().is_ok() => "write it without quotes",
+        DeValue::Array(_) => "write one number, without brackets",
+        _ => "write a number",
+    }
+}
