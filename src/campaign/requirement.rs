@@ -3,7 +3,8 @@
 use super::columns::{KnownColumns, unit_of};
 use super::limits::{CONFIDENCE, PROBABILITY};
 use super::lines::Lines;
-use super::section::{FINITE, Section};
+use super::numbers::FINITE;
+use super::section::Section;
 use crate::statistics::gate::Limit;
 
 /// What must be within the limit.

@@ -4,6 +4,8 @@
 mod support;
 
 mod analysis;
+mod bad_actuators;
+mod bad_bodies;
 mod bad_campaign_cases;
 mod bad_campaigns;
 mod bad_dispersions;
