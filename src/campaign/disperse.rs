@@ -4,14 +4,14 @@
 
 use super::parameter::parameter;
 use super::section::Section;
+use super::units;
 use crate::sampling::{Dispersion, WrittenDistribution};
 
 /// Reads one table; `None` where something is wrong, which is then noted.
 pub fn read(table: &mut Section<'_, '_>) -> Option<Dispersion> {
     let target = parameter(table, "parameter");
-    if let Some((parameter, _)) = target {
-        table.describes(parameter.unit());
-    }
+    // where the name is wrong, that is told; nobody can say which units were meant
+    table.describes(target.map_or(units::UNKNOWN, |(parameter, _)| parameter.unit()));
     let distribution = WrittenDistribution::read(table);
     // without a distribution nobody can say which other keys belong here
     if distribution.is_some() || table.is_name_of("distribution", WrittenDistribution::NAMES) {

@@ -74,7 +74,10 @@ pub(super) struct UnitProblem {
     pub remedy: String,
 }
 
-/// The number that `text`, a number and a unit, means in the SI unit `unit`.
+/// In place of the SI unit of what is not known: every unit is accepted.
+pub(super) const UNKNOWN: &str = "";
+
+/// The number that `text`, a number and a unit, means in the SI unit `unit`; with [`UNKNOWN`], in the SI unit of what is written.
 ///
 /// # Errors
 /// What is wrong, where it is no number and unit of that kind.
@@ -92,9 +95,11 @@ pub(super) fn parsed(text: &str, unit: &str) -> Result<f64, UnitProblem> {
     if written == unit {
         return Ok(number);
     }
+    let is_unknown = unit == UNKNOWN;
     match UNITS.iter().find(|(name, ..)| *name == written) {
-        Some((_, of, numerator, denominator)) if *of == unit => Ok(number * numerator / denominator),
+        Some((_, of, numerator, denominator)) if *of == unit || is_unknown => Ok(number * numerator / denominator),
         Some((_, of, ..)) => problem(format!("{written} is a unit of other quantities ({of}); check key and unit")),
+        None if is_unknown && UNITS.iter().any(|(_, of, ..)| *of == written) => Ok(number),
         None if UNITS.iter().any(|(_, of, ..)| *of == written) => {
             problem(format!("{written} is the unit of other quantities; check key and unit"))
         }
@@ -114,7 +119,7 @@ fn is_of_number(text: &str, at: usize, c: char) -> bool {
 
 /// The units in which a value of the SI unit `unit` may be written.
 fn units(unit: &str) -> Vec<&str> {
-    let own = (unit != "1").then_some(unit);
+    let own = Some(unit).filter(|unit| !["1", UNKNOWN].contains(unit));
     own.into_iter().chain(UNITS.iter().filter(|(_, of, ..)| *of == unit).map(|(name, ..)| *name)).collect()
 }
 
@@ -150,6 +155,8 @@ mod tests {
             ("7 kg", "kg", 7.0),
             ("5 %", "1", 0.05),
             ("2.7 g/cm^3", "kg/m^3", 2700.0),
+            ("180 deg", UNKNOWN, PI),
+            ("7 kg", UNKNOWN, 7.0),
         ] {
             let found = parsed(text, unit).expect(text);
             assert!((found / expected - 1.0).abs() <= 2.0 * f64::EPSILON, "{text}: {found:?}");
@@ -166,10 +173,12 @@ mod tests {
             ("five deg", "rad", "write a number"),
             ("inf deg", "rad", "write a number"),
             ("5 deg", "1", "unit of other quantities"),
+            ("5 degs", UNKNOWN, "no unit that is known"),
         ] {
             let problem = parsed(text, unit).expect_err(text);
             assert!(problem.remedy.contains(told), "{text}: {problem:?}");
         }
+        assert_eq!(parsed("x", UNKNOWN).expect_err("no number").allowed, "a finite number");
         assert_eq!(
             parsed("x", "s").expect_err("no number").allowed,
             "a finite number, or one with a unit (s, ms, min, h, day)"

@@ -48,6 +48,7 @@ const CASES: &[&str] = &[
     "[[disperse]]\ndistribution = \"normal\"\nstd = 1\n",
     "[[disperse]]\nparameter = 3\ndistribution = \"normal\"\nstd = 1\n",
     "[[disperse]]\nparameter = \"body.parts.fuselage.densty_kg_m3\"\ndistribution = \"normal\"\nstd = 1\n",
+    "[[disperse]]\nparameter = \"initial.angular_velocity_rads\"\ndistribution = \"normal\"\nstd = [\"5 deg/s\", 0.1, \"1 rad/s\"]\n",
     "[[disperse]]\nparameter = \"initial.angular_velocity_rad_s[3]\"\ndistribution = \"normal\"\nstd = 1\n",
     "[[disperse]]\nparameter = \"wheels.w2.radius_m\"\ndistribution = \"normal\"\nstd = 1\n",
     "[[disperse]]\nparameter = \"wheels.w1.rate_rad\"\ndistribution = \"normal\"\nstd = 1\n",
