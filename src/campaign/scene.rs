@@ -151,7 +151,7 @@ fn exclude_wheel_masses(section: &mut Section<'_, '_>) {
         }
     }
     // a thin disc has a transverse moment of half its axial one
-    let (axial, transverse) = (section.written(WheelInput::MASSES[1]), section.written(WheelInput::MASSES[2]));
+    let [_, axial, transverse] = WheelInput::MASSES.map(|key| section.written(key));
     let of_mass = [5.0, transverse.map_or(0.01, |moment| 1.6 * moment), axial.map_or(0.006, |moment| 0.6 * moment)];
     for (key, example) in asked.into_iter().zip(if by_mass { of_mass } else { [0.25, 0.1, 2700.0] }) {
         section.require(key, "a finite number", &format!("{example:?}"));
