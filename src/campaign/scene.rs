@@ -5,7 +5,7 @@
 
 use super::old_format;
 use super::section::Section;
-use crate::scene::mass::MAX_PARTS;
+use crate::scene::body::MAX_PARTS;
 use crate::scene::table::Table;
 use crate::scene::{
     ActuationInput, DebrisInput, MAX_THRUSTERS, MAX_WHEELS, Name, PartInput, PartShape, SceneInput, ThrusterInput,

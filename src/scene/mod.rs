@@ -4,7 +4,8 @@
 //! - [`input`]: the scene as written. [`table`]: where in it the tables of the schema are.
 //! - [`second_moment`]: inertia by second moments of mass, and errors of a distribution of mass.
 //! - [`solids`]: mass, centre and inertia of homogeneous solids (the report's (60)-(67), in closed form).
-//! - [`mass`]: mass properties of the bodies and of the whole.
+//! - [`body`]: the body of the spacecraft and the debris from their input. [`wheel`]: wheels that turn. `tensor`: inertias by rows.
+//! - [`mass`]: mass properties of the whole.
 //! - [`parameter`]: the numeric keys that can be dispersed.
 //! - [`check`], [`error`]: what makes a scene physical beyond single keys, and the message where it is not.
 //! - [`resolve`]: from an input to a [`Scene`].
@@ -13,6 +14,7 @@
 //! - [`schedule`]: what the actuators make of the commands, and the arcs of constant actuation.
 
 pub mod alignment;
+pub mod body;
 pub mod check;
 pub mod error;
 pub mod input;
@@ -29,8 +31,10 @@ pub mod schema;
 pub mod second_moment;
 pub mod solids;
 pub mod table;
+mod tensor;
 pub mod thruster;
 pub mod unit_quaternion;
+pub mod wheel;
 
 pub use error::SceneError;
 pub use input::SceneInput;

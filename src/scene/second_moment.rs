@@ -6,8 +6,8 @@
 //!
 //! Not here: bodies put together ([`super::mass`]), refusals ([`super::check`]).
 
-use super::mass::Body;
 use super::schema::{MassErrors, PrincipalInertia, PrincipalMoments};
+use super::solids::Body;
 use crate::math::Real;
 use crate::math::vector::{constant, constant_quaternion, dcm_from_quaternion, dot, product, scaled, sum};
 

@@ -4,7 +4,7 @@
 //! never a large solid minus a small one), so that each result is good to a few units in the last place: after thousands of
 //! radians an error of J is an error of the attitude, multiplied.
 //!
-//! Not here: bodies put together ([`super::mass`]), and what sizes are allowed ([`super::check`]).
+//! Not here: bodies put together ([`super::body`], [`super::mass`]), and what sizes are allowed ([`super::check`]).
 
 use crate::math::Real;
 
