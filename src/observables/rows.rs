@@ -90,7 +90,7 @@ macro_rules! series {
         /// How many places each row has.
         const PLACES: &[usize] = &[$($count),*];
 
-        #[allow(non_upper_case_globals, reason = "names of series, as those of variants")]
+        #[expect(non_upper_case_globals, reason = "names of series, as those of variants")]
         impl Series {
             $(#[doc = $meaning] pub const $name: Series = Series::first(SeriesKind::$name as usize);)*
         }

@@ -4,6 +4,9 @@
 //! of the columns says group, kinds of scene, value, name, unit and meaning. Names, order, documentation and the Parquet schema
 //! follow from here. To add an observable, add its rows, and compute its series in the file of its `Source`.
 //!
+//! The file is longer than others because the table is: some 200 lines of it are rows. The handles ([`ColumnId`], [`Series`]) stay with it, since
+//! where a handle points follows from the rows, and the rows are made of handles.
+//!
 //! An error column belongs to a signed series e(t) (energy) or to the norm e(t) of an error vector (momenta), measured from
 //! observation point 0. Energy errors are relative to the largest total energy on the grid, momentum errors to the largest |p|
 //! or |L| on the grid. Where that is exactly zero the error is absolute (the scale is one); the scales are columns themselves.
