@@ -123,6 +123,9 @@ mod tests {
             vec![vec![1.0, 2.0, 3.0, 4.0], vec![1.0, 8.0, 27.0, 64.0], vec![4.0, 3.0, 2.0, 1.0], vec![5.0; 4]];
         let drawn = DrawnScenes { first: SampleId(0), physical: vec![true; 4], columns, mass: Vec::new() };
         let r = drawn.rank_correlations();
-        assert!((r[0][1] - 1.0).abs() < 1e-15 && (r[0][2] + 1.0).abs() < 1e-15 && r[0][3] == 0.0);
+        // an ulp or two of the sums; none is measured
+        assert!(
+            (r[0][1] - 1.0).abs() < 4.0 * f64::EPSILON && (r[0][2] + 1.0).abs() < 4.0 * f64::EPSILON && r[0][3] == 0.0
+        );
     }
 }

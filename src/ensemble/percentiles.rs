@@ -121,6 +121,7 @@ mod tests {
         assert_eq!(both.each_ref().map(Percentiles::count), [2999; 2]);
         let [exact, near] = both.map(|one| one.quantiles([0.01, 0.25, 0.99])[0].expect("values"));
         for (exact, near) in exact.into_iter().zip(near) {
+            // the stated relative error of the sketch from its centre, 1e-3, and a spacing of the values; measured: 0.5 of that
             assert!((exact - near).abs() < 1e-3 * (exact - 10.0).abs() + 1e-3, "{exact} {near}");
         }
     }
@@ -130,6 +131,7 @@ mod tests {
         let one = percentiles(Columns::Values(vec![vec![1.0, 8.0, 27.0, 64.0]]));
         let [low, middle, high] = one.quantiles([0.0, 0.5, 0.99])[0].expect("four samples");
         assert_eq!((low, middle), (1.0, 17.5));
-        assert!((high - (64.0 - 0.03 * 37.0)).abs() < 1e-12, "99% of four draws is not their maximum: {high}");
+        // an ulp of 63; measured: 7.1e-15
+        assert!((high - (64.0 - 0.03 * 37.0)).abs() < 5e-14, "99% of four draws is not their maximum: {high}");
     }
 }

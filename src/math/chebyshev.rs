@@ -94,7 +94,8 @@ mod tests {
             let pieces = Pieces::new(f, -8.0, 3.0, &|value| 1e-14 * value.max(1.0));
             for k in 0..=1000 {
                 let x = -8.0 + 11.0 * f64::from(k) / 1000.0;
-                assert!((pieces.value(x) - f(x)).abs() < 1e-13 * f(x).max(1.0), "{x}");
+                // the tolerance of the pieces, 1e-14, and the roundings of their sums; measured: 0.5 of that tolerance
+                assert!((pieces.value(x) - f(x)).abs() < 4e-14 * f(x).max(1.0), "{x}");
             }
             assert_eq!(pieces.value(9.0), pieces.value(3.0));
         }

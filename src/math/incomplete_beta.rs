@@ -164,6 +164,7 @@ mod tests {
                 let [x, y] = inverse_incomplete_beta(p, 1.0 - p, a, b);
                 let found = incomplete_beta(x, y, a, b);
                 let error = ((found.lower - p) / p.min(1.0 - p)).abs();
+                // what the last digit of x is worth in p at the largest shapes; measured: 4.8e-13
                 assert!(error < 4e-12, "{a} {b} {p}: x {x} gives {found:?}");
             }
         }
@@ -175,8 +176,10 @@ mod tests {
         for x in [1e-9, 0.2, 0.5, 0.8, 1.0 - 1e-9] {
             for shape in [0.05, 1.0, 7.5, 400.0] {
                 let (first, power) = (incomplete_beta(x, 1.0 - x, 1.0, shape).upper, libm::pow(1.0 - x, shape));
+                // 1 - x has lost digits where x is near one; measured: 4.7e-14
                 assert!((first - power).abs() <= 4e-13 * power, "{x} {shape} {first} {power}");
                 let (second, power) = (incomplete_beta(x, 1.0 - x, shape, 1.0).lower, libm::pow(x, shape));
+                // roundings of exp(a ln x) at exponents of hundreds; measured: 1.4e-13
                 assert!((second - power).abs() <= 1e-12 * power, "{x} {shape} {second} {power}");
             }
         }

@@ -91,6 +91,7 @@ mod tests {
         (10000.0, 10500.0, 0.99999957241275449, 4.2758724550596473e-7),
     ];
 
+    /// Measured: at most 3e-14.
     const RELATIVE_ERROR: f64 = 1e-13;
 
     #[test]

@@ -169,6 +169,7 @@ mod tests {
         // the relative error of p is |z| phi(z)/p, at most about z^2, times that of z
         for k in 1..2000 {
             let p = f64::from(k) / 2000.0;
+            // z^2 is up to 11; measured: 2.0e-15
             assert!((probability(quantile(p)) / p - 1.0).abs() < 20.0 * ERROR, "{p}");
         }
     }

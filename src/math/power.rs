@@ -134,6 +134,7 @@ mod tests {
     fn rough_logarithm_and_power_are_as_good_as_stated() {
         for k in -3000..3000 {
             let x = libm::exp2(f64::from(k) * 0.0317);
+            // measured: 7.3e-6, and 3.2e-6 below
             assert!((log2_rough(x) - libm::log2(x)).abs() < ROUGH_ERROR, "{x}");
             let e = f64::from(k) * 0.0091;
             assert!((exp2_rough(e) / libm::exp2(e) - 1.0).abs() < ROUGH_ERROR, "{e}");

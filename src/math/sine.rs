@@ -62,6 +62,7 @@ mod tests {
             let angle = core::f64::consts::TAU * turns;
             worst = worst.max((s - libm::sin(angle)).abs()).max((c - libm::cos(angle)).abs());
         }
+        // an ulp of one, and what the rounded angle adds; measured: 3.6e-16
         assert!(worst < 3.0 * f64::EPSILON, "{worst:e}");
     }
 

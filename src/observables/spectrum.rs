@@ -257,7 +257,7 @@ mod tests {
                     x += spectrum.window[j] * value * libm::cos(angle);
                     y += spectrum.window[j] * value * libm::sin(angle);
                 }
-                // a few roundings of a sum of two hundred terms of size one, squared
+                // a few roundings of a sum of two hundred terms of size one, squared; measured: 1.4e-12
                 assert!((spectrum.power[k] - (x * x + y * y)).abs() <= 1e-11, "{points} {k}");
             }
         }
@@ -277,7 +277,8 @@ mod tests {
                 assert!(error <= BIN_ERROR, "{points} points, {cycles} cycles: {}", found * duration);
             }
         }
-        assert!(worst > 1e-6, "the bound is meant to be near what is measured");
+        // measured: 0.016
+        assert!(worst > 2e-3, "the bound is meant to be near what is measured");
     }
 
     #[test]

@@ -370,7 +370,8 @@ mod tests {
             ("sin(pi / 2) + cos(0) + atan2(0, 1)", 2.0),
             ("ln(exp(2)) + log10(1000)", 5.0),
         ] {
-            assert!((value(text) - expected).abs() < 1e-14, "{text} = {}", value(text));
+            // an ulp or two of the functions; none is measured
+            assert!((value(text) - expected).abs() < 1e-15, "{text} = {}", value(text));
         }
         assert_eq!(Expression::parse("x.y + z[0] + x.y").map(|e| e.variables), Ok(vec!["x.y".into(), "z[0]".into()]));
     }

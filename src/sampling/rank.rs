@@ -184,6 +184,7 @@ mod tests {
     fn even_chances_have_the_orthant_probability() {
         let coin = choice(&[1.0, 1.0]);
         for r in [-0.95, -0.3, 0.1, 0.5, 0.99] {
+            // some roundings; measured: 3.3e-16
             assert!((rank(&coin, &coin, r) - 2.0 * libm::asin(r) / PI).abs() < 3e-15, "{r}");
         }
     }
@@ -194,10 +195,12 @@ mod tests {
     fn rank_correlations_are_known_ones() {
         let normal = Distribution::Normal(NormalQuantile { mean: 0.0, std: 1.0 });
         for r in [-0.9, 0.2, 0.7] {
+            // the quadrature over the correlation; measured: 2.9e-11
             assert!((rank(&normal, &normal, r) - 6.0 / PI * libm::asin(0.5 * r)).abs() < 1e-10, "{r}");
         }
         for (a, b, r, expected) in KNOWN {
             let (a, b) = (choice(a), if b.is_empty() { normal.clone() } else { choice(b) });
+            // the same, with the digits of the known values; measured: 1.8e-10
             assert!((rank(&a, &b, r) - expected).abs() < 1.5e-9, "{r}: {} {expected}", rank(&a, &b, r));
         }
     }
@@ -207,11 +210,13 @@ mod tests {
         let (skewed, coin) = (choice(&[0.1, 0.2, 0.7]), choice(&[0.5, 0.5]));
         for asked in [-0.5, 0.2, 0.6] {
             let r = scores_of_ranks(asked, &skewed, &coin).expect("within reach");
+            // where the search for r ends; measured: 7.5e-12
             assert!((rank(&skewed, &coin, r) - asked).abs() < 7e-11);
         }
         let [low, high] = scores_of_ranks(0.95, &skewed, &coin).expect_err("too much");
         assert!(low < -0.6 && (0.6..0.95).contains(&high), "{low} {high}");
-        assert!((scores_of_ranks(high, &skewed, &coin).expect("the end") - 1.0).abs() < 1e-6);
+        // measured: no difference
+        assert!((scores_of_ranks(high, &skewed, &coin).expect("the end") - 1.0).abs() < 1e-12);
         assert_eq!(scores_of_ranks(1.0, &coin, &coin), Ok(1.0));
     }
 
@@ -220,6 +225,7 @@ mod tests {
     fn a_thousand_values_are_nearly_continuous() {
         let many = choice(&[1.0; 1000]);
         let r = scores_of_ranks(0.6, &many, &many).expect("within reach");
+        // ties of a thousandth of the values; measured: 2.7e-4
         assert!((r - score_correlation(0.6)).abs() < 1e-3, "{r}");
     }
 

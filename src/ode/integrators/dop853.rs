@@ -188,7 +188,8 @@ mod tests {
             let defect = largest_defect(&Dop853Tableau::A, &weights, s, 7);
             assert!(defect < ROUND_OFF, "{s}: {defect:e}");
             if s < 1.0 {
-                assert!(largest_defect(&Dop853Tableau::A, &weights, s, 8) > 1e-9);
+                // the next order is not met; measured: 7.5e-6 or more
+                assert!(largest_defect(&Dop853Tableau::A, &weights, s, 8) > 1e-6);
             }
         }
     }

@@ -197,7 +197,8 @@ mod tests {
             let weights = <DormandPrince as Embedded>::inside(&Still, step, s, &start, &unit);
             assert!(largest_defect(&DormandPrinceTableau::A, &weights, s, 4) < ROUND_OFF);
             if s < 1.0 {
-                assert!(largest_defect(&DormandPrinceTableau::A, &weights, s, 5) > 1e-7);
+                // the next order is not met; measured: 5.2e-4 or more
+                assert!(largest_defect(&DormandPrinceTableau::A, &weights, s, 5) > 5e-5);
             }
         }
     }

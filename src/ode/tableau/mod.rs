@@ -33,10 +33,12 @@ mod tests {
         let defect = largest_defect(&T::A, &T::B, 1.0, order);
         assert!(defect < ROUND_OFF, "order {order}: {defect:e}");
         // Counter-test: the next order is not reached, and an error in a digit is detected.
-        assert!(largest_defect(&T::A, &T::B, 1.0, order + 1) > 1e-6);
+        // the next order is not met; measured: 2.7e-5 or more
+        assert!(largest_defect(&T::A, &T::B, 1.0, order + 1) > 3e-6);
         let mut slip = T::B;
         slip[0] += 1e-10;
-        assert!(largest_defect(&T::A, &slip, 1.0, order) > 1e-11);
+        // the slip itself, 1e-10, in the condition of order one
+        assert!(largest_defect(&T::A, &slip, 1.0, order) > 5e-11);
     }
 
     #[test]
@@ -61,6 +63,7 @@ mod tests {
         let (a, b) = (GaussLegendreTableau::A, GaussLegendreTableau::B);
         for i in 0..3 {
             for j in 0..3 {
+                // products of weights below a half; measured: 2.8e-17
                 assert!((b[i] * a[i][j] + b[j] * a[j][i] - b[i] * b[j]).abs() < 1e-16);
             }
         }
@@ -76,11 +79,13 @@ mod tests {
     fn embedded_solutions_have_their_orders() {
         let embedded = std::array::from_fn(|i| DormandPrinceTableau::B[i] - DormandPrinceTableau::E[i]);
         assert!(largest_defect(&DormandPrinceTableau::A, &embedded, 1.0, 4) < ROUND_OFF);
-        assert!(largest_defect_at(&DormandPrinceTableau::A, &embedded, 5) > 1e-6);
+        // measured: 8.1e-4
+        assert!(largest_defect_at(&DormandPrinceTableau::A, &embedded, 5) > 1e-4);
         for (error, order) in [(Dop853Tableau::E5, 5), (Dop853Tableau::E3, 3)] {
             let embedded = std::array::from_fn(|i| Dop853Tableau::B[i] - error[i]);
             assert!(largest_defect(&Dop853Tableau::A, &embedded, 1.0, order) < ROUND_OFF);
-            assert!(largest_defect(&Dop853Tableau::A, &embedded, 1.0, order + 1) > 1e-6);
+            // measured: 4.5e-4 or more
+            assert!(largest_defect(&Dop853Tableau::A, &embedded, 1.0, order + 1) > 5e-5);
         }
     }
 }

@@ -153,7 +153,8 @@ mod tests {
             for degree in 0..2 * m {
                 let sum: f64 = (0..m).map(|i| node(m, i)).map(|(x, w)| w * libm::pow(x, degree as f64)).sum();
                 let exact = 1.0 / (degree as f64 + 1.0);
-                assert!((sum - exact).abs() < 4e-15, "{m} nodes, degree {degree}: {sum}");
+                // roundings of up to sixteen terms below one; measured: 3.3e-16
+                assert!((sum - exact).abs() < 3e-15, "{m} nodes, degree {degree}: {sum}");
             }
             // but not of the next degree: the test above can fail
             let sum: f64 = (0..m).map(|i| node(m, i)).map(|(x, w)| w * libm::pow(x, 2.0 * m as f64)).sum();

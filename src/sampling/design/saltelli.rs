@@ -108,6 +108,7 @@ mod tests {
         for (k, share) in [1.0, 4.0, 16.0].into_iter().enumerate() {
             let first = rows.iter().map(|row| row[4] * (row[k + 1] - row[0])).sum::<f64>() / n / variance;
             let total = rows.iter().map(|row| (row[0] - row[k + 1]).powi(2)).sum::<f64>() / (2.0 * n) / variance;
+            // measured: 1e-4 and 6.2e-5; the error of 4096 scrambled points
             assert!((first - share / 21.0).abs() < 8e-4 && (total - share / 21.0).abs() < 5e-4, "{k} {first} {total}");
         }
     }

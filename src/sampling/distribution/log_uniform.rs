@@ -107,7 +107,8 @@ mod tests {
     fn a_ratio_beyond_the_largest_number_is_uniform_in_the_logarithm() {
         let quantile = LogUniformQuantile::new(1e-300, 1e300);
         for (u, expected) in [(0.25, 1e-150), (0.5, 1.0), (0.75, 1e150)] {
-            assert!((quantile.quantile(u) / expected - 1.0).abs() < 4e-13, "{u} {}", quantile.quantile(u));
+            // an ulp of the logarithm, 345, is worth 5.7e-14 of the value; measured: 4.5e-14
+            assert!((quantile.quantile(u) / expected - 1.0).abs() < 2e-13, "{u} {}", quantile.quantile(u));
         }
     }
 }

@@ -163,6 +163,7 @@ mod tests {
         let law = PertQuantile::new(2.0, 3.0, 7.0);
         const N: u32 = 2000;
         let mean = (0..N).map(|k| law.quantile((f64::from(k) + 0.5) / f64::from(N))).sum::<f64>() / f64::from(N);
+        // measured: 1.4e-5
         assert!((mean - (2.0 + 12.0 + 7.0) / 6.0).abs() < 1e-4, "{mean}");
     }
 }

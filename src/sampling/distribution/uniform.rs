@@ -97,7 +97,8 @@ mod tests {
     fn a_width_beyond_the_largest_number_gives_finite_values() {
         let quantile = UniformQuantile { min: -1.7e308, max: 1.7e308 };
         for (u, expected) in [(0.25, -0.85e308), (0.5, 0.0), (0.75, 0.85e308)] {
-            assert!((quantile.quantile(u) - expected).abs() < 1e293, "{u}");
+            // half an ulp of numbers of this size, 1e292; measured: exactly that
+            assert!((quantile.quantile(u) - expected).abs() < 2e292, "{u}");
         }
     }
 }
