@@ -3,8 +3,8 @@
 use super::columns::{KnownColumns, unit_of};
 use super::limits::{CONFIDENCE, MAX_SAMPLES, PROBABILITY};
 use super::lines::Lines;
-use super::requirement::{DEFAULT_CONFIDENCE, observable};
 use super::numbers::POSITIVE;
+use super::requirement::{DEFAULT_CONFIDENCE, observable};
 use super::section::Section;
 use crate::statistics::looks::Goal;
 
