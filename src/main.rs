@@ -6,7 +6,8 @@ use std::process::ExitCode;
 
 use spindrift::cli::arguments::{Command, arguments};
 use spindrift::cli::{
-    check, columns, command_outcome, compare, finish_campaign, precision, run_campaign, sample, simulate, verify,
+    check, columns, command_outcome, compare, finish_campaign, precision, report, run_campaign, sample, simulate,
+    verify,
 };
 
 fn main() -> ExitCode {
@@ -18,6 +19,7 @@ fn main() -> ExitCode {
         Command::Compare(options) => compare::run(&options),
         Command::Columns(options) => columns::run(&options),
         Command::Precision(options) => precision::run(&options),
+        Command::Report(options) => report::run(&options),
         Command::Sample(options) => sample::run(&options),
         Command::Simulate(options) => simulate::run(&options),
     };

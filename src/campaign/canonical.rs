@@ -33,8 +33,17 @@ impl Plan {
     }
 
     /// The keys that do not change rows, by the beginning of their path.
-    pub const OUTSIDE_ROWS: [&'static str; 8] =
-        ["retain.", "campaign.name", "campaign.samples", "statistics.", "summary.", "observable[", "require[", "stop."];
+    pub const OUTSIDE_ROWS: [&'static str; 9] = [
+        "retain.",
+        "campaign.description",
+        "campaign.name",
+        "campaign.samples",
+        "statistics.",
+        "summary.",
+        "observable[",
+        "require[",
+        "stop.",
+    ];
 
     /// The canonical text: `whole`, or the row plan.
     fn text_of(&self, whole: bool) -> String {
@@ -42,6 +51,9 @@ impl Plan {
         lines.table("[campaign]");
         if whole {
             lines.key("name", &self.name);
+            if let Some(description) = &self.description {
+                lines.text_key("description", description);
+            }
         }
         if whole || self.design.depends_on_samples().is_some() {
             lines.key("samples", self.samples);

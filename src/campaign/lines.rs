@@ -22,6 +22,11 @@ impl Lines {
         self.0.push_str(&format!("{key} = {value:?}\n"));
     }
 
+    /// A key with a text of people: any letters.
+    pub(super) fn text_key(&mut self, key: &str, text: &str) {
+        self.0.push_str(&format!("{key} = {}\n", toml::Value::from(text)));
+    }
+
     /// A comment on a line of its own.
     pub(super) fn note(&mut self, text: &str) {
         self.0.push_str(&format!("# {text}\n"));

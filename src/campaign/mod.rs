@@ -27,6 +27,7 @@ pub mod data;
 mod data_keys;
 pub mod dependence;
 pub mod derived_observable;
+mod description;
 pub mod design;
 pub mod difference;
 pub mod disperse;

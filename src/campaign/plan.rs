@@ -5,6 +5,7 @@ use super::analysis::Analysis;
 use super::bands;
 use super::columns::{KnownColumns, request};
 use super::compression::Compression;
+use super::description;
 use super::document::Document;
 use super::limits::{FRACTION, LARGEST_SEED, MAX_SAMPLES, MOST_MEMORY, bytes_a_point};
 use super::old_format;
@@ -24,6 +25,8 @@ use std::path::Path;
 pub struct Plan {
     /// Name of the campaign and of its folder of results.
     pub name: String,
+    /// The question that the campaign answers: `campaign.description`, else the first sentence of the comments above the file's tables.
+    pub description: Option<String>,
     /// Number of samples, at least 1; sample 0 is the nominal scene.
     pub samples: u64,
     /// Seed of every draw.
@@ -132,7 +135,9 @@ impl Plan {
         override_spec(&mut spec, overrides, &mut document);
         let plan = resolve(spec, &mut document);
         document.verdict()?;
-        plan.ok_or_else(|| unreachable_plan(file))
+        let plan = plan.ok_or_else(|| unreachable_plan(file))?;
+        let description = plan.description.or_else(|| description::of_comment(text));
+        Ok(Plan { description, ..plan })
     }
 }
 
@@ -236,6 +241,7 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
     spec.analysis.check(document, &known, dispersions.columns(), dispersions.samples(), design);
     Some(Plan {
         name: spec.name?,
+        description: spec.description,
         samples: dispersions.samples(),
         seed: spec.seed?,
         grid: Grid::uniform(spec.duration_s?, usize::try_from(points).ok()?),

@@ -11,7 +11,7 @@ use super::limits::{FRACTION, LARGEST_SEED, MAX_POINTS, MAX_SAMPLES, TOLERANCE};
 use super::numbers::POSITIVE;
 use super::retention::Retention;
 use super::section::Section;
-use super::{bands, dependence, design, disperse, scene};
+use super::{bands, dependence, description, design, disperse, scene};
 use crate::observables::Group;
 use crate::propagation::Method;
 use crate::sampling::{Correlation, Derivation, Design, Dispersion};
@@ -22,6 +22,8 @@ use crate::scene::SceneInput;
 pub struct Spec {
     /// `campaign.name`: also the name of the folder of results.
     pub name: Option<String>,
+    /// `campaign.description`.
+    pub description: Option<String>,
     /// `campaign.samples`.
     pub samples: Option<u64>,
     /// `campaign.seed`.
@@ -87,6 +89,7 @@ impl Spec {
 
         let mut section = root.section("campaign");
         let name = name(&mut section);
+        let description = description::read(&mut section);
         if !has_size {
             section.require("samples", "a whole number of at least 1", "1000");
         }
@@ -135,6 +138,7 @@ impl Spec {
 
         Spec {
             name,
+            description,
             samples,
             seed,
             duration_s,

@@ -60,6 +60,9 @@ pub enum Command {
     /// Sample the dispersed parameters without running: percentiles, a table, a plot of distributions and correlations.
     #[command(after_help = EXIT_CODES)]
     Sample(SampleOptions),
+    /// Make the report page of a finished campaign again, and its figures as files.
+    #[command(after_help = EXIT_CODES)]
+    Report(ReportOptions),
     /// Measure run time against error for every method and tolerance: a table, a Parquet file, a plot.
     #[command(after_help = EXIT_CODES)]
     Precision(PrecisionOptions),
@@ -97,9 +100,26 @@ pub struct CampaignOptions {
     /// Run part K of N of the work, for instance on one machine of N; `finish` then completes the result.
     #[arg(long, value_name = "K/N", value_parser = shard, conflicts_with = "overwrite")]
     pub shard: Option<Shard>,
-    /// Stop at the first run that is not ok.
+    /// Do not write report.html.
     #[arg(long)]
-    pub fail_fast: bool,
+    pub no_report: bool,
+    /// Write each figure of the report as SVG and PNG into this folder.
+    #[arg(long, value_name = "DIR", conflicts_with = "no_report")]
+    pub figures: Option<PathBuf>,
+}
+
+/// Arguments of `report`.
+#[derive(Debug, Args)]
+pub struct ReportOptions {
+    /// Folder of the result, with plan.toml and runs/.
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
+    /// Write each figure as SVG and PNG into this folder.
+    #[arg(long, value_name = "DIR")]
+    pub figures: Option<PathBuf>,
+    /// Number of threads [default: one for each core]; the page does not depend on it.
+    #[arg(long, value_name = "N")]
+    pub threads: Option<std::num::NonZeroUsize>,
 }
 
 /// Arguments of `finish`.
@@ -110,6 +130,12 @@ pub struct FinishOptions {
     /// Write the verdicts on the requirements to this file, as JUnit XML.
     #[arg(long, value_name = "FILE")]
     pub junit: Option<PathBuf>,
+    /// Do not write report.html.
+    #[arg(long)]
+    pub no_report: bool,
+    /// Write each figure of the report as SVG and PNG into this folder.
+    #[arg(long, value_name = "DIR", conflicts_with = "no_report")]
+    pub figures: Option<PathBuf>,
     /// Number of threads [default: one for each core].
     #[arg(long, value_name = "N")]
     pub threads: Option<std::num::NonZeroUsize>,
@@ -308,7 +334,7 @@ mod tests {
         // `help` is clap's own
         let ours = command.get_subcommands_mut().filter(|command| command.get_name() != "help");
         helps.extend(ours.map(|command| command.render_help().to_string()));
-        assert_eq!(helps.len(), 10);
+        assert_eq!(helps.len(), 11);
         for help in helps {
             for code in ["0  done", "1  ran", "2  bad input", "3  ran", "4  input/output", "5  ran"] {
                 assert!(help.contains(code), "{help}");

@@ -13,10 +13,10 @@ use crate::cli::analysis::{analyse, write_junit};
 use crate::cli::arguments::FinishOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::input::{isa, plan};
-use crate::cli::screen;
+use crate::cli::{report, screen};
 use crate::dataset::claim::{Claim, ClaimOptions, Ready, claim, open, replace};
 use crate::dataset::identity::identity;
-use crate::dataset::names::{PLAN, SUMMARY, TRAJECTORIES};
+use crate::dataset::names::{PLAN, REPORT, SUMMARY, TRAJECTORIES};
 use crate::dataset::rows_reader::RowsReader;
 use crate::dataset::storage::Disk;
 use crate::dataset::tally::Tally;
@@ -43,6 +43,8 @@ pub struct Finishing<'a> {
     pub replayed: &'a str,
     /// Where the verdicts go as JUnit XML.
     pub junit: Option<&'a Path>,
+    /// Whether the page is written, and the folder of its figures.
+    pub page: (bool, Option<&'a Path>),
     /// Samples that this process ran, and how long that took.
     pub made: Option<(u64, Duration)>,
     /// CPU time of runs and audits of this process, s.
@@ -70,6 +72,12 @@ pub fn finish(job: &Finishing<'_>) -> Result<CommandOutcome, Failure> {
     let outcome = CommandOutcome::of_campaign(tally.failed(), failed, undecided);
     let summary = Summary::new(plan, &tally, &analysed.statistics, analysed.verdicts);
     folder.write(SUMMARY, summary.json().as_bytes()).map_err(Failure::files)?;
+    if job.page.0 {
+        report::write(job.ensemble, &reader, folder.root(), job.threads, job.page.1)?;
+    } else {
+        let path = folder.path(REPORT);
+        folder.storage().remove(&path).map_err(|error| Failure::files(format!("{}: {error}", path.display())))?;
+    }
     folder.finish().map_err(Failure::files)?;
     if let Some(old) = &job.ready.replaces {
         replace(folder.storage(), folder.root(), old).map_err(Failure::files)?;
@@ -166,6 +174,7 @@ pub fn run(options: &FinishOptions) -> Result<CommandOutcome, Failure> {
         threads: options.threads,
         replayed: &replayed,
         junit: options.junit.as_deref(),
+        page: (!options.no_report, options.figures.as_deref()),
         made: None,
         seconds: [0.0; 2],
     })

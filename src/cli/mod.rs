@@ -2,7 +2,7 @@
 //!
 //! - [`arguments`]: commands and options. - [`input`]: the plan and the instruction set of a command.
 //! - [`analysis`]: what is made of the rows at the end of a campaign.
-//! - [`run_campaign`], [`finish_campaign`], [`verify`], [`check`], [`columns`], [`compare`], [`precision`], [`sample`], [`simulate`]: one command each.
+//! - [`run_campaign`], [`finish_campaign`], [`verify`], [`check`], [`columns`], [`compare`], [`precision`], [`report`], [`sample`], [`simulate`]: one command each.
 //! - [`dispersions`]: the dispersions of a plan as text. - [`progress`]: the progress bar. - [`screen`]: printing; [`signals`].
 //! - [`command_outcome`]: how a command ends, and its exit code.
 //!
@@ -19,6 +19,7 @@ pub mod finish_campaign;
 pub mod input;
 pub mod precision;
 pub mod progress;
+pub mod report;
 pub mod run_campaign;
 pub mod sample;
 pub mod screen;

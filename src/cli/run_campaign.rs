@@ -14,7 +14,7 @@ use crate::cli::screen;
 use crate::cli::signals::{self, Signals};
 use crate::dataset::claim::{Claim, ClaimOptions, Ready, Shard, claim};
 use crate::dataset::identity::identity;
-use crate::dataset::part_sink::{PartError, PartSink, write_parts};
+use crate::dataset::part_sink::{PartSink, write_parts};
 use crate::dataset::storage::Disk;
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::runner::threads;
@@ -119,6 +119,7 @@ fn run_missing(
             threads: options.threads,
             replayed: &replayed(options, root),
             junit: options.junit.as_deref(),
+            page: (!options.no_report, options.figures.as_deref()),
             made: Some((made, elapsed)),
             seconds,
         }),
@@ -143,9 +144,7 @@ fn run_them(
     match ended.map_err(Failure::files)? {
         Ok(seconds) => Ok((elapsed, seconds)),
         Err(error @ RunError::Threads(_)) => Err(Failure::Input(error.to_string())),
-        Err(RunError::Sink(error @ (PartError::Encoding(_) | PartError::Storage(_) | PartError::Ended))) => {
-            Err(Failure::files(error))
-        }
+        Err(RunError::Sink(error)) => Err(Failure::files(error)),
     }
 }
 

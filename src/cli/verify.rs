@@ -73,7 +73,7 @@ pub fn run(options: &VerifyOptions) -> Result<CommandOutcome, Failure> {
         )));
     }
     drop(locks);
-    repair(options, &ensemble, &differing)?;
+    repair(options, &ensemble, &found, &differing)?;
     screen::print(&format!("{checked}: {} problems, repaired\n", problems.len()))?;
     Ok(CommandOutcome::Done)
 }
@@ -132,7 +132,7 @@ fn differing(
 }
 
 /// Makes damaged, missing and differing parts again, and finishes the result.
-fn repair(options: &VerifyOptions, ensemble: &Ensemble<'_>, differing: &[Part]) -> Result<(), Failure> {
+fn repair(options: &VerifyOptions, ensemble: &Ensemble<'_>, found: &Found, differing: &[Part]) -> Result<(), Failure> {
     let signals = signals::watch();
     let (plan, root) = (ensemble.plan(), &options.folder);
     let claimed = ClaimOptions { overwrite: false, shard: None, threads: threads(options.threads, usize::MAX) };
@@ -159,6 +159,7 @@ fn repair(options: &VerifyOptions, ensemble: &Ensemble<'_>, differing: &[Part]) 
         threads: options.threads,
         replayed: &replayed,
         junit: None,
+        page: (found.has_page, None),
         made: None,
         seconds: [0.0; 2],
     };

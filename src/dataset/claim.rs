@@ -10,7 +10,9 @@ use crate::campaign::Plan;
 use crate::campaign::difference::{KeyDifference, text_differences};
 use crate::dataset::folder::{Folder, MOST_MANIFEST};
 use crate::dataset::manifest::{Identity, Manifest, PartRecord};
-use crate::dataset::names::{FOLDERS, MANIFEST, PLAN, SHARDS, SUCCESS, SUMMARY, UNFINISHED, is_ours, manifest_of};
+use crate::dataset::names::{
+    FOLDERS, MANIFEST, PLAN, REPORT, SHARDS, SUCCESS, SUMMARY, UNFINISHED, is_ours, manifest_of,
+};
 use crate::dataset::storage::{Storage, StorageError, at};
 
 /// Most bytes of a plan that is read.
@@ -107,6 +109,8 @@ pub struct Found {
     pub manifests: BTreeMap<String, Manifest>,
     /// Whether everything is there.
     pub is_finished: bool,
+    /// Whether it has a page.
+    pub has_page: bool,
     /// The first file that is not one of a dataset, or that no manifest lists although everything is there.
     pub foreign: Option<String>,
 }
@@ -188,6 +192,7 @@ pub fn contents(storage: &dyn Storage, root: &Path) -> Result<Contents, StorageE
     let has = |name: &str| top.iter().any(|entry| entry.is_file && entry.name == name);
     found.is_finished =
         has(SUCCESS) && found.manifests.get(MANIFEST).is_some_and(|manifest| manifest.is_finished) && has(SUMMARY);
+    found.has_page = has(REPORT);
     let parts = found.parts();
     let is_listed = |name: &String| {
         let of_parts = name.starts_with("runs/") || name.starts_with("bands/");

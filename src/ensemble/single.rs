@@ -52,6 +52,20 @@ impl SingleRun {
     pub fn new(plan: &Plan, sample: SampleId, grid: Grid, isa: Isa) -> Result<Self, Vec<SceneError>> {
         SingleRuns::new(plan, grid, isa).run(sample)
     }
+
+    /// The same with the series of other groups: those of `groups`.
+    ///
+    /// # Errors
+    /// Why the drawn scene is not physical.
+    pub fn with_series(
+        plan: &Plan,
+        sample: SampleId,
+        grid: Grid,
+        isa: Isa,
+        groups: &[Group],
+    ) -> Result<Self, Vec<SceneError>> {
+        SingleRuns::with_series(plan, grid, isa, groups).run(sample)
+    }
 }
 
 /// Memory for single runs of one plan on one grid. What an earlier run left in it does not reach a later one.
@@ -70,17 +84,22 @@ pub struct SingleRuns<'p> {
 impl<'p> SingleRuns<'p> {
     /// Runs of `plan`, observed at the times of `grid`.
     pub fn new(plan: &'p Plan, grid: Grid, isa: Isa) -> Self {
+        Self::with_series(plan, grid, isa, &GROUPS)
+    }
+
+    /// The same with the series of the groups `groups`.
+    pub fn with_series(plan: &'p Plan, grid: Grid, isa: Isa, groups: &[Group]) -> Self {
         let request = request(plan);
-        let shown = Request { groups: GROUPS.into_iter().collect(), ..request };
+        let shown = Request { groups: groups.iter().copied().collect(), ..request };
         let fields = states(&request).union(shown.fields()).union(request.fields());
-        let nominal = nominal_attitude(plan, &request, &grid, isa);
+        let nominal = |request: &Request| nominal_attitude(plan, request, &grid, isa);
         SingleRuns {
             draws: SceneDraws::new(plan),
             isa,
             request,
             engine: propagator(plan, grid.clone(), fields).engine(isa),
-            observer: Observer::new(request, &grid).with_nominal(nominal),
-            series_observer: Observer::new(shown, &grid),
+            observer: Observer::new(request, &grid).with_nominal(nominal(&request)),
+            series_observer: Observer::new(shown, &grid).with_nominal(nominal(&shown)),
             ignored: vec![f64::NAN; shown.columns().len()],
             grid,
         }

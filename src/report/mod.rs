@@ -2,7 +2,8 @@
 //!
 //! - [`summary`], [`observable_lines`], [`audit_summary`]: statistics of a campaign. - [`requirements`]: verdicts, also as JUnit XML. - [`precision_text`]: work-precision measurements as text.
 //! - [`canvas`]: figures as SVG and PNG. - [`plot`]: curves in panels. - [`simulation_figure`], [`drawn_figure`], [`precision_figure`]: the figures of the commands.
-//! - [`comparison_text`]: two results compared. - [`number`]: numbers in text.
+//! - [`comparison_text`]: two results compared.
+//! - [`number`]: numbers in text. - [`page`]: the report of a campaign as one HTML file.
 
 pub mod audit_summary;
 mod axis;
@@ -12,6 +13,7 @@ pub mod comparison_text;
 pub mod drawn_figure;
 pub mod number;
 pub mod observable_lines;
+pub mod page;
 pub mod plot;
 pub mod precision_figure;
 pub mod precision_text;

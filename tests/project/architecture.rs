@@ -24,11 +24,13 @@ const LAYERS: [(&str, u32); 15] = [
 /// Where each dependency may be used: modules, or single files. An empty list means everywhere.
 const CRATES: [(&str, &[&str]); 22] = [
     ("arrow_schema", &["dataset"]),
+    ("base64", &["report/page"]),
     ("clap", &["cli"]),
     ("crc32fast", &["dataset"]),
     ("csv", &["campaign/data.rs"]),
     (FOR_ITS_FEATURES, &["no file"]),
     ("fearless_simd", &["math", "dynamics", "ode", "propagation", "observables"]),
+    ("flate2", &["report/page"]),
     ("indicatif", &["cli"]),
     ("libm", &[]),
     ("nalgebra", &["statistics"]),

@@ -105,12 +105,11 @@ fn program_problem(words: &[&str]) -> Option<String> {
         Command::Campaign(options) => &options.file,
         Command::Check(options) => &options.file,
         // folders of results, which are not shipped
-        Command::Compare(_) => return None,
         Command::Simulate(options) => &options.file,
         Command::Sample(options) => &options.file,
         Command::Precision(options) => &options.file,
         // a folder that a campaign has made
-        Command::Finish(_) | Command::Verify(_) => return None,
+        Command::Compare(_) | Command::Finish(_) | Command::Report(_) | Command::Verify(_) => return None,
         Command::Columns(options) => options.campaign.as_ref()?,
     };
     // `my_sweep.toml` is the file that the README asks the reader to save; FILE means any

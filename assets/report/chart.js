@@ -1,0 +1,233 @@
+// From what a figure shows to what ECharts draws.
+
+import { superscript, tickScale, tickText } from "./numbers.js";
+import { colors } from "./theme.js";
+
+const FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', sans-serif";
+
+// The finite values that an axis has to show.
+function extent(figure, which) {
+  let [low, high] = [Infinity, -Infinity];
+  const take = (values) => {
+    for (const value of values) {
+      if (!Number.isFinite(value)) continue;
+      if (value < low) low = value;
+      if (value > high) high = value;
+    }
+  };
+  const isLog = figure[which].log;
+  for (const mark of figure.marks) {
+    if (mark.kind === "limit" && which === "x" && mark.vertical) take([mark.at]);
+    for (const name of which === "x" ? ["x", "edges"] : ["y", "heights"]) if (mark[name] && !(mark.kind === "whiskers" && which === "y")) take(isLog ? mark[name].filter((value) => value > 0) : mark[name]);
+    const ends = mark.kind === "whiskers" ? "x" : "y";
+    if (which === ends && mark.low) for (const name of ["low", "high"]) take(isLog ? mark[name].filter((value) => value > 0) : mark[name]);
+    if (mark.kind === "bars" && which === "y") take([0]);
+    if (mark.kind === "whiskers" && which === "x") take([0]);
+  }
+  return low <= high ? [low, high] : [0, 1];
+}
+
+// A round step for about `count` ticks.
+function roundStep(span, count) {
+  const raw = span / count;
+  const power = 10 ** Math.floor(Math.log10(raw));
+  const digit = raw / power;
+  return (digit < 1.5 ? 1 : digit < 3.5 ? 2 : digit < 7.5 ? 5 : 10) * power;
+}
+
+function linearAxis(axis, [low, high], fixed, palette, count) {
+  if (!(high > low)) {
+    const half = low === 0 ? 1 : 0.05 * Math.abs(low);
+    [low, high] = [low - half, high + half];
+  }
+  const step = roundStep(high - low, count);
+  const scale = tickScale(low, high, axis.unit);
+  const name = [axis.quantity, scale.unit].filter(Boolean).join(" / ");
+  const text = (value) => tickText(value, step, scale.factor);
+  const [min, max] = fixed ? [low, high] : [Math.floor(low / step + 1e-9) * step, Math.ceil(high / step - 1e-9) * step];
+  return { type: "value", min, max, interval: step, name, axisLabel: { formatter: text, hideOverlap: true, showMinLabel: !fixed, showMaxLabel: !fixed } };
+}
+
+function logAxis(axis, [low, high]) {
+  const name = [axis.quantity, axis.unit].filter(Boolean).join(" / ");
+  const [first, last] = [Math.floor(Math.log10(low) + 1e-9), Math.ceil(Math.log10(high) - 1e-9)];
+  const every = Math.max(1, Math.ceil((last - first) / 8));
+  const text = (value) => {
+    const power = Math.round(Math.log10(value));
+    return (power - first) % every === 0 ? `10${superscript(power)}` : "";
+  };
+  // within less than a decade the ends are the data's, so that the picture is not empty
+  const isNarrow = Math.log10(high / low) < 0.7;
+  const [min, max] = isNarrow ? [low / 1.1, high * 1.1] : [10 ** first, 10 ** Math.max(last, first + 1)];
+  const narrow = (value) => String(Number(value.toPrecision(2)));
+  return { type: "log", min, max, name, axisLabel: { formatter: isNarrow ? narrow : text, showMinLabel: true, showMaxLabel: true } };
+}
+
+function axisOption(figure, which, palette, width) {
+  const axis = figure[which];
+  const style = { axisLine: { lineStyle: { color: palette.quiet } }, axisTick: { lineStyle: { color: palette.quiet } }, splitLine: { lineStyle: { color: palette.grid } }, nameTextStyle: { color: palette.text, fontFamily: FONT, fontSize: 13 }, nameLocation: "middle" };
+  const label = { color: palette.quiet, fontFamily: FONT, fontSize: 12 };
+  if (axis.names) {
+    const longest = width < 500 ? 22 : 34;
+    const short = (name) => (name.length > longest ? `…${name.slice(1 - longest)}` : name);
+    const names = which === "x" ? axis.names.map((_, index) => String(index + 1)) : axis.names.map((name, index) => (figure.x.names ? `${short(name)}  ${index + 1}` : short(name)));
+    return { ...style, type: "category", data: names, inverse: which === "y", splitLine: { show: false }, axisLabel: { ...label, interval: 0 }, axisTick: { show: false } };
+  }
+  const given = axis.range && axis.range[0] < axis.range[1] ? axis.range : null;
+  const range = given ?? extent(figure, which);
+  const found = axis.log ? logAxis(axis, range) : linearAxis(axis, range, Boolean(given) || (which === "x" && figure.time), palette, which === "x" ? Math.max(3, width / 90) : 5);
+  return { ...style, ...found, nameGap: which === "x" ? 28 : 52, axisLabel: { ...label, ...found.axisLabel } };
+}
+
+// Pairs [x, y] that can be shown.
+function pairs(mark, figure) {
+  const list = [];
+  for (let k = 0; k < mark.x.length; k += 1) {
+    const [x, y] = [mark.x[k], mark.y[k]];
+    if (Number.isFinite(x) && Number.isFinite(y) && !(figure.x.log && x <= 0) && !(figure.y.log && y <= 0)) list.push([x, y]);
+  }
+  return list;
+}
+
+function lineSeries(mark, figure, color) {
+  return { type: "line", data: pairs(mark, figure), showSymbol: false, silent: true, lineStyle: { color, width: 1.6, type: mark.dashed ? [6, 4] : "solid" }, itemStyle: { color }, clip: true };
+}
+
+function pointSeries(mark, figure, color) {
+  const count = mark.x.length;
+  const size = count > 600 ? 4 : count > 100 ? 5 : 8;
+  const cross = "path://M-1,-0.75L-0.75,-1L0,-0.25L0.75,-1L1,-0.75L0.25,0L1,0.75L0.75,1L0,0.25L-0.75,1L-1,0.75L-0.25,0Z";
+  return { type: "scatter", data: pairs(mark, figure), symbol: mark.crosses ? cross : "circle", symbolSize: mark.crosses ? 8 : size, silent: true, itemStyle: { color, opacity: count > 100 && !mark.crosses ? 0.55 : 1 }, clip: true };
+}
+
+// A series whose first element draws all: `shapes(to)` returns them, `to` maps values to pixels.
+function drawn(data, encode, shapes) {
+  const renderItem = (params, api) => {
+    if (params.dataIndexInside !== 0) return null;
+    const box = params.coordSys;
+    return { type: "group", children: shapes((x, y) => api.coord([x, y]), box, api), clipPath: { type: "rect", shape: { x: box.x, y: box.y, width: box.width, height: box.height } } };
+  };
+  return { type: "custom", data, encode, renderItem, silent: true, clip: false, animation: false };
+}
+
+function bandSeries(mark, figure, color) {
+  const rows = [];
+  for (let k = 0; k < mark.x.length; k += 1) {
+    const row = [mark.x[k], mark.low[k], mark.high[k]];
+    if (row.every(Number.isFinite) && !(figure.x.log && row[0] <= 0) && !(figure.y.log && row[1] <= 0)) rows.push(row);
+  }
+  return drawn(rows, { x: 0, y: [1, 2] }, (to) => {
+    const points = [...rows.map(([x, low]) => to(x, low)), ...[...rows].reverse().map(([x, , high]) => to(x, high))];
+    return points.length > 2 ? [{ type: "polygon", shape: { points }, style: { fill: color, opacity: mark.opacity } }] : [];
+  });
+}
+
+function barSeries(mark, figure, color) {
+  const rows = Array.from(mark.heights, (height, k) => [mark.edges[k], mark.edges[k + 1], height]);
+  return drawn(rows, { x: [0, 1], y: 2 }, (to) =>
+    rows.filter((row) => row[2] > 0).map(([low, high, height]) => {
+      const [[left, bottom], [right, top]] = [to(low, 0), to(high, height)];
+      return { type: "rect", shape: { x: left, y: top, width: Math.max(1, right - left - 0.5), height: bottom - top }, style: { fill: color, opacity: 0.55 } };
+    }),
+  );
+}
+
+function whiskerSeries(mark, figure, color, palette) {
+  const rows = Array.from(mark.x, (value, k) => [value, k, mark.low[k], mark.high[k]]);
+  return drawn(rows, { x: [0, 2, 3], y: 1 }, (to) =>
+    rows.filter((row) => Number.isFinite(row[0])).flatMap(([value, row, low, high]) => {
+      const [[zero, y], [end]] = [to(0, row), to(value, row)];
+      const shapes = [{ type: "rect", shape: { x: Math.min(zero, end), y: y - 7, width: Math.abs(end - zero), height: 14 }, style: { fill: color, opacity: 0.35 } }];
+      if (Number.isFinite(low) && Number.isFinite(high)) {
+        const [[x1], [x2]] = [to(low, row), to(high, row)];
+        shapes.push({ type: "line", shape: { x1, y1: y, x2, y2: y }, style: { stroke: palette.text, lineWidth: 1.5 } });
+        for (const x of [x1, x2]) shapes.push({ type: "line", shape: { x1: x, y1: y - 4, x2: x, y2: y + 4 }, style: { stroke: palette.text, lineWidth: 1.5 } });
+      }
+      shapes.push({ type: "circle", shape: { cx: end, cy: y, r: 4 }, style: { fill: color } });
+      return shapes;
+    }),
+  );
+}
+
+function limitSeries(mark, figure, palette, [xs, ys]) {
+  const middle = (axis) => (axis.type === "category" ? 0 : axis.type === "log" ? Math.sqrt(axis.min * axis.max) : 0.5 * (axis.min + axis.max));
+  const data = [mark.vertical ? [mark.at, middle(ys)] : [middle(xs), mark.at]];
+  return drawn(data, { x: 0, y: 1 }, (to, box) => {
+    const [x, y] = to(...data[0]);
+    const dash = { stroke: palette.quiet, lineWidth: 1, lineDash: [5, 4] };
+    const text = { text: mark.label, fill: palette.quiet, font: `12px ${FONT}` };
+    if (mark.vertical) {
+      const isRight = x > box.x + 0.7 * box.width;
+      return [
+        { type: "line", shape: { x1: x, y1: box.y, x2: x, y2: box.y + box.height }, style: dash },
+        { type: "text", x: x + (isRight ? -4 : 4), y: box.y + 3, style: { ...text, align: isRight ? "right" : "left", verticalAlign: "top" } },
+      ];
+    }
+    const isTop = y < box.y + 20;
+    return [
+      { type: "line", shape: { x1: box.x, y1: y, x2: box.x + box.width, y2: y }, style: dash },
+      { type: "text", x: box.x + box.width - 4, y: y + (isTop ? 3 : -3), style: { ...text, align: "right", verticalAlign: isTop ? "top" : "bottom" } },
+    ];
+  });
+}
+
+function matrixSeries(mark, figure, palette) {
+  const count = figure.y.names.length;
+  const rows = Array.from(mark.values, (r, k) => [k % count, Math.floor(k / count), r]);
+  return drawn(rows, { x: 0, y: 1 }, (to) => {
+    const [[x0, y0], [x1, y1]] = [to(0, 0), to(1, 1)];
+    const [width, height] = [Math.abs(x1 - x0), Math.abs(y1 - y0)];
+    return rows.flatMap(([column, row, r]) => {
+      const [x, y] = to(column, row);
+      const fill = r < 0 ? palette.hues[1] : palette.hues[0];
+      const cell = { type: "rect", shape: { x: x - width / 2 + 0.5, y: y - height / 2 + 0.5, width: width - 1, height: height - 1 }, style: { fill, opacity: Math.min(1, Math.abs(r)) } };
+      const text = { type: "text", x, y, style: { text: r.toFixed(2).replace("-0.00", "0.00"), fill: Math.abs(r) > 0.6 ? palette.background : palette.text, font: `11px ${FONT}`, align: "center", verticalAlign: "middle" } };
+      return width >= 34 && height >= 14 ? [cell, text] : [cell];
+    });
+  });
+}
+
+// Marks that the legend names, each name once.
+export function legendOf(figure, palette) {
+  const seen = new Set();
+  const entries = [];
+  for (const mark of figure.marks) {
+    if (!mark.label || mark.kind === "limit" || mark.kind === "matrix" || seen.has(mark.label)) continue;
+    seen.add(mark.label);
+    entries.push({ label: mark.label, color: palette.hues[mark.hue], kind: mark.kind, opacity: mark.opacity ?? 0.55, dashed: mark.dashed, crosses: mark.crosses });
+  }
+  return entries.length > 1 || entries.some((entry) => entry.kind !== "bars") ? entries : [];
+}
+
+// The height of a figure that is `width` pixels wide.
+export function heightOf(figure, width) {
+  if (figure.x.names) return Math.min(640, 60 + Math.max(18, Math.min(34, (width - 260) / figure.y.names.length)) * figure.y.names.length);
+  if (figure.y.names) return 70 + 26 * figure.y.names.length;
+  return Math.round(Math.max(210, Math.min(320, 0.56 * width)));
+}
+
+// The option of ECharts for `figure` at `width` pixels.
+export function chartOption(figure, width, palette = colors()) {
+  const axes = [axisOption(figure, "x", palette, width), axisOption(figure, "y", palette, width)];
+  const color = (mark) => palette.hues[mark.hue];
+  const makers = {
+    line: (mark) => lineSeries(mark, figure, color(mark)),
+    points: (mark) => pointSeries(mark, figure, color(mark)),
+    band: (mark) => bandSeries(mark, figure, color(mark)),
+    bars: (mark) => barSeries(mark, figure, color(mark)),
+    whiskers: (mark) => whiskerSeries(mark, figure, color(mark), palette),
+    limit: (mark) => limitSeries(mark, figure, palette, axes),
+    matrix: (mark) => matrixSeries(mark, figure, palette),
+  };
+  const names = figure.y.names ? Math.min(0.5 * width, 16 + 6.6 * Math.max(...axes[1].data.map((name) => name.length))) : 66;
+  const zoom = figure.x.names || figure.y.names ? [] : [{ type: "inside", xAxisIndex: 0, filterMode: "none", zoomOnMouseWheel: "ctrl", moveOnMouseMove: "ctrl", moveOnMouseWheel: false, preventDefaultMouseMove: false }];
+  return {
+    animation: false,
+    backgroundColor: "transparent",
+    grid: { left: names, right: 18, top: 12, bottom: 46 },
+    xAxis: axes[0],
+    yAxis: axes[1],
+    dataZoom: zoom,
+    series: figure.marks.map((mark) => ({ ...makers[mark.kind](mark), z: 2 })),
+  };
+}

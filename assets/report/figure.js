@@ -1,0 +1,161 @@
+// A figure on the page: title, legend, plot, caption; drawn when it comes into view.
+
+import { chartOption, heightOf, legendOf } from "./chart.js";
+import { described } from "./hover.js";
+import { readable } from "./numbers.js";
+import { saveButtons } from "./save.js";
+import { colors, onTheme } from "./theme.js";
+
+const views = [];
+
+function element(tag, className, text) {
+  const made = document.createElement(tag);
+  if (className) made.className = className;
+  if (text) made.textContent = text;
+  return made;
+}
+
+function legendElement(figure) {
+  const list = element("ul", "legend");
+  const palette = colors();
+  for (const entry of legendOf(figure, palette)) {
+    const item = element("li");
+    const shape = entry.kind === "line" ? `<line x1="0" y1="7" x2="22" y2="7" stroke="${entry.color}" stroke-width="2"${entry.dashed ? ' stroke-dasharray="5 3"' : ""}/>` : entry.kind === "points" ? (entry.crosses ? `<path d="M7 3l8 8M15 3l-8 8" stroke="${entry.color}" stroke-width="2"/>` : `<circle cx="11" cy="7" r="4" fill="${entry.color}"/>`) : `<rect x="2" y="1" width="18" height="12" fill="${entry.color}" opacity="${entry.opacity}"/>`;
+    item.innerHTML = `<svg class="key wide" viewBox="0 0 22 14" aria-hidden="true">${shape}</svg>`;
+    item.append(entry.label);
+    list.append(item);
+  }
+  return list;
+}
+
+// The plot of a figure within `box`, which follows the width of the page.
+export class FigureView {
+  constructor(figure, echarts) {
+    this.figure = figure;
+    this.echarts = echarts;
+    this.box = element("figure");
+    this.box.id = figure.name;
+    this.box.style.setProperty("--columns", figure.columns);
+    const head = element("div", "head");
+    const title = element("h3");
+    const link = element("a", "", figure.title);
+    link.href = `#${figure.name}`;
+    title.append(link);
+    head.append(title, saveButtons(() => this.figure, echarts));
+    this.legend = element("div", "legends");
+    this.plot = element("div", "plot");
+    this.plot.tabIndex = 0;
+    this.plot.setAttribute("role", "img");
+    this.plot.setAttribute("aria-label", `${figure.title}. ${figure.caption}`);
+    this.tip = element("div", "tip");
+    this.tip.hidden = true;
+    this.cursor = element("div", "cursor");
+    this.cursor.hidden = true;
+    this.box.append(head, this.legend, this.plot, element("figcaption", "", figure.caption));
+    this.listen();
+    views.push(this);
+  }
+
+  draw() {
+    const width = Math.max(240, Math.floor(this.plot.clientWidth));
+    if (this.chart && width === this.width && this.palette === colors().background) return;
+    [this.width, this.palette] = [width, colors().background];
+    const height = heightOf(this.figure, width);
+    this.plot.style.height = `${height}px`;
+    this.chart?.dispose();
+    this.chart = this.echarts.init(this.plot, null, { renderer: "svg", width, height });
+    this.chart.setOption(chartOption(this.figure, width));
+    this.plot.append(this.tip, this.cursor);
+    this.legend.replaceChildren(legendElement(this.figure));
+    if (this.time !== undefined) this.moveCursor(this.time);
+  }
+
+  // Shows another figure in the same place.
+  show(figure) {
+    this.figure = figure;
+    this.width = 0;
+    this.box.querySelector("h3 a").textContent = figure.title;
+    this.box.querySelector("figcaption").textContent = figure.caption;
+    this.draw();
+  }
+
+  toPixel(x, y) {
+    return this.chart.convertToPixel({ gridIndex: 0 }, [x, y]);
+  }
+
+  listen() {
+    this.plot.addEventListener("pointermove", (event) => {
+      const box = this.plot.getBoundingClientRect();
+      this.hover([event.clientX - box.left, event.clientY - box.top]);
+    });
+    this.plot.addEventListener("pointerleave", () => this.leave());
+    this.plot.addEventListener("blur", () => this.leave());
+    this.plot.addEventListener("dblclick", () => this.chart?.dispatchAction({ type: "dataZoom", start: 0, end: 100 }));
+    this.plot.addEventListener("keydown", (event) => {
+      const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+      if (!step || !this.chart) return;
+      event.preventDefault();
+      const at = this.pointer ?? [this.width / 2, 100];
+      this.hover([Math.min(this.width - 20, Math.max(68, at[0] + step * 6)), at[1]]);
+    });
+  }
+
+  hover(at) {
+    if (!this.chart || !this.chart.containPixel({ gridIndex: 0 }, at)) return this.leave();
+    this.pointer = at;
+    const value = this.chart.convertFromPixel({ gridIndex: 0 }, at);
+    const lines = described(this.figure, at, value, (x, y) => this.toPixel(x, y));
+    if (lines.length === 0) return this.leave();
+    this.tip.replaceChildren(...lines.map((line) => element("div", "", line)));
+    this.tip.hidden = false;
+    const left = at[0] + 14 + this.tip.offsetWidth > this.width ? at[0] - 14 - this.tip.offsetWidth : at[0] + 14;
+    this.tip.style.transform = `translate(${Math.max(0, left)}px, ${Math.max(0, at[1] - 20)}px)`;
+    return undefined;
+  }
+
+  leave() {
+    this.tip.hidden = true;
+  }
+
+  // Moves the cursor of a figure over time to `time`.
+  moveCursor(time) {
+    this.time = time;
+    if (!this.figure.time || !this.chart) return;
+    const [x] = this.toPixel(time, 0);
+    const isInside = Number.isFinite(x) && x >= 60 && x <= this.width;
+    this.cursor.hidden = !isInside;
+    if (isInside) {
+      this.cursor.style.transform = `translateX(${x}px)`;
+      this.cursor.dataset.time = `${readable(time, 4)} s`;
+    }
+  }
+}
+
+export function moveCursors(time) {
+  for (const view of views) view.moveCursor(time);
+}
+
+// Puts the figures into their sections; each is drawn when it comes near the screen, all of them for print.
+export function showFigures(figures, echarts) {
+  const near = new IntersectionObserver(
+    (entries) => {
+      for (const entry of entries) if (entry.isIntersecting) views.find((view) => view.plot === entry.target)?.draw();
+    },
+    { rootMargin: "800px" },
+  );
+  for (const figure of figures) {
+    const view = new FigureView(figure, echarts);
+    document.querySelector(`#${figure.section} > .figures`).append(view.box);
+    view.plot.style.height = `${heightOf(figure, 560)}px`;
+  }
+  for (const view of views) near.observe(view.plot);
+  const redraw = () => views.filter((view) => view.chart).forEach((view) => view.draw());
+  new ResizeObserver(() => requestAnimationFrame(redraw)).observe(document.querySelector("main"));
+  onTheme(redraw);
+  addEventListener("beforeprint", () => drawAll());
+}
+
+// Draws every figure, in view or not.
+export function drawAll() {
+  for (const view of views) view.draw();
+}

@@ -1,0 +1,82 @@
+// What is under the pointer of a figure, with exact values and units, and the cursor that the replay moves.
+
+import { withUnit } from "./numbers.js";
+
+// The index of the element of ascending `values` that is nearest to `value`.
+export function nearest(values, value) {
+  let low = 0;
+  let high = values.length - 1;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (values[middle] <= value) low = middle;
+    else high = middle;
+  }
+  return Math.abs(values[low] - value) <= Math.abs(values[high] - value) ? low : high;
+}
+
+function isAscending(values) {
+  for (let k = 1; k < values.length; k += 1) if (values[k] < values[k - 1]) return false;
+  return true;
+}
+
+// The nearest point of `mark` within `reach` pixels, as {index, distance}.
+function nearestPoint(mark, toPixel, at, reach) {
+  let found = null;
+  for (let k = 0; k < mark.x.length; k += 1) {
+    const [x, y] = toPixel(mark.x[k], mark.y[k]);
+    const distance = Math.hypot(x - at[0], y - at[1]);
+    if (distance <= reach && (!found || distance < found.distance)) found = { index: k, distance };
+  }
+  return found;
+}
+
+// Lines of text about what is at pixel `at`, whose value is `value`, in `figure`.
+export function described(figure, at, value, toPixel) {
+  const lines = [];
+  const { x, y } = figure;
+  const marks = figure.marks;
+  const series = marks.filter((mark) => (mark.kind === "line" || mark.kind === "band") && mark.x.length > 1 && isAscending(mark.x));
+  const points = marks.filter((mark) => mark.kind === "points");
+  for (const mark of points) {
+    const found = nearestPoint(mark, toPixel, at, 14);
+    if (!found) continue;
+    const sample = mark.samples.length > found.index ? `sample ${mark.samples[found.index]}` : mark.label;
+    lines.push(sample, `${x.quantity}: ${withUnit(mark.x[found.index], x.unit)}`, `${y.quantity}: ${withUnit(mark.y[found.index], y.unit)}`);
+    return lines;
+  }
+  for (const mark of marks) {
+    if (mark.kind === "bars" && mark.edges.length > 1) {
+      let bar = 0;
+      while (bar < mark.heights.length - 1 && mark.edges[bar + 1] <= value[0]) bar += 1;
+      if (value[0] < mark.edges[0] || value[0] > mark.edges[mark.edges.length - 1]) continue;
+      lines.push(`${withUnit(mark.edges[bar], x.unit)} to ${withUnit(mark.edges[bar + 1], x.unit)}`, `${mark.label}: ${withUnit(mark.heights[bar], "")} ${y.quantity}`);
+    }
+    if (mark.kind === "whiskers" && y.names) {
+      const row = Math.round(value[1]);
+      if (row < 0 || row >= mark.x.length) continue;
+      lines.push(y.names[row], `${x.quantity}: ${withUnit(mark.x[row], x.unit)}`);
+      if (Number.isFinite(mark.low[row])) lines.push(`${mark.label}: ${withUnit(mark.low[row], "")} to ${withUnit(mark.high[row], "")}`);
+    }
+    if (mark.kind === "matrix") {
+      const count = y.names.length;
+      const [column, row] = [Math.round(value[0]), Math.round(value[1])];
+      if (column < 0 || row < 0 || column >= count || row >= count) continue;
+      lines.push(y.names[row], x.names[column], `correlation: ${mark.values[row * count + column].toFixed(3)}`);
+    }
+  }
+  let isFirst = lines.length === 0;
+  for (const mark of series) {
+    const index = nearest(mark.x, value[0]);
+    if (isFirst) lines.push(`${x.quantity}: ${withUnit(mark.x[index], x.unit)}`);
+    isFirst = false;
+    if (mark.kind === "line") lines.push(`${mark.label}: ${withUnit(mark.y[index], y.unit)}`);
+    else lines.push(`${mark.label}: ${withUnit(mark.low[index], y.unit)} to ${withUnit(mark.high[index], y.unit)}`);
+  }
+  if (lines.length === 0) {
+    for (const mark of marks.filter((other) => other.kind === "line")) {
+      const found = nearestPoint(mark, toPixel, at, 20);
+      if (found) lines.push(mark.label, `${x.quantity}: ${withUnit(mark.x[found.index], x.unit)}`, `${y.quantity}: ${withUnit(mark.y[found.index], y.unit)}`);
+    }
+  }
+  return lines;
+}

@@ -1,0 +1,43 @@
+// Numbers as a person reads them: a few digits, powers of ten with superscripts, SI prefixes on axes.
+
+const SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹";
+const PREFIXES = { "-15": "f", "-12": "p", "-9": "n", "-6": "µ", "-3": "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T" };
+// units that take a prefix before their first letter
+const SCALABLE = ["J", "m", "s", "Hz", "N", "N m", "N s", "N m s", "W", "rad", "rad/s", "m/s"];
+
+export function superscript(power) {
+  const digits = String(Math.abs(power)).split("").map((digit) => SUPERSCRIPTS[Number(digit)]).join("");
+  return (power < 0 ? "⁻" : "") + digits;
+}
+
+// A number with about `digits` significant digits.
+export function readable(value, digits = 5) {
+  if (!Number.isFinite(value)) return "-";
+  const size = Math.abs(value);
+  if (size === 0) return "0";
+  if (Number.isInteger(value) && size < 1e7) return value.toLocaleString("en-US");
+  if (size >= 1e-3 && size < 1e6) return String(Number(value.toPrecision(digits)));
+  const [mantissa, power] = value.toExponential(digits - 1).split("e");
+  return `${Number(mantissa)} × 10${superscript(Number(power))}`;
+}
+
+export function withUnit(value, unit) {
+  return unit ? `${readable(value)} ${unit}` : readable(value);
+}
+
+// How the ticks of a linear axis are written: the factor between values and ticks, and what that makes of the unit.
+export function tickScale(low, high, unit) {
+  const size = Math.max(Math.abs(low), Math.abs(high));
+  let power = size > 0 ? 3 * Math.floor(Math.log10(size) / 3 + 1e-9) : 0;
+  if (size >= 0.01 && size < 1e4) power = 0;
+  const hasPrefix = SCALABLE.includes(unit) && power in PREFIXES;
+  const scaled = hasPrefix ? PREFIXES[power] + unit : [power === 0 ? "" : `10${superscript(power)}`, unit].filter(Boolean).join(" ");
+  return { factor: 10 ** power, unit: scaled };
+}
+
+// The text of a tick; neighbouring ticks are `step` apart.
+export function tickText(value, step, factor) {
+  const decimals = Math.min(9, Math.max(0, -Math.floor(Math.log10(Math.abs(step / factor)) + 1e-9)));
+  const text = (value / factor).toFixed(decimals);
+  return Number(text) === 0 ? "0" : text.includes(".") ? text.replace(/\.?0+$/, "") : text;
+}

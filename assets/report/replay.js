@@ -1,0 +1,288 @@
+// The 3D replay: nominal and worst runs, with a time slider that moves the cursor of every figure over time.
+
+import { moveCursors } from "./figure.js";
+import { readable } from "./numbers.js";
+import { HUE_PLACES, colors, onTheme } from "./theme.js";
+import { Motion, rotated } from "./motion.js";
+import { arrow, axes, bodyGroup, curve, debrisGroup, pointTo, quaternionOf, sphere, thrusterGroup, wheelGroup } from "./bodies.js";
+
+const SPEEDS = [0.05, 0.1, 0.25, 0.5, 1, 2, 5, 10, 50, 100];
+// faster than this a wheel is a blur, and pictures of it seem to stand still or turn backwards
+const FASTEST_SEEN = 2 * Math.PI;
+
+function control(tag, attributes, text) {
+  const made = document.createElement(tag);
+  Object.assign(made, attributes);
+  if (text) made.textContent = text;
+  return made;
+}
+
+// The size of the spacecraft, m: what fills the picture.
+function sizeOf(scene) {
+  const reach = (position, size) => Math.hypot(...position.map((value, axis) => value - scene.center[axis])) + Math.max(0.05, ...size) * 0.7;
+  const all = [...scene.parts.map((part) => reach(part.position, part.size)), ...scene.wheels.map((wheel) => reach(wheel.position, [wheel.radius])), ...scene.thrusters.map((thruster) => reach(thruster.position, [0.1]))];
+  return Math.max(0.2, ...all);
+}
+
+export class Replay {
+  constructor(data, three, place) {
+    this.three = three;
+    this.data = data;
+    this.place = place;
+    this.size = sizeOf(data.scene);
+    this.time = 0;
+    this.isPlaying = false;
+    this.camera = new three.PerspectiveCamera(40, 1.6, 0.01 * this.size, 400 * this.size);
+    this.camera.up.set(0, 0, 1);
+    this.renderer = new three.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+    this.controls = new three.OrbitControls(this.camera, this.renderer.domElement);
+    this.controls.enableDamping = false;
+    this.controls.addEventListener("change", () => this.render());
+    this.build();
+    this.layout();
+    this.choose(0);
+    this.view("inertial");
+    onTheme(() => {
+      this.build();
+      this.show();
+    });
+    new ResizeObserver(() => this.resize()).observe(this.stage);
+  }
+
+  build() {
+    const { three, data, size } = this;
+    const palette = colors();
+    this.palette = palette;
+    this.world = new three.Scene();
+    this.world.add(new three.AmbientLight("#ffffff", 1.6));
+    const sun = new three.DirectionalLight("#ffffff", 2.2);
+    sun.position.set(3, 2, 4);
+    this.world.add(sun);
+    this.craft = new three.Group();
+    const inner = new three.Group();
+    inner.position.set(...data.scene.center.map((value) => -value));
+    inner.add(bodyGroup(three, data.scene, palette));
+    this.wheels = data.scene.wheels.map((wheel, index) => wheelGroup(three, wheel, index, palette));
+    this.thrusters = data.scene.thrusters.map((thruster) => thrusterGroup(three, thruster, size, palette));
+    for (const { group } of [...this.wheels, ...this.thrusters]) inner.add(group);
+    this.craft.add(inner, axes(three, 0.75 * size, palette.hues[HUE_PLACES.body]));
+    this.world.add(this.craft, axes(three, 1.5 * size, palette.quiet), sphere(three, 1.6 * size, palette.quiet));
+    this.arrows = { s3: palette.hues[3], momentum: palette.hues[2], omega: palette.hues[1] };
+    for (const [name, color] of Object.entries(this.arrows)) {
+      this.arrows[name] = arrow(three, color, 0.012);
+      this.world.add(this.arrows[name]);
+    }
+    this.debris = data.scene.debris ? debrisGroup(three, data.scene.debris, palette) : null;
+    if (this.debris) this.world.add(this.debris);
+    this.trailGroup = new three.Group();
+    this.world.add(this.trailGroup);
+    this.renderer.setClearColor(palette.background);
+    if (this.motion) this.drawTrail();
+  }
+
+  drawTrail() {
+    const points = this.motion.trail();
+    this.trailGroup.clear();
+    this.trailGroup.add(curve(this.three, points, 1.6 * this.size, this.palette.hues[3]));
+  }
+
+  layout() {
+    this.stage = control("div", { className: "stage" });
+    this.stage.append(this.renderer.domElement);
+    this.stage.tabIndex = 0;
+    this.stage.setAttribute("role", "application");
+    this.stage.setAttribute("aria-label", "Replay in three dimensions. Space plays and pauses, arrows step, 1 2 3 choose the camera.");
+    const bar = control("div", { className: "controls" });
+    const button = (text, title, action) => {
+      const made = control("button", { type: "button", title }, text);
+      made.addEventListener("click", action);
+      bar.append(made);
+      return made;
+    };
+    this.runs = control("select", { title: "Run" });
+    this.runs.setAttribute("aria-label", "Run");
+    this.data.runs.forEach((run, index) => this.runs.append(new Option(run.sample === 0 ? run.name : `${run.name}: ${run.why}`, index)));
+    this.runs.addEventListener("change", () => this.choose(Number(this.runs.value)));
+    bar.append(this.runs);
+    this.playButton = button("Play", "Play or pause (space)", () => this.toggle());
+    button("◀", "One step back (left arrow)", () => this.step(-1));
+    button("▶", "One step forward (right arrow)", () => this.step(1));
+    this.speed = control("select", { title: "Speed" });
+    this.speed.setAttribute("aria-label", "Speed");
+    SPEEDS.forEach((speed) => this.speed.append(new Option(`${speed} ×`, speed, speed === 1, speed === 1)));
+    bar.append(this.speed);
+    for (const name of ["inertial", "body", "chase"]) button(name, `Camera: ${name}`, () => this.view(name)).dataset.camera = name;
+    this.slider = control("input", { type: "range", min: 0, step: "any", value: 0, className: "time" });
+    this.slider.setAttribute("aria-label", "Time");
+    this.slider.addEventListener("input", () => this.goTo(Number(this.slider.value)));
+    this.clock = control("output", { className: "clock" });
+    this.notes = control("p", { className: "caption" });
+    const legend = control("ul", { className: "legend" });
+    const entries = [
+      ["s3, spin axis, with its trail on the sphere", 3], ["H, angular momentum", 2], ["omega, angular velocity", 1], ["body, axes of F_s", HUE_PLACES.body],
+      ...this.data.scene.wheels.map((wheel, index) => [`wheel ${wheel.name}`, HUE_PLACES.wheels[index % 4]]),
+      ...(this.data.scene.debris ? [["debris", HUE_PLACES.debris]] : []), ["axes of F_e", 8],
+    ];
+    const paint = () => legend.replaceChildren(...entries.map(([text, hue]) => {
+      const item = control("li", {}, text);
+      item.insertAdjacentHTML("afterbegin", `<svg class="key" viewBox="0 0 14 14" aria-hidden="true"><rect y="5" width="14" height="4" fill="${colors().hues[hue]}"/></svg>`);
+      return item;
+    }));
+    paint();
+    onTheme(paint);
+    this.place.replaceChildren(bar, this.stage, this.slider, this.clock, legend, this.notes);
+    this.stage.addEventListener("keydown", (event) => this.key(event));
+    this.resize();
+  }
+
+  key(event) {
+    const cameras = { 1: "inertial", 2: "body", 3: "chase" };
+    if (event.key === " ") this.toggle();
+    else if (event.key === "ArrowLeft") this.step(-1);
+    else if (event.key === "ArrowRight") this.step(1);
+    else if (event.key === "Home") this.goTo(0);
+    else if (event.key === "End") this.goTo(this.motion.last);
+    else if (cameras[event.key]) this.view(cameras[event.key]);
+    else return;
+    event.preventDefault();
+  }
+
+  resize() {
+    const width = Math.max(240, this.stage.clientWidth);
+    const height = Math.round(Math.min(560, 0.6 * width));
+    this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
+    this.renderer.setSize(width, height);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.render();
+  }
+
+  // Shows the run of this index.
+  choose(index) {
+    const run = this.data.runs[index];
+    this.runs.value = String(index);
+    this.motion = new Motion(run, this.data.scene.wheels.length);
+    this.slider.max = this.motion.last;
+    this.fastest = 0;
+    for (let wheel = 0; wheel < this.data.scene.wheels.length; wheel += 1) {
+      const count = this.data.scene.wheels.length;
+      const [first, final] = [run.angles[wheel], run.angles[run.angles.length - count + wheel]];
+      this.fastest = Math.max(this.fastest, Math.abs(final - first) / this.motion.last);
+    }
+    this.slowed = Math.max(1, Math.ceil(this.fastest / FASTEST_SEEN));
+    const notes = [run.sample === 0 ? "Nominal run." : `Sample ${run.sample}: ${run.why}.`];
+    if (run.status !== "ok") notes.push(`It ended with ${run.status}: ${run.reason}; shown until ${readable(this.motion.last)} s.`);
+    if (this.slowed > 1) notes.push(`Wheels turn at their true ratio, but ${this.slowed} times slower than they are, so that they can be seen.`);
+    if (this.data.scene.is_equivalent) notes.push("The body is given by its inertia: it is shown as the box of the same mass and inertia.");
+    if (this.data.scene.thrusters.length > 0) notes.push("Plumes show the nominal schedule.");
+    notes.push(`Lengths of arrows say nothing; the sphere around shows where s3 points in F_e.`);
+    this.notes.textContent = notes.join(" ");
+    this.drawTrail();
+    this.goTo(Math.min(this.time, this.motion.last));
+  }
+
+  chooseSample(sample) {
+    const index = this.data.runs.findIndex((run) => run.sample === sample);
+    if (index >= 0) this.choose(index);
+  }
+
+  view(name) {
+    this.cameraName = name;
+    const distance = 5.2 * this.size;
+    this.controls.target.set(0, 0, 0);
+    this.camera.position.set(0.75 * distance, 0.5 * distance, 0.42 * distance);
+    for (const button of this.place.querySelectorAll("[data-camera]")) button.setAttribute("aria-pressed", String(button.dataset.camera === name));
+    this.controls.update();
+    this.show();
+  }
+
+  toggle() {
+    this.isPlaying = !this.isPlaying;
+    this.playButton.textContent = this.isPlaying ? "Pause" : "Play";
+    if (!this.isPlaying) return;
+    if (this.time >= this.motion.last) this.time = 0;
+    let before = null;
+    const frame = (now) => {
+      if (!this.isPlaying) return;
+      const step = before === null ? 0 : (now - before) / 1000;
+      before = now;
+      const next = this.time + step * Number(this.speed.value);
+      this.goTo(Math.min(next, this.motion.last));
+      if (next >= this.motion.last) this.toggle();
+      else requestAnimationFrame(frame);
+    };
+    requestAnimationFrame(frame);
+  }
+
+  // To the next time at which the motion is known, or the one before.
+  step(by) {
+    if (this.isPlaying) this.toggle();
+    const { times } = this.motion.run;
+    const [index, part] = this.motion.place(this.time);
+    const next = by > 0 ? (part > 0.999 ? index + 2 : index + 1) : part > 0.001 ? index : index - 1;
+    this.goTo(times[Math.min(times.length - 1, Math.max(0, next))]);
+  }
+
+  goTo(time) {
+    this.time = time;
+    this.slider.value = String(time);
+    this.clock.textContent = `${time.toFixed(this.motion.last < 100 ? 3 : 1)} s of ${readable(this.motion.run.duration)} s`;
+    moveCursors(time);
+    this.show();
+  }
+
+  // Puts everything where it is at the current time.
+  show() {
+    const { three, size, motion } = this;
+    if (!motion) return;
+    const state = motion.at(this.time);
+    // in the body's frame the world turns instead
+    const inverse = [state.attitude[0], -state.attitude[1], -state.attitude[2], -state.attitude[3]];
+    const frame = this.cameraName === "body" ? inverse : [1, 0, 0, 0];
+    this.world.quaternion.copy(quaternionOf(three, frame));
+    this.craft.quaternion.copy(quaternionOf(three, state.attitude));
+    this.wheels.forEach(({ spinning }, index) => spinning.rotation.set(0, 0, state.angles[index] / this.slowed));
+    const arc = this.data.scene.arcs.find((each) => each.start <= this.time && this.time < each.end);
+    this.thrusters.forEach(({ plume }, index) => (plume.visible = Boolean(arc && arc.thrust[index] > 0)));
+    pointTo(three, this.arrows.s3, state.s3, 1.6 * size);
+    pointTo(three, this.arrows.momentum, state.momentum, 1.45 * size);
+    pointTo(three, this.arrows.omega, state.omega, 1.3 * size);
+    if (this.debris) this.placeDebris(state);
+    if (this.cameraName === "chase") this.chase(state);
+    this.render();
+  }
+
+  // The debris to scale; where it is out of the picture, at the edge of the sphere in its direction.
+  placeDebris(state) {
+    const distance = Math.hypot(...state.debris);
+    const isFar = distance > 3.2 * this.size;
+    const place = isFar ? state.debris.map((value) => (value / distance) * 2.2 * this.size) : state.debris;
+    this.debris.position.set(...place);
+    this.debris.quaternion.copy(quaternionOf(this.three, state.debrisAttitude));
+    this.clock.dataset.debris = isFar ? `debris ${readable(distance, 4)} m away, shown nearer` : "";
+  }
+
+  // Behind the spin axis, looking along it.
+  chase(state) {
+    const side = rotated(state.attitude, [1, 0, 0]);
+    const from = state.s3.map((value, axis) => -4.2 * this.size * value + 1.6 * this.size * side[axis]);
+    this.camera.position.set(...from);
+    this.camera.lookAt(0, 0, 0);
+  }
+
+  render() {
+    if (this.world && this.cameraName) this.renderer.render(this.world, this.camera);
+  }
+}
+
+// Puts the replay into its section; a sentence where there is no WebGL.
+export function startReplay(data, three) {
+  const place = document.querySelector(".replay");
+  if (!place || !data) return null;
+  try {
+    return new Replay(data, three, place);
+  } catch (error) {
+    place.textContent = `This browser shows no 3D graphics (WebGL), so there is no replay here. (${error.message})`;
+    return null;
+  }
+}

@@ -1,0 +1,283 @@
+//! [`Card`]: what the first screen says about one requirement, or, without requirements, about one outcome.
+
+use crate::report::page::influence::Influence;
+use crate::report::page::payload::escaped;
+use crate::report::page::readable::{number, with_unit};
+use crate::report::page::shown_columns::{CONFIDENCE, interval, words};
+use crate::report::page::survey::{Outcome, Survey};
+
+/// How a requirement was judged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Judged {
+    /// It is met with the asked confidence.
+    Pass,
+    /// It is not met, with the asked confidence.
+    Fail,
+    /// The runs do not decide it.
+    Undecided,
+    /// No requirement: what was found.
+    Finding,
+}
+
+impl Judged {
+    const fn word(self) -> &'static str {
+        match self {
+            Judged::Pass => "PASS",
+            Judged::Fail => "FAIL",
+            Judged::Undecided => "UNDECIDED",
+            Judged::Finding => "FOUND",
+        }
+    }
+
+    /// A shape of its own for each word: a disc with a tick, a square with a cross, a diamond with a question mark, a ring.
+    const fn shape(self) -> &'static str {
+        match self {
+            Judged::Pass => r#"<circle cx="12" cy="12" r="11"/><path class="sign" d="M6 12.5l4 4 8-9"/>"#,
+            Judged::Fail => {
+                r#"<rect x="1.5" y="1.5" width="21" height="21" rx="2"/><path class="sign" d="M7 7l10 10M17 7L7 17"/>"#
+            }
+            Judged::Undecided => {
+                r#"<path d="M12 0.5L23.5 12L12 23.5L0.5 12z"/><path class="sign" d="M9 10c0-4 6-4 6-1c0 2-3 2-3 4.5M12 16.2v1.2"/>"#
+            }
+            Judged::Finding => r#"<circle class="ring" cx="12" cy="12" r="9.5"/><circle cx="12" cy="12" r="3.5"/>"#,
+        }
+    }
+
+    const fn class(self) -> &'static str {
+        match self {
+            Judged::Pass => "pass",
+            Judged::Fail => "fail",
+            Judged::Undecided => "undecided",
+            Judged::Finding => "finding",
+        }
+    }
+}
+
+/// A requirement with its verdict, or a finding.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Card {
+    /// How it was judged.
+    pub judged: Judged,
+    /// The outcome in words.
+    pub quantity: String,
+    /// The requirement, or the finding, as a sentence.
+    pub sentence: String,
+    /// What the estimate is of: "99%-quantile".
+    pub statistic: String,
+    /// The estimate; NaN where there is none.
+    pub estimate: f64,
+    /// The ends of its interval; NaN where the runs do not bound it.
+    pub interval: [f64; 2],
+    /// The confidence of the interval.
+    pub confidence: f64,
+    /// The limit, and whether it is an upper one.
+    pub limit: Option<(f64, bool)>,
+    /// Unit of estimate and limit.
+    pub unit: String,
+    /// What else there is to say: the number of runs that would decide.
+    pub note: String,
+    /// What drives the outcome; empty where that is not known.
+    pub drivers: String,
+}
+
+/// Cards of a campaign without requirements: drift of energy and of momentum, numerical error.
+pub fn findings(survey: &Survey, has_intervals: bool, influences: &[Influence]) -> Vec<Card> {
+    const FOUND: [(&str, &str); 3] = [
+        ("energy_error_max", "Energy drift"),
+        ("angular_momentum_error_max", "Momentum drift"),
+        ("state_error_estimate", "Numerical error"),
+    ];
+    let card = |(name, title): (&str, &str)| {
+        let (_, outcome) = survey.outcome(name)?;
+        Some(finding(outcome, title, has_intervals, driven_by(name, influences)))
+    };
+    FOUND.into_iter().filter_map(card).collect()
+}
+
+fn finding(outcome: &Outcome, title: &str, has_intervals: bool, drivers: String) -> Card {
+    const P: f64 = 0.99;
+    let estimate = outcome.sketch.quantile(P).unwrap_or(f64::NAN);
+    let interval = if has_intervals { interval(&outcome.sketch, P, CONFIDENCE) } else { [f64::NAN; 2] };
+    let runs = outcome.sketch.count();
+    let what = words(&outcome.quantity);
+    let text = |value: f64| with_unit(value, outcome.quantity.unit());
+    let (sentence, note) = if runs == 0 {
+        ("No dispersed run ended ok: nothing can be said.".to_owned(), String::new())
+    } else if runs == 1 {
+        (format!("The only run that is ok: {what} {}.", text(estimate)), String::new())
+    } else {
+        let sentence = format!(
+            "99% of the runs keep the {what} below {}; the largest is {}.",
+            text(estimate),
+            text(outcome.sketch.max().unwrap_or(f64::NAN))
+        );
+        let unbounded = has_intervals && !interval[1].is_finite();
+        let note = if unbounded {
+            format!("{runs} runs do not bound the 99%-quantile from above with 95% confidence.")
+        } else if has_intervals {
+            String::new()
+        } else {
+            "The design's runs are not independent: no interval.".to_owned()
+        };
+        (sentence, note)
+    };
+    Card {
+        judged: Judged::Finding,
+        quantity: title.to_owned(),
+        sentence,
+        statistic: "99%-quantile".to_owned(),
+        estimate,
+        interval,
+        confidence: CONFIDENCE,
+        limit: None,
+        unit: outcome.quantity.unit().to_owned(),
+        note,
+        drivers,
+    }
+}
+
+/// The strongest inputs of an outcome in words.
+pub fn driven_by(outcome: &str, influences: &[Influence]) -> String {
+    let Some(influence) = influences.iter().find(|influence| influence.outcome == outcome) else {
+        return String::new();
+    };
+    // an interval that contains zero is no influence that was found
+    let mut found: Vec<&(String, [f64; 3])> =
+        influence.inputs.iter().filter(|(_, [_, low, high])| low * high > 0.0).collect();
+    found.sort_by(|a, b| b.1[0].abs().total_cmp(&a.1[0].abs()));
+    if found.is_empty() {
+        return "no input with an influence that these runs can show".to_owned();
+    }
+    let names: Vec<String> = found.iter().take(2).map(|(name, value)| format!("{name} ({:.2})", value[0])).collect();
+    format!("{}; {}", names.join(", "), influence.measure)
+}
+
+impl Card {
+    /// The card as HTML.
+    pub fn html(&self) -> String {
+        let mut rows = String::new();
+        let mut row = |term: &str, text: &str| {
+            if !text.is_empty() {
+                rows += &format!("<p class=\"detail\"><b>{}</b> {}</p>", escaped(term), escaped(text));
+            }
+        };
+        if self.estimate.is_finite() {
+            let ends = self.interval.map(|end| if end.is_finite() { number(end) } else { "not bounded".to_owned() });
+            let confidence = number(100.0 * self.confidence);
+            let interval = if self.interval.iter().any(|end| end.is_finite()) {
+                format!(" ({confidence}% interval: {} to {})", ends[0], ends[1])
+            } else {
+                String::new()
+            };
+            row(&format!("{}:", self.statistic), &format!("{}{interval}", with_unit(self.estimate, &self.unit)));
+        }
+        row("Driven by", &self.drivers);
+        row("Note:", &self.note);
+        format!(
+            "<article class=\"card {}\"><h3><svg class=\"verdict\" viewBox=\"0 0 24 24\" aria-hidden=\"true\">{}</svg><span class=\"word\">{}</span> {}</h3><p>{}</p>{}{rows}</article>\n",
+            self.judged.class(),
+            self.judged.shape(),
+            self.judged.word(),
+            escaped(&self.quantity),
+            escaped(&self.sentence),
+            self.scale()
+        )
+    }
+
+    /// Dot, whisker and limit line; an axis by decades where the range exceeds 100.
+    fn scale(&self) -> String {
+        const LEFT: f64 = 8.0;
+        const RIGHT: f64 = 312.0;
+        let limit = self.limit.map(|(limit, _)| limit);
+        let values: Vec<f64> = [Some(self.estimate), Some(self.interval[0]), Some(self.interval[1]), limit]
+            .into_iter()
+            .flatten()
+            .filter(|x| x.is_finite())
+            .collect();
+        if !self.estimate.is_finite() || values.len() < 2 {
+            return String::new();
+        }
+        let (low, high) =
+            values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(*x), high.max(*x)));
+        let is_log = low > 0.0 && high > 100.0 * low;
+        let map = |value: f64| if is_log { libm::log10(value) } else { value };
+        let (first, last) = (map(low), map(high));
+        let margin = if last > first { 0.12 * (last - first) } else { 0.1 * first.abs().max(1e-300) };
+        let at = |value: f64| LEFT + (RIGHT - LEFT) * (map(value) - first + margin) / (last - first + 2.0 * margin);
+        let [start, end] = [(0, LEFT), (1, RIGHT)]
+            .map(|(place, edge)| if self.interval[place].is_finite() { at(self.interval[place]) } else { edge });
+        let label = |x: f64, y: u32, anchor: &str, text: &str| {
+            format!("<text x=\"{x:.1}\" y=\"{y}\" text-anchor=\"{anchor}\">{}</text>", escaped(text))
+        };
+        let anchor = |x: f64| {
+            if x < 90.0 {
+                "start"
+            } else if x > 230.0 {
+                "end"
+            } else {
+                "middle"
+            }
+        };
+        let mut inside = format!("<line class=\"axis\" x1=\"{LEFT}\" y1=\"28\" x2=\"{RIGHT}\" y2=\"28\"/>");
+        if self.interval.iter().any(|end| end.is_finite()) {
+            inside += &format!("<line class=\"whisker\" x1=\"{start:.1}\" y1=\"28\" x2=\"{end:.1}\" y2=\"28\"/>");
+            let tick = |x: f64| format!("<line class=\"whisker\" x1=\"{x:.1}\" y1=\"23\" x2=\"{x:.1}\" y2=\"33\"/>");
+            let ends = [(self.interval[0], start), (self.interval[1], end)];
+            inside +=
+                &ends.into_iter().filter(|(value, _)| value.is_finite()).map(|(_, x)| tick(x)).collect::<String>();
+        }
+        let x = at(self.estimate);
+        inside += &format!("<circle class=\"dot\" cx=\"{x:.1}\" cy=\"28\" r=\"5\"/>");
+        inside += &label(x, 47, anchor(x), &with_unit(self.estimate, &self.unit));
+        if let Some((limit, is_upper)) = self.limit {
+            let x = at(limit);
+            let word = if is_upper { "at most" } else { "at least" };
+            inside += &format!("<line class=\"limit\" x1=\"{x:.1}\" y1=\"15\" x2=\"{x:.1}\" y2=\"38\"/>");
+            inside += &label(x, 11, anchor(x), &format!("{word} {}", with_unit(limit, &self.unit)));
+        }
+        let scale = if is_log { ", logarithmic" } else { "" };
+        format!(
+            "<svg class=\"scale\" viewBox=\"0 0 320 52\" role=\"img\" aria-label=\"{}{scale}\">{inside}</svg>",
+            escaped(&self.statistic)
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn card(judged: Judged, estimate: f64, interval: [f64; 2], limit: Option<(f64, bool)>) -> Card {
+        Card {
+            judged,
+            quantity: "energy <error>".to_owned(),
+            sentence: "99% of runs stay below 1e-9.".to_owned(),
+            statistic: "99%-quantile".to_owned(),
+            estimate,
+            interval,
+            confidence: 0.95,
+            limit,
+            unit: "J".to_owned(),
+            note: String::new(),
+            drivers: String::new(),
+        }
+    }
+
+    /// Law: a verdict is a word and a shape of its own; text is escaped; no number on the card is NaN.
+    #[test]
+    fn verdicts_have_word_and_shape() {
+        let all = [Judged::Pass, Judged::Fail, Judged::Undecided, Judged::Finding];
+        for judged in all {
+            let html = card(judged, 1e-12, [1e-13, f64::NAN], Some((1e-9, true))).html();
+            assert!(html.contains(judged.word()) && html.contains(judged.shape()), "{html}");
+            assert!(html.contains("energy &lt;error&gt;") && html.contains("not bounded"), "{html}");
+            assert!(!html.contains("NaN") && html.contains("logarithmic"), "{html}");
+        }
+        for (index, judged) in all.into_iter().enumerate() {
+            assert!(all[index + 1..].iter().all(|other| other.shape() != judged.shape()));
+        }
+        let empty = card(Judged::Finding, f64::NAN, [f64::NAN; 2], None).html();
+        assert!(!empty.contains("NaN") && !empty.contains("<circle class=\"dot\""), "{empty}");
+        assert!(!card(Judged::Pass, 0.0, [0.0; 2], Some((0.0, true))).html().contains("NaN"));
+    }
+}

@@ -1,0 +1,128 @@
+//! The page as one file: static HTML first, then numbers, libraries and scripts. Nothing is loaded from anywhere, and a content security
+//! policy in the page forbids it.
+
+use serde_json::Value;
+
+use crate::report::page::payload::{encoded, escaped, packed};
+
+const STYLE: &str = include_str!("../../../assets/report/page.css");
+const LICENCES: &str = include_str!("../../../assets/report/vendor/licences.txt");
+static ECHARTS: &[u8] = include_bytes!("../../../assets/report/vendor/echarts.js.gz");
+static THREE: &[u8] = include_bytes!("../../../assets/report/vendor/three.js.gz");
+
+/// The modules of the page, each after those that it imports: they are put into one script, without their imports and exports.
+const MODULES: [(&str, &str); 13] = [
+    ("numbers.js", include_str!("../../../assets/report/numbers.js")),
+    ("theme.js", include_str!("../../../assets/report/theme.js")),
+    ("payload.js", include_str!("../../../assets/report/payload.js")),
+    ("hover.js", include_str!("../../../assets/report/hover.js")),
+    ("chart.js", include_str!("../../../assets/report/chart.js")),
+    ("save.js", include_str!("../../../assets/report/save.js")),
+    ("figure.js", include_str!("../../../assets/report/figure.js")),
+    ("pairs.js", include_str!("../../../assets/report/pairs.js")),
+    ("tables.js", include_str!("../../../assets/report/tables.js")),
+    ("motion.js", include_str!("../../../assets/report/motion.js")),
+    ("bodies.js", include_str!("../../../assets/report/bodies.js")),
+    ("replay.js", include_str!("../../../assets/report/replay.js")),
+    ("main.js", include_str!("../../../assets/report/main.js")),
+];
+
+/// What no script may load: everything but what is in the page.
+const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'";
+
+/// A section of the page.
+pub struct PageSection {
+    /// Anchor.
+    pub anchor: &'static str,
+    /// Title.
+    pub title: &'static str,
+    /// What it answers, in a sentence.
+    pub lead: String,
+    /// Static content.
+    pub html: String,
+    /// Whether figures are put into it.
+    pub has_figures: bool,
+}
+
+/// The modules as one script.
+fn script() -> String {
+    let line = |line: &str| {
+        let line = line.strip_prefix("export ").unwrap_or(line);
+        if line.starts_with("import ") { String::new() } else { format!("{line}\n") }
+    };
+    let module = |(name, text): &(&str, &str)| format!("// {name}\n{}", text.lines().map(line).collect::<String>());
+    let text: String = MODULES.iter().map(module).collect();
+    format!("\"use strict\";\n{text}")
+}
+
+/// The whole page. `numbers` is a compressed payload, `data` says what is where in it.
+pub fn document(name: &str, first_screen: &str, sections: &[PageSection], data: &Value, numbers: &str) -> String {
+    let links: String = [("status", "Status"), ("verdicts", "Verdicts")]
+        .into_iter()
+        .chain(sections.iter().map(|section| (section.anchor, section.title)))
+        .map(|(anchor, title)| format!("<a href=\"#{anchor}\">{}</a>", escaped(title)))
+        .collect();
+    let body: String = sections
+        .iter()
+        .map(|section| {
+            let lead =
+                if section.lead.is_empty() { String::new() } else { format!("<p class=\"lead\">{}</p>", section.lead) };
+            let figures = if section.has_figures { "<div class=\"figures\"></div>" } else { "" };
+            format!(
+                "<section id=\"{}\"><h2><a href=\"#{}\">{}</a></h2>{lead}{figures}{}</section>\n",
+                section.anchor,
+                section.anchor,
+                escaped(section.title),
+                section.html
+            )
+        })
+        .collect();
+    let block =
+        |id: &str, text: &str| format!("<script type=\"application/octet-stream\" id=\"{id}\">{text}</script>\n");
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{} - spindrift</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>\n{STYLE}</style>\n</head>\n<body>\n<header>{first_screen}</header>\n<nav aria-label=\"Sections\">{links}<button type=\"button\" id=\"theme\" hidden>dark</button></nav>\n<main>\n<noscript><p class=\"lead\">Figures need JavaScript; the tables below do not.</p></noscript>\n{body}</main>\n{}{}{}{}{}<script>\n{}</script>\n</body>\n</html>\n",
+        escaped(name),
+        block("data", &packed(data.to_string().as_bytes())),
+        block("numbers", numbers),
+        block("licence-texts", &packed(LICENCES.as_bytes())),
+        block("echarts", &encoded(ECHARTS)),
+        block("three", &encoded(THREE)),
+        script(),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: the modules do not end the script that they are in, are in the order of their imports, and share no name.
+    #[test]
+    fn the_modules_make_one_script() {
+        let text = script();
+        assert!(!text.contains("</") && !text.contains("<!--"), "the end of a script element within it");
+        let mut names: Vec<&str> = Vec::new();
+        for (place, (file, module)) in MODULES.iter().enumerate() {
+            for line in module.lines() {
+                if let Some((_, from)) = line.strip_prefix("import ").and_then(|rest| rest.split_once(" from \"./")) {
+                    let from = from.trim_end_matches("\";");
+                    assert!(
+                        MODULES[..place].iter().any(|(name, _)| *name == from),
+                        "{file} imports {from}, which is not before it"
+                    );
+                }
+                let declared = line.strip_prefix("export ").unwrap_or(line);
+                let declared = ["async function ", "function ", "const ", "let ", "class "]
+                    .into_iter()
+                    .find_map(|word| declared.strip_prefix(word));
+                let name = declared.map(|rest| {
+                    rest.split(|letter: char| !letter.is_alphanumeric() && letter != '_').next().unwrap_or_default()
+                });
+                if let Some(name) = name.filter(|name| !name.is_empty()) {
+                    assert!(!names.contains(&name), "{file}: {name} is declared twice");
+                    names.push(name);
+                }
+            }
+        }
+        assert!(names.len() > 30, "{names:?}");
+    }
+}

@@ -1,0 +1,408 @@
+//! Figures of the page as SVG and PNG files, for papers: the same numbers, titles and captions, without a browser.
+
+use std::ops::Range;
+use std::path::Path;
+
+use plotters::coord::Shift;
+use plotters::coord::types::RangedCoordf64;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+use crate::report::axis::{Axis as Ticks, superscript};
+use crate::report::canvas::{Canvas, PlotError, drawing};
+use crate::report::page::figure::{Axis, Figure, Mark, Scale};
+
+/// Size of a figure, pixels.
+const SIZE: (u32, u32) = (720, 460);
+/// Height of the title and of the legend, pixels.
+const TITLE: u32 = 38;
+const LEGEND: u32 = 24;
+/// Width kept for the names of a vertical axis, pixels.
+const NAMES: u32 = 290;
+
+/// The palette of Okabe & Ito, text, grey: [`super::figure::Hue::place`].
+const PALETTE: [RGBColor; 9] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(86, 180, 233),
+    RGBColor(230, 159, 0),
+    RGBColor(240, 228, 66),
+    RGBColor(20, 20, 20),
+    RGBColor(110, 110, 110),
+];
+
+type Chart<'a, B> = ChartContext<'a, B, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+
+/// Writes every figure into `folder` as SVG and as PNG; returns the number of files.
+///
+/// # Errors
+/// [`PlotError`].
+pub fn save(figures: &[Figure], folder: &Path) -> Result<usize, PlotError> {
+    std::fs::create_dir_all(folder)?;
+    for figure in figures {
+        for extension in ["svg", "png"] {
+            figure.save(&folder.join(format!("{}.{extension}", figure.name)))?;
+        }
+    }
+    Ok(2 * figures.len())
+}
+
+/// From values of an axis to coordinates, and back to labels.
+struct Map {
+    scale: Scale,
+    range: Range<f64>,
+    ticks: Ticks,
+    title: String,
+}
+
+impl Map {
+    fn of(axis: &Axis, values: &[f64]) -> Self {
+        let ticks = Ticks::of(axis.range.map_or(values.to_vec(), |range| range.to_vec()).into_iter());
+        let title = |unit: &str| match (axis.quantity.as_str(), unit) {
+            ("", unit) => unit.to_owned(),
+            (quantity, "") => quantity.to_owned(),
+            (quantity, unit) => format!("{quantity} / {unit}"),
+        };
+        match &axis.scale {
+            Scale::Linear => {
+                let margin = if axis.range.is_some() { 0.0 } else { 0.04 };
+                let description = ticks.description(&axis.unit);
+                Map { scale: Scale::Linear, range: ticks.range(margin), title: title(&description), ticks }
+            }
+            Scale::Log => {
+                let values = axis.range.map_or(values.to_vec(), |range| range.to_vec());
+                let positive = values.into_iter().filter(|value| *value > 0.0 && value.is_finite()).map(libm::log10);
+                let (low, high) =
+                    positive.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+                let (low, high) = if low > high { (0.0, 1.0) } else { (low, high) };
+                let margin = (0.04 * (high - low)).max(0.05);
+                Map { scale: Scale::Log, range: low - margin..high + margin, title: title(&axis.unit), ticks }
+            }
+            Scale::Names(names) => {
+                let count = names.len().max(1) as f64;
+                Map { scale: axis.scale.clone(), range: -0.5..count - 0.5, title: String::new(), ticks }
+            }
+        }
+    }
+
+    /// The coordinate of a value; NaN where it has none.
+    fn at(&self, value: f64) -> f64 {
+        match self.scale {
+            Scale::Linear => self.ticks.map(value),
+            Scale::Log if value > 0.0 => libm::log10(value),
+            Scale::Log => f64::NAN,
+            Scale::Names(_) => value,
+        }
+    }
+
+    fn label(&self, coordinate: f64) -> String {
+        match self.scale {
+            Scale::Linear => self.ticks.label(coordinate),
+            Scale::Log => {
+                let power = libm::round(coordinate);
+                if (coordinate - power).abs() < 1e-6 {
+                    format!("10{}", superscript(power as i32))
+                } else {
+                    String::new()
+                }
+            }
+            Scale::Names(_) => String::new(),
+        }
+    }
+
+    fn is_inside(&self, coordinate: f64) -> bool {
+        self.range.contains(&coordinate)
+    }
+}
+
+impl Figure {
+    /// The finite values that the axes have to show.
+    fn values(&self) -> (Vec<f64>, Vec<f64>) {
+        let (mut xs, mut ys) = (Vec::new(), Vec::new());
+        for mark in &self.marks {
+            match mark {
+                Mark::Line { x, y, .. } | Mark::Points { x, y, .. } => {
+                    xs.extend(x);
+                    ys.extend(y);
+                }
+                Mark::Band { x, low, high, .. } => {
+                    xs.extend(x);
+                    ys.extend(low.iter().chain(high));
+                }
+                Mark::Bars { edges, heights, .. } => {
+                    xs.extend(edges);
+                    ys.extend(heights.iter().chain([&0.0]));
+                }
+                Mark::Whiskers { x, low, high, .. } => xs.extend(x.iter().chain(low).chain(high).chain([&0.0])),
+                Mark::Limit { at, vertical: true, .. } => xs.push(*at),
+                Mark::Limit { .. } | Mark::Matrix { .. } => {}
+            }
+        }
+        xs.retain(|value: &f64| value.is_finite());
+        ys.retain(|value: &f64| value.is_finite());
+        (xs, ys)
+    }
+
+    fn names(&self) -> Option<&[String]> {
+        if let Scale::Names(names) = &self.y.scale { Some(names) } else { None }
+    }
+}
+
+impl Canvas for Figure {
+    fn size(&self) -> (u32, u32) {
+        let rows = self.names().map_or(0, <[String]>::len) as u32;
+        (SIZE.0, SIZE.1.max(TITLE + LEGEND + 90 + 22 * rows))
+    }
+
+    fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: u32) -> Result<(), PlotError> {
+        let (head, rest) = area.split_vertically(TITLE * scale);
+        let style = ("sans-serif", 18 * scale).into_font().into_text_style(&head);
+        head.draw_text(&self.title, &style, ((14 * scale) as i32, (10 * scale) as i32)).map_err(drawing)?;
+        let (strip, axes) = rest.split_vertically(LEGEND * scale);
+        self.legend(&strip, scale)?;
+        let (xs, ys) = self.values();
+        let (x, y) = (Map::of(&self.x, &xs), Map::of(&self.y, &ys));
+        let left = if self.names().is_some() { NAMES } else { 78 };
+        let mut chart = ChartBuilder::on(&axes)
+            .margin_right(18 * scale)
+            .margin_bottom(8 * scale)
+            .x_label_area_size(42 * scale)
+            .y_label_area_size(left * scale)
+            .build_cartesian_2d(x.range.clone(), y.range.clone())
+            .map_err(drawing)?;
+        let decades = |map: &Map| {
+            if map.scale == Scale::Log { (map.range.end - map.range.start).ceil().clamp(2.0, 9.0) as usize } else { 7 }
+        };
+        chart
+            .configure_mesh()
+            .x_desc(&x.title)
+            .y_desc(&y.title)
+            .x_labels(decades(&x))
+            .y_labels(if self.names().is_some() { 0 } else { decades(&y) })
+            .x_label_formatter(&|value| x.label(*value))
+            .y_label_formatter(&|value| y.label(*value))
+            .label_style(("sans-serif", 13 * scale))
+            .axis_desc_style(("sans-serif", 14 * scale))
+            .light_line_style(WHITE)
+            .bold_line_style(RGBColor(228, 228, 228))
+            .draw()
+            .map_err(drawing)?;
+        for mark in &self.marks {
+            self.mark(&mut chart, mark, &x, &y, scale)?;
+        }
+        if let Some(names) = self.names() {
+            let style =
+                ("sans-serif", 12 * scale).into_font().into_text_style(&axes).pos(Pos::new(HPos::Right, VPos::Center));
+            for (row, name) in names.iter().enumerate() {
+                let (_, top) = chart.backend_coord(&(x.range.start, names.len() as f64 - 1.0 - row as f64));
+                let origin = axes.get_base_pixel().1;
+                axes.draw_text(name, &style, (((NAMES - 8) * scale) as i32, top - origin)).map_err(drawing)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Figure {
+    fn mark<B: DrawingBackend>(
+        &self,
+        chart: &mut Chart<'_, B>,
+        mark: &Mark,
+        x: &Map,
+        y: &Map,
+        scale: u32,
+    ) -> Result<(), PlotError> {
+        let color = |hue: usize| PALETTE[hue % PALETTE.len()];
+        let visible = |(a, b): &(f64, f64)| a.is_finite() && b.is_finite();
+        let path = |xs: &[f64], ys: &[f64]| -> Vec<(f64, f64)> {
+            xs.iter().zip(ys).map(|(a, b)| (x.at(*a), y.at(*b))).filter(visible).collect()
+        };
+        match mark {
+            Mark::Line { hue, dashed, x: xs, y: ys, .. } => {
+                let style = color(hue.place()).stroke_width(scale + scale / 2);
+                if *dashed {
+                    let series = DashedLineSeries::new(path(xs, ys), 6 * scale, 4 * scale, style);
+                    chart.draw_series(series).map_err(drawing)?;
+                } else {
+                    chart.draw_series(LineSeries::new(path(xs, ys), style)).map_err(drawing)?;
+                }
+            }
+            Mark::Band { hue, opacity, x: xs, low, high, .. } => {
+                let mut outline = path(xs, low);
+                outline.extend(path(xs, high).into_iter().rev());
+                if outline.len() > 2 {
+                    let area = Polygon::new(outline, color(hue.place()).mix(*opacity).filled());
+                    chart.draw_series(std::iter::once(area)).map_err(drawing)?;
+                }
+            }
+            Mark::Points { hue, crosses, x: xs, y: ys, .. } => {
+                let (points, color) = (path(xs, ys), color(hue.place()));
+                if *crosses {
+                    let style = color.stroke_width(scale);
+                    chart
+                        .draw_series(points.into_iter().map(|at| Cross::new(at, 3 * scale, style)))
+                        .map_err(drawing)?;
+                } else {
+                    let size = if points.len() > 200 { 3 * scale / 2 } else { 3 * scale };
+                    let style = color.mix(0.6).filled();
+                    chart.draw_series(points.into_iter().map(|at| Circle::new(at, size, style))).map_err(drawing)?;
+                }
+            }
+            Mark::Bars { hue, edges, heights, .. } => {
+                let style = color(hue.place()).mix(0.55).filled();
+                let bars = edges.windows(2).zip(heights).map(|(ends, height)| {
+                    Rectangle::new([(x.at(ends[0]), y.at(0.0)), (x.at(ends[1]), y.at(*height))], style)
+                });
+                chart.draw_series(bars).map_err(drawing)?;
+            }
+            Mark::Whiskers { hue, x: xs, low, high, .. } => {
+                let color = color(hue.place());
+                let count = xs.len() as f64;
+                for (row, value) in xs.iter().enumerate().filter(|(_, value)| value.is_finite()) {
+                    let height = count - 1.0 - row as f64;
+                    let bar = [(x.at(0.0), height - 0.3), (x.at(*value), height + 0.3)];
+                    let whisker = [(x.at(low[row]), height), (x.at(high[row]), height)];
+                    chart
+                        .draw_series(std::iter::once(Rectangle::new(bar, color.mix(0.4).filled())))
+                        .map_err(drawing)?;
+                    if low[row].is_finite() && high[row].is_finite() {
+                        chart.draw_series(LineSeries::new(whisker, BLACK.stroke_width(scale))).map_err(drawing)?;
+                    }
+                    let dot = Circle::new((x.at(*value), height), 3 * scale, color.filled());
+                    chart.draw_series(std::iter::once(dot)).map_err(drawing)?;
+                }
+            }
+            Mark::Limit { label, at, vertical } => {
+                let at = if *vertical { x.at(*at) } else { y.at(*at) };
+                let inside = if *vertical { x.is_inside(at) } else { y.is_inside(at) };
+                if inside {
+                    let ends = if *vertical {
+                        [(at, y.range.start), (at, y.range.end)]
+                    } else {
+                        [(x.range.start, at), (x.range.end, at)]
+                    };
+                    let grey = PALETTE[8];
+                    chart
+                        .draw_series(DashedLineSeries::new(ends, 4 * scale, 4 * scale, grey.stroke_width(scale)))
+                        .map_err(drawing)?;
+                    let style = ("sans-serif", 12 * scale).into_font().color(&grey);
+                    let shift = |range: &Range<f64>| 0.01 * (range.end - range.start);
+                    let place = if *vertical {
+                        (at + shift(&x.range), y.range.end - 2.0 * shift(&y.range))
+                    } else {
+                        (x.range.start + shift(&x.range), at)
+                    };
+                    chart.draw_series(std::iter::once(Text::new(label.clone(), place, style))).map_err(drawing)?;
+                }
+            }
+            Mark::Matrix { values } => {
+                let count = self.names().map_or(0, <[String]>::len);
+                for (index, r) in values.iter().enumerate().filter(|_| count > 0) {
+                    let (row, column) = (index / count, (index % count) as f64);
+                    let height = (count - 1 - row) as f64;
+                    let hue = if *r < 0.0 { PALETTE[1] } else { PALETTE[0] };
+                    let cell = [(column - 0.48, height - 0.48), (column + 0.48, height + 0.48)];
+                    let style = hue.mix(r.abs().min(1.0)).filled();
+                    chart.draw_series(std::iter::once(Rectangle::new(cell, style))).map_err(drawing)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Names of the marks in a row; one of several marks with the same name.
+    fn legend<B: DrawingBackend>(&self, strip: &DrawingArea<B, Shift>, scale: u32) -> Result<(), PlotError> {
+        let mut x = (16 * scale) as i32;
+        let (size, middle) = ((12 * scale) as i32, (LEGEND * scale / 2) as i32);
+        for mark in &self.marks {
+            let (label, hue, opacity) = match mark {
+                Mark::Line { label, hue, .. } | Mark::Points { label, hue, .. } => (label, hue, 1.0),
+                Mark::Band { label, hue, opacity, .. } => (label, hue, *opacity),
+                Mark::Bars { label, hue, .. } | Mark::Whiskers { label, hue, .. } => (label, hue, 0.55),
+                Mark::Limit { .. } | Mark::Matrix { .. } => continue,
+            };
+            let color = PALETTE[hue.place()].mix(opacity).filled();
+            let height = if matches!(mark, Mark::Line { .. }) { scale as i32 } else { size / 2 };
+            strip.draw(&Rectangle::new([(x, middle - height), (x + size, middle + height)], color)).map_err(drawing)?;
+            let font = ("sans-serif", 12 * scale).into_text_style(strip);
+            let (width, tall) = strip.estimate_text_size(label, &font).map_err(drawing)?;
+            strip.draw_text(label, &font, (x + size + 5 * scale as i32, middle - tall as i32 / 2)).map_err(drawing)?;
+            x += size + width as i32 + (22 * scale) as i32;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::page::figure::{Hue, Section};
+
+    fn figure(x: Axis, y: Axis, marks: Vec<Mark>) -> Figure {
+        let text = |text: &str| text.to_owned();
+        Figure {
+            name: text("f"),
+            section: Section::Time,
+            title: text("Title"),
+            caption: text("."),
+            columns: 6,
+            is_over_time: false,
+            x,
+            y,
+            marks,
+        }
+    }
+
+    fn colored(figure: &Figure) -> usize {
+        let is_colored = |pixel: &[u8]| pixel.iter().max().unwrap() - pixel.iter().min().unwrap() > 30;
+        figure.pixels().unwrap().chunks_exact(3).filter(|pixel| is_colored(pixel)).count()
+    }
+
+    /// Law: every kind of mark leaves coloured pixels, on linear and logarithmic axes, and values that an axis cannot show do no harm.
+    #[test]
+    fn every_mark_is_drawn() {
+        let x: Vec<f64> = (0..50).map(|k| 0.1 + f64::from(k)).collect();
+        let y: Vec<f64> = x.iter().map(|x| x * x - 1.0).collect();
+        let names = || Axis::names(vec!["one".to_owned(), "two".to_owned()]);
+        let (label, hue) = (String::new, Hue::Body);
+        let marks = [
+            (Axis::linear("y", "J"), Mark::Line { label: label(), hue, dashed: true, x: x.clone(), y: y.clone() }),
+            (Axis::log("y", ""), Mark::Line { label: label(), hue, dashed: false, x: x.clone(), y: y.clone() }),
+            (
+                Axis::linear("y", ""),
+                Mark::Band { label: label(), hue, opacity: 0.5, x: x.clone(), low: y.clone(), high: x.clone() },
+            ),
+            (
+                Axis::linear("y", ""),
+                Mark::Points { label: label(), hue, crosses: true, x: x.clone(), y: y.clone(), samples: vec![] },
+            ),
+            (Axis::linear("y", ""), Mark::Bars { label: label(), hue, edges: x.clone(), heights: vec![1.0; 49] }),
+            (
+                names(),
+                Mark::Whiskers {
+                    label: label(),
+                    hue,
+                    x: vec![1.0, 2.0],
+                    low: vec![0.5, f64::NAN],
+                    high: vec![1.5, 3.0],
+                },
+            ),
+            (names(), Mark::Matrix { values: vec![1.0, -0.5, -0.5, 1.0] }),
+        ];
+        for (y_axis, mark) in marks {
+            let x_axis = if matches!(mark, Mark::Matrix { .. }) { names() } else { Axis::linear("x", "s") };
+            let drawn = figure(x_axis, y_axis, vec![mark.clone()]);
+            let found = colored(&drawn);
+            assert!(found > 150, "{mark:?}: {found}");
+            assert!(drawn.svg().unwrap().contains("Title"));
+        }
+        let nothing = figure(
+            Axis::log("x", ""),
+            Axis::log("y", ""),
+            vec![Mark::Line { label: label(), hue, dashed: false, x: vec![-1.0], y: vec![f64::NAN] }],
+        );
+        assert!(nothing.svg().is_ok() && colored(&nothing) < 150);
+    }
+}

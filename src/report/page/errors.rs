@@ -1,0 +1,275 @@
+//! Figures of the numerical errors: histograms, exceedance, estimate against audited error, work.
+
+use crate::report::page::figure::{Axis, Figure, Hue, Mark, Section};
+use crate::report::page::shown_columns::{CONFIDENCE, ranked, words};
+use crate::report::page::survey::{Outcome, Survey};
+use crate::run::Status;
+use crate::statistics::binomial::interval;
+use crate::statistics::sketch::Sketch;
+
+/// Bars of a histogram.
+const BARS: usize = 40;
+/// Errors with figures of their own.
+const MOST_ERRORS: usize = 8;
+/// Steps of the ranks of an exceedance plot: this many to a factor of ten.
+const RANKS_PER_DECADE: f64 = 12.0;
+
+/// Histogram and exceedance of each error, estimate against truth, steps. `has_intervals`: whether the runs are independent.
+pub fn figures(survey: &Survey, has_intervals: bool) -> Vec<Figure> {
+    let mut figures: Vec<Figure> = Vec::new();
+    let errors = survey.outcomes.iter().enumerate();
+    let errors = errors.filter(|(_, outcome)| outcome.is_error && outcome.sketch.max().is_some_and(|max| max > 0.0));
+    for (index, outcome) in errors.take(MOST_ERRORS) {
+        figures.push(histogram(survey, index, outcome, Section::Numerics));
+        figures.push(exceedance(outcome, has_intervals));
+    }
+    figures.extend(audits(survey));
+    let steps = survey.outcome("steps");
+    figures.extend(steps.map(|(index, outcome)| histogram(survey, index, outcome, Section::Numerics)));
+    figures.retain(Figure::is_visible);
+    figures
+}
+
+/// How many of how many runs a figure is of.
+pub fn of_runs(shown: usize, all: u64) -> String {
+    if shown as u64 == all {
+        format!("{all} runs that are ok")
+    } else {
+        format!("{shown} of {all} runs that are ok, chosen by sample number")
+    }
+}
+
+/// The dispersed runs of the thinned table that are ok: their rows.
+pub fn shown_rows(survey: &Survey) -> Vec<usize> {
+    let thinned = &survey.thinned;
+    let is_alone = survey.samples == 1;
+    (0..thinned.samples.len())
+        .filter(|row| thinned.statuses[*row] == Status::Done && (is_alone || thinned.samples[*row] != 0))
+        .collect()
+}
+
+/// The histogram of an outcome over the thinned table; of an error, of its magnitude.
+pub fn histogram(survey: &Survey, index: usize, outcome: &Outcome, section: Section) -> Figure {
+    let rows = shown_rows(survey);
+    let column = &survey.thinned.outcomes[index];
+    let values: Vec<f64> = rows.iter().map(|row| column[*row]).filter(|value| value.is_finite()).collect();
+    let values: Vec<f64> = if outcome.is_error { values.into_iter().map(f64::abs).collect() } else { values };
+    let title = sentence(&words(&outcome.quantity));
+    let (bins, is_log) = bins(&values);
+    let mut marks = vec![Mark::Bars {
+        label: "runs".to_owned(),
+        hue: Hue::Total,
+        heights: counts(&values, &bins),
+        edges: bins.clone(),
+    }];
+    let nominal = if outcome.is_error { outcome.nominal.abs() } else { outcome.nominal };
+    if survey.samples > 1
+        && bins.first().is_some_and(|low| nominal >= *low)
+        && bins.last().is_some_and(|high| nominal <= *high)
+    {
+        marks.push(Mark::Limit { label: "nominal".to_owned(), at: nominal, vertical: true });
+    }
+    let axis = if is_log { Axis::log } else { Axis::linear };
+    let what = if outcome.is_error { format!("|{}|", words(&outcome.quantity)) } else { words(&outcome.quantity) };
+    let all = outcome.sketch.count();
+    let caption = format!("{} Histogram of {}.", outcome.quantity.meaning(), of_runs(values.len(), all));
+    Figure {
+        name: format!("histogram_{}", outcome.quantity.name()),
+        section,
+        title,
+        caption,
+        columns: 6,
+        is_over_time: false,
+        x: axis(what, outcome.quantity.unit()),
+        y: Axis::linear("runs", ""),
+        marks,
+    }
+}
+
+/// Edges of bars for `values`, and whether they are by decades: where all are positive and their range exceeds 100.
+pub fn bins(values: &[f64]) -> (Vec<f64>, bool) {
+    let (low, high) =
+        values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(*x), high.max(*x)));
+    if low > high {
+        return (Vec::new(), false);
+    }
+    let positive = values.iter().copied().filter(|value| *value > 0.0).fold(f64::INFINITY, f64::min);
+    // zeros are not on a logarithmic axis; where they are many, the axis is linear
+    let is_log = low >= 0.0
+        && positive.is_finite()
+        && high > 100.0 * positive
+        && values.iter().filter(|x| **x == 0.0).count() * 100 < values.len();
+    let edge = |k: usize| k as f64 / BARS as f64;
+    if is_log {
+        let (low, high) = (libm::log10(positive), libm::log10(high));
+        return ((0..=BARS).map(|k| libm::pow(10.0, low + edge(k) * (high - low))).collect(), true);
+    }
+    let half = if high > low { 0.5 * (high - low) } else { 0.05 * low.abs().max(1e-300) };
+    let middle = 0.5 * (low + high);
+    ((0..=BARS).map(|k| middle - half + 2.0 * half * edge(k)).collect(), false)
+}
+
+/// How many `values` are between neighbouring `edges`; those at the ends count too.
+pub fn counts(values: &[f64], edges: &[f64]) -> Vec<f64> {
+    let bars = edges.len().saturating_sub(1);
+    let mut counts = vec![0.0; bars];
+    for value in values.iter().filter(|_| bars > 0) {
+        let slack = 1e-9 * (edges[bars] - edges[0]);
+        if *value >= edges[0] - slack && *value <= edges[bars] + slack {
+            counts[edges.partition_point(|edge| edge <= value).clamp(1, bars) - 1] += 1.0;
+        }
+    }
+    counts
+}
+
+/// The fraction of runs above a value, on logarithmic axes, at ranks spaced by decades.
+fn exceedance(outcome: &Outcome, has_intervals: bool) -> Figure {
+    let (x, y, low, high) = tail(&outcome.sketch);
+    let label = format!("{}% interval", (100.0 * CONFIDENCE).round());
+    let mut marks = Vec::new();
+    if has_intervals {
+        marks.push(Mark::Band { label, hue: Hue::Total, opacity: 0.15, x: x.clone(), low, high });
+    }
+    marks.push(Mark::Line {
+        label: "fraction of runs above".to_owned(),
+        hue: Hue::Total,
+        dashed: false,
+        x: x.clone(),
+        y: y.clone(),
+    });
+    let last = |values: &[f64]| values.last().copied().into_iter().collect::<Vec<f64>>();
+    let (x, y) = (last(&x), last(&y));
+    marks.push(Mark::Points {
+        label: "largest".to_owned(),
+        hue: Hue::Total,
+        crosses: false,
+        x,
+        y,
+        samples: outcome.largest.first().map(|(sample, _)| sample.0 as f64).into_iter().collect(),
+    });
+    let interval = if has_intervals {
+        " Band: Clopper-Pearson interval of the fraction (95%)."
+    } else {
+        " The design's runs are not independent: no interval."
+    };
+    Figure {
+        name: format!("tail_{}", outcome.quantity.name()),
+        section: Section::Numerics,
+        title: format!("Tail of {}", words(&outcome.quantity)),
+        caption: format!(
+            "Fraction of all {} runs that are ok whose value is at least this; shown at ranks spaced by decades.{interval}",
+            outcome.sketch.count()
+        ),
+        columns: 6,
+        is_over_time: false,
+        x: Axis::log(format!("|{}|", words(&outcome.quantity)), outcome.quantity.unit()),
+        y: Axis::log("fraction of runs", ""),
+        marks,
+    }
+}
+
+/// Values of ascending size, the fraction of runs that reach them, and the ends of its interval.
+fn tail(sketch: &Sketch) -> (Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>) {
+    let count = sketch.count();
+    let mut ranks: Vec<u64> = (0..)
+        .map(|k| libm::pow(10.0, f64::from(k) / RANKS_PER_DECADE) as u64)
+        .take_while(|rank| *rank < count)
+        .collect();
+    ranks.push(count);
+    ranks.dedup();
+    let mut found = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    for rank in ranks.into_iter().rev() {
+        let Some(value) = ranked(sketch, count + 1 - rank).filter(|value| *value > 0.0) else { continue };
+        let [low, high] = interval(rank, count, CONFIDENCE);
+        found.0.push(value);
+        found.1.push(rank as f64 / count as f64);
+        found.2.push(low);
+        found.3.push(high);
+    }
+    found
+}
+
+/// The estimate of a run's error against its audit.
+fn audits(survey: &Survey) -> Option<Figure> {
+    let shown: Vec<&[f64; 3]> = survey.audits.iter().filter(|audit| audit[1] > 0.0 && audit[2] > 0.0).collect();
+    let ends = shown
+        .iter()
+        .flat_map(|audit| [audit[1], audit[2]])
+        .fold([f64::INFINITY, 0.0f64], |[low, high], x| [low.min(x), high.max(x)]);
+    if shown.is_empty() {
+        return None;
+    }
+    let below = shown.iter().filter(|audit| audit[2] > audit[1]).count();
+    let [low, high] = [0.5 * ends[0], 2.0 * ends[1]];
+    Some(Figure {
+        name: "audits".to_owned(),
+        section: Section::Numerics,
+        title: "Estimated error against the true one".to_owned(),
+        caption: format!(
+            "{} of {} audited runs, each compared with a reference solution. Above the diagonal the estimate is too small: {below} of those shown.",
+            shown.len(),
+            survey.audited
+        ),
+        columns: 6,
+        is_over_time: false,
+        x: Axis::log("state error estimate", "").within(low, high),
+        y: Axis::log("audited state error", "").within(low, high),
+        marks: vec![
+            Mark::Line {
+                label: "estimate = truth".to_owned(),
+                hue: Hue::Reference,
+                dashed: true,
+                x: vec![low, high],
+                y: vec![low, high],
+            },
+            Mark::Points {
+                label: "audited runs".to_owned(),
+                hue: Hue::Total,
+                crosses: false,
+                x: shown.iter().map(|audit| audit[1]).collect(),
+                y: shown.iter().map(|audit| audit[2]).collect(),
+                samples: shown.iter().map(|audit| audit[0]).collect(),
+            },
+        ],
+    })
+}
+
+/// With a capital letter.
+pub fn sentence(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: every value is in one bar, whatever the range; a single value is in the middle of an axis.
+    #[test]
+    fn bars_hold_every_value() {
+        for values in
+            [vec![1.0, 2.0, 3.0], vec![1e-15, 1e-12, 1e-9, 1e-9], vec![5.0; 7], vec![-1.0, 0.0, 1e6], vec![0.0; 3]]
+        {
+            let (edges, is_log) = bins(&values);
+            let counts = counts(&values, &edges);
+            assert_eq!(counts.iter().sum::<f64>(), values.len() as f64, "{values:?}");
+            assert_eq!(is_log, values[0] == 1e-15, "{values:?}");
+            assert!(edges.is_sorted() && edges.iter().all(|edge| edge.is_finite()), "{edges:?}");
+        }
+        assert!(bins(&[]).0.is_empty());
+    }
+
+    /// Law: the tail falls from 1 to 1/n, its intervals contain it, and it ends at the maximum.
+    #[test]
+    fn the_tail_ends_at_the_largest() {
+        let mut sketch = Sketch::default();
+        (1..=5000).for_each(|k| sketch.add(f64::from(k)));
+        let (x, y, low, high) = tail(&sketch);
+        assert!(x.is_sorted() && y.iter().rev().is_sorted());
+        assert_eq!((*x.last().unwrap(), y[0], *y.last().unwrap()), (5000.0, 1.0, 1.0 / 5000.0));
+        for k in 0..x.len() {
+            assert!(low[k] <= y[k] && y[k] <= high[k], "{} {} {}", low[k], y[k], high[k]);
+        }
+        assert!(x.len() < 60, "{}", x.len());
+    }
+}

@@ -1,0 +1,116 @@
+//! The first screen: header, run status, verdicts. Static HTML, readable before any script and without.
+
+use crate::campaign::Plan;
+use crate::report::page::cards::Card;
+use crate::report::page::payload::escaped;
+use crate::report::page::readable::{grouped, number};
+use crate::report::page::survey::Survey;
+use crate::run::Status;
+
+/// A requirement as an example, where the file has none.
+const EXAMPLE: &str =
+    "[[require]]\nobservable = \"energy_error_max\"\nquantile = 0.99\nat_most = 1e-9\nconfidence = 0.95";
+
+/// Name, question, and the facts of the campaign.
+pub fn header(plan: &Plan) -> String {
+    let dispersed = plan.samples.saturating_sub(1);
+    let runs = if dispersed == 0 {
+        "1 run, the nominal one".to_owned()
+    } else {
+        format!("{} dispersed runs and the nominal one", grouped(dispersed))
+    };
+    let step = plan.step_s.map_or(String::new(), |step| format!(", step {} s", number(step)));
+    let hash = plan.hash();
+    let question = plan
+        .description
+        .as_deref()
+        .map_or(String::new(), |text| format!("<p class=\"question\">{}</p>", escaped(text)));
+    format!(
+        "<h1>{}</h1>{question}\n<p class=\"facts\">{runs} \u{b7} design {} \u{b7} seed {} \u{b7} {} s each \u{b7} method {}, tolerance {}{step} \u{b7} spindrift {} \u{b7} plan <button type=\"button\" class=\"hash\" data-copy=\"{hash}\" title=\"Copy the whole hash\">{}</button></p>\n",
+        escaped(&plan.name),
+        escaped(plan.design.name()),
+        plan.seed,
+        number(plan.grid.duration()),
+        escaped(plan.method.name()),
+        number(plan.tolerance.relative),
+        env!("CARGO_PKG_VERSION"),
+        &hash[..8],
+    )
+}
+
+/// What each status is called, in words.
+fn words(status: Status) -> &'static str {
+    match status {
+        Status::Done => "ok",
+        Status::StepLimit => "failed: too many steps",
+        Status::StepFloor => "failed: step too small",
+        Status::NonFinite => "failed: not finite",
+        Status::InvalidSample => "invalid: not physical",
+        Status::Inaccurate => "inaccurate",
+    }
+}
+
+/// The stacked bar of statuses with their counts, the first reason, and the command that replays it.
+pub fn status(survey: &Survey) -> String {
+    let total = survey.samples.max(1) as f64;
+    let (mut x, mut bars, mut legend) = (0.0, String::new(), String::new());
+    for ended in &survey.ended {
+        let share = 100.0 * ended.count as f64 / total;
+        let class = ended.status.name();
+        // a few runs among a million are still seen
+        let width = if ended.count > 0 { share.max(0.6) } else { 0.0 };
+        bars += &format!(
+            "<rect class=\"status {class}\" x=\"{x:.3}%\" y=\"0\" width=\"{width:.3}%\" height=\"22\"><title>{}: {}</title></rect>",
+            words(ended.status),
+            grouped(ended.count)
+        );
+        x += width;
+        let percent = if ended.count == survey.samples { "all".to_owned() } else { format!("{}%", number(share)) };
+        legend += &format!(
+            "<li><svg class=\"key\" viewBox=\"0 0 14 14\" aria-hidden=\"true\"><rect class=\"status {class}\" width=\"14\" height=\"14\"/></svg><b>{}</b> {} <span class=\"quiet\">({percent})</span></li>",
+            grouped(ended.count),
+            words(ended.status),
+        );
+    }
+    let failed: Vec<_> = survey.ended.iter().filter(|ended| ended.status != Status::Done).collect();
+    let reasons: String = failed
+        .iter()
+        .filter_map(|ended| ended.first.first().map(|first| (ended, first)))
+        .map(|(ended, (sample, reason))| {
+            format!(
+                "<p class=\"reason\"><b>{}</b> first in sample {sample}: {}. Replay in this folder: <code>spindrift simulate plan.toml --sample {sample}</code></p>",
+                words(ended.status),
+                escaped(reason.trim_end_matches('.')),
+            )
+        })
+        .collect();
+    let verdict = match (survey.ok(), survey.samples) {
+        (ok, all) if ok == all => {
+            if all == 1 {
+                "The run is ok.".to_owned()
+            } else {
+                format!("All {} runs are ok.", grouped(all))
+            }
+        }
+        (0, all) => format!("None of {} runs is ok: there are no statistics.", grouped(all)),
+        (ok, all) => format!("{} of {} runs are ok; the statistics below are of these.", grouped(ok), grouped(all)),
+    };
+    format!(
+        "<section id=\"status\"><h2>Did it run?</h2><p class=\"lead\">{verdict}</p><svg class=\"statusbar\" role=\"img\" aria-label=\"{verdict}\" preserveAspectRatio=\"none\" height=\"22\" width=\"100%\">{bars}</svg><ul class=\"legend\">{legend}</ul>{reasons}</section>\n"
+    )
+}
+
+/// The cards; an example of a requirement where there is none.
+pub fn verdicts(cards: &[Card], has_requirements: bool) -> String {
+    let cards: String = cards.iter().map(Card::html).collect();
+    let (title, example) = if has_requirements {
+        ("Are the requirements met?", String::new())
+    } else {
+        let text = format!(
+            "<details class=\"example\"><summary>The campaign file has no requirement. Add one to get a verdict here</summary><pre><code>{}</code></pre></details>",
+            escaped(EXAMPLE)
+        );
+        ("What was found?", text)
+    };
+    format!("<section id=\"verdicts\"><h2>{title}</h2><div class=\"cards\">{cards}</div>{example}</section>\n")
+}

@@ -1,0 +1,158 @@
+//! Figures of what drives the outcome: sensitivities with intervals, scatter plots of the strongest inputs.
+
+use crate::campaign::Plan;
+use crate::report::page::errors::{sentence, shown_rows};
+use crate::report::page::figure::{Axis, Figure, Hue, Mark, Section};
+use crate::report::page::shown_columns::words;
+use crate::report::page::survey::{Outcome, SCATTER, Survey, chosen};
+use crate::run::Quantity;
+use crate::run::Status;
+
+/// Bars of a tornado.
+const MOST_INPUTS: usize = 12;
+
+/// How strongly inputs act on an outcome.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Influence {
+    /// The outcome.
+    pub outcome: String,
+    /// What the numbers are, as an axis says it.
+    pub measure: String,
+    /// What they mean, in a sentence or two.
+    pub meaning: String,
+    /// Input column, value, lower and upper end of its interval (NaN where there is none).
+    pub inputs: Vec<(String, [f64; 3])>,
+}
+
+/// For each outcome, a tornado and two scatter plots.
+pub fn figures(plan: &Plan, survey: &Survey, influences: &[Influence]) -> Vec<Figure> {
+    let mut figures: Vec<Figure> = Vec::new();
+    for influence in influences {
+        let Some((index, outcome)) = survey.outcome(&influence.outcome) else { continue };
+        let mut inputs = influence.inputs.clone();
+        inputs.retain(|(_, value)| value[0].is_finite());
+        inputs.sort_by(|a, b| b.1[0].abs().total_cmp(&a.1[0].abs()));
+        let strongest: Vec<usize> = inputs.iter().take(2).filter_map(|(name, _)| position(plan, name)).collect();
+        inputs.truncate(MOST_INPUTS);
+        figures.push(tornado(influence, outcome, &inputs, survey.thinned.inputs.len()));
+        figures.extend(strongest.into_iter().map(|input| scatter(plan, survey, input, index, outcome)));
+    }
+    figures.retain(Figure::is_visible);
+    figures
+}
+
+fn position(plan: &Plan, name: &str) -> Option<usize> {
+    plan.dispersions.columns().iter().position(|column| column.parameter.column_name(column.component) == name)
+}
+
+fn tornado(influence: &Influence, outcome: &Outcome, inputs: &[(String, [f64; 3])], all: usize) -> Figure {
+    let column = |place: usize| inputs.iter().map(|(_, value)| value[place]).collect::<Vec<f64>>();
+    let note =
+        if inputs.len() < all { format!(" The strongest {} of {all} inputs.", inputs.len()) } else { String::new() };
+    Figure {
+        name: format!("influence_{}", outcome.quantity.name()),
+        section: Section::Influence,
+        title: format!("What drives {}", words(&outcome.quantity)),
+        caption: format!("{}{note}", influence.meaning),
+        columns: 4,
+        is_over_time: false,
+        x: Axis::linear(influence.measure.clone(), ""),
+        y: Axis::names(inputs.iter().map(|(name, _)| name.clone()).collect()),
+        marks: vec![Mark::Whiskers {
+            label: "95% interval".to_owned(),
+            hue: Hue::Total,
+            x: column(0),
+            low: column(1),
+            high: column(2),
+        }],
+    }
+}
+
+/// An outcome against an input.
+fn scatter(plan: &Plan, survey: &Survey, input: usize, index: usize, outcome: &Outcome) -> Figure {
+    let column = &plan.dispersions.columns()[input];
+    let name = column.parameter.component_name(column.component);
+    let unit = if column.parameter.unit() == "1" { "" } else { column.parameter.unit() };
+    let thinned = &survey.thinned;
+    let rows = shown_rows(survey);
+    let samples: Vec<u64> = rows.iter().map(|row| thinned.samples[*row]).collect();
+    let kept: Vec<usize> = chosen(&samples, SCATTER).into_iter().map(|place| rows[place]).collect();
+    let ordinates: Vec<f64> =
+        thinned.outcomes[index].iter().map(|value| if outcome.is_error { value.abs() } else { *value }).collect();
+    let shown: Vec<f64> = kept.iter().map(|row| ordinates[*row]).collect();
+    let (lowest, highest) = shown.iter().fold((f64::INFINITY, 0.0f64), |(low, high), y| (low.min(*y), high.max(*y)));
+    let is_log = lowest > 0.0 && highest > 100.0 * lowest;
+    let points = |rows: &[usize], label: &str, hue, crosses, y: Vec<f64>| Mark::Points {
+        label: label.to_owned(),
+        hue,
+        crosses,
+        x: rows.iter().map(|row| thinned.inputs[input][*row]).collect(),
+        y,
+        samples: rows.iter().map(|row| thinned.samples[*row] as f64).collect(),
+    };
+    let mut marks = vec![points(&kept, "ok", Hue::Total, false, shown)];
+    let failed: Vec<usize> =
+        (0..thinned.samples.len()).filter(|row| thinned.statuses[*row] != Status::Done).take(SCATTER).collect();
+    if !failed.is_empty() {
+        // a run that failed has no outcome: it is marked at the lower edge
+        let edge = if lowest.is_finite() { lowest } else { 0.0 };
+        let y = vec![edge; failed.len()];
+        marks.push(points(&failed, "failed (at the lower edge)", Hue::Failed, true, y));
+    }
+    let all = outcome.sketch.count();
+    let label = if outcome.is_error { format!("|{}|", words(&outcome.quantity)) } else { words(&outcome.quantity) };
+    let axis = if is_log { Axis::log } else { Axis::linear };
+    Figure {
+        name: format!("scatter_{}_{}", outcome.quantity.name(), column.parameter.column_name(column.component)),
+        section: Section::Influence,
+        title: format!("{} against {name}", sentence(&words(&outcome.quantity))),
+        caption: format!("{}.", crate::report::page::errors::of_runs(kept.len(), all)),
+        columns: 4,
+        is_over_time: false,
+        x: Axis::linear(name, unit),
+        y: axis(label, outcome.quantity.unit()),
+        marks,
+    }
+}
+
+/// Convergence of the median and of a high quantile of an outcome with the number of runs.
+pub fn convergence(outcome: &Outcome, has_intervals: bool) -> Figure {
+    let growth = &outcome.growth;
+    let column = |place: usize| growth.iter().map(|row| row[place]).collect::<Vec<f64>>();
+    let line = |label: &str, hue, place| Mark::Line {
+        label: label.to_owned(),
+        hue,
+        dashed: false,
+        x: column(0),
+        y: column(place),
+    };
+    let mut marks = Vec::new();
+    let bounded: Vec<&[f64; 5]> = growth.iter().filter(|row| row[3].is_finite() && row[4].is_finite()).collect();
+    if has_intervals && !bounded.is_empty() {
+        let of = |place: usize| bounded.iter().map(|row| row[place]).collect::<Vec<f64>>();
+        marks.push(Mark::Band {
+            label: "95% interval".to_owned(),
+            hue: Hue::Wheel(0),
+            opacity: 0.15,
+            x: of(0),
+            low: of(3),
+            high: of(4),
+        });
+    }
+    marks.push(line("99%-quantile", Hue::Wheel(0), 2));
+    marks.push(line("median", Hue::Body, 1));
+    let (quantity, unit): (&Quantity, &str) = (&outcome.quantity, outcome.quantity.unit());
+    Figure {
+        name: format!("convergence_{}", quantity.name()),
+        section: Section::Statistics,
+        title: format!("Convergence of {}", words(quantity)),
+        caption: "Quantiles of the first N dispersed runs that are ok, in the order of their numbers; where the band begins, N bounds the \
+                  quantile from both sides."
+            .to_owned(),
+        columns: 6,
+        is_over_time: false,
+        x: Axis::log("runs N", ""),
+        y: Axis::linear(words(quantity), unit),
+        marks,
+    }
+}

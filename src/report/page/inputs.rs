@@ -1,0 +1,205 @@
+//! Figures of the inputs: what was applied against what was asked for, and correlations.
+
+use core::f64::consts::PI;
+
+use crate::campaign::Plan;
+use crate::report::page::errors::{bins, counts};
+use crate::report::page::figure::{Axis, Figure, Hue, Mark, Section};
+use crate::report::page::survey::Survey;
+use crate::sampling::correlation::{Measure, Numbers};
+use crate::sampling::dispersions::Transform;
+use crate::sampling::distribution::{Distribution, Quantile};
+use crate::statistics::correlation::{matrix, mid_ranks, standardised};
+
+/// Inputs with figures of their own.
+const MOST_INPUTS: usize = 36;
+/// Inputs in a matrix of correlations.
+const MOST_CORRELATED: usize = 24;
+/// Halvings of (0, 1) in which a probability is found: beyond the resolution of a picture.
+const HALVINGS: u32 = 40;
+
+/// Histograms of the inputs, and their correlations as asked and as achieved.
+pub fn figures(plan: &Plan, survey: &Survey) -> Vec<Figure> {
+    let columns = survey.thinned.inputs.len();
+    let mut figures: Vec<Figure> =
+        (0..columns.min(MOST_INPUTS)).map(|column| histogram(plan, survey, column)).collect();
+    figures.extend(correlations(plan, survey));
+    figures.retain(Figure::is_visible);
+    figures
+}
+
+/// The rows of the thinned table that are dispersed.
+fn dispersed(survey: &Survey) -> Vec<usize> {
+    (0..survey.thinned.samples.len()).filter(|row| survey.thinned.samples[*row] != 0).collect()
+}
+
+fn histogram(plan: &Plan, survey: &Survey, index: usize) -> Figure {
+    let column = &plan.dispersions.columns()[index];
+    let name = column.parameter.component_name(column.component);
+    let unit = if column.parameter.unit() == "1" { "" } else { column.parameter.unit() };
+    let values: Vec<f64> =
+        dispersed(survey).into_iter().map(|row| survey.thinned.inputs[index][row]).filter(|x| x.is_finite()).collect();
+    let (edges, is_log) = bins(&values);
+    let mut marks = vec![Mark::Bars {
+        label: "applied".to_owned(),
+        hue: Hue::Body,
+        heights: counts(&values, &edges),
+        edges: edges.clone(),
+    }];
+    let transform = plan.dispersions.distribution_of(index);
+    let asked = match transform {
+        Some(Transform::Scalar(distribution)) if distribution.dimensions() == 1 => {
+            expected(distribution, &edges, values.len())
+        }
+        _ => Vec::new(),
+    };
+    let origin = match transform {
+        Some(transform) => transform.text(&crate::report::number::short),
+        None => plan
+            .dispersions
+            .expression_of(index)
+            .map_or("given by other inputs or by a table".to_owned(), |text| format!("= {text}")),
+    };
+    let line = if asked.is_empty() { "" } else { " Line: runs expected of the distribution that was asked for." };
+    if !asked.is_empty() {
+        let middles =
+            edges.windows(2).map(|pair| if is_log { libm::sqrt(pair[0] * pair[1]) } else { 0.5 * (pair[0] + pair[1]) });
+        marks.push(Mark::Line {
+            label: "asked for".to_owned(),
+            hue: Hue::Nominal,
+            dashed: false,
+            x: middles.collect(),
+            y: asked,
+        });
+    }
+    marks.push(Mark::Limit { label: "nominal".to_owned(), at: column.nominal, vertical: true });
+    let axis = if is_log { Axis::log } else { Axis::linear };
+    Figure {
+        name: format!("input_{}", column.parameter.column_name(column.component)),
+        section: Section::Inputs,
+        title: name.clone(),
+        caption: format!("{} of {} dispersed samples. {origin}.{line}", values.len(), survey.samples.saturating_sub(1)),
+        columns: 4,
+        is_over_time: false,
+        x: axis(name, unit),
+        y: Axis::linear("runs", "").within(0.0, 0.0),
+        marks,
+    }
+}
+
+/// How many of `count` values are expected between neighbouring edges.
+fn expected(distribution: &Distribution, edges: &[f64], count: usize) -> Vec<f64> {
+    let below: Vec<f64> = edges.iter().map(|edge| probability(distribution, *edge)).collect();
+    below.windows(2).map(|pair| count as f64 * (pair[1] - pair[0])).collect()
+}
+
+/// The probability of smaller values, by bisection of the quantile function.
+fn probability(distribution: &Distribution, value: f64) -> f64 {
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        if distribution.quantile(middle) < value { low = middle } else { high = middle }
+    }
+    0.5 * (low + high)
+}
+
+fn correlations(plan: &Plan, survey: &Survey) -> Vec<Figure> {
+    let all = plan.dispersions.columns();
+    let varies = |index: &usize| survey.thinned.inputs[*index].windows(2).any(|pair| pair[0] != pair[1]);
+    let shown: Vec<usize> = (0..all.len()).filter(varies).take(MOST_CORRELATED).collect();
+    let rows = dispersed(survey);
+    if shown.len() < 2 || rows.len() < 3 {
+        return Vec::new();
+    }
+    let names: Vec<String> =
+        shown.iter().map(|index| all[*index].parameter.component_name(all[*index].component)).collect();
+    let scores = |index: &usize| {
+        let column = &survey.thinned.inputs[*index];
+        standardised(&mid_ranks(&rows.iter().map(|row| column[*row]).collect::<Vec<f64>>()))
+    };
+    let achieved = matrix(&shown.iter().map(scores).collect::<Vec<_>>());
+    let chance = (1.96 / libm::sqrt((rows.len() - 1) as f64)).min(1.0);
+    let figure = |name: &str, title: &str, caption: String, values: Vec<Vec<f64>>| Figure {
+        name: name.to_owned(),
+        section: Section::Inputs,
+        title: title.to_owned(),
+        caption,
+        columns: 6,
+        is_over_time: false,
+        x: Axis::names(names.clone()),
+        y: Axis::names(names.clone()),
+        marks: vec![Mark::Matrix { values: values.into_iter().flatten().collect() }],
+    };
+    let note = if shown.len() < all.len() {
+        format!(" The first {} of {} inputs.", shown.len(), all.len())
+    } else {
+        String::new()
+    };
+    let mut figures = Vec::new();
+    if !plan.correlated.is_empty() {
+        let caption = "Rank correlation that the campaign file asks for; other pairs are drawn independently.";
+        figures.push(figure(
+            "correlation_asked",
+            "Rank correlation, asked for",
+            caption.to_owned(),
+            asked(plan, &shown),
+        ));
+    }
+    let caption = format!(
+        "Spearman's coefficient of {} dispersed samples; of independent inputs up to \u{b1}{chance:.2} by chance (95%).{note}",
+        rows.len()
+    );
+    figures.push(figure("correlation_achieved", "Rank correlation, achieved", caption, achieved));
+    figures
+}
+
+/// The rank correlations that the file asks for, of the inputs `shown`.
+fn asked(plan: &Plan, shown: &[usize]) -> Vec<Vec<f64>> {
+    let all = plan.dispersions.columns();
+    let mut found: Vec<Vec<f64>> =
+        (0..shown.len()).map(|i| (0..shown.len()).map(|j| f64::from(u8::from(i == j))).collect()).collect();
+    for correlation in &plan.correlated {
+        let places = |(parameter, component): &(crate::scene::Parameter, Option<usize>)| -> Vec<Option<usize>> {
+            let of = |component: usize| {
+                shown.iter().position(|index| (all[*index].parameter, all[*index].component) == (*parameter, component))
+            };
+            match component {
+                Some(component) => vec![of(*component)],
+                None => (0..parameter.width()).map(of).collect(),
+            }
+        };
+        let parameters: Vec<Vec<Option<usize>>> = correlation.parameters.iter().map(places).collect();
+        let together: Vec<Option<usize>> = parameters.iter().flatten().copied().collect();
+        let mut set = |a: Option<usize>, b: Option<usize>, value: f64| {
+            if let (Some(a), Some(b)) = (a, b) {
+                (found[a][b], found[b][a]) = (value, value);
+            }
+        };
+        let ranks = |r: f64| {
+            if correlation.measure == Measure::Ranks { r } else { 6.0 / PI * libm::asin(0.5 * r.clamp(-1.0, 1.0)) }
+        };
+        match &correlation.numbers {
+            Numbers::One(r) => set(together[0], together.get(1).copied().flatten(), ranks(*r)),
+            Numbers::Rows(rows) if rows.len() == together.len() => {
+                for (i, row) in rows.iter().enumerate() {
+                    for (j, value) in row.iter().enumerate().filter(|(j, _)| *j != i) {
+                        let scale = if correlation.measure == Measure::Covariance {
+                            libm::sqrt(rows[i][i] * rows[j][j])
+                        } else {
+                            1.0
+                        };
+                        set(together[i], together[j], ranks(value / scale));
+                    }
+                }
+            }
+            Numbers::Rows(rows) => {
+                for (row, a) in rows.iter().zip(&parameters[0]) {
+                    for (value, b) in row.iter().zip(parameters.iter().skip(1).flatten()) {
+                        set(*a, *b, ranks(*value));
+                    }
+                }
+            }
+        }
+    }
+    found
+}

@@ -1,0 +1,182 @@
+//! [`Page`]: the report of a campaign as one HTML file that needs no network.
+//!
+//! It is a pure function of the plan and the rows (and what was computed from them): the same result gives the same bytes.
+//!
+//! - [`survey`]: what is taken from the rows. - [`runs`]: the runs that are shown in full.
+//! - [`figure`]: what a figure shows; [`over_time`], [`errors`], [`influence`], [`inputs`]: the figures; [`drawing`]: figures as files.
+//! - [`cards`], [`first_screen`], [`tables`], [`document`]: the HTML. - [`replay`]: the 3D replay. - [`payload`]: numbers in the page.
+//!
+//! The scripts and styles are in `assets/report/`.
+
+pub mod cards;
+mod document;
+pub mod drawing;
+mod errors;
+pub mod figure;
+mod first_screen;
+mod gather;
+pub mod influence;
+mod inputs;
+pub mod over_time;
+mod payload;
+mod readable;
+mod replay;
+mod runs;
+mod shown_columns;
+mod spectrum;
+pub mod survey;
+pub mod tables;
+
+use serde_json::{Value, json};
+
+use self::cards::Card;
+use self::document::{PageSection, document};
+use self::figure::{Figure, Section};
+use self::influence::Influence;
+use self::over_time::{Curves, TimeBands};
+use self::payload::Payload;
+use self::survey::Survey;
+use self::tables::StatisticsRow;
+use crate::campaign::Plan;
+use crate::ensemble::Ensemble;
+use crate::sampling::{Design, SampleId};
+
+/// What the page is made of.
+#[derive(Clone, Debug)]
+pub struct Contents {
+    /// What was taken from the rows.
+    pub survey: Survey,
+    /// Quantiles over time; empty where they were not made.
+    pub bands: Vec<TimeBands>,
+    /// Statistics of the observables.
+    pub statistics: Vec<StatisticsRow>,
+    /// What drives the outcomes.
+    pub influences: Vec<Influence>,
+    /// The verdicts of the requirements; empty where the file has none.
+    pub verdicts: Vec<Card>,
+    /// Names and SHA-256 of the files of the result.
+    pub files: Vec<(String, String)>,
+}
+
+/// A finished page.
+#[derive(Clone, Debug)]
+pub struct Page {
+    /// The file.
+    pub html: String,
+    /// Its figures, in their order.
+    pub figures: Vec<Figure>,
+}
+
+/// Whether the dispersed runs are independent, so that the intervals of order statistics hold.
+pub fn is_independent(plan: &Plan) -> bool {
+    matches!(plan.design, Design::Random(_))
+}
+
+impl Page {
+    /// The page of a campaign. Runs the nominal and the worst samples again, to show them over time.
+    pub fn new(ensemble: &Ensemble<'_>, contents: &Contents) -> Self {
+        let (plan, survey) = (ensemble.plan(), &contents.survey);
+        let has_intervals = is_independent(plan);
+        let shown = runs::shown_runs(plan, survey, ensemble.isa());
+        let nominal = shown.iter().find(|run| run.sample == SampleId(0)).and_then(|run| run.run.as_ref());
+        let wheels = ensemble.request().wheels.to_vec();
+        let curves = Curves::new(nominal, &contents.bands, &wheels);
+        let mut figures = curves.figures();
+        figures.extend(curves.drift(plan.tolerance.relative));
+        figures.extend(errors::figures(survey, has_intervals));
+        figures.extend(influence::figures(plan, survey, &contents.influences));
+        figures.extend(inputs::figures(plan, survey));
+        let main = survey
+            .outcomes
+            .iter()
+            .filter(|outcome| contents.influences.iter().any(|influence| influence.outcome == outcome.quantity.name()));
+        figures.extend(main.map(|outcome| influence::convergence(outcome, has_intervals)));
+        figures.retain(Figure::is_visible);
+
+        let mut payload = Payload::default();
+        let drawn: Vec<Value> = figures.iter().map(|figure| figure.json(&mut payload)).collect();
+        let motions: Vec<Value> = shown.iter().filter_map(|run| replay::motion(plan, run, &mut payload)).collect();
+        let has_replay = !motions.is_empty();
+        let data = json!({
+            "name": plan.name,
+            "figures": drawn,
+            "replay": has_replay.then(|| json!({ "scene": replay::scene(plan), "runs": motions })),
+            "pairs": pairs(plan, survey, &mut payload),
+        });
+        let cards = if contents.verdicts.is_empty() {
+            cards::findings(survey, has_intervals, &contents.influences)
+        } else {
+            contents.verdicts.clone()
+        };
+        let first = [
+            first_screen::header(plan),
+            first_screen::status(survey),
+            first_screen::verdicts(&cards, !contents.verdicts.is_empty()),
+        ];
+        let has = |section: Section| figures.iter().any(|figure| figure.section == section);
+        let sections = sections(plan, contents, &shown, has_replay, &has);
+        Page { html: document(&plan.name, &first.concat(), &sections, &data, &payload.text()), figures }
+    }
+}
+
+/// The sections after the first screen; one that has nothing to show is left out.
+fn sections(
+    plan: &Plan,
+    contents: &Contents,
+    shown: &[runs::ShownRun],
+    has_replay: bool,
+    has: &dyn Fn(Section) -> bool,
+) -> Vec<PageSection> {
+    let figures = |section: Section, title, lead: &str, html: &str| {
+        let shown = PageSection {
+            anchor: section.anchor(),
+            title,
+            lead: lead.to_owned(),
+            html: html.to_owned(),
+            has_figures: true,
+        };
+        has(section).then_some(shown)
+    };
+    let plain = |anchor, title, lead: &str, html: String| {
+        Some(PageSection { anchor, title, lead: lead.to_owned(), html, has_figures: false })
+    };
+    let pairs = "<details id=\"pairs\"><summary>Plot any two columns against each other</summary><div></div></details>";
+    let replay = "<div class=\"replay\"><p>The replay needs JavaScript and WebGL.</p></div>";
+    let table = tables::statistics(&contents.statistics);
+    [
+        figures(Section::Time, "Over time", "How the spacecraft moves and where the energy goes. Drag the time slider of the replay to move a cursor through these figures.", ""),
+        figures(Section::Numerics, "Numerics", "How large the numerical errors are. Small and without a trend is good.", ""),
+        figures(Section::Influence, "What drives it", "Which uncertain input makes the difference.", pairs),
+        plain("worst", "Worst runs", "The nominal run, runs that failed, and those with the largest errors. Each is replayed bit for bit by its command.", tables::worst_runs(plan, shown)),
+        plain("replay", "Replay", "The nominal run and the worst ones in three dimensions.", replay.to_owned()).filter(|_| has_replay),
+        figures(Section::Inputs, "Inputs", "What was applied, against what the campaign file asks for.", ""),
+        Some(PageSection { anchor: "statistics", title: "Statistics", lead: String::new(), html: table, has_figures: has(Section::Statistics) }),
+        plain("provenance", "Provenance", "", tables::provenance(plan, &contents.survey, &contents.files)),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+/// Columns that the reader may plot against each other: thinned, in single precision.
+fn pairs(plan: &Plan, survey: &Survey, payload: &mut Payload) -> Value {
+    let thinned = &survey.thinned;
+    let rows = survey::chosen(&thinned.samples, survey::SCATTER);
+    if rows.len() < 2 {
+        return Value::Null;
+    }
+    let mut of = |column: &[f64]| payload.singles(&rows.iter().map(|row| column[*row]).collect::<Vec<f64>>());
+    let inputs = plan.dispersions.columns().iter().zip(&thinned.inputs).map(|(column, values)| {
+        let unit = if column.parameter.unit() == "1" { "" } else { column.parameter.unit() };
+        json!({ "name": column.parameter.component_name(column.component), "unit": unit, "input": true, "values": of(values) })
+    });
+    let inputs: Vec<Value> = inputs.collect();
+    let outcomes = survey.outcomes.iter().zip(&thinned.outcomes).map(|(outcome, values)| {
+        json!({ "name": outcome.quantity.name(), "unit": outcome.quantity.unit(), "input": false, "values": of(values) })
+    });
+    let columns: Vec<Value> = inputs.into_iter().chain(outcomes).collect();
+    let samples: Vec<f64> = rows.iter().map(|row| thinned.samples[*row] as f64).collect();
+    let failed: Vec<f64> =
+        rows.iter().map(|row| f64::from(u8::from(thinned.statuses[*row] != crate::run::Status::Done))).collect();
+    json!({ "columns": columns, "samples": payload.array(&samples), "failed": payload.singles(&failed), "all": survey.samples })
+}

@@ -1,0 +1,361 @@
+//! Figures of what happened over time: the nominal run, bands of the ensemble, energy transfer.
+
+use crate::ensemble::SingleRun;
+use crate::observables::Series;
+use crate::report::page::figure::{Axis, Figure, Hue, Mark, Section};
+use crate::report::page::spectrum::{amplitudes, dominant};
+use crate::scene::Name;
+
+/// Quantiles of a series over time, of the runs that are ok.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TimeBands {
+    /// The series, as the columns of a time series name it.
+    pub name: String,
+    /// Times, s.
+    pub times: Vec<f64>,
+    /// The 5, 25, 50, 75 and 95% quantiles at these times.
+    pub quantiles: [Vec<f64>; 5],
+    /// How many runs they are of.
+    pub runs: u64,
+}
+
+/// A limit that is larger than the data by this factor is outside of the axis.
+const FAR: f64 = 30.0;
+
+/// Curves of the nominal run.
+#[derive(Clone, Copy, Debug)]
+pub struct Curves<'a> {
+    run: Option<&'a SingleRun>,
+    bands: &'a [TimeBands],
+    wheels: &'a [Name],
+}
+
+/// What figures of one series are called, and whose colour they have.
+struct Shown {
+    series: Series,
+    title: &'static str,
+    quantity: &'static str,
+    hue: Hue,
+}
+
+impl<'a> Curves<'a> {
+    /// Of the nominal run, where it could be run, and bands of the ensemble; `wheels` are those that turn.
+    pub fn new(run: Option<&'a SingleRun>, bands: &'a [TimeBands], wheels: &'a [Name]) -> Self {
+        Curves { run, bands, wheels }
+    }
+
+    /// Times that the nominal run reached, s.
+    pub fn times(&self) -> Vec<f64> {
+        self.run.map_or_else(Vec::new, |run| run.grid.times()[..run.outcome.points.min(run.grid.points())].to_vec())
+    }
+
+    /// A series of the nominal run; empty where it has none.
+    pub fn nominal(&self, series: Series) -> Vec<f64> {
+        let Some(run) = self.run else { return Vec::new() };
+        let values = run.series.iter().find(|(other, _)| *other == series).map(|(_, values)| values.as_slice());
+        let values = values.unwrap_or_default();
+        values[..values.len().min(run.outcome.points)].to_vec()
+    }
+
+    fn band(&self, name: &str) -> Option<&'a TimeBands> {
+        self.bands.iter().find(|bands| bands.name == name)
+    }
+
+    /// Bands and median of the quantity `name`, and its values in the nominal run; `of` comes before the names in the legend.
+    fn marks(&self, name: &str, nominal: Vec<f64>, hue: Hue, of: &str) -> Vec<Mark> {
+        let label = |text: &str| if of.is_empty() { text.to_owned() } else { format!("{of}, {text}") };
+        let mut marks = Vec::new();
+        if let Some(bands) = self.band(name) {
+            let [p05, p25, p50, p75, p95] = &bands.quantiles;
+            let area = |text: &str, low: &Vec<f64>, high: &Vec<f64>, opacity| Mark::Band {
+                label: label(text),
+                hue,
+                opacity,
+                x: bands.times.clone(),
+                low: low.clone(),
+                high: high.clone(),
+            };
+            marks.push(area("5 to 95%", p05, p95, 0.15));
+            marks.push(area("25 to 75%", p25, p75, 0.3));
+            let (x, y) = (bands.times.clone(), p50.clone());
+            marks.push(Mark::Line { label: label("median"), hue, dashed: false, x, y });
+        }
+        if nominal.iter().any(|value| *value != 0.0) {
+            let (hue, dashed) = if marks.is_empty() { (hue, false) } else { (Hue::Nominal, true) };
+            marks.push(Mark::Line { label: label("nominal run"), hue, dashed, x: self.times(), y: nominal });
+        }
+        marks
+    }
+
+    /// What the bands of a quantity mean.
+    fn caption(&self, name: &str) -> String {
+        match self.band(name) {
+            Some(bands) => format!(
+                "Bands: 5 to 95% and 25 to 75% of {} dispersed runs that are ok, at each time; solid line: median; dashed: nominal run.",
+                bands.runs
+            ),
+            None => "The nominal run.".to_owned(),
+        }
+    }
+
+    fn name(&self, series: Series) -> (String, String) {
+        let quantity = series.quantity(self.wheels);
+        quantity.map_or_else(Default::default, |quantity| (quantity.name().to_owned(), quantity.unit().to_owned()))
+    }
+
+    /// Every figure of the section.
+    pub fn figures(&self) -> Vec<Figure> {
+        let motion = [
+            Shown {
+                series: Series::RateSquare,
+                title: "Angular rate of the body",
+                quantity: "|omega|",
+                hue: Hue::Body,
+            },
+            Shown {
+                series: Series::SpinAxisAngle,
+                title: "Angle of s3 from its initial direction",
+                quantity: "angle",
+                hue: Hue::Body,
+            },
+            Shown {
+                series: Series::Nutation,
+                title: "Nutation angle: s3 from the angular momentum",
+                quantity: "angle",
+                hue: Hue::Body,
+            },
+            Shown {
+                series: Series::FromNominal,
+                title: "Attitude relative to the nominal run",
+                quantity: "angle",
+                hue: Hue::Body,
+            },
+            Shown {
+                series: Series::DebrisDirection,
+                title: "Angle between s3 and the line to the debris",
+                quantity: "angle",
+                hue: Hue::Debris,
+            },
+        ];
+        let mut figures: Vec<Figure> = motion.iter().map(|shown| self.single(shown)).collect();
+        figures.extend(self.wheel_speeds());
+        figures.extend(self.energies());
+        figures.extend(self.transfer());
+        figures
+    }
+
+    fn single(&self, shown: &Shown) -> Figure {
+        let (name, unit) = self.name(shown.series);
+        let marks = self.marks(&name, self.nominal(shown.series), shown.hue, "");
+        over_time(&name, shown.title, self.caption(&name), Axis::linear(shown.quantity, &unit), marks)
+    }
+
+    fn wheel_speeds(&self) -> Vec<Figure> {
+        let figure = |(index, wheel): (usize, &Name)| {
+            let (name, unit) = self.name(Series::WheelSpeed.of_wheel(index));
+            let marks = self.marks(&name, self.nominal(Series::WheelSpeed.of_wheel(index)), Hue::Wheel(index), "");
+            over_time(
+                &name,
+                &format!("Speed of wheel {wheel}"),
+                self.caption(&name),
+                Axis::linear("speed", &unit),
+                marks,
+            )
+        };
+        self.wheels.iter().enumerate().map(figure).collect()
+    }
+
+    /// The energy of each body, and its change about the spacecraft's centre of mass.
+    fn energies(&self) -> Vec<Figure> {
+        let bodies = || {
+            let wheels = self.wheels.iter().enumerate();
+            let wheels = wheels.map(|(index, name)| (Some(index), format!("wheel {name}"), Hue::Wheel(index)));
+            std::iter::once((None, "body".to_owned(), Hue::Body)).chain(wheels)
+        };
+        let place =
+            |series: [Series; 2], wheel: Option<usize>| wheel.map_or(series[0], |wheel| series[1].of_wheel(wheel));
+        let energy = |(wheel, of, hue): (Option<usize>, String, Hue)| {
+            let series = place([Series::EnergyBody, Series::EnergyWheel], wheel);
+            let (name, unit) = self.name(series);
+            let marks = self.marks(&name, self.nominal(series), hue, "");
+            let caption = format!("Kinetic energy in F_e. {}", self.caption(&name));
+            over_time(&name, &format!("Energy of the {of}"), caption, Axis::linear("energy", &unit), marks)
+        };
+        let change = |(wheel, of, hue): (Option<usize>, String, Hue)| {
+            let series = place([Series::ComBody, Series::ComWheel], wheel);
+            let (name, unit) = self.name(series);
+            let name = name.replace("energy_com_", "exchange_");
+            let nominal = changes(&self.nominal(series));
+            let marks = if is_constant(&nominal) && self.band(&name).is_none() {
+                Vec::new()
+            } else {
+                self.marks(&name, nominal, hue, "")
+            };
+            let caption =
+                format!("Change of kinetic energy about the spacecraft's centre of mass. {}", self.caption(&name));
+            over_time(
+                &name,
+                &format!("Energy transfer of the {of}"),
+                caption,
+                Axis::linear("change of energy", &unit),
+                marks,
+            )
+        };
+        let (debris, unit) = self.name(Series::EnergyDebris);
+        let debris = over_time(
+            &debris,
+            "Energy of the debris",
+            format!("Kinetic energy in F_e. {}", self.caption(&debris)),
+            Axis::linear("energy", &unit),
+            self.marks(&debris, self.nominal(Series::EnergyDebris), Hue::Debris, ""),
+        );
+        let transfer = bodies().filter(|_| !self.wheels.is_empty()).map(change);
+        bodies().map(energy).chain([debris]).chain(transfer).collect()
+    }
+
+    /// Energy transfer between body and wheels in the nominal run: over time, as a phase plot, and its spectrum.
+    fn transfer(&self) -> Vec<Figure> {
+        let (times, body) = (self.times(), changes(&self.nominal(Series::ComBody)));
+        let wheels: Vec<Vec<f64>> =
+            (0..self.wheels.len()).map(|index| changes(&self.nominal(Series::ComWheel.of_wheel(index)))).collect();
+        if body.len() < 2 || wheels.is_empty() || is_constant(&body) {
+            return Vec::new();
+        }
+        let line =
+            |label: String, hue, y: &Vec<f64>| Mark::Line { label, hue, dashed: false, x: times.clone(), y: y.clone() };
+        let named = || self.wheels.iter().enumerate().zip(&wheels);
+        let mut marks: Vec<Mark> =
+            named().map(|((index, name), y)| line(format!("wheel {name}"), Hue::Wheel(index), y)).collect();
+        marks.push(line("body".to_owned(), Hue::Body, &body));
+        let change = || Axis::linear("change of energy", "J");
+        let caption = "Change of kinetic energy about the centre of mass since the start, of the nominal run. Without motor torque and \
+                       thrust the changes add up to zero.";
+        let transfer = over_time(
+            "energy_transfer",
+            "Energy transfer between wheels and body",
+            caption.to_owned(),
+            change(),
+            marks,
+        );
+
+        let phase = named().map(|((index, name), y)| Mark::Line {
+            label: format!("wheel {name}"),
+            hue: Hue::Wheel(index),
+            dashed: false,
+            x: body.clone(),
+            y: y.clone(),
+        });
+        let phase = Figure {
+            name: "energy_phase".to_owned(),
+            section: Section::Time,
+            title: "Energy of each wheel against that of the body".to_owned(),
+            caption: "Changes since the start, nominal run: a straight line of slope -1 is a transfer between this wheel and the body alone."
+                .to_owned(),
+            columns: 6,
+            is_over_time: false,
+            x: Axis::linear("change of energy of the body", "J"),
+            y: Axis::linear("change of energy of the wheel", "J"),
+            marks: phase.collect(),
+        };
+        [transfer, phase].into_iter().chain(spectrum(&times, &body)).collect()
+    }
+
+    /// Drift of the balances over time: relative errors, with the tolerance and the rounding of doubles.
+    pub fn drift(&self, tolerance: f64) -> Vec<Figure> {
+        let energy = [(Series::EnergyError, "", Hue::Body)];
+        let momenta = [
+            (Series::AngularMomentumError, "angular", Hue::Wheel(0)),
+            (Series::LinearMomentumError, "linear", Hue::Wheel(1)),
+        ];
+        let debris = [
+            (Series::DebrisAngularError, "angular", Hue::Debris),
+            (Series::DebrisLinearError, "linear", Hue::Wheel(2)),
+        ];
+        let figure = |name: &str, title: &str, what: &str, list: &[(Series, &str, Hue)]| {
+            let of = |(series, of, hue): &(Series, &str, Hue)| {
+                self.marks(&self.name(*series).0, self.nominal(*series), *hue, of)
+            };
+            let mut marks: Vec<Mark> = list.iter().flat_map(of).collect();
+            let largest = marks.iter().map(Mark::largest).fold(0.0, f64::max);
+            // a limit far beyond the data would flatten them; it is in the caption
+            let shown = if tolerance <= FAR * largest { tolerance.max(largest) } else { largest };
+            let is_signed = list.iter().all(|(series, ..)| *series == Series::EnergyError);
+            for (label, at) in [
+                (format!("tolerance {tolerance:e}"), tolerance),
+                ("rounding of a double".to_owned(), f64::EPSILON / 2.0),
+            ] {
+                marks.push(Mark::Limit { label, at, vertical: false });
+                if is_signed {
+                    marks.push(Mark::Limit { label: String::new(), at: -at, vertical: false });
+                }
+            }
+            let caption = format!(
+                "{what}, relative to the largest. {} Tolerance of a step: {tolerance:e}; rounding of a double: 1.1e-16.",
+                self.caption(&self.name(list[0].0).0)
+            );
+            let axis = Axis::linear("relative error", "");
+            let axis =
+                if largest > 0.0 { axis.within(if is_signed { -1.1 * shown } else { 0.0 }, 1.1 * shown) } else { axis };
+            Figure { section: Section::Numerics, ..over_time(name, title, caption, axis, marks) }
+        };
+        vec![
+            figure("drift_energy", "Drift of energy", "Change of energy minus work", &energy),
+            figure(
+                "drift_momentum",
+                "Drift of momentum",
+                "Change of momentum minus impulse (magnitude of the vector)",
+                &momenta,
+            ),
+            figure(
+                "drift_debris",
+                "Drift of the debris's momentum",
+                "Change of momentum (magnitude of the vector)",
+                &debris,
+            ),
+        ]
+    }
+}
+
+fn over_time(name: &str, title: &str, caption: String, y: Axis, marks: Vec<Mark>) -> Figure {
+    Figure {
+        name: name.to_owned(),
+        section: Section::Time,
+        title: title.to_owned(),
+        caption,
+        columns: 6,
+        is_over_time: true,
+        x: Axis::linear("time", "s"),
+        y,
+        marks,
+    }
+}
+
+/// Differences from the first value.
+fn changes(values: &[f64]) -> Vec<f64> {
+    values.iter().map(|value| value - values[0]).collect()
+}
+
+fn is_constant(values: &[f64]) -> bool {
+    values.iter().all(|value| *value == values[0])
+}
+
+/// The spectrum of the energy of the body, with its dominant frequency.
+fn spectrum(times: &[f64], body: &[f64]) -> Option<Figure> {
+    let (frequencies, amplitudes) = amplitudes(times, body)?;
+    let peak = dominant(&frequencies, &amplitudes)?;
+    let marks = vec![
+        Mark::Line { label: "amplitude".to_owned(), hue: Hue::Body, dashed: false, x: frequencies, y: amplitudes },
+        Mark::Limit { label: format!("dominant: {peak:.3} Hz"), at: peak, vertical: true },
+    ];
+    Some(Figure {
+        name: "energy_spectrum".to_owned(),
+        section: Section::Time,
+        title: "Spectrum of the energy transfer".to_owned(),
+        caption: "Amplitude of the energy of the body, nominal run (Hann window; the mean is removed).".to_owned(),
+        columns: 6,
+        is_over_time: false,
+        x: Axis::linear("frequency", "Hz"),
+        y: Axis::linear("amplitude", "J"),
+        marks,
+    })
+}

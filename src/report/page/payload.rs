@@ -1,0 +1,98 @@
+//! [`Payload`]: the numbers of the page as binary, and texts as bytes that HTML cannot misread.
+
+use std::io::Write;
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use flate2::{Compression, GzBuilder};
+use serde_json::{Value, json};
+
+/// Arrays of numbers, one after the other.
+#[derive(Clone, Debug, Default)]
+pub struct Payload {
+    doubles: Vec<u8>,
+}
+
+impl Payload {
+    /// Adds numbers in full precision; returns the place where the page finds them.
+    pub fn array(&mut self, values: &[f64]) -> Value {
+        let at = self.doubles.len();
+        values.iter().for_each(|value| self.doubles.extend((value + 0.0).to_le_bytes()));
+        json!([at, values.len(), 8])
+    }
+
+    /// Adds numbers in single precision, for pictures of motion; returns the place where the page finds them.
+    pub fn singles(&mut self, values: &[f64]) -> Value {
+        let at = self.doubles.len();
+        values.iter().for_each(|value| self.doubles.extend((*value as f32).to_le_bytes()));
+        // doubles begin at multiples of their size
+        self.doubles.resize(self.doubles.len().next_multiple_of(8), 0);
+        json!([at, values.len(), 4])
+    }
+
+    /// All numbers, little-endian, compressed, as text.
+    pub fn text(&self) -> String {
+        packed(&self.doubles)
+    }
+}
+
+/// Bytes compressed with gzip, as Base64 (RFC 4648). The same bytes give the same text: the header has no time and no name.
+pub fn packed(bytes: &[u8]) -> String {
+    let mut encoder = GzBuilder::new().mtime(0).write(Vec::new(), Compression::best());
+    // writing to memory does not fail
+    let compressed = encoder.write_all(bytes).and_then(|()| encoder.finish()).unwrap_or_default();
+    encoded(&compressed)
+}
+
+/// Bytes as Base64.
+pub fn encoded(bytes: &[u8]) -> String {
+    STANDARD.encode(bytes)
+}
+
+/// Text as HTML: nothing in it is taken for markup.
+pub fn escaped(text: &str) -> String {
+    let mut safe = String::with_capacity(text.len());
+    for letter in text.chars() {
+        match letter {
+            '&' => safe.push_str("&amp;"),
+            '<' => safe.push_str("&lt;"),
+            '>' => safe.push_str("&gt;"),
+            '"' => safe.push_str("&quot;"),
+            '\'' => safe.push_str("&#39;"),
+            other => safe.push(other),
+        }
+    }
+    safe
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Read;
+
+    use super::*;
+
+    /// Law: what is packed comes back, and the same bytes give the same text.
+    #[test]
+    fn packed_numbers_come_back() {
+        let mut payload = Payload::default();
+        assert_eq!(payload.array(&[1.5, -0.0]), json!([0, 2, 8]));
+        assert_eq!(payload.singles(&[0.25]), json!([16, 1, 4]));
+        assert_eq!(payload.array(&[f64::NAN]), json!([24, 1, 8]));
+        let text = payload.text();
+        assert_eq!(text, payload.clone().text());
+        let mut bytes = Vec::new();
+        flate2::read::GzDecoder::new(&STANDARD.decode(text).unwrap()[..]).read_to_end(&mut bytes).unwrap();
+        assert_eq!(bytes.len(), 32);
+        assert_eq!(bytes[..8], 1.5f64.to_le_bytes());
+        assert_eq!(bytes[8..16], 0.0f64.to_le_bytes(), "there is one zero");
+        assert_eq!(bytes[16..20], 0.25f32.to_le_bytes());
+    }
+
+    #[test]
+    fn markup_is_escaped() {
+        assert_eq!(
+            escaped("</script><img onerror='x'>&\""),
+            "&lt;/script&gt;&lt;img onerror=&#39;x&#39;&gt;&amp;&quot;"
+        );
+    }
+}

@@ -1,0 +1,136 @@
+//! What the 3D replay needs: the bodies as shapes, and the motion of each shown run, thinned to what is seen.
+
+use serde_json::{Value, json};
+
+use crate::campaign::Plan;
+use crate::ensemble::SingleRun;
+use crate::math::vector::{dcm_from_quaternion, difference, product};
+use crate::report::page::payload::Payload;
+use crate::report::page::runs::ShownRun;
+use crate::run::StateField;
+use crate::scene::{DebrisInput, PartInput, PartShape, Scene, SceneInput, WheelMode};
+
+/// The bodies of the nominal scene as shapes in F_s.
+pub fn scene(plan: &Plan) -> Value {
+    let (input, resolved) = (&plan.nominal, Scene::resolve(&plan.nominal).ok());
+    let center = resolved.as_ref().map_or([0.0; 3], |scene| scene.mass.center);
+    let parts: Vec<Value> = if input.parts.is_empty() {
+        resolved.iter().map(equivalent_box).collect()
+    } else {
+        input.parts.iter().map(part).collect()
+    };
+    json!({
+        "center": center,
+        "is_equivalent": input.parts.is_empty(),
+        "parts": parts,
+        "wheels": wheels(input),
+        "thrusters": thrusters(input),
+        "debris": input.debris.as_ref().map(debris),
+        "arcs": arcs(&resolved),
+    })
+}
+
+fn part(part: &PartInput) -> Value {
+    let size = match part.shape {
+        PartShape::HollowCylinder => vec![part.outer_radius_m, part.length_m],
+        PartShape::SolidCylinder => vec![part.radius_m, part.length_m],
+        PartShape::Box => part.size_m.unwrap_or([0.1; 3]).map(Some).to_vec(),
+        PartShape::Sphere => vec![part.radius_m],
+        PartShape::PointMass => vec![],
+    };
+    let size: Vec<f64> = size.into_iter().map(|length| length.unwrap_or(0.1)).collect();
+    json!({
+        "name": part.name.as_str(), "shape": part.shape.name(), "size": size, "position": part.position_m, "attitude": part.attitude
+    })
+}
+
+/// The box that has the mass and the moments of inertia of a body that is given by them: l_x^2 = 6 (I_y + I_z - I_x)/m.
+fn equivalent_box(scene: &Scene) -> Value {
+    let body = &scene.mass.fuselage;
+    let (moments, axes) = crate::math::symmetric::principal_axes(body.inertia);
+    let sum: f64 = moments.iter().sum();
+    let size = moments.map(|moment| libm::sqrt((6.0 * (sum - 2.0 * moment) / body.mass).max(1e-6)));
+    json!({ "name": "body", "shape": "box", "size": size, "position": body.center, "axes": axes })
+}
+
+fn wheels(input: &SceneInput) -> Vec<Value> {
+    let turning = input.wheels.iter().filter(|wheel| wheel.mode != WheelMode::Locked);
+    let shape = |wheel: &crate::scene::WheelInput| {
+        // a wheel that is given by mass and inertia is shown as the solid cylinder with that inertia
+        let radius = wheel.radius_m.or_else(|| Some(libm::sqrt(2.0 * wheel.axial_inertia_kg_m2? / wheel.mass_kg?)));
+        let radius = radius.unwrap_or(0.1);
+        json!({
+            "name": wheel.name.as_str(), "axis": wheel.axis, "position": wheel.position_m,
+            "radius": radius, "length": wheel.length_m.unwrap_or(0.4 * radius)
+        })
+    };
+    turning.map(shape).collect()
+}
+
+fn thrusters(input: &SceneInput) -> Vec<Value> {
+    let shape = |thruster: &crate::scene::ThrusterInput| json!({ "name": thruster.name.as_str(), "position": thruster.position_m, "direction": thruster.direction });
+    input.thrusters.iter().map(shape).collect()
+}
+
+fn debris(debris: &DebrisInput) -> Value {
+    match debris {
+        DebrisInput::Cube { side_m, .. } => json!([side_m, side_m, side_m]),
+        DebrisInput::Box { size_m, .. } => json!(size_m),
+        // the size of an irregular body is not known: a box of its inertia
+        DebrisInput::Tensor { mass_kg, inertia_kg_m2 } => {
+            let moments = [0, 1, 2].map(|axis| inertia_kg_m2[axis][axis]);
+            let sum: f64 = moments.iter().sum();
+            json!(moments.map(|moment| libm::sqrt((6.0 * (sum - 2.0 * moment) / mass_kg).max(1e-6))))
+        }
+        DebrisInput::Principal { .. } => json!([0.2, 0.2, 0.2]),
+    }
+}
+
+/// Start, end and thrusts of the nominal arcs.
+fn arcs(scene: &Option<Scene>) -> Vec<Value> {
+    let schedule = scene.iter().flat_map(|scene| scene.schedule.iter());
+    schedule.map(|arc| json!({ "start": arc.start, "end": arc.applied.until, "thrust": arc.applied.thrust })).collect()
+}
+
+/// The motion of `shown`; `None` where nothing of it can be seen.
+pub fn motion(plan: &Plan, shown: &ShownRun, payload: &mut Payload) -> Option<Value> {
+    let run = shown.run.as_ref()?;
+    let points = run.outcome.points.min(run.grid.points());
+    if points < 2 {
+        return None;
+    }
+    let (table, wheels) = (&run.table, run.request.wheels.len());
+    let each = |of: &dyn Fn(usize) -> Vec<f64>| (0..points).flat_map(of).collect::<Vec<f64>>();
+    let attitude = each(&|point| table.at::<4>(StateField::Attitude, point).to_vec());
+    let omega = each(&|point| table.at::<3>(StateField::Rate, point).to_vec());
+    let momentum = each(&|point| momentum(run, point).to_vec());
+    let angles = each(&|point| (0..wheels).map(|wheel| table.column(StateField::WheelAngles, wheel)[point]).collect());
+    let debris = run.request.debris.then(|| {
+        let relative = each(&|point| {
+            difference(table.at(StateField::DebrisPosition, point), table.at(StateField::ComPosition, point)).to_vec()
+        });
+        let attitude = each(&|point| table.at::<4>(StateField::DebrisAttitude, point).to_vec());
+        (relative, attitude)
+    });
+    let debris = debris.map(|(position, attitude)| json!({ "position": payload.singles(&position), "attitude": payload.singles(&attitude) }));
+    let is_nominal = shown.sample.0 == 0;
+    let name = if is_nominal { "nominal run".to_owned() } else { format!("sample {}", shown.sample) };
+    Some(json!({
+        "sample": shown.sample.0, "name": name, "why": shown.why, "status": shown.status.name(), "reason": shown.reason,
+        "duration": plan.grid.duration(), "times": payload.singles(&run.grid.times()[..points]),
+        "attitude": payload.singles(&attitude), "omega": payload.singles(&omega), "momentum": payload.singles(&momentum),
+        "angles": payload.singles(&angles), "debris": debris
+    }))
+}
+
+/// The angular momentum of the spacecraft about its centre of mass in F_e, N m s: J omega + sum J_i rate_i a_i, turned to F_e.
+fn momentum(run: &SingleRun, point: usize) -> [f64; 3] {
+    let (mass, table) = (&run.scene.mass, &run.table);
+    let omega: [f64; 3] = table.at(StateField::Rate, point);
+    let mut h = product(mass.inertia, omega);
+    for (wheel, shape) in mass.wheels.iter().enumerate() {
+        let spin = shape.axial * table.column(StateField::WheelRates, wheel)[point];
+        (0..3).for_each(|axis| h[axis] += spin * shape.axis[axis]);
+    }
+    product(dcm_from_quaternion(table.at(StateField::Attitude, point)), h)
+}

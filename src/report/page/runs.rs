@@ -1,0 +1,116 @@
+//! [`ShownRun`]: the runs that the page shows in full: the nominal one, those that failed first, those with the largest errors.
+
+use crate::campaign::Plan;
+use crate::ensemble::{DrawnScenes, SingleRun};
+use crate::math::Isa;
+use crate::observables::Group;
+use crate::report::page::shown_columns::words;
+use crate::report::page::survey::Survey;
+use crate::run::{Grid, Status};
+use crate::sampling::SampleId;
+
+/// How many runs are in the table of the worst.
+pub const WORST: usize = 10;
+/// Failed runs among them, at most.
+const MOST_FAILED: usize = 5;
+/// Intervals of a run in the page, at least where the campaign's grid is coarser.
+const FEWEST: usize = 240;
+/// Intervals of a run in the page, at most.
+const MOST: usize = 600;
+/// A turn between two pictures, rad: enough pictures that a motion is seen as such.
+const TURN: f64 = 0.6;
+
+/// The groups whose series the page shows.
+const GROUPS: [Group; 7] = [
+    Group::EnergyConservation,
+    Group::MomentumConservation,
+    Group::Attitude,
+    Group::Energies,
+    Group::EnergiesCom,
+    Group::Constraints,
+    Group::Motion,
+];
+
+/// A run that the page shows.
+#[derive(Clone, Debug)]
+pub struct ShownRun {
+    /// The sample.
+    pub sample: SampleId,
+    /// Why it is shown.
+    pub why: String,
+    /// How it ended; the reason where it is not ok.
+    pub status: Status,
+    /// Why it is not ok; empty where it is.
+    pub reason: String,
+    /// Its inputs as applied.
+    pub inputs: Vec<f64>,
+    /// The run itself; `None` where its scene is not physical.
+    pub run: Option<SingleRun>,
+}
+
+/// The nominal run and the worst ones, run again with all of their states.
+pub fn shown_runs(plan: &Plan, survey: &Survey, isa: Isa) -> Vec<ShownRun> {
+    let grid = grid(plan, isa);
+    let mut list = vec![(SampleId(0), "nominal".to_owned())];
+    for (sample, why) in worst(survey) {
+        if !list.iter().any(|(other, _)| *other == sample) && list.len() <= WORST {
+            list.push((sample, why));
+        }
+    }
+    list.into_iter().map(|(sample, why)| shown(plan, sample, why, &grid, isa)).collect()
+}
+
+fn shown(plan: &Plan, sample: SampleId, why: String, grid: &Grid, isa: Isa) -> ShownRun {
+    let drawn = DrawnScenes::new(plan, sample, 1);
+    let inputs = drawn.columns.iter().filter_map(|column| column.first().copied()).collect();
+    match SingleRun::with_series(plan, sample, grid.clone(), isa, &GROUPS) {
+        Ok(run) => {
+            let (status, reason) = (run.outcome.status, run.reason.clone());
+            ShownRun { sample, why, status, reason, inputs, run: Some(run) }
+        }
+        Err(errors) => {
+            let reason = errors.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ");
+            ShownRun { sample, why, status: Status::InvalidSample, reason, inputs, run: None }
+        }
+    }
+}
+
+/// Failed runs, the first of each kind first, then the largest values of each outcome in turn.
+fn worst(survey: &Survey) -> Vec<(SampleId, String)> {
+    let failed = survey.ended.iter().filter(|ended| ended.status != Status::Done);
+    let mut first: Vec<(usize, SampleId, String)> = Vec::new();
+    for ended in failed {
+        let of_kind = ended.first.iter().enumerate();
+        first.extend(of_kind.map(|(place, (sample, _))| (place, *sample, format!("failed: {}", ended.status.name()))));
+    }
+    first.sort_by_key(|(place, sample, _)| (*place, *sample));
+    let mut list: Vec<(SampleId, String)> =
+        first.into_iter().take(MOST_FAILED).map(|(_, sample, why)| (sample, why)).collect();
+    let outcomes: Vec<_> = survey.outcomes.iter().filter(|outcome| outcome.is_error || outcome.is_required).collect();
+    let deepest = outcomes.iter().map(|outcome| outcome.largest.len()).max().unwrap_or(0);
+    for place in 0..deepest {
+        for outcome in &outcomes {
+            if let Some((sample, size)) = outcome.largest.get(place).filter(|(_, size)| *size > 0.0) {
+                let rank = if place == 0 { "largest".to_owned() } else { format!("no. {} in", place + 1) };
+                list.push((
+                    *sample,
+                    format!("{rank} {} ({})", words(&outcome.quantity), crate::report::number::short(*size)),
+                ));
+            }
+        }
+    }
+    list
+}
+
+/// The times of the runs in the page: the campaign's, with divided intervals where it is coarse or the motion fast.
+fn grid(plan: &Plan, isa: Isa) -> Grid {
+    let given = plan.grid.points().saturating_sub(1).max(1);
+    let fastest = SingleRun::with_series(plan, SampleId(0), plan.grid.clone(), isa, &[]).map_or(0.0, |run| {
+        let points = run.outcome.points.min(run.grid.points());
+        let rate = |point: usize| crate::math::vector::norm(run.table.at(crate::run::StateField::Rate, point));
+        (0..points).map(rate).filter(|rate| rate.is_finite()).fold(0.0, f64::max)
+    });
+    let wanted = (fastest * plan.grid.duration() / TURN).clamp(FEWEST as f64, MOST as f64) as usize;
+    let intervals = if given >= wanted { given.min(MOST) } else { given * (wanted / given).max(1) };
+    Grid::uniform(plan.grid.duration(), intervals + 1)
+}

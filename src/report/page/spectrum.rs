@@ -1,0 +1,69 @@
+//! Amplitude spectrum of a series on a uniform grid, for a picture: the column `exchange_frequency_hz` is computed elsewhere
+//! ([`crate::observables`]), on the campaign's grid.
+
+use core::f64::consts::{PI, TAU};
+
+/// Most frequencies of a spectrum, from the lowest on.
+const MOST: usize = 400;
+
+/// Frequencies (Hz) and amplitudes of `values` at uniform `times`, s, without the mean; `None` for fewer than eight points.
+///
+/// Hann window w_k = (1 - cos(2 pi k / n))/2, whose mean is 1/2: a sine of amplitude a within a bin has the amplitude a (F. J. Harris,
+/// *Proc. IEEE* 66 (1978) 51).
+pub fn amplitudes(times: &[f64], values: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
+    let n = values.len().min(times.len()).checked_sub(1).filter(|n| *n >= 8)?;
+    let duration = times[n] - times[0];
+    let count = n as f64;
+    let windows: Vec<f64> = (0..n).map(|k| 0.5 - 0.5 * libm::cos(TAU * k as f64 / count)).collect();
+    let weight: f64 = windows.iter().sum();
+    let mean = values.iter().zip(&windows).map(|(value, window)| value * window).sum::<f64>() / weight;
+    let shaped: Vec<f64> = values.iter().zip(&windows).map(|(value, window)| (value - mean) * window).collect();
+    let amplitude = |bin: usize| {
+        let (mut re, mut im) = (0.0, 0.0);
+        for (k, value) in shaped.iter().enumerate() {
+            // the phase modulo a turn, so that it stays exact
+            let phase = 2.0 * PI * ((bin * k) % n) as f64 / count;
+            re += value * libm::cos(phase);
+            im += value * libm::sin(phase);
+        }
+        2.0 / weight * libm::sqrt(re * re + im * im)
+    };
+    let bins = 1..=(n / 2).min(MOST);
+    Some((bins.clone().map(|bin| bin as f64 / duration).collect(), bins.map(amplitude).collect()))
+}
+
+/// The frequency of the largest amplitude, by a parabola through it and its neighbours; `None` where all are zero.
+pub fn dominant(frequencies: &[f64], amplitudes: &[f64]) -> Option<f64> {
+    let peak = (0..amplitudes.len()).max_by(|a, b| amplitudes[*a].total_cmp(&amplitudes[*b]))?;
+    if amplitudes[peak] <= 0.0 || !amplitudes[peak].is_finite() {
+        return None;
+    }
+    let (Some(before), Some(after)) = (peak.checked_sub(1), amplitudes.get(peak + 1)) else {
+        return Some(frequencies[peak]);
+    };
+    let (a, b, c) = (amplitudes[before], amplitudes[peak], *after);
+    let curvature = a - 2.0 * b + c;
+    let shift = if curvature < 0.0 { (0.5 * (a - c) / curvature).clamp(-0.5, 0.5) } else { 0.0 };
+    Some(frequencies[peak] + shift * (frequencies[1] - frequencies[0]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: a sine of amplitude 3 and 2.5 Hz on a constant has that amplitude at that frequency; a constant has no frequency.
+    #[test]
+    fn a_sine_is_found() {
+        let times: Vec<f64> = (0..=800).map(|k| 0.01 * f64::from(k)).collect();
+        let values: Vec<f64> = times.iter().map(|t| 7.0 + 3.0 * libm::sin(TAU * 2.5 * t)).collect();
+        let (frequencies, found) = amplitudes(&times, &values).unwrap();
+        let peak = dominant(&frequencies, &found).unwrap();
+        // twenty periods fit the window exactly: the peak is a bin
+        assert!((peak - 2.5).abs() < 1e-6, "{peak}");
+        let largest = found.iter().copied().fold(0.0, f64::max);
+        assert!((largest - 3.0).abs() < 1e-9, "{largest}");
+        let (frequencies, found) = amplitudes(&times, &vec![7.0; 801]).unwrap();
+        assert_eq!(dominant(&frequencies, &found), None);
+        assert!(amplitudes(&times[..5], &values[..5]).is_none());
+    }
+}

@@ -1,0 +1,170 @@
+//! The tables of the page: worst runs, statistics, files, glossary. Static HTML; a script sorts and searches them.
+
+use crate::campaign::Plan;
+use crate::report::page::payload::escaped;
+use crate::report::page::readable::{grouped, number, with_unit};
+use crate::report::page::runs::ShownRun;
+use crate::report::page::survey::Survey;
+use crate::run::Status;
+
+/// Inputs of a run that are listed; those farthest from nominal first.
+const MOST_INPUTS: usize = 4;
+
+/// Statistics of one observable.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StatisticsRow {
+    /// Name of the column.
+    pub name: String,
+    /// Its unit.
+    pub unit: String,
+    /// What it is.
+    pub meaning: String,
+    /// How many runs.
+    pub count: u64,
+    /// Mean; NaN where there is none.
+    pub mean: f64,
+    /// Standard deviation; NaN where there is none.
+    pub deviation: f64,
+    /// Smallest.
+    pub min: f64,
+    /// Largest.
+    pub max: f64,
+    /// Probability, quantile, lower and upper end of its interval (NaN where N does not bound it).
+    pub quantiles: Vec<[f64; 4]>,
+}
+
+/// A cell that sorts by its number.
+fn cell(value: f64) -> String {
+    if value.is_finite() {
+        format!("<td data-value=\"{value:e}\">{}</td>", number(value))
+    } else {
+        "<td>-</td>".to_owned()
+    }
+}
+
+/// The statistics of every observable.
+pub fn statistics(rows: &[StatisticsRow]) -> String {
+    let Some(first) = rows.first() else { return "<p>No run is ok: there are no statistics.</p>".to_owned() };
+    let heads: String =
+        first.quantiles.iter().map(|quantile| format!("<th>{}%</th>", number(100.0 * quantile[0]))).collect();
+    let mut body = String::new();
+    for row in rows {
+        let quantile = |[_, value, low, high]: &[f64; 4]| {
+            if !value.is_finite() {
+                return "<td>-</td>".to_owned();
+            }
+            let ends = [low, high].map(|end| if end.is_finite() { number(*end) } else { "not bounded".to_owned() });
+            let interval = if low.is_finite() || high.is_finite() {
+                format!(" title=\"95% interval: {} to {}\"", ends[0], ends[1])
+            } else {
+                String::new()
+            };
+            let mark = if low.is_finite() && high.is_finite() { "" } else { "<sup>*</sup>" };
+            format!("<td data-value=\"{value:e}\"{interval}>{}{mark}</td>", number(*value))
+        };
+        let quantiles: String = row.quantiles.iter().map(quantile).collect();
+        body += &format!(
+            "<tr><th scope=\"row\" title=\"{}\">{}</th><td class=\"unit\">{}</td>{}{}{}{}{quantiles}{}</tr>\n",
+            escaped(&row.meaning),
+            escaped(&row.name),
+            escaped(&row.unit),
+            cell(row.count as f64),
+            cell(row.mean),
+            cell(row.deviation),
+            cell(row.min),
+            cell(row.max),
+        );
+    }
+    format!(
+        "<div class=\"table\" tabindex=\"0\"><table class=\"sortable searchable\"><thead><tr><th>observable</th><th>unit</th><th>runs</th><th>mean</th><th>std. dev.</th><th>min</th>{heads}<th>max</th></tr></thead><tbody>\n{body}</tbody></table></div><p class=\"caption\">Of the dispersed runs that are ok. <sup>*</sup> The number of runs does not bound this quantile from both sides with 95% confidence, or the design has no interval; the interval of others appears on hover.</p>\n"
+    )
+}
+
+/// The nominal run and the worst ones, with inputs, outcome, reason and the command that replays each.
+pub fn worst_runs(plan: &Plan, runs: &[ShownRun]) -> String {
+    let columns = plan.dispersions.columns();
+    let mut body = String::new();
+    for shown in runs {
+        let mut inputs: Vec<(f64, String)> = columns
+            .iter()
+            .zip(&shown.inputs)
+            .map(|(column, value)| {
+                let unit = if column.parameter.unit() == "1" { "" } else { column.parameter.unit() };
+                let name = column.parameter.component_name(column.component);
+                let scale = column.nominal.abs().max(1e-300);
+                ((value - column.nominal).abs() / scale, format!("{name} = {}", with_unit(*value, unit)))
+            })
+            .collect();
+        inputs.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let all = inputs.len();
+        let mut listed: Vec<String> = inputs.into_iter().take(MOST_INPUTS).map(|(_, text)| escaped(&text)).collect();
+        if all > MOST_INPUTS {
+            listed.push(format!("and {} more", all - MOST_INPUTS));
+        }
+        let listed = if shown.sample.0 == 0 { "nominal values".to_owned() } else { listed.join("<br>") };
+        let reached = shown.run.as_ref().is_some_and(|run| run.outcome.points.min(run.grid.points()) > 1);
+        let status = if shown.status == Status::Done {
+            "ok".to_owned()
+        } else {
+            format!("<b>{}</b>: {}", shown.status.name(), escaped(&shown.reason))
+        };
+        let load = if reached {
+            format!("<button type=\"button\" class=\"load\" data-sample=\"{}\">show</button>", shown.sample)
+        } else {
+            "not run".to_owned()
+        };
+        body += &format!(
+            "<tr><th scope=\"row\">{}</th><td>{}</td><td class=\"text\">{status}</td><td class=\"text small\">{listed}</td><td><code>spindrift simulate plan.toml --sample {}</code></td><td>{load}</td></tr>\n",
+            shown.sample,
+            escaped(&shown.why),
+            shown.sample,
+        );
+    }
+    format!(
+        "<div class=\"table\" tabindex=\"0\"><table><thead><tr><th>sample</th><th>why it is here</th><th>outcome</th><th>inputs farthest from nominal</th><th>replay, in this folder</th><th>3D</th></tr></thead><tbody>\n{body}</tbody></table></div>\n"
+    )
+}
+
+/// Where the page comes from: plan, files, how to make it again, what the columns mean.
+pub fn provenance(plan: &Plan, survey: &Survey, files: &[(String, String)]) -> String {
+    let listed: String = files
+        .iter()
+        .map(|(name, hash)| {
+            format!("<tr><th scope=\"row\">{}</th><td><code>{}</code></td></tr>", escaped(name), escaped(hash))
+        })
+        .collect();
+    let files = if files.is_empty() {
+        String::new()
+    } else {
+        format!(
+            "<details><summary>Files and their SHA-256</summary><div class=\"table\"><table><tbody>{listed}</tbody></table></div></details>"
+        )
+    };
+    let glossary: String = survey
+        .outcomes
+        .iter()
+        .map(|outcome| {
+            let unit = if outcome.quantity.unit().is_empty() {
+                String::new()
+            } else {
+                format!(" ({})", escaped(outcome.quantity.unit()))
+            };
+            format!(
+                "<dt>{}{unit}</dt><dd>{}</dd>",
+                escaped(outcome.quantity.name()),
+                escaped(outcome.quantity.meaning())
+            )
+        })
+        .collect();
+    format!(
+        "<p>{} samples of plan <code>{}</code>, spindrift {}. Neither the number of threads nor the machine changes a bit of the rows, and the same rows give this page again, byte for byte.</p>
+<p>To make it again, in this folder: <code>spindrift report .</code> from the rows, or <code>spindrift campaign plan.toml --out elsewhere</code> from nothing.</p>
+<details><summary>The whole plan</summary><pre class=\"plan\"><code>{}</code></pre></details>{files}
+<details><summary>What the columns on this page mean</summary><dl class=\"glossary\">{glossary}</dl></details>
+<details><summary>Libraries in this page, and their licences</summary><p>Apache ECharts 6.1.0 (Apache-2.0) with ZRender (BSD-3-Clause) and tslib (0BSD) draws the plots, three.js 0.187.0 (MIT) the replay.</p><pre id=\"licences\" class=\"plan\"></pre></details>\n",
+        grouped(survey.samples),
+        plan.hash(),
+        env!("CARGO_PKG_VERSION"),
+        escaped(&plan.text()),
+    )
+}

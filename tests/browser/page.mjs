@@ -1,0 +1,192 @@
+// Opens report pages in headless Chromium and checks what a reader would see.
+//
+//   node page.mjs FOLDER PAGE...
+//
+// For each page: no message on the console and no request, the first screen without scripts, pixels in every figure, hover, the time slider
+// of the replay, the size of the file; screenshots in light, dark, narrow and print go to FOLDER. CHROMIUM names the browser.
+// Exit code 1 with one line for each thing that is wrong.
+
+import { mkdirSync, readFileSync, statSync } from "node:fs";
+import { basename, dirname, join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+import puppeteer from "puppeteer-core";
+
+const LARGEST = 3_000_000; // bytes of a page
+const FEWEST_COLORS = 3; // background, axes and at least one mark
+const [folder, ...pages] = process.argv.slice(2);
+const problems = [];
+
+// The number of different colours in a screenshot of an element, from the pixels that the browser itself decodes.
+async function colorsOf(page, handle) {
+  const png = await handle.screenshot({ encoding: "base64" });
+  return page.evaluate(async (data) => {
+    const image = new Image();
+    image.src = `data:image/png;base64,${data}`;
+    await image.decode();
+    const canvas = document.createElement("canvas");
+    [canvas.width, canvas.height] = [image.width, image.height];
+    const context = canvas.getContext("2d", { willReadFrequently: true });
+    context.drawImage(image, 0, 0);
+    const pixels = context.getImageData(0, 0, image.width, image.height).data;
+    const counts = new Map();
+    for (let k = 0; k < pixels.length; k += 4) {
+      const color = (pixels[k] << 16) | (pixels[k + 1] << 8) | pixels[k + 2];
+      counts.set(color, (counts.get(color) ?? 0) + 1);
+    }
+    return [...counts.values()].filter((count) => count > 8).length;
+  }, png);
+}
+
+async function opened(browser, file, viewport, scheme, scripts = true) {
+  const page = await browser.newPage();
+  await page.setViewport(viewport);
+  await page.setJavaScriptEnabled(scripts);
+  await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: scheme }, { name: "prefers-reduced-motion", value: "reduce" }]);
+  const name = basename(dirname(file));
+  page.on("console", (message) => {
+    if (!["warn", "error", "assert"].includes(message.type())) return;
+    // chromium's own remarks on software rendering
+    if (!/GPU stall|WebGL-|swiftshader/i.test(message.text())) problems.push(`${name}: console: ${message.text()}`);
+  });
+  page.on("pageerror", (error) => problems.push(`${name}: error: ${error.message}`));
+  page.on("request", (request) => {
+    if (!/^(file|data|blob):/.test(request.url())) problems.push(`${name}: it asks for ${request.url()}`);
+  });
+  await page.goto(pathToFileURL(file).href);
+  if (scripts) await page.waitForFunction(() => document.documentElement.dataset.ready === "true", { timeout: 30_000 });
+  return page;
+}
+
+async function checkWithoutScripts(browser, file, name) {
+  const page = await opened(browser, file, { width: 1300, height: 900 }, "light", false);
+  const text = await page.evaluate(() => document.body.innerText);
+  for (const part of ["Did it run?", "spindrift", "Statistics"]) if (!text.includes(part)) problems.push(`${name}: without scripts there is no "${part}"`);
+  const cards = await page.$$eval(".card", (list) => list.map((card) => card.getBoundingClientRect().top));
+  if (cards.length === 0) problems.push(`${name}: there is no card`);
+  if (cards.some((top) => top > 900)) problems.push(`${name}: a card is below the first screen`);
+  await page.close();
+}
+
+async function checkFigures(page, name) {
+  await page.evaluate(() => globalThis.spindriftPage.drawAll());
+  const figures = await page.$$("figure");
+  if (figures.length === 0) problems.push(`${name}: there are no figures`);
+  for (const figure of figures) {
+    const id = await figure.evaluate((element) => element.id);
+    const plot = await figure.$(".plot");
+    await plot.scrollIntoView();
+    const count = await colorsOf(page, plot);
+    if (count < FEWEST_COLORS) problems.push(`${name}: figure ${id} has ${count} colours`);
+    const marks = await plot.$$eval("svg path, svg circle", (list) => list.length);
+    if (marks < 3) problems.push(`${name}: figure ${id} has ${marks} elements`);
+  }
+  const text = await page.evaluate(() => document.body.innerText);
+  for (const wrong of ["NaN", "undefined", "Infinity", "[object"]) if (text.includes(wrong)) problems.push(`${name}: the page says ${wrong}`);
+  const width = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+  if (width > 0) problems.push(`${name}: the page is ${width} pixels wider than the window`);
+  return figures.length;
+}
+
+async function checkHover(page, name) {
+  const plots = await page.$$("figure .plot");
+  let shown = 0;
+  for (const plot of plots.slice(0, 6)) {
+    await plot.scrollIntoView();
+    const box = await plot.boundingBox();
+    for (const part of [0.5, 0.35, 0.65]) {
+      await page.mouse.move(box.x + part * box.width, box.y + 0.5 * box.height);
+      const tip = await plot.$eval(".tip", (element) => (element.hidden ? "" : element.innerText));
+      if (/\d/.test(tip)) {
+        shown += 1;
+        break;
+      }
+    }
+  }
+  if (plots.length > 0 && shown === 0) problems.push(`${name}: no figure answers the pointer`);
+}
+
+async function checkReplay(page, name) {
+  const stage = await page.$(".replay");
+  if (!stage) return;
+  await page.evaluate(async () => globalThis.spindriftPage.replay());
+  await stage.scrollIntoView();
+  await page.waitForSelector(".stage canvas", { timeout: 30_000 });
+  const canvas = await page.$(".stage canvas");
+  const before = await canvas.screenshot({ encoding: "base64" });
+  if ((await colorsOf(page, canvas)) < 5) problems.push(`${name}: the replay is empty`);
+  await page.$eval("input.time", (slider) => {
+    slider.value = String(Number(slider.max) * 0.37);
+    slider.dispatchEvent(new Event("input"));
+  });
+  const after = await canvas.screenshot({ encoding: "base64" });
+  if (before === after) problems.push(`${name}: the time slider does not move the replay`);
+  const cursors = await page.$$eval("#time .cursor", (list) => list.filter((cursor) => !cursor.hidden).length);
+  const figures = await page.$$eval("#time figure", (list) => list.length);
+  if (figures > 0 && cursors === 0) problems.push(`${name}: the time slider does not move the cursors`);
+  for (const camera of ["body", "chase", "inertial"]) await page.click(`[data-camera="${camera}"]`);
+  await page.focus(".stage");
+  const clock = () => page.$eval(".clock", (element) => element.textContent);
+  const time = await clock();
+  await page.keyboard.press("ArrowRight");
+  if ((await clock()) === time) problems.push(`${name}: the keyboard does not step the replay`);
+}
+
+async function checkTables(page, name) {
+  const search = await page.$("input[type=search]");
+  if (!search) return;
+  const rows = () => page.$$eval("#statistics tbody tr", (list) => list.filter((row) => !row.hidden).length);
+  const all = await rows();
+  await search.type("energy");
+  const some = await rows();
+  if (some === 0 || some >= all) problems.push(`${name}: searching "energy" leaves ${some} of ${all} rows`);
+  await page.$eval("input[type=search]", (input) => {
+    input.value = "";
+    input.dispatchEvent(new Event("input"));
+  });
+  await page.click("#statistics thead th:nth-child(2) button");
+}
+
+async function checked(browser, file) {
+  const name = basename(dirname(file));
+  const size = statSync(file).size;
+  if (size >= LARGEST) problems.push(`${name}: ${size} bytes`);
+  if (/(src|href)="https?:/.test(readFileSync(file, "latin1"))) problems.push(`${name}: it refers to the network`);
+  await checkWithoutScripts(browser, file, name);
+  const shot = (part) => join(folder, `${name}_${part}.png`);
+  const page = await opened(browser, file, { width: 1300, height: 900 }, "light");
+  await page.screenshot({ path: shot("first") });
+  const figures = await checkFigures(page, name);
+  await checkHover(page, name);
+  await checkTables(page, name);
+  await checkReplay(page, name);
+  await page.mouse.move(0, 0);
+  await page.screenshot({ path: shot("light"), fullPage: true });
+  await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: "light" }]);
+  await page.pdf({ path: join(folder, `${name}_print.pdf`), format: "A4", printBackground: true });
+  await page.emulateMediaType("print");
+  await page.setViewport({ width: 690, height: 976 });
+  await page.screenshot({ path: shot("print"), fullPage: true });
+  await page.close();
+  const dark = await opened(browser, file, { width: 1300, height: 900 }, "dark");
+  await dark.evaluate(() => globalThis.spindriftPage.drawAll());
+  await dark.screenshot({ path: shot("dark"), fullPage: true });
+  await dark.close();
+  const narrow = await opened(browser, file, { width: 390, height: 800 }, "light");
+  await checkFigures(narrow, `${name}, narrow`);
+  await narrow.screenshot({ path: shot("narrow"), fullPage: true });
+  await narrow.close();
+  console.log(`${name}: ${figures} figures, ${size} bytes`);
+}
+
+mkdirSync(folder, { recursive: true });
+const browser = await puppeteer.launch({
+  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+  args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--force-color-profile=srgb"],
+});
+try {
+  for (const file of pages) await checked(browser, resolve(file));
+} finally {
+  await browser.close();
+}
+problems.forEach((problem) => console.error(problem));
+process.exitCode = problems.length > 0 ? 1 : 0;
