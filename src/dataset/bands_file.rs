@@ -34,11 +34,6 @@ const VERSION: u8 = 1;
 /// Bytes of the checksum.
 const CHECKSUM: usize = 4;
 
-/// The name of the file of `part`.
-pub fn file_name(part: PartId) -> String {
-    format!("part-{:06}.bands", part.0)
-}
-
 /// Why bytes are not the bands of a part.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum NotBands {
@@ -351,7 +346,7 @@ mod tests {
         let folder = std::env::temp_dir().join(format!("spindrift-bands-file-{}", std::process::id()));
         std::fs::create_dir_all(&folder).unwrap();
         let file = |id: u64, bytes: &[u8]| {
-            let path = folder.join(file_name(PartId(id)));
+            let path = folder.join(format!("part-{id:06}.bands"));
             std::fs::write(&path, bytes).unwrap();
             path
         };

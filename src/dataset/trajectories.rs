@@ -49,13 +49,6 @@ pub fn file_name(sample: SampleId) -> String {
     format!("sample-{:06}.parquet", sample.0)
 }
 
-/// The sample whose file has this name.
-pub fn sample_of(name: &str) -> Option<SampleId> {
-    let digits = name.strip_prefix("sample-")?.strip_suffix(".parquet")?;
-    let sample = SampleId(digits.parse().ok()?);
-    (file_name(sample) == name).then_some(sample)
-}
-
 /// The samples of `plan` whose runs are retained, ascending: a function of the plan and its rows. Samples whose scene is not physical
 /// have no run and are left out.
 ///

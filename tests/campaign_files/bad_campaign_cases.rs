@@ -375,8 +375,8 @@ pub const CASES: &[(&str, &str, &str)] = &[
     ),
     (
         "points = 11\n",
-        "points = 11\n[bands]\npiont = 3\n",
-        "bad.toml:12: bands.piont = 3: must be a key of [bands] (points); did you mean points?",
+        "points = 11\n[bands]\npoint = 3\n",
+        "bad.toml:12: bands.point = 3: must be a key of [bands] (points); did you mean points?",
     ),
     (
         "points = 11\n",

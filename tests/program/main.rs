@@ -5,6 +5,7 @@ mod support;
 
 mod audit;
 mod campaign_command;
+mod columns_command;
 mod commands;
 mod compare_command;
 mod csv_digits;

@@ -4,15 +4,18 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::num::NonZeroUsize;
 
+use arrow_array::cast::AsArray;
+use arrow_array::types::UInt64Type;
+
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::dataset::rows_reader::RowsReader;
-use spindrift::dataset::trajectories::{file_name, retained, sample_of, save};
+use spindrift::dataset::trajectories::{file_name, retained, save};
 use spindrift::math::Isa;
 use spindrift::run::Status;
 use spindrift::sampling::SampleId;
 
 use super::small_campaign::{NEGATIVE_WALLS, campaign, folder};
-use crate::support::scratch_folder::ScratchFolder;
+use crate::support::scratch_folder::{ScratchFolder, batches, floats};
 
 /// A third of the samples is not physical, and one in some runs needs more steps than it may make.
 fn file(retain: &str) -> String {
@@ -104,7 +107,6 @@ fn files_are_those_of_simulate() {
     let mut seen = BTreeSet::new();
     for sample in &samples {
         let name = file_name(*sample);
-        assert_eq!(sample_of(&name), Some(*sample));
         let bytes = fs::read(one.join(&name)).unwrap_or_else(|error| panic!("{name}: {error}"));
         let code = i32::from(sample.0 > 2);
         scratch.prints(&format!("simulate small.toml --sample {sample} --out s.parquet"), code);
@@ -117,11 +119,64 @@ fn files_are_those_of_simulate() {
     assert!(refused.contains("missing") && refused.contains("sample-00000"), "{refused}");
 }
 
+/// Law: a campaign ends with the trajectories that its file asks for; where only that is changed, no sample is run again and the others are
+/// removed.
 #[test]
-fn names_of_files() {
-    assert_eq!(file_name(SampleId(12)), "sample-000012.parquet");
-    assert_eq!(sample_of("sample-1234567.parquet"), Some(SampleId(1_234_567)));
-    for other in ["sample-12.parquet", "sample-000012.csv", "part-000012.parquet", "sample-+00012.parquet"] {
-        assert_eq!(sample_of(other), None, "{other}");
+fn a_campaign_keeps_what_its_file_asks_for() {
+    let scratch = folder("retain");
+    let kept = |retain: &str, code: i32| -> BTreeSet<String> {
+        scratch.file("small.toml", &file(retain));
+        scratch.prints("campaign small.toml --out r", code);
+        let entries = fs::read_dir(scratch.path("r/trajectories")).into_iter().flatten();
+        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
+    };
+    let expected = |retain: &str| -> BTreeSet<String> {
+        retained(&plan(retain), &rows(&scratch), None).unwrap().into_iter().map(file_name).collect()
+    };
+    let worst = "worst:3 by energy_error_max";
+    let found = kept(worst, 1);
+    assert_eq!((found.len(), &found), (3, &expected(worst)));
+    let rows = scratch.parts("r");
+    for name in &found {
+        let sample = name.trim_start_matches("sample-").trim_end_matches(".parquet");
+        scratch.prints(&format!("simulate small.toml --sample {sample} --out s.parquet"), 0);
+        let simulated = fs::read(scratch.path("s.parquet")).unwrap();
+        assert!(fs::read(scratch.path("r/trajectories").join(name)).unwrap() == simulated, "{name}");
     }
+    let other = kept("sample:4", 1);
+    assert_eq!(other, expected("sample:4"));
+    assert!(found != other && rows == scratch.parts("r"));
+    assert!(kept("none", 1).is_empty());
+}
+
+/// Law: a campaign ends with bands of the runs that are ok, the same bytes for any number of threads; without points there are none.
+#[test]
+fn a_campaign_ends_with_bands() {
+    let scratch = folder("bands");
+    scratch.file("small.toml", &(campaign() + NEGATIVE_WALLS));
+    let files = [1, 2].map(|threads| {
+        scratch.prints(&format!("campaign small.toml --threads {threads} --out r{threads}"), 1);
+        fs::read(scratch.path(&format!("r{threads}/bands.parquet"))).unwrap()
+    });
+    assert!(files[0] == files[1]);
+    let bands = &batches(&scratch.path("r1/bands.parquet"))[0];
+    assert_eq!(bands.num_rows(), 10 * 11, "ten quantities at the eleven points of the grid");
+    let metadata = bands.schema_ref().metadata();
+    assert_eq!(metadata["spindrift.bands.relative_error"], "0.0078125");
+    let [min, low, median, high, max] = ["min", "p05", "p50", "p95", "max"].map(|name| floats(bands, name));
+    for row in 0..bands.num_rows() {
+        let numbers = [min[row], low[row], median[row], high[row], max[row]];
+        assert!(numbers.is_sorted(), "row {row}: {numbers:?}");
+    }
+    let all = all(&RowsReader::new(scratch.part_files("r1")));
+    let ok = all.iter().filter(|(sample, status, _)| *sample > 0 && *status == Status::Done);
+    let counts = bands.column_by_name("count").unwrap();
+    let counts = counts.as_primitive::<UInt64Type>().values();
+    let ok = ok.count() as u64;
+    assert!(ok < 599 && counts.iter().all(|count| *count == ok), "{ok} runs are ok: {counts:?}");
+    scratch.file("small.toml", &(campaign() + "[bands]\npoints = 0\n"));
+    scratch.prints("campaign small.toml --out none", 0);
+    assert!(
+        !scratch.path("none/bands.parquet").exists() && !scratch.path("none/bands").join("part-000000.bands").exists()
+    );
 }
