@@ -13,7 +13,7 @@ use spindrift::cli::{
 fn main() -> ExitCode {
     let ended = match arguments().command {
         Command::Campaign(options) => run_campaign::run(&options),
-        Command::Finish(options) => finish_campaign::run(&options),
+        Command::CompleteResult(options) => finish_campaign::run(&options),
         Command::Verify(options) => verify::run(&options),
         Command::Check(options) => check::run(&options),
         Command::Compare(options) => compare::run(&options),

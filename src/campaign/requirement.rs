@@ -33,9 +33,9 @@ pub struct Requirement {
 
 /// Confidence where the file does not say.
 pub const DEFAULT_CONFIDENCE: f64 = 0.95;
-/// The keys of which a requirement has one.
+/// The keys that say what is required: a requirement has exactly one.
 const STATEMENTS: [&str; 3] = ["quantile", "fraction", "mean"];
-/// The keys of limits, one of which a requirement has.
+/// The keys of limits: a requirement has exactly one.
 const LIMITS: [&str; 2] = ["at_most", "at_least"];
 
 impl Requirement {

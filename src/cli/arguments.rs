@@ -44,7 +44,8 @@ pub enum Command {
     Campaign(CampaignOptions),
     /// Complete a result whose parts several processes have made: check that all parts are there, make the summary.
     #[command(after_help = EXIT_CODES)]
-    Finish(FinishOptions),
+    #[command(name = "finish")]
+    CompleteResult(FinishOptions),
     /// Check a result: every checksum, and for a fraction of the parts every bit of every row.
     #[command(after_help = EXIT_CODES)]
     Verify(VerifyOptions),

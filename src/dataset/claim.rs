@@ -241,7 +241,7 @@ pub enum Claim {
 pub struct Ready {
     /// The dataset.
     pub folder: Folder,
-    /// Where it goes when it is finished, if it replaces another result.
+    /// Its final folder, if it replaces another result.
     pub replaces: Option<PathBuf>,
     /// Rows that were there already.
     pub rows: u64,

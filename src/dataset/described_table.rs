@@ -29,7 +29,7 @@ fn quantity(name: &str, meaning: &str) -> Quantity {
 }
 
 impl DescribedColumn {
-    /// A column of texts, some of which may be absent.
+    /// A column of texts, which may be absent.
     pub fn texts(name: &str, meaning: &str, texts: impl Iterator<Item = Option<String>>) -> Self {
         let heading = Heading::new(quantity(name, meaning), Content::Word).nullable();
         DescribedColumn { heading, values: Values::Texts(texts.collect()) }
@@ -41,7 +41,7 @@ impl DescribedColumn {
         DescribedColumn { heading, values: Values::Counts(counts.collect()) }
     }
 
-    /// A column of numbers, some of which may be absent. What is not a number is absent too: no reader's maximum becomes NaN.
+    /// A column of numbers, which may be absent. What is not a number is absent too: no reader's maximum becomes NaN.
     pub fn numbers(name: &str, meaning: &str, numbers: impl Iterator<Item = Option<f64>>) -> Self {
         let heading = Heading::new(quantity(name, meaning), Content::Real).nullable();
         let numbers = numbers.map(|number| number.filter(|number| !number.is_nan()));

@@ -80,7 +80,7 @@ impl Folder {
         }
         let (is_new, own) = (own.is_none(), own.unwrap_or_default());
         let text = Manifest::text(&folder.identity, own.parts.values(), false);
-        // a manifest with damage, or one that says that it is finished, is written anew: what is appended must follow its last part
+        // a manifest with damage, or one that says that it is finished, is written again: what is appended must follow its last part
         if is_new || !own.damaged.is_empty() || own.is_finished || own.identity.as_ref() != Some(&folder.identity) {
             folder.write(&folder.manifest, text.as_bytes())?;
         }
@@ -154,7 +154,7 @@ impl Folder {
             }
             Ok(())
         };
-        // after a failed flush the state of the file is unknown: it is written anew, once
+        // after a failed flush the state of the file is unknown: it is written again, once
         let placed =
             write().or_else(|_| write()).and_then(|()| self.storage.rename(&temporary, path).map_err(at(path)));
         if placed.is_err() {
@@ -237,7 +237,7 @@ impl Folder {
         self.storage.sync_folder(&self.root).map_err(at(&self.root))
     }
 
-    /// Prepares the folder `name` for files that are made anew: without those that an earlier end of the campaign left there.
+    /// Prepares the folder `name` for files that are made again: without those that an earlier end of the campaign left there.
     ///
     /// # Errors
     /// Where a file operation fails.

@@ -69,7 +69,7 @@ impl Sink for PartSink {
 }
 
 /// Runs `body` with a sink for the rows of `ensemble`; when this returns, every part that the sink took is in `folder`, or an error says why
-/// not. An error of writing goes before one of `body`.
+/// not. An error of writing is reported before one of `body`.
 ///
 /// # Errors
 /// Where parts could not be encoded or written.

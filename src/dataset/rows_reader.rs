@@ -481,7 +481,7 @@ mod tests {
         assert_eq!(RowsReader::new(Vec::new()).visit::<(), RowsError>(None, |_| Ok(()), |()| Ok(())), Ok(()));
     }
 
-    /// Law: a damaged file is an error that names it, never a panic, wherever it is damaged.
+    /// Law: a damaged file is an error that names it, never a panic, at whichever byte it is damaged.
     #[test]
     fn damaged_files_are_errors() {
         let folder = Folder::new("damaged");

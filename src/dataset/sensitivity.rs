@@ -47,9 +47,9 @@ pub struct InputSensitivity {
     pub regression: Option<Estimate>,
     /// Share of the variance that the regression on all inputs explains.
     pub r_squared: Option<Estimate>,
-    /// First-order index: share of the variance that goes with this input alone.
+    /// First-order index: share of the variance that this input explains alone.
     pub first_order: Option<Estimate>,
-    /// Total index: share that goes with this input and its interactions.
+    /// Total index: share that this input and its interactions explain.
     pub total: Option<Estimate>,
     /// The input that it is most correlated with, and their rank correlation, where that is notable.
     pub correlated_with: Option<(String, f64)>,

@@ -1,6 +1,6 @@
 //! [`Storage`]: the file operations that a dataset is made of, so that tests can let any of them fail.
 //!
-//! The idea of SQLite's test layer: everything that a dataset does to the disk goes through this interface, and a test repeats the same
+//! The idea of SQLite's test layer: everything that a dataset does to the disk uses this interface, and a test repeats the same
 //! work with a fault at the first, second, third ... operation. [`Disk`] is the real one.
 
 use std::fmt::Debug;

@@ -2,7 +2,7 @@
 //!
 //! - [`mod@parts`]: how samples are divided into parts; [`run_cost`]: their size. - [`rows`]: the rows of a part. - [`sink`]: takes the rows.
 //! - [`worker`]: [`Ensemble`], shared by all threads, and [`Worker`], the memory of one thread.
-//! - [`runner`]: distributes parts to threads. - [`drawn`]: sampled parameters without runs; [`percentiles`]: theirs.
+//! - [`runner`]: distributes parts to threads; [`supervision`]: what it is told. - [`drawn`]: sampled parameters without runs; [`percentiles`]: theirs.
 //! - [`bands`]: quantiles over time, counted run by run.
 //! - [`influence`]: which of them change no requested column. - [`single`]: one run with its states.
 //! - [`audit`]: runs compared with a reference solution. - [`precision`]: run time against error for every method.
@@ -25,6 +25,7 @@ pub mod runner;
 pub mod settings;
 pub mod single;
 pub mod sink;
+pub mod supervision;
 pub mod worker;
 
 pub use audit::{Audit, Auditor};
@@ -33,7 +34,8 @@ pub use drawn::DrawnScenes;
 pub use parts::{Part, PartId, Parts};
 pub use percentiles::Percentiles;
 pub use rows::{Rows, Shape};
-pub use runner::{RunError, Supervision, run};
+pub use runner::{RunError, run};
 pub use single::SingleRun;
 pub use sink::Sink;
+pub use supervision::Supervision;
 pub use worker::{Ensemble, Worker};

@@ -56,7 +56,7 @@ impl Parts {
         Parts { samples, largest: largest.clamp(1, LARGEST) }
     }
 
-    /// Sizes with their number of parts, in order; the last size goes on without end.
+    /// Sizes with their number of parts, in order; the last size has no end.
     fn sizes(self) -> impl Iterator<Item = (u64, Option<u64>)> {
         let mut size = SMALLEST.min(self.largest);
         std::iter::from_fn(move || {

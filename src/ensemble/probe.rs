@@ -6,7 +6,7 @@ use crate::campaign::SceneDraws;
 use crate::ensemble::audit::Auditor;
 use crate::ensemble::parts::{Part, PartId};
 use crate::ensemble::rows::Rows;
-use crate::ensemble::runner::Supervision;
+use crate::ensemble::supervision::Supervision;
 use crate::ensemble::worker::Ensemble;
 use crate::run::Status;
 use crate::sampling::SampleId;

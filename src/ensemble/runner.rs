@@ -13,6 +13,7 @@ use thiserror::Error;
 
 use crate::ensemble::parts::Part;
 use crate::ensemble::sink::Sink;
+use crate::ensemble::supervision::Supervision;
 use crate::ensemble::worker::Ensemble;
 
 /// Why a campaign was not completed.
@@ -24,27 +25,6 @@ pub enum RunError<E> {
     /// The sink refused rows.
     #[error("{0}")]
     Sink(E),
-}
-
-/// What a campaign is told while it runs, and what it tells.
-#[derive(Clone, Copy)]
-pub struct Supervision<'a> {
-    /// Called from any thread with the number of samples completed since its last call there.
-    pub progress: &'a (dyn Fn(u64) + Sync),
-    /// No further part is started once this is set.
-    pub stop: &'a AtomicBool,
-    /// Parts under way are given up once this is set.
-    pub abandon: &'a AtomicBool,
-}
-
-/// A flag that nobody sets.
-static NEVER: AtomicBool = AtomicBool::new(false);
-
-impl<'a> Supervision<'a> {
-    /// A campaign that nobody stops.
-    pub fn progress(progress: &'a (dyn Fn(u64) + Sync)) -> Self {
-        Supervision { progress, stop: &NEVER, abandon: &NEVER }
-    }
 }
 
 /// How many threads have work, of those that are asked for (`None`: one per core), with so many parts.
@@ -67,6 +47,7 @@ pub fn run<S: Sink>(
 ) -> Result<(), RunError<S::Error>> {
     let parts: Vec<Part> = parts.into_iter().collect();
     let largest = parts.iter().map(|part| part.count).max().unwrap_or(0);
+    ensemble.bands(); // made before the memory of a worker, which it would double for a moment
     let pool = ThreadPoolBuilder::new().num_threads(threads(asked, parts.len())).build()?;
     let (next, is_failed) = (AtomicUsize::new(0), AtomicBool::new(false));
     let failure: Mutex<Option<S::Error>> = Mutex::new(None);

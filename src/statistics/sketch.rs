@@ -313,7 +313,8 @@ mod tests {
             assert!(low <= *exact && *exact <= high && low.fract() == 0.0 && high.fract() == 0.0, "{rank}");
             assert!(*exact >= 2048.0 || low == high, "{rank}: {low} {high}");
         }
-        assert_eq!(ranks.quantile(0.1), Some(699.3));
+        // between neighbours of type 7: 99 intervals of 0.1 of 999, a rounding of the interpolation
+        assert!((ranks.quantile(0.1).unwrap() - 699.3).abs() <= 699.3 * f64::EPSILON);
     }
 
     #[test]

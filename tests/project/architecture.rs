@@ -22,7 +22,7 @@ const LAYERS: [(&str, u32); 15] = [
 ];
 
 /// Where each dependency may be used: modules, or single files. An empty list means everywhere.
-const CRATES: [(&str, &[&str]); 22] = [
+const CRATES: [(&str, &[&str]); 24] = [
     ("arrow_schema", &["dataset"]),
     ("base64", &["report/page"]),
     ("clap", &["cli"]),

@@ -104,12 +104,11 @@ fn program_problem(words: &[&str]) -> Option<String> {
     let file = match &arguments.command {
         Command::Campaign(options) => &options.file,
         Command::Check(options) => &options.file,
-        // folders of results, which are not shipped
         Command::Simulate(options) => &options.file,
         Command::Sample(options) => &options.file,
         Command::Precision(options) => &options.file,
         // a folder that a campaign has made
-        Command::Compare(_) | Command::Finish(_) | Command::Report(_) | Command::Verify(_) => return None,
+        Command::Compare(_) | Command::CompleteResult(_) | Command::Report(_) | Command::Verify(_) => return None,
         Command::Columns(options) => options.campaign.as_ref()?,
     };
     // `my_sweep.toml` is the file that the README asks the reader to save; FILE means any
