@@ -18,6 +18,7 @@ use crate::dataset::claim::{Claim, ClaimOptions, Ready, claim, open, replace};
 use crate::dataset::identity::identity;
 use crate::dataset::names::{PLAN, REPORT, SUMMARY, TRAJECTORIES};
 use crate::dataset::rows_reader::RowsReader;
+use crate::dataset::stopping::stopping;
 use crate::dataset::storage::Disk;
 use crate::dataset::tally::Tally;
 use crate::dataset::trajectories;
@@ -70,7 +71,8 @@ pub fn finish(job: &Finishing<'_>) -> Result<CommandOutcome, Failure> {
     write_junit(plan, &analysed.verdicts, tally.failed(), job.junit)?;
     let (failed, undecided) = (analysed.verdicts.failed(), analysed.verdicts.undecided());
     let outcome = CommandOutcome::of_campaign(tally.failed(), failed, undecided);
-    let summary = Summary::new(plan, &tally, &analysed.statistics, analysed.verdicts);
+    let stopping = stopping(plan, &reader, plan.samples, job.threads).map_err(Failure::files)?;
+    let summary = Summary::new(plan, &tally, &analysed.statistics, analysed.verdicts).with_stopping(plan, stopping);
     folder.write(SUMMARY, summary.json().as_bytes()).map_err(Failure::files)?;
     if job.page.0 {
         report::write(job.ensemble, &reader, folder.root(), job.threads, job.page.1)?;
@@ -108,6 +110,12 @@ fn retain(job: &Finishing<'_>, reader: &RowsReader) -> Result<(), Failure> {
     }
     folder.storage().create_folder(&path).map_err(|error| Failure::files(format!("{}: {error}", path.display())))?;
     trajectories::save(plan, &samples, &path, job.ensemble.isa(), job.threads).map_err(Failure::files)
+}
+
+/// The files of rows of a dataset, in the order of their samples.
+pub fn row_files(ready: &Ready) -> Vec<PathBuf> {
+    let parts = ready.folder.parts().into_iter();
+    parts.filter_map(|part| part.files.into_iter().next()).map(|file| ready.folder.path(&file.name)).collect()
 }
 
 fn headline(plan: &Plan, summary: &Summary, made: Option<(u64, Duration)>) -> String {

@@ -7,18 +7,22 @@ use std::time::Duration;
 use crate::campaign::{Overrides, Plan};
 use crate::cli::arguments::CampaignOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
-use crate::cli::finish_campaign::{Finishing, finish, outcome_of};
+use crate::cli::finish_campaign::{Finishing, finish, outcome_of, row_files};
 use crate::cli::input::{isa, plan};
 use crate::cli::progress::Bar;
 use crate::cli::screen;
 use crate::cli::signals::{self, Signals};
 use crate::dataset::claim::{Claim, ClaimOptions, Ready, Shard, claim};
 use crate::dataset::identity::identity;
+use crate::dataset::manifest::PartRecord;
 use crate::dataset::part_sink::{PartSink, write_parts};
+use crate::dataset::rows_reader::RowsReader;
+use crate::dataset::stopping::{stopping, targets};
 use crate::dataset::storage::Disk;
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::runner::threads;
-use crate::ensemble::{Ensemble, Part, RunError, Supervision, run as run_parts};
+use crate::ensemble::{Ensemble, Part, Parts, RunError, Supervision, run as run_parts};
+use crate::report::stopping_text::text as stopping_text;
 
 /// Default folder of results, in the current folder.
 const RESULTS: &str = "results";
@@ -31,6 +35,12 @@ pub fn run(options: &CampaignOptions) -> Result<CommandOutcome, Failure> {
     let signals = signals::watch();
     let overrides = Overrides { samples: options.samples, seed: options.seed, audit_fraction: options.audit };
     let plan = plan(&options.file, overrides)?;
+    if let (Some(shard), Some(_)) = (options.shard, &plan.analysis.stop) {
+        return Err(Failure::Input(format!(
+            "--shard {}/{}: must be left out with [stop], which looks at all samples before it runs more; delete [stop], or run without --shard",
+            shard.number, shard.of
+        )));
+    }
     let ensemble = Ensemble::new(&plan, isa()?);
     let root = options.out.clone().unwrap_or_else(|| PathBuf::from(RESULTS).join(&plan.name));
     let readers = threads(options.threads, usize::MAX);
@@ -57,17 +67,28 @@ fn already_complete(root: &Path, plan: &Plan, summary: &str) -> Result<CommandOu
 }
 
 /// What was found in the folder, for people.
-fn say_what_was_found(plan: &Plan, ready: &Ready, root: &Path, missing: &[Part]) {
+fn say_what_was_found(plan: &Plan, ready: &Ready, root: &Path, parts: Parts, missing: &[Part]) {
     for what in &ready.damaged {
         screen::note(&format!("{}: damaged, made again: {what}", root.display()));
     }
     if ready.rows > 0 {
-        let left: usize = missing.iter().map(|part| part.count).sum();
-        let name = &plan.name;
-        screen::note(&format!("{name}: {} samples are there already, {left} to run", plan.samples - left as u64));
+        let left = missing.iter().map(|part| part.count as u64).sum::<u64>();
+        let there = parts.samples() - left.min(parts.samples());
+        screen::note(&format!("{}: {there} samples are there already, {left} to run", plan.name));
     }
 }
 
+/// Says that some of the threads that were asked for have no work.
+fn say_idle_threads(asked: Option<NonZeroUsize>, parts: usize) {
+    if let Some(asked) = asked
+        && parts > 0
+        && threads(Some(asked), parts) < asked.get()
+    {
+        screen::note(&format!("{parts} parts are to be made: {parts} of {asked} threads have work"));
+    }
+}
+
+/// Runs what is missing, look by look where the plan has `[stop]`, and finishes the result.
 fn run_missing(
     options: &CampaignOptions,
     ensemble: &Ensemble<'_>,
@@ -77,53 +98,81 @@ fn run_missing(
 ) -> Result<CommandOutcome, Failure> {
     let plan = ensemble.plan();
     let parts = parts(plan, ensemble.isa());
-    // the last part of fewer samples is made again with its further rows
-    let outgrown = ready
-        .folder
-        .parts()
-        .into_iter()
-        .filter(|record| parts.part(record.samples().id).is_none_or(|part| part != record.samples()));
-    let outgrown: Vec<u64> = outgrown.map(|record| record.part).collect();
-    ready.folder.drop_parts(outgrown).map_err(Failure::files)?;
-    let mut missing = ready.folder.missing(parts.iter());
-    if let Some(Shard { number, of }) = options.shard {
-        missing.retain(|part| part.id.0 % of == number - 1);
-    }
-    say_what_was_found(plan, &ready, root, &missing);
+    let mut made = Made::default();
     plan.notes().iter().for_each(|note| screen::note(note));
-    if let Some(asked) = options.threads
-        && threads(Some(asked), missing.len()) < asked.get()
-        && !missing.is_empty()
-    {
-        screen::note(&format!(
-            "{} parts are to be made: {} of {asked} threads have work",
-            missing.len(),
-            missing.len()
-        ));
+    let targets = targets(plan);
+    let mut samples = targets.last().copied().unwrap_or(plan.samples);
+    // looks at fewer samples than there are rows have been taken
+    for target in targets.into_iter().filter(|target| *target >= ready.rows) {
+        samples = target;
+        if let Some(outcome) =
+            run_to(options, ensemble, (&ready, root), parts.with_samples(target), signals, &mut made)?
+        {
+            return Ok(outcome);
+        }
+        let rows = RowsReader::new(row_files(&ready));
+        match stopping(plan, &rows, target, options.threads).map_err(Failure::files)? {
+            Some(found) if !found.ends() => screen::note(&format!("{}: {}", plan.name, stopping_text(plan, &found))),
+            _ => break,
+        }
     }
-    let (elapsed, seconds) = run_them(options.threads, ensemble, &ready, &missing, signals)?;
+    let plan = Plan { samples, ..plan.clone() };
+    finish(&Finishing {
+        ensemble: &Ensemble::new(&plan, ensemble.isa()),
+        ready: &ready,
+        root,
+        threads: options.threads,
+        replayed: &replayed(options, root),
+        junit: options.junit.as_deref(),
+        page: (!options.no_report, options.figures.as_deref()),
+        made: Some((made.samples, made.elapsed)),
+        seconds: made.seconds,
+    })
+}
+
+/// What this process has run.
+#[derive(Clone, Copy, Debug, Default)]
+struct Made {
+    samples: u64,
+    elapsed: Duration,
+    /// CPU time of runs and audits, s.
+    seconds: [f64; 2],
+}
+
+/// Runs those of `parts` that are missing; an outcome where that ends the command: a signal, or a shard.
+fn run_to(
+    options: &CampaignOptions,
+    ensemble: &Ensemble<'_>,
+    (ready, root): (&Ready, &Path),
+    parts: Parts,
+    signals: &Signals,
+    made: &mut Made,
+) -> Result<Option<CommandOutcome>, Failure> {
+    let plan = ensemble.plan();
+    // a last part of fewer samples is made again with its further rows
+    let is_outgrown = |record: &PartRecord| parts.part(record.samples().id).is_none_or(|part| part != record.samples());
+    let outgrown: Vec<u64> =
+        ready.folder.parts().iter().filter(|record| is_outgrown(record)).map(|record| record.part).collect();
+    ready.folder.drop_parts(outgrown).map_err(Failure::files)?;
+    let is_mine = |part: &Part| options.shard.is_none_or(|shard| part.id.0 % shard.of == shard.number - 1);
+    let mut missing = ready.folder.missing(parts.iter());
+    missing.retain(is_mine);
+    if made.samples == 0 {
+        say_what_was_found(plan, ready, root, parts, &missing);
+        say_idle_threads(options.threads, missing.len());
+    }
+    let (elapsed, seconds) = run_them(options.threads, ensemble, ready, &missing, signals)?;
+    made.samples += missing.iter().map(|part| part.count as u64).sum::<u64>();
+    made.elapsed += elapsed;
+    made.seconds.iter_mut().zip(seconds).for_each(|(sum, seconds)| *sum += seconds);
     let left = ready.folder.missing(parts.iter());
-    let mine = |part: &&Part| options.shard.is_none_or(|shard| part.id.0 % shard.of == shard.number - 1);
     if let Some(signal) = signals.first()
-        && left.iter().any(|part| mine(&part))
+        && left.iter().any(is_mine)
     {
-        return Ok(stopped(signal, plan, left.iter().map(|part| part.count as u64).sum()));
+        let left = left.iter().map(|part| part.count as u64).sum();
+        return Ok(Some(stopped(signal, plan, parts.samples(), left)));
     }
-    let made = missing.iter().map(|part| part.count as u64).sum();
-    match options.shard {
-        Some(shard) => shard_is_done(shard, plan, root, (made, elapsed)),
-        None => finish(&Finishing {
-            ensemble,
-            ready: &ready,
-            root,
-            threads: options.threads,
-            replayed: &replayed(options, root),
-            junit: options.junit.as_deref(),
-            page: (!options.no_report, options.figures.as_deref()),
-            made: Some((made, elapsed)),
-            seconds,
-        }),
-    }
+    options.shard.map(|shard| shard_is_done(shard, plan, root, *made)).transpose()
 }
 
 /// Runs `missing`; the elapsed time, and the CPU time of runs and audits, s.
@@ -148,29 +197,24 @@ fn run_them(
     }
 }
 
-fn stopped(signal: i32, plan: &Plan, left: u64) -> CommandOutcome {
+fn stopped(signal: i32, plan: &Plan, samples: u64, left: u64) -> CommandOutcome {
     screen::note(&format!(
-        "{}: stopped by {}; {} of {} samples are done and safe. The same command continues.",
+        "{}: stopped by {}; {} of {samples} samples are done and safe. The same command continues.",
         plan.name,
         signals::name(signal),
-        plan.samples - left,
-        plan.samples
+        samples - left,
     ));
     CommandOutcome::Stopped(signal)
 }
 
-fn shard_is_done(
-    shard: Shard,
-    plan: &Plan,
-    root: &Path,
-    (made, elapsed): (u64, Duration),
-) -> Result<CommandOutcome, Failure> {
+fn shard_is_done(shard: Shard, plan: &Plan, root: &Path, made: Made) -> Result<CommandOutcome, Failure> {
     screen::print(&format!(
-        "{}: shard {}/{} is complete ({made} samples in {:.2} s). When all are: spindrift finish {}\n",
+        "{}: shard {}/{} is complete ({} samples in {:.2} s). When all are: spindrift finish {}\n",
         plan.name,
         shard.number,
         shard.of,
-        elapsed.as_secs_f64(),
+        made.samples,
+        made.elapsed.as_secs_f64(),
         root.display()
     ))?;
     Ok(CommandOutcome::Done)

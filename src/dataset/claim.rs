@@ -13,6 +13,7 @@ use crate::dataset::manifest::{Identity, Manifest, PartRecord};
 use crate::dataset::names::{
     FOLDERS, MANIFEST, PLAN, REPORT, SHARDS, SUCCESS, SUMMARY, UNFINISHED, is_ours, manifest_of,
 };
+use crate::dataset::stopping::targets;
 use crate::dataset::storage::{Storage, StorageError, at};
 
 /// Most bytes of a plan that is read.
@@ -304,8 +305,9 @@ pub fn claim(
     if let Some(there) = found.identity.as_ref().filter(|there| *there != identity) {
         return Err(occupied(folder, &found, there, (plan, identity)));
     }
-    if found.rows() > plan.samples {
-        return Err(FolderError::Larger { folder, found: found.rows(), asked: plan.samples });
+    let most = targets(plan).last().copied().unwrap_or(plan.samples);
+    if found.rows() > most {
+        return Err(FolderError::Larger { folder, found: found.rows(), asked: most });
     }
     ready(storage, root, (plan, identity), options, found, locks)
 }
@@ -354,8 +356,9 @@ fn ready(
     let broken = crate::dataset::verify::damaged(storage, root, &all, options.threads);
     let mut damaged = found.damaged_lines();
     damaged.extend(broken.iter().map(|(_, what)| what.clone()));
-    let is_complete =
-        found.is_finished && damaged.is_empty() && found.plan == plan.text() && found.rows() == plan.samples;
+    // of a plan with [stop] the finished number of rows is that of one of its looks
+    let is_whole = found.is_finished && targets(plan).contains(&found.rows());
+    let is_complete = is_whole && damaged.is_empty() && found.plan == plan.text();
     if is_complete && options.shard.is_none() {
         let path = root.join(SUMMARY);
         let summary = storage.read(&path, MOST_PLAN).map_err(at(&path))?;

@@ -7,7 +7,8 @@
 //! - [`tally`], [`audit_tally`]: statistics counted while rows are written. - [`provenance`]: metadata on the origin.
 //! - [`trajectories`]: time series of the runs that are retained.
 //! - [`table`]: tables in a single file: [`timeseries`], [`bands_table`], [`drawn_table`], [`precision_table`].
-//! - [`statistics`]: what the rows say of every observable ([`observed`], [`population`]); [`verdicts`]: of the requirements.
+//! - [`statistics`]: what the rows say of every observable ([`observed`], [`population`]); [`verdicts`]: of the requirements; [`mod@stopping`]: whether
+//!   they are enough.
 //! - [`sensitivity`]: which input matters. - [`statistics_table`], [`sensitivity_table`]: both as files, by [`described_table`]. - [`parallel`]: threads.
 //! - [`comparison`]: two results.
 //!
@@ -38,6 +39,7 @@ pub mod sensitivity;
 pub mod sensitivity_table;
 pub mod statistics;
 pub mod statistics_table;
+pub mod stopping;
 pub mod storage;
 pub mod table;
 pub mod tally;

@@ -56,6 +56,12 @@ impl Parts {
         Parts { samples, largest: largest.clamp(1, LARGEST) }
     }
 
+    /// The parts of the same campaign with another number of samples.
+    #[must_use]
+    pub fn with_samples(self, samples: u64) -> Self {
+        Parts { samples, ..self }
+    }
+
     /// Sizes with their number of parts, in order; the last size has no end.
     fn sizes(self) -> impl Iterator<Item = (u64, Option<u64>)> {
         let mut size = SMALLEST.min(self.largest);
@@ -64,6 +70,11 @@ impl Parts {
             size = (2 * size).min(self.largest);
             Some((now, (now < self.largest).then_some(OF_ONE_SIZE)))
         })
+    }
+
+    /// Number of samples.
+    pub fn samples(self) -> u64 {
+        self.samples
     }
 
     /// Number of parts.

@@ -2,7 +2,7 @@
 //!
 //! - [`summary`], [`observable_lines`], [`audit_summary`]: statistics of a campaign. - [`requirements`]: verdicts, also as JUnit XML. - [`precision_text`]: work-precision measurements as text.
 //! - [`canvas`]: figures as SVG and PNG. - [`plot`]: curves in panels. - [`simulation_figure`], [`drawn_figure`], [`precision_figure`]: the figures of the commands.
-//! - [`comparison_text`]: two results compared.
+//! - [`comparison_text`]: two results compared. - [`stopping_text`]: looks of a campaign that stops when it is precise enough.
 //! - [`number`]: numbers in text. - [`page`]: the report of a campaign as one HTML file.
 
 pub mod audit_summary;
@@ -19,4 +19,5 @@ pub mod precision_figure;
 pub mod precision_text;
 pub mod requirements;
 pub mod simulation_figure;
+pub mod stopping_text;
 pub mod summary;

@@ -6,12 +6,13 @@ use serde_json::{Map, Value, json};
 
 use crate::campaign::Plan;
 use crate::dataset::statistics::Statistics;
+use crate::dataset::stopping::Stopping;
 use crate::dataset::tally::{Ended, Tally, Worst};
 use crate::dataset::verdicts::Verdicts;
 use crate::report::audit_summary::{AuditSummary, Numerics};
 use crate::report::number::short;
 use crate::report::observable_lines::{ObservableLine, lines, write_table};
-use crate::report::requirements;
+use crate::report::{requirements, stopping_text};
 use crate::run::Status;
 use crate::sampling::{Replaced, SampleId};
 
@@ -34,6 +35,8 @@ pub struct Summary {
     quantile_error: f64,
     audit: Option<AuditSummary>,
     replaced: Vec<Replaced>,
+    /// The last look of a campaign with `[stop]`, and in words.
+    stopping: Option<(Stopping, String)>,
 }
 
 impl Summary {
@@ -59,7 +62,15 @@ impl Summary {
             quantile_error: statistics.quantile_error,
             audit: tally.audits().map(|audits| AuditSummary::new(audits, plan.audit_fraction)),
             replaced: plan.dispersions.replaced_correlations().to_vec(),
+            stopping: None,
         }
+    }
+
+    /// The same, with the look that ended the campaign of `plan`.
+    #[must_use]
+    pub fn with_stopping(self, plan: &Plan, stopping: Option<Stopping>) -> Self {
+        let stopping = stopping.map(|found| (found.clone(), stopping_text::text(plan, &found)));
+        Summary { stopping, ..self }
     }
 
     /// The text of `summary.json`. Nothing in it depends on the machine or the clock.
@@ -103,6 +114,17 @@ impl Summary {
         }
         if let Some(audit) = &self.audit {
             value["audit"] = json!(audit);
+        }
+        if let Some((stopping, _)) = &self.stopping {
+            value["stop"] = json!({
+                "look": stopping.look,
+                "looks": stopping.looks,
+                "samples": stopping.samples,
+                "precise_enough": stopping.found.stops,
+                "estimate": stopping.found.estimate,
+                "interval": stopping.found.interval,
+                "confidence": stopping.found.confidence,
+            });
         }
         format!("{value:#}\n")
     }
@@ -168,6 +190,9 @@ impl Display for Summary {
         write_table(f, &self.lines, counted, self.confidence)?;
         if self.intervals.starts_with("none") {
             writeln!(f, "  intervals: {}", self.intervals)?;
+        }
+        if let Some((_, text)) = &self.stopping {
+            writeln!(f, "\n  stop: {text}")?;
         }
         f.write_str(&requirements::text(&self.verdicts))?;
         let Some(audit) = &self.audit else { return Ok(()) };
