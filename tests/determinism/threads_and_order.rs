@@ -67,7 +67,7 @@ fn whole(campaign: &Ensemble<'_>, threads: usize) -> Vec<(u64, Bits)> {
 
 #[test]
 fn rows_do_not_depend_on_threads() {
-    for (name, failures) in [("spin_sweep", true), ("burn", false), ("no_debris", false)] {
+    for (name, failures) in [("spin_sweep", true), ("burn", false), ("no_debris", false), ("pyramid", false)] {
         let plan = plan(name, 1000, failures);
         let campaign = Ensemble::new(&plan, Isa::best());
         let one = whole(&campaign, 1);
