@@ -126,12 +126,12 @@ fn a_nutating_top_swings_its_tilted_wheel_at_twice_the_body_nutation_rate() {
         row["exchange_frequency_hz"]
     );
     // what one gains the other loses, apart from the constant energy of the second wheel
-    // measured: -1 to the last digit
-    close(row["exchange_w1_correlation"], -1.0, 1e-6);
+    close(row["exchange_w1_correlation"], -1.0, ROUNDING);
     let swing = row["exchange_body_peak_to_peak_j"];
     let whole_swings = 2.0 * 30.0 * expected;
     // 30 s are not a whole number of swings; measured: 0.008
-    close(row["exchange_body_gross_j"], swing * whole_swings, 0.2);
+    close(row["exchange_body_gross_j"], swing * whole_swings, 0.05);
+    // the largest of 301 points is below the maximum between them; measured: 0.0083
     close(row["exchange_body_power_max_w"], 0.5 * swing * 2.0 * nutation.abs(), 0.05);
 }
 
