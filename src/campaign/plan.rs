@@ -80,8 +80,8 @@ pub struct Overrides {
 
 /// Observation points where the file does not say.
 const POINTS: u64 = 101;
-/// Tolerance where the file does not say. A Taylor series of higher order costs little: a run at 1e-14 takes a tenth longer than one at
-/// 1e-10, and its errors are near rounding. Runge-Kutta methods pay with many more steps.
+/// Tolerance where the file does not say. A Taylor series of higher order costs little: a run at 1e-14 takes about a tenth longer than one
+/// at 1e-10, and its errors are near rounding. Runge-Kutta methods pay with many more steps.
 const fn default_tolerance(method: Method) -> f64 {
     match method {
         Method::Auto | Method::Taylor => 1e-14,

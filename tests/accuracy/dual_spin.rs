@@ -30,6 +30,12 @@ const ELLIPSE: f64 = 2e-3;
 /// some stay up to 1 kg m^2 on the wrong side. Measured 0.05.
 const FOUND: f64 = 0.5;
 
+/// What the campaign file says to expect: from this distance to the boundary on, kg m^2, a stable spin stays within the first angle and
+/// an unstable one exceeds the second, degrees. Measured: 0.395 and 65.8.
+const CLEAR: f64 = 5.0;
+const STABLE_DEG: f64 = 0.4;
+const UNSTABLE_DEG: f64 = 65.0;
+
 /// A dispersed run: its transverse moments, kg m^2, and the largest angle of the spin axis from the angular momentum, rad.
 struct Spin {
     moments: [f64; 2],
@@ -86,6 +92,15 @@ fn the_campaign_finds_the_classical_boundary() {
     println!("{ellipses} ellipses within {worst:.1e} of their reach, {hyperbolas} hyperbolas left");
     assert!(ellipses > 1000 && hyperbolas > 1000, "{ellipses}, {hyperbolas}");
     assert!(worst < ELLIPSE, "{worst:e}");
+
+    // what the head of the campaign file says
+    let clear = spins.iter().filter(|spin| spin.moments.iter().all(|moment| (moment - BOUNDARY).abs() > CLEAR));
+    let (stable, unstable): (Vec<&Spin>, Vec<&Spin>) =
+        clear.partition(|spin| (spin.moments[0] - BOUNDARY) * (spin.moments[1] - BOUNDARY) > 0.0);
+    assert!(stable.len() > 1000 && unstable.len() > 1000, "{} {}", stable.len(), unstable.len());
+    let degrees = |spins: &[&Spin]| spins.iter().map(|spin| spin.nutation.to_degrees()).collect::<Vec<f64>>();
+    assert!(degrees(&stable).iter().all(|angle| *angle < STABLE_DEG), "a stable spin was left");
+    assert!(degrees(&unstable).iter().all(|angle| *angle > UNSTABLE_DEG), "an unstable spin stayed");
 
     // the boundary as a user finds it: the K with the fewest runs on the wrong side
     let wrong = |k: f64| {
