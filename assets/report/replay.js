@@ -125,7 +125,7 @@ export class Replay {
     ];
     const paint = () => legend.replaceChildren(...entries.map(([text, hue]) => {
       const item = control("li", {}, text);
-      item.insertAdjacentHTML("afterbegin", `<svg class="key" viewBox="0 0 14 14" aria-hidden="true"><rect y="5" width="14" height="4" fill="${colors().hues[hue]}"/></svg>`);
+      item.insertAdjacentHTML("afterbegin", `<svg class="key" viewBox="0 0 14 14" aria-hidden="true"><rect y="5" width="14" height="4" fill="${colors().hues[hue]}"/><\/svg>`);
       return item;
     }));
     paint();

@@ -6,7 +6,7 @@ use core::f64::consts::{PI, TAU};
 /// Most frequencies of a spectrum, from the lowest on.
 const MOST: usize = 400;
 
-/// Frequencies (Hz) and amplitudes of `values` at uniform `times`, s, without the mean; `None` for fewer than eight points.
+/// Frequencies (Hz) and amplitudes, zero within rounding of `values` at uniform `times`, s, without the mean; `None` for fewer than eight points.
 ///
 /// Hann window w_k = (1 - cos(2 pi k / n))/2, whose mean is 1/2: a sine of amplitude a within a bin has the amplitude a (F. J. Harris,
 /// *Proc. IEEE* 66 (1978) 51).
@@ -18,6 +18,8 @@ pub fn amplitudes(times: &[f64], values: &[f64]) -> Option<(Vec<f64>, Vec<f64>)>
     let weight: f64 = windows.iter().sum();
     let mean = values.iter().zip(&windows).map(|(value, window)| value * window).sum::<f64>() / weight;
     let shaped: Vec<f64> = values.iter().zip(&windows).map(|(value, window)| (value - mean) * window).collect();
+    // what rounding leaves of a constant is no amplitude: n roundings of the mean, each of half an epsilon
+    let noise = count * f64::EPSILON * values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
     let amplitude = |bin: usize| {
         let (mut re, mut im) = (0.0, 0.0);
         for (k, value) in shaped.iter().enumerate() {
@@ -26,7 +28,8 @@ pub fn amplitudes(times: &[f64], values: &[f64]) -> Option<(Vec<f64>, Vec<f64>)>
             re += value * libm::cos(phase);
             im += value * libm::sin(phase);
         }
-        2.0 / weight * libm::sqrt(re * re + im * im)
+        let found = 2.0 / weight * libm::sqrt(re * re + im * im);
+        if found > noise { found } else { 0.0 }
     };
     let bins = 1..=(n / 2).min(MOST);
     Some((bins.clone().map(|bin| bin as f64 / duration).collect(), bins.map(amplitude).collect()))
