@@ -39,7 +39,7 @@ const UNITS: &[(&str, &str, f64, f64)] = &[
 ];
 
 /// SI units of columns that have no other names here.
-const MORE: [&str; 6] = ["J", "W", "N s", "N m s", "Hz", "1/s"];
+const MORE: [&str; 7] = ["J", "W", "N s", "N m s", "Hz", "1/s", "m/s^2"];
 
 /// The unit `unit`, where a value can be written in it; of a pure number "1".
 pub(super) fn known(unit: &str) -> Option<&'static str> {

@@ -1,5 +1,6 @@
 //! [`Ensemble`]: a plan made ready to run; [`Worker`]: the memory in which one thread runs samples of it.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, OnceLock};
 
@@ -110,6 +111,8 @@ impl<'p> Ensemble<'p> {
             draws: SceneDraws::new(self.plan),
             scenes: Vec::new(),
             rows_of_scenes: Vec::with_capacity(BATCH),
+            is_done: Vec::with_capacity(BATCH),
+            new_engine: |ensemble| ensemble.propagator.engine(ensemble.isa),
             engine: self.propagator.engine(self.isa),
             observer: self.observer(),
             observed: vec![0.0; self.shape().observables],
@@ -126,6 +129,10 @@ pub struct Worker<'c> {
     scenes: Vec<Scene>,
     /// The row of each scene.
     rows_of_scenes: Vec<usize>,
+    /// Which scenes of the batch have ended.
+    is_done: Vec<bool>,
+    /// Makes an engine: again after a panic, which may leave anything in one.
+    new_engine: fn(&Ensemble<'_>) -> Box<dyn Engine>,
     engine: Box<dyn Engine>,
     observer: Observer,
     observed: Vec<f64>,
@@ -182,19 +189,118 @@ impl Worker<'_> {
         }
     }
 
+    /// Runs the scenes of the batch. Where the program panics, those that had not ended are run again one by one in new memory, so that
+    /// the panic is the end of one run only.
     fn propagate(&mut self, rows: &mut Rows) {
-        let (isa, scenes) = (self.campaign.isa, &self.scenes[..self.rows_of_scenes.len()]);
-        let (rows_of_scenes, observer, observed) = (&self.rows_of_scenes, &mut self.observer, &mut self.observed);
+        self.is_done.clear();
+        self.is_done.resize(self.rows_of_scenes.len(), false);
+        let all = 0..self.rows_of_scenes.len();
+        if catch_unwind(AssertUnwindSafe(|| self.propagate_some(all.clone(), rows))).is_ok() {
+            return;
+        }
+        for scene in all {
+            if self.is_done[scene] {
+                continue;
+            }
+            self.engine = (self.new_engine)(self.campaign);
+            self.observer = self.campaign.observer();
+            if let Err(panic) = catch_unwind(AssertUnwindSafe(|| self.propagate_some(scene..scene + 1, rows))) {
+                let row = self.rows_of_scenes[scene];
+                rows.set_result(row, Status::InternalError, &vec![f64::NAN; self.observed.len()]);
+                rows.set_reason(row, message(panic.as_ref()));
+            }
+        }
+        self.engine = (self.new_engine)(self.campaign);
+        self.observer = self.campaign.observer();
+    }
+
+    /// Runs some scenes of the batch.
+    fn propagate_some(&mut self, which: std::ops::Range<usize>, rows: &mut Rows) {
+        let (isa, first_scene) = (self.campaign.isa, which.start);
+        let (scenes, rows_of_scenes) = (&self.scenes[which.clone()], &self.rows_of_scenes[which]);
+        let (observer, observed, is_done) = (&mut self.observer, &mut self.observed, &mut self.is_done);
         let first = rows.part().first.0;
         self.engine.propagate(scenes, &mut |CompletedRun { index, table, outcome, .. }| {
             let (status, row) =
                 (observer.observe(isa, &scenes[index], table, outcome, observed), rows_of_scenes[index]);
             rows.set_result(row, status, observed);
+            is_done[first_scene + index] = true;
             if status != Status::Done {
                 rows.set_reason(row, observer.reason(status, outcome, observed));
             } else if let Some(bands) = rows.bands_mut().filter(|_| first + row as u64 > 0) {
                 bands.add(isa, observer);
             }
         });
+    }
+}
+
+/// What a panic said.
+fn message(panic: &(dyn std::any::Any + Send)) -> String {
+    let text = panic.downcast_ref::<String>().map(String::as_str).or_else(|| panic.downcast_ref::<&str>().copied());
+    format!("the program failed in this run: {}", text.unwrap_or("no message"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::campaign::Overrides;
+    use crate::dynamics::actuation::Laws;
+    use crate::ensemble::PartId;
+    use crate::propagation::CompletionCallback;
+
+    /// The engine of a campaign, which panics at scenes with a spin above [`TOO_FAST`], before the last run of a batch ends.
+    struct Fragile(Box<dyn Engine>);
+
+    /// Some 2% of the samples of the campaign spin faster, rad/s.
+    const TOO_FAST: f64 = 34.5;
+
+    fn is_too_fast(scene: &Scene) -> bool {
+        scene.initial.omega_se_s[2] > TOO_FAST
+    }
+
+    impl Engine for Fragile {
+        fn propagate_under(&mut self, laws: Laws<'_>, scenes: &[Scene], finish: &mut CompletionCallback<'_>) {
+            let sound = scenes.iter().position(is_too_fast).unwrap_or(scenes.len());
+            self.0.propagate_under(laws, &scenes[..sound], finish);
+            assert!(sound == scenes.len(), "a spin of more than {TOO_FAST} rad/s");
+        }
+    }
+
+    /// Law: a panic is the end of one run: its row says so, and every other row and the bands are what they are without it.
+    #[test]
+    fn a_panic_ends_one_run() {
+        let path = format!("{}/campaigns/spin_sweep.toml", env!("CARGO_MANIFEST_DIR"));
+        let text = std::fs::read_to_string(path).unwrap();
+        let plan = Plan::from_text("spin_sweep", &text, Overrides::default()).unwrap();
+        let ensemble = Ensemble::new(&plan, Isa::best());
+        let part = Part { id: PartId(0), first: SampleId(0), count: 400 };
+        let supervision = Supervision::progress(&|_| {});
+        let (mut sound, mut fragile) = (ensemble.rows(400), ensemble.rows(400));
+        ensemble.worker().run(part, &mut sound, supervision);
+        let mut worker = ensemble.worker();
+        worker.new_engine = |ensemble| Box::new(Fragile(ensemble.propagator.engine(ensemble.isa)));
+        worker.engine = (worker.new_engine)(&ensemble);
+        std::panic::set_hook(Box::new(|_| {})); // the panics are wanted
+        worker.run(part, &mut fragile, supervision);
+        let _ = std::panic::take_hook();
+        let mut draws = SceneDraws::new(&plan);
+        let mut failed = 0;
+        for row in 0..part.count {
+            let is_failed = is_too_fast(&draws.scene(SampleId(row as u64)).unwrap());
+            let expected = if is_failed { Status::InternalError } else { sound.statuses()[row] };
+            assert_eq!(fragile.statuses()[row], expected, "row {row}");
+            for index in (0..ensemble.shape().observables).filter(|_| !is_failed) {
+                let (found, expected) = (fragile.observable(index)[row], sound.observable(index)[row]);
+                assert_eq!(found.to_bits(), expected.to_bits(), "row {row}, column {index}");
+            }
+            if is_failed {
+                failed += 1;
+                let (_, reason) = fragile.reasons().iter().find(|(at, _)| *at == row).unwrap();
+                assert!(reason.contains("34.5 rad/s"), "{reason}");
+            }
+        }
+        assert!((2..40).contains(&failed), "{failed} of 400");
+        let runs = |rows: &Rows| rows.bands().unwrap().bands().runs();
+        assert_eq!(runs(&fragile) + failed, runs(&sound));
     }
 }

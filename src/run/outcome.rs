@@ -15,17 +15,20 @@ pub enum Status {
     InvalidSample,
     /// Reached the end of its horizon with errors beyond any use: see [`crate::observables::accuracy`].
     Inaccurate,
+    /// The program failed in this run, which is a defect of spindrift: its other runs are not affected.
+    InternalError,
 }
 
 impl Status {
     /// All values, in the order of their codes.
-    pub const ALL: [Status; 6] = [
+    pub const ALL: [Status; 7] = [
         Status::Done,
         Status::StepLimit,
         Status::StepFloor,
         Status::NonFinite,
         Status::InvalidSample,
         Status::Inaccurate,
+        Status::InternalError,
     ];
 
     /// The name in rows and summaries.
@@ -37,13 +40,14 @@ impl Status {
             Status::NonFinite => "non_finite",
             Status::InvalidSample => "invalid_sample",
             Status::Inaccurate => "inaccurate",
+            Status::InternalError => "internal_error",
         }
     }
 
     /// Why a run ended in this way after `time` seconds, in words; nothing where the run itself has to say it.
     pub fn reason(self, time: f64) -> Option<String> {
         Some(match self {
-            Status::Done | Status::InvalidSample | Status::Inaccurate => return None,
+            Status::Done | Status::InvalidSample | Status::Inaccurate | Status::InternalError => return None,
             Status::StepLimit => format!("integrator.max_steps was reached at {time:?} s"),
             Status::StepFloor => format!("the step fell below the resolution of time at {time:?} s"),
             Status::NonFinite => format!("a state became infinite or not a number after {time:?} s"),

@@ -11,6 +11,8 @@ mod compare_command;
 mod csv_digits;
 mod exit_codes;
 mod failed_runs;
+mod faults;
+mod interrupted;
 mod memory;
 mod motion;
 mod observation;

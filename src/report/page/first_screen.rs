@@ -47,6 +47,7 @@ fn words(status: Status) -> &'static str {
         Status::NonFinite => "failed: not finite",
         Status::InvalidSample => "invalid: not physical",
         Status::Inaccurate => "inaccurate",
+        Status::InternalError => "internal error",
     }
 }
 

@@ -1,0 +1,306 @@
+//! Campaigns that are killed, stopped by signals, divided into shards, damaged or made longer: the dataset is always that of one
+//! uninterrupted process, byte for byte.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::Duration;
+
+use super::small_campaign::{campaign, folder};
+use crate::support::scratch_folder::ScratchFolder;
+
+/// Kills of the short version, which runs with all tests.
+const KILLS: u32 = 100;
+/// Samples of the campaign that is killed: 36 parts, some 0.3 s.
+const SAMPLES: u64 = 20_000;
+/// A kill comes at most this long after the start, ms.
+const LATEST_MS: u64 = 250;
+
+/// Every file below `root` with its content, by its name.
+fn contents(root: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut found = BTreeMap::new();
+    let mut folders = vec![root.to_owned()];
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(&folder).unwrap().map(Result::unwrap) {
+            let path = entry.path();
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                let name = path.strip_prefix(root).unwrap().to_string_lossy().into_owned();
+                found.insert(name, fs::read(&path).unwrap());
+            }
+        }
+    }
+    found
+}
+
+/// Checks that two datasets are the same files with the same bytes.
+fn assert_same(scratch: &ScratchFolder, one: &str, other: &str) {
+    let (one, other) = (contents(&scratch.path(one)), contents(&scratch.path(other)));
+    assert_eq!(one.keys().collect::<Vec<_>>(), other.keys().collect::<Vec<_>>());
+    for (name, bytes) in &one {
+        assert!(*bytes == other[name], "{name} differs");
+    }
+}
+
+/// Starts the program in the background.
+fn start(scratch: &ScratchFolder, arguments: &str) -> Child {
+    let mut program = Command::new(env!("CARGO_BIN_EXE_spindrift"));
+    let program = program.args(arguments.split_whitespace()).current_dir(&scratch.0);
+    program.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
+}
+
+/// The rows that the manifest of an interrupted result lists; each of their files must be there whole.
+fn committed(scratch: &ScratchFolder, result: &str) -> usize {
+    let manifest = fs::read_to_string(scratch.path(result).join("manifest.jsonl")).unwrap_or_default();
+    let parts: Vec<serde_json::Value> = manifest
+        .lines()
+        .filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok())
+        .filter(|value| value.get("part").is_some())
+        .collect();
+    for part in &parts {
+        for file in part["files"].as_array().unwrap() {
+            let path = scratch.path(result).join(file["name"].as_str().unwrap());
+            assert_eq!(fs::metadata(&path).unwrap().len(), file["bytes"].as_u64().unwrap(), "{}", path.display());
+        }
+    }
+    parts.len()
+}
+
+/// Kills the campaign `kills` times at instants that follow from `seed`, continuing it until it is complete, and starts again; every
+/// complete result is that of the uninterrupted campaign, and no committed part is lost.
+fn kill_and_continue(kills: u32, seed: u64) {
+    let scratch = folder(&format!("kill-{seed}"));
+    let command = format!("campaign small.toml --samples {SAMPLES} --no-report");
+    scratch.prints(&format!("{command} --out whole"), 0);
+    let (mut killed, mut completed, mut state) = (0, 0, seed);
+    while killed < kills || completed == 0 {
+        let mut before = 0;
+        loop {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            let mut child = start(&scratch, &format!("{command} --out half"));
+            std::thread::sleep(Duration::from_millis((state >> 33) % LATEST_MS));
+            let has_ended = child.try_wait().unwrap().is_some();
+            child.kill().unwrap();
+            let ended = child.wait().unwrap();
+            if has_ended || ended.success() {
+                assert!(ended.success(), "{ended}");
+                break;
+            }
+            killed += 1;
+            let now = committed(&scratch, "half");
+            assert!(now >= before, "{now} parts are listed after {before}");
+            before = now;
+        }
+        assert_same(&scratch, "half", "whole");
+        fs::remove_dir_all(scratch.path("half")).unwrap();
+        completed += 1;
+    }
+}
+
+#[test]
+fn a_killed_campaign_continues_to_the_same_bytes() {
+    kill_and_continue(KILLS, 1);
+}
+
+/// The long version: 1,000 kills.
+#[test]
+#[ignore = "minutes: cargo test --release --test program -- --ignored a_thousand_kills"]
+fn a_thousand_kills() {
+    kill_and_continue(10 * KILLS, 2);
+}
+
+/// Law: any number of shards, made in any order by any number of threads, finish to the bytes of one process.
+#[test]
+fn shards_are_the_campaign() {
+    let scratch = folder("shards");
+    scratch.prints("campaign small.toml --samples 5000 --out whole", 0);
+    for (shards, threads) in [(1, 2), (4, 1), (13, 3)] {
+        let out = format!("of{shards}");
+        for shard in (1..=shards).rev() {
+            if shard == 1 && shards > 1 {
+                let said = scratch.prints(&format!("finish {out}"), 4);
+                assert!(said.contains("missing") && said.contains("spindrift campaign"), "{said}");
+            }
+            let said = scratch.prints(
+                &format!("campaign small.toml --samples 5000 --threads {threads} --shard {shard}/{shards} --out {out}"),
+                0,
+            );
+            assert!(said.contains(&format!("spindrift finish {out}")), "{said}");
+        }
+        scratch.prints(&format!("finish {out}"), 0);
+        assert_same(&scratch, &out, "whole");
+        scratch.prints(&format!("verify {out} --fraction 1"), 0);
+        scratch.prints(&format!("finish {out}"), 0);
+    }
+    let said = scratch.prints("campaign small.toml --shard 0/3", 2);
+    assert!(said.contains("1 <= K <= N"), "{said}");
+}
+
+/// Law: more samples add parts and keep the rows; the result is that of a campaign of so many samples.
+#[test]
+fn a_finished_campaign_is_extended() {
+    let scratch = folder("extend");
+    scratch.prints("campaign small.toml --samples 900 --out grown", 0);
+    let before = scratch.parts("grown");
+    let said = scratch.prints("campaign small.toml --samples 2000 --out grown", 0);
+    assert!(said.contains("768 samples are there already, 1232 to run"), "{said}");
+    assert_eq!(scratch.parts("grown")[..3], before[..3], "whole parts stay");
+    scratch.prints("campaign small.toml --samples 2000 --out whole", 0);
+    assert_same(&scratch, "grown", "whole");
+    let said = scratch.prints("campaign small.toml --samples 100 --out grown", 4);
+    assert!(said.contains("2000 rows"), "{said}");
+}
+
+/// Law: what does not change rows changes no part: verdicts and names are made again without a run.
+#[test]
+fn other_questions_of_the_same_rows_run_nothing() {
+    let scratch = folder("questions");
+    scratch.prints("campaign small.toml --out r", 0);
+    let before = scratch.parts("r");
+    let require = "\n[[require]]\nobservable = \"energy_error_max\"\nquantile = 0.9\nat_most = 1e-30\n";
+    scratch.file("strict.toml", &format!("{}{require}", campaign().replace("\"small\"", "\"strict\"")));
+    let said = scratch.prints("campaign strict.toml --out r", 3);
+    assert!(said.contains("600 samples are there already, 0 to run") && said.contains("FAIL"), "{said}");
+    assert_eq!(scratch.parts("r"), before);
+    assert!(fs::read_to_string(scratch.path("r/plan.toml")).unwrap().contains("strict"));
+    scratch.prints("campaign strict.toml --out r", 3);
+}
+
+/// Law: a part that was truncated, emptied, swapped, changed in one bit or removed is found by `verify` and by the campaign's command, and
+/// made again.
+#[test]
+fn damaged_parts_are_found_and_made_again() {
+    let scratch = folder("damage");
+    scratch.prints("campaign small.toml --out whole", 0);
+    let part = |number: u32| scratch.path(&format!("r/runs/part-{number:06}.parquet"));
+    let bytes = |number: u32| fs::read(scratch.path(&format!("whole/runs/part-{number:06}.parquet"))).unwrap();
+    let damages: [(&str, Box<dyn Fn()>); 6] = [
+        ("truncated", Box::new(|| fs::write(part(1), &bytes(1)[..500]).unwrap())),
+        ("emptied", Box::new(|| fs::write(part(0), b"").unwrap())),
+        (
+            "swapped",
+            Box::new(|| {
+                fs::write(part(0), bytes(1)).unwrap();
+                fs::write(part(1), bytes(0)).unwrap();
+            }),
+        ),
+        (
+            "one bit",
+            Box::new(|| {
+                let mut bytes = bytes(2);
+                let middle = bytes.len() / 2;
+                bytes[middle] ^= 1;
+                fs::write(part(2), bytes).unwrap();
+            }),
+        ),
+        ("removed", Box::new(|| fs::remove_file(part(1)).unwrap())),
+        ("bands", Box::new(|| fs::write(scratch.path("r/bands/part-000001.bands"), b"x").unwrap())),
+    ];
+    for (name, damage) in damages {
+        for repair in ["verify r --repair", "campaign small.toml --out r"] {
+            let _ = fs::remove_dir_all(scratch.path("r"));
+            scratch.prints("campaign small.toml --out r", 0);
+            damage();
+            let said = scratch.prints("verify r", 4);
+            assert!(said.contains("part-00000"), "{name}: {said}");
+            scratch.prints(repair, 0);
+            assert_same(&scratch, "r", "whole");
+        }
+    }
+}
+
+/// Law: whichever line of the manifest is damaged, it is said once, and the result is made whole.
+#[test]
+fn a_damaged_manifest_is_recovered() {
+    let scratch = folder("manifest");
+    scratch.prints("campaign small.toml --out whole", 0);
+    let text = fs::read_to_string(scratch.path("whole/manifest.jsonl")).unwrap();
+    let lines = text.lines().count();
+    for line in 1..lines {
+        let mut changed: Vec<String> = text.lines().map(str::to_owned).collect();
+        changed[line] = changed[line].replacen('0', "1", 1).replacen("true", "tru3", 1);
+        scratch.prints("campaign small.toml --out r", 0);
+        fs::write(scratch.path("r/manifest.jsonl"), format!("{}\n", changed.join("\n"))).unwrap();
+        let said = scratch.prints("campaign small.toml --out r", 0);
+        assert_eq!(said.matches("manifest.jsonl:").count(), 1, "{said}");
+        assert_same(&scratch, "r", "whole");
+    }
+}
+
+/// Law: `--overwrite` keeps the old result until the new one is complete, and never touches what is not ours.
+#[test]
+fn the_old_result_stays_until_the_new_one_is_complete() {
+    let scratch = folder("replace");
+    scratch.prints("campaign small.toml --out r", 0);
+    scratch.prints("campaign small.toml --out whole --seed 9", 0);
+    let old = contents(&scratch.path("r"));
+    let mut child = start(&scratch, &format!("campaign small.toml --seed 9 --overwrite --out r --samples {SAMPLES}"));
+    std::thread::sleep(Duration::from_millis(80));
+    child.kill().unwrap();
+    if !child.wait().unwrap().success() {
+        assert!(contents(&scratch.path("r")) == old, "the old result is as it was");
+    }
+    scratch.prints("campaign small.toml --seed 9 --overwrite --out r", 0);
+    assert_same(&scratch, "r", "whole");
+    assert!(!scratch.path(".r.old").exists());
+
+    for (name, place) in [
+        ("notes.txt", "r/notes.txt"),
+        ("foreign part", "r/runs/part-00000-6f1c.snappy.parquet"),
+        ("unlisted part", "r/runs/part-000099.parquet"),
+    ] {
+        scratch.file(place, "precious");
+        let said = scratch.prints("campaign small.toml --overwrite --out r", 4);
+        assert!(said.contains("not part of a result"), "{name}: {said}");
+        assert_eq!(fs::read_to_string(scratch.path(place)).unwrap(), "precious");
+        fs::remove_file(scratch.path(place)).unwrap();
+    }
+    fs::create_dir(scratch.path("other")).unwrap();
+    scratch.file("other/plan.toml", "a plan of another program");
+    scratch.prints("campaign small.toml --overwrite --out other", 4);
+    assert_eq!(fs::read_to_string(scratch.path("other/plan.toml")).unwrap(), "a plan of another program");
+}
+
+/// Law: links that somebody planted are not followed.
+#[cfg(unix)]
+#[test]
+fn planted_links_are_not_followed() {
+    let scratch = folder("links");
+    scratch.file("precious", "precious");
+    fs::create_dir_all(scratch.path("r/runs")).unwrap();
+    for name in ["r/manifest.jsonl.tmp", "r/plan.toml.tmp", "r/runs/part-000000.parquet.tmp"] {
+        std::os::unix::fs::symlink(scratch.path("precious"), scratch.path(name)).unwrap();
+    }
+    let said = scratch.prints("campaign small.toml --out r", 4);
+    assert!(said.contains("not part of a result"), "{said}");
+    assert_eq!(fs::read_to_string(scratch.path("precious")).unwrap(), "precious");
+    // the folder of runs as a link to another result
+    scratch.prints("campaign small.toml --out victim", 0);
+    let before = contents(&scratch.path("victim"));
+    fs::create_dir(scratch.path("l")).unwrap();
+    std::os::unix::fs::symlink(scratch.path("victim/runs"), scratch.path("l/runs")).unwrap();
+    scratch.prints("campaign small.toml --seed 5 --out l", 4);
+    assert_eq!(contents(&scratch.path("victim")), before);
+}
+
+/// Law: a signal ends a campaign with its code, keeps what is committed, and the same command continues.
+#[cfg(unix)]
+#[test]
+fn signals_stop_and_the_command_continues() {
+    let scratch = folder("signals");
+    let command = format!("campaign small.toml --samples {} --no-report --threads 1", 10 * SAMPLES);
+    for (signal, code) in [("HUP", 129), ("INT", 130), ("USR1", 138), ("TERM", 143)] {
+        let mut child = start(&scratch, &format!("{command} --out r"));
+        std::thread::sleep(Duration::from_millis(300));
+        let id = child.id().to_string();
+        assert!(Command::new("kill").args(["-s", signal, &id]).status().unwrap().success());
+        let ended = child.wait().unwrap();
+        assert_eq!(ended.code(), Some(code), "SIG{signal}");
+        assert!(committed(&scratch, "r") > 0);
+    }
+    scratch.prints(&format!("{command} --out r"), 0);
+    scratch.prints(&format!("{command} --out whole"), 0);
+    assert_same(&scratch, "r", "whole");
+}
