@@ -5,7 +5,7 @@ use super::section::Section;
 
 /// Points of bands where the file does not say and the grid has as many.
 const POINTS: u64 = 33;
-/// Most points: counts at a point take some 10 kB for each series in each thread.
+/// Most points: counts at a point take some 4 kB for each series in each thread, and a spacecraft with eight wheels has 34 series.
 const MOST_POINTS: u64 = 257;
 /// The key.
 const KEY: &str = "bands.points";

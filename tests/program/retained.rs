@@ -6,7 +6,7 @@ use std::num::NonZeroUsize;
 
 use arrow_array::cast::AsArray;
 use arrow_array::types::UInt64Type;
-
+use parquet::file::reader::{FileReader, SerializedFileReader};
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::dataset::rows_reader::RowsReader;
 use spindrift::dataset::trajectories::{file_name, retained, save};
@@ -161,8 +161,10 @@ fn a_campaign_ends_with_bands() {
     assert!(files[0] == files[1]);
     let bands = &batches(&scratch.path("r1/bands.parquet"))[0];
     assert_eq!(bands.num_rows(), 10 * 11, "ten quantities at the eleven points of the grid");
-    let metadata = bands.schema_ref().metadata();
-    assert_eq!(metadata["spindrift.bands.relative_error"], "0.0078125");
+    let file = SerializedFileReader::new(fs::File::open(scratch.path("r1/bands.parquet")).unwrap()).unwrap();
+    let metadata = file.metadata().file_metadata().key_value_metadata().unwrap();
+    let error = metadata.iter().find(|pair| pair.key == "spindrift.bands.relative_error").unwrap();
+    assert_eq!(error.value.as_deref(), Some("0.0078125"));
     let [min, low, median, high, max] = ["min", "p05", "p50", "p95", "max"].map(|name| floats(bands, name));
     for row in 0..bands.num_rows() {
         let numbers = [min[row], low[row], median[row], high[row], max[row]];
