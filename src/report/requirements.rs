@@ -99,8 +99,8 @@ pub fn json(verdicts: &Verdicts) -> Value {
     })
 }
 
-/// The verdicts as JUnit XML: one test case for each requirement, an undecided one is an error; and one that every run is `ok`, of
-/// which `failed` are not. No clock time: the same campaign gives the same bytes.
+/// The verdicts as JUnit XML: one test case for each requirement, an undecided one is an error; and one that every run is `ok`:
+/// `failed` are not. No clock time: the same campaign gives the same bytes.
 pub fn junit(plan: &Plan, verdicts: &Verdicts, failed: u64) -> String {
     let name = escaped(&plan.name);
     let (failures, errors) = (verdicts.failed() + usize::from(failed > 0), verdicts.undecided());

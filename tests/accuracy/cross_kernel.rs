@@ -106,7 +106,7 @@ pub fn distance(scene: &Scene, found: &StateTable, expected: &StateTable) -> (f6
 /// Every step may add its tolerance to the rate, relative, and what a rate is off by turns the body for the rest of the run:
 /// steps x tolerance x (1 + angle) bounds the error for states of the size of the rate. That the step taken is of a higher
 /// order than its estimate makes up for lever arms, works and impulses that are larger. Measured, of steps x tolerance x (1 + angle):
-/// 0.11 Dormand-Prince, 0.16 DOP853; 0.0016 null-space, whose steps are those of its 62 states, most of which turn with the wheels; 0.007
+/// 0.11 Dormand-Prince, 0.16 DOP853; 0.0016 null-space, whose steps are those of its 62 states, and most of these turn with the wheels; 0.007
 /// fixed steps of 1 ms (Runge-Kutta 4) and 10 ms (Gauss-Legendre), which know no tolerance.
 pub fn bound(scene: &Scene, method: Method, outcome: &Outcome) -> f64 {
     let steps = outcome.effort.steps as f64 * TOLERANCE;

@@ -144,7 +144,7 @@ fn sections(
     let replay = "<div class=\"replay\"><p>The replay needs JavaScript and WebGL.</p></div>";
     let table = tables::statistics(&contents.statistics);
     [
-        figures(Section::Time, "Over time", "How the spacecraft moves and where the energy goes. Drag the time slider of the replay to move a cursor through these figures.", ""),
+        figures(Section::Time, "Over time", "How the spacecraft moves and where the energy is. Drag the time slider of the replay to move a cursor through these figures.", ""),
         figures(Section::Numerics, "Numerics", "How large the numerical errors are. Small and without a trend is good.", ""),
         figures(Section::Influence, "What drives it", "Which uncertain input makes the difference.", pairs),
         plain("worst", "Worst runs", "The nominal run, runs that failed, and those with the largest errors. Each is replayed bit for bit by its command.", tables::worst_runs(plan, shown)),
