@@ -72,10 +72,11 @@ pub fn finish(job: &Finishing<'_>) -> Result<CommandOutcome, Failure> {
     let (failed, undecided) = (analysed.verdicts.failed(), analysed.verdicts.undecided());
     let outcome = CommandOutcome::of_campaign(tally.failed(), failed, undecided);
     let stopping = stopping(plan, &reader, plan.samples, job.threads).map_err(Failure::files)?;
-    let summary = Summary::new(plan, &tally, &analysed.statistics, analysed.verdicts).with_stopping(plan, stopping);
+    let summary =
+        Summary::new(plan, &tally, &analysed.statistics, analysed.verdicts.clone()).with_stopping(plan, stopping);
     folder.write(SUMMARY, summary.json().as_bytes()).map_err(Failure::files)?;
     if job.page.0 {
-        report::write(job.ensemble, &reader, folder.root(), job.threads, job.page.1)?;
+        report::write(job.ensemble, (&reader, &records, &analysed), folder.root(), job.threads, job.page.1)?;
     } else {
         let path = folder.path(REPORT);
         folder.storage().remove(&path).map_err(|error| Failure::files(format!("{}: {error}", path.display())))?;

@@ -4,6 +4,8 @@ use std::path::Path;
 
 use crate::campaign::{Overrides, Plan, find};
 use crate::cli::command_outcome::Failure;
+use crate::dataset::claim::Found;
+use crate::dataset::names::PLAN;
 use crate::math::Isa;
 use crate::math::isa::VARIABLE;
 
@@ -28,4 +30,14 @@ pub fn isa() -> Result<Isa, Failure> {
         let names: Vec<&str> = Isa::available().iter().map(|isa| isa.name()).collect();
         Failure::Input(format!("{VARIABLE}={value}: must be one of {}, or unset", names.join(", ")))
     })
+}
+
+/// The plan of a result that is in a folder, with the number of samples that it has: with `[stop]` that is known at the end only.
+///
+/// # Errors
+/// Where the plan cannot be read.
+pub fn plan_of_result(root: &Path, found: &Found) -> Result<Plan, Failure> {
+    let plan = plan(&root.join(PLAN), Overrides::default())?;
+    let has_ended = plan.analysis.stop.is_some() && found.is_finished;
+    Ok(if has_ended { Plan { samples: found.rows(), ..plan } } else { plan })
 }

@@ -2,11 +2,10 @@
 
 use std::sync::Mutex;
 
-use crate::campaign::Overrides;
 use crate::cli::arguments::VerifyOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::finish_campaign::{Finishing, finish};
-use crate::cli::input::{isa, plan};
+use crate::cli::input::{isa, plan_of_result};
 use crate::cli::screen;
 use crate::cli::signals;
 use crate::dataset::claim::{Claim, ClaimOptions, Found, claim, open};
@@ -28,7 +27,7 @@ use crate::ensemble::{Ensemble, Part, Rows, Sink, Supervision, run as run_parts}
 pub fn run(options: &VerifyOptions) -> Result<CommandOutcome, Failure> {
     let root = &options.folder;
     let (found, locks) = open(&Disk, root).map_err(Failure::files)?;
-    let plan = plan(&root.join(PLAN), Overrides::default())?;
+    let plan = plan_of_result(root, &found)?;
     let ensemble = Ensemble::new(&plan, isa()?);
     let expected = identity(&ensemble);
     if found.identity.as_ref().is_some_and(|there| *there != expected) {

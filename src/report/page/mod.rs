@@ -4,10 +4,11 @@
 //!
 //! - [`survey`]: what is taken from the rows. - [`runs`]: the runs that are shown in full.
 //! - [`figure`]: what a figure shows; [`over_time`], [`errors`], [`influence`], [`inputs`]: the figures; [`drawing`]: figures as files.
-//! - [`cards`], [`first_screen`], [`tables`], [`document`]: the HTML. - [`replay`]: the 3D replay. - [`payload`]: numbers in the page.
+//! - `analysed`: statistics, verdicts and bands. - [`cards`], [`first_screen`], [`tables`], [`document`]: the HTML. - [`replay`]: the 3D replay. - [`payload`]: numbers in the page.
 //!
 //! The scripts and styles are in `assets/report/`.
 
+mod analysed;
 pub mod cards;
 mod document;
 pub mod drawing;

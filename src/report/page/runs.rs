@@ -105,7 +105,9 @@ fn worst(survey: &Survey) -> Vec<(SampleId, String)> {
 /// The times of the runs in the page: the campaign's, with divided intervals where it is coarse or the motion fast.
 fn grid(plan: &Plan, isa: Isa) -> Grid {
     let given = plan.grid.points().saturating_sub(1).max(1);
-    let fastest = SingleRun::with_series(plan, SampleId(0), plan.grid.clone(), isa, &[]).map_or(0.0, |run| {
+    // the memory of the page does not depend on the campaign's grid
+    let looked_at = Grid::uniform(plan.grid.duration(), given.min(MOST) + 1);
+    let fastest = SingleRun::with_series(plan, SampleId(0), looked_at, isa, &[]).map_or(0.0, |run| {
         let points = run.outcome.points.min(run.grid.points());
         let rate = |point: usize| crate::math::vector::norm(run.table.at(crate::run::StateField::Rate, point));
         (0..points).map(rate).filter(|rate| rate.is_finite()).fold(0.0, f64::max)
