@@ -1,7 +1,7 @@
-//! [`in_parallel`]: independent items on several threads.
+//! [`in_parallel`]: independent items on several threads. [`in_order`]: the same, merged in their order as they come.
 
 use std::num::NonZeroUsize;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
 /// `each` of the items, on `threads` threads, in their order.
 pub fn in_parallel<T: Send, U: Send>(
@@ -33,9 +33,139 @@ pub fn in_parallel<T: Send, U: Send>(
     done.into_iter().map(|(_, found)| found).collect()
 }
 
+/// Items that may wait for an earlier one, for each thread.
+const AHEAD: usize = 2;
+
+/// Reads the items 0, 1, ... `items` - 1 on `threads` threads (`None`: one per core): `read` makes something of one on any thread, and `merge` is
+/// shown the results in the order of the items, whatever the threads do. No more than a few of them are held at a time.
+///
+/// # Errors
+/// That of the first item, in their order, for which `read` or `merge` fails.
+pub fn in_order<T: Send, E: Send>(
+    items: usize,
+    threads: Option<NonZeroUsize>,
+    read: impl Fn(usize) -> Result<T, E> + Sync,
+    merge: impl FnMut(T) -> Result<(), E> + Send,
+) -> Result<(), E> {
+    let cores = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+    let threads = threads.map_or_else(cores, NonZeroUsize::get).min(items);
+    let state = State { next: 0, merged: 0, waiting: Vec::new(), merge, error: None };
+    let queue = Queue { state: Mutex::new(state), moved: Condvar::new() };
+    if threads <= 1 {
+        queue.work(items, usize::MAX, &read);
+    } else {
+        std::thread::scope(|scope| {
+            for _ in 0..threads {
+                scope.spawn(|| queue.work(items, threads * AHEAD, &read));
+            }
+        });
+    }
+    match queue.state.into_inner().unwrap_or_else(PoisonError::into_inner).error {
+        Some((_, error)) => Err(error),
+        None => Ok(()),
+    }
+}
+
+/// What the threads of [`in_order`] share.
+struct Queue<T, E, M> {
+    state: Mutex<State<T, E, M>>,
+    /// An item was merged, or one has failed.
+    moved: Condvar,
+}
+
+struct State<T, E, M> {
+    /// The next item to be read.
+    next: usize,
+    /// How many items were merged.
+    merged: usize,
+    /// Items that were read before an earlier one.
+    waiting: Vec<(usize, T)>,
+    merge: M,
+    /// The first item that failed.
+    error: Option<(usize, E)>,
+}
+
+impl<T, E, M: FnMut(T) -> Result<(), E>> Queue<T, E, M> {
+    fn lock(&self) -> MutexGuard<'_, State<T, E, M>> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Reads items until there is none left; at most `ahead` of them beyond those that were merged.
+    fn work(&self, items: usize, ahead: usize, read: &impl Fn(usize) -> Result<T, E>) {
+        let _guard = Guard { queue: self, items };
+        loop {
+            let mut state = self.lock();
+            while state.error.is_none() && state.next < items && state.next - state.merged >= ahead {
+                state = self.moved.wait(state).unwrap_or_else(PoisonError::into_inner);
+            }
+            if state.error.is_some() || state.next >= items {
+                return;
+            }
+            let index = state.next;
+            state.next += 1;
+            drop(state);
+            let found = read(index);
+            let mut state = self.lock();
+            match found {
+                Ok(found) => state.waiting.push((index, found)),
+                Err(error) => state.fail(index, error),
+            }
+            state.merge_ready();
+            self.moved.notify_all();
+        }
+    }
+}
+
+/// Ends the work of all threads where one panics: they would wait for its item.
+struct Guard<'q, T, E, M: FnMut(T) -> Result<(), E>> {
+    queue: &'q Queue<T, E, M>,
+    items: usize,
+}
+
+impl<T, E, M: FnMut(T) -> Result<(), E>> Drop for Guard<'_, T, E, M> {
+    fn drop(&mut self) {
+        if std::thread::panicking() {
+            self.queue.lock().next = self.items;
+            self.queue.moved.notify_all();
+        }
+    }
+}
+
+impl<T, E, M: FnMut(T) -> Result<(), E>> State<T, E, M> {
+    fn fail(&mut self, index: usize, error: E) {
+        if self.error.as_ref().is_none_or(|(first, _)| index < *first) {
+            self.error = Some((index, error));
+        }
+    }
+
+    fn merge_ready(&mut self) {
+        while let Some(at) = self.waiting.iter().position(|(index, _)| *index == self.merged) {
+            let (index, found) = self.waiting.swap_remove(at);
+            if self.error.as_ref().is_some_and(|(first, _)| *first < index) {
+                return;
+            }
+            if let Err(error) = (self.merge)(found) {
+                self.fail(index, error);
+                return;
+            }
+            self.merged += 1;
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Law: a panic in one item ends the work, and does not leave the other threads waiting.
+    #[test]
+    fn a_panic_does_not_hang() {
+        let work = || {
+            let read = |item: usize| if item == 1 { panic!("item 1") } else { Ok::<usize, ()>(item) };
+            in_order(1000, NonZeroUsize::new(3), read, |_| Ok(()))
+        };
+        assert!(std::panic::catch_unwind(work).is_err());
+    }
 
     /// Law: results are in the order of the items, for any number of threads.
     #[test]

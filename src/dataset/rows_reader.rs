@@ -8,7 +8,6 @@ use std::fs::File;
 use std::num::NonZeroUsize;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
-use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
 use parquet::basic::Type;
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
@@ -17,6 +16,7 @@ use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use thiserror::Error;
 
+use crate::dataset::parallel::in_order;
 use crate::dataset::rows_file::{REASON, SAMPLE_ID, STATUS};
 use crate::run::Status;
 use crate::sampling::SampleId;
@@ -30,9 +30,6 @@ pub struct RowsError {
     /// What is wrong with it.
     pub what: String,
 }
-
-/// Parts that may wait for an earlier one, for each thread.
-const AHEAD: usize = 2;
 
 /// The files of rows of a result, in the order of their samples.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -77,98 +74,9 @@ impl RowsReader {
         read: impl Fn(&mut PartReader) -> Result<T, E> + Sync,
         merge: impl FnMut(T) -> Result<(), E> + Send,
     ) -> Result<(), E> {
-        let cores = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
-        let threads = threads.map_or_else(cores, NonZeroUsize::get).min(self.files.len());
         let read_part =
-            |index: usize| PartReader::open(&self.files[index]).map_err(E::from).and_then(|mut p| read(&mut p));
-        let queue = Queue {
-            state: Mutex::new(State { next: 0, merged: 0, waiting: Vec::new(), merge, error: None }),
-            moved: Condvar::new(),
-        };
-        if threads <= 1 {
-            queue.work(self.files.len(), usize::MAX, &read_part);
-        } else {
-            std::thread::scope(|scope| {
-                for _ in 0..threads {
-                    scope.spawn(|| queue.work(self.files.len(), threads * AHEAD, &read_part));
-                }
-            });
-        }
-        match queue.state.into_inner().unwrap_or_else(PoisonError::into_inner).error {
-            Some((_, error)) => Err(error),
-            None => Ok(()),
-        }
-    }
-}
-
-/// What the threads of a visit share.
-struct Queue<T, E, M> {
-    state: Mutex<State<T, E, M>>,
-    /// A part was merged, or the visit has failed.
-    moved: Condvar,
-}
-
-struct State<T, E, M> {
-    /// The next part to be read.
-    next: usize,
-    /// How many parts were merged.
-    merged: usize,
-    /// Parts that were read before an earlier one.
-    waiting: Vec<(usize, T)>,
-    merge: M,
-    /// The first part that failed.
-    error: Option<(usize, E)>,
-}
-
-impl<T, E, M: FnMut(T) -> Result<(), E>> Queue<T, E, M> {
-    fn lock(&self) -> MutexGuard<'_, State<T, E, M>> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    /// Reads parts until there is none left; at most `ahead` of them beyond those that were merged.
-    fn work(&self, parts: usize, ahead: usize, read: &impl Fn(usize) -> Result<T, E>) {
-        loop {
-            let mut state = self.lock();
-            while state.error.is_none() && state.next < parts && state.next - state.merged >= ahead {
-                state = self.moved.wait(state).unwrap_or_else(PoisonError::into_inner);
-            }
-            if state.error.is_some() || state.next >= parts {
-                return;
-            }
-            let index = state.next;
-            state.next += 1;
-            drop(state);
-            let found = read(index);
-            let mut state = self.lock();
-            match found {
-                Ok(found) => state.waiting.push((index, found)),
-                Err(error) => state.fail(index, error),
-            }
-            state.merge_ready();
-            self.moved.notify_all();
-        }
-    }
-}
-
-impl<T, E, M: FnMut(T) -> Result<(), E>> State<T, E, M> {
-    fn fail(&mut self, index: usize, error: E) {
-        if self.error.as_ref().is_none_or(|(first, _)| index < *first) {
-            self.error = Some((index, error));
-        }
-    }
-
-    fn merge_ready(&mut self) {
-        while let Some(at) = self.waiting.iter().position(|(index, _)| *index == self.merged) {
-            let (index, found) = self.waiting.swap_remove(at);
-            if self.error.as_ref().is_some_and(|(first, _)| *first < index) {
-                return;
-            }
-            if let Err(error) = (self.merge)(found) {
-                self.fail(index, error);
-                return;
-            }
-            self.merged += 1;
-        }
+            |index: usize| PartReader::open(&self.files[index]).map_err(E::from).and_then(|mut part| read(&mut part));
+        in_order(self.files.len(), threads, read_part, merge)
     }
 }
 

@@ -15,6 +15,16 @@ pub const FILE: &str = "sensitivity.parquet";
 /// A measure of sensitivity: name of its column, meaning, value.
 type Measure = (&'static str, &'static str, fn(&InputSensitivity) -> Option<Estimate>);
 
+/// A number of an estimate: suffix of its column, what it is, value.
+type Part = (&'static str, &'static str, fn(Estimate) -> f64);
+
+/// The estimate itself, and the ends of its interval.
+const PARTS: [Part; 3] = [
+    ("", "", |estimate| estimate.value),
+    ("_lower", ": lower end of its interval", |estimate| estimate.lower),
+    ("_upper", ": upper end of its interval", |estimate| estimate.upper),
+];
+
 /// The measures.
 const MEASURES: [Measure; 7] = [
     ("pearson", "Pearson's correlation coefficient", |one| one.pearson),
@@ -40,13 +50,8 @@ fn table(list: &[InputSensitivity]) -> Vec<DescribedColumn> {
         DescribedColumn::counts("rows", "Number of rows: the first that are ok.", list.iter().map(|one| one.rows)),
     ];
     for (name, meaning, of) in MEASURES {
-        let ends: [(&str, &str, fn(Estimate) -> f64); 3] = [
-            ("", "", |estimate| estimate.value),
-            ("_lower", ": lower end of its interval", |estimate| estimate.lower),
-            ("_upper", ": upper end of its interval", |estimate| estimate.upper),
-        ];
-        for (suffix, what, end) in ends {
-            let values = list.iter().map(|one| of(one).map(end));
+        for (suffix, what, part) in PARTS {
+            let values = list.iter().map(|one| of(one).map(part));
             table.push(DescribedColumn::numbers(&format!("{name}{suffix}"), &format!("{meaning}{what}."), values));
         }
     }
