@@ -159,7 +159,7 @@ fn every_operation_may_fail() {
             let ended = make(Faulty::new(fails, persists, kind), &root, &plan);
             if let Err(message) = &ended {
                 errors += 1;
-                assert!(message.contains("/r"), "operation {fails}: no path in {message:?}");
+                assert!(message.contains("spindrift-"), "operation {fails}: no path in {message:?}");
             }
             for (name, bytes) in
                 contents(&root).iter().filter(|(name, _)| name.ends_with(".parquet") || name.ends_with(".bands"))
