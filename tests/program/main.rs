@@ -26,3 +26,4 @@ mod retained;
 mod simulate_command;
 mod small_campaign;
 mod statistics;
+mod stopping;
