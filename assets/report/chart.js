@@ -1,6 +1,6 @@
 // From what a figure shows to what ECharts draws.
 
-import { superscript, tickScale, tickText } from "./numbers.js";
+import { readable, superscript, tickScale, tickText } from "./numbers.js";
 import { colors } from "./theme.js";
 
 const FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', sans-serif";
@@ -35,37 +35,51 @@ function roundStep(span, count) {
   return (digit < 1.5 ? 1 : digit < 3.5 ? 2 : digit < 7.5 ? 5 : 10) * power;
 }
 
-function linearAxis(axis, [low, high], fixed, palette, count) {
-  if (!(high > low)) {
+// Quantity and unit of an axis that is `room` pixels long: the quantity is shortened, the unit is not.
+function titleOf(axis, unit, room) {
+  const most = Math.max(6, Math.floor(room / 7.2) - (unit ? unit.length + 3 : 0));
+  const quantity = axis.quantity.length > most ? `${axis.quantity.slice(0, most - 1)}…` : axis.quantity;
+  return [quantity, unit].filter(Boolean).join(" / ");
+}
+
+function linearAxis(axis, [low, high], isTime, count, room) {
+  // what varies by rounding alone is constant
+  if (!(high - low > 1e-10 * Math.max(Math.abs(low), Math.abs(high)))) {
     const half = low === 0 ? 1 : 0.05 * Math.abs(low);
     [low, high] = [low - half, high + half];
   }
   const step = roundStep(high - low, count);
   const scale = tickScale(low, high, axis.unit);
-  const name = [axis.quantity, scale.unit].filter(Boolean).join(" / ");
+  const name = titleOf(axis, scale.unit, room);
   const text = (value) => tickText(value, step, scale.factor);
-  const [min, max] = fixed ? [low, high] : [Math.floor(low / step + 1e-9) * step, Math.ceil(high / step - 1e-9) * step];
-  return { type: "value", min, max, interval: step, name, axisLabel: { formatter: text, hideOverlap: true, showMinLabel: !fixed, showMaxLabel: !fixed } };
+  const [first, last] = [Math.floor(low / step + 1e-9) * step, Math.ceil(high / step - 1e-9) * step];
+  // a run ends where it ends: the last tick may be before it
+  const [min, max] = isTime ? [first, high] : [first, last];
+  return { type: "value", min, max, interval: step, name, axisLabel: { formatter: text, hideOverlap: true, showMaxLabel: last - max < 1e-6 * step } };
 }
 
-function logAxis(axis, [low, high]) {
-  const name = [axis.quantity, axis.unit].filter(Boolean).join(" / ");
-  const [first, last] = [Math.floor(Math.log10(low) + 1e-9), Math.ceil(Math.log10(high) - 1e-9)];
+function decades(first, last) {
+  return Array.from({ length: last - first + 1 }, (_, k) => 10 ** (first + k));
+}
+
+function logAxis(axis, [low, high], room) {
+  const name = titleOf(axis, axis.unit, room);
+  const [min, max] = [low / 1.12, high * 1.12];
+  const [first, last] = [Math.ceil(Math.log10(min)), Math.floor(Math.log10(max))];
   const every = Math.max(1, Math.ceil((last - first) / 8));
+  // decades alone have labels; where there are fewer than two, the ends have too
   const text = (value) => {
     const power = Math.round(Math.log10(value));
+    const isDecade = Math.abs(Math.log10(value) - power) < 1e-6;
+    if (!isDecade) return last > first ? "" : readable(value, 2);
     return (power - first) % every === 0 ? `10${superscript(power)}` : "";
   };
-  // within less than a decade the ends are the data's, so that the picture is not empty
-  const isNarrow = Math.log10(high / low) < 0.7;
-  const [min, max] = isNarrow ? [low / 1.1, high * 1.1] : [10 ** first, 10 ** Math.max(last, first + 1)];
-  const narrow = (value) => String(Number(value.toPrecision(2)));
-  return { type: "log", min, max, name, axisLabel: { formatter: isNarrow ? narrow : text, showMinLabel: true, showMaxLabel: true } };
+  return { type: "log", min, max, name, axisTick: { customValues: last > first ? decades(first, last) : undefined }, axisLabel: { formatter: text, showMinLabel: true, showMaxLabel: true } };
 }
 
 function axisOption(figure, which, palette, width) {
   const axis = figure[which];
-  const style = { axisLine: { lineStyle: { color: palette.quiet } }, axisTick: { lineStyle: { color: palette.quiet } }, splitLine: { lineStyle: { color: palette.grid } }, nameTextStyle: { color: palette.text, fontFamily: FONT, fontSize: 13 }, nameLocation: "middle" };
+  const style = { axisLine: { onZero: false, lineStyle: { color: palette.quiet } }, axisTick: { lineStyle: { color: palette.quiet } }, splitLine: { lineStyle: { color: palette.grid } }, nameTextStyle: { color: palette.text, fontFamily: FONT, fontSize: 13 }, nameLocation: "middle" };
   const label = { color: palette.quiet, fontFamily: FONT, fontSize: 12 };
   if (axis.names) {
     const longest = width < 500 ? 22 : 34;
@@ -75,8 +89,9 @@ function axisOption(figure, which, palette, width) {
   }
   const given = axis.range && axis.range[0] < axis.range[1] ? axis.range : null;
   const range = given ?? extent(figure, which);
-  const found = axis.log ? logAxis(axis, range) : linearAxis(axis, range, Boolean(given) || (which === "x" && figure.time), palette, which === "x" ? Math.max(3, width / 90) : 5);
-  return { ...style, ...found, nameGap: which === "x" ? 28 : 52, axisLabel: { ...label, ...found.axisLabel } };
+  const room = which === "x" ? width - 84 : heightOf(figure, width) - 58;
+  const found = axis.log ? logAxis(axis, range, room) : linearAxis(axis, range, which === "x" && figure.time, which === "x" ? Math.max(3, width / 90) : 5, room);
+  return { ...style, ...found, axisTick: { ...style.axisTick, ...found.axisTick }, nameGap: which === "x" ? 28 : 52, axisLabel: { ...label, ...found.axisLabel } };
 }
 
 // Pairs [x, y] that can be shown.
@@ -224,7 +239,7 @@ export function chartOption(figure, width, palette = colors()) {
   return {
     animation: false,
     backgroundColor: "transparent",
-    grid: { left: names, right: 18, top: 12, bottom: 46 },
+    grid: { left: names, right: 18, top: 12, bottom: 46, outerBoundsMode: "none" },
     xAxis: axes[0],
     yAxis: axes[1],
     dataZoom: zoom,

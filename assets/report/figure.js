@@ -15,6 +15,11 @@ function element(tag, className, text) {
   return made;
 }
 
+// A title whose long names may be broken after dots and underscores.
+function breakable(text) {
+  return text.replace(/([._])(?=\w)/g, "$1\u200b");
+}
+
 function legendElement(figure) {
   const list = element("ul", "legend");
   const palette = colors();
@@ -38,7 +43,7 @@ export class FigureView {
     this.box.style.setProperty("--columns", figure.columns);
     const head = element("div", "head");
     const title = element("h3");
-    const link = element("a", "", figure.title);
+    const link = element("a", "", breakable(figure.title));
     link.href = `#${figure.name}`;
     title.append(link);
     head.append(title, saveButtons(() => this.figure, echarts));
@@ -65,6 +70,8 @@ export class FigureView {
     this.chart?.dispose();
     this.chart = this.echarts.init(this.plot, null, { renderer: "svg", width, height });
     this.chart.setOption(chartOption(this.figure, width));
+    // so that a printed page may scale it
+    this.plot.querySelector("svg").setAttribute("viewBox", `0 0 ${width} ${height}`);
     this.plot.append(this.tip, this.cursor);
     this.legend.replaceChildren(legendElement(this.figure));
     if (this.time !== undefined) this.moveCursor(this.time);
@@ -74,7 +81,7 @@ export class FigureView {
   show(figure) {
     this.figure = figure;
     this.width = 0;
-    this.box.querySelector("h3 a").textContent = figure.title;
+    this.box.querySelector("h3 a").textContent = breakable(figure.title);
     this.box.querySelector("figcaption").textContent = figure.caption;
     this.draw();
   }
@@ -122,7 +129,7 @@ export class FigureView {
     this.time = time;
     if (!this.figure.time || !this.chart) return;
     const [x] = this.toPixel(time, 0);
-    const isInside = Number.isFinite(x) && x >= 60 && x <= this.width;
+    const isInside = time > 0 && Number.isFinite(x) && x >= 60 && x <= this.width;
     this.cursor.hidden = !isInside;
     if (isInside) {
       this.cursor.style.transform = `translateX(${x}px)`;

@@ -67,7 +67,7 @@ export class Replay {
     for (const { group } of [...this.wheels, ...this.thrusters]) inner.add(group);
     this.craft.add(inner, axes(three, 0.75 * size, palette.hues[HUE_PLACES.body]));
     this.world.add(this.craft, axes(three, 1.5 * size, palette.quiet), sphere(three, 1.6 * size, palette.quiet));
-    this.arrows = { s3: palette.hues[3], momentum: palette.hues[2], omega: palette.hues[1] };
+    this.arrows = { s3: palette.hues[6], momentum: palette.hues[7], omega: palette.hues[3] };
     for (const [name, color] of Object.entries(this.arrows)) {
       this.arrows[name] = arrow(three, color, 0.012);
       this.world.add(this.arrows[name]);
@@ -83,7 +83,7 @@ export class Replay {
   drawTrail() {
     const points = this.motion.trail();
     this.trailGroup.clear();
-    this.trailGroup.add(curve(this.three, points, 1.6 * this.size, this.palette.hues[3]));
+    this.trailGroup.add(curve(this.three, points, 1.6 * this.size, this.palette.hues[6]));
   }
 
   layout() {
@@ -119,7 +119,7 @@ export class Replay {
     this.notes = control("p", { className: "caption" });
     const legend = control("ul", { className: "legend" });
     const entries = [
-      ["s3, spin axis, with its trail on the sphere", 3], ["H, angular momentum", 2], ["omega, angular velocity", 1], ["body, axes of F_s", HUE_PLACES.body],
+      ["s3, spin axis, with its trail on the sphere", 6], ["H, angular momentum", 7], ["omega, angular velocity", 3], ["body, axes of F_s", HUE_PLACES.body],
       ...this.data.scene.wheels.map((wheel, index) => [`wheel ${wheel.name}`, HUE_PLACES.wheels[index % 4]]),
       ...(this.data.scene.debris ? [["debris", HUE_PLACES.debris]] : []), ["axes of F_e", 8],
     ];
@@ -175,7 +175,7 @@ export class Replay {
     if (this.slowed > 1) notes.push(`Wheels turn at their true ratio, but ${this.slowed} times slower than they are, so that they can be seen.`);
     if (this.data.scene.is_equivalent) notes.push("The body is given by its inertia: it is shown as the box of the same mass and inertia.");
     if (this.data.scene.thrusters.length > 0) notes.push("Plumes show the nominal schedule.");
-    notes.push(`Lengths of arrows say nothing; the sphere around shows where s3 points in F_e.`);
+    notes.push("Arrows show directions only; the sphere shows where s3 points in F_e.");
     this.notes.textContent = notes.join(" ");
     this.drawTrail();
     this.goTo(Math.min(this.time, this.motion.last));

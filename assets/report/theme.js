@@ -5,8 +5,11 @@ const HUES_ON_DARK = ["#4aa8e0", "#f07f2e", "#2fc79a", "#e39cc4", "#7cc8f5", "#f
 // Places in the palette of the bodies, which keep their colours everywhere.
 export const HUE_PLACES = { body: 0, wheels: [1, 2, 3, 4], debris: 5 };
 const listeners = [];
+// paper is white
+let isPrinting = false;
 
 export function isDark() {
+  if (isPrinting) return false;
   const chosen = document.documentElement.dataset.theme;
   return chosen ? chosen === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
 }
@@ -35,5 +38,11 @@ export function startTheme(button) {
     show();
   });
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", show);
+  const print = (starts) => () => {
+    isPrinting = starts;
+    show();
+  };
+  addEventListener("beforeprint", print(true));
+  addEventListener("afterprint", print(false));
   show();
 }

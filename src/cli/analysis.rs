@@ -7,6 +7,7 @@ use crate::campaign::Plan;
 use crate::cli::command_outcome::Failure;
 use crate::dataset::names::BANDS;
 use crate::dataset::rows_reader::RowsReader;
+use crate::dataset::sensitivity::InputSensitivity;
 use crate::dataset::statistics::Statistics;
 use crate::dataset::verdicts::Verdicts;
 use crate::dataset::{
@@ -22,6 +23,8 @@ pub struct Analysed {
     pub statistics: Statistics,
     /// Of the requirements.
     pub verdicts: Verdicts,
+    /// Of what drives the main observables.
+    pub sensitivities: Vec<InputSensitivity>,
     /// Over time, where the campaign has bands.
     pub bands: Option<Bands>,
 }
@@ -37,19 +40,34 @@ pub fn analyse(
     root: &Path,
     threads: Option<NonZeroUsize>,
 ) -> Result<Analysed, Failure> {
-    let statistics = statistics::compute(plan, reader, threads).map_err(Failure::files)?;
+    let found = computed(plan, reader, bands, threads)?;
     let path = root.join(statistics_table::FILE);
-    statistics_table::save(plan, &statistics, &path).map_err(|error| in_file(&path, &error))?;
-    let inputs = sensitivity::compute(plan, reader, threads).map_err(Failure::files)?;
+    statistics_table::save(plan, &found.statistics, &path).map_err(|error| in_file(&path, &error))?;
     let path = root.join(sensitivity_table::FILE);
-    sensitivity_table::save(plan, &inputs, &path).map_err(|error| in_file(&path, &error))?;
-    let verdicts = verdicts::assess(plan, reader, threads).map_err(Failure::files)?;
-    let bands = bands_file::read(bands).map_err(Failure::files)?;
-    if let Some(bands) = &bands {
+    sensitivity_table::save(plan, &found.sensitivities, &path).map_err(|error| in_file(&path, &error))?;
+    if let Some(bands) = &found.bands {
         let path = root.join(BANDS);
         bands_table::save(plan, bands, &path).map_err(|error| in_file(&path, &error))?;
     }
-    Ok(Analysed { statistics, verdicts, bands })
+    Ok(found)
+}
+
+/// What the rows and the files `bands` of the bands of `plan` say; nothing is written.
+///
+/// # Errors
+/// Where a file cannot be read.
+pub fn computed(
+    plan: &Plan,
+    reader: &RowsReader,
+    bands: &[PathBuf],
+    threads: Option<NonZeroUsize>,
+) -> Result<Analysed, Failure> {
+    Ok(Analysed {
+        statistics: statistics::compute(plan, reader, threads).map_err(Failure::files)?,
+        sensitivities: sensitivity::compute(plan, reader, threads).map_err(Failure::files)?,
+        verdicts: verdicts::assess(plan, reader, threads).map_err(Failure::files)?,
+        bands: bands_file::read(bands).map_err(Failure::files)?,
+    })
 }
 
 /// Writes the verdicts as JUnit XML, where a file for it was named; `failed` runs are not `ok`.

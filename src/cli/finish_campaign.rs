@@ -9,14 +9,16 @@ use std::time::Duration;
 use serde_json::Value;
 
 use crate::campaign::{Overrides, Plan};
-use crate::cli::analysis::{analyse, write_junit};
+use crate::cli::analysis::{Analysed, analyse, write_junit};
 use crate::cli::arguments::FinishOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::input::{isa, plan};
 use crate::cli::{report, screen};
 use crate::dataset::claim::{Claim, ClaimOptions, Ready, claim, open, replace};
 use crate::dataset::identity::identity;
+use crate::dataset::manifest::PartRecord;
 use crate::dataset::names::{PLAN, REPORT, SUMMARY, TRAJECTORIES};
+use crate::dataset::parts_read::PartsRead;
 use crate::dataset::rows_reader::RowsReader;
 use crate::dataset::stopping::stopping;
 use crate::dataset::storage::Disk;
@@ -59,28 +61,18 @@ pub struct Finishing<'a> {
 pub fn finish(job: &Finishing<'_>) -> Result<CommandOutcome, Failure> {
     let (plan, folder) = (job.ensemble.plan(), &job.ready.folder);
     let records = folder.parts();
-    let (rows, bands): (Vec<PathBuf>, Vec<PathBuf>) = records
-        .iter()
-        .flat_map(|part| &part.files)
-        .map(|file| folder.path(&file.name))
-        .partition(|path| path.extension().is_some_and(|extension| extension == "parquet"));
-    let reader = RowsReader::new(rows);
+    let parts = PartsRead::of(&records, |name| folder.path(name));
+    let reader = RowsReader::new(parts.rows);
     let tally = Tally::of_files(job.ensemble, &reader, job.threads).map_err(Failure::files)?;
-    let analysed = analyse(plan, &reader, &bands, folder.root(), job.threads)?;
+    let analysed = analyse(plan, &reader, &parts.bands, folder.root(), job.threads)?;
     retain(job, &reader)?;
+    make_page(job, &reader, &analysed, &records)?;
     write_junit(plan, &analysed.verdicts, tally.failed(), job.junit)?;
     let (failed, undecided) = (analysed.verdicts.failed(), analysed.verdicts.undecided());
     let outcome = CommandOutcome::of_campaign(tally.failed(), failed, undecided);
     let stopping = stopping(plan, &reader, plan.samples, job.threads).map_err(Failure::files)?;
-    let summary =
-        Summary::new(plan, &tally, &analysed.statistics, analysed.verdicts.clone()).with_stopping(plan, stopping);
+    let summary = Summary::new(plan, &tally, &analysed.statistics, analysed.verdicts).with_stopping(plan, stopping);
     folder.write(SUMMARY, summary.json().as_bytes()).map_err(Failure::files)?;
-    if job.page.0 {
-        report::write(job.ensemble, (&reader, &records, &analysed), folder.root(), job.threads, job.page.1)?;
-    } else {
-        let path = folder.path(REPORT);
-        folder.storage().remove(&path).map_err(|error| Failure::files(format!("{}: {error}", path.display())))?;
-    }
     folder.finish().map_err(Failure::files)?;
     if let Some(old) = &job.ready.replaces {
         replace(folder.storage(), folder.root(), old).map_err(Failure::files)?;
@@ -99,6 +91,23 @@ pub fn finish(job: &Finishing<'_>) -> Result<CommandOutcome, Failure> {
         bytes(folder.size()),
     ))?;
     Ok(outcome)
+}
+
+/// Writes the report page and its figures, where they are asked for; else there is none.
+fn make_page(
+    job: &Finishing<'_>,
+    reader: &RowsReader,
+    analysed: &Analysed,
+    records: &[PartRecord],
+) -> Result<(), Failure> {
+    let folder = &job.ready.folder;
+    if job.page.0 {
+        let page = report::page(job.ensemble, reader, analysed, records, job.threads)?;
+        folder.write(REPORT, page.html.as_bytes()).map_err(Failure::files)?;
+        return report::save_figures(&page, job.page.1);
+    }
+    let path = folder.path(REPORT);
+    folder.storage().remove(&path).map_err(|error| Failure::files(format!("{}: {error}", path.display())))
 }
 
 /// Writes the time series that the plan retains.

@@ -1,9 +1,9 @@
-//! `spindrift report`: makes the page of a result again from its rows, and its figures as files.
+//! `spindrift report`: makes the page of a finished result again from its rows, and its figures as files.
 
 use std::num::NonZeroUsize;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use crate::cli::analysis::{Analysed, analyse};
+use crate::cli::analysis::{Analysed, computed};
 use crate::cli::arguments::ReportOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::input::{isa, plan_of_result};
@@ -12,10 +12,12 @@ use crate::dataset::atomic;
 use crate::dataset::claim::open;
 use crate::dataset::manifest::PartRecord;
 use crate::dataset::names::REPORT;
+use crate::dataset::parts_read::PartsRead;
 use crate::dataset::rows_reader::RowsReader;
 use crate::dataset::storage::Disk;
 use crate::ensemble::Ensemble;
 use crate::report::number::bytes;
+use crate::report::page::gather::Analysis;
 use crate::report::page::{Contents, Page, drawing};
 
 /// Runs the command.
@@ -26,45 +28,55 @@ pub fn run(options: &ReportOptions) -> Result<CommandOutcome, Failure> {
     let root = &options.folder;
     let (found, _locks) = open(&Disk, root).map_err(Failure::files)?;
     if !found.is_finished {
-        let root = root.display();
+        let folder = root.display();
         return Err(Failure::Input(format!(
-            "the result in `{root}` is not finished; the campaign's command continues it"
+            "the result in `{folder}` is not finished; the campaign's command continues it, or: spindrift finish {folder}"
         )));
     }
     let plan = plan_of_result(root, &found)?;
     let ensemble = Ensemble::new(&plan, isa()?);
-    let rows = RowsReader::new(found.row_files(root));
-    let parts: Vec<PartRecord> = found.parts().into_values().collect();
-    let bands: Vec<PathBuf> =
-        parts.iter().flat_map(|part| part.files.iter().skip(1)).map(|file| root.join(&file.name)).collect();
-    let analysed = analyse(&plan, &rows, &bands, root, options.threads)?;
-    write(&ensemble, (&rows, &parts, &analysed), root, options.threads, options.figures.as_deref())?;
+    let records: Vec<PartRecord> = found.parts().into_values().collect();
+    let parts = PartsRead::of(&records, |name| root.join(name));
+    let reader = RowsReader::new(parts.rows);
+    let analysed = computed(&plan, &reader, &parts.bands, options.threads)?;
+    let page = page(&ensemble, &reader, &analysed, &records, options.threads)?;
+    let path = root.join(REPORT);
+    atomic::write_bytes(&path, page.html.as_bytes())
+        .map_err(|error| Failure::Files(format!("{}: {error}", path.display())))?;
+    screen::print(&format!("{}: {}\n", path.display(), bytes(page.html.len() as u64)))?;
+    save_figures(&page, options.figures.as_deref())?;
     Ok(CommandOutcome::Done)
 }
 
-/// Writes the page of the result in `folder`, with its rows, the records of its parts and what was computed of them, and its figures into `figures`.
+/// The page of a result whose parts are `records`.
 ///
 /// # Errors
-/// Where files cannot be read or written.
-pub fn write(
+/// Where a part cannot be read.
+pub fn page(
     ensemble: &Ensemble<'_>,
-    (rows, parts, analysed): (&RowsReader, &[PartRecord], &Analysed),
-    folder: &Path,
+    reader: &RowsReader,
+    analysed: &Analysed,
+    records: &[PartRecord],
     threads: Option<NonZeroUsize>,
-    figures: Option<&Path>,
-) -> Result<(), Failure> {
-    let files = parts.iter().flat_map(|part| &part.files).map(|file| (file.name.clone(), file.sha256.clone()));
-    let contents = Contents::read(ensemble, rows, threads).map_err(Failure::files)?;
-    let contents =
-        contents.with_analysis(&analysed.statistics, &analysed.verdicts, analysed.bands.as_ref(), files.collect());
-    let page = Page::new(ensemble, &contents);
-    let path = folder.join(REPORT);
-    let shown = |error: std::io::Error| Failure::Files(format!("{}: {error}", path.display()));
-    atomic::write_bytes(&path, page.html.as_bytes()).map_err(shown)?;
-    screen::note(&format!("{}: {}", path.display(), bytes(page.html.len() as u64)));
-    if let Some(figures) = figures {
-        let count = drawing::save(&page.figures, figures).map_err(Failure::files)?;
-        screen::note(&format!("{}: {count} figures", figures.display()));
-    }
+) -> Result<Page, Failure> {
+    let analysis = Analysis {
+        statistics: &analysed.statistics,
+        verdicts: &analysed.verdicts,
+        sensitivities: &analysed.sensitivities,
+        bands: analysed.bands.as_ref(),
+    };
+    let files = records.iter().flat_map(|part| &part.files).map(|file| (file.name.clone(), file.sha256.clone()));
+    let contents = Contents::new(ensemble, reader, analysis, files.collect(), threads).map_err(Failure::files)?;
+    Ok(Page::new(ensemble, &contents))
+}
+
+/// Writes the figures of `page` as files into `folder`, if one was named.
+///
+/// # Errors
+/// Where a file cannot be written.
+pub fn save_figures(page: &Page, folder: Option<&Path>) -> Result<(), Failure> {
+    let Some(folder) = folder else { return Ok(()) };
+    let count = drawing::save(&page.figures, folder).map_err(Failure::files)?;
+    screen::note(&format!("{}: {count} files of figures", folder.display()));
     Ok(())
 }

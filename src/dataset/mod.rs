@@ -6,6 +6,7 @@
 //! - [`rows_file`]: the files of rows; [`rows_reader`] reads them. - [`bands_file`]: of bands. - [`columnar`]: columns to Parquet. - [`atomic`]: files that are whole or absent.
 //! - [`tally`], [`audit_tally`]: statistics counted while rows are written. - [`provenance`]: metadata on the origin.
 //! - [`trajectories`]: time series of the runs that are retained.
+//! - [`parts_read`]: the files of parts by what is in them.
 //! - [`table`]: tables in a single file: [`timeseries`], [`bands_table`], [`drawn_table`], [`precision_table`].
 //! - [`statistics`]: what the rows say of every observable ([`observed`], [`population`]); [`verdicts`]: of the requirements; [`mod@stopping`]: whether
 //!   they are enough.
@@ -30,6 +31,7 @@ pub mod names;
 pub mod observed;
 pub mod parallel;
 pub mod part_sink;
+pub mod parts_read;
 pub mod population;
 pub mod precision_table;
 pub mod provenance;

@@ -3,7 +3,7 @@
 //   node page.mjs FOLDER PAGE...
 //
 // For each page: no message on the console and no request, the first screen without scripts, pixels in every figure, hover, the time slider
-// of the replay, the size of the file; screenshots in light, dark, narrow and print go to FOLDER. CHROMIUM names the browser.
+// of the replay, the size of the file; screenshots in light, dark and narrow, and the printed page as PDF go to FOLDER. CHROMIUM names the browser.
 // Exit code 1 with one line for each thing that is wrong.
 
 import { mkdirSync, readFileSync, statSync } from "node:fs";
@@ -16,25 +16,32 @@ const FEWEST_COLORS = 3; // background, axes and at least one mark
 const [folder, ...pages] = process.argv.slice(2);
 const problems = [];
 
-// The number of different colours in a screenshot of an element, from the pixels that the browser itself decodes.
-async function colorsOf(page, handle) {
-  const png = await handle.screenshot({ encoding: "base64" });
-  return page.evaluate(async (data) => {
+// The number of colours within each of `boxes` of a screenshot (base64), from the pixels that the browser itself decodes.
+async function colorsIn(page, png, boxes) {
+  return page.evaluate(async (data, list) => {
     const image = new Image();
     image.src = `data:image/png;base64,${data}`;
     await image.decode();
-    const canvas = document.createElement("canvas");
-    [canvas.width, canvas.height] = [image.width, image.height];
-    const context = canvas.getContext("2d", { willReadFrequently: true });
-    context.drawImage(image, 0, 0);
-    const pixels = context.getImageData(0, 0, image.width, image.height).data;
-    const counts = new Map();
-    for (let k = 0; k < pixels.length; k += 4) {
-      const color = (pixels[k] << 16) | (pixels[k + 1] << 8) | pixels[k + 2];
-      counts.set(color, (counts.get(color) ?? 0) + 1);
-    }
-    return [...counts.values()].filter((count) => count > 8).length;
-  }, png);
+    return list.map(({ x, y, width, height }) => {
+      const canvas = document.createElement("canvas");
+      [canvas.width, canvas.height] = [Math.ceil(width), Math.ceil(height)];
+      const context = canvas.getContext("2d", { willReadFrequently: true });
+      context.drawImage(image, -x, -y);
+      const pixels = context.getImageData(0, 0, canvas.width, canvas.height).data;
+      const counts = new Map();
+      for (let k = 0; k < pixels.length; k += 4) {
+        const color = (pixels[k] << 16) | (pixels[k + 1] << 8) | pixels[k + 2];
+        counts.set(color, (counts.get(color) ?? 0) + 1);
+      }
+      return [...counts.values()].filter((count) => count > 8).length;
+    });
+  }, png, boxes);
+}
+
+async function colorsOf(page, handle) {
+  const { width, height } = await handle.boundingBox();
+  const [count] = await colorsIn(page, await handle.screenshot({ encoding: "base64" }), [{ x: 0, y: 0, width, height }]);
+  return count;
 }
 
 async function opened(browser, file, viewport, scheme, scripts = true) {
@@ -67,18 +74,25 @@ async function checkWithoutScripts(browser, file, name) {
   await page.close();
 }
 
-async function checkFigures(page, name) {
+// Draws every figure and checks it; with a path for a screenshot, that the browser shows more than an empty plot too.
+async function checkFigures(page, name, screenshot) {
   await page.evaluate(() => globalThis.spindriftPage.drawAll());
-  const figures = await page.$$("figure");
+  const figures = await page.evaluate(() =>
+    Array.from(document.querySelectorAll("figure"), (figure) => {
+      const plot = figure.querySelector(".plot");
+      const { x, y, width, height } = plot.getBoundingClientRect();
+      return { id: figure.id, marks: plot.querySelectorAll("svg path, svg circle").length, box: { x: x + scrollX, y: y + scrollY, width, height } };
+    }),
+  );
   if (figures.length === 0) problems.push(`${name}: there are no figures`);
-  for (const figure of figures) {
-    const id = await figure.evaluate((element) => element.id);
-    const plot = await figure.$(".plot");
-    await plot.scrollIntoView();
-    const count = await colorsOf(page, plot);
-    if (count < FEWEST_COLORS) problems.push(`${name}: figure ${id} has ${count} colours`);
-    const marks = await plot.$$eval("svg path, svg circle", (list) => list.length);
-    if (marks < 3) problems.push(`${name}: figure ${id} has ${marks} elements`);
+  for (const { id, marks } of figures) if (marks < 3) problems.push(`${name}: figure ${id} has ${marks} elements`);
+  if (screenshot) {
+    await page.evaluate(() => scrollTo(0, 0));
+    const png = await page.screenshot({ path: screenshot, fullPage: true, encoding: "base64" });
+    const colors = await colorsIn(page, png, figures.map((figure) => figure.box));
+    colors.forEach((count, k) => {
+      if (count < FEWEST_COLORS) problems.push(`${name}: figure ${figures[k].id} has ${count} colours`);
+    });
   }
   const text = await page.evaluate(() => document.body.innerText);
   for (const wrong of ["NaN", "undefined", "Infinity", "[object"]) if (text.includes(wrong)) problems.push(`${name}: the page says ${wrong}`);
@@ -155,25 +169,21 @@ async function checked(browser, file) {
   const shot = (part) => join(folder, `${name}_${part}.png`);
   const page = await opened(browser, file, { width: 1300, height: 900 }, "light");
   await page.screenshot({ path: shot("first") });
-  const figures = await checkFigures(page, name);
+  await page.evaluate(async () => globalThis.spindriftPage.replay());
+  const figures = await checkFigures(page, name, shot("light"));
   await checkHover(page, name);
   await checkTables(page, name);
   await checkReplay(page, name);
   await page.mouse.move(0, 0);
-  await page.screenshot({ path: shot("light"), fullPage: true });
-  await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: "light" }]);
   await page.pdf({ path: join(folder, `${name}_print.pdf`), format: "A4", printBackground: true });
-  await page.emulateMediaType("print");
-  await page.setViewport({ width: 690, height: 976 });
-  await page.screenshot({ path: shot("print"), fullPage: true });
   await page.close();
   const dark = await opened(browser, file, { width: 1300, height: 900 }, "dark");
   await dark.evaluate(() => globalThis.spindriftPage.drawAll());
+  await dark.evaluate(async () => globalThis.spindriftPage.replay());
   await dark.screenshot({ path: shot("dark"), fullPage: true });
   await dark.close();
   const narrow = await opened(browser, file, { width: 390, height: 800 }, "light");
-  await checkFigures(narrow, `${name}, narrow`);
-  await narrow.screenshot({ path: shot("narrow"), fullPage: true });
+  await checkFigures(narrow, `${name}, narrow`, shot("narrow"));
   await narrow.close();
   console.log(`${name}: ${figures} figures, ${size} bytes`);
 }

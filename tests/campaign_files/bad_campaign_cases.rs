@@ -54,6 +54,16 @@ pub const CASES: &[(&str, &str, &str)] = &[
     ),
     ("name = \"bad\"", "name = 3", "bad.toml:2: campaign.name = 3: must be text; write it in quotes"),
     (
+        "name = \"bad\"",
+        "name = \"bad\"\ndescription = \" \"",
+        "bad.toml:3: campaign.description = \" \": must be a text of 1 to 1000 characters; write the question that the campaign answers, or delete the key",
+    ),
+    (
+        "name = \"bad\"",
+        "name = \"bad\"\ndescription = 3",
+        "bad.toml:3: campaign.description = 3: must be text; write it in quotes",
+    ),
+    (
         "samples = 10",
         "samples = 0",
         "bad.toml:3: campaign.samples = 0: must be a whole number from 1 to 9007199254740992; write a number within this range",

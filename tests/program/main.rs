@@ -21,6 +21,7 @@ mod observation_golden;
 mod observed_tables;
 mod precision;
 mod recipes;
+mod report_page;
 mod result_files;
 mod retained;
 mod simulate_command;

@@ -97,10 +97,15 @@ pub fn findings(survey: &Survey, has_intervals: bool, influences: &[Influence]) 
 fn finding(outcome: &Outcome, title: &str, has_intervals: bool, drivers: String) -> Card {
     const P: f64 = 0.99;
     let estimate = outcome.sketch.quantile(P).unwrap_or(f64::NAN);
-    let interval = if has_intervals { interval(&outcome.sketch, P, CONFIDENCE) } else { [f64::NAN; 2] };
+    let interval = if has_intervals && outcome.sketch.count() > 1 {
+        interval(&outcome.sketch, P, CONFIDENCE)
+    } else {
+        [f64::NAN; 2]
+    };
     let runs = outcome.sketch.count();
     let what = words(&outcome.quantity);
     let text = |value: f64| with_unit(value, outcome.quantity.unit());
+    let statistic = if runs > 1 { "99%-quantile" } else { "value" };
     let (sentence, note) = if runs == 0 {
         ("No dispersed run ended ok: nothing can be said.".to_owned(), String::new())
     } else if runs == 1 {
@@ -125,7 +130,7 @@ fn finding(outcome: &Outcome, title: &str, has_intervals: bool, drivers: String)
         judged: Judged::Finding,
         quantity: title.to_owned(),
         sentence,
-        statistic: "99%-quantile".to_owned(),
+        statistic: statistic.to_owned(),
         estimate,
         interval,
         confidence: CONFIDENCE,

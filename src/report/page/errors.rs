@@ -9,6 +9,8 @@ use crate::statistics::sketch::Sketch;
 
 /// Bars of a histogram.
 const BARS: usize = 40;
+/// Fewer runs than this have no distribution to be seen.
+const FEWEST_RUNS: u64 = 8;
 /// Errors with figures of their own.
 const MOST_ERRORS: usize = 8;
 /// Steps of the ranks of an exceedance plot: this many to a factor of ten.
@@ -17,6 +19,9 @@ const RANKS_PER_DECADE: f64 = 12.0;
 /// Histogram and exceedance of each error, estimate against truth, steps. `has_intervals`: whether the runs are independent.
 pub fn figures(survey: &Survey, has_intervals: bool) -> Vec<Figure> {
     let mut figures: Vec<Figure> = Vec::new();
+    if survey.ok() < FEWEST_RUNS {
+        return figures;
+    }
     let errors = survey.outcomes.iter().enumerate();
     let errors = errors.filter(|(_, outcome)| outcome.is_error && outcome.sketch.max().is_some_and(|max| max > 0.0));
     for (index, outcome) in errors.take(MOST_ERRORS) {
@@ -100,6 +105,11 @@ pub fn bins(values: &[f64]) -> (Vec<f64>, bool) {
         && high > 100.0 * positive
         && values.iter().filter(|x| **x == 0.0).count() * 100 < values.len();
     let edge = |k: usize| k as f64 / BARS as f64;
+    let are_whole = values.iter().all(|value| *value == libm::floor(*value));
+    if are_whole && high - low <= BARS as f64 && !is_log {
+        // counts have a bar each
+        return ((0..=(high - low) as usize + 1).map(|k| low + k as f64 - 0.5).collect(), false);
+    }
     if is_log {
         let (low, high) = (libm::log10(positive), libm::log10(high));
         return ((0..=BARS).map(|k| libm::pow(10.0, low + edge(k) * (high - low))).collect(), true);
@@ -247,9 +257,14 @@ mod tests {
     /// Law: every value is in one bar, whatever the range; a single value is in the middle of an axis.
     #[test]
     fn bars_hold_every_value() {
-        for values in
-            [vec![1.0, 2.0, 3.0], vec![1e-15, 1e-12, 1e-9, 1e-9], vec![5.0; 7], vec![-1.0, 0.0, 1e6], vec![0.0; 3]]
-        {
+        for values in [
+            vec![1.0, 2.0, 3.0],
+            vec![1e-15, 1e-12, 1e-9, 1e-9],
+            vec![5.0; 7],
+            vec![-1.0, 0.0, 1e6],
+            vec![0.0; 3],
+            vec![8.0, 9.0, 9.0, 12.0],
+        ] {
             let (edges, is_log) = bins(&values);
             let counts = counts(&values, &edges);
             assert_eq!(counts.iter().sum::<f64>(), values.len() as f64, "{values:?}");

@@ -2,6 +2,7 @@
 
 use crate::campaign::Plan;
 use crate::report::page::cards::Card;
+use crate::report::page::errors::sentence;
 use crate::report::page::payload::escaped;
 use crate::report::page::readable::{grouped, number};
 use crate::report::page::survey::Survey;
@@ -24,7 +25,7 @@ pub fn header(plan: &Plan) -> String {
     let question = plan
         .description
         .as_deref()
-        .map_or(String::new(), |text| format!("<p class=\"question\">{}</p>", escaped(text)));
+        .map_or(String::new(), |text| format!("<p class=\"question\">{}</p>", escaped(&sentence(text))));
     format!(
         "<h1>{}</h1>{question}\n<p class=\"facts\">{runs} \u{b7} design {} \u{b7} seed {} \u{b7} {} s each \u{b7} method {}, tolerance {}{step} \u{b7} spindrift {} \u{b7} plan <button type=\"button\" class=\"hash\" data-copy=\"{hash}\" title=\"Copy the whole hash\">{}</button></p>\n",
         escaped(&plan.name),

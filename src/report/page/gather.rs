@@ -1,95 +1,240 @@
-//! [`Contents::read`]: reads what the page is made of from the rows of a result.
+//! [`Contents`] from what other modules computed of a result: statistics, verdicts, sensitivities, bands, and a survey of the rows.
 
 use std::num::NonZeroUsize;
 
+use crate::campaign::{Plan, Statement};
 use crate::dataset::rows_reader::{RowsError, RowsReader};
-use crate::ensemble::Ensemble;
+use crate::dataset::sensitivity::InputSensitivity;
+use crate::dataset::statistics::{ColumnStatistics, QuantileStatistic, Statistics};
+use crate::dataset::verdicts::{Assessment, Verdicts};
+use crate::ensemble::{Bands, Ensemble};
+use crate::report::page::cards::{Card, Judged, driven_by};
 use crate::report::page::influence::Influence;
-use crate::report::page::shown_columns::{CONFIDENCE, interval};
-use crate::report::page::survey::{Outcome, Survey};
+use crate::report::page::over_time::TimeBands;
+use crate::report::page::readable::{grouped, number, with_unit};
+use crate::report::page::shown_columns::{interval, words};
+use crate::report::page::survey::Survey;
 use crate::report::page::tables::StatisticsRow;
-use crate::report::page::{Contents, errors, is_independent};
-use crate::statistics::correlation::{spearman, spearman_interval};
+use crate::report::page::{Contents, is_independent};
+use crate::statistics::binomial::Decision;
+use crate::statistics::correlation::Estimate;
+use crate::statistics::gate::Limit;
 
-/// Outcomes whose drivers are shown where no requirement names one.
-const DRIVEN: [&str; 4] =
-    ["energy_error_max", "angular_momentum_error_max", "state_error_estimate", "exchange_body_peak_to_peak_j"];
-/// Fewer runs than this say nothing about what drives them.
-const FEWEST_RUNS: usize = 16;
-/// Probabilities of the table of statistics.
-const PROBABILITIES: [f64; 5] = [0.05, 0.5, 0.95, 0.99, 0.999];
+/// Quantiles of the bands of the page.
+const BANDS: [f64; 5] = [0.05, 0.25, 0.5, 0.75, 0.95];
+
+/// What a campaign ends with.
+#[derive(Clone, Copy, Debug)]
+pub struct Analysis<'a> {
+    /// Statistics of every observable.
+    pub statistics: &'a Statistics,
+    /// Verdicts on the requirements.
+    pub verdicts: &'a Verdicts,
+    /// What every input means for the main observables.
+    pub sensitivities: &'a [InputSensitivity],
+    /// Quantiles over time, where they were kept.
+    pub bands: Option<&'a Bands>,
+}
 
 impl Contents {
-    /// What the rows alone say.
+    /// Reads the rows once more for what only the page shows, and takes the rest from `analysis`. `files`: names and SHA-256.
     ///
     /// # Errors
     /// Where a part cannot be read.
-    pub fn read(ensemble: &Ensemble<'_>, rows: &RowsReader, threads: Option<NonZeroUsize>) -> Result<Self, RowsError> {
-        let survey = Survey::new(ensemble, rows, &[], threads)?;
-        let has_intervals = is_independent(ensemble.plan());
-        let counted = survey.outcomes.iter().filter(|outcome| outcome.sketch.count() > 0);
-        let statistics = counted.map(|outcome| row(outcome, has_intervals)).collect();
-        let influences = influences(ensemble, &survey, has_intervals);
-        Ok(Contents { survey, bands: Vec::new(), statistics, influences, verdicts: Vec::new(), files: Vec::new() })
-    }
-}
-
-fn row(outcome: &Outcome, has_intervals: bool) -> StatisticsRow {
-    let quantile = |p: f64| {
-        let [low, high] = if has_intervals { interval(&outcome.sketch, p, CONFIDENCE) } else { [f64::NAN; 2] };
-        [p, outcome.sketch.quantile(p).unwrap_or(f64::NAN), low, high]
-    };
-    StatisticsRow {
-        name: outcome.quantity.name().to_owned(),
-        unit: outcome.quantity.unit().to_owned(),
-        meaning: outcome.quantity.meaning().to_owned(),
-        count: outcome.sketch.count(),
-        mean: f64::NAN,
-        deviation: f64::NAN,
-        min: outcome.sketch.min().unwrap_or(f64::NAN),
-        max: outcome.sketch.max().unwrap_or(f64::NAN),
-        quantiles: PROBABILITIES.map(quantile).to_vec(),
-    }
-}
-
-/// Rank correlations of inputs and main outcomes in the thinned table.
-fn influences(ensemble: &Ensemble<'_>, survey: &Survey, has_intervals: bool) -> Vec<Influence> {
-    let plan = ensemble.plan();
-    let rows = errors::shown_rows(survey);
-    if rows.len() < FEWEST_RUNS || plan.dispersions.columns().is_empty() {
-        return Vec::new();
-    }
-    let of = |column: &[f64]| rows.iter().map(|row| column[*row].abs()).collect::<Vec<f64>>();
-    let signed = |column: &[f64]| rows.iter().map(|row| column[*row]).collect::<Vec<f64>>();
-    let influence = |name: &&str| {
-        let (index, outcome) = survey.outcome(name)?;
-        let y = if outcome.is_error {
-            of(&survey.thinned.outcomes[index])
-        } else {
-            signed(&survey.thinned.outcomes[index])
-        };
-        let input = |(column, values): (&crate::sampling::Column, &Vec<f64>)| {
-            let r = spearman(&signed(values), &y);
-            let found = spearman_interval(r, rows.len(), 0, CONFIDENCE);
-            let ends = if has_intervals { [found.lower, found.upper] } else { [f64::NAN; 2] };
-            (column.parameter.column_name(column.component), [found.value, ends[0], ends[1]])
-        };
-        let inputs = plan.dispersions.columns().iter().zip(&survey.thinned.inputs).map(input).collect();
-        let correlated = if plan.correlated.is_empty() {
-            ""
-        } else {
-            " Some inputs are correlated: their bars share what they explain together."
-        };
-        Some(Influence {
-            outcome: (*name).to_owned(),
-            measure: "rank correlation".to_owned(),
-            meaning: format!(
-                "Spearman's rank correlation of each input with the outcome, with its 95% interval, of {} runs: the sign says in which \
-                 direction it acts, the length how strongly.{correlated}",
-                rows.len()
-            ),
-            inputs,
+    pub fn new(
+        ensemble: &Ensemble<'_>,
+        rows: &RowsReader,
+        analysis: Analysis<'_>,
+        files: Vec<(String, String)>,
+        threads: Option<NonZeroUsize>,
+    ) -> Result<Self, RowsError> {
+        let plan = ensemble.plan();
+        let mut named: Vec<String> = Vec::new();
+        let required = plan.analysis.requirements.iter().map(|requirement| &requirement.observable);
+        for name in required.chain(analysis.sensitivities.iter().map(|one| &one.observable)) {
+            if !named.contains(name) {
+                named.push(name.clone());
+            }
+        }
+        let survey = Survey::new(ensemble, rows, &named, threads)?;
+        let influences = influences(plan, analysis.sensitivities, &survey);
+        let verdicts = &analysis.verdicts.list;
+        Ok(Contents {
+            bands: analysis.bands.map_or_else(Vec::new, time_bands),
+            statistics: analysis
+                .statistics
+                .columns
+                .iter()
+                .filter(|column| column.moments.count() > 0)
+                .map(row)
+                .collect(),
+            verdicts: verdicts.iter().map(|one| card(plan, one, &survey, &influences)).collect(),
+            survey,
+            influences,
+            files,
         })
+    }
+}
+
+fn time_bands(bands: &Bands) -> Vec<TimeBands> {
+    let points = bands.times().len();
+    let of_series = |series: usize| TimeBands {
+        name: bands.quantity(series).name().to_owned(),
+        times: bands.times().to_vec(),
+        quantiles: BANDS
+            .map(|p| (0..points).map(|point| bands.quantile(series, point, p).unwrap_or(f64::NAN)).collect()),
+        runs: bands.runs(),
     };
-    DRIVEN.iter().filter_map(influence).collect()
+    let series = (0..bands.layout().series.len()).map(of_series);
+    series.filter(|series| series.quantiles[2].iter().any(|value| value.is_finite())).collect()
+}
+
+fn row(column: &ColumnStatistics) -> StatisticsRow {
+    let or_nan = |value: Option<f64>| value.unwrap_or(f64::NAN);
+    let quantile =
+        |one: &QuantileStatistic| [one.p, or_nan(one.value), or_nan(one.interval[0]), or_nan(one.interval[1])];
+    StatisticsRow {
+        name: column.quantity.name().to_owned(),
+        unit: column.quantity.unit().to_owned(),
+        meaning: column.quantity.meaning().to_owned(),
+        count: column.moments.count(),
+        mean: or_nan(column.moments.mean()),
+        deviation: or_nan(column.moments.standard_deviation()),
+        min: or_nan(column.moments.min()),
+        max: or_nan(column.moments.max()),
+        quantiles: column.quantiles.iter().map(quantile).collect(),
+    }
+}
+
+/// The influences on each observable, by the strongest measure that its design gives.
+fn influences(plan: &Plan, all: &[InputSensitivity], survey: &Survey) -> Vec<Influence> {
+    let mut found: Vec<Influence> = Vec::new();
+    for one in all {
+        let value = |estimate: Option<Estimate>| estimate.map_or([f64::NAN; 3], |e| [e.value, e.lower, e.upper]);
+        let is_total = one.total.is_some();
+        let numbers = if is_total { value(one.total) } else { value(one.spearman) };
+        match found.iter_mut().find(|influence| influence.outcome == one.observable) {
+            Some(influence) => influence.inputs.push((one.input.clone(), numbers)),
+            None if survey.outcome(&one.observable).is_some() => found.push(Influence {
+                outcome: one.observable.clone(),
+                measure: if is_total { "total Sobol index".to_owned() } else { "rank correlation".to_owned() },
+                meaning: meaning(plan, one, all),
+                inputs: vec![(one.input.clone(), numbers)],
+            }),
+            None => {}
+        }
+    }
+    // where no observable is named, few are enough
+    if plan.analysis.requirements.is_empty() && plan.analysis.summary_columns.is_empty() {
+        let place = |influence: &Influence| MAIN.iter().position(|name| *name == influence.outcome);
+        found.retain(|influence| place(influence).is_some());
+        found.sort_by_key(place);
+    }
+    found
+}
+
+/// The observables whose drivers are shown where the file names none.
+const MAIN: [&str; 4] =
+    ["energy_error_max", "angular_momentum_error_max", "state_error_estimate", "exchange_body_peak_to_peak_j"];
+
+fn meaning(plan: &Plan, first: &InputSensitivity, all: &[InputSensitivity]) -> String {
+    let of_observable = || all.iter().filter(|one| one.observable == first.observable);
+    let mut text = if first.total.is_some() {
+        format!(
+            "Share of the variance that goes with each input and its interactions, with its interval, of {} runs.",
+            grouped(first.rows)
+        )
+    } else {
+        format!(
+            "Spearman's rank correlation of each input with the outcome, with its interval, of {} runs: the sign says in which direction it \
+             acts, the length how strongly.",
+            grouped(first.rows)
+        )
+    };
+    if let Some(share) = first.r_squared {
+        text += &format!(
+            " A regression on all inputs explains {}% of the variance.",
+            number(libm::round(1000.0 * share.value) / 10.0)
+        );
+    }
+    let correlated: Vec<String> = of_observable()
+        .filter_map(|one| one.correlated_with.as_ref().map(|(other, r)| format!("{} with {other} ({r:.2})", one.input)))
+        .take(3)
+        .collect();
+    if !correlated.is_empty() {
+        text += &format!(" Correlated inputs share what they explain together: {}.", correlated.join(", "));
+    } else if !plan.correlated.is_empty() {
+        text += " Some inputs are correlated and share what they explain together.";
+    }
+    text
+}
+
+/// The card of a requirement.
+fn card(plan: &Plan, one: &Assessment, survey: &Survey, influences: &[Influence]) -> Card {
+    let requirement = &one.requirement;
+    let outcome = survey.outcome(&requirement.observable).map(|(_, outcome)| outcome);
+    let name = outcome.map_or(requirement.observable.clone(), |outcome| words(&outcome.quantity));
+    let confidence = number(100.0 * requirement.confidence);
+    let percent = |fraction: f64| number(100.0 * fraction);
+    let (limit, is_upper) = (requirement.limit.value(), matches!(requirement.limit, Limit::AtMost(_)));
+    let (word, text) = (if is_upper { "at most" } else { "at least" }, with_unit(limit, &one.unit));
+    let sentence = match requirement.statement {
+        Statement::Quantile(p) => {
+            let share = if is_upper { p } else { 1.0 - p };
+            format!("{}% of the runs keep the {name} {word} {text}, with {confidence}% confidence.", percent(share))
+        }
+        Statement::Fraction(fraction) => {
+            format!("{}% of the runs keep the {name} {word} {text}, with {confidence}% confidence.", percent(fraction))
+        }
+        Statement::Mean => format!("The mean of the {name} is {word} {text}, with {confidence}% confidence."),
+    };
+    let within = one.runs.saturating_sub(one.violations);
+    let mut notes = vec![format!("{} of {} runs are within the limit.", grouped(within), grouped(one.runs))];
+    if one.failed > 0 {
+        notes.push(format!("{} runs that are not ok count as violations.", grouped(one.failed)));
+    }
+    match (&one.reason, one.gate.decision) {
+        (Some(reason), _) => notes.push(format!("{reason}.")),
+        (None, Decision::Undecided(Some(runs))) => {
+            notes.push(format!("{} runs would decide, if the fraction stays.", grouped(runs)));
+        }
+        (None, Decision::Undecided(None)) => notes.push("No number of runs decides at this fraction.".to_owned()),
+        _ => {}
+    }
+    let (statistic, estimate, ends, limit, unit) = match requirement.statement {
+        Statement::Mean => ("mean".to_owned(), one.gate.estimate, one.gate.bounds, limit, one.unit.clone()),
+        Statement::Quantile(p) => {
+            let ends = outcome.filter(|_| is_independent(plan));
+            let ends = ends.map_or([f64::NAN; 2], |outcome| interval(&outcome.sketch, p, requirement.confidence));
+            (format!("{}%-quantile", percent(p)), one.value.unwrap_or(f64::NAN), ends, limit, one.unit.clone())
+        }
+        Statement::Fraction(fraction) => {
+            let hundred = |value: f64| 100.0 * value;
+            (
+                "runs within the limit".to_owned(),
+                hundred(one.gate.estimate),
+                one.gate.bounds.map(hundred),
+                hundred(fraction),
+                "%".to_owned(),
+            )
+        }
+    };
+    let is_fraction = matches!(requirement.statement, Statement::Fraction(_));
+    Card {
+        judged: match one.gate.decision {
+            Decision::Pass => Judged::Pass,
+            Decision::Fail => Judged::Fail,
+            Decision::Undecided(_) => Judged::Undecided,
+        },
+        quantity: crate::report::page::errors::sentence(&name),
+        sentence,
+        statistic,
+        estimate,
+        interval: ends,
+        confidence: requirement.confidence,
+        limit: Some((limit, is_upper && !is_fraction)),
+        unit,
+        note: notes.join(" "),
+        drivers: driven_by(&requirement.observable, influences),
+    }
 }

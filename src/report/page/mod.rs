@@ -4,18 +4,17 @@
 //!
 //! - [`survey`]: what is taken from the rows. - [`runs`]: the runs that are shown in full.
 //! - [`figure`]: what a figure shows; [`over_time`], [`errors`], [`influence`], [`inputs`]: the figures; [`drawing`]: figures as files.
-//! - `analysed`: statistics, verdicts and bands. - [`cards`], [`first_screen`], [`tables`], [`document`]: the HTML. - [`replay`]: the 3D replay. - [`payload`]: numbers in the page.
+//! - [`gather`]: what statistics, verdicts, sensitivities and bands are on the page. - [`cards`], [`first_screen`], [`tables`], [`document`]: the HTML. - [`replay`]: the 3D replay. - [`payload`]: numbers in the page.
 //!
 //! The scripts and styles are in `assets/report/`.
 
-mod analysed;
 pub mod cards;
 mod document;
 pub mod drawing;
 mod errors;
 pub mod figure;
 mod first_screen;
-mod gather;
+pub mod gather;
 pub mod influence;
 mod inputs;
 pub mod over_time;

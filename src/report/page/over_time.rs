@@ -19,6 +19,8 @@ pub struct TimeBands {
     pub runs: u64,
 }
 
+/// Relative errors below this are rounding: they are shown on the scale of the tolerance, where they do not look like a drift.
+const ROUNDING: f64 = 1e-14;
 /// A limit that is larger than the data by this factor is outside of the axis.
 const FAR: f64 = 30.0;
 
@@ -137,7 +139,10 @@ impl<'a> Curves<'a> {
                 hue: Hue::Debris,
             },
         ];
-        let mut figures: Vec<Figure> = motion.iter().map(|shown| self.single(shown)).collect();
+        // the nominal run does not differ from itself
+        let is_shown =
+            |shown: &&Shown| shown.series != Series::FromNominal || self.band(&self.name(shown.series).0).is_some();
+        let mut figures: Vec<Figure> = motion.iter().filter(is_shown).map(|shown| self.single(shown)).collect();
         figures.extend(self.wheel_speeds());
         figures.extend(self.energies());
         figures.extend(self.transfer());
@@ -170,7 +175,7 @@ impl<'a> Curves<'a> {
         let bodies = || {
             let wheels = self.wheels.iter().enumerate();
             let wheels = wheels.map(|(index, name)| (Some(index), format!("wheel {name}"), Hue::Wheel(index)));
-            std::iter::once((None, "body".to_owned(), Hue::Body)).chain(wheels)
+            std::iter::once((None, "the body".to_owned(), Hue::Body)).chain(wheels)
         };
         let place =
             |series: [Series; 2], wheel: Option<usize>| wheel.map_or(series[0], |wheel| series[1].of_wheel(wheel));
@@ -179,23 +184,20 @@ impl<'a> Curves<'a> {
             let (name, unit) = self.name(series);
             let marks = self.marks(&name, self.nominal(series), hue, "");
             let caption = format!("Kinetic energy in F_e. {}", self.caption(&name));
-            over_time(&name, &format!("Energy of the {of}"), caption, Axis::linear("energy", &unit), marks)
+            over_time(&name, &format!("Energy of {of}"), caption, Axis::linear("energy", &unit), marks)
         };
         let change = |(wheel, of, hue): (Option<usize>, String, Hue)| {
             let series = place([Series::ComBody, Series::ComWheel], wheel);
             let (name, unit) = self.name(series);
             let name = name.replace("energy_com_", "exchange_");
-            let nominal = changes(&self.nominal(series));
-            let marks = if is_constant(&nominal) && self.band(&name).is_none() {
-                Vec::new()
-            } else {
-                self.marks(&name, nominal, hue, "")
-            };
+            // without bands the figure of all bodies together shows as much
+            let has_bands = self.band(&name).is_some();
+            let marks = if has_bands { self.marks(&name, changes(&self.nominal(series)), hue, "") } else { Vec::new() };
             let caption =
                 format!("Change of kinetic energy about the spacecraft's centre of mass. {}", self.caption(&name));
             over_time(
                 &name,
-                &format!("Energy transfer of the {of}"),
+                &format!("Energy transfer of {of}"),
                 caption,
                 Axis::linear("change of energy", &unit),
                 marks,
@@ -278,7 +280,8 @@ impl<'a> Curves<'a> {
             let mut marks: Vec<Mark> = list.iter().flat_map(of).collect();
             let largest = marks.iter().map(Mark::largest).fold(0.0, f64::max);
             // a limit far beyond the data would flatten them; it is in the caption
-            let shown = if tolerance <= FAR * largest { tolerance.max(largest) } else { largest };
+            let is_rounding = largest < ROUNDING;
+            let shown = if is_rounding || tolerance <= FAR * largest { tolerance.max(largest) } else { largest };
             let is_signed = list.iter().all(|(series, ..)| *series == Series::EnergyError);
             for (label, at) in [
                 (format!("tolerance {tolerance:e}"), tolerance),

@@ -22,7 +22,7 @@ pub fn number(value: f64) -> String {
         let text = format!("{value:.2e}");
         let (digits, power) = text.split_once('e').unwrap_or((&text, "0"));
         let digits = digits.trim_end_matches('0').trim_end_matches('.');
-        format!("{digits}\u{2009}\u{d7}\u{2009}10{}", superscript(power.parse().unwrap_or(0)))
+        format!("{digits}\u{202f}\u{d7}\u{202f}10{}", superscript(power.parse().unwrap_or(0)))
     }
 }
 
@@ -57,8 +57,8 @@ mod tests {
             (0.012_345, "0.01235"),
             (1.5, "1.5"),
             (70.123_4, "70.12"),
-            (1.234e-13, "1.23\u{2009}\u{d7}\u{2009}10⁻¹³"),
-            (2e9, "2\u{2009}\u{d7}\u{2009}10⁹"),
+            (1.234e-13, "1.23\u{202f}\u{d7}\u{202f}10⁻¹³"),
+            (2e9, "2\u{202f}\u{d7}\u{202f}10⁹"),
             (f64::NAN, "-"),
         ] {
             assert_eq!(number(value), text);

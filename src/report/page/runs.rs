@@ -57,12 +57,27 @@ pub fn shown_runs(plan: &Plan, survey: &Survey, isa: Isa) -> Vec<ShownRun> {
             list.push((sample, why));
         }
     }
-    list.into_iter().map(|(sample, why)| shown(plan, sample, why, &grid, isa)).collect()
+    let panicked = survey.ended.iter().filter(|ended| ended.status == Status::InternalError);
+    let panicked: Vec<&(SampleId, String)> = panicked.flat_map(|ended| &ended.first).collect();
+    let one = |(sample, why): (SampleId, String)| match panicked.iter().find(|(other, _)| *other == sample) {
+        // a run that ended in a panic would do so again
+        Some((_, reason)) => {
+            let (inputs, reason) = (inputs(plan, sample), reason.clone());
+            ShownRun { sample, why, status: Status::InternalError, reason, inputs, run: None }
+        }
+        None => shown(plan, sample, why, &grid, isa),
+    };
+    list.into_iter().map(one).collect()
+}
+
+/// The inputs of a sample as applied.
+fn inputs(plan: &Plan, sample: SampleId) -> Vec<f64> {
+    let drawn = DrawnScenes::new(plan, sample, 1);
+    drawn.columns.iter().filter_map(|column| column.first().copied()).collect()
 }
 
 fn shown(plan: &Plan, sample: SampleId, why: String, grid: &Grid, isa: Isa) -> ShownRun {
-    let drawn = DrawnScenes::new(plan, sample, 1);
-    let inputs = drawn.columns.iter().filter_map(|column| column.first().copied()).collect();
+    let inputs = inputs(plan, sample);
     match SingleRun::with_series(plan, sample, grid.clone(), isa, &GROUPS) {
         Ok(run) => {
             let (status, reason) = (run.outcome.status, run.reason.clone());

@@ -7,13 +7,14 @@ use crate::statistics::sketch::Sketch;
 /// Confidence of the intervals on the page.
 pub const CONFIDENCE: f64 = 0.95;
 
-/// Whether the column `name` is an error of the computation, which should be small.
+/// Whether the column `name` is an error of the computation, which should be small and is never negative.
 pub fn is_error(name: &str) -> bool {
-    let marks = ["_error_max", "_error_final", "error_estimate", "residual_", "orthonormality_max"];
-    marks.iter().any(|mark| name.contains(mark))
+    let is_largest =
+        name.contains("_max") && ["_error", "residual_", "orthonormality"].iter().any(|mark| name.contains(mark));
+    is_largest || name.ends_with("error_estimate")
 }
 
-/// The name of a column as words: `energy_error_max` is "energy error, maximum"; the unit is left out.
+/// The name of a column as words: `energy_error_max` is "maximum energy error"; the unit is left out.
 pub fn words(quantity: &Quantity) -> String {
     let suffix = match quantity.unit() {
         "" => String::new(),
@@ -22,18 +23,18 @@ pub fn words(quantity: &Quantity) -> String {
     };
     let name = quantity.name().strip_suffix(suffix.as_str()).unwrap_or(quantity.name());
     let (stem, statistic) = [
-        ("_peak_to_peak", ", peak to peak"),
-        ("_max", ", maximum"),
-        ("_min", ", minimum"),
-        ("_mean", ", mean"),
-        ("_final", ", final"),
-        ("_rms", ", rms"),
+        ("_peak_to_peak", "peak-to-peak "),
+        ("_max", "maximum "),
+        ("_min", "minimum "),
+        ("_mean", "mean "),
+        ("_final", "final "),
+        ("_rms", "rms "),
     ]
     .into_iter()
     .find_map(|(suffix, words)| Some((name.strip_suffix(suffix)?, words)))
     .unwrap_or((name, ""));
     let stem = stem.strip_prefix("exchange_").map_or(stem.to_owned(), |rest| format!("energy transfer of {rest}"));
-    format!("{}{statistic}", stem.replace('_', " "))
+    format!("{statistic}{}", stem.replace('_', " "))
 }
 
 /// The distribution-free interval of the `p`-quantile (order statistics); NaN where there are too few runs for an end.
@@ -59,9 +60,9 @@ mod tests {
     #[test]
     fn names_become_words() {
         let words = |name: &'static str, unit: &'static str| words(&Quantity::new(name, unit, "A column."));
-        assert_eq!(words("energy_error_max", ""), "energy error, maximum");
-        assert_eq!(words("exchange_body_peak_to_peak_j", "J"), "energy transfer of body, peak to peak");
-        assert_eq!(words("angular_rate_max_rad_s", "rad/s"), "angular rate, maximum");
+        assert_eq!(words("energy_error_max", ""), "maximum energy error");
+        assert_eq!(words("exchange_body_peak_to_peak_j", "J"), "peak-to-peak energy transfer of body");
+        assert_eq!(words("angular_rate_max_rad_s", "rad/s"), "maximum angular rate");
         assert_eq!(words("steps", ""), "steps");
     }
 

@@ -5,11 +5,12 @@
 
 use std::num::NonZeroUsize;
 
+use crate::dataset::observed::Observed;
 use crate::dataset::rows_reader::{PartReader, RowsError, RowsReader};
 use crate::ensemble::Ensemble;
 use crate::ensemble::audit::AuditValue;
+use crate::observables::Group;
 use crate::observables::headlines::{STATE_ERROR_ESTIMATE, headlines};
-use crate::observables::{Column, Group, Kind};
 use crate::report::page::shown_columns::{CONFIDENCE, interval, is_error};
 use crate::run::{Quantity, Status};
 use crate::sampling::SampleId;
@@ -108,20 +109,17 @@ pub fn chosen(samples: &[u64], most: usize) -> Vec<usize> {
     order
 }
 
-/// The columns of outcomes: those of a summary, and the motion's.
-fn outcome_columns(ensemble: &Ensemble<'_>, required: &[String]) -> Vec<Column> {
+/// The outcomes: those that are asked for, those of a summary, and the motion's.
+fn observed(ensemble: &Ensemble<'_>, asked: &[String]) -> Vec<Observed> {
     let columns = ensemble.request().columns();
-    let main = headlines(ensemble.request());
-    let is_motion = |column: &Column| column.group == Group::Motion && column.quantity.name().contains("_max_");
-    let is_asked = |column: &Column| required.iter().any(|name| name == column.quantity.name());
-    let wanted = columns
-        .iter()
-        .enumerate()
-        .filter(|(index, column)| is_asked(column) || main.contains(index) || is_motion(column));
-    let mut wanted: Vec<Column> = wanted.map(|(_, column)| column.clone()).collect();
-    wanted.sort_by_key(|column| !is_asked(column));
-    wanted.truncate(MOST_OUTCOMES.max(required.len()));
-    wanted
+    let main = headlines(ensemble.request()).into_iter().map(|index| columns[index].quantity.name().to_owned());
+    let motion = columns.iter().filter(|column| column.group == Group::Motion).map(|column| column.quantity.name());
+    let motion = motion.filter(|name| name.contains("_max_")).map(str::to_owned);
+    let wanted: Vec<String> = asked.iter().cloned().chain(main).chain(motion).collect();
+    let mut found = Observed::named(ensemble.plan(), wanted.iter().map(String::as_str));
+    found.sort_by_key(|one| wanted.iter().position(|name| name == one.quantity.name()));
+    found.truncate(MOST_OUTCOMES.max(asked.len()));
+    found
 }
 
 /// What is read from one part.
@@ -135,24 +133,26 @@ struct Read {
 }
 
 impl Survey {
-    /// Reads the parts of a result. Outcomes named in `required` come first.
+    /// Reads the parts of a result. Outcomes named in `asked` come first.
     ///
     /// # Errors
     /// Where a part cannot be read.
     pub fn new(
         ensemble: &Ensemble<'_>,
         rows: &RowsReader,
-        required: &[String],
+        asked: &[String],
         threads: Option<NonZeroUsize>,
     ) -> Result<Self, RowsError> {
         let plan = ensemble.plan();
-        let columns = outcome_columns(ensemble, required);
+        let columns = observed(ensemble, asked);
+        let required: Vec<&str> =
+            plan.analysis.requirements.iter().map(|requirement| requirement.observable.as_str()).collect();
         let inputs: Vec<String> =
             plan.dispersions.columns().iter().map(|column| column.parameter.column_name(column.component)).collect();
-        let outcome = |column: &Column| Outcome {
+        let outcome = |column: &Observed| Outcome {
             quantity: column.quantity.clone(),
-            is_required: required.iter().any(|name| name == column.quantity.name()),
-            is_error: column.kind == Kind::Float && is_error(column.quantity.name()),
+            is_required: required.contains(&column.quantity.name()),
+            is_error: !column.is_count && is_error(column.quantity.name()),
             sketch: Sketch::default(),
             largest: Vec::new(),
             nominal: f64::NAN,
@@ -192,7 +192,7 @@ impl Survey {
                 statuses: part.statuses()?,
                 reasons: part.reasons()?,
                 inputs: inputs.iter().map(thinned).collect::<Result<_, _>>()?,
-                outcomes: columns.iter().map(|column| numbers(column.quantity.name())).collect::<Result<_, _>>()?,
+                outcomes: columns.iter().map(|column| column.values(part)).collect::<Result<_, _>>()?,
                 audits,
                 samples,
             })

@@ -1,0 +1,129 @@
+//! `report.html`: a pure function of plan and rows, small, self-contained, safe against the text of the file, complete without runs that
+//! are ok. What a reader sees in it is tested in a browser (`.ci/browser`).
+
+use std::fs;
+
+use super::small_campaign::{NEGATIVE_WALLS, campaign, folder};
+use crate::support::scratch_folder::ScratchFolder;
+
+/// A page is smaller than this, also of a million runs: `../docs/results.md`.
+const LARGEST: usize = 3_000_000;
+
+fn page(scratch: &ScratchFolder, result: &str) -> String {
+    fs::read_to_string(scratch.path(&format!("{result}/report.html"))).expect("a page")
+}
+
+/// The static part of a page: what a reader sees without scripts.
+fn visible(page: &str) -> &str {
+    page.split_once("<script").expect("a page has scripts").0
+}
+
+/// Law: the page is the same bytes from a second run, from `report` on the same rows, and for any number of threads; without the rows it
+/// is another.
+#[test]
+fn the_page_is_a_function_of_the_rows() {
+    let scratch = folder("page-same");
+    scratch.prints("campaign small.toml --out one --threads 1", 0);
+    scratch.prints("campaign small.toml --out two --threads 2", 0);
+    let first = page(&scratch, "one");
+    assert!(first == page(&scratch, "two"), "one and two threads");
+    fs::remove_file(scratch.path("two/report.html")).expect("removed");
+    for threads in [1, 2] {
+        scratch.prints(&format!("report two --threads {threads}"), 0);
+        assert!(first == page(&scratch, "two"), "made again with {threads} threads");
+    }
+    assert!(first.len() < LARGEST, "{} bytes", first.len());
+    scratch.prints("campaign small.toml --out other --seed 8", 0);
+    assert!(first != page(&scratch, "other"), "another seed gives another page");
+}
+
+/// Law: `--no-report` leaves the page out, and `--figures` writes each figure as SVG and PNG.
+#[test]
+fn figures_are_files_too() {
+    let scratch = folder("page-figures");
+    scratch.prints("campaign small.toml --samples 40 --out plain --no-report", 0);
+    assert!(!scratch.path("plain/report.html").exists());
+    scratch.prints("report plain --figures figures", 0);
+    let names = |extension: &str| -> Vec<String> {
+        let entries =
+            fs::read_dir(scratch.path("figures")).expect("a folder").map(|entry| entry.expect("an entry").path());
+        let mut names: Vec<String> = entries
+            .filter(|path| path.extension().is_some_and(|found| found == extension))
+            .map(|path| path.file_stem().expect("a name").to_string_lossy().into_owned())
+            .collect();
+        names.sort();
+        names
+    };
+    let (svg, png) = (names("svg"), names("png"));
+    assert_eq!(svg, png);
+    for expected in [
+        "drift_energy",
+        "energy_transfer",
+        "energy_phase",
+        "energy_spectrum",
+        "tail_energy_error_max",
+        "correlation_achieved",
+    ] {
+        assert!(svg.iter().any(|name| name == expected), "{expected} is not among {svg:?}");
+    }
+    let text = fs::read_to_string(scratch.path("figures/drift_energy.svg")).expect("a figure");
+    assert!(text.starts_with("<svg") && text.contains("Drift of energy"), "{text}");
+    let said = scratch.prints("report campaigns", 2);
+    assert!(said.contains("is no result of a campaign"), "{said}");
+}
+
+/// Law: nothing in the page is loaded from the network: no element refers to an address, and its policy forbids it.
+#[test]
+fn the_page_needs_no_network() {
+    let scratch = folder("page-offline");
+    scratch.prints("campaign small.toml --samples 40 --out small", 0);
+    let page = page(&scratch, "small");
+    for reference in ["src=\"http", "href=\"http", "url(http", "@import", "src=\"//", "<link rel=\"stylesheet\""] {
+        assert!(!page.contains(reference), "{reference}");
+    }
+    assert!(page.contains("default-src 'none'"), "the policy");
+}
+
+/// Law: text of the campaign file is text in the page, never markup.
+#[test]
+fn text_of_the_file_is_escaped() {
+    const ATTACK: &str = "</script><img src=x onerror=alert(1)><!-- & \\\"quoted\\\"";
+    let scratch = folder("page-escaped");
+    let text = campaign().replace("name = \"small\"", &format!("name = \"small\"\ndescription = \"{ATTACK}\""));
+    scratch.file("attack.toml", &text);
+    scratch.prints("campaign attack.toml --samples 20 --out attack", 0);
+    let attacked = page(&scratch, "attack");
+    assert!(!attacked.contains("<img src=x") && !attacked.contains("<!-- &"), "markup of the description");
+    assert!(
+        visible(&attacked)
+            .contains("&lt;/script&gt;&lt;img src=x onerror=alert(1)&gt;&lt;!-- &amp; &quot;quoted&quot;")
+    );
+    // the counter-test: the same page without it has as many scripts
+    scratch.prints("campaign small.toml --samples 20 --out plain", 0);
+    let scripts = |page: &str| (page.matches("<script").count(), page.matches("</script>").count());
+    assert_eq!(scripts(&attacked), scripts(&page(&scratch, "plain")));
+}
+
+/// Law: runs that failed are counted with reason and replay command; a campaign without a run that is ok, and one of the nominal run
+/// alone, have a page too, in which no number is NaN.
+#[test]
+fn pages_of_failures() {
+    let scratch = folder("page-failures");
+    scratch.file("thin.toml", &(campaign() + NEGATIVE_WALLS));
+    scratch.prints("campaign thin.toml --samples 100 --out thin", 1);
+    let found = page(&scratch, "thin");
+    assert!(
+        visible(&found).contains("invalid: not physical")
+            && visible(&found).contains("spindrift simulate plan.toml --sample")
+    );
+    scratch.file("short.toml", &campaign().replace("tolerance = 1e-10", "tolerance = 1e-10\nmax_steps = 1"));
+    scratch.prints("campaign short.toml --samples 30 --out short", 1);
+    scratch.prints("campaign small.toml --samples 1 --out one", 0);
+    for (result, sentence) in
+        [("short", "None of 30 runs is ok"), ("one", "The run is ok."), ("thin", "of 100 runs are ok")]
+    {
+        let page = page(&scratch, result);
+        assert!(visible(&page).contains(sentence), "{result}: {sentence}");
+        assert!(!visible(&page).contains("NaN") && !visible(&page).contains("inf"), "{result}");
+    }
+}
