@@ -9,7 +9,7 @@ use crate::ensemble::settings::{propagator, request};
 use crate::math::Isa;
 use crate::ode::Control;
 use crate::propagation::Method;
-use crate::run::Outcome;
+use crate::run::{Grid, Outcome};
 use crate::scene::Scene;
 
 /// Work of one thread that may be lost when a campaign is stopped, s.
@@ -19,6 +19,8 @@ const COUNTED_STEPS: u64 = 20_000;
 /// Time of an evaluation, s, three times that of one alone in its vector on the reference machine (`cargo bench --bench kernels`).
 const EVALUATION_S: [(fn(Method) -> bool, f64); 2] =
     [(|method| matches!(method, Method::NullSpace), 6e-6), (|_| true, 3e-6)];
+/// Most points of the run whose work is counted.
+const POINTS: usize = 101;
 /// Time of an observed point with all columns, s.
 const POINT_S: f64 = 5e-7;
 /// Work of an audit over the work of its run: a reference solution in double-double at a tolerance of 1e-28.
@@ -32,7 +34,9 @@ pub fn parts(plan: &Plan, isa: Isa) -> Parts {
 /// What a run of `plan` takes at most on one core, s.
 fn run_seconds(plan: &Plan, isa: Isa) -> f64 {
     let Ok(scene) = Scene::resolve(&plan.nominal) else { return POINT_S };
-    let mut settings = propagator(plan, plan.grid.clone(), request(plan).fields());
+    // the work of a run is that of its steps; the points would only take memory
+    let grid = Grid::uniform(plan.grid.duration(), plan.grid.points().min(POINTS));
+    let mut settings = propagator(plan, grid, request(plan).fields());
     settings.control = Control { max_steps: plan.max_steps.min(COUNTED_STEPS), ..settings.control };
     let mut found: Option<Outcome> = None;
     settings.engine(isa).propagate(&[scene], &mut |run| found = Some(*run.outcome));

@@ -47,7 +47,6 @@ pub fn run<S: Sink>(
 ) -> Result<(), RunError<S::Error>> {
     let parts: Vec<Part> = parts.into_iter().collect();
     let largest = parts.iter().map(|part| part.count).max().unwrap_or(0);
-    ensemble.bands(); // made before the memory of a worker, which it would double for a moment
     let pool = ThreadPoolBuilder::new().num_threads(threads(asked, parts.len())).build()?;
     let (next, is_failed) = (AtomicUsize::new(0), AtomicBool::new(false));
     let failure: Mutex<Option<S::Error>> = Mutex::new(None);
@@ -58,7 +57,11 @@ pub fn run<S: Sink>(
         while is_on()
             && let Some(part) = parts.get(next.fetch_add(1, Ordering::Relaxed))
         {
-            let (worker, rows) = memory.get_or_insert_with(|| (ensemble.worker(), ensemble.rows(largest)));
+            let (worker, rows) = memory.get_or_insert_with(|| {
+                // the bands need the nominal run: before the worker's memory is there, and on its thread, which uses the memory again
+                ensemble.bands();
+                (ensemble.worker(), ensemble.rows(largest))
+            });
             if !worker.run(*part, rows, supervision) {
                 break;
             }
