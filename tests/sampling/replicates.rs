@@ -33,11 +33,8 @@ fn numbers(design: &Design, seed: u64, points: u64) -> Vec<[f64; DIMENSIONS]> {
     let (mut u, mut found) = (vec![[0.0; BLOCK]; DIMENSIONS], Vec::new());
     for block in 0..=points / BLOCK as u64 {
         source.fill(block, &mut u);
-        for lane in 0..BLOCK {
-            if (1..=points).contains(&(block * BLOCK as u64 + lane as u64)) {
-                found.push(std::array::from_fn(|dimension| u[dimension][lane]));
-            }
-        }
+        let lanes = (0..BLOCK).filter(|lane| (1..=points).contains(&(block * BLOCK as u64 + *lane as u64)));
+        found.extend(lanes.map(|lane| std::array::from_fn(|dimension| u[dimension][lane])));
     }
     found
 }
