@@ -146,6 +146,9 @@ pub fn driven_by(outcome: &str, influences: &[Influence]) -> String {
     let Some(influence) = influences.iter().find(|influence| influence.outcome == outcome) else {
         return String::new();
     };
+    if influence.inputs.iter().all(|(_, value)| !value[0].is_finite()) {
+        return String::new();
+    }
     // an interval that contains zero is no influence that was found
     let mut found: Vec<&(String, [f64; 3])> =
         influence.inputs.iter().filter(|(_, [_, low, high])| low * high > 0.0).collect();

@@ -141,7 +141,7 @@ fn meaning(plan: &Plan, first: &InputSensitivity, all: &[InputSensitivity]) -> S
     let of_observable = || all.iter().filter(|one| one.observable == first.observable);
     let mut text = if first.total.is_some() {
         format!(
-            "Share of the variance that goes with each input and its interactions, with its interval, of {} runs.",
+            "Share of the variance that belongs to each input and its interactions, with its interval, of {} runs.",
             grouped(first.rows)
         )
     } else {
