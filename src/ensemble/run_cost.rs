@@ -17,8 +17,12 @@ const LOST_S: f64 = 10.0;
 /// Most steps of the nominal run whose work is counted; a longer one is extrapolated.
 const COUNTED_STEPS: u64 = 20_000;
 /// Time of an evaluation, s, three times that of one alone in its vector on the reference machine (`cargo bench --bench kernels`).
-const EVALUATION_S: [(fn(Method) -> bool, f64); 2] =
-    [(|method| matches!(method, Method::NullSpace), 6e-6), (|_| true, 3e-6)];
+const fn evaluation_seconds(method: Method) -> f64 {
+    match method {
+        Method::NullSpace => 6e-6,
+        Method::Auto | Method::Taylor | Method::Gyrostat(_) => 3e-6,
+    }
+}
 /// Most points of the run whose work is counted.
 const POINTS: usize = 101;
 /// Time of an observed point with all columns, s.
@@ -46,7 +50,7 @@ fn run_seconds(plan: &Plan, isa: Isa) -> f64 {
     });
     // of a run that stops at the limit no more than the limit is done
     let most = plan.max_steps.saturating_mul(16) as f64;
-    let each = EVALUATION_S.iter().find(|(is_of, _)| is_of(plan.method)).map_or(0.0, |(_, seconds)| *seconds);
+    let each = evaluation_seconds(plan.method);
     let run = evaluations.min(most) * each + plan.grid.points() as f64 * POINT_S;
     run * (1.0 + AUDIT * plan.audit_fraction)
 }

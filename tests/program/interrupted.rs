@@ -179,7 +179,9 @@ fn damaged_parts_are_found_and_made_again() {
     scratch.prints("campaign small.toml --out whole", 0);
     let part = |number: u32| scratch.path(&format!("r/runs/part-{number:06}.parquet"));
     let bytes = |number: u32| fs::read(scratch.path(&format!("whole/runs/part-{number:06}.parquet"))).unwrap();
-    let damages: [(&str, Box<dyn Fn()>); 6] = [
+    /// A way to damage a result.
+    type Damage<'a> = Box<dyn Fn() + 'a>;
+    let damages: [(&str, Damage<'_>); 6] = [
         ("truncated", Box::new(|| fs::write(part(1), &bytes(1)[..500]).unwrap())),
         ("emptied", Box::new(|| fs::write(part(0), b"").unwrap())),
         (
