@@ -56,7 +56,7 @@ impl Plan {
             }
         }
         if whole || self.design.depends_on_samples().is_some() {
-            lines.key("samples", self.samples);
+            lines.key("samples", self.first_samples());
         }
         lines.key("seed", self.seed);
         lines.key("duration_s", self.grid.duration());

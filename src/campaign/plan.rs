@@ -29,6 +29,8 @@ pub struct Plan {
     pub description: Option<String>,
     /// Number of samples, at least 1; sample 0 is the nominal scene.
     pub samples: u64,
+    /// The number of samples that the file says, where the campaign has ended at another one (`[stop]`); the plan as text says this one.
+    pub written_samples: Option<u64>,
     /// Seed of every draw.
     pub seed: u64,
     /// The times at which each run is observed.
@@ -92,6 +94,20 @@ const fn default_tolerance(method: Method) -> f64 {
 const MAX_STEPS: u64 = 10_000_000;
 
 impl Plan {
+    /// The plan of a campaign that `[stop]` has ended at `samples` samples; the same without `[stop]`.
+    #[must_use]
+    pub fn stopped_at(self, samples: u64) -> Plan {
+        if self.analysis.stop.is_none() {
+            return self;
+        }
+        Plan { samples, written_samples: Some(self.first_samples()), ..self }
+    }
+
+    /// The number of samples that the file says: with `[stop]` that of the first look.
+    pub fn first_samples(&self) -> u64 {
+        self.written_samples.unwrap_or(self.samples)
+    }
+
     /// The plan of the file at `path`.
     ///
     /// # Errors
@@ -243,6 +259,7 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
         name: spec.name?,
         description: spec.description,
         samples: dispersions.samples(),
+        written_samples: None,
         seed: spec.seed?,
         grid: Grid::uniform(spec.duration_s?, usize::try_from(points).ok()?),
         method,

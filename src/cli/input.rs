@@ -39,5 +39,5 @@ pub fn isa() -> Result<Isa, Failure> {
 pub fn plan_of_result(root: &Path, found: &Found) -> Result<Plan, Failure> {
     let plan = plan(&root.join(PLAN), Overrides::default())?;
     let has_ended = plan.analysis.stop.is_some() && found.is_finished;
-    Ok(if has_ended { Plan { samples: found.rows(), ..plan } } else { plan })
+    Ok(if has_ended { plan.stopped_at(found.rows()) } else { plan })
 }

@@ -116,7 +116,7 @@ fn run_missing(
             _ => break,
         }
     }
-    let plan = Plan { samples, ..plan.clone() };
+    let plan = plan.clone().stopped_at(samples);
     finish(&Finishing {
         ensemble: &Ensemble::new(&plan, ensemble.isa()),
         ready: &ready,

@@ -11,7 +11,7 @@ use crate::statistics::looks::{Look, decision, looks};
 /// The numbers of samples, sample 0 included, at which the campaign of `plan` is looked at; the last one ends it. Without `[stop]` it is one.
 pub fn targets(plan: &Plan) -> Vec<u64> {
     match &plan.analysis.stop {
-        Some(stop) => looks(plan.samples, stop.max_samples),
+        Some(stop) => looks(plan.first_samples(), stop.max_samples),
         None => vec![plan.samples],
     }
 }

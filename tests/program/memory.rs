@@ -52,7 +52,7 @@ fn memory_of_points_is_what_is_stated() {
         assert!(text.contains(&format!("points = {points}\n")) && text.contains(&format!("method = {method:?}\n")));
         text
     };
-    for (method, stated) in [("auto", 3600), ("dop853", 2350), ("null_space", 1700)] {
+    for (method, stated) in [("auto", 4200), ("dop853", 2350), ("null_space", 1700)] {
         let peaks = [20_001, 120_001].map(|points| {
             fs::write(scratch.0.join("burn.toml"), of(method, points)).unwrap();
             peak(&scratch, "campaign burn.toml --samples 17 --threads 1 --overwrite")
