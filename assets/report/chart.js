@@ -91,7 +91,7 @@ function axisOption(figure, which, palette, width) {
   const range = given ?? extent(figure, which);
   const room = which === "x" ? width - 84 : heightOf(figure, width) - 58;
   const found = axis.log ? logAxis(axis, range, room) : linearAxis(axis, range, which === "x" && figure.time, which === "x" ? Math.max(3, width / 90) : 5, room);
-  return { ...style, ...found, axisTick: { ...style.axisTick, ...found.axisTick }, nameGap: which === "x" ? 28 : 52, axisLabel: { ...label, ...found.axisLabel } };
+  return { ...style, ...found, axisTick: { ...style.axisTick, ...found.axisTick }, nameGap: which === "x" ? 28 : 56, nameMoveOverlap: false, axisLabel: { ...label, ...found.axisLabel } };
 }
 
 // Pairs [x, y] that can be shown.
@@ -234,7 +234,7 @@ export function chartOption(figure, width, palette = colors()) {
     limit: (mark) => limitSeries(mark, figure, palette, axes),
     matrix: (mark) => matrixSeries(mark, figure, palette),
   };
-  const names = figure.y.names ? Math.min(0.5 * width, 16 + 6.6 * Math.max(...axes[1].data.map((name) => name.length))) : 66;
+  const names = figure.y.names ? Math.min(0.5 * width, 16 + 6.6 * Math.max(...axes[1].data.map((name) => name.length))) : 76;
   const zoom = figure.x.names || figure.y.names ? [] : [{ type: "inside", xAxisIndex: 0, filterMode: "none", zoomOnMouseWheel: "ctrl", moveOnMouseMove: "ctrl", moveOnMouseWheel: false, preventDefaultMouseMove: false }];
   return {
     animation: false,

@@ -6,13 +6,14 @@
 // of the replay, the size of the file; screenshots in light, dark and narrow, and the printed page as PDF go to FOLDER. CHROMIUM names the browser.
 // Exit code 1 with one line for each thing that is wrong.
 
-import { mkdirSync, readFileSync, statSync } from "node:fs";
+import { mkdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
 import { basename, dirname, join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import puppeteer from "puppeteer-core";
 
 const LARGEST = 3_000_000; // bytes of a page
 const FEWEST_COLORS = 3; // background, axes and at least one mark
+const SLICE = 8000; // pixels of a screenshot
 const [folder, ...pages] = process.argv.slice(2);
 const problems = [];
 
@@ -74,8 +75,21 @@ async function checkWithoutScripts(browser, file, name) {
   await page.close();
 }
 
-// Draws every figure and checks it; with a path for a screenshot, that the browser shows more than an empty plot too.
-async function checkFigures(page, name, screenshot) {
+// Screenshots of the whole page from top to bottom, as files `stem_0.png` and so on: Chromium draws no more than 16,384 pixels at once.
+async function screenshots(page, stem) {
+  const [width, height] = await page.evaluate(() => [document.documentElement.clientWidth, document.documentElement.scrollHeight]);
+  const slices = [];
+  for (let top = 0; top < height; top += SLICE) {
+    const box = { x: 0, y: top, width, height: Math.min(SLICE, height - top) };
+    const png = await page.screenshot({ clip: box, captureBeyondViewport: true, encoding: "base64" });
+    writeFileSync(`${stem}_${slices.length}.png`, Buffer.from(png, "base64"));
+    slices.push({ box, png });
+  }
+  return slices;
+}
+
+// Draws every figure and checks it; and that the browser shows more than an empty plot.
+async function checkFigures(page, name, stem) {
   await page.evaluate(() => globalThis.spindriftPage.drawAll());
   const figures = await page.evaluate(() =>
     Array.from(document.querySelectorAll("figure"), (figure) => {
@@ -86,12 +100,13 @@ async function checkFigures(page, name, screenshot) {
   );
   if (figures.length === 0) problems.push(`${name}: there are no figures`);
   for (const { id, marks } of figures) if (marks < 3) problems.push(`${name}: figure ${id} has ${marks} elements`);
-  if (screenshot) {
-    await page.evaluate(() => scrollTo(0, 0));
-    const png = await page.screenshot({ path: screenshot, fullPage: true, encoding: "base64" });
-    const colors = await colorsIn(page, png, figures.map((figure) => figure.box));
-    colors.forEach((count, k) => {
-      if (count < FEWEST_COLORS) problems.push(`${name}: figure ${figures[k].id} has ${count} colours`);
+  await page.evaluate(() => scrollTo(0, 0));
+  for (const { box, png } of await screenshots(page, stem)) {
+    // a figure at an edge is seen by the half that is within
+    const inside = figures.filter((figure) => figure.box.y + 0.5 * figure.box.height >= box.y && figure.box.y + 0.5 * figure.box.height < box.y + box.height);
+    const places = inside.map((figure) => ({ ...figure.box, y: figure.box.y - box.y }));
+    (await colorsIn(page, png, places)).forEach((count, k) => {
+      if (count < FEWEST_COLORS) problems.push(`${name}: figure ${inside[k].id} has ${count} colours`);
     });
   }
   const text = await page.evaluate(() => document.body.innerText);
@@ -166,9 +181,9 @@ async function checked(browser, file) {
   if (size >= LARGEST) problems.push(`${name}: ${size} bytes`);
   if (/(src|href)="https?:/.test(readFileSync(file, "latin1"))) problems.push(`${name}: it refers to the network`);
   await checkWithoutScripts(browser, file, name);
-  const shot = (part) => join(folder, `${name}_${part}.png`);
+  const shot = (part) => join(folder, `${name}_${part}`);
   const page = await opened(browser, file, { width: 1300, height: 900 }, "light");
-  await page.screenshot({ path: shot("first") });
+  await page.screenshot({ path: `${shot("first")}.png` });
   await page.evaluate(async () => globalThis.spindriftPage.replay());
   const figures = await checkFigures(page, name, shot("light"));
   await checkHover(page, name);
@@ -180,7 +195,7 @@ async function checked(browser, file) {
   const dark = await opened(browser, file, { width: 1300, height: 900 }, "dark");
   await dark.evaluate(() => globalThis.spindriftPage.drawAll());
   await dark.evaluate(async () => globalThis.spindriftPage.replay());
-  await dark.screenshot({ path: shot("dark"), fullPage: true });
+  await screenshots(dark, shot("dark"));
   await dark.close();
   const narrow = await opened(browser, file, { width: 390, height: 800 }, "light");
   await checkFigures(narrow, `${name}, narrow`, shot("narrow"));
