@@ -6,7 +6,9 @@ use std::num::NonZeroUsize;
 use std::path::Path;
 use std::sync::Mutex;
 
-use crate::support::scratch_folder::ScratchFolder;
+use crate::support::campaigns::{FUSELAGE, SPACECRAFT_STATE, SPIN_DISPERSION, WHEEL1, WHEEL2};
+use crate::support::scratch_folder::{ScratchFolder, batches};
+use arrow_array::RecordBatch;
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float64Type, UInt64Type};
 use serde_json::Value;
@@ -15,9 +17,10 @@ use spindrift::ensemble::audit::Selection;
 use spindrift::ensemble::{Audit, Auditor, Ensemble, Parts, Rows, Sink, Supervision, run};
 use spindrift::math::Isa;
 use spindrift::ode::Tolerance;
-use spindrift::run::Status;
+use spindrift::propagation::Method;
+use spindrift::run::{Grid, Status};
 use spindrift::sampling::SampleId;
-use spindrift::scene::{DebrisInput, Scene, SceneInput};
+use spindrift::scene::{ActuationInput, DebrisInput, Scene, SceneInput};
 
 /// The shipped campaign of that name, with this number of samples, a fraction of them audited.
 fn plan(name: &str, samples: u64, fraction: f64) -> Plan {
@@ -189,14 +192,14 @@ fn a_wrong_debris_is_caught() {
     wrong.mass.debris.as_mut().expect("a debris").inertia[0][0] *= 1.0 + 1e-4;
     let mut auditor = Auditor::new(&plan, Isa::best(), &plan.grid);
     let (right, caught) = (auditor.audit(&scene).unwrap(), auditor.compare(&wrong, &scene).unwrap());
-    // measured: 8.0e-10 and 9.6e-6
-    assert!(right.debris > 0.0 && right.debris < 1e-9, "{:e}", right.debris);
-    assert!(caught.debris > 1e-7 && caught.state().to_bits() == right.state().to_bits(), "{:e}", caught.debris);
+    // measured: 8.0e-10 and 9.6e-6; the right one is a rounding that the instability amplifies, of another size on another machine
+    assert!(right.debris > 0.0 && right.debris < 4e-9, "{:e}", right.debris);
+    assert!(caught.debris > 1e-6 && caught.state().to_bits() == right.state().to_bits(), "{:e}", caught.debris);
     let without = Plan { nominal: SceneInput { debris: None, ..plan.nominal.clone() }, ..plan };
     let scene = Scene::resolve(&without.nominal).expect("physical");
     let audit = Auditor::new(&without, Isa::best(), &without.grid).audit(&scene).unwrap();
     // measured: 2.3e-11
-    assert!(audit.debris.is_nan() && audit.state() < 1e-9);
+    assert!(audit.debris.is_nan() && audit.state() < 2e-10);
 }
 
 /// Law: a run too long for double-double is compared with plain Taylor integration at the smallest tolerance, and says so.
@@ -243,7 +246,7 @@ fn the_program_audits() {
     for (row, (debris, state)) in debris.iter().zip(&state).enumerate() {
         assert_eq!(debris.is_some(), state.is_some(), "row {row}");
         // measured: 5.3e-16
-        assert!(debris.is_none_or(|error| error < 1e-12), "row {row}: {debris:?}");
+        assert!(debris.is_none_or(|error| error < 5e-15), "row {row}: {debris:?}");
     }
     let audited = state.iter().flatten().count();
     // a quarter of 120: 30 with a standard deviation of 4.7, so that either end is more than four of them away
@@ -287,6 +290,116 @@ fn the_program_audits() {
     let said = scratch.says("campaign", "spin_sweep.toml", "--samples 120 --audit 0 --out none", 0);
     assert!(!said.contains("audit"), "{said}");
     assert!(scratch.table("none/runs/part-000000.parquet").column_by_name("audit_state_error").is_none());
+}
+
+/// One run in nine needs more steps than it may take.
+const LIMITED: &str = r#"
+[campaign]
+name = "limited"
+samples = 1300
+seed = 7
+duration_s = 0.25
+[integrator]
+method = "dop853"
+tolerance = 1e-9
+max_steps = 10
+[observe]
+points = 3
+groups = ["energy_conservation", "numerics"]
+[audit]
+fraction = 0.9375
+"#;
+
+/// Law: each quantile of an audit's errors in the summary is the value of the stated rank of the column in the files; every selected
+/// sample is counted once, as audited or as failed.
+#[test]
+fn the_summary_of_the_audits_is_that_of_the_files() {
+    let scratch = ScratchFolder::new("quantiles");
+    let text = [LIMITED, FUSELAGE, WHEEL1, WHEEL2, SPACECRAFT_STATE, SPIN_DISPERSION].concat();
+    scratch.file("limited.toml", &text);
+    scratch.says("campaign", scratch.path("limited.toml").to_str().unwrap(), "--out r", 1);
+    let summary: Value = serde_json::from_str(&fs::read_to_string(scratch.path("r/summary.json")).unwrap()).unwrap();
+    let audit = &summary["audit"];
+    let tables: Vec<RecordBatch> = scratch.part_files("r").iter().flat_map(|file| batches(file)).collect();
+    for (key, name) in [
+        ("state_error", "audit_state_error"),
+        ("omega_error", "audit_omega_error"),
+        ("attitude_error_rad", "audit_attitude_error_rad"),
+    ] {
+        let column = |table: &RecordBatch| {
+            let column = table.column_by_name(name).unwrap_or_else(|| panic!("no column {name}")).clone();
+            column.as_primitive::<Float64Type>().iter().flatten().collect::<Vec<f64>>()
+        };
+        let mut errors: Vec<f64> = tables.iter().flat_map(column).collect();
+        errors.sort_by(f64::total_cmp);
+        let count = errors.len();
+        assert!(count > 1000, "{count}");
+        assert_eq!(audit["audited"].as_u64(), Some(count as u64));
+        for (quantile, p) in [("median", 0.5), ("p95", 0.95)] {
+            let exact = errors[(p * count as f64).ceil() as usize - 1];
+            let found = audit[key][quantile].as_f64().unwrap_or_else(|| panic!("{key}: {}", audit[key]));
+            // the stated relative error of the sketches
+            assert!((found - exact).abs() <= exact / 2048.0, "{name} {quantile}: {found:e} for {exact:e}");
+        }
+        assert_eq!(audit[key]["max"].as_f64(), errors.last().copied(), "{name}");
+    }
+    let plan = Plan::from_text("limited.toml", &text, Overrides::default()).unwrap();
+    let mut selection = Selection::new(&plan);
+    let selected = (0..plan.samples).filter(|sample| selection.contains(SampleId(*sample))).count() as u64;
+    let (audited, failed) = (audit["audited"].as_u64().unwrap(), audit["failed"].as_u64().unwrap());
+    assert!(failed > 10, "{failed} audits of runs that hit the limit");
+    assert_eq!(audited + failed, selected);
+}
+
+/// Law: the error of an audit is the maximum over the grid. A motor torque that speeds the body up, brings it back, and undoes the turn
+/// moves a run away from its reference solution and returns it: the error is that of the middle, not of the end.
+#[test]
+fn the_error_of_an_audit_is_its_maximum_over_the_grid() {
+    let mut plan = plan("no_debris", 1, 1.0);
+    plan.nominal.initial.angular_velocity_rad_s = [0.0, 0.0, 1.0];
+    plan.nominal.wheels.iter_mut().for_each(|wheel| wheel.rate_rad_s = 0.0);
+    let nominal = plan.nominal.clone();
+    let with_torque = |size: f64| {
+        let mut input = nominal.clone();
+        let pulse = |(k, sign): (usize, f64)| {
+            let start = 0.25 * k as f64;
+            let mut arc = ActuationInput::idle(start, start + 0.25);
+            arc.torque_n_m[1] = sign * size;
+            arc
+        };
+        input.actuation = [1.0, -1.0, -1.0, 1.0].into_iter().enumerate().map(pulse).collect();
+        input
+    };
+    plan.nominal = with_torque(10.0);
+    let (pushed, free) = (Scene::resolve(&with_torque(10.0)).unwrap(), Scene::resolve(&with_torque(0.0)).unwrap());
+    let errors = |times: &[f64]| {
+        let audit = Auditor::new(&plan, Isa::best(), &Grid::at(times.to_vec())).compare(&pushed, &free).unwrap();
+        [audit.omega, audit.attitude]
+    };
+    let (whole, end) = (errors(&[0.0, 0.25, 0.5, 0.75, 1.0]), errors(&[0.0, 1.0]));
+    let (quarter, half) = (errors(&[0.0, 0.25]), errors(&[0.0, 0.5]));
+    // back to rounding; measured: 1.1e-16
+    assert!(end.iter().all(|error| *error < 1e-15), "{end:?}");
+    // measured: 1.5e-3 and 3.7e-4, the same numbers
+    for (whole, middle) in whole.iter().zip([quarter[0], half[1]]) {
+        assert!((whole / middle - 1.0).abs() < 1e-12 && *whole > 1e-4, "{whole:e} {middle:e}");
+    }
+}
+
+/// Law: q and -q are the same attitude: an audit of the null-space method is small where its quaternions, which are made of DCMs, each as
+/// near to the one before as can be, have the other sign: with points that are more than half a turn apart.
+#[test]
+fn the_sign_of_a_quaternion_is_no_error_of_an_audit() {
+    let mut plan = plan("no_debris", 1, 1.0);
+    plan.method = Method::NullSpace;
+    plan.tolerance = Tolerance { relative: 1e-9, absolute: 1e-9 };
+    plan.nominal.initial.angular_velocity_rad_s = [0.0, 0.1, 3.0];
+    let scene = Scene::resolve(&plan.nominal).unwrap();
+    // the body turns by 6 rad between its two points
+    let grid = Grid::uniform(2.0, 2);
+    let audit = Auditor::new(&plan, Isa::best(), &grid).audit(&scene).unwrap();
+    println!("{:e}", audit.state());
+    assert!(audit.state() > 0.0 && audit.state() < 5e-7, "{:e}", audit.state());
 }
 
 #[test]

@@ -8,7 +8,7 @@ use arrow_array::cast::AsArray;
 use arrow_array::types::{Float64Type, UInt64Type};
 use arrow_array::{Array, RecordBatch};
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
-use parquet::basic::Compression;
+use parquet::basic::{Compression, ZstdLevel};
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 use spindrift::campaign::{Overrides, Plan};
@@ -118,7 +118,8 @@ fn the_summary_is_that_of_the_files() {
 /// codec is the plan's.
 #[test]
 fn files_say_what_they_contain() {
-    for (name, codec) in [("lz4", Compression::LZ4_RAW), ("none", Compression::UNCOMPRESSED)] {
+    let zstd = Compression::ZSTD(ZstdLevel::default());
+    for (name, codec) in [("lz4", Compression::LZ4_RAW), ("zstd", zstd), ("none", Compression::UNCOMPRESSED)] {
         let folder = ScratchFolder::new(&format!("codec-{name}"));
         let text = format!("{}[output]\ncompression = \"{name}\"\n", campaign());
         run(&folder, &text, "--samples 600 --out r", 1);
