@@ -1,11 +1,14 @@
 //! How a run ends is data: done, step limit, step floor, not finite; arcs and observation points are met exactly.
 
+use crate::support::runs::{adaptive, fixed, propagate};
+use crate::support::scenes::mixed;
 use crate::textbook::*;
 use spindrift::ode::Control;
 use spindrift::ode::GaussLegendre;
 use spindrift::ode::RungeKutta4;
 use spindrift::ode::{Dop853, DormandPrince};
 use spindrift::run::Grid;
+use spindrift::run::Outcome;
 use spindrift::run::Status;
 
 /// Round-off of a sum of some ten steps of order one to ten.
@@ -114,6 +117,24 @@ fn a_run_that_takes_too_many_steps_is_given_up() {
     ends_as(Adaptive(Dop853), NotANumber, 1.0, &Control { max_steps: 2, ..control }, Status::StepLimit);
     ends_as(Fixed(RungeKutta4), NotANumber, 1.0, &control, Status::StepLimit);
     ends_as(Fixed(GaussLegendre), NotANumber, 1.0, &control, Status::StepLimit);
+}
+
+/// Law: `max_steps` counts attempted steps, rejected ones included: a run that needs n of them is complete where n are allowed, and is given
+/// up after n - 1 where n - 1 are, for every method.
+#[test]
+fn a_run_takes_max_steps_and_no_more() {
+    let grid = Grid::uniform(1.0, 3);
+    let scenes = mixed(1, false, 1.0);
+    for method in spindrift::propagation::Method::ALL {
+        let control = if method.has_fixed_step() { fixed(0.01) } else { adaptive(1e-6) };
+        let run = |max_steps| propagate(method, Control { max_steps, ..control }, &grid, &scenes).remove(0).outcome;
+        let attempts = |outcome: &Outcome| outcome.effort.steps + outcome.effort.rejected;
+        let needed = attempts(&run(1_000_000));
+        assert!(needed > 2, "{}: {needed}", method.name());
+        let (enough, short) = (run(needed), run(needed - 1));
+        assert_eq!((enough.status, attempts(&enough)), (Status::Done, needed), "{}", method.name());
+        assert_eq!((short.status, attempts(&short)), (Status::StepLimit, needed - 1), "{}", method.name());
+    }
 }
 
 #[test]

@@ -209,6 +209,16 @@ impl Law<2, 0> for VanDerPol {
     }
 }
 
+/// y' = p.
+#[derive(Clone, Copy)]
+pub struct Slope;
+impl Law<1, 1> for Slope {
+    #[inline(always)]
+    fn derivative<R: Real>(_time: R, _y: &[R; 1], p: &[R; 1], _arc: R) -> [R; 1] {
+        *p
+    }
+}
+
 /// y' = y^2: y(0) = 1 has a pole at t = 1.
 #[derive(Clone, Copy)]
 pub struct BlowUp;
