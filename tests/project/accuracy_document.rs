@@ -1,6 +1,6 @@
 //! `docs/accuracy.md`: every table is that of a test, every row holds, and nothing in it is without a measurement.
 
-use crate::support::claims::path;
+use crate::support::claims::{is_outdated, path};
 
 /// The rows of a section: regime, bound, measured, margin.
 fn rows(text: &str) -> Vec<(&str, [f64; 3])> {
@@ -52,4 +52,14 @@ fn a_row_beyond_its_bound_is_seen() {
     let text = "<!-- claims: x -->\n| regime | bound | measured | margin |\n| --- | --- | --- | --- |\n| a, b | 1.0e-15 | 2.0e-15 | 0.5 |\n\n<!-- end of x -->";
     let (name, table) = sections(text)[0];
     assert_eq!((name, rows(table)), ("x", vec![("a, b", [1e-15, 2e-15, 0.5])]));
+}
+
+/// Counter-test: a stated number that differs from the measured one by a fifth is seen, either way; rounding to two digits is not.
+#[test]
+fn a_stated_number_that_is_not_measured_is_seen() {
+    let row = "| a, b | 1.0e-15 | 2.0e-16 | 5.0 |";
+    assert!(!is_outdated(row, 2.049e-16) && !is_outdated(row, 1.95e-16));
+    assert!(is_outdated(row, 2.4e-16) && is_outdated(row, 1.6e-16) && is_outdated(row, 0.0));
+    assert!(is_outdated("| a, b | 1.0e-15 | small | 5.0 |", 2e-16));
+    assert!(!is_outdated("| a, b | 1.0e-15 | 0.0e0 | inf |", 0.0));
 }
