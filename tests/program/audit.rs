@@ -398,8 +398,8 @@ fn the_sign_of_a_quaternion_is_no_error_of_an_audit() {
     // the body turns by 6 rad between its two points
     let grid = Grid::uniform(2.0, 2);
     let audit = Auditor::new(&plan, Isa::best(), &grid).audit(&scene).unwrap();
-    println!("{:e}", audit.state());
-    assert!(audit.state() > 0.0 && audit.state() < 5e-7, "{:e}", audit.state());
+    // measured: 2.6e-8; with the other sign 4
+    assert!(audit.state() > 0.0 && audit.state() < 2e-7, "{:e}", audit.state());
 }
 
 #[test]
