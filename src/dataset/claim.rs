@@ -288,7 +288,8 @@ pub fn claim(
     let is_blank = found.manifests.is_empty();
     if options.overwrite && !is_blank {
         let sibling = replacement(root);
-        remove_dataset(storage, &sibling, identity)?;
+        let most = targets(plan).last().copied().unwrap_or(plan.samples);
+        remove_dataset(storage, &sibling, identity, most)?;
         let rest = ClaimOptions { overwrite: false, ..options };
         return match claim(storage, &sibling, (plan, identity), rest)? {
             Claim::Ready(ready) => {
@@ -424,10 +425,10 @@ fn beside(root: &Path, what: &str) -> PathBuf {
     root.with_file_name(format!(".{name}.{what}"))
 }
 
-/// Removes the dataset in `root`, if there is one of other rows than `identity`.
-fn remove_dataset(storage: &dyn Storage, root: &Path, identity: &Identity) -> Result<(), FolderError> {
+/// Removes the dataset in `root`, if there is one of other rows than `identity`, or of more than `most` rows.
+fn remove_dataset(storage: &dyn Storage, root: &Path, identity: &Identity, most: u64) -> Result<(), FolderError> {
     if let Contents::Dataset(found) = contents(storage, root)?
-        && found.identity.as_ref() != Some(identity)
+        && (found.identity.as_ref() != Some(identity) || found.rows() > most)
     {
         remove(storage, root, &found)?;
     }
