@@ -93,7 +93,7 @@ impl DerivedObservable {
         Quantity::named(self.name.clone(), self.unit.clone(), format!("{}.", self.expression))
     }
 
-    /// The expression, and what its variables are; `None` only for what [`DerivedObservable::read`] refuses.
+    /// The expression, and what its variables are; `None` only for what `DerivedObservable::read` refuses.
     pub fn parsed(&self, scene: &SceneInput, known: &KnownColumns) -> Option<(Expression, Vec<Variable>)> {
         let expression = Expression::parse(&self.expression).ok()?;
         let variables: Option<_> = expression.variables().iter().map(|name| variable(name, scene, known)).collect();

@@ -2,9 +2,9 @@
 //!
 //! It is a pure function of the plan and the rows (and what was computed from them): the same result gives the same bytes.
 //!
-//! - [`survey`]: what is taken from the rows. - [`runs`]: the runs that are shown in full.
-//! - [`figure`]: what a figure shows; [`over_time`], [`errors`], [`influence`], [`inputs`]: the figures; [`drawing`]: figures as files.
-//! - [`gather`]: what statistics, verdicts, sensitivities and bands are on the page. - [`cards`], [`first_screen`], [`tables`], [`document`]: the HTML. - [`replay`]: the 3D replay. - [`payload`]: numbers in the page.
+//! - [`survey`]: what is taken from the rows. - `runs`: the runs that are shown in full.
+//! - [`figure`]: what a figure shows; [`over_time`], `errors`, [`influence`], `inputs`: the figures; [`drawing`]: figures as files.
+//! - [`gather`]: what statistics, verdicts, sensitivities and bands are on the page. - [`cards`], `first_screen`, [`tables`], `document`: the HTML. - `replay`: the 3D replay. - `payload`: numbers in the page.
 //!
 //! The scripts and styles are in `assets/report/`.
 
