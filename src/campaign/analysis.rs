@@ -88,7 +88,30 @@ impl Analysis {
         dispersed: &[Column],
         samples: u64,
         design: &Design,
+        band_times: &[f64],
     ) {
+        for (index, requirement) in self.requirements.iter().enumerate() {
+            let Some(band) = requirement.band() else { continue };
+            if band_times.is_empty() {
+                let allowed = "left out where there are no bands: bands.points is 0";
+                let path = format!("require[{index}].band");
+                document.add(&path, Some(format!("{:?}", band.series)), allowed.to_owned(), "delete bands.points");
+            } else if !band_times.iter().any(|time| band.contains(*time)) {
+                let (key, end) = band.from_s.map_or(("to_s", band.to_s), |from| ("from_s", Some(from)));
+                let last = band_times.last().copied().unwrap_or_default();
+                let allowed = format!(
+                    "part of an interval with a point of the bands: there are {} from 0 s to {last} s",
+                    band_times.len()
+                );
+                let path = format!("require[{index}].{key}");
+                document.add(
+                    &path,
+                    end.map(|end| end.to_string()),
+                    allowed,
+                    "write a wider interval, or more bands.points",
+                );
+            }
+        }
         let scene = document.scene.clone();
         for (index, derived) in self.derived.iter().enumerate() {
             if let Some((parameter, component)) = derived.undispersed(&scene, known, dispersed) {

@@ -2,6 +2,7 @@
 
 use super::problem::nearest;
 use super::units;
+use crate::observables::band_series::band_series;
 use crate::observables::{Group, Request, table};
 use crate::propagation::Method;
 use crate::run::Quantity;
@@ -34,13 +35,16 @@ pub struct KnownColumns {
     request: Request,
     /// Observables, and then those that the file derives.
     observables: Vec<Quantity>,
+    /// The quantities that have bands.
+    bands: Vec<Quantity>,
 }
 
 impl KnownColumns {
     /// The observables of `request`.
     pub fn new(request: Request) -> Self {
         let observables = request.columns().into_iter().map(|column| column.quantity).collect();
-        KnownColumns { request, observables }
+        let bands = band_series(&request).into_iter().map(|band| band.quantity).collect();
+        KnownColumns { request, observables, bands }
     }
 
     /// Adds an observable that the file derives.
@@ -51,6 +55,29 @@ impl KnownColumns {
     /// The observable called `name`.
     pub fn observable(&self, name: &str) -> Option<&Quantity> {
         self.observables.iter().find(|quantity| quantity.name() == name)
+    }
+
+    /// The quantity called `name` that has bands.
+    pub fn band(&self, name: &str) -> Option<&Quantity> {
+        self.bands.iter().find(|quantity| quantity.name() == name)
+    }
+
+    /// What is allowed in place of `name`, which has no bands, and what to do.
+    pub fn band_refusal(&self, name: &str) -> (String, String) {
+        let allowed = "a quantity over time with bands: a column of bands.parquet".to_owned();
+        let everything = Request { groups: Group::ALL.into_iter().collect(), ..self.request };
+        let is_of_other_groups = band_series(&everything).iter().any(|band| band.quantity.name() == name);
+        let remedy = if is_of_other_groups {
+            "it is in a group that is not observed: add its group to observe.groups (`spindrift columns` lists them)"
+                .to_owned()
+        } else {
+            let list = || self.bands.iter().map(Quantity::name);
+            match nearest(name, list()) {
+                Some(meant) => format!("did you mean {meant:?}?"),
+                None => format!("name one of {}", list().collect::<Vec<_>>().join(", ")),
+            }
+        };
+        (allowed, remedy)
     }
 
     /// What is allowed in place of `name`, which is no observable, and what to do.

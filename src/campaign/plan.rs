@@ -254,14 +254,17 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
     let dispersions = dispersions?;
     let known = KnownColumns::new(request(&groups, &spec.scene, method));
     let design = spec.design.as_ref().unwrap_or(&Design::DEFAULT);
-    spec.analysis.check(document, &known, dispersions.columns(), dispersions.samples(), design);
+    let grid = Grid::uniform(spec.duration_s?, usize::try_from(points).ok()?);
+    let band_times: Vec<f64> =
+        grid.evenly(usize::try_from(band_points).ok()?).into_iter().map(|point| grid.times()[point]).collect();
+    spec.analysis.check(document, &known, dispersions.columns(), dispersions.samples(), design, &band_times);
     Some(Plan {
         name: spec.name?,
         description: spec.description,
         samples: dispersions.samples(),
         written_samples: None,
         seed: spec.seed?,
-        grid: Grid::uniform(spec.duration_s?, usize::try_from(points).ok()?),
+        grid,
         method,
         tolerance: Tolerance { relative, absolute },
         step_s: spec.step_s,

@@ -18,14 +18,41 @@ pub enum Statement {
     Mean,
 }
 
+/// What a requirement is about.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Subject {
+    /// An observable: one number of a run.
+    Observable(String),
+    /// A quantity over time: its number at every point of its bands in an interval.
+    Band(BandSubject),
+}
+
+/// A quantity over time, in an interval.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BandSubject {
+    /// Name of the quantity, as in `bands.parquet`.
+    pub series: String,
+    /// Start of the interval, s; `None`: of the run.
+    pub from_s: Option<f64>,
+    /// End of the interval, s; `None`: of the run.
+    pub to_s: Option<f64>,
+}
+
+impl BandSubject {
+    /// Whether the interval has the time `time`, s.
+    pub fn contains(&self, time: f64) -> bool {
+        self.from_s.is_none_or(|from| from <= time) && self.to_s.is_none_or(|to| time <= to)
+    }
+}
+
 /// What a campaign must show.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Requirement {
-    /// The observable.
-    pub observable: String,
+    /// What it is about.
+    pub subject: Subject,
     /// What of it must be within the limit.
     pub statement: Statement,
-    /// The limit, in the unit of the observable.
+    /// The limit, in the unit of the observable or of the quantity over time.
     pub limit: Limit,
     /// With which confidence.
     pub confidence: f64,
@@ -37,16 +64,24 @@ pub const DEFAULT_CONFIDENCE: f64 = 0.95;
 const STATEMENTS: [&str; 3] = ["quantile", "fraction", "mean"];
 /// The keys of limits: a requirement has exactly one.
 const LIMITS: [&str; 2] = ["at_most", "at_least"];
+/// The keys of what a requirement is about: it has exactly one.
+const SUBJECTS: [&str; 2] = ["observable", "band"];
+/// The keys of an interval of time.
+const INTERVAL: [&str; 2] = ["from_s", "to_s"];
 
 impl Requirement {
     /// Reads one table; `None` where something is wrong, which is then noted.
     pub(super) fn read(table: &mut Section<'_, '_>, known: &KnownColumns) -> Option<Self> {
-        table.require("observable", "the name of an observable", "\"energy_error_max\"");
-        let name = observable(table, "observable", known);
+        let subject = subject(table, known);
         let confidence = table.number("confidence", CONFIDENCE);
         let statement = one_of(table, STATEMENTS, "quantile = 0.99").and_then(|key| match key {
             "quantile" => table.number(key, PROBABILITY).map(Statement::Quantile),
             "fraction" => table.number(key, PROBABILITY).map(Statement::Fraction),
+            _ if table.has("band") => {
+                let allowed = "left out with `band`: a requirement over time is about a share of the runs";
+                table.refuse(key, allowed, "write quantile or fraction");
+                None
+            }
             _ => match table.flag(key) {
                 Some(true) => Some(Statement::Mean),
                 Some(false) => {
@@ -56,7 +91,11 @@ impl Requirement {
                 None => None,
             },
         });
-        let unit = name.as_deref().and_then(|name| known.observable(name)).map(unit_of);
+        let quantity = subject.as_ref().and_then(|subject| match subject {
+            Subject::Observable(name) => known.observable(name),
+            Subject::Band(band) => known.band(&band.series),
+        });
+        let unit = quantity.map(unit_of);
         if let Some(unit) = unit {
             table.measures(unit);
         }
@@ -66,18 +105,49 @@ impl Requirement {
             let number = table.number(key, FINITE)?;
             Some(if key == "at_most" { Limit::AtMost(number) } else { Limit::AtLeast(number) })
         });
-        STATEMENTS.iter().chain(&LIMITS).for_each(|key| table.know(key));
+        STATEMENTS.iter().chain(&LIMITS).chain(&SUBJECTS).chain(&INTERVAL).for_each(|key| table.know(key));
         let confidence_passed = !table.has("confidence") || confidence.is_some();
         table.finish();
-        let (observable, statement, limit) = (name?, statement?, limit?);
+        let (subject, statement, limit) = (subject?, statement?, limit?);
         let confidence = confidence.unwrap_or(DEFAULT_CONFIDENCE);
-        confidence_passed.then_some(Requirement { observable, statement, limit, confidence })
+        confidence_passed.then_some(Requirement { subject, statement, limit, confidence })
+    }
+
+    /// The observable that it is about; `None` where it is about a quantity over time.
+    pub fn observable(&self) -> Option<&str> {
+        match &self.subject {
+            Subject::Observable(name) => Some(name),
+            Subject::Band(_) => None,
+        }
+    }
+
+    /// The quantity over time that it is about, with the interval.
+    pub fn band(&self) -> Option<&BandSubject> {
+        match &self.subject {
+            Subject::Observable(_) => None,
+            Subject::Band(band) => Some(band),
+        }
+    }
+
+    /// The name of what it is about.
+    pub fn name(&self) -> &str {
+        match &self.subject {
+            Subject::Observable(name) => name,
+            Subject::Band(band) => &band.series,
+        }
     }
 
     /// Writes the table.
     pub(super) fn write(&self, lines: &mut Lines) {
         lines.table("[[require]]");
-        lines.key("observable", &self.observable);
+        match &self.subject {
+            Subject::Observable(name) => lines.key("observable", name),
+            Subject::Band(band) => {
+                lines.key("band", &band.series);
+                let ends = INTERVAL.into_iter().zip([band.from_s, band.to_s]);
+                ends.filter_map(|(key, end)| Some((key, end?))).for_each(|(key, end)| lines.key(key, end));
+            }
+        }
         match self.statement {
             Statement::Quantile(quantile) => lines.key("quantile", quantile),
             Statement::Fraction(fraction) => lines.key("fraction", fraction),
@@ -89,6 +159,28 @@ impl Requirement {
         }
         lines.key("confidence", self.confidence);
     }
+}
+
+/// What the table is about; `None` where that is wrong, which is then noted.
+fn subject(table: &mut Section<'_, '_>, known: &KnownColumns) -> Option<Subject> {
+    if one_of(table, SUBJECTS, "observable = \"energy_error_max\"")? == "observable" {
+        let found = observable(table, "observable", known);
+        let written: Vec<&str> = INTERVAL.into_iter().filter(|key| table.has(key)).collect();
+        for key in written {
+            table.refuse(key, "left out with `observable`, which is one number of a run", "delete it, or write `band`");
+        }
+        return found.map(Subject::Observable);
+    }
+    let ends = INTERVAL.map(|key| table.number(key, FINITE));
+    let name = table.text("band")?.to_owned();
+    if known.band(&name).is_none() {
+        let (allowed, remedy) = known.band_refusal(&name);
+        table.refuse("band", allowed, remedy);
+        return None;
+    }
+    let are_passed = INTERVAL.iter().zip(&ends).all(|(key, end)| !table.has(key) || end.is_some());
+    let [from_s, to_s] = ends;
+    are_passed.then(|| Subject::Band(BandSubject { series: name, from_s, to_s }))
 }
 
 /// The observable that `key` names; `None` where there is none, which is then noted.

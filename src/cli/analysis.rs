@@ -7,6 +7,7 @@ use crate::campaign::Plan;
 use crate::cli::command_outcome::Failure;
 use crate::dataset::names::BANDS;
 use crate::dataset::rows_reader::RowsReader;
+use crate::dataset::running_counts::Counted;
 use crate::dataset::sensitivity::InputSensitivity;
 use crate::dataset::statistics::Statistics;
 use crate::dataset::verdicts::Verdicts;
@@ -38,9 +39,10 @@ pub fn analyse(
     reader: &RowsReader,
     bands: &[PathBuf],
     root: &Path,
+    counted: Option<Counted>,
     threads: Option<NonZeroUsize>,
 ) -> Result<Analysed, Failure> {
-    let found = computed(plan, reader, bands, threads)?;
+    let found = computed(plan, reader, bands, counted, threads)?;
     let path = root.join(statistics_table::FILE);
     statistics_table::save(plan, &found.statistics, &path).map_err(|error| in_file(&path, &error))?;
     let path = root.join(sensitivity_table::FILE);
@@ -52,7 +54,7 @@ pub fn analyse(
     Ok(found)
 }
 
-/// What the rows and the files `bands` of the bands of `plan` say; nothing is written.
+/// What the rows and the files `bands` of the bands of `plan` say, or what was counted while they were made; nothing is written.
 ///
 /// # Errors
 /// Where a file cannot be read.
@@ -60,13 +62,19 @@ pub fn computed(
     plan: &Plan,
     reader: &RowsReader,
     bands: &[PathBuf],
+    counted: Option<Counted>,
     threads: Option<NonZeroUsize>,
 ) -> Result<Analysed, Failure> {
+    let (columns, counted_bands) = counted.map(|counted| (counted.columns, counted.bands)).unzip();
+    let bands = match counted_bands {
+        Some(bands) => bands,
+        None => bands_file::read(bands, threads).map_err(Failure::files)?,
+    };
     Ok(Analysed {
-        statistics: statistics::compute(plan, reader, threads).map_err(Failure::files)?,
+        statistics: statistics::compute(plan, reader, columns, threads).map_err(Failure::files)?,
         sensitivities: sensitivity::compute(plan, reader, threads).map_err(Failure::files)?,
-        verdicts: verdicts::assess(plan, reader, threads).map_err(Failure::files)?,
-        bands: bands_file::read(bands).map_err(Failure::files)?,
+        verdicts: verdicts::assess(plan, reader, bands.as_ref(), threads).map_err(Failure::files)?,
+        bands,
     })
 }
 

@@ -20,6 +20,7 @@ use crate::dataset::manifest::PartRecord;
 use crate::dataset::names::{PLAN, REPORT, SUMMARY, TRAJECTORIES};
 use crate::dataset::parts_read::PartsRead;
 use crate::dataset::rows_reader::RowsReader;
+use crate::dataset::running_counts::Counted;
 use crate::dataset::stopping::stopping;
 use crate::dataset::storage::Disk;
 use crate::dataset::tally::Tally;
@@ -54,17 +55,21 @@ pub struct Finishing<'a> {
     pub seconds: [f64; 2],
 }
 
-/// Makes everything that follows from the rows, marks the dataset as finished, and says what was found.
+/// Makes everything that follows from the rows, marks the dataset as finished, and says what was found. Where the rows were counted while
+/// they were made, they are not read again for that.
 ///
 /// # Errors
 /// Where rows cannot be read or a file operation fails.
-pub fn finish(job: &Finishing<'_>) -> Result<CommandOutcome, Failure> {
+pub fn finish(job: &Finishing<'_>, counted: Option<Counted>) -> Result<CommandOutcome, Failure> {
     let (plan, folder) = (job.ensemble.plan(), &job.ready.folder);
     let records = folder.parts();
     let parts = PartsRead::of(&records, |name| folder.path(name));
     let reader = RowsReader::new(parts.rows);
-    let tally = Tally::of_files(job.ensemble, &reader, job.threads).map_err(Failure::files)?;
-    let analysed = analyse(plan, &reader, &parts.bands, folder.root(), job.threads)?;
+    let tally = match &counted {
+        Some(counted) => counted.tally.clone(),
+        None => Tally::of_files(job.ensemble, &reader, job.threads).map_err(Failure::files)?,
+    };
+    let analysed = analyse(plan, &reader, &parts.bands, folder.root(), counted, job.threads)?;
     retain(job, &reader)?;
     make_page(job, &reader, &analysed, &records)?;
     write_junit(plan, &analysed.verdicts, tally.failed(), job.junit)?;
@@ -185,7 +190,7 @@ pub fn run(options: &FinishOptions) -> Result<CommandOutcome, Failure> {
         )));
     }
     let replayed = root.join(PLAN).display().to_string();
-    finish(&Finishing {
+    let job = Finishing {
         ensemble: &ensemble,
         ready: &ready,
         root,
@@ -195,5 +200,6 @@ pub fn run(options: &FinishOptions) -> Result<CommandOutcome, Failure> {
         page: (!options.no_report, options.figures.as_deref()),
         made: None,
         seconds: [0.0; 2],
-    })
+    };
+    finish(&job, None)
 }

@@ -38,7 +38,7 @@ pub fn run(options: &ReportOptions) -> Result<CommandOutcome, Failure> {
     let records: Vec<PartRecord> = found.parts().into_values().collect();
     let parts = PartsRead::of(&records, |name| root.join(name));
     let reader = RowsReader::new(parts.rows);
-    let analysed = computed(&plan, &reader, &parts.bands, options.threads)?;
+    let analysed = computed(&plan, &reader, &parts.bands, None, options.threads)?;
     let page = page(&ensemble, &reader, &analysed, &records, options.threads)?;
     let path = root.join(REPORT);
     atomic::write_bytes(&path, page.html.as_bytes())

@@ -17,6 +17,7 @@ use crate::dataset::identity::identity;
 use crate::dataset::manifest::PartRecord;
 use crate::dataset::part_sink::{PartSink, write_parts};
 use crate::dataset::rows_reader::RowsReader;
+use crate::dataset::running_counts::RunningCounts;
 use crate::dataset::stopping::{stopping, targets};
 use crate::dataset::storage::Disk;
 use crate::ensemble::run_cost::parts;
@@ -99,6 +100,9 @@ fn run_missing(
     let plan = ensemble.plan();
     let parts = parts(plan, ensemble.isa());
     let mut made = Made::default();
+    // what is there already was counted by no one
+    let is_whole = ready.folder.parts().is_empty() && options.shard.is_none() && plan.analysis.stop.is_none();
+    let counts = if is_whole { RunningCounts::of(ensemble) } else { None };
     plan.notes().iter().for_each(|note| screen::note(note));
     let targets = targets(plan);
     let mut samples = targets.last().copied().unwrap_or(plan.samples);
@@ -106,7 +110,7 @@ fn run_missing(
     for target in targets.into_iter().filter(|target| *target >= ready.rows) {
         samples = target;
         if let Some(outcome) =
-            run_to(options, ensemble, (&ready, root), parts.with_samples(target), signals, &mut made)?
+            run_to(options, ensemble, (&ready, root), parts.with_samples(target), counts.as_ref(), signals, &mut made)?
         {
             return Ok(outcome);
         }
@@ -117,8 +121,9 @@ fn run_missing(
         }
     }
     let plan = plan.clone().stopped_at(samples);
-    finish(&Finishing {
-        ensemble: &Ensemble::new(&plan, ensemble.isa()),
+    let stopped = Ensemble::new(&plan, ensemble.isa());
+    let job = Finishing {
+        ensemble: &stopped,
         ready: &ready,
         root,
         threads: options.threads,
@@ -127,7 +132,8 @@ fn run_missing(
         page: (!options.no_report, options.figures.as_deref()),
         made: Some((made.samples, made.elapsed)),
         seconds: made.seconds,
-    })
+    };
+    finish(&job, counts.and_then(|counts| counts.whole(parts.with_samples(samples))))
 }
 
 /// What this process has run.
@@ -145,6 +151,7 @@ fn run_to(
     ensemble: &Ensemble<'_>,
     (ready, root): (&Ready, &Path),
     parts: Parts,
+    counts: Option<&RunningCounts>,
     signals: &Signals,
     made: &mut Made,
 ) -> Result<Option<CommandOutcome>, Failure> {
@@ -161,7 +168,7 @@ fn run_to(
         say_what_was_found(plan, ready, root, parts, &missing);
         say_idle_threads(options.threads, missing.len());
     }
-    let (elapsed, seconds) = run_them(options.threads, ensemble, ready, &missing, signals)?;
+    let (elapsed, seconds) = run_them(options.threads, ensemble, (ready, &missing), counts, signals)?;
     made.samples += missing.iter().map(|part| part.count as u64).sum::<u64>();
     made.elapsed += elapsed;
     made.seconds.iter_mut().zip(seconds).for_each(|(sum, seconds)| *sum += seconds);
@@ -179,14 +186,14 @@ fn run_to(
 fn run_them(
     threads: Option<NonZeroUsize>,
     ensemble: &Ensemble<'_>,
-    ready: &Ready,
-    missing: &[Part],
+    (ready, missing): (&Ready, &[Part]),
+    counts: Option<&RunningCounts>,
     signals: &Signals,
 ) -> Result<(Duration, [f64; 2]), Failure> {
     let bar = Bar::new(missing.iter().map(|part| part.count as u64).sum());
     let progress = |samples| bar.advance(samples);
     let supervision = Supervision { progress: &progress, stop: &signals.stop, abandon: &signals.abandon };
-    let ended = write_parts(&ready.folder, ensemble, |sink: &PartSink| {
+    let ended = write_parts(&ready.folder, ensemble, counts, |sink: &PartSink<'_>| {
         run_parts(ensemble, missing.iter().copied(), threads, sink, supervision).map(|()| sink.seconds())
     });
     let elapsed = bar.finish();

@@ -147,7 +147,7 @@ fn repair(options: &VerifyOptions, ensemble: &Ensemble<'_>, found: &Found, diffe
     ready.folder.drop_parts(differing.iter().map(|part| part.id.0)).map_err(Failure::files)?;
     let missing = ready.folder.missing(parts(plan, ensemble.isa()).iter());
     let supervision = Supervision { progress: &|_| {}, stop: &signals.stop, abandon: &signals.abandon };
-    write_parts(&ready.folder, ensemble, |sink| run_parts(ensemble, missing, options.threads, sink, supervision))
+    write_parts(&ready.folder, ensemble, None, |sink| run_parts(ensemble, missing, options.threads, sink, supervision))
         .map_err(Failure::files)?
         .map_err(Failure::files)?;
     let replayed = root.join(PLAN).display().to_string();
@@ -162,5 +162,5 @@ fn repair(options: &VerifyOptions, ensemble: &Ensemble<'_>, found: &Found, diffe
         made: None,
         seconds: [0.0; 2],
     };
-    finish(&job).map(|_| ())
+    finish(&job, None).map(|_| ())
 }

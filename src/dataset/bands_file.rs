@@ -15,12 +15,14 @@
 //! Buckets come in ascending order of their codes ([`crate::statistics::deviation`]): 2 x difference from the one before + 1 where the
 //! count is above 1, then that count minus 2.
 
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use thiserror::Error;
 
-use crate::ensemble::bands::{BandColumn, BandLayout, Bands};
+use crate::dataset::parallel::in_order;
+use crate::ensemble::bands::{BandColumn, BandLayout, BandSums, Bands};
 use crate::ensemble::{Part, PartId};
 use crate::observables::band_series::Form;
 use crate::run::Quantity;
@@ -140,23 +142,27 @@ pub fn from_bytes(bytes: &[u8]) -> Result<(Part, Bands), NotBands> {
 ///
 /// # Errors
 /// The first file that cannot be read, is damaged or of another campaign, or whose part does not follow those before it.
-pub fn read(files: &[PathBuf]) -> Result<Option<Bands>, BandsError> {
-    let mut merged: Option<(PartId, Bands)> = None;
-    for path in files {
-        let (part, bands) = read_one(path)?;
-        let unfit = |reason: String| BandsError::Unfit { path: path.clone(), reason };
-        merged = Some(match merged.take() {
-            None => (part.id, bands),
-            Some((last, _)) if part.id <= last => {
+pub fn read(files: &[PathBuf], threads: Option<NonZeroUsize>) -> Result<Option<Bands>, BandsError> {
+    let mut merged: Option<(PartId, BandSums)> = None;
+    in_order(
+        files.len(),
+        threads,
+        |index| read_one(&files[index]).map(|(part, bands)| (index, part, bands)),
+        |(index, part, bands)| {
+            let unfit = |reason: String| BandsError::Unfit { path: files[index].clone(), reason };
+            let (last, sums) = match merged.take() {
+                None => (None, BandSums::new(bands.layout().clone())),
+                Some((last, sums)) => (Some(last), sums),
+            };
+            if let Some(last) = last.filter(|last| part.id <= *last) {
                 return Err(unfit(format!("part {} does not follow part {}", part.id.0, last.0)));
             }
-            Some((_, mut all)) => {
-                all.merge(&bands).map_err(|error| unfit(error.to_string()))?;
-                (part.id, all)
-            }
-        });
-    }
-    Ok(merged.map(|(_, bands)| bands))
+            let (_, sums) = merged.insert((part.id, sums));
+            sums.add(&bands).map_err(|error| unfit(error.to_string()))?;
+            Ok(())
+        },
+    )?;
+    Ok(merged.map(|(_, sums)| sums.bands()))
 }
 
 fn read_one(path: &Path) -> Result<(Part, Bands), BandsError> {
@@ -353,11 +359,11 @@ mod tests {
         let of = |id: u64, bands: &Bands| to_bytes(Part { id: PartId(id), ..PART }, bands);
         let (first, second) = (file(0, &of(0, &some())), file(1, &of(1, &bands(1.0, &[2.0, 3.0]))));
         let both = [first.clone(), second.clone()];
-        let mut expected = some();
-        expected.merge(&bands(1.0, &[2.0, 3.0])).unwrap();
-        assert_eq!(read(&both).unwrap(), Some(expected));
-        assert_eq!(read(&[]).unwrap(), None);
-        let refused = |files: &[PathBuf]| read(files).unwrap_err().to_string();
+        let mut expected = BandSums::new(some().layout().clone());
+        [some(), bands(1.0, &[2.0, 3.0])].iter().for_each(|bands| expected.add(bands).unwrap());
+        assert_eq!(read(&both, None).unwrap(), Some(expected.bands()));
+        assert_eq!(read(&[], None).unwrap(), None);
+        let refused = |files: &[PathBuf]| read(files, None).unwrap_err().to_string();
         assert!(refused(&[second.clone(), first.clone()]).contains("part 0 does not follow part 1"));
         assert!(refused(&[first.clone(), first.clone()]).contains("part 0 does not follow part 0"));
         let other = file(2, &of(2, &bands(1.5, &[2.0])));

@@ -101,7 +101,7 @@ pub fn compare(
     second: ResultRows<'_>,
     threads: Option<NonZeroUsize>,
 ) -> Result<Comparison, RowsError> {
-    let of = |result: ResultRows<'_>| statistics::compute(result.plan, result.reader, threads);
+    let of = |result: ResultRows<'_>| statistics::compute(result.plan, result.reader, None, threads);
     let statistics = [of(first)?, of(second)?];
     let pairs = pairs(first, second)?;
     let confidence = first.plan.analysis.confidence;

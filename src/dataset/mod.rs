@@ -8,7 +8,8 @@
 //! - [`trajectories`]: time series of the runs that are retained.
 //! - [`parts_read`]: the files of parts by what is in them.
 //! - [`table`]: tables in a single file: [`timeseries`], [`bands_table`], [`drawn_table`], [`precision_table`].
-//! - [`statistics`]: what the rows say of every observable ([`observed`], [`population`]); [`verdicts`]: of the requirements; [`mod@stopping`]: whether
+//! - [`statistics`]: what the rows say of every observable ([`observed`], [`population`]), counted by [`column_counts`] from [`part_columns`],
+//!   or by [`running_counts`] while the rows are made; [`verdicts`]: of the requirements (over time: `band_verdicts`); [`mod@stopping`]: whether
 //!   they are enough.
 //! - [`sensitivity`]: which input matters. - [`statistics_table`], [`sensitivity_table`]: both as files, by [`described_table`]. - [`parallel`]: threads.
 //! - [`comparison`]: two results.
@@ -17,9 +18,11 @@
 
 pub mod atomic;
 pub mod audit_tally;
+mod band_verdicts;
 pub mod bands_file;
 pub mod bands_table;
 pub mod claim;
+pub mod column_counts;
 pub mod columnar;
 pub mod comparison;
 pub mod described_table;
@@ -30,6 +33,7 @@ pub mod manifest;
 pub mod names;
 pub mod observed;
 pub mod parallel;
+pub mod part_columns;
 pub mod part_sink;
 pub mod parts_read;
 pub mod population;
@@ -37,6 +41,7 @@ pub mod precision_table;
 pub mod provenance;
 pub mod rows_file;
 pub mod rows_reader;
+pub mod running_counts;
 pub mod sensitivity;
 pub mod sensitivity_table;
 pub mod statistics;

@@ -1,8 +1,11 @@
 //! [`Observed`]: an observable of a campaign with the way to its values in the files of rows: a column, or an expression over columns.
 
+use std::borrow::Cow;
+
 use crate::campaign::Plan;
 use crate::campaign::columns::KnownColumns;
-use crate::dataset::rows_reader::{PartReader, RowsError};
+use crate::dataset::part_columns::PartColumns;
+use crate::dataset::rows_reader::RowsError;
 use crate::observables::Kind;
 use crate::run::Quantity;
 use crate::sampling::expression::Expression;
@@ -48,15 +51,23 @@ impl Observed {
     /// Its values in a part, row by row; NaN where a row has none.
     ///
     /// # Errors
-    /// Where the file cannot be read.
-    pub fn values(&self, part: &PartReader) -> Result<Vec<f64>, RowsError> {
+    /// Where they cannot be read.
+    pub fn column<'p>(&self, part: &'p impl PartColumns) -> Result<Cow<'p, [f64]>, RowsError> {
         let Some((expression, columns)) = &self.derived else { return part.numbers(self.quantity.name()) };
-        let columns: Vec<Vec<f64>> = columns.iter().map(|name| part.numbers(name)).collect::<Result<_, _>>()?;
+        let columns: Vec<Cow<'_, [f64]>> = columns.iter().map(|name| part.numbers(name)).collect::<Result<_, _>>()?;
         // what is not known makes the value unknown, also behind `if` and in comparisons
         let value = |row: usize| match columns.iter().any(|column| column[row].is_nan()) {
             true => f64::NAN,
             false => expression.value(|place| columns[place][row]),
         };
         Ok((0..part.rows()).map(value).collect())
+    }
+
+    /// The same as a list.
+    ///
+    /// # Errors
+    /// Where they cannot be read.
+    pub fn values(&self, part: &impl PartColumns) -> Result<Vec<f64>, RowsError> {
+        self.column(part).map(Cow::into_owned)
     }
 }

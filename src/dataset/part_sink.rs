@@ -12,8 +12,9 @@ use crate::dataset::bands_file;
 use crate::dataset::folder::{Folder, PartFile};
 use crate::dataset::names::{bands_of, rows_of};
 use crate::dataset::rows_file::RowsFile;
+use crate::dataset::running_counts::RunningCounts;
 use crate::dataset::storage::StorageError;
-use crate::ensemble::{Ensemble, Part, Rows, Sink};
+use crate::ensemble::{Ensemble, Part, PartBands, Rows, Sink};
 
 /// Encoded parts that may wait for the disk: memory for them is some 10 MB each.
 const WAITING: usize = 1;
@@ -37,20 +38,21 @@ type Encoded = (Part, Vec<PartFile>);
 
 /// Encodes parts and hands them to the thread that writes.
 #[derive(Debug)]
-pub struct PartSink {
+pub struct PartSink<'c> {
     file: RowsFile,
+    counts: Option<&'c RunningCounts>,
     encoded: SyncSender<Encoded>,
     seconds: Mutex<[f64; 2]>,
 }
 
-impl PartSink {
+impl PartSink<'_> {
     /// CPU time of runs and of audits so far, s; measured where there are audits.
     pub fn seconds(&self) -> [f64; 2] {
         *self.seconds.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-impl Sink for PartSink {
+impl Sink for PartSink<'_> {
     type Error = PartError;
 
     fn take(&self, rows: &Rows) -> Result<(), PartError> {
@@ -58,9 +60,9 @@ impl Sink for PartSink {
         let mut bytes = Vec::new();
         self.file.write(rows, &mut bytes)?;
         let mut files = vec![PartFile::new(rows_of(part.id), bytes)];
-        files.extend(
-            rows.bands().map(|bands| PartFile::new(bands_of(part.id), bands_file::to_bytes(part, &bands.bands()))),
-        );
+        let bands = rows.bands().map(PartBands::bands);
+        files.extend(bands.iter().map(|bands| PartFile::new(bands_of(part.id), bands_file::to_bytes(part, bands))));
+        self.counts.into_iter().for_each(|counts| counts.add(rows, bands.as_ref()));
         self.encoded.send((part, files)).map_err(|_| PartError::Ended)?;
         let mut sums = self.seconds.lock().unwrap_or_else(PoisonError::into_inner);
         sums.iter_mut().zip(rows.seconds()).for_each(|(sum, seconds)| *sum += seconds);
@@ -68,7 +70,7 @@ impl Sink for PartSink {
     }
 }
 
-/// Runs `body` with a sink for the rows of `ensemble`; when this returns, every part that the sink took is in `folder`, or an error says why
+/// Runs `body` with a sink for the rows of `ensemble`, which also counts them in `counts`; when this returns, every part that the sink took is in `folder`, or an error says why
 /// not. An error of writing is reported before one of `body`.
 ///
 /// # Errors
@@ -76,10 +78,11 @@ impl Sink for PartSink {
 pub fn write_parts<R>(
     folder: &Folder,
     ensemble: &Ensemble<'_>,
-    body: impl FnOnce(&PartSink) -> R,
+    counts: Option<&RunningCounts>,
+    body: impl FnOnce(&PartSink<'_>) -> R,
 ) -> Result<R, PartError> {
     let (encoded, waiting) = sync_channel::<Encoded>(WAITING);
-    let sink = PartSink { file: RowsFile::new(ensemble)?, encoded, seconds: Mutex::new([0.0; 2]) };
+    let sink = PartSink { file: RowsFile::new(ensemble)?, counts, encoded, seconds: Mutex::new([0.0; 2]) };
     std::thread::scope(|scope| {
         let writer = scope.spawn(move || -> Result<(), StorageError> {
             waiting.iter().try_for_each(|(part, files)| folder.commit(part, &files))

@@ -5,7 +5,7 @@
 
 use std::num::NonZeroUsize;
 
-use crate::campaign::Plan;
+use crate::campaign::{Plan, Requirement};
 use crate::dataset::observed::Observed;
 use crate::dataset::parallel::in_parallel;
 use crate::dataset::population::Population;
@@ -59,11 +59,11 @@ pub struct InputSensitivity {
 
 /// The names of the observables, and how many rows they are from.
 fn wanted(plan: &Plan) -> (Vec<String>, usize) {
-    let required = plan.analysis.requirements.iter().map(|requirement| &requirement.observable);
+    let required = plan.analysis.requirements.iter().filter_map(Requirement::observable);
     let mut names: Vec<String> = Vec::new();
-    for name in required.chain(&plan.analysis.summary_columns) {
-        if !names.contains(name) {
-            names.push(name.clone());
+    for name in required.chain(plan.analysis.summary_columns.iter().map(String::as_str)) {
+        if !names.iter().any(|known| known == name) {
+            names.push(name.to_owned());
         }
     }
     if !names.is_empty() {

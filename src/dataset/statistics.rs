@@ -8,13 +8,13 @@
 //! The nominal sample 0 is no part of it where there are others. A run that is not `ok` is counted and has no part in any number.
 
 use std::num::NonZeroUsize;
-use std::sync::{Mutex, PoisonError};
 
 use crate::campaign::Plan;
+use crate::dataset::column_counts::{Collected, Collector, ColumnCounts};
 use crate::dataset::observed::Observed;
 use crate::dataset::parallel::in_parallel;
 use crate::dataset::population::Population;
-use crate::dataset::rows_reader::{PartReader, RowsError, RowsReader};
+use crate::dataset::rows_reader::{RowsError, RowsReader};
 use crate::run::{Quantity, Status};
 use crate::statistics::correlation::Estimate;
 use crate::statistics::moments::Moments;
@@ -25,8 +25,10 @@ use crate::statistics::student::half_width;
 
 /// Most rows whose quantiles are exact.
 pub const MOST_EXACT: u64 = 100_000;
-/// Columns that are read at a time, and groups of samples of them that are held.
-const GROUPS_AT_A_TIME: usize = 16;
+/// Lists of values that are held at a time, one for each column and group of samples: 0.8 MB each at most.
+const LISTS_AT_A_TIME: usize = 16;
+/// Sketches that are held at a time: mostly below 0.1 MB each.
+const SKETCHES_AT_A_TIME: usize = 512;
 
 /// A quantile of the runs.
 #[derive(Clone, Debug, PartialEq)]
@@ -105,135 +107,43 @@ impl Statistics {
     }
 }
 
-/// The statistics of `plan` from the files of its rows, on `threads` threads (`None`: one per core).
+/// The statistics of `plan`: of what was counted while its rows were made, or else from the files of its rows, on `threads` threads (`None`:
+/// one per core). Both give the same bits.
 ///
 /// # Errors
 /// Where a file cannot be read.
-pub fn compute(plan: &Plan, reader: &RowsReader, threads: Option<NonZeroUsize>) -> Result<Statistics, RowsError> {
+pub fn compute(
+    plan: &Plan,
+    reader: &RowsReader,
+    counted: Option<Collected>,
+    threads: Option<NonZeroUsize>,
+) -> Result<Statistics, RowsError> {
     let population = Population::of(plan);
+    let is_exact = is_exact(plan);
     let mut statuses = [0; Status::ALL.len()];
-    let mut rows = 0;
-    reader.visit(
-        threads,
-        |part| statuses_of(part, population),
-        |of_part| {
-            statuses.iter_mut().zip(of_part).for_each(|(sum, count)| *sum += count);
-            rows += of_part.iter().sum::<u64>();
-            Ok::<(), RowsError>(())
-        },
-    )?;
-    let is_exact = rows <= MOST_EXACT;
+    let mut columns = Vec::new();
+    let mut describe = |observed: &[Observed], collected: Collected| {
+        statuses = collected.statuses;
+        let describe = |(observed, counts)| described(plan, population, observed, counts);
+        columns.extend(in_parallel(observed.iter().zip(collected.columns).collect(), threads, describe));
+    };
     let observed = Observed::all(plan);
-    let at_a_time = (GROUPS_AT_A_TIME / population.groups()).max(1);
-    let mut columns = Vec::with_capacity(observed.len());
-    for batch in observed.chunks(at_a_time) {
-        let collected = collect(batch, population, is_exact, reader, threads)?;
-        let describe = |(observed, collected)| described(plan, population, observed, collected);
-        columns.extend(in_parallel(batch.iter().zip(collected).collect(), threads, describe));
+    if let Some(counted) = counted.filter(|counted| counted.columns.len() == observed.len()) {
+        describe(&observed, counted);
+    } else {
+        let held = if is_exact { LISTS_AT_A_TIME } else { SKETCHES_AT_A_TIME };
+        for batch in observed.chunks((held / population.groups()).max(1)) {
+            let collector = Collector::new(batch.to_vec(), population, is_exact);
+            describe(batch, collector.collect(reader, threads)?);
+        }
     }
     let quantile_error = if is_exact { 0.0 } else { RELATIVE_ERROR };
     Ok(Statistics { population, confidence: plan.analysis.confidence, statuses, quantile_error, columns })
 }
 
-fn statuses_of(part: &PartReader, population: Population) -> Result<[u64; Status::ALL.len()], RowsError> {
-    let mut counts = [0; Status::ALL.len()];
-    for (sample, status) in part.samples()?.into_iter().zip(part.statuses()?) {
-        if population.contains(sample)
-            && let Some(index) = Status::ALL.iter().position(|known| *known == status)
-        {
-            counts[index] += 1;
-        }
-    }
-    Ok(counts)
-}
-
-/// The values of one observable, group by group.
-struct Collected {
-    without_value: u64,
-    moments: Moments,
-    groups: Vec<Group>,
-}
-
-/// The values of a group of samples: themselves, or a sketch of them.
-#[derive(Clone, Default)]
-struct Group {
-    moments: Moments,
-    values: Vec<f64>,
-    sketch: Sketch,
-}
-
-/// What a part adds to an observable: the runs without a value, and for each group its values where they are kept.
-struct OfPart {
-    without_value: u64,
-    moments: Moments,
-    groups: Vec<(Moments, Vec<f64>)>,
-}
-
-fn collect(
-    batch: &[Observed],
-    population: Population,
-    is_exact: bool,
-    reader: &RowsReader,
-    threads: Option<NonZeroUsize>,
-) -> Result<Vec<Collected>, RowsError> {
-    let groups = population.groups();
-    // counts do not depend on the order in which parts are added
-    let sketches: Vec<Mutex<Vec<Sketch>>> = batch.iter().map(|_| Mutex::new(vec![Sketch::default(); groups])).collect();
-    let nothing =
-        || Collected { without_value: 0, moments: Moments::default(), groups: vec![Group::default(); groups] };
-    let mut collected: Vec<Collected> = batch.iter().map(|_| nothing()).collect();
-    let read = |part: &mut PartReader| {
-        let rows: Vec<Option<usize>> = part
-            .samples()?
-            .into_iter()
-            .zip(part.statuses()?)
-            .map(|(sample, status)| {
-                (population.contains(sample) && status == Status::Done).then(|| population.group(sample))
-            })
-            .collect();
-        let of_column = |(observed, sketches): (&Observed, &Mutex<Vec<Sketch>>)| {
-            let mut of_groups = vec![Vec::new(); groups];
-            if let [only] = &mut of_groups[..] {
-                only.reserve(rows.len());
-            }
-            let mut without_value = 0;
-            for (value, group) in observed.values(part)?.into_iter().zip(&rows) {
-                match group {
-                    Some(_) if value.is_nan() => without_value += 1,
-                    Some(group) => of_groups[*group].push(value),
-                    None => {}
-                }
-            }
-            if !is_exact {
-                let mut sketches = sketches.lock().unwrap_or_else(PoisonError::into_inner);
-                sketches.iter_mut().zip(&of_groups).for_each(|(sketch, values)| sketch.add_all(values));
-            }
-            let of_groups = of_groups
-                .into_iter()
-                .map(|values| (Moments::of_block(&values), if is_exact { values } else { Vec::new() }));
-            let groups: Vec<(Moments, Vec<f64>)> = of_groups.collect();
-            let mut moments = Moments::default();
-            groups.iter().for_each(|(group, _)| moments.merge(group));
-            Ok(OfPart { without_value, moments, groups })
-        };
-        batch.iter().zip(&sketches).map(of_column).collect::<Result<Vec<OfPart>, RowsError>>()
-    };
-    reader.visit(threads, read, |of_part: Vec<OfPart>| {
-        for (column, of_part) in collected.iter_mut().zip(of_part) {
-            column.without_value += of_part.without_value;
-            column.moments.merge(&of_part.moments);
-            for (group, (moments, values)) in column.groups.iter_mut().zip(of_part.groups) {
-                group.moments.merge(&moments);
-                group.values.extend(values);
-            }
-        }
-        Ok::<(), RowsError>(())
-    })?;
-    for (column, sketches) in collected.iter_mut().zip(sketches) {
-        let sketches = sketches.into_inner().unwrap_or_else(PoisonError::into_inner);
-        column.groups.iter_mut().zip(sketches).for_each(|(group, sketch)| group.sketch = sketch);
-    }
-    Ok(collected)
+/// Whether the quantiles of `plan` are those of the values themselves.
+pub fn is_exact(plan: &Plan) -> bool {
+    plan.samples.saturating_sub(1) <= MOST_EXACT
 }
 
 /// The order statistics of a group of values.
@@ -281,7 +191,12 @@ impl Order {
     }
 }
 
-fn described(plan: &Plan, population: Population, observed: &Observed, mut collected: Collected) -> ColumnStatistics {
+fn described(
+    plan: &Plan,
+    population: Population,
+    observed: &Observed,
+    mut collected: ColumnCounts,
+) -> ColumnStatistics {
     let confidence = plan.analysis.confidence;
     let mut whole = Sketch::default();
     let mut values = Vec::new();

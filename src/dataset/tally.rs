@@ -17,7 +17,7 @@ use crate::run::{Quantity, Status};
 use crate::sampling::SampleId;
 use crate::statistics::sketch::Sketch;
 
-/// An observable with statistics in the summary.
+/// An observable whose numerical errors the audits measure, with the spread of its values.
 #[derive(Clone, Debug)]
 pub struct Headline {
     /// Index among the observables of a row.
@@ -89,12 +89,13 @@ impl Worst {
     }
 }
 
-/// Counts of statuses, and of values of the main observables over the runs that are `ok`.
+/// Counts of statuses, the worst runs, and the audits with the spread of what they are about.
 #[derive(Clone, Debug)]
 pub struct Tally {
     /// Whether the statistics are those of the dispersed samples, without the nominal one.
     without_nominal: bool,
     statuses: [Ended; Status::ALL.len()],
+    /// None where the campaign has no audits.
     headlines: Vec<Headline>,
     worst: Vec<Worst>,
     /// `None` where the campaign has no audits.
@@ -109,8 +110,10 @@ impl Tally {
             let column = &columns[index];
             Headline { index, quantity: column.quantity.clone(), kind: column.kind, sketch: Sketch::default() }
         };
-        let headlines: Vec<Headline> = headlines(ensemble.request()).into_iter().map(headline).collect();
-        let audits = (ensemble.plan().audit_fraction > 0.0).then(|| AuditTally::new(headlines.len()));
+        let is_audited = ensemble.plan().audit_fraction > 0.0;
+        let headlines: Vec<Headline> =
+            headlines(ensemble.request()).into_iter().filter(|_| is_audited).map(headline).collect();
+        let audits = is_audited.then(|| AuditTally::new(headlines.len()));
         let index = |id: &ColumnId| ensemble.request().position(*id);
         let worst =
             [("conservation error", &CONSERVATION[..]), ("state error estimate", &[STATE_ERROR_ESTIMATE][..])].map(
@@ -187,7 +190,7 @@ impl Tally {
         }
     }
 
-    /// The statistics of the observables in the order of [`crate::observables::headlines`], without those that the campaign does not have.
+    /// The observables whose numerical errors the audits measure, in the order of [`crate::observables::headlines`]; none without audits.
     pub fn headlines(&self) -> &[Headline] {
         &self.headlines
     }
@@ -270,7 +273,7 @@ mod tests {
     fn tally(samples: u64, parts: &[&[(Status, f64)]]) -> Tally {
         let path = format!("{}/campaigns/no_debris.toml", env!("CARGO_MANIFEST_DIR"));
         let text = std::fs::read_to_string(path).unwrap();
-        let overrides = Overrides { samples: Some(samples), ..Overrides::default() };
+        let overrides = Overrides { samples: Some(samples), audit_fraction: Some(0.5), ..Overrides::default() };
         let plan = Plan::from_text("no_debris", &text, overrides).unwrap();
         let ensemble = Ensemble::new(&plan, Isa::best());
         let (mut tally, mut first) = (Tally::new(&ensemble), 0);

@@ -2,13 +2,18 @@
 //!
 //! Quantiles and fractions are decided by exact counts, never by a sketch. Outside of the population, and so of every count, are samples that are
 //! not physical; any other run that is not `ok` violates every requirement, and so does one without a value.
+//!
+//! Not here: requirements over time ([`super::band_verdicts`]).
 
 use std::num::NonZeroUsize;
 
+use crate::campaign::requirement::BandSubject;
 use crate::campaign::{Plan, Requirement, Statement};
+use crate::dataset::band_verdicts::over_time;
 use crate::dataset::observed::Observed;
 use crate::dataset::population::Population;
 use crate::dataset::rows_reader::{PartReader, RowsError, RowsReader};
+use crate::ensemble::Bands;
 use crate::run::Status;
 use crate::statistics::binomial::Decision;
 use crate::statistics::gate::{Gate, Limit, fraction_gate, mean_gate, replicate_gate};
@@ -33,8 +38,21 @@ pub struct Assessment {
     pub violations: u64,
     /// Runs of those that are not `ok`.
     pub failed: u64,
+    /// Of a requirement over time: where it is met least.
+    pub worst: Option<WorstPoint>,
     /// Why nothing, or something else than the numbers say, was decided.
     pub reason: Option<String>,
+}
+
+/// The point of time at which the fewest runs are within the limit, the first of them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WorstPoint {
+    /// The time, s.
+    pub time_s: f64,
+    /// At how many points the requirement was tested.
+    pub points: usize,
+    /// Runs of which the bands do not tell whether they are within the limit: they are in one bucket with it. Counted as violations.
+    pub unresolved: u64,
 }
 
 /// What the runs of a campaign say of its requirements.
@@ -78,13 +96,24 @@ impl Assessment {
             Limit::AtMost(limit) => format!("at most {limit:?}{unit}"),
             Limit::AtLeast(limit) => format!("at least {limit:?}{unit}"),
         };
-        let (name, confidence) = (&requirement.observable, percent(requirement.confidence));
+        let (name, confidence) = (requirement.name(), percent(requirement.confidence));
+        let limit = format!("{limit}{}", requirement.band().map_or_else(String::new, during));
         let what = match requirement.statement {
             Statement::Quantile(p) => format!("p{} of {name} {limit}", percent(p)),
             Statement::Fraction(fraction) => format!("{}% of runs with {name} {limit}", percent(fraction)),
             Statement::Mean => format!("mean of {name} {limit}"),
         };
         format!("{what}, with {confidence}% confidence")
+    }
+}
+
+/// The interval of a requirement over time, in words.
+pub fn during(band: &BandSubject) -> String {
+    match (band.from_s, band.to_s) {
+        (None, None) => " at all times".to_owned(),
+        (Some(from), None) => format!(" from {from:?} s on"),
+        (None, Some(to)) => format!(" up to {to:?} s"),
+        (Some(from), Some(to)) => format!(" from {from:?} s to {to:?} s"),
     }
 }
 
@@ -98,10 +127,11 @@ struct Counted {
 
 /// What is counted of one requirement.
 #[derive(Clone, Debug)]
-struct Counts {
+pub(super) struct Counts {
     groups: Vec<Counted>,
     sketch: Sketch,
-    failed: u64,
+    /// Runs that are not `ok`.
+    pub(super) failed: u64,
 }
 
 impl Counts {
@@ -123,21 +153,33 @@ impl Counts {
     fn sum(&self, count: impl Fn(&Counted) -> u64) -> u64 {
         self.groups.iter().map(count).sum()
     }
+
+    /// Runs that count.
+    pub(super) fn runs(&self) -> u64 {
+        self.sum(|group| group.runs)
+    }
 }
 
-/// What the files of the rows of `plan` say of its requirements, on `threads` threads (`None`: one per core).
+/// What the files of the rows of `plan`, and its `bands`, say of its requirements, on `threads` threads (`None`: one per core).
 ///
 /// # Errors
 /// Where a file cannot be read.
-pub fn assess(plan: &Plan, reader: &RowsReader, threads: Option<NonZeroUsize>) -> Result<Verdicts, RowsError> {
+pub fn assess(
+    plan: &Plan,
+    reader: &RowsReader,
+    bands: Option<&Bands>,
+    threads: Option<NonZeroUsize>,
+) -> Result<Verdicts, RowsError> {
     let requirements = &plan.analysis.requirements;
     if requirements.is_empty() {
         return Ok(Verdicts::default());
     }
     let population = Population::of(plan);
-    let observed = Observed::named(plan, requirements.iter().map(|requirement| requirement.observable.as_str()));
+    let observed = Observed::named(plan, requirements.iter().filter_map(Requirement::observable));
     let index = |name: &str| observed.iter().position(|observed| observed.quantity.name() == name);
-    let of: Vec<usize> = requirements.iter().filter_map(|requirement| index(&requirement.observable)).collect();
+    // requirements over time are about no observable
+    let of: Vec<Option<usize>> =
+        requirements.iter().map(|requirement| requirement.observable().and_then(index)).collect();
     let mut counts = vec![Counts::new(population.groups()); requirements.len()];
     let (mut invalid, mut samples) = (0, 0);
     reader.visit(
@@ -151,8 +193,13 @@ pub fn assess(plan: &Plan, reader: &RowsReader, threads: Option<NonZeroUsize>) -
         },
     )?;
     let assessed = requirements.iter().zip(&of).zip(&counts).map(|((requirement, index), counts)| {
-        let unit = observed[*index].quantity.unit().to_owned();
-        assessment(requirement.clone(), unit, counts, population)
+        match (index, requirement.band()) {
+            (None, Some(band)) => over_time(requirement, band, bands, counts, population),
+            _ => {
+                let unit = index.map_or_else(String::new, |index| observed[index].quantity.unit().to_owned());
+                assessment(requirement.clone(), unit, counts, population)
+            }
+        }
     });
     Ok(Verdicts { list: assessed.collect(), invalid, samples })
 }
@@ -162,13 +209,13 @@ fn count(
     part: &PartReader,
     requirements: &[Requirement],
     observed: &[Observed],
-    of: &[usize],
+    of: &[Option<usize>],
     population: Population,
 ) -> Result<(Vec<Counts>, u64, u64), RowsError> {
     let columns: Vec<Vec<f64>> = observed.iter().map(|one| one.values(part)).collect::<Result<_, _>>()?;
     let (samples, statuses) = (part.samples()?, part.statuses()?);
     let counted = || samples.iter().zip(&statuses).enumerate().filter(|(_, (sample, _))| population.contains(**sample));
-    let of_requirement = |(requirement, index): (&Requirement, &usize)| {
+    let of_requirement = |(requirement, index): (&Requirement, &Option<usize>)| {
         let mut counts = Counts::new(population.groups());
         let mut kept = vec![Vec::new(); population.groups()];
         let has_value = !matches!(requirement.statement, Statement::Fraction(_));
@@ -176,7 +223,8 @@ fn count(
             if *status == Status::InvalidSample {
                 continue;
             }
-            let (group, value) = (population.group(*sample), columns[*index][row]);
+            let value = index.map_or(f64::NAN, |index| columns[index][row]);
+            let group = population.group(*sample);
             let is_ok = *status == Status::Done;
             counts.groups[group].runs += 1;
             counts.groups[group].within += u64::from(is_ok && requirement.limit.is_met(value));
@@ -213,9 +261,9 @@ fn assessment(requirement: Requirement, unit: String, counts: &Counts, populatio
         None => of_mean(counts, &whole, limit, confidence, population),
     };
     let mut reason = None;
-    let missing = runs - whole.count();
-    if target.is_none() && missing > 0 {
-        // a mean over all runs is not known where a run has no value
+    // a mean over all runs is not known where a run has no value
+    let missing = if target.is_none() { runs - whole.count() } else { 0 };
+    if missing > 0 {
         gate.decision = Decision::Fail;
         reason = Some(format!("{missing} runs without a value violate it"));
     }
@@ -230,7 +278,17 @@ fn assessment(requirement: Requirement, unit: String, counts: &Counts, populatio
         Statement::Mean => whole.mean(),
         Statement::Fraction(_) => None,
     };
-    Assessment { requirement, unit, gate, value, runs, violations: runs - within, failed: counts.failed, reason }
+    Assessment {
+        requirement,
+        unit,
+        gate,
+        value,
+        runs,
+        violations: runs - within,
+        failed: counts.failed,
+        worst: None,
+        reason,
+    }
 }
 
 /// The gate on the fraction of runs within the limit.
@@ -261,9 +319,10 @@ fn of_mean(counts: &Counts, whole: &Moments, limit: Limit, confidence: f64, popu
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::campaign::requirement::Subject;
 
     fn requirement(statement: Statement, limit: Limit) -> Requirement {
-        Requirement { observable: "x".to_owned(), statement, limit, confidence: 0.95 }
+        Requirement { subject: Subject::Observable("x".to_owned()), statement, limit, confidence: 0.95 }
     }
 
     /// Counts of groups: runs, runs within the limit, values.

@@ -6,16 +6,25 @@
 
 use std::sync::Arc;
 
+use crate::ensemble::deviation_window::{DeviationWindow, FULL};
 use crate::math::Isa;
 use crate::observables::Observer;
 use crate::observables::band_reader::{BandColumns, BandReader};
 use crate::observables::band_series::Form;
 use crate::run::Quantity;
-use crate::statistics::deviation::{Code, DeviationCounts, MANTISSA_BITS, NOT_A_NUMBER, ZERO};
+use crate::statistics::deviation::{Code, DeviationCounts, ZERO, ends};
+use crate::statistics::gate::Limit;
 
-/// The runs whose codes are kept before they are counted: enough that the counts of a column are fetched seldom, few enough that the
-/// codes of all columns stay in the second-level cache.
-const PENDING: usize = 512;
+/// The runs whose codes are kept before they are counted, so that the counts of a column, which the runs between have driven out of the
+/// second-level cache, are fetched seldom.
+const PENDING: usize = 2048;
+
+/// The runs whose codes are kept run by run before they are moved to their columns: those of a column are then a cache line, and the codes
+/// of all columns stay in the first-level cache.
+const RECENT: usize = 32;
+
+/// Bound of the rounding of a value that is put together from the nominal one and a deviation: some units in the last place.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// What bands are of.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,79 +62,6 @@ impl BandLayout {
     }
 }
 
-/// `count` of the `points` points of a grid, evenly distributed, with the first and the last; all where there are no more.
-pub fn band_points(points: usize, count: usize) -> Vec<usize> {
-    let count = count.min(points);
-    let intervals = count.saturating_sub(1).max(1);
-    (0..count).map(|index| (index * (points - 1) + intervals / 2) / intervals).collect()
-}
-
-/// The counts of the buckets between two magnitudes, for one column. Of 16 bits, so that those of all columns fit in the second-level
-/// cache.
-#[derive(Clone, Debug, Default)]
-struct Window {
-    /// The code of the first count.
-    first: Code,
-    counts: Vec<u16>,
-    zeros: u16,
-}
-
-/// Runs after which counts of 16 bits may be full.
-const FULL: usize = u16::MAX as usize;
-
-impl Window {
-    /// Windows grow by whole octaves, of both signs.
-    const OCTAVE: usize = 2 << MANTISSA_BITS;
-
-    fn clear(&mut self) {
-        self.counts.fill(0);
-        self.zeros = 0;
-    }
-
-    #[inline(always)]
-    fn add(&mut self, code: Code) {
-        match self.counts.get_mut(usize::from(code.wrapping_sub(self.first))) {
-            Some(count) => *count += 1,
-            None => self.add_beyond(code),
-        }
-    }
-
-    #[inline(never)]
-    fn add_beyond(&mut self, code: Code) {
-        if code == ZERO {
-            self.zeros += 1;
-        } else if code != NOT_A_NUMBER {
-            self.include(usize::from(code));
-            self.counts[usize::from(code - self.first)] += 1;
-        }
-    }
-
-    /// Widens the window until it has `code`; never by the codes of zero and of what is not a number.
-    fn include(&mut self, code: usize) {
-        let from = (code / Self::OCTAVE * Self::OCTAVE).max(usize::from(NOT_A_NUMBER) + 1);
-        let to = (code / Self::OCTAVE + 1) * Self::OCTAVE;
-        if self.counts.is_empty() {
-            (self.first, self.counts) = (from as Code, vec![0; to - from]);
-            return;
-        }
-        let first = usize::from(self.first);
-        if from < first {
-            self.counts.splice(0..0, std::iter::repeat_n(0, first - from));
-            self.first = from as Code;
-        }
-        let length = to - usize::from(self.first);
-        self.counts.resize(length.max(self.counts.len()), 0);
-    }
-
-    /// The buckets that are not empty.
-    fn counted(&self) -> DeviationCounts {
-        let zeros = (self.zeros > 0).then_some((ZERO, u64::from(self.zeros)));
-        let window = self.counts.iter().zip(usize::from(self.first)..).filter(|(count, _)| **count > 0);
-        let window = window.map(|(count, code)| (code as Code, u64::from(*count)));
-        DeviationCounts::of(zeros.into_iter().chain(window).collect()).expect("a window is in the order of its codes")
-    }
-}
-
 /// The bands of one part while it is run. Reused from part to part; adding a run allocates only where a deviation is in an octave
 /// that no earlier one was in.
 #[derive(Clone, Debug)]
@@ -133,16 +69,19 @@ pub struct PartBands {
     layout: Arc<BandLayout>,
     reader: BandReader,
     runs: u64,
-    /// Codes that are not counted yet, run by run.
+    /// Codes of the last runs, run by run.
+    recent: Vec<Code>,
+    recent_runs: usize,
+    /// Codes that are not counted yet, column by column, for up to [`PENDING`] runs.
     codes: Vec<Code>,
     pending: usize,
     min: Vec<f64>,
     max: Vec<f64>,
-    windows: Vec<Window>,
+    windows: Vec<DeviationWindow<u16>>,
     /// Runs that are counted in the windows.
     counted: usize,
     /// What was in the windows when they were full; empty until then.
-    earlier: Vec<DeviationCounts>,
+    earlier: Vec<DeviationWindow<u64>>,
 }
 
 impl PartBands {
@@ -159,11 +98,13 @@ impl PartBands {
             layout,
             reader,
             runs: 0,
+            recent: vec![ZERO; columns * RECENT],
+            recent_runs: 0,
             codes: vec![ZERO; columns * PENDING],
             pending: 0,
             min: vec![f64::INFINITY; columns],
             max: vec![f64::NEG_INFINITY; columns],
-            windows: vec![Window::default(); columns],
+            windows: vec![DeviationWindow::default(); columns],
             counted: 0,
             earlier: Vec::new(),
         }
@@ -171,10 +112,10 @@ impl PartBands {
 
     /// Clears what an earlier part left.
     pub fn start(&mut self) {
-        (self.runs, self.pending, self.counted) = (0, 0, 0);
+        (self.runs, self.recent_runs, self.pending, self.counted) = (0, 0, 0, 0);
         self.min.fill(f64::INFINITY);
         self.max.fill(f64::NEG_INFINITY);
-        self.windows.iter_mut().for_each(Window::clear);
+        self.windows.iter_mut().for_each(DeviationWindow::clear);
         self.earlier.clear();
     }
 
@@ -182,29 +123,48 @@ impl PartBands {
     #[inline]
     pub fn add(&mut self, isa: Isa, observer: &Observer) {
         let columns = self.reader.columns();
-        let codes = &mut self.codes[self.pending * columns..][..columns];
+        let codes = &mut self.recent[self.recent_runs * columns..][..columns];
         self.reader.read(isa, observer, BandColumns { min: &mut self.min, max: &mut self.max, codes });
         self.runs += 1;
-        self.pending += 1;
-        if self.pending == PENDING {
-            self.count();
+        self.recent_runs += 1;
+        if self.recent_runs == RECENT {
+            self.move_to_columns();
         }
     }
 
-    /// Counts the codes that are pending; after the last run of a part.
+    /// Moves the codes of the last runs to their columns, which are counted when they are full.
+    fn move_to_columns(&mut self) {
+        let (columns, recent) = (self.reader.columns(), self.recent_runs);
+        for (column, codes) in self.codes.chunks_exact_mut(PENDING).enumerate() {
+            let of_column = self.recent.iter().skip(column).step_by(columns);
+            codes[self.pending..self.pending + recent]
+                .iter_mut()
+                .zip(of_column)
+                .for_each(|(code, found)| *code = *found);
+        }
+        self.pending += recent;
+        self.recent_runs = 0;
+        if self.pending == PENDING {
+            self.count_columns();
+        }
+    }
+
+    /// Counts what is not counted yet; after the last run of a part.
     pub fn count(&mut self) {
+        self.move_to_columns();
+        self.count_columns();
+    }
+
+    fn count_columns(&mut self) {
         if self.counted + self.pending > FULL {
-            let windows: Vec<DeviationCounts> = self.windows.iter().map(Window::counted).collect();
-            self.earlier.resize(windows.len(), DeviationCounts::default());
-            self.earlier.iter_mut().zip(&windows).for_each(|(earlier, window)| earlier.merge(window));
-            self.windows.iter_mut().for_each(Window::clear);
+            self.earlier.resize(self.windows.len(), DeviationWindow::default());
+            let counted = self.windows.iter().map(DeviationWindow::counted);
+            self.earlier.iter_mut().zip(counted).for_each(|(earlier, counted)| earlier.add_counts(&counted));
+            self.windows.iter_mut().for_each(DeviationWindow::clear);
             self.counted = 0;
         }
-        let columns = self.reader.columns();
-        for (column, window) in self.windows.iter_mut().enumerate() {
-            for codes in self.codes.chunks_exact(columns).take(self.pending) {
-                window.add(codes[column]);
-            }
+        for (window, codes) in self.windows.iter_mut().zip(self.codes.chunks_exact(PENDING)) {
+            codes[..self.pending].iter().for_each(|code| window.add(*code));
         }
         self.counted += self.pending;
         self.pending = 0;
@@ -215,10 +175,14 @@ impl PartBands {
     /// # Panics
     /// Where runs are pending.
     pub fn bands(&self) -> Bands {
-        assert_eq!(self.pending, 0, "all runs of the part are counted");
+        assert_eq!(self.pending + self.recent_runs, 0, "all runs of the part are counted");
         let column = |index: usize| {
             let mut counts = self.windows[index].counted();
-            self.earlier.get(index).into_iter().for_each(|earlier| counts.merge(earlier));
+            if let Some(earlier) = self.earlier.get(index) {
+                let mut sums = earlier.clone();
+                sums.add_counts(&counts);
+                counts = sums.counted();
+            }
             let extremes = [self.min[index], self.max[index]];
             BandColumn { extremes: (extremes[0] <= extremes[1]).then_some(extremes), counts }
         };
@@ -254,6 +218,49 @@ impl PartialEq for Bands {
 #[error("these are bands of another campaign: series, times or nominal run differ")]
 pub struct OtherCampaign;
 
+/// Bands of several parts, in a form in which adding those of one more is cheap.
+#[derive(Clone, Debug)]
+pub struct BandSums {
+    layout: Arc<BandLayout>,
+    runs: u64,
+    columns: Vec<(Option<[f64; 2]>, DeviationWindow<u64>)>,
+}
+
+impl BandSums {
+    /// Of no run.
+    pub fn new(layout: Arc<BandLayout>) -> Self {
+        BandSums { runs: 0, columns: vec![(None, DeviationWindow::default()); layout.columns()], layout }
+    }
+
+    /// Adds the runs of `bands`.
+    ///
+    /// # Errors
+    /// Where the bands are of another campaign; nothing is added then.
+    pub fn add(&mut self, bands: &Bands) -> Result<(), OtherCampaign> {
+        if !Arc::ptr_eq(&self.layout, &bands.layout) && !self.layout.is(&bands.layout) {
+            return Err(OtherCampaign);
+        }
+        self.runs += bands.runs;
+        for ((extremes, counts), column) in self.columns.iter_mut().zip(&bands.columns) {
+            *extremes = match (*extremes, column.extremes) {
+                (Some([a, b]), Some([c, d])) => Some([a.min(c), b.max(d)]),
+                (mine, theirs) => mine.or(theirs),
+            };
+            counts.add_counts(&column.counts);
+        }
+        Ok(())
+    }
+
+    /// The bands of all runs.
+    pub fn bands(&self) -> Bands {
+        let column = |(extremes, counts): &(Option<[f64; 2]>, DeviationWindow<u64>)| BandColumn {
+            extremes: *extremes,
+            counts: counts.counted(),
+        };
+        Bands { layout: self.layout.clone(), runs: self.runs, columns: self.columns.iter().map(column).collect() }
+    }
+}
+
 impl Bands {
     /// Bands of `runs` runs with these columns, series by series and point by point; `None` where there are not as many as the layout
     /// has.
@@ -274,25 +281,6 @@ impl Bands {
     /// The columns, series by series and point by point.
     pub fn columns(&self) -> &[BandColumn] {
         &self.columns
-    }
-
-    /// Adds the runs of `other`.
-    ///
-    /// # Errors
-    /// Where the bands are of another campaign; nothing is added then.
-    pub fn merge(&mut self, other: &Bands) -> Result<(), OtherCampaign> {
-        if !self.layout.is(&other.layout) {
-            return Err(OtherCampaign);
-        }
-        self.runs += other.runs;
-        for (mine, theirs) in self.columns.iter_mut().zip(&other.columns) {
-            mine.extremes = match (mine.extremes, theirs.extremes) {
-                (Some([a, b]), Some([c, d])) => Some([a.min(c), b.max(d)]),
-                (mine, theirs) => mine.or(theirs),
-            };
-            mine.counts.merge(&theirs.counts);
-        }
-        Ok(())
     }
 
     /// The number of the series called `name`.
@@ -346,44 +334,27 @@ impl Bands {
         let [min, max] = self.extremes(series, point)?;
         Some((form.shown(reference) + (low + part * (high - low))).clamp(min, max))
     }
-}
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::statistics::deviation::code;
-
-    /// Law: a window counts every code once, in whichever order they come and however it has to grow; zero is counted, what is not a
-    /// number is not.
-    #[test]
-    fn a_window_counts_every_code() {
-        let values = [1.0, -1.0, 1e-9, 0.0, f64::NAN, 1e12, -3e-200, 1.0, 1e77, f64::INFINITY, 0.0, 1e-77, -1e-77];
-        for turn in 0..values.len() {
-            let mut window = Window::default();
-            let mut turned = values;
-            turned.rotate_left(turn);
-            turned.iter().for_each(|value| window.add(code(*value)));
-            let mut codes: Vec<Code> = values.iter().map(|value| code(*value)).filter(|c| *c != NOT_A_NUMBER).collect();
-            codes.sort_unstable();
-            let expected = codes.chunk_by(|a, b| a == b).map(|run| (run[0], run.len() as u64)).collect();
-            assert_eq!(Some(window.counted()), DeviationCounts::of(expected), "{turn}");
-            window.clear();
-            assert_eq!(window.counted(), DeviationCounts::default());
+    /// At least and at most how many runs are within `limit` at a point. They differ by the runs in the bucket that the limit is in; a run
+    /// without a value is not within it.
+    pub fn within(&self, series: usize, point: usize, limit: Limit) -> [u64; 2] {
+        let (index, column) = self.column(series, point);
+        let (form, reference) = (self.layout.form(index), self.layout.reference(index));
+        let Some(extremes) = self.extremes(series, point) else { return [0; 2] };
+        let count = column.counts.count();
+        match extremes.map(|extreme| limit.is_met(extreme)) {
+            [true, true] => return [count; 2],
+            [false, false] => return [0; 2],
+            _ => {}
         }
-    }
-
-    #[test]
-    fn points_are_evenly_distributed() {
-        assert_eq!(band_points(101, 33).first(), Some(&0));
-        assert_eq!(band_points(101, 33).last(), Some(&100));
-        assert_eq!(band_points(33, 33), (0..33).collect::<Vec<_>>());
-        for (points, count) in [(101, 33), (11, 33), (2, 2), (10_000_000, 257), (100, 99)] {
-            let found = band_points(points, count);
-            assert_eq!(found.len(), count.min(points));
-            let gaps: Vec<usize> = found.windows(2).map(|pair| pair[1] - pair[0]).collect();
-            let (least, most) = (gaps.iter().min(), gaps.iter().max());
-            assert!(least > Some(&0) && most <= least.map(|least| least + 1).as_ref(), "{points} {count}: {found:?}");
-        }
-        assert!(band_points(11, 0).is_empty());
+        let start = form.shown(reference);
+        let counted = column.counts.buckets().iter().map(|(code, count)| {
+            let [low, high] = ends(*code).map(|end| start + form.shown(end));
+            // rounding of the deviation, and of its sum with the nominal value
+            let slack = ROUNDING * (start.abs() + low.abs().min(high.abs()));
+            let are_met = [low - slack, high + slack].map(|end| limit.is_met(end));
+            [u64::from(are_met == [true; 2]) * count, u64::from(are_met != [false; 2]) * count]
+        });
+        counted.fold([0; 2], |sum, found| [sum[0] + found[0], sum[1] + found[1]])
     }
 }

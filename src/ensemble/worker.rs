@@ -6,7 +6,7 @@ use std::sync::{Arc, OnceLock};
 
 use crate::campaign::{Plan, SceneDraws};
 use crate::ensemble::audit::{Auditor, Selection};
-use crate::ensemble::bands::{BandLayout, PartBands, band_points};
+use crate::ensemble::bands::{BandLayout, PartBands};
 use crate::ensemble::cpu_clock::thread_seconds;
 use crate::ensemble::parts::Part;
 use crate::ensemble::rows::{Rows, Shape};
@@ -81,7 +81,7 @@ impl<'p> Ensemble<'p> {
     }
 
     fn no_bands(&self) -> Option<PartBands> {
-        let points = band_points(self.plan.grid.points(), self.plan.band_points);
+        let points = self.plan.grid.evenly(self.plan.band_points);
         let sources = band_series(&self.request);
         if points.is_empty() || sources.is_empty() {
             return None;

@@ -4,7 +4,7 @@ use std::fmt::{self, Formatter};
 
 use serde::Serialize;
 
-use crate::campaign::Plan;
+use crate::campaign::{Plan, Requirement};
 use crate::dataset::statistics::{ColumnStatistics, QuantileStatistic, Statistics};
 use crate::observables::Group;
 use crate::observables::headlines::headlines;
@@ -96,7 +96,7 @@ pub fn lines(plan: &Plan, statistics: &Statistics, numerics: impl Fn(&str) -> Op
     let main = headlines(&plan.request()).into_iter().map(|index| &columns[index]);
     let last = columns.iter().filter(|column| column.group == Group::FinalState);
     let asked = plan.analysis.summary_columns.iter().map(String::as_str);
-    let required = plan.analysis.requirements.iter().map(|requirement| requirement.observable.as_str());
+    let required = plan.analysis.requirements.iter().filter_map(Requirement::observable);
     let derived = plan.analysis.derived.iter().map(|derived| derived.name.as_str());
     let mut names: Vec<&str> = Vec::new();
     let usual = main.chain(last).map(|column| column.quantity.name());

@@ -43,7 +43,14 @@ fn finding(one: &Assessment) -> String {
         _ => {
             let value = one.value.map_or(String::new(), |value| format!("{}; ", short(value)));
             let within = one.runs - one.violations;
-            format!("{value}{within} of {} runs within the limit{}", one.runs, bounds(&percent))
+            let at = one.worst.map_or(String::new(), |worst| {
+                let unresolved = match worst.unresolved {
+                    0 => String::new(),
+                    runs => format!(" ({runs} more are too near to it for the bands to tell)"),
+                };
+                format!("{unresolved} at {} s, the worst of {} points of time", short(worst.time_s), worst.points)
+            });
+            format!("{value}{within} of {} runs within the limit{at}{}", one.runs, bounds(&percent))
         }
     };
     let needed = match (&one.reason, one.gate.decision) {
@@ -76,7 +83,15 @@ pub fn json(verdicts: &Verdicts) -> Value {
         json!({
             "requirement": one.sentence(),
             "verdict": one.word(),
-            "observable": requirement.observable,
+            "observable": requirement.observable(),
+            "band": requirement.band().map(|band| json!({
+                "quantity": band.series,
+                "from_s": band.from_s,
+                "to_s": band.to_s,
+                "worst_at_s": one.worst.map(|worst| worst.time_s),
+                "points": one.worst.map(|worst| worst.points),
+                "unresolved": one.worst.map(|worst| worst.unresolved),
+            })),
             "unit": one.unit,
             "statement": statement,
             "target": target,

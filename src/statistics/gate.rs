@@ -85,14 +85,14 @@ pub fn fraction_gate_within(successes: [u64; 2], trials: u64, target: f64, confi
 ///
 /// It passes where every point does: for any point that misses the target that is an error of at most 1 - confidence, so no correction is
 /// needed (R. L. Berger, *Technometrics* 24 (1982) 295). It fails where a point does at the confidence 1 - (1 - c)/points (Bonferroni). The
-/// estimate and the bounds are those of the point with the smallest estimate.
-pub fn points_gate(points: &[([u64; 2], u64)], target: f64, confidence: f64) -> Gate {
+/// estimate and the bounds are those of the point with the smallest estimate, the first of them, whose index is returned too.
+pub fn points_gate(points: &[([u64; 2], u64)], target: f64, confidence: f64) -> (Gate, Option<usize>) {
     let at = |confidence: f64| {
         points.iter().map(move |(counts, runs)| fraction_gate_within(*counts, *runs, target, confidence))
     };
-    let worst = at(confidence).min_by(|a, b| a.estimate.total_cmp(&b.estimate));
-    let Some(worst) = worst else {
-        return Gate { decision: Decision::Undecided(None), estimate: f64::NAN, bounds: [0.0, 1.0] };
+    let worst = at(confidence).enumerate().min_by(|(_, a), (_, b)| a.estimate.total_cmp(&b.estimate));
+    let Some((index, worst)) = worst else {
+        return (Gate { decision: Decision::Undecided(None), estimate: f64::NAN, bounds: [0.0, 1.0] }, None);
     };
     let each = 1.0 - (1.0 - confidence) / points.len() as f64;
     let decision = if at(confidence).all(|gate| gate.decision == Decision::Pass) {
@@ -105,7 +105,7 @@ pub fn points_gate(points: &[([u64; 2], u64)], target: f64, confidence: f64) -> 
             _ => Decision::Undecided(None),
         }
     };
-    Gate { decision, ..worst }
+    (Gate { decision, ..worst }, Some(index))
 }
 
 /// The gate that the mean of independent runs is within `limit`.
@@ -194,7 +194,7 @@ mod tests {
     fn every_point_must_pass() {
         let of = |successes: &[u64]| {
             let points: Vec<([u64; 2], u64)> = successes.iter().map(|count| ([*count; 2], 1000)).collect();
-            points_gate(&points, 0.9, 0.95)
+            points_gate(&points, 0.9, 0.95).0
         };
         assert_eq!((of(&[950, 960, 999]).decision, of(&[950, 960, 840]).decision), (Decision::Pass, Decision::Fail));
         let found = of(&[950, 905, 999]);

@@ -158,7 +158,7 @@ impl Moments {
 const LANES: usize = 8;
 
 /// Folds `values` in [`LANES`] accumulators, number k in accumulator k mod [`LANES`], and these in one order: the same bits everywhere.
-fn in_lanes<const N: usize>(
+pub(super) fn in_lanes<const N: usize>(
     values: &[f64],
     start: [f64; N],
     add: impl Fn([f64; N], f64) -> [f64; N],

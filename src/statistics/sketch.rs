@@ -5,6 +5,8 @@
 //! bucket is at most 2^-10 = 0.098% of its value wide; a quantile is answered by the middle of its bucket, hence within 0.05%.
 //! Contents are counts, so merging is addition: the result does not depend on order, threads or parts.
 
+use super::moments::in_lanes;
+
 /// Leading mantissa bits that tell buckets apart.
 pub const MANTISSA_BITS: u32 = 10;
 
@@ -12,6 +14,10 @@ pub const MANTISSA_BITS: u32 = 10;
 pub const RELATIVE_ERROR: f64 = 1.0 / 2048.0;
 
 const PAGE: usize = 1 << MANTISSA_BITS;
+/// Number of pages that can occur: of signs and exponents.
+const PAGES: usize = 1 << 12;
+/// Where a page is not counted in yet; there are no more than [`PAGES`].
+const NO_PAGE: u16 = u16::MAX;
 const SHIFT: u32 = 52 - MANTISSA_BITS;
 
 /// Counts of numbers by their leading bits, with exact extremes.
@@ -57,21 +63,37 @@ impl Sketch {
 
     /// Counts the numbers of a list; NaN is not counted.
     pub fn add_all(&mut self, values: &[f64]) {
-        // numbers of a column have few exponents: mostly the page is that of the number before
-        let (mut number, mut at) = (None, 0);
-        for value in values.iter().filter(|value| !value.is_nan()) {
-            let value = value + 0.0;
-            let key = ordered(value) >> SHIFT;
-            let page = (key >> MANTISSA_BITS) as u16;
-            if number != Some(page) {
-                at = self.page_index(page);
-                number = Some(page);
+        // in memory that stays in the first-level cache, then added to the pages in one pass over each
+        let mut numbers: Vec<u16> = Vec::new();
+        let mut counts: Vec<u32> = Vec::new();
+        let mut at = [NO_PAGE; PAGES];
+        let mut counted = 0;
+        for block in values.chunks(u32::MAX as usize) {
+            for value in block.iter().filter(|value| !value.is_nan()) {
+                let key = ordered(value + 0.0) >> SHIFT;
+                let number = (key >> MANTISSA_BITS) as usize % PAGES;
+                if at[number] == NO_PAGE {
+                    at[number] = numbers.len() as u16;
+                    numbers.push(number as u16);
+                    counts.resize(numbers.len() * PAGE, 0);
+                }
+                counts[usize::from(at[number]) * PAGE + key as usize % PAGE] += 1;
+                counted += 1;
             }
-            self.pages[at].1[key as usize % PAGE] += 1;
-            self.count += 1;
-            self.min = self.min.min(value);
-            self.max = self.max.max(value);
+            for (number, counts) in numbers.iter().zip(counts.chunks_exact_mut(PAGE)) {
+                for (sum, count) in self.page(*number).iter_mut().zip(counts) {
+                    *sum += u64::from(std::mem::take(count));
+                }
+            }
         }
+        self.count += counted;
+        // NaN is on no side of a number
+        [self.min, self.max] = in_lanes(
+            values,
+            [self.min, self.max],
+            |[min, max], x| [if x < min { x + 0.0 } else { min }, if x > max { x + 0.0 } else { max }],
+            |a, b| [a[0].min(b[0]), a[1].max(b[1])],
+        );
     }
 
     /// Counts all that `other` has counted.

@@ -1,6 +1,7 @@
 //! The tables that say what is made of the rows: what they mean, what is refused and how, and that no row depends on them.
 
 use crate::bad_campaign_cases::good;
+use spindrift::campaign::requirement::{BandSubject, Subject};
 use spindrift::campaign::{Analysis, Overrides, Plan, Requirement, Statement};
 use spindrift::statistics::gate::Limit;
 
@@ -32,6 +33,11 @@ confidence = 0.99
 observable = "steps"
 mean = true
 at_least = 3
+[[require]]
+band = "energy_body_j"
+quantile = 0.9
+at_most = "5 J"
+to_s = 5
 [stop]
 observable = "energy_error_max"
 quantile = 0.95
@@ -44,9 +50,9 @@ fn every_key_is_read_and_written() {
     let plan = plan(FULL);
     let Analysis { quantiles, confidence, summary_columns, derived, requirements, stop } = &plan.analysis;
     assert_eq!((quantiles.as_slice(), *confidence), (&[0.05, 0.5, 0.9987][..], 0.9));
-    assert_eq!((summary_columns.len(), derived.len(), requirements.len()), (2, 1, 3));
+    assert_eq!((summary_columns.len(), derived.len(), requirements.len()), (2, 1, 4));
     let expected = Requirement {
-        observable: "margin_deg".to_owned(),
+        subject: Subject::Observable("margin_deg".to_owned()),
         statement: Statement::Fraction(0.999),
         limit: Limit::AtMost(1.5),
         confidence: 0.99,
@@ -54,6 +60,8 @@ fn every_key_is_read_and_written() {
     assert_eq!(requirements[1], expected);
     assert_eq!((requirements[0].limit, requirements[0].confidence), (Limit::AtMost(5.0), 0.95));
     assert_eq!((requirements[2].statement, requirements[2].limit), (Statement::Mean, Limit::AtLeast(3.0)));
+    let band = BandSubject { series: "energy_body_j".to_owned(), from_s: None, to_s: Some(5.0) };
+    assert_eq!((requirements[3].band(), requirements[3].observable()), (Some(&band), None));
     let stop = stop.as_ref().expect("a goal");
     assert_eq!((stop.goal.half_width, stop.goal.confidence, stop.max_samples), (1e-12, 0.95, 5000));
     let again = Plan::from_text("plan.toml", &plan.text(), Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
@@ -70,6 +78,7 @@ fn rows_do_not_depend_on_it() {
 }
 
 const REQUIRE: &str = "[[require]]\nobservable = \"energy_error_max\"\nquantile = 0.99\nat_most = 1e-9\n";
+const BAND: &str = "[[require]]\nband = \"energy_body_j\"\nquantile = 0.99\nat_most = 1e9\nfrom_s = 1\n";
 const OBSERVABLE: &str = "[[observable]]\nname = \"twice\"\nexpression = \"2 * energy_error_max\"\n";
 const STOP: &str =
     "[stop]\nobservable = \"energy_error_max\"\nquantile = 0.95\nhalf_width = 1e-12\nmax_samples = 5000\n";
@@ -93,7 +102,7 @@ const CASES: &[(&str, &str, &str, &str)] = &[
         REQUIRE,
         "observable = \"energy_error_max\"\n",
         "",
-        "require[0].observable is missing: must be the name of an observable; add observable = \"energy_error_max\" to this table",
+        "require[0].observable is missing: must be given (one of observable, band); add observable = \"energy_error_max\" to this table",
     ),
     (
         REQUIRE,
@@ -155,7 +164,49 @@ const CASES: &[(&str, &str, &str, &str)] = &[
         REQUIRE,
         "at_most = 1e-9",
         "at_most = 1e-9\nat_mots = 1",
-        "require[0].at_mots = 1: must be a key of [require[0]] (observable, confidence, quantile, at_most, fraction, mean, at_least); did you mean at_most?",
+        "require[0].at_mots = 1: must be a key of [require[0]] (observable, band, confidence, quantile, at_most, fraction, mean, at_least, from_s, to_s); did you mean at_most?",
+    ),
+    (
+        BAND,
+        "energy_body_j",
+        "energy_bodi_j",
+        "require[0].band = \"energy_bodi_j\": must be a quantity over time with bands: a column of bands.parquet; did you mean \"energy_body_j\"?",
+    ),
+    (
+        BAND,
+        "energy_body_j",
+        "nutation_angle_rad",
+        "require[0].band = \"nutation_angle_rad\": must be a quantity over time with bands: a column of bands.parquet; it is in a group that is not observed: add its group to observe.groups (`spindrift columns` lists them)",
+    ),
+    (
+        BAND,
+        "band =",
+        "observable = \"steps\"\nband =",
+        "require[0].band = \"energy_body_j\": must be the only one of observable, band; write a [[require]] table for each",
+    ),
+    (
+        BAND,
+        "quantile = 0.99",
+        "mean = true",
+        "require[0].mean = true: must be left out with `band`: a requirement over time is about a share of the runs; write quantile or fraction",
+    ),
+    (
+        BAND,
+        "from_s = 1",
+        "from_s = 1e6",
+        "require[0].from_s = 1000000: must be part of an interval with a point of the bands: there are",
+    ),
+    (
+        BAND,
+        "from_s = 1",
+        "[bands]\npoints = 0",
+        "require[0].band = \"energy_body_j\": must be left out where there are no bands: bands.points is 0; delete bands.points",
+    ),
+    (
+        REQUIRE,
+        "at_most = 1e-9",
+        "at_most = 1e-9\nto_s = 1",
+        "require[0].to_s = 1: must be left out with `observable`, which is one number of a run; delete it, or write `band`",
     ),
     (
         OBSERVABLE,

@@ -6,7 +6,7 @@ use std::sync::Mutex;
 
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::dataset::bands_file::{from_bytes, to_bytes};
-use spindrift::ensemble::bands::band_points;
+use spindrift::ensemble::bands::BandSums;
 use spindrift::ensemble::{Bands, Ensemble, Parts, Rows, SingleRun, Sink, Supervision, run};
 use spindrift::math::Isa;
 use spindrift::observables::nominal_attitude::NominalAttitude;
@@ -53,15 +53,10 @@ fn files(plan: &Plan, threads: usize) -> Vec<Vec<u8>> {
 }
 
 fn merged<'a>(files: impl IntoIterator<Item = &'a Vec<u8>>) -> Bands {
-    let mut all: Option<Bands> = None;
-    for file in files {
-        let (_, bands) = from_bytes(file).unwrap();
-        match &mut all {
-            Some(all) => all.merge(&bands).unwrap(),
-            None => all = Some(bands),
-        }
-    }
-    all.unwrap()
+    let bands: Vec<Bands> = files.into_iter().map(|file| from_bytes(file).unwrap().1).collect();
+    let mut sums = BandSums::new(bands[0].layout().clone());
+    bands.iter().for_each(|bands| sums.add(bands).unwrap());
+    sums.bands()
 }
 
 /// For each series with bands its values at the points of the bands, sample by sample, from runs as `simulate` makes them; those of
@@ -131,7 +126,7 @@ fn deviations(bands: &Bands, exact: &BTreeMap<String, Vec<Vec<f64>>>) -> Vec<Str
 #[test]
 fn bands_are_the_quantiles_of_the_runs() {
     let plan = plan(9);
-    let points = band_points(plan.grid.points(), 9);
+    let points = plan.grid.evenly(9);
     assert_eq!(points, [0, 13, 25, 38, 50, 63, 75, 88, 100]);
     let bands = merged(&files(&plan, 2));
     assert_eq!(bands.layout().series.len(), 16);

@@ -110,7 +110,7 @@ fn make(storage: &'static dyn Storage, root: &Path, plan: &Plan) -> Result<(), S
         Err(error) => return Err(error.to_string()),
     };
     let missing = ready.folder.missing(Parts::of(plan.samples).iter());
-    write_parts(&ready.folder, &ensemble, |sink| {
+    write_parts(&ready.folder, &ensemble, None, |sink| {
         run(&ensemble, missing, std::num::NonZeroUsize::new(1), sink, Supervision::progress(&|_| {}))
     })
     .map_err(|error| error.to_string())?

@@ -4,6 +4,7 @@
 mod support;
 
 mod audit;
+mod band_requirements;
 mod campaign_command;
 mod columns_command;
 mod commands;

@@ -56,7 +56,7 @@ fn recipes_give_the_numbers_of_the_rows() {
     let entries = std::fs::read_dir(scratch.path("results/spin_sweep/bands")).unwrap();
     let mut files: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
     files.sort();
-    let bands = bands_file::read(&files).unwrap().expect("bands");
+    let bands = bands_file::read(&files, None).unwrap().expect("bands");
     let wheel = bands.find("exchange_w1_j").expect("bands of wheel 1");
     let p95 = (0..bands.times().len()).filter_map(|point| bands.quantile(wheel, point, 0.95)).fold(0.0, f64::max);
 

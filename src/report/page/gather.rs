@@ -2,11 +2,11 @@
 
 use std::num::NonZeroUsize;
 
-use crate::campaign::{Plan, Statement};
+use crate::campaign::{Plan, Requirement, Statement};
 use crate::dataset::rows_reader::{RowsError, RowsReader};
 use crate::dataset::sensitivity::InputSensitivity;
 use crate::dataset::statistics::{ColumnStatistics, QuantileStatistic, Statistics};
-use crate::dataset::verdicts::{Assessment, Verdicts};
+use crate::dataset::verdicts::{Assessment, Verdicts, during};
 use crate::ensemble::{Bands, Ensemble};
 use crate::report::page::cards::{Card, Judged, driven_by};
 use crate::report::page::influence::Influence;
@@ -50,10 +50,10 @@ impl Contents {
     ) -> Result<Self, RowsError> {
         let plan = ensemble.plan();
         let mut named: Vec<String> = Vec::new();
-        let required = plan.analysis.requirements.iter().map(|requirement| &requirement.observable);
-        for name in required.chain(analysis.sensitivities.iter().map(|one| &one.observable)) {
-            if !named.contains(name) {
-                named.push(name.clone());
+        let required = plan.analysis.requirements.iter().filter_map(Requirement::observable);
+        for name in required.chain(analysis.sensitivities.iter().map(|one| one.observable.as_str())) {
+            if !named.iter().any(|known| known == name) {
+                named.push(name.to_owned());
             }
         }
         let survey = Survey::new(ensemble, rows, &named, threads)?;
@@ -172,24 +172,36 @@ fn meaning(plan: &Plan, first: &InputSensitivity, all: &[InputSensitivity]) -> S
 /// The card of a requirement.
 fn card(plan: &Plan, one: &Assessment, survey: &Survey, influences: &[Influence]) -> Card {
     let requirement = &one.requirement;
-    let outcome = survey.outcome(&requirement.observable).map(|(_, outcome)| outcome);
-    let name = outcome.map_or(requirement.observable.clone(), |outcome| words(&outcome.quantity));
+    let outcome = requirement.observable().and_then(|name| survey.outcome(name)).map(|(_, outcome)| outcome);
+    let name = outcome.map_or(requirement.name().replace('_', " "), |outcome| words(&outcome.quantity));
     let confidence = number(100.0 * requirement.confidence);
     let percent = |fraction: f64| number(100.0 * fraction);
     let (limit, is_upper) = (requirement.limit.value(), matches!(requirement.limit, Limit::AtMost(_)));
     let (word, text) = (if is_upper { "at most" } else { "at least" }, with_unit(limit, &one.unit));
+    let times = requirement.band().map_or_else(String::new, during);
     let sentence = match requirement.statement {
         Statement::Quantile(p) => {
             let share = if is_upper { p } else { 1.0 - p };
-            format!("{}% of the runs keep the {name} {word} {text}, with {confidence}% confidence.", percent(share))
+            format!(
+                "{}% of the runs keep the {name} {word} {text}{times}, with {confidence}% confidence.",
+                percent(share)
+            )
         }
         Statement::Fraction(fraction) => {
-            format!("{}% of the runs keep the {name} {word} {text}, with {confidence}% confidence.", percent(fraction))
+            format!(
+                "{}% of the runs keep the {name} {word} {text}{times}, with {confidence}% confidence.",
+                percent(fraction)
+            )
         }
         Statement::Mean => format!("The mean of the {name} is {word} {text}, with {confidence}% confidence."),
     };
     let within = one.runs.saturating_sub(one.violations);
     let mut notes = vec![format!("{} of {} runs are within the limit.", grouped(within), grouped(one.runs))];
+    if let Some(worst) = &one.worst {
+        let at = format!("At {}, where the fewest are: ", with_unit(worst.time_s, "s"));
+        notes[0] = format!("{at}{}", notes[0]);
+        notes.push(format!("Tested at {} points of time.", worst.points));
+    }
     if one.failed > 0 {
         notes.push(format!("{} runs that are not ok count as violations.", grouped(one.failed)));
     }
@@ -235,6 +247,6 @@ fn card(plan: &Plan, one: &Assessment, survey: &Survey, influences: &[Influence]
         limit: Some((limit, is_upper && !is_fraction)),
         unit,
         note: notes.join(" "),
-        drivers: driven_by(&requirement.observable, influences),
+        drivers: driven_by(requirement.name(), influences),
     }
 }

@@ -5,6 +5,7 @@
 
 use std::num::NonZeroUsize;
 
+use crate::campaign::Requirement;
 use crate::dataset::observed::Observed;
 use crate::dataset::rows_reader::{PartReader, RowsError, RowsReader};
 use crate::ensemble::Ensemble;
@@ -145,8 +146,7 @@ impl Survey {
     ) -> Result<Self, RowsError> {
         let plan = ensemble.plan();
         let columns = observed(ensemble, asked);
-        let required: Vec<&str> =
-            plan.analysis.requirements.iter().map(|requirement| requirement.observable.as_str()).collect();
+        let required: Vec<&str> = plan.analysis.requirements.iter().filter_map(Requirement::observable).collect();
         let inputs: Vec<String> =
             plan.dispersions.columns().iter().map(|column| column.parameter.column_name(column.component)).collect();
         let outcome = |column: &Observed| Outcome {
