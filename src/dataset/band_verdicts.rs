@@ -5,25 +5,24 @@
 
 use crate::campaign::requirement::BandSubject;
 use crate::campaign::{Requirement, Statement};
+use crate::dataset::assessment::{Assessment, WorstPoint};
 use crate::dataset::population::Population;
-use crate::dataset::verdicts::{Assessment, Counts, WorstPoint};
 use crate::ensemble::Bands;
 use crate::statistics::binomial::Decision;
 use crate::statistics::gate::{Gate, points_gate};
 
-/// What `bands` say of `requirement`, which is about `band`; `counts` has the runs that count and those that are not `ok`.
+/// What `bands` say of `requirement`, which is about `band`, of so many runs that count, `failed` of them not `ok`.
 pub(super) fn over_time(
     requirement: &Requirement,
     band: &BandSubject,
     bands: Option<&Bands>,
-    counts: &Counts,
+    [runs, failed]: [u64; 2],
     population: Population,
 ) -> Assessment {
     let found = bands.and_then(|bands| bands.find(&band.series).map(|series| (bands, series)));
     let points: Vec<(usize, f64)> = found.map_or_else(Vec::new, |(bands, _)| {
         bands.times().iter().copied().enumerate().filter(|(_, time)| band.contains(*time)).collect()
     });
-    let runs = counts.runs();
     let within: Vec<([u64; 2], u64)> = found.map_or_else(Vec::new, |(bands, series)| {
         points.iter().map(|(point, _)| (bands.within(series, *point, requirement.limit), runs)).collect()
     });
@@ -58,7 +57,7 @@ pub(super) fn over_time(
         value,
         runs,
         violations: runs.saturating_sub(least),
-        failed: counts.failed,
+        failed,
         worst: worst.map(|worst| WorstPoint {
             time_s: points[worst].1,
             points: points.len(),

@@ -9,13 +9,14 @@
 //! - [`parts_read`]: the files of parts by what is in them.
 //! - [`table`]: tables in a single file: [`timeseries`], [`bands_table`], [`drawn_table`], [`precision_table`].
 //! - [`statistics`]: what the rows say of every observable ([`observed`], [`population`]), counted by [`column_counts`] from [`part_columns`],
-//!   or by [`running_counts`] while the rows are made; [`verdicts`]: of the requirements (over time: `band_verdicts`); [`mod@stopping`]: whether
+//!   or by [`running_counts`] while the rows are made; [`verdicts`]: of the requirements, each an [`assessment`] (over time: `band_verdicts`); [`mod@stopping`]: whether
 //!   they are enough.
 //! - [`sensitivity`]: which input matters. - [`statistics_table`], [`sensitivity_table`]: both as files, by [`described_table`]. - [`parallel`]: threads.
 //! - [`comparison`]: two results.
 //!
 //! Not here: text and figures for people (`report`), and reading tables for a campaign (`campaign`).
 
+pub mod assessment;
 pub mod atomic;
 pub mod audit_tally;
 mod band_verdicts;

@@ -7,8 +7,8 @@
 
 use std::num::NonZeroUsize;
 
-use crate::campaign::requirement::BandSubject;
 use crate::campaign::{Plan, Requirement, Statement};
+use crate::dataset::assessment::Assessment;
 use crate::dataset::band_verdicts::over_time;
 use crate::dataset::observed::Observed;
 use crate::dataset::population::Population;
@@ -18,42 +18,7 @@ use crate::run::Status;
 use crate::statistics::binomial::Decision;
 use crate::statistics::gate::{Gate, Limit, fraction_gate, mean_gate, replicate_gate};
 use crate::statistics::moments::Moments;
-use crate::statistics::quantile::percent;
 use crate::statistics::sketch::Sketch;
-
-/// What the runs say of one requirement.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Assessment {
-    /// The requirement.
-    pub requirement: Requirement,
-    /// Unit of its limit; empty for a pure number.
-    pub unit: String,
-    /// What is decided, and from which estimate with which one-sided bounds: of the fraction of runs within the limit, or of the mean.
-    pub gate: Gate,
-    /// The quantile (within 0.05%) or the mean over the runs that have a value; `None` for fractions.
-    pub value: Option<f64>,
-    /// Runs that count: dispersed and physical.
-    pub runs: u64,
-    /// Runs of those that are not within the limit, or have no value.
-    pub violations: u64,
-    /// Runs of those that are not `ok`.
-    pub failed: u64,
-    /// Of a requirement over time: where it is met least.
-    pub worst: Option<WorstPoint>,
-    /// Why nothing, or something else than the numbers say, was decided.
-    pub reason: Option<String>,
-}
-
-/// The point of time at which the fewest runs are within the limit, the first of them.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WorstPoint {
-    /// The time, s.
-    pub time_s: f64,
-    /// At how many points the requirement was tested.
-    pub points: usize,
-    /// Runs of which the bands do not tell whether they are within the limit: they are in one bucket with it. Counted as violations.
-    pub unresolved: u64,
-}
 
 /// What the runs of a campaign say of its requirements.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -78,45 +43,6 @@ impl Verdicts {
     }
 }
 
-impl Assessment {
-    /// PASS, FAIL or UNDECIDED.
-    pub fn word(&self) -> &'static str {
-        match self.gate.decision {
-            Decision::Pass => "PASS",
-            Decision::Fail => "FAIL",
-            Decision::Undecided(_) => "UNDECIDED",
-        }
-    }
-
-    /// The requirement in words.
-    pub fn sentence(&self) -> String {
-        let requirement = &self.requirement;
-        let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
-        let limit = match requirement.limit {
-            Limit::AtMost(limit) => format!("at most {limit:?}{unit}"),
-            Limit::AtLeast(limit) => format!("at least {limit:?}{unit}"),
-        };
-        let (name, confidence) = (requirement.name(), percent(requirement.confidence));
-        let limit = format!("{limit}{}", requirement.band().map_or_else(String::new, during));
-        let what = match requirement.statement {
-            Statement::Quantile(p) => format!("p{} of {name} {limit}", percent(p)),
-            Statement::Fraction(fraction) => format!("{}% of runs with {name} {limit}", percent(fraction)),
-            Statement::Mean => format!("mean of {name} {limit}"),
-        };
-        format!("{what}, with {confidence}% confidence")
-    }
-}
-
-/// The interval of a requirement over time, in words.
-pub fn during(band: &BandSubject) -> String {
-    match (band.from_s, band.to_s) {
-        (None, None) => " at all times".to_owned(),
-        (Some(from), None) => format!(" from {from:?} s on"),
-        (None, Some(to)) => format!(" up to {to:?} s"),
-        (Some(from), Some(to)) => format!(" from {from:?} s to {to:?} s"),
-    }
-}
-
 /// What is counted of one requirement in a group of samples.
 #[derive(Clone, Debug, Default)]
 struct Counted {
@@ -127,11 +53,11 @@ struct Counted {
 
 /// What is counted of one requirement.
 #[derive(Clone, Debug)]
-pub(super) struct Counts {
+struct Counts {
     groups: Vec<Counted>,
     sketch: Sketch,
     /// Runs that are not `ok`.
-    pub(super) failed: u64,
+    failed: u64,
 }
 
 impl Counts {
@@ -152,11 +78,6 @@ impl Counts {
     /// The sum of a count over the groups.
     fn sum(&self, count: impl Fn(&Counted) -> u64) -> u64 {
         self.groups.iter().map(count).sum()
-    }
-
-    /// Runs that count.
-    pub(super) fn runs(&self) -> u64 {
-        self.sum(|group| group.runs)
     }
 }
 
@@ -194,7 +115,10 @@ pub fn assess(
     )?;
     let assessed = requirements.iter().zip(&of).zip(&counts).map(|((requirement, index), counts)| {
         match (index, requirement.band()) {
-            (None, Some(band)) => over_time(requirement, band, bands, counts, population),
+            (None, Some(band)) => {
+                let runs = [counts.sum(|group| group.runs), counts.failed];
+                over_time(requirement, band, bands, runs, population)
+            }
             _ => {
                 let unit = index.map_or_else(String::new, |index| observed[index].quantity.unit().to_owned());
                 assessment(requirement.clone(), unit, counts, population)

@@ -5,7 +5,8 @@ use std::fmt::Write;
 use serde_json::{Value, json};
 
 use crate::campaign::{Plan, Statement};
-use crate::dataset::verdicts::{Assessment, Verdicts};
+use crate::dataset::assessment::Assessment;
+use crate::dataset::verdicts::Verdicts;
 use crate::report::number::short;
 use crate::statistics::binomial::Decision;
 use crate::statistics::gate::Limit;

@@ -99,11 +99,23 @@ impl Storage for Faulty {
     }
 }
 
+/// Ten seconds of waiting for a lock.
+const LOCK_TRIES: usize = 2000;
+
 /// Makes the dataset of `plan` in `root`, or what is missing of it.
 fn make(storage: &'static dyn Storage, root: &Path, plan: &Plan) -> Result<(), String> {
     let ensemble = Ensemble::new(plan, Isa::best());
     let options = ClaimOptions { overwrite: false, shard: None, threads: 1 };
-    let ready = match claim(storage, root, (plan, &identity(&ensemble)), options) {
+    let mut claimed = claim(storage, root, (plan, &identity(&ensemble)), options);
+    // a process that another test is about to start has the lock too, from its fork to its exec
+    for _ in 0..LOCK_TRIES {
+        if !matches!(claimed, Err(FolderError::Busy { .. })) {
+            break;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(5));
+        claimed = claim(storage, root, (plan, &identity(&ensemble)), options);
+    }
+    let ready = match claimed {
         Ok(Claim::Ready(ready)) => *ready,
         Ok(Claim::Finished(_)) => return Ok(()),
         Err(error @ FolderError::Foreign { .. }) => panic!("its own files are foreign: {error}"),

@@ -3,10 +3,11 @@
 use std::num::NonZeroUsize;
 
 use crate::campaign::{Plan, Requirement, Statement};
+use crate::dataset::assessment::{Assessment, during};
 use crate::dataset::rows_reader::{RowsError, RowsReader};
 use crate::dataset::sensitivity::InputSensitivity;
 use crate::dataset::statistics::{ColumnStatistics, QuantileStatistic, Statistics};
-use crate::dataset::verdicts::{Assessment, Verdicts, during};
+use crate::dataset::verdicts::Verdicts;
 use crate::ensemble::{Bands, Ensemble};
 use crate::report::page::cards::{Card, Judged, driven_by};
 use crate::report::page::influence::Influence;

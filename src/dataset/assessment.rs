@@ -1,0 +1,80 @@
+//! [`Assessment`]: what the runs of a campaign say of one requirement.
+
+use crate::campaign::requirement::BandSubject;
+use crate::campaign::{Requirement, Statement};
+use crate::statistics::binomial::Decision;
+use crate::statistics::gate::{Gate, Limit};
+use crate::statistics::quantile::percent;
+
+/// What the runs say of one requirement.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Assessment {
+    /// The requirement.
+    pub requirement: Requirement,
+    /// Unit of its limit; empty for a pure number.
+    pub unit: String,
+    /// What is decided, and from which estimate with which one-sided bounds: of the fraction of runs within the limit, or of the mean.
+    pub gate: Gate,
+    /// The quantile (within 0.05%) or the mean over the runs that have a value; `None` for fractions.
+    pub value: Option<f64>,
+    /// Runs that count: dispersed and physical.
+    pub runs: u64,
+    /// Runs of those that are not within the limit, or have no value.
+    pub violations: u64,
+    /// Runs of those that are not `ok`.
+    pub failed: u64,
+    /// Of a requirement over time: where it is met least.
+    pub worst: Option<WorstPoint>,
+    /// Why nothing, or something else than the numbers say, was decided.
+    pub reason: Option<String>,
+}
+
+/// The point of time at which the fewest runs are within the limit, the first of them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WorstPoint {
+    /// The time, s.
+    pub time_s: f64,
+    /// At how many points the requirement was tested.
+    pub points: usize,
+    /// Runs that are in one bucket with the limit, so that the bands do not tell on which side of it they are. Counted as violations.
+    pub unresolved: u64,
+}
+
+impl Assessment {
+    /// PASS, FAIL or UNDECIDED.
+    pub fn word(&self) -> &'static str {
+        match self.gate.decision {
+            Decision::Pass => "PASS",
+            Decision::Fail => "FAIL",
+            Decision::Undecided(_) => "UNDECIDED",
+        }
+    }
+
+    /// The requirement in words.
+    pub fn sentence(&self) -> String {
+        let requirement = &self.requirement;
+        let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
+        let limit = match requirement.limit {
+            Limit::AtMost(limit) => format!("at most {limit:?}{unit}"),
+            Limit::AtLeast(limit) => format!("at least {limit:?}{unit}"),
+        };
+        let (name, confidence) = (requirement.name(), percent(requirement.confidence));
+        let limit = format!("{limit}{}", requirement.band().map_or_else(String::new, during));
+        let what = match requirement.statement {
+            Statement::Quantile(p) => format!("p{} of {name} {limit}", percent(p)),
+            Statement::Fraction(fraction) => format!("{}% of runs with {name} {limit}", percent(fraction)),
+            Statement::Mean => format!("mean of {name} {limit}"),
+        };
+        format!("{what}, with {confidence}% confidence")
+    }
+}
+
+/// The interval of a requirement over time, in words.
+pub fn during(band: &BandSubject) -> String {
+    match (band.from_s, band.to_s) {
+        (None, None) => " at all times".to_owned(),
+        (Some(from), None) => format!(" from {from:?} s on"),
+        (None, Some(to)) => format!(" up to {to:?} s"),
+        (Some(from), Some(to)) => format!(" from {from:?} s to {to:?} s"),
+    }
+}
