@@ -258,3 +258,22 @@ fn a_worker() {
         assert_eq!(allocations(|| part(256, 256)), 0, "{name}, {method}");
     }
 }
+
+/// Law: bands allocate only where a deviation is in an octave that no earlier one was in: the same part again allocates nothing, and a later
+/// part less than once in a column.
+#[test]
+fn a_worker_with_bands() {
+    let plan = plan("spin_sweep", "auto");
+    let campaign = Ensemble::new(&plan, Isa::best());
+    let mut worker = campaign.worker();
+    let mut rows = campaign.rows(256);
+    let columns = rows.bands().expect("bands").bands().columns().len() as u64;
+    let mut part = |first| {
+        let part = Part { id: PartId(0), first: SampleId(first), count: 256 };
+        worker.run(part, &mut rows, Supervision::progress(&|_| {}));
+    };
+    assert!(allocations(|| part(0)) > columns, "the counter-test: the first part has every window to make");
+    assert_eq!(allocations(|| part(0)), 0);
+    let later = allocations(|| part(256));
+    assert!(later < columns, "{later} of {columns} columns");
+}

@@ -70,6 +70,7 @@ export function described(figure, at, value, toPixel) {
     if (isFirst) lines.push(`${x.quantity}: ${withUnit(mark.x[index], x.unit)}`);
     isFirst = false;
     if (mark.kind === "line") lines.push(`${mark.label}: ${withUnit(mark.y[index], y.unit)}`);
+    else if (mark.stacked) lines.push(`${mark.label}: ${withUnit(mark.high[index] > 0 ? mark.high[index] - mark.low[index] : mark.low[index] - mark.high[index], y.unit)}`);
     else lines.push(`${mark.label}: ${withUnit(mark.low[index], y.unit)} to ${withUnit(mark.high[index], y.unit)}`);
   }
   if (lines.length === 0) {

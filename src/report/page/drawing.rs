@@ -372,7 +372,15 @@ mod tests {
             (Axis::log("y", ""), Mark::Line { label: label(), hue, dashed: false, x: x.clone(), y: y.clone() }),
             (
                 Axis::linear("y", ""),
-                Mark::Band { label: label(), hue, opacity: 0.5, x: x.clone(), low: y.clone(), high: x.clone() },
+                Mark::Band {
+                    label: label(),
+                    hue,
+                    opacity: 0.5,
+                    x: x.clone(),
+                    low: y.clone(),
+                    high: x.clone(),
+                    stacked: false,
+                },
             ),
             (
                 Axis::linear("y", ""),

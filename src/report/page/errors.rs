@@ -138,7 +138,7 @@ fn exceedance(outcome: &Outcome, has_intervals: bool) -> Figure {
     let label = format!("{}% interval", (100.0 * CONFIDENCE).round());
     let mut marks = Vec::new();
     if has_intervals {
-        marks.push(Mark::Band { label, hue: Hue::Total, opacity: 0.15, x: x.clone(), low, high });
+        marks.push(Mark::Band { label, hue: Hue::Total, opacity: 0.15, x: x.clone(), low, high, stacked: false });
     }
     marks.push(Mark::Line {
         label: "fraction of runs above".to_owned(),

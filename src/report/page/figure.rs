@@ -125,6 +125,8 @@ pub enum Mark {
         low: Vec<f64>,
         /// Upper curve.
         high: Vec<f64>,
+        /// Whether it is one of several on top of each other: its height is its value.
+        stacked: bool,
     },
     /// Points.
     Points {
@@ -188,8 +190,8 @@ impl Mark {
             Mark::Line { label, hue, dashed, x, y } => json!({
                 "kind": "line", "label": label, "hue": hue.place(), "dashed": dashed, "x": array(x), "y": array(y)
             }),
-            Mark::Band { label, hue, opacity, x, low, high } => json!({
-                "kind": "band", "label": label, "hue": hue.place(), "opacity": opacity,
+            Mark::Band { label, hue, opacity, x, low, high, stacked } => json!({
+                "kind": "band", "label": label, "hue": hue.place(), "opacity": opacity, "stacked": stacked,
                 "x": array(x), "low": array(low), "high": array(high)
             }),
             Mark::Points { label, hue, crosses, x, y, samples } => json!({

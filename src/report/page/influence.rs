@@ -137,6 +137,7 @@ pub fn convergence(outcome: &Outcome, has_intervals: bool) -> Figure {
             x: of(0),
             low: of(3),
             high: of(4),
+            stacked: false,
         });
     }
     marks.push(line("99%-quantile", Hue::Wheel(0), 2));

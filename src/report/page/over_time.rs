@@ -76,6 +76,7 @@ impl<'a> Curves<'a> {
                 x: bands.times.clone(),
                 low: low.clone(),
                 high: high.clone(),
+                stacked: false,
             };
             marks.push(area("5 to 95%", p05, p95, 0.15));
             marks.push(area("25 to 75%", p25, p75, 0.3));
@@ -223,15 +224,19 @@ impl<'a> Curves<'a> {
         if body.len() < 2 || wheels.is_empty() || is_constant(&body) {
             return Vec::new();
         }
-        let line =
-            |label: String, hue, y: &Vec<f64>| Mark::Line { label, hue, dashed: false, x: times.clone(), y: y.clone() };
         let named = || self.wheels.iter().enumerate().zip(&wheels);
-        let mut marks: Vec<Mark> =
-            named().map(|((index, name), y)| line(format!("wheel {name}"), Hue::Wheel(index), y)).collect();
-        marks.push(line("body".to_owned(), Hue::Body, &body));
+        let bodies = named().map(|((index, name), y)| (format!("wheel {name}"), Hue::Wheel(index), y));
+        let mut marks = stacked(&times, bodies.chain([("body".to_owned(), Hue::Body, &body)]));
+        // how far other runs are from the nominal one
+        if let Some(bands) = self.band("exchange_body_j") {
+            for (label, quantile) in [("body, 5% of runs", 0), ("body, 95% of runs", 4)] {
+                let (x, y) = (bands.times.clone(), bands.quantiles[quantile].clone());
+                marks.push(Mark::Line { label: label.to_owned(), hue: Hue::Body, dashed: true, x, y });
+            }
+        }
         let change = || Axis::linear("change of energy", "J");
-        let caption = "Change of kinetic energy about the centre of mass since the start, of the nominal run. Without motor torque and \
-                       thrust the changes add up to zero.";
+        let caption = "Change of kinetic energy about the centre of mass since the start, of the nominal run: gains are on top of each other above \
+                       zero, losses below. Without motor torque and thrust both heights are equal at all times.";
         let transfer = over_time(
             "energy_transfer",
             "Energy transfer between wheels and body",
@@ -333,6 +338,22 @@ fn over_time(name: &str, title: &str, caption: String, y: Axis, marks: Vec<Mark>
     }
 }
 
+/// The values of several bodies on top of each other: positive ones above zero, negative ones below.
+fn stacked<'v>(times: &[f64], bodies: impl Iterator<Item = (String, Hue, &'v Vec<f64>)>) -> Vec<Mark> {
+    let mut ends = vec![[0.0; 2]; times.len()];
+    let mut mark = |(label, hue, values): (String, Hue, &Vec<f64>)| {
+        let (mut low, mut high) = (Vec::with_capacity(values.len()), Vec::with_capacity(values.len()));
+        for ([below, above], value) in ends.iter_mut().zip(values) {
+            let (from, to) = if *value < 0.0 { (*below + value, *below) } else { (*above, *above + value) };
+            (*below, *above) = (below.min(from), above.max(to));
+            low.push(from);
+            high.push(to);
+        }
+        Mark::Band { label, hue, opacity: 0.5, x: times.to_vec(), low, high, stacked: true }
+    };
+    bodies.map(&mut mark).collect()
+}
+
 /// Differences from the first value.
 fn changes(values: &[f64]) -> Vec<f64> {
     values.iter().map(|value| value - values[0]).collect()
@@ -361,4 +382,27 @@ fn spectrum(times: &[f64], body: &[f64]) -> Option<Figure> {
         y: Axis::linear("amplitude", "J"),
         marks,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: gains are on top of each other, losses below each other, and the height of each is its value.
+    #[test]
+    fn gains_and_losses_are_stacked() {
+        let values = [vec![1.0, -2.0], vec![3.0, 5.0], vec![-4.0, -3.0]];
+        let names = ["a", "b", "c"].map(str::to_owned);
+        let marks =
+            stacked(&[0.0, 1.0], names.into_iter().zip(&values).map(|(name, values)| (name, Hue::Body, values)));
+        let ends: Vec<[Vec<f64>; 2]> = marks
+            .into_iter()
+            .map(|mark| match mark {
+                Mark::Band { low, high, stacked: true, .. } => [low, high],
+                _ => panic!("{mark:?}"),
+            })
+            .collect();
+        let expected = [[[0.0, -2.0], [1.0, 0.0]], [[1.0, 0.0], [4.0, 5.0]], [[-4.0, -5.0], [0.0, -2.0]]];
+        assert_eq!(ends, expected.map(|ends| ends.map(|end| end.to_vec())));
+    }
 }
