@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use spindrift::cli::arguments::{Command, arguments};
 use spindrift::cli::{
     check, columns, command_outcome, compare, finish_campaign, precision, report, run_campaign, sample, simulate,
-    verify,
+    slurm, verify,
 };
 
 fn main() -> ExitCode {
@@ -22,6 +22,7 @@ fn main() -> ExitCode {
         Command::Report(options) => report::run(&options),
         Command::Sample(options) => sample::run(&options),
         Command::Simulate(options) => simulate::run(&options),
+        Command::Slurm(options) => slurm::run(&options),
     };
     command_outcome::exit_code(ended)
 }

@@ -1,16 +1,17 @@
 //! [`Arguments`]: commands and options of the program, with their help texts.
 
+use std::num::NonZeroU64;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
-use crate::campaign::section::choice;
+use crate::cli::argument_values::{
+    fraction, group, method, sbatch_option, seconds, shard, shards, shift, time_limit, tolerance,
+};
+use crate::cli::slurm_script::TimeLimit;
 use crate::dataset::claim::Shard;
 use crate::observables::Group;
 use crate::propagation::Method;
-
-/// Most shards of a campaign.
-const MOST_SHARDS: u64 = 1_000_000;
 
 /// Shown at the end of every help text.
 const EXIT_CODES: &str = "\
@@ -46,6 +47,9 @@ pub enum Command {
     #[command(after_help = EXIT_CODES)]
     #[command(name = "finish")]
     CompleteResult(FinishOptions),
+    /// Write the scripts that run a campaign on a cluster with Slurm, one shard a task, and submit them.
+    #[command(after_help = EXIT_CODES)]
+    Slurm(SlurmOptions),
     /// Check a result: every checksum, and for a fraction of the parts every bit of every row.
     #[command(after_help = EXIT_CODES)]
     Verify(VerifyOptions),
@@ -148,6 +152,37 @@ pub struct VerifyOptions {
     /// The folder of the result.
     pub folder: PathBuf,
     /// Fraction of the parts whose rows are computed again and compared bit for bit.
+/// Arguments of `slurm`.
+#[derive(Debug, Args)]
+pub struct SlurmOptions {
+    /// The campaign file.
+    pub file: PathBuf,
+    /// Number of tasks: each is a shard, on a node or a share of one.
+    #[arg(long, value_name = "N", value_parser = shards)]
+    pub nodes: NonZeroU64,
+    /// Cores of a task.
+    #[arg(long, value_name = "C")]
+    pub cpus: NonZeroU64,
+    /// Time limit of a task, as Slurm reads it: minutes, H:MM:SS, D-HH. A task that meets it continues in another.
+    #[arg(long, value_name = "T", value_parser = time_limit)]
+    pub time: TimeLimit,
+    /// Submit the scripts with sbatch.
+    #[arg(long)]
+    pub submit: bool,
+    /// Folder of the result, which every node sees [default: the campaign's name in results/].
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Number of samples instead of the file's.
+    #[arg(long, value_name = "N")]
+    pub samples: Option<u64>,
+    /// Seed instead of the file's.
+    #[arg(long, value_name = "S")]
+    pub seed: Option<u64>,
+    /// A further option of both jobs, for instance --sbatch=--partition=long; may be repeated.
+    #[arg(long, value_name = "OPTION", value_parser = sbatch_option)]
+    pub sbatch: Vec<String>,
+}
+
     #[arg(long, value_name = "F", default_value_t = 0.01, value_parser = fraction)]
     pub fraction: f64,
     /// Make damaged or differing parts again.
@@ -271,52 +306,6 @@ pub fn arguments() -> Arguments {
     Arguments::parse()
 }
 
-/// The group of that name; otherwise the list of names.
-fn group(name: &str) -> Result<Group, String> {
-    Group::from_name(name).ok_or_else(|| {
-        let (allowed, remedy) = choice(name, &Group::ALL.map(Group::name));
-        format!("must be {allowed}; {remedy}")
-    })
-}
-
-/// The method of that name; otherwise the list of names.
-fn method(name: &str) -> Result<Method, String> {
-    let names = || Method::ALL.map(Method::name).join(", ");
-    Method::from_name(name).ok_or_else(|| format!("must be one of {}", names()))
-}
-
-/// A tolerance; otherwise the allowed range.
-fn tolerance(text: &str) -> Result<f64, String> {
-    let allowed = || "must be a number from 1e-16 to 0.1".to_owned();
-    text.parse().ok().filter(|value| (1e-16..=0.1).contains(value)).ok_or_else(allowed)
-}
-
-/// A fraction from 0 to 1; otherwise the allowed range.
-fn fraction(text: &str) -> Result<f64, String> {
-    let allowed = || "must be a number from 0 to 1".to_owned();
-    text.parse().ok().filter(|value| (0.0..=1.0).contains(value)).ok_or_else(allowed)
-}
-
-/// A shard, for instance 3/8; otherwise the allowed form.
-fn shard(text: &str) -> Result<Shard, String> {
-    let numbers = text.split_once('/').and_then(|(number, of)| Some((number.parse().ok()?, of.parse().ok()?)));
-    let shard = numbers.map(|(number, of)| Shard { number, of });
-    let allowed = || format!("must be K/N with 1 <= K <= N <= {MOST_SHARDS}, for instance 3/8");
-    shard.filter(|shard| (1..=shard.of).contains(&shard.number) && shard.of <= MOST_SHARDS).ok_or_else(allowed)
-}
-
-/// A shift, zero or above; otherwise the allowed range.
-fn shift(text: &str) -> Result<f64, String> {
-    let allowed = || "must be a number of at least 0".to_owned();
-    text.parse().ok().filter(|value: &f64| value.is_finite() && *value >= 0.0).ok_or_else(allowed)
-}
-
-/// A positive time in seconds; otherwise the allowed range.
-fn seconds(text: &str) -> Result<f64, String> {
-    let allowed = || "must be a number of seconds above 0".to_owned();
-    text.parse().ok().filter(|value: &f64| value.is_finite() && *value > 0.0).ok_or_else(allowed)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -335,25 +324,11 @@ mod tests {
         // `help` is clap's own
         let ours = command.get_subcommands_mut().filter(|command| command.get_name() != "help");
         helps.extend(ours.map(|command| command.render_help().to_string()));
-        assert_eq!(helps.len(), 11);
+        assert_eq!(helps.len(), 12);
         for help in helps {
             for code in ["0  done", "1  ran", "2  bad input", "3  ran", "4  input/output", "5  ran"] {
                 assert!(help.contains(code), "{help}");
             }
         }
-    }
-
-    #[test]
-    fn tolerances_have_a_range() {
-        for value in [1e-16, 1e-4, 0.1] {
-            assert!(tolerance(&value.to_string()).is_ok(), "{value:e}: {:?}", tolerance(&value.to_string()));
-        }
-        assert!(tolerance("1e-17").is_err() && tolerance("0.2").is_err() && tolerance("nan").is_err());
-    }
-
-    #[test]
-    fn methods_have_the_names_of_campaign_files() {
-        assert_eq!(method("auto"), Ok(Method::Auto));
-        assert!(method("euler").is_err_and(|message| message.contains("gauss_legendre_6")));
     }
 }

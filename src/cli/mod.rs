@@ -1,14 +1,16 @@
 //! Layer 8: the command line.
 //!
-//! - [`arguments`]: commands and options. - [`input`]: the plan and the instruction set of a command.
+//! - [`arguments`]: commands and options; [`argument_values`]: their values. - [`input`]: the plan and the instruction set of a command.
 //! - [`analysis`]: what is made of the rows at the end of a campaign.
-//! - [`run_campaign`], [`finish_campaign`], [`verify`], [`check`], [`columns`], [`compare`], [`precision`], [`report`], [`sample`], [`simulate`]: one command each.
+//! - [`run_campaign`], [`finish_campaign`], [`verify`], [`check`], [`columns`], [`compare`], [`precision`], [`report`], [`sample`],
+//!   [`simulate`], [`slurm`]: one command each. - [`slurm_script`]: the scripts of Slurm.
 //! - [`dispersions`]: the dispersions of a plan as text. - [`progress`]: the progress bar. - [`screen`]: printing; [`signals`].
 //! - [`command_outcome`]: how a command ends, and its exit code.
 //!
 //! Not here: physics, sampling, file formats.
 
 pub mod analysis;
+pub mod argument_values;
 pub mod arguments;
 pub mod check;
 pub mod columns;
@@ -25,4 +27,6 @@ pub mod sample;
 pub mod screen;
 pub mod signals;
 pub mod simulate;
+pub mod slurm;
+pub mod slurm_script;
 pub mod verify;

@@ -26,7 +26,7 @@ use crate::ensemble::{Ensemble, Part, Parts, RunError, Supervision, run as run_p
 use crate::report::stopping_text::text as stopping_text;
 
 /// Default folder of results, in the current folder.
-const RESULTS: &str = "results";
+pub const RESULTS: &str = "results";
 
 /// Runs the command.
 ///
@@ -36,11 +36,8 @@ pub fn run(options: &CampaignOptions) -> Result<CommandOutcome, Failure> {
     let signals = signals::watch();
     let overrides = Overrides { samples: options.samples, seed: options.seed, audit_fraction: options.audit };
     let plan = plan(&options.file, overrides)?;
-    if let (Some(shard), Some(_)) = (options.shard, &plan.analysis.stop) {
-        return Err(Failure::Input(format!(
-            "--shard {}/{}: must be left out with [stop], which looks at all samples before it runs more; delete [stop], or run without --shard",
-            shard.number, shard.of
-        )));
+    if let Some(shard) = options.shard {
+        refuse_shards_with_stop(&plan, &format!("--shard {}/{}", shard.number, shard.of))?;
     }
     let ensemble = Ensemble::new(&plan, isa()?);
     let root = options.out.clone().unwrap_or_else(|| PathBuf::from(RESULTS).join(&plan.name));
@@ -49,6 +46,19 @@ pub fn run(options: &CampaignOptions) -> Result<CommandOutcome, Failure> {
     match claim(&Disk, &root, (&plan, &identity(&ensemble)), claimed).map_err(Failure::files)? {
         Claim::Finished(summary) => already_complete(&root, &plan, &summary),
         Claim::Ready(ready) => run_missing(options, &ensemble, *ready, &root, signals),
+    }
+}
+
+/// Refuses `what`, which divides the campaign into shards, where the plan has `[stop]`.
+///
+/// # Errors
+/// Where it has.
+pub fn refuse_shards_with_stop(plan: &Plan, what: &str) -> Result<(), Failure> {
+    match plan.analysis.stop {
+        None => Ok(()),
+        Some(_) => Err(Failure::Input(format!(
+            "{what}: must be left out with [stop], which looks at all samples before it runs more; delete [stop], or run without shards"
+        ))),
     }
 }
 

@@ -26,6 +26,7 @@ mod report_page;
 mod result_files;
 mod retained;
 mod simulate_command;
+mod slurm;
 mod small_campaign;
 mod statistics;
 mod stopping;

@@ -107,6 +107,7 @@ fn program_problem(words: &[&str]) -> Option<String> {
         Command::Simulate(options) => &options.file,
         Command::Sample(options) => &options.file,
         Command::Precision(options) => &options.file,
+        Command::Slurm(options) => &options.file,
         // a folder that a campaign has made
         Command::Compare(_) | Command::CompleteResult(_) | Command::Report(_) | Command::Verify(_) => return None,
         Command::Columns(options) => options.campaign.as_ref()?,

@@ -1,0 +1,142 @@
+//! The values of options that are more than a number or a path: each from its text, or what is allowed instead.
+
+use std::num::NonZeroU64;
+
+use crate::campaign::section::choice;
+use crate::cli::slurm_script::TimeLimit;
+use crate::dataset::claim::Shard;
+use crate::observables::Group;
+use crate::propagation::Method;
+
+/// Most shards of a campaign.
+const MOST_SHARDS: u64 = 1_000_000;
+
+/// The group of that name; otherwise the list of names.
+///
+/// # Errors
+/// Where it is none.
+pub fn group(name: &str) -> Result<Group, String> {
+    Group::from_name(name).ok_or_else(|| {
+        let (allowed, remedy) = choice(name, &Group::ALL.map(Group::name));
+        format!("must be {allowed}; {remedy}")
+    })
+}
+
+/// The method of that name; otherwise the list of names.
+///
+/// # Errors
+/// Where it is none.
+pub fn method(name: &str) -> Result<Method, String> {
+    let names = || Method::ALL.map(Method::name).join(", ");
+    Method::from_name(name).ok_or_else(|| format!("must be one of {}", names()))
+}
+
+/// A tolerance; otherwise the allowed range.
+///
+/// # Errors
+/// Where it is none.
+pub fn tolerance(text: &str) -> Result<f64, String> {
+    let allowed = || "must be a number from 1e-16 to 0.1".to_owned();
+    text.parse().ok().filter(|value| (1e-16..=0.1).contains(value)).ok_or_else(allowed)
+}
+
+/// A fraction from 0 to 1; otherwise the allowed range.
+///
+/// # Errors
+/// Where it is none.
+pub fn fraction(text: &str) -> Result<f64, String> {
+    let allowed = || "must be a number from 0 to 1".to_owned();
+    text.parse().ok().filter(|value| (0.0..=1.0).contains(value)).ok_or_else(allowed)
+}
+
+/// A shard, for instance 3/8; otherwise the allowed form.
+///
+/// # Errors
+/// Where it is none.
+pub fn shard(text: &str) -> Result<Shard, String> {
+    let numbers = text.split_once('/').and_then(|(number, of)| Some((number.parse().ok()?, of.parse().ok()?)));
+    let shard = numbers.map(|(number, of)| Shard { number, of });
+    let allowed = || format!("must be K/N with 1 <= K <= N <= {MOST_SHARDS}, for instance 3/8");
+    shard.filter(|shard| (1..=shard.of).contains(&shard.number) && shard.of <= MOST_SHARDS).ok_or_else(allowed)
+}
+
+/// A number of shards; otherwise the allowed range.
+///
+/// # Errors
+/// Where it is none.
+pub fn shards(text: &str) -> Result<NonZeroU64, String> {
+    let allowed = || format!("must be a whole number from 1 to {MOST_SHARDS}");
+    text.parse().ok().filter(|number: &NonZeroU64| number.get() <= MOST_SHARDS).ok_or_else(allowed)
+}
+
+/// A time limit as Slurm reads it; otherwise the allowed forms.
+///
+/// # Errors
+/// Where it is none.
+pub fn time_limit(text: &str) -> Result<TimeLimit, String> {
+    TimeLimit::of(text)
+        .ok_or_else(|| "must be a time as Slurm reads it, for instance 90 (minutes), 2:00:00 or 1-12".to_owned())
+}
+
+/// An option of sbatch on one line; otherwise the allowed form.
+///
+/// # Errors
+/// Where it is none.
+pub fn sbatch_option(text: &str) -> Result<String, String> {
+    let is_option = text.starts_with('-') && !text.contains(char::is_control);
+    let allowed = || "must be an option of sbatch, for instance --sbatch=--partition=long".to_owned();
+    is_option.then(|| text.to_owned()).ok_or_else(allowed)
+}
+
+/// A shift, zero or above; otherwise the allowed range.
+///
+/// # Errors
+/// Where it is none.
+pub fn shift(text: &str) -> Result<f64, String> {
+    let allowed = || "must be a number of at least 0".to_owned();
+    text.parse().ok().filter(|value: &f64| value.is_finite() && *value >= 0.0).ok_or_else(allowed)
+}
+
+/// A positive time in seconds; otherwise the allowed range.
+///
+/// # Errors
+/// Where it is none.
+pub fn seconds(text: &str) -> Result<f64, String> {
+    let allowed = || "must be a number of seconds above 0".to_owned();
+    text.parse().ok().filter(|value: &f64| value.is_finite() && *value > 0.0).ok_or_else(allowed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tolerances_have_a_range() {
+        for value in [1e-16, 1e-4, 0.1] {
+            assert!(tolerance(&value.to_string()).is_ok(), "{value:e}: {:?}", tolerance(&value.to_string()));
+        }
+        assert!(tolerance("1e-17").is_err() && tolerance("0.2").is_err() && tolerance("nan").is_err());
+    }
+
+    #[test]
+    fn methods_have_the_names_of_campaign_files() {
+        assert_eq!(method("auto"), Ok(Method::Auto));
+        assert!(method("euler").is_err_and(|message| message.contains("gauss_legendre_6")));
+    }
+
+    #[test]
+    fn shards_have_a_range() {
+        assert_eq!(shard("3/8"), Ok(Shard { number: 3, of: 8 }));
+        for wrong in ["0/8", "9/8", "3", "3/8/2", "-1/8", "1/1000001"] {
+            assert!(shard(wrong).is_err_and(|message| message.contains("1 <= K <= N")), "{wrong}");
+        }
+        assert!(shards("1000000").is_ok() && shards("0").is_err() && shards("1000001").is_err());
+    }
+
+    /// Law: an option cannot add a line to a script.
+    #[test]
+    fn options_of_sbatch_stay_on_their_line() {
+        assert!(sbatch_option("--partition=long").is_ok());
+        assert!(sbatch_option("--comment=x\nrm -r /").is_err() && sbatch_option("long").is_err());
+    }
+}

@@ -1,0 +1,223 @@
+//! [`Jobs`]: the scripts of the Slurm jobs that run a campaign: an array with a task for each shard, and a job that finishes the result.
+//!
+//! Slurm: <https://slurm.schedmd.com/sbatch.html>. The array asks for SIGUSR1 before its time limit (`--signal=B:`: to the shell of the
+//! script, which passes it on). The program then stops with [`STOPPED`], and the task puts itself back into the queue. Not here: who writes
+//! the scripts and submits them ([`super::slurm`]).
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+/// The second line of a script: by it, a script of this program is recognised.
+pub const MARK: &str = "# made by `spindrift slurm`";
+
+/// Exit code of the program where SIGUSR1 has stopped it.
+const STOPPED: u8 = 138;
+/// Exit code of a program that SIGKILL has ended: by Slurm, an operator, or the kernel where memory is short.
+const KILLED: u8 = 137;
+/// A task that was killed is put back into the queue so many times: one that needs more memory than it gets must end at some time.
+const RESTARTS: u8 = 3;
+/// The signal comes this long before the time limit, s, but not before three quarters of it have passed. The program takes up to 6.5 s to stop;
+/// Slurm sends signals up to a minute early.
+const WARNING_S: u64 = 60;
+
+/// The time limit of a task.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TimeLimit {
+    /// As Slurm reads it.
+    pub text: String,
+    /// In seconds.
+    pub seconds: u64,
+}
+
+impl TimeLimit {
+    /// Reads minutes, `minutes:seconds`, `hours:minutes:seconds`, `days-hours`, `days-hours:minutes` or `days-hours:minutes:seconds`; `None`
+    /// where it is none of them, or zero, which Slurm reads as no limit.
+    pub fn of(text: &str) -> Option<TimeLimit> {
+        const DAY_S: u64 = 86_400;
+        let (days, rest) = text.split_once('-').map_or((None, text), |(days, rest)| (Some(days), rest));
+        let number = |text: &str| -> Option<u64> {
+            let is_number = (1..=6).contains(&text.len()) && text.bytes().all(|byte| byte.is_ascii_digit());
+            is_number.then(|| text.parse().ok()).flatten()
+        };
+        let fields = rest.split(':').map(number).collect::<Option<Vec<u64>>>()?;
+        let of_fields = match (days.is_some(), &fields[..]) {
+            (false, [minutes]) => 60 * minutes,
+            (false, [minutes, seconds]) => 60 * minutes + seconds,
+            (_, [hours, minutes, seconds]) => 3600 * hours + 60 * minutes + seconds,
+            (true, [hours]) => 3600 * hours,
+            (true, [hours, minutes]) => 3600 * hours + 60 * minutes,
+            _ => return None,
+        };
+        let days = days.map_or(Some(0), number)?;
+        let seconds = DAY_S * days + of_fields;
+        (seconds > 0).then(|| TimeLimit { text: text.to_owned(), seconds })
+    }
+
+    /// How long before the limit the signal comes, s.
+    fn warning(&self) -> u64 {
+        WARNING_S.min(self.seconds / 4).max(1)
+    }
+}
+
+/// What the scripts have to know.
+#[derive(Clone, Copy, Debug)]
+pub struct Jobs<'a> {
+    /// The campaign.
+    pub name: &'a str,
+    /// The program.
+    pub program: &'a Path,
+    /// The campaign file.
+    pub file: &'a Path,
+    /// The folder of the result.
+    pub out: &'a Path,
+    /// Further arguments of `campaign`.
+    pub arguments: &'a [String],
+    /// Number of tasks.
+    pub shards: u64,
+    /// Cores of a task.
+    pub cpus: u64,
+    /// Time limit of a task.
+    pub time: &'a TimeLimit,
+    /// Further options of `sbatch`.
+    pub options: &'a [String],
+}
+
+impl Jobs<'_> {
+    /// The script of the array.
+    pub fn array(&self) -> String {
+        let Jobs { name, shards, time, .. } = self;
+        let own =
+            format!("#SBATCH --array=1-{shards}\n#SBATCH --signal=B:USR1@{}\n#SBATCH --requeue\n", time.warning());
+        let mut text = self.head(name, &format!("{name}-%a"), &own);
+        let arguments: String = self.arguments.iter().map(|argument| format!(" {}", quoted(argument))).collect();
+        let _ = write!(
+            text,
+            r#"
+shard='' is_asked='' is_again=''
+# Slurm signals this shell before the time limit; the program then stops, and what it has committed stays
+trap 'is_asked=yes; kill -USR1 "$shard"' USR1
+{program} campaign {file} --out {out}{arguments} \
+    --threads "${{SLURM_CPUS_PER_TASK:-{cpus}}}" --shard "$SLURM_ARRAY_TASK_ID/{shards}" &
+shard=$!
+wait "$shard"
+code=$?
+if [ -n "$is_asked" ]; then # the signal has ended the first wait, and not the program
+    wait "$shard"
+    code=$?
+fi
+case $code in
+{STOPPED}) is_again=yes ;; # the time limit is near
+{KILLED}) [ "${{SLURM_RESTART_COUNT:-0}}" -lt {RESTARTS} ] && is_again=yes ;; # killed from outside
+esac
+if [ -n "$is_again" ]; then
+    scontrol requeue "$SLURM_JOB_ID" # the same command continues the shard
+fi
+exit "$code"
+"#,
+            program = self.program(),
+            file = quoted(&self.file.to_string_lossy()),
+            out = quoted(&self.out.to_string_lossy()),
+            cpus = self.cpus,
+        );
+        text
+    }
+
+    /// The script of the job that finishes the result.
+    pub fn finish(&self) -> String {
+        let name = format!("{}-finish", self.name);
+        let mut text = self.head(&name, &name, "");
+        let _ = write!(
+            text,
+            "\n# 1: some runs failed; 3: a requirement failed; 5: one is undecided; 4: parts are missing, and which\n\
+             exec {} finish {} --threads \"${{SLURM_CPUS_PER_TASK:-{}}}\"\n",
+            self.program(),
+            quoted(&self.out.to_string_lossy()),
+            self.cpus
+        );
+        text
+    }
+
+    fn program(&self) -> String {
+        quoted(&self.program.to_string_lossy())
+    }
+
+    /// The first lines of a script: what it asks of Slurm.
+    fn head(&self, name: &str, log: &str, own: &str) -> String {
+        let Jobs { cpus, time, .. } = self;
+        let mut text = format!(
+            "#!/bin/bash\n{MARK}\n#SBATCH --job-name={name}\n#SBATCH --nodes=1\n#SBATCH --ntasks=1\n\
+             #SBATCH --cpus-per-task={cpus}\n#SBATCH --time={}\n#SBATCH --output={log}.log\n#SBATCH --open-mode=append\n{own}",
+            time.text
+        );
+        for option in self.options {
+            let _ = writeln!(text, "#SBATCH {option}");
+        }
+        text
+    }
+}
+
+/// `text` as one word of a shell.
+pub fn quoted(text: &str) -> String {
+    let is_plain = |byte: u8| byte.is_ascii_alphanumeric() || b"_-./=+:,@".contains(&byte);
+    if !text.is_empty() && text.bytes().all(is_plain) {
+        text.to_owned()
+    } else {
+        format!("'{}'", text.replace('\'', r"'\''"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: every form of sbatch(1) is read, and nothing else.
+    #[test]
+    fn times_are_those_of_slurm() {
+        for (text, seconds) in [
+            ("90", 5400),
+            ("2:30", 150),
+            ("2:00:00", 7200),
+            ("1-0", 86_400),
+            ("1-12", 129_600),
+            ("1-12:30", 131_400),
+            ("1-12:30:15", 131_415),
+        ] {
+            assert_eq!(TimeLimit::of(text).map(|time| time.seconds), Some(seconds), "{text}");
+        }
+        for text in [
+            "",
+            "0",
+            "0:00",
+            "-1",
+            "1-",
+            "1h",
+            "1:2:3:4",
+            "1-1:1:1:1",
+            "1.5",
+            "+5",
+            "99999999999999999999",
+            "5\n#SBATCH -A x",
+        ] {
+            assert_eq!(TimeLimit::of(text), None, "{text:?}");
+        }
+    }
+
+    /// Law: there is time between the signal and the limit, and time before the signal, however short the limit is.
+    #[test]
+    fn the_signal_comes_between_start_and_limit() {
+        for text in ["0:02", "1", "5", "2:00:00"] {
+            let time = TimeLimit::of(text).expect("a time");
+            assert!((1..time.seconds).contains(&time.warning()), "{text}: {}", time.warning());
+        }
+        assert_eq!(TimeLimit::of("10").expect("a time").warning(), WARNING_S);
+    }
+
+    /// Law: a shell reads a quoted text as that text.
+    #[test]
+    fn words_are_quoted_where_they_need_it() {
+        assert_eq!(quoted("results/a-b_1.0"), "results/a-b_1.0");
+        assert_eq!(quoted(""), "''");
+        assert_eq!(quoted("my results/$(rm x)"), "'my results/$(rm x)'");
+        assert_eq!(quoted("it's"), r"'it'\''s'");
+    }
+}
