@@ -19,10 +19,12 @@ use crate::dataset::identity::identity;
 use crate::dataset::manifest::PartRecord;
 use crate::dataset::names::{PLAN, REPORT, SUMMARY, TRAJECTORIES};
 use crate::dataset::parts_read::PartsRead;
+use crate::dataset::rows_file::headings;
 use crate::dataset::rows_reader::RowsReader;
 use crate::dataset::running_counts::Counted;
 use crate::dataset::stopping::stopping;
 use crate::dataset::storage::Disk;
+use crate::dataset::table_log;
 use crate::dataset::tally::Tally;
 use crate::dataset::trajectories;
 use crate::ensemble::Ensemble;
@@ -78,6 +80,7 @@ pub fn finish(job: &Finishing<'_>, counted: Option<Counted>) -> Result<CommandOu
     let stopping = stopping(plan, &reader, plan.samples, job.threads).map_err(Failure::files)?;
     let summary = Summary::new(plan, &tally, &analysed.statistics, analysed.verdicts).with_stopping(plan, stopping);
     folder.write(SUMMARY, summary.json().as_bytes()).map_err(Failure::files)?;
+    table_log::update(folder, &headings(job.ensemble)).map_err(Failure::files)?;
     folder.finish().map_err(Failure::files)?;
     if let Some(old) = &job.ready.replaces {
         replace(folder.storage(), folder.root(), old).map_err(Failure::files)?;

@@ -15,6 +15,7 @@ use crate::dataset::names::{PLAN, rows_of};
 use crate::dataset::part_sink::write_parts;
 use crate::dataset::rows_file::RowsFile;
 use crate::dataset::storage::Disk;
+use crate::dataset::table_log;
 use crate::dataset::verify::damaged;
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::runner::threads;
@@ -43,6 +44,9 @@ pub fn run(options: &VerifyOptions) -> Result<CommandOutcome, Failure> {
     problems.extend(found.foreign.iter().map(|entry| format!("{entry}: not part of the result")));
     let broken = damaged(&Disk, root, &records, readers);
     problems.extend(broken.iter().map(|(_, what)| what.clone()));
+    if found.is_finished {
+        problems.extend(table_log::damage(&Disk, root, &expected, &records));
+    }
     let missing = missing_parts(&found, &ensemble);
     problems.extend(missing.iter().map(|part| format!("{}: missing", rows_of(part.id))));
     let sound: Vec<Part> =

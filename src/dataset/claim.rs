@@ -15,6 +15,7 @@ use crate::dataset::names::{
 };
 use crate::dataset::stopping::targets;
 use crate::dataset::storage::{Storage, StorageError, at};
+use crate::dataset::table_log;
 
 /// Most bytes of a plan that is read.
 const MOST_PLAN: u64 = 1 << 28;
@@ -357,6 +358,9 @@ fn ready(
     let broken = crate::dataset::verify::damaged(storage, root, &all, options.threads);
     let mut damaged = found.damaged_lines();
     damaged.extend(broken.iter().map(|(_, what)| what.clone()));
+    if found.is_finished {
+        damaged.extend(table_log::damage(storage, root, identity, &all));
+    }
     // of a plan with [stop] the finished number of rows is that of one of its looks
     let is_whole = found.is_finished && targets(plan).contains(&found.rows());
     let is_complete = is_whole && damaged.is_empty() && found.plan == plan.text();

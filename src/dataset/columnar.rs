@@ -58,7 +58,8 @@ impl Heading {
     fn field(&self) -> Field {
         let data_type = match self.content {
             Content::Real => DataType::Float64,
-            Content::Count => DataType::UInt64,
+            // table engines have no unsigned integers (Delta Lake, Spark, Trino); no count comes near 2^63
+            Content::Count => DataType::Int64,
             Content::Word => DataType::Utf8,
         };
         let metadata = [("unit", self.quantity.unit()), ("meaning", self.quantity.meaning())];
@@ -216,7 +217,7 @@ fn properties(schema: &Schema, packing: Packing) -> WriterProperties {
             DataType::Utf8 => {
                 properties.set_column_dictionary_enabled(path(), true).set_column_encoding(path(), Encoding::PLAIN)
             }
-            DataType::UInt64 => properties.set_column_encoding(path(), Encoding::DELTA_BINARY_PACKED),
+            DataType::Int64 => properties.set_column_encoding(path(), Encoding::DELTA_BINARY_PACKED),
             _ => properties,
         };
     }
@@ -298,7 +299,7 @@ fn present<'a, T: Copy>(values: &'a [T], mask: &'a [bool]) -> impl Iterator<Item
 mod tests {
     use super::*;
     use arrow_array::cast::AsArray;
-    use arrow_array::types::{Float64Type, UInt64Type};
+    use arrow_array::types::{Float64Type, Int64Type};
     use arrow_array::{Array, RecordBatch};
     use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 
@@ -315,7 +316,7 @@ mod tests {
         let layout = Layout::new(&headings, HashMap::from([("seed".into(), "7".into())]), packing).unwrap();
         let mut bytes = Vec::new();
         let cells = [
-            Cells::Count(vec![0, 1, u64::MAX], None),
+            Cells::Count(vec![0, 1, i64::MAX.unsigned_abs()], None),
             Cells::Word(vec!["ok", "ok", "bad"]),
             Cells::Real(&[1.5, f64::NAN, f64::NAN], Some(&[true, true, false])),
         ];
@@ -334,7 +335,7 @@ mod tests {
     fn values_come_back() {
         for packing in [Packing::Lz4, Packing::Zstd, Packing::Plain] {
             let (batch, _) = read(written(packing));
-            assert_eq!(batch.column(0).as_primitive::<UInt64Type>().values(), &[0, 1, u64::MAX]);
+            assert_eq!(batch.column(0).as_primitive::<Int64Type>().values(), &[0, 1, i64::MAX]);
             assert_eq!(batch.column(1).as_string::<i32>().iter().flatten().collect::<Vec<_>>(), ["ok", "ok", "bad"]);
             let x = batch.column(2).as_primitive::<Float64Type>();
             assert_eq!((x.value(0), x.is_null(1), x.is_null(2)), (1.5, false, true));

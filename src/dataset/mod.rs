@@ -2,7 +2,7 @@
 //!
 //! - [`mod@claim`]: what is in the folder of a result, and whether a campaign may write there. - [`folder`]: the dataset, and the protocol by
 //!   which parts are added. - [`manifest`]: what it consists of. - [`mod@identity`]: what its rows are. - [`names`]: of its files.
-//! - [`storage`]: file operations. - [`verify`]: whether files are what was written. - [`part_sink`]: writes finished parts.
+//! - [`table_log`]: the log by which table engines read the rows. - [`storage`]: file operations. - [`verify`]: whether files are what was written. - [`part_sink`]: writes finished parts.
 //! - [`rows_file`]: the files of rows; [`rows_reader`] reads them. - [`bands_file`]: of bands. - [`columnar`]: columns to Parquet. - [`atomic`]: files that are whole or absent.
 //! - [`tally`], [`audit_tally`]: statistics counted while rows are written. - [`provenance`]: metadata on the origin.
 //! - [`trajectories`]: time series of the runs that are retained.
@@ -50,6 +50,7 @@ pub mod statistics_table;
 pub mod stopping;
 pub mod storage;
 pub mod table;
+pub mod table_log;
 pub mod tally;
 pub mod timeseries;
 pub mod trajectories;

@@ -5,7 +5,7 @@ use std::process::Command;
 
 use arrow_array::Array;
 use arrow_array::cast::AsArray;
-use arrow_array::types::UInt64Type;
+use arrow_array::types::Int64Type;
 
 use super::small_campaign::{NEGATIVE_WALLS, campaign, folder};
 use crate::support::scratch_folder::{batches, floats};
@@ -26,11 +26,11 @@ fn a_campaign_runs_once_and_then_says_so() {
     assert_eq!(scratch.parts("results/small"), parts, "nothing was touched");
 
     // every sample once, in order
-    let ids: Vec<u64> = (0..3)
+    let ids: Vec<i64> = (0..3)
         .flat_map(|part| batches(&scratch.path(&format!("results/small/runs/part-{part:06}.parquet"))))
-        .flat_map(|batch| batch.column(0).as_primitive::<UInt64Type>().values().to_vec())
+        .flat_map(|batch| batch.column(0).as_primitive::<Int64Type>().values().to_vec())
         .collect();
-    assert_eq!(ids, (0..600).collect::<Vec<u64>>());
+    assert_eq!(ids, (0..600).collect::<Vec<i64>>());
 }
 
 /// Law: the plan in a results folder gives the same result again.

@@ -11,7 +11,9 @@ use spindrift::campaign::{Overrides, Plan};
 use spindrift::dataset::claim::{Claim, ClaimOptions, FolderError, claim};
 use spindrift::dataset::identity::identity;
 use spindrift::dataset::part_sink::write_parts;
+use spindrift::dataset::rows_file::headings;
 use spindrift::dataset::storage::{Disk, Entry, Storage};
+use spindrift::dataset::table_log;
 use spindrift::ensemble::{Ensemble, Parts, Supervision, run};
 use spindrift::math::Isa;
 
@@ -128,12 +130,13 @@ fn make(storage: &'static dyn Storage, root: &Path, plan: &Plan) -> Result<(), S
     .map_err(|error| error.to_string())?
     .map_err(|error| error.to_string())?;
     ready.folder.write("summary.json", b"{}").map_err(|error| error.to_string())?;
+    table_log::update(&ready.folder, &headings(&ensemble)).map_err(|error| error.to_string())?;
     ready.folder.finish().map_err(|error| error.to_string())
 }
 
 fn contents(root: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut found = BTreeMap::new();
-    for folder in ["", "runs", "bands"] {
+    for folder in ["", "runs", "bands", "_delta_log"] {
         for entry in fs::read_dir(root.join(folder)).into_iter().flatten().map(Result::unwrap) {
             if entry.path().is_file() {
                 let name = format!("{folder}/{}", entry.file_name().to_string_lossy());

@@ -30,3 +30,4 @@ mod slurm;
 mod small_campaign;
 mod statistics;
 mod stopping;
+mod table_log;

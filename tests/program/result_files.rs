@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::fs::{self, File};
 
 use arrow_array::cast::AsArray;
-use arrow_array::types::{Float64Type, UInt64Type};
+use arrow_array::types::{Float64Type, Int64Type};
 use arrow_array::{Array, RecordBatch};
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use parquet::basic::{Compression, ZstdLevel};
@@ -45,14 +45,14 @@ fn run(folder: &ScratchFolder, text: &str, arguments: &str, code: i32) -> String
 }
 
 /// Number, status and the column `name` of every row; counts as numbers, null as `None`.
-fn rows(batch: &RecordBatch, name: &str) -> Vec<(u64, String, Option<f64>)> {
-    let ids = batch.column_by_name("sample_id").unwrap().as_primitive::<UInt64Type>().clone();
+fn rows(batch: &RecordBatch, name: &str) -> Vec<(i64, String, Option<f64>)> {
+    let ids = batch.column_by_name("sample_id").unwrap().as_primitive::<Int64Type>().clone();
     let statuses = batch.column_by_name("status").unwrap().as_string::<i32>().clone();
     let column = batch.column_by_name(name).unwrap();
     let value = |row: usize| match column.as_primitive_opt::<Float64Type>() {
         Some(values) => (!values.is_null(row)).then(|| values.value(row)),
         None => {
-            let values = column.as_primitive::<UInt64Type>();
+            let values = column.as_primitive::<Int64Type>();
             (!values.is_null(row)).then(|| values.value(row) as f64)
         }
     };
@@ -68,10 +68,10 @@ fn the_summary_is_that_of_the_files() {
     let summary: Value = serde_json::from_str(&fs::read_to_string(folder.0.join("r/summary.json")).unwrap()).unwrap();
     let tables: Vec<RecordBatch> = folder.part_files("r").iter().flat_map(|file| batches(file)).collect();
     let column =
-        |name: &str| -> Vec<(u64, String, Option<f64>)> { tables.iter().flat_map(|t| rows(t, name)).collect() };
+        |name: &str| -> Vec<(i64, String, Option<f64>)> { tables.iter().flat_map(|t| rows(t, name)).collect() };
 
     let all = column("steps");
-    let failed: Vec<u64> = all.iter().filter(|(_, status, _)| status == "step_limit").map(|(id, ..)| *id).collect();
+    let failed: Vec<i64> = all.iter().filter(|(_, status, _)| status == "step_limit").map(|(id, ..)| *id).collect();
     assert!(failed.len() > 20 && failed.len() < 750, "{} runs hit the limit", failed.len());
     assert_eq!(summary["statuses"]["step_limit"], failed.len());
     assert_eq!(summary["first_failed"]["step_limit"], Value::from(failed[..3].to_vec()));
@@ -153,10 +153,10 @@ fn files_say_what_they_contain() {
                 }
             }
             let table = &batches(file)[0];
-            let ids = table.column_by_name("sample_id").unwrap().as_primitive::<UInt64Type>();
+            let ids = table.column_by_name("sample_id").unwrap().as_primitive::<Int64Type>();
             assert_eq!(ids.value(0), next);
             assert_eq!(says("spindrift.samples"), table.num_rows().to_string());
-            next += table.num_rows() as u64;
+            next += table.num_rows() as i64;
         }
         assert_eq!(next, 600);
     }

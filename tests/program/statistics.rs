@@ -3,7 +3,7 @@
 use std::fs;
 
 use arrow_array::cast::AsArray;
-use arrow_array::types::{Float64Type, UInt64Type};
+use arrow_array::types::{Float64Type, Int64Type};
 use arrow_array::{Array, RecordBatch};
 
 use super::small_campaign::{NEGATIVE_WALLS, campaign, folder};
@@ -25,14 +25,14 @@ columns = ["spin", "steps", "energy_body_max_j"]
 fn values(tables: &[RecordBatch], name: &str) -> Vec<f64> {
     let mut found = Vec::new();
     for table in tables {
-        let ids = table.column_by_name("sample_id").expect("ids").as_primitive::<UInt64Type>();
+        let ids = table.column_by_name("sample_id").expect("ids").as_primitive::<Int64Type>();
         let statuses = table.column_by_name("status").expect("statuses").as_string::<i32>();
         let column = table.column_by_name(name).unwrap_or_else(|| panic!("no column {name}"));
         for row in 0..table.num_rows() {
             if ids.value(row) > 0 && statuses.value(row) == "ok" && !column.is_null(row) {
                 found.push(match column.as_primitive_opt::<Float64Type>() {
                     Some(values) => values.value(row),
-                    None => column.as_primitive::<UInt64Type>().value(row) as f64,
+                    None => column.as_primitive::<Int64Type>().value(row) as f64,
                 });
             }
         }
@@ -66,7 +66,7 @@ fn statistics_are_those_of_the_files() {
     for row in 0..table.num_rows() {
         let name = names.value(row);
         let of = |column: &str| number(&table, column, row);
-        let count = |column: &str| table.column_by_name(column).expect(column).as_primitive::<UInt64Type>().value(row);
+        let count = |column: &str| table.column_by_name(column).expect(column).as_primitive::<Int64Type>().value(row);
         let mut x = match name {
             "error_ratio" => {
                 let [a, b] = ["energy_error_max", "angular_momentum_error_max"].map(|name| values(&rows, name));
@@ -79,7 +79,7 @@ fn statistics_are_those_of_the_files() {
             _ => values(&rows, name),
         };
         let n = x.len();
-        assert_eq!(count("count"), n as u64, "{name}");
+        assert_eq!(count("count"), n as i64, "{name}");
         assert_eq!(count("count_ok") + count("count_invalid_sample"), 599);
         assert!(count("count_invalid_sample") > 100 && n > 300, "{name}: {n}");
         x.sort_by(f64::total_cmp);
