@@ -58,6 +58,9 @@ impl Plan {
         if whole || self.design.depends_on_samples().is_some() {
             lines.key("samples", self.first_samples());
         }
+        if let Some(chosen) = &self.chosen {
+            lines.key("only", chosen.samples());
+        }
         lines.key("seed", self.seed);
         lines.key("duration_s", self.grid.duration());
         lines.table("[integrator]");

@@ -8,7 +8,7 @@
 //!   [`data`], `data_keys`: files of numbers; `parameter`: names of parameters; [`limits`]; [`compression`]; [`bands`].
 //! - [`analysis`]: what is made of the rows: [`requirement`], [`derived_observable`], [`stop`]; [`columns`]: what they can name.
 //!   [`retention`]: which runs keep their time series.
-//! - [`plan`]: defaults filled in, scene and dispersions checked against each other.
+//! - [`plan`]: defaults filled in, scene and dispersions checked against each other. - [`chosen`], `plan_rows`: which samples are its rows.
 //! - `units`: units in values. `old_format`: files of the format before 0.2, and their new text.
 //! - [`notes`]: what is allowed and probably not meant.
 //! - [`mod@draw`]: from a plan and the number of a sample to its scene.
@@ -21,6 +21,7 @@ pub mod analysis;
 pub mod bands;
 pub mod canonical;
 pub mod canonical_draws;
+pub mod chosen;
 pub mod columns;
 pub mod compression;
 pub mod data;
@@ -43,6 +44,7 @@ pub mod numbers;
 mod old_format;
 mod parameter;
 pub mod plan;
+mod plan_rows;
 pub mod problem;
 pub mod requirement;
 pub mod retention;

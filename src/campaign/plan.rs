@@ -3,6 +3,7 @@
 
 use super::analysis::Analysis;
 use super::bands;
+use super::chosen::Chosen;
 use super::columns::{KnownColumns, request};
 use super::compression::Compression;
 use super::description;
@@ -29,6 +30,8 @@ pub struct Plan {
     pub description: Option<String>,
     /// Number of samples, at least 1; sample 0 is the nominal scene.
     pub samples: u64,
+    /// The samples that run, where these are not all.
+    pub chosen: Option<Chosen>,
     /// The number of samples that the file says, where the campaign has ended at another one (`[stop]`); the plan as text says this one.
     pub written_samples: Option<u64>,
     /// Seed of every draw.
@@ -258,10 +261,14 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
     let band_times: Vec<f64> =
         grid.evenly(usize::try_from(band_points).ok()?).into_iter().map(|point| grid.times()[point]).collect();
     spec.analysis.check(document, &known, dispersions.columns(), dispersions.samples(), design, &band_times);
+    if let Some(chosen) = &spec.chosen {
+        chosen.check(dispersions.samples(), spec.analysis.stop.is_some(), document);
+    }
     Some(Plan {
         name: spec.name?,
         description: spec.description,
         samples: dispersions.samples(),
+        chosen: spec.chosen,
         written_samples: None,
         seed: spec.seed?,
         grid,

@@ -4,6 +4,7 @@
 //! NaN here and noted in the document. What is left out stays `None`: the plan fills it in.
 
 use super::analysis::Analysis;
+use super::chosen::Chosen;
 use super::columns::{KnownColumns, request};
 use super::compression::Compression;
 use super::document::Document;
@@ -26,6 +27,8 @@ pub struct Spec {
     pub description: Option<String>,
     /// `campaign.samples`.
     pub samples: Option<u64>,
+    /// `campaign.only`.
+    pub chosen: Option<Chosen>,
     /// `campaign.seed`.
     pub seed: Option<u64>,
     /// `campaign.duration_s`, s.
@@ -94,6 +97,7 @@ impl Spec {
             section.require("samples", "a whole number of at least 1", "1000");
         }
         let samples = section.count("samples", 1..=MAX_SAMPLES);
+        let chosen = Chosen::read(&mut section);
         section.require("seed", "a whole number of at least 0", "1");
         let seed = section.count("seed", 0..=LARGEST_SEED);
         section.require("duration_s", POSITIVE.allowed, "10.0");
@@ -140,6 +144,7 @@ impl Spec {
             name,
             description,
             samples,
+            chosen,
             seed,
             duration_s,
             method,

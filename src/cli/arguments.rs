@@ -105,6 +105,12 @@ pub struct CampaignOptions {
     /// Run part K of N of the work, for instance on one machine of N; `finish` then completes the result.
     #[arg(long, value_name = "K/N", value_parser = shard, conflicts_with = "overwrite")]
     pub shard: Option<Shard>,
+    /// Run only the samples that failed in this result, with its seed and number of samples, into another folder.
+    #[arg(long, value_name = "DIR", requires = "out", conflicts_with_all = ["samples", "seed"])]
+    pub only_failed_of: Option<PathBuf>,
+    /// Start no further part after one with a run that failed, and end with code 1; the same command without it continues.
+    #[arg(long)]
+    pub fail_fast: bool,
     /// Do not write report.html.
     #[arg(long)]
     pub no_report: bool,
@@ -146,12 +152,6 @@ pub struct FinishOptions {
     pub threads: Option<std::num::NonZeroUsize>,
 }
 
-/// Arguments of `verify`.
-#[derive(Debug, Args)]
-pub struct VerifyOptions {
-    /// The folder of the result.
-    pub folder: PathBuf,
-    /// Fraction of the parts whose rows are computed again and compared bit for bit.
 /// Arguments of `slurm`.
 #[derive(Debug, Args)]
 pub struct SlurmOptions {
@@ -183,6 +183,12 @@ pub struct SlurmOptions {
     pub sbatch: Vec<String>,
 }
 
+/// Arguments of `verify`.
+#[derive(Debug, Args)]
+pub struct VerifyOptions {
+    /// The folder of the result.
+    pub folder: PathBuf,
+    /// Fraction of the parts whose rows are computed again and compared bit for bit.
     #[arg(long, value_name = "F", default_value_t = 0.01, value_parser = fraction)]
     pub fraction: f64,
     /// Make damaged or differing parts again.

@@ -196,16 +196,16 @@ fn estimate(ensemble: &Ensemble<'_>) -> Result<String, Failure> {
         (file.columns() * size_of::<f64>()) as f64
     };
     let parts = parts(plan, ensemble.isa());
-    let disk = row * plan.samples as f64 + empty.len() as f64 * parts.count() as f64;
+    let disk = row * plan.rows() as f64 + empty.len() as f64 * parts.count() as f64;
     let cores = cores();
-    let seconds = probe.seconds * plan.samples as f64 / cores as f64;
+    let seconds = probe.seconds * plan.rows() as f64 / cores as f64;
     Ok(format!(
         "\n== Estimate, from {count} runs\n\
          {:.3} ms per run on one core; {} samples on {cores} cores: about {} s\n\
          {} columns; {} file{} of rows: about {}\n\
          {}",
         probe.seconds * 1e3,
-        plan.samples,
+        plan.rows(),
         short(seconds),
         file.columns(),
         parts.count(),
@@ -223,7 +223,7 @@ fn audit_estimate(ensemble: &Ensemble<'_>) -> String {
             .to_owned();
     }
     let AuditProbe { seconds, count } = AuditProbe::new(ensemble);
-    let audits = plan.audit_fraction * plan.samples as f64;
+    let audits = plan.audit_fraction * plan.rows() as f64;
     let cores = cores();
     format!(
         "audit of {} of the samples, from {count} audits: {:.1} ms each; about {} audits on {cores} cores: {} s more\n",

@@ -137,7 +137,7 @@ pub fn row_files(ready: &Ready) -> Vec<PathBuf> {
 }
 
 fn headline(plan: &Plan, summary: &Summary, made: Option<(u64, Duration)>) -> String {
-    let (name, samples, seed) = (&plan.name, plan.samples, plan.seed);
+    let (name, samples, seed) = (&plan.name, plan.rows(), plan.seed);
     let run = match made {
         Some((made, elapsed)) if made > 0 => {
             let seconds = elapsed.as_secs_f64();

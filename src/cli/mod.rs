@@ -4,6 +4,7 @@
 //! - [`analysis`]: what is made of the rows at the end of a campaign.
 //! - [`run_campaign`], [`finish_campaign`], [`verify`], [`check`], [`columns`], [`compare`], [`precision`], [`report`], [`sample`],
 //!   [`simulate`], [`slurm`]: one command each. - [`slurm_script`]: the scripts of Slurm.
+//! - [`failed_samples`]: samples that failed, again or as the end.
 //! - [`dispersions`]: the dispersions of a plan as text. - [`progress`]: the progress bar. - [`screen`]: printing; [`signals`].
 //! - [`command_outcome`]: how a command ends, and its exit code.
 //!
@@ -17,6 +18,7 @@ pub mod columns;
 pub mod command_outcome;
 pub mod compare;
 pub mod dispersions;
+pub mod failed_samples;
 pub mod finish_campaign;
 pub mod input;
 pub mod precision;

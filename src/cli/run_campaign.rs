@@ -2,11 +2,13 @@
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 use crate::campaign::{Overrides, Plan};
 use crate::cli::arguments::CampaignOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
+use crate::cli::failed_samples::{FailFast, FailedRun, first_failed, plan_of_failed};
 use crate::cli::finish_campaign::{Finishing, finish, outcome_of, row_files};
 use crate::cli::input::{isa, plan};
 use crate::cli::progress::Bar;
@@ -15,6 +17,7 @@ use crate::cli::signals::{self, Signals};
 use crate::dataset::claim::{Claim, ClaimOptions, Ready, Shard, claim};
 use crate::dataset::identity::identity;
 use crate::dataset::manifest::PartRecord;
+use crate::dataset::names::PLAN;
 use crate::dataset::part_sink::{PartSink, write_parts};
 use crate::dataset::rows_reader::RowsReader;
 use crate::dataset::running_counts::RunningCounts;
@@ -35,7 +38,16 @@ pub const RESULTS: &str = "results";
 pub fn run(options: &CampaignOptions) -> Result<CommandOutcome, Failure> {
     let signals = signals::watch();
     let overrides = Overrides { samples: options.samples, seed: options.seed, audit_fraction: options.audit };
-    let plan = plan(&options.file, overrides)?;
+    let plan = match &options.only_failed_of {
+        None => plan(&options.file, overrides)?,
+        Some(of) => match plan_of_failed(&options.file, of, overrides, threads(options.threads, usize::MAX))? {
+            Some(plan) => plan,
+            None => {
+                screen::print(&format!("{}: no run failed; nothing to do\n", of.display()))?;
+                return Ok(CommandOutcome::Done);
+            }
+        },
+    };
     if let Some(shard) = options.shard {
         refuse_shards_with_stop(&plan, &format!("--shard {}/{}", shard.number, shard.of))?;
     }
@@ -72,7 +84,7 @@ fn already_complete(root: &Path, plan: &Plan, summary: &str) -> Result<CommandOu
         "{}: already complete in {} ({} samples{failed}), every checksum verified; nothing to do. --overwrite runs it again.\n",
         plan.name,
         root.display(),
-        plan.samples,
+        plan.rows(),
     ))?;
     Ok(outcome)
 }
@@ -178,7 +190,16 @@ fn run_to(
         say_what_was_found(plan, ready, root, parts, &missing);
         say_idle_threads(options.threads, missing.len());
     }
-    let (elapsed, seconds) = run_them(options.threads, ensemble, (ready, &missing), counts, signals)?;
+    if options.fail_fast
+        && let Some(failed) = first_failed(&RowsReader::new(row_files(ready))).map_err(Failure::files)?
+    {
+        return Ok(Some(ended_by(&failed, plan, root)));
+    }
+    let first = Mutex::new(None);
+    let (elapsed, seconds) = run_them(options, ensemble, (ready, &missing), counts, (signals, &first))?;
+    if let Some(failed) = first.into_inner().unwrap_or_else(PoisonError::into_inner) {
+        return Ok(Some(ended_by(&failed, plan, root)));
+    }
     made.samples += missing.iter().map(|part| part.count as u64).sum::<u64>();
     made.elapsed += elapsed;
     made.seconds.iter_mut().zip(seconds).for_each(|(sum, seconds)| *sum += seconds);
@@ -194,17 +215,18 @@ fn run_to(
 
 /// Runs `missing`; the elapsed time, and the CPU time of runs and audits, s.
 fn run_them(
-    threads: Option<NonZeroUsize>,
+    options: &CampaignOptions,
     ensemble: &Ensemble<'_>,
     (ready, missing): (&Ready, &[Part]),
     counts: Option<&RunningCounts>,
-    signals: &Signals,
+    (signals, first): (&Signals, &Mutex<Option<FailedRun>>),
 ) -> Result<(Duration, [f64; 2]), Failure> {
     let bar = Bar::new(missing.iter().map(|part| part.count as u64).sum());
     let progress = |samples| bar.advance(samples);
     let supervision = Supervision { progress: &progress, stop: &signals.stop, abandon: &signals.abandon };
     let ended = write_parts(&ready.folder, ensemble, counts, |sink: &PartSink<'_>| {
-        run_parts(ensemble, missing.iter().copied(), threads, sink, supervision).map(|()| sink.seconds())
+        let watched = FailFast { sink, is_on: options.fail_fast, stop: &signals.stop, first };
+        run_parts(ensemble, missing.iter().copied(), options.threads, &watched, supervision).map(|()| sink.seconds())
     });
     let elapsed = bar.finish();
     match ended.map_err(Failure::files)? {
@@ -212,6 +234,18 @@ fn run_them(
         Err(error @ RunError::Threads(_)) => Err(Failure::Input(error.to_string())),
         Err(RunError::Sink(error)) => Err(Failure::files(error)),
     }
+}
+
+fn ended_by(failed: &FailedRun, plan: &Plan, root: &Path) -> CommandOutcome {
+    screen::note(&format!(
+        "{}: sample {} failed ({}), and --fail-fast ends the campaign; what is done is safe. The same command without it continues.\n  that run again: spindrift simulate {} --sample {}",
+        plan.name,
+        failed.sample,
+        failed.what,
+        root.join(PLAN).display(),
+        failed.sample
+    ));
+    CommandOutcome::SomeFailed(1)
 }
 
 fn stopped(signal: i32, plan: &Plan, samples: u64, left: u64) -> CommandOutcome {
@@ -240,6 +274,6 @@ fn shard_is_done(shard: Shard, plan: &Plan, root: &Path, made: Made) -> Result<C
 /// The campaign file as `simulate` takes it: the file of this command, or the plan in the result where options replaced its
 /// numbers.
 fn replayed(options: &CampaignOptions, root: &Path) -> String {
-    let is_changed = options.samples.is_some() || options.seed.is_some();
+    let is_changed = options.samples.is_some() || options.seed.is_some() || options.only_failed_of.is_some();
     if is_changed { root.join("plan.toml").display().to_string() } else { options.file.display().to_string() }
 }

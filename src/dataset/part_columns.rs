@@ -96,7 +96,7 @@ impl PartColumns for RowsInMemory<'_> {
     }
 
     fn samples(&self) -> Result<Vec<SampleId>, RowsError> {
-        Ok(self.rows.part().samples().collect())
+        Ok(self.rows.samples().to_vec())
     }
 
     fn statuses(&self) -> Result<Cow<'_, [Status]>, RowsError> {

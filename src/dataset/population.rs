@@ -3,6 +3,9 @@
 use crate::campaign::Plan;
 use crate::sampling::{Design, SampleId};
 
+/// Stands for a design where `campaign.only` lists the samples.
+pub const LISTED: &str = "campaign.only";
+
 /// How samples represent the population.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Population {
@@ -23,6 +26,7 @@ impl Population {
     pub fn of(plan: &Plan) -> Self {
         let name = plan.design.name();
         match &plan.design {
+            _ if plan.chosen.is_some() => Population::Chosen(LISTED),
             _ if plan.samples < 2 => Population::Nominal,
             design if design.replicates() > 1 => Population::Replicated(design.replicates()),
             Design::Random(_) => Population::Independent,
@@ -61,6 +65,9 @@ impl Population {
             Population::Dependent(design) => format!(
                 "none: samples of design \"{design}\" are not independent of each other; [design] replicates = 16 gives intervals"
             ),
+            Population::Chosen(LISTED) => {
+                "none: the samples that run are chosen (campaign.only), not drawn from a population".to_owned()
+            }
             Population::Chosen(design) => {
                 format!("none: samples of design \"{design}\" are chosen, not drawn from a population")
             }

@@ -137,7 +137,7 @@ impl RowsFile {
     pub fn write<W: Write + Send>(&self, rows: &Rows, out: W) -> Result<(), ParquetError> {
         let own = [
             ("spindrift.part", rows.part().id.0.to_string()),
-            ("spindrift.first_sample", rows.part().first.to_string()),
+            ("spindrift.first_sample", rows.samples().first().copied().unwrap_or(rows.part().first).to_string()),
             ("spindrift.samples", rows.part().count.to_string()),
         ];
         let shape = rows.shape();
@@ -145,7 +145,7 @@ impl RowsFile {
         let mut reasons = vec![None; rows.part().count];
         rows.reasons().iter().for_each(|(row, reason)| reasons[*row] = Some(reason.as_str()));
         let fixed = [
-            Cells::Count(rows.part().samples().map(|sample| sample.0).collect(), None),
+            Cells::Count(rows.samples().iter().map(|sample| sample.0).collect(), None),
             Cells::Word(rows.statuses().iter().map(|status| status.name()).collect()),
             Cells::Text(reasons),
         ];

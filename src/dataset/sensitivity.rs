@@ -8,7 +8,7 @@ use std::num::NonZeroUsize;
 use crate::campaign::{Plan, Requirement};
 use crate::dataset::observed::Observed;
 use crate::dataset::parallel::in_parallel;
-use crate::dataset::population::Population;
+use crate::dataset::population::{LISTED, Population};
 use crate::dataset::rows_reader::{PartReader, RowsError, RowsReader};
 use crate::observables::headlines::headlines;
 use crate::run::Status;
@@ -265,6 +265,7 @@ fn note(
             notes.push(format!("intervals are those of independent samples, too wide for design \"{design}\""));
         }
         Population::Replicated(_) => notes.push("intervals are those of independent samples, too wide".to_owned()),
+        Population::Chosen(LISTED) => notes.push(format!("chosen samples ({LISTED}): no population, no interval")),
         Population::Chosen(design) => notes.push(format!("design \"{design}\": no population, no interval")),
         Population::Independent | Population::Nominal => {}
     }

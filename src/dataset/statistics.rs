@@ -143,7 +143,7 @@ pub fn compute(
 
 /// Whether the quantiles of `plan` are those of the values themselves.
 pub fn is_exact(plan: &Plan) -> bool {
-    plan.samples.saturating_sub(1) <= MOST_EXACT
+    plan.dispersed_rows() <= MOST_EXACT
 }
 
 /// The order statistics of a group of values.

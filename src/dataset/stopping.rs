@@ -12,7 +12,7 @@ use crate::statistics::looks::{Look, decision, looks};
 pub fn targets(plan: &Plan) -> Vec<u64> {
     match &plan.analysis.stop {
         Some(stop) => looks(plan.first_samples(), stop.max_samples),
-        None => vec![plan.samples],
+        None => vec![plan.rows()],
     }
 }
 

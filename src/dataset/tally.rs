@@ -148,7 +148,7 @@ impl Tally {
             let samples = part.samples()?;
             let first = samples.first().copied().unwrap_or(SampleId(0));
             let mut rows = Rows::new(ensemble.shape(), samples.len());
-            rows.start(Part { id: PartId(0), first, count: samples.len() });
+            rows.start_with(Part { id: PartId(0), first, count: samples.len() }, samples);
             let values = wanted.iter().map(|index| Ok((*index, part.numbers(columns[*index].quantity.name())?)));
             rows.restore(&part.statuses()?, values.collect::<Result<Vec<_>, RowsError>>()?);
             if !audited.is_empty() {
@@ -165,11 +165,11 @@ impl Tally {
 
     /// Counts the rows of a part.
     pub fn add(&mut self, rows: &Rows) {
-        for (sample, status) in rows.part().samples().zip(rows.statuses()) {
+        for (sample, status) in rows.samples().iter().copied().zip(rows.statuses()) {
             self.statuses[status_index(*status)].add(sample);
         }
         let is_nominal = |sample: SampleId| self.without_nominal && sample == SampleId(0);
-        let counted = rows.part().samples().zip(rows.statuses()).enumerate();
+        let counted = rows.samples().iter().copied().zip(rows.statuses()).enumerate();
         let counted: Vec<(usize, SampleId)> = counted
             .filter(|(_, (sample, status))| **status == Status::Done && !is_nominal(*sample))
             .map(|(row, (sample, _))| (row, sample))
@@ -238,7 +238,7 @@ fn audits(ensemble: &Ensemble<'_>, part: &PartReader, audited: &[usize], rows: &
     let error = |index: &usize| part.numbers(&audit_error_name(names[*index].quantity.name()));
     let errors = audited.iter().map(error).collect::<Result<Vec<_>, RowsError>>()?;
     let mut selection = Selection::new(ensemble.plan());
-    let samples: Vec<SampleId> = rows.part().samples().collect();
+    let samples: Vec<SampleId> = rows.samples().to_vec();
     let is_physical: Vec<bool> = rows.statuses().iter().map(|status| *status != Status::InvalidSample).collect();
     for (row, sample) in samples.into_iter().enumerate() {
         if !is_physical[row] || !selection.contains(sample) {

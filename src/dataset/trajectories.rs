@@ -91,9 +91,10 @@ fn those(
 
 /// `count` dispersed samples of `plan`, all where there are no more: the first of a random permutation of them.
 fn chosen(plan: &Plan, count: u64) -> BTreeSet<SampleId> {
-    let dispersed = plan.samples - 1;
+    let dispersed = plan.dispersed_rows();
+    let first = plan.rows() - dispersed;
     let permutation = Permutation::new(dispersed, Stream::new(plan.seed, STREAM).bits(SampleId(0)));
-    (0..count.min(dispersed)).map(|place| SampleId(1 + permutation.image(place))).collect()
+    (0..count.min(dispersed)).map(|place| plan.sample(first + permutation.image(place))).collect()
 }
 
 /// The `count` dispersed samples with the largest magnitudes of an observable, of equal ones the first; those that have it.

@@ -25,14 +25,14 @@ pub struct PartId(pub u64);
 pub struct Part {
     /// Its number.
     pub id: PartId,
-    /// Its first sample.
+    /// Its first sample, counted from zero among those that run: its number, where all run.
     pub first: SampleId,
     /// Its number of samples, at least one.
     pub count: usize,
 }
 
 impl Part {
-    /// Its samples in ascending order.
+    /// Its samples in ascending order, counted among those that run.
     pub fn samples(self) -> impl Iterator<Item = SampleId> {
         (self.first.0..self.first.0 + self.count as u64).map(SampleId)
     }

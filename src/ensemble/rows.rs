@@ -30,6 +30,7 @@ pub struct Rows {
     /// Distance of neighbouring columns: not a multiple of a large power of two, which would map all columns of a row to few
     /// cache sets.
     stride: usize,
+    samples: Vec<SampleId>,
     statuses: Vec<Status>,
     values: Vec<f64>,
     audits: Vec<(usize, Option<Audit>)>,
@@ -47,6 +48,7 @@ impl Rows {
             part: Part { id: crate::ensemble::parts::PartId(0), first: SampleId(0), count: 0 },
             shape,
             capacity,
+            samples: Vec::with_capacity(capacity),
             statuses: vec![Status::InvalidSample; capacity],
             values: vec![f64::NAN; (shape.parameters + shape.observables) * stride],
             audits: Vec::new(),
@@ -67,8 +69,19 @@ impl Rows {
     /// # Panics
     /// Where the part is larger than the block.
     pub fn start(&mut self, part: Part) {
+        self.start_with(part, part.samples());
+    }
+
+    /// The same where the samples of the part are `samples`.
+    ///
+    /// # Panics
+    /// Where the part is larger than the block, or has another number of samples.
+    pub fn start_with(&mut self, part: Part, samples: impl IntoIterator<Item = SampleId>) {
         assert!(part.count <= self.capacity, "a part of {} samples in a block for {}", part.count, self.capacity);
         self.part = part;
+        self.samples.clear();
+        self.samples.extend(samples);
+        assert_eq!(self.samples.len(), part.count, "samples of a part");
         self.statuses.fill(Status::InvalidSample);
         self.values.fill(f64::NAN);
         self.audits.clear();
@@ -85,6 +98,11 @@ impl Rows {
     /// What columns a row has.
     pub fn shape(&self) -> Shape {
         self.shape
+    }
+
+    /// The numbers of the samples, row by row.
+    pub fn samples(&self) -> &[SampleId] {
+        &self.samples
     }
 
     /// Statuses, sample by sample.

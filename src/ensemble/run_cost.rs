@@ -32,7 +32,7 @@ const AUDIT: f64 = 300.0;
 
 /// The parts of a campaign of `plan`.
 pub fn parts(plan: &Plan, isa: Isa) -> Parts {
-    Parts::up_to(plan.samples, (LOST_S / run_seconds(plan, isa)) as u64)
+    Parts::up_to(plan.rows(), (LOST_S / run_seconds(plan, isa)) as u64)
 }
 
 /// What a run of `plan` takes at most on one core, s.

@@ -142,18 +142,19 @@ pub struct Worker<'c> {
 impl Worker<'_> {
     /// Runs the samples of `part` and writes their rows; false where it was given up.
     pub fn run(&mut self, part: Part, rows: &mut Rows, supervision: Supervision<'_>) -> bool {
-        rows.start(part);
+        let plan = self.campaign.plan;
+        rows.start_with(part, part.samples().map(|row| plan.sample(row.0)));
         for start in (0..part.count).step_by(BATCH) {
             if supervision.abandon.load(Ordering::Relaxed) {
                 return false;
             }
             let end = part.count.min(start + BATCH);
             let begun = self.audits.as_ref().map(|_| thread_seconds());
-            self.draw(part, start..end, rows);
+            self.draw(start..end, rows);
             self.propagate(rows);
             if let Some(begun) = begun {
                 let done = thread_seconds();
-                self.audit(part, rows);
+                self.audit(rows);
                 rows.add_seconds(done - begun, thread_seconds() - done);
             }
             (supervision.progress)((end - start) as u64);
@@ -163,11 +164,10 @@ impl Worker<'_> {
     }
 
     /// Draws the samples of `batch`. One that is not physical keeps the row of [`Rows::start`]: `invalid_sample`.
-    fn draw(&mut self, part: Part, batch: std::ops::Range<usize>, rows: &mut Rows) {
+    fn draw(&mut self, batch: std::ops::Range<usize>, rows: &mut Rows) {
         self.rows_of_scenes.clear();
         for row in batch {
-            let physical =
-                self.draws.scene_at(SampleId(part.first.0 + row as u64), &mut self.scenes, self.rows_of_scenes.len());
+            let physical = self.draws.scene_at(rows.samples()[row], &mut self.scenes, self.rows_of_scenes.len());
             rows.set_parameters(row, self.draws.applied());
             match physical {
                 Ok(()) => self.rows_of_scenes.push(row),
@@ -180,10 +180,10 @@ impl Worker<'_> {
     }
 
     /// Audits the samples of the batch that are selected.
-    fn audit(&mut self, part: Part, rows: &mut Rows) {
+    fn audit(&mut self, rows: &mut Rows) {
         let Some((selection, auditor)) = &mut self.audits else { return };
         for (scene, row) in self.scenes.iter().zip(&self.rows_of_scenes) {
-            if selection.contains(SampleId(part.first.0 + *row as u64)) {
+            if selection.contains(rows.samples()[*row]) {
                 rows.set_audit(*row, auditor.audit(scene));
             }
         }
@@ -219,7 +219,6 @@ impl Worker<'_> {
         let (isa, first_scene) = (self.campaign.isa, which.start);
         let (scenes, rows_of_scenes) = (&self.scenes[which.clone()], &self.rows_of_scenes[which]);
         let (observer, observed, is_done) = (&mut self.observer, &mut self.observed, &mut self.is_done);
-        let first = rows.part().first.0;
         self.engine.propagate(scenes, &mut |CompletedRun { index, table, outcome, .. }| {
             let (status, row) =
                 (observer.observe(isa, &scenes[index], table, outcome, observed), rows_of_scenes[index]);
@@ -227,7 +226,9 @@ impl Worker<'_> {
             is_done[first_scene + index] = true;
             if status != Status::Done {
                 rows.set_reason(row, observer.reason(status, outcome, observed));
-            } else if let Some(bands) = rows.bands_mut().filter(|_| first + row as u64 > 0) {
+            } else if rows.samples()[row] > SampleId(0)
+                && let Some(bands) = rows.bands_mut()
+            {
                 bands.add(isa, observer);
             }
         });

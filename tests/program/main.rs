@@ -11,6 +11,7 @@ mod commands;
 mod compare_command;
 mod csv_digits;
 mod exit_codes;
+mod failed_again;
 mod failed_runs;
 mod faults;
 mod interrupted;

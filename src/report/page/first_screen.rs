@@ -14,8 +14,10 @@ const EXAMPLE: &str =
 
 /// Name, question, and the facts of the campaign.
 pub fn header(plan: &Plan) -> String {
-    let dispersed = plan.samples.saturating_sub(1);
-    let runs = if dispersed == 0 {
+    let dispersed = plan.dispersed_rows();
+    let runs = if plan.chosen.is_some() {
+        format!("{} chosen runs of {} samples", grouped(plan.rows()), grouped(plan.samples))
+    } else if dispersed == 0 {
         "1 run, the nominal one".to_owned()
     } else {
         format!("{} dispersed runs and the nominal one", grouped(dispersed))

@@ -174,7 +174,7 @@ impl Survey {
         let is_audited = plan.audit_fraction > 0.0;
         let estimate = STATE_ERROR_ESTIMATE.name();
         let has_estimate = columns.iter().any(|column| column.quantity.name() == estimate);
-        let thin = Thinning::of(plan.samples);
+        let thin = Thinning::of(plan.rows());
         let read = |part: &mut PartReader| -> Result<Read, RowsError> {
             let numbers = |name: &str| part.numbers(name);
             let samples = part.samples()?;

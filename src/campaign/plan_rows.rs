@@ -1,0 +1,92 @@
+//! The rows of a [`Plan`]: how many there are, and which sample each is. They are all samples in order, or those of `campaign.only`.
+//!
+//! Parts count rows; a sample is drawn by its number.
+
+use super::chosen::{Chosen, MOST_CHOSEN};
+use super::plan::Plan;
+use crate::sampling::SampleId;
+
+impl Plan {
+    /// Number of rows: of samples that run.
+    pub fn rows(&self) -> u64 {
+        self.chosen.as_ref().map_or(self.samples, |chosen| chosen.samples().len() as u64)
+    }
+
+    /// The sample of row `row`, which there is.
+    pub fn sample(&self, row: u64) -> SampleId {
+        let of_list = |chosen: &Chosen| usize::try_from(row).ok().and_then(|row| chosen.samples().get(row).copied());
+        SampleId(self.chosen.as_ref().map_or(row, |chosen| of_list(chosen).unwrap_or(u64::MAX)))
+    }
+
+    /// Number of rows that are not that of the nominal sample.
+    pub fn dispersed_rows(&self) -> u64 {
+        self.rows() - u64::from(self.rows() > 0 && self.sample(0) == SampleId(0))
+    }
+
+    /// The plan that runs `samples` only, which are samples of this one, ascending.
+    ///
+    /// # Errors
+    /// Why there is none.
+    pub fn only(self, samples: Vec<u64>) -> Result<Plan, String> {
+        let count = samples.len();
+        if self.analysis.stop.is_some() {
+            return Err("[stop] must be left out where the samples that run are chosen".to_owned());
+        }
+        if samples.last().is_some_and(|last| *last >= self.samples) {
+            return Err(format!("sample {} is none of the plan's {}", samples[count - 1], self.samples));
+        }
+        match Chosen::of(samples) {
+            Some(chosen) => Ok(Plan { chosen: Some(chosen), ..self }),
+            None => Err(format!(
+                "{count} samples; a plan lists at most {MOST_CHOSEN}: run all samples under the changed plan"
+            )),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::campaign::Overrides;
+
+    fn plan(only: &str) -> Result<Plan, String> {
+        let path = format!("{}/campaigns/spin_sweep.toml", env!("CARGO_MANIFEST_DIR"));
+        let text = std::fs::read_to_string(path).expect("readable");
+        let text = text.replacen("[campaign]\n", &format!("[campaign]\n{only}\n"), 1);
+        Plan::from_text("x.toml", &text, Overrides { samples: Some(100), ..Overrides::default() })
+            .map_err(|e| e.to_string())
+    }
+
+    /// Law: without a list every sample is a row; with one the listed ones are, and the list is a part of what the rows are.
+    #[test]
+    fn rows_are_the_listed_samples() {
+        let (all, some) = (plan("").expect("a plan"), plan("only = [0, 17, 99]").expect("a plan"));
+        assert_eq!((all.rows(), all.dispersed_rows(), all.sample(17)), (100, 99, SampleId(17)));
+        assert_eq!((some.rows(), some.dispersed_rows()), (3, 2));
+        assert_eq!([0, 1, 2].map(|row| some.sample(row)), [0, 17, 99].map(SampleId));
+        assert_ne!(all.row_hash(), some.row_hash());
+        let again = Plan::from_text("x.toml", &some.text(), Overrides::default()).expect("its own text");
+        assert_eq!(again, Plan { description: again.description.clone(), ..some.clone() });
+        assert_eq!(all.only(vec![0, 17, 99]).expect("a plan").text(), some.text());
+    }
+
+    /// Law: a list that is not ascending, has other samples than there are, or none, is refused with key and value.
+    #[test]
+    fn other_lists_are_refused() {
+        for only in [
+            "only = []",
+            "only = [3, 3]",
+            "only = [4, 3]",
+            "only = [100]",
+            "only = [1.5]",
+            "only = 3",
+            "only = [-1]",
+            "only = \"3\"",
+        ] {
+            let said = plan(only).expect_err(only);
+            assert!(said.contains("campaign.only"), "{only}: {said}");
+        }
+        assert!(plan("").expect("a plan").only(vec![100]).is_err());
+        assert!(plan("").expect("a plan").only(Vec::new()).is_err());
+    }
+}

@@ -1,0 +1,124 @@
+//! `campaign --only-failed-of`: the samples of a result whose runs failed, under another plan. `campaign --fail-fast`: the first of them
+//! ends the campaign.
+
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+use crate::campaign::{Overrides, Plan};
+use crate::cli::command_outcome::Failure;
+use crate::cli::input::{plan, plan_of_result};
+use crate::cli::screen;
+use crate::dataset::claim::open;
+use crate::dataset::manifest::PartRecord;
+use crate::dataset::part_sink::{PartError, PartSink};
+use crate::dataset::rows_reader::{PartReader, RowsError, RowsReader};
+use crate::dataset::storage::Disk;
+use crate::dataset::verify::damaged;
+use crate::ensemble::{Rows, Sink};
+use crate::run::Status;
+use crate::sampling::SampleId;
+
+/// The samples whose runs are not `ok`, in the order of the files.
+fn failed(part: &mut PartReader) -> Result<Vec<SampleId>, RowsError> {
+    let rows = part.samples()?.into_iter().zip(part.statuses()?);
+    Ok(rows.filter(|(_, status)| *status != Status::Done).map(|(sample, _)| sample).collect())
+}
+
+/// The plan of `file` for the samples that failed in the result `of`, with the seed and the number of samples of that result: so the numbers
+/// mean the same samples. `None` where none failed.
+///
+/// # Errors
+/// Where the result is damaged or cannot be read, or the campaign file is wrong.
+pub fn plan_of_failed(file: &Path, of: &Path, overrides: Overrides, threads: usize) -> Result<Option<Plan>, Failure> {
+    let (found, _locks) = open(&Disk, of).map_err(Failure::files)?;
+    let drawn = plan_of_result(of, &found)?;
+    let records: Vec<PartRecord> = found.parts().into_values().collect();
+    if let Some((_, what)) = damaged(&Disk, of, &records, threads).first() {
+        return Err(Failure::Files(format!("{}: {what}; `spindrift verify --repair` makes it again", of.display())));
+    }
+    if !found.is_finished {
+        screen::note(&format!(
+            "{}: not finished: the failures among the {} rows that are there",
+            of.display(),
+            found.rows()
+        ));
+    }
+    let mut samples = Vec::new();
+    let add = |some: Vec<SampleId>| {
+        samples.extend(some.into_iter().map(|sample| sample.0));
+        Ok::<(), RowsError>(())
+    };
+    RowsReader::new(found.row_files(of)).visit(None, failed, add).map_err(Failure::files)?;
+    let same = Overrides { samples: Some(drawn.samples), seed: Some(drawn.seed), ..overrides };
+    let plan = plan(file, same)?;
+    if samples.is_empty() {
+        return Ok(None);
+    }
+    let input = |why| Failure::Input(format!("--only-failed-of {}: {why}", of.display()));
+    plan.only(samples).map(Some).map_err(input)
+}
+
+/// A run that failed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FailedRun {
+    /// The sample.
+    pub sample: SampleId,
+    /// How it ended, and why.
+    pub what: String,
+}
+
+/// The first run that failed among the rows that are in files.
+///
+/// # Errors
+/// Where a file cannot be read.
+pub fn first_failed(rows: &RowsReader) -> Result<Option<FailedRun>, RowsError> {
+    let mut first = None;
+    let read = |part: &mut PartReader| -> Result<Option<FailedRun>, RowsError> {
+        let statuses = part.statuses()?;
+        let Some(row) = statuses.iter().position(|status| *status != Status::Done) else { return Ok(None) };
+        let reason = part.reasons()?.swap_remove(row);
+        Ok(Some(FailedRun { sample: part.samples()?[row], what: said(statuses[row], reason.as_deref()) }))
+    };
+    rows.visit(None, read, |found| {
+        first = first.take().or(found);
+        Ok::<(), RowsError>(())
+    })?;
+    Ok(first)
+}
+
+fn said(status: Status, reason: Option<&str>) -> String {
+    reason.map_or_else(|| status.name().to_owned(), |reason| format!("{}: {reason}", status.name()))
+}
+
+/// Passes rows on, and lets no further part start after one with a run that failed.
+#[derive(Debug)]
+pub struct FailFast<'a, 's> {
+    /// Where the rows go.
+    pub sink: &'a PartSink<'s>,
+    /// Whether a failed run stops the campaign.
+    pub is_on: bool,
+    /// Set where one did.
+    pub stop: &'a AtomicBool,
+    /// The first that failed, in the order of the samples, of the parts that were made.
+    pub first: &'a Mutex<Option<FailedRun>>,
+}
+
+impl Sink for FailFast<'_, '_> {
+    type Error = PartError;
+
+    fn take(&self, rows: &Rows) -> Result<(), PartError> {
+        self.sink.take(rows)?;
+        let row = rows.statuses().iter().position(|status| *status != Status::Done).filter(|_| self.is_on);
+        if let Some(row) = row {
+            let reason = rows.reasons().iter().find(|(at, _)| *at == row).map(|(_, reason)| reason.as_str());
+            let found = FailedRun { sample: rows.samples()[row], what: said(rows.statuses()[row], reason) };
+            let mut first = self.first.lock().unwrap_or_else(PoisonError::into_inner);
+            if first.as_ref().is_none_or(|first| found.sample < first.sample) {
+                *first = Some(found);
+            }
+            self.stop.store(true, Ordering::SeqCst);
+        }
+        Ok(())
+    }
+}

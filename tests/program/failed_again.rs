@@ -1,0 +1,155 @@
+//! `campaign --only-failed-of`: the samples that failed, under another plan. `campaign --fail-fast`: the first of them is the end.
+
+use std::collections::BTreeMap;
+use std::fs;
+
+use spindrift::dataset::rows_reader::RowsReader;
+use spindrift::run::Status;
+
+use super::small_campaign::{campaign_without_debris, folder};
+use crate::support::scratch_folder::ScratchFolder;
+
+/// The campaign with a method whose steps depend on the sample; so few are allowed that some 7% of the runs do not end.
+fn limited(max_steps: u64) -> String {
+    let from = "method = \"auto\"\ntolerance = 1e-10";
+    let to = format!("method = \"dop853\"\ntolerance = 1e-9\nmax_steps = {max_steps}");
+    let text = campaign_without_debris();
+    assert!(text.contains(from));
+    text.replace(from, &to)
+}
+
+/// Every file below a folder with its content.
+fn contents(scratch: &ScratchFolder, result: &str) -> BTreeMap<String, Vec<u8>> {
+    let root = scratch.path(result);
+    let mut found = BTreeMap::new();
+    let mut folders = vec![root.clone()];
+    while let Some(folder) = folders.pop() {
+        for path in fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()) {
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                let name = path.strip_prefix(&root).unwrap().to_string_lossy().into_owned();
+                found.insert(name, fs::read(&path).unwrap());
+            }
+        }
+    }
+    found
+}
+
+/// Status and the bits of all numbers of every row, by sample.
+fn rows(scratch: &ScratchFolder, result: &str) -> BTreeMap<u64, (Status, Vec<u64>)> {
+    let reader = RowsReader::new(scratch.part_files(result));
+    let mut found = BTreeMap::new();
+    for part in (0..).map_while(|index| reader.part(index)) {
+        let part = part.unwrap();
+        let columns: Vec<Vec<f64>> = part.names().iter().filter_map(|name| part.numbers(name).ok()).collect();
+        assert!(columns.len() > 50);
+        for (row, (sample, status)) in part.samples().unwrap().into_iter().zip(part.statuses().unwrap()).enumerate() {
+            let bits = columns.iter().map(|column| column[row].to_bits()).collect();
+            assert!(found.insert(sample.0, (status, bits)).is_none(), "sample {sample} is there twice");
+        }
+    }
+    found
+}
+
+/// A folder with results of 1500 samples: `tight`, with some that fail, and `all` under the plan with enough steps.
+fn results(name: &str) -> ScratchFolder {
+    let scratch = folder(name);
+    scratch.file("tight.toml", &limited(40));
+    scratch.file("enough.toml", &limited(10_000));
+    scratch.prints("campaign tight.toml --samples 1500 --seed 9 --out tight", 1);
+    scratch.prints("campaign enough.toml --samples 1500 --seed 9 --out all", 0);
+    scratch
+}
+
+/// Law: exactly the samples that failed run, and each row has the bits that it has in the whole campaign under the same plan; the result is
+/// the same bytes from shards, and after an interruption; statistics say that the samples are chosen.
+#[test]
+fn failed_samples_run_under_another_plan() {
+    let scratch = results("failed-again");
+    let failed: Vec<u64> =
+        rows(&scratch, "tight").iter().filter(|(_, row)| row.0 != Status::Done).map(|(id, _)| *id).collect();
+    assert!((20..750).contains(&failed.len()), "{} failed", failed.len());
+    let said = scratch.prints("campaign enough.toml --only-failed-of tight --out again", 0);
+    assert!(said.contains(&format!("{} samples", failed.len())), "{said}");
+    let (again, all) = (rows(&scratch, "again"), rows(&scratch, "all"));
+    assert_eq!(again.keys().copied().collect::<Vec<_>>(), failed);
+    for (sample, row) in &again {
+        assert_eq!(row, &all[sample], "sample {sample}");
+    }
+    // the commands on a result
+    scratch.prints("verify again --fraction 1", 0);
+    scratch.prints("finish again", 0);
+    scratch.prints("report again", 0);
+    scratch.prints(&format!("simulate again/plan.toml --sample {}", failed[1]), 0);
+    scratch.prints("campaign enough.toml --only-failed-of tight --out again", 0);
+    scratch.prints("campaign again/plan.toml --out again", 0);
+    // shards in any order, and a part that is lost
+    for shard in [2, 1] {
+        scratch.prints(
+            &format!("campaign enough.toml --only-failed-of tight --out shards --threads 3 --shard {shard}/2"),
+            0,
+        );
+    }
+    scratch.prints("finish shards", 0);
+    assert!(contents(&scratch, "shards") == contents(&scratch, "again"));
+    fs::remove_file(scratch.path("shards/runs/part-000000.parquet")).unwrap();
+    scratch.prints("verify shards --repair", 0);
+    assert!(contents(&scratch, "shards") == contents(&scratch, "again"));
+    // no interval of a population
+    let require = "\n[[require]]\nobservable = \"energy_error_max\"\nfraction = 0.5\nat_most = 1e-30\n";
+    scratch.file("required.toml", &(limited(10_000) + require));
+    scratch.prints("campaign required.toml --samples 1500 --seed 9 --out required", 3);
+    let said = scratch.prints("campaign required.toml --only-failed-of tight --out chosen", 5);
+    assert!(said.contains("campaign.only"), "{said}");
+}
+
+/// Law: a pure row fails the same way again, whichever of the samples run.
+#[test]
+fn the_same_plan_fails_the_same_way() {
+    let scratch = results("failed-same");
+    scratch.prints("campaign tight.toml --only-failed-of tight --out same", 1);
+    let (same, before) = (rows(&scratch, "same"), rows(&scratch, "tight"));
+    assert!(same.iter().all(|(sample, row)| row.0 != Status::Done && row == &before[sample]));
+    // another choice of samples is another result
+    scratch.file("tighter.toml", &limited(38));
+    scratch.prints("campaign tighter.toml --samples 1500 --seed 9 --out tighter", 1);
+    let said = scratch.prints("campaign tight.toml --only-failed-of tighter --out same", 4);
+    assert!(said.contains("campaign.only"), "{said}");
+    let said = scratch.prints("campaign enough.toml --only-failed-of all --out none", 0);
+    assert!(said.contains("no run failed") && !scratch.path("none").exists(), "{said}");
+    for (arguments, code) in [
+        ("--only-failed-of tight", 2),
+        ("--only-failed-of tight --out x --seed 3", 2),
+        ("--only-failed-of nothing --out x", 4),
+    ] {
+        scratch.prints(&format!("campaign enough.toml {arguments}"), code);
+    }
+    let damaged = scratch.path("tight/runs/part-000001.parquet");
+    fs::write(&damaged, b"x").unwrap();
+    let said = scratch.prints("campaign enough.toml --only-failed-of tight --out x", 4);
+    assert!(said.contains("part-000001"), "{said}");
+}
+
+/// Law: with `--fail-fast` no part starts after one with a run that failed, the message replays that run, and the command without it continues
+/// to the bytes of an undisturbed campaign.
+#[test]
+fn the_first_failure_ends_the_campaign() {
+    let scratch = results("fail-fast");
+    let first = *rows(&scratch, "tight").iter().find(|(_, row)| row.0 != Status::Done).unwrap().0;
+    let command = "campaign tight.toml --samples 1500 --seed 9 --out r --threads 1";
+    for _ in 0..2 {
+        let said = scratch.prints(&format!("{command} --fail-fast"), 1);
+        assert!(said.contains(&format!("sample {first} failed (step_limit: ")), "{said}");
+        assert!(said.contains(&format!("spindrift simulate r/plan.toml --sample {first}")), "{said}");
+        assert_eq!(scratch.part_files("r").len(), 1, "the first part has a run that failed");
+        assert!(!scratch.path("r/_SUCCESS").exists());
+    }
+    scratch.prints("simulate r/plan.toml --sample 0", 0);
+    scratch.prints(&format!("simulate r/plan.toml --sample {first}"), 1);
+    scratch.prints(command, 1);
+    assert!(contents(&scratch, "r") == contents(&scratch, "tight"));
+    // where no run fails it changes nothing
+    scratch.prints("campaign enough.toml --samples 1500 --seed 9 --out whole --fail-fast", 0);
+    assert!(contents(&scratch, "whole") == contents(&scratch, "all"));
+}
