@@ -89,14 +89,14 @@ fn already_complete(root: &Path, plan: &Plan, summary: &str) -> Result<CommandOu
     Ok(outcome)
 }
 
-/// What was found in the folder, for people.
-fn say_what_was_found(plan: &Plan, ready: &Ready, root: &Path, parts: Parts, missing: &[Part]) {
+/// What was found in the folder, for people; `samples` are those that this process has to make.
+fn say_what_was_found(plan: &Plan, ready: &Ready, root: &Path, samples: u64, missing: &[Part]) {
     for what in &ready.damaged {
         screen::note(&format!("{}: damaged, made again: {what}", root.display()));
     }
     if ready.rows > 0 {
         let left = missing.iter().map(|part| part.count as u64).sum::<u64>();
-        let there = parts.samples() - left.min(parts.samples());
+        let there = samples - left.min(samples);
         screen::note(&format!("{}: {there} samples are there already, {left} to run", plan.name));
     }
 }
@@ -187,7 +187,8 @@ fn run_to(
     let mut missing = ready.folder.missing(parts.iter());
     missing.retain(is_mine);
     if made.samples == 0 {
-        say_what_was_found(plan, ready, root, parts, &missing);
+        let samples = parts.iter().filter(is_mine).map(|part| part.count as u64).sum();
+        say_what_was_found(plan, ready, root, samples, &missing);
         say_idle_threads(options.threads, missing.len());
     }
     if options.fail_fast

@@ -1,6 +1,6 @@
 //! [`claim`]: what is in the folder of a result, and whether a campaign may write there.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
 
@@ -129,6 +129,12 @@ impl Found {
         files.map(|file| root.join(file.name)).collect()
     }
 
+    /// The names of all files that are listed.
+    fn listed(&self) -> BTreeSet<String> {
+        let parts = self.manifests.values().flat_map(|manifest| manifest.parts.values());
+        parts.flat_map(|part| &part.files).map(|file| file.name.clone()).collect()
+    }
+
     /// Number of rows.
     pub fn rows(&self) -> u64 {
         self.parts().values().map(|part| part.rows).sum()
@@ -195,10 +201,10 @@ pub fn contents(storage: &dyn Storage, root: &Path) -> Result<Contents, StorageE
     found.is_finished =
         has(SUCCESS) && found.manifests.get(MANIFEST).is_some_and(|manifest| manifest.is_finished) && has(SUMMARY);
     found.has_page = has(REPORT);
-    let parts = found.parts();
+    let listed = found.listed();
     let is_listed = |name: &String| {
         let of_parts = name.starts_with("runs/") || name.starts_with("bands/");
-        !of_parts || parts.values().flat_map(|part| &part.files).any(|file| file.name == *name)
+        !of_parts || listed.contains(name)
     };
     let unlisted = files.iter().find(|name| found.is_finished && !is_listed(name)).cloned();
     found.foreign = first_foreign.or(unlisted);
@@ -355,7 +361,10 @@ fn ready(
     mut locks: Locks,
 ) -> Result<Claim, FolderError> {
     let all: Vec<PartRecord> = found.parts().into_values().collect();
-    let broken = crate::dataset::verify::damaged(storage, root, &all, options.threads);
+    // a shard reads its own parts only: each of many that start would read everything; `finish` reads all
+    let is_mine = |part: &&PartRecord| options.shard.is_none_or(|shard| part.part % shard.of == shard.number - 1);
+    let mine: Vec<PartRecord> = all.iter().filter(is_mine).cloned().collect();
+    let broken = crate::dataset::verify::damaged(storage, root, &mine, options.threads);
     let mut damaged = found.damaged_lines();
     damaged.extend(broken.iter().map(|(_, what)| what.clone()));
     if found.is_finished {
@@ -444,12 +453,13 @@ fn remove_dataset(storage: &dyn Storage, root: &Path, identity: &Identity, most:
 fn remove(storage: &dyn Storage, root: &Path, found: &Found) -> Result<(), StorageError> {
     let success = root.join(SUCCESS);
     storage.remove(&success).map_err(at(&success))?;
+    let listed = found.listed();
     for folder in FOLDERS {
         let path = root.join(folder);
         for entry in storage.list(&path).map_err(at(&path))? {
             let name = format!("{folder}/{}", entry.name);
             let is_of_parts = folder == "runs" || folder == "bands";
-            let is_listed = found.parts().values().flat_map(|part| &part.files).any(|file| file.name == name);
+            let is_listed = listed.contains(&name);
             let is_leftover = !found.is_finished || name.ends_with(UNFINISHED);
             if entry.is_file && is_ours(folder, &entry.name) && (!is_of_parts || is_listed || is_leftover) {
                 let file = path.join(&entry.name);

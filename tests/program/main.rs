@@ -32,3 +32,4 @@ mod small_campaign;
 mod statistics;
 mod stopping;
 mod table_log;
+mod threads_and_shards;
