@@ -3,7 +3,7 @@
 //! - [`mod@claim`]: what is in the folder of a result, and whether a campaign may write there. - [`folder`]: the dataset, and the protocol by
 //!   which parts are added. - [`manifest`]: what it consists of. - [`mod@identity`]: what its rows are. - [`names`]: of its files.
 //! - [`table_log`]: the log by which table engines read the rows. - [`storage`]: file operations. - [`verify`]: whether files are what was written. - [`part_sink`]: writes finished parts.
-//! - [`rows_file`]: the files of rows; [`rows_reader`] reads them. - [`bands_file`]: of bands. - [`columnar`]: columns to Parquet. - [`atomic`]: files that are whole or absent.
+//! - [`rows_file`]: the files of rows; [`rows_reader`] reads them. - [`bands_file`]: of bands. - [`columnar`]: columns to Parquet, with [`arrow_metadata`]. - [`atomic`]: files that are whole or absent.
 //! - [`tally`], [`audit_tally`]: statistics counted while rows are written. - [`provenance`]: metadata on the origin.
 //! - [`trajectories`]: time series of the runs that are retained.
 //! - [`parts_read`]: the files of parts by what is in them.
@@ -16,6 +16,7 @@
 //!
 //! Not here: text and figures for people (`report`), and reading tables for a campaign (`campaign`).
 
+pub mod arrow_metadata;
 pub mod assessment;
 pub mod atomic;
 pub mod audit_tally;

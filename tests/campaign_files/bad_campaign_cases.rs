@@ -76,7 +76,7 @@ pub const CASES: &[(&str, &str, &str)] = &[
     (
         "samples = 10",
         "sampels = 10\nsamples = 10",
-        "bad.toml:3: campaign.sampels = 10: must be a key of [campaign] (name, description, samples, seed, duration_s); did you mean samples?",
+        "bad.toml:3: campaign.sampels = 10: must be a key of [campaign] (name, description, samples, only, seed, duration_s); did you mean samples?",
     ),
     (
         "seed = 1\n",

@@ -8,6 +8,7 @@ pub mod extrapolation;
 pub mod feedback;
 pub mod golden;
 pub mod invariants;
+pub mod parquet_tables;
 pub mod plans;
 pub mod runs;
 pub mod scenes;

@@ -1,13 +1,14 @@
 //! A folder in which a test runs the program.
 
-use std::fs::{self, File};
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use arrow_array::RecordBatch;
 use arrow_array::cast::AsArray;
 use arrow_array::types::Float64Type;
-use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+
+use super::parquet_tables;
 
 /// A folder of its own for each test, removed at its end.
 pub struct ScratchFolder(pub PathBuf);
@@ -66,15 +67,13 @@ impl ScratchFolder {
 
     /// The first batch of a Parquet file in the folder.
     pub fn table(&self, file: &str) -> RecordBatch {
-        let file = File::open(self.0.join(file)).unwrap();
-        ParquetRecordBatchReaderBuilder::try_new(file).unwrap().build().unwrap().next().unwrap().unwrap()
+        batches(&self.0.join(file)).swap_remove(0)
     }
 }
 
 /// All batches of a Parquet file: one for each row group.
 pub fn batches(path: &Path) -> Vec<RecordBatch> {
-    let reader = ParquetRecordBatchReaderBuilder::try_new(File::open(path).unwrap()).unwrap().with_batch_size(1 << 20);
-    reader.build().unwrap().map(Result::unwrap).collect()
+    parquet_tables::groups(path)
 }
 
 /// The numbers of the column `name`.
