@@ -11,7 +11,7 @@ use crate::math::Isa;
 use crate::observables::Observer;
 use crate::observables::band_reader::{BandColumns, BandReader};
 use crate::observables::band_series::Form;
-use crate::run::Quantity;
+use crate::run::{Quantity, StateTable};
 use crate::statistics::deviation::{Code, DeviationCounts, ZERO, ends};
 use crate::statistics::gate::Limit;
 
@@ -119,12 +119,12 @@ impl PartBands {
         self.earlier.clear();
     }
 
-    /// Adds the run that `observer` observed last.
+    /// Adds the run with the states `table` that `observer` observed last.
     #[inline]
-    pub fn add(&mut self, isa: Isa, observer: &Observer) {
+    pub fn add(&mut self, isa: Isa, observer: &Observer, table: &StateTable) {
         let columns = self.reader.columns();
         let codes = &mut self.recent[self.recent_runs * columns..][..columns];
-        self.reader.read(isa, observer, BandColumns { min: &mut self.min, max: &mut self.max, codes });
+        self.reader.read(isa, observer, table, BandColumns { min: &mut self.min, max: &mut self.max, codes });
         self.runs += 1;
         self.recent_runs += 1;
         if self.recent_runs == RECENT {

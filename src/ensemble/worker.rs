@@ -94,7 +94,7 @@ impl<'p> Ensemble<'p> {
         let mut kept = vec![f64::NAN; reader.columns()];
         self.propagator.engine(self.isa).propagate(std::slice::from_ref(&scene), &mut |run| {
             observer.observe(self.isa, &scene, run.table, run.outcome, &mut ignored);
-            kept.copy_from_slice(reader.kept(&observer));
+            kept.copy_from_slice(reader.kept(&observer, run.table));
         });
         Some(PartBands::new(Arc::new(BandLayout { series, times, nominal: kept }), reader))
     }
@@ -229,7 +229,7 @@ impl Worker<'_> {
             } else if rows.samples()[row] > SampleId(0)
                 && let Some(bands) = rows.bands_mut()
             {
-                bands.add(isa, observer);
+                bands.add(isa, observer, table);
             }
         });
     }

@@ -7,10 +7,11 @@
 
 use fearless_simd::Simd;
 
-use super::band_series::{BandSeries, Form, keep};
+use super::band_series::{BandSeries, Form, keep, keep_own};
 use super::observer::Observer;
 use crate::math::Isa;
 use crate::math::isa::Work;
+use crate::run::StateTable;
 use crate::statistics::deviation::{Code, code};
 
 /// Reads runs; one per worker, reused from run to run without allocating.
@@ -70,26 +71,31 @@ impl BandReader {
         }
     }
 
-    /// The numbers that are kept of the run that `observer` observed last; NaN at points that it did not reach.
-    pub fn kept(&mut self, observer: &Observer) -> &[f64] {
-        self.keep(observer);
+    /// The numbers that are kept of the run with the states `table` that `observer` observed last; NaN at points that it did not reach.
+    pub fn kept(&mut self, observer: &Observer, table: &StateTable) -> &[f64] {
+        self.keep(observer, table);
         &self.kept
     }
 
-    /// Reads the run that `observer` observed last, on `isa`.
+    /// Reads the run with the states `table` that `observer` observed last, on `isa`.
     ///
     /// # Panics
     /// Where a list has another length than [`BandReader::columns`].
-    pub fn read(&mut self, isa: Isa, observer: &Observer, out: BandColumns<'_>) {
-        isa.run(Reading { reader: self, observer, out });
+    pub fn read(&mut self, isa: Isa, observer: &Observer, table: &StateTable, out: BandColumns<'_>) {
+        isa.run(Reading { reader: self, observer, table, out });
     }
 
     #[inline(always)]
-    fn keep(&mut self, observer: &Observer) {
+    fn keep(&mut self, observer: &Observer, table: &StateTable) {
+        let reached = self.points.partition_point(|point| *point < observer.reached());
         for (source, kept) in self.sources.iter().zip(self.kept.chunks_exact_mut(self.points.len())) {
-            let (column, scale) = observer.observed_column(source);
-            let reached = self.points.partition_point(|point| *point < column.len());
-            keep(source, column, scale, &self.points[..reached], &mut kept[..reached]);
+            let (points, of_reached) = (&self.points[..reached], &mut kept[..reached]);
+            if source.is_own {
+                keep_own(table, points, of_reached);
+            } else {
+                let (column, scale) = observer.observed_column(source);
+                keep(source, column, scale, points, of_reached);
+            }
             kept[reached..].fill(f64::NAN);
         }
     }
@@ -98,6 +104,7 @@ impl BandReader {
 struct Reading<'a> {
     reader: &'a mut BandReader,
     observer: &'a Observer,
+    table: &'a StateTable,
     out: BandColumns<'a>,
 }
 
@@ -106,8 +113,8 @@ impl Work for Reading<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, _: S) {
-        let Reading { reader, observer, out } = self;
-        reader.keep(observer);
+        let Reading { reader, observer, table, out } = self;
+        reader.keep(observer, table);
         let (count, points) = (reader.columns(), reader.points.len());
         let (kept, reference) = (&reader.kept[..count], &reader.reference[..count]);
         let deviations = &mut reader.deviations[..count];

@@ -1,12 +1,12 @@
 //! [`BandSeries`]: the quantities over time whose quantiles over a campaign are bands.
 //!
 //! They are series of the table of observables, and changes of such series since the start (the energy transfer). Nothing is
-//! computed for them that the observed columns do not need.
+//! computed for them that the observed columns do not need, apart from |omega| at the points of the bands.
 
 use super::reduction::{Reduction, Stored};
 use super::request::Request;
 use super::table::Series;
-use crate::run::Quantity;
+use crate::run::{Quantity, StateField, StateTable};
 
 /// In what form a quantity is kept: so that it is cheap to compute at every point of every run, and a deviation of it to count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,6 +50,8 @@ pub struct BandSeries {
     pub(super) scale: Option<(Series, Reduction)>,
     /// Whether it is the change of the series since the start.
     pub(super) is_change: bool,
+    /// Whether no column needs the series, and it is computed at the points of the bands alone, from the states.
+    pub(super) is_own: bool,
     /// Name, unit and meaning.
     pub quantity: Quantity,
     /// In what form its values are kept.
@@ -69,6 +71,9 @@ const TRANSFER: [(Series, &str, &str); 2] = [
         "Change since the start of the kinetic energy of wheel {wheel} about the spacecraft's centre of mass.",
     ),
 ];
+
+/// The series that has bands wherever the columns need the states that it is computed from: |omega|.
+const OWN: Series = Series::RateSquare;
 
 /// The quantities of runs of `request` that have bands, those of them that are observed: conservation errors, energy of each body, energy
 /// transfer, angles, |omega|, wheel speeds.
@@ -96,7 +101,8 @@ fn of_series(request: &Request, series: Series, change: Option<(&str, &str)>) ->
     let observed = request.series();
     let of_place = |place: usize| {
         let series = series.of_wheel(place);
-        let shown = series.quantity(&request.wheels).filter(|_| observed.contains(&series))?;
+        let is_own = series == OWN && !observed.contains(&series) && request.fields().contains(StateField::Rate);
+        let shown = series.quantity(&request.wheels).filter(|_| is_own || observed.contains(&series))?;
         let quantity = match change {
             None => shown,
             Some((name, meaning)) => {
@@ -112,9 +118,20 @@ fn of_series(request: &Request, series: Series, change: Option<(&str, &str)>) ->
             Stored::HalfTangentSquare => Form::HalfTangent,
             Stored::Quantity | Stored::Square => Form::Value,
         };
-        Some(BandSeries { series, stored, scale, is_change: change.is_some(), quantity, form })
+        Some(BandSeries { series, stored, scale, is_change: change.is_some(), is_own, quantity, form })
     };
     (0..places).filter_map(of_place).collect()
+}
+
+/// The kept numbers at `points` of a quantity that is computed from the states of `table` alone: |omega|, rad/s.
+#[inline(always)]
+pub(super) fn keep_own(table: &StateTable, points: &[usize], out: &mut [f64]) {
+    let [x, y, z] = [0, 1, 2].map(|component| table.column(StateField::Rate, component));
+    for (out, point) in out.iter_mut().zip(points) {
+        let [x, y, z] = [x[*point], y[*point], z[*point]];
+        *out = x * x + y * y + z * z;
+    }
+    out.iter_mut().for_each(|out| *out = out.sqrt());
 }
 
 /// The kept numbers at `points` of a stored `column`; relative errors are divided by `scale`.
@@ -174,9 +191,11 @@ mod tests {
             "speed_w2_rad_s",
         ];
         assert_eq!(names(Groups::ALL, &["w1", "w2"]), all);
-        assert_eq!(names(Group::DEFAULT.into_iter().collect(), &["w1", "w2"]), all[..10]);
+        let mut of_default: Vec<&str> = all[..10].to_vec();
+        of_default.push("angular_rate_rad_s");
+        assert_eq!(names(Group::DEFAULT.into_iter().collect(), &["w1", "w2"]), of_default);
         let exchange = [Group::Exchange].into_iter().collect();
-        assert_eq!(names(exchange, &["flywheel"]), ["exchange_body_j", "exchange_flywheel_j"]);
+        assert_eq!(names(exchange, &["flywheel"]), ["exchange_body_j", "exchange_flywheel_j", "angular_rate_rad_s"]);
         assert!(names([Group::StepStatistics].into_iter().collect(), &["w1"]).is_empty());
     }
 

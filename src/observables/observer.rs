@@ -174,6 +174,12 @@ impl Observer {
         })
     }
 
+    /// The number of points that the run reached.
+    #[inline(always)]
+    pub(super) fn reached(&self) -> usize {
+        self.filled
+    }
+
     /// The stored numbers of the series of `band` at the points that the run reached, and what they are divided by.
     #[inline(always)]
     pub(super) fn observed_column(&self, band: &BandSeries) -> (&[f64], f64) {

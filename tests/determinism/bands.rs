@@ -165,6 +165,39 @@ fn bands_depend_on_the_plan_only() {
     assert!(one != files(&other, 1));
 }
 
+/// Law: |omega| has bands where no column needs it, and they are those of a campaign whose columns do.
+#[test]
+fn the_angular_rate_has_bands() {
+    let rate = |groups: &[Group]| {
+        let mut plan = plan(9);
+        plan.groups = groups.to_vec();
+        let bands = merged(&files(&plan, 1));
+        let series = bands.find("angular_rate_rad_s").expect("bands of |omega|");
+        let numbers = |point: usize| {
+            let quantiles = [0.05, 0.5, 0.95].map(|p| bands.quantile(series, point, p).unwrap());
+            (bands.count(series, point), bands.extremes(series, point).unwrap(), quantiles)
+        };
+        (0..9).map(numbers).collect::<Vec<_>>()
+    };
+    let (own, observed) = (rate(&Group::DEFAULT), rate(&[Group::Motion]));
+    assert!(!Group::DEFAULT.contains(&Group::Motion));
+    for ((count, extremes, quantiles), (counts, exact, expected)) in own.iter().zip(&observed) {
+        assert_eq!(count, counts);
+        for (found, expected) in extremes.iter().zip(exact) {
+            // the same squares, added in another order
+            assert!((found - expected).abs() <= 2.0 * f64::EPSILON * expected, "{found} {expected}");
+        }
+        for (found, expected) in quantiles.iter().zip(expected) {
+            assert!(
+                (found - expected).abs() <= 2.0 * RELATIVE_ERROR * (extremes[1] - extremes[0]),
+                "{found} {expected}"
+            );
+        }
+    }
+    // the counter-test: the rates differ from run to run and from point to point
+    assert!(own[8].1[1] > 1.1 * own[8].1[0]);
+}
+
 /// Law: a campaign without bands, or without a quantity that has bands, has none.
 #[test]
 fn no_bands_where_none_are_asked_for() {
