@@ -1,4 +1,4 @@
-//! [`simulation_figure`]: one run over time: rates, attitude, wheel rates, energies, errors.
+//! [`simulation_figure`]: one run over time: rates, attitude, wheel rates, momenta, energies, errors.
 //!
 //! The panels of the energies are the report's Figures 3 to 5 (body by body, total and its error).
 
@@ -56,6 +56,16 @@ const STATES: [States; 4] = [
     ),
 ];
 
+/// Magnitudes of the momenta of the spacecraft: title, unit, curve.
+const MOMENTA: [(&str, &str, Column); 2] = [
+    (
+        "Angular momentum about the centre of mass",
+        "N m s",
+        (TimeColumn::Series(Series::AngularMomentumSquare), "spacecraft"),
+    ),
+    ("Linear momentum in F_e", "N s", (TimeColumn::Series(Series::LinearMomentumSquare), "spacecraft")),
+];
+
 /// Relative errors of the balances.
 const ERRORS: [Column; 3] = [
     (TimeColumn::Series(Series::EnergyError), "energy minus work"),
@@ -101,7 +111,8 @@ pub fn simulation_figure(title: &str, series: &TimeSeries, tolerance: f64) -> Fi
         values: body.values.iter().map(|value| value - body.values[0]).collect(),
     };
     let transfers = bodies.iter().map(transfer).collect();
-    let mut panels: Vec<Panel> = states.chain(bodies.iter().map(energy)).collect();
+    let momenta = MOMENTA.map(|(title, unit, column)| panel(title.to_owned(), unit, curves(&[column]), None));
+    let mut panels: Vec<Panel> = states.chain(momenta).chain(bodies.iter().map(energy)).collect();
     if bodies.len() > 1 {
         panels.push(panel("Kinetic energy, total".to_owned(), "J", vec![total], None));
         panels.push(panel(
