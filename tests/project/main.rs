@@ -10,4 +10,5 @@ mod examples;
 mod features;
 mod generated_tables;
 mod source;
+mod supply_chain;
 mod vocabulary;
