@@ -11,6 +11,7 @@ use crate::dataset::drawn_table;
 use crate::dataset::table::{TableError, TableFormat};
 use crate::ensemble::{DrawnScenes, Percentiles};
 use crate::report::canvas::{Canvas, PlotError, PlotFormat};
+use crate::report::drawn_columns::DrawnColumns;
 use crate::report::drawn_figure::DrawnFigure;
 use crate::sampling::SampleId;
 
@@ -63,9 +64,7 @@ pub fn run(options: &SampleOptions) -> Result<CommandOutcome, Failure> {
                 dispersed.count(),
                 plan.design.name().replace('_', " ")
             ),
-            names: columns.iter().map(|column| column.parameter.component_name(column.component)).collect(),
-            nominal: columns.iter().map(|column| column.nominal).collect(),
-            drawn: &dispersed,
+            columns: &DrawnColumns::new(&plan, &dispersed),
         };
         figure.save(path).map_err(|error| match error {
             PlotError::Format(_) => Failure::Input(error.to_string()),

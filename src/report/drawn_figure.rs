@@ -4,9 +4,11 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use crate::ensemble::DrawnScenes;
 use crate::report::canvas::{COLORS, Canvas, PlotError, drawing};
+use crate::report::drawn_columns::DrawnColumns;
+use crate::report::expected_counts::expected;
 use crate::report::number::short;
+use crate::sampling::distribution::Distribution;
 
 /// Size of a histogram, pixels.
 const HISTOGRAM: (u32, u32) = (300, 190);
@@ -30,19 +32,15 @@ const BARS: usize = 40;
 pub struct DrawnFigure<'a> {
     /// Title of the whole.
     pub title: String,
-    /// Name of each column.
-    pub names: Vec<String>,
-    /// Nominal value of each column.
-    pub nominal: Vec<f64>,
     /// The dispersed samples.
-    pub drawn: &'a DrawnScenes,
+    pub columns: &'a DrawnColumns<'a>,
 }
 
 impl DrawnFigure<'_> {
     /// Side of a cell of the correlation plot, pixels.
     fn cell(&self) -> u32 {
         let width = ACROSS as u32 * HISTOGRAM.0 - NAMES_WIDTH;
-        (width / self.names.len().max(1) as u32).clamp(2, LARGEST_CELL)
+        (width / self.columns.names.len().max(1) as u32).clamp(2, LARGEST_CELL)
     }
 
     fn draw_correlations<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: u32) -> Result<(), PlotError> {
@@ -53,9 +51,10 @@ impl DrawnFigure<'_> {
         area.draw_text("Rank correlation", &caption, (left, top / 3)).map_err(drawing)?;
         color_bar(area, (left + (170 * scale) as i32, top / 3), scale)?;
         let note = font(13).into_text_style(area).pos(Pos::new(HPos::Left, VPos::Center));
-        area.draw_text(&caution(self.drawn.count()), &note, (left + (370 * scale) as i32, top / 3)).map_err(drawing)?;
-        let correlations = self.drawn.rank_correlations();
-        for (i, (name, row)) in self.names.iter().zip(&correlations).enumerate() {
+        area.draw_text(&caution(self.columns.drawn.count()), &note, (left + (370 * scale) as i32, top / 3))
+            .map_err(drawing)?;
+        let correlations = self.columns.drawn.rank_correlations();
+        for (i, (name, row)) in self.columns.names.iter().zip(&correlations).enumerate() {
             let y = top + i as i32 * cell;
             let size = (self.cell().saturating_sub(2)).min(13);
             let style = font(size).into_text_style(area).pos(Pos::new(HPos::Right, VPos::Center));
@@ -81,8 +80,8 @@ impl DrawnFigure<'_> {
 
 impl Canvas for DrawnFigure<'_> {
     fn size(&self) -> (u32, u32) {
-        let rows = self.names.len().div_ceil(ACROSS) as u32;
-        let matrix = self.names.len() as u32 * self.cell() + CAPTION_HEIGHT + 20;
+        let rows = self.columns.names.len().div_ceil(ACROSS) as u32;
+        let matrix = self.columns.names.len() as u32 * self.cell() + CAPTION_HEIGHT + 20;
         (ACROSS as u32 * HISTOGRAM.0, TITLE_HEIGHT + rows * HISTOGRAM.1 + matrix)
     }
 
@@ -92,11 +91,12 @@ impl Canvas for DrawnFigure<'_> {
             ("sans-serif", 20 * scale).into_font().into_text_style(&title).pos(Pos::new(HPos::Center, VPos::Center));
         let middle = ((ACROSS as u32 * HISTOGRAM.0 * scale / 2) as i32, (TITLE_HEIGHT * scale / 2) as i32);
         title.draw_text(&self.title, &style, middle).map_err(drawing)?;
-        let rows = self.names.len().div_ceil(ACROSS);
+        let rows = self.columns.names.len().div_ceil(ACROSS);
         let (upper, lower) = rest.split_vertically(rows as u32 * HISTOGRAM.1 * scale);
-        let columns = self.names.iter().zip(&self.drawn.columns).zip(&self.nominal);
-        for (((name, values), nominal), cell) in columns.zip(upper.split_evenly((rows.max(1), ACROSS))) {
-            histogram(name, values, *nominal, &cell, scale)?;
+        let of_column = self.columns.names.iter().zip(&self.columns.drawn.columns).zip(&self.columns.nominal);
+        let of_column = of_column.zip(&self.columns.asked);
+        for ((((name, values), nominal), asked), cell) in of_column.zip(upper.split_evenly((rows.max(1), ACROSS))) {
+            histogram(name, values, (*nominal, *asked), &cell, scale)?;
         }
         self.draw_correlations(&lower, scale)
     }
@@ -142,11 +142,12 @@ fn shade(r: f64) -> RGBColor {
     RGBColor(mixed(red), mixed(green), mixed(blue))
 }
 
-/// The histogram of one column: bars between its minimum and its maximum; a dashed line at the nominal value.
+/// The histogram of one column: bars between its minimum and its maximum; a dashed line at the nominal value; a curve of the numbers that are
+/// expected of the distribution that was asked for.
 fn histogram<B: DrawingBackend>(
     name: &str,
     values: &[f64],
-    nominal: f64,
+    (nominal, asked): (f64, Option<&Distribution>),
     area: &DrawingArea<B, Shift>,
     scale: u32,
 ) -> Result<(), PlotError> {
@@ -166,8 +167,10 @@ fn histogram<B: DrawingBackend>(
     let middle = if low.is_finite() { low + 0.5 * (high - low) } else { 0.0 };
     let (low, width) = (middle - half, 2.0 * half);
     let mut counts = [0u32; BARS];
-    finite.for_each(|x| counts[(((x - low) / width * BARS as f64) as usize).min(BARS - 1)] += 1);
-    let most = counts.iter().copied().max().unwrap_or(0).max(1);
+    finite.clone().for_each(|x| counts[(((x - low) / width * BARS as f64) as usize).min(BARS - 1)] += 1);
+    let edges: Vec<f64> = (0..=BARS).map(|k| low + width * (k as f64 / BARS as f64)).collect();
+    let density = asked.map_or_else(Vec::new, |asked| expected(asked, &edges, finite.clone().count()));
+    let most = density.iter().copied().fold(f64::from(counts.iter().copied().max().unwrap_or(0).max(1)), f64::max);
     let mut chart = ChartBuilder::on(area)
         .caption(name, ("sans-serif", 13 * scale))
         .margin(6 * scale)
@@ -175,7 +178,7 @@ fn histogram<B: DrawingBackend>(
         .margin_left(28 * scale)
         .margin_right(28 * scale)
         .x_label_area_size(24 * scale)
-        .build_cartesian_2d(0.0..1.0, 0.0..1.05 * f64::from(most))
+        .build_cartesian_2d(0.0..1.0, 0.0..1.05 * most)
         .map_err(drawing)?;
     chart
         .configure_mesh()
@@ -191,8 +194,10 @@ fn histogram<B: DrawingBackend>(
         Rectangle::new([(bar(k), 0.0), (bar(k + 1), f64::from(*count))], COLORS[0].mix(0.75).filled())
     });
     chart.draw_series(bars).map_err(drawing)?;
+    let curve = density.iter().enumerate().map(|(k, count)| (0.5 * (bar(k) + bar(k + 1)), *count));
+    chart.draw_series(LineSeries::new(curve, COLORS[1].stroke_width(2 * scale))).map_err(drawing)?;
     let at = (nominal - low) / width;
-    let line = [(at, 0.0), (at, 1.05 * f64::from(most))];
+    let line = [(at, 0.0), (at, 1.05 * most)];
     chart.draw_series(DashedLineSeries::new(line, 5 * scale, 3 * scale, BLACK.stroke_width(scale))).map_err(drawing)?;
     Ok(())
 }
@@ -200,7 +205,9 @@ fn histogram<B: DrawingBackend>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ensemble::DrawnScenes;
     use crate::sampling::SampleId;
+    use crate::sampling::distribution::uniform::UniformQuantile;
 
     /// Law: the nominal value is marked, outside the samples too; with few samples the figure warns.
     #[test]
@@ -208,13 +215,18 @@ mod tests {
         let columns = vec![(0..50).map(f64::from).collect::<Vec<_>>(), (0..50).map(|k| f64::from(k * k)).collect()];
         let drawn = DrawnScenes { first: SampleId(1), physical: vec![true; 50], columns, mass: Vec::new() };
         let names = vec!["one".to_owned(), "two".to_owned()];
-        let figure = |nominal| DrawnFigure { title: "t".into(), names: names.clone(), nominal, drawn: &drawn };
-        let svg = figure(vec![25.0, -3000.0]).svg().unwrap();
+        let uniform = Distribution::Uniform(UniformQuantile { min: 0.0, max: 50.0 });
+        let figure_of = |nominal, asked| {
+            let columns = DrawnColumns { names: names.clone(), nominal, asked, drawn: drawn.clone() };
+            DrawnFigure { title: "t".into(), columns: &columns }.svg().unwrap()
+        };
+        let figure = |nominal| figure_of(nominal, vec![Some(&uniform), None]);
+        let svg = figure(vec![25.0, -3000.0]);
         assert!(svg.contains("caution, few samples") && svg.contains("-3000"), "{svg}");
-        assert_ne!(svg, figure(vec![20.0, -3000.0]).svg().unwrap());
+        assert_ne!(svg, figure(vec![20.0, -3000.0]));
+        // the density that was asked for is drawn over the bars, where there is one
+        let lines = |svg: &str| svg.matches("<polyline").count();
+        assert_eq!(lines(&svg), lines(&figure_of(vec![25.0, -3000.0], vec![None; 2])) + 1);
         assert!(caution(1000) == "1000 samples: up to \u{b1}0.06 by chance (95%)");
-        if let Some(folder) = std::env::var_os("SPINDRIFT_PLOT_FOLDER") {
-            figure(vec![25.0, -100.0]).save(&std::path::Path::new(&folder).join("drawn.png")).unwrap();
-        }
     }
 }

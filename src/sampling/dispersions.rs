@@ -171,6 +171,14 @@ impl Dispersions {
         self.assigned.iter().find(|assigned| assigned.columns.contains(&column)).map(|assigned| &assigned.map)
     }
 
+    /// The distribution of a column that is one random number of its own, as it is drawn.
+    pub fn scalar_of(&self, column: usize) -> Option<&Distribution> {
+        match self.distribution_of(column) {
+            Some(Transform::Scalar(distribution)) if distribution.dimensions() == 1 => Some(distribution),
+            _ => None,
+        }
+    }
+
     /// The expression that a column follows, if it does.
     pub fn expression_of(&self, column: usize) -> Option<&str> {
         self.derived.iter().find(|derived| derived.column == column).map(|derived| derived.text.as_str())

@@ -3,20 +3,17 @@
 use core::f64::consts::PI;
 
 use crate::campaign::Plan;
+use crate::report::expected_counts::expected;
 use crate::report::page::errors::{bins, counts};
 use crate::report::page::figure::{Axis, Figure, Hue, Mark, Section};
 use crate::report::page::survey::Survey;
 use crate::sampling::correlation::{Measure, Numbers};
-use crate::sampling::dispersions::Transform;
-use crate::sampling::distribution::{Distribution, Quantile};
 use crate::statistics::correlation::{matrix, mid_ranks, standardised};
 
 /// Inputs with figures of their own.
 const MOST_INPUTS: usize = 36;
 /// Inputs in a matrix of correlations.
 const MOST_CORRELATED: usize = 24;
-/// Halvings of (0, 1) in which a probability is found: beyond the resolution of a picture.
-const HALVINGS: u32 = 40;
 
 /// Histograms of the inputs, and their correlations as asked and as achieved.
 pub fn figures(plan: &Plan, survey: &Survey) -> Vec<Figure> {
@@ -47,12 +44,7 @@ fn histogram(plan: &Plan, survey: &Survey, index: usize) -> Figure {
         edges: edges.clone(),
     }];
     let transform = plan.dispersions.distribution_of(index);
-    let asked = match transform {
-        Some(Transform::Scalar(distribution)) if distribution.dimensions() == 1 => {
-            expected(distribution, &edges, values.len())
-        }
-        _ => Vec::new(),
-    };
+    let asked = plan.dispersions.scalar_of(index).map_or_else(Vec::new, |asked| expected(asked, &edges, values.len()));
     let origin = match transform {
         Some(transform) => transform.text(&crate::report::number::short),
         None => plan
@@ -85,22 +77,6 @@ fn histogram(plan: &Plan, survey: &Survey, index: usize) -> Figure {
         y: Axis::linear("runs", "").within(0.0, 0.0),
         marks,
     }
-}
-
-/// How many of `count` values are expected between neighbouring edges.
-fn expected(distribution: &Distribution, edges: &[f64], count: usize) -> Vec<f64> {
-    let below: Vec<f64> = edges.iter().map(|edge| probability(distribution, *edge)).collect();
-    below.windows(2).map(|pair| count as f64 * (pair[1] - pair[0])).collect()
-}
-
-/// The probability of smaller values, by bisection of the quantile function.
-fn probability(distribution: &Distribution, value: f64) -> f64 {
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (low + high);
-        if distribution.quantile(middle) < value { low = middle } else { high = middle }
-    }
-    0.5 * (low + high)
 }
 
 fn correlations(plan: &Plan, survey: &Survey) -> Vec<Figure> {
