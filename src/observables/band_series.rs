@@ -72,7 +72,7 @@ const TRANSFER: [(Series, &str, &str); 2] = [
     ),
 ];
 
-/// The series that has bands wherever the columns need the states that it is computed from: |omega|.
+/// The series that has bands where the columns need the states that it is computed from: |omega|.
 const OWN: Series = Series::RateSquare;
 
 /// The quantities of runs of `request` that have bands, those of them that are observed: conservation errors, energy of each body, energy
