@@ -1,7 +1,7 @@
 //! [`Jobs`]: the scripts of the Slurm jobs that run a campaign: an array with a task for each shard, and a job that finishes the result.
 //!
 //! Slurm: <https://slurm.schedmd.com/sbatch.html>. The array asks for SIGUSR1 before its time limit (`--signal=B:`: to the shell of the
-//! script, which passes it on). The program then stops with [`STOPPED`], and the task puts itself back into the queue. Not here: who writes
+//! script, which passes it on). The program then stops with code 138, and the task puts itself back into the queue. Not here: who writes
 //! the scripts and submits them ([`super::slurm`]).
 
 use std::fmt::Write as _;

@@ -3,7 +3,7 @@
 //! Quantiles and fractions are decided by exact counts, never by a sketch. Outside of the population, and so of every count, are samples that are
 //! not physical; any other run that is not `ok` violates every requirement, and so does one without a value.
 //!
-//! Not here: requirements over time ([`super::band_verdicts`]).
+//! Not here: requirements over time (`band_verdicts`).
 
 use std::num::NonZeroUsize;
 
