@@ -101,6 +101,7 @@ mod tests {
     #[test]
     fn known_coefficients() {
         let x = [1.0, 2.0, 3.0, 4.0, 5.0];
+        // measured 2.2e-16 and 0; far from zero 6.7e-9, where a number has seven digits after the point
         assert!((pearson(&x, &[2.0, 1.0, 4.0, 3.0, 5.0]) - 0.8).abs() < 1e-15);
         assert!((spearman(&x, &[1.0, 8.0, 27.0, 64.0, 125.0]) - 1.0).abs() < 1e-15);
         assert_eq!(pearson(&x, &[0.1; 5]), 0.0, "a column that does not vary");
@@ -116,6 +117,7 @@ mod tests {
         let found = pearson_interval(0.6, 28, 0, 0.95);
         let half = 1.959_963_984_540_054 / 5.0;
         let middle = 0.5 * libm::log(4.0);
+        // measured 5.6e-17
         assert!(
             (found.lower - libm::tanh(middle - half)).abs() < 4e-16
                 && (found.upper - libm::tanh(middle + half)).abs() < 4e-16

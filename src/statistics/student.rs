@@ -35,6 +35,7 @@ mod tests {
     #[test]
     fn known_quantiles() {
         // one degree: tan(pi confidence/2); two degrees: closed form; the rest from scipy.stats.t.ppf
+        // bounds: measured 4.4e-16, less, and 1.1e-15 for those of scipy
         let first = libm::tan(core::f64::consts::FRAC_PI_2 * 0.95);
         assert!((two_sided_quantile(0.95, 1.0) / first - 1.0).abs() < 4e-15);
         let p: f64 = 0.975;
@@ -51,7 +52,8 @@ mod tests {
     fn tails_invert_quantiles() {
         for (confidence, degrees, t) in KNOWN {
             let tail = two_sided_tail(t, degrees);
-            assert!((tail / (1.0 - confidence) - 1.0).abs() < 1e-12, "{degrees}: {tail}");
+            // measured 2.4e-15; the known quantiles have 16 digits
+            assert!((tail / (1.0 - confidence) - 1.0).abs() < 2e-14, "{degrees}: {tail}");
         }
         assert_eq!(two_sided_tail(0.0, 5.0), 1.0);
     }
