@@ -11,7 +11,7 @@ use crate::math::lanes::WIDTH;
 use crate::math::sine::sin_cos_turns;
 use crate::math::vector::{constant, constant_quaternion, hamilton, scaled};
 use crate::math::{Lanes, Real};
-use crate::run::{Grid, StateField, StateTable, Trajectory};
+use crate::run::{Grid, LocalErrors, StateField, StateTable, Trajectory};
 use crate::scene::Scene;
 use crate::scene::mass::Body;
 
@@ -21,6 +21,10 @@ pub fn is_isotropic(body: &Body) -> bool {
     let diagonal = j[0][0] == j[1][1] && j[1][1] == j[2][2];
     diagonal && j[0][1] == 0.0 && j[0][2] == 0.0 && j[1][2] == 0.0
 }
+
+/// The errors of [`complete_isotropic`]: half a unit in the last place of the rate, a few roundings of the attitude.
+pub const ISOTROPIC_ERRORS: LocalErrors =
+    LocalErrors { rounding: 0.5 * f64::EPSILON, attitude: 2.0 * f64::EPSILON, ..LocalErrors::NONE };
 
 /// Sets `run` to the free rotation of the debris, before its first arc; false where the scene has none.
 pub fn set_rotation<R: Real>(run: &mut Gyrostat<R>, scene: &Scene) -> bool {

@@ -220,6 +220,7 @@ impl Auditor {
             points: self.grid.points(),
             effort: StepStatistics::default(),
             local_errors: LocalErrors::default(),
+            debris_errors: LocalErrors::NONE,
         };
         self.reference_observer.observe(self.isa, scene, &reference.high, &done, &mut self.reference_row);
         let (isa, observer, row) = (self.isa, &mut self.observer, &mut self.row);

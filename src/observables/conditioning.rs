@@ -142,15 +142,44 @@ impl Conditioning {
         filled: usize,
         local: &LocalErrors,
     ) -> ErrorEstimate {
+        let body = Body::of(acting, table, times[filled - 1]);
+        self.estimate_of(simd, &body, Some(acting), table, times, filled, local)
+    }
+
+    /// The estimate for the debris, whose inertia is `inertia`; the rest as in [`Conditioning::estimate`].
+    #[inline(always)]
+    pub(super) fn estimate_debris<S: Simd>(
+        &mut self,
+        simd: S,
+        inertia: [[f64; 3]; 3],
+        table: &StateTable,
+        times: &[f64],
+        filled: usize,
+        local: &LocalErrors,
+    ) -> ErrorEstimate {
+        self.estimate_of(simd, &Body::debris(inertia), None, table, times, filled, local)
+    }
+
+    #[expect(clippy::too_many_arguments, reason = "what both estimates have in common")]
+    #[inline(always)]
+    fn estimate_of<S: Simd>(
+        &mut self,
+        simd: S,
+        body: &Body<'_>,
+        acting: Option<Acting<'_>>,
+        table: &StateTable,
+        times: &[f64],
+        filled: usize,
+        local: &LocalErrors,
+    ) -> ErrorEstimate {
         let last = filled - 1;
         let stride = last.div_ceil(POINTS - 1).max(1);
         let count = last.div_ceil(stride) + 1;
         for (k, time) in self.times[..count].iter_mut().enumerate() {
             *time = times[(k * stride).min(last)];
         }
-        let body = Body::of(acting, table, times[last]);
         for first in (0..count).step_by(WIDTH) {
-            self.fill(simd, &body, table, [first, stride, last]);
+            self.fill(simd, body, table, [first, stride, last]);
         }
         let (mut largest, mut widest) = (0.0_f64, 0.0_f64);
         for k in 0..count {
@@ -161,9 +190,9 @@ impl Conditioning {
             return ErrorEstimate { error: SAFETY * (local.rounding + local.attitude), amplification: 1.0 };
         }
         let (error, amplification) = if widest <= STILL * largest {
-            self.at_equilibrium(&body, count, largest, table, local)
+            self.at_equilibrium(body, count, largest, table, local)
         } else {
-            self.along_curve(&body, count, largest, acting, local)
+            self.along_curve(body, count, largest, acting, local)
         };
         // NaN counts as lost
         let error = SAFETY * (error + local.truncation + local.attitude);
@@ -182,16 +211,17 @@ impl Conditioning {
         }
         let zero = Lanes::broadcast(simd, 0.0);
         let omega = [
-            gathered(simd, table.column(StateField::Rate, 0), &points),
-            gathered(simd, table.column(StateField::Rate, 1), &points),
-            gathered(simd, table.column(StateField::Rate, 2), &points),
+            gathered(simd, table.column(body.rates, 0), &points),
+            gathered(simd, table.column(body.rates, 1), &points),
+            gathered(simd, table.column(body.rates, 2), &points),
         ];
         let own = product(constant_matrix(zero, body.inertia), omega);
         let momentum = match body.offset {
             Some(offset) => sum(own, constant(zero, offset)),
             None => {
-                let mut momentum = product(constant_matrix(zero, body.mass.inertia), omega);
-                for (i, wheel) in body.mass.wheels.iter().enumerate() {
+                let mass = body.mass.expect("only a spacecraft has wheels whose momentum changes");
+                let mut momentum = product(constant_matrix(zero, mass.inertia), omega);
+                for (i, wheel) in mass.wheels.iter().enumerate() {
                     let rate = gathered(simd, table.column(StateField::WheelRates, i), &points);
                     let spin = Lanes::broadcast(simd, wheel.axial) * rate;
                     momentum = sum(momentum, scaled(spin, constant(zero, wheel.axis)));
@@ -245,14 +275,15 @@ impl Conditioning {
         body: &Body<'_>,
         count: usize,
         largest: f64,
-        acting: Acting<'_>,
+        acting: Option<Acting<'_>>,
         local: &LocalErrors,
     ) -> (f64, f64) {
         let inertia = body.size;
         // errors are relative to omega: the momentum that corresponds to an error of one
         let unit = inertia * largest;
         let is_driven = body.offset.is_none();
-        let torque = if is_driven { acting.largest_torque() } else { 0.0 };
+        let acting = acting.filter(|_| is_driven);
+        let torque = acting.map_or(0.0, |acting| acting.largest_torque());
         let mut quietest = 0;
         let mut energy = 0.0_f64;
         for k in 0..count {
@@ -270,7 +301,7 @@ impl Conditioning {
         let (mut low, mut high, mut motion) = (f64::INFINITY, f64::NEG_INFINITY, 0.0);
         for k in 0..count {
             let (h, mu, mut w) = (self.momentum[k], self.along[k], self.across[k]);
-            if torque > 0.0 && acting.acts(self.times[k]) {
+            if torque > 0.0 && acting.is_some_and(|acting| acting.acts(self.times[k])) {
                 w = w.larger(torque / (inertia * largest.larger(h / inertia)));
             }
             low = low.smaller(mu * h);
@@ -326,7 +357,7 @@ impl Conditioning {
     ) -> (f64, f64) {
         let duration = self.times[count - 1];
         let (h, mu) = (self.momentum[0], self.along[0]);
-        let axis = table.at::<3>(StateField::Rate, 0).map(|x| x / self.rate[0].larger(f64::MIN_POSITIVE));
+        let axis = table.at::<3>(body.rates, 0).map(|x| x / self.rate[0].larger(f64::MIN_POSITIVE));
         let mut a = body.inverse;
         let mut size = 0.0_f64;
         for (i, row) in a.iter_mut().enumerate() {

@@ -19,6 +19,8 @@ pub(super) struct FinishedRun<'a> {
     pub(super) final_point: Option<usize>,
     pub(super) exchange: Exchange,
     pub(super) estimate: ErrorEstimate,
+    /// That of the debris.
+    pub(super) debris_estimate: ErrorEstimate,
 }
 
 /// The last of the first `filled` points of `table` with finite rotational states.
@@ -29,6 +31,11 @@ pub(super) fn final_point(table: &StateTable, filled: usize) -> Option<usize> {
             && (0..table.wheels()).all(|wheel| table.column(StateField::WheelRates, wheel)[*point].is_finite())
     };
     (0..filled).rev().find(finite)
+}
+
+/// 1 where the rounding of the input alone makes the result meaningless, else 0.
+fn is_ill_conditioned(estimate: &ErrorEstimate) -> f64 {
+    f64::from(u8::from(estimate.amplification * f64::EPSILON > MEANINGLESS))
 }
 
 impl FinishedRun<'_> {
@@ -55,9 +62,10 @@ impl FinishedRun<'_> {
             DirectValue::Evaluations => self.outcome.effort.evaluations as f64,
             DirectValue::StateError => self.estimate.error,
             DirectValue::Amplification => self.estimate.amplification,
-            DirectValue::IllConditioned => {
-                f64::from(u8::from(self.estimate.amplification * f64::EPSILON > MEANINGLESS))
-            }
+            DirectValue::IllConditioned => is_ill_conditioned(&self.estimate),
+            DirectValue::DebrisStateError => self.debris_estimate.error,
+            DirectValue::DebrisAmplification => self.debris_estimate.amplification,
+            DirectValue::DebrisIllConditioned => is_ill_conditioned(&self.debris_estimate),
         }
     }
 

@@ -22,7 +22,7 @@ use super::table::Series;
 use super::weights::Weights;
 use crate::math::Isa;
 use crate::math::isa::Work;
-use crate::run::{Grid, LocalErrors, Outcome, StateTable, Status};
+use crate::run::{Grid, Outcome, StateTable, Status};
 use crate::scene::{Arc, Scene};
 
 /// Observes runs on one grid; one per worker, reused from run to run without allocating.
@@ -41,6 +41,7 @@ pub struct Observer {
     statistics: Statistics,
     conditioning: Option<Box<Conditioning>>,
     estimate: ErrorEstimate,
+    debris_estimate: ErrorEstimate,
     exchange: Exchange,
     nominal: Option<NominalAttitude>,
     /// Number of points of the run that was observed last.
@@ -66,6 +67,7 @@ impl Observer {
             statistics: Statistics::unknown(),
             conditioning: request.groups.contains(Group::Numerics).then(|| Box::new(Conditioning::new())),
             estimate: ErrorEstimate::UNKNOWN,
+            debris_estimate: ErrorEstimate::UNKNOWN,
             exchange: Exchange::UNKNOWN,
             nominal: None,
             accuracy: Accuracy::new(&request),
@@ -136,7 +138,7 @@ impl Observer {
         assert!(has_debris || !self.request.debris, "a scene whose debris is observed has one");
         self.filled = outcome.points.min(table.points());
         if self.filled > 0 {
-            isa.run(Observation { observer: self, acting, table, local_errors: &outcome.local_errors });
+            isa.run(Observation { observer: self, acting, table, outcome });
         }
         let is_final_observed = self.request.groups.contains(Group::FinalState);
         let run = FinishedRun {
@@ -146,6 +148,7 @@ impl Observer {
             final_point: if is_final_observed { final_point(table, self.filled) } else { None },
             exchange: self.exchange,
             estimate: self.estimate,
+            debris_estimate: self.debris_estimate,
         };
         self.plan.fill(&self.statistics, |value, wheel| run.value(value, usize::from(wheel)), row);
         if outcome.status != Status::Done {
@@ -217,7 +220,7 @@ struct Observation<'a> {
     observer: &'a mut Observer,
     acting: Acting<'a>,
     table: &'a StateTable,
-    local_errors: &'a LocalErrors,
+    outcome: &'a Outcome,
 }
 
 impl Work for Observation<'_> {
@@ -225,7 +228,7 @@ impl Work for Observation<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let Observation { observer, acting, table, local_errors } = self;
+        let Observation { observer, acting, table, outcome } = self;
         let scene = acting.scene();
         let debris = scene.mass.debris.as_ref().filter(|_| observer.request.debris);
         let (observed, points) = (observer.observed, observer.filled);
@@ -238,7 +241,13 @@ impl Work for Observation<'_> {
             observer.find_exchange(simd);
         }
         if let Some(conditioning) = &mut observer.conditioning {
-            observer.estimate = conditioning.estimate(simd, acting, table, &observer.times, points, local_errors);
+            let times = &observer.times;
+            observer.estimate = conditioning.estimate(simd, acting, table, times, points, &outcome.local_errors);
+            if let Some(body) = debris {
+                let errors = &outcome.debris_errors;
+                observer.debris_estimate =
+                    conditioning.estimate_debris(simd, body.inertia, table, times, points, errors);
+            }
         }
     }
 }

@@ -7,7 +7,10 @@ use crate::scene::mass::MassProperties;
 
 /// The constants of a run.
 pub(super) struct Body<'a> {
-    pub(super) mass: &'a MassProperties,
+    /// The spacecraft, where it is one.
+    pub(super) mass: Option<&'a MassProperties>,
+    /// The field of its angular velocity.
+    pub(super) rates: StateField,
     /// K, kg m^2, its inverse A, and a third of its trace.
     pub(super) inertia: [[f64; 3]; 3],
     pub(super) inverse: [[f64; 3]; 3],
@@ -23,7 +26,6 @@ impl<'a> Body<'a> {
     pub(super) fn of(acting: Acting<'a>, table: &StateTable, duration: f64) -> Self {
         let mass = &acting.scene().mass;
         let inertia = mass.inertia_rotating();
-        let [[x, xy, xz], [_, y, yz], [.., z]] = inertia;
         let offset = acting.is_free(duration).then(|| {
             let omega = table.at::<3>(StateField::Rate, 0);
             let mut momentum = difference(product(mass.inertia, omega), product(inertia, omega));
@@ -33,10 +35,21 @@ impl<'a> Body<'a> {
             }
             momentum
         });
+        Body { mass: Some(mass), rates: StateField::Rate, ..Body::alone(inertia, offset) }
+    }
+
+    /// A body without wheels, on which no torque acts: the debris, whose inertia this is.
+    pub(super) fn debris(inertia: [[f64; 3]; 3]) -> Self {
+        Body::alone(inertia, Some([0.0; 3]))
+    }
+
+    fn alone(inertia: [[f64; 3]; 3], offset: Option<[f64; 3]>) -> Self {
+        let [[x, xy, xz], [_, y, yz], [.., z]] = inertia;
         let adjugate = adjugate(inertia);
         let per_determinant = 1.0 / dot(inertia[0], adjugate[0]);
         Body {
-            mass,
+            mass: None,
+            rates: StateField::DebrisRate,
             inertia,
             inverse: [
                 scaled(per_determinant, adjugate[0]),

@@ -313,6 +313,10 @@ mod needs {
         need(StateField::Rate, Scenes::All, "angular velocity at the end"),
         need(StateField::WheelRates, Scenes::All, "wheel rates at the end"),
     ];
+    pub(super) const DEBRIS_NUMERICS: &[Need] = &[
+        need(StateField::DebrisRate, Scenes::Debris, "how the motion amplifies errors"),
+        need(StateField::DebrisAttitude, Scenes::Debris, "errors of the attitude"),
+    ];
     // a method's own errors of the attitude are known only where it is integrated
     pub(super) const NUMERICS: &[Need] = &[
         need(StateField::Rate, Scenes::All, "how the motion amplifies errors"),
@@ -321,8 +325,8 @@ mod needs {
     ];
 }
 use needs::{
-    ANGULAR, BODIES, DEBRIS_ANGULAR, DEBRIS_DIRECTION, DEBRIS_ENERGY, DEBRIS_LINEAR, FINAL_STATE, FROM_NOMINAL, LINEAR,
-    NUMERICS, ORTHONORMALITY, RATE, REDUNDANT, RESIDUALS, SPIN, SPIN_AXIS, TOTAL, WORK,
+    ANGULAR, BODIES, DEBRIS_ANGULAR, DEBRIS_DIRECTION, DEBRIS_ENERGY, DEBRIS_LINEAR, DEBRIS_NUMERICS, FINAL_STATE,
+    FROM_NOMINAL, LINEAR, NUMERICS, ORTHONORMALITY, RATE, REDUNDANT, RESIDUALS, SPIN, SPIN_AXIS, TOTAL, WORK,
 };
 
 #[rustfmt::skip]
@@ -383,6 +387,9 @@ direct_values! {
     StateError: NUMERICS, &[], false, "Estimated error of the rotational state.";
     Amplification: NUMERICS, &[], false, "Estimated factor by which the motion amplifies errors.";
     IllConditioned: NUMERICS, &[], false, "1 where the rounding of the input alone makes the result meaningless.";
+    DebrisStateError: DEBRIS_NUMERICS, &[], false, "Estimated error of the rotation of the debris.";
+    DebrisAmplification: DEBRIS_NUMERICS, &[], false, "Estimated factor by which the motion of the debris amplifies errors.";
+    DebrisIllConditioned: DEBRIS_NUMERICS, &[], false, "1 where the rounding of the input alone makes the rotation of the debris meaningless.";
 }
 
 /// The columns, family by family, in the order of a row.
@@ -442,6 +449,9 @@ static FAMILIES: &[&[Column]] = &[
         direct!(Numerics, All, Float, StateError, "state_error_estimate", "", "Estimated largest error of the body's rotation on the grid: of omega relative to the largest |omega|, or of the attitude in rad, whichever is larger."),
         direct!(Numerics, All, Float, Amplification, "error_amplification", "", "Estimated factor by which the motion amplifies relative errors of the rotational state that are made evenly along the run."),
         direct!(Numerics, All, Count, IllConditioned, "ill_conditioned", "", "1 where the rounding of the input alone may move the state by more than 1e-3 (error_amplification times 2^-52), else 0."),
+        direct!(Numerics, Debris, Float, DebrisStateError, "debris_state_error_estimate", "", "Estimated largest error of the debris's rotation on the grid: of omega relative to the largest |omega|, or of the attitude in rad, whichever is larger."),
+        direct!(Numerics, Debris, Float, DebrisAmplification, "debris_error_amplification", "", "Estimated factor by which the motion of the debris amplifies relative errors of its rotational state that are made evenly along the run."),
+        direct!(Numerics, Debris, Count, DebrisIllConditioned, "debris_ill_conditioned", "", "1 where the rounding of the input alone may move the rotation of the debris by more than 1e-3 (debris_error_amplification times 2^-52), else 0."),
     ],
     &[
         of!(Motion, All, RateSquare, Order(OrderStatistic::Max), ["angular_rate_max_rad_s"], "rad/s", ["Maximum magnitude of the angular velocity of the body relative to F_e."]),

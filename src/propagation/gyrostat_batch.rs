@@ -11,7 +11,7 @@ use super::settings::{PropagationSettings, observes_debris_rotation};
 use crate::dynamics::debris;
 use crate::dynamics::gyrostat::completion::complete;
 use crate::dynamics::gyrostat::{Gyrostat, WITH_ATTITUDE};
-use crate::run::{Grid, Outcome, StateTable, Trajectory};
+use crate::run::{Grid, LocalErrors, Outcome, StateTable, Trajectory};
 use crate::scene::{Arc, Scene};
 
 /// The runs of a batch in buffers that are reused.
@@ -28,6 +28,7 @@ pub struct Completion {
     observes_debris_rotation: bool,
     debris_runs: Vec<Gyrostat<f64>>,
     debris_trajectories: Vec<Trajectory>,
+    debris_errors: Vec<LocalErrors>,
     debris_is_integrated: bool,
     table: StateTable,
     /// The arcs of the run that has just ended.
@@ -44,6 +45,7 @@ impl GyrostatBatch {
                 observes_debris_rotation: observes_debris_rotation(plan.fields),
                 debris_runs: Vec::new(),
                 debris_trajectories: Vec::new(),
+                debris_errors: Vec::new(),
                 debris_is_integrated: false,
                 table: StateTable::new(plan.fields, plan.wheels, plan.grid.points()),
                 arcs: Vec::new(),
@@ -63,12 +65,11 @@ impl GyrostatBatch {
         (&mut self.runs[..scenes.len()], &mut self.completion)
     }
 
-    /// The debris of `scenes` as gyrostats without wheels, and where their components are kept; `None` where no rotation needs to be
-    /// integrated.
-    pub fn load_debris(&mut self, scenes: &[Scene]) -> Option<(&mut [Gyrostat<f64>], &mut [Trajectory])> {
+    /// The debris of `scenes` as gyrostats without wheels; `None` where no rotation needs to be integrated.
+    pub fn load_debris(&mut self, scenes: &[Scene]) -> Option<DebrisRuns<'_>> {
         let completion = &mut self.completion;
         let observes = completion.observes_debris_rotation;
-        let Completion { grid, debris_runs, debris_trajectories, debris_is_integrated, .. } = completion;
+        let Completion { grid, debris_runs, debris_trajectories, debris_errors, debris_is_integrated, .. } = completion;
         let general = |scene: &Scene| scene.mass.debris.as_ref().is_some_and(|body| !debris::is_isotropic(body));
         *debris_is_integrated = observes && scenes.iter().any(general);
         if !*debris_is_integrated {
@@ -77,12 +78,24 @@ impl GyrostatBatch {
         while debris_runs.len() < scenes.len() {
             debris_runs.push(Gyrostat::blank(0.0));
             debris_trajectories.push(Trajectory::new(WITH_ATTITUDE, grid.points()));
+            debris_errors.push(LocalErrors::NONE);
         }
         for (run, scene) in debris_runs.iter_mut().zip(scenes) {
             debris::set_rotation(run, scene);
         }
-        Some((&mut debris_runs[..scenes.len()], &mut debris_trajectories[..scenes.len()]))
+        let (trajectories, errors) = (&mut debris_trajectories[..scenes.len()], &mut debris_errors[..scenes.len()]);
+        Some(DebrisRuns { runs: &mut debris_runs[..scenes.len()], trajectories, errors })
     }
+}
+
+/// The debris of a batch of scenes.
+pub struct DebrisRuns<'b> {
+    /// Gyrostats without wheels, one for each scene.
+    pub runs: &'b mut [Gyrostat<f64>],
+    /// Where their components are kept.
+    pub trajectories: &'b mut [Trajectory],
+    /// Where the errors of their integration are kept.
+    pub errors: &'b mut [LocalErrors],
 }
 
 impl Completion {
@@ -101,7 +114,17 @@ impl Completion {
         self.fill_table(simd, &scenes[index], index, run, trajectory);
         self.arcs.clear();
         self.arcs.extend(run.arcs.iter().map(|arc| arc.arc));
-        finish(CompletedRun { index, table: &self.table, outcome, arcs: &self.arcs });
+        let outcome = Outcome { debris_errors: self.debris_errors(&scenes[index], index), ..*outcome };
+        finish(CompletedRun { index, table: &self.table, outcome: &outcome, arcs: &self.arcs });
+    }
+
+    /// The errors of the rotation of the debris in run `index`.
+    fn debris_errors(&self, scene: &Scene, index: usize) -> LocalErrors {
+        match &scene.mass.debris {
+            Some(body) if debris::is_isotropic(body) => debris::ISOTROPIC_ERRORS,
+            Some(_) if self.debris_is_integrated => self.debris_errors[index],
+            _ => LocalErrors::NONE,
+        }
     }
 
     #[inline(never)]

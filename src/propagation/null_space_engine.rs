@@ -9,7 +9,7 @@ use super::trajectory_recorder::{LaneTrajectory, TrajectoryRecorder};
 use crate::dynamics::actuation::Laws;
 use crate::dynamics::null_space::{complete, components};
 use crate::ode::{Adaptive, DormandPrinceRestepped, Method, integrate};
-use crate::run::{Outcome, StateTable, Trajectory};
+use crate::run::{LocalErrors, Outcome, StateField, StateTable, Trajectory};
 use crate::scene::{Arc, MAX_WHEELS, Scene};
 
 /// The method: points inside a step by a step of their own, which costs little beside the right-hand side.
@@ -60,7 +60,8 @@ impl<S: Simd, const W: usize, const N: usize> NullSpaceEngine<S, W, N> {
                 complete::<W, N>(&scenes[index], trajectory, grid, table);
                 table.pad();
                 let mut outcome = *outcome;
-                // errors of the other states feed back into omega
+                outcome.debris_errors = of_debris(&outcome.local_errors, table);
+                // errors of the other states feed back into omega; no state does into that of the debris, which is free
                 outcome.local_errors.feedback = outcome.local_errors.truncation;
                 finish(CompletedRun { index, table, outcome: &outcome, arcs: runs.arcs() });
             },
@@ -68,6 +69,22 @@ impl<S: Simd, const W: usize, const N: usize> NullSpaceEngine<S, W, N> {
         integrate::<_, _, _, _, N>(Adaptive(DormandPrinceRestepped), 0.0, &mut runs, &mut recorder, control);
         *arcs = runs.into_arcs();
     }
+}
+
+/// Order of the estimate of the error of a step: it grows with this power of the rate at which a body turns.
+const ORDER: i32 = 5;
+
+/// The errors of the debris in a run with the states `table`, whose steps, which are those of the faster body, are estimated to have made
+/// `errors`.
+fn of_debris(errors: &LocalErrors, table: &StateTable) -> LocalErrors {
+    let fastest = |field: StateField| {
+        let is_there = table.has(field);
+        let square = |point: usize| table.at::<3>(field, point).iter().map(|rate| rate * rate).sum::<f64>();
+        (0..table.points()).filter(|_| is_there).map(square).fold(0.0, f64::max).sqrt()
+    };
+    let ratio = fastest(StateField::DebrisRate) / fastest(StateField::Rate);
+    let share = if ratio < 1.0 { (0..ORDER).fold(1.0, |power, _| power * ratio) } else { 1.0 };
+    LocalErrors { truncation: share * errors.truncation, attitude: share * errors.attitude, ..*errors }
 }
 
 impl<S: Simd, const W: usize, const N: usize> Engine for NullSpaceEngine<S, W, N> {

@@ -4,7 +4,7 @@ use fearless_simd::Simd;
 
 use super::arc_source::ArcSource;
 use super::engine::{CompletionCallback, Engine};
-use super::gyrostat_batch::GyrostatBatch;
+use super::gyrostat_batch::{DebrisRuns, GyrostatBatch};
 use super::gyrostat_runs::GyrostatRuns;
 use super::series_remainder::Remainders;
 use super::settings::PropagationSettings;
@@ -53,10 +53,16 @@ impl<S: Simd, R: Real, M: Method, const N: usize> RungeKuttaEngine<S, R, M, N> {
         let mut integrate = |runs: &mut GyrostatRuns<'_, R>, finish: &mut RunCallback<'_, R>| {
             integrate_on::<S, R, M, N>((*simd, *zero, *method), runs, (grid, control), lanes, finish);
         };
-        if let Some((runs, trajectories)) = batch.load_debris(scenes) {
+        if let Some(DebrisRuns { runs, trajectories, errors }) = batch.load_debris(scenes) {
             // the debris is a gyrostat without wheels; only its attitude is needed, but one kernel for both compiles faster
             let mut runs = GyrostatRuns::new(*zero, runs, ArcSource::free(duration));
-            integrate(&mut runs, &mut |_, index, trajectory, _| trajectories[index].copy_from(trajectory));
+            integrate(&mut runs, &mut |runs, index, trajectory, outcome| {
+                trajectories[index].copy_from(trajectory);
+                errors[index] = match remainders {
+                    Some(remainders) => remainders.sum(runs.run(index), trajectory, grid, outcome),
+                    None => outcome.local_errors,
+                };
+            });
         }
         let arcs = ArcSource::new(scenes, laws.reborrow(), duration);
         let (runs, completion) = batch.load(scenes, &arcs);

@@ -2,7 +2,7 @@
 
 use super::local_error::local_errors;
 use crate::ode::{Completion, ErrorModel, Recorder, Termination};
-use crate::run::{Grid, Outcome, Status, StepStatistics, Trajectory};
+use crate::run::{Grid, LocalErrors, Outcome, Status, StepStatistics, Trajectory};
 
 /// The trajectory of the run in a lane and its next observation point.
 #[derive(Clone, Debug)]
@@ -72,6 +72,7 @@ where
                 evaluations: completion.evaluations,
             },
             local_errors: local_errors(&self.errors, self.tolerance, completion),
+            debris_errors: LocalErrors::NONE,
         };
         (self.finish)(runs, lane, run, trajectory, &outcome);
     }

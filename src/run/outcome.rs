@@ -79,6 +79,8 @@ pub struct Outcome {
     pub effort: StepStatistics,
     /// Estimate of the errors that the method made.
     pub local_errors: LocalErrors,
+    /// The same of the rotation of the debris; zero where there is none, or it was not integrated.
+    pub debris_errors: LocalErrors,
 }
 
 /// Estimated errors of the rotational state from all steps of a run, added as if all had the same direction, before the motion
@@ -93,4 +95,9 @@ pub struct LocalErrors {
     pub feedback: f64,
     /// Of the attitude alone, rad: truncation, rounding and dense output.
     pub attitude: f64,
+}
+
+impl LocalErrors {
+    /// No errors.
+    pub const NONE: LocalErrors = LocalErrors { truncation: 0.0, rounding: 0.0, feedback: 0.0, attitude: 0.0 };
 }

@@ -19,7 +19,9 @@ use spindrift::observables::{Group, Observer, Request};
 use spindrift::ode::Control;
 use spindrift::ode::Integrator;
 use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE};
-use spindrift::propagation::{CompletedRun, Method, PropagationSettings, RotationError, rotation_errors};
+use spindrift::propagation::{
+    CompletedRun, Method, PropagationSettings, RotationError, debris_rotation_errors, rotation_errors,
+};
 use spindrift::run::Status;
 use spindrift::run::{Grid, LocalErrors, Outcome, StateField, StateFields};
 use spindrift::sampling::SampleId;
@@ -44,21 +46,52 @@ struct Family {
     grid: Grid,
     scenes: Vec<Scene>,
     truths: Vec<ReferenceSolution>,
+    /// Whether it is about the debris, and not the spacecraft.
+    is_debris: bool,
 }
 
 impl Family {
     fn new(name: &'static str, grid: Grid, scenes: Vec<Scene>) -> Self {
+        Self::of(name, grid, scenes, false)
+    }
+
+    fn of(name: &'static str, grid: Grid, scenes: Vec<Scene>, is_debris: bool) -> Self {
         let solve = |scene: &Scene| {
-            ReferenceSolution::new(Isa::best(), scene, &grid, compared(), TOLERANCE)
+            ReferenceSolution::new(Isa::best(), scene, &grid, compared(is_debris), TOLERANCE)
                 .expect("the reference solution is complete")
         };
         let truths = scenes.iter().map(solve).collect();
-        Family { name, grid, scenes, truths }
+        Family { name, grid, scenes, truths, is_debris }
     }
 }
 
-fn compared() -> StateFields {
-    StateFields::NONE.with(StateField::Rate).with(StateField::Attitude)
+fn compared(is_debris: bool) -> StateFields {
+    let fields = if is_debris {
+        [StateField::DebrisRate, StateField::DebrisAttitude]
+    } else {
+        [StateField::Rate, StateField::Attitude]
+    };
+    fields.into_iter().fold(StateFields::NONE, StateFields::with)
+}
+
+/// Boxes as debris: those with even numbers within 1e-14 to 1e-1 of spin about their intermediate axis, over a minute; the others tumbling.
+fn boxes(count: u64) -> Family {
+    let mut u = Uniform::new(83);
+    let scene = |k: u64| {
+        let kind = Kind { wheels: [false; 2], debris: 2, products: false, offset: false, forced: false };
+        let mut scene = Scene::resolve(&random(kind, 900 + k, 10.0)).expect("physical");
+        let inertia = scene.mass.debris.as_ref().expect("debris").inertia;
+        let mut order = [0, 1, 2];
+        order.sort_by(|a, b| inertia[*a][*a].total_cmp(&inertia[*b][*b]));
+        let (rate, off, noise) = (u.between(0.5, 3.0), libm::pow(10.0, u.between(-14.0, -1.0)), u.vector::<3>(1.0));
+        scene.initial.omega_de_d = std::array::from_fn(|axis| match (k % 2, axis == order[1]) {
+            (0, true) => rate,
+            (0, false) => rate * off * noise[axis],
+            _ => rate * noise[axis],
+        });
+        scene
+    };
+    Family::of("boxes of debris", Grid::uniform(60.0, 101), (0..count).map(scene).collect(), true)
 }
 
 /// The first samples of a shipped campaign.
@@ -165,28 +198,38 @@ fn found_of(
     let widest = of_most_wheels(&family.scenes);
     let request = Request {
         groups: [Group::Numerics].into_iter().collect(),
-        debris: false,
+        debris: family.is_debris,
         actuated: !family.scenes[0].schedule.is_empty(),
         constrained: method == Method::NullSpace,
         wheels: wheel_names(&WHEELS[..widest.mass.wheels.len()]),
     };
-    let blocks = request.fields().union(compared());
+    let blocks = request.fields().union(compared(family.is_debris));
     let plan = PropagationSettings::new(method, control, family.grid.clone(), blocks, widest);
     let mut observer = Observer::new(request, &family.grid);
     let columns = request.columns();
     let names: Vec<&str> = columns.iter().map(|column| column.quantity.name()).collect();
-    assert_eq!(names, ["state_error_estimate", "error_amplification", "ill_conditioned"]);
+    let own = if family.is_debris { names.len() - 3 } else { 0 };
+    let expected = match family.is_debris {
+        true => ["debris_state_error_estimate", "debris_error_amplification", "debris_ill_conditioned"],
+        false => ["state_error_estimate", "error_amplification", "ill_conditioned"],
+    };
+    assert_eq!(names[own..], expected);
     let mut row = vec![0.0; names.len()];
     let mut list = vec![None; observed.len()];
     plan.engine(Isa::best()).propagate(observed, &mut |CompletedRun { index, table, outcome, .. }| {
         if outcome.status == Status::Done {
             let outcome = Outcome { local_errors: told(outcome.local_errors), ..*outcome };
             observer.observe(Isa::best(), &observed[index], table, &outcome, &mut row);
-            let error = RotationError::largest(rotation_errors(&family.truths[index], table)).state();
+            let truth = &family.truths[index];
+            let error = match family.is_debris {
+                true => RotationError::largest(debris_rotation_errors(truth, table)).state(),
+                false => RotationError::largest(rotation_errors(truth, table)).state(),
+            };
             for (name, value) in names.iter().zip(&row) {
                 assert!(value.is_finite(), "{}, run {index}: {name} is {value}", family.name);
             }
-            list[index] = Some(Found { estimate: row[0], amplification: row[1], is_ill: row[2] == 1.0, error });
+            let [estimate, amplification, is_ill] = [row[own], row[own + 1], row[own + 2]];
+            list[index] = Some(Found { estimate, amplification, is_ill: is_ill == 1.0, error });
         }
     });
     list.into_iter().flatten().collect()
@@ -224,6 +267,7 @@ fn breaches(count: u64, factor: f64) -> Vec<String> {
         Family::new("mixed, seen rarely", Grid::uniform(10.0, 11), mixed(count, false, 10.0)),
         held(count),
         Family::new("mixed, forced", Grid::uniform(10.0, 101), mixed(count, true, 10.0)),
+        boxes(2 * count),
     ];
     let mut breaches = Vec::new();
     for method in Method::ALL {
@@ -361,7 +405,7 @@ fn estimates_do_not_depend_on_company() {
         let grid = Grid::uniform(4.0, 21);
         for method in Method::ALL {
             let control = settings(method)[1].1;
-            let plan = PropagationSettings::new(method, control, grid.clone(), compared(), &scenes[0]);
+            let plan = PropagationSettings::new(method, control, grid.clone(), compared(false), &scenes[0]);
             let errors = |scenes: &[Scene]| {
                 let mut list = vec![None; scenes.len()];
                 plan.engine(Isa::best()).propagate(scenes, &mut |CompletedRun { index, outcome, .. }| {

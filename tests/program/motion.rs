@@ -53,7 +53,14 @@ fn table(motion: &dyn Fn(f64) -> State) -> StateTable {
 
 fn outcome(points: usize) -> Outcome {
     let effort = StepStatistics::default();
-    Outcome { status: Status::Done, time: 2.0, points, effort, local_errors: LocalErrors::default() }
+    Outcome {
+        status: Status::Done,
+        time: 2.0,
+        points,
+        effort,
+        local_errors: LocalErrors::default(),
+        debris_errors: spindrift::run::LocalErrors::NONE,
+    }
 }
 
 fn row(scene: &Scene, nominal: Option<NominalAttitude>, motion: &dyn Fn(f64) -> State) -> HashMap<String, f64> {

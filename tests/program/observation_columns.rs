@@ -141,6 +141,7 @@ fn a_failed_run_has_its_effort_and_its_last_finite_state() {
         points: 4,
         effort: StepStatistics { steps: 7, rejected: 1, evaluations: 50 },
         local_errors: LocalErrors::default(),
+        debris_errors: spindrift::run::LocalErrors::NONE,
     };
     observer.observe(Isa::best(), &scene, &table, &failed, &mut row);
     let truth = &golden.truth[2];
@@ -164,6 +165,7 @@ fn a_failed_run_has_its_effort_and_its_last_finite_state() {
         points: 0,
         effort: StepStatistics::default(),
         local_errors: LocalErrors::default(),
+        debris_errors: spindrift::run::LocalErrors::NONE,
     };
     observer.observe(Isa::best(), &scene, &table, &invalid, &mut row);
     for (column, value) in columns.iter().zip(&row) {

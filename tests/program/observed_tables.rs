@@ -34,7 +34,14 @@ pub fn request(groups: Groups, debris: bool, actuated: bool) -> Request {
 /// A run that ended as planned.
 pub fn done(points: usize, time: f64) -> Outcome {
     let effort = StepStatistics { steps: 12, rejected: 3, evaluations: 91 };
-    Outcome { status: Status::Done, time, points, effort, local_errors: LocalErrors::default() }
+    Outcome {
+        status: Status::Done,
+        time,
+        points,
+        effort,
+        local_errors: LocalErrors::default(),
+        debris_errors: spindrift::run::LocalErrors::NONE,
+    }
 }
 
 /// Every field except those of constraints, so that one table serves every request.

@@ -10,7 +10,7 @@ use crate::dynamics::gyrostat::{Gyrostat, WITH_ATTITUDE};
 use crate::math::Real;
 use crate::propagation::arc_source::ArcSource;
 use crate::propagation::engine::{CompletionCallback, Engine};
-use crate::propagation::gyrostat_batch::GyrostatBatch;
+use crate::propagation::gyrostat_batch::{DebrisRuns, GyrostatBatch};
 use crate::propagation::method::Method;
 use crate::propagation::settings::PropagationSettings;
 use crate::run::Grid;
@@ -46,7 +46,7 @@ impl<S: Simd, R: Real + Send + 'static, const N: usize, const J: usize, const FO
         let Self { simd, zero, plan, batch, workspace, debris_workspace } = self;
         plan.check_laws(&laws);
         let grid = &plan.grid;
-        if let Some((runs, trajectories)) = batch.load_debris(scenes) {
+        if let Some(DebrisRuns { runs, trajectories, errors }) = batch.load_debris(scenes) {
             let workspace = debris_workspace
                 .get_or_insert_with(|| Workspace::new(*zero, settings(plan), WITH_ATTITUDE, grid.points()));
             let arcs = ArcSource::free(grid.duration());
@@ -56,7 +56,10 @@ impl<S: Simd, R: Real + Send + 'static, const N: usize, const J: usize, const FO
                 (runs, arcs),
                 grid,
                 workspace,
-                &mut |index, _, states, _| core::mem::swap(&mut trajectories[index], states),
+                &mut |index, _, states, outcome| {
+                    core::mem::swap(&mut trajectories[index], states);
+                    errors[index] = outcome.local_errors;
+                },
             );
         }
         let arcs = ArcSource::new(scenes, laws.reborrow(), grid.duration());

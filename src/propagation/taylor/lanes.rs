@@ -12,7 +12,7 @@ use crate::dynamics::gyrostat::{ATTITUDE, Gyrostat, OMEGA, WITH_ATTITUDE};
 use crate::math::lanes::WIDEST;
 use crate::math::{Mask, Real};
 use crate::propagation::arc_source::ArcSource;
-use crate::run::{Grid, Outcome, Status, StepStatistics, Trajectory};
+use crate::run::{Grid, LocalErrors, Outcome, Status, StepStatistics, Trajectory};
 
 /// Receives a run that has ended: its index, the run with the arcs flown, its components at the points, how it ended.
 pub(super) type RunCallback<'a> = dyn FnMut(usize, &Gyrostat<f64>, &mut Trajectory, &Outcome) + 'a;
@@ -233,6 +233,7 @@ impl<'a, R: Real, const N: usize, const J: usize> RunLanes<'a, R, N, J> {
             points,
             effort: StepStatistics { steps, rejected: 0, evaluations: steps },
             local_errors: self.truncation.sums(lane).errors(steps, state.periods),
+            debris_errors: LocalErrors::NONE,
         };
         finish(state.run, &self.runs[state.run], &mut self.work.trajectories[lane], &outcome);
         self.load_lane(lane);
