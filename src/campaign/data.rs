@@ -4,10 +4,31 @@
 //! A path counts from the folder of the campaign file. What a plan keeps of a file is its name and the SHA-256 of its bytes,
 //! so that a plan's identity includes its data.
 
+use super::input_file::{self, InputError};
+use parquet::basic::Compression;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::{Field, Row};
 use sha2::{Digest, Sha256};
+use std::io::{Read, Seek};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
+
+/// Folder beside a plan with copies of the files of numbers that it names.
+pub const COPIES: &str = "data";
+
+/// The name of the copy of `file` in the folder [`COPIES`]: the SHA-256 of its bytes, and its extension.
+pub fn copy_name(file: &Path, sha256: &str) -> String {
+    let extension = file.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
+    format!("{sha256}.{}", extension.to_ascii_lowercase())
+}
+
+/// The bytes of a file of numbers.
+///
+/// # Errors
+/// Where it cannot be read, or is not what a plan may name.
+pub fn bytes(file: &Path) -> Result<Vec<u8>, InputError> {
+    input_file::read(file, LARGEST_FILE)
+}
 
 /// Most numbers of a file: 160 MB. A compressed column of equal values can be a thousand times as large as its file.
 pub const MOST_NUMBERS: u64 = 20_000_000;
@@ -47,6 +68,8 @@ impl Cells {
 /// Why a file could not be read: its format, or its size.
 enum ReadError {
     Format(String),
+    /// Its compression, which is not read.
+    Codec(&'static str),
     /// It has at least so many numbers.
     Size(u64),
 }
@@ -67,14 +90,28 @@ impl DataFile {
             let allowed = format!("a file of at most {MOST_NUMBERS} numbers (this one has {size})");
             (format!("{shown:?}"), allowed, "keep fewer rows, or only the columns that are used".to_owned())
         };
-        if let Some(size) = std::fs::metadata(path).ok().map(|file| file.len()).filter(|size| *size > LARGEST_FILE) {
-            return Err(too_large(format!("{size} bytes")));
+        let (mut file, size) = input_file::open(path, LARGEST_FILE).map_err(|error| match error {
+            InputError::Kind(kind) => {
+                unreadable(kind.to_owned(), "name a regular file: what it has must not change or wait")
+            }
+            InputError::Size(bytes) => too_large(format!("{bytes} bytes")),
+            InputError::Io(error) => {
+                unreadable(error.to_string(), "its path counts from the folder of the campaign file")
+            }
+        })?;
+        let failed = |error: std::io::Error| unreadable(error.to_string(), "try again");
+        let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or(0));
+        (&file).take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(failed)?;
+        if bytes.len() as u64 > LARGEST_FILE {
+            return Err(too_large(format!("{LARGEST_FILE} bytes or more")));
         }
-        let bytes = std::fs::read(path)
-            .map_err(|error| unreadable(error.to_string(), "its path counts from the folder of the campaign file"))?;
         let sha256 = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
         let refused = |error: ReadError| match error {
             ReadError::Format(why) => unreadable(why, "correct the file"),
+            ReadError::Codec(codec) => unreadable(
+                format!("it is compressed with {codec}"),
+                "write it with gzip, zstd, snappy, lz4 or no compression, or as .csv",
+            ),
             ReadError::Size(numbers) => too_large(format!("{numbers} numbers or more")),
         };
         let extension = path.extension().and_then(|extension| extension.to_str()).map(str::to_ascii_lowercase);
@@ -84,8 +121,13 @@ impl DataFile {
                 (names, columns, 2)
             }
             Some("parquet") => {
-                let file = std::fs::File::open(path).map_err(|error| unreadable(error.to_string(), "try again"))?;
-                let (names, columns) = parquet_columns(file).map_err(refused)?;
+                drop(bytes);
+                file.rewind().map_err(failed)?;
+                // the Parquet reader panics on some damaged files
+                let read = catch_unwind(AssertUnwindSafe(|| parquet_columns(file)));
+                let damaged =
+                    |_| Err(ReadError::Format("it is damaged: the Parquet reader cannot decode it".to_owned()));
+                let (names, columns) = read.unwrap_or_else(damaged).map_err(refused)?;
                 (names, columns, 1)
             }
             _ => {
@@ -145,6 +187,15 @@ fn csv_columns(bytes: &[u8]) -> Result<Columns, ReadError> {
 fn parquet_columns(file: std::fs::File) -> Result<Columns, ReadError> {
     let format = |error: parquet::errors::ParquetError| ReadError::Format(error.to_string());
     let reader = SerializedFileReader::new(file).map_err(format)?;
+    let chunks = reader.metadata().row_groups().iter().flat_map(|group| group.columns());
+    let unread = |codec: Compression| match codec {
+        Compression::BROTLI(_) => Some("brotli"),
+        Compression::LZO => Some("LZO"),
+        _ => None,
+    };
+    if let Some(codec) = chunks.into_iter().find_map(|chunk| unread(chunk.compression())) {
+        return Err(ReadError::Codec(codec));
+    }
     let metadata = reader.metadata().file_metadata();
     let schema = metadata.schema_descr_ptr();
     let names: Vec<String> = schema.root_schema().get_fields().iter().map(|field| field.name().to_owned()).collect();
@@ -211,5 +262,81 @@ mod tests {
         std::fs::remove_file(&path).expect("removed");
         assert!(size < 1_000_000, "{size} bytes");
         assert!(refused.1.contains("at most 20000000 numbers (this one has 20000001"), "{refused:?}");
+    }
+
+    /// A file of the column x with the values 1.5 and 2.5.
+    fn small(compression: Compression) -> Vec<u8> {
+        let schema = Arc::new(parse_message_type("message m { required double x; }").expect("a schema"));
+        let properties = Arc::new(WriterProperties::builder().set_compression(compression).build());
+        let mut bytes = Vec::new();
+        let mut writer = SerializedFileWriter::new(&mut bytes, schema, properties).expect("a writer");
+        let mut group = writer.next_row_group().expect("a group");
+        let mut column = group.next_column().expect("a column").expect("one");
+        column.typed::<DoubleType>().write_batch(&[1.5, 2.5], None, None).expect("written");
+        column.close().expect("closed");
+        group.close().expect("closed");
+        writer.close().expect("closed");
+        bytes
+    }
+
+    /// What is read of a Parquet file with these bytes.
+    fn read(name: &str, bytes: &[u8]) -> Result<Vec<f64>, Refusal> {
+        let path = std::env::temp_dir().join(format!("spindrift-{}-{name}.parquet", std::process::id()));
+        std::fs::write(&path, bytes).expect("written");
+        let found = DataFile::read(&path).and_then(|data| data.column("x").expect("the column"));
+        std::fs::remove_file(&path).expect("removed");
+        found
+    }
+
+    /// Law: Parquet with gzip is read as that without; with brotli it is refused by name, with the remedy.
+    #[test]
+    fn compressions_are_read_or_refused_in_words() {
+        let gzip = small(Compression::GZIP(parquet::basic::GzipLevel::default()));
+        for bytes in [&small(Compression::UNCOMPRESSED), &small(Compression::SNAPPY), &gzip] {
+            assert_eq!(read("codec", bytes), Ok(vec![1.5, 2.5]));
+        }
+        // nothing here writes brotli: the footer of the gzip file is changed to name it (thrift's zigzag numbers 4 = 2 x 2, 8 = 2 x 4)
+        let codecs = |bytes: &[u8]| {
+            let path = std::env::temp_dir().join(format!("spindrift-{}-footer.parquet", std::process::id()));
+            std::fs::write(&path, bytes).expect("written");
+            let reader = SerializedFileReader::new(std::fs::File::open(&path).expect("a file"));
+            std::fs::remove_file(&path).expect("removed");
+            reader.ok().map(|reader| reader.metadata().row_group(0).column(0).compression())
+        };
+        let brotli = (gzip.len() / 2..gzip.len()).filter(|at| gzip[*at] == 4).find_map(|at| {
+            let mut changed = gzip.clone();
+            changed[at] = 8;
+            let found = catch_unwind(AssertUnwindSafe(|| codecs(&changed))).ok().flatten();
+            found.filter(|codec| matches!(codec, Compression::BROTLI(_))).map(|_| changed)
+        });
+        let (_, allowed, remedy) = read("brotli", &brotli.expect("a footer with brotli")).expect_err("brotli");
+        assert_eq!(allowed, "a readable file (it is compressed with brotli)");
+        assert_eq!(remedy, "write it with gzip, zstd, snappy, lz4 or no compression, or as .csv");
+    }
+
+    /// Law: a Parquet file with any byte changed is read or refused; the reader's panics do not end the program.
+    #[test]
+    fn damaged_tables_are_refused() {
+        let whole = small(Compression::SNAPPY);
+        std::panic::set_hook(Box::new(|_| {})); // the reader's panics are wanted
+        let mut refused = 0;
+        for at in 0..whole.len() {
+            for change in [0x01, 0x80, 0xff] {
+                let mut changed = whole.clone();
+                changed[at] ^= change;
+                refused += usize::from(catch_unwind(AssertUnwindSafe(|| read_or_absent(&changed))).expect("no panic"));
+            }
+        }
+        let _ = std::panic::take_hook();
+        assert!(refused > whole.len() / 2, "{refused} of {}", 3 * whole.len());
+    }
+
+    /// Whether a table is refused, or has no column x any more.
+    fn read_or_absent(bytes: &[u8]) -> bool {
+        let path = std::env::temp_dir().join(format!("spindrift-{}-damaged.parquet", std::process::id()));
+        std::fs::write(&path, bytes).expect("written");
+        let found = DataFile::read(&path).map(|data| data.column("x").is_none_or(|column| column.is_err()));
+        std::fs::remove_file(&path).expect("removed");
+        found.unwrap_or(true)
     }
 }

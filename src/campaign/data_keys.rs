@@ -1,10 +1,11 @@
 //! The keys that name a file of numbers: `file`, `sha256`, `column`, `parameters`.
 
-use super::data::DataFile;
+use super::data::{COPIES, DataFile, copy_name};
 use super::parameter::{named, unknown_parameter};
 use super::problem::nearest;
 use super::section::Section;
 use crate::sampling::DataColumn;
+use std::path::{Path, PathBuf};
 
 /// The column `column` of the file `file`.
 pub(super) fn column(table: &mut Section<'_, '_>) -> Option<DataColumn> {
@@ -43,19 +44,29 @@ fn file(table: &mut Section<'_, '_>) -> Option<(String, DataFile)> {
     let name = table.text("file").map(str::to_owned);
     let sha256 = table.text("sha256").map(str::to_owned);
     let name = name?;
-    let data = match DataFile::read(&table.document.folder().join(&name)) {
+    let path = found(table.document.folder(), &name, sha256.as_deref());
+    let data = match DataFile::read(&path) {
         Ok(data) => data,
         Err((value, allowed, remedy)) => {
             table.refuse_value("file", value, allowed, remedy);
             return None;
         }
     };
+    table.document.files.push((path, data.sha256.clone()));
     if sha256.is_some_and(|sha256| sha256 != data.sha256) {
         let allowed = format!("the SHA-256 of the file, {}", data.sha256);
         table.refuse("sha256", allowed, "bring back the file that was meant, or delete this line");
         return None;
     }
     Some((name, data))
+}
+
+/// The file `name`, whose path counts from `folder`; where it is not there, the copy of the file of this checksum that a result has.
+fn found(folder: &Path, name: &str, sha256: Option<&str>) -> PathBuf {
+    let path = folder.join(name);
+    let is_checksum = |sha256: &&str| sha256.len() == 64 && sha256.bytes().all(|byte| byte.is_ascii_hexdigit());
+    let copy = sha256.filter(is_checksum).map(|sha256| folder.join(COPIES).join(copy_name(&path, sha256)));
+    copy.filter(|copy| !path.exists() && copy.is_file()).unwrap_or(path)
 }
 
 /// The columns of a file that are parameters: those that are listed, else all but `sample_id`.

@@ -84,6 +84,12 @@ impl DerivedObservable {
                 return None;
             }
         }
+        if let Some(value) = nominal_value(&parsed, &table.document.scene, known).filter(|value| !value.is_finite()) {
+            let allowed = "a finite number in the nominal scene";
+            let remedy = "a division by zero, or a root or logarithm of a negative number: change the expression";
+            table.refuse_value("expression", format!("{value:?}"), allowed, remedy);
+            return None;
+        }
         let unit = unit.unwrap_or_default();
         name.filter(|_| unit_passed).map(|name| DerivedObservable { name, unit, expression })
     }
@@ -128,6 +134,17 @@ impl DerivedObservable {
         }
         lines.key("expression", &self.expression);
     }
+}
+
+/// The value of an expression in the nominal scene; `None` where it depends on a run, or on a parameter that the scene does not have.
+fn nominal_value(expression: &Expression, scene: &SceneInput, known: &KnownColumns) -> Option<f64> {
+    let value = |name: &String| match variable(name, scene, known)? {
+        Variable::Parameter(parameter, component) => parameter.value(scene, component),
+        Variable::Observable(_) => None,
+    };
+    let values: Vec<f64> = expression.variables().iter().map(value).collect::<Option<_>>()?;
+    // what is missing or wrong in the scene is reported there
+    values.iter().all(|value| value.is_finite()).then(|| expression.value(|index| values[index]))
 }
 
 /// A name that no column has.

@@ -4,12 +4,21 @@
 //! A number that is missing or wrong is read as NaN and reported once; so the lower layers can still check the rest, and
 //! what they report about a key that was reported already is dropped ([`Document::add_from_below`]).
 
-use super::problem::{CampaignError, Problem};
+use super::excerpt::Excerpt;
+use super::problem::{CampaignError, Problem, SHOWN};
+use super::size;
 use crate::scene::SceneInput;
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
+
+/// Problems that are noted; further ones are counted only. More than are shown, since those are the first ones by line.
+const NOTED: usize = 10 * SHOWN;
+
+/// What is said of a text that is hardly TOML.
+const NO_CAMPAIGN_FILE: &str = "so many lines are no TOML: is this a campaign file?";
 
 /// What is known about a file while it is read.
 #[derive(Debug)]
@@ -17,22 +26,48 @@ pub struct Document<'a> {
     file: &'a str,
     text: &'a str,
     problems: Vec<Problem>,
-    pub(super) lines: BTreeMap<String, usize>,
+    /// Problems that are counted only.
+    more: usize,
+    /// Whether lines are no TOML: the keys after them may be lost.
+    has_syntax_errors: bool,
+    /// Keys that are missing, perhaps for that reason: they have no problem of their own, and none that follows from it.
+    perhaps_lost: Vec<String>,
+    /// Where each line begins, bytes.
+    starts: Vec<usize>,
+    /// Where each key is.
+    pub(super) spans: BTreeMap<String, Spans>,
     /// The folder from which paths in the document count.
     folder: PathBuf,
+    /// The files of numbers that were read, each with the SHA-256 of its bytes.
+    pub(super) files: Vec<(PathBuf, String)>,
     /// The scene of the document, once it is read: names of parameters are those of its tables.
     pub(super) scene: SceneInput,
+}
+
+/// Where a key is in the text, bytes.
+#[derive(Clone, Debug)]
+pub(super) struct Spans {
+    /// Where it is written; of a table of a list, where the table is.
+    pub key: Range<usize>,
+    /// Where its value is; empty for a table.
+    pub value: Range<usize>,
 }
 
 impl<'a> Document<'a> {
     /// A document before anything has been read.
     pub fn new(file: &'a str, text: &'a str) -> Self {
+        let ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(offset, _)| offset + 1);
         Document {
             file,
             text,
             problems: Vec::new(),
-            lines: BTreeMap::new(),
+            more: 0,
+            has_syntax_errors: false,
+            perhaps_lost: Vec::new(),
+            starts: std::iter::once(0).chain(ends).collect(),
+            spans: BTreeMap::new(),
             folder: PathBuf::new(),
+            files: Vec::new(),
             scene: SceneInput::blank(),
         }
     }
@@ -48,8 +83,14 @@ impl<'a> Document<'a> {
         &self.folder
     }
 
-    /// Parses the text; what is not TOML is reported, and the rest is read.
-    pub fn parse(&mut self) -> DeTable<'a> {
+    /// Parses the text; what is not TOML is noted, and the rest can be read.
+    ///
+    /// # Errors
+    /// Where the text is too large, has too many keys, or is so little TOML that reading on would only add to the list.
+    pub fn parse(&mut self) -> Result<DeTable<'a>, CampaignError> {
+        if let Some(problem) = size::of_text(self.file, self.text) {
+            return Err(CampaignError::of(problem));
+        }
         let (table, errors) = DeTable::parse_recoverable(self.text);
         let mut last = 0;
         for error in errors {
@@ -59,17 +100,28 @@ impl<'a> Document<'a> {
                 continue;
             }
             last = line;
-            let written = self.text.lines().nth(line - 1).unwrap_or("").trim();
-            self.problems.push(Problem {
+            let span = error.span().unwrap_or_default();
+            let problem = || Problem {
                 file: self.file.to_owned(),
                 line: Some(line),
                 key: "line".to_owned(),
-                value: Some(shortened(written)),
-                allowed: format!("valid TOML ({})", error.message()),
+                value: Some(shortened(self.line(line))),
+                allowed: format!("valid TOML ({})", size::plain(error.message())),
                 remedy: "fix this line".to_owned(),
-            });
+                excerpt: self.excerpt(&span),
+            };
+            if self.problems.len() < SHOWN { self.problems.push(problem()) } else { self.more += 1 }
         }
-        table.into_inner()
+        if self.more > 0 {
+            let (problems, more) = (std::mem::take(&mut self.problems), self.more);
+            return Err(CampaignError { problems, more, note: Some(NO_CAMPAIGN_FILE) });
+        }
+        self.has_syntax_errors = !self.problems.is_empty();
+        let table = table.into_inner();
+        match size::of_table(self.file, &table) {
+            Some(problem) => Err(CampaignError::of(problem)),
+            None => Ok(table),
+        }
     }
 
     /// Whether `key`, or a table that contains it, or a key in it, has a problem already.
@@ -77,19 +129,45 @@ impl<'a> Document<'a> {
         let contains = |outer: &str, inner: &str| {
             inner == outer || inner.strip_prefix(outer).is_some_and(|rest| rest.starts_with(['.', '[']))
         };
-        self.problems.iter().any(|problem| contains(&problem.key, key) || contains(key, &problem.key))
+        let mut reported = self.problems.iter().map(|problem| &problem.key).chain(&self.perhaps_lost);
+        reported.any(|other| contains(other, key) || contains(key, other))
     }
 
     /// Notes a problem of `key`, on the line of that key or of the nearest table around it.
     pub fn add(&mut self, key: &str, value: Option<String>, allowed: impl Into<String>, remedy: impl Into<String>) {
+        // what is missing may be on a line that is no TOML
+        if value.is_none() && self.has_syntax_errors {
+            self.perhaps_lost.push(key.to_owned());
+            return;
+        }
+        if self.is_full() {
+            self.more += 1;
+            return;
+        }
+        let exact = self.spans.get(key).filter(|_| value.is_some());
+        let excerpt =
+            exact.and_then(|spans| self.excerpt(if spans.value.is_empty() { &spans.key } else { &spans.value }));
         self.problems.push(Problem {
             file: self.file.to_owned(),
             line: self.line_of(key),
-            key: key.to_owned(),
+            key: key.chars().take(LONGEST_KEY).collect(),
             value: value.map(|value| shortened(&value)),
             allowed: allowed.into(),
             remedy: remedy.into(),
+            excerpt,
         });
+    }
+
+    /// Whether so many problems are noted that further ones are counted only.
+    pub(super) fn is_full(&self) -> bool {
+        self.problems.len() >= NOTED
+    }
+
+    /// The line of the text in which `span` begins, with what is to be marked in it.
+    fn excerpt(&self, span: &Range<usize>) -> Option<Excerpt> {
+        let line = self.line_at(span.start);
+        let start = self.starts[line - 1];
+        Excerpt::new(self.line(line), span.start.checked_sub(start)?..span.end.max(span.start) - start)
     }
 
     /// Notes what a lower layer reports about several keys, except for those that have a problem already.
@@ -107,22 +185,28 @@ impl<'a> Document<'a> {
     pub fn verdict(self) -> Result<(), CampaignError> {
         let mut problems = self.problems;
         problems.sort_by_key(|problem| problem.line.unwrap_or(usize::MAX));
-        if problems.is_empty() { Ok(()) } else { Err(CampaignError { problems }) }
+        if problems.is_empty() { Ok(()) } else { Err(CampaignError { problems, more: self.more, note: None }) }
     }
 
     /// The line of `key`, or of the nearest table around it.
     fn line_of(&self, key: &str) -> Option<usize> {
         let mut key = key;
         loop {
-            if let Some(line) = self.lines.get(key) {
-                return Some(*line);
+            if let Some(spans) = self.spans.get(key) {
+                return Some(self.line_at(spans.key.start));
             }
             key = &key[..key.rfind(['.', '['])?];
         }
     }
 
     pub(super) fn line_at(&self, offset: usize) -> usize {
-        1 + self.text.as_bytes()[..offset.min(self.text.len())].iter().filter(|byte| **byte == b'\n').count()
+        self.starts.partition_point(|start| *start <= offset)
+    }
+
+    /// The text of the line `number`, from 1.
+    fn line(&self, number: usize) -> &'a str {
+        let end = self.starts.get(number).copied().unwrap_or(self.text.len());
+        self.text.get(self.starts[number - 1]..end).unwrap_or("").trim_end()
     }
 
     /// A value as written.
@@ -135,11 +219,25 @@ impl<'a> Document<'a> {
     }
 }
 
-/// At most 60 characters of one line.
+/// Most characters of a key in a message.
+const LONGEST_KEY: usize = 300;
+/// Most characters of a value in a message.
+const LONGEST_VALUE: usize = 60;
+
+/// At most [`LONGEST_VALUE`] characters of one line.
 fn shortened(text: &str) -> String {
-    let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    match line.char_indices().nth(60) {
-        Some((end, _)) => format!("{}...", &line[..end]),
-        None => line,
+    let (mut line, mut left) = (String::new(), LONGEST_VALUE);
+    for word in text.split_whitespace() {
+        if !line.is_empty() {
+            if left == 0 {
+                return line + "...";
+            }
+            (line, left) = (line + " ", left - 1);
+        }
+        match word.char_indices().nth(left) {
+            Some((end, _)) => return line + &word[..end] + "...",
+            None => (line, left) = (line + word, left - word.chars().count()),
+        }
     }
+    line
 }

@@ -25,7 +25,9 @@ fn find_in(start: &Path, name: &Path) -> Result<PathBuf, Vec<PathBuf>> {
             tried.push(start.join(FOLDER).join(&file));
         }
     }
-    match tried.iter().position(|path| path.is_file()) {
+    // what is neither file nor folder is refused where it is read, by what it is
+    let is_other = |path: &PathBuf| path.metadata().is_ok_and(|found| !found.is_dir());
+    match tried.iter().position(|path| path.is_file()).or_else(|| tried.iter().position(is_other)) {
         Some(index) => Ok(tried.swap_remove(index)),
         None => Err(tried),
     }

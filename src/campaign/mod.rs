@@ -1,6 +1,7 @@
 //! Layer 4: campaign files. What was written ([`Spec`]) -> what will run ([`Plan`]), or every reason why not ([`CampaignError`]).
 //!
-//! - [`problem`]: one reason, with file, line, key, value, allowed range and remedy.
+//! - [`problem`]: one reason, with file, line, key, value, allowed range and remedy. [`excerpt`]: the line with a mark.
+//! - [`input_file`]: regular files of bounded size. [`size`]: how large a campaign file may be.
 //! - [`document`], [`section`], [`numbers`], [`lists`]: a TOML document that is read key by key and remembers the lines. By hand and not by
 //!   serde's derive, which stops at the first error and knows no line of a key that passed.
 //! - [`spec`]: the keys of a campaign file; `scene`: those of the scene, from [`crate::scene::schema`]; [`disperse`],
@@ -34,7 +35,9 @@ pub mod difference;
 pub mod disperse;
 pub mod document;
 pub mod draw;
+pub mod excerpt;
 pub mod find;
+pub mod input_file;
 mod keys;
 pub mod limits;
 mod lines;
@@ -50,6 +53,7 @@ pub mod requirement;
 pub mod retention;
 mod scene;
 pub mod section;
+pub mod size;
 pub mod spec;
 pub mod stop;
 mod units;
@@ -59,7 +63,7 @@ pub use compression::Compression;
 pub use derived_observable::DerivedObservable;
 pub use draw::{SceneDraws, draw};
 pub use find::find;
-pub use plan::{Overrides, Plan};
+pub use plan::{FilesRead, Overrides, Plan};
 pub use problem::{CampaignError, Problem};
 pub use requirement::{Requirement, Statement};
 pub use retention::Retention;

@@ -12,6 +12,7 @@ use super::limits::{FRACTION, LARGEST_SEED, MAX_SAMPLES, MOST_MEMORY, bytes_a_po
 use super::old_format;
 use super::problem::{CampaignError, Problem};
 use super::retention::Retention;
+use super::size;
 use super::spec::Spec;
 use crate::observables::{Group, Request};
 use crate::ode::Tolerance;
@@ -19,7 +20,7 @@ use crate::propagation::Method;
 use crate::run::Grid;
 use crate::sampling::{Correlation, Derivation, Design, Dispersion, Dispersions, Draws, Table};
 use crate::scene::{Scene, SceneInput};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// What will run.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,6 +73,22 @@ pub struct Plan {
     pub retention: Retention,
 }
 
+/// The files that a plan was made from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FilesRead {
+    /// The campaign file.
+    pub campaign: PathBuf,
+    /// The files of numbers that it names, each with the SHA-256 of its bytes.
+    pub data: Vec<(PathBuf, String)>,
+}
+
+impl FilesRead {
+    /// All of them.
+    pub fn paths(&self) -> Vec<PathBuf> {
+        std::iter::once(&self.campaign).chain(self.data.iter().map(|(path, _)| path)).cloned().collect()
+    }
+}
+
 /// What the command line says instead of the file.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Overrides {
@@ -116,19 +133,19 @@ impl Plan {
     /// # Errors
     /// That the file cannot be read, or everything that is wrong with it.
     pub fn load(path: &Path, overrides: Overrides) -> Result<Plan, CampaignError> {
+        Self::load_with_files(path, overrides).map(|(plan, _)| plan)
+    }
+
+    /// The same, and the files that were read.
+    ///
+    /// # Errors
+    /// That the file cannot be read, or everything that is wrong with it.
+    pub fn load_with_files(path: &Path, overrides: Overrides) -> Result<(Plan, FilesRead), CampaignError> {
         let file = path.display().to_string();
-        let text = std::fs::read_to_string(path).map_err(|error| CampaignError {
-            problems: vec![Problem {
-                file: file.clone(),
-                line: None,
-                key: "file".to_owned(),
-                value: Some(error.to_string()),
-                allowed: "a readable text file (UTF-8)".to_owned(),
-                remedy: "check the path".to_owned(),
-            }],
-        })?;
+        let text = size::read(path, &file)?;
         let file = path.file_name().map_or(file, |name| name.to_string_lossy().into_owned());
-        Self::from_text_in(path.parent().unwrap_or(Path::new("")), &file, &text, overrides)
+        let (plan, data) = read(path.parent().unwrap_or(Path::new("")), &file, &text, overrides)?;
+        Ok((plan, FilesRead { campaign: path.to_owned(), data }))
     }
 
     /// The plan of a file's text; `file` is its name in messages.
@@ -149,29 +166,40 @@ impl Plan {
     /// # Errors
     /// Everything that is wrong with the text.
     pub fn from_text_in(folder: &Path, file: &str, text: &str, overrides: Overrides) -> Result<Plan, CampaignError> {
-        let mut document = Document::new(file, text).in_folder(folder);
-        let mut spec = Spec::read(&mut document);
-        override_spec(&mut spec, overrides, &mut document);
-        let plan = resolve(spec, &mut document);
-        document.verdict()?;
-        let plan = plan.ok_or_else(|| unreachable_plan(file))?;
-        let description = plan.description.or_else(|| description::of_comment(text));
-        Ok(Plan { description, ..plan })
+        read(folder, file, text, overrides).map(|(plan, _)| plan)
     }
+}
+
+/// The plan of a text, and the files of numbers that the text names, each with the SHA-256 of its bytes.
+fn read(
+    folder: &Path,
+    file: &str,
+    text: &str,
+    overrides: Overrides,
+) -> Result<(Plan, Vec<(PathBuf, String)>), CampaignError> {
+    let mut document = Document::new(file, text).in_folder(folder);
+    let table = document.parse()?;
+    let mut spec = Spec::read(&mut document, &table);
+    override_spec(&mut spec, overrides, &mut document);
+    let plan = resolve(spec, &mut document);
+    let files = std::mem::take(&mut document.files);
+    document.verdict()?;
+    let plan = plan.ok_or_else(|| unreachable_plan(file))?;
+    let description = plan.description.or_else(|| description::of_comment(text));
+    Ok((Plan { description, ..plan }, files))
 }
 
 /// A plan that is missing although no problem was found: impossible, and reported as an error.
 fn unreachable_plan(file: &str) -> CampaignError {
-    CampaignError {
-        problems: vec![Problem {
-            file: file.to_owned(),
-            line: None,
-            key: "plan".to_owned(),
-            value: None,
-            allowed: "complete".to_owned(),
-            remedy: "this is an error of spindrift: please report it with the file".to_owned(),
-        }],
-    }
+    CampaignError::of(Problem {
+        file: file.to_owned(),
+        line: None,
+        key: "plan".to_owned(),
+        value: None,
+        allowed: "complete".to_owned(),
+        remedy: "this is an error of spindrift: please report it with the file".to_owned(),
+        excerpt: None,
+    })
 }
 
 fn override_spec(spec: &mut Spec, overrides: Overrides, document: &mut Document<'_>) {

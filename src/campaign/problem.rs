@@ -1,6 +1,10 @@
 //! [`Problem`]: one reason why a campaign file cannot run; [`CampaignError`]: all of them.
 
+use super::excerpt::{Excerpt, printable};
 use std::fmt::{self, Display, Formatter};
+
+/// Problems that a message shows; the others are counted.
+pub const SHOWN: usize = 20;
 
 /// One reason why a campaign cannot run.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -17,17 +21,20 @@ pub struct Problem {
     pub allowed: String,
     /// What to do.
     pub remedy: String,
+    /// The line with a mark under what is wrong, where the file has it.
+    pub excerpt: Option<Excerpt>,
 }
 
 impl Display for Problem {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.file)?;
+        f.write_str(&printable(&self.file))?;
         if let Some(line) = self.line {
             write!(f, ":{line}")?;
         }
+        let (key, allowed, remedy) = (printable(&self.key), printable(&self.allowed), printable(&self.remedy));
         match &self.value {
-            Some(value) => write!(f, ": {} = {value}: must be {}; {}", self.key, self.allowed, self.remedy),
-            None => write!(f, ": {} is missing: must be {}; {}", self.key, self.allowed, self.remedy),
+            Some(value) => write!(f, ": {key} = {}: must be {allowed}; {remedy}", printable(value)),
+            None => write!(f, ": {key} is missing: must be {allowed}; {remedy}"),
         }
     }
 }
@@ -37,17 +44,41 @@ impl Display for Problem {
 pub struct CampaignError {
     /// The reasons, at least one.
     pub problems: Vec<Problem>,
+    /// Number of further reasons, which are not in the list.
+    pub more: usize,
+    /// What that many reasons probably mean.
+    pub note: Option<&'static str>,
+}
+
+impl CampaignError {
+    /// A single reason.
+    pub(super) fn of(problem: Problem) -> Self {
+        CampaignError { problems: vec![problem], more: 0, note: None }
+    }
+
+    /// The message with the lines of the file, each with a mark under what is wrong in it.
+    pub fn with_excerpts(&self) -> String {
+        self.text(|problem| match &problem.excerpt {
+            Some(excerpt) => format!("{problem}\n{excerpt}"),
+            None => problem.to_string(),
+        })
+    }
+
+    /// The first reasons, each as `shown` has it, and how many more there are.
+    fn text(&self, shown: impl Fn(&Problem) -> String) -> String {
+        let mut lines: Vec<String> = self.problems.iter().take(SHOWN).map(shown).collect();
+        let more = self.more + self.problems.len().saturating_sub(SHOWN);
+        if more > 0 {
+            lines.push(format!("and {more} more problem{}", if more == 1 { "" } else { "s" }));
+        }
+        lines.extend(self.note.map(str::to_owned));
+        lines.join("\n")
+    }
 }
 
 impl Display for CampaignError {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        for (index, problem) in self.problems.iter().enumerate() {
-            if index > 0 {
-                f.write_str("\n")?;
-            }
-            problem.fmt(f)?;
-        }
-        Ok(())
+        f.write_str(&self.text(Problem::to_string))
     }
 }
 
@@ -71,17 +102,21 @@ pub fn nearest<'a>(written: &str, candidates: impl IntoIterator<Item = &'a str>)
     close.or_else(|| candidates.into_iter().find(|c| written.len() > 3 && (c.contains(written) || written.contains(c))))
 }
 
-/// Number of letters to insert, delete or replace between `a` and `b` (Levenshtein 1966).
+/// Number of letters to insert, delete, replace, or exchange with their neighbour between `a` and `b` (optimal string alignment; Damerau 1964).
 fn changes(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.chars().enumerate() {
-        let mut diagonal = std::mem::replace(&mut row[0], i + 1);
+    let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
+    let first: Vec<usize> = (0..=b.len()).collect();
+    let (mut before, mut row) = (first.clone(), first);
+    for (i, x) in a.iter().enumerate() {
+        let mut next = vec![i + 1; b.len() + 1];
         for (j, y) in b.iter().enumerate() {
-            let replaced = diagonal + usize::from(x != *y);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(diagonal + 1).min(row[j] + 1);
+            next[j + 1] = (row[j] + usize::from(x != y)).min(row[j + 1] + 1).min(next[j] + 1);
+            let is_exchanged = i > 0 && j > 0 && a[i - 1] == *y && b[j - 1] == *x && x != y;
+            if is_exchanged {
+                next[j + 1] = next[j + 1].min(before[j - 1] + 1);
+            }
         }
+        (before, row) = (row, next);
     }
     row[b.len()]
 }
@@ -101,6 +136,6 @@ mod tests {
             Some("body.tank.density_kg_m3")
         );
         assert_eq!(nearest("colour", names), None);
-        assert_eq!(changes("kitten", "sitting"), 3);
+        assert_eq!((changes("kitten", "sitting"), changes("sampels", "samples"), changes("", "ab")), (3, 1, 2));
     }
 }

@@ -180,7 +180,7 @@ fn subject(table: &mut Section<'_, '_>, known: &KnownColumns) -> Option<Subject>
     }
     let are_passed = INTERVAL.iter().zip(&ends).all(|(key, end)| !table.has(key) || end.is_some());
     let [from_s, to_s] = ends;
-    are_passed.then(|| Subject::Band(BandSubject { series: name, from_s, to_s }))
+    are_passed.then_some(Subject::Band(BandSubject { series: name, from_s, to_s }))
 }
 
 /// The observable that `key` names; `None` where there is none, which is then noted.

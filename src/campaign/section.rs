@@ -1,6 +1,6 @@
 //! [`Section`]: one table of a [`Document`] while it is read, key by key: tables, texts and names. Numbers are in [`super::numbers`].
 
-use super::document::Document;
+use super::document::{Document, Spans};
 use super::problem::nearest;
 use super::units;
 use toml::Spanned;
@@ -72,9 +72,9 @@ impl<'d, 'a> Section<'d, 'a> {
 
     /// Remembers the line of `key`, if it was written.
     fn note_line(&mut self, key: &str) {
-        if let Some((name, _)) = self.table.and_then(|table| table.get_key_value(key)) {
-            let line = self.document.line_at(name.span().start);
-            self.document.lines.insert(self.path(key), line);
+        if let Some((name, value)) = self.table.and_then(|table| table.get_key_value(key)) {
+            let value = if value.get_ref().is_table() { 0..0 } else { value.span() };
+            self.document.spans.insert(self.path(key), Spans { key: name.span(), value });
         }
     }
 
@@ -113,17 +113,16 @@ impl<'d, 'a> Section<'d, 'a> {
     pub fn sections<T>(&mut self, key: &str, mut read: impl FnMut(&mut Section<'_, 'a>) -> T) -> Vec<T> {
         let Some(value) = self.take(key) else { return Vec::new() };
         let tables: Option<Vec<_>> = value.get_ref().as_array().and_then(|list| {
-            list.iter().map(|item| item.get_ref().as_table().map(|table| (item.span().start, table))).collect()
+            list.iter().map(|item| item.get_ref().as_table().map(|table| (item.span(), table))).collect()
         });
         let Some(tables) = tables else {
             self.refuse(key, "a list of tables", format!("write [[{key}]] with two brackets"));
             return Vec::new();
         };
         let mut list = Vec::with_capacity(tables.len());
-        for (index, (start, table)) in tables.into_iter().enumerate() {
+        for (index, (span, table)) in tables.into_iter().enumerate() {
             let path = format!("{}[{index}]", self.path(key));
-            let line = self.document.line_at(start);
-            self.document.lines.insert(path.clone(), line);
+            self.document.spans.insert(path.clone(), Spans { key: span, value: 0..0 });
             let mut section = Section {
                 document: &mut *self.document,
                 path,
@@ -187,16 +186,16 @@ impl<'d, 'a> Section<'d, 'a> {
     /// Says that this table of the list `[[header]]` is known by its name, and no longer by its place.
     pub(super) fn rename(&mut self, header: &str, name: &str) {
         let path = format!("{header}.{name}");
-        if let Some(line) = self.document.lines.get(&self.path).copied() {
-            self.document.lines.insert(path.clone(), line);
+        if let Some(spans) = self.document.spans.get(&self.path).cloned() {
+            self.document.spans.insert(path.clone(), spans);
         }
-        let inner: Vec<(String, usize)> = self
+        let inner: Vec<(String, Spans)> = self
             .document
-            .lines
-            .iter()
-            .filter_map(|(key, line)| Some((format!("{path}{}", key.strip_prefix(&self.path)?), *line)))
+            .spans
+            .range(format!("{}.", self.path)..)
+            .map_while(|(key, spans)| Some((format!("{path}{}", key.strip_prefix(&self.path)?), spans.clone())))
             .collect();
-        self.document.lines.extend(inner);
+        self.document.spans.extend(inner);
         self.path = path;
         self.title = Some(format!("[[{header}]] with name = \"{name}\""));
     }
@@ -272,6 +271,10 @@ impl<'d, 'a> Section<'d, 'a> {
             if self.known.iter().any(|known| known == name) {
                 continue;
             }
+            if self.document.is_full() {
+                self.document.add(name, Some(String::new()), "", ""); // counted only
+                continue;
+            }
             let remedy = match nearest(name, self.known.iter().map(String::as_str)) {
                 Some(meant) => format!("did you mean {meant}?"),
                 None => "delete it".to_owned(),
@@ -281,7 +284,12 @@ impl<'d, 'a> Section<'d, 'a> {
                 None if self.path.is_empty() => "this file".to_owned(),
                 None => format!("[{}]", self.path),
             };
-            self.refuse(name, format!("a key of {place} ({})", self.known.join(", ")), remedy);
+            let value = self.value(name).map(|value| self.document.written(value));
+            let path = self.path(name);
+            // the key is wrong, and not its value
+            let span = self.table.and_then(|table| table.get_key_value(&**name)).map_or(0..0, |(key, _)| key.span());
+            self.document.spans.insert(path.clone(), Spans { key: span, value: 0..0 });
+            self.document.add(&path, value, format!("a key of {place} ({})", self.known.join(", ")), remedy);
         }
     }
 }

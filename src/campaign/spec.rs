@@ -17,6 +17,7 @@ use crate::observables::Group;
 use crate::propagation::Method;
 use crate::sampling::{Correlation, Derivation, Design, Dispersion};
 use crate::scene::SceneInput;
+use toml::de::DeTable;
 
 /// A campaign file as written.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,10 +73,9 @@ pub struct Spec {
 }
 
 impl Spec {
-    /// Reads a document; what is wrong is noted there.
-    pub fn read(document: &mut Document<'_>) -> Spec {
-        let table = document.parse();
-        let mut root = Section::root(document, &table);
+    /// Reads the parsed text of a document; what is wrong is noted there.
+    pub fn read<'a>(document: &mut Document<'a>, table: &DeTable<'a>) -> Spec {
+        let mut root = Section::root(document, table);
         for (key, content) in [
             ("campaign", "a table with name, samples, seed, duration_s"),
             ("initial", "a table with the state at time zero"),

@@ -5,9 +5,9 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use crate::campaign::{Overrides, Plan};
+use crate::campaign::{FilesRead, Overrides, Plan};
 use crate::cli::command_outcome::Failure;
-use crate::cli::input::{plan, plan_of_result};
+use crate::cli::input::{plan_and_files, plan_of_result};
 use crate::cli::screen;
 use crate::dataset::claim::open;
 use crate::dataset::manifest::PartRecord;
@@ -26,11 +26,16 @@ fn failed(part: &mut PartReader) -> Result<Vec<SampleId>, RowsError> {
 }
 
 /// The plan of `file` for the samples that failed in the result `of`, with the seed and the number of samples of that result: so the numbers
-/// mean the same samples. `None` where none failed.
+/// mean the same samples; and the files that it was made from. `None` where none failed.
 ///
 /// # Errors
 /// Where the result is damaged or cannot be read, or the campaign file is wrong.
-pub fn plan_of_failed(file: &Path, of: &Path, overrides: Overrides, threads: usize) -> Result<Option<Plan>, Failure> {
+pub fn plan_of_failed(
+    file: &Path,
+    of: &Path,
+    overrides: Overrides,
+    threads: usize,
+) -> Result<Option<(Plan, FilesRead)>, Failure> {
     let (found, _locks) = open(&Disk, of).map_err(Failure::files)?;
     let drawn = plan_of_result(of, &found)?;
     let records: Vec<PartRecord> = found.parts().into_values().collect();
@@ -51,12 +56,12 @@ pub fn plan_of_failed(file: &Path, of: &Path, overrides: Overrides, threads: usi
     };
     RowsReader::new(found.row_files(of)).visit(None, failed, add).map_err(Failure::files)?;
     let same = Overrides { samples: Some(drawn.samples), seed: Some(drawn.seed), ..overrides };
-    let plan = plan(file, same)?;
+    let (plan, files) = plan_and_files(file, same)?;
     if samples.is_empty() {
         return Ok(None);
     }
     let input = |why| Failure::Input(format!("--only-failed-of {}: {why}", of.display()));
-    plan.only(samples).map(Some).map_err(input)
+    plan.only(samples).map(|plan| Some((plan, files))).map_err(input)
 }
 
 /// A run that failed.

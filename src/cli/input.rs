@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::campaign::{Overrides, Plan, find};
+use crate::campaign::{FilesRead, Overrides, Plan, find};
 use crate::cli::command_outcome::Failure;
 use crate::dataset::claim::Found;
 use crate::dataset::names::PLAN;
@@ -14,11 +14,24 @@ use crate::math::isa::VARIABLE;
 /// # Errors
 /// Where there is no such file, or it is wrong.
 pub fn plan(file: &Path, overrides: Overrides) -> Result<Plan, Failure> {
+    plan_and_files(file, overrides).map(|(plan, _)| plan)
+}
+
+/// The same, and the files that were read.
+///
+/// # Errors
+/// Where there is no such file, or it is wrong.
+pub fn plan_and_files(file: &Path, overrides: Overrides) -> Result<(Plan, FilesRead), Failure> {
     let path = find(file).map_err(|tried| {
+        if file.is_dir() {
+            let plan = file.join(PLAN);
+            let remedy = if plan.is_file() { format!(": {}", plan.display()) } else { String::new() };
+            return Failure::Input(format!("`{}` is a folder; name the campaign file in it{remedy}", file.display()));
+        }
         let tried: Vec<String> = tried.iter().map(|path| format!("`{}`", path.display())).collect();
         Failure::Input(format!("there is no campaign file `{}`; looked for {}", file.display(), tried.join(", ")))
     })?;
-    Plan::load(&path, overrides).map_err(|error| Failure::Input(error.to_string()))
+    Plan::load_with_files(&path, overrides).map_err(|error| Failure::Input(error.with_excerpts()))
 }
 
 /// The instruction set of this process.

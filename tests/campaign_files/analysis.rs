@@ -97,6 +97,13 @@ const CASES: &[(&str, &str, &str, &str)] = &[
         "nutation_angle_max_rad",
         "it is in the group motion: add \"motion\" to observe.groups",
     ),
+    (
+        OBSERVABLE,
+        "2 * energy_error_max",
+        "body.parts.fuselage.density_kg_m3 / 0",
+        "observable[0].expression = inf: must be a finite number in the nominal scene; a division by zero",
+    ),
+    (OBSERVABLE, "2 * energy_error_max", "ln(0 - 1)", "observable[0].expression = NaN: must be a finite number"),
     (REQUIRE, "energy_error_max", "residual_collocation_max_m", "this scene or method does not have it"),
     (
         REQUIRE,

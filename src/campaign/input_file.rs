@@ -1,0 +1,102 @@
+//! [`open`]: files that are handed to the program: regular ones of a bounded size, and nothing that waits or never ends.
+//!
+//! A link to such a file is followed; what it leads to is what counts. What is opened is what was looked at: the kind and the size are those
+//! of the open file.
+
+use std::fs::{File, FileType, OpenOptions};
+use std::io::{self, Read};
+use std::path::Path;
+use thiserror::Error;
+
+/// Why a file is not read.
+#[derive(Debug, Error)]
+pub enum InputError {
+    /// It is something else, in words: "a folder".
+    #[error("{0}, and no regular file")]
+    Kind(&'static str),
+    /// It has so many bytes.
+    #[error("{0} bytes are too many")]
+    Size(u64),
+    /// A file operation failed.
+    #[error(transparent)]
+    Io(#[from] io::Error),
+}
+
+/// What a file is that is not regular, in words.
+fn kind(file: FileType) -> &'static str {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::FileTypeExt;
+        if file.is_fifo() {
+            return "a named pipe (FIFO)";
+        }
+        if file.is_char_device() || file.is_block_device() {
+            return "a device";
+        }
+        if file.is_socket() {
+            return "a socket";
+        }
+    }
+    if file.is_dir() { "a folder" } else { "no regular file" }
+}
+
+/// Opens a regular file of at most `most` bytes for reading; the file, and its size.
+///
+/// # Errors
+/// Where it is something else, larger, or cannot be opened. Nothing is waited for.
+pub fn open(path: &Path, most: u64) -> Result<(File, u64), InputError> {
+    let found = std::fs::metadata(path)?;
+    if !found.is_file() {
+        return Err(InputError::Kind(kind(found.file_type())));
+    }
+    let mut options = OpenOptions::new();
+    options.read(true);
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::OpenOptionsExt;
+        // another file may have taken its place since: opening a pipe must not wait
+        options.custom_flags(rustix::fs::OFlags::NONBLOCK.bits().cast_signed());
+    }
+    let file = options.open(path)?;
+    let found = file.metadata()?;
+    if !found.is_file() {
+        return Err(InputError::Kind(kind(found.file_type())));
+    }
+    if found.len() > most { Err(InputError::Size(found.len())) } else { Ok((file, found.len())) }
+}
+
+/// The content of a regular file of at most `most` bytes.
+///
+/// # Errors
+/// As [`open`], and where it cannot be read or grows beyond `most` bytes.
+pub fn read(path: &Path, most: u64) -> Result<Vec<u8>, InputError> {
+    let (file, size) = open(path, most)?;
+    let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or(0));
+    file.take(most.saturating_add(1)).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > most { Err(InputError::Size(bytes.len() as u64)) } else { Ok(bytes) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: folders, devices and pipes are refused by kind without waiting, a file by its size, and a link to a good file is followed.
+    #[cfg(unix)]
+    #[test]
+    fn only_regular_files_are_read() {
+        let folder = std::env::temp_dir().join(format!("spindrift-input-{}", std::process::id()));
+        let _ = std::fs::remove_dir_all(&folder);
+        std::fs::create_dir_all(&folder).unwrap();
+        let (good, link, pipe) = (folder.join("good"), folder.join("link"), folder.join("pipe"));
+        std::fs::write(&good, b"12345").unwrap();
+        std::os::unix::fs::symlink(&good, &link).unwrap();
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        assert_eq!(read(&link, 5).unwrap(), b"12345");
+        assert!(matches!(read(&good, 4), Err(InputError::Size(5))));
+        assert!(matches!(read(&pipe, 9), Err(InputError::Kind("a named pipe (FIFO)"))));
+        assert!(matches!(read(Path::new("/dev/zero"), 9), Err(InputError::Kind("a device"))));
+        assert!(matches!(read(&folder, 9), Err(InputError::Kind("a folder"))));
+        assert!(matches!(read(&folder.join("none"), 9), Err(InputError::Io(_))));
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+}

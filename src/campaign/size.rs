@@ -1,0 +1,96 @@
+//! How large a campaign file may be: bytes, keys, and tables within tables. Tables of numbers belong into files of their own.
+
+use super::input_file::{self, InputError};
+use super::problem::{CampaignError, Problem};
+use std::path::Path;
+use toml::de::{DeTable, DeValue};
+
+/// Most bytes of a campaign file. A schedule of 20,000 arcs has 1.5 MB.
+pub const MOST_BYTES: u64 = 8 << 20;
+/// Most keys of a campaign file. A schedule of 20,000 arcs has 100,000.
+pub const MOST_KEYS: usize = 400_000;
+/// Most levels of tables and arrays within one another, which the TOML parser has.
+const MOST_LEVELS: usize = 80;
+
+/// The refusal of a file of `bytes` bytes.
+pub(super) fn too_large(file: &str, bytes: u64) -> Problem {
+    Problem {
+        file: file.to_owned(),
+        line: None,
+        key: "file".to_owned(),
+        value: Some(format!("{bytes} bytes")),
+        allowed: format!("a campaign file of at most {MOST_BYTES} bytes"),
+        remedy:
+            "name tables of numbers as files of their own ([design] kind = \"table\", distribution = \"empirical\")"
+                .to_owned(),
+        excerpt: None,
+    }
+}
+
+/// The text of the campaign file `path`, called `file` in messages.
+pub(super) fn read(path: &Path, file: &str) -> Result<String, CampaignError> {
+    let problem = |value: String, allowed: &str, remedy: &str| {
+        CampaignError::of(Problem {
+            file: file.to_owned(),
+            line: None,
+            key: "file".to_owned(),
+            value: Some(value),
+            allowed: allowed.to_owned(),
+            remedy: remedy.to_owned(),
+            excerpt: None,
+        })
+    };
+    let bytes = input_file::read(path, MOST_BYTES).map_err(|error| match error {
+        InputError::Kind(kind) => {
+            problem(kind.to_owned(), "a regular file", "write the campaign to a file, and name that")
+        }
+        InputError::Size(bytes) => CampaignError::of(too_large(file, bytes)),
+        InputError::Io(error) => problem(error.to_string(), "a readable text file (UTF-8)", "check the path"),
+    })?;
+    String::from_utf8(bytes).map_err(|error| {
+        let value = format!("invalid UTF-8 at byte {}", error.utf8_error().valid_up_to());
+        problem(value, "a readable text file (UTF-8)", "is this a campaign file? If so, save it as UTF-8")
+    })
+}
+
+/// Refuses a text that is too large.
+pub(super) fn of_text(file: &str, text: &str) -> Option<Problem> {
+    let bytes = text.len() as u64;
+    (bytes > MOST_BYTES).then(|| too_large(file, bytes))
+}
+
+/// Refuses a table of too many keys.
+pub(super) fn of_table(file: &str, table: &DeTable<'_>) -> Option<Problem> {
+    let keys = keys_of(table);
+    (keys > MOST_KEYS).then(|| Problem {
+        file: file.to_owned(),
+        line: None,
+        key: "file".to_owned(),
+        value: Some(format!("{keys} keys")),
+        allowed: format!("a campaign file of at most {MOST_KEYS} keys"),
+        remedy: "delete what the campaign does not need, or divide it into several campaigns".to_owned(),
+        excerpt: None,
+    })
+}
+
+/// Number of keys of a table and of the tables in it, which are at most [`MOST_LEVELS`] deep.
+fn keys_of(table: &DeTable<'_>) -> usize {
+    table.iter().map(|(_, value)| 1 + keys_in(value.get_ref())).sum()
+}
+
+fn keys_in(value: &DeValue<'_>) -> usize {
+    match value {
+        DeValue::Table(table) => keys_of(table),
+        DeValue::Array(list) => list.iter().map(|item| keys_in(item.get_ref())).sum(),
+        _ => 0,
+    }
+}
+
+/// What the TOML parser says, in words that say what to do about the depth of tables.
+pub(super) fn plain(message: &str) -> String {
+    if message.contains("recurs") {
+        format!("tables and arrays within one another at most {MOST_LEVELS} deep")
+    } else {
+        message.to_owned()
+    }
+}

@@ -1,0 +1,195 @@
+//! Every key and every name of a value, misspelt by one edit, gets the right suggestion.
+//!
+//! The names come from the program itself: a key that no table has is refused with the keys of that table, and a name that no key takes with
+//! the names that it takes.
+
+use std::collections::BTreeSet;
+
+use spindrift::campaign::{CampaignError, Overrides, Plan};
+use spindrift::scene::Parameter;
+
+use crate::every_key::{EVERY_TABLE, distributions};
+
+/// A word that is no key and no name, and that nothing resembles.
+const NOTHING: &str = "qqzzqqzz";
+
+fn error(text: &str) -> CampaignError {
+    Plan::from_text("bad.toml", text, Overrides::default()).expect_err(text)
+}
+
+/// `word` with one edit, at its start, in its middle and at its end: a letter left out, doubled, replaced, or exchanged with the next.
+fn edits(word: &str) -> BTreeSet<String> {
+    let letters: Vec<char> = word.chars().collect();
+    let mut found = BTreeSet::new();
+    for at in [0, letters.len() / 2, letters.len() - 1] {
+        let mut without = letters.clone();
+        without.remove(at);
+        let mut doubled = letters.clone();
+        doubled.insert(at, letters[at]);
+        let mut replaced = letters.clone();
+        replaced[at] = 'q';
+        let mut exchanged = letters.clone();
+        exchanged.swap(at, (at + 1).min(letters.len() - 1));
+        found.extend([without, doubled, replaced, exchanged].map(|letters| letters.into_iter().collect::<String>()));
+    }
+    found.remove(word);
+    found.remove("");
+    found
+}
+
+/// Edits between two words, an exchange of neighbours counted as one (optimal string alignment), by the textbook's table.
+fn distance(a: &str, b: &str) -> usize {
+    let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
+    let mut table = vec![vec![0; b.len() + 1]; a.len() + 1];
+    for i in 0..=a.len() {
+        for j in 0..=b.len() {
+            if i == 0 || j == 0 {
+                table[i][j] = i + j;
+                continue;
+            }
+            let replaced = table[i - 1][j - 1] + usize::from(a[i - 1] != b[j - 1]);
+            let mut least = replaced.min(table[i - 1][j] + 1).min(table[i][j - 1] + 1);
+            if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
+                least = least.min(table[i - 2][j - 2] + 1);
+            }
+            table[i][j] = least;
+        }
+    }
+    table[a.len()][b.len()]
+}
+
+/// Whether `error` suggests `meant` in place of `written`, or another of `names` that is as near.
+fn suggests(error: &CampaignError, written: &str, meant: &str, names: &[String]) -> bool {
+    let is_as_near = |name: &String| distance(written, name) <= distance(written, meant);
+    let right: Vec<&String> = names.iter().filter(|name| is_as_near(name)).collect();
+    error.problems.iter().any(|problem| {
+        let suggested = problem.remedy.split_once("did you mean ").map(|(_, rest)| rest.trim_matches(['?', '"']));
+        suggested.is_some_and(|suggested| right.iter().any(|name| *name == suggested))
+    })
+}
+
+/// The names in a message, between `start` and `end`.
+fn listed(error: &CampaignError, start: &str, end: char) -> Vec<String> {
+    let message = error.problems.iter().find_map(|problem| problem.allowed.split_once(start)).map(|(_, rest)| rest);
+    let names = message.map(|rest| rest.split(end).next().unwrap_or_default());
+    names.unwrap_or_default().split(", ").filter(|name| !name.is_empty()).map(str::to_owned).collect()
+}
+
+/// Every table of a campaign file, each as the text around the line where a key can be added.
+fn tables() -> Vec<(String, [String; 2])> {
+    let mut found = vec![("the file".to_owned(), [String::new(), EVERY_TABLE.to_owned()])];
+    let mut start = 0;
+    for line in EVERY_TABLE.split_inclusive('\n') {
+        start += line.len();
+        if line.starts_with('[') {
+            found.push((line.trim().to_owned(), [EVERY_TABLE[..start].to_owned(), EVERY_TABLE[start..].to_owned()]));
+        }
+    }
+    for (name, text) in distributions() {
+        found.push((format!("distribution {name}"), [format!("{EVERY_TABLE}{text}"), String::new()]));
+    }
+    found
+}
+
+/// Law: each key of each table, misspelt by one edit, is refused with the key that was meant.
+#[test]
+fn every_misspelt_key_gets_its_suggestion() {
+    if let Err(error) = Plan::from_text("good.toml", EVERY_TABLE, Overrides::default()) {
+        panic!("{error}");
+    }
+    let (mut wrong, mut tried, mut keys) = (Vec::new(), 0, BTreeSet::new());
+    for (table, [before, after]) in tables() {
+        let with = |key: &str| format!("{before}{key} = {NOTHING:?}\n{after}");
+        let unknown = error(&with(NOTHING));
+        let problem = unknown.problems.iter().find(|problem| problem.key.ends_with(NOTHING));
+        let problem = problem.unwrap_or_else(|| panic!("{table}: {unknown}"));
+        let own = CampaignError { problems: vec![problem.clone()], more: 0, note: None };
+        let names = listed(&own, " (", ')');
+        assert!(!names.is_empty(), "{table}: {problem}");
+        for name in &names {
+            keys.insert(format!("{table} {name}"));
+            for edited in edits(name).into_iter().filter(|edited| !names.contains(edited)) {
+                tried += 1;
+                let mut error = error(&with(&edited));
+                error.problems.retain(|problem| problem.key.rsplit('.').next() == Some(edited.as_str()));
+                if !suggests(&error, &edited, name, &names) {
+                    wrong.push(format!("{table}: {edited} for {name}: {error}"));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{} of {tried}:\n{}", wrong.len(), wrong.join("\n"));
+    assert!(keys.len() > 200 && tried > 2000, "{} keys, {tried} misspellings", keys.len());
+}
+
+/// The keys whose values are names: a line of the file, and the same with another name in it.
+const NAMED: [(&str, &str); 7] = [
+    ("method = \"auto\"", "method = \"{}\""),
+    ("groups = [\"effort\", \"energy_conservation\"]", "groups = [\"{}\"]"),
+    ("shape = \"sphere\"", "shape = \"{}\""),
+    ("mode = \"locked\"", "mode = \"{}\""),
+    ("kind = \"random\"", "kind = \"{}\""),
+    ("distribution = \"uniform\"", "distribution = \"{}\""),
+    ("compression = \"zstd\"", "compression = \"{}\""),
+];
+
+/// Law: each name of a value, misspelt by one edit, is refused with the name that was meant.
+#[test]
+fn every_misspelt_name_gets_its_suggestion() {
+    let (mut wrong, mut tried) = (Vec::new(), 0);
+    for (line, pattern) in NAMED {
+        assert!(EVERY_TABLE.contains(line), "{line}");
+        let with = |name: &str| EVERY_TABLE.replacen(line, &pattern.replace("{}", name), 1);
+        let names = listed(&error(&with(NOTHING)), "one of ", ';');
+        assert!(names.len() > 1, "{line}: {}", error(&with(NOTHING)));
+        for name in &names {
+            for edited in edits(name).into_iter().filter(|edited| !names.contains(edited)) {
+                tried += 1;
+                let error = error(&with(&edited));
+                if !suggests(&error, &edited, name, &names) {
+                    wrong.push(format!("{edited} for {name}: {error}"));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{} of {tried}:\n{}", wrong.len(), wrong.join("\n"));
+    assert!(tried > 300, "{tried} misspellings");
+}
+
+/// Law: the same of the names of dispersable parameters and of observables.
+#[test]
+fn every_misspelt_parameter_and_observable_gets_its_suggestion() {
+    // the default groups have most observables
+    let base = EVERY_TABLE.replace("groups = [\"effort\", \"energy_conservation\"]\n", "");
+    let plan = Plan::from_text("good.toml", &base, Overrides::default()).expect("good");
+    let parameters: Vec<String> = Parameter::all(&plan.nominal).map(|parameter| parameter.name()).collect();
+    let columns = plan.request().columns();
+    let observables: Vec<String> = columns.iter().map(|column| column.quantity.name().to_owned()).collect();
+    let (mut wrong, mut tried) = (Vec::new(), 0);
+    let lines = ["parameter = \"wheels.w1.radius_m\"", "observable = \"energy_error_max\""];
+    for (line, names) in lines.into_iter().zip([parameters, observables]) {
+        assert!(base.contains(line) && names.len() > 40, "{line}: {} names", names.len());
+        let key = line.split(' ').next().unwrap_or_default();
+        for name in &names {
+            // one misspelling of each: these names are many
+            let Some(edited) = edits(name).into_iter().find(|edited| !names.contains(edited)) else { continue };
+            tried += 1;
+            let error = error(&base.replacen(line, &format!("{key} = \"{edited}\""), 1));
+            if !suggests(&error, &edited, name, &names) {
+                wrong.push(format!("{edited} for {name}: {error}"));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{} of {tried}:\n{}", wrong.len(), wrong.join("\n"));
+    assert!(tried > 100, "{tried} misspellings");
+}
+
+/// Counter-test: a wrong suggestion, and none, are seen.
+#[test]
+fn a_wrong_suggestion_is_seen() {
+    let error = error(&EVERY_TABLE.replacen("samples = 10", "sampels = 10", 1));
+    let names = ["samples", "seed"].map(str::to_owned);
+    assert!(suggests(&error, "sampels", "samples", &names));
+    assert!(!suggests(&error, "sampels", "samples", &["seed".to_owned()]));
+    assert_eq!((distance("sampels", "samples"), distance("kitten", "sitting"), distance("", "ab")), (1, 3, 2));
+}
