@@ -6,7 +6,8 @@ use std::path::Path;
 use crate::campaign::{Overrides, Plan};
 use crate::cli::arguments::SimulateOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
-use crate::cli::input::{isa, plan};
+use crate::cli::input::{isa, plan_and_files};
+use crate::cli::outputs::refuse_inputs;
 use crate::cli::{dispersions, screen};
 use crate::dataset::table::{TableError, TableFormat};
 use crate::dataset::timeseries::{TimeColumn, TimeSeries};
@@ -53,7 +54,8 @@ pub fn run(options: &SimulateOptions) -> Result<CommandOutcome, Failure> {
     if let Some(path) = &options.plot {
         PlotFormat::of(path).map_err(|error| Failure::Input(error.to_string()))?;
     }
-    let plan = plan(&options.file, Overrides::default())?;
+    let (plan, files) = plan_and_files(&options.file, Overrides::default())?;
+    refuse_inputs(&files.paths(), &[("--out", options.out.as_deref()), ("--plot", options.plot.as_deref())])?;
     let isa = isa()?;
     if options.sample >= plan.samples {
         let (last, name) = (plan.samples - 1, &plan.name);
@@ -128,9 +130,12 @@ fn refined(grid: &Grid) -> Grid {
 /// Compares the run with its reference solution, and shows errors and estimate.
 fn audit(options: &SimulateOptions, plan: &Plan, run: &SingleRun, isa: Isa) -> Result<(), Failure> {
     let sample = options.sample;
-    let Some(found) = Auditor::new(plan, isa, &run.grid).audit(&run.scene) else {
-        screen::note(&format!("audit of sample {sample}: the run or its reference solution did not reach the end"));
-        return Ok(());
+    let found = match Auditor::new(plan, isa, &run.grid).audit(&run.scene) {
+        Ok(found) => found,
+        Err(why) => {
+            screen::note(&format!("sample {sample} has no audit: {why}"));
+            return Ok(());
+        }
     };
     let mut text = format!(
         "audit of sample {sample}, against a reference solution with tolerance {:e}\n",

@@ -44,9 +44,9 @@ pub struct Heading {
 }
 
 impl Heading {
-    /// A column without absent values.
+    /// A column without absent values; those of real numbers may always be absent, since what is no finite number is null.
     pub fn new(quantity: Quantity, content: Content) -> Self {
-        Heading { quantity, content, nullable: false }
+        Heading { quantity, content, nullable: content == Content::Real }
     }
 
     /// The same column, whose values may be absent.
@@ -83,7 +83,8 @@ impl Heading {
 /// The values of a column.
 #[derive(Clone, Debug)]
 pub enum Cells<'a> {
-    /// Real numbers; those that the mask calls absent are null.
+    /// Real numbers; those that the mask calls absent are null, and so is what is no finite number: the maximum or the mean of a column is
+    /// a number for every reader.
     Real(&'a [f64], Option<&'a [bool]>),
     /// Counts, with the same mask.
     Count(Vec<u64>, Option<&'a [bool]>),
@@ -254,13 +255,15 @@ impl Scratch {
         match cells {
             Cells::Real(values, mask) => {
                 let levels = self.levels(values.len(), mask, nullable);
-                let values = match mask {
-                    Some(mask) if mask.contains(&false) => {
-                        self.reals.clear();
-                        self.reals.extend(present(values, mask));
-                        &self.reals
-                    }
-                    _ => values,
+                let is_whole = !mask.is_some_and(|mask| mask.contains(&false)) && values.iter().all(|x| x.is_finite());
+                let values = if is_whole {
+                    values
+                } else {
+                    self.levels.iter_mut().zip(values).for_each(|(level, x)| *level &= i16::from(x.is_finite()));
+                    self.reals.clear();
+                    self.reals
+                        .extend(values.iter().zip(&self.levels).filter(|(_, level)| **level == 1).map(|(x, _)| *x));
+                    &self.reals
                 };
                 column.typed::<DoubleType>().write_batch(values, levels.then_some(&self.levels[..]), None)?;
             }
@@ -320,13 +323,15 @@ mod tests {
             heading("id", Content::Count, false),
             heading("word", Content::Word, false),
             heading("x", Content::Real, true),
+            heading("y", Content::Real, true),
         ];
         let layout = Layout::new(&headings, HashMap::from([("seed".into(), "7".into())]), packing).unwrap();
         let mut bytes = Vec::new();
         let cells = [
             Cells::Count(vec![0, 1, i64::MAX.unsigned_abs()], None),
             Cells::Word(vec!["ok", "ok", "bad"]),
-            Cells::Real(&[1.5, f64::NAN, f64::NAN], Some(&[true, true, false])),
+            Cells::Real(&[1.5, f64::NAN, 2.5], Some(&[true, true, false])),
+            Cells::Real(&[f64::INFINITY, -0.0, f64::NEG_INFINITY], None),
         ];
         layout.write(&mut bytes, &[("part", "3".into())], cells.into_iter()).unwrap();
         bytes
@@ -336,7 +341,7 @@ mod tests {
         SerializedFileReader::new(bytes::Bytes::from(bytes)).unwrap()
     }
 
-    /// Law: what is written is read back, in every packing; absent is null, and not a number is not null.
+    /// Law: what is written is read back, in every packing; absent is null, and so is what is no finite number, with a mask and without.
     #[test]
     fn values_come_back() {
         for packing in [Packing::Lz4, Packing::Zstd, Packing::Plain] {
@@ -345,9 +350,9 @@ mod tests {
             let rows = rows.map(|row| row.unwrap().into_columns().into_iter().map(|(_, cell)| cell).collect());
             let rows: Vec<Vec<Cell>> = rows.collect();
             let text = |text: &str| Cell::Str(text.to_owned());
-            assert_eq!(rows[0], [Cell::Long(0), text("ok"), Cell::Double(1.5)]);
-            assert!(matches!(&rows[1][..], [Cell::Long(1), _, Cell::Double(x)] if x.is_nan()), "{:?}", rows[1]);
-            assert_eq!(rows[2], [Cell::Long(i64::MAX), text("bad"), Cell::Null]);
+            assert_eq!(rows[0], [Cell::Long(0), text("ok"), Cell::Double(1.5), Cell::Null]);
+            assert_eq!(rows[1], [Cell::Long(1), text("ok"), Cell::Null, Cell::Double(-0.0)]);
+            assert_eq!(rows[2], [Cell::Long(i64::MAX), text("bad"), Cell::Null, Cell::Null]);
             assert_eq!(rows.len(), 3);
         }
     }

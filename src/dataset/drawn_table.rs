@@ -8,7 +8,7 @@ use crate::dataset::atomic;
 use crate::dataset::columnar::{Cells, Content, Heading, Layout, Packing};
 use crate::dataset::provenance::provenance;
 use crate::dataset::rows_file::{SAMPLE_ID, STATUS, parameter_headings};
-use crate::dataset::table::{TableError, TableFormat, csv_header};
+use crate::dataset::table::{TableError, TableFormat, csv_header, write_number};
 use crate::ensemble::DrawnScenes;
 use crate::ensemble::drawn::MASS_COLUMNS;
 use crate::run::{Quantity, Status};
@@ -63,11 +63,14 @@ pub fn save(plan: &Plan, path: &Path, mut seen: impl FnMut(&DrawnScenes)) -> Res
     }
 }
 
-/// Writes samples as lines of CSV. Numbers have the fewest digits that read back to the same bits.
+/// Writes samples as lines of CSV.
 fn write_csv(out: &mut impl Write, drawn: &DrawnScenes) -> io::Result<()> {
     for (row, physical) in drawn.physical.iter().enumerate() {
         write!(out, "{},{}", drawn.first.0 + row as u64, status(*physical))?;
-        drawn.columns.iter().chain(&drawn.mass).try_for_each(|column| write!(out, ",{:?}", column[row]))?;
+        drawn.columns.iter().chain(&drawn.mass).try_for_each(|column| {
+            out.write_all(b",")?;
+            write_number(out, column[row])
+        })?;
         writeln!(out)?;
     }
     Ok(())

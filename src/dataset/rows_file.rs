@@ -1,5 +1,6 @@
 //! [`RowsFile`]: the files of rows: dispersed parameters, observables, audits.
 
+use std::collections::BTreeMap;
 use std::io::Write;
 
 use parquet::errors::ParquetError;
@@ -12,7 +13,7 @@ use crate::ensemble::audit::AuditValue;
 use crate::ensemble::{Ensemble, Rows};
 use crate::observables::Kind;
 use crate::observables::headlines::headlines;
-use crate::run::{Quantity, Status};
+use crate::run::Quantity;
 
 /// Name of the column that numbers the samples.
 pub const SAMPLE_ID: &str = "sample_id";
@@ -21,6 +22,9 @@ pub const STATUS: &str = "status";
 
 /// Name of the column that says why a run is not `ok`.
 pub const REASON: &str = "reason";
+
+/// Name of the column that says why a run that was to be audited has no audit.
+pub const AUDIT_REASON: &str = "audit_reason";
 
 /// Layout of the files of rows of one campaign.
 #[derive(Clone, Debug)]
@@ -78,12 +82,15 @@ pub fn headings(ensemble: &Ensemble<'_>) -> Vec<Heading> {
         .filter(|_| audited)
         .map(|value| Heading::new(value.quantity().clone(), Content::Real).nullable());
     let errors = error_headings(ensemble, audited_observables(ensemble));
+    let without = "Why a run that was selected for an audit has none; null in other rows.";
+    let reason = audited.then(|| Heading::new(Quantity::new(AUDIT_REASON, "", without), Content::Word).nullable());
     fixed
         .into_iter()
         .chain(parameter_headings(ensemble.plan()))
         .chain(observables)
         .chain(audits)
         .chain(errors)
+        .chain(reason)
         .collect()
 }
 
@@ -129,8 +136,7 @@ impl RowsFile {
 
     /// Writes `rows` to `out`.
     ///
-    /// A value that a failed run does not have is null. In a run that is `ok` a NaN stays a NaN, so that it is not mistaken
-    /// for the value of a failed run.
+    /// A value that a run does not have is null: NaN and infinite in memory, whether the run is `ok` or not.
     ///
     /// # Errors
     /// Where writing fails.
@@ -141,7 +147,7 @@ impl RowsFile {
             ("spindrift.samples", rows.part().count.to_string()),
         ];
         let shape = rows.shape();
-        let masks = masks(rows);
+        let masks = self.masks(rows);
         let mut reasons = vec![None; rows.part().count];
         rows.reasons().iter().for_each(|(row, reason)| reasons[*row] = Some(reason.as_str()));
         let fixed = [
@@ -151,15 +157,22 @@ impl RowsFile {
         ];
         let parameters = (0..shape.parameters).map(|index| Cells::Real(rows.parameter(index), None));
         let observables = (0..shape.observables).map(|index| {
-            let (values, mask) = (rows.observable(index), masks.as_ref().map(|masks| &masks[index][..]));
+            let values = rows.observable(index);
             match self.contents[index] {
-                Content::Count => Cells::Count(values.iter().map(|value| *value as u64).collect(), mask),
-                _ => Cells::Real(values, mask),
+                Content::Count => Cells::Count(
+                    values.iter().map(|value| *value as u64).collect(),
+                    masks.get(&index).map(Vec::as_slice),
+                ),
+                _ => Cells::Real(values, None),
             }
         });
         let (audited, audits) = audit_columns(rows, &self.audits, &self.audited);
         let audits = audits.iter().map(|column| Cells::Real(column, Some(&audited)));
-        self.layout.write(out, &own, fixed.into_iter().chain(parameters).chain(observables).chain(audits))
+        let mut without = vec![None; rows.part().count];
+        rows.audit_reasons().iter().for_each(|(row, reason)| without[*row] = Some(reason.as_str()));
+        let without = (!self.audits.is_empty()).then_some(Cells::Text(without));
+        let cells = fixed.into_iter().chain(parameters).chain(observables).chain(audits).chain(without);
+        self.layout.write(out, &own, cells)
     }
 }
 
@@ -180,12 +193,11 @@ fn audit_columns(rows: &Rows, values: &[AuditValue], indices: &[usize]) -> (Vec<
     (audited, columns)
 }
 
-/// Which values of each observable are present; `None` where all are.
-fn masks(rows: &Rows) -> Option<Vec<Vec<bool>>> {
-    if rows.statuses().iter().all(|status| *status == Status::Done) {
-        return None;
+impl RowsFile {
+    /// Which counts are present, by the index of the observable; columns in which all are have no entry. Real numbers need no mask.
+    fn masks(&self, rows: &Rows) -> BTreeMap<usize, Vec<bool>> {
+        let counts = (0..self.contents.len()).filter(|index| self.contents[*index] == Content::Count);
+        let mask = |index: usize| rows.observable(index).iter().map(|value| value.is_finite()).collect();
+        counts.map(|index| (index, mask(index))).filter(|(_, mask): &(_, Vec<bool>)| mask.contains(&false)).collect()
     }
-    let present = |(value, status): (&f64, &Status)| *status == Status::Done || !value.is_nan();
-    let mask = |index: usize| rows.observable(index).iter().zip(rows.statuses()).map(present).collect();
-    Some((0..rows.shape().observables).map(mask).collect())
 }

@@ -54,6 +54,14 @@ pub fn csv_header(out: &mut impl Write, headings: &[Heading]) -> io::Result<()> 
     writeln!(out, "{}", names.join(","))
 }
 
+/// Writes a number with the fewest digits that read back to the same bits; nothing for what is no finite number, as in Parquet.
+///
+/// # Errors
+/// What `out` returns.
+pub fn write_number(out: &mut impl Write, number: f64) -> io::Result<()> {
+    if number.is_finite() { write!(out, "{number:?}") } else { Ok(()) }
+}
+
 /// Writes a table as CSV: the names of `headings`, then `rows` rows. `cells` writes the cells of one row, separated by commas.
 ///
 /// # Errors

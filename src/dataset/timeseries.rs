@@ -7,11 +7,13 @@ use std::collections::HashMap;
 use std::io::{self, Write};
 use std::path::Path;
 
+use parquet::errors::ParquetError;
+
 use crate::campaign::Plan;
 use crate::dataset::atomic;
 use crate::dataset::columnar::{Cells, Content, Heading, Layout, Packing};
 use crate::dataset::provenance::provenance;
-use crate::dataset::table::{TableError, TableFormat, write_csv};
+use crate::dataset::table::{TableError, TableFormat, write_csv, write_number};
 use crate::ensemble::SingleRun;
 use crate::math::vector::{cross, dcm_from_quaternion, difference, product};
 use crate::observables::Series;
@@ -105,23 +107,34 @@ impl TimeSeries {
     pub fn save(&self, path: &Path) -> Result<(), TableError> {
         match TableFormat::of(path)? {
             TableFormat::Csv => atomic::write(path, |file| self.write_csv(file)).map_err(TableError::Io),
-            TableFormat::Parquet => {
-                let layout = Layout::new(&self.headings, self.origin.clone(), Packing::Lz4)?;
-                let cells = self.columns.iter().map(|column| Cells::Real(column, None));
-                atomic::write(path, |file| layout.write(file, &[], cells)).map_err(TableError::Parquet)
-            }
+            TableFormat::Parquet => atomic::write(path, |file| self.write_parquet(file)).map_err(TableError::Parquet),
         }
     }
 
-    /// Writes the table as CSV. Numbers have the fewest digits that read back to the same bits.
+    /// The table as a Parquet file: the bytes that [`TimeSeries::save`] writes.
+    ///
+    /// # Errors
+    /// Where encoding fails.
+    pub fn encoded(&self) -> Result<Vec<u8>, ParquetError> {
+        let mut bytes = Vec::new();
+        self.write_parquet(&mut bytes)?;
+        Ok(bytes)
+    }
+
+    fn write_parquet<W: Write + Send>(&self, out: W) -> Result<(), ParquetError> {
+        let layout = Layout::new(&self.headings, self.origin.clone(), Packing::Lz4)?;
+        layout.write(out, &[], self.columns.iter().map(|column| Cells::Real(column, None)))
+    }
+
+    /// Writes the table as CSV.
     ///
     /// # Errors
     /// What `out` returns.
     pub fn write_csv(&self, out: &mut impl Write) -> io::Result<()> {
         write_csv(out, &self.headings, self.points(), |out, point| {
             self.columns.iter().enumerate().try_for_each(|(index, column)| {
-                let comma = if index == 0 { "" } else { "," };
-                write!(out, "{comma}{:?}", column[point])
+                out.write_all(if index == 0 { b"" } else { b"," })?;
+                write_number(out, column[point])
             })
         })
     }

@@ -5,15 +5,22 @@
 //! doubles, and the row says so ([`Audit::reference_tolerance`]). The audited run is repeated with the states that the comparison
 //! needs; an audit does not change the row of the campaign.
 //!
+//! An audit has a limit: where the debris turns so fast that its reference solution would take longer than the whole audit of other runs, there
+//! is none, and the row says so ([`NoAudit`]). The limit counts units of time of the motion, not seconds of a clock.
+//!
 //! Which samples are audited is drawn from a stream of its own, `audit`: it does not depend on threads, parts or other draws.
 
+use thiserror::Error;
+
 use crate::campaign::Plan;
+use crate::dynamics::debris;
 use crate::dynamics::gyrostat::Gyrostat;
 use crate::ensemble::settings::{nominal_attitude, propagator, request};
 use crate::math::Isa;
 use crate::observables::headlines::STATE_ERROR_ESTIMATE;
 use crate::observables::{Group, Observer, Request};
 use crate::ode::{Control, Tolerance};
+use crate::propagation::settings::observes_debris_rotation;
 use crate::propagation::taylor::reference_solution::{self, ReferenceSolution};
 use crate::propagation::{
     CompletedRun, Engine, Method, PropagationSettings, RotationError, debris_rotation_errors, rotation_errors,
@@ -25,6 +32,10 @@ use crate::scene::Scene;
 /// A run of more units of time ([`Gyrostat::time_unit`]) than this is audited in plain doubles: double-double takes some
 /// five steps per unit of some 40 us each, so that an audit takes one second at most.
 const MOST_UNITS: f64 = 4096.0;
+
+/// Debris that turns for more units of time than this, and is integrated in double-double, is not audited: as `MOST_UNITS`, some four seconds.
+/// Its rotation has a closed form or costs little in a campaign, whatever its rate, so that an audit alone would take hours.
+const MOST_UNITS_OF_DEBRIS: f64 = 16_384.0;
 
 /// Tolerance of the reference solution in plain doubles: the smallest that a campaign may ask for.
 const PLAIN_TOLERANCE: f64 = 1e-16;
@@ -135,6 +146,25 @@ impl Audit {
     }
 }
 
+/// Why a run has no audit.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum NoAudit {
+    /// The run did not reach its end.
+    #[error("the run ended with {}", .0.name())]
+    Run(Status),
+    /// Its reference solution did not.
+    #[error("the reference solution ended with {}", .0.name())]
+    Reference(Status),
+    /// It is beyond the limit of work.
+    #[error(
+        "the debris turns for {units:e} units of time (powers of two near the inverse of its rate), more than the {MOST_UNITS_OF_DEBRIS} that an audit integrates in double-double"
+    )]
+    Limit {
+        /// Units of time of the debris in the run.
+        units: f64,
+    },
+}
+
 /// Which samples are audited.
 #[derive(Debug)]
 pub struct Selection {
@@ -205,13 +235,19 @@ impl Auditor {
         }
     }
 
-    /// Audits the run of `scene`; `None` where the run or its reference solution fails.
-    pub fn audit(&mut self, scene: &Scene) -> Option<Audit> {
+    /// Audits the run of `scene`.
+    ///
+    /// # Errors
+    /// Where the run or its reference solution fails, or is beyond the limit of work.
+    pub fn audit(&mut self, scene: &Scene) -> Result<Audit, NoAudit> {
         self.compare(scene, scene)
     }
 
     /// Audits the run of `run` against the reference solution of `scene`. Both are the same scene, except in tests of a wrong kernel.
-    pub fn compare(&mut self, run: &Scene, scene: &Scene) -> Option<Audit> {
+    ///
+    /// # Errors
+    /// As [`Auditor::audit`].
+    pub fn compare(&mut self, run: &Scene, scene: &Scene) -> Result<Audit, NoAudit> {
         let fields = compared(&self.reference_request).union(self.reference_request.fields());
         let (reference, reference_tolerance) = self.reference_solution(scene, fields)?;
         let done = Outcome {
@@ -224,12 +260,13 @@ impl Auditor {
         };
         self.reference_observer.observe(self.isa, scene, &reference.high, &done, &mut self.reference_row);
         let (isa, observer, row) = (self.isa, &mut self.observer, &mut self.row);
-        let (mut errors, has_debris) = (None, self.request.debris);
+        let (mut errors, has_debris) = (Err(NoAudit::Run(Status::InternalError)), self.request.debris);
         self.engine.propagate(std::slice::from_ref(run), &mut |CompletedRun { table, outcome, .. }| {
+            errors = Err(NoAudit::Run(outcome.status));
             if outcome.status == Status::Done {
                 observer.observe(isa, run, table, outcome, row);
                 let debris = has_debris.then(|| RotationError::largest(debris_rotation_errors(&reference, table)));
-                errors = Some((RotationError::largest(rotation_errors(&reference, table)), debris));
+                errors = Ok((RotationError::largest(rotation_errors(&reference, table)), debris));
             }
         });
         let (RotationError { omega, attitude }, debris) = errors?;
@@ -239,7 +276,7 @@ impl Auditor {
             None => f64::NAN,
         };
         let observables = self.indices.iter().map(error).collect();
-        Some(Audit { omega, attitude, debris, estimate: self.row[self.estimate], reference_tolerance, observables })
+        Ok(Audit { omega, attitude, debris, estimate: self.row[self.estimate], reference_tolerance, observables })
     }
 
     /// What is observed of the audited run: the columns of the campaign and of the group numerics.
@@ -248,26 +285,36 @@ impl Auditor {
     }
 
     /// The reference solution of `scene` with the fields `fields`, and its tolerance.
-    fn reference_solution(&self, scene: &Scene, fields: StateFields) -> Option<(ReferenceSolution, f64)> {
+    fn reference_solution(&self, scene: &Scene, fields: StateFields) -> Result<(ReferenceSolution, f64), NoAudit> {
         let duration = self.grid.duration();
         let unit = Gyrostat::new(0.0, scene, duration).time_unit();
         if duration <= MOST_UNITS * unit {
-            let solution =
-                ReferenceSolution::new(self.isa, scene, &self.grid, fields, reference_solution::TOLERANCE).ok()?;
-            return Some((solution, reference_solution::TOLERANCE));
+            let mut debris = Gyrostat::blank(0.0);
+            if debris::set_rotation(&mut debris, scene) && observes_debris_rotation(fields) {
+                let units = duration / debris.time_unit();
+                if units > MOST_UNITS_OF_DEBRIS {
+                    return Err(NoAudit::Limit { units });
+                }
+            }
+            let solution = ReferenceSolution::new(self.isa, scene, &self.grid, fields, reference_solution::TOLERANCE);
+            return Ok((solution.map_err(NoAudit::Reference)?, reference_solution::TOLERANCE));
         }
         let tolerance = Tolerance { relative: PLAIN_TOLERANCE, absolute: PLAIN_TOLERANCE };
         let control = Control { tolerance, step: None, max_steps: self.max_steps.max(reference_solution::MOST_STEPS) };
-        let mut found = None;
+        let mut found = Err(NoAudit::Reference(Status::InternalError));
         PropagationSettings::new(Method::Taylor, control, self.grid.clone(), fields, scene).engine(self.isa).propagate(
             std::slice::from_ref(scene),
             &mut |CompletedRun { table, outcome, .. }| {
-                found = (outcome.status == Status::Done).then(|| table.clone());
+                found = if outcome.status == Status::Done {
+                    Ok(table.clone())
+                } else {
+                    Err(NoAudit::Reference(outcome.status))
+                };
             },
         );
         let high = found?;
         let low = StateTable::new(high.fields(), high.wheels(), high.points());
-        Some((ReferenceSolution { high, low }, PLAIN_TOLERANCE))
+        Ok((ReferenceSolution { high, low }, PLAIN_TOLERANCE))
     }
 }
 

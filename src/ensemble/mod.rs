@@ -29,7 +29,7 @@ pub mod sink;
 pub mod supervision;
 pub mod worker;
 
-pub use audit::{Audit, Auditor};
+pub use audit::{Audit, Auditor, NoAudit};
 pub use bands::{Bands, PartBands};
 pub use drawn::DrawnScenes;
 pub use parts::{Part, PartId, Parts};

@@ -72,6 +72,11 @@ impl Parts {
         })
     }
 
+    /// Most samples of a part.
+    pub fn largest(self) -> u64 {
+        self.largest
+    }
+
     /// Number of samples.
     pub fn samples(self) -> u64 {
         self.samples

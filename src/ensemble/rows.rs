@@ -34,6 +34,7 @@ pub struct Rows {
     statuses: Vec<Status>,
     values: Vec<f64>,
     audits: Vec<(usize, Option<Audit>)>,
+    audit_reasons: Vec<(usize, String)>,
     reasons: Vec<(usize, String)>,
     seconds: [f64; 2],
     bands: Option<PartBands>,
@@ -52,6 +53,7 @@ impl Rows {
             statuses: vec![Status::InvalidSample; capacity],
             values: vec![f64::NAN; (shape.parameters + shape.observables) * stride],
             audits: Vec::new(),
+            audit_reasons: Vec::new(),
             reasons: Vec::new(),
             seconds: [0.0; 2],
             bands: None,
@@ -85,6 +87,7 @@ impl Rows {
         self.statuses.fill(Status::InvalidSample);
         self.values.fill(f64::NAN);
         self.audits.clear();
+        self.audit_reasons.clear();
         self.reasons.clear();
         self.seconds = [0.0; 2];
         self.bands.iter_mut().for_each(PartBands::start);
@@ -116,7 +119,7 @@ impl Rows {
         self.column(index)
     }
 
-    /// The observable `index`, sample by sample; NaN where a failed run has no value.
+    /// The observable `index`, sample by sample; NaN where a run has no value: what is infinite is none, as in files.
     pub fn observable(&self, index: usize) -> &[f64] {
         assert!(index < self.shape.observables);
         self.column(self.shape.parameters + index)
@@ -147,7 +150,26 @@ impl Rows {
     /// Sets the audit of row `row`: `None` where the run or its reference solution did not reach the end.
     pub fn set_audit(&mut self, row: usize, audit: Option<Audit>) {
         assert!(row < self.part.count);
+        let audit = audit.map(|audit| Audit {
+            omega: finite(audit.omega),
+            attitude: finite(audit.attitude),
+            debris: finite(audit.debris),
+            estimate: finite(audit.estimate),
+            observables: audit.observables.into_iter().map(finite).collect(),
+            ..audit
+        });
         self.audits.push((row, audit));
+    }
+
+    /// Says why row `row`, which was to be audited, has no audit.
+    pub fn set_audit_reason(&mut self, row: usize, reason: String) {
+        assert!(row < self.part.count);
+        self.audit_reasons.push((row, reason));
+    }
+
+    /// The rows that were to be audited and have no audit, with the reason of each.
+    pub fn audit_reasons(&self) -> &[(usize, String)] {
+        &self.audit_reasons
     }
 
     /// Says why row `row` is not `ok`.
@@ -194,15 +216,31 @@ impl Rows {
     fn scatter(&mut self, first: usize, row: usize, values: &[f64]) {
         assert!(row < self.part.count);
         for (index, value) in values.iter().enumerate() {
-            self.values[(first + index) * self.stride + row] = *value;
+            self.values[(first + index) * self.stride + row] = finite(*value);
         }
     }
+}
+
+/// A number, or NaN for what is no finite number.
+fn finite(value: f64) -> f64 {
+    if value.is_finite() { value } else { f64::NAN }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::ensemble::parts::PartId;
+
+    /// Law: infinite values are absent in memory as they are in files, so that counting either gives the same numbers.
+    #[test]
+    fn infinite_values_are_absent() {
+        let mut rows = Rows::new(Shape { parameters: 1, observables: 2 }, 1);
+        rows.start(part(1));
+        rows.set_parameters(0, &[f64::NEG_INFINITY]);
+        rows.set_result(0, Status::Done, &[f64::INFINITY, -0.0]);
+        assert!(rows.parameter(0)[0].is_nan() && rows.observable(0)[0].is_nan());
+        assert_eq!(rows.observable(1)[0].to_bits(), (-0.0_f64).to_bits());
+    }
 
     fn part(count: usize) -> Part {
         Part { id: PartId(3), first: SampleId(768), count }

@@ -32,11 +32,16 @@ const AUDIT: f64 = 300.0;
 
 /// The parts of a campaign of `plan`.
 pub fn parts(plan: &Plan, isa: Isa) -> Parts {
-    Parts::up_to(plan.rows(), (LOST_S / run_seconds(plan, isa)) as u64)
+    parts_of_runs(plan, run_seconds(plan, isa))
 }
 
-/// What a run of `plan` takes at most on one core, s.
-fn run_seconds(plan: &Plan, isa: Isa) -> f64 {
+/// The parts of a campaign of `plan` whose runs take `seconds` s each ([`run_seconds`]).
+pub fn parts_of_runs(plan: &Plan, seconds: f64) -> Parts {
+    Parts::up_to(plan.rows(), (LOST_S / seconds) as u64)
+}
+
+/// What a run of `plan` takes at most on one core, s: a function of the plan, not of the machine.
+pub fn run_seconds(plan: &Plan, isa: Isa) -> f64 {
     let Ok(scene) = Scene::resolve(&plan.nominal) else { return POINT_S };
     // the work of a run is that of its steps; the points would only take memory
     let grid = Grid::uniform(plan.grid.duration(), plan.grid.points().min(POINTS));

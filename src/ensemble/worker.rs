@@ -11,7 +11,7 @@ use crate::ensemble::cpu_clock::thread_seconds;
 use crate::ensemble::parts::Part;
 use crate::ensemble::rows::{Rows, Shape};
 use crate::ensemble::settings::{nominal, nominal_attitude, propagator, request};
-use crate::ensemble::supervision::Supervision;
+use crate::ensemble::supervision::{Report, Supervision};
 use crate::math::Isa;
 use crate::observables::band_reader::BandReader;
 use crate::observables::band_series::band_series;
@@ -112,6 +112,7 @@ impl<'p> Ensemble<'p> {
             scenes: Vec::new(),
             rows_of_scenes: Vec::with_capacity(BATCH),
             is_done: Vec::with_capacity(BATCH),
+            is_selected: Vec::with_capacity(BATCH),
             new_engine: |ensemble| ensemble.propagator.engine(ensemble.isa),
             engine: self.propagator.engine(self.isa),
             observer: self.observer(),
@@ -131,6 +132,8 @@ pub struct Worker<'c> {
     rows_of_scenes: Vec<usize>,
     /// Which scenes of the batch have ended.
     is_done: Vec<bool>,
+    /// Which scenes of the batch are audited; empty without audits.
+    is_selected: Vec<bool>,
     /// Makes an engine: again after a panic, which may leave anything in one.
     new_engine: fn(&Ensemble<'_>) -> Box<dyn Engine>,
     engine: Box<dyn Engine>,
@@ -151,13 +154,15 @@ impl Worker<'_> {
             let end = part.count.min(start + BATCH);
             let begun = self.audits.as_ref().map(|_| thread_seconds());
             self.draw(start..end, rows);
-            self.propagate(rows);
+            self.select(rows);
+            let mut report = Report::new(supervision, end - start);
+            self.propagate(rows, &mut report);
             if let Some(begun) = begun {
                 let done = thread_seconds();
-                self.audit(rows);
+                self.audit(rows, &mut report);
                 rows.add_seconds(done - begun, thread_seconds() - done);
             }
-            (supervision.progress)((end - start) as u64);
+            report.finish();
         }
         rows.bands_mut().into_iter().for_each(PartBands::count);
         true
@@ -179,23 +184,36 @@ impl Worker<'_> {
         }
     }
 
-    /// Audits the samples of the batch that are selected.
-    fn audit(&mut self, rows: &mut Rows) {
-        let Some((selection, auditor)) = &mut self.audits else { return };
-        for (scene, row) in self.scenes.iter().zip(&self.rows_of_scenes) {
-            if selection.contains(rows.samples()[*row]) {
-                rows.set_audit(*row, auditor.audit(scene));
+    /// Chooses the scenes of the batch that are audited.
+    fn select(&mut self, rows: &Rows) {
+        self.is_selected.clear();
+        let Some((selection, _)) = &mut self.audits else { return };
+        let samples = self.rows_of_scenes.iter().map(|row| rows.samples()[*row]);
+        self.is_selected.extend(samples.map(|sample| selection.contains(sample)));
+    }
+
+    /// Audits the scenes of the batch that are selected.
+    fn audit(&mut self, rows: &mut Rows, report: &mut Report<'_>) {
+        let Some((_, auditor)) = &mut self.audits else { return };
+        for ((scene, row), _) in
+            self.scenes.iter().zip(&self.rows_of_scenes).zip(&self.is_selected).filter(|(_, selected)| **selected)
+        {
+            let audit = auditor.audit(scene);
+            if let Err(why) = &audit {
+                rows.set_audit_reason(*row, why.to_string());
             }
+            rows.set_audit(*row, audit.ok());
+            report.add(u64::MAX);
         }
     }
 
     /// Runs the scenes of the batch. Where the program panics, those that had not ended are run again one by one in new memory, so that
     /// the panic is the end of one run only.
-    fn propagate(&mut self, rows: &mut Rows) {
+    fn propagate(&mut self, rows: &mut Rows, report: &mut Report<'_>) {
         self.is_done.clear();
         self.is_done.resize(self.rows_of_scenes.len(), false);
         let all = 0..self.rows_of_scenes.len();
-        if catch_unwind(AssertUnwindSafe(|| self.propagate_some(all.clone(), rows))).is_ok() {
+        if catch_unwind(AssertUnwindSafe(|| self.propagate_some(all.clone(), rows, report))).is_ok() {
             return;
         }
         for scene in all {
@@ -204,7 +222,8 @@ impl Worker<'_> {
             }
             self.engine = (self.new_engine)(self.campaign);
             self.observer = self.campaign.observer();
-            if let Err(panic) = catch_unwind(AssertUnwindSafe(|| self.propagate_some(scene..scene + 1, rows))) {
+            let one = scene..scene + 1;
+            if let Err(panic) = catch_unwind(AssertUnwindSafe(|| self.propagate_some(one, rows, report))) {
                 let row = self.rows_of_scenes[scene];
                 rows.set_result(row, Status::InternalError, &vec![f64::NAN; self.observed.len()]);
                 rows.set_reason(row, message(panic.as_ref()));
@@ -215,15 +234,20 @@ impl Worker<'_> {
     }
 
     /// Runs some scenes of the batch.
-    fn propagate_some(&mut self, which: std::ops::Range<usize>, rows: &mut Rows) {
+    fn propagate_some(&mut self, which: std::ops::Range<usize>, rows: &mut Rows, report: &mut Report<'_>) {
         let (isa, first_scene) = (self.campaign.isa, which.start);
         let (scenes, rows_of_scenes) = (&self.scenes[which.clone()], &self.rows_of_scenes[which]);
         let (observer, observed, is_done) = (&mut self.observer, &mut self.observed, &mut self.is_done);
+        let is_selected = &self.is_selected;
         self.engine.propagate(scenes, &mut |CompletedRun { index, table, outcome, .. }| {
             let (status, row) =
                 (observer.observe(isa, &scenes[index], table, outcome, observed), rows_of_scenes[index]);
             rows.set_result(row, status, observed);
             is_done[first_scene + index] = true;
+            // a run that is audited is done when its audit is
+            if !is_selected.get(first_scene + index).is_some_and(|selected| *selected) {
+                report.add(outcome.effort.evaluations);
+            }
             if status != Status::Done {
                 rows.set_reason(row, observer.reason(status, outcome, observed));
             } else if rows.samples()[row] > SampleId(0)

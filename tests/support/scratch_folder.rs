@@ -76,10 +76,10 @@ pub fn batches(path: &Path) -> Vec<RecordBatch> {
     parquet_tables::groups(path)
 }
 
-/// The numbers of the column `name`.
+/// The numbers of the column `name`; null as NaN.
 pub fn floats(batch: &RecordBatch, name: &str) -> Vec<f64> {
     let column = batch.column_by_name(name).unwrap_or_else(|| panic!("no column {name}"));
-    column.as_primitive::<Float64Type>().values().to_vec()
+    column.as_primitive::<Float64Type>().iter().map(|value| value.unwrap_or(f64::NAN)).collect()
 }
 
 impl Drop for ScratchFolder {
