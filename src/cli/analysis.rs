@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use crate::campaign::Plan;
 use crate::cli::command_outcome::Failure;
-use crate::dataset::names::BANDS;
+use crate::dataset::folder::Folder;
+use crate::dataset::names::{BANDS, SENSITIVITY, STATISTICS};
 use crate::dataset::rows_reader::RowsReader;
 use crate::dataset::running_counts::Counted;
 use crate::dataset::sensitivity::InputSensitivity;
@@ -30,7 +31,7 @@ pub struct Analysed {
     pub bands: Option<Bands>,
 }
 
-/// Makes the tables of the result of `plan` in the folder `root` from its rows, and the files `bands` of its bands.
+/// Makes the tables of the dataset `folder` of `plan` from its rows, and the files `bands` of its bands.
 ///
 /// # Errors
 /// Where a file cannot be read or written.
@@ -38,20 +39,23 @@ pub fn analyse(
     plan: &Plan,
     reader: &RowsReader,
     bands: &[PathBuf],
-    root: &Path,
+    folder: &Folder,
     counted: Option<Counted>,
     threads: Option<NonZeroUsize>,
 ) -> Result<Analysed, Failure> {
     let found = computed(plan, reader, bands, counted, threads)?;
-    let path = root.join(statistics_table::FILE);
-    statistics_table::save(plan, &found.statistics, &path).map_err(|error| in_file(&path, &error))?;
-    let path = root.join(sensitivity_table::FILE);
-    sensitivity_table::save(plan, &found.sensitivities, &path).map_err(|error| in_file(&path, &error))?;
+    write(folder, STATISTICS, statistics_table::encoded(plan, &found.statistics))?;
+    write(folder, SENSITIVITY, sensitivity_table::encoded(plan, &found.sensitivities))?;
     if let Some(bands) = &found.bands {
-        let path = root.join(BANDS);
-        bands_table::save(plan, bands, &path).map_err(|error| in_file(&path, &error))?;
+        write(folder, BANDS, bands_table::encoded(plan, bands))?;
     }
     Ok(found)
+}
+
+/// Writes an encoded table as the file `name` of a dataset.
+fn write<E: std::fmt::Display>(folder: &Folder, name: &str, encoded: Result<Vec<u8>, E>) -> Result<(), Failure> {
+    let bytes = encoded.map_err(|error| in_file(&folder.path(name), &error))?;
+    folder.write(name, &bytes).map_err(Failure::files)
 }
 
 /// What the rows and the files `bands` of the bands of `plan` say, or what was counted while they were made; nothing is written.

@@ -97,6 +97,18 @@ pub fn shift(text: &str) -> Result<f64, String> {
     text.parse().ok().filter(|value: &f64| value.is_finite() && *value >= 0.0).ok_or_else(allowed)
 }
 
+/// A number of samples; otherwise the allowed form.
+///
+/// # Errors
+/// Where it is none.
+pub fn count(text: &str) -> Result<u64, String> {
+    let whole = |number: &f64| (0.0..=9e15).contains(number) && libm::floor(*number) == *number;
+    text.parse().map_err(|_| match text.parse().ok().filter(whole) {
+        Some(number) => format!("must be a whole number without decimal point or exponent; write {}", number as u64),
+        None => "must be a whole number of at least 1".to_owned(),
+    })
+}
+
 /// A positive time in seconds; otherwise the allowed range.
 ///
 /// # Errors
@@ -109,6 +121,15 @@ pub fn seconds(text: &str) -> Result<f64, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn counts_are_whole() {
+        assert_eq!(count("1000"), Ok(1000));
+        assert!(count("1e7").unwrap_err().ends_with("write 10000000"));
+        for wrong in ["", "-1", "1.5", "NaN", "1e300", "ten"] {
+            assert_eq!(count(wrong).unwrap_err(), "must be a whole number of at least 1", "{wrong}");
+        }
+    }
 
     #[test]
     fn tolerances_have_a_range() {

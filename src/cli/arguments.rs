@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 
 use crate::cli::argument_values::{
-    fraction, group, method, sbatch_option, seconds, shard, shards, shift, time_limit, tolerance,
+    count, fraction, group, method, sbatch_option, seconds, shard, shards, shift, time_limit, tolerance,
 };
 use crate::cli::slurm_script::TimeLimit;
 use crate::dataset::claim::Shard;
@@ -85,11 +85,14 @@ pub struct CampaignOptions {
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Number of samples instead of the file's.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = count)]
     pub samples: Option<u64>,
     /// Seed instead of the file's.
     #[arg(long, value_name = "S")]
     pub seed: Option<u64>,
+    /// Start also what takes more than 24 hours of CPU time, or more than half of what the disk has left.
+    #[arg(long)]
+    pub yes: bool,
     /// Number of threads [default: one for each core]; rows do not depend on it.
     #[arg(long, value_name = "N")]
     pub threads: Option<std::num::NonZeroUsize>,
@@ -251,11 +254,14 @@ pub struct SampleOptions {
     /// The campaign file.
     pub file: PathBuf,
     /// Number of samples instead of the file's.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = count)]
     pub samples: Option<u64>,
     /// Seed instead of the file's.
     #[arg(long, value_name = "S")]
     pub seed: Option<u64>,
+    /// Start also what takes more than 24 hours of CPU time, or more than half of what the disk has left.
+    #[arg(long)]
+    pub yes: bool,
     /// Show the numbers that this sample applies, and nothing else.
     #[arg(long, value_name = "K", conflicts_with_all = ["out", "plot"])]
     pub sample: Option<u64>,
@@ -285,6 +291,9 @@ pub struct PrecisionOptions {
     /// Timed repetitions of each measurement; the median is reported.
     #[arg(long, value_name = "N", default_value = "5")]
     pub repeats: std::num::NonZeroUsize,
+    /// Start also what takes more than 24 hours of CPU time.
+    #[arg(long)]
+    pub yes: bool,
     /// Integrate only the states that the file's groups of observables need.
     #[arg(long)]
     pub observed: bool,

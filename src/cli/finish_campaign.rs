@@ -12,7 +12,8 @@ use crate::campaign::{Overrides, Plan};
 use crate::cli::analysis::{Analysed, analyse, write_junit};
 use crate::cli::arguments::FinishOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
-use crate::cli::input::{isa, plan};
+use crate::cli::input::{isa, plan_and_files};
+use crate::cli::outputs::{refuse_inputs, refuse_within};
 use crate::cli::{report, screen};
 use crate::dataset::claim::{Claim, ClaimOptions, Ready, claim, open, replace};
 use crate::dataset::identity::identity;
@@ -63,6 +64,16 @@ pub struct Finishing<'a> {
 /// # Errors
 /// Where rows cannot be read or a file operation fails.
 pub fn finish(job: &Finishing<'_>, counted: Option<Counted>) -> Result<CommandOutcome, Failure> {
+    let (outcome, text) = complete(job, counted)?;
+    screen::print(&text)?;
+    Ok(outcome)
+}
+
+/// Makes everything that follows from the rows, and marks the dataset as finished; how the command ends, and what it says.
+///
+/// # Errors
+/// Where rows cannot be read or a file operation fails.
+pub fn complete(job: &Finishing<'_>, counted: Option<Counted>) -> Result<(CommandOutcome, String), Failure> {
     let (plan, folder) = (job.ensemble.plan(), &job.ready.folder);
     let records = folder.parts();
     let parts = PartsRead::of(&records, |name| folder.path(name));
@@ -71,7 +82,7 @@ pub fn finish(job: &Finishing<'_>, counted: Option<Counted>) -> Result<CommandOu
         Some(counted) => counted.tally.clone(),
         None => Tally::of_files(job.ensemble, &reader, job.threads).map_err(Failure::files)?,
     };
-    let analysed = analyse(plan, &reader, &parts.bands, folder.root(), counted, job.threads)?;
+    let analysed = analyse(plan, &reader, &parts.bands, folder, counted, job.threads)?;
     retain(job, &reader)?;
     make_page(job, &reader, &analysed, &records)?;
     write_junit(plan, &analysed.verdicts, tally.failed(), job.junit)?;
@@ -89,7 +100,7 @@ pub fn finish(job: &Finishing<'_>, counted: Option<Counted>) -> Result<CommandOu
         (Some(_), seconds) if seconds[1] > 0.0 => format!("\n  audits: {}\n", cost(seconds)),
         _ => String::new(),
     };
-    screen::print(&format!(
+    let text = format!(
         "{}\n{summary}{audits}\n{}\n  {}: {} file{} of rows, {}\n",
         headline(plan, &summary, job.made),
         summary.replay(job.replayed),
@@ -97,8 +108,8 @@ pub fn finish(job: &Finishing<'_>, counted: Option<Counted>) -> Result<CommandOu
         records.len(),
         if records.len() == 1 { "" } else { "s" },
         bytes(folder.size()),
-    ))?;
-    Ok(outcome)
+    );
+    Ok((outcome, text))
 }
 
 /// Writes the report page and its figures, where they are asked for; else there is none.
@@ -127,7 +138,7 @@ fn retain(job: &Finishing<'_>, reader: &RowsReader) -> Result<(), Failure> {
         return Ok(());
     }
     folder.storage().create_folder(&path).map_err(|error| Failure::files(format!("{}: {error}", path.display())))?;
-    trajectories::save(plan, &samples, &path, job.ensemble.isa(), job.threads).map_err(Failure::files)
+    trajectories::save(plan, &samples, folder, job.ensemble.isa(), job.threads).map_err(Failure::files)
 }
 
 /// The files of rows of a dataset, in the order of their samples.
@@ -168,7 +179,10 @@ pub fn outcome_of(summary: &str) -> CommandOutcome {
 pub fn run(options: &FinishOptions) -> Result<CommandOutcome, Failure> {
     let root = &options.folder;
     drop(open(&Disk, root).map_err(Failure::files)?); // a folder that is none is not created
-    let plan = plan(&root.join(PLAN), Overrides::default())?;
+    let (plan, files) = plan_and_files(&root.join(PLAN), Overrides::default())?;
+    let outputs = [("--junit", options.junit.as_deref()), ("--figures", options.figures.as_deref())];
+    refuse_inputs(&files.paths(), &outputs[..1])?;
+    refuse_within(root, &outputs)?;
     let ensemble = Ensemble::new(&plan, isa()?);
     let claimed = ClaimOptions { overwrite: false, shard: None, threads: threads(options.threads, usize::MAX) };
     let ready = match claim(&Disk, root, (&plan, &identity(&ensemble)), claimed).map_err(Failure::files)? {

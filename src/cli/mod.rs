@@ -1,6 +1,8 @@
 //! Layer 8: the command line.
 //!
 //! - [`arguments`]: commands and options; [`argument_values`]: their values. - [`input`]: the plan and the instruction set of a command.
+//! - [`outputs`]: which files it may write. - [`workload`]: what a command would compute and write, refused where it cannot be done;
+//!   [`machine`]: what is left of memory and disk.
 //! - [`analysis`]: what is made of the rows at the end of a campaign.
 //! - [`run_campaign`], [`finish_campaign`], [`verify`], [`check`], [`columns`], [`compare`], [`precision`], [`report`], [`sample`],
 //!   [`simulate`], [`slurm`]: one command each. - [`slurm_script`]: the scripts of Slurm.
@@ -21,6 +23,8 @@ pub mod dispersions;
 pub mod failed_samples;
 pub mod finish_campaign;
 pub mod input;
+pub mod machine;
+pub mod outputs;
 pub mod precision;
 pub mod progress;
 pub mod report;
@@ -32,3 +36,4 @@ pub mod simulate;
 pub mod slurm;
 pub mod slurm_script;
 pub mod verify;
+pub mod workload;

@@ -5,9 +5,12 @@ use std::path::{Path, PathBuf};
 use crate::campaign::Overrides;
 use crate::cli::arguments::PrecisionOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
-use crate::cli::input::{isa, plan};
+use crate::cli::input::{isa, plan_and_files};
+use crate::cli::outputs::refuse_inputs;
 use crate::cli::screen;
+use crate::cli::workload::Workload;
 use crate::dataset::precision_table;
+use crate::ensemble::Ensemble;
 use crate::ensemble::precision::{Limits, Precision, States};
 use crate::propagation::Method;
 use crate::report::canvas::Canvas;
@@ -19,7 +22,7 @@ use crate::report::precision_text;
 /// # Errors
 /// Where arguments or campaign file are wrong, a truth cannot be had, or files cannot be written.
 pub fn run(options: &PrecisionOptions) -> Result<CommandOutcome, Failure> {
-    let plan = plan(&options.file, Overrides::default())?;
+    let (plan, files) = plan_and_files(&options.file, Overrides::default())?;
     let isa = isa()?;
     let methods = options.methods.clone().unwrap_or_else(|| Method::ALL.to_vec());
     let mut tolerances = options.tolerances.clone().unwrap_or_else(default_tolerances);
@@ -27,6 +30,10 @@ pub fn run(options: &PrecisionOptions) -> Result<CommandOutcome, Failure> {
     tolerances.dedup();
     let folder =
         options.out.clone().unwrap_or_else(|| PathBuf::from("results").join(format!("{}_precision", plan.name)));
+    for extension in ["parquet", "svg", "png"] {
+        refuse_inputs(&files.paths(), &[("--out", Some(&folder.join(format!("precision.{extension}"))))])?;
+    }
+    Workload::of_precision(&Ensemble::new(&plan, isa), options.samples.get()).check(&folder, options.yes, false)?;
     std::fs::create_dir_all(&folder).map_err(|error| Failure::Files(format!("{}: {error}", folder.display())))?;
 
     let states = if options.observed { States::Observed } else { States::All };

@@ -7,9 +7,10 @@ use crate::cli::analysis::{Analysed, computed};
 use crate::cli::arguments::ReportOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::input::{isa, plan_of_result};
+use crate::cli::outputs::refuse_within;
 use crate::cli::screen;
-use crate::dataset::atomic;
 use crate::dataset::claim::open;
+use crate::dataset::folder::place;
 use crate::dataset::manifest::PartRecord;
 use crate::dataset::names::REPORT;
 use crate::dataset::parts_read::PartsRead;
@@ -26,6 +27,7 @@ use crate::report::page::{Contents, Page, drawing};
 /// Where the folder has no finished result, or files cannot be read or written.
 pub fn run(options: &ReportOptions) -> Result<CommandOutcome, Failure> {
     let root = &options.folder;
+    refuse_within(root, &[("--figures", options.figures.as_deref())])?;
     let (found, _locks) = open(&Disk, root).map_err(Failure::files)?;
     if !found.is_finished {
         let folder = root.display();
@@ -41,8 +43,7 @@ pub fn run(options: &ReportOptions) -> Result<CommandOutcome, Failure> {
     let analysed = computed(&plan, &reader, &parts.bands, None, options.threads)?;
     let page = page(&ensemble, &reader, &analysed, &records, options.threads)?;
     let path = root.join(REPORT);
-    atomic::write_bytes(&path, page.html.as_bytes())
-        .map_err(|error| Failure::Files(format!("{}: {error}", path.display())))?;
+    place(&Disk, &path, page.html.as_bytes()).map_err(Failure::files)?;
     screen::print(&format!("{}: {}\n", path.display(), bytes(page.html.len() as u64)))?;
     save_figures(&page, options.figures.as_deref())?;
     Ok(CommandOutcome::Done)

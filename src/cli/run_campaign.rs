@@ -5,17 +5,20 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-use crate::campaign::{Overrides, Plan};
+use crate::campaign::{FilesRead, Overrides, Plan, data};
 use crate::cli::arguments::CampaignOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::failed_samples::{FailFast, FailedRun, first_failed, plan_of_failed};
 use crate::cli::finish_campaign::{Finishing, finish, outcome_of, row_files};
-use crate::cli::input::{isa, plan};
+use crate::cli::input::{isa, plan_and_files};
+use crate::cli::outputs::{refuse_inputs, refuse_within};
 use crate::cli::progress::Bar;
 use crate::cli::screen;
 use crate::cli::signals::{self, Signals};
+use crate::cli::workload::Workload;
 use crate::dataset::claim::{Claim, ClaimOptions, Ready, Shard, claim};
-use crate::dataset::identity::identity;
+use crate::dataset::folder::Folder;
+use crate::dataset::identity::{self, identity};
 use crate::dataset::manifest::PartRecord;
 use crate::dataset::names::PLAN;
 use crate::dataset::part_sink::{PartSink, write_parts};
@@ -38,10 +41,10 @@ pub const RESULTS: &str = "results";
 pub fn run(options: &CampaignOptions) -> Result<CommandOutcome, Failure> {
     let signals = signals::watch();
     let overrides = Overrides { samples: options.samples, seed: options.seed, audit_fraction: options.audit };
-    let plan = match &options.only_failed_of {
-        None => plan(&options.file, overrides)?,
+    let (plan, files) = match &options.only_failed_of {
+        None => plan_and_files(&options.file, overrides)?,
         Some(of) => match plan_of_failed(&options.file, of, overrides, threads(options.threads, usize::MAX))? {
-            Some(plan) => plan,
+            Some(found) => found,
             None => {
                 screen::print(&format!("{}: no run failed; nothing to do\n", of.display()))?;
                 return Ok(CommandOutcome::Done);
@@ -53,12 +56,44 @@ pub fn run(options: &CampaignOptions) -> Result<CommandOutcome, Failure> {
     }
     let ensemble = Ensemble::new(&plan, isa()?);
     let root = options.out.clone().unwrap_or_else(|| PathBuf::from(RESULTS).join(&plan.name));
+    let outputs = [("--junit", options.junit.as_deref()), ("--figures", options.figures.as_deref())];
+    refuse_inputs(&files.paths(), &[outputs[0], ("--out", Some(&root))])?;
+    refuse_within(&root, &outputs)?;
+    let there = Some(root.as_path()).filter(|_| !options.overwrite);
+    let work = |samples| {
+        Workload::of_campaign((&ensemble, samples), there, options.shard, options.threads).measured(&ensemble)
+    };
+    let looks = targets(&plan);
+    if let [first, .., last] = looks[..] {
+        work(first).check(&root, options.yes, options.shard.is_some())?;
+        work(last).check_limit(&root, options.yes)?;
+    } else {
+        work(plan.rows()).check(&root, options.yes, options.shard.is_some())?;
+    }
     let readers = threads(options.threads, usize::MAX);
     let claimed = ClaimOptions { overwrite: options.overwrite, shard: options.shard, threads: readers };
     match claim(&Disk, &root, (&plan, &identity(&ensemble)), claimed).map_err(Failure::files)? {
         Claim::Finished(summary) => already_complete(&root, &plan, &summary),
-        Claim::Ready(ready) => run_missing(options, &ensemble, *ready, &root, signals),
+        Claim::Ready(ready) => {
+            keep_data(&ready.folder, &files)?;
+            run_missing(options, &ensemble, *ready, &root, signals)
+        }
     }
+}
+
+/// Copies the files of numbers of the plan into the dataset, which is then complete in itself: `finish`, `verify` and `report` read its plan.
+fn keep_data(folder: &Folder, files: &FilesRead) -> Result<(), Failure> {
+    for (path, sha256) in &files.data {
+        let bytes = data::bytes(path).map_err(|error| Failure::Files(format!("{}: {error}", path.display())))?;
+        if identity::sha256(&bytes) != *sha256 {
+            return Err(Failure::Files(format!(
+                "{}: changed while it was read; run the command again",
+                path.display()
+            )));
+        }
+        folder.keep_data(&data::copy_name(path, sha256), &bytes).map_err(Failure::files)?;
+    }
+    Ok(())
 }
 
 /// Refuses `what`, which divides the campaign into shards, where the plan has `[stop]`.

@@ -5,7 +5,9 @@ use std::path::Path;
 use crate::campaign::{Overrides, Plan, draw};
 use crate::cli::arguments::SampleOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
-use crate::cli::input::plan;
+use crate::cli::input::plan_and_files;
+use crate::cli::outputs::refuse_inputs;
+use crate::cli::workload::Workload;
 use crate::cli::{dispersions, screen};
 use crate::dataset::drawn_table;
 use crate::dataset::table::{TableError, TableFormat};
@@ -27,10 +29,14 @@ pub fn run(options: &SampleOptions) -> Result<CommandOutcome, Failure> {
     if let Some(path) = &options.plot {
         PlotFormat::of(path).map_err(|error| Failure::Input(error.to_string()))?;
     }
-    let plan = plan(&options.file, Overrides { samples: options.samples, seed: options.seed, ..Overrides::default() })?;
+    let overrides = Overrides { samples: options.samples, seed: options.seed, ..Overrides::default() };
+    let (plan, files) = plan_and_files(&options.file, overrides)?;
+    refuse_inputs(&files.paths(), &[("--out", options.out.as_deref()), ("--plot", options.plot.as_deref())])?;
     if let Some(sample) = options.sample {
         return one(&plan, sample);
     }
+    let work = Workload::of_samples(&plan, options.out.is_some(), options.plot.is_some());
+    work.check(options.out.as_deref().unwrap_or(Path::new("")), options.yes, false)?;
     let mut percentiles = Percentiles::new(&plan);
     match &options.out {
         Some(path) => save(path, &plan, &mut percentiles)?,

@@ -1,23 +1,53 @@
-//! [`write()`]: files that are either whole or absent.
+//! [`write()`]: files that are either whole or absent, outside of datasets: tables, plots and reports that a command is told to write.
+//! The files of a dataset are written by [`super::folder`].
 //!
 //! A file is written under a temporary name in its own folder (a rename cannot cross file systems), flushed to the disk, and
 //! then renamed. What a crash leaves is recognised by its name.
 
-use std::fs::{self, File};
+use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-/// Suffix of the name of an unfinished file.
-pub const UNFINISHED: &str = ".tmp";
+use crate::dataset::names::UNFINISHED;
 
-/// The name under which `path` is written until it is whole.
-pub fn unfinished(path: &Path) -> PathBuf {
-    let mut name = path.as_os_str().to_owned();
-    name.push(UNFINISHED);
-    PathBuf::from(name)
+/// Temporary names that are tried.
+const NAMES: u32 = 100;
+
+/// The names under which `path` is written until it is whole: the first that is not taken.
+fn unfinished(path: &Path) -> impl Iterator<Item = PathBuf> {
+    let name = |index: u32| {
+        let mut name = path.as_os_str().to_owned();
+        name.push(if index == 0 { UNFINISHED.to_owned() } else { format!(".{index}{UNFINISHED}") });
+        PathBuf::from(name)
+    };
+    (0..NAMES).map(name)
 }
 
-/// Writes the file `path` with `content` and renames it; an older file of that name is replaced only then.
+/// A new file beside `path`. What has a name of that kind already, a link too, is neither followed nor changed.
+fn create_beside(path: &Path) -> io::Result<(PathBuf, File)> {
+    let mut last = io::Error::from(io::ErrorKind::AlreadyExists);
+    for temporary in unfinished(path) {
+        match OpenOptions::new().write(true).create_new(true).open(&temporary) {
+            Ok(file) => return Ok((temporary, file)),
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => last = error,
+            Err(error) => return Err(error),
+        }
+    }
+    Err(last)
+}
+
+/// That `path` is free, or a file or a link that a rename replaces: not a device, and not a pipe.
+fn check_replaceable(path: &Path) -> io::Result<()> {
+    match fs::symlink_metadata(path) {
+        Ok(found) if !(found.is_file() || found.is_symlink()) => {
+            Err(io::Error::new(io::ErrorKind::AlreadyExists, "there is something of that name that is no regular file"))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Writes the file `path` with `content` and renames it; an older file of that name is replaced only then, and so is a link, not what it
+/// leads to.
 ///
 /// # Errors
 /// What `content` returns, or the first failing operation on the file; the unfinished file is removed.
@@ -25,9 +55,10 @@ pub fn write<E: From<io::Error>>(
     path: &Path,
     content: impl FnOnce(&mut BufWriter<File>) -> Result<(), E>,
 ) -> Result<(), E> {
-    let temporary = unfinished(path);
+    check_replaceable(path)?;
+    let (temporary, file) = create_beside(path)?;
     let written = (|| {
-        let mut file = BufWriter::with_capacity(1 << 16, File::create(&temporary)?);
+        let mut file = BufWriter::with_capacity(1 << 16, file);
         content(&mut file)?;
         let file = file.into_inner().map_err(io::IntoInnerError::into_error)?;
         file.sync_all()?;
@@ -39,15 +70,6 @@ pub fn write<E: From<io::Error>>(
         let _ = fs::remove_file(&temporary);
     }
     written
-}
-
-/// Makes the renames inside `folder` durable.
-///
-/// # Errors
-/// Where the folder cannot be opened or flushed.
-pub fn sync_folder(folder: &Path) -> io::Result<()> {
-    // Only Unix can open and flush a folder.
-    if cfg!(unix) { File::open(folder)?.sync_all() } else { Ok(()) }
 }
 
 /// Writes bytes as a whole file.
@@ -93,13 +115,36 @@ mod tests {
             file.write_all(b"content")?;
             file.flush()?;
             assert!(!path.exists());
-            assert!(unfinished(&path).exists());
+            assert!(unfinished(&path).next().unwrap().exists());
             Ok(())
         })
         .unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"content");
-        assert!(!unfinished(&path).exists());
-        sync_folder(&folder).unwrap();
+        assert!(unfinished(&path).all(|path| !path.exists()));
+        fs::remove_dir_all(&folder).unwrap();
+    }
+
+    /// Law: a link that somebody put under the temporary or the final name is not followed, a file of the temporary name is kept, and a pipe of
+    /// the final name is refused without waiting.
+    #[cfg(unix)]
+    #[test]
+    fn links_are_not_followed() {
+        use std::os::unix::fs::symlink;
+        let folder = folder("links");
+        let (path, precious) = (folder.join("s.csv"), folder.join("precious"));
+        fs::write(&precious, b"precious").unwrap();
+        symlink(&precious, folder.join("s.csv.tmp")).unwrap();
+        fs::write(folder.join("s.csv.1.tmp"), b"of another process").unwrap();
+        symlink(&precious, &path).unwrap();
+        write_bytes(&path, b"new").unwrap();
+        assert_eq!(fs::read(&precious).unwrap(), b"precious");
+        assert_eq!(fs::read(folder.join("s.csv.1.tmp")).unwrap(), b"of another process");
+        assert!(fs::symlink_metadata(&path).unwrap().is_file());
+        assert_eq!(fs::read(&path).unwrap(), b"new");
+        let pipe = folder.join("pipe.csv");
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        assert!(write_bytes(&pipe, b"new").is_err());
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 5);
         fs::remove_dir_all(&folder).unwrap();
     }
 }

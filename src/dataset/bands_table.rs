@@ -1,11 +1,8 @@
 //! `bands.parquet`: quantiles over a campaign of quantities over time, one row for each series and point.
 
-use std::path::Path;
-
 use parquet::errors::ParquetError;
 
 use crate::campaign::Plan;
-use crate::dataset::atomic;
 use crate::dataset::columnar::{Cells, Content, Heading, Layout, Packing};
 use crate::dataset::provenance::provenance;
 use crate::ensemble::Bands;
@@ -51,11 +48,11 @@ fn optional(values: impl Iterator<Item = Option<f64>>) -> (Vec<f64>, Vec<bool>) 
     values.map(|value| (value.unwrap_or(f64::NAN), value.is_some())).unzip()
 }
 
-/// Writes `bands` of `plan` as Parquet; the file is whole or absent.
+/// `bands` of `plan` as a Parquet file.
 ///
 /// # Errors
-/// Where writing fails.
-pub fn save(plan: &Plan, bands: &Bands, path: &Path) -> Result<(), ParquetError> {
+/// Where encoding fails.
+pub fn encoded(plan: &Plan, bands: &Bands) -> Result<Vec<u8>, ParquetError> {
     let mut origin = provenance(plan);
     origin.insert("spindrift.bands.relative_error".to_owned(), RELATIVE_ERROR.to_string());
     origin.insert(
@@ -81,5 +78,7 @@ pub fn save(plan: &Plan, bands: &Bands, path: &Path) -> Result<(), ParquetError>
     columns.extend(QUANTILES.map(|(_, p)| at(&|series, point| bands.quantile(series, point, p))));
     let cells = texts.into_iter().chain([Cells::Real(&times, None), Cells::Count(counts, None)]);
     let cells = cells.chain(columns.iter().map(|(values, there)| Cells::Real(values, Some(there))));
-    atomic::write(path, |file| layout.write(file, &[], cells))
+    let mut bytes = Vec::new();
+    layout.write(&mut bytes, &[], cells)?;
+    Ok(bytes)
 }

@@ -1,11 +1,8 @@
 //! A small table that is made at the end of a campaign: its columns one by one, each with its meaning and its values, as one file.
 
-use std::path::Path;
-
 use parquet::errors::ParquetError;
 
 use crate::campaign::Plan;
-use crate::dataset::atomic;
 use crate::dataset::columnar::{Cells, Content, Heading, Layout, Packing};
 use crate::dataset::provenance::provenance;
 use crate::run::Quantity;
@@ -50,11 +47,11 @@ impl DescribedColumn {
     }
 }
 
-/// Writes `columns`, all of one length, as the file `path` of the result of `plan`; the file is whole or absent.
+/// `columns`, all of one length, as a file of the result of `plan`.
 ///
 /// # Errors
-/// Where two columns have one name, or writing fails.
-pub fn save(plan: &Plan, columns: &[DescribedColumn], path: &Path) -> Result<(), ParquetError> {
+/// Where two columns have one name, or encoding fails.
+pub fn encoded(plan: &Plan, columns: &[DescribedColumn]) -> Result<Vec<u8>, ParquetError> {
     let headings: Vec<Heading> = columns.iter().map(|column| column.heading.clone()).collect();
     let layout = Layout::new(&headings, provenance(plan), Packing::Zstd)?;
     let cells = columns.iter().map(|column| match &column.values {
@@ -62,5 +59,7 @@ pub fn save(plan: &Plan, columns: &[DescribedColumn], path: &Path) -> Result<(),
         Values::Counts(counts) => Cells::Count(counts.clone(), None),
         Values::Reals(values, present) => Cells::Real(values, Some(present)),
     });
-    atomic::write(path, |file| layout.write(file, &[], cells))
+    let mut bytes = Vec::new();
+    layout.write(&mut bytes, &[], cells)?;
+    Ok(bytes)
 }

@@ -15,7 +15,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use crate::dataset::identity::sha256;
 use crate::dataset::manifest::{FileRecord, Identity, Manifest, PartRecord, Record};
-use crate::dataset::names::{MANIFEST, PLAN, SHARDS, SUCCESS, UNFINISHED, is_ours};
+use crate::dataset::names::{DATA, MANIFEST, PLAN, SHARDS, SUCCESS, UNFINISHED, is_ours};
 use crate::dataset::storage::{Storage, StorageError, at};
 use crate::ensemble::Part;
 
@@ -133,35 +133,9 @@ impl Folder {
     /// Where a file operation fails; the temporary file is removed.
     pub fn write(&self, name: &str, bytes: &[u8]) -> Result<(), StorageError> {
         let path = self.path(name);
-        self.place(&path, bytes)?;
+        place(self.storage, &path, bytes)?;
         let folder = path.parent().unwrap_or(&self.root);
         self.storage.sync_folder(folder).map_err(at(folder))
-    }
-
-    /// Writes a file under a temporary name, checks it, and renames it.
-    fn place(&self, path: &Path, bytes: &[u8]) -> Result<(), StorageError> {
-        let mut temporary = path.as_os_str().to_owned();
-        temporary.push(UNFINISHED);
-        let temporary = PathBuf::from(temporary);
-        let write = || {
-            // what an earlier process left, or a link that somebody put there, is removed and not written to
-            self.storage.remove(&temporary).map_err(at(&temporary))?;
-            self.storage.create(&temporary, bytes).map_err(at(&temporary))?;
-            let found = self.storage.read(&temporary, bytes.len() as u64).map_err(at(&temporary))?;
-            if found != bytes {
-                let differs = std::io::Error::other("what was read back is not what was written");
-                return Err(at(&temporary)(differs));
-            }
-            Ok(())
-        };
-        // after a failed flush the state of the file is unknown: it is written again, once
-        let placed =
-            write().or_else(|_| write()).and_then(|()| self.storage.rename(&temporary, path).map_err(at(path)));
-        if placed.is_err() {
-            // the first error is reported; a file that cannot be removed is recognised by its name
-            let _ = self.storage.remove(&temporary);
-        }
-        placed
     }
 
     /// Adds a part: its files, then its line in the manifest.
@@ -177,7 +151,7 @@ impl Folder {
                 self.storage.create_folder(&folder).map_err(at(&folder))?;
                 folders.push(folder);
             }
-            self.place(&path, &file.bytes)?;
+            place(self.storage, &path, &file.bytes)?;
         }
         for folder in &folders {
             self.storage.sync_folder(folder).map_err(at(folder))?;
@@ -227,6 +201,20 @@ impl Folder {
         self.write(PLAN, text.as_bytes())
     }
 
+    /// Keeps `bytes` as the file of numbers `name` that the plan names, unless it is there.
+    ///
+    /// # Errors
+    /// Where a file operation fails.
+    pub fn keep_data(&self, name: &str, bytes: &[u8]) -> Result<(), StorageError> {
+        let folder = self.path(DATA);
+        let entries = self.storage.list(&folder).map_err(at(&folder))?;
+        if entries.iter().any(|entry| entry.is_file && entry.name == name && entry.size == bytes.len() as u64) {
+            return Ok(());
+        }
+        self.storage.create_folder(&folder).map_err(at(&folder))?;
+        self.write(&format!("{DATA}/{name}"), bytes)
+    }
+
     /// Takes back that everything is there, before anything of it is replaced.
     ///
     /// # Errors
@@ -274,4 +262,32 @@ impl Folder {
     pub fn size(&self) -> u64 {
         self.state().parts.values().flat_map(|part| &part.files).map(|file| file.bytes).sum()
     }
+}
+
+/// Writes a file of a dataset under a temporary name, checks it, and renames it.
+///
+/// # Errors
+/// Where a file operation fails; the temporary file is removed.
+pub fn place(storage: &dyn Storage, path: &Path, bytes: &[u8]) -> Result<(), StorageError> {
+    let mut temporary = path.as_os_str().to_owned();
+    temporary.push(UNFINISHED);
+    let temporary = PathBuf::from(temporary);
+    let write = || {
+        // what an earlier process left, or a link that somebody put there, is removed and not written to
+        storage.remove(&temporary).map_err(at(&temporary))?;
+        storage.create(&temporary, bytes).map_err(at(&temporary))?;
+        let found = storage.read(&temporary, bytes.len() as u64).map_err(at(&temporary))?;
+        if found != bytes {
+            let differs = std::io::Error::other("what was read back is not what was written");
+            return Err(at(&temporary)(differs));
+        }
+        Ok(())
+    };
+    // after a failed flush the state of the file is unknown: it is written again, once
+    let placed = write().or_else(|_| write()).and_then(|()| storage.rename(&temporary, path).map_err(at(path)));
+    if placed.is_err() {
+        // the first error is reported; a file that cannot be removed is recognised by its name
+        let _ = storage.remove(&temporary);
+    }
+    placed
 }

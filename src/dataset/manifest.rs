@@ -11,6 +11,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::dataset::names::{PART_BANDS, RUNS, is_ours};
 use crate::ensemble::{Part, PartId};
 use crate::sampling::SampleId;
 
@@ -46,6 +47,15 @@ pub struct FileRecord {
     pub bytes: u64,
     /// SHA-256 of its content, in hexadecimal.
     pub sha256: String,
+}
+
+impl FileRecord {
+    /// Whether its name is one that parts have: a manifest names no file elsewhere.
+    fn is_of_a_part(&self) -> bool {
+        self.name
+            .split_once('/')
+            .is_some_and(|(folder, name)| [RUNS, PART_BANDS].contains(&folder) && is_ours(folder, name))
+    }
 }
 
 /// A part that is whole.
@@ -139,7 +149,7 @@ impl Manifest {
             manifest.is_finished = false;
             match record {
                 Some(Record::Identity(identity)) if index == 0 => manifest.identity = Some(identity),
-                Some(Record::Part(part)) => {
+                Some(Record::Part(part)) if part.files.iter().all(FileRecord::is_of_a_part) => {
                     manifest.parts.insert(part.part, part);
                 }
                 Some(Record::Dropped { dropped }) => {
@@ -149,7 +159,7 @@ impl Manifest {
                     let counted = manifest.parts.values().map(|part| part.rows).sum::<u64>();
                     manifest.is_finished = finished && parts == manifest.parts.len() as u64 && rows == counted;
                 }
-                Some(Record::Identity(_)) | None => manifest.damaged.push(index + 1),
+                Some(Record::Identity(_) | Record::Part(_)) | None => manifest.damaged.push(index + 1),
             }
         }
         manifest
@@ -252,5 +262,23 @@ mod tests {
         assert!(!read.is_finished && read.damaged.is_empty());
         let again = Record::Part(part(1)).line();
         assert_eq!(Manifest::of(format!("{}{dropped}{again}", text()).as_bytes()).parts.len(), 3);
+    }
+
+    /// Law: a line that names a file outside of the folders of parts lists nothing, however right its checksum is.
+    #[test]
+    fn files_elsewhere_are_not_listed() {
+        for name in [
+            "../precious.parquet",
+            "runs/../plan.toml",
+            "/etc/passwd",
+            "plan.toml",
+            "trajectories/sample-000001.parquet",
+            "runs/a/b",
+        ] {
+            let mut foreign = part(1);
+            foreign.files[0].name = name.to_owned();
+            let read = Manifest::of(format!("{}{}", text(), Record::Part(foreign).line()).as_bytes());
+            assert_eq!((read.parts.len(), read.damaged), (3, vec![6]), "{name}");
+        }
     }
 }

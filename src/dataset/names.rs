@@ -28,6 +28,8 @@ pub const SHARDS: &str = "shards";
 pub const TRAJECTORIES: &str = "trajectories";
 /// Folder of the log by which table engines read the rows.
 pub const TABLE_LOG: &str = "_delta_log";
+/// Folder of copies of the files of numbers that the plan names, each by its SHA-256.
+pub const DATA: &str = crate::campaign::data::COPIES;
 /// Suffix of a file that is not whole yet.
 pub const UNFINISHED: &str = ".tmp";
 
@@ -35,7 +37,7 @@ pub const UNFINISHED: &str = ".tmp";
 pub const TOP_FILES: [&str; 8] = [PLAN, MANIFEST, SUCCESS, SUMMARY, STATISTICS, SENSITIVITY, BANDS, REPORT];
 
 /// The folders of a dataset.
-pub const FOLDERS: [&str; 5] = [RUNS, PART_BANDS, SHARDS, TRAJECTORIES, TABLE_LOG];
+pub const FOLDERS: [&str; 6] = [RUNS, PART_BANDS, SHARDS, TRAJECTORIES, TABLE_LOG, DATA];
 
 /// The name of the file of rows of `part`, below the folder of the dataset.
 pub fn rows_of(part: PartId) -> String {
@@ -65,6 +67,10 @@ pub fn is_ours(folder: &str, name: &str) -> bool {
         PART_BANDS => numbered("part-", ".bands", 6),
         TRAJECTORIES => numbered("sample-", ".parquet", 6),
         TABLE_LOG => numbered("", ".json", 20),
+        DATA => name.split_once('.').is_some_and(|(sha256, extension)| {
+            let is_checksum = sha256.len() == 64 && sha256.bytes().all(|byte| byte.is_ascii_hexdigit());
+            is_checksum && ["csv", "parquet"].contains(&extension)
+        }),
         SHARDS => shard_of(name).is_some(),
         _ => false,
     }
@@ -95,6 +101,7 @@ mod tests {
             (RUNS, "part-00000-6f1c.snappy.parquet"),
             (RUNS, "part-.parquet"),
             (SHARDS, "x.jsonl"),
+            (DATA, "table.csv"),
             ("other", "part-000000.parquet"),
         ] {
             assert!(!is_ours(folder, name), "{folder}/{name}");

@@ -1,16 +1,11 @@
 //! `sensitivity.parquet`: what each input means for each observable, one row for each pair.
 
-use std::path::Path;
-
 use parquet::errors::ParquetError;
 
 use crate::campaign::Plan;
 use crate::dataset::described_table::{self, DescribedColumn};
 use crate::dataset::sensitivity::InputSensitivity;
 use crate::statistics::correlation::Estimate;
-
-/// Name of the file in the folder of a result.
-pub const FILE: &str = "sensitivity.parquet";
 
 /// A measure of sensitivity: name of its column, meaning, value.
 type Measure = (&'static str, &'static str, fn(&InputSensitivity) -> Option<Estimate>);
@@ -69,10 +64,10 @@ fn table(list: &[InputSensitivity]) -> Vec<DescribedColumn> {
     table
 }
 
-/// Writes `list` of `plan` as the file `path`, which is whole or absent.
+/// `list` of `plan` as a file.
 ///
 /// # Errors
-/// Where writing fails.
-pub fn save(plan: &Plan, list: &[InputSensitivity], path: &Path) -> Result<(), ParquetError> {
-    described_table::save(plan, &table(list), path)
+/// Where encoding fails.
+pub fn encoded(plan: &Plan, list: &[InputSensitivity]) -> Result<Vec<u8>, ParquetError> {
+    described_table::encoded(plan, &table(list))
 }

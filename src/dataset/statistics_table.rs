@@ -1,7 +1,5 @@
 //! `statistics.parquet`: what the runs say, one row for each observable.
 
-use std::path::Path;
-
 use parquet::errors::ParquetError;
 
 use crate::campaign::Plan;
@@ -9,9 +7,6 @@ use crate::dataset::described_table::{self, DescribedColumn};
 use crate::dataset::statistics::{ColumnStatistics, QuantileStatistic, Statistics};
 use crate::run::Status;
 use crate::statistics::quantile::percent;
-
-/// Name of the file in the folder of a result.
-pub const FILE: &str = "statistics.parquet";
 
 /// Name of the columns of the `p`-quantile: `p99_9`.
 pub fn quantile_name(p: f64) -> String {
@@ -98,10 +93,10 @@ fn table(statistics: &Statistics) -> Vec<DescribedColumn> {
     table
 }
 
-/// Writes `statistics` of `plan` as the file `path`, which is whole or absent.
+/// `statistics` of `plan` as a file.
 ///
 /// # Errors
-/// Where writing fails.
-pub fn save(plan: &Plan, statistics: &Statistics, path: &Path) -> Result<(), ParquetError> {
-    described_table::save(plan, &table(statistics), path)
+/// Where encoding fails.
+pub fn encoded(plan: &Plan, statistics: &Statistics) -> Result<Vec<u8>, ParquetError> {
+    described_table::encoded(plan, &table(statistics))
 }

@@ -6,14 +6,17 @@
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
+use parquet::errors::ParquetError;
 use thiserror::Error;
 
 use crate::campaign::{Plan, Retention};
+use crate::dataset::folder::Folder;
+use crate::dataset::names::TRAJECTORIES;
 use crate::dataset::observed::Observed;
 use crate::dataset::rows_reader::{PartReader, RowsError, RowsReader};
-use crate::dataset::table::TableError;
+use crate::dataset::storage::StorageError;
 use crate::dataset::timeseries::TimeSeries;
 use crate::ensemble::RunError;
 use crate::ensemble::single::run_each;
@@ -34,14 +37,17 @@ pub enum TrajectoryError {
     /// Threads could not be started.
     #[error("cannot start the threads: {0}")]
     Threads(String),
-    /// A file could not be written.
-    #[error("{path}: {source}")]
-    File {
-        /// The file.
+    /// A time series could not be encoded.
+    #[error("{}: {source}", path.display())]
+    Encoding {
+        /// Its file.
         path: PathBuf,
         /// Why.
-        source: TableError,
+        source: ParquetError,
     },
+    /// A file could not be written.
+    #[error(transparent)]
+    File(#[from] StorageError),
 }
 
 /// The name of the file of `sample`.
@@ -130,24 +136,24 @@ fn worst(
     Ok(all.into_iter().map(|(_, sample)| sample).collect())
 }
 
-/// Writes the time series of `samples` of `plan` to `folder`, which exists; each file is whole or absent. The bytes are those of
-/// `simulate --sample K --out`.
+/// Writes the time series of `samples` of `plan` as files of the dataset `folder`. The bytes are those of `simulate --sample K --out`.
 ///
 /// # Errors
 /// The first file that could not be written; no run is started after it.
 pub fn save(
     plan: &Plan,
     samples: &[SampleId],
-    folder: &Path,
+    folder: &Folder,
     isa: Isa,
     threads: Option<NonZeroUsize>,
 ) -> Result<(), TrajectoryError> {
     run_each(plan, samples, (isa, threads), &|sample, run| {
         // a sample without a run has no file
         let Ok(run) = run else { return Ok(()) };
-        let path = folder.join(file_name(sample));
-        let saved = TimeSeries::new(plan, sample, &run, |_| true).save(&path);
-        saved.map_err(|source| TrajectoryError::File { path, source })
+        let name = format!("{TRAJECTORIES}/{}", file_name(sample));
+        let encoded = TimeSeries::new(plan, sample, &run, |_| true).encoded();
+        let bytes = encoded.map_err(|source| TrajectoryError::Encoding { path: folder.path(&name), source })?;
+        Ok(folder.write(&name, &bytes)?)
     })
     .map_err(|error| match error {
         RunError::Threads(error) => TrajectoryError::Threads(error.to_string()),

@@ -106,7 +106,9 @@ fn what_is_not_a_result_is_left_alone() {
     scratch.prints("campaign small.toml --out thesis --overwrite", 4);
     assert_eq!(fs::read_dir(scratch.path("thesis")).unwrap().count(), 2);
     // a file where the folder should be
-    scratch.prints("campaign small.toml --out small.toml", 4);
+    scratch.file("notes", "precious");
+    scratch.prints("campaign small.toml --out notes", 4);
+    assert_eq!(fs::read_to_string(scratch.path("notes")).unwrap(), "precious");
 }
 
 /// Law: two processes never write to one folder.

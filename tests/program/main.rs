@@ -3,7 +3,9 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod absent_values;
 mod audit;
+mod audit_limit;
 mod band_requirements;
 mod campaign_command;
 mod columns_command;
@@ -11,9 +13,11 @@ mod commands;
 mod compare_command;
 mod csv_digits;
 mod exit_codes;
+mod extremes;
 mod failed_again;
 mod failed_runs;
 mod faults;
+mod hostile_files;
 mod interrupted;
 mod memory;
 mod motion;
@@ -27,6 +31,7 @@ mod report_page;
 mod result_files;
 mod retained;
 mod simulate_command;
+mod sizes;
 mod slurm;
 mod small_campaign;
 mod statistics;

@@ -1,15 +1,21 @@
 //! Retained runs: which they are follows from the rows, and their files are those of `simulate`.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::num::NonZeroUsize;
+use std::path::Path;
 
 use arrow_array::cast::AsArray;
 use arrow_array::types::Int64Type;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use spindrift::campaign::{Overrides, Plan};
+use spindrift::dataset::folder::Folder;
+use spindrift::dataset::identity::identity;
+use spindrift::dataset::names::MANIFEST;
 use spindrift::dataset::rows_reader::RowsReader;
+use spindrift::dataset::storage::Disk;
 use spindrift::dataset::trajectories::{file_name, retained, save};
+use spindrift::ensemble::Ensemble;
 use spindrift::math::Isa;
 use spindrift::run::Status;
 use spindrift::sampling::SampleId;
@@ -88,6 +94,12 @@ fn rules_choose_what_they_say() {
     assert_eq!(chosen("sample:599").len(), physical.len() - 1);
 }
 
+/// A dataset without parts in `root`.
+fn dataset(plan: &Plan, root: &Path) -> Folder {
+    let identity = identity(&Ensemble::new(plan, Isa::best()));
+    Folder::open(&Disk, root, identity, (MANIFEST.to_owned(), None), BTreeMap::new()).unwrap()
+}
+
 /// Law: the file of a retained run is that of `simulate --sample K --out`, byte for byte, also of a run that failed, for any number of
 /// threads. Counter-test: that of another sample differs.
 #[test]
@@ -99,10 +111,11 @@ fn files_are_those_of_simulate() {
     let (plan, isa) = (plan(retain), Isa::best());
     let failed = retained(&plan, &rows(&scratch), None).unwrap();
     let samples: Vec<SampleId> = [0, 2].into_iter().map(SampleId).chain(failed.into_iter().take(2)).collect();
-    let [one, two] = ["one", "two"].map(|name| scratch.path(name));
+    let [one, two] = ["one", "two"].map(|name| scratch.path(name).join("trajectories"));
     for (path, threads) in [(&one, 1), (&two, 2)] {
-        fs::create_dir(path).unwrap();
-        save(&plan, &samples, path, isa, NonZeroUsize::new(threads)).unwrap();
+        fs::create_dir_all(path).unwrap();
+        let dataset = dataset(&plan, path.parent().unwrap());
+        save(&plan, &samples, &dataset, isa, NonZeroUsize::new(threads)).unwrap();
     }
     let mut seen = BTreeSet::new();
     for sample in &samples {
@@ -115,7 +128,8 @@ fn files_are_those_of_simulate() {
         assert!(seen.insert(bytes), "{name} is like another");
     }
     assert_eq!(fs::read_dir(&one).unwrap().count(), samples.len());
-    let refused = save(&plan, &samples, &scratch.path("missing"), isa, None).unwrap_err().to_string();
+    fs::create_dir(scratch.path("missing")).unwrap();
+    let refused = save(&plan, &samples, &dataset(&plan, &scratch.path("missing")), isa, None).unwrap_err().to_string();
     assert!(refused.contains("missing") && refused.contains("sample-00000"), "{refused}");
 }
 

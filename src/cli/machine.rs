@@ -1,0 +1,55 @@
+//! What the machine has left: memory, and space on a disk. Only refusals and warnings depend on it.
+
+use std::path::Path;
+
+/// Free space of the file system that has `path`, or will have it, bytes; `None` where the system does not say.
+#[cfg(unix)]
+pub fn free_disk(path: &Path) -> Option<u64> {
+    let absolute = std::path::absolute(path).ok()?;
+    let existing = absolute.ancestors().find(|ancestor| ancestor.exists())?;
+    let found = rustix::fs::statvfs(existing).ok()?;
+    Some(found.f_bavail.saturating_mul(found.f_frsize))
+}
+
+/// Free space of a disk; unknown here.
+#[cfg(not(unix))]
+pub fn free_disk(_path: &Path) -> Option<u64> {
+    None
+}
+
+/// Memory that can be taken without swapping, bytes: of the machine, and of the control group where that is less. Only Linux says.
+pub fn free_memory() -> Option<u64> {
+    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
+    let machine = available(&text)?;
+    let number =
+        |file: &str| std::fs::read_to_string(format!("/sys/fs/cgroup/{file}")).ok()?.trim().parse::<u64>().ok();
+    let group = number("memory.max").map(|most| most.saturating_sub(number("memory.current").unwrap_or(0)));
+    Some(group.map_or(machine, |group| group.min(machine)))
+}
+
+/// The available memory that /proc/meminfo says, bytes.
+fn available(text: &str) -> Option<u64> {
+    let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
+    line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()?.checked_mul(1024)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn meminfo_is_read() {
+        assert_eq!(available("MemTotal:  5 kB\nMemAvailable:   22403024 kB\n"), Some(22_403_024 * 1024));
+        assert_eq!(available("MemTotal:  5 kB\n"), None);
+    }
+
+    /// Law: a path that does not exist yet has the space of the folder that will have it.
+    #[cfg(unix)]
+    #[test]
+    fn a_new_folder_has_the_space_of_its_parent() {
+        let folder = std::env::temp_dir();
+        let (there, new) = (free_disk(&folder).unwrap(), free_disk(&folder.join("spindrift/none/yet")).unwrap());
+        // other programs write at the same time
+        assert!(there > 0 && new.abs_diff(there) < there / 2 + (1 << 30), "{there} and {new}");
+    }
+}

@@ -1,0 +1,75 @@
+//! [`refuse_inputs`]: a file that a command writes is never one that it reads. [`refuse_within`]: nor one in the folder of a result, which
+//! has the files of a dataset and no others.
+
+use std::path::{Path, PathBuf};
+
+use crate::cli::command_outcome::Failure;
+
+/// Refuses those of `outputs`, each with the option that names it, that are one of the files `inputs`: by the same path, through a link, or
+/// by another name of the same file.
+///
+/// # Errors
+/// The first such output.
+pub fn refuse_inputs(inputs: &[PathBuf], outputs: &[(&str, Option<&Path>)]) -> Result<(), Failure> {
+    for (option, output) in outputs {
+        let Some(output) = output else { continue };
+        if let Some(input) = inputs.iter().find(|input| is_same(input, output)) {
+            return Err(Failure::Input(format!(
+                "{option} {}: must be a file that this command does not read, and `{}` is the same file; choose another name",
+                output.display(),
+                input.display()
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// Whether two paths lead to the same file.
+fn is_same(one: &Path, other: &Path) -> bool {
+    let (Ok(a), Ok(b)) = (one.metadata(), other.metadata()) else { return false };
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt;
+        (a.dev(), a.ino()) == (b.dev(), b.ino())
+    }
+    #[cfg(not(unix))]
+    {
+        a.is_file() && b.is_file() && matches!((one.canonicalize(), other.canonicalize()), (Ok(a), Ok(b)) if a == b)
+    }
+}
+
+/// Refuses those of `outputs`, each with the option that names it, that are in the folder `root` of a result.
+///
+/// # Errors
+/// The first such output.
+pub fn refuse_within(root: &Path, outputs: &[(&str, Option<&Path>)]) -> Result<(), Failure> {
+    let folder = resolved(root);
+    for (option, output) in outputs {
+        if let Some(output) = output.filter(|output| resolved(output).starts_with(&folder)) {
+            return Err(Failure::Input(format!(
+                "{option} {}: must be outside of the result in `{}`, which has its own files only; choose another path",
+                output.display(),
+                root.display()
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// The absolute path without links, as far as it exists.
+fn resolved(path: &Path) -> PathBuf {
+    let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    let (mut existing, mut rest) = (absolute.as_path(), Vec::new());
+    loop {
+        if let Ok(found) = existing.canonicalize() {
+            return rest.iter().rev().fold(found, |path: PathBuf, name| path.join(name));
+        }
+        match (existing.parent(), existing.file_name()) {
+            (Some(parent), Some(name)) => {
+                rest.push(name.to_owned());
+                existing = parent;
+            }
+            _ => return absolute,
+        }
+    }
+}

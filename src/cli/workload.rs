@@ -1,0 +1,254 @@
+//! [`Workload`]: what a command is about to compute, write and hold in memory, estimated before it starts.
+//!
+//! What cannot be done is refused with the numbers; what is much is done only with `--yes`. Nothing that is computed depends on an estimate.
+
+use std::num::NonZeroUsize;
+use std::path::Path;
+
+use crate::campaign::limits::bytes_a_point;
+use crate::campaign::{Plan, Retention};
+use crate::cli::command_outcome::Failure;
+use crate::cli::machine::{free_disk, free_memory};
+use crate::dataset::claim::{Contents, Shard, contents};
+use crate::dataset::rows_file::headings;
+use crate::dataset::storage::Disk;
+use crate::ensemble::Ensemble;
+use crate::ensemble::probe::RunProbe;
+use crate::ensemble::run_cost::{parts_of_runs, run_seconds};
+use crate::ensemble::runner::threads;
+use crate::report::number::{bytes, short};
+
+/// CPU time beyond which a command asks for `--yes`, s.
+const LONG_S: f64 = 24.0 * 3600.0;
+/// Fraction of the free disk beyond which a command asks for `--yes`.
+const LARGE: f64 = 0.5;
+/// A run that is estimated to take no longer than this is measured, s: a probe runs it some times.
+const SHORT_RUN_S: f64 = 0.2;
+
+/// Bytes of a number in a file: random digits do not compress. A 146-column campaign of 4096 runs has 8.2 (`spin_sweep`).
+const NUMBER: f64 = 8.5;
+/// Bytes of a part that do not depend on its rows, for each column: names, units, meanings, positions (`spin_sweep` with one row: 180).
+const COLUMN_OF_A_PART: f64 = 200.0;
+/// Bytes of the bands of a part, for each point (`spin_sweep`: 75 kB at 101 points).
+const BANDS_OF_A_POINT: f64 = 1000.0;
+/// Memory for each part, bytes: its samples, its record, and its line of the manifest.
+const PART: f64 = 1000.0;
+/// Memory of the program itself, bytes.
+const PROGRAM: f64 = 3e7;
+/// Columns of a time series, of its states and of what is observed of them: at most.
+const SERIES: f64 = 80.0;
+
+/// What a command is about to do.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Workload {
+    /// What is done: "9 runs of small".
+    what: String,
+    /// Size of the files, bytes.
+    disk: f64,
+    /// Memory, bytes.
+    memory: f64,
+    /// CPU time, s.
+    seconds: f64,
+    /// What is supposed of a run, s.
+    run_seconds: f64,
+}
+
+/// What may be used.
+#[derive(Clone, Copy, Debug)]
+struct Free {
+    disk: Option<u64>,
+    memory: Option<u64>,
+}
+
+impl Free {
+    fn of(root: &Path) -> Self {
+        Free { disk: free_disk(root), memory: free_memory() }
+    }
+}
+
+impl Workload {
+    /// The first `samples` samples of the campaign of `ensemble` as far as the dataset in `root` does not have them (`None`: it is made again
+    /// from the start), or the part `shard` of that, on at most `asked` threads.
+    pub fn of_campaign(
+        (ensemble, samples): (&Ensemble<'_>, u64),
+        root: Option<&Path>,
+        shard: Option<Shard>,
+        asked: Option<NonZeroUsize>,
+    ) -> Self {
+        let plan = ensemble.plan();
+        let there = match root.map(|root| contents(&Disk, root)) {
+            Some(Ok(Contents::Dataset(found))) => found.rows().min(samples),
+            _ => 0,
+        };
+        let share = shard.map_or(1.0, |shard| 1.0 / shard.of as f64);
+        let runs = (samples - there) as f64 * share;
+        let run_seconds = run_seconds(plan, ensemble.isa());
+        let whole = parts_of_runs(plan, run_seconds).with_samples(samples);
+        let new_parts = whole.count() as f64 * runs / samples as f64;
+        let columns = headings(ensemble).len() as f64;
+        let of_bands = BANDS_OF_A_POINT * plan.band_points as f64;
+        let retained = match plan.retention {
+            Retention::All => samples as f64 * share,
+            Retention::Worst { count, .. } | Retention::Sample(count) => count as f64,
+            Retention::None | Retention::Failed => 0.0,
+        };
+        let points = plan.grid.points() as f64;
+        let disk = runs * columns * NUMBER
+            + new_parts * (COLUMN_OF_A_PART * columns + of_bands)
+            + retained * points * SERIES * NUMBER;
+        let rows_of_a_part = whole.largest().min(samples) as f64;
+        let of_thread = points * bytes_a_point(plan.method) as f64 + 2.0 * rows_of_a_part * columns * NUMBER;
+        let stopping = if plan.analysis.stop.is_some() { 8.0 * samples as f64 } else { 0.0 };
+        let threads = threads(asked, usize::try_from(whole.count()).unwrap_or(usize::MAX));
+        let memory = PROGRAM + threads as f64 * of_thread + whole.count() as f64 * PART + stopping;
+        Workload {
+            what: format!("{} of {}", count(runs, "run"), plan.name),
+            disk,
+            memory,
+            seconds: runs * run_seconds,
+            run_seconds,
+        }
+    }
+
+    /// Drawing the samples of `plan`, to a table or not, and to a plot or not.
+    pub fn of_samples(plan: &Plan, has_table: bool, has_plot: bool) -> Self {
+        let (samples, columns) = (plan.samples as f64, plan.dispersions.columns().len() as f64);
+        // numbers of CSV have some 20 characters; those of Parquet, and those of the mass properties, have fewer
+        let disk = if has_table { samples * (columns + 9.0) * 20.0 } else { 0.0 };
+        // the values, their ranks, and the points of the figure
+        let plotted = if has_plot { samples * columns * 100.0 } else { 0.0 };
+        Workload {
+            what: format!("{} of {}", count(samples, "sample"), plan.name),
+            disk,
+            memory: PROGRAM + plotted,
+            seconds: samples * (1e-6 + columns * 3e-7),
+            run_seconds: 0.0,
+        }
+    }
+
+    /// Reference solutions of `samples` samples of the plan of `ensemble`, and the runs that are compared with them.
+    pub fn of_precision(ensemble: &Ensemble<'_>, samples: u64) -> Self {
+        let plan = ensemble.plan();
+        let samples = samples.min(plan.samples) as f64;
+        let points = plan.grid.points() as f64;
+        let run_seconds = run_seconds(&Plan { audit_fraction: 1.0, ..plan.clone() }, ensemble.isa());
+        Workload {
+            what: format!("reference solutions of {} of {}", count(samples, "sample"), plan.name),
+            disk: 0.0,
+            // in double-double
+            memory: PROGRAM + samples * points * SERIES * 16.0,
+            seconds: samples * run_seconds,
+            run_seconds,
+        }
+    }
+
+    /// The same with the CPU time of runs that were measured, where that decides and the runs are short enough to be measured.
+    #[must_use]
+    pub fn measured(self, ensemble: &Ensemble<'_>) -> Self {
+        if self.seconds <= LONG_S || self.run_seconds > SHORT_RUN_S {
+            return self;
+        }
+        let seconds = self.seconds * RunProbe::new(ensemble).seconds / self.run_seconds;
+        Workload { seconds, ..self }
+    }
+
+    /// Refuses what the machine cannot do, and without `yes` what takes long or most of the disk of `root`. Of a shard the time is not asked:
+    /// its scheduler has a limit.
+    ///
+    /// # Errors
+    /// The refusal, with the numbers and the remedy.
+    pub fn check(&self, root: &Path, yes: bool, is_shard: bool) -> Result<(), Failure> {
+        self.refusal(Free::of(root), root, yes, is_shard).map_or(Ok(()), |refusal| Err(Failure::Input(refusal)))
+    }
+
+    /// Refuses, without `yes`, what [`Workload::check`] refuses with it or without: of a campaign that may end earlier.
+    ///
+    /// # Errors
+    /// The refusal, with the numbers and the remedy.
+    pub fn check_limit(&self, root: &Path, yes: bool) -> Result<(), Failure> {
+        let refusal = self.refusal(Free::of(root), root, false, false).filter(|_| !yes);
+        let end = "with --yes it starts, and may end earlier ([stop])";
+        refusal.map_or(Ok(()), |refusal| Err(Failure::Input(format!("at most {refusal}; {end}"))))
+    }
+
+    fn refusal(&self, free: Free, root: &Path, yes: bool, is_shard: bool) -> Option<String> {
+        let size = |size: f64| if size < u64::MAX as f64 { bytes(size as u64) } else { format!("{} B", short(size)) };
+        let mut text = format!("{}: about {} of CPU time", self.what, time(self.seconds));
+        if self.disk > 0.0 {
+            text += &format!(", {} of files in `{}`", size(self.disk), root.display());
+        }
+        text += &format!(", {} of memory", size(self.memory));
+        let has_too_few = |free: Option<u64>, needed: f64| free.filter(|free| needed > *free as f64);
+        let fewer = "ask for fewer samples or points";
+        if let Some(free) = has_too_few(free.disk, self.disk) {
+            return Some(format!("{text}: the disk has {} left; {fewer}, or choose another disk", size(free as f64)));
+        }
+        if let Some(free) = has_too_few(free.memory, self.memory) {
+            return Some(format!("{text}: the machine has {} left; {fewer}, or fewer --threads", size(free as f64)));
+        }
+        let is_long = !is_shard && self.seconds > LONG_S;
+        let is_large = free.disk.is_some_and(|free| self.disk > LARGE * free as f64);
+        if yes || !(is_long || is_large) {
+            return None;
+        }
+        let why = if is_long { "more than 24 hours of CPU time" } else { "more than half of what the disk has left" };
+        Some(format!("{text}: that is {why}; --yes starts it"))
+    }
+}
+
+/// A number of things.
+fn count(number: f64, thing: &str) -> String {
+    let end = if number == 1.0 { "" } else { "s" };
+    if number < 1e15 { format!("{} {thing}{end}", number as u64) } else { format!("{} {thing}s", short(number)) }
+}
+
+/// A time for people.
+fn time(seconds: f64) -> String {
+    match seconds {
+        s if s < 120.0 => format!("{} s", short(s)),
+        s if s < 7200.0 => format!("{} minutes", short(s / 60.0)),
+        s if s < 48.0 * 3600.0 => format!("{} hours", short(s / 3600.0)),
+        s if s < 1000.0 * 86400.0 => format!("{} days", short(s / 86400.0)),
+        s => format!("{} years", short(s / (365.25 * 86400.0))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FREE: Free = Free { disk: Some(1_000_000_000), memory: Some(2_000_000_000) };
+
+    fn work(disk: f64, memory: f64, seconds: f64) -> Workload {
+        Workload { what: "9 runs of small".to_owned(), disk, memory, seconds, run_seconds: 1.0 }
+    }
+
+    fn refusal(work: &Workload, yes: bool, is_shard: bool) -> String {
+        work.refusal(FREE, Path::new("r"), yes, is_shard).unwrap_or_default()
+    }
+
+    /// Law: what does not fit is refused whatever is said; what takes long, or half of the disk, is refused without `--yes`; the rest is done.
+    #[test]
+    fn what_cannot_be_done_is_refused() {
+        assert_eq!(refusal(&work(4e8, 1e9, LONG_S), false, false), "");
+        for yes in [false, true] {
+            assert_eq!(
+                refusal(&work(6e18, 1e9, 6e11), yes, false),
+                "9 runs of small: about 1.901e4 years of CPU time, 6000000.0 TB of files in `r`, 1.0 GB of memory: the disk has 1.0 GB left; ask for fewer samples or points, or choose another disk"
+            );
+            let said = refusal(&work(0.0, 3e9, 60.0), yes, false);
+            assert!(said.contains("about 60 s of CPU time, 3.0 GB of memory: the machine has 2.0 GB left"), "{said}");
+        }
+        let long = work(1.0, 1.0, 2.0 * LONG_S);
+        assert!(refusal(&long, false, false).ends_with("that is more than 24 hours of CPU time; --yes starts it"));
+        assert_eq!((refusal(&long, true, false), refusal(&long, false, true)), (String::new(), String::new()));
+        let large = work(6e8, 1.0, 1.0);
+        assert!(
+            refusal(&large, false, true).ends_with("that is more than half of what the disk has left; --yes starts it")
+        );
+        assert_eq!(refusal(&large, true, false), "");
+        // where the system does not say what is left, only time is asked for
+        let unknown = Free { disk: None, memory: None };
+        assert_eq!(work(1e30, 1e30, 1.0).refusal(unknown, Path::new("r"), false, false), None);
+    }
+}

@@ -1,0 +1,195 @@
+//! Files that are handed to the program, and files that it writes: nothing is waited for, nothing endless is read, and nothing is overwritten
+//! that it was not told to.
+
+use std::fs;
+use std::process::Command;
+
+use super::small_campaign::{campaign, folder};
+use crate::support::scratch_folder::ScratchFolder;
+
+/// A campaign whose samples are the rows of `table.csv`.
+fn table_campaign(scratch: &ScratchFolder) {
+    let table = "\n[design]\nkind = \"table\"\nfile = \"table.csv\"\n";
+    let text = campaign().replace("samples = 600\n", "");
+    let at = text.find("[[disperse]]").unwrap();
+    scratch.file("table.toml", &format!("{}{table}", &text[..at]));
+    scratch.file("table.csv", "wheels.w1.radius_m\n0.25\n0.26\n0.24\n");
+}
+
+/// Law: a file that is none, or not a text of a campaign, is refused with exit code 2 by what it is, and with a remedy.
+#[cfg(unix)]
+#[test]
+fn what_is_no_campaign_file_is_refused_by_what_it_is() {
+    let scratch = folder("kinds");
+    assert!(Command::new("mkfifo").arg(scratch.path("pipe.toml")).status().unwrap().success());
+    scratch.file("rows.csv", &"0.5,0.25,7\n".repeat(50_000));
+    fs::write(scratch.path("image.png"), [0x89, b'P', b'N', b'G', 0xff, 0xfe]).unwrap();
+    fs::File::create(scratch.path("huge.toml")).unwrap().set_len(1 << 40).unwrap();
+    for (file, said) in [
+        ("pipe.toml", "a named pipe (FIFO): must be a regular file; write the campaign to a file, and name that"),
+        ("/dev/zero", "a device: must be a regular file"),
+        (".", "`.` is a folder; name the campaign file in it"),
+        ("rows.csv", "rows.csv:20: line = 0.5,0.25,7: must be valid TOML"),
+        ("rows.csv", "and 49980 more problems\nso many lines are no TOML: is this a campaign file?"),
+        ("image.png", "invalid UTF-8 at byte 0: must be a readable text file (UTF-8)"),
+        ("huge.toml", "1099511627776 bytes: must be a campaign file of at most 8388608 bytes; name tables of numbers"),
+    ] {
+        let found = scratch.prints(&format!("check {file}"), 2);
+        assert!(found.contains(said), "{file}: {found}");
+        assert!(found.lines().count() < 100, "{file}: {} lines", found.lines().count());
+    }
+}
+
+/// Law: the same of files of numbers.
+#[cfg(unix)]
+#[test]
+fn what_is_no_file_of_numbers_is_refused_by_what_it_is() {
+    let scratch = folder("numbers");
+    table_campaign(&scratch);
+    scratch.prints("check table.toml", 0);
+    let text = fs::read_to_string(scratch.path("table.toml")).unwrap();
+    assert!(Command::new("mkfifo").arg(scratch.path("pipe.csv")).status().unwrap().success());
+    fs::create_dir(scratch.path("folder.csv")).unwrap();
+    std::os::unix::fs::symlink("/dev/zero", scratch.path("zero.csv")).unwrap();
+    fs::File::create(scratch.path("huge.csv")).unwrap().set_len(1 << 40).unwrap();
+    for (file, said) in [
+        ("pipe.csv", "(a named pipe (FIFO)); name a regular file"),
+        ("folder.csv", "(a folder); name a regular file"),
+        ("zero.csv", "(a device); name a regular file"),
+        ("huge.csv", "a file of at most 20000000 numbers (this one has 1099511627776 bytes)"),
+    ] {
+        scratch.file("bad.toml", &text.replace("table.csv", file));
+        let found = scratch.prints("check bad.toml", 2);
+        assert!(found.contains(said), "{file}: {found}");
+    }
+}
+
+/// Law: a result is complete in itself: without the file of numbers that its plan names, and in another folder, it is finished, verified and
+/// reported, and the bytes are those of the result that one process made.
+#[test]
+fn a_result_has_its_data() {
+    let scratch = folder("data");
+    table_campaign(&scratch);
+    scratch.prints("campaign table.toml --out whole", 0);
+    for shard in ["1/2", "2/2"] {
+        scratch.prints(&format!("campaign table.toml --out r --shard {shard}"), 0);
+    }
+    fs::remove_file(scratch.path("table.csv")).unwrap();
+    fs::rename(scratch.path("r"), scratch.path("campaigns/moved")).unwrap();
+    scratch.prints("finish campaigns/moved", 0);
+    scratch.prints("verify campaigns/moved --fraction 1", 0);
+    scratch.prints("report campaigns/moved", 0);
+    scratch.prints("simulate campaigns/moved/plan.toml --sample 1", 0);
+    for file in ["manifest.jsonl", "plan.toml", "statistics.parquet", "summary.json", "report.html"] {
+        let [whole, moved] = ["whole", "campaigns/moved"].map(|root| fs::read(scratch.path(root).join(file)).unwrap());
+        assert!(whole == moved, "{file}");
+    }
+    let copies: Vec<_> = fs::read_dir(scratch.path("whole/data")).unwrap().collect();
+    assert_eq!(copies.len(), 1);
+    // counter-test: a copy that has changed is not taken for the file
+    let copy = fs::read_dir(scratch.path("campaigns/moved/data")).unwrap().next().unwrap().unwrap().path();
+    fs::write(copy, "wheels.w1.radius_m\n0.25\n0.26\n0.25\n").unwrap();
+    let said = scratch.prints("simulate campaigns/moved/plan.toml --sample 1", 2);
+    assert!(said.contains("must be the SHA-256 of the file"), "{said}");
+}
+
+/// Law: a command never writes to a file that it reads, whatever name leads to it.
+#[cfg(unix)]
+#[test]
+fn inputs_are_never_outputs() {
+    let scratch = folder("inputs");
+    table_campaign(&scratch);
+    let table = fs::read(scratch.path("table.csv")).unwrap();
+    std::os::unix::fs::symlink("table.csv", scratch.path("link.csv")).unwrap();
+    fs::hard_link(scratch.path("table.csv"), scratch.path("hard.csv")).unwrap();
+    fs::hard_link(scratch.path("table.csv"), scratch.path("hard.svg")).unwrap();
+    fs::hard_link(scratch.path("table.toml"), scratch.path("hard.xml")).unwrap();
+    fs::create_dir(scratch.path("p")).unwrap();
+    fs::hard_link(scratch.path("table.csv"), scratch.path("p/precision.parquet")).unwrap();
+    for command in [
+        "sample table.toml --out table.csv",
+        "sample table.toml --out ./campaigns/../table.csv",
+        "sample table.toml --out link.csv",
+        "sample table.toml --out hard.csv",
+        "sample table.toml --plot hard.svg",
+        "simulate table.toml --out table.csv",
+        "simulate table.toml --plot hard.svg",
+        "campaign table.toml --junit table.toml",
+        "campaign table.toml --junit hard.xml",
+        "campaign table.toml --out table.toml",
+        "precision table.toml --out p",
+    ] {
+        let said = scratch.prints(command, 2);
+        assert!(said.contains("must be a file that this command does not read") && said.contains("another"), "{said}");
+        assert_eq!(fs::read(scratch.path("table.csv")).unwrap(), table, "{command}");
+    }
+    assert!(!scratch.path("results").exists());
+    // counter-test: other files are written
+    scratch.prints("sample table.toml --out other.csv", 0);
+    assert!(scratch.path("other.csv").exists());
+}
+
+/// Law: a result has its own files only: reports and figures are not written into it.
+#[test]
+fn a_result_takes_no_other_files() {
+    let scratch = folder("within");
+    for (option, path) in
+        [("--junit", "r/verdicts.xml"), ("--figures", "r/figures"), ("--figures", "campaigns/../r/a/b")]
+    {
+        let said = scratch.prints(&format!("campaign small.toml --out r {option} {path}"), 2);
+        assert!(said.contains("must be outside of the result in `r`"), "{said}");
+    }
+    assert!(!scratch.path("r").exists());
+    scratch.prints("campaign small.toml --samples 3 --out r --junit verdicts.xml --figures figures", 0);
+    let said = scratch.prints("report r --figures r/figures", 2);
+    assert!(said.contains("must be outside of the result in `r`"), "{said}");
+}
+
+/// Law: links that somebody put where a campaign writes are not followed, and another program's folder is refused.
+#[cfg(unix)]
+#[test]
+fn planted_links_are_not_followed() {
+    use std::os::unix::fs::symlink;
+    let scratch = folder("planted");
+    fs::create_dir(scratch.path("precious")).unwrap();
+    scratch.file("precious/file", "precious");
+    symlink("precious/file", scratch.path("s.csv.tmp")).unwrap();
+    symlink("precious/file", scratch.path("s.csv")).unwrap();
+    scratch.prints("sample small.toml --samples 3 --out s.csv", 0);
+    assert!(fs::symlink_metadata(scratch.path("s.csv")).unwrap().is_file());
+    scratch.prints("campaign small.toml --samples 3 --out r", 0);
+    fs::remove_file(scratch.path("r/summary.json")).unwrap();
+    symlink("../precious/file", scratch.path("r/summary.json")).unwrap();
+    let said = scratch.prints("campaign small.toml --samples 3 --out r", 4);
+    assert!(said.contains("`r` contains `summary.json`, which is not part of a result"), "{said}");
+    fs::remove_file(scratch.path("r/summary.json")).unwrap();
+    fs::rename(scratch.path("r/runs"), scratch.path("runs")).unwrap();
+    symlink("../precious", scratch.path("r/runs")).unwrap();
+    let said = scratch.prints("campaign small.toml --samples 3 --out r --overwrite", 4);
+    assert!(said.contains("`r` contains `runs`, which is not part of a result"), "{said}");
+    assert_eq!(fs::read_to_string(scratch.path("precious/file")).unwrap(), "precious");
+    assert_eq!(fs::read_dir(scratch.path("precious")).unwrap().count(), 1);
+}
+
+/// Law: no character of a file that a terminal obeys reaches it.
+#[test]
+fn escapes_are_shown_as_text() {
+    let scratch = folder("escapes");
+    let bad =
+        campaign().replace("name = \"small\"", "name = \"\\u001b]0;title\\u0007\"\nx\u{1b}[31m = \"\u{9b}1m\u{202e}\"");
+    scratch.file("bad.toml", &bad);
+    let mut said = scratch.prints("check bad.toml", 2);
+    scratch.file("bad.toml", &campaign().replace("points = 11", "\"\\u001b[2J\" = \"\\u001b[2J\""));
+    said += &scratch.prints("check bad.toml", 2);
+    let is_obeyed = |letter: char| letter != '\n' && (letter.is_control() || letter == '\u{202e}');
+    assert!(!said.contains(is_obeyed), "{said:?}");
+    assert!(said.contains("\\u{1b}[2J"), "{said}");
+    // a description, and the name of a file
+    let description = "a\u{202e}b";
+    scratch.file(
+        "\u{1b}[1m.toml",
+        &campaign().replace("name = \"small\"", &format!("name = \"small\"\ndescription = \"{description}\"")),
+    );
+    let said = scratch.prints("check \u{1b}[1m.toml", 0) + &scratch.prints("check \u{1b}[2m.toml", 2);
+    assert!(!said.contains(is_obeyed) && said.contains("a\\u{202e}b") && said.contains("`\\u{1b}[2m.toml`"), "{said}");
+}
