@@ -181,7 +181,9 @@ impl Tally {
         for worst in &mut self.worst {
             let values: Vec<&[f64]> = worst.indices.iter().map(|index| rows.observable(*index)).collect();
             for (row, sample) in &counted {
-                let error = values.iter().map(|values| values[*row].abs()).fold(f64::NAN, f64::max);
+                // what is not finite is absent in a file
+                let magnitudes = values.iter().map(|values| values[*row].abs()).filter(|error| error.is_finite());
+                let error = magnitudes.fold(f64::NAN, f64::max);
                 worst.add(*sample, error);
             }
         }
