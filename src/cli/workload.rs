@@ -234,7 +234,7 @@ mod tests {
         for yes in [false, true] {
             assert_eq!(
                 refusal(&work(6e18, 1e9, 6e11), yes, false),
-                "9 runs of small: about 1.901e4 years of CPU time, 6000000.0 TB of files in `r`, 1.0 GB of memory: the disk has 1.0 GB left; ask for fewer samples or points, or choose another disk"
+                "9 runs of small: about 19012.9 years of CPU time, 6000000.0 TB of files in `r`, 1.0 GB of memory: the disk has 1.0 GB left; ask for fewer samples or points, or choose another disk"
             );
             let said = refusal(&work(0.0, 3e9, 60.0), yes, false);
             assert!(said.contains("about 60 s of CPU time, 3.0 GB of memory: the machine has 2.0 GB left"), "{said}");
