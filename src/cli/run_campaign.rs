@@ -311,5 +311,5 @@ fn shard_is_done(shard: Shard, plan: &Plan, root: &Path, made: Made) -> Result<C
 /// numbers.
 fn replayed(options: &CampaignOptions, root: &Path) -> String {
     let is_changed = options.samples.is_some() || options.seed.is_some() || options.only_failed_of.is_some();
-    if is_changed { root.join("plan.toml").display().to_string() } else { options.file.display().to_string() }
+    if is_changed { root.join(PLAN).display().to_string() } else { options.file.display().to_string() }
 }

@@ -181,10 +181,11 @@ impl Manifest {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
 
-    fn identity() -> Identity {
+    /// That of some dataset.
+    pub fn identity() -> Identity {
         Identity {
             spindrift: "dataset".to_owned(),
             format: FORMAT,

@@ -200,7 +200,7 @@ pub fn update(folder: &Folder, headings: &[Heading]) -> Result<(), StorageError>
 mod tests {
     use super::*;
     use crate::dataset::folder::PartFile;
-    use crate::dataset::manifest::{ARITHMETIC, FORMAT};
+    use crate::dataset::manifest::tests::identity;
     use crate::dataset::names::{MANIFEST, bands_of, rows_of};
     use crate::dataset::storage::Disk;
     use crate::ensemble::{Part, PartId};
@@ -213,17 +213,6 @@ mod tests {
     impl Drop for Root {
         fn drop(&mut self) {
             let _ = std::fs::remove_dir_all(&self.0);
-        }
-    }
-
-    fn identity() -> Identity {
-        Identity {
-            spindrift: "dataset".to_owned(),
-            format: FORMAT,
-            arithmetic: ARITHMETIC,
-            row_hash: "ab".repeat(32),
-            seed: 7,
-            columns: "cd".repeat(32),
         }
     }
 

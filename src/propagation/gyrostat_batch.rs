@@ -11,7 +11,7 @@ use super::settings::{PropagationSettings, observes_debris_rotation};
 use crate::dynamics::debris;
 use crate::dynamics::gyrostat::completion::complete;
 use crate::dynamics::gyrostat::{Gyrostat, WITH_ATTITUDE};
-use crate::run::{Grid, LocalErrors, Outcome, StateTable, Trajectory};
+use crate::run::{Grid, Outcome, StateTable, Trajectory};
 use crate::scene::{Arc, Scene};
 
 /// The runs of a batch in buffers that are reused.
@@ -28,7 +28,7 @@ pub struct Completion {
     observes_debris_rotation: bool,
     debris_runs: Vec<Gyrostat<f64>>,
     debris_trajectories: Vec<Trajectory>,
-    debris_errors: Vec<LocalErrors>,
+    debris_outcomes: Vec<Outcome>,
     debris_is_integrated: bool,
     table: StateTable,
     /// The arcs of the run that has just ended.
@@ -45,7 +45,7 @@ impl GyrostatBatch {
                 observes_debris_rotation: observes_debris_rotation(plan.fields),
                 debris_runs: Vec::new(),
                 debris_trajectories: Vec::new(),
-                debris_errors: Vec::new(),
+                debris_outcomes: Vec::new(),
                 debris_is_integrated: false,
                 table: StateTable::new(plan.fields, plan.wheels, plan.grid.points()),
                 arcs: Vec::new(),
@@ -69,7 +69,8 @@ impl GyrostatBatch {
     pub fn load_debris(&mut self, scenes: &[Scene]) -> Option<DebrisRuns<'_>> {
         let completion = &mut self.completion;
         let observes = completion.observes_debris_rotation;
-        let Completion { grid, debris_runs, debris_trajectories, debris_errors, debris_is_integrated, .. } = completion;
+        let Completion { grid, debris_runs, debris_trajectories, debris_outcomes, debris_is_integrated, .. } =
+            completion;
         let general = |scene: &Scene| scene.mass.debris.as_ref().is_some_and(|body| !debris::is_isotropic(body));
         *debris_is_integrated = observes && scenes.iter().any(general);
         if !*debris_is_integrated {
@@ -78,13 +79,14 @@ impl GyrostatBatch {
         while debris_runs.len() < scenes.len() {
             debris_runs.push(Gyrostat::blank(0.0));
             debris_trajectories.push(Trajectory::new(WITH_ATTITUDE, grid.points()));
-            debris_errors.push(LocalErrors::NONE);
+            debris_outcomes.push(Outcome::NOTHING);
         }
         for (run, scene) in debris_runs.iter_mut().zip(scenes) {
             debris::set_rotation(run, scene);
         }
-        let (trajectories, errors) = (&mut debris_trajectories[..scenes.len()], &mut debris_errors[..scenes.len()]);
-        Some(DebrisRuns { runs: &mut debris_runs[..scenes.len()], trajectories, errors })
+        let trajectories = &mut debris_trajectories[..scenes.len()];
+        let outcomes = &mut debris_outcomes[..scenes.len()];
+        Some(DebrisRuns { runs: &mut debris_runs[..scenes.len()], trajectories, outcomes })
     }
 }
 
@@ -94,8 +96,8 @@ pub struct DebrisRuns<'b> {
     pub runs: &'b mut [Gyrostat<f64>],
     /// Where their components are kept.
     pub trajectories: &'b mut [Trajectory],
-    /// Where the errors of their integration are kept.
-    pub errors: &'b mut [LocalErrors],
+    /// Where it is kept how their integration ended.
+    pub outcomes: &'b mut [Outcome],
 }
 
 impl Completion {
@@ -114,16 +116,21 @@ impl Completion {
         self.fill_table(simd, &scenes[index], index, run, trajectory);
         self.arcs.clear();
         self.arcs.extend(run.arcs.iter().map(|arc| arc.arc));
-        let outcome = Outcome { debris_errors: self.debris_errors(&scenes[index], index), ..*outcome };
+        let outcome = self.with_debris(outcome, &scenes[index], index);
         finish(CompletedRun { index, table: &self.table, outcome: &outcome, arcs: &self.arcs });
     }
 
-    /// The errors of the rotation of the debris in run `index`.
-    fn debris_errors(&self, scene: &Scene, index: usize) -> LocalErrors {
+    /// The outcome of run `index` with its debris: the run ends where the first of both bodies does.
+    fn with_debris(&self, outcome: &Outcome, scene: &Scene, index: usize) -> Outcome {
         match &scene.mass.debris {
-            Some(body) if debris::is_isotropic(body) => debris::ISOTROPIC_ERRORS,
-            Some(_) if self.debris_is_integrated => self.debris_errors[index],
-            _ => LocalErrors::NONE,
+            Some(body) if debris::is_isotropic(body) => Outcome { debris_errors: debris::ISOTROPIC_ERRORS, ..*outcome },
+            Some(_) if self.debris_is_integrated => {
+                let debris = &self.debris_outcomes[index];
+                let first = if debris.points < outcome.points { debris } else { outcome };
+                let (status, time, points) = (first.status, first.time, first.points);
+                Outcome { status, time, points, debris_errors: debris.local_errors, ..*outcome }
+            }
+            _ => *outcome,
         }
     }
 

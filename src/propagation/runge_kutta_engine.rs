@@ -53,15 +53,15 @@ impl<S: Simd, R: Real, M: Method, const N: usize> RungeKuttaEngine<S, R, M, N> {
         let mut integrate = |runs: &mut GyrostatRuns<'_, R>, finish: &mut RunCallback<'_, R>| {
             integrate_on::<S, R, M, N>((*simd, *zero, *method), runs, (grid, control), lanes, finish);
         };
-        if let Some(DebrisRuns { runs, trajectories, errors }) = batch.load_debris(scenes) {
+        if let Some(DebrisRuns { runs, trajectories, outcomes }) = batch.load_debris(scenes) {
             // the debris is a gyrostat without wheels; only its attitude is needed, but one kernel for both compiles faster
             let mut runs = GyrostatRuns::new(*zero, runs, ArcSource::free(duration));
             integrate(&mut runs, &mut |runs, index, trajectory, outcome| {
                 trajectories[index].copy_from(trajectory);
-                errors[index] = match remainders {
-                    Some(remainders) => remainders.sum(runs.run(index), trajectory, grid, outcome),
-                    None => outcome.local_errors,
-                };
+                outcomes[index] = *outcome;
+                if let Some(remainders) = remainders {
+                    outcomes[index].local_errors = remainders.sum(runs.run(index), trajectory, grid, outcome);
+                }
             });
         }
         let arcs = ArcSource::new(scenes, laws.reborrow(), duration);

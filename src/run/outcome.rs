@@ -83,6 +83,18 @@ pub struct Outcome {
     pub debris_errors: LocalErrors,
 }
 
+impl Outcome {
+    /// Of a run that has not begun.
+    pub const NOTHING: Outcome = Outcome {
+        status: Status::InvalidSample,
+        time: 0.0,
+        points: 0,
+        effort: StepStatistics { steps: 0, rejected: 0, evaluations: 0 },
+        local_errors: LocalErrors::NONE,
+        debris_errors: LocalErrors::NONE,
+    };
+}
+
 /// Estimated errors of the rotational state from all steps of a run, added as if all had the same direction, before the motion
 /// amplifies them. Those of omega are relative to the maximum of |omega|. They are separated by what they are proportional to.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

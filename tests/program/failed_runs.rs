@@ -73,3 +73,27 @@ fn failed_rows_have_reasons() {
         assert!(status == "step_limit" && reason.starts_with("integrator.max_steps was reached at 0."), "{reason}");
     }
 }
+
+/// Law: a run whose debris needs more steps than it may make is no more `ok` than one whose spacecraft does: it ends where the first of them
+/// does. Counter-test: with enough steps both reach the end.
+#[test]
+fn a_run_ends_with_its_debris() {
+    let scratch = folder("debris-steps");
+    let fast = campaign()
+        .replace("side_m = 0.2", "size_m = [0.1, 0.25, 0.6]")
+        .replace("duration_s = 1.0", "duration_s = 10.0");
+    for (method, few, many) in [("taylor", 300, 3000), ("dormand_prince", 8000, 100_000)] {
+        for (steps, code, status) in [(few, 1, "step_limit"), (many, 0, "ok")] {
+            let text = fast
+                .replace("method = \"auto\"", &format!("method = \"{method}\""))
+                .replace("tolerance = 1e-10", &format!("tolerance = 1e-10\nmax_steps = {steps}"));
+            scratch.file("fast.toml", &text);
+            scratch.prints("campaign fast.toml --samples 3 --out r --overwrite --no-report", code);
+            let batch = &batches(&scratch.path("r/runs/part-000000.parquet"))[0];
+            let found = ends(batch);
+            assert!(found.iter().all(|(found, _)| found == status), "{method}, {steps}: {found:?}");
+            let energy = batch.column_by_name("energy_error_max").expect("an error");
+            assert_eq!(energy.null_count(), if status == "ok" { 0 } else { 3 }, "{method}, {steps}");
+        }
+    }
+}

@@ -46,7 +46,7 @@ impl<S: Simd, R: Real + Send + 'static, const N: usize, const J: usize, const FO
         let Self { simd, zero, plan, batch, workspace, debris_workspace } = self;
         plan.check_laws(&laws);
         let grid = &plan.grid;
-        if let Some(DebrisRuns { runs, trajectories, errors }) = batch.load_debris(scenes) {
+        if let Some(DebrisRuns { runs, trajectories, outcomes }) = batch.load_debris(scenes) {
             let workspace = debris_workspace
                 .get_or_insert_with(|| Workspace::new(*zero, settings(plan), WITH_ATTITUDE, grid.points()));
             let arcs = ArcSource::free(grid.duration());
@@ -58,7 +58,7 @@ impl<S: Simd, R: Real + Send + 'static, const N: usize, const J: usize, const FO
                 workspace,
                 &mut |index, _, states, outcome| {
                     core::mem::swap(&mut trajectories[index], states);
-                    errors[index] = outcome.local_errors;
+                    outcomes[index] = *outcome;
                 },
             );
         }
