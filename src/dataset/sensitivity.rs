@@ -14,10 +14,11 @@ use crate::observables::headlines::headlines;
 use crate::run::Status;
 use crate::sampling::Design;
 use crate::statistics::correlation::{
-    Estimate, matrix, mid_ranks, pearson, pearson_interval, spearman_interval, standardised,
+    Estimate, ascending_order, matrix, mid_ranks, mid_ranks_in_order, pearson, pearson_interval, spearman_interval,
+    standardised,
 };
 use crate::statistics::regression::{Regressors, independent_inputs, r_squared_interval};
-use crate::statistics::sensitivity::{Block, ascending_order, first_order_index_in_order, saltelli_indices};
+use crate::statistics::sensitivity::{Block, first_order_index_in_order, saltelli_indices};
 
 /// Most rows for observables that a campaign file names.
 pub const MOST_ROWS: usize = 65_536;
@@ -124,7 +125,7 @@ pub fn compute(
     let drawn = columns.filter(|(index, _)| plan.dispersions.expression_of(*index).is_none());
     let inputs: Vec<String> = drawn.map(|(_, column)| column.parameter.column_name(column.component)).collect();
     let table = read(reader, &inputs, &observed, most)?;
-    let prepared = Prepared::new(&table.inputs, None);
+    let prepared = Prepared::new(table.inputs.clone(), threads);
     let of_observable = |(observed, y): (&Observed, &Vec<f64>)| {
         if y.iter().all(|value| value.is_finite()) {
             return prepared.sensitivities(plan, &inputs, observed, y);
@@ -132,7 +133,9 @@ pub fn compute(
         // other rows have other ranks
         let rows: Vec<usize> = (0..y.len()).filter(|row| y[*row].is_finite()).collect();
         let y: Vec<f64> = rows.iter().map(|row| y[*row]).collect();
-        Prepared::new(&table.inputs, Some(&rows)).sensitivities(plan, &inputs, observed, &y)
+        let of_rows = |input: &Vec<f64>| rows.iter().map(|row| input[*row]).collect();
+        let one = NonZeroUsize::new(1);
+        Prepared::new(table.inputs.iter().map(of_rows).collect(), one).sensitivities(plan, &inputs, observed, &y)
     };
     let work: Vec<_> = observed.iter().zip(&table.observables).collect();
     Ok(in_parallel(work, threads, of_observable).into_iter().flatten().collect())
@@ -146,31 +149,52 @@ struct Prepared {
     values: Vec<Vec<f64>>,
     standardised: Vec<Vec<f64>>,
     ranks: Vec<Vec<f64>>,
-    /// Those that are kept.
-    regressors: [Vec<Vec<f64>>; 2],
+    /// Those that are kept; `None` where there are none.
+    regressors: [Option<Regressors>; 2],
     orders: Vec<Vec<usize>>,
     /// Rank correlations of the inputs.
     correlations: Vec<Vec<f64>>,
 }
 
+/// One input in the forms that follow from it alone.
+struct Forms {
+    standardised: Vec<f64>,
+    ranks: Vec<f64>,
+    order: Vec<usize>,
+}
+
+impl Forms {
+    fn of(input: &[f64]) -> Self {
+        let order = ascending_order(input);
+        let ranks = standardised(&mid_ranks_in_order(input, &order));
+        Forms { standardised: standardised(input), ranks, order }
+    }
+}
+
 impl Prepared {
-    fn new(inputs: &[Vec<f64>], rows: Option<&[usize]>) -> Self {
-        let values: Vec<Vec<f64>> = match rows {
-            Some(rows) => inputs.iter().map(|input| rows.iter().map(|row| input[*row]).collect()).collect(),
-            None => inputs.to_vec(),
+    fn new(values: Vec<Vec<f64>>, threads: Option<NonZeroUsize>) -> Self {
+        let forms = in_parallel(values.iter().collect(), threads, |input| Forms::of(input));
+        let (mut scaled, mut ranks, mut orders) = (Vec::new(), Vec::new(), Vec::new());
+        for form in forms {
+            scaled.push(form.standardised);
+            ranks.push(form.ranks);
+            orders.push(form.order);
+        }
+        // of values and of ranks
+        let of = |columns: &Vec<Vec<f64>>| {
+            let kept = independent_inputs(columns);
+            let inputs = columns.iter().zip(&kept).filter(|(_, kept)| **kept).map(|(column, _)| column.clone());
+            let regressors = Some(inputs.collect()).filter(|inputs: &Vec<_>| !inputs.is_empty());
+            (kept, regressors.and_then(Regressors::new))
         };
-        let scaled: Vec<Vec<f64>> = values.iter().map(|input| standardised(input)).collect();
-        let ranks: Vec<Vec<f64>> = values.iter().map(|input| standardised(&mid_ranks(input))).collect();
-        let kept = [independent_inputs(&scaled), independent_inputs(&ranks)];
-        let of = |columns: &[Vec<f64>], kept: &[bool]| {
-            columns.iter().zip(kept).filter(|(_, kept)| **kept).map(|(column, _)| column.clone()).collect()
-        };
+        let mut of_both = in_parallel(vec![&scaled, &ranks], threads, of).into_iter();
+        let [(values_kept, of_values), (ranks_kept, of_ranks)] = [(); 2].map(|()| of_both.next().expect("both"));
         Prepared {
             rows: values.first().map_or(0, Vec::len),
-            regressors: [of(&scaled, &kept[0]), of(&ranks, &kept[1])],
-            orders: values.iter().map(|input| ascending_order(input)).collect(),
+            regressors: [of_values, of_ranks],
             correlations: matrix(&ranks),
-            kept,
+            kept: [values_kept, ranks_kept],
+            orders,
             values,
             standardised: scaled,
             ranks,
@@ -191,10 +215,10 @@ impl Prepared {
         let (scaled, ranked) = (standardised(y), standardised(&mid_ranks(y)));
         let varies = scaled.iter().any(|value| *value != 0.0);
         let regress = |which: usize, y: &[f64]| {
-            let inputs = &self.regressors[which];
-            let found = Regressors::new(inputs)?.regression(y, confidence);
-            found.filter(|_| varies && !inputs.is_empty())
+            let found = self.regressors[which].as_ref()?.regression(y, confidence);
+            found.filter(|_| varies)
         };
+        let inputs = |which: usize| self.regressors[which].as_ref().map_or(0, Regressors::count);
         let (linear, rank) = (regress(0, &scaled), regress(1, &ranked));
         let place = |which: usize, index: usize| {
             self.kept[which][index].then(|| self.kept[which][..index].iter().filter(|kept| **kept).count())
@@ -208,9 +232,10 @@ impl Prepared {
             let input_varies = self.standardised[index].iter().any(|value| *value != 0.0);
             let is_asked = varies && input_varies && self.rows > 3;
             let r = |x: &[f64], y: &[f64]| pearson(x, y);
-            let partial = rank.as_ref().zip(place(1, index)).map(|(rank, place)| {
-                spearman_interval(rank.partial[place], self.rows, self.regressors[1].len() - 1, confidence)
-            });
+            let partial = rank
+                .as_ref()
+                .zip(place(1, index))
+                .map(|(rank, place)| spearman_interval(rank.partial[place], self.rows, inputs(1) - 1, confidence));
             let correlated_with = self.correlated_with(index, names);
             InputSensitivity {
                 observable: observed.quantity.name().to_owned(),
@@ -226,7 +251,7 @@ impl Prepared {
                 regression: linear.as_ref().zip(place(0, index)).map(|(of, at)| of.coefficients[at]).map(with_interval),
                 r_squared: linear
                     .as_ref()
-                    .map(|of| r_squared_interval(of.r_squared, self.rows, self.regressors[0].len(), confidence))
+                    .map(|of| r_squared_interval(of.r_squared, self.rows, inputs(0), confidence))
                     .map(with_interval),
                 first_order: first_order_index_in_order(&self.orders[index], &self.values[index], y, confidence)
                     .map(with_interval),

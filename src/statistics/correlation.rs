@@ -19,10 +19,25 @@ pub struct Estimate {
     pub upper: f64,
 }
 
+/// The rows of `values` in ascending order ([`f64::total_cmp`]); equal values in the order of their rows.
+pub fn ascending_order(values: &[f64]) -> Vec<usize> {
+    // the bits as an integer of the same order: sorting moves values with their rows, and looks nothing up
+    let key = |value: f64| {
+        let bits = value.to_bits().cast_signed();
+        bits ^ ((bits >> 63) as u64 >> 1).cast_signed()
+    };
+    let mut keyed: Vec<(i64, usize)> = values.iter().enumerate().map(|(row, value)| (key(*value), row)).collect();
+    keyed.sort_unstable();
+    keyed.into_iter().map(|(_, row)| row).collect()
+}
+
 /// Ranks from zero; equal values share their mean rank.
 pub fn mid_ranks(values: &[f64]) -> Vec<f64> {
-    let mut order: Vec<usize> = (0..values.len()).collect();
-    order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
+    mid_ranks_in_order(values, &ascending_order(values))
+}
+
+/// As [`mid_ranks`], for the [`ascending_order`] of `values`.
+pub fn mid_ranks_in_order(values: &[f64], order: &[usize]) -> Vec<f64> {
     let mut ranks = vec![0.0; values.len()];
     let mut start = 0;
     while start < order.len() {
@@ -65,7 +80,14 @@ pub fn spearman(x: &[f64], y: &[f64]) -> f64 {
 
 /// The correlation matrix of columns that are [`standardised`], by rows.
 pub fn matrix(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    columns.iter().map(|x| columns.iter().map(|y| product(x, y)).collect()).collect()
+    let mut matrix = vec![vec![0.0; columns.len()]; columns.len()];
+    for (i, x) in columns.iter().enumerate() {
+        for (j, y) in columns[..=i].iter().enumerate() {
+            matrix[i][j] = product(x, y);
+            matrix[j][i] = matrix[i][j];
+        }
+    }
+    matrix
 }
 
 /// Fisher's interval of a coefficient from `count` rows, `fixed` other columns held fixed.
@@ -105,6 +127,10 @@ mod tests {
         assert!((pearson(&x, &[2.0, 1.0, 4.0, 3.0, 5.0]) - 0.8).abs() < 1e-15);
         assert!((spearman(&x, &[1.0, 8.0, 27.0, 64.0, 125.0]) - 1.0).abs() < 1e-15);
         assert_eq!(pearson(&x, &[0.1; 5]), 0.0, "a column that does not vary");
+        let mixed = [0.5, f64::NAN, -0.0, 0.0, f64::NEG_INFINITY, -3.0, 0.5, f64::INFINITY, -f64::NAN, -3.0];
+        let mut expected: Vec<usize> = (0..mixed.len()).collect();
+        expected.sort_by(|a, b| mixed[*a].total_cmp(&mixed[*b]));
+        assert_eq!(ascending_order(&mixed), expected);
         assert_eq!(mid_ranks(&[7.0, 7.0, 9.0, 1.0]), [1.5, 1.5, 3.0, 0.0]);
         // far from zero: the mean costs no digits of the deviations beyond those of the numbers themselves
         let far: Vec<f64> = [2.0, 1.0, 4.0, 3.0, 5.0].iter().map(|value| value + 1e9).collect();

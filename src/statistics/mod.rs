@@ -1,10 +1,11 @@
 //! Layer 2: statistics of many runs: pure functions of numbers.
 //!
-//! - [`moments`], [`quantile`], [`sketch`]: what describes one column. - [`student`], [`binomial`], [`replicates`]: intervals.
+//! - [`moments`], [`quantile`], [`sketch`] (on [`carries`]): what describes one column. - [`student`], [`binomial`], [`replicates`]: intervals.
 //! - [`gate`]: requirements decided. - [`looks`]: when to stop. - [`two_sample`]: two campaigns compared.
 //! - [`correlation`], [`regression`], [`sensitivity`]: which input matters.
 
 pub mod binomial;
+pub mod carries;
 pub mod correlation;
 pub mod deviation;
 pub mod gate;

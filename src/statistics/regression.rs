@@ -62,25 +62,30 @@ const SMALLEST_PIVOT: f64 = 1e-10;
 ///
 /// `None` where the inputs are linearly dependent (a constant input included), or where there are not more rows than inputs and two.
 pub fn regression(inputs: &[Vec<f64>], y: &[f64], confidence: f64) -> Option<Regression> {
-    Regressors::new(inputs)?.regression(y, confidence)
+    Regressors::new(inputs.to_vec())?.regression(y, confidence)
 }
 
 /// Inputs that are ready for the regression of any number of columns.
 #[derive(Clone, Debug)]
-pub struct Regressors<'x> {
-    inputs: &'x [Vec<f64>],
+pub struct Regressors {
+    inputs: Vec<Vec<f64>>,
     inverse: DMatrix<f64>,
 }
 
-impl<'x> Regressors<'x> {
+impl Regressors {
     /// `inputs`, all [`standardised`](super::correlation::standardised); `None` where they are linearly dependent.
-    pub fn new(inputs: &'x [Vec<f64>]) -> Option<Self> {
-        Some(Regressors { inputs, inverse: inverse(&super::correlation::matrix(inputs))? })
+    pub fn new(inputs: Vec<Vec<f64>>) -> Option<Self> {
+        Some(Regressors { inverse: inverse(&super::correlation::matrix(&inputs))?, inputs })
+    }
+
+    /// How many inputs there are.
+    pub fn count(&self) -> usize {
+        self.inputs.len()
     }
 
     /// As [`regression()`].
     pub fn regression(&self, y: &[f64], confidence: f64) -> Option<Regression> {
-        of_inverse(self.inputs, &self.inverse, y, confidence)
+        of_inverse(&self.inputs, &self.inverse, y, confidence)
     }
 }
 

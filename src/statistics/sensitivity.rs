@@ -9,7 +9,7 @@
 //! *ESAIM Probab. Stat.* 18 (2014) 342). It is that of independent blocks or rows; of a scrambled sequence it is too wide.
 //! Inputs must be independent: with correlated ones the shares overlap.
 
-use super::correlation::Estimate;
+use super::correlation::{Estimate, ascending_order};
 use super::student::half_width;
 
 /// Values of one block of a Saltelli design for one input.
@@ -42,13 +42,6 @@ pub fn saltelli_indices(blocks: &[Block], confidence: f64) -> Option<[Estimate; 
 /// Rows are put into bins of ascending `x`, equal values into one bin.
 pub fn first_order_index(x: &[f64], y: &[f64], confidence: f64) -> Option<Estimate> {
     first_order_index_in_order(&ascending_order(x), x, y, confidence)
-}
-
-/// The rows of `x` in ascending order: for the indices of many observables.
-pub fn ascending_order(x: &[f64]) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..x.len()).collect();
-    order.sort_by(|a, b| x[*a].total_cmp(&x[*b]));
-    order
 }
 
 /// As [`first_order_index`], for the [`ascending_order`] of `x`.

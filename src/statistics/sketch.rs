@@ -5,6 +5,7 @@
 //! bucket is at most 2^-10 = 0.098% of its value wide; a quantile is answered by the middle of its bucket, hence within 0.05%.
 //! Contents are counts, so merging is addition: the result does not depend on order, threads or parts.
 
+use super::carries::Carries;
 use super::moments::in_lanes;
 
 /// Leading mantissa bits that tell buckets apart.
@@ -18,13 +19,17 @@ const PAGE: usize = 1 << MANTISSA_BITS;
 const PAGES: usize = 1 << 12;
 /// Where a page is not counted in yet; there are no more than [`PAGES`].
 const NO_PAGE: u16 = u16::MAX;
+/// Buckets in a cache line.
+const CACHE_LINE: usize = 16;
 const SHIFT: u32 = 52 - MANTISSA_BITS;
 
 /// Counts of numbers by their leading bits, with exact extremes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sketch {
     /// One page of buckets per sign and exponent that occurred, in ascending order of its number.
-    pages: Vec<(u16, Box<[u64; PAGE]>)>,
+    pages: Vec<(u16, Box<[u32; PAGE]>)>,
+    /// What buckets of the pages have carried, by the leading bits of their numbers.
+    carries: Carries,
     count: u64,
     min: f64,
     max: f64,
@@ -32,7 +37,7 @@ pub struct Sketch {
 
 impl Default for Sketch {
     fn default() -> Self {
-        Sketch { pages: Vec::new(), count: 0, min: f64::INFINITY, max: f64::NEG_INFINITY }
+        Sketch { pages: Vec::new(), carries: Carries::default(), count: 0, min: f64::INFINITY, max: f64::NEG_INFINITY }
     }
 }
 
@@ -55,7 +60,8 @@ impl Sketch {
         }
         let value = value + 0.0; // one zero, so that the extremes do not depend on order
         let key = ordered(value) >> SHIFT;
-        self.page((key >> MANTISSA_BITS) as u16)[key as usize % PAGE] += 1;
+        let at = self.page_index((key >> MANTISSA_BITS) as u16);
+        self.carries.add(key as u32, &mut self.pages[at].1[key as usize % PAGE], 1);
         self.count += 1;
         self.min = self.min.min(value);
         self.max = self.max.max(value);
@@ -63,28 +69,24 @@ impl Sketch {
 
     /// Counts the numbers of a list; NaN is not counted.
     pub fn add_all(&mut self, values: &[f64]) {
-        // in memory that stays in the first-level cache, then added to the pages in one pass over each
-        let mut numbers: Vec<u16> = Vec::new();
-        let mut counts: Vec<u32> = Vec::new();
+        // other work has driven the pages out of the caches; read in order, they are fetched ahead
+        let pages =
+            self.pages.iter().map(|(_, page)| page.iter().step_by(CACHE_LINE).fold(0, |any, count| any | count));
+        std::hint::black_box(pages.fold(0, |any, count| any | count));
         let mut at = [NO_PAGE; PAGES];
+        self.pages.iter().enumerate().for_each(|(index, (number, _))| at[usize::from(*number)] = index as u16);
         let mut counted = 0;
-        for block in values.chunks(u32::MAX as usize) {
-            for value in block.iter().filter(|value| !value.is_nan()) {
-                let key = ordered(value + 0.0) >> SHIFT;
-                let number = (key >> MANTISSA_BITS) as usize % PAGES;
-                if at[number] == NO_PAGE {
-                    at[number] = numbers.len() as u16;
-                    numbers.push(number as u16);
-                    counts.resize(numbers.len() * PAGE, 0);
-                }
-                counts[usize::from(at[number]) * PAGE + key as usize % PAGE] += 1;
-                counted += 1;
+        for value in values.iter().filter(|value| !value.is_nan()) {
+            let key = ordered(value + 0.0) >> SHIFT;
+            let number = (key >> MANTISSA_BITS) as usize % PAGES;
+            if at[number] == NO_PAGE {
+                self.page_index(number as u16);
+                // those after a new page have moved
+                self.pages.iter().enumerate().for_each(|(index, (number, _))| at[usize::from(*number)] = index as u16);
             }
-            for (number, counts) in numbers.iter().zip(counts.chunks_exact_mut(PAGE)) {
-                for (sum, count) in self.page(*number).iter_mut().zip(counts) {
-                    *sum += u64::from(std::mem::take(count));
-                }
-            }
+            let bucket = &mut self.pages[usize::from(at[number])].1[key as usize % PAGE];
+            self.carries.add(key as u32, bucket, 1);
+            counted += 1;
         }
         self.count += counted;
         // NaN is on no side of a number
@@ -98,10 +100,9 @@ impl Sketch {
 
     /// Counts all that `other` has counted.
     pub fn merge(&mut self, other: &Sketch) {
-        for (number, counts) in &other.pages {
-            for (mine, theirs) in self.page(*number).iter_mut().zip(counts.iter()) {
-                *mine += theirs;
-            }
+        for (number, bucket, count) in other.buckets() {
+            let at = self.page_index(number);
+            self.carries.add(key(number, bucket), &mut self.pages[at].1[bucket], count);
         }
         self.count += other.count;
         self.min = self.min.min(other.min);
@@ -130,20 +131,23 @@ impl Sketch {
         }
         let rank = ((p * self.count as f64).ceil() as u64).clamp(1, self.count);
         let mut seen = 0;
-        for (number, counts) in &self.pages {
-            for (bucket, count) in counts.iter().enumerate() {
-                seen += count;
-                if seen >= rank {
-                    return Some(middle(ends(*number, bucket)).clamp(self.min, self.max));
-                }
+        for (number, bucket, count) in self.buckets() {
+            seen += count;
+            if seen >= rank {
+                return Some(middle(ends(number, bucket)).clamp(self.min, self.max));
             }
         }
         Some(self.max)
     }
 
-    fn page(&mut self, number: u16) -> &mut [u64; PAGE] {
-        let at = self.page_index(number);
-        &mut self.pages[at].1
+    /// The buckets that are not empty, ascending: number of the page, number in the page, count.
+    fn buckets(&self) -> impl Iterator<Item = (u16, usize, u64)> {
+        let all = self
+            .pages
+            .iter()
+            .flat_map(|(number, counts)| counts.iter().enumerate().map(|(bucket, count)| (*number, bucket, *count)));
+        let whole = all.map(|(number, bucket, low)| (number, bucket, self.carries.whole(key(number, bucket), low)));
+        whole.filter(|(_, _, count)| *count > 0)
     }
 
     /// The index of a page, which is added where it is not there.
@@ -161,14 +165,12 @@ impl Sketch {
     pub fn ranks(&self) -> Ranks {
         let mut seen = 0;
         let mut buckets = Vec::new();
-        for (number, counts) in &self.pages {
-            for (bucket, count) in counts.iter().enumerate().filter(|(_, count)| **count > 0) {
-                seen += count;
-                let [low, high] = ends(*number, bucket);
-                // the bucket of an infinity reaches into the NaNs; extremes are known exactly
-                let [low, high] = [if low.is_nan() { high } else { low }, if high.is_nan() { low } else { high }];
-                buckets.push(Bucket { low: low.max(self.min), high: high.min(self.max), up_to: seen });
-            }
+        for (number, bucket, count) in self.buckets() {
+            seen += count;
+            let [low, high] = ends(number, bucket);
+            // the bucket of an infinity reaches into the NaNs; extremes are known exactly
+            let [low, high] = [if low.is_nan() { high } else { low }, if high.is_nan() { low } else { high }];
+            buckets.push(Bucket { low: low.max(self.min), high: high.min(self.max), up_to: seen });
         }
         Ranks { buckets, count: self.count }
     }
@@ -225,6 +227,11 @@ impl Ranks {
         let touched = self.buckets.partition_point(|bucket| bucket.low <= limit);
         [whole, touched].map(|buckets| buckets.checked_sub(1).map_or(0, |last| self.buckets[last].up_to))
     }
+}
+
+/// The leading bits of the numbers of a bucket.
+fn key(number: u16, bucket: usize) -> u32 {
+    u32::from(number) << MANTISSA_BITS | bucket as u32
 }
 
 /// The ends of a bucket, as far as numbers of these leading bits reach; the bucket of an infinity reaches into the NaNs.
