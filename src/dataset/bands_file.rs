@@ -22,7 +22,7 @@ use std::sync::Arc;
 use thiserror::Error;
 
 use crate::dataset::parallel::in_order;
-use crate::ensemble::bands::{BandColumn, BandLayout, BandSums, Bands};
+use crate::ensemble::bands::{BandColumn, BandLayout, BandSums, Bands, ColumnView, CountedBands};
 use crate::ensemble::{Part, PartId};
 use crate::observables::band_series::Form;
 use crate::run::Quantity;
@@ -79,46 +79,60 @@ pub enum BandsError {
     },
 }
 
-/// The bytes of the bands of `part`: a function of the part alone.
-pub fn to_bytes(part: Part, bands: &Bands) -> Vec<u8> {
-    let layout = bands.layout();
-    let mut out = Vec::with_capacity(1 << 16);
+/// Appends to `out` the file of the bands of `part`: a function of the part alone.
+pub fn write(part: Part, bands: &impl CountedBands, out: &mut Vec<u8>) {
+    let (layout, start) = (bands.layout(), out.len());
     out.extend_from_slice(MARK);
     out.push(VERSION);
     for number in [part.id.0, part.first.0, part.count as u64, bands.runs(), layout.series.len() as u64] {
-        put(&mut out, number);
+        put(out, number);
     }
     for (quantity, form) in &layout.series {
         for text in [quantity.name(), quantity.unit(), quantity.meaning()] {
-            put(&mut out, text.len() as u64);
+            put(out, text.len() as u64);
             out.extend_from_slice(text.as_bytes());
         }
         out.push(form_byte(*form));
     }
-    put(&mut out, layout.times.len() as u64);
+    put(out, layout.times.len() as u64);
     layout.times.iter().chain(&layout.nominal).for_each(|number| out.extend_from_slice(&number.to_le_bytes()));
-    for column in bands.columns() {
-        let buckets = column.counts.buckets();
-        put(&mut out, 2 * buckets.len() as u64 + u64::from(column.extremes.is_some()));
-        column.extremes.iter().flatten().for_each(|number| out.extend_from_slice(&number.to_le_bytes()));
-        let mut before = 0;
-        for (code, count) in buckets {
-            put(&mut out, 2 * u64::from(code - before) + u64::from(*count > 1));
-            if *count > 1 {
-                put(&mut out, count - 2);
-            }
-            before = *code;
+    for index in 0..layout.columns() {
+        let ColumnView { extremes, buckets } = bands.column(index);
+        put(out, 2 * buckets.len() as u64 + u64::from(extremes.is_some()));
+        extremes.iter().flatten().for_each(|number| out.extend_from_slice(&number.to_le_bytes()));
+        put_buckets(out, buckets);
+    }
+    let checksum = crc32fast::hash(&out[start..]);
+    out.extend_from_slice(&checksum.to_le_bytes());
+}
+
+/// Most bytes of a bucket: of the difference of two codes, and of a count.
+const LONGEST: usize = 3 + 10;
+
+/// Writes the buckets of a column. Nearly all take one byte or two: these are written without a branch on which.
+fn put_buckets(out: &mut Vec<u8>, buckets: impl ExactSizeIterator<Item = (Code, u64)>) {
+    let (mut before, mut at) = (0, out.len());
+    out.resize(at + LONGEST * buckets.len(), 0);
+    for (code, count) in buckets {
+        let (head, more) = (2 * u64::from(code - before) + u64::from(count > 1), count.saturating_sub(2));
+        before = code;
+        if head < 0x80 && more < 0x80 {
+            out[at..at + 2].copy_from_slice(&[head as u8, more as u8]);
+            at += 1 + usize::from(count > 1);
+            continue;
+        }
+        let numbers = [head, more];
+        for number in &numbers[..1 + usize::from(count > 1)] {
+            at += put_at(&mut out[at..], *number);
         }
     }
-    let checksum = crc32fast::hash(&out);
-    out.extend_from_slice(&checksum.to_le_bytes());
-    out
+    out.truncate(at);
 }
 
 /// The part and its bands.
 ///
 /// # Errors
-/// Where the bytes are not those of [`to_bytes`].
+/// Where the bytes are not those of [`write()`].
 pub fn from_bytes(bytes: &[u8]) -> Result<(Part, Bands), NotBands> {
     if !bytes.starts_with(MARK) || bytes.len() <= MARK.len() {
         return Err(NotBands::Foreign);
@@ -178,12 +192,22 @@ fn form_byte(form: Form) -> u8 {
 }
 
 /// Writes an unsigned LEB128 number.
-fn put(out: &mut Vec<u8>, mut number: u64) {
+fn put(out: &mut Vec<u8>, number: u64) {
+    let mut bytes = [0; 10];
+    let length = put_at(&mut bytes, number);
+    out.extend_from_slice(&bytes[..length]);
+}
+
+/// Writes an unsigned LEB128 number to the start of `out`; its length.
+fn put_at(out: &mut [u8], mut number: u64) -> usize {
+    let mut length = 1;
     while number >= 0x80 {
-        out.push(number as u8 | 0x80);
+        out[length - 1] = number as u8 | 0x80;
         number >>= 7;
+        length += 1;
     }
-    out.push(number as u8);
+    out[length - 1] = number as u8;
+    length
 }
 
 /// The bytes that are not read yet. Every read is `None` where they do not suffice; nothing is allocated for more than they can hold.
@@ -293,6 +317,12 @@ mod tests {
         let full = BandColumn { extremes: Some([-1e-9, 7.0]), counts: DeviationCounts::of(buckets).unwrap() };
         let columns = vec![full.clone(), BandColumn::default(), full, BandColumn::default()];
         Bands::new(layout(nominal), deviations.len() as u64, columns).unwrap()
+    }
+
+    fn to_bytes(part: Part, bands: &Bands) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        write(part, bands, &mut bytes);
+        bytes
     }
 
     fn some() -> Bands {

@@ -278,7 +278,15 @@ impl Scratch {
             }
             Cells::Word(words) => {
                 let levels = self.levels(words.len(), None, nullable);
-                let words: Vec<ByteArray> = words.into_iter().map(ByteArray::from).collect();
+                // the same word again shares its memory
+                let mut last = ("", ByteArray::from(""));
+                let shared = |word| {
+                    if last.0 != word {
+                        last = (word, ByteArray::from(word));
+                    }
+                    last.1.clone()
+                };
+                let words: Vec<ByteArray> = words.into_iter().map(shared).collect();
                 column.typed::<ByteArrayType>().write_batch(&words, levels.then_some(&self.levels[..]), None)?;
             }
             Cells::Text(texts) => {

@@ -276,8 +276,7 @@ pub fn place(storage: &dyn Storage, path: &Path, bytes: &[u8]) -> Result<(), Sto
         // what an earlier process left, or a link that somebody put there, is removed and not written to
         storage.remove(&temporary).map_err(at(&temporary))?;
         storage.create(&temporary, bytes).map_err(at(&temporary))?;
-        let found = storage.read(&temporary, bytes.len() as u64).map_err(at(&temporary))?;
-        if found != bytes {
+        if !storage.has(&temporary, bytes).map_err(at(&temporary))? {
             let differs = std::io::Error::other("what was read back is not what was written");
             return Err(at(&temporary)(differs));
         }

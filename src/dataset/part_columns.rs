@@ -104,17 +104,14 @@ impl PartColumns for RowsInMemory<'_> {
     }
 
     fn numbers(&self, name: &str) -> Result<Cow<'_, [f64]>, RowsError> {
-        // what is not finite is absent in a file
-        let stored = |values: &'_ [f64]| values.iter().all(|value| value.is_finite() || value.is_nan());
-        let absent = |value: &f64| if value.is_finite() { *value } else { f64::NAN };
         let found = match self.names.0.get(name) {
             Some(Position::Parameter(index)) => Some(self.rows.parameter(*index)),
             Some(Position::Observable(index)) => Some(self.rows.observable(*index)),
             None => None,
         };
         match found {
-            Some(values) if stored(values) => Ok(Cow::Borrowed(values)),
-            Some(values) => Ok(Cow::Owned(values.iter().map(absent).collect())),
+            // what is not finite is absent in both
+            Some(values) => Ok(Cow::Borrowed(values)),
             None => Err(RowsError { path: "rows".to_owned(), what: format!("there is no column `{name}`") }),
         }
     }

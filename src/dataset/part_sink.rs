@@ -14,7 +14,7 @@ use crate::dataset::names::{bands_of, rows_of};
 use crate::dataset::rows_file::RowsFile;
 use crate::dataset::running_counts::RunningCounts;
 use crate::dataset::storage::StorageError;
-use crate::ensemble::{Ensemble, Part, PartBands, Rows, Sink};
+use crate::ensemble::{Ensemble, Part, Rows, Sink};
 
 /// Encoded parts that may wait for the disk: memory for them is some 10 MB each.
 const WAITING: usize = 1;
@@ -36,11 +36,33 @@ pub enum PartError {
 /// An encoded part.
 type Encoded = (Part, Vec<PartFile>);
 
+/// Memory of the files of parts that are written, for those of later parts.
+#[derive(Debug, Default)]
+struct Buffers(Mutex<Vec<Vec<Vec<u8>>>>);
+
+impl Buffers {
+    /// The memory of the files of a part, each empty; none where no part is written yet.
+    fn take(&self) -> std::vec::IntoIter<Vec<u8>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).pop().unwrap_or_default().into_iter()
+    }
+
+    /// Keeps the memory of `files`.
+    fn give(&self, files: Vec<PartFile>) {
+        let emptied = |file: PartFile| {
+            let mut bytes = file.bytes;
+            bytes.clear();
+            bytes
+        };
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).push(files.into_iter().map(emptied).collect());
+    }
+}
+
 /// Encodes parts and hands them to the thread that writes.
 #[derive(Debug)]
 pub struct PartSink<'c> {
     file: RowsFile,
     counts: Option<&'c RunningCounts>,
+    buffers: &'c Buffers,
     encoded: SyncSender<Encoded>,
     seconds: Mutex<[f64; 2]>,
 }
@@ -57,12 +79,16 @@ impl Sink for PartSink<'_> {
 
     fn take(&self, rows: &Rows) -> Result<(), PartError> {
         let part = rows.part();
-        let mut bytes = Vec::new();
+        let mut buffers = self.buffers.take();
+        let mut bytes = buffers.next().unwrap_or_default();
         self.file.write(rows, &mut bytes)?;
         let mut files = vec![PartFile::new(rows_of(part.id), bytes)];
-        let bands = rows.bands().map(PartBands::bands);
-        files.extend(bands.iter().map(|bands| PartFile::new(bands_of(part.id), bands_file::to_bytes(part, bands))));
-        self.counts.into_iter().for_each(|counts| counts.add(rows, bands.as_ref()));
+        if let Some(bands) = rows.bands() {
+            let mut bytes = buffers.next().unwrap_or_default();
+            bands_file::write(part, bands, &mut bytes);
+            files.push(PartFile::new(bands_of(part.id), bytes));
+        }
+        self.counts.into_iter().for_each(|counts| counts.add(rows));
         self.encoded.send((part, files)).map_err(|_| PartError::Ended)?;
         let mut sums = self.seconds.lock().unwrap_or_else(PoisonError::into_inner);
         sums.iter_mut().zip(rows.seconds()).for_each(|(sum, seconds)| *sum += seconds);
@@ -82,10 +108,17 @@ pub fn write_parts<R>(
     body: impl FnOnce(&PartSink<'_>) -> R,
 ) -> Result<R, PartError> {
     let (encoded, waiting) = sync_channel::<Encoded>(WAITING);
-    let sink = PartSink { file: RowsFile::new(ensemble)?, counts, encoded, seconds: Mutex::new([0.0; 2]) };
+    let buffers = Buffers::default();
+    let file = RowsFile::new(ensemble)?;
+    let sink = PartSink { file, counts, buffers: &buffers, encoded, seconds: Mutex::new([0.0; 2]) };
     std::thread::scope(|scope| {
+        let (buffers, waiting) = (&buffers, waiting);
         let writer = scope.spawn(move || -> Result<(), StorageError> {
-            waiting.iter().try_for_each(|(part, files)| folder.commit(part, &files))
+            waiting.iter().try_for_each(|(part, files)| {
+                folder.commit(part, &files)?;
+                buffers.give(files);
+                Ok(())
+            })
         });
         let result = body(&sink);
         drop(sink);

@@ -13,7 +13,7 @@ use crate::dataset::population::Population;
 use crate::dataset::statistics::is_exact;
 use crate::dataset::tally::Tally;
 use crate::ensemble::bands::BandSums;
-use crate::ensemble::{Bands, Ensemble, Parts, Rows};
+use crate::ensemble::{Bands, CountedBands, Ensemble, Parts, Rows};
 
 /// Counts rows part by part, in any order.
 #[derive(Debug)]
@@ -66,11 +66,11 @@ impl RunningCounts {
         })
     }
 
-    /// Counts the rows of a part and its `bands`, each part once.
-    pub fn add(&self, rows: &Rows, bands: Option<&Bands>) {
+    /// Counts the rows of a part and its bands, each part once.
+    pub fn add(&self, rows: &Rows) {
         // without the part the counts are not whole: the rows are then read again
         let Ok(counts) = self.collector.count(&self.names.of(rows)) else { return };
-        if let Some(bands) = bands {
+        if let Some(bands) = rows.bands() {
             let mut sums = self.bands.lock().unwrap_or_else(PoisonError::into_inner);
             if sums.get_or_insert_with(|| BandSums::new(bands.layout().clone())).add(bands).is_err() {
                 return;

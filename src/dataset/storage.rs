@@ -29,6 +29,13 @@ pub trait Storage: Debug + Send + Sync {
     /// Where it cannot be read, is not a regular file, or is larger.
     fn read(&self, path: &Path, most: u64) -> io::Result<Vec<u8>>;
 
+    /// Whether the content of the regular file `path` is `bytes`. Reads it piece by piece: a file of a part would otherwise be in memory
+    /// twice.
+    ///
+    /// # Errors
+    /// Where it cannot be read, or is not a regular file.
+    fn has(&self, path: &Path, bytes: &[u8]) -> io::Result<bool>;
+
     /// Renames a file or folder, replacing a file of the new name.
     ///
     /// # Errors
@@ -83,12 +90,20 @@ pub struct Entry {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Disk;
 
-/// The content of a regular file of at most `most` bytes, from an open file: what is checked is what is read.
-fn content(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+/// Bytes that are compared at a time: they stay in the second-level cache.
+const PIECE: usize = 1 << 16;
+
+/// Opens a regular file: no link, no folder, no pipe.
+fn open_regular(path: &Path) -> io::Result<File> {
     if !fs::symlink_metadata(path)?.is_file() {
         return Err(io::Error::new(io::ErrorKind::InvalidInput, "not a regular file"));
     }
-    let file = File::open(path)?;
+    File::open(path)
+}
+
+/// The content of a regular file of at most `most` bytes, from an open file: what is checked is what is read.
+fn content(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+    let file = open_regular(path)?;
     let size = file.metadata()?.len();
     if size > most {
         return Err(io::Error::new(
@@ -119,6 +134,26 @@ impl Storage for Disk {
 
     fn read(&self, path: &Path, most: u64) -> io::Result<Vec<u8>> {
         content(path, most)
+    }
+
+    fn has(&self, path: &Path, bytes: &[u8]) -> io::Result<bool> {
+        let mut file = open_regular(path)?;
+        if file.metadata()?.len() != bytes.len() as u64 {
+            return Ok(false);
+        }
+        let mut piece = [0; PIECE];
+        for expected in bytes.chunks(PIECE) {
+            let found = &mut piece[..expected.len()];
+            match file.read_exact(found) {
+                Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => return Ok(false),
+                read => read?,
+            }
+            if found != expected {
+                return Ok(false);
+            }
+        }
+        // nothing may follow
+        Ok(file.read(&mut piece[..1])? == 0)
     }
 
     fn rename(&self, from: &Path, to: &Path) -> io::Result<()> {
@@ -180,4 +215,30 @@ pub struct StorageError {
 pub fn at(path: &Path) -> impl FnOnce(io::Error) -> StorageError + use<> {
     let path = path.to_owned();
     move |source| StorageError { path, source }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: a file has the bytes that are in it, and no others: none less, none more, none different, in whichever piece.
+    #[test]
+    fn a_file_has_what_is_in_it() {
+        let folder = std::env::temp_dir().join(format!("spindrift-storage-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        for length in [0, 1, PIECE - 1, PIECE, PIECE + 1, 3 * PIECE] {
+            let (path, bytes) = (folder.join(length.to_string()), vec![7; length]);
+            Disk.create(&path, &bytes).unwrap();
+            assert!(Disk.has(&path, &bytes).unwrap(), "{length}");
+            assert!(!Disk.has(&path, &[&bytes[..], &[7]].concat()).unwrap(), "{length}");
+            for at in [0, length / 2, length.saturating_sub(1)].into_iter().filter(|at| *at < length) {
+                let mut other = bytes.clone();
+                other[at] = 8;
+                assert!(!Disk.has(&path, &other).unwrap(), "{length}, byte {at}");
+                assert!(!Disk.has(&path, &bytes[..at]).unwrap(), "{length}, the first {at}");
+            }
+        }
+        assert!(Disk.has(&folder, &[]).is_err() && Disk.has(&folder.join("none"), &[]).is_err());
+        fs::remove_dir_all(&folder).unwrap();
+    }
 }

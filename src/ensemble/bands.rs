@@ -6,7 +6,8 @@
 
 use std::sync::Arc;
 
-use crate::ensemble::deviation_window::{DeviationWindow, FULL};
+use crate::ensemble::deviation_columns::DeviationColumns;
+use crate::ensemble::deviation_window::{DeviationSums, DeviationWindow, FULL};
 use crate::math::Isa;
 use crate::observables::Observer;
 use crate::observables::band_reader::{BandColumns, BandReader};
@@ -78,10 +79,8 @@ pub struct PartBands {
     min: Vec<f64>,
     max: Vec<f64>,
     windows: Vec<DeviationWindow<u16>>,
-    /// Runs that are counted in the windows.
-    counted: usize,
-    /// What was in the windows when they were full; empty until then.
-    earlier: Vec<DeviationWindow<u64>>,
+    /// What was counted, after the last run.
+    found: DeviationColumns,
 }
 
 impl PartBands {
@@ -105,23 +104,26 @@ impl PartBands {
             min: vec![f64::INFINITY; columns],
             max: vec![f64::NEG_INFINITY; columns],
             windows: vec![DeviationWindow::default(); columns],
-            counted: 0,
-            earlier: Vec::new(),
+            found: DeviationColumns::default(),
         }
     }
 
     /// Clears what an earlier part left.
     pub fn start(&mut self) {
-        (self.runs, self.recent_runs, self.pending, self.counted) = (0, 0, 0, 0);
+        (self.runs, self.recent_runs, self.pending) = (0, 0, 0);
         self.min.fill(f64::INFINITY);
         self.max.fill(f64::NEG_INFINITY);
         self.windows.iter_mut().for_each(DeviationWindow::clear);
-        self.earlier.clear();
+        self.found.clear();
     }
 
     /// Adds the run with the states `table` that `observer` observed last.
+    ///
+    /// # Panics
+    /// Where the part has more than 65,535 runs.
     #[inline]
     pub fn add(&mut self, isa: Isa, observer: &Observer, table: &StateTable) {
+        assert!(self.runs < FULL as u64, "bands of a part of more than {FULL} runs");
         let columns = self.reader.columns();
         let codes = &mut self.recent[self.recent_runs * columns..][..columns];
         self.reader.read(isa, observer, table, BandColumns { min: &mut self.min, max: &mut self.max, codes });
@@ -153,40 +155,81 @@ impl PartBands {
     pub fn count(&mut self) {
         self.move_to_columns();
         self.count_columns();
+        self.found.clear();
+        self.windows.iter().for_each(|window| self.found.append(window.parts()));
     }
 
     fn count_columns(&mut self) {
-        if self.counted + self.pending > FULL {
-            self.earlier.resize(self.windows.len(), DeviationWindow::default());
-            let counted = self.windows.iter().map(DeviationWindow::counted);
-            self.earlier.iter_mut().zip(counted).for_each(|(earlier, counted)| earlier.add_counts(&counted));
-            self.windows.iter_mut().for_each(DeviationWindow::clear);
-            self.counted = 0;
-        }
         for (window, codes) in self.windows.iter_mut().zip(self.codes.chunks_exact(PENDING)) {
-            codes[..self.pending].iter().for_each(|code| window.add(*code));
+            window.add(&codes[..self.pending]);
         }
-        self.counted += self.pending;
         self.pending = 0;
     }
 
     /// The bands of the part, after [`PartBands::count`].
+    pub fn bands(&self) -> Bands {
+        let column = |index: usize| {
+            let buckets = self.column(index).buckets.collect();
+            let counts = DeviationCounts::of(buckets).expect("windows are in the order of their codes");
+            BandColumn { extremes: self.column(index).extremes, counts }
+        };
+        Bands { layout: self.layout.clone(), runs: self.runs, columns: (0..self.found.columns()).map(column).collect() }
+    }
+}
+
+/// What was counted in one column, wherever it is kept.
+#[derive(Clone, Debug)]
+pub struct ColumnView<I> {
+    /// The smallest and the largest kept number, exactly; `None` where no run had one.
+    pub extremes: Option<[f64; 2]>,
+    /// The buckets that are not empty, in ascending order of their codes.
+    pub buckets: I,
+}
+
+/// Bands, wherever they are kept.
+pub trait CountedBands {
+    /// What the bands are of.
+    fn layout(&self) -> &Arc<BandLayout>;
+
+    /// Number of runs: those that are dispersed and `ok`.
+    fn runs(&self) -> u64;
+
+    /// A column: of the series times points.
+    fn column(&self, index: usize) -> ColumnView<impl ExactSizeIterator<Item = (Code, u64)>>;
+}
+
+impl CountedBands for PartBands {
+    fn layout(&self) -> &Arc<BandLayout> {
+        &self.layout
+    }
+
+    fn runs(&self) -> u64 {
+        self.runs
+    }
+
+    /// After [`PartBands::count`].
     ///
     /// # Panics
     /// Where runs are pending.
-    pub fn bands(&self) -> Bands {
+    fn column(&self, index: usize) -> ColumnView<impl ExactSizeIterator<Item = (Code, u64)>> {
         assert_eq!(self.pending + self.recent_runs, 0, "all runs of the part are counted");
-        let column = |index: usize| {
-            let mut counts = self.windows[index].counted();
-            if let Some(earlier) = self.earlier.get(index) {
-                let mut sums = earlier.clone();
-                sums.add_counts(&counts);
-                counts = sums.counted();
-            }
-            let extremes = [self.min[index], self.max[index]];
-            BandColumn { extremes: (extremes[0] <= extremes[1]).then_some(extremes), counts }
-        };
-        Bands { layout: self.layout.clone(), runs: self.runs, columns: (0..self.windows.len()).map(column).collect() }
+        let extremes = [self.min[index], self.max[index]];
+        ColumnView { extremes: (extremes[0] <= extremes[1]).then_some(extremes), buckets: self.found.column(index) }
+    }
+}
+
+impl CountedBands for Bands {
+    fn layout(&self) -> &Arc<BandLayout> {
+        &self.layout
+    }
+
+    fn runs(&self) -> u64 {
+        self.runs
+    }
+
+    fn column(&self, index: usize) -> ColumnView<impl ExactSizeIterator<Item = (Code, u64)>> {
+        let column = &self.columns[index];
+        ColumnView { extremes: column.extremes, buckets: column.counts.buckets().iter().copied() }
     }
 }
 
@@ -223,37 +266,38 @@ pub struct OtherCampaign;
 pub struct BandSums {
     layout: Arc<BandLayout>,
     runs: u64,
-    columns: Vec<(Option<[f64; 2]>, DeviationWindow<u64>)>,
+    columns: Vec<(Option<[f64; 2]>, DeviationSums)>,
 }
 
 impl BandSums {
     /// Of no run.
     pub fn new(layout: Arc<BandLayout>) -> Self {
-        BandSums { runs: 0, columns: vec![(None, DeviationWindow::default()); layout.columns()], layout }
+        BandSums { runs: 0, columns: vec![(None, DeviationSums::default()); layout.columns()], layout }
     }
 
     /// Adds the runs of `bands`.
     ///
     /// # Errors
     /// Where the bands are of another campaign; nothing is added then.
-    pub fn add(&mut self, bands: &Bands) -> Result<(), OtherCampaign> {
-        if !Arc::ptr_eq(&self.layout, &bands.layout) && !self.layout.is(&bands.layout) {
+    pub fn add(&mut self, bands: &impl CountedBands) -> Result<(), OtherCampaign> {
+        if !Arc::ptr_eq(&self.layout, bands.layout()) && !self.layout.is(bands.layout()) {
             return Err(OtherCampaign);
         }
-        self.runs += bands.runs;
-        for ((extremes, counts), column) in self.columns.iter_mut().zip(&bands.columns) {
+        self.runs += bands.runs();
+        for (index, (extremes, counts)) in self.columns.iter_mut().enumerate() {
+            let column = bands.column(index);
             *extremes = match (*extremes, column.extremes) {
                 (Some([a, b]), Some([c, d])) => Some([a.min(c), b.max(d)]),
                 (mine, theirs) => mine.or(theirs),
             };
-            counts.add_counts(&column.counts);
+            counts.add(column.buckets);
         }
         Ok(())
     }
 
     /// The bands of all runs.
     pub fn bands(&self) -> Bands {
-        let column = |(extremes, counts): &(Option<[f64; 2]>, DeviationWindow<u64>)| BandColumn {
+        let column = |(extremes, counts): &(Option<[f64; 2]>, DeviationSums)| BandColumn {
             extremes: *extremes,
             counts: counts.counted(),
         };

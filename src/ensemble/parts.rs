@@ -16,6 +16,13 @@ const LARGEST: u64 = 16_384;
 /// After so many parts of one size, parts are twice as large.
 const OF_ONE_SIZE: u64 = 16;
 
+/// The size at which parts stay for [`OF_THE_USUAL_SIZE`] parts: rows of two threads then fit in a shared cache, and memory is the same for
+/// campaigns from a hundred thousand to ten million samples. Only beyond them the number of files matters more.
+const USUAL: u64 = 4096;
+
+/// Parts of the size [`USUAL`].
+const OF_THE_USUAL_SIZE: u64 = 2560;
+
 /// The number of a part, from zero in the order of its samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct PartId(pub u64);
@@ -68,7 +75,8 @@ impl Parts {
         std::iter::from_fn(move || {
             let now = size;
             size = (2 * size).min(self.largest);
-            Some((now, (now < self.largest).then_some(OF_ONE_SIZE)))
+            let many = if now == USUAL { OF_THE_USUAL_SIZE } else { OF_ONE_SIZE };
+            Some((now, (now < self.largest).then_some(many)))
         })
     }
 
@@ -188,7 +196,9 @@ mod tests {
         let parts = Parts::of(u64::MAX / 2);
         assert_eq!(parts.part(PartId(0)).unwrap().count, SMALLEST as usize);
         assert_eq!(parts.part(PartId(10_000)).unwrap().count, LARGEST as usize);
-        assert!(Parts::of(1_000_000).count() < 200);
+        let largest = |samples: u64| Parts::of(samples).iter().map(|part| part.count).max();
+        assert_eq!([100_000, 1_000_000, 10_000_000].map(largest), [Some(USUAL as usize); 3]);
+        assert!(Parts::of(10_000_000).count() < 2_600 && Parts::of(1_000_000_000).count() < 64_000);
     }
 
     /// Law: there is no part after the last, however large its number is.

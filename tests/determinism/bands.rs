@@ -5,7 +5,7 @@ use std::num::NonZeroUsize;
 use std::sync::Mutex;
 
 use spindrift::campaign::{Overrides, Plan};
-use spindrift::dataset::bands_file::{from_bytes, to_bytes};
+use spindrift::dataset::bands_file::{from_bytes, write};
 use spindrift::ensemble::bands::BandSums;
 use spindrift::ensemble::{Bands, Ensemble, Parts, Rows, SingleRun, Sink, Supervision, run};
 use spindrift::math::Isa;
@@ -41,7 +41,10 @@ impl Sink for Memory {
 
     fn take(&self, rows: &Rows) -> Result<(), String> {
         let bands = rows.bands().ok_or("rows without bands")?;
-        self.0.lock().unwrap().insert(rows.part().id.0, to_bytes(rows.part(), &bands.bands()));
+        let mut bytes = Vec::new();
+        write(rows.part(), bands, &mut bytes);
+        assert_eq!(from_bytes(&bytes).map_err(|error| error.to_string())?, (rows.part(), bands.bands()));
+        self.0.lock().unwrap().insert(rows.part().id.0, bytes);
         Ok(())
     }
 }

@@ -83,6 +83,11 @@ impl Storage for Faulty {
         Disk.read(path, most)
     }
 
+    fn has(&self, path: &Path, bytes: &[u8]) -> io::Result<bool> {
+        self.check()?;
+        Disk.has(path, bytes)
+    }
+
     fn rename(&self, from: &Path, to: &Path) -> io::Result<()> {
         self.check()?;
         Disk.rename(from, to)
