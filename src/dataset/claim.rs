@@ -11,7 +11,7 @@ use crate::campaign::difference::{KeyDifference, text_differences};
 use crate::dataset::folder::{Folder, MOST_MANIFEST};
 use crate::dataset::manifest::{Identity, Manifest, PartRecord};
 use crate::dataset::names::{
-    FOLDERS, MANIFEST, PLAN, REPORT, SHARDS, SUCCESS, SUMMARY, UNFINISHED, is_ours, manifest_of,
+    FOLDERS, MANIFEST, PART_BANDS, PLAN, REPORT, RUNS, SHARDS, SUCCESS, SUMMARY, UNFINISHED, is_ours, manifest_of,
 };
 use crate::dataset::stopping::targets;
 use crate::dataset::storage::{Storage, StorageError, at};
@@ -138,6 +138,11 @@ impl Found {
     /// Number of rows.
     pub fn rows(&self) -> u64 {
         self.parts().values().map(|part| part.rows).sum()
+    }
+
+    /// Number of samples up to the last one of a part that is listed. Parts are not made in order: it may be more than the rows.
+    fn extent(&self) -> u64 {
+        self.parts().values().map(|part| part.first_sample.saturating_add(part.rows)).max().unwrap_or(0)
     }
 
     /// The damaged lines of the manifests, each with its file.
@@ -314,8 +319,8 @@ pub fn claim(
         return Err(occupied(folder, &found, there, (plan, identity)));
     }
     let most = targets(plan).last().copied().unwrap_or(plan.samples);
-    if found.rows() > most {
-        return Err(FolderError::Larger { folder, found: found.rows(), asked: most });
+    if found.extent() > most {
+        return Err(FolderError::Larger { folder, found: found.extent(), asked: most });
     }
     ready(storage, root, (plan, identity), options, found, locks)
 }
@@ -386,7 +391,7 @@ fn ready(
     }
     folder.unfinish()?;
     if options.shard.is_none() {
-        remove_unfinished(storage, root)?;
+        remove_unfinished(storage, root, &folder.parts())?;
     }
     folder.drop_parts(broken.into_iter().map(|(part, _)| part))?;
     if found.plan != plan.text() {
@@ -396,12 +401,17 @@ fn ready(
     Ok(Claim::Ready(Box::new(Ready { folder, replaces: None, rows, damaged, _locks: locks })))
 }
 
-/// Removes the temporary files that an interrupted process left.
-fn remove_unfinished(storage: &dyn Storage, root: &Path) -> Result<(), StorageError> {
+/// Removes what an interrupted process left in an unfinished dataset: temporary files, and files of parts that it did not come to list. The
+/// campaign may have fewer samples now, and then no part would replace these.
+fn remove_unfinished(storage: &dyn Storage, root: &Path, parts: &[PartRecord]) -> Result<(), StorageError> {
+    let listed: BTreeSet<&str> = parts.iter().flat_map(|part| &part.files).map(|file| file.name.as_str()).collect();
     for folder in FOLDERS.into_iter().chain([""]) {
         let path = root.join(folder);
         for entry in storage.list(&path).map_err(at(&path))? {
-            if entry.is_file && entry.name.ends_with(UNFINISHED) && is_ours(folder, &entry.name) {
+            let is_of_parts = folder == RUNS || folder == PART_BANDS;
+            let is_unlisted = is_of_parts && !listed.contains(format!("{folder}/{}", entry.name).as_str());
+            let is_left = entry.name.ends_with(UNFINISHED) || is_unlisted;
+            if entry.is_file && is_left && is_ours(folder, &entry.name) {
                 let file = path.join(&entry.name);
                 storage.remove(&file).map_err(at(&file))?;
             }
@@ -438,10 +448,10 @@ fn beside(root: &Path, what: &str) -> PathBuf {
     root.with_file_name(format!(".{name}.{what}"))
 }
 
-/// Removes the dataset in `root`, if there is one of other rows than `identity`, or of more than `most` rows.
+/// Removes the dataset in `root`, if there is one of other rows than `identity`, or of more than `most` samples.
 fn remove_dataset(storage: &dyn Storage, root: &Path, identity: &Identity, most: u64) -> Result<(), FolderError> {
     if let Contents::Dataset(found) = contents(storage, root)?
-        && (found.identity.as_ref() != Some(identity) || found.rows() > most)
+        && (found.identity.as_ref() != Some(identity) || found.extent() > most)
     {
         remove(storage, root, &found)?;
     }
@@ -458,7 +468,7 @@ fn remove(storage: &dyn Storage, root: &Path, found: &Found) -> Result<(), Stora
         let path = root.join(folder);
         for entry in storage.list(&path).map_err(at(&path))? {
             let name = format!("{folder}/{}", entry.name);
-            let is_of_parts = folder == "runs" || folder == "bands";
+            let is_of_parts = folder == RUNS || folder == PART_BANDS;
             let is_listed = listed.contains(&name);
             let is_leftover = !found.is_finished || name.ends_with(UNFINISHED);
             if entry.is_file && is_ours(folder, &entry.name) && (!is_of_parts || is_listed || is_leftover) {

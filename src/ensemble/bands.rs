@@ -166,18 +166,22 @@ impl PartBands {
         self.pending = 0;
     }
 
-    /// The bands of the part, after [`PartBands::count`].
+    /// The bands of the part, after [`PartBands::count`]; of no run before the first.
     pub fn bands(&self) -> Bands {
         let column = |index: usize| {
             let buckets = self.column(index).buckets.collect();
             let counts = DeviationCounts::of(buckets).expect("windows are in the order of their codes");
             BandColumn { extremes: self.column(index).extremes, counts }
         };
-        Bands { layout: self.layout.clone(), runs: self.runs, columns: (0..self.found.columns()).map(column).collect() }
+        Bands {
+            layout: self.layout.clone(),
+            runs: self.runs,
+            columns: (0..self.layout.columns()).map(column).collect(),
+        }
     }
 }
 
-/// What was counted in one column, wherever it is kept.
+/// What was counted in one column, in memory of any form.
 #[derive(Clone, Debug)]
 pub struct ColumnView<I> {
     /// The smallest and the largest kept number, exactly; `None` where no run had one.
@@ -186,7 +190,7 @@ pub struct ColumnView<I> {
     pub buckets: I,
 }
 
-/// Bands, wherever they are kept.
+/// Bands in memory of any form: those of a part that was just run, or those of a file.
 pub trait CountedBands {
     /// What the bands are of.
     fn layout(&self) -> &Arc<BandLayout>;

@@ -1,4 +1,4 @@
-//! [`Carries`]: makes counters of 32 bits, of which there may be millions, count without an end.
+//! [`Carries`]: makes counters of 32 bits count without an end. There may be millions of them.
 //!
 //! A campaign has tens of megabytes of counters that stay below 2^32, and may have one that does not.
 

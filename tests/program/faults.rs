@@ -122,8 +122,8 @@ impl Storage for Faulty {
 /// Ten seconds of waiting for a lock.
 const LOCK_TRIES: usize = 2000;
 
-/// Makes the dataset of `plan` in `root`, or what is missing of it.
-fn make(storage: &'static dyn Storage, root: &Path, plan: &Plan) -> Result<(), String> {
+/// Makes the dataset of `plan` in `root`, or what is missing of it, with its page or without.
+fn make(storage: &'static dyn Storage, root: &Path, plan: &Plan, has_page: bool) -> Result<(), String> {
     let ensemble = Ensemble::new(plan, Isa::best());
     let options = ClaimOptions { overwrite: false, shard: None, threads: 1 };
     let mut claimed = claim(storage, root, (plan, &identity(&ensemble)), options);
@@ -154,7 +154,7 @@ fn make(storage: &'static dyn Storage, root: &Path, plan: &Plan) -> Result<(), S
         threads: NonZeroUsize::new(1),
         replayed: "small.toml",
         junit: None,
-        page: (true, None),
+        page: (has_page, None),
         made: None,
         seconds: [0.0; 2],
     };
@@ -177,9 +177,12 @@ fn contents(root: &Path) -> BTreeMap<String, Vec<u8>> {
     found
 }
 
+/// Three parts; few columns, since the work is done a thousand times.
 fn plan() -> Plan {
     let overrides = Overrides { samples: Some(520), ..Overrides::default() };
-    let text = format!("{}[retain]\ntrajectories = \"sample:2\"\n", campaign_without_debris());
+    let observed = "points = 11\ngroups = [\"energy_conservation\"]\n";
+    let text = campaign_without_debris().replace("points = 11\n", observed);
+    let text = format!("{text}[retain]\ntrajectories = \"sample:2\"\n");
     Plan::from_text("small", &text, overrides).unwrap()
 }
 
@@ -188,28 +191,30 @@ fn plan() -> Plan {
 #[test]
 fn every_operation_may_fail() {
     let (scratch, plan) = (ScratchFolder::new("faults"), plan());
-    let counted = Faulty::new(u64::MAX, false, io::ErrorKind::Other);
-    make(counted, &scratch.path("whole"), &plan).unwrap();
-    let (operations, whole) = (counted.done.load(Ordering::Relaxed), contents(&scratch.path("whole")));
-    println!("{operations} operations");
-    assert!(operations > 80, "{operations} operations");
-    for name in
-        ["/statistics.parquet", "/sensitivity.parquet", "/bands.parquet", "/summary.json", "/report.html", "/_SUCCESS"]
-    {
-        assert!(whole.contains_key(name), "{name}");
-    }
-    assert_eq!(whole.keys().filter(|name| name.starts_with("trajectories/")).count(), 2);
-    let mut errors = 0;
-    for (persists, kind) in [
-        (false, io::ErrorKind::StorageFull),
-        (true, io::ErrorKind::StorageFull),
-        (true, io::ErrorKind::ReadOnlyFilesystem),
-        (false, io::ErrorKind::Other),
+    let (mut errors, mut operations) = (0, 0);
+    // the page is one file more, and most of the work
+    for (persists, kind, has_page) in [
+        (false, io::ErrorKind::StorageFull, true),
+        (true, io::ErrorKind::StorageFull, false),
+        (true, io::ErrorKind::ReadOnlyFilesystem, false),
+        (false, io::ErrorKind::Other, false),
     ] {
+        let counted = Faulty::new(u64::MAX, false, kind);
+        make(counted, &scratch.path("whole"), &plan, has_page).unwrap();
+        let whole = contents(&scratch.path("whole"));
+        fs::remove_dir_all(scratch.path("whole")).unwrap();
+        for name in ["/statistics.parquet", "/sensitivity.parquet", "/bands.parquet", "/summary.json", "/_SUCCESS"] {
+            assert!(whole.contains_key(name), "{name}");
+        }
+        assert_eq!(whole.contains_key("/report.html"), has_page);
+        assert_eq!(whole.keys().filter(|name| name.starts_with("trajectories/")).count(), 2);
+        operations = counted.done.load(Ordering::Relaxed);
+        println!("{operations} operations");
+        assert!(operations > 80, "{operations} operations");
         for fails in 0..operations {
             let root = scratch.path("r");
             let _ = fs::remove_dir_all(&root);
-            let ended = make(Faulty::new(fails, persists, kind), &root, &plan);
+            let ended = make(Faulty::new(fails, persists, kind), &root, &plan, has_page);
             if let Err(message) = &ended {
                 errors += 1;
                 assert!(message.contains("spindrift-"), "operation {fails}: no path in {message:?}");
@@ -218,7 +223,7 @@ fn every_operation_may_fail() {
             for (name, bytes) in contents(&root).iter().filter(|(name, _)| !is_growing(name)) {
                 assert!(*bytes == whole[name], "operation {fails}: {name} is not whole");
             }
-            make(Faulty::new(u64::MAX, false, kind), &root, &plan)
+            make(Faulty::new(u64::MAX, false, kind), &root, &plan, has_page)
                 .unwrap_or_else(|error| panic!("operation {fails}: {error}"));
             let now = contents(&root);
             assert_eq!(now.keys().collect::<Vec<_>>(), whole.keys().collect::<Vec<_>>(), "operation {fails}");
@@ -274,13 +279,13 @@ fn a_small_disk_fills_up() {
         return;
     };
     let root = disk.0.join("r");
-    make(&Disk, &root, &plan).unwrap();
+    make(&Disk, &root, &plan, true).unwrap();
     let whole = contents(&root);
     let (mut kilobytes, mut full) = (8, 0);
     loop {
         fs::remove_dir_all(&root).unwrap();
         disk.resize(kilobytes);
-        let Err(message) = make(&Disk, &root, &plan) else { break };
+        let Err(message) = make(&Disk, &root, &plan, true) else { break };
         full += 1;
         assert!(
             message.contains("/disk/r") && message.contains("No space left on device"),
@@ -291,7 +296,7 @@ fn a_small_disk_fills_up() {
             assert!(*bytes == whole[name], "{kilobytes} kB: {name} is not whole");
         }
         disk.resize(ENOUGH);
-        make(&Disk, &root, &plan).unwrap_or_else(|error| panic!("after {kilobytes} kB: {error}"));
+        make(&Disk, &root, &plan, true).unwrap_or_else(|error| panic!("after {kilobytes} kB: {error}"));
         assert!(contents(&root) == whole, "after {kilobytes} kB");
         kilobytes += kilobytes / 8 + 4;
     }

@@ -238,6 +238,41 @@ fn a_damaged_manifest_is_recovered() {
     }
 }
 
+/// Law: what a campaign that was stopped has left beyond the samples that are asked for now is not part of the result: neither a part that is
+/// listed, since parts are not made in order, nor files that no line lists, as a crash before that line leaves them.
+#[test]
+fn fewer_samples_than_before() {
+    let scratch = folder("fewer");
+    scratch.prints("campaign small.toml --out whole", 0);
+    let longer = |result: &str, kept: &[&str]| {
+        scratch.prints(&format!("campaign small.toml --samples 1100 --shard 1/1 --out {result}"), 0);
+        let shard = scratch.path(result).join("shards/1-of-1.jsonl");
+        let text = fs::read_to_string(&shard).unwrap();
+        let lines = text.lines().filter(|line| kept.iter().any(|kept| line.contains(kept)));
+        fs::write(
+            scratch.path(result).join("manifest.jsonl"),
+            lines.map(|line| format!("{line}\n")).collect::<String>(),
+        )
+        .unwrap();
+        fs::remove_file(shard).unwrap();
+    };
+    // parts 0 and 3 are listed: 512 rows, up to sample 1023
+    longer("r", &["\"spindrift\"", "\"part\":0", "\"part\":3"]);
+    let said = scratch.prints("campaign small.toml --out r", 4);
+    assert!(said.contains("1024 rows of this plan, more than its 600 samples"), "{said}");
+    // parts 0 and 1 are listed, and the files of 2, 3 and 4 are there
+    longer("s", &["\"spindrift\"", "\"part\":0", "\"part\":1"]);
+    assert!(scratch.path("s/runs/part-000004.parquet").exists());
+    scratch.prints("campaign small.toml --out s", 0);
+    assert_same(&scratch, "s", "whole");
+    // the same in the folder that is to replace a result
+    longer(".whole.new", &["\"spindrift\"", "\"part\":0", "\"part\":3"]);
+    scratch.prints("campaign small.toml --out t --seed 9", 0);
+    fs::rename(scratch.path(".whole.new"), scratch.path(".t.new")).unwrap();
+    scratch.prints("campaign small.toml --out t --overwrite", 0);
+    assert_same(&scratch, "t", "whole");
+}
+
 /// Law: `--overwrite` keeps the old result until the new one is complete, and never touches what is not ours.
 #[test]
 fn the_old_result_stays_until_the_new_one_is_complete() {
