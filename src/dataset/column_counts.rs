@@ -149,7 +149,7 @@ impl Collector {
         if self.is_exact {
             return (moments, values.into_owned());
         }
-        sketches.lock().unwrap_or_else(PoisonError::into_inner)[index].add_all(&values);
+        sketches.lock().unwrap_or_else(PoisonError::into_inner)[index].add_block(&values, &moments);
         (moments, Vec::new())
     }
 

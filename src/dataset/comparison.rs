@@ -104,6 +104,7 @@ pub fn compare(
     let of = |result: ResultRows<'_>| statistics::compute(result.plan, result.reader, None, threads);
     let statistics = [of(first)?, of(second)?];
     let pairs = pairs(first, second)?;
+    let starts = [first_dispersed(first.plan), first_dispersed(second.plan)];
     let confidence = first.plan.analysis.confidence;
     let (all, others) = (Observed::all(first.plan), Observed::all(second.plan));
     let other = |name: &str| others.iter().find(|observed| observed.quantity.name() == name);
@@ -116,7 +117,7 @@ pub fn compare(
         for (((observed, _), a), b) in batch.iter().zip(&of_first).zip(&of_second) {
             let name = observed.quantity.name();
             if let Some((of_a, of_b)) = statistics[0].column(name).zip(statistics[1].column(name)) {
-                columns.push(compared([of_a, of_b], [a, b], &pairs, confidence));
+                columns.push(compared([of_a, of_b], [a, b], &pairs, starts, confidence));
             }
         }
     }
@@ -153,8 +154,8 @@ fn values<'o>(
     Ok(columns)
 }
 
-/// The samples that both results drew alike, among the first; empty where they did not disperse the same parameters in the same way.
-fn pairs(first: ResultRows<'_>, second: ResultRows<'_>) -> Result<Vec<usize>, RowsError> {
+/// The rows of the samples that both results drew alike, among the first; empty where they did not disperse the same parameters in the same way.
+fn pairs(first: ResultRows<'_>, second: ResultRows<'_>) -> Result<Vec<[usize; 2]>, RowsError> {
     let names = |plan: &Plan| -> Vec<String> {
         let columns = plan.dispersions.columns().iter();
         columns.map(|column| column.parameter.column_name(column.component)).collect()
@@ -171,22 +172,55 @@ fn pairs(first: ResultRows<'_>, second: ResultRows<'_>) -> Result<Vec<usize>, Ro
         }
         Ok(column)
     };
-    let mut length = usize::try_from(first.plan.samples.min(second.plan.samples)).unwrap_or(usize::MAX);
-    length = length.min(MOST_EXACT as usize + 1);
+    let mut pairs = shared_rows(first.plan, second.plan);
+    let (rows, others) = (rows(first)?, rows(second)?);
+    pairs.retain(|[row, other]| *row < rows && *other < others);
     for name in &of_first {
         let (a, b) = (drawn(first, name)?, drawn(second, name)?);
-        length = length.min(a.len()).min(b.len());
-        if a.iter().zip(&b).take(length).any(|(a, b)| a.to_bits() != b.to_bits()) {
+        let bits = |column: &[f64], row: usize| column.get(row).map(|value| value.to_bits());
+        if pairs.iter().any(|[row, other]| bits(&a, *row) != bits(&b, *other)) {
             return Ok(Vec::new());
         }
     }
-    Ok((1..length).collect())
+    Ok(pairs)
+}
+
+/// How many rows there are, of those that are compared: fewer than in the plan where it was stopped when it was precise enough.
+fn rows(result: ResultRows<'_>) -> Result<usize, RowsError> {
+    let mut rows = 0;
+    for index in 0..result.reader.files().len() {
+        let Some(part) = result.reader.part(index).filter(|_| rows <= MOST_EXACT as usize) else { break };
+        rows += part?.rows();
+    }
+    Ok(rows.min(MOST_EXACT as usize + 1))
+}
+
+/// The first rows of each plan that are of the same dispersed sample.
+fn shared_rows(first: &Plan, second: &Plan) -> Vec<[usize; 2]> {
+    let rows = |plan: &Plan| usize::try_from(plan.rows()).unwrap_or(usize::MAX).min(MOST_EXACT as usize + 1);
+    let (mut row, mut other, mut shared) = (first_dispersed(first), first_dispersed(second), Vec::new());
+    // samples ascend in both
+    while row < rows(first) && other < rows(second) {
+        let (a, b) = (first.sample(row as u64), second.sample(other as u64));
+        if a == b {
+            shared.push([row, other]);
+        }
+        row += usize::from(a <= b);
+        other += usize::from(b <= a);
+    }
+    shared
+}
+
+/// The first row that is not that of the nominal sample.
+fn first_dispersed(plan: &Plan) -> usize {
+    usize::from(plan.dispersed_rows() < plan.rows())
 }
 
 fn compared(
     statistics: [&ColumnStatistics; 2],
     values: [&[f64]; 2],
-    pairs: &[usize],
+    pairs: &[[usize; 2]],
+    starts: [usize; 2],
     confidence: f64,
 ) -> ColumnComparison {
     let moments = statistics.map(|of| of.moments);
@@ -208,20 +242,18 @@ fn compared(
     }
     let differences: Vec<f64> = pairs
         .iter()
-        .map(
-            |sample| {
-                if values[0][*sample] == values[1][*sample] { 0.0 } else { values[1][*sample] - values[0][*sample] }
-            },
-        )
+        .map(|[row, other]| (values[0][*row], values[1][*other]))
+        .map(|(first, second)| if first == second { 0.0 } else { second - first })
         .filter(|difference| !difference.is_nan())
         .collect();
     let (mean, distribution_p_value) = if pairs.is_empty() {
-        let ascending = |values: &[f64]| {
-            let mut values: Vec<f64> = values.iter().skip(1).copied().filter(|value| !value.is_nan()).collect();
+        let ascending = |which: usize| {
+            let dispersed = values[which].iter().skip(starts[which]).copied();
+            let mut values: Vec<f64> = dispersed.filter(|value| !value.is_nan()).collect();
             values.sort_unstable_by(f64::total_cmp);
             values
         };
-        let test = kolmogorov_smirnov(&ascending(values[0]), &ascending(values[1]));
+        let test = kolmogorov_smirnov(&ascending(0), &ascending(1));
         (welch(&moments[0], &moments[1], confidence), test.map(|(_, p)| p))
     } else {
         (paired(&Moments::of_block(&differences), confidence), signed_ranks(&differences))

@@ -5,6 +5,11 @@
 //! Parallel Computation of Covariances and Arbitrary-Order Statistical Moments*, SAND2008-6212 (2008), for orders two to four. Merging
 //! parts in their order gives the same bits for any number of threads.
 
+use fearless_simd::Simd;
+
+use crate::math::Isa;
+use crate::math::isa::Work;
+
 /// Moments of the numbers that were added.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moments {
@@ -36,42 +41,7 @@ impl Moments {
 
     /// Moments of a block of numbers: as [`Moments::of`] to rounding, several times as fast and with fewer rounding errors.
     pub fn of_block(values: &[f64]) -> Self {
-        let n = values.len() as f64;
-        let [sum, min, max] = in_lanes(
-            values,
-            [0.0, f64::INFINITY, f64::NEG_INFINITY],
-            |[sum, min, max], x| [sum + x, if x < min { x } else { min }, if x > max { x } else { max }],
-            |a, b| [a[0] + b[0], a[1].min(b[1]), a[2].max(b[2])],
-        );
-        if values.is_empty() {
-            return Moments::default();
-        }
-        if min == max && !sum.is_nan() {
-            // the mean of equal numbers is that number, without the rounding of their sum
-            return Moments { count: values.len() as u64, mean: min, m2: 0.0, m3: 0.0, m4: 0.0, min, max };
-        }
-        let near = sum / n;
-        let [s1, s2, s3, s4] = in_lanes(
-            values,
-            [0.0; 4],
-            |[s1, s2, s3, s4], x| {
-                let d = x - near;
-                let square = d * d;
-                [s1 + d, s2 + square, s3 + square * d, s4 + square * square]
-            },
-            |a, b| [a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]],
-        );
-        // what the rounding of the mean left
-        let e = s1 / n;
-        Moments {
-            count: values.len() as u64,
-            mean: near + e,
-            m2: (s2 - e * s1).max(0.0),
-            m3: s3 - 3.0 * e * s2 + 2.0 * n * e * e * e,
-            m4: (s4 - 4.0 * e * s3 + 6.0 * e * e * s2 - 3.0 * n * e * e * e * e).max(0.0),
-            min,
-            max,
-        }
+        Isa::best().run(Block(values))
     }
 
     /// Adds one number. NaN makes every moment NaN: leave out what has no value.
@@ -154,27 +124,78 @@ impl Moments {
     }
 }
 
+/// The moments of a block, on the instruction set of this processor: all give the same bits.
+struct Block<'v>(&'v [f64]);
+
+impl Work for Block<'_> {
+    type Output = Moments;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, _: S) -> Moments {
+        let values = self.0;
+        let n = values.len() as f64;
+        let [sum, min, max] = in_lanes(
+            values,
+            [0.0, f64::INFINITY, f64::NEG_INFINITY],
+            |[sum, min, max], x| [sum + x, if x < min { x } else { min }, if x > max { x } else { max }],
+            |a, b| [a[0] + b[0], a[1].min(b[1]), a[2].max(b[2])],
+        );
+        if values.is_empty() {
+            return Moments::default();
+        }
+        if min == max && !sum.is_nan() {
+            // the mean of equal numbers is that number, without the rounding of their sum
+            return Moments { count: values.len() as u64, mean: min, m2: 0.0, m3: 0.0, m4: 0.0, min, max };
+        }
+        let near = sum / n;
+        let [s1, s2, s3, s4] = in_lanes(
+            values,
+            [0.0; 4],
+            |[s1, s2, s3, s4], x| {
+                let d = x - near;
+                let square = d * d;
+                [s1 + d, s2 + square, s3 + square * d, s4 + square * square]
+            },
+            |a, b| [a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]],
+        );
+        // what the rounding of the mean left
+        let e = s1 / n;
+        Moments {
+            count: values.len() as u64,
+            mean: near + e,
+            m2: (s2 - e * s1).max(0.0),
+            m3: s3 - 3.0 * e * s2 + 2.0 * n * e * e * e,
+            m4: (s4 - 4.0 * e * s3 + 6.0 * e * e * s2 - 3.0 * n * e * e * e * e).max(0.0),
+            min,
+            max,
+        }
+    }
+}
+
 /// Accumulators beside each other, so that the processor need not wait for one sum.
 const LANES: usize = 8;
 
 /// Folds `values` in [`LANES`] accumulators, number k in accumulator k mod [`LANES`], and these in one order: the same bits everywhere.
-pub(super) fn in_lanes<const N: usize>(
+#[inline(always)]
+fn in_lanes<const N: usize>(
     values: &[f64],
     start: [f64; N],
     add: impl Fn([f64; N], f64) -> [f64; N],
     merge: impl Fn([f64; N], [f64; N]) -> [f64; N],
 ) -> [f64; N] {
-    let mut lanes = [start; LANES];
+    let mut lanes = start.map(|start| [start; LANES]);
     let mut blocks = values.chunks_exact(LANES);
     for block in &mut blocks {
-        for (lane, value) in lanes.iter_mut().zip(block) {
-            *lane = add(*lane, *value);
+        for lane in 0..LANES {
+            let sum = add(lanes.map(|lanes| lanes[lane]), block[lane]);
+            lanes.iter_mut().zip(sum).for_each(|(lanes, sum)| lanes[lane] = sum);
         }
     }
-    for (lane, value) in lanes.iter_mut().zip(blocks.remainder()) {
-        *lane = add(*lane, *value);
+    for (lane, value) in blocks.remainder().iter().enumerate() {
+        let sum = add(lanes.map(|lanes| lanes[lane]), *value);
+        lanes.iter_mut().zip(sum).for_each(|(lanes, sum)| lanes[lane] = sum);
     }
-    lanes.into_iter().reduce(merge).unwrap_or(start)
+    (0..LANES).map(|lane| lanes.map(|lanes| lanes[lane])).reduce(merge).unwrap_or(start)
 }
 
 #[cfg(test)]

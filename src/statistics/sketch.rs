@@ -6,7 +6,7 @@
 //! Contents are counts, so merging is addition: the result does not depend on order, threads or parts.
 
 use super::carries::Carries;
-use super::moments::in_lanes;
+use super::moments::Moments;
 
 /// Leading mantissa bits that tell buckets apart.
 pub const MANTISSA_BITS: u32 = 10;
@@ -69,6 +69,11 @@ impl Sketch {
 
     /// Counts the numbers of a list; NaN is not counted.
     pub fn add_all(&mut self, values: &[f64]) {
+        self.add_block(values, &Moments::of_block(values));
+    }
+
+    /// As [`Sketch::add_all`], for numbers whose moments are known.
+    pub fn add_block(&mut self, values: &[f64], moments: &Moments) {
         // other work has driven the pages out of the caches; read in order, they are fetched ahead
         let pages =
             self.pages.iter().map(|(_, page)| page.iter().step_by(CACHE_LINE).fold(0, |any, count| any | count));
@@ -89,13 +94,9 @@ impl Sketch {
             counted += 1;
         }
         self.count += counted;
-        // NaN is on no side of a number
-        [self.min, self.max] = in_lanes(
-            values,
-            [self.min, self.max],
-            |[min, max], x| [if x < min { x + 0.0 } else { min }, if x > max { x + 0.0 } else { max }],
-            |a, b| [a[0].min(b[0]), a[1].max(b[1])],
-        );
+        // one zero, as in `add`
+        let (min, max) = (moments.min().unwrap_or(f64::INFINITY), moments.max().unwrap_or(f64::NEG_INFINITY));
+        (self.min, self.max) = (self.min.min(min + 0.0), self.max.max(max + 0.0));
     }
 
     /// Counts all that `other` has counted.

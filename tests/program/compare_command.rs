@@ -35,6 +35,14 @@ fn results_are_compared() {
     let said = scratch.prints("compare a e", 0);
     assert!(said.contains("299 samples were drawn alike") && said.contains("campaign.samples: 600 | 300"), "{said}");
 
+    // chosen samples are paired with the samples of the same numbers, whichever rows these are
+    scratch.file("chosen.toml", &campaign().replace("[campaign]", "[campaign]\nonly = [7, 8, 11, 250]"));
+    scratch.prints("campaign chosen.toml --out f", 0);
+    for (results, pairs) in [("a f", 4), ("f a", 4), ("f e", 4), ("f f", 4)] {
+        let said = scratch.prints(&format!("compare {results}"), 0);
+        assert!(said.contains(&format!("{pairs} samples were drawn alike")), "{results}: {said}");
+    }
+
     scratch.prints("compare a nothing", 2);
     scratch.prints("compare a b --tolerance -1", 2);
     std::fs::write(scratch.path("b/runs/part-000001.parquet"), "damaged").expect("written");

@@ -32,6 +32,23 @@ fn sample_holds_no_draws() {
     assert!(written < few + 40_000, "kB: {written}");
 }
 
+/// Law: the memory of a campaign does not grow with its samples, from where parts have their usual size: rows, bands and counts of parts are
+/// not held.
+#[test]
+fn a_campaign_holds_no_rows() {
+    let scratch = ScratchFolder::new("flat");
+    let text = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns/spin_sweep.toml")).unwrap();
+    assert!(text.contains("points = ") && !text.contains("[bands]"));
+    fs::write(scratch.0.join("flat.toml"), text).unwrap();
+    let of = |samples: u64| {
+        let said = format!("campaign flat.toml --samples {samples} --threads 1 --no-report --overwrite");
+        (peak(&scratch, &said), scratch.0.join("results/spin_sweep/runs").read_dir().unwrap().count())
+    };
+    let ((few, files), (many, more)) = (of(100_000), of(300_000));
+    assert!(more > files + 40, "{files} and {more} files");
+    assert!(many < few + few / 5, "kB: {few} for 1e5 samples, {many} for 3e5");
+}
+
 /// Law: the memory of observation points is what the refusal of too many says: at most that, and at least 0.8 of it where the default groups are
 /// observed, with debris and thrust.
 #[test]
