@@ -3,7 +3,9 @@
 use super::conditioning::ErrorEstimate;
 use super::exchange::Exchange;
 use super::table::DirectValue;
+use crate::math::symmetric::principal_axes;
 use crate::run::{Outcome, StateField, StateTable};
+use crate::scene::MassProperties;
 
 /// An error of the state, from the rounding of the input alone, above which a run is ill conditioned: a thousandth of a radian or
 /// of the rate. No question that a campaign asks depends on less.
@@ -21,6 +23,16 @@ pub(super) struct FinishedRun<'a> {
     pub(super) estimate: ErrorEstimate,
     /// That of the debris.
     pub(super) debris_estimate: ErrorEstimate,
+    pub(super) mass: &'a MassProperties,
+    /// The principal moments of inertia of the spacecraft in ascending order, kg m^2, where they are observed.
+    pub(super) moments: [f64; 3],
+}
+
+/// The principal moments of inertia of the spacecraft about its centre of mass, with locked wheels, in ascending order, kg m^2.
+pub(super) fn principal_moments(mass: &MassProperties) -> [f64; 3] {
+    let (mut moments, _) = principal_axes(mass.inertia);
+    moments.sort_by(f64::total_cmp);
+    moments
 }
 
 /// The last of the first `filled` points of `table` with finite rotational states.
@@ -66,6 +78,13 @@ impl FinishedRun<'_> {
             DirectValue::DebrisStateError => self.debris_estimate.error,
             DirectValue::DebrisAmplification => self.debris_estimate.amplification,
             DirectValue::DebrisIllConditioned => is_ill_conditioned(&self.debris_estimate),
+            DirectValue::Mass => self.mass.total,
+            DirectValue::CenterX => self.mass.center[0],
+            DirectValue::CenterY => self.mass.center[1],
+            DirectValue::CenterZ => self.mass.center[2],
+            DirectValue::SmallestMoment => self.moments[0],
+            DirectValue::MiddleMoment => self.moments[1],
+            DirectValue::LargestMoment => self.moments[2],
         }
     }
 

@@ -26,11 +26,13 @@ pub enum Group {
     /// Angular rate, nutation, attitude relative to the nominal run, wheel speeds and momenta, direction of the debris. Only where a
     /// campaign names it.
     Motion,
+    /// Mass, centre of mass and principal moments of inertia of the spacecraft, as dispersed. Only where a campaign names it.
+    MassProperties,
 }
 
 impl Group {
     /// All groups, in the order of the columns.
-    pub const ALL: [Group; 11] = [
+    pub const ALL: [Group; 12] = [
         Group::EnergyConservation,
         Group::MomentumConservation,
         Group::Attitude,
@@ -42,11 +44,15 @@ impl Group {
         Group::StepStatistics,
         Group::Numerics,
         Group::Motion,
+        Group::MassProperties,
     ];
 
-    /// The groups of a campaign that names none: all but [`Group::Motion`], whose angles cost about as much as a run.
+    /// The groups of a campaign that names none: all but [`Group::Motion`], whose angles cost about as much as a run, and
+    /// [`Group::MassProperties`], which follow from the dispersed values.
     pub const DEFAULT: [Group; 10] = {
-        let [a, b, c, d, e, f, g, h, i, j, Group::Motion] = Group::ALL else { panic!("motion is the last group") };
+        let [a, b, c, d, e, f, g, h, i, j, Group::Motion, Group::MassProperties] = Group::ALL else {
+            panic!("the groups that a campaign must name are the last ones")
+        };
         [a, b, c, d, e, f, g, h, i, j]
     };
 
@@ -64,6 +70,7 @@ impl Group {
             Group::StepStatistics => "effort",
             Group::Numerics => "numerics",
             Group::Motion => "motion",
+            Group::MassProperties => "mass_properties",
         }
     }
 

@@ -7,7 +7,7 @@ use super::acting::Acting;
 use super::band_series::BandSeries;
 use super::conditioning::{Conditioning, ErrorEstimate};
 use super::exchange::{BodyEnergy, Exchange, exchange};
-use super::finished_run::{FinishedRun, final_point};
+use super::finished_run::{FinishedRun, final_point, principal_moments};
 use super::group::Group;
 use super::measure::measure;
 use super::nominal_attitude::NominalAttitude;
@@ -91,7 +91,7 @@ impl Observer {
     /// Returns the status of the run: that of `outcome`, or [`Status::Inaccurate`] of a run that reached its end with errors beyond any
     /// use ([`super::accuracy`]); all of its columns have values.
     ///
-    /// Of a run that is not [`Status::Done`] only step statistics and final state are numbers, the latter at the last point with
+    /// Of a run that is not [`Status::Done`] only step statistics, mass properties and final state are numbers, the last at the last point with
     /// finite values; everything else is NaN. Counts are whole numbers.
     ///
     /// # Panics
@@ -141,6 +141,8 @@ impl Observer {
             isa.run(Observation { observer: self, acting, table, outcome });
         }
         let is_final_observed = self.request.groups.contains(Group::FinalState);
+        let mass = &acting.scene().mass;
+        let is_mass_observed = self.request.groups.contains(Group::MassProperties);
         let run = FinishedRun {
             table,
             outcome,
@@ -149,6 +151,8 @@ impl Observer {
             exchange: self.exchange,
             estimate: self.estimate,
             debris_estimate: self.debris_estimate,
+            mass,
+            moments: if is_mass_observed { principal_moments(mass) } else { [f64::NAN; 3] },
         };
         self.plan.fill(&self.statistics, |value, wheel| run.value(value, usize::from(wheel)), row);
         if outcome.status != Status::Done {

@@ -390,6 +390,13 @@ direct_values! {
     DebrisStateError: DEBRIS_NUMERICS, &[], false, "Estimated error of the rotation of the debris.";
     DebrisAmplification: DEBRIS_NUMERICS, &[], false, "Estimated factor by which the motion of the debris amplifies errors.";
     DebrisIllConditioned: DEBRIS_NUMERICS, &[], false, "1 where the rounding of the input alone makes the rotation of the debris meaningless.";
+    Mass: &[], &[], true, "Mass of the spacecraft, kg.";
+    CenterX: &[], &[], true, "Centre of mass of the spacecraft from p along s1, m.";
+    CenterY: &[], &[], true, "Centre of mass of the spacecraft from p along s2, m.";
+    CenterZ: &[], &[], true, "Centre of mass of the spacecraft from p along s3, m.";
+    SmallestMoment: &[], &[], true, "Smallest principal moment of inertia of the spacecraft about its centre of mass, kg m^2.";
+    MiddleMoment: &[], &[], true, "Middle principal moment of inertia of the spacecraft about its centre of mass, kg m^2.";
+    LargestMoment: &[], &[], true, "Largest principal moment of inertia of the spacecraft about its centre of mass, kg m^2.";
 }
 
 /// The columns, family by family, in the order of a row.
@@ -468,6 +475,15 @@ static FAMILIES: &[&[Column]] = &[
         of!(Motion, Debris, DebrisDirection, Value(ValueStatistic::Max), ["spin_axis_debris_angle_max_rad"], "rad", ["Maximum angle between s3 and the line from the spacecraft's centre of mass to the debris."]),
         of!(Motion, Debris, DebrisDirection, Value(ValueStatistic::Min), ["spin_axis_debris_angle_min_rad"], "rad", ["Minimum angle between s3 and the line from the spacecraft's centre of mass to the debris."]),
         of!(Motion, Debris, DebrisDirection, Value(ValueStatistic::Final), ["spin_axis_debris_angle_final_rad"], "rad", ["Angle between s3 and the line from the spacecraft's centre of mass to the debris at the last point."]),
+    ],
+    &[
+        direct!(MassProperties, All, Float, Mass, "mass_kg", "kg", "Mass of the spacecraft with its wheels."),
+        direct!(MassProperties, All, Float, CenterX, "center_of_mass_x_m", "m", "Centre of mass of the spacecraft from p, component along s1."),
+        direct!(MassProperties, All, Float, CenterY, "center_of_mass_y_m", "m", "Centre of mass of the spacecraft from p, component along s2."),
+        direct!(MassProperties, All, Float, CenterZ, "center_of_mass_z_m", "m", "Centre of mass of the spacecraft from p, component along s3."),
+        direct!(MassProperties, All, Float, SmallestMoment, "principal_moment_smallest_kg_m2", "kg m^2", "Smallest principal moment of inertia of the spacecraft about its centre of mass, with locked wheels."),
+        direct!(MassProperties, All, Float, MiddleMoment, "principal_moment_middle_kg_m2", "kg m^2", "Middle principal moment of inertia of the spacecraft about its centre of mass, with locked wheels."),
+        direct!(MassProperties, All, Float, LargestMoment, "principal_moment_largest_kg_m2", "kg m^2", "Largest principal moment of inertia of the spacecraft about its centre of mass, with locked wheels."),
     ],
 ];
 

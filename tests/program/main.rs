@@ -19,6 +19,7 @@ mod failed_runs;
 mod faults;
 mod hostile_files;
 mod interrupted;
+mod mass_properties;
 mod memory;
 mod motion;
 mod observation;

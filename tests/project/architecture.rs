@@ -30,7 +30,7 @@ const CRATES: [(&str, &[&str]); 25] = [
     ("crc32fast", &["dataset"]),
     ("csv", &["campaign/data.rs"]),
     (FOR_ITS_FEATURES, &["no file"]),
-    ("fearless_simd", &["math", "dynamics", "ode", "propagation", "observables"]),
+    ("fearless_simd", &["math", "dynamics", "ode", "propagation", "observables", "statistics"]),
     ("flate2", &["report/page"]),
     ("indicatif", &["cli"]),
     ("libm", &[]),
