@@ -133,7 +133,8 @@ mod tests {
     /// What a window has counted.
     fn counted(window: &DeviationWindow<u16>) -> DeviationCounts {
         let (zeros, first, counts) = window.parts();
-        let all = std::iter::once((ZERO, zeros)).chain((first..).zip(counts.iter().copied()));
+        let codes = (usize::from(first)..).map(|code| code as Code);
+        let all = std::iter::once((ZERO, zeros)).chain(codes.zip(counts.iter().copied()));
         DeviationCounts::of(all.filter(|(_, count)| *count > 0).map(|(code, count)| (code, count.into())).collect())
             .expect("in the order of the codes")
     }
