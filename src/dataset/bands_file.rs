@@ -4,7 +4,7 @@
 //!
 //! | | |
 //! | --- | --- |
-//! | `SDBANDS` and the version, 1 | 8 bytes |
+//! | `SDBANDS` and the version, 2 | 8 bytes |
 //! | number, first sample and number of samples of the part | 3 n |
 //! | number of runs: dispersed and `ok` | n |
 //! | number of series; of each name, unit, meaning, form (0 value, 1 tangent of half the angle) | n; 3 texts, 1 byte |
@@ -32,7 +32,7 @@ use crate::statistics::deviation::{Code, DeviationCounts};
 /// The first bytes of a file.
 const MARK: &[u8; 7] = b"SDBANDS";
 /// The version that is written and read.
-const VERSION: u8 = 1;
+const VERSION: u8 = 2;
 /// Bytes of the checksum.
 const CHECKSUM: usize = 4;
 
@@ -355,8 +355,8 @@ mod tests {
         }
         assert!(from_bytes(&[&bytes[..], &[0]].concat()).is_err());
         let mut newer = bytes.clone();
-        newer[7] = 2;
-        assert_eq!(from_bytes(&newer).unwrap_err(), NotBands::Version(2));
+        newer[7] = 3;
+        assert_eq!(from_bytes(&newer).unwrap_err(), NotBands::Version(3));
         assert_eq!(from_bytes(b"PAR1").unwrap_err(), NotBands::Foreign);
     }
 

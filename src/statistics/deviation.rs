@@ -2,16 +2,16 @@
 //!
 //! Buckets are the leading bits of the deviation: sign, exponent and the first [`MANTISSA_BITS`] bits of the mantissa, as in
 //! [`super::sketch`], but coarser and in 16 bits, so that hundreds of millions of deviations can be counted while a campaign runs.
-//! A bucket is at most 2^-6 of its value wide; a quantile is answered by the middle of its bucket, hence within
+//! A bucket is at most 2^-5 of its value wide; a quantile is answered by the middle of its bucket, hence within
 //! [`RELATIVE_ERROR`] of the deviation. Contents are counts, so merging is addition: the result does not depend on order.
 //!
-//! Magnitudes below 2^-256 (9e-78) count as zero, those from 2^256 (1.2e77) on are in the last bucket.
+//! Magnitudes below 2^-512 (7e-155) count as zero, those from 2^512 (1.3e154) on are in the last bucket.
 
 /// Leading mantissa bits that tell buckets apart.
-pub const MANTISSA_BITS: u32 = 6;
+pub const MANTISSA_BITS: u32 = 5;
 
 /// Bound of the relative error of a deviation: half a bucket.
-pub const RELATIVE_ERROR: f64 = 1.0 / 128.0;
+pub const RELATIVE_ERROR: f64 = 1.0 / 64.0;
 
 /// A bucket: twice the number of its magnitude, in ascending order from 1, plus one where the deviation is negative.
 pub type Code = u16;
@@ -25,8 +25,8 @@ pub const NOT_A_NUMBER: Code = 1;
 /// Bits of the upper half of a number that are below its bucket.
 const SHIFT: u32 = 20 - MANTISSA_BITS;
 
-/// The leading bits of the smallest magnitude that is not zero, 2^-256.
-const LOWEST: i32 = (1023 - 256) << MANTISSA_BITS;
+/// The leading bits of the smallest magnitude that is not zero, 2^-512.
+const LOWEST: i32 = (1023 - 512) << MANTISSA_BITS;
 
 /// The number of the last magnitude.
 const LAST: i32 = Code::MAX as i32 / 2;
@@ -146,11 +146,11 @@ mod tests {
         if bits & 1 == 0 { magnitude } else { -magnitude }
     }
 
-    /// Law: the middle of the bucket of a deviation is within the stated error of it, with its sign, from 2^-256 to 2^255.
+    /// Law: the middle of the bucket of a deviation is within the stated error of it, with its sign, from 2^-512 to 2^511.
     #[test]
     fn a_bucket_is_as_narrow_as_stated() {
         let mut widest = 0.0f64;
-        for octave in -256..255 {
+        for octave in -512..511 {
             for step in 0..257 {
                 let value = libm::exp2(f64::from(octave)) * (1.0 + f64::from(step) / 257.0);
                 for value in [value, -value] {
@@ -168,14 +168,14 @@ mod tests {
 
     #[test]
     fn what_is_beyond_the_buckets() {
-        for tiny in [0.0, -0.0, 1e-78, -1e-78, f64::from_bits(1)] {
+        for tiny in [0.0, -0.0, 7e-155, -7e-155, f64::from_bits(1)] {
             assert_eq!((code(tiny), middle(code(tiny))), (ZERO, 0.0), "{tiny}");
             assert!(ends(ZERO)[0] <= tiny && tiny <= ends(ZERO)[1], "{tiny}");
         }
         assert_eq!([code(f64::NAN), code(-f64::NAN)], [NOT_A_NUMBER; 2]);
-        assert_eq!([code(1.2e77), code(f64::INFINITY)], [Code::MAX - 1; 2]);
+        assert_eq!([code(1.35e154), code(f64::INFINITY)], [Code::MAX - 1; 2]);
         assert_eq!((ends(Code::MAX - 1)[1], ends(Code::MAX)[0]), (f64::INFINITY, f64::NEG_INFINITY));
-        assert_eq!([code(-1.2e77), code(f64::NEG_INFINITY)], [Code::MAX; 2]);
+        assert_eq!([code(-1.35e154), code(f64::NEG_INFINITY)], [Code::MAX; 2]);
         assert!(DeviationCounts::default().neighbours(0.5).is_none());
     }
 

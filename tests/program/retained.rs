@@ -178,7 +178,7 @@ fn a_campaign_ends_with_bands() {
     let file = SerializedFileReader::new(fs::File::open(scratch.path("r1/bands.parquet")).unwrap()).unwrap();
     let metadata = file.metadata().file_metadata().key_value_metadata().unwrap();
     let error = metadata.iter().find(|pair| pair.key == "spindrift.bands.relative_error").unwrap();
-    assert_eq!(error.value.as_deref(), Some("0.0078125"));
+    assert_eq!(error.value.as_deref(), Some("0.015625"));
     let [min, low, median, high, max] = ["min", "p05", "p50", "p95", "max"].map(|name| floats(bands, name));
     for row in 0..bands.num_rows() {
         let numbers = [min[row], low[row], median[row], high[row], max[row]];
