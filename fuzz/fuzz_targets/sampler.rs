@@ -5,23 +5,10 @@
 use libfuzzer_sys::fuzz_target;
 use spindrift::campaign::{Overrides, Plan, SceneDraws};
 use spindrift::sampling::SampleId;
+use spindrift_fuzz::campaign;
 
-/// The campaign to which the tables of draws are added.
-const CAMPAIGN: &str = r#"
-[campaign]
-name = "draws"
-samples = 25
-seed = 1
-duration_s = 1.0
-[body]
-mass_kg = 10.0
-center_of_mass_m = [0, 0, 0]
-inertia_kg_m2 = [[2, 0, 0], [0, 3, 0], [0, 0, 4]]
-includes_wheels = false
-[initial]
-angular_velocity_rad_s = [0.01, 1.0, 0.01]
-attitude = [1, 0, 0, 0]
-"#;
+/// What a campaign needs beside the tables of draws.
+const SAMPLED: &str = "name = \"draws\"\nsamples = 25";
 
 fuzz_target!(|data: &[u8]| {
     let Ok(text) = std::str::from_utf8(data) else { return };
@@ -29,7 +16,9 @@ fuzz_target!(|data: &[u8]| {
     if ["[campaign", "[body", "[initial", "[observe", "[stop", "file"].iter().any(|word| text.contains(word)) {
         return;
     }
-    let Ok(plan) = Plan::from_text("fuzz.toml", &format!("{CAMPAIGN}{text}"), Overrides::default()) else { return };
+    let Ok(plan) = Plan::from_text("fuzz.toml", &format!("{}{text}", campaign(SAMPLED)), Overrides::default()) else {
+        return;
+    };
     let samples: Vec<u64> = [0, 1, 7, 8, 15, 24].into_iter().filter(|sample| *sample < plan.samples).collect();
     let draw = |draws: &mut SceneDraws<'_>, sample: u64| {
         let is_physical = draws.scene(SampleId(sample)).is_ok();

@@ -9,20 +9,10 @@ use libfuzzer_sys::fuzz_target;
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::dataset::rows_reader::PartReader;
 use spindrift::sampling::SampleId;
+use spindrift_fuzz::campaign;
 
-/// A campaign whose samples are the rows of a table.
-const CAMPAIGN: &str = r#"
-[campaign]
-name = "table"
-seed = 1
-duration_s = 1.0
-[body]
-mass_kg = 10.0
-center_of_mass_m = [0, 0, 0]
-inertia_kg_m2 = [[2, 0, 0], [0, 3, 0], [0, 0, 4]]
-includes_wheels = false
-[initial]
-angular_velocity_rad_s = [0.01, 1.0, 0.01]
+/// The samples are the rows of a table.
+const DESIGN: &str = r#"
 [design]
 kind = "table"
 file = "FILE"
@@ -43,7 +33,8 @@ fuzz_target!(
         let folder = FOLDER.get().expect("set at the start");
         let name = if data.starts_with(b"PAR1") { "t.parquet" } else { "t.csv" };
         std::fs::write(folder.join(name), data).expect("written");
-        if let Ok(plan) = Plan::from_text_in(folder, "fuzz.toml", &CAMPAIGN.replace("FILE", name), Overrides::default()) {
+        let text = campaign("name = \"table\"") + &DESIGN.replace("FILE", name);
+        if let Ok(plan) = Plan::from_text_in(folder, "fuzz.toml", &text, Overrides::default()) {
             let last = SampleId(plan.samples - 1);
             let _ = spindrift::campaign::draw(&plan, last);
         }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::campaign::{FilesRead, Overrides, Plan, find};
 use crate::cli::command_outcome::Failure;
-use crate::dataset::claim::Found;
+use crate::dataset::found::Found;
 use crate::dataset::names::PLAN;
 use crate::math::Isa;
 use crate::math::isa::VARIABLE;

@@ -197,10 +197,10 @@ fn rows(result: ResultRows<'_>) -> Result<usize, RowsError> {
 
 /// The first rows of each plan that are of the same dispersed sample.
 fn shared_rows(first: &Plan, second: &Plan) -> Vec<[usize; 2]> {
-    let rows = |plan: &Plan| usize::try_from(plan.rows()).unwrap_or(usize::MAX).min(MOST_EXACT as usize + 1);
+    let planned = |plan: &Plan| usize::try_from(plan.rows()).unwrap_or(usize::MAX).min(MOST_EXACT as usize + 1);
     let (mut row, mut other, mut shared) = (first_dispersed(first), first_dispersed(second), Vec::new());
     // samples ascend in both
-    while row < rows(first) && other < rows(second) {
+    while row < planned(first) && other < planned(second) {
         let (a, b) = (first.sample(row as u64), second.sample(other as u64));
         if a == b {
             shared.push([row, other]);

@@ -1,7 +1,7 @@
 //! [`Manifest`]: what a dataset consists of, as lines of JSON that are only ever appended to.
 //!
 //! ```text
-//! {"spindrift":"dataset","format":2,...,"crc":"9f3c0a71"}        what the rows are: hash of the row plan, seed, columns, arithmetic
+//! {"spindrift":"dataset","format":3,...,"crc":"9f3c0a71"}        what the rows are: hash of the row plan, seed, columns, arithmetic
 //! {"part":0,"first_sample":0,"rows":256,"files":[...],"crc":...} a part whose files are whole and on the disk
 //! {"dropped":3,"crc":...}                                         a part that is to be made again
 //! {"finished":true,"parts":16,"rows":4096,"crc":...}              all of it is there
@@ -15,8 +15,8 @@ use crate::dataset::names::{PART_BANDS, RUNS, is_ours};
 use crate::ensemble::{Part, PartId};
 use crate::sampling::SampleId;
 
-/// Version of these lines, and of the files that they list: counts are Int64 since 2.
-pub const FORMAT: u32 = 2;
+/// Version of these lines, and of the files that they list: counts are Int64 since 2, parts have other sizes and bands coarser buckets since 3.
+pub const FORMAT: u32 = 3;
 
 /// Version of the arithmetic of rows: it changes where the same row plan would give other bits. The instruction set is no part of it.
 pub const ARITHMETIC: u32 = 1;

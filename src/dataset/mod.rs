@@ -1,7 +1,7 @@
 //! Layer 6: results on disk.
 //!
-//! - [`mod@claim`]: what is in the folder of a result, and whether a campaign may write there. - [`folder`]: the dataset, and the protocol by
-//!   which parts are added. - [`manifest`]: what it consists of. - [`mod@identity`]: what its rows are. - [`names`]: of its files.
+//! - [`found`]: what is in the folder of a result. - [`mod@claim`]: whether a campaign may write there. - [`replacement`]: a result takes the
+//!   place of an older one. - [`folder`]: the dataset, and the protocol by which parts are added. - [`manifest`]: what it consists of. - [`mod@identity`]: what its rows are. - [`names`]: of its files.
 //! - [`table_log`]: the log by which table engines read the rows. - [`storage`]: file operations. - [`verify`]: whether files are what was written. - [`part_sink`]: writes finished parts.
 //! - [`rows_file`]: the files of rows; [`rows_reader`] reads them. - [`bands_file`]: of bands. - [`columnar`]: columns to Parquet, with [`arrow_metadata`]. - [`atomic`]: files that are whole or absent.
 //! - [`tally`], [`audit_tally`]: statistics counted while rows are written. - [`provenance`]: metadata on the origin.
@@ -30,6 +30,7 @@ pub mod comparison;
 pub mod described_table;
 pub mod drawn_table;
 pub mod folder;
+pub mod found;
 pub mod identity;
 pub mod manifest;
 pub mod names;
@@ -41,6 +42,7 @@ pub mod parts_read;
 pub mod population;
 pub mod precision_table;
 pub mod provenance;
+pub mod replacement;
 pub mod rows_file;
 pub mod rows_reader;
 pub mod running_counts;

@@ -54,6 +54,11 @@ pub fn manifest_of(shard: u64, shards: u64) -> String {
     format!("{SHARDS}/{shard}-of-{shards}.jsonl")
 }
 
+/// Whether the files in `folder` are those of parts, which the manifest lists.
+pub fn is_of_parts(folder: &str) -> bool {
+    folder == RUNS || folder == PART_BANDS
+}
+
 /// Whether a dataset may have a file `name` in `folder`, whole or not.
 pub fn is_ours(folder: &str, name: &str) -> bool {
     let name = name.strip_suffix(UNFINISHED).unwrap_or(name);

@@ -1,0 +1,144 @@
+//! [`contents`]: what is in the folder of a result, as it was found: its manifests, its plan, and what does not belong there.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+use crate::dataset::folder::MOST_MANIFEST;
+use crate::dataset::manifest::{Identity, Manifest, PartRecord};
+use crate::dataset::names::{
+    FOLDERS, MANIFEST, PLAN, REPORT, SHARDS, SUCCESS, SUMMARY, UNFINISHED, is_of_parts, is_ours,
+};
+use crate::dataset::storage::{Storage, StorageError, at};
+
+/// Most bytes of a plan that is read.
+pub(super) const MOST_PLAN: u64 = 1 << 28;
+
+/// What a folder of results has in it.
+#[derive(Debug)]
+pub enum Contents {
+    /// Nothing, or only what a campaign left that was stopped before it wrote its manifest.
+    Blank,
+    /// A dataset.
+    Dataset(Box<Found>),
+    /// Something that is no dataset: the first entry.
+    Foreign(String),
+}
+
+/// A dataset as it was found.
+#[derive(Debug, Default)]
+pub struct Found {
+    /// The text of its plan; empty where it cannot be read.
+    pub plan: String,
+    /// What its rows are; `None` where no manifest says.
+    pub identity: Option<Identity>,
+    /// The records of its manifests by their names.
+    pub manifests: BTreeMap<String, Manifest>,
+    /// Whether everything is there.
+    pub is_finished: bool,
+    /// Whether it has a page.
+    pub has_page: bool,
+    /// The first file that is not one of a dataset, or that no manifest lists although everything is there.
+    pub foreign: Option<String>,
+}
+
+impl Found {
+    /// All parts that are listed, by number.
+    pub fn parts(&self) -> BTreeMap<u64, PartRecord> {
+        self.manifests.values().flat_map(|manifest| manifest.parts.clone()).collect()
+    }
+
+    /// The files of rows of the dataset in `root`, in the order of their samples.
+    pub fn row_files(&self, root: &Path) -> Vec<PathBuf> {
+        let files = self.parts().into_values().flat_map(|part| part.files.into_iter().take(1));
+        files.map(|file| root.join(file.name)).collect()
+    }
+
+    /// The names of all files that are listed.
+    pub(super) fn listed(&self) -> BTreeSet<String> {
+        let parts = self.manifests.values().flat_map(|manifest| manifest.parts.values());
+        parts.flat_map(|part| &part.files).map(|file| file.name.clone()).collect()
+    }
+
+    /// Number of rows.
+    pub fn rows(&self) -> u64 {
+        self.parts().values().map(|part| part.rows).sum()
+    }
+
+    /// Number of samples up to the last one of a part that is listed. Parts are not made in order: it may be more than the rows.
+    pub(super) fn extent(&self) -> u64 {
+        self.parts().values().map(|part| part.first_sample.saturating_add(part.rows)).max().unwrap_or(0)
+    }
+
+    /// The damaged lines of the manifests, each with its file.
+    pub fn damaged_lines(&self) -> Vec<String> {
+        let lines = |(name, manifest): (&String, &Manifest)| -> Vec<String> {
+            manifest.damaged.iter().map(|line| format!("{name}:{line}")).collect()
+        };
+        self.manifests.iter().flat_map(lines).collect()
+    }
+}
+
+/// What is in `root`.
+///
+/// # Errors
+/// Where a file operation fails.
+pub fn contents(storage: &dyn Storage, root: &Path) -> Result<Contents, StorageError> {
+    let top = storage.list(root).map_err(at(root))?;
+    let mut found = Found::default();
+    let mut names: Vec<String> =
+        top.iter().filter(|entry| entry.is_file && entry.name == MANIFEST).map(|_| MANIFEST.to_owned()).collect();
+    let mut first_foreign = None;
+    let mut files = Vec::new();
+    for entry in &top {
+        if entry.is_folder && FOLDERS.contains(&entry.name.as_str()) {
+            let folder = root.join(&entry.name);
+            for inner in storage.list(&folder).map_err(at(&folder))? {
+                let name = format!("{}/{}", entry.name, inner.name);
+                if !(inner.is_file && is_ours(&entry.name, &inner.name)) {
+                    first_foreign.get_or_insert(name);
+                } else if entry.name == SHARDS && !inner.name.ends_with(UNFINISHED) {
+                    names.push(name);
+                } else {
+                    files.push(name);
+                }
+            }
+        } else if !(entry.is_file && is_ours("", &entry.name)) {
+            first_foreign.get_or_insert(entry.name.clone());
+        }
+    }
+    for name in names {
+        let path = root.join(&name);
+        let manifest = Manifest::of(&storage.read(&path, MOST_MANIFEST).map_err(at(&path))?);
+        if let Some(identity) = &manifest.identity {
+            found.identity.get_or_insert(identity.clone());
+        }
+        found.manifests.insert(name, manifest);
+    }
+    let is_marked = found.manifests.values().any(|manifest| manifest.identity.is_some() || !manifest.parts.is_empty());
+    if !is_marked {
+        // a folder without a manifest of ours is nobody's: only temporary files of this program may be in it
+        let whole =
+            top.iter().find(|entry| entry.is_file && !entry.name.ends_with(UNFINISHED)).map(|entry| entry.name.clone());
+        return Ok(
+            match first_foreign.or(whole).or_else(|| files.into_iter().find(|file| !file.ends_with(UNFINISHED))) {
+                Some(entry) => Contents::Foreign(entry),
+                None => Contents::Blank,
+            },
+        );
+    }
+    let has = |name: &str| top.iter().any(|entry| entry.is_file && entry.name == name);
+    found.is_finished =
+        has(SUCCESS) && found.manifests.get(MANIFEST).is_some_and(|manifest| manifest.is_finished) && has(SUMMARY);
+    found.has_page = has(REPORT);
+    let listed = found.listed();
+    let is_listed = |name: &String| {
+        let folder = name.split_once('/').map_or("", |(folder, _)| folder);
+        !is_of_parts(folder) || listed.contains(name)
+    };
+    let unlisted = files.iter().find(|name| found.is_finished && !is_listed(name)).cloned();
+    found.foreign = first_foreign.or(unlisted);
+    let path = root.join(PLAN);
+    found.plan =
+        storage.read(&path, MOST_PLAN).ok().and_then(|bytes| String::from_utf8(bytes).ok()).unwrap_or_default();
+    Ok(Contents::Dataset(Box::new(found)))
+}
