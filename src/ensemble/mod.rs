@@ -40,4 +40,4 @@ pub use runner::{RunError, run};
 pub use single::SingleRun;
 pub use sink::Sink;
 pub use supervision::Supervision;
-pub use worker::{Ensemble, Worker};
+pub use worker::{EngineMaker, Ensemble, Worker};

@@ -26,6 +26,9 @@ use crate::scene::Scene;
 /// enough that scenes and workspace stay in the second-level cache.
 pub const BATCH: usize = 128;
 
+/// Makes an engine for given settings on an instruction set.
+pub type EngineMaker = fn(&PropagationSettings, Isa) -> Box<dyn Engine>;
+
 /// A plan made ready to run.
 #[derive(Debug)]
 pub struct Ensemble<'p> {
@@ -33,6 +36,8 @@ pub struct Ensemble<'p> {
     isa: Isa,
     request: Request,
     propagator: PropagationSettings,
+    /// Makes the engines of the workers in place of those of the plan's method.
+    own_engines: Option<EngineMaker>,
     /// The bands of no run yet, made where they are asked for first: they need the nominal run.
     bands: OnceLock<Option<PartBands>>,
 }
@@ -42,7 +47,14 @@ impl<'p> Ensemble<'p> {
     pub fn new(plan: &'p Plan, isa: Isa) -> Self {
         let request = request(plan);
         let propagator = propagator(plan, plan.grid.clone(), request.fields());
-        Ensemble { plan, isa, request, propagator, bands: OnceLock::new() }
+        Ensemble { plan, isa, request, propagator, own_engines: None, bands: OnceLock::new() }
+    }
+
+    /// The same, with every run (the nominal one of the bands included) made by engines of the caller's own. Audits keep their reference
+    /// solution. An engine must give a run that depends on its scene alone.
+    pub fn with_engines(mut self, new_engine: EngineMaker) -> Self {
+        self.own_engines = Some(new_engine);
+        self
     }
 
     /// The plan.
@@ -92,11 +104,18 @@ impl<'p> Ensemble<'p> {
         let (scene, mut observer) = (nominal(self.plan), self.observer());
         let mut ignored = vec![f64::NAN; self.shape().observables];
         let mut kept = vec![f64::NAN; reader.columns()];
-        self.propagator.engine(self.isa).propagate(std::slice::from_ref(&scene), &mut |run| {
+        self.engine().propagate(std::slice::from_ref(&scene), &mut |run| {
             observer.observe(self.isa, &scene, run.table, run.outcome, &mut ignored);
             kept.copy_from_slice(reader.kept(&observer, run.table));
         });
         Some(PartBands::new(Arc::new(BandLayout { series, times, nominal: kept }), reader))
+    }
+
+    fn engine(&self) -> Box<dyn Engine> {
+        match self.own_engines {
+            Some(new_engine) => new_engine(&self.propagator, self.isa),
+            None => self.propagator.engine(self.isa),
+        }
     }
 
     fn observer(&self) -> Observer {
@@ -113,8 +132,7 @@ impl<'p> Ensemble<'p> {
             rows_of_scenes: Vec::with_capacity(BATCH),
             is_done: Vec::with_capacity(BATCH),
             is_selected: Vec::with_capacity(BATCH),
-            new_engine: |ensemble| ensemble.propagator.engine(ensemble.isa),
-            engine: self.propagator.engine(self.isa),
+            engine: self.engine(),
             observer: self.observer(),
             observed: vec![0.0; self.shape().observables],
             audits: (self.plan.audit_fraction > 0.0)
@@ -134,8 +152,6 @@ pub struct Worker<'c> {
     is_done: Vec<bool>,
     /// Which scenes of the batch are audited; empty without audits.
     is_selected: Vec<bool>,
-    /// Makes an engine: again after a panic, which may leave anything in one.
-    new_engine: fn(&Ensemble<'_>) -> Box<dyn Engine>,
     engine: Box<dyn Engine>,
     observer: Observer,
     observed: Vec<f64>,
@@ -220,7 +236,7 @@ impl Worker<'_> {
             if self.is_done[scene] {
                 continue;
             }
-            self.engine = (self.new_engine)(self.campaign);
+            self.engine = self.campaign.engine();
             self.observer = self.campaign.observer();
             let one = scene..scene + 1;
             if let Err(panic) = catch_unwind(AssertUnwindSafe(|| self.propagate_some(one, rows, report))) {
@@ -229,7 +245,7 @@ impl Worker<'_> {
                 rows.set_reason(row, message(panic.as_ref()));
             }
         }
-        self.engine = (self.new_engine)(self.campaign);
+        self.engine = self.campaign.engine();
         self.observer = self.campaign.observer();
     }
 
@@ -263,69 +279,4 @@ impl Worker<'_> {
 fn message(panic: &(dyn std::any::Any + Send)) -> String {
     let text = panic.downcast_ref::<String>().map(String::as_str).or_else(|| panic.downcast_ref::<&str>().copied());
     format!("the program failed in this run: {}", text.unwrap_or("no message"))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::campaign::Overrides;
-    use crate::dynamics::actuation::Laws;
-    use crate::ensemble::PartId;
-    use crate::propagation::CompletionCallback;
-
-    /// The engine of a campaign, which panics at scenes with a spin above [`TOO_FAST`], before the last run of a batch ends.
-    struct Fragile(Box<dyn Engine>);
-
-    /// Some 2% of the samples of the campaign spin faster, rad/s.
-    const TOO_FAST: f64 = 34.5;
-
-    fn is_too_fast(scene: &Scene) -> bool {
-        scene.initial.omega_se_s[2] > TOO_FAST
-    }
-
-    impl Engine for Fragile {
-        fn propagate_under(&mut self, laws: Laws<'_>, scenes: &[Scene], finish: &mut CompletionCallback<'_>) {
-            let sound = scenes.iter().position(is_too_fast).unwrap_or(scenes.len());
-            self.0.propagate_under(laws, &scenes[..sound], finish);
-            assert!(sound == scenes.len(), "a spin of more than {TOO_FAST} rad/s");
-        }
-    }
-
-    /// Law: a panic is the end of one run: its row says so, and every other row and the bands are what they are without it.
-    #[test]
-    fn a_panic_ends_one_run() {
-        let path = format!("{}/campaigns/spin_sweep.toml", env!("CARGO_MANIFEST_DIR"));
-        let text = std::fs::read_to_string(path).unwrap();
-        let plan = Plan::from_text("spin_sweep", &text, Overrides::default()).unwrap();
-        let ensemble = Ensemble::new(&plan, Isa::best());
-        let part = Part { id: PartId(0), first: SampleId(0), count: 400 };
-        let supervision = Supervision::progress(&|_| {});
-        let (mut sound, mut fragile) = (ensemble.rows(400), ensemble.rows(400));
-        ensemble.worker().run(part, &mut sound, supervision);
-        let mut worker = ensemble.worker();
-        worker.new_engine = |ensemble| Box::new(Fragile(ensemble.propagator.engine(ensemble.isa)));
-        worker.engine = (worker.new_engine)(&ensemble);
-        std::panic::set_hook(Box::new(|_| {})); // the panics are wanted
-        worker.run(part, &mut fragile, supervision);
-        let _ = std::panic::take_hook();
-        let mut draws = SceneDraws::new(&plan);
-        let mut failed = 0;
-        for row in 0..part.count {
-            let is_failed = is_too_fast(&draws.scene(SampleId(row as u64)).unwrap());
-            let expected = if is_failed { Status::InternalError } else { sound.statuses()[row] };
-            assert_eq!(fragile.statuses()[row], expected, "row {row}");
-            for index in (0..ensemble.shape().observables).filter(|_| !is_failed) {
-                let (found, expected) = (fragile.observable(index)[row], sound.observable(index)[row]);
-                assert_eq!(found.to_bits(), expected.to_bits(), "row {row}, column {index}");
-            }
-            if is_failed {
-                failed += 1;
-                let (_, reason) = fragile.reasons().iter().find(|(at, _)| *at == row).unwrap();
-                assert!(reason.contains("34.5 rad/s"), "{reason}");
-            }
-        }
-        assert!((2..40).contains(&failed), "{failed} of 400");
-        let runs = |rows: &Rows| rows.bands().unwrap().bands().runs();
-        assert_eq!(runs(&fragile) + failed, runs(&sound));
-    }
 }

@@ -9,6 +9,7 @@ mod bands;
 mod feedback;
 mod lanes;
 mod lanes_runge_kutta;
+mod panics;
 mod skipping;
 mod threads_and_order;
 mod value_hashes;
