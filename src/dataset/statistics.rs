@@ -18,7 +18,9 @@ use crate::dataset::rows_reader::{RowsError, RowsReader};
 use crate::run::{Quantity, Status};
 use crate::statistics::correlation::Estimate;
 use crate::statistics::moments::Moments;
-use crate::statistics::quantile::{interval_ranks, percent, quantile, runs_for_bound, runs_for_interval};
+use crate::statistics::quantile::{
+    Ranks as IntervalRanks, interval_ranks, percent, quantile, runs_for_bound, runs_for_interval,
+};
 use crate::statistics::replicates::{self, Step, mean_interval};
 use crate::statistics::sketch::{RELATIVE_ERROR, Ranks, Sketch};
 use crate::statistics::student::half_width;
@@ -124,7 +126,9 @@ pub fn compute(
     let mut columns = Vec::new();
     let mut describe = |observed: &[Observed], collected: Collected| {
         statuses = collected.statuses;
-        let describe = |(observed, counts)| described(plan, population, observed, counts);
+        let common =
+            CommonRanks::new(plan, population, collected.columns.first().map_or(0, |column| column.moments.count()));
+        let describe = |(observed, counts)| described(plan, population, observed, counts, &common);
         columns.extend(in_parallel(observed.iter().zip(collected.columns).collect(), threads, describe));
     };
     let observed = Observed::all(plan);
@@ -191,11 +195,32 @@ impl Order {
     }
 }
 
+/// The ranks of the intervals of all quantiles for one number of values: that of most columns.
+struct CommonRanks {
+    count: u64,
+    ranks: Vec<(f64, IntervalRanks)>,
+}
+
+impl CommonRanks {
+    fn new(plan: &Plan, population: Population, count: u64) -> Self {
+        let has_intervals = matches!(population, Population::Independent | Population::Replicated(_));
+        let quantiles = plan.analysis.quantiles.iter().filter(|_| has_intervals);
+        let ranks = quantiles.map(|p| (*p, interval_ranks(count, *p, plan.analysis.confidence)));
+        CommonRanks { count, ranks: ranks.collect() }
+    }
+
+    fn of(&self, count: u64, p: f64) -> Option<IntervalRanks> {
+        let mut known = self.ranks.iter().filter(|_| count == self.count);
+        known.find(|(of, _)| *of == p).map(|(_, ranks)| *ranks)
+    }
+}
+
 fn described(
     plan: &Plan,
     population: Population,
     observed: &Observed,
     mut collected: ColumnCounts,
+    common: &CommonRanks,
 ) -> ColumnStatistics {
     let confidence = plan.analysis.confidence;
     let mut whole = Sketch::default();
@@ -226,7 +251,7 @@ fn described(
     let moments = collected.moments;
     let (mean_interval, mean_error) = of_mean(population, &moments, &means, confidence);
     let quantiles = plan.analysis.quantiles.iter().map(|p| {
-        let mut found = of_quantile(population, &order, moments.count(), *p, confidence);
+        let mut found = of_quantile(population, &order, moments.count(), (*p, confidence), common);
         if matches!(population, Population::Replicated(_)) && found.note.is_none() {
             found.interval = replicates::quantile_interval(&steps, &sizes, *p, confidence);
         }
@@ -266,12 +291,18 @@ fn of_mean(
 }
 
 /// A quantile with the interval of independent samples, where they are.
-fn of_quantile(population: Population, order: &Order, count: u64, p: f64, confidence: f64) -> QuantileStatistic {
+fn of_quantile(
+    population: Population,
+    order: &Order,
+    count: u64,
+    (p, confidence): (f64, f64),
+    common: &CommonRanks,
+) -> QuantileStatistic {
     let mut found = QuantileStatistic { p, value: order.quantile(p), interval: [None; 2], note: None };
     if matches!(population, Population::Dependent(_) | Population::Chosen(_) | Population::Nominal) {
         return found;
     }
-    let ranks = interval_ranks(count, p, confidence);
+    let ranks = common.of(count, p).unwrap_or_else(|| interval_ranks(count, p, confidence));
     let end = |rank: Option<u64>, which: usize| rank.and_then(|rank| order.bounds(rank)).map(|bounds| bounds[which]);
     found.interval = [end(ranks.lower, 0), end(ranks.upper, 1)];
     if found.interval.contains(&None) {

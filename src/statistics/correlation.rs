@@ -57,16 +57,23 @@ pub fn standardised(values: &[f64]) -> Vec<f64> {
     if values.is_empty() || scale == 0.0 {
         return vec![0.0; values.len()];
     }
-    let mean = values.iter().map(|value| value / scale).sum::<f64>() / n;
-    let mut off: Vec<f64> = values.iter().map(|value| value / scale - mean).collect();
-    let rest = off.iter().sum::<f64>() / n;
+    // a power of two, by which dividing is exact
+    let inverse_scale = libm::ldexp(1.0, (-libm::ilogb(scale)).min(MAX_EXPONENT));
+    let mut off: Vec<f64> = values.iter().map(|value| value * inverse_scale).collect();
+    let mean = sum(&off) / n;
+    off.iter_mut().for_each(|value| *value -= mean);
+    let rest = sum(&off) / n;
     off.iter_mut().for_each(|value| *value -= rest);
-    let length = libm::sqrt(off.iter().map(|value| value * value).sum::<f64>());
+    let length = libm::sqrt(product(&off, &off));
     // equal values leave the rounding of their mean
     let rounding = 8.0 * f64::EPSILON * libm::sqrt(n);
-    off.iter_mut().for_each(|value| *value = if length > rounding { *value / length } else { 0.0 });
+    let inverse_length = 1.0 / length;
+    off.iter_mut().for_each(|value| *value = if length > rounding { *value * inverse_length } else { 0.0 });
     off
 }
+
+/// The exponent of the largest power of two.
+const MAX_EXPONENT: i32 = f64::MAX_EXP - 1;
 
 /// Pearson's coefficient of two columns of equal length; 0 where one does not vary.
 pub fn pearson(x: &[f64], y: &[f64]) -> f64 {
@@ -113,8 +120,21 @@ fn interval(r: f64, variance: f64, count: usize, fixed: usize, confidence: f64) 
 
 /// Sum of products.
 pub(super) fn product(x: &[f64], y: &[f64]) -> f64 {
-    x.iter().zip(y).map(|(x, y)| x * y).sum()
+    let (mut sums, chunks) = ([0.0; SUMS], x.chunks_exact(SUMS).zip(y.chunks_exact(SUMS)));
+    chunks.for_each(|(x, y)| (0..SUMS).for_each(|at| sums[at] += x[at] * y[at]));
+    let whole = x.len() / SUMS * SUMS;
+    sums.iter().sum::<f64>() + x[whole..].iter().zip(&y[whole..]).map(|(x, y)| x * y).sum::<f64>()
 }
+
+fn sum(x: &[f64]) -> f64 {
+    let (mut sums, chunks) = ([0.0; SUMS], x.chunks_exact(SUMS));
+    let rest = chunks.remainder().iter().sum::<f64>();
+    chunks.for_each(|x| (0..SUMS).for_each(|at| sums[at] += x[at]));
+    sums.iter().sum::<f64>() + rest
+}
+
+/// Sums that are added up side by side: none waits for the one before.
+const SUMS: usize = 8;
 
 #[cfg(test)]
 mod tests {
