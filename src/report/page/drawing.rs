@@ -14,6 +14,8 @@ use crate::report::page::figure::{Axis, Figure, Mark, Scale};
 
 /// Size of a figure, pixels.
 const SIZE: (u32, u32) = (720, 460);
+/// Free width beside the title of the vertical axis, pixels: its superscripts reach beyond the box of the text.
+const EDGE: u32 = 6;
 /// Height of the title and of the legend, pixels.
 const TITLE: u32 = 38;
 const LEGEND: u32 = 24;
@@ -166,10 +168,11 @@ impl Canvas for Figure {
         let (x, y) = (Map::of(&self.x, &xs), Map::of(&self.y, &ys));
         let left = if self.names().is_some() { NAMES } else { 78 };
         let mut chart = ChartBuilder::on(&axes)
+            .margin_left(EDGE * scale)
             .margin_right(18 * scale)
             .margin_bottom(8 * scale)
             .x_label_area_size(42 * scale)
-            .y_label_area_size(left * scale)
+            .y_label_area_size((left - EDGE) * scale)
             .build_cartesian_2d(x.range.clone(), y.range.clone())
             .map_err(drawing)?;
         let decades = |map: &Map| {
@@ -287,13 +290,18 @@ impl Figure {
                     chart
                         .draw_series(DashedLineSeries::new(ends, 4 * scale, 4 * scale, grey.stroke_width(scale)))
                         .map_err(drawing)?;
-                    let style = ("sans-serif", 12 * scale).into_font().color(&grey);
+                    let share = |of: f64, range: &Range<f64>| range.start + of * (range.end - range.start);
                     let shift = |range: &Range<f64>| 0.01 * (range.end - range.start);
-                    let place = if *vertical {
-                        (at + shift(&x.range), y.range.end - 2.0 * shift(&y.range))
+                    // above the line, and below it at the upper edge of the panel
+                    let (place, side) = if *vertical {
+                        ((at + shift(&x.range), share(0.98, &y.range)), VPos::Top)
+                    } else if at < share(0.93, &y.range) {
+                        ((share(0.01, &x.range), at + shift(&y.range)), VPos::Bottom)
                     } else {
-                        (x.range.start + shift(&x.range), at)
+                        ((share(0.01, &x.range), at - shift(&y.range)), VPos::Top)
                     };
+                    let font = ("sans-serif", 12 * scale).into_font().color(&grey);
+                    let style = font.pos(Pos::new(HPos::Left, side));
                     chart.draw_series(std::iter::once(Text::new(label.clone(), place, style))).map_err(drawing)?;
                 }
             }
@@ -412,5 +420,28 @@ mod tests {
             vec![Mark::Line { label: label(), hue, dashed: false, x: vec![-1.0], y: vec![f64::NAN] }],
         );
         assert!(nothing.svg().is_ok() && colored(&nothing) < 150);
+    }
+
+    /// Law: no text reaches the edge of the image, where it would be cut off: also a unit with superscripts on the vertical axis, and the
+    /// names of limits at both ends of the panel.
+    #[test]
+    fn nothing_is_cut_off() {
+        let x: Vec<f64> = (0..9).map(f64::from).collect();
+        let line = |unit: f64| Mark::Line {
+            label: "nominal run".to_owned(),
+            hue: Hue::Body,
+            dashed: false,
+            y: x.iter().map(|x| x * unit).collect(),
+            x: x.clone(),
+        };
+        for unit in [1.0, 1e6, 1e-15] {
+            let limits = [0.0, 8.0 * unit].map(|at| Mark::Limit { label: "tolerance".to_owned(), at, vertical: false });
+            let marks = limits.into_iter().chain([line(unit)]).collect();
+            let drawn = figure(Axis::linear("time", "s"), Axis::linear("relative error of the energy", "J"), marks);
+            let (pixels, (width, height)) = (drawn.pixels().unwrap(), drawn.size());
+            let is_white = |x: u32, y: u32| pixels[((y * width + x) * 3) as usize..][..3] == [255; 3];
+            let sides = (0..height).all(|y| is_white(0, y) && is_white(width - 1, y));
+            assert!(sides && (0..width).all(|x| is_white(x, 0) && is_white(x, height - 1)), "unit {unit}");
+        }
     }
 }
