@@ -58,23 +58,31 @@ function linearAxis(axis, [low, high], isTime, count, room) {
   return { type: "value", min, max, interval: step, name, axisLabel: { formatter: text, hideOverlap: true, showMaxLabel: last - max < 1e-6 * step } };
 }
 
-function decades(first, last) {
-  return Array.from({ length: last - first + 1 }, (_, k) => 10 ** (first + k));
+// Ticks of a logarithmic axis: decades, no more than nine; where there are fewer than two, also 2 and 5 times a decade, and if need be
+// round values.
+function logTicks(min, max) {
+  const [first, last] = [Math.ceil(Math.log10(min)), Math.floor(Math.log10(max))];
+  if (last > first) {
+    const every = Math.max(1, Math.ceil((last - first) / 8));
+    return Array.from({ length: Math.floor((last - first) / every) + 1 }, (_, k) => 10 ** (first + k * every));
+  }
+  const multiples = [first - 1, first].flatMap((power) => [1, 2, 5].map((digit) => digit * 10 ** power));
+  const inside = multiples.filter((value) => value >= min && value <= max);
+  if (inside.length > 1) return inside;
+  const step = roundStep(max - min, 4);
+  const start = Math.ceil(min / step);
+  return Array.from({ length: Math.max(0, Math.floor(max / step) - start + 1) }, (_, k) => (start + k) * step);
 }
 
 function logAxis(axis, [low, high], room) {
   const name = titleOf(axis, axis.unit, room);
   const [min, max] = [low / 1.12, high * 1.12];
-  const [first, last] = [Math.ceil(Math.log10(min)), Math.floor(Math.log10(max))];
-  const every = Math.max(1, Math.ceil((last - first) / 8));
-  // decades alone have labels; where there are fewer than two, the ends have too
+  const customValues = logTicks(min, max);
   const text = (value) => {
     const power = Math.round(Math.log10(value));
-    const isDecade = Math.abs(Math.log10(value) - power) < 1e-6;
-    if (!isDecade) return last > first ? "" : readable(value, 2);
-    return (power - first) % every === 0 ? `10${superscript(power)}` : "";
+    return Math.abs(Math.log10(value) - power) < 1e-9 ? `10${superscript(power)}` : readable(value, 3);
   };
-  return { type: "log", min, max, name, axisTick: { customValues: last > first ? decades(first, last) : undefined }, axisLabel: { formatter: text, showMinLabel: true, showMaxLabel: true } };
+  return { type: "log", min, max, name, axisTick: { customValues }, axisLabel: { formatter: text, customValues, hideOverlap: true } };
 }
 
 function axisOption(figure, which, palette, width) {

@@ -4,13 +4,12 @@ use std::ops::Range;
 use std::path::Path;
 
 use plotters::coord::Shift;
-use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use crate::report::axis::{Axis as Ticks, superscript};
 use crate::report::canvas::{Canvas, PlotError, drawing};
-use crate::report::page::figure::{Axis, Figure, Mark, Scale};
+use crate::report::page::figure::{Figure, Mark, Scale};
+use crate::report::page::figure_axis::{FigureAxis, MOST_TICKS, Ticked};
 
 /// Size of a figure, pixels.
 const SIZE: (u32, u32) = (720, 460);
@@ -19,6 +18,10 @@ const EDGE: u32 = 6;
 /// Height of the title and of the legend, pixels.
 const TITLE: u32 = 38;
 const LEGEND: u32 = 24;
+/// Left edge of the legend, width of a mark with the space around it, and of a letter, pixels.
+const LEGEND_EDGE: u32 = 16;
+const LEGEND_MARK: u32 = 40;
+const LEGEND_LETTER: u32 = 7;
 /// Width kept for the names of a vertical axis, pixels.
 const NAMES: u32 = 290;
 
@@ -35,7 +38,7 @@ const PALETTE: [RGBColor; 9] = [
     RGBColor(110, 110, 110),
 ];
 
-type Chart<'a, B> = ChartContext<'a, B, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+type Chart<'a, B> = ChartContext<'a, B, Cartesian2d<Ticked, Ticked>>;
 
 /// Writes every figure into `folder` as SVG and as PNG; returns the number of files.
 ///
@@ -49,74 +52,6 @@ pub fn save(figures: &[Figure], folder: &Path) -> Result<usize, PlotError> {
         }
     }
     Ok(2 * figures.len())
-}
-
-/// From values of an axis to coordinates, and back to labels.
-struct Map {
-    scale: Scale,
-    range: Range<f64>,
-    ticks: Ticks,
-    title: String,
-}
-
-impl Map {
-    fn of(axis: &Axis, values: &[f64]) -> Self {
-        let ticks = Ticks::of(axis.range.map_or(values.to_vec(), |range| range.to_vec()).into_iter());
-        let title = |unit: &str| match (axis.quantity.as_str(), unit) {
-            ("", unit) => unit.to_owned(),
-            (quantity, "") => quantity.to_owned(),
-            (quantity, unit) => format!("{quantity} / {unit}"),
-        };
-        match &axis.scale {
-            Scale::Linear => {
-                let margin = if axis.range.is_some() { 0.0 } else { 0.04 };
-                let description = ticks.description(&axis.unit);
-                Map { scale: Scale::Linear, range: ticks.range(margin), title: title(&description), ticks }
-            }
-            Scale::Log => {
-                let values = axis.range.map_or(values.to_vec(), |range| range.to_vec());
-                let positive = values.into_iter().filter(|value| *value > 0.0 && value.is_finite()).map(libm::log10);
-                let (low, high) =
-                    positive.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
-                let (low, high) = if low > high { (0.0, 1.0) } else { (low, high) };
-                let margin = (0.04 * (high - low)).max(0.05);
-                Map { scale: Scale::Log, range: low - margin..high + margin, title: title(&axis.unit), ticks }
-            }
-            Scale::Names(names) => {
-                let count = names.len().max(1) as f64;
-                Map { scale: axis.scale.clone(), range: -0.5..count - 0.5, title: String::new(), ticks }
-            }
-        }
-    }
-
-    /// The coordinate of a value; NaN where it has none.
-    fn at(&self, value: f64) -> f64 {
-        match self.scale {
-            Scale::Linear => self.ticks.map(value),
-            Scale::Log if value > 0.0 => libm::log10(value),
-            Scale::Log => f64::NAN,
-            Scale::Names(_) => value,
-        }
-    }
-
-    fn label(&self, coordinate: f64) -> String {
-        match self.scale {
-            Scale::Linear => self.ticks.label(coordinate),
-            Scale::Log => {
-                let power = libm::round(coordinate);
-                if (coordinate - power).abs() < 1e-6 {
-                    format!("10{}", superscript(power as i32))
-                } else {
-                    String::new()
-                }
-            }
-            Scale::Names(_) => String::new(),
-        }
-    }
-
-    fn is_inside(&self, coordinate: f64) -> bool {
-        self.range.contains(&coordinate)
-    }
 }
 
 impl Figure {
@@ -155,17 +90,18 @@ impl Figure {
 impl Canvas for Figure {
     fn size(&self) -> (u32, u32) {
         let rows = self.names().map_or(0, <[String]>::len) as u32;
-        (SIZE.0, SIZE.1.max(TITLE + LEGEND + 90 + 22 * rows))
+        let extra = LEGEND * (self.legend_rows() - 1);
+        (SIZE.0, (SIZE.1 + extra).max(TITLE + LEGEND + extra + 90 + 22 * rows))
     }
 
     fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: u32) -> Result<(), PlotError> {
         let (head, rest) = area.split_vertically(TITLE * scale);
         let style = ("sans-serif", 18 * scale).into_font().into_text_style(&head);
         head.draw_text(&self.title, &style, ((14 * scale) as i32, (10 * scale) as i32)).map_err(drawing)?;
-        let (strip, axes) = rest.split_vertically(LEGEND * scale);
+        let (strip, axes) = rest.split_vertically(LEGEND * self.legend_rows() * scale);
         self.legend(&strip, scale)?;
         let (xs, ys) = self.values();
-        let (x, y) = (Map::of(&self.x, &xs), Map::of(&self.y, &ys));
+        let (x, y) = (FigureAxis::of(&self.x, &xs), FigureAxis::of(&self.y, &ys));
         let left = if self.names().is_some() { NAMES } else { 78 };
         let mut chart = ChartBuilder::on(&axes)
             .margin_left(EDGE * scale)
@@ -173,17 +109,13 @@ impl Canvas for Figure {
             .margin_bottom(8 * scale)
             .x_label_area_size(42 * scale)
             .y_label_area_size((left - EDGE) * scale)
-            .build_cartesian_2d(x.range.clone(), y.range.clone())
+            .build_cartesian_2d(x.coordinates(), y.coordinates())
             .map_err(drawing)?;
-        let decades = |map: &Map| {
-            if map.scale == Scale::Log { (map.range.end - map.range.start).ceil().clamp(2.0, 9.0) as usize } else { 7 }
-        };
         chart
             .configure_mesh()
             .x_desc(&x.title)
             .y_desc(&y.title)
-            .x_labels(decades(&x))
-            .y_labels(if self.names().is_some() { 0 } else { decades(&y) })
+            .y_labels(if self.names().is_some() { 0 } else { MOST_TICKS })
             .x_label_formatter(&|value| x.label(*value))
             .y_label_formatter(&|value| y.label(*value))
             .label_style(("sans-serif", 13 * scale))
@@ -213,8 +145,8 @@ impl Figure {
         &self,
         chart: &mut Chart<'_, B>,
         mark: &Mark,
-        x: &Map,
-        y: &Map,
+        x: &FigureAxis,
+        y: &FigureAxis,
         scale: u32,
     ) -> Result<(), PlotError> {
         let color = |hue: usize| PALETTE[hue % PALETTE.len()];
@@ -320,24 +252,56 @@ impl Figure {
         Ok(())
     }
 
-    /// Names of the marks in a row; one of several marks with the same name.
-    fn legend<B: DrawingBackend>(&self, strip: &DrawingArea<B, Shift>, scale: u32) -> Result<(), PlotError> {
-        let mut x = (16 * scale) as i32;
-        let (size, middle) = ((12 * scale) as i32, (LEGEND * scale / 2) as i32);
+    /// What is in the legend, with the row and the left edge of each, pixels: names in rows.
+    fn legend_entries(&self) -> Vec<(&Mark, &str, (u32, u32))> {
+        let (mut row, mut x) = (0, LEGEND_EDGE);
+        let mut entries = Vec::new();
         for mark in &self.marks {
-            let (label, hue, opacity) = match mark {
-                Mark::Line { label, hue, .. } | Mark::Points { label, hue, .. } => (label, hue, 1.0),
-                Mark::Band { label, hue, opacity, .. } => (label, hue, *opacity),
-                Mark::Bars { label, hue, .. } | Mark::Whiskers { label, hue, .. } => (label, hue, 0.55),
+            let label = match mark {
+                Mark::Line { label, .. }
+                | Mark::Points { label, .. }
+                | Mark::Band { label, .. }
+                | Mark::Bars { label, .. }
+                | Mark::Whiskers { label, .. } => label,
                 Mark::Limit { .. } | Mark::Matrix { .. } => continue,
             };
+            let width = LEGEND_MARK + LEGEND_LETTER * label.chars().count() as u32;
+            if x > LEGEND_EDGE && x + width > SIZE.0 {
+                (row, x) = (row + 1, LEGEND_EDGE);
+            }
+            entries.push((mark, label.as_str(), (row, x)));
+            x += width;
+        }
+        entries
+    }
+
+    fn legend_rows(&self) -> u32 {
+        self.legend_entries().last().map_or(0, |(_, _, (row, _))| *row) + 1
+    }
+
+    /// Names of the marks.
+    fn legend<B: DrawingBackend>(&self, strip: &DrawingArea<B, Shift>, scale: u32) -> Result<(), PlotError> {
+        let size = (12 * scale) as i32;
+        for (mark, label, (row, x)) in self.legend_entries() {
+            let (hue, opacity) = match mark {
+                Mark::Line { hue, .. } | Mark::Points { hue, .. } => (hue, 1.0),
+                Mark::Band { hue, opacity, .. } => (hue, *opacity),
+                Mark::Bars { hue, .. } | Mark::Whiskers { hue, .. } => (hue, 0.55),
+                Mark::Limit { .. } | Mark::Matrix { .. } => continue,
+            };
+            let (x, middle) = ((x * scale) as i32, ((row * LEGEND + LEGEND / 2) * scale) as i32);
             let color = PALETTE[hue.place()].mix(opacity).filled();
             let height = if matches!(mark, Mark::Line { .. }) { scale as i32 } else { size / 2 };
-            strip.draw(&Rectangle::new([(x, middle - height), (x + size, middle + height)], color)).map_err(drawing)?;
+            let dashes = if matches!(mark, Mark::Line { dashed: true, .. }) { 3 } else { 1 };
+            for dash in 0..dashes {
+                let ends = [x + dash * size / dashes, x + (dash + 1) * size / dashes];
+                let gap = if dashes > 1 { 2 * scale as i32 } else { 0 };
+                let corners = [(ends[0], middle - height), (ends[1] - gap, middle + height)];
+                strip.draw(&Rectangle::new(corners, color)).map_err(drawing)?;
+            }
             let font = ("sans-serif", 12 * scale).into_text_style(strip);
-            let (width, tall) = strip.estimate_text_size(label, &font).map_err(drawing)?;
+            let (_, tall) = strip.estimate_text_size(label, &font).map_err(drawing)?;
             strip.draw_text(label, &font, (x + size + 5 * scale as i32, middle - tall as i32 / 2)).map_err(drawing)?;
-            x += size + width as i32 + (22 * scale) as i32;
         }
         Ok(())
     }
@@ -346,7 +310,7 @@ impl Figure {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::page::figure::{Hue, Section};
+    use crate::report::page::figure::{Axis, Hue, Section};
 
     fn figure(x: Axis, y: Axis, marks: Vec<Mark>) -> Figure {
         let text = |text: &str| text.to_owned();

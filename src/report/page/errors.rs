@@ -16,6 +16,10 @@ const MOST_ERRORS: usize = 8;
 /// Steps of the ranks of an exceedance plot: this many to a factor of ten.
 const RANKS_PER_DECADE: f64 = 12.0;
 
+/// How much smaller than the largest the smallest value of an exceedance plot is: runs without any error would stretch its axis by
+/// three hundred decades.
+const TAIL_RANGE: f64 = 1e12;
+
 /// Histogram and exceedance of each error, estimate against truth, steps. `has_intervals`: whether the runs are independent.
 pub fn figures(survey: &Survey, has_intervals: bool) -> Vec<Figure> {
     let mut figures: Vec<Figure> = Vec::new();
@@ -187,9 +191,10 @@ fn tail(sketch: &Sketch) -> (Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>) {
         .collect();
     ranks.push(count);
     ranks.dedup();
+    let smallest = sketch.max().unwrap_or(0.0) / TAIL_RANGE;
     let mut found = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for rank in ranks.into_iter().rev() {
-        let Some(value) = ranked(sketch, count + 1 - rank).filter(|value| *value > 0.0) else { continue };
+        let Some(value) = ranked(sketch, count + 1 - rank).filter(|value| *value > smallest) else { continue };
         let [low, high] = interval(rank, count, CONFIDENCE);
         found.0.push(value);
         found.1.push(rank as f64 / count as f64);

@@ -83,8 +83,12 @@ impl Axis {
     }
 
     /// The same with a fixed range.
+    ///
+    /// # Panics
+    /// Where it is empty.
     #[must_use]
     pub fn within(self, low: f64, high: f64) -> Self {
+        assert!(low < high, "the range {low} to {high} of {}", self.quantity);
         Axis { range: Some([low, high]), ..self }
     }
 

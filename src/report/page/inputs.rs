@@ -74,7 +74,7 @@ fn histogram(plan: &Plan, survey: &Survey, index: usize) -> Figure {
         columns: 4,
         is_over_time: false,
         x: axis(name, unit),
-        y: Axis::linear("runs", "").within(0.0, 0.0),
+        y: Axis::linear("runs", ""),
         marks,
     }
 }

@@ -13,6 +13,7 @@ mod document;
 pub mod drawing;
 mod errors;
 pub mod figure;
+mod figure_axis;
 mod first_screen;
 pub mod gather;
 pub mod influence;

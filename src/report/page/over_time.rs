@@ -288,10 +288,11 @@ impl<'a> Curves<'a> {
             let is_rounding = largest < ROUNDING;
             let shown = if is_rounding || tolerance <= FAR * largest { tolerance.max(largest) } else { largest };
             let is_signed = list.iter().all(|(series, ..)| *series == Series::EnergyError);
-            for (label, at) in [
-                (format!("tolerance {tolerance:e}"), tolerance),
-                ("rounding of a double".to_owned(), f64::EPSILON / 2.0),
-            ] {
+            // curves beyond the rounding of a double would cover its name, which is in the caption
+            let rounding = if largest <= f64::EPSILON { "rounding of a double" } else { "" };
+            for (label, at) in
+                [(format!("tolerance {tolerance:e}"), tolerance), (rounding.to_owned(), f64::EPSILON / 2.0)]
+            {
                 marks.push(Mark::Limit { label, at, vertical: false });
                 if is_signed {
                     marks.push(Mark::Limit { label: String::new(), at: -at, vertical: false });
