@@ -8,6 +8,7 @@ use std::sync::OnceLock;
 use libfuzzer_sys::fuzz_target;
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::dataset::rows_reader::PartReader;
+use spindrift::dataset::storage::Disk;
 use spindrift::sampling::SampleId;
 use spindrift_fuzz::campaign;
 
@@ -38,7 +39,7 @@ fuzz_target!(
             let last = SampleId(plan.samples - 1);
             let _ = spindrift::campaign::draw(&plan, last);
         }
-        if name == "t.parquet" && let Ok(part) = PartReader::open(&folder.join(name)) {
+        if name == "t.parquet" && let Ok(part) = PartReader::open(&Disk, &folder.join(name)) {
             let _ = part.samples();
             let _ = part.statuses();
             let _ = part.reasons();

@@ -141,10 +141,18 @@ impl Plan {
     /// # Errors
     /// That the file cannot be read, or everything that is wrong with it.
     pub fn load_with_files(path: &Path, overrides: Overrides) -> Result<(Plan, FilesRead), CampaignError> {
-        let file = path.display().to_string();
-        let text = size::read(path, &file)?;
-        let file = path.file_name().map_or(file, |name| name.to_string_lossy().into_owned());
-        let (plan, data) = read(path.parent().unwrap_or(Path::new("")), &file, &text, overrides)?;
+        let text = size::read(path, &path.display().to_string())?;
+        Self::from_text_of(path, &text, overrides)
+    }
+
+    /// The same of a file whose text has been read already.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the text.
+    pub fn from_text_of(path: &Path, text: &str, overrides: Overrides) -> Result<(Plan, FilesRead), CampaignError> {
+        let file =
+            path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
+        let (plan, data) = read(path.parent().unwrap_or(Path::new("")), &file, text, overrides)?;
         Ok((plan, FilesRead { campaign: path.to_owned(), data }))
     }
 

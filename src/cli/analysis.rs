@@ -72,7 +72,7 @@ pub fn computed(
     let (columns, counted_bands) = counted.map(|counted| (counted.columns, counted.bands)).unzip();
     let bands = match counted_bands {
         Some(bands) => bands,
-        None => bands_file::read(bands, threads).map_err(Failure::files)?,
+        None => bands_file::read(reader.storage(), bands, threads).map_err(Failure::files)?,
     };
     Ok(Analysed {
         statistics: statistics::compute(plan, reader, columns, threads).map_err(Failure::files)?,

@@ -39,7 +39,7 @@ pub fn plan_of_failed(
     let (found, _locks) = open(&Disk, of).map_err(Failure::files)?;
     let drawn = plan_of_result(of, &found)?;
     let records: Vec<PartRecord> = found.parts().into_values().collect();
-    if let Some((_, what)) = damaged(&Disk, of, &records, threads).first() {
+    if let Some((_, what)) = damaged(&Disk, of, &records, threads).map_err(Failure::files)?.first() {
         return Err(Failure::Files(format!("{}: {what}; `spindrift verify --repair` makes it again", of.display())));
     }
     if !found.is_finished {
@@ -54,7 +54,7 @@ pub fn plan_of_failed(
         samples.extend(some.into_iter().map(|sample| sample.0));
         Ok::<(), RowsError>(())
     };
-    RowsReader::new(found.row_files(of)).visit(None, failed, add).map_err(Failure::files)?;
+    RowsReader::new(&Disk, found.row_files(of)).visit(None, failed, add).map_err(Failure::files)?;
     let same = Overrides { samples: Some(drawn.samples), seed: Some(drawn.seed), ..overrides };
     let (plan, files) = plan_and_files(file, same)?;
     if samples.is_empty() {

@@ -3,16 +3,16 @@
 //! It is a function of the plan and the rows: whichever processes made them, and however often they were stopped, the files are the same.
 
 use std::num::NonZeroUsize;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Duration;
 
 use serde_json::Value;
 
-use crate::campaign::{Overrides, Plan};
+use crate::campaign::Plan;
 use crate::cli::analysis::{Analysed, analyse, write_junit};
 use crate::cli::arguments::FinishOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
-use crate::cli::input::{isa, plan_and_files};
+use crate::cli::input::{isa, plan_in};
 use crate::cli::outputs::{refuse_inputs, refuse_within};
 use crate::cli::{report, screen};
 use crate::dataset::claim::{Claim, ClaimOptions, Ready, claim, open};
@@ -25,7 +25,7 @@ use crate::dataset::rows_file::headings;
 use crate::dataset::rows_reader::RowsReader;
 use crate::dataset::running_counts::Counted;
 use crate::dataset::stopping::stopping;
-use crate::dataset::storage::Disk;
+use crate::dataset::storage::{Disk, Storage};
 use crate::dataset::table_log;
 use crate::dataset::tally::Tally;
 use crate::dataset::trajectories;
@@ -78,7 +78,7 @@ pub fn complete(job: &Finishing<'_>, counted: Option<Counted>) -> Result<(Comman
     let (plan, folder) = (job.ensemble.plan(), &job.ready.folder);
     let records = folder.parts();
     let parts = PartsRead::of(&records, |name| folder.path(name));
-    let reader = RowsReader::new(parts.rows);
+    let reader = RowsReader::new(folder.storage(), parts.rows);
     let tally = match &counted {
         Some(counted) => counted.tally.clone(),
         None => Tally::of_files(job.ensemble, &reader, job.threads).map_err(Failure::files)?,
@@ -142,10 +142,10 @@ fn retain(job: &Finishing<'_>, reader: &RowsReader) -> Result<(), Failure> {
     trajectories::save(plan, &samples, folder, job.ensemble.isa(), job.threads).map_err(Failure::files)
 }
 
-/// The files of rows of a dataset, in the order of their samples.
-pub fn row_files(ready: &Ready) -> Vec<PathBuf> {
-    let parts = ready.folder.parts().into_iter();
-    parts.filter_map(|part| part.files.into_iter().next()).map(|file| ready.folder.path(&file.name)).collect()
+/// The rows of a dataset that are there.
+pub fn rows_of(ready: &Ready) -> RowsReader {
+    let parts = ready.folder.parts().into_iter().filter_map(|part| part.files.into_iter().next());
+    RowsReader::new(ready.folder.storage(), parts.map(|file| ready.folder.path(&file.name)).collect())
 }
 
 fn headline(plan: &Plan, summary: &Summary, made: Option<(u64, Duration)>) -> String {
@@ -178,18 +178,32 @@ pub fn outcome_of(summary: &str) -> CommandOutcome {
 /// # Errors
 /// Where parts are missing or damaged, or a file operation fails.
 pub fn run(options: &FinishOptions) -> Result<CommandOutcome, Failure> {
+    let (outcome, text) = finished(&Disk, options)?;
+    screen::print(&text)?;
+    Ok(outcome)
+}
+
+/// Does what the command says; how it ends, and what it prints.
+///
+/// # Errors
+/// As [`run`].
+pub fn finished(storage: &'static dyn Storage, options: &FinishOptions) -> Result<(CommandOutcome, String), Failure> {
     let root = &options.folder;
-    drop(open(&Disk, root).map_err(Failure::files)?); // a folder that is none is not created
-    let (plan, files) = plan_and_files(&root.join(PLAN), Overrides::default())?;
+    // a folder that is none is not created
+    let (found, locks) = open(storage, root).map_err(Failure::files)?;
+    let (plan, files) = plan_in(root, &found)?;
+    drop(locks);
     let outputs = [("--junit", options.junit.as_deref()), ("--figures", options.figures.as_deref())];
     refuse_inputs(&files.paths(), &outputs[..1])?;
     refuse_within(root, &outputs)?;
     let ensemble = Ensemble::new(&plan, isa()?);
     let claimed = ClaimOptions { overwrite: false, shard: None, threads: threads(options.threads, usize::MAX) };
-    let ready = match claim(&Disk, root, (&plan, &identity(&ensemble)), claimed).map_err(Failure::files)? {
+    let ready = match claim(storage, root, (&plan, &identity(&ensemble)), claimed).map_err(Failure::files)? {
         Claim::Finished(summary) => {
-            screen::print(&format!("{}: already finished, every checksum verified\n", root.display()))?;
-            return Ok(outcome_of(&summary));
+            return Ok((
+                outcome_of(&summary),
+                format!("{}: already finished, every checksum verified\n", root.display()),
+            ));
         }
         Claim::Ready(ready) => *ready,
     };
@@ -219,5 +233,5 @@ pub fn run(options: &FinishOptions) -> Result<CommandOutcome, Failure> {
         made: None,
         seconds: [0.0; 2],
     };
-    finish(&job, None)
+    complete(&job, None)
 }

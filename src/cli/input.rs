@@ -45,12 +45,27 @@ pub fn isa() -> Result<Isa, Failure> {
     })
 }
 
+/// The plan of a result that is in a folder, and the files that it was made from.
+///
+/// # Errors
+/// Where the plan is missing or wrong.
+pub fn plan_in(root: &Path, found: &Found) -> Result<(Plan, FilesRead), Failure> {
+    let path = root.join(PLAN);
+    let remedy = "the campaign's command with its file writes it again";
+    if found.plan.is_empty() {
+        return Err(Failure::Files(format!("{}: is missing, or no text; {remedy}", path.display())));
+    }
+    Plan::from_text_of(&path, &found.plan, Overrides::default()).map_err(|error| {
+        Failure::Files(format!("{}: cannot be used; {remedy}\n{}", path.display(), error.with_excerpts()))
+    })
+}
+
 /// The plan of a result that is in a folder, with the number of samples that it has: with `[stop]` that is known at the end only.
 ///
 /// # Errors
-/// Where the plan cannot be read.
+/// Where the plan is missing or wrong.
 pub fn plan_of_result(root: &Path, found: &Found) -> Result<Plan, Failure> {
-    let plan = plan(&root.join(PLAN), Overrides::default())?;
+    let (plan, _) = plan_in(root, found)?;
     let has_ended = plan.analysis.stop.is_some() && found.is_finished;
     Ok(if has_ended { plan.stopped_at(found.rows()) } else { plan })
 }

@@ -15,7 +15,7 @@ use crate::dataset::manifest::PartRecord;
 use crate::dataset::names::REPORT;
 use crate::dataset::parts_read::PartsRead;
 use crate::dataset::rows_reader::RowsReader;
-use crate::dataset::storage::Disk;
+use crate::dataset::storage::{Disk, Storage};
 use crate::ensemble::Ensemble;
 use crate::report::number::bytes;
 use crate::report::page::gather::Analysis;
@@ -26,9 +26,18 @@ use crate::report::page::{Contents, Page, drawing};
 /// # Errors
 /// Where the folder has no finished result, or files cannot be read or written.
 pub fn run(options: &ReportOptions) -> Result<CommandOutcome, Failure> {
+    screen::print(&remade(&Disk, options)?)?;
+    Ok(CommandOutcome::Done)
+}
+
+/// Does what the command says; what it prints.
+///
+/// # Errors
+/// As [`run`].
+pub fn remade(storage: &'static dyn Storage, options: &ReportOptions) -> Result<String, Failure> {
     let root = &options.folder;
     refuse_within(root, &[("--figures", options.figures.as_deref())])?;
-    let (found, _locks) = open(&Disk, root).map_err(Failure::files)?;
+    let (found, _locks) = open(storage, root).map_err(Failure::files)?;
     if !found.is_finished {
         let folder = root.display();
         return Err(Failure::Input(format!(
@@ -39,14 +48,13 @@ pub fn run(options: &ReportOptions) -> Result<CommandOutcome, Failure> {
     let ensemble = Ensemble::new(&plan, isa()?);
     let records: Vec<PartRecord> = found.parts().into_values().collect();
     let parts = PartsRead::of(&records, |name| root.join(name));
-    let reader = RowsReader::new(parts.rows);
+    let reader = RowsReader::new(storage, parts.rows);
     let analysed = computed(&plan, &reader, &parts.bands, None, options.threads)?;
     let page = page(&ensemble, &reader, &analysed, &records, options.threads)?;
     let path = root.join(REPORT);
-    place(&Disk, &path, page.html.as_bytes()).map_err(Failure::files)?;
-    screen::print(&format!("{}: {}\n", path.display(), bytes(page.html.len() as u64)))?;
+    place(storage, &path, page.html.as_bytes()).map_err(Failure::files)?;
     save_figures(&page, options.figures.as_deref())?;
-    Ok(CommandOutcome::Done)
+    Ok(format!("{}: {}\n", path.display(), bytes(page.html.len() as u64)))
 }
 
 /// The page of a result whose parts are `records`.

@@ -9,7 +9,7 @@ use crate::campaign::{FilesRead, Overrides, Plan, data};
 use crate::cli::arguments::CampaignOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::failed_samples::{FailFast, FailedRun, first_failed, plan_of_failed};
-use crate::cli::finish_campaign::{Finishing, finish, outcome_of, row_files};
+use crate::cli::finish_campaign::{Finishing, finish, outcome_of, rows_of};
 use crate::cli::input::{isa, plan_and_files};
 use crate::cli::outputs::{refuse_inputs, refuse_within};
 use crate::cli::progress::Bar;
@@ -22,7 +22,6 @@ use crate::dataset::identity::{self, identity};
 use crate::dataset::manifest::PartRecord;
 use crate::dataset::names::PLAN;
 use crate::dataset::part_sink::{PartSink, write_parts};
-use crate::dataset::rows_reader::RowsReader;
 use crate::dataset::running_counts::RunningCounts;
 use crate::dataset::stopping::{stopping, targets};
 use crate::dataset::storage::Disk;
@@ -171,7 +170,7 @@ fn run_missing(
         {
             return Ok(outcome);
         }
-        let rows = RowsReader::new(row_files(&ready));
+        let rows = rows_of(&ready);
         match stopping(plan, &rows, target, options.threads).map_err(Failure::files)? {
             Some(found) if !found.ends() => screen::note(&format!("{}: {}", plan.name, stopping_text(plan, &found))),
             _ => break,
@@ -227,7 +226,7 @@ fn run_to(
         say_idle_threads(options.threads, missing.len());
     }
     if options.fail_fast
-        && let Some(failed) = first_failed(&RowsReader::new(row_files(ready))).map_err(Failure::files)?
+        && let Some(failed) = first_failed(&rows_of(ready)).map_err(Failure::files)?
     {
         return Ok(Some(ended_by(&failed, plan, root)));
     }

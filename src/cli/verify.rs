@@ -4,7 +4,7 @@ use std::sync::Mutex;
 
 use crate::cli::arguments::VerifyOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
-use crate::cli::finish_campaign::{Finishing, finish};
+use crate::cli::finish_campaign::{Finishing, complete};
 use crate::cli::input::{isa, plan_of_result};
 use crate::cli::screen;
 use crate::cli::signals;
@@ -15,7 +15,7 @@ use crate::dataset::manifest::PartRecord;
 use crate::dataset::names::{PLAN, rows_of};
 use crate::dataset::part_sink::write_parts;
 use crate::dataset::rows_file::RowsFile;
-use crate::dataset::storage::Disk;
+use crate::dataset::storage::{Disk, Storage};
 use crate::dataset::table_log;
 use crate::dataset::verify::damaged;
 use crate::ensemble::run_cost::parts;
@@ -27,8 +27,26 @@ use crate::ensemble::{Ensemble, Part, Rows, Sink, Supervision, run as run_parts}
 /// # Errors
 /// Where the result is damaged and not repaired, or a file operation fails.
 pub fn run(options: &VerifyOptions) -> Result<CommandOutcome, Failure> {
+    let watch = || {
+        let signals = signals::watch();
+        Supervision { progress: &|_| {}, stop: &signals.stop, abandon: &signals.abandon }
+    };
+    screen::print(&verified(&Disk, options, &watch, &screen::note)?)?;
+    Ok(CommandOutcome::Done)
+}
+
+/// Does what the command says, with `note` for each problem; what it prints. A repair calls `watch` when it starts.
+///
+/// # Errors
+/// As [`run`].
+pub fn verified(
+    storage: &'static dyn Storage,
+    options: &VerifyOptions,
+    watch: &dyn Fn() -> Supervision<'static>,
+    note: &dyn Fn(&str),
+) -> Result<String, Failure> {
     let root = &options.folder;
-    let (found, locks) = open(&Disk, root).map_err(Failure::files)?;
+    let (found, locks) = open(storage, root).map_err(Failure::files)?;
     let plan = plan_of_result(root, &found)?;
     let ensemble = Ensemble::new(&plan, isa()?);
     let expected = identity(&ensemble);
@@ -43,10 +61,10 @@ pub fn run(options: &VerifyOptions) -> Result<CommandOutcome, Failure> {
     let records: Vec<PartRecord> = found.parts().into_values().collect();
     let mut problems: Vec<String> = found.damaged_lines().iter().map(|line| format!("{line}: damaged line")).collect();
     problems.extend(found.foreign.iter().map(|entry| format!("{entry}: not part of the result")));
-    let broken = damaged(&Disk, root, &records, readers);
+    let broken = damaged(storage, root, &records, readers).map_err(Failure::files)?;
     problems.extend(broken.iter().map(|(_, what)| what.clone()));
     if found.is_finished {
-        problems.extend(table_log::damage(&Disk, root, &expected, &records));
+        problems.extend(table_log::damage(storage, root, &expected, &records).map_err(Failure::files)?);
     }
     let missing = missing_parts(&found, &ensemble);
     problems.extend(missing.iter().map(|part| format!("{}: missing", rows_of(part.id))));
@@ -63,13 +81,13 @@ pub fn run(options: &VerifyOptions) -> Result<CommandOutcome, Failure> {
         found.rows(),
         chosen.len()
     );
-    if problems.is_empty() {
+    // a repair that was interrupted has left what is sound and not finished
+    if problems.is_empty() && (found.is_finished || !options.repair) {
         let end =
             if found.is_finished { "sound" } else { "sound so far; not finished: the campaign's command continues it" };
-        screen::print(&format!("{checked}: {end}\n"))?;
-        return Ok(CommandOutcome::Done);
+        return Ok(format!("{checked}: {end}\n"));
     }
-    problems.iter().for_each(|problem| screen::note(problem));
+    problems.iter().for_each(|problem| note(problem));
     if !options.repair {
         return Err(Failure::Files(format!(
             "{checked}: {} problems; --repair makes damaged parts again",
@@ -77,9 +95,13 @@ pub fn run(options: &VerifyOptions) -> Result<CommandOutcome, Failure> {
         )));
     }
     drop(locks);
-    repair(options, &ensemble, &found, &differing)?;
-    screen::print(&format!("{checked}: {} problems, repaired\n", problems.len()))?;
-    Ok(CommandOutcome::Done)
+    let text = repair(storage, options, &ensemble, (&found, &differing), watch)?;
+    let end = if problems.is_empty() {
+        "sound, and finished now".to_owned()
+    } else {
+        format!("{} problems, repaired", problems.len())
+    };
+    Ok(format!("{text}{checked}: {end}\n"))
 }
 
 /// The parts of the plan that no manifest lists.
@@ -135,12 +157,17 @@ fn differing(
     Ok(found)
 }
 
-/// Makes damaged, missing and differing parts again, and finishes the result.
-fn repair(options: &VerifyOptions, ensemble: &Ensemble<'_>, found: &Found, differing: &[Part]) -> Result<(), Failure> {
-    let signals = signals::watch();
-    let (plan, root) = (ensemble.plan(), &options.folder);
+/// Makes damaged, missing and differing parts again, and finishes the result; what that prints.
+fn repair(
+    storage: &'static dyn Storage,
+    options: &VerifyOptions,
+    ensemble: &Ensemble<'_>,
+    (found, differing): (&Found, &[Part]),
+    watch: &dyn Fn() -> Supervision<'static>,
+) -> Result<String, Failure> {
+    let (supervision, plan, root) = (watch(), ensemble.plan(), &options.folder);
     let claimed = ClaimOptions { overwrite: false, shard: None, threads: threads(options.threads, usize::MAX) };
-    let ready = match claim(&Disk, root, (plan, &identity(ensemble)), claimed).map_err(Failure::files)? {
+    let ready = match claim(storage, root, (plan, &identity(ensemble)), claimed).map_err(Failure::files)? {
         Claim::Ready(ready) => *ready,
         Claim::Finished(_) => {
             return Err(Failure::Files(format!(
@@ -151,7 +178,6 @@ fn repair(options: &VerifyOptions, ensemble: &Ensemble<'_>, found: &Found, diffe
     };
     ready.folder.drop_parts(differing.iter().map(|part| part.id.0)).map_err(Failure::files)?;
     let missing = ready.folder.missing(parts(plan, ensemble.isa()).iter());
-    let supervision = Supervision { progress: &|_| {}, stop: &signals.stop, abandon: &signals.abandon };
     write_parts(&ready.folder, ensemble, None, |sink| run_parts(ensemble, missing, options.threads, sink, supervision))
         .map_err(Failure::files)?
         .map_err(Failure::files)?;
@@ -167,5 +193,5 @@ fn repair(options: &VerifyOptions, ensemble: &Ensemble<'_>, found: &Found, diffe
         made: None,
         seconds: [0.0; 2],
     };
-    finish(&job, None).map(|_| ())
+    complete(&job, None).map(|(_, text)| text)
 }

@@ -22,6 +22,7 @@ use std::sync::Arc;
 use thiserror::Error;
 
 use crate::dataset::parallel::in_order;
+use crate::dataset::storage::Storage;
 use crate::ensemble::bands::{BandColumn, BandLayout, BandSums, Bands, ColumnView, CountedBands};
 use crate::ensemble::{Part, PartId};
 use crate::observables::band_series::Form;
@@ -33,6 +34,8 @@ use crate::statistics::deviation::{Code, DeviationCounts};
 const MARK: &[u8; 7] = b"SDBANDS";
 /// The version that is written and read.
 const VERSION: u8 = 2;
+/// Most bytes of a file that is read: the bands of a part of `spin_sweep` have 75 kB at 101 points.
+const MOST_BYTES: u64 = 1 << 32;
 /// Bytes of the checksum.
 const CHECKSUM: usize = 4;
 
@@ -156,12 +159,16 @@ pub fn from_bytes(bytes: &[u8]) -> Result<(Part, Bands), NotBands> {
 ///
 /// # Errors
 /// The first file that cannot be read, is damaged or of another campaign, or whose part does not follow those before it.
-pub fn read(files: &[PathBuf], threads: Option<NonZeroUsize>) -> Result<Option<Bands>, BandsError> {
+pub fn read(
+    storage: &dyn Storage,
+    files: &[PathBuf],
+    threads: Option<NonZeroUsize>,
+) -> Result<Option<Bands>, BandsError> {
     let mut merged: Option<(PartId, BandSums)> = None;
     in_order(
         files.len(),
         threads,
-        |index| read_one(&files[index]).map(|(part, bands)| (index, part, bands)),
+        |index| read_one(storage, &files[index]).map(|(part, bands)| (index, part, bands)),
         |(index, part, bands)| {
             let unfit = |reason: String| BandsError::Unfit { path: files[index].clone(), reason };
             let (last, sums) = match merged.take() {
@@ -179,8 +186,8 @@ pub fn read(files: &[PathBuf], threads: Option<NonZeroUsize>) -> Result<Option<B
     Ok(merged.map(|(_, sums)| sums.bands()))
 }
 
-fn read_one(path: &Path) -> Result<(Part, Bands), BandsError> {
-    let bytes = std::fs::read(path).map_err(|source| BandsError::Io { path: path.to_owned(), source })?;
+fn read_one(storage: &dyn Storage, path: &Path) -> Result<(Part, Bands), BandsError> {
+    let bytes = storage.read(path, MOST_BYTES).map_err(|source| BandsError::Io { path: path.to_owned(), source })?;
     from_bytes(&bytes).map_err(|source| BandsError::Content { path: path.to_owned(), source })
 }
 
@@ -300,6 +307,7 @@ impl<'a> Reader<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dataset::storage::Disk;
     use crate::statistics::deviation::code;
 
     const PART: Part = Part { id: PartId(3), first: SampleId(768), count: 256 };
@@ -391,9 +399,9 @@ mod tests {
         let both = [first.clone(), second.clone()];
         let mut expected = BandSums::new(some().layout().clone());
         [some(), bands(1.0, &[2.0, 3.0])].iter().for_each(|bands| expected.add(bands).unwrap());
-        assert_eq!(read(&both, None).unwrap(), Some(expected.bands()));
-        assert_eq!(read(&[], None).unwrap(), None);
-        let refused = |files: &[PathBuf]| read(files, None).unwrap_err().to_string();
+        assert_eq!(read(&Disk, &both, None).unwrap(), Some(expected.bands()));
+        assert_eq!(read(&Disk, &[], None).unwrap(), None);
+        let refused = |files: &[PathBuf]| read(&Disk, files, None).unwrap_err().to_string();
         assert!(refused(&[second.clone(), first.clone()]).contains("part 0 does not follow part 1"));
         assert!(refused(&[first.clone(), first.clone()]).contains("part 0 does not follow part 0"));
         let other = file(2, &of(2, &bands(1.5, &[2.0])));

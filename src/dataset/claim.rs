@@ -92,17 +92,17 @@ pub struct Locks(Vec<File>);
 
 impl Locks {
     /// Locks `path`, shared with other shards or not; no lock where the file system has none.
-    fn add(&mut self, path: &Path, is_shared: bool) -> Result<(), FolderError> {
-        let Ok(file) = File::open(path) else { return Ok(()) };
-        match if is_shared { file.try_lock_shared() } else { file.try_lock() } {
-            Ok(()) => {
-                self.0.push(file);
+    fn add(&mut self, storage: &dyn Storage, path: &Path, is_shared: bool) -> Result<(), FolderError> {
+        match storage.lock(path, is_shared) {
+            Ok(lock) => {
+                self.0.extend(lock);
                 Ok(())
             }
             Err(TryLockError::WouldBlock) => {
                 Err(FolderError::Busy { folder: path.display().to_string(), owner: String::new() })
             }
-            Err(TryLockError::Error(_)) => Ok(()),
+            // without knowing whether another process writes, nothing is written
+            Err(TryLockError::Error(error)) => Err(at(path)(error).into()),
         }
     }
 }
@@ -154,7 +154,7 @@ pub fn claim(
     complete_replacement(storage, root)?;
     storage.create_folder(root).map_err(at(root))?;
     let mut locks = Locks::default();
-    locks.add(root, options.shard.is_some())?;
+    locks.add(storage, root, options.shard.is_some())?;
     let folder = root.display().to_string();
     let found = match contents(storage, root)? {
         Contents::Foreign(entry) => return Err(FolderError::Foreign { folder, entry }),
@@ -236,25 +236,27 @@ fn ready(
     // a shard reads its own parts only: each of many that start would read everything; `finish` reads all
     let is_mine = |part: &&PartRecord| options.shard.is_none_or(|shard| part.part % shard.of == shard.number - 1);
     let mine: Vec<PartRecord> = all.iter().filter(is_mine).cloned().collect();
-    let broken = crate::dataset::verify::damaged(storage, root, &mine, options.threads);
+    let broken = crate::dataset::verify::damaged(storage, root, &mine, options.threads)?;
     let mut damaged = found.damaged_lines();
     damaged.extend(broken.iter().map(|(_, what)| what.clone()));
     if found.is_finished {
-        damaged.extend(table_log::damage(storage, root, identity, &all));
+        damaged.extend(table_log::damage(storage, root, identity, &all)?);
     }
     // of a plan with [stop] the finished number of rows is that of one of its looks
     let is_whole = found.is_finished && targets(plan).contains(&found.rows());
     let is_complete = is_whole && damaged.is_empty() && found.plan == plan.text();
     if is_complete && options.shard.is_none() {
         let path = root.join(SUMMARY);
-        let summary = storage.read(&path, MOST_PLAN).map_err(at(&path))?;
-        return Ok(Claim::Finished(String::from_utf8_lossy(&summary).into_owned()));
+        match summary(storage.read(&path, MOST_PLAN).map_err(at(&path))?) {
+            Some(text) => return Ok(Claim::Finished(text)),
+            None => damaged.push(format!("{SUMMARY}: its content has changed")),
+        }
     }
     let name = options.shard.map_or(MANIFEST.to_owned(), |shard| manifest_of(shard.number, shard.of));
     let own = found.manifests.remove(&name);
     let folder = Folder::open(storage, root, identity.clone(), (name.clone(), own), found.parts())?;
     if options.shard.is_some() {
-        locks.add(&folder.path(&name), false)?;
+        locks.add(storage, &folder.path(&name), false)?;
     }
     folder.unfinish()?;
     if options.shard.is_none() {
@@ -268,6 +270,13 @@ fn ready(
     Ok(Claim::Ready(Box::new(Ready { folder, replaces: None, rows, damaged, _locks: locks })))
 }
 
+/// The text of a summary; `None` where it cannot be one.
+fn summary(bytes: Vec<u8>) -> Option<String> {
+    let text = String::from_utf8(bytes).ok()?;
+    let value: serde_json::Value = serde_json::from_str(&text).ok()?;
+    value.get("statuses").is_some().then_some(text)
+}
+
 /// Opens the dataset in `root` as it is, for commands that add no samples; locked against writers.
 ///
 /// # Errors
@@ -279,7 +288,7 @@ pub fn open(storage: &'static dyn Storage, root: &Path) -> Result<(Found, Locks)
         return Err(nothing("there is no such folder, or it is empty"));
     }
     let mut locks = Locks::default();
-    locks.add(root, false)?;
+    locks.add(storage, root, false)?;
     match contents(storage, root)? {
         Contents::Dataset(found) => Ok((*found, locks)),
         _ => Err(nothing("it has no manifest.jsonl")),

@@ -16,7 +16,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use crate::dataset::identity::sha256;
 use crate::dataset::manifest::{FileRecord, Identity, Manifest, PartRecord, Record};
 use crate::dataset::names::{DATA, MANIFEST, PLAN, SHARDS, SUCCESS, UNFINISHED, is_ours};
-use crate::dataset::storage::{Storage, StorageError, at};
+use crate::dataset::storage::{Storage, StorageError, at, entries_in};
+use crate::dataset::stored_file::is_unfit;
 use crate::ensemble::Part;
 
 /// Most bytes of a manifest: a line is some 400 bytes, and a campaign of 10^12 samples has 61 million parts.
@@ -78,13 +79,16 @@ impl Folder {
             let path = root.join(SHARDS);
             storage.create_folder(&path).map_err(at(&path))?;
         }
+        let path = folder.path(&folder.manifest);
+        if own.is_none() {
+            refuse_parts(storage, &path)?;
+        }
         let (is_new, own) = (own.is_none(), own.unwrap_or_default());
         let text = Manifest::text(&folder.identity, own.parts.values(), false);
         // a manifest with damage, or one that says that it is finished, is written again: what is appended must follow its last part
         if is_new || !own.damaged.is_empty() || own.is_finished || own.identity.as_ref() != Some(&folder.identity) {
             folder.write(&folder.manifest, text.as_bytes())?;
         }
-        let path = folder.path(&folder.manifest);
         let length = storage.read(&path, MOST_MANIFEST).map_err(at(&path))?.len() as u64;
         let mut parts = others;
         parts.extend(own.parts);
@@ -207,7 +211,7 @@ impl Folder {
     /// Where a file operation fails.
     pub fn keep_data(&self, name: &str, bytes: &[u8]) -> Result<(), StorageError> {
         let folder = self.path(DATA);
-        let entries = self.storage.list(&folder).map_err(at(&folder))?;
+        let entries = entries_in(self.storage, &self.root, &folder)?;
         if entries.iter().any(|entry| entry.is_file && entry.name == name && entry.size == bytes.len() as u64) {
             return Ok(());
         }
@@ -231,7 +235,7 @@ impl Folder {
     /// Where a file operation fails.
     pub fn clear(&self, name: &str) -> Result<PathBuf, StorageError> {
         let path = self.path(name);
-        for entry in self.storage.list(&path).map_err(at(&path))? {
+        for entry in entries_in(self.storage, &self.root, &path)? {
             if entry.is_file && is_ours(name, &entry.name) {
                 let file = path.join(&entry.name);
                 self.storage.remove(&file).map_err(at(&file))?;
@@ -250,7 +254,7 @@ impl Folder {
         self.write(MANIFEST, text.as_bytes())?;
         self.state().length = None;
         let shards = self.path(SHARDS);
-        for entry in self.storage.list(&shards).map_err(at(&shards))? {
+        for entry in entries_in(self.storage, &self.root, &shards)? {
             let path = shards.join(entry.name);
             self.storage.remove(&path).map_err(at(&path))?;
         }
@@ -262,6 +266,20 @@ impl Folder {
     pub fn size(&self) -> u64 {
         self.state().parts.values().flat_map(|part| &part.files).map(|file| file.bytes).sum()
     }
+}
+
+/// Refuses to write a new manifest where there is one that lists parts: its folder did not show it, and they would be lost.
+fn refuse_parts(storage: &dyn Storage, path: &Path) -> Result<(), StorageError> {
+    let parts = match storage.read(path, MOST_MANIFEST) {
+        Ok(bytes) => Manifest::of(&bytes).parts.len(),
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound || is_unfit(&error) => 0,
+        Err(error) => return Err(at(path)(error)),
+    };
+    if parts == 0 {
+        return Ok(());
+    }
+    let why = format!("it lists {parts} parts, and its folder did not show it; run the command again");
+    Err(at(path)(std::io::Error::other(why)))
 }
 
 /// Writes a file of a dataset under a temporary name, checks it, and renames it.

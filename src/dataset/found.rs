@@ -8,7 +8,8 @@ use crate::dataset::manifest::{Identity, Manifest, PartRecord};
 use crate::dataset::names::{
     FOLDERS, MANIFEST, PLAN, REPORT, SHARDS, SUCCESS, SUMMARY, UNFINISHED, is_of_parts, is_ours,
 };
-use crate::dataset::storage::{Storage, StorageError, at};
+use crate::dataset::storage::{Storage, StorageError, at, is_absent};
+use crate::dataset::stored_file::is_unfit;
 
 /// Most bytes of a plan that is read.
 pub(super) const MOST_PLAN: u64 = 1 << 28;
@@ -27,7 +28,7 @@ pub enum Contents {
 /// A dataset as it was found.
 #[derive(Debug, Default)]
 pub struct Found {
-    /// The text of its plan; empty where it cannot be read.
+    /// The text of its plan; empty where there is none, or no text.
     pub plan: String,
     /// What its rows are; `None` where no manifest says.
     pub identity: Option<Identity>,
@@ -92,7 +93,8 @@ pub fn contents(storage: &dyn Storage, root: &Path) -> Result<Contents, StorageE
     for entry in &top {
         if entry.is_folder && FOLDERS.contains(&entry.name.as_str()) {
             let folder = root.join(&entry.name);
-            for inner in storage.list(&folder).map_err(at(&folder))? {
+            // it was listed just now
+            for inner in storage.entries(&folder).map_err(at(&folder))? {
                 let name = format!("{}/{}", entry.name, inner.name);
                 if !(inner.is_file && is_ours(&entry.name, &inner.name)) {
                     first_foreign.get_or_insert(name);
@@ -137,8 +139,16 @@ pub fn contents(storage: &dyn Storage, root: &Path) -> Result<Contents, StorageE
     };
     let unlisted = files.iter().find(|name| found.is_finished && !is_listed(name)).cloned();
     found.foreign = first_foreign.or(unlisted);
-    let path = root.join(PLAN);
-    found.plan =
-        storage.read(&path, MOST_PLAN).ok().and_then(|bytes| String::from_utf8(bytes).ok()).unwrap_or_default();
+    found.plan = plan_in(storage, root)?;
     Ok(Contents::Dataset(Box::new(found)))
+}
+
+/// The text of the plan in `root`; empty where there is none, or no text.
+fn plan_in(storage: &dyn Storage, root: &Path) -> Result<String, StorageError> {
+    let path = root.join(PLAN);
+    match storage.read(&path, MOST_PLAN) {
+        Ok(bytes) => Ok(String::from_utf8(bytes).unwrap_or_default()),
+        Err(error) if is_unfit(&error) || is_absent(storage, root, &path, &error)? => Ok(String::new()),
+        Err(error) => Err(at(&path)(error)),
+    }
 }

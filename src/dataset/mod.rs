@@ -2,8 +2,8 @@
 //!
 //! - [`found`]: what is in the folder of a result. - [`mod@claim`]: whether a campaign may write there. - [`replacement`]: a result takes the
 //!   place of an older one. - [`folder`]: the dataset, and the protocol by which parts are added. - [`manifest`]: what it consists of. - [`mod@identity`]: what its rows are. - [`names`]: of its files.
-//! - [`table_log`]: the log by which table engines read the rows. - [`storage`]: file operations. - [`verify`]: whether files are what was written. - [`part_sink`]: writes finished parts.
-//! - [`rows_file`]: the files of rows; [`rows_reader`] reads them. - [`bands_file`]: of bands. - [`columnar`]: columns to Parquet, with [`arrow_metadata`]. - [`atomic`]: files that are whole or absent.
+//! - [`table_log`]: the log by which table engines read the rows. - [`storage`]: file operations, [`stored_file`]: of open files. - [`verify`]: whether files are what was written. - [`part_sink`]: writes finished parts.
+//! - [`rows_file`]: the files of rows; [`rows_reader`] reads them, through [`parquet_source`]. - [`bands_file`]: of bands. - [`columnar`]: columns to Parquet, with [`arrow_metadata`]. - [`atomic`]: files that are whole or absent.
 //! - [`tally`], [`audit_tally`]: statistics counted while rows are written. - [`provenance`]: metadata on the origin.
 //! - [`trajectories`]: time series of the runs that are retained.
 //! - [`parts_read`]: the files of parts by what is in them.
@@ -36,6 +36,7 @@ pub mod manifest;
 pub mod names;
 pub mod observed;
 pub mod parallel;
+pub mod parquet_source;
 pub mod part_columns;
 pub mod part_sink;
 pub mod parts_read;
@@ -52,6 +53,7 @@ pub mod statistics;
 pub mod statistics_table;
 pub mod stopping;
 pub mod storage;
+pub mod stored_file;
 pub mod table;
 pub mod table_log;
 pub mod tally;

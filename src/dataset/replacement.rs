@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use crate::dataset::found::{Contents, Found, contents};
 use crate::dataset::manifest::{Identity, PartRecord};
 use crate::dataset::names::{FOLDERS, MANIFEST, SUCCESS, UNFINISHED, is_of_parts, is_ours};
-use crate::dataset::storage::{Storage, StorageError, at};
+use crate::dataset::storage::{Storage, StorageError, at, entries_in};
 
 /// Where a dataset is made that is to replace `root`.
 pub(super) fn replacement(root: &Path) -> PathBuf {
@@ -43,7 +43,7 @@ fn remove(storage: &dyn Storage, root: &Path, found: &Found) -> Result<(), Stora
     let listed = found.listed();
     for folder in FOLDERS {
         let path = root.join(folder);
-        for entry in storage.list(&path).map_err(at(&path))? {
+        for entry in entries_in(storage, root, &path)? {
             let name = format!("{folder}/{}", entry.name);
             let is_listed = listed.contains(&name);
             let is_leftover = !found.is_finished || name.ends_with(UNFINISHED);
@@ -110,7 +110,7 @@ pub(super) fn remove_unfinished(storage: &dyn Storage, root: &Path, parts: &[Par
     let listed: BTreeSet<&str> = parts.iter().flat_map(|part| &part.files).map(|file| file.name.as_str()).collect();
     for folder in FOLDERS.into_iter().chain([""]) {
         let path = root.join(folder);
-        for entry in storage.list(&path).map_err(at(&path))? {
+        for entry in entries_in(storage, root, &path)? {
             let is_unlisted = is_of_parts(folder) && !listed.contains(format!("{folder}/{}", entry.name).as_str());
             let is_left = entry.name.ends_with(UNFINISHED) || is_unlisted;
             if entry.is_file && is_left && is_ours(folder, &entry.name) {

@@ -2,9 +2,8 @@
 //!
 //! By Parquet's typed column reader: a column comes from the decoder as a list of numbers, without Arrow's arrays between. Memory is
 //! that of the parts under way and does not depend on the number of rows. The Parquet reader panics on some damaged files; here
-//! that is an error that names the file.
+//! that is an error that names the file. A file that cannot be read is told apart from one that is damaged.
 
-use std::fs::File;
 use std::num::NonZeroUsize;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
@@ -17,7 +16,9 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 use thiserror::Error;
 
 use crate::dataset::parallel::in_order;
+use crate::dataset::parquet_source::ParquetSource;
 use crate::dataset::rows_file::{REASON, SAMPLE_ID, STATUS};
+use crate::dataset::storage::Storage;
 use crate::run::Status;
 use crate::sampling::SampleId;
 
@@ -32,22 +33,29 @@ pub struct RowsError {
 }
 
 /// The files of rows of a result, in the order of their samples.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub struct RowsReader {
+    storage: &'static dyn Storage,
     files: Vec<PathBuf>,
 }
 
 /// One file of rows, open. It belongs to one thread: others open the same file for themselves.
 pub struct PartReader {
     path: String,
-    reader: SerializedFileReader<File>,
+    source: ParquetSource,
+    reader: SerializedFileReader<ParquetSource>,
     rows: usize,
 }
 
 impl RowsReader {
     /// A reader of `files`, which are in the order of their samples.
-    pub fn new(files: Vec<PathBuf>) -> Self {
-        RowsReader { files }
+    pub fn new(storage: &'static dyn Storage, files: Vec<PathBuf>) -> Self {
+        RowsReader { storage, files }
+    }
+
+    /// The file operations.
+    pub fn storage(&self) -> &'static dyn Storage {
+        self.storage
     }
 
     /// The files.
@@ -60,7 +68,7 @@ impl RowsReader {
     /// # Errors
     /// Where the file cannot be opened or is no Parquet file.
     pub fn part(&self, index: usize) -> Option<Result<PartReader, RowsError>> {
-        self.files.get(index).map(|path| PartReader::open(path))
+        self.files.get(index).map(|path| PartReader::open(self.storage, path))
     }
 
     /// Reads every part on `threads` threads (`None`: one per core): `read` takes what is wanted from a part on any thread, and `merge`
@@ -74,19 +82,29 @@ impl RowsReader {
         read: impl Fn(&mut PartReader) -> Result<T, E> + Sync,
         merge: impl FnMut(T) -> Result<(), E> + Send,
     ) -> Result<(), E> {
-        let read_part =
-            |index: usize| PartReader::open(&self.files[index]).map_err(E::from).and_then(|mut part| read(&mut part));
+        let read_part = |index: usize| {
+            let part = PartReader::open(self.storage, &self.files[index]);
+            part.map_err(E::from).and_then(|mut part| read(&mut part))
+        };
         in_order(self.files.len(), threads, read_part, merge)
     }
 }
 
-/// What `read` returns; a panic of the Parquet reader is an error too.
-fn caught<T>(path: &str, read: impl FnOnce() -> Result<T, ParquetError>) -> Result<T, RowsError> {
-    let failed = |what: String| RowsError { path: path.to_owned(), what };
-    match catch_unwind(AssertUnwindSafe(read)) {
-        Ok(found) => found.map_err(|error| failed(error.to_string())),
-        Err(_) => Err(failed("the file is damaged: the Parquet reader cannot decode it".to_owned())),
-    }
+/// What `read` returns; a panic of the Parquet reader is an error too. Where the file could not be read, that is the error.
+fn caught<T>(
+    path: &str,
+    source: &ParquetSource,
+    read: impl FnOnce() -> Result<T, ParquetError>,
+) -> Result<T, RowsError> {
+    let found = catch_unwind(AssertUnwindSafe(read));
+    let damaged = || "the file is damaged: the Parquet reader cannot decode it".to_owned();
+    let what = match (found, source.failure()) {
+        (_, Some(failure)) => failure.to_string(),
+        (Ok(Ok(found)), None) => return Ok(found),
+        (Ok(Err(error)), None) => error.to_string(),
+        (Err(_), None) => damaged(),
+    };
+    Err(RowsError { path: path.to_owned(), what })
 }
 
 fn general(what: impl Into<String>) -> ParquetError {
@@ -98,17 +116,18 @@ impl PartReader {
     ///
     /// # Errors
     /// Where it cannot be opened or is no Parquet file.
-    pub fn open(path: &Path) -> Result<Self, RowsError> {
+    pub fn open(storage: &dyn Storage, path: &Path) -> Result<Self, RowsError> {
         let shown = path.display().to_string();
-        let file = File::open(path).map_err(|error| RowsError { path: shown.clone(), what: error.to_string() })?;
-        let (reader, rows) = caught(&shown, || {
-            let reader = SerializedFileReader::new(file)?;
+        let source = ParquetSource::open(storage, path)
+            .map_err(|error| RowsError { path: shown.clone(), what: error.to_string() })?;
+        let (reader, rows) = caught(&shown, &source, || {
+            let reader = SerializedFileReader::new(source.clone())?;
             let groups = reader.metadata().row_groups().iter().map(|group| group.num_rows());
             let rows = groups.map(|rows| usize::try_from(rows).map_err(|_| general("a negative number of rows")));
             let rows = rows.sum::<Result<usize, ParquetError>>()?;
             Ok((reader, rows))
         })?;
-        Ok(PartReader { path: shown, reader, rows })
+        Ok(PartReader { path: shown, source, reader, rows })
     }
 
     /// The file, for messages.
@@ -195,7 +214,7 @@ impl PartReader {
     }
 
     fn cells(&self, name: &str) -> Result<Cells, RowsError> {
-        caught(&self.path, || {
+        caught(&self.path, &self.source, || {
             let schema = self.reader.metadata().file_metadata().schema_descr_ptr();
             let index = schema.columns().iter().position(|column| column.name() == name);
             let Some(index) = index else { return Err(general(format!("there is no column `{name}`"))) };
@@ -277,6 +296,7 @@ fn spread(mut values: impl Iterator<Item = f64>, present: &[i16]) -> Vec<f64> {
 mod tests {
     use super::*;
     use crate::dataset::columnar::{Cells as Written, Content, Heading, Layout, Packing};
+    use crate::dataset::storage::Disk;
     use crate::run::Quantity;
     use std::collections::HashMap;
 
@@ -312,7 +332,7 @@ mod tests {
         ];
         let layout = Layout::new(&headings, HashMap::new(), Packing::Lz4).expect("a layout");
         let path = folder.0.join(format!("part-{first:06}.parquet"));
-        let out = File::create(&path).expect("a file");
+        let out = std::fs::File::create(&path).expect("a file");
         let mut writer = layout.begin(out, &[]).expect("begun");
         let x = [first as f64 + 0.5, f64::NAN];
         let of_two = [
@@ -339,7 +359,7 @@ mod tests {
     #[test]
     fn rows_are_read_as_written() {
         let folder = Folder::new("read");
-        let reader = RowsReader::new(vec![file(&folder, 40)]);
+        let reader = RowsReader::new(&Disk, vec![file(&folder, 40)]);
         let part = reader.part(0).expect("one part").expect("readable");
         assert_eq!((part.rows(), part.samples()), (3, Ok(vec![SampleId(40), SampleId(41), SampleId(42)])));
         assert_eq!(part.statuses(), Ok(vec![Status::Done, Status::StepLimit, Status::Done]));
@@ -358,7 +378,7 @@ mod tests {
     fn parts_are_merged_in_order() {
         let folder = Folder::new("order");
         let files: Vec<PathBuf> = (0..20).map(|k| file(&folder, 3 * k)).collect();
-        let reader = RowsReader::new(files.clone());
+        let reader = RowsReader::new(&Disk, files.clone());
         for threads in [1, 2, 3, 7, 64] {
             let threads = NonZeroUsize::new(threads);
             let mut seen = Vec::new();
@@ -386,7 +406,7 @@ mod tests {
             );
             assert_eq!(failed.expect_err("two parts fail").what, "27");
         }
-        assert_eq!(RowsReader::new(Vec::new()).visit::<(), RowsError>(None, |_| Ok(()), |()| Ok(())), Ok(()));
+        assert_eq!(RowsReader::new(&Disk, Vec::new()).visit::<(), RowsError>(None, |_| Ok(()), |()| Ok(())), Ok(()));
     }
 
     /// Law: a damaged file is an error that names it, never a panic, at whichever byte it is damaged.
@@ -398,7 +418,7 @@ mod tests {
         let path = folder.0.join("damaged.parquet");
         let read = |content: &[u8]| -> Result<(), RowsError> {
             std::fs::write(&path, content).expect("written");
-            let part = PartReader::open(&path)?;
+            let part = PartReader::open(&Disk, &path)?;
             part.samples()?;
             part.statuses()?;
             part.reasons()?;
@@ -420,6 +440,6 @@ mod tests {
             assert!(read(&bytes[..length]).is_err(), "{length} bytes");
         }
         std::fs::remove_file(&path).expect("removed");
-        assert!(PartReader::open(&path).is_err());
+        assert!(PartReader::open(&Disk, &path).is_err());
     }
 }

@@ -1,12 +1,21 @@
 //! [`Storage`]: the file operations that a dataset is made of, so that tests can let any of them fail.
 //!
-//! The idea of SQLite's test layer: everything that a dataset does to the disk uses this interface, and a test repeats the same
-//! work with a fault at the first, second, third ... operation. [`Disk`] is the real one.
+//! The idea of SQLite's test layer: everything that a dataset does to the disk, and every read of its files ([`super::stored_file`]), uses this
+//! interface, and a test repeats the same work with a fault at the first, second, third ... operation. [`Disk`] is the real one.
+//!
+//! On purpose not here, since they are no files of a dataset:
+//! - what a command is told to write elsewhere (`--junit`, `--figures`, `--out` of `simulate`, `sample`, `precision`; scripts of `slurm`):
+//!   [`super::atomic`], and `create_dir_all` of the folders of figures;
+//! - what a campaign file names, and the file itself: [`crate::campaign::input_file`]. The copies of files of numbers in `data/` are read as
+//!   the originals are: by the plan's checksum, so that what cannot be read is an error of the plan;
+//! - questions that no row and no decision about a file depends on: whether two paths are the same file, free space and memory, `/proc`.
 
 use std::fmt::Debug;
-use std::fs::{self, File, OpenOptions};
-use std::io::{self, Read, Write};
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+
+use crate::dataset::stored_file::{StoredFile, Unfit, content, has};
 
 /// Operations on files. Each may fail; none leaves a file under a final name that is not whole.
 pub trait Storage: Debug + Send + Sync {
@@ -23,18 +32,33 @@ pub trait Storage: Debug + Send + Sync {
     /// The first operation that fails.
     fn append(&self, path: &Path, length: u64, bytes: &[u8]) -> io::Result<()>;
 
+    /// Opens a regular file for reading: no link, no folder, no pipe.
+    ///
+    /// # Errors
+    /// Where it cannot be opened, or is [`Unfit`].
+    fn open(&self, path: &Path) -> io::Result<Box<dyn StoredFile>>;
+
     /// The whole content of a regular file of at most `most` bytes.
     ///
     /// # Errors
-    /// Where it cannot be read, is not a regular file, or is larger.
-    fn read(&self, path: &Path, most: u64) -> io::Result<Vec<u8>>;
+    /// Where it cannot be read, or is [`Unfit`].
+    fn read(&self, path: &Path, most: u64) -> io::Result<Vec<u8>> {
+        content(&*self.open(path)?, most)
+    }
 
-    /// Whether the content of the regular file `path` is `bytes`. Reads it piece by piece: a file of a part would otherwise be in memory
-    /// twice.
+    /// Whether the content of the regular file `path` is `bytes`.
     ///
     /// # Errors
     /// Where it cannot be read, or is not a regular file.
-    fn has(&self, path: &Path, bytes: &[u8]) -> io::Result<bool>;
+    fn has(&self, path: &Path, bytes: &[u8]) -> io::Result<bool> {
+        has(&*self.open(path)?, bytes)
+    }
+
+    /// Locks a file or folder against other processes, shared or not, until the result is dropped; `None` where the file system has no locks.
+    ///
+    /// # Errors
+    /// Where another process has it locked, or it cannot be opened.
+    fn lock(&self, path: &Path, is_shared: bool) -> Result<Option<File>, TryLockError>;
 
     /// Renames a file or folder, replacing a file of the new name.
     ///
@@ -66,11 +90,22 @@ pub trait Storage: Debug + Send + Sync {
     /// Where it fails.
     fn sync_folder(&self, path: &Path) -> io::Result<()>;
 
-    /// The entries of a folder, ascending by name; none where there is no such folder.
+    /// The entries of a folder, ascending by name.
+    ///
+    /// # Errors
+    /// Where it fails, or there is no such folder.
+    fn entries(&self, path: &Path) -> io::Result<Vec<Entry>>;
+
+    /// The same; none where there is no such folder.
     ///
     /// # Errors
     /// Where it fails.
-    fn list(&self, path: &Path) -> io::Result<Vec<Entry>>;
+    fn list(&self, path: &Path) -> io::Result<Vec<Entry>> {
+        match self.entries(path) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Vec::new()),
+            entries => entries,
+        }
+    }
 }
 
 /// An entry of a folder.
@@ -90,32 +125,6 @@ pub struct Entry {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Disk;
 
-/// Bytes that are compared at a time: they stay in the second-level cache.
-const PIECE: usize = 1 << 16;
-
-/// Opens a regular file: no link, no folder, no pipe.
-fn open_regular(path: &Path) -> io::Result<File> {
-    if !fs::symlink_metadata(path)?.is_file() {
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, "not a regular file"));
-    }
-    File::open(path)
-}
-
-/// The content of a regular file of at most `most` bytes, from an open file: what is checked is what is read.
-fn content(path: &Path, most: u64) -> io::Result<Vec<u8>> {
-    let file = open_regular(path)?;
-    let size = file.metadata()?.len();
-    if size > most {
-        return Err(io::Error::new(
-            io::ErrorKind::FileTooLarge,
-            format!("{size} bytes, where at most {most} are expected"),
-        ));
-    }
-    let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or(0));
-    file.take(most).read_to_end(&mut bytes)?;
-    Ok(bytes)
-}
-
 impl Storage for Disk {
     fn create(&self, path: &Path, bytes: &[u8]) -> io::Result<()> {
         let mut file = OpenOptions::new().write(true).create_new(true).open(path)?;
@@ -132,28 +141,24 @@ impl Storage for Disk {
         file.sync_data()
     }
 
-    fn read(&self, path: &Path, most: u64) -> io::Result<Vec<u8>> {
-        content(path, most)
+    fn open(&self, path: &Path) -> io::Result<Box<dyn StoredFile>> {
+        if !fs::symlink_metadata(path)?.is_file() {
+            return Err(Unfit::Kind.into());
+        }
+        Ok(Box::new(File::open(path)?))
     }
 
-    fn has(&self, path: &Path, bytes: &[u8]) -> io::Result<bool> {
-        let mut file = open_regular(path)?;
-        if file.metadata()?.len() != bytes.len() as u64 {
-            return Ok(false);
+    fn lock(&self, path: &Path, is_shared: bool) -> Result<Option<File>, TryLockError> {
+        let file = match File::open(path) {
+            // only Unix can open a folder
+            Err(_) if !cfg!(unix) => return Ok(None),
+            file => file.map_err(TryLockError::Error)?,
+        };
+        match if is_shared { file.try_lock_shared() } else { file.try_lock() } {
+            Ok(()) => Ok(Some(file)),
+            Err(TryLockError::WouldBlock) => Err(TryLockError::WouldBlock),
+            Err(TryLockError::Error(_)) => Ok(None),
         }
-        let mut piece = [0; PIECE];
-        for expected in bytes.chunks(PIECE) {
-            let found = &mut piece[..expected.len()];
-            match file.read_exact(found) {
-                Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => return Ok(false),
-                read => read?,
-            }
-            if found != expected {
-                return Ok(false);
-            }
-        }
-        // nothing may follow
-        Ok(file.read(&mut piece[..1])? == 0)
     }
 
     fn rename(&self, from: &Path, to: &Path) -> io::Result<()> {
@@ -177,13 +182,9 @@ impl Storage for Disk {
         if cfg!(unix) { File::open(path)?.sync_all() } else { Ok(()) }
     }
 
-    fn list(&self, path: &Path) -> io::Result<Vec<Entry>> {
-        let entries = match fs::read_dir(path) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
-            entries => entries?,
-        };
+    fn entries(&self, path: &Path) -> io::Result<Vec<Entry>> {
         let mut list = Vec::new();
-        for entry in entries {
+        for entry in fs::read_dir(path)? {
             let entry = entry?;
             let metadata = entry.metadata()?; // of a link: the link's own
             let name = entry.file_name().to_string_lossy().into_owned();
@@ -217,28 +218,54 @@ pub fn at(path: &Path) -> impl FnOnce(io::Error) -> StorageError + use<> {
     move |source| StorageError { path, source }
 }
 
+/// Whether `error` says that the file or folder `path` of the dataset `root` is not there, and its folder says so too.
+///
+/// # Errors
+/// Where the folder cannot be read.
+pub fn is_absent(storage: &dyn Storage, root: &Path, path: &Path, error: &io::Error) -> Result<bool, StorageError> {
+    if error.kind() != io::ErrorKind::NotFound {
+        return Ok(false);
+    }
+    let (Some(folder), Some(name)) = (path.parent(), path.file_name()) else { return Ok(false) };
+    match storage.entries(folder) {
+        Ok(entries) => Ok(entries.iter().all(|entry| *entry.name != *name)),
+        // the folder is gone with its files, or the whole dataset
+        Err(error) if folder != root && error.kind() == io::ErrorKind::NotFound => {
+            is_absent(storage, root, folder, &error)
+        }
+        Err(error) => Err(at(folder)(error)),
+    }
+}
+
+/// The entries of the folder `path` of the dataset `root`; none where there is no such folder.
+///
+/// # Errors
+/// Where it cannot be read.
+pub fn entries_in(storage: &dyn Storage, root: &Path, path: &Path) -> Result<Vec<Entry>, StorageError> {
+    match storage.entries(path) {
+        Ok(entries) => Ok(entries),
+        Err(error) if is_absent(storage, root, path, &error)? => Ok(Vec::new()),
+        Err(error) => Err(at(path)(error)),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dataset::stored_file::is_unfit;
 
-    /// Law: a file has the bytes that are in it, and no others: none less, none more, none different, in whichever piece.
+    /// Law: what was created is read; what is no regular file is unfit, and what is not there is neither read nor unfit.
     #[test]
-    fn a_file_has_what_is_in_it() {
+    fn only_regular_files_are_read() {
         let folder = std::env::temp_dir().join(format!("spindrift-storage-{}", std::process::id()));
         fs::create_dir_all(&folder).unwrap();
-        for length in [0, 1, PIECE - 1, PIECE, PIECE + 1, 3 * PIECE] {
-            let (path, bytes) = (folder.join(length.to_string()), vec![7; length]);
-            Disk.create(&path, &bytes).unwrap();
-            assert!(Disk.has(&path, &bytes).unwrap(), "{length}");
-            assert!(!Disk.has(&path, &[&bytes[..], &[7]].concat()).unwrap(), "{length}");
-            for at in [0, length / 2, length.saturating_sub(1)].into_iter().filter(|at| *at < length) {
-                let mut other = bytes.clone();
-                other[at] = 8;
-                assert!(!Disk.has(&path, &other).unwrap(), "{length}, byte {at}");
-                assert!(!Disk.has(&path, &bytes[..at]).unwrap(), "{length}, the first {at}");
-            }
-        }
-        assert!(Disk.has(&folder, &[]).is_err() && Disk.has(&folder.join("none"), &[]).is_err());
+        let path = folder.join("file");
+        Disk.create(&path, b"12345").unwrap();
+        assert_eq!(Disk.read(&path, 5).unwrap(), b"12345");
+        assert!(Disk.has(&path, b"12345").unwrap() && !Disk.has(&path, b"12346").unwrap());
+        assert!(is_unfit(&Disk.read(&path, 4).unwrap_err()) && is_unfit(&Disk.read(&folder, 9).unwrap_err()));
+        let absent = Disk.read(&folder.join("none"), 9).unwrap_err();
+        assert!(absent.kind() == io::ErrorKind::NotFound && !is_unfit(&absent), "{absent}");
         fs::remove_dir_all(&folder).unwrap();
     }
 }

@@ -16,7 +16,8 @@ use crate::dataset::folder::Folder;
 use crate::dataset::identity::sha256;
 use crate::dataset::manifest::{Identity, PartRecord};
 use crate::dataset::names::{RUNS, TABLE_LOG};
-use crate::dataset::storage::{Storage, StorageError, at};
+use crate::dataset::storage::{Storage, StorageError, at, entries_in};
+use crate::dataset::stored_file::is_unfit;
 
 /// Most bytes of a commit: a file of rows takes some 400.
 const MOST_COMMIT: u64 = 1 << 36;
@@ -120,17 +121,32 @@ struct Log {
 }
 
 /// Reads the log in `root`; what is wrong, where it is not one that this program has written for these rows.
-fn read(storage: &dyn Storage, root: &Path, identity: &Identity) -> Result<Log, String> {
+///
+/// # Errors
+/// Where it cannot be read.
+fn read(storage: &dyn Storage, root: &Path, identity: &Identity) -> Result<Result<Log, String>, StorageError> {
     let folder = root.join(TABLE_LOG);
-    let entries = storage.list(&folder).map_err(|error| format!("{TABLE_LOG}: {error}"))?;
+    let mut commits = Vec::new();
+    for entry in entries_in(storage, root, &folder)? {
+        let path = folder.join(&entry.name);
+        match storage.read(&path, MOST_COMMIT) {
+            Ok(bytes) => commits.push((entry.name, bytes)),
+            Err(error) if is_unfit(&error) => return Ok(Err(format!("{TABLE_LOG}/{}: {error}", entry.name))),
+            Err(error) => return Err(at(&path)(error)),
+        }
+    }
+    Ok(log_of(commits, identity))
+}
+
+/// The log of commits in their order; what is wrong, where it is not one that this program has written for these rows.
+fn log_of(commits: Vec<(String, Vec<u8>)>, identity: &Identity) -> Result<Log, String> {
     let mut log = Log::default();
-    for (version, entry) in entries.iter().enumerate() {
+    for (version, (file, bytes)) in commits.into_iter().enumerate() {
         let name = commit_of(version);
-        let wrong = |what: &str| format!("{TABLE_LOG}/{}: {what}", entry.name);
-        if format!("{TABLE_LOG}/{}", entry.name) != name {
+        let wrong = |what: &str| format!("{TABLE_LOG}/{file}: {what}");
+        if format!("{TABLE_LOG}/{file}") != name {
             return Err(wrong("is not the next commit"));
         }
-        let bytes = storage.read(&root.join(&name), MOST_COMMIT).map_err(|error| wrong(&error.to_string()))?;
         let changed = || wrong("its content has changed");
         let text = String::from_utf8(bytes).map_err(|_| changed())?;
         let actions = text.lines().map(serde_json::from_str).collect::<Result<Vec<Value>, _>>();
@@ -154,13 +170,21 @@ fn read(storage: &dyn Storage, root: &Path, identity: &Identity) -> Result<Log, 
 }
 
 /// What is wrong with the log of the dataset in `root`, which consists of `parts`; `None` where it lists their files of rows.
-pub fn damage(storage: &dyn Storage, root: &Path, identity: &Identity, parts: &[PartRecord]) -> Option<String> {
-    match read(storage, root, identity) {
+///
+/// # Errors
+/// Where it cannot be read.
+pub fn damage(
+    storage: &dyn Storage,
+    root: &Path,
+    identity: &Identity,
+    parts: &[PartRecord],
+) -> Result<Option<String>, StorageError> {
+    Ok(match read(storage, root, identity)? {
         Err(what) => Some(what),
         Ok(log) if log.commits == 0 => Some(format!("{}: missing", commit_of(0))),
         Ok(log) if log.files != files(parts) => Some(format!("{TABLE_LOG}: does not list the files of rows")),
         Ok(_) => None,
-    }
+    })
 }
 
 /// Whether `before` is what a campaign of fewer samples has: the same files; the last may have fewer rows.
@@ -179,7 +203,7 @@ fn is_earlier(before: &Files, now: &Files) -> bool {
 /// Where a file operation fails.
 pub fn update(folder: &Folder, headings: &[Heading]) -> Result<(), StorageError> {
     let files = files(&folder.parts());
-    let log = read(folder.storage(), folder.root(), folder.identity()).unwrap_or_default();
+    let log = read(folder.storage(), folder.root(), folder.identity())?.unwrap_or_default();
     let is_earlier = log.commits > 0 && is_earlier(&log.files, &files);
     if !is_earlier {
         folder.clear(TABLE_LOG)?;
@@ -241,7 +265,7 @@ mod tests {
     }
 
     fn check(root: &Root, folder: &Folder) -> Option<String> {
-        damage(&Disk, &root.0, &identity(), &folder.parts())
+        damage(&Disk, &root.0, &identity(), &folder.parts()).expect("a readable log")
     }
 
     /// Law: the log lists the files of rows of the manifest and nothing else; it is written once; more parts are one more commit.

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 
 use spindrift::dataset::rows_reader::RowsReader;
+use spindrift::dataset::storage::Disk;
 use spindrift::run::Status;
 
 use super::small_campaign::{campaign_without_debris, folder};
@@ -38,7 +39,7 @@ fn contents(scratch: &ScratchFolder, result: &str) -> BTreeMap<String, Vec<u8>> 
 
 /// Status and the bits of all numbers of every row, by sample.
 fn rows(scratch: &ScratchFolder, result: &str) -> BTreeMap<u64, (Status, Vec<u64>)> {
-    let reader = RowsReader::new(scratch.part_files(result));
+    let reader = RowsReader::new(&Disk, scratch.part_files(result));
     let mut found = BTreeMap::new();
     for part in (0..).map_while(|index| reader.part(index)) {
         let part = part.unwrap();

@@ -7,6 +7,7 @@ use std::process::Command;
 
 use spindrift::dataset::bands_file;
 use spindrift::dataset::rows_reader::RowsReader;
+use spindrift::dataset::storage::Disk;
 use spindrift::run::Status;
 use spindrift::statistics::quantile::quantile;
 
@@ -44,7 +45,7 @@ fn after(printed: &str, word: &str) -> f64 {
 fn recipes_give_the_numbers_of_the_rows() {
     let scratch = ScratchFolder::new("recipes");
     scratch.says("campaign", "spin_sweep.toml", "--samples 300", 0);
-    let reader = RowsReader::new(scratch.part_files("results/spin_sweep"));
+    let reader = RowsReader::new(&Disk, scratch.part_files("results/spin_sweep"));
     let mut errors = Vec::new();
     for part in (0..).map_while(|index| reader.part(index)) {
         let part = part.unwrap();
@@ -56,7 +57,7 @@ fn recipes_give_the_numbers_of_the_rows() {
     let entries = std::fs::read_dir(scratch.path("results/spin_sweep/bands")).unwrap();
     let mut files: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
     files.sort();
-    let bands = bands_file::read(&files, None).unwrap().expect("bands");
+    let bands = bands_file::read(&Disk, &files, None).unwrap().expect("bands");
     let wheel = bands.find("exchange_w1_j").expect("bands of wheel 1");
     let p95 = (0..bands.times().len()).filter_map(|point| bands.quantile(wheel, point, 0.95)).fold(0.0, f64::max);
 

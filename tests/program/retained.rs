@@ -34,7 +34,7 @@ fn plan(retain: &str) -> Plan {
 }
 
 fn rows(scratch: &ScratchFolder) -> RowsReader {
-    RowsReader::new(scratch.part_files("r"))
+    RowsReader::new(&Disk, scratch.part_files("r"))
 }
 
 /// Sample, status and maximum energy error of every row.
@@ -184,7 +184,7 @@ fn a_campaign_ends_with_bands() {
         let numbers = [min[row], low[row], median[row], high[row], max[row]];
         assert!(numbers.is_sorted(), "row {row}: {numbers:?}");
     }
-    let all = all(&RowsReader::new(scratch.part_files("r1")));
+    let all = all(&RowsReader::new(&Disk, scratch.part_files("r1")));
     let ok = all.iter().filter(|(sample, status, _)| *sample > 0 && *status == Status::Done);
     let counts = bands.column_by_name("count").unwrap();
     let counts = counts.as_primitive::<Int64Type>().values();

@@ -22,10 +22,11 @@ const LAYERS: [(&str, u32); 15] = [
 ];
 
 /// Where each dependency may be used: modules, or single files. An empty list means everywhere.
-const CRATES: [(&str, &[&str]); 25] = [
+const CRATES: [(&str, &[&str]); 26] = [
     ("arrow_ipc", &["dataset/arrow_metadata.rs"]),
     ("arrow_schema", &["dataset"]),
     ("base64", &["report/page", "dataset/arrow_metadata.rs"]),
+    ("bytes", &["dataset/parquet_source.rs"]),
     ("clap", &["cli"]),
     ("crc32fast", &["dataset"]),
     ("csv", &["campaign/data.rs"]),

@@ -1,0 +1,291 @@
+//! [`Faulty`]: the disk, on which the k-th operation fails; and the making of a small dataset on it.
+
+use std::collections::BTreeMap;
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::{self, Write};
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex};
+
+use spindrift::campaign::{Overrides, Plan};
+use spindrift::cli::command_outcome::Failure;
+use spindrift::cli::finish_campaign::{Finishing, complete};
+use spindrift::dataset::claim::{Claim, ClaimOptions, FolderError, claim};
+use spindrift::dataset::identity::identity;
+use spindrift::dataset::part_sink::write_parts;
+use spindrift::dataset::storage::{Disk, Entry, Storage};
+use spindrift::dataset::stored_file::StoredFile;
+use spindrift::ensemble::{Ensemble, Parts, Supervision, run};
+use spindrift::math::Isa;
+
+use super::small_campaign::campaign_without_debris;
+
+/// What is done to a file or folder.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Operation {
+    /// Everything that changes it.
+    Write,
+    /// It is opened.
+    Open,
+    /// Its length is asked for.
+    Length,
+    /// A piece of it is read.
+    Read,
+    /// The entries of a folder are listed.
+    List,
+    /// It is locked.
+    Lock,
+}
+
+/// What goes wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// An error of this kind.
+    Kind(io::ErrorKind),
+    /// The error of the operating system with this number.
+    System(i32),
+    /// Of a read: there is nothing more.
+    End,
+    /// Of a read: it is interrupted, or has some of the bytes only. No error.
+    Piecewise,
+}
+
+impl Fault {
+    /// The error; none where it is told otherwise.
+    pub fn error(self) -> Option<io::Error> {
+        match self {
+            Fault::Kind(kind) => Some(kind.into()),
+            Fault::System(number) => Some(io::Error::from_raw_os_error(number)),
+            Fault::End | Fault::Piecewise => None,
+        }
+    }
+}
+
+/// The disk, on which an operation fails.
+#[derive(Debug)]
+pub struct Faulty(Arc<Plot>);
+
+/// Which operation fails, and what was done so far.
+#[derive(Debug)]
+struct Plot {
+    /// Which operations are counted, and may fail.
+    is_counted: fn(Operation) -> bool,
+    /// The operation that fails, from zero.
+    fails: u64,
+    /// Whether all later ones fail too.
+    persists: bool,
+    fault: Fault,
+    done: Mutex<Vec<(Operation, PathBuf)>>,
+}
+
+impl Faulty {
+    /// The disk on which operation `fails` of those that are counted fails, and all later ones where it `persists`.
+    pub fn new(is_counted: fn(Operation) -> bool, fails: u64, persists: bool, fault: Fault) -> &'static Self {
+        let plot = Plot { is_counted, fails, persists, fault, done: Mutex::default() };
+        Box::leak(Box::new(Faulty(Arc::new(plot))))
+    }
+
+    /// The operations that were counted so far, each with its path.
+    pub fn done(&self) -> Vec<(Operation, PathBuf)> {
+        self.0.done.lock().unwrap().clone()
+    }
+
+    fn check(&self, operation: Operation, path: &Path) -> io::Result<()> {
+        self.0.check(operation, path)
+    }
+}
+
+impl Plot {
+    fn is_due(&self, operation: Operation, path: &Path) -> bool {
+        if !(self.is_counted)(operation) {
+            return false;
+        }
+        let mut done = self.done.lock().unwrap();
+        let now = done.len() as u64;
+        done.push((operation, path.to_owned()));
+        now == self.fails || (self.persists && now > self.fails)
+    }
+
+    fn check(&self, operation: Operation, path: &Path) -> io::Result<()> {
+        match self.fault.error() {
+            Some(error) if self.is_due(operation, path) => Err(error),
+            Some(_) => Ok(()),
+            None => {
+                self.is_due(operation, path);
+                Ok(())
+            }
+        }
+    }
+}
+
+/// [`Disk::create`] without a flush: no power is lost here, and the tests create some ten thousand files.
+fn create(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    OpenOptions::new().write(true).create_new(true).open(path)?.write_all(bytes)
+}
+
+/// [`Disk::append`] without a flush.
+fn append(path: &Path, length: u64, bytes: &[u8]) -> io::Result<()> {
+    let mut file = OpenOptions::new().append(true).open(path)?;
+    file.set_len(length)?;
+    file.write_all(bytes)
+}
+
+impl Storage for Faulty {
+    fn create(&self, path: &Path, bytes: &[u8]) -> io::Result<()> {
+        if let Err(error) = self.check(Operation::Write, path) {
+            // half of it is there
+            create(path, &bytes[..bytes.len() / 2])?;
+            return Err(error);
+        }
+        create(path, bytes)
+    }
+
+    fn append(&self, path: &Path, length: u64, bytes: &[u8]) -> io::Result<()> {
+        if let Err(error) = self.check(Operation::Write, path) {
+            append(path, length, &bytes[..bytes.len() / 2])?;
+            return Err(error);
+        }
+        append(path, length, bytes)
+    }
+
+    fn open(&self, path: &Path) -> io::Result<Box<dyn StoredFile>> {
+        self.check(Operation::Open, path)?;
+        Ok(Box::new(FaultyFile { plot: self.0.clone(), path: path.to_owned(), file: Disk.open(path)? }))
+    }
+
+    fn lock(&self, path: &Path, _: bool) -> Result<Option<File>, TryLockError> {
+        // no real lock: a process that another test is about to start would have it too, from its fork to its exec
+        self.check(Operation::Lock, path).map(|()| None).map_err(TryLockError::Error)
+    }
+
+    fn rename(&self, from: &Path, to: &Path) -> io::Result<()> {
+        self.check(Operation::Write, from)?;
+        Disk.rename(from, to)
+    }
+
+    fn remove(&self, path: &Path) -> io::Result<()> {
+        self.check(Operation::Write, path)?;
+        Disk.remove(path)
+    }
+
+    fn remove_folder(&self, path: &Path) -> io::Result<()> {
+        self.check(Operation::Write, path)?;
+        Disk.remove_folder(path)
+    }
+
+    fn create_folder(&self, path: &Path) -> io::Result<()> {
+        self.check(Operation::Write, path)?;
+        Disk.create_folder(path)
+    }
+
+    fn sync_folder(&self, path: &Path) -> io::Result<()> {
+        self.check(Operation::Write, path)?;
+        if path.is_dir() { Ok(()) } else { Err(io::ErrorKind::NotFound.into()) }
+    }
+
+    fn entries(&self, path: &Path) -> io::Result<Vec<Entry>> {
+        self.check(Operation::List, path)?;
+        Disk.entries(path)
+    }
+}
+
+/// An open file of a [`Faulty`] disk.
+#[derive(Debug)]
+struct FaultyFile {
+    plot: Arc<Plot>,
+    path: PathBuf,
+    file: Box<dyn StoredFile>,
+}
+
+impl StoredFile for FaultyFile {
+    fn length(&self) -> io::Result<u64> {
+        self.plot.check(Operation::Length, &self.path)?;
+        self.file.length()
+    }
+
+    fn read_at(&self, offset: u64, bytes: &mut [u8]) -> io::Result<usize> {
+        if !self.plot.is_due(Operation::Read, &self.path) {
+            return self.file.read_at(offset, bytes);
+        }
+        match self.plot.fault {
+            Fault::End => Ok(0),
+            Fault::Piecewise if self.plot.done.lock().unwrap().len() % 2 == 0 => Err(io::ErrorKind::Interrupted.into()),
+            Fault::Piecewise => {
+                let some = bytes.len().div_ceil(2);
+                self.file.read_at(offset, &mut bytes[..some])
+            }
+            Fault::Kind(_) | Fault::System(_) => self.plot.fault.error().map_or(Ok(0), Err),
+        }
+    }
+}
+
+/// Ten seconds of waiting for a lock.
+const LOCK_TRIES: usize = 2000;
+
+/// Makes the dataset of `plan` in `root`, or what is missing of it, with its page or without.
+pub fn make(storage: &'static dyn Storage, root: &Path, plan: &Plan, has_page: bool) -> Result<(), Failure> {
+    let ensemble = Ensemble::new(plan, Isa::best());
+    let options = ClaimOptions { overwrite: false, shard: None, threads: 1 };
+    let mut claimed = claim(storage, root, (plan, &identity(&ensemble)), options);
+    // a process that another test is about to start has the lock too, from its fork to its exec
+    for _ in 0..LOCK_TRIES {
+        if !matches!(claimed, Err(FolderError::Busy { .. })) {
+            break;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(5));
+        claimed = claim(storage, root, (plan, &identity(&ensemble)), options);
+    }
+    let ready = match claimed {
+        Ok(Claim::Ready(ready)) => *ready,
+        Ok(Claim::Finished(_)) => return Ok(()),
+        Err(error @ FolderError::Foreign { .. }) => panic!("its own files are foreign: {error}"),
+        Err(error) => return Err(Failure::files(error)),
+    };
+    let missing = ready.folder.missing(Parts::of(plan.samples).iter());
+    write_parts(&ready.folder, &ensemble, None, |sink| {
+        run(&ensemble, missing, NonZeroUsize::new(1), sink, Supervision::progress(&|_| {}))
+    })
+    .map_err(Failure::files)?
+    .map_err(Failure::files)?;
+    let job = Finishing {
+        ensemble: &ensemble,
+        ready: &ready,
+        root,
+        threads: NonZeroUsize::new(1),
+        replayed: "small.toml",
+        junit: None,
+        page: (has_page, None),
+        made: None,
+        seconds: [0.0; 2],
+    };
+    complete(&job, None).map(|_| ())
+}
+
+/// The reason of a failure.
+pub fn reason(failure: &Failure) -> &str {
+    let (Failure::Files(reason) | Failure::Input(reason)) = failure;
+    reason
+}
+
+/// The files of a dataset by their names: `runs/part-000000.parquet`, `/plan.toml`.
+pub fn contents(root: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut found = BTreeMap::new();
+    for folder in ["", "runs", "bands", "trajectories", "_delta_log"] {
+        for entry in fs::read_dir(root.join(folder)).into_iter().flatten().map(Result::unwrap) {
+            if entry.path().is_file() {
+                let name = format!("{folder}/{}", entry.file_name().to_string_lossy());
+                found.insert(name, fs::read(entry.path()).unwrap());
+            }
+        }
+    }
+    found
+}
+
+/// `samples` samples, of which 256 are a part; few columns, since the work is done a thousand times.
+pub fn plan(samples: u64) -> Plan {
+    let overrides = Overrides { samples: Some(samples), ..Overrides::default() };
+    let observed = "points = 11\ngroups = [\"energy_conservation\"]\n";
+    let text = campaign_without_debris().replace("points = 11\n", observed);
+    let text = format!("{text}[retain]\ntrajectories = \"sample:2\"\n");
+    Plan::from_text("small", &text, overrides).unwrap()
+}
