@@ -37,7 +37,7 @@ pub enum Operation {
     Lock,
 }
 
-/// What goes wrong.
+/// How an operation fails.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
     /// An error of this kind.
