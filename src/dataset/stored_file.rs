@@ -153,7 +153,7 @@ mod tests {
     use super::*;
     use std::sync::atomic::{AtomicUsize, Ordering};
 
-    /// Memory that is read in pieces of some bytes, of which every other read is interrupted.
+    /// Memory that is read in pieces of some bytes; every other read is interrupted.
     #[derive(Debug)]
     struct Memory {
         bytes: Vec<u8>,

@@ -281,7 +281,7 @@ pub fn contents(root: &Path) -> BTreeMap<String, Vec<u8>> {
     found
 }
 
-/// `samples` samples, of which 256 are a part; few columns, since the work is done a thousand times.
+/// `samples` samples in parts of 256; few columns, since the work is done a thousand times.
 pub fn plan(samples: u64) -> Plan {
     let overrides = Overrides { samples: Some(samples), ..Overrides::default() };
     let observed = "points = 11\ngroups = [\"energy_conservation\"]\n";
