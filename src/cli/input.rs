@@ -53,7 +53,7 @@ pub fn plan_in(root: &Path, found: &Found) -> Result<(Plan, FilesRead), Failure>
     let path = root.join(PLAN);
     let remedy = "the campaign's command with its file writes it again";
     if found.plan.is_empty() {
-        return Err(Failure::Files(format!("{}: is missing, or no text; {remedy}", path.display())));
+        return Err(Failure::Files(format!("{}: is missing, or no text file; {remedy}", path.display())));
     }
     Plan::from_text_of(&path, &found.plan, Overrides::default()).map_err(|error| {
         Failure::Files(format!("{}: cannot be used; {remedy}\n{}", path.display(), error.with_excerpts()))
