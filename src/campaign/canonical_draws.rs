@@ -8,6 +8,7 @@ use crate::scene::Parameter;
 pub(super) fn dispersion_lines(dispersion: &Dispersion, lines: &mut Lines) {
     lines.table("[[disperse]]");
     match dispersion.component {
+        _ if !dispersion.distribution.columns().is_empty() => {}
         Some(component) => lines.key("parameter", dispersion.parameter.component_name(component)),
         None => lines.key("parameter", dispersion.parameter.name()),
     }

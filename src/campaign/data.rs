@@ -1,5 +1,5 @@
-//! [`DataFile`]: named columns of numbers in a CSV or Parquet file that a campaign names: values of an empirical distribution, rows of a
-//! table of samples.
+//! [`DataFile`]: named columns of numbers in a CSV or Parquet file that a campaign names: values of an empirical distribution, rows that
+//! are drawn or are a table of samples.
 //!
 //! A path counts from the folder of the campaign file. What a plan keeps of a file is its name and the SHA-256 of its bytes,
 //! so that a plan's identity includes its data.

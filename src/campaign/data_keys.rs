@@ -1,10 +1,11 @@
-//! The keys that name a file of numbers: `file`, `sha256`, `column`, `parameters`.
+//! The keys that name a file of numbers: `file`, `sha256`, `column`, `parameters`, `columns`.
 
 use super::data::{COPIES, DataFile, copy_name};
 use super::parameter::{named, unknown_parameter};
 use super::problem::nearest;
 use super::section::Section;
 use crate::sampling::DataColumn;
+use crate::scene::Parameter;
 use std::path::{Path, PathBuf};
 
 /// The column `column` of the file `file`.
@@ -25,7 +26,7 @@ pub(super) fn column(table: &mut Section<'_, '_>) -> Option<DataColumn> {
             return None;
         }
     };
-    Some(DataColumn { file, sha256: data.sha256, column, values })
+    Some(DataColumn { file, sha256: data.sha256, column, target: None, values })
 }
 
 /// The message about a column that a file does not have.
@@ -69,16 +70,23 @@ fn found(folder: &Path, name: &str, sha256: Option<&str>) -> PathBuf {
     copy.filter(|copy| !path.exists() && copy.is_file()).unwrap_or(path)
 }
 
-/// The columns of a file that are parameters: those that are listed, else all but `sample_id`.
+/// The columns of a file that are parameters: those that are listed, else all but `sample_id`; under names of their own, if `columns`
+/// lists these.
 pub(super) fn columns(table: &mut Section<'_, '_>) -> Option<Vec<DataColumn>> {
     let listed = table.texts("parameters", "[\"wheels.w1.radius_m\"]");
+    let own = table.texts("columns", "[\"radius\"]");
+    let read = file(table);
     if table.has("parameters") && listed.as_ref().is_none_or(Vec::is_empty) {
         if listed.is_some() {
             table.refuse("parameters", "at least one name", "leave the key out for all columns of the file");
         }
         return None;
     }
-    let (name, data) = file(table)?;
+    if table.has("columns") {
+        table.require("parameters", "given together with columns", "[\"wheels.w1.radius_m\"]");
+        own.as_ref().zip(listed.as_ref())?;
+    }
+    let (name, data) = read?;
     let names = listed.unwrap_or_else(|| data.names.iter().filter(|name| *name != "sample_id").cloned().collect());
     if names.is_empty() {
         table.refuse(
@@ -88,34 +96,62 @@ pub(super) fn columns(table: &mut Section<'_, '_>) -> Option<Vec<DataColumn>> {
         );
         return None;
     }
-    let mut columns = Vec::with_capacity(names.len());
+    let mut targets = Vec::with_capacity(names.len());
     for parameter in names {
-        columns.push(parameter_column(table, &name, &data, &parameter)?);
+        targets.extend(components(table, &parameter)?);
+    }
+    if let Some(own) = own.as_ref().filter(|own| own.len() != targets.len()) {
+        let (value, count) = (format!("{} names", own.len()), targets.len());
+        let remedy = "write one for each number, in the order of parameters; a vector or an attitude has several";
+        table.refuse_value("columns", value, format!("{count}, as there are numbers in parameters"), remedy);
+        return None;
+    }
+    let mut columns = Vec::with_capacity(targets.len());
+    for (place, (written, target)) in targets.into_iter().enumerate() {
+        let (dotted, flat) = (target.0.component_name(target.1), target.0.column_name(target.1));
+        let (key, known, column) = match own.as_ref().map(|own| own[place].clone()) {
+            Some(own) => ("columns", vec![own.clone()], own),
+            None if table.has("parameters") => ("parameters", vec![written, dotted.clone(), flat], dotted),
+            None => ("file", vec![written, dotted.clone(), flat], dotted),
+        };
+        let values = finite_column(table, &data, key, &known)?.into();
+        columns.push(DataColumn {
+            file: name.clone(),
+            sha256: data.sha256.clone(),
+            column,
+            target: Some(target),
+            values,
+        });
     }
     Some(columns)
 }
 
-/// The column of a parameter: by its dotted name, or by the name of its column in rows.
-fn parameter_column(table: &mut Section<'_, '_>, file: &str, data: &DataFile, parameter: &str) -> Option<DataColumn> {
-    let key = if table.has("parameters") { "parameters" } else { "file" };
-    let Some(component) = named(&table.document.scene, parameter) else {
-        let (allowed, remedy) = unknown_parameter(&table.document.scene, parameter);
-        table.refuse_value(key, format!("{parameter:?}"), format!("made of names, each {allowed}"), remedy);
+/// The numbers that a name means, each with a name as it was written: those of a parameter as a whole, or one.
+fn components(table: &mut Section<'_, '_>, name: &str) -> Option<Vec<(String, (Parameter, usize))>> {
+    if let Some((parameter, None)) = Parameter::find(&table.document.scene, name) {
+        return Some((0..parameter.width()).map(|k| (parameter.component_name(k), (parameter, k))).collect());
+    }
+    let Some(component) = named(&table.document.scene, name) else {
+        let key = if table.has("parameters") { "parameters" } else { "file" };
+        let (allowed, remedy) = unknown_parameter(&table.document.scene, name);
+        table.refuse_value(key, format!("{name:?}"), format!("made of names, each {allowed}"), remedy);
         return None;
     };
-    let (dotted, flat) = (component.0.component_name(component.1), component.0.column_name(component.1));
-    let found = [parameter, &dotted, &flat].into_iter().find_map(|name| data.column(name));
-    let values = match found {
-        Some(Ok(values)) => values,
+    Some(vec![(name.to_owned(), component)])
+}
+
+/// The numbers of the column that has one of the names `known`; the first of them is told where there is none.
+fn finite_column(table: &mut Section<'_, '_>, data: &DataFile, key: &str, known: &[String]) -> Option<Vec<f64>> {
+    match known.iter().find_map(|name| data.column(name)) {
+        Some(Ok(values)) => Some(values),
         Some(Err((value, allowed, remedy))) => {
             table.refuse_value("file", value, allowed, remedy);
-            return None;
+            None
         }
         None => {
-            let (allowed, remedy) = absent_column(parameter, data);
-            table.refuse_value(key, format!("{parameter:?}"), allowed, remedy);
-            return None;
+            let (allowed, remedy) = absent_column(&known[0], data);
+            table.refuse_value(key, format!("{:?}", known[0]), allowed, remedy);
+            None
         }
-    };
-    Some(DataColumn { file: file.to_owned(), sha256: data.sha256.clone(), column: dotted, values: values.into() })
+    }
 }

@@ -9,6 +9,9 @@ use crate::sampling::{Dispersion, WrittenDistribution};
 
 /// Reads one table; `None` where something is wrong, which is then noted.
 pub fn read(table: &mut Section<'_, '_>) -> Option<Dispersion> {
+    if table.is_name_of("distribution", &WrittenDistribution::naming_parameters()) {
+        return of_named_parameters(table);
+    }
     let target = parameter(table, "parameter");
     // where the name is wrong, that is told; nobody can say which units were meant
     table.describes(target.map_or(units::UNKNOWN, |(parameter, _)| parameter.unit()));
@@ -19,4 +22,19 @@ pub fn read(table: &mut Section<'_, '_>) -> Option<Dispersion> {
     }
     let ((parameter, component), distribution) = target.zip(distribution)?;
     Some(Dispersion { parameter, component, distribution })
+}
+
+/// One table with a distribution that names its parameters itself.
+fn of_named_parameters(table: &mut Section<'_, '_>) -> Option<Dispersion> {
+    if table.has("parameter") {
+        let remedy = "write parameters = [\"initial.angular_velocity_rad_s\"] in its place, with all that a row gives";
+        table.know("parameter");
+        table.refuse("parameter", "left out with a distribution of several parameters", remedy);
+    }
+    table.describes(units::UNKNOWN);
+    let distribution = WrittenDistribution::read(table);
+    table.finish();
+    let distribution = distribution?;
+    let (parameter, component) = distribution.columns().first()?.target?;
+    Some(Dispersion { parameter, component: Some(component), distribution })
 }

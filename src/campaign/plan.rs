@@ -19,7 +19,7 @@ use crate::ode::Tolerance;
 use crate::propagation::Method;
 use crate::run::Grid;
 use crate::sampling::{Correlation, Derivation, Design, Dispersion, Dispersions, Draws, Table};
-use crate::scene::{Scene, SceneInput};
+use crate::scene::{Parameter, Scene, SceneInput};
 use std::path::{Path, PathBuf};
 
 /// What will run.
@@ -384,20 +384,18 @@ fn refuse_after_the_end(duration: Option<f64>, scene: &SceneInput, drawn: &Drawn
     within.actuation.retain(|arc| arc.start_s < duration);
     let inputs: Vec<_> = drawn.derived.1.iter().flat_map(|derivation| derivation.inputs(scene)).collect();
     for (index, dispersion) in drawn.dispersed.1.iter().enumerate() {
-        let components =
-            dispersion.component.map_or(0..dispersion.parameter.width(), |component| component..component + 1);
-        let is_late = |component: &usize| {
-            let target = (dispersion.parameter, *component);
-            let is_in = |scene| dispersion.parameter.exists(scene, *component);
-            is_in(scene) && !is_in(&within) && !inputs.contains(&target)
+        let is_late = |target: &(Parameter, usize)| {
+            let is_in = |scene| target.0.exists(scene, target.1);
+            is_in(scene) && !is_in(&within) && !inputs.contains(target)
         };
-        if let Some(late) = components.into_iter().find(is_late) {
-            let value = format!("{:?}", dispersion.parameter.component_name(late));
+        if let Some((parameter, component)) = dispersion.components().into_iter().find(is_late) {
+            let value = format!("{:?}", parameter.component_name(component));
             let allowed = format!(
                 "a key with an effect before campaign.duration_s ({duration:?}): the arcs that it acts on start later"
             );
             let remedy = "let an arc start earlier, or delete this table";
-            document.add(&drawn.path(Table::Disperse(index), "parameter"), Some(value), allowed, remedy);
+            let key = if dispersion.distribution.columns().is_empty() { "parameter" } else { "parameters" };
+            document.add(&drawn.path(Table::Disperse(index), key), Some(value), allowed, remedy);
         }
     }
 }

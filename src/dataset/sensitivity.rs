@@ -302,8 +302,9 @@ fn factor_names(plan: &Plan) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for (factor, dimension) in plan.dispersions.factors().into_iter().zip(plan.dispersions.dimensions()) {
         if factor == names.len() {
-            let name = dimension.rsplit_once('/').map_or(dimension.as_str(), |(name, _)| name);
-            names.push(name.to_owned());
+            // a number counts the dimensions of a distribution; "row" is that of a bootstrap of several parameters
+            let numbered = dimension.rsplit_once('/').filter(|(_, last)| last.parse::<usize>().is_ok());
+            names.push(numbered.map_or(dimension.as_str(), |(name, _)| name).to_owned());
         }
     }
     names

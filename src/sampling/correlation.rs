@@ -341,7 +341,7 @@ impl Correlation {
 }
 
 /// The components of a parameter, or the one that is meant.
-fn components_of((parameter, component): &(Parameter, Option<usize>)) -> Vec<(Parameter, usize)> {
+pub(super) fn components_of((parameter, component): &(Parameter, Option<usize>)) -> Vec<(Parameter, usize)> {
     match component {
         Some(component) => vec![(*parameter, *component)],
         None => (0..parameter.width()).map(|component| (*parameter, component)).collect(),

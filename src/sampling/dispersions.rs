@@ -3,7 +3,7 @@
 
 use super::columns::{Column, Columns};
 use super::copula::Copula;
-use super::correlation::{Correlation, Replaced, copulas};
+use super::correlation::{Correlation, Replaced, components_of, copulas};
 use super::derivation::{Derivation, Derived, derived};
 use super::design::{Design, Dimensions, MAX_SAMPLES, Points, Size};
 use super::distribution::target::{JointTarget, Target};
@@ -17,12 +17,22 @@ use std::sync::Arc;
 /// What a campaign says about one parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Dispersion {
-    /// The parameter.
+    /// The parameter; the first one of a distribution that names its parameters itself.
     pub parameter: Parameter,
     /// The component that is meant, if not all are.
     pub component: Option<usize>,
     /// The distribution of its components: of each alone, or of all together.
     pub distribution: WrittenDistribution,
+}
+
+impl Dispersion {
+    /// The components that it writes.
+    pub fn components(&self) -> Vec<(Parameter, usize)> {
+        match self.distribution.columns() {
+            [] => components_of(&(self.parameter, self.component)),
+            columns => columns.iter().filter_map(|column| column.target).collect(),
+        }
+    }
 }
 
 /// A distribution with the numbers u that it takes, and the columns that it writes.
@@ -226,13 +236,9 @@ impl Dispersions {
     /// A parameter that is a column of the design's file.
     fn add_tabled(&mut self, data: &DataColumn, nominal: &SceneInput) -> Result<(), DispersionError> {
         let refused = |allowed: &str, remedy: &str| {
-            Err(error_of(Table::Design, "parameters", format!("{:?}", data.column), allowed, remedy))
+            Err(error_of(Table::Design, "parameters", format!("{:?}", data.target_name()), allowed, remedy))
         };
-        let target = Parameter::find(nominal, &data.column).and_then(|(parameter, component)| match component {
-            Some(component) => Some((parameter, component)),
-            None => (parameter.width() == 1).then_some((parameter, 0)),
-        });
-        let Some((parameter, component)) = target else {
+        let Some((parameter, component)) = data.target else {
             return refused("the name of one number of scene or initial state", "write it as initial.position_m.x");
         };
         if !parameter.exists(nominal, component) {
@@ -245,83 +251,77 @@ impl Dispersions {
         if self.columns.find((parameter, component)).is_some_and(is_taken) {
             return refused("given a value once", "name it once; the file may have it under two names");
         }
-        if parameter.shape() == Shape::Quaternion {
-            (0..parameter.width()).for_each(|component| {
-                self.columns.add(parameter, component, nominal);
-            });
-        }
-        let column = self.columns.add(parameter, component, nominal);
+        let column = self.add_column((parameter, component), nominal);
         self.tabled.push((column, data.values.clone()));
         Ok(())
     }
 
     fn add(&mut self, index: usize, dispersion: &Dispersion, nominal: &SceneInput) -> Result<(), DispersionError> {
-        let parameter = dispersion.parameter;
-        let components: Vec<usize> = match dispersion.component {
-            Some(component) => vec![component],
-            None => (0..parameter.width()).collect(),
-        };
-        self.check_components(index, parameter, &components, nominal)?;
-        let nominals: Vec<f64> = components.iter().filter_map(|c| parameter.value(nominal, *c)).collect();
+        let Dispersion { parameter, component, distribution } = dispersion;
+        let components = dispersion.components();
+        self.check_components(index, dispersion, &components, nominal)?;
+        let nominals: Vec<f64> = components.iter().filter_map(|(p, c)| p.value(nominal, *c)).collect();
         let target = Target { index, nominals: &nominals };
-        let maps: Vec<(Vec<usize>, Transform)> = match dispersion.distribution.distributions(&target)? {
+        let maps: Vec<(Vec<(Parameter, usize)>, Transform)> = match distribution.distributions(&target)? {
             Some(list) => components.iter().zip(list).map(|(c, one)| (vec![*c], Transform::Scalar(one))).collect(),
             None => {
-                let component = dispersion.component;
-                let target = JointTarget { index, parameter, component, nominals: &nominals };
-                let joint = dispersion.distribution.joint(&target)?;
+                let target = JointTarget { index, parameter: *parameter, component: *component, nominals: &nominals };
+                let joint = distribution.joint(&target)?;
                 joint.map(|joint| (components, Transform::Joint(joint))).into_iter().collect()
             }
         };
-        // a quaternion is normalised as a whole: all of it is recorded
+        for (components, map) in maps {
+            let first = self.dimensions.len();
+            match &map {
+                Transform::Scalar(distribution) if distribution.dimensions() == 0 => {}
+                Transform::Scalar(_) => self.dimensions.push(components[0].0.component_name(components[0].1)),
+                Transform::Joint(joint) => {
+                    let drawn = component.map_or_else(|| parameter.name(), |c| parameter.component_name(c));
+                    let name = |k: usize| format!("{drawn}/{}", joint.dimension_name(k));
+                    self.dimensions.extend((0..joint.dimensions()).map(name));
+                }
+            }
+            let columns = components.iter().map(|component| self.add_column(*component, nominal)).collect();
+            self.assigned.push(Assigned { first, columns, map });
+        }
+        Ok(())
+    }
+
+    /// The column of a component; a quaternion is normalised as a whole, and all of it is recorded.
+    fn add_column(&mut self, (parameter, component): (Parameter, usize), nominal: &SceneInput) -> usize {
         if parameter.shape() == Shape::Quaternion {
             (0..parameter.width()).for_each(|component| {
                 self.columns.add(parameter, component, nominal);
             });
         }
-        for (components, map) in maps {
-            let first = self.dimensions.len();
-            match &map {
-                Transform::Scalar(distribution) if distribution.dimensions() == 0 => {}
-                Transform::Scalar(_) => self.dimensions.push(parameter.component_name(components[0])),
-                Transform::Joint(joint) => {
-                    let name = |k: usize| format!("{}/{}", parameter.name(), k + 1);
-                    self.dimensions.extend((0..joint.dimensions()).map(name));
-                }
-            }
-            let columns = components.iter().map(|component| self.columns.add(parameter, *component, nominal)).collect();
-            self.assigned.push(Assigned { first, columns, map });
-        }
-        Ok(())
+        self.columns.add(parameter, component, nominal)
     }
 
     /// That the components exist and no distribution writes them yet.
     fn check_components(
         &self,
         index: usize,
-        parameter: Parameter,
-        components: &[usize],
+        dispersion: &Dispersion,
+        components: &[(Parameter, usize)],
         nominal: &SceneInput,
     ) -> Result<(), DispersionError> {
-        let refused = |component: usize, allowed: &str, remedy: &str| {
-            Err(error(index, "parameter", format!("{:?}", parameter.component_name(component)), allowed, remedy))
+        let key = if dispersion.distribution.columns().is_empty() { "parameter" } else { "parameters" };
+        let refused = |(parameter, component): (Parameter, usize), allowed: &str, remedy: &str| {
+            Err(error(index, key, format!("{:?}", parameter.component_name(component)), allowed, remedy))
         };
         // what has no effect of its own may be an input of a derived parameter
-        let is_used = |component: usize| {
+        let is_used = |(parameter, component): (Parameter, usize)| {
             parameter.exists(nominal, component)
                 || parameter.value(nominal, component).is_some() && self.inputs.contains(&(parameter, component))
         };
         if let Some(missing) = components.iter().find(|component| !is_used(**component)) {
-            return refused(*missing, "a key that the scene has", parameter.remedy());
+            return refused(*missing, "a key that the scene has", missing.0.remedy());
         }
-        let taken = |component: &&usize| {
-            let same = |column: &usize| {
-                let column = &self.columns()[*column];
-                (column.parameter, column.component) == (parameter, **component)
-            };
-            self.assigned.iter().any(|assigned| assigned.columns.iter().any(same))
-        };
-        match components.iter().find(taken) {
+        let mut listed = components.iter().enumerate();
+        if let Some((_, twice)) = listed.find(|(place, component)| components[..*place].contains(component)) {
+            return refused(*twice, "named once", "take it out of the list, where it is twice");
+        }
+        match components.iter().find(|component| self.distribution_at(**component).is_some()) {
             Some(twice) => refused(
                 *twice,
                 "dispersed once",

@@ -2,6 +2,7 @@
 //!
 //! Campaign files implement both; so a distribution or a design needs no code outside its own file and the list.
 
+use crate::scene::Parameter;
 use std::sync::Arc;
 
 /// One number for all components, or one for each.
@@ -39,10 +40,19 @@ pub struct DataColumn {
     pub file: String,
     /// SHA-256 of the file's bytes, hexadecimal.
     pub sha256: String,
-    /// The column's name.
+    /// The column's name; the name of the number that it is for, where the two are one.
     pub column: String,
+    /// The number of the scene that it is for, where its table names several.
+    pub target: Option<(Parameter, usize)>,
     /// Its numbers, in the order of the file.
     pub values: Arc<[f64]>,
+}
+
+impl DataColumn {
+    /// The name of the number that it is for.
+    pub fn target_name(&self) -> String {
+        self.target.map_or_else(|| self.column.clone(), |(parameter, component)| parameter.component_name(component))
+    }
 }
 
 /// A table of a campaign file while it is read. A value that is wrong is noted and read as `None`, as one that is not written;
@@ -74,7 +84,7 @@ pub trait KeyReader {
     fn kind(&mut self, key: &'static str, names: &[&'static str], example: &str) -> Option<&'static str>;
     /// The column `column` of the file `file`.
     fn column(&mut self) -> Option<DataColumn>;
-    /// The columns of the file `file` that are parameters: those in `parameters`, else all.
+    /// The columns of the file `file` that are parameters: those in `parameters`, else all; where `columns` names them, under these names.
     fn columns(&mut self) -> Option<Vec<DataColumn>>;
 }
 
@@ -152,6 +162,19 @@ impl dyn KeyWriter + '_ {
     pub fn optional(&mut self, key: &str, values: Option<&Values>) {
         if let Some(values) = values {
             self.values(key, values);
+        }
+    }
+
+    /// Columns of one file, each for one number of the scene.
+    pub fn columns(&mut self, columns: &[DataColumn]) {
+        let Some(first) = columns.first() else { return };
+        self.key("file", &first.file);
+        self.key("sha256", &first.sha256);
+        let names: Vec<String> = columns.iter().map(DataColumn::target_name).collect();
+        let own: Vec<&str> = columns.iter().map(|column| column.column.as_str()).collect();
+        self.key("parameters", &names);
+        if names != own {
+            self.key("columns", &own);
         }
     }
 

@@ -6,7 +6,7 @@
 use super::columns::Column;
 use super::design::{BLOCK, PointSource, Points};
 use super::dispersions::{Assigned, Dispersions, Transform};
-use super::distribution::traits::{MAX_COMPONENTS, MAX_DIMENSIONS};
+use super::distribution::traits::MAX_DIMENSIONS;
 use super::distribution::{Joint, Map, Quantile};
 use super::stream::SampleId;
 use crate::scene::parameter::Shape;
@@ -29,9 +29,11 @@ pub struct Sampler<'a> {
     correlated: Vec<bool>,
     /// Values of the block, column by column.
     values: Vec<[f64; BLOCK]>,
+    /// The values of one draw of a distribution of several numbers.
+    together: Vec<f64>,
     /// Parameters that are normalised as a whole once they are written.
     normalised: Vec<Parameter>,
-    /// Those of them that a table gives as a whole: recorded values keep their bits.
+    /// Those of them that a file gives as a whole: recorded values keep their bits.
     recorded: Vec<Parameter>,
 }
 
@@ -54,6 +56,7 @@ impl<'a> Sampler<'a> {
             correlated: correlated(dispersions),
             // columns that no distribution writes keep their nominal
             values: dispersions.columns().iter().map(|column| [column.nominal; BLOCK]).collect(),
+            together: vec![0.0; most_together(dispersions)],
             normalised: normalised(dispersions),
             recorded: recorded(dispersions),
         }
@@ -149,14 +152,14 @@ impl<'a> Sampler<'a> {
 
     fn draw_joint(&mut self, assigned: &Assigned, joint: &Joint) {
         let dimensions = joint.dimensions();
-        let (mut u, mut values) = ([0.0; MAX_DIMENSIONS], [0.0; MAX_COMPONENTS]);
+        let mut u = [0.0; MAX_DIMENSIONS];
         for lane in 0..BLOCK {
             for (u, block) in u.iter_mut().zip(&self.u[assigned.first..assigned.first + dimensions]) {
                 *u = block[lane];
             }
-            joint.values(&u[..dimensions], &mut values);
-            for (column, value) in assigned.columns.iter().zip(values) {
-                self.values[*column][lane] = value;
+            joint.values(&u[..dimensions], &mut self.together);
+            for (column, value) in assigned.columns.iter().zip(&self.together) {
+                self.values[*column][lane] = *value;
             }
         }
     }
@@ -200,9 +203,16 @@ fn correlated(dispersions: &Dispersions) -> Vec<bool> {
     correlated
 }
 
-/// The quaternions all of whose numbers are in a table.
+/// Largest number of values of one draw.
+fn most_together(dispersions: &Dispersions) -> usize {
+    dispersions.assigned.iter().map(|assigned| assigned.columns.len()).max().unwrap_or(0)
+}
+
+/// The quaternions all of whose numbers are in a file.
 fn recorded(dispersions: &Dispersions) -> Vec<Parameter> {
-    let tabled = dispersions.columns().iter().enumerate().filter(|(index, _)| dispersions.is_tabled(*index));
+    let is_row = |column| matches!(dispersions.distribution_of(column), Some(Transform::Joint(Joint::Bootstrap(_))));
+    let tabled = dispersions.columns().iter().enumerate();
+    let tabled = tabled.filter(|(index, _)| dispersions.is_tabled(*index) || is_row(*index));
     let numbers: Vec<Parameter> = tabled.map(|(_, column)| column.parameter).collect();
     let is_whole =
         |parameter: &Parameter| numbers.iter().filter(|other| *other == parameter).count() == parameter.width();

@@ -290,7 +290,7 @@ pub const CASES: &[(&str, &str, &str)] = &[
     (
         "\"truncated_normal\"",
         "\"gaussian\"",
-        "bad.toml:43: disperse[0].distribution = \"gaussian\": must be one of normal, truncated_normal, uniform, log_normal, log_uniform, triangular, beta, pert, choice, bernoulli, empirical, offset, rayleigh, exponential, gamma, weibull, student_t, uniform_attitude, uniform_direction, cone, von_mises_fisher, attitude_error, about_axis; choose one of these",
+        "bad.toml:43: disperse[0].distribution = \"gaussian\": must be one of normal, truncated_normal, uniform, log_normal, log_uniform, triangular, beta, pert, choice, bernoulli, empirical, offset, rayleigh, exponential, gamma, weibull, student_t, uniform_attitude, uniform_direction, cone, von_mises_fisher, attitude_error, about_axis, bootstrap; choose one of these",
     ),
     (
         "\"truncated_normal\"",

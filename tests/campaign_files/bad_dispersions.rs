@@ -42,6 +42,13 @@ macro_rules! pair {
     };
 }
 
+/// A table with rows of a file.
+macro_rules! rows {
+    ($rest:literal) => {
+        concat!("[[disperse]]\ndistribution = \"bootstrap\"\n", $rest, "\n")
+    };
+}
+
 const CASES: &[&str] = &[
     // the table itself
     "[disperse]\nparameter = \"body.parts.fuselage.density_kg_m3\"\n",
@@ -116,6 +123,39 @@ const CASES: &[&str] = &[
     density!("distribution = \"empirical\"\nfile = \"data.csv\"\ncolumn = \"density\"\ninterpolation = \"cubic\""),
     density!("distribution = \"empirical\"\nfile = \"empty.csv\"\ncolumn = \"density\""),
     density!("distribution = \"empirical\"\nfile = \"ragged.csv\"\ncolumn = \"density\""),
+    // rows of a file
+    rows!(""),
+    rows!("file = \"data.csv\""),
+    rows!("file = \"empty.csv\"\nparameters = [\"wheels.w1.radius_m\"]\ncolumns = [\"density\"]"),
+    rows!("file = \"ragged.csv\"\nparameters = [\"wheels.w1.radius_m\"]\ncolumns = [\"density\"]"),
+    rows!("file = \"data.csv\"\nparameters = []"),
+    rows!("file = \"data.csv\"\nparameters = [\"wheels.w1.radius_m\", \"wheels.w1.length_m\"]"),
+    rows!("file = \"data.csv\"\nparameters = [\"wheels.w1.radius_m\", \"wheels.w2.radius_m\"]"),
+    rows!(
+        "file = \"data.csv\"\nparameters = [\"wheels.w1.radius_m\", \"body.mass_kg\"]\ncolumns = [\"density\", \"density\"]"
+    ),
+    rows!("file = \"data.csv\"\nparameters = [\"wheels.w1.radius_m\", \"wheels.w1.radius_m\"]"),
+    rows!("file = \"data.csv\"\nparameters = [\"wheels.w1.radius_m\"]\nsha256 = \"00\""),
+    rows!("file = \"data.csv\"\nparameters = [\"wheels.w1.radius_m\"]\ninterpolation = \"linear\""),
+    rows!("file = \"data.csv\"\nparameter = \"wheels.w1.radius_m\"\nparameters = [\"wheels.w1.radius_m\"]"),
+    rows!("file = \"data.csv\"\ncolumns = [\"density\"]"),
+    rows!("file = \"data.csv\"\nparameters = [\"wheels.w1.radius_m\"]\ncolumns = [\"densty\"]"),
+    rows!("file = \"data.csv\"\nparameters = [\"wheels.w1.radius_m\"]\ncolumns = [\"name\"]"),
+    rows!("file = \"data.csv\"\nparameters = [\"wheels.w1.radius_m\"]\ncolumns = [\"infinite\"]"),
+    rows!("file = \"data.csv\"\nparameters = [\"initial.angular_velocity_rad_s\"]\ncolumns = [\"density\"]"),
+    concat!(rows!("file = \"data.csv\"\nparameters = [\"wheels.w1.radius_m\"]"), pair!("")),
+    concat!(pair!(""), rows!("file = \"data.csv\"\nparameters = [\"wheels.w1.radius_m\"]")),
+    concat!(
+        rows!("file = \"data.csv\"\nparameters = [\"wheels.w1.radius_m\"]"),
+        "[design]\nkind = \"table\"\nfile = \"data.csv\"\nparameters = [\"wheels.w1.radius_m\"]\n"
+    ),
+    concat!(
+        rows!(
+            "file = \"data.csv\"\nparameters = [\"wheels.w1.radius_m\", \"wheels.w1.length_m\"]\ncolumns = [\"density\", \"density\"]"
+        ),
+        "[[correlate]]\nparameters = [\"wheels.w1.radius_m\", \"wheels.w1.length_m\"]\ncorrelation = 0.5\n"
+    ),
+    "[[disperse]]\nparameter = \"initial.angular_velocity_rad_s\"\ndistribution = \"uniform_direction\"\nmagnitude = { distribution = \"bootstrap\", file = \"data.csv\", parameters = [\"wheels.w1.radius_m\"] }\n",
     // attitude
     density!("distribution = \"uniform_attitude\""),
     "[[disperse]]\nparameter = \"initial.attitude.w\"\ndistribution = \"uniform_attitude\"\n",
@@ -228,7 +268,10 @@ fn folder() -> std::path::PathBuf {
     let folder = std::env::temp_dir().join(format!("spindrift-bad-{}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("a folder");
     for (name, text) in [
-        ("data.csv", "density,name,wheels.w1.radius_m,wheels.w2.radius_m\n2600,a,0.25,0.25\n2700,b,0.26,0.26\n"),
+        (
+            "data.csv",
+            "density,name,wheels.w1.radius_m,wheels.w2.radius_m,infinite\n2600,a,0.25,0.25,1\n2700,b,0.26,0.26,inf\n",
+        ),
         ("data.txt", "density\n2600\n"),
         ("empty.csv", "density\n"),
         ("ragged.csv", "density,name\n1,2,3\n"),

@@ -169,5 +169,6 @@ pub fn distributions() -> Vec<(&'static str, String)> {
         ["uniform_direction", "cone", "von_mises_fisher"].map(|name| (name, table("thrusters.p1.direction", name)));
     let attitudes =
         ["uniform_attitude", "attitude_error", "about_axis"].map(|name| (name, table("initial.attitude", name)));
-    scalar.into_iter().chain(directions).chain(attitudes).collect()
+    let rows = ("bootstrap", "\n[[disperse]]\ndistribution = \"bootstrap\"\n".to_owned());
+    scalar.into_iter().chain(directions).chain(attitudes).chain([rows]).collect()
 }

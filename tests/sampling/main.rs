@@ -3,6 +3,7 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod bootstrap;
 mod coverage;
 mod dependence;
 mod designs;

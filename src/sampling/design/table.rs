@@ -18,11 +18,7 @@ impl Kind for TableDesign {
     }
 
     fn write(&self, keys: &mut dyn KeyWriter) {
-        if let Some(column) = self.0.first() {
-            keys.key("file", &column.file);
-            keys.key("sha256", &column.sha256);
-        }
-        keys.key("parameters", &self.0.iter().map(|column| column.column.as_str()).collect::<Vec<_>>());
+        keys.columns(&self.0);
     }
 
     fn size(&self, _dimensions: usize) -> Size {

@@ -41,6 +41,20 @@ macro_rules! distributions {
                 None
             }
 
+            /// The names of those that name their parameters themselves, in place of the key `parameter`.
+            pub fn naming_parameters() -> Vec<&'static str> {
+                let list = [$((<$Together as Together>::NAME, <$Together as Together>::NAMES_PARAMETERS),)*];
+                list.into_iter().filter(|(_, names)| *names).map(|(name, _)| name).collect()
+            }
+
+            /// The columns of a file that it writes to parameters, of a distribution that names them itself.
+            pub fn columns(&self) -> &[DataColumn] {
+                match self {
+                    $( Self::$Scalar(_) => &[], )*
+                    $( Self::$Name(written) => written.columns(), )*
+                }
+            }
+
             /// Writes its name and its keys.
             pub fn write(&self, keys: &mut dyn KeyWriter) {
                 keys.key("distribution", &self.name());
@@ -130,6 +144,10 @@ macro_rules! distributions {
         impl Map for Joint {
             fn dimensions(&self) -> usize {
                 match self { $( Self::$Name(map) => map.dimensions(), )* }
+            }
+
+            fn dimension_name(&self, dimension: usize) -> String {
+                match self { $( Self::$Name(map) => map.dimension_name(dimension), )* }
             }
 
             fn components(&self) -> usize {

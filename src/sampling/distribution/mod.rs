@@ -12,6 +12,7 @@ pub mod about_axis;
 pub mod attitude_error;
 pub mod bernoulli;
 pub mod beta;
+pub mod bootstrap;
 pub mod choice;
 pub mod direction;
 pub mod empirical;
@@ -40,6 +41,7 @@ use self::about_axis::AboutAxis;
 use self::attitude_error::AttitudeError;
 use self::bernoulli::Bernoulli;
 use self::beta::Beta;
+use self::bootstrap::Bootstrap;
 use self::choice::Choice;
 use self::direction::{Cone, UniformDirection, VonMisesFisher};
 use self::empirical::Empirical;
@@ -59,7 +61,7 @@ use self::uniform::Uniform;
 use self::uniform_attitude::UniformAttitude;
 use self::weibull::Weibull;
 use crate::sampling::error::{DispersionError, error};
-use crate::sampling::keys::{KeyReader, KeyWriter};
+use crate::sampling::keys::{DataColumn, KeyReader, KeyWriter};
 
 enumerations::distributions! {
     one number:
@@ -72,6 +74,7 @@ enumerations::distributions! {
         VonMisesFisher = VonMisesFisher<WrittenDistribution>,
         AttitudeError = AttitudeError,
         AboutAxis = AboutAxis<WrittenDistribution>,
+        Bootstrap = Bootstrap,
 }
 
 impl WrittenDistribution {

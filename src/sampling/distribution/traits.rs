@@ -2,7 +2,7 @@
 
 use super::target::{JointTarget, Target};
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{KeyReader, KeyWriter};
+use crate::sampling::keys::{DataColumn, KeyReader, KeyWriter};
 use std::fmt::Debug;
 
 /// A distribution of one number, as written; of a parameter with components, each has it.
@@ -74,10 +74,12 @@ pub trait Quantile: Clone + Debug + PartialEq {
     fn text(&self, short: &dyn Fn(f64) -> String) -> String;
 }
 
-/// A distribution of all components of a vector or an attitude together, as written.
+/// A distribution of all components of a vector or an attitude together, or of the numbers that it names itself, as written.
 pub trait Together: Clone + Debug + PartialEq {
     /// The name in campaign files.
     const NAME: &'static str;
+    /// Whether it names its parameters itself ([`Together::columns`]), in place of the key `parameter`.
+    const NAMES_PARAMETERS: bool = false;
     /// What it becomes.
     type Map: Map;
 
@@ -86,6 +88,11 @@ pub trait Together: Clone + Debug + PartialEq {
 
     /// Writes its keys.
     fn write(&self, keys: &mut dyn KeyWriter);
+
+    /// The columns of a file, each for one number of the scene, of a distribution that names its parameters itself.
+    fn columns(&self) -> &[DataColumn] {
+        &[]
+    }
 
     /// The map to be drawn.
     ///
@@ -99,7 +106,12 @@ pub trait Map: Clone + Debug + PartialEq {
     /// Number of u that a draw takes, at most [`MAX_DIMENSIONS`].
     fn dimensions(&self) -> usize;
 
-    /// Number of values that a draw gives, at most [`MAX_COMPONENTS`].
+    /// What a dimension is called after the name of what is drawn.
+    fn dimension_name(&self, dimension: usize) -> String {
+        (dimension + 1).to_string()
+    }
+
+    /// Number of values that a draw gives.
     fn components(&self) -> usize;
 
     /// The values for `u` ([`Map::dimensions`] numbers), into the first [`Map::components`] of `values`.
@@ -111,8 +123,6 @@ pub trait Map: Clone + Debug + PartialEq {
 
 /// Largest number of u of one distribution.
 pub const MAX_DIMENSIONS: usize = 8;
-/// Largest number of components that one distribution writes.
-pub const MAX_COMPONENTS: usize = 16;
 
 /// A distribution of one number within another, as written: of a magnitude, of an angle. The list of distributions is one.
 pub trait Nested: Clone + Debug + PartialEq {

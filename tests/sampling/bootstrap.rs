@@ -1,0 +1,290 @@
+//! Rows of a file drawn together (`distribution = "bootstrap"`): every draw is a row of the file, bit for bit, each as often as the others,
+//! in every design; the joint distribution is that of the file.
+
+use crate::support::campaigns::{FUSELAGE, WHEEL1_AT_REST};
+use crate::support::scratch_folder::ScratchFolder;
+use spindrift::campaign::{Overrides, Plan, SceneDraws};
+use spindrift::sampling::SampleId;
+use std::collections::BTreeMap;
+
+const HEAD: &str = "[campaign]\nname = \"rows\"\nsamples = 4097\nseed = 11\nduration_s = 1.0\n";
+const INITIAL: &str = "[initial]\nangular_velocity_rad_s = [0, 3, 31]\n";
+const LENGTH: &str =
+    "[[disperse]]\nparameter = \"body.parts.fuselage.length_m\"\ndistribution = \"uniform\"\nhalf_width = 0.1\n";
+
+/// Rows of the file: each of them 4096/32 = 128 times, if all are equally frequent.
+const ROWS: usize = 32;
+/// Draws of each design: a power of two, so that the strata of a Latin hypercube and Sobol's intervals are parts of those of rows.
+const DRAWS: u64 = 4096;
+/// 99.9% quantile of chi-squared with 31 degrees of freedom (scipy.stats.chi2.ppf(0.999, 31)).
+const CHI_SQUARED: f64 = 61.098;
+
+/// What a user measured: lateral rates on an arc of a circle (dependent without being normal) and a position that follows them; with a
+/// column that is no number. Third digits from the row's number make every cell of a column another number.
+fn measured() -> Vec<[f64; 3]> {
+    let row = |k: usize| {
+        let angle = 0.05 * k as f64;
+        let (sine, cosine) = libm::sincos(angle);
+        [0.1 * cosine, 3.0 + 0.1 * sine, 1e-3 * k as f64 + sine / 3.0]
+    };
+    (0..ROWS).map(row).collect()
+}
+
+fn csv(rows: &[[f64; 3]]) -> String {
+    let line = |(k, [a, b, c]): (usize, &[f64; 3])| format!("{k},{a:?},{b:?},{c:?},run {k}\n");
+    format!("case,wx,wy,x,remark\n{}", rows.iter().enumerate().map(line).collect::<String>())
+}
+
+const BOOTSTRAP: &str = "[[disperse]]\ndistribution = \"bootstrap\"\nfile = \"insertion.csv\"\n\
+    parameters = [\"initial.angular_velocity_rad_s.x\", \"initial.angular_velocity_rad_s.y\", \"initial.position_m.x\"]\n\
+    columns = [\"wx\", \"wy\", \"x\"]\n";
+
+/// The three columns, each with a distribution of its own.
+fn apart() -> String {
+    let one = |(parameter, column)| {
+        format!(
+            "[[disperse]]\nparameter = \"initial.{parameter}\"\ndistribution = \"empirical\"\nfile = \"insertion.csv\"\ncolumn = \"{column}\"\n"
+        )
+    };
+    [("angular_velocity_rad_s.x", "wx"), ("angular_velocity_rad_s.y", "wy"), ("position_m.x", "x")].map(one).concat()
+}
+
+fn plan_of(scratch: &ScratchFolder, text: &str) -> Result<Plan, String> {
+    let text = [HEAD, FUSELAGE, WHEEL1_AT_REST, INITIAL, text].concat();
+    Plan::from_text_in(&scratch.0, "rows.toml", &text, Overrides::default()).map_err(|error| error.to_string())
+}
+
+fn plan(scratch: &ScratchFolder, text: &str) -> Plan {
+    plan_of(scratch, text).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// What `samples` apply to the columns called `names`.
+fn drawn<const N: usize>(plan: &Plan, names: [&str; N], samples: std::ops::Range<u64>) -> Vec<[f64; N]> {
+    let mut draws = SceneDraws::new(plan);
+    let columns = plan.dispersions.columns();
+    let place = |name: &str| {
+        let found = columns.iter().position(|column| column.parameter.component_name(column.component) == name);
+        found.unwrap_or_else(|| panic!("{name} is a column"))
+    };
+    let places = names.map(place);
+    let row = |sample| {
+        let _ = draws.scene(SampleId(sample)); // what is not physical was drawn all the same
+        places.map(|place| draws.applied()[place])
+    };
+    samples.map(row).collect()
+}
+
+const NAMES: [&str; 3] =
+    ["initial.angular_velocity_rad_s.x", "initial.angular_velocity_rad_s.y", "initial.position_m.x"];
+
+/// How often each row of the file was drawn, and how many draws are no row of it.
+fn counts(rows: &[[f64; 3]], drawn: &[[f64; 3]]) -> (Vec<u64>, usize) {
+    let bits = |row: &[f64; 3]| row.map(f64::to_bits);
+    let index: BTreeMap<[u64; 3], usize> = rows.iter().enumerate().map(|(k, row)| (bits(row), k)).collect();
+    let (mut counts, mut others) = (vec![0; rows.len()], 0);
+    for row in drawn {
+        match index.get(&bits(row)) {
+            Some(k) => counts[*k] += 1,
+            None => others += 1,
+        }
+    }
+    (counts, others)
+}
+
+fn chi_squared(counts: &[u64], draws: u64) -> f64 {
+    let expected = draws as f64 / counts.len() as f64;
+    counts.iter().map(|count| (*count as f64 - expected).powi(2) / expected).sum()
+}
+
+fn correlation(rows: &[[f64; 3]], a: usize, b: usize) -> f64 {
+    let n = rows.len() as f64;
+    let mean = |k: usize| rows.iter().map(|row| row[k]).sum::<f64>() / n;
+    let (ma, mb) = (mean(a), mean(b));
+    let product =
+        |i: usize, mi: f64, j: usize, mj: f64| rows.iter().map(|row| (row[i] - mi) * (row[j] - mj)).sum::<f64>();
+    product(a, ma, b, mb) / (product(a, ma, a, ma) * product(b, mb, b, mb)).sqrt()
+}
+
+/// Law: every draw is a row of the file, bit for bit. H0: each row is equally likely; n = 4096, seed 11, alpha = 0.001 for each design
+/// (chi-squared, 31 degrees of freedom; strata and sequences are more even than that). Where each row is drawn as often as the others,
+/// correlations are those of the file.
+#[test]
+fn every_draw_is_a_row_of_the_file_in_every_design() {
+    let scratch = ScratchFolder::new("bootstrap-designs");
+    let rows = measured();
+    scratch.file("insertion.csv", &csv(&rows));
+    for (kind, is_even) in [("random", false), ("latin_hypercube", true), ("sobol", true), ("halton", false)] {
+        let plan = plan(&scratch, &format!("[design]\nkind = {kind:?}\n{LENGTH}{BOOTSTRAP}"));
+        assert_eq!(plan.dispersions.dimensions().len(), 2, "{kind}: one dimension for the row");
+        let drawn = drawn(&plan, NAMES, 1..DRAWS + 1);
+        let (counts, others) = counts(&rows, &drawn);
+        assert_eq!(others, 0, "{kind}: draws that are no row");
+        let chi = chi_squared(&counts, DRAWS);
+        println!(
+            "{kind}: chi-squared {chi:.2}, counts {} to {}",
+            counts.iter().min().unwrap(),
+            counts.iter().max().unwrap()
+        );
+        assert!(chi < CHI_SQUARED, "{kind}: {chi}");
+        // nothing is known of the order of the draws: rows follow each other in no order of the file
+        assert!(drawn.windows(2).filter(|pair| pair[0][0] <= pair[1][0]).count() < 3 * drawn.len() / 4, "{kind}");
+        for (a, b) in [(0, 1), (0, 2), (1, 2)] {
+            let (found, asked) = (correlation(&drawn, a, b), correlation(&rows, a, b));
+            assert!(asked.abs() > 0.8, "columns that depend on each other: {asked}");
+            // equal counts: rounding of 4096 additions; else three standard errors (1 - r^2)/sqrt(n) of a correlation of
+            // normal numbers, here of a file, whose tails are short
+            let bound = if is_even { 1e-12 } else { 3.0 * (1.0 - asked * asked) / (DRAWS as f64).sqrt() };
+            assert!((found - asked).abs() < bound, "{kind} {a} {b}: {found} for {asked}");
+        }
+        if is_even {
+            assert!(counts.iter().all(|count| *count == DRAWS / ROWS as u64), "{kind}: {counts:?}");
+        }
+    }
+}
+
+/// Counter-test: columns that are drawn one by one keep their distributions and lose their rows and their correlation; and the test of
+/// frequencies sees that one row is twice as likely.
+#[test]
+fn columns_that_are_drawn_apart_are_no_rows() {
+    let scratch = ScratchFolder::new("bootstrap-apart");
+    let rows = measured();
+    scratch.file("insertion.csv", &csv(&rows));
+    let drawn = drawn(&plan(&scratch, &apart()), NAMES, 1..DRAWS + 1);
+    let (_, others) = counts(&rows, &drawn);
+    assert!(others > 4000, "{others}");
+    assert!(correlation(&drawn, 0, 1).abs() < 0.1 && correlation(&rows, 0, 1).abs() > 0.8);
+    let mut twice = rows.clone();
+    twice[1] = twice[0];
+    scratch.file("insertion.csv", &csv(&twice));
+    let (counts, _) = counts(&rows, &self::drawn(&plan(&scratch, BOOTSTRAP), NAMES, 1..DRAWS + 1));
+    assert!(chi_squared(&counts, DRAWS) > CHI_SQUARED, "{counts:?}");
+}
+
+/// Law: with the random design and a Latin hypercube the rows do not depend on other tables of the file, nor on their order; two tables of
+/// one file draw their rows independently.
+#[test]
+fn rows_do_not_depend_on_other_dispersions() {
+    let scratch = ScratchFolder::new("bootstrap-company");
+    let rows = measured();
+    scratch.file("insertion.csv", &csv(&rows));
+    for kind in ["random", "latin_hypercube"] {
+        let head = format!("[design]\nkind = {kind:?}\n");
+        let alone = drawn(&plan(&scratch, &format!("{head}{BOOTSTRAP}")), NAMES, 0..65);
+        assert_eq!(alone[0], [0.0, 3.0, 0.0], "sample 0 is nominal");
+        for text in [format!("{LENGTH}{BOOTSTRAP}"), format!("{BOOTSTRAP}{LENGTH}")] {
+            assert_eq!(drawn(&plan(&scratch, &format!("{head}{text}")), NAMES, 0..65), alone, "{kind}");
+        }
+    }
+    // two tables of components of one vector
+    let half = |parameter: &str, column: &str| {
+        format!(
+            "[[disperse]]\ndistribution = \"bootstrap\"\nfile = \"insertion.csv\"\nparameters = [{parameter:?}]\ncolumns = [{column:?}]\n"
+        )
+    };
+    let text = format!("{}{}", half(NAMES[0], "wx"), half(NAMES[1], "wy"));
+    let pairs: Vec<[f64; 3]> = drawn(&plan(&scratch, &text), [NAMES[0], NAMES[1]], 1..DRAWS + 1)
+        .into_iter()
+        .map(|[a, b]| [a, b, 0.0])
+        .collect();
+    let r = correlation(&pairs, 0, 1);
+    // H0: independent; n = 4096, seed 11, alpha = 0.001 (3.29 standard errors)
+    assert!(r.abs() < 3.29 / (DRAWS as f64).sqrt(), "{r}");
+}
+
+/// Law: an attitude that is a unit quaternion in the file keeps its bits, one that is not is normalised; a vector and an attitude may be
+/// named as a whole, and the columns are then named like their components.
+#[test]
+fn attitudes_and_vectors_are_drawn_as_a_whole() {
+    let scratch = ScratchFolder::new("bootstrap-attitude");
+    let file = "initial.attitude.w,initial.attitude.x,initial.attitude.y,initial.attitude.z,\
+                initial_angular_velocity_x_rad_s,initial_angular_velocity_y_rad_s,initial_angular_velocity_z_rad_s\n\
+                0.6,0,0.8,0,1,2,3\n0.8,0,0,0.6,4,5,6\n3,4,0,0,7,8,9\n";
+    scratch.file("states.csv", file);
+    let text = "[[disperse]]\ndistribution = \"bootstrap\"\nfile = \"states.csv\"\n";
+    let whole =
+        plan(&scratch, &format!("{text}parameters = [\"initial.attitude\", \"initial.angular_velocity_rad_s\"]\n"));
+    assert_eq!(whole, plan(&scratch, text), "without parameters: all columns");
+    let names = ["w", "x", "y", "z"].map(|component| format!("initial.attitude.{component}"));
+    let rate = "initial.angular_velocity_rad_s.x";
+    let rows = drawn(&whole, [&names[0], &names[1], &names[2], &names[3], rate], 1..100);
+    for row in &rows {
+        let expected = match row[4] {
+            1.0 => [0.6, 0.0, 0.8, 0.0],
+            4.0 => [0.8, 0.0, 0.0, 0.6],
+            7.0 => [0.6, 0.8, 0.0, 0.0],
+            other => panic!("{other} is in no row"),
+        };
+        let bits = |q: &[f64]| q.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+        assert_eq!(bits(&row[..4]), bits(&expected));
+    }
+    assert!([1.0, 4.0, 7.0].iter().all(|rate| rows.iter().any(|row| row[4] == *rate)));
+}
+
+/// Law: the canonical text reads back to the same plan, with the file's checksum; other content is another plan and other rows.
+#[test]
+fn the_content_of_the_file_is_part_of_the_plan() {
+    let scratch = ScratchFolder::new("bootstrap-text");
+    let rows = measured();
+    scratch.file("insertion.csv", &csv(&rows));
+    let first = plan(&scratch, BOOTSTRAP);
+    let text = first.text();
+    for part in
+        ["sha256 = \"", "columns = [\"wx\", \"wy\", \"x\"]", "parameters = [\"initial.angular_velocity_rad_s.x\""]
+    {
+        assert!(text.contains(part), "{part}:\n{text}");
+    }
+    let again = Plan::from_text_in(&scratch.0, "plan.toml", &text, Overrides::default());
+    assert_eq!(again.unwrap_or_else(|error| panic!("{error}")), first);
+    let mut other = rows;
+    other[5][1] += 1e-12;
+    scratch.file("insertion.csv", &csv(&other));
+    let changed = plan(&scratch, BOOTSTRAP);
+    assert!(changed.hash() != first.hash() && changed.row_hash() != first.row_hash());
+    let refused = Plan::from_text_in(&scratch.0, "plan.toml", &text, Overrides::default()).expect_err("another file");
+    assert!(refused.to_string().contains("disperse[0].sha256"), "{refused}");
+}
+
+/// A row counts as one factor: a grid has as many points as it has levels, one at a time and Saltelli's blocks vary it as a whole.
+#[test]
+fn a_row_is_one_factor() {
+    let scratch = ScratchFolder::new("bootstrap-factor");
+    let rows = measured();
+    scratch.file("insertion.csv", &csv(&rows));
+    let head = HEAD.replace("samples = 4097\n", "");
+    for (design, samples) in [("grid", ROWS as u64 * 2 + 1), ("one_at_a_time", ROWS as u64 + 3)] {
+        let text = format!("[design]\nkind = {design:?}\nlevels = [2, {ROWS}]\n{LENGTH}{BOOTSTRAP}");
+        let text = [&head, FUSELAGE, WHEEL1_AT_REST, INITIAL, &text].concat();
+        let plan = Plan::from_text_in(&scratch.0, "rows.toml", &text, Overrides::default());
+        let plan = plan.unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(plan.samples, samples, "{design}");
+        let (counts, others) = counts(&rows, &drawn(&plan, NAMES, 1..samples));
+        let nominal = if design == "grid" { 0 } else { 2 };
+        assert_eq!((counts, others), (vec![if design == "grid" { 2 } else { 1 }; ROWS], nominal), "{design}");
+    }
+    let saltelli = plan(&scratch, &format!("[design]\nkind = \"saltelli\"\n{LENGTH}{BOOTSTRAP}"));
+    assert_eq!(saltelli.dispersions.factors(), [0, 1]);
+    // A, A with the length of B, A with the row of B, B
+    let block = drawn(&saltelli, NAMES, 1..5);
+    assert!(block[0] == block[1] && block[2] == block[3] && block[0] != block[3]);
+}
+
+/// Law: `sample --sample K` and `check` show the row that sample K takes, in all digits, and where it comes from.
+#[test]
+fn one_sample_is_shown_with_its_row() {
+    let scratch = ScratchFolder::new("bootstrap-shown");
+    let rows = measured();
+    scratch.file("insertion.csv", &csv(&rows));
+    let text = [HEAD, FUSELAGE, WHEEL1_AT_REST, INITIAL, LENGTH, BOOTSTRAP].concat();
+    scratch.file("rows.toml", &text);
+    let drawn = drawn(&plan(&scratch, &format!("{LENGTH}{BOOTSTRAP}")), NAMES, 0..65);
+    for sample in [1, 7, 64] {
+        let shown = scratch.prints(&format!("sample rows.toml --sample {sample}"), 0);
+        for (name, value) in NAMES.iter().zip(drawn[sample]) {
+            let line = shown.lines().find(|line| line.starts_with(name)).unwrap_or_else(|| panic!("{name}: {shown}"));
+            assert_eq!(line.split_whitespace().nth(1), Some(format!("{value:?}").as_str()), "{sample}: {shown}");
+        }
+    }
+    let checked = scratch.prints("check rows.toml", 0);
+    let told = "one of the 32 rows of insertion.csv, 3 numbers together";
+    assert_eq!(checked.matches(told).count(), 3, "{checked}");
+}
