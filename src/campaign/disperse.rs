@@ -26,11 +26,6 @@ pub fn read(table: &mut Section<'_, '_>) -> Option<Dispersion> {
 
 /// One table with a distribution that names its parameters itself.
 fn of_named_parameters(table: &mut Section<'_, '_>) -> Option<Dispersion> {
-    if table.has("parameter") {
-        let remedy = "write parameters = [\"initial.angular_velocity_rad_s\"] in its place, with all that a row gives";
-        table.know("parameter");
-        table.refuse("parameter", "left out with a distribution of several parameters", remedy);
-    }
     table.describes(units::UNKNOWN);
     let distribution = WrittenDistribution::read(table);
     table.finish();
