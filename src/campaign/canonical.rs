@@ -10,6 +10,7 @@ use super::canonical_draws::{correlation_lines, derivation_lines, design_lines, 
 use super::lines::Lines;
 use super::plan::Plan;
 use crate::scene::table::Table;
+use crate::scene::{ArcErrors, Name};
 use sha2::{Digest, Sha256};
 
 fn digest(text: &str) -> String {
@@ -142,8 +143,16 @@ impl Plan {
             lines.keys_of("[environment]", Table::Environment, 0, &self.nominal);
         }
         for arc in 0..self.nominal.actuation.len() {
-            lines.keys_of("[[actuation]]", Table::Actuation, arc, &self.nominal);
             let command = &self.nominal.actuation[arc];
+            lines.table("[[actuation]]");
+            if command.name != Name::NONE {
+                lines.key("name", command.name);
+            }
+            lines.keys(Table::Actuation, arc, &self.nominal);
+            // most arcs have none, and a schedule may have many thousands of arcs
+            if command.errors != ArcErrors::NONE {
+                lines.keys(Table::ArcErrors, arc, &self.nominal);
+            }
             lines.by_name("thrust_n", self.nominal.thrusters.iter().map(|thruster| thruster.name), command.thrust_n);
             lines.by_name("torque_n_m", self.nominal.wheels.iter().map(|wheel| wheel.name), command.torque_n_m);
         }

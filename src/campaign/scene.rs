@@ -11,6 +11,7 @@ use crate::scene::{
     ActuationInput, DebrisInput, MAX_THRUSTERS, MAX_WHEELS, Name, PartInput, PartShape, SceneInput, ThrusterInput,
     WheelInput, WheelMode,
 };
+use std::collections::HashSet;
 
 /// Reads every table of the scene. A number that is missing or wrong is NaN, and noted in the document.
 pub(super) fn read(root: &mut Section<'_, '_>) -> SceneInput {
@@ -25,13 +26,18 @@ pub(super) fn read(root: &mut Section<'_, '_>) -> SceneInput {
     if root.has("body") {
         read_body(root, &mut scene);
     }
+    let mut names = HashSet::new();
     root.sections("actuation", |section| {
         scene.actuation.push(ActuationInput::DEFAULT);
         let arc = scene.actuation.len() - 1;
         read_keys(section, Table::Actuation, arc, &mut scene);
         match &old {
             Some(old) => old.refuse_arc(section, arc),
-            None => read_commands(section, &mut scene, arc),
+            None => {
+                scene.actuation[arc].name = read_arc_name(section, &mut names);
+                read_commands(section, &mut scene, arc);
+                read_keys(section, Table::ArcErrors, arc, &mut scene);
+            }
         }
         section.finish();
     });
@@ -101,6 +107,19 @@ fn read_name(section: &mut Section<'_, '_>, table: Table, taken: &[Name]) -> Nam
         section.refuse("name", allowed, "give each its own name");
     }
     section.rename(table.header(), name.as_str());
+    name
+}
+
+/// The name of an arc, if it has one, different from `taken`, to which it is added.
+fn read_arc_name(section: &mut Section<'_, '_>, taken: &mut HashSet<Name>) -> Name {
+    let Some(text) = section.text("name") else { return Name::NONE };
+    let Some(name) = Name::new(text) else {
+        section.refuse("name", Name::ALLOWED, "write a name such as \"burn1\", or leave it out");
+        return Name::NONE;
+    };
+    if !taken.insert(name) {
+        section.refuse("name", "another name than that of the other [[actuation]] tables", "give each its own name");
+    }
     name
 }
 

@@ -8,7 +8,7 @@ use super::input::SceneInput;
 use super::mass::{Body, MassProperties};
 use super::schedule::applied;
 use super::schema::limit::{INERTIA_SLACK, shown};
-use super::schema::{PartInput, WheelInput, WheelMode};
+use super::schema::{ArcErrors, PartInput, WheelInput, WheelMode};
 use super::table::Table;
 use crate::math::symmetric::{is_positive_definite, principal_axes};
 
@@ -82,6 +82,7 @@ fn arcs(input: &SceneInput, problems: &mut Problems) {
         let before = problems.0.len();
         let key = |name: &str| format!("actuation[{i}].{name}");
         arc.check(false, problems, |name| key(name).into());
+        arc.errors.check(false, problems, |name| key(name).into());
         if problems.0.len() > before {
             continue;
         }
@@ -138,8 +139,8 @@ fn commands(input: &SceneInput, index: usize, problems: &mut Problems) {
     }
 }
 
-/// Collects where delays make arcs end before they start, or overlap. Only the first is reported: the delays are common to
-/// all.
+/// Collects where delays make arcs end before they start, or overlap. Only the first is reported: most delays are common to
+/// all. The key is that of the arc where its own delays, or the next one's, do it.
 fn switches(input: &SceneInput, problems: &mut Problems) {
     let delays = &input.actuators;
     let commanded = |index: usize| {
@@ -156,9 +157,19 @@ fn switches(input: &SceneInput, problems: &mut Problems) {
         } else {
             continue;
         };
-        let written = format!("{:?}", (delays.switch_on_delay_s, delays.switch_off_delay_s));
+        let with = |errors: &ArcErrors| {
+            (delays.switch_on_delay_s + errors.switch_on_delay_s, delays.switch_off_delay_s + errors.switch_off_delay_s)
+        };
+        let [own, common] = [&input.actuation[index].errors, &ArcErrors::NONE].map(with);
+        let of_next = input.actuation.get(index + 1).map_or(common, |next| with(&next.errors));
+        let key = if own == common && of_next == common {
+            "actuators.switch_off_delay_s".to_owned()
+        } else {
+            format!("actuation[{index}].switch_off_delay_s")
+        };
+        let written = if of_next.0 == own.0 { format!("{own:?}") } else { format!("{own:?}, then {of_next:?}") };
         let remedy = "make the delays (on, off) smaller, or nearer to each other";
-        problems.add("actuators.switch_off_delay_s", written, allowed, remedy);
+        problems.add(key, written, allowed, remedy);
         return;
     }
 }

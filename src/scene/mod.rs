@@ -43,8 +43,9 @@ pub use name::Name;
 pub use parameter::Parameter;
 pub use schedule::{Actuation, Arc};
 pub use schema::{
-    ActuationInput, ActuatorsInput, BodyInput, DebrisInput, EnvironmentInput, InitialInput, MAX_THRUSTERS, MAX_WHEELS,
-    MassErrors, PartInput, PartShape, PrincipalInertia, PrincipalMoments, ThrusterInput, WheelInput, WheelMode,
+    ActuationInput, ActuatorsInput, ArcErrors, BodyInput, DebrisInput, EnvironmentInput, InitialInput, MAX_THRUSTERS,
+    MAX_WHEELS, MassErrors, PartInput, PartShape, PrincipalInertia, PrincipalMoments, ThrusterInput, WheelInput,
+    WheelMode,
 };
 
 pub use thruster::Thruster;

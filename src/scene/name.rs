@@ -1,4 +1,4 @@
-//! [`Name`]: the name of a wheel, a thruster or a part, as campaign files write it.
+//! [`Name`]: the name of a wheel, a thruster, a part or an arc, as campaign files write it.
 
 use std::fmt::{self, Debug, Display, Formatter};
 
@@ -49,6 +49,16 @@ impl Name {
         }
     }
 
+    /// The digits of `number`, the name of one of a list without names; no other name starts with a digit.
+    pub fn number(number: usize) -> Name {
+        let mut name = Name::NONE;
+        for digit in number.to_string().bytes().take(MAX_LETTERS) {
+            name.bytes[usize::from(name.len)] = digit;
+            name.len += 1;
+        }
+        name
+    }
+
     /// The text.
     pub fn as_str(&self) -> &str {
         // only ASCII letters are ever stored
@@ -77,6 +87,7 @@ mod tests {
         for text in ["w1", "a", "reaction_wheel_2", "x23456789012345678901_3"] {
             assert_eq!(Name::new(text).expect(text).as_str(), text);
         }
+        assert_eq!([0, 7, 20_000].map(|k| Name::number(k).to_string()), ["0", "7", "20000"]);
         for text in ["", "1w", "_w", "W1", "w-1", "w 1", "w.1", "roue_à", "a23456789012345678901234"] {
             assert_eq!(Name::new(text), None, "{text}");
         }

@@ -2,10 +2,11 @@
 //! its table.
 //!
 //! A parameter exists in a scene where a change of it has an effect: what belongs to actuators needs a schedule.
-//! Not here: the keys of `[[actuation]]`, the commands, which the keys of `[actuators]` distort for all arcs alike.
+//! Not here: the commands of `[[actuation]]`, which the keys of `[actuators]` distort for all arcs alike, and the errors of an arc for that arc.
 
 use super::input::SceneInput;
 use super::name::Name;
+use super::schedule::{switches_off, switches_on};
 pub use super::schema::Shape;
 use super::schema::{Facts, MassErrors, PartShape};
 use super::table::{Key, Table};
@@ -17,7 +18,7 @@ pub struct Parameter {
     /// Its row in the schema.
     key: Key,
     /// Which instance of the row's table.
-    instance: u8,
+    instance: u32,
     /// The name of that instance.
     owner: Name,
 }
@@ -29,7 +30,7 @@ impl Parameter {
     /// All parameters that a scene with the tables of `scene` may have: table by table, instance by instance, in the order of the schema.
     pub fn all(scene: &SceneInput) -> impl Iterator<Item = Parameter> {
         let of = |table: Table, (instance, owner): (usize, Name)| {
-            table.keys().map(move |key| Parameter { key, instance: instance as u8, owner })
+            table.keys().map(move |key| Parameter { key, instance: instance as u32, owner })
         };
         let dispersable = Table::ALL.iter().copied().filter(|table| table.is_dispersable());
         dispersable.flat_map(move |table| {
@@ -60,7 +61,7 @@ impl Parameter {
     }
 
     fn instance(self) -> usize {
-        usize::from(self.instance)
+        self.instance as usize
     }
 
     /// The dotted name, as in a campaign file.
@@ -113,7 +114,19 @@ impl Parameter {
     /// Whether `scene` has the component and a change of it has an effect.
     pub fn exists(self, scene: &SceneInput, component: usize) -> bool {
         let has = self.key.read(scene, self.instance()).is_some();
-        has && self.key.acts(scene, self.instance(), component) && !self.is_idle_part(scene)
+        has && self.key.acts(scene, self.instance(), component)
+            && !self.is_idle_part(scene)
+            && !self.is_idle_switch(scene)
+    }
+
+    /// Whether it is the delay of a switch that its arc does not have.
+    fn is_idle_switch(self, scene: &SceneInput) -> bool {
+        match self.facts().key {
+            _ if self.key.table != Table::ArcErrors => false,
+            "switch_on_delay_s" => !switches_on(scene, self.instance()),
+            "switch_off_delay_s" => !switches_off(scene, self.instance()),
+            _ => false,
+        }
     }
 
     /// Whether it is of a part, and has no effect: keys of the body as a whole override all that it gives, or the part looks the same from

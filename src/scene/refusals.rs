@@ -312,6 +312,24 @@ const REFUSALS: &[(&str, &str, Change, Change)] = &[
         |input| input.actuators.switch_off_delay_s = 1.0,
     ),
     (
+        "actuation[0].switch_off_delay_s",
+        "actuation[0], commanded from 0.0 to 1.0, ends before the next starts",
+        |input| input.actuation[0].errors.switch_off_delay_s = 1.0 + TINY,
+        |input| input.actuation[0].errors.switch_off_delay_s = 1.0,
+    ),
+    (
+        "actuation[1].thrust_scale",
+        "does not pull",
+        |input| input.actuation[1].errors.thrust_scale = -TINY,
+        |input| input.actuation[1].errors.thrust_scale = 0.0,
+    ),
+    (
+        "actuation[1].torque_scale",
+        "finite",
+        |input| input.actuation[1].errors.torque_scale = f64::INFINITY,
+        |input| input.actuation[1].errors.torque_scale = -1.0,
+    ),
+    (
         "initial.attitude",
         "norm 1",
         |input| input.initial.attitude = [1.0 + 2e-6, 0.0, 0.0, 0.0],

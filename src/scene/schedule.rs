@@ -27,20 +27,40 @@ pub struct Arc {
     pub applied: Actuation,
 }
 
+/// Whether the next command starts as command `index` ends: there is one switch.
+fn meets_next(input: &SceneInput, index: usize) -> bool {
+    input.actuation.get(index + 1).is_some_and(|next| next.start_s == input.actuation[index].end_s)
+}
+
+/// Whether anything is switched at the start of command `index`: by it, or by the one before, which ends there.
+pub(super) fn switches_on(input: &SceneInput, index: usize) -> bool {
+    let is_before = |before: &usize| meets_next(input, *before) && input.actuation[*before].commands_any();
+    input.actuation[index].commands_any() || index.checked_sub(1).filter(is_before).is_some()
+}
+
+/// Whether anything is switched at the end of command `index`, by its own delay.
+pub(super) fn switches_off(input: &SceneInput, index: usize) -> bool {
+    input.actuation[index].commands_any() && !meets_next(input, index)
+}
+
 /// The arc that command `index` of `input` becomes: scales, bias, delays. With ideal actuators, the command itself.
 ///
 /// [`super::check`] checks that the result is a schedule (every arc starts before it ends, no negative thrust).
 pub fn applied(input: &SceneInput, index: usize) -> Arc {
     let (actuators, command) = (&input.actuators, &input.actuation[index]);
     let start = |index: usize| {
+        let command = &input.actuation[index];
         // a command that would start before the run starts with it
-        (input.actuation[index].start_s + actuators.switch_on_delay_s).max(0.0)
+        (command.start_s + actuators.switch_on_delay_s + command.errors.switch_on_delay_s).max(0.0)
     };
-    let next = input.actuation.get(index + 1).filter(|next| next.start_s == command.end_s);
     Arc {
         start: start(index),
         applied: Actuation {
-            until: if next.is_some() { start(index + 1) } else { command.end_s + actuators.switch_off_delay_s },
+            until: if meets_next(input, index) {
+                start(index + 1)
+            } else {
+                command.end_s + actuators.switch_off_delay_s + command.errors.switch_off_delay_s
+            },
             thrust: thrusts(input, index),
             motor_torque: motor_torques(input, index),
             body_torque: [0.0; 3],
@@ -57,19 +77,19 @@ fn first<const N: usize>(numbers: &[f64]) -> [f64; N] {
 
 /// The thrusts of command `index`, N.
 fn thrusts(input: &SceneInput, index: usize) -> [f64; MAX_THRUSTERS] {
-    let mut thrust = [0.0; MAX_THRUSTERS];
+    let (mut thrust, command) = ([0.0; MAX_THRUSTERS], &input.actuation[index]);
     for (i, thruster) in input.thrusters.iter().enumerate() {
-        thrust[i] = thruster.thrust_scale * input.actuation[index].thrust_n[i];
+        thrust[i] = thruster.thrust_scale * (command.errors.thrust_scale * command.thrust_n[i]);
     }
     thrust
 }
 
 /// The motor torques of command `index` on the wheels that turn, in their order, N m.
 fn motor_torques(input: &SceneInput, index: usize) -> [f64; MAX_WHEELS] {
-    let mut torques = [0.0; MAX_WHEELS];
+    let (mut torques, command) = ([0.0; MAX_WHEELS], &input.actuation[index]);
     let turning = input.wheels.iter().enumerate().filter(|(_, wheel)| wheel.mode != WheelMode::Locked);
     for (place, (i, wheel)) in turning.enumerate() {
-        let torque = input.actuation[index].torque_n_m[i];
+        let torque = command.errors.torque_scale * command.torque_n_m[i];
         torques[place] = if torque == 0.0 { 0.0 } else { wheel.torque_scale * torque + wheel.torque_bias_n_m };
     }
     torques

@@ -9,8 +9,8 @@ use super::input::SceneInput;
 use super::name::Name;
 use super::schema::limit::shown;
 use super::schema::{
-    ActuationInput, ActuatorsInput, BodyInput, DebrisInput, EnvironmentInput, Facts, InitialInput, MassErrors,
-    PartInput, Presence, Row, ThrusterInput, WheelInput,
+    ActuationInput, ActuatorsInput, ArcErrors, BodyInput, DebrisInput, EnvironmentInput, Facts, InitialInput,
+    MassErrors, PartInput, Presence, Row, ThrusterInput, WheelInput,
 };
 
 /// A key of a table of the schema.
@@ -161,6 +161,7 @@ tables! {
     Environment, "environment", true, &[EnvironmentInput::ROWS], Some(&scene.environment), Some(&mut scene.environment);
     Actuation, "actuation", false, &[ActuationInput::ROWS],
         scene.actuation.get(instance), scene.actuation.get_mut(instance);
+    ArcErrors, "actuation", true, &[ArcErrors::ROWS], scene.actuation.get(instance), scene.actuation.get_mut(instance);
 }
 
 impl Table {
@@ -177,6 +178,10 @@ impl Table {
             Table::Wheel => scene.wheels.iter().map(|wheel| wheel.name).collect(),
             Table::Thruster => scene.thrusters.iter().map(|thruster| thruster.name).collect(),
             Table::Actuation => vec![Name::NONE; scene.actuation.len()],
+            Table::ArcErrors => {
+                let name = |(index, name): (usize, Name)| if name == Name::NONE { Name::number(index) } else { name };
+                scene.actuation.iter().map(|arc| arc.name).enumerate().map(name).collect()
+            }
             _ => vec![Name::NONE],
         }
     }

@@ -78,9 +78,11 @@ body_torque_n_m = [0, 0.001, 0]
 switch_on_delay_s = 0.001
 
 [[actuation]]
+name = "burn"
 start_s = 0.0
 end_s = 3.0
 thrust_n = { p1 = 100 }
+thrust_scale = 0.99
 torque_n_m = { w1 = 0.5 }
 
 [design]

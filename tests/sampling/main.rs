@@ -3,6 +3,7 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod arcs;
 mod bootstrap;
 mod coverage;
 mod dependence;

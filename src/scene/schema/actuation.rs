@@ -1,11 +1,20 @@
-//! `[[actuation]]`: the schedule, one arc of constant thrust and torque each; commands, which are not dispersed.
+//! `[[actuation]]`: the schedule, one arc of constant thrust and torque each; commands, which are not dispersed, and how the arc differs
+//! from them, which is.
 
 use super::components::SCALAR;
 use super::limit::Limit;
 use super::numbers::Numbers;
 use super::row::always;
 use super::rows::rows;
-use super::usage::{MAX_THRUSTERS, MAX_WHEELS};
+use super::usage::{MAX_THRUSTERS, MAX_WHEELS, Usage};
+use crate::scene::name::Name;
+
+const THRUST: &str = "name an arc that commands thrust; arcs are called by their name, else by their number from 0";
+const TORQUE: &str =
+    "name an arc that commands a motor torque; arcs are called by their name, else by their number from 0";
+const SWITCH: &str = "name an arc at whose start something is switched";
+const SWITCH_OFF: &str =
+    "name an arc that acts and does not end as the next starts: there is one switch, by switch_on_delay_s of the next";
 
 rows! {
     /// An arc of constant thrust and torque, as commanded.
@@ -18,13 +27,51 @@ rows! {
         /// Motor torques on the wheels about their axes, in the order of the wheels, N m; the body feels the opposite. In a file a table
         /// by name, `torque_n_m = { w1 = 0.5 }`.
         torque_n_m: [f64; MAX_WHEELS] = [0.0; MAX_WHEELS],
+        /// The name; of an arc without one its number is used, from 0.
+        name: Name = Name::NONE,
+        /// How the arc differs from its command.
+        errors: ArcErrors = ArcErrors::NONE,
     }
+}
+
+rows! {
+    /// How an arc differs from its command, beyond what thrusters, wheels and `[actuators]` have in all arcs: factors multiply theirs, delays
+    /// add to theirs.
+    pub struct ArcErrors in ActuationInput [table => table.errors] {
+    thrust_scale: f64 = 1.0, "1", "Factor of the commanded thrusts of this arc", SCALAR, Plain,
+        Limit::Thrust("write zero for an arc that does not ignite"), (optional), thrusts, THRUST;
+    torque_scale: f64 = 1.0, "1", "Factor of the commanded motor torques of this arc", SCALAR, Plain, Limit::Finite, (optional),
+        turns, TORQUE;
+    switch_on_delay_s: f64 = 0.0, "s", "How much later than the others this arc starts", SCALAR, Plain, Limit::Finite, (optional),
+        always, SWITCH;
+    switch_off_delay_s: f64 = 0.0, "s",
+        "How much later than the others this arc ends; no effect where the next arc starts as this one ends", SCALAR, Plain,
+        Limit::Finite, (optional), always, SWITCH_OFF;
+    } others {}
+}
+
+impl ArcErrors {
+    /// No difference.
+    pub const NONE: ArcErrors = ArcErrors::DEFAULT;
+}
+
+fn thrusts(_: &Usage, arc: &ActuationInput, _: usize, _: usize) -> bool {
+    arc.thrust_n.iter().any(|thrust| *thrust != 0.0)
+}
+
+fn turns(_: &Usage, arc: &ActuationInput, _: usize, _: usize) -> bool {
+    arc.torque_n_m.iter().any(|torque| *torque != 0.0)
 }
 
 impl ActuationInput {
     /// Nothing acts from `start_s` to `end_s`.
     pub const fn idle(start_s: f64, end_s: f64) -> Self {
         ActuationInput { start_s, end_s, ..ActuationInput::DEFAULT }
+    }
+
+    /// Whether any thrust or torque is commanded.
+    pub fn commands_any(&self) -> bool {
+        self.thrust_n != [0.0; MAX_THRUSTERS] || self.torque_n_m != [0.0; MAX_WHEELS]
     }
 
     /// The same with `thrust_n` for the first thrusters.

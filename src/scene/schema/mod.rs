@@ -32,7 +32,7 @@ pub mod thruster;
 pub mod usage;
 pub mod wheel;
 
-pub use actuation::ActuationInput;
+pub use actuation::{ActuationInput, ArcErrors};
 pub use actuators::ActuatorsInput;
 pub use body::BodyInput;
 pub use debris::DebrisInput;
