@@ -83,6 +83,9 @@ impl Comparison {
     }
 }
 
+/// So many rows are compared one by one: the nominal sample and the first [`MOST_EXACT`].
+const MOST_ROWS: usize = MOST_EXACT as usize + 1;
+
 /// A result: its plan and the files of its rows.
 #[derive(Clone, Copy, Debug)]
 pub struct ResultRows<'r> {
@@ -138,19 +141,15 @@ fn values<'o>(
     observed: impl Iterator<Item = &'o Observed> + Clone,
 ) -> Result<Vec<Vec<f64>>, RowsError> {
     let mut columns = vec![Vec::new(); observed.clone().count()];
-    let mut rows = 0;
-    for index in 0..result.reader.files().len() {
-        let Some(part) = result.reader.part(index).filter(|_| rows < MOST_EXACT as usize) else { break };
+    for part in result.reader.first_parts(MOST_ROWS) {
         let part = part?;
         let statuses = part.statuses()?;
         for (column, observed) in columns.iter_mut().zip(observed.clone()) {
             let values = observed.values(&part)?.into_iter().zip(&statuses);
             column.extend(values.map(|(value, status)| if *status == Status::Done { value } else { f64::NAN }));
         }
-        rows += part.rows();
     }
-    // the nominal sample is no part of a comparison of populations
-    columns.iter_mut().for_each(|column: &mut Vec<f64>| column.truncate(MOST_EXACT as usize + 1));
+    columns.iter_mut().for_each(|column: &mut Vec<f64>| column.truncate(MOST_ROWS));
     Ok(columns)
 }
 
@@ -166,8 +165,7 @@ fn pairs(first: ResultRows<'_>, second: ResultRows<'_>) -> Result<Vec<[usize; 2]
     }
     let drawn = |result: ResultRows<'_>, name: &str| -> Result<Vec<f64>, RowsError> {
         let mut column = Vec::new();
-        for index in 0..result.reader.files().len() {
-            let Some(part) = result.reader.part(index).filter(|_| column.len() <= MOST_EXACT as usize) else { break };
+        for part in result.reader.first_parts(MOST_ROWS) {
             column.extend(part?.numbers(name)?);
         }
         Ok(column)
@@ -187,17 +185,13 @@ fn pairs(first: ResultRows<'_>, second: ResultRows<'_>) -> Result<Vec<[usize; 2]
 
 /// How many rows there are, of those that are compared: fewer than in the plan where it was stopped when it was precise enough.
 fn rows(result: ResultRows<'_>) -> Result<usize, RowsError> {
-    let mut rows = 0;
-    for index in 0..result.reader.files().len() {
-        let Some(part) = result.reader.part(index).filter(|_| rows <= MOST_EXACT as usize) else { break };
-        rows += part?.rows();
-    }
-    Ok(rows.min(MOST_EXACT as usize + 1))
+    let rows = result.reader.first_parts(MOST_ROWS).map(|part| Ok(part?.rows())).sum::<Result<usize, RowsError>>()?;
+    Ok(rows.min(MOST_ROWS))
 }
 
 /// The first rows of each plan that are of the same dispersed sample.
 fn shared_rows(first: &Plan, second: &Plan) -> Vec<[usize; 2]> {
-    let planned = |plan: &Plan| usize::try_from(plan.rows()).unwrap_or(usize::MAX).min(MOST_EXACT as usize + 1);
+    let planned = |plan: &Plan| usize::try_from(plan.rows()).unwrap_or(usize::MAX).min(MOST_ROWS);
     let (mut row, mut other, mut shared) = (first_dispersed(first), first_dispersed(second), Vec::new());
     // samples ascend in both
     while row < planned(first) && other < planned(second) {

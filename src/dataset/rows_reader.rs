@@ -71,6 +71,16 @@ impl RowsReader {
         self.files.get(index).map(|path| PartReader::open(self.storage, path))
     }
 
+    /// The parts with the first `rows` rows, in their order: no part after the one with the last of them.
+    pub fn first_parts(&self, rows: usize) -> impl Iterator<Item = Result<PartReader, RowsError>> + '_ {
+        let mut opened = 0;
+        (0..self.files.len()).map_while(move |index| {
+            let part = self.part(index).filter(|_| opened < rows)?;
+            opened += part.as_ref().map_or(0, PartReader::rows);
+            Some(part)
+        })
+    }
+
     /// Reads every part on `threads` threads (`None`: one per core): `read` takes what is wanted from a part on any thread, and `merge`
     /// is shown the results in the order of the parts, whatever the threads do. No more than a few parts are held at a time.
     ///
@@ -371,6 +381,17 @@ mod tests {
         assert!(part.numbers("y").expect_err("no such column").to_string().ends_with("there is no column `y`"));
         assert!(part.numbers(STATUS).expect_err("words").what.contains("not a column of numbers"));
         assert!(reader.part(1).is_none());
+    }
+
+    /// Law: the parts with the first n rows are as few as have so many, also where a part ends with row n.
+    #[test]
+    fn the_first_parts_have_the_first_rows() {
+        let folder = Folder::new("first");
+        let reader = RowsReader::new((0..3).map(|k| file(&folder, 3 * k)).collect());
+        let parts = |rows: usize| reader.first_parts(rows).map(|part| part.expect("readable").rows()).sum::<usize>();
+        assert_eq!([0, 1, 3, 4, 6, 7, 9, 100].map(parts), [0, 3, 3, 6, 6, 9, 9, 9]);
+        let missing = RowsReader::new(vec![folder.0.join("none.parquet")]);
+        assert!(missing.first_parts(1).next().is_some_and(|part| part.is_err()));
     }
 
     /// Law: parts are merged in their order for any number of threads, and the error is that of the first part that fails.
