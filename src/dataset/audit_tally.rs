@@ -72,6 +72,7 @@ mod tests {
     use crate::ensemble::audit::Audit;
     use crate::ensemble::{Part, PartId, Shape};
     use crate::sampling::SampleId;
+    use crate::statistics::sketch::RELATIVE_ERROR;
 
     /// The tally of audits with these (error, estimate); `None` is an audit that failed.
     fn tally(audits: &[Option<(f64, f64)>]) -> AuditTally {
@@ -98,6 +99,15 @@ mod tests {
     fn failed_audits_are_counted() {
         let found = tally(&[Some((1e-12, 2e-12)), None, Some((1e-12, 2e-12)), None, None]);
         assert_eq!((found.audited, found.failed), (2, 3));
+    }
+
+    /// Law: the ratio is that of estimate to error, of runs with an error.
+    #[test]
+    fn the_ratio_is_estimate_over_error() {
+        let found = tally(&[Some((2e-12, 8e-12)), Some((0.0, 8e-12)), Some((2e-12, 8e-12))]);
+        let ratio = found.ratio.quantile(0.5).expect("two ratios");
+        assert_eq!(found.ratio.count(), 2);
+        assert!((ratio / 4.0 - 1.0).abs() <= RELATIVE_ERROR, "{ratio}");
     }
 
     /// Law: an error is covered by an estimate that is as large, and by none that is just below it. A large error, which is

@@ -152,3 +152,25 @@ fn plan_in(storage: &dyn Storage, root: &Path) -> Result<String, StorageError> {
         Err(error) => Err(at(&path)(error)),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dataset::storage::Disk;
+
+    /// Law: without a manifest, files that are whole are not taken for this program's, and what it left unfinished is nothing.
+    #[test]
+    fn whole_files_without_a_manifest_are_foreign() {
+        let root = std::env::temp_dir().join(format!("spindrift-found-{}", std::process::id()));
+        let _ = std::fs::remove_dir_all(&root);
+        let runs = root.join(crate::dataset::names::RUNS);
+        std::fs::create_dir_all(&runs).expect("a folder");
+        let found = || contents(&Disk, &root).expect("readable");
+        assert!(matches!(found(), Contents::Blank), "an empty folder");
+        std::fs::write(runs.join("part-000000.parquet.tmp"), b"half").expect("written");
+        assert!(matches!(found(), Contents::Blank), "an unfinished part");
+        std::fs::write(runs.join("part-000001.parquet"), b"whole").expect("written");
+        assert!(matches!(found(), Contents::Foreign(name) if name == "runs/part-000001.parquet"), "a whole part");
+        std::fs::remove_dir_all(&root).expect("removed");
+    }
+}

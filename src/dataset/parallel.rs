@@ -141,9 +141,6 @@ impl<T, E, M: FnMut(T) -> Result<(), E>> State<T, E, M> {
     fn merge_ready(&mut self) {
         while let Some(at) = self.waiting.iter().position(|(index, _)| *index == self.merged) {
             let (index, found) = self.waiting.swap_remove(at);
-            if self.error.as_ref().is_some_and(|(first, _)| *first < index) {
-                return;
-            }
             if let Err(error) = (self.merge)(found) {
                 self.fail(index, error);
                 return;
@@ -165,6 +162,37 @@ mod tests {
             in_order(1000, NonZeroUsize::new(3), read, |_| Ok(()))
         };
         assert!(std::panic::catch_unwind(work).is_err());
+    }
+
+    /// Law: the error is that of the first item, in their order, that fails; a later one that failed sooner does not keep the
+    /// items before it from being merged.
+    #[test]
+    fn the_first_error_counts() {
+        for threads in [1, 2, 3] {
+            let has_failed = std::sync::atomic::AtomicBool::new(false);
+            let read = |item: usize| match item {
+                // with more than one thread item 2 fails while item 1 is still read
+                1 => {
+                    while threads > 1 && !has_failed.load(std::sync::atomic::Ordering::SeqCst) {
+                        std::thread::yield_now();
+                    }
+                    std::thread::sleep(std::time::Duration::from_millis(20));
+                    Ok(item)
+                }
+                2 => {
+                    has_failed.store(true, std::sync::atomic::Ordering::SeqCst);
+                    Err("read 2")
+                }
+                _ => Ok(item),
+            };
+            let mut merged = Vec::new();
+            let merge = |item: usize| {
+                merged.push(item);
+                if item == 1 { Err("merge 1") } else { Ok(()) }
+            };
+            assert_eq!(in_order(10, NonZeroUsize::new(threads), read, merge), Err("merge 1"));
+            assert_eq!(merged, [0, 1], "{threads} threads");
+        }
     }
 
     /// Law: results are in the order of the items, for any number of threads.

@@ -173,3 +173,48 @@ impl Display for AuditSummary {
         )
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::statistics::sketch::RELATIVE_ERROR;
+
+    /// Law: the screen says how many runs were compared, how many of them in double-double, how many in plain doubles, and how many failed.
+    #[test]
+    fn every_selected_run_is_accounted_for() {
+        let line = |audited: u64, in_double_double: u64, failed: u64| {
+            let audits = AuditTally { audited, in_double_double, failed, ..AuditTally::default() };
+            AuditSummary::new(&audits, 0.5).to_string().lines().next().map(str::to_owned).unwrap_or_default()
+        };
+        let head = "  audit: 7 runs compared with reference solutions";
+        let plain = "too long for that, in plain doubles with tolerance 1e-16";
+        assert_eq!(line(7, 7, 0), format!("{head}, 7 of them in double-double"));
+        assert_eq!(line(7, 4, 0), format!("{head}, 4 of them in double-double, 3 {plain}"));
+        let failed = "2 more did not reach their end";
+        assert_eq!(line(7, 5, 2), format!("{head}, 5 of them in double-double, 2 {plain}; {failed}"));
+    }
+
+    /// Law: each quantile is that of its rank, and the ratios are of the runs that were audited.
+    #[test]
+    fn quantiles_and_shares_are_those_stated() {
+        let mut audits = AuditTally { audited: 4, covered: 3, ..AuditTally::new(1) };
+        (1..=1000).for_each(|k| audits.state.add(f64::from(k)));
+        (1..=1000).for_each(|k| audits.observables[0].add(f64::from(k)));
+        let found = AuditSummary::new(&audits, 0.5);
+        let near = |found: Option<f64>, expected: f64| {
+            let found = found.expect("a value");
+            assert!((found / expected - 1.0).abs() <= RELATIVE_ERROR, "{found} for {expected}");
+        };
+        near(found.state_error.median, 500.0);
+        near(found.state_error.p95, 950.0);
+        near(found.state_error.p99, 990.0);
+        assert_eq!((found.state_error.max, found.estimate.coverage), (Some(1000.0), Some(0.75)));
+        let mut values = Sketch::default();
+        (1..=100).for_each(|k| values.add(f64::from(k)));
+        let numerics = Numerics::new(&audits, 0, &values).expect("errors");
+        // 95 - 5, each within the width of its bucket
+        assert!((numerics.spread / 90.0 - 1.0).abs() < 2.0 * RELATIVE_ERROR, "{}", numerics.spread);
+        near(numerics.share_of_spread, 950.0 / numerics.spread);
+        assert_eq!(cost([3.0, 1.0]), format!("{} s of CPU time, 25.0% of the total", short(1.0)));
+    }
+}

@@ -248,6 +248,23 @@ mod tests {
         assert!(Moments::of_block(&[1.0, f64::NAN]).mean().is_some_and(f64::is_nan));
     }
 
+    /// Law: the unit of the numbers does not matter: 2^k times the numbers have 2^k times the mean and the deviation, and the same
+    /// skewness, to the bit.
+    #[test]
+    fn moments_scale_with_their_unit() {
+        let values: Vec<f64> = (0..100).map(|k| libm::sin(f64::from(k) * 0.7) * f64::from(k % 17)).collect();
+        let found = Moments::of_block(&values);
+        for exponent in [-60, -1, 40] {
+            let unit = libm::ldexp(1.0, exponent);
+            let scaled = Moments::of_block(&values.iter().map(|value| unit * value).collect::<Vec<_>>());
+            let times = |value: Option<f64>| value.map(|value| unit * value);
+            assert_eq!(scaled.mean(), times(found.mean()));
+            assert_eq!(scaled.standard_deviation(), times(found.standard_deviation()));
+            assert_eq!(scaled.standard_deviation_error(), times(found.standard_deviation_error()));
+            assert_eq!(scaled.skewness(), found.skewness());
+        }
+    }
+
     /// Known: of n numbers +1 and n numbers -1, m_4 = m_2 = 1: the standard deviation has no error of this order. Of 0 (n - 1 times) and
     /// 1 the error is sqrt((m_4 - m_2^2)/n)/(2 s).
     #[test]
@@ -281,5 +298,24 @@ mod tests {
             assert!((moments.standard_deviation().unwrap_or(0.0) / exact - 1.0).abs() < 1e-9);
         }
         assert_eq!((whole.count(), whole.min(), whole.max()), (merged.count(), merged.min(), merged.max()));
+    }
+    /// Law: merging is adding for the third and the fourth moment too, where the parts differ in size, mean and spread: the sums of
+    /// powers of the deviations from the mean of all.
+    #[test]
+    fn merged_parts_have_the_moments_of_the_whole() {
+        let values: Vec<f64> = (0..60).map(|k| libm::exp(0.05 * f64::from(k)) + f64::from(k % 7)).collect();
+        let mean = values.iter().sum::<f64>() / 60.0;
+        let sum = |power: i32| values.iter().map(|value| (value - mean).powi(power)).sum::<f64>();
+        let (m2, m3, m4) = (sum(2), sum(3), sum(4));
+        for cuts in [[10, 13], [30, 59], [1, 50]] {
+            let mut merged = Moments::default();
+            for part in [&values[..cuts[0]], &values[cuts[0]..cuts[1]], &values[cuts[1]..]] {
+                merged.merge(&Moments::of(part.iter().copied()));
+            }
+            for (found, exact) in [(merged.mean, mean), (merged.m2, m2), (merged.m3, m3), (merged.m4, m4)] {
+                // some rounding errors of sums of 60 numbers
+                assert!((found / exact - 1.0).abs() < 1e-13, "{cuts:?}: {found} {exact}");
+            }
+        }
     }
 }

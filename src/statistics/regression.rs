@@ -168,8 +168,13 @@ mod tests {
         let expected = pearson(&residual(&sx), &residual(&sy));
         // measured 2.2e-16
         assert!((found.partial[0] - expected).abs() < 2e-15, "{} {expected}", found.partial[0]);
-        let interval = found.coefficients[0];
-        assert!(interval.lower < interval.value && interval.value < interval.upper);
+        // Law: coefficient over standard error is the partial correlation's t = rho sqrt(n - k - 1)/sqrt(1 - rho^2)
+        let (interval, freedom) = (found.coefficients[0], 500.0 - 3.0);
+        let statistic = expected * libm::sqrt(freedom / (1.0 - expected * expected));
+        let half = two_sided_quantile(0.95, freedom) * interval.value / statistic;
+        let found = [interval.upper - interval.value, interval.value - interval.lower];
+        // rounding of sums of 500 numbers
+        assert!(half > 0.0 && found.iter().all(|found| (found / half - 1.0).abs() < 1e-13), "{found:?} {half}");
     }
 
     /// Law: an input that is a combination of those before it, or constant, is not independent; the rest have a regression.

@@ -333,6 +333,22 @@ mod tests {
         assert_eq!((infinite.bounds(1), infinite.bounds(3)), (Some([f64::NEG_INFINITY; 2]), Some([f64::INFINITY; 2])));
     }
 
+    /// Law: counts of buckets do not end at 2^32, each for itself, however they come to be.
+    #[test]
+    fn counts_do_not_end() {
+        let mut large = sketch(&[-3.0, 1.0, 2.0, 2.0]);
+        for _ in 0..33 {
+            let same = large.clone();
+            large.merge(&same);
+        }
+        large.add(1.0);
+        let n = 1_u64 << 33;
+        let up_to: Vec<u64> = large.ranks().buckets.iter().map(|bucket| bucket.up_to).collect();
+        assert_eq!((large.count(), up_to), (4 * n + 1, vec![n, 2 * n + 1, 4 * n + 1]));
+        assert!(large.quantile(0.4).is_some_and(|one| (one - 1.0).abs() <= RELATIVE_ERROR));
+        assert!(large.quantile(0.6).is_some_and(|two| (two / 2.0 - 1.0).abs() <= RELATIVE_ERROR));
+    }
+
     /// Law: whole numbers below 2048 have exact quantiles; larger ones are within their bounds.
     #[test]
     fn whole_numbers_stay_whole() {
