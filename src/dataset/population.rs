@@ -75,3 +75,21 @@ impl Population {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: statistics are about the dispersed samples, about the nominal one only where it is all there is; each sample is in one group.
+    #[test]
+    fn the_nominal_sample_is_no_part_of_a_population() {
+        let [nominal, first] = [SampleId(0), SampleId(1)];
+        for population in [Population::Independent, Population::Replicated(4), Population::Dependent("sobol")] {
+            assert!(!population.contains(nominal) && population.contains(first), "{population:?}");
+        }
+        assert!(Population::Nominal.contains(nominal));
+        let groups = |population: Population| [1, 2, 3, 4, 5].map(|sample| population.group(SampleId(sample)));
+        assert_eq!(groups(Population::Replicated(4)), [0, 1, 2, 3, 0]);
+        assert_eq!(groups(Population::Independent), [0; 5]);
+    }
+}

@@ -351,3 +351,53 @@ fn of_blocks(plan: &Plan, observed: &[Observed], table: &Table) -> Vec<InputSens
     }
     found
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::campaign::Overrides;
+
+    /// Two angular rates from a `saltelli` design.
+    const PLAN: &str = r#"
+        campaign = { name = "blocks", samples = 13, seed = 1, duration_s = 1.0 }
+        integrator = { method = "auto", tolerance = 1e-10 }
+        observe = { points = 11 }
+        design = { kind = "saltelli" }
+        initial = { angular_velocity_rad_s = [0.0, 0.1, 0.5] }
+
+        [body]
+        mass_kg = 500.0
+        center_of_mass_m = [0.0, 0.0, 0.0]
+        inertia_kg_m2 = [[120.0, 0.0, 0.0], [0.0, 150.0, 0.0], [0.0, 0.0, 90.0]]
+        includes_wheels = false
+
+        [[disperse]]
+        parameter = "initial.angular_velocity_rad_s.x"
+        distribution = "normal"
+        std = 0.05
+
+        [[disperse]]
+        parameter = "initial.angular_velocity_rad_s.y"
+        distribution = "normal"
+        std = 0.05
+    "#;
+
+    /// Law: indices are of whole blocks only, one for each distribution, and say of how many rows. Known: y = x_1 + x_2 at the points A, A with
+    /// x_1 of B, A with x_2 of B, and B.
+    #[test]
+    fn indices_are_of_whole_blocks() {
+        let plan = Plan::from_text("blocks.toml", PLAN, Overrides::default()).expect("a plan");
+        let observed = Observed::all(&plan).into_iter().take(1).collect::<Vec<_>>();
+        // A = (0, 1), B = (1, 4); the second block lacks sample 6; A = (3, 1), B = (2, 0)
+        let rows = [1.0, 2.0, 4.0, 5.0, 9.0, 9.0, 9.0, 4.0, 3.0, 3.0, 2.0];
+        let samples = (1..=12).filter(|sample| *sample != 6).collect();
+        let table = Table { samples, inputs: Vec::new(), observables: vec![rows.to_vec()] };
+        let found = of_blocks(&plan, &observed, &table);
+        let inputs: Vec<(&str, u64)> = found.iter().map(|one| (one.input.as_str(), one.rows)).collect();
+        let parameter = |axis: &str| format!("initial.angular_velocity_rad_s.{axis}");
+        assert_eq!(inputs, [(parameter("x").as_str(), 8), (parameter("y").as_str(), 8)]);
+        // variance (4 + 1)/2; half the mean square of A - mixed: 1/2 and 5/2
+        let total = found.iter().map(|one| one.total.map(|total| total.value)).collect::<Vec<_>>();
+        assert_eq!(total, [Some(0.2), Some(1.0)]);
+    }
+}

@@ -66,3 +66,19 @@ pub fn stopping(
     let look = targets.iter().position(|target| *target >= samples).map_or(targets.len(), |index| index + 1);
     Ok(Some(Stopping { samples, look, looks: targets.len(), found: decision(&all, stop.goal, targets.len()) }))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: a campaign ends with the look that finds it precise enough, or with the last one.
+    #[test]
+    fn the_last_look_ends_the_campaign() {
+        let ends = |look: usize, stops: bool| {
+            let found = Look { stops, estimate: Some(1.0), interval: [Some(0.9), Some(1.1)], confidence: 0.95 };
+            Stopping { samples: 100, look, looks: 3, found }.ends()
+        };
+        assert_eq!([1, 2, 3].map(|look| ends(look, false)), [false, false, true]);
+        assert_eq!([1, 2, 3].map(|look| ends(look, true)), [true, true, true]);
+    }
+}

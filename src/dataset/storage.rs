@@ -254,6 +254,20 @@ mod tests {
     use super::*;
     use crate::dataset::stored_file::is_unfit;
 
+    /// Law: a folder is removed where nothing is in it, and only there; what is absent need not be removed.
+    #[test]
+    fn only_an_empty_folder_is_removed() {
+        let folder = std::env::temp_dir().join(format!("spindrift-storage-{}-empty", std::process::id()));
+        let file = folder.join("x");
+        fs::create_dir_all(&folder).unwrap();
+        fs::write(&file, b"x").unwrap();
+        assert!(Disk.remove_folder(&folder).is_err() && file.exists());
+        Disk.remove(&file).unwrap();
+        Disk.remove_folder(&folder).unwrap();
+        assert!(!folder.exists());
+        assert!(Disk.remove(&file).is_ok() && Disk.remove_folder(&folder).is_ok());
+    }
+
     /// Law: what was created is read; what is no regular file is unfit, and what is not there is neither read nor unfit.
     #[test]
     fn only_regular_files_are_read() {

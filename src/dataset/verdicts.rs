@@ -303,5 +303,10 @@ mod tests {
         assert_eq!(of(&[(100, 98, &[]), (100, 96, &[]), (100, 97, &[]), (100, 97, &[])]), "PASS");
         assert_eq!(of(&[(100, 80, &[]), (100, 99, &[]), (100, 85, &[]), (100, 98, &[])]), "UNDECIDED");
         assert_eq!(of(&[(100, 80, &[]), (100, 81, &[]), (100, 82, &[]), (100, 79, &[])]), "FAIL");
+        // 380 of 400 runs would show 90% if they were independent; one replicate of four misses it
+        let spread: [(u64, u64, &[f64]); 4] = [(100, 100, &[]), (100, 100, &[]), (100, 100, &[]), (100, 80, &[])];
+        assert_eq!(of(&spread), "UNDECIDED");
+        let independent = assessment(p90.clone(), String::new(), &counts(&spread), Population::Independent);
+        assert_eq!(independent.word(), "PASS", "the counter-test");
     }
 }

@@ -328,3 +328,70 @@ fn of_bodies<S: Simd, const W: usize>(simd: S, run: &MeasuredRun<'_>, out: &mut 
         (balance - balance_first).store(&mut energy_error[at]);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Isa;
+    use crate::math::isa::Work;
+    use crate::math::lanes::WIDTH;
+    use crate::math::vector::{product, sum};
+    use crate::scene::WheelMode;
+
+    /// A few roundings of sums of some ten terms of size ten.
+    const ROUNDING: f64 = 1e-13;
+    const OMEGA: [f64; 3] = [0.3, -0.7, 1.1];
+    const OFFSET: [f64; 3] = [0.5, -0.25, 1.5];
+    const MASS: f64 = 3.0;
+    const INERTIA: [[f64; 3]; 3] = [[3.0, 0.25, -0.5], [0.25, 2.0, 0.125], [-0.5, 0.125, 1.5]];
+
+    fn close(a: f64, b: f64) {
+        assert!((a - b).abs() < ROUNDING, "{a} {b}");
+    }
+
+    /// The energy of a body with the velocity `u` of c and the rate `omega`.
+    struct Energy([f64; 3], [f64; 3]);
+    impl Work for Energy {
+        type Output = [f64; WIDTH];
+        #[inline(always)]
+        fn run<S: Simd>(self, simd: S) -> Self::Output {
+            let (u, omega) = (constant(simd, self.0), constant(simd, self.1));
+            let body = BodyConstants::of(simd, MASS, OFFSET, INERTIA);
+            let about = quadratic(body.form, products(omega));
+            let mut energy = [0.0; WIDTH];
+            body.moving(about, dot(u, u), cross(u, omega)).store(&mut energy);
+            energy
+        }
+    }
+
+    /// Law: the energy of a rigid body is that of its centre of mass and of its rotation about it, (m v . v + omega . J omega)/2 with
+    /// v = u + omega x d, in all lanes.
+    #[test]
+    fn the_energy_of_a_body_is_that_of_its_motion() {
+        let rotation = dot(OMEGA, product(INERTIA, OMEGA));
+        for u in [[0.0; 3], [2.0, 0.5, -1.0]] {
+            let velocity = sum(u, cross(OMEGA, OFFSET));
+            let expected = 0.5 * (MASS * dot(velocity, velocity) + rotation);
+            Isa::best().run(Energy(u, OMEGA)).into_iter().for_each(|energy| close(energy, expected));
+        }
+        let arm = cross(OMEGA, OFFSET);
+        close(quadratic(form(MASS, OFFSET, INERTIA), products(OMEGA)), 0.5 * (MASS * dot(arm, arm) + rotation));
+    }
+
+    /// Law: a wheel has its axial moment of inertia about its axis, and its transverse one about any axis across it.
+    #[test]
+    fn the_inertia_of_a_wheel_is_about_its_axis() {
+        let axis = [2.0 / 7.0, -3.0 / 7.0, 6.0 / 7.0];
+        let wheel = Wheel { mass: MASS, center: OFFSET, axis, axial: 0.75, transverse: 0.5, mode: WheelMode::Free };
+        let inertia = wheel_inertia(&wheel);
+        let along = dot(OMEGA, axis);
+        close(dot(OMEGA, product(inertia, OMEGA)), 0.5 * dot(OMEGA, OMEGA) + 0.25 * along * along);
+        for (found, axis) in product(inertia, axis).into_iter().zip(axis) {
+            close(found, 0.75 * axis);
+        }
+        let across = cross(axis, OMEGA);
+        for (found, across) in product(inertia, across).into_iter().zip(across) {
+            close(found, 0.5 * across);
+        }
+    }
+}

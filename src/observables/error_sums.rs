@@ -95,6 +95,29 @@ mod tests {
         }
     }
 
+    /// Law: errors that arise at the first point, on the curve itself, grow as errors that are known at every point do: along H, and
+    /// across it with the balance |w| Y.
+    #[test]
+    fn an_error_of_the_first_point_grows_as_a_known_one() {
+        let (mut known, mut made) = (Sums::default(), Sums::default());
+        for k in 0..=40 {
+            let (time, w) = (0.25 * f64::from(k), 0.5 + 0.25 * libm::cos(f64::from(k)));
+            // at the first point there is no step and mu = mu_0
+            let is_first = k == 0;
+            let here = Here {
+                tilt: if is_first { 0.0 } else { 0.3 },
+                twist: 0.7,
+                range: 0.2,
+                ..at(if is_first { 0.0 } else { 0.25 }, time, w)
+            };
+            known.set(&here, 1e-6, 2e-6 * 0.75);
+            made.advance(&here, if is_first { [1e-6, 2e-6, 0.0] } else { [0.0; 3] });
+            // the same sums in the same order
+            assert!((made.most / known.most - 1.0).abs() < 1e-15, "{k}: {:e} {:e}", made.most, known.most);
+        }
+        assert!(known.most > 1e-5, "the counter-test: the error has grown: {:e}", known.most);
+    }
+
     /// Law: an error along H alone rotates the attitude about L at the rate A_HH and stays constant; one across H is sheared along
     /// the curve, by shear t relative to itself where |w| is constant.
     #[test]

@@ -62,3 +62,57 @@ pub(super) fn exchange<'w, S: Simd>(
     };
     Exchange { correlations, frequency }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Isa;
+    use crate::math::isa::Work;
+    use crate::math::lanes::WIDTH;
+    use crate::run::Grid;
+
+    /// Points in time.
+    const POINTS: usize = 64;
+
+    /// The exchange of a body with one wheel, of the total energy given.
+    struct Exchanged<'a>(&'a Weights, &'a mut Spectrum, f64, [BodyEnergy<'a>; 2]);
+    impl Work for Exchanged<'_> {
+        type Output = (f64, f64);
+        #[inline(always)]
+        fn run<S: Simd>(self, simd: S) -> Self::Output {
+            let [body, wheel] = self.3;
+            let found = exchange(simd, self.0, Some(self.1), self.2, body, std::iter::once(wheel));
+            (found.correlations[0], found.frequency)
+        }
+    }
+
+    /// Correlation and frequency where the body has the energy f(time) and the wheel `total` - f(time).
+    fn exchanged(total: f64, f: impl Fn(f64) -> f64) -> (f64, f64) {
+        let grid = Grid::uniform(4.0, POINTS);
+        let columns = [0.0, total].map(|of_wheel| {
+            let mut values: Vec<f64> = grid.times().iter().map(|time| (of_wheel - f(*time)).abs()).collect();
+            values.resize(POINTS + WIDTH, values[POINTS - 1]);
+            values
+        });
+        let energies = [0, 1].map(|k| {
+            let values = &columns[k][..POINTS];
+            let (low, high) =
+                values.iter().fold((f64::INFINITY, 0.0_f64), |(low, high), x| (low.min(*x), high.max(*x)));
+            BodyEnergy { column: &columns[k], mean: values.iter().sum::<f64>() / POINTS as f64, swing: high - low }
+        });
+        let mut spectrum = Spectrum::of(&grid).expect("an even grid");
+        Isa::best().run(Exchanged(&Weights::of(&grid), &mut spectrum, total, energies))
+    }
+
+    /// Law: what one body gains the other loses, at the frequency of the swing; bodies at rest, and such as keep their energy,
+    /// exchange nothing.
+    #[test]
+    fn bodies_at_rest_exchange_nothing() {
+        let (correlation, frequency) =
+            exchanged(3.0, |time| 1.0 + 0.5 * libm::sin(core::f64::consts::TAU * 1.5 * time));
+        // of a mean and a sum of 64 terms; the frequency lies between two bins of 1/4 Hz
+        assert!((correlation + 1.0).abs() < 1e-14 && (frequency - 1.5).abs() < 0.25, "{correlation} {frequency}");
+        assert_eq!(exchanged(0.0, |_| 0.0), (0.0, 0.0), "at rest");
+        assert_eq!(exchanged(3.0, |_| 1.0), (0.0, 0.0), "a steady spin");
+    }
+}

@@ -186,3 +186,27 @@ pub(super) fn of_wheels<const W: usize>(
 pub(super) fn needed<const N: usize>(table: &StateTable, field: StateField, vectors: usize) -> [Column<'_>; N] {
     columns(table, field, vectors).expect("the state table has the fields that the request needs")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: what follows the last point repeats it, up to the end of the vector after the last; points, and series that are not observed,
+    /// are left as they are.
+    #[test]
+    fn the_last_point_is_repeated() {
+        for points in [1, 7, 8, 9, 16, 21] {
+            let mut table = SeriesTable::new(points);
+            let [first, second] = [0, 1].map(|index| Series::all().nth(index).expect("a series"));
+            for series in [first, second] {
+                let columns = table.write([series], points.div_ceil(WIDTH));
+                columns.into_iter().flatten().flatten().zip(0..).for_each(|(value, k)| *value = f64::from(k));
+            }
+            table.pad(SeriesSet::default().with(first), points);
+            for (k, value) in table.column(first).iter().enumerate() {
+                assert_eq!(*value, k.min(points - 1) as f64, "{points} points: {k}");
+            }
+            assert!(table.column(second).last().is_some_and(|value| value.is_nan()), "{points} points");
+        }
+    }
+}

@@ -41,7 +41,7 @@ pub fn wheel_names(names: &[&str]) -> WheelNames {
 pub(super) struct SeriesSet(u128);
 
 impl SeriesSet {
-    const fn with(self, series: Series) -> Self {
+    pub(super) const fn with(self, series: Series) -> Self {
         SeriesSet(self.0 | 1 << series.index())
     }
 

@@ -75,6 +75,20 @@ mod tests {
     /// A few roundings of entries of size one; none is measured.
     const ROUNDING: f64 = 1e-15;
 
+    /// Law: the inverse of a body's inertia times the inertia is one; a body is principal where no product of inertia is left.
+    #[test]
+    fn the_inverse_inertia_is_the_inverse() {
+        let inertia = [[3.0, 0.25, -0.5], [0.25, 2.0, 0.125], [-0.5, 0.125, 1.5]];
+        let body = Body::debris(inertia);
+        for (i, row) in body.inverse.iter().enumerate() {
+            for (j, column) in inertia.iter().enumerate() {
+                assert!((dot(*row, *column) - f64::from(u8::from(i == j))).abs() < ROUNDING, "{i}, {j}");
+            }
+        }
+        assert_eq!((body.size, body.is_principal), ((3.0 + 2.0 + 1.5) / 3.0, false));
+        assert!(Body::debris([[3.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 1.5]]).is_principal);
+    }
+
     #[test]
     fn the_adjugate_over_the_determinant_is_the_inverse() {
         let m = [[3.0, 0.25, -0.5], [0.25, 2.0, 0.125], [-0.5, 0.125, 1.5]];
