@@ -316,3 +316,75 @@ fn of_quantile(
     }
     found
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::campaign::Overrides;
+    use crate::dataset::part_columns::PartColumns;
+    use crate::run::Status;
+    use crate::sampling::SampleId;
+    use std::borrow::Cow;
+
+    const PLAN: &str = r#"
+        campaign = { name = "counted", samples = 7, seed = 1, duration_s = 1.0 }
+        integrator = { method = "auto", tolerance = 1e-10 }
+        observe = { points = 11 }
+        initial = { angular_velocity_rad_s = [0.0, 0.1, 0.5] }
+
+        [body]
+        mass_kg = 500.0
+        center_of_mass_m = [0.0, 0.0, 0.0]
+        inertia_kg_m2 = [[120.0, 0.0, 0.0], [0.0, 150.0, 0.0], [0.0, 0.0, 90.0]]
+        includes_wheels = false
+
+        [[disperse]]
+        parameter = "initial.angular_velocity_rad_s.x"
+        distribution = "normal"
+        std = 0.05
+    "#;
+
+    /// A part whose columns all have the same values.
+    struct Written(Vec<Status>, Vec<f64>);
+
+    impl PartColumns for Written {
+        fn rows(&self) -> usize {
+            self.0.len()
+        }
+
+        fn samples(&self) -> Result<Vec<SampleId>, RowsError> {
+            Ok((0..self.0.len() as u64).map(SampleId).collect())
+        }
+
+        fn statuses(&self) -> Result<Cow<'_, [Status]>, RowsError> {
+            Ok(Cow::Borrowed(&self.0))
+        }
+
+        fn numbers(&self, _: &str) -> Result<Cow<'_, [f64]>, RowsError> {
+            Ok(Cow::Borrowed(&self.1))
+        }
+    }
+
+    /// Law: statistics are those of the values of dispersed runs that are ok; the nominal run and failed runs are left out, and counted.
+    #[test]
+    fn statistics_are_of_dispersed_runs_that_are_ok() {
+        let plan = Plan::from_text("counted.toml", PLAN, Overrides::default()).expect("a plan");
+        let observed = Observed::all(&plan);
+        let name = observed[0].quantity.name().to_owned();
+        let collector = Collector::new(observed, Population::of(&plan), is_exact(&plan));
+        let mut statuses = vec![Status::Done; 7];
+        statuses[3] = Status::StepLimit;
+        // quantiles of 1, 2, 3, 4, 10
+        let part = Written(statuses, vec![99.0, 4.0, 1.0, 50.0, 3.0, 2.0, 10.0]);
+        let mut collected = collector.nothing();
+        collected.merge(collector.count(&part).expect("counted"));
+        let counted = collector.finish(collected);
+        let found = compute(&plan, &RowsReader::new(Vec::new()), Some(counted), None).expect("statistics");
+        let column = found.column(&name).expect("the column");
+        assert_eq!((found.samples(), found.ok(), found.quantile_error), (6, 5, 0.0));
+        assert_eq!((column.moments.count(), column.moments.mean(), column.moments.max()), (5, Some(4.0), Some(10.0)));
+        let median = column.quantiles.iter().find(|quantile| quantile.p == 0.5).expect("the median");
+        assert_eq!(median.value, Some(3.0));
+        assert_eq!(found.treatment(), "1 of 6 runs are not ok and are left out");
+    }
+}

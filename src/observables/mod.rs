@@ -22,6 +22,8 @@ mod attitude;
 pub mod band_reader;
 pub mod band_series;
 mod conditioning;
+#[cfg(test)]
+mod conditioning_laws;
 mod correlation;
 mod energies;
 mod error_sums;

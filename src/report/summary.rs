@@ -219,6 +219,38 @@ impl Display for Summary {
 mod tests {
     use super::*;
 
+    /// Law: the screen counts the runs of each status that occurs, and names the first samples of those that are not ok.
+    #[test]
+    fn statuses_are_counted_and_failures_named() {
+        let ended = |count: u64, first: &[u64]| Ended { count, first: first.iter().map(|id| SampleId(*id)).collect() };
+        let summary = Summary {
+            name: "x".to_owned(),
+            seed: 1,
+            samples: 13,
+            plan_hash: String::new(),
+            without_nominal: true,
+            statuses: vec![
+                (Status::Done.name(), ended(5, &[])),
+                (Status::StepLimit.name(), ended(2, &[3, 4])),
+                (Status::NonFinite.name(), ended(0, &[])),
+                (Status::Inaccurate.name(), ended(6, &[5, 6])),
+            ],
+            worst: Vec::new(),
+            lines: Vec::new(),
+            verdicts: Verdicts::default(),
+            intervals: String::new(),
+            treatment: String::new(),
+            confidence: 0.95,
+            quantile_error: 0.0,
+            audit: None,
+            replaced: Vec::new(),
+            stopping: None,
+        };
+        let lines = ["  ok                         5", "  step_limit                 2   samples 3, 4"];
+        let more = "  inaccurate                 6   samples 5, 6, ...";
+        assert_eq!(summary.to_string(), format!("{}\n{}\n{more}\n", lines[0], lines[1]));
+    }
+
     #[test]
     fn failed_runs_are_read_from_a_summary() {
         assert_eq!(failed_runs(r#"{"statuses": {"ok": 5, "step_limit": 2, "invalid_sample": 1}}"#), Some(3));
