@@ -16,7 +16,7 @@ const MOST_ERRORS: usize = 8;
 /// Steps of the ranks of an exceedance plot: this many to a factor of ten.
 const RANKS_PER_DECADE: f64 = 12.0;
 
-/// How much smaller than the largest the smallest value of an exceedance plot is: runs without any error would stretch its axis by
+/// How much smaller than the largest the smallest value of an exceedance plot is: runs without any error would lengthen its axis by
 /// three hundred decades.
 const TAIL_RANGE: f64 = 1e12;
 
