@@ -387,10 +387,10 @@ mod tests {
     #[test]
     fn the_first_parts_have_the_first_rows() {
         let folder = Folder::new("first");
-        let reader = RowsReader::new((0..3).map(|k| file(&folder, 3 * k)).collect());
+        let reader = RowsReader::new(&Disk, (0..3).map(|k| file(&folder, 3 * k)).collect());
         let parts = |rows: usize| reader.first_parts(rows).map(|part| part.expect("readable").rows()).sum::<usize>();
         assert_eq!([0, 1, 3, 4, 6, 7, 9, 100].map(parts), [0, 3, 3, 6, 6, 9, 9, 9]);
-        let missing = RowsReader::new(vec![folder.0.join("none.parquet")]);
+        let missing = RowsReader::new(&Disk, vec![folder.0.join("none.parquet")]);
         assert!(missing.first_parts(1).next().is_some_and(|part| part.is_err()));
     }
 

@@ -379,7 +379,8 @@ mod tests {
         let mut collected = collector.nothing();
         collected.merge(collector.count(&part).expect("counted"));
         let counted = collector.finish(collected);
-        let found = compute(&plan, &RowsReader::new(Vec::new()), Some(counted), None).expect("statistics");
+        let found = compute(&plan, &RowsReader::new(&crate::dataset::storage::Disk, Vec::new()), Some(counted), None)
+            .expect("statistics");
         let column = found.column(&name).expect("the column");
         assert_eq!((found.samples(), found.ok(), found.quantile_error), (6, 5, 0.0));
         assert_eq!((column.moments.count(), column.moments.mean(), column.moments.max()), (5, Some(4.0), Some(10.0)));
