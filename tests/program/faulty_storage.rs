@@ -209,7 +209,9 @@ impl StoredFile for FaultyFile {
         }
         match self.plot.fault {
             Fault::End => Ok(0),
-            Fault::Piecewise if self.plot.done.lock().unwrap().len() % 2 == 0 => Err(io::ErrorKind::Interrupted.into()),
+            Fault::Piecewise if self.plot.done.lock().unwrap().len().is_multiple_of(2) => {
+                Err(io::ErrorKind::Interrupted.into())
+            }
             Fault::Piecewise => {
                 let some = bytes.len().div_ceil(2);
                 self.file.read_at(offset, &mut bytes[..some])
