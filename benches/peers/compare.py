@@ -25,6 +25,21 @@ from scipy.integrate import solve_ivp
 TOLERANCES = [1e-6, 1e-8, 1e-10, 1e-12, 1e-14, 1e-16]
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 ACTUATION = """
+[[thrusters]]
+name = "p1"
+position_m = [0, 0, 0]
+direction = [0, 0, 1]
+
+[[thrusters]]
+name = "p2"
+position_m = [0, -0.5, 3.0]
+direction = [0, 0, -1]
+
+[[thrusters]]
+name = "p3"
+position_m = [0, 0.5, 3.0]
+direction = [0, 0, -1]
+
 [[actuation]]
 start_s = 0.0
 end_s = 10.0
