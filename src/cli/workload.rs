@@ -17,6 +17,7 @@ use crate::ensemble::Ensemble;
 use crate::ensemble::probe::RunProbe;
 use crate::ensemble::run_cost::{parts_of_runs, run_seconds};
 use crate::ensemble::runner::threads;
+use crate::observables::band_series::band_series;
 use crate::report::number::{bytes, short};
 
 /// CPU time beyond which a command asks for `--yes`, s.
@@ -30,8 +31,9 @@ const SHORT_RUN_S: f64 = 0.2;
 const NUMBER: f64 = 8.5;
 /// Bytes of a part that do not depend on its rows, for each column: names, units, meanings, positions (`spin_sweep` with one row: 180).
 const COLUMN_OF_A_PART: f64 = 200.0;
-/// Bytes of the bands of a part, for each point (`spin_sweep`: 75 kB at 101 points).
-const BANDS_OF_A_POINT: f64 = 1000.0;
+/// Most bytes of the bands of a part, for each quantity and point; of a part of few runs a byte for each (`spin_sweep`, 11 quantities at 33
+/// points: 208 bytes for 256 runs, 711 for 4,096, 961 for 16,384).
+const BAND_COLUMN: f64 = 1000.0;
 /// Memory for each part, bytes: its samples, its record, and its line of the manifest.
 const PART: f64 = 1000.0;
 /// Memory of the program itself, bytes.
@@ -87,7 +89,8 @@ impl Workload {
         let whole = parts_of_runs(plan, run_seconds).with_samples(samples);
         let new_parts = whole.count() as f64 * runs / samples as f64;
         let columns = headings(ensemble).len() as f64;
-        let of_bands = BANDS_OF_A_POINT * plan.band_points as f64;
+        let band_columns = band_series(ensemble.request()).len() * plan.band_points;
+        let of_bands = band_columns as f64 * BAND_COLUMN.min(runs / new_parts.max(1.0));
         let retained = match plan.retention {
             Retention::All => samples as f64 * share,
             Retention::Worst { count, .. } | Retention::Sample(count) => count as f64,

@@ -265,23 +265,12 @@ fn compared(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::campaign::Overrides;
+    use crate::dataset::small_plan::small_plan;
 
     /// Law: the rows of the same dispersed sample are compared, as many as both campaigns have; the nominal sample is not.
     #[test]
     fn rows_of_the_same_sample_are_paired() {
-        let plan = |samples: u64| {
-            let text = r#"
-                campaign = { name = "paired", samples = 7, seed = 1, duration_s = 1.0 }
-                integrator = { method = "auto", tolerance = 1e-10 }
-                observe = { points = 11 }
-                initial = { angular_velocity_rad_s = [0.0, 0.1, 0.5] }
-                body = { mass_kg = 500.0, center_of_mass_m = [0.0, 0.0, 0.0], inertia_kg_m2 = [[120.0, 0.0, 0.0], [0.0, 150.0, 0.0], [0.0, 0.0, 90.0]], includes_wheels = false }
-                disperse = [{ parameter = "initial.angular_velocity_rad_s.x", distribution = "normal", std = 0.05 }]
-            "#;
-            let overrides = Overrides { samples: Some(samples), ..Overrides::default() };
-            Plan::from_text("paired.toml", text, overrides).expect("a plan")
-        };
+        let plan = |samples: u64| small_plan(samples, "");
         assert_eq!(shared_rows(&plan(7), &plan(4)), [[1, 1], [2, 2], [3, 3]]);
         assert_eq!(shared_rows(&plan(1), &plan(4)), Vec::<[usize; 2]>::new());
     }

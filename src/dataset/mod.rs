@@ -49,6 +49,8 @@ pub mod rows_reader;
 pub mod running_counts;
 pub mod sensitivity;
 pub mod sensitivity_table;
+#[cfg(test)]
+mod small_plan;
 pub mod statistics;
 pub mod statistics_table;
 pub mod stopping;

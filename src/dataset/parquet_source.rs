@@ -12,7 +12,7 @@ use parquet::errors::ParquetError;
 use parquet::file::reader::{ChunkReader, Length};
 
 use crate::dataset::storage::Storage;
-use crate::dataset::stored_file::{StoredFile, ended, some};
+use crate::dataset::stored_file::{StoredFile, ended, read_some};
 
 /// An open file, and the first error of reading it.
 #[derive(Clone, Debug)]
@@ -76,7 +76,7 @@ pub struct Section {
 impl Read for Section {
     fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
         let source = &self.source;
-        let found = match some(&*source.file, self.offset, bytes) {
+        let found = match read_some(&*source.file, self.offset, bytes) {
             Ok(0) if !bytes.is_empty() && self.offset < source.length => Err(ended(self.offset)),
             read => read,
         };

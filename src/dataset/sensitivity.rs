@@ -355,38 +355,13 @@ fn of_blocks(plan: &Plan, observed: &[Observed], table: &Table) -> Vec<InputSens
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::campaign::Overrides;
-
-    /// Two angular rates from a `saltelli` design.
-    const PLAN: &str = r#"
-        campaign = { name = "blocks", samples = 13, seed = 1, duration_s = 1.0 }
-        integrator = { method = "auto", tolerance = 1e-10 }
-        observe = { points = 11 }
-        design = { kind = "saltelli" }
-        initial = { angular_velocity_rad_s = [0.0, 0.1, 0.5] }
-
-        [body]
-        mass_kg = 500.0
-        center_of_mass_m = [0.0, 0.0, 0.0]
-        inertia_kg_m2 = [[120.0, 0.0, 0.0], [0.0, 150.0, 0.0], [0.0, 0.0, 90.0]]
-        includes_wheels = false
-
-        [[disperse]]
-        parameter = "initial.angular_velocity_rad_s.x"
-        distribution = "normal"
-        std = 0.05
-
-        [[disperse]]
-        parameter = "initial.angular_velocity_rad_s.y"
-        distribution = "normal"
-        std = 0.05
-    "#;
+    use crate::dataset::small_plan::small_plan;
 
     /// Law: indices are of whole blocks only, one for each distribution, and say of how many rows. Known: y = x_1 + x_2 at the points A, A with
     /// x_1 of B, A with x_2 of B, and B.
     #[test]
     fn indices_are_of_whole_blocks() {
-        let plan = Plan::from_text("blocks.toml", PLAN, Overrides::default()).expect("a plan");
+        let plan = small_plan(13, "design = { kind = \"saltelli\" }");
         let observed = Observed::all(&plan).into_iter().take(1).collect::<Vec<_>>();
         // A = (0, 1), B = (1, 4); the second block lacks sample 6; A = (3, 1), B = (2, 0)
         let rows = [1.0, 2.0, 4.0, 5.0, 9.0, 9.0, 9.0, 4.0, 3.0, 3.0, 2.0];

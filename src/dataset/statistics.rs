@@ -320,29 +320,12 @@ fn of_quantile(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::campaign::Overrides;
     use crate::dataset::part_columns::PartColumns;
+    use crate::dataset::small_plan::small_plan;
+    use crate::dataset::storage::Disk;
     use crate::run::Status;
     use crate::sampling::SampleId;
     use std::borrow::Cow;
-
-    const PLAN: &str = r#"
-        campaign = { name = "counted", samples = 7, seed = 1, duration_s = 1.0 }
-        integrator = { method = "auto", tolerance = 1e-10 }
-        observe = { points = 11 }
-        initial = { angular_velocity_rad_s = [0.0, 0.1, 0.5] }
-
-        [body]
-        mass_kg = 500.0
-        center_of_mass_m = [0.0, 0.0, 0.0]
-        inertia_kg_m2 = [[120.0, 0.0, 0.0], [0.0, 150.0, 0.0], [0.0, 0.0, 90.0]]
-        includes_wheels = false
-
-        [[disperse]]
-        parameter = "initial.angular_velocity_rad_s.x"
-        distribution = "normal"
-        std = 0.05
-    "#;
 
     /// A part whose columns all have the same values.
     struct Written(Vec<Status>, Vec<f64>);
@@ -368,7 +351,7 @@ mod tests {
     /// Law: statistics are those of the values of dispersed runs that are ok; the nominal run and failed runs are left out, and counted.
     #[test]
     fn statistics_are_of_dispersed_runs_that_are_ok() {
-        let plan = Plan::from_text("counted.toml", PLAN, Overrides::default()).expect("a plan");
+        let plan = small_plan(7, "");
         let observed = Observed::all(&plan);
         let name = observed[0].quantity.name().to_owned();
         let collector = Collector::new(observed, Population::of(&plan), is_exact(&plan));
@@ -379,8 +362,7 @@ mod tests {
         let mut collected = collector.nothing();
         collected.merge(collector.count(&part).expect("counted"));
         let counted = collector.finish(collected);
-        let found = compute(&plan, &RowsReader::new(&crate::dataset::storage::Disk, Vec::new()), Some(counted), None)
-            .expect("statistics");
+        let found = compute(&plan, &RowsReader::new(&Disk, Vec::new()), Some(counted), None).expect("statistics");
         let column = found.column(&name).expect("the column");
         assert_eq!((found.samples(), found.ok(), found.quantile_error), (6, 5, 0.0));
         assert_eq!((column.moments.count(), column.moments.mean(), column.moments.max()), (5, Some(4.0), Some(10.0)));

@@ -81,7 +81,7 @@ pub fn is_unfit(error: &io::Error) -> bool {
 pub fn fill(file: &dyn StoredFile, offset: u64, bytes: &mut [u8]) -> io::Result<()> {
     let mut done = 0;
     while done < bytes.len() {
-        let found = some(file, offset + done as u64, &mut bytes[done..])?;
+        let found = read_some(file, offset + done as u64, &mut bytes[done..])?;
         if found == 0 {
             return Err(ended(offset + done as u64));
         }
@@ -94,7 +94,7 @@ pub fn fill(file: &dyn StoredFile, offset: u64, bytes: &mut [u8]) -> io::Result<
 ///
 /// # Errors
 /// Where it cannot be read.
-pub fn some(file: &dyn StoredFile, offset: u64, bytes: &mut [u8]) -> io::Result<usize> {
+pub fn read_some(file: &dyn StoredFile, offset: u64, bytes: &mut [u8]) -> io::Result<usize> {
     loop {
         match file.read_at(offset, bytes) {
             Err(error) if error.kind() == io::ErrorKind::Interrupted => {}

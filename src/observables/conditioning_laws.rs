@@ -19,8 +19,10 @@ struct Motion(Vec<f64>, Vec<[f64; 3]>);
 
 /// The estimate for a body with these moments of inertia.
 struct Estimate<'a>(&'a Motion, [f64; 3], LocalErrors);
+
 impl Work for Estimate<'_> {
     type Output = ErrorEstimate;
+
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> Self::Output {
         let Estimate(Motion(times, rates), [x, y, z], local) = self;
@@ -92,14 +94,15 @@ fn estimates_have_no_unit() {
 #[test]
 fn the_estimate_covers_the_whole_spin() {
     let spin = |duration: f64| Motion(vec![0.0, duration], vec![[0.0, 0.0, 1.0]; 2]);
+    // measured: amplification 2.6 + duration, errors 5.0e-14 and 2.5e-13
     for duration in [10.0, 100.0] {
         let found = estimate(&spin(duration), MOMENTS, LOCAL);
-        assert!(found.amplification >= 1.0 + duration && found.amplification < 20.0 * duration, "{found:?}");
-        assert!(found.error > LOCAL.rounding * duration && found.error < 1e-11, "{found:?}");
+        assert!(found.amplification >= 1.0 + duration && found.amplification < 3.0 + duration, "{found:?}");
+        assert!(found.error > LOCAL.rounding * duration && found.error < 1e-12, "{found:?}");
     }
-    // a drift of the states is at least the error that it shows
+    // a drift of the states is at least the error that it shows; measured 5.7e-5, and 1.3e-11 without it
     let found = estimate(&free([0.3, 0.5, 1.0], 40.0, 1e-6), MOMENTS, LocalErrors::NONE);
-    assert!(found.error > 1e-6 && found.error < 1e-2, "{found:?}");
+    assert!(found.error > 1e-6 && found.error < 5e-4, "{found:?}");
     let found = estimate(&free([0.3, 0.5, 1.0], 40.0, 0.0), MOMENTS, LocalErrors::NONE);
-    assert!(found.error < 1e-6, "the counter-test: {found:?}");
+    assert!(found.error < 1e-10, "the counter-test: {found:?}");
 }

@@ -315,7 +315,7 @@ fn the_estimate_covers_the_error_and_is_not_idle() {
 }
 
 #[test]
-#[ignore = "minutes"]
+#[ignore = "minutes: cargo test --release --test accuracy -- --ignored the_estimate_covers"]
 fn the_estimate_covers_the_error_of_many_runs() {
     let breaches = breaches(200, 1.0);
     assert!(breaches.is_empty(), "{breaches:#?}");

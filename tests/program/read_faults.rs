@@ -253,7 +253,7 @@ fn reads_of_compare_may_fail() {
 }
 
 /// The same law with every fault at every read within every file.
-#[ignore = "minutes"]
+#[ignore = "a minute: cargo test --release --test program -- --ignored every_read_may_fail"]
 #[test]
 fn every_read_may_fail() {
     reads_fail("", 1);

@@ -7,7 +7,7 @@ use spindrift::run::{Grid, StateField};
 use spindrift::sampling::SampleId;
 use spindrift::scene::{Arc, Scene, SceneInput};
 
-use crate::support::campaigns::{FUSELAGE, THRUSTERS, WHEEL1_AT_REST};
+use crate::effect::{dispersed, plan_over};
 use crate::support::runs::{Run, adaptive, propagate};
 use crate::support::scenes::{Kind, Uniform, random};
 
@@ -141,19 +141,6 @@ fn an_error_changes_its_arc_only() {
     }
 }
 
-const HEAD: &str = r#"
-[campaign]
-name = "arcs"
-samples = 9
-seed = 1
-duration_s = 6.0
-[observe]
-points = 11
-groups = ["energy_conservation"]
-"#;
-
-const INITIAL: &str = "[initial]\nangular_velocity_rad_s = [0, 3, 31]\n";
-
 /// Thrust, an arc that meets it with a torque, one that does nothing, one with a name, one after the end.
 const ARCS: &str = "[[actuation]]\nstart_s = 0.0\nend_s = 1.0\nthrust_n = { p1 = 10 }\n\
     [[actuation]]\nstart_s = 1.0\nend_s = 2.0\ntorque_n_m = { w1 = 1 }\n\
@@ -161,13 +148,9 @@ const ARCS: &str = "[[actuation]]\nstart_s = 0.0\nend_s = 1.0\nthrust_n = { p1 =
     [[actuation]]\nname = \"trim\"\nstart_s = 4.5\nend_s = 5.0\nthrust_n = { p2 = 5, p3 = 5 }\ntorque_n_m = { w1 = -1 }\n\
     [[actuation]]\nname = \"late\"\nstart_s = 6.0\nend_s = 7.0\nthrust_n = { p1 = 10 }\n";
 
+/// A plan of six seconds.
 fn plan(text: &str) -> Result<Plan, String> {
-    let text = [HEAD, FUSELAGE, WHEEL1_AT_REST, &THRUSTERS.concat(), INITIAL, text].concat();
-    Plan::from_text("arcs.toml", &text, Overrides::default()).map_err(|error| error.to_string())
-}
-
-fn dispersed(parameter: &str) -> String {
-    format!("[[disperse]]\nparameter = {parameter:?}\ndistribution = \"uniform\"\nhalf_width = 0.01\n")
+    plan_over(6.0, text)
 }
 
 /// Law: an error without an effect is not dispersed, with a remedy; each has a neighbour that has one.

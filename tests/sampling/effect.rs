@@ -11,7 +11,7 @@ const HEAD: &str = r#"
 name = "test"
 samples = 9
 seed = 1
-duration_s = 1.0
+duration_s = DURATION
 [observe]
 points = 11
 groups = ["energy_conservation"]
@@ -21,11 +21,18 @@ const INITIAL: &str = "[initial]\nangular_velocity_rad_s = [0, 3, 31]\n";
 
 /// The plan of a campaign with one wheel and three thrusters, and what `text` adds.
 fn plan(text: &str) -> Result<Plan, String> {
-    let scene = [HEAD, FUSELAGE, WHEEL1_AT_REST, &THRUSTERS.concat(), INITIAL].concat();
+    plan_over(1.0, text)
+}
+
+/// The same over `duration_s`.
+pub fn plan_over(duration_s: f64, text: &str) -> Result<Plan, String> {
+    let head = HEAD.replace("DURATION", &format!("{duration_s:?}"));
+    let scene = [&head, FUSELAGE, WHEEL1_AT_REST, &THRUSTERS.concat(), INITIAL].concat();
     Plan::from_text("test.toml", &format!("{scene}{text}"), Overrides::default()).map_err(|error| error.to_string())
 }
 
-fn dispersed(parameter: &str) -> String {
+/// The lines that disperse a parameter.
+pub fn dispersed(parameter: &str) -> String {
     format!("[[disperse]]\nparameter = {parameter:?}\ndistribution = \"uniform\"\nhalf_width = 0.01\n")
 }
 

@@ -2,6 +2,7 @@
 
 use crate::ensemble::SingleRun;
 use crate::observables::Series;
+use crate::report::number::short;
 use crate::report::page::figure::{Axis, Figure, Hue, Mark, Section};
 use crate::report::page::spectrum::{amplitudes, dominant};
 use crate::scene::Name;
@@ -370,7 +371,7 @@ fn spectrum(times: &[f64], body: &[f64]) -> Option<Figure> {
     let peak = dominant(&frequencies, &amplitudes)?;
     let marks = vec![
         Mark::Line { label: "amplitude".to_owned(), hue: Hue::Body, dashed: false, x: frequencies, y: amplitudes },
-        Mark::Limit { label: format!("dominant: {peak:.3} Hz"), at: peak, vertical: true },
+        Mark::Limit { label: format!("dominant: {} Hz", short(peak)), at: peak, vertical: true },
     ];
     Some(Figure {
         name: "energy_spectrum".to_owned(),
