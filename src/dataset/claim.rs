@@ -2,6 +2,8 @@
 
 use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
 
 use thiserror::Error;
 
@@ -18,6 +20,11 @@ use crate::dataset::table_log;
 
 /// Most keys that a refusal lists.
 const LISTED: usize = 12;
+/// How long a lock of another process is waited for: that of a process which was killed ends once the system has closed its files, and a
+/// program that the owner starts has copies of the owner's files for a moment.
+const PATIENCE: Duration = Duration::from_millis(300);
+/// Between two tries of a lock.
+const PAUSE: Duration = Duration::from_millis(10);
 
 /// Why a folder cannot take a result.
 #[derive(Debug, Error)]
@@ -93,16 +100,20 @@ pub struct Locks(Vec<File>);
 impl Locks {
     /// Locks `path`, shared with other shards or not; no lock where the file system has none.
     fn add(&mut self, storage: &dyn Storage, path: &Path, is_shared: bool) -> Result<(), FolderError> {
-        match storage.lock(path, is_shared) {
-            Ok(lock) => {
-                self.0.extend(lock);
-                Ok(())
+        let start = Instant::now();
+        loop {
+            match storage.lock(path, is_shared) {
+                Ok(lock) => {
+                    self.0.extend(lock);
+                    return Ok(());
+                }
+                Err(TryLockError::WouldBlock) if start.elapsed() < PATIENCE => sleep(PAUSE),
+                Err(TryLockError::WouldBlock) => {
+                    return Err(FolderError::Busy { folder: path.display().to_string(), owner: String::new() });
+                }
+                // without knowing whether another process writes, nothing is written
+                Err(TryLockError::Error(error)) => return Err(at(path)(error).into()),
             }
-            Err(TryLockError::WouldBlock) => {
-                Err(FolderError::Busy { folder: path.display().to_string(), owner: String::new() })
-            }
-            // without knowing whether another process writes, nothing is written
-            Err(TryLockError::Error(error)) => Err(at(path)(error).into()),
         }
     }
 }
@@ -292,5 +303,31 @@ pub fn open(storage: &'static dyn Storage, root: &Path) -> Result<(Found, Locks)
     match contents(storage, root)? {
         Contents::Dataset(found) => Ok((*found, locks)),
         _ => Err(nothing("it has no manifest.jsonl")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dataset::storage::Disk;
+
+    /// Law: a lock that ends within a moment is waited for; one that is held is refused, within a second.
+    #[test]
+    fn a_lock_that_ends_is_waited_for() {
+        let folder = std::env::temp_dir().join(format!("spindrift-lock-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).expect("a folder");
+        let held = Disk.lock(&folder, false).expect("the first lock");
+        let start = Instant::now();
+        let refused = Locks::default().add(&Disk, &folder, false);
+        assert!(matches!(refused, Err(FolderError::Busy { .. })), "{refused:?}");
+        assert!(start.elapsed() >= PATIENCE);
+        std::thread::scope(|scope| {
+            scope.spawn(|| {
+                sleep(PAUSE * 2);
+                drop(held);
+            });
+            Locks::default().add(&Disk, &folder, false).expect("a lock after the other has ended");
+        });
+        std::fs::remove_dir(&folder).expect("no file of the test");
     }
 }

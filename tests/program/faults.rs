@@ -1,6 +1,7 @@
 //! A fault at the k-th file operation, for every k: SQLite's method. Whatever fails, nothing half-written has a final name, and continuing
 //! completes the dataset to the same bytes.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::io;
 
@@ -64,6 +65,40 @@ fn every_operation_may_fail() {
     }
     // what fails once is repeated where that is safe; what fails for good is an error
     assert!(errors as u64 > 3 * operations / 2, "{errors} errors of {operations} operations");
+}
+
+/// Law: a dataset that is extended says that it is complete before the first change and after the last one, and not between: neither people
+/// nor programs take a part of it for the whole.
+#[test]
+fn what_is_extended_is_not_marked_complete() {
+    let scratch = ScratchFolder::new("faults-extended");
+    let (short, long) = (plan(SAMPLES - 100), plan(SAMPLES));
+    let start = |name: &str, fails: u64, kind| {
+        let root = scratch.path(name);
+        let _ = fs::remove_dir_all(&root);
+        make(&Disk, &root, &short, false).unwrap();
+        let faulty = Faulty::new(is_counted, fails, true, Fault::Kind(kind));
+        let before = contents(&root);
+        (make(faulty, &root, &long, false), faulty, before, contents(&root))
+    };
+    let (ended, counted, before, whole) = start("whole", u64::MAX, io::ErrorKind::Other);
+    ended.unwrap();
+    assert!(before != whole && before.contains_key("/_SUCCESS") && whole.contains_key("/_SUCCESS"));
+    let (mut without, operations) = (0, counted.done().len());
+    for fails in (0..operations).step_by(3) {
+        let (ended, _, before, now) = start("r", fails as u64, io::ErrorKind::StorageFull);
+        assert!(ended.is_err(), "operation {fails}");
+        let is_marked = now.contains_key("/_SUCCESS");
+        without += usize::from(!is_marked);
+        // the manifest loses its last line first: what it lists is then still everything
+        let content = |files: &BTreeMap<String, Vec<u8>>| -> BTreeMap<String, Vec<u8>> {
+            let is_content = |name: &str| name != "/manifest.jsonl" && !name.ends_with(".tmp");
+            files.clone().into_iter().filter(|(name, _)| is_content(name)).collect()
+        };
+        let is_whole = [&before, &whole].iter().any(|files| content(files) == content(&now));
+        assert!(!is_marked || is_whole, "operation {fails}: part of an extension is marked complete");
+    }
+    assert!(without * 3 > operations / 2, "{without} of {operations} operations");
 }
 
 /// A small file system in memory, unmounted at its end.

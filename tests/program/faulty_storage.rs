@@ -221,20 +221,34 @@ impl StoredFile for FaultyFile {
     }
 }
 
-/// Ten seconds of waiting for a lock.
-const LOCK_TRIES: usize = 2000;
+/// Tries of a command whose folder is locked: a process that another test is about to start has the lock too, from its fork to its exec,
+/// which on a loaded machine takes longer than the command waits.
+const LOCK_TRIES: usize = 30;
+
+/// What `command` returns, as soon as no other process has the lock.
+pub fn unlocked(command: impl Fn() -> Result<(), Failure>) -> Result<(), Failure> {
+    let is_locked = |ended: &Result<(), Failure>| {
+        ended.as_ref().is_err_and(|failure| reason(failure).contains("another process is writing"))
+    };
+    let mut ended = command();
+    for _ in 0..LOCK_TRIES {
+        if !is_locked(&ended) {
+            break;
+        }
+        ended = command();
+    }
+    ended
+}
 
 /// Makes the dataset of `plan` in `root`, or what is missing of it, with its page or without.
 pub fn make(storage: &'static dyn Storage, root: &Path, plan: &Plan, has_page: bool) -> Result<(), Failure> {
     let ensemble = Ensemble::new(plan, Isa::best());
     let options = ClaimOptions { overwrite: false, shard: None, threads: 1 };
     let mut claimed = claim(storage, root, (plan, &identity(&ensemble)), options);
-    // a process that another test is about to start has the lock too, from its fork to its exec
     for _ in 0..LOCK_TRIES {
         if !matches!(claimed, Err(FolderError::Busy { .. })) {
             break;
         }
-        std::thread::sleep(std::time::Duration::from_millis(5));
         claimed = claim(storage, root, (plan, &identity(&ensemble)), options);
     }
     let ready = match claimed {

@@ -16,7 +16,7 @@ use spindrift::dataset::manifest::{Manifest, PartRecord};
 use spindrift::dataset::storage::{Disk, Storage};
 use spindrift::ensemble::Supervision;
 
-use super::faulty_storage::{Fault, Faulty, Operation, contents, make, plan, reason};
+use super::faulty_storage::{Fault, Faulty, Operation, contents, make, plan, reason, unlocked};
 use crate::support::scratch_folder::ScratchFolder;
 
 type Files = BTreeMap<String, Vec<u8>>;
@@ -212,7 +212,7 @@ impl Case<'_> {
             assert!(is_known, "{what}: {name} is neither as before nor as it will be");
         }
         if now != *goal {
-            (self.command)(&Disk, root).unwrap_or_else(|error| panic!("{what}: again: {error:?}"));
+            unlocked(|| (self.command)(&Disk, root)).unwrap_or_else(|error| panic!("{what}: again: {error:?}"));
             let again = contents(root);
             assert_eq!(again.keys().collect::<Vec<_>>(), goal.keys().collect::<Vec<_>>(), "{what}: again");
             assert!(again == *goal, "{what}: again");
@@ -325,7 +325,7 @@ fn damage_is_still_made_again() {
             damage(&mut bytes);
             fs::write(&file, bytes).unwrap();
             assert!(verify_only(&Disk, &root).is_err());
-            command(&Disk, &root).unwrap();
+            unlocked(|| command(&Disk, &root)).unwrap();
             assert!(contents(&root) == whole);
         }
     }
