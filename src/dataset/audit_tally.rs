@@ -2,6 +2,7 @@
 
 use crate::ensemble::Rows;
 use crate::propagation::taylor::reference_solution;
+use crate::sampling::SampleId;
 use crate::statistics::sketch::Sketch;
 
 /// Errors above this are no longer small, and soon bounded: an estimate above half of this counts as covering them.
@@ -38,9 +39,17 @@ impl AuditTally {
         AuditTally { observables: vec![Sketch::default(); observables], ..AuditTally::default() }
     }
 
-    /// Counts the audits of a part; `indices` are the indices of the observables in a row.
-    pub fn add(&mut self, rows: &Rows, indices: impl Iterator<Item = usize> + Clone) {
-        for (_, audit) in rows.audits() {
+    /// Counts the audits of a part, without those of samples that are left out; `indices` are the indices of the observables in a row.
+    pub fn add(
+        &mut self,
+        rows: &Rows,
+        indices: impl Iterator<Item = usize> + Clone,
+        is_left_out: impl Fn(SampleId) -> bool,
+    ) {
+        for (row, audit) in rows.audits() {
+            if is_left_out(rows.samples()[*row]) {
+                continue;
+            }
             let Some(audit) = audit else {
                 self.failed += 1;
                 continue;
@@ -71,7 +80,6 @@ mod tests {
     use super::*;
     use crate::ensemble::audit::Audit;
     use crate::ensemble::{Part, PartId, Shape};
-    use crate::sampling::SampleId;
     use crate::statistics::sketch::RELATIVE_ERROR;
 
     /// The tally of audits with these (error, estimate); `None` is an audit that failed.
@@ -90,8 +98,20 @@ mod tests {
             rows.set_audit(row, audit);
         }
         let mut tally = AuditTally::new(1);
-        tally.add(&rows, std::iter::once(0));
+        tally.add(&rows, std::iter::once(0), |_| false);
         tally
+    }
+
+    /// Law: what is left out - the nominal sample, which is not dispersed - is in no count.
+    #[test]
+    fn the_nominal_sample_is_left_out() {
+        let mut rows = Rows::new(Shape { parameters: 0, observables: 1 }, 3);
+        rows.start(Part { id: PartId(0), first: SampleId(0), count: 3 });
+        rows.set_audit(0, None);
+        rows.set_audit(2, None);
+        let mut tally = AuditTally::new(1);
+        tally.add(&rows, std::iter::once(0), |sample| sample == SampleId(0));
+        assert_eq!((tally.audited, tally.failed), (0, 1));
     }
 
     /// Law: every selected run is counted once, as audited or as failed.

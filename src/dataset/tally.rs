@@ -10,7 +10,7 @@ use crate::dataset::rows_file::{audit_error_name, audited_observables};
 use crate::dataset::rows_reader::{PartReader, RowsError, RowsReader};
 use crate::ensemble::audit::{AuditValue, Selection};
 use crate::ensemble::{Audit, Ensemble, Part, PartId, Rows};
-use crate::observables::headlines::{STATE_ERROR_ESTIMATE, headlines};
+use crate::observables::headlines::{DEBRIS_STATE_ERROR_ESTIMATE, STATE_ERROR_ESTIMATE, headlines};
 use crate::observables::table::error_id;
 use crate::observables::{ColumnId, ErrorStatistic, Group, Kind, Series};
 use crate::run::{Quantity, Status};
@@ -30,7 +30,7 @@ pub struct Headline {
 }
 
 impl Headline {
-    /// The value of rank ceil(p n). A count is rounded to a whole number, which the middle of a bucket need not be.
+    /// The `p`-quantile, of type 7. A count is rounded to a whole number, which the middle of a bucket need not be.
     pub fn quantile(&self, p: f64) -> Option<f64> {
         let value = self.sketch.quantile(p)?;
         Some(if self.kind == Kind::Count { libm::round(value) } else { value })
@@ -46,6 +46,9 @@ const CONSERVATION: [ColumnId; 3] = [
     error_id(Group::MomentumConservation, Series::LinearMomentumError, ErrorStatistic::Max),
     error_id(Group::MomentumConservation, Series::AngularMomentumError, ErrorStatistic::Max),
 ];
+
+/// The observables whose maximum is the estimated error of the states of a run.
+const STATE_ERRORS: [ColumnId; 2] = [STATE_ERROR_ESTIMATE, DEBRIS_STATE_ERROR_ESTIMATE];
 
 /// The samples that ended with one status.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -115,10 +118,9 @@ impl Tally {
             headlines(ensemble.request()).into_iter().filter(|_| is_audited).map(headline).collect();
         let audits = is_audited.then(|| AuditTally::new(headlines.len()));
         let index = |id: &ColumnId| ensemble.request().position(*id);
-        let worst =
-            [("conservation error", &CONSERVATION[..]), ("state error estimate", &[STATE_ERROR_ESTIMATE][..])].map(
-                |(name, columns)| Worst { name, indices: columns.iter().filter_map(index).collect(), runs: Vec::new() },
-            );
+        let worst = [("conservation error", &CONSERVATION[..]), ("state error estimate", &STATE_ERRORS[..])].map(
+            |(name, columns)| Worst { name, indices: columns.iter().filter_map(index).collect(), runs: Vec::new() },
+        );
         Tally {
             without_nominal: ensemble.plan().samples > 1,
             statuses: Default::default(),
@@ -178,9 +180,20 @@ impl Tally {
             let values = rows.observable(headline.index);
             counted.iter().for_each(|(row, _)| headline.sketch.add(values[*row]));
         }
+        // runs that are too inaccurate to count are the worst ones
+        let with_errors: Vec<(usize, SampleId)> = rows
+            .samples()
+            .iter()
+            .zip(rows.statuses())
+            .enumerate()
+            .filter(|(_, (sample, status))| {
+                [Status::Done, Status::Inaccurate].contains(status) && !is_nominal(**sample)
+            })
+            .map(|(row, (sample, _))| (row, *sample))
+            .collect();
         for worst in &mut self.worst {
             let values: Vec<&[f64]> = worst.indices.iter().map(|index| rows.observable(*index)).collect();
-            for (row, sample) in &counted {
+            for (row, sample) in &with_errors {
                 // what is not finite is absent in a file
                 let magnitudes = values.iter().map(|values| values[*row].abs()).filter(|error| error.is_finite());
                 let error = magnitudes.fold(f64::NAN, f64::max);
@@ -188,7 +201,7 @@ impl Tally {
             }
         }
         if let Some(audits) = &mut self.audits {
-            audits.add(rows, self.headlines.iter().map(|headline| headline.index));
+            audits.add(rows, self.headlines.iter().map(|headline| headline.index), is_nominal);
         }
     }
 
@@ -308,7 +321,7 @@ mod tests {
         assert_eq!((alone.headlines()[0].sketch.max(), alone.without_nominal()), (Some(9.0), false));
     }
 
-    /// Law: the worst runs and the first failed ones are listed by number, whatever the order of the rows is.
+    /// Law: the worst runs, inaccurate ones too, and the first failed ones are listed by number, whatever the order of the rows is.
     #[test]
     fn worst_and_failed_runs_are_listed() {
         let ok = Status::Done;
@@ -320,7 +333,7 @@ mod tests {
             (ok, 7.0),
             (ok, 1.0),
             (ok, f64::NAN),
-            (ok, 8.0),
+            (Status::Inaccurate, 8.0),
         ];
         let found = tally(8, &[&rows]);
         let worst = found.worst().iter().find(|worst| worst.name == "conservation error").unwrap();

@@ -1,12 +1,13 @@
 //! [`Accuracy`]: whether the numbers of a run that reached its end can be used at all.
 
 use super::Group;
-use super::headlines::STATE_ERROR_ESTIMATE;
+use super::headlines::{DEBRIS_STATE_ERROR_ESTIMATE, STATE_ERROR_ESTIMATE};
 use super::reduction::ErrorStatistic;
 use super::request::Request;
 use super::table::{ColumnId, Series, error_id};
 
-/// The smallest estimated error of the rotational state (rad, or relative to the largest rate) of a run that is `inaccurate`.
+/// The smallest estimated error of the rotational state of spacecraft or debris (rad, or relative to the largest rate) of a run that is
+/// `inaccurate`.
 pub const INACCURATE_STATE: f64 = 0.1;
 /// The smallest relative error of a balance - energy, linear or angular momentum - of a run that is `inaccurate`.
 pub const INACCURATE_BALANCE: f64 = 1e-2;
@@ -32,7 +33,8 @@ impl Accuracy {
     /// The columns of `request`.
     pub fn new(request: &Request) -> Self {
         let balances = BALANCES.into_iter().map(|id| (id, INACCURATE_BALANCE));
-        let all = balances.chain([(STATE_ERROR_ESTIMATE, INACCURATE_STATE)]);
+        let states = [STATE_ERROR_ESTIMATE, DEBRIS_STATE_ERROR_ESTIMATE].map(|id| (id, INACCURATE_STATE));
+        let all = balances.chain(states);
         let limits = all.filter_map(|(id, limit)| Some((request.position(id)?, id.name(), limit))).collect();
         Accuracy { limits }
     }

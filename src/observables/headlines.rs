@@ -8,6 +8,9 @@ use super::table::{ColumnId, DirectValue, Series, direct_id, error_id, series_id
 /// The estimated error of the rotational state.
 pub const STATE_ERROR_ESTIMATE: ColumnId = direct_id(Group::Numerics, DirectValue::StateError);
 
+/// The estimated error of the rotation of the debris.
+pub const DEBRIS_STATE_ERROR_ESTIMATE: ColumnId = direct_id(Group::Numerics, DirectValue::DebrisStateError);
+
 /// The columns of a summary, in its order: main errors, exchange, effort, numerics; those of wheels stand for those of each.
 pub const HEADLINES: &[ColumnId] = &{
     use Group::{Attitude, Constraints, EnergiesCom, EnergyConservation, Exchange, MomentumConservation, Numerics};

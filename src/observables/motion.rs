@@ -1,4 +1,4 @@
-//! Angular rate, nutation, attitude relative to the nominal run, wheels, and the direction of the debris.
+//! Angular rate, nutation, attitude relative to the nominal run and to the initial one, wheels, and the direction of the debris.
 //!
 //! Angles between vectors are atan2(|a x b|, a . b), exact to rounding everywhere (W. Kahan, *How Futile are Mindless Assessments of
 //! Roundoff*, 2006, section 12). The angle of the rotation between two attitudes is kept as tan^2 of its half, |v|^2/s^2 of the
@@ -8,7 +8,7 @@ use fearless_simd::Simd;
 
 use super::attitude::Attitude;
 use super::points::{
-    Column, MeasuredRun, SeriesTable, constant, constant_matrix, four, needed, of_wheels, only, three,
+    Column, MeasuredRun, SeriesTable, constant, constant_matrix, first, four, needed, of_wheels, only, three,
 };
 use super::table::Series;
 use crate::math::lanes::WIDTH;
@@ -29,6 +29,9 @@ pub(super) fn motion<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTa
     }
     if observed.has(Series::FromNominal) {
         from_nominal(simd, run, out);
+    }
+    if observed.has(Series::FromInitial) {
+        from_initial(simd, run, out);
     }
     if observed.has(Series::DebrisDirection) {
         debris_direction(simd, run, out);
@@ -91,9 +94,26 @@ fn from_nominal<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) 
     let nominal = nominal.columns(vectors);
     let attitude: [_; 4] = needed(run.table, StateField::Attitude, vectors);
     for (at, value) in square.iter_mut().enumerate() {
-        let [s, x, y, z] = hamilton(conjugate(four(simd, nominal, at)), four(simd, attitude, at));
-        (dot([x, y, z], [x, y, z]) / (s * s)).store(value);
+        half_tangent_square(four(simd, nominal, at), four(simd, attitude, at)).store(value);
     }
+}
+
+/// The rotation between the attitude and the first one of the run.
+#[inline(always)]
+fn from_initial<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
+    let attitude: [_; 4] = needed(run.table, StateField::Attitude, run.vectors());
+    let initial = four(simd, attitude, 0).map(|component| first(simd, component));
+    let [square] = out.write([Series::FromInitial], run.vectors());
+    for (at, value) in square.iter_mut().enumerate() {
+        half_tangent_square(initial, four(simd, attitude, at)).store(value);
+    }
+}
+
+/// tan^2 of half the angle of the rotation from attitude `a` to attitude `b`, quaternions of any length.
+#[inline(always)]
+fn half_tangent_square<R: Real>(a: [R; 4], b: [R; 4]) -> R {
+    let [s, x, y, z] = hamilton(conjugate(a), b);
+    dot([x, y, z], [x, y, z]) / (s * s)
 }
 
 /// The angle of s3 from the line to the debris.

@@ -151,6 +151,7 @@ impl Request {
             Scenes::All => true,
             Scenes::Debris => self.debris,
             Scenes::Actuated => self.actuated,
+            Scenes::Motors => self.actuated && !self.wheels.is_empty(),
             Scenes::Free => !self.actuated,
             Scenes::Constrained => self.constrained,
             Scenes::Unconstrained => !self.constrained,
@@ -282,5 +283,7 @@ mod tests {
             assert_eq!(bare.iter().any(|other| other == name), in_bare, "{name}");
             assert_eq!(full.iter().any(|other| other == name), in_full, "{name}");
         }
+        let request = Request { wheels: wheel_names(&[]), ..request(&Group::DEFAULT, true, true, false) };
+        assert!(request.columns().iter().all(|column| column.quantity.name() != "work_motors_final_j"), "no wheel");
     }
 }

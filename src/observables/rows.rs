@@ -22,7 +22,9 @@ pub(super) enum Scenes {
     Debris,
     /// With thrusters or motors in the schedule.
     Actuated,
-    /// Without either.
+    /// The same, and with wheels that turn.
+    Motors,
+    /// Without thrusters and motors in the schedule.
     Free,
     /// Integrated with constraints: the null-space method.
     Constrained,

@@ -43,6 +43,7 @@ impl Column {
             Scenes::All => "",
             Scenes::Debris => "with debris",
             Scenes::Actuated => "with actuation",
+            Scenes::Motors => "with actuation and wheels that turn",
             Scenes::Free => "without actuation",
             Scenes::Constrained => "null-space method",
             Scenes::Unconstrained => "not the null-space method",
@@ -303,6 +304,7 @@ mod needs {
     ];
     pub(super) const RATE: &[Need] = &[need(StateField::Rate, Scenes::All, "angular rate")];
     pub(super) const FROM_NOMINAL: &[Need] = &[need(StateField::Attitude, Scenes::All, "attitude relative to the nominal run")];
+    pub(super) const FROM_INITIAL: &[Need] = &[need(StateField::Attitude, Scenes::All, "attitude relative to the initial one")];
     pub(super) const DEBRIS_DIRECTION: &[Need] = &[
         need(StateField::ComPosition, Scenes::Debris, "direction of the debris"),
         need(StateField::DebrisPosition, Scenes::Debris, "direction of the debris"),
@@ -326,7 +328,8 @@ mod needs {
 }
 use needs::{
     ANGULAR, BODIES, DEBRIS_ANGULAR, DEBRIS_DIRECTION, DEBRIS_ENERGY, DEBRIS_LINEAR, DEBRIS_NUMERICS, FINAL_STATE,
-    FROM_NOMINAL, LINEAR, NUMERICS, ORTHONORMALITY, RATE, REDUNDANT, RESIDUALS, SPIN, SPIN_AXIS, TOTAL, WORK,
+    FROM_INITIAL, FROM_NOMINAL, LINEAR, NUMERICS, ORTHONORMALITY, RATE, REDUNDANT, RESIDUALS, SPIN, SPIN_AXIS, TOTAL,
+    WORK,
 };
 
 #[rustfmt::skip]
@@ -357,6 +360,7 @@ series! {
     RateSquare [1]: Motion, Square, None, [RATE], Some(("angular_rate_rad_s", "rad/s")), "Magnitude of the angular velocity of the body relative to F_e.";
     Nutation [1]: Motion, Quantity, None, [SPIN], Some(("nutation_angle_rad", "rad")), "Angle between s3 and the angular momentum of the spacecraft about its centre of mass.";
     FromNominal [1]: Motion, HalfTangentSquare, None, [FROM_NOMINAL], Some(("attitude_from_nominal_rad", "rad")), "Angle of the rotation between the attitude and that of the nominal run at the same time.";
+    FromInitial [1]: Motion, HalfTangentSquare, None, [FROM_INITIAL], Some(("attitude_from_initial_rad", "rad")), "Angle of the rotation between the attitude and the initial one of the run.";
     WheelSpeed [MAX_WHEELS]: Motion, Square, None, [SPIN], Some(("speed_{wheel}_rad_s", "rad/s")), "Magnitude of the rate of wheel {wheel} relative to the body.";
     WheelMomentum [MAX_WHEELS]: Motion, Square, None, [SPIN], Some(("momentum_{wheel}_n_m_s", "N m s")), "Magnitude of the angular momentum of wheel {wheel} about its axis relative to F_e.";
     DebrisDirection [1]: Motion, Quantity, None, [SPIN_AXIS, DEBRIS_DIRECTION], Some(("spin_axis_debris_angle_rad", "rad")), "Angle between s3 and the line from the spacecraft's centre of mass to the debris (0 where they coincide).";
@@ -406,7 +410,7 @@ static FAMILIES: &[&[Column]] = &[
     scales!(EnergyConservation, All, EnergyTotal, "energy_total", ["J", "_j"], "total kinetic energy in F_e, debris included"),
     &[
         direct!(EnergyConservation, Actuated, Float, WorkThrusters, "work_thrusters_final_j", "J", "Work done until the last point by the thrusters and, where the environment or a control law applies one, by torques on the body."),
-        direct!(EnergyConservation, Actuated, Float, WorkMotors, "work_motors_final_j", "J", "Work done by the wheel motors until the last point."),
+        direct!(EnergyConservation, Motors, Float, WorkMotors, "work_motors_final_j", "J", "Work done by the wheel motors until the last point."),
     ],
     errors!(MomentumConservation, All, LinearMomentumError, "linear_momentum_error", "the error vector of the spacecraft's linear momentum minus the impulse, relative to the largest |p|."),
     scales!(MomentumConservation, All, LinearMomentumSquare, "linear_momentum", ["N s", "_n_s"], "|p| of the spacecraft"),
@@ -468,6 +472,8 @@ static FAMILIES: &[&[Column]] = &[
         of!(Motion, All, Nutation, Value(ValueStatistic::Mean), ["nutation_angle_mean_rad"], "rad", ["Mean over the points of the angle between s3 and the angular momentum of the spacecraft about its centre of mass."]),
         of!(Motion, All, FromNominal, Order(OrderStatistic::Max), ["attitude_from_nominal_max_rad"], "rad", ["Maximum angle of the rotation between the attitude and that of the nominal run at the same time."]),
         of!(Motion, All, FromNominal, Order(OrderStatistic::Final), ["attitude_from_nominal_final_rad"], "rad", ["Angle of the rotation between the attitude and that of the nominal run at the last point."]),
+        of!(Motion, All, FromInitial, Order(OrderStatistic::Max), ["attitude_from_initial_max_rad"], "rad", ["Maximum angle of the rotation between the attitude and the initial one of the run."]),
+        of!(Motion, All, FromInitial, Order(OrderStatistic::Final), ["attitude_from_initial_final_rad"], "rad", ["Angle of the rotation between the attitude and the initial one of the run at the last point."]),
     ],
     &[of!(Motion, Wheels, WheelSpeed, Order(OrderStatistic::Max), ["speed_{wheel}_max_rad_s"], "rad/s", ["Maximum magnitude of the rate of wheel {wheel} relative to the body."])],
     &[of!(Motion, Wheels, WheelMomentum, Order(OrderStatistic::Max), ["momentum_{wheel}_max_n_m_s"], "N m s", ["Maximum magnitude of the angular momentum of wheel {wheel} about its axis relative to F_e."])],

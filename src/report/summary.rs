@@ -152,14 +152,16 @@ impl Summary {
     pub fn replay(&self, file: &str) -> String {
         let mut text = String::new();
         for worst in self.worst.iter().filter(|worst| !worst.runs.is_empty()) {
-            let runs = worst.runs.iter().map(|(sample, error)| format!("sample {sample} ({})", short(*error)));
-            text += &format!("  worst {}: {}\n", worst.name, runs.collect::<Vec<_>>().join(", "));
+            text += &format!("  worst {}\n", worst.name);
+            for (sample, error) in &worst.runs {
+                text += &format!("    {:<9} spindrift simulate {file} --sample {sample}\n", short(*error));
+            }
         }
         let failed = self.statuses.iter().filter(|(name, _)| *name != Status::Done.name());
-        let first_failed = failed.filter_map(|(_, ended)| ended.first.first()).next();
-        let worst = self.worst.iter().filter_map(|worst| worst.runs.first().map(|(sample, _)| sample)).next();
-        if let Some(sample) = first_failed.or(worst) {
-            text += &format!("  one of them again: spindrift simulate {file} --sample {sample}\n");
+        for (name, ended) in failed {
+            if let Some(sample) = ended.first.first() {
+                text += &format!("  the first {name}\n    {:<9} spindrift simulate {file} --sample {sample}\n", "");
+            }
         }
         text
     }

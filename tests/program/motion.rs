@@ -111,6 +111,9 @@ fn rates_nutation_and_wheels() {
     let found = row(&scene, None, &motion);
     near(found["angular_rate_max_rad_s"], (0.09_f64 + 4.0).sqrt());
     near(found["angular_rate_final_rad_s"], ((0.3 * libm::cos(2.0)).powi(2) + 4.0).sqrt());
+    // a turn by t about a fixed axis
+    near(found["attitude_from_initial_max_rad"], 2.0);
+    near(found["attitude_from_initial_final_rad"], 2.0);
     near(found["speed_w1_max_rad_s"], 40.0);
     near(found["speed_w2_max_rad_s"], 100.0);
     // the rate about s2 is zero, and about s3 two

@@ -2,7 +2,7 @@
 
 use crate::run::Quantity;
 use crate::statistics::quantile::interval_ranks;
-use crate::statistics::sketch::Sketch;
+use crate::statistics::sketch::{Sketch, middle};
 
 /// Confidence of the intervals on the page.
 pub const CONFIDENCE: f64 = 0.95;
@@ -49,8 +49,7 @@ pub fn interval(sketch: &Sketch, p: f64, confidence: f64) -> [f64; 2] {
 
 /// The value of rank `rank` from 1.
 pub fn ranked(sketch: &Sketch, rank: u64) -> Option<f64> {
-    // half a rank below, so that rounding does not reach the next
-    sketch.quantile((rank as f64 - 0.5) / sketch.count() as f64)
+    sketch.ranks().bounds(rank).map(middle)
 }
 
 #[cfg(test)]
