@@ -10,34 +10,17 @@ use crate::cli::input::{isa, plan_and_files};
 use crate::cli::outputs::refuse_inputs;
 use crate::cli::{dispersions, screen};
 use crate::dataset::table::{TableError, TableFormat};
-use crate::dataset::timeseries::{TimeColumn, TimeSeries};
+use crate::dataset::timeseries::TimeSeries;
 use crate::ensemble::audit::AuditValue;
 use crate::ensemble::{Auditor, SingleRun};
 use crate::math::Isa;
-use crate::observables::Series;
 use crate::observables::headlines::STATE_ERROR_ESTIMATE;
 use crate::report::canvas::{Canvas, PlotError, PlotFormat};
 use crate::report::number::short;
 use crate::report::simulation_figure::simulation_figure;
-use crate::run::{Grid, StateField, Status};
+use crate::report::time_table::TimeTable;
+use crate::run::{Grid, Status};
 use crate::sampling::SampleId;
-
-/// The states on the screen, with short names; all columns in all digits are in the files.
-const ON_SCREEN: [(TimeColumn, &str); 10] = [
-    (TimeColumn::Time, "time s"),
-    (TimeColumn::State(StateField::Rate, 0), "omega_x"),
-    (TimeColumn::State(StateField::Rate, 1), "omega_y"),
-    (TimeColumn::State(StateField::Rate, 2), "omega_z"),
-    (TimeColumn::State(StateField::Attitude, 0), "q_es_w"),
-    (TimeColumn::State(StateField::Attitude, 1), "q_es_x"),
-    (TimeColumn::State(StateField::Attitude, 2), "q_es_y"),
-    (TimeColumn::State(StateField::Attitude, 3), "q_es_z"),
-    (TimeColumn::Series(Series::EnergyError), "energy err"),
-    (TimeColumn::Series(Series::AngularMomentumError), "ang.m. err"),
-];
-
-/// The screen shows at most this many points; the first and the last are among them.
-const MOST_LINES: usize = 21;
 
 /// A plot without --times has at least this many intervals: two per pixel.
 const SMOOTH: usize = 1200;
@@ -84,11 +67,15 @@ pub fn run(options: &SimulateOptions) -> Result<CommandOutcome, Failure> {
         if options.sample > 0 {
             screen::print(&dispersions::applied(&plan, SampleId(options.sample), false))?;
         }
-        screen::print(&table(&series))?;
-        let (shown, points) = (shown_points(series.points()).len(), series.points());
+        let (table, points) = (TimeTable::new(&series, screen::width()), series.points());
+        screen::print(&table.text)?;
         screen::note(&format!(
-            "({shown} of {points} points; --out X.csv or X.parquet writes all points, columns and digits; --plot X.svg draws them)"
+            "({} of {points} points; --out X.csv or X.parquet writes all points, columns and digits; --plot X.svg draws them)",
+            table.points
         ));
+        if !table.left_out.is_empty() {
+            screen::note(&format!("(too wide for {} columns: {})", screen::width(), table.left_out));
+        }
     }
     if run.outcome.status != Status::Done {
         let (status, reason) = (run.outcome.status.name(), &run.reason);
@@ -191,51 +178,9 @@ fn plot(path: &Path, options: &SimulateOptions, plan: &Plan, series: &TimeSeries
     Ok(())
 }
 
-/// The rates of more wheels than these are not on the screen.
-const WHEELS_ON_SCREEN: usize = 4;
-
-/// The main states at some of the points, in columns of four digits.
-fn table(series: &TimeSeries) -> String {
-    let wheels = series.wheels().iter().enumerate().take(WHEELS_ON_SCREEN);
-    let wheels = wheels.map(|(wheel, name)| (TimeColumn::State(StateField::WheelRates, wheel), format!("rate {name}")));
-    let shown = ON_SCREEN.into_iter().map(|(key, title)| (key, title.to_owned()));
-    let (states, errors): (Vec<_>, Vec<_>) = shown.partition(|(key, _)| !matches!(key, TimeColumn::Series(_)));
-    let columns: Vec<(String, &[f64])> = states
-        .into_iter()
-        .chain(wheels)
-        .chain(errors)
-        .filter_map(|(key, title)| Some((title, series.column(key)?.1)))
-        .collect();
-    let mut text = String::new();
-    let mut line = |cells: &mut dyn Iterator<Item = String>| {
-        let cells: Vec<String> = cells.map(|cell| format!("{cell:>10}")).collect();
-        let _ = writeln!(text, "{}", cells.join(" ")); // writing to a String does not fail
-    };
-    line(&mut columns.iter().map(|(title, _)| title.chars().take(10).collect()));
-    for point in shown_points(series.points()) {
-        line(&mut columns.iter().map(|(_, values)| short(values[point])));
-    }
-    text
-}
-
-/// At most [`MOST_LINES`] of `points` points, evenly distributed, with the first and the last.
-fn shown_points(points: usize) -> Vec<usize> {
-    let lines = points.min(MOST_LINES);
-    (0..lines).map(|line| line * (points - 1) / (lines - 1).max(1)).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_screen_shows_the_first_and_the_last_point() {
-        assert_eq!(shown_points(3), [0, 1, 2]);
-        assert_eq!(shown_points(1), [0]);
-        assert!(shown_points(0).is_empty());
-        let shown = shown_points(1201);
-        assert_eq!((shown.len(), shown[0], shown[20]), (21, 0, 1200));
-    }
 
     /// Law: a plot contains the campaign's points (their times to rounding).
     #[test]

@@ -7,6 +7,10 @@ use crate::report::number::short;
 /// Where a variable varies by less than this fraction of its magnitude, its axis shows the change since the first value.
 const CHANGE_BELOW: f64 = 1e-3;
 
+/// A change by less than this fraction of a variable's magnitude is what rounding makes of a constant in some thousands of operations: the axis is
+/// not narrower, so that a constant looks constant.
+const ROUNDING: f64 = 1e-12;
+
 /// Values are shown as their difference from `base`, in units of 10^`power`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Axis {
@@ -27,8 +31,18 @@ impl Axis {
         let size = low.abs().max(high.abs());
         let span = high - low;
         let is_change = span > 0.0 && span < CHANGE_BELOW * size;
-        let base = values.clone().next().filter(|_| is_change).unwrap_or(0.0);
-        Axis { low, high, base, power: power(if is_change { span } else { size }) }
+        if !is_change {
+            return Axis { low, high, base: 0.0, power: power(size) };
+        }
+        let base = values.clone().next().unwrap_or(0.0);
+        let (low, high) = (low.min(base - ROUNDING * size), high.max(base + ROUNDING * size));
+        Axis { low, high, base, power: power(high - low) }
+    }
+
+    /// The axis of `values` that are changes of variables with magnitudes up to `size`.
+    pub(super) fn of_changes(values: impl Iterator<Item = f64> + Clone, size: f64) -> Self {
+        let least = ROUNDING * size;
+        Axis::of(values.chain([-least, least]))
     }
 
     /// An axis from -`limit` to `limit`.
@@ -105,6 +119,26 @@ mod tests {
         let axis = Axis::of([0.0, 3e-13].into_iter());
         assert_eq!((axis.base, axis.power, axis.description("")), (0.0, -15, "10⁻¹⁵".to_owned()));
         assert_eq!((axis.label(axis.map(1e-13)), axis.start("")), ("100".to_owned(), String::new()));
+    }
+
+    /// Law: rounding errors of a constant fill a hundredth of the axis at most; a change that is no rounding error fills it.
+    #[test]
+    fn a_constant_looks_constant() {
+        let part = |axis: &Axis, change: f64| {
+            let range = axis.range(0.0);
+            (axis.map(axis.base + change) - axis.map(axis.base)) / (range.end - range.start)
+        };
+        let noise = [52.42, 52.42 + 3e-14, 52.42 - 2e-14];
+        let axis = Axis::of(noise.into_iter());
+        assert!(part(&axis, 3e-14) < 1e-2, "{axis:?}");
+        assert_eq!(axis.start("N m s"), " (change from 52.42 N m s)");
+        let axis = Axis::of([52.42, 52.42 + 1e-9].into_iter());
+        assert!(part(&axis, 1e-9) > 0.9, "{axis:?}");
+        // changes that are given as such
+        let axis = Axis::of_changes([0.0, 1e-13, -2e-13].into_iter(), 5265.6);
+        assert!(part(&axis, 1e-13) < 1e-2, "{axis:?}");
+        assert!(part(&Axis::of([0.0, 1e-13, -2e-13].into_iter()), 1e-13) > 0.3);
+        assert!(part(&Axis::of_changes([0.0, 1e-6].into_iter(), 5265.6), 1e-6) > 0.9);
     }
 
     #[test]

@@ -131,7 +131,8 @@ pub trait Canvas {
     }
 }
 
-fn install_font() -> Result<(), PlotError> {
+/// Makes the built-in font known to the plotting library.
+pub(super) fn install_font() -> Result<(), PlotError> {
     static INSTALLED: OnceLock<bool> = OnceLock::new();
     let installed = INSTALLED.get_or_init(|| register_font("sans-serif", FontStyle::Normal, FONT).is_ok());
     if *installed { Ok(()) } else { Err(PlotError::Drawing("the built-in font cannot be read".to_owned())) }

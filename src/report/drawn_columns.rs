@@ -2,7 +2,8 @@
 
 use crate::campaign::Plan;
 use crate::ensemble::DrawnScenes;
-use crate::sampling::distribution::Distribution;
+use crate::report::expected_counts::Asked;
+use crate::sampling::{Joint, Transform};
 
 /// Components of a quaternion, the only parameter with so many.
 const QUATERNION: usize = 4;
@@ -14,8 +15,8 @@ pub struct DrawnColumns<'p> {
     pub names: Vec<String>,
     /// Their nominal values.
     pub nominal: Vec<f64>,
-    /// The distribution that was asked for, where a column has one of its own.
-    pub asked: Vec<Option<&'p Distribution>>,
+    /// The distribution that was asked for, where a column has one that is known.
+    pub asked: Vec<Option<Asked<'p>>>,
     /// The samples.
     pub drawn: DrawnScenes,
 }
@@ -36,19 +37,30 @@ impl<'p> DrawnColumns<'p> {
                 let [turn, tilt]: [Vec<f64>; 2] =
                     [0, 1].map(|which| (0..drawn.count()).map(|sample| of_sample(sample)[which]).collect());
                 let name = column.parameter.name();
-                shown.push(format!("{name}: rotation from nominal / deg"), 0.0, None, turn);
-                shown.push(format!("{name}: tilt of axis 3 / deg"), 0.0, None, tilt);
+                let is_uniform = matches!(
+                    plan.dispersions.distribution_of(index),
+                    Some(Transform::Joint(Joint::UniformAttitude(_)))
+                );
+                let [of_turn, of_tilt] =
+                    [Asked::UniformRotation, Asked::UniformTilt].map(|asked| is_uniform.then_some(asked));
+                shown.push(format!("{name}: rotation from nominal / deg"), 0.0, of_turn, turn);
+                shown.push(format!("{name}: tilt of axis 3 / deg"), 0.0, of_tilt, tilt);
                 index += QUATERNION;
                 continue;
             }
             let name = column.parameter.component_name(column.component);
-            shown.push(name, column.nominal, plan.dispersions.scalar_of(index), drawn.columns[index].clone());
+            shown.push(
+                name,
+                column.nominal,
+                plan.dispersions.scalar_of(index).map(Asked::Number),
+                drawn.columns[index].clone(),
+            );
             index += 1;
         }
         shown
     }
 
-    fn push(&mut self, name: String, nominal: f64, asked: Option<&'p Distribution>, values: Vec<f64>) {
+    fn push(&mut self, name: String, nominal: f64, asked: Option<Asked<'p>>, values: Vec<f64>) {
         self.names.push(name);
         self.nominal.push(nominal);
         self.asked.push(asked);

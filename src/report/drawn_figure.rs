@@ -1,14 +1,15 @@
 //! [`DrawnFigure`]: histograms of the dispersed parameters and the rank correlation of each pair.
 
 use plotters::coord::Shift;
+use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use crate::report::canvas::{COLORS, Canvas, PlotError, drawing};
 use crate::report::drawn_columns::DrawnColumns;
-use crate::report::expected_counts::expected;
-use crate::report::number::short;
-use crate::sampling::distribution::Distribution;
+use crate::report::expected_counts::Asked;
+use crate::report::fitted_text::fitted_to_pixels;
+use crate::report::histogram::{self, Histogram};
 
 /// Size of a histogram, pixels.
 const HISTOGRAM: (u32, u32) = (300, 190);
@@ -16,6 +17,8 @@ const HISTOGRAM: (u32, u32) = (300, 190);
 const ACROSS: usize = 4;
 /// Height of the figure's title, pixels.
 const TITLE_HEIGHT: u32 = 44;
+/// Height of the legend under the title, pixels.
+const LEGEND_HEIGHT: u32 = 24;
 /// Height of the title over the correlations, pixels.
 const CAPTION_HEIGHT: u32 = 52;
 /// Maximum side of a cell of the correlation plot, pixels.
@@ -24,8 +27,6 @@ const LARGEST_CELL: u32 = 64;
 const NAMES_WIDTH: u32 = 400;
 /// With fewer samples than this, correlations of independent parameters beyond 0.14 are common.
 const FEW: usize = 200;
-/// Bars of a histogram.
-const BARS: usize = 40;
 
 /// Histograms and rank correlations of sampled parameters.
 #[derive(Clone, Debug)]
@@ -58,6 +59,8 @@ impl DrawnFigure<'_> {
             let y = top + i as i32 * cell;
             let size = (self.cell().saturating_sub(2)).min(13);
             let style = font(size).into_text_style(area).pos(Pos::new(HPos::Right, VPos::Center));
+            // the font has at most this size
+            let name = fitted_to_pixels(name, NAMES_WIDTH - 48, 13)?;
             area.draw_text(&format!("{name}  {}", i + 1), &style, (left - 8 * scale as i32, y + cell / 2))
                 .map_err(drawing)?;
             let number = font(size).into_text_style(area).pos(Pos::new(HPos::Center, VPos::Bottom));
@@ -82,7 +85,7 @@ impl Canvas for DrawnFigure<'_> {
     fn size(&self) -> (u32, u32) {
         let rows = self.columns.names.len().div_ceil(ACROSS) as u32;
         let matrix = self.columns.names.len() as u32 * self.cell() + CAPTION_HEIGHT + 20;
-        (ACROSS as u32 * HISTOGRAM.0, TITLE_HEIGHT + rows * HISTOGRAM.1 + matrix)
+        (ACROSS as u32 * HISTOGRAM.0, TITLE_HEIGHT + LEGEND_HEIGHT + rows * HISTOGRAM.1 + matrix)
     }
 
     fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: u32) -> Result<(), PlotError> {
@@ -91,12 +94,14 @@ impl Canvas for DrawnFigure<'_> {
             ("sans-serif", 20 * scale).into_font().into_text_style(&title).pos(Pos::new(HPos::Center, VPos::Center));
         let middle = ((ACROSS as u32 * HISTOGRAM.0 * scale / 2) as i32, (TITLE_HEIGHT * scale / 2) as i32);
         title.draw_text(&self.title, &style, middle).map_err(drawing)?;
+        let (strip, rest) = rest.split_vertically(LEGEND_HEIGHT * scale);
+        legend(&strip, &self.columns.asked, scale)?;
         let rows = self.columns.names.len().div_ceil(ACROSS);
         let (upper, lower) = rest.split_vertically(rows as u32 * HISTOGRAM.1 * scale);
         let of_column = self.columns.names.iter().zip(&self.columns.drawn.columns).zip(&self.columns.nominal);
         let of_column = of_column.zip(&self.columns.asked);
         for ((((name, values), nominal), asked), cell) in of_column.zip(upper.split_evenly((rows.max(1), ACROSS))) {
-            histogram(name, values, (*nominal, *asked), &cell, scale)?;
+            Histogram { name, values, nominal: *nominal, asked: *asked }.draw(&cell, scale)?;
         }
         self.draw_correlations(&lower, scale)
     }
@@ -142,64 +147,57 @@ fn shade(r: f64) -> RGBColor {
     RGBColor(mixed(red), mixed(green), mixed(blue))
 }
 
-/// The histogram of one column: bars between its minimum and its maximum; a dashed line at the nominal value; a curve of the numbers that are
-/// expected of the distribution that was asked for.
-fn histogram<B: DrawingBackend>(
-    name: &str,
-    values: &[f64],
-    (nominal, asked): (f64, Option<&Distribution>),
-    area: &DrawingArea<B, Shift>,
+/// What the bars and lines of the histograms are, in one row for the picture: what none of them shows is left out.
+fn legend<B: DrawingBackend>(
+    strip: &DrawingArea<B, Shift>,
+    asked: &[Option<Asked<'_>>],
     scale: u32,
 ) -> Result<(), PlotError> {
-    let finite = values.iter().copied().filter(|value| value.is_finite());
-    let (low, high) = finite
-        .clone()
-        .chain(Some(nominal).filter(|nominal| nominal.is_finite()))
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
-    // a single value, or none, is shown in the middle of an axis
-    let half = if high > low {
-        0.5 * (high - low)
-    } else if low.is_finite() {
-        0.05 * low.abs().max(1e-3)
-    } else {
-        1.0
-    };
-    let middle = if low.is_finite() { low + 0.5 * (high - low) } else { 0.0 };
-    let (low, width) = (middle - half, 2.0 * half);
-    let mut counts = [0u32; BARS];
-    finite.clone().for_each(|x| counts[(((x - low) / width * BARS as f64) as usize).min(BARS - 1)] += 1);
-    let edges: Vec<f64> = (0..=BARS).map(|k| low + width * (k as f64 / BARS as f64)).collect();
-    let density = asked.map_or_else(Vec::new, |asked| expected(asked, &edges, finite.clone().count()));
-    let most = density.iter().copied().fold(f64::from(counts.iter().copied().max().unwrap_or(0).max(1)), f64::max);
-    let mut chart = ChartBuilder::on(area)
-        .caption(name, ("sans-serif", 13 * scale))
-        .margin(6 * scale)
-        // half of the outermost labels
-        .margin_left(28 * scale)
-        .margin_right(28 * scale)
-        .x_label_area_size(24 * scale)
-        .build_cartesian_2d(0.0..1.0, 0.0..1.05 * most)
+    let is_discrete = |asked: &Asked<'_>| asked.values().is_some();
+    let mut entries = vec![(Sample::Bar, "samples"), (Sample::Nominal, "nominal value")];
+    if asked.iter().flatten().any(|asked| !is_discrete(asked)) {
+        entries.push((Sample::Density, "density of the distribution, as samples expected in each bar"));
+    }
+    if asked.iter().flatten().any(is_discrete) {
+        entries.push((Sample::Probability, "probability of a discrete value, as samples expected"));
+    }
+    let font = ("sans-serif", 13 * scale).into_text_style(strip);
+    let (length, gap, middle) = ((26 * scale) as i32, (6 * scale) as i32, (LEGEND_HEIGHT * scale / 2) as i32);
+    let widths = entries.iter().map(|(_, text)| strip.estimate_text_size(text, &font).map(|size| size.0 as i32));
+    let widths: Vec<i32> = widths.collect::<Result<_, _>>().map_err(drawing)?;
+    let total: i32 = widths.iter().map(|width| length + width + 4 * gap).sum::<i32>() - 3 * gap;
+    let mut x = (strip.dim_in_pixel().0 as i32 - total).max(0) / 2;
+    for ((sample, text), width) in entries.into_iter().zip(widths) {
+        let half = (5 * scale) as i32;
+        let line = |style| PathElement::new(vec![(x, middle), (x + length, middle)], style);
+        match sample {
+            Sample::Bar => {
+                strip.draw(&Rectangle::new([(x, middle - half), (x + length, middle + half)], histogram::of_samples()))
+            }
+            Sample::Nominal => {
+                let ((dash, gap), ends) = (histogram::NOMINAL_DASH, [(x, middle), (x + length, middle)]);
+                strip.draw(&DashedPathElement::new(ends, dash * scale, gap * scale, histogram::of_nominal(scale)))
+            }
+            Sample::Density => strip.draw(&line(histogram::of_expected(scale))),
+            Sample::Probability => strip.draw(&line(histogram::of_expected(scale))).and_then(|()| {
+                strip.draw(&Circle::new((x + length - gap / 2, middle), histogram::HEAD * scale, COLORS[1].filled()))
+            }),
+        }
         .map_err(drawing)?;
-    chart
-        .configure_mesh()
-        .disable_mesh()
-        .disable_y_axis()
-        .x_labels(3)
-        .x_label_formatter(&|part| short(low + part * width))
-        .label_style(("sans-serif", 12 * scale))
-        .draw()
-        .map_err(drawing)?;
-    let bar = |k: usize| f64::from(k as u32) / BARS as f64;
-    let bars = counts.iter().enumerate().map(|(k, count)| {
-        Rectangle::new([(bar(k), 0.0), (bar(k + 1), f64::from(*count))], COLORS[0].mix(0.75).filled())
-    });
-    chart.draw_series(bars).map_err(drawing)?;
-    let curve = density.iter().enumerate().map(|(k, count)| (0.5 * (bar(k) + bar(k + 1)), *count));
-    chart.draw_series(LineSeries::new(curve, COLORS[1].stroke_width(2 * scale))).map_err(drawing)?;
-    let at = (nominal - low) / width;
-    let line = [(at, 0.0), (at, 1.05 * most)];
-    chart.draw_series(DashedLineSeries::new(line, 5 * scale, 3 * scale, BLACK.stroke_width(scale))).map_err(drawing)?;
+        let style = font.clone().pos(Pos::new(HPos::Left, VPos::Center));
+        strip.draw_text(text, &style, (x + length + gap, middle)).map_err(drawing)?;
+        x += length + width + 4 * gap;
+    }
     Ok(())
+}
+
+/// What stands before the text of an entry of the legend.
+#[derive(Clone, Copy, Debug)]
+enum Sample {
+    Bar,
+    Nominal,
+    Density,
+    Probability,
 }
 
 #[cfg(test)]
@@ -207,26 +205,53 @@ mod tests {
     use super::*;
     use crate::ensemble::DrawnScenes;
     use crate::sampling::SampleId;
+    use crate::sampling::distribution::Distribution;
+    use crate::sampling::distribution::choice::ChoiceQuantile;
     use crate::sampling::distribution::uniform::UniformQuantile;
+
+    const NAMES: [&str; 2] = ["one", "two"];
+
+    /// The picture of two columns of fifty samples: 0, 1, 2, ... and their squares.
+    fn figure_of(nominal: Vec<f64>, asked: Vec<Option<Asked<'_>>>) -> String {
+        let columns = vec![(0..50).map(f64::from).collect::<Vec<_>>(), (0..50).map(|k| f64::from(k * k)).collect()];
+        let drawn = DrawnScenes { first: SampleId(1), physical: vec![true; 50], columns, mass: Vec::new() };
+        let columns = DrawnColumns { names: NAMES.map(str::to_owned).to_vec(), nominal, asked, drawn };
+        DrawnFigure { title: "t".into(), columns: &columns }.svg().unwrap()
+    }
 
     /// Law: the nominal value is marked, outside the samples too; with few samples the figure warns.
     #[test]
     fn the_nominal_value_is_marked() {
-        let columns = vec![(0..50).map(f64::from).collect::<Vec<_>>(), (0..50).map(|k| f64::from(k * k)).collect()];
-        let drawn = DrawnScenes { first: SampleId(1), physical: vec![true; 50], columns, mass: Vec::new() };
-        let names = vec!["one".to_owned(), "two".to_owned()];
         let uniform = Distribution::Uniform(UniformQuantile { min: 0.0, max: 50.0 });
-        let figure_of = |nominal, asked| {
-            let columns = DrawnColumns { names: names.clone(), nominal, asked, drawn: drawn.clone() };
-            DrawnFigure { title: "t".into(), columns: &columns }.svg().unwrap()
-        };
-        let figure = |nominal| figure_of(nominal, vec![Some(&uniform), None]);
+        let figure = |nominal| figure_of(nominal, vec![Some(Asked::Number(&uniform)), None]);
         let svg = figure(vec![25.0, -3000.0]);
-        assert!(svg.contains("caution, few samples") && svg.contains("-3000"), "{svg}");
+        assert!(svg.contains("caution, few samples") && svg.contains("nominal -3000: left of this"), "{svg}");
+        assert!(figure(vec![25.0, 1e5]).contains("nominal 1.000e5: right of this"));
         assert_ne!(svg, figure(vec![20.0, -3000.0]));
-        // the density that was asked for is drawn over the bars, where there is one
+        // the density that was asked for is drawn over the bars and in the legend, where there is one
         let lines = |svg: &str| svg.matches("<polyline").count();
-        assert_eq!(lines(&svg), lines(&figure_of(vec![25.0, -3000.0], vec![None; 2])) + 1);
+        let without = figure_of(vec![25.0, -3000.0], vec![None; 2]);
+        assert_eq!(lines(&svg), lines(&without) + 2);
         assert!(caution(1000) == "1000 samples: up to \u{b1}0.06 by chance (95%)");
+    }
+
+    /// Law: the legend names what the picture shows, and nothing else.
+    #[test]
+    fn the_legend_names_what_is_drawn() {
+        let uniform = Distribution::Uniform(UniformQuantile { min: 0.0, max: 50.0 });
+        let choice = Distribution::Choice(ChoiceQuantile::new(&[0.0, 49.0], &[1.0; 2]));
+        let (density, probability) = ("density of the distribution", "probability of a discrete value");
+        for (asked, has_density, has_probability) in [
+            (vec![None, None], false, false),
+            (vec![Some(Asked::Number(&uniform)), None], true, false),
+            (vec![Some(Asked::Number(&choice)), None], false, true),
+            (vec![Some(Asked::Number(&choice)), Some(Asked::UniformTilt)], true, true),
+        ] {
+            let svg = figure_of(vec![25.0, 25.0], asked);
+            assert!(svg.contains("nominal value") && svg.contains("samples"));
+            assert_eq!((svg.contains(density), svg.contains(probability)), (has_density, has_probability));
+            // two values, each with a head, and one in the legend
+            assert_eq!(svg.matches("<circle").count(), if has_probability { 3 } else { 0 });
+        }
     }
 }

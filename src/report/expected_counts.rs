@@ -1,14 +1,66 @@
-//! [`expected`]: how many samples of a distribution are expected in the bars of a histogram.
+//! [`Asked`]: the distribution of a column of drawn samples, and how many samples of it are expected in the bars of a histogram.
+
+use core::f64::consts::PI;
 
 use crate::sampling::distribution::{Distribution, Quantile};
 
 /// Halvings of (0, 1) in which a probability is found: beyond the resolution of a picture.
 const HALVINGS: u32 = 40;
 
-/// How many of `count` values are expected between neighbouring edges.
-pub fn expected(distribution: &Distribution, edges: &[f64], count: usize) -> Vec<f64> {
-    let below: Vec<f64> = edges.iter().map(|edge| probability(distribution, *edge)).collect();
-    below.windows(2).map(|pair| count as f64 * (pair[1] - pair[0])).collect()
+/// The distribution of a column that has one of its own.
+#[derive(Clone, Copy, Debug)]
+pub enum Asked<'p> {
+    /// A dispersed number.
+    Number(&'p Distribution),
+    /// The angle of the rotation between an attitude uniform over all rotations and any other, deg: its density is
+    /// (1 - cos theta)/pi for theta in [0, pi] (R. E. Miles, *On random rotations in R^3*, Biometrika 52 (1965) 636).
+    UniformRotation,
+    /// The angle between an axis of such an attitude and any other axis, deg: the direction is uniform over the sphere, and the density is
+    /// (sin theta)/2.
+    UniformTilt,
+}
+
+impl Asked<'_> {
+    /// How many of `count` values are expected between neighbouring `edges`, ascending; a value at an edge counts in the bar above, one at the
+    /// last edge in the last bar, as in the histograms.
+    pub fn expected(&self, edges: &[f64], count: usize) -> Vec<f64> {
+        let Some(values) = self.values() else {
+            let below: Vec<f64> = edges.iter().map(|edge| self.probability_below(*edge)).collect();
+            return below.windows(2).map(|pair| count as f64 * (pair[1] - pair[0])).collect();
+        };
+        let mut expected = vec![0.0; edges.len().saturating_sub(1)];
+        let (Some(first), Some(last)) = (edges.first(), edges.last()) else { return expected };
+        for (value, probability) in values.into_iter().filter(|(value, _)| (*first..=*last).contains(value)) {
+            let bar = edges.partition_point(|edge| *edge <= value).saturating_sub(1);
+            let bar = bar.min(expected.len().saturating_sub(1));
+            if let Some(expected) = expected.get_mut(bar) {
+                *expected += count as f64 * probability;
+            }
+        }
+        expected
+    }
+
+    /// The values of a discrete distribution with their probabilities, ascending; `None` of a continuous one.
+    pub fn values(&self) -> Option<Vec<(f64, f64)>> {
+        let Asked::Number(distribution) = self else { return None };
+        let mut below = 0.0;
+        let value = |upto: f64| {
+            let (from, probability) = (below, upto - below);
+            below = upto;
+            (probability > 0.0).then(|| (distribution.quantile(0.5 * (from + upto)), probability))
+        };
+        Some(distribution.steps()?.into_iter().filter_map(value).collect())
+    }
+
+    /// The probability of smaller values.
+    fn probability_below(&self, value: f64) -> f64 {
+        let angle = value.to_radians().clamp(0.0, PI);
+        match self {
+            Asked::Number(distribution) => probability(distribution, value),
+            Asked::UniformRotation => (angle - libm::sin(angle)) / PI,
+            Asked::UniformTilt => 0.5 * (1.0 - libm::cos(angle)),
+        }
+    }
 }
 
 /// The probability of smaller values, by bisection of the quantile function.
@@ -24,19 +76,65 @@ fn probability(distribution: &Distribution, value: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sampling::distribution::choice::ChoiceQuantile;
     use crate::sampling::distribution::normal::NormalQuantile;
     use crate::sampling::distribution::uniform::UniformQuantile;
+
+    /// The resolution of the bisection is 1e-12; closed forms are exact to rounding.
+    const RESOLUTION: f64 = 1e-9;
+
+    fn agree(found: &[f64], known: &[f64]) -> bool {
+        found.len() == known.len() && found.iter().zip(known).all(|(found, known)| (found - known).abs() < RESOLUTION)
+    }
 
     /// Known: 68.27% of normal numbers are within one standard deviation; none of uniform ones is outside of their range.
     #[test]
     fn known_shares() {
         let normal = Distribution::Normal(NormalQuantile { mean: 5.0, std: 2.0 });
-        let found = expected(&normal, &[3.0, 5.0, 7.0], 1000);
-        // the resolution of the bisection is 1e-12
+        let found = Asked::Number(&normal).expected(&[3.0, 5.0, 7.0], 1000);
+        // the known number has nine digits
         assert!(found.iter().all(|count| (count - 341.344_746).abs() < 1e-6), "{found:?}");
         let uniform = Distribution::Uniform(UniformQuantile { min: 0.0, max: 1.0 });
-        let found = expected(&uniform, &[-1.0, 0.0, 0.5, 1.0], 8);
-        let known = [0.0, 4.0, 4.0];
-        assert!(found.iter().zip(known).all(|(found, known)| (found - known).abs() < 1e-9), "{found:?}");
+        let found = Asked::Number(&uniform).expected(&[-1.0, 0.0, 0.5, 1.0], 8);
+        assert!(agree(&found, &[0.0, 4.0, 4.0]), "{found:?}");
+    }
+
+    /// Law: each value of a discrete distribution counts in its bar, the first and the last at the ends of the axis too.
+    #[test]
+    fn every_value_of_a_discrete_distribution_counts() {
+        let choice = Distribution::Choice(ChoiceQuantile::new(&[0.05, 0.01, 0.02, 7.0], &[1.0, 2.0, 1.0, 0.0]));
+        let asked = Asked::Number(&choice);
+        let found = asked.expected(&[0.01, 0.02, 0.03, 0.04, 0.05], 100);
+        assert!(agree(&found, &[50.0, 25.0, 0.0, 25.0]), "{found:?}");
+        assert_eq!(asked.values(), Some(vec![(0.01, 0.5), (0.02, 0.25), (0.05, 0.25)]));
+        // a value beyond the axis is in no bar
+        assert!(agree(&asked.expected(&[0.015, 0.03], 100), &[25.0]));
+        let uniform = Distribution::Uniform(UniformQuantile { min: 0.0, max: 1.0 });
+        assert_eq!(Asked::Number(&uniform).values(), None);
+    }
+
+    /// Known: a rotation by at most 90 degrees has the probability 1/2 - 1/pi, a tilt 1/2; the densities are those that the integrals of
+    /// (1 - cos theta)/pi and (sin theta)/2 have, here by Simpson's rule.
+    #[test]
+    fn angles_of_uniform_attitudes() {
+        let quarters = [0.0, 90.0, 180.0];
+        let found = Asked::UniformRotation.expected(&quarters, 1);
+        assert!(agree(&found, &[0.5 - 1.0 / PI, 0.5 + 1.0 / PI]), "{found:?}");
+        assert!(agree(&Asked::UniformTilt.expected(&quarters, 1), &[0.5, 0.5]));
+        let edges: Vec<f64> = (0..=40).map(|k| 4.5 * f64::from(k)).collect();
+        let simpson = |density: &dyn Fn(f64) -> f64| -> Vec<f64> {
+            let of_bar = |pair: &[f64]| {
+                let (low, high) = (pair[0].to_radians(), pair[1].to_radians());
+                (high - low) / 6.0 * (density(low) + 4.0 * density(0.5 * (low + high)) + density(high))
+            };
+            edges.windows(2).map(of_bar).collect()
+        };
+        let rotation = simpson(&|angle| (1.0 - libm::cos(angle)) / PI);
+        let tilt = simpson(&|angle| 0.5 * libm::sin(angle));
+        // Simpson's rule: h^5/2880 times the fourth derivative, at most 1/2, of h = 0.0785: 5e-10
+        assert!(agree(&Asked::UniformRotation.expected(&edges, 1), &rotation));
+        assert!(agree(&Asked::UniformTilt.expected(&edges, 1), &tilt));
+        // the two are different distributions
+        assert!(!agree(&rotation, &tilt));
     }
 }

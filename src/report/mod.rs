@@ -1,9 +1,9 @@
 //! Layer 7: text and figures for people.
 //!
 //! - [`summary`], [`observable_lines`], [`audit_summary`]: statistics of a campaign. - [`requirements`]: verdicts, also as JUnit XML. - [`precision_text`]: work-precision measurements as text.
-//! - [`canvas`]: figures as SVG and PNG. - [`plot`]: curves in panels. - [`simulation_figure`], [`drawn_figure`] (of [`drawn_columns`], with `expected_counts`), [`precision_figure`]: the figures of the commands.
+//! - [`canvas`]: figures as SVG and PNG. - [`plot`]: curves in panels, with a legend. - [`fitted_text`]: text that is shortened to a width. - [`simulation_figure`], [`drawn_figure`] (of [`drawn_columns`], in histograms, with [`expected_counts`]), [`precision_figure`]: the figures of the commands.
 //! - [`comparison_text`]: two results compared. - [`stopping_text`]: looks of a campaign that stops when it is precise enough.
-//! - [`number`]: numbers in text. - [`page`]: the report of a campaign as one HTML file.
+//! - [`time_table`]: one run over time on a terminal. - [`number`]: numbers in text. - [`page`]: the report of a campaign as one HTML file.
 
 pub mod audit_summary;
 mod axis;
@@ -12,7 +12,10 @@ pub mod canvas;
 pub mod comparison_text;
 pub mod drawn_columns;
 pub mod drawn_figure;
-mod expected_counts;
+pub mod expected_counts;
+pub mod fitted_text;
+mod histogram;
+mod legend;
 pub mod number;
 pub mod observable_lines;
 pub mod page;
@@ -23,3 +26,4 @@ pub mod requirements;
 pub mod simulation_figure;
 pub mod stopping_text;
 pub mod summary;
+pub mod time_table;

@@ -4,11 +4,12 @@ use std::ops::Range;
 
 use plotters::coord::Shift;
 use plotters::coord::types::RangedCoordf64;
-use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 
 use crate::report::axis::Axis;
-use crate::report::canvas::{COLORS, Canvas, PlotError, drawing};
+use crate::report::canvas::{Canvas, PlotError, drawing};
+use crate::report::fitted_text::{fitted_to_pixels, text_width};
+use crate::report::legend::{Legend, dash, style};
 use crate::report::number::short;
 
 /// Width of a panel, pixels.
@@ -17,11 +18,12 @@ const PANEL_WIDTH: u32 = 640;
 const PANEL_HEIGHT: u32 = 320;
 /// Height of the figure's title, pixels.
 const TITLE_HEIGHT: u32 = 44;
-/// Height of the legend between a panel's title and its axes, pixels.
-const LEGEND_HEIGHT: u32 = 22;
-
-/// Dash and gap of the curves of a panel in their order, pixels: curves differ without colour too.
-const DASHES: [Option<(u32, u32)>; 4] = [None, Some((8, 4)), Some((3, 3)), Some((14, 4))];
+/// Left and right margins of a panel, pixels.
+const MARGINS: (u32, u32) = (8, 20);
+/// Width of what is left of the axes: ticks and unit, pixels.
+const LABELS_WIDTH: u32 = 74;
+/// Size of a panel's title, pixels.
+const TITLE: u32 = 17;
 
 /// Relative errors below this are rounding: on an axis of their own they would look like a drift.
 const ROUNDING: f64 = 1e-14;
@@ -46,6 +48,8 @@ pub struct Panel {
     pub unit: String,
     /// The curves.
     pub curves: Vec<Curve>,
+    /// Where the curves are changes of quantities, the magnitude of these; else 0. Changes of rounding errors look constant.
+    pub size: f64,
     /// The tolerance of the run, for relative errors: they are drawn on a symmetric axis, on which the tolerance is marked
     /// where it is within the range. Errors that are rounding are drawn on the scale of the tolerance.
     pub tolerance: Option<f64>,
@@ -85,7 +89,8 @@ impl Canvas for Figure {
 
     fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: u32) -> Result<(), PlotError> {
         let top = area.margin((12 * scale) as i32, 0, 0, 0);
-        top.titled(&self.title, ("sans-serif", 20 * scale)).map_err(drawing)?;
+        let title = fitted_to_pixels(&self.title, self.size().0, 20)?;
+        top.titled(&title, ("sans-serif", 20 * scale)).map_err(drawing)?;
         for (panel, (x, y, width, height)) in self.panels.iter().zip(self.places()) {
             let (x, y) = (x * scale as i32, y * scale as i32);
             let (width, height) = ((width * scale) as i32, (height * scale) as i32);
@@ -106,12 +111,21 @@ impl Panel {
     fn axis(&self) -> Axis {
         let values = self.curves.iter().flat_map(|curve| curve.values.iter().copied());
         match self.tolerance {
+            None if self.size > 0.0 => Axis::of_changes(values, self.size),
             None => Axis::of(values),
             Some(tolerance) => {
                 let worst = self.worst();
                 Axis::symmetric(if worst < ROUNDING { tolerance.max(ROUNDING) } else { worst })
             }
         }
+    }
+
+    /// The title, shortened where it is wider than `width` pixels, and what the axis adds to it.
+    fn heading(&self, vertical: &Axis, width: u32) -> Result<String, PlotError> {
+        let worst = self.tolerance.map(|_| format!(" (maximum {})", short(self.worst()))).unwrap_or_default();
+        let added = format!("{}{worst}", vertical.start(&self.unit));
+        let left = width.saturating_sub(text_width(&added, TITLE)? as u32);
+        Ok(format!("{}{added}", fitted_to_pixels(&self.title, left, TITLE)?))
     }
 
     fn draw<B: DrawingBackend>(
@@ -123,18 +137,21 @@ impl Panel {
     ) -> Result<(), PlotError> {
         let (horizontal, vertical) = (Axis::of(abscissa.iter().copied()), self.axis());
         let label = (15 * scale) as i32;
-        let cell = cell.margin((8 * scale) as i32, (8 * scale) as i32, (8 * scale) as i32, (20 * scale) as i32);
-        let worst = self.tolerance.map(|_| format!(" (maximum {})", short(self.worst()))).unwrap_or_default();
-        let title = format!("{}{}{worst}", self.title, vertical.start(&self.unit));
-        let cell = cell.titled(&title, ("sans-serif", 17 * scale)).map_err(drawing)?;
-        let (strip, axes) = cell.split_vertically(LEGEND_HEIGHT * scale);
-        if self.curves.len() > 1 {
-            self.legend(&strip, scale)?;
-        }
+        let cell =
+            cell.margin((8 * scale) as i32, (8 * scale) as i32, (MARGINS.0 * scale) as i32, (MARGINS.1 * scale) as i32);
+        let width = cell.dim_in_pixel().0 / scale;
+        let title = self.heading(&vertical, width)?;
+        let cell = cell.titled(&title, ("sans-serif", TITLE * scale)).map_err(drawing)?;
+        let names = self.curves.iter().map(|curve| curve.label.as_str());
+        // a single curve has no legend
+        let names = names.take(if self.curves.len() > 1 { self.curves.len() } else { 0 });
+        let legend = Legend::new(names, width - LABELS_WIDTH)?;
+        let (strip, axes) = cell.split_vertically(legend.height() * scale);
+        legend.draw(&strip, LABELS_WIDTH, scale)?;
         let mut chart = ChartBuilder::on(&axes)
             .margin_right(8 * scale) // half of the last tick's label
             .x_label_area_size(40 * scale)
-            .y_label_area_size(74 * scale)
+            .y_label_area_size(LABELS_WIDTH * scale)
             .build_cartesian_2d(horizontal.range(0.0), vertical.range(0.06))
             .map_err(drawing)?;
         chart
@@ -161,7 +178,7 @@ impl Panel {
                 .map(|(x, y)| (horizontal.map(*x), vertical.map(*y)))
                 .collect();
             let style = style(index, scale);
-            match DASHES[index % DASHES.len()] {
+            match dash(index) {
                 None => drop(chart.draw_series(LineSeries::new(points, style)).map_err(drawing)?),
                 Some((dash, gap)) => {
                     let series = DashedLineSeries::new(points, dash * scale, gap * scale, style);
@@ -198,31 +215,6 @@ impl Panel {
         }
         Ok(())
     }
-
-    /// The names of the curves in a row.
-    fn legend<B: DrawingBackend>(&self, strip: &DrawingArea<B, Shift>, scale: u32) -> Result<(), PlotError> {
-        let (length, gap, font) = ((26 * scale) as i32, (6 * scale) as i32, ("sans-serif", 14 * scale));
-        let middle = (LEGEND_HEIGHT * scale / 2) as i32;
-        let mut x = (74 * scale) as i32;
-        for (index, curve) in self.curves.iter().enumerate() {
-            let (line, style) = ([(x, middle), (x + length, middle)], style(index, scale));
-            match DASHES[index % DASHES.len()] {
-                None => strip.draw(&PathElement::new(line, style)),
-                Some((dash, gap)) => strip.draw(&DashedPathElement::new(line, dash * scale, gap * scale, style)),
-            }
-            .map_err(drawing)?;
-            let text = font.into_text_style(strip);
-            let (width, height) = strip.estimate_text_size(&curve.label, &text).map_err(drawing)?;
-            let at = (x + length + gap, middle - height as i32 / 2 - scale as i32);
-            strip.draw_text(&curve.label, &text, at).map_err(drawing)?;
-            x += length + width as i32 + 4 * gap;
-        }
-        Ok(())
-    }
-}
-
-fn style(index: usize, scale: u32) -> ShapeStyle {
-    COLORS[index % COLORS.len()].stroke_width(scale + scale / 2)
 }
 
 #[cfg(test)]
@@ -244,6 +236,7 @@ mod tests {
             title: title.into(),
             unit: unit.into(),
             curves,
+            size: 0.0,
             tolerance,
         };
         Figure {
@@ -309,6 +302,50 @@ mod tests {
             let (top, bottom) = (y + 25, y + height as i32 - 45);
             let outside = colored.iter().filter(|(x, y)| !(left..right).contains(x) || !(top..bottom).contains(y));
             assert_eq!(outside.collect::<Vec<_>>(), Vec::<&(i32, i32)>::new(), "panel {index}");
+        }
+    }
+
+    /// Law: a legend stays in its panel, however many and long its names are: they change no pixel of another panel, and no text of the SVG
+    /// leaves the panel.
+    #[test]
+    fn legends_stay_in_their_panels() {
+        for (index, count, name) in [(0, 8, "wheel wheel_number_"), (3, 40, "w"), (4, 3, &"long".repeat(60))] {
+            let (x, y, width, height) = figure().places()[index];
+            let (right, bottom) = (x + width as i32, y + height as i32);
+            let of_curves = |count: usize| {
+                let mut figure = figure();
+                let curve = |k: usize| Curve { label: format!("{name}{k}"), values: vec![k as f64; 1201] };
+                figure.panels[index].curves = (0..count).map(curve).collect();
+                figure
+            };
+            let (one, all) = (of_curves(1), of_curves(count));
+            let pixels = [&one, &all].map(|figure| figure.pixels().unwrap());
+            let [one, other] = pixels.each_ref().map(|pixels| pixels.chunks_exact(3));
+            let differing: Vec<usize> =
+                one.zip(other).enumerate().filter(|(_, (a, b))| a != b).map(|(at, _)| at).collect();
+            assert!(differing.len() > 1000, "the legend is drawn");
+            let size = all.size().0 as usize;
+            let is_outside = |at: &usize| {
+                let (column, row) = ((at % size) as i32, (at / size) as i32);
+                !((x..right).contains(&column) && (y..bottom).contains(&row))
+            };
+            assert_eq!(differing.into_iter().filter(is_outside).count(), 0, "{count} of {name}");
+
+            let svg = all.svg().unwrap();
+            let start: String = name.chars().take(4).collect();
+            let mut names = 0;
+            for element in svg.split("<text ").skip(1) {
+                let (attributes, rest) = element.split_once('>').unwrap();
+                let text = rest.split_once('<').unwrap().0.trim();
+                let at = |key: &str| attributes.split(key).nth(1).unwrap().split('"').next().unwrap().parse::<i32>();
+                if text.starts_with(&start) {
+                    names += 1;
+                    let (left, top) = (at("x=\"").unwrap(), at(" y=\"").unwrap());
+                    let end = left + text_width(text, 14).unwrap() as i32;
+                    assert!(x <= left && end <= right && (y..bottom).contains(&top), "{text}: {left} to {end}");
+                }
+            }
+            assert!(names >= 3, "{names} names are found in the SVG");
         }
     }
 

@@ -87,6 +87,7 @@ pub fn simulation_figure(title: &str, series: &TimeSeries, tolerance: f64) -> Fi
         title,
         unit: unit.to_owned(),
         curves,
+        size: 0.0,
         tolerance,
     };
     let states = STATES.map(|(title, unit, columns)| panel(title.to_owned(), unit, curves(columns), None));
@@ -96,7 +97,10 @@ pub fn simulation_figure(title: &str, series: &TimeSeries, tolerance: f64) -> Fi
         };
         series.wheels().iter().enumerate().filter_map(curve).collect()
     };
-    let rates = of_wheels(&|wheel| TimeColumn::State(StateField::WheelRates, wheel));
+    let mut rates = of_wheels(&|wheel| TimeColumn::State(StateField::WheelRates, wheel));
+    for (rate, name) in rates.iter_mut().zip(series.wheels()) {
+        rate.label = name.to_string(); // the title says that these are wheels
+    }
     let states = states.into_iter().chain([panel("Wheel rates".to_owned(), "rad/s", rates, None)]);
     let bodies: Vec<Curve> = curves(&[(TimeColumn::Series(Series::EnergyBody), "body")])
         .into_iter()
@@ -115,12 +119,9 @@ pub fn simulation_figure(title: &str, series: &TimeSeries, tolerance: f64) -> Fi
     let mut panels: Vec<Panel> = states.chain(momenta).chain(bodies.iter().map(energy)).collect();
     if bodies.len() > 1 {
         panels.push(panel("Kinetic energy, total".to_owned(), "J", vec![total], None));
-        panels.push(panel(
-            "Energy transfer: change of kinetic energy since the start".to_owned(),
-            "J",
-            transfers,
-            None,
-        ));
+        let size = bodies.iter().flat_map(|body| &body.values).fold(0.0, |size: f64, value| value.abs().max(size));
+        let title = "Energy transfer: change of kinetic energy since the start".to_owned();
+        panels.push(Panel { size, ..panel(title, "J", transfers, None) });
     }
     let errors = "Relative errors of the balances".to_owned();
     panels.push(panel(errors, "", curves(&ERRORS), Some(tolerance)));

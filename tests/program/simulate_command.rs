@@ -112,3 +112,52 @@ fn plots_and_tables_are_made() {
     }
     assert!(said.contains("omega_x") && said.contains("q_es_w") && said.lines().count() >= 12, "{said}");
 }
+
+/// A body with eight wheels, whose names differ in their last letter.
+fn eight_wheels() -> String {
+    let wheel = |k: usize| {
+        format!(
+            "[[wheels]]\nname = \"wheel_number_{k}\"\naxis = [1, 0, 0]\nposition_m = [0.2, 0, 0.3]\nmass_kg = 5\n\
+            axial_inertia_kg_m2 = 0.03\ntransverse_inertia_kg_m2 = 0.02\nrate_rad_s = {}\n",
+            100 + k
+        )
+    };
+    let wheels: String = (0..8).map(wheel).collect();
+    format!(
+        "[campaign]\nname = \"eight\"\nsamples = 1\nduration_s = 10.0\n[observe]\npoints = 11\n[body]\nmass_kg = 300\n\
+        inertia_kg_m2 = [[60, 1, 0.5], [1, 75, 0.2], [0.5, 0.2, 90]]\nincludes_wheels = false\n{wheels}\
+        [initial]\nangular_velocity_rad_s = [0.02, 0.1, 0.05]\n"
+    )
+}
+
+/// Law: the table has lines of 100 letters where the width of the terminal is not known, each header once, and the wheels that are not
+/// shown are named.
+#[test]
+fn a_table_with_many_wheels_fits() {
+    let scratch = folder("eight");
+    scratch.file("eight.toml", &eight_wheels());
+    let said = scratch.prints("simulate eight.toml", 0);
+    let lines: Vec<&str> = said.lines().take(13).collect(); // two of headers, then the points
+    for line in &lines {
+        assert!(line.chars().count() <= 100, "{} letters: {line}", line.chars().count());
+    }
+    let shown = (0..8).filter(|k| lines[0].contains(&format!("rate...r_{k}"))).count();
+    assert!((1..8).contains(&shown) && lines[0].matches("rate").count() == shown, "{said}");
+    let left_out = if shown == 7 { "rate of wheel wheel_number_7" } else { &format!("wheels wheel_number_{shown} to") };
+    assert!(said.contains("too wide for 100 columns") && said.contains(left_out), "{said}");
+}
+
+/// Law: the picture names every wheel or says how many it does not name.
+#[test]
+fn a_plot_of_many_wheels_names_them() {
+    let scratch = folder("eight_plot");
+    scratch.file("eight.toml", &eight_wheels());
+    scratch.prints("simulate eight.toml --plot p.svg", 0);
+    let svg = fs::read_to_string(scratch.path("p.svg")).unwrap();
+    let lines = |text: &str| svg.lines().filter(|line| line.trim() == text).count();
+    for wheel in 0..8 {
+        assert_eq!(lines(&format!("wheel_number_{wheel}")), 1, "in the legend of the rates");
+    }
+    let named = (0..8).filter(|wheel| lines(&format!("wheel wheel_number_{wheel}")) == 1).count();
+    assert!(named == 8 || lines(&format!("and {} more", 8 - named)) == 1, "in the legend of the energies: {named}");
+}

@@ -1,0 +1,232 @@
+//! [`TimeTable`]: the main states of one run at some of its points, as text that fits a terminal.
+
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+
+use crate::dataset::timeseries::{TimeColumn, TimeSeries};
+use crate::observables::Series;
+use crate::report::fitted_text::fitted;
+use crate::report::number::short;
+use crate::run::StateField;
+
+/// At most this many points; the first and the last are among them.
+const MOST_LINES: usize = 21;
+
+/// A header is shortened to this many letters, or to as many as tell it from the others.
+const SHORTEST_HEADER: usize = 10;
+
+/// How the numbers of a column are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Digits {
+    /// Four significant digits.
+    Short,
+    /// Four decimals, of numbers from -1 to 1.
+    Decimals,
+    /// Two significant digits.
+    Magnitude,
+}
+
+/// Main columns: what they show, their headers (name, and what is in the line below), their numbers.
+const COLUMNS: [(TimeColumn, &str, &str, Digits); 10] = [
+    (TimeColumn::Time, "time", "s", Digits::Short),
+    (TimeColumn::State(StateField::Rate, 0), "omega_x", "rad/s", Digits::Short),
+    (TimeColumn::State(StateField::Rate, 1), "omega_y", "rad/s", Digits::Short),
+    (TimeColumn::State(StateField::Rate, 2), "omega_z", "rad/s", Digits::Short),
+    (TimeColumn::State(StateField::Attitude, 0), "q_es_w", "", Digits::Decimals),
+    (TimeColumn::State(StateField::Attitude, 1), "q_es_x", "", Digits::Decimals),
+    (TimeColumn::State(StateField::Attitude, 2), "q_es_y", "", Digits::Decimals),
+    (TimeColumn::State(StateField::Attitude, 3), "q_es_z", "", Digits::Decimals),
+    (TimeColumn::Series(Series::EnergyError), "energy", "error", Digits::Magnitude),
+    (TimeColumn::Series(Series::AngularMomentumError), "ang.mom.", "error", Digits::Magnitude),
+];
+
+/// The table, and what is not in it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TimeTable {
+    /// Two lines of headers, then one line for each point.
+    pub text: String,
+    /// Number of points.
+    pub points: usize,
+    /// The columns that are too many for the width, in words; empty where none is.
+    pub left_out: String,
+}
+
+impl TimeTable {
+    /// The table of `series` in lines of at most `width` letters: time, angular velocity, attitude, errors, and the rates of as many wheels as
+    /// there is space for.
+    pub fn new(series: &TimeSeries, width: usize) -> Self {
+        let points = shown_points(series.points());
+        let cells = |key: TimeColumn, digits: Digits| -> Option<Vec<String>> {
+            let values = series.column(key)?.1;
+            Some(points.iter().map(|point| digits.text(values[*point])).collect())
+        };
+        let main = COLUMNS.into_iter().filter_map(|(key, name, below, digits)| {
+            Some(Column { name: name.to_owned(), below, cells: cells(key, digits)? })
+        });
+        let wheels = series.wheels().iter().enumerate().filter_map(|(wheel, name)| {
+            let cells = cells(TimeColumn::State(StateField::WheelRates, wheel), Digits::Short)?;
+            Some(Column { name: name.to_string(), below: "rad/s", cells })
+        });
+        TimeTable::of(main.collect(), wheels.collect(), points.len(), width)
+    }
+
+    fn of(mut main: Vec<Column>, mut wheels: Vec<Column>, points: usize, width: usize) -> Self {
+        let names = wheels.iter().map(|wheel| wheel.name.clone()).collect::<Vec<_>>();
+        let headers = distinct(&names.iter().map(|name| format!("rate {name}")).collect::<Vec<_>>());
+        wheels.iter_mut().zip(headers).for_each(|(wheel, header)| wheel.name = header);
+        let mut used = 0;
+        let mut fits = |column: &Column| {
+            used += column.width() + usize::from(used > 0);
+            used <= width
+        };
+        // the time is always shown
+        let shown_main = main.iter().take_while(|column| fits(column)).count().max(1).min(main.len());
+        let shown_wheels = wheels.iter().take_while(|column| fits(column)).count();
+        let mut left_out: Vec<String> = main.drain(shown_main..).map(|column| column.title()).collect();
+        left_out.extend(of_wheels(&names[shown_wheels..], names.len()));
+        wheels.truncate(shown_wheels);
+        let columns: Vec<Column> = main.into_iter().chain(wheels).collect();
+        let mut text = String::new();
+        let mut line = |cell: &dyn Fn(&Column) -> String| {
+            let cells: Vec<String> =
+                columns.iter().map(|column| format!("{:>width$}", cell(column), width = column.width())).collect();
+            let _ = writeln!(text, "{}", cells.join(" ")); // writing to a String does not fail
+        };
+        line(&|column| column.name.clone());
+        line(&|column| column.below.to_owned());
+        (0..points).for_each(|point| line(&|column| column.cells[point].clone()));
+        TimeTable { text, points, left_out: left_out.join(", ") }
+    }
+}
+
+/// A column in text.
+#[derive(Clone, Debug)]
+struct Column {
+    name: String,
+    /// The second line of the header.
+    below: &'static str,
+    cells: Vec<String>,
+}
+
+impl Column {
+    fn width(&self) -> usize {
+        let letters = |text: &str| text.chars().count();
+        let header = letters(&self.name).max(letters(self.below));
+        self.cells.iter().map(|cell| letters(cell)).fold(header, usize::max)
+    }
+
+    /// Its name where it is not shown.
+    fn title(&self) -> String {
+        if self.below == "error" { format!("{} error", self.name) } else { self.name.clone() }
+    }
+}
+
+impl Digits {
+    fn text(self, value: f64) -> String {
+        match self {
+            Digits::Short => short(value),
+            Digits::Decimals => {
+                let text = format!("{value:.4}");
+                if text == "-0.0000" { "0.0000".to_owned() } else { text }
+            }
+            Digits::Magnitude if value == 0.0 => "0".to_owned(),
+            Digits::Magnitude => format!("{value:.1e}"),
+        }
+    }
+}
+
+/// The wheels whose rates are not shown, the last ones of `all`.
+fn of_wheels(names: &[String], all: usize) -> Option<String> {
+    match names {
+        [] => None,
+        [one] => Some(format!("rate of wheel {one}")),
+        [first, .., last] => Some(format!("rates of wheels {first} to {last}, {} of {all}", names.len())),
+    }
+}
+
+/// `headers` as short as they can be told apart.
+fn distinct(headers: &[String]) -> Vec<String> {
+    let letters = |text: &str| text.chars().count();
+    let longest = headers.iter().map(|header| letters(header)).max().unwrap_or(0);
+    let shortened = |width: usize| headers.iter().map(|header| fitted(header, width, letters)).collect::<Vec<_>>();
+    let is_distinct = |headers: &Vec<String>| headers.iter().collect::<BTreeSet<_>>().len() == headers.len();
+    (SHORTEST_HEADER..longest).map(shortened).find(is_distinct).unwrap_or_else(|| headers.to_vec())
+}
+
+/// At most [`MOST_LINES`] of `points` points, evenly distributed, with the first and the last.
+fn shown_points(points: usize) -> Vec<usize> {
+    let lines = points.min(MOST_LINES);
+    (0..lines).map(|line| line * (points - 1) / (lines - 1).max(1)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A table of the main columns, with numbers as long as they become, and of wheels with these names.
+    fn table(names: &[&str], width: usize) -> TimeTable {
+        let main = COLUMNS.map(|(_, name, below, digits)| Column {
+            name: name.to_owned(),
+            below,
+            cells: [0.0, -0.012_345].map(|value| digits.text(value)).to_vec(),
+        });
+        let wheels = names.iter().map(|name| Column {
+            name: (*name).to_owned(),
+            below: "rad/s",
+            cells: vec!["209.4".to_owned(), "-1047.2".to_owned()],
+        });
+        TimeTable::of(main.to_vec(), wheels.collect(), 2, width)
+    }
+
+    #[test]
+    fn the_screen_shows_the_first_and_the_last_point() {
+        assert_eq!(shown_points(3), [0, 1, 2]);
+        assert_eq!(shown_points(1), [0]);
+        assert!(shown_points(0).is_empty());
+        let shown = shown_points(1201);
+        assert_eq!((shown.len(), shown[0], shown[20]), (21, 0, 1200));
+    }
+
+    /// Law: no line is longer than the width, headers differ, and each column is shown or named, however many wheels there are.
+    #[test]
+    fn a_table_fits_its_width() {
+        let names: Vec<String> = (0..8).map(|k| format!("wheel_number_{k}")).collect();
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        for width in [40, 80, 100, 120, 200] {
+            let found = table(&names, width);
+            let lines: Vec<&str> = found.text.lines().collect();
+            assert_eq!(lines.len(), 4);
+            assert!(lines.iter().all(|line| line.chars().count() <= width), "{width}:\n{}", found.text);
+            let shown = lines[3].split_whitespace().count();
+            let missing = (COLUMNS.len() + names.len()).saturating_sub(shown);
+            assert_eq!(found.left_out.is_empty(), missing == 0, "{width}: {}", found.left_out);
+            let wheels = shown.saturating_sub(COLUMNS.len());
+            assert!((0..wheels).all(|wheel| lines[0].contains(&format!("rate...r_{wheel}"))), "{}", found.text);
+            if missing > 1 {
+                let count = names.len() - wheels;
+                let expected = format!("rates of wheels wheel_number_{wheels} to wheel_number_7, {count} of 8");
+                assert!(found.left_out.ends_with(&expected), "{width}: {}", found.left_out);
+            }
+        }
+        let narrow = table(&[], 40).left_out;
+        assert!(narrow.contains("q_es_w") && narrow.ends_with("ang.mom. error"), "{narrow}");
+        assert_eq!(table(&["a", "b"], 200).left_out, "");
+        assert_eq!(table(&["a", "b"], 95).left_out, "rate of wheel b");
+    }
+
+    /// Law: names that differ in one letter keep different headers.
+    #[test]
+    fn headers_can_be_told_apart() {
+        let headers = |names: [&str; 3]| distinct(&names.map(str::to_owned));
+        assert_eq!(headers(["rate a", "rate b", "rate c"]), ["rate a", "rate b", "rate c"]);
+        let found = headers(["rate left_1_outer", "rate left_2_outer", "rate left_3_outer"]);
+        assert_eq!(found.iter().collect::<BTreeSet<_>>().len(), 3, "{found:?}");
+        assert_eq!(headers(["rate wheel_number_1", "rate wheel_number_2", "rate wheel_number_3"])[2], "rate...r_3");
+    }
+
+    #[test]
+    fn numbers_are_short() {
+        assert_eq!(Digits::Decimals.text(-1e-18), "0.0000");
+        assert_eq!([0.0, -1.234e-16].map(|value| Digits::Magnitude.text(value)), ["0", "-1.2e-16"]);
+    }
+}
