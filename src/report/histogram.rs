@@ -105,8 +105,8 @@ impl Horizontal {
             return values.map(short);
         }
         values.map(|value| {
-            let texts = (4..=17).map(|digits| digits_of(value, digits));
-            texts.clone().find(|text| is_legible(value, text)).or(texts.last()).unwrap_or_default()
+            let mut texts = (4..17).map(|digits| digits_of(value, digits));
+            texts.find(|text| is_legible(value, text)).unwrap_or_else(|| digits_of(value, 17))
         })
     }
 }
