@@ -114,7 +114,7 @@ fn color_bar<B: DrawingBackend>(area: &DrawingArea<B, Shift>, (x, y): (i32, i32)
     for k in 0..STEPS {
         let color = shade(f64::from(2 * k) / f64::from(STEPS - 1) - 1.0);
         let left = x + k * step;
-        area.draw(&Rectangle::new([(left, y - half), (left + step - 1, y + half)], color.filled())).map_err(drawing)?;
+        area.draw(&Rectangle::new([(left, y - half), (left + step, y + half)], color.filled())).map_err(drawing)?;
     }
     let style = ("sans-serif", 12 * scale).into_font().into_text_style(area).pos(Pos::new(HPos::Center, VPos::Top));
     for (text, at) in [("-1", 0), ("0", STEPS / 2), ("1", STEPS - 1)] {

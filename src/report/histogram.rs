@@ -105,8 +105,8 @@ impl Horizontal {
             return values.map(short);
         }
         values.map(|value| {
-            let texts = (4..=17).map(|digits| digits_of(value, digits));
-            texts.clone().find(|text| is_legible(value, text)).or(texts.last()).unwrap_or_default()
+            let mut texts = (4..17).map(|digits| digits_of(value, digits));
+            texts.find(|text| is_legible(value, text)).unwrap_or_else(|| digits_of(value, 17))
         })
     }
 }
@@ -126,8 +126,8 @@ impl Histogram<'_> {
         self.values.iter().copied().filter(|value| value.is_finite())
     }
 
-    /// The axis, and whether the nominal value is on it. The axis contains the samples, and the values of a discrete distribution of which one
-    /// sample or more is expected.
+    /// The axis, and whether the nominal value is on it. The axis contains the samples, and each value of a discrete distribution that one
+    /// sample or more is expected to have.
     fn horizontal(&self) -> (Horizontal, bool) {
         let count = self.finite().count() as f64;
         let discrete = self.asked.and_then(|asked| asked.values()).unwrap_or_default();
@@ -339,7 +339,7 @@ mod tests {
         let close = Distribution::Choice(ChoiceQuantile::new(&[0.01, 0.0101, 0.05], &[1.0; 3]));
         let stems = histogram(&drawn, 0.01, Some(Asked::Number(&close))).stems(&axis).unwrap();
         assert!(stems.len() == 2 && (stems[0].1 - 200.0).abs() < 1e-9, "{stems:?}");
-        // a value that was not drawn, and of which samples are expected, is on the axis
+        // a value that was not drawn although samples are expected there is on the axis
         let wide = Distribution::Choice(ChoiceQuantile::new(&[0.01, 0.02, 9.0], &[1.0; 3]));
         let (axis, _) = histogram(&drawn, 0.01, Some(Asked::Number(&wide))).horizontal();
         assert_eq!(axis, Horizontal { low: 0.01, high: 9.0 });
