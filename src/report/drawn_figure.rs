@@ -213,7 +213,13 @@ mod tests {
     #[test]
     fn the_nominal_value_is_marked() {
         let columns = vec![(0..50).map(f64::from).collect::<Vec<_>>(), (0..50).map(|k| f64::from(k * k)).collect()];
-        let drawn = DrawnScenes { first: SampleId(1), physical: vec![true; 50], columns, mass: Vec::new() };
+        let drawn = DrawnScenes {
+            first: SampleId(1),
+            physical: vec![true; 50],
+            columns,
+            mass: Vec::new(),
+            magnitudes: Vec::new(),
+        };
         let names = vec!["one".to_owned(), "two".to_owned()];
         let uniform = Distribution::Uniform(UniformQuantile { min: 0.0, max: 50.0 });
         let figure_of = |nominal, asked| {
