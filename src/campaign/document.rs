@@ -17,8 +17,17 @@ use toml::de::{DeTable, DeValue};
 /// Problems that are noted; further ones are counted only. More than are shown, since those are the first ones by line.
 const NOTED: usize = 10 * SHOWN;
 
-/// What is said of a text that is hardly TOML.
-const NO_CAMPAIGN_FILE: &str = "so many lines are no TOML: is this a campaign file?";
+/// What is said of a text that is not TOML, and has no table of a campaign.
+const NO_CAMPAIGN_FILE: &str = "there is no [campaign] table: is this a campaign file?";
+
+/// What to do about the syntax error `message`.
+fn syntax_remedy(message: &str) -> &'static str {
+    if message.contains("array") {
+        "fix this line, or close with ] the array that begins here or above"
+    } else {
+        "fix this line"
+    }
+}
 
 /// What is known about a file while it is read.
 #[derive(Debug)]
@@ -28,10 +37,6 @@ pub struct Document<'a> {
     problems: Vec<Problem>,
     /// Problems that are counted only.
     more: usize,
-    /// Whether lines are no TOML: the keys after them may be lost.
-    has_syntax_errors: bool,
-    /// Keys that are missing, perhaps for that reason: they have no problem of their own, and none that follows from it.
-    perhaps_lost: Vec<String>,
     /// Where each line begins, bytes.
     starts: Vec<usize>,
     /// Where each key is.
@@ -62,8 +67,6 @@ impl<'a> Document<'a> {
             text,
             problems: Vec::new(),
             more: 0,
-            has_syntax_errors: false,
-            perhaps_lost: Vec::new(),
             starts: std::iter::once(0).chain(ends).collect(),
             spans: BTreeMap::new(),
             folder: PathBuf::new(),
@@ -83,40 +86,33 @@ impl<'a> Document<'a> {
         &self.folder
     }
 
-    /// Parses the text; what is not TOML is noted, and the rest can be read.
+    /// Parses the text.
     ///
     /// # Errors
-    /// Where the text is too large, has too many keys, or is so little TOML that reading on would only add to the list.
+    /// Where the text is too large or has too many keys; where it is no TOML, its first syntax error alone.
     pub fn parse(&mut self) -> Result<DeTable<'a>, CampaignError> {
         if let Some(problem) = size::of_text(self.file, self.text) {
             return Err(CampaignError::of(problem));
         }
         let (table, errors) = DeTable::parse_recoverable(self.text);
-        let mut last = 0;
-        for error in errors {
-            let line = self.line_at(error.span().map_or(0, |span| span.start));
-            // what follows on the same line follows from the first
-            if line == last {
-                continue;
-            }
-            last = line;
+        // what follows the first error mostly follows from it
+        let start = |error: &toml::de::Error| error.span().map_or(0, |span| span.start);
+        if let Some(error) = errors.into_iter().min_by_key(start) {
             let span = error.span().unwrap_or_default();
-            let problem = || Problem {
+            let line = self.line_at(span.start);
+            let problem = Problem {
                 file: self.file.to_owned(),
                 line: Some(line),
                 key: "line".to_owned(),
                 value: Some(shortened(self.line(line))),
                 allowed: format!("valid TOML ({})", size::plain(error.message())),
-                remedy: "fix this line".to_owned(),
+                remedy: syntax_remedy(error.message()).to_owned(),
                 excerpt: self.excerpt(&span),
             };
-            if self.problems.len() < SHOWN { self.problems.push(problem()) } else { self.more += 1 }
+            let is_campaign = self.text.contains("[campaign");
+            let note = (!is_campaign).then_some(NO_CAMPAIGN_FILE);
+            return Err(CampaignError { note, ..CampaignError::of(problem) });
         }
-        if self.more > 0 {
-            let (problems, more) = (std::mem::take(&mut self.problems), self.more);
-            return Err(CampaignError { problems, more, note: Some(NO_CAMPAIGN_FILE) });
-        }
-        self.has_syntax_errors = !self.problems.is_empty();
         let table = table.into_inner();
         match size::of_table(self.file, &table) {
             Some(problem) => Err(CampaignError::of(problem)),
@@ -129,17 +125,11 @@ impl<'a> Document<'a> {
         let contains = |outer: &str, inner: &str| {
             inner == outer || inner.strip_prefix(outer).is_some_and(|rest| rest.starts_with(['.', '[']))
         };
-        let mut reported = self.problems.iter().map(|problem| &problem.key).chain(&self.perhaps_lost);
-        reported.any(|other| contains(other, key) || contains(key, other))
+        self.problems.iter().any(|problem| contains(&problem.key, key) || contains(key, &problem.key))
     }
 
     /// Notes a problem of `key`, on the line of that key or of the nearest table around it.
     pub fn add(&mut self, key: &str, value: Option<String>, allowed: impl Into<String>, remedy: impl Into<String>) {
-        // what is missing may be on a line that is no TOML
-        if value.is_none() && self.has_syntax_errors {
-            self.perhaps_lost.push(key.to_owned());
-            return;
-        }
         if self.is_full() {
             self.more += 1;
             return;

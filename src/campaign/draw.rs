@@ -30,6 +30,17 @@ impl<'p> SceneDraws<'p> {
         }
     }
 
+    /// The scene of `sample` as written, physical or not.
+    pub fn input(&mut self, sample: SampleId) -> &SceneInput {
+        self.sampler.draw(sample, &mut self.input, &mut self.applied);
+        &self.input
+    }
+
+    /// The scene that the last draw made, as written.
+    pub fn drawn(&self) -> &SceneInput {
+        &self.input
+    }
+
     /// The scene of `sample`.
     ///
     /// # Errors

@@ -11,7 +11,7 @@
 //!   [`retention`]: which runs keep their time series.
 //! - [`plan`]: defaults filled in, scene and dispersions checked against each other. - [`chosen`], `plan_rows`: which samples are its rows.
 //! - `units`: units in values. `old_format`: files of the format before 0.2, and their new text.
-//! - [`notes`]: what is allowed and probably not meant.
+//! - [`notes`]: what is allowed and probably not meant. [`plausibility`], `positions`: numbers that look like a mistake; `digits`: how they are written.
 //! - [`mod@draw`]: from a plan and the number of a sample to its scene.
 //! - [`canonical`], [`canonical_draws`], `lines`: the plan as text that reads back to the same plan, and its hash.
 //! - [`difference`]: the keys in which two plans differ. - [`mod@find`]: which file a name means.
@@ -32,6 +32,7 @@ pub mod derived_observable;
 mod description;
 pub mod design;
 pub mod difference;
+mod digits;
 pub mod disperse;
 pub mod document;
 pub mod draw;
@@ -48,6 +49,8 @@ mod old_format;
 mod parameter;
 pub mod plan;
 mod plan_rows;
+pub mod plausibility;
+mod positions;
 pub mod problem;
 pub mod requirement;
 pub mod retention;

@@ -40,7 +40,7 @@ pub fn run(options: &CheckOptions) -> Result<CommandOutcome, Failure> {
         let unseen = unseen.iter().map(|parameter| {
             format!("{} does not affect any requested column (observe.groups), in the nominal scene", parameter.name())
         });
-        let notes: Vec<String> = plan.notes().into_iter().chain(unseen).collect();
+        let notes: Vec<String> = plan.notes().into_iter().chain(plan.implausible()).chain(unseen).collect();
         if !notes.is_empty() {
             section(&mut text, "Notes")?;
         }
@@ -73,7 +73,8 @@ fn masses(text: &mut String, input: &SceneInput, mass: &MassProperties) -> std::
     }
     let [x, y, z] = mass.center;
     writeln!(text, "centre of mass of the spacecraft, from p in F_s: [{x:?}, {y:?}, {z:?}] m")?;
-    tensor(text, "inertia of the spacecraft, wheels locked, about its centre of mass", mass.inertia)?;
+    let locked = if input.wheels.is_empty() { "" } else { ", wheels locked," };
+    tensor(text, &format!("inertia of the spacecraft{locked} about its centre of mass"), mass.inertia)?;
     let (moments, axes) = principal_axes(mass.inertia);
     writeln!(text, "its principal moments {moments:?} kg m^2; principal axes in F_s, by columns:")?;
     rows(text, axes)?;
@@ -115,45 +116,42 @@ fn rows(text: &mut String, rows: [[f64; 3]; 3]) -> std::fmt::Result {
     rows.iter().try_for_each(|[x, y, z]| writeln!(text, "  {x:>24?}{y:>24?}{z:>24?}"))
 }
 
-/// What is integrated and why, and what is not.
+/// What is integrated and why, and what is not; nothing of what scene and method do not have.
 fn computed(text: &mut String, ensemble: &Ensemble<'_>) -> std::fmt::Result {
     section(text, "What is computed")?;
     let reasons = ensemble.request().reasons();
-    for field in StateField::ALL {
+    for field in StateField::ALL.into_iter().filter(|field| has(ensemble.request(), *field)) {
         let name = field_name(field);
         match reasons.iter().find(|(needed, _)| *needed == field) {
             Some((_, reason)) => writeln!(text, "{name:<44} needed because of {reason}")?,
-            None => writeln!(text, "{name:<44} not computed: {}", absence(ensemble.request(), field))?,
+            None => writeln!(text, "{name:<44} not computed: no requested observable needs it")?,
         }
     }
-    for (term, scheduled) in [("thrust", ensemble.propagator().thrust), ("wheel motors", ensemble.propagator().motors)]
-    {
+    let (scene, propagator) = (&ensemble.plan().nominal, ensemble.propagator());
+    for (term, exists, scheduled) in [
+        ("thrust", !scene.thrusters.is_empty(), propagator.thrust),
+        ("wheel motors", !scene.turning_wheels().is_empty(), propagator.motors),
+    ] {
         let why = if scheduled { "needed because of the schedule" } else { "not computed: not in the schedule" };
-        writeln!(text, "{term:<44} {why}")?;
+        if exists {
+            writeln!(text, "{term:<44} {why}")?;
+        }
     }
     let asked: Vec<&str> = ensemble.plan().groups.iter().map(|group| group.name()).collect();
     writeln!(text, "observed groups: {}", asked.join(", "))
 }
 
-/// Why a state is not computed.
-fn absence(request: &Request, field: StateField) -> &'static str {
+/// Whether scenes and method of the request have a field.
+fn has(request: &Request, field: StateField) -> bool {
     match field {
         StateField::DebrisPosition
         | StateField::DebrisVelocity
         | StateField::DebrisAttitude
-        | StateField::DebrisRate
-            if !request.debris =>
-        {
-            "there is no debris"
-        }
-        StateField::WheelRates | StateField::WheelAngles if request.wheels.is_empty() => "there is no wheel that turns",
-        StateField::Work | StateField::Impulse | StateField::AngularImpulse if !request.actuated => {
-            "there is no actuation"
-        }
-        StateField::Dcm | StateField::Residuals | StateField::KineticEnergies if !request.constrained => {
-            "only the null_space method has it"
-        }
-        _ => "no requested observable needs it",
+        | StateField::DebrisRate => request.debris,
+        StateField::WheelRates | StateField::WheelAngles => !request.wheels.is_empty(),
+        StateField::Work | StateField::Impulse | StateField::AngularImpulse => request.actuated,
+        StateField::Dcm | StateField::Residuals | StateField::KineticEnergies => request.constrained,
+        StateField::Rate | StateField::Attitude | StateField::ComPosition | StateField::ComVelocity => true,
     }
 }
 

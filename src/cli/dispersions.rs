@@ -3,10 +3,11 @@
 use std::fmt::Write as _;
 
 use crate::campaign::{Plan, SceneDraws};
-use crate::ensemble::drawn::{MASS_COLUMNS, mass_properties};
+use crate::ensemble::drawn::{MASS_COLUMNS, magnitudes, mass_properties};
 use crate::ensemble::{DrawnScenes, Percentiles};
 use crate::report::number::short;
 use crate::sampling::{Design, Dispersions, Replaced, SampleId};
+use crate::scene::magnitude::Magnitude;
 
 /// Draws behind the percentiles: the 1% and 99% lie within a tenth of the distribution's width of their true places.
 const DRAWS: u64 = 10_000;
@@ -35,16 +36,19 @@ pub fn table_of(text: &mut String, plan: &Plan, drawn: &Percentiles) -> std::fmt
         let dimensions = plan.dispersions.dimensions().len();
         writeln!(text, "design: {}, {} samples, {dimensions} random dimensions", plan.design.name(), plan.samples)?;
     }
-    let names: Vec<String> = columns.iter().map(|column| column.parameter.component_name(column.component)).collect();
+    let of_columns = columns.iter().map(|column| column.parameter.component_name(column.component));
+    let magnitudes = magnitudes(plan);
+    let names: Vec<String> = of_columns.chain(magnitudes.iter().map(|magnitude| magnitude.name())).collect();
     let title = format!("parameter, of {} draws (sample 0 is nominal)", drawn.count());
     let width = names.iter().map(String::len).chain([title.len()]).max().unwrap_or(0);
     writeln!(text, "{title:<width$}  {:>12}  {:>12}{:>12}{:>12}  distribution", "nominal", "1%", "50%", "99%")?;
     let percentiles = drawn.quantiles([0.01, 0.5, 0.99]);
-    for (index, ((name, column), values)) in names.iter().zip(columns).zip(percentiles).enumerate() {
-        write!(text, "{name:<width$}  {:>12}  ", short(column.nominal))?;
-        let values = values.map_or(["-".to_owned(), "-".to_owned(), "-".to_owned()], |values| values.map(short));
-        let [low, middle, high] = values;
-        writeln!(text, "{low:>12}{middle:>12}{high:>12}  {}", origin(&plan.dispersions, index))?;
+    for row in order(plan, &magnitudes) {
+        write!(text, "{:<width$}  {:>12}  ", names[row], short(drawn.nominal()[row]))?;
+        let none = ["-".to_owned(), "-".to_owned(), "-".to_owned()];
+        let [low, middle, high] = percentiles[row].map_or(none, |values| values.map(short));
+        let origin = if row < columns.len() { origin(&plan.dispersions, row) } else { "of the components".to_owned() };
+        writeln!(text, "{low:>12}{middle:>12}{high:>12}  {origin}")?;
     }
     if !drawn.is_exact() {
         writeln!(text, "percentiles of so many draws are within 0.05% of their distance from the nominal value")?;
@@ -61,6 +65,19 @@ pub fn table_of(text: &mut String, plan: &Plan, drawn: &Percentiles) -> std::fmt
         writeln!(text, "{}", nearest(replaced))?;
     }
     Ok(())
+}
+
+/// The rows of the table: the columns in their order, each magnitude, which are counted after them, below the last component of its parameter.
+fn order(plan: &Plan, magnitudes: &[Magnitude]) -> Vec<usize> {
+    let columns = plan.dispersions.columns();
+    let mut rows = Vec::with_capacity(columns.len() + magnitudes.len());
+    for (index, column) in columns.iter().enumerate() {
+        rows.push(index);
+        let is_last = columns[index + 1..].iter().all(|other| other.parameter != column.parameter);
+        let magnitude = magnitudes.iter().position(|magnitude| magnitude.parameter == column.parameter);
+        rows.extend(magnitude.filter(|_| is_last).map(|magnitude| columns.len() + magnitude));
+    }
+    rows
 }
 
 /// The numbers that sample `sample` applies, in all digits; with the mass properties that follow from them if `with_mass`, where they are

@@ -4,6 +4,7 @@ use crate::campaign::{Plan, SceneDraws};
 use crate::math::symmetric::principal_axes;
 use crate::sampling::SampleId;
 use crate::scene::Scene;
+use crate::scene::magnitude::Magnitude;
 use crate::statistics::correlation::{matrix, mid_ranks, standardised};
 
 /// Samples as drawn: what was applied, and whether the scene is physical.
@@ -18,6 +19,19 @@ pub struct DrawnScenes {
     /// Mass properties of the spacecraft, column by column as [`MASS_COLUMNS`] has them; empty where they were not asked. NaN where a
     /// sample is not physical.
     pub mass: Vec<Vec<f64>>,
+    /// Magnitudes of vectors and attitudes, column by column as [`magnitudes`] has them.
+    pub magnitudes: Vec<Vec<f64>>,
+}
+
+/// The magnitudes of the dispersed parameters of `plan` that have one, in the order of their first column.
+pub fn magnitudes(plan: &Plan) -> Vec<Magnitude> {
+    let mut list: Vec<Magnitude> = Vec::new();
+    for magnitude in plan.dispersions.columns().iter().filter_map(|column| Magnitude::of(column.parameter)) {
+        if !list.contains(&magnitude) {
+            list.push(magnitude);
+        }
+    }
+    list
 }
 
 /// The mass properties of a drawn spacecraft: name of the column, unit, meaning.
@@ -58,7 +72,7 @@ impl DrawnScenes {
     /// Draws `count` samples of `plan` from `first` on, as far as it has them.
     pub fn new(plan: &Plan, first: SampleId, count: u64) -> Self {
         let mut drawn = DrawnScenes::empty(plan, false);
-        drawn.draw(&mut SceneDraws::new(plan), first.0..first.0.saturating_add(count).min(plan.samples));
+        drawn.draw(plan, &mut SceneDraws::new(plan), first.0..first.0.saturating_add(count).min(plan.samples));
         drawn
     }
 
@@ -71,7 +85,7 @@ impl DrawnScenes {
         let mut first = 0;
         while first < plan.samples {
             let end = (first + CHUNK).min(plan.samples);
-            drawn.draw(&mut draws, first..end);
+            drawn.draw(plan, &mut draws, first..end);
             seen(&drawn)?;
             first = end;
         }
@@ -81,19 +95,24 @@ impl DrawnScenes {
     fn empty(plan: &Plan, with_mass: bool) -> Self {
         let mass = if with_mass { vec![Vec::new(); MASS_COLUMNS.len()] } else { Vec::new() };
         let columns = vec![Vec::new(); plan.dispersions.columns().len()];
-        DrawnScenes { first: SampleId(0), physical: Vec::new(), columns, mass }
+        let magnitudes = vec![Vec::new(); magnitudes(plan).len()];
+        DrawnScenes { first: SampleId(0), physical: Vec::new(), columns, mass, magnitudes }
     }
 
     /// Draws `samples` in place of what is there.
-    fn draw(&mut self, draws: &mut SceneDraws<'_>, samples: std::ops::Range<u64>) {
+    fn draw(&mut self, plan: &Plan, draws: &mut SceneDraws<'_>, samples: std::ops::Range<u64>) {
         self.first = SampleId(samples.start);
         self.physical.clear();
-        self.columns.iter_mut().chain(&mut self.mass).for_each(Vec::clear);
+        self.columns.iter_mut().chain(&mut self.mass).chain(&mut self.magnitudes).for_each(Vec::clear);
+        let magnitudes = magnitudes(plan);
         let mut scenes: Vec<Scene> = Vec::with_capacity(1);
         for sample in samples {
             let physical = draws.scene_at(SampleId(sample), &mut scenes, 0).is_ok();
             self.physical.push(physical);
             self.columns.iter_mut().zip(draws.applied()).for_each(|(column, value)| column.push(*value));
+            for (column, magnitude) in self.magnitudes.iter_mut().zip(&magnitudes) {
+                column.push(magnitude.value(draws.drawn(), &plan.nominal));
+            }
             if !self.mass.is_empty() {
                 let values = scenes.first().filter(|_| physical).map_or([f64::NAN; 7], mass_properties);
                 self.mass.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
@@ -121,7 +140,13 @@ mod tests {
     fn rank_correlations_of_known_columns() {
         let columns =
             vec![vec![1.0, 2.0, 3.0, 4.0], vec![1.0, 8.0, 27.0, 64.0], vec![4.0, 3.0, 2.0, 1.0], vec![5.0; 4]];
-        let drawn = DrawnScenes { first: SampleId(0), physical: vec![true; 4], columns, mass: Vec::new() };
+        let drawn = DrawnScenes {
+            first: SampleId(0),
+            physical: vec![true; 4],
+            columns,
+            mass: Vec::new(),
+            magnitudes: Vec::new(),
+        };
         let r = drawn.rank_correlations();
         // an ulp or two of the sums; none is measured
         assert!(

@@ -1,12 +1,13 @@
 //! [`Percentiles`]: quantiles of drawn columns, exact for few samples, from sketches for any number of them.
 
 use crate::campaign::Plan;
-use crate::ensemble::drawn::{CHUNK, DrawnScenes};
+use crate::ensemble::drawn::{CHUNK, DrawnScenes, magnitudes};
 use crate::sampling::SampleId;
 use crate::statistics::quantile::quantile;
 use crate::statistics::sketch::Sketch;
 
-/// Quantiles of the columns of the samples of a plan, collected as they are drawn. The nominal sample 0 does not count.
+/// Quantiles of the columns of the samples of a plan, and after these of their magnitudes ([`magnitudes`]), collected as they are drawn.
+/// The nominal sample 0 does not count.
 #[derive(Clone, Debug)]
 pub struct Percentiles {
     count: u64,
@@ -26,7 +27,9 @@ enum Columns {
 impl Percentiles {
     /// Of the samples of `plan`; nothing is counted yet.
     pub fn new(plan: &Plan) -> Self {
-        let nominal: Vec<f64> = plan.dispersions.columns().iter().map(|column| column.nominal).collect();
+        let columns = plan.dispersions.columns().iter().map(|column| column.nominal);
+        let magnitudes = magnitudes(plan).into_iter().map(|magnitude| magnitude.value(&plan.nominal, &plan.nominal));
+        let nominal: Vec<f64> = columns.chain(magnitudes).collect();
         let columns = if plan.samples <= CHUNK {
             Columns::Values(vec![Vec::new(); nominal.len()])
         } else {
@@ -42,14 +45,21 @@ impl Percentiles {
         self.count += drawn.count().saturating_sub(from) as u64;
         match &mut self.columns {
             Columns::Values(columns) => {
-                columns.iter_mut().zip(&drawn.columns).for_each(|(held, new)| held.extend(&new[from..]));
+                let new = drawn.columns.iter().chain(&drawn.magnitudes);
+                columns.iter_mut().zip(new).for_each(|(held, new)| held.extend(&new[from..]));
             }
             Columns::Sketches(columns) => {
-                for ((sketch, nominal), new) in columns.iter_mut().zip(&self.nominal).zip(&drawn.columns) {
+                let new = drawn.columns.iter().chain(&drawn.magnitudes);
+                for ((sketch, nominal), new) in columns.iter_mut().zip(&self.nominal).zip(new) {
                     new[from..].iter().for_each(|value| sketch.add(value - nominal));
                 }
             }
         }
+    }
+
+    /// The nominal value of each column.
+    pub fn nominal(&self) -> &[f64] {
+        &self.nominal
     }
 
     /// Number of dispersed samples.
@@ -68,7 +78,7 @@ impl Percentiles {
         matches!(self.columns, Columns::Values(_))
     }
 
-    /// Quantiles of each column at the fractions `p`, of type 7 of R. J. Hyndman & Y. Fan (*Am. Stat.* 50 (1996) 361): linear
+    /// Quantiles of each column and magnitude at the fractions `p`, of type 7 of R. J. Hyndman & Y. Fan (*Am. Stat.* 50 (1996) 361): linear
     /// between neighbours; none where there are no samples.
     pub fn quantiles<const N: usize>(&self, p: [f64; N]) -> Vec<Option<[f64; N]>> {
         let all = |of: &dyn Fn(f64) -> Option<f64>| {
@@ -115,6 +125,7 @@ mod tests {
                 physical: vec![true; 1000],
                 columns: vec![values],
                 mass: Vec::new(),
+                magnitudes: Vec::new(),
             };
             both.iter_mut().for_each(|one| one.add(&drawn));
         }

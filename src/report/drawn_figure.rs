@@ -214,7 +214,13 @@ mod tests {
     /// The picture of two columns of fifty samples: 0, 1, 2, ... and their squares.
     fn figure_of(nominal: Vec<f64>, asked: Vec<Option<Asked<'_>>>) -> String {
         let columns = vec![(0..50).map(f64::from).collect::<Vec<_>>(), (0..50).map(|k| f64::from(k * k)).collect()];
-        let drawn = DrawnScenes { first: SampleId(1), physical: vec![true; 50], columns, mass: Vec::new() };
+        let drawn = DrawnScenes {
+            first: SampleId(1),
+            physical: vec![true; 50],
+            columns,
+            mass: Vec::new(),
+            magnitudes: Vec::new(),
+        };
         let columns = DrawnColumns { names: NAMES.map(str::to_owned).to_vec(), nominal, asked, drawn };
         DrawnFigure { title: "t".into(), columns: &columns }.svg().unwrap()
     }

@@ -10,6 +10,7 @@
 //! - [`check`], [`error`]: what makes a scene physical beyond single keys, and the message where it is not.
 //! - [`resolve`]: from an input to a [`Scene`].
 //! - [`thruster`]: force and torque of thrusters. [`alignment`]: axes and directions, and their errors. [`name`]: names.
+//! - [`magnitude`]: the number by which a vector or an attitude is judged. [`outline`]: how far a point is from a part.
 //! - [`unit_quaternion`]: the attitude that is used where one is written.
 //! - [`schedule`]: what the actuators make of the commands, and the arcs of constant actuation.
 
@@ -18,8 +19,10 @@ pub mod body;
 pub mod check;
 pub mod error;
 pub mod input;
+pub mod magnitude;
 pub mod mass;
 pub mod name;
+pub mod outline;
 pub mod parameter;
 #[cfg(test)]
 mod refusals;

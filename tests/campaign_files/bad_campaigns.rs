@@ -108,3 +108,38 @@ fn a_file_that_is_not_there_is_said_to_be_so() {
     let error = Plan::load(std::path::Path::new("no/such.toml"), Overrides::default()).expect_err("no such file");
     assert!(error.to_string().starts_with("no/such.toml: file = "), "{error}");
 }
+
+/// Law: the first syntax error of a file is told alone, with a mark and a remedy: neither what follows from it, nor errors of the keys after it.
+#[test]
+fn a_syntax_error_is_told_alone() {
+    let good = good();
+    let line_of =
+        |what: &str| good.lines().position(|line| line.contains(what)).unwrap_or_else(|| panic!("{what}")) + 1;
+    for (from, to, line, marked, remedy) in [
+        (
+            "samples = 10",
+            "samples = = 10",
+            line_of("samples = 10"),
+            "    | samples = = 10\n    |           ^",
+            "fix this line",
+        ),
+        ("seed = 1", "seed = 1.0.3", line_of("seed = 1"), "    | seed = 1.0.3\n", "fix this line"),
+        ("[initial]", "[initial", line_of("[initial]"), "    | [initial\n", "fix this line"),
+        (
+            "axis = [0, 1, 0]",
+            "axis = [0, 1, 0",
+            line_of("axis = [0, 1, 0]") + 1,
+            "    | ^",
+            "close with ] the array that begins here or above",
+        ),
+    ] {
+        // a wrong value elsewhere is told once the file is TOML
+        let error = errors(&changed(from, to).replace("duration_s = ", "duration_s = -"));
+        let said = error.with_excerpts();
+        assert_eq!((error.problems.len(), error.more, error.problems[0].line), (1, 0, Some(line)), "{said}");
+        assert!(said.contains("must be valid TOML (") && said.contains(remedy) && said.contains(marked), "{said}");
+        assert!(said.lines().count() == 3 && !said.contains("is this a campaign file"), "{said}");
+    }
+    let said = errors("0.5,0.25\n0.5,0.25\n").to_string();
+    assert!(said.lines().count() == 2 && said.ends_with("is this a campaign file?"), "{said}");
+}

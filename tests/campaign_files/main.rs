@@ -11,6 +11,7 @@ mod bad_campaigns;
 mod bad_dispersions;
 mod bad_spacecraft;
 mod every_key;
+mod implausible;
 mod invalid_files;
 mod misspelt;
 mod old_format;

@@ -80,14 +80,95 @@ fn check_shows_what_would_run() {
         "J_xy = -integral of x y dm",
         "initial.angular_velocity_rad_s.x",
         "needed because of",
-        "not computed: there is no actuation",
+        "not computed: no requested observable needs it",
+        "inertia of the spacecraft, wheels locked,",
         "== Estimate",
     ] {
         assert!(said.contains(expected), "{expected} in:\n{said}");
     }
+    assert!(
+        said.contains("wheel rates  ")
+            && said.contains("velocity of the debris  ")
+            && !said.contains("not computed: there is no"),
+        "{said}"
+    );
     let said = scratch.prints("check no_debris.toml", 0);
-    assert!(said.contains("not computed: there is no debris"), "{said}");
+    assert!(said.contains("wheel rates  ") && !said.contains("of the debris"), "{said}");
     assert!(!scratch.path("results").exists(), "check writes nothing");
+}
+
+/// Law: `check` of a scene has no line about what the scene and the method do not have.
+#[test]
+fn check_has_no_line_about_what_is_not_there() {
+    let scratch = folder("check-bare");
+    let bare = "[campaign]\nname = \"bare\"\nsamples = 1\nseed = 0\nduration_s = 2\n[body]\nmass_kg = 10\n\
+                inertia_kg_m2 = [[3, 0, 0], [0, 3, 0], [0, 0, 2]]\n[initial]\nangular_velocity_rad_s = [0, 0, 1]\n";
+    scratch.file("bare.toml", bare);
+    let said = scratch.prints("check bare.toml", 0);
+    assert!(said.contains("inertia of the spacecraft about its centre of mass"), "{said}");
+    assert!(said.contains("angular velocity of the body ") && said.contains("attitude quaternion "), "{said}");
+    let listed = said.split("== Mass properties").nth(1).expect("mass properties");
+    for absent in ["wheel", "debris", "thrust", "actuat", "impulse", "null_space", "there is no"] {
+        let line = listed.lines().find(|line| line.contains(absent) && !line.starts_with("observed groups"));
+        assert_eq!(line, None, "{said}");
+    }
+}
+
+/// Law: below the components of a dispersed rate, attitude or alignment error are the percentiles of its magnitude, which are those of the
+/// drawn values; below those of other parameters there are none. What looks like a mistake is noted.
+#[test]
+fn check_shows_magnitudes_and_implausible_numbers() {
+    let scratch = folder("check-magnitudes");
+    let more = "[[disperse]]\nparameter = \"initial.attitude\"\ndistribution = \"attitude_error\"\nstd_rad = 0.1\n\
+                [[disperse]]\nparameter = \"wheels.w1.tilt_rad\"\ndistribution = \"normal\"\nstd = 5\n\
+                [[disperse]]\nparameter = \"wheels.w2.rate_rad_s\"\ndistribution = \"normal\"\nstd = 5\n";
+    scratch.file("more.toml", &(campaign() + more));
+    let said = scratch.prints("check more.toml", 0);
+    let row = |name: &str| {
+        let line = said.lines().position(|line| line.starts_with(name)).unwrap_or_else(|| panic!("{name} in:\n{said}"));
+        let text = said.lines().nth(line).unwrap().strip_prefix(name).unwrap();
+        let numbers: Vec<f64> = text.split_whitespace().map_while(|word| word.parse().ok()).collect();
+        (line, numbers)
+    };
+    let (above, _) = row("initial.angular_velocity_rad_s.z");
+    let (below, rates) = row("|initial.angular_velocity_rad_s|");
+    assert_eq!(below, above + 1, "{said}");
+    scratch.prints("sample more.toml --out drawn.csv", 0);
+    let table = fs::read_to_string(scratch.path("drawn.csv")).unwrap();
+    let names: Vec<&str> = table.lines().next().unwrap().split(',').collect();
+    let place = ["x", "y", "z"].map(|axis| {
+        let name = format!("initial_angular_velocity_{axis}_rad_s");
+        names.iter().position(|other| *other == name).unwrap_or_else(|| panic!("{name} in {names:?}"))
+    });
+    let mut sizes: Vec<f64> = Vec::new();
+    for line in table.lines().skip(2) {
+        let cells: Vec<&str> = line.split(',').collect();
+        sizes.push(place.iter().map(|index| cells[*index].parse::<f64>().unwrap().powi(2)).sum::<f64>().sqrt());
+    }
+    sizes.sort_by(f64::total_cmp);
+    // 599 draws, the quantile of type 7
+    assert_eq!(sizes.len(), 599);
+    for (p, shown) in [0.01, 0.5, 0.99].into_iter().zip(&rates[1..]) {
+        let rank: f64 = p * 598.0;
+        let (below, part) = (rank as usize, rank.fract());
+        let expected = sizes[below] + part * (sizes[below + 1] - sizes[below]);
+        // four digits are shown
+        assert!((shown / expected - 1.0).abs() < 1e-3, "{shown} {expected}");
+    }
+    let (_, angles) = row("initial.attitude: angle from nominal (rad)");
+    // std 0.1 rad about each of three axes: the length has the quantiles 0.1 times 0.339, 1.538, 3.368 of the chi distribution with three
+    // degrees of freedom; those of 599 draws are within a fifth
+    for (shown, chi) in angles[1..].iter().zip([0.0339, 0.1538, 0.3368]) {
+        assert!(angles[0] == 0.0 && (0.5..1.3).contains(&(shown / chi)), "{angles:?}");
+    }
+    row("|wheels.w1.tilt_rad|");
+    assert!(!said.contains("|wheels.w2") && !said.contains("|initial.debris"), "{said}");
+    let notes = said.split("== Notes\n").nth(1).unwrap_or_else(|| panic!("{said}"));
+    assert!(
+        notes.contains("\nwheels.w1.tilt_rad, as dispersed: ")
+            || notes.starts_with("wheels.w1.tilt_rad, as dispersed: "),
+        "{notes}"
+    );
 }
 
 #[test]

@@ -29,8 +29,8 @@ fn what_is_no_campaign_file_is_refused_by_what_it_is() {
         ("pipe.toml", "a named pipe (FIFO): must be a regular file; write the campaign to a file, and name that"),
         ("/dev/zero", "a device: must be a regular file"),
         (".", "`.` is a folder; name the campaign file in it"),
-        ("rows.csv", "rows.csv:20: line = 0.5,0.25,7: must be valid TOML"),
-        ("rows.csv", "and 49980 more problems\nso many lines are no TOML: is this a campaign file?"),
+        ("rows.csv", "rows.csv:1: line = 0.5,0.25,7: must be valid TOML"),
+        ("rows.csv", "there is no [campaign] table: is this a campaign file?"),
         ("image.png", "invalid UTF-8 at byte 0: must be a readable text file (UTF-8)"),
         ("huge.toml", "1099511627776 bytes: must be a campaign file of at most 8388608 bytes; name tables of numbers"),
     ] {
