@@ -1,4 +1,5 @@
-//! What the machine has left: memory, and space on a disk. Only refusals and warnings depend on it.
+//! What the machine has: memory and space on a disk that are left, and the width of the terminal. Only refusals, warnings and the layout of
+//! tables on the screen depend on it.
 
 use std::path::Path;
 
@@ -14,6 +15,19 @@ pub fn free_disk(path: &Path) -> Option<u64> {
 /// Free space of a disk; unknown here.
 #[cfg(not(unix))]
 pub fn free_disk(_path: &Path) -> Option<u64> {
+    None
+}
+
+/// Number of characters in a line of the terminal that shows standard output; `None` where it is no terminal or does not say.
+#[cfg(unix)]
+pub fn terminal_width() -> Option<usize> {
+    let size = rustix::termios::tcgetwinsize(std::io::stdout()).ok()?;
+    Some(usize::from(size.ws_col)).filter(|width| *width > 0)
+}
+
+/// Width of a terminal; unknown here.
+#[cfg(not(unix))]
+pub fn terminal_width() -> Option<usize> {
     None
 }
 

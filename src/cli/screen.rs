@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 use crate::campaign::excerpt::printable;
+use crate::cli::machine::terminal_width;
 
 /// Prints a result on standard output.
 ///
@@ -19,10 +20,11 @@ pub fn print(text: &str) -> io::Result<()> {
 /// Width of a terminal that is not known, characters.
 const UNKNOWN_WIDTH: usize = 100;
 
-/// Number of characters in a line of standard output: as the variable COLUMNS says (POSIX.1-2017, section 8.3), else 100.
+/// Number of characters in a line of standard output: as the variable COLUMNS says (POSIX.1-2017, section 8.3), else as the terminal says,
+/// else 100.
 pub fn width() -> usize {
     let asked = std::env::var("COLUMNS").ok().and_then(|text| text.trim().parse().ok());
-    asked.filter(|width| *width > 0).unwrap_or(UNKNOWN_WIDTH)
+    asked.filter(|width| *width > 0).or_else(terminal_width).unwrap_or(UNKNOWN_WIDTH)
 }
 
 /// Prints a message on standard error; failure to write it is ignored.
