@@ -23,7 +23,7 @@ use spindrift::propagation::Method;
 use spindrift::propagation::PropagationSettings;
 use spindrift::run::Grid;
 use spindrift::sampling::SampleId;
-use spindrift::scene::Scene;
+use spindrift::scene::{Actuated, Scene};
 use support::feedback::law;
 use support::runs::{adaptive, everything, fixed};
 use support::scenes::mixed;
@@ -176,7 +176,7 @@ fn observation() {
     for (name, method) in [("spin_sweep", Method::Auto), ("burn", Method::Auto), ("spin_sweep", Method::NullSpace)] {
         let plan = plan(name, "auto");
         let scenes = drawn(&plan, 0..3);
-        let actuated = !plan.nominal.actuation.is_empty();
+        let actuated = Actuated::of(&plan.nominal);
         let constrained = method == Method::NullSpace;
         let wheels = plan.nominal.turning_wheels();
         let request =

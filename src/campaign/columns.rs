@@ -6,14 +6,14 @@ use crate::observables::band_series::band_series;
 use crate::observables::{Group, Request, table};
 use crate::propagation::Method;
 use crate::run::Quantity;
-use crate::scene::{Parameter, SceneInput};
+use crate::scene::{Actuated, Parameter, SceneInput};
 
 /// The observables of campaigns with these groups, this scene and this method.
 pub fn request(groups: &[Group], nominal: &SceneInput, method: Method) -> Request {
     Request {
         groups: groups.iter().copied().collect(),
         debris: nominal.debris.is_some(),
-        actuated: nominal.is_actuated(),
+        actuated: Actuated::of(nominal),
         constrained: method == Method::NullSpace,
         wheels: nominal.turning_wheels(),
     }

@@ -149,7 +149,9 @@ fn has(request: &Request, field: StateField) -> bool {
         | StateField::DebrisAttitude
         | StateField::DebrisRate => request.debris,
         StateField::WheelRates | StateField::WheelAngles => !request.wheels.is_empty(),
-        StateField::Work | StateField::Impulse | StateField::AngularImpulse => request.actuated,
+        StateField::Work => request.actuated.any(),
+        StateField::Impulse => request.actuated.thrusters,
+        StateField::AngularImpulse => request.actuated.external(),
         StateField::Dcm | StateField::Residuals | StateField::KineticEnergies => request.constrained,
         StateField::Rate | StateField::Attitude | StateField::ComPosition | StateField::ComVelocity => true,
     }

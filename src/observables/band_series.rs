@@ -163,10 +163,11 @@ mod tests {
     use super::*;
     use crate::observables::request::wheel_names;
     use crate::observables::{Group, Groups};
+    use crate::scene::Actuated;
 
     fn names(groups: Groups, wheels: &[&str]) -> Vec<String> {
         let request =
-            Request { groups, debris: true, actuated: false, constrained: false, wheels: wheel_names(wheels) };
+            Request { groups, debris: true, actuated: Actuated::NONE, constrained: false, wheels: wheel_names(wheels) };
         band_series(&request).iter().map(|band| band.quantity.name().to_owned()).collect()
     }
 

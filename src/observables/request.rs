@@ -6,7 +6,7 @@ use super::rows::{Scenes, Source};
 use super::table::{self, Column, ColumnId, Series};
 use crate::math::list::List;
 use crate::run::{StateField, StateFields};
-use crate::scene::{MAX_WHEELS, Name};
+use crate::scene::{Actuated, MAX_WHEELS, Name};
 
 /// What is observed, and of what kind of scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,8 +15,8 @@ pub struct Request {
     pub groups: Groups,
     /// Whether there is a debris body.
     pub debris: bool,
-    /// Whether thrusters or wheel motors act at any time.
-    pub actuated: bool,
+    /// What acts at some time of a run.
+    pub actuated: Actuated,
     /// Whether the method integrates constraints (and the DCM itself): the null-space method.
     pub constrained: bool,
     /// The names of the wheels that turn.
@@ -150,9 +150,11 @@ impl Request {
         match scenes {
             Scenes::All => true,
             Scenes::Debris => self.debris,
-            Scenes::Actuated => self.actuated,
-            Scenes::Motors => self.actuated && !self.wheels.is_empty(),
-            Scenes::Free => !self.actuated,
+            Scenes::Actuated => self.actuated.any(),
+            Scenes::Thrusters => self.actuated.thrusters,
+            Scenes::ExternalTorque => self.actuated.external(),
+            Scenes::Motors => self.actuated.motors && !self.wheels.is_empty(),
+            Scenes::Free => !self.actuated.any(),
             Scenes::Constrained => self.constrained,
             Scenes::Unconstrained => !self.constrained,
             Scenes::Wheels => !self.wheels.is_empty(),
@@ -183,7 +185,7 @@ mod tests {
         Request {
             groups: groups.iter().copied().collect(),
             debris,
-            actuated,
+            actuated: Actuated::all_or_none(actuated),
             constrained,
             wheels: wheel_names(&["w1", "w2"]),
         }
@@ -240,7 +242,7 @@ mod tests {
     fn wheel_angles_and_positions_are_never_read() {
         for [debris, actuated, constrained] in [[false; 3], [true; 3]] {
             let groups = Group::DEFAULT.into_iter().collect();
-            let fields = Request { groups, debris, actuated, constrained, wheels: wheel_names(&["w1", "w2"]) }.fields();
+            let fields = Request { groups, ..request(&[], debris, actuated, constrained) }.fields();
             for field in [StateField::WheelAngles, StateField::ComPosition, StateField::DebrisPosition] {
                 assert!(!fields.contains(field));
             }
@@ -252,7 +254,7 @@ mod tests {
         let request = Request {
             groups: Groups::ALL,
             debris: true,
-            actuated: true,
+            actuated: Actuated::ALL,
             constrained: true,
             wheels: wheel_names(&["w1", "w2"]),
         };
@@ -265,7 +267,7 @@ mod tests {
     #[test]
     fn columns_apply_to_scenes_that_have_what_they_measure() {
         let names = |debris, actuated, constrained| -> Vec<String> {
-            Request { groups: Groups::ALL, debris, actuated, constrained, wheels: wheel_names(&["w1", "w2"]) }
+            Request { groups: Groups::ALL, ..request(&[], debris, actuated, constrained) }
                 .columns()
                 .iter()
                 .map(|c| c.quantity.name().to_owned())
@@ -285,5 +287,29 @@ mod tests {
         }
         let request = Request { wheels: wheel_names(&[]), ..request(&Group::DEFAULT, true, true, false) };
         assert!(request.columns().iter().all(|column| column.quantity.name() != "work_motors_final_j"), "no wheel");
+    }
+
+    /// Law: work and impulse are of what acts: no column, and no field, of a kind of actuation that a scene does not have.
+    #[test]
+    fn work_is_that_of_what_acts() {
+        let none = Actuated::NONE;
+        let momentum = [StateField::Impulse, StateField::AngularImpulse];
+        let cases: [(Actuated, &[&str], &[StateField]); 4] = [
+            (none, &[], &[]),
+            (Actuated { thrusters: true, ..none }, &["work_thrusters_final_j"], &momentum),
+            (Actuated { motors: true, ..none }, &["work_motors_final_j"], &[]),
+            (Actuated { body_torque: true, ..none }, &["work_thrusters_final_j"], &momentum[1..]),
+        ];
+        for (actuated, columns, fields) in cases {
+            let request = Request { actuated, ..request(&Group::DEFAULT, false, false, false) };
+            let all = request.columns();
+            let work: Vec<&str> =
+                all.iter().map(|column| column.quantity.name()).filter(|name| name.starts_with("work_")).collect();
+            assert_eq!(work, columns, "{actuated:?}");
+            let known: Vec<StateField> =
+                momentum.into_iter().filter(|field| request.fields().contains(*field)).collect();
+            assert_eq!(known, fields, "{actuated:?}");
+            assert_eq!(request.fields().contains(StateField::Work), actuated.any());
+        }
     }
 }

@@ -103,6 +103,7 @@ mod tests {
     use super::*;
     use crate::observables::group::Groups;
     use crate::observables::request::wheel_names;
+    use crate::scene::Actuated;
 
     /// Law: every column of every request shows the statistic of the table or its direct value.
     #[test]
@@ -119,7 +120,7 @@ mod tests {
             let request = Request {
                 groups: Groups::ALL,
                 debris,
-                actuated,
+                actuated: Actuated::all_or_none(actuated),
                 constrained,
                 wheels: wheel_names(&["w1", "w2", "w3"]),
             };

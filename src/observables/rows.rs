@@ -20,11 +20,15 @@ pub(super) enum Scenes {
     All,
     /// With a debris body.
     Debris,
-    /// With thrusters or motors in the schedule.
+    /// With thrusters, motors or torques on the body.
     Actuated,
-    /// The same, and with wheels that turn.
+    /// With thrusters in the schedule.
+    Thrusters,
+    /// With thrusters or torques on the body.
+    ExternalTorque,
+    /// With motors in the schedule, or motors that hold the speed of their wheels.
     Motors,
-    /// Without thrusters and motors in the schedule.
+    /// Without thrusters, motors and torques on the body.
     Free,
     /// Integrated with constraints: the null-space method.
     Constrained,

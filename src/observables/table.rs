@@ -43,7 +43,9 @@ impl Column {
             Scenes::All => "",
             Scenes::Debris => "with debris",
             Scenes::Actuated => "with actuation",
-            Scenes::Motors => "with actuation and wheels that turn",
+            Scenes::Thrusters => "with thrusters that act",
+            Scenes::ExternalTorque => "with thrusters that act or a torque on the body",
+            Scenes::Motors => "with motors that act",
             Scenes::Free => "without actuation",
             Scenes::Constrained => "null-space method",
             Scenes::Unconstrained => "not the null-space method",
@@ -282,12 +284,12 @@ mod needs {
     pub(super) const WORK: &[Need] = &[need(StateField::Work, Scenes::Actuated, "work of actuators and torques on the body")];
     pub(super) const LINEAR: &[Need] = &[
         need(StateField::ComVelocity, Scenes::All, "linear momentum"),
-        need(StateField::Impulse, Scenes::Actuated, "impulse of the thrusters"),
+        need(StateField::Impulse, Scenes::Thrusters, "impulse of the thrusters"),
     ];
     pub(super) const ANGULAR: &[Need] = &[
         need(StateField::Dcm, Scenes::Constrained, "angular momentum in F_e"),
         need(StateField::Attitude, Scenes::Unconstrained, "angular momentum in F_e"),
-        need(StateField::AngularImpulse, Scenes::Actuated, "angular impulse of thrusters and torques on the body"),
+        need(StateField::AngularImpulse, Scenes::ExternalTorque, "angular impulse of thrusters and torques on the body"),
     ];
     pub(super) const DEBRIS_LINEAR: &[Need] = &[need(StateField::DebrisVelocity, Scenes::Debris, "linear momentum of the debris")];
     pub(super) const DEBRIS_ANGULAR: &[Need] = &[
@@ -409,7 +411,7 @@ static FAMILIES: &[&[Column]] = &[
     errors!(EnergyConservation, All, EnergyError, "energy_error", "the error of total kinetic energy minus the work of actuators and torques on the body, relative to the largest total energy."),
     scales!(EnergyConservation, All, EnergyTotal, "energy_total", ["J", "_j"], "total kinetic energy in F_e, debris included"),
     &[
-        direct!(EnergyConservation, Actuated, Float, WorkThrusters, "work_thrusters_final_j", "J", "Work done until the last point by the thrusters and, where the environment or a control law applies one, by torques on the body."),
+        direct!(EnergyConservation, ExternalTorque, Float, WorkThrusters, "work_thrusters_final_j", "J", "Work done until the last point by the thrusters and, where the environment or a control law applies one, by torques on the body."),
         direct!(EnergyConservation, Motors, Float, WorkMotors, "work_motors_final_j", "J", "Work done by the wheel motors until the last point."),
     ],
     errors!(MomentumConservation, All, LinearMomentumError, "linear_momentum_error", "the error vector of the spacecraft's linear momentum minus the impulse, relative to the largest |p|."),

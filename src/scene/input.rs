@@ -105,13 +105,6 @@ impl SceneInput {
         }
     }
 
-    /// Whether anything does work on the spacecraft: a schedule, a torque of the environment, or a motor that holds its wheel's
-    /// speed.
-    pub fn is_actuated(&self) -> bool {
-        let is_held = |wheel: &WheelInput| wheel.mode == WheelMode::SpeedHeld;
-        !self.actuation.is_empty() || self.environment.acts() || self.wheels.iter().any(is_held)
-    }
-
     /// The same scene with another wheel.
     #[must_use]
     pub fn with_wheel(mut self, wheel: WheelInput) -> Self {

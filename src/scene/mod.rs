@@ -8,12 +8,14 @@
 //! - [`mass`]: mass properties of the whole.
 //! - [`parameter`]: the numeric keys that can be dispersed.
 //! - [`check`], [`error`]: what makes a scene physical beyond single keys, and the message where it is not.
+//! - [`actuated`]: what acts on a spacecraft at any time of a run.
 //! - [`resolve`]: from an input to a [`Scene`].
 //! - [`thruster`]: force and torque of thrusters. [`alignment`]: axes and directions, and their errors. [`name`]: names.
 //! - [`magnitude`]: the number by which a vector or an attitude is judged. [`outline`]: how far a point is from a part.
 //! - [`unit_quaternion`]: the attitude that is used where one is written.
 //! - [`schedule`]: what the actuators make of the commands, and the arcs of constant actuation.
 
+pub mod actuated;
 pub mod alignment;
 pub mod body;
 pub mod check;
@@ -39,6 +41,7 @@ pub mod thruster;
 pub mod unit_quaternion;
 pub mod wheel;
 
+pub use actuated::Actuated;
 pub use error::SceneError;
 pub use input::SceneInput;
 pub use mass::MassProperties;

@@ -13,7 +13,7 @@ use spindrift::ode::Integrator;
 use spindrift::propagation::Method;
 use spindrift::run::Status;
 use spindrift::run::{Grid, StateField};
-use spindrift::scene::Scene;
+use spindrift::scene::{Actuated, Scene};
 
 /// The largest error at any golden time, relative to the truth (at least to one in its unit).
 #[derive(Clone, Copy, Debug, Default)]
@@ -110,7 +110,7 @@ fn errors_of(golden: &Golden, scene: &Scene, method: Method, grid: &Grid, run: &
     let request = Request {
         groups: Groups::ALL,
         debris: true,
-        actuated: !scene.schedule.is_empty(),
+        actuated: Actuated::all_or_none(!scene.schedule.is_empty()),
         constrained: method == Method::NullSpace,
         wheels: golden.scene.turning_wheels(),
     };

@@ -15,7 +15,7 @@ use spindrift::ode::{Control, Integrator};
 use spindrift::propagation::Method;
 use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE as TRUTH_TOLERANCE};
 use spindrift::run::{Grid, StateField, Status};
-use spindrift::scene::{Scene, SceneInput, WheelMode};
+use spindrift::scene::{Actuated, Scene, SceneInput, WheelMode};
 
 /// Random scenes.
 const SCENES: u64 = 200;
@@ -60,7 +60,7 @@ fn balances(input: &SceneInput, scene: &Scene, grid: &Grid, method: Method, run:
     let request = Request {
         groups: Groups::ALL,
         debris: false,
-        actuated: input.is_actuated(),
+        actuated: Actuated::of(input),
         constrained: method == Method::NullSpace,
         wheels: input.turning_wheels(),
     };

@@ -11,7 +11,7 @@ use spindrift::observables::{Groups, Observer, Request};
 use spindrift::propagation::Method;
 use spindrift::run::Status;
 use spindrift::run::{Grid, StateField, StateTable};
-use spindrift::scene::{Scene, SceneInput};
+use spindrift::scene::{Actuated, Scene, SceneInput};
 
 /// Tolerance of every run here: what remains is rounding.
 const TOLERANCE: f64 = 1e-16;
@@ -48,7 +48,7 @@ fn conservation(scene: &Scene, horizon: f64, run: &Run) -> [f64; 2] {
     let request = Request {
         groups: Groups::ALL,
         debris: false,
-        actuated: false,
+        actuated: Actuated::NONE,
         constrained: false,
         wheels: wheel_names(&WHEELS[..scene.mass.wheels.len()]),
     };

@@ -20,7 +20,7 @@ use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLE
 use spindrift::run::Status;
 use spindrift::run::{Grid, StateField, StateFields};
 use spindrift::sampling::SampleId;
-use spindrift::scene::{ActuationInput, Scene, SceneInput, WheelMode};
+use spindrift::scene::{Actuated, ActuationInput, Scene, SceneInput, WheelMode};
 
 /// Horizon of random scenes, s.
 const HORIZON: f64 = 1.0;
@@ -44,7 +44,7 @@ fn balances(scene: &Scene, grid: &Grid, run: &Run, actuated: bool) -> [f64; 2] {
     let request = Request {
         groups: Groups::ALL,
         debris: false,
-        actuated,
+        actuated: Actuated::all_or_none(actuated),
         constrained: false,
         wheels: wheel_names(&WHEELS[..scene.mass.wheels.len()]),
     };
@@ -309,7 +309,7 @@ fn a_campaign_says_how_a_wheel_runs_and_gets_the_motors_work() {
     assert!(value("work_motors_final_j").abs() > 1e-3);
     assert!(value("energy_error_max") < CAMPAIGN_BALANCE);
     let free = plan(&file.replace("speed_held", "free")).expect("a legal campaign");
-    assert!(!free.nominal.is_actuated());
+    assert!(!Actuated::of(&free.nominal).any());
     let wrong = plan(&file.replace("speed_held", "held")).expect_err("no such mode").to_string();
     assert!(wrong.contains("wheels.w1.mode") && wrong.contains("free, speed_held, locked"), "{wrong}");
     let pushed = format!("{file}[[actuation]]\nstart_s = 0\nend_s = 1\ntorque_n_m = {{ w1 = 1 }}\n");

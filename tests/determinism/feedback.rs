@@ -12,7 +12,7 @@ use spindrift::ode::Control;
 use spindrift::ode::Integrator;
 use spindrift::propagation::{CompletedRun, Method, PropagationSettings};
 use spindrift::run::Grid;
-use spindrift::scene::{Arc, Scene};
+use spindrift::scene::{Actuated, Arc, Scene};
 
 /// s.
 const HORIZON: f64 = 3.1;
@@ -116,8 +116,13 @@ fn rows(
     observe: Observe,
 ) -> (Vec<Bits>, Vec<Vec<Arc>>) {
     let constrained = method == Method::NullSpace;
-    let request =
-        Request { groups: Groups::ALL, debris: true, actuated: true, constrained, wheels: wheel_names(&WHEELS) };
+    let request = Request {
+        groups: Groups::ALL,
+        debris: true,
+        actuated: Actuated::ALL,
+        constrained,
+        wheels: wheel_names(&WHEELS),
+    };
     let settings = settings(method, control, scenes);
     let mut observer = Observer::new(request, &Grid::uniform(HORIZON, 29));
     let mut row = vec![0.0; request.columns().len()];

@@ -11,7 +11,7 @@ use spindrift::propagation::CompletedRun;
 use spindrift::propagation::Method;
 use spindrift::propagation::PropagationSettings;
 use spindrift::run::{Grid, StateField, StateFields};
-use spindrift::scene::Scene;
+use spindrift::scene::{Actuated, Scene};
 
 /// Horizon, s.
 const HORIZON: f64 = 6.0;
@@ -147,8 +147,13 @@ fn groups_do_not_reach_each_other() {
     ] {
         let scenes = mixed(13, forced, HORIZON);
         let rows = |groups: Groups| {
-            let request =
-                Request { groups, debris: true, actuated: forced, constrained: false, wheels: wheel_names(&WHEELS) };
+            let request = Request {
+                groups,
+                debris: true,
+                actuated: Actuated::all_or_none(forced),
+                constrained: false,
+                wheels: wheel_names(&WHEELS),
+            };
             let plan = PropagationSettings::new(method, control(method), grid.clone(), request.fields(), &scenes[0]);
             let mut observer = Observer::new(request, &grid);
             let names: Vec<String> = request.columns().iter().map(|column| column.quantity.name().to_owned()).collect();

@@ -13,7 +13,7 @@ use spindrift::observables::request::wheel_names;
 use spindrift::observables::{Group, Groups, Observer, Request};
 use spindrift::run::{Grid, LocalErrors, Outcome, StateField, StateFields, StateTable, Status, StepStatistics};
 use spindrift::sampling::SampleId;
-use spindrift::scene::Scene;
+use spindrift::scene::{Actuated, Scene};
 
 use crate::support::golden::Golden;
 
@@ -22,7 +22,7 @@ const ROUNDING: f64 = 4e-15;
 
 fn request() -> Request {
     let groups = Groups::NONE.with(Group::Motion);
-    Request { groups, debris: true, actuated: false, constrained: false, wheels: wheel_names(&["w1", "w2"]) }
+    Request { groups, debris: true, actuated: Actuated::NONE, constrained: false, wheels: wheel_names(&["w1", "w2"]) }
 }
 
 /// Attitude, omega, wheel rates, position of c, position of the debris at a time.

@@ -10,7 +10,7 @@ use spindrift::observables::request::wheel_names;
 use spindrift::observables::{Groups, Observer, Request};
 use spindrift::run::{Grid, StateField, StateFields, StateTable};
 use spindrift::run::{LocalErrors, Outcome, Status, StepStatistics};
-use spindrift::scene::Scene;
+use spindrift::scene::{Actuated, Scene};
 
 /// Energies and momenta of states that are rounded to f64: a few roundings of the state, doubled by squares, and some dozens of
 /// operations. Measured: 3.5e-16.
@@ -28,7 +28,13 @@ pub fn table1() -> (Golden, Scene) {
 
 /// What is observed of an unconstrained scene.
 pub fn request(groups: Groups, debris: bool, actuated: bool) -> Request {
-    Request { groups, debris, actuated, constrained: false, wheels: wheel_names(&["w1", "w2"]) }
+    Request {
+        groups,
+        debris,
+        actuated: Actuated::all_or_none(actuated),
+        constrained: false,
+        wheels: wheel_names(&["w1", "w2"]),
+    }
 }
 
 /// A run that ended as planned.

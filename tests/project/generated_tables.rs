@@ -14,9 +14,9 @@ use spindrift::observables::band_series::band_series;
 use spindrift::observables::request::wheel_names;
 use spindrift::observables::{Group, Groups, Request, table};
 use spindrift::sampling::SampleId;
-use spindrift::scene::SceneInput;
 use spindrift::scene::schema::Presence;
 use spindrift::scene::table::Table;
+use spindrift::scene::{Actuated, SceneInput};
 
 /// If this variable is set, the tables are written and not compared.
 const WRITE: &str = "SPINDRIFT_WRITE_DOCS";
@@ -87,8 +87,13 @@ fn columns_of_series() -> String {
 
 /// The quantities that have bands, of a scene that has all.
 fn quantities_over_time() -> String {
-    let request =
-        Request { groups: Groups::ALL, debris: true, actuated: true, constrained: false, wheels: wheel_names(&["w1"]) };
+    let request = Request {
+        groups: Groups::ALL,
+        debris: true,
+        actuated: Actuated::ALL,
+        constrained: false,
+        wheels: wheel_names(&["w1"]),
+    };
     let mut table = String::from("| series | unit | what it is |\n| --- | --- | --- |\n");
     for band in band_series(&request) {
         let quantity = &band.quantity;

@@ -15,8 +15,8 @@ use spindrift::sampling::distribution::normal::{Normal, Spread};
 use spindrift::sampling::{Design, Dispersion, DispersionError, Dispersions, SampleId, Values, WrittenDistribution};
 use spindrift::scene::parameter::Shape as ParameterShape;
 use spindrift::scene::{
-    DebrisInput, Name, Parameter, PartInput, PartShape, PrincipalInertia, PrincipalMoments, Scene, SceneInput,
-    WheelInput,
+    Actuated, DebrisInput, Name, Parameter, PartInput, PartShape, PrincipalInertia, PrincipalMoments, Scene,
+    SceneInput, WheelInput,
 };
 
 /// Horizon, s.
@@ -130,7 +130,8 @@ fn motion(method: Method, input: &SceneInput) -> Motion {
     assert_eq!(run.outcome.status, Status::Done);
     let groups = [Group::Energies, Group::EnergiesCom].into_iter().collect();
     let wheels = input.turning_wheels();
-    let request = Request { groups, debris: true, actuated: true, constrained: method == Method::NullSpace, wheels };
+    let request =
+        Request { groups, debris: true, actuated: Actuated::ALL, constrained: method == Method::NullSpace, wheels };
     let mut observer = Observer::new(request, &grid);
     let mut row = vec![f64::NAN; request.columns().len()];
     observer.observe(Isa::best(), &scene, &run.table, &run.outcome, &mut row);

@@ -1,0 +1,74 @@
+//! [`Actuated`]: what does work on a spacecraft, or changes its momentum, at any time of a run.
+
+use super::input::SceneInput;
+use super::schema::{WheelInput, WheelMode};
+
+/// What acts on a spacecraft at some time of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Actuated {
+    /// Thrusters: the schedule commands a thrust.
+    pub thrusters: bool,
+    /// Motors of wheels: the schedule commands a torque, or a motor holds the speed of its wheel.
+    pub motors: bool,
+    /// Torques on the body, of the environment or of a control law.
+    pub body_torque: bool,
+}
+
+impl Actuated {
+    /// Nothing acts.
+    pub const NONE: Actuated = Actuated { thrusters: false, motors: false, body_torque: false };
+    /// Everything acts, as under a control law.
+    pub const ALL: Actuated = Actuated { thrusters: true, motors: true, body_torque: true };
+
+    /// What acts on the scenes of `input`.
+    pub fn of(input: &SceneInput) -> Self {
+        let is_held = |wheel: &WheelInput| wheel.mode == WheelMode::SpeedHeld;
+        let commands = |numbers: &[f64]| numbers.iter().any(|number| *number != 0.0);
+        let arcs = || input.actuation.iter();
+        Actuated {
+            thrusters: arcs().any(|arc| commands(&arc.thrust_n)),
+            motors: arcs().any(|arc| commands(&arc.torque_n_m)) || input.wheels.iter().any(is_held),
+            body_torque: input.environment.acts(),
+        }
+    }
+
+    /// Everything, or nothing.
+    pub const fn all_or_none(acts: bool) -> Self {
+        if acts { Self::ALL } else { Self::NONE }
+    }
+
+    /// Whether anything acts.
+    pub const fn any(self) -> bool {
+        self.thrusters || self.motors || self.body_torque
+    }
+
+    /// Whether a torque from outside of the spacecraft acts.
+    pub const fn external(self) -> bool {
+        self.thrusters || self.body_torque
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::ActuationInput;
+
+    /// Law: each kind of actuation is known by what the scene commands, and an arc without commands is none.
+    #[test]
+    fn what_acts_is_what_is_commanded() {
+        let report = SceneInput::report;
+        assert_eq!(Actuated::of(&report().with_actuation(ActuationInput::idle(0.0, 1.0))), Actuated::NONE);
+        let motors = report().with_actuation(ActuationInput::idle(0.0, 1.0).with_torque(&[0.0, 1.0]));
+        assert_eq!(Actuated::of(&motors), Actuated { motors: true, ..Actuated::NONE });
+        let thrusters = report().with_actuation(ActuationInput::idle(0.0, 1.0).with_thrust(&[0.0, 1.0]));
+        assert_eq!(Actuated::of(&thrusters), Actuated { thrusters: true, ..Actuated::NONE });
+        let mut held = report();
+        held.wheels[1].mode = WheelMode::SpeedHeld;
+        assert_eq!(Actuated::of(&held), Actuated { motors: true, ..Actuated::NONE });
+        let mut torque = report();
+        torque.environment.body_torque_n_m = Some([0.0, 1.0, 0.0]);
+        assert_eq!(Actuated::of(&torque), Actuated { body_torque: true, ..Actuated::NONE });
+        assert!(Actuated::of(&torque).external() && !Actuated::of(&held).external());
+        assert!(Actuated::of(&held).any() && !Actuated::NONE.any());
+    }
+}
