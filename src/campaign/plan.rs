@@ -1,6 +1,7 @@
 //! [`Plan`]: what will run. Defaults are filled in, scene and dispersions are checked; a row is a pure function of the plan and
 //! a sample's id.
 
+use super::after_the_end;
 use super::analysis::Analysis;
 use super::bands;
 use super::chosen::Chosen;
@@ -8,6 +9,7 @@ use super::columns::{KnownColumns, request};
 use super::compression::Compression;
 use super::description;
 use super::document::Document;
+use super::draw_tables::DrawTables;
 use super::limits::{FRACTION, LARGEST_SEED, MAX_SAMPLES, MOST_MEMORY, bytes_a_point};
 use super::old_format;
 use super::problem::{CampaignError, Problem};
@@ -18,8 +20,8 @@ use crate::observables::{Group, Request};
 use crate::ode::Tolerance;
 use crate::propagation::Method;
 use crate::run::Grid;
-use crate::sampling::{Correlation, Derivation, Design, Dispersion, Dispersions, Draws, Table};
-use crate::scene::{Parameter, Scene, SceneInput};
+use crate::sampling::{Correlation, Derivation, Design, Dispersion, Dispersions, Draws};
+use crate::scene::{Scene, SceneInput};
 use std::path::{Path, PathBuf};
 
 /// What will run.
@@ -266,7 +268,7 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
         document.add_from_below(found.collect());
     }
 
-    let drawn = Drawn::of(spec.dispersions, spec.correlations, spec.derivations);
+    let drawn = DrawTables::of(spec.dispersions, spec.correlations, spec.derivations);
     let draws = Draws {
         seed: spec.seed.unwrap_or(0),
         samples: spec.samples,
@@ -284,7 +286,9 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
         }
     };
 
-    refuse_after_the_end(spec.duration_s, &spec.scene, &drawn, document);
+    if let (Some(duration), Some(dispersions)) = (spec.duration_s, &dispersions) {
+        after_the_end::refuse(duration, &spec.scene, &drawn, dispersions, document);
+    }
 
     let mut groups = spec.groups.unwrap_or_else(|| Group::DEFAULT.to_vec());
     groups.sort_by_key(|group| Group::ALL.iter().position(|known| known == group));
@@ -327,38 +331,6 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
     })
 }
 
-/// The tables of draws that could be read, each with its index in the file: errors name a table by its index
-/// among those that could be read.
-struct Drawn {
-    dispersed: (Vec<usize>, Vec<Dispersion>),
-    correlated: (Vec<usize>, Vec<Correlation>),
-    derived: (Vec<usize>, Vec<Derivation>),
-}
-
-impl Drawn {
-    fn of(
-        disperse: Vec<Option<Dispersion>>,
-        correlate: Vec<Option<Correlation>>,
-        derive: Vec<Option<Derivation>>,
-    ) -> Self {
-        fn indexed<T>(list: Vec<Option<T>>) -> (Vec<usize>, Vec<T>) {
-            list.into_iter().enumerate().filter_map(|(index, item)| item.map(|item| (index, item))).unzip()
-        }
-        Drawn { dispersed: indexed(disperse), correlated: indexed(correlate), derived: indexed(derive) }
-    }
-
-    /// The dotted path of a key in the file.
-    fn path(&self, table: Table, key: &str) -> String {
-        let table = match table {
-            Table::Disperse(index) => Table::Disperse(self.dispersed.0[index]),
-            Table::Correlate(index) => Table::Correlate(self.correlated.0[index]),
-            Table::Derive(index) => Table::Derive(self.derived.0[index]),
-            other => other,
-        };
-        format!("{table}.{key}")
-    }
-}
-
 /// Refuses more observation points than a thread may have memory for.
 fn check_memory(spec: &Spec, method: Method, document: &mut Document<'_>) {
     let (points, each) = (spec.points.unwrap_or(POINTS), bytes_a_point(method));
@@ -374,29 +346,6 @@ fn check_memory(spec: &Spec, method: Method, document: &mut Document<'_>) {
         );
         let remedy = "write fewer points; simulate --times shows one run at any times";
         document.add("observe.points", Some(points.to_string()), allowed, remedy);
-    }
-}
-
-/// Refuses dispersions that act on arcs only which start at the end of a run or later.
-fn refuse_after_the_end(duration: Option<f64>, scene: &SceneInput, drawn: &Drawn, document: &mut Document<'_>) {
-    let Some(duration) = duration else { return };
-    let mut within = scene.clone();
-    within.actuation.retain(|arc| arc.start_s < duration);
-    let inputs: Vec<_> = drawn.derived.1.iter().flat_map(|derivation| derivation.inputs(scene)).collect();
-    for (index, dispersion) in drawn.dispersed.1.iter().enumerate() {
-        let is_late = |target: &(Parameter, usize)| {
-            let is_in = |scene| target.0.exists(scene, target.1);
-            is_in(scene) && !is_in(&within) && !inputs.contains(target)
-        };
-        if let Some((parameter, component)) = dispersion.components().into_iter().find(is_late) {
-            let value = format!("{:?}", parameter.component_name(component));
-            let allowed = format!(
-                "a key with an effect before campaign.duration_s ({duration:?}): the arcs that it acts on start later"
-            );
-            let remedy = "let an arc start earlier, or delete this table";
-            let key = if dispersion.distribution.columns().is_empty() { "parameter" } else { "parameters" };
-            document.add(&drawn.path(Table::Disperse(index), key), Some(value), allowed, remedy);
-        }
     }
 }
 

@@ -7,9 +7,11 @@ use super::correlation::{Correlation, Replaced, components_of, copulas};
 use super::derivation::{Derivation, Derived, derived};
 use super::design::{Design, Dimensions, MAX_SAMPLES, Points, Size};
 use super::distribution::target::{JointTarget, Target};
-use super::distribution::{Distribution, Joint, Map, Quantile, WrittenDistribution};
+use super::distribution::{Distribution, Map, Quantile, WrittenDistribution};
 use super::error::{DispersionError, Table, error, error_of};
+use super::idle;
 use super::keys::DataColumn;
+use super::transform::{Assigned, Transform};
 use crate::scene::parameter::Shape;
 use crate::scene::{Parameter, SceneInput};
 use std::sync::Arc;
@@ -31,44 +33,6 @@ impl Dispersion {
         match self.distribution.columns() {
             [] => components_of(&(self.parameter, self.component)),
             columns => columns.iter().filter_map(|column| column.target).collect(),
-        }
-    }
-}
-
-/// A distribution with the numbers u that it takes, and the columns that it writes.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Assigned {
-    /// Its first dimension; it takes as many as its distribution needs, one after the other.
-    pub first: usize,
-    /// The columns that it writes, in the order of the distribution's values.
-    pub columns: Vec<usize>,
-    /// The distribution.
-    pub map: Transform,
-}
-
-/// From numbers u in (0, 1) to values.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Transform {
-    /// One u, one value.
-    Scalar(Distribution),
-    /// Several together.
-    Joint(Joint),
-}
-
-impl Transform {
-    /// Number of u that it takes.
-    pub fn dimensions(&self) -> usize {
-        match self {
-            Transform::Scalar(distribution) => distribution.dimensions(),
-            Transform::Joint(joint) => joint.dimensions(),
-        }
-    }
-
-    /// In words; `short` writes a number.
-    pub fn text(&self, short: &dyn Fn(f64) -> String) -> String {
-        match self {
-            Transform::Scalar(distribution) => distribution.text(short),
-            Transform::Joint(joint) => joint.text(short),
         }
     }
 }
@@ -178,13 +142,30 @@ impl Dispersions {
 
     /// The distribution that writes a column, if one does: a component of a quaternion may only change with the others.
     pub fn distribution_of(&self, column: usize) -> Option<&Transform> {
-        self.assigned.iter().find(|assigned| assigned.columns.contains(&column)).map(|assigned| &assigned.map)
+        self.assigned_to(column).map(|assigned| &assigned.map)
+    }
+
+    /// The same with all columns that the distribution writes.
+    pub fn assigned_to(&self, column: usize) -> Option<&Assigned> {
+        self.assigned.iter().find(|assigned| assigned.columns.contains(&column))
     }
 
     /// The distribution of a column that is one random number of its own, as it is drawn.
     pub fn scalar_of(&self, column: usize) -> Option<&Distribution> {
         match self.distribution_of(column) {
             Some(Transform::Scalar(distribution)) if distribution.dimensions() == 1 => Some(distribution),
+            _ => None,
+        }
+    }
+
+    /// The smallest value of a column among all draws of any campaign; `None` where it is not known: of several numbers together and
+    /// of derived ones.
+    pub fn smallest_of(&self, column: usize) -> Option<f64> {
+        if let Some((_, values)) = self.tabled.iter().find(|(tabled, _)| *tabled == column) {
+            return values.iter().copied().reduce(f64::min);
+        }
+        match self.distribution_of(column) {
+            Some(Transform::Scalar(distribution)) => Some(distribution.quantile(1.0 / MAX_SAMPLES as f64)),
             _ => None,
         }
     }
@@ -270,6 +251,7 @@ impl Dispersions {
                 joint.map(|joint| (components, Transform::Joint(joint))).into_iter().collect()
             }
         };
+        idle::check(index, distribution.name(), &maps, nominal)?;
         for (components, map) in maps {
             let first = self.dimensions.len();
             match &map {

@@ -6,12 +6,12 @@
 //! 3. [`distribution`]: from u to values, one quantile function each, for one number; one map each, for directions and
 //!    attitudes;
 //! 4. [`expression`]: values that follow from others;
-//! 5. [`dispersions`]: which distribution writes what, checked against the nominal scene; [`sampler`]: values into the scene,
+//! 5. [`dispersions`]: which distribution writes what ([`mod@transform`]), checked against the nominal scene; [`sampler`]: values into the scene,
 //!    and what was applied out of it.
 //!
 //! [`correlation`], [`derivation`]: `[[correlate]]` and `[[derive]]` tables as written; [`rank`]: rank correlations; [`columns`]: the
 //! numbers that a draw writes.
-//! [`keys`]: how distributions and designs read and write their keys; [`error`]: why something cannot be drawn.
+//! `idle`: distributions that change nothing. [`keys`]: how distributions and designs read and write their keys; [`error`]: why something cannot be drawn.
 
 pub mod columns;
 pub mod copula;
@@ -22,18 +22,21 @@ pub mod dispersions;
 pub mod distribution;
 pub mod error;
 pub mod expression;
+mod idle;
 pub mod keys;
 pub mod rank;
 pub mod sampler;
 pub mod stream;
+pub mod transform;
 
 pub use columns::Column;
 pub use correlation::{Correlation, Measure, Numbers, Replaced};
 pub use derivation::Derivation;
 pub use design::{Design, Points};
-pub use dispersions::{Dispersion, Dispersions, Draws, Transform};
+pub use dispersions::{Dispersion, Dispersions, Draws};
 pub use distribution::{Distribution, Joint, WrittenDistribution};
 pub use error::{DispersionError, Table};
 pub use keys::{DataColumn, Values};
 pub use sampler::Sampler;
 pub use stream::{SampleId, Stream};
+pub use transform::Transform;

@@ -5,10 +5,11 @@
 
 use super::columns::Column;
 use super::design::{BLOCK, PointSource, Points};
-use super::dispersions::{Assigned, Dispersions, Transform};
+use super::dispersions::Dispersions;
 use super::distribution::traits::MAX_DIMENSIONS;
 use super::distribution::{Joint, Map, Quantile};
 use super::stream::SampleId;
+use super::transform::{Assigned, Transform};
 use crate::scene::parameter::Shape;
 use crate::scene::{Parameter, SceneInput};
 

@@ -119,13 +119,16 @@ impl Parameter {
             && !self.is_idle_switch(scene)
     }
 
-    /// Whether it is the delay of a switch that its arc does not have.
+    /// Whether it is the delay of a switch that its arc does not have, or no arc.
     fn is_idle_switch(self, scene: &SceneInput) -> bool {
-        match self.facts().key {
-            _ if self.key.table != Table::ArcErrors => false,
-            "switch_on_delay_s" => !switches_on(scene, self.instance()),
-            "switch_off_delay_s" => !switches_off(scene, self.instance()),
-            _ => false,
+        let switches = match self.facts().key {
+            "switch_on_delay_s" => switches_on,
+            "switch_off_delay_s" => switches_off,
+            _ => return false,
+        };
+        match self.key.table {
+            Table::ArcErrors => !switches(scene, self.instance()),
+            _ => !(0..scene.actuation.len()).any(|arc| switches(scene, arc)),
         }
     }
 

@@ -46,10 +46,86 @@ fn arc(start: f64) -> String {
 #[test]
 fn what_acts_after_the_end_only_is_refused() {
     for parameter in ["thrusters.p3.thrust_scale", "wheels.w1.torque_scale", "actuators.switch_on_delay_s"] {
-        let refused = plan(&format!("{}{}", arc(1.0), dispersed(parameter))).expect_err(parameter);
+        let refused = plan(&format!("{}{}", arc(1.01), dispersed(parameter))).expect_err(parameter);
         assert!(refused.contains("disperse[0].parameter") && refused.contains("start later"), "{refused}");
         plan(&format!("{}{}", arc(0.999), dispersed(parameter))).expect("an arc within the run");
         plan(&format!("{}{}{}", arc(0.5), arc(1.5), dispersed(parameter))).expect("one of two arcs within the run");
+    }
+}
+
+/// Law: a delay that is dispersed counts with its earliest draw: what some draw moves into the run has an effect.
+#[test]
+fn arcs_count_with_their_earliest_start_and_end() {
+    let (early, scale) = (dispersed("actuators.switch_on_delay_s"), dispersed("thrusters.p3.thrust_scale"));
+    // half_width 0.01: the earliest start is 0.99 or 1.001
+    plan(&format!("{}{early}{scale}", arc(1.0))).expect("starts within the run in some draws");
+    let refused = plan(&format!("{}{early}{scale}", arc(1.011))).expect_err("starts after the end in all draws");
+    assert_eq!(refused.matches("start later, in every draw").count(), 2, "{refused}");
+    // arc(start) ends a second later
+    for parameter in ["actuators.switch_off_delay_s", "actuation.0.switch_off_delay_s"] {
+        let off = dispersed(parameter);
+        plan(&format!("{}{off}", arc(0.0))).expect("ends within the run in some draws");
+        let refused = plan(&format!("{}{off}", arc(0.011))).expect_err("ends after the end in all draws");
+        assert!(refused.contains("disperse[0].parameter") && refused.contains("end later, in every draw"), "{refused}");
+        // together, two delays are early enough
+        let other = dispersed(if parameter.starts_with("actuators") {
+            "actuation.0.switch_off_delay_s"
+        } else {
+            "actuators.switch_off_delay_s"
+        });
+        plan(&format!("{}{off}{other}", arc(0.011))).expect("ends within the run where both delays are small");
+    }
+    let unbounded = dispersed("actuators.switch_off_delay_s").replace("uniform", "normal").replace("half_width", "std");
+    plan(&format!("{}{unbounded}", arc(0.07))).expect("seven standard deviations are drawn");
+    plan(&format!("{}{unbounded}", arc(0.09))).expect_err("nine are not");
+}
+
+/// Law: a dispersion that gives the nominal value in every draw is refused, one that gives another value in every draw is not.
+#[test]
+fn a_distribution_without_width_is_refused() {
+    let table = |parameter: &str, keys: &str| plan(&format!("[[disperse]]\nparameter = {parameter:?}\n{keys}\n"));
+    let (radius, rates, attitude) = ("wheels.w1.radius_m", "initial.angular_velocity_rad_s", "initial.attitude");
+    for (parameter, keys) in [
+        (radius, "distribution = \"uniform\"\nhalf_width = 0"),
+        (radius, "distribution = \"uniform\"\nrelative_half_width = 0"),
+        (radius, "distribution = \"normal\"\nstd = 0"),
+        (radius, "distribution = \"normal\"\nstd = 1e-30"),
+        (radius, "distribution = \"choice\"\nvalues = [0.25, 0.25]"),
+        (rates, "distribution = \"normal\"\nrelative_std = 0"),
+        (rates, "distribution = \"normal\"\nstd = [0, 0, 0]"),
+        (attitude, "distribution = \"attitude_error\"\nstd_rad = 0"),
+        (
+            attitude,
+            "distribution = \"about_axis\"\naxis = [0, 0, 1]\nangle_rad = { distribution = \"normal\", std = 0 }",
+        ),
+    ] {
+        let refused = table(parameter, keys).expect_err(keys);
+        assert!(refused.contains("disperse[0].distribution") && refused.contains("every draw is"), "{keys}: {refused}");
+    }
+    for (parameter, keys) in [
+        (radius, "distribution = \"uniform\"\nhalf_width = 1e-9"),
+        (radius, "distribution = \"choice\"\nvalues = [0.3, 0.3]"),
+        (rates, "distribution = \"normal\"\nstd = [0, 0, 1e-3]"),
+        (attitude, "distribution = \"attitude_error\"\nstd_rad = [0, 1e-6, 0]"),
+    ] {
+        table(parameter, keys).unwrap_or_else(|error| panic!("{keys}: {error}"));
+    }
+}
+
+/// Law: where no requested column says how accurate a run is, a note says so; one group that does is enough.
+#[test]
+fn what_cannot_be_judged_is_told() {
+    let noted = |groups: &str| {
+        let head = HEAD.replace("DURATION", "1.0").replace("[\"energy_conservation\"]", groups);
+        let text = [&head, FUSELAGE, WHEEL1_AT_REST, INITIAL].concat();
+        let plan = Plan::from_text("test.toml", &text, Overrides::default()).expect("legal");
+        plan.notes().iter().any(|note| note.contains("none can end as inaccurate"))
+    };
+    for groups in ["[\"final_state\"]", "[\"motion\", \"exchange\"]", "[\"effort\", \"energies\"]"] {
+        assert!(noted(groups), "{groups}");
+    }
+    for groups in ["[\"numerics\"]", "[\"motion\", \"momentum_conservation\"]", "[\"energy_conservation\"]"] {
+        assert!(!noted(groups), "{groups}");
     }
 }
 

@@ -20,7 +20,20 @@ pub struct BootstrapMap {
 }
 
 impl BootstrapMap {
-    fn rows(&self) -> usize {
+    /// Whether all rows have these numbers.
+    pub fn all_are(&self, numbers: &[f64]) -> bool {
+        self.columns.iter().zip(numbers).all(|(column, number)| column.iter().all(|value| value == number))
+    }
+
+    /// The numbers of the row `row`, below [`BootstrapMap::rows`].
+    pub fn values_of(&self, row: usize, values: &mut [f64]) {
+        for (value, column) in values.iter_mut().zip(&self.columns) {
+            *value = column[row];
+        }
+    }
+
+    /// The number of rows.
+    pub fn rows(&self) -> usize {
         self.columns.iter().map(|column| column.len()).min().unwrap_or(0)
     }
 }
@@ -70,10 +83,7 @@ impl Map for BootstrapMap {
     /// Row k of n, counted from zero, for u from k/n to (k + 1)/n.
     fn values(&self, u: &[f64], values: &mut [f64]) {
         let rows = self.rows();
-        let row = ((u[0] * rows as f64) as usize).min(rows - 1);
-        for (value, column) in values.iter_mut().zip(&self.columns) {
-            *value = column[row];
-        }
+        self.values_of(((u[0] * rows as f64) as usize).min(rows - 1), values);
     }
 
     fn text(&self, _short: &dyn Fn(f64) -> String) -> String {

@@ -1,0 +1,48 @@
+//! Refuses a distribution that gives the nominal value in every draw, and so changes nothing.
+
+use super::distribution::{Joint, Map, Quantile};
+use super::error::{DispersionError, error};
+use super::transform::Transform;
+use crate::scene::{Parameter, SceneInput};
+
+/// The smallest and the largest u that a design gives, and two between.
+const U: [f64; 4] = [0.5 * f64::EPSILON, 0.3, 0.8, 1.0 - 0.5 * f64::EPSILON];
+
+/// Checks that a draw of the `index`-th distribution of the file, called `name`, may differ from the scene `nominal`; `maps` are its parts with
+/// the components that each writes.
+pub(super) fn check(
+    index: usize,
+    name: &str,
+    maps: &[(Vec<(Parameter, usize)>, Transform)],
+    nominal: &SceneInput,
+) -> Result<(), DispersionError> {
+    let nominals = |components: &[(Parameter, usize)]| -> Vec<f64> {
+        components.iter().filter_map(|(parameter, component)| parameter.value(nominal, *component)).collect()
+    };
+    if maps.is_empty() || !maps.iter().all(|(components, map)| is_idle(map, &nominals(components))) {
+        return Ok(());
+    }
+    let values: Vec<f64> = maps.iter().flat_map(|(components, _)| nominals(components)).collect();
+    let value = if let [value] = values[..] { format!("{value:?}") } else { format!("{values:?}") };
+    let allowed = format!("such that draws differ from the nominal value: every draw is {value}");
+    let remedy = "make it wider (its width is zero, or below the rounding of the nominal value), or delete this table";
+    Err(error(index, "distribution", format!("{name:?}"), allowed, remedy))
+}
+
+/// Whether every draw of `map` is the `nominals`, the values of its components.
+pub(super) fn is_idle(map: &Transform, nominals: &[f64]) -> bool {
+    match map {
+        // a quantile function rises from one end to the other
+        Transform::Scalar(distribution) => U.iter().all(|u| nominals == [distribution.quantile(*u)]),
+        Transform::Joint(Joint::Bootstrap(rows)) => rows.all_are(nominals),
+        Transform::Joint(joint) => {
+            let dimensions = joint.dimensions() as u32;
+            let mut values = vec![0.0; joint.components()];
+            (0..U.len().pow(dimensions)).all(|corner| {
+                let u: Vec<f64> = (0..dimensions).map(|axis| U[corner / U.len().pow(axis) % U.len()]).collect();
+                joint.values(&u, &mut values);
+                values == nominals
+            })
+        }
+    }
+}
