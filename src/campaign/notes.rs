@@ -1,6 +1,7 @@
 //! [`Plan::notes`]: what is allowed in a campaign file, and is probably not what was meant.
 
 use super::plan::Plan;
+use crate::observables::accuracy::Accuracy;
 
 impl Plan {
     /// What about this plan a person should know before it is run, one sentence each.
@@ -20,6 +21,12 @@ impl Plan {
                 "nearest_psd: the correlations of {} cannot be had; `check`, plan.toml and summary.json state those used",
                 replaced.names.join(", ")
             ));
+        }
+        if Accuracy::new(&self.request()).is_blind() {
+            notes.push(
+                "no requested column says how accurate a run is, so none can end as inaccurate; add \"energy_conservation\", \"momentum_conservation\" or \"numerics\" to observe.groups"
+                    .to_owned(),
+            );
         }
         notes
     }

@@ -14,7 +14,6 @@ use crate::dataset::timeseries::TimeSeries;
 use crate::ensemble::audit::AuditValue;
 use crate::ensemble::{Auditor, SingleRun};
 use crate::math::Isa;
-use crate::observables::headlines::STATE_ERROR_ESTIMATE;
 use crate::report::canvas::{Canvas, PlotError, PlotFormat};
 use crate::report::number::short;
 use crate::report::simulation_figure::simulation_figure;
@@ -130,9 +129,7 @@ fn audit(options: &SimulateOptions, plan: &Plan, run: &SingleRun, isa: Isa) -> R
     );
     // the tolerance of the reference solution is in the first line
     let values = AuditValue::of_scenes(run.request.debris).filter(|value| *value != AuditValue::Tolerance);
-    let lines = values
-        .map(|value| (value.quantity().name(), found.value(value)))
-        .chain([(STATE_ERROR_ESTIMATE.name(), found.estimate)]);
+    let lines = values.map(|value| (value.quantity().name(), found.value(value)));
     let columns = run.request.columns();
     let observed = columns.iter().zip(&found.observables).filter(|(_, error)| !error.is_nan());
     let errors = observed.map(|(column, error)| (column.quantity.name(), *error));

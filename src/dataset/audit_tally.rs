@@ -8,6 +8,25 @@ use crate::statistics::sketch::Sketch;
 /// Errors above this are no longer small, and soon bounded: an estimate above half of this counts as covering them.
 pub const SMALL: f64 = 0.1;
 
+/// How an estimate compares with the true error.
+#[derive(Clone, Debug, Default)]
+pub struct Coverage {
+    /// Runs whose estimate covers the true error.
+    pub covered: u64,
+    /// Estimate over true error, where the true error is above zero.
+    pub ratio: Sketch,
+}
+
+impl Coverage {
+    fn add(&mut self, estimate: f64, error: f64) {
+        let is_covered = estimate >= error || (error > SMALL && estimate > 0.5 * SMALL);
+        self.covered += u64::from(is_covered);
+        if error > 0.0 {
+            self.ratio.add(estimate / error);
+        }
+    }
+}
+
 /// Counts over the audited runs.
 #[derive(Clone, Debug, Default)]
 pub struct AuditTally {
@@ -17,8 +36,10 @@ pub struct AuditTally {
     pub failed: u64,
     /// Audited runs whose reference solution is in double-double; the others have one in plain doubles.
     pub in_double_double: u64,
-    /// Runs whose `state_error_estimate` covers the true error.
-    pub covered: u64,
+    /// How `state_error_estimate` compares with the true error.
+    pub coverage: Coverage,
+    /// How `debris_state_error_estimate` does, where there is debris.
+    pub debris_coverage: Coverage,
     /// Maximum of the next two.
     pub state: Sketch,
     /// Errors of omega over the run's maximum |omega|.
@@ -27,8 +48,6 @@ pub struct AuditTally {
     pub attitude: Sketch,
     /// Errors of the rotation of the debris, where there is one.
     pub debris: Sketch,
-    /// Estimate over true error, where the true error is above zero.
-    pub ratio: Sketch,
     /// Errors of the observables that have statistics.
     pub observables: Vec<Sketch>,
 }
@@ -57,16 +76,13 @@ impl AuditTally {
             self.audited += 1;
             self.in_double_double += u64::from(audit.reference_tolerance == reference_solution::TOLERANCE);
             let error = audit.state();
-            let is_covered = audit.estimate >= error || (error > SMALL && audit.estimate > 0.5 * SMALL);
-            self.covered += u64::from(is_covered);
+            self.coverage.add(audit.estimate, error);
             self.state.add(error);
             self.omega.add(audit.omega);
             self.attitude.add(audit.attitude);
             if !audit.debris.is_nan() {
                 self.debris.add(audit.debris);
-            }
-            if error > 0.0 {
-                self.ratio.add(audit.estimate / error);
+                self.debris_coverage.add(audit.debris_estimate, audit.debris);
             }
             for (sketch, index) in self.observables.iter_mut().zip(indices.clone()) {
                 sketch.add(audit.observables[index]);
@@ -92,6 +108,7 @@ mod tests {
                 attitude: 0.5 * error,
                 debris: f64::NAN,
                 estimate,
+                debris_estimate: f64::NAN,
                 reference_tolerance: reference_solution::TOLERANCE,
                 observables: vec![f64::NAN],
             });
@@ -125,16 +142,39 @@ mod tests {
     #[test]
     fn the_ratio_is_estimate_over_error() {
         let found = tally(&[Some((2e-12, 8e-12)), Some((0.0, 8e-12)), Some((2e-12, 8e-12))]);
-        let ratio = found.ratio.quantile(0.5).expect("two ratios");
-        assert_eq!(found.ratio.count(), 2);
+        let ratio = found.coverage.ratio.quantile(0.5).expect("two ratios");
+        assert_eq!(found.coverage.ratio.count(), 2);
         assert!((ratio / 4.0 - 1.0).abs() <= RELATIVE_ERROR, "{ratio}");
+    }
+
+    /// Law: the estimate of the debris is compared with the error of the debris, and with no other.
+    #[test]
+    fn the_debris_has_a_coverage_of_its_own() {
+        let audit = |debris: f64, debris_estimate: f64| Audit {
+            omega: 1e-12,
+            attitude: 1e-12,
+            debris,
+            estimate: 2e-12,
+            debris_estimate,
+            reference_tolerance: reference_solution::TOLERANCE,
+            observables: vec![f64::NAN],
+        };
+        let mut rows = Rows::new(Shape { parameters: 0, observables: 1 }, 3);
+        rows.start(Part { id: PartId(0), first: SampleId(0), count: 3 });
+        for (row, (debris, estimate)) in [(1e-9, 1.5e-12), (1e-9, 4e-9), (f64::NAN, f64::NAN)].into_iter().enumerate() {
+            rows.set_audit(row, Some(audit(debris, estimate)));
+        }
+        let mut tally = AuditTally::new(1);
+        tally.add(&rows, std::iter::once(0), |_| false);
+        assert_eq!((tally.coverage.covered, tally.debris_coverage.covered), (3, 1));
+        assert_eq!((tally.debris.count(), tally.debris_coverage.ratio.count()), (2, 2));
     }
 
     /// Law: an error is covered by an estimate that is as large, and by none that is just below it. A large error, which is
     /// bounded by half a turn, is covered by every large estimate.
     #[test]
     fn an_estimate_just_below_the_error_does_not_cover_it() {
-        let covered = |error: f64, estimate: f64| tally(&[Some((error, estimate))]).covered == 1;
+        let covered = |error: f64, estimate: f64| tally(&[Some((error, estimate))]).coverage.covered == 1;
         assert!(covered(1e-9, 1e-9) && covered(1e-9, 2e-9));
         assert!(!covered(1e-9, 0.999e-9) && !covered(1e-9, 0.2e-9) && !covered(0.09, 0.08));
         assert!(covered(1.0, 0.9 * SMALL) && !covered(1.0, 0.4 * SMALL));

@@ -10,9 +10,9 @@ use crate::dataset::rows_file::{audit_error_name, audited_observables};
 use crate::dataset::rows_reader::{PartReader, RowsError, RowsReader};
 use crate::ensemble::audit::{AuditValue, Selection};
 use crate::ensemble::{Audit, Ensemble, Part, PartId, Rows};
-use crate::observables::headlines::{DEBRIS_STATE_ERROR_ESTIMATE, STATE_ERROR_ESTIMATE, headlines};
-use crate::observables::table::error_id;
-use crate::observables::{ColumnId, ErrorStatistic, Group, Kind, Series};
+use crate::observables::accuracy::{BALANCES, STATE_ERRORS};
+use crate::observables::headlines::headlines;
+use crate::observables::{ColumnId, Kind};
 use crate::run::{Quantity, Status};
 use crate::sampling::SampleId;
 use crate::statistics::sketch::Sketch;
@@ -39,16 +39,6 @@ impl Headline {
 
 /// How many samples of each group are listed by number.
 const LISTED: usize = 3;
-
-/// The observables whose maximum is the conservation error of a run.
-const CONSERVATION: [ColumnId; 3] = [
-    error_id(Group::EnergyConservation, Series::EnergyError, ErrorStatistic::Max),
-    error_id(Group::MomentumConservation, Series::LinearMomentumError, ErrorStatistic::Max),
-    error_id(Group::MomentumConservation, Series::AngularMomentumError, ErrorStatistic::Max),
-];
-
-/// The observables whose maximum is the estimated error of the states of a run.
-const STATE_ERRORS: [ColumnId; 2] = [STATE_ERROR_ESTIMATE, DEBRIS_STATE_ERROR_ESTIMATE];
 
 /// The samples that ended with one status.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -118,7 +108,7 @@ impl Tally {
             headlines(ensemble.request()).into_iter().filter(|_| is_audited).map(headline).collect();
         let audits = is_audited.then(|| AuditTally::new(headlines.len()));
         let index = |id: &ColumnId| ensemble.request().position(*id);
-        let worst = [("conservation error", &CONSERVATION[..]), ("state error estimate", &STATE_ERRORS[..])].map(
+        let worst = [("conservation error", &BALANCES[..]), ("state error estimate", &STATE_ERRORS[..])].map(
             |(name, columns)| Worst { name, indices: columns.iter().filter_map(index).collect(), runs: Vec::new() },
         );
         Tally {
@@ -249,7 +239,8 @@ fn audits(ensemble: &Ensemble<'_>, part: &PartReader, audited: &[usize], rows: &
     let (omega, attitude, estimate) =
         (read(AuditValue::Omega)?, read(AuditValue::Attitude)?, read(AuditValue::Estimate)?);
     let tolerance = read(AuditValue::Tolerance)?;
-    let debris = if ensemble.request().debris { read(AuditValue::Debris)? } else { vec![f64::NAN; omega.len()] };
+    let of_debris = |value| if ensemble.request().debris { read(value) } else { Ok(vec![f64::NAN; omega.len()]) };
+    let (debris, debris_estimate) = (of_debris(AuditValue::Debris)?, of_debris(AuditValue::DebrisEstimate)?);
     let error = |index: &usize| part.numbers(&audit_error_name(names[*index].quantity.name()));
     let errors = audited.iter().map(error).collect::<Result<Vec<_>, RowsError>>()?;
     let mut selection = Selection::new(ensemble.plan());
@@ -266,6 +257,7 @@ fn audits(ensemble: &Ensemble<'_>, part: &PartReader, audited: &[usize], rows: &
             attitude: attitude[row],
             debris: debris[row],
             estimate: estimate[row],
+            debris_estimate: debris_estimate[row],
             reference_tolerance: tolerance[row],
             observables,
         };
@@ -284,15 +276,20 @@ mod tests {
     use crate::campaign::{Overrides, Plan};
     use crate::math::Isa;
 
-    /// The tally of parts whose rows are (sample, status, error), of a campaign of `samples` samples.
+    /// The tally of parts whose rows are (status, error of energy), of a campaign of `samples` samples.
     fn tally(samples: u64, parts: &[&[(Status, f64)]]) -> Tally {
-        let path = format!("{}/campaigns/no_debris.toml", env!("CARGO_MANIFEST_DIR"));
+        tally_of(BALANCES[0], samples, parts)
+    }
+
+    /// The same of the error of another balance.
+    fn tally_of(balance: ColumnId, samples: u64, parts: &[&[(Status, f64)]]) -> Tally {
+        let path = format!("{}/campaigns/spin_sweep.toml", env!("CARGO_MANIFEST_DIR"));
         let text = std::fs::read_to_string(path).unwrap();
         let overrides = Overrides { samples: Some(samples), audit_fraction: Some(0.5), ..Overrides::default() };
-        let plan = Plan::from_text("no_debris", &text, overrides).unwrap();
+        let plan = Plan::from_text("spin_sweep", &text, overrides).unwrap();
         let ensemble = Ensemble::new(&plan, Isa::best());
         let (mut tally, mut first) = (Tally::new(&ensemble), 0);
-        let error = ensemble.request().position(CONSERVATION[0]).unwrap();
+        let error = ensemble.request().position(balance).unwrap();
         for (id, part) in parts.iter().enumerate() {
             let mut rows = Rows::new(ensemble.shape(), part.len());
             rows.start(Part { id: PartId(id as u64), first: SampleId(first), count: part.len() });
@@ -335,9 +332,12 @@ mod tests {
             (ok, f64::NAN),
             (Status::Inaccurate, 8.0),
         ];
+        for balance in BALANCES {
+            let found = tally_of(balance, 8, &[&rows]);
+            let worst = found.worst().iter().find(|worst| worst.name == "conservation error").unwrap();
+            assert_eq!(worst.runs, [(SampleId(7), 8.0), (SampleId(3), 7.0), (SampleId(4), 7.0)], "{}", balance.name());
+        }
         let found = tally(8, &[&rows]);
-        let worst = found.worst().iter().find(|worst| worst.name == "conservation error").unwrap();
-        assert_eq!(worst.runs, [(SampleId(7), 8.0), (SampleId(3), 7.0), (SampleId(4), 7.0)]);
         assert_eq!(found.ended(Status::NonFinite), &Ended { count: 1, first: vec![SampleId(2)] });
         let mut ended = Ended::default();
         [5, 1, 9, 3].into_iter().for_each(|sample| ended.add(SampleId(sample)));

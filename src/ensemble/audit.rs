@@ -17,7 +17,7 @@ use crate::dynamics::debris;
 use crate::dynamics::gyrostat::Gyrostat;
 use crate::ensemble::settings::{nominal_attitude, propagator, request};
 use crate::math::Isa;
-use crate::observables::headlines::STATE_ERROR_ESTIMATE;
+use crate::observables::headlines::{DEBRIS_STATE_ERROR_ESTIMATE, STATE_ERROR_ESTIMATE};
 use crate::observables::{Group, Observer, Request};
 use crate::ode::{Control, Tolerance};
 use crate::propagation::settings::observes_debris_rotation;
@@ -56,6 +56,8 @@ pub enum AuditValue {
     Tolerance,
     /// What the run itself estimates its error to be.
     Estimate,
+    /// What it estimates the error of the debris to be; only where there is one.
+    DebrisEstimate,
 }
 
 static COLUMNS: [Quantity; AuditValue::ALL.len()] = [
@@ -85,22 +87,33 @@ static COLUMNS: [Quantity; AuditValue::ALL.len()] = [
         "",
         "What the run estimates audit_state_error to be: state_error_estimate, whether it is observed or not.",
     ),
+    Quantity::new(
+        "audit_debris_state_error_estimate",
+        "",
+        "What the run estimates audit_debris_error to be: debris_state_error_estimate, whether it is observed or not.",
+    ),
 ];
 
 impl AuditValue {
     /// Every value, in the order of the columns.
-    pub const ALL: [AuditValue; 6] = [
+    pub const ALL: [AuditValue; 7] = [
         AuditValue::State,
         AuditValue::Omega,
         AuditValue::Attitude,
         AuditValue::Debris,
         AuditValue::Tolerance,
         AuditValue::Estimate,
+        AuditValue::DebrisEstimate,
     ];
 
     /// The values of audits of scenes with or without debris, in the order of the columns.
     pub fn of_scenes(has_debris: bool) -> impl Iterator<Item = AuditValue> + Clone {
-        Self::ALL.into_iter().filter(move |value| has_debris || *value != AuditValue::Debris)
+        Self::ALL.into_iter().filter(move |value| has_debris || !value.is_of_debris())
+    }
+
+    /// Whether only audits of scenes with debris have it.
+    pub fn is_of_debris(self) -> bool {
+        matches!(self, AuditValue::Debris | AuditValue::DebrisEstimate)
     }
 
     /// Name, unit and meaning of the column.
@@ -120,6 +133,8 @@ pub struct Audit {
     pub debris: f64,
     /// The estimate of the larger of the two: `state_error_estimate`, whether it is observed or not.
     pub estimate: f64,
+    /// The same of `debris`: `debris_state_error_estimate`; NaN where there is no debris.
+    pub debris_estimate: f64,
     /// Tolerance of the reference solution.
     pub reference_tolerance: f64,
     /// |observed - true| of each observable, in the order of the request's columns; NaN where the reference solution has no such
@@ -142,6 +157,7 @@ impl Audit {
             AuditValue::Debris => self.debris,
             AuditValue::Tolerance => self.reference_tolerance,
             AuditValue::Estimate => self.estimate,
+            AuditValue::DebrisEstimate => self.debris_estimate,
         }
     }
 }
@@ -202,6 +218,8 @@ pub struct Auditor {
     indices: Vec<(usize, Option<usize>)>,
     /// The index of `state_error_estimate`.
     estimate: usize,
+    /// The index of `debris_state_error_estimate`, where there is debris.
+    debris_estimate: Option<usize>,
 }
 
 impl Auditor {
@@ -230,6 +248,7 @@ impl Auditor {
             reference_row: vec![f64::NAN; reference_request.columns().len()],
             indices,
             estimate: request.position(STATE_ERROR_ESTIMATE).expect("the group numerics has its column"),
+            debris_estimate: request.position(DEBRIS_STATE_ERROR_ESTIMATE),
             request,
             reference_request,
         }
@@ -276,7 +295,9 @@ impl Auditor {
             None => f64::NAN,
         };
         let observables = self.indices.iter().map(error).collect();
-        Ok(Audit { omega, attitude, debris, estimate: self.row[self.estimate], reference_tolerance, observables })
+        let estimate = self.row[self.estimate];
+        let debris_estimate = self.debris_estimate.map_or(f64::NAN, |index| self.row[index]);
+        Ok(Audit { omega, attitude, debris, estimate, debris_estimate, reference_tolerance, observables })
     }
 
     /// What is observed of the audited run: the columns of the campaign and of the group numerics.

@@ -155,6 +155,7 @@ impl Rows {
             attitude: finite(audit.attitude),
             debris: finite(audit.debris),
             estimate: finite(audit.estimate),
+            debris_estimate: finite(audit.debris_estimate),
             observables: audit.observables.into_iter().map(finite).collect(),
             ..audit
         });

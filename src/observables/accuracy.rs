@@ -12,14 +12,17 @@ pub const INACCURATE_STATE: f64 = 0.1;
 /// The smallest relative error of a balance - energy, linear or angular momentum - of a run that is `inaccurate`.
 pub const INACCURATE_BALANCE: f64 = 1e-2;
 
-/// The relative errors of the balances of spacecraft and debris.
-const BALANCES: [ColumnId; 5] = [
+/// The relative errors of the balances of spacecraft and debris: their maximum is the conservation error of a run.
+pub const BALANCES: [ColumnId; 5] = [
     error_id(Group::EnergyConservation, Series::EnergyError, ErrorStatistic::Max),
     error_id(Group::MomentumConservation, Series::LinearMomentumError, ErrorStatistic::Max),
     error_id(Group::MomentumConservation, Series::AngularMomentumError, ErrorStatistic::Max),
     error_id(Group::MomentumConservation, Series::DebrisLinearError, ErrorStatistic::Max),
     error_id(Group::MomentumConservation, Series::DebrisAngularError, ErrorStatistic::Max),
 ];
+
+/// The estimated errors of the rotational states of spacecraft and debris.
+pub const STATE_ERRORS: [ColumnId; 2] = [STATE_ERROR_ESTIMATE, DEBRIS_STATE_ERROR_ESTIMATE];
 
 /// The columns of a row that say how accurate its run is, and what they must stay below. Columns of groups that are not requested judge
 /// nothing.
@@ -33,10 +36,15 @@ impl Accuracy {
     /// The columns of `request`.
     pub fn new(request: &Request) -> Self {
         let balances = BALANCES.into_iter().map(|id| (id, INACCURATE_BALANCE));
-        let states = [STATE_ERROR_ESTIMATE, DEBRIS_STATE_ERROR_ESTIMATE].map(|id| (id, INACCURATE_STATE));
+        let states = STATE_ERRORS.into_iter().map(|id| (id, INACCURATE_STATE));
         let all = balances.chain(states);
         let limits = all.filter_map(|(id, limit)| Some((request.position(id)?, id.name(), limit))).collect();
         Accuracy { limits }
+    }
+
+    /// Whether no column says how accurate a run is: the groups are not requested.
+    pub fn is_blind(&self) -> bool {
+        self.limits.is_empty()
     }
 
     /// Whether every column of `row` is below its limit, or is not a number: a balance of nothing.

@@ -33,6 +33,7 @@ pub const HEADLINES: &[ColumnId] = &{
         series_id(Exchange, Series::ComWheel, Reduction::Change(ChangeStatistic::Gross)),
         direct_id(Group::StepStatistics, DirectValue::Steps),
         STATE_ERROR_ESTIMATE,
+        DEBRIS_STATE_ERROR_ESTIMATE,
         direct_id(Numerics, DirectValue::Amplification),
         direct_id(Numerics, DirectValue::IllConditioned),
     ]

@@ -6,8 +6,9 @@ use std::fmt::{self, Display, Formatter};
 
 use serde::Serialize;
 
-use crate::dataset::audit_tally::AuditTally;
+use crate::dataset::audit_tally::{AuditTally, Coverage};
 use crate::ensemble::audit::AuditValue;
+use crate::observables::headlines::{DEBRIS_STATE_ERROR_ESTIMATE, STATE_ERROR_ESTIMATE};
 use crate::report::number::short;
 use crate::statistics::sketch::Sketch;
 
@@ -18,9 +19,9 @@ pub struct Numerics {
     pub count: u64,
     /// Median of |observed - true|.
     pub median: Option<f64>,
-    /// Rank ceil(0.95 n).
+    /// 95% quantile, type 7.
     pub p95: Option<f64>,
-    /// Rank ceil(0.99 n).
+    /// 99% quantile, type 7.
     pub p99: Option<f64>,
     /// Maximum.
     pub max: Option<f64>,
@@ -35,9 +36,9 @@ pub struct Numerics {
 pub struct Quantiles {
     /// Median.
     pub median: Option<f64>,
-    /// Rank ceil(0.95 n).
+    /// 95% quantile, type 7.
     pub p95: Option<f64>,
-    /// Rank ceil(0.99 n).
+    /// 99% quantile, type 7.
     pub p99: Option<f64>,
     /// Maximum.
     pub max: Option<f64>,
@@ -50,7 +51,7 @@ impl Quantiles {
     }
 }
 
-/// Comparison of `state_error_estimate` with the true error.
+/// Comparison of an estimate with the true error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Estimate {
     /// Runs whose estimate covers the true error.
@@ -81,8 +82,22 @@ pub struct AuditSummary {
     /// Of the rotation of the debris, where there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub debris_error: Option<Quantiles>,
-    /// Comparison of the estimate with the true error.
+    /// Comparison of `state_error_estimate` with the true error.
     pub estimate: Estimate,
+    /// The same of `debris_state_error_estimate`, where there is debris.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub debris_estimate: Option<Estimate>,
+}
+
+impl Estimate {
+    /// Of `audited` runs.
+    fn new(coverage: &Coverage, audited: u64) -> Self {
+        Estimate {
+            covered: coverage.covered,
+            coverage: (audited > 0).then(|| coverage.covered as f64 / audited as f64),
+            median_ratio: coverage.ratio.quantile(0.5),
+        }
+    }
 }
 
 impl Numerics {
@@ -116,11 +131,9 @@ impl AuditSummary {
             omega_error: Quantiles::of(&audits.omega),
             attitude_error_rad: Quantiles::of(&audits.attitude),
             debris_error: (audits.debris.count() > 0).then(|| Quantiles::of(&audits.debris)),
-            estimate: Estimate {
-                covered: audits.covered,
-                coverage: (audits.audited > 0).then(|| audits.covered as f64 / audits.audited as f64),
-                median_ratio: audits.ratio.quantile(0.5),
-            },
+            estimate: Estimate::new(&audits.coverage, audits.audited),
+            debris_estimate: (audits.debris.count() > 0)
+                .then(|| Estimate::new(&audits.debris_coverage, audits.debris.count())),
         }
     }
 }
@@ -163,14 +176,19 @@ impl Display for AuditSummary {
             }
             writeln!(f)?;
         }
-        let Estimate { covered, coverage, median_ratio } = self.estimate;
-        let ratio = median_ratio.map_or("-".to_owned(), short);
-        writeln!(
-            f,
-            "  state_error_estimate covers {covered} of {} ({:.1}%), {ratio} times the error in the median",
-            self.audited,
-            100.0 * coverage.unwrap_or(0.0)
-        )
+        let debris = self.debris_estimate.map(|estimate| (DEBRIS_STATE_ERROR_ESTIMATE, estimate));
+        for (id, estimate) in std::iter::once((STATE_ERROR_ESTIMATE, self.estimate)).chain(debris) {
+            let Estimate { covered, coverage, median_ratio } = estimate;
+            let ratio = median_ratio.map_or("-".to_owned(), short);
+            writeln!(
+                f,
+                "  {} covers {covered} of {} ({:.1}%), {ratio} times the error in the median",
+                id.name(),
+                self.audited,
+                100.0 * coverage.unwrap_or(0.0)
+            )?;
+        }
+        Ok(())
     }
 }
 
@@ -197,7 +215,8 @@ mod tests {
     /// Law: each quantile is that of type 7, and the ratios are of the runs that were audited.
     #[test]
     fn quantiles_and_shares_are_those_stated() {
-        let mut audits = AuditTally { audited: 4, covered: 3, ..AuditTally::new(1) };
+        let mut audits =
+            AuditTally { audited: 4, coverage: Coverage { covered: 3, ..Coverage::default() }, ..AuditTally::new(1) };
         (1..=1000).for_each(|k| audits.state.add(f64::from(k)));
         (1..=1000).for_each(|k| audits.observables[0].add(f64::from(k)));
         let found = AuditSummary::new(&audits, 0.5);
