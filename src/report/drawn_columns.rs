@@ -3,6 +3,7 @@
 use crate::campaign::Plan;
 use crate::ensemble::DrawnScenes;
 use crate::report::expected_counts::Asked;
+use crate::report::marginal;
 use crate::sampling::{Joint, Transform};
 
 /// Components of a quaternion, the only parameter with so many.
@@ -41,20 +42,21 @@ impl<'p> DrawnColumns<'p> {
                     plan.dispersions.distribution_of(index),
                     Some(Transform::Joint(Joint::UniformAttitude(_)))
                 );
-                let [of_turn, of_tilt] =
-                    [Asked::UniformRotation, Asked::UniformTilt].map(|asked| is_uniform.then_some(asked));
+                let [of_turn, of_tilt] = if is_uniform {
+                    [Asked::UniformRotation, Asked::UniformTilt].map(Some)
+                } else {
+                    let columns: [usize; QUATERNION] = std::array::from_fn(|k| index + k);
+                    [0, 1].map(|which| {
+                        marginal::of_columns(plan, &columns, |q| angles(nominal, [q[0], q[1], q[2], q[3]])[which])
+                    })
+                };
                 shown.push(format!("{name}: rotation from nominal / deg"), 0.0, of_turn, turn);
                 shown.push(format!("{name}: tilt of axis 3 / deg"), 0.0, of_tilt, tilt);
                 index += QUATERNION;
                 continue;
             }
             let name = column.parameter.component_name(column.component);
-            shown.push(
-                name,
-                column.nominal,
-                plan.dispersions.scalar_of(index).map(Asked::Number),
-                drawn.columns[index].clone(),
-            );
+            shown.push(name, column.nominal, marginal::of_column(plan, index), drawn.columns[index].clone());
             index += 1;
         }
         shown

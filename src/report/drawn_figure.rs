@@ -101,7 +101,7 @@ impl Canvas for DrawnFigure<'_> {
         let of_column = self.columns.names.iter().zip(&self.columns.drawn.columns).zip(&self.columns.nominal);
         let of_column = of_column.zip(&self.columns.asked);
         for ((((name, values), nominal), asked), cell) in of_column.zip(upper.split_evenly((rows.max(1), ACROSS))) {
-            Histogram { name, values, nominal: *nominal, asked: *asked }.draw(&cell, scale)?;
+            Histogram { name, values, nominal: *nominal, asked: asked.as_ref() }.draw(&cell, scale)?;
         }
         self.draw_correlations(&lower, scale)
     }

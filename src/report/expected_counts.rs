@@ -2,16 +2,22 @@
 
 use core::f64::consts::PI;
 
+use std::sync::Arc;
+
 use crate::sampling::distribution::{Distribution, Quantile};
 
 /// Halvings of (0, 1) in which a probability is found: beyond the resolution of a picture.
 const HALVINGS: u32 = 40;
 
 /// The distribution of a column that has one of its own.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub enum Asked<'p> {
     /// A dispersed number.
     Number(&'p Distribution),
+    /// That of many draws, ascending.
+    Drawn(Arc<[f64]>),
+    /// Values with their probabilities, ascending.
+    Values(Arc<[(f64, f64)]>),
     /// The angle of the rotation between an attitude uniform over all rotations and any other, deg: its density is
     /// (1 - cos theta)/pi for theta in [0, pi] (R. E. Miles, *On random rotations in R^3*, Biometrika 52 (1965) 636).
     UniformRotation,
@@ -42,7 +48,11 @@ impl Asked<'_> {
 
     /// The values of a discrete distribution with their probabilities, ascending; `None` of a continuous one.
     pub fn values(&self) -> Option<Vec<(f64, f64)>> {
-        let Asked::Number(distribution) = self else { return None };
+        let distribution = match self {
+            Asked::Number(distribution) => distribution,
+            Asked::Values(values) => return Some(values.to_vec()),
+            Asked::Drawn(_) | Asked::UniformRotation | Asked::UniformTilt => return None,
+        };
         let mut below = 0.0;
         let value = |upto: f64| {
             let (from, probability) = (below, upto - below);
@@ -57,6 +67,10 @@ impl Asked<'_> {
         let angle = value.to_radians().clamp(0.0, PI);
         match self {
             Asked::Number(distribution) => probability(distribution, value),
+            Asked::Drawn(drawn) => drawn.partition_point(|one| *one < value) as f64 / drawn.len().max(1) as f64,
+            Asked::Values(values) => {
+                values.iter().take_while(|(one, _)| *one < value).map(|(_, probability)| probability).sum()
+            }
             Asked::UniformRotation => (angle - libm::sin(angle)) / PI,
             Asked::UniformTilt => 0.5 * (1.0 - libm::cos(angle)),
         }

@@ -28,7 +28,7 @@ const HEADROOM_WITH_NAME: f64 = 1.25;
 type Chart<'a, B> = ChartContext<'a, B, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
 /// The histogram of one column.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Histogram<'a> {
     /// Its name.
     pub name: &'a str,
@@ -37,7 +37,7 @@ pub(super) struct Histogram<'a> {
     /// The nominal value.
     pub nominal: f64,
     /// The distribution that was asked for.
-    pub asked: Option<Asked<'a>>,
+    pub asked: Option<&'a Asked<'a>>,
 }
 
 /// Style of the samples.
@@ -294,7 +294,7 @@ mod tests {
     use crate::sampling::Distribution;
     use crate::sampling::distribution::choice::ChoiceQuantile;
 
-    fn histogram<'a>(values: &'a [f64], nominal: f64, asked: Option<Asked<'a>>) -> Histogram<'a> {
+    fn histogram<'a>(values: &'a [f64], nominal: f64, asked: Option<&'a Asked<'a>>) -> Histogram<'a> {
         Histogram { name: "x", values, nominal, asked }
     }
 
@@ -329,7 +329,8 @@ mod tests {
     fn every_value_has_its_probability() {
         let drawn: Vec<f64> = (0..300).map(|k| [0.01, 0.02, 0.05][k % 3]).collect();
         let choice = Distribution::Choice(ChoiceQuantile::new(&[0.01, 0.02, 0.05], &[1.0; 3]));
-        let of_drawn = histogram(&drawn, 0.01, Some(Asked::Number(&choice)));
+        let asked = Asked::Number(&choice);
+        let of_drawn = histogram(&drawn, 0.01, Some(&asked));
         let (axis, _) = of_drawn.horizontal();
         let stems = of_drawn.stems(&axis).unwrap();
         let known = [(0.0, 100.0), (0.25, 100.0), (1.0, 100.0)];
@@ -337,11 +338,11 @@ mod tests {
         assert!(stems.len() == 3 && stems.iter().zip(&known).all(is_near), "{stems:?}");
         assert!(of_drawn.curve(&axis).is_empty());
         let close = Distribution::Choice(ChoiceQuantile::new(&[0.01, 0.0101, 0.05], &[1.0; 3]));
-        let stems = histogram(&drawn, 0.01, Some(Asked::Number(&close))).stems(&axis).unwrap();
+        let stems = histogram(&drawn, 0.01, Some(&Asked::Number(&close))).stems(&axis).unwrap();
         assert!(stems.len() == 2 && (stems[0].1 - 200.0).abs() < 1e-9, "{stems:?}");
         // a value that was not drawn although samples are expected there is on the axis
         let wide = Distribution::Choice(ChoiceQuantile::new(&[0.01, 0.02, 9.0], &[1.0; 3]));
-        let (axis, _) = histogram(&drawn, 0.01, Some(Asked::Number(&wide))).horizontal();
+        let (axis, _) = histogram(&drawn, 0.01, Some(&Asked::Number(&wide))).horizontal();
         assert_eq!(axis, Horizontal { low: 0.01, high: 9.0 });
     }
 }

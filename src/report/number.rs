@@ -10,7 +10,9 @@ pub fn short(value: f64) -> String {
     } else if size == libm::floor(size) {
         format!("{value:.0}")
     } else {
-        let before = libm::floor(libm::log10(size)) as i32;
+        // of the rounded number: 99.999 is 100.0, not 100.00
+        let rounded = format!("{size:.3e}").parse().unwrap_or(size);
+        let before = libm::floor(libm::log10(rounded)) as i32;
         format!("{value:.*}", (3 - before).max(1) as usize)
     }
 }
@@ -34,9 +36,15 @@ mod tests {
     /// Law: a number fits its column, whatever its magnitude.
     #[test]
     fn short_numbers_are_short() {
-        for (value, text) in
-            [(0.0, "0"), (1.234_567e-15, "1.235e-15"), (12.345_67, "12.35"), (4096.0, "4096"), (-1.5e300, "-1.500e300")]
-        {
+        for (value, text) in [
+            (0.0, "0"),
+            (1.234_567e-15, "1.235e-15"),
+            (12.345_67, "12.35"),
+            (4096.0, "4096"),
+            (99.999, "100.0"),
+            (0.999_99, "1.000"),
+            (-1.5e300, "-1.500e300"),
+        ] {
             assert_eq!(short(value), text);
         }
         for value in [f64::MIN, f64::MIN_POSITIVE, f64::NAN, f64::INFINITY] {

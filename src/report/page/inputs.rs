@@ -3,7 +3,7 @@
 use core::f64::consts::PI;
 
 use crate::campaign::Plan;
-use crate::report::expected_counts::Asked;
+use crate::report::marginal;
 use crate::report::page::errors::{bins, counts};
 use crate::report::page::figure::{Axis, Figure, Hue, Mark, Section};
 use crate::report::page::survey::Survey;
@@ -44,7 +44,7 @@ fn histogram(plan: &Plan, survey: &Survey, index: usize) -> Figure {
         edges: edges.clone(),
     }];
     let transform = plan.dispersions.distribution_of(index);
-    let asked = plan.dispersions.scalar_of(index).map(Asked::Number);
+    let asked = marginal::of_column(plan, index);
     let asked = asked.map_or_else(Vec::new, |asked| asked.expected(&edges, values.len()));
     let origin = match transform {
         Some(transform) => transform.text(&crate::report::number::short),
