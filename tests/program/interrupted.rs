@@ -12,10 +12,10 @@ use crate::support::scratch_folder::ScratchFolder;
 
 /// Kills of the short version, which runs with all tests.
 const KILLS: u32 = 100;
-/// Samples of the campaign that is killed: 36 parts, some 0.3 s.
-const SAMPLES: u64 = 20_000;
+/// Samples of the campaign that is killed: some 0.15 s.
+const SAMPLES: u64 = 10_000;
 /// A kill comes at most this long after the start, ms.
-const LATEST_MS: u64 = 250;
+const LATEST_MS: u64 = 130;
 /// After so many kills a campaign may end: on a slow machine its last step alone takes longer than [`LATEST_MS`].
 const OF_ONE: u32 = 12;
 
