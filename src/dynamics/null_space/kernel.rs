@@ -1,9 +1,7 @@
 //! [`Kernel`]: the right-hand side x-dot = f(x) (41).
 
-#![expect(clippy::needless_range_loop, reason = "indices of wheels, as in the formulas")]
-
 use super::forces::{self, Drive};
-use super::kinematics::{WheelMotion, dcm_rate};
+use super::kinematics::{WheelMotion, dcm_rate, for_each_wheel};
 use super::mass_matrix::{Factor, SpacecraftMass, cholesky, solved};
 use super::parameters::Parameters;
 use super::state::{Pose, State, rotated};
@@ -55,9 +53,10 @@ impl<const W: usize> Kernel<W> {
         let state = &State::<W>::from_components(x);
         let parameters = &self.parameters;
         let mut wheels = [WheelMotion::AT_REST; W];
-        for w in 0..W {
-            wheels[w] = WheelMotion::of(&parameters.wheels[w], state, w);
-        }
+        for_each_wheel::<W>(
+            #[inline(always)]
+            |w| wheels[w] = WheelMotion::of(&parameters.wheels[w], state, w),
+        );
 
         // f-hat_non + f-hat = Pi^T (...), spacecraft rows
         let inertial = forces::fuselage_inertial(parameters, state);

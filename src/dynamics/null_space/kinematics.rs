@@ -82,3 +82,19 @@ impl WheelMotion {
         (sum(rotated_back(self.lever, force), rotated_back(self.c_ws, torque)), dot(axis, torque))
     }
 }
+
+/// Calls `body` with the index of each of `W` wheels, in order.
+///
+/// Two wheels, the report's, are written out: the compiler does not unroll a loop over so large a body, and what a loop indexes
+/// stays in memory.
+#[inline(always)]
+pub fn for_each_wheel<const W: usize>(mut body: impl FnMut(usize)) {
+    if W == 2 {
+        body(0);
+        body(1);
+    } else {
+        for w in 0..W {
+            body(w);
+        }
+    }
+}

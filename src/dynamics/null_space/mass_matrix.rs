@@ -8,7 +8,7 @@
 
 #![expect(clippy::needless_range_loop, reason = "indices of a matrix, as in the formulas")]
 
-use super::kinematics::{WheelMotion, lever};
+use super::kinematics::{WheelMotion, for_each_wheel, lever};
 use super::parameters::Parameters;
 use super::state::State;
 use crate::math::vector::{dot, product, scaled};
@@ -50,24 +50,27 @@ impl<const W: usize> SpacecraftMass<W> {
                 rotation.omega[i][j] = parameters.fuselage_inertia[i][j];
             }
         }
-        for (w, motion) in wheels.iter().enumerate() {
-            let wheel = &parameters.wheels[w];
-            // J C_ws, by columns, and J a
-            let turned = [
-                product(wheel.inertia, motion.c_ws[0]),
-                product(wheel.inertia, motion.c_ws[1]),
-                product(wheel.inertia, motion.c_ws[2]),
-            ];
-            let axial = product(wheel.inertia, wheel.axis);
-            for i in 0..3 {
-                for j in 0..=i {
-                    rotation.omega[i][j] +=
-                        wheel.mass.mul_add(dot(motion.lever[i], motion.lever[j]), dot(motion.c_ws[i], turned[j]));
+        for_each_wheel::<W>(
+            #[inline(always)]
+            |w| {
+                let (wheel, motion) = (&parameters.wheels[w], &wheels[w]);
+                // J C_ws, by columns, and J a
+                let turned = [
+                    product(wheel.inertia, motion.c_ws[0]),
+                    product(wheel.inertia, motion.c_ws[1]),
+                    product(wheel.inertia, motion.c_ws[2]),
+                ];
+                let axial = product(wheel.inertia, wheel.axis);
+                for i in 0..3 {
+                    for j in 0..=i {
+                        rotation.omega[i][j] +=
+                            wheel.mass.mul_add(dot(motion.lever[i], motion.lever[j]), dot(motion.c_ws[i], turned[j]));
+                    }
+                    rotation.mixed[w][i] = wheel.free * dot(axial, motion.c_ws[i]);
                 }
-                rotation.mixed[w][i] = wheel.free * dot(axial, motion.c_ws[i]);
-            }
-            rotation.wheels[w][w] = wheel.free * dot(wheel.axis, axial) + wheel.idle;
-        }
+                rotation.wheels[w][w] = wheel.free * dot(wheel.axis, axial) + wheel.idle;
+            },
+        );
         SpacecraftMass {
             total: parameters.total,
             coupling: [scaled(-1.0, minus[0]), scaled(-1.0, minus[1]), scaled(-1.0, minus[2])],
