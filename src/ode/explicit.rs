@@ -107,15 +107,13 @@ pub struct Carried<R, const N: usize> {
 }
 
 impl<R: Real, const N: usize> Carried<R, N> {
-    /// The state advanced by `length * slope`.
+    /// Puts the state advanced by `length * slope` into `end`.
     #[inline(always)]
-    pub(super) fn advanced(&self, length: R, slope: &[R; N]) -> Self {
-        let mut next = *self;
+    pub(super) fn advance_into(&self, length: R, slope: &[R; N], end: &mut Self) {
         for n in 0..N {
             let increment = length.mul_add(slope[n], self.carry[n]);
-            (next.state[n], next.carry[n]) = two_sum(self.state[n], increment);
+            (end.state[n], end.carry[n]) = two_sum(self.state[n], increment);
         }
-        next
     }
 
     /// The state alone advanced by `length * slope`, for a stage.
@@ -155,9 +153,9 @@ pub(super) fn poison<R: Real, const N: usize>(values: &[R; N], sum: R) -> R {
     sum
 }
 
-/// Fills the stages `from..to` of `k` and returns the state at the end of the step, the argument of stage `closing`.
+/// Fills the stages `from..to` of `k` and puts the state at the end of the step, the argument of stage `closing`, into `end`.
 ///
-/// Stage zero must be there. With a `closing` of `S` the end is computed by the caller.
+/// Stage zero must be there. With a `closing` of `S` the end is left to the caller.
 #[inline(always)]
 pub(super) fn fill_stages<T, R, Q, const N: usize, const S: usize>(
     system: &Q,
@@ -165,22 +163,20 @@ pub(super) fn fill_stages<T, R, Q, const N: usize, const S: usize>(
     start: &Carried<R, N>,
     k: &mut [[R; N]; S],
     (from, to, closing): (usize, usize, usize),
-) -> Carried<R, N>
-where
+    end: &mut Carried<R, N>,
+) where
     T: Tableau<S>,
     R: Real,
     Q: System<R, N>,
 {
-    let mut end = *start;
     for i in from..to {
         let slope = stage_slope::<T, R, N, S>(i, k);
         let argument = if i == closing {
-            end = start.advanced(step.length, &slope);
+            start.advance_into(step.length, &slope, end);
             end.state
         } else {
             start.shifted(step.length, &slope)
         };
         k[i] = system.derivative(step.at(T::C[i]), &argument);
     }
-    end
 }

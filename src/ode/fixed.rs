@@ -18,10 +18,8 @@ const DEFAULT_STEPS: f64 = 1000.0;
 /// rounding errors of decimal fractions (0.3 / 0.1 differs from 3 by one unit in the last place).
 const WHOLE: f64 = 4.0 * f64::EPSILON;
 
-/// A step of a fixed-step method.
-pub struct Advance<R, const N: usize> {
-    /// The state at its end.
-    pub end: Carried<R, N>,
+/// A step of a fixed-step method, apart from the state at its end.
+pub struct Advance<R> {
     /// Zero if it is sound, else not a number.
     pub poison: R,
     /// Evaluations of the right-hand side.
@@ -29,6 +27,8 @@ pub struct Advance<R, const N: usize> {
 }
 
 /// A one-step method for steps of given length.
+///
+/// The state at the end of a step is put into `end` and not returned, because every move of a state of many components is a copy.
 pub trait FixedStep: Copy {
     /// The error of its steps.
     const REMAINDER: Remainder;
@@ -47,7 +47,8 @@ pub trait FixedStep: Copy {
         first: R::Mask,
         tolerance: Tolerance,
         memory: &mut Self::Memory<R, N>,
-    ) -> Advance<R, N>;
+        end: &mut Carried<R, N>,
+    ) -> Advance<R>;
 
     /// Takes the fraction `s` of the last step; `part` is that part of the step.
     fn inside<R: Real, Q: System<R, N>, const N: usize>(
@@ -57,7 +58,8 @@ pub trait FixedStep: Copy {
         start: &Carried<R, N>,
         tolerance: Tolerance,
         memory: &Self::Memory<R, N>,
-    ) -> Advance<R, N>;
+        end: &mut Carried<R, N>,
+    ) -> Advance<R>;
 }
 
 /// A one-step method with equal steps.
@@ -138,10 +140,9 @@ impl<M: FixedStep, R: Real, const N: usize> Stepper<R, N> for FixedStepper<M, R,
     ) -> Attempt<R> {
         let one = step.time.splat(1.0);
         let first = self.taken.lt(one);
-        let advance = M::step(system, step, &lanes.now, first, self.tolerance, &mut self.memory);
+        let advance = M::step(system, step, &lanes.now, first, self.tolerance, &mut self.memory, end);
         lanes.evaluations += advance.evaluations;
         let sound = advance.poison.lt(one);
-        *end = advance.end;
         Attempt { accepted: sound, sound, error: one.zero() }
     }
 
@@ -166,9 +167,10 @@ impl<M: FixedStep, R: Real, const N: usize> Stepper<R, N> for FixedStepper<M, R,
         lanes: &mut LaneState<R, N>,
     ) -> [R; N] {
         let fraction = part.length / step.length;
-        let point = M::inside(system, part, fraction, &lanes.now, self.tolerance, &self.memory);
+        let mut end = lanes.now;
+        let point = M::inside(system, part, fraction, &lanes.now, self.tolerance, &self.memory, &mut end);
         lanes.evaluations += R::select(inside, point.evaluations, fraction.zero());
-        point.end.state
+        end.state
     }
 
     #[inline(always)]

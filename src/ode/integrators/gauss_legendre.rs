@@ -57,7 +57,8 @@ fn solved<R: Real, Q: System<R, N>, const N: usize>(
     start: &Carried<R, N>,
     tolerance: Tolerance,
     k: &mut Stages<R, N>,
-) -> Advance<R, N> {
+    end: &mut Carried<R, N>,
+) -> Advance<R> {
     let zero = step.length.zero();
     let state = &start.state;
     let mut open = !zero.never();
@@ -88,9 +89,9 @@ fn solved<R: Real, Q: System<R, N>, const N: usize>(
         former = change;
         sweeps += 1;
     }
-    let end = start.advanced(step.length, &weighted(k, &GaussLegendreTableau::B));
+    start.advance_into(step.length, &weighted(k, &GaussLegendreTableau::B), end);
     let nan = R::select(open, zero.splat(f64::NAN), zero);
-    Advance { end, poison: poison(&end.state, nan), evaluations }
+    Advance { poison: poison(&end.state, nan), evaluations }
 }
 
 impl FixedStep for GaussLegendre {
@@ -112,19 +113,19 @@ impl FixedStep for GaussLegendre {
         first: R::Mask,
         tolerance: Tolerance,
         memory: &mut Stages<R, N>,
-    ) -> Advance<R, N> {
-        let mut guess = *memory;
+        end: &mut Carried<R, N>,
+    ) -> Advance<R> {
+        let previous = *memory;
         for i in 0..3 {
-            guess[i] = derivative_at(memory, step.time.splat(1.0 + GaussLegendreTableau::C[i]));
+            memory[i] = derivative_at(&previous, step.time.splat(1.0 + GaussLegendreTableau::C[i]));
         }
         if first.any() {
             let slope = system.derivative(step.time, &start.state);
             for i in 0..3 {
-                guess[i] = chosen(first, &slope, &guess[i]);
+                memory[i] = chosen(first, &slope, &memory[i]);
             }
         }
-        *memory = guess;
-        let advance = solved(system, step, start, tolerance, memory);
+        let advance = solved(system, step, start, tolerance, memory, end);
         Advance { evaluations: advance.evaluations + step.time.indicator(first), ..advance }
     }
 
@@ -136,11 +137,12 @@ impl FixedStep for GaussLegendre {
         start: &Carried<R, N>,
         tolerance: Tolerance,
         memory: &Stages<R, N>,
-    ) -> Advance<R, N> {
+        end: &mut Carried<R, N>,
+    ) -> Advance<R> {
         let mut k = *memory;
         for i in 0..3 {
             k[i] = derivative_at(memory, s * s.splat(GaussLegendreTableau::C[i]));
         }
-        solved(system, part, start, tolerance, &mut k)
+        solved(system, part, start, tolerance, &mut k, end)
     }
 }

@@ -14,12 +14,12 @@ pub struct RungeKutta4;
 impl FixedStep for RungeKutta4 {
     const REMAINDER: Remainder = Remainder { order: 4, factor: 1.0 };
 
-    /// The derivative at the start.
-    type Memory<R: Real, const N: usize> = [R; N];
+    /// The derivatives at the stages; the first is that at the start.
+    type Memory<R: Real, const N: usize> = [[R; N]; 4];
 
     #[inline(always)]
-    fn memory<R: Real, const N: usize>(zero: R) -> [R; N] {
-        [zero; N]
+    fn memory<R: Real, const N: usize>(zero: R) -> [[R; N]; 4] {
+        [[zero; N]; 4]
     }
 
     #[inline(always)]
@@ -28,12 +28,13 @@ impl FixedStep for RungeKutta4 {
         step: Step<R>,
         start: &Carried<R, N>,
         _first: R::Mask,
-        tolerance: Tolerance,
-        memory: &mut [R; N],
-    ) -> Advance<R, N> {
-        *memory = system.derivative(step.time, &start.state);
-        let advance = Self::inside(system, step, step.length, start, tolerance, memory);
-        Advance { evaluations: step.length.splat(4.0), ..advance }
+        _tolerance: Tolerance,
+        memory: &mut [[R; N]; 4],
+        end: &mut Carried<R, N>,
+    ) -> Advance<R> {
+        memory[0] = system.derivative(step.time, &start.state);
+        let poison = finish(system, step, start, memory, end);
+        Advance { poison, evaluations: step.length.splat(4.0) }
     }
 
     #[inline(always)]
@@ -43,12 +44,25 @@ impl FixedStep for RungeKutta4 {
         _s: R,
         start: &Carried<R, N>,
         _tolerance: Tolerance,
-        memory: &[R; N],
-    ) -> Advance<R, N> {
-        let mut k = [*memory; 4];
-        fill_stages::<RungeKutta4Tableau, R, Q, N, 4>(system, part, start, &mut k, (1, 4, 4));
-        let end = start.advanced(part.length, &weighted(&k, &RungeKutta4Tableau::B));
-        let poison = poison(&end.state, part.length.zero());
-        Advance { end, poison, evaluations: part.length.splat(3.0) }
+        memory: &[[R; N]; 4],
+        end: &mut Carried<R, N>,
+    ) -> Advance<R> {
+        let mut k = *memory;
+        let poison = finish(system, part, start, &mut k, end);
+        Advance { poison, evaluations: part.length.splat(3.0) }
     }
+}
+
+/// Fills the stages after the first of `k` and takes the step; zero if it is sound, else not a number.
+#[inline(always)]
+fn finish<R: Real, Q: System<R, N>, const N: usize>(
+    system: &Q,
+    step: Step<R>,
+    start: &Carried<R, N>,
+    k: &mut [[R; N]; 4],
+    end: &mut Carried<R, N>,
+) -> R {
+    fill_stages::<RungeKutta4Tableau, R, Q, N, 4>(system, step, start, k, (1, 4, 4), end);
+    start.advance_into(step.length, &weighted(k, &RungeKutta4Tableau::B), end);
+    poison(&end.state, step.length.zero())
 }
