@@ -80,9 +80,9 @@ impl Limit {
                     problems.add(key(), shown(numbers), allowed, "write an axis such as [0, 0, 1]");
                 }
             }
-            Limit::UnitQuaternion => unit_quaternion(key, numbers, problems),
-            Limit::Inertia => inertia(key, numbers, problems),
-            Limit::PrincipalMoments => principal_moments(key, numbers, problems),
+            Limit::UnitQuaternion => unit_quaternion(&key, numbers, problems),
+            Limit::Inertia => inertia(&key, numbers, problems),
+            Limit::PrincipalMoments => principal_moments(&key, numbers, problems),
         }
     }
 }
@@ -109,7 +109,7 @@ pub fn shown(numbers: &[f64]) -> String {
 }
 
 #[inline(always)]
-fn unit_quaternion(key: impl Fn() -> Cow<'static, str>, q: &[f64], problems: &mut Problems) {
+fn unit_quaternion(key: &dyn Fn() -> Cow<'static, str>, q: &[f64], problems: &mut Problems) {
     let norm = q.iter().map(|x| x * x).sum::<f64>().sqrt();
     if (norm - 1.0).abs() > UNIT_NORM_TOLERANCE {
         let allowed = format!("a quaternion of norm 1 within {UNIT_NORM_TOLERANCE:?} (its norm is {norm:?})");
@@ -117,7 +117,7 @@ fn unit_quaternion(key: impl Fn() -> Cow<'static, str>, q: &[f64], problems: &mu
     }
 }
 
-fn principal_moments(key: impl Fn() -> Cow<'static, str>, numbers: &[f64], problems: &mut Problems) {
+fn principal_moments(key: &dyn Fn() -> Cow<'static, str>, numbers: &[f64], problems: &mut Problems) {
     let &[a, b, c] = numbers else { return };
     if numbers.iter().any(|moment| *moment <= 0.0) {
         problems.add(key(), shown(numbers), "above zero, each", "write positive numbers");
@@ -134,7 +134,7 @@ fn principal_moments(key: impl Fn() -> Cow<'static, str>, numbers: &[f64], probl
     }
 }
 
-fn inertia(key: impl Fn() -> Cow<'static, str>, numbers: &[f64], problems: &mut Problems) {
+fn inertia(key: &dyn Fn() -> Cow<'static, str>, numbers: &[f64], problems: &mut Problems) {
     let &[xx, xy, xz, yx, yy, yz, zx, zy, zz] = numbers else { return };
     let tensor = [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]];
     let slack = INERTIA_SLACK * (xx.abs() + yy.abs() + zz.abs());
