@@ -1,6 +1,6 @@
 //! Refuses dispersions that act after the end of a run only: on arcs that start later, or on the ends of arcs that end later.
 //!
-//! Delays may be negative and dispersed: an arc counts with the earliest start and end that any draw gives it.
+//! Delays may be negative and dispersed: an arc counts with the earliest start and end that it has in the nominal scene or in any draw.
 
 use super::document::Document;
 use super::draw_tables::DrawTables;
@@ -19,7 +19,7 @@ pub(super) fn refuse(
     dispersions: &Dispersions,
     document: &mut Document<'_>,
 ) {
-    let earliest = earliest(scene, dispersions);
+    let earliest = earliest_arcs(scene, dispersions);
     let inputs: Vec<_> = drawn.derived.1.iter().flat_map(|derivation| derivation.inputs(scene)).collect();
     for (index, dispersion) in drawn.dispersed.1.iter().enumerate() {
         let is_late = |target: &(Parameter, usize)| {
@@ -44,18 +44,15 @@ fn acts_before(
     duration: f64,
     (parameter, component): (Parameter, usize),
     scene: &SceneInput,
-    earliest: &SceneInput,
+    earliest: &[[f64; 2]],
 ) -> bool {
-    let arcs = 0..scene.actuation.len();
     if parameter.facts().key == SWITCH_OFF {
-        let ends = |arc: usize| {
-            parameter.exists(&with_arc_alone(scene, arc), component) && applied(earliest, arc).applied.until < duration
-        };
-        return arcs.into_iter().any(ends);
+        let ends = |arc: usize| parameter.exists(&with_arc_alone(scene, arc), component) && earliest[arc][1] < duration;
+        return (0..earliest.len()).any(ends);
     }
     let mut within = scene.clone();
-    let mut starts = arcs.map(|arc| applied(earliest, arc).start);
-    within.actuation.retain(|_| starts.next().is_some_and(|start| start < duration));
+    let mut arcs = earliest.iter();
+    within.actuation.retain(|_| arcs.next().is_some_and(|[start, _]| *start < duration));
     parameter.exists(&within, component)
 }
 
@@ -68,14 +65,16 @@ fn with_arc_alone(scene: &SceneInput, alone: usize) -> SceneInput {
     scene
 }
 
-/// The scene with the smallest delays that draws give: minus infinity where that is not known.
-fn earliest(scene: &SceneInput, dispersions: &Dispersions) -> SceneInput {
+/// The earliest start and end of each arc, s: those with the smallest delays of the nominal scene and all draws, minus infinity where these are not
+/// known.
+pub(super) fn earliest_arcs(scene: &SceneInput, dispersions: &Dispersions) -> Vec<[f64; 2]> {
     let mut earliest = scene.clone();
     for (index, column) in dispersions.columns().iter().enumerate() {
         if [SWITCH_ON, SWITCH_OFF].contains(&column.parameter.facts().key) {
             let smallest = dispersions.smallest_of(index).unwrap_or(f64::NEG_INFINITY);
-            column.parameter.set(&mut earliest, column.component, smallest);
+            column.parameter.set(&mut earliest, column.component, smallest.min(column.nominal));
         }
     }
-    earliest
+    let arc = |index: usize| applied(&earliest, index);
+    (0..scene.actuation.len()).map(|index| [arc(index).start, arc(index).applied.until]).collect()
 }

@@ -5,6 +5,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::after_the_end::earliest_arcs;
 use super::digits::digits;
 use super::draw::SceneDraws;
 use super::plan::Plan;
@@ -24,8 +25,8 @@ const FAST_WHEEL: f64 = 6283.0;
 /// A speed of the rim of a wheel from which on it is noted, m/s. The hoop stress of a thin ring is density times speed squared: at this speed
 /// 1.95 GPa in steel, which is the strength of the strongest.
 const FAST_RIM: f64 = 500.0;
-/// An alignment error from which on it is noted, rad: 29 degrees.
-const LARGE_TILT: f64 = 0.5;
+/// An alignment error from which on it is noted, rad: 5.7 degrees. A tenth of a degree and more, typed as radians, is beyond it.
+const LARGE_TILT: f64 = 0.1;
 /// A standard deviation of an attitude from which on it is noted, rad: the attitudes are then nearly uniform.
 const LARGE_ATTITUDE: f64 = 0.5 * PI;
 /// Most draws that are looked at.
@@ -109,8 +110,10 @@ impl Plan {
     fn late_arcs(&self) -> Vec<String> {
         let (arcs, duration) = (&self.nominal.actuation, self.grid.duration());
         let usual = format!("usual are arcs within campaign.duration_s = {duration:?}");
+        let earliest = earliest_arcs(&self.nominal, &self.dispersions);
+        // whether an arc is late: of its earliest start and its commanded end
         let note = |key: &str, time: fn(f64, f64) -> f64, what: &str, is_late: &dyn Fn(f64, f64) -> bool| {
-            let late = |(_, arc): &(usize, &crate::scene::ActuationInput)| is_late(arc.start_s, arc.end_s);
+            let late = |(index, arc): &(usize, &crate::scene::ActuationInput)| is_late(earliest[*index][0], arc.end_s);
             let mut late = arcs.iter().enumerate().filter(late);
             let (index, arc) = late.next()?;
             let others = match late.count() {

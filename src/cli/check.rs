@@ -13,12 +13,12 @@ use crate::ensemble::probe::{AuditProbe, RunProbe};
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::{Ensemble, Part, PartId};
 use crate::math::symmetric::principal_axes;
-use crate::observables::Request;
+use crate::observables::{Group, Request};
 use crate::report::number::{bytes, short};
 use crate::run::StateField;
 use crate::sampling::SampleId;
 use crate::scene::mass::{Body, Wheel};
-use crate::scene::{MassProperties, Scene, SceneInput};
+use crate::scene::{Actuated, MassProperties, Scene, SceneInput, WheelMode};
 
 /// Runs the command.
 ///
@@ -38,7 +38,7 @@ pub fn run(options: &CheckOptions) -> Result<CommandOutcome, Failure> {
         dispersions::table(&mut text, &plan)?;
         let unseen = without_effect(&plan, ensemble.isa()).unwrap_or_default();
         let unseen = unseen.iter().map(|parameter| {
-            format!("{} does not affect any requested column (observe.groups), in the nominal scene", parameter.name())
+            format!("{parameter} does not affect any requested column (observe.groups), in the nominal scene")
         });
         let notes: Vec<String> = plan.notes().into_iter().chain(plan.implausible()).chain(unseen).collect();
         if !notes.is_empty() {
@@ -128,17 +128,29 @@ fn computed(text: &mut String, ensemble: &Ensemble<'_>) -> std::fmt::Result {
         }
     }
     let (scene, propagator) = (&ensemble.plan().nominal, ensemble.propagator());
-    for (term, exists, scheduled) in [
-        ("thrust", !scene.thrusters.is_empty(), propagator.thrust),
-        ("wheel motors", !scene.turning_wheels().is_empty(), propagator.motors),
+    let is_held = scene.wheels.iter().any(|wheel| wheel.mode == WheelMode::SpeedHeld);
+    for (term, exists, scheduled, held) in [
+        ("thrust", !scene.thrusters.is_empty(), Actuated::of(scene).thrusters, false),
+        ("wheel motors", !scene.turning_wheels().is_empty(), propagator.motors, is_held),
     ] {
-        let why = if scheduled { "needed because of the schedule" } else { "not computed: not in the schedule" };
+        let why = match (scheduled, held) {
+            (true, _) => "needed because of the schedule",
+            (_, true) => "needed because they hold the speed of wheels",
+            _ => "not computed: not in the schedule",
+        };
         if exists {
             writeln!(text, "{term:<44} {why}")?;
         }
     }
-    let asked: Vec<&str> = ensemble.plan().groups.iter().map(|group| group.name()).collect();
-    writeln!(text, "observed groups: {}", asked.join(", "))
+    let columns = ensemble.request().columns();
+    let has_columns = |group: &&Group| columns.iter().any(|column| column.group == **group);
+    let (with, without): (Vec<&Group>, Vec<&Group>) = ensemble.plan().groups.iter().partition(has_columns);
+    let names = |groups: Vec<&Group>| groups.iter().map(|group| group.name()).collect::<Vec<_>>().join(", ");
+    writeln!(text, "observed groups: {}", names(with))?;
+    if !without.is_empty() {
+        writeln!(text, "groups without columns in such scenes: {}", names(without))?;
+    }
+    Ok(())
 }
 
 /// Whether scenes and method of the request have a field.

@@ -3,7 +3,7 @@
 use crate::ensemble::Rows;
 use crate::propagation::taylor::reference_solution;
 use crate::sampling::SampleId;
-use crate::statistics::sketch::Sketch;
+use crate::statistics::spread::Spread;
 
 /// Errors above this are no longer small, and soon bounded: an estimate above half of this counts as covering them.
 pub const SMALL: f64 = 0.1;
@@ -14,7 +14,7 @@ pub struct Coverage {
     /// Runs whose estimate covers the true error.
     pub covered: u64,
     /// Estimate over true error, where the true error is above zero.
-    pub ratio: Sketch,
+    pub ratio: Spread,
 }
 
 impl Coverage {
@@ -41,21 +41,21 @@ pub struct AuditTally {
     /// How `debris_state_error_estimate` does, where there is debris.
     pub debris_coverage: Coverage,
     /// Maximum of the next two.
-    pub state: Sketch,
+    pub state: Spread,
     /// Errors of omega over the run's maximum |omega|.
-    pub omega: Sketch,
+    pub omega: Spread,
     /// Errors of the attitude, rad.
-    pub attitude: Sketch,
+    pub attitude: Spread,
     /// Errors of the rotation of the debris, where there is one.
-    pub debris: Sketch,
+    pub debris: Spread,
     /// Errors of the observables that have statistics.
-    pub observables: Vec<Sketch>,
+    pub observables: Vec<Spread>,
 }
 
 impl AuditTally {
     /// Nothing counted yet, of `observables` observables.
     pub fn new(observables: usize) -> Self {
-        AuditTally { observables: vec![Sketch::default(); observables], ..AuditTally::default() }
+        AuditTally { observables: vec![Spread::default(); observables], ..AuditTally::default() }
     }
 
     /// Counts the audits of a part, without those of samples that are left out; `indices` are the indices of the observables in a row.
@@ -84,8 +84,8 @@ impl AuditTally {
                 self.debris.add(audit.debris);
                 self.debris_coverage.add(audit.debris_estimate, audit.debris);
             }
-            for (sketch, index) in self.observables.iter_mut().zip(indices.clone()) {
-                sketch.add(audit.observables[index]);
+            for (spread, index) in self.observables.iter_mut().zip(indices.clone()) {
+                spread.add(audit.observables[index]);
             }
         }
     }

@@ -15,7 +15,7 @@ use crate::observables::headlines::headlines;
 use crate::observables::{ColumnId, Kind};
 use crate::run::{Quantity, Status};
 use crate::sampling::SampleId;
-use crate::statistics::sketch::Sketch;
+use crate::statistics::spread::Spread;
 
 /// An observable whose numerical errors the audits measure, with the spread of its values.
 #[derive(Clone, Debug)]
@@ -26,13 +26,13 @@ pub struct Headline {
     pub quantity: Quantity,
     kind: Kind,
     /// Its values over the runs that are `ok`.
-    pub sketch: Sketch,
+    pub spread: Spread,
 }
 
 impl Headline {
     /// The `p`-quantile, of type 7. A count is rounded to a whole number, which the middle of a bucket need not be.
     pub fn quantile(&self, p: f64) -> Option<f64> {
-        let value = self.sketch.quantile(p)?;
+        let value = self.spread.quantile(p)?;
         Some(if self.kind == Kind::Count { libm::round(value) } else { value })
     }
 }
@@ -101,7 +101,7 @@ impl Tally {
         let columns = ensemble.request().columns();
         let headline = |index: usize| {
             let column = &columns[index];
-            Headline { index, quantity: column.quantity.clone(), kind: column.kind, sketch: Sketch::default() }
+            Headline { index, quantity: column.quantity.clone(), kind: column.kind, spread: Spread::default() }
         };
         let is_audited = ensemble.plan().audit_fraction > 0.0;
         let headlines: Vec<Headline> =
@@ -168,7 +168,7 @@ impl Tally {
             .collect();
         for headline in &mut self.headlines {
             let values = rows.observable(headline.index);
-            counted.iter().for_each(|(row, _)| headline.sketch.add(values[*row]));
+            counted.iter().for_each(|(row, _)| headline.spread.add(values[*row]));
         }
         // runs that are too inaccurate to count are the worst ones
         let with_errors: Vec<(usize, SampleId)> = rows
@@ -311,11 +311,11 @@ mod tests {
         let found = tally(4, &[&[(ok, 9.0), (ok, 1.0)], &[(Status::StepLimit, 8.0), (ok, 2.0)]]);
         let headline =
             found.headlines().iter().find(|headline| headline.quantity.name() == "energy_error_max").unwrap();
-        assert_eq!((headline.sketch.count(), headline.sketch.max()), (2, Some(2.0)));
+        assert_eq!((headline.spread.count(), headline.spread.max()), (2, Some(2.0)));
         assert!(found.without_nominal());
         assert_eq!((found.count(ok), found.failed()), (3, 1));
         let alone = tally(1, &[&[(ok, 9.0)]]);
-        assert_eq!((alone.headlines()[0].sketch.max(), alone.without_nominal()), (Some(9.0), false));
+        assert_eq!((alone.headlines()[0].spread.max(), alone.without_nominal()), (Some(9.0), false));
     }
 
     /// Law: the worst runs, inaccurate ones too, and the first failed ones are listed by number, whatever the order of the rows is.

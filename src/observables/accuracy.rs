@@ -2,9 +2,9 @@
 
 use super::Group;
 use super::headlines::{DEBRIS_STATE_ERROR_ESTIMATE, STATE_ERROR_ESTIMATE};
-use super::reduction::ErrorStatistic;
+use super::reduction::{ErrorStatistic, OrderStatistic, Reduction};
 use super::request::Request;
-use super::table::{ColumnId, Series, error_id};
+use super::table::{ColumnId, Series, error_id, series_id};
 
 /// The smallest estimated error of the rotational state of spacecraft or debris (rad, or relative to the largest rate) of a run that is
 /// `inaccurate`.
@@ -21,6 +21,18 @@ pub const BALANCES: [ColumnId; 5] = [
     error_id(Group::MomentumConservation, Series::DebrisAngularError, ErrorStatistic::Max),
 ];
 
+/// What these errors are relative to, in the same order.
+const SCALES: [ColumnId; 5] = {
+    const MAX: Reduction = Reduction::Order(OrderStatistic::Max);
+    [
+        series_id(Group::EnergyConservation, Series::EnergyTotal, MAX),
+        series_id(Group::MomentumConservation, Series::LinearMomentumSquare, MAX),
+        series_id(Group::MomentumConservation, Series::AngularMomentumSquare, MAX),
+        series_id(Group::MomentumConservation, Series::DebrisLinearSquare, MAX),
+        series_id(Group::MomentumConservation, Series::DebrisAngularSquare, MAX),
+    ]
+};
+
 /// The estimated errors of the rotational states of spacecraft and debris.
 pub const STATE_ERRORS: [ColumnId; 2] = [STATE_ERROR_ESTIMATE, DEBRIS_STATE_ERROR_ESTIMATE];
 
@@ -28,18 +40,40 @@ pub const STATE_ERRORS: [ColumnId; 2] = [STATE_ERROR_ESTIMATE, DEBRIS_STATE_ERRO
 /// nothing.
 #[derive(Clone, Debug)]
 pub struct Accuracy {
-    /// Index in the row, name, limit.
-    limits: Vec<(usize, &'static str, f64)>,
+    limits: Vec<Limit>,
+}
+
+/// A column that must stay below a limit.
+#[derive(Clone, Copy, Debug)]
+struct Limit {
+    /// Index in the row.
+    index: usize,
+    name: &'static str,
+    limit: f64,
+    /// Index of what it is relative to: where that is zero, the column is not a number, and says nothing.
+    scale: Option<usize>,
+}
+
+impl Limit {
+    #[inline]
+    fn holds(&self, row: &[f64]) -> bool {
+        let value = row[self.index];
+        // neither is a column that overflowed
+        let is_known = !value.is_nan() || self.scale.is_none_or(|scale| row[scale] == 0.0);
+        is_known && !(value >= self.limit)
+    }
 }
 
 impl Accuracy {
     /// The columns of `request`.
     pub fn new(request: &Request) -> Self {
-        let balances = BALANCES.into_iter().map(|id| (id, INACCURATE_BALANCE));
-        let states = STATE_ERRORS.into_iter().map(|id| (id, INACCURATE_STATE));
-        let all = balances.chain(states);
-        let limits = all.filter_map(|(id, limit)| Some((request.position(id)?, id.name(), limit))).collect();
-        Accuracy { limits }
+        let balances = BALANCES.into_iter().zip(SCALES.map(Some)).map(|(id, scale)| (id, INACCURATE_BALANCE, scale));
+        let states = STATE_ERRORS.into_iter().map(|id| (id, INACCURATE_STATE, None));
+        let limit = |(id, limit, scale): (ColumnId, f64, Option<ColumnId>)| {
+            let scale = scale.and_then(|scale| request.position(scale));
+            Some(Limit { index: request.position(id)?, name: id.name(), limit, scale })
+        };
+        Accuracy { limits: balances.chain(states).filter_map(limit).collect() }
     }
 
     /// Whether no column says how accurate a run is: the groups are not requested.
@@ -47,18 +81,57 @@ impl Accuracy {
         self.limits.is_empty()
     }
 
-    /// Whether every column of `row` is below its limit, or is not a number: a balance of nothing.
+    /// Whether every column of `row` is below its limit, or is a balance of nothing, which is not a number.
     #[inline]
     pub fn holds(&self, row: &[f64]) -> bool {
-        !self.limits.iter().any(|(index, _, limit)| row[*index] >= *limit)
+        self.limits.iter().all(|limit| limit.holds(row))
     }
 
     /// Which columns of `row` are not below their limits, in words.
     pub fn reason(&self, row: &[f64]) -> String {
-        let beyond = self.limits.iter().filter(|(index, _, limit)| row[*index] >= *limit);
-        let words: Vec<String> = beyond
-            .map(|(index, name, limit)| format!("{name} is {:.1e}, which is {limit} or more", row[*index]))
-            .collect();
-        words.join("; ")
+        let beyond = self.limits.iter().filter(|limit| !limit.holds(row));
+        let words = beyond.map(|Limit { index, name, limit, .. }| match row[*index] {
+            value if value.is_nan() => format!("{name} is not a number"),
+            value => format!("{name} is {value:.1e}, which is {limit} or more"),
+        });
+        words.collect::<Vec<_>>().join("; ")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::observables::request::wheel_names;
+    use crate::scene::Actuated;
+
+    /// Law: an error at its limit, and one that is not a number, are no accuracy; an error relative to nothing says nothing.
+    #[test]
+    fn what_is_not_a_number_is_not_accurate() {
+        let request = Request {
+            groups: [Group::EnergyConservation, Group::MomentumConservation, Group::Numerics].into_iter().collect(),
+            debris: true,
+            actuated: Actuated::NONE,
+            constrained: false,
+            wheels: wheel_names(&[]),
+        };
+        let accuracy = Accuracy::new(&request);
+        let right = vec![1e-3; request.columns().len()];
+        assert!(accuracy.holds(&right) && accuracy.reason(&right).is_empty());
+        for (error, scale) in BALANCES.into_iter().zip(SCALES) {
+            let [error_at, scale_at] = [error, scale].map(|id| request.position(id).expect("a column of the groups"));
+            for (value, of, holds) in
+                [(0.0099, 1.0, true), (0.01, 1.0, false), (f64::NAN, 9e48, false), (f64::NAN, 0.0, true)]
+            {
+                let mut row = right.clone();
+                (row[error_at], row[scale_at]) = (value, of);
+                assert_eq!(accuracy.holds(&row), holds, "{} {value} {of}", error.name());
+                assert_eq!(accuracy.reason(&row).contains(error.name()), !holds);
+            }
+        }
+        for id in STATE_ERRORS {
+            let mut row = right.clone();
+            row[request.position(id).expect("a column of the group")] = 0.1;
+            assert!(!accuracy.holds(&row) && accuracy.reason(&row).contains("0.1 or more"), "{}", id.name());
+        }
     }
 }

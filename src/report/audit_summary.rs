@@ -10,7 +10,7 @@ use crate::dataset::audit_tally::{AuditTally, Coverage};
 use crate::ensemble::audit::AuditValue;
 use crate::observables::headlines::{DEBRIS_STATE_ERROR_ESTIMATE, STATE_ERROR_ESTIMATE};
 use crate::report::number::short;
-use crate::statistics::sketch::Sketch;
+use crate::statistics::spread::Spread;
 
 /// The numerical errors of an observable over the audited runs, beside the spread of its values over the campaign.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -45,9 +45,9 @@ pub struct Quantiles {
 }
 
 impl Quantiles {
-    fn of(sketch: &Sketch) -> Self {
-        let [median, p95, p99] = [0.5, 0.95, 0.99].map(|p| sketch.quantile(p));
-        Quantiles { median, p95, p99, max: sketch.max() }
+    fn of(spread: &Spread) -> Self {
+        let [median, p95, p99] = [0.5, 0.95, 0.99].map(|p| spread.quantile(p));
+        Quantiles { median, p95, p99, max: spread.max() }
     }
 }
 
@@ -103,7 +103,7 @@ impl Estimate {
 impl Numerics {
     /// Errors of the observable `index` among those with statistics, and the spread of its `values`; `None` where there are
     /// no errors.
-    pub fn new(audits: &AuditTally, index: usize, values: &Sketch) -> Option<Self> {
+    pub fn new(audits: &AuditTally, index: usize, values: &Spread) -> Option<Self> {
         let errors = &audits.observables[index];
         let p95 = errors.quantile(0.95)?;
         let spread = values.quantile(0.95)? - values.quantile(0.05)?;
@@ -228,7 +228,7 @@ mod tests {
         near(found.state_error.p95, 950.05);
         near(found.state_error.p99, 990.01);
         assert_eq!((found.state_error.max, found.estimate.coverage), (Some(1000.0), Some(0.75)));
-        let mut values = Sketch::default();
+        let mut values = Spread::default();
         (1..=100).for_each(|k| values.add(f64::from(k)));
         let numerics = Numerics::new(&audits, 0, &values).expect("errors");
         // of type 7: 95.05 - 5.95, each within the width of its bucket

@@ -44,7 +44,7 @@ impl Summary {
     pub fn new(plan: &Plan, tally: &Tally, statistics: &Statistics, verdicts: Verdicts) -> Self {
         let numerics = |name: &str| {
             let index = tally.headlines().iter().position(|headline| headline.quantity.name() == name)?;
-            Numerics::new(tally.audits()?, index, &tally.headlines()[index].sketch)
+            Numerics::new(tally.audits()?, index, &tally.headlines()[index].spread)
         };
         Summary {
             name: plan.name.clone(),

@@ -1,6 +1,6 @@
 //! Layer 2: statistics of many runs: pure functions of numbers.
 //!
-//! - [`moments`], [`quantile`], [`sketch`] (on [`carries`]): what describes one column. - [`student`], [`binomial`], [`replicates`]: intervals.
+//! - [`moments`], [`quantile`], [`sketch`] (on [`carries`]), [`spread`]: what describes one column. - [`student`], [`binomial`], [`replicates`]: intervals.
 //! - [`gate`]: requirements decided. - [`looks`]: when to stop. - [`two_sample`]: two campaigns compared.
 //! - [`correlation`], [`regression`], [`sensitivity`]: which input matters.
 
@@ -16,5 +16,6 @@ pub mod regression;
 pub mod replicates;
 pub mod sensitivity;
 pub mod sketch;
+pub mod spread;
 pub mod student;
 pub mod two_sample;

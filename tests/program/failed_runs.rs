@@ -14,6 +14,16 @@ fn ends(batch: &RecordBatch) -> Vec<(String, Option<String>)> {
     (0..batch.num_rows()).map(|row| (statuses.value(row).to_owned(), text(row))).collect()
 }
 
+/// Law: `check` answers where no drawn value is physical.
+#[test]
+fn values_that_are_not_physical_are_checked() {
+    let scratch = folder("check-unphysical");
+    let negative = NEGATIVE_WALLS.replace("max = 0.04", "max = -0.01");
+    scratch.file("negative.toml", &[campaign(), negative].concat());
+    let said = scratch.prints("check negative.toml", 0);
+    assert!(said.contains("wall_thickness_m") && !said.contains("does not affect"), "{said}");
+}
+
 /// Law: with a fixed step that is far too long every run is `inaccurate`: its numbers are kept, its reason names the columns beyond
 /// their limits and no other, it counts as failed, and it is in no statistics.
 #[test]

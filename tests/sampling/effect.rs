@@ -75,6 +75,9 @@ fn arcs_count_with_their_earliest_start_and_end() {
         });
         plan(&format!("{}{off}{other}", arc(0.011))).expect("ends within the run where both delays are small");
     }
+    // an arc that acts in the nominal scene, and in no draw, has an effect
+    let pushed = dispersed("actuators.switch_on_delay_s").replace("half_width = 0.01", "min = 0.6\nmax = 0.7");
+    plan(&format!("{}{pushed}", arc(0.5))).expect("moved after the end");
     let unbounded = dispersed("actuators.switch_off_delay_s").replace("uniform", "normal").replace("half_width", "std");
     plan(&format!("{}{unbounded}", arc(0.07))).expect("seven standard deviations are drawn");
     plan(&format!("{}{unbounded}", arc(0.09))).expect_err("nine are not");
@@ -148,10 +151,19 @@ fn inputs_of_derived_parameters_count_as_used() {
 fn what_no_requested_column_shows_is_told() {
     let names = |text: &str| -> Vec<String> {
         let plan = plan(text).unwrap_or_else(|error| panic!("{error}"));
-        without_effect(&plan, Isa::best()).expect("short runs").iter().map(|parameter| parameter.name()).collect()
+        without_effect(&plan, Isa::best()).expect("short runs")
     };
     let both = format!("{}{}", dispersed("initial.position_m"), dispersed("initial.angular_velocity_rad_s"));
     assert_eq!(names(&both), ["initial.position_m"]);
     let used = "[[derive]]\nparameter = \"wheels.w1.length_m\"\nexpression = \"0.1 + 0.1 * initial.position_m.x\"\n";
     assert!(names(&format!("{both}{used}")).is_empty());
+    assert_eq!(names(&dispersed("initial.position_m.z")), ["initial.position_m.z"]);
+    // a value that is seldom drawn is found; what no draw changes, or only to what is not physical, is not called without effect
+    let seldom =
+        "[[disperse]]\nparameter = \"wheels.w1.radius_m\"\ndistribution = \"bernoulli\"\nvalue = 0.3\np = 0.2\n";
+    assert!(names(seldom).is_empty());
+    assert!(names(&seldom.replace("0.2", "1e-9")).is_empty());
+    assert!(names(&seldom.replace("0.3", "-1.0").replace("0.2", "0.9")).is_empty());
+    let unseen = seldom.replace("wheels.w1.radius_m", "initial.position_m.x");
+    assert_eq!(names(&unseen), ["initial.position_m.x"]);
 }
