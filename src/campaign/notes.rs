@@ -2,18 +2,27 @@
 
 use super::plan::Plan;
 use crate::observables::accuracy::Accuracy;
+use crate::sampling::design::Size;
 
 impl Plan {
     /// What about this plan a person should know before it is run, one sentence each.
     pub fn notes(&self) -> Vec<String> {
         let mut notes = Vec::new();
-        let unvaried = self.dispersions.unvaried();
-        if !unvaried.is_empty() && self.samples > 1 {
+        let (unvaried, incomplete) = (self.dispersions.unvaried(), self.dispersions.incomplete());
+        if self.samples > 1 && !(unvaried.is_empty() && incomplete.is_empty()) {
+            let points = match self.design.size(self.dispersions.dimensions().len()) {
+                Size::Points(points) => format!(" ({} of {points} points)", self.samples - 1),
+                Size::Any | Size::TooMany => String::new(),
+            };
+            let lack = [
+                (!unvaried.is_empty()).then(|| format!("{} never varied", listed(&unvaried))),
+                (!incomplete.is_empty()).then(|| format!("some levels of {} never occur", incomplete.join(", "))),
+            ];
             notes.push(format!(
-                "{} samples are a part of the {} design: {} never varied; leave campaign.samples out for all points",
+                "{} samples are a part of the {} design{points}: {}; leave campaign.samples out for all points",
                 self.samples,
                 self.design.name(),
-                listed(&unvaried),
+                lack.into_iter().flatten().collect::<Vec<_>>().join(", and "),
             ));
         }
         for replaced in self.dispersions.replaced_correlations() {

@@ -181,6 +181,12 @@ impl Dispersions {
         unvaried.into_iter().map(|dimension| self.dimensions[dimension].as_str()).collect()
     }
 
+    /// The names of the random dimensions that the samples vary, but not through all levels of the design.
+    pub fn incomplete(&self) -> Vec<&str> {
+        let incomplete = self.design.incomplete(self.dimensions.len(), self.samples.saturating_sub(1));
+        incomplete.into_iter().map(|dimension| self.dimensions[dimension].as_str()).collect()
+    }
+
     /// The correlation matrices that were replaced by the nearest that exist.
     pub fn replaced_correlations(&self) -> &[Replaced] {
         &self.replaced

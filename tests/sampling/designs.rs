@@ -378,14 +378,22 @@ const GOLDEN: [(&str, [[u64; 2]; 3]); 5] = [
     ),
 ];
 
-/// Law: a part of a grid in which a parameter never varies says which.
+/// Law: a part of a grid in which a parameter never varies, or has levels that never occur, says which.
 #[test]
 fn a_partial_grid_says_what_never_varies() {
     let grid = |samples: u64| {
         let overrides = Overrides { samples: Some(samples), ..Overrides::default() };
         planned(&format!("[design]\nkind = \"grid\"\nlevels = 5\n{LENGTH}{RADIUS}"), overrides).expect("legal").notes()
     };
-    assert!(grid(26).is_empty() && grid(8).is_empty(), "the second parameter has two levels in seven points");
+    assert!(grid(26).is_empty() && grid(25).is_empty() && grid(22).is_empty(), "every level occurs");
+    for (samples, says) in [
+        (8, "8 samples are a part of the grid design (7 of 25 points): some levels of wheels.w1.radius_m never occur;"),
+        (21, "(20 of 25 points): some levels of wheels.w1.radius_m never occur;"),
+        (4, "wheels.w1.radius_m is never varied, and some levels of body.parts.fuselage.length_m never occur;"),
+    ] {
+        let notes = grid(samples);
+        assert!(notes.len() == 1 && notes[0].contains(says), "{notes:?}");
+    }
     let notes = grid(6);
     assert!(notes.len() == 1 && notes[0].contains("wheels.w1.radius_m is never varied"), "{notes:?}");
 }

@@ -71,6 +71,11 @@ macro_rules! designs {
                 match self { $( Self::$Name(kind) => kind.unvaried(dimensions, points), )* }
             }
 
+            /// See [`Kind::incomplete`].
+            pub fn incomplete(&self, dimensions: usize, points: u64) -> Vec<usize> {
+                match self { $( Self::$Name(kind) => kind.incomplete(dimensions, points), )* }
+            }
+
             /// See [`Kind::HAS_REPLICATES`].
             pub fn has_replicates(&self) -> bool {
                 match self { $( Self::$Name(_) => <$Kind as Kind>::HAS_REPLICATES, )* }

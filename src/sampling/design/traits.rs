@@ -73,6 +73,11 @@ pub trait Kind: Clone + Debug + PartialEq {
         Vec::new()
     }
 
+    /// The dimensions that vary in the first `points` points, but have levels that none of these points has.
+    fn incomplete(&self, _dimensions: usize, _points: u64) -> Vec<usize> {
+        Vec::new()
+    }
+
     /// How many designs of the kind it consists of.
     fn replicates(&self) -> u64 {
         1
