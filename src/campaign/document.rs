@@ -161,10 +161,10 @@ impl<'a> Document<'a> {
     }
 
     /// Notes what a lower layer reports about several keys, except for those that have a problem already.
-    pub fn add_from_below(&mut self, found: Vec<(String, String, String, String)>) {
+    pub fn add_from_below(&mut self, found: Vec<(String, Option<String>, String, String)>) {
         let fresh: Vec<_> = found.into_iter().filter(|(key, ..)| !self.is_reported(key)).collect();
         for (key, value, allowed, remedy) in fresh {
-            self.add(&key, Some(value), allowed, remedy);
+            self.add(&key, value, allowed, remedy);
         }
     }
 

@@ -264,7 +264,7 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
         return None;
     }
     if let Err(errors) = Scene::resolve(&spec.scene) {
-        let found = errors.into_iter().map(|e| (e.key.into_owned(), e.value, e.allowed, e.remedy.to_owned()));
+        let found = errors.into_iter().map(|e| (e.key.into_owned(), Some(e.value), e.allowed, e.remedy.to_owned()));
         document.add_from_below(found.collect());
     }
 

@@ -99,7 +99,13 @@ impl<'d, 'a> Section<'d, 'a> {
         let table = match self.take(key).map(Spanned::get_ref) {
             Some(DeValue::Table(table)) => Some(table),
             Some(_) => {
-                self.refuse(key, "a table", format!("write [{path}] on a line of its own, and its keys below"));
+                // `disperse[0]` is how messages name a table of a list, and no TOML
+                let remedy = if path.contains('[') {
+                    format!("write {key} = {{ distribution = \"uniform\", min = 0, max = 1 }}")
+                } else {
+                    format!("write [{path}] on a line of its own, and its keys below")
+                };
+                self.refuse(key, "a table", remedy);
                 None
             }
             None => None,

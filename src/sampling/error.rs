@@ -29,14 +29,14 @@ impl std::fmt::Display for Table {
 
 /// Why a campaign's dispersions cannot be drawn.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{table}.{key} = {value}: must be {allowed}; {remedy}")]
+#[error("{table}.{key}{}: must be {allowed}; {remedy}", .value.as_ref().map_or(" is missing".to_owned(), |value| format!(" = {value}")))]
 pub struct DispersionError {
     /// Which table.
     pub table: Table,
     /// Its key that is wrong: `parameter`, `std`, ...
     pub key: &'static str,
-    /// What it is.
-    pub value: String,
+    /// What it is; `None` where the key is missing.
+    pub value: Option<String>,
     /// What it must be (to follow the words `must be`).
     pub allowed: String,
     /// What to do.
@@ -62,5 +62,5 @@ pub fn error_of(
     allowed: impl Into<String>,
     remedy: impl Into<String>,
 ) -> DispersionError {
-    DispersionError { table, key, value: value.into(), allowed: allowed.into(), remedy: remedy.into() }
+    DispersionError { table, key, value: Some(value.into()), allowed: allowed.into(), remedy: remedy.into() }
 }

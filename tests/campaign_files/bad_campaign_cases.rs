@@ -354,6 +354,21 @@ pub const CASES: &[(&str, &str, &str)] = &[
     ),
     (
         "\"truncated_normal\"\nrelative_std = 0.02\nsigmas = 3",
+        "\"uniform\"\nmin = 3000\nmax = 3000",
+        "bad.toml:44: disperse[0].min = 3000.0: must be < max (3000.0); make max larger, or delete this table",
+    ),
+    (
+        "sigmas = 3",
+        "lower = 3000\nupper = 3000",
+        "bad.toml:45: disperse[0].lower = 3000.0: must be < upper (3000.0); make upper larger, or delete this table",
+    ),
+    (
+        "\"truncated_normal\"\nrelative_std = 0.02\nsigmas = 3",
+        "\"choice\"\nvalues = [2600, 2700]\nweights = [1e308, 1e308]",
+        "disperse[0].weights = [1e308, 1e308]: must be numbers with a finite sum; divide all by the same number: their proportions count",
+    ),
+    (
+        "\"truncated_normal\"\nrelative_std = 0.02\nsigmas = 3",
         "\"uniform\"\nmax = 2000",
         "bad.toml:41: disperse[0].min is missing: must be given together with max; add min = 0.0 to this table",
     ),

@@ -9,7 +9,7 @@ use spindrift::math::vector::{conjugate, cross, dcm_from_quaternion, dot, hamilt
 use spindrift::sampling::SampleId;
 use spindrift::scene::{Scene, SceneInput};
 
-use crate::support::campaigns::FUSELAGE;
+use crate::support::campaigns::{FUSELAGE, WHEEL1};
 
 const HEAD: &str = "[campaign]\nname = \"test\"\nsamples = 10\nseed = 11\nduration_s = 1.0\n";
 
@@ -134,6 +134,35 @@ fn cones_are_uniform_in_solid_angle() {
         let whole = 2.0 * libm::sin(0.5 * half_angle) * libm::sin(0.5 * half_angle);
         let cosine = distance(rates.iter().map(versine), |x| x / whole);
         assert!(azimuth < KS && cosine < KS, "{half_angle}: {azimuth} {cosine}");
+    }
+}
+
+/// H0: the axis of a wheel and the direction of a thruster are vectors as a rate is: uniform in a cone about the nominal one. The
+/// length of the nominal one stays, and each scene is physical.
+#[test]
+fn axes_and_directions_are_drawn_in_cones() {
+    let thruster = "[[thrusters]]\nname = \"a\"\nposition_m = [1, 0, 0]\ndirection = [0, 3, 4]\n\
+        [[actuation]]\nname = \"burn\"\nstart_s = 0\nend_s = 1\nthrust_n = { a = 3 }\n";
+    let seen: [(&str, fn(&SceneInput) -> [f64; 3]); 2] = [
+        ("wheels.w1.axis", |scene| scene.wheels[0].axis),
+        ("thrusters.a.direction", |scene| scene.thrusters[scene.thrusters.len() - 1].direction),
+    ];
+    for (parameter, seen) in seen {
+        let disperse =
+            format!("parameter = {parameter:?}\ndistribution = \"cone\"\nhalf_angle_rad = 0.2\n{WHEEL1}{thruster}");
+        let plan = plan(&disperse);
+        let axis = seen(&plan.nominal);
+        let drawn = draws(&disperse, seen);
+        let azimuth = distance(drawn.iter().map(|v| about(axis, *v)[1]), |x| x);
+        let cosine =
+            distance(drawn.iter().map(|v| about(axis, *v)[0]), |x| (x - (0.2f64).cos()) / (1.0 - (0.2f64).cos()));
+        assert!(azimuth < KS && cosine < KS, "{parameter}: {azimuth} {cosine}");
+        for v in &drawn {
+            assert!((norm(*v) / norm(axis) - 1.0).abs() < 1e-14, "the length stays: {v:?}");
+        }
+        for sample in 1..10 {
+            assert!(spindrift::campaign::draw(&plan, SampleId(sample)).is_ok(), "{parameter} {sample}");
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 //! said of each.
 
 use crate::geometric::{RATE, campaign, plan};
+use crate::support::campaigns::WHEEL1;
 use spindrift::campaign::{Overrides, Plan};
 
 #[test]
@@ -30,6 +31,13 @@ fn what_cannot_be_drawn_is_refused() {
             "a vector",
         ),
         ("parameter = \"body.shear\"\ndistribution = \"uniform_direction\"\n".to_owned(), "parameter", "a vector"),
+        (
+            format!(
+                "parameter = \"wheels.w1.axis\"\ndistribution = \"uniform_direction\"\nmagnitude = {{ distribution = \"uniform\", min = 0, max = 1 }}\n{WHEEL1}"
+            ),
+            "magnitude",
+            "left out: the length of wheels.w1.axis has no effect; delete it",
+        ),
         (format!("{RATE}distribution = \"cone\"\n"), "half_angle_rad", "given"),
         (format!("{RATE}distribution = \"cone\"\nhalf_angle_rad = 0\n"), "half_angle_rad", "at most pi"),
         (format!("{RATE}distribution = \"cone\"\nhalf_angle_rad = 3.2\n"), "half_angle_rad", "at most pi"),
@@ -59,6 +67,12 @@ fn what_cannot_be_drawn_is_refused() {
             "std",
         ),
         (format!("{RATE}distribution = \"cone\"\nhalf_angle_rad = 1\nmagnitude = 3\n"), "magnitude", "a table"),
+        (
+            format!("{RATE}distribution = \"cone\"\nhalf_angle_rad = 1\nmagnitude = 3\n"),
+            "magnitude",
+            "write magnitude = { distribution = \"uniform\", min = 0, max = 1 }",
+        ),
+        (format!("{speed}distribution = \"uniform_direction\"\n"), "magnitude", "is missing: must be given"),
         (format!("{attitude}distribution = \"attitude_error\"\nstd_rad = [0.1, 0.1]\n"), "std_rad", "3 in an array"),
         (format!("{attitude}distribution = \"attitude_error\"\nstd_rad = -0.1\n"), "std_rad", ">= 0"),
         (
@@ -97,6 +111,7 @@ fn plans_keep_geometric_distributions() {
         format!("{RATE}distribution = \"uniform_direction\"\n"),
         format!("{RATE}distribution = \"cone\"\nhalf_angle_rad = 0.25\naxis = [0, 1, 1]\nmagnitude = {{ distribution = \"truncated_normal\", relative_std = 0.1, sigmas = 3 }}\n"),
         format!("{RATE}distribution = \"von_mises_fisher\"\nconcentration = 30\n"),
+        format!("parameter = \"wheels.w1.axis\"\ndistribution = \"von_mises_fisher\"\nconcentration = 30\n{WHEEL1}"),
         "parameter = \"initial.attitude\"\ndistribution = \"attitude_error\"\nstd_rad = 0.1\n".to_owned(),
         "parameter = \"initial.attitude\"\ndistribution = \"attitude_error\"\ncovariance_rad2 = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\n".to_owned(),
         "parameter = \"initial.attitude\"\ndistribution = \"about_axis\"\naxis = [0, 0, 1]\nangle_rad = { distribution = \"normal\", std = 0.1 }\n".to_owned(),

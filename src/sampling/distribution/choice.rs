@@ -71,9 +71,13 @@ impl Scalar for Choice {
             return target.refused("weights", shown(weights), allowed, "give one for each value");
         }
         let sum: f64 = weights.iter().sum();
-        if weights.iter().any(|x| !x.is_finite() || *x < 0.0) || sum <= 0.0 || !sum.is_finite() {
+        if weights.iter().any(|x| !x.is_finite() || *x < 0.0) || sum <= 0.0 {
             let allowed = "numbers >= 0, not all 0";
             return target.refused("weights", shown(weights), allowed, "their proportions count, not their sum");
+        }
+        if !sum.is_finite() {
+            let remedy = "divide all by the same number: their proportions count";
+            return target.refused("weights", shown(weights), "numbers with a finite sum", remedy);
         }
         let choice = ChoiceQuantile::new(values, weights);
         target.all(|_| Ok(choice.clone()))

@@ -124,15 +124,19 @@ impl<N: Nested> Direction<N> {
             None if spread == DirectionSpread::Sphere => [0.0, 0.0, 1.0],
             None => {
                 let allowed = "given where the nominal vector is zero and has no direction";
-                return target.refused("axis", "nothing", allowed, "add axis = [0, 0, 1]");
+                return target.lacks("axis", allowed, "add axis = [0, 0, 1]");
             }
         };
         let magnitude = match &self.magnitude {
+            Some(_) if target.is_direction() => {
+                let allowed = format!("left out: the length of {} has no effect", target.parameter.name());
+                return target.refused("magnitude", "{ ... }", allowed, "delete it");
+            }
             Some(magnitude) => Magnitude::Drawn(magnitude.quantile(target.index, "magnitude", length)?),
             None if length == 0.0 => {
                 let allowed = "given where the nominal vector is zero: every direction of it would be zero";
                 let remedy = "add magnitude = { distribution = \"uniform\", min = 0, max = 1 }";
-                return target.refused("magnitude", "nothing", allowed, remedy);
+                return target.lacks("magnitude", allowed, remedy);
             }
             None => Magnitude::Fixed(length),
         };

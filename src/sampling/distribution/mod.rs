@@ -102,7 +102,8 @@ impl Nested for WrittenDistribution {
 
     fn quantile(&self, index: usize, key: &'static str, nominal: f64) -> Result<Distribution, DispersionError> {
         let found = self.distributions(&Target { index, nominals: &[nominal] }).map_err(|inner| {
-            error(index, key, format!("{{ {} = {} }}", inner.key, inner.value), inner.allowed, inner.remedy)
+            let value = inner.value.map_or("{ ... }".to_owned(), |value| format!("{{ {} = {value} }}", inner.key));
+            error(index, key, value, inner.allowed, inner.remedy)
         })?;
         found.and_then(|found| found.into_iter().next()).ok_or_else(|| {
             let remedy = "choose \"normal\" or \"uniform\"";

@@ -5,6 +5,7 @@ use crate::sampling::error::{DispersionError, error};
 use crate::sampling::keys::Values;
 use crate::scene::Parameter;
 use crate::scene::parameter::Shape;
+use crate::scene::schema::Limit;
 
 /// The nominal values of the components that a distribution is for.
 #[derive(Clone, Copy, Debug)]
@@ -130,7 +131,8 @@ impl Target<'_> {
         let (min, max) = (self.each("min", min)?, self.each("max", max)?);
         match min.iter().zip(&max).find(|(min, max)| min >= max) {
             Some((low, high)) => {
-                self.refused("min", format!("{low:?}"), format!("< max ({high:?})"), "swap min and max")
+                let remedy = if low > high { "swap min and max" } else { "make max larger, or delete this table" };
+                self.refused("min", format!("{low:?}"), format!("< max ({high:?})"), remedy)
             }
             None => Ok((min, max)),
         }
@@ -177,6 +179,16 @@ impl JointTarget<'_> {
         Err(error(self.index, key, value, allowed, remedy))
     }
 
+    /// An error of this target: a key that must be there is missing.
+    pub(super) fn lacks<T>(
+        &self,
+        key: &'static str,
+        allowed: impl Into<String>,
+        remedy: impl Into<String>,
+    ) -> Result<T, DispersionError> {
+        Err(DispersionError { value: None, ..error(self.index, key, "", allowed, remedy) })
+    }
+
     /// The nominal attitude, where the target is one as a whole.
     pub(super) fn attitude(&self, distribution: &str) -> Result<[f64; 4], DispersionError> {
         match <[f64; 4]>::try_from(self.nominals) {
@@ -188,12 +200,18 @@ impl JointTarget<'_> {
     /// The nominal vector, where the target is one as a whole.
     pub(super) fn vector(&self, distribution: &str) -> Result<[f64; 3], DispersionError> {
         let parameter = self.parameter;
-        let is_vector =
-            parameter.shape() == Shape::Plain && parameter.components() == ["x", "y", "z"] && parameter.unit() != "1";
+        let is_vector = parameter.shape() == Shape::Plain && parameter.components() == ["x", "y", "z"];
+        // pure numbers that are no direction are factors and shears
+        let is_vector = is_vector && (parameter.unit() != "1" || self.is_direction());
         match <[f64; 3]>::try_from(self.nominals) {
             Ok(nominal) if self.component.is_none() && is_vector => Ok(nominal),
             _ => self.misplaced("a vector (x, y, z)", distribution, "initial.angular_velocity_rad_s"),
         }
+    }
+
+    /// Whether the length of the vector has no effect: an axis of a wheel, a direction of a thruster.
+    pub(super) fn is_direction(&self) -> bool {
+        self.parameter.facts().limit == Limit::Direction
     }
 
     fn misplaced<T>(&self, what: &str, distribution: &str, example: &str) -> Result<T, DispersionError> {

@@ -196,7 +196,9 @@ fn bounds(target: &Target<'_>, cut: &Truncation, stds: &[f64]) -> Result<(Vec<f6
             match lower.iter().zip(&upper).find(|(lower, upper)| lower >= upper) {
                 Some((low, high)) => {
                     let allowed = format!("< upper ({high:?})");
-                    target.refused(cut_key(cut), format!("{low:?}"), allowed, "swap lower and upper")
+                    let larger = "make upper larger, or delete this table";
+                    let remedy = if low > high { "swap lower and upper" } else { larger };
+                    target.refused(cut_key(cut), format!("{low:?}"), allowed, remedy)
                 }
                 None => Ok((lower, upper)),
             }
