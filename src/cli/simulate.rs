@@ -167,7 +167,8 @@ fn plot(path: &Path, options: &SimulateOptions, plan: &Plan, series: &TimeSeries
         0 => format!("{}, nominal", plan.name),
         sample => format!("{}, sample {sample}", plan.name),
     };
-    simulation_figure(&title, series, plan.tolerance.relative).save(path).map_err(|error| match error {
+    let tolerance = (!plan.method.has_fixed_step()).then_some(plan.tolerance.relative);
+    simulation_figure(&title, series, tolerance).save(path).map_err(|error| match error {
         PlotError::Format(_) => Failure::Input(error.to_string()),
         _ => Failure::Files(format!("{}: {error}", path.display())),
     })?;

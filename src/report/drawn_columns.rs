@@ -9,7 +9,11 @@ use crate::sampling::{Joint, Transform};
 /// Components of a quaternion, the only parameter with so many.
 const QUATERNION: usize = 4;
 
-/// Columns of drawn samples.
+/// Angles are rounding where none is larger, deg: an axis of their own would make noise look like a distribution.
+const ROUNDING_DEG: f64 = 1e-6;
+
+/// Columns of drawn samples. An attitude has the angle of its rotation from the nominal one and the tilt of its axis 3, each only where it
+/// is more than rounding.
 #[derive(Clone, Debug)]
 pub struct DrawnColumns<'p> {
     /// Their names.
@@ -50,8 +54,13 @@ impl<'p> DrawnColumns<'p> {
                         marginal::of_columns(plan, &columns, |q| angles(nominal, [q[0], q[1], q[2], q[3]])[which])
                     })
                 };
-                shown.push(format!("{name}: rotation from nominal / deg"), 0.0, of_turn, turn);
-                shown.push(format!("{name}: tilt of axis 3 / deg"), 0.0, of_tilt, tilt);
+                for (what, asked, values) in
+                    [("rotation from nominal", of_turn, turn), ("tilt of axis 3", of_tilt, tilt)]
+                {
+                    if values.iter().any(|angle| *angle >= ROUNDING_DEG) {
+                        shown.push(format!("{name}: {what} / deg"), 0.0, asked, values);
+                    }
+                }
                 index += QUATERNION;
                 continue;
             }
@@ -84,6 +93,29 @@ fn angles(from: [f64; QUATERNION], to: [f64; QUATERNION]) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::campaign::Overrides;
+    use crate::sampling::SampleId;
+
+    /// Law: an attitude that is turned about its axis 3 has no column of tilts, which are rounding; one turned by nothing has none at all.
+    #[test]
+    fn what_is_rounding_has_no_column() {
+        let names = |axis: &str, std: &str| {
+            let text = format!(
+                "[campaign]\nname = \"x\"\nsamples = 20\nseed = 1\nduration_s = 1\n[body]\nmass_kg = 1\ncenter_of_mass_m = [0, 0, 0]\n\
+                 inertia_kg_m2 = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\n[initial]\nattitude = [0.5, 0.5, -0.5, 0.5]\nangular_velocity_rad_s = [0, 0, 1]\n\
+                 [[disperse]]\nparameter = \"initial.attitude\"\ndistribution = \"about_axis\"\naxis = {axis}\n\
+                 angle_rad = {{ distribution = \"normal\", std = {std} }}\n"
+            );
+            let plan = Plan::from_text("x.toml", &text, Overrides::default()).expect("a campaign");
+            DrawnColumns::new(&plan, &DrawnScenes::new(&plan, SampleId(1), plan.samples)).names
+        };
+        let [turn, tilt] =
+            ["rotation from nominal", "tilt of axis 3"].map(|what| format!("initial.attitude: {what} / deg"));
+        assert_eq!(names("[0, 0, 1]", "0.1"), [turn.clone()]);
+        assert_eq!(names("[0, 1, 1]", "0.1"), [turn.clone(), tilt.clone()]);
+        assert_eq!(names("[0, 1, 1]", "1e-7"), [turn, tilt], "small, and no rounding");
+        assert!(names("[0, 0, 1]", "1e-12").is_empty());
+    }
 
     /// Known: a rotation by 60 degrees about the third axis does not tilt it; one about the first axis does, from any attitude; the sign of a
     /// quaternion is none of the attitude.

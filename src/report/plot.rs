@@ -50,8 +50,10 @@ pub struct Panel {
     pub curves: Vec<Curve>,
     /// Where the curves are changes of quantities, the magnitude of these; else 0. Changes of rounding errors look constant.
     pub size: f64,
-    /// The tolerance of the run, for relative errors: they are drawn on a symmetric axis, on which the tolerance is marked
-    /// where it is within the range. Errors that are rounding are drawn on the scale of the tolerance.
+    /// Whether the curves are relative errors: they are drawn on a symmetric axis.
+    pub has_errors: bool,
+    /// The tolerance of the run, for relative errors, where it follows one: it is marked where it is within the range. Errors that are
+    /// rounding are drawn on its scale.
     pub tolerance: Option<f64>,
 }
 
@@ -110,19 +112,17 @@ impl Panel {
 
     fn axis(&self) -> Axis {
         let values = self.curves.iter().flat_map(|curve| curve.values.iter().copied());
-        match self.tolerance {
-            None if self.size > 0.0 => Axis::of_changes(values, self.size),
-            None => Axis::of(values),
-            Some(tolerance) => {
-                let worst = self.worst();
-                Axis::symmetric(if worst < ROUNDING { tolerance.max(ROUNDING) } else { worst })
-            }
+        if self.has_errors {
+            let worst = self.worst();
+            let least = self.tolerance.map_or(ROUNDING, |tolerance| tolerance.max(ROUNDING));
+            return Axis::symmetric(if worst < ROUNDING { least } else { worst });
         }
+        if self.size > 0.0 { Axis::of_changes(values, self.size) } else { Axis::of(values) }
     }
 
     /// The title, shortened where it is wider than `width` pixels, and what the axis adds to it.
     fn heading(&self, vertical: &Axis, width: u32) -> Result<String, PlotError> {
-        let worst = self.tolerance.map(|_| format!(" (maximum {})", short(self.worst()))).unwrap_or_default();
+        let worst = if self.has_errors { format!(" (maximum {})", short(self.worst())) } else { String::new() };
         let added = format!("{}{worst}", vertical.start(&self.unit));
         let left = width.saturating_sub(text_width(&added, TITLE)? as u32);
         Ok(format!("{}{added}", fitted_to_pixels(&self.title, left, TITLE)?))
@@ -237,6 +237,7 @@ mod tests {
             unit: unit.into(),
             curves,
             size: 0.0,
+            has_errors: tolerance.is_some(),
             tolerance,
         };
         Figure {
@@ -357,6 +358,21 @@ mod tests {
         let range = panels[4].axis().range(0.0);
         assert_eq!(range.start, -range.end);
         assert_ne!(panels[4].axis(), Axis::symmetric(1e-10));
+    }
+
+    /// Law: errors of a method that follows no tolerance are on a symmetric scale too, without a line or a word of a tolerance.
+    #[test]
+    fn no_tolerance_is_marked_where_there_is_none() {
+        let (mut with, mut without) = (figure(), figure());
+        for (panel, tolerance) in [(&mut with.panels[4], Some(1e-10)), (&mut without.panels[4], None)] {
+            panel.tolerance = tolerance;
+        }
+        without.panels[2].tolerance = None;
+        assert_eq!(without.panels[2].axis(), Axis::symmetric(ROUNDING));
+        assert_eq!(without.panels[4].axis(), with.panels[4].axis());
+        assert!(with.svg().unwrap().contains("tolerance 1e-10"));
+        let svg = without.svg().unwrap();
+        assert!(!svg.contains("tolerance") && svg.matches("(maximum ").count() == 2, "{svg}");
     }
 
     #[test]

@@ -73,9 +73,9 @@ const ERRORS: [Column; 3] = [
     (TimeColumn::Series(Series::AngularMomentumError), "angular momentum"),
 ];
 
-/// The figure of a run with this relative tolerance. A state or an energy that is zero throughout, as those of a part that the
-/// scene does not have, has no curve.
-pub fn simulation_figure(title: &str, series: &TimeSeries, tolerance: f64) -> Figure {
+/// The figure of a run with this relative tolerance, if it follows one. A state or an energy that is zero throughout, as those of a part
+/// that the scene does not have, has no curve; where no wheel turns, there is no panel of the transfer of energy.
+pub fn simulation_figure(title: &str, series: &TimeSeries, tolerance: Option<f64>) -> Figure {
     let curves = |columns: &[Column]| -> Vec<Curve> {
         let curve = |(key, label): &Column| {
             let values = series.column(*key)?.1.to_vec();
@@ -83,14 +83,15 @@ pub fn simulation_figure(title: &str, series: &TimeSeries, tolerance: f64) -> Fi
         };
         columns.iter().filter_map(curve).collect()
     };
-    let panel = |title: String, unit: &str, curves: Vec<Curve>, tolerance: Option<f64>| Panel {
+    let panel = |title: String, unit: &str, curves: Vec<Curve>| Panel {
         title,
         unit: unit.to_owned(),
         curves,
         size: 0.0,
-        tolerance,
+        has_errors: false,
+        tolerance: None,
     };
-    let states = STATES.map(|(title, unit, columns)| panel(title.to_owned(), unit, curves(columns), None));
+    let states = STATES.map(|(title, unit, columns)| panel(title.to_owned(), unit, curves(columns)));
     let of_wheels = |key: &dyn Fn(usize) -> TimeColumn| -> Vec<Curve> {
         let curve = |(wheel, name): (usize, &Name)| {
             Some(Curve { label: format!("wheel {name}"), values: series.column(key(wheel))?.1.to_vec() })
@@ -101,13 +102,14 @@ pub fn simulation_figure(title: &str, series: &TimeSeries, tolerance: f64) -> Fi
     for (rate, name) in rates.iter_mut().zip(series.wheels()) {
         rate.label = name.to_string(); // the title says that these are wheels
     }
-    let states = states.into_iter().chain([panel("Wheel rates".to_owned(), "rad/s", rates, None)]);
+    let turns = rates.iter().flat_map(|rate| &rate.values).any(|rate| *rate != 0.0);
+    let states = states.into_iter().chain([panel("Wheel rates".to_owned(), "rad/s", rates)]);
     let bodies: Vec<Curve> = curves(&[(TimeColumn::Series(Series::EnergyBody), "body")])
         .into_iter()
         .chain(of_wheels(&|wheel| TimeColumn::Series(Series::EnergyWheel.of_wheel(wheel))))
         .chain(curves(&[(TimeColumn::Series(Series::EnergyDebris), "debris")]))
         .collect();
-    let energy = |body: &Curve| panel(format!("Kinetic energy, {}", body.label), "J", vec![body.clone()], None);
+    let energy = |body: &Curve| panel(format!("Kinetic energy, {}", body.label), "J", vec![body.clone()]);
     let sum = |point: usize| bodies.iter().map(|body| body.values[point]).sum();
     let total = Curve { label: "total".to_owned(), values: (0..series.points()).map(sum).collect() };
     let transfer = |body: &Curve| Curve {
@@ -115,16 +117,18 @@ pub fn simulation_figure(title: &str, series: &TimeSeries, tolerance: f64) -> Fi
         values: body.values.iter().map(|value| value - body.values[0]).collect(),
     };
     let transfers = bodies.iter().map(transfer).collect();
-    let momenta = MOMENTA.map(|(title, unit, column)| panel(title.to_owned(), unit, curves(&[column]), None));
+    let momenta = MOMENTA.map(|(title, unit, column)| panel(title.to_owned(), unit, curves(&[column])));
     let mut panels: Vec<Panel> = states.chain(momenta).chain(bodies.iter().map(energy)).collect();
     if bodies.len() > 1 {
-        panels.push(panel("Kinetic energy, total".to_owned(), "J", vec![total], None));
+        panels.push(panel("Kinetic energy, total".to_owned(), "J", vec![total]));
+    }
+    if turns {
         let size = bodies.iter().flat_map(|body| &body.values).fold(0.0, |size: f64, value| value.abs().max(size));
         let title = "Energy transfer: change of kinetic energy since the start".to_owned();
-        panels.push(Panel { size, ..panel(title, "J", transfers, None) });
+        panels.push(Panel { size, ..panel(title, "J", transfers) });
     }
     let errors = "Relative errors of the balances".to_owned();
-    panels.push(panel(errors, "", curves(&ERRORS), Some(tolerance)));
+    panels.push(Panel { has_errors: true, tolerance, ..panel(errors, "", curves(&ERRORS)) });
     panels.retain(|panel| !panel.curves.is_empty());
     Figure {
         title: title.to_owned(),

@@ -102,6 +102,15 @@ fn plots_and_tables_are_made() {
     {
         assert!(svg.contains(title), "{title}");
     }
+    assert!(svg.contains("Energy transfer"), "its wheels turn");
+    // without wheels nothing is transferred, and debris is no reason for that panel
+    let rigid = fs::read_to_string(scratch.path("small.toml")).unwrap();
+    let wheels = rigid.find("[[wheels]]").unwrap();
+    let after = wheels + rigid[wheels..].find("\n[debris]").unwrap();
+    scratch.file("rigid.toml", &[&rigid[..wheels], &rigid[after..]].concat());
+    scratch.prints("simulate rigid.toml --plot rigid.svg", 0);
+    let svg = fs::read_to_string(scratch.path("rigid.svg")).unwrap();
+    assert!(svg.contains("Kinetic energy, debris") && !svg.contains("Energy transfer"));
     scratch.prints("simulate small.toml --plot p.png --times 0,0.1,0.2", 0);
     assert!(fs::read(scratch.path("p.png")).unwrap().starts_with(b"\x89PNG"));
     scratch.prints("simulate small.toml --plot p.pdf", 2);
