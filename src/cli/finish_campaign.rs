@@ -14,6 +14,7 @@ use crate::cli::arguments::FinishOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::input::{isa, plan_in};
 use crate::cli::outputs::{refuse_inputs, refuse_within};
+use crate::cli::shell_word::quoted_path;
 use crate::cli::{report, screen};
 use crate::dataset::claim::{Claim, ClaimOptions, Ready, claim, open};
 use crate::dataset::identity::identity;
@@ -217,11 +218,11 @@ pub fn finished(storage: &'static dyn Storage, options: &FinishOptions) -> Resul
             missing.len(),
             first.id.0,
             last.id.0,
-            plan_file.display(),
-            root.display(),
+            quoted_path(&plan_file),
+            quoted_path(root),
         )));
     }
-    let replayed = root.join(PLAN).display().to_string();
+    let replayed = quoted_path(&root.join(PLAN));
     let job = Finishing {
         ensemble: &ensemble,
         ready: &ready,

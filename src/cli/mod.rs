@@ -5,7 +5,8 @@
 //!   [`machine`]: what is left of memory and disk.
 //! - [`analysis`]: what is made of the rows at the end of a campaign.
 //! - [`run_campaign`], [`finish_campaign`], [`verify`], [`check`], [`columns`], [`compare`], [`precision`], [`report`], [`sample`],
-//!   [`simulate`], [`slurm`]: one command each. - [`slurm_script`]: the scripts of Slurm.
+//!   [`simulate`], [`slurm`]: one command each. - [`slurm_script`]: the scripts of Slurm; [`shell_word`]: words of
+//!   commands that are printed.
 //! - [`failed_samples`]: samples that failed, again or as the end.
 //! - [`dispersions`]: the dispersions of a plan as text. - [`progress`]: the progress bar. - [`screen`]: printing; [`signals`].
 //! - [`command_outcome`]: how a command ends, and its exit code.
@@ -31,6 +32,7 @@ pub mod report;
 pub mod run_campaign;
 pub mod sample;
 pub mod screen;
+pub mod shell_word;
 pub mod signals;
 pub mod simulate;
 pub mod slurm;

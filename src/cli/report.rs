@@ -9,6 +9,7 @@ use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::input::{isa, plan_of_result};
 use crate::cli::outputs::refuse_within;
 use crate::cli::screen;
+use crate::cli::shell_word::quoted_path;
 use crate::dataset::claim::open;
 use crate::dataset::folder::place;
 use crate::dataset::manifest::PartRecord;
@@ -39,9 +40,10 @@ pub fn remade(storage: &'static dyn Storage, options: &ReportOptions) -> Result<
     refuse_within(root, &[("--figures", options.figures.as_deref())])?;
     let (found, _locks) = open(storage, root).map_err(Failure::files)?;
     if !found.is_finished {
-        let folder = root.display();
         return Err(Failure::Input(format!(
-            "the result in `{folder}` is not finished; the campaign's command continues it, or: spindrift finish {folder}"
+            "the result in `{}` is not finished; the campaign's command continues it, or: spindrift finish {}",
+            root.display(),
+            quoted_path(root)
         )));
     }
     let plan = plan_of_result(root, &found)?;

@@ -14,6 +14,7 @@ use crate::cli::input::{isa, plan_and_files};
 use crate::cli::outputs::{refuse_inputs, refuse_within};
 use crate::cli::progress::Bar;
 use crate::cli::screen;
+use crate::cli::shell_word::quoted_path;
 use crate::cli::signals::{self, Signals};
 use crate::cli::workload::Workload;
 use crate::dataset::claim::{Claim, ClaimOptions, Ready, Shard, claim};
@@ -277,7 +278,7 @@ fn ended_by(failed: &FailedRun, plan: &Plan, root: &Path) -> CommandOutcome {
         plan.name,
         failed.sample,
         failed.what,
-        root.join(PLAN).display(),
+        quoted_path(&root.join(PLAN)),
         failed.sample
     ));
     CommandOutcome::SomeFailed(1)
@@ -301,14 +302,14 @@ fn shard_is_done(shard: Shard, plan: &Plan, root: &Path, made: Made) -> Result<C
         shard.of,
         made.samples,
         made.elapsed.as_secs_f64(),
-        root.display()
+        quoted_path(root)
     ))?;
     Ok(CommandOutcome::Done)
 }
 
-/// The campaign file as `simulate` takes it: the file of this command, or the plan in the result where options replaced its
+/// The campaign file as a word of the command `simulate`: the file of this command, or the plan in the result where options replaced its
 /// numbers.
 fn replayed(options: &CampaignOptions, root: &Path) -> String {
     let is_changed = options.samples.is_some() || options.seed.is_some() || options.only_failed_of.is_some();
-    if is_changed { root.join(PLAN).display().to_string() } else { options.file.display().to_string() }
+    if is_changed { quoted_path(&root.join(PLAN)) } else { quoted_path(&options.file) }
 }

@@ -9,7 +9,8 @@ use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::input::{isa, plan};
 use crate::cli::run_campaign::{RESULTS, refuse_shards_with_stop};
 use crate::cli::screen;
-use crate::cli::slurm_script::{Jobs, MARK, quoted};
+use crate::cli::shell_word::quoted_path;
+use crate::cli::slurm_script::{Jobs, MARK};
 use crate::dataset::atomic;
 use crate::ensemble::run_cost::parts;
 
@@ -63,8 +64,8 @@ pub fn run(options: &SlurmOptions) -> Result<CommandOutcome, Failure> {
         format!(
             "{}: {shards} tasks. Where Slurm is:\n  job=$(sbatch --parsable {})\n  sbatch --dependency=afterany:\"$job\" {}\n",
             plan.name,
-            quoted(&array.to_string_lossy()),
-            quoted(&finish.to_string_lossy())
+            quoted_path(&array),
+            quoted_path(&finish)
         )
     };
     screen::print(&text)?;

@@ -7,6 +7,8 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
+use crate::cli::shell_word::{quoted, quoted_path};
+
 /// The second line of a script: by it, a script of this program is recognised.
 pub const MARK: &str = "# made by `spindrift slurm`";
 
@@ -115,8 +117,8 @@ fi
 exit "$code"
 "#,
             program = self.program(),
-            file = quoted(&self.file.to_string_lossy()),
-            out = quoted(&self.out.to_string_lossy()),
+            file = quoted_path(self.file),
+            out = quoted_path(self.out),
             cpus = self.cpus,
         );
         text
@@ -131,14 +133,14 @@ exit "$code"
             "\n# 1: some runs failed; 3: a requirement failed; 5: one is undecided; 4: parts are missing, and which\n\
              exec {} finish {} --threads \"${{SLURM_CPUS_PER_TASK:-{}}}\"\n",
             self.program(),
-            quoted(&self.out.to_string_lossy()),
+            quoted_path(self.out),
             self.cpus
         );
         text
     }
 
     fn program(&self) -> String {
-        quoted(&self.program.to_string_lossy())
+        quoted_path(self.program)
     }
 
     /// The first lines of a script: what it asks of Slurm.
@@ -153,16 +155,6 @@ exit "$code"
             let _ = writeln!(text, "#SBATCH {option}");
         }
         text
-    }
-}
-
-/// `text` as one word of a shell.
-pub fn quoted(text: &str) -> String {
-    let is_plain = |byte: u8| byte.is_ascii_alphanumeric() || b"_-./=+:,@".contains(&byte);
-    if !text.is_empty() && text.bytes().all(is_plain) {
-        text.to_owned()
-    } else {
-        format!("'{}'", text.replace('\'', r"'\''"))
     }
 }
 
@@ -210,14 +202,5 @@ mod tests {
             assert!((1..time.seconds).contains(&time.warning()), "{text}: {}", time.warning());
         }
         assert_eq!(TimeLimit::of("10").expect("a time").warning(), WARNING_S);
-    }
-
-    /// Law: a shell reads a quoted text as that text.
-    #[test]
-    fn words_are_quoted_where_they_need_it() {
-        assert_eq!(quoted("results/a-b_1.0"), "results/a-b_1.0");
-        assert_eq!(quoted(""), "''");
-        assert_eq!(quoted("my results/$(rm x)"), "'my results/$(rm x)'");
-        assert_eq!(quoted("it's"), r"'it'\''s'");
     }
 }

@@ -61,7 +61,8 @@ impl ScratchFolder {
         self.outputs(program.arg(command).arg(campaign).args(arguments.split_whitespace()), code)
     }
 
-    fn outputs(&self, program: &mut Command, code: i32) -> String {
+    /// Runs `program` in the folder and checks the exit code; returns both output streams.
+    pub fn outputs(&self, program: &mut Command, code: i32) -> String {
         let output = program.current_dir(&self.0).output().unwrap();
         let said = format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
         assert_eq!(output.status.code(), Some(code), "{program:?}:\n{said}");
