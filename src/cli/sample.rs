@@ -63,6 +63,13 @@ pub fn run(options: &SampleOptions) -> Result<CommandOutcome, Failure> {
         }
         // sample 0 is the nominal scene, which is not dispersed
         let dispersed = DrawnScenes::new(&plan, SampleId(1), plan.samples);
+        let shown = DrawnColumns::new(&plan, &dispersed);
+        if shown.names.is_empty() {
+            return Err(Failure::Input(format!(
+                "{} turns attitudes by rounding alone: there is nothing to plot",
+                plan.name
+            )));
+        }
         let figure = DrawnFigure {
             title: format!(
                 "{}, {} samples, {} design",
@@ -70,13 +77,15 @@ pub fn run(options: &SampleOptions) -> Result<CommandOutcome, Failure> {
                 dispersed.count(),
                 plan.design.name().replace('_', " ")
             ),
-            columns: &DrawnColumns::new(&plan, &dispersed),
+            columns: &shown,
         };
         figure.save(path).map_err(|error| match error {
             PlotError::Format(_) => Failure::Input(error.to_string()),
             _ => Failure::Files(format!("{}: {error}", path.display())),
         })?;
-        screen::note(&format!("{}: {} numbers of {} samples", path.display(), columns.len(), dispersed.count()));
+        let (numbers, samples) = (columns.len(), dispersed.count());
+        let [of_numbers, of_samples] = [numbers, samples].map(|count| if count == 1 { "" } else { "s" });
+        screen::note(&format!("{}: {numbers} number{of_numbers} of {samples} sample{of_samples}", path.display()));
     }
     Ok(CommandOutcome::Done)
 }
@@ -88,8 +97,9 @@ fn one(plan: &Plan, sample: u64) -> Result<CommandOutcome, Failure> {
         return Err(Failure::Input(format!("--sample {sample}: must be 0 to {last}, the samples of {name}")));
     }
     screen::print(&dispersions::applied(plan, SampleId(sample), true))?;
-    if draw(plan, SampleId(sample)).is_err() {
-        screen::note(&format!("sample {sample} is not physical: its status would be invalid_sample"));
+    if let Err(errors) = draw(plan, SampleId(sample)) {
+        let reasons: String = errors.iter().map(|error| format!("\n  {error}")).collect();
+        screen::note(&format!("sample {sample} is not physical (its status would be invalid_sample):{reasons}"));
     }
     Ok(CommandOutcome::Done)
 }

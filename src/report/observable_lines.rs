@@ -84,6 +84,13 @@ impl ObservableLine {
         }
     }
 
+    /// Whether it says nothing: no run is ok, with a value or without one, and no quantile is known from how the others failed.
+    pub fn is_empty(&self) -> bool {
+        let is_known =
+            |quantile: &QuantileLine| quantile.value.is_some() || quantile.interval.iter().any(Option::is_some);
+        self.count == 0 && self.without_value == 0 && !self.quantiles.iter().any(is_known)
+    }
+
     fn quantile(&self, p: f64) -> Option<&QuantileLine> {
         self.quantiles.iter().find(|quantile| quantile.p == p)
     }

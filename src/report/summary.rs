@@ -148,7 +148,7 @@ impl Summary {
     }
 
     /// The runs with the greatest errors and the first that failed, with the command that shows one; `file` is the campaign as
-    /// the command takes it. Empty where there are none.
+    /// a word of that command. Empty where there are none.
     pub fn replay(&self, file: &str) -> String {
         let mut text = String::new();
         for worst in self.worst.iter().filter(|worst| !worst.runs.is_empty()) {
@@ -189,9 +189,13 @@ impl Display for Summary {
         }
         let width = self.lines.iter().map(|line| line.name.len()).max().unwrap_or(0);
         let counted = if self.without_nominal { "dispersed samples" } else { "nominal sample" };
-        write_table(f, &self.lines, counted, self.confidence)?;
-        if self.intervals.starts_with("none") {
-            writeln!(f, "  intervals: {}", self.intervals)?;
+        if self.lines.iter().all(ObservableLine::is_empty) {
+            writeln!(f, "\n  no {} is ok: no statistics", if self.without_nominal { "dispersed run" } else { "run" })?;
+        } else {
+            write_table(f, &self.lines, counted, self.confidence)?;
+            if self.intervals.starts_with("none") {
+                writeln!(f, "  intervals: {}", self.intervals)?;
+            }
         }
         if let Some((_, text)) = &self.stopping {
             writeln!(f, "\n  stop: {text}")?;
@@ -221,11 +225,10 @@ impl Display for Summary {
 mod tests {
     use super::*;
 
-    /// Law: the screen counts the runs of each status that occurs, and names the first samples of those that are not ok.
-    #[test]
-    fn statuses_are_counted_and_failures_named() {
+    /// Five runs are ok and eight are not, without observables.
+    fn summary() -> Summary {
         let ended = |count: u64, first: &[u64]| Ended { count, first: first.iter().map(|id| SampleId(*id)).collect() };
-        let summary = Summary {
+        Summary {
             name: "x".to_owned(),
             seed: 1,
             samples: 13,
@@ -247,10 +250,40 @@ mod tests {
             audit: None,
             replaced: Vec::new(),
             stopping: None,
-        };
+        }
+    }
+
+    /// Law: the screen counts the runs of each status that occurs, and names the first samples of those that are not ok.
+    #[test]
+    fn statuses_are_counted_and_failures_named() {
+        let summary = summary();
         let lines = ["  ok                         5", "  step_limit                 2   samples 3, 4"];
         let more = "  inaccurate                 6   samples 5, 6, ...";
         assert_eq!(summary.to_string(), format!("{}\n{}\n{more}\n", lines[0], lines[1]));
+    }
+
+    /// Law: where no run is ok there is one line in place of a table of dashes.
+    #[test]
+    fn without_runs_that_are_ok_there_is_no_table() {
+        let line = |count: u64| ObservableLine {
+            name: "attitude_error".to_owned(),
+            unit: String::new(),
+            count,
+            without_value: 0,
+            mean: None,
+            mean_interval: None,
+            standard_deviation: None,
+            skewness: None,
+            min: None,
+            max: None,
+            quantiles: Vec::new(),
+            numerical_error: None,
+        };
+        let text = |lines: Vec<ObservableLine>| Summary { lines, ..summary() }.to_string();
+        let none = text(vec![line(0), line(0)]);
+        assert!(none.ends_with("\n\n  no dispersed run is ok: no statistics\n"), "{none}");
+        let some = text(vec![line(0), line(5)]);
+        assert!(some.contains("attitude_error") && !some.contains("no statistics"), "{some}");
     }
 
     #[test]

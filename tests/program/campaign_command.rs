@@ -10,6 +10,22 @@ use arrow_array::types::Int64Type;
 use super::small_campaign::{NEGATIVE_WALLS, campaign, folder};
 use crate::support::scratch_folder::{batches, floats};
 
+/// Law: a printed command is one that a shell takes, whatever the names of the folder and of the file.
+#[test]
+fn printed_commands_are_quoted() {
+    let scratch = folder("quoted");
+    scratch.file("it's small.toml", &campaign());
+    let mut program = Command::new(env!("CARGO_BIN_EXE_spindrift"));
+    program.args(["campaign", "it's small.toml", "--samples", "20", "--out", "r out", "--threads", "1"]);
+    let said = scratch.outputs(&mut program, 0);
+    let printed = said.lines().find_map(|line| Some(line.split_once("spindrift simulate ")?.1)).expect("a command");
+    assert!(printed.starts_with("'r out/plan.toml' --sample "), "{said}");
+    let mut program = Command::new(env!("CARGO_BIN_EXE_spindrift"));
+    let shard = ["campaign", "it's small.toml", "--samples", "20", "--out", "s out", "--shard", "1/1"];
+    let said = scratch.outputs(program.args(shard), 0);
+    assert!(said.contains("spindrift finish 's out'\n"), "{said}");
+}
+
 #[test]
 fn a_campaign_runs_once_and_then_says_so() {
     let scratch = folder("once");
@@ -149,6 +165,10 @@ fn failed_runs_are_rows() {
     let row = statuses.iter().position(|status| *status == "invalid_sample").unwrap();
     let said = scratch.prints(&format!("simulate thin.toml --sample {row}"), 2);
     assert!(said.contains("invalid_sample") && said.contains("body.parts.fuselage.wall_thickness_m"), "{said}");
+    // and `sample` says the same reason
+    let reason = said.lines().find(|line| line.starts_with("  ")).unwrap();
+    let said = scratch.prints(&format!("sample thin.toml --sample {row}"), 0);
+    assert!(said.contains(&format!("(its status would be invalid_sample):\n{reason}")), "{said}");
 
     scratch.file("short.toml", &campaign().replace("tolerance = 1e-10", "tolerance = 1e-10\nmax_steps = 1"));
     scratch.prints("campaign short.toml --samples 5 --out short", 1);
