@@ -58,9 +58,11 @@ impl Limit {
     #[inline]
     fn holds(&self, row: &[f64]) -> bool {
         let value = row[self.index];
-        // neither is a column that overflowed
-        let is_known = !value.is_nan() || self.scale.is_none_or(|scale| row[scale] == 0.0);
-        is_known && !(value >= self.limit)
+        if value.is_nan() {
+            // relative to something, it has overflowed
+            return self.scale.is_none_or(|scale| row[scale] == 0.0);
+        }
+        value < self.limit
     }
 }
 

@@ -111,7 +111,7 @@ mod tests {
         };
         let [turn, tilt] =
             ["rotation from nominal", "tilt of axis 3"].map(|what| format!("initial.attitude: {what} / deg"));
-        assert_eq!(names("[0, 0, 1]", "0.1"), [turn.clone()]);
+        assert_eq!(names("[0, 0, 1]", "0.1"), std::slice::from_ref(&turn));
         assert_eq!(names("[0, 1, 1]", "0.1"), [turn.clone(), tilt.clone()]);
         assert_eq!(names("[0, 1, 1]", "1e-7"), [turn, tilt], "small, and no rounding");
         assert!(names("[0, 0, 1]", "1e-12").is_empty());

@@ -159,8 +159,7 @@ fn what_no_requested_column_shows_is_told() {
     assert!(names(&format!("{both}{used}")).is_empty());
     assert_eq!(names(&dispersed("initial.position_m.z")), ["initial.position_m.z"]);
     // a value that is seldom drawn is found; what no draw changes, or only to what is not physical, is not called without effect
-    let seldom =
-        "[[disperse]]\nparameter = \"wheels.w1.radius_m\"\ndistribution = \"bernoulli\"\nvalue = 0.3\nprobability = 0.2\n";
+    let seldom = "[[disperse]]\nparameter = \"wheels.w1.radius_m\"\ndistribution = \"bernoulli\"\nvalue = 0.3\nprobability = 0.2\n";
     assert!(names(seldom).is_empty());
     assert!(names(&seldom.replace("0.2", "1e-9")).is_empty());
     assert!(names(&seldom.replace("0.3", "-1.0").replace("0.2", "0.9")).is_empty());
