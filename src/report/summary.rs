@@ -190,7 +190,8 @@ impl Display for Summary {
         let width = self.lines.iter().map(|line| line.name.len()).max().unwrap_or(0);
         let counted = if self.without_nominal { "dispersed samples" } else { "nominal sample" };
         if self.lines.iter().all(ObservableLine::is_empty) {
-            writeln!(f, "\n  no {} is ok: no statistics", if self.without_nominal { "dispersed run" } else { "run" })?;
+            let is_nominal_ok = self.statuses.iter().any(|(name, ended)| *name == ok && ended.count > 0);
+            writeln!(f, "\n  no {} is ok: no statistics", if is_nominal_ok { "dispersed run" } else { "run" })?;
         } else {
             write_table(f, &self.lines, counted, self.confidence)?;
             if self.intervals.starts_with("none") {

@@ -23,7 +23,7 @@ fn what_cannot_be_drawn_is_refused() {
         (
             "parameter = \"initial.velocity_m_s.x\"\ndistribution = \"cone\"\nhalf_angle_rad = 0.1\n".to_owned(),
             "parameter",
-            "as a whole",
+            "as a whole with distribution \"cone\"; write \"initial.velocity_m_s\", or",
         ),
         (
             "parameter = \"body.parts.fuselage.length_m\"\ndistribution = \"uniform_direction\"\n".to_owned(),

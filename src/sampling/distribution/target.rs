@@ -205,6 +205,8 @@ impl JointTarget<'_> {
         let is_vector = is_vector && (parameter.unit() != "1" || self.is_direction());
         match <[f64; 3]>::try_from(self.nominals) {
             Ok(nominal) if self.component.is_none() && is_vector => Ok(nominal),
+            // of a component of a vector, the vector is meant
+            _ if is_vector => self.misplaced("a vector (x, y, z)", distribution, &parameter.name()),
             _ => self.misplaced("a vector (x, y, z)", distribution, "initial.angular_velocity_rad_s"),
         }
     }
