@@ -143,7 +143,8 @@ fn cones_are_uniform_in_solid_angle() {
 fn axes_and_directions_are_drawn_in_cones() {
     let thruster = "[[thrusters]]\nname = \"a\"\nposition_m = [1, 0, 0]\ndirection = [0, 3, 4]\n\
         [[actuation]]\nname = \"burn\"\nstart_s = 0\nend_s = 1\nthrust_n = { a = 3 }\n";
-    let seen: [(&str, fn(&SceneInput) -> [f64; 3]); 2] = [
+    type Seen = fn(&SceneInput) -> [f64; 3];
+    let seen: [(&str, Seen); 2] = [
         ("wheels.w1.axis", |scene| scene.wheels[0].axis),
         ("thrusters.a.direction", |scene| scene.thrusters[scene.thrusters.len() - 1].direction),
     ];
