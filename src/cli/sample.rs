@@ -17,6 +17,9 @@ use crate::report::drawn_columns::DrawnColumns;
 use crate::report::drawn_figure::DrawnFigure;
 use crate::sampling::SampleId;
 
+/// Most numbers in a figure, which has some 100 bytes for each.
+const PLOTTED: u64 = 2_000_000;
+
 /// Runs the command.
 ///
 /// # Errors
@@ -62,7 +65,7 @@ pub fn run(options: &SampleOptions) -> Result<CommandOutcome, Failure> {
             return Err(Failure::Input(format!("{} has no dispersions: there is nothing to plot", plan.name)));
         }
         // sample 0 is the nominal scene, which is not dispersed
-        let dispersed = DrawnScenes::new(&plan, SampleId(1), plan.samples);
+        let dispersed = DrawnScenes::new(&plan, SampleId(1), plotted_samples(&plan));
         let shown = DrawnColumns::new(&plan, &dispersed);
         if shown.names.is_empty() {
             return Err(Failure::Input(format!(
@@ -72,8 +75,9 @@ pub fn run(options: &SampleOptions) -> Result<CommandOutcome, Failure> {
         }
         let figure = DrawnFigure {
             title: format!(
-                "{}, {} samples, {} design",
+                "{}, {}{} samples, {} design",
                 plan.name,
+                if dispersed.count() as u64 + 1 < plan.samples { "first " } else { "" },
                 dispersed.count(),
                 plan.design.name().replace('_', " ")
             ),
@@ -88,6 +92,12 @@ pub fn run(options: &SampleOptions) -> Result<CommandOutcome, Failure> {
         screen::note(&format!("{}: {numbers} number{of_numbers} of {samples} sample{of_samples}", path.display()));
     }
     Ok(CommandOutcome::Done)
+}
+
+/// How many dispersed samples a figure shows: the first ones, so that its memory is bounded.
+pub fn plotted_samples(plan: &Plan) -> u64 {
+    let columns = plan.dispersions.columns().len().max(1) as u64;
+    (PLOTTED / columns).min(plan.samples.saturating_sub(1))
 }
 
 /// The numbers that one sample applies.

@@ -9,6 +9,7 @@ use crate::campaign::limits::bytes_a_point;
 use crate::campaign::{Plan, Retention};
 use crate::cli::command_outcome::Failure;
 use crate::cli::machine::{free_disk, free_memory};
+use crate::cli::sample::plotted_samples;
 use crate::dataset::claim::Shard;
 use crate::dataset::found::{Contents, contents};
 use crate::dataset::rows_file::headings;
@@ -120,7 +121,7 @@ impl Workload {
         // numbers of CSV have some 20 characters; those of Parquet, and those of the mass properties, have fewer
         let disk = if has_table { samples * (columns + 9.0) * 20.0 } else { 0.0 };
         // the values, their ranks, and the points of the figure
-        let plotted = if has_plot { samples * columns * 100.0 } else { 0.0 };
+        let plotted = if has_plot { plotted_samples(plan) as f64 * columns * 100.0 } else { 0.0 };
         Workload {
             what: format!("{} of {}", count(samples, "sample"), plan.name),
             disk,

@@ -40,6 +40,10 @@ fn sample_holds_no_draws() {
     assert!(fs::read_to_string(scratch.0.join("said.txt")).unwrap().contains("of 499999 draws"));
     let written = peak(&scratch, &format!("sample {small} --samples 400000 --out s.parquet"));
     assert!(written < few + 40_000, "kB: {written}");
+    // a figure shows the first 100,000 samples, 2e6 numbers of some 100 bytes; all of them would take 1 GB
+    let plotted = peak(&scratch, &format!("sample {small} --samples 500000 --plot s.svg"));
+    assert!(plotted < few + 400_000, "kB: {plotted}");
+    assert!(fs::read_to_string(scratch.0.join("s.svg")).unwrap().contains("first "));
 }
 
 /// Law: the memory of a campaign does not grow with its samples, from where parts have their usual size: rows, bands and counts of parts are
