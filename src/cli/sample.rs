@@ -7,7 +7,7 @@ use crate::cli::arguments::SampleOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::input::plan_and_files;
 use crate::cli::outputs::refuse_inputs;
-use crate::cli::workload::Workload;
+use crate::cli::workload::{Workload, plotted_samples};
 use crate::cli::{dispersions, screen};
 use crate::dataset::drawn_table;
 use crate::dataset::table::{TableError, TableFormat};
@@ -16,9 +16,6 @@ use crate::report::canvas::{Canvas, PlotError, PlotFormat};
 use crate::report::drawn_columns::DrawnColumns;
 use crate::report::drawn_figure::DrawnFigure;
 use crate::sampling::SampleId;
-
-/// Most numbers in a figure, which has some 100 bytes for each.
-const PLOTTED: u64 = 2_000_000;
 
 /// Runs the command.
 ///
@@ -92,12 +89,6 @@ pub fn run(options: &SampleOptions) -> Result<CommandOutcome, Failure> {
         screen::note(&format!("{}: {numbers} number{of_numbers} of {samples} sample{of_samples}", path.display()));
     }
     Ok(CommandOutcome::Done)
-}
-
-/// How many dispersed samples a figure shows: the first ones, so that its memory is bounded.
-pub fn plotted_samples(plan: &Plan) -> u64 {
-    let columns = plan.dispersions.columns().len().max(1) as u64;
-    (PLOTTED / columns).min(plan.samples.saturating_sub(1))
 }
 
 /// The numbers that one sample applies.

@@ -9,7 +9,6 @@ use crate::campaign::limits::bytes_a_point;
 use crate::campaign::{Plan, Retention};
 use crate::cli::command_outcome::Failure;
 use crate::cli::machine::{free_disk, free_memory};
-use crate::cli::sample::plotted_samples;
 use crate::dataset::claim::Shard;
 use crate::dataset::found::{Contents, contents};
 use crate::dataset::rows_file::headings;
@@ -68,6 +67,15 @@ impl Free {
     fn of(root: &Path) -> Self {
         Free { disk: free_disk(root), memory: free_memory() }
     }
+}
+
+/// Most numbers in a figure, which has some 100 bytes for each.
+const PLOTTED: u64 = 2_000_000;
+
+/// How many dispersed samples of `plan` a figure shows: the first ones, so that its memory is bounded.
+pub fn plotted_samples(plan: &Plan) -> u64 {
+    let columns = plan.dispersions.columns().len().max(1) as u64;
+    (PLOTTED / columns).min(plan.samples.saturating_sub(1))
 }
 
 impl Workload {
