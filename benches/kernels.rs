@@ -128,8 +128,6 @@ fn chain<R: Real>(zero: R, run: &Gyrostat<f64>) -> f64 {
             y[ATTITUDE + i].set_lane(lane, run.q_eb[i]);
         }
     }
-    // as an engine has them: in memory, and not known to the compiler
-    let constants = black_box(constants);
     let moment = zero.splat(MOMENT);
     for _ in 0..EVALUATIONS {
         let rate = constants.derivative(zero, &y);

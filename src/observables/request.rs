@@ -185,7 +185,7 @@ mod tests {
         Request {
             groups: groups.iter().copied().collect(),
             debris,
-            actuated: Actuated::all_or_none(actuated),
+            actuated: if actuated { Actuated::ALL } else { Actuated::NONE },
             constrained,
             wheels: wheel_names(&["w1", "w2"]),
         }

@@ -120,7 +120,7 @@ mod tests {
             let request = Request {
                 groups: Groups::ALL,
                 debris,
-                actuated: Actuated::all_or_none(actuated),
+                actuated: if actuated { Actuated::ALL } else { Actuated::NONE },
                 constrained,
                 wheels: wheel_names(&["w1", "w2", "w3"]),
             };

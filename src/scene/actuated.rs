@@ -32,11 +32,6 @@ impl Actuated {
         }
     }
 
-    /// Everything, or nothing.
-    pub const fn all_or_none(acts: bool) -> Self {
-        if acts { Self::ALL } else { Self::NONE }
-    }
-
     /// Whether anything acts.
     pub const fn any(self) -> bool {
         self.thrusters || self.motors || self.body_torque

@@ -9,7 +9,7 @@ pub const EXACT: usize = 10_000;
 /// Values whose quantiles can be asked for; the answers do not depend on their order.
 #[derive(Clone, Debug, Default)]
 pub struct Spread {
-    /// All values, where there are at most [`EXACT`].
+    /// The first values: all of them, where they are at most [`EXACT`]; one more tells that there are more.
     values: Vec<f64>,
     sketch: Sketch,
 }

@@ -199,7 +199,7 @@ fn found_of(
     let request = Request {
         groups: [Group::Numerics].into_iter().collect(),
         debris: family.is_debris,
-        actuated: Actuated::all_or_none(!family.scenes[0].schedule.is_empty()),
+        actuated: if family.scenes[0].schedule.is_empty() { Actuated::NONE } else { Actuated::ALL },
         constrained: method == Method::NullSpace,
         wheels: wheel_names(&WHEELS[..widest.mass.wheels.len()]),
     };

@@ -110,7 +110,7 @@ fn errors_of(golden: &Golden, scene: &Scene, method: Method, grid: &Grid, run: &
     let request = Request {
         groups: Groups::ALL,
         debris: true,
-        actuated: Actuated::all_or_none(!scene.schedule.is_empty()),
+        actuated: if scene.schedule.is_empty() { Actuated::NONE } else { Actuated::ALL },
         constrained: method == Method::NullSpace,
         wheels: golden.scene.turning_wheels(),
     };

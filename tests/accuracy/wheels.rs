@@ -44,7 +44,7 @@ fn balances(scene: &Scene, grid: &Grid, run: &Run, actuated: bool) -> [f64; 2] {
     let request = Request {
         groups: Groups::ALL,
         debris: false,
-        actuated: Actuated::all_or_none(actuated),
+        actuated: if actuated { Actuated::ALL } else { Actuated::NONE },
         constrained: false,
         wheels: wheel_names(&WHEELS[..scene.mass.wheels.len()]),
     };

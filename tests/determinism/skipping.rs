@@ -150,7 +150,7 @@ fn groups_do_not_reach_each_other() {
             let request = Request {
                 groups,
                 debris: true,
-                actuated: Actuated::all_or_none(forced),
+                actuated: if forced { Actuated::ALL } else { Actuated::NONE },
                 constrained: false,
                 wheels: wheel_names(&WHEELS),
             };

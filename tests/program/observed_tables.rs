@@ -31,7 +31,7 @@ pub fn request(groups: Groups, debris: bool, actuated: bool) -> Request {
     Request {
         groups,
         debris,
-        actuated: Actuated::all_or_none(actuated),
+        actuated: if actuated { Actuated::ALL } else { Actuated::NONE },
         constrained: false,
         wheels: wheel_names(&["w1", "w2"]),
     }
