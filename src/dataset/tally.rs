@@ -275,6 +275,7 @@ mod tests {
     use super::*;
     use crate::campaign::{Overrides, Plan};
     use crate::math::Isa;
+    use crate::propagation::Method;
 
     /// The tally of parts whose rows are (status, error of energy), of a campaign of `samples` samples.
     fn tally(samples: u64, parts: &[&[(Status, f64)]]) -> Tally {
@@ -287,6 +288,8 @@ mod tests {
         let text = std::fs::read_to_string(path).unwrap();
         let overrides = Overrides { samples: Some(samples), audit_fraction: Some(0.5), ..Overrides::default() };
         let plan = Plan::from_text("spin_sweep", &text, overrides).unwrap();
+        // a method whose rows have all balances
+        let plan = Plan { method: Method::NullSpace, ..plan };
         let ensemble = Ensemble::new(&plan, Isa::best());
         let (mut tally, mut first) = (Tally::new(&ensemble), 0);
         let error = ensemble.request().position(balance).unwrap();

@@ -113,7 +113,7 @@ mod tests {
             groups: [Group::EnergyConservation, Group::MomentumConservation, Group::Numerics].into_iter().collect(),
             debris: true,
             actuated: Actuated::NONE,
-            constrained: false,
+            constrained: true,
             wheels: wheel_names(&[]),
         };
         let accuracy = Accuracy::new(&request);

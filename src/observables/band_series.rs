@@ -166,8 +166,9 @@ mod tests {
     use crate::scene::Actuated;
 
     fn names(groups: Groups, wheels: &[&str]) -> Vec<String> {
+        let thrusters = Actuated { thrusters: true, ..Actuated::NONE };
         let request =
-            Request { groups, debris: true, actuated: Actuated::NONE, constrained: false, wheels: wheel_names(wheels) };
+            Request { groups, debris: true, actuated: thrusters, constrained: false, wheels: wheel_names(wheels) };
         band_series(&request).iter().map(|band| band.quantity.name().to_owned()).collect()
     }
 

@@ -156,6 +156,8 @@ impl Request {
             Scenes::Motors => self.actuated.motors && !self.wheels.is_empty(),
             Scenes::Free => !self.actuated.any(),
             Scenes::Constrained => self.constrained,
+            Scenes::ConstrainedDebris => self.constrained && self.debris,
+            Scenes::IntegratedVelocity => self.constrained || self.actuated.thrusters,
             Scenes::Unconstrained => !self.constrained,
             Scenes::Wheels => !self.wheels.is_empty(),
             Scenes::SeveralWheels => self.wheels.len() > 1,
@@ -180,6 +182,10 @@ impl Request {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::observables::reduction::OrderStatistic;
+    use crate::observables::table::series_id;
+
+    const MAX: Reduction = Reduction::Order(OrderStatistic::Max);
 
     fn request(groups: &[Group], debris: bool, actuated: bool, constrained: bool) -> Request {
         Request {
@@ -287,6 +293,39 @@ mod tests {
         }
         let request = Request { wheels: wheel_names(&[]), ..request(&Group::DEFAULT, true, true, false) };
         assert!(request.columns().iter().all(|column| column.quantity.name() != "work_motors_final_j"), "no wheel");
+    }
+
+    /// Law: a linear momentum has an error where a velocity is integrated: of the spacecraft under thrust or with constraints, of the debris with
+    /// constraints. Elsewhere it would be zero in every row.
+    #[test]
+    fn linear_momentum_has_an_error_where_a_velocity_is_integrated() {
+        let none = Actuated::NONE;
+        let thrusters = Actuated { thrusters: true, ..none };
+        let others = Actuated { motors: true, body_torque: true, ..none };
+        let (own, debris) = ("linear_momentum_error", "debris_linear_momentum_error");
+        let cases: [(Actuated, bool, &[&str]); 5] = [
+            (none, false, &[]),
+            (others, false, &[]),
+            (thrusters, false, &[own]),
+            (none, true, &[own, debris]),
+            (thrusters, true, &[own, debris]),
+        ];
+        for (actuated, constrained, expected) in cases {
+            let request = Request { actuated, ..request(&Group::DEFAULT, true, false, constrained) };
+            for name in [own, debris] {
+                let is_expected = expected.contains(&name);
+                let columns = request.columns();
+                let of_error = |column: &&Column| {
+                    column.quantity.name().strip_prefix(name).is_some_and(|rest| rest.starts_with('_'))
+                };
+                assert_eq!(columns.iter().filter(of_error).count(), if is_expected { 4 } else { 0 }, "{request:?}");
+                let shown = request.series().into_iter().filter_map(|series| series.quantity(&request.wheels));
+                assert_eq!(shown.filter(|quantity| quantity.name() == name).count(), usize::from(is_expected));
+            }
+            assert!(
+                request.position(series_id(Group::MomentumConservation, Series::LinearMomentumSquare, MAX)).is_some()
+            );
+        }
     }
 
     /// Law: work and impulse are of what acts: no column, and no field, of a kind of actuation that a scene does not have.

@@ -32,6 +32,10 @@ pub(super) enum Scenes {
     Free,
     /// Integrated with constraints: the null-space method.
     Constrained,
+    /// With a debris body, integrated with constraints.
+    ConstrainedDebris,
+    /// With thrusters in the schedule, or integrated with constraints: elsewhere the velocity of c is constant, not integrated.
+    IntegratedVelocity,
     /// Integrated without constraints.
     Unconstrained,
     /// With wheels that turn.

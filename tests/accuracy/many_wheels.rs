@@ -68,8 +68,10 @@ fn balances(input: &SceneInput, scene: &Scene, grid: &Grid, method: Method, run:
     let columns = request.columns();
     let mut row = vec![0.0; columns.len()];
     observer.observe(Isa::best(), scene, &run.table, &run.outcome, &mut row);
-    ["energy_error_max", "linear_momentum_error_max", "angular_momentum_error_max"]
-        .map(|name| row[columns.iter().position(|column| column.quantity.name() == name).expect("a column")])
+    let value = |name: &str| columns.iter().position(|column| column.quantity.name() == name).map(|index| row[index]);
+    // a velocity that nobody integrates has no error
+    let linear = value("linear_momentum_error_max").unwrap_or(0.0);
+    [value("energy_error_max").expect("a column"), linear, value("angular_momentum_error_max").expect("a column")]
 }
 
 /// What a method is off by in one scene, over what it may be.

@@ -132,7 +132,7 @@ fn bands_are_the_quantiles_of_the_runs() {
     let points = plan.grid.evenly(9);
     assert_eq!(points, [0, 13, 25, 38, 50, 63, 75, 88, 100]);
     let bands = merged(&files(&plan, 2));
-    assert_eq!(bands.layout().series.len(), 16);
+    assert_eq!(bands.layout().series.len(), 15);
     let mut exact = exact(&plan, &points);
     let runs = exact["energy_error"].len() as u64 - 1;
     assert!(runs < SAMPLES - 100, "some samples are impossible: {runs} runs");

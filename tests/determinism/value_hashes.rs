@@ -86,14 +86,34 @@ fn hashes(parts: &[RecordBatch]) -> BTreeMap<String, String> {
     names.enumerate().map(hash).filter(|(name, _)| !OF_THE_MACHINE.contains(&name.as_str())).collect()
 }
 
-/// What a column of `rows` zeros, or of as many nulls, has for a hash.
-fn of_nothing(rows: usize) -> [String; 2] {
-    let (mut zeros, mut nulls) = (Fnv::new(), Fnv::new());
-    for _ in 0..rows {
-        zeros.add(&0.0_f64.to_bits().to_le_bytes());
-        nulls.add(b"null");
-    }
-    [zeros.text(), nulls.text()]
+/// What a column without values has for a hash: zeros, nulls, or zeros in the `audited` rows and nulls in the others.
+fn of_nothing(audited: &[bool]) -> [String; 3] {
+    let of = |is_zero: &dyn Fn(bool) -> bool| {
+        let mut hash = Fnv::new();
+        for audited in audited {
+            hash.add(if is_zero(*audited) { &[0; 8] } else { b"null" });
+        }
+        hash.text()
+    };
+    [of(&|_| true), of(&|_| false), of(&|audited| audited)]
+}
+
+/// Which rows of the parts of a result are audited.
+fn audited(parts: &[RecordBatch]) -> Vec<bool> {
+    let of_part = |part: &RecordBatch| {
+        let audit = part.column_by_name("audit_omega_error").cloned();
+        (0..part.num_rows()).map(|row| audit.as_ref().is_some_and(|audit| audit.is_valid(row))).collect::<Vec<_>>()
+    };
+    parts.iter().flat_map(of_part).collect()
+}
+
+/// The rows of a campaign.
+struct Found {
+    rows: usize,
+    /// The hash of each column.
+    columns: BTreeMap<String, String>,
+    /// Those of columns without values.
+    nothing: [String; 3],
 }
 
 fn shipped() -> Vec<PathBuf> {
@@ -104,8 +124,8 @@ fn shipped() -> Vec<PathBuf> {
     files
 }
 
-/// Runs a campaign; its rows, column by column.
-fn run(scratch: &ScratchFolder, file: &Path) -> (usize, BTreeMap<String, String>) {
+/// Runs a campaign.
+fn run(scratch: &ScratchFolder, file: &Path) -> Found {
     let name = file.file_stem().unwrap().to_string_lossy().into_owned();
     let text = fs::read_to_string(file).unwrap();
     let samples = if text.contains("kind = \"table\"") { String::new() } else { format!("--samples {SAMPLES}") };
@@ -118,7 +138,8 @@ fn run(scratch: &ScratchFolder, file: &Path) -> (usize, BTreeMap<String, String>
         fs::read_dir(folder.join("runs")).unwrap().map(|entry| entry.unwrap().path()).collect();
     files.sort();
     let parts: Vec<RecordBatch> = files.iter().flat_map(|file| crate::support::scratch_folder::batches(file)).collect();
-    (parts.iter().map(RecordBatch::num_rows).sum(), hashes(&parts))
+    let audited = audited(&parts);
+    Found { rows: audited.len(), columns: hashes(&parts), nothing: of_nothing(&audited) }
 }
 
 /// What differs between the committed hashes and those of now.
@@ -126,9 +147,8 @@ fn differences(
     campaign: &str,
     then: &BTreeMap<String, String>,
     now: &BTreeMap<String, String>,
-    rows: usize,
+    nothing: &[String; 3],
 ) -> Vec<String> {
-    let nothing = of_nothing(rows);
     let mut wrong = Vec::new();
     for (name, hash) in then {
         match now.get(name) {
@@ -145,25 +165,27 @@ fn differences(
 fn shipped_campaigns_keep_their_bits() {
     let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/value_hashes.json");
     let scratch = ScratchFolder::new("value-hashes");
-    let now: BTreeMap<String, (usize, BTreeMap<String, String>)> = shipped()
+    let now: BTreeMap<String, Found> = shipped()
         .iter()
         .map(|file| (file.file_stem().unwrap().to_string_lossy().into_owned(), run(&scratch, file)))
         .collect();
     if std::env::var_os("SPINDRIFT_WRITE_HASHES").is_some() {
-        fs::write(&golden, serde_json::to_string_pretty(&now).unwrap() + "\n").unwrap();
+        let written: BTreeMap<&String, (usize, &BTreeMap<String, String>)> =
+            now.iter().map(|(name, found)| (name, (found.rows, &found.columns))).collect();
+        fs::write(&golden, serde_json::to_string_pretty(&written).unwrap() + "\n").unwrap();
     }
     let then: BTreeMap<String, (usize, BTreeMap<String, String>)> =
         serde_json::from_str(&fs::read_to_string(&golden).unwrap()).unwrap();
     let mut wrong = Vec::new();
     for (campaign, (rows, columns)) in &then {
-        let Some((count, found)) = now.get(campaign) else {
+        let Some(found) = now.get(campaign) else {
             wrong.push(format!("{campaign} is no longer shipped"));
             continue;
         };
-        if count != rows {
-            wrong.push(format!("{campaign}: {count} rows, not {rows}"));
+        if found.rows != *rows {
+            wrong.push(format!("{campaign}: {} rows, not {rows}", found.rows));
         }
-        wrong.extend(differences(campaign, columns, found, *rows));
+        wrong.extend(differences(campaign, columns, &found.columns, &found.nothing));
     }
     assert!(wrong.is_empty(), "{} differences:\n{}", wrong.len(), wrong.join("\n"));
     assert!(then.len() >= 18, "every campaign that was shipped then: {}", then.len());
@@ -175,10 +197,15 @@ fn a_changed_value_is_seen() {
     let table = |entries: &[(&str, &str)]| -> BTreeMap<String, String> {
         entries.iter().map(|(name, hash)| ((*name).to_owned(), (*hash).to_owned())).collect()
     };
-    let [zeros, nulls] = of_nothing(3);
-    let then = table(&[("a", "01"), ("b", "02"), ("debris_x", &zeros), ("debris_y", &nulls)]);
-    assert_eq!(differences("c", &then, &table(&[("a", "01"), ("b", "02"), ("new", "03")]), 3), [""; 0]);
-    assert_eq!(differences("c", &then, &table(&[("a", "01"), ("b", "03")]), 3).len(), 1);
-    assert_eq!(differences("c", &then, &table(&[("a", "01")]), 3).len(), 1);
-    assert_eq!(differences("c", &then, &table(&[("a", "01"), ("b", "02")]), 4).len(), 2, "zeros of another length");
+    let audited = [true, false, true];
+    let nothing = of_nothing(&audited);
+    let [zeros, nulls, audited_zeros] = &nothing;
+    let then = table(&[("a", "01"), ("b", "02"), ("debris_x", zeros), ("debris_y", nulls), ("audit_x", audited_zeros)]);
+    assert_eq!(differences("c", &then, &table(&[("a", "01"), ("b", "02"), ("new", "03")]), &nothing), [""; 0]);
+    assert_eq!(differences("c", &then, &table(&[("a", "01"), ("b", "03")]), &nothing).len(), 1);
+    assert_eq!(differences("c", &then, &table(&[("a", "01")]), &nothing).len(), 1);
+    let lost =
+        |audited: &[bool]| differences("c", &then, &table(&[("a", "01"), ("b", "02")]), &of_nothing(audited)).len();
+    assert_eq!(lost(&[true; 4]), 3, "zeros of another length");
+    assert_eq!(lost(&[false, true, true]), 1, "zeros of other rows");
 }

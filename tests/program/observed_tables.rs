@@ -7,7 +7,7 @@ use spindrift::math::Isa;
 use spindrift::math::vector::{cross, dcm_from_quaternion, product, sum};
 use spindrift::observables::nominal_attitude::NominalAttitude;
 use spindrift::observables::request::wheel_names;
-use spindrift::observables::{Groups, Observer, Request};
+use spindrift::observables::{Group, Groups, Observer, Request};
 use spindrift::run::{Grid, StateField, StateFields, StateTable};
 use spindrift::run::{LocalErrors, Outcome, Status, StepStatistics};
 use spindrift::scene::{Actuated, Scene};
@@ -35,6 +35,12 @@ pub fn request(groups: Groups, debris: bool, actuated: bool) -> Request {
         constrained: false,
         wheels: wheel_names(&["w1", "w2"]),
     }
+}
+
+/// The balances of a scene whose velocities are integrated: those of the null-space method, which has errors of linear momentum.
+pub fn request_of_balances(debris: bool) -> Request {
+    let groups = [Group::EnergyConservation, Group::MomentumConservation].into_iter().collect();
+    Request { constrained: true, ..request(groups, debris, false) }
 }
 
 /// A run that ended as planned.

@@ -103,7 +103,7 @@ fn the_summary_is_that_of_the_files() {
         assert_eq!(line["max"].as_f64(), values.last().copied(), "{name}");
     }
 
-    let errors = ["energy_error_max", "linear_momentum_error_max", "angular_momentum_error_max"].map(column);
+    let errors = ["energy_error_max", "angular_momentum_error_max"].map(column);
     let mut worst: Vec<(f64, u64)> = (1..1500)
         .filter(|row| errors[0][*row].1 == "ok")
         .map(|row| (errors.iter().filter_map(|column| column[row].2).fold(0.0, f64::max), row as u64))

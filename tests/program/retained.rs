@@ -174,7 +174,7 @@ fn a_campaign_ends_with_bands() {
     });
     assert!(files[0] == files[1]);
     let bands = &batches(&scratch.path("r1/bands.parquet"))[0];
-    assert_eq!(bands.num_rows(), 11 * 11, "eleven quantities at the eleven points of the grid");
+    assert_eq!(bands.num_rows(), 10 * 11, "ten quantities at the eleven points of the grid");
     let file = SerializedFileReader::new(fs::File::open(scratch.path("r1/bands.parquet")).unwrap()).unwrap();
     let metadata = file.metadata().file_metadata().key_value_metadata().unwrap();
     let error = metadata.iter().find(|pair| pair.key == "spindrift.bands.relative_error").unwrap();
