@@ -224,16 +224,21 @@ impl Figure {
                         .map_err(drawing)?;
                     let share = |of: f64, range: &Range<f64>| range.start + of * (range.end - range.start);
                     let shift = |range: &Range<f64>| 0.01 * (range.end - range.start);
-                    // above the line, and below it at the upper edge of the panel
+                    // right of the line, and left of it where the panel ends before the name does; above the line, and below it at the
+                    // upper edge of the panel
+                    let width = (LEGEND_LETTER * label.chars().count() as u32) as f64 / f64::from(SIZE.0);
+                    let fits = at < share(0.97 - width, &x.range);
+                    let beside = at + if fits { shift(&x.range) } else { -shift(&x.range) };
+                    let turn = if *vertical && !fits { HPos::Right } else { HPos::Left };
                     let (place, side) = if *vertical {
-                        ((at + shift(&x.range), share(0.98, &y.range)), VPos::Top)
+                        ((beside, share(0.98, &y.range)), VPos::Top)
                     } else if at < share(0.93, &y.range) {
                         ((share(0.01, &x.range), at + shift(&y.range)), VPos::Bottom)
                     } else {
                         ((share(0.01, &x.range), at - shift(&y.range)), VPos::Top)
                     };
                     let font = ("sans-serif", 12 * scale).into_font().color(&grey);
-                    let style = font.pos(Pos::new(HPos::Left, side));
+                    let style = font.pos(Pos::new(turn, side));
                     chart.draw_series(std::iter::once(Text::new(label.clone(), place, style))).map_err(drawing)?;
                 }
             }
@@ -400,7 +405,8 @@ mod tests {
         };
         for unit in [1.0, 1e6, 1e-15] {
             let limits = [0.0, 8.0 * unit].map(|at| Mark::Limit { label: "tolerance".to_owned(), at, vertical: false });
-            let marks = limits.into_iter().chain([line(unit)]).collect();
+            let across = [0.0, 7.9, 8.0].map(|at| Mark::Limit { label: "nominal".to_owned(), at, vertical: true });
+            let marks = limits.into_iter().chain(across).chain([line(unit)]).collect();
             let drawn = figure(Axis::linear("time", "s"), Axis::linear("relative error of the energy", "J"), marks);
             let (pixels, (width, height)) = (drawn.pixels().unwrap(), drawn.size());
             let is_white = |x: u32, y: u32| pixels[((y * width + x) * 3) as usize..][..3] == [255; 3];

@@ -22,20 +22,22 @@ pub fn header(plan: &Plan) -> String {
     } else {
         format!("{} dispersed runs and the nominal one", grouped(dispersed))
     };
-    let step = plan.step_s.map_or(String::new(), |step| format!(", step {} s", number(step)));
+    let steps = match plan.step_s {
+        Some(step) => format!("steps of {} s", number(step)),
+        None => format!("tolerance {}", number(plan.tolerance.relative)),
+    };
     let hash = plan.hash();
     let question = plan
         .description
         .as_deref()
         .map_or(String::new(), |text| format!("<p class=\"question\">{}</p>", escaped(&sentence(text))));
     format!(
-        "<h1>{}</h1>{question}\n<p class=\"facts\">{runs} \u{b7} design {} \u{b7} seed {} \u{b7} {} s each \u{b7} method {}, tolerance {}{step} \u{b7} spindrift {} \u{b7} plan <button type=\"button\" class=\"hash\" data-copy=\"{hash}\" title=\"Copy the whole hash\">{}</button></p>\n",
+        "<h1>{}</h1>{question}\n<p class=\"facts\">{runs} \u{b7} design {} \u{b7} seed {} \u{b7} {} s each \u{b7} method {}, {steps} \u{b7} spindrift {} \u{b7} plan <button type=\"button\" class=\"hash\" data-copy=\"{hash}\" title=\"Copy the whole hash\">{}</button></p>\n",
         escaped(&plan.name),
         escaped(plan.design.name()),
         plan.seed,
         number(plan.grid.duration()),
         escaped(plan.method.name()),
-        number(plan.tolerance.relative),
         env!("CARGO_PKG_VERSION"),
         &hash[..8],
     )

@@ -83,7 +83,7 @@ impl Page {
         let wheels = ensemble.request().wheels.to_vec();
         let curves = Curves::new(nominal, &contents.bands, &wheels);
         let mut figures = curves.figures();
-        figures.extend(curves.drift(plan.tolerance.relative));
+        figures.extend(curves.drift((!plan.method.has_fixed_step()).then_some(plan.tolerance.relative)));
         figures.extend(errors::figures(survey, has_intervals));
         figures.extend(influence::figures(plan, survey, &contents.influences));
         figures.extend(inputs::figures(plan, survey));

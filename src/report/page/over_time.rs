@@ -268,8 +268,8 @@ impl<'a> Curves<'a> {
         [transfer, phase].into_iter().chain(spectrum(&times, &body)).collect()
     }
 
-    /// Drift of the balances over time: relative errors, with the tolerance and the rounding of doubles.
-    pub fn drift(&self, tolerance: f64) -> Vec<Figure> {
+    /// Drift of the balances over time: relative errors, with the tolerance, of a method that follows one, and the rounding of doubles.
+    pub fn drift(&self, tolerance: Option<f64>) -> Vec<Figure> {
         let energy = [(Series::EnergyError, "", Hue::Body)];
         let momenta = [
             (Series::AngularMomentumError, "angular", Hue::Wheel(0)),
@@ -287,20 +287,21 @@ impl<'a> Curves<'a> {
             let largest = marks.iter().map(Mark::largest).fold(0.0, f64::max);
             // a limit far beyond the data would flatten them; it is in the caption
             let is_rounding = largest < ROUNDING;
-            let shown = if is_rounding || tolerance <= FAR * largest { tolerance.max(largest) } else { largest };
+            let scale = tolerance.unwrap_or(ROUNDING);
+            let shown = if is_rounding || scale <= FAR * largest { scale.max(largest) } else { largest };
             let is_signed = list.iter().all(|(series, ..)| *series == Series::EnergyError);
             // curves beyond the rounding of a double would cover its name, which is in the caption
             let rounding = if largest <= f64::EPSILON { "rounding of a double" } else { "" };
-            for (label, at) in
-                [(format!("tolerance {tolerance:e}"), tolerance), (rounding.to_owned(), f64::EPSILON / 2.0)]
-            {
+            let of_step = tolerance.map(|tolerance| (format!("tolerance {tolerance:e}"), tolerance));
+            for (label, at) in of_step.into_iter().chain([(rounding.to_owned(), f64::EPSILON / 2.0)]) {
                 marks.push(Mark::Limit { label, at, vertical: false });
                 if is_signed {
                     marks.push(Mark::Limit { label: String::new(), at: -at, vertical: false });
                 }
             }
+            let of_step = tolerance.map_or(String::new(), |tolerance| format!("Tolerance of a step: {tolerance:e}; "));
             let caption = format!(
-                "{what}, relative to the largest. {} Tolerance of a step: {tolerance:e}; rounding of a double: 1.1e-16.",
+                "{what}, relative to the largest. {} {of_step}rounding of a double: 1.1e-16.",
                 self.caption(&self.name(list[0].0).0)
             );
             let axis = Axis::linear("relative error", "");
