@@ -12,14 +12,13 @@
 //! - [`plan`]: defaults filled in, scene and dispersions checked against each other. - [`chosen`], `plan_rows`: which samples are its rows.
 //! - `units`: units in values. `old_format`: files of the format before 0.2, and their new text.
 //! - [`notes`]: what is allowed and probably not meant. [`plausibility`], `positions`: numbers that look like a mistake; `digits`: how they are written.
-//! - `draw_tables`: the tables of draws with their places in the file. `after_the_end`: dispersions that act after the end of a run only.
+//! - `draw_tables`: the tables of draws with their places in the file. `without_effect`: dispersions that change no run.
 //! - [`mod@draw`]: from a plan and the number of a sample to its scene.
 //! - [`canonical`], [`canonical_draws`], `lines`: the plan as text that reads back to the same plan, and its hash.
 //! - [`difference`]: the keys in which two plans differ. - [`mod@find`]: which file a name means.
 //!
 //! Not here: what is physical ([`crate::scene`]) and what can be drawn ([`crate::sampling`]); their errors get lines here.
 
-mod after_the_end;
 pub mod analysis;
 pub mod bands;
 pub mod canonical;
@@ -63,6 +62,7 @@ pub mod size;
 pub mod spec;
 pub mod stop;
 mod units;
+mod without_effect;
 
 pub use analysis::Analysis;
 pub use compression::Compression;

@@ -1,7 +1,6 @@
 //! [`Plan`]: what will run. Defaults are filled in, scene and dispersions are checked; a row is a pure function of the plan and
 //! a sample's id.
 
-use super::after_the_end;
 use super::analysis::Analysis;
 use super::bands;
 use super::chosen::Chosen;
@@ -16,6 +15,7 @@ use super::problem::{CampaignError, Problem};
 use super::retention::Retention;
 use super::size;
 use super::spec::Spec;
+use super::without_effect;
 use crate::observables::{Group, Request};
 use crate::ode::Tolerance;
 use crate::propagation::Method;
@@ -287,7 +287,7 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
     };
 
     if let (Some(duration), Some(dispersions)) = (spec.duration_s, &dispersions) {
-        after_the_end::refuse(duration, &spec.scene, &drawn, dispersions, document);
+        without_effect::refuse(duration, &spec.scene, &drawn, dispersions, document);
     }
 
     let mut groups = spec.groups.unwrap_or_else(|| Group::DEFAULT.to_vec());

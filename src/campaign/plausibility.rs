@@ -5,11 +5,11 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::after_the_end::earliest_arcs;
 use super::digits::digits;
 use super::draw::SceneDraws;
 use super::plan::Plan;
 use super::positions;
+use super::without_effect::earliest_arcs;
 use crate::sampling::SampleId;
 use crate::sampling::distribution::attitude_error::AttitudeError;
 use crate::sampling::distribution::{Nested, Quantile, WrittenDistribution};

@@ -158,14 +158,16 @@ impl Dispersions {
         }
     }
 
-    /// The smallest value of a column among all draws of any campaign; `None` where it is not known: of several numbers together and
-    /// of derived ones.
-    pub fn smallest_of(&self, column: usize) -> Option<f64> {
+    /// The smallest and the largest value of a column among all draws of any campaign; `None` where they are not known: of several numbers
+    /// together and of derived ones.
+    pub fn range_of(&self, column: usize) -> Option<[f64; 2]> {
         if let Some((_, values)) = self.tabled.iter().find(|(tabled, _)| *tabled == column) {
-            return values.iter().copied().reduce(f64::min);
+            let end = |of: fn(f64, f64) -> f64| values.iter().copied().reduce(of);
+            return Some([end(f64::min)?, end(f64::max)?]);
         }
+        let first = 1.0 / MAX_SAMPLES as f64;
         match self.distribution_of(column) {
-            Some(Transform::Scalar(distribution)) => Some(distribution.quantile(1.0 / MAX_SAMPLES as f64)),
+            Some(Transform::Scalar(distribution)) => Some([first, 1.0 - first].map(|u| distribution.quantile(u))),
             _ => None,
         }
     }
@@ -270,7 +272,7 @@ impl Dispersions {
                 }
             }
             let columns = components.iter().map(|component| self.add_column(*component, nominal)).collect();
-            self.assigned.push(Assigned { first, columns, map });
+            self.assigned.push(Assigned { table: index, first, columns, map });
         }
         Ok(())
     }
@@ -343,6 +345,7 @@ fn fitting_samples(design: &Design, samples: Option<u64>, drawn: &Dispersions) -
     let dimensions =
         Dimensions { seed: drawn.seed, samples: samples.unwrap_or(1), names: &drawn.dimensions, factors: &factors };
     design.check(dimensions, samples)?;
+    idle::check_levels(design, &drawn.dimensions, &drawn.assigned, drawn.columns())?;
     match (samples, design.size(count)) {
         (None, Size::Points(points)) if points < MAX_SAMPLES => Ok(points + 1),
         (None, Size::Points(_) | Size::TooMany) => {

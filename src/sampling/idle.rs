@@ -1,8 +1,11 @@
-//! Refuses a distribution that gives the nominal value in every draw, and so changes nothing.
+//! Refuses a distribution that gives the nominal value in every draw, and so changes nothing: by itself, or at the only level that its design
+//! has of it.
 
+use super::columns::Column;
+use super::design::Design;
 use super::distribution::{Joint, Map, Quantile};
-use super::error::{DispersionError, error};
-use super::transform::Transform;
+use super::error::{DispersionError, Table, error, error_of};
+use super::transform::{Assigned, Transform};
 use crate::scene::{Parameter, SceneInput};
 
 /// The smallest and the largest u that a design gives, and two between.
@@ -27,6 +30,33 @@ pub(super) fn check(
     let allowed = format!("such that draws differ from the nominal value: every draw is {value}");
     let remedy = "make it wider (its width is zero, or below the rounding of the nominal value), or delete this table";
     Err(error(index, "distribution", format!("{name:?}"), allowed, remedy))
+}
+
+/// Checks that no `[[disperse]]` table has a single level in `design`, and there the nominal values; `assigned` are what they assign to `columns`,
+/// `dimensions` the names of the random dimensions.
+pub(super) fn check_levels(
+    design: &Design,
+    dimensions: &[String],
+    assigned: &[Assigned],
+    columns: &[Column],
+) -> Result<(), DispersionError> {
+    let is_idle = |assigned: &Assigned| {
+        let taken = assigned.first..assigned.first + assigned.map.dimensions();
+        let levels: Option<Vec<f64>> = taken.map(|dimension| design.only_number(dimension)).collect();
+        let Some(levels) = levels.filter(|levels| !levels.is_empty()) else { return false };
+        let mut values = vec![0.0; assigned.columns.len()];
+        match &assigned.map {
+            Transform::Scalar(distribution) => values[0] = distribution.quantile(levels[0]),
+            Transform::Joint(joint) => joint.values(&levels, &mut values),
+        }
+        assigned.columns.iter().zip(values).all(|(column, value)| columns[*column].nominal == value)
+    };
+    let of_table = |table: usize| assigned.iter().filter(move |other| other.table == table);
+    let Some(idle) = assigned.iter().find(|one| of_table(one.table).all(is_idle)) else { return Ok(()) };
+    let name = &dimensions[idle.first];
+    let allowed = format!("a design that changes {name}: there is one level of it, which is its nominal value");
+    let remedy = format!("ask for two levels or more of {name}, or delete its [[disperse]] table");
+    Err(error_of(Table::Design, "kind", format!("{:?}", design.name()), allowed, remedy))
 }
 
 /// Whether every draw of `map` is the `nominals`, the values of its components.

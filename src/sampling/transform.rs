@@ -5,6 +5,8 @@ use super::distribution::{Distribution, Joint, Map, Quantile};
 /// A distribution with the numbers u that it takes, and the columns that it writes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Assigned {
+    /// The index of the `[[disperse]]` table that it is from.
+    pub table: usize,
     /// Its first dimension; it takes as many as its distribution needs, one after the other.
     pub first: usize,
     /// The columns that it writes, in the order of the distribution's values.

@@ -116,20 +116,19 @@ impl Parameter {
         let has = self.key.read(scene, self.instance()).is_some();
         has && self.key.acts(scene, self.instance(), component)
             && !self.is_idle_part(scene)
-            && !self.is_idle_switch(scene)
+            && self.switches(scene).is_none_or(|arcs| !arcs.is_empty())
     }
 
-    /// Whether it is the delay of a switch that its arc does not have, or no arc.
-    fn is_idle_switch(self, scene: &SceneInput) -> bool {
-        let switches = match self.facts().key {
+    /// The commands of the schedule whose start it moves, where it is a delay of starts, or whose end, where it is one of ends; `None` where it is
+    /// neither.
+    pub fn switches(self, scene: &SceneInput) -> Option<Vec<usize>> {
+        let is_switched = match self.facts().key {
             "switch_on_delay_s" => switches_on,
             "switch_off_delay_s" => switches_off,
-            _ => return false,
+            _ => return None,
         };
-        match self.key.table {
-            Table::ArcErrors => !switches(scene, self.instance()),
-            _ => !(0..scene.actuation.len()).any(|arc| switches(scene, arc)),
-        }
+        let is_own = |arc: &usize| self.key.table != Table::ArcErrors || *arc == self.instance();
+        Some((0..scene.actuation.len()).filter(is_own).filter(|arc| is_switched(scene, *arc)).collect())
     }
 
     /// Whether it is of a part, and has no effect: keys of the body as a whole override all that it gives, or the part looks the same from

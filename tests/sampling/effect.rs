@@ -83,6 +83,96 @@ fn arcs_count_with_their_earliest_start_and_end() {
     plan(&format!("{}{unbounded}", arc(0.09))).expect_err("nine are not");
 }
 
+/// Law: what a scale of zero takes away in every draw is not dispersed; a scale that is dispersed itself, or a bias, leaves something.
+#[test]
+fn what_a_scale_of_zero_takes_away_is_refused() {
+    let with = |keys: &[(&str, &str)], parameters: &[&str]| {
+        let head = HEAD.replace("DURATION", "1.0");
+        let mut scene = [&head, FUSELAGE, WHEEL1_AT_REST, &THRUSTERS.concat(), INITIAL, &arc(0.0)].concat();
+        for (place, key) in keys {
+            assert_eq!(scene.matches(place).count(), 1, "{place}");
+            scene = scene.replace(place, &format!("{place}\n{key}"));
+        }
+        let tables: String = parameters.iter().map(|parameter| dispersed(parameter)).collect();
+        Plan::from_text("test.toml", &(scene + &tables), Overrides::default()).map(|_| ()).map_err(|e| e.to_string())
+    };
+    let (p3, w1, arc) = ("name = \"p3\"", "name = \"w1\"", "torque_n_m = { w1 = 1 }");
+    let no_thrust = "thrust_scale = 0.0";
+    let no_torque = "torque_scale = 0.0";
+    let refused: &[(&[(&str, &str)], &[&str])] = &[
+        (&[(p3, no_thrust)], &["thrusters.p3.tilt_rad[0]"]),
+        (&[(p3, no_thrust)], &["thrusters.p3.position_m"]),
+        (&[(arc, no_thrust)], &["thrusters.p3.thrust_scale"]),
+        (&[(arc, no_thrust), (arc, no_torque)], &["actuators.switch_on_delay_s"]),
+        (&[(w1, no_torque)], &["actuation.0.torque_scale"]),
+        (&[(w1, "torque_scale = 0.0\ntorque_bias_n_m = 0.1")], &["actuation.0.torque_scale"]),
+        (&[(arc, no_torque)], &["wheels.w1.torque_bias_n_m"]),
+    ];
+    for (keys, parameters) in refused {
+        let refused = with(keys, parameters).expect_err(parameters[0]);
+        let said = refused.contains("disperse[0].parameter") && refused.contains("a scale of 0 takes away");
+        assert!(said, "{keys:?} {parameters:?}: {refused}");
+    }
+    let accepted: &[(&[(&str, &str)], &[&str])] = &[
+        (&[(p3, no_thrust)], &["thrusters.p3.thrust_scale", "thrusters.p3.tilt_rad[0]"]),
+        (&[(p3, no_thrust)], &["thrusters.p1.tilt_rad[0]", "actuators.switch_on_delay_s", "actuation.0.thrust_scale"]),
+        (&[(arc, no_thrust)], &["thrusters.p3.thrust_scale", "actuation.0.thrust_scale"]),
+        (&[(arc, no_thrust)], &["actuators.switch_on_delay_s"]),
+        (&[(w1, no_torque)], &["wheels.w1.torque_bias_n_m"]),
+        (&[(w1, no_torque)], &["wheels.w1.torque_scale", "actuation.0.torque_scale"]),
+    ];
+    for (keys, parameters) in accepted {
+        with(keys, parameters).unwrap_or_else(|error| panic!("{keys:?} {parameters:?}: {error}"));
+    }
+}
+
+/// Law: a delay that leaves the start of its arcs at that of the run in every draw is refused.
+#[test]
+fn a_delay_before_the_start_is_refused() {
+    let delay = |min: f64, max: f64| {
+        dispersed("actuators.switch_on_delay_s").replace("half_width = 0.01", &format!("min = {min:?}\nmax = {max:?}"))
+    };
+    let refused = plan(&format!("{}{}", arc(0.0), delay(-0.2, 0.0))).expect_err("never after the start");
+    assert!(refused.contains("start with the run, in every draw"), "{refused}");
+    plan(&format!("{}{}", arc(0.0), delay(-0.2, 0.01))).expect("late in some draws");
+    plan(&format!("{}{}", arc(0.1), delay(-0.2, -0.05))).expect("early in some draws");
+    plan(&format!("{}{}", arc(0.1), delay(-0.3, -0.2))).expect("late in the nominal scene");
+    plan(&format!("{}{}{}", arc(0.0), arc(1.0), delay(-0.2, -0.1))).expect("another arc starts within the run");
+    plan(&format!("{}{}{}", arc(0.0), arc(1.5), delay(-0.2, -0.1))).expect_err("another arc starts after it");
+    let of_arc = |index: usize| delay(-0.2, -0.1).replace("actuators", &format!("actuation.{index}"));
+    plan(&format!("{}{}{}", arc(0.0), arc(1.0), of_arc(0))).expect_err("of the first arc");
+    plan(&format!("{}{}{}", arc(0.0), arc(1.0), of_arc(1))).expect("of the second arc");
+}
+
+/// Law: a design with one level of a parameter, which is its nominal value, is refused; another level is a value of its own.
+#[test]
+fn one_level_that_is_nominal_is_refused() {
+    let radius = dispersed("wheels.w1.radius_m");
+    let moved = radius.replace("half_width = 0.01", "min = 0.2\nmax = 0.4");
+    let rates = dispersed("initial.angular_velocity_rad_s").replace("uniform", "normal").replace("half_width", "std");
+    let head = HEAD.replace("DURATION", "1.0").replace("samples = 9\n", "");
+    let with = |design: &str, tables: &[&str]| {
+        let text = [&head, FUSELAGE, WHEEL1_AT_REST, INITIAL, "[design]\n", design, "\n"].concat() + &tables.concat();
+        Plan::from_text("test.toml", &text, Overrides::default()).map(|_| ()).map_err(|error| error.to_string())
+    };
+    for kind in ["grid", "one_at_a_time"] {
+        let with = |levels: &str, tables: &[&str]| with(&format!("kind = {kind:?}\n{levels}"), tables);
+        for (levels, tables) in [
+            ("levels = 1", &[&radius[..]][..]),
+            ("levels = [3, 1, 3, 1]", &[&rates, &radius]),
+            ("quantiles = [0.5]", &[&radius]),
+            ("quantiles = [0.5, 0.5]", &[&radius]),
+        ] {
+            let refused = with(levels, tables).expect_err(levels);
+            assert!(refused.contains("design.kind") && refused.contains("which is its nominal value"), "{refused}");
+        }
+        with("levels = 1", &[&moved]).expect("another value than the nominal one");
+        with("quantiles = [0.25]", &[&radius]).expect("another value than the nominal one");
+        with("levels = 2", &[&radius, &rates]).expect("two levels");
+        with("levels = [1, 3, 1]", &[&rates]).expect("a component of the vector has levels");
+    }
+}
+
 /// Law: a dispersion that gives the nominal value in every draw is refused, one that gives another value in every draw is not.
 #[test]
 fn a_distribution_without_width_is_refused() {

@@ -76,6 +76,11 @@ macro_rules! designs {
                 match self { $( Self::$Name(kind) => kind.incomplete(dimensions, points), )* }
             }
 
+            /// See [`Kind::only_number`].
+            pub fn only_number(&self, dimension: usize) -> Option<f64> {
+                match self { $( Self::$Name(kind) => kind.only_number(dimension), )* }
+            }
+
             /// See [`Kind::HAS_REPLICATES`].
             pub fn has_replicates(&self) -> bool {
                 match self { $( Self::$Name(_) => <$Kind as Kind>::HAS_REPLICATES, )* }

@@ -78,6 +78,10 @@ impl Kind for OneAtATimeDesign {
         (0..dimensions).filter(|k| (1..self.0.count(*k)).contains(&levels_seen(*k))).collect()
     }
 
+    fn only_number(&self, dimension: usize) -> Option<f64> {
+        self.0.only_level(dimension)
+    }
+
     fn check(&self, dimensions: Dimensions<'_>, _samples: Option<u64>) -> Result<(), DispersionError> {
         self.0.check(dimensions.names.len())
     }

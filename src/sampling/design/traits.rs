@@ -78,6 +78,11 @@ pub trait Kind: Clone + Debug + PartialEq {
         Vec::new()
     }
 
+    /// The number that a dimension has in every point where it is not nominal, if it has only one.
+    fn only_number(&self, _dimension: usize) -> Option<f64> {
+        None
+    }
+
     /// How many designs of the kind it consists of.
     fn replicates(&self) -> u64 {
         1
