@@ -8,14 +8,14 @@ use crate::propagation::Method;
 use crate::run::Quantity;
 use crate::scene::{Actuated, Parameter, SceneInput};
 
-/// The observables of campaigns with these groups, this scene and this method.
-pub fn request(groups: &[Group], nominal: &SceneInput, method: Method) -> Request {
+/// The observables of campaigns with these groups and this method; `acting` is the nominal scene with the commands that act in a run.
+pub fn request(groups: &[Group], acting: &SceneInput, method: Method) -> Request {
     Request {
         groups: groups.iter().copied().collect(),
-        debris: nominal.debris.is_some(),
-        actuated: Actuated::of(nominal),
+        debris: acting.debris.is_some(),
+        actuated: Actuated::of(acting),
         constrained: method == Method::NullSpace,
-        wheels: nominal.turning_wheels(),
+        wheels: acting.turning_wheels(),
     }
 }
 

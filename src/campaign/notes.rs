@@ -8,6 +8,9 @@ impl Plan {
     /// What about this plan a person should know before it is run, one sentence each.
     pub fn notes(&self) -> Vec<String> {
         let mut notes = Vec::new();
+        if self.samples > 1 && self.dispersions.columns().is_empty() {
+            notes.push(format!("nothing is dispersed: all {} samples are the nominal scene", self.samples));
+        }
         notes.extend(self.part_of_a_design());
         for replaced in self.dispersions.replaced_correlations() {
             notes.push(format!(

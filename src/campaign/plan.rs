@@ -15,7 +15,7 @@ use super::problem::{CampaignError, Problem};
 use super::retention::Retention;
 use super::size;
 use super::spec::Spec;
-use super::without_effect;
+use super::without_effect::{self, acting_scene};
 use crate::observables::{Group, Request};
 use crate::ode::Tolerance;
 use crate::propagation::Method;
@@ -168,7 +168,17 @@ impl Plan {
 
     /// The observables that it requests.
     pub fn request(&self) -> Request {
-        request(&self.groups, &self.nominal, self.method)
+        self.request_over(self.grid.duration())
+    }
+
+    /// The nominal scene with the commands that act in a run, in it or in any draw.
+    pub fn acting_scene(&self) -> SceneInput {
+        acting_scene(self.grid.duration(), &self.nominal, &self.dispersions)
+    }
+
+    /// The observables that it requests of runs of `duration` seconds, which decides which commands of the schedule act.
+    pub fn request_over(&self, duration: f64) -> Request {
+        request(&self.groups, &acting_scene(duration, &self.nominal, &self.dispersions), self.method)
     }
 
     /// The same of a file in `folder`, from which the paths in the text count.
@@ -295,7 +305,8 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
     let points = spec.points.unwrap_or(POINTS);
     let band_points = bands::resolve(spec.band_points, points, document);
     let dispersions = dispersions?;
-    let known = KnownColumns::new(request(&groups, &spec.scene, method));
+    let acting = acting_scene(spec.duration_s?, &spec.scene, &dispersions);
+    let known = KnownColumns::new(request(&groups, &acting, method));
     let design = spec.design.as_ref().unwrap_or(&Design::DEFAULT);
     let grid = Grid::uniform(spec.duration_s?, usize::try_from(points).ok()?);
     let band_times: Vec<f64> =

@@ -8,7 +8,7 @@ use super::document::Document;
 use super::draw_tables::DrawTables;
 use crate::sampling::Dispersions;
 use crate::scene::schedule::applied;
-use crate::scene::{Parameter, SceneInput};
+use crate::scene::{ActuationInput, Parameter, SceneInput};
 
 const SWITCH_ON: &str = "switch_on_delay_s";
 const SWITCH_OFF: &str = "switch_off_delay_s";
@@ -122,6 +122,17 @@ fn with_acting_commands(scene: &SceneInput, dispersions: &Dispersions, with_bias
             if arc.errors.torque_scale == 0.0 || wheel.torque_scale == 0.0 && !has_bias {
                 *torque = 0.0;
             }
+        }
+    }
+    acting
+}
+
+/// The scene with the commands that act in a run of `duration` seconds, in it or in any draw; its scales are not those of the scene.
+pub(super) fn acting_scene(duration: f64, scene: &SceneInput, dispersions: &Dispersions) -> SceneInput {
+    let mut acting = with_acting_commands(scene, dispersions, true);
+    for (arc, [start, _]) in acting.actuation.iter_mut().zip(earliest_arcs(scene, dispersions)) {
+        if start >= duration {
+            *arc = ActuationInput::idle(arc.start_s, arc.end_s);
         }
     }
     acting

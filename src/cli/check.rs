@@ -18,7 +18,7 @@ use crate::report::number::{bytes, short};
 use crate::run::StateField;
 use crate::sampling::SampleId;
 use crate::scene::mass::{Body, Wheel};
-use crate::scene::{Actuated, MassProperties, Scene, SceneInput, WheelMode};
+use crate::scene::{ActuationInput, MassProperties, Scene, SceneInput, WheelMode};
 
 /// Runs the command.
 ///
@@ -38,7 +38,7 @@ pub fn run(options: &CheckOptions) -> Result<CommandOutcome, Failure> {
         dispersions::table(&mut text, &plan)?;
         let unseen = without_effect(&plan, ensemble.isa()).unwrap_or_default();
         let unseen = unseen.iter().map(|parameter| {
-            format!("{parameter} does not affect any requested column (observe.groups), in the nominal scene")
+            format!("{parameter} does not affect any requested column (observe.groups), in the samples that were tried")
         });
         let notes: Vec<String> = plan.notes().into_iter().chain(plan.implausible()).chain(unseen).collect();
         if !notes.is_empty() {
@@ -127,16 +127,20 @@ fn computed(text: &mut String, ensemble: &Ensemble<'_>) -> std::fmt::Result {
             None => writeln!(text, "{name:<44} not computed: no requested observable needs it")?,
         }
     }
-    let (scene, propagator) = (&ensemble.plan().nominal, ensemble.propagator());
+    let scene = &ensemble.plan().nominal;
+    let acting = ensemble.plan().acting_scene();
+    let acts = |commands: fn(&ActuationInput) -> &[f64]| {
+        acting.actuation.iter().flat_map(commands).any(|command| *command != 0.0)
+    };
     let is_held = scene.wheels.iter().any(|wheel| wheel.mode == WheelMode::SpeedHeld);
     for (term, exists, scheduled, held) in [
-        ("thrust", !scene.thrusters.is_empty(), Actuated::of(scene).thrusters, false),
-        ("wheel motors", !scene.turning_wheels().is_empty(), propagator.motors, is_held),
+        ("thrust", !scene.thrusters.is_empty(), acts(|arc| &arc.thrust_n), false),
+        ("wheel motors", !scene.turning_wheels().is_empty(), acts(|arc| &arc.torque_n_m), is_held),
     ] {
         let why = match (scheduled, held) {
             (true, _) => "needed because of the schedule",
             (_, true) => "needed because they hold the speed of wheels",
-            _ => "not computed: not in the schedule",
+            _ => "not computed: no command of the schedule acts",
         };
         if exists {
             writeln!(text, "{term:<44} {why}")?;

@@ -17,7 +17,7 @@ const DRAWS: u64 = 10_000;
 /// # Errors
 /// What writing to `text` returns.
 pub fn table(text: &mut String, plan: &Plan) -> std::fmt::Result {
-    let drawn = DrawnScenes::new(plan, SampleId(1), DRAWS);
+    let drawn = DrawnScenes::spread(plan, DRAWS);
     let mut percentiles = Percentiles::new(plan);
     percentiles.add(&drawn);
     table_of(text, plan, &percentiles)

@@ -3,6 +3,8 @@
 use crate::campaign::{Plan, SceneDraws};
 use crate::math::symmetric::principal_axes;
 use crate::sampling::SampleId;
+use crate::sampling::design::Size;
+use crate::sampling::design::hash::mix;
 use crate::scene::Scene;
 use crate::scene::magnitude::Magnitude;
 use crate::statistics::correlation::{matrix, mid_ranks, standardised};
@@ -76,6 +78,24 @@ impl DrawnScenes {
         drawn
     }
 
+    /// Draws `count` dispersed samples of `plan`: the first ones, or those of a design with points of its own, as a grid, from all over it (one
+    /// at a pseudo-random place in each of `count` equal parts).
+    pub fn spread(plan: &Plan, count: u64) -> Self {
+        let dispersed = plan.samples.saturating_sub(1);
+        let has_points = plan.design.size(plan.dispersions.dimensions().len()) != Size::Any;
+        if !has_points || dispersed <= count {
+            return Self::new(plan, SampleId(1), count);
+        }
+        let place = |part: u64| {
+            let width = dispersed as f64 / count as f64;
+            let within = mix(part) as f64 / (u64::MAX as f64);
+            1 + (((part as f64 + within) * width) as u64).min(dispersed - 1)
+        };
+        let mut drawn = DrawnScenes::empty(plan, false);
+        drawn.draw(plan, &mut SceneDraws::new(plan), (0..count).map(place));
+        drawn
+    }
+
     /// Draws all samples of `plan`, at most [`CHUNK`] at a time, and shows them to `seen`; with their mass properties if `with_mass`.
     ///
     /// # Errors
@@ -100,8 +120,9 @@ impl DrawnScenes {
     }
 
     /// Draws `samples` in place of what is there.
-    fn draw(&mut self, plan: &Plan, draws: &mut SceneDraws<'_>, samples: std::ops::Range<u64>) {
-        self.first = SampleId(samples.start);
+    fn draw(&mut self, plan: &Plan, draws: &mut SceneDraws<'_>, samples: impl Iterator<Item = u64>) {
+        let mut samples = samples.peekable();
+        self.first = SampleId(samples.peek().copied().unwrap_or(0));
         self.physical.clear();
         self.columns.iter_mut().chain(&mut self.mass).chain(&mut self.magnitudes).for_each(Vec::clear);
         let magnitudes = magnitudes(plan);

@@ -1,5 +1,5 @@
-//! [`without_effect`]: which dispersed parameters change no requested column, found by running the nominal scene with one parameter changed at
-//! a time. What follows from the equations (a position changes no energy of rotation) need not be listed anywhere.
+//! [`without_effect`]: which dispersed parameters change no requested column, found by running the nominal scene and some samples with one
+//! parameter changed at a time. What follows from the equations (a position changes no energy of rotation) need not be listed anywhere.
 
 use std::time::Instant;
 
@@ -9,16 +9,14 @@ use crate::math::Isa;
 use crate::sampling::{Design, Dispersions, Draws, SampleId};
 use crate::scene::{Parameter, Scene};
 
-/// Values of each parameter that are tried.
-const TRIED: usize = 3;
-/// Samples that are drawn to find values other than the nominal one, which a discrete distribution gives seldom.
+/// Samples that are drawn to find those that are tried.
 const DRAWN: u64 = 1000;
 /// Nothing is found out where that would take longer, s.
 const LONGEST_S: f64 = 5.0;
 
-/// The names of the dispersed parameters of `plan`, or of their dispersed components, that leave every requested column of the nominal run as it is,
-/// bit for bit, when they change. Inputs of derived parameters have an effect; what no draw changes is not judged. `None` where the runs would take
-/// too long, or the nominal scene cannot be run.
+/// The names of the dispersed parameters of `plan`, or of their dispersed components, that leave every requested column as it is, bit for bit, when
+/// they change: alone from the nominal scene to their values of some samples, and back in these samples. Inputs of derived parameters have an
+/// effect; what no draw changes is not judged. `None` where the runs would take too long, or the nominal scene cannot be run.
 pub fn without_effect(plan: &Plan, isa: Isa) -> Option<Vec<String>> {
     let columns = plan.dispersions.columns();
     let mut parameters: Vec<Parameter> = columns.iter().map(|column| column.parameter).collect();
@@ -32,50 +30,67 @@ pub fn without_effect(plan: &Plan, isa: Isa) -> Option<Vec<String>> {
         .collect();
     parameters.retain(|parameter| !inputs.contains(parameter));
     let start = Instant::now();
-    let nominal = row(plan, isa)?;
-    if start.elapsed().as_secs_f64() * parameters.len() as f64 * TRIED as f64 > LONGEST_S {
+    let nominal = row_with(plan, isa, &[], &|_| false)?;
+    let tried = extreme_samples(plan, &parameters);
+    let runs = 3 * tried.iter().map(Vec::len).sum::<usize>();
+    if start.elapsed().as_secs_f64() * runs as f64 > LONGEST_S {
         return None;
     }
-    let values = changed_values(plan, &parameters);
-    let is_seen = |parameter: &Parameter, values: &[f64]| {
-        let mut changed = plan.clone();
-        for (column, value) in columns.iter().zip(values).filter(|(column, _)| column.parameter == *parameter) {
-            parameter.set(&mut changed.nominal, column.component, *value);
-        }
-        let none =
-            Draws { seed: 0, samples: Some(1), design: &Design::DEFAULT, disperse: &[], correlate: &[], derive: &[] };
-        let Ok(dispersions) = Dispersions::new(none, &changed.nominal) else { return true };
-        changed.dispersions = dispersions;
-        // a value that makes the scene unphysical has an effect
-        Scene::resolve(&changed.nominal).is_err() || row(&changed, isa).is_none_or(|row| row != nominal)
-    };
-    let unseen = parameters
-        .iter()
-        .zip(&values)
-        .filter(|(parameter, tried)| !tried.is_empty() && !tried.iter().any(|values| is_seen(parameter, values)));
+    let unseen = parameters.iter().zip(&tried).filter(|(parameter, samples)| {
+        let is_seen = |applied: &Vec<f64>| is_seen(plan, isa, **parameter, applied, &nominal);
+        !samples.is_empty() && !samples.iter().any(is_seen)
+    });
     Some(unseen.map(|(parameter, _)| dispersed_name(plan, *parameter)).collect())
 }
 
-/// For each of `parameters` the applied values of the first samples that change it.
-fn changed_values(plan: &Plan, parameters: &[Parameter]) -> Vec<Vec<Vec<f64>>> {
+/// Whether a row differs where `parameter` has its values among `applied`, those of a sample, in place of the nominal ones: in the nominal scene,
+/// whose row is `nominal`, or in that sample. A value that makes a scene unphysical has an effect.
+fn is_seen(plan: &Plan, isa: Isa, parameter: Parameter, applied: &[f64], nominal: &[u64]) -> bool {
+    let row_with = |is_applied: &dyn Fn(Parameter) -> bool| row_with(plan, isa, applied, is_applied);
+    row_with(&|other| other == parameter).is_none_or(|row| row != nominal)
+        || row_with(&|_| true).is_some_and(|row| row_with(&|other| other != parameter).is_none_or(|other| other != row))
+}
+
+/// The bits of the requested columns of the nominal scene with those parameters that are applied at their values among `applied`; `None` where it
+/// is not physical.
+fn row_with(plan: &Plan, isa: Isa, applied: &[f64], is_applied: &dyn Fn(Parameter) -> bool) -> Option<Vec<u64>> {
+    let mut changed = plan.clone();
+    for (column, value) in plan.dispersions.columns().iter().zip(applied).filter(|(c, _)| is_applied(c.parameter)) {
+        column.parameter.set(&mut changed.nominal, column.component, *value);
+    }
+    let none =
+        Draws { seed: 0, samples: Some(1), design: &Design::DEFAULT, disperse: &[], correlate: &[], derive: &[] };
+    changed.dispersions = Dispersions::new(none, &changed.nominal).ok()?;
+    Scene::resolve(&changed.nominal).ok()?;
+    let run = SingleRun::new(&changed, SampleId(0), plan.grid.clone(), isa).ok()?;
+    Some(run.row.iter().map(|value| value.to_bits()).collect())
+}
+
+/// For each of `parameters` the applied values of those of the first samples in which one of its columns is largest or smallest, and is not
+/// nominal.
+fn extreme_samples(plan: &Plan, parameters: &[Parameter]) -> Vec<Vec<Vec<f64>>> {
     let columns = plan.dispersions.columns();
     let mut draws = SceneDraws::new(plan);
-    let mut values: Vec<Vec<Vec<f64>>> = vec![Vec::new(); parameters.len()];
-    for sample in 1..plan.samples.min(DRAWN + 1) {
-        if values.iter().all(|tried| tried.len() >= TRIED) {
-            break;
-        }
-        // a sample that is not physical as a whole may be so with one of its values
+    // a sample that is not physical as a whole may be so with one of its values
+    let draw = |sample: u64| {
         let _ = draws.scene(SampleId(sample));
-        let applied = draws.applied();
-        for (parameter, tried) in parameters.iter().zip(&mut values).filter(|(_, tried)| tried.len() < TRIED) {
-            let mut of_parameter = columns.iter().zip(applied).filter(|(column, _)| column.parameter == *parameter);
-            if of_parameter.any(|(column, value)| *value != column.nominal) {
-                tried.push(applied.to_vec());
-            }
-        }
-    }
-    values
+        draws.applied().to_vec()
+    };
+    let drawn: Vec<Vec<f64>> = (1..plan.samples.min(DRAWN + 1)).map(draw).collect();
+    let of_parameter = |parameter: &Parameter| {
+        let own = columns.iter().enumerate().filter(|(_, column)| column.parameter == *parameter);
+        let extremes = own.flat_map(|(index, column)| {
+            let value = |sample: &usize| drawn[*sample][index];
+            let changed = || (0..drawn.len()).filter(|sample| value(sample) != column.nominal);
+            let by_value = |a: &usize, b: &usize| value(a).total_cmp(&value(b));
+            [changed().min_by(by_value), changed().max_by(by_value)]
+        });
+        let mut samples: Vec<usize> = extremes.flatten().collect();
+        samples.sort_unstable();
+        samples.dedup();
+        samples.into_iter().map(|sample| drawn[sample].clone()).collect()
+    };
+    parameters.iter().map(of_parameter).collect()
 }
 
 /// The name of a parameter; of its dispersed components, where only some are dispersed.
@@ -83,10 +98,4 @@ fn dispersed_name(plan: &Plan, parameter: Parameter) -> String {
     let columns = plan.dispersions.columns().iter().filter(|column| column.parameter == parameter);
     let names: Vec<String> = columns.map(|column| parameter.component_name(column.component)).collect();
     if names.len() == parameter.width() { parameter.name() } else { names.join(", ") }
-}
-
-/// The bits of the requested columns of the nominal run.
-fn row(plan: &Plan, isa: Isa) -> Option<Vec<u64>> {
-    let run = SingleRun::new(plan, SampleId(0), plan.grid.clone(), isa).ok()?;
-    Some(run.row.iter().map(|value| value.to_bits()).collect())
 }

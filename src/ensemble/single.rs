@@ -10,7 +10,7 @@ use rayon::ThreadPoolBuilder;
 
 use crate::campaign::{Plan, SceneDraws};
 use crate::ensemble::runner::RunError;
-use crate::ensemble::settings::{nominal_attitude, propagator, request};
+use crate::ensemble::settings::{nominal_attitude, propagator};
 use crate::math::Isa;
 use crate::observables::{Group, Observer, Request, Series};
 use crate::propagation::{CompletedRun, Engine};
@@ -89,7 +89,7 @@ impl<'p> SingleRuns<'p> {
 
     /// The same with the series of the groups `groups`.
     pub fn with_series(plan: &'p Plan, grid: Grid, isa: Isa, groups: &[Group]) -> Self {
-        let request = request(plan);
+        let request = plan.request_over(grid.duration());
         let shown = Request { groups: groups.iter().copied().collect(), ..request };
         let fields = states(&request).union(shown.fields()).union(request.fields());
         let nominal = |request: &Request| nominal_attitude(plan, request, &grid, isa);

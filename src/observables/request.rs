@@ -156,6 +156,7 @@ impl Request {
             Scenes::Motors => self.actuated.motors && !self.wheels.is_empty(),
             Scenes::Free => !self.actuated.any(),
             Scenes::Constrained => self.constrained,
+            Scenes::ConstrainedBodies => self.constrained && (self.debris || !self.wheels.is_empty()),
             Scenes::ConstrainedDebris => self.constrained && self.debris,
             Scenes::IntegratedVelocity => self.constrained || self.actuated.thrusters,
             Scenes::Unconstrained => !self.constrained,

@@ -32,6 +32,8 @@ pub(super) enum Scenes {
     Free,
     /// Integrated with constraints: the null-space method.
     Constrained,
+    /// Integrated with constraints between several bodies: wheels that turn, or debris.
+    ConstrainedBodies,
     /// With a debris body, integrated with constraints.
     ConstrainedDebris,
     /// With thrusters in the schedule, or integrated with constraints: elsewhere the velocity of c is constant, not integrated.

@@ -99,6 +99,7 @@ impl Dispersions {
         for column in draws.design.columns() {
             errors.extend(these.add_tabled(column, nominal).err());
         }
+        errors.extend(these.check_rows().err());
         // the rest says nothing new where distributions are missing
         if errors.is_empty() {
             let scalar = |component| match these.distribution_at(component) {
@@ -117,6 +118,9 @@ impl Dispersions {
             let (list, wrong) = derived(draws.derive, &mut these.columns, is_drawn, nominal);
             these.derived = list;
             errors.extend(wrong);
+            let others: Vec<usize> = these.tabled.iter().map(|(column, _)| *column).collect();
+            let others = [others, these.derived.iter().map(|derived| derived.column).collect()].concat();
+            errors.extend(idle::check_lengths(&these.assigned, &others, these.columns.list(), nominal).err());
             match fitting_samples(draws.design, draws.samples, &these) {
                 Ok(samples) => these.samples = samples,
                 Err(error) => errors.push(error),
@@ -245,6 +249,19 @@ impl Dispersions {
         Ok(())
     }
 
+    /// That the design's file has a value other than the nominal one.
+    fn check_rows(&self) -> Result<(), DispersionError> {
+        let is_nominal = |(column, values): &(usize, Arc<[f64]>)| {
+            values.iter().all(|value| *value == self.columns.list()[*column].nominal)
+        };
+        if self.tabled.is_empty() || !self.tabled.iter().all(is_nominal) {
+            return Ok(());
+        }
+        let name = format!("{:?}", self.design.name());
+        let allowed = "a file with a value other than the nominal one in any row";
+        Err(error_of(Table::Design, "kind", name, allowed, "write other values, or another design"))
+    }
+
     fn add(&mut self, index: usize, dispersion: &Dispersion, nominal: &SceneInput) -> Result<(), DispersionError> {
         let Dispersion { parameter, component, distribution } = dispersion;
         let components = dispersion.components();
@@ -350,7 +367,7 @@ fn fitting_samples(design: &Design, samples: Option<u64>, drawn: &Dispersions) -
         (None, Size::Points(points)) if points < MAX_SAMPLES => Ok(points + 1),
         (None, Size::Points(_) | Size::TooMany) => {
             let allowed = format!("a design of at most {MAX_SAMPLES} samples");
-            refused(Table::Design, "levels", name.to_owned(), allowed, "write fewer levels")
+            refused(Table::Design, "kind", format!("{name:?}"), allowed, "write fewer levels")
         }
         // where none is written and none follows, the file is at fault, and its reader says so
         (None, Size::Any) => Ok(1),

@@ -6,6 +6,7 @@ use super::design::Design;
 use super::distribution::{Joint, Map, Quantile};
 use super::error::{DispersionError, Table, error, error_of};
 use super::transform::{Assigned, Transform};
+use crate::scene::parameter::Shape;
 use crate::scene::{Parameter, SceneInput};
 
 /// The smallest and the largest u that a design gives, and two between.
@@ -32,6 +33,37 @@ pub(super) fn check(
     Err(error(index, "distribution", format!("{name:?}"), allowed, remedy))
 }
 
+/// Checks that what is drawn of an attitude or a direction is not its length alone, which has no effect: a single component of a vector whose
+/// others are zero. `assigned` and the columns `others` (of files and expressions) are what `columns` are drawn from.
+pub(super) fn check_lengths(
+    assigned: &[Assigned],
+    others: &[usize],
+    columns: &[Column],
+    nominal: &SceneInput,
+) -> Result<(), DispersionError> {
+    let is_varied =
+        |one: &Assigned| !is_idle(&one.map, &one.columns.iter().map(|c| columns[*c].nominal).collect::<Vec<_>>());
+    let varied: Vec<&Assigned> = assigned.iter().filter(|one| is_varied(one)).collect();
+    for one in &varied {
+        let (Transform::Scalar(distribution), [column]) = (&one.map, &one.columns[..]) else { continue };
+        let Column { parameter, component, nominal: value } = columns[*column];
+        let is_own = |other: &usize| *other != *column && columns[*other].parameter == parameter;
+        let has_others = varied.iter().flat_map(|other| &other.columns).chain(others).any(is_own);
+        let is_zero = |other: usize| other == component || parameter.value(nominal, other) == Some(0.0);
+        let is_along = parameter.has_free_length() && !has_others && (0..parameter.width()).all(is_zero);
+        let ends = [U[0], U[3]].map(|u| distribution.quantile(u));
+        let keeps_sign = parameter.shape() == Shape::Quaternion || ends.iter().all(|end| end * value > 0.0);
+        if is_along && keeps_sign {
+            let name = format!("{:?}", parameter.component_name(component));
+            let allowed =
+                "a key with an effect: the other components are 0, and the length of this vector is divided out";
+            let remedy = "disperse another component too, or the vector as a whole, or delete this table";
+            return Err(error(one.table, "parameter", name, allowed.to_owned(), remedy));
+        }
+    }
+    Ok(())
+}
+
 /// Checks that no `[[disperse]]` table has a single level in `design`, and there the nominal values; `assigned` are what they assign to `columns`,
 /// `dimensions` the names of the random dimensions.
 pub(super) fn check_levels(
@@ -49,7 +81,12 @@ pub(super) fn check_levels(
             Transform::Scalar(distribution) => values[0] = distribution.quantile(levels[0]),
             Transform::Joint(joint) => joint.values(&levels, &mut values),
         }
-        assigned.columns.iter().zip(values).all(|(column, value)| columns[*column].nominal == value)
+        // a median of distribution functions may be off by their rounding
+        let is_nominal = |(column, value): (&usize, f64)| {
+            let nominal = columns[*column].nominal;
+            (value - nominal).abs() <= 4.0 * f64::EPSILON * nominal.abs()
+        };
+        assigned.columns.iter().zip(values).all(is_nominal)
     };
     let of_table = |table: usize| assigned.iter().filter(move |other| other.table == table);
     let Some(idle) = assigned.iter().find(|one| of_table(one.table).all(is_idle)) else { return Ok(()) };

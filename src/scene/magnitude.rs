@@ -49,8 +49,12 @@ impl Magnitude {
         let read = |scene: &SceneInput, component| self.parameter.value(scene, component).unwrap_or(f64::NAN);
         match self.kind {
             Kind::Norm => {
-                let squares = (0..self.parameter.width()).map(|component| read(scene, component)).map(|x| x * x);
-                squares.sum::<f64>().sqrt()
+                let values = || (0..self.parameter.width()).map(|component| read(scene, component));
+                let norm = |scale: f64| scale * values().map(|x| (x / scale) * (x / scale)).sum::<f64>().sqrt();
+                let plain = norm(1.0);
+                let largest = values().map(f64::abs).fold(0.0, f64::max);
+                // squares may overflow where the length does not
+                if plain == f64::INFINITY && largest.is_finite() { norm(largest) } else { plain }
             }
             Kind::Angle => {
                 let attitude =
@@ -77,6 +81,8 @@ mod tests {
         let rate = magnitude(&nominal, "initial.angular_velocity_rad_s").expect("a rate");
         let scene = nominal.clone().with("initial.angular_velocity_rad_s", &[2.0, -3.0, 6.0]);
         assert_eq!((rate.value(&scene, &nominal), rate.value(&nominal, &nominal)), (7.0, 0.0));
+        let large = nominal.clone().with("initial.angular_velocity_rad_s", &[3e200, 0.0, -4e200]);
+        assert!((rate.value(&large, &nominal) / 5e200 - 1.0).abs() < 1e-15);
         let tilt = magnitude(&nominal, "wheels.w1.tilt_rad").expect("an alignment error");
         assert_eq!(tilt.value(&nominal.clone().with("wheels.w1.tilt_rad", &[0.3, 0.4]), &nominal), 0.5);
         let attitude = magnitude(&nominal, "initial.attitude").expect("an attitude");

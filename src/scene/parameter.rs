@@ -8,7 +8,7 @@ use super::input::SceneInput;
 use super::name::Name;
 use super::schedule::{switches_off, switches_on};
 pub use super::schema::Shape;
-use super::schema::{Facts, MassErrors, PartShape};
+use super::schema::{Facts, Limit, MassErrors, PartShape};
 use super::table::{Key, Table};
 use super::unit_quaternion::{is_unit, unit_quaternion};
 
@@ -203,6 +203,11 @@ impl Parameter {
             }
             _ => numbers[component] = value,
         }
+    }
+
+    /// Whether the length of the vector has no effect: of an attitude, an axis of a wheel, a direction of a thruster.
+    pub fn has_free_length(self) -> bool {
+        self.shape() == Shape::Quaternion || self.facts().limit == Limit::Direction
     }
 
     /// Whether it is the attitude of a body at time zero.

@@ -32,7 +32,7 @@ fn hash(scratch: &ScratchFolder, result: &str, below: &[&str]) -> String {
 fn threads_and_shards_change_no_byte() {
     let scratch = folder("threads-shards");
     // some samples are not physical, and some runs are audited and kept
-    let rest = "\n[audit]\nfraction = 0.003\n[retain]\ntrajectories = \"worst:3 by energy_error_max\"\n";
+    let rest = "\n[audit]\nfraction = 0.001\n[retain]\ntrajectories = \"worst:3 by energy_error_max\"\n";
     scratch.file("all.toml", &[&campaign().replace("samples = 600", "samples = 3600"), NEGATIVE_WALLS, rest].concat());
     let rows = ["runs", "statistics.parquet"];
     let hashes = |result: &str| [hash(&scratch, result, &rows), hash(&scratch, result, &[""])];

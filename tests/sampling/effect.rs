@@ -173,6 +173,69 @@ fn one_level_that_is_nominal_is_refused() {
     }
 }
 
+/// Law: what changes the length of an attitude or a direction alone changes nothing, and is refused.
+#[test]
+fn a_length_without_effect_is_refused() {
+    let normal = |parameter: &str, keys: &str| {
+        format!("[[disperse]]\nparameter = {parameter:?}\ndistribution = \"normal\"\n{keys}\n")
+    };
+    let (w, x) = (normal("initial.attitude.w", "std = 0.01"), normal("initial.attitude.x", "std = 0.01"));
+    // p1 pushes along s3
+    let along = |spread: &str| arc(0.0) + &normal("thrusters.p1.direction", spread);
+    let z = arc(0.0) + &dispersed("thrusters.p1.direction.z");
+    for text in [&w, &z, &along("std = [0, 0, 0.01]"), &along("relative_std = [0.01, 0.01, 0.01]")] {
+        let refused = plan(text).expect_err(text);
+        assert!(
+            refused.contains("disperse[0].parameter") && refused.contains("the other components are 0"),
+            "{refused}"
+        );
+    }
+    let turned = z.replace("half_width = 0.01", "min = -1.0\nmax = -0.5");
+    for text in [&(w + &x), &x, &along("std = [0, 0.01, 0.01]"), &turned] {
+        plan(text).unwrap_or_else(|error| panic!("{text}: {error}"));
+    }
+}
+
+/// Law: a file of samples that has the nominal value in every row is refused.
+#[test]
+fn rows_that_are_nominal_are_refused() {
+    let scratch = crate::support::scratch_folder::ScratchFolder::new("nominal-rows");
+    let head = HEAD.replace("DURATION", "1.0").replace("samples = 9\n", "");
+    let design = "[design]\nkind = \"table\"\nfile = \"rows.csv\"\nparameters = [\"wheels.w1.radius_m\"]\n";
+    let text = [&head, FUSELAGE, WHEEL1_AT_REST, INITIAL, design].concat();
+    let with = |rows: &str| {
+        std::fs::write(scratch.0.join("rows.csv"), rows).unwrap();
+        Plan::from_text_in(&scratch.0, "test.toml", &text, Overrides::default()).map(|_| ()).map_err(|e| e.to_string())
+    };
+    with("wheels.w1.radius_m\n0.25\n0.26\n").expect("another value");
+    let refused = with("wheels.w1.radius_m\n0.25\n0.25\n").expect_err("nominal rows");
+    assert!(refused.contains("design.kind") && refused.contains("other than the nominal one"), "{refused}");
+}
+
+/// Law: samples without dispersions are told to be all the same.
+#[test]
+fn samples_without_dispersions_are_told() {
+    assert!(plan("").expect("legal").notes().iter().any(|note| note.contains("all 9 samples are the nominal scene")));
+    let notes = plan(&dispersed("wheels.w1.radius_m")).expect("legal").notes();
+    assert!(notes.iter().all(|note| !note.contains("nothing is dispersed")), "{notes:?}");
+}
+
+/// Law: commands that act in no draw within the run have no columns: after its end, or with a scale of zero; those of some draws have.
+#[test]
+fn columns_are_of_commands_that_act() {
+    let thrust = |text: &str| {
+        let plan = plan(text).unwrap_or_else(|error| panic!("{text}: {error}"));
+        plan.request().actuated.thrusters
+    };
+    let zero = |start: f64| arc(start) + "thrust_scale = 0.0\n";
+    assert!(thrust(&arc(0.5)) && !thrust(&arc(1.0)) && !thrust(&zero(0.5)));
+    assert!(thrust(
+        &(zero(0.5) + &dispersed("actuation.0.thrust_scale").replace("half_width = 0.01", "min = 0\nmax = 1"))
+    ));
+    assert!(thrust(&(arc(1.005) + &dispersed("actuators.switch_on_delay_s"))), "early in some draws");
+    assert!(plan(&arc(1.0)).expect("legal").request_over(1.5).actuated.thrusters, "in a longer run");
+}
+
 /// Law: a dispersion that gives the nominal value in every draw is refused, one that gives another value in every draw is not.
 #[test]
 fn a_distribution_without_width_is_refused() {
