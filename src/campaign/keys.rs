@@ -34,7 +34,7 @@ impl KeyReader for Section<'_, '_> {
     }
 
     fn vector(&mut self, key: &'static str) -> Option<[f64; 3]> {
-        Section::vector(self, key).filter(|vector| vector.iter().all(|x| x.is_finite()))
+        Section::direction(self, key).filter(|vector| vector.iter().all(|x| x.is_finite()))
     }
 
     fn matrix(&mut self, key: &'static str) -> Option<[[f64; 3]; 3]> {

@@ -38,7 +38,7 @@ const WHEELS_AND_THRUSTERS: &[Case] = &[
         "wheels.w1.axis",
         Some("[0, 1]"),
         "an array of 3 finite numbers",
-        "write it like [0, 0, 0]",
+        "write it like [0, 0, 1]",
     ),
     (
         "axis = [0, 1, 0]\n",

@@ -217,7 +217,7 @@ pub const CASES: &[(&str, &str, &str)] = &[
     (
         "side_m = 0.2",
         "size_m = [1, 1]",
-        "bad.toml:28: debris.size_m = [1, 1]: must be an array of 3 finite numbers; write it like [0, 0, 0]",
+        "bad.toml:28: debris.size_m = [1, 1]: must be an array of 3 finite numbers; write it like [1, 1, 1]",
     ),
     // initial
     (
