@@ -144,7 +144,7 @@ pub const CASES: &[(&str, &str, &str)] = &[
     (
         "points = 11",
         "groups = []",
-        "bad.toml:10: observe.groups = []: must be at least one name; leave the key out for all of them",
+        "bad.toml:10: observe.groups = []: must be at least one name; leave the key out for all of them but motion and mass_properties",
     ),
     ("points = 11", "groups = \"effort\"", "must be an array of names; write it like ["),
     (
