@@ -45,6 +45,10 @@ impl KeyReader for Section<'_, '_> {
         Section::name(self, key, names, |name| names.iter().position(|known| *known == name))
     }
 
+    fn count(&mut self, key: &'static str, most: u64) -> Option<u64> {
+        Section::count(self, key, 1..=most)
+    }
+
     fn counts(&mut self, key: &'static str) -> Option<Counts> {
         Section::counts(self, key, 1..=MAX_SAMPLES)
     }

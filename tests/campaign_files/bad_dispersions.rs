@@ -165,6 +165,8 @@ const CASES: &[&str] = &[
     "[design]\nkind = \"sobol\"\nlevels = 3\n",
     "[design]\nkind = \"grid\"\n",
     "[design]\nkind = \"grid\"\nlevels = 0\n",
+    "[design]\nkind = \"grid\"\nlevels = 100000000000000000\n",
+    "[design]\nkind = \"sobol\"\nreplicates = 0\n",
     "[design]\nkind = \"grid\"\nlevels = 3\nquantiles = [0.5]\n",
     "[design]\nkind = \"one_at_a_time\"\nquantiles = [0.0, 0.5]\n",
     concat!("[design]\nkind = \"grid\"\nlevels = [3, 3, 3]\n", pair!("")),
