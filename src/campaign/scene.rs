@@ -274,6 +274,12 @@ fn read_commands(section: &mut Section<'_, '_>, scene: &mut SceneInput, arc: usi
 }
 
 fn read_by_name(section: &mut Section<'_, '_>, key: &'static str, names: &[Name], list: &str, numbers: &mut [f64]) {
+    if names.is_empty() && section.has(key) && !(section.is_table(key) && section.entries(key).is_empty()) {
+        section.know(key);
+        let remedy = format!("delete this line, or add [[{list}]] tables");
+        section.refuse(key, format!("left out where there are no [[{list}]]"), remedy);
+        return;
+    }
     if section.has(key) && !section.is_table(key) {
         section.know(key);
         let entries: Vec<String> = names.iter().map(|name| format!("{name} = 0.0")).collect();
