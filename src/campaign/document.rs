@@ -20,10 +20,15 @@ const NOTED: usize = 10 * SHOWN;
 /// What is said of a text that is not TOML, and has no table of a campaign.
 const NO_CAMPAIGN_FILE: &str = "there is no [campaign] table: is this a campaign file?";
 
+/// What syntax errors say of a word without quotes; of one that begins with t, f, n or i, that it is not `true`, `false`, `nan` or `inf`.
+const WORDS: [&str; 4] = ["must be quoted", "invalid boolean", "expected `nan`", "expected `inf`"];
+
 /// What to do about the syntax error `message`.
 fn syntax_remedy(message: &str) -> &'static str {
     if message.contains("array") {
         "fix this line, or close with ] the array that begins here or above"
+    } else if WORDS.iter().any(|word| message.contains(word)) {
+        "fix this line: text is written in quotes"
     } else {
         "fix this line"
     }

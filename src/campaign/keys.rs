@@ -34,7 +34,7 @@ impl KeyReader for Section<'_, '_> {
     }
 
     fn vector(&mut self, key: &'static str) -> Option<[f64; 3]> {
-        Section::vector(self, key).filter(|vector| vector.iter().all(|x| x.is_finite()))
+        Section::direction(self, key).filter(|vector| vector.iter().all(|x| x.is_finite()))
     }
 
     fn matrix(&mut self, key: &'static str) -> Option<[[f64; 3]; 3]> {
@@ -43,6 +43,10 @@ impl KeyReader for Section<'_, '_> {
 
     fn choice(&mut self, key: &'static str, names: &[&str]) -> Option<usize> {
         Section::name(self, key, names, |name| names.iter().position(|known| *known == name))
+    }
+
+    fn count(&mut self, key: &'static str, most: u64) -> Option<u64> {
+        Section::count(self, key, 1..=most)
     }
 
     fn counts(&mut self, key: &'static str) -> Option<Counts> {

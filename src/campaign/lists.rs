@@ -63,7 +63,7 @@ impl Section<'_, '_> {
             single => count(single).map(Counts::All),
         };
         if counts.is_none() {
-            let allowed = format!("a whole number of at least {}, or an array of them", range.start());
+            let allowed = format!("a whole number from {} to {}, or an array of them", range.start(), range.end());
             self.refuse(key, allowed, "write it like 5 or [5, 3]");
         }
         counts

@@ -3,6 +3,7 @@
 use super::section::Section;
 use super::units::{self, UnitProblem};
 use crate::sampling::Values;
+use crate::scene::schema::Limit as SceneLimit;
 use toml::de::DeValue;
 
 /// What a number may be.
@@ -103,8 +104,8 @@ impl Section<'_, '_> {
     }
 
     /// Fills `numbers` with the finite numbers of `key`: one, a list, or for nine of them three rows; whether the key was
-    /// written. What is wrong is noted, and the numbers are then NaN.
-    pub(super) fn fill(&mut self, key: &str, numbers: &mut [f64]) -> bool {
+    /// written. What is wrong is noted, with numbers as `limit` allows them for example, and the numbers are then NaN.
+    pub(super) fn fill(&mut self, key: &str, numbers: &mut [f64], limit: SceneLimit) -> bool {
         let Some(value) = self.take(key) else { return false };
         let unit = self.unit_of(key);
         let found = match numbers.len() {
@@ -118,8 +119,7 @@ impl Section<'_, '_> {
                 let remedy = match numbers.len() {
                     1 if number(value.get_ref(), unit).is_some() => FINITE.remedy.to_owned(),
                     1 => remedy_for_text(value.get_ref()).to_owned(),
-                    9 => "write it like [[3, 0, 0], [0, 3, 0], [0, 0, 2]]".to_owned(),
-                    count => format!("write it like [{}]", vec!["0"; count].join(", ")),
+                    count => format!("write it like {}", limit.example(count)),
                 };
                 self.refuse_number(key, value.get_ref(), numbers_in_words(numbers.len()), remedy);
                 numbers.fill(f64::NAN);
@@ -128,16 +128,16 @@ impl Section<'_, '_> {
         true
     }
 
-    /// `N` finite numbers, if they were written; NaN each where they are wrong.
-    pub fn vector<const N: usize>(&mut self, key: &str) -> Option<[f64; N]> {
-        let mut vector = [f64::NAN; N];
-        self.fill(key, &mut vector).then_some(vector)
+    /// The three finite numbers of a direction, if they were written; NaN each where they are wrong.
+    pub fn direction(&mut self, key: &str) -> Option<[f64; 3]> {
+        let mut vector = [f64::NAN; 3];
+        self.fill(key, &mut vector, SceneLimit::Direction).then_some(vector)
     }
 
     /// A 3x3 matrix of finite numbers by rows, if it was written; NaN where it is wrong.
     pub fn matrix(&mut self, key: &str) -> Option<[[f64; 3]; 3]> {
         let mut matrix = [[f64::NAN; 3]; 3];
-        self.fill(key, matrix.as_flattened_mut()).then_some(matrix)
+        self.fill(key, matrix.as_flattened_mut(), SceneLimit::Finite).then_some(matrix)
     }
 
     /// One finite number, or an array of them, if written.

@@ -6,6 +6,7 @@
 use super::old_format;
 use super::section::Section;
 use crate::scene::body::MAX_PARTS;
+use crate::scene::schema::Limit;
 use crate::scene::table::Table;
 use crate::scene::{
     ActuationInput, DebrisInput, MAX_THRUSTERS, MAX_WHEELS, Name, PartInput, PartShape, SceneInput, ThrusterInput,
@@ -88,7 +89,7 @@ fn read_keys(section: &mut Section<'_, '_>, table: Table, instance: usize, scene
         if let Some(example) = example {
             section.require_numbers(name, numbers.len(), example);
         }
-        if !section.fill(name, numbers) && example.is_some() {
+        if !section.fill(name, numbers, key.facts().limit) && example.is_some() {
             numbers.fill(f64::NAN);
         }
     }
@@ -273,6 +274,12 @@ fn read_commands(section: &mut Section<'_, '_>, scene: &mut SceneInput, arc: usi
 }
 
 fn read_by_name(section: &mut Section<'_, '_>, key: &'static str, names: &[Name], list: &str, numbers: &mut [f64]) {
+    if names.is_empty() && section.has(key) && !(section.is_table(key) && section.entries(key).is_empty()) {
+        section.know(key);
+        let remedy = format!("delete this line, or add [[{list}]] tables");
+        section.refuse(key, format!("left out where there are no [[{list}]]"), remedy);
+        return;
+    }
     if section.has(key) && !section.is_table(key) {
         section.know(key);
         let entries: Vec<String> = names.iter().map(|name| format!("{name} = 0.0")).collect();
@@ -285,7 +292,7 @@ fn read_by_name(section: &mut Section<'_, '_>, key: &'static str, names: &[Name]
     table.measures(unit);
     for (name, number) in names.iter().zip(numbers) {
         if table.has(name.as_str()) {
-            table.fill(name.as_str(), std::slice::from_mut(number));
+            table.fill(name.as_str(), std::slice::from_mut(number), Limit::Finite);
         } else {
             table.know(name.as_str());
         }

@@ -227,12 +227,13 @@ impl<'d, 'a> Section<'d, 'a> {
         parsed
     }
 
-    /// A list of different names that `parse` knows, if it was written.
+    /// A list of different names that `parse` knows, if it was written; an empty one is told what it is without the key.
     pub fn names<T: PartialEq>(
         &mut self,
         key: &str,
         names: &[&str],
         parse: impl Fn(&str) -> Option<T>,
+        default: &str,
     ) -> Option<Vec<T>> {
         let value = self.take(key)?;
         let texts: Option<Vec<&str>> =
@@ -257,7 +258,7 @@ impl<'d, 'a> Section<'d, 'a> {
             }
         }
         if parsed.is_empty() {
-            self.refuse(key, "at least one name", "leave the key out for all of them");
+            self.refuse(key, "at least one name", format!("leave the key out for {default}"));
             return None;
         }
         Some(parsed)

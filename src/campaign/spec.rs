@@ -115,7 +115,7 @@ impl Spec {
 
         let mut section = root.section("observe");
         let points = section.count("points", 2..=MAX_POINTS);
-        let groups = section.names("groups", &Group::ALL.map(Group::name), Group::from_name);
+        let groups = section.names("groups", &Group::ALL.map(Group::name), Group::from_name, &default_groups());
         section.finish();
 
         let dispersions = root.sections("disperse", disperse::read);
@@ -167,6 +167,12 @@ impl Spec {
             retention,
         }
     }
+}
+
+/// The groups of a campaign that names none, in words.
+fn default_groups() -> String {
+    let others = Group::ALL.into_iter().filter(|group| !Group::DEFAULT.contains(group));
+    format!("all of them but {}", others.map(Group::name).collect::<Vec<_>>().join(" and "))
 }
 
 /// A name that is a folder's name on every system.

@@ -44,6 +44,10 @@ pub fn run(options: &SimulateOptions) -> Result<CommandOutcome, Failure> {
         return Err(Failure::Input(format!("--sample {}: must be 0 to {last}, the samples of {name}", options.sample)));
     }
     let times = options.times.as_deref().map(ascending).transpose()?;
+    let (last, end) = (times.as_ref().and_then(|times| times.last().copied()), plan.grid.duration());
+    if let Some(last) = last.filter(|last| *last > end) {
+        screen::note(&format!("--times: {last:?} s is after the end of the runs of {} ({end:?} s)", plan.name));
+    }
     let grid = times.as_deref().map_or_else(|| plan.grid.clone(), |times| grid(times, &plan));
     let run = single_run(options, &plan, grid, isa)?;
     let shown = |time: f64| times.as_deref().is_none_or(|times| times.contains(&time));

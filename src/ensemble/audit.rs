@@ -64,7 +64,7 @@ static COLUMNS: [Quantity; AuditValue::ALL.len()] = [
     Quantity::new(
         "audit_state_error",
         "",
-        "True largest error of the fuselage's rotation on the grid, which state_error_estimate estimates: the larger of the next two.",
+        "True largest error of the body's rotation on the grid, which state_error_estimate estimates: the larger of the next two.",
     ),
     Quantity::new("audit_omega_error", "", "True largest error of omega on the grid, relative to the largest |omega|."),
     Quantity::new(
@@ -343,4 +343,18 @@ impl Auditor {
 fn compared(request: &Request) -> StateFields {
     let spacecraft = StateFields::NONE.with(StateField::Rate).with(StateField::Attitude);
     if request.debris { spacecraft.with(StateField::DebrisRate).with(StateField::DebrisAttitude) } else { spacecraft }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: the columns speak of the body, as all others do, and not of a part that a spacecraft need not have.
+    #[test]
+    fn columns_speak_of_the_body() {
+        for value in AuditValue::ALL {
+            assert!(!value.quantity().meaning().contains("fuselage"), "{}", value.quantity().name());
+        }
+        assert!(AuditValue::State.quantity().meaning().contains("the body's rotation"));
+    }
 }

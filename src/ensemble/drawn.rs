@@ -36,24 +36,24 @@ pub fn magnitudes(plan: &Plan) -> Vec<Magnitude> {
     list
 }
 
-/// The mass properties of a drawn spacecraft: name of the column, unit, meaning.
+/// The mass properties of a drawn spacecraft: name of the column as in rows, unit, meaning.
 pub const MASS_COLUMNS: [[&str; 3]; 7] = [
     ["mass_kg", "kg", "Mass of the spacecraft, wheels included."],
     ["center_of_mass_x_m", "m", "Centre of mass of the spacecraft, from p in F_s."],
     ["center_of_mass_y_m", "m", "Centre of mass of the spacecraft, from p in F_s."],
     ["center_of_mass_z_m", "m", "Centre of mass of the spacecraft, from p in F_s."],
     [
-        "principal_moment_1_kg_m2",
+        "principal_moment_smallest_kg_m2",
         "kg m^2",
         "Smallest principal moment of inertia of the spacecraft, wheels locked, about its centre of mass.",
     ],
     [
-        "principal_moment_2_kg_m2",
+        "principal_moment_middle_kg_m2",
         "kg m^2",
         "Middle principal moment of inertia of the spacecraft, wheels locked, about its centre of mass.",
     ],
     [
-        "principal_moment_3_kg_m2",
+        "principal_moment_largest_kg_m2",
         "kg m^2",
         "Largest principal moment of inertia of the spacecraft, wheels locked, about its centre of mass.",
     ],
@@ -156,6 +156,17 @@ impl DrawnScenes {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::observables::{Group, table};
+
+    /// Law: a mass property has the name and the unit that it has in rows.
+    #[test]
+    fn mass_properties_are_named_as_in_rows() {
+        for [name, unit, _] in MASS_COLUMNS {
+            let mut columns = table::all().filter(|column| column.group == Group::MassProperties);
+            let found = columns.find(|column| column.quantity.name() == name).expect(name);
+            assert_eq!(found.quantity.unit(), unit, "{name}");
+        }
+    }
 
     #[test]
     fn rank_correlations_of_known_columns() {

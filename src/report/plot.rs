@@ -14,7 +14,7 @@ use crate::report::number::short;
 
 /// Width of a panel, pixels.
 const PANEL_WIDTH: u32 = 640;
-/// Height of a panel, pixels.
+/// Height of a panel whose legend has few rows, pixels.
 const PANEL_HEIGHT: u32 = 320;
 /// Height of the figure's title, pixels.
 const TITLE_HEIGHT: u32 = 44;
@@ -71,27 +71,45 @@ pub struct Figure {
 }
 
 impl Figure {
+    /// Width of the panel `index` at scale 1, pixels.
+    fn panel_width(&self, index: usize) -> u32 {
+        let is_alone = index.is_multiple_of(2) && index + 1 == self.panels.len();
+        if is_alone { self.width() } else { PANEL_WIDTH }
+    }
+
+    /// Width of the figure at scale 1, pixels.
+    fn width(&self) -> u32 {
+        self.panels.len().clamp(1, 2) as u32 * PANEL_WIDTH
+    }
+
+    /// Heights of the rows of panels at scale 1, pixels: that of the higher panel of each.
+    fn row_heights(&self) -> Vec<u32> {
+        let heights = self.panels.iter().enumerate().map(|(index, panel)| panel.height(self.panel_width(index)));
+        heights.collect::<Vec<_>>().chunks(2).map(|row| row.iter().copied().max().unwrap_or(0)).collect()
+    }
+
     /// Corner, width and height of each panel at scale 1, pixels.
     fn places(&self) -> Vec<(i32, i32, u32, u32)> {
-        let place = |index: usize| {
-            let is_alone = index.is_multiple_of(2) && index + 1 == self.panels.len();
-            let width = if is_alone { self.size().0 } else { PANEL_WIDTH };
-            let (column, row) = ((index % 2) as u32, (index / 2) as u32);
-            ((column * PANEL_WIDTH) as i32, (TITLE_HEIGHT + row * PANEL_HEIGHT) as i32, width, PANEL_HEIGHT)
-        };
-        (0..self.panels.len()).map(place).collect()
+        let (mut places, mut top) = (Vec::new(), TITLE_HEIGHT);
+        for (row, height) in self.row_heights().into_iter().enumerate() {
+            for index in (2 * row..self.panels.len()).take(2) {
+                let left = (index % 2) as u32 * PANEL_WIDTH;
+                places.push((left as i32, top as i32, self.panel_width(index), height));
+            }
+            top += height;
+        }
+        places
     }
 }
 
 impl Canvas for Figure {
     fn size(&self) -> (u32, u32) {
-        let columns = self.panels.len().clamp(1, 2) as u32;
-        (columns * PANEL_WIDTH, self.panels.len().div_ceil(2).max(1) as u32 * PANEL_HEIGHT + TITLE_HEIGHT)
+        (self.width(), self.row_heights().iter().sum::<u32>().max(PANEL_HEIGHT) + TITLE_HEIGHT)
     }
 
     fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: u32) -> Result<(), PlotError> {
         let top = area.margin((12 * scale) as i32, 0, 0, 0);
-        let title = fitted_to_pixels(&self.title, self.size().0, 20)?;
+        let title = fitted_to_pixels(&self.title, self.width(), 20)?;
         top.titled(&title, ("sans-serif", 20 * scale)).map_err(drawing)?;
         for (panel, (x, y, width, height)) in self.panels.iter().zip(self.places()) {
             let (x, y) = (x * scale as i32, y * scale as i32);
@@ -104,6 +122,19 @@ impl Canvas for Figure {
 }
 
 impl Panel {
+    /// The legend in a panel of this width, pixels. A single curve has none.
+    fn legend(&self, width: u32) -> Result<Legend, PlotError> {
+        let names = self.curves.iter().map(|curve| curve.label.as_str());
+        let names = names.take(if self.curves.len() > 1 { self.curves.len() } else { 0 });
+        Legend::new(names, width - MARGINS.0 - MARGINS.1 - LABELS_WIDTH)
+    }
+
+    /// Height with this width, pixels: a legend of many rows takes none of the axes' height. (What is wrong with the legend shows where it is
+    /// drawn.)
+    fn height(&self, width: u32) -> u32 {
+        PANEL_HEIGHT + self.legend(width).map_or(0, |legend| legend.extra_height())
+    }
+
     /// Maximum magnitude of the finite values.
     fn worst(&self) -> f64 {
         let values = self.curves.iter().flat_map(|curve| &curve.values);
@@ -142,10 +173,7 @@ impl Panel {
         let width = cell.dim_in_pixel().0 / scale;
         let title = self.heading(&vertical, width)?;
         let cell = cell.titled(&title, ("sans-serif", TITLE * scale)).map_err(drawing)?;
-        let names = self.curves.iter().map(|curve| curve.label.as_str());
-        // a single curve has no legend
-        let names = names.take(if self.curves.len() > 1 { self.curves.len() } else { 0 });
-        let legend = Legend::new(names, width - LABELS_WIDTH)?;
+        let legend = self.legend(width + MARGINS.0 + MARGINS.1)?;
         let (strip, axes) = cell.split_vertically(legend.height() * scale);
         legend.draw(&strip, LABELS_WIDTH, scale)?;
         let mut chart = ChartBuilder::on(&axes)
@@ -311,15 +339,23 @@ mod tests {
     #[test]
     fn legends_stay_in_their_panels() {
         for (index, count, name) in [(0, 8, "wheel wheel_number_"), (3, 40, "w"), (4, 3, &"long".repeat(60))] {
-            let (x, y, width, height) = figure().places()[index];
-            let (right, bottom) = (x + width as i32, y + height as i32);
-            let of_curves = |count: usize| {
-                let mut figure = figure();
+            let curves = |count: usize, name: &str| -> Vec<Curve> {
                 let curve = |k: usize| Curve { label: format!("{name}{k}"), values: vec![k as f64; 1201] };
-                figure.panels[index].curves = (0..count).map(curve).collect();
+                (0..count).map(curve).collect()
+            };
+            let of_curves = |shown: usize| {
+                let mut figure = figure();
+                figure.panels[index].curves = curves(shown, name);
+                // with as many curves in the panel next to it, the panels have one height with few and with many curves
+                if let Some(neighbour) = figure.panels.get_mut(index ^ 1) {
+                    neighbour.curves = curves(count, &format!("_{name}"));
+                }
                 figure
             };
             let (one, all) = (of_curves(1), of_curves(count));
+            assert_eq!(one.size(), all.size());
+            let (x, y, width, height) = all.places()[index];
+            let (right, bottom) = (x + width as i32, y + height as i32);
             let pixels = [&one, &all].map(|figure| figure.pixels().unwrap());
             let [one, other] = pixels.each_ref().map(|pixels| pixels.chunks_exact(3));
             let differing: Vec<usize> =
@@ -346,8 +382,23 @@ mod tests {
                     assert!(x <= left && end <= right && (y..bottom).contains(&top), "{text}: {left} to {end}");
                 }
             }
-            assert!(names >= 3, "{names} names are found in the SVG");
+            assert_eq!(names, count, "every name is in the SVG");
         }
+    }
+
+    /// Law: a legend of many rows makes its row of panels higher, by what it needs, and no other; figures with few curves keep their size.
+    #[test]
+    fn many_names_make_a_panel_higher() {
+        let (few, mut many) = (figure(), figure());
+        assert_eq!(few.size(), (2 * PANEL_WIDTH, 3 * PANEL_HEIGHT + TITLE_HEIGHT));
+        let curve = |k: usize| Curve { label: format!("reaction_wheel_number_{k}"), values: vec![k as f64; 1201] };
+        many.panels[3].curves = (0..8).map(curve).collect();
+        let extra = many.panels[3].legend(PANEL_WIDTH).unwrap().extra_height();
+        assert!(extra > 0, "eight long names do not fit the usual rows");
+        assert_eq!(many.row_heights(), [PANEL_HEIGHT, PANEL_HEIGHT + extra, PANEL_HEIGHT]);
+        assert_eq!(many.size(), (few.size().0, few.size().1 + extra));
+        let svg = many.svg().unwrap();
+        assert!((0..8).all(|k| svg.contains(&format!("reaction_wheel_number_{k}"))), "{svg}");
     }
 
     /// Law: rounding errors are drawn on the scale of the tolerance, larger ones on their own, both with zero in the middle.

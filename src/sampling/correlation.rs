@@ -267,8 +267,11 @@ impl Correlation {
                 Err(error_of(Table::Correlate(index), "parameters", name, allowed, remedy))
             };
             let Some(one) = drawn((*parameter, *component)) else {
-                let allowed = "made of parameters that a [[disperse]] table gives a distribution of one number each";
-                return refused(allowed, "disperse it, or take it out of the list");
+                let allowed = "made of numbers that a [[disperse]] table draws each for itself: not together with others (directions, attitudes, rows of a table), and not at a fixed offset";
+                return refused(
+                    allowed,
+                    "give it a distribution of its own such as \"normal\", or take it out of the list",
+                );
             };
             if found.iter().any(|(dimension, _)| *dimension == one.0) {
                 return refused("named once", "take it out of the list, where it is twice");

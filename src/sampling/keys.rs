@@ -76,6 +76,8 @@ pub trait KeyReader {
     fn matrix(&mut self, key: &'static str) -> Option<[[f64; 3]; 3]>;
     /// Index of one of `names`.
     fn choice(&mut self, key: &'static str, names: &[&str]) -> Option<usize>;
+    /// A whole number from 1 to `most`.
+    fn count(&mut self, key: &'static str, most: u64) -> Option<u64>;
     /// Whole numbers of at least 1: one for all, or a list.
     fn counts(&mut self, key: &'static str) -> Option<Counts>;
     /// A table within this one, read by `read`; whether it was written.

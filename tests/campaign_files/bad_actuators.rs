@@ -1,6 +1,6 @@
 //! Wheels, thrusters and schedules that cannot be: what is changed in a valid file, and what is said of it.
 
-use crate::bad_spacecraft::{Case, DIRECT, assert_each_refused};
+use crate::bad_spacecraft::{Case, DIRECT, PARTS, assert_each_refused};
 
 const WHEELS_AND_THRUSTERS: &[Case] = &[
     // axes and directions
@@ -38,7 +38,7 @@ const WHEELS_AND_THRUSTERS: &[Case] = &[
         "wheels.w1.axis",
         Some("[0, 1]"),
         "an array of 3 finite numbers",
-        "write it like [0, 0, 0]",
+        "write it like [0, 0, 1]",
     ),
     (
         "axis = [0, 1, 0]\n",
@@ -367,6 +367,33 @@ const SCHEDULES: &[Case] = &[
         "write zero for a thruster that does not work",
     ),
 ];
+
+/// Commands of a spacecraft without wheels and thrusters.
+const WITHOUT_ACTUATORS: &[Case] = &[
+    (
+        "angular_velocity_rad_s = [0, 0, 1]",
+        "angular_velocity_rad_s = [0, 0, 1]\n[[actuation]]\nstart_s = 0.0\nend_s = 1.0\nthrust_n = { p1 = 1 }",
+        28,
+        "actuation[0].thrust_n",
+        Some("{ p1 = 1 }"),
+        "left out where there are no [[thrusters]]",
+        "delete this line, or add [[thrusters]] tables",
+    ),
+    (
+        "angular_velocity_rad_s = [0, 0, 1]",
+        "angular_velocity_rad_s = [0, 0, 1]\n[[actuation]]\nstart_s = 0.0\nend_s = 1.0\ntorque_n_m = 0.5",
+        28,
+        "actuation[0].torque_n_m",
+        Some("0.5"),
+        "left out where there are no [[wheels]]",
+        "delete this line, or add [[wheels]] tables",
+    ),
+];
+
+#[test]
+fn commands_of_absent_actuators_are_refused_with_line_value_and_remedy() {
+    assert_each_refused(PARTS, WITHOUT_ACTUATORS);
+}
 
 #[test]
 fn impossible_wheels_and_thrusters_are_refused_with_line_value_and_remedy() {

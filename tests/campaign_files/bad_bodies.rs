@@ -167,7 +167,7 @@ const BY_PARTS: &[Case] = &[
         "body.parts.panel.size_m",
         Some("[2, 1]"),
         "an array of 3 finite numbers",
-        "write it like [0, 0, 0]",
+        "write it like [1, 1, 1]",
     ),
     (
         "size_m = [2, 1, 0.01]",
@@ -249,6 +249,24 @@ const BY_PARTS: &[Case] = &[
         Some("[1.0, 1.0, 0.0, 0.0]"),
         "a quaternion of norm 1",
         "divide the four numbers by the norm",
+    ),
+    (
+        "position_m = [0, 2, 0]",
+        "attitude = [0, 0, 0, 0]",
+        18,
+        "body.parts.panel.attitude",
+        Some("[0.0, 0.0, 0.0, 0.0]"),
+        "a quaternion of norm 1",
+        "write [1, 0, 0, 0] for the identity",
+    ),
+    (
+        "position_m = [0, 2, 0]",
+        "attitude = [1, 1, 0]",
+        18,
+        "body.parts.panel.attitude",
+        Some("[1, 1, 0]"),
+        "an array of 4 finite numbers",
+        "write it like [1, 0, 0, 0]",
     ),
     (
         "[initial]",

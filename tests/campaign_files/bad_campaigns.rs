@@ -124,6 +124,9 @@ fn a_syntax_error_is_told_alone() {
             "fix this line",
         ),
         ("seed = 1", "seed = 1.0.3", line_of("seed = 1"), "    | seed = 1.0.3\n", "fix this line"),
+        ("name = \"bad\"", "name = t", line_of("name = \"bad\""), "    | name = t\n", "text is written in quotes"),
+        ("name = \"bad\"", "name = nominal", line_of("name = \"bad\""), "    | name = nominal\n", "written in quotes"),
+        ("name = \"bad\"", "name = bad", line_of("name = \"bad\""), "    | name = bad\n", "written in quotes"),
         ("[initial]", "[initial", line_of("[initial]"), "    | [initial\n", "fix this line"),
         (
             "axis = [0, 1, 0]",

@@ -165,6 +165,8 @@ const CASES: &[&str] = &[
     "[design]\nkind = \"sobol\"\nlevels = 3\n",
     "[design]\nkind = \"grid\"\n",
     "[design]\nkind = \"grid\"\nlevels = 0\n",
+    "[design]\nkind = \"grid\"\nlevels = 100000000000000000\n",
+    "[design]\nkind = \"sobol\"\nreplicates = 0\n",
     "[design]\nkind = \"grid\"\nlevels = 3\nquantiles = [0.5]\n",
     "[design]\nkind = \"one_at_a_time\"\nquantiles = [0.0, 0.5]\n",
     concat!("[design]\nkind = \"grid\"\nlevels = [3, 3, 3]\n", pair!("")),
@@ -248,6 +250,9 @@ const CASES: &[&str] = &[
     pair!(
         "[[correlate]]\nparameters = [\"body.parts.fuselage.density_kg_m3\", \"wheels.w1.radius_m\"]\ncorrelation = 0.5\n[[correlate]]\nparameters = [\"wheels.w1.radius_m\", \"body.parts.fuselage.density_kg_m3\"]\nrank_correlation = 0.4"
     ),
+    "[[disperse]]\nparameter = \"wheels.w1.radius_m\"\ndistribution = \"offset\"\noffset = 0.01\n[[disperse]]\nparameter = \"wheels.w1.density_kg_m3\"\ndistribution = \"normal\"\nstd = 10\n[[correlate]]\nparameters = [\"wheels.w1.radius_m\", \"wheels.w1.density_kg_m3\"]\ncorrelation = 0.5\n",
+    "[[disperse]]\nparameter = \"initial.angular_velocity_rad_s\"\ndistribution = \"uniform_direction\"\n[[disperse]]\nparameter = \"wheels.w1.density_kg_m3\"\ndistribution = \"normal\"\nstd = 10\n[[correlate]]\nparameters = [\"initial.angular_velocity_rad_s.x\", \"wheels.w1.density_kg_m3\"]\ncorrelation = 0.5\n",
+    "[[disperse]]\nparameter = \"initial.attitude\"\ndistribution = \"attitude_error\"\nstd_rad = 0.01\n[[disperse]]\nparameter = \"wheels.w1.density_kg_m3\"\ndistribution = \"normal\"\nstd = 10\n[[correlate]]\nparameters = [\"initial.attitude.w\", \"wheels.w1.density_kg_m3\"]\ncorrelation = 0.5\n",
     // derived
     "[[derive]]\nparameter = \"wheels.w1.radius_m\"\nexpression = \"0.25 / initial.position_m.x\"\n",
     "[[derive]]\nparameter = \"wheels.w1.radius_m\"\n",

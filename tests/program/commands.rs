@@ -44,9 +44,13 @@ fn sample_draws_the_rows_of_the_campaign() {
     assert!(fs::read_to_string(scratch.path("s.svg")).unwrap().contains("Rank correlation"));
     assert!(fs::read(scratch.path("s.png")).unwrap().starts_with(b"\x89PNG"));
     let statuses: Vec<&str> = text.lines().skip(1).map(|line| line.split(',').nth(1).unwrap()).collect();
-    let [mass, a, b, c] =
-        ["mass_kg", "principal_moment_1_kg_m2", "principal_moment_2_kg_m2", "principal_moment_3_kg_m2"]
-            .map(|column| floats(parquet, column));
+    let [mass, a, b, c] = [
+        "mass_kg",
+        "principal_moment_smallest_kg_m2",
+        "principal_moment_middle_kg_m2",
+        "principal_moment_largest_kg_m2",
+    ]
+    .map(|column| floats(parquet, column));
     for row in 0..600 {
         assert_eq!(a[row].is_nan(), statuses[row] == "invalid_sample");
         let is_physical = a[row] <= b[row] && b[row] <= c[row] && c[row] <= a[row] + b[row] && mass[row] > 0.0;
@@ -62,7 +66,9 @@ fn sample_draws_the_rows_of_the_campaign() {
         let said = scratch.prints(&format!("{command} thin.toml --sample {sample}"), 0);
         assert!(said.contains("initial.angular_velocity_rad_s.x") && said.contains(line), "{line} in:\n{said}");
     }
-    assert!(scratch.prints(&format!("sample thin.toml --sample {sample}"), 0).contains("principal_moment_3_kg_m2"));
+    assert!(
+        scratch.prints(&format!("sample thin.toml --sample {sample}"), 0).contains("principal_moment_largest_kg_m2")
+    );
     scratch.prints("sample thin.toml --sample 600", 2);
     scratch.prints("sample thin.toml --out s.txt", 2);
     scratch.prints("sample thin.toml --samples 0", 2);

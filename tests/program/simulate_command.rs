@@ -80,8 +80,11 @@ fn the_velocity_of_p_is_the_derivative_of_its_position() {
 #[test]
 fn times_may_come_in_any_order_and_lie_beyond_the_duration() {
     let scratch = folder("times");
-    scratch.prints("simulate small.toml --times 2.5,0.5,0.5,1 --out a.csv", 0);
+    let said = scratch.prints("simulate small.toml --times 2.5,0.5,0.5,1 --out a.csv", 0);
+    assert!(said.contains("--times: 2.5 s is after the end of the runs of small (1.0 s)"), "{said}");
     scratch.prints("simulate small.toml --times 0.5,1,2.5 --out b.csv", 0);
+    let said = scratch.prints("simulate small.toml --times 0.5,1", 0);
+    assert!(!said.contains("after the end"), "{said}");
     let text = fs::read_to_string(scratch.path("a.csv")).unwrap();
     assert_eq!(text, fs::read_to_string(scratch.path("b.csv")).unwrap());
     let times: Vec<&str> = text.lines().skip(1).map(|line| line.split(',').next().unwrap()).collect();

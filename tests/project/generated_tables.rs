@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use spindrift::campaign::{Overrides, Plan};
-use spindrift::dataset::rows_file::headings;
+use spindrift::dataset::rows_file::{headings, parameter_headings};
 use spindrift::dataset::timeseries::TimeSeries;
 use spindrift::ensemble::{Ensemble, SingleRun};
 use spindrift::math::Isa;
@@ -55,13 +55,11 @@ fn columns_of_rows() -> String {
         let quantity = &heading.quantity;
         [quantity.name(), quantity.unit(), quantity.meaning(), ""].map(str::to_owned)
     };
-    let (own, rest) = all.split_at(2);
-    let dispersed = &rest[..plan.dispersions.columns().len()];
-    section("the sample", &own.iter().map(row).collect::<Vec<_>>());
-    section(
-        "dispersed values, here those of <code>spin_sweep.toml</code>",
-        &dispersed.iter().map(row).collect::<Vec<_>>(),
-    );
+    // the dispersed values follow the columns of the sample
+    let dispersed: Vec<[String; 4]> = parameter_headings(&plan).map(|heading| row(&heading)).collect();
+    let own: Vec<[String; 4]> = all.iter().map(row).take_while(|row| dispersed.first() != Some(row)).collect();
+    section("the sample", &own);
+    section("dispersed values, here those of <code>spin_sweep.toml</code>", &dispersed);
     for group in Group::ALL {
         let of_group = table::all().filter(|column| column.group == group);
         let rows: Vec<_> = of_group
@@ -188,6 +186,21 @@ fn the_generated_tables_are_up_to_date() {
             assert!(fresh == written, "{file} is out of date: {WRITE}=1 cargo test --release --test project");
         }
     }
+}
+
+/// Law: the dispersed values are all of them and nothing else; what every row has is of the sample.
+#[test]
+fn columns_are_in_their_sections() {
+    let table = columns_of_rows();
+    let names = |title: &str| -> Vec<String> {
+        let section = table.split("</details>").find(|section| section.contains(title)).expect(title);
+        section.lines().filter_map(|line| Some(line.strip_prefix("| `")?.split_once('`')?.0.to_owned())).collect()
+    };
+    assert_eq!(names("the sample"), ["sample_id", "status", "reason"]);
+    let drawn = plan("spin_sweep.toml").dispersions.columns().len();
+    let dispersed = names("dispersed values");
+    assert_eq!(dispersed.len(), drawn);
+    assert!(dispersed.iter().all(|name| ["initial_", "wheels_", "body_"].iter().any(|start| name.starts_with(start))));
 }
 
 /// Counter-test: a table that is out of date is noticed.

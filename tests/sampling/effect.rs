@@ -53,6 +53,20 @@ fn what_acts_after_the_end_only_is_refused() {
     }
 }
 
+/// Law: a delay of arcs that command nothing is refused, with what it would act on.
+#[test]
+fn a_delay_of_no_command_is_refused() {
+    let delay = dispersed("actuators.switch_on_delay_s");
+    let zero = arc(0.0).replace("p1 = 10, p3 = 5", "p1 = 0.0").replace("w1 = 1", "w1 = 0.0");
+    for arcs in [String::new(), zero] {
+        let refused = plan(&format!("{arcs}{delay}")).expect_err("nothing is switched");
+        assert!(
+            refused.contains("let an arc of [[actuation]] command a thrust or a torque that is not zero"),
+            "{refused}"
+        );
+    }
+}
+
 /// Law: a delay that is dispersed counts with its earliest draw: what some draw moves into the run has an effect.
 #[test]
 fn arcs_count_with_their_earliest_start_and_end() {

@@ -8,7 +8,7 @@
 //! Sample k >= 1 is point (k - 1) / R of replicate (k - 1) mod R: with every R samples more each replicate has one more.
 
 use crate::sampling::error::{DispersionError, Table, error_of};
-use crate::sampling::keys::{Counts, KeyReader, KeyWriter};
+use crate::sampling::keys::{KeyReader, KeyWriter};
 
 use super::traits::{BLOCK, MAX_SAMPLES, by_point};
 
@@ -36,14 +36,7 @@ impl Replicates {
         if !keys.has(KEY) {
             return Some(Replicates::ONE);
         }
-        let found = match keys.counts(KEY)? {
-            Counts::All(count) => Replicates::of(count),
-            Counts::Each(_) => None,
-        };
-        if found.is_none() {
-            keys.refuse(KEY, &format!("a whole number from 1 to {MOST}"), "write 16, which is usual");
-        }
-        found
+        keys.count(KEY, MOST).map(Replicates)
     }
 
     /// Writes the key, where there are several.

@@ -6,7 +6,7 @@ use super::numbers::Numbers;
 use super::rows::rows;
 use super::usage::Usage;
 
-const REMEDY: &str = "add [[actuation]] tables";
+const REMEDY: &str = "let an arc of [[actuation]] command a thrust or a torque that is not zero";
 
 rows! {
     /// How late the actuators are, for all arcs of the schedule. How strong they are is said with each thruster and wheel.

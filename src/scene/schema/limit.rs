@@ -46,6 +46,18 @@ impl Limit {
         }
     }
 
+    /// `count` numbers that satisfy it, as in a campaign file.
+    pub fn example(self, count: usize) -> String {
+        match (self, count) {
+            (Limit::UnitQuaternion, _) => "[1, 0, 0, 0]".to_owned(),
+            (Limit::Direction, _) => "[0, 0, 1]".to_owned(),
+            (Limit::PrincipalMoments, _) => "[3, 3, 2]".to_owned(),
+            (Limit::Inertia, _) | (_, 9) => "[[3, 0, 0], [0, 3, 0], [0, 0, 2]]".to_owned(),
+            (Limit::Positive, _) => format!("[{}]", vec!["1"; count].join(", ")),
+            _ => format!("[{}]", vec!["0"; count].join(", ")),
+        }
+    }
+
     /// Notes what is wrong with the numbers of `key`.
     #[inline(always)]
     pub(in crate::scene) fn check(self, key: impl Fn() -> Cow<'static, str>, numbers: &[f64], problems: &mut Problems) {
@@ -113,7 +125,12 @@ fn unit_quaternion(key: &dyn Fn() -> Cow<'static, str>, q: &[f64], problems: &mu
     let norm = q.iter().map(|x| x * x).sum::<f64>().sqrt();
     if (norm - 1.0).abs() > UNIT_NORM_TOLERANCE {
         let allowed = format!("a quaternion of norm 1 within {UNIT_NORM_TOLERANCE:?} (its norm is {norm:?})");
-        problems.add(key(), shown(q), allowed, "divide the four numbers by the norm");
+        let remedy = if norm > 0.0 && norm.is_finite() {
+            "divide the four numbers by the norm"
+        } else {
+            "write [1, 0, 0, 0] for the identity"
+        };
+        problems.add(key(), shown(q), allowed, remedy);
     }
 }
 
@@ -164,5 +181,29 @@ fn inertia(key: &dyn Fn() -> Cow<'static, str>, numbers: &[f64], problems: &mut 
             format!("such that no principal moment exceeds the sum of the other two (they are {moments:?})"),
             "no distribution of mass has these moments; check units and the point they refer to",
         );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: what a message gives as an example is accepted.
+    #[test]
+    fn examples_satisfy_their_limits() {
+        for (limit, example) in [
+            (Limit::Finite, vec![0.0; 2]),
+            (Limit::NotNegative, vec![0.0; 3]),
+            (Limit::Positive, vec![1.0; 3]),
+            (Limit::Direction, vec![0.0, 0.0, 1.0]),
+            (Limit::UnitQuaternion, vec![1.0, 0.0, 0.0, 0.0]),
+            (Limit::PrincipalMoments, vec![3.0, 3.0, 2.0]),
+            (Limit::Inertia, vec![3.0, 0.0, 0.0, 0.0, 3.0, 0.0, 0.0, 0.0, 2.0]),
+        ] {
+            assert_eq!(limit.example(example.len()), shown(&example).replace(".0", ""), "{limit:?}");
+            let mut problems = Problems::default();
+            limit.check(|| Cow::Borrowed("key"), &example, &mut problems);
+            assert!(problems.0.is_empty(), "{limit:?}: {:?}", problems.0);
+        }
     }
 }
