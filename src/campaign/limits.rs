@@ -1,27 +1,15 @@
 //! Limits of the keys of a campaign file that are not scene parameters.
 
 use super::numbers::Limit;
-use crate::propagation::Method;
 
 /// Largest number of samples of a campaign: ids stay exact in a double.
 pub const MAX_SAMPLES: u64 = crate::sampling::design::MAX_SAMPLES;
 /// Largest seed: TOML integers are signed.
 pub const LARGEST_SEED: u64 = i64::MAX as u64;
-/// Largest number of observation points that is read; [`bytes_a_point`] limits it further.
+/// Largest number of observation points that is read; memory limits it further ([`super::memory`]).
 pub const MAX_POINTS: u64 = 10_000_000;
 /// Most memory of one thread for the observation points of its runs, bytes.
 pub const MOST_MEMORY: u64 = 4 << 30;
-
-/// Memory of one thread for each observation point, bytes: the runs of all lanes and what is observed of one of them. Measured with
-/// the default groups, debris and thrust (peak memory of `campaign` with 120,001 points less that with 20,001): 4128, 2154 and 1482; with `auto`
-/// 530 of them are left by the nominal run of the bands (test `memory_of_points_is_what_is_stated`). Fewer groups need less.
-pub const fn bytes_a_point(method: Method) -> u64 {
-    match method {
-        Method::Auto | Method::Taylor => 4200,
-        Method::NullSpace => 1700,
-        _ => 2350,
-    }
-}
 
 /// Tolerances between a few units in the last place and the point where nothing is accurate any more.
 pub const TOLERANCE: Limit = Limit {

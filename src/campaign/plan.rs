@@ -9,13 +9,15 @@ use super::compression::Compression;
 use super::description;
 use super::document::Document;
 use super::draw_tables::DrawTables;
-use super::limits::{FRACTION, LARGEST_SEED, MAX_SAMPLES, MOST_MEMORY, bytes_a_point};
+use super::limits::{FRACTION, LARGEST_SEED, MAX_SAMPLES, MOST_MEMORY};
+use super::memory::PointMemory;
 use super::old_format;
 use super::problem::{CampaignError, Problem};
 use super::retention::Retention;
 use super::size;
 use super::spec::Spec;
 use super::without_effect::{self, acting_scene};
+use crate::dynamics::debris::is_isotropic;
 use crate::observables::{Group, Request};
 use crate::ode::Tolerance;
 use crate::propagation::Method;
@@ -176,6 +178,20 @@ impl Plan {
         acting_scene(self.grid.duration(), &self.nominal, &self.dispersions)
     }
 
+    /// What decides how much memory an observation point takes.
+    pub fn point_memory(&self) -> PointMemory {
+        let debris = Scene::resolve(&self.nominal).ok().and_then(|scene| scene.mass.debris);
+        let is_drawn =
+            || self.dispersions.columns().iter().any(|column| column.parameter.name().starts_with("debris."));
+        PointMemory {
+            method: self.method,
+            request: self.request(),
+            debris_turns: debris.is_some_and(|body| !is_isotropic(&body) || is_drawn()),
+            audits: self.audit_fraction > 0.0,
+            keeps_series: self.retention != Retention::None,
+        }
+    }
+
     /// The observables that it requests of runs of `duration` seconds, which decides which commands of the schedule act.
     pub fn request_over(&self, duration: f64) -> Request {
         request(&self.groups, &acting_scene(duration, &self.nominal, &self.dispersions), self.method)
@@ -255,7 +271,6 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
     if spec.method.is_some() {
         check_step(&spec, method, document);
     }
-    check_memory(&spec, method, document);
     let default = default_tolerance(method);
     let relative = spec.relative_tolerance.or(spec.tolerance).unwrap_or(default);
     let absolute = spec.absolute_tolerance.or(spec.tolerance).unwrap_or(default);
@@ -315,7 +330,7 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
     if let Some(chosen) = &spec.chosen {
         chosen.check(dispersions.samples(), spec.analysis.stop.is_some(), document);
     }
-    Some(Plan {
+    let plan = Plan {
         name: spec.name?,
         description: spec.description,
         samples: dispersions.samples(),
@@ -339,19 +354,20 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
         compression: spec.compression.unwrap_or(Compression::Lz4),
         analysis: spec.analysis,
         retention: spec.retention.unwrap_or_default(),
-    })
+    };
+    check_memory(&plan, document);
+    Some(plan)
 }
 
 /// Refuses more observation points than a thread may have memory for.
-fn check_memory(spec: &Spec, method: Method, document: &mut Document<'_>) {
-    let (points, each) = (spec.points.unwrap_or(POINTS), bytes_a_point(method));
+fn check_memory(plan: &Plan, document: &mut Document<'_>) {
+    let (points, each) = (plan.grid.points() as u64, plan.point_memory().bytes());
     let bytes = points.saturating_mul(each);
     if bytes > MOST_MEMORY {
         let gigabytes = |bytes: u64| bytes as f64 / 1e9;
         let allowed = format!(
-            "at most {}: method {:?} takes some {each} bytes a point in each thread, here {:.1} GB of at most {:.1} GB",
+            "at most {}: this campaign takes some {each} bytes a point in each thread, here {:.1} GB of at most {:.1} GB",
             MOST_MEMORY / each,
-            method.name(),
             gigabytes(bytes),
             gigabytes(MOST_MEMORY),
         );

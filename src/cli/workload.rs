@@ -5,7 +5,6 @@
 use std::num::NonZeroUsize;
 use std::path::Path;
 
-use crate::campaign::limits::bytes_a_point;
 use crate::campaign::{Plan, Retention};
 use crate::cli::command_outcome::Failure;
 use crate::cli::machine::{free_disk, free_memory};
@@ -110,7 +109,7 @@ impl Workload {
             + new_parts * (COLUMN_OF_A_PART * columns + of_bands)
             + retained * points * SERIES * NUMBER;
         let rows_of_a_part = whole.largest().min(samples) as f64;
-        let of_thread = points * bytes_a_point(plan.method) as f64 + 2.0 * rows_of_a_part * columns * NUMBER;
+        let of_thread = points * plan.point_memory().bytes() as f64 + 2.0 * rows_of_a_part * columns * NUMBER;
         let stopping = if plan.analysis.stop.is_some() { 8.0 * samples as f64 } else { 0.0 };
         let threads = threads(asked, usize::try_from(whole.count()).unwrap_or(usize::MAX));
         let memory = PROGRAM + threads as f64 * of_thread + whole.count() as f64 * PART + stopping;

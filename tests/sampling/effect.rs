@@ -97,6 +97,9 @@ fn arcs_count_with_their_earliest_start_and_end() {
     plan(&format!("{}{unbounded}", arc(0.09))).expect_err("nine are not");
 }
 
+/// Keys to add, each after a place in the text of a scene, and the parameters to disperse.
+type Case<'a> = (&'a [(&'a str, &'a str)], &'a [&'a str]);
+
 /// Law: what a scale of zero takes away in every draw is not dispersed; a scale that is dispersed itself, or a bias, leaves something.
 #[test]
 fn what_a_scale_of_zero_takes_away_is_refused() {
@@ -113,7 +116,7 @@ fn what_a_scale_of_zero_takes_away_is_refused() {
     let (p3, w1, arc) = ("name = \"p3\"", "name = \"w1\"", "torque_n_m = { w1 = 1 }");
     let no_thrust = "thrust_scale = 0.0";
     let no_torque = "torque_scale = 0.0";
-    let refused: &[(&[(&str, &str)], &[&str])] = &[
+    let refused: &[Case<'_>] = &[
         (&[(p3, no_thrust)], &["thrusters.p3.tilt_rad[0]"]),
         (&[(p3, no_thrust)], &["thrusters.p3.position_m"]),
         (&[(arc, no_thrust)], &["thrusters.p3.thrust_scale"]),
@@ -127,7 +130,7 @@ fn what_a_scale_of_zero_takes_away_is_refused() {
         let said = refused.contains("disperse[0].parameter") && refused.contains("a scale of 0 takes away");
         assert!(said, "{keys:?} {parameters:?}: {refused}");
     }
-    let accepted: &[(&[(&str, &str)], &[&str])] = &[
+    let accepted: &[Case<'_>] = &[
         (&[(p3, no_thrust)], &["thrusters.p3.thrust_scale", "thrusters.p3.tilt_rad[0]"]),
         (&[(p3, no_thrust)], &["thrusters.p1.tilt_rad[0]", "actuators.switch_on_delay_s", "actuation.0.thrust_scale"]),
         (&[(arc, no_thrust)], &["thrusters.p3.thrust_scale", "actuation.0.thrust_scale"]),
