@@ -8,7 +8,7 @@ use super::input::SceneInput;
 use super::name::Name;
 use super::schedule::{switches_off, switches_on};
 pub use super::schema::Shape;
-use super::schema::{Facts, Limit, MassErrors, PartShape};
+use super::schema::{Facts, Limit, MassErrors, PartShape, WheelInput, WheelMode};
 use super::table::{Key, Table};
 use super::unit_quaternion::{is_unit, unit_quaternion};
 
@@ -116,6 +116,7 @@ impl Parameter {
         let has = self.key.read(scene, self.instance()).is_some();
         has && self.key.acts(scene, self.instance(), component)
             && !self.is_idle_part(scene)
+            && !self.is_idle_wheel(scene)
             && self.switches(scene).is_none_or(|arcs| !arcs.is_empty())
     }
 
@@ -159,8 +160,28 @@ impl Parameter {
                 // sizes: with a mass of its own the part has an inertia from them, and nothing else
                 _ => body.has_inertia() && (body.mass_kg.is_some() || part.mass_kg.is_some()),
             },
-            _ => body.replaces_parts(),
+            _ if !body.has_inertia() => false,
+            // several: masses move the common centre, sizes and attitudes turn or change the inertia alone
+            _ => {
+                let (has_center, has_all) = (body.center_of_mass_m.is_some(), body.replaces_parts());
+                match self.facts().key {
+                    "density_kg_m3" | "mass_kg" | "mass_scale" => has_all,
+                    "position_m" | "center_offset_m" => has_center,
+                    "inertia_scale" | "stretch_log" | "shear" => true,
+                    "attitude" => has_center || center_offset_m == [0.0; 3],
+                    _ => has_all || part.mass_kg.is_some(),
+                }
+            }
         }
+    }
+
+    /// Whether it is of a wheel that does not turn and is a part of what the keys of the body describe: taken out and put in again, it has no
+    /// effect.
+    fn is_idle_wheel(self, scene: &SceneInput) -> bool {
+        let is_locked = |wheel: &WheelInput| wheel.mode == WheelMode::Locked;
+        self.key.table == Table::Wheel
+            && scene.body.includes_wheels
+            && scene.wheels.get(self.instance()).is_some_and(is_locked)
     }
 
     /// What to write so that the parameter exists where [`Parameter::exists`] says that it does not.
@@ -168,6 +189,9 @@ impl Parameter {
         match self.key.table {
             Table::Part | Table::PartErrors => {
                 "describe the part by that key; where keys of [body] override it, disperse those, or delete them"
+            }
+            Table::Wheel if self.facts().remedy.is_empty() => {
+                "let the wheel turn (mode), or set body.includes_wheels = false: what the body includes changes nothing while it is locked"
             }
             _ => self.facts().remedy,
         }
