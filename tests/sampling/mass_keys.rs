@@ -34,9 +34,10 @@ fn parts_exist_where_they_change_the_mass_properties() {
                 continue;
             }
             let mut changed = scene.clone();
-            for component in 0..parameter.width() {
+            let is_attitude = parameter.width() == TURNED.len();
+            for (component, turned) in TURNED.iter().enumerate().take(parameter.width()) {
                 let value = parameter.value(&scene, component).expect("it has the key");
-                let other = if parameter.width() == 4 { TURNED[component] } else { 1.1 * value + 0.01 };
+                let other = if is_attitude { *turned } else { 1.1 * value + 0.01 };
                 parameter.set(&mut changed, component, other);
             }
             let off = |(a, b): (&f64, &f64)| (a - b).abs() > 1e-9 * (1.0 + b.abs());
