@@ -23,7 +23,8 @@ struct Bytes {
 
 /// Largest of the slopes of peak memory over points, from 50,001 to 250,001 and from 60,001 to 160,001 points, of 17 samples in one thread: 0, 2 and 8
 /// wheels, without and with a box as debris, without and with thrust and a motor torque, default and all groups, without and with audits of
-/// all samples. Slopes of the same campaign differ by a fifth, since freed memory is used again or not.
+/// all samples; of `taylor` and `null_space` some of these, with an allowance for the others. Slopes of the same campaign differ by a fifth and
+/// more, since freed memory is used again or not. Those of the Runge-Kutta methods are of `dormand_prince`.
 fn bytes(method: Method) -> Bytes {
     match method {
         Method::Auto => Bytes {
