@@ -11,6 +11,13 @@ impl Plan {
         if self.samples > 1 && self.dispersions.columns().is_empty() {
             notes.push(format!("nothing is dispersed: all {} samples are the nominal scene", self.samples));
         }
+        let still = self.dispersions.still();
+        if !still.is_empty() {
+            notes.push(format!(
+                "{} never varied: every draw is the nominal value (a spread of 0, or one relative to a nominal value of 0)",
+                listed(&still)
+            ));
+        }
         notes.extend(self.part_of_a_design());
         for replaced in self.dispersions.replaced_correlations() {
             notes.push(format!(

@@ -329,6 +329,23 @@ mod tests {
         }
     }
 
+    /// Law: constraints between bodies have residuals where there are several bodies; that of the attitude is always there.
+    #[test]
+    fn residuals_are_of_bodies_that_are_joined() {
+        let names = |debris: bool, wheels: &[&str]| -> Vec<String> {
+            let request =
+                Request { wheels: wheel_names(wheels), ..request(&[Group::Constraints], debris, false, true) };
+            let columns = request.columns();
+            let maxima = columns.iter().map(|column| column.quantity.name()).filter(|name| name.contains("_max"));
+            maxima.map(str::to_owned).collect()
+        };
+        assert_eq!(names(false, &[]), ["residual_attitude_max"]);
+        for (debris, wheels) in [(true, &[][..]), (false, &["w1"]), (true, &["w1"])] {
+            let all = ["residual_kinematic_max_m_s", "residual_collocation_max_m", "residual_attitude_max"];
+            assert_eq!(names(debris, wheels), all);
+        }
+    }
+
     /// Law: work and impulse are of what acts: no column, and no field, of a kind of actuation that a scene does not have.
     #[test]
     fn work_is_that_of_what_acts() {

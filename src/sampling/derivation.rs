@@ -96,7 +96,7 @@ pub(super) fn derived(
             let is_taken = is_drawn(columns, (parameter, component))
                 || open.iter().any(|(_, target, ..)| *target == (parameter, component));
             if !parameter.exists(nominal, component) {
-                refuse("parameter", shown, "a key that the scene has".to_owned(), parameter.remedy());
+                refuse("parameter", shown, "a key that the scene has".to_owned(), parameter.remedy(nominal));
             } else if parameter.shape() == Shape::Quaternion {
                 let allowed = "other than an attitude, which changes as a whole".to_owned();
                 refuse("parameter", shown, allowed, "disperse the attitude");
@@ -194,6 +194,6 @@ fn variable(name: &str, nominal: &SceneInput) -> Result<((Parameter, usize), f64
     };
     match parameter.value(nominal, component) {
         Some(value) => Ok(((parameter, component), value)),
-        None => Err(("a key that the scene has".to_owned(), parameter.remedy().to_owned())),
+        None => Err(("a key that the scene has".to_owned(), parameter.remedy(nominal).to_owned())),
     }
 }

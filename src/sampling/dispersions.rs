@@ -187,6 +187,13 @@ impl Dispersions {
         unvaried.into_iter().map(|dimension| self.dimensions[dimension].as_str()).collect()
     }
 
+    /// The names of the random dimensions whose draws are all the nominal value: components of a vector that others vary, with a spread of 0 or one
+    /// relative to 0.
+    pub fn still(&self) -> Vec<&str> {
+        let is_still = |one: &&Assigned| one.map.dimensions() > 0 && idle::is_still(one, self.columns());
+        self.assigned.iter().filter(is_still).map(|one| self.dimensions[one.first].as_str()).collect()
+    }
+
     /// The names of the random dimensions that the samples vary, but not through all levels of the design.
     pub fn incomplete(&self) -> Vec<&str> {
         let incomplete = self.design.incomplete(self.dimensions.len(), self.samples.saturating_sub(1));
@@ -235,7 +242,7 @@ impl Dispersions {
             return refused("the name of one number of scene or initial state", "write it as initial.position_m.x");
         };
         if !parameter.exists(nominal, component) {
-            return refused("a key that the scene has", parameter.remedy());
+            return refused("a key that the scene has", parameter.remedy(nominal));
         }
         let is_taken = |column: usize| self.tabled.iter().any(|(tabled, _)| *tabled == column);
         if self.distribution_at((parameter, component)).is_some() {
@@ -322,7 +329,7 @@ impl Dispersions {
                 || parameter.value(nominal, component).is_some() && self.inputs.contains(&(parameter, component))
         };
         if let Some(missing) = components.iter().find(|component| !is_used(**component)) {
-            return refused(*missing, "a key that the scene has", missing.0.remedy());
+            return refused(*missing, "a key that the scene has", missing.0.remedy(nominal));
         }
         let mut listed = components.iter().enumerate();
         if let Some((_, twice)) = listed.find(|(place, component)| components[..*place].contains(component)) {

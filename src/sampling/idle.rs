@@ -41,9 +41,7 @@ pub(super) fn check_lengths(
     columns: &[Column],
     nominal: &SceneInput,
 ) -> Result<(), DispersionError> {
-    let is_varied =
-        |one: &Assigned| !is_idle(&one.map, &one.columns.iter().map(|c| columns[*c].nominal).collect::<Vec<_>>());
-    let varied: Vec<&Assigned> = assigned.iter().filter(|one| is_varied(one)).collect();
+    let varied: Vec<&Assigned> = assigned.iter().filter(|one| !is_still(one, columns)).collect();
     for one in &varied {
         let (Transform::Scalar(distribution), [column]) = (&one.map, &one.columns[..]) else { continue };
         let Column { parameter, component, nominal: value } = columns[*column];
@@ -96,8 +94,14 @@ pub(super) fn check_levels(
     Err(error_of(Table::Design, "kind", format!("{:?}", design.name()), allowed, remedy))
 }
 
+/// Whether every draw of `one` is the nominal values of the `columns` that it writes.
+pub(super) fn is_still(one: &Assigned, columns: &[Column]) -> bool {
+    let nominals: Vec<f64> = one.columns.iter().map(|column| columns[*column].nominal).collect();
+    is_idle(&one.map, &nominals)
+}
+
 /// Whether every draw of `map` is the `nominals`, the values of its components.
-pub(super) fn is_idle(map: &Transform, nominals: &[f64]) -> bool {
+fn is_idle(map: &Transform, nominals: &[f64]) -> bool {
     match map {
         // a quantile function rises from one end to the other
         Transform::Scalar(distribution) => U.iter().all(|u| nominals == [distribution.quantile(*u)]),

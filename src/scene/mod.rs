@@ -6,7 +6,7 @@
 //! - [`solids`]: mass, centre and inertia of homogeneous solids (the report's (60)-(67), in closed form).
 //! - [`body`]: the body of the spacecraft and the debris from their input. [`wheel`]: wheels that turn. `tensor`: inertias by rows.
 //! - [`mass`]: mass properties of the whole.
-//! - [`parameter`]: the numeric keys that can be dispersed.
+//! - [`parameter`]: the numeric keys that can be dispersed; `effect`: where a change of them has an effect.
 //! - [`check`], [`error`]: what makes a scene physical beyond single keys, and the message where it is not.
 //! - [`actuated`]: what acts on a spacecraft at any time of a run.
 //! - [`resolve`]: from an input to a [`Scene`].
@@ -19,6 +19,7 @@ pub mod actuated;
 pub mod alignment;
 pub mod body;
 pub mod check;
+mod effect;
 pub mod error;
 pub mod input;
 pub mod magnitude;

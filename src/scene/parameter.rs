@@ -1,14 +1,12 @@
 //! [`Parameter`]: a numeric key of scene or initial state that can be dispersed: a row of [`super::schema`] and an instance of
 //! its table.
 //!
-//! A parameter exists in a scene where a change of it has an effect: what belongs to actuators needs a schedule.
-//! Not here: the commands of `[[actuation]]`, which the keys of `[actuators]` distort for all arcs alike, and the errors of an arc for that arc.
+//! Not here: whether it has an effect in a scene ([`super::effect`]); the commands of `[[actuation]]`, which the keys of `[actuators]` distort for all arcs alike, and the errors of an arc for that arc.
 
 use super::input::SceneInput;
 use super::name::Name;
-use super::schedule::{switches_off, switches_on};
+use super::schema::Facts;
 pub use super::schema::Shape;
-use super::schema::{Facts, Limit, MassErrors, PartShape, WheelInput, WheelMode};
 use super::table::{Key, Table};
 use super::unit_quaternion::{is_unit, unit_quaternion};
 
@@ -16,7 +14,7 @@ use super::unit_quaternion::{is_unit, unit_quaternion};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Parameter {
     /// Its row in the schema.
-    key: Key,
+    pub(super) key: Key,
     /// Which instance of the row's table.
     instance: u32,
     /// The name of that instance.
@@ -60,7 +58,7 @@ impl Parameter {
         self.key.facts()
     }
 
-    fn instance(self) -> usize {
+    pub(super) fn instance(self) -> usize {
         self.instance as usize
     }
 
@@ -111,92 +109,6 @@ impl Parameter {
         }
     }
 
-    /// Whether `scene` has the component and a change of it has an effect.
-    pub fn exists(self, scene: &SceneInput, component: usize) -> bool {
-        let has = self.key.read(scene, self.instance()).is_some();
-        has && self.key.acts(scene, self.instance(), component)
-            && !self.is_idle_part(scene)
-            && !self.is_idle_wheel(scene)
-            && self.switches(scene).is_none_or(|arcs| !arcs.is_empty())
-    }
-
-    /// The commands of the schedule whose start it moves, where it is a delay of starts, or whose end, where it is one of ends; `None` where it is
-    /// neither.
-    pub fn switches(self, scene: &SceneInput) -> Option<Vec<usize>> {
-        let is_switched = match self.facts().key {
-            "switch_on_delay_s" => switches_on,
-            "switch_off_delay_s" => switches_off,
-            _ => return None,
-        };
-        let is_own = |arc: &usize| self.key.table != Table::ArcErrors || *arc == self.instance();
-        Some((0..scene.actuation.len()).filter(is_own).filter(|arc| is_switched(scene, *arc)).collect())
-    }
-
-    /// Whether it is of a part, and has no effect: keys of the body as a whole override all that it gives, or the part looks the same from
-    /// everywhere, or is a point.
-    fn is_idle_part(self, scene: &SceneInput) -> bool {
-        if !matches!(self.key.table, Table::Part | Table::PartErrors) {
-            return false;
-        }
-        let Some(part) = scene.parts.get(self.instance()) else { return false };
-        let (body, is_point) = (&scene.body, part.shape == PartShape::PointMass);
-        let MassErrors { stretch_log, shear, center_offset_m, .. } = part.errors;
-        let is_round = is_point || (part.shape == PartShape::Sphere && [stretch_log, shear] == [[0.0; 3]; 2]);
-        match self.facts().key {
-            "attitude" if is_round && center_offset_m == [0.0; 3] => return true,
-            "inertia_scale" | "stretch_log" | "shear" if is_point => return true,
-            _ => {}
-        }
-        match &scene.parts[..] {
-            // a single part: its mass, its centre and its inertia are overridden each on its own
-            [_] => match self.facts().key {
-                "density_kg_m3" | "mass_kg" | "mass_scale" => body.mass_kg.is_some(),
-                "position_m" | "center_offset_m" => body.center_of_mass_m.is_some(),
-                "inertia_scale" | "stretch_log" | "shear" => body.has_inertia(),
-                "attitude" => {
-                    let moves_center = body.center_of_mass_m.is_none() && center_offset_m != [0.0; 3];
-                    body.has_inertia() && !moves_center
-                }
-                // sizes: with a mass of its own the part has an inertia from them, and nothing else
-                _ => body.has_inertia() && (body.mass_kg.is_some() || part.mass_kg.is_some()),
-            },
-            _ if !body.has_inertia() => false,
-            // several: masses move the common centre, sizes and attitudes turn or change the inertia alone
-            _ => {
-                let (has_center, has_all) = (body.center_of_mass_m.is_some(), body.replaces_parts());
-                match self.facts().key {
-                    "density_kg_m3" | "mass_kg" | "mass_scale" => has_all,
-                    "position_m" | "center_offset_m" => has_center,
-                    "inertia_scale" | "stretch_log" | "shear" => true,
-                    "attitude" => has_center || center_offset_m == [0.0; 3],
-                    _ => has_all || part.mass_kg.is_some(),
-                }
-            }
-        }
-    }
-
-    /// Whether it is of a wheel that does not turn and is a part of what the keys of the body describe: taken out and put in again, it has no
-    /// effect.
-    fn is_idle_wheel(self, scene: &SceneInput) -> bool {
-        let is_locked = |wheel: &WheelInput| wheel.mode == WheelMode::Locked;
-        self.key.table == Table::Wheel
-            && scene.body.includes_wheels
-            && scene.wheels.get(self.instance()).is_some_and(is_locked)
-    }
-
-    /// What to write so that the parameter exists where [`Parameter::exists`] says that it does not.
-    pub fn remedy(self) -> &'static str {
-        match self.key.table {
-            Table::Part | Table::PartErrors => {
-                "describe the part by that key; where keys of [body] override it, disperse those, or delete them"
-            }
-            Table::Wheel if self.facts().remedy.is_empty() => {
-                "let the wheel turn (mode), or set body.includes_wheels = false: what the body includes changes nothing while it is locked"
-            }
-            _ => self.facts().remedy,
-        }
-    }
-
     /// Makes `scene` have the key, if its table is there: an optional value, a way to describe a body. Its numbers are then
     /// not numbers yet.
     pub fn open(self, scene: &mut SceneInput) {
@@ -227,11 +139,6 @@ impl Parameter {
             }
             _ => numbers[component] = value,
         }
-    }
-
-    /// Whether the length of the vector has no effect: of an attitude, an axis of a wheel, a direction of a thruster.
-    pub fn has_free_length(self) -> bool {
-        self.shape() == Shape::Quaternion || self.facts().limit == Limit::Direction
     }
 
     /// Whether it is the attitude of a body at time zero.
@@ -464,28 +371,5 @@ mod tests {
         scene.wheels.pop();
         let second = Parameter::find(&full(), "wheels.w2.radius_m").expect("in the table").0;
         assert!(!second.exists(&scene, 0) && Parameter::find(&scene, "wheels.w2.radius_m").is_none());
-    }
-
-    /// Law: what the schedule never commands has no effect, and cannot be dispersed.
-    #[test]
-    fn actuators_that_are_never_commanded_have_no_effect() {
-        let mut scene = full();
-        scene.actuation[0] = ActuationInput::idle(0.0, 1.0).with_thrust(&[1.0]).with_torque(&[0.0, 1.0]);
-        let acts = |name| {
-            let (parameter, component) = Parameter::find(&scene, name).expect("in the schema");
-            parameter.exists(&scene, component.unwrap_or(0))
-        };
-        for name in ["thrusters.p1.thrust_scale", "thrusters.p1.tilt_rad", "wheels.w2.torque_bias_n_m"] {
-            assert!(acts(name), "{name}");
-        }
-        for name in [
-            "thrusters.p2.thrust_scale",
-            "thrusters.p2.tilt_rad",
-            "thrusters.p3.tilt_rad",
-            "thrusters.p3.position_m",
-            "wheels.w1.torque_scale",
-        ] {
-            assert!(!acts(name), "{name}");
-        }
     }
 }

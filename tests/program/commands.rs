@@ -118,6 +118,18 @@ fn check_has_no_line_about_what_is_not_there() {
         let line = listed.lines().find(|line| line.contains(absent) && !line.starts_with("observed groups"));
         assert_eq!(line, None, "{said}");
     }
+    // a thruster that is there, and whose command acts in no run: it is not computed, and neither is its work
+    let thruster = "[[thrusters]]\nname = \"p1\"\nposition_m = [0.1, 0, 0]\ndirection = [0, 0, 1]\n";
+    let arc = |keys: &str| format!("{bare}{thruster}[[actuation]]\nend_s = 9\nthrust_n = {{ p1 = 1.0 }}\n{keys}\n");
+    let says_work = |keys: &str| {
+        scratch.file("bare.toml", &arc(keys));
+        let said = scratch.prints("check bare.toml", 0);
+        let is_computed = !said.contains("not computed: no command of the schedule acts");
+        assert_eq!(said.contains("work of actuators") || said.contains("impulse"), is_computed, "{said}");
+        is_computed
+    };
+    assert!(says_work("start_s = 1"));
+    assert!(!says_work("start_s = 2") && !says_work("start_s = 1\nthrust_scale = 0.0"));
 }
 
 /// Law: below the components of a dispersed rate, attitude or alignment error are the percentiles of its magnitude, which are those of the

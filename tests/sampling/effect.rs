@@ -237,6 +237,24 @@ fn samples_without_dispersions_are_told() {
     assert!(notes.iter().all(|note| !note.contains("nothing is dispersed")), "{notes:?}");
 }
 
+/// Law: a component whose spread is 0, or relative to 0, is told; those that vary are not.
+#[test]
+fn a_component_that_never_varies_is_told() {
+    let notes = |spread: &str| {
+        let table = "[[disperse]]\nparameter = \"initial.angular_velocity_rad_s\"\ndistribution = \"normal\"\n";
+        let plan = plan(&format!("{table}{spread}\n")).unwrap_or_else(|error| panic!("{error}"));
+        plan.notes().into_iter().filter(|note| note.contains("never varied")).collect::<Vec<_>>()
+    };
+    // the nominal value of x is 0
+    let relative = notes("relative_std = 0.1");
+    assert!(
+        relative.len() == 1 && relative[0].starts_with("initial.angular_velocity_rad_s.x is never"),
+        "{relative:?}"
+    );
+    assert_eq!(notes("std = [0.1, 0, 0]").len(), 1);
+    assert!(notes("std = 0.1").is_empty());
+}
+
 /// Law: commands that act in no draw within the run have no columns: after its end, or with a scale of zero; those of some draws have.
 #[test]
 fn columns_are_of_commands_that_act() {
@@ -333,6 +351,12 @@ fn what_no_requested_column_shows_is_told() {
     assert!(names(seldom).is_empty());
     assert!(names(&seldom.replace("0.2", "1e-9")).is_empty());
     assert!(names(&seldom.replace("0.3", "-1.0").replace("0.2", "0.9")).is_empty());
+    // what has an effect in some draws alone: an end that most draws have after the run, a tilt under a scale that is mostly 0
+    let off = dispersed("actuators.switch_off_delay_s").replace("half_width = 0.01", "half_width = 0.5");
+    assert!(names(&format!("{}{off}", arc(0.3))).is_empty());
+    let scale = seldom.replace("wheels.w1.radius_m", "actuation.0.thrust_scale").replace("0.3", "1.0");
+    let tilt = dispersed("thrusters.p3.tilt_rad[0]");
+    assert!(names(&format!("{}thrust_scale = 0.0\n{scale}{tilt}", arc(0.0))).is_empty());
     let unseen = seldom.replace("wheels.w1.radius_m", "initial.position_m.x");
     assert_eq!(names(&unseen), ["initial.position_m.x"]);
 }

@@ -120,3 +120,23 @@ pub fn verdicts(cards: &[Card], has_requirements: bool) -> String {
     };
     format!("<section id=\"verdicts\"><h2>{title}</h2><div class=\"cards\">{cards}</div>{example}</section>\n")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::campaign::Overrides;
+    use crate::ode::Integrator;
+    use crate::propagation::Method;
+
+    /// Law: the facts of a campaign name its tolerance, or the length of its steps where these are fixed.
+    #[test]
+    fn a_tolerance_is_that_of_a_method_that_follows_it() {
+        let path = format!("{}/campaigns/spin_sweep.toml", env!("CARGO_MANIFEST_DIR"));
+        let text = std::fs::read_to_string(path).expect("a shipped campaign");
+        let plan = Plan::from_text("spin_sweep", &text, Overrides::default()).expect("valid");
+        let adaptive = header(&plan);
+        assert!(adaptive.contains("method auto, tolerance ") && !adaptive.contains("steps of"), "{adaptive}");
+        let fixed = header(&Plan { method: Method::Gyrostat(Integrator::RungeKutta4), step_s: Some(0.25), ..plan });
+        assert!(fixed.contains("runge_kutta_4, steps of 0.25") && !fixed.contains("tolerance"), "{fixed}");
+    }
+}
