@@ -12,6 +12,14 @@ impl DirectValue {
 }
 
 impl Value {
+    /// The value of wheel `wheel`, of a column that wheels have.
+    pub(super) fn of_wheel(self, wheel: usize) -> Self {
+        match self {
+            Value::Of(series, reduction) => Value::Of(series.of_wheel(wheel), reduction),
+            Value::Direct(value, _) => Value::Direct(value, wheel as u8),
+        }
+    }
+
     /// The statistic that the value is relative to.
     pub(super) fn scale(self) -> Option<(Series, Reduction)> {
         match self {

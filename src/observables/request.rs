@@ -69,24 +69,41 @@ pub(super) struct SeriesTask {
 impl Request {
     /// The columns of a row, in order: those of the groups that apply to such a scene.
     pub fn columns(&self) -> Vec<Column> {
-        let is_asked = |column: &&Column| self.groups.contains(column.group) && self.includes(column.scenes);
-        let mut columns = Vec::new();
-        for family in table::families() {
-            let asked: Vec<&Column> = family.iter().filter(is_asked).collect();
-            if !asked.iter().any(|column| column.is_of_wheel()) {
-                columns.extend(asked.into_iter().cloned());
-                continue;
-            }
-            for (index, name) in self.wheels.iter().enumerate() {
-                columns.extend(asked.iter().map(|column| column.of_wheel(index, *name)));
-            }
-        }
-        columns
+        let shown = |(column, wheel): (&Column, Option<usize>)| match wheel {
+            Some(index) => column.of_wheel(index, self.wheels[index]),
+            None => column.clone(),
+        };
+        self.rows().into_iter().map(shown).collect()
     }
 
     /// The place of a column in a row; `None` where the row does not have it.
     pub fn position(&self, id: ColumnId) -> Option<usize> {
-        self.columns().iter().position(|column| column.id() == id)
+        self.ids().position(|other| other == id)
+    }
+
+    /// The rows of the table that [`Request::columns`] shows, each with its wheel: without the names, which take most of the time.
+    fn rows(&self) -> Vec<(&'static Column, Option<usize>)> {
+        let is_asked = |column: &&Column| self.groups.contains(column.group) && self.includes(column.scenes);
+        let mut rows = Vec::new();
+        for family in table::families() {
+            let asked: Vec<&Column> = family.iter().filter(is_asked).collect();
+            if !asked.iter().any(|column| column.is_of_wheel()) {
+                rows.extend(asked.into_iter().map(|column| (column, None)));
+                continue;
+            }
+            for index in 0..self.wheels.len() {
+                rows.extend(asked.iter().map(|column| (*column, Some(index))));
+            }
+        }
+        rows
+    }
+
+    /// The handles of the columns of a row, in order.
+    pub(super) fn ids(&self) -> impl Iterator<Item = ColumnId> {
+        self.rows().into_iter().map(|(column, wheel)| match wheel {
+            Some(index) => ColumnId { value: column.value.of_wheel(index), ..column.id() },
+            None => column.id(),
+        })
     }
 
     /// The columns of a time series, in order: the series behind [`Request::columns`] that have one.
@@ -121,15 +138,13 @@ impl Request {
 
     /// What is computed of each observed series: those that are scales of others first.
     pub(super) fn tasks(&self) -> Vec<SeriesTask> {
-        let observed = self.observed();
+        let (observed, values) = (self.observed(), self.ids().map(|id| id.value).collect::<Vec<_>>());
         let passes = |series: Series| {
-            let of_series = self.inputs().filter(|(other, _)| *other == series);
+            let of_series = values.iter().flat_map(|value| value.inputs()).filter(|(other, _)| *other == series);
             of_series.fold(Passes::default(), |passes, (_, reduction)| passes.with(reduction))
         };
         let observed = Series::all().filter(|series| observed.has(*series));
-        let scale = |series: Series| {
-            self.columns().iter().filter(|column| column.value.of(series)).find_map(|c| c.value.scale())
-        };
+        let scale = |series: Series| values.iter().filter(|value| value.of(series)).find_map(|value| value.scale());
         let task = |series: Series| SeriesTask {
             series,
             passes: passes(series),
@@ -143,7 +158,7 @@ impl Request {
 
     /// Every statistic that the columns are made of, some several times.
     fn inputs(&self) -> impl Iterator<Item = (Series, Reduction)> {
-        self.columns().into_iter().flat_map(|column| column.value.inputs().collect::<Vec<_>>())
+        self.ids().flat_map(|id| id.value.inputs().collect::<Vec<_>>())
     }
 
     fn includes(&self, scenes: Scenes) -> bool {
@@ -168,9 +183,9 @@ impl Request {
     /// Every (group, field, purpose), each once, in the order of the columns.
     fn needs(&self) -> Vec<(Group, StateField, &'static str)> {
         let mut needs = Vec::new();
-        for column in self.columns() {
-            for need in column.value.needs().filter(|need| self.includes(need.scenes)) {
-                let entry = (column.group, need.field, need.why);
+        for ColumnId { group, value } in self.ids() {
+            for need in value.needs().filter(|need| self.includes(need.scenes)) {
+                let entry = (group, need.field, need.why);
                 if !needs.contains(&entry) {
                     needs.push(entry);
                 }

@@ -59,11 +59,11 @@ pub(super) struct RowPlan {
 impl RowPlan {
     /// The plan of the columns of `request`.
     pub(super) fn of(request: &Request) -> Self {
-        let columns = request.columns();
-        let known_after_failure = columns.iter().map(|column| column.value.is_known_after_failure()).collect();
+        let values: Vec<Value> = request.ids().map(|id| id.value).collect();
+        let known_after_failure = values.iter().map(|value| value.is_known_after_failure()).collect();
         let mut plan = RowPlan { slots: Vec::new(), direct_values: Vec::new(), known_after_failure };
-        for (place, column) in columns.iter().enumerate() {
-            plan.slots.push(match column.value {
+        for (place, value) in values.into_iter().enumerate() {
+            plan.slots.push(match value {
                 Value::Of(series, reduction) => Slot::of((series, reduction)),
                 Value::Direct(value, wheel) => {
                     plan.direct_values.push((place, value, wheel));

@@ -64,10 +64,7 @@ impl Column {
 
     /// The column of wheel `index`, called `name`.
     pub(super) fn of_wheel(&self, index: usize, name: Name) -> Column {
-        let value = match self.value {
-            Value::Of(series, reduction) => Value::Of(series.of_wheel(index), reduction),
-            Value::Direct(value, _) => Value::Direct(value, index as u8),
-        };
+        let value = self.value.of_wheel(index);
         Column { quantity: named(&self.quantity, name), value, wheel: Some(index as u8), ..self.clone() }
     }
 
@@ -89,8 +86,8 @@ pub enum Value {
 /// The handle of a column: a value of a group. [`super::Request::position`] finds its place in a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ColumnId {
-    group: Group,
-    value: Value,
+    pub(super) group: Group,
+    pub(super) value: Value,
 }
 
 impl ColumnId {
@@ -103,9 +100,8 @@ impl ColumnId {
     #[must_use]
     pub fn of_wheel(self, wheel: usize) -> Self {
         let value = match self.value {
-            Value::Of(series, reduction) => Value::Of(series.of_wheel(wheel), reduction),
-            Value::Direct(value, _) if self.is_of_wheel() => Value::Direct(value, wheel as u8),
-            direct => direct,
+            Value::Direct(..) if !self.is_of_wheel() => self.value,
+            of_wheel => of_wheel.of_wheel(wheel),
         };
         ColumnId { value, ..self }
     }
