@@ -37,8 +37,10 @@ impl Payload {
 }
 
 /// Bytes compressed with gzip, as Base64 (RFC 4648). The same bytes give the same text: the header has no time and no name.
+///
+/// At level 6: at level 9 compressing takes twice as long, for a page that is less than 1% shorter.
 pub fn packed(bytes: &[u8]) -> String {
-    let mut encoder = GzBuilder::new().mtime(0).write(Vec::new(), Compression::best());
+    let mut encoder = GzBuilder::new().mtime(0).write(Vec::new(), Compression::default());
     // writing to memory does not fail
     let compressed = encoder.write_all(bytes).and_then(|()| encoder.finish()).unwrap_or_default();
     encoded(&compressed)
