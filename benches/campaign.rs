@@ -1,6 +1,6 @@
 //! The parts of a campaign, each alone, and the whole.
 //!
-//! `cargo bench --bench campaign`. One thread; `campaigns/no_debris.toml`, which is `spin_sweep` without the debris, `auto` at
+//! `cargo bench -p spindrift-benches --bench campaign`. One thread; `campaigns/no_debris.toml`, which is `spin_sweep` without the debris, `auto` at
 //! 1e-10. Throughput is in samples per second.
 //!
 //! - `sampling`: samples, and mass properties and initial state from them;
@@ -29,7 +29,7 @@ use spindrift::scene::Scene;
 const SAMPLES: u64 = 1024;
 
 fn plan() -> Plan {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns/no_debris.toml");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../campaigns/no_debris.toml");
     Plan::load(&path, Overrides { samples: Some(SAMPLES), ..Overrides::default() })
         .expect("a shipped campaign is valid")
 }

@@ -1,6 +1,6 @@
 //! The parts of a run: right-hand sides, steps, runs.
 //!
-//! `cargo bench --bench kernels` (all), `cargo bench --bench kernels -- run` (one group). One thread. Throughput is in
+//! `cargo bench -p spindrift-benches --bench kernels` (all), the same with ` -- run` (one group). One thread. Throughput is in
 //! evaluations, steps or runs per second.
 //!
 //! - `right-hand side`: a chain of evaluations, each from the previous one as in an integration; the gyrostat with attitude and wheel
@@ -61,7 +61,7 @@ const METHODS: [(Method, f64); 8] = [
 
 /// The plan of a shipped campaign.
 fn plan(name: &str) -> Plan {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns").join(name);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../campaigns").join(name);
     Plan::load(&path, Overrides::default()).expect("a shipped campaign is valid")
 }
 

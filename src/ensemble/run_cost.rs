@@ -16,7 +16,7 @@ use crate::scene::Scene;
 const LOST_S: f64 = 10.0;
 /// Most steps of the nominal run whose work is counted; a longer one is extrapolated.
 const COUNTED_STEPS: u64 = 20_000;
-/// Time of an evaluation, s, three times that of one alone in its vector on the reference machine (`cargo bench --bench kernels`).
+/// Time of an evaluation, s, three times that of one alone in its vector on the reference machine (`cargo bench -p spindrift-benches --bench kernels`).
 const fn evaluation_seconds(method: Method) -> f64 {
     match method {
         Method::NullSpace => 6e-6,

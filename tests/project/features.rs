@@ -23,13 +23,16 @@ fn features(edges: &[&str]) -> BTreeMap<String, BTreeSet<String>> {
     features
 }
 
-/// Cargo compiles a crate once per set of features, and all that depends on it. A crate of the program from which the tests ask
-/// for more has those features in the program too; otherwise `cargo test` compiles the library a second time, for minutes.
+/// Cargo compiles a crate once per set of features, and all that depends on it. A crate of the program from which tests or benches
+/// ask for more has those features in the program too; otherwise `cargo test` compiles the library a second time, for minutes.
 #[test]
-fn tests_ask_for_no_further_features() {
-    let (program, tests) = (features(&["--edges", "no-dev"]), features(&[]));
-    assert!(program.len() > 50 && tests.len() > program.len());
-    let differing = program.iter().filter(|(package, features)| tests.get(*package) != Some(features));
-    let differing: Vec<_> = differing.map(|(package, _)| (package, &program[package], &tests[package])).collect();
-    assert!(differing.is_empty(), "with other features in tests (program, tests): {differing:#?}");
+fn tests_and_benches_ask_for_no_further_features() {
+    let program = features(&["--edges", "no-dev"]);
+    for (name, edges) in [("tests", &[][..]), ("benches", &["--package", "spindrift-benches"])] {
+        let others = features(edges);
+        assert!(program.len() > 50 && others.len() > program.len(), "{name}");
+        let differing = program.iter().filter(|(package, features)| others.get(*package) != Some(features));
+        let differing: Vec<_> = differing.map(|(package, _)| (package, &program[package], &others[package])).collect();
+        assert!(differing.is_empty(), "with other features in {name} (program, {name}): {differing:#?}");
+    }
 }

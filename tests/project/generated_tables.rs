@@ -100,27 +100,36 @@ fn quantities_over_time() -> String {
     table
 }
 
-/// The dependencies with the comments that stand above them in Cargo.toml.
+/// The dependencies with the comments that stand above them in the manifests of the program and of the benches.
 fn dependencies() -> String {
     let mut table = String::from("| crate | version | why | where |\n| --- | --- | --- | --- |\n");
+    add_dependencies(&mut table, "Cargo.toml", "program");
+    add_dependencies(&mut table, "benches/Cargo.toml", "benches");
+    table
+}
+
+/// Adds a row for each dependency of a manifest.
+fn add_dependencies(table: &mut String, manifest: &str, package: &str) {
     let (mut place, mut why) = (None, String::new());
-    for line in text("Cargo.toml").lines() {
+    for line in text(manifest).lines() {
         if let Some(section) = line.strip_prefix('[') {
             place = match section.trim_end_matches(']') {
-                "dependencies" => Some("program"),
-                "target.'cfg(unix)'.dependencies" => Some("program, on Unix"),
-                "dev-dependencies" => Some("tests, benches"),
+                "dependencies" => Some(package.to_owned()),
+                "target.'cfg(unix)'.dependencies" => Some(format!("{package}, on Unix")),
+                "dev-dependencies" => Some("tests".to_owned()),
                 _ => None,
             };
+            why.clear();
         } else if let Some(comment) = line.strip_prefix("# ") {
             let _ = write!(why, "{}{comment}", if why.is_empty() { "" } else { " " });
-        } else if let (Some(place), Some((name, value))) = (place, line.split_once(" = ")) {
-            assert!(!why.is_empty(), "Cargo.toml does not say why there is {name}");
+        } else if let (Some(place), Some((name, value))) = (&place, line.split_once(" = "))
+            && !value.contains("path = ")
+        {
+            assert!(!why.is_empty(), "{manifest} does not say why there is {name}");
             let version = value.split('"').nth(1).unwrap_or_default();
             let _ = writeln!(table, "| {name} | {version} | {} | {place} |", cell(&std::mem::take(&mut why)));
         }
     }
-    table
 }
 
 /// Every numeric key that describes the scene, table by table, from the schema; `[[...]]` where there may be several tables.

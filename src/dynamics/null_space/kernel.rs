@@ -45,7 +45,7 @@ impl<const W: usize> Kernel<W> {
     }
 
     /// The derivative of all components. No allocation, no branch on the data; 0.56 us on one core with AVX2
-    /// (`cargo bench --bench kernels`), inside [`crate::math::Isa::run`].
+    /// (`cargo bench -p spindrift-benches --bench kernels`), inside [`crate::math::Isa::run`].
     ///
     /// Tests: `block_form_equals_the_matrices_as_printed`, `agrees_with_the_gyrostat`.
     #[inline(always)]
