@@ -25,8 +25,8 @@ pub fn incomplete_beta(x: f64, y: f64, a: f64, b: f64) -> Probability {
         return Probability { lower: 1.0, upper: 0.0 };
     }
     let front = front(x, y, a, b);
-    // Between the mean of a shape below 0.1 and a tenth of what its neighbour at 1 has, the fraction of the far side takes thousands of
-    // terms, that of the near one a few, and the complement loses less than two digits.
+    // From the mean a/(a + b) to 0.1 (a + 1)/(a + b + 2), which is beyond it for a below 0.1, the fraction of the far side takes up to
+    // thousands of terms, that of the near one a few, and the complement loses less than two digits.
     let is_short = |x: f64, a: f64, b: f64| front <= 0.98 * a && x * (a + b + 2.0) <= 0.1 * (a + 1.0);
     let is_lower = if b * x <= a * y { !is_short(y, b, a) } else { is_short(x, a, b) };
     if is_lower {
@@ -152,7 +152,7 @@ mod tests {
         (2e-06, 0.05, 3000.0, 0.79513779144805185, 0.20486220855194815),
     ];
 
-    /// Measured: at most 7.6e-15.
+    /// Measured: at most 2.8e-14, where the complement of 0.98 is taken; 7.6e-15 elsewhere.
     const RELATIVE_ERROR: f64 = 5e-14;
 
     #[test]
