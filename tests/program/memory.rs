@@ -1,6 +1,7 @@
 //! Memory of commands: the peak that Linux reports.
 #![cfg(target_os = "linux")]
 
+use std::cell::Cell;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -28,15 +29,31 @@ fn peak(scratch: &ScratchFolder, arguments: &str) -> u64 {
     peak
 }
 
+/// Peak memory of several commands, kB, so that `holds` of it, if it does. Peaks are read while a command runs: on a busy machine the
+/// last ones may be missed, so that a peak is at least what is found. Where the law does not hold, further tries make it more exact.
+fn peaks<const N: usize>(measure: impl Fn(usize) -> u64, holds: impl Fn(&[u64; N]) -> bool) -> [u64; N] {
+    let mut peaks = [0; N];
+    for _ in 0..4 {
+        for (command, peak) in peaks.iter_mut().enumerate() {
+            *peak = (*peak).max(measure(command));
+        }
+        if holds(&peaks) {
+            break;
+        }
+    }
+    peaks
+}
+
 /// Law: any number of samples can be drawn in the same memory: 4e5 x 20 numbers alone, held once, would be 64 MB more.
 #[test]
 fn sample_holds_no_draws() {
     let scratch = ScratchFolder::new("stream");
     let small = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns/attitude.toml");
     let small = small.display();
-    let few = peak(&scratch, &format!("sample {small} --samples 100000"));
-    let many = peak(&scratch, &format!("sample {small} --samples 500000"));
-    assert!(many < few + 8_000, "kB: {few} for 1e5 samples, {many} for 5e5");
+    let draw = |samples: u64| peak(&scratch, &format!("sample {small} --samples {samples}"));
+    let is_flat = |[few, many]: &[u64; 2]| *many < few + 8_000;
+    let [few, many] = peaks(|command| draw([100_000, 500_000][command]), is_flat);
+    assert!(is_flat(&[few, many]), "kB: {few} for 1e5 samples, {many} for 5e5");
     assert!(fs::read_to_string(scratch.0.join("said.txt")).unwrap().contains("of 499999 draws"));
     let written = peak(&scratch, &format!("sample {small} --samples 400000 --out s.parquet"));
     assert!(written < few + 40_000, "kB: {written}");
@@ -58,9 +75,21 @@ fn a_campaign_holds_no_rows() {
         let said = format!("campaign flat.toml --samples {samples} --threads 1 --no-report --overwrite");
         (peak(&scratch, &said), scratch.0.join("results/spin_sweep/runs").read_dir().unwrap().count())
     };
-    let ((few, files), (many, more)) = (of(60_000), of(120_000));
-    assert!(more > files + 12, "{files} and {more} files");
-    assert!(many < few + few / 5, "kB: {few} for 6e4 samples, {many} for 1.2e5");
+    let is_flat = |[few, many]: &[u64; 2]| *many < few + few / 5;
+    let files = Cell::new([0; 2]);
+    let [few, many] = peaks(
+        |command| {
+            let (peak, count) = of([60_000, 120_000][command]);
+            let mut counts = files.get();
+            counts[command] = count;
+            files.set(counts);
+            peak
+        },
+        is_flat,
+    );
+    let [few_files, many_files] = files.get();
+    assert!(many_files > few_files + 12, "{few_files} and {many_files} files");
+    assert!(is_flat(&[few, many]), "kB: {few} for 6e4 samples, {many} for 1.2e5");
 }
 
 /// The bytes a point that the refusal of ten million points of a campaign states; its text has `points = POINTS`.
@@ -106,16 +135,16 @@ fn memory_of_points_is_what_is_stated() {
         let stated = stated(&scratch, &text);
         // three batches of eight lanes; an audit takes a hundred times as long as a run, and the null-space method runs one by one
         let samples = if more.is_empty() && method == "auto" { 17 } else { 3 };
-        let peaks = [20_001, 70_001].map(|points: u64| {
+        let measure = |command: usize| {
+            let points: u64 = [20_001, 70_001][command];
             fs::write(scratch.0.join("burn.toml"), text.replace("POINTS", &points.to_string())).unwrap();
             peak(&scratch, &format!("campaign burn.toml --samples {samples} --threads 1 --overwrite --no-report"))
-        });
-        let each = (peaks[1] - peaks[0]) * 1024 / 50_000;
-        println!("{method} {more:?}: {each} bytes a point, stated {stated}");
+        };
+        let each = |[few, many]: &[u64; 2]| many.saturating_sub(*few) * 1024 / 50_000;
         let least = if more.is_empty() { 6 } else { 4 };
-        assert!(
-            each <= stated && 10 * each >= least * stated,
-            "{method} {more:?}: {each} bytes a point, stated {stated}"
-        );
+        let is_stated = |each: u64| each <= stated && 10 * each >= least * stated;
+        let each = each(&peaks(measure, |peaks| is_stated(each(peaks))));
+        println!("{method} {more:?}: {each} bytes a point, stated {stated}");
+        assert!(is_stated(each), "{method} {more:?}: {each} bytes a point, stated {stated}");
     }
 }
