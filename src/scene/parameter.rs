@@ -1,7 +1,7 @@
 //! [`Parameter`]: a numeric key of scene or initial state that can be dispersed: a row of [`super::schema`] and an instance of
 //! its table.
 //!
-//! Not here: whether it has an effect in a scene ([`super::effect`]); the commands of `[[actuation]]`, which the keys of `[actuators]` distort for all arcs alike, and the errors of an arc for that arc.
+//! Not here: whether it has an effect in a scene (`effect.rs`); the commands of `[[actuation]]`, which the keys of `[actuators]` distort for all arcs alike, and the errors of an arc for that arc.
 
 use super::input::SceneInput;
 use super::name::Name;
