@@ -11,11 +11,11 @@ impl Plan {
         if self.samples > 1 && self.dispersions.columns().is_empty() {
             notes.push(format!("nothing is dispersed: all {} samples are the nominal scene", self.samples));
         }
-        let still = self.dispersions.still();
-        if !still.is_empty() {
+        let constant = self.dispersions.constant();
+        if !constant.is_empty() {
             notes.push(format!(
                 "{} never varied: every draw is the nominal value (a spread of 0, or one relative to a nominal value of 0)",
-                listed(&still)
+                listed(&constant)
             ));
         }
         notes.extend(self.part_of_a_design());

@@ -189,9 +189,9 @@ impl Dispersions {
 
     /// The names of the random dimensions whose draws are all the nominal value: components of a vector that others vary, with a spread of 0 or one
     /// relative to 0.
-    pub fn still(&self) -> Vec<&str> {
-        let is_still = |one: &&Assigned| one.map.dimensions() > 0 && idle::is_still(one, self.columns());
-        self.assigned.iter().filter(is_still).map(|one| self.dimensions[one.first].as_str()).collect()
+    pub fn constant(&self) -> Vec<&str> {
+        let is_constant = |one: &&Assigned| one.map.dimensions() > 0 && idle::is_constant(one, self.columns());
+        self.assigned.iter().filter(is_constant).map(|one| self.dimensions[one.first].as_str()).collect()
     }
 
     /// The names of the random dimensions that the samples vary, but not through all levels of the design.

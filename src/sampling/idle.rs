@@ -41,7 +41,7 @@ pub(super) fn check_lengths(
     columns: &[Column],
     nominal: &SceneInput,
 ) -> Result<(), DispersionError> {
-    let varied: Vec<&Assigned> = assigned.iter().filter(|one| !is_still(one, columns)).collect();
+    let varied: Vec<&Assigned> = assigned.iter().filter(|one| !is_constant(one, columns)).collect();
     for one in &varied {
         let (Transform::Scalar(distribution), [column]) = (&one.map, &one.columns[..]) else { continue };
         let Column { parameter, component, nominal: value } = columns[*column];
@@ -95,7 +95,7 @@ pub(super) fn check_levels(
 }
 
 /// Whether every draw of `one` is the nominal values of the `columns` that it writes.
-pub(super) fn is_still(one: &Assigned, columns: &[Column]) -> bool {
+pub(super) fn is_constant(one: &Assigned, columns: &[Column]) -> bool {
     let nominals: Vec<f64> = one.columns.iter().map(|column| columns[*column].nominal).collect();
     is_idle(&one.map, &nominals)
 }

@@ -105,7 +105,7 @@ fn many_wheels_among_any_runs() {
         // eight lanes, and five runs that take the place of others
         (0..13).map(|k| Scene::resolve(&input(k)).expect("random scenes are physical")).collect()
     };
-    // a second of the null-space method with eight wheels takes as long as minutes of the others
+    // a second of the null-space method with eight wheels takes longer than a hundred of the others
     for (method, control, horizon) in [
         (Method::Auto, adaptive(1e-12), HORIZON),
         (Method::Taylor, adaptive(1e-12), HORIZON),

@@ -90,7 +90,7 @@ fn every_operation_may_fail_in_every_way() {
     let (scratch, plan) = (ScratchFolder::new("faults-every-way"), plan(SAMPLES));
     for persists in [false, true] {
         for kind in [StorageFull, ReadOnlyFilesystem, PermissionDenied, Interrupted, Other] {
-            // the kernel repeats what is interrupted, so that it cannot last
+            // the standard library repeats what is interrupted: one that lasts would never end
             if !(persists && kind == Interrupted) {
                 let (errors, operations) = fail_everywhere(&scratch, &plan, false, (persists, &[kind]));
                 println!("{kind:?}, persists: {persists}: {errors} errors of {operations} operations");
