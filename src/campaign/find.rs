@@ -39,11 +39,14 @@ mod tests {
 
     #[test]
     fn a_bare_name_is_also_looked_up_among_the_shipped_campaigns() {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+        let root = std::env::temp_dir().join(format!("spindrift-find-{}", std::process::id()));
+        std::fs::create_dir_all(root.join("campaigns")).expect("a folder");
+        std::fs::write(root.join("campaigns/burn.toml"), "").expect("a file");
         for name in ["burn", "burn.toml", "campaigns/burn", "campaigns/burn.toml"] {
-            assert_eq!(find_in(root, Path::new(name)), Ok(root.join("campaigns/burn.toml")), "{name}");
+            assert_eq!(find_in(&root, Path::new(name)), Ok(root.join("campaigns/burn.toml")), "{name}");
         }
-        assert_eq!(find_in(root, Path::new("elsewhere/burn")).map_err(|tried| tried.len()), Err(2));
-        assert_eq!(find_in(root, Path::new("no_such_campaign")).map_err(|tried| tried.len()), Err(4));
+        assert_eq!(find_in(&root, Path::new("elsewhere/burn")).map_err(|tried| tried.len()), Err(2));
+        assert_eq!(find_in(&root, Path::new("no_such_campaign")).map_err(|tried| tried.len()), Err(4));
+        std::fs::remove_dir_all(root).expect("removed");
     }
 }

@@ -50,9 +50,11 @@ mod tests {
     use crate::campaign::Overrides;
 
     fn plan(only: &str) -> Result<Plan, String> {
-        let path = format!("{}/campaigns/spin_sweep.toml", env!("CARGO_MANIFEST_DIR"));
-        let text = std::fs::read_to_string(path).expect("readable");
-        let text = text.replacen("[campaign]\n", &format!("[campaign]\n{only}\n"), 1);
+        let text = include_str!("../../campaigns/spin_sweep.toml").replacen(
+            "[campaign]\n",
+            &format!("[campaign]\n{only}\n"),
+            1,
+        );
         Plan::from_text("x.toml", &text, Overrides { samples: Some(100), ..Overrides::default() })
             .map_err(|e| e.to_string())
     }

@@ -284,10 +284,9 @@ mod tests {
 
     /// The same of the error of another balance.
     fn tally_of(balance: ColumnId, samples: u64, parts: &[&[(Status, f64)]]) -> Tally {
-        let path = format!("{}/campaigns/spin_sweep.toml", env!("CARGO_MANIFEST_DIR"));
-        let text = std::fs::read_to_string(path).unwrap();
+        let text = include_str!("../../campaigns/spin_sweep.toml");
         let overrides = Overrides { samples: Some(samples), audit_fraction: Some(0.5), ..Overrides::default() };
-        let plan = Plan::from_text("spin_sweep", &text, overrides).unwrap();
+        let plan = Plan::from_text("spin_sweep", text, overrides).unwrap();
         // a method whose rows have all balances
         let plan = Plan { method: Method::NullSpace, ..plan };
         let ensemble = Ensemble::new(&plan, Isa::best());

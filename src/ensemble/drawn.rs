@@ -172,9 +172,7 @@ mod tests {
     /// Law: some samples of a grid are spread over all of it: both parameters have all their range; those of a random design are the first ones.
     #[test]
     fn samples_are_spread_over_a_grid() {
-        let path = format!("{}/campaigns/no_debris.toml", env!("CARGO_MANIFEST_DIR"));
-        let scene = std::fs::read_to_string(path).expect("a shipped campaign");
-        let scene: String = scene
+        let scene: String = include_str!("../../campaigns/no_debris.toml")
             .lines()
             .take_while(|line| !line.starts_with("[[disperse]]"))
             .map(|line| format!("{line}\n"))

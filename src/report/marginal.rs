@@ -72,9 +72,7 @@ mod tests {
     }
 
     fn plan(dispersion: &str) -> Plan {
-        let path = format!("{}/campaigns/no_debris.toml", env!("CARGO_MANIFEST_DIR"));
-        let text = std::fs::read_to_string(path).unwrap();
-        let (nominal, _) = text.split_once("[[disperse]]").unwrap();
+        let (nominal, _) = include_str!("../../campaigns/no_debris.toml").split_once("[[disperse]]").unwrap();
         Plan::from_text("x.toml", &format!("{nominal}\n[[disperse]]\n{dispersion}\n"), Overrides::default()).unwrap()
     }
 

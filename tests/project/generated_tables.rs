@@ -2,6 +2,7 @@
 //!
 //! `SPINDRIFT_WRITE_DOCS=1 cargo test --release --test project` writes them again.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -100,36 +101,52 @@ fn quantities_over_time() -> String {
     table
 }
 
-/// The dependencies with the comments that stand above them in the manifests of the program and of the benches.
+/// The dependencies of the program, its tests and its benches, with the comments that stand above them in the list of all packages.
 fn dependencies() -> String {
     let mut table = String::from("| crate | version | why | where |\n| --- | --- | --- | --- |\n");
-    add_dependencies(&mut table, "Cargo.toml", "program");
-    add_dependencies(&mut table, "benches/Cargo.toml", "benches");
+    let listed = listed_dependencies();
+    let (program, benches) = (manifest("Cargo.toml"), manifest("benches/Cargo.toml"));
+    let places = [
+        (&program["dependencies"], "program"),
+        (&program["target"]["cfg(unix)"]["dependencies"], "program, on Unix"),
+        (&program["dev-dependencies"], "tests"),
+        (&benches["dependencies"], "benches"),
+    ];
+    let mut named = BTreeSet::new();
+    for (dependencies, place) in places {
+        for name in dependencies.as_table().expect("a table").keys().filter(|name| *name != "spindrift") {
+            // what the benches share with the program is in the table once
+            if named.insert(name) {
+                let (version, why) = &listed[name];
+                let _ = writeln!(table, "| {name} | {version} | {} | {place} |", cell(why));
+            }
+        }
+    }
+    let unused: Vec<&String> = listed.keys().filter(|name| !named.contains(name)).collect();
+    assert!(unused.is_empty(), "no package uses {unused:?}");
     table
 }
 
-/// Adds a row for each dependency of a manifest.
-fn add_dependencies(table: &mut String, manifest: &str, package: &str) {
-    let (mut place, mut why) = (None, String::new());
-    for line in text(manifest).lines() {
-        if let Some(section) = line.strip_prefix('[') {
-            place = match section.trim_end_matches(']') {
-                "dependencies" => Some(package.to_owned()),
-                "target.'cfg(unix)'.dependencies" => Some(format!("{package}, on Unix")),
-                "dev-dependencies" => Some("tests".to_owned()),
-                _ => None,
-            };
-            why.clear();
-        } else if let Some(comment) = line.strip_prefix("# ") {
-            let _ = write!(why, "{}{comment}", if why.is_empty() { "" } else { " " });
-        } else if let (Some(place), Some((name, value))) = (&place, line.split_once(" = "))
-            && !value.contains("path = ")
-        {
-            assert!(!why.is_empty(), "{manifest} does not say why there is {name}");
-            let version = value.split('"').nth(1).unwrap_or_default();
-            let _ = writeln!(table, "| {name} | {version} | {} | {place} |", cell(&std::mem::take(&mut why)));
+/// Version and comment of every dependency in the list of all packages.
+fn listed_dependencies() -> BTreeMap<String, (String, String)> {
+    let text = text("Cargo.toml");
+    let (_, list) = text.split_once("\n[workspace.dependencies]\n").expect("the list");
+    let (mut listed, mut why) = (BTreeMap::new(), Vec::new());
+    for line in list.lines().take_while(|line| !line.starts_with('[')) {
+        if let Some(comment) = line.strip_prefix("# ") {
+            why.push(comment);
+        } else if let Some((name, value)) = line.split_once(" = ") {
+            assert!(!why.is_empty(), "Cargo.toml does not say why there is {name}");
+            let version = value.split('"').nth(1).expect("a version").to_owned();
+            listed.insert(name.to_owned(), (version, std::mem::take(&mut why).join(" ")));
         }
     }
+    listed
+}
+
+/// A manifest as a table.
+fn manifest(file: &str) -> toml::Table {
+    text(file).parse().unwrap_or_else(|error| panic!("{file}: {error}"))
 }
 
 /// Every numeric key that describes the scene, table by table, from the schema; `[[...]]` where there may be several tables.

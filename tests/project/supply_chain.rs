@@ -29,7 +29,7 @@ fn problems(lock: &toml::Table, banned: &[String]) -> Vec<String> {
             found.push(format!("{name} is banned"));
         }
         match package.get("source").and_then(toml::Value::as_str) {
-            None if [env!("CARGO_PKG_NAME"), "spindrift-benches"].contains(&name) => {}
+            None if [env!("CARGO_PKG_NAME"), "spindrift-benches", "spindrift-unit-tests"].contains(&name) => {}
             Some(REGISTRY) if package.get("checksum").is_some() => {}
             source => found.push(format!("{name} is from {source:?}, or has no checksum")),
         }

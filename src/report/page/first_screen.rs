@@ -131,9 +131,8 @@ mod tests {
     /// Law: the facts of a campaign name its tolerance, or the length of its steps where these are fixed.
     #[test]
     fn a_tolerance_is_that_of_a_method_that_follows_it() {
-        let path = format!("{}/campaigns/spin_sweep.toml", env!("CARGO_MANIFEST_DIR"));
-        let text = std::fs::read_to_string(path).expect("a shipped campaign");
-        let plan = Plan::from_text("spin_sweep", &text, Overrides::default()).expect("valid");
+        let text = include_str!("../../../campaigns/spin_sweep.toml");
+        let plan = Plan::from_text("spin_sweep", text, Overrides::default()).expect("valid");
         let adaptive = header(&plan);
         assert!(adaptive.contains("method auto, tolerance ") && !adaptive.contains("steps of"), "{adaptive}");
         let fixed = header(&Plan { method: Method::Gyrostat(Integrator::RungeKutta4), step_s: Some(0.25), ..plan });
