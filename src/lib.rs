@@ -46,14 +46,9 @@
 pub mod campaign;
 pub mod cli;
 pub mod dataset;
-pub mod dynamics;
 pub mod ensemble;
-pub mod math;
-pub mod observables;
-pub mod ode;
-pub mod propagation;
 pub mod report;
-pub mod run;
 pub mod sampling;
-pub mod scene;
-pub mod statistics;
+
+#[doc(inline)]
+pub use spindrift_kernels::{dynamics, math, observables, ode, propagation, run, scene, statistics};

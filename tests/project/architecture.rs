@@ -1,6 +1,8 @@
 //! The rules of the architecture, checked on the source: layers, cycles, external crates, calls that are not allowed.
 
-use crate::source::{Crate, Source, code, files_below, is_for_tests_only, paths, root, sources};
+use std::collections::BTreeSet;
+
+use crate::source::{Crate, FOLDERS, Source, code, files_below, is_for_tests_only, paths, root, sources, sources_of};
 
 /// Layers: a module imports only from layers below its own (and from itself).
 const LAYERS: [(&str, u32); 15] = [
@@ -22,7 +24,7 @@ const LAYERS: [(&str, u32); 15] = [
 ];
 
 /// Where each dependency may be used: modules, or single files. An empty list means everywhere.
-const CRATES: [(&str, &[&str]); 26] = [
+const CRATES: [(&str, &[&str]); 27] = [
     ("arrow_ipc", &["dataset/arrow_metadata.rs"]),
     ("arrow_schema", &["dataset"]),
     ("base64", &["report/page", "dataset/arrow_metadata.rs"]),
@@ -47,12 +49,16 @@ const CRATES: [(&str, &[&str]); 26] = [
     ("serde_json", &["cli/finish_campaign.rs", "dataset", "report"]),
     ("sha2", &["campaign", "dataset"]),
     ("signal_hook", &["cli/signals.rs"]),
+    (KERNELS, &["lib.rs"]),
     ("thiserror", &[]),
     ("toml", &["campaign"]),
 ];
 
 /// The dependency that is there for its features alone (`features.rs`).
 const FOR_ITS_FEATURES: &str = "either";
+
+/// The package whose modules the library exports as its own, so that nothing names it.
+const KERNELS: &str = "spindrift_kernels";
 
 /// Elementary functions whose last digits are the platform's own: rows take them from `libm`.
 const UNPORTABLE: [&str; 24] = [
@@ -143,16 +149,24 @@ fn external_crates_stay_in_their_layers() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// Law: the table of crates lists exactly the dependencies of the manifest, and each is used, but for the one that is there for its
-/// features.
+/// Law: the table of crates lists exactly the dependencies of the manifests, and each package uses its own, but for the one that is there
+/// for its features.
 #[test]
 fn every_dependency_is_in_the_table_and_used() {
-    let manifest = std::fs::read_to_string(root().join("Cargo.toml")).expect("the manifest");
-    assert_eq!(dependencies(&manifest), CRATES.map(|(name, _)| name));
-    let sources = sources();
-    for (name, _) in CRATES.into_iter().filter(|(name, _)| *name != FOR_ITS_FEATURES) {
-        assert!(sources.iter().any(|source| external(&source.code).contains(&name)), "{name} is not used");
+    let mut all = BTreeSet::new();
+    for folder in FOLDERS {
+        let manifest = root().join(folder).join("../Cargo.toml");
+        let names = dependencies(&std::fs::read_to_string(manifest).expect("the manifest"));
+        let sources = sources_of(folder);
+        for name in names.iter().filter(|name| *name != FOR_ITS_FEATURES) {
+            assert!(
+                sources.iter().any(|source| external(&source.code).contains(&name.as_str())),
+                "{folder}: {name} is not used"
+            );
+        }
+        all.extend(names);
     }
+    assert_eq!(Vec::from_iter(all), CRATES.map(|(name, _)| name));
 }
 
 #[test]
@@ -185,10 +199,11 @@ fn failures_are_values() {
 #[test]
 fn nothing_is_built_for_one_processor() {
     let mut files = Vec::new();
-    for folder in ["src", "benches"] {
+    for folder in FOLDERS.into_iter().chain(["benches"]) {
         files_below(&root().join(folder), &mut files);
     }
-    let settings = ["Cargo.toml", ".cargo/config.toml", ".cargo/config", "build.rs"].map(|name| root().join(name));
+    let settings = ["Cargo.toml", "kernels/Cargo.toml", ".cargo/config.toml", ".cargo/config", "build.rs"]
+        .map(|name| root().join(name));
     files.extend(settings.into_iter().filter(|file| file.exists()));
     for file in files {
         let text = std::fs::read_to_string(&file).expect("a readable file");

@@ -105,9 +105,11 @@ fn quantities_over_time() -> String {
 fn dependencies() -> String {
     let mut table = String::from("| crate | version | why | where |\n| --- | --- | --- | --- |\n");
     let listed = listed_dependencies();
-    let (program, benches) = (manifest("Cargo.toml"), manifest("benches/Cargo.toml"));
+    let [program, kernels, benches] = ["Cargo.toml", "kernels/Cargo.toml", "benches/Cargo.toml"].map(manifest);
+    let mut of_program = program["dependencies"].as_table().expect("a table").clone();
+    of_program.extend(kernels["dependencies"].as_table().expect("a table").clone());
     let places = [
-        (&program["dependencies"], "program"),
+        (&toml::Value::Table(of_program), "program"),
         (&program["target"]["cfg(unix)"]["dependencies"], "program, on Unix"),
         (&program["dev-dependencies"], "tests"),
         (&benches["dependencies"], "benches"),
@@ -137,7 +139,8 @@ fn listed_dependencies() -> BTreeMap<String, (String, String)> {
             why.push(comment);
         } else if let Some((name, value)) = line.split_once(" = ") {
             assert!(!why.is_empty(), "Cargo.toml does not say why there is {name}");
-            let version = value.split('"').nth(1).expect("a version").to_owned();
+            let value: toml::Value = format!("v = {value}").parse::<toml::Table>().expect("TOML")["v"].clone();
+            let version = value.get("version").unwrap_or(&value).as_str().expect("a version").to_owned();
             listed.insert(name.to_owned(), (version, std::mem::take(&mut why).join(" ")));
         }
     }

@@ -25,10 +25,13 @@ pub fn files_below(folder: &Path, list: &mut Vec<PathBuf>) {
 /// A path as its segments: `crate::math::Real` is ["crate", "math", "Real"].
 pub type Segments = Vec<String>;
 
-/// A source file below `src/`.
+/// The folders with the source of the library, each of a package of its own: the program exports the modules of the kernels as its own.
+pub const FOLDERS: [&str; 2] = ["src", "kernels/src"];
+
+/// A source file of the library or of the program.
 #[derive(Clone, Debug)]
 pub struct Source {
-    /// Path from `src/`.
+    /// Path from the folder of [`FOLDERS`] that it is in.
     pub path: String,
     /// Module path: `["math", "vector"]`; empty for `lib.rs`.
     pub module: Segments,
@@ -37,7 +40,7 @@ pub struct Source {
 }
 
 impl Source {
-    /// A file at `path` below `src/` with this text.
+    /// A file at `path` below a folder of [`FOLDERS`] with this text.
     pub fn new(path: &str, text: &str) -> Self {
         let stem = path.trim_end_matches(".rs");
         let stem = stem.strip_suffix("/mod").unwrap_or(stem);
@@ -53,11 +56,16 @@ impl Source {
 
 /// The files of the library and of the program, without modules declared under `#[cfg(test)]`.
 pub fn sources() -> Vec<Source> {
-    let folder = root().join("src");
+    FOLDERS.iter().flat_map(|folder| sources_of(folder)).collect()
+}
+
+/// Those of one of [`FOLDERS`].
+pub fn sources_of(folder: &str) -> Vec<Source> {
+    let folder = root().join(folder);
     let mut list = Vec::new();
     files_below(&folder, &mut list);
     let source = |file: PathBuf| {
-        let path = file.strip_prefix(&folder).expect("below src").to_string_lossy().replace('\\', "/");
+        let path = file.strip_prefix(&folder).expect("below the folder").to_string_lossy().replace('\\', "/");
         Source::new(&path, &std::fs::read_to_string(&file).expect("a source file"))
     };
     list.into_iter().map(source).filter(|source| !is_for_tests_only(&source.path)).collect()
@@ -67,8 +75,8 @@ pub fn sources() -> Vec<Source> {
 pub fn is_for_tests_only(path: &str) -> bool {
     let path = Path::new(path);
     let (Some(folder), Some(name)) = (path.parent(), path.file_stem()) else { return false };
-    let parent = root().join("src").join(folder).join("mod.rs");
-    let Ok(text) = std::fs::read_to_string(parent) else { return false };
+    let parents = FOLDERS.map(|source| root().join(source).join(folder).join("mod.rs"));
+    let Some(text) = parents.iter().find_map(|parent| std::fs::read_to_string(parent).ok()) else { return false };
     let declaration = format!("mod {};", name.to_string_lossy());
     let mut lines = text.lines().zip(text.lines().skip(1));
     lines.any(|(before, line)| before.trim() == "#[cfg(test)]" && line.trim().ends_with(&declaration))
@@ -265,7 +273,7 @@ impl<'a> Crate<'a> {
         let (first, rest) = path.split_first()?;
         let mut module = source.module.clone();
         match first.as_str() {
-            "crate" | "spindrift" => module.clear(),
+            "crate" | "spindrift" | "spindrift_kernels" => module.clear(),
             "self" => {}
             "super" => {
                 module.pop();

@@ -5,6 +5,9 @@ use std::path::Path;
 /// The registry that every dependency comes from.
 const REGISTRY: &str = "registry+https://github.com/rust-lang/crates.io-index";
 
+/// Those of this repository.
+const PACKAGES: [&str; 4] = [env!("CARGO_PKG_NAME"), "spindrift-benches", "spindrift-kernels", "spindrift-unit-tests"];
+
 fn text(file: &str) -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
     std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
@@ -29,7 +32,7 @@ fn problems(lock: &toml::Table, banned: &[String]) -> Vec<String> {
             found.push(format!("{name} is banned"));
         }
         match package.get("source").and_then(toml::Value::as_str) {
-            None if [env!("CARGO_PKG_NAME"), "spindrift-benches", "spindrift-unit-tests"].contains(&name) => {}
+            None if PACKAGES.contains(&name) => {}
             Some(REGISTRY) if package.get("checksum").is_some() => {}
             source => found.push(format!("{name} is from {source:?}, or has no checksum")),
         }
@@ -60,7 +63,7 @@ fn the_oldest_compiler_is_the_same_everywhere() {
 /// Checked: library and program forbid unsafe code, so that no module can allow it.
 #[test]
 fn unsafe_code_is_forbidden() {
-    for file in ["src/lib.rs", "src/main.rs"] {
+    for file in ["src/lib.rs", "src/main.rs", "kernels/src/lib.rs"] {
         assert!(text(file).lines().any(|line| line == "#![forbid(unsafe_code)]"), "{file}");
     }
 }

@@ -9,8 +9,9 @@ use std::path::{Path, PathBuf};
 const LIST: &str = include_str!("vocabulary.txt");
 
 /// Where the words are looked for.
-const SEARCHED: [&str; 11] = [
+const SEARCHED: [&str; 12] = [
     "src",
+    "kernels",
     "tests",
     "benches",
     "examples",

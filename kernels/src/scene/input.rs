@@ -16,6 +16,7 @@ use crate::math::list::List;
 /// The default is a box of 1 m and 100 kg/m^3 alone, at rest at the inertial origin, without wheels, thrusters, debris and actuation.
 ///
 /// ```
+/// # extern crate spindrift_kernels as spindrift;
 /// use spindrift::scene::{DebrisInput, Scene, SceneInput, WheelInput};
 ///
 /// let scene = SceneInput::report()

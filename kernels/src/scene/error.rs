@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 /// One problem of a scene: which key, which value, what is allowed, what to do.
 ///
-/// [`crate::campaign`] adds file and line; the texts here never contain them.
+/// The reader of campaign files adds file and line; the texts here never contain them.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{key} = {value}: must be {allowed}; {remedy}")]
 pub struct SceneError {
