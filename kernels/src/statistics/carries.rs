@@ -25,6 +25,11 @@ impl Carries {
         *self.0.entry(key).or_default() += carried;
     }
 
+    /// Whether no counter has carried: those whose lower 32 bits are zero have counted nothing then.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
     /// What the counter with the number `key` has counted, whose lower 32 bits are `low`.
     pub fn whole(&self, key: u32, low: u32) -> u64 {
         match self.0.get(&key) {

@@ -101,10 +101,10 @@ impl Sketch {
 
     /// Counts all that `other` has counted.
     pub fn merge(&mut self, other: &Sketch) {
-        for (number, bucket, count) in other.buckets() {
+        other.for_each_bucket(|number, bucket, count| {
             let at = self.page_index(number);
             self.carries.add(key(number, bucket), &mut self.pages[at].1[bucket], count);
-        }
+        });
         self.count += other.count;
         self.min = self.min.min(other.min);
         self.max = self.max.max(other.max);
@@ -131,14 +131,24 @@ impl Sketch {
         self.ranks().quantile(p)
     }
 
-    /// The buckets that are not empty, ascending: number of the page, number in the page, count.
-    fn buckets(&self) -> impl Iterator<Item = (u16, usize, u64)> {
-        let all = self
-            .pages
-            .iter()
-            .flat_map(|(number, counts)| counts.iter().enumerate().map(|(bucket, count)| (*number, bucket, *count)));
-        let whole = all.map(|(number, bucket, low)| (number, bucket, self.carries.whole(key(number, bucket), low)));
-        whole.filter(|(_, _, count)| *count > 0)
+    /// Calls `visit` with every bucket that is not empty, ascending: number of the page, number in the page, count.
+    #[inline(always)]
+    fn for_each_bucket(&self, mut visit: impl FnMut(u16, usize, u64)) {
+        for (number, page) in &self.pages {
+            for (line, counts) in page.chunks(CACHE_LINE).enumerate() {
+                // most are, so that none in them is looked at alone
+                let are_empty = counts.iter().fold(0, |any, count| any | count) == 0;
+                if are_empty && self.carries.is_empty() {
+                    continue;
+                }
+                for (low, bucket) in counts.iter().zip(line * CACHE_LINE..) {
+                    let count = self.carries.whole(key(*number, bucket), *low);
+                    if count > 0 {
+                        visit(*number, bucket, count);
+                    }
+                }
+            }
+        }
     }
 
     /// The index of a page, which is added where it is not there.
@@ -156,13 +166,13 @@ impl Sketch {
     pub fn ranks(&self) -> Ranks {
         let mut seen = 0;
         let mut buckets = Vec::new();
-        for (number, bucket, count) in self.buckets() {
+        self.for_each_bucket(|number, bucket, count| {
             seen += count;
             let [low, high] = ends(number, bucket);
             // the bucket of an infinity reaches into the NaNs; extremes are known exactly
             let [low, high] = [if low.is_nan() { high } else { low }, if high.is_nan() { low } else { high }];
             buckets.push(Bucket { low: low.max(self.min), high: high.min(self.max), up_to: seen });
-        }
+        });
         Ranks { buckets, count: self.count }
     }
 }
