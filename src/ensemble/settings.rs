@@ -27,8 +27,8 @@ pub fn nominal_attitude(plan: &Plan, request: &Request, grid: &Grid, isa: Isa) -
         return None;
     }
     let mut found = None;
-    let fields = request.fields().with(StateField::Attitude);
-    propagator(plan, grid.clone(), fields).engine(isa).propagate(&[nominal(plan)], &mut |run| {
+    let attitude = StateFields::NONE.with(StateField::Attitude);
+    propagator(plan, grid.clone(), attitude).engine(isa).propagate(&[nominal(plan)], &mut |run| {
         found = Some(NominalAttitude::of(run.table, run.outcome));
     });
     found

@@ -125,6 +125,8 @@ impl<'p> Ensemble<'p> {
 
     /// Memory for one thread. Allocates; running samples in it does not, once it is warm.
     pub fn worker(&self) -> Worker<'_> {
+        // first: the engine of the nominal run is gone before that of the runs is made
+        let observer = self.observer();
         Worker {
             campaign: self,
             draws: SceneDraws::new(self.plan),
@@ -133,7 +135,7 @@ impl<'p> Ensemble<'p> {
             is_done: Vec::with_capacity(BATCH),
             is_selected: Vec::with_capacity(BATCH),
             engine: self.engine(),
-            observer: self.observer(),
+            observer,
             observed: vec![0.0; self.shape().observables],
             audits: (self.plan.audit_fraction > 0.0)
                 .then(|| (Selection::new(self.plan), Auditor::new(self.plan, self.isa, &self.plan.grid))),
