@@ -57,7 +57,7 @@ const CRATES: [(&str, &[&str]); 27] = [
 /// The dependency that is there for its features alone (`features.rs`).
 const FOR_ITS_FEATURES: &str = "either";
 
-/// The package whose modules the library exports as its own, so that nothing names it.
+/// The package whose modules the library exports as its own, so that nothing else names it.
 const KERNELS: &str = "spindrift_kernels";
 
 /// Elementary functions whose last digits are the platform's own: rows take them from `libm`.
