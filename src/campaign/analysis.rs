@@ -7,7 +7,7 @@ use super::limits::{CONFIDENCE, MAX_SAMPLES};
 use super::lines::Lines;
 use super::requirement::{DEFAULT_CONFIDENCE, Requirement};
 use super::section::Section;
-use super::stop::Stop;
+use super::stop::{Stop, When};
 use crate::observables::Request;
 use crate::sampling::{Column, Design};
 
@@ -24,7 +24,7 @@ pub struct Analysis {
     pub derived: Vec<DerivedObservable>,
     /// What the campaign must show.
     pub requirements: Vec<Requirement>,
-    /// When it is precise enough; `None`: after `campaign.samples`.
+    /// When it has enough samples; `None`: after `campaign.samples`.
     pub stop: Option<Stop>,
 }
 
@@ -132,6 +132,9 @@ impl Analysis {
             let allowed = format!("a whole number from campaign.samples ({samples}) to {MAX_SAMPLES}");
             let remedy = "write at least the samples of the first look";
             document.add("stop.max_samples", Some(stop.max_samples.to_string()), allowed, remedy);
+        } else if stop.when == When::Decided && self.requirements.is_empty() {
+            let allowed = "\"precise\" where there is no [[require]] table to decide";
+            document.add("stop.when", Some("\"decided\"".to_owned()), allowed, "write a [[require]] table");
         }
     }
 

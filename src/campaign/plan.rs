@@ -118,13 +118,15 @@ const fn default_tolerance(method: Method) -> f64 {
 const MAX_STEPS: u64 = 10_000_000;
 
 impl Plan {
-    /// The plan of a campaign that `[stop]` has ended at `samples` samples; the same without `[stop]`.
+    /// The plan of a campaign that `[stop]` looks at when it has `samples` samples, or at the next number of samples of a look; the same without
+    /// `[stop]`.
     #[must_use]
-    pub fn stopped_at(self, samples: u64) -> Plan {
-        if self.analysis.stop.is_none() {
-            return self;
+    pub fn at_look(self, samples: u64) -> Plan {
+        let look = self.looks().into_iter().find(|look| *look >= samples);
+        match (&self.analysis.stop, look) {
+            (Some(_), Some(samples)) => Plan { samples, written_samples: Some(self.first_samples()), ..self },
+            _ => self,
         }
-        Plan { samples, written_samples: Some(self.first_samples()), ..self }
     }
 
     /// The number of samples that the file says: with `[stop]` that of the first look.

@@ -5,6 +5,7 @@
 use super::chosen::{Chosen, MOST_CHOSEN};
 use super::plan::Plan;
 use crate::sampling::SampleId;
+use crate::statistics::looks::looks;
 
 impl Plan {
     /// Number of rows: of samples that run.
@@ -21,6 +22,14 @@ impl Plan {
     /// Number of rows that are not that of the nominal sample.
     pub fn dispersed_rows(&self) -> u64 {
         self.rows() - u64::from(self.rows() > 0 && self.sample(0) == SampleId(0))
+    }
+
+    /// The numbers of samples, sample 0 included, at which it is looked at; the last one ends it. Without `[stop]` it is one.
+    pub fn looks(&self) -> Vec<u64> {
+        match &self.analysis.stop {
+            Some(stop) => looks(self.first_samples(), stop.max_samples),
+            None => vec![self.rows()],
+        }
     }
 
     /// The plan that runs `samples` only, which are samples of this one, ascending.

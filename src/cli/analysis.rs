@@ -11,6 +11,7 @@ use crate::dataset::rows_reader::RowsReader;
 use crate::dataset::running_counts::Counted;
 use crate::dataset::sensitivity::InputSensitivity;
 use crate::dataset::statistics::Statistics;
+use crate::dataset::stopping::{Stopping, stopping};
 use crate::dataset::verdicts::Verdicts;
 use crate::dataset::{
     atomic, bands_file, bands_table, sensitivity, sensitivity_table, statistics, statistics_table, verdicts,
@@ -29,6 +30,8 @@ pub struct Analysed {
     pub sensitivities: Vec<InputSensitivity>,
     /// Over time, where the campaign has bands.
     pub bands: Option<Bands>,
+    /// Whether the campaign has enough samples, where it has `[stop]`.
+    pub stopping: Option<Stopping>,
 }
 
 /// Makes the tables of the dataset `folder` of `plan` from its rows, and the files `bands` of its bands.
@@ -70,15 +73,18 @@ pub fn computed(
     threads: Option<NonZeroUsize>,
 ) -> Result<Analysed, Failure> {
     let (columns, counted_bands) = counted.map(|counted| (counted.columns, counted.bands)).unzip();
-    let bands = match counted_bands {
+    let of_bands = match counted_bands {
         Some(bands) => bands,
         None => bands_file::read(reader.storage(), bands, threads).map_err(Failure::files)?,
     };
+    let verdicts = verdicts::assess(plan, reader, of_bands.as_ref(), threads).map_err(Failure::files)?;
+    let looked = stopping(plan, (reader, bands), plan.samples, threads, Some(&verdicts));
     Ok(Analysed {
         statistics: statistics::compute(plan, reader, columns, threads).map_err(Failure::files)?,
         sensitivities: sensitivity::compute(plan, reader, threads).map_err(Failure::files)?,
-        verdicts: verdicts::assess(plan, reader, bands.as_ref(), threads).map_err(Failure::files)?,
-        bands,
+        verdicts,
+        bands: of_bands,
+        stopping: looked.map_err(Failure::files)?,
     })
 }
 

@@ -21,7 +21,7 @@ Exit codes:
   2  bad input: arguments, campaign file, or a sample that is not physical
   3  ran, and a requirement failed
   4  input/output error, or the folder has a result that may not be overwritten
-  5  ran, and no requirement failed, but one is undecided
+  5  ran, and no requirement failed, but one is undecided, or [stop] did not reach its precision
   129, 130, 138, 143  stopped by SIGHUP, SIGINT, SIGUSR1, SIGTERM; the same command continues
 Of several codes the first of 2, 4, that of a signal, 3, 5, 1, 0 is returned.
 

@@ -16,7 +16,7 @@ pub enum CommandOutcome {
     Stopped(i32),
     /// This many requirements failed: code 3.
     RequirementsFailed(usize),
-    /// No requirement failed, and this many are undecided: code 5.
+    /// No requirement failed, and this many are undecided, a precision among them that `[stop]` did not reach: code 5.
     RequirementsUndecided(usize),
 }
 

@@ -3,7 +3,7 @@
 //! It is a function of the plan and the rows: whichever processes made them, and however often they were stopped, the files are the same.
 
 use std::num::NonZeroUsize;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use serde_json::Value;
@@ -25,7 +25,6 @@ use crate::dataset::replacement::replace;
 use crate::dataset::rows_file::headings;
 use crate::dataset::rows_reader::RowsReader;
 use crate::dataset::running_counts::Counted;
-use crate::dataset::stopping::stopping;
 use crate::dataset::storage::{Disk, Storage};
 use crate::dataset::table_log;
 use crate::dataset::tally::Tally;
@@ -78,20 +77,20 @@ pub fn finish(job: &Finishing<'_>, counted: Option<Counted>) -> Result<CommandOu
 pub fn complete(job: &Finishing<'_>, counted: Option<Counted>) -> Result<(CommandOutcome, String), Failure> {
     let (plan, folder) = (job.ensemble.plan(), &job.ready.folder);
     let records = folder.parts();
-    let parts = PartsRead::of(&records, |name| folder.path(name));
-    let reader = RowsReader::new(folder.storage(), parts.rows);
+    let (reader, bands) = rows_of(job.ready);
     let tally = match &counted {
         Some(counted) => counted.tally.clone(),
         None => Tally::of_files(job.ensemble, &reader, job.threads).map_err(Failure::files)?,
     };
-    let analysed = analyse(plan, &reader, &parts.bands, folder, counted, job.threads)?;
+    let analysed = analyse(plan, &reader, &bands, folder, counted, job.threads)?;
     retain(job, &reader)?;
     make_page(job, &reader, &analysed, &records)?;
     write_junit(plan, &analysed.verdicts, tally.failed(), job.junit)?;
     let (failed, undecided) = (analysed.verdicts.failed(), analysed.verdicts.undecided());
-    let outcome = CommandOutcome::of_campaign(tally.failed(), failed, undecided);
-    let stopping = stopping(plan, &reader, plan.samples, job.threads).map_err(Failure::files)?;
-    let summary = Summary::new(plan, &tally, &analysed.statistics, analysed.verdicts).with_stopping(plan, stopping);
+    let is_imprecise = analysed.stopping.as_ref().is_some_and(|found| !found.is_reached());
+    let outcome = CommandOutcome::of_campaign(tally.failed(), failed, undecided + usize::from(is_imprecise));
+    let summary =
+        Summary::new(plan, &tally, &analysed.statistics, analysed.verdicts).with_stopping(plan, analysed.stopping);
     folder.write(SUMMARY, summary.json().as_bytes()).map_err(Failure::files)?;
     table_log::update(folder, &headings(job.ensemble)).map_err(Failure::files)?;
     folder.finish().map_err(Failure::files)?;
@@ -143,10 +142,10 @@ fn retain(job: &Finishing<'_>, reader: &RowsReader) -> Result<(), Failure> {
     trajectories::save(plan, &samples, folder, job.ensemble.isa(), job.threads).map_err(Failure::files)
 }
 
-/// The rows of a dataset that are there.
-pub fn rows_of(ready: &Ready) -> RowsReader {
-    let parts = ready.folder.parts().into_iter().filter_map(|part| part.files.into_iter().next());
-    RowsReader::new(ready.folder.storage(), parts.map(|file| ready.folder.path(&file.name)).collect())
+/// The rows of a dataset that are there, and the files of their bands.
+pub fn rows_of(ready: &Ready) -> (RowsReader, Vec<PathBuf>) {
+    let parts = PartsRead::of(&ready.folder.parts(), |name| ready.folder.path(name));
+    (RowsReader::new(ready.folder.storage(), parts.rows), parts.bands)
 }
 
 fn headline(plan: &Plan, summary: &Summary, made: Option<(u64, Duration)>) -> String {
@@ -171,7 +170,18 @@ pub fn outcome_of(summary: &str) -> CommandOutcome {
     let list = value.pointer("/requirements/list").and_then(Value::as_array);
     let verdicts: Vec<&str> = list.into_iter().flatten().filter_map(|one| one.get("verdict")?.as_str()).collect();
     let count = |word: &str| verdicts.iter().filter(|verdict| **verdict == word).count();
-    CommandOutcome::of_campaign(failed.sum(), count("FAIL"), count("UNDECIDED"))
+    let is_imprecise = value.pointer("/stop/reached").and_then(Value::as_bool) == Some(false);
+    CommandOutcome::of_campaign(failed.sum(), count("FAIL"), count("UNDECIDED") + usize::from(is_imprecise))
+}
+
+/// That an unfinished result with `[stop]` is completed by the command that looks at it.
+pub fn stop_is_continued(root: &Path) -> String {
+    format!(
+        "{}: is not finished, and [stop] decides after each look whether it is; this continues it: spindrift campaign {} --out {}",
+        root.display(),
+        quoted_path(&root.join(PLAN)),
+        quoted_path(root)
+    )
 }
 
 /// Runs the command `finish`.
@@ -193,6 +203,10 @@ pub fn finished(storage: &'static dyn Storage, options: &FinishOptions) -> Resul
     // a folder that is none is not created
     let (found, locks) = open(storage, root).map_err(Failure::files)?;
     let (plan, files) = plan_in(root, &found)?;
+    if plan.analysis.stop.is_some() && !found.is_finished {
+        return Err(Failure::Files(stop_is_continued(root)));
+    }
+    let plan = plan.at_look(found.rows());
     drop(locks);
     let outputs = [("--junit", options.junit.as_deref()), ("--figures", options.figures.as_deref())];
     refuse_inputs(&files.paths(), &outputs[..1])?;

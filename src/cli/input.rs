@@ -60,12 +60,10 @@ pub fn plan_in(root: &Path, found: &Found) -> Result<(Plan, FilesRead), Failure>
     })
 }
 
-/// The plan of a result that is in a folder, with the number of samples that it has: with `[stop]` that is known at the end only.
+/// The plan of a result that is in a folder, with the number of samples that it has, or that `[stop]` looks at next.
 ///
 /// # Errors
 /// Where the plan is missing or wrong.
 pub fn plan_of_result(root: &Path, found: &Found) -> Result<Plan, Failure> {
-    let (plan, _) = plan_in(root, found)?;
-    let has_ended = plan.analysis.stop.is_some() && found.is_finished;
-    Ok(if has_ended { plan.stopped_at(found.rows()) } else { plan })
+    plan_in(root, found).map(|(plan, _)| plan.at_look(found.rows()))
 }

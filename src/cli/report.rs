@@ -75,6 +75,7 @@ pub fn page(
         verdicts: &analysed.verdicts,
         sensitivities: &analysed.sensitivities,
         bands: analysed.bands.as_ref(),
+        stopping: analysed.stopping.as_ref(),
     };
     let files = records.iter().flat_map(|part| &part.files).map(|file| (file.name.clone(), file.sha256.clone()));
     let contents = Contents::new(ensemble, reader, analysis, files.collect(), threads).map_err(Failure::files)?;

@@ -24,12 +24,13 @@ use crate::dataset::manifest::PartRecord;
 use crate::dataset::names::PLAN;
 use crate::dataset::part_sink::{PartSink, write_parts};
 use crate::dataset::running_counts::RunningCounts;
-use crate::dataset::stopping::{stopping, targets};
+use crate::dataset::stopping::stopping;
 use crate::dataset::storage::Disk;
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::runner::threads;
 use crate::ensemble::{Ensemble, Part, Parts, RunError, Supervision, run as run_parts};
 use crate::report::stopping_text::text as stopping_text;
+use crate::report::summary::rows_in;
 
 /// Default folder of results, in the current folder.
 pub const RESULTS: &str = "results";
@@ -63,7 +64,7 @@ pub fn run(options: &CampaignOptions) -> Result<CommandOutcome, Failure> {
     let work = |samples| {
         Workload::of_campaign((&ensemble, samples), there, options.shard, options.threads).measured(&ensemble)
     };
-    let looks = targets(&plan);
+    let looks = plan.looks();
     if let [first, .., last] = looks[..] {
         work(first).check(&root, options.yes, options.shard.is_some())?;
         work(last).check_limit(&root, options.yes)?;
@@ -119,7 +120,7 @@ fn already_complete(root: &Path, plan: &Plan, summary: &str) -> Result<CommandOu
         "{}: already complete in {} ({} samples{failed}), every checksum verified; nothing to do. --overwrite runs it again.\n",
         plan.name,
         root.display(),
-        plan.rows(),
+        rows_in(summary).unwrap_or(plan.rows()),
     ))?;
     Ok(outcome)
 }
@@ -161,7 +162,7 @@ fn run_missing(
     let is_whole = ready.folder.parts().is_empty() && options.shard.is_none() && plan.analysis.stop.is_none();
     let counts = if is_whole { RunningCounts::of(ensemble) } else { None };
     plan.notes().iter().for_each(|note| screen::note(note));
-    let targets = targets(plan);
+    let targets = plan.looks();
     let mut samples = targets.last().copied().unwrap_or(plan.samples);
     // looks at fewer samples than there are rows have been taken
     for target in targets.into_iter().filter(|target| *target >= ready.rows) {
@@ -171,13 +172,13 @@ fn run_missing(
         {
             return Ok(outcome);
         }
-        let rows = rows_of(&ready);
-        match stopping(plan, &rows, target, options.threads).map_err(Failure::files)? {
+        let (rows, bands) = rows_of(&ready);
+        match stopping(plan, (&rows, &bands), target, options.threads, None).map_err(Failure::files)? {
             Some(found) if !found.ends() => screen::note(&format!("{}: {}", plan.name, stopping_text(plan, &found))),
             _ => break,
         }
     }
-    let plan = plan.clone().stopped_at(samples);
+    let plan = plan.clone().at_look(samples);
     let stopped = Ensemble::new(&plan, ensemble.isa());
     let job = Finishing {
         ensemble: &stopped,
@@ -227,7 +228,7 @@ fn run_to(
         say_idle_threads(options.threads, missing.len());
     }
     if options.fail_fast
-        && let Some(failed) = first_failed(&rows_of(ready)).map_err(Failure::files)?
+        && let Some(failed) = first_failed(&rows_of(ready).0).map_err(Failure::files)?
     {
         return Ok(Some(ended_by(&failed, plan, root)));
     }

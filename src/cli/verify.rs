@@ -4,7 +4,7 @@ use std::sync::Mutex;
 
 use crate::cli::arguments::VerifyOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
-use crate::cli::finish_campaign::{Finishing, complete};
+use crate::cli::finish_campaign::{Finishing, complete, stop_is_continued};
 use crate::cli::input::{isa, plan_of_result};
 use crate::cli::screen;
 use crate::cli::signals;
@@ -165,7 +165,11 @@ fn repair(
     (found, differing): (&Found, &[Part]),
     watch: &dyn Fn() -> Supervision<'static>,
 ) -> Result<String, Failure> {
-    let (supervision, plan, root) = (watch(), ensemble.plan(), &options.folder);
+    let (plan, root) = (ensemble.plan(), &options.folder);
+    if plan.analysis.stop.is_some() && !found.is_finished {
+        return Err(Failure::Files(stop_is_continued(root)));
+    }
+    let supervision = watch();
     let claimed = ClaimOptions { overwrite: false, shard: None, threads: threads(options.threads, usize::MAX) };
     let ready = match claim(storage, root, (plan, &identity(ensemble)), claimed).map_err(Failure::files)? {
         Claim::Ready(ready) => *ready,

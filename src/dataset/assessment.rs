@@ -11,6 +11,8 @@ use crate::statistics::quantile::percent;
 pub struct Assessment {
     /// The requirement.
     pub requirement: Requirement,
+    /// The confidence of a pass and of the bounds, and that of a failure, after corrections for several looks and several requirements.
+    pub confidences: [f64; 2],
     /// Unit of its limit; empty for a pure number.
     pub unit: String,
     /// What is decided, and from which estimate with which one-sided bounds: of the fraction of runs within the limit, or of the mean.
@@ -48,6 +50,19 @@ impl Assessment {
             Decision::Fail => "FAIL",
             Decision::Undecided(_) => "UNDECIDED",
         }
+    }
+
+    /// Whether it would have failed, were it the only requirement.
+    pub fn fails_alone(&self) -> bool {
+        let [lower, upper] = self.gate.bounds;
+        let is_undecided = matches!(self.gate.decision, Decision::Undecided(_));
+        is_undecided
+            && match (self.requirement.statement, self.requirement.limit) {
+                (Statement::Mean, Limit::AtMost(limit)) => lower > limit,
+                (Statement::Mean, Limit::AtLeast(limit)) => upper < limit,
+                (Statement::Fraction(target), _) => upper < target,
+                (Statement::Quantile(p), limit) => upper < limit.fraction(p),
+            }
     }
 
     /// The requirement in words.

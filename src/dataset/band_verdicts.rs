@@ -11,9 +11,10 @@ use crate::ensemble::Bands;
 use crate::statistics::binomial::Decision;
 use crate::statistics::gate::{Gate, points_gate};
 
-/// What `bands` say of `requirement`, which is about `band`, of so many runs that count, `failed` of them not `ok`.
+/// What `bands` say of `requirement`, which is about `band`, passes at the first of two confidences and fails at the second, of so many runs that
+/// count, `failed` of them not `ok`.
 pub(super) fn over_time(
-    requirement: &Requirement,
+    (requirement, confidences): (&Requirement, [f64; 2]),
     band: &BandSubject,
     bands: Option<&Bands>,
     [runs, failed]: [u64; 2],
@@ -31,7 +32,7 @@ pub(super) fn over_time(
         Statement::Fraction(fraction) => fraction,
         Statement::Mean => f64::NAN,
     };
-    let (mut gate, worst) = points_gate(&within, target, requirement.confidence);
+    let (mut gate, worst) = points_gate(&within, target, confidences);
     let mut reason = None;
     if population != Population::Independent {
         gate = Gate { decision: Decision::Undecided(None), bounds: [f64::NAN; 2], ..gate };
@@ -52,6 +53,7 @@ pub(super) fn over_time(
     let [least, most] = worst.map_or([0; 2], |worst| within[worst].0);
     Assessment {
         requirement: requirement.clone(),
+        confidences,
         unit: found.map_or_else(String::new, |(bands, series)| bands.quantity(series).unit().to_owned()),
         gate,
         value,

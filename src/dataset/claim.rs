@@ -14,7 +14,6 @@ use crate::dataset::found::{Contents, Found, MOST_PLAN, contents};
 use crate::dataset::manifest::{Identity, PartRecord};
 use crate::dataset::names::{MANIFEST, SUMMARY, manifest_of};
 use crate::dataset::replacement::{complete_replacement, remove_dataset, remove_unfinished, replace, replacement};
-use crate::dataset::stopping::targets;
 use crate::dataset::storage::{Storage, StorageError, at};
 use crate::dataset::table_log;
 
@@ -178,7 +177,7 @@ pub fn claim(
     let is_blank = found.manifests.is_empty();
     if options.overwrite && !is_blank {
         let sibling = replacement(root);
-        let most = targets(plan).last().copied().unwrap_or(plan.samples);
+        let most = plan.looks().last().copied().unwrap_or(plan.samples);
         remove_dataset(storage, &sibling, identity, most)?;
         let rest = ClaimOptions { overwrite: false, ..options };
         return match claim(storage, &sibling, (plan, identity), rest)? {
@@ -196,7 +195,7 @@ pub fn claim(
     if let Some(there) = found.identity.as_ref().filter(|there| *there != identity) {
         return Err(occupied(folder, &found, there, (plan, identity)));
     }
-    let most = targets(plan).last().copied().unwrap_or(plan.samples);
+    let most = plan.looks().last().copied().unwrap_or(plan.samples);
     if found.extent() > most {
         return Err(FolderError::Larger { folder, found: found.extent(), asked: most });
     }
@@ -254,7 +253,7 @@ fn ready(
         damaged.extend(table_log::damage(storage, root, identity, &all)?);
     }
     // of a plan with [stop] the finished number of rows is that of one of its looks
-    let is_whole = found.is_finished && targets(plan).contains(&found.rows());
+    let is_whole = found.is_finished && plan.looks().contains(&found.rows());
     let is_complete = is_whole && damaged.is_empty() && found.plan == plan.text();
     if is_complete && options.shard.is_none() {
         let path = root.join(SUMMARY);

@@ -3,6 +3,8 @@
 //! Quantiles and fractions are decided by exact counts, never by a sketch. Outside of the population, and so of every count, are samples that are
 //! not physical; any other run that is not `ok` violates every requirement, and so does one without a value.
 //!
+//! Each look of a campaign with `[stop]` has its share of the errors (Bonferroni), and so has each requirement of those of a failure ([`failing_together`]).
+//!
 //! Not here: requirements over time (`band_verdicts`).
 
 use std::num::NonZeroUsize;
@@ -16,7 +18,8 @@ use crate::dataset::rows_reader::{PartReader, RowsError, RowsReader};
 use crate::ensemble::Bands;
 use crate::run::Status;
 use crate::statistics::binomial::Decision;
-use crate::statistics::gate::{Gate, Limit, fraction_gate, mean_gate, replicate_gate};
+use crate::statistics::gate::{Gate, Limit, failing_at, failing_together, fraction_gate, mean_gate, replicate_gate};
+use crate::statistics::looks::adjusted;
 use crate::statistics::moments::Moments;
 use crate::statistics::sketch::Sketch;
 
@@ -29,6 +32,8 @@ pub struct Verdicts {
     pub invalid: u64,
     /// All dispersed samples.
     pub samples: u64,
+    /// At how many looks the requirements may be decided: one without `[stop]`.
+    pub looks: usize,
 }
 
 impl Verdicts {
@@ -113,19 +118,25 @@ pub fn assess(
             Ok::<(), RowsError>(())
         },
     )?;
-    let assessed = requirements.iter().zip(&of).zip(&counts).map(|((requirement, index), counts)| {
+    let looks = plan.looks().len();
+    let assessed = |(requirement, index, counts): (&Requirement, &Option<usize>, &Counts), open: usize| {
+        let confidences = [looks, looks * open].map(|tests| adjusted(requirement.confidence, tests));
         match (index, requirement.band()) {
             (None, Some(band)) => {
                 let runs = [counts.sum(|group| group.runs), counts.failed];
-                over_time(requirement, band, bands, runs, population)
+                over_time((requirement, confidences), band, bands, runs, population)
             }
             _ => {
                 let unit = index.map_or_else(String::new, |index| observed[index].quantity.unit().to_owned());
-                assessment(requirement.clone(), unit, counts, population)
+                assessment((requirement, confidences), unit, counts, population)
             }
         }
-    });
-    Ok(Verdicts { list: assessed.collect(), invalid, samples })
+    };
+    let all =
+        || requirements.iter().zip(&of).zip(&counts).map(|((requirement, index), counts)| (requirement, index, counts));
+    let at = |open: usize| all().map(|one| assessed(one, open)).collect();
+    let list = failing_together(requirements.len(), at, |one: &Assessment| one.gate.decision == Decision::Fail);
+    Ok(Verdicts { list, invalid, samples, looks })
 }
 
 /// The counts of a part: for each requirement, then samples that are not physical, and all dispersed ones.
@@ -170,9 +181,15 @@ fn count(
     Ok((counts, invalid as u64, counted().count() as u64))
 }
 
-fn assessment(requirement: Requirement, unit: String, counts: &Counts, population: Population) -> Assessment {
+/// What `counts` say of a requirement that passes at the first of two confidences and fails at the second.
+fn assessment(
+    (requirement, confidences): (&Requirement, [f64; 2]),
+    unit: String,
+    counts: &Counts,
+    population: Population,
+) -> Assessment {
     let (runs, within) = (counts.sum(|group| group.runs), counts.sum(|group| group.within));
-    let (limit, confidence) = (requirement.limit, requirement.confidence);
+    let limit = requirement.limit;
     let mut whole = Moments::default();
     counts.groups.iter().for_each(|group| whole.merge(&group.moments));
     let target = match requirement.statement {
@@ -180,9 +197,13 @@ fn assessment(requirement: Requirement, unit: String, counts: &Counts, populatio
         Statement::Fraction(fraction) => Some(fraction),
         Statement::Mean => None,
     };
+    let of_target = |target| move |confidence| of_fraction(counts, target, confidence, population);
     let mut gate = match target {
-        Some(target) => of_fraction(counts, target, confidence, population),
-        None => of_mean(counts, &whole, limit, confidence, population),
+        Some(target) => failing_at(confidences, |fraction| fraction >= target, of_target(target)),
+        None => {
+            let of_mean = |confidence| of_mean(counts, &whole, limit, confidence, population);
+            failing_at(confidences, |mean| limit.is_met(mean), of_mean)
+        }
     };
     let mut reason = None;
     // a mean over all runs is not known where a run has no value
@@ -203,7 +224,8 @@ fn assessment(requirement: Requirement, unit: String, counts: &Counts, populatio
         Statement::Fraction(_) => None,
     };
     Assessment {
-        requirement,
+        requirement: requirement.clone(),
+        confidences,
         unit,
         gate,
         value,
@@ -265,7 +287,8 @@ mod tests {
     fn counts_decide() {
         let p95 = requirement(Statement::Quantile(0.95), Limit::AtMost(1.0));
         let of = |runs, within| {
-            assessment(p95.clone(), "J".to_owned(), &counts(&[(runs, within, &[0.5])]), Population::Independent)
+            let counts = counts(&[(runs, within, &[0.5])]);
+            assessment((&p95, [0.95; 2]), "J".to_owned(), &counts, Population::Independent)
         };
         let found = of(59, 59);
         assert_eq!((found.word(), found.value), ("PASS", Some(0.5)));
@@ -280,7 +303,8 @@ mod tests {
     fn what_numbers_cannot_say_is_not_decided_by_them() {
         let mean = requirement(Statement::Mean, Limit::AtMost(9.0));
         let of = |runs, population| {
-            assessment(mean.clone(), String::new(), &counts(&[(runs, runs, &[1.0, 2.0, 3.0])]), population)
+            let counts = counts(&[(runs, runs, &[1.0, 2.0, 3.0])]);
+            assessment((&mean, [0.95; 2]), String::new(), &counts, population)
         };
         assert_eq!(of(3, Population::Independent).word(), "PASS");
         let missing = of(4, Population::Independent);
@@ -296,7 +320,7 @@ mod tests {
     fn replicates_decide_by_their_spread() {
         let p90 = requirement(Statement::Fraction(0.9), Limit::AtMost(1.0));
         let of = |groups: &[(u64, u64, &[f64])]| {
-            assessment(p90.clone(), String::new(), &counts(groups), Population::Replicated(4)).word()
+            assessment((&p90, [0.95; 2]), String::new(), &counts(groups), Population::Replicated(4)).word()
         };
         assert_eq!(of(&[(10, 10, &[]), (10, 10, &[]), (10, 10, &[]), (10, 10, &[])]), "PASS");
         assert_eq!(of(&[(2, 2, &[]), (2, 2, &[]), (2, 2, &[]), (2, 2, &[])]), "UNDECIDED");
@@ -306,7 +330,7 @@ mod tests {
         // 380 of 400 runs would show 90% if they were independent; one replicate of four misses it
         let spread: [(u64, u64, &[f64]); 4] = [(100, 100, &[]), (100, 100, &[]), (100, 100, &[]), (100, 80, &[])];
         assert_eq!(of(&spread), "UNDECIDED");
-        let independent = assessment(p90.clone(), String::new(), &counts(&spread), Population::Independent);
+        let independent = assessment((&p90, [0.95; 2]), String::new(), &counts(&spread), Population::Independent);
         assert_eq!(independent.word(), "PASS", "the counter-test");
     }
 }

@@ -8,8 +8,9 @@ use crate::campaign::{Plan, Statement};
 use crate::dataset::assessment::Assessment;
 use crate::dataset::verdicts::Verdicts;
 use crate::report::number::short;
-use crate::statistics::binomial::Decision;
+use crate::statistics::binomial::{Decision, POWER};
 use crate::statistics::gate::Limit;
+use crate::statistics::quantile::percent;
 
 /// One line for each requirement, and what was found; nothing where there are none.
 pub fn text(verdicts: &Verdicts) -> String {
@@ -21,6 +22,7 @@ pub fn text(verdicts: &Verdicts) -> String {
     for one in &verdicts.list {
         text += &format!("  {:<10} {}\n             {}\n", one.word(), one.sentence(), finding(one));
     }
+    together(verdicts).iter().for_each(|sentence| text += &format!("  {sentence}\n"));
     if verdicts.invalid > 0 {
         let share = 100.0 * verdicts.invalid as f64 / verdicts.samples as f64;
         text += &format!(
@@ -31,10 +33,39 @@ pub fn text(verdicts: &Verdicts) -> String {
     text
 }
 
+/// What the verdicts say together: how often one of them is wrong, and what to do about those that are undecided.
+pub fn together(verdicts: &Verdicts) -> Vec<String> {
+    let mut said = Vec::new();
+    let least = verdicts.list.iter().map(|one| one.requirement.confidence).fold(1.0, f64::min);
+    let level = percent(least);
+    if verdicts.list.len() > 1 {
+        said.push(format!(
+            "of the {} requirements together: with {level}% confidence none that is met FAILs (Holm), nor do all PASS where one is missed",
+            verdicts.list.len()
+        ));
+    }
+    if verdicts.looks > 1 {
+        said.push(format!("the confidence is that of all {} looks of [stop] together", verdicts.looks));
+    }
+    let has_number = |one: &Assessment| matches!(one.gate.decision, Decision::Undecided(Some(_)));
+    if verdicts.looks == 1 && verdicts.list.iter().any(has_number) {
+        said.push(
+            "to decide by adding runs write [stop] when = \"decided\": testing again after each addition errs more often"
+                .to_owned(),
+        );
+    }
+    said
+}
+
+/// How many runs would decide, in words.
+pub fn runs_needed(runs: &str) -> String {
+    format!("with {runs} runs {} of ten campaigns would decide, if the truth is what was seen", short(10.0 * POWER))
+}
+
 /// What was found, in words: the estimate with its bounds, and how many runs would decide.
 fn finding(one: &Assessment) -> String {
     let [lower, upper] = one.gate.bounds;
-    let percent = |fraction: f64| format!("{:.4}%", 100.0 * fraction);
+    let in_percent = |fraction: f64| format!("{:.4}%", 100.0 * fraction);
     let bounds = |show: &dyn Fn(f64) -> String| match lower.is_nan() {
         true => String::new(),
         false => format!(", between {} and {}", show(lower), show(upper)),
@@ -51,16 +82,24 @@ fn finding(one: &Assessment) -> String {
                 };
                 format!("{unresolved} at {} s, the worst of {} points of time", short(worst.time_s), worst.points)
             });
-            format!("{value}{within} of {} runs within the limit{at}{}", one.runs, bounds(&percent))
+            format!("{value}{within} of {} runs within the limit{at}{}", one.runs, bounds(&in_percent))
         }
     };
     let needed = match (&one.reason, one.gate.decision) {
         (Some(reason), _) => format!("; {reason}"),
-        (None, Decision::Undecided(Some(runs))) => format!("; {runs} runs would decide"),
-        (None, Decision::Undecided(None)) => "; no number of runs decides at this estimate".to_owned(),
+        (None, Decision::Undecided(Some(runs))) => format!("; {}", runs_needed(&runs.to_string())),
+        (None, Decision::Undecided(None)) => "; no number of runs decides if the truth is what was seen".to_owned(),
         _ => String::new(),
     };
-    format!("{found}{needed}")
+    let alone = match one.fails_alone() {
+        true => format!(
+            "; missed at {:.4}%, not at the {:.4}% of all together",
+            100.0 * one.confidences[0],
+            100.0 * one.confidences[1]
+        ),
+        false => String::new(),
+    };
+    format!("{found}{alone}{needed}")
 }
 
 /// The values of `summary.json`.
@@ -98,6 +137,8 @@ pub fn json(verdicts: &Verdicts) -> Value {
             "target": target,
             side: limit,
             "confidence": requirement.confidence,
+            "confidence_of_pass_and_bounds": one.confidences[0],
+            "confidence_of_fail": one.confidences[1],
             "estimate": finite(one.gate.estimate),
             "bounds": one.gate.bounds.map(finite),
             "value": one.value.and_then(finite),
@@ -110,6 +151,8 @@ pub fn json(verdicts: &Verdicts) -> Value {
     };
     json!({
         "list": verdicts.list.iter().map(one).collect::<Vec<_>>(),
+        "looks": verdicts.looks,
+        "together": together(verdicts),
         "samples": verdicts.samples,
         "samples_that_are_not_physical": verdicts.invalid,
     })

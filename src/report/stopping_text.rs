@@ -1,28 +1,41 @@
 //! What a look at a campaign with `[stop]` found, in words.
 
 use crate::campaign::Plan;
-use crate::dataset::stopping::Stopping;
+use crate::campaign::stop::When;
+use crate::dataset::stopping::{Found, Stopping};
 use crate::report::number::short;
 
-/// One sentence on `stopping`, a look at the campaign of `plan`.
+/// One sentence on `stopping`, a look at the campaign of `plan`; a second one where it ended the campaign.
 pub fn text(plan: &Plan, stopping: &Stopping) -> String {
     let Some(stop) = &plan.analysis.stop else { return String::new() };
-    let end = |end: Option<f64>| end.map_or("not bounded".to_owned(), short);
-    let [lower, upper] = stopping.found.interval.map(end);
-    let reached = match (stopping.found.stops, stopping.ends()) {
-        (true, _) => "precise enough",
-        (false, true) => "not precise enough with stop.max_samples",
-        (false, false) => "not precise enough yet",
+    let (what, goal) = match (&stopping.found, &stop.when) {
+        (Found::Precision(look), When::Precise { observable, goal }) => {
+            let [lower, upper] = look.interval.map(|end| end.map_or("not bounded".to_owned(), short));
+            let found = format!(
+                "p{} of {observable} = {} in [{lower}, {upper}] at {:.4} confidence, wanted half width {}",
+                short(100.0 * goal.quantile),
+                look.estimate.map_or("-".to_owned(), short),
+                look.confidence,
+                short(goal.half_width),
+            );
+            (found, "precise enough")
+        }
+        (Found::Undecided(undecided), _) => {
+            (format!("{undecided} of {} requirements undecided", plan.analysis.requirements.len()), "decided")
+        }
+        (Found::Precision(_), When::Decided) => (String::new(), "decided"),
     };
-    format!(
-        "look {} of at most {}, {} samples: p{} of {} = {} in [{lower}, {upper}] at {:.4} confidence, wanted half width {}: {reached}",
-        stopping.look,
-        stopping.looks,
-        stopping.samples,
-        short(100.0 * stop.goal.quantile),
-        stop.observable,
-        stopping.found.estimate.map_or("-".to_owned(), short),
-        stopping.found.confidence,
-        short(stop.goal.half_width),
-    )
+    let reached = match (stopping.is_reached(), stopping.ends()) {
+        (true, _) => goal.to_owned(),
+        (false, true) => format!("not {goal} with stop.max_samples"),
+        (false, false) => format!("not {goal} yet"),
+    };
+    let bias = match (stopping.is_reached(), stopping.look) {
+        (true, look) if look < stopping.looks => {
+            ". The rows decided when to stop: estimates lean to the side that stops earlier"
+        }
+        _ => "",
+    };
+    let Stopping { look, looks, samples, .. } = stopping;
+    format!("look {look} of at most {looks}, {samples} samples: {what}: {reached}{bias}")
 }

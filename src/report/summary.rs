@@ -6,7 +6,7 @@ use serde_json::{Map, Value, json};
 
 use crate::campaign::Plan;
 use crate::dataset::statistics::Statistics;
-use crate::dataset::stopping::Stopping;
+use crate::dataset::stopping::{Found, Stopping};
 use crate::dataset::tally::{Ended, Tally, Worst};
 use crate::dataset::verdicts::Verdicts;
 use crate::report::audit_summary::{AuditSummary, Numerics};
@@ -116,18 +116,30 @@ impl Summary {
             value["audit"] = json!(audit);
         }
         if let Some((stopping, _)) = &self.stopping {
+            let (look, undecided) = match &stopping.found {
+                Found::Precision(look) => (Some(look), None),
+                Found::Undecided(count) => (None, Some(count)),
+            };
             value["stop"] = json!({
                 "look": stopping.look,
                 "looks": stopping.looks,
                 "samples": stopping.samples,
-                "precise_enough": stopping.found.stops,
-                "estimate": stopping.found.estimate,
-                "interval": stopping.found.interval,
-                "confidence": stopping.found.confidence,
+                "reached": stopping.is_reached(),
+                "undecided": undecided,
+                "precise_enough": look.map(|look| look.stops),
+                "estimate": look.map(|look| look.estimate),
+                "interval": look.map(|look| look.interval),
+                "confidence": look.map(|look| look.confidence),
             });
         }
         format!("{value:#}\n")
     }
+}
+
+/// How many rows a finished summary is of; `None` where it does not say.
+pub fn rows_in(summary: &str) -> Option<u64> {
+    let value: Value = serde_json::from_str(summary).ok()?;
+    Some(value.get("statuses")?.as_object()?.values().filter_map(Value::as_u64).sum())
 }
 
 /// How many runs a finished summary calls failed; `None` where it does not say.

@@ -2,6 +2,7 @@
 
 use crate::bad_campaign_cases::good;
 use spindrift::campaign::requirement::{BandSubject, Subject};
+use spindrift::campaign::stop::When;
 use spindrift::campaign::{Analysis, Overrides, Plan, Requirement, Statement};
 use spindrift::statistics::gate::Limit;
 
@@ -63,7 +64,8 @@ fn every_key_is_read_and_written() {
     let band = BandSubject { series: "energy_body_j".to_owned(), from_s: None, to_s: Some(5.0) };
     assert_eq!((requirements[3].band(), requirements[3].observable()), (Some(&band), None));
     let stop = stop.as_ref().expect("a goal");
-    assert_eq!((stop.goal.half_width, stop.goal.confidence, stop.max_samples), (1e-12, 0.95, 5000));
+    let When::Precise { goal, .. } = &stop.when else { panic!("{stop:?}") };
+    assert_eq!((goal.half_width, goal.confidence, stop.max_samples), (1e-12, 0.95, 5000));
     let again = Plan::from_text("plan.toml", &plan.text(), Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!((&again, again.text()), (&plan, plan.text()));
 }
@@ -82,6 +84,8 @@ const BAND: &str = "[[require]]\nband = \"energy_body_j\"\nquantile = 0.99\nat_m
 const OBSERVABLE: &str = "[[observable]]\nname = \"twice\"\nexpression = \"2 * energy_error_max\"\n";
 const STOP: &str =
     "[stop]\nobservable = \"energy_error_max\"\nquantile = 0.95\nhalf_width = 1e-12\nmax_samples = 5000\n";
+
+const DECIDED: &str = "[[require]]\nobservable = \"energy_error_max\"\nfraction = 0.9\nat_most = 1e-9\n[stop]\nwhen = \"decided\"\nmax_samples = 5000\n";
 
 /// A table, what is changed in it, to what, and a part of the only message.
 const CASES: &[(&str, &str, &str, &str)] = &[
@@ -256,6 +260,15 @@ const CASES: &[(&str, &str, &str, &str)] = &[
         "stop.quantile is missing: must be a number between 0 and 1, neither included; add quantile = 0.95 to [stop]",
     ),
     (STOP, "half_width = 1e-12", "half_width = 0", "stop.half_width = 0: must be a number > 0"),
+    (STOP, "[stop]", "[stop]\nwhen = \"soon\"", "stop.when = \"soon\": must be one of precise, decided"),
+    (DECIDED, "max_samples = 5000\n", "", "stop.max_samples is missing"),
+    (DECIDED, "[stop]", "[stop]\nconfidence = 0.9", "stop.confidence = 0.9: must be left out with when = \"decided\""),
+    (
+        DECIDED,
+        "[[require]]\nobservable = \"energy_error_max\"\nfraction = 0.9\nat_most = 1e-9\n",
+        "",
+        "stop.when = \"decided\": must be \"precise\" where there is no [[require]] table to decide; write a [[require]] table",
+    ),
     (
         STOP,
         "max_samples = 5000",

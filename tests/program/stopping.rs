@@ -5,7 +5,7 @@ use std::fs;
 use serde_json::Value;
 
 use super::small_campaign::{campaign, folder};
-use crate::support::scratch_folder::ScratchFolder;
+use crate::support::scratch_folder::{ScratchFolder, batches, floats};
 
 /// The campaign of 300 samples with `[stop]`: the median of the energy transfer of wheel 1 to within `half_width` J, with at most 2,400 samples.
 fn stopping(half_width: &str) -> String {
@@ -32,7 +32,7 @@ fn a_campaign_stops_when_it_is_precise_enough() {
     let scratch = folder("stop");
     // the interval of all four looks, from a campaign that never stops
     scratch.file("never.toml", &stopping("1e-30"));
-    let said = scratch.prints("campaign never.toml --out never", 0);
+    let said = scratch.prints("campaign never.toml --out never", 5);
     assert!(said.contains("not precise enough with stop.max_samples"), "{said}");
     let never = summary(&scratch, "never");
     assert_eq!((&never["samples"], &never["stop"]["look"]), (&Value::from(2400), &Value::from(4)));
@@ -50,15 +50,86 @@ fn a_campaign_stops_when_it_is_precise_enough() {
 
     scratch.prints(&format!("campaign small.toml --samples {samples} --out fixed"), 0);
     assert_eq!(scratch.parts("stopped"), scratch.parts("fixed"));
-    assert!(scratch.prints("campaign stop.toml --out stopped", 0).contains("already complete"));
+    let said = scratch.prints("campaign stop.toml --out stopped", 0);
+    assert!(said.contains("already complete") && said.contains(&format!("({samples} samples")), "{said}");
+    assert!(scratch.prints("finish stopped", 0).contains("already finished"));
+    let page = fs::read_to_string(scratch.path("stopped/report.html")).unwrap();
+    assert!(page.contains(&format!("{samples} samples: p50")), "the page says how many samples the look had");
+    assert!(scratch.prints("campaign never.toml --out never", 5).contains("already complete"));
     scratch.prints("verify stopped --fraction 1", 0);
     let before = fs::read(scratch.path("stopped/report.html")).unwrap();
     scratch.prints("report stopped", 0);
     assert!(before == fs::read(scratch.path("stopped/report.html")).unwrap(), "the page is made again, the same");
 
     // the rows of a narrower goal contain those of a wider one
-    scratch.prints("campaign never.toml --out stopped", 0);
+    scratch.prints("campaign never.toml --out stopped", 5);
     assert_eq!(scratch.parts("stopped"), scratch.parts("never"));
     let said = scratch.prints("campaign stop.toml --shard 1/2 --out shard", 2);
     assert!(said.contains("[stop]"), "{said}");
+}
+
+/// P(X <= k) of the number of heads of a fair coin, by the logarithms of its terms.
+fn at_most(k: u64, trials: u64) -> f64 {
+    let mut term = -(trials as f64) * std::f64::consts::LN_2;
+    let mut sum = term.exp();
+    for i in 1..=k {
+        term += ((trials + 1 - i) as f64 / i as f64).ln();
+        sum += term.exp();
+    }
+    sum
+}
+
+/// Law: with `when = "decided"` a campaign ends at the first look at which the exact test, at its share of the errors of all looks, decides;
+/// the verdict is that of the look, and a limit that is the median itself stays undecided: exit code 5.
+#[test]
+fn a_campaign_stops_when_its_requirements_are_decided() {
+    const NAME: &str = "exchange_w1_peak_to_peak_j";
+    let scratch = folder("decided");
+    scratch.prints("campaign small.toml --samples 2400 --out all --no-report", 0);
+    let values: Vec<f64> = scratch
+        .part_files("all")
+        .iter()
+        .flat_map(|file| batches(file))
+        .flat_map(|rows| floats(&rows, NAME))
+        .skip(1)
+        .collect();
+    let mut ascending = values.clone();
+    ascending.sort_by(f64::total_cmp);
+    let looks = [300_u64, 600, 1200, 2400];
+    let campaign = |limit: f64| {
+        let tables = format!(
+            "\n[[require]]\nobservable = \"{NAME}\"\nquantile = 0.5\nat_most = {limit:?}\n[stop]\nwhen = \"decided\"\nmax_samples = 2400\n"
+        );
+        campaign().replace("samples = 600", "samples = 300") + &tables
+    };
+    // limits that 54% to 75% of the runs keep, and 25% to 46%: each side is decided at other looks
+    let mut ends = Vec::new();
+    for share in [0.46, 0.54, 0.75, 0.40] {
+        let limit = ascending[(share * 2399.0) as usize];
+        let decides = |samples: u64| {
+            let trials = samples - 1;
+            let within = values[..trials as usize].iter().filter(|value| **value <= limit).count() as u64;
+            // of one half both tails are lower ones
+            let [missed, met] = [within, trials - within].map(|count| at_most(count, trials) <= 0.05 / 4.0);
+            met.then_some("PASS").or(missed.then_some("FAIL"))
+        };
+        let expected = looks.iter().find_map(|samples| Some((*samples, decides(*samples)?)));
+        let (samples, word) = expected.unwrap_or((2400, "UNDECIDED"));
+        scratch.file("decided.toml", &campaign(limit));
+        let code = ["PASS", "", "", "FAIL", "", "UNDECIDED"].iter().position(|known| *known == word).unwrap() as i32;
+        scratch.prints("campaign decided.toml --out decided --no-report --overwrite", code);
+        let found = summary(&scratch, "decided");
+        assert_eq!((&found["samples"], &found["stop"]["samples"]), (&Value::from(samples), &Value::from(samples)));
+        assert_eq!(found["requirements"]["list"][0]["verdict"], word, "{found}");
+        assert_eq!(found["stop"]["reached"], word != "UNDECIDED");
+        assert!(scratch.prints("campaign decided.toml --out decided --no-report", code).contains("already complete"));
+        ends.push(samples);
+    }
+    ends.sort_unstable();
+    ends.dedup();
+    assert!(ends.len() >= 2, "the limits are decided at several looks: {ends:?}");
+    scratch.file("decided.toml", &campaign(0.5 * (ascending[1198] + ascending[1199])));
+    scratch.prints("campaign decided.toml --out undecided --no-report", 5);
+    let found = summary(&scratch, "undecided");
+    assert_eq!((&found["samples"], &found["stop"]["reached"]), (&Value::from(2400), &Value::from(false)));
 }

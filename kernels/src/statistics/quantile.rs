@@ -8,7 +8,7 @@
 //!
 //! Valid for independent runs only.
 
-use super::binomial::{at_least, at_most};
+use super::binomial::{at_least, at_most, lower_rank, upper_rank};
 
 /// The `p`-quantile, 0 <= p <= 1, of values in ascending order (type 7); `None` where there is no value.
 ///
@@ -51,39 +51,11 @@ pub struct Ranks {
 
 /// Ranks of the two-sided equal-tailed interval for the `p`-quantile, 0 < p < 1, of `count` independent values.
 ///
-/// Each end misses with at most (1 - `confidence`)/2, so both together cover with at least `confidence`.
+/// Each end misses with at most (1 - `confidence`)/2, so both together cover with at least `confidence`: P(x_(r) > quantile) = P(X <= r - 1) and
+/// P(x_(s) < quantile) = P(X >= s), X the number of values below the quantile.
 pub fn interval_ranks(count: u64, p: f64, confidence: f64) -> Ranks {
     let risk = 0.5 * (1.0 - confidence);
     Ranks { lower: lower_rank(count, p, risk), upper: upper_rank(count, p, risk) }
-}
-
-/// The largest r with P(x_(r) > quantile) = P(X <= r - 1) <= `risk`, X the number of values below the quantile.
-pub fn lower_rank(count: u64, p: f64, risk: f64) -> Option<u64> {
-    let misses = |rank: u64| at_most(rank - 1, count, p) > risk;
-    if count == 0 || misses(1) {
-        return None;
-    }
-    // the first rank that misses, by bisection: the probability rises with the rank
-    let (mut good, mut bad) = (1, count + 1);
-    while bad - good > 1 {
-        let middle = good + (bad - good) / 2;
-        if misses(middle) { bad = middle } else { good = middle }
-    }
-    Some(good)
-}
-
-/// The smallest s with P(x_(s) < quantile) = P(X >= s) <= `risk`.
-pub fn upper_rank(count: u64, p: f64, risk: f64) -> Option<u64> {
-    let misses = |rank: u64| at_least(rank, count, p) > risk;
-    if count == 0 || misses(count) {
-        return None;
-    }
-    let (mut bad, mut good) = (0, count);
-    while good - bad > 1 {
-        let middle = bad + (good - bad) / 2;
-        if misses(middle) { bad = middle } else { good = middle }
-    }
-    Some(good)
 }
 
 /// Probability with which [x_(r), x_(s)] covers the `p`-quantile of a continuous distribution: P(r <= X <= s - 1); an end that is

@@ -106,9 +106,11 @@ pub fn status(survey: &Survey) -> String {
     )
 }
 
-/// The cards; an example of a requirement where there is none.
-pub fn verdicts(cards: &[Card], has_requirements: bool) -> String {
+/// The cards, and what they `said` together; an example of a requirement where there is none.
+pub fn verdicts(cards: &[Card], has_requirements: bool, said: &[String]) -> String {
     let cards: String = cards.iter().map(Card::html).collect();
+    let said: String =
+        said.iter().map(|text| format!("<p class=\"quiet\">{}.</p>", escaped(&sentence(text)))).collect();
     let (title, example) = if has_requirements {
         ("Are the requirements met?", String::new())
     } else {
@@ -118,7 +120,7 @@ pub fn verdicts(cards: &[Card], has_requirements: bool) -> String {
         );
         ("What was found?", text)
     };
-    format!("<section id=\"verdicts\"><h2>{title}</h2><div class=\"cards\">{cards}</div>{example}</section>\n")
+    format!("<section id=\"verdicts\"><h2>{title}</h2><div class=\"cards\">{cards}</div>{said}{example}</section>\n")
 }
 
 #[cfg(test)]

@@ -7,9 +7,11 @@ use crate::dataset::assessment::{Assessment, during};
 use crate::dataset::rows_reader::{RowsError, RowsReader};
 use crate::dataset::sensitivity::InputSensitivity;
 use crate::dataset::statistics::{ColumnStatistics, QuantileStatistic, Statistics};
+use crate::dataset::stopping::Stopping;
 use crate::dataset::verdicts::Verdicts;
 use crate::ensemble::{Bands, Ensemble};
 use crate::report::page::cards::{Card, Judged, driven_by};
+use crate::report::page::errors::sentence;
 use crate::report::page::influence::Influence;
 use crate::report::page::over_time::TimeBands;
 use crate::report::page::readable::{grouped, number, with_unit};
@@ -17,6 +19,8 @@ use crate::report::page::shown_columns::{interval, words};
 use crate::report::page::survey::Survey;
 use crate::report::page::tables::StatisticsRow;
 use crate::report::page::{Contents, is_independent};
+use crate::report::requirements::{runs_needed, together};
+use crate::report::stopping_text;
 use crate::statistics::binomial::Decision;
 use crate::statistics::correlation::Estimate;
 use crate::statistics::gate::Limit;
@@ -35,6 +39,8 @@ pub struct Analysis<'a> {
     pub sensitivities: &'a [InputSensitivity],
     /// Quantiles over time, where they were kept.
     pub bands: Option<&'a Bands>,
+    /// The look that ended the campaign, where it has `[stop]`.
+    pub stopping: Option<&'a Stopping>,
 }
 
 impl Contents {
@@ -60,6 +66,8 @@ impl Contents {
         let survey = Survey::new(ensemble, rows, &named, threads)?;
         let influences = influences(plan, analysis.sensitivities, &survey);
         let verdicts = &analysis.verdicts.list;
+        let mut said = together(analysis.verdicts);
+        said.extend(analysis.stopping.map(|found| stopping_text::text(plan, found)));
         Ok(Contents {
             bands: analysis.bands.map_or_else(Vec::new, time_bands),
             statistics: analysis
@@ -72,6 +80,7 @@ impl Contents {
             verdicts: verdicts.iter().map(|one| card(plan, one, &survey, &influences)).collect(),
             survey,
             influences,
+            said,
             files,
         })
     }
@@ -180,7 +189,7 @@ fn card(plan: &Plan, one: &Assessment, survey: &Survey, influences: &[Influence]
     let (limit, is_upper) = (requirement.limit.value(), matches!(requirement.limit, Limit::AtMost(_)));
     let (word, text) = (if is_upper { "at most" } else { "at least" }, with_unit(limit, &one.unit));
     let times = requirement.band().map_or_else(String::new, during);
-    let sentence = match requirement.statement {
+    let text_of = match requirement.statement {
         Statement::Quantile(p) => {
             let share = if is_upper { p } else { 1.0 - p };
             format!(
@@ -209,9 +218,11 @@ fn card(plan: &Plan, one: &Assessment, survey: &Survey, influences: &[Influence]
     match (&one.reason, one.gate.decision) {
         (Some(reason), _) => notes.push(format!("{reason}.")),
         (None, Decision::Undecided(Some(runs))) => {
-            notes.push(format!("{} runs would decide, if the fraction stays.", grouped(runs)));
+            notes.push(format!("{}.", sentence(&runs_needed(&grouped(runs)))));
         }
-        (None, Decision::Undecided(None)) => notes.push("No number of runs decides at this fraction.".to_owned()),
+        (None, Decision::Undecided(None)) => {
+            notes.push("No number of runs decides if the truth is what was seen.".to_owned())
+        }
         _ => {}
     }
     let (statistic, estimate, ends, limit, unit) = match requirement.statement {
@@ -239,8 +250,8 @@ fn card(plan: &Plan, one: &Assessment, survey: &Survey, influences: &[Influence]
             Decision::Fail => Judged::Fail,
             Decision::Undecided(_) => Judged::Undecided,
         },
-        quantity: crate::report::page::errors::sentence(&name),
-        sentence,
+        quantity: sentence(&name),
+        sentence: text_of,
         statistic,
         estimate,
         interval: ends,

@@ -55,6 +55,8 @@ pub struct Contents {
     pub influences: Vec<Influence>,
     /// The verdicts of the requirements; empty where the file has none.
     pub verdicts: Vec<Card>,
+    /// What `[stop]` and the verdicts together say, as sentences.
+    pub said: Vec<String>,
     /// Names and SHA-256 of the files of the result.
     pub files: Vec<(String, String)>,
 }
@@ -112,7 +114,7 @@ impl Page {
         let first = [
             first_screen::header(plan),
             first_screen::status(survey),
-            first_screen::verdicts(&cards, !contents.verdicts.is_empty()),
+            first_screen::verdicts(&cards, !contents.verdicts.is_empty(), &contents.said),
         ];
         let has = |section: Section| figures.iter().any(|figure| figure.section == section);
         let sections = sections(plan, contents, &shown, has_replay, &has);
