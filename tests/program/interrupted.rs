@@ -359,8 +359,8 @@ fn signals_stop_and_the_command_continues() {
         while committed(&scratch, "r") == before && child.try_wait().unwrap().is_none() {
             std::thread::sleep(Duration::from_millis(5));
         }
-        let id = child.id().to_string();
-        assert!(Command::new("kill").args(["-s", signal, &id]).status().unwrap().success());
+        let kill = format!("kill -s {signal} {}", child.id());
+        assert!(Command::new("sh").args(["-c", &kill]).status().unwrap().success());
         let ended = child.wait().unwrap();
         assert_eq!(ended.code(), Some(code), "SIG{signal}");
         assert!(committed(&scratch, "r") > before);

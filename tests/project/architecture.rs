@@ -54,7 +54,7 @@ const CRATES: [(&str, &[&str]); 27] = [
     ("toml", &["campaign"]),
 ];
 
-/// The dependency that is there for its features alone (`features.rs`).
+/// The dependency that is there for its features alone (`Cargo.toml` says why).
 const FOR_ITS_FEATURES: &str = "either";
 
 /// The package whose modules the library exports as its own, so that nothing else names it.

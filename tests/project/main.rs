@@ -7,7 +7,6 @@ mod accuracy_document;
 mod architecture;
 mod documents;
 mod examples;
-mod features;
 mod generated_tables;
 mod source;
 mod supply_chain;
