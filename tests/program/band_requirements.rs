@@ -1,6 +1,7 @@
 //! Requirements over time: their counts are those of the time series, and their verdicts those of exact binomial tests.
 
 use serde_json::Value;
+use spindrift::statistics::binomial::{lower_bound, upper_bound};
 
 use super::small_campaign::{campaign, folder};
 use crate::support::scratch_folder::{ScratchFolder, floats};
@@ -28,7 +29,8 @@ fn verdict(scratch: &ScratchFolder, requirement: &str, code: i32) -> Value {
 }
 
 /// Law: the worst point of time is that with the fewest runs within the limit, their number is within what the bands resolve, and the
-/// verdict is that of the exact test at every point; an interval of time leaves out what is outside.
+/// verdict is that of the exact test at every point; an interval of time leaves out what is outside. The bounds of the share contain those of
+/// the exact count.
 #[test]
 fn counts_are_those_of_the_time_series() {
     let scratch = folder("band-requirements");
@@ -58,6 +60,22 @@ fn counts_are_those_of_the_time_series() {
     let worst_at = all["band"]["worst_at_s"].as_f64().unwrap();
     let point = times.iter().position(|time| *time == worst_at).unwrap();
     assert!(within(point) <= worst + unresolved, "{worst_at} s has {}", within(point));
+
+    // the bands know the count at a limit between two numbers only, and the bounds are those of both
+    let mut are_apart = [false; 2];
+    for percent in [75, 79, 83, 87, 91] {
+        let limit = (0..times.len()).map(|point| at(point)[RUNS * percent / 100]).fold(f64::NEG_INFINITY, f64::max);
+        let within = |point: usize| runs.iter().filter(|run| run[point] <= limit).count() as u64;
+        let exact = (0..times.len()).map(within).min().unwrap();
+        let found = verdict(&scratch, &format!("fraction = 0.5\nat_most = {limit:?}"), 0);
+        let least = RUNS as u64 - number(&found["violations"]);
+        let most = least + number(&found["band"]["unresolved"]);
+        let [lower, upper] = [0, 1].map(|end| found["bounds"][end].as_f64().unwrap());
+        let bounds = [lower_bound(exact, RUNS as u64, 0.95), upper_bound(exact, RUNS as u64, 0.95)];
+        assert!(lower <= bounds[0] && bounds[1] <= upper, "{bounds:?}: {found}");
+        are_apart = [are_apart[0] || exact < most, are_apart[1] || least < exact];
+    }
+    assert_eq!(are_apart, [true; 2]);
 
     // the counter-tests: a share that is missed; too few runs to tell; a part of the time, in which more runs keep the limit
     assert_eq!(verdict(&scratch, &format!("fraction = 0.999\nat_most = {limit:?}"), 3)["verdict"], "FAIL");

@@ -1,6 +1,7 @@
 //! `spindrift compare`: equal results, results of other methods, seeds and plans; what is beyond the tolerance.
 
-use super::small_campaign::{campaign, folder};
+use super::small_campaign::{NEGATIVE_WALLS, campaign, campaign_without_debris, folder};
+use crate::support::scratch_folder::ended;
 
 /// Law: the same campaign has no shift, also from other files; another method on the same samples is compared pair by pair and differs
 /// by rounding only; another seed is compared as independent samples.
@@ -48,4 +49,22 @@ fn results_are_compared() {
     std::fs::write(scratch.path("b/runs/part-000001.parquet"), "damaged").expect("written");
     let said = scratch.prints("compare a b", 4);
     assert!(said.contains("part-000001.parquet"), "{said}");
+}
+
+/// Law: a share of ok runs that is shifted by more than the tolerance is beyond it, also where the runs that are ok are the same.
+#[test]
+fn failures_alone_are_a_shift() {
+    let scratch = folder("compare-failures");
+    let thin = campaign_without_debris() + NEGATIVE_WALLS;
+    scratch.file("thin.toml", &thin);
+    scratch.prints("campaign thin.toml --out all --no-report", 1);
+    let dispersed = ended(&scratch.rows("all")).into_iter().skip(1);
+    let ok: Vec<u64> = dispersed.filter(|(_, status)| status == "ok").map(|(sample, _)| sample).collect();
+    scratch.file("ok.toml", &thin.replace("[campaign]", &format!("[campaign]\nonly = {ok:?}")));
+    scratch.prints("campaign ok.toml --out ok --no-report", 0);
+    let failed = 1.0 - ok.len() as f64 / 599.0;
+    assert!((0.2..0.5).contains(&failed), "{failed}");
+    for (share, code) in [(0.99, 3), (1.01, 0)] {
+        scratch.prints(&format!("compare all ok --tolerance {}", share * failed), code);
+    }
 }

@@ -1,14 +1,14 @@
 //! `campaign --only-failed-of`: the samples that failed, under another plan. `campaign --fail-fast`: the first of them is the end.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
 use spindrift::dataset::rows_reader::RowsReader;
 use spindrift::dataset::storage::Disk;
 use spindrift::run::Status;
 
-use super::small_campaign::{campaign_without_debris, folder};
-use crate::support::scratch_folder::ScratchFolder;
+use super::small_campaign::{NEGATIVE_WALLS, campaign_without_debris, folder, mixed_failures, table};
+use crate::support::scratch_folder::{ScratchFolder, column, ended};
 
 /// The campaign with a method whose steps depend on the sample; so few are allowed that some 7% of the runs do not end.
 fn limited(max_steps: u64) -> String {
@@ -153,4 +153,75 @@ fn the_first_failure_ends_the_campaign() {
     // where no run fails it changes nothing
     scratch.prints("campaign enough.toml --samples 1500 --seed 9 --out whole --fail-fast", 0);
     assert!(contents(&scratch, "whole") == contents(&scratch, "all"));
+}
+
+/// Law: whatever a run failed with, it is run again, and no run that is ok is.
+#[test]
+fn every_failure_is_run_again() {
+    let scratch = folder("failed-all");
+    let mut seen = BTreeSet::new();
+    for text in [limited(40) + NEGATIVE_WALLS, mixed_failures()] {
+        scratch.file("mixed.toml", &text);
+        scratch.prints("campaign mixed.toml --samples 300 --out r --overwrite --no-report", 1);
+        scratch.prints("campaign mixed.toml --only-failed-of r --out again --overwrite --no-report", 1);
+        let mut failed = ended(&scratch.rows("r"));
+        assert!(failed.iter().any(|(_, status)| status == "ok"));
+        failed.retain(|(_, status)| status != "ok");
+        assert_eq!(ended(&scratch.rows("again")), failed);
+        seen.extend(failed.into_iter().map(|(_, status)| status));
+    }
+    let seen: Vec<&str> = seen.iter().map(String::as_str).collect();
+    assert_eq!(seen, ["inaccurate", "invalid_sample", "step_limit"]);
+}
+
+/// Law: of several parts that are made at the same time `--fail-fast` names the first run that failed, and the same command names it again.
+/// The first part takes longest, and its failure comes after those of the others.
+#[test]
+fn the_first_failure_is_that_of_the_first_sample() {
+    let scratch = folder("fail-fast-threads");
+    let samples = (1..=1000).map(|sample| ([200, 300, 600].contains(&sample), if sample < 256 { 400.0 } else { 31.0 }));
+    let (rows, text) = table(samples);
+    scratch.file("table.csv", &rows);
+    scratch.file("table.toml", &text);
+    for _ in 0..2 {
+        let said = scratch.prints("campaign table.toml --threads 2 --fail-fast --out r", 1);
+        let failed = ended(&scratch.rows("r")).into_iter().filter(|(_, status)| status != "ok");
+        let failed: Vec<u64> = failed.map(|(sample, _)| sample).collect();
+        assert!(failed.len() > 1 && failed[0] == 200, "both threads had a part: {failed:?}");
+        assert!(said.contains("simulate r/plan.toml --sample 200\n"), "{said}");
+    }
+}
+
+/// Law: every command that a campaign prints for a run gives the run of that row, whichever options replaced numbers of its file.
+#[test]
+fn printed_commands_give_the_rows() {
+    let scratch = folder("printed");
+    // the file has too few samples for most of the others
+    let few = |max_steps: u64| limited(max_steps).replace("samples = 600", "samples = 20");
+    scratch.file("tight.toml", &few(40));
+    scratch.file("small.toml", &few(10_000));
+    scratch.prints("campaign tight.toml --samples 400 --seed 9 --out tight", 1);
+    let axes = ["x", "y", "z"];
+    for options in
+        ["", "--samples 300", "--seed 11", "--samples 300 --seed 11", "--audit 0.1", "--only-failed-of tight"]
+    {
+        let said = scratch.prints(&format!("campaign small.toml {options} --out r --overwrite --no-report"), 0);
+        let rows = scratch.rows("r");
+        let samples: Vec<u64> = ended(&rows).into_iter().map(|(sample, _)| sample).collect();
+        let drawn = axes.map(|axis| column(&rows, &format!("initial_angular_velocity_{axis}_rad_s")));
+        let printed: BTreeSet<&str> =
+            said.lines().filter_map(|line| Some(line.split_once("spindrift simulate ")?.1)).collect();
+        assert!(printed.len() > 2, "{options}: {said}");
+        for command in printed {
+            let run = scratch.prints(&format!("simulate {command}"), 0);
+            let sample: u64 = command.split_whitespace().last().unwrap().parse().unwrap();
+            let row = samples.iter().position(|known| *known == sample).unwrap();
+            for (axis, drawn) in axes.iter().zip(&drawn) {
+                let line =
+                    run.lines().find(|line| line.starts_with(&format!("initial.angular_velocity_rad_s.{axis} ")));
+                let value = line.and_then(|line| line.split_whitespace().nth(1)).map(|value| value.parse());
+                assert_eq!(value, Some(Ok(drawn[row])), "{options}: {command}");
+            }
+        }
+    }
 }

@@ -3,8 +3,8 @@
 use arrow_array::cast::AsArray;
 use arrow_array::{Array, RecordBatch};
 
-use super::small_campaign::{NEGATIVE_WALLS, campaign, folder};
-use crate::support::scratch_folder::{batches, floats};
+use super::small_campaign::{NEGATIVE_WALLS, campaign, folder, mixed_failures};
+use crate::support::scratch_folder::{batches, column, ended, floats};
 
 /// Status and reason of every row.
 fn ends(batch: &RecordBatch) -> Vec<(String, Option<String>)> {
@@ -58,6 +58,38 @@ fn garbage_is_inaccurate() {
     for (row, end) in ends(batch).into_iter().enumerate() {
         assert_eq!(end, ("ok".to_owned(), None), "row {row}");
     }
+}
+
+/// Law: a run that failed violates a requirement, however small the value that it has; of a run that is ok the value decides; what is not
+/// physical is outside of the population. Summary, JUnit file and exit code follow from that count of the rows.
+#[test]
+fn failed_runs_violate_what_their_values_keep() {
+    let scratch = folder("failed-violate");
+    let limits = [("fraction = 0.95", 1e300), ("quantile = 0.95", 1e300), ("fraction = 0.5", 315.0)];
+    let require = |(statement, limit): (&str, f64)| {
+        format!("[[require]]\nobservable = \"rate_w1_final_rad_s\"\n{statement}\nat_most = {limit:?}\n")
+    };
+    scratch.file("mixed.toml", &[mixed_failures(), limits.map(require).concat()].concat());
+    scratch.prints("campaign mixed.toml --samples 300 --out r --no-report --junit junit.xml", 3);
+    let rows = scratch.rows("r");
+    let (ended, rates) = (ended(&rows), column(&rows, "rate_w1_final_rad_s"));
+    let population: Vec<(&str, f64)> =
+        ended.iter().zip(&rates).skip(1).map(|((_, status), rate)| (status.as_str(), *rate)).collect();
+    let failed_with_value = population.iter().filter(|(status, rate)| *status != "ok" && !rate.is_nan()).count();
+    assert!(failed_with_value > 20, "{failed_with_value} runs failed and have a value");
+    let summary = scratch.summary("r");
+    let list = summary["requirements"]["list"].as_array().expect("a list");
+    for ((statement, limit), found) in limits.into_iter().zip(list) {
+        let runs: Vec<_> = population.iter().filter(|(status, _)| *status != "invalid_sample").collect();
+        let violations = runs.iter().filter(|(status, rate)| !(*status == "ok" && *rate <= limit)).count();
+        let failed = runs.iter().filter(|(status, _)| *status != "ok").count();
+        let counts = ["runs", "violations", "failed_runs"].map(|name| found[name].as_u64().expect("a count") as usize);
+        assert_eq!(counts, [runs.len(), violations, failed], "{statement} {limit}");
+    }
+    assert_eq!([&list[0]["verdict"], &list[1]["verdict"]], ["FAIL", "FAIL"]);
+    let xml = std::fs::read_to_string(scratch.path("junit.xml")).expect("a file");
+    let failures = list.iter().filter(|one| one["verdict"] == "FAIL").count();
+    assert_eq!(xml.matches("<failure").count(), failures + 1, "one more for the failed runs: {xml}");
 }
 
 /// Law: rows of unphysical samples, and of runs that met the limit of steps, say why.

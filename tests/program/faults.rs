@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use spindrift::campaign::Plan;
 use spindrift::dataset::storage::Disk;
 
-use super::faulty_storage::{Fault, Faulty, Operation, contents, make, plan, reason};
+use super::faulty_storage::{Fault, Faulty, Operation, contents, listed_files, make, plan, reason};
 use crate::support::scratch_folder::ScratchFolder;
 
 /// What changes files, and what asks for them; reads one by one are those of `read_faults`.
@@ -20,12 +20,12 @@ fn is_counted(operation: Operation) -> bool {
 /// Samples of three parts.
 const SAMPLES: u64 = 520;
 
-/// Whether faults persist, and the kinds that they are of in turn.
-type Faults<'a> = (bool, &'a [io::ErrorKind]);
+/// Whether faults persist, and what they are in turn.
+type Faults<'a> = (bool, &'a [Fault]);
 
 /// Makes a campaign with a fault at every operation in turn, from its folder to its mark, and checks what is left and what the next attempt
 /// makes of it. Returns the number of errors and of operations.
-fn fail_everywhere(scratch: &ScratchFolder, plan: &Plan, has_page: bool, (persists, kinds): Faults<'_>) -> (u64, u64) {
+fn fail_everywhere(scratch: &ScratchFolder, plan: &Plan, has_page: bool, (persists, faults): Faults<'_>) -> (u64, u64) {
     let never = || Faulty::new(is_counted, u64::MAX, false, Fault::Kind(io::ErrorKind::Other));
     let counted = never();
     make(counted, &scratch.path("whole"), plan, has_page).unwrap();
@@ -41,12 +41,12 @@ fn fail_everywhere(scratch: &ScratchFolder, plan: &Plan, has_page: bool, (persis
     // what is before the page is the same without it
     let is_of_page = |(_, path): &(Operation, PathBuf)| path.to_string_lossy().contains("report.html");
     let page = counted.done().iter().position(is_of_page).expect("a page is written, or an old one removed");
-    let (mut errors, mut kinds) = (0, kinds.iter().cycle());
+    let (mut errors, mut faults) = (0, faults.iter().cycle());
     for fails in if has_page { page as u64 } else { 0 }..operations {
-        let kind = *kinds.next().expect("a cycle");
+        let fault = *faults.next().expect("a cycle");
         let root = scratch.path("r");
         let _ = fs::remove_dir_all(&root);
-        let ended = make(Faulty::new(is_counted, fails, persists, Fault::Kind(kind)), &root, plan, has_page);
+        let ended = make(Faulty::new(is_counted, fails, persists, fault), &root, plan, has_page);
         if let Err(failure) = &ended {
             errors += 1;
             let message = reason(failure);
@@ -59,7 +59,7 @@ fn fail_everywhere(scratch: &ScratchFolder, plan: &Plan, has_page: bool, (persis
         make(never(), &root, plan, has_page).unwrap_or_else(|error| panic!("operation {fails}: {error:?}"));
         let now = contents(&root);
         assert_eq!(now.keys().collect::<Vec<_>>(), whole.keys().collect::<Vec<_>>(), "operation {fails}");
-        assert!(now == whole, "operation {fails} ({kind:?}, persists: {persists})");
+        assert!(now == whole, "operation {fails} ({fault:?}, persists: {persists})");
     }
     (errors, operations)
 }
@@ -69,17 +69,41 @@ fn fail_everywhere(scratch: &ScratchFolder, plan: &Plan, has_page: bool, (persis
 /// the long version has every kind at every operation.
 #[test]
 fn every_operation_may_fail() {
-    use io::ErrorKind::{Other, ReadOnlyFilesystem, StorageFull};
+    let [full, other, read_only] =
+        [io::ErrorKind::StorageFull, io::ErrorKind::Other, io::ErrorKind::ReadOnlyFilesystem].map(Fault::Kind);
     let (scratch, plan) = (ScratchFolder::new("faults"), plan(SAMPLES));
     // the page is one file more, and most of the work
-    fail_everywhere(&scratch, &plan, true, (false, &[StorageFull]));
-    let (once, operations) = fail_everywhere(&scratch, &plan, false, (false, &[StorageFull, Other]));
-    let (lasting, _) = fail_everywhere(&scratch, &plan, false, (true, &[StorageFull, ReadOnlyFilesystem]));
+    fail_everywhere(&scratch, &plan, true, (false, &[full]));
+    let (once, operations) = fail_everywhere(&scratch, &plan, false, (false, &[full, other]));
+    let (lasting, _) = fail_everywhere(&scratch, &plan, false, (true, &[full, read_only]));
     // what fails once is repeated where that is safe; what fails for good is an error
     assert!(
         once > operations / 4 && lasting > operations / 2,
         "{once} and {lasting} errors of {operations} operations"
     );
+}
+
+/// Law: a disk that alters what is written is noticed before a file has its final name: once, the file is written again; for good, it is an
+/// error. What is left is completed to the same bytes.
+#[test]
+fn altered_bytes_are_noticed() {
+    let (scratch, plan) = (ScratchFolder::new("faults-altered"), plan(SAMPLES));
+    let (once, _) = fail_everywhere(&scratch, &plan, false, (false, &[Fault::Altered]));
+    let (lasting, operations) = fail_everywhere(&scratch, &plan, false, (true, &[Fault::Altered]));
+    assert!(once == 0 && lasting > operations / 2, "{once} and {lasting} errors of {operations} operations");
+}
+
+/// Law: at every operation each part that is listed is there and whole, while a dataset is made and while it is extended, which replaces its
+/// last part.
+#[test]
+fn what_is_listed_is_whole_at_every_operation() {
+    let scratch = ScratchFolder::new("faults-watched");
+    let root = scratch.path("r");
+    for (samples, parts) in [(SAMPLES - 100, 2), (SAMPLES, 3)] {
+        let watched = Faulty::watched(&root);
+        make(watched, &root, &plan(samples), false).unwrap();
+        assert!(watched.done().len() > 30 && listed_files(&root).len() == 2 * parts);
+    }
 }
 
 /// The long version of [`every_operation_may_fail`].
@@ -92,7 +116,7 @@ fn every_operation_may_fail_in_every_way() {
         for kind in [StorageFull, ReadOnlyFilesystem, PermissionDenied, Interrupted, Other] {
             // the standard library repeats what is interrupted: one that lasts would never end
             if !(persists && kind == Interrupted) {
-                let (errors, operations) = fail_everywhere(&scratch, &plan, false, (persists, &[kind]));
+                let (errors, operations) = fail_everywhere(&scratch, &plan, false, (persists, &[Fault::Kind(kind)]));
                 println!("{kind:?}, persists: {persists}: {errors} errors of {operations} operations");
             }
         }

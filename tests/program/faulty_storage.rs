@@ -7,11 +7,12 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
+use serde_json::Value;
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::cli::command_outcome::Failure;
 use spindrift::cli::finish_campaign::{Finishing, complete};
 use spindrift::dataset::claim::{Claim, ClaimOptions, FolderError, claim};
-use spindrift::dataset::identity::identity;
+use spindrift::dataset::identity::{identity, sha256};
 use spindrift::dataset::part_sink::write_parts;
 use spindrift::dataset::storage::{Disk, Entry, Storage};
 use spindrift::dataset::stored_file::StoredFile;
@@ -19,6 +20,35 @@ use spindrift::ensemble::{Ensemble, Parts, Supervision, run};
 use spindrift::math::Isa;
 
 use super::small_campaign::campaign_without_debris;
+
+/// A file that a manifest lists.
+#[derive(Debug)]
+pub struct ListedFile {
+    pub path: PathBuf,
+    pub bytes: u64,
+    pub sha256: String,
+}
+
+/// The files of the parts that the manifests of a dataset list; lines that are cut off list nothing.
+pub fn listed_files(root: &Path) -> Vec<ListedFile> {
+    let shards = fs::read_dir(root.join("shards")).into_iter().flatten().map(|entry| entry.unwrap().path());
+    let mut parts = BTreeMap::new();
+    for manifest in shards.chain([root.join("manifest.jsonl")]) {
+        let text = fs::read_to_string(manifest).unwrap_or_default();
+        for line in text.lines().filter_map(|line| serde_json::from_str::<Value>(line).ok()) {
+            if let Some(part) = line["part"].as_u64() {
+                parts.insert(part, line["files"].as_array().unwrap().clone());
+            }
+            line["dropped"].as_u64().map(|dropped| parts.remove(&dropped));
+        }
+    }
+    let file = |file: &Value| ListedFile {
+        path: root.join(file["name"].as_str().unwrap()),
+        bytes: file["bytes"].as_u64().unwrap(),
+        sha256: file["sha256"].as_str().unwrap().to_owned(),
+    };
+    parts.values().flatten().map(file).collect()
+}
 
 /// What is done to a file or folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,6 +78,8 @@ pub enum Fault {
     End,
     /// Of a read: it is interrupted, or has some of the bytes only. No error.
     Piecewise,
+    /// Of a new file: its last bit is another one. No error.
+    Altered,
 }
 
 impl Fault {
@@ -56,7 +88,7 @@ impl Fault {
         match self {
             Fault::Kind(kind) => Some(kind.into()),
             Fault::System(number) => Some(io::Error::from_raw_os_error(number)),
-            Fault::End | Fault::Piecewise => None,
+            Fault::End | Fault::Piecewise | Fault::Altered => None,
         }
     }
 }
@@ -75,13 +107,25 @@ struct Plot {
     /// Whether all later ones fail too.
     persists: bool,
     fault: Fault,
+    /// The dataset whose listed parts are checked before every operation.
+    watched: Option<PathBuf>,
     done: Mutex<Vec<(Operation, PathBuf)>>,
 }
 
 impl Faulty {
     /// The disk on which operation `fails` of those that are counted fails, and all later ones where it `persists`.
     pub fn new(is_counted: fn(Operation) -> bool, fails: u64, persists: bool, fault: Fault) -> &'static Self {
-        let plot = Plot { is_counted, fails, persists, fault, done: Mutex::default() };
+        Self::leaked(Plot { is_counted, fails, persists, fault, watched: None, done: Mutex::default() })
+    }
+
+    /// The disk without a fault, on which at every operation each part that the dataset in `root` lists is there and whole.
+    pub fn watched(root: &Path) -> &'static Self {
+        let (fault, watched) = (Fault::Kind(io::ErrorKind::Other), Some(root.to_owned()));
+        let is_counted = |operation| operation == Operation::Write;
+        Self::leaked(Plot { is_counted, fails: u64::MAX, persists: false, fault, watched, done: Mutex::default() })
+    }
+
+    fn leaked(plot: Plot) -> &'static Self {
         Box::leak(Box::new(Faulty(Arc::new(plot))))
     }
 
@@ -99,6 +143,15 @@ impl Plot {
     fn is_due(&self, operation: Operation, path: &Path) -> bool {
         if !(self.is_counted)(operation) {
             return false;
+        }
+        for file in self.watched.iter().flat_map(|root| listed_files(root)) {
+            let bytes = fs::read(&file.path).unwrap_or_else(|error| panic!("{}: {error}", file.path.display()));
+            assert!(
+                sha256(&bytes) == file.sha256,
+                "{} is listed and not whole before {operation:?} of {}",
+                file.path.display(),
+                path.display()
+            );
         }
         let mut done = self.done.lock().unwrap();
         let now = done.len() as u64;
@@ -132,6 +185,16 @@ fn append(path: &Path, length: u64, bytes: &[u8]) -> io::Result<()> {
 
 impl Storage for Faulty {
     fn create(&self, path: &Path, bytes: &[u8]) -> io::Result<()> {
+        if self.0.fault == Fault::Altered {
+            let mut written = bytes.to_vec();
+            if self.0.is_due(Operation::Write, path) {
+                match written.last_mut() {
+                    Some(last) => *last ^= 1,
+                    None => written.push(0),
+                }
+            }
+            return create(path, &written);
+        }
         if let Err(error) = self.check(Operation::Write, path) {
             // half of it is there
             create(path, &bytes[..bytes.len() / 2])?;
@@ -216,7 +279,7 @@ impl StoredFile for FaultyFile {
                 let some = bytes.len().div_ceil(2);
                 self.file.read_at(offset, &mut bytes[..some])
             }
-            Fault::Kind(_) | Fault::System(_) => self.plot.fault.error().map_or(Ok(0), Err),
+            Fault::Kind(_) | Fault::System(_) | Fault::Altered => self.plot.fault.error().map_or(Ok(0), Err),
         }
     }
 }
@@ -258,6 +321,9 @@ pub fn make(storage: &'static dyn Storage, root: &Path, plan: &Plan, has_page: b
         Err(error) => return Err(Failure::files(error)),
     };
     let missing = ready.folder.missing(Parts::of(plan.samples).iter());
+    // a last part that is made again with its further rows
+    let is_there = |part: &u64| ready.folder.parts().iter().any(|record| record.part == *part);
+    ready.folder.drop_parts(missing.iter().map(|part| part.id.0).filter(is_there)).map_err(Failure::files)?;
     write_parts(&ready.folder, &ensemble, None, |sink| {
         run(&ensemble, missing, NonZeroUsize::new(1), sink, Supervision::progress(&|_| {}))
     })

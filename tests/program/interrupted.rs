@@ -7,6 +7,7 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
+use super::faulty_storage::listed_files;
 use super::small_campaign::{campaign, folder};
 use crate::support::scratch_folder::ScratchFolder;
 
@@ -53,21 +54,13 @@ fn start(scratch: &ScratchFolder, arguments: &str) -> Child {
     program.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
 }
 
-/// The rows that the manifest of an interrupted result lists; each of their files must be there whole.
+/// The files that the manifest of an interrupted result lists; each must be there whole.
 fn committed(scratch: &ScratchFolder, result: &str) -> usize {
-    let manifest = fs::read_to_string(scratch.path(result).join("manifest.jsonl")).unwrap_or_default();
-    let parts: Vec<serde_json::Value> = manifest
-        .lines()
-        .filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok())
-        .filter(|value| value.get("part").is_some())
-        .collect();
-    for part in &parts {
-        for file in part["files"].as_array().unwrap() {
-            let path = scratch.path(result).join(file["name"].as_str().unwrap());
-            assert_eq!(fs::metadata(&path).unwrap().len(), file["bytes"].as_u64().unwrap(), "{}", path.display());
-        }
+    let files = listed_files(&scratch.path(result));
+    for file in &files {
+        assert_eq!(fs::metadata(&file.path).unwrap().len(), file.bytes, "{}", file.path.display());
     }
-    parts.len()
+    files.len()
 }
 
 /// Kills the campaign `kills` times at instants that follow from `seed`, continuing it until it is complete, and starts again; every
@@ -92,7 +85,7 @@ fn kill_and_continue(kills: u32, seed: u64) {
             }
             killed += 1;
             let now = committed(&scratch, "half");
-            assert!(now >= before, "{now} parts are listed after {before}");
+            assert!(now >= before, "{now} files are listed after {before}");
             before = now;
         }
         scratch.prints(&format!("{command} --out half"), 0);

@@ -20,8 +20,8 @@ use spindrift::math::Isa;
 use spindrift::run::Status;
 use spindrift::sampling::SampleId;
 
-use super::small_campaign::{NEGATIVE_WALLS, campaign, folder};
-use crate::support::scratch_folder::{ScratchFolder, batches, floats};
+use super::small_campaign::{NEGATIVE_WALLS, campaign, folder, table};
+use crate::support::scratch_folder::{ScratchFolder, batches, column, ended, floats};
 
 /// A third of the samples is not physical, and one in some runs needs more steps than it may make.
 fn file(retain: &str) -> String {
@@ -72,16 +72,18 @@ fn rules_choose_what_they_say() {
     let failed = those(&|status| *status == Status::StepLimit);
     assert!(failed.len() > 3 && failed.len() < 300, "{} runs reach the limit", failed.len());
     assert_eq!(chosen("failed"), failed);
-    let mut errors: Vec<(f64, u64)> = all
-        .iter()
-        .filter(|(sample, _, error)| *sample > 0 && !error.is_nan())
-        .map(|(sample, _, error)| (-error.abs(), *sample))
-        .collect();
-    errors.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    let mut worst: Vec<u64> = errors[..20].iter().map(|(_, sample)| *sample).collect();
-    worst.sort_unstable();
-    assert_eq!(chosen("worst:20 by energy_error_max"), worst);
-    assert_eq!(chosen("worst:100000 by energy_error_max").len(), errors.len());
+    // greatest magnitudes: of errors, of a number with a sign, and of counts, where many are equal and the first are taken
+    let table = scratch.rows("r");
+    for observable in ["energy_error_max", "energy_error_rate_per_s", "steps"] {
+        let values = column(&table, observable).into_iter().zip(ended(&table));
+        let with_value = values.filter(|(value, (sample, _))| *sample > 0 && !value.is_nan());
+        let mut sizes: Vec<(f64, u64)> = with_value.map(|(value, (sample, _))| (value.abs(), sample)).collect();
+        sizes.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        let mut worst: Vec<u64> = sizes[..20].iter().map(|(_, sample)| *sample).collect();
+        worst.sort_unstable();
+        assert_eq!(chosen(&format!("worst:20 by {observable}")), worst);
+        assert_eq!(chosen(&format!("worst:100000 by {observable}")).len(), sizes.len());
+    }
     let physical: BTreeSet<u64> = those(&|status| *status != Status::InvalidSample).into_iter().collect();
     let some = chosen("sample:100");
     assert!(
@@ -195,4 +197,30 @@ fn a_campaign_ends_with_bands() {
     assert!(
         !scratch.path("none/bands.parquet").exists() && !scratch.path("none/bands").join("part-000000.bands").exists()
     );
+}
+
+/// Law: a part without a run that is ok changes no band, whether it is the first, in the middle or the last.
+#[test]
+fn failed_parts_change_no_band() {
+    let scratch = folder("bands-failed-parts");
+    // the first part has the nominal run and 255 samples
+    let bands = |name: &str, parts: &[(bool, usize)]| {
+        let mut spins = (0..).map(|index| 31.0 + 0.01 * f64::from(index));
+        let fails = parts.iter().flat_map(|(fails, count)| std::iter::repeat_n(*fails, *count));
+        let (rows, text) = table(fails.map(|fails| (fails, if fails { 31.0 } else { spins.next().unwrap() })));
+        scratch.file("table.csv", &rows);
+        scratch.file("table.toml", &text);
+        let code = i32::from(parts.iter().any(|(fails, _)| *fails));
+        scratch.prints(&format!("campaign table.toml --out {name} --no-report"), code);
+        assert_eq!(scratch.rows(name)[0].num_rows(), 256);
+        scratch.table(&format!("{name}/bands.parquet"))
+    };
+    let whole = bands("whole", &[(false, 300)]);
+    for (name, parts) in [
+        ("first", vec![(true, 255), (false, 256), (false, 44)]),
+        ("middle", vec![(false, 255), (true, 256), (false, 45)]),
+        ("last", vec![(false, 300), (true, 300)]),
+    ] {
+        assert!(bands(name, &parts) == whole, "{name}");
+    }
 }

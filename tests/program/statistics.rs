@@ -7,7 +7,7 @@ use arrow_array::types::{Float64Type, Int64Type};
 use arrow_array::{Array, RecordBatch};
 
 use super::small_campaign::{NEGATIVE_WALLS, campaign, folder};
-use crate::support::scratch_folder::{ScratchFolder, batches};
+use crate::support::scratch_folder::{column, ended};
 
 const MORE: &str = r#"
 [[observable]]
@@ -17,31 +17,34 @@ expression = "energy_error_max / angular_momentum_error_max"
 name = "spin"
 unit = "rad/s"
 expression = "sqrt(initial.angular_velocity_rad_s.x^2 + initial_angular_velocity_y_rad_s^2)"
+[[observable]]
+name = "half"
+expression = "sqrt(initial.angular_velocity_rad_s.x)"
 [summary]
 columns = ["spin", "steps", "energy_body_max_j"]
 "#;
 
-/// The rows of a result that statistics are about, column by column: of dispersed samples that are ok, with a value.
-fn values(tables: &[RecordBatch], name: &str) -> Vec<f64> {
-    let mut found = Vec::new();
-    for table in tables {
-        let ids = table.column_by_name("sample_id").expect("ids").as_primitive::<Int64Type>();
-        let statuses = table.column_by_name("status").expect("statuses").as_string::<i32>();
-        let column = table.column_by_name(name).unwrap_or_else(|| panic!("no column {name}"));
-        for row in 0..table.num_rows() {
-            if ids.value(row) > 0 && statuses.value(row) == "ok" && !column.is_null(row) {
-                found.push(match column.as_primitive_opt::<Float64Type>() {
-                    Some(values) => values.value(row),
-                    None => column.as_primitive::<Int64Type>().value(row) as f64,
-                });
-            }
-        }
-    }
-    found
+/// The values of a column that statistics are about: of dispersed samples that are ok, with a value.
+fn values(rows: &[RecordBatch], name: &str) -> Vec<f64> {
+    let values = column(rows, name).into_iter().zip(ended(rows));
+    let counted = values.filter(|(value, (sample, status))| *sample > 0 && status == "ok" && !value.is_nan());
+    counted.map(|(value, _)| value).collect()
 }
 
-fn tables(scratch: &ScratchFolder, result: &str) -> Vec<RecordBatch> {
-    scratch.part_files(result).iter().flat_map(|file| batches(file)).collect()
+/// The ends of the interval of the `p`-quantile of values in ascending order: the order statistics that miss with at most 2.5% each, from the
+/// binomial distribution of the number of values below the quantile, term by term.
+fn interval(ascending: &[f64], p: f64) -> [Option<f64>; 2] {
+    let n = ascending.len() as f64;
+    let mut sum = 0.0;
+    let below = (0..ascending.len()).map(|k| {
+        let k = k as f64;
+        let ways = libm::lgamma(n + 1.0) - libm::lgamma(k + 1.0) - libm::lgamma(n - k + 1.0);
+        sum += libm::exp(ways + k * libm::log(p) + (n - k) * libm::log1p(-p));
+        sum
+    });
+    let below: Vec<f64> = below.collect();
+    let ends = [below.iter().rposition(|sum| *sum <= 0.025), below.iter().position(|sum| 1.0 - sum <= 0.025)];
+    ends.map(|place| place.map(|place| ascending[place]))
 }
 
 /// The number of a row of a table; `None` where it is null.
@@ -52,13 +55,15 @@ fn number(table: &RecordBatch, name: &str, row: usize) -> Option<f64> {
 }
 
 /// Law: counts and extremes are exact, moments are those of the rows to 1e-12 of their size, quantiles are of type 7; failed runs are
-/// counted and left out; a quantile that the runs cannot bound says what it takes.
+/// counted and left out, and so are runs without a value, column by column; intervals are of as many runs as have one; a quantile that the
+/// runs cannot bound says what it takes.
 #[test]
 fn statistics_are_those_of_the_files() {
     let scratch = folder("statistics-table");
     scratch.file("thin.toml", &(campaign() + NEGATIVE_WALLS + MORE));
     scratch.prints("campaign thin.toml --out r", 1);
-    let rows = tables(&scratch, "r");
+    let rows = scratch.rows("r");
+    let ok = ended(&rows).iter().filter(|(sample, status)| *sample > 0 && status == "ok").count();
     let table = scratch.table("r/statistics.parquet");
     let names = table.column_by_name("observable").expect("names").as_string::<i32>();
     assert!(table.num_rows() > 100);
@@ -76,12 +81,19 @@ fn statistics_are_those_of_the_files() {
                 let [a, b] = ["x", "y"].map(|axis| values(&rows, &format!("initial_angular_velocity_{axis}_rad_s")));
                 a.iter().zip(&b).map(|(a, b)| (libm::pow(*a, 2.0) + libm::pow(*b, 2.0)).sqrt()).collect()
             }
+            // the root of what is negative is no number
+            "half" => {
+                let x = values(&rows, "initial_angular_velocity_x_rad_s");
+                x.iter().filter(|x| **x >= 0.0).map(|x| x.sqrt()).collect()
+            }
             _ => values(&rows, name),
         };
         let n = x.len();
         assert_eq!(count("count"), n as i64, "{name}");
+        assert_eq!(count("without_value"), (ok - n) as i64, "{name}");
         assert_eq!(count("count_ok") + count("count_invalid_sample"), 599);
-        assert!(count("count_invalid_sample") > 100 && n > 300, "{name}: {n}");
+        assert_eq!(count("count_ok"), ok as i64);
+        assert!(count("count_invalid_sample") > 100 && n > if name == "half" { 150 } else { 300 }, "{name}: {n}");
         x.sort_by(f64::total_cmp);
         assert_eq!((of("min"), of("max")), (Some(x[0]), Some(x[n - 1])), "{name}");
         let mean = x.iter().sum::<f64>() / n as f64;
@@ -96,16 +108,19 @@ fn statistics_are_those_of_the_files() {
             let exact = if part < 0.5 { low + part * (high - low) } else { high - (1.0 - part) * (high - low) };
             assert_eq!(of(column), Some(exact), "{name} {column}");
         }
+        for (column, p) in [("p0_1", 0.001), ("p5", 0.05), ("p50", 0.5), ("p99_9", 0.999)] {
+            let ends = [of(&format!("{column}_lower")), of(&format!("{column}_upper"))];
+            assert_eq!(ends, interval(&x, p), "{name} {column} of {n}");
+        }
         // some 400 runs bound the median, and p99.9 from below only
-        let (lower, upper) = (of("p50_lower").expect("bounded"), of("p50_upper").expect("bounded"));
-        assert!(lower <= of("p50").expect("a median") && of("p50").expect("a median") <= upper, "{name}");
+        assert!(of("p50_lower") <= of("p50") && of("p50") <= of("p50_upper"), "{name}");
         assert!(of("p99_9_lower").is_some() && of("p99_9_upper").is_none() && of("p0_1_lower").is_none(), "{name}");
         let notes = table.column_by_name("p99_9_note").expect("notes").as_string::<i32>();
         // ln 0.025 / ln 0.999 = 3687.04, ln 0.05 / ln 0.999 = 2994.2
         assert_eq!(notes.value(row), "p99.9 with 95% confidence needs 3688 runs (2995 for a bound on one side)");
         checked += 1;
     }
-    assert_eq!(names.iter().flatten().filter(|name| ["spin", "error_ratio"].contains(name)).count(), 2);
+    assert_eq!(names.iter().flatten().filter(|name| ["spin", "error_ratio", "half"].contains(name)).count(), 3);
     assert_eq!(checked, table.num_rows());
 }
 

@@ -6,7 +6,7 @@ use std::process::Command;
 
 use arrow_array::RecordBatch;
 use arrow_array::cast::AsArray;
-use arrow_array::types::Float64Type;
+use arrow_array::types::{Float64Type, Int64Type};
 
 use super::parquet_tables;
 
@@ -83,6 +83,16 @@ impl ScratchFolder {
         self.part_files(result).into_iter().map(content).collect()
     }
 
+    /// The rows of `result`, part by part.
+    pub fn rows(&self, result: &str) -> Vec<RecordBatch> {
+        self.part_files(result).iter().flat_map(|file| batches(file)).collect()
+    }
+
+    /// The summary of `result`.
+    pub fn summary(&self, result: &str) -> serde_json::Value {
+        serde_json::from_slice(&fs::read(self.path(result).join("summary.json")).unwrap()).unwrap()
+    }
+
     /// The first batch of a Parquet file in the folder.
     pub fn table(&self, file: &str) -> RecordBatch {
         batches(&self.0.join(file)).swap_remove(0)
@@ -98,6 +108,27 @@ pub fn batches(path: &Path) -> Vec<RecordBatch> {
 pub fn floats(batch: &RecordBatch, name: &str) -> Vec<f64> {
     let column = batch.column_by_name(name).unwrap_or_else(|| panic!("no column {name}"));
     column.as_primitive::<Float64Type>().iter().map(|value| value.unwrap_or(f64::NAN)).collect()
+}
+
+/// The numbers of a column of all `rows`, one after another; null as NaN.
+pub fn column(rows: &[RecordBatch], name: &str) -> Vec<f64> {
+    let of = |batch: &RecordBatch| -> Vec<f64> {
+        let column = batch.column_by_name(name).unwrap_or_else(|| panic!("no column {name}"));
+        match column.as_primitive_opt::<Int64Type>() {
+            Some(counts) => counts.iter().map(|count| count.map_or(f64::NAN, |count| count as f64)).collect(),
+            None => floats(batch, name),
+        }
+    };
+    rows.iter().flat_map(of).collect()
+}
+
+/// Sample and status of every row.
+pub fn ended(rows: &[RecordBatch]) -> Vec<(u64, String)> {
+    let statuses = rows.iter().flat_map(|batch| {
+        let statuses = batch.column_by_name("status").expect("statuses").as_string::<i32>();
+        statuses.iter().map(|status| status.expect("a status").to_owned()).collect::<Vec<_>>()
+    });
+    column(rows, "sample_id").into_iter().map(|sample| sample as u64).zip(statuses).collect()
 }
 
 impl Drop for ScratchFolder {
