@@ -179,8 +179,14 @@ fn observation() {
         let actuated = Actuated::of(&plan.nominal);
         let constrained = method == Method::NullSpace;
         let wheels = plan.nominal.turning_wheels();
-        let request =
-            Request { groups: Groups::ALL, debris: plan.nominal.debris.is_some(), actuated, constrained, wheels };
+        let request = Request {
+            groups: Groups::ALL,
+            debris: plan.nominal.debris.is_some(),
+            actuated,
+            constrained,
+            wheels,
+            windows: spindrift::observables::window::NO_WINDOWS,
+        };
         let mut observer = Observer::new(request, &plan.grid);
         let mut row = vec![0.0; request.columns().len()];
         let control = adaptive(if constrained { 1e-3 } else { 1e-12 });

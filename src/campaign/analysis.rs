@@ -9,6 +9,7 @@ use super::requirement::{DEFAULT_CONFIDENCE, Requirement};
 use super::section::Section;
 use super::stop::{Stop, When};
 use crate::observables::Request;
+use crate::observables::window::{MAX_WINDOWS, Window};
 use crate::sampling::{Column, Design};
 
 /// What is made of the rows of a campaign.
@@ -88,28 +89,32 @@ impl Analysis {
         dispersed: &[Column],
         samples: u64,
         design: &Design,
-        band_times: &[f64],
+        [times, band_times]: [&[f64]; 2],
     ) {
+        if self.windows().count() > MAX_WINDOWS {
+            let allowed = format!("with at most {MAX_WINDOWS} different extremes, each a column of the rows");
+            let path = format!("require[{}].at_all_times", self.requirements.len() - 1);
+            document.add(&path, Some("true".to_owned()), allowed, "delete some of them");
+        }
         for (index, requirement) in self.requirements.iter().enumerate() {
             let Some(band) = requirement.band() else { continue };
-            if band_times.is_empty() {
+            let (times, what, key) = match requirement.window() {
+                Some(_) => (times, "the grid", "observe.points"),
+                None => (band_times, "the bands", "bands.points"),
+            };
+            if times.is_empty() {
                 let allowed = "left out where there are no bands: bands.points is 0";
                 let path = format!("require[{index}].band");
                 document.add(&path, Some(format!("{:?}", band.series)), allowed.to_owned(), "delete bands.points");
-            } else if !band_times.iter().any(|time| band.contains(*time)) {
-                let (key, end) = band.from_s.map_or(("to_s", band.to_s), |from| ("from_s", Some(from)));
-                let last = band_times.last().copied().unwrap_or_default();
-                let allowed = format!(
-                    "part of an interval with a point of the bands: there are {} from 0 s to {last} s",
-                    band_times.len()
-                );
-                let path = format!("require[{index}].{key}");
-                document.add(
-                    &path,
-                    end.map(|end| end.to_string()),
-                    allowed,
-                    "write a wider interval, or more bands.points",
-                );
+            } else if !times.iter().any(|time| band.contains(*time)) {
+                let (end_key, end) = band.from_s.map_or(("to_s", band.to_s), |from| ("from_s", Some(from)));
+                let last = times.last().copied().unwrap_or_default();
+                let count = times.len();
+                let allowed =
+                    format!("part of an interval with a point of {what}: there are {count} from 0 s to {last} s");
+                let path = format!("require[{index}].{end_key}");
+                let remedy = format!("write a wider interval, or more {key}");
+                document.add(&path, end.map(|end| end.to_string()), allowed, remedy);
             }
         }
         let scene = document.scene.clone();
@@ -136,6 +141,13 @@ impl Analysis {
             let allowed = "\"precise\" where there is no [[require]] table to decide";
             document.add("stop.when", Some("\"decided\"".to_owned()), allowed, "write a [[require]] table");
         }
+    }
+
+    /// The extremes over time that the rows have for requirements, each once.
+    pub fn windows(&self) -> impl Iterator<Item = Window> {
+        let of = |index: usize| self.requirements[index].window();
+        let is_first = move |index: &usize| (0..*index).all(|other| of(other) != of(*index));
+        (0..self.requirements.len()).filter(is_first).filter_map(of)
     }
 
     /// Writes the tables.

@@ -3,6 +3,7 @@
 use super::problem::nearest;
 use super::units;
 use crate::observables::band_series::band_series;
+use crate::observables::window::{NO_WINDOWS, Window};
 use crate::observables::{Group, Request, table};
 use crate::propagation::Method;
 use crate::run::Quantity;
@@ -16,6 +17,7 @@ pub fn request(groups: &[Group], acting: &SceneInput, method: Method) -> Request
         actuated: Actuated::of(acting),
         constrained: method == Method::NullSpace,
         wheels: acting.turning_wheels(),
+        windows: NO_WINDOWS,
     }
 }
 
@@ -60,6 +62,13 @@ impl KnownColumns {
     /// The quantity called `name` that has bands.
     pub fn band(&self, name: &str) -> Option<&Quantity> {
         self.bands.iter().find(|quantity| quantity.name() == name)
+    }
+
+    /// The extreme of the quantity called `name`, which has bands, over `times`, and the name of its column.
+    pub fn window(&self, name: &str, is_highest: bool, times: [Option<f64>; 2]) -> Option<(Window, String)> {
+        let band = band_series(&self.request).into_iter().find(|band| band.quantity.name() == name)?;
+        let window = band.window(&self.request, is_highest, times);
+        Some((window, window.quantity(&band.quantity).name().to_owned()))
     }
 
     /// What is allowed in place of `name`, which has no bands, and what to do.

@@ -18,6 +18,7 @@ use super::size;
 use super::spec::Spec;
 use super::without_effect::{self, acting_scene};
 use crate::dynamics::debris::is_isotropic;
+use crate::observables::window::MAX_WINDOWS;
 use crate::observables::{Group, Request};
 use crate::ode::Tolerance;
 use crate::propagation::Method;
@@ -196,7 +197,10 @@ impl Plan {
 
     /// The observables that it requests of runs of `duration` seconds, which decides which commands of the schedule act.
     pub fn request_over(&self, duration: f64) -> Request {
-        request(&self.groups, &acting_scene(duration, &self.nominal, &self.dispersions), self.method)
+        let acting = acting_scene(duration, &self.nominal, &self.dispersions);
+        let mut request = request(&self.groups, &acting, self.method);
+        self.analysis.windows().take(MAX_WINDOWS).for_each(|window| request.windows.push(window));
+        request
     }
 
     /// The same of a file in `folder`, from which the paths in the text count.
@@ -328,7 +332,14 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
     let grid = Grid::uniform(spec.duration_s?, usize::try_from(points).ok()?);
     let band_times: Vec<f64> =
         grid.evenly(usize::try_from(band_points).ok()?).into_iter().map(|point| grid.times()[point]).collect();
-    spec.analysis.check(document, &known, dispersions.columns(), dispersions.samples(), design, &band_times);
+    spec.analysis.check(
+        document,
+        &known,
+        dispersions.columns(),
+        dispersions.samples(),
+        design,
+        [grid.times(), &band_times],
+    );
     if let Some(chosen) = &spec.chosen {
         chosen.check(dispersions.samples(), spec.analysis.stop.is_some(), document);
     }

@@ -5,6 +5,7 @@ use super::limits::{CONFIDENCE, PROBABILITY};
 use super::lines::Lines;
 use super::numbers::FINITE;
 use super::section::Section;
+use crate::observables::window::Window;
 use crate::statistics::gate::Limit;
 
 /// What must be within the limit.
@@ -23,8 +24,17 @@ pub enum Statement {
 pub enum Subject {
     /// An observable: one number of a run.
     Observable(String),
-    /// A quantity over time: its number at every point of its bands in an interval.
+    /// A quantity over time: its number at every point of its bands in an interval, each for itself.
     Band(BandSubject),
+    /// A quantity over time in an interval as a whole: its extreme in a run.
+    AtAllTimes {
+        /// The quantity and the interval.
+        band: BandSubject,
+        /// What the rows have of it.
+        window: Window,
+        /// The name of the column.
+        column: String,
+    },
 }
 
 /// A quantity over time, in an interval.
@@ -73,6 +83,12 @@ impl Requirement {
     /// Reads one table; `None` where something is wrong, which is then noted.
     pub(super) fn read(table: &mut Section<'_, '_>, known: &KnownColumns) -> Option<Self> {
         let subject = subject(table, known);
+        let at_all_times = table.flag("at_all_times");
+        let flag_passed = !table.has("at_all_times") || at_all_times.is_some();
+        if at_all_times.is_some() && !table.has("band") {
+            let allowed = "left out with `observable`, which is one number of a run";
+            table.refuse("at_all_times", allowed, "delete it, or write `band`");
+        }
         let confidence = table.number("confidence", CONFIDENCE);
         let statement = one_of(table, STATEMENTS, "quantile = 0.99").and_then(|key| match key {
             "quantile" => table.number(key, PROBABILITY).map(Statement::Quantile),
@@ -93,7 +109,7 @@ impl Requirement {
         });
         let quantity = subject.as_ref().and_then(|subject| match subject {
             Subject::Observable(name) => known.observable(name),
-            Subject::Band(band) => known.band(&band.series),
+            Subject::Band(band) | Subject::AtAllTimes { band, .. } => known.band(&band.series),
         });
         let unit = quantity.map(unit_of);
         if let Some(unit) = unit {
@@ -110,14 +126,30 @@ impl Requirement {
         table.finish();
         let (subject, statement, limit) = (subject?, statement?, limit?);
         let confidence = confidence.unwrap_or(DEFAULT_CONFIDENCE);
-        confidence_passed.then_some(Requirement { subject, statement, limit, confidence })
+        let subject = match subject {
+            Subject::Band(band) if at_all_times == Some(true) => {
+                let is_highest = matches!(limit, Limit::AtMost(_));
+                let (window, column) = known.window(&band.series, is_highest, [band.from_s, band.to_s])?;
+                Subject::AtAllTimes { band, window, column }
+            }
+            other => other,
+        };
+        (confidence_passed && flag_passed).then_some(Requirement { subject, statement, limit, confidence })
     }
 
-    /// The observable that it is about; `None` where it is about a quantity over time.
+    /// The observable that it is about; `None` where it is about a quantity at each time.
     pub fn observable(&self) -> Option<&str> {
         match &self.subject {
-            Subject::Observable(name) => Some(name),
+            Subject::Observable(name) | Subject::AtAllTimes { column: name, .. } => Some(name),
             Subject::Band(_) => None,
+        }
+    }
+
+    /// What the rows have for it alone.
+    pub fn window(&self) -> Option<Window> {
+        match &self.subject {
+            Subject::AtAllTimes { window, .. } => Some(*window),
+            _ => None,
         }
     }
 
@@ -125,7 +157,7 @@ impl Requirement {
     pub fn band(&self) -> Option<&BandSubject> {
         match &self.subject {
             Subject::Observable(_) => None,
-            Subject::Band(band) => Some(band),
+            Subject::Band(band) | Subject::AtAllTimes { band, .. } => Some(band),
         }
     }
 
@@ -133,19 +165,28 @@ impl Requirement {
     pub fn name(&self) -> &str {
         match &self.subject {
             Subject::Observable(name) => name,
-            Subject::Band(band) => &band.series,
+            Subject::Band(band) | Subject::AtAllTimes { band, .. } => &band.series,
         }
+    }
+
+    /// When the limit holds, in words: in each run at all times, or at each time, at which other runs may be beyond it; empty without times.
+    pub fn times(&self) -> String {
+        let Some(band) = self.band() else { return String::new() };
+        let which = if self.window().is_some() { "at all times" } else { "at each time" };
+        let end = |word: &str, end: Option<f64>| end.map_or(String::new(), |end| format!(" {word} {end:?} s"));
+        format!(" {which}{}{}", end("from", band.from_s), end("to", band.to_s))
     }
 
     /// Writes the table.
     pub(super) fn write(&self, lines: &mut Lines) {
         lines.table("[[require]]");
-        match &self.subject {
-            Subject::Observable(name) => lines.key("observable", name),
-            Subject::Band(band) => {
+        match self.band() {
+            None => lines.key("observable", self.name()),
+            Some(band) => {
                 lines.key("band", &band.series);
                 let ends = INTERVAL.into_iter().zip([band.from_s, band.to_s]);
                 ends.filter_map(|(key, end)| Some((key, end?))).for_each(|(key, end)| lines.key(key, end));
+                lines.key("at_all_times", self.window().is_some());
             }
         }
         match self.statement {

@@ -17,7 +17,7 @@ use crate::dataset::{
     atomic, bands_file, bands_table, sensitivity, sensitivity_table, statistics, statistics_table, verdicts,
 };
 use crate::ensemble::Bands;
-use crate::report::requirements;
+use crate::report::{requirements, stopping_text};
 
 /// What the rows say.
 #[derive(Clone, Debug)]
@@ -92,9 +92,10 @@ pub fn computed(
 ///
 /// # Errors
 /// Where the file cannot be written.
-pub fn write_junit(plan: &Plan, verdicts: &Verdicts, failed: u64, file: Option<&Path>) -> Result<(), Failure> {
+pub fn write_junit(plan: &Plan, analysed: &Analysed, failed: u64, file: Option<&Path>) -> Result<(), Failure> {
     let Some(file) = file else { return Ok(()) };
-    let text = requirements::junit(plan, verdicts, failed);
+    let stop = analysed.stopping.as_ref().map(|found| (found.is_reached(), stopping_text::text(plan, found)));
+    let text = requirements::junit(plan, &analysed.verdicts, failed, stop);
     atomic::write_bytes(file, text.as_bytes()).map_err(|error| in_file(file, &error))
 }
 

@@ -215,9 +215,13 @@ fn estimate(ensemble: &Ensemble<'_>) -> Result<String, Failure> {
     let disk = row * plan.rows() as f64 + empty.len() as f64 * parts.count() as f64;
     let cores = cores();
     let seconds = probe.seconds * plan.rows() as f64 / cores as f64;
+    let looks = match plan.looks()[..] {
+        [_, .., most] => format!(" (the first look of [stop], which may go on to {most})"),
+        _ => String::new(),
+    };
     Ok(format!(
         "\n== Estimate, from {count} runs\n\
-         {:.3} ms per run on one core; {} samples on {cores} cores: about {} s\n\
+         {:.3} ms per run on one core; {} samples{looks} on {cores} cores: about {} s\n\
          {} columns; {} file{} of rows: about {}\n\
          {}",
         probe.seconds * 1e3,

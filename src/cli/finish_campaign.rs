@@ -85,7 +85,7 @@ pub fn complete(job: &Finishing<'_>, counted: Option<Counted>) -> Result<(Comman
     let analysed = analyse(plan, &reader, &bands, folder, counted, job.threads)?;
     retain(job, &reader)?;
     make_page(job, &reader, &analysed, &records)?;
-    write_junit(plan, &analysed.verdicts, tally.failed(), job.junit)?;
+    write_junit(plan, &analysed, tally.failed(), job.junit)?;
     let (failed, undecided) = (analysed.verdicts.failed(), analysed.verdicts.undecided());
     let is_imprecise = analysed.stopping.as_ref().is_some_and(|found| !found.is_reached());
     let outcome = CommandOutcome::of_campaign(tally.failed(), failed, undecided + usize::from(is_imprecise));

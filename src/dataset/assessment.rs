@@ -1,6 +1,5 @@
 //! [`Assessment`]: what the runs of a campaign say of one requirement.
 
-use crate::campaign::requirement::BandSubject;
 use crate::campaign::{Requirement, Statement};
 use crate::statistics::binomial::Decision;
 use crate::statistics::gate::{Gate, Limit};
@@ -74,22 +73,15 @@ impl Assessment {
             Limit::AtLeast(limit) => format!("at least {limit:?}{unit}"),
         };
         let (name, confidence) = (requirement.name(), percent(requirement.confidence));
-        let limit = format!("{limit}{}", requirement.band().map_or_else(String::new, during));
+        let limit = format!("{limit}{}", requirement.times());
         let what = match requirement.statement {
+            Statement::Quantile(p) if requirement.window().is_some() => {
+                format!("{}% of runs with {name} {limit}", percent(requirement.limit.fraction(p)))
+            }
             Statement::Quantile(p) => format!("p{} of {name} {limit}", percent(p)),
             Statement::Fraction(fraction) => format!("{}% of runs with {name} {limit}", percent(fraction)),
             Statement::Mean => format!("mean of {name} {limit}"),
         };
         format!("{what}, with {confidence}% confidence")
-    }
-}
-
-/// The interval of a requirement over time, in words.
-pub fn during(band: &BandSubject) -> String {
-    match (band.from_s, band.to_s) {
-        (None, None) => " at all times".to_owned(),
-        (Some(from), None) => format!(" from {from:?} s on"),
-        (None, Some(to)) => format!(" up to {to:?} s"),
-        (Some(from), Some(to)) => format!(" from {from:?} s to {to:?} s"),
     }
 }

@@ -1,6 +1,6 @@
-//! Requirements over time: what the bands of a campaign say of them.
+//! Requirements at each time: what the bands of a campaign say of them.
 //!
-//! A limit holds at every point of the bands in an interval for a share of the runs. How many runs are within it at a point is known up to
+//! A limit holds at every point of the bands in an interval for a share of the runs, which may be other runs at another point. How many runs are within it at a point is known up to
 //! the bucket that the limit is in: both bounds must decide, so that no verdict rests on where in a bucket a run is.
 
 use crate::campaign::requirement::BandSubject;

@@ -221,7 +221,8 @@ fn occupied(folder: String, found: &Found, there: &Identity, (plan, identity): (
         list.push(if there.columns == identity.columns {
             format!("hash of the rows: {} there, {} here", there.row_hash, identity.row_hash)
         } else {
-            "the columns, which are those of another version of the program".to_owned()
+            "the columns: those of [[require]] at_all_times differ, or they are of another version of the program"
+                .to_owned()
         });
     }
     if list.len() > LISTED {

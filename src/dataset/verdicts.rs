@@ -5,7 +5,7 @@
 //!
 //! Each look of a campaign with `[stop]` has its share of the errors (Bonferroni), and so has each requirement of those of a failure ([`failing_together`]).
 //!
-//! Not here: requirements over time (`band_verdicts`).
+//! Not here: requirements at each time (`band_verdicts`). Those at all times are about a column of the rows.
 
 use std::num::NonZeroUsize;
 

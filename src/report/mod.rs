@@ -2,7 +2,7 @@
 //!
 //! - [`summary`], [`observable_lines`], [`audit_summary`]: statistics of a campaign. - [`requirements`]: verdicts, also as JUnit XML. - [`precision_text`]: work-precision measurements as text.
 //! - [`canvas`]: figures as SVG and PNG. - [`plot`]: curves in panels, with a legend. - [`fitted_text`]: text that is shortened to a width. - [`simulation_figure`], [`drawn_figure`] (of [`drawn_columns`], in histograms, with [`expected_counts`], of numbers drawn together by [`marginal`]), [`precision_figure`]: the figures of the commands.
-//! - [`comparison_text`]: two results compared. - [`stopping_text`]: looks of a campaign that stops when it is precise enough.
+//! - [`comparison_text`]: two results compared. - [`stopping_text`]: looks of a campaign with `[stop]`.
 //! - [`time_table`]: one run over time on a terminal. - [`number`]: numbers in text. - [`page`]: the report of a campaign as one HTML file.
 
 pub mod audit_summary;

@@ -128,6 +128,7 @@ pub fn json(verdicts: &Verdicts) -> Value {
                 "quantity": band.series,
                 "from_s": band.from_s,
                 "to_s": band.to_s,
+                "at_all_times": requirement.window().is_some(),
                 "worst_at_s": one.worst.map(|worst| worst.time_s),
                 "points": one.worst.map(|worst| worst.points),
                 "unresolved": one.worst.map(|worst| worst.unresolved),
@@ -159,11 +160,14 @@ pub fn json(verdicts: &Verdicts) -> Value {
 }
 
 /// The verdicts as JUnit XML: one test case for each requirement, an undecided one is an error; and one that every run is `ok`:
-/// `failed` are not. No clock time: the same campaign gives the same bytes.
-pub fn junit(plan: &Plan, verdicts: &Verdicts, failed: u64) -> String {
+/// `failed` are not; and one that `[stop]` reached its goal, where there is one: whether it did, and in words. No clock time: the same campaign
+/// gives the same bytes.
+pub fn junit(plan: &Plan, verdicts: &Verdicts, failed: u64, stop: Option<(bool, String)>) -> String {
     let name = escaped(&plan.name);
-    let (failures, errors) = (verdicts.failed() + usize::from(failed > 0), verdicts.undecided());
-    let tests = verdicts.list.len() + 1;
+    let is_missed = stop.as_ref().is_some_and(|(is_reached, _)| !is_reached);
+    let (failures, errors) =
+        (verdicts.failed() + usize::from(failed > 0), verdicts.undecided() + usize::from(is_missed));
+    let tests = verdicts.list.len() + 1 + usize::from(stop.is_some());
     let counts = format!("tests=\"{tests}\" failures=\"{failures}\" errors=\"{errors}\"");
     let mut xml = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
     xml += &format!("<testsuites name=\"spindrift\" {counts}>\n  <testsuite name=\"{name}\" {counts}>\n");
@@ -188,6 +192,9 @@ pub fn junit(plan: &Plan, verdicts: &Verdicts, failed: u64) -> String {
             Decision::Undecided(_) => Some(("error", "undecided", finding.as_str())),
         };
         case(&one.sentence(), problem);
+    }
+    if let Some((is_reached, text)) = &stop {
+        case("[stop] reaches its goal", (!is_reached).then_some(("error", "stop", text.as_str())));
     }
     xml + "  </testsuite>\n</testsuites>\n"
 }

@@ -202,6 +202,7 @@ fn found_of(
         actuated: if family.scenes[0].schedule.is_empty() { Actuated::NONE } else { Actuated::ALL },
         constrained: method == Method::NullSpace,
         wheels: wheel_names(&WHEELS[..widest.mass.wheels.len()]),
+        windows: spindrift::observables::window::NO_WINDOWS,
     };
     let blocks = request.fields().union(compared(family.is_debris));
     let plan = PropagationSettings::new(method, control, family.grid.clone(), blocks, widest);

@@ -113,6 +113,7 @@ fn errors_of(golden: &Golden, scene: &Scene, method: Method, grid: &Grid, run: &
         actuated: if scene.schedule.is_empty() { Actuated::NONE } else { Actuated::ALL },
         constrained: method == Method::NullSpace,
         wheels: golden.scene.turning_wheels(),
+        windows: spindrift::observables::window::NO_WINDOWS,
     };
     let mut observer = Observer::new(request, grid);
     let mut row = vec![0.0; request.columns().len()];

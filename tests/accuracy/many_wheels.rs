@@ -63,6 +63,7 @@ fn balances(input: &SceneInput, scene: &Scene, grid: &Grid, method: Method, run:
         actuated: Actuated::of(input),
         constrained: method == Method::NullSpace,
         wheels: input.turning_wheels(),
+        windows: spindrift::observables::window::NO_WINDOWS,
     };
     let mut observer = Observer::new(request, grid);
     let columns = request.columns();

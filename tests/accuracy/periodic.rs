@@ -51,6 +51,7 @@ fn conservation(scene: &Scene, horizon: f64, run: &Run) -> [f64; 2] {
         actuated: Actuated::NONE,
         constrained: false,
         wheels: wheel_names(&WHEELS[..scene.mass.wheels.len()]),
+        windows: spindrift::observables::window::NO_WINDOWS,
     };
     let mut observer = Observer::new(request, &Grid::uniform(horizon, POINTS));
     let columns = request.columns();

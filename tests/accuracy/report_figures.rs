@@ -37,7 +37,14 @@ fn figures(control: Control) -> (Vec<(String, Vec<f64>)>, StepStatistics) {
     let (scene, grid) = (table_one(), Grid::uniform(HORIZON, POINTS));
     let run = propagate(Method::NullSpace, control, &grid, std::slice::from_ref(&scene)).remove(0);
     let wheels = wheel_names(&WHEELS);
-    let request = Request { groups: Groups::ALL, debris: true, actuated: Actuated::NONE, constrained: true, wheels };
+    let request = Request {
+        groups: Groups::ALL,
+        debris: true,
+        actuated: Actuated::NONE,
+        constrained: true,
+        wheels,
+        windows: spindrift::observables::window::NO_WINDOWS,
+    };
     let mut observer = Observer::new(request, &grid);
     let mut row = vec![0.0; request.columns().len()];
     observer.observe(Isa::best(), &scene, &run.table, &run.outcome, &mut row);

@@ -47,6 +47,7 @@ fn balances(scene: &Scene, grid: &Grid, run: &Run, actuated: bool) -> [f64; 2] {
         actuated: if actuated { Actuated::ALL } else { Actuated::NONE },
         constrained: false,
         wheels: wheel_names(&WHEELS[..scene.mass.wheels.len()]),
+        windows: spindrift::observables::window::NO_WINDOWS,
     };
     let mut observer = Observer::new(request, grid);
     let columns = request.columns();

@@ -81,6 +81,8 @@ fn rows_do_not_depend_on_it() {
 
 const REQUIRE: &str = "[[require]]\nobservable = \"energy_error_max\"\nquantile = 0.99\nat_most = 1e-9\n";
 const BAND: &str = "[[require]]\nband = \"energy_body_j\"\nquantile = 0.99\nat_most = 1e9\nfrom_s = 1\n";
+const ALL_TIMES: &str =
+    "[[require]]\nband = \"energy_body_j\"\nquantile = 0.99\nat_most = 1e9\nat_all_times = true\nfrom_s = 1\n";
 const OBSERVABLE: &str = "[[observable]]\nname = \"twice\"\nexpression = \"2 * energy_error_max\"\n";
 const STOP: &str =
     "[stop]\nobservable = \"energy_error_max\"\nquantile = 0.95\nhalf_width = 1e-12\nmax_samples = 5000\n";
@@ -175,7 +177,7 @@ const CASES: &[(&str, &str, &str, &str)] = &[
         REQUIRE,
         "at_most = 1e-9",
         "at_most = 1e-9\nat_mots = 1",
-        "require[0].at_mots = 1: must be a key of [require[0]] (observable, confidence, quantile, at_most, fraction, mean, at_least, band, from_s, to_s); did you mean at_most?",
+        "require[0].at_mots = 1: must be a key of [require[0]] (observable, at_all_times, confidence, quantile, at_most, fraction, mean, at_least, band, from_s, to_s); did you mean at_most?",
     ),
     (
         BAND,
@@ -260,6 +262,19 @@ const CASES: &[(&str, &str, &str, &str)] = &[
         "stop.quantile is missing: must be a number between 0 and 1, neither included; add quantile = 0.95 to [stop]",
     ),
     (STOP, "half_width = 1e-12", "half_width = 0", "stop.half_width = 0: must be a number > 0"),
+    (ALL_TIMES, "true", "1", "require[0].at_all_times = 1: must be true or false"),
+    (
+        ALL_TIMES,
+        "from_s = 1\n",
+        "from_s = 9.97\nto_s = 9.98\n",
+        "require[0].from_s = 9.97: must be part of an interval with a point of the grid",
+    ),
+    (
+        REQUIRE,
+        "at_most = 1e-9",
+        "at_most = 1e-9\nat_all_times = true",
+        "require[0].at_all_times = true: must be left out with `observable`",
+    ),
     (STOP, "[stop]", "[stop]\nwhen = \"soon\"", "stop.when = \"soon\": must be one of precise, decided"),
     (DECIDED, "max_samples = 5000\n", "", "stop.max_samples is missing"),
     (DECIDED, "[stop]", "[stop]\nconfidence = 0.9", "stop.confidence = 0.9: must be left out with when = \"decided\""),

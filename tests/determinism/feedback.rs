@@ -122,6 +122,7 @@ fn rows(
         actuated: Actuated::ALL,
         constrained,
         wheels: wheel_names(&WHEELS),
+        windows: spindrift::observables::window::NO_WINDOWS,
     };
     let settings = settings(method, control, scenes);
     let mut observer = Observer::new(request, &Grid::uniform(HORIZON, 29));

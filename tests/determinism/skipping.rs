@@ -153,6 +153,7 @@ fn groups_do_not_reach_each_other() {
                 actuated: if forced { Actuated::ALL } else { Actuated::NONE },
                 constrained: false,
                 wheels: wheel_names(&WHEELS),
+                windows: spindrift::observables::window::NO_WINDOWS,
             };
             let plan = PropagationSettings::new(method, control(method), grid.clone(), request.fields(), &scenes[0]);
             let mut observer = Observer::new(request, &grid);

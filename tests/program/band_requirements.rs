@@ -1,10 +1,11 @@
-//! Requirements over time: their counts are those of the time series, and their verdicts those of exact binomial tests.
+//! Requirements over time, at each time and at all times: their counts are those of the time series, and their verdicts those of exact
+//! binomial tests.
 
 use serde_json::Value;
 use spindrift::statistics::binomial::{lower_bound, upper_bound};
 
 use super::small_campaign::{campaign, folder};
-use crate::support::scratch_folder::{ScratchFolder, floats};
+use crate::support::scratch_folder::{ScratchFolder, batches, floats};
 
 /// Dispersed samples: all but the nominal one.
 const RUNS: usize = 599;
@@ -20,12 +21,17 @@ fn series(scratch: &ScratchFolder) -> (Vec<f64>, Vec<Vec<f64>>) {
     (floats(&table(1), "time_s"), values)
 }
 
+/// The requirement in the summary of a result.
+fn entry(scratch: &ScratchFolder, result: &str) -> Value {
+    let summary = std::fs::read(scratch.path(&format!("{result}/summary.json"))).unwrap();
+    serde_json::from_slice::<Value>(&summary).unwrap()["requirements"]["list"][0].clone()
+}
+
 /// Runs the campaign with one requirement; its entry in the summary.
 fn verdict(scratch: &ScratchFolder, requirement: &str, code: i32) -> Value {
     scratch.file("gate.toml", &format!("{}\n[[require]]\nband = \"{SERIES}\"\n{requirement}\n", campaign()));
     scratch.prints("campaign gate.toml --out gate --no-report", code);
-    let summary: Value = serde_json::from_slice(&std::fs::read(scratch.path("gate/summary.json")).unwrap()).unwrap();
-    summary["requirements"]["list"][0].clone()
+    entry(scratch, "gate")
 }
 
 /// Law: the worst point of time is that with the fewest runs within the limit, their number is within what the bands resolve, and the
@@ -85,6 +91,89 @@ fn counts_are_those_of_the_time_series() {
     assert_eq!((&every["violations"], &every["band"]["points"]), (&Value::from(0), &Value::from(9)));
     assert_eq!(
         every["requirement"],
-        format!("99% of runs with {SERIES} at most {high:?} J from 0.05 s to 0.95 s, with 95% confidence")
+        format!("99% of runs with {SERIES} at most {high:?} J at each time from 0.05 s to 0.95 s, with 95% confidence")
     );
+}
+
+/// Law: a requirement at all times is about the extreme of each run at the observation points of the interval, exactly; where other runs are
+/// beyond the limit at other times, each time passes and all times fail. The rest of a row has the bits that it has without the requirement.
+#[test]
+fn all_times_are_those_of_each_run() {
+    let scratch = folder("all-times");
+    let long = |tables: &str| {
+        let replaced = [("duration_s = 1.0", "duration_s = 20.0"), ("points = 11", "points = 41"), ("1e-10", "1e-14")];
+        replaced.into_iter().fold(campaign(), |text, (old, new)| text.replace(old, new)) + tables
+    };
+    scratch.file("series.toml", &long("\n[retain]\ntrajectories = \"all\"\n"));
+    scratch.prints("campaign series.toml --out series --no-report", 0);
+    let tables: Vec<_> =
+        (1..=RUNS).map(|sample| scratch.table(&format!("series/trajectories/sample-{sample:06}.parquet"))).collect();
+    let times = floats(&tables[0], "time_s");
+    let plain = scratch.part_files("series").iter().flat_map(|file| batches(file)).collect::<Vec<_>>();
+    let mut seen = Vec::new();
+    // rounding errors are largest at another time in each run
+    for (series, sides) in [("energy_error", &[true, false][..]), ("spin_axis_angle_rad", &[true])] {
+        let runs: Vec<Vec<f64>> = tables.iter().map(|table| floats(table, series)).collect();
+        for (from, to) in [(None, None), (Some(times[7]), Some(times[22]))] {
+            let points: Vec<usize> = (0..41)
+                .filter(|point| {
+                    from.is_none_or(|from| from <= times[*point]) && to.is_none_or(|to| times[*point] <= to)
+                })
+                .collect();
+            for is_highest in sides.iter().copied() {
+                let beyond = |run: &[f64]| {
+                    let values = points.iter().map(|point| run[*point]);
+                    if is_highest {
+                        values.fold(f64::NEG_INFINITY, f64::max)
+                    } else {
+                        values.fold(f64::INFINITY, f64::min)
+                    }
+                };
+                let mut extremes: Vec<f64> = runs.iter().map(|run| beyond(run)).collect();
+                extremes.sort_by(f64::total_cmp);
+                // a limit that half of the runs keep
+                let limit = extremes[RUNS / 2];
+                let is_met = |value: f64| if is_highest { value <= limit } else { value >= limit };
+                let within = runs.iter().filter(|run| is_met(beyond(run))).count();
+                let end = |key: &str, end: Option<f64>| end.map_or(String::new(), |end| format!("{key} = {end:?}\n"));
+                let side = if is_highest { "at_most" } else { "at_least" };
+                let tables = |all: bool| {
+                    format!(
+                        "\n[[require]]\nband = \"{series}\"\nfraction = 0.6\n{side} = {limit:?}\nat_all_times = {all}\n{}{}",
+                        end("from_s", from),
+                        end("to_s", to)
+                    )
+                };
+                scratch.file("all.toml", &long(&tables(true)));
+                scratch.prints("campaign all.toml --out all --no-report --overwrite", 3);
+                let found = entry(&scratch, "all");
+                let named = (&found["verdict"], &found["violations"], &found["band"]["at_all_times"]);
+                assert_eq!(named, (&Value::from("FAIL"), &Value::from(RUNS - within), &Value::from(true)), "{found}");
+                let column = found["observable"].as_str().unwrap();
+                let rows = scratch.part_files("all").iter().flat_map(|file| batches(file)).collect::<Vec<_>>();
+                let shown: Vec<f64> = rows.iter().flat_map(|rows| floats(rows, column)).skip(1).collect();
+                assert!(shown.iter().zip(&runs).all(|(shown, run)| *shown == beyond(run)), "{column}");
+                // without the column a row is as it was
+                for (rows, plain) in rows.iter().zip(&plain) {
+                    assert_eq!(rows.num_columns(), plain.num_columns() + 1);
+                    assert!(
+                        plain
+                            .schema()
+                            .fields()
+                            .iter()
+                            .all(|field| rows.column_by_name(field.name()) == plain.column_by_name(field.name()))
+                    );
+                }
+                // at each time more runs keep the limit
+                let share = |point: &usize| runs.iter().filter(|run| is_met(run[*point])).count() as f64 / RUNS as f64;
+                let worst = points.iter().map(share).fold(1.0, f64::min);
+                if worst > 0.75 {
+                    scratch.file("each.toml", &long(&tables(false)));
+                    scratch.prints("campaign each.toml --out each --no-report --overwrite", 0);
+                }
+                seen.push(worst > 0.75);
+            }
+        }
+    }
+    assert!(seen.iter().filter(|passes| **passes).count() >= 2, "each time passes and all times fail: {seen:?}");
 }

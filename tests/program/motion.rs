@@ -22,7 +22,14 @@ const ROUNDING: f64 = 4e-15;
 
 fn request() -> Request {
     let groups = Groups::NONE.with(Group::Motion);
-    Request { groups, debris: true, actuated: Actuated::NONE, constrained: false, wheels: wheel_names(&["w1", "w2"]) }
+    Request {
+        groups,
+        debris: true,
+        actuated: Actuated::NONE,
+        constrained: false,
+        wheels: wheel_names(&["w1", "w2"]),
+        windows: spindrift::observables::window::NO_WINDOWS,
+    }
 }
 
 /// Attitude, omega, wheel rates, position of c, position of the debris at a time.

@@ -34,6 +34,7 @@ pub fn request(groups: Groups, debris: bool, actuated: bool) -> Request {
         actuated: if actuated { Actuated::ALL } else { Actuated::NONE },
         constrained: false,
         wheels: wheel_names(&["w1", "w2"]),
+        windows: spindrift::observables::window::NO_WINDOWS,
     }
 }
 

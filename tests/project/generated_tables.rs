@@ -92,6 +92,7 @@ fn quantities_over_time() -> String {
         actuated: Actuated::ALL,
         constrained: false,
         wheels: wheel_names(&["w1"]),
+        windows: spindrift::observables::window::NO_WINDOWS,
     };
     let mut table = String::from("| series | unit | what it is |\n| --- | --- | --- |\n");
     for band in band_series(&request) {

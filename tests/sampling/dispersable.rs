@@ -130,8 +130,8 @@ fn motion(method: Method, input: &SceneInput) -> Motion {
     assert_eq!(run.outcome.status, Status::Done);
     let groups = [Group::Energies, Group::EnergiesCom].into_iter().collect();
     let wheels = input.turning_wheels();
-    let request =
-        Request { groups, debris: true, actuated: Actuated::ALL, constrained: method == Method::NullSpace, wheels };
+    let (constrained, windows) = (method == Method::NullSpace, spindrift::observables::window::NO_WINDOWS);
+    let request = Request { groups, debris: true, actuated: Actuated::ALL, constrained, wheels, windows };
     let mut observer = Observer::new(request, &grid);
     let mut row = vec![f64::NAN; request.columns().len()];
     observer.observe(Isa::best(), &scene, &run.table, &run.outcome, &mut row);

@@ -115,6 +115,7 @@ mod tests {
             actuated: Actuated::NONE,
             constrained: true,
             wheels: wheel_names(&[]),
+            windows: crate::observables::window::NO_WINDOWS,
         };
         let accuracy = Accuracy::new(&request);
         let right = vec![1e-3; request.columns().len()];

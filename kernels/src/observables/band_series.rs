@@ -3,9 +3,11 @@
 //! They are series of the table of observables, and changes of such series since the start (the energy transfer). Nothing is
 //! computed for them that the observed columns do not need, apart from |omega| at the points of the bands.
 
+use super::group::Group;
 use super::reduction::{Reduction, Stored};
 use super::request::Request;
-use super::table::Series;
+use super::table::{CHANGES, Column, Series};
+use super::window::Window;
 use crate::run::{Quantity, StateField, StateTable};
 
 /// In what form a quantity is kept: so that it is cheap to compute at every point of every run, and a deviation of it to count.
@@ -58,20 +60,6 @@ pub struct BandSeries {
     pub form: Form,
 }
 
-/// The change of a body's energy about the centre of mass since the start, for each body: series, name and meaning of the change.
-const TRANSFER: [(Series, &str, &str); 2] = [
-    (
-        Series::ComBody,
-        "exchange_body_j",
-        "Change since the start of the kinetic energy of the body about the spacecraft's centre of mass.",
-    ),
-    (
-        Series::ComWheel,
-        "exchange_{wheel}_j",
-        "Change since the start of the kinetic energy of wheel {wheel} about the spacecraft's centre of mass.",
-    ),
-];
-
 /// The series that has bands where the columns need the states that it is computed from: |omega|.
 const OWN: Series = Series::RateSquare;
 
@@ -88,37 +76,36 @@ pub fn band_series(request: &Request) -> Vec<BandSeries> {
         Series::RateSquare,
         Series::WheelSpeed,
     ];
-    let plain = |series: Series| (series, None);
-    let kinds = errors.into_iter().chain(energies).map(plain);
-    let kinds = kinds.chain(TRANSFER.map(|(series, name, meaning)| (series, Some((name, meaning)))));
-    let kinds = kinds.chain(motion.map(plain));
-    kinds.flat_map(|(series, change)| of_series(request, series, change)).collect()
+    let of_values = errors.into_iter().chain(energies).map(|series| (series, false));
+    let of_changes = CHANGES.iter().map(|(series, ..)| (*series, true));
+    let kinds = of_values.chain(of_changes).chain(motion.map(|series| (series, false)));
+    kinds.flat_map(|(series, is_change)| of_series(request, series, is_change)).collect()
 }
 
-/// The bands of `series`, of each wheel where wheels have it, or of its change, if it is observed.
-fn of_series(request: &Request, series: Series, change: Option<(&str, &str)>) -> Vec<BandSeries> {
+impl BandSeries {
+    /// Its extreme in runs of `request`: the largest value over the points from one time to another, s, or the smallest.
+    pub fn window(&self, request: &Request, is_highest: bool, times: [Option<f64>; 2]) -> Window {
+        let shows = |column: &Column| column.value.of(self.series);
+        let group = request.columns().into_iter().find(shows).map_or(Group::Motion, |column| column.group);
+        Window::new((self.series, group, self.is_change), is_highest, times)
+    }
+}
+
+/// The bands of `series`, of each wheel where wheels have it, or of its change since the start, if it is observed.
+fn of_series(request: &Request, series: Series, is_change: bool) -> Vec<BandSeries> {
     let places = if series.wheel().is_some() { request.wheels.len() } else { 1 };
     let observed = request.series();
     let of_place = |place: usize| {
         let series = series.of_wheel(place);
         let is_own = series == OWN && !observed.contains(&series) && request.fields().contains(StateField::Rate);
-        let shown = series.quantity(&request.wheels).filter(|_| is_own || observed.contains(&series))?;
-        let quantity = match change {
-            None => shown,
-            Some((name, meaning)) => {
-                let named = |text: &str| match series.wheel() {
-                    Some(wheel) => text.replace("{wheel}", request.wheels[wheel].as_str()),
-                    None => text.to_owned(),
-                };
-                Quantity::named(named(name), shown.unit().to_owned(), named(meaning))
-            }
-        };
+        let quantity = series.over_time(is_change, &request.wheels);
+        let quantity = quantity.filter(|_| is_own || observed.contains(&series))?;
         let (stored, scale) = (series.row().stored, series.row().scale);
         let form = match stored {
             Stored::HalfTangentSquare => Form::HalfTangent,
             Stored::Quantity | Stored::Square => Form::Value,
         };
-        Some(BandSeries { series, stored, scale, is_change: change.is_some(), is_own, quantity, form })
+        Some(BandSeries { series, stored, scale, is_change, is_own, quantity, form })
     };
     (0..places).filter_map(of_place).collect()
 }
@@ -161,14 +148,20 @@ pub(super) fn keep(band: &BandSeries, column: &[f64], scale: f64, points: &[usiz
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::observables::Groups;
     use crate::observables::request::wheel_names;
-    use crate::observables::{Group, Groups};
     use crate::scene::Actuated;
 
     fn names(groups: Groups, wheels: &[&str]) -> Vec<String> {
         let thrusters = Actuated { thrusters: true, ..Actuated::NONE };
-        let request =
-            Request { groups, debris: true, actuated: thrusters, constrained: false, wheels: wheel_names(wheels) };
+        let request = Request {
+            groups,
+            debris: true,
+            actuated: thrusters,
+            constrained: false,
+            wheels: wheel_names(wheels),
+            windows: crate::observables::window::NO_WINDOWS,
+        };
         band_series(&request).iter().map(|band| band.quantity.name().to_owned()).collect()
     }
 

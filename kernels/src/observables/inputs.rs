@@ -1,6 +1,6 @@
 //! What each series and each value of the table is made of: statistics, scales, fields of the state table.
 
-use super::reduction::Reduction;
+use super::reduction::{OrderStatistic, Reduction};
 use super::rows::Need;
 use super::table::{DIRECT_VALUES, DirectRow, DirectValue, FRACTION_SCALE, Series, Value};
 
@@ -17,6 +17,7 @@ impl Value {
         match self {
             Value::Of(series, reduction) => Value::Of(series.of_wheel(wheel), reduction),
             Value::Direct(value, _) => Value::Direct(value, wheel as u8),
+            Value::Window(..) => self,
         }
     }
 
@@ -24,14 +25,14 @@ impl Value {
     pub(super) fn scale(self) -> Option<(Series, Reduction)> {
         match self {
             Value::Of(_, Reduction::Fraction) => Some(FRACTION_SCALE),
-            Value::Of(series, _) => series.row().scale,
+            Value::Of(series, _) | Value::Window(series, _) => series.row().scale,
             Value::Direct(..) => None,
         }
     }
 
     /// Whether the value is a statistic of `series`.
     pub(super) fn of(self, series: Series) -> bool {
-        matches!(self, Value::Of(own, _) if own == series)
+        matches!(self, Value::Of(own, _) | Value::Window(own, _) if own == series)
     }
 
     /// Every statistic that the value is made of.
@@ -39,6 +40,8 @@ impl Value {
         let (own, direct, wheel) = match self {
             Value::Of(series, reduction) => (Some((series, reduction)), [].as_slice(), 0),
             Value::Direct(value, wheel) => (None, value.row().inputs, usize::from(wheel)),
+            // the cheapest statistic: the extreme is made of the series itself
+            Value::Window(series, _) => (Some((series, Reduction::Order(OrderStatistic::Initial))), [].as_slice(), 0),
         };
         let direct = direct.iter().map(move |(series, reduction)| (series.of_wheel(wheel), *reduction));
         own.into_iter().chain(self.scale()).chain(direct)
@@ -47,7 +50,7 @@ impl Value {
     /// Every field that the value is computed from.
     pub(super) fn needs(self) -> impl Iterator<Item = Need> {
         let direct = match self {
-            Value::Of(..) => [].as_slice(),
+            Value::Of(..) | Value::Window(..) => [].as_slice(),
             Value::Direct(value, _) => value.row().needs,
         };
         let of_series = self.inputs().flat_map(|(series, _)| series.row().needs.iter().copied().flatten());
@@ -57,7 +60,7 @@ impl Value {
     /// Whether the value is known of a run that failed.
     pub(super) fn is_known_after_failure(self) -> bool {
         match self {
-            Value::Of(..) => false,
+            Value::Of(..) | Value::Window(..) => false,
             Value::Direct(value, _) => value.row().after_failure,
         }
     }

@@ -9,7 +9,7 @@
 //! - `measure`: states to series, by `energies`, `momenta`, `attitude` and `motion`, eight points at a time (`points`).
 //! - [`nominal_attitude`]: the attitude of the nominal run, with which those of the others are compared.
 //! - `conditioning`, `error_sums`, `rotor`, `acting`: how much the motion amplifies errors of its state.
-//! - [`band_series`]: the quantities over time that have bands; [`band_reader`]: theirs of a run.
+//! - [`band_series`]: the quantities over time that have bands; [`band_reader`]: theirs of a run; [`window`]: their extremes in an interval of time.
 //! - `exchange`, `spectrum`: the exchange of energy between the bodies, and its frequency.
 //!
 //! Source of energies and momenta: Berdoz, *Final Report - ADR Spacecraft*, (36), and the balances of the gyrostat
@@ -48,6 +48,7 @@ mod rows;
 mod spectrum;
 pub mod table;
 mod weights;
+pub mod window;
 
 pub use group::{Group, Groups};
 pub use observer::Observer;

@@ -1,5 +1,7 @@
 //! [`Observer`]: reads the state table of one run and writes its row.
 
+use core::ops::Range;
+
 use fearless_simd::Simd;
 
 use super::accuracy::Accuracy;
@@ -20,6 +22,7 @@ use super::rows::Source;
 use super::spectrum::Spectrum;
 use super::table::Series;
 use super::weights::Weights;
+use super::window::Window;
 use crate::math::Isa;
 use crate::math::isa::Work;
 use crate::run::{Grid, Outcome, StateTable, Status};
@@ -44,6 +47,7 @@ pub struct Observer {
     debris_estimate: ErrorEstimate,
     exchange: Exchange,
     nominal: Option<NominalAttitude>,
+    windows: Vec<(Window, Range<usize>)>,
     /// Number of points of the run that was observed last.
     accuracy: Accuracy,
     filled: usize,
@@ -70,6 +74,7 @@ impl Observer {
             debris_estimate: ErrorEstimate::UNKNOWN,
             exchange: Exchange::UNKNOWN,
             nominal: None,
+            windows: request.windows.iter().map(|window| (*window, window.points(grid.times()))).collect(),
             accuracy: Accuracy::new(&request),
             filled: 0,
         }
@@ -155,6 +160,12 @@ impl Observer {
             moments: if is_mass_observed { principal_moments(mass) } else { [f64::NAN; 3] },
         };
         self.plan.fill(&self.statistics, |value, wheel| run.value(value, usize::from(wheel)), row);
+        let of_windows = row.len() - self.windows.len();
+        for (value, (window, points)) in row[of_windows..].iter_mut().zip(&self.windows) {
+            let scale = window.series().row().scale.map_or(1.0, |scale| self.statistics.scale(Slot::of(scale)));
+            let column = &self.series.column(window.series())[..self.filled];
+            *value = window.extreme(column, points.clone(), scale);
+        }
         if outcome.status != Status::Done {
             self.plan.clear_unknown(row);
             return outcome.status;

@@ -4,6 +4,7 @@ use super::group::{Group, Groups};
 use super::reduction::{Passes, Reduction, Stored};
 use super::rows::{Scenes, Source};
 use super::table::{self, Column, ColumnId, Series};
+use super::window::Windows;
 use crate::math::list::List;
 use crate::run::{StateField, StateFields};
 use crate::scene::{Actuated, MAX_WHEELS, Name};
@@ -21,6 +22,8 @@ pub struct Request {
     pub constrained: bool,
     /// The names of the wheels that turn.
     pub wheels: List<Name, MAX_WHEELS>,
+    /// Extremes over intervals of time, in the last columns.
+    pub windows: Windows,
 }
 
 /// The names of wheels.
@@ -73,7 +76,8 @@ impl Request {
             Some(index) => column.of_wheel(index, self.wheels[index]),
             None => column.clone(),
         };
-        self.rows().into_iter().map(shown).collect()
+        let windows = self.windows.iter().enumerate().map(|(index, window)| window.column(&self.wheels, index));
+        self.rows().into_iter().map(shown).chain(windows).collect()
     }
 
     /// The place of a column in a row; `None` where the row does not have it.
@@ -100,10 +104,11 @@ impl Request {
 
     /// The handles of the columns of a row, in order.
     pub(super) fn ids(&self) -> impl Iterator<Item = ColumnId> {
-        self.rows().into_iter().map(|(column, wheel)| match wheel {
+        let rows = self.rows().into_iter().map(|(column, wheel)| match wheel {
             Some(index) => ColumnId { value: column.value.of_wheel(index), ..column.id() },
             None => column.id(),
-        })
+        });
+        rows.chain(self.windows.iter().enumerate().map(|(index, window)| window.id(index)))
     }
 
     /// The columns of a time series, in order: the series behind [`Request::columns`] that have one.
@@ -210,6 +215,7 @@ mod tests {
             actuated: if actuated { Actuated::ALL } else { Actuated::NONE },
             constrained,
             wheels: wheel_names(&["w1", "w2"]),
+            windows: crate::observables::window::NO_WINDOWS,
         }
     }
 
@@ -279,6 +285,7 @@ mod tests {
             actuated: Actuated::ALL,
             constrained: true,
             wheels: wheel_names(&["w1", "w2"]),
+            windows: crate::observables::window::NO_WINDOWS,
         };
         let reasons = request.reasons();
         assert_eq!(set(&reasons.iter().map(|(field, _)| *field).collect::<Vec<_>>()), request.fields());

@@ -48,7 +48,7 @@ impl Statistics {
 /// Where the values of a row come from.
 #[derive(Clone, Debug)]
 pub(super) struct RowPlan {
-    /// The statistic of each column; any for a column that shows a direct value.
+    /// The statistic of each column; any for a column that shows a direct value or a window.
     slots: Vec<Slot>,
     /// The columns that show a direct value.
     direct_values: Vec<(usize, DirectValue, u8)>,
@@ -69,6 +69,7 @@ impl RowPlan {
                     plan.direct_values.push((place, value, wheel));
                     Slot(0)
                 }
+                Value::Window(..) => Slot(0),
             });
         }
         plan
@@ -123,6 +124,7 @@ mod tests {
                 actuated: if actuated { Actuated::ALL } else { Actuated::NONE },
                 constrained,
                 wheels: wheel_names(&["w1", "w2", "w3"]),
+                windows: crate::observables::window::NO_WINDOWS,
             };
             let plan = RowPlan::of(&request);
             let mut row = vec![f64::NAN; plan.columns()];
@@ -132,6 +134,7 @@ mod tests {
                 let expected = match column.value {
                     Value::Of(series, reduction) => statistics.of(series)[reduction.index()],
                     Value::Direct(value, wheel) => number(value, wheel),
+                    Value::Window(..) => unreachable!("the requests have none"),
                 };
                 assert_eq!(*shown, expected, "{}", column.quantity.name());
             }

@@ -81,6 +81,8 @@ pub enum Value {
     Of(Series, Reduction),
     /// A number that is not made of a single series, of a wheel where wheels have it.
     Direct(DirectValue, u8),
+    /// The extreme of a series in an interval of time: the place among those of the request.
+    Window(Series, u8),
 }
 
 /// The handle of a column: a value of a group. [`super::Request::position`] finds its place in a row.
@@ -200,6 +202,33 @@ impl Series {
             Some(wheel) => wheels.get(wheel).map(|name| named(shown, *name)),
             None => Some(shown.clone()),
         }
+    }
+}
+
+/// The change of a body's energy about the centre of mass since the start, for each body: series, name and meaning of the change.
+pub(super) const CHANGES: [(Series, &str, &str); 2] = [
+    (
+        Series::ComBody,
+        "exchange_body_j",
+        "Change since the start of the kinetic energy of the body about the spacecraft's centre of mass.",
+    ),
+    (
+        Series::ComWheel,
+        "exchange_{wheel}_j",
+        "Change since the start of the kinetic energy of wheel {wheel} about the spacecraft's centre of mass.",
+    ),
+];
+
+impl Series {
+    /// What [`Series::quantity`] says, or the same of its change since the start, where it has one.
+    pub(super) fn over_time(self, is_change: bool, wheels: &[Name]) -> Option<Quantity> {
+        let shown = self.quantity(wheels)?;
+        if !is_change {
+            return Some(shown);
+        }
+        let (_, name, meaning) = CHANGES.iter().find(|(series, ..)| series.place().0 == self.place().0)?;
+        let change = Quantity::named((*name).to_owned(), shown.unit().to_owned(), (*meaning).to_owned());
+        self.wheel().map_or(Some(change.clone()), |wheel| wheels.get(wheel).map(|wheel| named(&change, *wheel)))
     }
 }
 

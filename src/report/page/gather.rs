@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 
 use crate::campaign::{Plan, Requirement, Statement};
-use crate::dataset::assessment::{Assessment, during};
+use crate::dataset::assessment::Assessment;
 use crate::dataset::rows_reader::{RowsError, RowsReader};
 use crate::dataset::sensitivity::InputSensitivity;
 use crate::dataset::statistics::{ColumnStatistics, QuantileStatistic, Statistics};
@@ -183,27 +183,26 @@ fn meaning(plan: &Plan, first: &InputSensitivity, all: &[InputSensitivity]) -> S
 fn card(plan: &Plan, one: &Assessment, survey: &Survey, influences: &[Influence]) -> Card {
     let requirement = &one.requirement;
     let outcome = requirement.observable().and_then(|name| survey.outcome(name)).map(|(_, outcome)| outcome);
-    let name = outcome.map_or(requirement.name().replace('_', " "), |outcome| words(&outcome.quantity));
+    let of_run = outcome.filter(|_| requirement.band().is_none());
+    let name = of_run.map_or(requirement.name().replace('_', " "), |outcome| words(&outcome.quantity));
     let confidence = number(100.0 * requirement.confidence);
     let percent = |fraction: f64| number(100.0 * fraction);
     let (limit, is_upper) = (requirement.limit.value(), matches!(requirement.limit, Limit::AtMost(_)));
     let (word, text) = (if is_upper { "at most" } else { "at least" }, with_unit(limit, &one.unit));
-    let times = requirement.band().map_or_else(String::new, during);
     let text_of = match requirement.statement {
-        Statement::Quantile(p) => {
-            let share = if is_upper { p } else { 1.0 - p };
-            format!(
-                "{}% of the runs keep the {name} {word} {text}{times}, with {confidence}% confidence.",
-                percent(share)
-            )
-        }
-        Statement::Fraction(fraction) => {
-            format!(
-                "{}% of the runs keep the {name} {word} {text}{times}, with {confidence}% confidence.",
-                percent(fraction)
-            )
-        }
         Statement::Mean => format!("The mean of the {name} is {word} {text}, with {confidence}% confidence."),
+        Statement::Quantile(share) | Statement::Fraction(share) => {
+            let is_quantile = matches!(requirement.statement, Statement::Quantile(_));
+            let share = percent(if is_quantile { requirement.limit.fraction(share) } else { share });
+            let kept = format!("{share}% of the runs keep the {name} {word} {text}");
+            match (requirement.band(), requirement.window()) {
+                (Some(_), None) => format!(
+                    "{}, {kept}, with {confidence}% confidence; at another time these may be other runs.",
+                    sentence(requirement.times().trim_start())
+                ),
+                _ => format!("{kept}{}, with {confidence}% confidence.", requirement.times()),
+            }
+        }
     };
     let within = one.runs.saturating_sub(one.violations);
     let mut notes = vec![format!("{} of {} runs are within the limit.", grouped(within), grouped(one.runs))];
@@ -221,7 +220,7 @@ fn card(plan: &Plan, one: &Assessment, survey: &Survey, influences: &[Influence]
             notes.push(format!("{}.", sentence(&runs_needed(&grouped(runs)))));
         }
         (None, Decision::Undecided(None)) => {
-            notes.push("No number of runs decides if the truth is what was seen.".to_owned())
+            notes.push("No number of runs decides if the truth is what was seen.".to_owned());
         }
         _ => {}
     }
@@ -259,6 +258,6 @@ fn card(plan: &Plan, one: &Assessment, survey: &Survey, influences: &[Influence]
         limit: Some((limit, is_upper && !is_fraction)),
         unit,
         note: notes.join(" "),
-        drivers: driven_by(requirement.name(), influences),
+        drivers: driven_by(requirement.observable().unwrap_or(requirement.name()), influences),
     }
 }

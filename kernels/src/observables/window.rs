@@ -1,0 +1,148 @@
+//! [`Window`]: the extreme of a quantity over an interval of time, a column that only a requirement "at all times" asks for.
+//!
+//! Such a requirement is about each run as a whole, so it needs one number of each run; bands have numbers of all runs at each time.
+
+use core::ops::Range;
+
+use super::group::Group;
+use super::reduction::Stored;
+use super::rows::{Kind, Scenes};
+use super::table::{Column, ColumnId, Series, Value};
+use crate::math::list::List;
+use crate::run::Quantity;
+use crate::scene::Name;
+
+/// Most of them in a campaign.
+pub const MAX_WINDOWS: usize = 16;
+
+/// Those of a campaign.
+pub type Windows = List<Window, MAX_WINDOWS>;
+
+/// Fills the memory that is not used.
+const BLANK: Window = Window {
+    series: Series::EnergyTotal,
+    group: Group::Energies,
+    is_change: false,
+    is_highest: true,
+    from_s: None,
+    to_s: None,
+};
+/// No window.
+pub const NO_WINDOWS: Windows = List::empty(BLANK);
+
+/// The extreme of a quantity that has bands over the observation points in an interval of time; both ends belong to it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Window {
+    series: Series,
+    group: Group,
+    /// Whether it is of the change of the series since the start.
+    is_change: bool,
+    /// Whether it is the largest value, or the smallest.
+    is_highest: bool,
+    from_s: Option<f64>,
+    to_s: Option<f64>,
+}
+
+impl Window {
+    /// That of a series, shown by columns of a group, or of its change since the start, from one time to another, s.
+    pub(super) fn new(
+        (series, group, is_change): (Series, Group, bool),
+        is_highest: bool,
+        [from_s, to_s]: [Option<f64>; 2],
+    ) -> Self {
+        Window { series, group, is_change, is_highest, from_s, to_s }
+    }
+
+    /// The column in rows of runs with `wheels`, which have it at `index` of their windows.
+    pub(super) fn column(&self, wheels: &[Name], index: usize) -> Column {
+        let of = self.series.over_time(self.is_change, wheels).expect("bands are of quantities that have a name");
+        Column {
+            quantity: self.quantity(&of),
+            group: self.group,
+            kind: Kind::Float,
+            scenes: Scenes::All,
+            value: self.id(index).value,
+            wheel: None,
+        }
+    }
+
+    /// Name, unit and meaning of the column, `of` being the quantity over time.
+    pub fn quantity(&self, of: &Quantity) -> Quantity {
+        let (prefix, word) = if self.is_highest { ("highest", "Largest") } else { ("lowest", "Smallest") };
+        let text = |time: f64| format!("{time:?}").trim_end_matches(".0").replace('.', "p").replace('-', "m");
+        let end = |word: &str, end: Option<f64>| end.map_or(String::new(), |end| format!("_{word}_{}_s", text(end)));
+        let name = format!("{prefix}{}{}_{}", end("from", self.from_s), end("to", self.to_s), of.name());
+        let said = |word: &str, end: Option<f64>| end.map_or(String::new(), |end| format!(" {word} {end:?} s"));
+        let times = format!("{}{}", said("from", self.from_s), said("to", self.to_s));
+        let meaning = format!("{word} value over the observation points{times} of {}: {}", of.name(), of.meaning());
+        Quantity::named(name, of.unit().to_owned(), meaning)
+    }
+
+    /// The handle of the column.
+    pub(super) fn id(&self, index: usize) -> ColumnId {
+        ColumnId { group: self.group, value: Value::Window(self.series, index as u8) }
+    }
+
+    /// The observation points that it has, of those at `times`.
+    pub fn points(&self, times: &[f64]) -> Range<usize> {
+        let start = self.from_s.map_or(0, |from| times.partition_point(|time| *time < from));
+        let end = self.to_s.map_or(times.len(), |to| times.partition_point(|time| *time <= to));
+        start..end.max(start)
+    }
+
+    pub(super) fn series(&self) -> Series {
+        self.series
+    }
+
+    /// The extreme over `points`, of the stored numbers `column` of a run, which are divided by `scale`; NaN where one is, or where there is none.
+    pub(super) fn extreme(&self, column: &[f64], points: Range<usize>, scale: f64) -> f64 {
+        let beyond = |a: f64, b: f64| if self.is_highest { a > b } else { a < b };
+        let further = |found: f64, value: &f64| if found.is_nan() || beyond(found, *value) { found } else { *value };
+        let Some((first, rest)) = column.get(points).and_then(<[f64]>::split_first) else { return f64::NAN };
+        let found = rest.iter().fold(*first, further);
+        // what is stored rises with what is shown
+        match self.series.row().stored {
+            Stored::Quantity if self.is_change => found - column[0],
+            stored => stored.shown(found) / scale,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn window(is_highest: bool, from_s: Option<f64>, to_s: Option<f64>) -> Window {
+        Window { is_highest, from_s, to_s, ..BLANK }
+    }
+
+    /// Law: both ends of an interval belong to it; the extreme is of its points only, on the side asked for, and unknown where a value is.
+    #[test]
+    fn an_extreme_is_of_the_points_of_its_interval() {
+        let times = [0.0, 0.5, 1.0, 1.5];
+        let values = [9.0, 2.0, -3.0, 7.0];
+        for (from, to, [highest, lowest]) in [
+            (None, None, [9.0, -3.0]),
+            (Some(0.5), None, [7.0, -3.0]),
+            (None, Some(1.0), [9.0, -3.0]),
+            (Some(0.5), Some(0.5), [2.0, 2.0]),
+            (Some(0.6), Some(1.4), [-3.0, -3.0]),
+        ] {
+            let of = |is_highest| {
+                let window = window(is_highest, from, to);
+                window.extreme(&values, window.points(&times), 2.0)
+            };
+            assert_eq!([of(true), of(false)], [highest / 2.0, lowest / 2.0], "{from:?} {to:?}");
+        }
+        let whole = window(true, None, None);
+        for place in 0..4 {
+            let mut values = values;
+            values[place] = f64::NAN;
+            assert!(whole.extreme(&values, 0..4, 1.0).is_nan(), "{place}");
+        }
+        let none = window(true, Some(0.6), Some(0.9));
+        assert!(none.points(&times).is_empty() && none.extreme(&values, none.points(&times), 1.0).is_nan());
+        let change = Window { is_change: true, ..window(false, Some(0.5), None) };
+        assert_eq!(change.extreme(&values, change.points(&times), 1.0), -12.0);
+    }
+}
