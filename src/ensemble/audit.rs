@@ -66,7 +66,7 @@ static COLUMNS: [Quantity; AuditValue::ALL.len()] = [
         "",
         "True largest error of the body's rotation on the grid, which state_error_estimate estimates: the larger of the next two.",
     ),
-    Quantity::new("audit_omega_error", "", "True largest error of omega on the grid, relative to the largest |omega|."),
+    Quantity::new("audit_omega_error", "", "True largest error of omega on the grid, relative to the largest |omega|, or to one radian over the duration where that is more."),
     Quantity::new(
         "audit_attitude_error_rad",
         "rad",
@@ -75,7 +75,7 @@ static COLUMNS: [Quantity; AuditValue::ALL.len()] = [
     Quantity::new(
         "audit_debris_error",
         "",
-        "True largest error of the debris's rotation on the grid: of its omega relative to the largest, or of its attitude in rad, whichever is larger.",
+        "True largest error of the debris's rotation on the grid: of its omega relative to the largest |omega| (or to one radian over the duration where that is more), or of its attitude in rad, whichever is larger.",
     ),
     Quantity::new(
         "audit_truth_tolerance",
@@ -125,7 +125,7 @@ impl AuditValue {
 /// What an audit found of one run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Audit {
-    /// Largest error of omega on the grid, over the largest |omega|.
+    /// Largest error of omega on the grid, over the largest |omega|, or over one radian per duration where that is more.
     pub omega: f64,
     /// Largest error of the attitude on the grid, rad.
     pub attitude: f64,
@@ -284,8 +284,8 @@ impl Auditor {
             errors = Err(NoAudit::Run(outcome.status));
             if outcome.status == Status::Done {
                 observer.observe(isa, run, table, outcome, row);
-                let debris = has_debris.then(|| RotationError::largest(debris_rotation_errors(&reference, table)));
-                errors = Ok((RotationError::largest(rotation_errors(&reference, table)), debris));
+                let debris = has_debris.then(|| RotationError::largest(debris_rotation_errors(&reference, &self.grid, table)));
+                errors = Ok((RotationError::largest(rotation_errors(&reference, &self.grid, table)), debris));
             }
         });
         let (RotationError { omega, attitude }, debris) = errors?;

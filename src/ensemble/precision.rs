@@ -19,7 +19,7 @@ use crate::observables::{ErrorStatistic, Group, Observer, Request, Series};
 use crate::ode::{Control, Tolerance};
 use crate::propagation::taylor::reference_solution::{self, ReferenceSolution};
 use crate::propagation::{CompletedRun, Engine, Method, PropagationSettings, rotation_errors};
-use crate::run::{StateField, StateFields, StateTable, Status};
+use crate::run::{Grid, StateField, StateFields, StateTable, Status};
 use crate::sampling::SampleId;
 use crate::scene::Scene;
 
@@ -243,7 +243,7 @@ impl<'p> Precision<'p> {
                         sum.add_many(row[max], row[rms], points);
                     }
                 }
-                pass.compare(&self.references[first + index], table);
+                pass.compare(&self.references[first + index], &self.plan.grid, table);
             });
             if thread_seconds() - start > EXCESS * limits.limit {
                 return None;
@@ -304,8 +304,8 @@ struct Pass {
 
 impl Pass {
     /// Adds the errors of one run.
-    fn compare(&mut self, reference: &ReferenceSolution, table: &StateTable) {
-        for error in rotation_errors(reference, table) {
+    fn compare(&mut self, reference: &ReferenceSolution, grid: &Grid, table: &StateTable) {
+        for error in rotation_errors(reference, grid, table) {
             self.rate.add(error.omega);
             if reference.high.has(StateField::Attitude) {
                 self.attitude.add(error.attitude);

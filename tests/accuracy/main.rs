@@ -6,6 +6,7 @@ mod support;
 mod textbook;
 
 mod accuracy_claims;
+mod at_rest;
 mod bodies;
 mod closed_forms;
 mod cross_kernel;

@@ -19,8 +19,8 @@ pub struct Exact {
 }
 
 /// Largest |omega - reference| over the largest |omega|, and largest angle between the attitudes, rad, at any point.
-pub fn distance(table: &StateTable, reference: &ReferenceSolution) -> [f64; 2] {
-    let error = RotationError::largest(rotation_errors(reference, table));
+pub fn distance(table: &StateTable, grid: &Grid, reference: &ReferenceSolution) -> [f64; 2] {
+    let error = RotationError::largest(rotation_errors(reference, grid, table));
     [error.omega, error.attitude].map(|error| if error.is_nan() { f64::INFINITY } else { error })
 }
 
@@ -51,7 +51,7 @@ impl Exact {
     /// The larger of the errors of rate (relative) and attitude (rad) of each run.
     pub fn errors(&self, runs: &[Run]) -> Vec<f64> {
         let worst = |(run, truth): (&Run, &ReferenceSolution)| {
-            let [rate, attitude] = distance(&run.table, truth);
+            let [rate, attitude] = distance(&run.table, &self.grid, truth);
             rate.max(attitude)
         };
         runs.iter().zip(&self.truths).map(worst).collect()

@@ -2,9 +2,9 @@
 
 use super::Group;
 use super::headlines::{DEBRIS_STATE_ERROR_ESTIMATE, STATE_ERROR_ESTIMATE};
-use super::reduction::{ErrorStatistic, OrderStatistic, Reduction};
+use super::reduction::ErrorStatistic;
 use super::request::Request;
-use super::table::{ColumnId, Series, error_id, series_id};
+use super::table::{ColumnId, Series, error_id};
 
 /// The smallest estimated error of the rotational state of spacecraft or debris (rad, or relative to the largest rate) of a run that is
 /// `inaccurate`.
@@ -20,18 +20,6 @@ pub const BALANCES: [ColumnId; 5] = [
     error_id(Group::MomentumConservation, Series::DebrisLinearError, ErrorStatistic::Max),
     error_id(Group::MomentumConservation, Series::DebrisAngularError, ErrorStatistic::Max),
 ];
-
-/// What these errors are relative to, in the same order.
-const SCALES: [ColumnId; 5] = {
-    const MAX: Reduction = Reduction::Order(OrderStatistic::Max);
-    [
-        series_id(Group::EnergyConservation, Series::EnergyTotal, MAX),
-        series_id(Group::MomentumConservation, Series::LinearMomentumSquare, MAX),
-        series_id(Group::MomentumConservation, Series::AngularMomentumSquare, MAX),
-        series_id(Group::MomentumConservation, Series::DebrisLinearSquare, MAX),
-        series_id(Group::MomentumConservation, Series::DebrisAngularSquare, MAX),
-    ]
-};
 
 /// The estimated errors of the rotational states of spacecraft and debris.
 pub const STATE_ERRORS: [ColumnId; 2] = [STATE_ERROR_ESTIMATE, DEBRIS_STATE_ERROR_ESTIMATE];
@@ -50,31 +38,22 @@ struct Limit {
     index: usize,
     name: &'static str,
     limit: f64,
-    /// Index of what it is relative to: where that is zero, the column is not a number, and says nothing.
-    scale: Option<usize>,
 }
 
 impl Limit {
     #[inline]
     fn holds(&self, row: &[f64]) -> bool {
-        let value = row[self.index];
-        if value.is_nan() {
-            // relative to something, it has overflowed
-            return self.scale.is_none_or(|scale| row[scale] == 0.0);
-        }
-        value < self.limit
+        // NaN is not
+        row[self.index] < self.limit
     }
 }
 
 impl Accuracy {
     /// The columns of `request`.
     pub fn new(request: &Request) -> Self {
-        let balances = BALANCES.into_iter().zip(SCALES.map(Some)).map(|(id, scale)| (id, INACCURATE_BALANCE, scale));
-        let states = STATE_ERRORS.into_iter().map(|id| (id, INACCURATE_STATE, None));
-        let limit = |(id, limit, scale): (ColumnId, f64, Option<ColumnId>)| {
-            let scale = scale.and_then(|scale| request.position(scale));
-            Some(Limit { index: request.position(id)?, name: id.name(), limit, scale })
-        };
+        let balances = BALANCES.into_iter().map(|id| (id, INACCURATE_BALANCE));
+        let states = STATE_ERRORS.into_iter().map(|id| (id, INACCURATE_STATE));
+        let limit = |(id, limit): (ColumnId, f64)| Some(Limit { index: request.position(id)?, name: id.name(), limit });
         Accuracy { limits: balances.chain(states).filter_map(limit).collect() }
     }
 
@@ -83,7 +62,7 @@ impl Accuracy {
         self.limits.is_empty()
     }
 
-    /// Whether every column of `row` is below its limit, or is a balance of nothing, which is not a number.
+    /// Whether every column of `row` is a number below its limit.
     #[inline]
     pub fn holds(&self, row: &[f64]) -> bool {
         self.limits.iter().all(|limit| limit.holds(row))
@@ -106,7 +85,7 @@ mod tests {
     use crate::observables::request::wheel_names;
     use crate::scene::Actuated;
 
-    /// Law: an error at its limit, and one that is not a number, are no accuracy; an error relative to nothing says nothing.
+    /// Law: an error at its limit, and one that is not a number, are no accuracy.
     #[test]
     fn what_is_not_a_number_is_not_accurate() {
         let request = Request {
@@ -120,14 +99,12 @@ mod tests {
         let accuracy = Accuracy::new(&request);
         let right = vec![1e-3; request.columns().len()];
         assert!(accuracy.holds(&right) && accuracy.reason(&right).is_empty());
-        for (error, scale) in BALANCES.into_iter().zip(SCALES) {
-            let [error_at, scale_at] = [error, scale].map(|id| request.position(id).expect("a column of the groups"));
-            for (value, of, holds) in
-                [(0.0099, 1.0, true), (0.01, 1.0, false), (f64::NAN, 9e48, false), (f64::NAN, 0.0, true)]
-            {
+        for error in BALANCES {
+            let error_at = request.position(error).expect("a column of the groups");
+            for (value, holds) in [(0.0099, true), (0.01, false), (f64::NAN, false)] {
                 let mut row = right.clone();
-                (row[error_at], row[scale_at]) = (value, of);
-                assert_eq!(accuracy.holds(&row), holds, "{} {value} {of}", error.name());
+                row[error_at] = value;
+                assert_eq!(accuracy.holds(&row), holds, "{} {value}", error.name());
                 assert_eq!(accuracy.reason(&row).contains(error.name()), !holds);
             }
         }

@@ -24,6 +24,12 @@
 //! - where torque acts, and there are no invariants, the truncation that the method estimates, in proportion to |w|; |w| is taken
 //!   as at least what the torque makes of it within a radian of rotation.
 //!
+//! Where H is small - at rest, and where the wheels' momenta cancel - no curve is well conditioned, but errors hardly grow either: the
+//! growth of |eta| is the symmetric part of H x A, which is at most |H| s with s the distance of A from a multiple of one. So
+//! |eta| is at most e^(integral of |H| s) times all that is made, and the attitude's error at most |A| times the integral of that. This
+//! bound is computed beside the sums, with errors made at the start, and the smaller of both is the estimate: there is no threshold between
+//! them. What is rounded is K omega, and the wheels' momenta, sum |h_i|, in H x omega.
+//!
 //! Magnitudes are added, not signed numbers. Errors are assumed to arise evenly along the run.
 //!
 //! Not here: what the method itself knows of its errors ([`crate::run::Outcome::local_errors`]).
@@ -36,7 +42,7 @@ use super::rotor::{Body, adjugate};
 use crate::math::lanes::WIDTH;
 use crate::math::vector::{constant, constant_matrix, cross, difference, dot, product, scaled, sum};
 use crate::math::{Lanes, Real};
-use crate::run::{LocalErrors, StateField, StateTable};
+use crate::run::{LocalErrors, StateField, StateTable, rate_scale};
 
 /// Maximum number of points of a run that are examined: enough to find the closest approach to a separatrix about as often as it
 /// occurs, few enough that the cost is negligible compared with the run.
@@ -61,6 +67,9 @@ const LOST: f64 = core::f64::consts::PI;
 /// Relative rounding of the energy of a state and of |H|^2.
 const NOISE: f64 = 4.0 * f64::EPSILON;
 
+/// Relative rounding of a wheel's momentum.
+const HALF_ROUNDING: f64 = 0.5 * f64::EPSILON;
+
 /// Factor on the rounding of a component where principal axes are computed first.
 const TURNED: f64 = 4.0;
 
@@ -73,7 +82,7 @@ const MOST: f64 = 1e200;
 /// What is known of the errors of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ErrorEstimate {
-    /// The estimated largest error of the rotational state: of omega over the largest |omega|, or of the attitude in rad.
+    /// The estimated largest error of the rotational state: of omega over its [`rate_scale`], or of the attitude in rad.
     pub(super) error: f64,
     /// The largest factor by which relative errors of omega, made evenly along the run and in every direction, grow; at least one,
     /// at most 1e200.
@@ -107,6 +116,8 @@ pub(super) struct Conditioning {
     square: [f64; POINTS],
     /// omega . K omega/2, J.
     energy: [f64; POINTS],
+    /// sum |J_i Omega_i| of the wheels, N m s.
+    wheels: [f64; POINTS],
     /// Magnitudes along H, w and v of the error of H that relative errors of omega's components cause, N m s.
     digits: [[f64; POINTS]; 3],
 }
@@ -126,6 +137,7 @@ impl Conditioning {
             rate: zero,
             square: zero,
             energy: zero,
+            wheels: zero,
             digits: [zero; 3],
         }
     }
@@ -189,11 +201,20 @@ impl Conditioning {
         if largest == 0.0 {
             return ErrorEstimate { error: SAFETY * (local.rounding + local.attitude), amplification: 1.0 };
         }
-        let (error, amplification) = if widest <= STILL * largest {
-            self.at_equilibrium(body, count, largest, table, local)
-        } else {
-            self.along_curve(body, count, largest, acting, local)
+        let scale = rate_scale(largest, self.times[count - 1]);
+        // relative to that, as all errors are from here on
+        let local = LocalErrors {
+            truncation: local.truncation / scale,
+            feedback: local.feedback / scale,
+            ..*local
         };
+        let curve = if widest <= STILL * largest {
+            self.at_equilibrium(body, [count, stride, last], scale, table, &local)
+        } else {
+            self.along_curve(body, count, scale, acting, &local)
+        };
+        let bound = self.bound(body, count, scale, &local);
+        let (error, amplification) = (lesser(curve.0, bound.0), lesser(curve.1, bound.1));
         // NaN counts as lost
         let error = SAFETY * (error + local.truncation + local.attitude);
         ErrorEstimate {
@@ -216,6 +237,7 @@ impl Conditioning {
             gathered(simd, table.column(body.rates, 2), &points),
         ];
         let own = product(constant_matrix(zero, body.inertia), omega);
+        let mut wheels = zero;
         let momentum = match body.offset {
             Some(offset) => sum(own, constant(zero, offset)),
             None => {
@@ -224,6 +246,7 @@ impl Conditioning {
                 for (i, wheel) in mass.wheels.iter().enumerate() {
                     let rate = gathered(simd, table.column(StateField::WheelRates, i), &points);
                     let spin = Lanes::broadcast(simd, wheel.axial) * rate;
+                    wheels += spin.abs();
                     momentum = sum(momentum, scaled(spin, constant(zero, wheel.axis)));
                 }
                 momentum
@@ -254,6 +277,7 @@ impl Conditioning {
         (dot(w, turned) * (per_h * (per_w2 * across))).abs().store(&mut self.twist[first..]);
         (ww - vv).abs().store(&mut self.shear[first..]);
         rate2.sqrt().store(&mut self.rate[first..]);
+        wheels.larger(Lanes::broadcast(simd, body.wheels)).store(&mut self.wheels[first..]);
         // the effect of relative errors of the components on H: in the axes of integration, or of any component where these axes
         // are computed first
         let [[x, ..], [_, y, _], [.., z]] = body.inertia;
@@ -346,18 +370,41 @@ impl Conditioning {
         (shown + rounded + other, even.most / count as f64)
     }
 
+    /// Bounds of error and amplification of any motion, from the growth of |eta|; of little use where H turns by many radians.
+    #[inline(always)]
+    fn bound(&self, body: &Body<'_>, count: usize, largest: f64, local: &LocalErrors) -> (f64, f64) {
+        let (mut exponent, mut fastest, mut stirred) = (0.0, 0.0_f64, 0.0);
+        for k in 0..count {
+            let step = if k == 0 { 0.0 } else { self.times[k] - self.times[k - 1] };
+            let before = k.max(1) - 1;
+            exponent += step * body.spread * self.momentum[k].larger(self.momentum[before]);
+            stirred += step * (self.wheels[k] * self.rate[k]).larger(self.wheels[before] * self.rate[before]);
+            fastest = fastest.larger(self.rate[k]);
+        }
+        let growth = if exponent < LARGEST_EXPONENT { libm::exp(exponent) } else { f64::INFINITY };
+        // of omega, and the angle that it adds up to
+        let amplification = growth * (body.stiffness * body.size) * 1.0_f64.larger(largest * self.times[count - 1]);
+        let turned = if body.is_principal { 1.0 } else { TURNED };
+        let rounded = turned * local.rounding * (fastest / largest) + HALF_ROUNDING * stirred / (body.size * largest);
+        (amplification * (rounded + local.truncation + local.feedback), amplification)
+    }
+
     /// Error and amplification about an equilibrium, where omega is along H and stays there: from the linear equations.
     fn at_equilibrium(
         &self,
         body: &Body<'_>,
-        count: usize,
+        [count, stride, last]: [usize; 3],
         largest: f64,
         table: &StateTable,
         local: &LocalErrors,
     ) -> (f64, f64) {
         let duration = self.times[count - 1];
-        let (h, mu) = (self.momentum[0], self.along[0]);
-        let axis = table.at::<3>(body.rates, 0).map(|x| x / self.rate[0].larger(f64::MIN_POSITIVE));
+        let mut fastest = 0;
+        for k in 0..count {
+            fastest = if self.rate[k] > self.rate[fastest] { k } else { fastest };
+        }
+        let (h, mu) = (self.momentum[fastest], self.along[fastest]);
+        let axis = table.at::<3>(body.rates, (fastest * stride).min(last)).map(|x| x / self.rate[fastest]);
         let mut a = body.inverse;
         let mut size = 0.0_f64;
         for (i, row) in a.iter_mut().enumerate() {
@@ -381,6 +428,12 @@ impl Conditioning {
         let amplification = steady + growth * spread;
         (local.rounding * (steady + shown * spread) + local.feedback * amplification, amplification)
     }
+}
+
+/// The smaller of an estimate and a bound; the bound where the estimate is not a number.
+#[inline(always)]
+fn lesser(estimate: f64, bound: f64) -> f64 {
+    if bound < estimate || estimate.is_nan() { bound } else { estimate }
 }
 
 /// sum |a_i b_i|.

@@ -11,7 +11,7 @@ use crate::run::{LocalErrors, StateField, StateFields, StateTable};
 /// Principal moments of inertia, kg m^2.
 const MOMENTS: [f64; 3] = [2.0, 3.0, 4.5];
 
-/// Errors of a method, relative.
+/// Errors of a method; those in rad/s are of motions of about 1 rad/s.
 const LOCAL: LocalErrors = LocalErrors { truncation: 1e-14, rounding: 1e-16, feedback: 1e-15, attitude: 1e-15 };
 
 /// A motion: times, s, and rates, rad/s.
@@ -83,6 +83,8 @@ fn estimates_have_no_unit() {
                 let times = times.iter().map(|t| time * t).collect();
                 let rates = rates.iter().map(|rate| scaled(1.0 / time, *rate)).collect();
                 let moments = scaled(mass, MOMENTS);
+                let local =
+                    LocalErrors { truncation: local.truncation / time, feedback: local.feedback / time, ..local };
                 assert_eq!(estimate(&Motion(times, rates), moments, local), found, "{start:?}: {time}, {mass}");
             }
         }

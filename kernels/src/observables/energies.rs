@@ -238,6 +238,7 @@ fn of_bodies<S: Simd, const W: usize>(simd: S, run: &MeasuredRun<'_>, out: &mut 
                 Series::EnergyDebris.block(1),
                 Series::EnergyTotal.block(1),
                 Series::EnergyError.block(1),
+                Series::EnergyTerms.block(1),
             ]
         },
     );
@@ -252,11 +253,12 @@ fn of_bodies<S: Simd, const W: usize>(simd: S, run: &MeasuredRun<'_>, out: &mut 
         energy_debris,
         energy_total,
         energy_error,
+        energy_terms,
     ] = blocks;
     let [com_body, com_wheels, com_total, com_error] =
         [com_body, com_wheels, com_total, com_error].map(|block| only(block, vectors));
-    let [energy_body, energy_debris, energy_total, energy_error] =
-        [energy_body, energy_debris, energy_total, energy_error].map(|block| only(block, vectors));
+    let [energy_body, energy_debris, energy_total, energy_error, energy_terms] =
+        [energy_body, energy_debris, energy_total, energy_error, energy_terms].map(|block| only(block, vectors));
     let [com_wheel, energy_wheel]: [[_; W]; 2] = [each(com_wheel, vectors), each(energy_wheel, vectors)];
     let mut com_first = Lanes::broadcast(simd, 0.0);
     let mut balance_first = com_first;
@@ -317,10 +319,13 @@ fn of_bodies<S: Simd, const W: usize>(simd: S, run: &MeasuredRun<'_>, out: &mut 
             debris.store(&mut energy_debris[at]);
             energy += debris;
         }
-        let mut balance = energy;
+        let (mut balance, mut terms) = (energy, energy);
         if let Some([thrusters, motors]) = work {
-            balance -= Lanes::load(simd, &thrusters[at]) + Lanes::load(simd, &motors[at]);
+            let (thrusters, motors) = (Lanes::load(simd, &thrusters[at]), Lanes::load(simd, &motors[at]));
+            balance -= thrusters + motors;
+            terms += thrusters.abs() + motors.abs();
         }
+        terms.store(&mut energy_terms[at]);
         if at == 0 {
             balance_first = first(simd, balance);
         }

@@ -34,7 +34,7 @@ pub(super) struct Here {
     pub(super) shear: f64,
     /// The largest difference of mu |H| so far.
     pub(super) range: f64,
-    /// The momentum that corresponds to an error of one, and the largest |omega|.
+    /// The momentum that corresponds to an error of one, and the rate that errors of omega are relative to.
     pub(super) unit: f64,
     pub(super) largest: f64,
 }

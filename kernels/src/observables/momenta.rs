@@ -2,17 +2,20 @@
 //!
 //! p = m v_c minus the thrusters' impulse; L = C_es (J omega + sum J_i Omega_i a_i) about c, J with wheels locked, minus the
 //! angular impulse of thrusters and torques on the body; of the debris m_d v_d and C_ed J_d omega_d, on which nothing acts.
+//!
+//! What an error is relative to is the sum of the magnitudes of these terms, which may cancel: |J omega| + sum |J_i Omega_i| + |impulse|
+//! and, where the velocity of p is integrated, m (|v_c| + |omega| |c - p|) + |impulse|.
 #![expect(clippy::needless_range_loop, reason = "wheels and vectors are numbered alike in several arrays")]
 
 use fearless_simd::Simd;
 
 use super::attitude::Attitude;
 use super::points::{
-    MeasuredRun, SeriesTable, columns, constant, constant_matrix, count_of_wheels, first_vector, four, needed,
+    Column, MeasuredRun, SeriesTable, columns, constant, constant_matrix, count_of_wheels, first_vector, four, needed,
     of_wheels, three,
 };
 use super::table::Series;
-use crate::math::Lanes;
+use crate::math::{Lanes, Real};
 use crate::math::lanes::WIDTH;
 use crate::math::vector::{dcm_from_quaternion, difference, dot, norm, product, scaled, sum};
 use crate::run::StateField;
@@ -42,6 +45,24 @@ impl<'a, S: Simd> Sink<'a, S> {
     }
 }
 
+/// The balance of `momentum`, and the sum of the magnitudes of all terms: `terms` are those of the momentum.
+#[inline(always)]
+fn balanced<S: Simd>(
+    simd: S,
+    at: usize,
+    momentum: [Lanes<S>; 3],
+    impulse: Option<[Column<'_>; 3]>,
+    terms: Lanes<S>,
+) -> ([Lanes<S>; 3], Lanes<S>) {
+    match impulse {
+        Some(impulse) => {
+            let impulse = three(simd, impulse, at);
+            (difference(momentum, impulse), terms + norm(impulse))
+        }
+        None => (momentum, terms),
+    }
+}
+
 /// Linear momentum of the spacecraft.
 #[inline(always)]
 pub(super) fn linear_momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
@@ -49,15 +70,22 @@ pub(super) fn linear_momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut
     let velocity: [_; 3] = needed(table, StateField::ComVelocity, vectors);
     let impulse: Option<[_; 3]> = columns(table, StateField::Impulse, vectors);
     let total = Lanes::broadcast(simd, mass.total);
-    let columns = out.write([Series::LinearMomentumError, Series::LinearMomentumSquare], vectors);
-    let mut sink = Sink::new(simd, columns);
+    // a kernel with constraints integrates the DCM, and the velocity of p instead of c
+    let spin: Option<[_; 3]> =
+        if table.has(StateField::Dcm) { columns(table, StateField::Rate, vectors) } else { None };
+    let arm = Lanes::broadcast(simd, mass.total * dot(mass.center, mass.center).sqrt());
+    let written = [Series::LinearMomentumError, Series::LinearMomentumSquare, Series::LinearMomentumTerms];
+    let [error, square, all_terms] = out.write(written, vectors);
+    let mut sink = Sink::new(simd, [error, square]);
     for at in 0..vectors {
         let momentum = scaled(total, three(simd, velocity, at));
-        let balance = match impulse {
-            Some(impulse) => difference(momentum, three(simd, impulse, at)),
-            None => momentum,
-        };
+        let mut terms = norm(momentum);
+        if let Some(spin) = spin {
+            terms = arm.mul_add(norm(three(simd, spin, at)), terms);
+        }
+        let (balance, terms) = balanced(simd, at, momentum, impulse, terms);
         sink.put(simd, at, momentum, balance);
+        terms.store(&mut all_terms[at]);
     }
 }
 
@@ -83,28 +111,33 @@ fn with_wheels<S: Simd, const W: usize>(simd: S, run: &MeasuredRun<'_>, out: &mu
     let rates: [_; W] = of_wheels(table, (StateField::WheelRates, 0), vectors);
     let impulse: Option<[_; 3]> = columns(table, StateField::AngularImpulse, vectors);
     let inertia = constant_matrix(simd, mass.inertia);
-    let mut axes = [constant(simd, [0.0; 3]); W];
-    for (axis, wheel) in axes.iter_mut().zip(&mass.wheels) {
-        *axis = constant(simd, scaled(wheel.axial, wheel.axis));
+    let (mut axes, mut axials) = ([constant(simd, [0.0; 3]); W], [Lanes::broadcast(simd, 0.0); W]);
+    for (index, wheel) in mass.wheels.iter().enumerate() {
+        axes[index] = constant(simd, scaled(wheel.axial, wheel.axis));
+        axials[index] = Lanes::broadcast(simd, wheel.axial);
     }
     let wheels = count_of_wheels::<W>(mass.wheels.len());
-    let columns = out.write([Series::AngularMomentumError, Series::AngularMomentumSquare], vectors);
-    let mut sink = Sink::new(simd, columns);
+    let written = [Series::AngularMomentumError, Series::AngularMomentumSquare, Series::AngularMomentumTerms];
+    let [error, square, all_terms] = out.write(written, vectors);
+    let mut sink = Sink::new(simd, [error, square]);
     for at in 0..vectors {
         let mut h_s = product(inertia, three(simd, omega, at));
+        let mut terms = norm(h_s);
         if wheels > 0 {
-            let mut of_wheels = scaled(Lanes::load(simd, &rates[0][at]), axes[0]);
+            let rate = Lanes::load(simd, &rates[0][at]);
+            let mut of_wheels = scaled(rate, axes[0]);
+            terms = rate.abs().mul_add(axials[0], terms);
             for wheel in 1..wheels {
-                of_wheels = sum(of_wheels, scaled(Lanes::load(simd, &rates[wheel][at]), axes[wheel]));
+                let rate = Lanes::load(simd, &rates[wheel][at]);
+                of_wheels = sum(of_wheels, scaled(rate, axes[wheel]));
+                terms = rate.abs().mul_add(axials[wheel], terms);
             }
             h_s = sum(h_s, of_wheels);
         }
         let momentum = product(attitude.c_es(simd, at), h_s);
-        let balance = match impulse {
-            Some(impulse) => difference(momentum, three(simd, impulse, at)),
-            None => momentum,
-        };
+        let (balance, terms) = balanced(simd, at, momentum, impulse, terms);
         sink.put(simd, at, momentum, balance);
+        terms.store(&mut all_terms[at]);
     }
 }
 

@@ -15,10 +15,15 @@ pub(super) struct Body<'a> {
     pub(super) inertia: [[f64; 3]; 3],
     pub(super) inverse: [[f64; 3]; 3],
     pub(super) size: f64,
+    /// Upper bounds of |A| and of the distance of A from a multiple of one, 1/(kg m^2).
+    pub(super) stiffness: f64,
+    pub(super) spread: f64,
     /// Whether K is diagonal.
     pub(super) is_principal: bool,
     /// The wheels' momentum H - K omega where it is constant: where nothing acts.
     pub(super) offset: Option<[f64; 3]>,
+    /// sum |J_i Omega_i| at the first point, N m s.
+    pub(super) wheels: f64,
 }
 
 impl<'a> Body<'a> {
@@ -35,7 +40,9 @@ impl<'a> Body<'a> {
             }
             momentum
         });
-        Body { mass: Some(mass), rates: StateField::Rate, ..Body::alone(inertia, offset) }
+        let speed = |index: usize| table.column(StateField::WheelRates, index)[0].abs();
+        let wheels = mass.wheels.iter().enumerate().map(|(index, wheel)| wheel.axial * speed(index)).sum();
+        Body { mass: Some(mass), rates: StateField::Rate, wheels, ..Body::alone(inertia, offset) }
     }
 
     /// A body without wheels, on which no torque acts: the debris, whose inertia this is.
@@ -47,18 +54,27 @@ impl<'a> Body<'a> {
         let [[x, xy, xz], [_, y, yz], [.., z]] = inertia;
         let adjugate = adjugate(inertia);
         let per_determinant = 1.0 / dot(inertia[0], adjugate[0]);
+        let inverse = adjugate.map(|row| scaled(per_determinant, row));
+        let mean = (inverse[0][0] + inverse[1][1] + inverse[2][2]) / 3.0;
+        let mut square = 0.0;
+        for (i, row) in inverse.iter().enumerate() {
+            let mut row = *row;
+            row[i] -= mean;
+            square += dot(row, row);
+        }
+        // the largest eigenvalue of a symmetric matrix without a trace, whose squares have this sum: (2, -1, -1)/sqrt(6)
+        let spread = (2.0 / 3.0 * square).sqrt();
         Body {
             mass: None,
             rates: StateField::DebrisRate,
             inertia,
-            inverse: [
-                scaled(per_determinant, adjugate[0]),
-                scaled(per_determinant, adjugate[1]),
-                scaled(per_determinant, adjugate[2]),
-            ],
+            inverse,
+            stiffness: mean + spread,
+            spread,
             size: (x + y + z) / 3.0,
             is_principal: xy == 0.0 && xz == 0.0 && yz == 0.0,
             offset,
+            wheels: 0.0,
         }
     }
 }

@@ -187,13 +187,13 @@ macro_rules! errors {
     };
 }
 
-/// Initial and maximum value of a conserved quantity; the maximum is the scale of its error.
+/// Initial and maximum value of a conserved quantity.
 #[rustfmt::skip]
 macro_rules! scales {
     ($group:ident, $scenes:ident, $series:ident, $name:literal, [$unit:literal, $suffix:literal], $what:literal) => {
         &[
             of!($group, $scenes, $series, Order(OrderStatistic::Initial), [$name, "_initial", $suffix], $unit, ["Initial value of ", $what, "."]),
-            of!($group, $scenes, $series, Order(OrderStatistic::Max), [$name, "_max", $suffix], $unit, ["Maximum of ", $what, " on the grid: the scale of its error."]),
+            of!($group, $scenes, $series, Order(OrderStatistic::Max), [$name, "_max", $suffix], $unit, ["Maximum of ", $what, " on the grid."]),
         ]
     };
 }

@@ -8,8 +8,9 @@
 //! where a handle points follows from the rows, and the rows are made of handles.
 //!
 //! An error column belongs to a signed series e(t) (energy) or to the norm e(t) of an error vector (momenta), measured from
-//! observation point 0. Energy errors are relative to the largest total energy on the grid, momentum errors to the largest |p|
-//! or |L| on the grid. Where that is exactly zero the error is absolute (the scale is one); the scales are columns themselves.
+//! observation point 0. Errors are relative to the largest sum on the grid of the magnitudes of the terms that they are the balance of:
+//! energies of the bodies and work, momenta of body and wheels and impulse. The sum does not vanish where the terms cancel, at rest or where
+//! wheels turn against each other. Where it is exactly zero nothing moves, and the error is zero.
 
 use core::ops::Range;
 
@@ -313,6 +314,8 @@ mod needs {
     pub(super) const LINEAR: &[Need] = &[
         need(StateField::ComVelocity, Scenes::All, "linear momentum"),
         need(StateField::Impulse, Scenes::Thrusters, "impulse of the thrusters"),
+        need(StateField::Rate, Scenes::Constrained, "velocity of p about the centre of mass"),
+        need(StateField::Dcm, Scenes::Constrained, "velocity of p about the centre of mass"),
     ];
     pub(super) const ANGULAR: &[Need] = &[
         need(StateField::Dcm, Scenes::Constrained, "angular momentum in F_e"),
@@ -372,11 +375,14 @@ series! {
     ComWheel [MAX_WHEELS]: Energies, Quantity, None, [SPIN], Some(("energy_com_{wheel}_j", "J")), "Kinetic energy of wheel {wheel} about the spacecraft's centre of mass.";
     ComWheels [1]: Energies, Quantity, None, [SPIN], Some(("energy_com_wheels_j", "J")), "Kinetic energy of all wheels together about the spacecraft's centre of mass.";
     ComTotal [1]: Energies, Quantity, None, [SPIN], Some(("energy_com_total_j", "J")), "Kinetic energy of the spacecraft about its centre of mass.";
-    EnergyError [1]: Energies, Quantity, Some((Series::EnergyTotal, MAX)), [SPIN, TOTAL, REDUNDANT, DEBRIS_ENERGY, WORK], Some(("energy_error", "")), "Change of total kinetic energy minus the work of actuators and torques on the body, relative to the largest total.";
+    EnergyError [1]: Energies, Quantity, Some((Series::EnergyTerms, MAX)), [SPIN, TOTAL, REDUNDANT, DEBRIS_ENERGY, WORK], Some(("energy_error", "")), "Change of total kinetic energy minus the work of actuators and torques on the body, relative to the largest sum of their magnitudes.";
+    EnergyTerms [1]: Energies, Quantity, None, [SPIN, TOTAL, REDUNDANT, DEBRIS_ENERGY, WORK], NOT_SHOWN, "Total kinetic energy plus the magnitudes of all work, J.";
     ComError [1]: Energies, Quantity, Some((Series::ComTotal, MAX)), [SPIN], Some(("energy_com_error", "")), "Change of kinetic energy about the centre of mass, relative to the largest (without actuators).";
-    LinearMomentumError [1]: LinearMomentum, Quantity, Some((Series::LinearMomentumSquare, MAX)), [LINEAR], Some(("linear_momentum_error", "")), "Change of the spacecraft's linear momentum minus the impulse, relative to the largest.";
+    LinearMomentumError [1]: LinearMomentum, Quantity, Some((Series::LinearMomentumTerms, MAX)), [LINEAR], Some(("linear_momentum_error", "")), "Change of the spacecraft's linear momentum minus the impulse, relative to the largest sum of their magnitudes.";
+    LinearMomentumTerms [1]: LinearMomentum, Quantity, None, [LINEAR], NOT_SHOWN, "Magnitudes of the terms of linear momentum and of the impulse added, N s.";
     LinearMomentumSquare [1]: LinearMomentum, Square, None, [LINEAR], Some(("linear_momentum_n_s", "N s")), "Magnitude of the spacecraft's linear momentum in F_e.";
-    AngularMomentumError [1]: AngularMomentum, Quantity, Some((Series::AngularMomentumSquare, MAX)), [SPIN, ANGULAR], Some(("angular_momentum_error", "")), "Change of the spacecraft's angular momentum about its centre of mass in F_e minus the angular impulse of thrusters and torques on the body, relative to the largest.";
+    AngularMomentumError [1]: AngularMomentum, Quantity, Some((Series::AngularMomentumTerms, MAX)), [SPIN, ANGULAR], Some(("angular_momentum_error", "")), "Change of the spacecraft's angular momentum about its centre of mass in F_e minus the angular impulse of thrusters and torques on the body, relative to the largest sum of the magnitudes of the momenta of body and wheels and of the impulse.";
+    AngularMomentumTerms [1]: AngularMomentum, Quantity, None, [SPIN, ANGULAR], NOT_SHOWN, "Magnitudes of the angular momenta of body and wheels and of the angular impulse added, N m s.";
     AngularMomentumSquare [1]: AngularMomentum, Square, None, [SPIN, ANGULAR], Some(("angular_momentum_n_m_s", "N m s")), "Magnitude of the spacecraft's angular momentum about its centre of mass.";
     DebrisLinearError [1]: DebrisMomenta, Quantity, Some((Series::DebrisLinearSquare, MAX)), [DEBRIS_LINEAR, DEBRIS_ANGULAR], Some(("debris_linear_momentum_error", "")), "Change of the debris's linear momentum, relative to the largest.";
     DebrisLinearSquare [1]: DebrisMomenta, Square, None, [DEBRIS_LINEAR, DEBRIS_ANGULAR], NOT_SHOWN, "Square of the debris's linear momentum, N^2 s^2.";
@@ -436,15 +442,15 @@ direct_values! {
 /// The columns, family by family, in the order of a row.
 #[rustfmt::skip]
 static FAMILIES: &[&[Column]] = &[
-    errors!(EnergyConservation, All, EnergyError, "energy_error", "the error of total kinetic energy minus the work of actuators and torques on the body, relative to the largest total energy."),
+    errors!(EnergyConservation, All, EnergyError, "energy_error", "the error of total kinetic energy minus the work of actuators and torques on the body, relative to the largest sum of the energies of all bodies and the magnitudes of work."),
     scales!(EnergyConservation, All, EnergyTotal, "energy_total", ["J", "_j"], "total kinetic energy in F_e, debris included"),
     &[
         direct!(EnergyConservation, ExternalTorque, Float, WorkThrusters, "work_thrusters_final_j", "J", "Work done until the last point by the thrusters and, where the environment or a control law applies one, by torques on the body."),
         direct!(EnergyConservation, Motors, Float, WorkMotors, "work_motors_final_j", "J", "Work done by the wheel motors until the last point."),
     ],
-    errors!(MomentumConservation, IntegratedVelocity, LinearMomentumError, "linear_momentum_error", "the error vector of the spacecraft's linear momentum minus the impulse, relative to the largest |p|."),
+    errors!(MomentumConservation, IntegratedVelocity, LinearMomentumError, "linear_momentum_error", "the error vector of the spacecraft's linear momentum minus the impulse, relative to the largest sum of the magnitudes of its terms and the impulse."),
     scales!(MomentumConservation, All, LinearMomentumSquare, "linear_momentum", ["N s", "_n_s"], "|p| of the spacecraft"),
-    errors!(MomentumConservation, All, AngularMomentumError, "angular_momentum_error", "the error vector of the spacecraft's angular momentum about its centre of mass in F_e minus the angular impulse of thrusters and torques on the body, relative to the largest |L|."),
+    errors!(MomentumConservation, All, AngularMomentumError, "angular_momentum_error", "the error vector of the spacecraft's angular momentum about its centre of mass in F_e minus the angular impulse of thrusters and torques on the body, relative to the largest sum of the magnitudes of the momenta of body (|J omega|) and wheels (|J_i Omega_i|) and of the impulse."),
     scales!(MomentumConservation, All, AngularMomentumSquare, "angular_momentum", ["N m s", "_n_m_s"], "|L| of the spacecraft about its centre of mass"),
     errors!(MomentumConservation, ConstrainedDebris, DebrisLinearError, "debris_linear_momentum_error", "the error vector of the debris's linear momentum, relative to the largest |p|."),
     scales!(MomentumConservation, Debris, DebrisLinearSquare, "debris_linear_momentum", ["N s", "_n_s"], "|p| of the debris"),
@@ -487,10 +493,10 @@ static FAMILIES: &[&[Column]] = &[
         direct!(StepStatistics, All, Count, Steps, "steps", "", "Accepted steps."),
         direct!(StepStatistics, All, Count, Rejected, "steps_rejected", "", "Rejected steps."),
         direct!(StepStatistics, All, Count, Evaluations, "evaluations", "", "Evaluations of the right-hand side (for Taylor methods: jets)."),
-        direct!(Numerics, All, Float, StateError, "state_error_estimate", "", "Estimated largest error of the body's rotation on the grid: of omega relative to the largest |omega|, or of the attitude in rad, whichever is larger."),
+        direct!(Numerics, All, Float, StateError, "state_error_estimate", "", "Estimated largest error of the body's rotation on the grid: of omega relative to the largest |omega| (or to one radian over the duration where that is more), or of the attitude in rad, whichever is larger."),
         direct!(Numerics, All, Float, Amplification, "error_amplification", "", "Estimated factor by which the motion amplifies relative errors of the rotational state that are made evenly along the run."),
         direct!(Numerics, All, Count, IllConditioned, "ill_conditioned", "", "1 where the rounding of the input alone may move the state by more than 1e-3 (error_amplification times 2^-52), else 0."),
-        direct!(Numerics, Debris, Float, DebrisStateError, "debris_state_error_estimate", "", "Estimated largest error of the debris's rotation on the grid: of omega relative to the largest |omega|, or of the attitude in rad, whichever is larger."),
+        direct!(Numerics, Debris, Float, DebrisStateError, "debris_state_error_estimate", "", "Estimated largest error of the debris's rotation on the grid: of omega relative to the largest |omega| (or to one radian over the duration where that is more), or of the attitude in rad, whichever is larger."),
         direct!(Numerics, Debris, Float, DebrisAmplification, "debris_error_amplification", "", "Estimated factor by which the motion of the debris amplifies relative errors of its rotational state that are made evenly along the run."),
         direct!(Numerics, Debris, Count, DebrisIllConditioned, "debris_ill_conditioned", "", "1 where the rounding of the input alone may move the rotation of the debris by more than 1e-3 (debris_error_amplification times 2^-52), else 0."),
     ],

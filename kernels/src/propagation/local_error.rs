@@ -1,14 +1,14 @@
 //! Estimated errors of a run from the steps of its method: the sums behind [`LocalErrors`].
 //!
-//! Relative errors of the rotational state (of omega over |omega|, of the attitude in rad) of all steps, added as if all had the
-//! same direction; and rounding, which accumulates as a random walk (H. Brouwer, Astron. J. 46, 1937).
+//! Errors of the rotational state (of omega in rad/s, of the attitude in rad) of all steps, added as if all had the same direction; and rounding, which accumulates as a random walk (H. Brouwer, Astron. J. 46, 1937).
 
 use crate::ode::{Completion, ErrorModel};
 use crate::run::LocalErrors;
 
 /// The sums for a run of a method with error model `model`, at the relative tolerance `tolerance`.
 ///
-/// For a method without error estimates only rounding: the rest is [`super::series_remainder`].
+/// For a method without error estimates only rounding: the rest is [`super::series_remainder`]. Where steps are controlled relative to
+/// the states, truncation is so too: [`in_units`] follows.
 pub fn local_errors(model: &ErrorModel, tolerance: f64, completion: &Completion) -> LocalErrors {
     let rounding = rounding(completion.accepted);
     match model {
@@ -22,6 +22,17 @@ pub fn local_errors(model: &ErrorModel, tolerance: f64, completion: &Completion)
             }
         }
     }
+}
+
+/// Errors whose truncation is relative to the larger of |omega| and `least`, rad/s, in units: relative to the fastest of `rates`.
+#[must_use]
+pub fn in_units(errors: LocalErrors, rates: impl Iterator<Item = [f64; 3]>, least: f64) -> LocalErrors {
+    LocalErrors { truncation: errors.truncation * fastest(rates).max(least), ..errors }
+}
+
+/// The largest magnitude of `rates`; what is not a number does not count.
+pub fn fastest(rates: impl Iterator<Item = [f64; 3]>) -> f64 {
+    rates.map(|[x, y, z]| x * x + y * y + z * z).fold(0.0, f64::max).sqrt()
 }
 
 /// Error of a compensated step as a fraction of a rounding: measured over the campaigns of `tests/accuracy/error_estimate.rs`.

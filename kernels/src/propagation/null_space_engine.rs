@@ -3,6 +3,7 @@
 use fearless_simd::Simd;
 
 use super::engine::{CompletedRun, CompletionCallback, Engine};
+use super::local_error::{fastest, in_units};
 use super::null_space_runs::NullSpaceRuns;
 use super::settings::PropagationSettings;
 use super::trajectory_recorder::{LaneTrajectory, TrajectoryRecorder};
@@ -60,7 +61,9 @@ impl<S: Simd, const W: usize, const N: usize> NullSpaceEngine<S, W, N> {
                 complete::<W, N>(&scenes[index], trajectory, grid, table);
                 table.pad();
                 let mut outcome = *outcome;
-                outcome.debris_errors = of_debris(&outcome.local_errors, table);
+                let threshold = control.tolerance.absolute / control.tolerance.relative;
+                outcome.debris_errors = of_debris(&outcome.local_errors, table, threshold);
+                outcome.local_errors = in_units(outcome.local_errors, rates(table, StateField::Rate), threshold);
                 // errors of the other states feed back into omega; no state does into that of the debris, which is free
                 outcome.local_errors.feedback = outcome.local_errors.truncation;
                 finish(CompletedRun { index, table, outcome: &outcome, arcs: runs.arcs() });
@@ -74,17 +77,18 @@ impl<S: Simd, const W: usize, const N: usize> NullSpaceEngine<S, W, N> {
 /// Order of the estimate of the error of a step: it grows with this power of the rate at which a body turns.
 const ORDER: i32 = 5;
 
+/// The rates of a body at all points, where they are observed.
+fn rates(table: &StateTable, field: StateField) -> impl Iterator<Item = [f64; 3]> + '_ {
+    (0..if table.has(field) { table.points() } else { 0 }).map(move |point| table.at(field, point))
+}
+
 /// The errors of the debris in a run with the states `table`, whose steps, which are those of the faster body, are estimated to have made
-/// `errors`.
-fn of_debris(errors: &LocalErrors, table: &StateTable) -> LocalErrors {
-    let fastest = |field: StateField| {
-        let is_there = table.has(field);
-        let square = |point: usize| table.at::<3>(field, point).iter().map(|rate| rate * rate).sum::<f64>();
-        (0..table.points()).filter(|_| is_there).map(square).fold(0.0, f64::max).sqrt()
-    };
-    let ratio = fastest(StateField::DebrisRate) / fastest(StateField::Rate);
+/// `errors`; rates below `threshold`, rad/s, have its error.
+fn of_debris(errors: &LocalErrors, table: &StateTable, threshold: f64) -> LocalErrors {
+    let ratio = fastest(rates(table, StateField::DebrisRate)) / fastest(rates(table, StateField::Rate));
     let share = if ratio < 1.0 { (0..ORDER).fold(1.0, |power, _| power * ratio) } else { 1.0 };
-    LocalErrors { truncation: share * errors.truncation, attitude: share * errors.attitude, ..*errors }
+    let errors = LocalErrors { truncation: share * errors.truncation, attitude: share * errors.attitude, ..*errors };
+    in_units(errors, rates(table, StateField::DebrisRate), threshold)
 }
 
 impl<S: Simd, const W: usize, const N: usize> Engine for NullSpaceEngine<S, W, N> {

@@ -1,12 +1,13 @@
 //! [`rotation_errors`]: the error of a run's rotation against its reference solution, in all digits of the reference solution.
 
 use super::taylor::reference_solution::ReferenceSolution;
-use crate::run::{StateField, StateTable};
+use crate::run::{Grid, StateField, StateTable, rate_scale};
 
 /// The error of the rotation at one observation point, or the largest of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RotationError {
-    /// |omega - reference|, relative to the largest |omega| of the run (absolute where that is zero).
+    /// |omega - reference|, relative to the largest |omega| of the run, or to one radian over its duration where that is more
+    /// ([`rate_scale`]).
     pub omega: f64,
     /// Twice the distance of the attitude quaternions, the nearer sign, rad: the angle between the attitudes where the norm is
     /// kept. Zero where the reference solution has no attitude.
@@ -33,31 +34,33 @@ fn larger_or_nan(a: f64, b: f64) -> f64 {
     if b.is_nan() || b > a { b } else { a }
 }
 
-/// The error at each point of `table`, which has the rate, and the attitude where `reference` has it.
+/// The error at each point of `table`, which has the points of `grid`, the rate, and the attitude where `reference` has it.
 pub fn rotation_errors<'a>(
     reference: &'a ReferenceSolution,
+    grid: &Grid,
     table: &'a StateTable,
 ) -> impl Iterator<Item = RotationError> + 'a {
-    errors_of(reference, table, [StateField::Rate, StateField::Attitude])
+    errors_of(reference, grid, table, [StateField::Rate, StateField::Attitude])
 }
 
 /// The same of the debris, whose rate and attitude are in `table`.
 pub fn debris_rotation_errors<'a>(
     reference: &'a ReferenceSolution,
+    grid: &Grid,
     table: &'a StateTable,
 ) -> impl Iterator<Item = RotationError> + 'a {
-    errors_of(reference, table, [StateField::DebrisRate, StateField::DebrisAttitude])
+    errors_of(reference, grid, table, [StateField::DebrisRate, StateField::DebrisAttitude])
 }
 
 fn errors_of<'a>(
     reference: &'a ReferenceSolution,
+    grid: &Grid,
     table: &'a StateTable,
     [rate, attitude]: [StateField; 2],
 ) -> impl Iterator<Item = RotationError> + 'a {
     let square = |omega: [f64; 3]| omega.iter().map(|x| x * x).sum::<f64>();
     let squares = (0..table.points()).map(|point| square(reference.high.at(rate, point)));
-    let largest = squares.fold(0.0, f64::max).sqrt();
-    let scale = if largest > 0.0 { largest } else { 1.0 };
+    let scale = rate_scale(squares.fold(0.0, f64::max).sqrt(), grid.duration());
     let has_attitude = reference.high.has(attitude);
     (0..table.points()).map(move |point| {
         let turned = |sign| 2.0 * reference.distance::<4>(table, attitude, point, sign);
@@ -88,7 +91,7 @@ mod tests {
     fn largest(run: [f64; 3]) -> RotationError {
         let high = table([0.0, 0.0, 1.0]);
         let low = StateTable::new(high.fields(), 0, 3);
-        RotationError::largest(rotation_errors(&ReferenceSolution { high, low }, &table(run)))
+        RotationError::largest(rotation_errors(&ReferenceSolution { high, low }, &Grid::uniform(4.0, 3), &table(run)))
     }
 
     /// Law: the error of a run is its maximum over the grid, at any point.

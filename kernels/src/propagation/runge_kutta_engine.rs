@@ -6,13 +6,15 @@ use super::arc_source::ArcSource;
 use super::engine::{CompletionCallback, Engine};
 use super::gyrostat_batch::{DebrisRuns, GyrostatBatch};
 use super::gyrostat_runs::GyrostatRuns;
+use super::local_error::in_units;
 use super::series_remainder::Remainders;
 use super::settings::PropagationSettings;
 use super::trajectory_recorder::{LaneTrajectory, TrajectoryRecorder};
 use crate::dynamics::actuation::Laws;
+use crate::dynamics::gyrostat::Gyrostat;
 use crate::math::Real;
 use crate::ode::{Control, ErrorModel, Method, integrate};
-use crate::run::{Grid, Outcome, Trajectory};
+use crate::run::{Grid, LocalErrors, Outcome, Trajectory};
 use crate::scene::Scene;
 
 /// One worker's memory.
@@ -50,6 +52,7 @@ impl<S: Simd, R: Real, M: Method, const N: usize> RungeKuttaEngine<S, R, M, N> {
         settings.check_laws(&laws);
         let (grid, control) = (&settings.grid, &settings.control);
         let duration = grid.duration();
+        let threshold = control.tolerance.absolute / control.tolerance.relative;
         let mut integrate = |runs: &mut GyrostatRuns<'_, R>, finish: &mut RunCallback<'_, R>| {
             integrate_on::<S, R, M, N>((*simd, *zero, *method), runs, (grid, control), lanes, finish);
         };
@@ -59,9 +62,7 @@ impl<S: Simd, R: Real, M: Method, const N: usize> RungeKuttaEngine<S, R, M, N> {
             integrate(&mut runs, &mut |runs, index, trajectory, outcome| {
                 trajectories[index].copy_from(trajectory);
                 outcomes[index] = *outcome;
-                if let Some(remainders) = remainders {
-                    outcomes[index].local_errors = remainders.sum(runs.run(index), trajectory, grid, outcome);
-                }
+                outcomes[index].local_errors = errors_of(remainders, runs.run(index), trajectory, (grid, threshold), outcome);
             });
         }
         let arcs = ArcSource::new(scenes, laws.reborrow(), duration);
@@ -70,12 +71,25 @@ impl<S: Simd, R: Real, M: Method, const N: usize> RungeKuttaEngine<S, R, M, N> {
         integrate(&mut runs, &mut |runs, index, trajectory, outcome| {
             let run = runs.run(index);
             let mut outcome = *outcome;
-            if let Some(remainders) = remainders {
-                outcome.local_errors = remainders.sum(run, trajectory, grid, &outcome);
-            }
+            outcome.local_errors = errors_of(remainders, run, trajectory, (grid, threshold), &outcome);
             completion.complete(*simd, scenes, index, run, trajectory, &outcome, finish);
         });
     }
+}
+
+/// The errors of a run, in units; steps are controlled relative to |omega| or to `threshold` times the rate of its time scale.
+fn errors_of(
+    remainders: &mut Option<Remainders>,
+    run: &Gyrostat<f64>,
+    trajectory: &Trajectory,
+    (grid, threshold): (&Grid, f64),
+    outcome: &Outcome,
+) -> LocalErrors {
+    if let Some(remainders) = remainders {
+        return remainders.sum(run, trajectory, grid, outcome);
+    }
+    let rates = (0..outcome.points).map(|point| trajectory.at(point));
+    in_units(outcome.local_errors, rates, threshold / run.time_unit())
 }
 
 /// Receives a run that has ended: the runs, its index, its components at the observation points, its outcome.

@@ -55,8 +55,7 @@ impl Remainders {
         let term = libm::pow(step, self.method.order as f64 + 1.0);
         let all = self.method.factor * term * steps as f64 / count;
         let LocalErrors { rounding, attitude, .. } = rounding_of_turns(steps, largest * outcome.time);
-        let truncation = if largest > 0.0 { all * changing / largest } else { 0.0 };
-        LocalErrors { truncation, rounding, feedback: 0.0, attitude: attitude + all * turning }
+        LocalErrors { truncation: all * changing, rounding, feedback: 0.0, attitude: attitude + all * turning }
     }
 
     /// The series of the motion through `state` at `time`, in seconds.

@@ -14,7 +14,7 @@ mod state_table;
 mod trajectory;
 
 pub use grid::Grid;
-pub use outcome::{LocalErrors, Outcome, Status, StepStatistics};
+pub use outcome::{LocalErrors, Outcome, Status, StepStatistics, rate_scale};
 pub use quantity::Quantity;
 pub use state_field::{StateField, StateFields};
 pub use state_table::StateTable;

@@ -1,5 +1,7 @@
 //! How a run ended and what it cost.
 
+use crate::math::Real;
+
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Status {
@@ -95,15 +97,23 @@ impl Outcome {
     };
 }
 
+/// The rate, rad/s, that errors of omega are relative to in a run whose largest |omega| is `largest`: that, but at least one radian over
+/// the `duration`, s. A body that turns by less than a radian may have any rate, down to none: there an error of the rate is
+/// the angle, rad, that it adds up to.
+#[inline(always)]
+pub fn rate_scale(largest: f64, duration: f64) -> f64 {
+    if duration > 0.0 { largest.larger(1.0 / duration) } else { 1.0 }
+}
+
 /// Estimated errors of the rotational state from all steps of a run, added as if all had the same direction, before the motion
-/// amplifies them. Those of omega are relative to the maximum of |omega|. They are separated by what they are proportional to.
+/// amplifies them. They are separated by what they are proportional to.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LocalErrors {
-    /// Of omega, proportional to its rate of change: truncation.
+    /// Of omega, rad/s, proportional to its rate of change: truncation.
     pub truncation: f64,
-    /// Of omega, proportional to its components: rounding.
+    /// Of omega, relative, proportional to its components: rounding.
     pub rounding: f64,
-    /// Of omega, in any direction: from kernels whose other states feed back into it.
+    /// Of omega, rad/s, in any direction: from kernels whose other states feed back into it.
     pub feedback: f64,
     /// Of the attitude alone, rad: truncation, rounding and dense output.
     pub attitude: f64,

@@ -110,6 +110,7 @@ impl<'a, R: Real, const N: usize, const J: usize> RunLanes<'a, R, N, J> {
         if unit != state.unit {
             // a law may set the body turning faster than its start let expect
             self.vectors.rescale(lane, state.unit, unit);
+            self.truncation.rescale(lane, unit / state.unit);
             self.set_unit(lane, state.run, unit);
             state.unit = unit;
         }
@@ -232,7 +233,7 @@ impl<'a, R: Real, const N: usize, const J: usize> RunLanes<'a, R, N, J> {
             time,
             points,
             effort: StepStatistics { steps, rejected: 0, evaluations: steps },
-            local_errors: self.truncation.sums(lane).errors(steps, state.periods),
+            local_errors: self.truncation.sums(lane).errors(steps, state.periods, state.unit),
             debris_errors: LocalErrors::NONE,
         };
         finish(state.run, &self.runs[state.run], &mut self.work.trajectories[lane], &outcome);

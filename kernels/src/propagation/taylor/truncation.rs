@@ -13,7 +13,7 @@ const REST: f64 = 0.15;
 /// The sums of one run.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct TruncationSums {
-    /// Last terms of omega over |omega|, added up.
+    /// Last terms of omega, added up, rad per unit of time.
     rate: f64,
     /// First terms left out of the attitude, added up, rad.
     turn: f64,
@@ -29,7 +29,7 @@ pub(super) struct Truncation<R> {
     order: usize,
     /// 2/(p+1)!.
     factor: f64,
-    /// Last terms of omega over |omega|, added up.
+    /// Last terms of omega, added up, rad per unit of time.
     rate: R,
     /// First terms left out of the attitude, added up, rad.
     turn: R,
@@ -47,6 +47,11 @@ impl<R: Real> Truncation<R> {
         TruncationSums { rate: self.rate.lane(lane), turn: self.turn.lane(lane) }
     }
 
+    /// Continues the sums of the run in `lane` in a unit of time that is `ratio` times as long.
+    pub(super) fn rescale(&mut self, lane: usize, ratio: f64) {
+        self.rate.set_lane(lane, self.rate.lane(lane) * ratio);
+    }
+
     /// Sets the sums of the run in `lane`.
     pub(super) fn set(&mut self, lane: usize, sums: TruncationSums) {
         self.rate.set_lane(lane, sums.rate);
@@ -58,24 +63,22 @@ impl<R: Real> Truncation<R> {
     pub(super) fn add<const N: usize>(&mut self, jet: &[[R; N]], length: R) {
         let order = self.order;
         let tiny = length.splat(f64::MIN_POSITIVE);
-        let rate = size(&jet[0]);
-        let last = size(&jet[order]);
-        self.rate += last * raised_to(length, order) / rate.larger(tiny);
+        self.rate += size(&jet[order]) * raised_to(length, order);
         self.turn += if N >= WITH_ATTITUDE {
             let (kept, before) = (turn(&jet[order]), turn(&jet[order - 2]));
             let share = (kept * (length * length) / before.larger(tiny)).sqrt().smaller(length.splat(1.0));
             length.splat(2.0) * (kept * raised_to(length, order) * share)
         } else {
-            length.splat(self.factor) * raised_to(length.splat(0.5) * (rate * length), order + 1)
+            length.splat(self.factor) * raised_to(length.splat(0.5) * (size(&jet[0]) * length), order + 1)
         };
     }
 }
 
 impl TruncationSums {
-    /// The errors after `steps` steps, whose rotation is repeated `periods` times.
-    pub(super) fn errors(&self, steps: u64, periods: f64) -> LocalErrors {
+    /// The errors after `steps` steps, whose rotation is repeated `periods` times; the unit of time is `unit` seconds.
+    pub(super) fn errors(&self, steps: u64, periods: f64, unit: f64) -> LocalErrors {
         let LocalErrors { rounding, attitude, .. } = rounding(steps);
-        let truncation = REST * self.rate;
+        let truncation = REST * self.rate / unit;
         LocalErrors { truncation, rounding, feedback: 0.0, attitude: periods * (attitude + self.turn) }
     }
 }
