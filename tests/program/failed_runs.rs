@@ -65,9 +65,15 @@ fn garbage_is_inaccurate() {
 #[test]
 fn failed_runs_violate_what_their_values_keep() {
     let scratch = folder("failed-violate");
-    let limits = [("fraction = 0.95", 1e300), ("quantile = 0.95", 1e300), ("fraction = 0.5", 315.0)];
-    let require = |(statement, limit): (&str, f64)| {
-        format!("[[require]]\nobservable = \"rate_w1_final_rad_s\"\n{statement}\nat_most = {limit:?}\n")
+    let limits = [
+        ("fraction = 0.95", "at_most", 1e300),
+        ("quantile = 0.95", "at_most", 1e300),
+        ("quantile = 0.05", "at_least", -1e300),
+        ("fraction = 0.5", "at_most", 315.0),
+        ("quantile = 0.5", "at_least", 315.0),
+    ];
+    let require = |(statement, side, limit): (&str, &str, f64)| {
+        format!("[[require]]\nobservable = \"rate_w1_final_rad_s\"\n{statement}\n{side} = {limit:?}\n")
     };
     scratch.file("mixed.toml", &[mixed_failures(), limits.map(require).concat()].concat());
     scratch.prints("campaign mixed.toml --samples 300 --out r --no-report --junit junit.xml", 3);
@@ -79,14 +85,17 @@ fn failed_runs_violate_what_their_values_keep() {
     assert!(failed_with_value > 20, "{failed_with_value} runs failed and have a value");
     let summary = scratch.summary("r");
     let list = summary["requirements"]["list"].as_array().expect("a list");
-    for ((statement, limit), found) in limits.into_iter().zip(list) {
-        let runs: Vec<_> = population.iter().filter(|(status, _)| *status != "invalid_sample").collect();
-        let violations = runs.iter().filter(|(status, rate)| !(*status == "ok" && *rate <= limit)).count();
+    let runs: Vec<_> = population.iter().filter(|(status, _)| *status != "invalid_sample").collect();
+    let outside = &summary["requirements"]["samples_that_are_not_physical"];
+    assert_eq!((&summary["requirements"]["samples"], outside), (&299.into(), &(299 - runs.len()).into()));
+    for ((statement, side, limit), found) in limits.into_iter().zip(list) {
+        let is_within = |rate: f64| if side == "at_most" { rate <= limit } else { rate >= limit };
+        let violations = runs.iter().filter(|(status, rate)| *status != "ok" || !is_within(*rate)).count();
         let failed = runs.iter().filter(|(status, _)| *status != "ok").count();
         let counts = ["runs", "violations", "failed_runs"].map(|name| found[name].as_u64().expect("a count") as usize);
-        assert_eq!(counts, [runs.len(), violations, failed], "{statement} {limit}");
+        assert_eq!(counts, [runs.len(), violations, failed], "{statement} {side} {limit}");
     }
-    assert_eq!([&list[0]["verdict"], &list[1]["verdict"]], ["FAIL", "FAIL"]);
+    assert!(list[..3].iter().all(|one| one["verdict"] == "FAIL"), "{list:?}");
     let xml = std::fs::read_to_string(scratch.path("junit.xml")).expect("a file");
     let failures = list.iter().filter(|one| one["verdict"] == "FAIL").count();
     assert_eq!(xml.matches("<failure").count(), failures + 1, "one more for the failed runs: {xml}");
