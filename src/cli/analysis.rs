@@ -77,12 +77,14 @@ pub fn computed(
         Some(bands) => bands,
         None => bands_file::read(reader.storage(), bands, threads).map_err(Failure::files)?,
     };
+    let statistics = statistics::compute(plan, reader, columns, threads).map_err(Failure::files)?;
     let verdicts = verdicts::assess(plan, reader, of_bands.as_ref(), threads).map_err(Failure::files)?;
+    let verdicts = verdicts.with_quantiles(&statistics);
     let looked = stopping(plan, (reader, bands), plan.samples, threads, Some(&verdicts));
     Ok(Analysed {
-        statistics: statistics::compute(plan, reader, columns, threads).map_err(Failure::files)?,
         sensitivities: sensitivity::compute(plan, reader, threads).map_err(Failure::files)?,
         verdicts,
+        statistics,
         bands: of_bands,
         stopping: looked.map_err(Failure::files)?,
     })

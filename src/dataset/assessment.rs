@@ -16,7 +16,7 @@ pub struct Assessment {
     pub unit: String,
     /// What is decided, and from which estimate with which one-sided bounds: of the fraction of runs within the limit, or of the mean.
     pub gate: Gate,
-    /// The quantile (within 0.05%) or the mean over the runs that have a value; `None` for fractions.
+    /// The quantile, as in the statistics, or the mean over the runs that have a value; `None` for fractions.
     pub value: Option<f64>,
     /// Runs that count: dispersed and physical.
     pub runs: u64,
@@ -28,6 +28,8 @@ pub struct Assessment {
     pub worst: Option<WorstPoint>,
     /// Why nothing, or something else than the numbers say, was decided.
     pub reason: Option<String>,
+    /// Why the bounds may be too narrow.
+    pub note: Option<String>,
 }
 
 /// The point of time at which the fewest runs are within the limit, the first of them.

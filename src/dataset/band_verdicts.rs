@@ -66,5 +66,6 @@ pub(super) fn over_time(
             unresolved: most - least,
         }),
         reason,
+        note: None,
     }
 }

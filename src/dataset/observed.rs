@@ -48,6 +48,12 @@ impl Observed {
         all
     }
 
+    /// Whether no draw of `plan` enters it, so that every run has the same value.
+    pub fn is_constant(&self, plan: &Plan) -> bool {
+        let has_no_column = self.derived.as_ref().is_some_and(|(_, columns)| columns.is_empty());
+        has_no_column || plan.dispersions.columns().is_empty()
+    }
+
     /// Its values in a part, row by row; NaN where a row has none.
     ///
     /// # Errors

@@ -45,6 +45,11 @@ impl Population {
         }
     }
 
+    /// Whether statistics have intervals.
+    pub fn has_intervals(self) -> bool {
+        matches!(self, Population::Independent | Population::Replicated(_))
+    }
+
     /// The group of a dispersed sample.
     pub fn group(self, sample: SampleId) -> usize {
         (sample.0.saturating_sub(1) % self.groups() as u64) as usize
@@ -59,9 +64,11 @@ impl Population {
     pub fn intervals(self) -> String {
         match self {
             Population::Independent => {
-                "of independent samples: quantiles by order statistics, mean by Student's t".to_owned()
+                "of independent samples: quantiles by order statistics, mean by Student's t and, if wider, by Hall's for skewed numbers".to_owned()
             }
-            Population::Replicated(replicates) => format!("of {replicates} independent replicates, by Student's t"),
+            Population::Replicated(replicates) => {
+                format!("of {replicates} independent replicates, by Student's t and, for means, by Hall's if wider")
+            }
             Population::Dependent(design) => format!(
                 "none: samples of design \"{design}\" are not independent of each other; [design] replicates = 16 gives intervals"
             ),

@@ -9,21 +9,20 @@
 
 use std::num::NonZeroUsize;
 
-use crate::campaign::Plan;
+use crate::campaign::{Plan, Statement};
 use crate::dataset::column_counts::{Collected, Collector, ColumnCounts};
 use crate::dataset::observed::Observed;
 use crate::dataset::parallel::in_parallel;
 use crate::dataset::population::Population;
 use crate::dataset::rows_reader::{RowsError, RowsReader};
 use crate::run::{Quantity, Status};
-use crate::statistics::correlation::Estimate;
+use crate::statistics::mean::{MOST_SHARE, deviation_bounds, mean_bounds};
 use crate::statistics::moments::Moments;
 use crate::statistics::quantile::{
     Ranks as IntervalRanks, interval_ranks, percent, quantile, runs_for_bound, runs_for_interval,
 };
-use crate::statistics::replicates::{self, Step, mean_interval};
+use crate::statistics::replicates::{self, Step};
 use crate::statistics::sketch::{RELATIVE_ERROR, Ranks, Sketch};
-use crate::statistics::student::half_width;
 
 /// Most rows whose quantiles are exact.
 pub const MOST_EXACT: u64 = 100_000;
@@ -37,6 +36,8 @@ const SKETCHES_AT_A_TIME: usize = 512;
 pub struct QuantileStatistic {
     /// Which.
     pub p: f64,
+    /// Confidence of its interval.
+    pub confidence: f64,
     /// The sample quantile (type 7).
     pub value: Option<f64>,
     /// Ends of its interval, rounded outward; `None` where the runs do not bound it on that side, or no interval holds.
@@ -56,12 +57,18 @@ pub struct ColumnStatistics {
     pub without_value: u64,
     /// Of the runs that are `ok` and have a value.
     pub moments: Moments,
-    /// The interval of the mean; `None` where none holds.
-    pub mean_interval: Option<[f64; 2]>,
+    /// Ends of the interval of the mean; `None` where the runs do not bound it on that side, or no interval holds.
+    pub mean_interval: [Option<f64>; 2],
     /// Standard error of the mean: of independent samples, or of replicates.
     pub mean_error: Option<f64>,
+    /// Ends of the interval of the standard deviation, as of independent samples; `None` as for the mean.
+    pub deviation_interval: [Option<f64>; 2],
+    /// What keeps these runs from telling mean and standard deviation: no spread, few runs for the skewness, a heavy tail.
+    pub note: Option<String>,
     /// The quantiles of the plan, ascending.
     pub quantiles: Vec<QuantileStatistic>,
+    /// Those of the requirements on it, each with the confidence of its requirement.
+    pub required: Vec<QuantileStatistic>,
 }
 
 /// What the runs of a campaign say.
@@ -93,6 +100,11 @@ impl Statistics {
             .filter(|(status, _)| **status == Status::Done)
             .map(|(_, count)| count)
             .sum()
+    }
+
+    /// The `p`-quantile of the observable called `name` for a requirement at `confidence`.
+    pub fn required(&self, name: &str, p: f64, confidence: f64) -> Option<&QuantileStatistic> {
+        self.column(name)?.required.iter().find(|one| one.p == p && one.confidence == confidence)
     }
 
     /// The observable called `name`.
@@ -198,19 +210,19 @@ impl Order {
 /// The ranks of the intervals of all quantiles for one number of values: that of most columns.
 struct CommonRanks {
     count: u64,
+    confidence: f64,
     ranks: Vec<(f64, IntervalRanks)>,
 }
 
 impl CommonRanks {
     fn new(plan: &Plan, population: Population, count: u64) -> Self {
-        let has_intervals = matches!(population, Population::Independent | Population::Replicated(_));
-        let quantiles = plan.analysis.quantiles.iter().filter(|_| has_intervals);
+        let quantiles = plan.analysis.quantiles.iter().filter(|_| population.has_intervals());
         let ranks = quantiles.map(|p| (*p, interval_ranks(count, *p, plan.analysis.confidence)));
-        CommonRanks { count, ranks: ranks.collect() }
+        CommonRanks { count, confidence: plan.analysis.confidence, ranks: ranks.collect() }
     }
 
-    fn of(&self, count: u64, p: f64) -> Option<IntervalRanks> {
-        let mut known = self.ranks.iter().filter(|_| count == self.count);
+    fn of(&self, count: u64, p: f64, confidence: f64) -> Option<IntervalRanks> {
+        let mut known = self.ranks.iter().filter(|_| count == self.count && confidence == self.confidence);
         known.find(|(of, _)| *of == p).map(|(_, ranks)| *ranks)
     }
 }
@@ -249,13 +261,30 @@ fn described(
     values.sort_unstable_by(f64::total_cmp);
     let order = if is_sketched { Order::Sketched(ranks(&whole)) } else { Order::Exact(values) };
     let moments = collected.moments;
-    let (mean_interval, mean_error) = of_mean(population, &moments, &means, confidence);
-    let quantiles = plan.analysis.quantiles.iter().map(|p| {
-        let mut found = of_quantile(population, &order, moments.count(), (*p, confidence), common);
+    let one_sided = 0.5 + 0.5 * confidence;
+    let (mean, mean_error) = match population {
+        Population::Independent => (Some(mean_bounds(&moments, one_sided)), moments.mean_error()),
+        Population::Replicated(_) => (
+            Some(replicates::mean_bounds(&means, &moments, one_sided)),
+            Moments::of(means.iter().copied()).mean_error(),
+        ),
+        _ => (None, None),
+    };
+    let ends = |bounds: [f64; 2]| bounds.map(|end| Some(end).filter(|end| end.is_finite()));
+    let mean_interval = mean.map_or([None; 2], ends);
+    let deviation = deviation_bounds(&moments, one_sided);
+    let quantile = |p: f64, confidence: f64| {
+        let mut found = of_quantile(population, &order, moments.count(), (p, confidence), common);
         if matches!(population, Population::Replicated(_)) && found.note.is_none() {
-            found.interval = replicates::quantile_interval(&steps, &sizes, *p, confidence);
+            found.interval = replicates::quantile_interval(&steps, &sizes, p, confidence);
         }
         found
+    };
+    let requirements =
+        plan.analysis.requirements.iter().filter(|one| one.observable() == Some(observed.quantity.name()));
+    let required = requirements.filter_map(|one| match one.statement {
+        Statement::Quantile(p) => Some(quantile(p, one.confidence)),
+        _ => None,
     });
     ColumnStatistics {
         quantity: observed.quantity.clone(),
@@ -264,29 +293,28 @@ fn described(
         moments,
         mean_interval,
         mean_error,
-        quantiles: quantiles.collect(),
+        deviation_interval: mean.map_or([None; 2], |_| ends(deviation)),
+        note: mean.and_then(|_| note(&moments, mean_interval)),
+        quantiles: plan.analysis.quantiles.iter().map(|p| quantile(*p, confidence)).collect(),
+        required: required.collect(),
     }
 }
 
-/// The interval of the mean, and its standard error.
-fn of_mean(
-    population: Population,
-    moments: &Moments,
-    means: &[f64],
-    confidence: f64,
-) -> (Option<[f64; 2]>, Option<f64>) {
-    let finite = |interval: [f64; 2]| interval.iter().all(|end| end.is_finite()).then_some(interval);
-    match population {
-        Population::Independent => {
-            let Some((mean, deviation)) = moments.mean().zip(moments.standard_deviation()) else { return (None, None) };
-            let half = half_width(deviation, moments.count(), confidence);
-            (finite([mean - half, mean + half]), moments.mean_error())
-        }
-        Population::Replicated(_) => {
-            let Estimate { lower, upper, .. } = mean_interval(means, confidence);
-            (finite([lower, upper]), Moments::of(means.iter().copied()).mean_error())
-        }
-        _ => (None, None),
+/// What keeps runs with these moments from telling their mean and standard deviation.
+fn note(moments: &Moments, mean_interval: [Option<f64>; 2]) -> Option<String> {
+    let skewness = moments.count().gt(&1).then(|| moments.skewness().unwrap_or(0.0))?;
+    let share = moments.largest_share(2);
+    match mean_interval {
+        [None, None] if moments.standard_deviation() == Some(0.0) => Some(
+            "all values are equal: whether the mean is that value these runs cannot tell, a rare event would not show"
+                .to_owned(),
+        ),
+        [Some(_), Some(_)] if share <= MOST_SHARE => None,
+        [Some(_), Some(_)] => Some(format!(
+            "heavy tail: one run makes {:.0}% of the variance, and intervals of mean and standard deviation may be too narrow",
+            100.0 * share
+        )),
+        _ => Some(format!("too few runs for their skewness of {skewness:.1}: the mean is not bounded on every side")),
     }
 }
 
@@ -298,11 +326,11 @@ fn of_quantile(
     (p, confidence): (f64, f64),
     common: &CommonRanks,
 ) -> QuantileStatistic {
-    let mut found = QuantileStatistic { p, value: order.quantile(p), interval: [None; 2], note: None };
-    if matches!(population, Population::Dependent(_) | Population::Chosen(_) | Population::Nominal) {
+    let mut found = QuantileStatistic { p, confidence, value: order.quantile(p), interval: [None; 2], note: None };
+    if !population.has_intervals() {
         return found;
     }
-    let ranks = common.of(count, p).unwrap_or_else(|| interval_ranks(count, p, confidence));
+    let ranks = common.of(count, p, confidence).unwrap_or_else(|| interval_ranks(count, p, confidence));
     let end = |rank: Option<u64>, which: usize| rank.and_then(|rank| order.bounds(rank)).map(|bounds| bounds[which]);
     found.interval = [end(ranks.lower, 0), end(ranks.upper, 1)];
     if found.interval.contains(&None) {

@@ -49,18 +49,23 @@ fn table(statistics: &Statistics) -> Vec<DescribedColumn> {
         }),
         real("mean", "Mean.", &|column| column.moments.mean()),
         real("mean_standard_error", "Standard error of the mean.", &|column| column.mean_error),
-        real("mean_lower", "Lower end of the interval of the mean.", &|column| {
-            column.mean_interval.map(|[end, _]| end)
-        }),
-        real("mean_upper", "Upper end of the interval of the mean.", &|column| {
-            column.mean_interval.map(|[_, end]| end)
-        }),
+        real("mean_lower", "Lower end of the interval of the mean.", &|column| column.mean_interval[0]),
+        real("mean_upper", "Upper end of the interval of the mean.", &|column| column.mean_interval[1]),
         real("standard_deviation", "Standard deviation, with n - 1.", &|column| column.moments.standard_deviation()),
         real(
             "standard_deviation_standard_error",
             "Standard error of the standard deviation, for many independent runs.",
-            &|column| column.mean_interval.and(column.moments.standard_deviation_error()),
+            &|column| column.mean_error.and(column.moments.standard_deviation_error()),
         ),
+        real("standard_deviation_lower", "Lower end of the interval of the standard deviation.", &|column| {
+            column.deviation_interval[0]
+        }),
+        real("standard_deviation_upper", "Upper end of the interval of the standard deviation.", &|column| {
+            column.deviation_interval[1]
+        }),
+        text("mean_note", "What keeps the runs from telling mean and standard deviation.", &|column| {
+            column.note.clone()
+        }),
         real("skewness", "Skewness m_3/m_2^(3/2).", &|column| column.moments.skewness()),
         real("min", "Minimum.", &|column| column.moments.min()),
         real("max", "Maximum.", &|column| column.moments.max()),

@@ -15,13 +15,17 @@ use crate::dataset::band_verdicts::over_time;
 use crate::dataset::observed::Observed;
 use crate::dataset::population::Population;
 use crate::dataset::rows_reader::{PartReader, RowsError, RowsReader};
+use crate::dataset::statistics::Statistics;
 use crate::ensemble::Bands;
 use crate::run::Status;
 use crate::statistics::binomial::Decision;
-use crate::statistics::gate::{Gate, Limit, failing_at, failing_together, fraction_gate, mean_gate, replicate_gate};
+use crate::statistics::gate::{
+    Gate, Limit, constant_gate, failing_at, failing_together, fraction_gate, mean_gate, replicate_fraction_gate,
+    replicate_mean_gate,
+};
 use crate::statistics::looks::adjusted;
+use crate::statistics::mean::MOST_SHARE;
 use crate::statistics::moments::Moments;
-use crate::statistics::sketch::Sketch;
 
 /// What the runs of a campaign say of its requirements.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -37,6 +41,18 @@ pub struct Verdicts {
 }
 
 impl Verdicts {
+    /// The same with the values of quantiles that `statistics` have: a quantile has one value.
+    #[must_use]
+    pub fn with_quantiles(mut self, statistics: &Statistics) -> Self {
+        for one in &mut self.list {
+            if let (Statement::Quantile(p), Some(name)) = (one.requirement.statement, one.requirement.observable()) {
+                let quantile = statistics.required(name, p, one.requirement.confidence);
+                one.value = quantile.and_then(|quantile| quantile.value);
+            }
+        }
+        self
+    }
+
     /// How many requirements failed.
     pub fn failed(&self) -> usize {
         self.list.iter().filter(|one| one.gate.decision == Decision::Fail).count()
@@ -60,14 +76,13 @@ struct Counted {
 #[derive(Clone, Debug)]
 struct Counts {
     groups: Vec<Counted>,
-    sketch: Sketch,
     /// Runs that are not `ok`.
     failed: u64,
 }
 
 impl Counts {
     fn new(groups: usize) -> Self {
-        Counts { groups: vec![Counted::default(); groups], sketch: Sketch::default(), failed: 0 }
+        Counts { groups: vec![Counted::default(); groups], failed: 0 }
     }
 
     fn merge(&mut self, other: &Counts) {
@@ -76,7 +91,6 @@ impl Counts {
             mine.within += theirs.within;
             mine.moments.merge(&theirs.moments);
         }
-        self.sketch.merge(&other.sketch);
         self.failed += other.failed;
     }
 
@@ -127,8 +141,10 @@ pub fn assess(
                 over_time((requirement, confidences), band, bands, runs, population)
             }
             _ => {
-                let unit = index.map_or_else(String::new, |index| observed[index].quantity.unit().to_owned());
-                assessment((requirement, confidences), unit, counts, population)
+                let observed = index.map(|index| &observed[index]);
+                let unit = observed.map_or_else(String::new, |observed| observed.quantity.unit().to_owned());
+                let is_constant = observed.is_some_and(|observed| observed.is_constant(plan));
+                assessment((requirement, confidences), unit, counts, population, is_constant)
             }
         }
     };
@@ -153,7 +169,7 @@ fn count(
     let of_requirement = |(requirement, index): (&Requirement, &Option<usize>)| {
         let mut counts = Counts::new(population.groups());
         let mut kept = vec![Vec::new(); population.groups()];
-        let has_value = !matches!(requirement.statement, Statement::Fraction(_));
+        let has_mean = matches!(requirement.statement, Statement::Mean);
         for (row, (sample, status)) in counted() {
             if *status == Status::InvalidSample {
                 continue;
@@ -164,15 +180,12 @@ fn count(
             counts.groups[group].runs += 1;
             counts.groups[group].within += u64::from(is_ok && requirement.limit.is_met(value));
             counts.failed += u64::from(!is_ok);
-            if is_ok && has_value && !value.is_nan() {
+            if is_ok && has_mean && !value.is_nan() {
                 kept[group].push(value);
             }
         }
         for (group, values) in counts.groups.iter_mut().zip(&kept) {
             group.moments = Moments::of_block(values);
-            if matches!(requirement.statement, Statement::Quantile(_)) {
-                counts.sketch.add_all(values);
-            }
         }
         counts
     };
@@ -181,12 +194,14 @@ fn count(
     Ok((counts, invalid as u64, counted().count() as u64))
 }
 
-/// What `counts` say of a requirement that passes at the first of two confidences and fails at the second.
+/// What `counts` say of a requirement that passes at the first of two confidences and fails at the second; `is_constant`: every run has the
+/// same value.
 fn assessment(
     (requirement, confidences): (&Requirement, [f64; 2]),
     unit: String,
     counts: &Counts,
     population: Population,
+    is_constant: bool,
 ) -> Assessment {
     let (runs, within) = (counts.sum(|group| group.runs), counts.sum(|group| group.within));
     let limit = requirement.limit;
@@ -200,29 +215,31 @@ fn assessment(
     let of_target = |target| move |confidence| of_fraction(counts, target, confidence, population);
     let mut gate = match target {
         Some(target) => failing_at(confidences, |fraction| fraction >= target, of_target(target)),
+        None if is_constant && whole.min() == whole.max() => constant_gate(whole.mean().unwrap_or(f64::NAN), limit),
         None => {
             let of_mean = |confidence| of_mean(counts, &whole, limit, confidence, population);
             failing_at(confidences, |mean| limit.is_met(mean), of_mean)
         }
     };
-    let mut reason = None;
+    let is_undecided = matches!(gate.decision, Decision::Undecided(_));
+    let mut reason = (is_undecided && target.is_none() && whole.count() > 1 && whole.min() == whole.max())
+        .then(|| "all values are equal, and a rare event would not show".to_owned());
+    let mut note = (target.is_none() && whole.largest_share(2) > MOST_SHARE)
+        .then(|| format!("heavy tail: one run makes {:.0}% of the variance", 100.0 * whole.largest_share(2)));
     // a mean over all runs is not known where a run has no value
     let missing = if target.is_none() { runs - whole.count() } else { 0 };
     if missing > 0 {
         gate.decision = Decision::Fail;
         reason = Some(format!("{missing} runs without a value violate it"));
     }
-    if matches!(population, Population::Dependent(_) | Population::Chosen(_) | Population::Nominal) {
+    if !population.has_intervals() {
         gate = Gate { decision: Decision::Undecided(None), bounds: [f64::NAN; 2], ..gate };
         reason = Some(format!("intervals: {}", population.intervals()));
+        note = None;
     } else if runs == 0 {
         reason = Some("there are no runs that count".to_owned());
     }
-    let value = match requirement.statement {
-        Statement::Quantile(p) => counts.sketch.ranks().quantile(p),
-        Statement::Mean => whole.mean(),
-        Statement::Fraction(_) => None,
-    };
+    let value = matches!(requirement.statement, Statement::Mean).then(|| whole.mean()).flatten();
     Assessment {
         requirement: requirement.clone(),
         confidences,
@@ -234,21 +251,19 @@ fn assessment(
         failed: counts.failed,
         worst: None,
         reason,
+        note,
     }
 }
 
 /// The gate on the fraction of runs within the limit.
 fn of_fraction(counts: &Counts, target: f64, confidence: f64, population: Population) -> Gate {
     let (runs, within) = (counts.sum(|group| group.runs), counts.sum(|group| group.within));
-    let binomial = fraction_gate(within, runs, target, confidence);
-    let groups = counts.groups.iter().filter(|group| group.runs > 0);
-    let fractions: Vec<f64> = groups.map(|group| group.within as f64 / group.runs as f64).collect();
-    // replicates that all agree say nothing of their spread: then counts alone decide
-    let is_spread = fractions.windows(2).any(|pair| pair[0] != pair[1]);
-    match population {
-        Population::Replicated(_) if is_spread => replicate_gate(&fractions, runs, Limit::AtLeast(target), confidence),
-        _ => binomial,
+    if let Population::Replicated(_) = population {
+        let groups = counts.groups.iter().filter(|group| group.runs > 0);
+        let fractions: Vec<f64> = groups.map(|group| group.within as f64 / group.runs as f64).collect();
+        return replicate_fraction_gate(&fractions, runs, target, confidence);
     }
+    fraction_gate(within, runs, target, confidence)
 }
 
 /// The gate on the mean.
@@ -256,7 +271,7 @@ fn of_mean(counts: &Counts, whole: &Moments, limit: Limit, confidence: f64, popu
     match population {
         Population::Replicated(_) => {
             let means: Vec<f64> = counts.groups.iter().filter_map(|group| group.moments.mean()).collect();
-            replicate_gate(&means, whole.count(), limit, confidence)
+            replicate_mean_gate(&means, whole, limit, confidence)
         }
         _ => mean_gate(whole, limit, confidence),
     }
@@ -277,7 +292,6 @@ mod tests {
         for (runs, within, values) in groups {
             let moments = Moments::of_block(values);
             counts.groups.push(Counted { runs: *runs, within: *within, moments });
-            counts.sketch.add_all(values);
         }
         counts
     }
@@ -287,40 +301,46 @@ mod tests {
     fn counts_decide() {
         let p95 = requirement(Statement::Quantile(0.95), Limit::AtMost(1.0));
         let of = |runs, within| {
-            let counts = counts(&[(runs, within, &[0.5])]);
-            assessment((&p95, [0.95; 2]), "J".to_owned(), &counts, Population::Independent)
+            let counts = counts(&[(runs, within, &[])]);
+            assessment((&p95, [0.95; 2]), "J".to_owned(), &counts, Population::Independent, false)
         };
         let found = of(59, 59);
-        assert_eq!((found.word(), found.value), ("PASS", Some(0.5)));
+        assert_eq!(found.word(), "PASS");
         assert_eq!(found.sentence(), "p95 of x at most 1.0 J, with 95% confidence");
         assert_eq!((of(58, 58).word(), of(59, 58).word(), of(59, 10).word()), ("UNDECIDED", "UNDECIDED", "FAIL"));
         assert_eq!(of(58, 58).gate.decision, Decision::Undecided(Some(59)));
         assert_eq!(of(0, 0).reason.as_deref(), Some("there are no runs that count"));
     }
 
-    /// Law: a run without a value violates a requirement on the mean; designs without a population decide nothing.
+    /// Law: a run without a value violates a requirement on the mean; designs without a population decide nothing, nor do equal values of
+    /// an observable that need not be constant.
     #[test]
     fn what_numbers_cannot_say_is_not_decided_by_them() {
         let mean = requirement(Statement::Mean, Limit::AtMost(9.0));
         let of = |runs, population| {
-            let counts = counts(&[(runs, runs, &[1.0, 2.0, 3.0])]);
-            assessment((&mean, [0.95; 2]), String::new(), &counts, population)
+            let counts = counts(&[(runs, runs, &[1.0, 2.0, 3.0].repeat(10))]);
+            assessment((&mean, [0.95; 2]), String::new(), &counts, population, false)
         };
-        assert_eq!(of(3, Population::Independent).word(), "PASS");
-        let missing = of(4, Population::Independent);
+        assert_eq!(of(30, Population::Independent).word(), "PASS");
+        let missing = of(31, Population::Independent);
         assert_eq!((missing.word(), missing.reason.as_deref()), ("FAIL", Some("1 runs without a value violate it")));
         for population in [Population::Dependent("sobol"), Population::Chosen("grid"), Population::Nominal] {
-            let found = of(3, population);
+            let found = of(30, population);
             assert!(found.word() == "UNDECIDED" && found.reason.is_some_and(|reason| reason.contains("none")));
+        }
+        for (is_constant, word) in [(false, "UNDECIDED"), (true, "PASS")] {
+            let equal = counts(&[(100, 100, &[0.0; 100])]);
+            let found = assessment((&mean, [0.95; 2]), String::new(), &equal, Population::Independent, is_constant);
+            assert_eq!((found.word(), found.reason.is_some()), (word, !is_constant));
         }
     }
 
-    /// Law: replicates decide by their spread; where all agree, by counts.
+    /// Law: replicates decide by their spread, and by the least spread of counts where they agree.
     #[test]
     fn replicates_decide_by_their_spread() {
         let p90 = requirement(Statement::Fraction(0.9), Limit::AtMost(1.0));
         let of = |groups: &[(u64, u64, &[f64])]| {
-            assessment((&p90, [0.95; 2]), String::new(), &counts(groups), Population::Replicated(4)).word()
+            assessment((&p90, [0.95; 2]), String::new(), &counts(groups), Population::Replicated(4), false).word()
         };
         assert_eq!(of(&[(10, 10, &[]), (10, 10, &[]), (10, 10, &[]), (10, 10, &[])]), "PASS");
         assert_eq!(of(&[(2, 2, &[]), (2, 2, &[]), (2, 2, &[]), (2, 2, &[])]), "UNDECIDED");
@@ -330,7 +350,8 @@ mod tests {
         // 380 of 400 runs would show 90% if they were independent; one replicate of four misses it
         let spread: [(u64, u64, &[f64]); 4] = [(100, 100, &[]), (100, 100, &[]), (100, 100, &[]), (100, 80, &[])];
         assert_eq!(of(&spread), "UNDECIDED");
-        let independent = assessment((&p90, [0.95; 2]), String::new(), &counts(&spread), Population::Independent);
+        let independent =
+            assessment((&p90, [0.95; 2]), String::new(), &counts(&spread), Population::Independent, false);
         assert_eq!(independent.word(), "PASS", "the counter-test");
     }
 }

@@ -39,10 +39,15 @@ pub struct ObservableLine {
     pub without_value: u64,
     /// Mean.
     pub mean: Option<f64>,
-    /// Its interval, where one holds.
-    pub mean_interval: Option<[f64; 2]>,
+    /// Ends of its interval; null where the runs do not bound it, or no interval holds.
+    pub mean_interval: [Option<f64>; 2],
     /// Standard deviation, with n - 1.
     pub standard_deviation: Option<f64>,
+    /// Ends of its interval; null as for the mean.
+    pub standard_deviation_interval: [Option<f64>; 2],
+    /// What keeps the runs from telling mean and standard deviation.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mean_note: Option<String>,
     /// Skewness.
     pub skewness: Option<f64>,
     /// Minimum.
@@ -76,6 +81,8 @@ impl ObservableLine {
             mean: finite(column.moments.mean()),
             mean_interval: column.mean_interval,
             standard_deviation: finite(column.moments.standard_deviation()),
+            standard_deviation_interval: column.deviation_interval,
+            mean_note: column.note.clone(),
             skewness: finite(column.moments.skewness()),
             min: finite(column.moments.min()),
             max: finite(column.moments.max()),

@@ -66,9 +66,17 @@ pub fn runs_needed(runs: &str) -> String {
 fn finding(one: &Assessment) -> String {
     let [lower, upper] = one.gate.bounds;
     let in_percent = |fraction: f64| format!("{:.4}%", 100.0 * fraction);
-    let bounds = |show: &dyn Fn(f64) -> String| match lower.is_nan() {
-        true => String::new(),
-        false => format!(", between {} and {}", show(lower), show(upper)),
+    let bounds = |show: &dyn Fn(f64) -> String| {
+        let shown = |end: f64| if end.is_finite() { show(end) } else { "no bound".to_owned() };
+        match lower.is_finite() || upper.is_finite() {
+            false => String::new(),
+            true => format!(
+                ", between {} and {} (each bound with {}% confidence)",
+                shown(lower),
+                shown(upper),
+                percent(one.confidences[0])
+            ),
+        }
     };
     let found = match one.requirement.statement {
         Statement::Mean => format!("mean {}{}", short(one.gate.estimate), bounds(&short)),
@@ -99,7 +107,8 @@ fn finding(one: &Assessment) -> String {
         ),
         false => String::new(),
     };
-    format!("{found}{alone}{needed}")
+    let note = one.note.as_ref().map_or_else(String::new, |note| format!("; {note}"));
+    format!("{found}{alone}{needed}{note}")
 }
 
 /// The values of `summary.json`.
@@ -141,13 +150,14 @@ pub fn json(verdicts: &Verdicts) -> Value {
             "confidence_of_pass_and_bounds": one.confidences[0],
             "confidence_of_fail": one.confidences[1],
             "estimate": finite(one.gate.estimate),
-            "bounds": one.gate.bounds.map(finite),
+            "one_sided_bounds": one.gate.bounds.map(finite),
             "value": one.value.and_then(finite),
             "runs": one.runs,
             "violations": one.violations,
             "failed_runs": one.failed,
             "runs_that_would_decide": needed,
             "reason": one.reason,
+            "note": one.note,
         })
     };
     json!({

@@ -18,6 +18,12 @@ fn exit_codes() {
     let fail = require("fraction = 0.5", "at_most = 1e-30");
     let undecided = require("quantile = 0.9999", "at_most = 1e-9");
     let mean = require("mean = true", "at_most = 1e-9");
+    // a hundred zeros may hide a rare one; a constant hides nothing
+    let derived = |expression: &str| {
+        let observable = format!("[[observable]]\nname = \"flag\"\nexpression = \"{expression}\"\n");
+        observable + &mean.replace("energy_error_max", "flag")
+    };
+    let [equal, constant] = ["if(initial.angular_velocity_rad_s.x > 1e9, 1, 0)", "0"].map(derived);
     // a hundred steps are too few for some of the runs
     let stuck = campaign().replace("tolerance = 1e-10", "tolerance = 1e-10\nmax_steps = 1");
     let thin = campaign() + NEGATIVE_WALLS;
@@ -38,6 +44,8 @@ fn exit_codes() {
         ("foreign folder", campaign(), "--out foreign", 4),
         ("foreign folder and a failed requirement", [campaign(), fail].concat(), "--out foreign", 4),
         ("undecided", [campaign(), pass, undecided.clone()].concat(), "", 5),
+        ("equal values", campaign() + &equal, "", 5),
+        ("a constant", campaign() + &constant, "", 0),
         ("undecided, and runs failed", [thin, undecided].concat(), "", 5),
         ("no interval", campaign() + "[design]\nkind = \"sobol\"\n" + &require("quantile = 0.5", "at_most = 1"), "", 5),
     ];

@@ -6,6 +6,7 @@ mod support;
 mod arcs;
 mod bootstrap;
 mod coverage;
+mod coverage_of_means;
 mod dependence;
 mod designs;
 mod dispersable;

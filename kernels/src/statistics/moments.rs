@@ -109,6 +109,20 @@ impl Moments {
         (self.count > 1 && self.m2 > 0.0).then_some(skewness)
     }
 
+    /// The kurtosis m_4/m_2^2 (with n; 3 for normal numbers); `None` where all numbers are alike.
+    pub fn kurtosis(&self) -> Option<f64> {
+        (self.count > 1 && self.m2 > 0.0).then(|| self.count as f64 * self.m4 / (self.m2 * self.m2))
+    }
+
+    /// The part of the sum of the squares (`power` 2) or of the fourth powers (4) of all deviations from the mean that the number farthest
+    /// from it makes; 0 where all numbers are alike.
+    pub fn largest_share(&self, power: u8) -> f64 {
+        let farthest = (self.max - self.mean).max(self.mean - self.min);
+        let square = farthest * farthest;
+        let (part, sum) = if power == 2 { (square, self.m2) } else { (square * square, self.m4) };
+        if sum > 0.0 { (part / sum).min(1.0) } else { 0.0 }
+    }
+
     /// Standard error of the mean of independent numbers, s/sqrt(n); `None` for fewer than two.
     pub fn mean_error(&self) -> Option<f64> {
         Some(self.standard_deviation()? / libm::sqrt(self.count as f64))
@@ -216,6 +230,10 @@ mod tests {
         let m3: f64 = [1.0, 2.0, 4.0, 8.0].iter().map(|x| (x - 3.75) * (x - 3.75) * (x - 3.75)).sum();
         close(moments.skewness(), 2.0 * m3 / libm::pow(28.75, 1.5));
         assert_eq!((moments.count(), moments.min(), moments.max()), (4, Some(1.0), Some(8.0)));
+        let m4: f64 = [1.0, 2.0, 4.0, 8.0].iter().map(|x| (x - 3.75) * (x - 3.75) * (x - 3.75) * (x - 3.75)).sum();
+        close(moments.kurtosis(), 4.0 * m4 / (28.75 * 28.75));
+        close(Some(moments.largest_share(2)), 4.25 * 4.25 / 28.75);
+        close(Some(moments.largest_share(4)), libm::pow(4.25, 4.0) / m4);
     }
 
     #[test]

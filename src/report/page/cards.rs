@@ -3,8 +3,9 @@
 use crate::report::page::influence::Influence;
 use crate::report::page::payload::escaped;
 use crate::report::page::readable::{number, with_unit};
-use crate::report::page::shown_columns::{CONFIDENCE, interval, words};
+use crate::report::page::shown_columns::words;
 use crate::report::page::survey::{Outcome, Survey};
+use crate::report::page::tables::StatisticsRow;
 
 /// How a requirement was judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,8 +69,10 @@ pub struct Card {
     pub estimate: f64,
     /// The ends of its interval; NaN where the runs do not bound it.
     pub interval: [f64; 2],
-    /// The confidence of the interval.
+    /// The confidence of the interval, or of each of its ends.
     pub confidence: f64,
+    /// Whether the ends are bounds that hold with the confidence one by one, and not both together.
+    pub is_one_sided: bool,
     /// The limit, and whether it is an upper one.
     pub limit: Option<(f64, bool)>,
     /// Unit of estimate and limit.
@@ -80,8 +83,9 @@ pub struct Card {
     pub drivers: String,
 }
 
-/// Cards of a campaign without requirements: drift of energy and of momentum, numerical error.
-pub fn findings(survey: &Survey, has_intervals: bool, influences: &[Influence]) -> Vec<Card> {
+/// Cards of a campaign without requirements: drift of energy and of momentum, numerical error; with the quantiles of the table `statistics`
+/// at the bottom of the page.
+pub fn findings(survey: &Survey, statistics: &[StatisticsRow], influences: &[Influence]) -> Vec<Card> {
     const FOUND: [(&str, &str); 3] = [
         ("energy_error_max", "Energy drift"),
         ("angular_momentum_error_max", "Momentum drift"),
@@ -89,40 +93,41 @@ pub fn findings(survey: &Survey, has_intervals: bool, influences: &[Influence]) 
     ];
     let card = |(name, title): (&str, &str)| {
         let (_, outcome) = survey.outcome(name)?;
-        Some(finding(outcome, title, has_intervals, driven_by(name, influences)))
+        let row = statistics.iter().find(|row| row.name == name);
+        Some(finding(outcome, row, title, driven_by(name, influences)))
     };
     FOUND.into_iter().filter_map(card).collect()
 }
 
-fn finding(outcome: &Outcome, title: &str, has_intervals: bool, drivers: String) -> Card {
+fn finding(outcome: &Outcome, row: Option<&StatisticsRow>, title: &str, drivers: String) -> Card {
     const P: f64 = 0.99;
-    let estimate = outcome.sketch.quantile(P).unwrap_or(f64::NAN);
-    let interval = if has_intervals && outcome.sketch.count() > 1 {
-        interval(&outcome.sketch, P, CONFIDENCE)
-    } else {
-        [f64::NAN; 2]
-    };
     let runs = outcome.sketch.count();
+    // the plan may have other quantiles: the highest of them that is not above
+    let quantiles = row.map_or(&[][..], |row| &row.quantiles);
+    let quantile = quantiles.iter().rfind(|quantile| quantile[0] <= P).or(quantiles.first());
+    let [p, estimate, low, high] = quantile.copied().unwrap_or([P, f64::NAN, f64::NAN, f64::NAN]);
+    let percent = number(100.0 * p);
     let what = words(&outcome.quantity);
     let text = |value: f64| with_unit(value, outcome.quantity.unit());
-    let statistic = if runs > 1 { "99%-quantile" } else { "value" };
+    let statistic = if runs > 1 { format!("{percent}%-quantile") } else { "value".to_owned() };
     let (sentence, note) = if runs == 0 {
         ("No dispersed run ended ok: nothing can be said.".to_owned(), String::new())
     } else if runs == 1 {
         (format!("The only run that is ok: {what} {}.", text(estimate)), String::new())
     } else {
         let sentence = format!(
-            "99% of the runs keep the {what} below {}; the largest is {}.",
+            "{percent}% of the runs keep the {what} below {}; the largest is {}.",
             text(estimate),
             text(outcome.sketch.max().unwrap_or(f64::NAN))
         );
-        let unbounded = has_intervals && !interval[1].is_finite();
-        let note = if unbounded {
-            format!("{runs} runs do not bound the 99%-quantile from above with 95% confidence.")
-        } else if has_intervals {
-            String::new()
-        } else {
-            "The design's runs are not independent: no interval.".to_owned()
+        let confidence = row.map_or(f64::NAN, |row| row.confidence);
+        let note = match confidence.is_nan() {
+            true => "The design's runs are not independent: no interval.".to_owned(),
+            false if !high.is_finite() => format!(
+                "{runs} runs do not bound the {statistic} from above with {}% confidence.",
+                number(100.0 * confidence)
+            ),
+            false => String::new(),
         };
         (sentence, note)
     };
@@ -130,10 +135,11 @@ fn finding(outcome: &Outcome, title: &str, has_intervals: bool, drivers: String)
         judged: Judged::Finding,
         quantity: title.to_owned(),
         sentence,
-        statistic: statistic.to_owned(),
+        statistic,
         estimate,
-        interval,
-        confidence: CONFIDENCE,
+        interval: [low, high],
+        confidence: row.map_or(f64::NAN, |row| row.confidence),
+        is_one_sided: false,
         limit: None,
         unit: outcome.quantity.unit().to_owned(),
         note,
@@ -170,10 +176,15 @@ impl Card {
             }
         };
         if self.estimate.is_finite() {
-            let ends = self.interval.map(|end| if end.is_finite() { number(end) } else { "not bounded".to_owned() });
+            let shown = |end: f64| if end.is_finite() { with_unit(end, &self.unit) } else { "not bounded".to_owned() };
+            let ends = self.interval.map(shown);
             let confidence = number(100.0 * self.confidence);
             let interval = if self.interval.iter().any(|end| end.is_finite()) {
-                format!(" ({confidence}% interval: {} to {})", ends[0], ends[1])
+                if self.is_one_sided {
+                    format!(" (bounds: {} and {}, each with {confidence}% confidence)", ends[0], ends[1])
+                } else {
+                    format!(" ({confidence}% interval: {} to {})", ends[0], ends[1])
+                }
             } else {
                 String::new()
             };
@@ -264,6 +275,7 @@ mod tests {
             estimate,
             interval,
             confidence: 0.95,
+            is_one_sided: false,
             limit,
             unit: "J".to_owned(),
             note: String::new(),
@@ -284,6 +296,11 @@ mod tests {
         for (index, judged) in all.into_iter().enumerate() {
             assert!(all[index + 1..].iter().all(|other| other.shape() != judged.shape()));
         }
+        // two bounds that each hold with 95% are an interval of 90%; the ends have the unit of the estimate
+        let two_sided = card(Judged::Pass, 0.0, [0.0, 0.1497], None);
+        let one_sided = Card { is_one_sided: true, ..two_sided.clone() };
+        assert!(two_sided.html().contains("95% interval") && !one_sided.html().contains("95% interval"));
+        assert!([two_sided, one_sided].iter().all(|card| card.html().contains("0.1497\u{a0}J")));
         let empty = card(Judged::Finding, f64::NAN, [f64::NAN; 2], None).html();
         assert!(!empty.contains("NaN") && !empty.contains("<circle class=\"dot\""), "{empty}");
         assert!(!card(Judged::Pass, 0.0, [0.0; 2], Some((0.0, true))).html().contains("NaN"));

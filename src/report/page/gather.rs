@@ -10,15 +10,15 @@ use crate::dataset::statistics::{ColumnStatistics, QuantileStatistic, Statistics
 use crate::dataset::stopping::Stopping;
 use crate::dataset::verdicts::Verdicts;
 use crate::ensemble::{Bands, Ensemble};
+use crate::report::page::Contents;
 use crate::report::page::cards::{Card, Judged, driven_by};
 use crate::report::page::errors::sentence;
 use crate::report::page::influence::Influence;
 use crate::report::page::over_time::TimeBands;
 use crate::report::page::readable::{grouped, number, with_unit};
-use crate::report::page::shown_columns::{interval, words};
+use crate::report::page::shown_columns::words;
 use crate::report::page::survey::Survey;
 use crate::report::page::tables::StatisticsRow;
-use crate::report::page::{Contents, is_independent};
 use crate::report::requirements::{runs_needed, together};
 use crate::report::stopping_text;
 use crate::statistics::binomial::Decision;
@@ -75,9 +75,9 @@ impl Contents {
                 .columns
                 .iter()
                 .filter(|column| column.moments.count() > 0)
-                .map(row)
+                .map(|column| row(column, analysis.statistics))
                 .collect(),
-            verdicts: verdicts.iter().map(|one| card(plan, one, &survey, &influences)).collect(),
+            verdicts: verdicts.iter().map(|one| card(one, &survey, analysis.statistics, &influences)).collect(),
             survey,
             influences,
             said,
@@ -99,7 +99,7 @@ fn time_bands(bands: &Bands) -> Vec<TimeBands> {
     series.filter(|series| series.quantiles[2].iter().any(|value| value.is_finite())).collect()
 }
 
-fn row(column: &ColumnStatistics) -> StatisticsRow {
+fn row(column: &ColumnStatistics, statistics: &Statistics) -> StatisticsRow {
     let or_nan = |value: Option<f64>| value.unwrap_or(f64::NAN);
     let quantile =
         |one: &QuantileStatistic| [one.p, or_nan(one.value), or_nan(one.interval[0]), or_nan(one.interval[1])];
@@ -112,6 +112,7 @@ fn row(column: &ColumnStatistics) -> StatisticsRow {
         deviation: or_nan(column.moments.standard_deviation()),
         min: or_nan(column.moments.min()),
         max: or_nan(column.moments.max()),
+        confidence: if statistics.population.has_intervals() { statistics.confidence } else { f64::NAN },
         quantiles: column.quantiles.iter().map(quantile).collect(),
     }
 }
@@ -180,7 +181,7 @@ fn meaning(plan: &Plan, first: &InputSensitivity, all: &[InputSensitivity]) -> S
 }
 
 /// The card of a requirement.
-fn card(plan: &Plan, one: &Assessment, survey: &Survey, influences: &[Influence]) -> Card {
+fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: &[Influence]) -> Card {
     let requirement = &one.requirement;
     let outcome = requirement.observable().and_then(|name| survey.outcome(name)).map(|(_, outcome)| outcome);
     let of_run = outcome.filter(|_| requirement.band().is_none());
@@ -215,7 +216,7 @@ fn card(plan: &Plan, one: &Assessment, survey: &Survey, influences: &[Influence]
         notes.push(format!("{} runs that are not ok count as violations.", grouped(one.failed)));
     }
     match (&one.reason, one.gate.decision) {
-        (Some(reason), _) => notes.push(format!("{reason}.")),
+        (Some(reason), _) => notes.push(format!("{}.", crate::report::page::errors::sentence(reason))),
         (None, Decision::Undecided(Some(runs))) => {
             notes.push(format!("{}.", sentence(&runs_needed(&grouped(runs)))));
         }
@@ -227,8 +228,9 @@ fn card(plan: &Plan, one: &Assessment, survey: &Survey, influences: &[Influence]
     let (statistic, estimate, ends, limit, unit) = match requirement.statement {
         Statement::Mean => ("mean".to_owned(), one.gate.estimate, one.gate.bounds, limit, one.unit.clone()),
         Statement::Quantile(p) => {
-            let ends = outcome.filter(|_| is_independent(plan));
-            let ends = ends.map_or([f64::NAN; 2], |outcome| interval(&outcome.sketch, p, requirement.confidence));
+            let quantile =
+                requirement.observable().and_then(|name| statistics.required(name, p, requirement.confidence));
+            let ends = quantile.map_or([None; 2], |quantile| quantile.interval).map(|end| end.unwrap_or(f64::NAN));
             (format!("{}%-quantile", percent(p)), one.value.unwrap_or(f64::NAN), ends, limit, one.unit.clone())
         }
         Statement::Fraction(fraction) => {
@@ -242,6 +244,7 @@ fn card(plan: &Plan, one: &Assessment, survey: &Survey, influences: &[Influence]
             )
         }
     };
+    notes.extend(one.note.as_ref().map(|note| format!("{}.", crate::report::page::errors::sentence(note))));
     let is_fraction = matches!(requirement.statement, Statement::Fraction(_));
     Card {
         judged: match one.gate.decision {
@@ -254,7 +257,11 @@ fn card(plan: &Plan, one: &Assessment, survey: &Survey, influences: &[Influence]
         statistic,
         estimate,
         interval: ends,
-        confidence: requirement.confidence,
+        confidence: match requirement.statement {
+            Statement::Quantile(_) => requirement.confidence,
+            _ => one.confidences[0],
+        },
+        is_one_sided: !matches!(requirement.statement, Statement::Quantile(_)),
         limit: Some((limit, is_upper && !is_fraction)),
         unit,
         note: notes.join(" "),

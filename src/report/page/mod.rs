@@ -107,7 +107,7 @@ impl Page {
             "pairs": pairs(plan, survey, &mut payload),
         });
         let cards = if contents.verdicts.is_empty() {
-            cards::findings(survey, has_intervals, &contents.influences)
+            cards::findings(survey, &contents.statistics, &contents.influences)
         } else {
             contents.verdicts.clone()
         };

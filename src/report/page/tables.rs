@@ -29,6 +29,8 @@ pub struct StatisticsRow {
     pub min: f64,
     /// Largest.
     pub max: f64,
+    /// Confidence of the intervals; NaN where the design has none.
+    pub confidence: f64,
     /// Probability, quantile, lower and upper end of its interval (NaN where N does not bound it).
     pub quantiles: Vec<[f64; 4]>,
 }
@@ -47,6 +49,14 @@ pub fn statistics(rows: &[StatisticsRow]) -> String {
     let Some(first) = rows.first() else { return "<p>No run is ok: there are no statistics.</p>".to_owned() };
     let heads: String =
         first.quantiles.iter().map(|quantile| format!("<th>{}%</th>", number(100.0 * quantile[0]))).collect();
+    let confidence = number(100.0 * first.confidence);
+    let caption = if first.confidence.is_nan() {
+        "The design has no intervals".to_owned()
+    } else {
+        format!(
+            "The number of runs does not bound this quantile from both sides with {confidence}% confidence; the interval of others appears on hover"
+        )
+    };
     let mut body = String::new();
     for row in rows {
         let quantile = |[_, value, low, high]: &[f64; 4]| {
@@ -55,7 +65,7 @@ pub fn statistics(rows: &[StatisticsRow]) -> String {
             }
             let ends = [low, high].map(|end| if end.is_finite() { number(*end) } else { "not bounded".to_owned() });
             let interval = if low.is_finite() || high.is_finite() {
-                format!(" title=\"95% interval: {} to {}\"", ends[0], ends[1])
+                format!(" title=\"{confidence}% interval: {} to {}\"", ends[0], ends[1])
             } else {
                 String::new()
             };
@@ -76,7 +86,7 @@ pub fn statistics(rows: &[StatisticsRow]) -> String {
         );
     }
     format!(
-        "<div class=\"table\" tabindex=\"0\"><table class=\"sortable searchable\"><thead><tr><th>observable</th><th>unit</th><th>runs</th><th>mean</th><th>std. dev.</th><th>min</th>{heads}<th>max</th></tr></thead><tbody>\n{body}</tbody></table></div><p class=\"caption\">Of the dispersed runs that are ok. <sup>*</sup> The number of runs does not bound this quantile from both sides with 95% confidence, or the design has no interval; the interval of others appears on hover.</p>\n"
+        "<div class=\"table\" tabindex=\"0\"><table class=\"sortable searchable\"><thead><tr><th>observable</th><th>unit</th><th>runs</th><th>mean</th><th>std. dev.</th><th>min</th>{heads}<th>max</th></tr></thead><tbody>\n{body}</tbody></table></div><p class=\"caption\">Of the dispersed runs that are ok. <sup>*</sup> {caption}.</p>\n"
     )
 }
 
