@@ -150,7 +150,7 @@ pub fn json(verdicts: &Verdicts) -> Value {
             "confidence_of_pass_and_bounds": one.confidences[0],
             "confidence_of_fail": one.confidences[1],
             "estimate": finite(one.gate.estimate),
-            "one_sided_bounds": one.gate.bounds.map(finite),
+            "bounds": one.gate.bounds.map(finite),
             "value": one.value.and_then(finite),
             "runs": one.runs,
             "violations": one.violations,
