@@ -33,6 +33,7 @@ use crate::ensemble::Ensemble;
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::runner::threads;
 use crate::report::audit_summary::cost;
+use crate::report::drivers_text;
 use crate::report::number::bytes;
 use crate::report::summary::Summary;
 
@@ -102,8 +103,9 @@ pub fn complete(job: &Finishing<'_>, counted: Option<Counted>) -> Result<(Comman
         _ => String::new(),
     };
     let text = format!(
-        "{}\n{summary}{audits}\n{}\n  {}: {} file{} of rows, {}\n",
+        "{}\n{summary}{audits}{}\n{}\n  {}: {} file{} of rows, {}\n",
         headline(plan, &summary, job.made),
+        drivers_text::text(plan, &analysed.sensitivities),
         summary.replay(job.replayed),
         job.root.display(),
         records.len(),

@@ -14,11 +14,10 @@ use crate::observables::headlines::headlines;
 use crate::run::Status;
 use crate::sampling::Design;
 use crate::statistics::correlation::{
-    Estimate, ascending_order, matrix, mid_ranks, mid_ranks_in_order, pearson, pearson_interval, spearman_interval,
-    standardised,
+    Estimate, ascending_order, correlation, matrix, mid_ranks, mid_ranks_in_order, standardised,
 };
-use crate::statistics::regression::{Regressors, independent_inputs, r_squared_interval};
-use crate::statistics::sensitivity::{Block, first_order_index_in_order, saltelli_indices};
+use crate::statistics::regression::{Regression, Regressors, independent_inputs};
+use crate::statistics::sensitivity::{Block, Samples, first_order_index_in_order, saltelli_indices};
 
 /// Most rows for observables that a campaign file names.
 pub const MOST_ROWS: usize = 65_536;
@@ -28,6 +27,10 @@ const FEWER_ROWS: usize = 16_384;
 const NOTABLE_CORRELATION: f64 = 0.05;
 /// Standard deviations of a chance correlation, beyond which it is none: of 10,000 pairs one passes by chance in a thousand campaigns.
 const CHANCE: f64 = 5.5;
+
+/// Blocks of a `saltelli` design from which on its 95% intervals cover at least 0.9. Fewer blocks of a scrambled sequence may all lie on one side:
+/// measured 0.5 for the sum of five inputs and 16 blocks.
+const ENOUGH_BLOCKS: usize = 64;
 
 /// What one input means for one observable. What does not apply is `None`.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -46,7 +49,7 @@ pub struct InputSensitivity {
     pub partial_rank: Option<Estimate>,
     /// Standardised regression coefficient.
     pub regression: Option<Estimate>,
-    /// Share of the variance that the regression on all inputs explains.
+    /// Share of the variance that the regression on all inputs explains, corrected for their number.
     pub r_squared: Option<Estimate>,
     /// First-order index: share of the variance that this input explains alone.
     pub first_order: Option<Estimate>,
@@ -56,6 +59,41 @@ pub struct InputSensitivity {
     pub correlated_with: Option<(String, f64)>,
     /// What to know about these numbers.
     pub note: Option<String>,
+}
+
+impl InputSensitivity {
+    /// How strongly the input acts on the observable, as a share of its variance: the total index, where the design gives it; else the larger
+    /// one of the first-order index and of the squared rank correlation, of those whose interval is above zero where one is.
+    ///
+    /// The first-order index alone sees that |x| matters where positive and negative x do the same, the rank correlation weak monotone influences.
+    pub fn influence(&self) -> Option<Estimate> {
+        let squared = self.spearman.map(|r| {
+            let [lower, upper] = [r.lower * r.lower, r.upper * r.upper];
+            let least = if r.lower * r.upper < 0.0 { 0.0 } else { lower.min(upper) };
+            let ends = if lower.is_nan() { [f64::NAN; 2] } else { [least, lower.max(upper)] };
+            Estimate { value: r.value * r.value, lower: ends[0], upper: ends[1] }
+        });
+        let rank = |one: &Estimate, other: &Estimate| {
+            (one.lower > 0.0).cmp(&(other.lower > 0.0)).then(one.value.total_cmp(&other.value))
+        };
+        self.total.or_else(|| [self.first_order, squared].into_iter().flatten().max_by(rank))
+    }
+
+    /// Whether the observable rises (or falls) with the input; `None` where the rows do not show it.
+    pub fn rises(&self) -> Option<bool> {
+        self.spearman.filter(|r| r.lower * r.upper > 0.0).map(|r| r.value > 0.0)
+    }
+}
+
+/// The inputs that drive `observable` by [`InputSensitivity::influence`], the strongest first: those whose interval is above zero; where a design
+/// gives no intervals, those of more than a hundredth of the variance. What the screen and the page say follows from this alone.
+pub fn drivers<'a>(all: &'a [InputSensitivity], observable: &str) -> Vec<(&'a InputSensitivity, Estimate)> {
+    let of = all.iter().filter(|one| one.observable == observable);
+    let mut found: Vec<_> = of.filter_map(|one| Some((one, one.influence()?))).collect();
+    let has_interval = |one: &Estimate| !(one.lower.is_nan() && one.upper.is_nan());
+    found.retain(|(_, influence)| influence.lower > 0.0 || !has_interval(influence) && influence.value > 0.01);
+    found.sort_by(|a, b| b.1.value.total_cmp(&a.1.value));
+    found
 }
 
 /// The names of the observables, and how many rows they are from.
@@ -214,12 +252,16 @@ impl Prepared {
         let population = Population::of(plan);
         let (scaled, ranked) = (standardised(y), standardised(&mid_ranks(y)));
         let varies = scaled.iter().any(|value| *value != 0.0);
-        let regress = |which: usize, y: &[f64]| {
-            let found = self.regressors[which].as_ref()?.regression(y, confidence);
-            found.filter(|_| varies)
+        fn regress<'a>(of: Option<&'a Regressors>, y: &'a [f64], varies: bool) -> Option<Regression<'a>> {
+            of.filter(|_| varies)?.regression(y)
+        }
+        let linear = regress(self.regressors[0].as_ref(), &scaled, varies);
+        let rank = regress(self.regressors[1].as_ref(), &ranked, varies);
+        let r_squared = linear.as_ref().map(|of| of.r_squared(confidence));
+        let samples = match plan.design {
+            Design::Sobol(_) | Design::Halton(_) => Samples::Even,
+            _ => Samples::Independent,
         };
-        let inputs = |which: usize| self.regressors[which].as_ref().map_or(0, Regressors::count);
-        let (linear, rank) = (regress(0, &scaled), regress(1, &ranked));
         let place = |which: usize, index: usize| {
             self.kept[which][index].then(|| self.kept[which][..index].iter().filter(|kept| **kept).count())
         };
@@ -231,30 +273,25 @@ impl Prepared {
         let of_input = |(index, name): (usize, &String)| {
             let input_varies = self.standardised[index].iter().any(|value| *value != 0.0);
             let is_asked = varies && input_varies && self.rows > 3;
-            let r = |x: &[f64], y: &[f64]| pearson(x, y);
-            let partial = rank
-                .as_ref()
-                .zip(place(1, index))
-                .map(|(rank, place)| spearman_interval(rank.partial[place], self.rows, inputs(1) - 1, confidence));
+            let correlated = |x: &[f64], y: &[f64]| is_asked.then(|| with_interval(correlation(x, y, 0, confidence)));
+            let partial = rank.as_ref().zip(place(1, index)).map(|(of, at)| of.partial(at, confidence));
+            let coefficient = linear.as_ref().zip(place(0, index)).map(|(of, at)| of.coefficient(at, confidence));
+            let (order, x) = (&self.orders[index], &self.values[index]);
             let correlated_with = self.correlated_with(index, names);
             InputSensitivity {
                 observable: observed.quantity.name().to_owned(),
                 input: name.clone(),
                 rows: self.rows as u64,
-                pearson: is_asked
-                    .then(|| pearson_interval(r(&self.standardised[index], &scaled), self.rows, 0, confidence))
-                    .map(with_interval),
-                spearman: is_asked
-                    .then(|| spearman_interval(r(&self.ranks[index], &ranked), self.rows, 0, confidence))
-                    .map(with_interval),
+                pearson: correlated(&self.standardised[index], &scaled),
+                spearman: correlated(&self.ranks[index], &ranked),
                 partial_rank: partial.map(with_interval),
-                regression: linear.as_ref().zip(place(0, index)).map(|(of, at)| of.coefficients[at]).map(with_interval),
-                r_squared: linear
-                    .as_ref()
-                    .map(|of| r_squared_interval(of.r_squared, self.rows, inputs(0), confidence))
-                    .map(with_interval),
-                first_order: first_order_index_in_order(&self.orders[index], &self.values[index], y, confidence)
-                    .map(with_interval),
+                // an end that the rows do not bound is none
+                regression: coefficient.map(with_interval).map(|of| {
+                    let [lower, upper] = [of.lower, of.upper].map(|end| if end.is_finite() { end } else { f64::NAN });
+                    Estimate { lower, upper, ..of }
+                }),
+                r_squared: r_squared.map(with_interval),
+                first_order: first_order_index_in_order(order, x, y, samples, confidence).map(with_interval),
                 total: None,
                 note: note(population, varies, input_varies, self.kept[0][index], correlated_with.as_ref()),
                 correlated_with,
@@ -286,10 +323,9 @@ fn note(
         ));
     }
     match population {
-        Population::Dependent(design) => {
-            notes.push(format!("intervals are those of independent samples, too wide for design \"{design}\""));
+        Population::Dependent(_) | Population::Replicated(_) => {
+            notes.push("intervals are those of independent samples, mostly too wide for this design".to_owned());
         }
-        Population::Replicated(_) => notes.push("intervals are those of independent samples, too wide".to_owned()),
         Population::Chosen(LISTED) => notes.push(format!("chosen samples ({LISTED}): no population, no interval")),
         Population::Chosen(design) => notes.push(format!("design \"{design}\": no population, no interval")),
         Population::Independent | Population::Nominal => {}
@@ -335,7 +371,10 @@ fn of_blocks(plan: &Plan, observed: &[Observed], table: &Table) -> Vec<InputSens
             let of_factor: Vec<Block> = blocks.iter().map(of_block).collect();
             let indices = if of_factor.len() > 1 { saltelli_indices(&of_factor, confidence) } else { None };
             let note = match indices {
-                Some(_) => "intervals are those of independent blocks, too wide for a scrambled sequence",
+                Some(_) if blocks.len() < ENOUGH_BLOCKS => {
+                    "fewer than 64 blocks: the intervals cover less often than stated"
+                }
+                Some(_) => "intervals are those of independent blocks, mostly too wide for a scrambled sequence",
                 None => "the observable does not vary, or there are fewer than two whole blocks",
             };
             found.push(InputSensitivity {
@@ -356,6 +395,38 @@ fn of_blocks(plan: &Plan, observed: &[Observed], table: &Table) -> Vec<InputSens
 mod tests {
     use super::*;
     use crate::dataset::small_plan::small_plan;
+
+    /// Law: the observable is driven by what its first-order index or its rank correlation shows, whichever is more, the strongest first; what
+    /// neither shows drives nothing; without intervals the values decide.
+    #[test]
+    fn drivers_are_what_either_measure_shows() {
+        let estimate = |value: f64, half: f64| Some(Estimate { value, lower: value - half, upper: value + half });
+        let of = |input: &str, first_order, spearman| InputSensitivity {
+            observable: "y".to_owned(),
+            input: input.to_owned(),
+            first_order,
+            spearman,
+            ..InputSensitivity::default()
+        };
+        let all = [
+            of("nothing", estimate(0.01, 0.1), estimate(-0.05, 0.1)),
+            of("falls", estimate(0.2, 0.1), estimate(-0.5, 0.1)),
+            of("magnitude", estimate(0.45, 0.1), estimate(0.01, 0.1)),
+            of("weak", estimate(0.5, 0.6), estimate(0.2, 0.1)),
+        ];
+        let names =
+            |all: &[InputSensitivity]| drivers(all, "y").iter().map(|(one, _)| one.input.clone()).collect::<Vec<_>>();
+        assert_eq!(names(&all), ["magnitude", "falls", "weak"]);
+        assert_eq!(all.each_ref().map(InputSensitivity::rises), [None, Some(false), None, Some(true)]);
+        let falls = all[1].influence().expect("an influence");
+        assert!((falls.value - 0.25).abs() < 1e-15 && (falls.lower - 0.16).abs() < 1e-15, "{falls:?}");
+        let chosen =
+            [of("x", estimate(0.3, f64::NAN), estimate(0.9, f64::NAN)), of("z", estimate(0.004, f64::NAN), None)];
+        assert_eq!(names(&chosen), ["x"]);
+        let total = [InputSensitivity { total: estimate(0.3, 0.1), ..of("x", estimate(0.9, 0.1), None) }];
+        assert_eq!(total[0].influence(), estimate(0.3, 0.1));
+        assert!(drivers(&all, "another").is_empty());
+    }
 
     /// Law: indices are of whole blocks only, one for each distribution, and say of how many rows. Known: y = x_1 + x_2 at the points A, A with
     /// x_1 of B, A with x_2 of B, and B.

@@ -21,12 +21,21 @@ const PARTS: [Part; 3] = [
 ];
 
 /// The measures.
-const MEASURES: [Measure; 7] = [
+const MEASURES: [Measure; 8] = [
+    (
+        "influence",
+        "How strongly the input acts, as a share of the variance: the total index, or the larger one of first-order index and squared rank correlation",
+        InputSensitivity::influence,
+    ),
     ("pearson", "Pearson's correlation coefficient", |one| one.pearson),
     ("spearman", "Spearman's rank correlation coefficient", |one| one.spearman),
     ("partial_rank", "Partial rank correlation coefficient, the other inputs held fixed", |one| one.partial_rank),
     ("regression", "Standardised regression coefficient", |one| one.regression),
-    ("r_squared", "Share of the variance that the regression on all inputs explains", |one| one.r_squared),
+    (
+        "r_squared",
+        "Share of the variance that the regression on all inputs explains, corrected for their number",
+        |one| one.r_squared,
+    ),
     ("first_order", "First-order sensitivity index, the share of the variance of this input alone", |one| {
         one.first_order
     }),

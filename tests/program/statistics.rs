@@ -177,3 +177,44 @@ fn designs_without_independent_samples_have_no_intervals() {
         assert_eq!(total.null_count() == total.len(), !design.contains("saltelli"), "{design}");
     }
 }
+
+/// Law: a magnitude of two numbers with mean zero is driven by both: the table, the screen and the card say so, in the same words. Its
+/// first-order index is 0.487 for each, its rank correlations are zero. 599 runs: the lower ends are above zero for any seed (0.3 on average, 0.36 wide).
+#[test]
+fn a_magnitude_is_driven_by_what_it_is_made_of() {
+    const SPIN: &str = r#"
+[[observable]]
+name = "cross_spin"
+unit = "rad/s"
+expression = "sqrt(initial.angular_velocity_rad_s.x^2 + (initial.angular_velocity_rad_s.y - 3.141592653589793)^2)"
+[[require]]
+observable = "cross_spin"
+at_most = 5.0
+quantile = 0.9
+"#;
+    let scratch = folder("statistics-drivers");
+    scratch.file("spin.toml", &(campaign() + SPIN));
+    let screen = scratch.prints("campaign spin.toml --out r", 0);
+    let inputs = scratch.table("r/sensitivity.parquet");
+    let name = |column: &str, row: usize| {
+        inputs.column_by_name(column).expect(column).as_string::<i32>().value(row).to_owned()
+    };
+    let rows: Vec<usize> = (0..inputs.num_rows()).filter(|row| name("observable", *row) == "cross_spin").collect();
+    let drives = |row: usize| number(&inputs, "influence_lower", row).expect("an interval") > 0.0;
+    let mut drivers: Vec<usize> = rows.into_iter().filter(|row| drives(*row)).collect();
+    drivers.sort_by(|a, b| {
+        let influence = |row: &usize| number(&inputs, "influence", *row).expect("a share");
+        influence(b).total_cmp(&influence(a))
+    });
+    let names: Vec<String> = drivers.iter().map(|row| name("input", *row)).collect();
+    for axis in ["x", "y"] {
+        assert!(names.contains(&format!("initial_angular_velocity_{axis}_rad_s")), "{names:?}");
+    }
+    let influence = number(&inputs, "influence", drivers[0]).expect("a share");
+    let words = format!("{} ({influence:.2}", names[0]);
+    let page = fs::read_to_string(scratch.path("r/report.html")).expect("a page");
+    let line = screen.lines().find(|line| line.trim_start().starts_with("cross_spin") && line.contains(&words));
+    let line = line.unwrap_or_else(|| panic!("{words}: {screen}"));
+    let drivers = line.trim_start().strip_prefix("cross_spin").expect("its name").trim();
+    assert!(page.contains(drivers) && drivers.contains(&names[1]), "{drivers}");
+}

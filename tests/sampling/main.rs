@@ -7,6 +7,7 @@ mod arcs;
 mod bootstrap;
 mod coverage;
 mod coverage_of_means;
+mod coverage_of_sensitivities;
 mod dependence;
 mod designs;
 mod dispersable;

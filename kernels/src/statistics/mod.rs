@@ -1,6 +1,6 @@
 //! Layer 2: statistics of many runs: pure functions of numbers.
 //!
-//! - [`moments`], [`quantile`], [`sketch`] (on [`carries`]), [`spread`]: what describes one column. - [`student`], [`mean`], [`binomial`], [`replicates`]: intervals.
+//! - [`moments`], [`quantile`], [`sketch`] (on [`carries`]), [`spread`]: what describes one column. - [`student`], [`mean`], [`jackknife`], [`binomial`], [`replicates`]: intervals.
 //! - [`gate`]: requirements decided. - [`looks`]: when to stop. - [`two_sample`]: two campaigns compared.
 //! - [`correlation`], [`regression`], [`sensitivity`]: which input matters.
 
@@ -9,6 +9,7 @@ pub mod carries;
 pub mod correlation;
 pub mod deviation;
 pub mod gate;
+pub mod jackknife;
 pub mod looks;
 pub mod mean;
 pub mod moments;

@@ -5,31 +5,15 @@
 //! coefficients are R^-1 r, and R^2 = r^T R^-1 r (N. R. Draper & H. Smith, *Applied Regression Analysis*, 1998, section 5.5). The
 //! same inverse gives the partial correlations (M. G. Kendall & A. Stuart, *The Advanced Theory of Statistics* 2, section 27.5).
 //! Applied to ranks it is the rank regression of R. L. Iman & W. J. Conover, *Technometrics* 21 (1979) 499.
+//!
+//! Intervals are those of the [`jackknife`](super::jackknife), by what the regression would be without a row (R. D. Cook & S. Weisberg,
+//! *Residuals and Influence in Regression*, 1982, (2.2.1)): of coefficients the scale of input and observable is estimated too, so that a sum
+//! without any rest has an interval. Inputs and rest may have any distribution.
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
-use super::correlation::{Estimate, product};
-use super::student::two_sided_quantile;
-
-/// A regression of one column on several.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Regression {
-    /// Standardised regression coefficient of each input.
-    pub coefficients: Vec<Estimate>,
-    /// Partial correlation of each input with the observable, the other inputs held fixed.
-    pub partial: Vec<f64>,
-    /// Share of the variance that the linear terms explain, R^2.
-    pub r_squared: f64,
-}
-
-/// The interval of R^2 from `count` rows and `inputs` inputs, for many rows (I. Olkin & J. D. Finn, *Psychol. Bull.* 118 (1995) 155).
-pub fn r_squared_interval(r_squared: f64, count: usize, inputs: usize, confidence: f64) -> Estimate {
-    let (n, k) = (count as f64, inputs as f64);
-    let rest = (1.0 - r_squared) * (n - k - 1.0).max(0.0);
-    let variance = 4.0 * r_squared * rest * rest / ((n * n - 1.0) * (n + 3.0));
-    let half = crate::math::normal::quantile(0.5 + 0.5 * confidence) * libm::sqrt(variance);
-    Estimate { value: r_squared, lower: (r_squared - half).max(0.0), upper: (r_squared + half).min(1.0) }
-}
+use super::correlation::{Estimate, correlation, influence, product};
+use super::jackknife;
 
 /// Which of the `inputs`, all [`standardised`](super::correlation::standardised), are no linear combination of those before them.
 pub fn independent_inputs(inputs: &[Vec<f64>]) -> Vec<bool> {
@@ -58,24 +42,36 @@ pub fn independent_inputs(inputs: &[Vec<f64>]) -> Vec<bool> {
 /// A pivot below this: the input is a linear combination of those before it. Correlations have about 1e-15.
 const SMALLEST_PIVOT: f64 = 1e-10;
 
-/// The regression of `y` on the `inputs`, all [`standardised`](super::correlation::standardised), with intervals at `confidence`.
-///
-/// `None` where the inputs are linearly dependent (a constant input included), or where there are not more rows than inputs and two.
-pub fn regression(inputs: &[Vec<f64>], y: &[f64], confidence: f64) -> Option<Regression> {
-    Regressors::new(inputs.to_vec())?.regression(y, confidence)
-}
-
 /// Inputs that are ready for the regression of any number of columns.
 #[derive(Clone, Debug)]
 pub struct Regressors {
     inputs: Vec<Vec<f64>>,
     inverse: DMatrix<f64>,
+    /// Of each input the part that the others do not have, over its sum of squares: sum_k C_jk x_k.
+    alone: Vec<Vec<f64>>,
+    /// How far each row is from the mean, 0 to 1: the part of its own value in what the regression gives for it.
+    leverages: Vec<f64>,
 }
 
 impl Regressors {
-    /// `inputs`, all [`standardised`](super::correlation::standardised); `None` where they are linearly dependent.
+    /// `inputs`, all [`standardised`](super::correlation::standardised); `None` where they are linearly dependent (a constant input included).
     pub fn new(inputs: Vec<Vec<f64>>) -> Option<Self> {
-        Some(Regressors { inverse: inverse(&super::correlation::matrix(&inputs))?, inputs })
+        let inverse = inverse(&super::correlation::matrix(&inputs))?;
+        let rows = inputs.first()?.len();
+        let mut leverages = vec![1.0 / rows as f64; rows];
+        let of_input = |input: usize| {
+            let mut alone = vec![0.0; rows];
+            for (other, x) in inputs.iter().enumerate() {
+                let factor = inverse[(input, other)];
+                alone.iter_mut().zip(x).for_each(|(alone, x)| *alone += factor * x);
+            }
+            alone
+        };
+        let alone: Vec<Vec<f64>> = (0..inputs.len()).map(of_input).collect();
+        for (x, alone) in inputs.iter().zip(&alone) {
+            leverages.iter_mut().zip(x.iter().zip(alone)).for_each(|(leverage, (x, alone))| *leverage += x * alone);
+        }
+        Some(Regressors { inputs, inverse, alone, leverages })
     }
 
     /// How many inputs there are.
@@ -83,34 +79,67 @@ impl Regressors {
         self.inputs.len()
     }
 
-    /// As [`regression()`].
-    pub fn regression(&self, y: &[f64], confidence: f64) -> Option<Regression> {
-        of_inverse(&self.inputs, &self.inverse, y, confidence)
+    /// The regression of `y`, [`standardised`](super::correlation::standardised); `None` where there are not more rows than inputs and one.
+    pub fn regression<'a>(&'a self, y: &'a [f64]) -> Option<Regression<'a>> {
+        if y.len() < self.count() + 2 {
+            return None;
+        }
+        let r = DVector::from_iterator(self.count(), self.inputs.iter().map(|x| product(x, y)));
+        let beta = &self.inverse * &r;
+        let mut rest = y.to_vec();
+        for (beta, x) in beta.iter().zip(&self.inputs) {
+            rest.iter_mut().zip(x).for_each(|(rest, x)| *rest -= beta * x);
+        }
+        Some(Regression { of: self, y, beta, rest })
     }
 }
 
-fn of_inverse(inputs: &[Vec<f64>], inverse: &DMatrix<f64>, y: &[f64], confidence: f64) -> Option<Regression> {
-    let count = inputs.len();
-    let freedom = y.len().checked_sub(count + 1).filter(|freedom| *freedom > 0)? as f64;
-    let r = DVector::from_iterator(count, inputs.iter().map(|x| product(x, y)));
-    let beta = inverse * &r;
-    let r_squared = beta.dot(&r).clamp(0.0, 1.0);
-    let t = two_sided_quantile(confidence, freedom);
-    let estimate = |j: usize| {
-        let half = t * libm::sqrt((1.0 - r_squared) / freedom * inverse[(j, j)]);
-        Estimate { value: beta[j], lower: beta[j] - half, upper: beta[j] + half }
-    };
-    // beta_j^2 / C_jj is the part of R^2 that input j adds to the others
-    let partial = |j: usize| {
-        let added = beta[j] / libm::sqrt(inverse[(j, j)]);
-        let whole = libm::sqrt(added * added + (1.0 - r_squared));
-        if whole > 0.0 { (added / whole).clamp(-1.0, 1.0) } else { 0.0 }
-    };
-    Some(Regression {
-        coefficients: (0..count).map(estimate).collect(),
-        partial: (0..count).map(partial).collect(),
-        r_squared,
-    })
+/// A regression of one column on several.
+#[derive(Clone, Debug)]
+pub struct Regression<'a> {
+    of: &'a Regressors,
+    y: &'a [f64],
+    beta: DVector<f64>,
+    rest: Vec<f64>,
+}
+
+impl Regression<'_> {
+    /// Standardised regression coefficient of `input`.
+    pub fn coefficient(&self, input: usize, confidence: f64) -> Estimate {
+        let (value, rows, alone) = (self.beta[input], self.y.len(), &self.of.alone[input]);
+        let influences = jackknife::spaced_rows(rows).map(|row| {
+            let change = alone[row] * self.rest[row] / (1.0 - self.of.leverages[row]);
+            influence(value, change, [self.of.inputs[input][row], self.y[row]], rows)
+        });
+        let [lower, upper] = jackknife::ends(value, rows, influences, confidence);
+        Estimate { value, lower, upper }
+    }
+
+    /// Correlation of `input` with the observable, the other inputs held fixed: that of what the others leave of both.
+    pub fn partial(&self, input: usize, confidence: f64) -> Estimate {
+        let alone = &self.of.alone[input];
+        let factor = self.beta[input] / self.of.inverse[(input, input)];
+        let rest: Vec<f64> = self.rest.iter().zip(alone).map(|(rest, alone)| rest + factor * alone).collect();
+        let unit = |column: &[f64]| {
+            let length = libm::sqrt(product(column, column));
+            column.iter().map(|value| if length > 0.0 { value / length } else { 0.0 }).collect::<Vec<f64>>()
+        };
+        correlation(&unit(alone), &unit(&rest), self.of.count() - 1, confidence)
+    }
+
+    /// Share of the variance that the linear terms explain: R^2, corrected for the number of inputs (M. Ezekiel 1930).
+    pub fn r_squared(&self, confidence: f64) -> Estimate {
+        let (rows, square) = (self.y.len(), product(&self.rest, &self.rest));
+        let freedom = (rows - self.of.count() - 1) as f64;
+        let left = square * (rows - 1) as f64 / freedom;
+        let parts = jackknife::spaced_rows(rows).map(|row| {
+            let rest = self.rest[row] * self.rest[row] / (1.0 - self.of.leverages[row]).max(f64::MIN_POSITIVE);
+            [rest / square * freedom / rows as f64, self.y[row] * self.y[row]]
+        });
+        let found = jackknife::explained_share(left, rows, parts, confidence);
+        let [value, lower, upper] = [found.value, found.lower, found.upper].map(|share| share.max(0.0));
+        Estimate { value, lower, upper }
+    }
 }
 
 /// The inverse of a correlation matrix; `None` where it is singular.
@@ -126,6 +155,10 @@ mod tests {
     use super::*;
     use crate::statistics::correlation::{pearson, standardised};
 
+    fn of(inputs: &[Vec<f64>]) -> Option<Regressors> {
+        Regressors::new(inputs.to_vec())
+    }
+
     /// Numbers without a pattern: multiples of an irrational number, modulo one.
     fn irregular(multiplier: f64, n: usize) -> Vec<f64> {
         (1..=n).map(|k| (k as f64 * multiplier).fract()).collect()
@@ -140,17 +173,46 @@ mod tests {
         let [a, b, c] = inputs();
         let y: Vec<f64> = a.iter().zip(&b).map(|(a, b)| 3.0 * a - 2.0 * b).collect();
         let columns: Vec<Vec<f64>> = [&a, &b, &c].map(|x| standardised(x)).to_vec();
-        let found = regression(&columns, &standardised(&y), 0.95).expect("independent inputs");
-        // measured 6.7e-16
-        assert!((found.r_squared - 1.0).abs() < 5e-15, "{}", found.r_squared);
+        let (of, sy) = (of(&columns).expect("independent inputs"), standardised(&y));
+        let found = of.regression(&sy).expect("more rows than inputs");
+        let explained = found.r_squared(0.95);
+        // measured 0
+        assert!((explained.value - 1.0).abs() < 5e-15 && explained.upper - explained.lower < 1e-13, "{explained:?}");
+        let coefficients = [0, 1, 2].map(|input| found.coefficient(input, 0.95));
         let spread = |x: &[f64]| {
             let mean = x.iter().sum::<f64>() / x.len() as f64;
             libm::sqrt(x.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>())
         };
         // measured 7.8e-16, 2.2e-16 and less: rounding of sums of 500 numbers
-        assert!((found.coefficients[0].value - 3.0 * spread(&a) / spread(&y)).abs() < 7e-15);
-        assert!((found.coefficients[1].value + 2.0 * spread(&b) / spread(&y)).abs() < 2e-15);
-        assert!(found.coefficients[2].value.abs() < 2e-16);
+        assert!((coefficients[0].value - 3.0 * spread(&a) / spread(&y)).abs() < 7e-15);
+        assert!((coefficients[1].value + 2.0 * spread(&b) / spread(&y)).abs() < 2e-15);
+        assert!(coefficients[2].value.abs() < 2e-16);
+        // nothing is left of y, but how the inputs are spread is not known exactly: the coefficients have a width, that of no input has none
+        assert!(coefficients[0].upper - coefficients[0].lower > 1e-3, "{coefficients:?}");
+        assert!(coefficients[2].upper - coefficients[2].lower < 1e-13, "{coefficients:?}");
+    }
+
+    /// Law: the influence of a row is n - 1 times the change of the coefficient where it is left out: the interval is that of these changes.
+    #[test]
+    fn intervals_are_those_of_leaving_out() {
+        let [a, b, _] = inputs().map(|column| column[..40].to_vec());
+        let y: Vec<f64> = a.iter().zip(&b).map(|(a, b)| a * b + libm::exp(a - b)).collect();
+        let coefficient = |keep: &dyn Fn(usize) -> bool| {
+            let [a, b, y] = [&a, &b, &y].map(|column| {
+                let kept: Vec<f64> = (0..40).filter(|row| keep(*row)).map(|row| column[row]).collect();
+                standardised(&kept)
+            });
+            let of = of(&[a, b]).expect("independent");
+            of.regression(&y).expect("enough rows").coefficient(1, 0.95)
+        };
+        let found = coefficient(&|_| true);
+        let influences = (0..40).map(|left: usize| 39.0 * (found.value - coefficient(&|row| row != left).value));
+        let [lower, upper] = jackknife::ends(found.value, 40, influences, 0.95);
+        // rounding of sums of 40 numbers, 39 times
+        assert!(
+            (found.lower - lower).abs() < 1e-12 && (found.upper - upper).abs() < 1e-12,
+            "{found:?} {lower} {upper}"
+        );
     }
 
     /// Law: the partial correlation is the correlation of what is left of both columns after regression on the others.
@@ -159,22 +221,16 @@ mod tests {
         let [a, b, c] = inputs();
         let x: Vec<f64> = a.iter().zip(&b).map(|(a, b)| a + 0.8 * b).collect();
         let y: Vec<f64> = (0..500).map(|k| x[k] + b[k] + c[k]).collect();
-        let found = regression(&[standardised(&x), standardised(&b)], &standardised(&y), 0.95).expect("independent");
+        let of = of(&[standardised(&x), standardised(&b)]).expect("independent");
         let (sx, sb, sy) = (standardised(&x), standardised(&b), standardised(&y));
         let residual = |v: &[f64]| -> Vec<f64> {
             let slope = product(v, &sb);
             v.iter().zip(&sb).map(|(v, b)| v - slope * b).collect()
         };
         let expected = pearson(&residual(&sx), &residual(&sy));
+        let found = of.regression(&sy).expect("enough rows").partial(0, 0.95);
         // measured 2.2e-16
-        assert!((found.partial[0] - expected).abs() < 2e-15, "{} {expected}", found.partial[0]);
-        // Law: coefficient over standard error is the partial correlation's t = rho sqrt(n - k - 1)/sqrt(1 - rho^2)
-        let (interval, freedom) = (found.coefficients[0], 500.0 - 3.0);
-        let statistic = expected * libm::sqrt(freedom / (1.0 - expected * expected));
-        let half = two_sided_quantile(0.95, freedom) * interval.value / statistic;
-        let found = [interval.upper - interval.value, interval.value - interval.lower];
-        // rounding of sums of 500 numbers
-        assert!(half > 0.0 && found.iter().all(|found| (found / half - 1.0).abs() < 1e-13), "{found:?} {half}");
+        assert!((found.value - expected).abs() < 2e-15, "{} {expected}", found.value);
     }
 
     /// Law: an input that is a combination of those before it, or constant, is not independent; the rest have a regression.
@@ -185,25 +241,16 @@ mod tests {
         let columns: Vec<Vec<f64>> = [&a, &b, &sum, &vec![7.0; 500], &c].map(|x| standardised(x)).to_vec();
         assert_eq!(independent_inputs(&columns), [true, true, false, false, true]);
         let kept = [columns[0].clone(), columns[1].clone(), columns[4].clone()];
-        assert!(regression(&kept, &columns[2], 0.95).is_some() && regression(&columns, &columns[2], 0.95).is_none());
-    }
-
-    /// Known: R^2 = 0.5, n = 103, k = 2: variance 4 * 0.5 * (0.5 * 100)^2/((103^2 - 1) * 106) = 0.0044464.
-    #[test]
-    fn known_interval_of_r_squared() {
-        let found = r_squared_interval(0.5, 103, 2, 0.95);
-        let half = 1.959_963_984_540_054 * libm::sqrt(5000.0 / (10_608.0 * 106.0));
-        // measured 5.6e-17
-        assert!((found.upper - 0.5 - half).abs() < 5e-16 && (found.lower - 0.5 + half).abs() < 5e-16, "{found:?}");
-        assert_eq!(r_squared_interval(1.0, 103, 2, 0.95).upper, 1.0);
+        assert!(of(&kept).is_some() && of(&columns).is_none());
     }
 
     #[test]
     fn dependent_inputs_have_no_regression() {
         let [a, _, c] = inputs();
         let (sa, sc) = (standardised(&a), standardised(&c));
-        assert_eq!(regression(&[sa.clone(), sa.clone()], &sc, 0.95), None);
-        assert_eq!(regression(&[sa.clone(), vec![0.0; 500]], &sc, 0.95), None);
-        assert_eq!(regression(&[sa[..2].to_vec(), sc[..2].to_vec()], &sa[..2], 0.95), None, "as many inputs as rows");
+        assert!(of(&[sa.clone(), sa.clone()]).is_none() && of(&[sa.clone(), vec![0.0; 500]]).is_none());
+        let (first, second) = (standardised(&sa[..3]), standardised(&sc[..3]));
+        let of = of(&[first.clone(), second]).expect("three rows");
+        assert!(of.regression(&first).is_none(), "as many inputs as rows, but for one");
     }
 }

@@ -147,23 +147,9 @@ fn finding(outcome: &Outcome, row: Option<&StatisticsRow>, title: &str, drivers:
     }
 }
 
-/// The strongest inputs of an outcome in words.
+/// The strongest inputs of an outcome in words; empty where that is not known.
 pub fn driven_by(outcome: &str, influences: &[Influence]) -> String {
-    let Some(influence) = influences.iter().find(|influence| influence.outcome == outcome) else {
-        return String::new();
-    };
-    if influence.inputs.iter().all(|(_, value)| !value[0].is_finite()) {
-        return String::new();
-    }
-    // an interval that contains zero is no influence that was found
-    let mut found: Vec<&(String, [f64; 3])> =
-        influence.inputs.iter().filter(|(_, [_, low, high])| low * high > 0.0).collect();
-    found.sort_by(|a, b| b.1[0].abs().total_cmp(&a.1[0].abs()));
-    if found.is_empty() {
-        return "no input with an influence that these runs can show".to_owned();
-    }
-    let names: Vec<String> = found.iter().take(2).map(|(name, value)| format!("{name} ({:.2})", value[0])).collect();
-    format!("{}; {}", names.join(", "), influence.measure)
+    influences.iter().find(|one| one.outcome == outcome).map_or_else(String::new, |one| one.drivers.clone())
 }
 
 impl Card {

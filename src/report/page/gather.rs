@@ -10,6 +10,7 @@ use crate::dataset::statistics::{ColumnStatistics, QuantileStatistic, Statistics
 use crate::dataset::stopping::Stopping;
 use crate::dataset::verdicts::Verdicts;
 use crate::ensemble::{Bands, Ensemble};
+use crate::report::drivers_text::{self, outcomes};
 use crate::report::page::Contents;
 use crate::report::page::cards::{Card, Judged, driven_by};
 use crate::report::page::errors::sentence;
@@ -117,36 +118,25 @@ fn row(column: &ColumnStatistics, statistics: &Statistics) -> StatisticsRow {
     }
 }
 
-/// The influences on each observable, by the strongest measure that its design gives.
+/// The influences on each outcome, the strongest first.
 fn influences(plan: &Plan, all: &[InputSensitivity], survey: &Survey) -> Vec<Influence> {
-    let mut found: Vec<Influence> = Vec::new();
-    for one in all {
-        let value = |estimate: Option<Estimate>| estimate.map_or([f64::NAN; 3], |e| [e.value, e.lower, e.upper]);
-        let is_total = one.total.is_some();
-        let numbers = if is_total { value(one.total) } else { value(one.spearman) };
-        match found.iter_mut().find(|influence| influence.outcome == one.observable) {
-            Some(influence) => influence.inputs.push((one.input.clone(), numbers)),
-            None if survey.outcome(&one.observable).is_some() => found.push(Influence {
-                outcome: one.observable.clone(),
-                measure: if is_total { "total Sobol index".to_owned() } else { "rank correlation".to_owned() },
-                meaning: meaning(plan, one, all),
-                inputs: vec![(one.input.clone(), numbers)],
-            }),
-            None => {}
-        }
-    }
-    // where no observable is named, few are enough
-    if plan.analysis.requirements.is_empty() && plan.analysis.summary_columns.is_empty() {
-        let place = |influence: &Influence| MAIN.iter().position(|name| *name == influence.outcome);
-        found.retain(|influence| place(influence).is_some());
-        found.sort_by_key(place);
-    }
-    found
+    let of_outcome = |name: &str| {
+        let mut of: Vec<(&InputSensitivity, Estimate)> =
+            all.iter().filter(|one| one.observable == name).filter_map(|one| Some((one, one.influence()?))).collect();
+        of.sort_by(|a, b| b.1.value.total_cmp(&a.1.value));
+        let (first, _) = of.first()?;
+        let is_total = first.total.is_some();
+        Some(Influence {
+            outcome: name.to_owned(),
+            measure: if is_total { "total Sobol index".to_owned() } else { "share of the variance".to_owned() },
+            meaning: meaning(plan, first, all),
+            inputs: of.iter().map(|(one, e)| (one.input.clone(), [e.value, e.lower, e.upper])).collect(),
+            drivers: drivers_text::driven_by(all, name),
+        })
+    };
+    let seen = outcomes(plan, all).into_iter().filter(|name| survey.outcome(name).is_some());
+    seen.filter_map(of_outcome).collect()
 }
-
-/// The observables whose drivers are shown where the file names none.
-const MAIN: [&str; 4] =
-    ["energy_error_max", "angular_momentum_error_max", "state_error_estimate", "exchange_body_peak_to_peak_j"];
 
 fn meaning(plan: &Plan, first: &InputSensitivity, all: &[InputSensitivity]) -> String {
     let of_observable = || all.iter().filter(|one| one.observable == first.observable);
@@ -157,8 +147,8 @@ fn meaning(plan: &Plan, first: &InputSensitivity, all: &[InputSensitivity]) -> S
         )
     } else {
         format!(
-            "Spearman's rank correlation of each input with the outcome, with its interval, of {} runs: the sign says in which direction it \
-             acts, the length how strongly.",
+            "How strongly each input acts, as a share of the variance, with its interval, of {} runs: the larger one of the first-order index and of \
+             the squared rank correlation.",
             grouped(first.rows)
         )
     };

@@ -20,8 +20,10 @@ pub struct Influence {
     pub measure: String,
     /// What they mean, in a sentence or two.
     pub meaning: String,
-    /// Input column, value, lower and upper end of its interval (NaN where there is none).
+    /// Input column, value, lower and upper end of its interval (NaN where there is none); the strongest first.
     pub inputs: Vec<(String, [f64; 3])>,
+    /// The strongest inputs in words.
+    pub drivers: String,
 }
 
 /// For each outcome, a tornado and two scatter plots.
@@ -30,8 +32,6 @@ pub fn figures(plan: &Plan, survey: &Survey, influences: &[Influence]) -> Vec<Fi
     for influence in influences {
         let Some((index, outcome)) = survey.outcome(&influence.outcome) else { continue };
         let mut inputs = influence.inputs.clone();
-        inputs.retain(|(_, value)| value[0].is_finite());
-        inputs.sort_by(|a, b| b.1[0].abs().total_cmp(&a.1[0].abs()));
         let strongest: Vec<usize> = inputs.iter().take(2).filter_map(|(name, _)| position(plan, name)).collect();
         inputs.truncate(MOST_INPUTS);
         figures.push(tornado(influence, outcome, &inputs, survey.thinned.inputs.len()));
