@@ -14,6 +14,7 @@ use crate::ensemble::run_cost::parts;
 use crate::ensemble::{Ensemble, Part, PartId};
 use crate::math::symmetric::principal_axes;
 use crate::observables::{Group, Request};
+use crate::report::failure_text;
 use crate::report::number::{bytes, short};
 use crate::run::StateField;
 use crate::sampling::SampleId;
@@ -29,7 +30,8 @@ pub fn run(options: &CheckOptions) -> Result<CommandOutcome, Failure> {
     let ensemble = Ensemble::new(&plan, isa()?);
     let scene = Scene::resolve(&plan.nominal)
         .map_err(|errors| Failure::Input(errors.iter().map(|error| format!("{error}\n")).collect()))?;
-    let mut text = String::new();
+    let probe = RunProbe::new(&ensemble);
+    let mut text = if probe.is_hopeless() { failures(&probe) } else { String::new() };
     let written = (|| {
         section(&mut text, &format!("Plan (hash {})", plan.hash()))?;
         text.push_str(&plan.text());
@@ -50,9 +52,22 @@ pub fn run(options: &CheckOptions) -> Result<CommandOutcome, Failure> {
     })();
     written.map_err(Failure::files)?;
     screen::print(&text)?;
-    screen::print(&estimate(&ensemble)?)?;
+    let failed = probe.failed() as u64;
+    let outcome = if probe.is_hopeless() { CommandOutcome::SomeFailed(failed) } else { CommandOutcome::Done };
+    screen::print(&estimate(&ensemble, probe)?)?;
     screen::print(&audit_estimate(&ensemble))?;
-    Ok(CommandOutcome::Done)
+    Ok(outcome)
+}
+
+/// What the probe found where runs failed: how many, and why.
+fn failures(probe: &RunProbe) -> String {
+    let (failed, count) = (probe.failed(), probe.count());
+    let head = if probe.is_hopeless() {
+        "EVERY RUN FAILS: the campaign would have no statistics, and its requirements would fail\n"
+    } else {
+        ""
+    };
+    format!("{head}{failed} of the first {count} runs failed:\n{}", failure_text::text(&probe.reasons().groups()))
 }
 
 fn section(text: &mut String, title: &str) -> std::fmt::Result {
@@ -195,10 +210,10 @@ fn field_name(field: StateField) -> &'static str {
 }
 
 /// Time and disk space, extrapolated from a probe of the first samples.
-fn estimate(ensemble: &Ensemble<'_>) -> Result<String, Failure> {
+fn estimate(ensemble: &Ensemble<'_>, mut probe: RunProbe) -> Result<String, Failure> {
     let plan = ensemble.plan();
-    let mut probe = RunProbe::new(ensemble);
-    let (count, failed) = (probe.count(), probe.failed());
+    let count = probe.count();
+    let failed = if probe.failed() == 0 || probe.is_hopeless() { String::new() } else { failures(&probe) };
 
     let file = RowsFile::new(ensemble).map_err(Failure::files)?;
     let mut full = Vec::new();
@@ -231,7 +246,7 @@ fn estimate(ensemble: &Ensemble<'_>) -> Result<String, Failure> {
         parts.count(),
         if parts.count() == 1 { "" } else { "s" },
         bytes(disk as u64),
-        if failed == 0 { String::new() } else { format!("{failed} of the {count} runs failed\n") },
+        failed,
     ))
 }
 

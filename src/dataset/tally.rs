@@ -9,7 +9,7 @@ use crate::dataset::audit_tally::AuditTally;
 use crate::dataset::rows_file::{audit_error_name, audited_observables};
 use crate::dataset::rows_reader::{PartReader, RowsError, RowsReader};
 use crate::ensemble::audit::{AuditValue, Selection};
-use crate::ensemble::{Audit, Ensemble, Part, PartId, Rows};
+use crate::ensemble::{Audit, Ensemble, FailureReasons, Part, PartId, Rows};
 use crate::observables::accuracy::{BALANCES, STATE_ERRORS};
 use crate::observables::headlines::headlines;
 use crate::observables::{ColumnId, Kind};
@@ -88,6 +88,7 @@ pub struct Tally {
     /// Whether the statistics are those of the dispersed samples, without the nominal one.
     without_nominal: bool,
     statuses: [Ended; Status::ALL.len()],
+    reasons: FailureReasons,
     /// None where the campaign has no audits.
     headlines: Vec<Headline>,
     worst: Vec<Worst>,
@@ -114,6 +115,7 @@ impl Tally {
         Tally {
             without_nominal: ensemble.plan().samples > 1,
             statuses: Default::default(),
+            reasons: FailureReasons::default(),
             headlines,
             worst: worst.into_iter().filter(|worst| !worst.indices.is_empty()).collect(),
             audits,
@@ -142,7 +144,12 @@ impl Tally {
             let mut rows = Rows::new(ensemble.shape(), samples.len());
             rows.start_with(Part { id: PartId(0), first, count: samples.len() }, samples);
             let values = wanted.iter().map(|index| Ok((*index, part.numbers(columns[*index].quantity.name())?)));
-            rows.restore(&part.statuses()?, values.collect::<Result<Vec<_>, RowsError>>()?);
+            let statuses = part.statuses()?;
+            rows.restore(&statuses, values.collect::<Result<Vec<_>, RowsError>>()?);
+            if statuses.iter().any(|status| *status != Status::Done) {
+                let reasons = part.reasons()?.into_iter().enumerate();
+                reasons.for_each(|(row, reason)| reason.into_iter().for_each(|reason| rows.set_reason(row, reason)));
+            }
             if !audited.is_empty() {
                 audits(ensemble, part, &audited, &mut rows)?;
             }
@@ -160,6 +167,7 @@ impl Tally {
         for (sample, status) in rows.samples().iter().copied().zip(rows.statuses()) {
             self.statuses[status_index(*status)].add(sample);
         }
+        self.reasons.add(rows);
         let is_nominal = |sample: SampleId| self.without_nominal && sample == SampleId(0);
         let counted = rows.samples().iter().copied().zip(rows.statuses()).enumerate();
         let counted: Vec<(usize, SampleId)> = counted
@@ -219,6 +227,11 @@ impl Tally {
     /// The samples that ended with `status`.
     pub fn ended(&self, status: Status) -> &Ended {
         &self.statuses[status_index(status)]
+    }
+
+    /// Why runs failed.
+    pub fn reasons(&self) -> &FailureReasons {
+        &self.reasons
     }
 
     /// How many samples ended with `status`.

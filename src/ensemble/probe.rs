@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use crate::campaign::SceneDraws;
 use crate::ensemble::audit::Auditor;
+use crate::ensemble::failure_reasons::FailureReasons;
 use crate::ensemble::parts::{Part, PartId};
 use crate::ensemble::rows::Rows;
 use crate::ensemble::supervision::Supervision;
@@ -52,6 +53,19 @@ impl RunProbe {
     /// How many of them failed.
     pub fn failed(&self) -> usize {
         self.rows.statuses().iter().filter(|status| **status != Status::Done).count()
+    }
+
+    /// Whether no run is `ok` that statistics would be about: every one failed, or every one but the nominal.
+    pub fn is_hopeless(&self) -> bool {
+        self.failed() == self.count()
+            || self.count() > 1 && self.rows.statuses()[1..].iter().all(|status| *status != Status::Done)
+    }
+
+    /// Why they failed.
+    pub fn reasons(&self) -> FailureReasons {
+        let mut reasons = FailureReasons::default();
+        reasons.add(&self.rows);
+        reasons
     }
 }
 

@@ -1,6 +1,6 @@
 //! Layer 7: text and figures for people.
 //!
-//! - [`summary`], [`observable_lines`], [`audit_summary`]: statistics of a campaign. - [`requirements`]: verdicts, also as JUnit XML. - [`drivers_text`]: what drives an outcome. - [`precision_text`]: work-precision measurements as text.
+//! - [`summary`], [`observable_lines`], [`audit_summary`]: statistics of a campaign. - [`failure_text`]: why runs failed. - [`requirements`]: verdicts, also as JUnit XML. - [`drivers_text`]: what drives an outcome. - [`precision_text`]: work-precision measurements as text.
 //! - [`canvas`]: figures as SVG and PNG. - [`plot`]: curves in panels, with a legend. - [`fitted_text`]: text that is shortened to a width. - [`simulation_figure`], [`drawn_figure`] (of [`drawn_columns`], in histograms, with [`expected_counts`], of numbers drawn together by [`marginal`]), [`precision_figure`]: the figures of the commands.
 //! - [`comparison_text`]: two results compared. - [`stopping_text`]: looks of a campaign with `[stop]`.
 //! - [`time_table`]: one run over time on a terminal. - [`number`]: numbers in text. - [`page`]: the report of a campaign as one HTML file.
@@ -14,6 +14,7 @@ pub mod drawn_columns;
 pub mod drawn_figure;
 pub mod drivers_text;
 pub mod expected_counts;
+pub mod failure_text;
 pub mod fitted_text;
 mod histogram;
 mod legend;

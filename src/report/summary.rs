@@ -9,10 +9,11 @@ use crate::dataset::statistics::Statistics;
 use crate::dataset::stopping::{Found, Stopping};
 use crate::dataset::tally::{Ended, Tally, Worst};
 use crate::dataset::verdicts::Verdicts;
+use crate::ensemble::FailureReason;
 use crate::report::audit_summary::{AuditSummary, Numerics};
 use crate::report::number::short;
 use crate::report::observable_lines::{ObservableLine, lines, write_table};
-use crate::report::{requirements, stopping_text};
+use crate::report::{failure_text, requirements, stopping_text};
 use crate::run::Status;
 use crate::sampling::{Replaced, SampleId};
 
@@ -25,6 +26,8 @@ pub struct Summary {
     plan_hash: String,
     without_nominal: bool,
     statuses: Vec<(&'static str, Ended)>,
+    /// Why runs failed, the most frequent first.
+    reasons: Vec<FailureReason>,
     worst: Vec<Worst>,
     lines: Vec<ObservableLine>,
     verdicts: Verdicts,
@@ -52,6 +55,7 @@ impl Summary {
             samples: plan.samples,
             plan_hash: plan.hash(),
             statuses: Status::ALL.into_iter().map(|status| (status.name(), tally.ended(status).clone())).collect(),
+            reasons: tally.reasons().groups().into_iter().cloned().collect(),
             without_nominal: tally.without_nominal(),
             worst: tally.worst().to_vec(),
             lines: lines(plan, statistics, numerics),
@@ -81,6 +85,8 @@ impl Summary {
         let failed = self.statuses.iter().filter(|(name, ended)| ended.count > 0 && *name != Status::Done.name());
         let first_failed: Map<String, Value> =
             failed.map(|(name, ended)| ((*name).to_owned(), json!(numbers(ended)))).collect();
+        let reason = |one: &FailureReason| json!({ "status": one.status.name(), "count": one.count, "sample": one.first.0, "reason": one.text });
+        let reasons: Vec<Value> = self.reasons.iter().map(reason).collect();
         let runs = |worst: &Worst| -> Vec<Value> {
             worst.runs.iter().map(|(sample, error)| json!({ "sample": sample.0, "error": error })).collect()
         };
@@ -95,6 +101,7 @@ impl Summary {
             "samples": self.samples,
             "statuses": statuses,
             "first_failed": first_failed,
+            "failure_reasons": reasons,
             "worst_runs": worst,
             "statistics": {
                 "samples": if self.without_nominal { "dispersed, without the nominal sample 0" } else { "nominal" },
@@ -196,6 +203,10 @@ impl Display for Summary {
             }
             writeln!(f)?;
         }
+        if !self.reasons.is_empty() {
+            let groups: Vec<&FailureReason> = self.reasons.iter().collect();
+            write!(f, "  why runs failed:\n{}", failure_text::text(&groups))?;
+        }
         if self.lines.is_empty() {
             return Ok(());
         }
@@ -253,6 +264,7 @@ mod tests {
                 (Status::NonFinite.name(), ended(0, &[])),
                 (Status::Inaccurate.name(), ended(6, &[5, 6])),
             ],
+            reasons: Vec::new(),
             worst: Vec::new(),
             lines: Vec::new(),
             verdicts: Verdicts::default(),

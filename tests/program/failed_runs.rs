@@ -14,14 +14,70 @@ fn ends(batch: &RecordBatch) -> Vec<(String, Option<String>)> {
     (0..batch.num_rows()).map(|row| (statuses.value(row).to_owned(), text(row))).collect()
 }
 
-/// Law: `check` answers where no drawn value is physical.
+/// Law: `check` answers where no drawn value is physical: every dispersed run fails, and the first lines say why.
 #[test]
 fn values_that_are_not_physical_are_checked() {
     let scratch = folder("check-unphysical");
     let negative = NEGATIVE_WALLS.replace("max = 0.04", "max = -0.01");
     scratch.file("negative.toml", &[campaign(), negative].concat());
-    let said = scratch.prints("check negative.toml", 0);
-    assert!(said.contains("wall_thickness_m") && !said.contains("does not affect"), "{said}");
+    let said = scratch.prints("check negative.toml", 1);
+    assert!(said.lines().nth(2).is_some_and(|line| line.contains("wall_thickness_m")), "{said}");
+    assert!(!said.contains("does not affect"), "{said}");
+}
+
+/// The lines of `said` that name `status` and a reason: the number of runs, and the line.
+fn reasons<'s>(said: &'s str, status: &str) -> Vec<(usize, &'s str)> {
+    let lines = said.lines().filter(|line| line.contains(&format!("  {status}: ")));
+    lines
+        .map(|line| (line.split_whitespace().next().and_then(|word| word.parse().ok()).expect("a count"), line))
+        .collect()
+}
+
+/// Law: where every run fails `check` says so and why before all else, and ends with code 1; the campaign says the same of its rows, on the
+/// screen and in `summary.json`, also where it is finished from files. Counter-test: where some runs fail, code 0 and the reasons at the end.
+#[test]
+fn reasons_are_said_and_counted() {
+    let scratch = folder("grouped-reasons");
+    let stuck = campaign().replace("tolerance = 1e-10", "tolerance = 1e-10\nmax_steps = 1");
+    scratch.file("stuck.toml", &stuck);
+    let said = scratch.prints("check stuck.toml", 1);
+    let first: Vec<&str> = said.lines().take(3).collect();
+    assert!(first[0].starts_with("EVERY RUN FAILS"), "{said}");
+    let [(count, line)] = reasons(&said, "step_limit")[..] else { panic!("one reason: {said}") };
+    assert!(first[2] == line && line.contains("integrator.max_steps was reached at 0."), "{said}");
+    assert!(first[1].starts_with(&format!("{count} of the first {count} runs failed")), "{said}");
+
+    for arguments in ["--out whole", "--out parts --threads 1"] {
+        let said = scratch.prints(&format!("campaign stuck.toml {arguments}"), 1);
+        assert_eq!(reasons(&said, "step_limit").iter().map(|(count, _)| *count).collect::<Vec<_>>(), [600], "{said}");
+    }
+    let summary =
+        |result: &str| std::fs::read_to_string(scratch.path(&format!("{result}/summary.json"))).expect("a summary");
+    assert_eq!(summary("whole"), summary("parts"));
+    let value: serde_json::Value = serde_json::from_str(&summary("whole")).expect("JSON");
+    let reason = &value["failure_reasons"][0];
+    assert_eq!(
+        (&reason["status"], &reason["count"], &reason["sample"]),
+        (&"step_limit".into(), &600.into(), &0.into())
+    );
+    let of_row = ends(&batches(&scratch.path("whole/runs/part-000000.parquet"))[0])[0].1.clone();
+    assert_eq!(reason["reason"].as_str(), of_row.as_deref());
+
+    // a third of the walls are negative
+    scratch.file("thin.toml", &(campaign() + NEGATIVE_WALLS));
+    let said = scratch.prints("check thin.toml", 0);
+    assert!(!said.contains("EVERY RUN FAILS") && reasons(&said, "invalid_sample").len() == 1, "{said}");
+    let said = scratch.prints("campaign thin.toml --out thin", 1);
+    let counted: usize = reasons(&said, "invalid_sample").iter().map(|(count, _)| count).sum();
+    let failed = scratch
+        .part_files("thin")
+        .iter()
+        .flat_map(|file| batches(file))
+        .flat_map(|batch| ends(&batch))
+        .filter(|(status, _)| status == "invalid_sample")
+        .count();
+    assert_eq!(counted, failed);
+    assert!(failed > 100, "{failed}");
 }
 
 /// Law: with a fixed step that is far too long every run is `inaccurate`: its numbers are kept, its reason names the columns beyond

@@ -1,0 +1,127 @@
+//! [`FailureReasons`]: why runs failed, counted by reason.
+
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
+
+use crate::ensemble::rows::Rows;
+use crate::run::Status;
+use crate::sampling::SampleId;
+
+/// Runs that failed for one reason: with the same status, and with texts that differ in their numbers only.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FailureReason {
+    /// How they ended.
+    pub status: Status,
+    /// How many there are.
+    pub count: u64,
+    /// The one with the smallest number.
+    pub first: SampleId,
+    /// Its reason, with its numbers.
+    pub text: String,
+}
+
+/// The reasons of any number of rows. They do not depend on the order in which rows are added.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct FailureReasons(BTreeMap<(&'static str, String), FailureReason>);
+
+impl FailureReasons {
+    /// Adds the runs of `rows` that failed.
+    pub fn add(&mut self, rows: &Rows) {
+        for (row, text) in rows.reasons() {
+            let (status, sample) = (rows.statuses()[*row], rows.samples()[*row]);
+            let new = || FailureReason { status, count: 0, first: sample, text: text.clone() };
+            let group = self.0.entry((status.name(), without_numbers(text))).or_insert_with(new);
+            group.count += 1;
+            if sample < group.first {
+                (group.first, group.text) = (sample, text.clone());
+            }
+        }
+    }
+
+    /// The reasons, the most frequent first.
+    pub fn groups(&self) -> Vec<&FailureReason> {
+        let mut groups: Vec<&FailureReason> = self.0.values().collect();
+        groups.sort_by_key(|group| (Reverse(group.count), group.first));
+        groups
+    }
+}
+
+/// `text` with a mark in place of each number. Digits within a name (`w1`) are part of it.
+fn without_numbers(text: &str) -> String {
+    let mut kept = String::with_capacity(text.len());
+    let mut chars = text.chars().peekable();
+    while let Some(c) = chars.next() {
+        let is_in_name = kept.chars().last().is_some_and(|last| last.is_alphanumeric() || last == '_');
+        if !c.is_ascii_digit() || is_in_name {
+            kept.push(c);
+            continue;
+        }
+        // the sign of an exponent follows its e
+        let mut last = c;
+        while let Some(next) = chars.next_if(|next| {
+            next.is_ascii_digit() || matches!(next, '.' | 'e') || matches!(next, '+' | '-') && last == 'e'
+        }) {
+            last = next;
+        }
+        if kept.ends_with('-') {
+            kept.pop();
+        }
+        kept.push('#');
+    }
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ensemble::{Part, PartId, Shape};
+
+    /// Law: reasons that differ in numbers only are one, those that differ in a name are not; the example is that of the smallest sample,
+    /// whatever the order of the rows.
+    #[test]
+    fn reasons_are_counted_without_their_numbers() {
+        let part = |first: u64, reasons: &[(Status, &str)]| {
+            let mut rows = Rows::new(Shape { parameters: 0, observables: 0 }, reasons.len());
+            rows.start(Part { id: PartId(0), first: SampleId(first), count: reasons.len() });
+            for (row, (status, reason)) in reasons.iter().enumerate() {
+                rows.set_result(row, *status, &[]);
+                if *status != Status::Done {
+                    rows.set_reason(row, (*reason).to_owned());
+                }
+            }
+            rows
+        };
+        let (limit, invalid) = (Status::StepLimit, Status::InvalidSample);
+        let parts = [
+            part(0, &[(limit, "reached at 0.5 s"), (Status::Done, ""), (limit, "reached at 1.25e-3 s")]),
+            part(
+                7,
+                &[
+                    (invalid, "wheels.w1.mass_kg is -0.1"),
+                    (invalid, "wheels.w2.mass_kg is 1e-7"),
+                    (limit, "reached at 9 s"),
+                ],
+            ),
+            part(3, &[(invalid, "wheels.w1.mass_kg is 12.5"), (invalid, "reached at 9 s")]),
+        ];
+        let found = |order: [usize; 3]| {
+            let mut reasons = FailureReasons::default();
+            order.iter().for_each(|index| reasons.add(&parts[*index]));
+            reasons
+        };
+        let reason = |status, count, first, text: &str| FailureReason {
+            status,
+            count,
+            first: SampleId(first),
+            text: text.to_owned(),
+        };
+        let expected = [
+            reason(limit, 3, 0, "reached at 0.5 s"),
+            reason(invalid, 2, 3, "wheels.w1.mass_kg is 12.5"),
+            reason(invalid, 1, 4, "reached at 9 s"),
+            reason(invalid, 1, 8, "wheels.w2.mass_kg is 1e-7"),
+        ];
+        assert_eq!(found([0, 1, 2]).groups(), expected.iter().collect::<Vec<_>>());
+        assert_eq!(found([2, 1, 0]), found([0, 1, 2]));
+    }
+}
