@@ -60,21 +60,58 @@ struct PartColumn {
     groups: Vec<(Moments, Vec<f64>)>,
 }
 
+/// Rows from whose values the references of sketches are taken: the first of a campaign, without the nominal one.
+pub const REFERENCE_ROWS: usize = 16;
+
+/// What the values of `observed` are sketched about: for each the median of its values in the first rows of a campaign, which are in `parts`; zero
+/// where these have none. The value of the nominal run was rejected: it may be far from those of the others.
+///
+/// # Errors
+/// Where a column cannot be read.
+pub fn references<P: PartColumns>(
+    observed: &[Observed],
+    population: Population,
+    parts: impl IntoIterator<Item = Result<P, RowsError>>,
+) -> Result<Vec<f64>, RowsError> {
+    let mut first = vec![Vec::new(); observed.len()];
+    let mut left = REFERENCE_ROWS;
+    for part in parts {
+        let part = part?;
+        let (samples, statuses) = (part.samples()?, part.statuses()?);
+        let dispersed = (0..samples.len()).filter(|row| population.contains(samples[*row]));
+        let dispersed: Vec<usize> = dispersed.take(left).collect();
+        left -= dispersed.len();
+        for (values, observed) in first.iter_mut().zip(observed) {
+            let column = observed.column(&part)?;
+            let ok = dispersed.iter().filter(|row| statuses[**row] == Status::Done);
+            values.extend(ok.map(|row| column[*row]).filter(|value| !value.is_nan()));
+        }
+    }
+    let median = |mut values: Vec<f64>| {
+        values.sort_by(f64::total_cmp);
+        values.len().checked_sub(1).map_or(0.0, |last| values[last / 2])
+    };
+    Ok(first.into_iter().map(median).collect())
+}
+
 /// Counts observables.
 #[derive(Debug)]
 pub struct Collector {
     observed: Vec<Observed>,
     population: Population,
+    /// Whether values are kept.
     is_exact: bool,
     /// For each observable, the sketch of each group. Counts do not depend on the order in which parts are added.
     sketches: Vec<Mutex<Vec<Sketch>>>,
 }
 
 impl Collector {
-    /// Counts `observed` of a `population`; `is_exact` keeps the values, otherwise they are sketched.
-    pub fn new(observed: Vec<Observed>, population: Population, is_exact: bool) -> Self {
-        let sketches = observed.iter().map(|_| Mutex::new(vec![Sketch::default(); population.groups()])).collect();
-        Collector { observed, population, is_exact, sketches }
+    /// Counts `observed` of a `population`; values are sketched about `references` ([`references`]), or kept where there are none.
+    pub fn new(observed: Vec<Observed>, population: Population, references: Option<Vec<f64>>) -> Self {
+        let is_exact = references.is_none();
+        let references = references.unwrap_or_else(|| vec![0.0; observed.len()]);
+        let sketches = |reference: f64| Mutex::new(vec![Sketch::about(reference); population.groups()]);
+        Collector { observed, population, is_exact, sketches: references.into_iter().map(sketches).collect() }
     }
 
     /// Reads the parts of `reader` on `threads` threads (`None`: one per core).

@@ -6,14 +6,15 @@
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
-use crate::dataset::column_counts::{Collected, Collector, PartCounts};
+use crate::dataset::column_counts::{Collected, Collector, PartCounts, REFERENCE_ROWS, references};
 use crate::dataset::observed::Observed;
 use crate::dataset::part_columns::RowNames;
 use crate::dataset::population::Population;
 use crate::dataset::statistics::is_exact;
 use crate::dataset::tally::Tally;
 use crate::ensemble::bands::BandSums;
-use crate::ensemble::{Bands, CountedBands, Ensemble, Parts, Rows};
+use crate::ensemble::{Bands, CountedBands, Ensemble, Part, PartId, Parts, Rows, Supervision};
+use crate::sampling::SampleId;
 
 /// Counts rows part by part, in any order.
 #[derive(Debug)]
@@ -55,10 +56,17 @@ impl RunningCounts {
         if is_exact(plan) || population.groups() > 1 {
             return None;
         }
-        let collector = Collector::new(Observed::all(plan), population, false);
+        let (observed, names) = (Observed::all(plan), RowNames::new(ensemble));
+        // run once more: the first part may be counted after others
+        let count = (plan.rows() as usize).min(REFERENCE_ROWS + 1);
+        let mut rows = ensemble.rows(count);
+        let part = Part { id: PartId(0), first: SampleId(0), count };
+        ensemble.worker().run(part, &mut rows, Supervision::progress(&|_| {}));
+        let references = references(&observed, population, [Ok(names.of(&rows))]).ok()?;
+        let collector = Collector::new(observed, population, Some(references));
         let merging = Merging { collected: collector.nothing(), merged: 0, waiting: BTreeMap::new() };
         Some(RunningCounts {
-            names: RowNames::new(ensemble),
+            names,
             collector,
             tally: Mutex::new(Tally::new(ensemble)),
             bands: Mutex::new(None),

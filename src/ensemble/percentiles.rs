@@ -20,7 +20,7 @@ pub struct Percentiles {
 enum Columns {
     /// All values.
     Values(Vec<Vec<f64>>),
-    /// Differences from the nominal value.
+    /// Sketches about the nominal values.
     Sketches(Vec<Sketch>),
 }
 
@@ -33,7 +33,7 @@ impl Percentiles {
         let columns = if plan.samples <= CHUNK {
             Columns::Values(vec![Vec::new(); nominal.len()])
         } else {
-            Columns::Sketches(vec![Sketch::default(); nominal.len()])
+            Columns::Sketches(nominal.iter().map(|nominal| Sketch::about(*nominal)).collect())
         };
         Percentiles { count: 0, invalid: 0, nominal, columns }
     }
@@ -50,9 +50,7 @@ impl Percentiles {
             }
             Columns::Sketches(columns) => {
                 let new = drawn.columns.iter().chain(&drawn.magnitudes);
-                for ((sketch, nominal), new) in columns.iter_mut().zip(&self.nominal).zip(new) {
-                    new[from..].iter().for_each(|value| sketch.add(value - nominal));
-                }
+                columns.iter_mut().zip(new).for_each(|(sketch, new)| sketch.add_all(&new[from..]));
             }
         }
     }
@@ -97,10 +95,7 @@ impl Percentiles {
                 });
                 sorted.map(|values| all(&|p| quantile(&values, p))).collect()
             }
-            Columns::Sketches(columns) => {
-                let shifted = columns.iter().zip(&self.nominal);
-                shifted.map(|(sketch, nominal)| all(&|p| Some(nominal + sketch.quantile(p)?))).collect()
-            }
+            Columns::Sketches(columns) => columns.iter().map(|sketch| all(&|p| sketch.quantile(p))).collect(),
         }
     }
 }
@@ -117,7 +112,7 @@ mod tests {
     #[test]
     fn sketches_agree_with_values() {
         let mut both =
-            [percentiles(Columns::Values(vec![Vec::new()])), percentiles(Columns::Sketches(vec![Sketch::default()]))];
+            [percentiles(Columns::Values(vec![Vec::new()])), percentiles(Columns::Sketches(vec![Sketch::about(10.0)]))];
         for first in [0, 1000, 2000] {
             let values: Vec<f64> = (first..first + 1000).map(|k| 10.0 + 1e-3 * (f64::from(k) - 1500.0)).collect();
             let drawn = DrawnScenes {

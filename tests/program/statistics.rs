@@ -218,3 +218,39 @@ quantile = 0.9
     let drivers = line.trim_start().strip_prefix("cross_spin").expect("its name").trim();
     assert!(page.contains(drivers) && drivers.contains(&names[1]), "{drivers}");
 }
+
+/// Law: beyond 100,000 rows quantiles of an observable with an offset of 2e5 standard deviations are within a hundredth of one of those of the rows, a
+/// median of zeros is zero, and shards that are counted from their files give the bytes of one process that counts while it runs.
+#[test]
+#[ignore = "half a minute: two campaigns of 100,200 runs"]
+fn many_rows_have_quantiles_of_their_spread() {
+    let scratch = folder("statistics-many");
+    let text = campaign().replace("samples = 600", "samples = 100200").replace("duration_s = 1.0", "duration_s = 0.1");
+    let offset = r#"
+[[observable]]
+name = "offset"
+expression = "1 + 1e-5 * initial.angular_velocity_rad_s.x"
+[[observable]]
+name = "mostly_zero"
+expression = "max(initial.angular_velocity_rad_s.x, 0) * if(initial.angular_velocity_rad_s.y > 4, 1, 0)"
+"#;
+    scratch.file("many.toml", &(text + offset));
+    scratch.prints("campaign many.toml --out whole --no-report", 0);
+    for shard in [2, 1] {
+        scratch.prints(&format!("campaign many.toml --out parts --shard {shard}/2"), 0);
+    }
+    scratch.prints("finish parts --no-report", 0);
+    let read = |result: &str| fs::read(scratch.path(&format!("{result}/statistics.parquet"))).expect("a file");
+    assert!(read("whole") == read("parts"));
+    let table = scratch.table("whole/statistics.parquet");
+    let names = table.column_by_name("observable").expect("names").as_string::<i32>();
+    let row = |name: &str| names.iter().position(|known| known == Some(name)).expect("a row");
+    let mut rate = values(&scratch.rows("whole"), "initial_angular_velocity_x_rad_s");
+    rate.sort_by(f64::total_cmp);
+    for (column, p) in [("p5", 0.05), ("p50", 0.5), ("p95", 0.95), ("p99_9", 0.999)] {
+        let exact = rate[(p * (rate.len() - 1) as f64) as usize];
+        let found = (number(&table, column, row("offset")).expect("a quantile") - 1.0) * 1e5;
+        assert!((found - exact).abs() < 0.01 * 0.5, "{column}: {found} for {exact}");
+    }
+    assert_eq!(number(&table, "p50", row("mostly_zero")), Some(0.0));
+}

@@ -38,7 +38,7 @@ pub struct Outcome {
     pub is_required: bool,
     /// Whether it is an error of the computation.
     pub is_error: bool,
-    /// Its magnitudes if it is an error, else its values; over the dispersed runs that are ok.
+    /// Its magnitudes if it is an error, else its values, about that of the nominal run; over the dispersed runs that are ok.
     pub sketch: Sketch,
     /// The runs with the largest magnitudes, in descending order.
     pub largest: Vec<(SampleId, f64)>,
@@ -219,6 +219,10 @@ impl Survey {
             for (outcome, values) in self.outcomes.iter_mut().zip(&part.outcomes) {
                 if is_nominal && status == Status::Done {
                     outcome.nominal = values[row];
+                    // the first row of all
+                    if !outcome.is_error && outcome.nominal.is_finite() {
+                        outcome.sketch = Sketch::about(outcome.nominal);
+                    }
                 }
                 if status == Status::Done && !(is_nominal && has_dispersed) {
                     outcome.add(sample, values[row]);
