@@ -15,7 +15,7 @@
 //! - `draw_tables`: the tables of draws with their places in the file. `without_effect`: dispersions that change no run.
 //! - [`mod@draw`]: from a plan and the number of a sample to its scene.
 //! - [`canonical`], [`canonical_draws`], `lines`: the plan as text that reads back to the same plan, and its hash.
-//! - [`difference`]: the keys in which two plans differ. - [`mod@find`]: which file a name means.
+//! - [`difference`]: the keys in which two plans differ; [`common_draws`]: whether they draw the same samples. - [`mod@find`]: which file a name means.
 //!
 //! Not here: what is physical ([`crate::scene`]) and what can be drawn ([`crate::sampling`]); their errors get lines here.
 
@@ -25,6 +25,7 @@ pub mod canonical;
 pub mod canonical_draws;
 pub mod chosen;
 pub mod columns;
+pub mod common_draws;
 pub mod compression;
 pub mod data;
 mod data_keys;

@@ -220,6 +220,9 @@ pub struct CompareOptions {
     /// allows no difference.
     #[arg(long, value_name = "F", value_parser = shift)]
     pub tolerance: Option<f64>,
+    /// Write the whole comparison to a file: every observable, in .json or .parquet; in .json the plans and verdicts too.
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
     /// Number of threads [default: one for each core].
     #[arg(long, value_name = "N")]
     pub threads: Option<std::num::NonZeroUsize>,

@@ -1,4 +1,4 @@
-//! `spindrift compare`: two results, their plans and the shifts of their statistics.
+//! `spindrift compare`: two results, their plans, their verdicts and the shifts of their statistics.
 
 use std::path::Path;
 
@@ -6,18 +6,26 @@ use crate::campaign::Plan;
 use crate::campaign::difference::differences;
 use crate::cli::arguments::CompareOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
-use crate::cli::input::plan_in;
+use crate::cli::input::plan_of_result;
+use crate::cli::outputs::refuse_within;
 use crate::cli::screen;
 use crate::dataset::claim::{FolderError, open};
-use crate::dataset::comparison::{ResultRows, compare};
+use crate::dataset::comparison::{Comparison, compare};
+use crate::dataset::names::SUMMARY;
+use crate::dataset::pairing::ResultRows;
 use crate::dataset::rows_reader::RowsReader;
 use crate::dataset::storage::{Disk, Storage};
-use crate::report::comparison_text;
+use crate::dataset::{atomic, comparison_table, described_table};
+use crate::report::comparison_text::{self, Compared, ComparedVerdict};
+use crate::report::summary;
+
+/// Most bytes of a summary that is read.
+const MOST_SUMMARY: u64 = 1 << 26;
 
 /// Runs the command.
 ///
 /// # Errors
-/// Where a folder has no result, or a file cannot be read.
+/// Where a folder has no result, or a file cannot be read or written.
 pub fn run(options: &CompareOptions) -> Result<CommandOutcome, Failure> {
     let (outcome, text) = compared(&Disk, options)?;
     screen::print(&text)?;
@@ -29,31 +37,101 @@ pub fn run(options: &CompareOptions) -> Result<CommandOutcome, Failure> {
 /// # Errors
 /// As [`run`].
 pub fn compared(storage: &'static dyn Storage, options: &CompareOptions) -> Result<(CommandOutcome, String), Failure> {
-    let (first, second) = (result(storage, &options.first)?, result(storage, &options.second)?);
-    let rows = |(plan, reader)| ResultRows { plan, reader };
-    let found = compare(rows((&first.0, &first.1)), rows((&second.0, &second.1)), options.threads);
-    let found = found.map_err(Failure::files)?;
-    let keys = differences(&first.0, &second.0);
-    let text = comparison_text::text(&found, &keys, options.tolerance);
+    let format = options.out.as_deref().map(Format::of).transpose()?;
+    for root in [&options.first, &options.second] {
+        refuse_within(root, &[("--out", options.out.as_deref())])?;
+    }
+    let (first, second) = (Compare::open(storage, &options.first)?, Compare::open(storage, &options.second)?);
+    let found = compare(first.rows(), second.rows(), options.threads).map_err(Failure::files)?;
+    let (keys, verdicts) = (differences(&first.plan, &second.plan), verdicts([first.verdicts, second.verdicts]));
+    let compared = Compared { comparison: &found, keys: &keys, verdicts: &verdicts, tolerance: options.tolerance };
+    let names = [&options.first, &options.second].map(|root| root.display().to_string());
+    if let Some((path, format)) = options.out.as_deref().zip(format) {
+        let bytes = format.bytes(&first.plan, &found, || comparison_text::json(names.clone(), compared));
+        let written = bytes.and_then(|bytes| atomic::write_bytes(path, &bytes).map_err(|error| error.to_string()));
+        written.map_err(|error| Failure::Files(format!("{}: {error}", path.display())))?;
+    }
     let is_beyond = options.tolerance.is_some_and(|tolerance| found.is_beyond(tolerance));
     let verdict = match options.tolerance {
         Some(tolerance) if is_beyond => format!("\n  FAIL: a shift is beyond {tolerance:?} of the spread\n"),
         Some(tolerance) => format!("\n  PASS: no shift is beyond {tolerance:?} of the spread\n"),
         None => String::new(),
     };
-    let names = format!("{} | {}", options.first.display(), options.second.display());
     let outcome = if is_beyond { CommandOutcome::RequirementsFailed(1) } else { CommandOutcome::Done };
-    Ok((outcome, format!("{names}\n{text}{verdict}")))
+    Ok((outcome, format!("{}\n{}{verdict}", names.join(" | "), comparison_text::text(compared))))
 }
 
-/// The plan and the rows of the result in a folder.
-fn result(storage: &'static dyn Storage, folder: &Path) -> Result<(Plan, RowsReader), Failure> {
-    let (found, _) = open(storage, folder).map_err(|error| match error {
-        FolderError::Nothing { .. } => Failure::Input(error.to_string()),
-        error => Failure::files(error),
-    })?;
-    if !found.is_finished {
-        return Err(Failure::Input(format!("the result in `{}` is not finished", folder.display())));
+/// A result that is compared.
+struct Compare {
+    plan: Plan,
+    reader: RowsReader,
+    /// Each requirement, and its verdict.
+    verdicts: Vec<(String, String)>,
+}
+
+impl Compare {
+    /// The result in a folder.
+    fn open(storage: &'static dyn Storage, folder: &Path) -> Result<Self, Failure> {
+        let (found, _) = open(storage, folder).map_err(|error| match error {
+            FolderError::Nothing { .. } => Failure::Input(error.to_string()),
+            error => Failure::files(error),
+        })?;
+        if !found.is_finished {
+            return Err(Failure::Input(format!("the result in `{}` is not finished", folder.display())));
+        }
+        let path = folder.join(SUMMARY);
+        let damaged = |error: &dyn std::fmt::Display| Failure::Files(format!("{}: {error}", path.display()));
+        let summary = storage.read(&path, MOST_SUMMARY).map_err(|error| damaged(&error))?;
+        let verdicts = summary::verdicts(&summary).ok_or_else(|| damaged(&"its content has changed"))?;
+        let plan = plan_of_result(folder, &found)?;
+        Ok(Compare { plan, reader: RowsReader::new(storage, found.row_files(folder)), verdicts })
     }
-    Ok((plan_in(folder, &found)?.0, RowsReader::new(storage, found.row_files(folder))))
+
+    fn rows(&self) -> ResultRows<'_> {
+        ResultRows { plan: &self.plan, reader: &self.reader }
+    }
+}
+
+/// The requirements of both results: those of the first in their order, then those that only the second has.
+fn verdicts([first, second]: [Vec<(String, String)>; 2]) -> Vec<ComparedVerdict> {
+    let verdict = |list: &[(String, String)], name: &str| {
+        list.iter().find(|(known, _)| known == name).map(|(_, verdict)| verdict.clone())
+    };
+    let both = first.iter().chain(second.iter().filter(|(name, _)| verdict(&first, name).is_none()));
+    both.map(|(name, _)| ComparedVerdict {
+        requirement: name.clone(),
+        verdicts: [verdict(&first, name), verdict(&second, name)],
+    })
+    .collect()
+}
+
+/// The formats of the file of a comparison.
+#[derive(Clone, Copy)]
+enum Format {
+    Json,
+    Parquet,
+}
+
+impl Format {
+    /// The one that the extension of `path` names.
+    fn of(path: &Path) -> Result<Self, Failure> {
+        match path.extension().and_then(|extension| extension.to_str()).map(str::to_ascii_lowercase).as_deref() {
+            Some("json") => Ok(Format::Json),
+            Some("parquet") => Ok(Format::Parquet),
+            _ => Err(Failure::Input(format!(
+                "--out {}: a comparison is written as .json or .parquet; choose one of both",
+                path.display()
+            ))),
+        }
+    }
+
+    /// The bytes of the file.
+    fn bytes(self, plan: &Plan, found: &Comparison, json: impl Fn() -> String) -> Result<Vec<u8>, String> {
+        match self {
+            Format::Json => Ok(json().into_bytes()),
+            Format::Parquet => {
+                described_table::encoded(plan, &comparison_table::table(found)).map_err(|error| error.to_string())
+            }
+        }
+    }
 }

@@ -1,6 +1,7 @@
 //! A small table that is made at the end of a campaign: its columns one by one, each with its meaning and its values, as one file.
 
 use parquet::errors::ParquetError;
+use serde_json::{Map, Value, json};
 
 use crate::campaign::Plan;
 use crate::dataset::columnar::{Cells, Content, Heading, Layout, Packing};
@@ -45,6 +46,27 @@ impl DescribedColumn {
         let (values, present) = numbers.map(|number| (number.unwrap_or(f64::NAN), number.is_some())).unzip();
         DescribedColumn { heading, values: Values::Reals(values, present) }
     }
+}
+
+/// The rows of `columns`, all of one length, as objects with the names of the columns as keys.
+pub fn json(columns: &[DescribedColumn]) -> Vec<Value> {
+    let cell = |column: &DescribedColumn, row: usize| match &column.values {
+        Values::Texts(texts) => json!(texts[row]),
+        Values::Counts(counts) => json!(counts[row]),
+        Values::Reals(values, present) => json!(present[row].then_some(values[row])),
+    };
+    let count = columns.first().map_or(0, |column| match &column.values {
+        Values::Texts(texts) => texts.len(),
+        Values::Counts(counts) => counts.len(),
+        Values::Reals(values, _) => values.len(),
+    });
+    let object = |row: usize| {
+        columns
+            .iter()
+            .map(|column| (column.heading.quantity.name().to_owned(), cell(column, row)))
+            .collect::<Map<_, _>>()
+    };
+    (0..count).map(|row| Value::Object(object(row))).collect()
 }
 
 /// `columns`, all of one length, as a file of the result of `plan`.

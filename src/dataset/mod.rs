@@ -12,7 +12,7 @@
 //!   or by [`running_counts`] while the rows are made; [`verdicts`]: of the requirements, each an [`assessment`] (over time: `band_verdicts`); [`mod@stopping`]: whether
 //!   they are enough.
 //! - [`sensitivity`]: which input matters. - [`statistics_table`], [`sensitivity_table`]: both as files, by [`described_table`]. - [`parallel`]: threads.
-//! - [`comparison`]: two results.
+//! - [`comparison`]: two results, by the samples that both drew ([`pairing`]); [`comparison_table`]: as a file.
 //!
 //! Not here: text and figures for people (`report`), and reading tables for a campaign (`campaign`).
 
@@ -27,6 +27,7 @@ pub mod claim;
 pub mod column_counts;
 pub mod columnar;
 pub mod comparison;
+pub mod comparison_table;
 pub mod described_table;
 pub mod drawn_table;
 pub mod folder;
@@ -35,6 +36,7 @@ pub mod identity;
 pub mod manifest;
 pub mod names;
 pub mod observed;
+pub mod pairing;
 pub mod parallel;
 pub mod parquet_source;
 pub mod part_columns;

@@ -1,17 +1,45 @@
-//! A comparison of two results as text.
+//! A comparison of two results as text, and as the text of a JSON file.
+
+use serde_json::{Value, json};
 
 use crate::campaign::difference::KeyDifference;
 use crate::dataset::comparison::{ColumnComparison, Comparison};
+use crate::dataset::comparison_table;
+use crate::dataset::described_table;
+use crate::dataset::population::Population;
 use crate::report::number::short;
 use crate::statistics::quantile::percent;
 
-/// Most observables in the table.
+/// Most observables in a table.
 const MOST_LINES: usize = 40;
 /// Most keys of plans that are listed.
 const MOST_KEYS: usize = 30;
 
-/// The text: differences of the plans, how the results are compared, and the observables, those with the largest shifts first.
-pub fn text(comparison: &Comparison, keys: &[KeyDifference], tolerance: Option<f64>) -> String {
+/// A requirement of either result with its verdict in each, where it has one.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ComparedVerdict {
+    /// The requirement as a sentence.
+    pub requirement: String,
+    /// `PASS`, `FAIL` or `UNDECIDED`.
+    pub verdicts: [Option<String>; 2],
+}
+
+/// Two results compared, with what is said of them beside their numbers.
+#[derive(Clone, Copy, Debug)]
+pub struct Compared<'c> {
+    /// The numbers.
+    pub comparison: &'c Comparison,
+    /// The keys in which the plans differ.
+    pub keys: &'c [KeyDifference],
+    /// The verdicts.
+    pub verdicts: &'c [ComparedVerdict],
+    /// The shift that is allowed, where one is.
+    pub tolerance: Option<f64>,
+}
+
+/// The text: differences of the plans, how the results are compared, the verdicts, and the observables that are shifted.
+pub fn text(compared: Compared<'_>) -> String {
+    let Compared { comparison, keys, verdicts, tolerance } = compared;
     let mut text = match keys.len() {
         0 => "  the plans are the same\n".to_owned(),
         count => format!("  plans: {count} keys differ\n"),
@@ -26,37 +54,62 @@ pub fn text(comparison: &Comparison, keys: &[KeyDifference], tolerance: Option<f
         0 => "  compared as independent samples: Welch's test of means, Kolmogorov and Smirnov's of distributions\n"
             .to_owned(),
         pairs => format!(
-            "  compared sample by sample: {pairs} samples were drawn alike; Student's test of means, signed ranks\n"
+            "  compared sample by sample: {pairs} samples were drawn alike and are ok in both; Student's test of means, signed ranks\n"
         ),
     };
+    if let Some(other) = [first, second].into_iter().find(|of| of.population != Population::Independent) {
+        text += &format!("  p-values are for independent samples; intervals: {}\n", other.population.intervals());
+    }
     for (names, which) in comparison.alone.iter().zip(["first", "second"]) {
         if !names.is_empty() {
             text += &format!("  only in the {which}: {}\n", names.join(", "));
         }
     }
-    text + &table(comparison, tolerance)
+    if !verdicts.is_empty() {
+        text += "\n  requirements\n";
+    }
+    for one in verdicts {
+        let [first, second] = one.verdicts.each_ref().map(value);
+        let mark = if first == second { "" } else { "   DIFFERENT" };
+        text += &format!("  {first:<10}| {second:<10}{}{mark}\n", one.requirement);
+    }
+    text + &observables(comparison, tolerance)
 }
 
-fn table(comparison: &Comparison, tolerance: Option<f64>) -> String {
-    let largest = |column: &ColumnComparison| column.largest().map_or(0.0, |shift| shift.relative);
-    let mut columns: Vec<&ColumnComparison> =
-        comparison.columns.iter().filter(|column| largest(column) > 0.0 || column.differing_pairs > 0).collect();
-    columns.sort_by(|a, b| largest(b).total_cmp(&largest(a)));
-    let same = comparison.columns.len() - columns.len();
-    let mut text = format!("  {same} of {} observables have the same statistics\n", comparison.columns.len());
+/// What is said of the observables.
+fn observables(comparison: &Comparison, tolerance: Option<f64>) -> String {
+    let all = &comparison.columns;
+    let same = all.iter().filter(|column| column.largest_relative() == 0.0 && column.differing_pairs == 0).count();
+    let (shifted, others): (Vec<_>, Vec<_>) = all.iter().partition(|column| comparison.is_shifted(column));
+    let beyond: Vec<_> =
+        others.into_iter().filter(|column| tolerance.is_some_and(|most| column.is_beyond(most))).collect();
+    let mut text = format!(
+        "\n  {same} of {} observables have the same statistics; {} are shifted: p adjusted for {} tests (Holm) is at most {}\n",
+        all.len(),
+        shifted.len(),
+        all.iter().filter(|column| column.p_value.is_some()).count(),
+        short(comparison.level()),
+    );
+    text += &table(comparison, "shifted", &shifted, tolerance);
+    text + &table(comparison, "beyond tolerance, explained by chance", &beyond, tolerance)
+}
+
+/// A table of some observables; nothing where there are none.
+fn table(comparison: &Comparison, title: &str, columns: &[&ColumnComparison], tolerance: Option<f64>) -> String {
     if columns.is_empty() {
-        return text;
+        return String::new();
     }
-    let width = columns.iter().map(|column| column.quantity.name().len()).max().unwrap_or(0);
+    let names = columns.iter().map(|column| column.quantity.name().len() + 2 * usize::from(column.is_required));
+    let width = names.chain([title.len()]).max().unwrap_or(0);
     let confidence = percent(comparison.statistics[0].confidence);
-    text += &format!(
-        "\n  {:<width$}{:>12}{:>12}{:>26}{:>11}{:>11}   largest shift\n",
-        "shifted",
+    let mut text = format!(
+        "\n  {title:<width$}{:>12}{:>12}{:>26}{:>11}{:>11}{:>11}   largest shift\n",
         "mean",
         "shift",
         format!("{confidence}% interval"),
         "p (mean)",
-        "p (dist.)"
+        "p (dist.)",
+        "adjusted"
     );
     let optional = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.2e}"));
     for column in columns.iter().take(MOST_LINES) {
@@ -72,16 +125,48 @@ fn table(comparison: &Comparison, tolerance: Option<f64>) -> String {
             let mark = if tolerance.is_some_and(|tolerance| shift.relative > tolerance) { " (beyond)" } else { "" };
             format!("{} by {:.2e} of the spread{mark}", shift.statistic, shift.relative)
         });
+        let name = format!("{}{}", if column.is_required { "* " } else { "" }, column.quantity.name());
         text += &format!(
-            "  {:<width$}{:>12}{shift:>12}{interval:>26}{:>11}{:>11}   {worst}\n",
-            column.quantity.name(),
+            "  {name:<width$}{:>12}{shift:>12}{interval:>26}{:>11}{:>11}{:>11}   {worst}\n",
             short(mean),
             optional(column.mean.map(|found| found.p_value)),
             optional(column.distribution_p_value),
+            optional(column.adjusted_p_value),
         );
     }
     if columns.len() > MOST_LINES {
         text += &format!("  ... and {} more\n", columns.len() - MOST_LINES);
     }
+    if columns.iter().take(MOST_LINES).any(|column| column.is_required) {
+        text += "  * named by a requirement\n";
+    }
     text
+}
+
+/// The text of the file: everything that is compared. `names` are those of the results.
+pub fn json(names: [String; 2], compared: Compared<'_>) -> String {
+    let Compared { comparison, keys, verdicts, tolerance } = compared;
+    let result = |name: String, which: usize| {
+        let statistics = &comparison.statistics[which];
+        json!({ "result": name, "samples": statistics.samples(), "ok": statistics.ok(), "only_here": comparison.alone[which] })
+    };
+    let key = |key: &KeyDifference| json!({ "key": key.key, "first": key.first, "second": key.second });
+    let verdict = |one: &ComparedVerdict| json!({ "requirement": one.requirement, "first": one.verdicts[0], "second": one.verdicts[1] });
+    let [first, second] = names;
+    let value = json!({
+        "program": "spindrift",
+        "version": env!("CARGO_PKG_VERSION"),
+        "first": result(first, 0),
+        "second": result(second, 1),
+        "differing_keys": keys.iter().map(key).collect::<Vec<Value>>(),
+        "compared_as": if comparison.pairs > 0 { "pairs" } else { "independent samples" },
+        "pairs": comparison.pairs,
+        "adjustment_of_p_values": "Holm",
+        "level": comparison.level(),
+        "tolerance": tolerance,
+        "beyond_tolerance": tolerance.map(|tolerance| comparison.is_beyond(tolerance)),
+        "requirements": verdicts.iter().map(verdict).collect::<Vec<Value>>(),
+        "observables": described_table::json(&comparison_table::table(comparison)),
+    });
+    format!("{value:#}\n")
 }

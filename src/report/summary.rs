@@ -156,6 +156,14 @@ pub fn failed_runs(summary: &str) -> Option<u64> {
     Some(statuses.iter().filter(|(name, _)| *name != Status::Done.name()).filter_map(|(_, count)| count.as_u64()).sum())
 }
 
+/// The requirements of a finished summary, each with its verdict; `None` where it is no summary.
+pub fn verdicts(summary: &[u8]) -> Option<Vec<(String, String)>> {
+    let value: Value = serde_json::from_slice(summary).ok()?;
+    let text = |one: &Value, key: &str| Some(one.get(key)?.as_str()?.to_owned());
+    let list = value.pointer("/requirements/list").and_then(Value::as_array).into_iter().flatten();
+    Some(list.filter_map(|one| Some((text(one, "requirement")?, text(one, "verdict")?))).collect())
+}
+
 impl Summary {
     /// The samples of the campaign in words: how many are dispersed, and the nominal one.
     pub fn samples(&self) -> String {

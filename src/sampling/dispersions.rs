@@ -154,6 +154,11 @@ impl Dispersions {
         self.assigned.iter().find(|assigned| assigned.columns.contains(&column))
     }
 
+    /// All distributions, with the numbers that they take and the columns that they write.
+    pub fn assigned(&self) -> &[Assigned] {
+        &self.assigned
+    }
+
     /// The distribution of a column that is one random number of its own, as it is drawn.
     pub fn scalar_of(&self, column: usize) -> Option<&Distribution> {
         match self.distribution_of(column) {

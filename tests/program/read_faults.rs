@@ -93,7 +93,7 @@ fn report(storage: &'static dyn Storage, root: &Path) -> Result<(), Failure> {
 
 fn compare(storage: &'static dyn Storage, root: &Path) -> Result<(), Failure> {
     let (first, second) = (root.to_owned(), root.to_owned());
-    let options = CompareOptions { first, second, tolerance: Some(0.0), threads: NonZeroUsize::new(1) };
+    let options = CompareOptions { first, second, tolerance: Some(0.0), out: None, threads: NonZeroUsize::new(1) };
     compared(storage, &options).map(|_| ())
 }
 
