@@ -11,7 +11,7 @@
 //! - [`statistics`]: what the rows say of every observable ([`observed`], [`population`]), counted by [`column_counts`] from [`part_columns`],
 //!   or by [`running_counts`] while the rows are made; [`verdicts`]: of the requirements, each an [`assessment`] (over time: `band_verdicts`); [`mod@stopping`]: whether
 //!   they are enough.
-//! - [`sensitivity`]: which input matters. - [`statistics_table`], [`sensitivity_table`]: both as files, by [`described_table`]. - [`parallel`]: threads.
+//! - [`sensitivity`]: which input matters; [`drivers`]: which of them the rows show. - [`statistics_table`], [`sensitivity_table`]: both as files, by [`described_table`]. - [`parallel`]: threads.
 //! - [`comparison`]: two results, by the samples that both drew ([`pairing`]); [`comparison_table`]: as a file.
 //!
 //! Not here: text and figures for people (`report`), and reading tables for a campaign (`campaign`).
@@ -30,6 +30,7 @@ pub mod comparison;
 pub mod comparison_table;
 pub mod described_table;
 pub mod drawn_table;
+pub mod drivers;
 pub mod folder;
 pub mod found;
 pub mod identity;

@@ -1,7 +1,8 @@
 //! What drives an outcome, in words: on the screen and on the cards of the page.
 
 use crate::campaign::Plan;
-use crate::dataset::sensitivity::{InputSensitivity, drivers};
+use crate::dataset::drivers::drivers;
+use crate::dataset::sensitivity::InputSensitivity;
 use crate::statistics::correlation::Estimate;
 
 /// Inputs that are named.
@@ -11,7 +12,7 @@ const NAMED: usize = 2;
 const MAIN: [&str; 4] =
     ["energy_error_max", "angular_momentum_error_max", "state_error_estimate", "exchange_body_peak_to_peak_j"];
 
-/// The observables of `all` whose drivers are shown: those that the file requires or names, or [`MAIN`] ones.
+/// The observables of `all` whose drivers are shown: those that the file requires or names, else the main ones.
 pub fn outcomes<'a>(plan: &Plan, all: &'a [InputSensitivity]) -> Vec<&'a str> {
     let mut names: Vec<&str> = all.iter().map(|one| one.observable.as_str()).collect();
     names.dedup();
