@@ -1,7 +1,7 @@
 //! Bodies and actuators as files describe them: what is read, what is refused, and what errors of actuators do.
 
 use crate::support::campaigns::{FUSELAGE, THRUSTERS, WHEEL1_AT_REST};
-use crate::support::runs::{Run, adaptive, propagate};
+use crate::support::runs::{Run, adaptive, fixed, propagate};
 use crate::support::scenes::{Kind, random};
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::math::vector::{difference, norm};
@@ -175,6 +175,45 @@ fn draws_that_pull_or_turn_inside_out_are_invalid() {
         let sigma = (share * (1.0 - share) / COUNT as f64).sqrt();
         let found = f64::from(refused) / COUNT as f64;
         assert!((found - share).abs() < 3.29 * sigma, "{keys:?}: {found} {share}");
+    }
+}
+
+/// Law: a debris turns as the same body described in its principal frame, whichever products of inertia its tensor has, with equal moments on
+/// the diagonal too; for every method.
+#[test]
+fn a_debris_turns_as_in_its_principal_frame() {
+    let grid = Grid::uniform(4.0, 9);
+    let rate = [0.7, -0.4, 1.1];
+    let motion = |method: Method, tensor: [[f64; 3]; 3], rate: [f64; 3]| {
+        let kind = Kind { wheels: [true; 2], debris: 1, products: false, offset: false, forced: false };
+        let mut input = random(kind, 23, 4.0);
+        input.debris = Some(DebrisInput::Tensor { mass_kg: 20.0, inertia_kg_m2: tensor });
+        let mut scene = Scene::resolve(&input).expect("a physical scene");
+        scene.initial.omega_de_d = rate;
+        let control = if method.has_fixed_step() { fixed(1e-3) } else { adaptive(1e-12) };
+        propagate(method, control, &grid, &[scene]).remove(0)
+    };
+    for [xy, xz, yz] in [[0.5, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0, 0.0, 0.5], [0.5, 0.5, 0.5], [0.3, -0.2, 0.4]] {
+        let tensor = [[4.0, xy, xz], [xy, 4.0, yz], [xz, yz, 4.0]];
+        let axes = nalgebra::Matrix3::from_fn(|i, j| tensor[i][j]).symmetric_eigen();
+        let turned = axes.eigenvectors;
+        let [a, b, c] = [0, 1, 2].map(|i| axes.eigenvalues[i]);
+        let principal = [[a, 0.0, 0.0], [0.0, b, 0.0], [0.0, 0.0, c]];
+        // a frame of the other hand changes the sign of a rate, which is a pseudovector
+        let hand = turned.determinant();
+        let into = hand * turned.transpose() * nalgebra::Vector3::from(rate);
+        for method in Method::ALL {
+            let (own, other) = (motion(method, tensor, rate), motion(method, principal, into.into()));
+            let mut changed = 0.0_f64;
+            for point in 0..grid.points() {
+                let found = own.table.at::<3>(StateField::DebrisRate, point);
+                let expected = other.table.at::<3>(StateField::DebrisRate, point);
+                let expected: [f64; 3] = (hand * turned * nalgebra::Vector3::from(expected)).into();
+                assert!(norm(difference(found, expected)) < 1e-9, "{}: {found:?} {expected:?}", method.name());
+                changed = changed.max(norm(difference(found, rate)));
+            }
+            assert!(changed > 0.01, "{}: an axis that is not principal does not stay: {changed}", method.name());
+        }
     }
 }
 

@@ -10,7 +10,7 @@ use std::time::Instant;
 
 use spindrift::campaign::{Overrides, Plan};
 
-use crate::every_key::EVERY_TABLE;
+use crate::support::every_key::EVERY_TABLE;
 
 /// Values that no key, or hardly any, takes. Each key gets three of them, and its neighbours others.
 const VALUES: [&str; 18] = [

@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use spindrift::campaign::{CampaignError, Overrides, Plan};
 use spindrift::scene::Parameter;
 
-use crate::every_key::{EVERY_TABLE, distributions};
+use crate::support::every_key::{EVERY_TABLE, distributions};
 
 /// A word that is no key and no name, and that nothing resembles.
 const NOTHING: &str = "qqzzqqzz";

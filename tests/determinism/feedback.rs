@@ -1,10 +1,10 @@
 //! Runs under laws of their own: bits do not depend on lanes, other runs, order, instruction set or threads, and the record of the
 //! arcs flown gives the same run again.
 
-use crate::support::feedback::{Flight, PERIOD, fly, fly_recorded, fly_schedules, law};
+use crate::support::feedback::{Flight, PERIOD, fly, fly_recorded, fly_schedules, fly_under, law};
 use crate::support::runs::{Bits, adaptive, everything, fixed};
-use crate::support::scenes::{WHEELS, mixed};
-use spindrift::dynamics::actuation::Laws;
+use crate::support::scenes::{WHEELS, many_wheels, mixed};
+use spindrift::dynamics::actuation::{Actuation, ActuationLaw, BodyState, Laws, WheelState, ZeroOrderHold};
 use spindrift::math::Isa;
 use spindrift::observables::request::wheel_names;
 use spindrift::observables::{Groups, Observer, Request};
@@ -12,7 +12,7 @@ use spindrift::ode::Control;
 use spindrift::ode::Integrator;
 use spindrift::propagation::{CompletedRun, Method, PropagationSettings};
 use spindrift::run::Grid;
-use spindrift::scene::{Actuated, Arc, Scene};
+use spindrift::scene::{Actuated, Arc, Scene, WheelMode};
 
 /// s.
 const HORIZON: f64 = 3.1;
@@ -93,6 +93,68 @@ fn the_record_flown_again_gives_the_same_bits() {
         moved.applied.body_torque[0] += 1e-6 * (1.0 + moved.applied.body_torque[0].abs());
         let other = fly_schedules(Isa::best(), &settings, &scenes[..1]);
         assert!(other[0].run.bits() != flown[0].run.bits(), "{}", method.name());
+    }
+}
+
+/// Law: the environment acts beside a law as beside a schedule: a law that answers from the schedule of the scene, or nothing where that is
+/// empty, flies the open loop of the same scene, bit for bit, and another than without the environment.
+#[test]
+fn the_environment_acts_beside_a_law() {
+    for forced in [false, true] {
+        let calm = mixed(5, forced, HORIZON);
+        let mut scenes = calm.clone();
+        scenes.iter_mut().for_each(|scene| scene.environment.body_torque_n_m = Some([30.0, -20.0, 10.0]));
+        let schedules: Vec<Vec<Arc>> = scenes.iter().map(|scene| scene.schedule.clone()).collect();
+        assert!(schedules.iter().all(|schedule| schedule.is_empty() != forced));
+        for (method, control) in METHODS {
+            let settings = settings(method, control, &scenes);
+            let open = bits(&fly_schedules(Isa::best(), &settings, &scenes));
+            let under = bits(&fly_recorded(Isa::best(), &settings, &scenes, &schedules));
+            assert!(under == open, "{}, forced: {forced}", method.name());
+            let without = bits(&fly_recorded(Isa::best(), &settings, &calm, &schedules));
+            assert!(without.iter().zip(&open).all(|(a, b)| a != b), "{}, forced: {forced}", method.name());
+        }
+    }
+}
+
+/// A law, with a motor torque of its own on some wheels.
+struct Pushing<L>(L, Vec<bool>, f64);
+
+impl<L: ActuationLaw> ActuationLaw for Pushing<L> {
+    fn arc(&mut self, time: f64, body: &BodyState, wheels: &WheelState) -> Actuation {
+        let mut answer = self.0.arc(time, body, wheels);
+        for (index, torque) in answer.motor_torque.iter_mut().enumerate() {
+            // a place where there is no wheel is pushed too
+            if self.1.get(index).is_none_or(|is_pushed| *is_pushed) {
+                *torque = self.2;
+            }
+        }
+        answer
+    }
+}
+
+/// Law: a law's torque on a wheel whose motor holds its speed, or on one that is not there, changes no bit; on a free wheel it does.
+#[test]
+fn a_torque_on_a_held_wheel_changes_no_bit() {
+    let scenes = (0..12).map(|k| Scene::resolve(&many_wheels(4, k, false, HORIZON)).expect("physical"));
+    let is_held = |scene: &Scene| -> Vec<bool> {
+        scene.mass.wheels.iter().map(|wheel| wheel.mode == WheelMode::SpeedHeld).collect()
+    };
+    let mixed = scenes.filter(|scene| is_held(scene).contains(&true) && is_held(scene).contains(&false));
+    let scenes: Vec<Scene> = mixed.take(3).collect();
+    assert_eq!(scenes.len(), 3);
+    for scene in &scenes {
+        let held = is_held(scene);
+        let free: Vec<bool> = held.iter().map(|is_held| !is_held).collect();
+        for (method, control) in METHODS {
+            let settings = settings(method, control, std::slice::from_ref(scene));
+            let pushed = |wheels: &[bool], torque: f64| {
+                let law = ZeroOrderHold::new(PERIOD, Pushing(law(scene), wheels.to_vec(), torque));
+                bits(&fly_under(&mut vec![law], Isa::best(), &settings, std::slice::from_ref(scene)))
+            };
+            assert!(pushed(&held, 2.5) == pushed(&held, 0.0), "{}", method.name());
+            assert!(pushed(&free, 2.5) != pushed(&free, 0.0), "{}", method.name());
+        }
     }
 }
 

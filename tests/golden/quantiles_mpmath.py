@@ -2,7 +2,8 @@
 
 python3 tests/golden/quantiles_mpmath.py > tests/golden/quantiles_mpmath.json      (needs mpmath; its version is in the file)
 
-A row has the distribution, its parameters, u, the quantile (of the unit interval, scale 1, centre 0) and, of a beta distribution, 1 - x.
+A row has the distribution, its parameters, u, the quantile (of the unit interval, scale 1, centre 0) and, of a beta distribution, 1 - x. The
+parameters of a truncated normal distribution are its bounds.
 Each is the root of the distribution function's logarithm, by bisection and Newton's method; the smaller tail is the one that is used.
 """
 
@@ -79,6 +80,14 @@ def student(nu, u):
     return mpmath.sign(u - mpf(1) / 2) * mpmath.sqrt(nu * y / x)
 
 
+def truncated_normal(a, b, u):
+    a, b, u = mpf(a), mpf(b), mpf(u)
+    if a > 0:
+        return -truncated_normal(-b, -a, 1 - u)
+    below, between = mpmath.ncdf(a), mpmath.ncdf(b) - mpmath.ncdf(a)
+    return root(lambda x: mpmath.log(mpmath.ncdf(x) / (below + u * between)), a, b)
+
+
 rows = []
 
 
@@ -103,6 +112,9 @@ for nu in [0.5, 1.0, 2.0, 5.0, 30.0, 1e4]:
 for shape in [0.05, 1.0, 2.0, 50.0]:
     for u in U:
         add("weibull", [shape], u, (-mpmath.log1p(-mpf(u))) ** (1 / mpf(shape)))
+for a, b in [(7, 7.5), (7, 40), (-7.5, -7), (-40, -7), (8, 8.1), (-8.1, -8), (3, 5), (-5, -3), (-1, 9), (-9, 1), (0.25, 0.5)]:
+    for u in U:
+        add("truncated_normal", [a, b], u, truncated_normal(a, b, u))
 for u in U:
     add("exponential", [], u, -mpmath.log1p(-mpf(u)))
 

@@ -93,6 +93,14 @@ fn counts_are_those_of_the_time_series() {
         every["requirement"],
         format!("99% of runs with {SERIES} at most {high:?} J at each time from 0.05 s to 0.95 s, with 95% confidence")
     );
+    // both ends of an interval belong to it, and the next number beyond a point does not reach it
+    for (from, to, points) in
+        [(times[2], times[7], 6), (times[2].next_up(), times[7].next_down(), 4), (times[4], times[4], 1)]
+    {
+        let some =
+            verdict(&scratch, &format!("fraction = 0.99\nat_most = {high:?}\nfrom_s = {from:?}\nto_s = {to:?}"), 0);
+        assert_eq!(some["band"]["points"], points, "from {from:?} s to {to:?} s");
+    }
 }
 
 /// Law: a requirement at all times is about the extreme of each run at the observation points of the interval, exactly; where other runs are

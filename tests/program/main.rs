@@ -21,6 +21,7 @@ mod faults;
 mod faulty_storage;
 mod hostile_files;
 mod interrupted;
+mod judged_columns;
 mod mass_properties;
 mod memory;
 mod motion;

@@ -76,13 +76,16 @@ fn laws_of(name: &str, p: &[f64]) -> Vec<Distribution> {
         "gamma" => vec![Distribution::Gamma(GammaQuantile::new(p[0], 1.0, 0.0))],
         "student_t" => vec![Distribution::StudentT(StudentTQuantile::new(p[0], 0.0, 1.0))],
         "weibull" => vec![Distribution::Weibull(WeibullQuantile { shape: p[0], scale: 1.0, min: 0.0 })],
+        "truncated_normal" => {
+            TruncatedNormalQuantile::new(0.0, 1.0, p[0], p[1]).map(Distribution::TruncatedNormal).into_iter().collect()
+        }
         "exponential" => vec![Distribution::Exponential(ExponentialQuantile { scale: 1.0, min: 0.0 })],
         other => panic!("{other}"),
     }
 }
 
-/// Quantiles in 30 digits (mpmath) of beta, gamma, Student's t, Weibull and exponential distributions, of very skewed shapes too:
-/// relative error of the value, of a beta distribution of its distance from either end, below 1e-12.
+/// Quantiles in 30 digits (mpmath) of beta, gamma, Student's t, Weibull, exponential and truncated normal distributions, of very skewed
+/// shapes and in far tails too: relative error of the value, of a beta distribution of its distance from either end, below 1e-12.
 #[test]
 fn quantiles_are_those_of_mpmath() {
     let golden: Value = serde_json::from_str(include_str!("../golden/quantiles_mpmath.json")).expect("JSON");
@@ -109,7 +112,7 @@ fn quantiles_are_those_of_mpmath() {
             *most = most.max(error);
         }
     }
-    assert!(rows.len() > 180, "{}", rows.len());
+    assert!(rows.len() > 270, "{}", rows.len());
     let wrong: Vec<_> = worst.iter().filter(|(_, error)| **error > 1e-12).collect();
     assert!(wrong.is_empty(), "{wrong:#?}");
 }

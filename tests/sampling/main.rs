@@ -19,3 +19,4 @@ mod mass_keys;
 mod replay;
 mod replicates;
 mod streams;
+mod structure;

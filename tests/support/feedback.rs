@@ -1,7 +1,7 @@
 //! A control law for tests, and runs under it.
 
 use spindrift::dynamics::actuation::{
-    Actuation, ActuationLaw, Arc, BodyState, Laws, OpenLoop, WheelState, ZeroOrderHold,
+    Actuation, ActuationLaw, Arc, BodyState, LawSource, Laws, OpenLoop, WheelState, ZeroOrderHold,
 };
 use spindrift::math::Isa;
 use spindrift::propagation::{CompletedRun, PropagationSettings};
@@ -67,20 +67,22 @@ fn flights(count: usize, propagate: impl FnOnce(&mut dyn FnMut(CompletedRun<'_>)
     flights.into_iter().map(|flight| flight.expect("every run is handed over")).collect()
 }
 
-/// The runs of `scenes` under their laws.
-pub fn fly(isa: Isa, settings: &PropagationSettings, scenes: &[Scene]) -> Vec<Flight> {
-    let mut laws: Vec<_> = scenes.iter().map(law).collect();
+/// The runs of `scenes` under laws of their own.
+pub fn fly_under(laws: &mut dyn LawSource, isa: Isa, settings: &PropagationSettings, scenes: &[Scene]) -> Vec<Flight> {
     flights(scenes.len(), |finish| {
-        settings.engine(isa).propagate_under(Laws::Feedback(&mut laws), scenes, &mut |run| finish(run));
+        settings.engine(isa).propagate_under(Laws::Feedback(laws), scenes, &mut |run| finish(run));
     })
+}
+
+/// The runs of `scenes` under [`law`].
+pub fn fly(isa: Isa, settings: &PropagationSettings, scenes: &[Scene]) -> Vec<Flight> {
+    fly_under(&mut scenes.iter().map(law).collect::<Vec<_>>(), isa, settings, scenes)
 }
 
 /// The runs of `scenes` by schedules that were recorded, as laws.
 pub fn fly_recorded(isa: Isa, settings: &PropagationSettings, scenes: &[Scene], records: &[Vec<Arc>]) -> Vec<Flight> {
     let mut laws: Vec<_> = records.iter().map(|schedule| OpenLoop { schedule }).collect();
-    flights(scenes.len(), |finish| {
-        settings.engine(isa).propagate_under(Laws::Feedback(&mut laws), scenes, &mut |run| finish(run));
-    })
+    fly_under(&mut laws, isa, settings, scenes)
 }
 
 /// The runs of `scenes` by their own schedules.

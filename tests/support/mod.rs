@@ -3,6 +3,7 @@
 
 pub mod campaigns;
 pub mod claims;
+pub mod every_key;
 pub mod exact;
 pub mod extrapolation;
 pub mod feedback;

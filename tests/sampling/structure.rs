@@ -1,0 +1,134 @@
+//! What the numbers of a design have in common: which of them a block of Saltelli's replaces together, and which digits Halton's have.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use spindrift::campaign::{Overrides, Plan};
+use spindrift::sampling::{SampleId, WrittenDistribution};
+
+use crate::support::every_key::{distribution_tables, without_draws};
+use crate::support::scratch_folder::ScratchFolder;
+
+/// The applied values of samples 1 to `samples` - 1 of `text`, and the parameter of each column.
+fn draws(folder: &Path, text: &str) -> (Vec<Vec<f64>>, Vec<String>) {
+    let plan = Plan::from_text_in(folder, "structure.toml", text, Overrides::default());
+    let plan = plan.unwrap_or_else(|error| panic!("{error}\n{text}"));
+    let (mut sampler, mut scene) = (plan.dispersions.sampler(), plan.nominal.clone());
+    let mut applied = vec![0.0; plan.dispersions.columns().len()];
+    let mut draw = |sample| {
+        sampler.draw(SampleId(sample), &mut scene, &mut applied);
+        applied.clone()
+    };
+    let rows = (1..plan.samples).map(&mut draw).collect();
+    (rows, plan.dispersions.columns().iter().map(|column| column.parameter.name()).collect())
+}
+
+/// Law: of the members of a block, that of a distribution has all numbers of this distribution from the last, and all others from the first, for
+/// every distribution. One of several numbers together is one, that of each component of a vector another.
+#[test]
+fn saltelli_replaces_the_numbers_of_one_distribution_together() {
+    const BLOCKS: usize = 8;
+    let scratch = ScratchFolder::new("saltelli-blocks");
+    scratch.file("data.csv", "a,b\n0.21,0.11\n0.24,0.12\n0.27,0.14\n0.23,0.13\n0.22,0.15\n");
+    let plain = without_draws();
+    let head = &plain[..plain.find("[stop]").expect("a table")];
+    let head = head.replace("\nvelocity_m_s = [10, 0, 0]", "\nvelocity_m_s = [0.25, 0.25, 0.25]");
+    let scalar = |parameter: &str| {
+        format!("[[disperse]]\nparameter = {parameter:?}\ndistribution = \"uniform\"\nhalf_width = 0.01\n")
+    };
+    let (first, last) = (scalar("body.parts.fuselage.length_m"), scalar("debris.side_m"));
+    let mut names = BTreeSet::new();
+    for (name, table) in distribution_tables() {
+        let radius = "parameter = \"wheels.w1.radius_m\"";
+        let factors = match name {
+            // has no random number
+            "offset" => 2,
+            _ if table.contains(radius) => 5,
+            _ => 3,
+        };
+        let table = table.replace(radius, "parameter = \"initial.velocity_m_s\"");
+        let head = head.replace("samples = 10\n", &format!("samples = {}\n", 1 + BLOCKS * (factors + 2)));
+        let (rows, columns) = draws(&scratch.0, &format!("{head}{first}{table}{last}[design]\nkind = \"saltelli\"\n"));
+        assert_eq!(rows.len(), BLOCKS * (factors + 2));
+        // the columns are those of the first table, of the distribution, and of the last one
+        let factor = |column: usize| match column {
+            0 => 0,
+            _ if column == columns.len() - 1 => factors - 1,
+            component if factors == 5 => component,
+            _ if factors == 2 => usize::MAX,
+            _ => 1,
+        };
+        let mut replaced = BTreeSet::new();
+        for block in rows.chunks(factors + 2) {
+            let (a, b) = (&block[0], &block[factors + 1]);
+            for column in 0..columns.len() {
+                for member in 0..factors {
+                    let expected = if member == factor(column) { b[column] } else { a[column] };
+                    let found = block[member + 1][column];
+                    let what = format!("{name}: {} in member {member}\n{table}", columns[column]);
+                    assert_eq!(found.to_bits(), expected.to_bits(), "{what}");
+                }
+                if a[column] != b[column] {
+                    replaced.insert(column);
+                }
+            }
+        }
+        // the law is not one of constants: of a few values A and B may have the same in every block
+        let has_few = ["offset", "bernoulli", "choice"].contains(&name);
+        assert!(replaced.len() == columns.len() || has_few, "{name}: {replaced:?}");
+        names.insert(name);
+    }
+    assert_eq!(names, WrittenDistribution::NAMES.iter().copied().collect(), "every distribution is here");
+}
+
+/// The digits of a point in base `base`, the lowest first.
+fn digits(mut point: u64, base: u64, count: usize) -> Vec<u64> {
+    let mut digit = || {
+        let lowest = point % base;
+        point /= base;
+        lowest
+    };
+    (0..count).map(|_| digit()).collect()
+}
+
+/// Law: number n of dimension d is the radical inverse of n in the d-th prime (J. H. Halton, 1960), but for a permutation of the values of
+/// each digit, the same for all n and another for each digit and dimension (A. B. Owen, 2017). So every b^m points that follow each other
+/// from a multiple of b^m on are one in each interval of width b^-m.
+#[test]
+fn halton_permutes_the_digits_of_the_radical_inverse() {
+    const PRIMES: [u64; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
+    let uniform = |parameter: &str| {
+        format!("[[disperse]]\nparameter = \"initial.{parameter}\"\ndistribution = \"uniform\"\nmin = 0.0\nmax = 1.0\n")
+    };
+    let plain = without_draws();
+    let head = plain[..plain.find("[stop]").expect("a table")].replace("samples = 10\n", "samples = 4097\n");
+    let vectors = ["position_m", "velocity_m_s", "debris_position_m", "debris_velocity_m_s"].map(uniform).concat();
+    let (rows, columns) = draws(Path::new(""), &format!("{head}{vectors}[design]\nkind = \"halton\"\n"));
+    assert_eq!((rows.len(), columns.len()), (4096, PRIMES.len()));
+    let mut found = BTreeSet::new();
+    for (dimension, base) in PRIMES.into_iter().enumerate() {
+        // digits that a product with a power of the base gives exactly
+        let count = (0..).take_while(|k| base.pow(*k) <= 1 << 26).count() - 1;
+        let mut images = vec![BTreeMap::new(); count];
+        for (point, row) in rows.iter().enumerate() {
+            let u = row[dimension];
+            let mut drawn = digits((u * base.pow(count as u32) as f64) as u64, base, count);
+            drawn.reverse();
+            for (place, (digit, image)) in digits(point as u64, base, count).into_iter().zip(drawn).enumerate() {
+                let known = *images[place].entry(digit).or_insert(image);
+                assert_eq!(known, image, "digit {place} of point {point} in base {base}: another image of {digit}");
+            }
+        }
+        for (place, images) in images.into_iter().enumerate() {
+            let values: BTreeSet<u64> = images.values().copied().collect();
+            assert_eq!(values.len(), images.len(), "two values of digit {place} in base {base} have one image");
+            // of 23! permutations and more: no two are the same, and none is the identity
+            if base >= 23 && images.len() as u64 == base {
+                assert!(images.iter().any(|(digit, image)| digit != image), "digit {place} in base {base}");
+                assert!(found.insert(images.into_iter().take(23).collect::<Vec<_>>()), "digit {place} in base {base}");
+            }
+        }
+    }
+    // two digits of four bases
+    assert_eq!(found.len(), 8);
+}

@@ -1,0 +1,267 @@
+//! A campaign file with every table, and with tables of every distribution and design: what the tests of wrong files change.
+
+/// A valid file with every table that a file can have.
+pub const EVERY_TABLE: &str = r#"[campaign]
+name = "every"
+description = "What is refused?"
+samples = 10
+seed = 1
+duration_s = 10.0
+
+[integrator]
+method = "auto"
+tolerance = 1e-10
+max_steps = 100000
+
+[observe]
+points = 11
+groups = ["effort", "energy_conservation"]
+
+[body]
+mass_scale = 1.0
+
+[[body.parts]]
+name = "fuselage"
+shape = "hollow_cylinder"
+wall_thickness_m = 0.03
+outer_radius_m = 1.0
+length_m = 3.0
+density_kg_m3 = 2700.0
+position_m = [0, 0, 1.5]
+
+[[body.parts]]
+name = "tank"
+shape = "sphere"
+radius_m = 0.1
+mass_kg = 5.0
+
+[[wheels]]
+name = "w1"
+axis = [0, 1, 0]
+position_m = [0, 0, 1]
+radius_m = 0.25
+length_m = 0.1
+density_kg_m3 = 2700.0
+rate_rad_s = 314.0
+
+[[wheels]]
+name = "w2"
+axis = [0, 0, 1]
+mass_kg = 50.0
+axial_inertia_kg_m2 = 1.5
+transverse_inertia_kg_m2 = 0.8
+mode = "locked"
+
+[[thrusters]]
+name = "p1"
+position_m = [0, 0, 0]
+direction = [0, 0, 1]
+
+[debris]
+side_m = 0.2
+density_kg_m3 = 2700.0
+
+[initial]
+position_m = [0, 0, 0]
+velocity_m_s = [10, 0, 0]
+attitude = [1, 0, 0, 0]
+angular_velocity_rad_s = [0, 3.0, 31.0]
+debris_position_m = [0, 0, 0]
+debris_velocity_m_s = [10, 0, 0]
+debris_attitude = [1, 0, 0, 0]
+debris_relative_angular_velocity_rad_s = [100, 0, 0]
+
+[environment]
+body_torque_n_m = [0, 0.001, 0]
+
+[actuators]
+switch_on_delay_s = 0.001
+
+[[actuation]]
+name = "burn"
+start_s = 0.0
+end_s = 3.0
+thrust_n = { p1 = 100 }
+thrust_scale = 0.99
+torque_n_m = { w1 = 0.5 }
+
+[design]
+kind = "random"
+
+[[disperse]]
+parameter = "wheels.w1.radius_m"
+distribution = "uniform"
+half_width = 0.002
+
+[[disperse]]
+parameter = "body.parts.fuselage.density_kg_m3"
+distribution = "normal"
+relative_std = 0.02
+
+[[correlate]]
+parameters = ["wheels.w1.radius_m", "body.parts.fuselage.density_kg_m3"]
+rank_correlation = 0.5
+
+[[derive]]
+parameter = "body.parts.fuselage.position_m.z"
+expression = "body.parts.fuselage.length_m / 2"
+
+[bands]
+points = 5
+
+[audit]
+fraction = 0.1
+
+[output]
+compression = "zstd"
+
+[[observable]]
+name = "twice"
+unit = "J"
+expression = "2 * energy_error_max"
+
+[statistics]
+quantiles = [0.5, 0.9]
+confidence = 0.9
+
+[summary]
+columns = ["steps"]
+
+[[require]]
+observable = "energy_error_max"
+quantile = 0.99
+at_most = 1e-9
+
+[stop]
+observable = "energy_error_max"
+quantile = 0.95
+half_width = 1e-12
+max_samples = 5000
+
+[retain]
+trajectories = "failed"
+"#;
+
+/// Tables of distributions, each with the name of the distribution.
+pub fn distributions() -> Vec<(&'static str, String)> {
+    let scalar = [
+        "normal",
+        "truncated_normal",
+        "uniform",
+        "log_normal",
+        "log_uniform",
+        "triangular",
+        "pert",
+        "beta",
+        "gamma",
+        "weibull",
+        "exponential",
+        "rayleigh",
+        "student_t",
+        "bernoulli",
+        "choice",
+        "empirical",
+        "offset",
+    ];
+    let table = |parameter: &str, name: &str| {
+        format!("\n[[disperse]]\nparameter = \"{parameter}\"\ndistribution = \"{name}\"\n")
+    };
+    let scalar = scalar.map(|name| (name, table("body.parts.tank.mass_kg", name)));
+    let directions =
+        ["uniform_direction", "cone", "von_mises_fisher"].map(|name| (name, table("thrusters.p1.direction", name)));
+    let attitudes =
+        ["uniform_attitude", "attitude_error", "about_axis"].map(|name| (name, table("initial.attitude", name)));
+    let rows = ("bootstrap", "\n[[disperse]]\ndistribution = \"bootstrap\"\n".to_owned());
+    scalar.into_iter().chain(directions).chain(attitudes).chain([rows]).collect()
+}
+
+/// [`EVERY_TABLE`] without what is drawn.
+pub fn without_draws() -> String {
+    let at = |header: &str| EVERY_TABLE.find(header).expect("a table of the file");
+    [&EVERY_TABLE[..at("[design]")], &EVERY_TABLE[at("[bands]")..]].concat()
+}
+
+/// A valid table of each distribution and each way to say its numbers, for [`without_draws`] and a table `data.csv` with columns a and b; with
+/// the name of the distribution.
+pub fn distribution_tables() -> Vec<(&'static str, String)> {
+    let of = |parameter: &str, name: &'static str, keys: &str| {
+        let target = if parameter.is_empty() { String::new() } else { format!("parameter = {parameter:?}\n") };
+        (name, format!("[[disperse]]\n{target}distribution = {name:?}\n{keys}\n"))
+    };
+    let magnitude = "magnitude = { distribution = \"uniform\", min = 1.0, max = 2.0 }";
+    let scalar = [
+        ("normal", "std = 0.01"),
+        ("normal", "relative_std = 0.02"),
+        ("truncated_normal", "std = 0.1\nsigmas = 3.0"),
+        ("truncated_normal", "std = 0.1\nlower = 0.05\nupper = 0.5"),
+        ("truncated_normal", "relative_std = 0.02\nrelative_lower = -0.1\nrelative_upper = 0.1"),
+        ("truncated_normal", "std = 0.01\nlower_sigmas = 2.0\nupper_sigmas = 1.5"),
+        ("uniform", "half_width = 0.01"),
+        ("uniform", "relative_half_width = 0.01"),
+        ("uniform", "min = 0.05\nmax = 0.5"),
+        ("log_normal", "log_std = 0.1\nmedian = 0.3"),
+        ("log_uniform", "factor = 1.5"),
+        ("log_uniform", "min = 0.05\nmax = 0.5"),
+        ("triangular", "min = 0.05\nmax = 0.5\nmode = 0.2"),
+        ("pert", "min = 0.05\nmax = 0.5\nmode = 0.2"),
+        ("beta", "alpha = 2.0\nbeta = 3.5\nmin = 0.05\nmax = 0.5"),
+        ("gamma", "shape = 2.0\nscale = 0.1\nmin = 0.05"),
+        ("weibull", "shape = 2.0\nscale = 0.1\nmin = 0.05"),
+        ("exponential", "scale = 0.1\nmin = 0.05"),
+        ("rayleigh", "scale = 0.1"),
+        ("student_t", "degrees_of_freedom = 5.0\nscale = 0.01"),
+        ("student_t", "degrees_of_freedom = 5.0\nrelative_scale = 0.01"),
+        ("bernoulli", "value = 0.3\nprobability = 0.05"),
+        ("choice", "values = [0.2, 0.3]\nweights = [1.0, 2.0]"),
+        ("empirical", "file = \"data.csv\"\ncolumn = \"a\"\ninterpolation = \"none\""),
+        ("offset", "offset = 0.01"),
+        ("offset", "relative_offset = 0.01"),
+    ];
+    let rates = [
+        ("uniform_direction", "axis = [0.0, 3.0, 4.0]".to_owned()),
+        ("cone", "half_angle_rad = 0.2\naxis = [0.0, 3.0, 4.0]".to_owned()),
+        ("von_mises_fisher", "concentration = 20.0\naxis = [0.0, 3.0, 4.0]".to_owned()),
+    ];
+    let attitudes = [
+        ("uniform_attitude", ""),
+        ("attitude_error", "std_rad = [0.01, 0.02, 0.04]"),
+        ("attitude_error", "covariance_rad2 = [[4e-4, 1e-4, 0.0], [1e-4, 1e-4, 0.0], [0.0, 0.0, 2e-4]]"),
+        ("about_axis", "axis = [1.0, 2.0, 2.0]\nangle_rad = { distribution = \"normal\", std = 0.1 }"),
+    ];
+    let rows = "file = \"data.csv\"\nparameters = [\"wheels.w1.radius_m\", \"body.parts.tank.radius_m\"]\ncolumns = [\"a\", \"b\"]";
+    let scalar = scalar.into_iter().map(|(name, keys)| of("wheels.w1.radius_m", name, keys));
+    let rates = rates
+        .into_iter()
+        .map(|(name, keys)| of("initial.angular_velocity_rad_s", name, &format!("{keys}\n{magnitude}")));
+    let attitudes = attitudes.into_iter().map(|(name, keys)| of("initial.attitude", name, keys));
+    scalar.chain(rates).chain(attitudes).chain([of("", "bootstrap", rows)]).collect()
+}
+
+/// Files that together have every number that a scene can have, each with two arcs with names.
+pub fn every_scene() -> Vec<String> {
+    let plain = without_draws();
+    let (debris, initial) = (plain.find("[debris]").expect("a debris"), plain.find("[initial]").expect("a state"));
+    let arc = "[[actuation]]\nname = \"later\"\nstart_s = 4.0\nend_s = 6.0\nthrust_n = { p1 = 3.0 }\n";
+    let with = |body: &str, part: &str, debris_keys: &str| {
+        let text = format!("{}[debris]\n{debris_keys}\n{}{arc}", &plain[..debris], &plain[initial..]);
+        text.replace("mass_scale = 1.0\n", &format!("mass_scale = 1.0\n{body}\n"))
+            .replace("[[wheels]]\nname = \"w1\"", &format!("{part}[[wheels]]\nname = \"w1\""))
+    };
+    let tensor = "inertia_kg_m2 = [[3.0, 0.1, 0.2], [0.1, 4.0, 0.3], [0.2, 0.3, 5.0]]";
+    let axes = "principal_axes = [0.5, 0.5, -0.5, 0.5]";
+    let principal = |key: &str| format!("{key} = [3.0, 4.0, 5.0]\n{axes}");
+    let moments = ["principal_moments_kg_m2", "principal_second_moments_kg_m2"].map(principal);
+    let part = "[[body.parts]]\nname = \"panel\"\nshape = \"box\"\nsize_m = [1.0, 2.0, 0.1]\nmass_kg = 7.0\n\
+        [[body.parts]]\nname = \"rod\"\nshape = \"solid_cylinder\"\nradius_m = 0.1\nlength_m = 2.0\nmass_kg = 7.0\n";
+    let body = format!(
+        "mass_kg = 2000.0\ncenter_of_mass_m = [0.1, 0.2, 1.5]\n{}",
+        tensor.replace(".0,", "000.0,").replace(".0]", "000.0]")
+    );
+    vec![
+        with("", part, "side_m = 0.2\ndensity_kg_m3 = 2700.0"),
+        with(&body, "", "size_m = [0.1, 0.2, 0.3]\ndensity_kg_m3 = 2700.0"),
+        with(&moments[0].replace(".0", "00.0"), "", &format!("mass_kg = 3.0\n{tensor}")),
+        with(&moments[1].replace(".0", "00.0"), "", &format!("mass_kg = 3.0\n{}", moments[0])),
+        with("", "", &format!("mass_kg = 3.0\n{}", moments[1])),
+    ]
+}
