@@ -138,8 +138,17 @@ fn the_selection_depends_on_the_seed() {
     assert!(common < 40, "{common} of {}", first.len());
 }
 
+/// The audits of a plan. Law of all of them: an error is zero or above, of a state as of a column, where there is one; some are above.
 fn audits(plan: &Plan) -> Vec<Audit> {
-    rows(plan, 2).into_values().filter_map(|(.., audit)| audit.flatten()).collect()
+    let audits: Vec<Audit> = rows(plan, 2).into_values().filter_map(|(.., audit)| audit.flatten()).collect();
+    for audit in &audits {
+        let Audit { omega, attitude, debris, estimate, debris_estimate, reference_tolerance, .. } = *audit;
+        let own = [omega, attitude, debris, estimate, debris_estimate, reference_tolerance];
+        let errors: Vec<&f64> = own.iter().chain(&audit.observables).filter(|error| !error.is_nan()).collect();
+        assert!(errors.iter().all(|error| **error >= 0.0), "{errors:?}");
+        assert!(errors.len() > own.len() + 20 && audit.observables.iter().filter(|error| **error > 0.0).count() > 10);
+    }
+    audits
 }
 
 fn median(values: impl Iterator<Item = f64>) -> f64 {
@@ -287,6 +296,10 @@ fn the_program_audits() {
         let lines = summary["observables"].as_array().unwrap();
         lines.iter().find(|line| line["name"] == name).unwrap_or_else(|| panic!("no {name}"))["numerical_error"].clone()
     };
+    for line in summary["observables"].as_array().unwrap().iter().filter(|line| !line["numerical_error"].is_null()) {
+        let numbers = line["numerical_error"].as_object().unwrap().values().filter_map(Value::as_f64);
+        numbers.for_each(|number| assert!(number >= 0.0, "{line}"));
+    }
     // the energy transfer varies by tens of joules, for physical reasons; an energy error is purely numerical
     let share = |name: &str| line(name)["share_of_spread"].as_f64().unwrap();
     // measured: 7.4e-11 and 3.6

@@ -185,23 +185,30 @@ fn von_mises_and_fisher() {
     }
 }
 
-/// H0: spin axis and rate are apart: the magnitude follows its own law and does not know the direction.
+/// H0: angle to the axis, azimuth and magnitude are independent, and each follows its law: of the distribution functions of all three, each of
+/// 4 x 4 x 4 cells has a share of 1/64. Chi-square with 63 degrees of freedom, whose quantile at 1 - alpha is 103.4. Power: a number that
+/// decides two of the three leaves three cells in four empty, a statistic of some 3 n.
 #[test]
-fn magnitude_and_direction_are_apart() {
-    let law =
-        "distribution = \"cone\"\nhalf_angle_rad = 0.5\nmagnitude = { distribution = \"uniform\", min = 1, max = 5 }\n";
-    let rates = draws(&format!("{RATE}{law}"), rate);
-    let far = distance(rates.iter().map(|v| norm(*v)), |x| (x - 1.0) / 4.0);
-    assert!(far < KS, "{far}");
-    let (mut covariance, mut squares) = (0.0, [0.0; 2]);
-    for v in &rates {
-        let (a, b) = (norm(*v) - 3.0, about([1.0, -2.0, 2.0], *v)[0] - (1.0 + libm::cos(0.5)) / 2.0);
-        covariance += a * b;
-        squares = [squares[0] + a * a, squares[1] + b * b];
+fn magnitude_azimuth_and_angle_are_apart() {
+    const CHI_63: f64 = 103.442;
+    let magnitude = "magnitude = { distribution = \"uniform\", min = 1, max = 5 }\n";
+    type Law = fn(f64) -> f64;
+    let laws: [(&str, Law); 3] = [
+        ("distribution = \"uniform_direction\"\n", |versine| versine / 2.0),
+        ("distribution = \"cone\"\nhalf_angle_rad = 0.5\n", |versine| versine / (1.0 - libm::cos(0.5))),
+        ("distribution = \"von_mises_fisher\"\nconcentration = 5.0\n", |v| libm::expm1(-5.0 * v) / libm::expm1(-10.0)),
+    ];
+    for (name, law) in laws {
+        let mut counts = [0.0; 64];
+        for v in draws(&format!("{RATE}{name}{magnitude}"), rate) {
+            let [cosine, azimuth] = about([1.0, -2.0, 2.0], v);
+            let cell = |u: f64| ((4.0 * u) as usize).min(3);
+            counts[16 * cell(law(1.0 - cosine)) + 4 * cell(azimuth) + cell((norm(v) - 1.0) / 4.0)] += 1.0;
+        }
+        let expected = N as f64 / 64.0;
+        let statistic = counts.iter().map(|count| (count - expected) * (count - expected) / expected).sum::<f64>();
+        assert!(statistic < CHI_63, "{name}: {statistic}");
     }
-    let correlation = covariance / (squares[0] * squares[1]).sqrt();
-    // 3.29 standard errors 1/sqrt(n) of a correlation of independent numbers: two-sided alpha = 1e-3
-    assert!(correlation.abs() * (N as f64).sqrt() < 3.29, "{correlation}");
     // a zero nominal has neither: both are given
     let zero = "parameter = \"initial.velocity_m_s\"\ndistribution = \"uniform_direction\"\n\
         magnitude = { distribution = \"uniform\", min = 0, max = 2 }\n";

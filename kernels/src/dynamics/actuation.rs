@@ -204,10 +204,11 @@ mod tests {
         Actuation::none(until).with_thrust(&[thrust])
     }
 
-    /// The arcs of `law` up to `duration`: start, end, thrust.
+    /// The arcs of `law` up to `duration`: start, end, thrust. A law that goes on for ever is one that fails here.
     fn arcs(law: &mut dyn ActuationLaw, duration: f64) -> Vec<(f64, f64, f64)> {
         let (mut time, mut list) = (0.0, Vec::new());
         while time < duration {
+            assert!(list.len() < 100, "100 arcs, the last at {time} s");
             let arc = Arc::new(time, law.arc(time, &BODY, &WheelState::AT_REST), duration);
             time = arc.end();
             list.push((arc.start, arc.end(), arc.applied.thrust[0]));

@@ -168,33 +168,6 @@ mod tests {
         assert_eq!(primes(512)[511], 3671);
     }
 
-    /// Law: of any b^m consecutive points from a multiple of b^m one is in each interval of width b^-m.
-    #[test]
-    fn each_interval_holds_one_point() {
-        let names: Vec<String> = (0..40).map(|k| format!("d{k}")).collect();
-        let halton = Halton::new(3, &names);
-        for (dimension, base) in primes(40).into_iter().enumerate() {
-            for cells in [base, base * base] {
-                let mut counts = vec![0; cells as usize];
-                for point in 7 * cells..8 * cells {
-                    counts[(halton.number(dimension, point) * cells as f64) as usize] += 1;
-                }
-                let other = counts.iter().position(|count| *count != 1);
-                assert_eq!(other, None, "an interval of {cells} without exactly one point, base {base}: {counts:?}");
-            }
-        }
-    }
-
-    #[test]
-    fn without_permutations_it_is_the_radical_inverse() {
-        let mut radix = Radix::new(3, 0);
-        radix.permutations = [0, 1, 2].repeat(radix.weights.len());
-        radix.add_rests();
-        let inverse = |point: u64| (radix.number(point) * 81.0).floor();
-        // 1 = 0.1, 5 = 0.21, 26 = 0.222 in base 3
-        assert_eq!([1, 5, 26].map(inverse), [27.0, 63.0, 78.0]);
-    }
-
     /// The largest correlation between two of the numbers of the first points.
     fn worst_correlation(number: impl Fn(usize, u64) -> f64, dimensions: usize, points: u64) -> f64 {
         let n = points as f64;
