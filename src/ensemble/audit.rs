@@ -66,7 +66,11 @@ static COLUMNS: [Quantity; AuditValue::ALL.len()] = [
         "",
         "True largest error of the body's rotation on the grid, which state_error_estimate estimates: the larger of the next two.",
     ),
-    Quantity::new("audit_omega_error", "", "True largest error of omega on the grid, relative to the largest |omega|, or to one radian over the duration where that is more."),
+    Quantity::new(
+        "audit_omega_error",
+        "",
+        "True largest error of omega on the grid, relative to the largest |omega|, or to one radian over the duration where that is more.",
+    ),
     Quantity::new(
         "audit_attitude_error_rad",
         "rad",
@@ -284,7 +288,8 @@ impl Auditor {
             errors = Err(NoAudit::Run(outcome.status));
             if outcome.status == Status::Done {
                 observer.observe(isa, run, table, outcome, row);
-                let debris = has_debris.then(|| RotationError::largest(debris_rotation_errors(&reference, &self.grid, table)));
+                let debris =
+                    has_debris.then(|| RotationError::largest(debris_rotation_errors(&reference, &self.grid, table)));
                 errors = Ok((RotationError::largest(rotation_errors(&reference, &self.grid, table)), debris));
             }
         });

@@ -203,11 +203,7 @@ impl Conditioning {
         }
         let scale = rate_scale(largest, self.times[count - 1]);
         // relative to that, as all errors are from here on
-        let local = LocalErrors {
-            truncation: local.truncation / scale,
-            feedback: local.feedback / scale,
-            ..*local
-        };
+        let local = LocalErrors { truncation: local.truncation / scale, feedback: local.feedback / scale, ..*local };
         let curve = if widest <= STILL * largest {
             self.at_equilibrium(body, [count, stride, last], scale, table, &local)
         } else {

@@ -17,7 +17,8 @@ pub fn local_errors(model: &ErrorModel, tolerance: f64, completion: &Completion)
             let error = errors.factor * libm::pow(tolerance, errors.extrapolation) * tolerance * completion.error_sum;
             LocalErrors {
                 truncation: error,
-                attitude: rounding.attitude + error + errors.dense * tolerance,
+                // where no step comes near the tolerance, nor does a point inside it
+                attitude: rounding.attitude + error + errors.dense * tolerance * completion.error_sum.min(1.0),
                 ..rounding
             }
         }
@@ -48,5 +49,6 @@ pub fn rounding_of_turns(steps: u64, angle: f64) -> LocalErrors {
     let steps = steps as f64;
     let share = if angle < steps { angle / steps } else { 1.0 };
     let walked = f64::EPSILON * (1.0 + WALK * share * steps.sqrt());
-    LocalErrors { rounding: walked, attitude: walked, ..LocalErrors::default() }
+    // the attitude is turned between the axes of integration and F_s, which rounds once more
+    LocalErrors { rounding: walked, attitude: walked + f64::EPSILON, ..LocalErrors::default() }
 }

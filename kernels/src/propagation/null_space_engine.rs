@@ -61,9 +61,8 @@ impl<S: Simd, const W: usize, const N: usize> NullSpaceEngine<S, W, N> {
                 complete::<W, N>(&scenes[index], trajectory, grid, table);
                 table.pad();
                 let mut outcome = *outcome;
-                let threshold = control.tolerance.absolute / control.tolerance.relative;
-                outcome.debris_errors = of_debris(&outcome.local_errors, table, threshold);
-                outcome.local_errors = in_units(outcome.local_errors, rates(table, StateField::Rate), threshold);
+                outcome.debris_errors = of_debris(&outcome.local_errors, table);
+                outcome.local_errors = of_body(&outcome.local_errors, table, grid.duration());
                 // errors of the other states feed back into omega; no state does into that of the debris, which is free
                 outcome.local_errors.feedback = outcome.local_errors.truncation;
                 finish(CompletedRun { index, table, outcome: &outcome, arcs: runs.arcs() });
@@ -83,12 +82,20 @@ fn rates(table: &StateTable, field: StateField) -> impl Iterator<Item = [f64; 3]
 }
 
 /// The errors of the debris in a run with the states `table`, whose steps, which are those of the faster body, are estimated to have made
-/// `errors`; rates below `threshold`, rad/s, have its error.
-fn of_debris(errors: &LocalErrors, table: &StateTable, threshold: f64) -> LocalErrors {
+/// `errors`.
+fn of_debris(errors: &LocalErrors, table: &StateTable) -> LocalErrors {
     let ratio = fastest(rates(table, StateField::DebrisRate)) / fastest(rates(table, StateField::Rate));
     let share = if ratio < 1.0 { (0..ORDER).fold(1.0, |power, _| power * ratio) } else { 1.0 };
     let errors = LocalErrors { truncation: share * errors.truncation, attitude: share * errors.attitude, ..*errors };
-    in_units(errors, rates(table, StateField::DebrisRate), threshold)
+    in_units(errors, rates(table, StateField::DebrisRate), 0.0)
+}
+
+/// The errors of the body in a run of `duration` seconds with the states `table`, whose steps are estimated to have made `errors`, mostly of wheels that
+/// turn faster: that of the attitude is at most in proportion to the angle by which the body turns, where that is below a radian.
+fn of_body(errors: &LocalErrors, table: &StateTable, duration: f64) -> LocalErrors {
+    let share = (fastest(rates(table, StateField::Rate)) * duration).min(1.0);
+    let attitude = (share * errors.attitude).max(errors.rounding);
+    in_units(LocalErrors { attitude, ..*errors }, rates(table, StateField::Rate), 0.0)
 }
 
 impl<S: Simd, const W: usize, const N: usize> Engine for NullSpaceEngine<S, W, N> {

@@ -62,7 +62,8 @@ impl<S: Simd, R: Real, M: Method, const N: usize> RungeKuttaEngine<S, R, M, N> {
             integrate(&mut runs, &mut |runs, index, trajectory, outcome| {
                 trajectories[index].copy_from(trajectory);
                 outcomes[index] = *outcome;
-                outcomes[index].local_errors = errors_of(remainders, runs.run(index), trajectory, (grid, threshold), outcome);
+                outcomes[index].local_errors =
+                    errors_of(remainders, runs.run(index), trajectory, (grid, threshold), outcome);
             });
         }
         let arcs = ArcSource::new(scenes, laws.reborrow(), duration);
