@@ -4,7 +4,7 @@ use arrow_array::cast::AsArray;
 use serde_json::Value;
 
 use super::small_campaign::{NEGATIVE_WALLS, campaign, campaign_without_debris, folder};
-use crate::support::scratch_folder::{ScratchFolder, ended, floats};
+use crate::support::scratch_folder::{ScratchFolder, column, ended, floats};
 
 /// Law: the same campaign has no shift, also from other files; another method on the same samples is compared pair by pair and differs
 /// by rounding only; another seed is compared as independent samples.
@@ -104,6 +104,27 @@ fn compared(scratch: &ScratchFolder, first: &str, second: &str) -> Value {
 fn row<'v>(compared: &'v Value, name: &str) -> &'v Value {
     let rows = compared["observables"].as_array().expect("rows");
     rows.iter().find(|row| row["observable"] == name).unwrap_or_else(|| panic!("no row {name}"))
+}
+
+/// Known: where all differences have one magnitude, signed ranks are a count of signs: z = |n+ - n-|/sqrt(n), two-sided by the normal distribution.
+#[test]
+fn equal_differences_have_equal_ranks() {
+    let scratch = folder("compare-ties");
+    for (name, expression) in [
+        ("none", "0 * initial.angular_velocity_rad_s.x"),
+        ("signs", "if(initial.angular_velocity_rad_s.x > 0.1, 1, -1)"),
+    ] {
+        let observable = format!("[[observable]]\nname = \"sign\"\nexpression = \"{expression}\"\n");
+        scratch.file("one.toml", &(campaign_without_debris() + &observable));
+        scratch.prints(&format!("campaign one.toml --out {name} --no-report"), 0);
+    }
+    let rates = column(&scratch.rows("signs"), "initial_angular_velocity_x_rad_s");
+    let above = rates[1..].iter().filter(|rate| **rate > 0.1).count() as f64;
+    let expected = libm::erfc((2.0 * above - 599.0).abs() / libm::sqrt(2.0 * 599.0));
+    let compared = compared(&scratch, "none", "signs");
+    let found = row(&compared, "sign")["p_value_distribution"].as_f64().expect("a p-value");
+    // rounding of sums of 599 ranks
+    assert!((1e-6..0.9).contains(&expected) && (found / expected - 1.0).abs() < 1e-11, "{found} {expected}");
 }
 
 /// Law: two campaigns that drew the same samples about other nominal values are compared pair by pair, and a shift of a fiftieth of the standard
