@@ -267,7 +267,7 @@ fn every_key_changes_the_plan_and_the_hash_of_the_rows_where_it_should() {
             }
             let is_outside = Plan::OUTSIDE_ROWS.iter().any(|prefix| path.starts_with(prefix));
             if (other.row_hash() == plan.row_hash()) != is_outside {
-                wrong.push(format!("{path}: the hash of the rows changes: {}", is_outside));
+                wrong.push(format!("{path}: the hash of the rows changes: {is_outside}"));
             }
         }
     }
@@ -282,7 +282,7 @@ fn every_key_changes_the_plan_and_the_hash_of_the_rows_where_it_should() {
             if is_of_scene(&header) {
                 continue;
             }
-            // the rest of the file goes before it, so that a key at the end is one of this table
+            // the rest of the file stands before it, so that a key at the end is one of this table
             let moved = format!("{}{}{}", &text[..ends[0]], &text[ends[1]..], &text[ends[0]..ends[1]]);
             let kind = kind(&text[ends[0]..]);
             let of = |key: &String| (path(&header, key), if key == "parameter" { String::new() } else { kind.clone() });

@@ -90,7 +90,7 @@ fn each_row_of_the_schema_holds_its_limit() {
                     .replace("actuation.burn", "actuation[0]")
                     .replace("actuation.later", "actuation[1]");
                 if is_refused(&other.text(), &key) == passes {
-                    wrong.push(format!("{key} = {values:?}: refused {}", passes));
+                    wrong.push(format!("{key} = {values:?}: refused {passes}"));
                 }
                 counts[usize::from(passes)] += 1;
             }

@@ -110,7 +110,7 @@ fn assert_same(found: &MassProperties, mass: f64, center: [f64; 3], inertia: [[f
 
 type Matrix = nalgebra::Matrix3<f64>;
 
-/// Errors of a distribution of mass as a file has them, one alone and all together: stretches, shears.
+/// Errors of a distribution of mass as a file has them, one alone and all together: logarithms of scales along the axes, and shears.
 const ERRORS: [([f64; 3], [f64; 3]); 8] = [
     ([0.2, 0.0, 0.0], [0.0; 3]),
     ([0.0, -0.1, 0.0], [0.0; 3]),
@@ -130,7 +130,7 @@ fn moved(([sx, sy, sz], [xy, xz, yz]): ([f64; 3], [f64; 3]), [x, y, z]: [f64; 3]
 
 /// Law: errors of the body move each point mass of it as they are written, about the centre of mass.
 #[test]
-fn stretches_and_shears_move_point_masses() {
+fn mass_errors_move_point_masses() {
     // pairs, so that the centre of mass stays
     const POINTS: [(f64, [f64; 3]); 3] = [(2.0, [1.0, 0.3, -0.2]), (3.0, [-0.4, 0.9, 0.5]), (1.5, [0.2, -0.6, 1.1])];
     const CENTER: [f64; 3] = [0.5, -0.25, 1.0];
@@ -149,8 +149,8 @@ fn stretches_and_shears_move_point_masses() {
     };
     let none = ([0.0; 3], [0.0; 3]);
     for errors in ERRORS {
-        let (stretch, shear) = errors;
-        let found = nominal(&format!("[body]\nstretch_log = {stretch:?}\nshear = {shear:?}\n{}", points(none)));
+        let (scale_log, shear) = errors;
+        let found = nominal(&format!("[body]\nstretch_log = {scale_log:?}\nshear = {shear:?}\n{}", points(none)));
         let expected = nominal(&points(errors));
         assert_same(&found, expected.total, CENTER, expected.inertia, &format!("{errors:?}"));
     }
@@ -167,7 +167,7 @@ fn what_includes_the_wheels_is_the_whole() {
     const OFFSET: [f64; 3] = [0.01, -0.02, 0.03];
     let modes = ["free", "speed_held", "locked"];
     for errors in ERRORS {
-        let (stretch, shear) = errors;
+        let (scale_log, shear) = errors;
         // k A S A^T of the second moments S, and the inertia that follows from them
         let inertia = Matrix::from_fn(|i, j| INERTIA[i][j]);
         let second = Matrix::identity() * (0.5 * inertia.trace()) - inertia;
@@ -178,7 +178,7 @@ fn what_includes_the_wheels_is_the_whole() {
         for combination in 0..27 {
             let mut text = format!(
                 "[body]\nmass_kg = {MASS:?}\ncenter_of_mass_m = {CENTER:?}\ninertia_kg_m2 = {INERTIA:?}\nincludes_wheels = true\n\
-                mass_scale = {:?}\ninertia_scale = {:?}\nstretch_log = {stretch:?}\nshear = {shear:?}\ncenter_offset_m = {OFFSET:?}\n",
+                mass_scale = {:?}\ninertia_scale = {:?}\nstretch_log = {scale_log:?}\nshear = {shear:?}\ncenter_offset_m = {OFFSET:?}\n",
                 SCALE[0], SCALE[1]
             );
             for wheel in 0..3usize {

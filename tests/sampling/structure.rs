@@ -61,11 +61,11 @@ fn saltelli_replaces_the_numbers_of_one_distribution_together() {
         let mut replaced = BTreeSet::new();
         for block in rows.chunks(factors + 2) {
             let (a, b) = (&block[0], &block[factors + 1]);
-            for column in 0..columns.len() {
+            for (column, parameter) in columns.iter().enumerate() {
                 for member in 0..factors {
                     let expected = if member == factor(column) { b[column] } else { a[column] };
                     let found = block[member + 1][column];
-                    let what = format!("{name}: {} in member {member}\n{table}", columns[column]);
+                    let what = format!("{name}: {parameter} in member {member}\n{table}");
                     assert_eq!(found.to_bits(), expected.to_bits(), "{what}");
                 }
                 if a[column] != b[column] {

@@ -204,7 +204,7 @@ mod tests {
         Actuation::none(until).with_thrust(&[thrust])
     }
 
-    /// The arcs of `law` up to `duration`: start, end, thrust. A law that goes on for ever is one that fails here.
+    /// The arcs of `law` up to `duration`: start, end, thrust. A law that never ends fails here.
     fn arcs(law: &mut dyn ActuationLaw, duration: f64) -> Vec<(f64, f64, f64)> {
         let (mut time, mut list) = (0.0, Vec::new());
         while time < duration {
