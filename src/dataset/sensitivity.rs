@@ -217,9 +217,9 @@ impl Prepared {
         let population = Population::of(plan);
         let (scaled, ranked) = (standardised(y), standardised(&mid_ranks(y)));
         let varies = scaled.iter().any(|value| *value != 0.0);
-        let of = |which: usize| self.regressors[which].as_ref().filter(|_| varies);
-        let linear = of(0).and_then(|of| of.regression(&scaled));
-        let rank = of(1).and_then(|of| of.regression(&ranked));
+        let regressor = |which: usize| self.regressors[which].as_ref().filter(|_| varies);
+        let linear = regressor(0).and_then(|of| of.regression(&scaled));
+        let rank = regressor(1).and_then(|of| of.regression(&ranked));
         let r_squared = linear.as_ref().map(|of| of.r_squared(confidence));
         let samples = match plan.design {
             Design::Sobol(_) | Design::Halton(_) => Samples::Even,

@@ -44,7 +44,7 @@ fn table(statistics: &Statistics) -> Vec<DescribedColumn> {
             Some(statistics.population.intervals())
         }),
         real("confidence", "Confidence of the intervals.", &|_| Some(statistics.confidence)),
-        real("quantile_error", "Bound of the error of quantiles, relative to their magnitude or to their distance from the median of the first runs, whichever is smaller.", &|_| {
+        real("quantile_error", "Bound of the error of quantiles, relative to their magnitude, or to their distance from the median of the first runs where these are close together.", &|_| {
             Some(statistics.quantile_error)
         }),
         real("mean", "Mean.", &|column| column.moments.mean()),

@@ -25,6 +25,9 @@ const AUDITED: [&str; 3] = ["spin_sweep", "burn", "inertia"];
 /// The campaign one of whose requirements fails.
 const FAILS: &str = "acceptance";
 
+/// One with a requirement that so few samples do not decide.
+const UNDECIDED: &str = "slew";
+
 /// Columns that measure the machine and not the run.
 const OF_THE_MACHINE: [&str; 2] = ["cpu_s", "wall_s"];
 
@@ -132,7 +135,11 @@ fn run(scratch: &ScratchFolder, file: &Path) -> Found {
     let samples = if text.contains("kind = \"table\"") { String::new() } else { format!("--samples {SAMPLES}") };
     let audit = if AUDITED.contains(&name.as_str()) { "--audit 0.04" } else { "" };
     let campaign = file.file_name().unwrap().to_string_lossy().into_owned();
-    let code = if name == FAILS { 3 } else { 0 };
+    let code = match name.as_str() {
+        FAILS => 3,
+        UNDECIDED => 5,
+        _ => 0,
+    };
     scratch.says("campaign", &campaign, &format!("{samples} {audit} --no-report --out {name}"), code);
     let folder = scratch.0.join(&name);
     let mut files: Vec<PathBuf> =

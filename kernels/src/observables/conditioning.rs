@@ -380,9 +380,23 @@ impl Conditioning {
         let growth = if exponent < LARGEST_EXPONENT { libm::exp(exponent) } else { f64::INFINITY };
         // of omega, and the angle that it adds up to
         let amplification = growth * (body.stiffness * body.size) * 1.0_f64.larger(largest * self.times[count - 1]);
+        let shown = if body.offset.is_some() { self.shown(count) / (body.size * largest) } else { 0.0 };
         let turned = if body.is_principal { 1.0 } else { TURNED };
         let rounded = turned * local.rounding * (fastest / largest) + HALF_ROUNDING * stirred / (body.size * largest);
-        (amplification * (rounded + local.truncation + local.feedback), amplification)
+        (amplification * (shown + rounded + local.truncation + local.feedback), amplification)
+    }
+
+    /// The largest error of H, N m s, that |H| and the energy show beyond their rounding where both are constant.
+    fn shown(&self, count: usize) -> f64 {
+        let mut most = 0.0_f64;
+        for k in 0..count {
+            let along = (self.square[k] - self.square[0]).abs() / (2.0 * self.momentum[k]);
+            let across = (self.energy[k] - self.energy[0]).abs() / self.rate[k].larger(f64::MIN_POSITIVE);
+            let noise =
+                NOISE * (self.wheels[k] + self.momentum[k] + self.energy[0] / self.rate[k].larger(f64::MIN_POSITIVE));
+            most = most.larger(along + across - noise);
+        }
+        most
     }
 
     /// Error and amplification about an equilibrium, where omega is along H and stays there: from the linear equations.

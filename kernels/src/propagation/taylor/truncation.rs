@@ -22,7 +22,8 @@ pub(super) struct TruncationSums {
 /// Sums over the steps of a run, in lanes.
 ///
 /// Of the attitude the first term left out is estimated from its own series: the last one kept, times the root of what that is of
-/// the term two orders before. Where only rates are integrated it counts as turning with constant omega,
+/// the term two orders before; or the one before the last, times what that is of the term two orders before it, whichever is larger: from
+/// rest at a constant acceleration all terms of odd order are zero. Where only rates are integrated it counts as turning with constant omega,
 /// (|omega| h/2)^(p+1)/(p+1)!.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Truncation<R> {
@@ -63,11 +64,16 @@ impl<R: Real> Truncation<R> {
     pub(super) fn add<const N: usize>(&mut self, jet: &[[R; N]], length: R) {
         let order = self.order;
         let tiny = length.splat(f64::MIN_POSITIVE);
-        self.rate += size(&jet[order]) * raised_to(length, order);
+        let (power, square) = (raised_to(length, order - 1), length * length);
+        // the share that a term is of the one two orders before
+        let share = |term: R, before: R| (term * square / before.larger(tiny)).smaller(length.splat(1.0));
+        let (last, before) = (size(&jet[order]) * length, size(&jet[order - 1]));
+        self.rate += power * last.larger(before * share(before, size(&jet[order - 3])).sqrt());
         self.turn += if N >= WITH_ATTITUDE {
-            let (kept, before) = (turn(&jet[order]), turn(&jet[order - 2]));
-            let share = (kept * (length * length) / before.larger(tiny)).sqrt().smaller(length.splat(1.0));
-            length.splat(2.0) * (kept * raised_to(length, order) * share)
+            let (last, before) = (turn(&jet[order]), turn(&jet[order - 1]));
+            let from_last = last * length * share(last, turn(&jet[order - 2])).sqrt();
+            let from_before = before * share(before, turn(&jet[order - 3]));
+            length.splat(2.0) * (power * from_last.larger(from_before))
         } else {
             length.splat(self.factor) * raised_to(length.splat(0.5) * (size(&jet[0]) * length), order + 1)
         };
