@@ -64,7 +64,7 @@ fn sample_holds_no_draws() {
 }
 
 /// Law: the memory of a campaign does not grow with its samples, from where parts have their usual size: rows, bands and counts of parts are
-/// not held.
+/// not held. Sketches, which count beyond 100,000 samples, take a constant: measured 13 MB, where 60,000 rows have 52 MB.
 #[test]
 fn a_campaign_holds_no_rows() {
     let scratch = ScratchFolder::new("flat");
@@ -75,7 +75,7 @@ fn a_campaign_holds_no_rows() {
         let said = format!("campaign flat.toml --samples {samples} --threads 1 --no-report --overwrite");
         (peak(&scratch, &said), scratch.0.join("results/spin_sweep/runs").read_dir().unwrap().count())
     };
-    let is_flat = |[few, many]: &[u64; 2]| *many < few + few / 5;
+    let is_flat = |[few, many]: &[u64; 2]| *many < few + 2 * (few / 5);
     let files = Cell::new([0; 2]);
     let [few, many] = peaks(
         |command| {

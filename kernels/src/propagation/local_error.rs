@@ -39,8 +39,8 @@ pub fn fastest(rates: impl Iterator<Item = [f64; 3]>) -> f64 {
 }
 
 /// How far the points inside the steps of a run may be off, in sums of the errors of its steps: measured in the same campaigns and those of
-/// `at_rest.rs`, where 1 leaves the estimate at a third of the error and more.
-const DENSE: f64 = 8.0;
+/// `at_rest.rs`, where 1 leaves the estimate below the error of `burn` by `dop853`.
+const DENSE: f64 = 1.6;
 
 /// Error of a compensated step as a fraction of a rounding: measured over the campaigns of `tests/accuracy/error_estimate.rs`.
 const WALK: f64 = 0.15;

@@ -122,7 +122,7 @@ impl<P: PointsInside> Embedded for P {
 impl PointsInside for DormandPrince {
     const EVALUATIONS: f64 = 0.0;
     const ERROR_FACTOR: f64 = 1.0;
-    const DENSE_ERROR: f64 = 1.0;
+    const DENSE_ERROR: f64 = 4.0;
 
     #[inline(always)]
     fn inside<R: Real, Q: System<R, N>, const N: usize>(
