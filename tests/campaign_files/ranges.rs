@@ -257,7 +257,8 @@ fn lists_and_names_have_their_lengths() {
         |count: u32| (1..=count).map(|k| format!("{:?}", f64::from(k) / 128.0)).collect::<Vec<_>>().join(", ");
     let derived =
         |length: usize| format!("[[observable]]\nname = \"{}\"\nexpression = \"2 * steps\"\n", "a".repeat(length));
-    let cases: [(&str, &dyn Fn(usize) -> String, usize); 4] = [
+    type Written<'a> = &'a dyn Fn(usize) -> String;
+    let cases: [(&str, Written<'_>, usize); 4] = [
         ("campaign.name", &|length| with("\"small\"", &format!("\"{}\"", "a".repeat(length))), 100),
         (
             "campaign.description",

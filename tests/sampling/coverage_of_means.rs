@@ -43,7 +43,12 @@ const DISTRIBUTIONS: [Distribution; 8] = [
     ("exponential", |random| -libm::log(random.uniform()), 1.0, 1.0),
     ("lognormal", |random| libm::exp(normal_number(random)), LOGNORMAL[0], LOGNORMAL[1]),
     // beta(1/2, 1/2): most of it at its ends
-    ("arc sine", |random| libm::sin(1.570_796_326_794_896_6 * random.uniform()).powi(2), 0.5, 0.353_553_390_593_273_8),
+    (
+        "arc sine",
+        |random| libm::sin(core::f64::consts::FRAC_PI_2 * random.uniform()).powi(2),
+        0.5,
+        0.353_553_390_593_273_8,
+    ),
     ("t3", t3, 0.0, 1.732_050_807_568_877_2),
     ("1 in 100", |random| rare(random, 100.0), 0.01, 0.099_498_743_710_662),
     ("1 in 1000", |random| rare(random, 1000.0), 0.001, 0.031_606_961_258_558_22),
@@ -176,7 +181,7 @@ fn bounds_of_standard_deviations(all: Campaigns) {
             );
             match name {
                 "lognormal" | "t3" => {
-                    assert!(3 * misses[1] <= 2 * of_error[1], "{name} {runs}: {misses:?} {of_error:?}")
+                    assert!(3 * misses[1] <= 2 * of_error[1], "{name} {runs}: {misses:?} {of_error:?}");
                 }
                 _ => {
                     assert!(misses.iter().all(|count| may_miss(*count, 0.025, campaigns)), "{name} {runs}: {misses:?}");

@@ -268,7 +268,8 @@ fn linear_measures_of_many_campaigns_are_covered() {
 #[test]
 fn rank_correlations_are_covered() {
     let normal = 6.0 / PI * libm::asin(0.3);
-    let models: [(&str, fn(f64, f64) -> f64, f64); 4] = [
+    type Model = fn(f64, f64) -> f64;
+    let models: [(&str, Model, f64); 4] = [
         ("x z", |x, z| x * z, 0.0),
         ("x^2 + z", |x, z| x * x + z, 0.0),
         ("normal", |x, z| 0.6 * x + 0.8 * z, normal),
