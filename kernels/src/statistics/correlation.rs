@@ -1,7 +1,7 @@
 //! Correlation of two columns, plain or of ranks, with a confidence interval.
 //!
 //! Pearson's coefficient; Spearman's is Pearson's of mid-ranks. The interval is one of R. A. Fisher's atanh r (*Metron* 1 (1921) 3), its width
-//! that of the [`jackknife`](super::jackknife): the variance 1/(n - 3) holds for normal numbers alone (of y = x z, x and z normal, it covers
+//! that of the [`super::jackknife`]: the variance 1/(n - 3) holds for normal numbers alone (of y = x z, x and z normal, it covers
 //! 0.75 for 0.95).
 //!
 //! Intervals are for independent rows.

@@ -6,7 +6,7 @@
 //! same inverse gives the partial correlations (M. G. Kendall & A. Stuart, *The Advanced Theory of Statistics* 2, section 27.5).
 //! Applied to ranks it is the rank regression of R. L. Iman & W. J. Conover, *Technometrics* 21 (1979) 499.
 //!
-//! Intervals are those of the [`jackknife`](super::jackknife), by what the regression would be without a row (R. D. Cook & S. Weisberg,
+//! Intervals are those of the [`super::jackknife`], by what the regression would be without a row (R. D. Cook & S. Weisberg,
 //! *Residuals and Influence in Regression*, 1982, (2.2.1)): of coefficients the scale of input and observable is estimated too, so that a sum
 //! without any rest has an interval. Inputs and rest may have any distribution.
 
