@@ -81,8 +81,19 @@ distribution = "attitude_error"
 std_rad = 0.01
 "#;
 
-    /// Law: plans draw alike where seed, design and distributions are the same but for their location; another seed, design, width, kind or
-    /// parameter, or another number of samples where the design depends on it, is another draw.
+    const CORRELATED: &str = r#"std_rad = 0.01
+[[correlate]]
+parameters = ["initial.angular_velocity_rad_s.x", "initial.angular_velocity_rad_s.y"]
+rank_correlation = 0.5
+"#;
+    const DERIVED: &str = r#"std_rad = 0.01
+[[derive]]
+parameter = "initial.angular_velocity_rad_s.z"
+expression = "0.5 + 2 * initial.angular_velocity_rad_s.x"
+"#;
+
+    /// Law: plans draw alike where seed, design and distributions are the same but for their location; another seed, design, width, kind,
+    /// parameter, correlation or derived value, or another number of samples where the design depends on it, is another draw.
     #[test]
     fn plans_that_differ_in_location_draw_alike() {
         let plan = |changes: &[(&str, &str)]| {
@@ -111,8 +122,17 @@ std_rad = 0.01
             vec![("std_rad = 0.01", "std_rad = 0.02")],
             vec![("velocity_rad_s.x", "velocity_rad_s.z")],
             vec![("\"normal\"\nstd = 0.05", "\"uniform\"\nhalf_width = 0.05")],
+            vec![("std_rad = 0.01", CORRELATED)],
+            vec![("std_rad = 0.01", DERIVED)],
         ] {
             assert!(!draw_alike(&first, &plan(&other)), "{other:?}");
+        }
+        for (written, is) in [(CORRELATED, ("0.5\n", "0.6\n")), (DERIVED, ("2 *", "3 *"))] {
+            let one = ("std_rad = 0.01", written);
+            assert!(
+                draw_alike(&plan(&[one]), &plan(&[one])) && !draw_alike(&plan(&[one]), &plan(&[one, is])),
+                "{is:?}"
+            );
         }
         let more = ("samples = 9", "samples = 90");
         assert!(draw_alike(&plan(&[latin]), &plan(&[latin])) && !draw_alike(&plan(&[latin]), &plan(&[latin, more])));

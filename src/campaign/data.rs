@@ -266,13 +266,18 @@ mod tests {
 
     /// A file of the column x with the values 1.5 and 2.5.
     fn small(compression: Compression) -> Vec<u8> {
-        let schema = Arc::new(parse_message_type("message m { required double x; }").expect("a schema"));
+        file("required", None, compression)
+    }
+
+    /// The same of a column that has to have values or not; `levels` says which of three rows have one.
+    fn file(kind: &str, levels: Option<&[i16]>, compression: Compression) -> Vec<u8> {
+        let schema = Arc::new(parse_message_type(&format!("message m {{ {kind} double x; }}")).expect("a schema"));
         let properties = Arc::new(WriterProperties::builder().set_compression(compression).build());
         let mut bytes = Vec::new();
         let mut writer = SerializedFileWriter::new(&mut bytes, schema, properties).expect("a writer");
         let mut group = writer.next_row_group().expect("a group");
         let mut column = group.next_column().expect("a column").expect("one");
-        column.typed::<DoubleType>().write_batch(&[1.5, 2.5], None, None).expect("written");
+        column.typed::<DoubleType>().write_batch(&[1.5, 2.5], levels, None).expect("written");
         column.close().expect("closed");
         group.close().expect("closed");
         writer.close().expect("closed");
@@ -286,6 +291,19 @@ mod tests {
         let found = DataFile::read(&path).and_then(|data| data.column("x").expect("the column"));
         std::fs::remove_file(&path).expect("removed");
         found
+    }
+
+    /// Law: a row without a value is refused, with its number, whichever it is; it is no zero.
+    #[test]
+    fn a_row_without_a_value_is_refused() {
+        for at in 0..3 {
+            let levels: Vec<i16> = (0..3).map(|row| i16::from(row != at)).collect();
+            let found = read("absent", &file("optional", Some(&levels), Compression::UNCOMPRESSED));
+            let refused = format!("{:?}", found.expect_err("a row without a value"));
+            assert!(refused.contains(&format!("row {}", at + 1)), "{refused}");
+        }
+        let whole = read("present", &file("optional", Some(&[1, 1]), Compression::UNCOMPRESSED));
+        assert_eq!(whole, Ok(vec![1.5, 2.5]));
     }
 
     /// Law: Parquet with gzip is read as that without; with brotli it is refused by name, with the remedy.

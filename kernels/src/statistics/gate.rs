@@ -289,6 +289,29 @@ mod tests {
         assert_eq!(constant_gate(f64::NAN, Limit::AtMost(9.0)).decision, Decision::Fail);
     }
 
+    /// Law: with a long tail above, a limit above the mean takes more runs than one as far below; either number repeated bounds the mean
+    /// nearer than the limit by the scatter in nine of ten.
+    #[test]
+    fn runs_that_decide_follow_the_tail() {
+        let values: Vec<f64> = (0..40).map(|k| libm::exp(0.1 * f64::from(k))).collect();
+        let moments = Moments::of(values.iter().copied());
+        let mean = moments.mean().expect("many");
+        let needed = [-1.0, 1.0].map(|side| {
+            let limit = mean + side * 2.0;
+            let Decision::Undecided(Some(needed)) = mean_gate(&moments, Limit::AtMost(limit), 0.95).decision else {
+                panic!("undecided at {limit}")
+            };
+            let repeated = Moments::of(values.iter().copied().cycle().take(needed as usize / 40 * 40));
+            let bounds = mean_gate(&repeated, Limit::AtMost(limit), 0.95).bounds;
+            let bound = if side > 0.0 { bounds[1] - mean } else { mean - bounds[0] };
+            let distance = bound + 1.2816 * repeated.mean_error().expect("many");
+            // whole repetitions, whose spread is 1.3% smaller
+            assert!((distance / 2.0 - 1.0).abs() < 0.05, "{side}: {needed}, {distance}");
+            needed
+        });
+        assert!(needed[1] > needed[0] + needed[0] / 20, "{needed:?}");
+    }
+
     /// Law: a requirement that is missed at the confidence of one but not at that of several is undecided; of several, one that fails makes it
     /// easier for the others (Holm): p = 0.001, 0.014, 0.03 and 0.04 fail at 0.0125, 0.0167, 0.025 and not at 0.05/2.
     #[test]
