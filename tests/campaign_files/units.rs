@@ -44,7 +44,7 @@ angular_velocity_rad_s = [0, 0, 1]
 
 /// SI units, and the units that may be written in place of each, with their sizes: exact by definition (BIPM, *The International System of
 /// Units*, 9th edition, tables 5, 7 and 8; NIST SP 811, appendix B.8, has them to seven digits), those with pi to 20 digits.
-#[allow(clippy::excessive_precision, clippy::approx_constant)] // digits of a table, not of this machine
+#[expect(clippy::excessive_precision, clippy::approx_constant, reason = "digits of a table, not of this machine")]
 const TABLE: [(&str, &[(&str, f64)]); 11] = [
     (
         "rad",
