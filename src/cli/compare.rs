@@ -1,16 +1,18 @@
 //! `spindrift compare`: two results, their plans, their verdicts and the shifts of their statistics.
 
+use std::num::NonZeroUsize;
 use std::path::Path;
 
 use crate::campaign::Plan;
 use crate::campaign::difference::differences;
 use crate::cli::arguments::CompareOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
-use crate::cli::input::plan_of_result;
+use crate::cli::input::plan_of_sound;
 use crate::cli::outputs::refuse_within;
 use crate::cli::screen;
 use crate::dataset::claim::{FolderError, open};
 use crate::dataset::comparison::{Comparison, compare};
+use crate::dataset::folder::MOST_SUMMARY;
 use crate::dataset::names::SUMMARY;
 use crate::dataset::pairing::ResultRows;
 use crate::dataset::rows_reader::RowsReader;
@@ -18,9 +20,6 @@ use crate::dataset::storage::{Disk, Storage};
 use crate::dataset::{atomic, comparison_table, described_table};
 use crate::report::comparison_text::{self, Compared, ComparedVerdict};
 use crate::report::summary;
-
-/// Most bytes of a summary that is read.
-const MOST_SUMMARY: u64 = 1 << 26;
 
 /// Runs the command.
 ///
@@ -41,7 +40,8 @@ pub fn compared(storage: &'static dyn Storage, options: &CompareOptions) -> Resu
     for root in [&options.first, &options.second] {
         refuse_within(root, &[("--out", options.out.as_deref())])?;
     }
-    let (first, second) = (Compare::open(storage, &options.first)?, Compare::open(storage, &options.second)?);
+    let open = |folder: &Path| Compare::open(storage, folder, options.threads);
+    let (first, second) = (open(&options.first)?, open(&options.second)?);
     let found = compare(first.rows(), second.rows(), options.threads).map_err(Failure::files)?;
     let (keys, verdicts) = (differences(&first.plan, &second.plan), verdicts([first.verdicts, second.verdicts]));
     let compared = Compared { comparison: &found, keys: &keys, verdicts: &verdicts, tolerance: options.tolerance };
@@ -71,19 +71,19 @@ struct Compare {
 
 impl Compare {
     /// The result in a folder.
-    fn open(storage: &'static dyn Storage, folder: &Path) -> Result<Self, Failure> {
-        let (found, _) = open(storage, folder).map_err(|error| match error {
+    fn open(storage: &'static dyn Storage, folder: &Path, threads: Option<NonZeroUsize>) -> Result<Self, Failure> {
+        let (found, _locks) = open(storage, folder).map_err(|error| match error {
             FolderError::Nothing { .. } => Failure::Input(error.to_string()),
             error => Failure::files(error),
         })?;
         if !found.is_finished {
             return Err(Failure::Input(format!("the result in `{}` is not finished", folder.display())));
         }
+        let plan = plan_of_sound(storage, (folder, &found), threads, None)?;
         let path = folder.join(SUMMARY);
         let damaged = |error: &dyn std::fmt::Display| Failure::Files(format!("{}: {error}", path.display()));
         let summary = storage.read(&path, MOST_SUMMARY).map_err(|error| damaged(&error))?;
         let verdicts = summary::verdicts(&summary).ok_or_else(|| damaged(&"its content has changed"))?;
-        let plan = plan_of_result(folder, &found)?;
         Ok(Compare { plan, reader: RowsReader::new(storage, found.row_files(folder)), verdicts })
     }
 

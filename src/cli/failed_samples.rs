@@ -1,20 +1,19 @@
 //! `campaign --only-failed-of`: the samples of a result whose runs failed, under another plan. `campaign --fail-fast`: the first of them
 //! ends the campaign.
 
+use std::num::NonZeroUsize;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use crate::campaign::{FilesRead, Overrides, Plan};
 use crate::cli::command_outcome::Failure;
-use crate::cli::input::{plan_and_files, plan_of_result};
+use crate::cli::input::{plan_and_files, plan_of_sound};
 use crate::cli::screen;
 use crate::dataset::claim::open;
-use crate::dataset::manifest::PartRecord;
 use crate::dataset::part_sink::{PartError, PartSink};
 use crate::dataset::rows_reader::{PartReader, RowsError, RowsReader};
 use crate::dataset::storage::Disk;
-use crate::dataset::verify::damaged;
 use crate::ensemble::{Rows, Sink};
 use crate::run::Status;
 use crate::sampling::SampleId;
@@ -34,14 +33,10 @@ pub fn plan_of_failed(
     file: &Path,
     of: &Path,
     overrides: Overrides,
-    threads: usize,
+    threads: Option<NonZeroUsize>,
 ) -> Result<Option<(Plan, FilesRead)>, Failure> {
     let (found, _locks) = open(&Disk, of).map_err(Failure::files)?;
-    let drawn = plan_of_result(of, &found)?;
-    let records: Vec<PartRecord> = found.parts().into_values().collect();
-    if let Some((_, what)) = damaged(&Disk, of, &records, threads).map_err(Failure::files)?.first() {
-        return Err(Failure::Files(format!("{}: {what}; `spindrift verify --repair` makes it again", of.display())));
-    }
+    let drawn = plan_of_sound(&Disk, (of, &found), threads, None)?;
     if !found.is_finished {
         screen::note(&format!(
             "{}: not finished: the failures among the {} rows that are there",

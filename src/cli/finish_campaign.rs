@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use serde_json::Value;
 
-use crate::campaign::Plan;
+use crate::campaign::{FilesRead, Plan, data};
 use crate::cli::analysis::{Analysed, analyse, write_junit};
 use crate::cli::arguments::FinishOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
@@ -17,21 +17,22 @@ use crate::cli::outputs::{refuse_inputs, refuse_within};
 use crate::cli::shell_word::quoted_path;
 use crate::cli::{report, screen};
 use crate::dataset::claim::{Claim, ClaimOptions, Ready, claim, open};
-use crate::dataset::identity::identity;
+use crate::dataset::folder::Folder;
+use crate::dataset::identity;
 use crate::dataset::manifest::PartRecord;
 use crate::dataset::names::{PLAN, REPORT, SUMMARY, TRAJECTORIES};
 use crate::dataset::parts_read::PartsRead;
 use crate::dataset::replacement::replace;
-use crate::dataset::rows_file::headings;
+use crate::dataset::rows_file::{headings, identity};
 use crate::dataset::rows_reader::RowsReader;
 use crate::dataset::running_counts::Counted;
 use crate::dataset::storage::{Disk, Storage};
 use crate::dataset::table_log;
 use crate::dataset::tally::Tally;
 use crate::dataset::trajectories;
-use crate::ensemble::Ensemble;
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::runner::threads;
+use crate::ensemble::{Ensemble, Part, PartId};
 use crate::report::audit_summary::cost;
 use crate::report::drivers_text;
 use crate::report::number::bytes;
@@ -74,9 +75,11 @@ pub fn finish(job: &Finishing<'_>, counted: Option<Counted>) -> Result<CommandOu
 /// Makes everything that follows from the rows, and marks the dataset as finished; how the command ends, and what it says.
 ///
 /// # Errors
-/// Where rows cannot be read or a file operation fails.
+/// Where parts are missing, rows cannot be read or a file operation fails.
 pub fn complete(job: &Finishing<'_>, counted: Option<Counted>) -> Result<(CommandOutcome, String), Failure> {
     let (plan, folder) = (job.ensemble.plan(), &job.ready.folder);
+    let parts = parts(plan, job.ensemble.isa());
+    refuse_missing(&folder.missing(parts.iter()), job.root)?;
     let records = folder.parts();
     let (reader, bands) = rows_of(job.ready);
     let tally = match &counted {
@@ -93,7 +96,11 @@ pub fn complete(job: &Finishing<'_>, counted: Option<Counted>) -> Result<(Comman
     let summary =
         Summary::new(plan, &tally, &analysed.statistics, analysed.verdicts).with_stopping(plan, analysed.stopping);
     folder.write(SUMMARY, summary.json().as_bytes()).map_err(Failure::files)?;
-    table_log::update(folder, &headings(job.ensemble)).map_err(Failure::files)?;
+    // the last part is larger in a campaign without an end, where it can get further rows
+    let endless = |id: PartId| parts.with_samples(u64::MAX).part(id);
+    let is_growing = |part: &Part| endless(part.id).is_some_and(|whole| whole.count > part.count);
+    let growing = records.last().map(PartRecord::samples).filter(is_growing).map(|part| part.id);
+    table_log::update(folder, &headings(job.ensemble), growing).map_err(Failure::files)?;
     folder.finish().map_err(Failure::files)?;
     if let Some(old) = &job.ready.replaces {
         replace(folder.storage(), folder.root(), old).map_err(Failure::files)?;
@@ -128,8 +135,7 @@ fn make_page(
         folder.write(REPORT, page.html.as_bytes()).map_err(Failure::files)?;
         return report::save_figures(&page, job.page.1);
     }
-    let path = folder.path(REPORT);
-    folder.storage().remove(&path).map_err(|error| Failure::files(format!("{}: {error}", path.display())))
+    folder.remove(REPORT).map_err(Failure::files)
 }
 
 /// Writes the time series that the plan retains.
@@ -186,6 +192,38 @@ pub fn stop_is_continued(root: &Path) -> String {
     )
 }
 
+/// Refuses to finish the result in `root`, of which these parts are missing.
+fn refuse_missing(missing: &[Part], root: &Path) -> Result<(), Failure> {
+    let (Some(first), Some(last)) = (missing.first(), missing.last()) else { return Ok(()) };
+    Err(Failure::Files(format!(
+        "{}: {} parts are missing, from part {} to part {}; this makes them and finishes: spindrift campaign {} --out {}",
+        root.display(),
+        missing.len(),
+        first.id.0,
+        last.id.0,
+        quoted_path(&root.join(PLAN)),
+        quoted_path(root),
+    )))
+}
+
+/// Copies the files of numbers of the plan into the dataset, which is then complete in itself: `finish`, `verify` and `report` read its plan.
+///
+/// # Errors
+/// Where one has changed since the plan was made, or a file operation fails.
+pub fn keep_data(folder: &Folder, files: &FilesRead) -> Result<(), Failure> {
+    for (path, sha256) in &files.data {
+        let bytes = data::bytes(path).map_err(|error| Failure::Files(format!("{}: {error}", path.display())))?;
+        if identity::sha256(&bytes) != *sha256 {
+            return Err(Failure::Files(format!(
+                "{}: changed while it was read; run the command again",
+                path.display()
+            )));
+        }
+        folder.keep_data(&data::copy_name(path, sha256), &bytes).map_err(Failure::files)?;
+    }
+    Ok(())
+}
+
 /// Runs the command `finish`.
 ///
 /// # Errors
@@ -225,19 +263,8 @@ pub fn finished(storage: &'static dyn Storage, options: &FinishOptions) -> Resul
         Claim::Ready(ready) => *ready,
     };
     ready.damaged.iter().for_each(|what| screen::note(&format!("{}: damaged: {what}", root.display())));
-    let missing = ready.folder.missing(parts(&plan, ensemble.isa()).iter());
-    if let (Some(first), Some(last)) = (missing.first(), missing.last()) {
-        let plan_file = root.join(PLAN);
-        return Err(Failure::Files(format!(
-            "{}: {} parts are missing, from part {} to part {}; this makes them and finishes: spindrift campaign {} --out {}",
-            root.display(),
-            missing.len(),
-            first.id.0,
-            last.id.0,
-            quoted_path(&plan_file),
-            quoted_path(root),
-        )));
-    }
+    refuse_missing(&ready.folder.missing(parts(&plan, ensemble.isa()).iter()), root)?;
+    keep_data(&ready.folder, &files)?;
     let replayed = quoted_path(&root.join(PLAN));
     let job = Finishing {
         ensemble: &ensemble,

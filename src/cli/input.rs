@@ -1,11 +1,19 @@
 //! What every command starts from: the [`plan`] of a campaign file and the instruction set ([`isa`]).
 
+use std::num::NonZeroUsize;
 use std::path::Path;
 
 use crate::campaign::{FilesRead, Overrides, Plan, find};
 use crate::cli::command_outcome::Failure;
+use crate::cli::shell_word::quoted_path;
 use crate::dataset::found::Found;
-use crate::dataset::names::PLAN;
+use crate::dataset::manifest::{Identity, PartRecord};
+use crate::dataset::names::{DATA, PLAN};
+use crate::dataset::rows_file::identity;
+use crate::dataset::storage::{Disk, Storage};
+use crate::dataset::verify::{damaged, derived_damage};
+use crate::ensemble::Ensemble;
+use crate::ensemble::runner::threads as ensemble_threads;
 use crate::math::Isa;
 use crate::math::isa::VARIABLE;
 
@@ -56,8 +64,61 @@ pub fn plan_in(root: &Path, found: &Found) -> Result<(Plan, FilesRead), Failure>
         return Err(Failure::Files(format!("{}: is missing, or no text file; {remedy}", path.display())));
     }
     Plan::from_text_of(&path, &found.plan, Overrides::default()).map_err(|error| {
+        let copies = found.derived().iter().filter(|file| file.name.starts_with(DATA));
+        if let Some(what) = derived_damage(&Disk, root, copies).ok().and_then(|damage| damage.into_iter().next()) {
+            return Failure::Files(format!("{}: {what}; {remedy}", root.display()));
+        }
         Failure::Files(format!("{}: cannot be used; {remedy}\n{}", path.display(), error.with_excerpts()))
     })
+}
+
+/// The plan of the result in `root`, after every checksum was compared: for commands that read it. The file `remade` is not looked at.
+///
+/// # Errors
+/// Where it is damaged, or its plan is not that of its rows; or where a file operation fails.
+pub fn plan_of_sound(
+    storage: &'static dyn Storage,
+    (root, found): (&Path, &Found),
+    threads: Option<NonZeroUsize>,
+    remade: Option<&str>,
+) -> Result<Plan, Failure> {
+    let plan = plan_of_result(root, found)?;
+    let expected = identity(&Ensemble::new(&plan, isa()?));
+    refuse_other_rows(root, found, &expected)?;
+    let records: Vec<PartRecord> = found.parts().into_values().collect();
+    let readers = ensemble_threads(threads, usize::MAX);
+    let broken = damaged(storage, root, &expected, &records, readers).map_err(Failure::files)?;
+    let damaged: Vec<String> = found.damaged_lines().into_iter().map(|line| format!("{line}: damaged line")).collect();
+    let derived = found.derived().iter().filter(|file| Some(file.name.as_str()) != remade);
+    let derived = derived_damage(storage, root, derived).map_err(Failure::files)?;
+    let problems = damaged.into_iter().chain(found.plan_damage.clone()).chain(broken.into_iter().map(|(_, what)| what));
+    let problems: Vec<String> = problems.chain(derived).collect();
+    match problems.first() {
+        None => Ok(plan),
+        Some(first) => Err(Failure::Files(format!(
+            "{}: {first}{}; this makes it again: spindrift verify {} --repair",
+            root.display(),
+            if problems.len() > 1 { format!(" (and {} more problems)", problems.len() - 1) } else { String::new() },
+            quoted_path(root),
+        ))),
+    }
+}
+
+/// Refuses a result whose rows have not the identity `expected` of its plan.
+///
+/// # Errors
+/// Where they have another.
+pub fn refuse_other_rows(root: &Path, found: &Found, expected: &Identity) -> Result<(), Failure> {
+    let there = found.identity.as_ref().filter(|there| *there != expected);
+    let Some(there) = there else { return Ok(()) };
+    Err(Failure::Files(format!(
+        "{}: plan.toml is not the plan of these rows (row hash {}, not {}), or they are of another version of the program (format {}, not {})",
+        root.display(),
+        there.row_hash,
+        expected.row_hash,
+        there.format,
+        expected.format,
+    )))
 }
 
 /// The plan of a result that is in a folder, with the number of samples that it has, or that `[stop]` looks at next.

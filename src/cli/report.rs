@@ -6,14 +6,14 @@ use std::path::Path;
 use crate::cli::analysis::{Analysed, computed};
 use crate::cli::arguments::ReportOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
-use crate::cli::input::{isa, plan_of_result};
+use crate::cli::input::{isa, plan_of_sound};
 use crate::cli::outputs::refuse_within;
 use crate::cli::screen;
 use crate::cli::shell_word::quoted_path;
 use crate::dataset::claim::open;
-use crate::dataset::folder::place;
-use crate::dataset::manifest::PartRecord;
-use crate::dataset::names::REPORT;
+use crate::dataset::folder::{place, relist};
+use crate::dataset::manifest::{FileRecord, PartRecord};
+use crate::dataset::names::{MANIFEST, REPORT};
 use crate::dataset::parts_read::PartsRead;
 use crate::dataset::rows_reader::RowsReader;
 use crate::dataset::storage::{Disk, Storage};
@@ -39,14 +39,14 @@ pub fn remade(storage: &'static dyn Storage, options: &ReportOptions) -> Result<
     let root = &options.folder;
     refuse_within(root, &[("--figures", options.figures.as_deref())])?;
     let (found, _locks) = open(storage, root).map_err(Failure::files)?;
-    if !found.is_finished {
+    let Some(manifest) = found.manifests.get(MANIFEST).filter(|_| found.is_finished) else {
         return Err(Failure::Input(format!(
             "the result in `{}` is not finished; the campaign's command continues it, or: spindrift finish {}",
             root.display(),
             quoted_path(root)
         )));
-    }
-    let plan = plan_of_result(root, &found)?;
+    };
+    let plan = plan_of_sound(storage, (root, &found), options.threads, Some(REPORT))?;
     let ensemble = Ensemble::new(&plan, isa()?);
     let records: Vec<PartRecord> = found.parts().into_values().collect();
     let parts = PartsRead::of(&records, |name| root.join(name));
@@ -55,6 +55,7 @@ pub fn remade(storage: &'static dyn Storage, options: &ReportOptions) -> Result<
     let page = page(&ensemble, &reader, &analysed, &records, options.threads)?;
     let path = root.join(REPORT);
     place(storage, &path, page.html.as_bytes()).map_err(Failure::files)?;
+    relist(storage, root, manifest, FileRecord::of(REPORT, page.html.as_bytes())).map_err(Failure::files)?;
     save_figures(&page, options.figures.as_deref())?;
     Ok(format!("{}: {}\n", path.display(), bytes(page.html.len() as u64)))
 }

@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-use crate::campaign::{FilesRead, Overrides, Plan, data};
+use crate::campaign::{Overrides, Plan};
 use crate::cli::arguments::CampaignOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::failed_samples::{FailFast, FailedRun, first_failed, plan_of_failed};
-use crate::cli::finish_campaign::{Finishing, finish, outcome_of, rows_of};
+use crate::cli::finish_campaign::{Finishing, finish, keep_data, outcome_of, rows_of};
 use crate::cli::input::{isa, plan_and_files};
 use crate::cli::outputs::{refuse_inputs, refuse_within};
 use crate::cli::progress::Bar;
@@ -18,11 +18,10 @@ use crate::cli::shell_word::quoted_path;
 use crate::cli::signals::{self, Signals};
 use crate::cli::workload::Workload;
 use crate::dataset::claim::{Claim, ClaimOptions, Ready, Shard, claim};
-use crate::dataset::folder::Folder;
-use crate::dataset::identity::{self, identity};
 use crate::dataset::manifest::PartRecord;
 use crate::dataset::names::PLAN;
 use crate::dataset::part_sink::{PartSink, write_parts};
+use crate::dataset::rows_file::identity;
 use crate::dataset::running_counts::RunningCounts;
 use crate::dataset::stopping::stopping;
 use crate::dataset::storage::Disk;
@@ -44,7 +43,7 @@ pub fn run(options: &CampaignOptions) -> Result<CommandOutcome, Failure> {
     let overrides = Overrides { samples: options.samples, seed: options.seed, audit_fraction: options.audit };
     let (plan, files) = match &options.only_failed_of {
         None => plan_and_files(&options.file, overrides)?,
-        Some(of) => match plan_of_failed(&options.file, of, overrides, threads(options.threads, usize::MAX))? {
+        Some(of) => match plan_of_failed(&options.file, of, overrides, options.threads)? {
             Some(found) => found,
             None => {
                 screen::print(&format!("{}: no run failed; nothing to do\n", of.display()))?;
@@ -80,21 +79,6 @@ pub fn run(options: &CampaignOptions) -> Result<CommandOutcome, Failure> {
             run_missing(options, &ensemble, *ready, &root, signals)
         }
     }
-}
-
-/// Copies the files of numbers of the plan into the dataset, which is then complete in itself: `finish`, `verify` and `report` read its plan.
-fn keep_data(folder: &Folder, files: &FilesRead) -> Result<(), Failure> {
-    for (path, sha256) in &files.data {
-        let bytes = data::bytes(path).map_err(|error| Failure::Files(format!("{}: {error}", path.display())))?;
-        if identity::sha256(&bytes) != *sha256 {
-            return Err(Failure::Files(format!(
-                "{}: changed while it was read; run the command again",
-                path.display()
-            )));
-        }
-        folder.keep_data(&data::copy_name(path, sha256), &bytes).map_err(Failure::files)?;
-    }
-    Ok(())
 }
 
 /// Refuses `what`, which divides the campaign into shards, where the plan has `[stop]`.

@@ -1,23 +1,25 @@
 //! `spindrift verify`: whether a result is what was written, and whether its rows are what the plan says.
 
+use std::cell::OnceCell;
+use std::path::Path;
 use std::sync::Mutex;
 
 use crate::cli::arguments::VerifyOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
-use crate::cli::finish_campaign::{Finishing, complete, stop_is_continued};
-use crate::cli::input::{isa, plan_of_result};
+use crate::cli::finish_campaign::{Finishing, complete, keep_data, stop_is_continued};
+use crate::cli::input::{isa, plan_in, plan_of_result, refuse_other_rows};
 use crate::cli::screen;
-use crate::cli::signals;
-use crate::dataset::claim::{Claim, ClaimOptions, claim, open};
-use crate::dataset::found::Found;
-use crate::dataset::identity::{identity, sha256};
-use crate::dataset::manifest::PartRecord;
-use crate::dataset::names::{PLAN, rows_of};
+use crate::cli::signals::{self, Signals};
+use crate::dataset::bands_file;
+use crate::dataset::claim::{Claim, ClaimOptions, claim, lock, open};
+use crate::dataset::found::{Found, plan_text};
+use crate::dataset::manifest::{FileRecord, PartRecord};
+use crate::dataset::names::{MANIFEST, PLAN, SHARDS, bands_of, rows_of};
 use crate::dataset::part_sink::write_parts;
-use crate::dataset::rows_file::RowsFile;
+use crate::dataset::recovery::rebuild;
+use crate::dataset::rows_file::{RowsFile, identity};
 use crate::dataset::storage::{Disk, Storage};
-use crate::dataset::table_log;
-use crate::dataset::verify::damaged;
+use crate::dataset::verify::{damaged, derived_damage};
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::runner::threads;
 use crate::ensemble::{Ensemble, Part, Rows, Sink, Supervision, run as run_parts};
@@ -27,15 +29,19 @@ use crate::ensemble::{Ensemble, Part, Rows, Sink, Supervision, run as run_parts}
 /// # Errors
 /// Where the result is damaged and not repaired, or a file operation fails.
 pub fn run(options: &VerifyOptions) -> Result<CommandOutcome, Failure> {
+    let watched = OnceCell::new();
     let watch = || {
-        let signals = signals::watch();
+        let signals: &'static Signals = watched.get_or_init(signals::watch);
         Supervision { progress: &|_| {}, stop: &signals.stop, abandon: &signals.abandon }
     };
-    screen::print(&verified(&Disk, options, &watch, &screen::note)?)?;
-    Ok(CommandOutcome::Done)
+    match verified(&Disk, options, &watch, &screen::note)? {
+        Some(text) => screen::print(&text).map(|()| CommandOutcome::Done).map_err(Failure::from),
+        None => Ok(CommandOutcome::Stopped(watched.get().and_then(|signals| signals.first()).unwrap_or_default())),
+    }
 }
 
-/// Does what the command says, with `note` for each problem; what it prints. A repair calls `watch` when it starts.
+/// Does what the command says, with `note` for each problem; what it prints, or nothing where a signal stopped it. A repair calls `watch` when
+/// it starts.
 ///
 /// # Errors
 /// As [`run`].
@@ -44,33 +50,29 @@ pub fn verified(
     options: &VerifyOptions,
     watch: &dyn Fn() -> Supervision<'static>,
     note: &dyn Fn(&str),
-) -> Result<String, Failure> {
+) -> Result<Option<String>, Failure> {
     let root = &options.folder;
+    let rebuilt = if options.repair { rebuilt_manifest(storage, root)? } else { None };
     let (found, locks) = open(storage, root).map_err(Failure::files)?;
     let plan = plan_of_result(root, &found)?;
     let ensemble = Ensemble::new(&plan, isa()?);
     let expected = identity(&ensemble);
-    if found.identity.as_ref().is_some_and(|there| *there != expected) {
-        return Err(Failure::Files(format!(
-            "{}: plan.toml is not the plan of these rows (row hash {}), or they are of another version of the program",
-            root.display(),
-            expected.row_hash
-        )));
-    }
+    refuse_other_rows(root, &found, &expected)?;
     let readers = threads(options.threads, usize::MAX);
     let records: Vec<PartRecord> = found.parts().into_values().collect();
-    let mut problems: Vec<String> = found.damaged_lines().iter().map(|line| format!("{line}: damaged line")).collect();
+    let mut problems: Vec<String> = rebuilt.iter().cloned().collect();
+    problems.extend(found.damaged_lines().iter().map(|line| format!("{line}: damaged line")));
+    problems.extend(found.plan_damage.clone());
     problems.extend(found.foreign.iter().map(|entry| format!("{entry}: not part of the result")));
-    let broken = damaged(storage, root, &records, readers).map_err(Failure::files)?;
+    let broken = damaged(storage, root, &expected, &records, readers).map_err(Failure::files)?;
     problems.extend(broken.iter().map(|(_, what)| what.clone()));
-    if found.is_finished {
-        problems.extend(table_log::damage(storage, root, &expected, &records).map_err(Failure::files)?);
-    }
+    problems.extend(derived_damage(storage, root, found.derived()).map_err(Failure::files)?);
     let missing = missing_parts(&found, &ensemble);
     problems.extend(missing.iter().map(|part| format!("{}: missing", rows_of(part.id))));
     let sound: Vec<Part> =
         records.iter().filter(|part| !broken.iter().any(|(id, _)| *id == part.part)).map(PartRecord::samples).collect();
-    let chosen = choice(&sound, options.fraction);
+    // checksums of a manifest that was made from the files themselves prove nothing
+    let chosen = choice(&sound, if rebuilt.is_some() { 1.0 } else { options.fraction });
     let differing = differing(&ensemble, &records, &chosen, options)?;
     problems.extend(differing.iter().map(|part| format!("{}: its rows are not those of the plan", rows_of(part.id))));
     let rows: usize = chosen.iter().map(|part| part.count).sum();
@@ -85,23 +87,49 @@ pub fn verified(
     if problems.is_empty() && (found.is_finished || !options.repair) {
         let end =
             if found.is_finished { "sound" } else { "sound so far; not finished: the campaign's command continues it" };
-        return Ok(format!("{checked}: {end}\n"));
+        return Ok(Some(format!("{checked}: {end}\n")));
     }
     problems.iter().for_each(|problem| note(problem));
     if !options.repair {
         return Err(Failure::Files(format!(
-            "{checked}: {} problems; --repair makes damaged parts again",
+            "{checked}: {} problems; --repair makes what is damaged again",
             problems.len()
         )));
     }
     drop(locks);
-    let text = repair(storage, options, &ensemble, (&found, &differing), watch)?;
+    let text = match repair(storage, options, &ensemble, (&found, &differing), watch)? {
+        Repair::Done(text) => text,
+        Repair::Stopped(left) => {
+            note(&format!(
+                "{}: stopped; {left} samples are not made again yet. The same command continues.",
+                root.display()
+            ));
+            return Ok(None);
+        }
+    };
     let end = if problems.is_empty() {
         "sound, and finished now".to_owned()
     } else {
         format!("{} problems, repaired", problems.len())
     };
-    Ok(format!("{text}{checked}: {end}\n"))
+    Ok(Some(format!("{text}{checked}: {end}\n")))
+}
+
+/// Writes the manifest of a result that has lost it, from its plan and its files of rows; what was done, where that was necessary.
+fn rebuilt_manifest(storage: &'static dyn Storage, root: &Path) -> Result<Option<String>, Failure> {
+    let top = storage.list(root).map_err(|error| Failure::files(format!("{}: {error}", root.display())))?;
+    let has = |name: &str| top.iter().any(|entry| entry.is_file && entry.name == name);
+    if has(MANIFEST) || !has(PLAN) || top.iter().any(|entry| entry.name == SHARDS) {
+        return Ok(None);
+    }
+    let _locks = lock(storage, root).map_err(Failure::files)?;
+    let found = Found { plan: plan_text(storage, root).map_err(Failure::files)?, ..Found::default() };
+    let (plan, _) = plan_in(root, &found)?;
+    let ensemble = Ensemble::new(&plan, isa()?);
+    let origin = (found.plan.as_str(), &identity(&ensemble));
+    let parts = parts(&plan, ensemble.isa());
+    let count = rebuild(storage, root, origin, (parts, plan.band_points > 0)).map_err(Failure::files)?;
+    Ok((count > 0).then(|| format!("{MANIFEST}: missing; {count} parts of this plan were found by their own metadata")))
 }
 
 /// The parts of the plan that no manifest lists.
@@ -117,6 +145,14 @@ fn choice(parts: &[Part], fraction: f64) -> Vec<Part> {
     (0..count).map(|index| parts[index * parts.len() / count]).collect()
 }
 
+/// How a repair ended.
+enum Repair {
+    /// The result is finished; what that prints.
+    Done(String),
+    /// A signal stopped it, with so many samples left.
+    Stopped(u64),
+}
+
 /// Encodes rows and remembers the parts whose bytes are not those of the manifest.
 struct Comparison<'a> {
     file: RowsFile,
@@ -128,11 +164,16 @@ impl Sink for Comparison<'_> {
     type Error = String;
 
     fn take(&self, rows: &Rows) -> Result<(), String> {
+        let part = rows.part();
         let mut bytes = Vec::new();
         self.file.write(rows, &mut bytes).map_err(|error| error.to_string())?;
-        let name = rows_of(rows.part().id);
-        let listed = self.records.iter().flat_map(|part| &part.files).find(|file| file.name == name);
-        if listed.is_none_or(|file| file.sha256 != sha256(&bytes)) {
+        let mut files = vec![FileRecord::of(&rows_of(part.id), &bytes)];
+        if let Some(bands) = rows.bands() {
+            bytes.clear();
+            bands_file::write(part, bands, &mut bytes);
+            files.push(FileRecord::of(&bands_of(part.id), &bytes));
+        }
+        if self.records.iter().find(|record| record.part == part.id.0).is_none_or(|record| record.files != files) {
             self.differing.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push(rows.part());
         }
         Ok(())
@@ -157,14 +198,14 @@ fn differing(
     Ok(found)
 }
 
-/// Makes damaged, missing and differing parts again, and finishes the result; what that prints.
+/// Makes damaged, missing and differing parts again, and finishes the result.
 fn repair(
     storage: &'static dyn Storage,
     options: &VerifyOptions,
     ensemble: &Ensemble<'_>,
     (found, differing): (&Found, &[Part]),
     watch: &dyn Fn() -> Supervision<'static>,
-) -> Result<String, Failure> {
+) -> Result<Repair, Failure> {
     let (plan, root) = (ensemble.plan(), &options.folder);
     if plan.analysis.stop.is_some() && !found.is_finished {
         return Err(Failure::Files(stop_is_continued(root)));
@@ -180,11 +221,16 @@ fn repair(
             )));
         }
     };
+    keep_data(&ready.folder, &plan_in(root, found)?.1)?;
     ready.folder.drop_parts(differing.iter().map(|part| part.id.0)).map_err(Failure::files)?;
     let missing = ready.folder.missing(parts(plan, ensemble.isa()).iter());
     write_parts(&ready.folder, ensemble, None, |sink| run_parts(ensemble, missing, options.threads, sink, supervision))
         .map_err(Failure::files)?
         .map_err(Failure::files)?;
+    let left = ready.folder.missing(parts(plan, ensemble.isa()).iter());
+    if !left.is_empty() {
+        return Ok(Repair::Stopped(left.iter().map(|part| part.count as u64).sum()));
+    }
     let replayed = root.join(PLAN).display().to_string();
     let job = Finishing {
         ensemble,
@@ -197,5 +243,5 @@ fn repair(
         made: None,
         seconds: [0.0; 2],
     };
-    complete(&job, None).map(|(_, text)| text)
+    complete(&job, None).map(|(_, text)| Repair::Done(text))
 }

@@ -9,13 +9,13 @@ use thiserror::Error;
 
 use crate::campaign::Plan;
 use crate::campaign::difference::{KeyDifference, text_differences};
-use crate::dataset::folder::Folder;
-use crate::dataset::found::{Contents, Found, MOST_PLAN, contents};
+use crate::dataset::folder::{Folder, MOST_SUMMARY};
+use crate::dataset::found::{Contents, Found, contents};
 use crate::dataset::manifest::{Identity, PartRecord};
 use crate::dataset::names::{MANIFEST, SUMMARY, manifest_of};
 use crate::dataset::replacement::{complete_replacement, remove_dataset, remove_unfinished, replace, replacement};
 use crate::dataset::storage::{Storage, StorageError, at};
-use crate::dataset::table_log;
+use crate::dataset::verify::{damaged as damaged_parts, derived_damage};
 
 /// Most keys that a refusal lists.
 const LISTED: usize = 12;
@@ -51,6 +51,16 @@ pub enum FolderError {
         found: u64,
         /// Samples of the plan.
         asked: u64,
+    },
+    /// Its shards are of different plans.
+    #[error(
+        "`{folder}` has rows of different plans: {conflict}\nremove the manifest of the wrong one, so that its parts are made again, or run the campaign with --overwrite"
+    )]
+    Mixed {
+        /// The folder.
+        folder: String,
+        /// Which shard differs, in which keys.
+        conflict: String,
     },
     /// It has something else.
     #[error(
@@ -192,6 +202,9 @@ pub fn claim(
             }
         };
     }
+    if let Some(conflict) = found.conflict {
+        return Err(FolderError::Mixed { folder, conflict });
+    }
     if let Some(there) = found.identity.as_ref().filter(|there| *there != identity) {
         return Err(occupied(folder, &found, there, (plan, identity)));
     }
@@ -247,25 +260,26 @@ fn ready(
     // a shard reads its own parts only: each of many that start would read everything; `finish` reads all
     let is_mine = |part: &&PartRecord| options.shard.is_none_or(|shard| part.part % shard.of == shard.number - 1);
     let mine: Vec<PartRecord> = all.iter().filter(is_mine).cloned().collect();
-    let broken = crate::dataset::verify::damaged(storage, root, &mine, options.threads)?;
+    let broken = damaged_parts(storage, root, identity, &mine, options.threads)?;
     let mut damaged = found.damaged_lines();
     damaged.extend(broken.iter().map(|(_, what)| what.clone()));
-    if found.is_finished {
-        damaged.extend(table_log::damage(storage, root, identity, &all)?);
-    }
+    damaged.extend(found.plan_damage.clone());
+    damaged.extend(derived_damage(storage, root, found.derived())?);
     // of a plan with [stop] the finished number of rows is that of one of its looks
     let is_whole = found.is_finished && plan.looks().contains(&found.rows());
     let is_complete = is_whole && damaged.is_empty() && found.plan == plan.text();
     if is_complete && options.shard.is_none() {
         let path = root.join(SUMMARY);
-        match summary(storage.read(&path, MOST_PLAN).map_err(at(&path))?) {
+        match summary(storage.read(&path, MOST_SUMMARY).map_err(at(&path))?) {
             Some(text) => return Ok(Claim::Finished(text)),
             None => damaged.push(format!("{SUMMARY}: its content has changed")),
         }
     }
     let name = options.shard.map_or(MANIFEST.to_owned(), |shard| manifest_of(shard.number, shard.of));
     let own = found.manifests.remove(&name);
-    let folder = Folder::open(storage, root, identity.clone(), (name.clone(), own), found.parts())?;
+    let is_plan_there = found.plan == plan.text() && found.plan_damage.is_none();
+    let what = (plan.text(), identity.clone());
+    let folder = Folder::open(storage, root, what, (name.clone(), own), found.parts())?;
     if options.shard.is_some() {
         locks.add(storage, &folder.path(&name), false)?;
     }
@@ -274,9 +288,7 @@ fn ready(
         remove_unfinished(storage, root, &folder.parts())?;
     }
     folder.drop_parts(broken.into_iter().map(|(part, _)| part))?;
-    if found.plan != plan.text() {
-        folder.write_plan(&plan.text())?;
-    }
+    folder.write_plan(is_plan_there)?;
     let rows = folder.parts().iter().map(|part| part.rows).sum();
     Ok(Claim::Ready(Box::new(Ready { folder, replaces: None, rows, damaged, _locks: locks })))
 }
@@ -286,6 +298,16 @@ fn summary(bytes: Vec<u8>) -> Option<String> {
     let text = String::from_utf8(bytes).ok()?;
     let value: serde_json::Value = serde_json::from_str(&text).ok()?;
     value.get("statuses").is_some().then_some(text)
+}
+
+/// Locks the folder `root` against other processes.
+///
+/// # Errors
+/// Where another process has it, or it cannot be opened.
+pub fn lock(storage: &dyn Storage, root: &Path) -> Result<Locks, FolderError> {
+    let mut locks = Locks::default();
+    locks.add(storage, root, false)?;
+    Ok(locks)
 }
 
 /// Opens the dataset in `root` as it is, for commands that add no samples; locked against writers.
@@ -298,10 +320,12 @@ pub fn open(storage: &'static dyn Storage, root: &Path) -> Result<(Found, Locks)
     if storage.list(root).map_err(at(root))?.is_empty() {
         return Err(nothing("there is no such folder, or it is empty"));
     }
-    let mut locks = Locks::default();
-    locks.add(storage, root, false)?;
+    let locks = lock(storage, root)?;
     match contents(storage, root)? {
-        Contents::Dataset(found) => Ok((*found, locks)),
+        Contents::Dataset(found) => match &found.conflict {
+            Some(conflict) => Err(FolderError::Mixed { folder, conflict: conflict.clone() }),
+            None => Ok((*found, locks)),
+        },
         _ => Err(nothing("it has no manifest.jsonl")),
     }
 }

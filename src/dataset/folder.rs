@@ -4,6 +4,7 @@
 //! results/<name>/plan.toml                 the resolved plan
 //! results/<name>/manifest.jsonl            what is there: only what it lists exists
 //! results/<name>/runs/part-000000.parquet  rows, part by part
+//! results/<name>/summary.json, ...          what follows from the rows
 //! results/<name>/_SUCCESS                  everything is there
 //! ```
 //! A part is written under a temporary name, flushed to the disk, read back and compared, and renamed; its folder is flushed; then one line
@@ -15,13 +16,18 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use crate::dataset::identity::sha256;
 use crate::dataset::manifest::{FileRecord, Identity, Manifest, PartRecord, Record};
-use crate::dataset::names::{DATA, MANIFEST, PLAN, SHARDS, SUCCESS, UNFINISHED, is_ours};
+use crate::dataset::names::{DATA, MANIFEST, PLAN, SHARDS, SUCCESS, SUMMARY, UNFINISHED, is_derived, is_ours};
 use crate::dataset::storage::{Storage, StorageError, at, entries_in};
 use crate::dataset::stored_file::is_unfit;
 use crate::ensemble::Part;
 
 /// Most bytes of a manifest: a line is some 400 bytes, and a campaign of 10^12 samples has 61 million parts.
 pub const MOST_MANIFEST: u64 = 1 << 36;
+
+/// Most bytes of a summary that is read.
+pub const MOST_SUMMARY: u64 = 1 << 26;
+/// The key of a summary that says whether it is of the rows that are there.
+pub const IS_FINISHED: &str = "finished";
 
 /// A file of a part: its name below the folder of the dataset, and its content.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -41,12 +47,21 @@ impl PartFile {
     }
 }
 
+impl FileRecord {
+    /// That of the file `name` with the content `bytes`.
+    pub fn of(name: &str, bytes: &[u8]) -> Self {
+        FileRecord { name: name.to_owned(), bytes: bytes.len() as u64, sha256: sha256(bytes) }
+    }
+}
+
 /// A dataset that parts are added to. One process writes to a manifest ([`super::claim`]).
 #[derive(Debug)]
 pub struct Folder {
     storage: &'static dyn Storage,
     root: PathBuf,
     identity: Identity,
+    /// The text of the plan.
+    plan: String,
     /// Name of the manifest that this process appends to.
     manifest: String,
     state: Mutex<State>,
@@ -58,23 +73,25 @@ struct State {
     length: Option<u64>,
     /// All parts that are whole, those of other manifests too.
     parts: BTreeMap<u64, PartRecord>,
+    /// The files that follow from plan and rows and are there, by name.
+    derived: BTreeMap<String, FileRecord>,
 }
 
 impl Folder {
-    /// The dataset in `root`, whose manifest `manifest` (its name below `root`) has so far the records `own`; `others` are the parts of other
-    /// manifests. What was damaged in the manifest is left out of its new text.
+    /// The dataset in `root` of the plan with this text, whose manifest `manifest` (its name below `root`) has so far the records `own`; `others`
+    /// are the parts of other manifests. What was damaged in the manifest is left out of its new text.
     ///
     /// # Errors
     /// Where a file operation fails.
     pub fn open(
         storage: &'static dyn Storage,
         root: &Path,
-        identity: Identity,
+        (plan, identity): (String, Identity),
         (manifest, own): (String, Option<Manifest>),
         others: BTreeMap<u64, PartRecord>,
     ) -> Result<Folder, StorageError> {
-        let mut folder =
-            Folder { storage, root: root.to_owned(), identity, manifest, state: Mutex::new(State::default()) };
+        let state = Mutex::new(State::default());
+        let mut folder = Folder { storage, root: root.to_owned(), identity, plan, manifest, state };
         if folder.manifest.starts_with(SHARDS) {
             let path = root.join(SHARDS);
             storage.create_folder(&path).map_err(at(&path))?;
@@ -84,15 +101,16 @@ impl Folder {
             refuse_parts(storage, &path)?;
         }
         let (is_new, own) = (own.is_none(), own.unwrap_or_default());
-        let text = Manifest::text(&folder.identity, own.parts.values(), false);
+        let text = Manifest::text(&folder.identity, &folder.plan, own.parts.values(), None);
         // a manifest with damage, or one that says that it is finished, is written again: what is appended must follow its last part
-        if is_new || !own.damaged.is_empty() || own.is_finished || own.identity.as_ref() != Some(&folder.identity) {
+        let is_same = own.identity.as_ref() == Some(&folder.identity) && own.plan.as_ref() == Some(&folder.plan);
+        if is_new || !own.damaged.is_empty() || own.is_finished || !is_same {
             folder.write(&folder.manifest, text.as_bytes())?;
         }
         let length = storage.read(&path, MOST_MANIFEST).map_err(at(&path))?.len() as u64;
         let mut parts = others;
         parts.extend(own.parts);
-        folder.state = Mutex::new(State { length: Some(length), parts });
+        folder.state = Mutex::new(State { length: Some(length), parts, derived: BTreeMap::new() });
         Ok(folder)
     }
 
@@ -109,6 +127,11 @@ impl Folder {
     /// The file operations.
     pub fn storage(&self) -> &'static dyn Storage {
         self.storage
+    }
+
+    /// The text of the plan.
+    pub fn plan(&self) -> &str {
+        &self.plan
     }
 
     /// What the rows are.
@@ -139,7 +162,26 @@ impl Folder {
         let path = self.path(name);
         place(self.storage, &path, bytes)?;
         let folder = path.parent().unwrap_or(&self.root);
-        self.storage.sync_folder(folder).map_err(at(folder))
+        self.storage.sync_folder(folder).map_err(at(folder))?;
+        if is_derived(name) {
+            self.list(FileRecord::of(name, bytes));
+        }
+        Ok(())
+    }
+
+    /// Lists a file that follows from plan and rows and is there with this content, for the last line of the manifest.
+    pub fn list(&self, file: FileRecord) {
+        self.state().derived.insert(file.name.clone(), file);
+    }
+
+    /// Removes a file that follows from the rows, if there is one.
+    ///
+    /// # Errors
+    /// Where a file operation fails.
+    pub fn remove(&self, name: &str) -> Result<(), StorageError> {
+        let path = self.path(name);
+        self.state().derived.remove(name);
+        self.storage.remove(&path).map_err(at(&path))
     }
 
     /// Adds a part: its files, then its line in the manifest.
@@ -197,12 +239,16 @@ impl Folder {
         Ok(())
     }
 
-    /// Writes the plan.
+    /// Writes the plan, unless `is_there` with this text.
     ///
     /// # Errors
     /// Where a file operation fails.
-    pub fn write_plan(&self, text: &str) -> Result<(), StorageError> {
-        self.write(PLAN, text.as_bytes())
+    pub fn write_plan(&self, is_there: bool) -> Result<(), StorageError> {
+        if is_there {
+            self.list(FileRecord::of(PLAN, self.plan.as_bytes()));
+            return Ok(());
+        }
+        self.write(PLAN, self.plan.as_bytes())
     }
 
     /// Keeps `bytes` as the file of numbers `name` that the plan names, unless it is there.
@@ -212,21 +258,36 @@ impl Folder {
     pub fn keep_data(&self, name: &str, bytes: &[u8]) -> Result<(), StorageError> {
         let folder = self.path(DATA);
         let entries = entries_in(self.storage, &self.root, &folder)?;
-        if entries.iter().any(|entry| entry.is_file && entry.name == name && entry.size == bytes.len() as u64) {
+        let (file, path) = (format!("{DATA}/{name}"), folder.join(name));
+        let is_there = entries.iter().any(|entry| entry.is_file && entry.name == name);
+        if is_there && self.storage.has(&path, bytes).map_err(at(&path))? {
+            self.list(FileRecord::of(&file, bytes));
             return Ok(());
         }
         self.storage.create_folder(&folder).map_err(at(&folder))?;
-        self.write(&format!("{DATA}/{name}"), bytes)
+        self.write(&file, bytes)
     }
 
-    /// Takes back that everything is there, before anything of it is replaced.
+    /// Takes back that everything is there, before anything of it is replaced: the summary, if there is one, then says that it is of rows
+    /// before.
     ///
     /// # Errors
     /// Where a file operation fails.
     pub fn unfinish(&self) -> Result<(), StorageError> {
         let path = self.path(SUCCESS);
         self.storage.remove(&path).map_err(at(&path))?;
-        self.storage.sync_folder(&self.root).map_err(at(&self.root))
+        self.storage.sync_folder(&self.root).map_err(at(&self.root))?;
+        let top = entries_in(self.storage, &self.root, &self.root)?;
+        if !top.iter().any(|entry| entry.is_file && entry.name == SUMMARY) {
+            return Ok(());
+        }
+        let path = self.path(SUMMARY);
+        let summary = match self.storage.read(&path, MOST_SUMMARY) {
+            Ok(bytes) => unfinished_summary(&bytes),
+            Err(error) if is_unfit(&error) => None,
+            Err(error) => return Err(at(&path)(error)),
+        };
+        summary.map_or(Ok(()), |text| place(self.storage, &path, text.as_bytes()))
     }
 
     /// Prepares the folder `name` for files that are made again: without those that an earlier end of the campaign left there.
@@ -242,15 +303,21 @@ impl Folder {
             }
         }
         self.storage.remove_folder(&path).map_err(at(&path))?;
+        self.state().derived.retain(|file, _| !file.starts_with(&format!("{name}/")));
         Ok(path)
     }
 
-    /// Says that everything is there: the manifest lists all parts in order, whichever manifests listed them before, and the mark is set.
+    /// Says that everything is there: the manifest lists all parts in order, whichever manifests listed them before, and what follows from
+    /// them; and the mark is set.
     ///
     /// # Errors
     /// Where a file operation fails.
     pub fn finish(&self) -> Result<(), StorageError> {
-        let text = Manifest::text(&self.identity, self.state().parts.values(), true);
+        let text = {
+            let state = self.state();
+            let derived = state.derived.values().cloned().collect();
+            Manifest::text(&self.identity, &self.plan, state.parts.values(), Some(derived))
+        };
         self.write(MANIFEST, text.as_bytes())?;
         self.state().length = None;
         let shards = self.path(SHARDS);
@@ -266,6 +333,30 @@ impl Folder {
     pub fn size(&self) -> u64 {
         self.state().parts.values().flat_map(|part| &part.files).map(|file| file.bytes).sum()
     }
+}
+
+/// Writes the manifest of the finished dataset in `root`, of which one file that follows from the rows was made again.
+///
+/// # Errors
+/// Where a file operation fails.
+pub fn relist(storage: &dyn Storage, root: &Path, manifest: &Manifest, file: FileRecord) -> Result<(), StorageError> {
+    let Some(identity) = &manifest.identity else { return Ok(()) };
+    let mut derived: BTreeMap<&str, &FileRecord> =
+        manifest.derived.iter().map(|one| (one.name.as_str(), one)).collect();
+    derived.insert(&file.name, &file);
+    let derived = derived.into_values().cloned().collect();
+    let plan = manifest.plan.as_deref().unwrap_or_default();
+    let path = root.join(MANIFEST);
+    place(storage, &path, Manifest::text(identity, plan, manifest.parts.values(), Some(derived)).as_bytes())?;
+    storage.sync_folder(root).map_err(at(root))
+}
+
+/// A summary that says that it is finished, as one that does not; `None` where it says nothing.
+fn unfinished_summary(bytes: &[u8]) -> Option<String> {
+    let mut summary: serde_json::Value = serde_json::from_slice(bytes).ok()?;
+    let finished = summary.get_mut(IS_FINISHED).filter(|finished| **finished == true)?;
+    *finished = false.into();
+    Some(format!("{summary:#}\n"))
 }
 
 /// Refuses to write a new manifest where there is one that lists parts: its folder did not show it, and they would be lost.

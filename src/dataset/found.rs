@@ -3,11 +3,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
+use crate::campaign::difference::text_differences;
 use crate::dataset::folder::MOST_MANIFEST;
-use crate::dataset::manifest::{Identity, Manifest, PartRecord};
-use crate::dataset::names::{
-    FOLDERS, MANIFEST, PLAN, REPORT, SHARDS, SUCCESS, SUMMARY, UNFINISHED, is_of_parts, is_ours,
-};
+use crate::dataset::identity::in_rows;
+use crate::dataset::manifest::{FileRecord, Identity, Manifest, PartRecord};
+use crate::dataset::names::{FOLDERS, MANIFEST, PLAN, REPORT, SHARDS, SUCCESS, UNFINISHED, is_of_parts, is_ours};
 use crate::dataset::storage::{Storage, StorageError, at, is_absent};
 use crate::dataset::stored_file::is_unfit;
 
@@ -28,15 +28,19 @@ pub enum Contents {
 /// A dataset as it was found.
 #[derive(Debug, Default)]
 pub struct Found {
-    /// The text of its plan; empty where there is none, or no text.
+    /// The text of its plan: that of `plan.toml` where a manifest has the same, else that of a manifest; empty where there is none.
     pub plan: String,
-    /// What its rows are; `None` where no manifest says.
+    /// What is wrong with `plan.toml`, where it is not the plan.
+    pub plan_damage: Option<String>,
+    /// What its rows are; where no manifest says, what the first file of rows says. `None` where nothing does.
     pub identity: Option<Identity>,
+    /// Which manifest is of other rows than another, and the keys that differ.
+    pub conflict: Option<String>,
     /// The records of its manifests by their names.
     pub manifests: BTreeMap<String, Manifest>,
     /// Whether everything is there.
     pub is_finished: bool,
-    /// Whether it has a page.
+    /// Whether it has a page, or had one.
     pub has_page: bool,
     /// The first file that is not one of a dataset, or that no manifest lists although everything is there.
     pub foreign: Option<String>,
@@ -58,6 +62,11 @@ impl Found {
     pub(super) fn listed(&self) -> BTreeSet<String> {
         let parts = self.manifests.values().flat_map(|manifest| manifest.parts.values());
         parts.flat_map(|part| &part.files).map(|file| file.name.clone()).collect()
+    }
+
+    /// The files that follow from plan and rows, of a result in which everything is there.
+    pub fn derived(&self) -> &[FileRecord] {
+        self.manifests.get(MANIFEST).filter(|_| self.is_finished).map_or(&[], |manifest| &manifest.derived)
     }
 
     /// Number of rows.
@@ -111,9 +120,6 @@ pub fn contents(storage: &dyn Storage, root: &Path) -> Result<Contents, StorageE
     for name in names {
         let path = root.join(&name);
         let manifest = Manifest::of(&storage.read(&path, MOST_MANIFEST).map_err(at(&path))?);
-        if let Some(identity) = &manifest.identity {
-            found.identity.get_or_insert(identity.clone());
-        }
         found.manifests.insert(name, manifest);
     }
     let is_marked = found.manifests.values().any(|manifest| manifest.identity.is_some() || !manifest.parts.is_empty());
@@ -129,9 +135,13 @@ pub fn contents(storage: &dyn Storage, root: &Path) -> Result<Contents, StorageE
         );
     }
     let has = |name: &str| top.iter().any(|entry| entry.is_file && entry.name == name);
-    found.is_finished =
-        has(SUCCESS) && found.manifests.get(MANIFEST).is_some_and(|manifest| manifest.is_finished) && has(SUMMARY);
-    found.has_page = has(REPORT);
+    found.is_finished = has(SUCCESS) && found.manifests.get(MANIFEST).is_some_and(|manifest| manifest.is_finished);
+    found.conflict = conflict(&found.manifests);
+    found.identity = match found.manifests.values().find_map(|manifest| manifest.identity.clone()) {
+        None => identity_in_rows(storage, &found.row_files(root))?,
+        identity => identity,
+    };
+    found.has_page = has(REPORT) || found.derived().iter().any(|file| file.name == REPORT);
     let listed = found.listed();
     let is_listed = |name: &String| {
         let folder = name.split_once('/').map_or("", |(folder, _)| folder);
@@ -139,12 +149,63 @@ pub fn contents(storage: &dyn Storage, root: &Path) -> Result<Contents, StorageE
     };
     let unlisted = files.iter().find(|name| found.is_finished && !is_listed(name)).cloned();
     found.foreign = first_foreign.or(unlisted);
-    found.plan = plan_in(storage, root)?;
+    (found.plan, found.plan_damage) = plan_of(&found.manifests, plan_text(storage, root)?);
     Ok(Contents::Dataset(Box::new(found)))
 }
 
-/// The text of the plan in `root`; empty where there is none, or no text.
-fn plan_in(storage: &dyn Storage, root: &Path) -> Result<String, StorageError> {
+/// Which of `manifests` is of other rows than the first that says what its rows are.
+fn conflict(manifests: &BTreeMap<String, Manifest>) -> Option<String> {
+    let mut known =
+        manifests.iter().filter_map(|(name, manifest)| Some((name, manifest.identity.as_ref()?, &manifest.plan)));
+    let (first, identity, plan) = known.next()?;
+    let (name, other, other_plan) = known.find(|(_, other, _)| *other != identity)?;
+    let value = |value: Option<String>| value.unwrap_or_else(|| "absent".to_owned());
+    let text = |plan: &Option<String>| plan.clone().unwrap_or_default();
+    let keys = text_differences(&text(plan), &text(other_plan)).into_iter();
+    let mut keys: Vec<String> = keys
+        .map(|one| format!("{}: {} in {first}, {} in {name}", one.key, value(one.first), value(one.second)))
+        .collect();
+    if keys.is_empty() {
+        keys.push(format!(
+            "{}.{} in {first}, {}.{} in {name}: versions of format and arithmetic, row hashes {} and {}",
+            identity.format, identity.arithmetic, other.format, other.arithmetic, identity.row_hash, other.row_hash
+        ));
+    }
+    Some(format!("{name} is of another plan than {first}:\n  {}", keys.join("\n  ")))
+}
+
+/// What the first of the files of rows says that is one.
+fn identity_in_rows(storage: &dyn Storage, files: &[PathBuf]) -> Result<Option<Identity>, StorageError> {
+    for path in files {
+        match storage.read(path, u64::MAX) {
+            Ok(bytes) => {
+                if let Some((identity, ..)) = in_rows(bytes.into()) {
+                    return Ok(Some(identity));
+                }
+            }
+            Err(error) if is_unfit(&error) || error.kind() == std::io::ErrorKind::NotFound => {}
+            Err(error) => return Err(at(path)(error)),
+        }
+    }
+    Ok(None)
+}
+
+/// The plan of a dataset in which `plan.toml` has the text `there`, and what is wrong with that.
+fn plan_of(manifests: &BTreeMap<String, Manifest>, there: String) -> (String, Option<String>) {
+    let mut recorded = manifests.values().filter_map(|manifest| manifest.plan.as_ref());
+    let Some(first) = recorded.clone().next() else { return (there, None) };
+    if recorded.any(|plan| *plan == there) {
+        return (there, None);
+    }
+    let what = if there.is_empty() { "is missing, or no text file" } else { "its content has changed" };
+    (first.clone(), Some(format!("{PLAN}: {what}; {MANIFEST} has the plan")))
+}
+
+/// The text of `plan.toml` in `root`; empty where there is none, or no text.
+///
+/// # Errors
+/// Where it cannot be read.
+pub fn plan_text(storage: &dyn Storage, root: &Path) -> Result<String, StorageError> {
     let path = root.join(PLAN);
     match storage.read(&path, MOST_PLAN) {
         Ok(bytes) => Ok(String::from_utf8(bytes).unwrap_or_default()),

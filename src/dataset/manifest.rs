@@ -1,22 +1,24 @@
 //! [`Manifest`]: what a dataset consists of, as lines of JSON that are only ever appended to.
 //!
 //! ```text
-//! {"spindrift":"dataset","format":3,...,"crc":"9f3c0a71"}        what the rows are: hash of the row plan, seed, columns, arithmetic
+//! {"spindrift":"dataset","format":4,...,"crc":"9f3c0a71"}        what the rows are: hash of the row plan, seed, columns, arithmetic
+//! {"plan":"[campaign]\n...","crc":...}                            the text of plan.toml; the last such line holds
 //! {"part":0,"first_sample":0,"rows":256,"files":[...],"crc":...} a part whose files are whole and on the disk
 //! {"dropped":3,"crc":...}                                         a part that is to be made again
-//! {"finished":true,"parts":16,"rows":4096,"crc":...}              all of it is there
+//! {"finished":true,"parts":16,"rows":4096,"files":[...],"crc":...} all of it is there, with every file that follows from the rows
 //! ```
 //! Only what is listed exists. Every line ends with the CRC-32 (ISO 3309) of what stands before it: a line that a crash cut off, or in which a
 //! bit has changed, is recognised and left out, and the part that it listed is made again.
 
 use serde::{Deserialize, Serialize};
 
-use crate::dataset::names::{PART_BANDS, RUNS, is_ours};
+use crate::dataset::names::{PART_BANDS, RUNS, is_derived, is_ours};
 use crate::ensemble::{Part, PartId};
 use crate::sampling::SampleId;
 
-/// Version of these lines, and of the files that they list: counts are Int64 since 2, parts have other sizes and bands coarser buckets since 3.
-pub const FORMAT: u32 = 3;
+/// Version of these lines, and of the files that they list: counts are Int64 since 2, parts have other sizes and bands coarser buckets since 3;
+/// since 4 the manifest has the plan and lists the files that follow from the rows, and every file of rows has the whole [`Identity`].
+pub const FORMAT: u32 = 4;
 
 /// Version of the arithmetic of rows: it changes where the same row plan would give other bits. The instruction set is no part of it.
 pub const ARITHMETIC: u32 = 1;
@@ -38,7 +40,7 @@ pub struct Identity {
     pub columns: String,
 }
 
-/// A file of a part.
+/// A file with its checksum: of a part, or one that follows from the rows.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FileRecord {
     /// Its name below the folder of the dataset, with `/`.
@@ -86,6 +88,11 @@ pub enum Record {
     Identity(Identity),
     /// A part that is whole.
     Part(PartRecord),
+    /// What `plan.toml` has.
+    Plan {
+        /// Its text.
+        plan: String,
+    },
     /// A part that is no longer to be used.
     Dropped {
         /// Its number.
@@ -99,6 +106,8 @@ pub enum Record {
         parts: u64,
         /// Number of rows.
         rows: u64,
+        /// The files that follow from plan and rows, ascending by name.
+        files: Vec<FileRecord>,
     },
 }
 
@@ -126,10 +135,14 @@ impl Record {
 pub struct Manifest {
     /// What the rows are; `None` where the first line is not whole.
     pub identity: Option<Identity>,
+    /// The text of `plan.toml`; `None` where no line has it.
+    pub plan: Option<String>,
     /// The parts that are listed, ascending by number.
     pub parts: std::collections::BTreeMap<u64, PartRecord>,
     /// Whether the last line says that everything is there.
     pub is_finished: bool,
+    /// The files that follow from plan and rows, where the last line says that everything is there.
+    pub derived: Vec<FileRecord>,
     /// Lines that are not whole, counted from 1.
     pub damaged: Vec<usize>,
 }
@@ -147,34 +160,46 @@ impl Manifest {
         }
         for (index, record) in records.into_iter().enumerate() {
             manifest.is_finished = false;
+            manifest.derived.clear();
             match record {
                 Some(Record::Identity(identity)) if index == 0 => manifest.identity = Some(identity),
                 Some(Record::Part(part)) if part.files.iter().all(FileRecord::is_of_a_part) => {
                     manifest.parts.insert(part.part, part);
                 }
+                Some(Record::Plan { plan }) => manifest.plan = Some(plan),
                 Some(Record::Dropped { dropped }) => {
                     manifest.parts.remove(&dropped);
                 }
-                Some(Record::Finished { finished, parts, rows }) => {
+                Some(Record::Finished { finished, parts, rows, files })
+                    if files.iter().all(|file| is_derived(&file.name)) =>
+                {
                     let counted = manifest.parts.values().map(|part| part.rows).sum::<u64>();
                     manifest.is_finished = finished && parts == manifest.parts.len() as u64 && rows == counted;
+                    manifest.derived = files;
                 }
-                Some(Record::Identity(_) | Record::Part(_)) | None => manifest.damaged.push(index + 1),
+                Some(Record::Identity(_) | Record::Part(_) | Record::Finished { .. }) | None => {
+                    manifest.damaged.push(index + 1);
+                }
             }
         }
         manifest
     }
 
-    /// The text of a manifest with these parts in order.
-    pub fn text<'p>(identity: &Identity, parts: impl Iterator<Item = &'p PartRecord>, is_finished: bool) -> String {
-        let mut text = Record::Identity(identity.clone()).line();
+    /// The text of a manifest with these parts in order; finished where `derived` are the files that follow from the rows.
+    pub fn text<'p>(
+        identity: &Identity,
+        plan: &str,
+        parts: impl Iterator<Item = &'p PartRecord>,
+        derived: Option<Vec<FileRecord>>,
+    ) -> String {
+        let mut text = Record::Identity(identity.clone()).line() + &Record::Plan { plan: plan.to_owned() }.line();
         let (mut count, mut rows) = (0, 0);
         for part in parts {
             text += &Record::Part(part.clone()).line();
             (count, rows) = (count + 1, rows + part.rows);
         }
-        if is_finished {
-            text += &Record::Finished { finished: true, parts: count, rows }.line();
+        if let Some(files) = derived {
+            text += &Record::Finished { finished: true, parts: count, rows, files }.line();
         }
         text
     }
@@ -205,8 +230,14 @@ pub(super) mod tests {
         PartRecord { part: number, first_sample: 256 * number, rows: 256, files: vec![file] }
     }
 
+    const PLAN: &str = "[campaign]\nname = \"x\"\n";
+
+    fn derived() -> FileRecord {
+        FileRecord { name: "summary.json".to_owned(), bytes: 77, sha256: "12".repeat(32) }
+    }
+
     fn text() -> String {
-        Manifest::text(&identity(), [part(0), part(1), part(2)].iter(), true)
+        Manifest::text(&identity(), PLAN, [part(0), part(1), part(2)].iter(), Some(vec![derived()]))
     }
 
     /// Law: what is written is read back.
@@ -216,6 +247,7 @@ pub(super) mod tests {
         assert_eq!(read.identity, Some(identity()));
         assert_eq!(read.parts.into_values().collect::<Vec<_>>(), [part(0), part(1), part(2)]);
         assert!(read.is_finished && read.damaged.is_empty());
+        assert_eq!((read.plan.as_deref(), read.derived), (Some(PLAN), vec![derived()]));
     }
 
     /// Law: a manifest cut off at any byte has exactly the parts whose lines are whole, and is finished only when it is whole.
@@ -227,8 +259,9 @@ pub(super) mod tests {
             let read = Manifest::of(cut.as_bytes());
             let whole = cut.matches('\n').count();
             assert_eq!(read.identity.is_some(), whole > 0, "{length} bytes");
-            assert_eq!(read.parts.len(), whole.saturating_sub(1).min(3), "{length} bytes");
-            assert!(!read.is_finished, "{length} bytes");
+            assert_eq!(read.plan.is_some(), whole > 1, "{length} bytes");
+            assert_eq!(read.parts.len(), whole.saturating_sub(2).min(3), "{length} bytes");
+            assert!(!read.is_finished && read.derived.is_empty(), "{length} bytes");
             assert_eq!(read.damaged.is_empty(), cut.is_empty() || cut.ends_with('\n'), "{length} bytes");
         }
     }
@@ -250,6 +283,8 @@ pub(super) mod tests {
                     assert_eq!(found, part(number), "byte {byte}, bit {bit}");
                 }
                 assert!(read.identity.is_none_or(|found| found == identity()), "byte {byte}, bit {bit}");
+                assert!(read.plan.is_none_or(|found| found == PLAN), "byte {byte}, bit {bit}");
+                assert!(read.derived.is_empty() || read.derived == [derived()], "byte {byte}, bit {bit}");
             }
         }
     }
@@ -279,7 +314,13 @@ pub(super) mod tests {
             let mut foreign = part(1);
             foreign.files[0].name = name.to_owned();
             let read = Manifest::of(format!("{}{}", text(), Record::Part(foreign).line()).as_bytes());
-            assert_eq!((read.parts.len(), read.damaged), (3, vec![6]), "{name}");
+            assert_eq!((read.parts.len(), read.damaged), (3, vec![7]), "{name}");
+        }
+        for name in ["../precious", "/etc/passwd", "runs/part-000001.parquet", "manifest.jsonl", "data/../plan.toml"] {
+            let files = vec![FileRecord { name: name.to_owned(), ..derived() }];
+            let line = Record::Finished { finished: true, parts: 3, rows: 768, files }.line();
+            let read = Manifest::of(format!("{}{line}", text()).as_bytes());
+            assert!(!read.is_finished && read.derived.is_empty() && read.damaged == [7], "{name}");
         }
     }
 }

@@ -46,6 +46,7 @@ pub mod parts_read;
 pub mod population;
 pub mod precision_table;
 pub mod provenance;
+pub mod recovery;
 pub mod replacement;
 pub mod rows_file;
 pub mod rows_reader;

@@ -28,6 +28,8 @@ pub const SHARDS: &str = "shards";
 pub const TRAJECTORIES: &str = "trajectories";
 /// Folder of the log by which table engines read the rows.
 pub const TABLE_LOG: &str = "_delta_log";
+/// Folder of the last, incomplete parts that versions of the table list: `runs/` has the same part with its further rows later.
+pub const VERSIONS: &str = "versions";
 /// Folder of copies of the files of numbers that the plan names, each by its SHA-256.
 pub const DATA: &str = crate::campaign::data::COPIES;
 /// Suffix of a file that is not whole yet.
@@ -37,7 +39,7 @@ pub const UNFINISHED: &str = ".tmp";
 pub const TOP_FILES: [&str; 8] = [PLAN, MANIFEST, SUCCESS, SUMMARY, STATISTICS, SENSITIVITY, BANDS, REPORT];
 
 /// The folders of a dataset.
-pub const FOLDERS: [&str; 6] = [RUNS, PART_BANDS, SHARDS, TRAJECTORIES, TABLE_LOG, DATA];
+pub const FOLDERS: [&str; 7] = [RUNS, PART_BANDS, SHARDS, TRAJECTORIES, TABLE_LOG, VERSIONS, DATA];
 
 /// The name of the file of rows of `part`, below the folder of the dataset.
 pub fn rows_of(part: PartId) -> String {
@@ -49,6 +51,11 @@ pub fn bands_of(part: PartId) -> String {
     format!("{PART_BANDS}/part-{:06}.bands", part.0)
 }
 
+/// The name under which versions of the table list `part` where it has `rows` rows and can have more, below the folder of the dataset.
+pub fn version_of(part: PartId, rows: u64) -> String {
+    format!("{VERSIONS}/part-{:06}-{rows:06}.parquet", part.0)
+}
+
 /// The name of the manifest of shard `shard` of `shards`, counted from 1.
 pub fn manifest_of(shard: u64, shards: u64) -> String {
     format!("{SHARDS}/{shard}-of-{shards}.jsonl")
@@ -57,6 +64,13 @@ pub fn manifest_of(shard: u64, shards: u64) -> String {
 /// Whether the files in `folder` are those of parts, which the manifest lists.
 pub fn is_of_parts(folder: &str) -> bool {
     folder == RUNS || folder == PART_BANDS
+}
+
+/// Whether the file `name`, below the folder of a dataset, follows from plan and rows: the last line of the manifest lists it.
+pub fn is_derived(name: &str) -> bool {
+    let (folder, file) = name.split_once('/').unwrap_or(("", name));
+    let is_own = [MANIFEST, SUCCESS].contains(&name) || is_of_parts(folder) || folder == SHARDS;
+    !is_own && !file.ends_with(UNFINISHED) && is_ours(folder, file)
 }
 
 /// Whether a dataset may have a file `name` in `folder`, whole or not.
@@ -72,6 +86,12 @@ pub fn is_ours(folder: &str, name: &str) -> bool {
         PART_BANDS => numbered("part-", ".bands", 6),
         TRAJECTORIES => numbered("sample-", ".parquet", 6),
         TABLE_LOG => numbered("", ".json", 20),
+        VERSIONS => name.rsplit_once('-').is_some_and(|(part, rows)| {
+            let digits = |text: Option<&str>| {
+                text.is_some_and(|text| text.len() >= 6 && text.bytes().all(|byte| byte.is_ascii_digit()))
+            };
+            digits(part.strip_prefix("part-")) && digits(rows.strip_suffix(".parquet"))
+        }),
         DATA => name.split_once('.').is_some_and(|(sha256, extension)| {
             let is_checksum = sha256.len() == 64 && sha256.bytes().all(|byte| byte.is_ascii_hexdigit());
             is_checksum && ["csv", "parquet"].contains(&extension)
@@ -94,7 +114,9 @@ mod tests {
     /// Law: every name that a dataset gives is its own, whole or not; names of other programs are not.
     #[test]
     fn own_names_are_recognised() {
-        for name in [rows_of(PartId(3)), bands_of(PartId(3)), rows_of(PartId(12_345_678)), manifest_of(2, 13)] {
+        let version = version_of(PartId(3), 900);
+        for name in [rows_of(PartId(3)), bands_of(PartId(3)), rows_of(PartId(12_345_678)), manifest_of(2, 13), version]
+        {
             let (folder, file) = name.split_once('/').unwrap();
             assert!(is_ours(folder, file) && is_ours(folder, &format!("{file}{UNFINISHED}")), "{name}");
         }

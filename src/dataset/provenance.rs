@@ -3,18 +3,15 @@
 use std::collections::HashMap;
 
 use crate::campaign::Plan;
-use crate::dataset::manifest::ARITHMETIC;
+use crate::dataset::identity;
+use crate::dataset::manifest::Identity;
 
-/// Seed and row plan with its hash, for files of rows: all that changes them, and nothing else. The name of the campaign, the version of the
-/// program and the instruction set are not part of it: no bit of a row depends on them.
-pub fn row_provenance(plan: &Plan) -> HashMap<String, String> {
-    let pairs = [
-        ("spindrift.arithmetic", ARITHMETIC.to_string()),
-        ("spindrift.seed", plan.seed.to_string()),
-        ("spindrift.row_hash", plan.row_hash()),
-        ("spindrift.row_plan", plan.row_text()),
-    ];
-    pairs.map(|(key, value)| (key.to_owned(), value)).into()
+/// Identity of the rows and the row plan, for files of rows: all that changes them, and nothing else. The name of the campaign, the version of
+/// the program and the instruction set are not part of it: no bit of a row depends on them.
+pub fn row_provenance(plan: &Plan, identity: &Identity) -> HashMap<String, String> {
+    let plan = ("spindrift.row_plan", plan.row_text());
+    let pairs = identity::metadata(identity).into_iter().chain([plan]);
+    pairs.map(|(key, value)| (key.to_owned(), value)).collect()
 }
 
 /// Version of the program, campaign, seed, and the plan with its hash. The instruction set is not part of it: no bit of a

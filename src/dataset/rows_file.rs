@@ -8,6 +8,8 @@ use parquet::errors::ParquetError;
 use crate::campaign::columns::parameter_quantity;
 use crate::campaign::{Compression, Plan};
 use crate::dataset::columnar::{Cells, Content, Heading, Layout, Packing};
+use crate::dataset::identity::{self, part_metadata};
+use crate::dataset::manifest::Identity;
 use crate::dataset::provenance::row_provenance;
 use crate::ensemble::audit::AuditValue;
 use crate::ensemble::{Ensemble, Rows};
@@ -94,6 +96,11 @@ pub fn headings(ensemble: &Ensemble<'_>) -> Vec<Heading> {
         .collect()
 }
 
+/// The identity of the rows of `ensemble`. Rows with the same identity are the same, sample by sample.
+pub fn identity(ensemble: &Ensemble<'_>) -> Identity {
+    identity::of(ensemble.plan(), &headings(ensemble))
+}
+
 /// The columns of dispersed values.
 pub fn parameter_headings(plan: &Plan) -> impl Iterator<Item = Heading> {
     let columns = plan.dispersions.columns().iter();
@@ -122,7 +129,9 @@ impl RowsFile {
     /// # Errors
     /// Where two columns have the same name.
     pub fn new(ensemble: &Ensemble<'_>) -> Result<Self, ParquetError> {
-        let layout = Layout::new(&headings(ensemble), row_provenance(ensemble.plan()), packing(ensemble.plan()))?;
+        let (plan, headings) = (ensemble.plan(), headings(ensemble));
+        let origin = row_provenance(plan, &identity::of(plan, &headings));
+        let layout = Layout::new(&headings, origin, packing(plan))?;
         let contents = ensemble.request().columns().into_iter().map(|column| content(column.kind)).collect();
         let is_audited = ensemble.plan().audit_fraction > 0.0;
         let audits = AuditValue::of_scenes(ensemble.request().debris).filter(|_| is_audited).collect();
@@ -141,11 +150,7 @@ impl RowsFile {
     /// # Errors
     /// Where writing fails.
     pub fn write<W: Write + Send>(&self, rows: &Rows, out: W) -> Result<(), ParquetError> {
-        let own = [
-            ("spindrift.part", rows.part().id.0.to_string()),
-            ("spindrift.first_sample", rows.samples().first().copied().unwrap_or(rows.part().first).to_string()),
-            ("spindrift.samples", rows.part().count.to_string()),
-        ];
+        let own = part_metadata(rows.part(), rows.samples().first().copied().unwrap_or(rows.part().first));
         let shape = rows.shape();
         let masks = self.masks(rows);
         let mut reasons = vec![None; rows.part().count];

@@ -1,10 +1,12 @@
-//! [`update`], [`damage`]: the log by which table engines (Spark, Trino, DuckDB, polars, pandas) open a dataset as one table.
+//! [`update`]: the log by which table engines (Spark, Trino, DuckDB, polars, pandas) open a dataset as one table.
 //!
 //! It is a transaction log of Delta Lake: <https://github.com/delta-io/delta/blob/master/PROTOCOL.md>, reader version 1, writer version 2. Each
 //! commit `_delta_log/<version>.json` has lines of JSON, one action each: the first has the `protocol`, the `metaData` with the columns,
-//! their units and meanings, and an `add` for every file of rows; when a campaign was made longer, one more commit adds the new files, and
-//! again the last one before, if it has grown. The log follows from the manifest, which stays the truth: its times are zero, the id of the
-//! table is from the row hash, and the columns have a checksum, so that every changed bit is found by writing the log again ([`damage`]).
+//! their units and meanings, and an `add` for every file of rows; when a campaign was made longer, one more commit adds the new files. The
+//! log follows from the manifest, which stays the truth: its times are zero, and the id of the table is from the row hash.
+//!
+//! What a version lists never changes: the last part, which gets further rows when the campaign is made longer, is listed as a copy in
+//! `versions/`, which the next version removes and which stays for readers of the version before. So `runs/` has every row once.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -14,10 +16,12 @@ use serde_json::{Value, json};
 use crate::dataset::columnar::{Content, Heading};
 use crate::dataset::folder::Folder;
 use crate::dataset::identity::sha256;
-use crate::dataset::manifest::{Identity, PartRecord};
-use crate::dataset::names::{RUNS, TABLE_LOG};
+use crate::dataset::manifest::{FileRecord, Identity, PartRecord};
+use crate::dataset::names::{RUNS, TABLE_LOG, VERSIONS, version_of};
 use crate::dataset::storage::{Storage, StorageError, at, entries_in};
 use crate::dataset::stored_file::is_unfit;
+use crate::dataset::verify::derived_damage;
+use crate::ensemble::PartId;
 
 /// Most bytes of a commit: a file of rows takes some 400.
 const MOST_COMMIT: u64 = 1 << 36;
@@ -29,19 +33,26 @@ const COLUMNS_CHECKSUM: &str = "spindrift.columns_sha256";
 struct Listed {
     bytes: u64,
     rows: u64,
+    sha256: String,
 }
 
 /// The files of rows that the log has to list, by name.
 type Files = BTreeMap<String, Listed>;
 
-/// The files of rows of `parts`.
-fn files(parts: &[PartRecord]) -> Files {
-    let is_of_rows = |name: &str| name.split('/').next() == Some(RUNS);
+/// The files of rows of `parts`, of which `growing` can get further rows.
+fn files(parts: &[PartRecord], growing: Option<PartId>) -> Files {
     let of_part = |part: &PartRecord| {
-        let file = part.files.iter().find(|file| is_of_rows(&file.name))?;
-        Some((file.name.clone(), Listed { bytes: file.bytes, rows: part.rows }))
+        let file = rows_file(part)?;
+        let id = PartId(part.part);
+        let name = if growing == Some(id) { version_of(id, part.rows) } else { file.name.clone() };
+        Some((name, Listed { bytes: file.bytes, rows: part.rows, sha256: file.sha256.clone() }))
     };
     parts.iter().filter_map(of_part).collect()
+}
+
+/// The file of the rows of `part`.
+fn rows_file(part: &PartRecord) -> Option<&FileRecord> {
+    part.files.iter().find(|file| file.name.split('/').next() == Some(RUNS))
 }
 
 /// The action that adds a file.
@@ -54,14 +65,21 @@ fn add(name: &str, file: &Listed) -> Value {
         "modificationTime": 0,
         "dataChange": true,
         "stats": json!({"numRecords": file.rows}).to_string(),
+        "tags": {"sha256": file.sha256},
     }})
+}
+
+/// The action that removes a file.
+fn remove(name: &str) -> Value {
+    json!({"remove": {"path": name, "deletionTimestamp": 0, "dataChange": true}})
 }
 
 /// The name and the numbers of a file that is added.
 fn added(action: &Value) -> Option<(String, Listed)> {
     let action = action.get("add")?;
     let statistics: Value = serde_json::from_str(action.get("stats")?.as_str()?).ok()?;
-    let listed = Listed { bytes: action.get("size")?.as_u64()?, rows: statistics.get("numRecords")?.as_u64()? };
+    let sha256 = action.pointer("/tags/sha256")?.as_str()?.to_owned();
+    let listed = Listed { bytes: action.get("size")?.as_u64()?, rows: statistics.get("numRecords")?.as_u64()?, sha256 };
     Some((action.get("path")?.as_str()?.to_owned(), listed))
 }
 
@@ -113,111 +131,121 @@ fn commit_of(version: usize) -> String {
     format!("{TABLE_LOG}/{version:020}.json")
 }
 
-/// A log as it was read: its number of commits, and the files that it lists.
+/// A log as it was read.
 #[derive(Debug, Default)]
 struct Log {
-    commits: usize,
+    /// Its commits.
+    commits: Vec<FileRecord>,
+    /// The files that the last version lists.
     files: Files,
+    /// The files in `versions/` that any version lists.
+    versions: Vec<FileRecord>,
 }
 
-/// Reads the log in `root`; what is wrong, where it is not one that this program has written for these rows.
+/// Reads the log in `root`; `None` where it is not one that this program has written for these rows.
 ///
 /// # Errors
 /// Where it cannot be read.
-fn read(storage: &dyn Storage, root: &Path, identity: &Identity) -> Result<Result<Log, String>, StorageError> {
+fn read(storage: &dyn Storage, root: &Path, identity: &Identity) -> Result<Option<Log>, StorageError> {
     let folder = root.join(TABLE_LOG);
     let mut commits = Vec::new();
     for entry in entries_in(storage, root, &folder)? {
         let path = folder.join(&entry.name);
         match storage.read(&path, MOST_COMMIT) {
             Ok(bytes) => commits.push((entry.name, bytes)),
-            Err(error) if is_unfit(&error) => return Ok(Err(format!("{TABLE_LOG}/{}: {error}", entry.name))),
+            Err(error) if is_unfit(&error) => return Ok(None),
             Err(error) => return Err(at(&path)(error)),
         }
     }
-    Ok(log_of(commits, identity))
+    let Some(log) = log_of(commits, identity) else { return Ok(None) };
+    Ok(derived_damage(storage, root, &log.versions)?.is_empty().then_some(log))
 }
 
-/// The log of commits in their order; what is wrong, where it is not one that this program has written for these rows.
-fn log_of(commits: Vec<(String, Vec<u8>)>, identity: &Identity) -> Result<Log, String> {
+/// The log of commits in their order: their text has to be what this program writes for what it says.
+fn log_of(commits: Vec<(String, Vec<u8>)>, identity: &Identity) -> Option<Log> {
     let mut log = Log::default();
     for (version, (file, bytes)) in commits.into_iter().enumerate() {
         let name = commit_of(version);
-        let wrong = |what: &str| format!("{TABLE_LOG}/{file}: {what}");
         if format!("{TABLE_LOG}/{file}") != name {
-            return Err(wrong("is not the next commit"));
+            return None;
         }
-        let changed = || wrong("its content has changed");
-        let text = String::from_utf8(bytes).map_err(|_| changed())?;
-        let actions = text.lines().map(serde_json::from_str).collect::<Result<Vec<Value>, _>>();
-        let actions = actions.map_err(|_| changed())?;
+        log.commits.push(FileRecord::of(&name, &bytes));
+        let text = String::from_utf8(bytes).ok()?;
+        let actions = text.lines().map(serde_json::from_str).collect::<Result<Vec<Value>, _>>().ok()?;
         let mut again = Vec::new();
         if version == 0 {
             let columns = actions.iter().find_map(|action| action.pointer("/metaData/schemaString")?.as_str());
-            again.extend(head(identity, columns.ok_or_else(changed)?));
+            again.extend(head(identity, columns?));
         }
         for action in actions.iter().skip(again.len()) {
-            let (name, file) = added(action).ok_or_else(changed)?;
+            if let Some(name) = action.pointer("/remove/path").and_then(Value::as_str) {
+                log.files.remove(name)?;
+                again.push(remove(name));
+                continue;
+            }
+            let (name, file) = added(action)?;
             again.push(add(&name, &file));
+            if name.starts_with(VERSIONS) {
+                let sha256 = file.sha256.clone();
+                log.versions.push(FileRecord { name: name.clone(), bytes: file.bytes, sha256 });
+            }
             log.files.insert(name, file);
         }
         if lines(again.into_iter()) != text {
-            return Err(changed());
+            return None;
         }
-        log.commits = version + 1;
     }
-    Ok(log)
+    (!log.commits.is_empty()).then_some(log)
 }
 
-/// What is wrong with the log of the dataset in `root`, which consists of `parts`; `None` where it lists their files of rows.
-///
-/// # Errors
-/// Where it cannot be read.
-pub fn damage(
-    storage: &dyn Storage,
-    root: &Path,
-    identity: &Identity,
-    parts: &[PartRecord],
-) -> Result<Option<String>, StorageError> {
-    Ok(match read(storage, root, identity)? {
-        Err(what) => Some(what),
-        Ok(log) if log.commits == 0 => Some(format!("{}: missing", commit_of(0))),
-        Ok(log) if log.files != files(parts) => Some(format!("{TABLE_LOG}: does not list the files of rows")),
-        Ok(_) => None,
-    })
-}
-
-/// Whether `before` is what a campaign of fewer samples has: the same files; the last may have fewer rows.
+/// Whether `before` is what a campaign of fewer samples has: the same files, and a copy of its last part, which may have further rows now.
 fn is_earlier(before: &Files, now: &Files) -> bool {
-    let last = before.keys().next_back();
-    before.iter().all(|(name, file)| {
-        let grew = |now: &Listed| now.rows > file.rows && Some(name) == last;
-        now.get(name).is_some_and(|now| now == file || grew(now))
+    let part =
+        |name: &str| name.split('/').next_back().and_then(|file| file.split(['-', '.']).nth(1).map(str::to_owned));
+    before.iter().all(|(name, file)| match now.get(name) {
+        Some(now) => now == file,
+        None => {
+            name.starts_with(VERSIONS)
+                && now.iter().any(|(other, now)| part(other) == part(name) && now.rows > file.rows)
+        }
     })
 }
 
 /// Brings the log of a dataset whose parts are all there up to date: nothing where it is, one more commit where files were added, and a new
-/// log where there is none, or another one.
+/// log where there is none, or another one. `growing` is the part that gets further rows when the campaign is made longer.
 ///
 /// # Errors
 /// Where a file operation fails.
-pub fn update(folder: &Folder, headings: &[Heading]) -> Result<(), StorageError> {
-    let files = files(&folder.parts());
-    let log = read(folder.storage(), folder.root(), folder.identity())?.unwrap_or_default();
-    let is_earlier = log.commits > 0 && is_earlier(&log.files, &files);
-    if !is_earlier {
+pub fn update(folder: &Folder, headings: &[Heading], growing: Option<PartId>) -> Result<(), StorageError> {
+    let parts = folder.parts();
+    let files = files(&parts, growing);
+    let log = read(folder.storage(), folder.root(), folder.identity())?.filter(|log| is_earlier(&log.files, &files));
+    let is_new = log.is_none();
+    if is_new {
         folder.clear(TABLE_LOG)?;
+        folder.clear(VERSIONS)?;
         let path = folder.path(TABLE_LOG);
         folder.storage().create_folder(&path).map_err(at(&path))?;
     }
-    let before = if is_earlier { log.files } else { Files::new() };
-    let new = files.iter().filter(|(name, file)| before.get(*name) != Some(file)).map(|(name, file)| add(name, file));
-    let text =
-        if is_earlier { lines(new) } else { lines(head(folder.identity(), &columns(headings)).into_iter().chain(new)) };
+    let log = log.unwrap_or_default();
+    log.commits.iter().chain(&log.versions).for_each(|file| folder.list(file.clone()));
+    let growing = parts.iter().find(|part| Some(PartId(part.part)) == growing);
+    if let Some((part, file)) = growing.and_then(|part| Some((part, rows_file(part)?)))
+        && !log.files.contains_key(&version_of(PartId(part.part), part.rows))
+    {
+        let (path, copies) = (folder.path(&file.name), folder.path(VERSIONS));
+        folder.storage().create_folder(&copies).map_err(at(&copies))?;
+        let bytes = folder.storage().read(&path, file.bytes).map_err(at(&path))?;
+        folder.write(&version_of(PartId(part.part), part.rows), &bytes)?;
+    }
+    let gone = log.files.keys().filter(|name| !files.contains_key(*name)).map(|name| remove(name));
+    let new = files.iter().filter(|(name, _)| !log.files.contains_key(*name)).map(|(name, file)| add(name, file));
+    let head = is_new.then(|| head(folder.identity(), &columns(headings))).into_iter().flatten();
+    let text = lines(head.chain(gone).chain(new));
     if text.is_empty() {
         return Ok(());
     }
-    folder.write(&commit_of(if is_earlier { log.commits } else { 0 }), text.as_bytes())
+    folder.write(&commit_of(log.commits.len()), text.as_bytes())
 }
 
 #[cfg(test)]
@@ -250,7 +278,8 @@ mod tests {
         let root = std::env::temp_dir().join(format!("spindrift-log-{}-{name}", std::process::id()));
         let _ = std::fs::remove_dir_all(&root);
         std::fs::create_dir_all(&root).expect("a folder");
-        let folder = Folder::open(&Disk, &root, identity(), (MANIFEST.to_owned(), None), BTreeMap::new());
+        let folder =
+            Folder::open(&Disk, &root, (String::new(), identity()), (MANIFEST.to_owned(), None), BTreeMap::new());
         (Root(root), folder.expect("a dataset"))
     }
 
@@ -264,69 +293,86 @@ mod tests {
         std::fs::read_to_string(root.0.join(commit_of(version))).ok()
     }
 
-    fn check(root: &Root, folder: &Folder) -> Option<String> {
-        damage(&Disk, &root.0, &identity(), &folder.parts()).expect("a readable log")
+    fn made(folder: &Folder, growing: Option<u64>) {
+        update(folder, &headings(), growing.map(PartId)).expect("written");
     }
 
-    /// Law: the log lists the files of rows of the manifest and nothing else; it is written once; more parts are one more commit.
+    /// The files of rows that version `version` lists, as an engine finds them: what was added, without what was removed.
+    fn listed(root: &Root, version: usize) -> Vec<String> {
+        let mut files = Vec::new();
+        for version in 0..=version {
+            for line in text(root, version).expect("a commit").lines() {
+                let action: Value = serde_json::from_str(line).expect("JSON");
+                let path = |kind: &str| action.pointer(&format!("/{kind}/path"))?.as_str().map(str::to_owned);
+                files.extend(path("add"));
+                files.retain(|file| path("remove").as_ref() != Some(file));
+            }
+        }
+        files
+    }
+
+    /// Law: the log lists the files of rows of the manifest and nothing else; it is written once; more parts are one more commit, which
+    /// replaces the copy of the part that grew; what a version lists stays as it was.
     #[test]
     fn the_log_follows_the_manifest() {
         let (root, folder) = dataset("follows");
         commit(&folder, 0, 256);
         commit(&folder, 1, 40);
-        assert!(check(&root, &folder).is_some_and(|what| what.contains("missing")));
-        update(&folder, &headings()).expect("written");
-        assert_eq!(check(&root, &folder), None);
+        made(&folder, Some(1));
         let first = text(&root, 0).expect("a commit");
         let actions: Vec<Value> = first.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect();
         assert_eq!(actions.len(), 4);
-        assert_eq!(actions[3]["add"]["path"], "runs/part-000001.parquet");
-        assert_eq!(actions[3]["add"]["size"], 140);
-        assert_eq!(actions[3]["add"]["stats"], "{\"numRecords\":40}");
-        update(&folder, &headings()).expect("nothing to do");
+        assert_eq!(actions[3]["add"]["path"], "versions/part-000001-000040.parquet");
+        assert_eq!(
+            (&actions[3]["add"]["size"], &actions[3]["add"]["stats"]),
+            (&json!(140), &json!("{\"numRecords\":40}"))
+        );
+        made(&folder, Some(1));
         assert_eq!((text(&root, 0), text(&root, 1)), (Some(first.clone()), None));
+        let content = |root: &Root, files: &[String]| -> Vec<Vec<u8>> {
+            files.iter().map(|file| std::fs::read(root.0.join(file)).expect("a file of rows")).collect()
+        };
+        let (before, rows) = (listed(&root, 0), content(&root, &listed(&root, 0)));
         // the last part grows, and one is added
         commit(&folder, 1, 256);
         commit(&folder, 2, 7);
-        assert!(check(&root, &folder).is_some_and(|what| what.contains("does not list")));
-        update(&folder, &headings()).expect("written");
-        assert_eq!((text(&root, 0), check(&root, &folder)), (Some(first), None));
-        let second = text(&root, 1).expect("a commit");
-        assert_eq!(second.lines().count(), 2);
-        assert!(second.contains("part-000001") && second.contains("part-000002"), "{second}");
+        assert_eq!(content(&root, &before), rows, "an extension that is not committed");
+        made(&folder, None);
+        assert_eq!((text(&root, 0), content(&root, &before)), (Some(first), rows));
+        let now = ["part-000000", "part-000001", "part-000002"].map(|part| format!("runs/{part}.parquet"));
+        assert_eq!(listed(&root, 1), now);
     }
 
-    /// Law: a bit that changes anywhere in the log is found, and so are a file that is missing and one too many; a new log is then written.
+    /// Law: a log in which a bit has changed, a commit is missing or one is too many is replaced by a new one, and so is one with a damaged copy.
     #[test]
-    fn every_changed_byte_is_found() {
+    fn a_damaged_log_is_replaced() {
         let (root, folder) = dataset("damage");
+        let log = |root: &Root| (listed(root, 0), text(root, 1));
         commit(&folder, 0, 256);
-        update(&folder, &headings()).expect("written");
         commit(&folder, 1, 9);
-        update(&folder, &headings()).expect("written");
-        for version in 0..2 {
-            let path = root.0.join(commit_of(version));
-            let whole = std::fs::read(&path).expect("a commit");
-            for at in 0..whole.len() {
-                let mut changed = whole.clone();
-                changed[at] ^= 1 << (at % 8);
-                std::fs::write(&path, changed).expect("written");
-                assert!(check(&root, &folder).is_some(), "commit {version}, byte {at}");
-            }
-            std::fs::write(&path, &whole).expect("written");
-            assert_eq!(check(&root, &folder), None);
+        made(&folder, None);
+        let whole = log(&root);
+        let path = root.0.join(commit_of(0));
+        let bytes = std::fs::read(&path).expect("a commit");
+        for at in 0..bytes.len() {
+            let mut changed = bytes.clone();
+            changed[at] ^= 1 << (at % 8);
+            assert!(
+                log_of(vec![("0".repeat(20) + ".json", changed)], &identity())
+                    .is_none_or(|log| { !is_earlier(&log.files, &files(&folder.parts(), None)) }),
+                "byte {at}"
+            );
         }
-        std::fs::remove_file(root.0.join(commit_of(0))).expect("removed");
-        assert!(check(&root, &folder).is_some_and(|what| what.contains("not the next commit")));
-        update(&folder, &headings()).expect("written again");
-        assert_eq!((check(&root, &folder), text(&root, 1)), (None, None));
-        let whole = text(&root, 0).expect("a commit");
-        assert_eq!(whole.lines().count(), 4);
-        // other numbers in an else sound log are no earlier state
-        std::fs::write(root.0.join(commit_of(0)), whole.replacen("\"size\":", "\"size\":1", 1)).expect("written");
-        assert!(check(&root, &folder).is_some_and(|what| what.contains("does not list")));
-        update(&folder, &headings()).expect("written again");
-        assert_eq!((text(&root, 0), text(&root, 1)), (Some(whole), None));
+        std::fs::write(root.0.join(commit_of(2)), &bytes).expect("written");
+        made(&folder, None);
+        assert_eq!((log(&root), text(&root, 2)), (whole, None));
+        commit(&folder, 2, 5);
+        made(&folder, Some(2));
+        assert!(text(&root, 1).is_some());
+        std::fs::write(root.0.join(version_of(PartId(2), 5)), b"damaged").expect("written");
+        made(&folder, Some(2));
+        assert_eq!((listed(&root, 0).len(), text(&root, 1)), (3, None));
+        std::fs::read(root.0.join(version_of(PartId(2), 5))).map(|bytes| assert_eq!(bytes.len(), 105)).expect("a copy");
     }
 
     /// Law: the table has an id of its own for other rows, and it is a UUID.

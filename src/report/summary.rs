@@ -5,6 +5,7 @@ use std::fmt::{self, Display, Formatter};
 use serde_json::{Map, Value, json};
 
 use crate::campaign::Plan;
+use crate::dataset::folder::IS_FINISHED;
 use crate::dataset::statistics::Statistics;
 use crate::dataset::stopping::{Found, Stopping};
 use crate::dataset::tally::{Ended, Tally, Worst};
@@ -94,6 +95,7 @@ impl Summary {
             self.worst.iter().map(|worst| (worst.name.replace(' ', "_"), json!(runs(worst)))).collect();
         let mut value = json!({
             "program": "spindrift",
+            (IS_FINISHED): true,
             "version": env!("CARGO_PKG_VERSION"),
             "campaign": self.name,
             "plan_hash": self.plan_hash,

@@ -91,8 +91,9 @@ fn leftovers_are_recognised() {
     let scratch = folder("leftovers");
     scratch.prints("campaign small.toml --out whole", 0);
     scratch.prints("campaign small.toml --out half", 0);
-    fs::remove_file(scratch.path("half/summary.json")).unwrap();
-    fs::remove_file(scratch.path("half/runs/part-000001.parquet")).unwrap();
+    for file in ["_SUCCESS", "summary.json", "runs/part-000001.parquet"] {
+        fs::remove_file(scratch.path("half").join(file)).unwrap();
+    }
     scratch.file("half/runs/part-000002.parquet.tmp", "half a file");
     scratch.file("half/summary.json.tmp", "{");
     let said = scratch.prints("campaign small.toml --seed 9 --out half", 4);

@@ -1,6 +1,8 @@
-//! Manifests whose lines have the right checksums and say what is not so.
+//! Manifests whose lines have the right checksums and say what is not so, or that have lost what the rows are.
 
 use std::fs;
+
+use spindrift::dataset::identity::sha256;
 
 use super::small_campaign::folder;
 use crate::support::scratch_folder::ScratchFolder;
@@ -26,35 +28,134 @@ fn a_false_last_line_finishes_nothing() {
     let scratch = folder("false-end");
     scratch.prints("campaign small.toml --samples 300 --no-report --out r", 0);
     let whole = lines(&scratch, "r");
-    let end = |finished: bool, parts: u64, rows: u64| {
-        line(&format!("{{\"finished\":{finished},\"parts\":{parts},\"rows\":{rows}"))
-    };
-    assert_eq!(whole.last(), Some(&end(true, 2, 300)));
-    for last in [end(true, 2, 299), end(true, 2, 301), end(true, 1, 300), end(true, 3, 300), end(false, 2, 300)] {
+    let last = whole.last().unwrap();
+    let (body, _) = last.rsplit_once(",\"crc\"").unwrap();
+    let counts = |text: &str| line(&body.replace("true,\"parts\":2,\"rows\":300", text));
+    assert_eq!(*last, counts("true,\"parts\":2,\"rows\":300"));
+    for (finished, parts, rows) in
+        [("true", 2, 299), ("true", 2, 301), ("true", 1, 300), ("true", 3, 300), ("false", 2, 300)]
+    {
         let mut changed = whole.clone();
-        *changed.last_mut().unwrap() = last.clone();
+        *changed.last_mut().unwrap() = counts(&format!("{finished},\"parts\":{parts},\"rows\":{rows}"));
+        assert_ne!(changed, whole);
         write(&scratch, "r", &changed);
         scratch.prints("compare r r", 2);
         scratch.prints("campaign small.toml --samples 300 --no-report --out r", 0);
-        assert_eq!(lines(&scratch, "r"), whole, "{last}");
+        assert_eq!(lines(&scratch, "r"), whole, "{finished} {parts} {rows}");
         scratch.prints("compare r r", 0);
     }
 }
 
-/// Law: `verify` computes a part again where the fraction is above zero, however small: it finds rows of another seed under right checksums.
+/// A result of 300 samples under seed 7, and one under seed 8.
+fn two_seeds(name: &str) -> ScratchFolder {
+    let scratch = folder(name);
+    for (result, seed) in [("r", 7), ("other", 8)] {
+        scratch.prints(&format!("campaign small.toml --samples 300 --seed {seed} --no-report --out {result}"), 0);
+    }
+    scratch
+}
+
+/// Law: a part of another seed under a line with the right checksums is found by every command that reads rows: by what its file says of itself.
+#[test]
+fn a_part_of_another_seed_is_found() {
+    let scratch = two_seeds("false-rows");
+    let (mine, others) = (lines(&scratch, "r"), lines(&scratch, "other"));
+    let damage = || {
+        let mut mixed = mine.clone();
+        mixed[3] = others[3].clone();
+        write(&scratch, "r", &mixed);
+        for file in ["runs/part-000001.parquet", "bands/part-000001.bands"] {
+            fs::copy(scratch.path("other").join(file), scratch.path("r").join(file)).unwrap();
+        }
+    };
+    for (command, code) in [
+        ("verify r --fraction 0", 4),
+        ("report r", 4),
+        ("compare r r", 4),
+        ("campaign small.toml --only-failed-of r --out x", 4),
+        ("finish r", 4),
+        ("campaign small.toml --samples 300 --no-report --out r", 0),
+    ] {
+        damage();
+        let said = scratch.prints(command, code);
+        assert!(said.contains("rows of another plan (seed 8"), "{command}: {said}");
+    }
+    assert_eq!(lines(&scratch, "r"), mine);
+}
+
+/// Law: `verify` computes a part again where the fraction is above zero, however small: it finds bands of another seed under right checksums.
 #[test]
 fn any_fraction_computes_a_part() {
-    let scratch = folder("false-rows");
+    let scratch = folder("false-bands");
     for (result, seed) in [("r", 7), ("other", 8)] {
         scratch.prints(&format!("campaign small.toml --samples 20 --seed {seed} --no-report --out {result}"), 0);
     }
-    let (mine, others) = (lines(&scratch, "r"), lines(&scratch, "other"));
-    write(&scratch, "r", &[mine[0].clone(), others[1].clone()]);
-    fs::remove_file(scratch.path("r/_SUCCESS")).unwrap();
-    for file in ["runs/part-000000.parquet", "bands/part-000000.bands"] {
-        fs::copy(scratch.path("other").join(file), scratch.path("r").join(file)).unwrap();
-    }
+    let bands = |result: &str| fs::read(scratch.path(result).join("bands/part-000000.bands")).unwrap();
+    let of = |bytes: &[u8]| format!("\"bytes\":{},\"sha256\":\"{}\"", bytes.len(), sha256(bytes));
+    let whole = lines(&scratch, "r");
+    let mut changed = whole.clone();
+    let (body, _) = whole[2].rsplit_once(",\"crc\"").unwrap();
+    changed[2] = line(&body.replace(&of(&bands("r")), &of(&bands("other"))));
+    assert_ne!(changed, whole);
+    write(&scratch, "r", &changed);
+    fs::write(scratch.path("r/bands/part-000000.bands"), bands("other")).unwrap();
     for (fraction, code) in [("0", 0), ("1e-9", 4), ("0.4", 4), ("1", 4)] {
         scratch.prints(&format!("verify r --fraction {fraction}"), code);
     }
+    // right checksums of other rows: another program made them, or somebody replaced them
+    scratch.prints("verify r --fraction 1 --repair", 4);
+    scratch.prints("campaign small.toml --samples 20 --no-report --overwrite --out r", 0);
+    assert_eq!(lines(&scratch, "r"), whole);
+}
+
+/// Law: where any bit of the first line has changed, the rows are still known by their own metadata: another plan is refused, and the same
+/// one heals the line.
+#[test]
+fn a_damaged_first_line_adopts_no_other_plan() {
+    let scratch = two_seeds("false-first");
+    let path = scratch.path("r/manifest.jsonl");
+    let whole = fs::read(&path).unwrap();
+    let length = whole.iter().position(|byte| *byte == b'\n').unwrap();
+    for at in [3, length / 2, length - 3] {
+        let mut changed = whole.clone();
+        changed[at] ^= 4;
+        fs::write(&path, changed).unwrap();
+        let said = scratch.prints("campaign small.toml --samples 300 --seed 8 --no-report --out r", 4);
+        assert!(said.contains("seed"), "{said}");
+        fs::copy(scratch.path("other/plan.toml"), scratch.path("r/plan.toml")).unwrap();
+        let said = scratch.prints("verify r", 4);
+        assert!(said.contains("plan.toml") && said.contains("manifest.jsonl:1"), "{said}");
+        let repair =
+            if at == 3 { "verify r --repair" } else { "campaign small.toml --samples 300 --no-report --out r" };
+        scratch.prints(repair, 0);
+        assert!(fs::read(&path).unwrap() == whole, "byte {at}");
+    }
+}
+
+/// Law: shards of different plans are never merged: `finish` says which manifest differs, in which keys, and so does every other command.
+#[test]
+fn shards_of_two_plans_are_refused() {
+    let scratch = folder("false-shards");
+    for (result, seed, shard) in [("r", 7, "1/2"), ("other", 8, "2/2")] {
+        scratch.prints(&format!("campaign small.toml --seed {seed} --shard {shard} --out {result}"), 0);
+    }
+    for folder in ["runs", "bands", "shards"] {
+        for entry in fs::read_dir(scratch.path("other").join(folder)).unwrap() {
+            let path = entry.unwrap().path();
+            fs::copy(&path, scratch.path("r").join(folder).join(path.file_name().unwrap())).unwrap();
+        }
+    }
+    for command in ["finish r", "verify r", "campaign small.toml --out r", "campaign small.toml --shard 1/2 --out r"] {
+        let said = scratch.prints(command, 4);
+        for part in
+            ["shards/2-of-2.jsonl is of another plan than shards/1-of-2.jsonl", "campaign.seed: 7", "8 in shards/2"]
+        {
+            assert!(said.contains(part), "{command}: {said}");
+        }
+    }
+    fs::remove_file(scratch.path("r/shards/2-of-2.jsonl")).unwrap();
+    scratch.prints("finish r", 4);
+    scratch.prints("campaign small.toml --no-report --out r", 0);
+    scratch.prints("campaign small.toml --no-report --out whole", 0);
+    assert_eq!(lines(&scratch, "r"), lines(&scratch, "whole"));
 }

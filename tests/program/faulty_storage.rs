@@ -12,8 +12,9 @@ use spindrift::campaign::{Overrides, Plan};
 use spindrift::cli::command_outcome::Failure;
 use spindrift::cli::finish_campaign::{Finishing, complete};
 use spindrift::dataset::claim::{Claim, ClaimOptions, FolderError, claim};
-use spindrift::dataset::identity::{identity, sha256};
+use spindrift::dataset::identity::sha256;
 use spindrift::dataset::part_sink::write_parts;
+use spindrift::dataset::rows_file::identity;
 use spindrift::dataset::storage::{Disk, Entry, Storage};
 use spindrift::dataset::stored_file::StoredFile;
 use spindrift::ensemble::{Ensemble, Parts, Supervision, run};
@@ -352,7 +353,7 @@ pub fn reason(failure: &Failure) -> &str {
 /// The files of a dataset by their names: `runs/part-000000.parquet`, `/plan.toml`.
 pub fn contents(root: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut found = BTreeMap::new();
-    for folder in ["", "runs", "bands", "trajectories", "_delta_log"] {
+    for folder in ["", "runs", "bands", "trajectories", "_delta_log", "versions", "data"] {
         for entry in fs::read_dir(root.join(folder)).into_iter().flatten().map(Result::unwrap) {
             if entry.path().is_file() {
                 let name = format!("{folder}/{}", entry.file_name().to_string_lossy());

@@ -12,6 +12,7 @@ mod columns_command;
 mod commands;
 mod compare_command;
 mod csv_digits;
+mod derived_files;
 mod exit_codes;
 mod extremes;
 mod failed_again;

@@ -10,8 +10,8 @@ use arrow_array::types::Int64Type;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::dataset::folder::Folder;
-use spindrift::dataset::identity::identity;
 use spindrift::dataset::names::MANIFEST;
+use spindrift::dataset::rows_file::identity;
 use spindrift::dataset::rows_reader::RowsReader;
 use spindrift::dataset::storage::Disk;
 use spindrift::dataset::trajectories::{file_name, retained, save};
@@ -99,7 +99,7 @@ fn rules_choose_what_they_say() {
 /// A dataset without parts in `root`.
 fn dataset(plan: &Plan, root: &Path) -> Folder {
     let identity = identity(&Ensemble::new(plan, Isa::best()));
-    Folder::open(&Disk, root, identity, (MANIFEST.to_owned(), None), BTreeMap::new()).unwrap()
+    Folder::open(&Disk, root, (plan.text(), identity), (MANIFEST.to_owned(), None), BTreeMap::new()).unwrap()
 }
 
 /// Law: the file of a retained run is that of `simulate --sample K --out`, byte for byte, also of a run that failed, for any number of

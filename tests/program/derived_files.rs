@@ -1,0 +1,203 @@
+//! The files that follow from the rows of a result are as safe as the rows: whatever happens to one of them is found, and it is made again.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use super::faulty_storage::contents;
+use super::small_campaign::{campaign, folder};
+use crate::support::scratch_folder::ScratchFolder;
+
+type Files = BTreeMap<String, Vec<u8>>;
+
+/// A campaign with every kind of file: a requirement that fails, retained runs, a file of numbers, an incomplete last part.
+fn everything(name: &str) -> ScratchFolder {
+    let scratch = folder(name);
+    let numbers: String = (0..20).map(|row| format!("{}\n", 0.02 + 0.001 * f64::from(row))).collect();
+    scratch.file("walls.csv", &format!("wall\n{numbers}"));
+    let more = r#"
+[retain]
+trajectories = "sample:2"
+[[require]]
+observable = "energy_error_max"
+quantile = 0.5
+at_most = 1e-30
+[[disperse]]
+parameter = "body.parts.fuselage.wall_thickness_m"
+distribution = "empirical"
+file = "walls.csv"
+column = "wall"
+"#;
+    scratch.file("all.toml", &(campaign().replace("samples = 600", "samples = 40") + more));
+    scratch.prints("campaign all.toml --out r", 3);
+    scratch
+}
+
+/// The files that follow from the rows: all but those of parts, the manifest and the mark.
+fn derived(files: &Files) -> Vec<&String> {
+    let is_own =
+        |name: &str| ["runs/", "bands/", "/manifest.jsonl", "/_SUCCESS"].iter().any(|own| name.starts_with(own));
+    files.keys().filter(|name| !is_own(name)).collect()
+}
+
+/// Law: any of the files that is flipped in a bit, cut off, emptied, deleted or replaced is found by `verify`, named, and refused by the
+/// commands that read the result; each of the repairing commands makes it again with the same bytes, and the exit code is that of the rows.
+#[test]
+fn every_damage_is_found_and_made_again() {
+    let scratch = everything("derived");
+    let root = scratch.path("r");
+    let whole = contents(&root);
+    let names = derived(&whole);
+    for kind in ["summary.json", "statistics", "sensitivity", "bands.parquet", "report.html", "plan.toml"] {
+        assert!(names.iter().any(|name| name.contains(kind)), "{kind} in {names:?}");
+    }
+    for folder in ["trajectories/", "_delta_log/", "versions/", "data/"] {
+        assert!(names.iter().any(|name| name.starts_with(folder)), "{folder} in {names:?}");
+    }
+    let damages: [fn(&mut Vec<u8>); 4] = [
+        |bytes| {
+            let middle = bytes.len() / 2;
+            bytes[middle] ^= 1;
+        },
+        |bytes| bytes.truncate(bytes.len() - 1),
+        Vec::clear,
+        |bytes| *bytes = b"other".to_vec(),
+    ];
+    let repairs = [("verify r --repair", 0), ("campaign all.toml --out r", 3), ("finish r", 3)];
+    for (index, name) in names.into_iter().enumerate() {
+        let path = root.join(name.trim_start_matches('/'));
+        for way in 0..=damages.len() {
+            match damages.get(way) {
+                Some(damage) => {
+                    let mut bytes = whole[name].clone();
+                    damage(&mut bytes);
+                    fs::write(&path, bytes).unwrap();
+                }
+                None => fs::remove_file(&path).unwrap(),
+            }
+            let said = scratch.prints("verify r --fraction 0", 4);
+            assert!(said.contains(name.trim_start_matches('/')), "{name}: {said}");
+            scratch.prints("compare r r", 4);
+            // a file of numbers follows from nothing: the campaign's command has the original
+            let repair = if name.starts_with("data/") { 1 } else { (index + way) % repairs.len() };
+            let (repair, code) = repairs[repair];
+            scratch.prints(repair, code);
+            assert!(contents(&root) == whole, "{name}, way {way}: {repair}");
+        }
+    }
+    scratch.prints("verify r --fraction 1", 0);
+}
+
+/// Law: the page made again is listed with its checksum, and a damaged one is made again; nothing else may be damaged then.
+#[test]
+fn a_page_that_is_made_again_is_listed() {
+    let scratch = everything("derived-page");
+    let root = scratch.path("r");
+    let whole = contents(&root);
+    fs::write(root.join("report.html"), "other").unwrap();
+    scratch.prints("report r", 0);
+    assert!(contents(&root) == whole);
+    scratch.prints("campaign all.toml --no-report --overwrite --out bare", 3);
+    scratch.prints("report bare", 0);
+    scratch.prints("verify bare", 0);
+    assert!(contents(&scratch.path("bare")) == whole);
+    fs::write(root.join("statistics.parquet"), "other").unwrap();
+    scratch.prints("report r", 4);
+}
+
+/// Law: a flipped bit in a file of rows ends `report` and `compare`, at whichever byte, and nothing is written.
+#[test]
+fn rows_with_a_flipped_bit_are_not_read() {
+    let scratch = folder("derived-flips");
+    scratch.prints("campaign small.toml --samples 300 --out r", 0);
+    let path = scratch.path("r/runs/part-000001.parquet");
+    let whole = fs::read(&path).unwrap();
+    let page = fs::read(scratch.path("r/report.html")).unwrap();
+    for part in 0..20 {
+        let mut bytes = whole.clone();
+        bytes[part * whole.len() / 20] ^= 1 << (part % 8);
+        fs::write(&path, bytes).unwrap();
+        for command in ["report r", "compare r r"] {
+            assert!(scratch.prints(command, 4).contains("runs/part-000001.parquet"), "byte {part}/20");
+        }
+    }
+    assert!(fs::read(scratch.path("r/report.html")).unwrap() == page);
+}
+
+/// Law: an extension that is not finished leaves the summary of the rows before, which says so; the finished one says so too.
+#[test]
+fn a_summary_of_the_rows_before_says_so() {
+    let scratch = folder("derived-summary");
+    scratch.prints("campaign small.toml --samples 300 --no-report --out r", 0);
+    assert_eq!(scratch.summary("r")["finished"], true);
+    scratch.prints("campaign small.toml --samples 900 --no-report --shard 1/2 --out r", 0);
+    assert_eq!((&scratch.summary("r")["finished"], &scratch.summary("r")["samples"]), (&false.into(), &300.into()));
+    scratch.prints("campaign small.toml --samples 900 --no-report --out r", 0);
+    assert_eq!((&scratch.summary("r")["finished"], &scratch.summary("r")["samples"]), (&true.into(), &900.into()));
+}
+
+/// Law: a repair that a signal stops finishes nothing and ends with the code of the signal; the same command continues to the same bytes.
+#[test]
+#[cfg(unix)]
+fn a_repair_that_is_stopped_continues() {
+    let scratch = folder("derived-stopped");
+    let samples = "campaign small.toml --samples 20000 --no-report --threads 1 --out r";
+    scratch.prints(samples, 0);
+    let whole = contents(&scratch.path("r"));
+    let mut stopped = 0;
+    for tenths in [1, 2, 4, 8, 16] {
+        for path in scratch.part_files("r") {
+            fs::write(path, "damaged").unwrap();
+        }
+        let mut program = Command::new(env!("CARGO_BIN_EXE_spindrift"));
+        let program =
+            program.args(["verify", "r", "--repair", "--fraction", "0", "--threads", "1"]).current_dir(&scratch.0);
+        let mut child = program.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        // some part is made again
+        let start = Instant::now();
+        while scratch.parts("r").iter().all(|(_, bytes)| bytes == b"damaged")
+            && start.elapsed() < Duration::from_secs(20)
+        {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        std::thread::sleep(Duration::from_millis(tenths));
+        Command::new("kill").args(["-s", "INT", &child.id().to_string()]).status().unwrap();
+        let code = child.wait().unwrap().code();
+        if code == Some(130) {
+            stopped += 1;
+            assert!(!scratch.path("r/_SUCCESS").exists(), "a part of the rows is no result");
+            scratch.prints("report r", 2);
+            scratch.prints("finish r", 4);
+        } else {
+            assert_eq!(code, Some(0), "either stopped or done");
+        }
+        scratch.prints("verify r --repair", 0);
+        assert!(contents(&scratch.path("r")) == whole);
+    }
+    assert!(stopped > 0, "no repair was stopped in time");
+}
+
+/// Law: a manifest that is lost is made again from what the parts say of themselves; all of them are computed again, so that a part that is not
+/// what the plan says is found.
+#[test]
+fn a_lost_manifest_is_made_again() {
+    let scratch = folder("derived-manifest");
+    scratch.file("small.toml", &campaign());
+    scratch.prints("campaign small.toml --out r", 0);
+    let root = scratch.path("r");
+    let whole = contents(&root);
+    for damaged in [None, Some("runs/part-000001.parquet"), Some("bands/part-000002.bands")] {
+        fs::remove_file(root.join("manifest.jsonl")).unwrap();
+        if let Some(name) = damaged {
+            let mut bytes = whole[name].clone();
+            let middle = bytes.len() / 2;
+            bytes[middle] ^= 1;
+            fs::write(root.join(name), bytes).unwrap();
+        }
+        scratch.prints("verify r", 4);
+        let said = scratch.prints("verify r --repair", 0);
+        assert!(said.contains("manifest.jsonl: missing"), "{said}");
+        assert!(contents(&root) == whole, "{damaged:?}");
+    }
+}
