@@ -93,6 +93,16 @@ fn counts_are_those_of_the_time_series() {
         every["requirement"],
         format!("99% of runs with {SERIES} at most {high:?} J at each time from 0.05 s to 0.95 s, with 95% confidence")
     );
+    // the value is the quantile at the worst time of the interval, wherever the interval begins
+    for (from, to) in [(0, 10), (3, 10), (6, 8), (9, 9)] {
+        let limits = format!("from_s = {:?}\nto_s = {:?}", times[from], times[to]);
+        let some = verdict(&scratch, &format!("quantile = 0.5\nat_most = {high:?}\n{limits}"), 0);
+        let worst_at = some["band"]["worst_at_s"].as_f64().unwrap();
+        let point = times.iter().position(|time| *time == worst_at).unwrap();
+        assert!((from..=to).contains(&point), "{some}");
+        let (value, exact) = (some["value"].as_f64().unwrap(), at(point)[RUNS / 2]);
+        assert!((value / exact - 1.0).abs() < 0.05, "{value} for {exact} at {worst_at} s");
+    }
     // both ends of an interval belong to it, and the next number beyond a point does not reach it
     for (from, to, points) in
         [(times[2], times[7], 6), (times[2].next_up(), times[7].next_down(), 4), (times[4], times[4], 1)]

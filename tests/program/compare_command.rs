@@ -210,6 +210,38 @@ fn comparisons_are_files() {
     scratch.prints(&format!("compare {base} {moved} --out missing/c.json"), 4);
 }
 
+/// Law: a requirement that only one of both has is in the comparison with one verdict, whichever result comes first; and a shift is in units of the
+/// standard deviation of the first result: twice the spread in the second makes the same difference count once or twice.
+#[test]
+fn verdicts_and_scales_are_those_of_their_result() {
+    let scratch = folder("compare-sides");
+    scratch.prints("campaign small.toml --out plain --no-report", 0);
+    let require = "\n[[require]]\nobservable = \"energy_error_max\"\nquantile = 0.9\nat_most = 1e-30\n";
+    scratch.file("wide.toml", &(campaign().replace("std = [0.5, 0.5, 1.5]", "std = [1.0, 1.0, 3.0]") + require));
+    scratch.prints("campaign wide.toml --out wide --no-report", 3);
+    let deviation = |result: &str| {
+        let table = scratch.table(&format!("{result}/statistics.parquet"));
+        let names = table.column_by_name("observable").expect("names").as_string::<i32>();
+        let row = names.iter().position(|name| name == Some("exchange_w1_peak_to_peak_j")).expect("a row");
+        floats(&table, "standard_deviation")[row]
+    };
+    for (first, second) in [("plain", "wide"), ("wide", "plain")] {
+        let found = compared(&scratch, first, second);
+        let verdicts = &found["requirements"].as_array().expect("a list")[..];
+        let [verdict] = verdicts else { panic!("{verdicts:?}") };
+        let expected =
+            if first == "wide" { [Value::from("FAIL"), Value::Null] } else { [Value::Null, Value::from("FAIL")] };
+        assert_eq!([&verdict["first"], &verdict["second"]], [&expected[0], &expected[1]], "{first}, {second}");
+        let row = row(&found, "exchange_w1_peak_to_peak_j");
+        let number = |name: &str| row[name].as_f64().unwrap_or_else(|| panic!("{name}"));
+        let statistic = row["largest_shift_of"].as_str().expect("a name").replace([' ', '.'], "_");
+        let [before, after] = ["first", "second"].map(|side| number(&format!("{statistic}_{side}")));
+        let expected = (after - before).abs() / deviation(first);
+        assert!((number("largest_shift") - expected).abs() < 1e-9 * expected, "{first}, {second}: {row}");
+    }
+    assert!(deviation("wide") > 1.5 * deviation("plain"));
+}
+
 /// Law: a campaign that `[stop]` made longer than its file says is paired in all the samples that both have, either way.
 #[test]
 fn a_stopped_campaign_is_paired_in_all_its_samples() {

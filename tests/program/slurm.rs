@@ -95,6 +95,15 @@ fn the_scripts_make_the_campaign() {
     let finish = fs::read_to_string(scratch.path("small-finish.sh")).unwrap();
     assert!(finish.contains("#SBATCH --partition=long\n") && !own.iter().any(|line| finish.contains(line)), "{finish}");
     assert_eq!(ends(&scratch, "small-finish.sh", 1), Some(4), "nothing is there");
+    // what is asked of the scripts is asked of the campaign
+    scratch.prints("slurm small.toml --nodes 2 --cpus 1 --time 10 --samples 300 --seed 11 --out seeded", 0);
+    let whole = "campaign small.toml --samples 300 --seed 11 --out seeded_whole";
+    scratch.prints(whole, 0);
+    for (script, task) in [("small-array.sh", 1), ("small-array.sh", 2), ("small-finish.sh", 1)] {
+        assert_eq!(ends(&scratch, script, task), Some(0));
+    }
+    assert_eq!(scratch.parts("seeded"), scratch.parts("seeded_whole"));
+    scratch.prints("slurm small.toml --nodes 5 --cpus 2 --time 1:00:00 --out sharded --sbatch=--partition=long", 0);
     for task in [3, 1] {
         assert_eq!(ends(&scratch, "small-array.sh", task), Some(0));
     }

@@ -39,8 +39,11 @@ fn a_campaign_stops_when_it_is_precise_enough() {
     let scratch = folder("stop");
     // the interval of all four looks, from a campaign that never stops
     scratch.file("never.toml", &stopping("1e-30"));
-    let said = scratch.prints("campaign never.toml --out never", 5);
+    let said = scratch.prints("campaign never.toml --out never --junit never.xml", 5);
     assert!(said.contains("not precise enough with stop.max_samples"), "{said}");
+    let junit = |name: &str| fs::read_to_string(scratch.path(name)).unwrap();
+    let missed = junit("never.xml");
+    assert!(missed.contains("errors=\"1\"") && missed.contains("<error type=\"stop\""), "{missed}");
     let never = scratch.summary("never");
     assert_eq!((&never["samples"], &never["stop"]["look"]), (&Value::from(2400), &Value::from(4)));
     assert_eq!(never["stop"]["precise_enough"], false);
@@ -49,7 +52,9 @@ fn a_campaign_stops_when_it_is_precise_enough() {
     // twice the last width is reached after about a quarter of the samples, at the second look
     let wanted = 2.05 * half_width(&never);
     scratch.file("stop.toml", &stopping(&format!("{wanted:?}")));
-    scratch.prints("campaign stop.toml --out stopped", 0);
+    scratch.prints("campaign stop.toml --out stopped --junit stopped.xml", 0);
+    let reached = junit("stopped.xml");
+    assert!(reached.contains("errors=\"0\"") && reached.contains("[stop] reaches its goal\"/>"), "{reached}");
     let stopped = scratch.summary("stopped");
     let samples = stopped["samples"].as_u64().unwrap();
     assert!([600, 1200].contains(&samples), "{samples} samples");
