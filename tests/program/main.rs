@@ -30,6 +30,8 @@ mod observation;
 mod observation_columns;
 mod observation_golden;
 mod observed_tables;
+#[cfg(target_os = "linux")]
+mod power_loss;
 mod precision;
 mod read_faults;
 mod recipes;
