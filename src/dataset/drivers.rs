@@ -27,13 +27,16 @@ impl InputSensitivity {
     }
 }
 
-/// The inputs that drive `observable` by [`InputSensitivity::influence`], the strongest first: those whose interval is above zero; where a design
-/// gives no intervals, those of more than a hundredth of the variance. What the screen and the page say follows from this alone.
+/// Least share of the variance of an input that is called a driver: less matters to nobody, and among many inputs some show it by chance.
+const LEAST_SHARE: f64 = 0.01;
+
+/// The inputs that drive `observable` by [`InputSensitivity::influence`], the strongest first: those of a hundredth of the variance or more whose
+/// interval, where the design gives one, is above zero. What the screen and the page say follows from this alone.
 pub fn drivers<'a>(all: &'a [InputSensitivity], observable: &str) -> Vec<(&'a InputSensitivity, Estimate)> {
     let of = all.iter().filter(|one| one.observable == observable);
     let mut found: Vec<_> = of.filter_map(|one| Some((one, one.influence()?))).collect();
     let has_interval = |one: &Estimate| !(one.lower.is_nan() && one.upper.is_nan());
-    found.retain(|(_, influence)| influence.lower > 0.0 || !has_interval(influence) && influence.value > 0.01);
+    found.retain(|(_, one)| one.value >= LEAST_SHARE && (one.lower > 0.0 || !has_interval(one)));
     found.sort_by(|a, b| b.1.value.total_cmp(&a.1.value));
     found
 }
@@ -59,11 +62,13 @@ mod tests {
             of("falls", estimate(0.2, 0.1), estimate(-0.5, 0.1)),
             of("magnitude", estimate(0.45, 0.1), estimate(0.01, 0.1)),
             of("weak", estimate(0.5, 0.6), estimate(0.2, 0.1)),
+            of("certain, and nothing", estimate(0.004, 0.001), estimate(0.05, 0.01)),
         ];
         let names =
             |all: &[InputSensitivity]| drivers(all, "y").iter().map(|(one, _)| one.input.clone()).collect::<Vec<_>>();
         assert_eq!(names(&all), ["magnitude", "falls", "weak"]);
-        assert_eq!(all.each_ref().map(InputSensitivity::rises), [None, Some(false), None, Some(true)]);
+        let rises = all.each_ref().map(InputSensitivity::rises);
+        assert_eq!(rises, [None, Some(false), None, Some(true), Some(true)]);
         let falls = all[1].influence().expect("an influence");
         assert!((falls.value - 0.25).abs() < 1e-15 && (falls.lower - 0.16).abs() < 1e-15, "{falls:?}");
         let chosen =

@@ -57,9 +57,12 @@ pub fn together(verdicts: &Verdicts) -> Vec<String> {
     said
 }
 
+// what the text says
+const _: () = assert!(POWER == 0.9);
+
 /// How many runs would decide, in words.
 pub fn runs_needed(runs: &str) -> String {
-    format!("with {runs} runs {} of ten campaigns would decide, if the truth is what was seen", short(10.0 * POWER))
+    format!("with {runs} runs nine of ten campaigns would decide, if the truth is what was seen")
 }
 
 /// What was found, in words: the estimate with its bounds, and how many runs would decide.
