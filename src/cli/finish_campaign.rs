@@ -224,6 +224,11 @@ pub fn keep_data(folder: &Folder, files: &FilesRead) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Says what is in the folder and not part of the result.
+pub fn say_notes(root: &Path, notes: &[String]) {
+    notes.iter().for_each(|note| screen::note(&format!("{}: {note}", root.display())));
+}
+
 /// Runs the command `finish`.
 ///
 /// # Errors
@@ -254,14 +259,16 @@ pub fn finished(storage: &'static dyn Storage, options: &FinishOptions) -> Resul
     let ensemble = Ensemble::new(&plan, isa()?);
     let claimed = ClaimOptions { overwrite: false, shard: None, threads: threads(options.threads, usize::MAX) };
     let ready = match claim(storage, root, (&plan, &identity(&ensemble)), claimed).map_err(Failure::files)? {
-        Claim::Finished(summary) => {
+        Claim::Finished(finished) => {
+            say_notes(root, &finished.notes);
             return Ok((
-                outcome_of(&summary),
+                outcome_of(&finished.summary),
                 format!("{}: already finished, every checksum verified\n", root.display()),
             ));
         }
         Claim::Ready(ready) => *ready,
     };
+    say_notes(root, &ready.notes);
     ready.damaged.iter().for_each(|what| screen::note(&format!("{}: damaged: {what}", root.display())));
     refuse_missing(&ready.folder.missing(parts(&plan, ensemble.isa()).iter()), root)?;
     keep_data(&ready.folder, &files)?;

@@ -9,7 +9,7 @@ use crate::campaign::{Overrides, Plan};
 use crate::cli::arguments::CampaignOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::failed_samples::{FailFast, FailedRun, first_failed, plan_of_failed};
-use crate::cli::finish_campaign::{Finishing, finish, keep_data, outcome_of, rows_of};
+use crate::cli::finish_campaign::{Finishing, finish, keep_data, outcome_of, rows_of, say_notes};
 use crate::cli::input::{isa, plan_and_files};
 use crate::cli::outputs::{refuse_inputs, refuse_within};
 use crate::cli::progress::Bar;
@@ -73,7 +73,10 @@ pub fn run(options: &CampaignOptions) -> Result<CommandOutcome, Failure> {
     let readers = threads(options.threads, usize::MAX);
     let claimed = ClaimOptions { overwrite: options.overwrite, shard: options.shard, threads: readers };
     match claim(&Disk, &root, (&plan, &identity(&ensemble)), claimed).map_err(Failure::files)? {
-        Claim::Finished(summary) => already_complete(&root, &plan, &summary),
+        Claim::Finished(finished) => {
+            say_notes(&root, &finished.notes);
+            already_complete(&root, &plan, &finished.summary)
+        }
         Claim::Ready(ready) => {
             keep_data(&ready.folder, &files)?;
             run_missing(options, &ensemble, *ready, &root, signals)
@@ -111,6 +114,7 @@ fn already_complete(root: &Path, plan: &Plan, summary: &str) -> Result<CommandOu
 
 /// What was found in the folder, for people; `samples` are those that this process has to make.
 fn say_what_was_found(plan: &Plan, ready: &Ready, root: &Path, samples: u64, missing: &[Part]) {
+    say_notes(root, &ready.notes);
     for what in &ready.damaged {
         screen::note(&format!("{}: damaged, made again: {what}", root.display()));
     }

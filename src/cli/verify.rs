@@ -63,7 +63,8 @@ pub fn verified(
     let mut problems: Vec<String> = rebuilt.iter().cloned().collect();
     problems.extend(found.damaged_lines().iter().map(|line| format!("{line}: damaged line")));
     problems.extend(found.plan_damage.clone());
-    problems.extend(found.foreign.iter().map(|entry| format!("{entry}: not part of the result")));
+    problems.extend(found.foreign.iter().map(|entry| format!("{entry}: not what the result has under this name")));
+    found.notes().iter().for_each(|entry| note(entry));
     let broken = damaged(storage, root, &expected, &records, readers).map_err(Failure::files)?;
     problems.extend(broken.iter().map(|(_, what)| what.clone()));
     problems.extend(derived_damage(storage, root, found.derived()).map_err(Failure::files)?);

@@ -2,39 +2,13 @@
 //! The files of a dataset are written by [`super::folder`].
 //!
 //! A file is written under a temporary name in its own folder (a rename cannot cross file systems), flushed to the disk, and
-//! then renamed. What a crash leaves is recognised by its name.
+//! then renamed. Its temporary name is one that nothing else has; what a crash leaves is recognised by it.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use crate::dataset::names::UNFINISHED;
-
-/// Temporary names that are tried.
-const NAMES: u32 = 100;
-
-/// The names under which `path` is written until it is whole: the first that is not taken.
-fn unfinished(path: &Path) -> impl Iterator<Item = PathBuf> {
-    let name = |index: u32| {
-        let mut name = path.as_os_str().to_owned();
-        name.push(if index == 0 { UNFINISHED.to_owned() } else { format!(".{index}{UNFINISHED}") });
-        PathBuf::from(name)
-    };
-    (0..NAMES).map(name)
-}
-
-/// A new file beside `path`. What has a name of that kind already, a link too, is neither followed nor changed.
-fn create_beside(path: &Path) -> io::Result<(PathBuf, File)> {
-    let mut last = io::Error::from(io::ErrorKind::AlreadyExists);
-    for temporary in unfinished(path) {
-        match OpenOptions::new().write(true).create_new(true).open(&temporary) {
-            Ok(file) => return Ok((temporary, file)),
-            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => last = error,
-            Err(error) => return Err(error),
-        }
-    }
-    Err(last)
-}
+use crate::dataset::names::unfinished;
 
 /// That `path` is free, or a file or a link that a rename replaces: not a device, and not a pipe.
 fn check_replaceable(path: &Path) -> io::Result<()> {
@@ -56,7 +30,8 @@ pub fn write<E: From<io::Error>>(
     content: impl FnOnce(&mut BufWriter<File>) -> Result<(), E>,
 ) -> Result<(), E> {
     check_replaceable(path)?;
-    let (temporary, file) = create_beside(path)?;
+    let temporary = unfinished(path);
+    let file = OpenOptions::new().write(true).create_new(true).open(&temporary)?;
     let written = (|| {
         let mut file = BufWriter::with_capacity(1 << 16, file);
         content(&mut file)?;
@@ -83,6 +58,7 @@ pub fn write_bytes(path: &Path, bytes: &[u8]) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::path::PathBuf;
 
     fn folder(name: &str) -> PathBuf {
         let folder = std::env::temp_dir().join(format!("spindrift-atomic-{}-{name}", std::process::id()));
@@ -115,12 +91,12 @@ mod tests {
             file.write_all(b"content")?;
             file.flush()?;
             assert!(!path.exists());
-            assert!(unfinished(&path).next().unwrap().exists());
+            assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
             Ok(())
         })
         .unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"content");
-        assert!(unfinished(&path).all(|path| !path.exists()));
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
         fs::remove_dir_all(&folder).unwrap();
     }
 

@@ -5,93 +5,22 @@ use std::path::{Path, PathBuf};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use thiserror::Error;
-
 use crate::campaign::Plan;
-use crate::campaign::difference::{KeyDifference, text_differences};
-use crate::dataset::folder::{Folder, MOST_SUMMARY};
+use crate::dataset::folder::{Folder, MOST_MANIFEST, MOST_SUMMARY, begin};
+pub use crate::dataset::folder_error::FolderError;
+use crate::dataset::folder_error::occupied;
 use crate::dataset::found::{Contents, Found, contents};
-use crate::dataset::manifest::{Identity, PartRecord};
+use crate::dataset::manifest::{Identity, Manifest, PartRecord};
 use crate::dataset::names::{MANIFEST, SUMMARY, manifest_of};
-use crate::dataset::replacement::{complete_replacement, remove_dataset, remove_unfinished, replace, replacement};
-use crate::dataset::storage::{Storage, StorageError, at};
+use crate::dataset::replacement::{self, remove_replaced, remove_unfinished, replace};
+use crate::dataset::storage::{Storage, at, meant, new_folder};
 use crate::dataset::verify::{damaged as damaged_parts, derived_damage};
 
-/// Most keys that a refusal lists.
-const LISTED: usize = 12;
 /// How long a lock of another process is waited for: that of a process which was killed ends once the system has closed its files, and a
 /// program that the owner starts has copies of the owner's files for a moment.
 const PATIENCE: Duration = Duration::from_millis(300);
 /// Between two tries of a lock.
 const PAUSE: Duration = Duration::from_millis(10);
-
-/// Why a folder cannot take a result.
-#[derive(Debug, Error)]
-pub enum FolderError {
-    /// It has the rows of another plan.
-    #[error(
-        "`{folder}` contains {what} of another plan:\n  {differences}\nchoose another --out, or replace it with --overwrite"
-    )]
-    Occupied {
-        /// The folder.
-        folder: String,
-        /// A result, or an unfinished one.
-        what: &'static str,
-        /// The keys that differ, a line each.
-        differences: String,
-    },
-    /// It has more rows than the plan.
-    #[error(
-        "`{folder}` contains {found} rows of this plan, more than its {asked} samples; leave --samples out, choose another --out, or replace it with --overwrite"
-    )]
-    Larger {
-        /// The folder.
-        folder: String,
-        /// Rows that are there.
-        found: u64,
-        /// Samples of the plan.
-        asked: u64,
-    },
-    /// Its shards are of different plans.
-    #[error(
-        "`{folder}` has rows of different plans: {conflict}\nremove the manifest of the wrong one, so that its parts are made again, or run the campaign with --overwrite"
-    )]
-    Mixed {
-        /// The folder.
-        folder: String,
-        /// Which shard differs, in which keys.
-        conflict: String,
-    },
-    /// It has something else.
-    #[error(
-        "`{folder}` contains `{entry}`, which is not part of a result of spindrift; move it away, or choose another --out"
-    )]
-    Foreign {
-        /// The folder.
-        folder: String,
-        /// What it has.
-        entry: String,
-    },
-    /// Another process writes to it.
-    #[error("another process is writing to `{folder}`{owner}; wait for it, or choose another --out")]
-    Busy {
-        /// The folder.
-        folder: String,
-        /// Who it is, where that is known.
-        owner: String,
-    },
-    /// There is no result in it.
-    #[error("`{folder}` has no result of spindrift: {why}")]
-    Nothing {
-        /// The folder.
-        folder: String,
-        /// What is missing.
-        why: String,
-    },
-    /// A file operation failed.
-    #[error(transparent)]
-    Storage(#[from] StorageError),
-}
 
 /// One of several processes that make the parts of a campaign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -132,8 +61,17 @@ impl Locks {
 pub enum Claim {
     /// Parts can be added to it.
     Ready(Box<Ready>),
-    /// Everything of the same plan is there, with this text of its summary.
-    Finished(String),
+    /// Everything of the same plan is there.
+    Finished(Finished),
+}
+
+/// A dataset in which everything is there.
+#[derive(Debug)]
+pub struct Finished {
+    /// The text of its summary.
+    pub summary: String,
+    /// What is not part of it, and was left alone.
+    pub notes: Vec<String>,
 }
 
 /// A dataset that is ready for parts, locked against other processes until it is dropped.
@@ -147,6 +85,8 @@ pub struct Ready {
     pub rows: u64,
     /// What was damaged and is made again: lines of manifests, and files with what is wrong with them.
     pub damaged: Vec<String>,
+    /// What is not part of it, and is left alone.
+    pub notes: Vec<String>,
     _locks: Locks,
 }
 
@@ -171,80 +111,81 @@ pub fn claim(
     (plan, identity): (&Plan, &Identity),
     options: ClaimOptions,
 ) -> Result<Claim, FolderError> {
-    complete_replacement(storage, root)?;
-    storage.create_folder(root).map_err(at(root))?;
+    let root = &*meant(root).map_err(at(root))?;
+    if let Some(new) = replacement::interrupted(storage, root)? {
+        let mut locks = Locks::default();
+        locks.add(storage, &new, false)?;
+        replacement::complete(storage, &new, root)?;
+    }
+    let (mut locks, found) = locked(storage, root, options)?;
+    if options.shard.is_none() {
+        remove_replaced(storage, root)?;
+    }
+    if !options.overwrite || found.manifests.is_empty() {
+        return fill(storage, root, (plan, identity), options, (found, locks));
+    }
+    let folder = root.display().to_string();
+    if let Some(entry) = found.not_its_own() {
+        return Err(FolderError::Foreign { folder, entry: entry.clone() });
+    }
+    let new = replacement::begin(storage, root, identity, most(plan))?;
+    replacement::check_replaceable(storage, &new, root).map_err(|why| FolderError::Immovable { folder, why })?;
+    let (others, found) = locked(storage, &new, options)?;
+    locks.0.extend(others.0);
+    match fill(storage, &new, (plan, identity), options, (found, locks))? {
+        Claim::Ready(ready) => Ok(Claim::Ready(Box::new(Ready { replaces: Some(root.to_owned()), ..*ready }))),
+        // it was complete and only not yet in its place
+        Claim::Finished(finished) => {
+            replace(storage, &new, root)?;
+            Ok(Claim::Finished(finished))
+        }
+    }
+}
+
+/// Most samples that the plan comes to have.
+fn most(plan: &Plan) -> u64 {
+    plan.looks().last().copied().unwrap_or(plan.samples)
+}
+
+/// Creates the folder `root`, if there is none, and locks it; what is in it.
+fn locked(storage: &dyn Storage, root: &Path, options: ClaimOptions) -> Result<(Locks, Found), FolderError> {
+    new_folder(storage, root)?;
     let mut locks = Locks::default();
     locks.add(storage, root, options.shard.is_some())?;
-    let folder = root.display().to_string();
-    let found = match contents(storage, root)? {
-        Contents::Foreign(entry) => return Err(FolderError::Foreign { folder, entry }),
+    let mut found = contents(storage, root)?;
+    if matches!(found, Contents::Foreign(_)) {
+        // a shard that begins at the same time has written files since its manifest was looked for
+        found = contents(storage, root)?;
+    }
+    let foreign = |entry| FolderError::Foreign { folder: root.display().to_string(), entry };
+    let mut found = match found {
+        Contents::Foreign(entry) => return Err(foreign(entry)),
         Contents::Blank => Found::default(),
         Contents::Dataset(found) => *found,
     };
-    if let Some(entry) = found.foreign {
-        return Err(FolderError::Foreign { folder, entry });
-    }
-    let is_blank = found.manifests.is_empty();
-    if options.overwrite && !is_blank {
-        let sibling = replacement(root);
-        let most = plan.looks().last().copied().unwrap_or(plan.samples);
-        remove_dataset(storage, &sibling, identity, most)?;
-        let rest = ClaimOptions { overwrite: false, ..options };
-        return match claim(storage, &sibling, (plan, identity), rest)? {
-            Claim::Ready(ready) => {
-                locks.0.extend(ready._locks.0);
-                Ok(Claim::Ready(Box::new(Ready { replaces: Some(root.to_owned()), _locks: locks, ..*ready })))
-            }
-            // it was complete and only not yet in its place
-            Claim::Finished(summary) => {
-                replace(storage, &sibling, root)?;
-                Ok(Claim::Finished(summary))
-            }
-        };
-    }
+    found.foreign.take().map_or(Ok((locks, found)), |entry| Err(foreign(entry)))
+}
+
+/// Prepares `root`, where `found` is, for the rows of `plan`.
+fn fill(
+    storage: &'static dyn Storage,
+    root: &Path,
+    (plan, identity): (&Plan, &Identity),
+    options: ClaimOptions,
+    (found, locks): (Found, Locks),
+) -> Result<Claim, FolderError> {
+    let folder = root.display().to_string();
     if let Some(conflict) = found.conflict {
         return Err(FolderError::Mixed { folder, conflict });
     }
     if let Some(there) = found.identity.as_ref().filter(|there| *there != identity) {
         return Err(occupied(folder, &found, there, (plan, identity)));
     }
-    let most = plan.looks().last().copied().unwrap_or(plan.samples);
+    let most = most(plan);
     if found.extent() > most {
         return Err(FolderError::Larger { folder, found: found.extent(), asked: most });
     }
     ready(storage, root, (plan, identity), options, found, locks)
-}
-
-fn occupied(folder: String, found: &Found, there: &Identity, (plan, identity): (&Plan, &Identity)) -> FolderError {
-    // keys that do not change rows are no reason
-    let is_reason = |one: &KeyDifference| !Plan::OUTSIDE_ROWS.iter().any(|key| one.key.starts_with(key));
-    let value = |value: Option<String>| value.unwrap_or_else(|| "absent".to_owned());
-    let mut list: Vec<String> = text_differences(&found.plan, &plan.text())
-        .into_iter()
-        .filter(is_reason)
-        .map(|one| format!("{}: {} there, {} here", one.key, value(one.first), value(one.second)))
-        .collect();
-    if there.arithmetic != identity.arithmetic || there.format != identity.format {
-        list.push(format!(
-            "version of the row arithmetic: {}.{} there, {}.{} here",
-            there.format, there.arithmetic, identity.format, identity.arithmetic
-        ));
-    }
-    if list.is_empty() {
-        list.push(if there.columns == identity.columns {
-            format!("hash of the rows: {} there, {} here", there.row_hash, identity.row_hash)
-        } else {
-            "the columns: those of [[require]] at_all_times differ, or they are of another version of the program"
-                .to_owned()
-        });
-    }
-    if list.len() > LISTED {
-        let more = list.len() - LISTED;
-        list.truncate(LISTED);
-        list.push(format!("and {more} more"));
-    }
-    let what = if found.is_finished { "the result" } else { "an unfinished result" };
-    FolderError::Occupied { folder, what, differences: list.join("\n  ") }
 }
 
 /// Opens a dataset of the same rows, or a new one.
@@ -261,9 +202,12 @@ fn ready(
     let is_mine = |part: &&PartRecord| options.shard.is_none_or(|shard| part.part % shard.of == shard.number - 1);
     let mine: Vec<PartRecord> = all.iter().filter(is_mine).cloned().collect();
     let broken = damaged_parts(storage, root, identity, &mine, options.threads)?;
+    let name = options.shard.map_or(MANIFEST.to_owned(), |shard| manifest_of(shard.number, shard.of));
     let mut damaged = found.damaged_lines();
-    damaged.extend(broken.iter().map(|(_, what)| what.clone()));
     damaged.extend(found.plan_damage.clone());
+    // other shards may be about to write the last line of theirs, and the plan
+    damaged.retain(|what| options.shard.is_none() || what.starts_with(&name));
+    damaged.extend(broken.iter().map(|(_, what)| what.clone()));
     damaged.extend(derived_damage(storage, root, found.derived())?);
     // of a plan with [stop] the finished number of rows is that of one of its looks
     let is_whole = found.is_finished && plan.looks().contains(&found.rows());
@@ -271,16 +215,40 @@ fn ready(
     if is_complete && options.shard.is_none() {
         let path = root.join(SUMMARY);
         match summary(storage.read(&path, MOST_SUMMARY).map_err(at(&path))?) {
-            Some(text) => return Ok(Claim::Finished(text)),
+            Some(summary) => return Ok(Claim::Finished(Finished { summary, notes: found.notes() })),
             None => damaged.push(format!("{SUMMARY}: its content has changed")),
         }
     }
-    let name = options.shard.map_or(MANIFEST.to_owned(), |shard| manifest_of(shard.number, shard.of));
-    let own = found.manifests.remove(&name);
     let is_plan_there = found.plan == plan.text() && found.plan_damage.is_none();
     let what = (plan.text(), identity.clone());
-    let folder = Folder::open(storage, root, what, (name.clone(), own), found.parts())?;
+    let root_name = root.display().to_string();
+    // what no line lists could not be told from what an interruption leaves
+    if let Some(entry) = found.unlisted.first() {
+        return Err(FolderError::Foreign { folder: root_name, entry: entry.clone() });
+    }
+    // the first process makes the manifest, and so decides whose rows these are; shards have their own ones beside it
+    for name in [MANIFEST, &name] {
+        if !found.manifests.contains_key(name) {
+            let manifest = begin(storage, root, (&what.0, identity), name)?;
+            if let Some(there) = manifest.identity.as_ref().filter(|there| *there != identity) {
+                found.plan = manifest.plan.clone().unwrap_or_default();
+                return Err(occupied(root_name, &found, there, (plan, identity)));
+            }
+            found.manifests.insert(name.to_owned(), manifest);
+        }
+    }
+    let mut own = found.manifests.remove(&name);
+    let mut opening = Locks::default();
     if options.shard.is_some() {
+        let path = root.join(&name);
+        opening.add(storage, &path, false)?;
+        // another process of this shard may have ended since it was read
+        own = Some(Manifest::of(&storage.read(&path, MOST_MANIFEST).map_err(at(&path))?));
+    }
+    let folder = Folder::open(storage, root, what, (name.clone(), own), found.parts())?;
+    drop(opening);
+    if options.shard.is_some() {
+        // where it was written again it is another file
         locks.add(storage, &folder.path(&name), false)?;
     }
     folder.unfinish()?;
@@ -290,7 +258,7 @@ fn ready(
     folder.drop_parts(broken.into_iter().map(|(part, _)| part))?;
     folder.write_plan(is_plan_there)?;
     let rows = folder.parts().iter().map(|part| part.rows).sum();
-    Ok(Claim::Ready(Box::new(Ready { folder, replaces: None, rows, damaged, _locks: locks })))
+    Ok(Claim::Ready(Box::new(Ready { folder, replaces: None, rows, damaged, notes: found.notes(), _locks: locks })))
 }
 
 /// The text of a summary; `None` where it cannot be one.

@@ -16,9 +16,10 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use crate::dataset::identity::sha256;
 use crate::dataset::manifest::{FileRecord, Identity, Manifest, PartRecord, Record};
-use crate::dataset::names::{DATA, MANIFEST, PLAN, SHARDS, SUCCESS, SUMMARY, UNFINISHED, is_derived, is_ours};
-use crate::dataset::storage::{Storage, StorageError, at, entries_in};
+use crate::dataset::names::{DATA, MANIFEST, PLAN, SHARDS, SUCCESS, SUMMARY, is_derived, is_ours};
+use crate::dataset::storage::{Storage, StorageError, above, at, entries_in, new_folder, no_link};
 use crate::dataset::stored_file::is_unfit;
+use crate::dataset::whole_file::{place, place_new};
 use crate::ensemble::Part;
 
 /// Most bytes of a manifest: a line is some 400 bytes, and a campaign of 10^12 samples has 61 million parts.
@@ -92,21 +93,15 @@ impl Folder {
     ) -> Result<Folder, StorageError> {
         let state = Mutex::new(State::default());
         let mut folder = Folder { storage, root: root.to_owned(), identity, plan, manifest, state };
-        if folder.manifest.starts_with(SHARDS) {
-            let path = root.join(SHARDS);
-            storage.create_folder(&path).map_err(at(&path))?;
-        }
-        let path = folder.path(&folder.manifest);
-        if own.is_none() {
-            refuse_parts(storage, &path)?;
-        }
-        let (is_new, own) = (own.is_none(), own.unwrap_or_default());
+        let what = (folder.plan.as_str(), &folder.identity);
+        let own = own.map_or_else(|| begin(storage, root, what, &folder.manifest), Ok)?;
         let text = Manifest::text(&folder.identity, &folder.plan, own.parts.values(), None);
         // a manifest with damage, or one that says that it is finished, is written again: what is appended must follow its last part
         let is_same = own.identity.as_ref() == Some(&folder.identity) && own.plan.as_ref() == Some(&folder.plan);
-        if is_new || !own.damaged.is_empty() || own.is_finished || !is_same {
+        if !own.damaged.is_empty() || own.is_finished || !is_same {
             folder.write(&folder.manifest, text.as_bytes())?;
         }
+        let path = folder.path(&folder.manifest);
         let length = storage.read(&path, MOST_MANIFEST).map_err(at(&path))?.len() as u64;
         let mut parts = others;
         parts.extend(own.parts);
@@ -139,6 +134,22 @@ impl Folder {
         &self.identity
     }
 
+    /// The path of the file `name`, which is about to change: it is in this folder, and not through a link in another one.
+    fn own(&self, name: &str) -> Result<PathBuf, StorageError> {
+        let path = self.path(name);
+        for folder in [&*self.root, above(&path)] {
+            no_link(folder).map_err(at(folder))?;
+        }
+        Ok(path)
+    }
+
+    /// The folder `name` in this one, new or not.
+    fn inner(&self, name: &str) -> Result<PathBuf, StorageError> {
+        let path = self.own(name)?;
+        new_folder(self.storage, &path)?;
+        Ok(path)
+    }
+
     fn state(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -159,9 +170,9 @@ impl Folder {
     /// # Errors
     /// Where a file operation fails; the temporary file is removed.
     pub fn write(&self, name: &str, bytes: &[u8]) -> Result<(), StorageError> {
-        let path = self.path(name);
+        let path = self.own(name)?;
         place(self.storage, &path, bytes)?;
-        let folder = path.parent().unwrap_or(&self.root);
+        let folder = above(&path);
         self.storage.sync_folder(folder).map_err(at(folder))?;
         if is_derived(name) {
             self.list(FileRecord::of(name, bytes));
@@ -179,7 +190,7 @@ impl Folder {
     /// # Errors
     /// Where a file operation fails.
     pub fn remove(&self, name: &str) -> Result<(), StorageError> {
-        let path = self.path(name);
+        let path = self.own(name)?;
         self.state().derived.remove(name);
         self.storage.remove(&path).map_err(at(&path))
     }
@@ -191,13 +202,12 @@ impl Folder {
     pub fn commit(&self, part: Part, files: &[PartFile]) -> Result<(), StorageError> {
         let mut folders: Vec<PathBuf> = Vec::new();
         for file in files {
-            let path = self.path(&file.name);
-            let folder = path.parent().unwrap_or(&self.root).to_owned();
+            let (folder, _) = file.name.split_once('/').unwrap_or_default();
+            let folder = self.inner(folder)?;
+            place(self.storage, &self.own(&file.name)?, &file.bytes)?;
             if !folders.contains(&folder) {
-                self.storage.create_folder(&folder).map_err(at(&folder))?;
                 folders.push(folder);
             }
-            place(self.storage, &path, &file.bytes)?;
         }
         for folder in &folders {
             self.storage.sync_folder(folder).map_err(at(folder))?;
@@ -231,7 +241,7 @@ impl Folder {
     }
 
     fn append(&self, record: &Record) -> Result<(), StorageError> {
-        let (path, line) = (self.path(&self.manifest), record.line());
+        let (path, line) = (self.own(&self.manifest)?, record.line());
         let mut state = self.state();
         let length = state.length.unwrap_or(0);
         self.storage.append(&path, length, line.as_bytes()).map_err(at(&path))?;
@@ -256,7 +266,7 @@ impl Folder {
     /// # Errors
     /// Where a file operation fails.
     pub fn keep_data(&self, name: &str, bytes: &[u8]) -> Result<(), StorageError> {
-        let folder = self.path(DATA);
+        let folder = self.inner(DATA)?;
         let entries = entries_in(self.storage, &self.root, &folder)?;
         let (file, path) = (format!("{DATA}/{name}"), folder.join(name));
         let is_there = entries.iter().any(|entry| entry.is_file && entry.name == name);
@@ -264,7 +274,6 @@ impl Folder {
             self.list(FileRecord::of(&file, bytes));
             return Ok(());
         }
-        self.storage.create_folder(&folder).map_err(at(&folder))?;
         self.write(&file, bytes)
     }
 
@@ -274,7 +283,7 @@ impl Folder {
     /// # Errors
     /// Where a file operation fails.
     pub fn unfinish(&self) -> Result<(), StorageError> {
-        let path = self.path(SUCCESS);
+        let path = self.own(SUCCESS)?;
         self.storage.remove(&path).map_err(at(&path))?;
         self.storage.sync_folder(&self.root).map_err(at(&self.root))?;
         let top = entries_in(self.storage, &self.root, &self.root)?;
@@ -295,14 +304,17 @@ impl Folder {
     /// # Errors
     /// Where a file operation fails.
     pub fn clear(&self, name: &str) -> Result<PathBuf, StorageError> {
-        let path = self.path(name);
+        let path = self.own(name)?;
         for entry in entries_in(self.storage, &self.root, &path)? {
             if entry.is_file && is_ours(name, &entry.name) {
-                let file = path.join(&entry.name);
+                let file = self.own(&format!("{name}/{}", entry.name))?;
                 self.storage.remove(&file).map_err(at(&file))?;
             }
         }
-        self.storage.remove_folder(&path).map_err(at(&path))?;
+        // what is not ours stays
+        if entries_in(self.storage, &self.root, &path)?.is_empty() {
+            self.storage.remove_folder(&path).map_err(at(&path))?;
+        }
         self.state().derived.retain(|file, _| !file.starts_with(&format!("{name}/")));
         Ok(path)
     }
@@ -320,12 +332,7 @@ impl Folder {
         };
         self.write(MANIFEST, text.as_bytes())?;
         self.state().length = None;
-        let shards = self.path(SHARDS);
-        for entry in entries_in(self.storage, &self.root, &shards)? {
-            let path = shards.join(entry.name);
-            self.storage.remove(&path).map_err(at(&path))?;
-        }
-        self.storage.remove_folder(&shards).map_err(at(&shards))?;
+        self.clear(SHARDS)?;
         self.write(SUCCESS, b"")
     }
 
@@ -359,43 +366,27 @@ fn unfinished_summary(bytes: &[u8]) -> Option<String> {
     Some(format!("{summary:#}\n"))
 }
 
-/// Refuses to write a new manifest where there is one that lists parts: its folder did not show it, and they would be lost.
-fn refuse_parts(storage: &dyn Storage, path: &Path) -> Result<(), StorageError> {
-    let parts = match storage.read(path, MOST_MANIFEST) {
-        Ok(bytes) => Manifest::of(&bytes).parts.len(),
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound || is_unfit(&error) => 0,
-        Err(error) => return Err(at(path)(error)),
-    };
-    if parts == 0 {
-        return Ok(());
-    }
-    let why = format!("it lists {parts} parts, and its folder did not show it; run the command again");
-    Err(at(path)(std::io::Error::other(why)))
-}
-
-/// Writes a file of a dataset under a temporary name, checks it, and renames it.
+/// The manifest `name` of the dataset in `root`, where no manifest of this name was found: a new one with the identity of the rows. Of
+/// several processes that begin at the same time, one makes it, with locks and without; what it says is read by all.
 ///
 /// # Errors
-/// Where a file operation fails; the temporary file is removed.
-pub fn place(storage: &dyn Storage, path: &Path, bytes: &[u8]) -> Result<(), StorageError> {
-    let mut temporary = path.as_os_str().to_owned();
-    temporary.push(UNFINISHED);
-    let temporary = PathBuf::from(temporary);
-    let write = || {
-        // what an earlier process left, or a link that somebody put there, is removed and not written to
-        storage.remove(&temporary).map_err(at(&temporary))?;
-        storage.create(&temporary, bytes).map_err(at(&temporary))?;
-        if !storage.has(&temporary, bytes).map_err(at(&temporary))? {
-            let differs = std::io::Error::other("what was read back is not what was written");
-            return Err(at(&temporary)(differs));
-        }
-        Ok(())
-    };
-    // after a failed flush the state of the file is unknown: it is written again, once
-    let placed = write().or_else(|_| write()).and_then(|()| storage.rename(&temporary, path).map_err(at(path)));
-    if placed.is_err() {
-        // the first error is reported; a file that cannot be removed is recognised by its name
-        let _ = storage.remove(&temporary);
+/// Where a file operation fails; where there is one that lists parts of these rows: its folder did not show it.
+pub fn begin(
+    storage: &dyn Storage,
+    root: &Path,
+    (plan, identity): (&str, &Identity),
+    name: &str,
+) -> Result<Manifest, StorageError> {
+    let path = root.join(name);
+    let folder = above(&path);
+    new_folder(storage, folder)?;
+    place_new(storage, &path, Manifest::text(identity, plan, std::iter::empty(), None).as_bytes())?;
+    storage.sync_folder(folder).map_err(at(folder))?;
+    let manifest = Manifest::of(&storage.read(&path, MOST_MANIFEST).map_err(at(&path))?);
+    let is_another = manifest.identity.as_ref().is_some_and(|there| there != identity);
+    if manifest.parts.is_empty() || is_another {
+        return Ok(manifest);
     }
-    placed
+    let why = format!("it lists {} parts, and its folder did not show it; run the command again", manifest.parts.len());
+    Err(at(&path)(std::io::Error::other(why)))
 }

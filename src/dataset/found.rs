@@ -7,7 +7,9 @@ use crate::campaign::difference::text_differences;
 use crate::dataset::folder::MOST_MANIFEST;
 use crate::dataset::identity::in_rows;
 use crate::dataset::manifest::{FileRecord, Identity, Manifest, PartRecord};
-use crate::dataset::names::{FOLDERS, MANIFEST, PLAN, REPORT, SHARDS, SUCCESS, UNFINISHED, is_of_parts, is_ours};
+use crate::dataset::names::{
+    FOLDERS, MANIFEST, PLAN, REPLACEMENT, REPORT, SHARDS, SUCCESS, TRAJECTORIES, UNFINISHED, is_of_parts, is_ours,
+};
 use crate::dataset::storage::{Storage, StorageError, at, is_absent};
 use crate::dataset::stored_file::is_unfit;
 
@@ -42,8 +44,12 @@ pub struct Found {
     pub is_finished: bool,
     /// Whether it has a page, or had one.
     pub has_page: bool,
-    /// The first file that is not one of a dataset, or that no manifest lists although everything is there.
+    /// The first entry that has a name of the dataset and is something else: a link, or a folder where a file should be.
     pub foreign: Option<String>,
+    /// Entries whose names no file of a dataset has: they are left alone.
+    pub strays: Vec<String>,
+    /// Files of parts and time series that no manifest lists although everything is there.
+    pub unlisted: Vec<String>,
 }
 
 impl Found {
@@ -67,6 +73,17 @@ impl Found {
     /// The files that follow from plan and rows, of a result in which everything is there.
     pub fn derived(&self) -> &[FileRecord] {
         self.manifests.get(MANIFEST).filter(|_| self.is_finished).map_or(&[], |manifest| &manifest.derived)
+    }
+
+    /// What a note says of each entry that is not part of the result, and is left alone.
+    pub fn notes(&self) -> Vec<String> {
+        let notes = self.strays.iter().chain(&self.unlisted);
+        notes.map(|entry| format!("{entry}: not part of the result; left alone")).collect()
+    }
+
+    /// The first entry that is not part of the dataset.
+    pub(super) fn not_its_own(&self) -> Option<&String> {
+        self.foreign.iter().chain(&self.strays).chain(&self.unlisted).next()
     }
 
     /// Number of rows.
@@ -97,7 +114,6 @@ pub fn contents(storage: &dyn Storage, root: &Path) -> Result<Contents, StorageE
     let mut found = Found::default();
     let mut names: Vec<String> =
         top.iter().filter(|entry| entry.is_file && entry.name == MANIFEST).map(|_| MANIFEST.to_owned()).collect();
-    let mut first_foreign = None;
     let mut files = Vec::new();
     for entry in &top {
         if entry.is_folder && FOLDERS.contains(&entry.name.as_str()) {
@@ -105,16 +121,20 @@ pub fn contents(storage: &dyn Storage, root: &Path) -> Result<Contents, StorageE
             // it was listed just now
             for inner in storage.entries(&folder).map_err(at(&folder))? {
                 let name = format!("{}/{}", entry.name, inner.name);
-                if !(inner.is_file && is_ours(&entry.name, &inner.name)) {
-                    first_foreign.get_or_insert(name);
+                if !is_ours(&entry.name, &inner.name) {
+                    found.strays.push(name);
+                } else if !inner.is_file {
+                    found.foreign.get_or_insert(name);
                 } else if entry.name == SHARDS && !inner.name.ends_with(UNFINISHED) {
                     names.push(name);
                 } else {
                     files.push(name);
                 }
             }
+        } else if !is_ours("", &entry.name) && !FOLDERS.contains(&entry.name.as_str()) {
+            found.strays.push(entry.name.clone());
         } else if !(entry.is_file && is_ours("", &entry.name)) {
-            first_foreign.get_or_insert(entry.name.clone());
+            found.foreign.get_or_insert(entry.name.clone());
         }
     }
     for name in names {
@@ -125,10 +145,15 @@ pub fn contents(storage: &dyn Storage, root: &Path) -> Result<Contents, StorageE
     let is_marked = found.manifests.values().any(|manifest| manifest.identity.is_some() || !manifest.parts.is_empty());
     if !is_marked {
         // a folder without a manifest of ours is nobody's: only temporary files of this program may be in it
-        let whole =
-            top.iter().find(|entry| entry.is_file && !entry.name.ends_with(UNFINISHED)).map(|entry| entry.name.clone());
+        let is_whole = |name: &str| !name.ends_with(UNFINISHED) && name != REPLACEMENT;
+        let whole = top.iter().find(|entry| entry.is_file && is_whole(&entry.name)).map(|entry| entry.name.clone());
         return Ok(
-            match first_foreign.or(whole).or_else(|| files.into_iter().find(|file| !file.ends_with(UNFINISHED))) {
+            match found
+                .not_its_own()
+                .cloned()
+                .or(whole)
+                .or_else(|| files.into_iter().find(|file| !file.ends_with(UNFINISHED)))
+            {
                 Some(entry) => Contents::Foreign(entry),
                 None => Contents::Blank,
             },
@@ -142,13 +167,15 @@ pub fn contents(storage: &dyn Storage, root: &Path) -> Result<Contents, StorageE
         identity => identity,
     };
     found.has_page = has(REPORT) || found.derived().iter().any(|file| file.name == REPORT);
-    let listed = found.listed();
+    let mut listed = found.listed();
+    listed.extend(found.derived().iter().map(|file| file.name.clone()));
     let is_listed = |name: &String| {
         let folder = name.split_once('/').map_or("", |(folder, _)| folder);
-        !is_of_parts(folder) || listed.contains(name)
+        !(is_of_parts(folder) || folder == TRAJECTORIES) || listed.contains(name)
     };
-    let unlisted = files.iter().find(|name| found.is_finished && !is_listed(name)).cloned();
-    found.foreign = first_foreign.or(unlisted);
+    if found.is_finished {
+        found.unlisted = files.iter().filter(|name| !is_listed(name)).cloned().collect();
+    }
     (found.plan, found.plan_damage) = plan_of(&found.manifests, plan_text(storage, root)?);
     Ok(Contents::Dataset(Box::new(found)))
 }

@@ -1,7 +1,7 @@
 //! Layer 6: results on disk.
 //!
-//! - [`found`]: what is in the folder of a result. - [`mod@claim`]: whether a campaign may write there. - [`replacement`]: a result takes the
-//!   place of an older one. - [`folder`]: the dataset, and the protocol by which parts are added. - [`manifest`]: what it consists of. - [`mod@identity`]: what its rows are. - [`names`]: of its files.
+//! - [`found`]: what is in the folder of a result. - [`mod@claim`]: whether a campaign may write there, [`folder_error`]: and if not, why. - [`replacement`]: a result takes the
+//!   place of an older one. - [`folder`]: the dataset, and the protocol by which parts are added, [`whole_file`]: and each file. - [`manifest`]: what it consists of. - [`mod@identity`]: what its rows are. - [`names`]: of its files.
 //! - [`table_log`]: the log by which table engines read the rows. - [`storage`]: file operations, [`stored_file`]: of open files. - [`verify`]: whether files are what was written. - [`part_sink`]: writes finished parts.
 //! - [`rows_file`]: the files of rows; [`rows_reader`] reads them, through [`parquet_source`]. - [`bands_file`]: of bands. - [`columnar`]: columns to Parquet, with [`arrow_metadata`]. - [`atomic`]: files that are whole or absent.
 //! - [`tally`], [`audit_tally`]: statistics counted while rows are written. - [`provenance`]: metadata on the origin.
@@ -32,6 +32,7 @@ pub mod described_table;
 pub mod drawn_table;
 pub mod drivers;
 pub mod folder;
+pub mod folder_error;
 pub mod found;
 pub mod identity;
 pub mod manifest;
@@ -67,3 +68,4 @@ pub mod timeseries;
 pub mod trajectories;
 pub mod verdicts;
 pub mod verify;
+pub mod whole_file;

@@ -1,5 +1,8 @@
 //! The names of the files of a dataset. What has another name is not ours, and is never changed.
 
+use std::hash::{BuildHasher, RandomState};
+use std::path::{Path, PathBuf};
+
 use crate::ensemble::PartId;
 
 /// The resolved plan.
@@ -34,6 +37,8 @@ pub const VERSIONS: &str = "versions";
 pub const DATA: &str = crate::campaign::data::COPIES;
 /// Suffix of a file that is not whole yet.
 pub const UNFINISHED: &str = ".tmp";
+/// The file that proves that a folder was made to replace another one ([`super::replacement`]).
+pub const REPLACEMENT: &str = "_REPLACEMENT";
 
 /// The files at the top of a dataset.
 pub const TOP_FILES: [&str; 8] = [PLAN, MANIFEST, SUCCESS, SUMMARY, STATISTICS, SENSITIVITY, BANDS, REPORT];
@@ -69,19 +74,45 @@ pub fn is_of_parts(folder: &str) -> bool {
 /// Whether the file `name`, below the folder of a dataset, follows from plan and rows: the last line of the manifest lists it.
 pub fn is_derived(name: &str) -> bool {
     let (folder, file) = name.split_once('/').unwrap_or(("", name));
-    let is_own = [MANIFEST, SUCCESS].contains(&name) || is_of_parts(folder) || folder == SHARDS;
+    let is_own = [MANIFEST, SUCCESS, REPLACEMENT].contains(&name) || is_of_parts(folder) || folder == SHARDS;
     !is_own && !file.ends_with(UNFINISHED) && is_ours(folder, file)
+}
+
+/// Hexadecimal digits that no other process draws, on no machine, and no other call: from the random keys of a hash.
+pub fn unique() -> String {
+    format!("{:016x}", RandomState::new().hash_one(std::process::id()))
+}
+
+/// Whether `text` is what [`unique`] draws.
+pub fn is_unique(text: &str) -> bool {
+    text.len() == 16 && text.bytes().all(|byte| byte.is_ascii_digit() || (b'a'..=b'f').contains(&byte))
+}
+
+/// The name under which the file `path` is written until it is whole: processes that write it at the same time have a name each.
+pub fn unfinished(path: &Path) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(format!(".{}{UNFINISHED}", unique()));
+    PathBuf::from(name)
+}
+
+/// The name that the file `name` has when it is whole.
+fn whole(name: &str) -> &str {
+    let Some(name) = name.strip_suffix(UNFINISHED) else { return name };
+    match name.rsplit_once('.') {
+        Some((whole, digits)) if is_unique(digits) => whole,
+        _ => name,
+    }
 }
 
 /// Whether a dataset may have a file `name` in `folder`, whole or not.
 pub fn is_ours(folder: &str, name: &str) -> bool {
-    let name = name.strip_suffix(UNFINISHED).unwrap_or(name);
+    let name = whole(name);
     let numbered = |start: &str, end: &str, digits: usize| {
         let number = name.strip_prefix(start).and_then(|rest| rest.strip_suffix(end));
         number.is_some_and(|number| number.len() >= digits && number.bytes().all(|byte| byte.is_ascii_digit()))
     };
     match folder {
-        "" => TOP_FILES.contains(&name),
+        "" => TOP_FILES.contains(&name) || name == REPLACEMENT,
         RUNS => numbered("part-", ".parquet", 6),
         PART_BANDS => numbered("part-", ".bands", 6),
         TRAJECTORIES => numbered("sample-", ".parquet", 6),
@@ -119,6 +150,8 @@ mod tests {
         {
             let (folder, file) = name.split_once('/').unwrap();
             assert!(is_ours(folder, file) && is_ours(folder, &format!("{file}{UNFINISHED}")), "{name}");
+            let (one, other) = (unfinished(Path::new(file)), unfinished(Path::new(file)));
+            assert!(one != other && is_ours(folder, one.to_str().unwrap()), "{one:?} and {other:?}");
         }
         assert!(TOP_FILES.iter().all(|name| is_ours("", name)));
         assert_eq!(shard_of("2-of-13.jsonl"), Some((2, 13)));
@@ -127,6 +160,7 @@ mod tests {
             ("", "notes.txt"),
             (RUNS, "part-00000-6f1c.snappy.parquet"),
             (RUNS, "part-.parquet"),
+            (RUNS, "part-000000.parquet.bak.tmp"),
             (SHARDS, "x.jsonl"),
             (DATA, "table.csv"),
             ("other", "part-000000.parquet"),

@@ -4,12 +4,12 @@
 
 use std::path::Path;
 
-use crate::dataset::folder::place;
 use crate::dataset::identity::in_rows;
 use crate::dataset::manifest::{FileRecord, Identity, Manifest, PartRecord};
 use crate::dataset::names::{MANIFEST, bands_of, rows_of};
 use crate::dataset::storage::{Storage, StorageError, at, is_absent};
 use crate::dataset::stored_file::is_unfit;
+use crate::dataset::whole_file::place;
 use crate::ensemble::Parts;
 
 /// Writes the manifest of the dataset in `root` with those of `parts` whose files have rows of `identity`; how many these are. `plan` is the

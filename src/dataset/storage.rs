@@ -57,7 +57,7 @@ pub trait Storage: Debug + Send + Sync {
     /// Locks a file or folder against other processes, shared or not, until the result is dropped; `None` where the file system has no locks.
     ///
     /// # Errors
-    /// Where another process has it locked, or it cannot be opened.
+    /// Where another process has it locked, or it cannot be opened or locked.
     fn lock(&self, path: &Path, is_shared: bool) -> Result<Option<File>, TryLockError>;
 
     /// Renames a file or folder, replacing a file of the new name.
@@ -65,6 +65,12 @@ pub trait Storage: Debug + Send + Sync {
     /// # Errors
     /// Where it fails.
     fn rename(&self, from: &Path, to: &Path) -> io::Result<()>;
+
+    /// Gives the file `from` the name `to` too, which must not exist: of several processes that do so at the same time one succeeds.
+    ///
+    /// # Errors
+    /// Where it fails; `AlreadyExists` where there is something of that name.
+    fn link(&self, from: &Path, to: &Path) -> io::Result<()>;
 
     /// Removes a file (a link, not what it points to); no error where there is none.
     ///
@@ -81,7 +87,7 @@ pub trait Storage: Debug + Send + Sync {
     /// Creates a folder with all folders above it; no error where it exists.
     ///
     /// # Errors
-    /// Where it fails, or something else of that name exists.
+    /// Where it fails, or something else of that name exists, a link to a folder too.
     fn create_folder(&self, path: &Path) -> io::Result<()>;
 
     /// Makes renames and new files in a folder durable.
@@ -133,6 +139,9 @@ impl Storage for Disk {
     }
 
     fn append(&self, path: &Path, length: u64, bytes: &[u8]) -> io::Result<()> {
+        if !fs::symlink_metadata(path)?.is_file() {
+            return Err(Unfit::Kind.into());
+        }
         let mut file = OpenOptions::new().append(true).open(path)?;
         if file.metadata()?.len() != length {
             file.set_len(length)?;
@@ -149,20 +158,28 @@ impl Storage for Disk {
     }
 
     fn lock(&self, path: &Path, is_shared: bool) -> Result<Option<File>, TryLockError> {
-        let file = match File::open(path) {
+        // network file systems lock a file against all others only where it is open for writing
+        let is_written = !is_shared && fs::symlink_metadata(path).is_ok_and(|found| found.is_file());
+        let file = match OpenOptions::new().read(true).write(is_written).open(path) {
             // only Unix can open a folder
             Err(_) if !cfg!(unix) => return Ok(None),
             file => file.map_err(TryLockError::Error)?,
         };
         match if is_shared { file.try_lock_shared() } else { file.try_lock() } {
-            Ok(()) => Ok(Some(file)),
-            Err(TryLockError::WouldBlock) => Err(TryLockError::WouldBlock),
-            Err(TryLockError::Error(_)) => Ok(None),
+            // while its lock was waited for, another may have taken its name
+            Ok(()) if is_at(&file, path) => Ok(Some(file)),
+            Ok(()) | Err(TryLockError::WouldBlock) => Err(TryLockError::WouldBlock),
+            Err(TryLockError::Error(error)) if has_no_locks(&error) => Ok(None),
+            Err(error) => Err(error),
         }
     }
 
     fn rename(&self, from: &Path, to: &Path) -> io::Result<()> {
         fs::rename(from, to)
+    }
+
+    fn link(&self, from: &Path, to: &Path) -> io::Result<()> {
+        fs::hard_link(from, to)
     }
 
     fn remove(&self, path: &Path) -> io::Result<()> {
@@ -174,7 +191,8 @@ impl Storage for Disk {
     }
 
     fn create_folder(&self, path: &Path) -> io::Result<()> {
-        fs::create_dir_all(path)
+        fs::create_dir_all(path)?;
+        no_link(path)
     }
 
     fn sync_folder(&self, path: &Path) -> io::Result<()> {
@@ -186,13 +204,94 @@ impl Storage for Disk {
         let mut list = Vec::new();
         for entry in fs::read_dir(path)? {
             let entry = entry?;
-            let metadata = entry.metadata()?; // of a link: the link's own
+            // of a link: the link's own
+            let metadata = match entry.metadata() {
+                // removed or renamed since
+                Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
+                metadata => metadata?,
+            };
             let name = entry.file_name().to_string_lossy().into_owned();
             list.push(Entry { name, is_folder: metadata.is_dir(), is_file: metadata.is_file(), size: metadata.len() });
         }
         list.sort();
         Ok(list)
     }
+}
+
+/// Whether `error` says that a file system has no locks: any other one says nothing about them.
+fn has_no_locks(error: &io::Error) -> bool {
+    #[cfg(unix)]
+    {
+        use rustix::io::Errno;
+        let numbers = [Errno::OPNOTSUPP, Errno::NOTSUP, Errno::NOLCK, Errno::NOSYS].map(Errno::raw_os_error);
+        error.raw_os_error().is_some_and(|number| numbers.contains(&number))
+    }
+    #[cfg(not(unix))]
+    {
+        error.kind() == io::ErrorKind::Unsupported
+    }
+}
+
+/// Whether `path` still leads to the open `file`.
+fn is_at(file: &File, path: &Path) -> bool {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt;
+        let (Ok(open), Ok(named)) = (file.metadata(), fs::metadata(path)) else { return false };
+        (open.dev(), open.ino()) == (named.dev(), named.ino())
+    }
+    #[cfg(not(unix))]
+    {
+        let _ = (file, path);
+        true
+    }
+}
+
+/// Refuses a folder of a dataset that is none: through a link that somebody put in its place, files elsewhere would change.
+///
+/// # Errors
+/// Where it is a link or something else, or is not there.
+pub fn no_link(folder: &Path) -> io::Result<()> {
+    if fs::symlink_metadata(folder)?.is_dir() {
+        return Ok(());
+    }
+    Err(io::Error::new(io::ErrorKind::NotADirectory, "a link, or no folder, where a folder of the result should be"))
+}
+
+/// The folder above `path`.
+pub fn above(path: &Path) -> &Path {
+    path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// Creates a folder with all folders above it, durably; no error where it exists.
+///
+/// # Errors
+/// Where it fails, or something else of that name exists, a link to a folder too.
+pub fn new_folder(storage: &dyn Storage, path: &Path) -> Result<(), StorageError> {
+    let is_missing = |folder: &&Path| !folder.as_os_str().is_empty() && !folder.exists();
+    let missing: Vec<&Path> = path.ancestors().take_while(is_missing).map(above).collect();
+    storage.create_folder(path).map_err(at(path))?;
+    missing.into_iter().try_for_each(|folder| storage.sync_folder(folder).map_err(at(folder)))
+}
+
+/// The folder that `path` means: what it leads to where it is a link, whether that is there or not, so that a link which changes later
+/// changes nothing; and one with a name where it is `.` or `..`.
+///
+/// # Errors
+/// Where a link cannot be read, or leads to itself.
+pub fn meant(path: &Path) -> io::Result<PathBuf> {
+    let mut folder = path.to_owned();
+    // as many links as Linux follows
+    for _ in 0..40 {
+        if folder.file_name().is_none() {
+            return folder.canonicalize();
+        }
+        match fs::symlink_metadata(&folder) {
+            Ok(found) if found.is_symlink() => folder = above(&folder).join(fs::read_link(&folder)?),
+            _ => return Ok(folder),
+        }
+    }
+    Err(io::Error::other("a link that leads to itself"))
 }
 
 fn unless_absent(result: io::Result<()>) -> io::Result<()> {

@@ -17,7 +17,7 @@ use crate::dataset::columnar::{Content, Heading};
 use crate::dataset::folder::Folder;
 use crate::dataset::identity::sha256;
 use crate::dataset::manifest::{FileRecord, Identity, PartRecord};
-use crate::dataset::names::{RUNS, TABLE_LOG, VERSIONS, version_of};
+use crate::dataset::names::{RUNS, TABLE_LOG, VERSIONS, is_ours, version_of};
 use crate::dataset::storage::{Storage, StorageError, at, entries_in};
 use crate::dataset::stored_file::is_unfit;
 use crate::dataset::verify::derived_damage;
@@ -149,7 +149,7 @@ struct Log {
 fn read(storage: &dyn Storage, root: &Path, identity: &Identity) -> Result<Option<Log>, StorageError> {
     let folder = root.join(TABLE_LOG);
     let mut commits = Vec::new();
-    for entry in entries_in(storage, root, &folder)? {
+    for entry in entries_in(storage, root, &folder)?.into_iter().filter(|entry| is_ours(TABLE_LOG, &entry.name)) {
         let path = folder.join(&entry.name);
         match storage.read(&path, MOST_COMMIT) {
             Ok(bytes) => commits.push((entry.name, bytes)),

@@ -227,6 +227,11 @@ impl Storage for Faulty {
         Disk.rename(from, to)
     }
 
+    fn link(&self, from: &Path, to: &Path) -> io::Result<()> {
+        self.check(Operation::Write, to)?;
+        Disk.link(from, to)
+    }
+
     fn remove(&self, path: &Path) -> io::Result<()> {
         self.check(Operation::Write, path)?;
         Disk.remove(path)
@@ -306,8 +311,18 @@ pub fn unlocked(command: impl Fn() -> Result<(), Failure>) -> Result<(), Failure
 
 /// Makes the dataset of `plan` in `root`, or what is missing of it, with its page or without.
 pub fn make(storage: &'static dyn Storage, root: &Path, plan: &Plan, has_page: bool) -> Result<(), Failure> {
+    make_with(ClaimOptions { overwrite: false, shard: None, threads: 1 }, storage, root, plan, has_page)
+}
+
+/// The same with these options.
+pub fn make_with(
+    options: ClaimOptions,
+    storage: &'static dyn Storage,
+    root: &Path,
+    plan: &Plan,
+    has_page: bool,
+) -> Result<(), Failure> {
     let ensemble = Ensemble::new(plan, Isa::best());
-    let options = ClaimOptions { overwrite: false, shard: None, threads: 1 };
     let mut claimed = claim(storage, root, (plan, &identity(&ensemble)), options);
     for _ in 0..LOCK_TRIES {
         if !matches!(claimed, Err(FolderError::Busy { .. })) {

@@ -21,7 +21,7 @@ const LATEST_MS: u64 = 90;
 const OF_ONE: u32 = 12;
 
 /// Every file below `root` with its content, by its name.
-fn contents(root: &Path) -> BTreeMap<String, Vec<u8>> {
+pub fn contents(root: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut found = BTreeMap::new();
     let mut folders = vec![root.to_owned()];
     while let Some(folder) = folders.pop() {
@@ -39,7 +39,7 @@ fn contents(root: &Path) -> BTreeMap<String, Vec<u8>> {
 }
 
 /// Checks that two datasets are the same files with the same bytes.
-fn assert_same(scratch: &ScratchFolder, one: &str, other: &str) {
+pub fn assert_same(scratch: &ScratchFolder, one: &str, other: &str) {
     let (one, other) = (contents(&scratch.path(one)), contents(&scratch.path(other)));
     assert_eq!(one.keys().collect::<Vec<_>>(), other.keys().collect::<Vec<_>>());
     for (name, bytes) in &one {
@@ -48,7 +48,7 @@ fn assert_same(scratch: &ScratchFolder, one: &str, other: &str) {
 }
 
 /// Starts the program in the background.
-fn start(scratch: &ScratchFolder, arguments: &str) -> Child {
+pub fn start(scratch: &ScratchFolder, arguments: &str) -> Child {
     let mut program = Command::new(env!("CARGO_BIN_EXE_spindrift"));
     let program = program.args(arguments.split_whitespace()).current_dir(&scratch.0);
     program.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
@@ -273,11 +273,14 @@ fn fewer_samples_than_before() {
     assert!(scratch.path("s/runs/part-000004.parquet").exists());
     scratch.prints("campaign small.toml --out s", 0);
     assert_same(&scratch, "s", "whole");
-    // the same in the folder that is to replace a result
-    longer(".whole.new", &["\"spindrift\"", "\"part\":0", "\"part\":3"]);
+    // the same in the folder that is to replace a result, as an interrupted command leaves it
+    longer("u", &["\"spindrift\"", "\"part\":0", "\"part\":3"]);
     scratch.prints("campaign small.toml --out t --seed 9", 0);
-    fs::rename(scratch.path(".whole.new"), scratch.path(".t.new")).unwrap();
+    let digits = "0123456789abcdef";
+    scratch.file("u/_REPLACEMENT", &format!("{digits}\n"));
+    fs::rename(scratch.path("u"), scratch.path(&format!(".t.{digits}.new"))).unwrap();
     scratch.prints("campaign small.toml --out t --overwrite", 0);
+    assert!(!scratch.path(&format!(".t.{digits}.new")).exists());
     assert_same(&scratch, "t", "whole");
 }
 
@@ -296,7 +299,8 @@ fn the_old_result_stays_until_the_new_one_is_complete() {
     }
     scratch.prints("campaign small.toml --seed 9 --overwrite --out r", 0);
     assert_same(&scratch, "r", "whole");
-    assert!(!scratch.path(".r.old").exists());
+    let beside = fs::read_dir(&scratch.0).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    assert_eq!(beside.filter(|name| name.starts_with('.')).collect::<Vec<_>>(), [""; 0]);
 
     for (name, place) in [
         ("notes.txt", "r/notes.txt"),

@@ -44,7 +44,7 @@ const CRATES: [(&str, &[&str]); 27] = [
     ("png", &["report"]),
     ("rand", &["sampling"]),
     ("rayon", &["ensemble"]),
-    ("rustix", &["campaign/input_file.rs", "cli/machine.rs", "ensemble/cpu_clock.rs"]),
+    ("rustix", &["campaign/input_file.rs", "cli/machine.rs", "dataset/storage.rs", "ensemble/cpu_clock.rs"]),
     ("serde", &["dataset", "report"]),
     ("serde_json", &["cli/finish_campaign.rs", "dataset", "report"]),
     ("sha2", &["campaign", "dataset"]),
