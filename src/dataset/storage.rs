@@ -250,12 +250,16 @@ fn is_at(file: &File, path: &Path) -> bool {
 /// Refuses a folder of a dataset that is none: through a link that somebody put in its place, files elsewhere would change.
 ///
 /// # Errors
-/// Where it is a link or something else, or is not there.
+/// Where it is a link or something else; none where it is not there.
 pub fn no_link(folder: &Path) -> io::Result<()> {
-    if fs::symlink_metadata(folder)?.is_dir() {
-        return Ok(());
+    match fs::symlink_metadata(folder) {
+        Ok(found) if !found.is_dir() => {
+            let why = "a link, or no folder, where a folder of the result should be";
+            Err(io::Error::new(io::ErrorKind::NotADirectory, why))
+        }
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+        _ => Ok(()),
     }
-    Err(io::Error::new(io::ErrorKind::NotADirectory, "a link, or no folder, where a folder of the result should be"))
 }
 
 /// The folder above `path`.

@@ -147,8 +147,7 @@ fn shards_of_two_plans_are_refused() {
     }
     for command in ["finish r", "verify r", "campaign small.toml --out r", "campaign small.toml --shard 1/2 --out r"] {
         let said = scratch.prints(command, 4);
-        for part in
-            ["shards/2-of-2.jsonl is of another plan than shards/1-of-2.jsonl", "campaign.seed: 7", "8 in shards/2"]
+        for part in ["shards/2-of-2.jsonl is of another plan than manifest.jsonl", "campaign.seed: 7", "8 in shards/2"]
         {
             assert!(said.contains(part), "{command}: {said}");
         }

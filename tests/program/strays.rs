@@ -72,7 +72,7 @@ fn strays_are_named_and_left_alone() {
         let [r, whole] = ["r", "whole900"].map(|result| fs::read(scratch.path(result).join(name)).unwrap());
         assert!(r == whole, "{name}");
     };
-    ["runs/part-000003.parquet", "statistics.parquet", "summary.json", "manifest.jsonl"].into_iter().for_each(same);
+    ["runs/part-000003.parquet", "statistics.parquet", "summary.json"].into_iter().for_each(same);
     assert!(strays.iter().all(|path| fs::read_to_string(path).unwrap() == "precious"));
     // counter-test: they would be lost where the result is replaced
     let said = scratch.prints("campaign small.toml --samples 300 --out r --overwrite", 4);
@@ -80,24 +80,27 @@ fn strays_are_named_and_left_alone() {
     assert!(strays.iter().all(|path| path.exists()));
 }
 
-/// Law: a file with the name of a part that no manifest lists is told as well, and blocks what would replace or remove it, and nothing else.
+/// Law: a part or a time series that no manifest lists is told as well, and blocks what would replace or remove it, and nothing else.
 #[test]
-fn a_part_that_is_not_listed_is_left_alone() {
+fn what_no_manifest_lists_is_left_alone() {
     let scratch = folder("strays-part");
     scratch.prints("campaign small.toml --out r", 0);
     let before = contents(&scratch.path("r"));
-    let stray = plant(&scratch, "r", &["runs/part-000003.parquet"]).remove(0);
-    for command in ["campaign small.toml --out r", "verify r", "finish r"] {
-        let said = scratch.prints(command, 0);
-        assert!(said.contains("runs/part-000003.parquet: not part of the result; left alone"), "{command}: {said}");
+    for name in ["runs/part-000003.parquet", "bands/part-000099.bands", "trajectories/sample-000007.parquet"] {
+        let stray = plant(&scratch, "r", &[name]).remove(0);
+        for command in ["campaign small.toml --out r", "verify r", "finish r", "report r"] {
+            let said = scratch.prints(command, 0);
+            let is_named = said.contains(&format!("{name}: not part of the result; left alone"));
+            assert!(is_named || command == "report r", "{command}: {said}");
+        }
+        for options in ["--samples 2000", "--seed 9 --overwrite"] {
+            let said = scratch.prints(&format!("campaign small.toml --out r {options}"), 4);
+            assert!(said.contains(&format!("`{name}`, which is not part of a result")), "{options}: {said}");
+        }
+        assert_eq!(fs::read_to_string(&stray).unwrap(), "precious");
+        fs::remove_file(stray).unwrap();
+        assert!(contents(&scratch.path("r")) == before, "{name}");
     }
-    for command in ["campaign small.toml --samples 2000 --out r", "campaign small.toml --seed 9 --overwrite --out r"] {
-        let said = scratch.prints(command, 4);
-        assert!(said.contains("`runs/part-000003.parquet`, which is not part of a result"), "{command}: {said}");
-    }
-    assert_eq!(fs::read_to_string(&stray).unwrap(), "precious");
-    fs::remove_file(stray).unwrap();
-    assert!(contents(&scratch.path("r")) == before);
 }
 
 /// Law: a copy of a file of numbers in a result that is damaged or gone is made again from the file that the campaign names; a command that has
