@@ -7,15 +7,15 @@ use crate::campaign::Plan;
 use crate::ensemble::parts::Parts;
 use crate::ensemble::settings::{propagator, request};
 use crate::math::Isa;
-use crate::ode::Control;
+use crate::ode::{Control, PACE_STEPS};
 use crate::propagation::Method;
 use crate::run::{Grid, Outcome};
 use crate::scene::Scene;
 
 /// Work of one thread that may be lost when a campaign is stopped, s.
 const LOST_S: f64 = 10.0;
-/// Most steps of the nominal run whose work is counted; a longer one is extrapolated.
-const COUNTED_STEPS: u64 = 20_000;
+/// Most steps of the nominal run whose work is counted; a longer one is extrapolated, and its pace is not judged.
+const COUNTED_STEPS: u64 = PACE_STEPS;
 /// Time of an evaluation, s, three times that of one alone in its vector on the reference machine (`cargo bench -p spindrift-benches --bench kernels`).
 const fn evaluation_seconds(method: Method) -> f64 {
     match method {

@@ -44,7 +44,7 @@ fn reasons_are_said_and_counted() {
     let first: Vec<&str> = said.lines().take(3).collect();
     assert!(first[0].starts_with("EVERY RUN FAILS"), "{said}");
     let [(count, line)] = reasons(&said, "step_limit")[..] else { panic!("one reason: {said}") };
-    assert!(first[2] == line && line.contains("integrator.max_steps was reached at 0."), "{said}");
+    assert!(first[2] == line && line.contains("integrator.max_steps does not suffice: the run reached 0."), "{said}");
     assert!(first[1].starts_with(&format!("{count} of the first {count} runs failed")), "{said}");
 
     for arguments in ["--out whole", "--out parts --threads 1"] {
@@ -177,7 +177,10 @@ fn failed_rows_have_reasons() {
     scratch.prints("campaign short.toml --samples 5 --out short", 1);
     for (status, reason) in ends(&batches(&scratch.path("short/runs/part-000000.parquet"))[0]) {
         let reason = reason.expect("a reason");
-        assert!(status == "step_limit" && reason.starts_with("integrator.max_steps was reached at 0."), "{reason}");
+        assert!(
+            status == "step_limit" && reason.starts_with("integrator.max_steps does not suffice: the run reached 0."),
+            "{reason}"
+        );
     }
 }
 

@@ -9,7 +9,7 @@ use super::error_model::ErrorModel;
 use super::explicit::{Carried, Step, each};
 use super::lane_slot::{LaneSlots, LoadedRun};
 use super::runs::{Completion, Recorder, Runs, Termination};
-use super::step_control::Control;
+use super::step_control::{Control, PACE_STEPS, is_out_of_reach};
 use super::system::System;
 use crate::math::{Mask, Real};
 
@@ -35,6 +35,12 @@ pub struct LaneState<R, const N: usize> {
     pub time: R,
     /// End of the current arc, s.
     pub arc_end: R,
+    /// Its start, s.
+    arc_start: R,
+    /// Attempted steps of the run before it.
+    before: R,
+    /// Attempted steps of the run at which it is judged ([`LaneState::gives_up`]).
+    judged: R,
     /// Next observation time, s.
     pub next: R,
     /// Counts of the run: accepted and rejected steps, evaluations of the right-hand side.
@@ -122,6 +128,9 @@ impl<R: Real, const N: usize> LaneState<R, N> {
             now: Carried { state, carry: state },
             time: zero,
             arc_end: zero.splat(f64::INFINITY),
+            arc_start: zero,
+            before: zero,
+            judged: zero,
             next: zero.splat(f64::INFINITY),
             accepted: zero,
             rejected: zero,
@@ -138,7 +147,13 @@ impl<R: Real, const N: usize> LaneState<R, N> {
 
     /// Starts `loaded`, observed next at `next`, in lane `lane`; without a run the lane becomes idle.
     #[inline(always)]
-    fn start<P: Stepper<R, N>>(&mut self, lane: usize, loaded: Option<LoadedRun<N>>, next: f64, stepper: &mut P) {
+    fn start<P: Stepper<R, N>>(
+        &mut self,
+        lane: usize,
+        loaded: Option<LoadedRun<N>>,
+        next: f64,
+        (stepper, control): (&mut P, &Control),
+    ) {
         self.time.set_lane(lane, 0.0);
         self.accepted.set_lane(lane, 0.0);
         self.evaluations.set_lane(lane, 0.0);
@@ -157,9 +172,46 @@ impl<R: Real, const N: usize> LaneState<R, N> {
         }
         self.rejected.set_lane(lane, 0.0);
         self.next.set_lane(lane, next);
-        self.arc_end.set_lane(lane, run.end);
         stepper.start_run(lane);
-        stepper.start_arc(lane, 0.0, run.end);
+        self.start_arc(lane, 0.0, run.end, (stepper, control));
+    }
+
+    /// Starts the arc from `start` to `end`, s, in lane `lane`.
+    #[inline(always)]
+    fn start_arc<P: Stepper<R, N>>(
+        &mut self,
+        lane: usize,
+        start: f64,
+        end: f64,
+        (stepper, control): (&mut P, &Control),
+    ) {
+        let before = self.attempts(lane);
+        self.arc_start.set_lane(lane, start);
+        self.arc_end.set_lane(lane, end);
+        self.before.set_lane(lane, before);
+        self.judged.set_lane(lane, (before + PACE_STEPS as f64).min(control.max_steps as f64));
+        stepper.start_arc(lane, start, end);
+    }
+
+    /// Attempted steps of the run in lane `lane`.
+    #[inline(always)]
+    fn attempts(&self, lane: usize) -> f64 {
+        self.accepted.lane(lane) + self.rejected.lane(lane)
+    }
+
+    /// Whether the run in lane `lane` has taken all steps that it may take, or cannot get to the end of its arc with them.
+    #[cold]
+    fn gives_up(&mut self, lane: usize, max_steps: u64) -> bool {
+        let (attempts, before) = (self.attempts(lane), self.before.lane(lane));
+        if attempts >= max_steps as f64 {
+            return true;
+        }
+        if attempts < before + PACE_STEPS as f64 {
+            return false; // the next arc has just begun
+        }
+        self.judged.set_lane(lane, max_steps as f64);
+        let start = self.arc_start.lane(lane);
+        is_out_of_reach(max_steps - before as u64, self.time.lane(lane) - start, self.arc_end.lane(lane) - start)
     }
 
     /// How the run in lane `lane` ended.
@@ -190,7 +242,8 @@ fn of_lane<R: Real, const N: usize>(state: &[R; N], lane: usize) -> [f64; N] {
 ///
 /// `zero` determines the kind of number: a scalar or lanes. At every observation time the recorder gets the integrated
 /// components: at time zero the initial state itself, at the end of a step the step's own state, elsewhere dense output. A run
-/// whose state becomes non-finite, whose step becomes too short or that takes more than `control.max_steps` steps ends there.
+/// whose state becomes non-finite, whose step becomes too short or that takes more than `control.max_steps` steps ends there; one
+/// that cannot do with them ends as soon as that is clear.
 /// Call inside [`crate::math::Isa::run`].
 #[inline(always)]
 pub fn integrate<M, R, Q, O, const N: usize>(method: M, zero: R, runs: &mut Q, recorder: &mut O, control: &Control)
@@ -200,14 +253,13 @@ where
     Q: Runs<R, N>,
     O: Recorder<Q, N>,
 {
-    let most = zero.splat(control.max_steps as f64);
     let mut stepper = method.stepper::<R, N>(zero, control);
     let mut lanes = LaneState::<R, N>::new(zero);
     let mut end = lanes.now;
     let mut slots = LaneSlots::new();
     for lane in 0..R::LANES {
         let loaded = slots.load_lane(lane, runs, recorder);
-        lanes.start(lane, loaded, recorder.next_time(lane), &mut stepper);
+        lanes.start(lane, loaded, recorder.next_time(lane), (&mut stepper, control));
     }
     while slots.any_occupied() {
         let proposal = stepper.propose(&*runs, &mut lanes);
@@ -228,7 +280,7 @@ where
         lanes.now = Carried::select(attempt.accepted, &end, &lanes.now);
 
         let arrived = attempt.accepted & proposal.lands;
-        let spent = !(lanes.accepted + lanes.rejected).lt(most);
+        let spent = !(lanes.accepted + lanes.rejected).lt(lanes.judged);
         if (arrived | failed | spent).any() {
             for lane in 0..R::LANES {
                 let Some(run) = slots.run(lane) else { continue };
@@ -236,24 +288,21 @@ where
                 if arrived.test(lane) {
                     let time = lanes.time.lane(lane);
                     match runs.next_arc(lane, time, &lanes.state(lane)) {
-                        Some(end) => {
-                            lanes.arc_end.set_lane(lane, end);
-                            stepper.start_arc(lane, time, end);
-                        }
+                        Some(end) => lanes.start_arc(lane, time, end, (&mut stepper, control)),
                         None => ended = Some(Termination::Completed),
                     }
                 } else if failed.test(lane) {
                     let sound = attempt.sound.test(lane);
                     ended = Some(if sound { Termination::StepFloor } else { Termination::NonFinite });
                 }
-                if ended.is_none() && spent.test(lane) {
+                if ended.is_none() && spent.test(lane) && lanes.gives_up(lane, control.max_steps) {
                     ended = Some(Termination::StepLimit);
                 }
                 if let Some(termination) = ended {
                     recorder.finish(&*runs, lane, run, &lanes.completion(lane, termination));
                     slots.clear(lane);
                     let loaded = slots.load_lane(lane, runs, recorder);
-                    lanes.start(lane, loaded, recorder.next_time(lane), &mut stepper);
+                    lanes.start(lane, loaded, recorder.next_time(lane), (&mut stepper, control));
                 }
             }
         }

@@ -26,5 +26,5 @@ pub use fixed::Fixed;
 pub use integrators::{Dop853, DormandPrince, DormandPrinceRestepped, GaussLegendre, Integrator, RungeKutta4};
 pub use lane_driver::{Method, integrate};
 pub use runs::{Completion, Recorder, Runs, Termination};
-pub use step_control::Control;
+pub use step_control::{Control, PACE_STEPS, is_out_of_reach};
 pub use system::{System, Tolerance};

@@ -7,7 +7,7 @@ use crate::math::Real;
 pub enum Status {
     /// Reached the end of its horizon.
     Done,
-    /// Reached the maximum number of steps before the end of its horizon.
+    /// Reached the maximum number of steps before the end of its horizon, or cannot reach that end with them.
     StepLimit,
     /// The step that the tolerance requires is below the resolution of the time in floating point.
     StepFloor,
@@ -50,7 +50,7 @@ impl Status {
     pub fn reason(self, time: f64) -> Option<String> {
         Some(match self {
             Status::Done | Status::InvalidSample | Status::Inaccurate | Status::InternalError => return None,
-            Status::StepLimit => format!("integrator.max_steps was reached at {time:?} s"),
+            Status::StepLimit => format!("integrator.max_steps does not suffice: the run reached {time:?} s"),
             Status::StepFloor => format!("the step fell below the resolution of time at {time:?} s"),
             Status::NonFinite => format!("a state became infinite or not a number after {time:?} s"),
         })

@@ -159,7 +159,7 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> Drive
         let (clock, kept) = (work.ring.clock, work.ring.len());
         let mut alarm = usize::MAX;
         for state in states.iter().flatten() {
-            let given_up = state.begun as u64 + work.settings.max_steps.saturating_sub(state.steps_before);
+            let given_up = state.judged(clock, work.settings.max_steps);
             let at = match state.waiting {
                 Some(waiting) => state.patience(&waiting).min(state.begun + kept),
                 // a body that does not move at all has its period after the first step
@@ -209,7 +209,7 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> Drive
                 lanes.evaluate_kept(lane, Until::EndOfArc);
             }
             lanes.end_arc(lane, finish);
-        } else if state.steps(ring.clock) >= settings.max_steps {
+        } else if state.gives_up(ring.clock, time, settings.max_steps) {
             lanes.fail(lane, Status::StepLimit, finish);
         } else if length <= f64::EPSILON * time * f64::EPSILON {
             lanes.fail(lane, Status::StepFloor, finish);

@@ -3,6 +3,7 @@
 use super::period::Period;
 use super::truncation::TruncationSums;
 use crate::dynamics::gyrostat::{IMPULSE, IMPULSE_INTEGRAL, WITH_ANGLES, WITH_THRUST};
+use crate::ode::{PACE_STEPS, is_out_of_reach};
 use crate::run::Grid;
 
 /// Where one lane is in its run.
@@ -78,6 +79,21 @@ impl LaneState {
     pub(super) fn steps(&self, clock: usize) -> u64 {
         let until = self.waiting.map_or(clock, |waiting| waiting.since);
         self.steps_before + (until - self.begun) as u64
+    }
+
+    /// The step after `clock` at which the lane is examined for [`LaneState::gives_up`].
+    pub(super) fn judged(&self, clock: usize, max_steps: u64) -> u64 {
+        let begun = self.begun as u64;
+        let limit = begun.saturating_add(max_steps.saturating_sub(self.steps_before));
+        if (clock as u64) < begun + PACE_STEPS { limit.min(begun + PACE_STEPS) } else { limit }
+    }
+
+    /// Whether the run has taken all steps that it may take by step `clock`, `time` units after the start of its arc, or cannot get to the end
+    /// of the arc with them.
+    pub(super) fn gives_up(&self, clock: usize, time: f64, max_steps: u64) -> bool {
+        let steps = self.steps(clock);
+        let is_judged = steps - self.steps_before == PACE_STEPS;
+        steps >= max_steps || is_judged && is_out_of_reach(max_steps - self.steps_before, time, self.length)
     }
 
     /// Time of the next observation point of the arc since its start, units; infinite where there is none or a return is looked for.
