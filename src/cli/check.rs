@@ -9,11 +9,12 @@ use crate::cli::input::{isa, plan};
 use crate::cli::{dispersions, screen};
 use crate::dataset::rows_file::RowsFile;
 use crate::ensemble::influence::without_effect;
-use crate::ensemble::probe::{AuditProbe, RunProbe};
+use crate::ensemble::probe::{AuditProbe, LongRun, RunProbe};
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::{Ensemble, Part, PartId};
 use crate::math::symmetric::principal_axes;
 use crate::observables::{Group, Request};
+use crate::ode::{PACE_STEPS, is_out_of_reach};
 use crate::report::failure_text;
 use crate::report::number::{bytes, short};
 use crate::run::StateField;
@@ -213,6 +214,17 @@ fn field_name(field: StateField) -> &'static str {
 fn estimate(ensemble: &Ensemble<'_>, mut probe: RunProbe) -> Result<String, Failure> {
     let plan = ensemble.plan();
     let count = probe.count();
+    if let Some(LongRun { sample, reached }) = probe.too_long {
+        let duration = plan.grid.duration();
+        let end = if is_out_of_reach(plan.max_steps, reached, duration) {
+            format!("; at that pace integrator.max_steps ({}) does not suffice", plan.max_steps)
+        } else {
+            String::new()
+        };
+        return Ok(format!(
+            "\n== Estimate\ntime and disk space cannot be estimated: sample {sample} needs more than {PACE_STEPS} steps, which lead to {reached:?} s of {duration:?} s{end}\n"
+        ));
+    }
     let failed = if probe.failed() == 0 || probe.is_hopeless() { String::new() } else { failures(&probe) };
 
     let file = RowsFile::new(ensemble).map_err(Failure::files)?;
@@ -257,7 +269,14 @@ fn audit_estimate(ensemble: &Ensemble<'_>) -> String {
         return "no audit ([audit] fraction = 0.01 or --audit 0.01 compares one sample in a hundred with a reference solution)\n"
             .to_owned();
     }
-    let AuditProbe { seconds, count } = AuditProbe::new(ensemble);
+    let AuditProbe { seconds, count } = match AuditProbe::new(ensemble) {
+        Ok(probe) => probe,
+        Err(sample) => {
+            return format!(
+                "the time of audits cannot be estimated: that of sample {sample} needs more than {PACE_STEPS} steps\n"
+            );
+        }
+    };
     let audits = plan.audit_fraction * plan.rows() as f64;
     let cores = cores();
     format!(

@@ -13,7 +13,7 @@ use crate::dataset::found::{Contents, contents};
 use crate::dataset::rows_file::headings;
 use crate::dataset::storage::Disk;
 use crate::ensemble::Ensemble;
-use crate::ensemble::probe::RunProbe;
+use crate::ensemble::probe::{AuditProbe, RunProbe};
 use crate::ensemble::run_cost::{parts_of_runs, run_seconds};
 use crate::ensemble::runner::threads;
 use crate::observables::band_series::band_series;
@@ -160,8 +160,17 @@ impl Workload {
         if self.seconds <= LONG_S || self.run_seconds > SHORT_RUN_S {
             return self;
         }
-        let seconds = self.seconds * RunProbe::new(ensemble).seconds / self.run_seconds;
-        Workload { seconds, ..self }
+        let probe = RunProbe::new(ensemble);
+        let fraction = ensemble.plan().audit_fraction;
+        let audit = if fraction > 0.0 { AuditProbe::new(ensemble).map(|probe| probe.seconds) } else { Ok(0.0) };
+        match (probe.too_long, audit) {
+            (None, Ok(audit)) => {
+                let run_seconds = probe.seconds + fraction * audit;
+                Workload { seconds: self.seconds * run_seconds / self.run_seconds, ..self }
+            }
+            // what is supposed of a run stays, which is more than what a probe has time for
+            _ => self,
+        }
     }
 
     /// Refuses what the machine cannot do, and without `yes` what takes long or most of the disk of `root`. Of a shard the time is not asked:

@@ -208,7 +208,8 @@ impl Selection {
 pub struct Auditor {
     isa: Isa,
     grid: Grid,
-    max_steps: u64,
+    /// Most steps of a reference solution in plain doubles.
+    most_steps: u64,
     /// What the campaign observes, and the group numerics.
     request: Request,
     engine: Box<dyn Engine>,
@@ -244,7 +245,7 @@ impl Auditor {
         Auditor {
             isa,
             grid: grid.clone(),
-            max_steps: plan.max_steps,
+            most_steps: plan.max_steps.max(reference_solution::MOST_STEPS),
             engine: propagator(plan, grid.clone(), compared(&request).union(request.fields())).engine(isa),
             observer: Observer::new(request, grid).with_nominal(nominal.clone()),
             row: vec![f64::NAN; request.columns().len()],
@@ -256,6 +257,12 @@ impl Auditor {
             request,
             reference_request,
         }
+    }
+
+    /// The same with reference solutions in plain doubles of no more steps than these.
+    #[must_use]
+    pub fn with_most_steps(self, most_steps: u64) -> Self {
+        Auditor { most_steps, ..self }
     }
 
     /// Audits the run of `scene`.
@@ -326,7 +333,7 @@ impl Auditor {
             return Ok((solution.map_err(NoAudit::Reference)?, reference_solution::TOLERANCE));
         }
         let tolerance = Tolerance { relative: PLAIN_TOLERANCE, absolute: PLAIN_TOLERANCE };
-        let control = Control { tolerance, step: None, max_steps: self.max_steps.max(reference_solution::MOST_STEPS) };
+        let control = Control { tolerance, step: None, max_steps: self.most_steps };
         let mut found = Err(NoAudit::Reference(Status::InternalError));
         PropagationSettings::new(Method::Taylor, control, self.grid.clone(), fields, scene).engine(self.isa).propagate(
             std::slice::from_ref(scene),

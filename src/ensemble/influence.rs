@@ -4,15 +4,17 @@
 use std::time::Instant;
 
 use crate::campaign::{Plan, SceneDraws};
+use crate::ensemble::probe::limited;
 use crate::ensemble::single::SingleRun;
 use crate::math::Isa;
+use crate::run::Status;
 use crate::sampling::{Design, Dispersions, Draws, SampleId};
 use crate::scene::{Parameter, Scene};
 
 /// Samples that are drawn to find those that are tried.
 const DRAWN: u64 = 1000;
 /// Nothing is found out where that would take longer, s.
-const LONGEST_S: f64 = 5.0;
+const LONGEST_S: f64 = 1.0;
 
 /// The names of the dispersed parameters of `plan`, or of their dispersed components, that leave every requested column as it is, bit for bit, when
 /// they change: alone from the nominal scene to their values of some samples, and back in these samples. Inputs of derived parameters have an
@@ -30,17 +32,25 @@ pub fn without_effect(plan: &Plan, isa: Isa) -> Option<Vec<String>> {
         .collect();
     parameters.retain(|parameter| !inputs.contains(parameter));
     let start = Instant::now();
+    let plan = &limited(plan);
     let nominal = row_with(plan, isa, &[], &|_| false)?;
     let tried = extreme_samples(plan, &parameters);
     let runs = 3 * tried.iter().map(Vec::len).sum::<usize>();
     if start.elapsed().as_secs_f64() * runs as f64 > LONGEST_S {
         return None;
     }
-    let unseen = parameters.iter().zip(&tried).filter(|(parameter, samples)| {
-        let is_seen = |applied: &Vec<f64>| is_seen(plan, isa, **parameter, applied, &nominal);
-        !samples.is_empty() && !samples.iter().any(is_seen)
-    });
-    Some(unseen.map(|(parameter, _)| dispersed_name(plan, *parameter)).collect())
+    let mut unseen = Vec::new();
+    for (parameter, samples) in parameters.iter().zip(&tried) {
+        let is_seen = |applied: &Vec<f64>| is_seen(plan, isa, *parameter, applied, &nominal);
+        if !samples.is_empty() && !samples.iter().any(is_seen) {
+            unseen.push(dispersed_name(plan, *parameter));
+        }
+        // the runs of samples may take longer than the nominal one
+        if start.elapsed().as_secs_f64() > LONGEST_S {
+            return None;
+        }
+    }
+    Some(unseen)
 }
 
 /// Whether a row differs where `parameter` has its values among `applied`, those of a sample, in place of the nominal ones: in the nominal scene,
@@ -52,7 +62,7 @@ fn is_seen(plan: &Plan, isa: Isa, parameter: Parameter, applied: &[f64], nominal
 }
 
 /// The bits of the requested columns of the nominal scene with those parameters that are applied at their values among `applied`; `None` where it
-/// is not physical.
+/// is not physical, or takes too long.
 fn row_with(plan: &Plan, isa: Isa, applied: &[f64], is_applied: &dyn Fn(Parameter) -> bool) -> Option<Vec<u64>> {
     let mut changed = plan.clone();
     for (column, value) in plan.dispersions.columns().iter().zip(applied).filter(|(c, _)| is_applied(c.parameter)) {
@@ -63,7 +73,7 @@ fn row_with(plan: &Plan, isa: Isa, applied: &[f64], is_applied: &dyn Fn(Paramete
     changed.dispersions = Dispersions::new(none, &changed.nominal).ok()?;
     Scene::resolve(&changed.nominal).ok()?;
     let run = SingleRun::new(&changed, SampleId(0), plan.grid.clone(), isa).ok()?;
-    Some(run.row.iter().map(|value| value.to_bits()).collect())
+    (run.outcome.status != Status::StepLimit).then(|| run.row.iter().map(|value| value.to_bits()).collect())
 }
 
 /// For each of `parameters` the applied values of those of the first samples in which one of its columns is largest or smallest, and is not

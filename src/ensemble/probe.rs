@@ -1,48 +1,91 @@
-//! [`RunProbe`], [`AuditProbe`]: the time of a run and of an audit, measured on the first samples of a campaign.
+//! [`RunProbe`], [`AuditProbe`]: the time of a run and of an audit, measured on the first samples of a campaign, in about a second whatever these are.
 
 use std::time::Instant;
 
-use crate::campaign::SceneDraws;
-use crate::ensemble::audit::Auditor;
+use crate::campaign::{Plan, SceneDraws};
+use crate::ensemble::audit::{Auditor, NoAudit};
 use crate::ensemble::failure_reasons::FailureReasons;
 use crate::ensemble::parts::{Part, PartId};
 use crate::ensemble::rows::Rows;
+use crate::ensemble::single::SingleRun;
 use crate::ensemble::supervision::Supervision;
 use crate::ensemble::worker::Ensemble;
-use crate::run::Status;
+use crate::ode::PACE_STEPS;
+use crate::run::{Grid, Status};
 use crate::sampling::SampleId;
 
 /// A probe takes about this long, s.
 const DURATION_S: f64 = 0.5;
 
+/// A probe runs so many times as many samples as before, as long as there is time.
+const GROWTH: usize = 8;
+
 /// A probe runs at most this many samples.
 const MOST_SAMPLES: usize = 512;
+
+/// Most points of a run of a probe.
+const MOST_POINTS: usize = 20_001;
+
+/// `plan` with runs of no more steps and points than a probe has time for, and without audits.
+pub fn limited(plan: &Plan) -> Plan {
+    let points = plan.grid.points().min(MOST_POINTS);
+    let grid = Grid::uniform(plan.grid.duration(), points);
+    Plan { max_steps: plan.max_steps.min(PACE_STEPS), grid, audit_fraction: 0.0, ..plan.clone() }
+}
+
+/// A sample whose run takes longer than a probe.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LongRun {
+    /// The first one.
+    pub sample: SampleId,
+    /// The time that it reaches in [`PACE_STEPS`] steps, s.
+    pub reached: f64,
+}
 
 /// The first runs of a campaign.
 #[derive(Clone, Debug)]
 pub struct RunProbe {
-    /// Time of a run on one core, s.
+    /// Time of a run on one core, without its audit, s; of no meaning where one is too long.
     pub seconds: f64,
     /// Their rows.
     pub rows: Rows,
+    /// A run that is too long to be measured; its row says that it has failed.
+    pub too_long: Option<LongRun>,
 }
 
 impl RunProbe {
-    /// Runs the first samples of `ensemble` for about half a second.
+    /// Runs the first samples of `ensemble`, in greater and greater numbers, for about half a second.
     pub fn new(ensemble: &Ensemble<'_>) -> Self {
-        let most = usize::try_from(ensemble.plan().samples).unwrap_or(usize::MAX).min(MOST_SAMPLES);
+        let (whole, isa) = (ensemble.plan(), ensemble.isa());
+        let plan = limited(whole);
+        let ensemble = Ensemble::new(&plan, isa);
+        let most = usize::try_from(plan.rows()).unwrap_or(usize::MAX).min(MOST_SAMPLES);
         let mut rows = ensemble.rows(most);
         let mut worker = ensemble.worker();
-        let mut timed = |count: usize| {
+        // of more points than those that are tried the time is that of the points
+        let points = whole.grid.points() as f64 / plan.grid.points() as f64;
+        let (mut count, mut total) = (1, 0.0);
+        loop {
             let start = Instant::now();
-            worker.run(Part { id: PartId(0), first: SampleId(0), count }, &mut rows, Supervision::progress(&|_| {}));
-            start.elapsed().as_secs_f64()
-        };
-        timed(1); // allocates and fills the caches
-        let one = timed(1).max(1e-7);
-        let count = ((DURATION_S / one) as usize).clamp(1, most);
-        let seconds = timed(count) / count as f64;
-        RunProbe { seconds, rows }
+            let part = Part { id: PartId(0), first: SampleId(0), count };
+            worker.run(part, &mut rows, Supervision::progress(&|_| {}));
+            let taken = start.elapsed().as_secs_f64();
+            total += taken;
+            let seconds = taken / count as f64;
+            let long = rows.statuses().iter().position(|status| *status == Status::StepLimit);
+            if let Some(row) = long.filter(|_| plan.max_steps < whole.max_steps) {
+                let sample = rows.samples()[row];
+                let run = SingleRun::new(&plan, sample, Grid::uniform(plan.grid.duration(), 2), isa);
+                let reached = run.map_or(0.0, |run| run.outcome.time);
+                return RunProbe { seconds, rows, too_long: Some(LongRun { sample, reached }) };
+            }
+            let affordable = (DURATION_S - total) / seconds.max(1e-7);
+            let next = most.min(count * GROWTH).min(affordable as usize);
+            if next <= count {
+                return RunProbe { seconds: seconds * points, rows, too_long: None };
+            }
+            count = next;
+        }
     }
 
     /// Number of runs.
@@ -50,15 +93,18 @@ impl RunProbe {
         self.rows.part().count
     }
 
-    /// How many of them failed.
+    /// How many of them failed; none where one is too long, as nobody knows how it ends.
     pub fn failed(&self) -> usize {
-        self.rows.statuses().iter().filter(|status| **status != Status::Done).count()
+        let failed = self.rows.statuses().iter().filter(|status| **status != Status::Done).count();
+        if self.too_long.is_some() { 0 } else { failed }
     }
 
     /// Whether no run is `ok` that statistics would be about: every one failed, or every one but the nominal.
     pub fn is_hopeless(&self) -> bool {
         self.failed() == self.count()
-            || self.count() > 1 && self.rows.statuses()[1..].iter().all(|status| *status != Status::Done)
+            || self.failed() > 0
+                && self.count() > 1
+                && self.rows.statuses()[1..].iter().all(|status| *status != Status::Done)
     }
 
     /// Why they failed.
@@ -80,19 +126,28 @@ pub struct AuditProbe {
 
 impl AuditProbe {
     /// Audits the first samples of `ensemble` for about half a second.
-    pub fn new(ensemble: &Ensemble<'_>) -> Self {
-        let plan = ensemble.plan();
-        let mut auditor = Auditor::new(plan, ensemble.isa(), &plan.grid);
+    ///
+    /// # Errors
+    /// The first sample whose audit takes longer than a probe.
+    pub fn new(ensemble: &Ensemble<'_>) -> Result<Self, SampleId> {
+        let whole = ensemble.plan();
+        let plan = &Plan { grid: whole.grid.clone(), ..limited(whole) };
+        let mut auditor = Auditor::new(plan, ensemble.isa(), &plan.grid).with_most_steps(PACE_STEPS);
         let mut draws = SceneDraws::new(plan);
         let start = Instant::now();
         let (mut count, mut sample) = (0_u32, 0);
         while sample < plan.samples && start.elapsed().as_secs_f64() < DURATION_S {
             if let Ok(scene) = draws.scene(SampleId(sample)) {
-                let _ = auditor.audit(&scene); // its time counts, whatever it found
+                // its time counts, whatever it found
+                if let Err(NoAudit::Run(Status::StepLimit) | NoAudit::Reference(Status::StepLimit)) =
+                    auditor.audit(&scene)
+                {
+                    return Err(SampleId(sample));
+                }
                 count += 1;
             }
             sample += 1;
         }
-        AuditProbe { seconds: start.elapsed().as_secs_f64() / f64::from(count.max(1)), count }
+        Ok(AuditProbe { seconds: start.elapsed().as_secs_f64() / f64::from(count.max(1)), count })
     }
 }

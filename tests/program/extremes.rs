@@ -117,3 +117,67 @@ fn extremes_are_refused_or_answered() {
     }
     assert!(refused > 15 && answered > 20, "{refused} refused, {answered} answered");
 }
+
+/// What takes hours or more: rates that no step resolves, a wheel that is larger than a planet.
+const LONG: &[(&str, &str)] = &[
+    ("[0, 3.141592653589793, 31.41592653589793]", "[1e9, 1e9, 0]"),
+    ("[0, 3.141592653589793, 31.41592653589793]", "[0, 1e308, 1e308]"),
+    ("radius_m = 0.25", "radius_m = 1e9"),
+];
+
+/// Law: a run that `integrator.max_steps` does not suffice for ends as soon as its pace says so, in all methods: as a row with that status and
+/// reason. `check` says what it cannot estimate. (Without the first these commands take minutes.)
+#[test]
+fn what_is_out_of_reach_ends_at_once() {
+    let scratch = folder("out-of-reach");
+    for (from, to) in LONG {
+        let text = campaign().replace("samples = 600", "samples = 3").replacen(from, to, 1);
+        scratch.file("long.toml", &text);
+        let said = scratch.prints("check long.toml", 0);
+        let (_, why) =
+            said.split_once("cannot be estimated: sample 0 needs more than 20000 steps, which lead to ").unwrap();
+        assert!(
+            why.contains("s of 1.0 s; at that pace integrator.max_steps (10000000) does not suffice"),
+            "{to}: {why}"
+        );
+        let said = scratch.prints("simulate long.toml", 1);
+        assert!(said.contains("step_limit: integrator.max_steps does not suffice: the run reached "), "{to}: {said}");
+        scratch.prints("campaign long.toml --out r --overwrite", 1);
+        let rows = &batches(&scratch.path("r/runs/part-000000.parquet"))[0];
+        let statuses = rows.column_by_name("status").unwrap().as_string::<i32>();
+        assert!(statuses.iter().all(|status| status == Some("step_limit")), "{to}: {statuses:?}");
+    }
+    let fast = campaign().replace("[0, 3.141592653589793, 31.41592653589793]", "[1e9, 1e9, 0]");
+    for method in spindrift::propagation::Method::ALL {
+        let step = if method.has_fixed_step() { "\nstep_s = 1e-10" } else { "" };
+        let written = format!("method = \"{}\"\ntolerance = 1e-10{step}", method.name());
+        scratch.file("fast.toml", &fast.replace("method = \"auto\"\ntolerance = 1e-10", &written));
+        let said = scratch.prints("simulate fast.toml", 1);
+        assert!(said.contains("step_limit: integrator.max_steps does not suffice"), "{}: {said}", method.name());
+    }
+}
+
+/// Law: whether a run is given up does not depend on the runs beside it: those of a campaign end as each does alone, at the same time to all digits.
+/// A sample that is not out of reach is not given up.
+#[test]
+fn outliers_end_alone() {
+    let scratch = folder("outliers");
+    let text = campaign().replace("samples = 600", "samples = 40");
+    let at = text.find("[[disperse]]").unwrap();
+    let radius = "[[disperse]]\nparameter = \"wheels.w1.radius_m\"\ndistribution = \"empirical\"\nfile = \"radii.csv\"\ncolumn = \"x\"\n";
+    scratch.file("outliers.toml", &format!("{}{radius}", &text[..at]));
+    scratch.file("radii.csv", &format!("x\n{}1e9\n1e7\n", "0.25\n0.26\n".repeat(3)));
+    let said = scratch.prints("check outliers.toml", 0);
+    assert!(said.contains("cannot be estimated: sample "), "{said}");
+    scratch.prints("campaign outliers.toml --out r", 1);
+    let rows = &batches(&scratch.path("r/runs/part-000000.parquet"))[0];
+    let [statuses, reasons] =
+        ["status", "reason"].map(|name| rows.column_by_name(name).unwrap().as_string::<i32>().clone());
+    let limited: Vec<usize> = (0..40).filter(|row| statuses.value(*row) == "step_limit").collect();
+    assert!((5..20).contains(&limited.len()), "{limited:?}");
+    assert_eq!(limited.len() + statuses.iter().filter(|status| *status == Some("ok")).count(), 40, "{statuses:?}");
+    for row in limited {
+        let said = scratch.prints(&format!("simulate outliers.toml --sample {row}"), 1);
+        assert!(said.contains(&format!("the run ended with step_limit: {};", reasons.value(row))), "{row}: {said}");
+    }
+}
