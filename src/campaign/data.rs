@@ -2,12 +2,11 @@
 //! are drawn or are a table of samples.
 //!
 //! A path counts from the folder of the campaign file. What a plan keeps of a file is its name and the SHA-256 of its bytes,
-//! so that a plan's identity includes its data.
+//! so that a plan's identity includes its data. Only the columns that are used are read, and how much memory they take is known before
+//! anything is decompressed.
 
+use super::data_columns::{Cells, ReadError, csv_columns, parquet_columns};
 use super::input_file::{self, InputError};
-use parquet::basic::Compression;
-use parquet::file::reader::{FileReader, SerializedFileReader};
-use parquet::record::{Field, Row};
 use sha2::{Digest, Sha256};
 use std::io::{Read, Seek};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -30,8 +29,10 @@ pub fn bytes(file: &Path) -> Result<Vec<u8>, InputError> {
     input_file::read(file, LARGEST_FILE)
 }
 
-/// Most numbers of a file: 160 MB. A compressed column of equal values can be a thousand times as large as its file.
+/// Most numbers of all files of a campaign: 160 MB. A compressed column of equal values can be a thousand times as large as its file.
 pub const MOST_NUMBERS: u64 = 20_000_000;
+/// Most tables of a campaign file that name a file of numbers: each is read for its table, in time that a user waits for.
+pub const MOST_FILES: usize = 100;
 /// Largest file, bytes: [`MOST_NUMBERS`] in 25 characters each.
 const LARGEST_FILE: u64 = 25 * MOST_NUMBERS;
 
@@ -42,53 +43,28 @@ pub struct DataFile {
     pub sha256: String,
     /// The names of the columns.
     pub names: Vec<String>,
-    columns: Vec<Cells>,
+    /// What was read of each; `None` of those that are not used.
+    columns: Vec<Option<Cells>>,
     /// The number of the first row of data as people count them in this format.
     first_row: usize,
-}
-
-/// The cells of a column.
-#[derive(Clone, Debug, Default, PartialEq)]
-struct Cells {
-    /// Numbers; NaN for a text that is none.
-    numbers: Vec<f64>,
-    /// The first text that is no number.
-    text: Option<(usize, String)>,
-}
-
-impl Cells {
-    fn push(&mut self, cell: Result<f64, String>) {
-        if let (Err(text), None) = (&cell, &self.text) {
-            self.text = Some((self.numbers.len(), text.clone()));
-        }
-        self.numbers.push(cell.unwrap_or(f64::NAN));
-    }
-}
-
-/// Why a file could not be read: its format, or its size.
-enum ReadError {
-    Format(String),
-    /// Its compression, which is not read.
-    Codec(&'static str),
-    /// It has at least so many numbers.
-    Size(u64),
 }
 
 /// What is wrong with a file: value, what is allowed, remedy.
 pub type Refusal = (String, String, String);
 
 impl DataFile {
-    /// Reads the whole file.
+    /// Reads the columns of the file whose names are `used`, at most `most` numbers.
     ///
     /// # Errors
-    /// What keeps it from being read.
-    pub fn read(path: &Path) -> Result<Self, Refusal> {
+    /// What keeps them from being read.
+    pub fn read(path: &Path, most: u64, used: &dyn Fn(&str) -> bool) -> Result<Self, Refusal> {
         let shown = path.display().to_string();
         let unreadable =
             |why: String, remedy: &str| (format!("{shown:?}"), format!("a readable file ({why})"), remedy.to_owned());
         let too_large = |size: String| {
-            let allowed = format!("a file of at most {MOST_NUMBERS} numbers (this one has {size})");
-            (format!("{shown:?}"), allowed, "keep fewer rows, or only the columns that are used".to_owned())
+            let others = if most < MOST_NUMBERS { format!(", {MOST_NUMBERS} in all files") } else { String::new() };
+            let allowed = format!("a file of at most {most} numbers{others} (this one has {size})");
+            (format!("{shown:?}"), allowed, "keep fewer rows, or name fewer columns".to_owned())
         };
         let (mut file, size) = input_file::open(path, LARGEST_FILE).map_err(|error| match error {
             InputError::Kind(kind) => {
@@ -113,18 +89,21 @@ impl DataFile {
                 "write it with gzip, zstd, snappy, lz4 or no compression, or as .csv",
             ),
             ReadError::Size(numbers) => too_large(format!("{numbers} numbers or more")),
+            ReadError::Row(allowed) => {
+                (format!("{shown:?}"), allowed, "is this a table of numbers? If so, write it again".to_owned())
+            }
         };
         let extension = path.extension().and_then(|extension| extension.to_str()).map(str::to_ascii_lowercase);
         let (names, columns, first_row) = match extension.as_deref() {
             Some("csv") => {
-                let (names, columns) = csv_columns(&bytes).map_err(refused)?;
+                let (names, columns) = csv_columns(&bytes, most, used).map_err(refused)?;
                 (names, columns, 2)
             }
             Some("parquet") => {
                 drop(bytes);
                 file.rewind().map_err(failed)?;
                 // the Parquet reader panics on some damaged files
-                let read = catch_unwind(AssertUnwindSafe(|| parquet_columns(file)));
+                let read = catch_unwind(AssertUnwindSafe(|| parquet_columns(file, most, used)));
                 let damaged =
                     |_| Err(ReadError::Format("it is damaged: the Parquet reader cannot decode it".to_owned()));
                 let (names, columns) = read.unwrap_or_else(damaged).map_err(refused)?;
@@ -138,13 +117,22 @@ impl DataFile {
         Ok(DataFile { sha256, names, columns, first_row })
     }
 
-    /// The numbers of the column called `name`, all finite; `None` where there is no such column.
+    /// How many numbers were read.
+    pub fn numbers(&self) -> u64 {
+        self.columns.iter().flatten().map(|cells| cells.numbers.len() as u64).sum()
+    }
+
+    /// The numbers of the column called `name`, all finite; `None` where there is no such column, or it was not to be read.
     ///
     /// # Errors
     /// The first cell that is not a finite number, or that there is none.
     pub fn column(&self, name: &str) -> Option<Result<Vec<f64>, Refusal>> {
         let index = self.names.iter().position(|known| known == name)?;
-        let Cells { numbers, text } = &self.columns[index];
+        let Cells { numbers, text, other } = self.columns[index].as_ref()?;
+        if let Some(other) = other {
+            let allowed = format!("a column of finite numbers ({name:?})");
+            return Some(Err(((*other).to_owned(), allowed, "write its numbers as numbers".to_owned())));
+        }
         if let Some(row) = numbers.iter().position(|number| !number.is_finite()) {
             let value = match text {
                 Some((first, text)) if *first == row => format!("{text:?}"),
@@ -161,80 +149,13 @@ impl DataFile {
     }
 }
 
-/// Names and columns of cells.
-type Columns = (Vec<String>, Vec<Cells>);
-
-/// That `rows` rows of `columns` columns are not too many numbers.
-fn fits(rows: u64, columns: usize) -> Result<(), ReadError> {
-    let numbers = rows.saturating_mul(columns as u64);
-    if numbers > MOST_NUMBERS { Err(ReadError::Size(numbers)) } else { Ok(()) }
-}
-
-fn csv_columns(bytes: &[u8]) -> Result<Columns, ReadError> {
-    let format = |error: csv::Error| ReadError::Format(error.to_string());
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(bytes);
-    let names: Vec<String> = reader.headers().map_err(format)?.iter().map(str::to_owned).collect();
-    let mut columns = vec![Cells::default(); names.len()];
-    for (row, record) in reader.records().enumerate() {
-        fits(row as u64 + 1, names.len())?;
-        for (column, cell) in columns.iter_mut().zip(record.map_err(format)?.iter()) {
-            column.push(cell.parse::<f64>().map_err(|_| cell.to_owned()));
-        }
-    }
-    Ok((names, columns))
-}
-
-fn parquet_columns(file: std::fs::File) -> Result<Columns, ReadError> {
-    let format = |error: parquet::errors::ParquetError| ReadError::Format(error.to_string());
-    let reader = SerializedFileReader::new(file).map_err(format)?;
-    let chunks = reader.metadata().row_groups().iter().flat_map(|group| group.columns());
-    let unread = |codec: Compression| match codec {
-        Compression::BROTLI(_) => Some("brotli"),
-        Compression::LZO => Some("LZO"),
-        _ => None,
-    };
-    if let Some(codec) = chunks.into_iter().find_map(|chunk| unread(chunk.compression())) {
-        return Err(ReadError::Codec(codec));
-    }
-    let metadata = reader.metadata().file_metadata();
-    let schema = metadata.schema_descr_ptr();
-    let names: Vec<String> = schema.root_schema().get_fields().iter().map(|field| field.name().to_owned()).collect();
-    fits(u64::try_from(metadata.num_rows()).unwrap_or(u64::MAX), names.len())?;
-    let mut columns = vec![Cells::default(); names.len()];
-    for (row, found) in reader.get_row_iter(None).map_err(format)?.enumerate() {
-        // what the metadata say is not to be relied on
-        fits(row as u64 + 1, names.len())?;
-        let found: Row = found.map_err(format)?;
-        for (column, (_, field)) in columns.iter_mut().zip(found.get_column_iter()) {
-            column.push(cell(field));
-        }
-    }
-    Ok((names, columns))
-}
-
-/// A Parquet value as a number.
-fn cell(field: &Field) -> Result<f64, String> {
-    Ok(match field {
-        Field::Bool(value) => f64::from(u8::from(*value)),
-        Field::Byte(value) => f64::from(*value),
-        Field::Short(value) => f64::from(*value),
-        Field::Int(value) => f64::from(*value),
-        Field::Long(value) => *value as f64,
-        Field::UByte(value) => f64::from(*value),
-        Field::UShort(value) => f64::from(*value),
-        Field::UInt(value) => f64::from(*value),
-        Field::ULong(value) => *value as f64,
-        Field::Float(value) => f64::from(*value),
-        Field::Double(value) => *value,
-        other => return Err(other.to_string()),
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use parquet::basic::Compression;
     use parquet::data_type::DoubleType;
     use parquet::file::properties::WriterProperties;
+    use parquet::file::reader::{FileReader, SerializedFileReader};
     use parquet::file::writer::SerializedFileWriter;
     use parquet::schema::parser::parse_message_type;
     use std::sync::Arc;
@@ -258,7 +179,7 @@ mod tests {
         group.close().expect("closed");
         writer.close().expect("closed");
         let size = std::fs::metadata(&path).expect("a file").len();
-        let refused = DataFile::read(&path).expect_err("too many");
+        let refused = DataFile::read(&path, MOST_NUMBERS, &|_| true).expect_err("too many");
         std::fs::remove_file(&path).expect("removed");
         assert!(size < 1_000_000, "{size} bytes");
         assert!(refused.1.contains("at most 20000000 numbers (this one has 20000001"), "{refused:?}");
@@ -288,7 +209,8 @@ mod tests {
     fn read(name: &str, bytes: &[u8]) -> Result<Vec<f64>, Refusal> {
         let path = std::env::temp_dir().join(format!("spindrift-{}-{name}.parquet", std::process::id()));
         std::fs::write(&path, bytes).expect("written");
-        let found = DataFile::read(&path).and_then(|data| data.column("x").expect("the column"));
+        let found =
+            DataFile::read(&path, MOST_NUMBERS, &|_| true).and_then(|data| data.column("x").expect("the column"));
         std::fs::remove_file(&path).expect("removed");
         found
     }
@@ -353,7 +275,8 @@ mod tests {
     fn read_or_absent(bytes: &[u8]) -> bool {
         let path = std::env::temp_dir().join(format!("spindrift-{}-damaged.parquet", std::process::id()));
         std::fs::write(&path, bytes).expect("written");
-        let found = DataFile::read(&path).map(|data| data.column("x").is_none_or(|column| column.is_err()));
+        let found = DataFile::read(&path, MOST_NUMBERS, &|_| true)
+            .map(|data| data.column("x").is_none_or(|column| column.is_err()));
         std::fs::remove_file(&path).expect("removed");
         found.unwrap_or(true)
     }

@@ -1,18 +1,20 @@
 //! The keys that name a file of numbers: `file`, `sha256`, `column`, `parameters`, `columns`.
 
-use super::data::{COPIES, DataFile, copy_name};
+use super::data::{COPIES, DataFile, MOST_FILES, MOST_NUMBERS, copy_name};
 use super::parameter::{named, unknown_parameter};
 use super::problem::nearest;
 use super::section::Section;
 use crate::sampling::DataColumn;
-use crate::scene::Parameter;
+use crate::scene::{Parameter, SceneInput};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// The column `column` of the file `file`.
 pub(super) fn column(table: &mut Section<'_, '_>) -> Option<DataColumn> {
     table.require("column", "the name of a column of the file", "\"mass_kg\"");
     let column = table.text("column").map(str::to_owned);
-    let (file, data) = file(table)?;
+    let wanted = column.clone();
+    let (file, data) = file(table, &|name| wanted.as_deref() == Some(name))?;
     let column = column?;
     let values = match data.column(&column) {
         Some(Ok(values)) => values.into(),
@@ -29,9 +31,13 @@ pub(super) fn column(table: &mut Section<'_, '_>) -> Option<DataColumn> {
     Some(DataColumn { file, sha256: data.sha256, column, target: None, values })
 }
 
+/// Most characters of a column's name in a message.
+const LONGEST_SHOWN: usize = 60;
+
 /// The message about a column that a file does not have.
 fn absent_column(column: &str, data: &DataFile) -> (String, String) {
-    let shown: Vec<&str> = data.names.iter().map(String::as_str).take(12).collect();
+    let short = |name: &String| name.chars().take(LONGEST_SHOWN).collect::<String>();
+    let shown: Vec<String> = data.names.iter().map(short).take(12).collect();
     let remedy = match nearest(column, data.names.iter().map(String::as_str)) {
         Some(meant) => format!("did you mean {meant:?}?"),
         None => "name one of these, or add the column to the file".to_owned(),
@@ -39,20 +45,28 @@ fn absent_column(column: &str, data: &DataFile) -> (String, String) {
     (format!("a column of the file ({})", shown.join(", ")), remedy)
 }
 
-/// The file that `file` names, with what is in it; if `sha256` is written, it must be the file's.
-fn file(table: &mut Section<'_, '_>) -> Option<(String, DataFile)> {
+/// The file that `file` names, with its columns that are `used`; if `sha256` is written, it must be the file's.
+fn file(table: &mut Section<'_, '_>, used: &dyn Fn(&str) -> bool) -> Option<(String, DataFile)> {
     table.require("file", "the path of a .csv or .parquet file, from this file's folder", "\"data.csv\"");
     let name = table.text("file").map(str::to_owned);
     let sha256 = table.text("sha256").map(str::to_owned);
     let name = name?;
+    let (tables, numbers) = table.document.data;
+    table.document.data.0 += 1;
+    if tables >= MOST_FILES {
+        let allowed = format!("in at most {MOST_FILES} tables of a campaign file");
+        table.refuse("file", allowed, "draw several parameters from the rows of one file (parameters = [...])");
+        return None;
+    }
     let path = found(table.document.folder(), &name, sha256.as_deref());
-    let data = match DataFile::read(&path) {
+    let data = match DataFile::read(&path, MOST_NUMBERS - numbers, used) {
         Ok(data) => data,
         Err((value, allowed, remedy)) => {
             table.refuse_value("file", value, allowed, remedy);
             return None;
         }
     };
+    table.document.data.1 += data.numbers();
     table.document.files.push((path, data.sha256.clone()));
     if sha256.is_some_and(|sha256| sha256 != data.sha256) {
         let allowed = format!("the SHA-256 of the file, {}", data.sha256);
@@ -75,7 +89,16 @@ fn found(folder: &Path, name: &str, sha256: Option<&str>) -> PathBuf {
 pub(super) fn columns(table: &mut Section<'_, '_>) -> Option<Vec<DataColumn>> {
     let listed = table.texts("parameters", "[\"wheels.w1.radius_m\"]");
     let own = table.texts("columns", "[\"radius\"]");
-    let read = file(table);
+    let scene = table.document.scene.clone();
+    let used: BTreeSet<String> = match (&own, &listed) {
+        (Some(own), _) => own.iter().cloned().collect(),
+        (None, Some(listed)) => listed.iter().flat_map(|name| names_of(&scene, name)).collect(),
+        (None, None) => Parameter::all(&scene).flat_map(|parameter| names_of(&scene, &parameter.name())).collect(),
+    };
+    // a component may be written as [0] too
+    let is_component =
+        |name: &str| listed.is_none() && name.split_once('[').is_some_and(|(whole, _)| used.contains(whole));
+    let read = file(table, &|name| used.contains(name) || is_component(name));
     if table.has("parameters") && listed.as_ref().is_none_or(Vec::is_empty) {
         if listed.is_some() {
             table.refuse("parameters", "at least one name", "leave the key out for all columns of the file");
@@ -138,6 +161,17 @@ fn components(table: &mut Section<'_, '_>, name: &str) -> Option<Vec<(String, (P
         return None;
     };
     Some(vec![(name.to_owned(), component)])
+}
+
+/// The names that columns of a parameter, or of a component, may have.
+fn names_of(scene: &SceneInput, name: &str) -> Vec<String> {
+    let (parameter, components) = match (Parameter::find(scene, name), named(scene, name)) {
+        (Some((parameter, None)), _) => (parameter, 0..parameter.width()),
+        (_, Some((parameter, component))) => (parameter, component..component + 1),
+        _ => return Vec::new(),
+    };
+    let names = components.flat_map(|k| [parameter.component_name(k), parameter.column_name(k)]);
+    names.chain([name.to_owned()]).collect()
 }
 
 /// The numbers of the column that has one of the names `known`; the first of them is told where there is none.

@@ -50,6 +50,8 @@ pub struct Document<'a> {
     folder: PathBuf,
     /// The files of numbers that were read, each with the SHA-256 of its bytes.
     pub(super) files: Vec<(PathBuf, String)>,
+    /// How many tables named a file of numbers, and how many numbers were read.
+    pub(super) data: (usize, u64),
     /// The scene of the document, once it is read: names of parameters are those of its tables.
     pub(super) scene: SceneInput,
 }
@@ -76,6 +78,7 @@ impl<'a> Document<'a> {
             spans: BTreeMap::new(),
             folder: PathBuf::new(),
             files: Vec::new(),
+            data: (0, 0),
             scene: SceneInput::blank(),
         }
     }

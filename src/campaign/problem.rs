@@ -84,10 +84,14 @@ impl Display for CampaignError {
 
 impl std::error::Error for CampaignError {}
 
+/// Names of more bytes than this are not compared: nobody misspelt them, and it would take their product in time.
+const LONGEST_NAME: usize = 300;
+
 /// The candidate that `written` probably means: one that contains it, or else the one with the fewest changes of letters, if
 /// these are at most a third of them.
 pub fn nearest<'a>(written: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let candidates: Vec<&str> = candidates.into_iter().collect();
+    let is_short = |name: &&str| name.len() <= LONGEST_NAME && written.len() <= LONGEST_NAME;
+    let candidates: Vec<&str> = candidates.into_iter().filter(is_short).collect();
     // a name that was not written to its end
     if let Some(whole) = candidates.iter().find(|c| written.len() > 3 && c.starts_with(written)) {
         return Some(whole);

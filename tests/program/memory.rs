@@ -92,6 +92,62 @@ fn a_campaign_holds_no_rows() {
     assert!(is_flat(&[few, many]), "kB: {few} for 6e4 samples, {many} for 1.2e5");
 }
 
+/// Writes a Parquet file of `rows` numbers, in the column `x`, and as many texts of a million letters, in `text`.
+fn table_with_texts(path: &Path, rows: usize) {
+    use parquet::data_type::{ByteArray, ByteArrayType, DoubleType};
+    let schema = "message m { required double x; required binary text (UTF8); }";
+    let schema = std::sync::Arc::new(parquet::schema::parser::parse_message_type(schema).unwrap());
+    let zstd = parquet::basic::Compression::ZSTD(parquet::basic::ZstdLevel::default());
+    // without a dictionary: one page, which is decompressed as a whole
+    let properties = parquet::file::properties::WriterProperties::builder().set_compression(zstd);
+    let properties = properties.set_dictionary_enabled(false).build();
+    let file = fs::File::create(path).unwrap();
+    let mut writer = parquet::file::writer::SerializedFileWriter::new(file, schema, properties.into()).unwrap();
+    let mut group = writer.next_row_group().unwrap();
+    let mut column = group.next_column().unwrap().unwrap();
+    let numbers: Vec<f64> = (0..rows).map(|row| 0.25 + 1e-3 * row as f64).collect();
+    column.typed::<DoubleType>().write_batch(&numbers, None, None).unwrap();
+    column.close().unwrap();
+    let mut column = group.next_column().unwrap().unwrap();
+    let text = ByteArray::from("a".repeat(1_000_000).into_bytes());
+    column.typed::<ByteArrayType>().write_batch(&vec![text; rows], None, None).unwrap();
+    column.close().unwrap();
+    group.close().unwrap();
+    writer.close().unwrap();
+}
+
+/// Address space of a command on a small file, kB: a header of 20 MB is refused in 60,000; the command took 600,000 when it kept all of it.
+const LIMIT_KB: u64 = 150_000;
+
+/// Law: a file of numbers takes the memory of its columns that are used: others are not decompressed, and a row of CSV, its header too, has a limit.
+#[test]
+fn small_files_take_little_memory() {
+    let scratch = ScratchFolder::new("bombs");
+    let text = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns/spin_sweep.toml")).unwrap();
+    let at = text.find("[[disperse]]").unwrap();
+    let says = |file: &str, column: &str, code: i32| {
+        let draw = format!(
+            "[[disperse]]\nparameter = \"wheels.w1.radius_m\"\ndistribution = \"empirical\"\nfile = \"{file}\"\ncolumn = \"{column}\"\n"
+        );
+        fs::write(scratch.0.join("draw.toml"), format!("{}{draw}", &text[..at])).unwrap();
+        // of so short a command Linux says no peak: it gets no more than a limit
+        let limited =
+            format!("ulimit -v {LIMIT_KB}; exec {} sample draw.toml --samples 10", env!("CARGO_BIN_EXE_spindrift"));
+        scratch.outputs(Command::new("sh").args(["-c", &limited]), code)
+    };
+    table_with_texts(&scratch.0.join("texts.parquet"), 300);
+    assert!(fs::metadata(scratch.0.join("texts.parquet")).unwrap().len() < 200_000);
+    fs::write(scratch.0.join("header.csv"), format!("x,{}\n0.25,0\n0.26,0\n", "a".repeat(20_000_000))).unwrap();
+    for (file, column, code, expected) in [
+        ("texts.parquet", "x", 0, "of 9 draws"),
+        ("texts.parquet", "text", 2, "text or bytes: must be a column of finite numbers (\"text\")"),
+        ("header.csv", "y", 2, "must be a file with rows of at most 1048576 bytes"),
+    ] {
+        let said = says(file, column, code);
+        assert!(said.contains(expected), "{file} {column}: {said}");
+    }
+}
+
 /// The bytes a point that the refusal of ten million points of a campaign states; its text has `points = POINTS`.
 fn stated(scratch: &ScratchFolder, text: &str) -> u64 {
     fs::write(scratch.0.join("many.toml"), text.replace("POINTS", "10000000")).unwrap();

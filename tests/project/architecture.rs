@@ -31,14 +31,14 @@ const CRATES: [(&str, &[&str]); 27] = [
     ("bytes", &["dataset/parquet_source.rs"]),
     ("clap", &["cli"]),
     ("crc32fast", &["dataset"]),
-    ("csv", &["campaign/data.rs"]),
+    ("csv", &["campaign/data_columns.rs"]),
     (FOR_ITS_FEATURES, &["no file"]),
     ("fearless_simd", &["math", "dynamics", "ode", "propagation", "observables", "statistics"]),
     ("flate2", &["report/page"]),
     ("indicatif", &["cli"]),
     ("libm", &[]),
     ("nalgebra", &["statistics"]),
-    ("parquet", &["dataset", "campaign/data.rs"]),
+    ("parquet", &["dataset", "campaign/data_columns.rs"]),
     ("plotters", &["report"]),
     ("plotters_backend", &["report/bitmap.rs"]),
     ("png", &["report"]),
@@ -270,7 +270,7 @@ fn the_crate_check_can_fail() {
     assert_eq!(found("ensemble/x.rs", "#[derive(clap::Args)]\nstruct X;"), ["ensemble/x.rs uses clap"]);
     assert_eq!(found("campaign/x.rs", "use fearless_simd;"), ["campaign/x.rs uses fearless_simd"]);
     assert_eq!(found("campaign/plan.rs", "use csv::Reader;"), ["campaign/plan.rs uses csv"]);
-    assert!(found("campaign/data.rs", "use csv::Reader; use parquet::file;").is_empty());
+    assert!(found("campaign/data_columns.rs", "use csv::Reader; use parquet::file;").is_empty());
     assert!(found("scene/x.rs", "// clap::Args\nconst X: &str = r#\"plotters::x\"#; /* rand::x */").is_empty());
     let manifest =
         "[dependencies]\na-b = \"1\"\n[target.'cfg(unix)'.dependencies]\nc = \"1\"\n[dev-dependencies]\nd = \"1\"";

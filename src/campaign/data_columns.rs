@@ -1,0 +1,199 @@
+//! [`csv_columns`], [`parquet_columns`]: the columns of a table that are used, as numbers.
+//!
+//! A file may be small and have much: what a column or a row takes is limited before it is decompressed, or kept. Not here: files, and what is said
+//! of them ([`super::data`]).
+
+use parquet::basic::{Compression, Repetition, Type as PhysicalType};
+use parquet::file::metadata::ParquetMetaData;
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::record::{Field, Row};
+use parquet::schema::types::{Type, TypePtr};
+use std::cell::Cell;
+use std::io::{self, Read};
+
+/// Most bytes of a row of a CSV file, with the comments before it.
+const LONGEST_ROW: usize = 1 << 20;
+/// Most bytes of a column of a Parquet file when it is decompressed, for each of its rows: the widest number has eight, as a value and once more in a
+/// dictionary; a place in the dictionary, and whether there is a value, have fewer.
+const MOST_BYTES_OF_A_ROW: u64 = 24;
+/// The same of the headers of its pages, in each group of rows.
+const MOST_BYTES_OF_HEADERS: u64 = 1 << 20;
+/// The cells of a column.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Cells {
+    /// Numbers; NaN for a text that is none.
+    pub numbers: Vec<f64>,
+    /// The first text that is no number.
+    pub text: Option<(usize, String)>,
+    /// What the column has that is no number in any row, which is not read.
+    pub other: Option<&'static str>,
+}
+
+impl Cells {
+    fn push(&mut self, cell: Result<f64, String>) {
+        if let (Err(text), None) = (&cell, &self.text) {
+            self.text = Some((self.numbers.len(), text.clone()));
+        }
+        self.numbers.push(cell.unwrap_or(f64::NAN));
+    }
+}
+
+/// Why a file could not be read: its format, or its size.
+pub(super) enum ReadError {
+    Format(String),
+    /// Its compression, which is not read.
+    Codec(&'static str),
+    /// It has at least so many numbers.
+    Size(u64),
+    /// Its rows are longer than this.
+    Row(String),
+}
+
+/// Names and columns of cells.
+pub(super) type Columns = (Vec<String>, Vec<Option<Cells>>);
+
+/// That `rows` rows of `columns` columns are no more than `most` numbers.
+fn fits(rows: u64, columns: usize, most: u64) -> Result<(), ReadError> {
+    let numbers = rows.saturating_mul(columns as u64);
+    if numbers > most { Err(ReadError::Size(numbers)) } else { Ok(()) }
+}
+
+/// Bytes that end with an error where a row is too long: the CSV reader would keep all of it.
+struct Rows<'b> {
+    bytes: &'b [u8],
+    /// How many bytes may be read before the next row is there.
+    left: &'b Cell<usize>,
+}
+
+impl Read for Rows<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let count = self.bytes.read(buffer)?;
+        let left = self.left.get().checked_sub(count).ok_or(io::ErrorKind::FileTooLarge)?;
+        self.left.set(left);
+        Ok(count)
+    }
+}
+
+/// The columns of a CSV file that are `used`, at most `most` numbers.
+pub(super) fn csv_columns(bytes: &[u8], most: u64, used: &dyn Fn(&str) -> bool) -> Result<Columns, ReadError> {
+    let format = |error: csv::Error| match error.kind() {
+        csv::ErrorKind::Io(_) => ReadError::Row(format!("a file with rows of at most {LONGEST_ROW} bytes")),
+        _ => ReadError::Format(error.to_string()),
+    };
+    let left = Cell::new(LONGEST_ROW);
+    let rows = Rows { bytes, left: &left };
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(rows);
+    let names: Vec<String> = reader.headers().map_err(format)?.iter().map(str::to_owned).collect();
+    let mut columns: Vec<_> = names.iter().map(|name| used(name).then(Cells::default)).collect();
+    let count = columns.iter().flatten().count();
+    for (row, record) in reader.records().enumerate() {
+        left.set(LONGEST_ROW);
+        fits(row as u64 + 1, count, most)?;
+        for (column, cell) in columns.iter_mut().zip(record.map_err(format)?.iter()) {
+            if let Some(column) = column {
+                column.push(cell.parse::<f64>().map_err(|_| cell.to_owned()));
+            }
+        }
+    }
+    Ok((names, columns))
+}
+
+/// The columns of a Parquet file that are `used`, at most `most` numbers.
+pub(super) fn parquet_columns(
+    file: std::fs::File,
+    most: u64,
+    used: &dyn Fn(&str) -> bool,
+) -> Result<Columns, ReadError> {
+    let format = |error: parquet::errors::ParquetError| ReadError::Format(error.to_string());
+    let reader = SerializedFileReader::new(file).map_err(format)?;
+    let chunks = reader.metadata().row_groups().iter().flat_map(|group| group.columns());
+    let unread = |codec: Compression| match codec {
+        Compression::BROTLI(_) => Some("brotli"),
+        Compression::LZO => Some("LZO"),
+        _ => None,
+    };
+    if let Some(codec) = chunks.into_iter().find_map(|chunk| unread(chunk.compression())) {
+        return Err(ReadError::Codec(codec));
+    }
+    let schema = reader.metadata().file_metadata().schema_descr_ptr();
+    let fields = schema.root_schema().get_fields();
+    let names: Vec<String> = fields.iter().map(|field| field.name().to_owned()).collect();
+    let cells =
+        |field: &TypePtr| used(field.name()).then(|| Cells { other: other_than_numbers(field), ..Cells::default() });
+    let mut columns: Vec<_> = fields.iter().map(cells).collect();
+    let is_read = |column: &Option<Cells>| column.as_ref().is_some_and(|cells| cells.other.is_none());
+    let read: Vec<TypePtr> =
+        fields.iter().zip(&columns).filter(|(_, column)| is_read(column)).map(|(field, _)| field.clone()).collect();
+    if read.is_empty() {
+        return Ok((names, columns));
+    }
+    let rows = u64::try_from(reader.metadata().file_metadata().num_rows()).unwrap_or(u64::MAX);
+    fits(rows, read.len(), most)?;
+    check_sizes(reader.metadata(), &read)?;
+    let count = read.len();
+    let projection = Type::group_type_builder(schema.name()).with_fields(read).build().map_err(format)?;
+    for (row, found) in reader.get_row_iter(Some(projection)).map_err(format)?.enumerate() {
+        // what the metadata say is not to be relied on
+        fits(row as u64 + 1, count, most)?;
+        let found: Row = found.map_err(format)?;
+        let numbers = columns.iter_mut().flatten().filter(|cells| cells.other.is_none());
+        for (column, (_, field)) in numbers.zip(found.get_column_iter()) {
+            column.push(cell(field));
+        }
+    }
+    Ok((names, columns))
+}
+
+/// What a column has that is no number, whatever its rows say: it need not be read.
+fn other_than_numbers(field: &Type) -> Option<&'static str> {
+    if field.is_group() {
+        return Some("a table within the table");
+    }
+    if field.get_basic_info().repetition() == Repetition::REPEATED {
+        return Some("lists");
+    }
+    match field.get_physical_type() {
+        PhysicalType::BYTE_ARRAY | PhysicalType::FIXED_LEN_BYTE_ARRAY => Some("text or bytes"),
+        PhysicalType::INT96 => Some("times"),
+        PhysicalType::BOOLEAN
+        | PhysicalType::INT32
+        | PhysicalType::INT64
+        | PhysicalType::FLOAT
+        | PhysicalType::DOUBLE => None,
+    }
+}
+
+/// That columns of numbers are not larger, when they are decompressed, than numbers are.
+fn check_sizes(metadata: &ParquetMetaData, read: &[TypePtr]) -> Result<(), ReadError> {
+    for group in metadata.row_groups() {
+        let rows = u64::try_from(group.num_rows()).unwrap_or(u64::MAX);
+        let most = rows.saturating_mul(MOST_BYTES_OF_A_ROW).saturating_add(MOST_BYTES_OF_HEADERS);
+        let is_read = |path: &[String]| path.len() == 1 && read.iter().any(|field| field.name() == path[0]);
+        let sizes = group.columns().iter().filter(|chunk| is_read(chunk.column_path().parts()));
+        let largest = sizes.map(|chunk| u64::try_from(chunk.uncompressed_size()).unwrap_or(u64::MAX)).max();
+        if let Some(bytes) = largest.filter(|bytes| *bytes > most) {
+            return Err(ReadError::Row(format!(
+                "a file with columns of at most {most} bytes for {rows} rows, before compression (this one has {bytes})"
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// A Parquet value as a number.
+fn cell(field: &Field) -> Result<f64, String> {
+    Ok(match field {
+        Field::Bool(value) => f64::from(u8::from(*value)),
+        Field::Byte(value) => f64::from(*value),
+        Field::Short(value) => f64::from(*value),
+        Field::Int(value) => f64::from(*value),
+        Field::Long(value) => *value as f64,
+        Field::UByte(value) => f64::from(*value),
+        Field::UShort(value) => f64::from(*value),
+        Field::UInt(value) => f64::from(*value),
+        Field::ULong(value) => *value as f64,
+        Field::Float(value) => f64::from(*value),
+        Field::Double(value) => *value,
+        other => return Err(other.to_string()),
+    })
+}
