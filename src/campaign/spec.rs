@@ -177,12 +177,16 @@ fn default_groups() -> String {
 
 /// A name that is a folder's name on every system.
 fn name(section: &mut Section<'_, '_>) -> Option<String> {
-    const ALLOWED: &str = "1 to 100 letters, digits, _, - or . (not the first)";
+    const ALLOWED: &str = "1 to 100 letters, digits, _, - or . (the first one a letter, a digit or _)";
     section.require("name", ALLOWED, "\"my_campaign\"");
     let name = section.text("name")?;
     let plain = name.chars().all(|c| c.is_ascii_alphanumeric() || "_-.".contains(c));
-    if !plain || name.starts_with('.') || name.is_empty() || name.len() > 100 {
-        section.refuse("name", ALLOWED, "it names the folder of results: write it without spaces and slashes");
+    if !plain || name.starts_with(['.', '-']) || name.is_empty() || name.len() > 100 {
+        section.refuse(
+            "name",
+            ALLOWED,
+            "it names the folder of results, and is a word of commands: write it without spaces and slashes",
+        );
         return None;
     }
     Some(name.to_owned())

@@ -31,9 +31,10 @@ pub fn run(options: &SlurmOptions) -> Result<CommandOutcome, Failure> {
     }
     let file = find(&options.file).unwrap_or_else(|_| options.file.clone());
     let out = options.out.clone().unwrap_or_else(|| PathBuf::from(RESULTS).join(&plan.name));
-    let [file, out] = [file, out].map(|path| absolute(&path).map_err(|error| in_file(&path, &error)));
+    let [file, out] = [file, out].map(|path| word(&absolute(&path).map_err(|error| in_file(&path, &error))?));
     let program =
         std::env::current_exe().map_err(|error| Failure::files(format!("the path of this program: {error}")))?;
+    let program = word(&program)?;
     let number = |flag: &str, value: Option<u64>| value.map(|value| [flag.to_owned(), value.to_string()]);
     let arguments = [number("--samples", options.samples), number("--seed", options.seed)];
     let jobs = Jobs {
@@ -70,6 +71,17 @@ pub fn run(options: &SlurmOptions) -> Result<CommandOutcome, Failure> {
     };
     screen::print(&text)?;
     Ok(CommandOutcome::Done)
+}
+
+/// A path that a script can have as a word.
+fn word(path: &Path) -> Result<PathBuf, Failure> {
+    let is_word = path.to_str().is_some_and(|text| !text.contains(char::is_control));
+    let refusal = || {
+        Failure::Input(format!(
+            "{path:?}: must be a path in UTF-8 without line ends and other control characters: scripts have it as a word; rename it"
+        ))
+    };
+    is_word.then(|| path.to_owned()).ok_or_else(refusal)
 }
 
 fn in_file(path: &Path, error: &dyn std::fmt::Display) -> Failure {

@@ -1,13 +1,14 @@
 //! [`Jobs`]: the scripts of the Slurm jobs that run a campaign: an array with a task for each shard, and a job that finishes the result.
 //!
 //! Slurm: <https://slurm.schedmd.com/sbatch.html>. The array asks for SIGUSR1 before its time limit (`--signal=B:`: to the shell of the
-//! script, which passes it on). The program then stops with code 138, and the task puts itself back into the queue. Not here: who writes
-//! the scripts and submits them ([`super::slurm`]).
+//! script, which passes it on). The program then stops with code 138, and the task puts itself back into the queue, unless it was put back before
+//! and has made no part since: it would be put back for ever. Not here: who writes the scripts and submits them ([`super::slurm`]).
 
 use std::fmt::Write as _;
 use std::path::Path;
 
 use crate::cli::shell_word::{quoted, quoted_path};
+use crate::dataset::names::SHARDS;
 
 /// The second line of a script: by it, a script of this program is recognised.
 pub const MARK: &str = "# made by `spindrift slurm`";
@@ -96,6 +97,9 @@ impl Jobs<'_> {
             text,
             r#"
 shard='' is_asked='' is_again=''
+# the shard's manifest has a line for each part
+lines() {{ cat {manifests}/"$SLURM_ARRAY_TASK_ID-of-{shards}.jsonl" 2>/dev/null | wc -l; }}
+before=$(lines)
 # Slurm signals this shell before the time limit; the program then stops, and what it has committed stays
 trap 'is_asked=yes; kill -USR1 "$shard"' USR1
 {program} campaign {file} --out {out}{arguments} \
@@ -108,7 +112,13 @@ if [ -n "$is_asked" ]; then # the signal has ended the first wait, and not the p
     code=$?
 fi
 case $code in
-{STOPPED}) is_again=yes ;; # the time limit is near
+{STOPPED}) # the time limit is near
+    if [ "${{SLURM_RESTART_COUNT:-0}}" -gt 0 ] && [ "$(lines)" -le "$before" ]; then
+        echo "shard $SLURM_ARRAY_TASK_ID/{shards} is not put back into the queue again: it made no part between two time limits ({time})." \
+            "Make the scripts again with a longer --time or more --cpus; what is there stays." >&2
+    else
+        is_again=yes
+    fi ;;
 {KILLED}) [ "${{SLURM_RESTART_COUNT:-0}}" -lt {RESTARTS} ] && is_again=yes ;; # killed from outside
 esac
 if [ -n "$is_again" ]; then
@@ -120,6 +130,8 @@ exit "$code"
             file = quoted_path(self.file),
             out = quoted_path(self.out),
             cpus = self.cpus,
+            manifests = quoted_path(&self.out.join(SHARDS)),
+            time = time.text,
         );
         text
     }

@@ -45,12 +45,17 @@ pub const CASES: &[(&str, &str, &str)] = &[
     (
         "name = \"bad\"\n",
         "",
-        "bad.toml:1: campaign.name is missing: must be 1 to 100 letters, digits, _, - or . (not the first); add name = \"my_campaign\" to [campaign]",
+        "bad.toml:1: campaign.name is missing: must be 1 to 100 letters, digits, _, - or . (the first one a letter, a digit or _); add name = \"my_campaign\" to [campaign]",
     ),
     (
         "name = \"bad\"",
         "name = \"a/b\"",
-        "bad.toml:2: campaign.name = \"a/b\": must be 1 to 100 letters, digits, _, - or . (not the first); it names the folder of results: write it without spaces and slashes",
+        "bad.toml:2: campaign.name = \"a/b\": must be 1 to 100 letters, digits, _, - or . (the first one a letter, a digit or _); it names the folder of results, and is a word of commands: write it without spaces and slashes",
+    ),
+    (
+        "name = \"bad\"",
+        "name = \"-rf\"",
+        "bad.toml:2: campaign.name = \"-rf\": must be 1 to 100 letters, digits, _, - or . (the first one a letter, a digit or _); it names the folder of results, and is a word of commands: write it without spaces and slashes",
     ),
     ("name = \"bad\"", "name = 3", "bad.toml:2: campaign.name = 3: must be text; write it in quotes"),
     (

@@ -151,6 +151,42 @@ fn a_task_that_was_stopped_is_put_back() {
     }
 }
 
+/// Law: a task that needs longer than its time limit for a part is put back into the queue once, and then says what to do; one that has made a part is
+/// put back again, however often it was before.
+#[test]
+fn a_task_that_makes_no_part_is_not_put_back_for_ever() {
+    let scratch = folder("slurm-no-part");
+    program(&scratch, "scontrol", "");
+    scratch.prints("slurm small.toml --nodes 2 --cpus 1 --time 10 --out small", 0);
+    let text = fs::read_to_string(scratch.path("small-array.sh")).unwrap();
+    // in the place of the program: one that is stopped before its limit, and has made a part where `grows` is there
+    let manifest = scratch.path("small").join(spindrift::dataset::names::manifest_of(1, 2));
+    fs::create_dir_all(manifest.parent().unwrap()).unwrap();
+    program(&scratch, "stopped", &format!("[ -e grows ] && echo part >>'{}'\nexit 138", manifest.display()));
+    assert!(text.contains(env!("CARGO_BIN_EXE_spindrift")));
+    scratch.file("task.sh", &text.replace(env!("CARGO_BIN_EXE_spindrift"), "stopped"));
+    let ends = |restarts: u32| {
+        let mut shell = Command::new("bash");
+        shell.arg("task.sh").current_dir(&scratch.0).env("PATH", path(&scratch)).env("SLURM_JOB_ID", "101");
+        shell.env("SLURM_ARRAY_TASK_ID", "1").env("SLURM_RESTART_COUNT", restarts.to_string());
+        let output = shell.output().unwrap();
+        assert_eq!(output.status.code(), Some(138));
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let requeued = || fs::read_to_string(scratch.path("scontrol.log")).unwrap_or_default().lines().count();
+    for (restarts, grows, expected) in [(0, false, 1), (1, false, 1), (1, true, 2), (2, true, 3), (3, false, 3)] {
+        let _ = fs::remove_file(scratch.path("grows"));
+        if grows {
+            scratch.file("grows", "");
+        }
+        let before = requeued();
+        let said = ends(restarts);
+        assert_eq!(requeued(), expected, "{restarts} restarts: {said}");
+        let has_ended = said.contains("made no part between two time limits (10)") && said.contains("longer --time");
+        assert_eq!(has_ended, requeued() == before, "{restarts} restarts: {said}");
+    }
+}
+
 /// Law: `--submit` gives both scripts to sbatch, the second to start after the first; what sbatch refuses is said.
 #[test]
 fn submission() {
@@ -197,6 +233,16 @@ fn refusals() {
         let text = scratch.prints(arguments, code);
         assert!(text.contains(said), "{arguments}: {text}");
     }
+    // a path is one word of the scripts, whatever it has
+    for out in ["a\nrm -rf b", "a\u{1b}[31m"] {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_spindrift"));
+        command.args(format!("slurm small.toml {all} --out").split(' ')).arg(out);
+        let text = scratch.outputs(&mut command, 2);
+        assert!(text.contains("must be a path in UTF-8 without line ends"), "{text}");
+    }
+    scratch.file("option.toml", &super::small_campaign::campaign().replace("name = \"small\"", "name = \"-rf\""));
+    let text = scratch.prints(&format!("slurm option.toml {all}"), 2);
+    assert!(text.contains("campaign.name = \"-rf\""), "{text}");
     let stop = "\n[stop]\nobservable = \"energy_error_max\"\nquantile = 0.5\nhalf_width = 1e-12\nmax_samples = 2400\n";
     scratch.file("stop.toml", &format!("{}{stop}", super::small_campaign::campaign()));
     let text = scratch.prints(&format!("slurm stop.toml {all}"), 2);
