@@ -1,6 +1,6 @@
 //! The values of options that are more than a number or a path: each from its text, or what is allowed instead.
 
-use std::num::NonZeroU64;
+use std::num::{NonZeroU64, NonZeroUsize};
 
 use crate::campaign::section::choice;
 use crate::cli::slurm_script::TimeLimit;
@@ -67,6 +67,24 @@ pub fn shard(text: &str) -> Result<Shard, String> {
 pub fn shards(text: &str) -> Result<NonZeroU64, String> {
     let allowed = || format!("must be a whole number from 1 to {MOST_SHARDS}");
     text.parse().ok().filter(|number: &NonZeroU64| number.get() <= MOST_SHARDS).ok_or_else(allowed)
+}
+
+/// Most threads for each core. More only wait for each other, and each has its own memory.
+const MOST_THREADS_OF_A_CORE: usize = 4;
+
+/// A number of threads that this machine can use; otherwise the allowed range.
+///
+/// # Errors
+/// Where it is none.
+pub fn threads(text: &str) -> Result<NonZeroUsize, String> {
+    let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+    let most = MOST_THREADS_OF_A_CORE * cores;
+    let allowed = || {
+        format!(
+            "must be a whole number from 1 to {most}: {MOST_THREADS_OF_A_CORE} for each core that this process has ({cores})"
+        )
+    };
+    text.parse().ok().filter(|number: &NonZeroUsize| number.get() <= most).ok_or_else(allowed)
 }
 
 /// A time limit as Slurm reads it; otherwise the allowed forms.
@@ -152,6 +170,15 @@ mod tests {
             assert!(shard(wrong).is_err_and(|message| message.contains("1 <= K <= N")), "{wrong}");
         }
         assert!(shards("1000000").is_ok() && shards("0").is_err() && shards("1000001").is_err());
+    }
+
+    #[test]
+    fn threads_have_a_range() {
+        let most = 4 * std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+        assert!(threads("1").is_ok() && threads(&most.to_string()).is_ok());
+        for wrong in ["0", "-1", "1.5", "many", &(most + 1).to_string(), "100000", "99999999999999999999999"] {
+            assert!(threads(wrong).is_err_and(|message| message.contains(&format!("from 1 to {most}"))), "{wrong}");
+        }
     }
 
     /// Law: an option cannot add a line to a script.

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 
 use crate::cli::argument_values::{
-    count, fraction, group, method, sbatch_option, seconds, shard, shards, shift, time_limit, tolerance,
+    count, fraction, group, method, sbatch_option, seconds, shard, shards, shift, threads, time_limit, tolerance,
 };
 use crate::cli::slurm_script::TimeLimit;
 use crate::dataset::claim::Shard;
@@ -93,8 +93,8 @@ pub struct CampaignOptions {
     /// Start also what takes more than 24 hours of CPU time, or more than half of what the disk has left.
     #[arg(long)]
     pub yes: bool,
-    /// Number of threads [default: one for each core]; rows do not depend on it.
-    #[arg(long, value_name = "N")]
+    /// Number of threads, at most four for each core [default: one for each core]; rows do not depend on it.
+    #[arg(long, value_name = "N", value_parser = threads)]
     pub threads: Option<std::num::NonZeroUsize>,
     /// Fraction of the samples to compare with a reference solution, instead of the file's.
     #[arg(long, value_name = "F")]
@@ -131,8 +131,8 @@ pub struct ReportOptions {
     /// Write each figure as SVG and PNG into this folder.
     #[arg(long, value_name = "DIR")]
     pub figures: Option<PathBuf>,
-    /// Number of threads [default: one for each core]; the page does not depend on it.
-    #[arg(long, value_name = "N")]
+    /// Number of threads, at most four for each core [default: one for each core]; the page does not depend on it.
+    #[arg(long, value_name = "N", value_parser = threads)]
     pub threads: Option<std::num::NonZeroUsize>,
 }
 
@@ -150,8 +150,8 @@ pub struct FinishOptions {
     /// Write each figure of the report as SVG and PNG into this folder.
     #[arg(long, value_name = "DIR", conflicts_with = "no_report")]
     pub figures: Option<PathBuf>,
-    /// Number of threads [default: one for each core].
-    #[arg(long, value_name = "N")]
+    /// Number of threads, at most four for each core [default: one for each core].
+    #[arg(long, value_name = "N", value_parser = threads)]
     pub threads: Option<std::num::NonZeroUsize>,
 }
 
@@ -197,8 +197,8 @@ pub struct VerifyOptions {
     /// Make damaged or differing parts again.
     #[arg(long)]
     pub repair: bool,
-    /// Number of threads [default: one for each core].
-    #[arg(long, value_name = "N")]
+    /// Number of threads, at most four for each core [default: one for each core].
+    #[arg(long, value_name = "N", value_parser = threads)]
     pub threads: Option<std::num::NonZeroUsize>,
 }
 
@@ -223,8 +223,8 @@ pub struct CompareOptions {
     /// Write the whole comparison to a file: every observable, in .json or .parquet; in .json the plans and verdicts too.
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Number of threads [default: one for each core].
-    #[arg(long, value_name = "N")]
+    /// Number of threads, at most four for each core [default: one for each core].
+    #[arg(long, value_name = "N", value_parser = threads)]
     pub threads: Option<std::num::NonZeroUsize>,
 }
 

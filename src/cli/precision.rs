@@ -12,6 +12,7 @@ use crate::cli::workload::Workload;
 use crate::dataset::precision_table;
 use crate::ensemble::Ensemble;
 use crate::ensemble::precision::{Limits, Precision, States};
+use crate::ensemble::runner::start_threads;
 use crate::propagation::Method;
 use crate::report::canvas::Canvas;
 use crate::report::precision_figure::PrecisionFigure;
@@ -24,6 +25,7 @@ use crate::report::precision_text;
 pub fn run(options: &PrecisionOptions) -> Result<CommandOutcome, Failure> {
     let (plan, files) = plan_and_files(&options.file, Overrides::default())?;
     let isa = isa()?;
+    start_threads().map_err(|error| Failure::Files(format!("cannot start the threads: {error}")))?;
     let methods = options.methods.clone().unwrap_or_else(|| Method::ALL.to_vec());
     let mut tolerances = options.tolerances.clone().unwrap_or_else(default_tolerances);
     tolerances.sort_by(|a, b| b.total_cmp(a));

@@ -27,7 +27,7 @@ use crate::dataset::stopping::stopping;
 use crate::dataset::storage::Disk;
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::runner::threads;
-use crate::ensemble::{Ensemble, Part, Parts, RunError, Supervision, run as run_parts};
+use crate::ensemble::{Ensemble, Part, Parts, Supervision, run as run_parts};
 use crate::report::stopping_text::text as stopping_text;
 use crate::report::summary::rows_in;
 
@@ -256,8 +256,7 @@ fn run_them(
     let elapsed = bar.finish();
     match ended.map_err(Failure::files)? {
         Ok(seconds) => Ok((elapsed, seconds)),
-        Err(error @ RunError::Threads(_)) => Err(Failure::Input(error.to_string())),
-        Err(RunError::Sink(error)) => Err(Failure::files(error)),
+        Err(error) => Err(Failure::files(error)),
     }
 }
 

@@ -47,20 +47,21 @@ pub fn exit_code(signal: i32) -> u8 {
     u8::try_from(128 + signal).unwrap_or(u8::MAX)
 }
 
-/// Starts to watch for signals.
+/// Starts to watch for signals. Where its thread cannot be started, the program ends: it would not end at a signal.
 #[cfg(unix)]
 pub fn watch() -> &'static Signals {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGUSR1};
     let ignored = ignored_signals();
     let wanted = [SIGHUP, SIGINT, SIGTERM, SIGUSR1].into_iter().filter(|signal| ignored >> (signal - 1) & 1 == 0);
     if let Ok(mut signals) = signal_hook::iterator::Signals::new(wanted) {
-        std::thread::spawn(move || {
+        let watching = std::thread::Builder::new().spawn(move || {
             for signal in signals.forever() {
                 if ASKED.signal.compare_exchange(0, signal, Ordering::SeqCst, Ordering::SeqCst).is_err() {
                     std::process::exit(i32::from(exit_code(signal)));
                 }
                 ASKED.stop.store(true, Ordering::SeqCst);
-                std::thread::spawn(move || {
+                // without a further thread the command ends when its runs do
+                let _ = std::thread::Builder::new().spawn(move || {
                     std::thread::sleep(GRACE);
                     ASKED.abandon.store(true, Ordering::SeqCst);
                     std::thread::sleep(LAST);
@@ -71,6 +72,10 @@ pub fn watch() -> &'static Signals {
                 });
             }
         });
+        if let Err(error) = watching {
+            crate::cli::screen::note(&format!("error: cannot start a thread: {error}"));
+            std::process::exit(4);
+        }
     }
     &ASKED
 }

@@ -1,7 +1,9 @@
-//! [`in_parallel`]: independent items on several threads. [`in_order`]: the same, merged in their order as they come.
+//! [`in_parallel`]: independent items on several threads. [`in_order`]: the same, merged in their order as they come. Threads that the system does
+//! not start are done without.
 
 use std::num::NonZeroUsize;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread::Builder;
 
 /// `each` of the items, on `threads` threads, in their order.
 pub fn in_parallel<T: Send, U: Send>(
@@ -16,21 +18,26 @@ pub fn in_parallel<T: Send, U: Send>(
     }
     let waiting = Mutex::new(items.into_iter().enumerate());
     let done = Mutex::new(Vec::new());
-    std::thread::scope(|scope| {
-        for _ in 0..threads {
-            scope.spawn(|| {
-                loop {
-                    let next = waiting.lock().unwrap_or_else(PoisonError::into_inner).next();
-                    let Some((index, item)) = next else { return };
-                    let found = each(item);
-                    done.lock().unwrap_or_else(PoisonError::into_inner).push((index, found));
-                }
-            });
+    on_threads(threads, &|| {
+        loop {
+            let next = waiting.lock().unwrap_or_else(PoisonError::into_inner).next();
+            let Some((index, item)) = next else { return };
+            let found = each(item);
+            done.lock().unwrap_or_else(PoisonError::into_inner).push((index, found));
         }
     });
     let mut done = done.into_inner().unwrap_or_else(PoisonError::into_inner);
     done.sort_by_key(|(index, _)| *index);
     done.into_iter().map(|(_, found)| found).collect()
+}
+
+/// Does `work`, which several threads can share, on `threads` threads: this one, and as many more as can be started.
+pub fn on_threads(threads: usize, work: &(dyn Fn() + Sync)) {
+    std::thread::scope(|scope| {
+        let is_started = |_: &usize| Builder::new().spawn_scoped(scope, work).is_ok();
+        (1..threads).take_while(is_started).count();
+        work();
+    });
 }
 
 /// Items that may wait for an earlier one, for each thread.
@@ -54,11 +61,7 @@ pub fn in_order<T: Send, E: Send>(
     if threads <= 1 {
         queue.work(items, usize::MAX, &read);
     } else {
-        std::thread::scope(|scope| {
-            for _ in 0..threads {
-                scope.spawn(|| queue.work(items, threads * AHEAD, &read));
-            }
-        });
+        on_threads(threads, &|| queue.work(items, threads * AHEAD, &read));
     }
     match queue.state.into_inner().unwrap_or_else(PoisonError::into_inner).error {
         Some((_, error)) => Err(error),

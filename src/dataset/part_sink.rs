@@ -28,6 +28,9 @@ pub enum PartError {
     /// A file operation failed.
     #[error(transparent)]
     Storage(#[from] StorageError),
+    /// The thread that writes could not be started.
+    #[error("cannot start a thread: {0}")]
+    Thread(std::io::Error),
     /// The thread that writes has ended, after an error of its own.
     #[error("parts are no longer written")]
     Ended,
@@ -113,13 +116,14 @@ pub fn write_parts<R>(
     let sink = PartSink { file, counts, buffers: &buffers, encoded, seconds: Mutex::new([0.0; 2]) };
     std::thread::scope(|scope| {
         let (buffers, waiting) = (&buffers, waiting);
-        let writer = scope.spawn(move || -> Result<(), StorageError> {
+        let write = move || -> Result<(), StorageError> {
             waiting.iter().try_for_each(|(part, files)| {
                 folder.commit(part, &files)?;
                 buffers.give(files);
                 Ok(())
             })
-        });
+        };
+        let writer = std::thread::Builder::new().spawn_scoped(scope, write).map_err(PartError::Thread)?;
         let result = body(&sink);
         drop(sink);
         writer.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;

@@ -105,9 +105,14 @@ pub fn damaged(
         found
     };
     let mut found = std::thread::scope(|scope| {
-        let readers: Vec<_> = (0..threads.clamp(1, parts.len().max(1))).map(|_| scope.spawn(check)).collect();
+        let start = |_| std::thread::Builder::new().spawn_scoped(scope, check).ok();
+        let readers: Vec<_> = (1..threads.min(parts.len())).map_while(start).collect();
+        let own = check();
         let joined = readers.into_iter().map(|reader| reader.join());
-        joined.flat_map(|found| found.unwrap_or_else(|panic| std::panic::resume_unwind(panic))).collect::<Vec<_>>()
+        joined
+            .flat_map(|found| found.unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
+            .chain(own)
+            .collect::<Vec<_>>()
     });
     found.sort_by_key(|(part, _)| *part);
     found.into_iter().map(|(part, what)| what.map(|what| (part, what))).collect()

@@ -33,6 +33,14 @@ pub fn threads(asked: Option<NonZeroUsize>, parts: usize) -> usize {
     asked.map_or_else(cores, NonZeroUsize::get).min(parts.max(1))
 }
 
+/// Starts the threads that iterators of rayon share, one for each core.
+///
+/// # Errors
+/// Where they could not be started, or had been before.
+pub fn start_threads() -> Result<(), ThreadPoolBuildError> {
+    ThreadPoolBuilder::new().build_global()
+}
+
 /// Runs `parts` of `ensemble` and passes the rows to `sink`, each part once. `asked` threads work on them, but no more than there are
 /// parts ([`threads`]).
 ///

@@ -202,6 +202,14 @@ fn bad_input_ends_with_code_2_and_says_everything() {
     }
     scratch.prints("campaign small.toml --samples 0", 2);
     scratch.prints("campaign small.toml --threads 0", 2);
+    let cores = std::thread::available_parallelism().unwrap().get();
+    let many = 4 * cores + 1;
+    for command in ["campaign small.toml", "finish r", "verify r", "compare r r", "report r"] {
+        let said = scratch.prints(&format!("{command} --threads {many}"), 2);
+        let allowed =
+            format!("must be a whole number from 1 to {}: 4 for each core that this process has ({cores})", 4 * cores);
+        assert!(said.contains(&allowed), "{command}: {said}");
+    }
     scratch.prints("campaign small.toml --samples many", 2);
     scratch.prints("", 2);
     assert!(!scratch.path("results").exists(), "nothing is written for bad input");

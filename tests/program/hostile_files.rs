@@ -5,6 +5,7 @@ use std::fs;
 use std::process::Command;
 
 use super::small_campaign::{campaign, folder};
+use crate::support::campaigns::FUSELAGE;
 use crate::support::scratch_folder::ScratchFolder;
 
 /// A campaign whose samples are the rows of `table.csv`.
@@ -192,4 +193,49 @@ fn escapes_are_shown_as_text() {
     );
     let said = scratch.prints("check \u{1b}[1m.toml", 0) + &scratch.prints("check \u{1b}[2m.toml", 2);
     assert!(!said.contains(is_obeyed) && said.contains("a\\u{202e}b") && said.contains("`\\u{1b}[2m.toml`"), "{said}");
+}
+
+/// Law: more tables that name a file of numbers than a limit are refused, with the limit.
+#[test]
+fn too_many_files_of_numbers_are_refused() {
+    let scratch = folder("many-files");
+    let text = campaign();
+    let at = text.find("[[disperse]]").unwrap();
+    let part = |number: usize| FUSELAGE.replace("\"fuselage\"", &format!("\"p{number}\""));
+    let scene = text[..at].replace(FUSELAGE, &(0..32).map(part).collect::<String>());
+    let keys = ["outer_radius_m", "length_m", "density_kg_m3", "inertia_scale"];
+    let draws = (0..32).flat_map(|number| keys.map(|key| (number, key)));
+    let table = |(number, key): (usize, &str)| {
+        format!(
+            "[[disperse]]\nparameter = \"body.parts.p{number}.{key}\"\ndistribution = \"empirical\"\nfile = \"x.csv\"\ncolumn = \"x\"\n"
+        )
+    };
+    scratch.file("x.csv", "x\n1\n2\n");
+    for (count, code) in [(100, 0), (101, 2)] {
+        scratch.file("many.toml", &format!("{scene}{}", draws.clone().take(count).map(table).collect::<String>()));
+        let said = scratch.prints("sample many.toml --samples 3", code);
+        assert_eq!(said.contains("must be in at most 100 tables of a campaign file"), code == 2, "{count}: {said}");
+    }
+}
+
+/// Law: a thread that the system does not start is done without, or said with exit code 4: nothing is wrong with the input, and nothing panics.
+#[cfg(target_os = "linux")]
+#[test]
+fn threads_that_do_not_start_are_no_input_error() {
+    let scratch = folder("no-threads");
+    scratch.prints("campaign small.toml --out r", 0);
+    // stacks that are larger than the addresses of a process
+    let command = |arguments: &str| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_spindrift"));
+        command.args(arguments.split(' ')).env("RUST_MIN_STACK", "100000000000000000");
+        command
+    };
+    for arguments in ["campaign small.toml --out new", "precision small.toml --samples 2"] {
+        let said = scratch.outputs(&mut command(arguments), 4);
+        assert!(said.contains("error: cannot start ") && !said.contains("panicked"), "{arguments}: {said}");
+    }
+    assert!(!scratch.path("new").exists());
+    for arguments in ["finish r", "report r", "compare r r"] {
+        scratch.outputs(&mut command(arguments), 0);
+    }
 }
