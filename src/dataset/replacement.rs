@@ -17,7 +17,7 @@ use crate::dataset::manifest::{Identity, PartRecord};
 use crate::dataset::names::{
     FOLDERS, MANIFEST, REPLACEMENT, SUCCESS, UNFINISHED, is_of_parts, is_ours, is_unique, unique,
 };
-use crate::dataset::storage::{Storage, StorageError, above, at, entries_in, is_absent, new_folder, no_link};
+use crate::dataset::storage::{Storage, StorageError, above, at, entries_in, is_absent, no_link};
 use crate::dataset::stored_file::is_unfit;
 use crate::dataset::whole_file::place;
 
@@ -90,9 +90,12 @@ pub(super) fn begin(
     }
     let digits = unique();
     let new = beside(root, &digits, "new");
-    let made = new_folder(storage, &new)
+    let above = above(&new);
+    // its name is made durable after the proof in it
+    let made = (storage.create_folder(&new).map_err(at(&new)))
         .and_then(|()| place(storage, &new.join(REPLACEMENT), format!("{digits}\n").as_bytes()))
-        .and_then(|()| storage.sync_folder(&new).map_err(at(&new)));
+        .and_then(|()| storage.sync_folder(&new).map_err(at(&new)))
+        .and_then(|()| storage.sync_folder(above).map_err(at(above)));
     made.inspect_err(|_| {
         // the first error is reported; an empty folder may be left
         let _ = remove(storage, &new, &Found::default());
