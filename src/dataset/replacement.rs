@@ -189,17 +189,11 @@ pub fn replace(storage: &dyn Storage, new: &Path, root: &Path) -> Result<(), Sto
             format!("contains `{entry}`, which is not part of the result; move it away, and run the command again");
         return Err(at(root)(io::Error::other(why)));
     }
-    exchange(storage, (root, &beside(root, &digits, "old")), (new, root))?;
+    storage.rename(root, &beside(root, &digits, "old")).map_err(at(root))?;
+    storage.rename(new, root).map_err(at(new))?;
+    // both at once: a loss of power leaves the old result or the new one in its place
+    storage.sync_folder(above(root)).map_err(at(above(root)))?;
     remove_replaced(storage, root)
-}
-
-/// Renames folders beside each other, one after the other, durably.
-fn exchange(storage: &dyn Storage, first: (&Path, &Path), second: (&Path, &Path)) -> Result<(), StorageError> {
-    for (from, to) in [first, second] {
-        storage.rename(from, to).map_err(at(from))?;
-        storage.sync_folder(above(to)).map_err(at(above(to)))?;
-    }
-    Ok(())
 }
 
 /// Removes the dataset that `root` has replaced, if it is still there, and then the proof.
