@@ -192,7 +192,7 @@ pub fn stop_is_continued(root: &Path) -> String {
     )
 }
 
-/// Refuses to finish the result in `root`, of which these parts are missing.
+/// Refuses to finish the result in `root` where these parts of it are missing.
 fn refuse_missing(missing: &[Part], root: &Path) -> Result<(), Failure> {
     let (Some(first), Some(last)) = (missing.first(), missing.last()) else { return Ok(()) };
     Err(Failure::Files(format!(

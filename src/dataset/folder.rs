@@ -342,7 +342,7 @@ impl Folder {
     }
 }
 
-/// Writes the manifest of the finished dataset in `root`, of which one file that follows from the rows was made again.
+/// Writes the manifest of the finished dataset in `root` after one file that follows from the rows was made again.
 ///
 /// # Errors
 /// Where a file operation fails.

@@ -39,7 +39,7 @@ struct Listed {
 /// The files of rows that the log has to list, by name.
 type Files = BTreeMap<String, Listed>;
 
-/// The files of rows of `parts`, of which `growing` can get further rows.
+/// The files of rows of `parts`; `growing` is the part that can get further rows.
 fn files(parts: &[PartRecord], growing: Option<PartId>) -> Files {
     let of_part = |part: &PartRecord| {
         let file = rows_file(part)?;

@@ -93,7 +93,7 @@ fn counts_are_those_of_the_time_series() {
         every["requirement"],
         format!("99% of runs with {SERIES} at most {high:?} J at each time from 0.05 s to 0.95 s, with 95% confidence")
     );
-    // the value is the quantile at the worst time of the interval, wherever the interval begins
+    // the value is the quantile at the worst time of the interval, whichever time it begins at
     for (from, to) in [(0, 10), (3, 10), (6, 8), (9, 9)] {
         let limits = format!("from_s = {:?}\nto_s = {:?}", times[from], times[to]);
         let some = verdict(&scratch, &format!("quantile = 0.5\nat_most = {high:?}\n{limits}"), 0);

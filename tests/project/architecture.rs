@@ -28,7 +28,7 @@ const CRATES: [(&str, &[&str]); 27] = [
     ("arrow_ipc", &["dataset/arrow_metadata.rs"]),
     ("arrow_schema", &["dataset"]),
     ("base64", &["report/page", "dataset/arrow_metadata.rs"]),
-    ("bytes", &["dataset/parquet_source.rs"]),
+    ("bytes", &["dataset/identity.rs", "dataset/parquet_source.rs"]),
     ("clap", &["cli"]),
     ("crc32fast", &["dataset"]),
     ("csv", &["campaign/data_columns.rs"]),
