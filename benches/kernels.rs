@@ -14,6 +14,8 @@
 //!
 //! Through [`Engine`]s, which the library has compiled already: a driver instantiated in the bench would take minutes to build.
 
+#![allow(clippy::disallowed_methods)] // digits of no row: the elementary functions of the platform will do
+
 use std::hint::black_box;
 use std::path::Path;
 

@@ -2,6 +2,8 @@
 //!
 //! `cargo run --release --example control_law`
 
+#![allow(clippy::disallowed_methods)] // digits of no row: the elementary functions of the platform will do
+
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::dynamics::actuation::{Actuation, ActuationLaw, BodyState, Laws, WheelState, ZeroOrderHold};
 use spindrift::math::Isa;

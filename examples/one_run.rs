@@ -2,6 +2,8 @@
 //!
 //! `cargo run --release --example one_run`
 
+#![allow(clippy::disallowed_methods)] // digits of no row: the elementary functions of the platform will do
+
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::ensemble::SingleRun;
 use spindrift::math::Isa;

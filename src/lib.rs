@@ -42,6 +42,8 @@
 //! shows the data flow, the layers and a glossary, `docs/model.md` the equations.
 
 #![forbid(unsafe_code)]
+#![warn(clippy::unwrap_used, clippy::print_stdout)] // failures are values; a printing macro panics where the pipe is closed
+#![cfg_attr(test, allow(clippy::disallowed_methods))]
 
 pub mod campaign;
 pub mod cli;

@@ -1,6 +1,7 @@
 //! The program `spindrift`: selects the command; the library does the rest.
 
 #![forbid(unsafe_code)]
+#![warn(clippy::unwrap_used, clippy::print_stdout)] // failures are values; a printing macro panics where the pipe is closed
 
 use std::process::ExitCode;
 

@@ -5,6 +5,8 @@
 //! modules as its own: use them from there. Its `ARCHITECTURE.md` shows the layers, its `docs/model.md` the equations.
 
 #![forbid(unsafe_code)]
+#![warn(clippy::unwrap_used, clippy::print_stdout)] // failures are values; a printing macro panics where the pipe is closed
+#![cfg_attr(test, allow(clippy::disallowed_methods))]
 
 pub mod dynamics;
 pub mod math;

@@ -10,7 +10,7 @@
 //! - [`analysis`]: what is made of the rows: [`requirement`], [`derived_observable`], [`stop`]; [`columns`]: what they can name.
 //!   [`retention`]: which runs keep their time series.
 //! - [`plan`]: defaults filled in, scene and dispersions checked against each other. - [`chosen`], `plan_rows`: which samples are its rows.
-//! - `units`: units in values. `old_format`: files of the format before 0.2, and their new text.
+//! - `units`: units in values.
 //! - [`notes`]: what is allowed and probably not meant. [`plausibility`], `positions`: numbers that look like a mistake; `digits`: how they are written.
 //! - `draw_tables`: the tables of draws with their places in the file. `without_effect`: dispersions that change no run.
 //! - [`mod@draw`]: from a plan and the number of a sample to its scene.
@@ -50,7 +50,6 @@ pub mod lists;
 pub mod memory;
 pub mod notes;
 pub mod numbers;
-mod old_format;
 mod parameter;
 pub mod plan;
 mod plan_rows;

@@ -1,6 +1,5 @@
 //! Names of parameters in campaign files.
 
-use super::old_format;
 use super::problem::nearest;
 use super::section::Section;
 use crate::scene::{Parameter, SceneInput};
@@ -20,10 +19,6 @@ pub(super) fn parameter(table: &mut Section<'_, '_>, key: &'static str) -> Optio
 /// What is said of a name that is no parameter: what is allowed, and what was probably meant.
 pub(super) fn unknown_parameter(scene: &SceneInput, name: &str) -> (String, String) {
     let names: Vec<String> = Parameter::all(scene).map(Parameter::name).collect();
-    if let Some(new) = old_format::new_name(name) {
-        let allowed = "a numeric key of scene or initial state, by its name in this format".to_owned();
-        return (allowed, format!("write {new}"));
-    }
     let remedy = match nearest(name, names.iter().map(String::as_str)) {
         Some(meant) => format!("did you mean {meant:?}?"),
         None => "write table and key as in this file, \"wheels.w1.radius_m\"".to_owned(),

@@ -11,7 +11,6 @@ use super::document::Document;
 use super::draw_tables::DrawTables;
 use super::limits::{FRACTION, LARGEST_SEED, MAX_SAMPLES, MOST_MEMORY};
 use super::memory::PointMemory;
-use super::old_format;
 use super::problem::{CampaignError, Problem};
 use super::retention::Retention;
 use super::size;
@@ -290,10 +289,6 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
         );
     }
 
-    // of a file of the old format the new text is said, and nothing of the scene that is not there
-    if old_format::is_refused(document) {
-        return None;
-    }
     if let Err(errors) = Scene::resolve(&spec.scene) {
         let found = errors.into_iter().map(|e| (e.key.into_owned(), Some(e.value), e.allowed, e.remedy.to_owned()));
         document.add_from_below(found.collect());

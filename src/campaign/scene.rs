@@ -1,9 +1,8 @@
 //! The tables that describe the scene: which keys, with which defaults, says [`crate::scene::schema`].
 //!
 //! Here is what no single row can say: names, which ways to describe a body exclude each other, what belongs to a body that is not
-//! there, and keys that are no numbers. Tables of the format before 0.2 are refused by [`super::old_format`].
+//! there, and keys that are no numbers.
 
-use super::old_format;
 use super::section::Section;
 use crate::scene::body::MAX_PARTS;
 use crate::scene::schema::Limit;
@@ -17,8 +16,7 @@ use std::collections::HashSet;
 /// Reads every table of the scene. A number that is missing or wrong is NaN, and noted in the document.
 pub(super) fn read(root: &mut Section<'_, '_>) -> SceneInput {
     let mut scene = SceneInput::blank();
-    let old = old_format::refuse(root);
-    if old.is_none() && !root.has("body") {
+    if !root.has("body") {
         let content = "a table with the mass properties of the body, or its parts";
         root.document.add("body", None, content, "add a [body] table, or [[body.parts]] tables");
     }
@@ -32,14 +30,9 @@ pub(super) fn read(root: &mut Section<'_, '_>) -> SceneInput {
         scene.actuation.push(ActuationInput::DEFAULT);
         let arc = scene.actuation.len() - 1;
         read_keys(section, Table::Actuation, arc, &mut scene);
-        match &old {
-            Some(old) => old.refuse_arc(section, arc),
-            None => {
-                scene.actuation[arc].name = read_arc_name(section, &mut names);
-                read_commands(section, &mut scene, arc);
-                read_keys(section, Table::ArcErrors, arc, &mut scene);
-            }
-        }
+        scene.actuation[arc].name = read_arc_name(section, &mut names);
+        read_commands(section, &mut scene, arc);
+        read_keys(section, Table::ArcErrors, arc, &mut scene);
         section.finish();
     });
     let mut section = root.section("debris");
@@ -52,9 +45,6 @@ pub(super) fn read(root: &mut Section<'_, '_>) -> SceneInput {
     let mut section = root.section("initial");
     read_keys(&mut section, Table::Initial, 0, &mut scene);
     refuse_states_of_absent_debris(&mut section, &scene);
-    if old.is_some() {
-        old_format::refuse_initial(&mut section);
-    }
     section.finish();
     let mut section = root.section("environment");
     read_keys(&mut section, Table::Environment, 0, &mut scene);
@@ -65,9 +55,6 @@ pub(super) fn read(root: &mut Section<'_, '_>) -> SceneInput {
     }
     let mut section = root.section("actuators");
     read_keys(&mut section, Table::Actuators, 0, &mut scene);
-    if old.is_some() {
-        old_format::refuse_actuators(&mut section);
-    }
     section.finish();
     scene
 }

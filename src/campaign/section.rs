@@ -171,16 +171,6 @@ impl<'d, 'a> Section<'d, 'a> {
         }
     }
 
-    /// The same of each of the tables `[[key]]`.
-    pub(super) fn lists_of_entries(&self, key: &str) -> Vec<Vec<(String, String)>> {
-        match self.value(key).map(Spanned::get_ref) {
-            Some(DeValue::Array(list)) => {
-                list.iter().filter_map(|item| Some(self.written_entries(item.get_ref().as_table()?))).collect()
-            }
-            _ => Vec::new(),
-        }
-    }
-
     fn written_entries(&self, table: &DeTable<'a>) -> Vec<(String, String)> {
         let entry = |(key, value): (&Spanned<_>, &Spanned<DeValue<'a>>)| {
             let key: &toml::de::DeString<'a> = key.get_ref();

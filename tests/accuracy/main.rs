@@ -1,5 +1,7 @@
 //! Accuracy: every method against independent truth, closed forms, published cases and its own error estimate.
 
+#![allow(clippy::disallowed_methods)] // digits of no row: the elementary functions of the platform will do
+
 #[path = "../support/mod.rs"]
 mod support;
 #[path = "../textbook/mod.rs"]

@@ -119,7 +119,7 @@ fn copies_of_data_are_made_again() {
     let damages: [&dyn Fn(); 3] = [
         &|| {
             fs::write(&copy, bytes.iter().map(|byte| if *byte == b'4' { b'5' } else { *byte }).collect::<Vec<_>>())
-                .unwrap()
+                .unwrap();
         },
         &|| fs::write(&copy, &bytes[..20]).unwrap(),
         &|| fs::remove_file(&copy).unwrap(),

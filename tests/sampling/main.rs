@@ -1,5 +1,7 @@
 //! Draws: streams, distributions, designs, dependence.
 
+#![allow(clippy::disallowed_methods)] // digits of no row: the elementary functions of the platform will do
+
 #[path = "../support/mod.rs"]
 mod support;
 
