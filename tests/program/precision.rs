@@ -3,7 +3,7 @@
 use std::fs;
 use std::time::Instant;
 
-use crate::support::scratch_folder::ScratchFolder;
+use crate::support::scratch_folder::{ScratchFolder, batches};
 use arrow_array::RecordBatch;
 use arrow_array::cast::AsArray;
 use arrow_array::types::Float64Type;
@@ -62,6 +62,37 @@ fn balances_are_measured_and_omissions_named() {
     // measured: 2.6e-16 and 1.3e-11, rate 7.3e-15
     assert!(energy[1].unwrap() < 2e-15 && energy[0].unwrap() > energy[1].unwrap(), "{energy:?}");
     assert!(floats(&table, "rate_error_max")[1].unwrap() < 7e-14);
+}
+
+/// Law: every setting of every method is either a row of the table or named as skipped, once, whichever methods the limit ends.
+#[test]
+fn no_setting_is_lost() {
+    let scratch = ScratchFolder::new("lost");
+    let methods = ["dop853", "null_space", "runge_kutta_4", "auto"];
+    // no pass is as short as the first limit, and none of two samples as long as the last one
+    for (limit, measured) in [("1e-7", Some(0)), ("0.01", None), ("1000", Some(12))] {
+        let settings = "--tolerances 1e-4,1e-8,1e-12 --samples 2 --repeats 1 --out p";
+        let arguments = format!("--methods {} {settings} --limit-s {limit}", methods.join(","));
+        let said = scratch.says("precision", "spin_sweep.toml", &arguments, 0);
+        let skipped: Vec<(&str, usize)> = said
+            .lines()
+            .filter_map(|line| line.strip_prefix("skipped: ")?.split_once(" at "))
+            .map(|(method, rest)| (method, rest.split(':').next().expect("settings").split(", ").count()))
+            .collect();
+        let rows = batches(&scratch.path("p/precision.parquet"));
+        let of_rows = |method: &str| {
+            let names = rows.iter().map(|rows| rows.column(0).as_string::<i32>());
+            names.map(|names| names.iter().filter(|name| *name == Some(method)).count()).sum::<usize>()
+        };
+        for method in methods {
+            let named: Vec<usize> =
+                skipped.iter().filter(|(name, _)| *name == method).map(|(_, count)| *count).collect();
+            assert!(named.len() <= 1, "{limit}: {said}");
+            assert_eq!(of_rows(method) + named.iter().sum::<usize>(), 3, "{limit}, {method}: {said}");
+        }
+        let all: usize = methods.into_iter().map(of_rows).sum();
+        assert!(measured.is_none_or(|measured| measured == all), "{limit}: {said}");
+    }
 }
 
 #[test]

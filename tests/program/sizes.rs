@@ -2,7 +2,8 @@
 
 use std::fs;
 
-use super::small_campaign::{campaign, folder};
+use super::faulty_storage::contents;
+use super::small_campaign::{campaign, campaign_without_debris, folder};
 
 /// Law: counts that no disk and no memory has are refused at once with rows, bytes and time, and nothing is written.
 #[test]
@@ -65,4 +66,37 @@ fn what_is_long_is_asked_for() {
     assert!(!scratch.path("r").exists());
     scratch.prints("campaign small.toml --out r --samples 600", 0);
     scratch.prints("campaign small.toml --out r --samples 700 --yes", 0);
+}
+
+/// Law: what needs `--yes` in an empty folder needs it too where it replaces a complete result, which stays as it is without; where it does not
+/// replace it, `--yes` is needed for what is left only.
+#[test]
+fn what_is_replaced_is_asked_for() {
+    let scratch = folder("long-again");
+    // a run stops after the first steps, which show that the steps left do not suffice; the estimate takes them all
+    let method = "method = \"null_space\"\nmax_steps = 1000000000";
+    let long = campaign_without_debris()
+        .replace("duration_s = 1.0", "duration_s = 1e9")
+        .replace("method = \"auto\"", method)
+        .replace("samples = 600", "samples = 2");
+    scratch.file("long.toml", &long);
+    let asks = "that is more than 24 hours of CPU time; --yes starts it";
+    let said = scratch.prints("campaign long.toml --out r", 2);
+    assert!(said.contains(asks) && said.contains("2 runs of small") && !scratch.path("r").exists(), "{said}");
+    scratch.prints("campaign long.toml --out r --yes", 1);
+    let before = contents(&scratch.path("r"));
+    assert!(before.contains_key("/summary.json"));
+
+    let said = scratch.prints("campaign long.toml --out r --overwrite", 2);
+    assert!(said.contains(asks) && said.contains("2 runs of small"), "{said}");
+    assert!(contents(&scratch.path("r")) == before, "refused, and the result is another");
+    let said = scratch.prints("campaign long.toml --out r", 1);
+    assert!(said.contains("already complete"), "{said}");
+    assert!(contents(&scratch.path("r")) == before);
+    let entries = fs::read_dir(&scratch.0).unwrap().count();
+    assert_eq!(entries, 4, "a folder of a replacement is left");
+
+    let said = scratch.prints("campaign long.toml --out r --samples 4", 2);
+    assert!(said.contains(asks) && said.contains("2 runs of small"), "{said}");
+    scratch.prints("campaign long.toml --out r --overwrite --yes", 1);
 }

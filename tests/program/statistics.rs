@@ -254,3 +254,123 @@ expression = "max(initial.angular_velocity_rad_s.x, 0) * if(initial.angular_velo
     }
     assert_eq!(number(&table, "p50", row("mostly_zero")), Some(0.0));
 }
+
+/// How far the bound of a mean is from it, in standard errors, for Student's `t` of so many numbers `x` on the `side` where it is: the larger one of
+/// `t` and the T for which Hall's (1992) transformation of -T, f(T) = (e^(2 r T/3) - 1)/(2 r/3) + r/6, is -t, by bisection; r is the skewness over
+/// sqrt(n), of 3/2 of that of the numbers and two standard errors sqrt(6/n). `None` where there is none.
+fn reach(x: &[f64], t: f64, side: f64) -> Option<f64> {
+    let n = x.len() as f64;
+    let mean = x.iter().sum::<f64>() / n;
+    let moment = |power: i32| x.iter().map(|x| (x - mean).powi(power)).sum::<f64>() / n;
+    let skewness = moment(3) / moment(2).powf(1.5) * (n * (n - 1.0)).sqrt() / (n - 2.0);
+    let r = (1.5 * side * skewness + 2.0 * (6.0 / n).sqrt()) / n.sqrt();
+    let transformed = |distance: f64| libm::expm1(-2.0 * r * distance / 3.0) / (2.0 * r / 3.0) + r / 6.0;
+    if r <= 0.0 || transformed(t) <= -t {
+        return Some(t);
+    }
+    let (mut low, mut high) = (t, 1e6);
+    // it does not fall below r/6 - 3/(2 r)
+    (transformed(high) < -t).then(|| {
+        for _ in 0..200 {
+            let middle = 0.5 * (low + high);
+            if transformed(middle) > -t { low = middle } else { high = middle }
+        }
+        low
+    })
+}
+
+/// Law: the interval of a mean with 95% confidence has ends that each miss with 2.5%: for a replicated design they are the bounds at 97.5% of the mean
+/// of its replicates, never nearer than Student's t(0.975, 7) standard errors, and where so few of them do not bound it, those of all runs.
+#[test]
+fn a_mean_of_replicates_has_its_interval_from_the_replicates() {
+    /// Student's t(0.975, 7) and t(0.975, 599): roots of `mpmath.betainc`.
+    const T: [f64; 2] = [2.364_624_251_592_785_3, 1.963_932_248_945_278_9];
+    const REPLICATES: usize = 8;
+    let scratch = folder("statistics-replicates");
+    let design = "[design]\nkind = \"latin_hypercube\"\nreplicates = 8\n";
+    scratch.file("many.toml", &(campaign().replace("samples = 600", "samples = 601") + design + MORE));
+    scratch.prints("campaign many.toml --out r --no-report", 0);
+    let rows = scratch.rows("r");
+    let table = scratch.table("r/statistics.parquet");
+    let names = table.column_by_name("observable").expect("names").as_string::<i32>();
+    let (mut from_replicates, mut from_runs) = (0, 0);
+    for row in 0..table.num_rows() {
+        let name = names.value(row);
+        // those of expressions are no columns of the rows
+        if ["spin", "error_ratio", "half"].contains(&name) {
+            continue;
+        }
+        let x = values(&rows, name);
+        assert_eq!(x.len(), 600, "{name}");
+        // sample k is of replicate (k - 1) mod 8
+        let of_replicate =
+            |first: usize| x[first..].iter().step_by(REPLICATES).sum::<f64>() / (600 / REPLICATES) as f64;
+        let means: Vec<f64> = (0..REPLICATES).map(of_replicate).collect();
+        let mean_and_error = |x: &[f64]| {
+            let (n, mean) = (x.len() as f64, x.iter().sum::<f64>() / x.len() as f64);
+            (mean, (x.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / (n - 1.0) / n).sqrt())
+        };
+        let (mean, error) = mean_and_error(&means);
+        let (whole, of_whole) = mean_and_error(&x);
+        // a spread of rounding errors is left out
+        if error <= 1e-9 * mean.abs() {
+            continue;
+        }
+        for (column, side) in [("mean_lower", -1.0), ("mean_upper", 1.0)] {
+            let end = match (reach(&means, T[0], side), reach(&x, T[1], side)) {
+                (Some(distance), _) => {
+                    from_replicates += 1;
+                    assert!(distance >= T[0]);
+                    Some((mean + side * distance * error, error))
+                }
+                (None, Some(distance)) => {
+                    from_runs += 1;
+                    Some((whole + side * distance * of_whole, of_whole))
+                }
+                (None, None) => None,
+            };
+            let found = number(&table, column, row);
+            assert_eq!(found.is_some(), end.is_some(), "{name} {column}: {found:?} {end:?}");
+            if let (Some(found), Some((end, scale))) = (found, end) {
+                // rounding of the mean, of numbers that are up to 1e9 times as large as its error, and of the skewness
+                assert!((found - end).abs() < 1e-6 * scale, "{name} {column}: {found} for {end}, {scale}");
+            }
+        }
+        let found = number(&table, "mean_standard_error", row).expect("an error");
+        assert!((found / error - 1.0).abs() < 1e-6, "{name}: {found} for {error}");
+    }
+    assert!(from_replicates > 20 && from_runs > 20, "{from_replicates} {from_runs}");
+}
+
+/// Law: the input that another one is most correlated with is that of the largest magnitude: with -0.9 as with 0.9, although the third has a
+/// correlation that is notable too, and positive.
+#[test]
+fn a_negative_correlation_is_one_too() {
+    let scratch = folder("statistics-partners");
+    for r in [0.9, -0.9] {
+        let correlate = format!(
+            "[[correlate]]\nparameters = [\"initial.angular_velocity_rad_s\"]\n\
+             rank_correlation = [[1, {r}, 0.3], [{r}, 1, 0], [0.3, 0, 1]]\n"
+        );
+        scratch.file("partners.toml", &(campaign() + &correlate));
+        scratch.prints("campaign partners.toml --out r --overwrite --no-report", 0);
+        let table = scratch.table("r/sensitivity.parquet");
+        let text =
+            |name: &str, row: usize| table.column_by_name(name).expect(name).as_string::<i32>().value(row).to_owned();
+        let input = |axis: &str| format!("initial_angular_velocity_{axis}_rad_s");
+        assert!(table.num_rows() >= 3);
+        for row in 0..table.num_rows() {
+            let of = text("input", row);
+            let [x, y] = ["x", "y"].map(input);
+            let (partner, expected) = match &of {
+                of if *of == x => (&y, r),
+                of if *of == y => (&x, r),
+                _ => (&x, 0.3),
+            };
+            assert_eq!(&text("correlated_with", row), partner, "{r}: {of}");
+            // the standard error of 599 pairs without correlation is 0.041
+            let found = number(&table, "largest_correlation", row).expect("a correlation");
+            assert!((found - expected).abs() < 0.16, "{r}: {of}: {found}");
+        }
+    }
+}

@@ -140,6 +140,26 @@ mod tests {
         assert_eq!(deviation_bounds(&scaled, 0.95), deviation_bounds(&one, 0.95).map(|end| 1024.0 * end));
     }
 
+    /// Law: a standard deviation has no upper bound where one number makes more than a third of the fourth powers of the deviations, and has one
+    /// where it makes less, whatever its share of their squares. Known: beside 10,000 numbers 1 and -1, d makes d^4/(10,000 + d^4) of the
+    /// fourth powers (a third at d^4 = 5,000) and less than a hundredth of the squares; its share of the mean is below a thousandth.
+    #[test]
+    fn one_number_may_make_a_third_of_the_fourth_powers() {
+        let of = |fourth: f64| {
+            let far = libm::sqrt(libm::sqrt(fourth));
+            let moments = Moments::of((0..10_000).map(|k| if k % 2 == 0 { 1.0 } else { -1.0 }).chain([far]));
+            assert!(moments.largest_share(2) < 0.01);
+            deviation_bounds(&moments, 0.95)
+        };
+        for (fourth, is_bounded) in [(2_000.0, true), (4_950.0, true), (5_050.0, false), (9_000.0, false)] {
+            let [lower, upper] = of(fourth);
+            // s is 1.0022 to 1.0047
+            assert!(lower > 0.95 && lower < 1.004, "{fourth}: {lower}");
+            assert_eq!(upper.is_finite(), is_bounded, "{fourth}: {upper}");
+            assert!(upper > 1.0 && (upper < 1.05 || !is_bounded), "{fourth}: {upper}");
+        }
+    }
+
     /// Law: what shows no spread, or too little of a long tail, bounds nothing.
     #[test]
     fn few_and_equal_numbers_bound_nothing() {
