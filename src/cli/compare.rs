@@ -10,7 +10,7 @@ use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::input::plan_of_sound;
 use crate::cli::outputs::refuse_within;
 use crate::cli::screen;
-use crate::dataset::claim::{FolderError, open};
+use crate::dataset::claim::{FolderError, Locks, open};
 use crate::dataset::comparison::{Comparison, compare};
 use crate::dataset::folder::MOST_SUMMARY;
 use crate::dataset::names::SUMMARY;
@@ -65,6 +65,8 @@ pub fn compared(storage: &'static dyn Storage, options: &CompareOptions) -> Resu
 struct Compare {
     plan: Plan,
     reader: RowsReader,
+    /// No process changes it meanwhile.
+    _locks: Locks,
     /// Each requirement, and its verdict.
     verdicts: Vec<(String, String)>,
 }
@@ -72,7 +74,7 @@ struct Compare {
 impl Compare {
     /// The result in a folder.
     fn open(storage: &'static dyn Storage, folder: &Path, threads: Option<NonZeroUsize>) -> Result<Self, Failure> {
-        let (found, _locks) = open(storage, folder).map_err(|error| match error {
+        let (found, locks) = open(storage, folder, true).map_err(|error| match error {
             FolderError::Nothing { .. } => Failure::Input(error.to_string()),
             error => Failure::files(error),
         })?;
@@ -84,7 +86,7 @@ impl Compare {
         let damaged = |error: &dyn std::fmt::Display| Failure::Files(format!("{}: {error}", path.display()));
         let summary = storage.read(&path, MOST_SUMMARY).map_err(|error| damaged(&error))?;
         let verdicts = summary::verdicts(&summary).ok_or_else(|| damaged(&"its content has changed"))?;
-        Ok(Compare { plan, reader: RowsReader::new(storage, found.row_files(folder)), verdicts })
+        Ok(Compare { plan, _locks: locks, reader: RowsReader::new(storage, found.row_files(folder)), verdicts })
     }
 
     fn rows(&self) -> ResultRows<'_> {

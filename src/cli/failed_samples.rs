@@ -35,7 +35,7 @@ pub fn plan_of_failed(
     overrides: Overrides,
     threads: Option<NonZeroUsize>,
 ) -> Result<Option<(Plan, FilesRead)>, Failure> {
-    let (found, _locks) = open(&Disk, of).map_err(Failure::files)?;
+    let (found, _locks) = open(&Disk, of, true).map_err(Failure::files)?;
     let drawn = plan_of_sound(&Disk, (of, &found), threads, None)?;
     if !found.is_finished {
         screen::note(&format!(

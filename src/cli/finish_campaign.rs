@@ -246,7 +246,14 @@ pub fn run(options: &FinishOptions) -> Result<CommandOutcome, Failure> {
 pub fn finished(storage: &'static dyn Storage, options: &FinishOptions) -> Result<(CommandOutcome, String), Failure> {
     let root = &options.folder;
     // a folder that is none is not created
-    let (found, locks) = open(storage, root).map_err(Failure::files)?;
+    let (found, locks) = open(storage, root, false).map_err(Failure::files)?;
+    if let Some(difference) = &found.shards_differ {
+        return Err(Failure::Files(format!(
+            "{}: its shards ask different questions: {difference}\nthis answers those of a file, from the rows that are there: spindrift campaign FILE --out {}",
+            root.display(),
+            quoted_path(root)
+        )));
+    }
     let (plan, files) = plan_in(root, &found)?;
     if plan.analysis.stop.is_some() && !found.is_finished {
         return Err(Failure::Files(stop_is_continued(root)));

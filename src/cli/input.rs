@@ -88,10 +88,9 @@ pub fn plan_of_sound(
     let records: Vec<PartRecord> = found.parts().into_values().collect();
     let readers = ensemble_threads(threads, usize::MAX);
     let broken = damaged(storage, root, &expected, &records, readers).map_err(Failure::files)?;
-    let damaged: Vec<String> = found.damaged_lines().into_iter().map(|line| format!("{line}: damaged line")).collect();
     let derived = found.derived().iter().filter(|file| Some(file.name.as_str()) != remade);
     let derived = derived_damage(storage, root, derived).map_err(Failure::files)?;
-    let problems = damaged.into_iter().chain(found.plan_damage.clone()).chain(broken.into_iter().map(|(_, what)| what));
+    let problems = found.damage().into_iter().chain(broken.into_iter().map(|(_, what)| what));
     let problems: Vec<String> = problems.chain(derived).collect();
     match problems.first() {
         None => Ok(plan),
@@ -111,14 +110,18 @@ pub fn plan_of_sound(
 pub fn refuse_other_rows(root: &Path, found: &Found, expected: &Identity) -> Result<(), Failure> {
     let there = found.identity.as_ref().filter(|there| *there != expected);
     let Some(there) = there else { return Ok(()) };
-    Err(Failure::Files(format!(
-        "{}: plan.toml is not the plan of these rows (row hash {}, not {}), or they are of another version of the program (format {}, not {})",
-        root.display(),
-        there.row_hash,
-        expected.row_hash,
-        there.format,
-        expected.format,
-    )))
+    let why = if (there.format, there.arithmetic) == (expected.format, expected.arithmetic) {
+        format!(
+            "plan.toml is not the plan of these rows (row hash {}, not {}); bring back the plan that belongs to them",
+            there.row_hash, expected.row_hash
+        )
+    } else {
+        format!(
+            "its rows are of another version of the program (format and arithmetic {}.{}, not {}.{}); run the campaign with --overwrite",
+            there.format, there.arithmetic, expected.format, expected.arithmetic
+        )
+    };
+    Err(Failure::Files(format!("{}: {why}", root.display())))
 }
 
 /// The plan of a result that is in a folder, with the number of samples that it has, or that `[stop]` looks at next.

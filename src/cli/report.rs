@@ -39,7 +39,7 @@ pub fn run(options: &ReportOptions) -> Result<CommandOutcome, Failure> {
 pub fn remade(storage: &'static dyn Storage, options: &ReportOptions) -> Result<String, Failure> {
     let root = &options.folder;
     refuse_within(root, &[("--figures", options.figures.as_deref())])?;
-    let (found, _locks) = open(storage, root).map_err(Failure::files)?;
+    let (found, _locks) = open(storage, root, false).map_err(Failure::files)?;
     let Some(manifest) = found.manifests.get(MANIFEST).filter(|_| found.is_finished) else {
         return Err(Failure::Input(format!(
             "the result in `{}` is not finished; the campaign's command continues it, or: spindrift finish {}",
@@ -56,7 +56,8 @@ pub fn remade(storage: &'static dyn Storage, options: &ReportOptions) -> Result<
     let page = page(&ensemble, &reader, &analysed, &records, options.threads)?;
     let path = root.join(REPORT);
     place(storage, &path, page.html.as_bytes()).map_err(Failure::files)?;
-    relist(storage, root, manifest, FileRecord::of(REPORT, page.html.as_bytes())).map_err(Failure::files)?;
+    relist(storage, root, (manifest, &found.plan), FileRecord::of(REPORT, page.html.as_bytes()))
+        .map_err(Failure::files)?;
     save_figures(&page, options.figures.as_deref())?;
     Ok(format!("{}: {}\n", path.display(), bytes(page.html.len() as u64)))
 }

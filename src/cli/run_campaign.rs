@@ -75,7 +75,9 @@ pub fn run(options: &CampaignOptions) -> Result<CommandOutcome, Failure> {
     match claim(&Disk, &root, (&plan, &identity(&ensemble)), claimed).map_err(Failure::files)? {
         Claim::Finished(finished) => {
             say_notes(&root, &finished.notes);
-            already_complete(&root, &plan, &finished.summary)
+            let outcome = already_complete(&root, &plan, &finished.summary)?;
+            // the verdicts are those of the campaign, not of a shard
+            Ok(if options.shard.is_some() { CommandOutcome::Done } else { outcome })
         }
         Claim::Ready(ready) => {
             keep_data(&ready.folder, &files)?;
@@ -202,12 +204,14 @@ fn run_to(
     made: &mut Made,
 ) -> Result<Option<CommandOutcome>, Failure> {
     let plan = ensemble.plan();
+    let is_mine = |part: &Part| options.shard.is_none_or(|shard| part.id.0 % shard.of == shard.number - 1);
     // a last part of fewer samples is made again with its further rows
-    let is_outgrown = |record: &PartRecord| parts.part(record.samples().id).is_none_or(|part| part != record.samples());
+    let is_outgrown = |record: &PartRecord| {
+        is_mine(&record.samples()) && parts.part(record.samples().id).is_none_or(|part| part != record.samples())
+    };
     let outgrown: Vec<u64> =
         ready.folder.parts().iter().filter(|record| is_outgrown(record)).map(|record| record.part).collect();
     ready.folder.drop_parts(outgrown).map_err(Failure::files)?;
-    let is_mine = |part: &Part| options.shard.is_none_or(|shard| part.id.0 % shard.of == shard.number - 1);
     let mut missing = ready.folder.missing(parts.iter());
     missing.retain(is_mine);
     if made.samples == 0 {

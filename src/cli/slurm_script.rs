@@ -98,8 +98,8 @@ impl Jobs<'_> {
             r#"
 shard='' is_asked='' is_again=''
 # the shard's manifest has a line for each part
-lines() {{ cat {manifests}/"$SLURM_ARRAY_TASK_ID-of-{shards}.jsonl" 2>/dev/null | wc -l; }}
-before=$(lines)
+parts() {{ cat {manifests}/"$SLURM_ARRAY_TASK_ID-of-{shards}.jsonl" 2>/dev/null | grep -c '^{{"part":'; }}
+before=$(parts)
 # Slurm signals this shell before the time limit; the program then stops, and what it has committed stays
 trap 'is_asked=yes; kill -USR1 "$shard"' USR1
 {program} campaign {file} --out {out}{arguments} \
@@ -113,7 +113,7 @@ if [ -n "$is_asked" ]; then # the signal has ended the first wait, and not the p
 fi
 case $code in
 {STOPPED}) # the time limit is near
-    if [ "${{SLURM_RESTART_COUNT:-0}}" -gt 0 ] && [ "$(lines)" -le "$before" ]; then
+    if [ "${{SLURM_RESTART_COUNT:-0}}" -gt 0 ] && [ "$(parts)" -le "$before" ]; then
         echo "shard $SLURM_ARRAY_TASK_ID/{shards} is not put back into the queue again: it made no part between two time limits ({time})." \
             "Make the scripts again with a longer --time or more --cpus; what is there stays." >&2
     else

@@ -14,9 +14,9 @@ use crate::dataset::bands_file;
 use crate::dataset::claim::{Claim, ClaimOptions, claim, lock, open};
 use crate::dataset::found::{Found, plan_text};
 use crate::dataset::manifest::{FileRecord, PartRecord};
-use crate::dataset::names::{MANIFEST, PLAN, SHARDS, bands_of, rows_of};
+use crate::dataset::names::{MANIFEST, PLAN, bands_of, rows_of};
 use crate::dataset::part_sink::write_parts;
-use crate::dataset::recovery::rebuild;
+use crate::dataset::recovery::{begin_again, is_lost};
 use crate::dataset::rows_file::{RowsFile, identity};
 use crate::dataset::storage::{Disk, Storage};
 use crate::dataset::verify::{damaged, derived_damage};
@@ -52,28 +52,29 @@ pub fn verified(
     note: &dyn Fn(&str),
 ) -> Result<Option<String>, Failure> {
     let root = &options.folder;
-    let rebuilt = if options.repair { rebuilt_manifest(storage, root)? } else { None };
-    let (found, locks) = open(storage, root).map_err(Failure::files)?;
+    let lost = if options.repair { new_manifest(storage, root)? } else { None };
+    let (found, locks) = open(storage, root, !options.repair).map_err(Failure::files)?;
     let plan = plan_of_result(root, &found)?;
     let ensemble = Ensemble::new(&plan, isa()?);
     let expected = identity(&ensemble);
     refuse_other_rows(root, &found, &expected)?;
     let readers = threads(options.threads, usize::MAX);
     let records: Vec<PartRecord> = found.parts().into_values().collect();
-    let mut problems: Vec<String> = rebuilt.iter().cloned().collect();
-    problems.extend(found.damaged_lines().iter().map(|line| format!("{line}: damaged line")));
-    problems.extend(found.plan_damage.clone());
+    let mut problems: Vec<String> = lost.iter().cloned().collect();
+    problems.extend(found.damage());
     problems.extend(found.foreign.iter().map(|entry| format!("{entry}: not what the result has under this name")));
     found.notes().iter().for_each(|entry| note(entry));
     let broken = damaged(storage, root, &expected, &records, readers).map_err(Failure::files)?;
     problems.extend(broken.iter().map(|(_, what)| what.clone()));
     problems.extend(derived_damage(storage, root, found.derived()).map_err(Failure::files)?);
     let missing = missing_parts(&found, &ensemble);
-    problems.extend(missing.iter().map(|part| format!("{}: missing", rows_of(part.id))));
+    problems.extend(
+        (!missing.is_empty())
+            .then(|| format!("{} parts are missing, the first is part {}", missing.len(), missing[0].id.0)),
+    );
     let sound: Vec<Part> =
         records.iter().filter(|part| !broken.iter().any(|(id, _)| *id == part.part)).map(PartRecord::samples).collect();
-    // checksums of a manifest that was made from the files themselves prove nothing
-    let chosen = choice(&sound, if rebuilt.is_some() { 1.0 } else { options.fraction });
+    let chosen = choice(&sound, options.fraction);
     let differing = differing(&ensemble, &records, &chosen, options)?;
     problems.extend(differing.iter().map(|part| format!("{}: its rows are not those of the plan", rows_of(part.id))));
     let rows: usize = chosen.iter().map(|part| part.count).sum();
@@ -116,21 +117,17 @@ pub fn verified(
     Ok(Some(format!("{text}{checked}: {end}\n")))
 }
 
-/// Writes the manifest of a result that has lost it, from its plan and its files of rows; what was done, where that was necessary.
-fn rebuilt_manifest(storage: &'static dyn Storage, root: &Path) -> Result<Option<String>, Failure> {
-    let top = storage.list(root).map_err(|error| Failure::files(format!("{}: {error}", root.display())))?;
-    let has = |name: &str| top.iter().any(|entry| entry.is_file && entry.name == name);
-    if has(MANIFEST) || !has(PLAN) || top.iter().any(|entry| entry.name == SHARDS) {
+/// Writes the manifest of a result that has lost it, with its plan and without parts; what was done, where that was necessary.
+fn new_manifest(storage: &'static dyn Storage, root: &Path) -> Result<Option<String>, Failure> {
+    if !is_lost(storage, root).map_err(Failure::files)? {
         return Ok(None);
     }
     let _locks = lock(storage, root).map_err(Failure::files)?;
     let found = Found { plan: plan_text(storage, root).map_err(Failure::files)?, ..Found::default() };
     let (plan, _) = plan_in(root, &found)?;
-    let ensemble = Ensemble::new(&plan, isa()?);
-    let origin = (found.plan.as_str(), &identity(&ensemble));
-    let parts = parts(&plan, ensemble.isa());
-    let count = rebuild(storage, root, origin, (parts, plan.band_points > 0)).map_err(Failure::files)?;
-    Ok((count > 0).then(|| format!("{MANIFEST}: missing; {count} parts of this plan were found by their own metadata")))
+    let origin = (found.plan.as_str(), &identity(&Ensemble::new(&plan, isa()?)));
+    let is_begun = begin_again(storage, root, origin).map_err(Failure::files)?;
+    Ok(is_begun.then(|| format!("{MANIFEST}: missing; nothing says what its parts had, so they are computed again")))
 }
 
 /// The parts of the plan that no manifest lists.

@@ -8,12 +8,13 @@ use std::time::{Duration, Instant};
 use crate::campaign::Plan;
 use crate::dataset::folder::{Folder, MOST_MANIFEST, MOST_SUMMARY, begin};
 pub use crate::dataset::folder_error::FolderError;
-use crate::dataset::folder_error::occupied;
+use crate::dataset::folder_error::{occupied, row_differences};
 use crate::dataset::found::{Contents, Found, contents};
 use crate::dataset::manifest::{Identity, Manifest, PartRecord};
-use crate::dataset::names::{MANIFEST, SUMMARY, manifest_of};
+use crate::dataset::names::{MANIFEST, SUMMARY, TABLE_LOG, manifest_of};
+use crate::dataset::recovery::is_lost;
 use crate::dataset::replacement::{self, remove_replaced, remove_unfinished, replace};
-use crate::dataset::storage::{Storage, at, meant, new_folder};
+use crate::dataset::storage::{Storage, at, meant, new_folder, no_link};
 use crate::dataset::verify::{damaged as damaged_parts, derived_damage};
 
 /// How long a lock of another process is waited for: that of a process which was killed ends once the system has closed its files, and a
@@ -157,6 +158,9 @@ fn locked(storage: &dyn Storage, root: &Path, options: ClaimOptions) -> Result<(
         // a shard that begins at the same time has written files since its manifest was looked for
         found = contents(storage, root)?;
     }
+    if matches!(found, Contents::Foreign(_)) && is_lost(storage, root)? {
+        return Err(FolderError::Lost { folder: root.display().to_string() });
+    }
     let foreign = |entry| FolderError::Foreign { folder: root.display().to_string(), entry };
     let mut found = match found {
         Contents::Foreign(entry) => return Err(foreign(entry)),
@@ -181,6 +185,12 @@ fn fill(
     if let Some(there) = found.identity.as_ref().filter(|there| *there != identity) {
         return Err(occupied(folder, &found, there, (plan, identity)));
     }
+    if let Some(differences) = row_differences(&found.plan, plan).filter(|_| found.identity.is_some()) {
+        let conflict = format!(
+            "its first line says that its rows are those of this plan, and its second one has a plan with other rows:\n  {differences}"
+        );
+        return Err(FolderError::Mixed { folder, conflict: format!("{MANIFEST}: {conflict}") });
+    }
     let most = most(plan);
     if found.extent() > most {
         return Err(FolderError::Larger { folder, found: found.extent(), asked: most });
@@ -203,8 +213,7 @@ fn ready(
     let mine: Vec<PartRecord> = all.iter().filter(is_mine).cloned().collect();
     let broken = damaged_parts(storage, root, identity, &mine, options.threads)?;
     let name = options.shard.map_or(MANIFEST.to_owned(), |shard| manifest_of(shard.number, shard.of));
-    let mut damaged = found.damaged_lines();
-    damaged.extend(found.plan_damage.clone());
+    let mut damaged = found.damage();
     // other shards may be about to write the last line of theirs, and the plan
     damaged.retain(|what| options.shard.is_none() || what.starts_with(&name));
     damaged.extend(broken.iter().map(|(_, what)| what.clone()));
@@ -212,12 +221,20 @@ fn ready(
     // of a plan with [stop] the finished number of rows is that of one of its looks
     let is_whole = found.is_finished && plan.looks().contains(&found.rows());
     let is_complete = is_whole && damaged.is_empty() && found.plan == plan.text();
-    if is_complete && options.shard.is_none() {
+    if is_whole && options.shard.is_some() && damaged.is_empty() && !is_complete {
+        return Err(FolderError::Answered { folder: root.display().to_string() });
+    }
+    if is_complete {
         let path = root.join(SUMMARY);
         match summary(storage.read(&path, MOST_SUMMARY).map_err(at(&path))?) {
             Some(summary) => return Ok(Claim::Finished(Finished { summary, notes: found.notes() })),
             None => damaged.push(format!("{SUMMARY}: its content has changed")),
         }
+    }
+    for commit in &found.foreign_commits {
+        let (path, folder) = (root.join(commit), root.join(TABLE_LOG));
+        no_link(&folder).map_err(at(&folder))?;
+        storage.remove(&path).map_err(at(&path))?;
     }
     let is_plan_there = found.plan == plan.text() && found.plan_damage.is_none();
     let what = (plan.text(), identity.clone());
@@ -278,22 +295,24 @@ pub fn lock(storage: &dyn Storage, root: &Path) -> Result<Locks, FolderError> {
     Ok(locks)
 }
 
-/// Opens the dataset in `root` as it is, for commands that add no samples; locked against writers.
+/// Opens the dataset in `root` as it is, for commands that add no samples; locked against writers, and against readers unless `is_shared`.
 ///
 /// # Errors
 /// Where there is none, or a file operation fails.
-pub fn open(storage: &'static dyn Storage, root: &Path) -> Result<(Found, Locks), FolderError> {
+pub fn open(storage: &'static dyn Storage, root: &Path, is_shared: bool) -> Result<(Found, Locks), FolderError> {
     let folder = root.display().to_string();
     let nothing = |why: &str| FolderError::Nothing { folder: folder.clone(), why: why.to_owned() };
     if storage.list(root).map_err(at(root))?.is_empty() {
         return Err(nothing("there is no such folder, or it is empty"));
     }
-    let locks = lock(storage, root)?;
+    let mut locks = Locks::default();
+    locks.add(storage, root, is_shared)?;
     match contents(storage, root)? {
         Contents::Dataset(found) => match &found.conflict {
             Some(conflict) => Err(FolderError::Mixed { folder, conflict: conflict.clone() }),
             None => Ok((*found, locks)),
         },
+        _ if is_lost(storage, root)? => Err(FolderError::Lost { folder }),
         _ => Err(nothing("it has no manifest.jsonl")),
     }
 }

@@ -296,7 +296,9 @@ impl Folder {
             Err(error) if is_unfit(&error) => None,
             Err(error) => return Err(at(&path)(error)),
         };
-        summary.map_or(Ok(()), |text| place(self.storage, &path, text.as_bytes()))
+        let Some(text) = summary else { return Ok(()) };
+        place(self.storage, &path, text.as_bytes())?;
+        self.storage.sync_folder(&self.root).map_err(at(&self.root))
     }
 
     /// Prepares the folder `name` for files that are made again: without those that an earlier end of the campaign left there.
@@ -342,17 +344,21 @@ impl Folder {
     }
 }
 
-/// Writes the manifest of the finished dataset in `root` after one file that follows from the rows was made again.
+/// Writes the manifest of the finished dataset in `root`, whose plan has the text `plan`, after one file that follows from the rows was made again.
 ///
 /// # Errors
 /// Where a file operation fails.
-pub fn relist(storage: &dyn Storage, root: &Path, manifest: &Manifest, file: FileRecord) -> Result<(), StorageError> {
+pub fn relist(
+    storage: &dyn Storage,
+    root: &Path,
+    (manifest, plan): (&Manifest, &str),
+    file: FileRecord,
+) -> Result<(), StorageError> {
     let Some(identity) = &manifest.identity else { return Ok(()) };
     let mut derived: BTreeMap<&str, &FileRecord> =
         manifest.derived.iter().map(|one| (one.name.as_str(), one)).collect();
     derived.insert(&file.name, &file);
     let derived = derived.into_values().cloned().collect();
-    let plan = manifest.plan.as_deref().unwrap_or_default();
     let path = root.join(MANIFEST);
     place(storage, &path, Manifest::text(identity, plan, manifest.parts.values(), Some(derived)).as_bytes())?;
     storage.sync_folder(root).map_err(at(root))

@@ -48,6 +48,22 @@ pub enum FolderError {
         /// Which shard differs, in which keys.
         conflict: String,
     },
+    /// It has a plan and rows, and no manifest.
+    #[error(
+        "`{folder}` has lost its manifest.jsonl; this makes its rows again from its plan.toml: spindrift verify {folder} --repair"
+    )]
+    Lost {
+        /// The folder.
+        folder: String,
+    },
+    /// Everything is there, and a shard has other keys that change no row.
+    #[error(
+        "`{folder}` is finished, and the plan of this shard has other keys that change no row; run the campaign without --shard: it answers from the rows that are there"
+    )]
+    Answered {
+        /// The folder.
+        folder: String,
+    },
     /// It has something else.
     #[error(
         "`{folder}` contains `{entry}`, which is not part of a result of spindrift; move it away, or choose another --out"
@@ -59,7 +75,7 @@ pub enum FolderError {
         entry: String,
     },
     /// Another process writes to it.
-    #[error("another process is writing to `{folder}`{owner}; wait for it, or choose another --out")]
+    #[error("another process is using `{folder}`{owner}; wait for it, or choose another folder")]
     Busy {
         /// The folder.
         folder: String,
@@ -89,6 +105,21 @@ pub enum FolderError {
     Storage(#[from] StorageError),
 }
 
+/// The keys that change rows in which the plan of the text `there` differs from `plan`, with both values.
+fn differing_rows(there: &str, plan: &Plan) -> Vec<String> {
+    // keys that do not change rows are no reason
+    let is_reason = |one: &KeyDifference| !Plan::OUTSIDE_ROWS.iter().any(|key| one.key.starts_with(key));
+    let value = |value: Option<String>| value.unwrap_or_else(|| "absent".to_owned());
+    let keys = text_differences(there, &plan.text()).into_iter().filter(is_reason);
+    keys.map(|one| format!("{}: {} there, {} here", one.key, value(one.first), value(one.second))).collect()
+}
+
+/// The same as one text; `None` where there are none, or there is no plan.
+pub(super) fn row_differences(there: &str, plan: &Plan) -> Option<String> {
+    let list = differing_rows(there, plan);
+    (!there.is_empty() && !list.is_empty()).then(|| list.join("\n  "))
+}
+
 /// That `found` in `folder` has the rows `there`, and not those of `plan`, which have the identity `identity`.
 pub(super) fn occupied(
     folder: String,
@@ -96,14 +127,7 @@ pub(super) fn occupied(
     there: &Identity,
     (plan, identity): (&Plan, &Identity),
 ) -> FolderError {
-    // keys that do not change rows are no reason
-    let is_reason = |one: &KeyDifference| !Plan::OUTSIDE_ROWS.iter().any(|key| one.key.starts_with(key));
-    let value = |value: Option<String>| value.unwrap_or_else(|| "absent".to_owned());
-    let mut list: Vec<String> = text_differences(&found.plan, &plan.text())
-        .into_iter()
-        .filter(is_reason)
-        .map(|one| format!("{}: {} there, {} here", one.key, value(one.first), value(one.second)))
-        .collect();
+    let mut list = differing_rows(&found.plan, plan);
     if there.arithmetic != identity.arithmetic || there.format != identity.format {
         list.push(format!(
             "version of the row arithmetic: {}.{} there, {}.{} here",

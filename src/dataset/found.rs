@@ -8,7 +8,7 @@ use crate::dataset::folder::MOST_MANIFEST;
 use crate::dataset::identity::in_rows;
 use crate::dataset::manifest::{FileRecord, Identity, Manifest, PartRecord};
 use crate::dataset::names::{
-    FOLDERS, MANIFEST, PLAN, REPLACEMENT, REPORT, SHARDS, SUCCESS, TRAJECTORIES, UNFINISHED, is_of_parts, is_ours,
+    FOLDERS, MANIFEST, PLAN, REPLACEMENT, REPORT, SHARDS, SUCCESS, TABLE_LOG, UNFINISHED, is_derived, is_ours,
 };
 use crate::dataset::storage::{Storage, StorageError, at, is_absent};
 use crate::dataset::stored_file::is_unfit;
@@ -38,6 +38,8 @@ pub struct Found {
     pub identity: Option<Identity>,
     /// Which manifest is of other rows than another, and the keys that differ.
     pub conflict: Option<String>,
+    /// Which shard has a plan with other keys than another, though of the same rows, and these keys.
+    pub shards_differ: Option<String>,
     /// The records of its manifests by their names.
     pub manifests: BTreeMap<String, Manifest>,
     /// Whether everything is there.
@@ -48,8 +50,10 @@ pub struct Found {
     pub foreign: Option<String>,
     /// Entries whose names no file of a dataset has: they are left alone.
     pub strays: Vec<String>,
-    /// Files of parts and time series that no manifest lists although everything is there.
+    /// Files with names of the dataset that no manifest lists although everything is there.
     pub unlisted: Vec<String>,
+    /// Commits of the table's log that no manifest lists although everything is there: a table engine would believe them.
+    pub foreign_commits: Vec<String>,
 }
 
 impl Found {
@@ -96,12 +100,13 @@ impl Found {
         self.parts().values().map(|part| part.first_sample.saturating_add(part.rows)).max().unwrap_or(0)
     }
 
-    /// The damaged lines of the manifests, each with its file.
-    pub fn damaged_lines(&self) -> Vec<String> {
+    /// What is wrong with manifests, plan and log, each with its file.
+    pub fn damage(&self) -> Vec<String> {
         let lines = |(name, manifest): (&String, &Manifest)| -> Vec<String> {
-            manifest.damaged.iter().map(|line| format!("{name}:{line}")).collect()
+            manifest.damaged.iter().map(|line| format!("{name}:{line}: damaged line")).collect()
         };
-        self.manifests.iter().flat_map(lines).collect()
+        let commits = self.foreign_commits.iter().map(|name| format!("{name}: is no commit of this result"));
+        self.manifests.iter().flat_map(lines).chain(self.plan_damage.clone()).chain(commits).collect()
     }
 }
 
@@ -160,8 +165,11 @@ pub fn contents(storage: &dyn Storage, root: &Path) -> Result<Contents, StorageE
         );
     }
     let has = |name: &str| top.iter().any(|entry| entry.is_file && entry.name == name);
-    found.is_finished = has(SUCCESS) && found.manifests.get(MANIFEST).is_some_and(|manifest| manifest.is_finished);
-    found.conflict = conflict(&found.manifests);
+    let is_marked_whole = top.iter().any(|entry| entry.is_file && entry.name == SUCCESS && entry.size == 0);
+    found.is_finished = is_marked_whole && found.manifests.get(MANIFEST).is_some_and(|manifest| manifest.is_finished);
+    found.conflict = conflict(&found.manifests, |manifest| manifest.identity.as_ref());
+    let shards = found.manifests.iter().filter(|(name, _)| name.starts_with(SHARDS));
+    found.shards_differ = conflict(shards, |manifest| manifest.plan.as_ref());
     found.identity = match found.manifests.values().find_map(|manifest| manifest.identity.clone()) {
         None => identity_in_rows(storage, &found.row_files(root))?,
         identity => identity,
@@ -169,34 +177,31 @@ pub fn contents(storage: &dyn Storage, root: &Path) -> Result<Contents, StorageE
     found.has_page = has(REPORT) || found.derived().iter().any(|file| file.name == REPORT);
     let mut listed = found.listed();
     listed.extend(found.derived().iter().map(|file| file.name.clone()));
-    let is_listed = |name: &String| {
-        let folder = name.split_once('/').map_or("", |(folder, _)| folder);
-        !(is_of_parts(folder) || folder == TRAJECTORIES) || listed.contains(name)
-    };
     if found.is_finished {
-        found.unlisted = files.iter().filter(|name| !is_listed(name)).cloned().collect();
+        let top = top.iter().filter(|entry| entry.is_file && is_derived(&entry.name)).map(|entry| entry.name.clone());
+        let files = files.into_iter().chain(top).filter(|name| !name.ends_with(UNFINISHED) && !listed.contains(name));
+        (found.foreign_commits, found.unlisted) = files.partition(|name| name.starts_with(TABLE_LOG));
     }
     (found.plan, found.plan_damage) = plan_of(&found.manifests, plan_text(storage, root)?);
     Ok(Contents::Dataset(Box::new(found)))
 }
 
-/// Which of `manifests` is of other rows than the first that says what its rows are.
-fn conflict(manifests: &BTreeMap<String, Manifest>) -> Option<String> {
-    let mut known =
-        manifests.iter().filter_map(|(name, manifest)| Some((name, manifest.identity.as_ref()?, &manifest.plan)));
-    let (first, identity, plan) = known.next()?;
-    let (name, other, other_plan) = known.find(|(_, other, _)| *other != identity)?;
+/// Which of `manifests` has something else than the first that has it, and the keys in which their plans differ.
+fn conflict<'m, T: PartialEq + 'm>(
+    manifests: impl IntoIterator<Item = (&'m String, &'m Manifest)>,
+    what: impl Fn(&'m Manifest) -> Option<&'m T>,
+) -> Option<String> {
+    let mut known = manifests.into_iter().filter_map(|(name, manifest)| Some((name, what(manifest)?, manifest)));
+    let (first, of_first, one) = known.next()?;
+    let (name, _, other) = known.find(|(_, of_other, _)| *of_other != of_first)?;
     let value = |value: Option<String>| value.unwrap_or_else(|| "absent".to_owned());
     let text = |plan: &Option<String>| plan.clone().unwrap_or_default();
-    let keys = text_differences(&text(plan), &text(other_plan)).into_iter();
+    let keys = text_differences(&text(&one.plan), &text(&other.plan)).into_iter();
     let mut keys: Vec<String> = keys
         .map(|one| format!("{}: {} in {first}, {} in {name}", one.key, value(one.first), value(one.second)))
         .collect();
     if keys.is_empty() {
-        keys.push(format!(
-            "{}.{} in {first}, {}.{} in {name}: versions of format and arithmetic, row hashes {} and {}",
-            identity.format, identity.arithmetic, other.format, other.arithmetic, identity.row_hash, other.row_hash
-        ));
+        keys.push(format!("{:?} in {first}, {:?} in {name}", one.identity, other.identity));
     }
     Some(format!("{name} is of another plan than {first}:\n  {}", keys.join("\n  ")))
 }
@@ -234,7 +239,12 @@ fn plan_of(manifests: &BTreeMap<String, Manifest>, there: String) -> (String, Op
 /// Where it cannot be read.
 pub fn plan_text(storage: &dyn Storage, root: &Path) -> Result<String, StorageError> {
     let path = root.join(PLAN);
-    match storage.read(&path, MOST_PLAN) {
+    // another shard may write it between the read and the look at the folder
+    let read = storage.read(&path, MOST_PLAN).or_else(|error| match is_absent(storage, root, &path, &error) {
+        Ok(false) if error.kind() == std::io::ErrorKind::NotFound => storage.read(&path, MOST_PLAN),
+        _ => Err(error),
+    });
+    match read {
         Ok(bytes) => Ok(String::from_utf8(bytes).unwrap_or_default()),
         Err(error) if is_unfit(&error) || is_absent(storage, root, &path, &error)? => Ok(String::new()),
         Err(error) => Err(at(&path)(error)),

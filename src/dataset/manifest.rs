@@ -182,6 +182,9 @@ impl Manifest {
                 }
             }
         }
+        if manifest.identity.is_some() && manifest.plan.is_none() && manifest.damaged.is_empty() {
+            manifest.damaged.push(2);
+        }
         manifest
     }
 
@@ -262,7 +265,8 @@ pub(super) mod tests {
             assert_eq!(read.plan.is_some(), whole > 1, "{length} bytes");
             assert_eq!(read.parts.len(), whole.saturating_sub(2).min(3), "{length} bytes");
             assert!(!read.is_finished && read.derived.is_empty(), "{length} bytes");
-            assert_eq!(read.damaged.is_empty(), cut.is_empty() || cut.ends_with('\n'), "{length} bytes");
+            let is_whole = cut.is_empty() || cut.ends_with('\n') && whole > 1;
+            assert_eq!(read.damaged.is_empty(), is_whole, "{length} bytes");
         }
     }
 

@@ -1,55 +1,49 @@
-//! [`rebuild`]: the manifest of a dataset that has lost it, from what the files of rows say of themselves.
+//! [`begin_again`]: the manifest of a dataset that has lost it.
 //!
-//! The checksums are then those of the files as they are: whether their rows are those of the plan is found out by computing them again.
+//! What the files of rows say of themselves is whose they are; that they have what was written then, nothing says. So the new manifest has the
+//! identity and the plan and lists no part: the parts are computed again.
 
 use std::path::Path;
 
+use crate::dataset::folder::begin;
 use crate::dataset::identity::in_rows;
-use crate::dataset::manifest::{FileRecord, Identity, Manifest, PartRecord};
-use crate::dataset::names::{MANIFEST, bands_of, rows_of};
-use crate::dataset::storage::{Storage, StorageError, at, is_absent};
+use crate::dataset::manifest::Identity;
+use crate::dataset::names::{MANIFEST, PLAN, RUNS, is_ours};
+use crate::dataset::storage::{Storage, StorageError, at, entries_in};
 use crate::dataset::stored_file::is_unfit;
-use crate::dataset::whole_file::place;
-use crate::ensemble::Parts;
 
-/// Writes the manifest of the dataset in `root` with those of `parts` whose files have rows of `identity`; how many these are. `plan` is the
-/// text of the plan. Where there are none, nothing is written.
+/// Whether there is a plan with files of rows in `root`, and no manifest.
+///
+/// # Errors
+/// Where a folder cannot be read.
+pub fn is_lost(storage: &dyn Storage, root: &Path) -> Result<bool, StorageError> {
+    let top = storage.list(root).map_err(at(root))?;
+    let has = |name: &str| top.iter().any(|entry| entry.name == name);
+    Ok(has(PLAN) && has(RUNS) && !has(MANIFEST))
+}
+
+/// Writes the manifest of the dataset in `root`, where a file of rows of its plan is there; whether it was written. `plan` is the text of the
+/// plan.
 ///
 /// # Errors
 /// Where a file operation fails.
-pub fn rebuild(
+pub fn begin_again(
     storage: &dyn Storage,
     root: &Path,
     (plan, identity): (&str, &Identity),
-    (parts, has_bands): (Parts, bool),
-) -> Result<usize, StorageError> {
-    let mut records = Vec::new();
-    for part in parts {
-        let Some(rows) = read(storage, root, &rows_of(part.id))? else { continue };
-        let mut files = vec![FileRecord::of(&rows_of(part.id), &rows)];
-        if has_bands {
-            let Some(bands) = read(storage, root, &bands_of(part.id))? else { continue };
-            files.push(FileRecord::of(&bands_of(part.id), &bands));
+) -> Result<bool, StorageError> {
+    let folder = root.join(RUNS);
+    for entry in entries_in(storage, root, &folder)?.into_iter().filter(|entry| is_ours(RUNS, &entry.name)) {
+        let path = folder.join(entry.name);
+        let bytes = match storage.read(&path, u64::MAX) {
+            Ok(bytes) => bytes,
+            Err(error) if is_unfit(&error) => continue,
+            Err(error) => return Err(at(&path)(error)),
+        };
+        if in_rows(bytes.into()).is_some_and(|(there, ..)| there == *identity) {
+            begin(storage, root, (plan, identity), MANIFEST)?;
+            return Ok(true);
         }
-        let is_its = |found: &(Identity, _, usize)| found.0 == *identity && found.1 == part.id && found.2 == part.count;
-        if in_rows(rows.into()).is_some_and(|found| is_its(&found)) {
-            records.push(PartRecord { part: part.id.0, first_sample: part.first.0, rows: part.count as u64, files });
-        }
     }
-    if !records.is_empty() {
-        let text = Manifest::text(identity, plan, records.iter(), None);
-        place(storage, &root.join(MANIFEST), text.as_bytes())?;
-        storage.sync_folder(root).map_err(at(root))?;
-    }
-    Ok(records.len())
-}
-
-/// The content of a file of the dataset in `root`; `None` where there is none.
-fn read(storage: &dyn Storage, root: &Path, name: &str) -> Result<Option<Vec<u8>>, StorageError> {
-    let path = root.join(name);
-    match storage.read(&path, u64::MAX) {
-        Ok(bytes) => Ok(Some(bytes)),
-        Err(error) if is_unfit(&error) || is_absent(storage, root, &path, &error)? => Ok(None),
-        Err(error) => Err(at(&path)(error)),
-    }
+    Ok(false)
 }

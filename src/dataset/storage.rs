@@ -284,7 +284,8 @@ pub fn new_folder(storage: &dyn Storage, path: &Path) -> Result<(), StorageError
 /// # Errors
 /// Where a link cannot be read, or leads to itself.
 pub fn meant(path: &Path) -> io::Result<PathBuf> {
-    let mut folder = path.to_owned();
+    // without a slash at the end, and without `.` within
+    let mut folder: PathBuf = path.components().collect();
     // as many links as Linux follows
     for _ in 0..40 {
         if folder.file_name().is_none() {

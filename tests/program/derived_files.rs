@@ -183,12 +183,11 @@ fn a_repair_that_is_stopped_continues() {
     assert!(stopped > 0, "no repair was stopped in time");
 }
 
-/// Law: a manifest that is lost is made again from what the parts say of themselves; all of them are computed again, so that a part that is not
-/// what the plan says is found.
+/// Law: a result that has lost its manifest is made again from its plan: its parts are computed again, since nothing says what they had. An
+/// altered part is never taken for sound, whatever stops the repair; other commands name the remedy.
 #[test]
 fn a_lost_manifest_is_made_again() {
     let scratch = folder("derived-manifest");
-    scratch.file("small.toml", &campaign());
     scratch.prints("campaign small.toml --out r", 0);
     let root = scratch.path("r");
     let whole = contents(&root);
@@ -200,9 +199,97 @@ fn a_lost_manifest_is_made_again() {
             bytes[middle] ^= 1;
             fs::write(root.join(name), bytes).unwrap();
         }
-        scratch.prints("verify r", 4);
+        for command in ["verify r", "finish r", "report r", "campaign small.toml --out r"] {
+            let said = scratch.prints(command, 4);
+            assert!(said.contains("spindrift verify r --repair"), "{command}: {said}");
+        }
         let said = scratch.prints("verify r --repair", 0);
         assert!(said.contains("manifest.jsonl: missing"), "{said}");
         assert!(contents(&root) == whole, "{damaged:?}");
     }
+    // the plan is not that of the parts: nothing is made
+    fs::remove_file(root.join("manifest.jsonl")).unwrap();
+    let other = fs::read_to_string(root.join("plan.toml")).unwrap().replace("seed = 7", "seed = 8");
+    scratch.file("r/plan.toml", &other);
+    scratch.prints("verify r --repair", 4);
+    assert!(!root.join("manifest.jsonl").exists());
+}
+
+/// Law: a commit of the table's log that the program did not write is damage, since engines would believe it; other files under names of the
+/// result that nothing lists are named, and left alone.
+#[test]
+fn what_engines_would_read_is_listed() {
+    let scratch = folder("derived-foreign");
+    scratch.prints("campaign small.toml --no-report --out r", 0);
+    let root = scratch.path("r");
+    let whole = contents(&root);
+    let commit = "r/_delta_log/00000000000000000001.json";
+    let remove = "{\"remove\":{\"path\":\"runs/part-000000.parquet\",\"deletionTimestamp\":0,\"dataChange\":true}}\n";
+    for repair in ["verify r --repair", "campaign small.toml --no-report --out r", "finish r --no-report"] {
+        scratch.file(commit, remove);
+        for command in ["verify r --fraction 0", "report r", "compare r r"] {
+            let said = scratch.prints(command, 4);
+            assert!(said.contains("_delta_log/00000000000000000001.json"), "{command}: {said}");
+        }
+        scratch.prints(repair, 0);
+        assert!(contents(&root) == whole, "{repair}");
+    }
+    scratch.file("r/report.html", "another page");
+    let said = scratch.prints("verify r", 0);
+    assert!(said.contains("report.html: not part of the result"), "{said}");
+    fs::remove_file(root.join("report.html")).unwrap();
+    // a mark with something in it is no mark: the same command makes it again
+    scratch.file("r/_SUCCESS", "x");
+    scratch.prints("campaign small.toml --no-report --out r", 0);
+    assert!(contents(&root) == whole);
+}
+
+/// Law: a manifest without its line of the plan is damaged, and a page made again does not lose the plan; where the first line is of other rows
+/// than the plan of the second, nothing is replaced.
+#[test]
+fn lines_of_identity_and_plan_belong_together() {
+    let scratch = folder("derived-plan-line");
+    for (result, seed) in [("r", 7), ("other", 8)] {
+        scratch.prints(&format!("campaign small.toml --samples 300 --seed {seed} --no-report --out {result}"), 0);
+    }
+    let text = |result: &str| fs::read_to_string(scratch.path(result).join("manifest.jsonl")).unwrap();
+    let (mine, other) = (text("r"), text("other"));
+    let without =
+        |line: usize| mine.lines().enumerate().filter(move |(at, _)| *at != line).map(|(_, line)| format!("{line}\n"));
+    scratch.file("r/manifest.jsonl", &without(1).collect::<String>());
+    assert!(scratch.prints("verify r", 4).contains("manifest.jsonl:2"));
+    scratch.prints("report r", 4);
+    scratch.prints("verify r --repair", 0);
+    assert_eq!(text("r"), mine);
+    let mixed = format!("{}\n{}", other.lines().next().unwrap(), without(0).collect::<String>());
+    scratch.file("r/manifest.jsonl", &mixed);
+    let rows = scratch.parts("r");
+    scratch.prints("verify r", 4);
+    scratch.prints("campaign small.toml --samples 300 --seed 8 --no-report --out r", 4);
+    assert_eq!((text("r"), scratch.parts("r")), (mixed, rows));
+}
+
+/// Law: a shard that is started again on a finished result ends with 0 and changes nothing; with other questions it is refused; shards that ask
+/// different questions are not finished, and the campaign's command says whose answers are meant.
+#[test]
+fn shards_change_no_finished_result() {
+    let scratch = folder("derived-shards");
+    let require = |limit: &str| {
+        let gate = format!("\n[[require]]\nobservable = \"energy_error_max\"\nquantile = 0.5\nat_most = {limit}\n");
+        campaign() + &gate
+    };
+    scratch.file("strict.toml", &require("1e-30"));
+    scratch.file("loose.toml", &require("1.0"));
+    for (file, shard) in [("strict", "1/2"), ("loose", "2/2")] {
+        scratch.prints(&format!("campaign {file}.toml --no-report --shard {shard} --out r"), 0);
+    }
+    let said = scratch.prints("finish r --no-report", 4);
+    assert!(said.contains("require") && said.contains("1e-30") && said.contains("1.0"), "{said}");
+    scratch.prints("campaign strict.toml --no-report --out r", 3);
+    let whole = contents(&scratch.path("r"));
+    scratch.prints("campaign strict.toml --no-report --shard 1/2 --out r", 0);
+    assert!(contents(&scratch.path("r")) == whole);
+    scratch.prints("campaign loose.toml --no-report --shard 1/2 --out r", 4);
+    assert!(contents(&scratch.path("r")) == whole);
+    scratch.prints("campaign strict.toml --no-report --out r", 3);
 }

@@ -297,7 +297,7 @@ const LOCK_TRIES: usize = 30;
 /// What `command` returns, as soon as no other process has the lock.
 pub fn unlocked(command: impl Fn() -> Result<(), Failure>) -> Result<(), Failure> {
     let is_locked = |ended: &Result<(), Failure>| {
-        ended.as_ref().is_err_and(|failure| reason(failure).contains("another process is writing"))
+        ended.as_ref().is_err_and(|failure| reason(failure).contains("another process is using"))
     };
     let mut ended = command();
     for _ in 0..LOCK_TRIES {

@@ -124,7 +124,7 @@ fn others_begin(scratch: &ScratchFolder, rounds: u32, locks: Locks<'_>) {
             assert_eq!(done.len(), 1, "round {round} {shard}: {ended:?}");
             for (code, said) in ended.iter().filter(|(code, _)| *code != 0) {
                 assert_eq!(*code, 4, "{said}");
-                assert!(said.contains("another plan") || said.contains("another process is writing"), "{said}");
+                assert!(said.contains("another plan") || said.contains("another process is using"), "{said}");
             }
             let winner = (done[0] + round as usize) % kinds.len();
             if !shard.is_empty() {

@@ -162,7 +162,11 @@ fn a_task_that_makes_no_part_is_not_put_back_for_ever() {
     // in the place of the program: one that is stopped before its limit, and has made a part where `grows` is there
     let manifest = scratch.path("small").join(spindrift::dataset::names::manifest_of(1, 2));
     fs::create_dir_all(manifest.parent().unwrap()).unwrap();
-    program(&scratch, "stopped", &format!("[ -e grows ] && echo part >>'{}'\nexit 138", manifest.display()));
+    program(
+        &scratch,
+        "stopped",
+        &format!("[ -e grows ] && echo '{{\"part\":0}}' >>'{}'\nexit 138", manifest.display()),
+    );
     assert!(text.contains(env!("CARGO_BIN_EXE_spindrift")));
     scratch.file("task.sh", &text.replace(env!("CARGO_BIN_EXE_spindrift"), "stopped"));
     let ends = |restarts: u32| {
