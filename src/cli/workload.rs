@@ -13,18 +13,18 @@ use crate::dataset::found::{Contents, contents};
 use crate::dataset::rows_file::headings;
 use crate::dataset::storage::Disk;
 use crate::ensemble::Ensemble;
-use crate::ensemble::probe::{AuditProbe, RunProbe};
+use crate::ensemble::probe::{AuditProbe, LongRun, RunProbe};
 use crate::ensemble::run_cost::{parts_of_runs, run_seconds};
 use crate::ensemble::runner::threads;
 use crate::observables::band_series::band_series;
+use crate::ode::{PACE_STEPS, is_out_of_reach};
 use crate::report::number::{bytes, short};
+use crate::sampling::SampleId;
 
 /// CPU time beyond which a command asks for `--yes`, s.
 const LONG_S: f64 = 24.0 * 3600.0;
 /// Fraction of the free disk beyond which a command asks for `--yes`.
 const LARGE: f64 = 0.5;
-/// A run that is estimated to take no longer than this is measured, s: a probe runs it some times.
-const SHORT_RUN_S: f64 = 0.2;
 
 /// Bytes of a number in a file: random digits do not compress. A 146-column campaign of 4096 runs has 8.2 (`spin_sweep`).
 const NUMBER: f64 = 8.5;
@@ -53,6 +53,8 @@ pub struct Workload {
     seconds: f64,
     /// What is supposed of a run, s.
     run_seconds: f64,
+    /// The sample whose run is out of reach by the pace of a probe: then the time is not known.
+    too_long: Option<SampleId>,
 }
 
 /// What may be used.
@@ -119,6 +121,7 @@ impl Workload {
             memory,
             seconds: runs * run_seconds,
             run_seconds,
+            too_long: None,
         }
     }
 
@@ -135,6 +138,7 @@ impl Workload {
             memory: PROGRAM + plotted,
             seconds: samples * (1e-6 + columns * 3e-7),
             run_seconds: 0.0,
+            too_long: None,
         }
     }
 
@@ -151,19 +155,26 @@ impl Workload {
             memory: PROGRAM + samples * points * SERIES * 16.0,
             seconds: samples * run_seconds,
             run_seconds,
+            too_long: None,
         }
     }
 
-    /// The same with the CPU time of runs that were measured, where that decides and the runs are short enough to be measured.
+    /// The same with the CPU time of runs that were measured, where that decides.
     #[must_use]
     pub fn measured(self, ensemble: &Ensemble<'_>) -> Self {
-        if self.seconds <= LONG_S || self.run_seconds > SHORT_RUN_S {
+        if self.seconds <= LONG_S {
             return self;
         }
-        let probe = RunProbe::new(ensemble);
-        let fraction = ensemble.plan().audit_fraction;
+        let (plan, probe) = (ensemble.plan(), RunProbe::new(ensemble));
+        let fraction = plan.audit_fraction;
         let audit = if fraction > 0.0 { AuditProbe::new(ensemble).map(|probe| probe.seconds) } else { Ok(0.0) };
         match (probe.too_long, audit) {
+            // what is supposed of a run is not what it takes: it ends early
+            (Some(LongRun { sample, reached }), _)
+                if is_out_of_reach(plan.max_steps, reached, plan.grid.duration()) =>
+            {
+                Workload { too_long: Some(sample), ..self }
+            }
             (None, Ok(audit)) => {
                 let run_seconds = probe.seconds + fraction * audit;
                 Workload { seconds: self.seconds * run_seconds / self.run_seconds, ..self }
@@ -194,7 +205,13 @@ impl Workload {
 
     fn refusal(&self, free: Free, root: &Path, yes: bool, is_shard: bool) -> Option<String> {
         let size = |size: f64| if size < u64::MAX as f64 { bytes(size as u64) } else { format!("{} B", short(size)) };
-        let mut text = format!("{}: about {} of CPU time", self.what, time(self.seconds));
+        let mut text = match self.too_long {
+            None => format!("{}: about {} of CPU time", self.what, time(self.seconds)),
+            Some(sample) => format!(
+                "{}: the CPU time cannot be estimated: sample {sample} needs more than {PACE_STEPS} steps",
+                self.what
+            ),
+        };
         if self.disk > 0.0 {
             text += &format!(", {} of files in `{}`", size(self.disk), root.display());
         }
@@ -211,6 +228,9 @@ impl Workload {
         let is_large = free.disk.is_some_and(|free| self.disk > LARGE * free as f64);
         if yes || !(is_long || is_large) {
             return None;
+        }
+        if is_long && self.too_long.is_some() {
+            return Some(format!("{text}; --yes starts it"));
         }
         let why = if is_long { "more than 24 hours of CPU time" } else { "more than half of what the disk has left" };
         Some(format!("{text}: that is {why}; --yes starts it"))
@@ -241,7 +261,7 @@ mod tests {
     const FREE: Free = Free { disk: Some(1_000_000_000), memory: Some(2_000_000_000) };
 
     fn work(disk: f64, memory: f64, seconds: f64) -> Workload {
-        Workload { what: "9 runs of small".to_owned(), disk, memory, seconds, run_seconds: 1.0 }
+        Workload { what: "9 runs of small".to_owned(), disk, memory, seconds, run_seconds: 1.0, too_long: None }
     }
 
     fn refusal(work: &Workload, yes: bool, is_shard: bool) -> String {
@@ -263,6 +283,13 @@ mod tests {
         let long = work(1.0, 1.0, 2.0 * LONG_S);
         assert!(refusal(&long, false, false).ends_with("that is more than 24 hours of CPU time; --yes starts it"));
         assert_eq!((refusal(&long, true, false), refusal(&long, false, true)), (String::new(), String::new()));
+        let unknown = Workload { too_long: Some(SampleId(3)), ..long.clone() };
+        let said = refusal(&unknown, false, false);
+        assert!(
+            said.contains("cannot be estimated: sample 3 needs more than 20000 steps") && !said.contains("about"),
+            "{said}"
+        );
+        assert_eq!(refusal(&unknown, true, false), "");
         let large = work(6e8, 1.0, 1.0);
         assert!(
             refusal(&large, false, true).ends_with("that is more than half of what the disk has left; --yes starts it")

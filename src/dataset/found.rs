@@ -239,14 +239,14 @@ fn plan_of(manifests: &BTreeMap<String, Manifest>, there: String) -> (String, Op
 /// Where it cannot be read.
 pub fn plan_text(storage: &dyn Storage, root: &Path) -> Result<String, StorageError> {
     let path = root.join(PLAN);
-    // another shard may write it between the read and the look at the folder
-    let read = storage.read(&path, MOST_PLAN).or_else(|error| match is_absent(storage, root, &path, &error) {
-        Ok(false) if error.kind() == std::io::ErrorKind::NotFound => storage.read(&path, MOST_PLAN),
-        _ => Err(error),
-    });
-    match read {
-        Ok(bytes) => Ok(String::from_utf8(bytes).unwrap_or_default()),
+    let text = |bytes| String::from_utf8(bytes).unwrap_or_default();
+    match storage.read(&path, MOST_PLAN) {
+        Ok(bytes) => Ok(text(bytes)),
         Err(error) if is_unfit(&error) || is_absent(storage, root, &path, &error)? => Ok(String::new()),
+        // its folder lists it now: another shard has just written it
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+            storage.read(&path, MOST_PLAN).map(text).map_err(at(&path))
+        }
         Err(error) => Err(at(&path)(error)),
     }
 }

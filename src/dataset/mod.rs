@@ -2,7 +2,7 @@
 //!
 //! - [`found`]: what is in the folder of a result. - [`mod@claim`]: whether a campaign may write there, [`folder_error`]: and if not, why. - [`replacement`]: a result takes the
 //!   place of an older one. - [`folder`]: the dataset, and the protocol by which parts are added, [`whole_file`]: and each file. - [`manifest`]: what it consists of. - [`mod@identity`]: what its rows are. - [`names`]: of its files.
-//! - [`table_log`]: the log by which table engines read the rows. - [`storage`]: file operations, [`stored_file`]: of open files. - [`verify`]: whether files are what was written. - [`part_sink`]: writes finished parts.
+//! - [`table_log`]: the log by which table engines read the rows. - [`storage`]: file operations, [`stored_file`]: of open files. - [`verify`]: whether files are what was written, [`recovery`]: the manifest of a result that has lost it. - [`part_sink`]: writes finished parts.
 //! - [`rows_file`]: the files of rows; [`rows_reader`] reads them, through [`parquet_source`]. - [`bands_file`]: of bands. - [`columnar`]: columns to Parquet, with [`arrow_metadata`]. - [`atomic`]: files that are whole or absent.
 //! - [`tally`], [`audit_tally`]: statistics counted while rows are written. - [`provenance`]: metadata on the origin.
 //! - [`trajectories`]: time series of the runs that are retained.

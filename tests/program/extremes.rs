@@ -142,6 +142,12 @@ fn what_is_out_of_reach_ends_at_once() {
         );
         let said = scratch.prints("simulate long.toml", 1);
         assert!(said.contains("step_limit: integrator.max_steps does not suffice: the run reached "), "{to}: {said}");
+        // the time of many is not known, and no number stands for it
+        let said = scratch.prints("campaign long.toml --samples 3000 --out many", 2);
+        assert!(
+            said.contains("cannot be estimated: sample 0 needs more than 20000 steps") && !said.contains("hours"),
+            "{said}"
+        );
         scratch.prints("campaign long.toml --out r --overwrite", 1);
         let rows = &batches(&scratch.path("r/runs/part-000000.parquet"))[0];
         let statuses = rows.column_by_name("status").unwrap().as_string::<i32>();

@@ -80,7 +80,7 @@ fn what_is_replaced_is_asked_for() {
         .replace("method = \"auto\"", method)
         .replace("samples = 600", "samples = 2");
     scratch.file("long.toml", &long);
-    let asks = "that is more than 24 hours of CPU time; --yes starts it";
+    let asks = "cannot be estimated: sample 0 needs more than 20000 steps";
     let said = scratch.prints("campaign long.toml --out r", 2);
     assert!(said.contains(asks) && said.contains("2 runs of small") && !scratch.path("r").exists(), "{said}");
     scratch.prints("campaign long.toml --out r --yes", 1);
