@@ -18,7 +18,6 @@ use std::path::Path;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use spindrift::campaign::{Compression, Overrides, Plan};
-use spindrift::dataset::rows_file::RowsFile;
 use spindrift::ensemble::settings::propagator;
 use spindrift::ensemble::{Ensemble, Part, PartId, Parts, Rows, Sink, Supervision, run};
 use spindrift::math::Isa;
@@ -26,6 +25,7 @@ use spindrift::observables::{Group, Groups, Observer, Request};
 use spindrift::propagation::CompletedRun;
 use spindrift::sampling::SampleId;
 use spindrift::scene::Scene;
+use spindrift::storage::rows_file::RowsFile;
 
 /// Samples of one measurement.
 const SAMPLES: u64 = 1024;

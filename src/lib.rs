@@ -45,12 +45,13 @@
 #![warn(clippy::unwrap_used, clippy::print_stdout)] // failures are values; a printing macro panics where the pipe is closed
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
+pub mod analysis;
 pub mod campaign;
 pub mod cli;
-pub mod dataset;
 pub mod ensemble;
 pub mod report;
 pub mod sampling;
+pub mod storage;
 
 #[doc(inline)]
 pub use spindrift_kernels::{dynamics, math, observables, ode, propagation, run, scene, statistics};

@@ -3,7 +3,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use spindrift::dataset::manifest::{Manifest, Record};
+use spindrift::storage::manifest::{Manifest, Record};
 
 fuzz_target!(|data: &[u8]| {
     let read = Manifest::of(data);

@@ -7,8 +7,8 @@ use std::sync::OnceLock;
 
 use libfuzzer_sys::fuzz_target;
 use spindrift::campaign::{Overrides, Plan};
-use spindrift::dataset::rows_reader::PartReader;
-use spindrift::dataset::storage::Disk;
+use spindrift::storage::rows_reader::PartReader;
+use spindrift::storage::disk::Disk;
 use spindrift::sampling::SampleId;
 use spindrift_fuzz::campaign;
 

@@ -3,21 +3,20 @@
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
+use crate::analysis::running_counts::Counted;
+use crate::analysis::sensitivity::InputSensitivity;
+use crate::analysis::statistics::Statistics;
+use crate::analysis::stopping::{Stopping, stopping};
+use crate::analysis::verdicts::Verdicts;
+use crate::analysis::{sensitivity, sensitivity_table, statistics, statistics_table, verdicts};
 use crate::campaign::Plan;
 use crate::cli::command_outcome::Failure;
-use crate::dataset::folder::Folder;
-use crate::dataset::names::{BANDS, SENSITIVITY, STATISTICS};
-use crate::dataset::rows_reader::RowsReader;
-use crate::dataset::running_counts::Counted;
-use crate::dataset::sensitivity::InputSensitivity;
-use crate::dataset::statistics::Statistics;
-use crate::dataset::stopping::{Stopping, stopping};
-use crate::dataset::verdicts::Verdicts;
-use crate::dataset::{
-    atomic, bands_file, bands_table, sensitivity, sensitivity_table, statistics, statistics_table, verdicts,
-};
 use crate::ensemble::Bands;
 use crate::report::{requirements, stopping_text};
+use crate::storage::folder::Folder;
+use crate::storage::names::{BANDS, SENSITIVITY, STATISTICS};
+use crate::storage::rows_reader::RowsReader;
+use crate::storage::{atomic, bands_file, bands_table};
 
 /// What the rows say.
 #[derive(Clone, Debug)]

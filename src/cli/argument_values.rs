@@ -4,9 +4,9 @@ use std::num::{NonZeroU64, NonZeroUsize};
 
 use crate::campaign::section::choice;
 use crate::cli::slurm_script::TimeLimit;
-use crate::dataset::claim::Shard;
 use crate::observables::Group;
 use crate::propagation::Method;
+use crate::storage::claim::Shard;
 
 /// Most shards of a campaign.
 const MOST_SHARDS: u64 = 1_000_000;

@@ -9,9 +9,9 @@ use crate::cli::argument_values::{
     count, fraction, group, method, sbatch_option, seconds, shard, shards, shift, threads, time_limit, tolerance,
 };
 use crate::cli::slurm_script::TimeLimit;
-use crate::dataset::claim::Shard;
 use crate::observables::Group;
 use crate::propagation::Method;
+use crate::storage::claim::Shard;
 
 /// Shown at the end of every help text.
 const EXIT_CODES: &str = "\

@@ -7,7 +7,6 @@ use crate::cli::arguments::CheckOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::input::{isa, plan};
 use crate::cli::{dispersions, screen};
-use crate::dataset::rows_file::RowsFile;
 use crate::ensemble::influence::without_effect;
 use crate::ensemble::probe::{AuditProbe, LongRun, RunProbe};
 use crate::ensemble::run_cost::parts;
@@ -21,6 +20,7 @@ use crate::run::StateField;
 use crate::sampling::SampleId;
 use crate::scene::mass::{Body, Wheel};
 use crate::scene::{ActuationInput, MassProperties, Scene, SceneInput, WheelMode};
+use crate::storage::rows_file::RowsFile;
 
 /// Runs the command.
 ///

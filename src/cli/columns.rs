@@ -7,10 +7,10 @@ use crate::cli::arguments::ColumnsOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::input::{isa, plan};
 use crate::cli::screen;
-use crate::dataset::rows_file::headings;
 use crate::ensemble::Ensemble;
 use crate::observables::{Group, table};
 use crate::run::Quantity;
+use crate::storage::rows_file::headings;
 
 /// Runs the command.
 ///

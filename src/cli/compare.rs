@@ -3,6 +3,9 @@
 use std::num::NonZeroUsize;
 use std::path::Path;
 
+use crate::analysis::comparison::{Comparison, compare};
+use crate::analysis::comparison_table;
+use crate::analysis::pairing::ResultRows;
 use crate::campaign::Plan;
 use crate::campaign::difference::differences;
 use crate::cli::arguments::CompareOptions;
@@ -10,16 +13,14 @@ use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::input::plan_of_sound;
 use crate::cli::outputs::refuse_within;
 use crate::cli::screen;
-use crate::dataset::claim::{FolderError, Locks, open};
-use crate::dataset::comparison::{Comparison, compare};
-use crate::dataset::folder::MOST_SUMMARY;
-use crate::dataset::names::SUMMARY;
-use crate::dataset::pairing::ResultRows;
-use crate::dataset::rows_reader::RowsReader;
-use crate::dataset::storage::{Disk, Storage};
-use crate::dataset::{atomic, comparison_table, described_table};
 use crate::report::comparison_text::{self, Compared, ComparedVerdict};
 use crate::report::summary;
+use crate::storage::claim::{FolderError, Locks, open};
+use crate::storage::disk::{Disk, Storage};
+use crate::storage::folder::MOST_SUMMARY;
+use crate::storage::names::SUMMARY;
+use crate::storage::rows_reader::RowsReader;
+use crate::storage::{atomic, described_table};
 
 /// Runs the command.
 ///

@@ -10,13 +10,13 @@ use crate::campaign::{FilesRead, Overrides, Plan};
 use crate::cli::command_outcome::Failure;
 use crate::cli::input::{plan_and_files, plan_of_sound};
 use crate::cli::screen;
-use crate::dataset::claim::open;
-use crate::dataset::part_sink::{PartError, PartSink};
-use crate::dataset::rows_reader::{PartReader, RowsError, RowsReader};
-use crate::dataset::storage::Disk;
 use crate::ensemble::{Rows, Sink};
 use crate::run::Status;
 use crate::sampling::SampleId;
+use crate::storage::claim::open;
+use crate::storage::disk::Disk;
+use crate::storage::part_sink::{PartError, PartSink};
+use crate::storage::rows_reader::{PartReader, RowsError, RowsReader};
 
 /// The samples whose runs are not `ok`, in the order of the files.
 fn failed(part: &mut PartReader) -> Result<Vec<SampleId>, RowsError> {

@@ -8,6 +8,9 @@ use std::time::Duration;
 
 use serde_json::Value;
 
+use crate::analysis::running_counts::Counted;
+use crate::analysis::tally::Tally;
+use crate::analysis::trajectories;
 use crate::campaign::{FilesRead, Plan, data};
 use crate::cli::analysis::{Analysed, analyse, write_junit};
 use crate::cli::arguments::FinishOptions;
@@ -16,20 +19,6 @@ use crate::cli::input::{isa, plan_in};
 use crate::cli::outputs::{refuse_inputs, refuse_within};
 use crate::cli::shell_word::quoted_path;
 use crate::cli::{report, screen};
-use crate::dataset::claim::{Claim, ClaimOptions, Ready, claim, open};
-use crate::dataset::folder::Folder;
-use crate::dataset::identity;
-use crate::dataset::manifest::PartRecord;
-use crate::dataset::names::{PLAN, REPORT, SUMMARY, TRAJECTORIES};
-use crate::dataset::parts_read::PartsRead;
-use crate::dataset::replacement::replace;
-use crate::dataset::rows_file::{headings, identity};
-use crate::dataset::rows_reader::RowsReader;
-use crate::dataset::running_counts::Counted;
-use crate::dataset::storage::{Disk, Storage};
-use crate::dataset::table_log;
-use crate::dataset::tally::Tally;
-use crate::dataset::trajectories;
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::runner::threads;
 use crate::ensemble::{Ensemble, Part, PartId};
@@ -37,6 +26,17 @@ use crate::report::audit_summary::cost;
 use crate::report::drivers_text;
 use crate::report::number::bytes;
 use crate::report::summary::Summary;
+use crate::storage::claim::{Claim, ClaimOptions, Ready, claim, open};
+use crate::storage::disk::{Disk, Storage};
+use crate::storage::folder::Folder;
+use crate::storage::identity;
+use crate::storage::manifest::PartRecord;
+use crate::storage::names::{PLAN, REPORT, SUMMARY, TRAJECTORIES};
+use crate::storage::parts_read::PartsRead;
+use crate::storage::replacement::replace;
+use crate::storage::rows_file::{headings, identity};
+use crate::storage::rows_reader::RowsReader;
+use crate::storage::table_log;
 
 /// A dataset whose parts are all there.
 #[derive(Clone, Copy, Debug)]

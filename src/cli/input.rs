@@ -6,16 +6,16 @@ use std::path::Path;
 use crate::campaign::{FilesRead, Overrides, Plan, find};
 use crate::cli::command_outcome::Failure;
 use crate::cli::shell_word::quoted_path;
-use crate::dataset::found::Found;
-use crate::dataset::manifest::{Identity, PartRecord};
-use crate::dataset::names::{DATA, PLAN};
-use crate::dataset::rows_file::identity;
-use crate::dataset::storage::{Disk, Storage};
-use crate::dataset::verify::{damaged, derived_damage};
 use crate::ensemble::Ensemble;
 use crate::ensemble::runner::threads as ensemble_threads;
 use crate::math::Isa;
 use crate::math::isa::VARIABLE;
+use crate::storage::disk::{Disk, Storage};
+use crate::storage::found::Found;
+use crate::storage::manifest::{Identity, PartRecord};
+use crate::storage::names::{DATA, PLAN};
+use crate::storage::rows_file::identity;
+use crate::storage::verify::{damaged, derived_damage};
 
 /// The plan of the campaign file `file`, which may be given without folder and extension.
 ///

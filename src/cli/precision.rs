@@ -9,7 +9,6 @@ use crate::cli::input::{isa, plan_and_files};
 use crate::cli::outputs::refuse_inputs;
 use crate::cli::screen;
 use crate::cli::workload::Workload;
-use crate::dataset::precision_table;
 use crate::ensemble::Ensemble;
 use crate::ensemble::precision::{Limits, Precision, States};
 use crate::ensemble::runner::start_threads;
@@ -17,6 +16,7 @@ use crate::propagation::Method;
 use crate::report::canvas::Canvas;
 use crate::report::precision_figure::PrecisionFigure;
 use crate::report::precision_text;
+use crate::storage::precision_table;
 
 /// Runs the command.
 ///

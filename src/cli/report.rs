@@ -10,18 +10,18 @@ use crate::cli::input::{isa, plan_of_sound};
 use crate::cli::outputs::refuse_within;
 use crate::cli::screen;
 use crate::cli::shell_word::quoted_path;
-use crate::dataset::claim::open;
-use crate::dataset::folder::relist;
-use crate::dataset::manifest::{FileRecord, PartRecord};
-use crate::dataset::names::{MANIFEST, REPORT};
-use crate::dataset::parts_read::PartsRead;
-use crate::dataset::rows_reader::RowsReader;
-use crate::dataset::storage::{Disk, Storage};
-use crate::dataset::whole_file::place;
 use crate::ensemble::Ensemble;
 use crate::report::number::bytes;
 use crate::report::page::gather::Analysis;
 use crate::report::page::{Contents, Page, drawing};
+use crate::storage::claim::open;
+use crate::storage::disk::{Disk, Storage};
+use crate::storage::folder::relist;
+use crate::storage::manifest::{FileRecord, PartRecord};
+use crate::storage::names::{MANIFEST, REPORT};
+use crate::storage::parts_read::PartsRead;
+use crate::storage::rows_reader::RowsReader;
+use crate::storage::whole_file::place;
 
 /// Runs the command.
 ///

@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
+use crate::analysis::running_counts::RunningCounts;
+use crate::analysis::stopping::stopping;
 use crate::campaign::{Overrides, Plan};
 use crate::cli::arguments::CampaignOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
@@ -17,19 +19,17 @@ use crate::cli::screen;
 use crate::cli::shell_word::quoted_path;
 use crate::cli::signals::{self, Signals};
 use crate::cli::workload::Workload;
-use crate::dataset::claim::{Claim, ClaimOptions, Ready, Shard, claim};
-use crate::dataset::manifest::PartRecord;
-use crate::dataset::names::PLAN;
-use crate::dataset::part_sink::{PartSink, write_parts};
-use crate::dataset::rows_file::identity;
-use crate::dataset::running_counts::RunningCounts;
-use crate::dataset::stopping::stopping;
-use crate::dataset::storage::Disk;
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::runner::threads;
-use crate::ensemble::{Ensemble, Part, Parts, Supervision, run as run_parts};
+use crate::ensemble::{Ensemble, Part, Parts, Rows, Supervision, run as run_parts};
 use crate::report::stopping_text::text as stopping_text;
 use crate::report::summary::rows_in;
+use crate::storage::claim::{Claim, ClaimOptions, Ready, Shard, claim};
+use crate::storage::disk::Disk;
+use crate::storage::manifest::PartRecord;
+use crate::storage::names::PLAN;
+use crate::storage::part_sink::{CountRows, PartSink, write_parts};
+use crate::storage::rows_file::identity;
 
 /// Default folder of results, in the current folder.
 pub const RESULTS: &str = "results";
@@ -253,7 +253,9 @@ fn run_them(
     let bar = Bar::new(missing.iter().map(|part| part.count as u64).sum());
     let progress = |samples| bar.advance(samples);
     let supervision = Supervision { progress: &progress, stop: &signals.stop, abandon: &signals.abandon };
-    let ended = write_parts(&ready.folder, ensemble, counts, |sink: &PartSink<'_>| {
+    let count = counts.map(|counts| |rows: &Rows| counts.add(rows));
+    let count = count.as_ref().map(|count| count as &CountRows);
+    let ended = write_parts(&ready.folder, ensemble, count, |sink: &PartSink<'_>| {
         let watched = FailFast { sink, is_on: options.fail_fast, stop: &signals.stop, first };
         run_parts(ensemble, missing.iter().copied(), options.threads, &watched, supervision).map(|()| sink.seconds())
     });

@@ -9,13 +9,13 @@ use crate::cli::input::plan_and_files;
 use crate::cli::outputs::refuse_inputs;
 use crate::cli::workload::{Workload, plotted_samples};
 use crate::cli::{dispersions, screen};
-use crate::dataset::drawn_table;
-use crate::dataset::table::{TableError, TableFormat};
 use crate::ensemble::{DrawnScenes, Percentiles};
 use crate::report::canvas::{Canvas, PlotError, PlotFormat};
 use crate::report::drawn_columns::DrawnColumns;
 use crate::report::drawn_figure::DrawnFigure;
 use crate::sampling::SampleId;
+use crate::storage::drawn_table;
+use crate::storage::table::{TableError, TableFormat};
 
 /// Runs the command.
 ///

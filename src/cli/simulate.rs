@@ -9,8 +9,6 @@ use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::input::{isa, plan_and_files};
 use crate::cli::outputs::refuse_inputs;
 use crate::cli::{dispersions, screen};
-use crate::dataset::table::{TableError, TableFormat};
-use crate::dataset::timeseries::TimeSeries;
 use crate::ensemble::audit::AuditValue;
 use crate::ensemble::{Auditor, SingleRun};
 use crate::math::Isa;
@@ -20,6 +18,8 @@ use crate::report::simulation_figure::simulation_figure;
 use crate::report::time_table::TimeTable;
 use crate::run::{Grid, Status};
 use crate::sampling::SampleId;
+use crate::storage::table::{TableError, TableFormat};
+use crate::storage::timeseries::TimeSeries;
 
 /// A plot without --times has at least this many intervals: two per pixel.
 const SMOOTH: usize = 1200;

@@ -11,8 +11,8 @@ use crate::cli::run_campaign::{RESULTS, refuse_shards_with_stop};
 use crate::cli::screen;
 use crate::cli::shell_word::quoted_path;
 use crate::cli::slurm_script::{Jobs, MARK};
-use crate::dataset::atomic;
 use crate::ensemble::run_cost::parts;
+use crate::storage::atomic;
 
 /// Runs the command.
 ///

@@ -10,19 +10,19 @@ use crate::cli::finish_campaign::{Finishing, complete, keep_data, stop_is_contin
 use crate::cli::input::{isa, plan_in, plan_of_result, refuse_other_rows};
 use crate::cli::screen;
 use crate::cli::signals::{self, Signals};
-use crate::dataset::bands_file;
-use crate::dataset::claim::{Claim, ClaimOptions, claim, lock, open};
-use crate::dataset::found::{Found, plan_text};
-use crate::dataset::manifest::{FileRecord, PartRecord};
-use crate::dataset::names::{MANIFEST, PLAN, bands_of, rows_of};
-use crate::dataset::part_sink::write_parts;
-use crate::dataset::recovery::{begin_again, is_lost};
-use crate::dataset::rows_file::{RowsFile, identity};
-use crate::dataset::storage::{Disk, Storage};
-use crate::dataset::verify::{damaged, derived_damage};
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::runner::threads;
 use crate::ensemble::{Ensemble, Part, Rows, Sink, Supervision, run as run_parts};
+use crate::storage::bands_file;
+use crate::storage::claim::{Claim, ClaimOptions, claim, lock, open};
+use crate::storage::disk::{Disk, Storage};
+use crate::storage::found::{Found, plan_text};
+use crate::storage::manifest::{FileRecord, PartRecord};
+use crate::storage::names::{MANIFEST, PLAN, bands_of, rows_of};
+use crate::storage::part_sink::write_parts;
+use crate::storage::recovery::{begin_again, is_lost};
+use crate::storage::rows_file::{RowsFile, identity};
+use crate::storage::verify::{damaged, derived_damage};
 
 /// Runs the command.
 ///

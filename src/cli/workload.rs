@@ -8,10 +8,6 @@ use std::path::Path;
 use crate::campaign::{Plan, Retention};
 use crate::cli::command_outcome::Failure;
 use crate::cli::machine::{free_disk, free_memory};
-use crate::dataset::claim::Shard;
-use crate::dataset::found::{Contents, contents};
-use crate::dataset::rows_file::headings;
-use crate::dataset::storage::Disk;
 use crate::ensemble::Ensemble;
 use crate::ensemble::probe::{AuditProbe, LongRun, RunProbe};
 use crate::ensemble::run_cost::{parts_of_runs, run_seconds};
@@ -20,6 +16,10 @@ use crate::observables::band_series::band_series;
 use crate::ode::{PACE_STEPS, is_out_of_reach};
 use crate::report::number::{bytes, short};
 use crate::sampling::SampleId;
+use crate::storage::claim::Shard;
+use crate::storage::disk::Disk;
+use crate::storage::found::{Contents, contents};
+use crate::storage::rows_file::headings;
 
 /// CPU time beyond which a command asks for `--yes`, s.
 const LONG_S: f64 = 24.0 * 3600.0;

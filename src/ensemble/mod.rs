@@ -8,7 +8,7 @@
 //! - [`audit`]: runs compared with a reference solution. - [`precision`]: run time against error for every method.
 //! - [`settings`]: observables and engine of a plan. - [`probe`]: time of a run and of an audit. - [`cpu_clock`]: CPU time of a thread.
 //!
-//! Not here: file formats (`dataset`), and what a run is (`run`, `propagation`).
+//! Not here: file formats (`storage`), and what a run is (`run`, `propagation`).
 
 pub mod audit;
 pub mod bands;

@@ -1,4 +1,4 @@
-//! [`Sink`]: takes finished rows. The ensemble knows no file format; `dataset` implements this.
+//! [`Sink`]: takes finished rows. The ensemble knows no file format; `storage` implements this.
 
 use crate::ensemble::rows::Rows;
 

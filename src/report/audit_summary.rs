@@ -6,7 +6,7 @@ use std::fmt::{self, Display, Formatter};
 
 use serde::Serialize;
 
-use crate::dataset::audit_tally::{AuditTally, Coverage};
+use crate::analysis::audit_tally::{AuditTally, Coverage};
 use crate::ensemble::audit::AuditValue;
 use crate::observables::headlines::{DEBRIS_STATE_ERROR_ESTIMATE, STATE_ERROR_ESTIMATE};
 use crate::report::number::short;

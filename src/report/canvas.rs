@@ -13,8 +13,8 @@ use plotters::prelude::*;
 use plotters::style::{FontStyle, register_font};
 use thiserror::Error;
 
-use crate::dataset::atomic;
 use crate::report::bitmap::Bitmap;
+use crate::storage::atomic;
 
 static FONT: &[u8] = include_bytes!("../../assets/DejaVuSans-subset.ttf");
 

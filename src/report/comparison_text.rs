@@ -2,13 +2,13 @@
 
 use serde_json::{Value, json};
 
+use crate::analysis::comparison::{ColumnComparison, Comparison};
+use crate::analysis::comparison_table;
+use crate::analysis::population::Population;
 use crate::campaign::difference::KeyDifference;
-use crate::dataset::comparison::{ColumnComparison, Comparison};
-use crate::dataset::comparison_table;
-use crate::dataset::described_table;
-use crate::dataset::population::Population;
 use crate::report::number::short;
 use crate::statistics::quantile::percent;
+use crate::storage::described_table;
 
 /// Most observables in a table.
 const MOST_LINES: usize = 40;

@@ -1,8 +1,8 @@
 //! What drives an outcome, in words: on the screen and on the cards of the page.
 
+use crate::analysis::drivers::drivers;
+use crate::analysis::sensitivity::InputSensitivity;
 use crate::campaign::Plan;
-use crate::dataset::drivers::drivers;
-use crate::dataset::sensitivity::InputSensitivity;
 use crate::statistics::correlation::Estimate;
 
 /// Inputs that are named.

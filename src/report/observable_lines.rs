@@ -4,8 +4,8 @@ use std::fmt::{self, Formatter};
 
 use serde::Serialize;
 
+use crate::analysis::statistics::{ColumnStatistics, QuantileStatistic, Statistics};
 use crate::campaign::{Plan, Requirement};
-use crate::dataset::statistics::{ColumnStatistics, QuantileStatistic, Statistics};
 use crate::observables::Group;
 use crate::observables::headlines::headlines;
 use crate::report::audit_summary::Numerics;

@@ -4,9 +4,9 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
+use crate::analysis::assessment::Assessment;
+use crate::analysis::verdicts::Verdicts;
 use crate::campaign::{Plan, Statement};
-use crate::dataset::assessment::Assessment;
-use crate::dataset::verdicts::Verdicts;
 use crate::report::number::short;
 use crate::statistics::binomial::{Decision, POWER};
 use crate::statistics::gate::Limit;

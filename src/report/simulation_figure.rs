@@ -2,11 +2,11 @@
 //!
 //! The panels of the energies are the report's Figures 3 to 5 (body by body, total and its error).
 
-use crate::dataset::timeseries::{TimeColumn, TimeSeries};
 use crate::observables::Series;
 use crate::report::plot::{Curve, Figure, Panel};
 use crate::run::StateField;
 use crate::scene::Name;
+use crate::storage::timeseries::{TimeColumn, TimeSeries};
 
 /// Column and label of a curve.
 type Column = (TimeColumn, &'static str);

@@ -1,8 +1,8 @@
 //! What a look at a campaign with `[stop]` found, in words.
 
+use crate::analysis::stopping::{Found, Stopping};
 use crate::campaign::Plan;
 use crate::campaign::stop::When;
-use crate::dataset::stopping::{Found, Stopping};
 use crate::report::number::short;
 
 /// One sentence on `stopping`, a look at the campaign of `plan`; a second one where it ended the campaign.

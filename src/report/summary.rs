@@ -4,12 +4,11 @@ use std::fmt::{self, Display, Formatter};
 
 use serde_json::{Map, Value, json};
 
+use crate::analysis::statistics::Statistics;
+use crate::analysis::stopping::{Found, Stopping};
+use crate::analysis::tally::{Ended, Tally, Worst};
+use crate::analysis::verdicts::Verdicts;
 use crate::campaign::Plan;
-use crate::dataset::folder::IS_FINISHED;
-use crate::dataset::statistics::Statistics;
-use crate::dataset::stopping::{Found, Stopping};
-use crate::dataset::tally::{Ended, Tally, Worst};
-use crate::dataset::verdicts::Verdicts;
 use crate::ensemble::FailureReason;
 use crate::report::audit_summary::{AuditSummary, Numerics};
 use crate::report::number::short;
@@ -17,6 +16,7 @@ use crate::report::observable_lines::{ObservableLine, lines, write_table};
 use crate::report::{failure_text, requirements, stopping_text};
 use crate::run::Status;
 use crate::sampling::{Replaced, SampleId};
+use crate::storage::folder::IS_FINISHED;
 
 /// The statistics of a campaign.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,11 +3,11 @@
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
-use crate::dataset::timeseries::{TimeColumn, TimeSeries};
 use crate::observables::Series;
 use crate::report::fitted_text::fitted;
 use crate::report::number::short;
 use crate::run::StateField;
+use crate::storage::timeseries::{TimeColumn, TimeSeries};
 
 /// At most this many points; the first and the last are among them.
 const MOST_LINES: usize = 21;

@@ -5,7 +5,6 @@ use std::num::NonZeroUsize;
 use std::sync::Mutex;
 
 use spindrift::campaign::{Overrides, Plan};
-use spindrift::dataset::bands_file::{from_bytes, write};
 use spindrift::ensemble::bands::BandSums;
 use spindrift::ensemble::{Bands, Ensemble, Parts, Rows, SingleRun, Sink, Supervision, run};
 use spindrift::math::Isa;
@@ -15,6 +14,7 @@ use spindrift::run::Status;
 use spindrift::sampling::SampleId;
 use spindrift::statistics::deviation::RELATIVE_ERROR;
 use spindrift::statistics::quantile::quantile;
+use spindrift::storage::bands_file::{from_bytes, write};
 
 const SAMPLES: u64 = 700;
 

@@ -7,10 +7,10 @@ use arrow_array::Array;
 use arrow_array::cast::AsArray;
 use arrow_array::types::Float64Type;
 use spindrift::campaign::{Overrides, Plan};
-use spindrift::dataset::rows_file::AUDIT_REASON;
 use spindrift::ensemble::{Auditor, Ensemble, NoAudit, Parts, Rows, Sink, Supervision, run};
 use spindrift::math::Isa;
 use spindrift::scene::Scene;
+use spindrift::storage::rows_file::AUDIT_REASON;
 
 use super::small_campaign::{campaign, folder};
 use crate::support::scratch_folder::batches;

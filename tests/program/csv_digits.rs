@@ -3,10 +3,10 @@
 use std::process::Command;
 
 use crate::support::plans::shipped;
-use spindrift::dataset::timeseries::TimeSeries;
 use spindrift::ensemble::SingleRun;
 use spindrift::math::Isa;
 use spindrift::sampling::SampleId;
+use spindrift::storage::timeseries::TimeSeries;
 
 /// Law: every decimal number in the file reads back as the f64 that the run holds: seventeen digits where they are needed.
 #[test]

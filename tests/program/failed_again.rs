@@ -3,9 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
-use spindrift::dataset::rows_reader::RowsReader;
-use spindrift::dataset::storage::Disk;
 use spindrift::run::Status;
+use spindrift::storage::disk::Disk;
+use spindrift::storage::rows_reader::RowsReader;
 
 use super::small_campaign::{NEGATIVE_WALLS, campaign_without_debris, folder, mixed_failures, table};
 use crate::support::scratch_folder::{ScratchFolder, column, ended};

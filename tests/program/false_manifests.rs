@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use spindrift::dataset::identity::sha256;
+use spindrift::storage::identity::sha256;
 
 use super::small_campaign::folder;
 use crate::support::scratch_folder::ScratchFolder;

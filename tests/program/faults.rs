@@ -7,7 +7,7 @@ use std::io;
 use std::path::PathBuf;
 
 use spindrift::campaign::Plan;
-use spindrift::dataset::storage::Disk;
+use spindrift::storage::disk::Disk;
 
 use super::faulty_storage::{Fault, Faulty, Operation, contents, listed_files, make, plan, reason};
 use crate::support::scratch_folder::ScratchFolder;

@@ -11,14 +11,14 @@ use serde_json::Value;
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::cli::command_outcome::Failure;
 use spindrift::cli::finish_campaign::{Finishing, complete};
-use spindrift::dataset::claim::{Claim, ClaimOptions, FolderError, claim};
-use spindrift::dataset::identity::sha256;
-use spindrift::dataset::part_sink::write_parts;
-use spindrift::dataset::rows_file::identity;
-use spindrift::dataset::storage::{Disk, Entry, Storage};
-use spindrift::dataset::stored_file::StoredFile;
 use spindrift::ensemble::{Ensemble, Parts, Supervision, run};
 use spindrift::math::Isa;
+use spindrift::storage::claim::{Claim, ClaimOptions, FolderError, claim};
+use spindrift::storage::disk::{Disk, Entry, Storage};
+use spindrift::storage::identity::sha256;
+use spindrift::storage::part_sink::write_parts;
+use spindrift::storage::rows_file::identity;
+use spindrift::storage::stored_file::StoredFile;
 
 use super::small_campaign::campaign_without_debris;
 

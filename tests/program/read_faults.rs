@@ -12,9 +12,9 @@ use spindrift::cli::compare::compared;
 use spindrift::cli::finish_campaign::finished;
 use spindrift::cli::report::remade;
 use spindrift::cli::verify::verified;
-use spindrift::dataset::manifest::{Manifest, PartRecord};
-use spindrift::dataset::storage::{Disk, Storage};
 use spindrift::ensemble::Supervision;
+use spindrift::storage::disk::{Disk, Storage};
+use spindrift::storage::manifest::{Manifest, PartRecord};
 
 use super::faulty_storage::{Fault, Faulty, Operation, contents, make, plan, reason, unlocked};
 use crate::support::scratch_folder::ScratchFolder;

@@ -5,11 +5,11 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use spindrift::dataset::bands_file;
-use spindrift::dataset::rows_reader::RowsReader;
-use spindrift::dataset::storage::Disk;
 use spindrift::run::Status;
 use spindrift::statistics::quantile::quantile;
+use spindrift::storage::bands_file;
+use spindrift::storage::disk::Disk;
+use spindrift::storage::rows_reader::RowsReader;
 
 use crate::support::scratch_folder::ScratchFolder;
 

@@ -6,8 +6,8 @@ use std::io;
 use std::path::Path;
 
 use spindrift::campaign::{Overrides, Plan};
-use spindrift::dataset::claim::ClaimOptions;
-use spindrift::dataset::storage::{Disk, Storage};
+use spindrift::storage::claim::ClaimOptions;
+use spindrift::storage::disk::{Disk, Storage};
 
 use super::faulty_storage::{self, Fault, Faulty, Operation, make, make_with, plan, reason};
 use super::interrupted::{assert_same, contents, start};

@@ -160,7 +160,7 @@ fn a_task_that_makes_no_part_is_not_put_back_for_ever() {
     scratch.prints("slurm small.toml --nodes 2 --cpus 1 --time 10 --out small", 0);
     let text = fs::read_to_string(scratch.path("small-array.sh")).unwrap();
     // in the place of the program: one that is stopped before its limit, and has made a part where `grows` is there
-    let manifest = scratch.path("small").join(spindrift::dataset::names::manifest_of(1, 2));
+    let manifest = scratch.path("small").join(spindrift::storage::names::manifest_of(1, 2));
     fs::create_dir_all(manifest.parent().unwrap()).unwrap();
     program(
         &scratch,

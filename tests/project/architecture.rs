@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Layers: a module imports only from layers below its own (and from itself).
-const LAYERS: [(&str, u32); 15] = [
+const LAYERS: [(&str, u32); 16] = [
     ("math", 0),
     ("scene", 1),
     ("run", 1),
@@ -18,17 +18,18 @@ const LAYERS: [(&str, u32); 15] = [
     ("observables", 3),
     ("campaign", 4),
     ("ensemble", 5),
-    ("dataset", 6),
-    ("report", 7),
-    ("cli", 8),
-    ("main", 9),
+    ("storage", 6),
+    ("analysis", 7),
+    ("report", 8),
+    ("cli", 9),
+    ("main", 10),
 ];
 
 /// Crates that only these modules or files may use.
 const CRATES: [(&str, &[&str]); 5] = [
     ("clap", &["cli"]),
     ("fearless_simd", &["math", "dynamics", "ode", "propagation", "observables", "statistics"]),
-    ("parquet", &["dataset", "campaign/data_columns.rs"]),
+    ("parquet", &["storage", "campaign/data_columns.rs"]),
     ("plotters", &["report"]),
     ("rayon", &["ensemble"]),
 ];
@@ -170,18 +171,18 @@ fn crates_stay_in_their_places() {
 fn the_checks_can_fail() {
     let file = |path: &str, text: &str| Source::new(path, text);
     for text in ["use crate::report::x;", "use crate::{math, report::x};", "fn f() { crate::report::x() }"] {
-        assert_eq!(forbidden_imports(&file("dataset/a.rs", text)), ["dataset/a.rs imports report"], "{text}");
+        assert_eq!(forbidden_imports(&file("storage/a.rs", text)), ["storage/a.rs imports report"], "{text}");
     }
     for text in ["// use crate::report::x;", "use crate::math::x;", "#[cfg(test)]\nuse crate::report::x;"] {
-        assert!(forbidden_imports(&file("dataset/a.rs", text)).is_empty(), "{text}");
+        assert!(forbidden_imports(&file("storage/a.rs", text)).is_empty(), "{text}");
     }
     assert_eq!(forbidden_crates(&file("campaign/a.rs", "parquet::x()")), ["campaign/a.rs uses parquet"]);
-    assert!(forbidden_crates(&file("dataset/a.rs", "use parquet::x;")).is_empty());
-    let one = file("dataset/one.rs", "use crate::dataset::two::X;");
-    let two = file("dataset/two.rs", "use super::three;");
-    let three = file("dataset/three.rs", "fn f() -> crate::dataset::one::X {}");
+    assert!(forbidden_crates(&file("storage/a.rs", "use parquet::x;")).is_empty());
+    let one = file("storage/one.rs", "use crate::storage::two::X;");
+    let two = file("storage/two.rs", "use super::three;");
+    let three = file("storage/three.rs", "fn f() -> crate::storage::one::X {}");
     assert_eq!(circles(&[one, two]).len(), 0);
-    let one = file("dataset/one.rs", "use crate::dataset::two::X;");
-    let two = file("dataset/two.rs", "use super::three;");
+    let one = file("storage/one.rs", "use crate::storage::two::X;");
+    let two = file("storage/two.rs", "use super::three;");
     assert_eq!(circles(&[one, two, three]).len(), 3);
 }

@@ -7,8 +7,6 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use spindrift::campaign::{Overrides, Plan};
-use spindrift::dataset::rows_file::{headings, parameter_headings};
-use spindrift::dataset::timeseries::TimeSeries;
 use spindrift::ensemble::{Ensemble, SingleRun};
 use spindrift::math::Isa;
 use spindrift::observables::band_series::band_series;
@@ -18,6 +16,8 @@ use spindrift::sampling::SampleId;
 use spindrift::scene::schema::Presence;
 use spindrift::scene::table::Table;
 use spindrift::scene::{Actuated, SceneInput};
+use spindrift::storage::rows_file::{headings, parameter_headings};
+use spindrift::storage::timeseries::TimeSeries;
 
 /// If this variable is set, the tables are written and not compared.
 const WRITE: &str = "SPINDRIFT_WRITE_DOCS";
@@ -52,7 +52,7 @@ fn columns_of_rows() -> String {
     };
     let plan = plan("spin_sweep.toml");
     let all = headings(&Ensemble::new(&plan, Isa::best()));
-    let row = |heading: &spindrift::dataset::columnar::Heading| {
+    let row = |heading: &spindrift::storage::columnar::Heading| {
         let quantity = &heading.quantity;
         [quantity.name(), quantity.unit(), quantity.meaning(), ""].map(str::to_owned)
     };

@@ -2,13 +2,12 @@
 
 use std::num::NonZeroUsize;
 
+use crate::analysis::assessment::Assessment;
+use crate::analysis::sensitivity::InputSensitivity;
+use crate::analysis::statistics::{ColumnStatistics, QuantileStatistic, Statistics};
+use crate::analysis::stopping::Stopping;
+use crate::analysis::verdicts::Verdicts;
 use crate::campaign::{Plan, Requirement, Statement};
-use crate::dataset::assessment::Assessment;
-use crate::dataset::rows_reader::{RowsError, RowsReader};
-use crate::dataset::sensitivity::InputSensitivity;
-use crate::dataset::statistics::{ColumnStatistics, QuantileStatistic, Statistics};
-use crate::dataset::stopping::Stopping;
-use crate::dataset::verdicts::Verdicts;
 use crate::ensemble::{Bands, Ensemble};
 use crate::report::drivers_text::{self, outcomes};
 use crate::report::page::Contents;
@@ -25,6 +24,7 @@ use crate::report::stopping_text;
 use crate::statistics::binomial::Decision;
 use crate::statistics::correlation::Estimate;
 use crate::statistics::gate::Limit;
+use crate::storage::rows_reader::{RowsError, RowsReader};
 
 /// Quantiles of the bands of the page.
 const BANDS: [f64; 5] = [0.05, 0.25, 0.5, 0.75, 0.95];

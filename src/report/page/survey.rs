@@ -5,9 +5,8 @@
 
 use std::num::NonZeroUsize;
 
+use crate::analysis::observed::Observed;
 use crate::campaign::Requirement;
-use crate::dataset::observed::Observed;
-use crate::dataset::rows_reader::{PartReader, RowsError, RowsReader};
 use crate::ensemble::Ensemble;
 use crate::ensemble::audit::AuditValue;
 use crate::observables::Group;
@@ -16,6 +15,7 @@ use crate::report::page::shown_columns::{CONFIDENCE, interval, is_error};
 use crate::run::{Quantity, Status};
 use crate::sampling::SampleId;
 use crate::statistics::sketch::Sketch;
+use crate::storage::rows_reader::{PartReader, RowsError, RowsReader};
 
 /// Most rows of the thinned table.
 pub const THINNED: u64 = 16_384;

@@ -1,0 +1,71 @@
+//! Requirements at each time: what the bands of a campaign say of them.
+//!
+//! A limit holds at every point of the bands in an interval for a share of the runs, which may be other runs at another point. How many runs are within it at a point is known up to
+//! the bucket that the limit is in: both bounds must decide, so that no verdict rests on where in a bucket a run is.
+
+use crate::analysis::assessment::{Assessment, WorstPoint};
+use crate::analysis::population::Population;
+use crate::campaign::requirement::BandSubject;
+use crate::campaign::{Requirement, Statement};
+use crate::ensemble::Bands;
+use crate::statistics::binomial::Decision;
+use crate::statistics::gate::{Gate, points_gate};
+
+/// What `bands` say of `requirement`, which is about `band`, passes at the first of two confidences and fails at the second, of so many runs that
+/// count, `failed` of them not `ok`.
+pub(super) fn over_time(
+    (requirement, confidences): (&Requirement, [f64; 2]),
+    band: &BandSubject,
+    bands: Option<&Bands>,
+    [runs, failed]: [u64; 2],
+    population: Population,
+) -> Assessment {
+    let found = bands.and_then(|bands| bands.find(&band.series).map(|series| (bands, series)));
+    let points: Vec<(usize, f64)> = found.map_or_else(Vec::new, |(bands, _)| {
+        bands.times().iter().copied().enumerate().filter(|(_, time)| band.contains(*time)).collect()
+    });
+    let within: Vec<([u64; 2], u64)> = found.map_or_else(Vec::new, |(bands, series)| {
+        points.iter().map(|(point, _)| (bands.within(series, *point, requirement.limit), runs)).collect()
+    });
+    let target = match requirement.statement {
+        Statement::Quantile(p) => requirement.limit.fraction(p),
+        Statement::Fraction(fraction) => fraction,
+        Statement::Mean => f64::NAN,
+    };
+    let (mut gate, worst) = points_gate(&within, target, confidences);
+    let mut reason = None;
+    if population != Population::Independent {
+        gate = Gate { decision: Decision::Undecided(None), bounds: [f64::NAN; 2], ..gate };
+        let why = match population {
+            Population::Replicated(_) => "bands do not tell replicates apart".to_owned(),
+            _ => population.intervals(),
+        };
+        reason = Some(format!("intervals: {why}"));
+    } else if within.is_empty() {
+        reason = Some("there are no bands of it".to_owned());
+    } else if runs == 0 {
+        reason = Some("there are no runs that count".to_owned());
+    }
+    let value = found.zip(worst).and_then(|((bands, series), worst)| match requirement.statement {
+        Statement::Quantile(p) => bands.quantile(series, points[worst].0, p),
+        _ => None,
+    });
+    let [least, most] = worst.map_or([0; 2], |worst| within[worst].0);
+    Assessment {
+        requirement: requirement.clone(),
+        confidences,
+        unit: found.map_or_else(String::new, |(bands, series)| bands.quantity(series).unit().to_owned()),
+        gate,
+        value,
+        runs,
+        violations: runs.saturating_sub(least),
+        failed,
+        worst: worst.map(|worst| WorstPoint {
+            time_s: points[worst].1,
+            points: points.len(),
+            unresolved: most - least,
+        }),
+        reason,
+        note: None,
+    }
+}

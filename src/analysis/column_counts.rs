@@ -1,0 +1,224 @@
+//! [`Collector`]: counts the values of observables, part by part.
+//!
+//! A part is counted on any thread, from its file or from the rows in memory. What it adds is merged in the order of the parts, and the
+//! contents of sketches are counts, which have no order: no bit depends on threads.
+
+use std::borrow::Cow;
+use std::num::NonZeroUsize;
+use std::sync::{Mutex, PoisonError};
+
+use crate::analysis::observed::Observed;
+use crate::analysis::part_columns::PartColumns;
+use crate::analysis::population::Population;
+use crate::run::Status;
+use crate::statistics::moments::Moments;
+use crate::statistics::sketch::Sketch;
+use crate::storage::rows_reader::{PartReader, RowsError, RowsReader};
+
+/// The values of one observable.
+#[derive(Clone, Debug, Default)]
+pub struct ColumnCounts {
+    /// Runs that are `ok` and have no value of it.
+    pub without_value: u64,
+    /// Of all values.
+    pub moments: Moments,
+    /// Group by group ([`Population::group`]).
+    pub groups: Vec<GroupCounts>,
+}
+
+/// The values of a group of samples: themselves, or a sketch of them.
+#[derive(Clone, Debug, Default)]
+pub struct GroupCounts {
+    /// Their moments.
+    pub moments: Moments,
+    /// The values, where they are kept.
+    pub values: Vec<f64>,
+    /// Their sketch, where they are not.
+    pub sketch: Sketch,
+}
+
+/// What the parts of a campaign have.
+#[derive(Clone, Debug)]
+pub struct Collected {
+    /// How many samples ended with each status, in the order of [`Status::ALL`].
+    pub statuses: [u64; Status::ALL.len()],
+    /// Every observable.
+    pub columns: Vec<ColumnCounts>,
+}
+
+/// What a part adds, apart from its sketches.
+#[derive(Clone, Debug)]
+pub struct PartCounts {
+    statuses: [u64; Status::ALL.len()],
+    columns: Vec<PartColumn>,
+}
+
+/// What a part adds to an observable: the runs without a value, and for each group its moments, and its values where they are kept.
+#[derive(Clone, Debug)]
+struct PartColumn {
+    without_value: u64,
+    groups: Vec<(Moments, Vec<f64>)>,
+}
+
+/// Rows from whose values the references of sketches are taken: the first of a campaign, without the nominal one.
+pub const REFERENCE_ROWS: usize = 16;
+
+/// The range of these values, over their median, below which they are sketched about it. Others are told apart by themselves, to a hundredth of
+/// their standard deviation, with a third of the memory.
+const CLOSE: f64 = 0.25;
+
+/// What the values of `observed` are sketched about: for each the median of its values in the first rows of a campaign, which are in `parts`; zero
+/// where these have none, or differ by more than a quarter of it. The value of the nominal run was rejected: it may be far from those of the others.
+///
+/// # Errors
+/// Where a column cannot be read.
+pub fn references<P: PartColumns>(
+    observed: &[Observed],
+    population: Population,
+    parts: impl IntoIterator<Item = Result<P, RowsError>>,
+) -> Result<Vec<f64>, RowsError> {
+    let mut first = vec![Vec::new(); observed.len()];
+    let mut left = REFERENCE_ROWS;
+    for part in parts {
+        let part = part?;
+        let (samples, statuses) = (part.samples()?, part.statuses()?);
+        let dispersed = (0..samples.len()).filter(|row| population.contains(samples[*row]));
+        let dispersed: Vec<usize> = dispersed.take(left).collect();
+        left -= dispersed.len();
+        for (values, observed) in first.iter_mut().zip(observed) {
+            let column = observed.column(&part)?;
+            let ok = dispersed.iter().filter(|row| statuses[**row] == Status::Done);
+            values.extend(ok.map(|row| column[*row]).filter(|value| !value.is_nan()));
+        }
+    }
+    let reference = |mut values: Vec<f64>| {
+        values.sort_by(f64::total_cmp);
+        let Some(last) = values.len().checked_sub(1) else { return 0.0 };
+        let median = values[last / 2];
+        if values[last] - values[0] < CLOSE * median.abs() { median } else { 0.0 }
+    };
+    Ok(first.into_iter().map(reference).collect())
+}
+
+/// Counts observables.
+#[derive(Debug)]
+pub struct Collector {
+    observed: Vec<Observed>,
+    population: Population,
+    /// Whether values are kept.
+    is_exact: bool,
+    /// For each observable, the sketch of each group. Counts do not depend on the order in which parts are added.
+    sketches: Vec<Mutex<Vec<Sketch>>>,
+}
+
+impl Collector {
+    /// Counts `observed` of a `population`; values are sketched about `references` ([`references`]), or kept where there are none.
+    pub fn new(observed: Vec<Observed>, population: Population, references: Option<Vec<f64>>) -> Self {
+        let is_exact = references.is_none();
+        let references = references.unwrap_or_else(|| vec![0.0; observed.len()]);
+        let sketches = |reference: f64| Mutex::new(vec![Sketch::about(reference); population.groups()]);
+        Collector { observed, population, is_exact, sketches: references.into_iter().map(sketches).collect() }
+    }
+
+    /// Reads the parts of `reader` on `threads` threads (`None`: one per core).
+    ///
+    /// # Errors
+    /// Where a file cannot be read.
+    pub fn collect(self, reader: &RowsReader, threads: Option<NonZeroUsize>) -> Result<Collected, RowsError> {
+        let mut collected = self.nothing();
+        reader.visit(
+            threads,
+            |part: &mut PartReader| self.count(part),
+            |part| {
+                collected.merge(part);
+                Ok::<(), RowsError>(())
+            },
+        )?;
+        Ok(self.finish(collected))
+    }
+
+    /// Nothing counted yet.
+    pub fn nothing(&self) -> Collected {
+        let groups = vec![GroupCounts::default(); self.population.groups()];
+        let column = ColumnCounts { groups, ..ColumnCounts::default() };
+        Collected { statuses: [0; Status::ALL.len()], columns: vec![column; self.observed.len()] }
+    }
+
+    /// Counts a part, each once: what it adds must be merged in the order of the parts.
+    ///
+    /// # Errors
+    /// Where a column cannot be read.
+    pub fn count(&self, part: &impl PartColumns) -> Result<PartCounts, RowsError> {
+        let (samples, ended) = (part.samples()?, part.statuses()?);
+        let mut statuses = [0; Status::ALL.len()];
+        let mut rows = Vec::with_capacity(part.rows());
+        for (sample, status) in samples.iter().zip(ended.iter()) {
+            let is_counted = self.population.contains(*sample);
+            if let Some(index) = Status::ALL.iter().position(|known| known == status)
+                && is_counted
+            {
+                statuses[index] += 1;
+            }
+            rows.push((is_counted && *status == Status::Done).then(|| self.population.group(*sample)));
+        }
+        let are_all_of_one = self.population.groups() == 1 && !rows.contains(&None);
+        let of_column = |(observed, sketches): (&Observed, &Mutex<Vec<Sketch>>)| {
+            let values = observed.column(part)?;
+            if are_all_of_one && !values.iter().any(|value| value.is_nan()) {
+                return Ok(PartColumn { without_value: 0, groups: vec![self.group(values, sketches, 0)] });
+            }
+            let mut of_groups = vec![Vec::new(); self.population.groups()];
+            let mut without_value = 0;
+            for (value, group) in values.iter().zip(&rows) {
+                match group {
+                    Some(_) if value.is_nan() => without_value += 1,
+                    Some(group) => of_groups[*group].push(*value),
+                    None => {}
+                }
+            }
+            let groups = of_groups
+                .into_iter()
+                .enumerate()
+                .map(|(index, values)| self.group(Cow::Owned(values), sketches, index));
+            Ok(PartColumn { without_value, groups: groups.collect() })
+        };
+        let columns = self.observed.iter().zip(&self.sketches).map(of_column).collect::<Result<_, RowsError>>()?;
+        Ok(PartCounts { statuses, columns })
+    }
+
+    /// The moments of `values` of group `index`, and the values where they are kept; else they are added to the sketch of the group.
+    fn group(&self, values: Cow<'_, [f64]>, sketches: &Mutex<Vec<Sketch>>, index: usize) -> (Moments, Vec<f64>) {
+        let moments = Moments::of_block(&values);
+        if self.is_exact {
+            return (moments, values.into_owned());
+        }
+        sketches.lock().unwrap_or_else(PoisonError::into_inner)[index].add_block(&values, &moments);
+        (moments, Vec::new())
+    }
+
+    /// What was merged, with the sketches.
+    pub fn finish(self, mut collected: Collected) -> Collected {
+        for (column, sketches) in collected.columns.iter_mut().zip(self.sketches) {
+            let sketches = sketches.into_inner().unwrap_or_else(PoisonError::into_inner);
+            column.groups.iter_mut().zip(sketches).for_each(|(group, sketch)| group.sketch = sketch);
+        }
+        collected
+    }
+}
+
+impl Collected {
+    /// Adds the next part.
+    pub fn merge(&mut self, part: PartCounts) {
+        self.statuses.iter_mut().zip(part.statuses).for_each(|(sum, count)| *sum += count);
+        for (column, of_part) in self.columns.iter_mut().zip(part.columns) {
+            column.without_value += of_part.without_value;
+            let mut whole = Moments::default();
+            for (group, (moments, values)) in column.groups.iter_mut().zip(of_part.groups) {
+                whole.merge(&moments);
+                group.moments.merge(&moments);
+                group.values.extend(values);
+            }
+            column.moments.merge(&whole);
+        }
+    }
+}

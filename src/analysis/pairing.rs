@@ -1,0 +1,107 @@
+//! [`ResultRows`]: the rows of a result. [`pairs`]: those of two results that are of one sample, drawn alike in both.
+
+use crate::analysis::statistics::MOST_EXACT;
+use crate::campaign::Plan;
+use crate::campaign::common_draws::draw_alike;
+use crate::run::Status;
+use crate::storage::rows_reader::{RowsError, RowsReader};
+
+/// So many rows are compared one by one: the nominal sample and the first [`MOST_EXACT`].
+pub const MOST_ROWS: usize = MOST_EXACT as usize + 1;
+
+/// A result: its plan and the files of its rows.
+#[derive(Clone, Copy, Debug)]
+pub struct ResultRows<'r> {
+    /// The plan.
+    pub plan: &'r Plan,
+    /// The rows.
+    pub reader: &'r RowsReader,
+}
+
+/// The rows of the samples, among the first, that both results drew alike and that are `ok` in both; `None` where they did not draw alike: the
+/// plans draw from other random numbers, and the values that were drawn differ.
+///
+/// # Errors
+/// Where a file cannot be read.
+pub fn pairs(first: ResultRows<'_>, second: ResultRows<'_>) -> Result<Option<Vec<[usize; 2]>>, RowsError> {
+    let mut shared = shared_rows(first.plan, second.plan);
+    let (ok, others) = (ok(first)?, ok(second)?);
+    shared.retain(|[row, other]| *row < ok.len() && *other < others.len());
+    if !(draw_alike(first.plan, second.plan) || drew_same_values(first, second, &shared)?) {
+        return Ok(None);
+    }
+    shared.retain(|[row, other]| ok[*row] && others[*other]);
+    Ok(Some(shared))
+}
+
+/// Whether all dispersed values of the rows `shared` have the same bits in both results: drawn by other plans, or from the same table.
+fn drew_same_values(first: ResultRows<'_>, second: ResultRows<'_>, shared: &[[usize; 2]]) -> Result<bool, RowsError> {
+    let names = |plan: &Plan| -> Vec<String> {
+        let columns = plan.dispersions.columns().iter();
+        columns.map(|column| column.parameter.column_name(column.component)).collect()
+    };
+    let (of_first, of_second) = (names(first.plan), names(second.plan));
+    if of_first.len() != of_second.len() || !of_first.iter().all(|name| of_second.contains(name)) {
+        return Ok(false);
+    }
+    let drawn = |result: ResultRows<'_>, name: &str| -> Result<Vec<f64>, RowsError> {
+        let mut column = Vec::new();
+        for part in result.reader.first_parts(MOST_ROWS) {
+            column.extend(part?.numbers(name)?);
+        }
+        Ok(column)
+    };
+    for name in &of_first {
+        let (a, b) = (drawn(first, name)?, drawn(second, name)?);
+        let bits = |column: &[f64], row: usize| column.get(row).map(|value| value.to_bits());
+        if shared.iter().any(|[row, other]| bits(&a, *row) != bits(&b, *other)) {
+            return Ok(false);
+        }
+    }
+    Ok(true)
+}
+
+/// Which of the first rows are `ok`. There are fewer than in the plan where the campaign was stopped.
+fn ok(result: ResultRows<'_>) -> Result<Vec<bool>, RowsError> {
+    let mut ok = Vec::new();
+    for part in result.reader.first_parts(MOST_ROWS) {
+        ok.extend(part?.statuses()?.into_iter().map(|status| status == Status::Done));
+    }
+    ok.truncate(MOST_ROWS);
+    Ok(ok)
+}
+
+/// The first rows of each plan that are of the same dispersed sample.
+fn shared_rows(first: &Plan, second: &Plan) -> Vec<[usize; 2]> {
+    let planned = |plan: &Plan| usize::try_from(plan.rows()).unwrap_or(usize::MAX).min(MOST_ROWS);
+    let (mut row, mut other, mut shared) = (first_dispersed(first), first_dispersed(second), Vec::new());
+    // samples ascend in both
+    while row < planned(first) && other < planned(second) {
+        let (a, b) = (first.sample(row as u64), second.sample(other as u64));
+        if a == b {
+            shared.push([row, other]);
+        }
+        row += usize::from(a <= b);
+        other += usize::from(b <= a);
+    }
+    shared
+}
+
+/// The first row that is not that of the nominal sample.
+pub fn first_dispersed(plan: &Plan) -> usize {
+    usize::from(plan.dispersed_rows() < plan.rows())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::small_plan::small_plan;
+
+    /// Law: the rows of the same dispersed sample are compared, as many as both campaigns have; the nominal sample is not.
+    #[test]
+    fn rows_of_the_same_sample_are_paired() {
+        let plan = |samples: u64| small_plan(samples, "");
+        assert_eq!(shared_rows(&plan(7), &plan(4)), [[1, 1], [2, 2], [3, 3]]);
+        assert_eq!(shared_rows(&plan(1), &plan(4)), Vec::<[usize; 2]>::new());
+    }
+}

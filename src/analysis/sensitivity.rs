@@ -1,0 +1,380 @@
+//! Which input of a campaign matters for which observable, from the files of its rows.
+//!
+//! Correlations, regression and given-data indices from the runs that are `ok`, in the order of their samples; first-order and total indices of
+//! Sobol from the blocks of a `saltelli` design. A pure function of plan and files.
+
+use std::num::NonZeroUsize;
+
+use crate::analysis::observed::Observed;
+use crate::analysis::population::{LISTED, Population};
+use crate::campaign::{Plan, Requirement};
+use crate::observables::headlines::headlines;
+use crate::run::Status;
+use crate::sampling::Design;
+use crate::statistics::correlation::{
+    Estimate, ascending_order, correlation, matrix, mid_ranks, mid_ranks_in_order, standardised,
+};
+use crate::statistics::regression::{Regressors, independent_inputs};
+use crate::statistics::sensitivity::{Block, Samples, first_order_index_in_order, saltelli_indices};
+use crate::storage::parallel::in_parallel;
+use crate::storage::rows_reader::{PartReader, RowsError, RowsReader};
+
+/// Most rows for observables that a campaign file names.
+pub const MOST_ROWS: usize = 65_536;
+/// Most rows for the main observables, where the file names none.
+const FEWER_ROWS: usize = 16_384;
+/// A rank correlation of two inputs above this, and above what chance makes, is told.
+const NOTABLE_CORRELATION: f64 = 0.05;
+/// Standard deviations of a chance correlation, beyond which it is none: of 10,000 pairs one passes by chance in a thousand campaigns.
+const CHANCE: f64 = 5.5;
+
+/// Blocks of a `saltelli` design from which on its 95% intervals cover at least 0.9. Fewer blocks of a scrambled sequence may all lie on one side:
+/// measured 0.5 for the sum of five inputs and 16 blocks.
+const ENOUGH_BLOCKS: usize = 64;
+
+/// What one input means for one observable. What does not apply is `None`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct InputSensitivity {
+    /// The observable.
+    pub observable: String,
+    /// The input: a column of the rows, or for a `saltelli` design what one distribution disperses.
+    pub input: String,
+    /// Number of rows.
+    pub rows: u64,
+    /// Pearson's correlation.
+    pub pearson: Option<Estimate>,
+    /// Spearman's rank correlation.
+    pub spearman: Option<Estimate>,
+    /// Rank correlation with the other inputs held fixed.
+    pub partial_rank: Option<Estimate>,
+    /// Standardised regression coefficient.
+    pub regression: Option<Estimate>,
+    /// Share of the variance that the regression on all inputs explains, corrected for their number.
+    pub r_squared: Option<Estimate>,
+    /// First-order index: share of the variance that this input explains alone.
+    pub first_order: Option<Estimate>,
+    /// Total index: share that this input and its interactions explain.
+    pub total: Option<Estimate>,
+    /// The input that it is most correlated with, and their rank correlation, where that is notable.
+    pub correlated_with: Option<(String, f64)>,
+    /// What to know about these numbers.
+    pub note: Option<String>,
+}
+
+/// The names of the observables, and how many rows they are from.
+fn wanted(plan: &Plan) -> (Vec<String>, usize) {
+    let required = plan.analysis.requirements.iter().filter_map(Requirement::observable);
+    let mut names: Vec<String> = Vec::new();
+    for name in required.chain(plan.analysis.summary_columns.iter().map(String::as_str)) {
+        if !names.iter().any(|known| known == name) {
+            names.push(name.to_owned());
+        }
+    }
+    if !names.is_empty() {
+        return (names, MOST_ROWS);
+    }
+    let columns = plan.request().columns();
+    let main = headlines(&plan.request()).into_iter().map(|index| columns[index].quantity.name().to_owned());
+    (main.collect(), FEWER_ROWS)
+}
+
+/// Numbers row by row, in the order of the samples.
+struct Table {
+    samples: Vec<u64>,
+    inputs: Vec<Vec<f64>>,
+    observables: Vec<Vec<f64>>,
+}
+
+/// The first `most` rows of dispersed samples that are `ok`.
+fn read(reader: &RowsReader, inputs: &[String], observed: &[Observed], most: usize) -> Result<Table, RowsError> {
+    let empty = |count: usize| vec![Vec::new(); count];
+    let mut table = Table { samples: Vec::new(), inputs: empty(inputs.len()), observables: empty(observed.len()) };
+    for index in 0..reader.files().len() {
+        let Some(part) = reader.part(index).filter(|_| table.samples.len() < most) else { break };
+        let part: PartReader = part?;
+        let (samples, statuses) = (part.samples()?, part.statuses()?);
+        let of_population = |row: &usize| samples[*row].0 > 0 && statuses[*row] == Status::Done;
+        let rows: Vec<usize> = (0..part.rows()).filter(of_population).take(most - table.samples.len()).collect();
+        table.samples.extend(rows.iter().map(|row| samples[*row].0));
+        for (column, name) in table.inputs.iter_mut().zip(inputs) {
+            let values = part.numbers(name)?;
+            column.extend(rows.iter().map(|row| values[*row]));
+        }
+        for (column, observed) in table.observables.iter_mut().zip(observed) {
+            let values = observed.values(&part)?;
+            column.extend(rows.iter().map(|row| values[*row]));
+        }
+    }
+    Ok(table)
+}
+
+/// What every input of `plan` means for the observables that its file requires or names (the main ones, where it names none).
+///
+/// # Errors
+/// Where a file cannot be read.
+pub fn compute(
+    plan: &Plan,
+    reader: &RowsReader,
+    threads: Option<NonZeroUsize>,
+) -> Result<Vec<InputSensitivity>, RowsError> {
+    let (names, most) = wanted(plan);
+    let observed = Observed::named(plan, names.iter().map(String::as_str));
+    if let Design::Saltelli(_) = plan.design {
+        let table = read(reader, &[], &observed, MOST_ROWS)?;
+        return Ok(of_blocks(plan, &observed, &table));
+    }
+    let columns = plan.dispersions.columns().iter().enumerate();
+    // what follows from other inputs by an expression is no input
+    let drawn = columns.filter(|(index, _)| plan.dispersions.expression_of(*index).is_none());
+    let inputs: Vec<String> = drawn.map(|(_, column)| column.parameter.column_name(column.component)).collect();
+    let table = read(reader, &inputs, &observed, most)?;
+    let prepared = Prepared::new(table.inputs.clone(), threads);
+    let of_observable = |(observed, y): (&Observed, &Vec<f64>)| {
+        if y.iter().all(|value| value.is_finite()) {
+            return prepared.sensitivities(plan, &inputs, observed, y);
+        }
+        // other rows have other ranks
+        let rows: Vec<usize> = (0..y.len()).filter(|row| y[*row].is_finite()).collect();
+        let y: Vec<f64> = rows.iter().map(|row| y[*row]).collect();
+        let of_rows = |input: &Vec<f64>| rows.iter().map(|row| input[*row]).collect();
+        let one = NonZeroUsize::new(1);
+        Prepared::new(table.inputs.iter().map(of_rows).collect(), one).sensitivities(plan, &inputs, observed, &y)
+    };
+    let work: Vec<_> = observed.iter().zip(&table.observables).collect();
+    Ok(in_parallel(work, threads, of_observable).into_iter().flatten().collect())
+}
+
+/// Inputs in all forms that are needed.
+struct Prepared {
+    rows: usize,
+    /// Which inputs vary and are no linear combination of those before them, as values and as ranks.
+    kept: [Vec<bool>; 2],
+    values: Vec<Vec<f64>>,
+    standardised: Vec<Vec<f64>>,
+    ranks: Vec<Vec<f64>>,
+    /// Those that are kept; `None` where there are none.
+    regressors: [Option<Regressors>; 2],
+    orders: Vec<Vec<usize>>,
+    /// Rank correlations of the inputs.
+    correlations: Vec<Vec<f64>>,
+}
+
+/// One input in the forms that follow from it alone.
+struct Forms {
+    standardised: Vec<f64>,
+    ranks: Vec<f64>,
+    order: Vec<usize>,
+}
+
+impl Forms {
+    fn of(input: &[f64]) -> Self {
+        let order = ascending_order(input);
+        let ranks = standardised(&mid_ranks_in_order(input, &order));
+        Forms { standardised: standardised(input), ranks, order }
+    }
+}
+
+impl Prepared {
+    fn new(values: Vec<Vec<f64>>, threads: Option<NonZeroUsize>) -> Self {
+        let forms = in_parallel(values.iter().collect(), threads, |input| Forms::of(input));
+        let (mut scaled, mut ranks, mut orders) = (Vec::new(), Vec::new(), Vec::new());
+        for form in forms {
+            scaled.push(form.standardised);
+            ranks.push(form.ranks);
+            orders.push(form.order);
+        }
+        // of values and of ranks
+        let of = |columns: &Vec<Vec<f64>>| {
+            let kept = independent_inputs(columns);
+            let inputs = columns.iter().zip(&kept).filter(|(_, kept)| **kept).map(|(column, _)| column.clone());
+            let regressors = Some(inputs.collect()).filter(|inputs: &Vec<_>| !inputs.is_empty());
+            (kept, regressors.and_then(Regressors::new))
+        };
+        let mut of_both = in_parallel(vec![&scaled, &ranks], threads, of).into_iter();
+        let [(values_kept, of_values), (ranks_kept, of_ranks)] = [(); 2].map(|()| of_both.next().expect("both"));
+        Prepared {
+            rows: values.first().map_or(0, Vec::len),
+            regressors: [of_values, of_ranks],
+            correlations: matrix(&ranks),
+            kept: [values_kept, ranks_kept],
+            orders,
+            values,
+            standardised: scaled,
+            ranks,
+        }
+    }
+
+    /// The notable correlation of input `index` with another.
+    fn correlated_with(&self, index: usize, names: &[String]) -> Option<(String, f64)> {
+        let others = self.correlations[index].iter().enumerate().filter(|(other, _)| *other != index);
+        let (other, r) = others.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
+        let chance = CHANCE / libm::sqrt(self.rows as f64);
+        (r.abs() > chance.max(NOTABLE_CORRELATION)).then(|| (names[other].clone(), *r))
+    }
+
+    fn sensitivities(&self, plan: &Plan, names: &[String], observed: &Observed, y: &[f64]) -> Vec<InputSensitivity> {
+        let confidence = plan.analysis.confidence;
+        let population = Population::of(plan);
+        let (scaled, ranked) = (standardised(y), standardised(&mid_ranks(y)));
+        let varies = scaled.iter().any(|value| *value != 0.0);
+        let regressor = |which: usize| self.regressors[which].as_ref().filter(|_| varies);
+        let linear = regressor(0).and_then(|of| of.regression(&scaled));
+        let rank = regressor(1).and_then(|of| of.regression(&ranked));
+        let r_squared = linear.as_ref().map(|of| of.r_squared(confidence));
+        let samples = match plan.design {
+            Design::Sobol(_) | Design::Halton(_) => Samples::Even,
+            _ => Samples::Independent,
+        };
+        let place = |which: usize, index: usize| {
+            self.kept[which][index].then(|| self.kept[which][..index].iter().filter(|kept| **kept).count())
+        };
+        // chosen samples have correlations with each other, and none in a population
+        let with_interval = |estimate: Estimate| match population {
+            Population::Chosen(_) | Population::Nominal => Estimate { lower: f64::NAN, upper: f64::NAN, ..estimate },
+            _ => estimate,
+        };
+        let of_input = |(index, name): (usize, &String)| {
+            let input_varies = self.standardised[index].iter().any(|value| *value != 0.0);
+            let is_asked = varies && input_varies && self.rows > 3;
+            let correlated = |x: &[f64], y: &[f64]| is_asked.then(|| with_interval(correlation(x, y, 0, confidence)));
+            let partial = rank.as_ref().zip(place(1, index)).map(|(of, at)| of.partial(at, confidence));
+            let coefficient = linear.as_ref().zip(place(0, index)).map(|(of, at)| of.coefficient(at, confidence));
+            let (order, x) = (&self.orders[index], &self.values[index]);
+            let correlated_with = self.correlated_with(index, names);
+            InputSensitivity {
+                observable: observed.quantity.name().to_owned(),
+                input: name.clone(),
+                rows: self.rows as u64,
+                pearson: correlated(&self.standardised[index], &scaled),
+                spearman: correlated(&self.ranks[index], &ranked),
+                partial_rank: partial.map(with_interval),
+                // an end that the rows do not bound is none
+                regression: coefficient.map(with_interval).map(|of| {
+                    let [lower, upper] = [of.lower, of.upper].map(|end| if end.is_finite() { end } else { f64::NAN });
+                    Estimate { lower, upper, ..of }
+                }),
+                r_squared: r_squared.map(with_interval),
+                first_order: first_order_index_in_order(order, x, y, samples, confidence).map(with_interval),
+                total: None,
+                note: note(population, varies, input_varies, self.kept[0][index], correlated_with.as_ref()),
+                correlated_with,
+            }
+        };
+        names.iter().enumerate().map(of_input).collect()
+    }
+}
+
+fn note(
+    population: Population,
+    varies: bool,
+    input_varies: bool,
+    is_independent: bool,
+    correlated: Option<&(String, f64)>,
+) -> Option<String> {
+    let mut notes = Vec::new();
+    if !varies {
+        notes.push("the observable does not vary".to_owned());
+    }
+    if !input_varies {
+        notes.push("the input does not vary".to_owned());
+    } else if !is_independent {
+        notes.push("a linear combination of the inputs before it: no regression".to_owned());
+    }
+    if let Some((other, r)) = correlated {
+        notes.push(format!(
+            "correlated with {other} (rank correlation {r:.2}): correlations and first-order index contain its effect, and indices do not add up; the partial correlation holds it fixed"
+        ));
+    }
+    match population {
+        Population::Dependent(_) | Population::Replicated(_) => {
+            notes.push("intervals are those of independent samples, mostly too wide for this design".to_owned());
+        }
+        Population::Chosen(LISTED) => notes.push(format!("chosen samples ({LISTED}): no population, no interval")),
+        Population::Chosen(design) => notes.push(format!("design \"{design}\": no population, no interval")),
+        Population::Independent | Population::Nominal => {}
+    }
+    (!notes.is_empty()).then(|| notes.join("; "))
+}
+
+/// What the distributions of a plan disperse, in the order of the factors of a `saltelli` design.
+fn factor_names(plan: &Plan) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for (factor, dimension) in plan.dispersions.factors().into_iter().zip(plan.dispersions.dimensions()) {
+        if factor == names.len() {
+            // a number counts the dimensions of a distribution; "row" is that of a bootstrap of several parameters
+            let numbered = dimension.rsplit_once('/').filter(|(_, last)| last.parse::<usize>().is_ok());
+            names.push(numbered.map_or(dimension.as_str(), |(name, _)| name).to_owned());
+        }
+    }
+    names
+}
+
+/// Indices from whole blocks of a `saltelli` design.
+fn of_blocks(plan: &Plan, observed: &[Observed], table: &Table) -> Vec<InputSensitivity> {
+    let factors = factor_names(plan);
+    let members = factors.len() + 2;
+    let confidence = plan.analysis.confidence;
+    let mut found = Vec::new();
+    for (observed, y) in observed.iter().zip(&table.observables) {
+        // a block with a run that is missing, or has no value, has no part in any index
+        let mut blocks: Vec<&[f64]> = Vec::new();
+        let mut row = 0;
+        while row + members <= y.len() {
+            let first = table.samples[row] - 1;
+            let is_whole = first.is_multiple_of(members as u64)
+                && table.samples[row + members - 1] == first + members as u64
+                && y[row..row + members].iter().all(|value| value.is_finite());
+            if is_whole {
+                blocks.push(&y[row..row + members]);
+            }
+            row += if is_whole { members } else { 1 };
+        }
+        for (factor, name) in factors.iter().enumerate() {
+            let of_block = |block: &&[f64]| Block { a: block[0], b: block[members - 1], mixed: block[factor + 1] };
+            let of_factor: Vec<Block> = blocks.iter().map(of_block).collect();
+            let indices = if of_factor.len() > 1 { saltelli_indices(&of_factor, confidence) } else { None };
+            let note = match indices {
+                Some(_) if blocks.len() < ENOUGH_BLOCKS => {
+                    "fewer than 64 blocks: the intervals cover less often than stated"
+                }
+                Some(_) => "intervals are those of independent blocks, mostly too wide for a scrambled sequence",
+                None => "the observable does not vary, or there are fewer than two whole blocks",
+            };
+            found.push(InputSensitivity {
+                observable: observed.quantity.name().to_owned(),
+                input: name.clone(),
+                rows: (blocks.len() * members) as u64,
+                first_order: indices.map(|[first, _]| first),
+                total: indices.map(|[_, total]| total),
+                note: Some(note.to_owned()),
+                ..InputSensitivity::default()
+            });
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::small_plan::small_plan;
+
+    /// Law: indices are of whole blocks only, one for each distribution, and say of how many rows. Known: y = x_1 + x_2 at the points A, A with
+    /// x_1 of B, A with x_2 of B, and B.
+    #[test]
+    fn indices_are_of_whole_blocks() {
+        let plan = small_plan(13, "design = { kind = \"saltelli\" }");
+        let observed = Observed::all(&plan).into_iter().take(1).collect::<Vec<_>>();
+        // A = (0, 1), B = (1, 4); the second block lacks sample 6; A = (3, 1), B = (2, 0)
+        let rows = [1.0, 2.0, 4.0, 5.0, 9.0, 9.0, 9.0, 4.0, 3.0, 3.0, 2.0];
+        let samples = (1..=12).filter(|sample| *sample != 6).collect();
+        let table = Table { samples, inputs: Vec::new(), observables: vec![rows.to_vec()] };
+        let found = of_blocks(&plan, &observed, &table);
+        let inputs: Vec<(&str, u64)> = found.iter().map(|one| (one.input.as_str(), one.rows)).collect();
+        let parameter = |axis: &str| format!("initial.angular_velocity_rad_s.{axis}");
+        assert_eq!(inputs, [(parameter("x").as_str(), 8), (parameter("y").as_str(), 8)]);
+        // variance (4 + 1)/2; half the mean square of A - mixed: 1/2 and 5/2
+        let total = found.iter().map(|one| one.total.map(|total| total.value)).collect::<Vec<_>>();
+        assert_eq!(total, [Some(0.2), Some(1.0)]);
+    }
+}

@@ -1,0 +1,459 @@
+//! [`Statistics`]: what the runs of a campaign say of every observable, from the files of its rows.
+//!
+//! A pure function of plan and files: it can be made again without running anything. Counts and extremes are exact. Moments are merged in
+//! the order of the parts, and the contents of sketches are counts, so that no bit depends on threads. Up to [`MOST_EXACT`] rows quantiles
+//! are those of the values themselves; beyond, those of sketches, with their bound. A few columns are read at a time: memory
+//! does not depend on the number of rows.
+//!
+//! The nominal sample 0 is no part of it where there are others. A run that is not `ok` is counted and has no part in any number.
+
+use std::num::NonZeroUsize;
+
+use crate::analysis::column_counts::{Collected, Collector, ColumnCounts, REFERENCE_ROWS, references};
+use crate::analysis::observed::Observed;
+use crate::analysis::population::Population;
+use crate::campaign::{Plan, Statement};
+use crate::run::{Quantity, Status};
+use crate::statistics::mean::{MOST_SHARE, deviation_bounds, mean_bounds};
+use crate::statistics::moments::Moments;
+use crate::statistics::quantile::{
+    Ranks as IntervalRanks, interval_ranks, percent, quantile, runs_for_bound, runs_for_interval,
+};
+use crate::statistics::replicates::{self, Step};
+use crate::statistics::sketch::{RELATIVE_ERROR, Ranks, Sketch};
+use crate::storage::parallel::in_parallel;
+use crate::storage::rows_reader::{RowsError, RowsReader};
+
+/// Most rows whose quantiles are exact.
+pub const MOST_EXACT: u64 = 100_000;
+/// Lists of values that are held at a time, one for each column and group of samples: 0.8 MB each at most.
+const LISTS_AT_A_TIME: usize = 16;
+/// Sketches that are held at a time: mostly below 0.1 MB each.
+const SKETCHES_AT_A_TIME: usize = 512;
+
+/// A quantile of the runs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct QuantileStatistic {
+    /// Which.
+    pub p: f64,
+    /// Confidence of its interval.
+    pub confidence: f64,
+    /// The sample quantile (type 7).
+    pub value: Option<f64>,
+    /// Ends of its interval, rounded outward; `None` where the runs do not bound it on that side, or no interval holds.
+    pub interval: [Option<f64>; 2],
+    /// What it takes to bound it, where there are too few runs.
+    pub note: Option<String>,
+}
+
+/// What the runs say of one observable.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ColumnStatistics {
+    /// Name, unit and meaning.
+    pub quantity: Quantity,
+    /// Whether its values are counts.
+    pub is_count: bool,
+    /// Runs that are `ok` and have no value of it.
+    pub without_value: u64,
+    /// Of the runs that are `ok` and have a value.
+    pub moments: Moments,
+    /// Ends of the interval of the mean; `None` where the runs do not bound it on that side, or no interval holds.
+    pub mean_interval: [Option<f64>; 2],
+    /// Standard error of the mean: of independent samples, or of replicates.
+    pub mean_error: Option<f64>,
+    /// Ends of the interval of the standard deviation, as of independent samples; `None` as for the mean.
+    pub deviation_interval: [Option<f64>; 2],
+    /// What keeps these runs from telling mean and standard deviation: no spread, few runs for the skewness, a heavy tail.
+    pub note: Option<String>,
+    /// The quantiles of the plan, ascending.
+    pub quantiles: Vec<QuantileStatistic>,
+    /// Those of the requirements on it, each with the confidence of its requirement.
+    pub required: Vec<QuantileStatistic>,
+}
+
+/// What the runs of a campaign say.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Statistics {
+    /// How the samples represent the population.
+    pub population: Population,
+    /// Confidence of the intervals.
+    pub confidence: f64,
+    /// How many of the samples that statistics are about ended with each status, in the order of [`Status::ALL`].
+    pub statuses: [u64; Status::ALL.len()],
+    /// Bound of the error of quantiles, relative to their magnitude or to their distance from a typical value, whichever is smaller; 0 where
+    /// they are exact.
+    pub quantile_error: f64,
+    /// Every observable.
+    pub columns: Vec<ColumnStatistics>,
+}
+
+impl Statistics {
+    /// The number of samples that statistics are about.
+    pub fn samples(&self) -> u64 {
+        self.statuses.iter().sum()
+    }
+
+    /// How many of them are `ok`.
+    pub fn ok(&self) -> u64 {
+        Status::ALL
+            .iter()
+            .zip(self.statuses)
+            .filter(|(status, _)| **status == Status::Done)
+            .map(|(_, count)| count)
+            .sum()
+    }
+
+    /// The `p`-quantile of the observable called `name` for a requirement at `confidence`.
+    pub fn required(&self, name: &str, p: f64, confidence: f64) -> Option<&QuantileStatistic> {
+        self.column(name)?.required.iter().find(|one| one.p == p && one.confidence == confidence)
+    }
+
+    /// The observable called `name`.
+    pub fn column(&self, name: &str) -> Option<&ColumnStatistics> {
+        self.columns.iter().find(|column| column.quantity.name() == name)
+    }
+
+    /// How failed runs are treated, in words.
+    pub fn treatment(&self) -> String {
+        match self.samples() - self.ok() {
+            0 => "every run is ok".to_owned(),
+            failed => format!("{failed} of {} runs are not ok and are left out", self.samples()),
+        }
+    }
+}
+
+/// The statistics of `plan`: of what was counted while its rows were made, or else from the files of its rows, on `threads` threads (`None`:
+/// one per core). Both give the same bits.
+///
+/// # Errors
+/// Where a file cannot be read.
+pub fn compute(
+    plan: &Plan,
+    reader: &RowsReader,
+    counted: Option<Collected>,
+    threads: Option<NonZeroUsize>,
+) -> Result<Statistics, RowsError> {
+    let population = Population::of(plan);
+    let is_exact = is_exact(plan);
+    let mut statuses = [0; Status::ALL.len()];
+    let mut columns = Vec::new();
+    let mut describe = |observed: &[Observed], collected: Collected| {
+        statuses = collected.statuses;
+        let common =
+            CommonRanks::new(plan, population, collected.columns.first().map_or(0, |column| column.moments.count()));
+        let describe = |(observed, counts)| described(plan, population, observed, counts, &common);
+        columns.extend(in_parallel(observed.iter().zip(collected.columns).collect(), threads, describe));
+    };
+    let observed = Observed::all(plan);
+    if let Some(counted) = counted.filter(|counted| counted.columns.len() == observed.len()) {
+        describe(&observed, counted);
+    } else {
+        let held = if is_exact { LISTS_AT_A_TIME } else { SKETCHES_AT_A_TIME };
+        for batch in observed.chunks((held / population.groups()).max(1)) {
+            // the nominal row is one more
+            let first = || references(batch, population, reader.first_parts(REFERENCE_ROWS + 1));
+            let collector = Collector::new(batch.to_vec(), population, (!is_exact).then(first).transpose()?);
+            describe(batch, collector.collect(reader, threads)?);
+        }
+    }
+    let quantile_error = if is_exact { 0.0 } else { RELATIVE_ERROR };
+    Ok(Statistics { population, confidence: plan.analysis.confidence, statuses, quantile_error, columns })
+}
+
+/// Whether the quantiles of `plan` are those of the values themselves.
+pub fn is_exact(plan: &Plan) -> bool {
+    plan.dispersed_rows() <= MOST_EXACT
+}
+
+/// The order statistics of a group of values.
+enum Order {
+    Exact(Vec<f64>),
+    Sketched(Ranks),
+}
+
+impl Order {
+    fn quantile(&self, p: f64) -> Option<f64> {
+        match self {
+            Order::Exact(ascending) => quantile(ascending, p),
+            Order::Sketched(ranks) => ranks.quantile(p),
+        }
+    }
+
+    /// Bounds of the number of rank `rank`, from 1.
+    fn bounds(&self, rank: u64) -> Option<[f64; 2]> {
+        match self {
+            Order::Exact(ascending) => ascending.get(rank as usize - 1).map(|value| [*value; 2]),
+            Order::Sketched(ranks) => ranks.bounds(rank),
+        }
+    }
+
+    /// The steps of the distribution function of replicate `replicate`.
+    fn steps(&self, replicate: usize) -> Vec<Step> {
+        match self {
+            Order::Exact(ascending) => {
+                ascending.iter().map(|value| Step { value: *value, lower: *value, replicate, count: 1 }).collect()
+            }
+            Order::Sketched(ranks) => {
+                let counts = std::iter::once(0).chain(ranks.buckets.iter().map(|bucket| bucket.up_to));
+                let steps = ranks.buckets.iter().zip(counts);
+                // a bucket has its ends from its group; of all groups they are those of the widest
+                steps
+                    .map(|(bucket, before)| Step {
+                        value: bucket.high,
+                        lower: bucket.low,
+                        replicate,
+                        count: bucket.up_to - before,
+                    })
+                    .collect()
+            }
+        }
+    }
+}
+
+/// The ranks of the intervals of all quantiles for one number of values: that of most columns.
+struct CommonRanks {
+    count: u64,
+    confidence: f64,
+    ranks: Vec<(f64, IntervalRanks)>,
+}
+
+impl CommonRanks {
+    fn new(plan: &Plan, population: Population, count: u64) -> Self {
+        let quantiles = plan.analysis.quantiles.iter().filter(|_| population.has_intervals());
+        let ranks = quantiles.map(|p| (*p, interval_ranks(count, *p, plan.analysis.confidence)));
+        CommonRanks { count, confidence: plan.analysis.confidence, ranks: ranks.collect() }
+    }
+
+    fn of(&self, count: u64, p: f64, confidence: f64) -> Option<IntervalRanks> {
+        let mut known = self.ranks.iter().filter(|_| count == self.count && confidence == self.confidence);
+        known.find(|(of, _)| *of == p).map(|(_, ranks)| *ranks)
+    }
+}
+
+fn described(
+    plan: &Plan,
+    population: Population,
+    observed: &Observed,
+    mut collected: ColumnCounts,
+    common: &CommonRanks,
+) -> ColumnStatistics {
+    let confidence = plan.analysis.confidence;
+    let mut whole = Sketch::default();
+    let mut values = Vec::new();
+    let groups = std::mem::take(&mut collected.groups);
+    let sizes: Vec<u64> = groups.iter().map(|group| group.moments.count()).collect();
+    let means: Vec<f64> = groups.iter().filter_map(|group| group.moments.mean()).collect();
+    let mut steps = Vec::new();
+    let is_sketched = groups.iter().any(|group| group.sketch.count() > 0);
+    let ranks = |sketch: &Sketch| {
+        let ranks = sketch.ranks();
+        if observed.is_count { ranks.of_whole_numbers() } else { ranks }
+    };
+    for (replicate, group) in groups.into_iter().enumerate() {
+        if is_sketched {
+            whole.merge(&group.sketch);
+        }
+        if matches!(population, Population::Replicated(_)) {
+            let order =
+                if is_sketched { Order::Sketched(ranks(&group.sketch)) } else { Order::Exact(group.values.clone()) };
+            steps.extend(order.steps(replicate));
+        }
+        values.extend(group.values);
+    }
+    steps.sort_by(|a, b| a.value.total_cmp(&b.value));
+    values.sort_unstable_by(f64::total_cmp);
+    let order = if is_sketched { Order::Sketched(ranks(&whole)) } else { Order::Exact(values) };
+    let moments = collected.moments;
+    let one_sided = 0.5 + 0.5 * confidence;
+    let (mean, mean_error) = match population {
+        Population::Independent => (Some(mean_bounds(&moments, one_sided)), moments.mean_error()),
+        Population::Replicated(_) => (
+            Some(replicates::mean_bounds(&means, &moments, one_sided)),
+            Moments::of(means.iter().copied()).mean_error(),
+        ),
+        _ => (None, None),
+    };
+    let ends = |bounds: [f64; 2]| bounds.map(|end| Some(end).filter(|end| end.is_finite()));
+    let mean_interval = mean.map_or([None; 2], ends);
+    let deviation = deviation_bounds(&moments, one_sided);
+    let quantile = |p: f64, confidence: f64| {
+        let mut found = of_quantile(population, &order, moments.count(), (p, confidence), common);
+        if matches!(population, Population::Replicated(_)) && found.note.is_none() {
+            found.interval = replicates::quantile_interval(&steps, &sizes, p, confidence);
+        }
+        found
+    };
+    let requirements =
+        plan.analysis.requirements.iter().filter(|one| one.observable() == Some(observed.quantity.name()));
+    let required = requirements.filter_map(|one| match one.statement {
+        Statement::Quantile(p) => Some(quantile(p, one.confidence)),
+        _ => None,
+    });
+    ColumnStatistics {
+        quantity: observed.quantity.clone(),
+        is_count: observed.is_count,
+        without_value: collected.without_value,
+        moments,
+        mean_interval,
+        mean_error,
+        deviation_interval: mean.map_or([None; 2], |_| ends(deviation)),
+        note: mean.and_then(|_| note(&moments, mean_interval)),
+        quantiles: plan.analysis.quantiles.iter().map(|p| quantile(*p, confidence)).collect(),
+        required: required.collect(),
+    }
+}
+
+/// What keeps runs with these moments from telling their mean and standard deviation.
+fn note(moments: &Moments, mean_interval: [Option<f64>; 2]) -> Option<String> {
+    let skewness = moments.count().gt(&1).then(|| moments.skewness().unwrap_or(0.0))?;
+    let share = moments.largest_share(2);
+    match mean_interval {
+        [None, None] if moments.standard_deviation() == Some(0.0) => Some(
+            "all values are equal: whether the mean is that value these runs cannot tell, a rare event would not show"
+                .to_owned(),
+        ),
+        [Some(_), Some(_)] if share <= MOST_SHARE => None,
+        [Some(_), Some(_)] => Some(format!(
+            "heavy tail: one run makes {:.0}% of the variance, and intervals of mean and standard deviation may be too narrow",
+            100.0 * share
+        )),
+        _ => Some(format!("too few runs for their skewness of {skewness:.1}: the mean is not bounded on every side")),
+    }
+}
+
+/// A quantile with the interval of independent samples, where they are.
+fn of_quantile(
+    population: Population,
+    order: &Order,
+    count: u64,
+    (p, confidence): (f64, f64),
+    common: &CommonRanks,
+) -> QuantileStatistic {
+    let mut found = QuantileStatistic { p, confidence, value: order.quantile(p), interval: [None; 2], note: None };
+    if !population.has_intervals() {
+        return found;
+    }
+    let ranks = common.of(count, p, confidence).unwrap_or_else(|| interval_ranks(count, p, confidence));
+    let end = |rank: Option<u64>, which: usize| rank.and_then(|rank| order.bounds(rank)).map(|bounds| bounds[which]);
+    found.interval = [end(ranks.lower, 0), end(ranks.upper, 1)];
+    if found.interval.contains(&None) {
+        found.note = Some(format!(
+            "p{} with {}% confidence needs {} runs ({} for a bound on one side)",
+            percent(p),
+            percent(confidence),
+            runs_for_interval(p, confidence),
+            runs_for_bound(p, confidence),
+        ));
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::part_columns::PartColumns;
+    use crate::analysis::small_plan::small_plan;
+    use crate::run::Status;
+    use crate::sampling::SampleId;
+    use crate::storage::disk::Disk;
+    use std::borrow::Cow;
+
+    /// A part whose columns all have the same values, from a first sample on.
+    struct Written(Vec<Status>, Vec<f64>, u64);
+
+    impl PartColumns for Written {
+        fn rows(&self) -> usize {
+            self.0.len()
+        }
+
+        fn samples(&self) -> Result<Vec<SampleId>, RowsError> {
+            Ok((self.2..self.2 + self.0.len() as u64).map(SampleId).collect())
+        }
+
+        fn statuses(&self) -> Result<Cow<'_, [Status]>, RowsError> {
+            Ok(Cow::Borrowed(&self.0))
+        }
+
+        fn numbers(&self, _: &str) -> Result<Cow<'_, [f64]>, RowsError> {
+            Ok(Cow::Borrowed(&self.1))
+        }
+    }
+
+    /// Law: statistics are those of the values of dispersed runs that are ok; the nominal run and failed runs are left out, and counted.
+    #[test]
+    fn statistics_are_of_dispersed_runs_that_are_ok() {
+        let plan = small_plan(7, "");
+        let observed = Observed::all(&plan);
+        let name = observed[0].quantity.name().to_owned();
+        let collector = Collector::new(observed, Population::of(&plan), None);
+        let mut statuses = vec![Status::Done; 7];
+        statuses[3] = Status::StepLimit;
+        // quantiles of 1, 2, 3, 4, 10
+        let part = Written(statuses, vec![99.0, 4.0, 1.0, 50.0, 3.0, 2.0, 10.0], 0);
+        let mut collected = collector.nothing();
+        collected.merge(collector.count(&part).expect("counted"));
+        let counted = collector.finish(collected);
+        let found = compute(&plan, &RowsReader::new(&Disk, Vec::new()), Some(counted), None).expect("statistics");
+        let column = found.column(&name).expect("the column");
+        assert_eq!((found.samples(), found.ok(), found.quantile_error), (6, 5, 0.0));
+        assert_eq!((column.moments.count(), column.moments.mean(), column.moments.max()), (5, Some(4.0), Some(10.0)));
+        let median = column.quantiles.iter().find(|quantile| quantile.p == 0.5).expect("the median");
+        assert_eq!(median.value, Some(3.0));
+        assert_eq!(found.treatment(), "1 of 6 runs are not ok and are left out");
+    }
+
+    /// Law: beyond the exact ones, quantiles are within a hundredth of a standard deviation, whatever the offset of the values is, also far from the
+    /// value of the nominal run; a median of zeros is zero; the order in which parts are counted changes no bit.
+    #[test]
+    fn many_rows_with_an_offset_have_their_quantiles() {
+        const ROWS: usize = 120_000;
+        const PART: usize = 8_000;
+        let plan = small_plan(ROWS as u64, "");
+        assert!(!is_exact(&plan));
+        let observed = Observed::all(&plan)[..1].to_vec();
+        let population = Population::of(&plan);
+        // 1 to ROWS in an irregular order, as normal scores; every hundredth run failed
+        let score =
+            |k: usize| crate::math::normal::quantile(((k * 70_001) % ROWS) as f64 / ROWS as f64 + 0.5 / ROWS as f64);
+        let status = |k: usize| if k % 100 == 99 { Status::StepLimit } else { Status::Done };
+        let found = |value: &dyn Fn(usize) -> f64, backwards: bool| {
+            let part = |first: usize| {
+                let rows = first..first + PART;
+                let values = rows.clone().map(|k| if k == 0 { -3e14 } else { value(k) }).collect();
+                Written(rows.clone().map(status).collect(), values, first as u64)
+            };
+            let mut parts: Vec<Written> = (0..ROWS).step_by(PART).map(part).collect();
+            let first = references(&observed, population, parts.drain(..1).map(Ok)).expect("references");
+            let parts: Vec<Written> = (0..ROWS).step_by(PART).map(part).collect();
+            let collector = Collector::new(observed.clone(), population, Some(first));
+            let mut counts: Vec<_> = (0..parts.len()).collect();
+            if backwards {
+                counts.reverse();
+            }
+            let mut counted: Vec<_> =
+                counts.into_iter().map(|index| (index, collector.count(&parts[index]).expect("counted"))).collect();
+            counted.sort_by_key(|(index, _)| *index);
+            let mut collected = collector.nothing();
+            counted.into_iter().for_each(|(_, part)| collected.merge(part));
+            let mut columns = collector.finish(collected).columns;
+            let common = CommonRanks::new(&plan, population, columns[0].moments.count());
+            described(&plan, population, &observed[0], columns.remove(0), &common)
+        };
+        for offset in [0.0, 1.0, -1.0, 1e3, -1e5, 1e9, -1e9] {
+            let value = |k: usize| offset + score(k);
+            let column = found(&value, false);
+            assert_eq!(column, found(&value, true), "{offset}");
+            let mut exact: Vec<f64> = (1..ROWS).filter(|k| status(*k) == Status::Done).map(value).collect();
+            exact.sort_by(f64::total_cmp);
+            for one in &column.quantiles {
+                let (value, exact) = (one.value.expect("a value"), quantile(&exact, one.p).expect("a value"));
+                assert!((value - exact).abs() < 0.01, "{offset}, p{}: {value} for {exact}", one.p);
+            }
+        }
+        let median = |value: &dyn Fn(usize) -> f64| {
+            found(value, false).quantiles.iter().find(|one| one.p == 0.5).and_then(|one| one.value)
+        };
+        assert_eq!(median(&|k| if k % 3 == 0 { k as f64 } else { 0.0 }), Some(0.0));
+        assert_eq!(median(&|k| if k % 3 == 0 { 1e-312 } else { 0.0 }), Some(0.0));
+    }
+}

@@ -1,0 +1,134 @@
+//! [`write_parts`]: adds each finished part to a dataset.
+//!
+//! Threads encode their own parts; one thread more writes the files and waits for the disk, so that no run waits for it.
+
+use std::sync::mpsc::{SyncSender, sync_channel};
+use std::sync::{Mutex, PoisonError};
+
+use parquet::errors::ParquetError;
+use thiserror::Error;
+
+use crate::ensemble::{Ensemble, Part, Rows, Sink};
+use crate::storage::bands_file;
+use crate::storage::disk::StorageError;
+use crate::storage::folder::{Folder, PartFile};
+use crate::storage::names::{bands_of, rows_of};
+use crate::storage::rows_file::RowsFile;
+
+/// Encoded parts that may wait for the disk: memory for them is some 10 MB each.
+const WAITING: usize = 1;
+
+/// Why rows could not be written.
+#[derive(Debug, Error)]
+pub enum PartError {
+    /// They could not be encoded.
+    #[error("a part could not be encoded: {0}")]
+    Encoding(#[from] ParquetError),
+    /// A file operation failed.
+    #[error(transparent)]
+    Storage(#[from] StorageError),
+    /// The thread that writes could not be started.
+    #[error("cannot start a thread: {0}")]
+    Thread(std::io::Error),
+    /// The thread that writes has ended, after an error of its own.
+    #[error("parts are no longer written")]
+    Ended,
+}
+
+/// Counts the rows of a part while they are in memory, on any thread.
+pub type CountRows = dyn Fn(&Rows) + Sync;
+
+/// An encoded part.
+type Encoded = (Part, Vec<PartFile>);
+
+/// Memory of the files of parts that are written, for those of later parts.
+#[derive(Debug, Default)]
+struct Buffers(Mutex<Vec<Vec<Vec<u8>>>>);
+
+impl Buffers {
+    /// The memory of the files of a part, each empty; none where no part is written yet.
+    fn take(&self) -> std::vec::IntoIter<Vec<u8>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).pop().unwrap_or_default().into_iter()
+    }
+
+    /// Keeps the memory of `files`.
+    fn give(&self, files: Vec<PartFile>) {
+        let emptied = |file: PartFile| {
+            let mut bytes = file.bytes;
+            bytes.clear();
+            bytes
+        };
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).push(files.into_iter().map(emptied).collect());
+    }
+}
+
+/// Encodes parts and hands them to the thread that writes.
+#[derive(Debug)]
+pub struct PartSink<'c> {
+    file: RowsFile,
+    counts: Option<&'c CountRows>,
+    buffers: &'c Buffers,
+    encoded: SyncSender<Encoded>,
+    seconds: Mutex<[f64; 2]>,
+}
+
+impl PartSink<'_> {
+    /// CPU time of runs and of audits so far, s; measured where there are audits.
+    pub fn seconds(&self) -> [f64; 2] {
+        *self.seconds.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Sink for PartSink<'_> {
+    type Error = PartError;
+
+    fn take(&self, rows: &Rows) -> Result<(), PartError> {
+        let part = rows.part();
+        let mut buffers = self.buffers.take();
+        let mut bytes = buffers.next().unwrap_or_default();
+        self.file.write(rows, &mut bytes)?;
+        let mut files = vec![PartFile::new(rows_of(part.id), bytes)];
+        if let Some(bands) = rows.bands() {
+            let mut bytes = buffers.next().unwrap_or_default();
+            bands_file::write(part, bands, &mut bytes);
+            files.push(PartFile::new(bands_of(part.id), bytes));
+        }
+        self.counts.into_iter().for_each(|counts| counts(rows));
+        self.encoded.send((part, files)).map_err(|_| PartError::Ended)?;
+        let mut sums = self.seconds.lock().unwrap_or_else(PoisonError::into_inner);
+        sums.iter_mut().zip(rows.seconds()).for_each(|(sum, seconds)| *sum += seconds);
+        Ok(())
+    }
+}
+
+/// Runs `body` with a sink for the rows of `ensemble`, which also counts them in `counts`; when this returns, every part that the sink took is in `folder`, or an error says why
+/// not. An error of writing is reported before one of `body`.
+///
+/// # Errors
+/// Where parts could not be encoded or written.
+pub fn write_parts<R>(
+    folder: &Folder,
+    ensemble: &Ensemble<'_>,
+    counts: Option<&CountRows>,
+    body: impl FnOnce(&PartSink<'_>) -> R,
+) -> Result<R, PartError> {
+    let (encoded, waiting) = sync_channel::<Encoded>(WAITING);
+    let buffers = Buffers::default();
+    let file = RowsFile::new(ensemble)?;
+    let sink = PartSink { file, counts, buffers: &buffers, encoded, seconds: Mutex::new([0.0; 2]) };
+    std::thread::scope(|scope| {
+        let (buffers, waiting) = (&buffers, waiting);
+        let write = move || -> Result<(), StorageError> {
+            waiting.iter().try_for_each(|(part, files)| {
+                folder.commit(part, &files)?;
+                buffers.give(files);
+                Ok(())
+            })
+        };
+        let writer = std::thread::Builder::new().spawn_scoped(scope, write).map_err(PartError::Thread)?;
+        let result = body(&sink);
+        drop(sink);
+        writer.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
+        Ok(result)
+    })
+}

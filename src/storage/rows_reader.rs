@@ -1,0 +1,466 @@
+//! [`RowsReader`]: reads the files of rows of a result back, columns by name, one part at a time.
+//!
+//! By Parquet's typed column reader: a column comes from the decoder as a list of numbers, without Arrow's arrays between. Memory is
+//! that of the parts under way and does not depend on the number of rows. The Parquet reader panics on some damaged files; here
+//! that is an error that names the file. A file that cannot be read is told apart from one that is damaged.
+
+use std::num::NonZeroUsize;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+
+use parquet::basic::Type;
+use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
+use parquet::data_type::{ByteArray, DataType};
+use parquet::errors::ParquetError;
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use thiserror::Error;
+
+use crate::run::Status;
+use crate::sampling::SampleId;
+use crate::storage::disk::Storage;
+use crate::storage::parallel::in_order;
+use crate::storage::parquet_source::ParquetSource;
+use crate::storage::rows_file::{REASON, SAMPLE_ID, STATUS};
+
+/// Why rows could not be read.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error("{path}: {what}")]
+pub struct RowsError {
+    /// The file.
+    pub path: String,
+    /// What is wrong with it.
+    pub what: String,
+}
+
+/// The files of rows of a result, in the order of their samples.
+#[derive(Clone, Debug)]
+pub struct RowsReader {
+    storage: &'static dyn Storage,
+    files: Vec<PathBuf>,
+}
+
+/// One file of rows, open. It belongs to one thread: others open the same file for themselves.
+pub struct PartReader {
+    path: String,
+    source: ParquetSource,
+    reader: SerializedFileReader<ParquetSource>,
+    rows: usize,
+}
+
+impl RowsReader {
+    /// A reader of `files`, which are in the order of their samples.
+    pub fn new(storage: &'static dyn Storage, files: Vec<PathBuf>) -> Self {
+        RowsReader { storage, files }
+    }
+
+    /// The file operations.
+    pub fn storage(&self) -> &'static dyn Storage {
+        self.storage
+    }
+
+    /// The files.
+    pub fn files(&self) -> &[PathBuf] {
+        &self.files
+    }
+
+    /// Opens the part of this index; `None` after the last.
+    ///
+    /// # Errors
+    /// Where the file cannot be opened or is no Parquet file.
+    pub fn part(&self, index: usize) -> Option<Result<PartReader, RowsError>> {
+        self.files.get(index).map(|path| PartReader::open(self.storage, path))
+    }
+
+    /// The parts with the first `rows` rows, in their order: no part after the one with the last of them.
+    pub fn first_parts(&self, rows: usize) -> impl Iterator<Item = Result<PartReader, RowsError>> + '_ {
+        let mut opened = 0;
+        (0..self.files.len()).map_while(move |index| {
+            let part = self.part(index).filter(|_| opened < rows)?;
+            opened += part.as_ref().map_or(0, PartReader::rows);
+            Some(part)
+        })
+    }
+
+    /// Reads every part on `threads` threads (`None`: one per core): `read` takes what is wanted from a part on any thread, and `merge`
+    /// is shown the results in the order of the parts, whatever the threads do. No more than a few parts are held at a time.
+    ///
+    /// # Errors
+    /// That of the first part, in their order, that could not be opened or for which `read` or `merge` fails.
+    pub fn visit<T: Send, E: From<RowsError> + Send>(
+        &self,
+        threads: Option<NonZeroUsize>,
+        read: impl Fn(&mut PartReader) -> Result<T, E> + Sync,
+        merge: impl FnMut(T) -> Result<(), E> + Send,
+    ) -> Result<(), E> {
+        let read_part = |index: usize| {
+            let part = PartReader::open(self.storage, &self.files[index]);
+            part.map_err(E::from).and_then(|mut part| read(&mut part))
+        };
+        in_order(self.files.len(), threads, read_part, merge)
+    }
+}
+
+/// What `read` returns; a panic of the Parquet reader is an error too. Where the file could not be read, that is the error.
+fn caught<T>(
+    path: &str,
+    source: &ParquetSource,
+    read: impl FnOnce() -> Result<T, ParquetError>,
+) -> Result<T, RowsError> {
+    let found = catch_unwind(AssertUnwindSafe(read));
+    let damaged = || "the file is damaged: the Parquet reader cannot decode it".to_owned();
+    let what = match (found, source.failure()) {
+        (_, Some(failure)) => failure.to_string(),
+        (Ok(Ok(found)), None) => return Ok(found),
+        (Ok(Err(error)), None) => error.to_string(),
+        (Err(_), None) => damaged(),
+    };
+    Err(RowsError { path: path.to_owned(), what })
+}
+
+fn general(what: impl Into<String>) -> ParquetError {
+    ParquetError::General(what.into())
+}
+
+impl PartReader {
+    /// Opens the file `path`.
+    ///
+    /// # Errors
+    /// Where it cannot be opened or is no Parquet file.
+    pub fn open(storage: &dyn Storage, path: &Path) -> Result<Self, RowsError> {
+        let shown = path.display().to_string();
+        let source = ParquetSource::open(storage, path)
+            .map_err(|error| RowsError { path: shown.clone(), what: error.to_string() })?;
+        let (reader, rows) = caught(&shown, &source, || {
+            let reader = SerializedFileReader::new(source.clone())?;
+            let groups = reader.metadata().row_groups().iter().map(|group| group.num_rows());
+            let rows = groups.map(|rows| usize::try_from(rows).map_err(|_| general("a negative number of rows")));
+            let rows = rows.sum::<Result<usize, ParquetError>>()?;
+            Ok((reader, rows))
+        })?;
+        Ok(PartReader { path: shown, source, reader, rows })
+    }
+
+    /// The file, for messages.
+    pub fn path(&self) -> &str {
+        &self.path
+    }
+
+    /// Number of rows.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// The names of the columns, in their order.
+    pub fn names(&self) -> Vec<String> {
+        let schema = self.reader.metadata().file_metadata().schema_descr();
+        schema.columns().iter().map(|column| column.name().to_owned()).collect()
+    }
+
+    /// The numbers of the samples, row by row.
+    ///
+    /// # Errors
+    /// Where the column is missing or damaged.
+    pub fn samples(&self) -> Result<Vec<SampleId>, RowsError> {
+        let cells = self.cells(SAMPLE_ID)?;
+        match cells {
+            Cells::Count(values, None) => Ok(values.into_iter().map(|id| SampleId(id.cast_unsigned())).collect()),
+            _ => Err(self.failed(format!("`{SAMPLE_ID}` is not a column of whole numbers without gaps"))),
+        }
+    }
+
+    /// How each run ended.
+    ///
+    /// # Errors
+    /// Where the column is missing or damaged, or has a status that this version does not know.
+    pub fn statuses(&self) -> Result<Vec<Status>, RowsError> {
+        let Cells::Text(texts, None) = self.cells(STATUS)? else {
+            return Err(self.failed(format!("`{STATUS}` is not a column of texts without gaps")));
+        };
+        let status = |text: &ByteArray| {
+            let found = Status::ALL.into_iter().find(|status| status.name().as_bytes() == text.data());
+            found.ok_or_else(|| self.failed(format!("unknown status {:?}", String::from_utf8_lossy(text.data()))))
+        };
+        texts.iter().map(status).collect()
+    }
+
+    /// Why each run is not `ok`; `None` for one that is.
+    ///
+    /// # Errors
+    /// Where the column is missing or damaged.
+    pub fn reasons(&self) -> Result<Vec<Option<String>>, RowsError> {
+        let Cells::Text(texts, present) = self.cells(REASON)? else {
+            return Err(self.failed(format!("`{REASON}` is not a column of texts")));
+        };
+        let mut texts = texts.iter().map(|text| String::from_utf8_lossy(text.data()).into_owned());
+        match present {
+            None => Ok(texts.map(Some).collect()),
+            Some(present) => {
+                Ok(present.into_iter().map(|present| if present == 1 { texts.next() } else { None }).collect())
+            }
+        }
+    }
+
+    /// The numbers of the column `name`, row by row: counts as doubles, null as NaN.
+    ///
+    /// # Errors
+    /// Where the column is missing, damaged, or has no numbers.
+    pub fn numbers(&self, name: &str) -> Result<Vec<f64>, RowsError> {
+        match self.cells(name)? {
+            Cells::Real(values, None) => Ok(values),
+            Cells::Real(values, Some(present)) => Ok(spread(values.into_iter(), &present)),
+            Cells::Count(values, present) => {
+                let values = values.into_iter().map(|value| value.cast_unsigned() as f64);
+                Ok(match present {
+                    None => values.collect(),
+                    Some(present) => spread(values, &present),
+                })
+            }
+            Cells::Text(..) => Err(self.failed(format!("`{name}` is not a column of numbers"))),
+        }
+    }
+
+    fn failed(&self, what: String) -> RowsError {
+        RowsError { path: self.path.clone(), what }
+    }
+
+    fn cells(&self, name: &str) -> Result<Cells, RowsError> {
+        caught(&self.path, &self.source, || {
+            let schema = self.reader.metadata().file_metadata().schema_descr_ptr();
+            let index = schema.columns().iter().position(|column| column.name() == name);
+            let Some(index) = index else { return Err(general(format!("there is no column `{name}`"))) };
+            let column = schema.column(index);
+            let mut cells = match column.physical_type() {
+                Type::DOUBLE => Cells::Real(Vec::with_capacity(self.rows), None),
+                Type::INT64 => Cells::Count(Vec::with_capacity(self.rows), None),
+                Type::BYTE_ARRAY => Cells::Text(Vec::with_capacity(self.rows), None),
+                other => return Err(general(format!("`{name}` has the type {other}, which no file of rows has"))),
+            };
+            let is_optional = match column.max_def_level() {
+                0 => false,
+                1 => true,
+                _ => return Err(general(format!("`{name}` is nested"))),
+            };
+            let mut levels = is_optional.then(|| Vec::with_capacity(self.rows));
+            for group in 0..self.reader.metadata().num_row_groups() {
+                let group = self.reader.get_row_group(group)?;
+                let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
+                match (group.get_column_reader(index)?, &mut cells) {
+                    (ColumnReader::DoubleColumnReader(reader), Cells::Real(values, _)) => {
+                        column_values(reader, rows, &mut levels, values)
+                    }
+                    (ColumnReader::Int64ColumnReader(reader), Cells::Count(values, _)) => {
+                        column_values(reader, rows, &mut levels, values)
+                    }
+                    (ColumnReader::ByteArrayColumnReader(reader), Cells::Text(values, _)) => {
+                        column_values(reader, rows, &mut levels, values)
+                    }
+                    _ => Err(general(format!("`{name}` changes its type within the file"))),
+                }?;
+            }
+            cells.set_levels(levels);
+            Ok(cells)
+        })
+    }
+}
+
+/// The values of a column without gaps, and which rows have one (1); `None` where all have.
+enum Cells {
+    Real(Vec<f64>, Option<Vec<i16>>),
+    Count(Vec<i64>, Option<Vec<i16>>),
+    Text(Vec<ByteArray>, Option<Vec<i16>>),
+}
+
+impl Cells {
+    fn set_levels(&mut self, levels: Option<Vec<i16>>) {
+        let levels = levels.filter(|levels| levels.contains(&0));
+        match self {
+            Cells::Real(_, present) | Cells::Count(_, present) | Cells::Text(_, present) => *present = levels,
+        }
+    }
+}
+
+/// Appends the `rows` values of a column chunk.
+fn column_values<T: DataType>(
+    mut reader: ColumnReaderImpl<T>,
+    rows: usize,
+    levels: &mut Option<Vec<i16>>,
+    values: &mut Vec<T::T>,
+) -> Result<(), ParquetError> {
+    let mut read = 0;
+    while read < rows {
+        let (records, _, _) = reader.read_records(rows - read, levels.as_mut(), None, values)?;
+        if records == 0 {
+            return Err(general(format!("a column has {read} values where the file has {rows} rows")));
+        }
+        read += records;
+    }
+    Ok(())
+}
+
+/// One number for each row: the next of `values` where there is one, else NaN.
+fn spread(mut values: impl Iterator<Item = f64>, present: &[i16]) -> Vec<f64> {
+    present.iter().map(|present| if *present == 1 { values.next().unwrap_or(f64::NAN) } else { f64::NAN }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::Quantity;
+    use crate::storage::columnar::{Cells as Written, Content, Heading, Layout, Packing};
+    use crate::storage::disk::Disk;
+    use std::collections::HashMap;
+
+    struct Folder(PathBuf);
+
+    impl Folder {
+        fn new(name: &str) -> Self {
+            let folder = std::env::temp_dir().join(format!("spindrift-rows-{}-{name}", std::process::id()));
+            let _ = std::fs::remove_dir_all(&folder);
+            std::fs::create_dir_all(&folder).expect("a folder");
+            Folder(folder)
+        }
+    }
+
+    impl Drop for Folder {
+        fn drop(&mut self) {
+            let _ = std::fs::remove_dir_all(&self.0);
+        }
+    }
+
+    fn heading(name: &'static str, content: Content) -> Heading {
+        Heading::new(Quantity::new(name, "", "A column."), content)
+    }
+
+    /// A file of three rows from sample `first` on, in two row groups.
+    fn file(folder: &Folder, first: u64) -> PathBuf {
+        let headings = [
+            heading(SAMPLE_ID, Content::Count),
+            heading(STATUS, Content::Word),
+            heading(REASON, Content::Word).nullable(),
+            heading("x", Content::Real).nullable(),
+            heading("steps", Content::Count).nullable(),
+        ];
+        let layout = Layout::new(&headings, HashMap::new(), Packing::Lz4).expect("a layout");
+        let path = folder.0.join(format!("part-{first:06}.parquet"));
+        let out = std::fs::File::create(&path).expect("a file");
+        let mut writer = layout.begin(out, &[]).expect("begun");
+        let x = [first as f64 + 0.5, f64::NAN];
+        let of_two = [
+            Written::Count(vec![first, first + 1], None),
+            Written::Word(vec!["ok", "step_limit"]),
+            Written::Text(vec![None, Some("too long")]),
+            Written::Real(&x, Some(&[true, false])),
+            Written::Count(vec![7, 0], Some(&[true, false])),
+        ];
+        writer.group(of_two.into_iter()).expect("written");
+        let of_one = [
+            Written::Count(vec![first + 2], None),
+            Written::Word(vec!["ok"]),
+            Written::Text(vec![None]),
+            Written::Real(&[41.5], None),
+            Written::Count(vec![9], None),
+        ];
+        writer.group(of_one.into_iter()).expect("written");
+        writer.finish().expect("finished");
+        path
+    }
+
+    /// Law: what was written is read: numbers of samples, statuses, reasons, values; null is NaN, counts are doubles.
+    #[test]
+    fn rows_are_read_as_written() {
+        let folder = Folder::new("read");
+        let reader = RowsReader::new(&Disk, vec![file(&folder, 40)]);
+        let part = reader.part(0).expect("one part").expect("readable");
+        assert_eq!((part.rows(), part.samples()), (3, Ok(vec![SampleId(40), SampleId(41), SampleId(42)])));
+        assert_eq!(part.statuses(), Ok(vec![Status::Done, Status::StepLimit, Status::Done]));
+        assert_eq!(part.reasons(), Ok(vec![None, Some("too long".to_owned()), None]));
+        assert_eq!(part.names(), [SAMPLE_ID, STATUS, REASON, "x", "steps"]);
+        let (x, steps) = (part.numbers("x").expect("x"), part.numbers("steps").expect("steps"));
+        assert!(x[0] == 40.5 && x[1].is_nan() && x[2] == 41.5, "{x:?}");
+        assert!(steps[0] == 7.0 && steps[1].is_nan() && steps[2] == 9.0, "{steps:?}");
+        assert!(part.numbers("y").expect_err("no such column").to_string().ends_with("there is no column `y`"));
+        assert!(part.numbers(STATUS).expect_err("words").what.contains("not a column of numbers"));
+        assert!(reader.part(1).is_none());
+    }
+
+    /// Law: the parts with the first n rows are as few as have so many, also where a part ends with row n.
+    #[test]
+    fn the_first_parts_have_the_first_rows() {
+        let folder = Folder::new("first");
+        let reader = RowsReader::new(&Disk, (0..3).map(|k| file(&folder, 3 * k)).collect());
+        let parts = |rows: usize| reader.first_parts(rows).map(|part| part.expect("readable").rows()).sum::<usize>();
+        assert_eq!([0, 1, 3, 4, 6, 7, 9, 100].map(parts), [0, 3, 3, 6, 6, 9, 9, 9]);
+        let missing = RowsReader::new(&Disk, vec![folder.0.join("none.parquet")]);
+        assert!(missing.first_parts(1).next().is_some_and(|part| part.is_err()));
+    }
+
+    /// Law: parts are merged in their order for any number of threads, and the error is that of the first part that fails.
+    #[test]
+    fn parts_are_merged_in_order() {
+        let folder = Folder::new("order");
+        let files: Vec<PathBuf> = (0..20).map(|k| file(&folder, 3 * k)).collect();
+        let reader = RowsReader::new(&Disk, files.clone());
+        for threads in [1, 2, 3, 7, 64] {
+            let threads = NonZeroUsize::new(threads);
+            let mut seen = Vec::new();
+            let all = reader.visit::<_, RowsError>(
+                threads,
+                |part| {
+                    // the first parts take longest, so that later ones have to wait
+                    let first = part.samples()?[0].0;
+                    std::thread::sleep(std::time::Duration::from_micros(2000 / (first + 1)));
+                    Ok(first)
+                },
+                |first| {
+                    seen.push(first);
+                    Ok(())
+                },
+            );
+            assert_eq!((all, seen), (Ok(()), (0..20).map(|k| 3 * k).collect()));
+            let failed = reader.visit::<_, RowsError>(
+                threads,
+                |part| match part.samples()?[0].0 {
+                    first @ (27 | 45) => Err(RowsError { path: part.path().to_owned(), what: first.to_string() }),
+                    first => Ok(first),
+                },
+                |_| Ok(()),
+            );
+            assert_eq!(failed.expect_err("two parts fail").what, "27");
+        }
+        assert_eq!(RowsReader::new(&Disk, Vec::new()).visit::<(), RowsError>(None, |_| Ok(()), |()| Ok(())), Ok(()));
+    }
+
+    /// Law: a damaged file is an error that names it, never a panic, at whichever byte it is damaged.
+    #[test]
+    fn damaged_files_are_errors() {
+        let folder = Folder::new("damaged");
+        let whole = file(&folder, 0);
+        let bytes = std::fs::read(&whole).expect("bytes");
+        let path = folder.0.join("damaged.parquet");
+        let read = |content: &[u8]| -> Result<(), RowsError> {
+            std::fs::write(&path, content).expect("written");
+            let part = PartReader::open(&Disk, &path)?;
+            part.samples()?;
+            part.statuses()?;
+            part.reasons()?;
+            part.numbers("x")?;
+            part.numbers("steps").map(|_| ())
+        };
+        assert_eq!(read(&bytes), Ok(()), "the counter-test: the whole file is read");
+        let mut errors = 0;
+        for at in (0..bytes.len()).step_by(7) {
+            let mut damaged = bytes.clone();
+            damaged[at] ^= 0x55;
+            if let Err(error) = read(&damaged) {
+                assert!(error.path.ends_with("damaged.parquet"), "{error}");
+                errors += 1;
+            }
+        }
+        assert!(errors > 20, "{errors} of {} flips are noticed", bytes.len() / 7);
+        for length in [0, 3, bytes.len() / 2, bytes.len() - 1] {
+            assert!(read(&bytes[..length]).is_err(), "{length} bytes");
+        }
+        std::fs::remove_file(&path).expect("removed");
+        assert!(PartReader::open(&Disk, &path).is_err());
+    }
+}
