@@ -15,6 +15,7 @@ use crate::analysis::tally::Tally;
 use crate::ensemble::bands::BandSums;
 use crate::ensemble::{Bands, CountedBands, Ensemble, Part, PartId, Parts, Rows, Supervision};
 use crate::sampling::SampleId;
+use crate::storage::part_sink::CountRows;
 
 /// Counts rows part by part, in any order.
 #[derive(Debug)]
@@ -74,8 +75,20 @@ impl RunningCounts {
         })
     }
 
+    /// What was counted, where that is all of `parts`.
+    pub fn whole(self, parts: Parts) -> Option<Counted> {
+        let merging = self.merging.into_inner().unwrap_or_else(PoisonError::into_inner);
+        (merging.merged == parts.count()).then(|| Counted {
+            columns: self.collector.finish(merging.collected),
+            tally: self.tally.into_inner().unwrap_or_else(PoisonError::into_inner),
+            bands: self.bands.into_inner().unwrap_or_else(PoisonError::into_inner).map(|sums| sums.bands()),
+        })
+    }
+}
+
+impl CountRows for RunningCounts {
     /// Counts the rows of a part and its bands, each part once.
-    pub fn add(&self, rows: &Rows) {
+    fn add(&self, rows: &Rows) {
         // without the part the counts are not whole: the rows are then read again
         let Ok(counts) = self.collector.count(&self.names.of(rows)) else { return };
         if let Some(bands) = rows.bands() {
@@ -93,15 +106,5 @@ impl RunningCounts {
             merging.collected.merge(counts);
             merging.merged += 1;
         }
-    }
-
-    /// What was counted, where that is all of `parts`.
-    pub fn whole(self, parts: Parts) -> Option<Counted> {
-        let merging = self.merging.into_inner().unwrap_or_else(PoisonError::into_inner);
-        (merging.merged == parts.count()).then(|| Counted {
-            columns: self.collector.finish(merging.collected),
-            tally: self.tally.into_inner().unwrap_or_else(PoisonError::into_inner),
-            bands: self.bands.into_inner().unwrap_or_else(PoisonError::into_inner).map(|sums| sums.bands()),
-        })
     }
 }

@@ -21,7 +21,7 @@ use crate::cli::signals::{self, Signals};
 use crate::cli::workload::Workload;
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::runner::threads;
-use crate::ensemble::{Ensemble, Part, Parts, Rows, Supervision, run as run_parts};
+use crate::ensemble::{Ensemble, Part, Parts, Supervision, run as run_parts};
 use crate::report::stopping_text::text as stopping_text;
 use crate::report::summary::rows_in;
 use crate::storage::claim::{Claim, ClaimOptions, Ready, Shard, claim};
@@ -253,12 +253,12 @@ fn run_them(
     let bar = Bar::new(missing.iter().map(|part| part.count as u64).sum());
     let progress = |samples| bar.advance(samples);
     let supervision = Supervision { progress: &progress, stop: &signals.stop, abandon: &signals.abandon };
-    let count = counts.map(|counts| |rows: &Rows| counts.add(rows));
-    let count = count.as_ref().map(|count| count as &CountRows);
-    let ended = write_parts(&ready.folder, ensemble, count, |sink: &PartSink<'_>| {
-        let watched = FailFast { sink, is_on: options.fail_fast, stop: &signals.stop, first };
-        run_parts(ensemble, missing.iter().copied(), options.threads, &watched, supervision).map(|()| sink.seconds())
-    });
+    let ended =
+        write_parts(&ready.folder, ensemble, counts.map(|counts| counts as &dyn CountRows), |sink: &PartSink<'_>| {
+            let watched = FailFast { sink, is_on: options.fail_fast, stop: &signals.stop, first };
+            run_parts(ensemble, missing.iter().copied(), options.threads, &watched, supervision)
+                .map(|()| sink.seconds())
+        });
     let elapsed = bar.finish();
     match ended.map_err(Failure::files)? {
         Ok(seconds) => Ok((elapsed, seconds)),

@@ -35,8 +35,11 @@ pub enum PartError {
     Ended,
 }
 
-/// Counts the rows of a part while they are in memory, on any thread.
-pub type CountRows = dyn Fn(&Rows) + Sync;
+/// Counts rows while they are in memory.
+pub trait CountRows: std::fmt::Debug + Sync {
+    /// Counts the rows of a part, on any thread.
+    fn add(&self, rows: &Rows);
+}
 
 /// An encoded part.
 type Encoded = (Part, Vec<PartFile>);
@@ -66,7 +69,7 @@ impl Buffers {
 #[derive(Debug)]
 pub struct PartSink<'c> {
     file: RowsFile,
-    counts: Option<&'c CountRows>,
+    counts: Option<&'c dyn CountRows>,
     buffers: &'c Buffers,
     encoded: SyncSender<Encoded>,
     seconds: Mutex<[f64; 2]>,
@@ -93,7 +96,7 @@ impl Sink for PartSink<'_> {
             bands_file::write(part, bands, &mut bytes);
             files.push(PartFile::new(bands_of(part.id), bytes));
         }
-        self.counts.into_iter().for_each(|counts| counts(rows));
+        self.counts.into_iter().for_each(|counts| counts.add(rows));
         self.encoded.send((part, files)).map_err(|_| PartError::Ended)?;
         let mut sums = self.seconds.lock().unwrap_or_else(PoisonError::into_inner);
         sums.iter_mut().zip(rows.seconds()).for_each(|(sum, seconds)| *sum += seconds);
@@ -109,7 +112,7 @@ impl Sink for PartSink<'_> {
 pub fn write_parts<R>(
     folder: &Folder,
     ensemble: &Ensemble<'_>,
-    counts: Option<&CountRows>,
+    counts: Option<&dyn CountRows>,
     body: impl FnOnce(&PartSink<'_>) -> R,
 ) -> Result<R, PartError> {
     let (encoded, waiting) = sync_channel::<Encoded>(WAITING);
