@@ -48,6 +48,7 @@
 pub mod analysis;
 pub mod campaign;
 pub mod cli;
+pub mod control;
 pub mod ensemble;
 pub mod report;
 pub mod sampling;

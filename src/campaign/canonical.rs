@@ -159,5 +159,10 @@ impl Plan {
         if !self.nominal.actuation.is_empty() {
             lines.keys_of("[actuators]", Table::Actuators, 0, &self.nominal);
         }
+        if let Some(law) = &self.law {
+            lines.table("[control]");
+            lines.key("law", law.name());
+            lines.keys(Table::Control, 0, scene);
+        }
     }
 }

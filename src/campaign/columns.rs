@@ -2,6 +2,7 @@
 
 use super::problem::nearest;
 use super::units;
+use crate::control::ControlLaw;
 use crate::observables::band_series::band_series;
 use crate::observables::window::{NO_WINDOWS, Window};
 use crate::observables::{Group, Request, table};
@@ -9,12 +10,14 @@ use crate::propagation::Method;
 use crate::run::Quantity;
 use crate::scene::{Actuated, Parameter, SceneInput};
 
-/// The observables of campaigns with these groups and this method; `acting` is the nominal scene with the commands that act in a run.
-pub fn request(groups: &[Group], acting: &SceneInput, method: Method) -> Request {
+/// The observables of campaigns with these groups and this method; `acting` is the nominal scene with the commands that act in a run, to which those of
+/// `law` add.
+pub fn request(groups: &[Group], acting: &SceneInput, method: Method, law: Option<&ControlLaw>) -> Request {
+    let commanded = law.map_or(Actuated::NONE, ControlLaw::commands);
     Request {
         groups: groups.iter().copied().collect(),
         debris: acting.debris.is_some(),
-        actuated: Actuated::of(acting),
+        actuated: Actuated::of(acting).and(commanded),
         constrained: method == Method::NullSpace,
         wheels: acting.turning_wheels(),
         windows: NO_WINDOWS,

@@ -7,6 +7,7 @@
 use super::excerpt::Excerpt;
 use super::problem::{CampaignError, Problem, SHOWN};
 use super::size;
+use crate::control::ControlLaw;
 use crate::scene::SceneInput;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -54,6 +55,8 @@ pub struct Document<'a> {
     pub(super) data: (usize, u64),
     /// The scene of the document, once it is read: names of parameters are those of its tables.
     pub(super) scene: SceneInput,
+    /// The control law that the program brings.
+    pub(super) law: Option<ControlLaw>,
 }
 
 /// Where a key is in the text, bytes.
@@ -80,6 +83,7 @@ impl<'a> Document<'a> {
             files: Vec::new(),
             data: (0, 0),
             scene: SceneInput::blank(),
+            law: None,
         }
     }
 
@@ -87,6 +91,11 @@ impl<'a> Document<'a> {
     pub fn in_folder(mut self, folder: &Path) -> Self {
         self.folder = folder.to_owned();
         self
+    }
+
+    /// The same document of a program that brings the control law `law`.
+    pub fn under(self, law: Option<ControlLaw>) -> Self {
+        Document { law, ..self }
     }
 
     /// The folder from which paths in the document count.

@@ -40,7 +40,7 @@ impl Lines {
 
     /// Every key of a table that `scene` has.
     pub(super) fn keys(&mut self, table: Table, instance: usize, scene: &SceneInput) {
-        for key in table.keys() {
+        for key in table.keys_in(scene) {
             if let Some(numbers) = key.read(scene, instance) {
                 self.0.push_str(&format!("{} = {}\n", key.facts().key, shown(numbers)));
             }

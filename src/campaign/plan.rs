@@ -16,6 +16,7 @@ use super::retention::Retention;
 use super::size;
 use super::spec::Spec;
 use super::without_effect::{self, acting_scene};
+use crate::control::ControlLaw;
 use crate::dynamics::debris::is_isotropic;
 use crate::observables::window::MAX_WINDOWS;
 use crate::observables::{Group, Request};
@@ -71,6 +72,8 @@ pub struct Plan {
     pub band_points: usize,
     /// Compression of the files of rows.
     pub compression: Compression,
+    /// The control law of every run; its parameters are in the nominal scene.
+    pub law: Option<ControlLaw>,
     /// What is made of the rows.
     pub analysis: Analysis,
     /// Which runs keep their full time series.
@@ -93,8 +96,8 @@ impl FilesRead {
     }
 }
 
-/// What the command line says instead of the file.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+/// What the command line says instead of the file, and what a program adds to it.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Overrides {
     /// `--samples`.
     pub samples: Option<u64>,
@@ -102,6 +105,8 @@ pub struct Overrides {
     pub seed: Option<u64>,
     /// `--audit`.
     pub audit_fraction: Option<f64>,
+    /// The control law that the program brings: `[control]` of the file has its parameters.
+    pub law: Option<ControlLaw>,
 }
 
 /// Observation points where the file does not say.
@@ -197,7 +202,7 @@ impl Plan {
     /// The observables that it requests of runs of `duration` seconds, which decides which commands of the schedule act.
     pub fn request_over(&self, duration: f64) -> Request {
         let acting = acting_scene(duration, &self.nominal, &self.dispersions);
-        let mut request = request(&self.groups, &acting, self.method);
+        let mut request = request(&self.groups, &acting, self.method, self.law.as_ref());
         self.analysis.windows().take(MAX_WINDOWS).for_each(|window| request.windows.push(window));
         request
     }
@@ -218,10 +223,10 @@ fn read(
     text: &str,
     overrides: Overrides,
 ) -> Result<(Plan, Vec<(PathBuf, String)>), CampaignError> {
-    let mut document = Document::new(file, text).in_folder(folder);
+    let mut document = Document::new(file, text).in_folder(folder).under(overrides.law.clone());
     let table = document.parse()?;
     let mut spec = Spec::read(&mut document, &table);
-    override_spec(&mut spec, overrides, &mut document);
+    override_spec(&mut spec, &overrides, &mut document);
     let plan = resolve(spec, &mut document);
     let files = std::mem::take(&mut document.files);
     document.verdict()?;
@@ -243,7 +248,7 @@ fn unreachable_plan(file: &str) -> CampaignError {
     })
 }
 
-fn override_spec(spec: &mut Spec, overrides: Overrides, document: &mut Document<'_>) {
+fn override_spec(spec: &mut Spec, overrides: &Overrides, document: &mut Document<'_>) {
     let mut check = |flag: &str, value: Option<u64>, min: u64, max: u64| {
         if let Some(value) = value.filter(|value| !(min..=max).contains(value)) {
             let allowed = format!("a whole number from {min} to {max}");
@@ -322,7 +327,7 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
     let band_points = bands::resolve(spec.band_points, points, document);
     let dispersions = dispersions?;
     let acting = acting_scene(spec.duration_s?, &spec.scene, &dispersions);
-    let known = KnownColumns::new(request(&groups, &acting, method));
+    let known = KnownColumns::new(request(&groups, &acting, method, document.law.as_ref()));
     let design = spec.design.as_ref().unwrap_or(&Design::DEFAULT);
     let grid = Grid::uniform(spec.duration_s?, usize::try_from(points).ok()?);
     let band_times: Vec<f64> =
@@ -362,6 +367,7 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
         compression: spec.compression.unwrap_or(Compression::Lz4),
         analysis: spec.analysis,
         retention: spec.retention.unwrap_or_default(),
+        law: document.law.clone(),
     };
     check_memory(&plan, document);
     Some(plan)

@@ -8,8 +8,8 @@ use crate::scene::body::MAX_PARTS;
 use crate::scene::schema::Limit;
 use crate::scene::table::Table;
 use crate::scene::{
-    ActuationInput, DebrisInput, MAX_THRUSTERS, MAX_WHEELS, Name, PartInput, PartShape, SceneInput, ThrusterInput,
-    WheelInput, WheelMode,
+    ActuationInput, ControlInput, DebrisInput, MAX_THRUSTERS, MAX_WHEELS, Name, PartInput, PartShape, SceneInput,
+    ThrusterInput, WheelInput, WheelMode,
 };
 use std::collections::HashSet;
 
@@ -56,18 +56,39 @@ pub(super) fn read(root: &mut Section<'_, '_>) -> SceneInput {
     let mut section = root.section("actuators");
     read_keys(&mut section, Table::Actuators, 0, &mut scene);
     section.finish();
+    read_law(root, &mut scene);
     scene
+}
+
+/// Reads the parameters of the control law that the program brings.
+fn read_law(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
+    let Some(law) = root.document.law.clone() else {
+        if root.has("control") {
+            let remedy = "open it with the program whose control law it names, or delete this table";
+            root.refuse("control", "left out: this program brings no control law", remedy);
+        }
+        return;
+    };
+    scene.control = ControlInput::of(law.parameters());
+    let mut section = root.section("control");
+    let name = section.text("law");
+    if name.is_some_and(|name| name != law.name()) {
+        let remedy = "open it with the program whose control law it names";
+        section.refuse("law", format!("{:?}, the control law of this program", law.name()), remedy);
+    }
+    read_keys(&mut section, Table::Control, 0, scene);
+    section.finish();
 }
 
 /// Reads the keys of one table into the scene.
 fn read_keys(section: &mut Section<'_, '_>, table: Table, instance: usize, scene: &mut SceneInput) {
     // a key that is written may be another way to describe a body
-    for key in table.keys().filter(|key| section.has(key.facts().key)) {
+    for key in table.keys_in(scene).filter(|key| section.has(key.facts().key)) {
         if key.read(scene, instance).is_none() {
             key.open(scene, instance);
         }
     }
-    for key in table.keys() {
+    for key in table.keys_in(scene) {
         let (name, example) = (key.facts().key, key.required());
         let Some(numbers) = key.write(scene, instance) else {
             section.know(name);

@@ -133,7 +133,12 @@ impl Spec {
         let compression = section.name("compression", &names, Compression::from_name);
         section.finish();
 
-        let observed = request(groups.as_deref().unwrap_or(&Group::DEFAULT), &scene, method.unwrap_or(Method::Auto));
+        let observed = request(
+            groups.as_deref().unwrap_or(&Group::DEFAULT),
+            &scene,
+            method.unwrap_or(Method::Auto),
+            root.document.law.as_ref(),
+        );
         let analysis = Analysis::read(&mut root, observed);
         let mut known = KnownColumns::new(observed);
         analysis.derived.iter().for_each(|derived| known.add(derived.quantity()));

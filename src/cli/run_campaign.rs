@@ -40,7 +40,8 @@ pub const RESULTS: &str = "results";
 /// Where the campaign cannot run or its result cannot be written.
 pub fn run(options: &CampaignOptions) -> Result<CommandOutcome, Failure> {
     let signals = signals::watch();
-    let overrides = Overrides { samples: options.samples, seed: options.seed, audit_fraction: options.audit };
+    let overrides =
+        Overrides { samples: options.samples, seed: options.seed, audit_fraction: options.audit, law: None };
     let (plan, files) = match &options.only_failed_of {
         None => plan_and_files(&options.file, overrides)?,
         Some(of) => match plan_of_failed(&options.file, of, overrides, options.threads)? {

@@ -10,7 +10,7 @@ use crate::cli::input::{isa, plan_and_files};
 use crate::cli::outputs::refuse_inputs;
 use crate::cli::{dispersions, screen};
 use crate::ensemble::audit::AuditValue;
-use crate::ensemble::{Auditor, SingleRun};
+use crate::ensemble::SingleRun;
 use crate::math::Isa;
 use crate::report::canvas::{Canvas, PlotError, PlotFormat};
 use crate::report::number::short;
@@ -120,7 +120,7 @@ fn refined(grid: &Grid) -> Grid {
 /// Compares the run with its reference solution, and shows errors and estimate.
 fn audit(options: &SimulateOptions, plan: &Plan, run: &SingleRun, isa: Isa) -> Result<(), Failure> {
     let sample = options.sample;
-    let found = match Auditor::new(plan, isa, &run.grid).audit(&run.scene) {
+    let found = match run.audit(plan, isa) {
         Ok(found) => found,
         Err(why) => {
             screen::note(&format!("sample {sample} has no audit: {why}"));

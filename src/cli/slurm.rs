@@ -19,7 +19,10 @@ use crate::storage::atomic;
 /// # Errors
 /// Where the campaign file is wrong, a script cannot be written, or Slurm does not take it.
 pub fn run(options: &SlurmOptions) -> Result<CommandOutcome, Failure> {
-    let plan = plan(&options.file, Overrides { samples: options.samples, seed: options.seed, audit_fraction: None })?;
+    let plan = plan(
+        &options.file,
+        Overrides { samples: options.samples, seed: options.seed, audit_fraction: None, law: None },
+    )?;
     refuse_shards_with_stop(&plan, "slurm")?;
     let many = parts(&plan, isa()?).count();
     let shards = options.nodes.get().min(many);

@@ -15,7 +15,8 @@ use thiserror::Error;
 use crate::campaign::Plan;
 use crate::dynamics::debris;
 use crate::dynamics::gyrostat::Gyrostat;
-use crate::ensemble::settings::{nominal_attitude, propagator, request};
+use crate::ensemble::flights::nominal_attitude;
+use crate::ensemble::settings::propagator;
 use crate::math::Isa;
 use crate::observables::headlines::{DEBRIS_STATE_ERROR_ESTIMATE, STATE_ERROR_ESTIMATE};
 use crate::observables::{Group, Observer, Request};
@@ -230,7 +231,7 @@ pub struct Auditor {
 impl Auditor {
     /// For runs of `plan` observed at the times of `grid`.
     pub fn new(plan: &Plan, isa: Isa, grid: &Grid) -> Self {
-        let campaign = request(plan);
+        let campaign = plan.request();
         let groups = plan.groups.iter().copied();
         let request = Request { groups: groups.clone().chain([Group::Numerics]).collect(), ..campaign };
         let of_motion =

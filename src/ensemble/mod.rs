@@ -17,6 +17,7 @@ mod deviation_columns;
 mod deviation_window;
 pub mod drawn;
 pub mod failure_reasons;
+pub mod flights;
 pub mod influence;
 pub mod parts;
 pub mod percentiles;

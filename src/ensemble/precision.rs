@@ -9,7 +9,6 @@ use rayon::prelude::*;
 use crate::campaign::{Plan, SceneDraws};
 use crate::dynamics::gyrostat::Gyrostat;
 use crate::ensemble::cpu_clock::thread_seconds;
-use crate::ensemble::settings::request;
 use crate::ensemble::single::states;
 use crate::ensemble::worker::BATCH;
 use crate::math::Isa;
@@ -123,7 +122,7 @@ impl<'p> Precision<'p> {
             .take(samples)
             .collect();
         let balances = [Group::EnergyConservation, Group::MomentumConservation];
-        let plain = Request { constrained: false, ..request(plan) };
+        let plain = Request { constrained: false, ..plan.request() };
         let (request, fields) = match integrated {
             States::All => {
                 let request = Request { groups: balances.into_iter().collect(), ..plain };

@@ -4,13 +4,13 @@
 //! core. A clock would give other parts on another machine, or on the same one an hour later.
 
 use crate::campaign::Plan;
+use crate::ensemble::flights::Flights;
 use crate::ensemble::parts::Parts;
-use crate::ensemble::settings::{propagator, request};
+use crate::ensemble::settings::propagator;
 use crate::math::Isa;
 use crate::ode::{Control, PACE_STEPS};
 use crate::propagation::Method;
 use crate::run::{Grid, Outcome};
-use crate::scene::Scene;
 
 /// Work of one thread that may be lost when a campaign is stopped, s.
 const LOST_S: f64 = 10.0;
@@ -42,13 +42,12 @@ pub fn parts_of_runs(plan: &Plan, seconds: f64) -> Parts {
 
 /// What a run of `plan` takes at most on one core, s: a function of the plan, not of the machine.
 pub fn run_seconds(plan: &Plan, isa: Isa) -> f64 {
-    let Ok(scene) = Scene::resolve(&plan.nominal) else { return POINT_S };
     // the work of a run is that of its steps; the points would only take memory
     let grid = Grid::uniform(plan.grid.duration(), plan.grid.points().min(POINTS));
-    let mut settings = propagator(plan, grid, request(plan).fields());
+    let mut settings = propagator(plan, grid, plan.request().fields());
     settings.control = Control { max_steps: plan.max_steps.min(COUNTED_STEPS), ..settings.control };
     let mut found: Option<Outcome> = None;
-    settings.engine(isa).propagate(&[scene], &mut |run| found = Some(*run.outcome));
+    Flights::new(plan, settings.engine(isa)).fly_nominal(&mut |run| found = Some(*run.outcome));
     let evaluations = found.map_or(COUNTED_STEPS as f64, |outcome| {
         let share = (outcome.time / plan.grid.duration()).clamp(1e-9, 1.0);
         outcome.effort.evaluations as f64 / share

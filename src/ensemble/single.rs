@@ -9,15 +9,16 @@ use std::sync::{Mutex, PoisonError};
 use rayon::ThreadPoolBuilder;
 
 use crate::campaign::{Plan, SceneDraws};
+use crate::ensemble::audit::{Audit, Auditor, NoAudit};
+use crate::ensemble::flights::{Flights, LawDraw, nominal_attitude, observe, replayed};
 use crate::ensemble::runner::RunError;
-use crate::ensemble::settings::{nominal_attitude, propagator};
+use crate::ensemble::settings::propagator;
 use crate::math::Isa;
 use crate::observables::{Group, Observer, Request, Series};
-use crate::propagation::{CompletedRun, Engine};
 use crate::run::Outcome;
 use crate::run::{Grid, StateField, StateFields, StateTable};
 use crate::sampling::SampleId;
-use crate::scene::{Scene, SceneError};
+use crate::scene::{Arc, Scene, SceneError};
 
 /// The groups whose series a time series shows.
 const GROUPS: [Group; 5] =
@@ -32,6 +33,8 @@ pub struct SingleRun {
     pub grid: Grid,
     /// The states.
     pub table: StateTable,
+    /// The arcs of constant actuation that the run has flown.
+    pub arcs: Vec<Arc>,
     /// How the run ended.
     pub outcome: Outcome,
     /// Why it is not `ok`; empty where it is.
@@ -68,13 +71,29 @@ impl SingleRun {
     }
 }
 
+impl SingleRun {
+    /// Audits the run of `plan`: compares it, on its own grid, with the reference solution. Of a run under a control law, what the law decided is part
+    /// of the run: the reference solution flies its arcs.
+    ///
+    /// # Errors
+    /// Where the run or its reference solution fails, or is beyond the limit of work.
+    pub fn audit(&self, plan: &Plan, isa: Isa) -> Result<Audit, NoAudit> {
+        let mut auditor = Auditor::new(plan, isa, &self.grid);
+        match plan.law {
+            None => auditor.audit(&self.scene),
+            Some(_) => auditor.audit(&replayed(&self.scene, &self.arcs)),
+        }
+    }
+}
+
 /// Memory for single runs of one plan on one grid. What an earlier run left in it does not reach a later one.
 pub struct SingleRuns<'p> {
     draws: SceneDraws<'p>,
     grid: Grid,
     isa: Isa,
     request: Request,
-    engine: Box<dyn Engine>,
+    plan: &'p Plan,
+    flights: Flights<'p>,
     observer: Observer,
     series_observer: Observer,
     /// The columns of the groups that have series.
@@ -95,9 +114,10 @@ impl<'p> SingleRuns<'p> {
         let nominal = |request: &Request| nominal_attitude(plan, request, &grid, isa);
         SingleRuns {
             draws: SceneDraws::new(plan),
+            plan,
             isa,
             request,
-            engine: propagator(plan, grid.clone(), fields).engine(isa),
+            flights: Flights::new(plan, propagator(plan, grid.clone(), fields).engine(isa)),
             observer: Observer::new(request, &grid).with_nominal(nominal(&request)),
             series_observer: Observer::new(shown, &grid).with_nominal(nominal(&shown)),
             ignored: vec![f64::NAN; shown.columns().len()],
@@ -114,16 +134,27 @@ impl<'p> SingleRuns<'p> {
         let mut row = vec![f64::NAN; self.request.columns().len()];
         let (mut result, mut reason) = (None, String::new());
         let (isa, observer, series_observer) = (self.isa, &mut self.observer, &mut self.series_observer);
-        let ignored = &mut self.ignored;
-        self.engine.propagate(std::slice::from_ref(&scene), &mut |CompletedRun { table, outcome, .. }| {
-            let status = observer.observe(isa, &scene, table, outcome, &mut row);
-            series_observer.observe(isa, &scene, table, outcome, ignored);
-            reason = observer.reason(status, outcome, &row);
-            result = Some((table.clone(), Outcome { status, ..*outcome }));
+        let (plan, ignored) = (self.plan, &mut self.ignored);
+        let draw = plan.law.as_ref().map(|_| LawDraw { sample, parameters: self.draws.drawn().control.clone() });
+        self.flights.fly(std::slice::from_ref(&scene), draw.as_slice(), &mut |run| {
+            let status = observe(plan, observer, isa, &scene, &run, &mut row);
+            observe(plan, series_observer, isa, &scene, &run, ignored);
+            reason = observer.reason(status, run.outcome, &row);
+            result = Some((run.table.clone(), run.arcs.to_vec(), Outcome { status, ..*run.outcome }));
         });
-        let (table, outcome) = result.expect("the propagator finishes every scene that it is given");
+        let (table, arcs, outcome) = result.expect("the propagator finishes every scene that it is given");
         let series = self.series_observer.series().map(|(series, values)| (series, values.collect())).collect();
-        Ok(SingleRun { scene, grid: self.grid.clone(), table, outcome, reason, series, row, request: self.request })
+        Ok(SingleRun {
+            scene,
+            grid: self.grid.clone(),
+            table,
+            arcs,
+            outcome,
+            reason,
+            series,
+            row,
+            request: self.request,
+        })
     }
 }
 

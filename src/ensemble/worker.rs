@@ -8,9 +8,10 @@ use crate::campaign::{Plan, SceneDraws};
 use crate::ensemble::audit::{Auditor, Selection};
 use crate::ensemble::bands::{BandLayout, PartBands};
 use crate::ensemble::cpu_clock::thread_seconds;
+use crate::ensemble::flights::{Flights, LawDraw, nominal_attitude, observe, replayed};
 use crate::ensemble::parts::Part;
 use crate::ensemble::rows::{Rows, Shape};
-use crate::ensemble::settings::{nominal, nominal_attitude, propagator, request};
+use crate::ensemble::settings::{nominal, propagator};
 use crate::ensemble::supervision::{Report, Supervision};
 use crate::math::Isa;
 use crate::observables::band_reader::BandReader;
@@ -45,7 +46,7 @@ pub struct Ensemble<'p> {
 impl<'p> Ensemble<'p> {
     /// `plan`, to be run on `isa`.
     pub fn new(plan: &'p Plan, isa: Isa) -> Self {
-        let request = request(plan);
+        let request = plan.request();
         let propagator = propagator(plan, plan.grid.clone(), request.fields());
         Ensemble { plan, isa, request, propagator, own_engines: None, bands: OnceLock::new() }
     }
@@ -104,8 +105,8 @@ impl<'p> Ensemble<'p> {
         let (scene, mut observer) = (nominal(self.plan), self.observer());
         let mut ignored = vec![f64::NAN; self.shape().observables];
         let mut kept = vec![f64::NAN; reader.columns()];
-        self.engine().propagate(std::slice::from_ref(&scene), &mut |run| {
-            observer.observe(self.isa, &scene, run.table, run.outcome, &mut ignored);
+        self.flights().fly_nominal(&mut |run| {
+            observe(self.plan, &mut observer, self.isa, &scene, &run, &mut ignored);
             kept.copy_from_slice(reader.kept(&observer, run.table));
         });
         Some(PartBands::new(Arc::new(BandLayout { series, times, nominal: kept }), reader))
@@ -116,6 +117,10 @@ impl<'p> Ensemble<'p> {
             Some(new_engine) => new_engine(&self.propagator, self.isa),
             None => self.propagator.engine(self.isa),
         }
+    }
+
+    fn flights(&self) -> Flights<'p> {
+        Flights::new(self.plan, self.engine())
     }
 
     fn observer(&self) -> Observer {
@@ -134,7 +139,9 @@ impl<'p> Ensemble<'p> {
             rows_of_scenes: Vec::with_capacity(BATCH),
             is_done: Vec::with_capacity(BATCH),
             is_selected: Vec::with_capacity(BATCH),
-            engine: self.engine(),
+            draws_of_laws: Vec::new(),
+            flown: Vec::new(),
+            flights: self.flights(),
             observer,
             observed: vec![0.0; self.shape().observables],
             audits: (self.plan.audit_fraction > 0.0)
@@ -154,7 +161,11 @@ pub struct Worker<'c> {
     is_done: Vec<bool>,
     /// Which scenes of the batch are audited; empty without audits.
     is_selected: Vec<bool>,
-    engine: Box<dyn Engine>,
+    /// What the laws of the scenes depend on; empty without a law.
+    draws_of_laws: Vec<LawDraw>,
+    /// The arcs flown by the scenes of the batch that are audited; empty without a law.
+    flown: Vec<Vec<crate::scene::Arc>>,
+    flights: Flights<'c>,
     observer: Observer,
     observed: Vec<f64>,
     audits: Option<(Selection, Auditor)>,
@@ -193,12 +204,30 @@ impl Worker<'_> {
             let physical = self.draws.scene_at(rows.samples()[row], &mut self.scenes, self.rows_of_scenes.len());
             rows.set_parameters(row, self.draws.applied());
             match physical {
-                Ok(()) => self.rows_of_scenes.push(row),
+                Ok(()) => {
+                    self.note_law(rows.samples()[row]);
+                    self.rows_of_scenes.push(row);
+                }
                 Err(errors) => {
                     let errors: Vec<String> = errors.iter().map(ToString::to_string).collect();
                     rows.set_reason(row, errors.join("; "));
                 }
             }
+        }
+    }
+
+    /// Notes what the law of the scene that was drawn last depends on, where the plan has a law.
+    fn note_law(&mut self, sample: SampleId) {
+        if self.campaign.plan.law.is_none() {
+            return;
+        }
+        let parameters = &self.draws.drawn().control;
+        match self.draws_of_laws.get_mut(self.rows_of_scenes.len()) {
+            Some(place) => {
+                place.sample = sample;
+                place.parameters.values.clone_from(&parameters.values);
+            }
+            None => self.draws_of_laws.push(LawDraw { sample, parameters: parameters.clone() }),
         }
     }
 
@@ -213,10 +242,13 @@ impl Worker<'_> {
     /// Audits the scenes of the batch that are selected.
     fn audit(&mut self, rows: &mut Rows, report: &mut Report<'_>) {
         let Some((_, auditor)) = &mut self.audits else { return };
-        for ((scene, row), _) in
-            self.scenes.iter().zip(&self.rows_of_scenes).zip(&self.is_selected).filter(|(_, selected)| **selected)
-        {
-            let audit = auditor.audit(scene);
+        let scenes = self.scenes.iter().zip(&self.rows_of_scenes).zip(&self.is_selected).enumerate();
+        for (index, ((scene, row), _)) in scenes.filter(|(_, (_, selected))| **selected) {
+            let audit = match self.flown.get(index) {
+                // what the law decided is part of the run: its arcs are judged, and not the law flown again
+                Some(arcs) => auditor.audit(&replayed(scene, arcs)),
+                None => auditor.audit(scene),
+            };
             if let Err(why) = &audit {
                 rows.set_audit_reason(*row, why.to_string());
             }
@@ -238,7 +270,7 @@ impl Worker<'_> {
             if self.is_done[scene] {
                 continue;
             }
-            self.engine = self.campaign.engine();
+            self.flights = self.campaign.flights();
             self.observer = self.campaign.observer();
             let one = scene..scene + 1;
             if let Err(panic) = catch_unwind(AssertUnwindSafe(|| self.propagate_some(one, rows, report))) {
@@ -247,23 +279,36 @@ impl Worker<'_> {
                 rows.set_reason(row, message(panic.as_ref()));
             }
         }
-        self.engine = self.campaign.engine();
+        self.flights = self.campaign.flights();
         self.observer = self.campaign.observer();
     }
 
     /// Runs some scenes of the batch.
     fn propagate_some(&mut self, which: std::ops::Range<usize>, rows: &mut Rows, report: &mut Report<'_>) {
         let (isa, first_scene) = (self.campaign.isa, which.start);
+        let plan = self.campaign.plan;
+        let has_law = plan.law.is_some();
+        let draws = if has_law { &self.draws_of_laws[which.clone()] } else { &[] };
+        if has_law && !self.is_selected.is_empty() {
+            self.flown.resize_with(self.flown.len().max(which.end), Vec::new);
+        }
+        let flown = &mut self.flown;
         let (scenes, rows_of_scenes) = (&self.scenes[which.clone()], &self.rows_of_scenes[which]);
         let (observer, observed, is_done) = (&mut self.observer, &mut self.observed, &mut self.is_done);
         let is_selected = &self.is_selected;
-        self.engine.propagate(scenes, &mut |CompletedRun { index, table, outcome, .. }| {
-            let (status, row) =
-                (observer.observe(isa, &scenes[index], table, outcome, observed), rows_of_scenes[index]);
+        self.flights.fly(scenes, draws, &mut |run| {
+            let CompletedRun { index, table, outcome, arcs } = run;
+            let status = observe(plan, observer, isa, &scenes[index], &run, observed);
+            let row = rows_of_scenes[index];
             rows.set_result(row, status, observed);
             is_done[first_scene + index] = true;
             // a run that is audited is done when its audit is
-            if !is_selected.get(first_scene + index).is_some_and(|selected| *selected) {
+            let is_audited = is_selected.get(first_scene + index).is_some_and(|selected| *selected);
+            if is_audited && let Some(flown) = flown.get_mut(first_scene + index) {
+                flown.clear();
+                flown.extend_from_slice(arcs);
+            }
+            if !is_audited {
                 report.add(outcome.effort.evaluations);
             }
             if status != Status::Done {

@@ -39,7 +39,7 @@ fn fnv1a(text: &str) -> u128 {
 }
 
 /// The generator of a seed, a name and a purpose.
-fn generator(seed: u64, name: &str, purpose: [u8; 8]) -> ChaCha8Rng {
+pub(super) fn generator(seed: u64, name: &str, purpose: [u8; 8]) -> ChaCha8Rng {
     let mut key = [0; 32];
     key[..8].copy_from_slice(&seed.to_le_bytes());
     key[8..24].copy_from_slice(&fnv1a(name).to_le_bytes());

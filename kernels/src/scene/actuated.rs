@@ -32,6 +32,16 @@ impl Actuated {
         }
     }
 
+    /// What acts of both.
+    #[must_use]
+    pub const fn and(self, other: Actuated) -> Self {
+        Actuated {
+            thrusters: self.thrusters || other.thrusters,
+            motors: self.motors || other.motors,
+            body_torque: self.body_torque || other.body_torque,
+        }
+    }
+
     /// Whether anything acts.
     pub const fn any(self) -> bool {
         self.thrusters || self.motors || self.body_torque

@@ -34,6 +34,7 @@ pub(super) fn written(input: &SceneInput, problems: &mut Problems) {
     }
     input.initial.check(has_debris, problems, |key| format!("initial.{key}").into());
     input.environment.check(has_debris, problems, |key| format!("environment.{key}").into());
+    input.control.check(problems);
     if input.actuation.is_empty() {
         return;
     }

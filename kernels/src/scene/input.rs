@@ -6,8 +6,8 @@
 
 use super::name::Name;
 use super::schema::{
-    ActuationInput, ActuatorsInput, BodyInput, DebrisInput, EnvironmentInput, InitialInput, MAX_WHEELS, PartInput,
-    PartShape, ThrusterInput, Usage, WheelInput, WheelMode,
+    ActuationInput, ActuatorsInput, BodyInput, ControlInput, DebrisInput, EnvironmentInput, InitialInput, MAX_WHEELS,
+    PartInput, PartShape, ThrusterInput, Usage, WheelInput, WheelMode,
 };
 use crate::math::list::List;
 
@@ -47,6 +47,8 @@ pub struct SceneInput {
     pub actuators: ActuatorsInput,
     /// Torques of the environment.
     pub environment: EnvironmentInput,
+    /// The parameters of the control law, if there is one.
+    pub control: ControlInput,
 }
 
 impl Default for SceneInput {
@@ -75,6 +77,7 @@ impl SceneInput {
             actuation: Vec::new(),
             actuators: ActuatorsInput::DEFAULT,
             environment: EnvironmentInput::DEFAULT,
+            control: ControlInput::NONE,
         }
     }
 

@@ -50,9 +50,9 @@ pub use name::Name;
 pub use parameter::Parameter;
 pub use schedule::{Actuation, Arc};
 pub use schema::{
-    ActuationInput, ActuatorsInput, ArcErrors, BodyInput, DebrisInput, EnvironmentInput, InitialInput, MAX_THRUSTERS,
-    MAX_WHEELS, MassErrors, PartInput, PartShape, PrincipalInertia, PrincipalMoments, ThrusterInput, WheelInput,
-    WheelMode,
+    ActuationInput, ActuatorsInput, ArcErrors, BodyInput, ControlInput, DebrisInput, EnvironmentInput, InitialInput,
+    LawParameter, MAX_THRUSTERS, MAX_WHEELS, MassErrors, PartInput, PartShape, PrincipalInertia, PrincipalMoments,
+    ThrusterInput, WheelInput, WheelMode,
 };
 
 pub use thruster::Thruster;

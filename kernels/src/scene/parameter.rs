@@ -28,9 +28,10 @@ impl Parameter {
     /// All parameters that a scene with the tables of `scene` may have: table by table, instance by instance, in the order of the schema.
     pub fn all(scene: &SceneInput) -> impl Iterator<Item = Parameter> {
         let of = |table: Table, (instance, owner): (usize, Name)| {
-            table.keys().map(move |key| Parameter { key, instance: instance as u32, owner })
+            table.keys_in(scene).map(move |key| Parameter { key, instance: instance as u32, owner })
         };
-        let dispersable = Table::ALL.iter().copied().filter(|table| table.is_dispersable());
+        let tables = Table::ALL.iter().copied().chain([Table::Control]);
+        let dispersable = tables.filter(|table| table.is_dispersable());
         dispersable.flat_map(move |table| {
             table.owners(scene).into_iter().enumerate().flat_map(move |instance| of(table, instance))
         })

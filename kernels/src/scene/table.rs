@@ -10,7 +10,7 @@ use super::name::Name;
 use super::schema::limit::shown;
 use super::schema::{
     ActuationInput, ActuatorsInput, ArcErrors, BodyInput, DebrisInput, EnvironmentInput, Facts, InitialInput,
-    MassErrors, PartInput, Presence, Row, ThrusterInput, WheelInput,
+    LawParameter, MassErrors, PartInput, Presence, Row, ThrusterInput, WheelInput,
 };
 
 /// A key of a table of the schema.
@@ -85,32 +85,37 @@ macro_rules! tables {
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         pub enum Table {
             $(#[doc = concat!("The table with the rows `", stringify!($parts), "`.")] $Table,)+
+            /// The parameters of the scene's control law, which the law declares.
+            Control,
         }
 
         impl Table {
-            /// All tables, in the order of the dispersable parameters.
+            /// All tables with the same keys in every scene, in the order of the dispersable parameters.
             pub const ALL: &'static [Table] = &[$(Table::$Table),+];
 
             /// The name of the table in a campaign file.
             pub const fn header(self) -> &'static str {
-                match self { $(Table::$Table => $header),+ }
+                match self { $(Table::$Table => $header,)+ Table::Control => "control" }
             }
 
             /// Whether its keys can be dispersed.
             pub const fn is_dispersable(self) -> bool {
-                match self { $(Table::$Table => $dispersable),+ }
+                match self { $(Table::$Table => $dispersable,)+ Table::Control => true }
             }
 
-            /// Number of its keys.
+            /// Number of its keys that every scene has.
             pub const fn count(self) -> usize {
-                match self { $(Table::$Table => const { count_of($parts) }),+ }
+                match self { $(Table::$Table => const { count_of($parts) },)+ Table::Control => 0 }
             }
         }
 
         impl Table {
             /// What is known of the key of index `row`.
             fn facts_at(self, row: usize) -> &'static Facts {
-                match self { $(Table::$Table => &row_of($parts, row).facts),+ }
+                match self {
+                    $(Table::$Table => &row_of($parts, row).facts,)+
+                    Table::Control => unreachable!("its keys are those of a scene"),
+                }
             }
         }
 
@@ -118,18 +123,25 @@ macro_rules! tables {
             /// The numbers of the key in the table, whatever else the scene has.
             #[inline]
             fn in_table(self, $scene: &SceneInput, $instance: usize) -> Option<&[f64]> {
-                match self.table { $(Table::$Table => (row_of($parts, self.row as usize).read)($get?)),+ }
+                match self.table {
+                    $(Table::$Table => (row_of($parts, self.row as usize).read)($get?),)+
+                    Table::Control => $scene.control.numbers(self.row as usize),
+                }
             }
 
             #[inline]
             fn in_table_mut(self, $scene: &mut SceneInput, $instance: usize) -> Option<&mut [f64]> {
-                match self.table { $(Table::$Table => (row_of($parts, self.row as usize).write)($get_mut?)),+ }
+                match self.table {
+                    $(Table::$Table => (row_of($parts, self.row as usize).write)($get_mut?),)+
+                    Table::Control => $scene.control.numbers_mut(self.row as usize),
+                }
             }
 
             /// Makes the scene have the key, if its table is there: an optional value, a way to describe a body.
             pub fn open(self, $scene: &mut SceneInput, $instance: usize) {
                 match self.table {
                     $(Table::$Table => if let Some(table) = $get_mut { (row_of($parts, self.row as usize).open)(table) },)+
+                    Table::Control => {}
                 }
             }
 
@@ -139,7 +151,8 @@ macro_rules! tables {
                 match self.table {
                     $(Table::$Table => $get.is_some_and(|table| {
                         (row_of($parts, self.row as usize).acts)(&usage, table, $instance, component)
-                    })),+
+                    }),)+
+                    Table::Control => true,
                 }
             }
         }
@@ -189,6 +202,17 @@ impl Table {
     /// The keys of the table, in the order in which they are written.
     pub fn keys(self) -> impl Iterator<Item = Key> {
         (0..self.count()).map(move |row| Key { table: self, row: row as u8, facts: self.facts_at(row) })
+    }
+
+    /// The keys of the table in `scene`: those of [`Table::keys`], or what the control law of the scene declares.
+    pub fn keys_in(self, scene: &SceneInput) -> impl Iterator<Item = Key> + use<> {
+        let declared = if self == Table::Control { scene.control.declared.0 } else { &[] };
+        let of_law = |(row, parameter): (usize, &'static LawParameter)| Key {
+            table: Table::Control,
+            row: row as u8,
+            facts: &parameter.facts,
+        };
+        self.keys().chain(declared.iter().enumerate().map(of_law))
     }
 
     /// The key called `name`, written as in a campaign file.

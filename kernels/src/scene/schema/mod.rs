@@ -6,7 +6,7 @@
 //! field where it acts.
 //!
 //! - [`body`], [`part`], [`mass_errors`], [`wheel`], [`thruster`], [`debris`], [`initial`], [`environment`], [`actuators`], [`actuation`]: the
-//!   rows, table by table.
+//!   rows, table by table; [`control`]: those that a control law declares.
 //! - [`row`]: what a row is. [`limit`]: what a value must satisfy. [`numbers`]: values seen as plain numbers.
 //! - [`usage`]: what a scene has and commands, as far as rows depend on it.
 //!
@@ -18,6 +18,7 @@ pub mod actuation;
 pub mod actuators;
 pub mod body;
 mod components;
+pub mod control;
 pub mod debris;
 pub mod environment;
 pub mod initial;
@@ -35,6 +36,7 @@ pub mod wheel;
 pub use actuation::{ActuationInput, ArcErrors};
 pub use actuators::ActuatorsInput;
 pub use body::BodyInput;
+pub use control::{ControlInput, LawParameter};
 pub use debris::DebrisInput;
 pub use environment::EnvironmentInput;
 pub use initial::InitialInput;

@@ -1,0 +1,153 @@
+//! `[control]`: the parameters of a control law, as the law declares them.
+//!
+//! A law is a part of a program (`dynamics::actuation`); which numbers it has, it says itself, in the terms of every other key of a scene:
+//! unit, meaning, limit, default. So they are read, checked, dispersed and written as those are, under names such as `control.gain_n_m`.
+
+use super::limit::Limit;
+use super::row::{Facts, Needs, Presence, Shape};
+use crate::scene::error::Problems;
+
+/// A parameter that a control law declares.
+#[derive(Debug)]
+pub struct LawParameter {
+    /// What is known of its key in `[control]`.
+    pub facts: Facts,
+    /// Its components where the file does not give them; `None` where it must.
+    pub default: Option<&'static [f64]>,
+}
+
+impl LawParameter {
+    /// A number that a campaign file must give. `unit` is that of the key, as in its name (`gain_n_m`: `N m`), `1` for a pure number.
+    pub const fn number(key: &'static str, unit: &'static str, meaning: &'static str, limit: Limit) -> Self {
+        let facts = Facts {
+            key,
+            unit,
+            meaning,
+            components: &[""],
+            shape: Shape::Plain,
+            presence: Presence::Required("1.0"),
+            needs: Needs::Nothing,
+            limit,
+            remedy: "give it a value in [control]",
+        };
+        LawParameter { facts, default: None }
+    }
+
+    /// The same of several components with these names.
+    #[must_use]
+    pub const fn with_components(mut self, components: &'static [&'static str]) -> Self {
+        self.facts.components = components;
+        self.facts.presence = Presence::Required("[0.0, 0.0, 0.0]");
+        self
+    }
+
+    /// The same where a campaign file may leave it out: `default` has one number for each component.
+    #[must_use]
+    pub const fn or(mut self, default: &'static [f64]) -> Self {
+        self.facts.presence = Presence::Optional;
+        self.default = Some(default);
+        self
+    }
+}
+
+/// The parameters of the control law of a scene; none where it has no law.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct LawParameters(pub &'static [LawParameter]);
+
+impl PartialEq for LawParameters {
+    fn eq(&self, other: &Self) -> bool {
+        let keys = |list: &Self| list.0.iter().map(|parameter| parameter.facts.key).collect::<Vec<_>>();
+        keys(self) == keys(other)
+    }
+}
+
+/// The parameters of a control law and their values.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ControlInput {
+    /// What the law declares.
+    pub declared: LawParameters,
+    /// The numbers of all parameters, one after the other.
+    pub values: Vec<f64>,
+}
+
+impl ControlInput {
+    /// No law.
+    pub const NONE: ControlInput = ControlInput { declared: LawParameters(&[]), values: Vec::new() };
+
+    /// The parameters `declared` at their defaults; NaN where there is none.
+    pub fn of(declared: &'static [LawParameter]) -> Self {
+        let default = |parameter: &LawParameter| match parameter.default {
+            Some(default) => default.to_vec(),
+            None => vec![f64::NAN; parameter.facts.components.len()],
+        };
+        ControlInput { declared: LawParameters(declared), values: declared.iter().flat_map(default).collect() }
+    }
+
+    /// Where the numbers of parameter `index` are.
+    fn place(&self, index: usize) -> std::ops::Range<usize> {
+        let width = |parameter: &LawParameter| parameter.facts.components.len();
+        let start = self.declared.0[..index].iter().map(width).sum();
+        start..start + width(&self.declared.0[index])
+    }
+
+    /// The numbers of parameter `index`.
+    pub fn numbers(&self, index: usize) -> Option<&[f64]> {
+        self.values.get(self.place(index))
+    }
+
+    /// The same, to be changed.
+    pub fn numbers_mut(&mut self, index: usize) -> Option<&mut [f64]> {
+        let place = self.place(index);
+        self.values.get_mut(place)
+    }
+
+    /// The numbers of the parameter called `key`; `None` where the law declares no such parameter.
+    pub fn named(&self, key: &str) -> Option<&[f64]> {
+        self.numbers(self.declared.0.iter().position(|parameter| parameter.facts.key == key)?)
+    }
+
+    /// Notes which numbers violate their limits.
+    pub(in crate::scene) fn check(&self, problems: &mut Problems) {
+        for (index, parameter) in self.declared.0.iter().enumerate() {
+            if let Some(numbers) = self.numbers(index) {
+                let facts = &parameter.facts;
+                facts.limit.check(|| format!("control.{}", facts.key).into(), numbers, problems);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Parameter, Scene, SceneInput};
+
+    static DECLARED: [LawParameter; 3] = [
+        LawParameter::number("gain_n_m", "N m", "Gain", Limit::NotNegative),
+        LawParameter::number("bias_rad_s", "rad/s", "Bias", Limit::Finite)
+            .with_components(&["x", "y", "z"])
+            .or(&[0.0; 3]),
+        LawParameter::number("ratio", "1", "Ratio", Limit::Positive).or(&[0.7]),
+    ];
+
+    /// Law: parameters of a law are keys as all others: found by name and component, read and set, checked by their limits.
+    #[test]
+    fn parameters_of_a_law_are_keys_of_the_scene() {
+        let mut scene = SceneInput { control: ControlInput::of(&DECLARED), ..SceneInput::default() };
+        let names: Vec<String> =
+            Parameter::all(&scene).map(Parameter::name).filter(|name| name.starts_with("control.")).collect();
+        assert_eq!(names, ["control.gain_n_m", "control.bias_rad_s", "control.ratio"]);
+        let missing = Scene::resolve(&scene).expect_err("the gain has no default");
+        assert!(missing.iter().any(|error| error.key == "control.gain_n_m"), "{missing:?}");
+        scene = scene.with("control.gain_n_m", &[2.0]).with("control.bias_rad_s.y", &[0.5]);
+        assert_eq!(scene.control.values, [2.0, 0.0, 0.5, 0.0, 0.7]);
+        assert_eq!(scene.control.named("bias_rad_s"), Some(&[0.0, 0.5, 0.0][..]));
+        let (ratio, _) = Parameter::find(&scene, "control.ratio").expect("declared");
+        assert_eq!((ratio.value(&scene, 0), ratio.column_name(0)), (Some(0.7), "control_ratio".to_owned()));
+        let (bias, component) = Parameter::find(&scene, "control.bias_rad_s.z").expect("declared");
+        assert_eq!((component, bias.column_name(2)), (Some(2), "control_bias_z_rad_s".to_owned()));
+        Scene::resolve(&scene).expect("all within their limits");
+        let wrong = Scene::resolve(&scene.with("control.gain_n_m", &[-1.0])).expect_err("below zero");
+        assert_eq!(wrong[0].key, "control.gain_n_m");
+    }
+}

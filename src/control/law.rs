@@ -1,0 +1,135 @@
+//! [`ControlLaw`]: a control law of a plan, and [`LawContext`]: what it is made from at the start of each run.
+
+use std::fmt;
+use std::sync::Arc;
+
+use super::runs::{LawRuns, Runs};
+use crate::dynamics::actuation::ActuationLaw;
+use crate::sampling::{Noise, SampleId};
+use crate::scene::{Actuated, ControlInput, LawParameter, Scene};
+
+/// What the law of one run is made from.
+///
+/// A law is to know what flight software knows: the nominal scene, its own parameters, and what its sensors measure. The drawn scene is the truth,
+/// for models of sensors and actuators only.
+#[derive(Clone, Copy, Debug)]
+pub struct LawContext<'a> {
+    /// The scene without dispersions.
+    pub nominal: &'a Scene,
+    /// The scene that is flown.
+    pub drawn: &'a Scene,
+    /// The parameters that the law declares, as drawn for this run.
+    pub parameters: &'a ControlInput,
+    /// The sample; 0 is the nominal run.
+    pub sample: SampleId,
+    /// The seed of the campaign.
+    pub seed: u64,
+}
+
+impl LawContext<'_> {
+    /// The number of the parameter called `key`.
+    ///
+    /// # Panics
+    /// Where the law does not declare it as a number.
+    pub fn number(&self, key: &str) -> f64 {
+        match self.parameters.named(key) {
+            Some([number]) => *number,
+            _ => panic!("the law declares no number {key}"),
+        }
+    }
+
+    /// The three numbers of the parameter called `key`.
+    ///
+    /// # Panics
+    /// Where the law does not declare it as three numbers.
+    pub fn vector(&self, key: &str) -> [f64; 3] {
+        match self.parameters.named(key) {
+            Some(&[x, y, z]) => [x, y, z],
+            _ => panic!("the law declares no vector {key}"),
+        }
+    }
+
+    /// Random numbers of this run for the purpose `name` (`gyro.noise.x`), tick by tick: the same for the same seed, sample, name and tick,
+    /// whatever else is drawn.
+    pub fn noise(&self, name: &str) -> Noise {
+        Noise::new(self.seed, name, self.sample)
+    }
+}
+
+/// A control law that a campaign flies.
+///
+/// Its name and its parameters are part of the plan, and so of the identity of the rows. The law of a run is made at its start and sees this run
+/// alone; it must not depend on anything but its context and what it is told in the run. Change the name where you change the law: rows that are
+/// there already are then other rows.
+#[derive(Clone)]
+pub struct ControlLaw {
+    name: &'static str,
+    commands: Actuated,
+    parameters: &'static [LawParameter],
+    runs: Arc<dyn Fn() -> Box<dyn LawRuns> + Send + Sync>,
+}
+
+impl ControlLaw {
+    /// The law called `name`, which commands what `commands` says, with the parameters `parameters`; `make` makes the law of a run.
+    ///
+    /// ```
+    /// use spindrift::control::ControlLaw;
+    /// use spindrift::dynamics::actuation::{Actuation, BodyState, WheelState, ZeroOrderHold};
+    /// use spindrift::scene::schema::Limit;
+    /// use spindrift::scene::{Actuated, LawParameter};
+    ///
+    /// static PARAMETERS: [LawParameter; 1] =
+    ///     [LawParameter::number("gain_n_m_s", "N m s", "Torque against a rate", Limit::NotNegative)];
+    /// let commands = Actuated { body_torque: true, ..Actuated::NONE };
+    /// let law = ControlLaw::new("rate_damping", commands, &PARAMETERS, |context| {
+    ///     let gain = context.number("gain_n_m_s");
+    ///     ZeroOrderHold::new(0.1, move |_: f64, body: &BodyState, _: &WheelState| Actuation {
+    ///         body_torque: body.omega_se_s.map(|rate| -gain * rate),
+    ///         ..Actuation::none(f64::INFINITY)
+    ///     })
+    /// });
+    /// assert_eq!(law.name(), "rate_damping");
+    /// ```
+    pub fn new<L: ActuationLaw + Send + 'static>(
+        name: &'static str,
+        commands: Actuated,
+        parameters: &'static [LawParameter],
+        make: impl Fn(&LawContext<'_>) -> L + Send + Sync + 'static,
+    ) -> Self {
+        let make = Arc::new(make);
+        ControlLaw { name, commands, parameters, runs: Arc::new(move || Box::new(Runs::new(make.clone()))) }
+    }
+
+    /// Its name, as in `control.law` of a plan.
+    pub fn name(&self) -> &'static str {
+        self.name
+    }
+
+    /// What it commands at some time of a run: which columns of work and impulse a row has.
+    pub fn commands(&self) -> Actuated {
+        self.commands
+    }
+
+    /// The parameters that it declares: keys of `[control]`.
+    pub fn parameters(&self) -> &'static [LawParameter] {
+        self.parameters
+    }
+
+    /// Memory for the laws of the runs of one worker.
+    pub fn runs(&self) -> Box<dyn LawRuns> {
+        (self.runs)()
+    }
+}
+
+impl fmt::Debug for ControlLaw {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("ControlLaw").field("name", &self.name).finish_non_exhaustive()
+    }
+}
+
+/// Laws of one name are one law.
+impl PartialEq for ControlLaw {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}

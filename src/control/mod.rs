@@ -1,0 +1,12 @@
+//! Layer 3: control in the loop.
+//!
+//! - [`law`]: [`ControlLaw`], a law that a plan can fly: its name, its parameters, and how it is made for a run from a [`LawContext`].
+//! - [`runs`]: the laws of the runs that an engine propagates together.
+//!
+//! Not here: the interface by which an engine asks a law ([`crate::dynamics::actuation`]), and which campaign flies which law (`campaign`).
+
+pub mod law;
+pub mod runs;
+
+pub use law::{ControlLaw, LawContext};
+pub use runs::LawRuns;

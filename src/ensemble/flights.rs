@@ -1,0 +1,95 @@
+//! [`Flights`]: propagates runs of a plan, each under the control law of the plan where it has one; nothing else of the ensemble flies a run.
+
+use crate::campaign::Plan;
+use crate::control::{LawContext, LawRuns};
+use crate::dynamics::actuation::Laws;
+use crate::ensemble::settings::{nominal, propagator};
+use crate::math::Isa;
+use crate::observables::nominal_attitude::NominalAttitude;
+use crate::observables::{Group, Observer, Request};
+use crate::propagation::engine::CompletionCallback;
+use crate::propagation::{CompletedRun, Engine};
+use crate::run::{Grid, StateField, StateFields, Status};
+use crate::sampling::SampleId;
+use crate::scene::{Arc, ControlInput, EnvironmentInput, Scene};
+
+/// What the law of a run depends on beside its scene.
+#[derive(Clone, Debug)]
+pub struct LawDraw {
+    /// The sample.
+    pub sample: SampleId,
+    /// The parameters of the law as drawn.
+    pub parameters: ControlInput,
+}
+
+/// An engine, and the laws of its runs.
+pub struct Flights<'p> {
+    plan: &'p Plan,
+    engine: Box<dyn Engine>,
+    /// The laws, and the nominal scene that they know; where the plan has a law.
+    laws: Option<(Box<dyn LawRuns>, Scene)>,
+}
+
+impl<'p> Flights<'p> {
+    /// Runs of `plan` by `engine`, which is for its settings.
+    pub fn new(plan: &'p Plan, engine: Box<dyn Engine>) -> Self {
+        Flights { plan, engine, laws: plan.law.as_ref().map(|law| (law.runs(), nominal(plan))) }
+    }
+
+    /// Flies `scenes` and passes each to `finish`. `draws` are those of the laws, one for each scene, and nothing where the plan has no law.
+    pub fn fly(&mut self, scenes: &[Scene], draws: &[LawDraw], finish: &mut CompletionCallback<'_>) {
+        let Some((laws, nominal)) = &mut self.laws else { return self.engine.propagate(scenes, finish) };
+        assert_eq!(scenes.len(), draws.len(), "each run has a law");
+        for (run, (drawn, LawDraw { sample, parameters })) in scenes.iter().zip(draws).enumerate() {
+            laws.begin(run, &LawContext { nominal, drawn, parameters, sample: *sample, seed: self.plan.seed });
+        }
+        self.engine.propagate_under(Laws::Feedback(&mut **laws), scenes, finish);
+    }
+
+    /// Flies the nominal run.
+    pub fn fly_nominal(&mut self, finish: &mut CompletionCallback<'_>) {
+        let draw = LawDraw { sample: SampleId(0), parameters: self.plan.nominal.control.clone() };
+        let draws = if self.plan.law.is_some() { std::slice::from_ref(&draw) } else { &[] };
+        self.fly(&[nominal(self.plan)], draws, finish);
+    }
+}
+
+/// The attitude of the nominal run at the times of `grid`, where `request` compares runs with it.
+pub fn nominal_attitude(plan: &Plan, request: &Request, grid: &Grid, isa: Isa) -> Option<NominalAttitude> {
+    if !request.groups.contains(Group::Motion) {
+        return None;
+    }
+    let mut found = None;
+    let attitude = StateFields::NONE.with(StateField::Attitude);
+    let engine = propagator(plan, grid.clone(), attitude).engine(isa);
+    Flights::new(plan, engine).fly_nominal(&mut |run| {
+        found = Some(NominalAttitude::of(run.table, run.outcome));
+    });
+    found
+}
+
+/// Observes a run of `plan` into `row`: what acted on it are the arcs that it has flown, where they followed a law, or its schedule.
+pub fn observe(
+    plan: &Plan,
+    observer: &mut Observer,
+    isa: Isa,
+    scene: &Scene,
+    run: &CompletedRun<'_>,
+    row: &mut [f64],
+) -> Status {
+    match plan.law {
+        None => observer.observe(isa, scene, run.table, run.outcome, row),
+        Some(_) => observer.observe_flown(isa, (scene, run.arcs), run.table, run.outcome, row),
+    }
+}
+
+/// The scene whose schedule is what a run of `scene` under a law has flown, environment included: its open loop is that run, bit for bit.
+pub fn replayed(scene: &Scene, arcs: &[Arc]) -> Scene {
+    Scene {
+        schedule: arcs.to_vec(),
+        environment: EnvironmentInput::DEFAULT,
+        commands_thrust: true,
+        commands_torque: true,
+        ..scene.clone()
+    }
+}

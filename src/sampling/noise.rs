@@ -1,0 +1,87 @@
+//! [`Noise`]: random numbers within a run, addressed by tick: of sensors, and of whatever else a control law needs.
+//!
+//! The generator is that of [`super::stream`], under a purpose of its own: the key is (seed, name, `noise`), the stream number of ChaCha is the
+//! sample, and tick k takes the k-th word. So a number depends on (seed, name, sample, tick) alone: not on lanes, nor on what was drawn before.
+
+use rand::Rng;
+use rand::rngs::ChaCha8Rng;
+
+use super::stream::{SampleId, generator, unit};
+use crate::math::normal;
+
+/// The last eight bytes of every key.
+const PURPOSE: [u8; 8] = *b"noise\0\0\0";
+
+/// The random numbers of one purpose in one run; reading ticks in order is fastest.
+#[derive(Debug)]
+pub struct Noise {
+    generator: ChaCha8Rng,
+    /// The tick whose word the generator gives next.
+    next: u64,
+}
+
+impl Noise {
+    /// Those called `name` in the run of `sample`.
+    pub fn new(seed: u64, name: &str, sample: SampleId) -> Self {
+        let mut generator = generator(seed, name, PURPOSE);
+        generator.set_stream(sample.0);
+        Noise { generator, next: 0 }
+    }
+
+    /// The number u of `tick`, 0 < u < 1.
+    pub fn uniform(&mut self, tick: u64) -> f64 {
+        if tick != self.next {
+            self.generator.set_word_pos(2 * u128::from(tick));
+        }
+        self.next = tick.wrapping_add(1);
+        unit(self.generator.next_u64())
+    }
+
+    /// A standard normal number of `tick`: the quantile of its u.
+    pub fn normal(&mut self, tick: u64) -> f64 {
+        normal::quantile(self.uniform(tick))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: a number depends on seed, name, sample and tick alone, not on the order of reading; each of the four changes it.
+    #[test]
+    fn numbers_depend_on_their_address_alone() {
+        let mut noise = Noise::new(1, "gyro", SampleId(7));
+        let in_order: Vec<f64> = (0..40).map(|tick| noise.uniform(tick)).collect();
+        for tick in [39, 0, 17, 17, 3] {
+            assert_eq!(noise.uniform(tick), in_order[tick as usize]);
+        }
+        for mut other in
+            [Noise::new(2, "gyro", SampleId(7)), Noise::new(1, "gyrp", SampleId(7)), Noise::new(1, "gyro", SampleId(8))]
+        {
+            assert!((0..40).all(|tick| other.uniform(tick) != in_order[tick as usize]));
+        }
+        assert_ne!(super::super::Stream::new(1, "gyro").uniform(SampleId(7)), in_order[7]);
+    }
+
+    /// Law: moments of 40,000 normal numbers over ticks and over samples are those of a standard normal, within five standard errors.
+    #[test]
+    fn normal_numbers_are_standard() {
+        for over_samples in [false, true] {
+            let number = |k: u64| {
+                if over_samples {
+                    Noise::new(3, "n", SampleId(k)).normal(5)
+                } else {
+                    Noise::new(3, "n", SampleId(5)).normal(k)
+                }
+            };
+            let (mut sum, mut squares) = (0.0, 0.0);
+            (0..40_000).map(number).for_each(|z| {
+                sum += z;
+                squares += z * z;
+            });
+            let (mean, square) = (sum / 40_000.0, squares / 40_000.0);
+            assert!(mean.abs() < 5.0 / 200.0, "{mean}");
+            assert!((square - 1.0).abs() < 5.0 * std::f64::consts::SQRT_2 / 200.0, "{square}");
+        }
+    }
+}
