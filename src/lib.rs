@@ -53,6 +53,7 @@ pub mod ensemble;
 pub mod report;
 pub mod sampling;
 pub mod storage;
+pub mod workflow;
 
 #[doc(inline)]
 pub use spindrift_kernels::{dynamics, math, observables, ode, propagation, run, scene, statistics};

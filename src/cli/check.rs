@@ -5,7 +5,6 @@ use std::fmt::Write as _;
 use crate::campaign::Overrides;
 use crate::cli::arguments::CheckOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
-use crate::cli::input::{isa, plan};
 use crate::cli::{dispersions, screen};
 use crate::ensemble::influence::without_effect;
 use crate::ensemble::probe::{AuditProbe, LongRun, RunProbe};
@@ -21,6 +20,8 @@ use crate::sampling::SampleId;
 use crate::scene::mass::{Body, Wheel};
 use crate::scene::{ActuationInput, MassProperties, Scene, SceneInput, WheelMode};
 use crate::storage::rows_file::RowsFile;
+use crate::workflow::isa;
+use crate::workflow::source::plan;
 
 /// Runs the command.
 ///

@@ -5,12 +5,13 @@ use std::fmt::Write as _;
 use crate::campaign::{Overrides, Plan};
 use crate::cli::arguments::ColumnsOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
-use crate::cli::input::{isa, plan};
 use crate::cli::screen;
 use crate::ensemble::Ensemble;
 use crate::observables::{Group, table};
 use crate::run::Quantity;
 use crate::storage::rows_file::headings;
+use crate::workflow::isa;
+use crate::workflow::source::plan;
 
 /// Runs the command.
 ///

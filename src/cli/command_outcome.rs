@@ -3,7 +3,10 @@
 use std::process::ExitCode;
 
 use crate::cli::{screen, signals};
+use crate::report::summary::SummaryEnd;
 use crate::run::Status;
+/// A command that could not run: code 2 where arguments or campaign file are wrong, code 4 where files are.
+pub use crate::workflow::WorkflowError as Failure;
 
 /// How a command ended that could run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,19 +23,16 @@ pub enum CommandOutcome {
     RequirementsUndecided(usize),
 }
 
-/// A command that could not run.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Failure {
-    /// Arguments or campaign file are wrong: code 2.
-    Input(String),
-    /// A file operation failed, or an existing result may not be replaced: code 4.
-    Files(String),
-}
-
 impl CommandOutcome {
     /// The outcome of a command that made one run.
     pub fn of(status: Status) -> Self {
         Self::of_campaign(u64::from(status != Status::Done), 0, 0)
+    }
+
+    /// The outcome of a command that finds a finished result: as of the one that finished it.
+    pub fn of_end(end: &SummaryEnd) -> Self {
+        let undecided = end.count("UNDECIDED") + usize::from(!end.is_reached);
+        Self::of_campaign(end.failed, end.count("FAIL"), undecided)
     }
 
     /// The outcome of a campaign with so many runs and requirements that failed, and requirements that are undecided. A requirement that failed
@@ -44,19 +44,6 @@ impl CommandOutcome {
             (0, undecided, _) => CommandOutcome::RequirementsUndecided(undecided),
             (failed, ..) => CommandOutcome::RequirementsFailed(failed),
         }
-    }
-}
-
-impl From<std::io::Error> for Failure {
-    fn from(error: std::io::Error) -> Self {
-        Failure::Files(error.to_string())
-    }
-}
-
-impl Failure {
-    /// An error of input or output.
-    pub fn files(error: impl std::fmt::Display) -> Self {
-        Failure::Files(error.to_string())
     }
 }
 

@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use crate::campaign::Overrides;
 use crate::cli::arguments::PrecisionOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
-use crate::cli::input::{isa, plan_and_files};
 use crate::cli::outputs::refuse_inputs;
 use crate::cli::screen;
 use crate::cli::workload::Workload;
@@ -17,6 +16,8 @@ use crate::report::canvas::Canvas;
 use crate::report::precision_figure::PrecisionFigure;
 use crate::report::precision_text;
 use crate::storage::precision_table;
+use crate::workflow::isa;
+use crate::workflow::source::plan_and_files;
 
 /// Runs the command.
 ///

@@ -5,7 +5,6 @@ use std::path::Path;
 use crate::campaign::{Overrides, Plan, draw};
 use crate::cli::arguments::SampleOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
-use crate::cli::input::plan_and_files;
 use crate::cli::outputs::refuse_inputs;
 use crate::cli::workload::{Workload, plotted_samples};
 use crate::cli::{dispersions, screen};
@@ -16,6 +15,7 @@ use crate::report::drawn_figure::DrawnFigure;
 use crate::sampling::SampleId;
 use crate::storage::drawn_table;
 use crate::storage::table::{TableError, TableFormat};
+use crate::workflow::source::plan_and_files;
 
 /// Runs the command.
 ///

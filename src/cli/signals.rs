@@ -47,10 +47,19 @@ pub fn exit_code(signal: i32) -> u8 {
     u8::try_from(128 + signal).unwrap_or(u8::MAX)
 }
 
-/// Starts to watch for signals. Where its thread cannot be started, the program ends: it would not end at a signal.
+/// What signals have asked for so far.
+pub fn asked() -> &'static Signals {
+    &ASKED
+}
+
+/// Starts to watch for signals, once. Where its thread cannot be started, the program ends: it would not end at a signal.
 #[cfg(unix)]
 pub fn watch() -> &'static Signals {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGUSR1};
+    static IS_WATCHING: AtomicBool = AtomicBool::new(false);
+    if IS_WATCHING.swap(true, Ordering::SeqCst) {
+        return &ASKED;
+    }
     let ignored = ignored_signals();
     let wanted = [SIGHUP, SIGINT, SIGTERM, SIGUSR1].into_iter().filter(|signal| ignored >> (signal - 1) & 1 == 0);
     if let Ok(mut signals) = signal_hook::iterator::Signals::new(wanted) {

@@ -6,11 +6,10 @@ use std::path::Path;
 use crate::campaign::{Overrides, Plan};
 use crate::cli::arguments::SimulateOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
-use crate::cli::input::{isa, plan_and_files};
 use crate::cli::outputs::refuse_inputs;
 use crate::cli::{dispersions, screen};
-use crate::ensemble::audit::AuditValue;
 use crate::ensemble::SingleRun;
+use crate::ensemble::audit::AuditValue;
 use crate::math::Isa;
 use crate::report::canvas::{Canvas, PlotError, PlotFormat};
 use crate::report::number::short;
@@ -20,6 +19,8 @@ use crate::run::{Grid, Status};
 use crate::sampling::SampleId;
 use crate::storage::table::{TableError, TableFormat};
 use crate::storage::timeseries::TimeSeries;
+use crate::workflow::isa;
+use crate::workflow::source::plan_and_files;
 
 /// A plot without --times has at least this many intervals: two per pixel.
 const SMOOTH: usize = 1200;

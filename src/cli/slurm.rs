@@ -6,13 +6,14 @@ use std::process::Command;
 use crate::campaign::{Overrides, find};
 use crate::cli::arguments::SlurmOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
-use crate::cli::input::{isa, plan};
-use crate::cli::run_campaign::{RESULTS, refuse_shards_with_stop};
 use crate::cli::screen;
-use crate::cli::shell_word::quoted_path;
 use crate::cli::slurm_script::{Jobs, MARK};
 use crate::ensemble::run_cost::parts;
+use crate::report::shell_word::quoted_path;
 use crate::storage::atomic;
+use crate::workflow::campaign::{RESULTS, refuse_shards_with_stop};
+use crate::workflow::isa;
+use crate::workflow::source::plan;
 
 /// Runs the command.
 ///

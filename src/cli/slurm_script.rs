@@ -7,7 +7,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use crate::cli::shell_word::{quoted, quoted_path};
+use crate::report::shell_word::{quoted, quoted_path};
 use crate::storage::names::SHARDS;
 
 /// The second line of a script: by it, a script of this program is recognised.

@@ -26,6 +26,7 @@ pub mod plot;
 pub mod precision_figure;
 pub mod precision_text;
 pub mod requirements;
+pub mod shell_word;
 pub mod simulation_figure;
 pub mod stopping_text;
 pub mod summary;

@@ -145,25 +145,43 @@ impl Summary {
     }
 }
 
-/// How many rows a finished summary is of; `None` where it does not say.
-pub fn rows_in(summary: &str) -> Option<u64> {
-    let value: Value = serde_json::from_str(summary).ok()?;
-    Some(value.get("statuses")?.as_object()?.values().filter_map(Value::as_u64).sum())
+/// What a finished summary says of how its campaign ended.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SummaryEnd {
+    /// Number of rows.
+    pub rows: u64,
+    /// Number of runs that are not `ok`.
+    pub failed: u64,
+    /// The requirements, each with its verdict.
+    pub verdicts: Vec<(String, String)>,
+    /// Whether a campaign with `[stop]` has reached what it says; `true` of others.
+    pub is_reached: bool,
 }
 
-/// How many runs a finished summary calls failed; `None` where it does not say.
-pub fn failed_runs(summary: &str) -> Option<u64> {
-    let value: Value = serde_json::from_str(summary).ok()?;
-    let statuses = value.get("statuses")?.as_object()?;
-    Some(statuses.iter().filter(|(name, _)| *name != Status::Done.name()).filter_map(|(_, count)| count.as_u64()).sum())
-}
+impl SummaryEnd {
+    /// What the bytes of a summary say; `None` where they are no finished summary.
+    pub fn read(bytes: &[u8]) -> Option<Self> {
+        let value: Value = serde_json::from_slice(bytes).ok()?;
+        let statuses: Vec<(&String, u64)> = value
+            .get("statuses")?
+            .as_object()?
+            .iter()
+            .filter_map(|(name, count)| Some((name, count.as_u64()?)))
+            .collect();
+        let text = |one: &Value, key: &str| Some(one.get(key)?.as_str()?.to_owned());
+        let list = value.pointer("/requirements/list").and_then(Value::as_array).into_iter().flatten();
+        Some(SummaryEnd {
+            rows: statuses.iter().map(|(_, count)| count).sum(),
+            failed: statuses.iter().filter(|(name, _)| *name != Status::Done.name()).map(|(_, count)| count).sum(),
+            verdicts: list.filter_map(|one| Some((text(one, "requirement")?, text(one, "verdict")?))).collect(),
+            is_reached: value.pointer("/stop/reached").and_then(Value::as_bool) != Some(false),
+        })
+    }
 
-/// The requirements of a finished summary, each with its verdict; `None` where it is no summary.
-pub fn verdicts(summary: &[u8]) -> Option<Vec<(String, String)>> {
-    let value: Value = serde_json::from_slice(summary).ok()?;
-    let text = |one: &Value, key: &str| Some(one.get(key)?.as_str()?.to_owned());
-    let list = value.pointer("/requirements/list").and_then(Value::as_array).into_iter().flatten();
-    Some(list.filter_map(|one| Some((text(one, "requirement")?, text(one, "verdict")?))).collect())
+    /// The number of requirements with the verdict `word`.
+    pub fn count(&self, word: &str) -> usize {
+        self.verdicts.iter().filter(|(_, verdict)| verdict == word).count()
+    }
 }
 
 impl Summary {
@@ -325,7 +343,9 @@ mod tests {
 
     #[test]
     fn failed_runs_are_read_from_a_summary() {
-        assert_eq!(failed_runs(r#"{"statuses": {"ok": 5, "step_limit": 2, "invalid_sample": 1}}"#), Some(3));
-        assert_eq!(failed_runs("{}"), None);
+        let end =
+            SummaryEnd::read(br#"{"statuses": {"ok": 5, "step_limit": 2, "invalid_sample": 1}}"#).expect("a summary");
+        assert_eq!((end.rows, end.failed, end.is_reached), (8, 3, true));
+        assert_eq!(SummaryEnd::read(b"{}"), None);
     }
 }

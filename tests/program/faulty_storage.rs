@@ -9,8 +9,6 @@ use std::sync::{Arc, Mutex};
 
 use serde_json::Value;
 use spindrift::campaign::{Overrides, Plan};
-use spindrift::cli::command_outcome::Failure;
-use spindrift::cli::finish_campaign::{Finishing, complete};
 use spindrift::ensemble::{Ensemble, Parts, Supervision, run};
 use spindrift::math::Isa;
 use spindrift::storage::claim::{Claim, ClaimOptions, FolderError, claim};
@@ -19,6 +17,8 @@ use spindrift::storage::identity::sha256;
 use spindrift::storage::part_sink::write_parts;
 use spindrift::storage::rows_file::identity;
 use spindrift::storage::stored_file::StoredFile;
+use spindrift::workflow::finishing::{Finishing, complete};
+use spindrift::workflow::{Outputs, Quiet, Session, WorkflowError as Failure};
 
 use super::small_campaign::campaign_without_debris;
 
@@ -345,18 +345,21 @@ pub fn make_with(
     })
     .map_err(Failure::files)?
     .map_err(Failure::files)?;
-    let job = Finishing {
-        ensemble: &ensemble,
-        ready: &ready,
-        root,
-        threads: NonZeroUsize::new(1),
-        replayed: "small.toml",
-        junit: None,
-        page: (has_page, None),
-        made: None,
-        seconds: [0.0; 2],
-    };
-    complete(&job, None).map(|_| ())
+    let outputs = Outputs { without_page: !has_page, ..Outputs::default() };
+    on(storage, |session| {
+        let job =
+            Finishing { session: *session, ensemble: &ensemble, ready: &ready, root, outputs: &outputs, made: None };
+        complete(&job, None).map(|_| ())
+    })
+}
+
+/// Does `work` on `storage` with one thread.
+pub fn on(
+    storage: &'static dyn Storage,
+    work: impl FnOnce(&Session<'_>) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let watch = Quiet::default();
+    work(&Session { storage, isa: Isa::best(), threads: NonZeroUsize::new(1), law: None, watch: &watch })
 }
 
 /// The reason of a failure.

@@ -3,20 +3,15 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use spindrift::cli::arguments::{CompareOptions, FinishOptions, ReportOptions, VerifyOptions};
-use spindrift::cli::command_outcome::Failure;
-use spindrift::cli::compare::compared;
-use spindrift::cli::finish_campaign::finished;
-use spindrift::cli::report::remade;
-use spindrift::cli::verify::verified;
-use spindrift::ensemble::Supervision;
 use spindrift::storage::disk::{Disk, Storage};
 use spindrift::storage::manifest::{Manifest, PartRecord};
+use spindrift::workflow::finishing::finish as finished;
+use spindrift::workflow::page::remade;
+use spindrift::workflow::{Outputs, Results, Verification, WorkflowError as Failure, verify as verified};
 
-use super::faulty_storage::{Fault, Faulty, Operation, contents, make, plan, reason, unlocked};
+use super::faulty_storage::{Fault, Faulty, Operation, contents, make, on, plan, reason, unlocked};
 use crate::support::scratch_folder::ScratchFolder;
 
 type Files = BTreeMap<String, Vec<u8>>;
@@ -68,14 +63,12 @@ fn make_large(storage: &'static dyn Storage, root: &Path) -> Result<(), Failure>
 }
 
 fn finish(storage: &'static dyn Storage, root: &Path) -> Result<(), Failure> {
-    let folder = root.to_owned();
-    let options = FinishOptions { folder, junit: None, no_report: true, figures: None, threads: NonZeroUsize::new(1) };
-    finished(storage, &options).map(|_| ())
+    let outputs = Outputs { without_page: true, ..Outputs::default() };
+    on(storage, |session| finished(session, root, &outputs, &|_| Ok(())).map(|_| ()))
 }
 
 fn verify(storage: &'static dyn Storage, root: &Path, repair: bool) -> Result<(), Failure> {
-    let options = VerifyOptions { folder: root.to_owned(), fraction: 0.0, repair, threads: NonZeroUsize::new(1) };
-    verified(storage, &options, &|| Supervision::progress(&|_| {}), &|_| {}).map(|_| ())
+    on(storage, |session| verified(session, root, Verification { fraction: 0.0, repair }).map(|_| ()))
 }
 
 fn verify_only(storage: &'static dyn Storage, root: &Path) -> Result<(), Failure> {
@@ -87,14 +80,15 @@ fn repair(storage: &'static dyn Storage, root: &Path) -> Result<(), Failure> {
 }
 
 fn report(storage: &'static dyn Storage, root: &Path) -> Result<(), Failure> {
-    let options = ReportOptions { folder: root.to_owned(), figures: None, threads: NonZeroUsize::new(1) };
-    remade(storage, &options).map(|_| ())
+    on(storage, |session| remade(session, root, None).map(|_| ()))
 }
 
 fn compare(storage: &'static dyn Storage, root: &Path) -> Result<(), Failure> {
-    let (first, second) = (root.to_owned(), root.to_owned());
-    let options = CompareOptions { first, second, tolerance: Some(0.0), out: None, threads: NonZeroUsize::new(1) };
-    compared(storage, &options).map(|_| ())
+    on(storage, |session| {
+        let [first, second] = [Results::open(root, *session)?, Results::open(root, *session)?];
+        first.end()?;
+        first.compare(&second).map(|_| ())
+    })
 }
 
 /// Puts the files of a dataset into an empty folder.

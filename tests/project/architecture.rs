@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Layers: a module imports only from layers below its own (and from itself).
-const LAYERS: [(&str, u32); 17] = [
+const LAYERS: [(&str, u32); 18] = [
     ("math", 0),
     ("scene", 1),
     ("run", 1),
@@ -22,8 +22,9 @@ const LAYERS: [(&str, u32); 17] = [
     ("storage", 6),
     ("analysis", 7),
     ("report", 8),
-    ("cli", 9),
-    ("main", 10),
+    ("workflow", 9),
+    ("cli", 10),
+    ("main", 11),
 ];
 
 /// Crates that only these modules or files may use.

@@ -10,13 +10,13 @@ use crate::analysis::stopping::{Stopping, stopping};
 use crate::analysis::verdicts::Verdicts;
 use crate::analysis::{sensitivity, sensitivity_table, statistics, statistics_table, verdicts};
 use crate::campaign::Plan;
-use crate::cli::command_outcome::Failure;
 use crate::ensemble::Bands;
 use crate::report::{requirements, stopping_text};
 use crate::storage::folder::Folder;
 use crate::storage::names::{BANDS, SENSITIVITY, STATISTICS};
 use crate::storage::rows_reader::RowsReader;
 use crate::storage::{atomic, bands_file, bands_table};
+use crate::workflow::error::WorkflowError;
 
 /// What the rows say.
 #[derive(Clone, Debug)]
@@ -44,7 +44,7 @@ pub fn analyse(
     folder: &Folder,
     counted: Option<Counted>,
     threads: Option<NonZeroUsize>,
-) -> Result<Analysed, Failure> {
+) -> Result<Analysed, WorkflowError> {
     let found = computed(plan, reader, bands, counted, threads)?;
     write(folder, STATISTICS, statistics_table::encoded(plan, &found.statistics))?;
     write(folder, SENSITIVITY, sensitivity_table::encoded(plan, &found.sensitivities))?;
@@ -55,9 +55,9 @@ pub fn analyse(
 }
 
 /// Writes an encoded table as the file `name` of a dataset.
-fn write<E: std::fmt::Display>(folder: &Folder, name: &str, encoded: Result<Vec<u8>, E>) -> Result<(), Failure> {
+fn write<E: std::fmt::Display>(folder: &Folder, name: &str, encoded: Result<Vec<u8>, E>) -> Result<(), WorkflowError> {
     let bytes = encoded.map_err(|error| in_file(&folder.path(name), &error))?;
-    folder.write(name, &bytes).map_err(Failure::files)
+    folder.write(name, &bytes).map_err(WorkflowError::files)
 }
 
 /// What the rows and the files `bands` of the bands of `plan` say, or what was counted while they were made; nothing is written.
@@ -70,22 +70,22 @@ pub fn computed(
     bands: &[PathBuf],
     counted: Option<Counted>,
     threads: Option<NonZeroUsize>,
-) -> Result<Analysed, Failure> {
+) -> Result<Analysed, WorkflowError> {
     let (columns, counted_bands) = counted.map(|counted| (counted.columns, counted.bands)).unzip();
     let of_bands = match counted_bands {
         Some(bands) => bands,
-        None => bands_file::read(reader.storage(), bands, threads).map_err(Failure::files)?,
+        None => bands_file::read(reader.storage(), bands, threads).map_err(WorkflowError::files)?,
     };
-    let statistics = statistics::compute(plan, reader, columns, threads).map_err(Failure::files)?;
-    let verdicts = verdicts::assess(plan, reader, of_bands.as_ref(), threads).map_err(Failure::files)?;
+    let statistics = statistics::compute(plan, reader, columns, threads).map_err(WorkflowError::files)?;
+    let verdicts = verdicts::assess(plan, reader, of_bands.as_ref(), threads).map_err(WorkflowError::files)?;
     let verdicts = verdicts.with_quantiles(&statistics);
     let looked = stopping(plan, (reader, bands), plan.samples, threads, Some(&verdicts));
     Ok(Analysed {
-        sensitivities: sensitivity::compute(plan, reader, threads).map_err(Failure::files)?,
+        sensitivities: sensitivity::compute(plan, reader, threads).map_err(WorkflowError::files)?,
         verdicts,
         statistics,
         bands: of_bands,
-        stopping: looked.map_err(Failure::files)?,
+        stopping: looked.map_err(WorkflowError::files)?,
     })
 }
 
@@ -93,13 +93,13 @@ pub fn computed(
 ///
 /// # Errors
 /// Where the file cannot be written.
-pub fn write_junit(plan: &Plan, analysed: &Analysed, failed: u64, file: Option<&Path>) -> Result<(), Failure> {
+pub fn write_junit(plan: &Plan, analysed: &Analysed, failed: u64, file: Option<&Path>) -> Result<(), WorkflowError> {
     let Some(file) = file else { return Ok(()) };
     let stop = analysed.stopping.as_ref().map(|found| (found.is_reached(), stopping_text::text(plan, found)));
     let text = requirements::junit(plan, &analysed.verdicts, failed, stop);
     atomic::write_bytes(file, text.as_bytes()).map_err(|error| in_file(file, &error))
 }
 
-fn in_file(path: &Path, error: &dyn std::fmt::Display) -> Failure {
-    Failure::files(format!("{}: {error}", path.display()))
+fn in_file(path: &Path, error: &dyn std::fmt::Display) -> WorkflowError {
+    WorkflowError::files(format!("{}: {error}", path.display()))
 }

@@ -1,22 +1,19 @@
-//! `campaign --only-failed-of`: the samples of a result whose runs failed, under another plan. `campaign --fail-fast`: the first of them
-//! ends the campaign.
+//! Samples that failed: those of a result run again under another plan ([`plan_of_failed`]), or the first ends the campaign ([`FailFast`]).
 
-use std::num::NonZeroUsize;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use crate::campaign::{FilesRead, Overrides, Plan};
-use crate::cli::command_outcome::Failure;
-use crate::cli::input::{plan_and_files, plan_of_sound};
-use crate::cli::screen;
 use crate::ensemble::{Rows, Sink};
 use crate::run::Status;
 use crate::sampling::SampleId;
 use crate::storage::claim::open;
-use crate::storage::disk::Disk;
 use crate::storage::part_sink::{PartError, PartSink};
 use crate::storage::rows_reader::{PartReader, RowsError, RowsReader};
+use crate::workflow::error::WorkflowError;
+use crate::workflow::session::Session;
+use crate::workflow::source::{plan_and_files, plan_of_sound};
 
 /// The samples whose runs are not `ok`, in the order of the files.
 fn failed(part: &mut PartReader) -> Result<Vec<SampleId>, RowsError> {
@@ -30,15 +27,15 @@ fn failed(part: &mut PartReader) -> Result<Vec<SampleId>, RowsError> {
 /// # Errors
 /// Where the result is damaged or cannot be read, or the campaign file is wrong.
 pub fn plan_of_failed(
+    session: &Session<'_>,
     file: &Path,
     of: &Path,
     overrides: Overrides,
-    threads: Option<NonZeroUsize>,
-) -> Result<Option<(Plan, FilesRead)>, Failure> {
-    let (found, _locks) = open(&Disk, of, true).map_err(Failure::files)?;
-    let drawn = plan_of_sound(&Disk, (of, &found), threads, None)?;
+) -> Result<Option<(Plan, FilesRead)>, WorkflowError> {
+    let (found, _locks) = open(session.storage, of, true).map_err(WorkflowError::files)?;
+    let drawn = plan_of_sound(session, (of, &found), None)?;
     if !found.is_finished {
-        screen::note(&format!(
+        session.watch.note(&format!(
             "{}: not finished: the failures among the {} rows that are there",
             of.display(),
             found.rows()
@@ -49,13 +46,13 @@ pub fn plan_of_failed(
         samples.extend(some.into_iter().map(|sample| sample.0));
         Ok::<(), RowsError>(())
     };
-    RowsReader::new(&Disk, found.row_files(of)).visit(None, failed, add).map_err(Failure::files)?;
+    RowsReader::new(session.storage, found.row_files(of)).visit(None, failed, add).map_err(WorkflowError::files)?;
     let same = Overrides { samples: Some(drawn.samples), seed: Some(drawn.seed), ..overrides };
     let (plan, files) = plan_and_files(file, same)?;
     if samples.is_empty() {
         return Ok(None);
     }
-    let input = |why| Failure::Input(format!("--only-failed-of {}: {why}", of.display()));
+    let input = |why| WorkflowError::Input(format!("--only-failed-of {}: {why}", of.display()));
     plan.only(samples).map(|plan| Some((plan, files))).map_err(input)
 }
 

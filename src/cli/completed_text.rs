@@ -1,0 +1,40 @@
+//! [`text`]: what a command prints of a result that it has finished.
+
+use crate::report::audit_summary::cost;
+use crate::report::drivers_text;
+use crate::report::number::bytes;
+use crate::workflow::Completed;
+
+/// The result in words; `replayed` is the campaign file as a word of the command `simulate`.
+pub fn text(completed: &Completed, replayed: &str) -> String {
+    let Completed { plan, summary, .. } = completed;
+    let seconds = completed.made.unwrap_or_default().seconds;
+    let audits = if completed.is_audited && seconds[1] > 0.0 {
+        format!("\n  audits: {}\n", cost(seconds))
+    } else {
+        String::new()
+    };
+    format!(
+        "{}\n{summary}{audits}{}\n{}\n  {}: {} file{} of rows, {}\n",
+        headline(completed),
+        drivers_text::text(plan, &completed.sensitivities),
+        summary.replay(replayed),
+        completed.root.display(),
+        completed.files,
+        if completed.files == 1 { "" } else { "s" },
+        bytes(completed.bytes),
+    )
+}
+
+fn headline(completed: &Completed) -> String {
+    let (name, samples, seed) = (&completed.plan.name, completed.plan.rows(), completed.plan.seed);
+    let run = match completed.made {
+        Some(made) if made.samples > 0 => {
+            let seconds = made.elapsed.as_secs_f64();
+            let which = if made.samples == samples { String::new() } else { format!("{} of them now, ", made.samples) };
+            format!(", {which}in {seconds:.2} s ({:.0}/s)", made.samples as f64 / seconds.max(1e-9))
+        }
+        _ => String::new(),
+    };
+    format!("{name}: {samples} samples ({}){run}, seed {seed}", completed.summary.samples())
+}

@@ -1,0 +1,64 @@
+//! [`Terminal`]: what a command tells while it works: notes, and on a terminal a bar with rate and remaining time. Signals stop it.
+
+use std::sync::atomic::AtomicBool;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use crate::cli::signals::{self, Signals};
+use crate::cli::{screen, signals::asked};
+use crate::workflow::Watch;
+
+/// Redraws per second; progress is reported far more often.
+const REFRESH_HZ: u8 = 8;
+
+/// Standard error, and the signals of this process.
+#[derive(Debug, Default)]
+pub struct Terminal {
+    bar: Mutex<Option<ProgressBar>>,
+}
+
+impl Terminal {
+    /// The signal that has stopped the work, where one has.
+    pub fn signal(&self) -> Option<i32> {
+        asked().first()
+    }
+
+    fn bar(&self) -> MutexGuard<'_, Option<ProgressBar>> {
+        self.bar.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Watch for Terminal {
+    fn note(&self, text: &str) {
+        screen::note(text);
+    }
+
+    /// From now on signals stop the work, and not at once the program.
+    fn begin(&self, samples: u64) {
+        signals::watch();
+        let bar = ProgressBar::with_draw_target(Some(samples), ProgressDrawTarget::stderr_with_hz(REFRESH_HZ));
+        let template = "{bar:30} {human_pos}/{human_len} samples  {per_sec}  {eta} left";
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            bar.set_style(style.progress_chars("=> "));
+        }
+        *self.bar() = Some(bar);
+    }
+
+    fn advance(&self, samples: u64) {
+        self.bar().iter().for_each(|bar| bar.inc(samples));
+    }
+
+    fn end(&self) {
+        self.bar().take().iter().for_each(ProgressBar::finish_and_clear);
+    }
+
+    fn stop(&self) -> &AtomicBool {
+        let Signals { stop, .. } = asked();
+        stop
+    }
+
+    fn abandon(&self) -> &AtomicBool {
+        &asked().abandon
+    }
+}

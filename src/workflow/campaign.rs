@@ -1,0 +1,260 @@
+//! [`Campaign`]: a campaign file, what is changed of it, where its result goes; it runs what is not there yet.
+
+use std::path::{Path, PathBuf};
+
+use crate::campaign::{FilesRead, Overrides, Plan};
+use crate::ensemble::Ensemble;
+use crate::report::summary::SummaryEnd;
+use crate::storage::claim::{Claim, ClaimOptions, Shard, claim};
+use crate::storage::rows_file::identity;
+use crate::workflow::error::WorkflowError;
+use crate::workflow::failed_samples::{FailedRun, plan_of_failed};
+use crate::workflow::finishing::{Completed, Made, Outputs, end_of, keep_data, say_notes};
+use crate::workflow::results::Results;
+use crate::workflow::running::{Running, run_missing};
+use crate::workflow::session::Session;
+use crate::workflow::source::plan_and_files;
+
+/// Default folder of results, in the current folder.
+pub const RESULTS: &str = "results";
+
+/// A campaign that is to be run and stored.
+///
+/// ```no_run
+/// use spindrift::workflow::{Campaign, Quiet, Session};
+///
+/// let watch = Quiet::default();
+/// let results = Campaign::from_file("campaigns/spin_sweep.toml", Session::new(&watch)?)
+///     .samples(2000)
+///     .seed(7)
+///     .store("results/sweep")
+///     .results()?;
+/// for one in &results.verdicts()?.list {
+///     println!("{} {}", one.word(), one.name());
+/// }
+/// # Ok::<(), spindrift::workflow::WorkflowError>(())
+/// ```
+#[derive(Clone)]
+pub struct Campaign<'a> {
+    session: Session<'a>,
+    file: PathBuf,
+    overrides: Overrides,
+    root: Option<PathBuf>,
+    shard: Option<Shard>,
+    only_failed_of: Option<PathBuf>,
+    overwrite: bool,
+    fail_fast: bool,
+    outputs: Outputs,
+}
+
+/// How a campaign ended that could run.
+#[derive(Clone, Debug)]
+pub enum CampaignOutcome {
+    /// All rows are there, and so is everything that follows from them.
+    Finished(Box<Completed>),
+    /// Everything of the same plan was there already.
+    AlreadyFinished(SummaryEnd),
+    /// The parts of a shard are there.
+    ShardDone {
+        /// The shard.
+        shard: Shard,
+        /// What this process has run.
+        made: Made,
+    },
+    /// It was stopped; the same campaign continues.
+    Stopped {
+        /// Samples of the campaign.
+        samples: u64,
+        /// Samples that are not there yet.
+        left: u64,
+    },
+    /// A run failed, where that ends the campaign.
+    FailedFast(FailedRun),
+}
+
+impl<'a> Campaign<'a> {
+    /// The campaign of `file`, which may be given without folder and extension.
+    pub fn from_file(file: impl Into<PathBuf>, session: Session<'a>) -> Self {
+        let overrides = Overrides { law: session.law.cloned(), ..Overrides::default() };
+        Campaign {
+            session,
+            file: file.into(),
+            overrides,
+            root: None,
+            shard: None,
+            only_failed_of: None,
+            overwrite: false,
+            fail_fast: false,
+            outputs: Outputs::default(),
+        }
+    }
+
+    /// With so many samples, whatever the file says.
+    #[must_use]
+    pub fn samples(mut self, samples: u64) -> Self {
+        self.overrides.samples = Some(samples);
+        self
+    }
+
+    /// With this seed, whatever the file says.
+    #[must_use]
+    pub fn seed(mut self, seed: u64) -> Self {
+        self.overrides.seed = Some(seed);
+        self
+    }
+
+    /// With this fraction of the samples audited, whatever the file says.
+    #[must_use]
+    pub fn audit(mut self, fraction: f64) -> Self {
+        self.overrides.audit_fraction = Some(fraction);
+        self
+    }
+
+    /// With the result in the folder `root`; else in [`RESULTS`], under the name of the campaign.
+    #[must_use]
+    pub fn store(mut self, root: impl Into<PathBuf>) -> Self {
+        self.root = Some(root.into());
+        self
+    }
+
+    /// In place of whatever result is in the folder.
+    #[must_use]
+    pub fn overwrite(mut self) -> Self {
+        self.overwrite = true;
+        self
+    }
+
+    /// Only the parts of one of several processes; [`Results::finish`] then finishes.
+    #[must_use]
+    pub fn shard(mut self, shard: Shard) -> Self {
+        self.shard = Some(shard);
+        self
+    }
+
+    /// Only the samples whose runs failed in the result `of`, with its seed and number of samples.
+    #[must_use]
+    pub fn only_failed_of(mut self, of: impl Into<PathBuf>) -> Self {
+        self.only_failed_of = Some(of.into());
+        self
+    }
+
+    /// Ends after the first part with a run that failed.
+    #[must_use]
+    pub fn fail_fast(mut self) -> Self {
+        self.fail_fast = true;
+        self
+    }
+
+    /// With these files beside tables and summary.
+    #[must_use]
+    pub fn outputs(mut self, outputs: Outputs) -> Self {
+        self.outputs = outputs;
+        self
+    }
+
+    /// Reads and checks the file; `None` where [`Campaign::only_failed_of`] finds no run that failed.
+    ///
+    /// # Errors
+    /// Where it, or the result whose failed samples are meant, is wrong.
+    pub fn prepare(self) -> Result<Option<PreparedCampaign<'a>>, WorkflowError> {
+        let found = match &self.only_failed_of {
+            None => Some(plan_and_files(&self.file, self.overrides.clone())?),
+            Some(of) => plan_of_failed(&self.session, &self.file, of, self.overrides.clone())?,
+        };
+        let Some((plan, files)) = found else { return Ok(None) };
+        if let Some(Shard { number, of }) = self.shard {
+            refuse_shards_with_stop(&plan, &format!("--shard {number}/{of}"))?;
+        }
+        let root = self.root.clone().unwrap_or_else(|| PathBuf::from(RESULTS).join(&plan.name));
+        Ok(Some(PreparedCampaign { campaign: self, plan, files, root }))
+    }
+
+    /// Runs what is not there yet, and opens the finished result.
+    ///
+    /// # Errors
+    /// Where the campaign cannot run, or does not finish: of a shard, after a stop, without failed samples to run again.
+    pub fn results(self) -> Result<Results<'a>, WorkflowError> {
+        let session = self.session;
+        let unfinished = |what: &str| WorkflowError::Input(format!("{what}: there is no finished result"));
+        let Some(prepared) = self.prepare()? else { return Err(unfinished("no run failed")) };
+        let root = prepared.root.clone();
+        match prepared.run()? {
+            CampaignOutcome::Finished(_) | CampaignOutcome::AlreadyFinished(_) => Results::open(root, session),
+            CampaignOutcome::ShardDone { .. } => Err(unfinished("a shard alone was run")),
+            CampaignOutcome::Stopped { .. } | CampaignOutcome::FailedFast(_) => {
+                Err(unfinished("the campaign was stopped"))
+            }
+        }
+    }
+}
+
+/// A campaign whose file was read.
+pub struct PreparedCampaign<'a> {
+    campaign: Campaign<'a>,
+    plan: Plan,
+    files: FilesRead,
+    root: PathBuf,
+}
+
+impl PreparedCampaign<'_> {
+    /// What will run.
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// The files that it was made from.
+    pub fn files(&self) -> &FilesRead {
+        &self.files
+    }
+
+    /// The folder of the result.
+    pub fn root(&self) -> &Path {
+        &self.root
+    }
+
+    /// The plan ready to run.
+    pub fn ensemble(&self) -> Ensemble<'_> {
+        Ensemble::new(&self.plan, self.campaign.session.isa)
+    }
+
+    /// Runs what is not there yet: all samples, those that an interrupted run has not made, or those that a larger campaign has more.
+    ///
+    /// # Errors
+    /// Where the folder has something that must not be replaced, or files cannot be read or written.
+    pub fn run(&self) -> Result<CampaignOutcome, WorkflowError> {
+        let Campaign { session, shard, overwrite, fail_fast, outputs, .. } = &self.campaign;
+        let (ensemble, root) = (self.ensemble(), &*self.root);
+        let claimed = ClaimOptions { overwrite: *overwrite, shard: *shard, threads: session.readers() };
+        let claimed = claim(session.storage, root, (&self.plan, &identity(&ensemble)), claimed);
+        let ready = match claimed.map_err(WorkflowError::files)? {
+            Claim::Finished(finished) => {
+                say_notes(session, root, &finished.notes);
+                return end_of(root, &finished.summary).map(CampaignOutcome::AlreadyFinished);
+            }
+            Claim::Ready(ready) => *ready,
+        };
+        keep_data(&ready.folder, &self.files)?;
+        run_missing(&Running {
+            session: *session,
+            ensemble: &ensemble,
+            ready: &ready,
+            root,
+            outputs,
+            shard: *shard,
+            fail_fast: *fail_fast,
+        })
+    }
+}
+
+/// Refuses `what`, which divides the campaign into shards, where the plan has `[stop]`.
+///
+/// # Errors
+/// Where it has.
+pub fn refuse_shards_with_stop(plan: &Plan, what: &str) -> Result<(), WorkflowError> {
+    match plan.analysis.stop {
+        None => Ok(()),
+        Some(_) => Err(WorkflowError::Input(format!(
+            "{what}: must be left out with [stop], which looks at all samples before it runs more; delete [stop], or run without shards"
+        ))),
+    }
+}

@@ -1,0 +1,290 @@
+//! [`complete`]: what is made of the rows of a campaign once all of them are there; [`finish`]: the same of a result in a folder.
+//!
+//! It is a function of the plan and the rows: whichever processes made them, and however often they were stopped, the files are the same.
+
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use crate::analysis::running_counts::Counted;
+use crate::analysis::sensitivity::InputSensitivity;
+use crate::analysis::tally::Tally;
+use crate::analysis::trajectories;
+use crate::campaign::{FilesRead, Plan, data};
+use crate::ensemble::run_cost::parts;
+use crate::ensemble::{Ensemble, Part, PartId};
+use crate::report::shell_word::quoted_path;
+use crate::report::summary::{Summary, SummaryEnd};
+use crate::storage::claim::{Claim, ClaimOptions, Ready, claim, open};
+use crate::storage::folder::Folder;
+use crate::storage::identity;
+use crate::storage::manifest::PartRecord;
+use crate::storage::names::{PLAN, REPORT, SUMMARY, TRAJECTORIES};
+use crate::storage::parts_read::PartsRead;
+use crate::storage::replacement::replace;
+use crate::storage::rows_file::{headings, identity};
+use crate::storage::rows_reader::RowsReader;
+use crate::storage::table_log;
+use crate::workflow::analysed::{Analysed, analyse, write_junit};
+use crate::workflow::error::WorkflowError;
+use crate::workflow::page;
+use crate::workflow::session::Session;
+use crate::workflow::source::plan_in;
+
+/// What is made of the rows beside the tables and the summary.
+#[derive(Clone, Debug, Default)]
+pub struct Outputs {
+    /// Whether the page is left out.
+    pub without_page: bool,
+    /// The folder of the figures of the page as files.
+    pub figures: Option<PathBuf>,
+    /// The file of the verdicts as JUnit XML.
+    pub junit: Option<PathBuf>,
+}
+
+/// What a process has run.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Made {
+    /// Number of samples.
+    pub samples: u64,
+    /// Elapsed time.
+    pub elapsed: Duration,
+    /// CPU time of runs and of audits, s; measured where there are audits.
+    pub seconds: [f64; 2],
+}
+
+/// A result that has just been finished.
+#[derive(Clone, Debug)]
+pub struct Completed {
+    /// Its plan.
+    pub plan: Plan,
+    /// Its folder.
+    pub root: PathBuf,
+    /// What the rows say.
+    pub summary: Summary,
+    /// What drives the main observables.
+    pub sensitivities: Vec<InputSensitivity>,
+    /// Number of runs that are not `ok`.
+    pub failed_runs: u64,
+    /// Number of requirements that failed.
+    pub failed: usize,
+    /// Number of requirements that are undecided, a precision among them that `[stop]` did not reach.
+    pub undecided: usize,
+    /// What this process has run of it.
+    pub made: Option<Made>,
+    /// Whether runs were audited.
+    pub is_audited: bool,
+    /// Number of files of rows.
+    pub files: usize,
+    /// Size of the result, bytes.
+    pub bytes: u64,
+}
+
+/// A dataset whose parts are all there.
+#[derive(Clone, Copy)]
+pub struct Finishing<'a> {
+    /// With what it is finished.
+    pub session: Session<'a>,
+    /// The campaign.
+    pub ensemble: &'a Ensemble<'a>,
+    /// The dataset.
+    pub ready: &'a Ready,
+    /// Where it is for its user.
+    pub root: &'a Path,
+    /// What is made beside the tables.
+    pub outputs: &'a Outputs,
+    /// What this process has run.
+    pub made: Option<Made>,
+}
+
+/// Makes everything that follows from the rows, and marks the dataset as finished. Where the rows were counted while they were made, they are not
+/// read again for that.
+///
+/// # Errors
+/// Where parts are missing, rows cannot be read or a file operation fails.
+pub fn complete(job: &Finishing<'_>, counted: Option<Counted>) -> Result<Completed, WorkflowError> {
+    let (plan, folder, threads) = (job.ensemble.plan(), &job.ready.folder, job.session.threads);
+    let parts = parts(plan, job.ensemble.isa());
+    refuse_missing(&folder.missing(parts.iter()), job.root)?;
+    let records = folder.parts();
+    let (reader, bands) = rows_of(job.ready);
+    let tally = match &counted {
+        Some(counted) => counted.tally.clone(),
+        None => Tally::of_files(job.ensemble, &reader, threads).map_err(WorkflowError::files)?,
+    };
+    let analysed = analyse(plan, &reader, &bands, folder, counted, threads)?;
+    retain(job, &reader)?;
+    make_page(job, &reader, &analysed, &records)?;
+    write_junit(plan, &analysed, tally.failed(), job.outputs.junit.as_deref())?;
+    let (failed, undecided) = (analysed.verdicts.failed(), analysed.verdicts.undecided());
+    let is_imprecise = analysed.stopping.as_ref().is_some_and(|found| !found.is_reached());
+    let summary =
+        Summary::new(plan, &tally, &analysed.statistics, analysed.verdicts).with_stopping(plan, analysed.stopping);
+    folder.write(SUMMARY, summary.json().as_bytes()).map_err(WorkflowError::files)?;
+    // the last part is larger in a campaign without an end, where it can get further rows
+    let endless = |id: PartId| parts.with_samples(u64::MAX).part(id);
+    let is_growing = |part: &Part| endless(part.id).is_some_and(|whole| whole.count > part.count);
+    let growing = records.last().map(PartRecord::samples).filter(is_growing).map(|part| part.id);
+    table_log::update(folder, &headings(job.ensemble), growing).map_err(WorkflowError::files)?;
+    folder.finish().map_err(WorkflowError::files)?;
+    if let Some(old) = &job.ready.replaces {
+        replace(folder.storage(), folder.root(), old).map_err(WorkflowError::files)?;
+    }
+    Ok(Completed {
+        plan: plan.clone(),
+        root: job.root.to_owned(),
+        summary,
+        sensitivities: analysed.sensitivities,
+        failed_runs: tally.failed(),
+        failed,
+        undecided: undecided + usize::from(is_imprecise),
+        made: job.made,
+        is_audited: tally.audits().is_some(),
+        files: records.len(),
+        bytes: folder.size(),
+    })
+}
+
+/// Writes the report page and its figures, where they are asked for; else there is none.
+fn make_page(
+    job: &Finishing<'_>,
+    reader: &RowsReader,
+    analysed: &Analysed,
+    records: &[PartRecord],
+) -> Result<(), WorkflowError> {
+    let folder = &job.ready.folder;
+    if job.outputs.without_page {
+        return folder.remove(REPORT).map_err(WorkflowError::files);
+    }
+    let page = page::page(job.ensemble, reader, analysed, records, job.session.threads)?;
+    folder.write(REPORT, page.html.as_bytes()).map_err(WorkflowError::files)?;
+    page::save_figures(&job.session, &page, job.outputs.figures.as_deref())
+}
+
+/// Writes the time series that the plan retains.
+fn retain(job: &Finishing<'_>, reader: &RowsReader) -> Result<(), WorkflowError> {
+    let (plan, folder, threads) = (job.ensemble.plan(), &job.ready.folder, job.session.threads);
+    let path = folder.clear(TRAJECTORIES).map_err(WorkflowError::files)?;
+    let samples = trajectories::retained(plan, reader, threads).map_err(WorkflowError::files)?;
+    if samples.is_empty() {
+        return Ok(());
+    }
+    let created = folder.storage().create_folder(&path);
+    created.map_err(|error| WorkflowError::files(format!("{}: {error}", path.display())))?;
+    trajectories::save(plan, &samples, folder, job.ensemble.isa(), threads).map_err(WorkflowError::files)
+}
+
+/// The rows of a dataset that are there, and the files of their bands.
+pub(super) fn rows_of(ready: &Ready) -> (RowsReader, Vec<PathBuf>) {
+    let parts = PartsRead::of(&ready.folder.parts(), |name| ready.folder.path(name));
+    (RowsReader::new(ready.folder.storage(), parts.rows), parts.bands)
+}
+
+/// What the summary `text` of the finished result in `root` says.
+///
+/// # Errors
+/// Where it is no summary.
+pub(super) fn end_of(root: &Path, text: &str) -> Result<SummaryEnd, WorkflowError> {
+    SummaryEnd::read(text.as_bytes())
+        .ok_or_else(|| WorkflowError::Files(format!("{}: its content has changed", root.join(SUMMARY).display())))
+}
+
+/// That an unfinished result with `[stop]` is completed by the command that looks at it.
+pub(super) fn stop_is_continued(root: &Path) -> String {
+    format!(
+        "{}: is not finished, and [stop] decides after each look whether it is; this continues it: spindrift campaign {} --out {}",
+        root.display(),
+        quoted_path(&root.join(PLAN)),
+        quoted_path(root)
+    )
+}
+
+/// Refuses to finish the result in `root` where these parts of it are missing.
+fn refuse_missing(missing: &[Part], root: &Path) -> Result<(), WorkflowError> {
+    let (Some(first), Some(last)) = (missing.first(), missing.last()) else { return Ok(()) };
+    Err(WorkflowError::Files(format!(
+        "{}: {} parts are missing, from part {} to part {}; this makes them and finishes: spindrift campaign {} --out {}",
+        root.display(),
+        missing.len(),
+        first.id.0,
+        last.id.0,
+        quoted_path(&root.join(PLAN)),
+        quoted_path(root),
+    )))
+}
+
+/// Copies the files of numbers of the plan into the dataset, which is then complete in itself: whatever works on it reads its plan.
+///
+/// # Errors
+/// Where one has changed since the plan was made, or a file operation fails.
+pub(super) fn keep_data(folder: &Folder, files: &FilesRead) -> Result<(), WorkflowError> {
+    for (path, sha256) in &files.data {
+        let bytes = data::bytes(path).map_err(|error| WorkflowError::Files(format!("{}: {error}", path.display())))?;
+        if identity::sha256(&bytes) != *sha256 {
+            return Err(WorkflowError::Files(format!(
+                "{}: changed while it was read; run the command again",
+                path.display()
+            )));
+        }
+        folder.keep_data(&data::copy_name(path, sha256), &bytes).map_err(WorkflowError::files)?;
+    }
+    Ok(())
+}
+
+/// Says what is in the folder and not part of the result.
+pub(super) fn say_notes(session: &Session<'_>, root: &Path, notes: &[String]) {
+    notes.iter().for_each(|note| session.watch.note(&format!("{}: {note}", root.display())));
+}
+
+/// What [`finish`] found.
+#[derive(Clone, Debug)]
+pub enum Finished {
+    /// It has made what was missing.
+    Now(Box<Completed>),
+    /// Everything was there already.
+    Already(SummaryEnd),
+}
+
+/// Finishes the result in `root`, whose parts are all there: what follows from the rows is made where it is missing. `check` is shown the files
+/// that the plan was made from before anything is written.
+///
+/// # Errors
+/// Where parts are missing or damaged, `check` refuses, or a file operation fails.
+pub fn finish(
+    session: &Session<'_>,
+    root: &Path,
+    outputs: &Outputs,
+    check: &dyn Fn(&FilesRead) -> Result<(), WorkflowError>,
+) -> Result<Finished, WorkflowError> {
+    // a folder that is none is not created
+    let (found, locks) = open(session.storage, root, false).map_err(WorkflowError::files)?;
+    if let Some(difference) = &found.shards_differ {
+        return Err(WorkflowError::Files(format!(
+            "{}: its shards ask different questions: {difference}\nthis answers those of a file, from the rows that are there: spindrift campaign FILE --out {}",
+            root.display(),
+            quoted_path(root)
+        )));
+    }
+    let (plan, files) = plan_in(session, root, &found)?;
+    if plan.analysis.stop.is_some() && !found.is_finished {
+        return Err(WorkflowError::Files(stop_is_continued(root)));
+    }
+    let plan = plan.at_look(found.rows());
+    drop(locks);
+    check(&files)?;
+    let ensemble = Ensemble::new(&plan, session.isa);
+    let claimed = ClaimOptions { overwrite: false, shard: None, threads: session.readers() };
+    let claimed = claim(session.storage, root, (&plan, &identity(&ensemble)), claimed).map_err(WorkflowError::files)?;
+    let ready = match claimed {
+        Claim::Finished(finished) => {
+            say_notes(session, root, &finished.notes);
+            return end_of(root, &finished.summary).map(Finished::Already);
+        }
+        Claim::Ready(ready) => *ready,
+    };
+    say_notes(session, root, &ready.notes);
+    ready.damaged.iter().for_each(|what| session.watch.note(&format!("{}: damaged: {what}", root.display())));
+    refuse_missing(&ready.folder.missing(parts(&plan, ensemble.isa()).iter()), root)?;
+    keep_data(&ready.folder, &files)?;
+    let job = Finishing { session: *session, ensemble: &ensemble, ready: &ready, root, outputs, made: None };
+    complete(&job, None).map(|completed| Finished::Now(Box::new(completed)))
+}

@@ -1,0 +1,29 @@
+//! Layer 9: campaigns and results, as a program works with them; the command line is one such program.
+//!
+//! - [`campaign`]: [`Campaign`], a file and where its result goes; `running`: the samples that are not there yet. - [`results`]: [`Results`], a finished
+//!   result to be read.
+//! - [`finishing`]: what is made once all rows are there: [`analysed`], [`page`]. - [`verification`]: whether a result is what was written.
+//! - [`failed_samples`]: samples that failed, again or as the end. - [`source`]: where plans come from. - [`session`]: disk, threads, control law, and who
+//!   is told. - [`error`].
+//!
+//! Not here: what is printed, options and exit codes (`cli`).
+
+pub mod analysed;
+pub mod campaign;
+pub mod error;
+pub mod failed_samples;
+pub mod finishing;
+pub mod page;
+pub mod results;
+mod running;
+pub mod session;
+pub mod source;
+pub mod verification;
+
+pub use analysed::Analysed;
+pub use campaign::{Campaign, CampaignOutcome, PreparedCampaign};
+pub use error::WorkflowError;
+pub use finishing::{Completed, Finished, Made, Outputs};
+pub use results::Results;
+pub use session::{Quiet, Session, Watch, isa};
+pub use verification::{Verification, Verified, verify};

@@ -1,0 +1,83 @@
+//! The report page of a result, made from its rows, and its figures as files.
+
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+use crate::ensemble::Ensemble;
+use crate::report::page::gather::Analysis;
+use crate::report::page::{Contents, Page, drawing};
+use crate::report::shell_word::quoted_path;
+use crate::storage::claim::open;
+use crate::storage::folder::relist;
+use crate::storage::manifest::{FileRecord, PartRecord};
+use crate::storage::names::{MANIFEST, REPORT};
+use crate::storage::parts_read::PartsRead;
+use crate::storage::rows_reader::RowsReader;
+use crate::storage::whole_file::place;
+use crate::workflow::analysed::{Analysed, computed};
+use crate::workflow::error::WorkflowError;
+use crate::workflow::session::Session;
+use crate::workflow::source::plan_of_sound;
+
+/// Makes the page of the finished result in `root` again, and its figures as files in the folder `figures`; its path and its size, bytes.
+///
+/// # Errors
+/// Where the folder has no finished result, or files cannot be read or written.
+pub fn remade(session: &Session<'_>, root: &Path, figures: Option<&Path>) -> Result<(PathBuf, u64), WorkflowError> {
+    let (storage, threads) = (session.storage, session.threads);
+    let (found, _locks) = open(storage, root, false).map_err(WorkflowError::files)?;
+    let Some(manifest) = found.manifests.get(MANIFEST).filter(|_| found.is_finished) else {
+        return Err(WorkflowError::Input(format!(
+            "the result in `{}` is not finished; the campaign's command continues it, or: spindrift finish {}",
+            root.display(),
+            quoted_path(root)
+        )));
+    };
+    let plan = plan_of_sound(session, (root, &found), Some(REPORT))?;
+    let ensemble = Ensemble::new(&plan, session.isa);
+    let records: Vec<PartRecord> = found.parts().into_values().collect();
+    let parts = PartsRead::of(&records, |name| root.join(name));
+    let reader = RowsReader::new(storage, parts.rows);
+    let analysed = computed(&plan, &reader, &parts.bands, None, threads)?;
+    let page = page(&ensemble, &reader, &analysed, &records, threads)?;
+    let path = root.join(REPORT);
+    place(storage, &path, page.html.as_bytes()).map_err(WorkflowError::files)?;
+    relist(storage, root, (manifest, &found.plan), FileRecord::of(REPORT, page.html.as_bytes()))
+        .map_err(WorkflowError::files)?;
+    save_figures(session, &page, figures)?;
+    Ok((path, page.html.len() as u64))
+}
+
+/// The page of a result whose parts are `records`.
+///
+/// # Errors
+/// Where a part cannot be read.
+pub fn page(
+    ensemble: &Ensemble<'_>,
+    reader: &RowsReader,
+    analysed: &Analysed,
+    records: &[PartRecord],
+    threads: Option<NonZeroUsize>,
+) -> Result<Page, WorkflowError> {
+    let analysis = Analysis {
+        statistics: &analysed.statistics,
+        verdicts: &analysed.verdicts,
+        sensitivities: &analysed.sensitivities,
+        bands: analysed.bands.as_ref(),
+        stopping: analysed.stopping.as_ref(),
+    };
+    let files = records.iter().flat_map(|part| &part.files).map(|file| (file.name.clone(), file.sha256.clone()));
+    let contents = Contents::new(ensemble, reader, analysis, files.collect(), threads).map_err(WorkflowError::files)?;
+    Ok(Page::new(ensemble, &contents))
+}
+
+/// Writes the figures of `page` as files into `folder`, if one was named.
+///
+/// # Errors
+/// Where a file cannot be written.
+pub fn save_figures(session: &Session<'_>, page: &Page, folder: Option<&Path>) -> Result<(), WorkflowError> {
+    let Some(folder) = folder else { return Ok(()) };
+    let count = drawing::save(&page.figures, folder).map_err(WorkflowError::files)?;
+    session.watch.note(&format!("{}: {count} files of figures", folder.display()));
+    Ok(())
+}

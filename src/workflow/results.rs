@@ -1,0 +1,190 @@
+//! [`Results`]: a finished result, to be read: rows, what they say, and each run again.
+
+use std::path::{Path, PathBuf};
+
+use crate::analysis::comparison::{Comparison, compare};
+use crate::analysis::pairing::ResultRows;
+use crate::analysis::sensitivity::InputSensitivity;
+use crate::analysis::statistics::Statistics;
+use crate::analysis::verdicts::Verdicts;
+use crate::campaign::Plan;
+use crate::ensemble::{Bands, SingleRun};
+use crate::report::summary::SummaryEnd;
+use crate::sampling::SampleId;
+use crate::storage::claim::{FolderError, Locks, open};
+use crate::storage::folder::MOST_SUMMARY;
+use crate::storage::manifest::PartRecord;
+use crate::storage::names::{SUMMARY, TRAJECTORIES};
+use crate::storage::parts_read::PartsRead;
+use crate::storage::rows_reader::RowsReader;
+use crate::workflow::analysed::{Analysed, computed};
+use crate::workflow::error::WorkflowError;
+use crate::workflow::finishing::{Finished, Outputs, finish};
+use crate::workflow::session::Session;
+use crate::workflow::source::plan_of_sound;
+
+/// A finished result, whose checksums were compared. No process changes it while this is there.
+pub struct Results<'a> {
+    session: Session<'a>,
+    root: PathBuf,
+    plan: Plan,
+    parts: Vec<PartRecord>,
+    reader: RowsReader,
+    bands: Vec<PathBuf>,
+    _locks: Locks,
+}
+
+impl<'a> Results<'a> {
+    /// The result in the folder `root`. A campaign that flew a control law is opened with that law in `session`.
+    ///
+    /// # Errors
+    /// Where there is none, it is not finished, or it is damaged.
+    pub fn open(root: impl Into<PathBuf>, session: Session<'a>) -> Result<Self, WorkflowError> {
+        let root = root.into();
+        let (found, locks) = open(session.storage, &root, true).map_err(|error| match error {
+            FolderError::Nothing { .. } => WorkflowError::Input(error.to_string()),
+            error => WorkflowError::files(error),
+        })?;
+        if !found.is_finished {
+            return Err(WorkflowError::Input(format!("the result in `{}` is not finished", root.display())));
+        }
+        let plan = plan_of_sound(&session, (&root, &found), None)?;
+        let parts: Vec<PartRecord> = found.parts().into_values().collect();
+        let read = PartsRead::of(&parts, |name| root.join(name));
+        let reader = RowsReader::new(session.storage, read.rows);
+        Ok(Results { session, root, plan, parts, reader, bands: read.bands, _locks: locks })
+    }
+
+    /// Makes what follows from the rows of the result in `root`, whose parts are all there: after shards.
+    ///
+    /// # Errors
+    /// Where parts are missing or damaged, or a file operation fails.
+    pub fn finish(
+        root: impl Into<PathBuf>,
+        session: Session<'a>,
+        outputs: &Outputs,
+    ) -> Result<Finished, WorkflowError> {
+        finish(&session, &root.into(), outputs, &|_| Ok(()))
+    }
+
+    /// Its folder.
+    pub fn root(&self) -> &Path {
+        &self.root
+    }
+
+    /// What was run.
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// The parts that it consists of.
+    pub fn parts(&self) -> &[PartRecord] {
+        &self.parts
+    }
+
+    /// Its rows, part by part.
+    pub fn rows(&self) -> &RowsReader {
+        &self.reader
+    }
+
+    /// The numbers of a column, row by row: of a dispersed value or an observable; NaN where a run has none.
+    ///
+    /// # Errors
+    /// Where there is no such column, or a file cannot be read.
+    pub fn column(&self, name: &str) -> Result<Vec<f64>, WorkflowError> {
+        let mut numbers = Vec::new();
+        let gather = |part: Vec<f64>| {
+            numbers.extend(part);
+            Ok(())
+        };
+        self.reader.visit(self.session.threads, |part| part.numbers(name), gather).map_err(WorkflowError::files)?;
+        Ok(numbers)
+    }
+
+    /// Everything that the rows say.
+    ///
+    /// # Errors
+    /// Where a file cannot be read.
+    pub fn analysed(&self) -> Result<Analysed, WorkflowError> {
+        computed(&self.plan, &self.reader, &self.bands, None, self.session.threads)
+    }
+
+    /// Statistics of every observable.
+    ///
+    /// # Errors
+    /// Where a file cannot be read.
+    pub fn statistics(&self) -> Result<Statistics, WorkflowError> {
+        self.analysed().map(|found| found.statistics)
+    }
+
+    /// What drives the main observables.
+    ///
+    /// # Errors
+    /// Where a file cannot be read.
+    pub fn sensitivities(&self) -> Result<Vec<InputSensitivity>, WorkflowError> {
+        self.analysed().map(|found| found.sensitivities)
+    }
+
+    /// The verdicts on the requirements.
+    ///
+    /// # Errors
+    /// Where a file cannot be read.
+    pub fn verdicts(&self) -> Result<Verdicts, WorkflowError> {
+        self.analysed().map(|found| found.verdicts)
+    }
+
+    /// Quantiles over time, where the campaign has bands.
+    ///
+    /// # Errors
+    /// Where a file cannot be read.
+    pub fn bands(&self) -> Result<Option<Bands>, WorkflowError> {
+        self.analysed().map(|found| found.bands)
+    }
+
+    /// The files of the time series that were retained, in the order of their samples.
+    ///
+    /// # Errors
+    /// Where their folder cannot be read.
+    pub fn retained(&self) -> Result<Vec<PathBuf>, WorkflowError> {
+        let folder = self.root.join(TRAJECTORIES);
+        if !folder.is_dir() {
+            return Ok(Vec::new());
+        }
+        let entries = std::fs::read_dir(&folder).and_then(Iterator::collect::<Result<Vec<_>, _>>);
+        let entries = entries.map_err(|error| WorkflowError::files(format!("{}: {error}", folder.display())))?;
+        let mut files: Vec<PathBuf> = entries.into_iter().map(|entry| entry.path()).collect();
+        files.sort();
+        Ok(files)
+    }
+
+    /// The run of a sample again, with its states over time: bit for bit that of its row.
+    ///
+    /// # Errors
+    /// Where its scene is not physical, so that there was no run.
+    pub fn replay(&self, sample: SampleId) -> Result<SingleRun, WorkflowError> {
+        SingleRun::new(&self.plan, sample, self.plan.grid.clone(), self.session.isa).map_err(|errors| {
+            let errors: Vec<String> = errors.iter().map(|error| format!("\n  {error}")).collect();
+            WorkflowError::Input(format!("sample {sample} is not physical:{}", errors.concat()))
+        })
+    }
+
+    /// Compares what the rows of both say, sample by sample where both drew the same ones.
+    ///
+    /// # Errors
+    /// Where a file cannot be read, or they have nothing in common.
+    pub fn compare(&self, other: &Results<'_>) -> Result<Comparison, WorkflowError> {
+        let [first, second] = [self, other].map(|one| ResultRows { plan: &one.plan, reader: &one.reader });
+        compare(first, second, self.session.threads).map_err(WorkflowError::files)
+    }
+
+    /// How the campaign ended, as its summary says.
+    ///
+    /// # Errors
+    /// Where the summary cannot be read.
+    pub fn end(&self) -> Result<SummaryEnd, WorkflowError> {
+        let path = self.root.join(SUMMARY);
+        let damaged = |error: &dyn std::fmt::Display| WorkflowError::Files(format!("{}: {error}", path.display()));
+        let summary = self.session.storage.read(&path, MOST_SUMMARY).map_err(|error| damaged(&error))?;
+        SummaryEnd::read(&summary).ok_or_else(|| damaged(&"its content has changed"))
+    }
+}

@@ -1,0 +1,168 @@
+//! [`run_missing`]: runs the samples of a campaign that are not there yet, look by look where the plan has `[stop]`, and finishes the result.
+
+use std::path::Path;
+use std::sync::{Mutex, PoisonError};
+use std::time::Instant;
+
+use crate::analysis::running_counts::RunningCounts;
+use crate::analysis::stopping::stopping;
+use crate::campaign::Plan;
+use crate::ensemble::run_cost::parts;
+use crate::ensemble::runner::threads;
+use crate::ensemble::{Ensemble, Part, Parts, run as run_parts};
+use crate::report::stopping_text::text as stopping_text;
+use crate::storage::claim::{Ready, Shard};
+use crate::storage::manifest::PartRecord;
+use crate::storage::part_sink::{CountRows, PartSink, write_parts};
+use crate::workflow::campaign::CampaignOutcome;
+use crate::workflow::error::WorkflowError;
+use crate::workflow::failed_samples::{FailFast, FailedRun, first_failed};
+use crate::workflow::finishing::{Finishing, Made, Outputs, complete, rows_of, say_notes};
+use crate::workflow::session::Session;
+
+/// A campaign whose folder is claimed.
+pub(super) struct Running<'a> {
+    pub session: Session<'a>,
+    pub ensemble: &'a Ensemble<'a>,
+    pub ready: &'a Ready,
+    pub root: &'a Path,
+    pub outputs: &'a Outputs,
+    pub shard: Option<Shard>,
+    pub fail_fast: bool,
+}
+
+/// Runs what is missing, and finishes the result.
+pub(super) fn run_missing(job: &Running<'_>) -> Result<CampaignOutcome, WorkflowError> {
+    let (plan, ready) = (job.ensemble.plan(), job.ready);
+    let parts = parts(plan, job.ensemble.isa());
+    let mut made = Made::default();
+    // what is there already was counted by no one
+    let is_whole = ready.folder.parts().is_empty() && job.shard.is_none() && plan.analysis.stop.is_none();
+    let counts = if is_whole { RunningCounts::of(job.ensemble) } else { None };
+    plan.notes().iter().for_each(|note| job.session.watch.note(note));
+    let targets = plan.looks();
+    let mut samples = targets.last().copied().unwrap_or(plan.samples);
+    // looks at fewer samples than there are rows have been taken
+    for target in targets.into_iter().filter(|target| *target >= ready.rows) {
+        samples = target;
+        if let Some(outcome) = job.run_to(parts.with_samples(target), counts.as_ref(), &mut made)? {
+            return Ok(outcome);
+        }
+        let (rows, bands) = rows_of(ready);
+        match stopping(plan, (&rows, &bands), target, job.session.threads, None).map_err(WorkflowError::files)? {
+            Some(found) if !found.ends() => {
+                job.session.watch.note(&format!("{}: {}", plan.name, stopping_text(plan, &found)));
+            }
+            _ => break,
+        }
+    }
+    let plan = plan.clone().at_look(samples);
+    let stopped = Ensemble::new(&plan, job.ensemble.isa());
+    let finishing = Finishing {
+        session: job.session,
+        ensemble: &stopped,
+        ready,
+        root: job.root,
+        outputs: job.outputs,
+        made: Some(made),
+    };
+    let completed = complete(&finishing, counts.and_then(|counts| counts.whole(parts.with_samples(samples))))?;
+    Ok(CampaignOutcome::Finished(Box::new(completed)))
+}
+
+impl Running<'_> {
+    fn is_mine(&self, part: &Part) -> bool {
+        self.shard.is_none_or(|shard| part.id.0 % shard.of == shard.number - 1)
+    }
+
+    /// Runs those of `parts` that are missing; an outcome where that ends the campaign: a stop, or a shard.
+    fn run_to(
+        &self,
+        parts: Parts,
+        counts: Option<&RunningCounts>,
+        made: &mut Made,
+    ) -> Result<Option<CampaignOutcome>, WorkflowError> {
+        let folder = &self.ready.folder;
+        // a last part of fewer samples is made again with its further rows
+        let is_outgrown = |record: &PartRecord| {
+            self.is_mine(&record.samples())
+                && parts.part(record.samples().id).is_none_or(|part| part != record.samples())
+        };
+        let outgrown: Vec<u64> =
+            folder.parts().iter().filter(|record| is_outgrown(record)).map(|record| record.part).collect();
+        folder.drop_parts(outgrown).map_err(WorkflowError::files)?;
+        let mut missing = folder.missing(parts.iter());
+        missing.retain(|part| self.is_mine(part));
+        if made.samples == 0 {
+            let samples = parts.iter().filter(|part| self.is_mine(part)).map(|part| part.count as u64).sum();
+            self.say_what_was_found(samples, &missing);
+            self.say_idle_threads(missing.len());
+        }
+        if self.fail_fast
+            && let Some(failed) = first_failed(&rows_of(self.ready).0).map_err(WorkflowError::files)?
+        {
+            return Ok(Some(CampaignOutcome::FailedFast(failed)));
+        }
+        if let Some(failed) = self.run_them(&missing, counts, made)? {
+            return Ok(Some(CampaignOutcome::FailedFast(failed)));
+        }
+        let left = folder.missing(parts.iter());
+        // the parts of other shards are theirs
+        if left.iter().any(|part| self.is_mine(part)) {
+            let left = left.iter().map(|part| part.count as u64).sum();
+            return Ok(Some(CampaignOutcome::Stopped { samples: parts.samples(), left }));
+        }
+        Ok(self.shard.map(|shard| CampaignOutcome::ShardDone { shard, made: *made }))
+    }
+
+    /// Runs `missing`; the first run that failed, where that ends the campaign.
+    fn run_them(
+        &self,
+        missing: &[Part],
+        counts: Option<&RunningCounts>,
+        made: &mut Made,
+    ) -> Result<Option<FailedRun>, WorkflowError> {
+        let (watch, first) = (self.session.watch, Mutex::new(None));
+        let samples = missing.iter().map(|part| part.count as u64).sum();
+        let begun = Instant::now();
+        watch.begin(samples);
+        let progress = |samples| watch.advance(samples);
+        let supervision = self.session.supervision(&progress);
+        let counts = counts.map(|counts| counts as &dyn CountRows);
+        let ended = write_parts(&self.ready.folder, self.ensemble, counts, |sink: &PartSink<'_>| {
+            let watched = FailFast { sink, is_on: self.fail_fast, stop: watch.stop(), first: &first };
+            let missing = missing.iter().copied();
+            run_parts(self.ensemble, missing, self.session.threads, &watched, supervision).map(|()| sink.seconds())
+        });
+        watch.end();
+        let seconds = ended.map_err(WorkflowError::files)?.map_err(WorkflowError::files)?;
+        made.samples += samples;
+        made.elapsed += begun.elapsed();
+        made.seconds.iter_mut().zip(seconds).for_each(|(sum, seconds)| *sum += seconds);
+        Ok(first.into_inner().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// Says what was found in the folder; `samples` are those that this process has to make.
+    fn say_what_was_found(&self, samples: u64, missing: &[Part]) {
+        let (watch, ready, plan): (_, _, &Plan) = (self.session.watch, self.ready, self.ensemble.plan());
+        say_notes(&self.session, self.root, &ready.notes);
+        for what in &ready.damaged {
+            watch.note(&format!("{}: damaged, made again: {what}", self.root.display()));
+        }
+        if ready.rows > 0 {
+            let left = missing.iter().map(|part| part.count as u64).sum::<u64>();
+            let there = samples - left.min(samples);
+            watch.note(&format!("{}: {there} samples are there already, {left} to run", plan.name));
+        }
+    }
+
+    /// Says that some of the threads that were asked for have no work.
+    fn say_idle_threads(&self, parts: usize) {
+        if let Some(asked) = self.session.threads
+            && parts > 0
+            && threads(Some(asked), parts) < asked.get()
+        {
+            self.session.watch.note(&format!("{parts} parts are to be made: {parts} of {asked} threads have work"));
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! [`Session`]: with what all work on campaigns and results is done; [`Watch`]: who is told of it, and may stop it.
+
+use std::num::NonZeroUsize;
+use std::sync::atomic::AtomicBool;
+
+use super::error::WorkflowError;
+use crate::control::ControlLaw;
+use crate::ensemble::Supervision;
+use crate::ensemble::runner::threads;
+use crate::math::Isa;
+use crate::math::isa::VARIABLE;
+use crate::storage::disk::{Disk, Storage};
+
+/// Is told what happens, and may stop it; called from any thread.
+pub trait Watch: Sync {
+    /// What a person should know: damage that was found, samples that are there already, looks of `[stop]`.
+    fn note(&self, _text: &str) {}
+
+    /// Runs of so many samples begin.
+    fn begin(&self, _samples: u64) {}
+
+    /// So many more of them have ended.
+    fn advance(&self, _samples: u64) {}
+
+    /// No further run is made.
+    fn end(&self) {}
+
+    /// No further part is started once this is set; what is committed stays, and the same campaign continues.
+    fn stop(&self) -> &AtomicBool;
+
+    /// Parts under way are given up once this is set.
+    fn abandon(&self) -> &AtomicBool;
+}
+
+/// Tells nobody, and lets everything end.
+#[derive(Debug, Default)]
+pub struct Quiet {
+    stop: AtomicBool,
+    abandon: AtomicBool,
+}
+
+impl Watch for Quiet {
+    fn stop(&self) -> &AtomicBool {
+        &self.stop
+    }
+
+    fn abandon(&self) -> &AtomicBool {
+        &self.abandon
+    }
+}
+
+/// With what work is done.
+#[derive(Clone, Copy)]
+pub struct Session<'a> {
+    /// Where files are.
+    pub storage: &'static dyn Storage,
+    /// The instruction set.
+    pub isa: Isa,
+    /// How many threads run and read; `None`: one per core.
+    pub threads: Option<NonZeroUsize>,
+    /// The control law that the program brings, for campaigns that fly one.
+    pub law: Option<&'a ControlLaw>,
+    /// Who is told.
+    pub watch: &'a dyn Watch,
+}
+
+impl<'a> Session<'a> {
+    /// The disk, all cores, no control law; `watch` is told.
+    ///
+    /// # Errors
+    /// Where the environment names an instruction set that is not available.
+    pub fn new(watch: &'a dyn Watch) -> Result<Self, WorkflowError> {
+        Ok(Session { storage: &Disk, isa: isa()?, threads: None, law: None, watch })
+    }
+
+    /// The same on so many threads.
+    #[must_use]
+    pub fn on_threads(self, threads: Option<NonZeroUsize>) -> Self {
+        Session { threads, ..self }
+    }
+
+    /// The number of threads that read files.
+    pub(super) fn readers(&self) -> usize {
+        threads(self.threads, usize::MAX)
+    }
+
+    /// What runs are told; `progress` is told how many have ended.
+    pub(super) fn supervision<'s>(&'s self, progress: &'s (dyn Fn(u64) + Sync)) -> Supervision<'s> {
+        Supervision { progress, stop: self.watch.stop(), abandon: self.watch.abandon() }
+    }
+}
+
+/// The instruction set of this process.
+///
+/// # Errors
+/// Where the environment names one that does not exist or is not available.
+pub fn isa() -> Result<Isa, WorkflowError> {
+    Isa::chosen().map_err(|value| {
+        let names: Vec<&str> = Isa::available().iter().map(|isa| isa.name()).collect();
+        WorkflowError::Input(format!("{VARIABLE}={value}: must be one of {}, or unset", names.join(", ")))
+    })
+}
