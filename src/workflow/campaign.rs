@@ -30,7 +30,7 @@ pub const RESULTS: &str = "results";
 ///     .store("results/sweep")
 ///     .results()?;
 /// for one in &results.verdicts()?.list {
-///     println!("{} {}", one.word(), one.name());
+///     println!("{} {}", one.word(), one.requirement.name());
 /// }
 /// # Ok::<(), spindrift::workflow::WorkflowError>(())
 /// ```
@@ -38,6 +38,8 @@ pub const RESULTS: &str = "results";
 pub struct Campaign<'a> {
     session: Session<'a>,
     file: PathBuf,
+    /// The text of the file, where it is not to be read.
+    text: Option<String>,
     overrides: Overrides,
     root: Option<PathBuf>,
     shard: Option<Shard>,
@@ -79,6 +81,7 @@ impl<'a> Campaign<'a> {
         Campaign {
             session,
             file: file.into(),
+            text: None,
             overrides,
             root: None,
             shard: None,
@@ -87,6 +90,11 @@ impl<'a> Campaign<'a> {
             fail_fast: false,
             outputs: Outputs::default(),
         }
+    }
+
+    /// The campaign that `text` describes; `name` is that of its file in messages.
+    pub fn from_text(name: &str, text: &str, session: Session<'a>) -> Self {
+        Campaign { text: Some(text.to_owned()), ..Self::from_file(name, session) }
     }
 
     /// With so many samples, whatever the file says.
@@ -157,9 +165,13 @@ impl<'a> Campaign<'a> {
     /// # Errors
     /// Where it, or the result whose failed samples are meant, is wrong.
     pub fn prepare(self) -> Result<Option<PreparedCampaign<'a>>, WorkflowError> {
-        let found = match &self.only_failed_of {
-            None => Some(plan_and_files(&self.file, self.overrides.clone())?),
-            Some(of) => plan_of_failed(&self.session, &self.file, of, self.overrides.clone())?,
+        let found = match (&self.only_failed_of, &self.text) {
+            (None, Some(text)) => {
+                let found = Plan::from_text_of(&self.file, text, self.overrides.clone());
+                Some(found.map_err(|error| WorkflowError::Input(error.with_excerpts()))?)
+            }
+            (None, None) => Some(plan_and_files(&self.file, self.overrides.clone())?),
+            (Some(of), _) => plan_of_failed(&self.session, &self.file, of, self.overrides.clone())?,
         };
         let Some((plan, files)) = found else { return Ok(None) };
         if let Some(Shard { number, of }) = self.shard {

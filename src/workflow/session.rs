@@ -79,6 +79,12 @@ impl<'a> Session<'a> {
         Session { threads, ..self }
     }
 
+    /// The same for campaigns that fly `law`, and their results.
+    #[must_use]
+    pub fn under(self, law: &'a ControlLaw) -> Self {
+        Session { law: Some(law), ..self }
+    }
+
     /// The number of threads that read files.
     pub(super) fn readers(&self) -> usize {
         threads(self.threads, usize::MAX)

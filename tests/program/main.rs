@@ -13,6 +13,7 @@ mod campaign_command;
 mod columns_command;
 mod commands;
 mod compare_command;
+mod control_laws;
 mod csv_digits;
 mod derived_files;
 mod exit_codes;

@@ -2,6 +2,8 @@
 
 #[path = "../../examples/campaign_in_memory.rs"]
 mod campaign_in_memory;
+#[path = "../../examples/control_campaign.rs"]
+mod control_campaign;
 #[path = "../../examples/control_law.rs"]
 mod control_law;
 #[path = "../../examples/one_run.rs"]
@@ -10,6 +12,11 @@ mod one_run;
 #[test]
 fn one_run_ends() {
     one_run::main();
+}
+
+#[test]
+fn a_campaign_under_a_law_ends() {
+    control_campaign::main();
 }
 
 #[test]
