@@ -58,7 +58,8 @@ fn file(table: &mut Section<'_, '_>, used: &dyn Fn(&str) -> bool) -> Option<(Str
         table.refuse("file", allowed, "draw several parameters from the rows of one file (parameters = [...])");
         return None;
     }
-    let path = found(table.document.folder(), &name, sha256.as_deref());
+    let written_at = table.value("file").map_or(0, |value| value.span().start);
+    let path = found(table.document.folder_of(written_at), &name, sha256.as_deref());
     let data = match DataFile::read(&path, MOST_NUMBERS - numbers, used) {
         Ok(data) => data,
         Err((value, allowed, remedy)) => {

@@ -7,6 +7,7 @@
 use super::excerpt::Excerpt;
 use super::problem::{CampaignError, Problem, SHOWN};
 use super::size;
+use super::sources::{Source, Sources, lay_over, moved_table, put, value_at};
 use crate::control::ControlLaw;
 use crate::scene::SceneInput;
 use std::collections::BTreeMap;
@@ -38,7 +39,8 @@ fn syntax_remedy(message: &str) -> &'static str {
 /// What is known about a file while it is read.
 #[derive(Debug)]
 pub struct Document<'a> {
-    file: &'a str,
+    sources: &'a Sources,
+    /// The texts of all sources, one after the other.
     text: &'a str,
     problems: Vec<Problem>,
     /// Problems that are counted only.
@@ -47,8 +49,6 @@ pub struct Document<'a> {
     starts: Vec<usize>,
     /// Where each key is.
     pub(super) spans: BTreeMap<String, Spans>,
-    /// The folder from which paths in the document count.
-    folder: PathBuf,
     /// The files of numbers that were read, each with the SHA-256 of its bytes.
     pub(super) files: Vec<(PathBuf, String)>,
     /// How many tables named a file of numbers, and how many numbers were read.
@@ -70,16 +70,16 @@ pub(super) struct Spans {
 
 impl<'a> Document<'a> {
     /// A document before anything has been read.
-    pub fn new(file: &'a str, text: &'a str) -> Self {
+    pub(super) fn new(sources: &'a Sources) -> Self {
+        let text = &sources.text;
         let ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(offset, _)| offset + 1);
         Document {
-            file,
+            sources,
             text,
             problems: Vec::new(),
             more: 0,
             starts: std::iter::once(0).chain(ends).collect(),
             spans: BTreeMap::new(),
-            folder: PathBuf::new(),
             files: Vec::new(),
             data: (0, 0),
             scene: SceneInput::blank(),
@@ -87,39 +87,61 @@ impl<'a> Document<'a> {
         }
     }
 
-    /// The same document in `folder`, from which its paths count; without, they count from the working directory.
-    pub fn in_folder(mut self, folder: &Path) -> Self {
-        self.folder = folder.to_owned();
-        self
-    }
-
     /// The same document of a program that brings the control law `law`.
     pub fn under(self, law: Option<ControlLaw>) -> Self {
         Document { law, ..self }
     }
 
-    /// The folder from which paths in the document count.
-    pub fn folder(&self) -> &Path {
-        &self.folder
+    /// The folder from which a path counts that is written at the byte `offset`.
+    pub(super) fn folder_of(&self, offset: usize) -> &'a Path {
+        &self.sources.at(offset).folder
     }
 
-    /// Parses the text.
+    /// Parses the texts, and lays what is set over the file, and the file over those that it extends.
     ///
     /// # Errors
-    /// Where the text is too large or has too many keys; where it is no TOML, its first syntax error alone.
+    /// Where a text is too large or has too many keys; where it is no TOML, its first syntax error alone; where a setting leads nowhere.
     pub fn parse(&mut self) -> Result<DeTable<'a>, CampaignError> {
-        if let Some(problem) = size::of_text(self.file, self.text) {
+        let mut whole = DeTable::new();
+        for source in self.sources.list.iter().filter(|source| source.key.is_none()).rev() {
+            let mut table = self.parse_file(source)?;
+            table.remove("extends");
+            lay_over(&mut whole, table);
+        }
+        for source in &self.sources.list {
+            let Some(key) = &source.key else { continue };
+            let text = &self.text[source.range.clone()];
+            put(&mut whole, key, value_at(text, source.range.start)).map_err(|why| {
+                CampaignError::of(Problem {
+                    file: source.name.clone(),
+                    line: None,
+                    key: key.clone(),
+                    value: Some(text.to_owned()),
+                    allowed: format!("set where a campaign has the key ({why})"),
+                    remedy: "write the key as messages name it: campaign.duration_s, wheels.w1.rate_rad_s".to_owned(),
+                    excerpt: None,
+                })
+            })?;
+        }
+        Ok(whole)
+    }
+
+    /// Parses one file.
+    fn parse_file(&self, source: &'a Source) -> Result<DeTable<'a>, CampaignError> {
+        let (file, text) = (&source.name, &self.text[source.range.clone()]);
+        if let Some(problem) = size::of_text(file, text) {
             return Err(CampaignError::of(problem));
         }
-        let (table, errors) = DeTable::parse_recoverable(self.text);
+        let (table, errors) = DeTable::parse_recoverable(text);
         // what follows the first error mostly follows from it
         let start = |error: &toml::de::Error| error.span().map_or(0, |span| span.start);
         if let Some(error) = errors.into_iter().min_by_key(start) {
             let span = error.span().unwrap_or_default();
+            let span = span.start + source.range.start..span.end + source.range.start;
             let line = self.line_at(span.start);
             let problem = Problem {
-                file: self.file.to_owned(),
-                line: Some(line),
+                file: file.clone(),
+                line: self.place(span.start).1,
                 key: "line".to_owned(),
                 value: Some(shortened(self.line(line))),
                 allowed: format!("valid TOML ({})", size::plain(error.message())),
@@ -131,9 +153,11 @@ impl<'a> Document<'a> {
             return Err(CampaignError { note, ..CampaignError::of(problem) });
         }
         let table = table.into_inner();
-        match size::of_table(self.file, &table) {
+        match size::of_table(file, &table) {
             Some(problem) => Err(CampaignError::of(problem)),
-            None => Ok(table),
+            // the places of a single file are its own
+            None if self.sources.is_single() => Ok(table),
+            None => Ok(moved_table(table, source.range.start)),
         }
     }
 
@@ -154,9 +178,11 @@ impl<'a> Document<'a> {
         let exact = self.spans.get(key).filter(|_| value.is_some());
         let excerpt =
             exact.and_then(|spans| self.excerpt(if spans.value.is_empty() { &spans.key } else { &spans.value }));
+        let offset = self.offset_of(key);
+        let (file, line) = offset.map_or((self.sources.list[0].name.as_str(), None), |offset| self.place(offset));
         self.problems.push(Problem {
-            file: self.file.to_owned(),
-            line: self.line_of(key),
+            file: file.to_owned(),
+            line,
             key: key.chars().take(LONGEST_KEY).collect(),
             value: value.map(|value| shortened(&value)),
             allowed: allowed.into(),
@@ -195,15 +221,22 @@ impl<'a> Document<'a> {
         if problems.is_empty() { Ok(()) } else { Err(CampaignError { problems, more: self.more, note: None }) }
     }
 
-    /// The line of `key`, or of the nearest table around it.
-    fn line_of(&self, key: &str) -> Option<usize> {
+    /// Where `key` is, or the nearest table around it.
+    fn offset_of(&self, key: &str) -> Option<usize> {
         let mut key = key;
         loop {
             if let Some(spans) = self.spans.get(key) {
-                return Some(self.line_at(spans.key.start));
+                return Some(spans.key.start);
             }
             key = &key[..key.rfind(['.', '['])?];
         }
+    }
+
+    /// The source that has the byte `offset`, and the line in it; what is set has no lines.
+    fn place(&self, offset: usize) -> (&'a str, Option<usize>) {
+        let source = self.sources.at(offset);
+        let line = self.line_at(offset) + 1 - self.line_at(source.range.start);
+        (&source.name, source.key.is_none().then_some(line))
     }
 
     pub(super) fn line_at(&self, offset: usize) -> usize {

@@ -61,6 +61,7 @@ pub mod retention;
 mod scene;
 pub mod section;
 pub mod size;
+mod sources;
 pub mod spec;
 pub mod stop;
 mod units;

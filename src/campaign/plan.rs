@@ -14,6 +14,7 @@ use super::memory::PointMemory;
 use super::problem::{CampaignError, Problem};
 use super::retention::Retention;
 use super::size;
+use super::sources::Sources;
 use super::spec::Spec;
 use super::without_effect::{self, acting_scene};
 use crate::control::ControlLaw;
@@ -85,6 +86,8 @@ pub struct Plan {
 pub struct FilesRead {
     /// The campaign file.
     pub campaign: PathBuf,
+    /// The files that it extends.
+    pub extended: Vec<PathBuf>,
     /// The files of numbers that it names, each with the SHA-256 of its bytes.
     pub data: Vec<(PathBuf, String)>,
 }
@@ -92,7 +95,11 @@ pub struct FilesRead {
 impl FilesRead {
     /// All of them.
     pub fn paths(&self) -> Vec<PathBuf> {
-        std::iter::once(&self.campaign).chain(self.data.iter().map(|(path, _)| path)).cloned().collect()
+        std::iter::once(&self.campaign)
+            .chain(&self.extended)
+            .chain(self.data.iter().map(|(path, _)| path))
+            .cloned()
+            .collect()
     }
 }
 
@@ -105,6 +112,8 @@ pub struct Overrides {
     pub seed: Option<u64>,
     /// `--audit`.
     pub audit_fraction: Option<f64>,
+    /// `--set`: dotted keys and their values as texts.
+    pub settings: Vec<(String, String)>,
     /// The control law that the program brings: `[control]` of the file has its parameters.
     pub law: Option<ControlLaw>,
 }
@@ -163,8 +172,8 @@ impl Plan {
     pub fn from_text_of(path: &Path, text: &str, overrides: Overrides) -> Result<(Plan, FilesRead), CampaignError> {
         let file =
             path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
-        let (plan, data) = read(path.parent().unwrap_or(Path::new("")), &file, text, overrides)?;
-        Ok((plan, FilesRead { campaign: path.to_owned(), data }))
+        let (plan, files) = read(path.parent().unwrap_or(Path::new("")), &file, text, overrides)?;
+        Ok((plan, FilesRead { campaign: path.to_owned(), ..files }))
     }
 
     /// The plan of a file's text; `file` is its name in messages.
@@ -216,23 +225,19 @@ impl Plan {
     }
 }
 
-/// The plan of a text, and the files of numbers that the text names, each with the SHA-256 of its bytes.
-fn read(
-    folder: &Path,
-    file: &str,
-    text: &str,
-    overrides: Overrides,
-) -> Result<(Plan, Vec<(PathBuf, String)>), CampaignError> {
-    let mut document = Document::new(file, text).in_folder(folder).under(overrides.law.clone());
+/// The plan of a text, and the files that the text names.
+fn read(folder: &Path, file: &str, text: &str, overrides: Overrides) -> Result<(Plan, FilesRead), CampaignError> {
+    let sources = Sources::read(folder, file, text, &overrides.settings)?;
+    let mut document = Document::new(&sources).under(overrides.law.clone());
     let table = document.parse()?;
     let mut spec = Spec::read(&mut document, &table);
     override_spec(&mut spec, &overrides, &mut document);
     let plan = resolve(spec, &mut document);
-    let files = std::mem::take(&mut document.files);
+    let data = std::mem::take(&mut document.files);
     document.verdict()?;
     let plan = plan.ok_or_else(|| unreachable_plan(file))?;
     let description = plan.description.or_else(|| description::of_comment(text));
-    Ok((Plan { description, ..plan }, files))
+    Ok((Plan { description, ..plan }, FilesRead { campaign: PathBuf::new(), extended: sources.extended, data }))
 }
 
 /// A plan that is missing although no problem was found: impossible, and reported as an error.

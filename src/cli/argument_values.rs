@@ -49,6 +49,17 @@ pub fn fraction(text: &str) -> Result<f64, String> {
     text.parse().ok().filter(|value| (0.0..=1.0).contains(value)).ok_or_else(allowed)
 }
 
+/// A dotted key and its value, `campaign.duration_s=20`; otherwise the allowed form.
+///
+/// # Errors
+/// Where it is none.
+pub fn setting(text: &str) -> Result<(String, String), String> {
+    let parts = text.split_once('=').map(|(key, value)| (key.trim().to_owned(), value.trim().to_owned()));
+    parts
+        .filter(|(key, value)| !key.is_empty() && !value.is_empty())
+        .ok_or_else(|| "must be KEY=VALUE, for instance campaign.duration_s=20".to_owned())
+}
+
 /// A shard, for instance 3/8; otherwise the allowed form.
 ///
 /// # Errors

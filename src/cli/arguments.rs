@@ -5,8 +5,10 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+use crate::campaign::Overrides;
 use crate::cli::argument_values::{
-    count, fraction, group, method, sbatch_option, seconds, shard, shards, shift, threads, time_limit, tolerance,
+    count, fraction, group, method, sbatch_option, seconds, setting, shard, shards, shift, threads, time_limit,
+    tolerance,
 };
 use crate::cli::slurm_script::TimeLimit;
 use crate::observables::Group;
@@ -76,11 +78,30 @@ pub enum Command {
     Columns(ColumnsOptions),
 }
 
+/// What is changed of a campaign file.
+#[derive(Clone, Debug, Default, Args)]
+pub struct Changed {
+    /// Give a key of the campaign file another value, as messages name it: --set campaign.duration_s=20, --set "wheels.w1.rate_rad_s=20 rpm"; may
+    /// be repeated.
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
+    pub settings: Vec<(String, String)>,
+}
+
+impl Changed {
+    /// The same for the reader of the file.
+    pub fn overrides(&self) -> Overrides {
+        Overrides { settings: self.settings.clone(), ..Overrides::default() }
+    }
+}
+
 /// Arguments of `campaign`.
 #[derive(Debug, Args)]
 pub struct CampaignOptions {
     /// The campaign file.
     pub file: PathBuf,
+    /// What is changed of it.
+    #[command(flatten)]
+    pub changed: Changed,
     /// Folder of the result [default: the campaign's name in results/].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
@@ -160,6 +181,9 @@ pub struct FinishOptions {
 pub struct SlurmOptions {
     /// The campaign file.
     pub file: PathBuf,
+    /// What is changed of it.
+    #[command(flatten)]
+    pub changed: Changed,
     /// Number of tasks: each is a shard, on a node or a share of one.
     #[arg(long, value_name = "N", value_parser = shards)]
     pub nodes: NonZeroU64,
@@ -207,6 +231,9 @@ pub struct VerifyOptions {
 pub struct CheckOptions {
     /// The campaign file.
     pub file: PathBuf,
+    /// What is changed of it.
+    #[command(flatten)]
+    pub changed: Changed,
 }
 
 /// Arguments of `compare`.
@@ -233,6 +260,9 @@ pub struct CompareOptions {
 pub struct SimulateOptions {
     /// The campaign file.
     pub file: PathBuf,
+    /// What is changed of it.
+    #[command(flatten)]
+    pub changed: Changed,
     /// The sample, run exactly as the campaign runs it; 0 is the nominal scene.
     #[arg(long, value_name = "K", default_value_t = 0)]
     pub sample: u64,
@@ -256,6 +286,9 @@ pub struct SimulateOptions {
 pub struct SampleOptions {
     /// The campaign file.
     pub file: PathBuf,
+    /// What is changed of it.
+    #[command(flatten)]
+    pub changed: Changed,
     /// Number of samples instead of the file's.
     #[arg(long, value_name = "N", value_parser = count)]
     pub samples: Option<u64>,
@@ -281,6 +314,9 @@ pub struct SampleOptions {
 pub struct PrecisionOptions {
     /// The campaign file; its own method and tolerance are not used.
     pub file: PathBuf,
+    /// What is changed of it.
+    #[command(flatten)]
+    pub changed: Changed,
     /// Number of samples, starting with the nominal one.
     #[arg(long, value_name = "N", default_value = "64")]
     pub samples: std::num::NonZeroU64,

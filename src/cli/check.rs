@@ -2,7 +2,6 @@
 
 use std::fmt::Write as _;
 
-use crate::campaign::Overrides;
 use crate::cli::arguments::CheckOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::{dispersions, screen};
@@ -28,7 +27,7 @@ use crate::workflow::source::plan;
 /// # Errors
 /// Where the campaign file is wrong.
 pub fn run(options: &CheckOptions) -> Result<CommandOutcome, Failure> {
-    let plan = plan(&options.file, Overrides::default())?;
+    let plan = plan(&options.file, options.changed.overrides())?;
     let ensemble = Ensemble::new(&plan, isa()?);
     let scene = Scene::resolve(&plan.nominal)
         .map_err(|errors| Failure::Input(errors.iter().map(|error| format!("{error}\n")).collect()))?;

@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::campaign::Overrides;
 use crate::cli::arguments::PrecisionOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::outputs::refuse_inputs;
@@ -24,7 +23,7 @@ use crate::workflow::source::plan_and_files;
 /// # Errors
 /// Where arguments or campaign file are wrong, a truth cannot be had, or files cannot be written.
 pub fn run(options: &PrecisionOptions) -> Result<CommandOutcome, Failure> {
-    let (plan, files) = plan_and_files(&options.file, Overrides::default())?;
+    let (plan, files) = plan_and_files(&options.file, options.changed.overrides())?;
     let isa = isa()?;
     start_threads().map_err(|error| Failure::Files(format!("cannot start the threads: {error}")))?;
     let methods = options.methods.clone().unwrap_or_else(|| Method::ALL.to_vec());

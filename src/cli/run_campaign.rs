@@ -78,6 +78,9 @@ fn campaign<'a>(options: &CampaignOptions, session: Session<'a>) -> Campaign<'a>
     let outputs =
         Outputs { without_page: options.no_report, figures: options.figures.clone(), junit: options.junit.clone() };
     let mut campaign = Campaign::from_file(&options.file, session).outputs(outputs);
+    for (key, value) in &options.changed.settings {
+        campaign = campaign.set(key, value);
+    }
     if let Some(samples) = options.samples {
         campaign = campaign.samples(samples);
     }
@@ -145,6 +148,9 @@ fn shard_is_done(name: &str, shard: Shard, root: &Path, made: Made) -> String {
 /// The campaign file as a word of the command `simulate`: the file of this command, or the plan in the result where options replaced its
 /// numbers.
 fn replayed(options: &CampaignOptions, root: &Path) -> String {
-    let is_changed = options.samples.is_some() || options.seed.is_some() || options.only_failed_of.is_some();
+    let is_changed = !options.changed.settings.is_empty()
+        || options.samples.is_some()
+        || options.seed.is_some()
+        || options.only_failed_of.is_some();
     if is_changed { quoted_path(&root.join(PLAN)) } else { quoted_path(&options.file) }
 }

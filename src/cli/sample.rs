@@ -29,7 +29,7 @@ pub fn run(options: &SampleOptions) -> Result<CommandOutcome, Failure> {
     if let Some(path) = &options.plot {
         PlotFormat::of(path).map_err(|error| Failure::Input(error.to_string()))?;
     }
-    let overrides = Overrides { samples: options.samples, seed: options.seed, ..Overrides::default() };
+    let overrides = Overrides { samples: options.samples, seed: options.seed, ..options.changed.overrides() };
     let (plan, files) = plan_and_files(&options.file, overrides)?;
     refuse_inputs(&files.paths(), &[("--out", options.out.as_deref()), ("--plot", options.plot.as_deref())])?;
     if let Some(sample) = options.sample {

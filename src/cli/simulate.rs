@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use crate::campaign::{Overrides, Plan};
+use crate::campaign::Plan;
 use crate::cli::arguments::SimulateOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::outputs::refuse_inputs;
@@ -37,7 +37,7 @@ pub fn run(options: &SimulateOptions) -> Result<CommandOutcome, Failure> {
     if let Some(path) = &options.plot {
         PlotFormat::of(path).map_err(|error| Failure::Input(error.to_string()))?;
     }
-    let (plan, files) = plan_and_files(&options.file, Overrides::default())?;
+    let (plan, files) = plan_and_files(&options.file, options.changed.overrides())?;
     refuse_inputs(&files.paths(), &[("--out", options.out.as_deref()), ("--plot", options.plot.as_deref())])?;
     let isa = isa()?;
     if options.sample >= plan.samples {

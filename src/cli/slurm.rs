@@ -20,10 +20,8 @@ use crate::workflow::source::plan;
 /// # Errors
 /// Where the campaign file is wrong, a script cannot be written, or Slurm does not take it.
 pub fn run(options: &SlurmOptions) -> Result<CommandOutcome, Failure> {
-    let plan = plan(
-        &options.file,
-        Overrides { samples: options.samples, seed: options.seed, audit_fraction: None, law: None },
-    )?;
+    let plan =
+        plan(&options.file, Overrides { samples: options.samples, seed: options.seed, ..options.changed.overrides() })?;
     refuse_shards_with_stop(&plan, "slurm")?;
     let many = parts(&plan, isa()?).count();
     let shards = options.nodes.get().min(many);
@@ -40,7 +38,10 @@ pub fn run(options: &SlurmOptions) -> Result<CommandOutcome, Failure> {
         std::env::current_exe().map_err(|error| Failure::files(format!("the path of this program: {error}")))?;
     let program = word(&program)?;
     let number = |flag: &str, value: Option<u64>| value.map(|value| [flag.to_owned(), value.to_string()]);
-    let arguments = [number("--samples", options.samples), number("--seed", options.seed)];
+    let settings =
+        options.changed.settings.iter().map(|(key, value)| Some(["--set".to_owned(), format!("{key}={value}")]));
+    let arguments: Vec<_> =
+        [number("--samples", options.samples), number("--seed", options.seed)].into_iter().chain(settings).collect();
     let jobs = Jobs {
         name: &plan.name,
         program: &program,

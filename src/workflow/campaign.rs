@@ -97,6 +97,13 @@ impl<'a> Campaign<'a> {
         Campaign { text: Some(text.to_owned()), ..Self::from_file(name, session) }
     }
 
+    /// With another value for a key of the file, as messages name it: `("wheels.w1.rate_rad_s", "20 rpm")`.
+    #[must_use]
+    pub fn set(mut self, key: &str, value: &str) -> Self {
+        self.overrides.settings.push((key.to_owned(), value.to_owned()));
+        self
+    }
+
     /// With so many samples, whatever the file says.
     #[must_use]
     pub fn samples(mut self, samples: u64) -> Self {

@@ -20,3 +20,4 @@ mod ranges;
 mod shipped;
 mod spacecraft;
 mod units;
+mod variants;

@@ -1,0 +1,305 @@
+//! [`Sources`]: the texts that a campaign is made of: its file, the files that this extends (`extends = "base.toml"`), and what is set beside them
+//! (`--set campaign.duration_s=20`). They are parsed one by one and laid over one another as one table, in which every value keeps its place.
+
+use super::problem::{CampaignError, Problem};
+use super::size;
+use std::borrow::Cow;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+/// Most files that extend one another.
+const MOST_FILES: usize = 8;
+
+/// One text.
+#[derive(Clone, Debug)]
+pub(super) struct Source {
+    /// Its name in messages.
+    pub name: String,
+    /// The folder from which its paths count.
+    pub folder: PathBuf,
+    /// The dotted key that it sets; `None` of a file.
+    pub key: Option<String>,
+    /// Where it is in the text of all.
+    pub range: Range<usize>,
+}
+
+/// All of them, what is laid over the others first.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Sources {
+    pub list: Vec<Source>,
+    /// Their texts, one after the other.
+    pub text: String,
+    /// The files that the campaign file extends.
+    pub extended: Vec<PathBuf>,
+}
+
+impl Sources {
+    /// The text of `file` in `folder`, the files that it extends, and `settings`, each a dotted key and its value as text.
+    ///
+    /// # Errors
+    /// Where a file that is extended cannot be read.
+    pub fn read(
+        folder: &Path,
+        file: &str,
+        text: &str,
+        settings: &[(String, String)],
+    ) -> Result<Sources, CampaignError> {
+        let mut sources = Sources::default();
+        sources.add(file.to_owned(), folder.to_owned(), None, text);
+        let (mut folder, mut name, mut text) = (folder.to_owned(), file.to_owned(), Cow::Borrowed(text));
+        while let Some((written, line)) = extended(&text) {
+            let path = folder.join(&written);
+            let refuse = |allowed: &str, remedy: &str| {
+                let (value, allowed, remedy) = (Some(format!("{written:?}")), allowed.to_owned(), remedy.to_owned());
+                let (file, key) = (name.clone(), "extends".to_owned());
+                Err(CampaignError::of(Problem { file, line: Some(line), key, value, allowed, remedy, excerpt: None }))
+            };
+            if !path.is_file() {
+                return refuse("a campaign file, by its path from the folder of this file", "check the path");
+            }
+            if sources.extended.len() + 1 >= MOST_FILES {
+                return refuse(
+                    "the last of at most 8 files that extend one another",
+                    "do files extend one another in a circle?",
+                );
+            }
+            let base = size::read(&path, &written)?;
+            folder = path.parent().unwrap_or(Path::new("")).to_owned();
+            sources.add(written.clone(), folder.clone(), None, &base);
+            sources.extended.push(path);
+            (name, text) = (written, Cow::Owned(base));
+        }
+        for (key, value) in settings {
+            // what is no value of TOML is meant as text: 20 rpm
+            let (_, errors) = DeValue::parse_recoverable(value);
+            let quoted = if errors.is_empty() { value.clone() } else { toml::Value::from(value.as_str()).to_string() };
+            sources.add(format!("--set {key}"), PathBuf::new(), Some(key.clone()), &quoted);
+        }
+        Ok(sources)
+    }
+
+    fn add(&mut self, name: String, folder: PathBuf, key: Option<String>, text: &str) {
+        let start = self.text.len();
+        self.text.push_str(text);
+        self.list.push(Source { name, folder, key, range: start..self.text.len() });
+        self.text.push('\n');
+    }
+
+    /// The text that has the byte `offset`.
+    pub fn at(&self, offset: usize) -> &Source {
+        let found = self.list.iter().rfind(|source| source.range.start <= offset);
+        found.unwrap_or(&self.list[0])
+    }
+
+    /// Whether the campaign is one file alone.
+    pub fn is_single(&self) -> bool {
+        self.list.len() == 1
+    }
+}
+
+/// What a text extends, and the line that says so.
+fn extended(text: &str) -> Option<(String, usize)> {
+    let (table, _) = DeTable::parse_recoverable(text);
+    let (key, value) = table.get_ref().get_key_value("extends")?;
+    Some((value.get_ref().as_str()?.to_owned(), text[..key.span().start].lines().count().max(1)))
+}
+
+/// `value` and everything in it, `by` bytes further on.
+fn moved<'a>(value: Spanned<DeValue<'a>>, by: usize) -> Spanned<DeValue<'a>> {
+    let span = value.span();
+    let inner = match value.into_inner() {
+        DeValue::Array(list) => DeValue::Array(list.into_iter().map(|item| moved(item, by)).collect()),
+        DeValue::Table(table) => DeValue::Table(moved_table(table, by)),
+        other => other,
+    };
+    Spanned::new(span.start + by..span.end + by, inner)
+}
+
+/// The same of a table.
+pub(super) fn moved_table<'a>(table: DeTable<'a>, by: usize) -> DeTable<'a> {
+    let entry = |(key, value): (Spanned<Cow<'a, str>>, _)| {
+        let span = key.span();
+        (Spanned::new(span.start + by..span.end + by, key.into_inner()), moved(value, by))
+    };
+    table.into_iter().map(entry).collect()
+}
+
+/// The value that `text` is, which begins at the byte `by` of all texts.
+pub(super) fn value_at<'a>(text: &'a str, by: usize) -> Spanned<DeValue<'a>> {
+    moved(DeValue::parse_recoverable(text).0, by)
+}
+
+/// Lays `over` over `base`: tables key by key; lists of tables by `name`, or by `parameter`; a table with another `kind`, `distribution` or `shape`, and
+/// everything else, takes the place of what is below.
+pub(super) fn lay_over<'a>(base: &mut DeTable<'a>, over: DeTable<'a>) {
+    for (key, value) in over {
+        let place = base.remove(key.get_ref().as_ref());
+        let value = match place {
+            Some(below) => laid(below, value),
+            None => value,
+        };
+        base.insert(key, value);
+    }
+}
+
+fn laid<'a>(below: Spanned<DeValue<'a>>, over: Spanned<DeValue<'a>>) -> Spanned<DeValue<'a>> {
+    let span = over.span();
+    let inner = match (below.into_inner(), over.into_inner()) {
+        (DeValue::Table(mut below), DeValue::Table(over)) if !is_other_kind(&below, &over) => {
+            lay_over(&mut below, over);
+            DeValue::Table(below)
+        }
+        (DeValue::Array(mut below), DeValue::Array(over)) if is_named(&below) && is_named(&over) => {
+            for item in over {
+                match below.iter().position(|other| identity(other) == identity(&item)) {
+                    Some(place) => {
+                        let of_base =
+                            std::mem::replace(&mut below.as_mut()[place], Spanned::new(0..0, DeValue::Boolean(false)));
+                        below.as_mut()[place] = laid(of_base, item);
+                    }
+                    None => below.push(item),
+                }
+            }
+            DeValue::Array(below)
+        }
+        (_, over) => over,
+    };
+    Spanned::new(span, inner)
+}
+
+/// Whether a table says anew of which kind it is.
+fn is_other_kind(below: &DeTable<'_>, over: &DeTable<'_>) -> bool {
+    let text =
+        |table: &DeTable<'_>, key: &str| table.get(key).and_then(|value| value.get_ref().as_str().map(str::to_owned));
+    ["kind", "distribution", "shape"]
+        .iter()
+        .any(|key| text(over, key).is_some_and(|kind| text(below, key) != Some(kind)))
+}
+
+/// What a table of a list is known by.
+fn identity<'v>(item: &'v Spanned<DeValue<'_>>) -> Option<&'v str> {
+    let table = item.get_ref().as_table()?;
+    ["name", "parameter"].iter().find_map(|key| table.get(*key)?.get_ref().as_str())
+}
+
+fn is_named(list: &[Spanned<DeValue<'_>>]) -> bool {
+    list.iter().all(|item| identity(item).is_some())
+}
+
+/// Puts `value` where the dotted `path` leads: through tables, and through lists of tables by name (`wheels.w1.rate_rad_s`) or by number from zero
+/// (`require[0].at_most`). Tables that are not there are made.
+///
+/// # Errors
+/// What is not there, in words.
+pub(super) fn put<'a>(table: &mut DeTable<'a>, path: &str, value: Spanned<DeValue<'a>>) -> Result<(), String> {
+    let (first, rest) = match path.split_once('.') {
+        Some((first, rest)) => (first, Some(rest)),
+        None => (path, None),
+    };
+    let (key, index) = match first.strip_suffix(']').and_then(|first| first.split_once('[')) {
+        Some((key, index)) => (key, Some(index.parse::<usize>().map_err(|_| format!("{index:?} is no number"))?)),
+        None => (first, None),
+    };
+    if key.is_empty() {
+        return Err("a key is empty".to_owned());
+    }
+    let named = |value: Spanned<DeValue<'a>>| (Spanned::new(value.span(), Cow::Owned(key.to_owned())), value);
+    let Some(rest) = rest else {
+        if index.is_some() {
+            return Err(format!("{first} is a table: name a key in it"));
+        }
+        table.remove(key);
+        let (key, value) = named(value);
+        table.insert(key, value);
+        return Ok(());
+    };
+    if !table.contains_key(key) {
+        let (key, value) = named(Spanned::new(value.span(), DeValue::Table(DeTable::new())));
+        table.insert(key, value);
+    }
+    match table.get_mut(key).map(Spanned::get_mut) {
+        Some(DeValue::Table(inner)) if index.is_none() => put(inner, rest, value),
+        Some(DeValue::Array(list)) => {
+            let (place, rest) = match (index, rest.split_once('.')) {
+                (Some(index), _) => (Some(index).filter(|index| *index < list.len()), rest),
+                (None, Some((name, rest))) => (list.iter().position(|item| identity(item) == Some(name)), rest),
+                (None, None) => return Err(format!("{key} is a list: name a table of it and a key")),
+            };
+            match place.map(|place| list.as_mut()[place].get_mut()) {
+                Some(DeValue::Table(inner)) => put(inner, rest, value),
+                _ => Err(format!("there is no such table in [[{key}]]")),
+            }
+        }
+        _ => Err(format!("{key} is no table")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table(text: &str) -> DeTable<'_> {
+        DeTable::parse(text).expect("TOML").into_inner()
+    }
+
+    fn shown(table: &DeTable<'_>, path: &[&str]) -> String {
+        let mut value = table.get(path[0]).expect("there");
+        for key in &path[1..] {
+            let index = key.parse::<usize>();
+            value = match index {
+                Ok(index) => &value.get_ref().as_array().expect("a list")[index],
+                Err(_) => value.get_ref().as_table().expect("a table").get(*key).expect("there"),
+            };
+        }
+        match value.get_ref() {
+            DeValue::Integer(number) => number.as_str().to_owned(),
+            DeValue::String(text) => text.to_string(),
+            other => format!("{other:?}"),
+        }
+    }
+
+    /// Law: a key of the file takes the place of the same key below; other keys stay; tables of lists are found by name or parameter; another kind
+    /// is another table.
+    #[test]
+    fn files_are_laid_over_one_another() {
+        let mut base = table(
+            "[a]\nx = 1\ny = 2\n[[w]]\nname = \"one\"\nx = 1\ny = 1\n[[w]]\nname = \"two\"\nx = 2\n[d]\nkind = \"grid\"\nlevels = 3\n[[r]]\nx = 1\n[[r]]\nx = 2",
+        );
+        lay_over(
+            &mut base,
+            table(
+                "[a]\nx = 5\n[[w]]\nname = \"two\"\nx = 7\n[[w]]\nname = \"three\"\nx = 8\n[d]\nkind = \"random\"\n[[r]]\nx = 9",
+            ),
+        );
+        let found = |path: &[&str]| shown(&base, path);
+        assert_eq!((found(&["a", "x"]), found(&["a", "y"])), ("5".to_owned(), "2".to_owned()));
+        assert_eq!(
+            (found(&["w", "0", "x"]), found(&["w", "1", "x"]), found(&["w", "2", "x"])),
+            ("1".into(), "7".into(), "8".into())
+        );
+        let design = base.get("d").and_then(|d| d.get_ref().as_table()).expect("a table");
+        assert!(!design.contains_key("levels"));
+        assert_eq!(base.get("r").and_then(|r| r.get_ref().as_array()).map(|list| list.len()), Some(1));
+    }
+
+    /// Law: a setting goes where its path leads, and says what is not there.
+    #[test]
+    fn settings_go_where_their_paths_lead() {
+        let mut whole = table("[a]\nx = 1\n[[w]]\nname = \"one\"\nx = 1\n[[r]]\nx = 1");
+        for (path, read) in [
+            ("a.x", vec!["a", "x"]),
+            ("a.b.c", vec!["a", "b", "c"]),
+            ("w.one.x", vec!["w", "0", "x"]),
+            ("r[0].x", vec!["r", "0", "x"]),
+            ("new.key", vec!["new", "key"]),
+        ] {
+            put(&mut whole, path, value_at("42", 7)).expect(path);
+            assert_eq!(shown(&whole, &read), "42", "{path}");
+        }
+        for wrong in ["w.two.x", "r[3].x", "r[0]", "a..b", "a.x.y", "w.one"] {
+            assert!(put(&mut whole, wrong, value_at("42", 0)).is_err(), "{wrong}");
+        }
+    }
+}
