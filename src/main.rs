@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 use spindrift::cli::arguments::{Command, arguments};
 use spindrift::cli::{
-    check, columns, command_outcome, compare, finish_campaign, precision, report, run_campaign, sample, simulate,
+    check, columns, command_outcome, compare, finish_campaign, new, precision, report, run_campaign, sample, simulate,
     slurm, verify,
 };
 
@@ -19,6 +19,7 @@ fn main() -> ExitCode {
         Command::Check(options) => check::run(&options),
         Command::Compare(options) => compare::run(&options),
         Command::Columns(options) => columns::run(&options),
+        Command::New(options) => new::run(&options),
         Command::Precision(options) => precision::run(&options),
         Command::Report(options) => report::run(&options),
         Command::Sample(options) => sample::run(&options),

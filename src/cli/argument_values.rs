@@ -2,25 +2,12 @@
 
 use std::num::{NonZeroU64, NonZeroUsize};
 
-use crate::campaign::section::choice;
 use crate::cli::slurm_script::TimeLimit;
-use crate::observables::Group;
 use crate::propagation::Method;
 use crate::storage::claim::Shard;
 
 /// Most shards of a campaign.
 const MOST_SHARDS: u64 = 1_000_000;
-
-/// The group of that name; otherwise the list of names.
-///
-/// # Errors
-/// Where it is none.
-pub fn group(name: &str) -> Result<Group, String> {
-    Group::from_name(name).ok_or_else(|| {
-        let (allowed, remedy) = choice(name, &Group::ALL.map(Group::name));
-        format!("must be {allowed}; {remedy}")
-    })
-}
 
 /// The method of that name; otherwise the list of names.
 ///

@@ -7,11 +7,9 @@ use clap::{Args, Parser, Subcommand};
 
 use crate::campaign::Overrides;
 use crate::cli::argument_values::{
-    count, fraction, group, method, sbatch_option, seconds, setting, shard, shards, shift, threads, time_limit,
-    tolerance,
+    count, fraction, method, sbatch_option, seconds, setting, shard, shards, shift, threads, time_limit, tolerance,
 };
 use crate::cli::slurm_script::TimeLimit;
-use crate::observables::Group;
 use crate::propagation::Method;
 use crate::storage::claim::Shard;
 
@@ -73,6 +71,9 @@ pub enum Command {
     /// Measure run time against error for every method and tolerance: a table, a Parquet file, a plot.
     #[command(after_help = EXIT_CODES)]
     Precision(PrecisionOptions),
+    /// Write a campaign file to start from.
+    #[command(after_help = EXIT_CODES)]
+    New(NewOptions),
     /// Show the columns of the rows of a result: name, unit, meaning.
     #[command(after_help = EXIT_CODES)]
     Columns(ColumnsOptions),
@@ -344,12 +345,19 @@ pub struct PrecisionOptions {
     pub out: Option<PathBuf>,
 }
 
+/// Arguments of `new`.
+#[derive(Debug, Args)]
+pub struct NewOptions {
+    /// The file that is written; one that is there is not replaced.
+    #[arg(default_value = "start.toml")]
+    pub file: PathBuf,
+}
+
 /// Arguments of `columns`.
 #[derive(Debug, Args)]
 pub struct ColumnsOptions {
-    /// A group of columns, named as in campaign files [default: all].
-    #[arg(value_parser = group)]
-    pub group: Option<Group>,
+    /// A group of columns, named as in campaign files, or a word: the columns that have it in name or meaning [default: all].
+    pub word: Option<String>,
     /// Show the columns of this campaign, with the names of its wheels, its dispersed values and audits.
     #[arg(long, value_name = "FILE")]
     pub campaign: Option<PathBuf>,

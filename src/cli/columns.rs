@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use crate::campaign::problem::nearest;
 use crate::campaign::{Overrides, Plan};
 use crate::cli::arguments::ColumnsOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
@@ -22,18 +23,45 @@ pub fn run(options: &ColumnsOptions) -> Result<CommandOutcome, Failure> {
         None => of_all_campaigns(),
         Some(file) => of_campaign(&plan(file, Overrides::default())?)?,
     };
-    let is_asked = |section: &Section| options.group.is_none_or(|group| section.title == group.name());
-    let shown: Vec<&Section> = sections.iter().filter(|section| is_asked(section)).collect();
-    if shown.is_empty() {
-        let groups: Vec<&str> = sections.iter().map(|section| section.title.as_str()).collect();
-        let group = options.group.map_or("", Group::name);
-        return Err(Failure::Input(format!("{group}: the rows of this campaign have {}", groups.join(", "))));
-    }
+    let shown = match &options.word {
+        None => sections,
+        Some(word) => found(&sections, word).ok_or_else(|| {
+            let groups: Vec<&str> = sections.iter().map(|section| section.title.as_str()).collect();
+            let words = sections.iter().flat_map(|section| section.columns.iter().map(|(quantity, _)| quantity.name()));
+            let meant = nearest(word, words.chain(groups.iter().copied()));
+            let meant = meant.map_or(String::new(), |meant| format!("; did you mean {meant}?"));
+            Failure::Input(format!(
+                "{word}: must be a group ({}) or a word in a column's name or meaning{meant}",
+                groups.join(", ")
+            ))
+        })?,
+    };
     screen::print(&text(&shown))?;
     Ok(CommandOutcome::Done)
 }
 
+/// The group called `word`; or of all groups the columns with the word in their name, their unit or their meaning. `None` where there is none.
+fn found(sections: &[Section], word: &str) -> Option<Vec<Section>> {
+    if let Some(group) = sections.iter().find(|section| section.title == word) {
+        return Some(vec![group.clone()]);
+    }
+    if Group::from_name(word).is_some() {
+        return None; // it is not observed
+    }
+    let word = word.to_lowercase();
+    let has = |(quantity, _): &&(Quantity, &'static str)| {
+        [quantity.name(), quantity.unit(), quantity.meaning()].iter().any(|text| text.to_lowercase().contains(&word))
+    };
+    let columns = |section: &Section| Section {
+        title: section.title.clone(),
+        columns: section.columns.iter().filter(has).cloned().collect(),
+    };
+    let found: Vec<Section> = sections.iter().map(columns).filter(|section| !section.columns.is_empty()).collect();
+    (!found.is_empty()).then_some(found)
+}
+
 /// Columns with a title.
+#[derive(Clone)]
 struct Section {
     title: String,
     columns: Vec<(Quantity, &'static str)>,
@@ -75,7 +103,7 @@ const SAMPLE: &str = "the sample and what it applies";
 /// Title of the columns after them.
 const AUDIT: &str = "audit";
 
-fn text(sections: &[&Section]) -> String {
+fn text(sections: &[Section]) -> String {
     let all = || sections.iter().flat_map(|section| &section.columns);
     let width = |text: fn(&Quantity) -> &str| all().map(|(q, _)| text(q).chars().count()).max().unwrap_or(0);
     let (names, units) = (width(Quantity::name), width(Quantity::unit));

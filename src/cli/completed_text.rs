@@ -1,8 +1,12 @@
 //! [`text`]: what a command prints of a result that it has finished.
 
+use std::path::Path;
+
 use crate::report::audit_summary::cost;
 use crate::report::drivers_text;
 use crate::report::number::bytes;
+use crate::report::summary::SummaryEnd;
+use crate::storage::names::REPORT;
 use crate::workflow::Completed;
 
 /// The result in words; `replayed` is the campaign file as a word of the command `simulate`.
@@ -24,6 +28,14 @@ pub fn text(completed: &Completed, replayed: &str) -> String {
         if completed.files == 1 { "" } else { "s" },
         bytes(completed.bytes),
     )
+}
+
+/// The verdicts of a finished result in `root`, and its page.
+pub fn of_end(end: &SummaryEnd, root: &Path) -> String {
+    let verdicts: String = end.verdicts.iter().map(|(one, verdict)| format!("  {verdict:<10}{one}\n")).collect();
+    let page = root.join(REPORT);
+    let page = if page.is_file() { format!("  {}\n", page.display()) } else { String::new() };
+    verdicts + &page
 }
 
 fn headline(completed: &Completed) -> String {

@@ -29,9 +29,14 @@ pub fn run(options: &FinishOptions) -> Result<CommandOutcome, Failure> {
             CommandOutcome::of_campaign(completed.failed_runs, completed.failed, completed.undecided),
             completed_text::text(&completed, &quoted_path(&root.join(PLAN))),
         ),
-        Finished::Already(end) => {
-            (CommandOutcome::of_end(&end), format!("{}: already finished, every checksum verified\n", root.display()))
-        }
+        Finished::Already(end) => (
+            CommandOutcome::of_end(&end),
+            format!(
+                "{}: already finished, every checksum verified\n{}",
+                root.display(),
+                completed_text::of_end(&end, root)
+            ),
+        ),
     };
     screen::print(&text)?;
     Ok(outcome)

@@ -44,10 +44,11 @@ pub fn run(options: &CampaignOptions) -> Result<CommandOutcome, Failure> {
                 _ => String::new(),
             };
             screen::print(&format!(
-                "{}: already complete in {} ({} samples{failed}), every checksum verified; nothing to do. --overwrite runs it again.\n",
+                "{}: already complete in {} ({} samples{failed}), every checksum verified; nothing to do. --overwrite runs it again.\n{}",
                 plan.name,
                 root.display(),
                 end.rows,
+                completed_text::of_end(&end, root),
             ))?;
             // the verdicts are those of the campaign, not of a shard
             Ok(if options.shard.is_some() { CommandOutcome::Done } else { outcome })

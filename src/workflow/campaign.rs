@@ -248,6 +248,9 @@ impl PreparedCampaign<'_> {
         let ready = match claimed.map_err(WorkflowError::files)? {
             Claim::Finished(finished) => {
                 say_notes(session, root, &finished.notes);
+                if let Some(file) = outputs.junit.as_deref().filter(|_| shard.is_none()) {
+                    Results::open(root, *session)?.write_junit(file)?;
+                }
                 return end_of(root, &finished.summary).map(CampaignOutcome::AlreadyFinished);
             }
             Claim::Ready(ready) => *ready,

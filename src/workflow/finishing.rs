@@ -27,6 +27,7 @@ use crate::storage::table_log;
 use crate::workflow::analysed::{Analysed, analyse, write_junit};
 use crate::workflow::error::WorkflowError;
 use crate::workflow::page;
+use crate::workflow::results::Results;
 use crate::workflow::session::Session;
 use crate::workflow::source::plan_in;
 
@@ -277,6 +278,9 @@ pub fn finish(
     let ready = match claimed {
         Claim::Finished(finished) => {
             say_notes(session, root, &finished.notes);
+            if let Some(file) = &outputs.junit {
+                Results::open(root, *session)?.write_junit(file)?;
+            }
             return end_of(root, &finished.summary).map(Finished::Already);
         }
         Claim::Ready(ready) => *ready,

@@ -17,7 +17,7 @@ use crate::storage::manifest::PartRecord;
 use crate::storage::names::{SUMMARY, TRAJECTORIES};
 use crate::storage::parts_read::PartsRead;
 use crate::storage::rows_reader::RowsReader;
-use crate::workflow::analysed::{Analysed, computed};
+use crate::workflow::analysed::{Analysed, computed, write_junit};
 use crate::workflow::error::WorkflowError;
 use crate::workflow::finishing::{Finished, Outputs, finish};
 use crate::workflow::session::Session;
@@ -175,6 +175,14 @@ impl<'a> Results<'a> {
     pub fn compare(&self, other: &Results<'_>) -> Result<Comparison, WorkflowError> {
         let [first, second] = [self, other].map(|one| ResultRows { plan: &one.plan, reader: &one.reader });
         compare(first, second, self.session.threads).map_err(WorkflowError::files)
+    }
+
+    /// Writes the verdicts as JUnit XML.
+    ///
+    /// # Errors
+    /// Where a file cannot be read or written.
+    pub fn write_junit(&self, file: &Path) -> Result<(), WorkflowError> {
+        write_junit(&self.plan, &self.analysed()?, self.end()?.failed, Some(file))
     }
 
     /// How the campaign ended, as its summary says.

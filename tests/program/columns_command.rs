@@ -3,7 +3,7 @@
 use spindrift::observables::{Group, table};
 
 use super::small_campaign::folder;
-use crate::support::scratch_folder::batches;
+use crate::support::scratch_folder::{ScratchFolder, batches};
 
 /// Law: without a campaign every column of the table is there once, with unit and meaning, under its group; with a group, those alone.
 #[test]
@@ -29,8 +29,35 @@ fn every_column_is_shown() {
     let exchange = scratch.prints("columns exchange", 0);
     let of_group = table::all().filter(|column| column.group == Group::Exchange).count();
     assert_eq!(exchange.lines().count(), 1 + of_group);
-    let refused = scratch.prints("columns exchang", 2);
-    assert!(refused.contains("did you mean \"exchange\"?"), "{refused}");
+    let refused = scratch.prints("columns exchagne", 2);
+    assert!(refused.contains("did you mean exchange?"), "{refused}");
+    // a word finds the columns that have it in name, unit or meaning, and no others
+    let word = scratch.prints("columns TILTS", 0);
+    let has = |text: &str| text.to_lowercase().contains("tilts");
+    let meant = table::all().map(|column| column.quantity.clone());
+    let meant = meant.filter(|one| has(one.name()) || has(one.unit()) || has(one.meaning())).count();
+    assert!(meant > 2 && word.lines().filter(|line| line.starts_with("  ")).count() == meant, "{word}");
+}
+
+/// Law: the file that `new` writes has the name that was asked for and runs as it is, with its requirement decided; a file that is there stays.
+#[test]
+fn a_new_file_runs() {
+    let scratch = ScratchFolder::new("new-file");
+    scratch.prints("new mine.toml", 0);
+    let text = std::fs::read_to_string(scratch.path("mine.toml")).unwrap();
+    assert!(text.contains("name = \"mine\""), "{text}");
+    let said = scratch.prints("campaign mine.toml --out r", 0);
+    assert!(said.contains("PASS"), "{said}");
+    scratch.prints("new mine.toml", 4);
+    assert_eq!(std::fs::read_to_string(scratch.path("mine.toml")).unwrap(), text);
+    // the same campaign again says how it ended, and writes the verdicts where they are asked for
+    let again = scratch.prints("campaign mine.toml --out r --junit v.xml", 0);
+    assert!(again.contains("PASS") && again.contains("r/report.html"), "{again}");
+    let verdicts = std::fs::read_to_string(scratch.path("v.xml")).unwrap();
+    assert!(verdicts.contains("testcase") && !verdicts.contains("<failure"), "{verdicts}");
+    std::fs::remove_file(scratch.path("v.xml")).unwrap();
+    scratch.prints("finish r --junit v.xml", 0);
+    assert_eq!(std::fs::read_to_string(scratch.path("v.xml")).unwrap(), verdicts);
 }
 
 /// Law: with a campaign the columns are those of its files of rows, in their order; a group that it does not observe is refused.
@@ -45,6 +72,6 @@ fn the_columns_of_a_campaign_are_those_of_its_rows() {
     let without_audits: Vec<&String> = names.iter().filter(|name| !name.starts_with("audit_")).collect();
     assert_eq!(shown, without_audits);
     let refused = scratch.prints("columns motion --campaign small.toml", 2);
-    assert!(refused.contains("motion: the rows of this campaign have"), "{refused}");
+    assert!(refused.contains("motion: must be a group"), "{refused}");
     assert!(scratch.prints("columns exchange --campaign small.toml", 0).contains("exchange_w1_peak_to_peak_j"));
 }

@@ -109,7 +109,11 @@ fn program_problem(words: &[&str]) -> Option<String> {
         Command::Precision(options) => &options.file,
         Command::Slurm(options) => &options.file,
         // a folder that a campaign has made
-        Command::Compare(_) | Command::CompleteResult(_) | Command::Report(_) | Command::Verify(_) => return None,
+        Command::Compare(_)
+        | Command::CompleteResult(_)
+        | Command::New(_)
+        | Command::Report(_)
+        | Command::Verify(_) => return None,
         Command::Columns(options) => options.campaign.as_ref()?,
     };
     // `my_sweep.toml` is the file that the README asks the reader to save; FILE means any

@@ -1,0 +1,32 @@
+//! `spindrift new`: writes a campaign file to start from.
+
+use std::fs::OpenOptions;
+use std::io::Write;
+
+use crate::cli::arguments::NewOptions;
+use crate::cli::command_outcome::{CommandOutcome, Failure};
+use crate::cli::screen;
+use crate::report::shell_word::quoted_path;
+
+/// The file: a spacecraft with a wheel, what is uncertain of it, and a requirement.
+const START: &str = include_str!("../../assets/start.toml");
+
+/// Runs the command.
+///
+/// # Errors
+/// Where the file is there already, or cannot be written.
+pub fn run(options: &NewOptions) -> Result<CommandOutcome, Failure> {
+    let path = &options.file;
+    let name = path.file_stem().and_then(|name| name.to_str()).unwrap_or("start");
+    let is_plain = name.chars().all(|letter| letter.is_ascii_alphanumeric() || "_-".contains(letter));
+    let name = if is_plain && !name.starts_with('-') { name } else { "start" };
+    let file = OpenOptions::new().write(true).create_new(true).open(path);
+    let text = START.replace("name = \"start\"", &format!("name = \"{name}\""));
+    file.and_then(|mut file| file.write_all(text.as_bytes()))
+        .map_err(|error| Failure::Files(format!("{}: {error}", path.display())))?;
+    let file = quoted_path(path);
+    screen::print(&format!(
+        "{file}: a campaign to start from; its comments say what can be changed\n  spindrift check {file}\n  spindrift campaign {file}\n"
+    ))?;
+    Ok(CommandOutcome::Done)
+}
