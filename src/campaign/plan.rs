@@ -15,7 +15,6 @@ use super::problem::{CampaignError, Problem};
 use super::retention::Retention;
 use super::size;
 use super::spec::Spec;
-use super::without_effect::{self, acting_scene};
 use crate::dynamics::debris::is_isotropic;
 use crate::observables::window::MAX_WINDOWS;
 use crate::observables::{Group, Request};
@@ -23,6 +22,7 @@ use crate::ode::Tolerance;
 use crate::propagation::Method;
 use crate::run::Grid;
 use crate::sampling::{Correlation, Derivation, Design, Dispersion, Dispersions, Draws};
+use crate::scene::schedule::applied;
 use crate::scene::{Scene, SceneInput};
 use std::path::{Path, PathBuf};
 
@@ -175,11 +175,6 @@ impl Plan {
         self.request_over(self.grid.duration())
     }
 
-    /// The nominal scene with the commands that act in a run, in it or in any draw.
-    pub fn acting_scene(&self) -> SceneInput {
-        acting_scene(self.grid.duration(), &self.nominal, &self.dispersions)
-    }
-
     /// What decides how much memory an observation point takes.
     pub fn point_memory(&self) -> PointMemory {
         let debris = Scene::resolve(&self.nominal).ok().and_then(|scene| scene.mass.debris);
@@ -196,8 +191,7 @@ impl Plan {
 
     /// The observables that it requests of runs of `duration` seconds, which decides which commands of the schedule act.
     pub fn request_over(&self, duration: f64) -> Request {
-        let acting = acting_scene(duration, &self.nominal, &self.dispersions);
-        let mut request = request(&self.groups, &acting, self.method);
+        let mut request = request(&self.groups, &acting_scene(duration, &self.nominal, &self.dispersions), self.method);
         self.analysis.windows().take(MAX_WINDOWS).for_each(|window| request.windows.push(window));
         request
     }
@@ -228,6 +222,16 @@ fn read(
     let plan = plan.ok_or_else(|| unreachable_plan(file))?;
     let description = plan.description.or_else(|| description::of_comment(text));
     Ok((Plan { description, ..plan }, files))
+}
+
+/// The nominal scene with the commands that may act in a run of `duration` seconds: without arcs that start later, unless draws move them.
+fn acting_scene(duration: f64, scene: &SceneInput, dispersions: &Dispersions) -> SceneInput {
+    let mut acting = scene.clone();
+    if !dispersions.columns().iter().any(|column| column.parameter.facts().key.ends_with("_delay_s")) {
+        let mut starts = (0..scene.actuation.len()).map(|arc| applied(scene, arc).start);
+        acting.actuation.retain(|_| starts.next().is_some_and(|start| start < duration));
+    }
+    acting
 }
 
 /// A plan that is missing although no problem was found: impossible, and reported as an error.
@@ -311,10 +315,6 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
             None
         }
     };
-
-    if let (Some(duration), Some(dispersions)) = (spec.duration_s, &dispersions) {
-        without_effect::refuse(duration, &spec.scene, &drawn, dispersions, document);
-    }
 
     let mut groups = spec.groups.unwrap_or_else(|| Group::DEFAULT.to_vec());
     groups.sort_by_key(|group| Group::ALL.iter().position(|known| known == group));

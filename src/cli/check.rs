@@ -7,7 +7,8 @@ use crate::cli::arguments::CheckOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::input::{isa, plan};
 use crate::cli::{dispersions, screen};
-use crate::ensemble::influence::without_effect;
+use crate::ensemble::influence;
+use crate::ensemble::plausibility::implausible;
 use crate::ensemble::probe::{AuditProbe, LongRun, RunProbe};
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::{Ensemble, Part, PartId};
@@ -19,7 +20,7 @@ use crate::report::number::{bytes, short};
 use crate::run::StateField;
 use crate::sampling::SampleId;
 use crate::scene::mass::{Body, Wheel};
-use crate::scene::{ActuationInput, MassProperties, Scene, SceneInput, WheelMode};
+use crate::scene::{MassProperties, Scene, SceneInput, WheelMode};
 use crate::storage::rows_file::RowsFile;
 
 /// Runs the command.
@@ -39,11 +40,8 @@ pub fn run(options: &CheckOptions) -> Result<CommandOutcome, Failure> {
         masses(&mut text, &plan.nominal, &scene.mass)?;
         section(&mut text, "Dispersions")?;
         dispersions::table(&mut text, &plan)?;
-        let unseen = without_effect(&plan, ensemble.isa()).unwrap_or_default();
-        let unseen = unseen.iter().map(|parameter| {
-            format!("{parameter} does not affect any requested column (observe.groups), in the samples that were tried")
-        });
-        let notes: Vec<String> = plan.notes().into_iter().chain(plan.implausible()).chain(unseen).collect();
+        let unseen = influence::notes(&plan, ensemble.isa());
+        let notes: Vec<String> = plan.notes().into_iter().chain(implausible(&plan)).chain(unseen).collect();
         if !notes.is_empty() {
             section(&mut text, "Notes")?;
         }
@@ -82,7 +80,7 @@ fn masses(text: &mut String, input: &SceneInput, mass: &MassProperties) -> std::
     let names = input.turning_wheels();
     let wheels = names.iter().zip(&mass.wheels).map(|(name, wheel)| (format!("wheel {name}"), wheel.mass));
     let debris = mass.debris.as_ref().map(|debris| ("debris".to_owned(), debris.mass));
-    let body = [("body".to_owned(), mass.fuselage.mass)];
+    let body = [("body".to_owned(), mass.body.mass)];
     let all = body.into_iter().chain(wheels).chain([("spacecraft".to_owned(), mass.total)]).chain(debris);
     for (body, mass) in all {
         writeln!(text, "{body:<24}{mass:>24?} kg")?;
@@ -96,7 +94,7 @@ fn masses(text: &mut String, input: &SceneInput, mass: &MassProperties) -> std::
     rows(text, axes)?;
     if !mass.wheels.is_empty() {
         tensor(text, "the same minus the wheels' axial inertias (J*, wheels free)", mass.inertia_free)?;
-        tensor(text, "inertia of the body about its own centre of mass", mass.fuselage.inertia)?;
+        tensor(text, "inertia of the body about its own centre of mass", mass.body.inertia)?;
     }
     for (name, wheel) in names.iter().zip(&mass.wheels) {
         let (axial, transverse, mode) = (wheel.axial, wheel.transverse, wheel.mode.name());
@@ -144,18 +142,15 @@ fn computed(text: &mut String, ensemble: &Ensemble<'_>) -> std::fmt::Result {
         }
     }
     let scene = &ensemble.plan().nominal;
-    let acting = ensemble.plan().acting_scene();
-    let acts = |commands: fn(&ActuationInput) -> &[f64]| {
-        acting.actuation.iter().flat_map(commands).any(|command| *command != 0.0)
-    };
+    let acting = ensemble.request().actuated;
     let is_held = scene.wheels.iter().any(|wheel| wheel.mode == WheelMode::SpeedHeld);
     for (term, exists, scheduled, held) in [
-        ("thrust", !scene.thrusters.is_empty(), acts(|arc| &arc.thrust_n), false),
-        ("wheel motors", !scene.turning_wheels().is_empty(), acts(|arc| &arc.torque_n_m), is_held),
+        ("thrust", !scene.thrusters.is_empty(), acting.thrusters, false),
+        ("wheel motors", !scene.turning_wheels().is_empty(), acting.motors, is_held),
     ] {
         let why = match (scheduled, held) {
-            (true, _) => "needed because of the schedule",
-            (_, true) => "needed because they hold the speed of wheels",
+            (true, true) => "needed because they hold the speed of wheels",
+            (true, false) => "needed because of the schedule",
             _ => "not computed: no command of the schedule acts",
         };
         if exists {
