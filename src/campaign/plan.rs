@@ -9,13 +9,11 @@ use super::compression::Compression;
 use super::description;
 use super::document::Document;
 use super::draw_tables::DrawTables;
-use super::limits::{FRACTION, LARGEST_SEED, MAX_SAMPLES, MOST_MEMORY};
-use super::memory::PointMemory;
+use super::limits::{FRACTION, LARGEST_SEED, MAX_SAMPLES};
 use super::problem::{CampaignError, Problem};
 use super::retention::Retention;
 use super::size;
 use super::spec::Spec;
-use crate::dynamics::debris::is_isotropic;
 use crate::observables::window::MAX_WINDOWS;
 use crate::observables::{Group, Request};
 use crate::ode::Tolerance;
@@ -175,20 +173,6 @@ impl Plan {
         self.request_over(self.grid.duration())
     }
 
-    /// What decides how much memory an observation point takes.
-    pub fn point_memory(&self) -> PointMemory {
-        let debris = Scene::resolve(&self.nominal).ok().and_then(|scene| scene.mass.debris);
-        let is_drawn =
-            || self.dispersions.columns().iter().any(|column| column.parameter.name().starts_with("debris."));
-        PointMemory {
-            method: self.method,
-            request: self.request(),
-            debris_turns: debris.is_some_and(|body| !is_isotropic(&body) || is_drawn()),
-            audits: self.audit_fraction > 0.0,
-            keeps_series: self.retention != Retention::None,
-        }
-    }
-
     /// The observables that it requests of runs of `duration` seconds, which decides which commands of the schedule act.
     pub fn request_over(&self, duration: f64) -> Request {
         let mut request = request(&self.groups, &acting_scene(duration, &self.nominal, &self.dispersions), self.method);
@@ -338,7 +322,7 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
     if let Some(chosen) = &spec.chosen {
         chosen.check(dispersions.samples(), spec.analysis.stop.is_some(), document);
     }
-    let plan = Plan {
+    Some(Plan {
         name: spec.name?,
         description: spec.description,
         samples: dispersions.samples(),
@@ -362,26 +346,7 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
         compression: spec.compression.unwrap_or(Compression::Lz4),
         analysis: spec.analysis,
         retention: spec.retention.unwrap_or_default(),
-    };
-    check_memory(&plan, document);
-    Some(plan)
-}
-
-/// Refuses more observation points than a thread may have memory for.
-fn check_memory(plan: &Plan, document: &mut Document<'_>) {
-    let (points, each) = (plan.grid.points() as u64, plan.point_memory().bytes());
-    let bytes = points.saturating_mul(each);
-    if bytes > MOST_MEMORY {
-        let gigabytes = |bytes: u64| bytes as f64 / 1e9;
-        let allowed = format!(
-            "at most {}: this campaign takes some {each} bytes a point in each thread, here {:.1} GB of at most {:.1} GB",
-            MOST_MEMORY / each,
-            gigabytes(bytes),
-            gigabytes(MOST_MEMORY),
-        );
-        let remedy = "write fewer points; simulate --times shows one run at any times";
-        document.add("observe.points", Some(points.to_string()), allowed, remedy);
-    }
+    })
 }
 
 /// A fixed step where the method has one, and none elsewhere.

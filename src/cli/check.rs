@@ -6,22 +6,22 @@ use crate::campaign::Overrides;
 use crate::cli::arguments::CheckOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::input::{isa, plan};
+use crate::cli::workload::Workload;
 use crate::cli::{dispersions, screen};
 use crate::ensemble::influence;
 use crate::ensemble::plausibility::implausible;
 use crate::ensemble::probe::{AuditProbe, LongRun, RunProbe};
 use crate::ensemble::run_cost::parts;
-use crate::ensemble::{Ensemble, Part, PartId};
+use crate::ensemble::Ensemble;
 use crate::math::symmetric::principal_axes;
 use crate::observables::{Group, Request};
 use crate::ode::{PACE_STEPS, is_out_of_reach};
 use crate::report::failure_text;
 use crate::report::number::{bytes, short};
 use crate::run::StateField;
-use crate::sampling::SampleId;
 use crate::scene::mass::{Body, Wheel};
 use crate::scene::{MassProperties, Scene, SceneInput, WheelMode};
-use crate::storage::rows_file::RowsFile;
+use crate::storage::rows_file::headings;
 
 /// Runs the command.
 ///
@@ -53,7 +53,7 @@ pub fn run(options: &CheckOptions) -> Result<CommandOutcome, Failure> {
     screen::print(&text)?;
     let failed = probe.failed() as u64;
     let outcome = if probe.is_hopeless() { CommandOutcome::SomeFailed(failed) } else { CommandOutcome::Done };
-    screen::print(&estimate(&ensemble, probe)?)?;
+    screen::print(&estimate(&ensemble, &probe))?;
     screen::print(&audit_estimate(&ensemble))?;
     Ok(outcome)
 }
@@ -205,8 +205,8 @@ fn field_name(field: StateField) -> &'static str {
     }
 }
 
-/// Time and disk space, extrapolated from a probe of the first samples.
-fn estimate(ensemble: &Ensemble<'_>, mut probe: RunProbe) -> Result<String, Failure> {
+/// Time, from a probe of the first samples; disk space and memory.
+fn estimate(ensemble: &Ensemble<'_>, probe: &RunProbe) -> String {
     let plan = ensemble.plan();
     let count = probe.count();
     if let Some(LongRun { sample, reached }) = probe.too_long {
@@ -216,45 +216,31 @@ fn estimate(ensemble: &Ensemble<'_>, mut probe: RunProbe) -> Result<String, Fail
         } else {
             String::new()
         };
-        return Ok(format!(
+        return format!(
             "\n== Estimate\ntime and disk space cannot be estimated: sample {sample} needs more than {PACE_STEPS} steps, which lead to {reached:?} s of {duration:?} s{end}\n"
-        ));
+        );
     }
-    let failed = if probe.failed() == 0 || probe.is_hopeless() { String::new() } else { failures(&probe) };
-
-    let file = RowsFile::new(ensemble).map_err(Failure::files)?;
-    let mut full = Vec::new();
-    file.write(&probe.rows, &mut full).map_err(Failure::files)?;
-    probe.rows.start(Part { id: PartId(0), first: SampleId(0), count: 1 });
-    let mut empty = Vec::new();
-    file.write(&probe.rows, &mut empty).map_err(Failure::files)?;
-    let row = if count > 1 {
-        full.len().saturating_sub(empty.len()) as f64 / (count - 1) as f64
-    } else {
-        (file.columns() * size_of::<f64>()) as f64
-    };
-    let parts = parts(plan, ensemble.isa());
-    let disk = row * plan.rows() as f64 + empty.len() as f64 * parts.count() as f64;
+    let failed = if probe.failed() == 0 || probe.is_hopeless() { String::new() } else { failures(probe) };
+    let parts = parts(plan, ensemble.isa()).count();
+    let work = Workload::of_campaign((ensemble, plan.rows()), None, None, None);
     let cores = cores();
-    let seconds = probe.seconds * plan.rows() as f64 / cores as f64;
     let looks = match plan.looks()[..] {
         [_, .., most] => format!(" (the first look of [stop], which may go on to {most})"),
         _ => String::new(),
     };
-    Ok(format!(
+    format!(
         "\n== Estimate, from {count} runs\n\
          {:.3} ms per run on one core; {} samples{looks} on {cores} cores: about {} s\n\
-         {} columns; {} file{} of rows: about {}\n\
-         {}",
+         {} columns; {parts} file{} of rows: about {}; memory: at most {}\n\
+         {failed}",
         probe.seconds * 1e3,
         plan.rows(),
-        short(seconds),
-        file.columns(),
-        parts.count(),
-        if parts.count() == 1 { "" } else { "s" },
-        bytes(disk as u64),
-        failed,
-    ))
+        short(probe.seconds * plan.rows() as f64 / cores as f64),
+        headings(ensemble).len(),
+        if parts == 1 { "" } else { "s" },
+        bytes(work.disk() as u64),
+        bytes(work.memory() as u64),
+    )
 }
 
 /// Time of the audits, extrapolated from a probe of the first samples.
