@@ -32,5 +32,4 @@ impl DrawTables {
         };
         format!("{table}.{key}")
     }
-
 }

@@ -8,11 +8,11 @@ use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::input::{isa, plan};
 use crate::cli::workload::Workload;
 use crate::cli::{dispersions, screen};
+use crate::ensemble::Ensemble;
 use crate::ensemble::influence;
 use crate::ensemble::plausibility::implausible;
 use crate::ensemble::probe::{AuditProbe, LongRun, RunProbe};
 use crate::ensemble::run_cost::parts;
-use crate::ensemble::Ensemble;
 use crate::math::symmetric::principal_axes;
 use crate::observables::{Group, Request};
 use crate::ode::{PACE_STEPS, is_out_of_reach};
@@ -238,8 +238,8 @@ fn estimate(ensemble: &Ensemble<'_>, probe: &RunProbe) -> String {
         short(probe.seconds * plan.rows() as f64 / cores as f64),
         headings(ensemble).len(),
         if parts == 1 { "" } else { "s" },
-        bytes(work.disk() as u64),
-        bytes(work.memory() as u64),
+        bytes(work.disk as u64),
+        bytes(work.memory as u64),
     )
 }
 

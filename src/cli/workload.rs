@@ -172,7 +172,8 @@ impl Workload {
     /// # Errors
     /// The refusal, with the numbers and the remedy.
     pub fn check(&self, root: &Path, yes: bool, is_shard: bool) -> Result<(), Failure> {
-        self.refusal([free_disk(root), free_memory()], root, yes, is_shard).map_or(Ok(()), |why| Err(Failure::Input(why)))
+        self.refusal([free_disk(root), free_memory()], root, yes, is_shard)
+            .map_or(Ok(()), |why| Err(Failure::Input(why)))
     }
 
     /// Refuses, without `yes`, what [`Workload::check`] refuses with it or without: of a campaign that may end earlier.
@@ -197,7 +198,11 @@ impl Workload {
                 format!("the CPU time cannot be estimated: sample {sample} needs more than {PACE_STEPS} steps")
             }
         };
-        let files = if self.disk > 0.0 { format!(", {} of files in `{}`", size(self.disk), root.display()) } else { String::new() };
+        let files = if self.disk > 0.0 {
+            format!(", {} of files in `{}`", size(self.disk), root.display())
+        } else {
+            String::new()
+        };
         let text = format!("{}: {seconds}{files}, {} of memory", self.what, size(self.memory));
         let fewer = "ask for fewer samples or points";
         if let Some(free) = disk.map(|free| free as f64).filter(|free| self.disk > *free) {
@@ -239,16 +244,29 @@ mod tests {
     #[test]
     fn what_cannot_be_done_is_refused() {
         let free = [Some(1_000_000_000), Some(2_000_000_000)];
-        let work = |disk: f64, memory: f64, seconds: f64| {
-            Workload { what: "9 runs of small".to_owned(), disk, memory, seconds, run_seconds: 1.0, too_long: None }
+        let work = |disk: f64, memory: f64, seconds: f64| Workload {
+            what: "9 runs of small".to_owned(),
+            disk,
+            memory,
+            seconds,
+            run_seconds: 1.0,
+            too_long: None,
         };
         let refusal = |work: Workload, yes, is_shard| work.refusal(free, Path::new("r"), yes, is_shard);
         let unknown = Workload { too_long: Some(SampleId(3)), ..work(1.0, 1.0, 2.0 * LONG_S) };
-        let (day, half) = ("that is more than 24 hours of CPU time; --yes starts it", "half of what the disk has left; --yes starts it");
+        let (day, half) = (
+            "that is more than 24 hours of CPU time; --yes starts it",
+            "half of what the disk has left; --yes starts it",
+        );
         // what is refused with `--yes`, without it, and of a shard without it
         for (work, says) in [
             (work(4e8, 1e9, LONG_S), [None; 3]),
-            (work(6e18, 1e9, 6e11), [Some("19012.9 years of CPU time, 6000000.0 TB of files in `r`, 1.0 GB of memory: the disk has 1.0 GB left"); 3]),
+            (
+                work(6e18, 1e9, 6e11),
+                [Some(
+                    "19012.9 years of CPU time, 6000000.0 TB of files in `r`, 1.0 GB of memory: the disk has 1.0 GB left",
+                ); 3],
+            ),
             (work(0.0, 3e9, 60.0), [Some("about 60 s of CPU time, 3.0 GB of memory: the machine has 2.0 GB left"); 3]),
             (work(1.0, 1.0, 2.0 * LONG_S), [None, Some(day), None]),
             (work(6e8, 1.0, 1.0), [None, Some(half), Some(half)]),

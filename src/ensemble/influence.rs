@@ -35,7 +35,9 @@ pub fn notes(plan: &Plan, isa: Isa) -> Vec<String> {
             format!("{parameter} does not affect any requested column (observe.groups), in the samples that were tried")
         })),
         None if columns.is_empty() => {}
-        None => notes.push("which dispersions change a column was not tried: the runs fail or take too long".to_owned()),
+        None => {
+            notes.push("which dispersions change a column was not tried: the runs fail or take too long".to_owned())
+        }
     }
     notes
 }

@@ -83,8 +83,7 @@ fn sizes(plan: &Plan) -> Vec<String> {
         (0..parameter.width()).filter_map(|component| parameter.value(scene, component)).fold(0.0, libm::hypot)
     };
     let judged = Parameter::all(scene).filter(|parameter| parameter.exists(scene));
-    let judged: Vec<(Parameter, &Row)> =
-        judged.filter_map(|parameter| Some((parameter, row_of(parameter)?))).collect();
+    let judged: Vec<(Parameter, &Row)> = judged.filter_map(|parameter| Some((parameter, row_of(parameter)?))).collect();
     let mut draws = SceneDraws::new(plan);
     let mut drawn: Vec<Vec<f64>> = vec![Vec::new(); judged.len()];
     for sample in 1..plan.samples.min(DRAWS + 1) {
@@ -115,7 +114,10 @@ fn driven_wheels(input: &SceneInput) -> Vec<String> {
         }
         (most >= FAST_WHEEL && wheel.rate_rad_s.abs() < FAST_WHEEL).then(|| {
             let rpm = digits(most * 60.0 / TAU);
-            format!("wheels.{}: the torques of [[actuation]] bring it to about {rpm} rpm; usual are up to 6000 rpm", wheel.name)
+            format!(
+                "wheels.{}: the torques of [[actuation]] bring it to about {rpm} rpm; usual are up to 6000 rpm",
+                wheel.name
+            )
         })
     };
     turning.enumerate().filter_map(note).collect()

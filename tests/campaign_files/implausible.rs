@@ -56,7 +56,9 @@ relative_std = 0.1
 "#;
 
 fn notes(text: &str) -> Vec<String> {
-    implausible(&Plan::from_text("x.toml", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}\n{text}")))
+    implausible(
+        &Plan::from_text("x.toml", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}\n{text}")),
+    )
 }
 
 /// Law: usual numbers have no note; each implausible one has one, which says key and value. The campaign is accepted.

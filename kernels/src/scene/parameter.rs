@@ -354,7 +354,9 @@ mod tests {
         scene.actuation.clear();
         scene.environment.body_torque_n_m = None;
         let exists = |name| Parameter::find(&full(), name).expect("in the table").0.exists(&scene);
-        for name in ["wheels.w1.rate_rad_s", "wheels.w2.rate_rad_s", "thrusters.p3.position_m", "actuators.switch_on_delay_s"] {
+        for name in
+            ["wheels.w1.rate_rad_s", "wheels.w2.rate_rad_s", "thrusters.p3.position_m", "actuators.switch_on_delay_s"]
+        {
             assert!(exists(name), "{name}");
         }
         for name in [

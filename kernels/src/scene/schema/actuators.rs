@@ -16,4 +16,3 @@ rows! {
         SCALAR, Plain, Limit::Finite, (optional);
     } others {}
 }
-
