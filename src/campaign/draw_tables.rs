@@ -32,10 +32,4 @@ impl DrawTables {
         };
         format!("{table}.{key}")
     }
-
-    /// The path of the key that names what the `index`-th distribution writes.
-    pub(super) fn path_of_parameter(&self, index: usize) -> String {
-        let names_several = !self.dispersed.1[index].distribution.columns().is_empty();
-        self.path(Table::Disperse(index), if names_several { "parameters" } else { "parameter" })
-    }
 }

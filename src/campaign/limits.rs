@@ -6,10 +6,8 @@ use super::numbers::Limit;
 pub const MAX_SAMPLES: u64 = crate::sampling::design::MAX_SAMPLES;
 /// Largest seed: TOML integers are signed.
 pub const LARGEST_SEED: u64 = i64::MAX as u64;
-/// Largest number of observation points that is read; memory limits it further ([`super::memory`]).
-pub const MAX_POINTS: u64 = 10_000_000;
-/// Most memory of one thread for the observation points of its runs, bytes.
-pub const MOST_MEMORY: u64 = 4 << 30;
+/// Largest number of observation points: some gigabytes in each thread.
+pub const MAX_POINTS: u64 = 1_000_000;
 
 /// Tolerances between a few units in the last place and the point where nothing is accurate any more.
 pub const TOLERANCE: Limit = Limit {

@@ -6,13 +6,13 @@
 //!   serde's derive, which stops at the first error and knows no line of a key that passed.
 //! - [`spec`]: the keys of a campaign file; `scene`: those of the scene, from [`crate::scene::schema`]; [`disperse`],
 //!   [`design`], [`dependence`]: those that say what is drawn; `keys`: how a distribution or a design reads its own;
-//!   [`data`], `data_columns`, `data_keys`: files of numbers; `parameter`: names of parameters; [`limits`]; [`memory`]; [`compression`]; [`bands`].
+//!   [`data`], `data_columns`, `data_keys`: files of numbers; `parameter`: names of parameters; [`limits`]; [`compression`]; [`bands`].
 //! - [`analysis`]: what is made of the rows: [`requirement`], [`derived_observable`], [`stop`]; [`columns`]: what they can name.
 //!   [`retention`]: which runs keep their time series.
 //! - [`plan`]: defaults filled in, scene and dispersions checked against each other. - [`chosen`], `plan_rows`: which samples are its rows.
 //! - `units`: units in values.
-//! - [`notes`]: what is allowed and probably not meant. [`plausibility`], `positions`: numbers that look like a mistake; `digits`: how they are written.
-//! - `draw_tables`: the tables of draws with their places in the file. `without_effect`: dispersions that change no run.
+//! - [`notes`]: what is allowed and probably not meant.
+//! - `draw_tables`: the tables of draws with their places in the file.
 //! - [`mod@draw`]: from a plan and the number of a sample to its scene.
 //! - [`canonical`], [`canonical_draws`], `lines`: the plan as text that reads back to the same plan, and its hash.
 //! - [`difference`]: the keys in which two plans differ; [`common_draws`]: whether they draw the same samples. - [`mod@find`]: which file a name means.
@@ -35,7 +35,6 @@ pub mod derived_observable;
 mod description;
 pub mod design;
 pub mod difference;
-mod digits;
 pub mod disperse;
 pub mod document;
 pub mod draw;
@@ -47,14 +46,11 @@ mod keys;
 pub mod limits;
 mod lines;
 pub mod lists;
-pub mod memory;
 pub mod notes;
 pub mod numbers;
 mod parameter;
 pub mod plan;
 mod plan_rows;
-pub mod plausibility;
-mod positions;
 pub mod problem;
 pub mod requirement;
 pub mod retention;
@@ -65,7 +61,6 @@ mod sources;
 pub mod spec;
 pub mod stop;
 mod units;
-mod without_effect;
 
 pub use analysis::Analysis;
 pub use compression::Compression;

@@ -1,4 +1,4 @@
-//! [`Plan::notes`]: what is allowed in a campaign file, and is probably not what was meant.
+//! [`Plan::notes`]: what is allowed in a campaign file, and is probably not what was meant, as far as the file alone says.
 
 use super::plan::Plan;
 use crate::observables::accuracy::Accuracy;
@@ -10,13 +10,6 @@ impl Plan {
         let mut notes = Vec::new();
         if self.samples > 1 && self.dispersions.columns().is_empty() {
             notes.push(format!("nothing is dispersed: all {} samples are the nominal scene", self.samples));
-        }
-        let constant = self.dispersions.constant();
-        if !constant.is_empty() {
-            notes.push(format!(
-                "{} never varied: every draw is the nominal value (a spread of 0, or one relative to a nominal value of 0)",
-                listed(&constant)
-            ));
         }
         notes.extend(self.part_of_a_design());
         for replaced in self.dispersions.replaced_correlations() {
@@ -34,38 +27,24 @@ impl Plan {
         notes
     }
 
-    /// That there are fewer samples than the design has points, and what these do not vary.
+    /// That there are fewer samples than the design has points.
     fn part_of_a_design(&self) -> Option<String> {
-        let points = match self.design.size(self.dispersions.dimensions().len()) {
-            Size::Points(points) if points < MAX_SAMPLES => Some(points),
-            Size::Points(_) | Size::TooMany => None,
+        let drawn = self.samples - 1;
+        let (points, remedy) = match self.design.size(self.dispersions.dimensions().len()) {
+            Size::Points(points) if points < MAX_SAMPLES => {
+                (format!("{points} points"), "leave campaign.samples out for all points")
+            }
+            Size::Points(_) | Size::TooMany => {
+                ("more points than a campaign may have".to_owned(), "write fewer levels for all points")
+            }
             Size::Any => return None,
         };
-        let drawn = self.samples - 1;
-        if drawn == 0 || points == Some(drawn) {
-            return None;
-        }
-        let (all, remedy) = match points {
-            Some(points) => (format!("{points} points"), "leave campaign.samples out for all points"),
-            None => ("more points than a campaign may have".to_owned(), "write fewer levels for all points"),
-        };
-        let (unvaried, incomplete) = (self.dispersions.unvaried(), self.dispersions.incomplete());
-        let lack = [
-            (!unvaried.is_empty()).then(|| format!("{} never varied", listed(&unvaried))),
-            (!incomplete.is_empty()).then(|| format!("some levels of {} never occur", incomplete.join(", "))),
-        ];
-        let lack: Vec<String> = lack.into_iter().flatten().collect();
-        Some(format!(
-            "{} samples are a part of the {} design ({drawn} of {all}){}{}; {remedy}",
-            self.samples,
-            self.design.name(),
-            if lack.is_empty() { "" } else { ": " },
-            lack.join(", and "),
-        ))
+        (drawn > 0 && points != format!("{drawn} points")).then(|| {
+            format!(
+                "{} samples are a part of the {} design ({drawn} of {points}), which has not all levels of all parameters; {remedy}",
+                self.samples,
+                self.design.name(),
+            )
+        })
     }
-}
-
-/// Names with the verb that follows them.
-fn listed(names: &[&str]) -> String {
-    format!("{} {}", names.join(", "), if names.len() == 1 { "is" } else { "are" })
 }

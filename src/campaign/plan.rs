@@ -9,22 +9,20 @@ use super::compression::Compression;
 use super::description;
 use super::document::Document;
 use super::draw_tables::DrawTables;
-use super::limits::{FRACTION, LARGEST_SEED, MAX_SAMPLES, MOST_MEMORY};
-use super::memory::PointMemory;
+use super::limits::{FRACTION, LARGEST_SEED, MAX_SAMPLES};
 use super::problem::{CampaignError, Problem};
 use super::retention::Retention;
 use super::size;
 use super::sources::Sources;
 use super::spec::Spec;
-use super::without_effect::{self, acting_scene};
 use crate::control::ControlLaw;
-use crate::dynamics::debris::is_isotropic;
 use crate::observables::window::MAX_WINDOWS;
 use crate::observables::{Group, Request};
 use crate::ode::Tolerance;
 use crate::propagation::Method;
 use crate::run::Grid;
 use crate::sampling::{Correlation, Derivation, Design, Dispersion, Dispersions, Draws};
+use crate::scene::schedule::applied;
 use crate::scene::{Scene, SceneInput};
 use std::path::{Path, PathBuf};
 
@@ -189,25 +187,6 @@ impl Plan {
         self.request_over(self.grid.duration())
     }
 
-    /// The nominal scene with the commands that act in a run, in it or in any draw.
-    pub fn acting_scene(&self) -> SceneInput {
-        acting_scene(self.grid.duration(), &self.nominal, &self.dispersions)
-    }
-
-    /// What decides how much memory an observation point takes.
-    pub fn point_memory(&self) -> PointMemory {
-        let debris = Scene::resolve(&self.nominal).ok().and_then(|scene| scene.mass.debris);
-        let is_drawn =
-            || self.dispersions.columns().iter().any(|column| column.parameter.name().starts_with("debris."));
-        PointMemory {
-            method: self.method,
-            request: self.request(),
-            debris_turns: debris.is_some_and(|body| !is_isotropic(&body) || is_drawn()),
-            audits: self.audit_fraction > 0.0,
-            keeps_series: self.retention != Retention::None,
-        }
-    }
-
     /// The observables that it requests of runs of `duration` seconds, which decides which commands of the schedule act.
     pub fn request_over(&self, duration: f64) -> Request {
         let acting = acting_scene(duration, &self.nominal, &self.dispersions);
@@ -238,6 +217,16 @@ fn read(folder: &Path, file: &str, text: &str, overrides: Overrides) -> Result<(
     let plan = plan.ok_or_else(|| unreachable_plan(file))?;
     let description = plan.description.or_else(|| description::of_comment(text));
     Ok((Plan { description, ..plan }, FilesRead { campaign: PathBuf::new(), extended: sources.extended, data }))
+}
+
+/// The nominal scene with the commands that may act in a run of `duration` seconds: without arcs that start later, unless draws move them.
+fn acting_scene(duration: f64, scene: &SceneInput, dispersions: &Dispersions) -> SceneInput {
+    let mut acting = scene.clone();
+    if !dispersions.columns().iter().any(|column| column.parameter.facts().key.ends_with("_delay_s")) {
+        let mut starts = (0..scene.actuation.len()).map(|arc| applied(scene, arc).start);
+        acting.actuation.retain(|_| starts.next().is_some_and(|start| start < duration));
+    }
+    acting
 }
 
 /// A plan that is missing although no problem was found: impossible, and reported as an error.
@@ -322,10 +311,6 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
         }
     };
 
-    if let (Some(duration), Some(dispersions)) = (spec.duration_s, &dispersions) {
-        without_effect::refuse(duration, &spec.scene, &drawn, dispersions, document);
-    }
-
     let mut groups = spec.groups.unwrap_or_else(|| Group::DEFAULT.to_vec());
     groups.sort_by_key(|group| Group::ALL.iter().position(|known| known == group));
     let points = spec.points.unwrap_or(POINTS);
@@ -348,7 +333,7 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
     if let Some(chosen) = &spec.chosen {
         chosen.check(dispersions.samples(), spec.analysis.stop.is_some(), document);
     }
-    let plan = Plan {
+    Some(Plan {
         name: spec.name?,
         description: spec.description,
         samples: dispersions.samples(),
@@ -373,26 +358,7 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
         analysis: spec.analysis,
         retention: spec.retention.unwrap_or_default(),
         law: document.law.clone(),
-    };
-    check_memory(&plan, document);
-    Some(plan)
-}
-
-/// Refuses more observation points than a thread may have memory for.
-fn check_memory(plan: &Plan, document: &mut Document<'_>) {
-    let (points, each) = (plan.grid.points() as u64, plan.point_memory().bytes());
-    let bytes = points.saturating_mul(each);
-    if bytes > MOST_MEMORY {
-        let gigabytes = |bytes: u64| bytes as f64 / 1e9;
-        let allowed = format!(
-            "at most {}: this campaign takes some {each} bytes a point in each thread, here {:.1} GB of at most {:.1} GB",
-            MOST_MEMORY / each,
-            gigabytes(bytes),
-            gigabytes(MOST_MEMORY),
-        );
-        let remedy = "write fewer points; simulate --times shows one run at any times";
-        document.add("observe.points", Some(points.to_string()), allowed, remedy);
-    }
+    })
 }
 
 /// A fixed step where the method has one, and none elsewhere.

@@ -37,7 +37,7 @@ pub(super) fn read(root: &mut Section<'_, '_>) -> SceneInput {
     });
     let mut section = root.section("debris");
     if section.is_present() {
-        scene.debris = Some(DebrisInput::default());
+        scene.debris = Some(DebrisInput::BLANK);
         exclude_shapes(&mut section);
         read_keys(&mut section, Table::Debris, 0, &mut scene);
         section.finish();
@@ -150,7 +150,7 @@ fn read_wheels(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
         let taken: Vec<Name> = scene.wheels.iter().map(|wheel| wheel.name).collect();
         let name = read_name(section, Table::Wheel, &taken);
         exclude_wheel_masses(section);
-        scene.wheels.push(WheelInput { name, ..WheelInput::BLANK });
+        scene.wheels.push(WheelInput { name, ..WheelInput::DEFAULT });
         let wheel = scene.wheels.len() - 1;
         read_keys(section, Table::Wheel, wheel, scene);
         let mode = section.name("mode", &WheelMode::ALL.map(WheelMode::name), WheelMode::from_name);

@@ -4,21 +4,22 @@ use std::fmt::Write as _;
 
 use crate::cli::arguments::CheckOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
+use crate::cli::workload::Workload;
 use crate::cli::{dispersions, screen};
-use crate::ensemble::influence::without_effect;
+use crate::ensemble::Ensemble;
+use crate::ensemble::influence;
+use crate::ensemble::plausibility::implausible;
 use crate::ensemble::probe::{AuditProbe, LongRun, RunProbe};
 use crate::ensemble::run_cost::parts;
-use crate::ensemble::{Ensemble, Part, PartId};
 use crate::math::symmetric::principal_axes;
 use crate::observables::{Group, Request};
 use crate::ode::{PACE_STEPS, is_out_of_reach};
 use crate::report::failure_text;
 use crate::report::number::{bytes, short};
 use crate::run::StateField;
-use crate::sampling::SampleId;
 use crate::scene::mass::{Body, Wheel};
-use crate::scene::{ActuationInput, MassProperties, Scene, SceneInput, WheelMode};
-use crate::storage::rows_file::RowsFile;
+use crate::scene::{MassProperties, Scene, SceneInput, WheelMode};
+use crate::storage::rows_file::headings;
 use crate::workflow::isa;
 use crate::workflow::source::plan;
 
@@ -39,11 +40,8 @@ pub fn run(options: &CheckOptions) -> Result<CommandOutcome, Failure> {
         masses(&mut text, &plan.nominal, &scene.mass)?;
         section(&mut text, "Dispersions")?;
         dispersions::table(&mut text, &plan)?;
-        let unseen = without_effect(&plan, ensemble.isa()).unwrap_or_default();
-        let unseen = unseen.iter().map(|parameter| {
-            format!("{parameter} does not affect any requested column (observe.groups), in the samples that were tried")
-        });
-        let notes: Vec<String> = plan.notes().into_iter().chain(plan.implausible()).chain(unseen).collect();
+        let unseen = influence::notes(&plan, ensemble.isa());
+        let notes: Vec<String> = plan.notes().into_iter().chain(implausible(&plan)).chain(unseen).collect();
         if !notes.is_empty() {
             section(&mut text, "Notes")?;
         }
@@ -55,7 +53,7 @@ pub fn run(options: &CheckOptions) -> Result<CommandOutcome, Failure> {
     screen::print(&text)?;
     let failed = probe.failed() as u64;
     let outcome = if probe.is_hopeless() { CommandOutcome::SomeFailed(failed) } else { CommandOutcome::Done };
-    screen::print(&estimate(&ensemble, probe)?)?;
+    screen::print(&estimate(&ensemble, &probe))?;
     screen::print(&audit_estimate(&ensemble))?;
     Ok(outcome)
 }
@@ -82,7 +80,7 @@ fn masses(text: &mut String, input: &SceneInput, mass: &MassProperties) -> std::
     let names = input.turning_wheels();
     let wheels = names.iter().zip(&mass.wheels).map(|(name, wheel)| (format!("wheel {name}"), wheel.mass));
     let debris = mass.debris.as_ref().map(|debris| ("debris".to_owned(), debris.mass));
-    let body = [("body".to_owned(), mass.fuselage.mass)];
+    let body = [("body".to_owned(), mass.body.mass)];
     let all = body.into_iter().chain(wheels).chain([("spacecraft".to_owned(), mass.total)]).chain(debris);
     for (body, mass) in all {
         writeln!(text, "{body:<24}{mass:>24?} kg")?;
@@ -96,7 +94,7 @@ fn masses(text: &mut String, input: &SceneInput, mass: &MassProperties) -> std::
     rows(text, axes)?;
     if !mass.wheels.is_empty() {
         tensor(text, "the same minus the wheels' axial inertias (J*, wheels free)", mass.inertia_free)?;
-        tensor(text, "inertia of the body about its own centre of mass", mass.fuselage.inertia)?;
+        tensor(text, "inertia of the body about its own centre of mass", mass.body.inertia)?;
     }
     for (name, wheel) in names.iter().zip(&mass.wheels) {
         let (axial, transverse, mode) = (wheel.axial, wheel.transverse, wheel.mode.name());
@@ -144,18 +142,15 @@ fn computed(text: &mut String, ensemble: &Ensemble<'_>) -> std::fmt::Result {
         }
     }
     let scene = &ensemble.plan().nominal;
-    let acting = ensemble.plan().acting_scene();
-    let acts = |commands: fn(&ActuationInput) -> &[f64]| {
-        acting.actuation.iter().flat_map(commands).any(|command| *command != 0.0)
-    };
+    let acting = ensemble.request().actuated;
     let is_held = scene.wheels.iter().any(|wheel| wheel.mode == WheelMode::SpeedHeld);
     for (term, exists, scheduled, held) in [
-        ("thrust", !scene.thrusters.is_empty(), acts(|arc| &arc.thrust_n), false),
-        ("wheel motors", !scene.turning_wheels().is_empty(), acts(|arc| &arc.torque_n_m), is_held),
+        ("thrust", !scene.thrusters.is_empty(), acting.thrusters, false),
+        ("wheel motors", !scene.turning_wheels().is_empty(), acting.motors, is_held),
     ] {
         let why = match (scheduled, held) {
-            (true, _) => "needed because of the schedule",
-            (_, true) => "needed because they hold the speed of wheels",
+            (true, true) => "needed because they hold the speed of wheels",
+            (true, false) => "needed because of the schedule",
             _ => "not computed: no command of the schedule acts",
         };
         if exists {
@@ -210,8 +205,8 @@ fn field_name(field: StateField) -> &'static str {
     }
 }
 
-/// Time and disk space, extrapolated from a probe of the first samples.
-fn estimate(ensemble: &Ensemble<'_>, mut probe: RunProbe) -> Result<String, Failure> {
+/// Time, from a probe of the first samples; disk space and memory.
+fn estimate(ensemble: &Ensemble<'_>, probe: &RunProbe) -> String {
     let plan = ensemble.plan();
     let count = probe.count();
     if let Some(LongRun { sample, reached }) = probe.too_long {
@@ -221,45 +216,31 @@ fn estimate(ensemble: &Ensemble<'_>, mut probe: RunProbe) -> Result<String, Fail
         } else {
             String::new()
         };
-        return Ok(format!(
+        return format!(
             "\n== Estimate\ntime and disk space cannot be estimated: sample {sample} needs more than {PACE_STEPS} steps, which lead to {reached:?} s of {duration:?} s{end}\n"
-        ));
+        );
     }
-    let failed = if probe.failed() == 0 || probe.is_hopeless() { String::new() } else { failures(&probe) };
-
-    let file = RowsFile::new(ensemble).map_err(Failure::files)?;
-    let mut full = Vec::new();
-    file.write(&probe.rows, &mut full).map_err(Failure::files)?;
-    probe.rows.start(Part { id: PartId(0), first: SampleId(0), count: 1 });
-    let mut empty = Vec::new();
-    file.write(&probe.rows, &mut empty).map_err(Failure::files)?;
-    let row = if count > 1 {
-        full.len().saturating_sub(empty.len()) as f64 / (count - 1) as f64
-    } else {
-        (file.columns() * size_of::<f64>()) as f64
-    };
-    let parts = parts(plan, ensemble.isa());
-    let disk = row * plan.rows() as f64 + empty.len() as f64 * parts.count() as f64;
+    let failed = if probe.failed() == 0 || probe.is_hopeless() { String::new() } else { failures(probe) };
+    let parts = parts(plan, ensemble.isa()).count();
+    let work = Workload::of_campaign((ensemble, plan.rows()), None, None, None);
     let cores = cores();
-    let seconds = probe.seconds * plan.rows() as f64 / cores as f64;
     let looks = match plan.looks()[..] {
         [_, .., most] => format!(" (the first look of [stop], which may go on to {most})"),
         _ => String::new(),
     };
-    Ok(format!(
+    format!(
         "\n== Estimate, from {count} runs\n\
          {:.3} ms per run on one core; {} samples{looks} on {cores} cores: about {} s\n\
-         {} columns; {} file{} of rows: about {}\n\
-         {}",
+         {} columns; {parts} file{} of rows: about {}; memory: at most {}\n\
+         {failed}",
         probe.seconds * 1e3,
         plan.rows(),
-        short(seconds),
-        file.columns(),
-        parts.count(),
-        if parts.count() == 1 { "" } else { "s" },
-        bytes(disk as u64),
-        failed,
-    ))
+        short(probe.seconds * plan.rows() as f64 / cores as f64),
+        headings(ensemble).len(),
+        if parts == 1 { "" } else { "s" },
+        bytes(work.disk as u64),
+        bytes(work.memory as u64),
+    )
 }
 
 /// Time of the audits, extrapolated from a probe of the first samples.

@@ -4,10 +4,10 @@ use std::fmt::Write as _;
 
 use crate::campaign::{Plan, SceneDraws};
 use crate::ensemble::drawn::{MASS_COLUMNS, magnitudes, mass_properties};
+use crate::ensemble::magnitude::Magnitude;
 use crate::ensemble::{DrawnScenes, Percentiles};
 use crate::report::number::short;
 use crate::sampling::{Design, Dispersions, Replaced, SampleId};
-use crate::scene::magnitude::Magnitude;
 
 /// Draws behind the percentiles: the 1% and 99% lie within a tenth of the distribution's width of their true places.
 const DRAWS: u64 = 10_000;

@@ -46,24 +46,3 @@ fn available(text: &str) -> Option<u64> {
     let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
     line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()?.checked_mul(1024)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn meminfo_is_read() {
-        assert_eq!(available("MemTotal:  5 kB\nMemAvailable:   22403024 kB\n"), Some(22_403_024 * 1024));
-        assert_eq!(available("MemTotal:  5 kB\n"), None);
-    }
-
-    /// Law: a path that does not exist yet has the space of the folder that will have it.
-    #[cfg(unix)]
-    #[test]
-    fn a_new_folder_has_the_space_of_its_parent() {
-        let folder = std::env::temp_dir();
-        let (there, new) = (free_disk(&folder).unwrap(), free_disk(&folder.join("spindrift/none/yet")).unwrap());
-        // other programs write at the same time
-        assert!(there > 0 && new.abs_diff(there) < there / 2 + (1 << 30), "{there} and {new}");
-    }
-}

@@ -28,15 +28,14 @@ const LARGE: f64 = 0.5;
 
 /// Bytes of a number in a file: random digits do not compress. A 146-column campaign of 4096 runs has 8.2 (`spin_sweep`).
 const NUMBER: f64 = 8.5;
-/// Bytes of a part that do not depend on its rows, for each column: names, units, meanings, positions (`spin_sweep` with one row: 180).
-const COLUMN_OF_A_PART: f64 = 200.0;
-/// Most bytes of the bands of a part, for each quantity and point; of a part of few runs a byte for each (`spin_sweep`, 11 quantities at 33
-/// points: 208 bytes for 256 runs, 711 for 4,096, 961 for 16,384).
-const BAND_COLUMN: f64 = 1000.0;
-/// Memory for each part, bytes: its samples, its record, and its line of the manifest.
-const PART: f64 = 1000.0;
-/// Memory of the program itself, bytes.
-const PROGRAM: f64 = 3e7;
+/// Bytes of a part that do not depend on its rows: of each column (`spin_sweep` with one row: 180), and of each point of a quantity with bands
+/// (at most 961 of `spin_sweep`; of a part of few runs a byte for each).
+const PART: [f64; 2] = [200.0, 1000.0];
+/// Memory of the program itself, bytes, and of each part: its samples, its record, and its line of the manifest.
+const PROGRAM: [f64; 2] = [3e7, 1000.0];
+/// Most memory of one thread for each observation point, bytes: of runs with debris and actuation, and what audits add. Measured are 1600 to 7000, and
+/// 2200 to 7300 (tests/program/memory.rs).
+const POINT: [f64; 2] = [8500.0, 7500.0];
 /// Columns of a time series, of its states and of what is observed of them: at most.
 const SERIES: f64 = 80.0;
 
@@ -46,28 +45,15 @@ pub struct Workload {
     /// What is done: "9 runs of small".
     what: String,
     /// Size of the files, bytes.
-    disk: f64,
+    pub disk: f64,
     /// Memory, bytes.
-    memory: f64,
+    pub memory: f64,
     /// CPU time, s.
     seconds: f64,
     /// What is supposed of a run, s.
     run_seconds: f64,
     /// The sample whose run is out of reach by the pace of a probe: then the time is not known.
     too_long: Option<SampleId>,
-}
-
-/// What may be used.
-#[derive(Clone, Copy, Debug)]
-struct Free {
-    disk: Option<u64>,
-    memory: Option<u64>,
-}
-
-impl Free {
-    fn of(root: &Path) -> Self {
-        Free { disk: free_disk(root), memory: free_memory() }
-    }
 }
 
 /// Most numbers in a figure, which has some 100 bytes for each.
@@ -97,28 +83,24 @@ impl Workload {
         let runs = (samples - there) as f64 * share;
         let run_seconds = run_seconds(plan, ensemble.isa());
         let whole = parts_of_runs(plan, run_seconds).with_samples(samples);
-        let new_parts = whole.count() as f64 * runs / samples as f64;
-        let columns = headings(ensemble).len() as f64;
-        let band_columns = band_series(ensemble.request()).len() * plan.band_points;
-        let of_bands = band_columns as f64 * BAND_COLUMN.min(runs / new_parts.max(1.0));
+        let parts = whole.count() as f64 * runs / samples as f64;
+        let (columns, points) = (headings(ensemble).len() as f64, plan.grid.points() as f64);
+        let bands = (band_series(ensemble.request()).len() * plan.band_points) as f64;
+        let series = points * SERIES * NUMBER;
         let retained = match plan.retention {
             Retention::All => samples as f64 * share,
             Retention::Worst { count, .. } | Retention::Sample(count) => count as f64,
             Retention::None | Retention::Failed => 0.0,
         };
-        let points = plan.grid.points() as f64;
-        let disk = runs * columns * NUMBER
-            + new_parts * (COLUMN_OF_A_PART * columns + of_bands)
-            + retained * points * SERIES * NUMBER;
-        let rows_of_a_part = whole.largest().min(samples) as f64;
-        let of_thread = points * plan.point_memory().bytes() as f64 + 2.0 * rows_of_a_part * columns * NUMBER;
+        let of_part = PART[0] * columns + bands * PART[1].min(runs / parts.max(1.0));
+        let rows = whole.largest().min(samples) as f64 * columns * NUMBER;
+        let point = POINT[0] + if plan.audit_fraction > 0.0 { POINT[1] } else { 0.0 };
+        let threads = threads(asked, usize::try_from(whole.count()).unwrap_or(usize::MAX)) as f64;
         let stopping = if plan.analysis.stop.is_some() { 8.0 * samples as f64 } else { 0.0 };
-        let threads = threads(asked, usize::try_from(whole.count()).unwrap_or(usize::MAX));
-        let memory = PROGRAM + threads as f64 * of_thread + whole.count() as f64 * PART + stopping;
         Workload {
             what: format!("{} of {}", count(runs, "run"), plan.name),
-            disk,
-            memory,
+            disk: runs * columns * NUMBER + parts * of_part + retained * series,
+            memory: PROGRAM[0] + PROGRAM[1] * whole.count() as f64 + threads * (points * point + 2.0 * rows) + stopping,
             seconds: runs * run_seconds,
             run_seconds,
             too_long: None,
@@ -135,7 +117,7 @@ impl Workload {
         Workload {
             what: format!("{} of {}", count(samples, "sample"), plan.name),
             disk,
-            memory: PROGRAM + plotted,
+            memory: PROGRAM[0] + plotted,
             seconds: samples * (1e-6 + columns * 3e-7),
             run_seconds: 0.0,
             too_long: None,
@@ -152,7 +134,7 @@ impl Workload {
             what: format!("reference solutions of {} of {}", count(samples, "sample"), plan.name),
             disk: 0.0,
             // in double-double
-            memory: PROGRAM + samples * points * SERIES * 16.0,
+            memory: PROGRAM[0] + samples * points * SERIES * 16.0,
             seconds: samples * run_seconds,
             run_seconds,
             too_long: None,
@@ -190,7 +172,8 @@ impl Workload {
     /// # Errors
     /// The refusal, with the numbers and the remedy.
     pub fn check(&self, root: &Path, yes: bool, is_shard: bool) -> Result<(), Failure> {
-        self.refusal(Free::of(root), root, yes, is_shard).map_or(Ok(()), |refusal| Err(Failure::Input(refusal)))
+        self.refusal([free_disk(root), free_memory()], root, yes, is_shard)
+            .map_or(Ok(()), |why| Err(Failure::Input(why)))
     }
 
     /// Refuses, without `yes`, what [`Workload::check`] refuses with it or without: of a campaign that may end earlier.
@@ -198,42 +181,44 @@ impl Workload {
     /// # Errors
     /// The refusal, with the numbers and the remedy.
     pub fn check_limit(&self, root: &Path, yes: bool) -> Result<(), Failure> {
-        let refusal = self.refusal(Free::of(root), root, false, false).filter(|_| !yes);
-        let end = "with --yes it starts, and may end earlier ([stop])";
-        refusal.map_or(Ok(()), |refusal| Err(Failure::Input(format!("at most {refusal}; {end}"))))
+        match self.check(root, false, false) {
+            Err(Failure::Input(why)) if !yes => {
+                Err(Failure::Input(format!("at most {why}; with --yes it starts, and may end earlier ([stop])")))
+            }
+            _ => Ok(()),
+        }
     }
 
-    fn refusal(&self, free: Free, root: &Path, yes: bool, is_shard: bool) -> Option<String> {
+    /// Why it is not done where `disk` and `memory` bytes are free, as far as that is known.
+    fn refusal(&self, [disk, memory]: [Option<u64>; 2], root: &Path, yes: bool, is_shard: bool) -> Option<String> {
         let size = |size: f64| if size < u64::MAX as f64 { bytes(size as u64) } else { format!("{} B", short(size)) };
-        let mut text = match self.too_long {
-            None => format!("{}: about {} of CPU time", self.what, time(self.seconds)),
-            Some(sample) => format!(
-                "{}: the CPU time cannot be estimated: sample {sample} needs more than {PACE_STEPS} steps",
-                self.what
-            ),
+        let seconds = match self.too_long {
+            None => format!("about {} of CPU time", time(self.seconds)),
+            Some(sample) => {
+                format!("the CPU time cannot be estimated: sample {sample} needs more than {PACE_STEPS} steps")
+            }
         };
-        if self.disk > 0.0 {
-            text += &format!(", {} of files in `{}`", size(self.disk), root.display());
-        }
-        text += &format!(", {} of memory", size(self.memory));
-        let has_too_few = |free: Option<u64>, needed: f64| free.filter(|free| needed > *free as f64);
+        let files = if self.disk > 0.0 {
+            format!(", {} of files in `{}`", size(self.disk), root.display())
+        } else {
+            String::new()
+        };
+        let text = format!("{}: {seconds}{files}, {} of memory", self.what, size(self.memory));
         let fewer = "ask for fewer samples or points";
-        if let Some(free) = has_too_few(free.disk, self.disk) {
-            return Some(format!("{text}: the disk has {} left; {fewer}, or choose another disk", size(free as f64)));
+        if let Some(free) = disk.map(|free| free as f64).filter(|free| self.disk > *free) {
+            return Some(format!("{text}: the disk has {} left; {fewer}, or choose another disk", size(free)));
         }
-        if let Some(free) = has_too_few(free.memory, self.memory) {
-            return Some(format!("{text}: the machine has {} left; {fewer}, or fewer --threads", size(free as f64)));
+        if let Some(free) = memory.map(|free| free as f64).filter(|free| self.memory > *free) {
+            return Some(format!("{text}: the machine has {} left; {fewer}, or fewer --threads", size(free)));
         }
-        let is_long = !is_shard && self.seconds > LONG_S;
-        let is_large = free.disk.is_some_and(|free| self.disk > LARGE * free as f64);
-        if yes || !(is_long || is_large) {
+        let why = if !is_shard && self.seconds > LONG_S {
+            if self.too_long.is_some() { "" } else { ": that is more than 24 hours of CPU time" }
+        } else if disk.is_some_and(|free| self.disk > LARGE * free as f64) {
+            ": that is more than half of what the disk has left"
+        } else {
             return None;
-        }
-        if is_long && self.too_long.is_some() {
-            return Some(format!("{text}; --yes starts it"));
-        }
-        let why = if is_long { "more than 24 hours of CPU time" } else { "more than half of what the disk has left" };
-        Some(format!("{text}: that is {why}; --yes starts it"))
+        };
+        (!yes).then(|| format!("{text}{why}; --yes starts it"))
     }
 }
 
@@ -245,58 +230,55 @@ fn count(number: f64, thing: &str) -> String {
 
 /// A time for people.
 fn time(seconds: f64) -> String {
-    match seconds {
-        s if s < 120.0 => format!("{} s", short(s)),
-        s if s < 7200.0 => format!("{} minutes", short(s / 60.0)),
-        s if s < 48.0 * 3600.0 => format!("{} hours", short(s / 3600.0)),
-        s if s < 1000.0 * 86400.0 => format!("{} days", short(s / 86400.0)),
-        s => format!("{} years", short(s / (365.25 * 86400.0))),
-    }
+    let units = [(120.0, 1.0, "s"), (7200.0, 60.0, "minutes"), (172_800.0, 3600.0, "hours"), (8.64e7, 86400.0, "days")];
+    let found = units.into_iter().find(|(below, ..)| seconds < *below);
+    let (_, unit, name) = found.unwrap_or((0.0, 365.25 * 86400.0, "years"));
+    format!("{} {name}", short(seconds / unit))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const FREE: Free = Free { disk: Some(1_000_000_000), memory: Some(2_000_000_000) };
-
-    fn work(disk: f64, memory: f64, seconds: f64) -> Workload {
-        Workload { what: "9 runs of small".to_owned(), disk, memory, seconds, run_seconds: 1.0, too_long: None }
-    }
-
-    fn refusal(work: &Workload, yes: bool, is_shard: bool) -> String {
-        work.refusal(FREE, Path::new("r"), yes, is_shard).unwrap_or_default()
-    }
-
     /// Law: what does not fit is refused whatever is said; what takes long, or half of the disk, is refused without `--yes`; the rest is done.
     #[test]
     fn what_cannot_be_done_is_refused() {
-        assert_eq!(refusal(&work(4e8, 1e9, LONG_S), false, false), "");
-        for yes in [false, true] {
-            assert_eq!(
-                refusal(&work(6e18, 1e9, 6e11), yes, false),
-                "9 runs of small: about 19012.9 years of CPU time, 6000000.0 TB of files in `r`, 1.0 GB of memory: the disk has 1.0 GB left; ask for fewer samples or points, or choose another disk"
-            );
-            let said = refusal(&work(0.0, 3e9, 60.0), yes, false);
-            assert!(said.contains("about 60 s of CPU time, 3.0 GB of memory: the machine has 2.0 GB left"), "{said}");
+        let free = [Some(1_000_000_000), Some(2_000_000_000)];
+        let work = |disk: f64, memory: f64, seconds: f64| Workload {
+            what: "9 runs of small".to_owned(),
+            disk,
+            memory,
+            seconds,
+            run_seconds: 1.0,
+            too_long: None,
+        };
+        let refusal = |work: Workload, yes, is_shard| work.refusal(free, Path::new("r"), yes, is_shard);
+        let unknown = Workload { too_long: Some(SampleId(3)), ..work(1.0, 1.0, 2.0 * LONG_S) };
+        let (day, half) = (
+            "that is more than 24 hours of CPU time; --yes starts it",
+            "half of what the disk has left; --yes starts it",
+        );
+        // what is refused with `--yes`, without it, and of a shard without it
+        for (work, says) in [
+            (work(4e8, 1e9, LONG_S), [None; 3]),
+            (
+                work(6e18, 1e9, 6e11),
+                [Some(
+                    "19012.9 years of CPU time, 6000000.0 TB of files in `r`, 1.0 GB of memory: the disk has 1.0 GB left",
+                ); 3],
+            ),
+            (work(0.0, 3e9, 60.0), [Some("about 60 s of CPU time, 3.0 GB of memory: the machine has 2.0 GB left"); 3]),
+            (work(1.0, 1.0, 2.0 * LONG_S), [None, Some(day), None]),
+            (work(6e8, 1.0, 1.0), [None, Some(half), Some(half)]),
+            (unknown, [None, Some("cannot be estimated: sample 3 needs more than 20000 steps"), None]),
+        ] {
+            for ((yes, is_shard), says) in [(true, false), (false, false), (false, true)].into_iter().zip(says) {
+                let found = refusal(work.clone(), yes, is_shard);
+                let fits = found.as_ref().map_or(says.is_none(), |found| says.is_some_and(|says| found.contains(says)));
+                assert!(fits, "{work:?}: {found:?}, not {says:?}");
+            }
         }
-        let long = work(1.0, 1.0, 2.0 * LONG_S);
-        assert!(refusal(&long, false, false).ends_with("that is more than 24 hours of CPU time; --yes starts it"));
-        assert_eq!((refusal(&long, true, false), refusal(&long, false, true)), (String::new(), String::new()));
-        let unknown = Workload { too_long: Some(SampleId(3)), ..long.clone() };
-        let said = refusal(&unknown, false, false);
-        assert!(
-            said.contains("cannot be estimated: sample 3 needs more than 20000 steps") && !said.contains("about"),
-            "{said}"
-        );
-        assert_eq!(refusal(&unknown, true, false), "");
-        let large = work(6e8, 1.0, 1.0);
-        assert!(
-            refusal(&large, false, true).ends_with("that is more than half of what the disk has left; --yes starts it")
-        );
-        assert_eq!(refusal(&large, true, false), "");
         // where the system does not say what is left, only time is asked for
-        let unknown = Free { disk: None, memory: None };
-        assert_eq!(work(1e30, 1e30, 1.0).refusal(unknown, Path::new("r"), false, false), None);
+        assert_eq!(work(1e30, 1e30, 1.0).refusal([None; 2], Path::new("r"), false, false), None);
     }
 }

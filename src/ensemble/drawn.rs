@@ -1,12 +1,12 @@
 //! [`DrawnScenes`]: the samples of a campaign as they are drawn, without running them.
 
 use crate::campaign::{Plan, SceneDraws};
+use crate::ensemble::magnitude::Magnitude;
 use crate::math::symmetric::principal_axes;
 use crate::sampling::SampleId;
 use crate::sampling::design::Size;
 use crate::sampling::design::hash::mix;
 use crate::scene::Scene;
-use crate::scene::magnitude::Magnitude;
 use crate::statistics::correlation::{matrix, mid_ranks, standardised};
 
 /// Samples as drawn: what was applied, and whether the scene is physical.

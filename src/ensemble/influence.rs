@@ -1,9 +1,11 @@
-//! [`without_effect`]: which dispersed parameters change no requested column, found by running the nominal scene and some samples with one
-//! parameter changed at a time. What follows from the equations (a position changes no energy of rotation) need not be listed anywhere.
+//! [`notes`]: which dispersed parameters change nothing, or no requested column, found by running the nominal scene and some samples with one
+//! parameter changed at a time. What follows from the equations (a position changes no energy of rotation, a thruster that is never fired
+//! changes nothing) need not be listed anywhere.
 
 use std::time::Instant;
 
-use crate::campaign::{Plan, SceneDraws};
+use crate::campaign::Plan;
+use crate::ensemble::drawn::DrawnScenes;
 use crate::ensemble::probe::limited;
 use crate::ensemble::single::SingleRun;
 use crate::math::Isa;
@@ -14,14 +16,37 @@ use crate::scene::{Parameter, Scene};
 /// Samples that are drawn to find those that are tried.
 const DRAWN: u64 = 1000;
 /// Nothing is found out where that would take longer, s.
-const LONGEST_S: f64 = 1.0;
+const LONGEST_S: f64 = 3.0;
+
+/// What draws do not change, and what changes no requested column where they do, a sentence each.
+pub fn notes(plan: &Plan, isa: Isa) -> Vec<String> {
+    let drawn = DrawnScenes::spread(plan, DRAWN);
+    let columns = plan.dispersions.columns();
+    let is_constant = |index: &usize| drawn.columns[*index].iter().all(|value| *value == columns[*index].nominal);
+    let constant = (0..if drawn.count() > 0 { columns.len() } else { 0 }).filter(is_constant);
+    let mut notes: Vec<String> = constant
+        .map(|index| {
+            let name = columns[index].parameter.component_name(columns[index].component);
+            format!("{name} is never varied: each of {} draws is the nominal value", drawn.count())
+        })
+        .collect();
+    match without_effect(plan, &drawn, isa) {
+        Some(unseen) => notes.extend(unseen.into_iter().map(|parameter| {
+            format!("{parameter} does not affect any requested column (observe.groups), in the samples that were tried")
+        })),
+        None if columns.is_empty() => {}
+        None => {
+            notes.push("which dispersions change a column was not tried: the runs fail or take too long".to_owned())
+        }
+    }
+    notes
+}
 
 /// The names of the dispersed parameters of `plan`, or of their dispersed components, that leave every requested column as it is, bit for bit, when
 /// they change: alone from the nominal scene to their values of some samples, and back in these samples. Inputs of derived parameters have an
 /// effect; what no draw changes is not judged. `None` where the runs would take too long, or the nominal scene cannot be run.
-pub fn without_effect(plan: &Plan, isa: Isa) -> Option<Vec<String>> {
-    let columns = plan.dispersions.columns();
-    let mut parameters: Vec<Parameter> = columns.iter().map(|column| column.parameter).collect();
+pub fn without_effect(plan: &Plan, drawn: &DrawnScenes, isa: Isa) -> Option<Vec<String>> {
+    let mut parameters: Vec<Parameter> = plan.dispersions.columns().iter().map(|column| column.parameter).collect();
     parameters.sort_unstable();
     parameters.dedup();
     let inputs: Vec<Parameter> = plan
@@ -34,7 +59,8 @@ pub fn without_effect(plan: &Plan, isa: Isa) -> Option<Vec<String>> {
     let start = Instant::now();
     let plan = &limited(plan);
     let nominal = row_with(plan, isa, &[], &|_| false)?;
-    let tried = extreme_samples(plan, &parameters);
+    let tried: Vec<Vec<Vec<f64>>> =
+        parameters.iter().map(|parameter| extreme_samples(plan, drawn, *parameter)).collect();
     let runs = 3 * tried.iter().map(Vec::len).sum::<usize>();
     if start.elapsed().as_secs_f64() * runs as f64 > LONGEST_S {
         return None;
@@ -76,31 +102,18 @@ fn row_with(plan: &Plan, isa: Isa, applied: &[f64], is_applied: &dyn Fn(Paramete
     (run.outcome.status != Status::StepLimit).then(|| run.row.iter().map(|value| value.to_bits()).collect())
 }
 
-/// For each of `parameters` the applied values of those of the first samples in which one of its columns is largest or smallest, and is not
-/// nominal.
-fn extreme_samples(plan: &Plan, parameters: &[Parameter]) -> Vec<Vec<Vec<f64>>> {
-    let columns = plan.dispersions.columns();
-    let mut draws = SceneDraws::new(plan);
-    // a sample that is not physical as a whole may be so with one of its values
-    let draw = |sample: u64| {
-        let _ = draws.scene(SampleId(sample));
-        draws.applied().to_vec()
-    };
-    let drawn: Vec<Vec<f64>> = (1..plan.samples.min(DRAWN + 1)).map(draw).collect();
-    let of_parameter = |parameter: &Parameter| {
-        let own = columns.iter().enumerate().filter(|(_, column)| column.parameter == *parameter);
-        let extremes = own.flat_map(|(index, column)| {
-            let value = |sample: &usize| drawn[*sample][index];
-            let changed = || (0..drawn.len()).filter(|sample| value(sample) != column.nominal);
-            let by_value = |a: &usize, b: &usize| value(a).total_cmp(&value(b));
-            [changed().min_by(by_value), changed().max_by(by_value)]
-        });
-        let mut samples: Vec<usize> = extremes.flatten().collect();
-        samples.sort_unstable();
-        samples.dedup();
-        samples.into_iter().map(|sample| drawn[sample].clone()).collect()
-    };
-    parameters.iter().map(of_parameter).collect()
+/// The applied values of those samples in which a column of `parameter` is largest or smallest, and is not nominal.
+fn extreme_samples(plan: &Plan, drawn: &DrawnScenes, parameter: Parameter) -> Vec<Vec<f64>> {
+    let own = plan.dispersions.columns().iter().zip(&drawn.columns).filter(|(column, _)| column.parameter == parameter);
+    let extremes = own.flat_map(|(column, values)| {
+        let changed = || (0..values.len()).filter(|sample| values[*sample] != column.nominal);
+        let by_value = |a: &usize, b: &usize| values[*a].total_cmp(&values[*b]);
+        [changed().min_by(by_value), changed().max_by(by_value)]
+    });
+    let mut samples: Vec<usize> = extremes.flatten().collect();
+    samples.sort_unstable();
+    samples.dedup();
+    samples.into_iter().map(|sample| drawn.columns.iter().map(|values| values[sample]).collect()).collect()
 }
 
 /// The name of a parameter; of its dispersed components, where only some are dispersed.

@@ -4,7 +4,8 @@
 //! - [`worker`]: [`Ensemble`], shared by all threads, and [`Worker`], the memory of one thread.
 //! - [`runner`]: distributes parts to threads; [`supervision`]: what it is told. - [`drawn`]: sampled parameters without runs; [`percentiles`]: theirs.
 //! - [`bands`]: quantiles over time, counted run by run (in `deviation_window` and `deviation_columns`).
-//! - [`influence`]: which of them change no requested column. - [`single`]: one run with its states.
+//! - [`influence`]: which of them change no requested column. [`plausibility`]: numbers that look like a mistake. [`magnitude`]: lengths and angles.
+//! - [`single`]: one run with its states.
 //! - [`audit`]: runs compared with a reference solution. - [`precision`]: run time against error for every method.
 //! - [`settings`]: observables and engine of a plan. - [`probe`]: time of a run and of an audit. - [`cpu_clock`]: CPU time of a thread.
 //!
@@ -19,8 +20,10 @@ pub mod drawn;
 pub mod failure_reasons;
 pub mod flights;
 pub mod influence;
+pub mod magnitude;
 pub mod parts;
 pub mod percentiles;
+pub mod plausibility;
 pub mod precision;
 pub mod probe;
 pub mod rows;

@@ -1,7 +1,7 @@
 //! [`Derivation`]: a `[[derive]]` table as written, and its way to [`Derived`] columns.
 
 use super::columns::Columns;
-use super::error::{DispersionError, Table, error_of};
+use super::error::{DispersionError, GIVE_KEY, HAS_KEY, Table, error_of};
 use super::expression::Expression;
 use crate::scene::parameter::Shape;
 use crate::scene::{Parameter, SceneInput};
@@ -95,8 +95,8 @@ pub(super) fn derived(
             let shown = format!("{:?}", parameter.component_name(component));
             let is_taken = is_drawn(columns, (parameter, component))
                 || open.iter().any(|(_, target, ..)| *target == (parameter, component));
-            if !parameter.exists(nominal, component) {
-                refuse("parameter", shown, "a key that the scene has".to_owned(), parameter.remedy(nominal));
+            if !parameter.exists(nominal) {
+                refuse("parameter", shown, HAS_KEY.to_owned(), GIVE_KEY);
             } else if parameter.shape() == Shape::Quaternion {
                 let allowed = "other than an attitude, which changes as a whole".to_owned();
                 refuse("parameter", shown, allowed, "disperse the attitude");
@@ -194,6 +194,6 @@ fn variable(name: &str, nominal: &SceneInput) -> Result<((Parameter, usize), f64
     };
     match parameter.value(nominal, component) {
         Some(value) => Ok(((parameter, component), value)),
-        None => Err(("a key that the scene has".to_owned(), parameter.remedy(nominal).to_owned())),
+        None => Err((HAS_KEY.to_owned(), GIVE_KEY.to_owned())),
     }
 }

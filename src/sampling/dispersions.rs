@@ -8,8 +8,7 @@ use super::derivation::{Derivation, Derived, derived};
 use super::design::{Design, Dimensions, MAX_SAMPLES, Points, Size};
 use super::distribution::target::{JointTarget, Target};
 use super::distribution::{Distribution, Map, Quantile, WrittenDistribution};
-use super::error::{DispersionError, Table, error, error_of};
-use super::idle;
+use super::error::{DispersionError, GIVE_KEY, HAS_KEY, Table, error, error_of};
 use super::keys::DataColumn;
 use super::transform::{Assigned, Transform};
 use crate::scene::parameter::Shape;
@@ -69,8 +68,6 @@ pub struct Dispersions {
     pub(super) copulas: Vec<Copula>,
     replaced: Vec<Replaced>,
     pub(super) derived: Vec<Derived>,
-    /// The inputs of derived parameters.
-    inputs: Vec<(Parameter, usize)>,
 }
 
 impl Dispersions {
@@ -90,7 +87,6 @@ impl Dispersions {
             copulas: Vec::new(),
             replaced: Vec::new(),
             derived: Vec::new(),
-            inputs: draws.derive.iter().flat_map(|derivation| derivation.inputs(nominal)).collect(),
         };
         let mut errors: Vec<DispersionError> = Vec::new();
         for (index, dispersion) in draws.disperse.iter().enumerate() {
@@ -99,7 +95,6 @@ impl Dispersions {
         for column in draws.design.columns() {
             errors.extend(these.add_tabled(column, nominal).err());
         }
-        errors.extend(these.check_rows().err());
         // the rest says nothing new where distributions are missing
         if errors.is_empty() {
             let scalar = |component| match these.distribution_at(component) {
@@ -118,9 +113,6 @@ impl Dispersions {
             let (list, wrong) = derived(draws.derive, &mut these.columns, is_drawn, nominal);
             these.derived = list;
             errors.extend(wrong);
-            let others: Vec<usize> = these.tabled.iter().map(|(column, _)| *column).collect();
-            let others = [others, these.derived.iter().map(|derived| derived.column).collect()].concat();
-            errors.extend(idle::check_lengths(&these.assigned, &others, these.columns.list(), nominal).err());
             match fitting_samples(draws.design, draws.samples, &these) {
                 Ok(samples) => these.samples = samples,
                 Err(error) => errors.push(error),
@@ -167,42 +159,9 @@ impl Dispersions {
         }
     }
 
-    /// The smallest and the largest value of a column among all draws of any campaign; `None` where they are not known: of several numbers
-    /// together and of derived ones.
-    pub fn range_of(&self, column: usize) -> Option<[f64; 2]> {
-        if let Some((_, values)) = self.tabled.iter().find(|(tabled, _)| *tabled == column) {
-            let end = |of: fn(f64, f64) -> f64| values.iter().copied().reduce(of);
-            return Some([end(f64::min)?, end(f64::max)?]);
-        }
-        let first = 1.0 / MAX_SAMPLES as f64;
-        match self.distribution_of(column) {
-            Some(Transform::Scalar(distribution)) => Some([first, 1.0 - first].map(|u| distribution.quantile(u))),
-            _ => None,
-        }
-    }
-
     /// The expression that a column follows, if it does.
     pub fn expression_of(&self, column: usize) -> Option<&str> {
         self.derived.iter().find(|derived| derived.column == column).map(|derived| derived.text.as_str())
-    }
-
-    /// The names of the random dimensions that the samples, fewer than the design has points, do not vary.
-    pub fn unvaried(&self) -> Vec<&str> {
-        let unvaried = self.design.unvaried(self.dimensions.len(), self.samples.saturating_sub(1));
-        unvaried.into_iter().map(|dimension| self.dimensions[dimension].as_str()).collect()
-    }
-
-    /// The names of the random dimensions whose draws are all the nominal value: components of a vector that others vary, with a spread of 0 or one
-    /// relative to 0.
-    pub fn constant(&self) -> Vec<&str> {
-        let is_constant = |one: &&Assigned| one.map.dimensions() > 0 && idle::is_constant(one, self.columns());
-        self.assigned.iter().filter(is_constant).map(|one| self.dimensions[one.first].as_str()).collect()
-    }
-
-    /// The names of the random dimensions that the samples vary, but not through all levels of the design.
-    pub fn incomplete(&self) -> Vec<&str> {
-        let incomplete = self.design.incomplete(self.dimensions.len(), self.samples.saturating_sub(1));
-        incomplete.into_iter().map(|dimension| self.dimensions[dimension].as_str()).collect()
     }
 
     /// The correlation matrices that were replaced by the nearest that exist.
@@ -246,8 +205,8 @@ impl Dispersions {
         let Some((parameter, component)) = data.target else {
             return refused("the name of one number of scene or initial state", "write it as initial.position_m.x");
         };
-        if !parameter.exists(nominal, component) {
-            return refused("a key that the scene has", parameter.remedy(nominal));
+        if !parameter.exists(nominal) {
+            return refused(HAS_KEY, GIVE_KEY);
         }
         let is_taken = |column: usize| self.tabled.iter().any(|(tabled, _)| *tabled == column);
         if self.distribution_at((parameter, component)).is_some() {
@@ -259,19 +218,6 @@ impl Dispersions {
         let column = self.add_column((parameter, component), nominal);
         self.tabled.push((column, data.values.clone()));
         Ok(())
-    }
-
-    /// That the design's file has a value other than the nominal one.
-    fn check_rows(&self) -> Result<(), DispersionError> {
-        let is_nominal = |(column, values): &(usize, Arc<[f64]>)| {
-            values.iter().all(|value| *value == self.columns.list()[*column].nominal)
-        };
-        if self.tabled.is_empty() || !self.tabled.iter().all(is_nominal) {
-            return Ok(());
-        }
-        let name = format!("{:?}", self.design.name());
-        let allowed = "a file with a value other than the nominal one in any row";
-        Err(error_of(Table::Design, "kind", name, allowed, "write other values, or another design"))
     }
 
     fn add(&mut self, index: usize, dispersion: &Dispersion, nominal: &SceneInput) -> Result<(), DispersionError> {
@@ -288,7 +234,6 @@ impl Dispersions {
                 joint.map(|joint| (components, Transform::Joint(joint))).into_iter().collect()
             }
         };
-        idle::check(index, distribution.name(), &maps, nominal)?;
         for (components, map) in maps {
             let first = self.dimensions.len();
             match &map {
@@ -328,13 +273,8 @@ impl Dispersions {
         let refused = |(parameter, component): (Parameter, usize), allowed: &str, remedy: &str| {
             Err(error(index, key, format!("{:?}", parameter.component_name(component)), allowed, remedy))
         };
-        // what has no effect of its own may be an input of a derived parameter
-        let is_used = |(parameter, component): (Parameter, usize)| {
-            parameter.exists(nominal, component)
-                || parameter.value(nominal, component).is_some() && self.inputs.contains(&(parameter, component))
-        };
-        if let Some(missing) = components.iter().find(|component| !is_used(**component)) {
-            return refused(*missing, "a key that the scene has", missing.0.remedy(nominal));
+        if let Some(missing) = components.iter().find(|(parameter, _)| !parameter.exists(nominal)) {
+            return refused(*missing, HAS_KEY, GIVE_KEY);
         }
         let mut listed = components.iter().enumerate();
         if let Some((_, twice)) = listed.find(|(place, component)| components[..*place].contains(component)) {
@@ -374,7 +314,6 @@ fn fitting_samples(design: &Design, samples: Option<u64>, drawn: &Dispersions) -
     let dimensions =
         Dimensions { seed: drawn.seed, samples: samples.unwrap_or(1), names: &drawn.dimensions, factors: &factors };
     design.check(dimensions, samples)?;
-    idle::check_levels(design, &drawn.dimensions, &drawn.assigned, drawn.columns())?;
     match (samples, design.size(count)) {
         (None, Size::Points(points)) if points < MAX_SAMPLES => Ok(points + 1),
         (None, Size::Points(_) | Size::TooMany) => {

@@ -43,6 +43,12 @@ pub struct DispersionError {
     pub remedy: String,
 }
 
+/// What a key must be that is drawn.
+pub const HAS_KEY: &str = "a key that the scene has";
+/// What to do where it is none.
+pub const GIVE_KEY: &str =
+    "give it a nominal value in its table (of debris: add a [debris] table), or disperse another key";
+
 /// An error of dispersion `dispersion`, key `key`.
 pub fn error(
     dispersion: usize,

@@ -11,7 +11,7 @@
 //!
 //! [`correlation`], [`derivation`]: `[[correlate]]` and `[[derive]]` tables as written; [`rank`]: rank correlations; [`columns`]: the
 //! numbers that a draw writes.
-//! `idle`: distributions that change nothing. [`keys`]: how distributions and designs read and write their keys; [`error`]: why something cannot be drawn.
+//! [`keys`]: how distributions and designs read and write their keys; [`error`]: why something cannot be drawn.
 
 pub mod columns;
 pub mod copula;
@@ -22,7 +22,6 @@ pub mod dispersions;
 pub mod distribution;
 pub mod error;
 pub mod expression;
-mod idle;
 pub mod keys;
 pub mod noise;
 pub mod rank;
@@ -37,7 +36,7 @@ pub use design::{Design, Points};
 pub use dispersions::{Dispersion, Dispersions, Draws};
 pub use distribution::{Distribution, Joint, WrittenDistribution};
 pub use error::{DispersionError, Table};
-pub use keys::{DataColumn, Values};
+pub use keys::{DataColumn, KeyWriter, Values};
 pub use noise::Noise;
 pub use sampler::Sampler;
 pub use stream::{SampleId, Stream};

@@ -1,6 +1,6 @@
 //! The tables that say what is made of the rows: what they mean, what is refused and how, and that no row depends on them.
 
-use crate::bad_campaign_cases::good;
+use crate::refusals::good;
 use spindrift::campaign::requirement::{BandSubject, Subject};
 use spindrift::campaign::stop::When;
 use spindrift::campaign::{Analysis, Overrides, Plan, Requirement, Statement};

@@ -6,17 +6,13 @@
 mod support;
 
 mod analysis;
-mod bad_actuators;
-mod bad_bodies;
-mod bad_campaign_cases;
 mod bad_campaigns;
-mod bad_dispersions;
-mod bad_spacecraft;
 mod implausible;
 mod invalid_files;
 mod keys;
 mod misspelt;
 mod ranges;
+mod refusals;
 mod shipped;
 mod spacecraft;
 mod units;

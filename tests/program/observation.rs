@@ -21,7 +21,7 @@ fn a_steady_spin_about_a_principal_axis_exchanges_nothing() {
     let row = free_row(&grid, &scene, &table);
     let wheel2 = scene.mass.wheels[1];
     close(row["energy_com_w2_mean_j"], 0.5 * wheel2.axial * (spin + 50.0) * (spin + 50.0), ROUNDING);
-    close(row["energy_com_body_mean_j"], 0.5 * scene.mass.fuselage.inertia[2][2] * spin * spin, ROUNDING);
+    close(row["energy_com_body_mean_j"], 0.5 * scene.mass.body.inertia[2][2] * spin * spin, ROUNDING);
     close(row["linear_momentum_initial_n_s"], scene.mass.total * 14.0_f64.sqrt(), ROUNDING);
     let balances = self::row(Isa::best(), request_of_balances(false), &grid, &scene, &table);
     for (row, error) in [
@@ -106,7 +106,7 @@ fn a_nutating_top_swings_its_tilted_wheel_at_twice_the_body_nutation_rate() {
     let transverse = scene.mass.inertia[0][0];
     let excess = scene.mass.inertia[1][1] - transverse;
     scene.mass.inertia[1][1] -= excess;
-    scene.mass.fuselage.inertia[1][1] -= excess;
+    scene.mass.body.inertia[1][1] -= excess;
     let axial = scene.mass.inertia[2][2];
     let (across, spin) = (0.4, 5.0);
     let nutation = spin * (axial - transverse) / transverse;

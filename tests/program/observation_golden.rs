@@ -104,7 +104,7 @@ fn a_perturbed_state_or_inertia_shows_in_the_errors() {
         shows(&scene, &wrong, names);
     }
     let mut wrong = scene.clone();
-    wrong.mass.fuselage.inertia[0][0] *= 1.0 + OFF;
+    wrong.mass.body.inertia[0][0] *= 1.0 + OFF;
     shows(&wrong, &table, &["energy_error_max"]);
     let mut wrong = scene.clone();
     wrong.mass.inertia[0][0] *= 1.0 + OFF;

@@ -78,7 +78,7 @@ fn variants() -> Vec<SceneInput> {
         mass_kg: Some(60.0),
         axial_inertia_kg_m2: Some(2.0),
         transverse_inertia_kg_m2: Some(1.2),
-        ..WheelInput::BLANK
+        ..WheelInput::DEFAULT
     };
     let WheelInput { name, axis, position_m, rate_rad_s, .. } = parts.wheels[0];
     parts.wheels[0] = WheelInput { name, axis, position_m, rate_rad_s, ..by_mass };
@@ -101,15 +101,15 @@ fn variants() -> Vec<SceneInput> {
     list
 }
 
-/// Every parameter that a scene of `variants` has, once, with the place of the first scene in which a change of it has an effect:
-/// its geometry counts where no other key overrides it.
-fn parameters(variants: &[SceneInput]) -> Vec<(Parameter, usize)> {
-    let mut found: Vec<(Parameter, usize)> = Vec::new();
-    for parameter in variants.iter().flat_map(Parameter::all) {
-        if found.iter().all(|(other, _)| other.name() != parameter.name())
-            && let Some(place) = variants.iter().position(|scene| parameter.exists(scene, 0))
-        {
-            found.push((parameter, place));
+/// Every parameter that a scene of `variants` has, once, with the places of the scenes that have it.
+fn parameters(variants: &[SceneInput]) -> Vec<(Parameter, Vec<usize>)> {
+    let mut found: Vec<(Parameter, Vec<usize>)> = Vec::new();
+    for (place, scene) in variants.iter().enumerate() {
+        for parameter in Parameter::all(scene).filter(|parameter| parameter.exists(scene)) {
+            match found.iter_mut().find(|(other, _)| other.name() == parameter.name()) {
+                Some((_, places)) => places.push(place),
+                None => found.push((parameter, vec![place])),
+            }
         }
     }
     found
@@ -191,11 +191,17 @@ fn every_key_moves_the_motion_and_both_kernels_agree_where_to() {
     let variants = variants();
     let nominal_motions: Vec<Motion> = variants.iter().map(|input| motion(Method::Taylor, input)).collect();
     let (mut least, mut most, mut count) = (f64::INFINITY, 0.0_f64, 0);
-    for (parameter, place) in parameters(&variants) {
-        let nominal = &variants[place];
+    for (parameter, places) in parameters(&variants) {
         for component in 0..parameter.width() {
             let name = parameter.component_name(component);
-            let (scene, recorded) = drawn(parameter, component, nominal);
+            // other keys may hide this one: there is a scene in which none does
+            let found = places.iter().find_map(|place| {
+                let (scene, recorded) = drawn(parameter, component, &variants[*place]);
+                let taylor = motion(Method::Taylor, &scene);
+                let moved = distance(&taylor, &nominal_motions[*place]);
+                (moved > CHANGED).then_some((scene, recorded, taylor, moved))
+            });
+            let (scene, recorded, taylor, moved) = found.unwrap_or_else(|| panic!("{name} moves no scene"));
             let whole = parameter.shape() == ParameterShape::Quaternion;
             assert_eq!(recorded.len(), if whole { 4 } else { 1 }, "{name}");
             for (parameter, component, value) in recorded {
@@ -205,12 +211,8 @@ fn every_key_moves_the_motion_and_both_kernels_agree_where_to() {
                     "{name}: what is recorded is what is there"
                 );
             }
-            assert_ne!(parameter.value(&scene, component), parameter.value(nominal, component), "{name}");
-            let taylor = motion(Method::Taylor, &scene);
-            let moved = distance(&taylor, &nominal_motions[place]);
             let agreed = distance(&motion(Method::NullSpace, &scene), &taylor);
             println!("{name:50} moved {moved:8.1e}, kernels apart {agreed:8.1e}");
-            assert!(moved > CHANGED, "{name}: {moved:e}");
             assert!(agreed < AGREED, "{name}: {agreed:e}");
             (least, most, count) = (least.min(moved), most.max(agreed), count + 1);
         }
@@ -219,24 +221,12 @@ fn every_key_moves_the_motion_and_both_kernels_agree_where_to() {
     assert!(count > 100, "{count}");
 }
 
-/// Counter-test: a key that an override hides changes nothing; the comparison says so, and a dispersion of it is refused.
+/// Counter-test: a key that an override hides changes nothing, and the comparison says so.
 #[test]
-fn a_key_without_effect_is_seen_and_refused() {
+fn a_key_without_effect_is_seen() {
     let hidden = &variants()[1];
     assert!(hidden.body.mass_kg.is_some() && hidden.body.inertia_kg_m2.is_some());
-    let nominal = motion(Method::Taylor, hidden);
     let mut denser = hidden.clone();
     denser.parts[0].density_kg_m3 = denser.parts[0].density_kg_m3.map(|density| 1.1 * density);
-    assert_eq!(distance(&motion(Method::Taylor, &denser), &nominal), 0.0);
-    for name in [
-        "body.parts.fuselage.density_kg_m3",
-        "body.parts.fuselage.wall_thickness_m",
-        "body.parts.fuselage.outer_radius_m",
-    ] {
-        let parameter = Parameter::find(hidden, name).expect("in the table").0;
-        let distribution = WrittenDistribution::Normal(Normal(Spread::Relative(Values::All(SPREAD))));
-        let errors =
-            dispersions(hidden, &[Dispersion { parameter, component: None, distribution }]).expect_err("hidden");
-        assert!(errors[0].to_string().contains("override"), "{}", errors[0]);
-    }
+    assert_eq!(distance(&motion(Method::Taylor, &denser), &motion(Method::Taylor, hidden)), 0.0);
 }

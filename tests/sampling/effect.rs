@@ -1,7 +1,7 @@
-//! What may be dispersed: parameters that act on a run. What acts and is not seen by a requested column is told.
+//! What may be dispersed: every key that the scene has. What changes nothing, or no requested column, is noted.
 
 use spindrift::campaign::{Overrides, Plan};
-use spindrift::ensemble::influence::without_effect;
+use spindrift::ensemble::influence;
 use spindrift::math::Isa;
 
 use crate::support::campaigns::{FUSELAGE, THRUSTERS, WHEEL1_AT_REST};
@@ -33,7 +33,11 @@ pub fn plan_over(duration_s: f64, text: &str) -> Result<Plan, String> {
 
 /// The lines that disperse a parameter.
 pub fn dispersed(parameter: &str) -> String {
-    format!("[[disperse]]\nparameter = {parameter:?}\ndistribution = \"uniform\"\nhalf_width = 0.01\n")
+    with(parameter, "distribution = \"uniform\"\nhalf_width = 0.01")
+}
+
+fn with(parameter: &str, distribution: &str) -> String {
+    format!("[[disperse]]\nparameter = {parameter:?}\n{distribution}\n")
 }
 
 fn arc(start: f64) -> String {
@@ -43,320 +47,126 @@ fn arc(start: f64) -> String {
     )
 }
 
-#[test]
-fn what_acts_after_the_end_only_is_refused() {
-    for parameter in ["thrusters.p3.thrust_scale", "wheels.w1.torque_scale", "actuators.switch_on_delay_s"] {
-        let refused = plan(&format!("{}{}", arc(1.01), dispersed(parameter))).expect_err(parameter);
-        assert!(refused.contains("disperse[0].parameter") && refused.contains("start later"), "{refused}");
-        plan(&format!("{}{}", arc(0.999), dispersed(parameter))).expect("an arc within the run");
-        plan(&format!("{}{}{}", arc(0.5), arc(1.5), dispersed(parameter))).expect("one of two arcs within the run");
-    }
+/// What is noted of the dispersions of a campaign.
+fn notes(text: &str) -> Vec<String> {
+    let plan = plan(text).unwrap_or_else(|error| panic!("{text}: {error}"));
+    influence::notes(&plan, Isa::best())
 }
 
-/// Law: a delay of arcs that command nothing is refused, with what it would act on.
-#[test]
-fn a_delay_of_no_command_is_refused() {
-    let delay = dispersed("actuators.switch_on_delay_s");
-    let zero = arc(0.0).replace("p1 = 10, p3 = 5", "p1 = 0.0").replace("w1 = 1", "w1 = 0.0");
-    for arcs in [String::new(), zero] {
-        let refused = plan(&format!("{arcs}{delay}")).expect_err("nothing is switched");
-        assert!(
-            refused.contains("let an arc of [[actuation]] command a thrust or a torque that is not zero"),
-            "{refused}"
-        );
-    }
-}
+const UNSEEN: &str = "does not affect any requested column";
+const CONSTANT: &str = "is never varied";
 
-/// Law: a delay that is dispersed counts with its earliest draw: what some draw moves into the run has an effect.
+/// Law: a dispersion that changes nothing is accepted with one note, which names it; its neighbour, which changes something, has none.
 #[test]
-fn arcs_count_with_their_earliest_start_and_end() {
-    let (early, scale) = (dispersed("actuators.switch_on_delay_s"), dispersed("thrusters.p3.thrust_scale"));
-    // half_width 0.01: the earliest start is 0.99 or 1.001
-    plan(&format!("{}{early}{scale}", arc(1.0))).expect("starts within the run in some draws");
-    let refused = plan(&format!("{}{early}{scale}", arc(1.011))).expect_err("starts after the end in all draws");
-    assert_eq!(refused.matches("start later, in every draw").count(), 2, "{refused}");
-    // arc(start) ends a second later
-    for parameter in ["actuators.switch_off_delay_s", "actuation.0.switch_off_delay_s"] {
-        let off = dispersed(parameter);
-        plan(&format!("{}{off}", arc(0.0))).expect("ends within the run in some draws");
-        let refused = plan(&format!("{}{off}", arc(0.011))).expect_err("ends after the end in all draws");
-        assert!(refused.contains("disperse[0].parameter") && refused.contains("end later, in every draw"), "{refused}");
-        // together, two delays are early enough
-        let other = dispersed(if parameter.starts_with("actuators") {
-            "actuation.0.switch_off_delay_s"
-        } else {
-            "actuators.switch_off_delay_s"
-        });
-        plan(&format!("{}{off}{other}", arc(0.011))).expect("ends within the run where both delays are small");
-    }
-    // an arc that acts in the nominal scene, and in no draw, has an effect
-    let pushed = dispersed("actuators.switch_on_delay_s").replace("half_width = 0.01", "min = 0.6\nmax = 0.7");
-    plan(&format!("{}{pushed}", arc(0.5))).expect("moved after the end");
-    let unbounded = dispersed("actuators.switch_off_delay_s").replace("uniform", "normal").replace("half_width", "std");
-    plan(&format!("{}{unbounded}", arc(0.07))).expect("seven standard deviations are drawn");
-    plan(&format!("{}{unbounded}", arc(0.09))).expect_err("nine are not");
-}
-
-/// Keys to add, each after a place in the text of a scene, and the parameters to disperse.
-type Case<'a> = (&'a [(&'a str, &'a str)], &'a [&'a str]);
-
-/// Law: what a scale of zero takes away in every draw is not dispersed; a scale that is dispersed itself, or a bias, leaves something.
-#[test]
-fn what_a_scale_of_zero_takes_away_is_refused() {
-    let with = |keys: &[(&str, &str)], parameters: &[&str]| {
-        let head = HEAD.replace("DURATION", "1.0");
-        let mut scene = [&head, FUSELAGE, WHEEL1_AT_REST, &THRUSTERS.concat(), INITIAL, &arc(0.0)].concat();
-        for (place, key) in keys {
-            assert_eq!(scene.matches(place).count(), 1, "{place}");
-            scene = scene.replace(place, &format!("{place}\n{key}"));
-        }
-        let tables: String = parameters.iter().map(|parameter| dispersed(parameter)).collect();
-        Plan::from_text("test.toml", &(scene + &tables), Overrides::default()).map(|_| ()).map_err(|e| e.to_string())
-    };
-    let (p3, w1, arc) = ("name = \"p3\"", "name = \"w1\"", "torque_n_m = { w1 = 1 }");
-    let no_thrust = "thrust_scale = 0.0";
-    let no_torque = "torque_scale = 0.0";
-    let refused: &[Case<'_>] = &[
-        (&[(p3, no_thrust)], &["thrusters.p3.tilt_rad[0]"]),
-        (&[(p3, no_thrust)], &["thrusters.p3.position_m"]),
-        (&[(arc, no_thrust)], &["thrusters.p3.thrust_scale"]),
-        (&[(arc, no_thrust), (arc, no_torque)], &["actuators.switch_on_delay_s"]),
-        (&[(w1, no_torque)], &["actuation.0.torque_scale"]),
-        (&[(w1, "torque_scale = 0.0\ntorque_bias_n_m = 0.1")], &["actuation.0.torque_scale"]),
-        (&[(arc, no_torque)], &["wheels.w1.torque_bias_n_m"]),
+fn what_changes_nothing_is_noted() {
+    let (p2, p3, on) = ("thrusters.p2.thrust_scale", "thrusters.p3.thrust_scale", "actuators.switch_on_delay_s");
+    let moved = |parameter: &str, ends: &str| with(parameter, &format!("distribution = \"uniform\"\n{ends}"));
+    let late = moved(on, "min = -0.2\nmax = 0.0");
+    let (radius, rates) = ("wheels.w1.radius_m", "initial.angular_velocity_rad_s");
+    let seldom = |parameter: &str, keys: &str| with(parameter, &format!("distribution = \"bernoulli\"\n{keys}"));
+    let no_thrust = arc(0.0) + "thrust_scale = 0.0\n";
+    let density = "body.parts.fuselage.density_kg_m3";
+    let cases = [
+        // a thruster that is never fired, an arc after the end, a switch of nothing
+        (UNSEEN, p2, arc(0.0) + &dispersed(p2), arc(0.0) + &dispersed(p3)),
+        (UNSEEN, p3, arc(1.01) + &dispersed(p3), arc(0.9) + &dispersed(p3)),
+        (UNSEEN, on, dispersed(on), arc(0.5) + &dispersed(on)),
+        // a start that stays that of the run, a scale that takes away what it acts on
+        (UNSEEN, on, arc(0.0) + &late, arc(0.1) + &late),
+        (UNSEEN, p3, no_thrust.clone() + &dispersed(p3), arc(0.0) + &dispersed(p3)),
+        // a length that is divided out, a key that no requested column shows
+        (UNSEEN, "initial.attitude.w", dispersed("initial.attitude.w"), dispersed(radius)),
+        (UNSEEN, "initial.position_m", dispersed("initial.position_m"), dispersed(rates)),
+        (UNSEEN, "initial.position_m.z", dispersed("initial.position_m.z"), dispersed(density)),
+        (
+            UNSEEN,
+            "initial.position_m.x",
+            seldom("initial.position_m.x", "value = 0.3\nprobability = 0.2"),
+            seldom(radius, "value = 0.3\nprobability = 0.2"),
+        ),
+        // distributions and components without width
+        (
+            CONSTANT,
+            radius,
+            with(radius, "distribution = \"normal\"\nstd = 0"),
+            with(radius, "distribution = \"normal\"\nstd = 1e-6"),
+        ),
+        (
+            CONSTANT,
+            "initial.angular_velocity_rad_s.x",
+            with(rates, "distribution = \"normal\"\nrelative_std = 0.1"),
+            with(rates, "distribution = \"normal\"\nstd = 0.1"),
+        ),
+        (
+            CONSTANT,
+            radius,
+            with(radius, "distribution = \"choice\"\nvalues = [0.25, 0.25]"),
+            with(radius, "distribution = \"choice\"\nvalues = [0.25, 0.26]"),
+        ),
     ];
-    for (keys, parameters) in refused {
-        let refused = with(keys, parameters).expect_err(parameters[0]);
-        let said = refused.contains("disperse[0].parameter") && refused.contains("a scale of 0 takes away");
-        assert!(said, "{keys:?} {parameters:?}: {refused}");
-    }
-    let accepted: &[Case<'_>] = &[
-        (&[(p3, no_thrust)], &["thrusters.p3.thrust_scale", "thrusters.p3.tilt_rad[0]"]),
-        (&[(p3, no_thrust)], &["thrusters.p1.tilt_rad[0]", "actuators.switch_on_delay_s", "actuation.0.thrust_scale"]),
-        (&[(arc, no_thrust)], &["thrusters.p3.thrust_scale", "actuation.0.thrust_scale"]),
-        (&[(arc, no_thrust)], &["actuators.switch_on_delay_s"]),
-        (&[(w1, no_torque)], &["wheels.w1.torque_bias_n_m"]),
-        (&[(w1, no_torque)], &["wheels.w1.torque_scale", "actuation.0.torque_scale"]),
-    ];
-    for (keys, parameters) in accepted {
-        with(keys, parameters).unwrap_or_else(|error| panic!("{keys:?} {parameters:?}: {error}"));
-    }
-}
-
-/// Law: a delay that leaves the start of its arcs at that of the run in every draw is refused.
-#[test]
-fn a_delay_before_the_start_is_refused() {
-    let delay = |min: f64, max: f64| {
-        dispersed("actuators.switch_on_delay_s").replace("half_width = 0.01", &format!("min = {min:?}\nmax = {max:?}"))
-    };
-    let refused = plan(&format!("{}{}", arc(0.0), delay(-0.2, 0.0))).expect_err("never after the start");
-    assert!(refused.contains("start with the run, in every draw"), "{refused}");
-    plan(&format!("{}{}", arc(0.0), delay(-0.2, 0.01))).expect("late in some draws");
-    plan(&format!("{}{}", arc(0.1), delay(-0.2, -0.05))).expect("early in some draws");
-    plan(&format!("{}{}", arc(0.1), delay(-0.3, -0.2))).expect("late in the nominal scene");
-    plan(&format!("{}{}{}", arc(0.0), arc(1.0), delay(-0.2, -0.1))).expect("another arc starts within the run");
-    plan(&format!("{}{}{}", arc(0.0), arc(1.5), delay(-0.2, -0.1))).expect_err("another arc starts after it");
-    let of_arc = |index: usize| delay(-0.2, -0.1).replace("actuators", &format!("actuation.{index}"));
-    plan(&format!("{}{}{}", arc(0.0), arc(1.0), of_arc(0))).expect_err("of the first arc");
-    plan(&format!("{}{}{}", arc(0.0), arc(1.0), of_arc(1))).expect("of the second arc");
-}
-
-/// Law: a design with one level of a parameter, which is its nominal value, is refused; another level is a value of its own.
-#[test]
-fn one_level_that_is_nominal_is_refused() {
-    let radius = dispersed("wheels.w1.radius_m");
-    let moved = radius.replace("half_width = 0.01", "min = 0.2\nmax = 0.4");
-    let rates = dispersed("initial.angular_velocity_rad_s").replace("uniform", "normal").replace("half_width", "std");
-    let head = HEAD.replace("DURATION", "1.0").replace("samples = 9\n", "");
-    let with = |design: &str, tables: &[&str]| {
-        let text = [&head, FUSELAGE, WHEEL1_AT_REST, INITIAL, "[design]\n", design, "\n"].concat() + &tables.concat();
-        Plan::from_text("test.toml", &text, Overrides::default()).map(|_| ()).map_err(|error| error.to_string())
-    };
-    for kind in ["grid", "one_at_a_time"] {
-        let with = |levels: &str, tables: &[&str]| with(&format!("kind = {kind:?}\n{levels}"), tables);
-        for (levels, tables) in [
-            ("levels = 1", &[&radius[..]][..]),
-            ("levels = [3, 1, 3, 1]", &[&rates, &radius]),
-            ("quantiles = [0.5]", &[&radius]),
-            ("quantiles = [0.5, 0.5]", &[&radius]),
-        ] {
-            let refused = with(levels, tables).expect_err(levels);
-            assert!(refused.contains("design.kind") && refused.contains("which is its nominal value"), "{refused}");
-        }
-        with("levels = 1", &[&moved]).expect("another value than the nominal one");
-        with("quantiles = [0.25]", &[&radius]).expect("another value than the nominal one");
-        with("levels = 2", &[&radius, &rates]).expect("two levels");
-        with("levels = [1, 3, 1]", &[&rates]).expect("a component of the vector has levels");
-    }
-}
-
-/// Law: what changes the length of an attitude or a direction alone changes nothing, and is refused.
-#[test]
-fn a_length_without_effect_is_refused() {
-    let normal = |parameter: &str, keys: &str| {
-        format!("[[disperse]]\nparameter = {parameter:?}\ndistribution = \"normal\"\n{keys}\n")
-    };
-    let (w, x) = (normal("initial.attitude.w", "std = 0.01"), normal("initial.attitude.x", "std = 0.01"));
-    // p1 pushes along s3
-    let along = |spread: &str| arc(0.0) + &normal("thrusters.p1.direction", spread);
-    let z = arc(0.0) + &dispersed("thrusters.p1.direction.z");
-    for text in [&w, &z, &along("std = [0, 0, 0.01]"), &along("relative_std = [0.01, 0.01, 0.01]")] {
-        let refused = plan(text).expect_err(text);
+    for (says, name, idle, acting) in cases {
+        let found = notes(&idle);
         assert!(
-            refused.contains("disperse[0].parameter") && refused.contains("the other components are 0"),
-            "{refused}"
+            matches!(&found[..], [note] if note.starts_with(&format!("{name} ")) && note.contains(says)),
+            "{idle}: {found:?}"
         );
-    }
-    let turned = z.replace("half_width = 0.01", "min = -1.0\nmax = -0.5");
-    for text in [&(w + &x), &x, &along("std = [0, 0.01, 0.01]"), &turned] {
-        plan(text).unwrap_or_else(|error| panic!("{text}: {error}"));
+        assert_eq!(notes(&acting), [""; 0], "{acting}");
     }
 }
 
-/// Law: a file of samples that has the nominal value in every row is refused.
+/// Law: what has an effect in some draws alone, or through a derived parameter, or where other draws move it, has one.
 #[test]
-fn rows_that_are_nominal_are_refused() {
-    let scratch = crate::support::scratch_folder::ScratchFolder::new("nominal-rows");
-    let head = HEAD.replace("DURATION", "1.0").replace("samples = 9\n", "");
-    let design = "[design]\nkind = \"table\"\nfile = \"rows.csv\"\nparameters = [\"wheels.w1.radius_m\"]\n";
-    let text = [&head, FUSELAGE, WHEEL1_AT_REST, INITIAL, design].concat();
-    let with = |rows: &str| {
-        std::fs::write(scratch.0.join("rows.csv"), rows).unwrap();
-        Plan::from_text_in(&scratch.0, "test.toml", &text, Overrides::default()).map(|_| ()).map_err(|e| e.to_string())
-    };
-    with("wheels.w1.radius_m\n0.25\n0.26\n").expect("another value");
-    let refused = with("wheels.w1.radius_m\n0.25\n0.25\n").expect_err("nominal rows");
-    assert!(refused.contains("design.kind") && refused.contains("other than the nominal one"), "{refused}");
+fn what_acts_in_some_draws_is_not_noted() {
+    let tilt = dispersed("thrusters.p3.tilt_rad[0]");
+    let on = with("actuation.0.thrust_scale", "distribution = \"bernoulli\"\nvalue = 1.0\nprobability = 0.3");
+    let derived = "[[derive]]\nparameter = \"wheels.w1.radius_m\"\nexpression = \"0.25 * thrusters.p2.thrust_scale\"\n";
+    let off = with("actuators.switch_off_delay_s", "distribution = \"uniform\"\nhalf_width = 0.5");
+    for text in [
+        format!("{}thrust_scale = 0.0\n{on}{tilt}", arc(0.0)),
+        format!("{}{}{derived}", arc(0.0), dispersed("thrusters.p2.thrust_scale")),
+        format!("{}{off}", arc(0.3)),
+    ] {
+        assert_eq!(notes(&text), [""; 0], "{text}");
+    }
+    // what is never drawn to be physical is not called without effect
+    let negative = with("wheels.w1.radius_m", "distribution = \"bernoulli\"\nvalue = -1.0\nprobability = 0.9");
+    assert_eq!(notes(&negative), [""; 0]);
 }
 
-/// Law: samples without dispersions are told to be all the same.
+/// Law: keys that the scene does not have are refused, by name.
 #[test]
-fn samples_without_dispersions_are_told() {
-    assert!(plan("").expect("legal").notes().iter().any(|note| note.contains("all 9 samples are the nominal scene")));
-    let notes = plan(&dispersed("wheels.w1.radius_m")).expect("legal").notes();
-    assert!(notes.iter().all(|note| !note.contains("nothing is dispersed")), "{notes:?}");
+fn what_the_scene_does_not_have_is_refused() {
+    for key in ["body.mass_kg", "initial.debris_position_m", "wheels.w1.mass_kg", "environment.body_torque_n_m"] {
+        let refused = plan(&dispersed(key)).expect_err(key);
+        assert!(refused.contains("disperse[0].parameter") && refused.contains("a key that the scene has"), "{refused}");
+    }
 }
 
-/// Law: a component whose spread is 0, or relative to 0, is told; those that vary are not.
-#[test]
-fn a_component_that_never_varies_is_told() {
-    let notes = |spread: &str| {
-        let table = "[[disperse]]\nparameter = \"initial.angular_velocity_rad_s\"\ndistribution = \"normal\"\n";
-        let plan = plan(&format!("{table}{spread}\n")).unwrap_or_else(|error| panic!("{error}"));
-        plan.notes().into_iter().filter(|note| note.contains("never varied")).collect::<Vec<_>>()
-    };
-    // the nominal value of x is 0
-    let relative = notes("relative_std = 0.1");
-    assert!(
-        relative.len() == 1 && relative[0].starts_with("initial.angular_velocity_rad_s.x is never"),
-        "{relative:?}"
-    );
-    assert_eq!(notes("std = [0.1, 0, 0]").len(), 1);
-    assert!(notes("std = 0.1").is_empty());
-}
-
-/// Law: commands that act in no draw within the run have no columns: after its end, or with a scale of zero; those of some draws have.
+/// Law: columns of actuators are those of commands that may act: not of arcs that start after the run, unless draws move them.
 #[test]
 fn columns_are_of_commands_that_act() {
-    let thrust = |text: &str| {
-        let plan = plan(text).unwrap_or_else(|error| panic!("{text}: {error}"));
-        plan.request().actuated.thrusters
-    };
-    let zero = |start: f64| arc(start) + "thrust_scale = 0.0\n";
-    assert!(thrust(&arc(0.5)) && !thrust(&arc(1.0)) && !thrust(&zero(0.5)));
-    assert!(thrust(
-        &(zero(0.5) + &dispersed("actuation.0.thrust_scale").replace("half_width = 0.01", "min = 0\nmax = 1"))
-    ));
+    let thrust = |text: &str| plan(text).unwrap_or_else(|error| panic!("{text}: {error}")).request().actuated.thrusters;
+    assert!(thrust(&arc(0.5)) && !thrust(&arc(1.0)));
     assert!(thrust(&(arc(1.005) + &dispersed("actuators.switch_on_delay_s"))), "early in some draws");
     assert!(plan(&arc(1.0)).expect("legal").request_over(1.5).actuated.thrusters, "in a longer run");
 }
 
-/// Law: a dispersion that gives the nominal value in every draw is refused, one that gives another value in every draw is not.
+/// Law: samples without dispersions are told to be all the same; where no requested column says how accurate a run is, a note says so.
 #[test]
-fn a_distribution_without_width_is_refused() {
-    let table = |parameter: &str, keys: &str| plan(&format!("[[disperse]]\nparameter = {parameter:?}\n{keys}\n"));
-    let (radius, rates, attitude) = ("wheels.w1.radius_m", "initial.angular_velocity_rad_s", "initial.attitude");
-    for (parameter, keys) in [
-        (radius, "distribution = \"uniform\"\nhalf_width = 0"),
-        (radius, "distribution = \"uniform\"\nrelative_half_width = 0"),
-        (radius, "distribution = \"normal\"\nstd = 0"),
-        (radius, "distribution = \"normal\"\nstd = 1e-30"),
-        (radius, "distribution = \"choice\"\nvalues = [0.25, 0.25]"),
-        (rates, "distribution = \"normal\"\nrelative_std = 0"),
-        (rates, "distribution = \"normal\"\nstd = [0, 0, 0]"),
-        (attitude, "distribution = \"attitude_error\"\nstd_rad = 0"),
-        (
-            attitude,
-            "distribution = \"about_axis\"\naxis = [0, 0, 1]\nangle_rad = { distribution = \"normal\", std = 0 }",
-        ),
+fn what_a_plan_alone_says_is_noted() {
+    let has = |plan: Plan, says: &str| plan.notes().iter().any(|note| note.contains(says));
+    let same = "all 9 samples are the nominal scene";
+    assert!(has(plan("").expect("legal"), same));
+    assert!(!has(plan(&dispersed("wheels.w1.radius_m")).expect("legal"), same));
+    for (groups, is_blind) in [
+        ("[\"motion\", \"exchange\"]", true),
+        ("[\"effort\", \"energies\"]", true),
+        ("[\"numerics\"]", false),
+        ("[\"motion\", \"momentum_conservation\"]", false),
     ] {
-        let refused = table(parameter, keys).expect_err(keys);
-        assert!(refused.contains("disperse[0].distribution") && refused.contains("every draw is"), "{keys}: {refused}");
-    }
-    for (parameter, keys) in [
-        (radius, "distribution = \"uniform\"\nhalf_width = 1e-9"),
-        (radius, "distribution = \"choice\"\nvalues = [0.3, 0.3]"),
-        (rates, "distribution = \"normal\"\nstd = [0, 0, 1e-3]"),
-        (attitude, "distribution = \"attitude_error\"\nstd_rad = [0, 1e-6, 0]"),
-    ] {
-        table(parameter, keys).unwrap_or_else(|error| panic!("{keys}: {error}"));
-    }
-}
-
-/// Law: where no requested column says how accurate a run is, a note says so; one group that does is enough.
-#[test]
-fn what_cannot_be_judged_is_told() {
-    let noted = |groups: &str| {
         let head = HEAD.replace("DURATION", "1.0").replace("[\"energy_conservation\"]", groups);
         let text = [&head, FUSELAGE, WHEEL1_AT_REST, INITIAL].concat();
         let plan = Plan::from_text("test.toml", &text, Overrides::default()).expect("legal");
-        plan.notes().iter().any(|note| note.contains("none can end as inaccurate"))
-    };
-    for groups in ["[\"final_state\"]", "[\"motion\", \"exchange\"]", "[\"effort\", \"energies\"]"] {
-        assert!(noted(groups), "{groups}");
+        assert_eq!(has(plan, "none can end as inaccurate"), is_blind, "{groups}");
     }
-    for groups in ["[\"numerics\"]", "[\"motion\", \"momentum_conservation\"]", "[\"energy_conservation\"]"] {
-        assert!(!noted(groups), "{groups}");
-    }
-}
-
-/// A scale of a thruster that is never fired has no effect of its own; where a derived parameter is made of it, it has.
-#[test]
-fn inputs_of_derived_parameters_count_as_used() {
-    let scale = "thrusters.p2.thrust_scale";
-    let refused = plan(&format!("{}{}", arc(0.0), dispersed(scale))).expect_err("never fired");
-    assert!(refused.contains("a key that the scene has"), "{refused}");
-    let derived = format!(
-        "{}{}[[derive]]\nparameter = \"wheels.w1.radius_m\"\nexpression = \"0.25 * thrusters.p2.thrust_scale\"\n",
-        arc(0.0),
-        dispersed(scale)
-    );
-    let plan = plan(&derived).unwrap_or_else(|error| panic!("{error}"));
-    assert_eq!(without_effect(&plan, Isa::best()), Some(Vec::new()));
-}
-
-#[test]
-fn what_no_requested_column_shows_is_told() {
-    let names = |text: &str| -> Vec<String> {
-        let plan = plan(text).unwrap_or_else(|error| panic!("{error}"));
-        without_effect(&plan, Isa::best()).expect("short runs")
-    };
-    let both = format!("{}{}", dispersed("initial.position_m"), dispersed("initial.angular_velocity_rad_s"));
-    assert_eq!(names(&both), ["initial.position_m"]);
-    let used = "[[derive]]\nparameter = \"wheels.w1.length_m\"\nexpression = \"0.1 + 0.1 * initial.position_m.x\"\n";
-    assert!(names(&format!("{both}{used}")).is_empty());
-    assert_eq!(names(&dispersed("initial.position_m.z")), ["initial.position_m.z"]);
-    // a value that is seldom drawn is found; what no draw changes, or only to what is not physical, is not called without effect
-    let seldom = "[[disperse]]\nparameter = \"wheels.w1.radius_m\"\ndistribution = \"bernoulli\"\nvalue = 0.3\nprobability = 0.2\n";
-    assert!(names(seldom).is_empty());
-    assert!(names(&seldom.replace("0.2", "1e-9")).is_empty());
-    assert!(names(&seldom.replace("0.3", "-1.0").replace("0.2", "0.9")).is_empty());
-    // what has an effect in some draws alone: an end that most draws have after the run, a tilt under a scale that is mostly 0
-    let off = dispersed("actuators.switch_off_delay_s").replace("half_width = 0.01", "half_width = 0.5");
-    assert!(names(&format!("{}{off}", arc(0.3))).is_empty());
-    let scale = seldom.replace("wheels.w1.radius_m", "actuation.0.thrust_scale").replace("0.3", "1.0");
-    let tilt = dispersed("thrusters.p3.tilt_rad[0]");
-    assert!(names(&format!("{}thrust_scale = 0.0\n{scale}{tilt}", arc(0.0))).is_empty());
-    let unseen = seldom.replace("wheels.w1.radius_m", "initial.position_m.x");
-    assert_eq!(names(&unseen), ["initial.position_m.x"]);
 }

@@ -17,7 +17,6 @@ mod distributions;
 mod effect;
 mod geometric;
 mod geometric_files;
-mod mass_keys;
 mod replay;
 mod replicates;
 mod streams;

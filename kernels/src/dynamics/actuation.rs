@@ -31,11 +31,11 @@ pub struct BodyState {
 /// The motion of the wheels at a time, in their order; zero beyond the wheels that the spacecraft has.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WheelState {
-    /// Rates relative to the fuselage, rad/s.
+    /// Rates relative to the body, rad/s.
     pub rates: [f64; MAX_WHEELS],
     /// Angular momenta about their axes relative to F_e, J_i (Omega_i + a_i . omega), N m s.
     pub momenta: [f64; MAX_WHEELS],
-    /// Angles relative to the fuselage, rad, not wrapped.
+    /// Angles relative to the body, rad, not wrapped.
     pub angles: [f64; MAX_WHEELS],
 }
 

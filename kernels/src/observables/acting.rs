@@ -42,7 +42,7 @@ impl<'a> Acting<'a> {
         self.scene.environment.acts() || self.arcs.iter().any(|arc| arc.start <= time && time <= arc.end())
     }
 
-    /// Upper bound of the torque on the fuselage, N m: the magnitudes of thrusters, motors, environment and the arcs' own torque on
+    /// Upper bound of the torque on the body, N m: the magnitudes of thrusters, motors, environment and the arcs' own torque on
     /// the body added.
     #[inline(always)]
     pub(super) fn largest_torque(&self) -> f64 {

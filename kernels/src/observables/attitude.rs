@@ -1,4 +1,4 @@
-//! Attitude of the fuselage as a kernel has it (the DCM or a quaternion), and the series that follow from the attitude.
+//! Attitude of the body as a kernel has it (the DCM or a quaternion), and the series that follow from the attitude.
 
 use fearless_simd::Simd;
 

@@ -120,7 +120,7 @@ struct Constants<S: Simd, const W: usize> {
 impl<S: Simd, const W: usize> Constants<S, W> {
     #[inline(always)]
     fn of(simd: S, mass: &MassProperties) -> Self {
-        let s = &mass.fuselage;
+        let s = &mass.body;
         let body = BodyConstants::of(simd, s.mass, difference(s.center, mass.center), s.inertia);
         let zero = Lanes::broadcast(simd, 0.0);
         let mut wheels = [WheelConstants { body, axis: [zero; 3], axial: zero }; W];

@@ -1,4 +1,4 @@
-//! `exchange`: correlations and dominant frequency of the exchange of kinetic energy between fuselage and wheels, about the
+//! `exchange`: correlations and dominant frequency of the exchange of kinetic energy between body and wheels, about the
 //! spacecraft's centre of mass.
 
 use fearless_simd::Simd;
@@ -26,7 +26,7 @@ pub(super) struct BodyEnergy<'a> {
 pub(super) struct Exchange {
     /// Correlation of the body with each wheel; zero where one of the two is constant.
     pub(super) correlations: [f64; MAX_WHEELS],
-    /// Dominant frequency of the fuselage, Hz; zero where it is constant, NaN on a grid that has no spectrum.
+    /// Dominant frequency of the body, Hz; zero where it is constant, NaN on a grid that has no spectrum.
     pub(super) frequency: f64,
 }
 

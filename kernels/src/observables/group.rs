@@ -15,7 +15,7 @@ pub enum Group {
     Energies,
     /// Kinetic energy of each body about the spacecraft's centre of mass: independent of the frame.
     EnergiesCom,
-    /// Exchange of kinetic energy between fuselage and wheels, about the spacecraft's centre of mass.
+    /// Exchange of kinetic energy between body and wheels, about the spacecraft's centre of mass.
     Exchange,
     /// The last state.
     FinalState,

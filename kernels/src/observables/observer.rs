@@ -48,8 +48,8 @@ pub struct Observer {
     exchange: Exchange,
     nominal: Option<NominalAttitude>,
     windows: Vec<(Window, Range<usize>)>,
-    /// Number of points of the run that was observed last.
     accuracy: Accuracy,
+    /// Number of points of the run that was observed last.
     filled: usize,
 }
 

@@ -43,11 +43,11 @@ pub struct LaneState<R, const N: usize> {
     judged: R,
     /// Next observation time, s.
     pub next: R,
-    /// Counts of the run: accepted and rejected steps, evaluations of the right-hand side.
+    /// Accepted steps of the run.
     pub accepted: R,
-    /// Rejected steps.
+    /// Rejected steps of the run.
     pub rejected: R,
-    /// Evaluations of the right-hand side.
+    /// Evaluations of the right-hand side in the run.
     pub evaluations: R,
     /// Sum of the error estimates of the accepted steps, in units of the tolerance.
     pub error_sum: R,

@@ -191,7 +191,7 @@ pub(super) fn derived(input: &SceneInput, mass: &MassProperties, problems: &mut 
         passed
     };
     let diagonal = |tensor: [[f64; 3]; 3]| [tensor[0][0], tensor[1][1], tensor[2][2]];
-    let Body { mass: own, inertia, .. } = mass.fuselage;
+    let Body { mass: own, inertia, .. } = mass.body;
     let mut passed = true;
     if !input.body.includes_wheels {
         passed &= body(&|| "body".to_owned(), own, diagonal(inertia));

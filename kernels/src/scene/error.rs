@@ -8,7 +8,7 @@ use std::borrow::Cow;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{key} = {value}: must be {allowed}; {remedy}")]
 pub struct SceneError {
-    /// The dotted path as in a campaign file, e.g. `fuselage.wall_thickness_m` or `actuation[1].start_s`.
+    /// The dotted path as in a campaign file, e.g. `body.parts.b1.length_m` or `actuation[1].start_s`.
     pub key: Cow<'static, str>,
     /// The value or values that were refused.
     pub value: String,

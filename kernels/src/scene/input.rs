@@ -7,7 +7,7 @@
 use super::name::Name;
 use super::schema::{
     ActuationInput, ActuatorsInput, BodyInput, ControlInput, DebrisInput, EnvironmentInput, InitialInput, MAX_WHEELS,
-    PartInput, PartShape, ThrusterInput, Usage, WheelInput, WheelMode,
+    PartInput, PartShape, ThrusterInput, WheelInput, WheelMode,
 };
 use crate::math::list::List;
 
@@ -143,14 +143,5 @@ impl SceneInput {
         let turning = self.wheels.iter().filter(|wheel| wheel.mode != WheelMode::Locked);
         turning.for_each(|wheel| names.push(wheel.name));
         names
-    }
-
-    /// What the scene has and commands, as far as keys of the schema depend on it.
-    pub fn usage(&self) -> Usage {
-        Usage {
-            is_scheduled: !self.actuation.is_empty(),
-            fires: std::array::from_fn(|thruster| self.actuation.iter().any(|arc| arc.thrust_n[thruster] != 0.0)),
-            drives: std::array::from_fn(|wheel| self.actuation.iter().any(|arc| arc.torque_n_m[wheel] != 0.0)),
-        }
     }
 }

@@ -18,7 +18,7 @@ use crate::math::vector::{difference, scaled, sum};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MassProperties<R = f64> {
     /// The body: everything but the wheels that turn.
-    pub fuselage: Body<R>,
+    pub body: Body<R>,
     /// The wheels that turn, in their order; a locked wheel is a part of the body.
     pub wheels: List<Wheel<R>, MAX_WHEELS>,
     /// The debris D, if present.
@@ -36,7 +36,7 @@ pub struct MassProperties<R = f64> {
 impl<R: Real> MassProperties<R> {
     /// The mass properties of `input`, in the number type of `one`; meaningful where [`super::Scene::resolve`] accepts the input.
     pub fn of(input: &SceneInput, one: R) -> Self {
-        let fuselage = Body::of_input(input, one);
+        let body = Body::of_input(input, one);
         let mut wheels = List::empty(Wheel::blank(one));
         for wheel in input.wheels.iter().filter(|wheel| wheel.mode != WheelMode::Locked) {
             wheels.push(Wheel::new(wheel, one));
@@ -44,17 +44,17 @@ impl<R: Real> MassProperties<R> {
         let debris = input.debris.as_ref().map(|debris| Body::debris(debris, one));
 
         let wheel_mass = wheels.iter().map(|wheel| wheel.mass).reduce(|a, b| a + b);
-        let total = wheel_mass.map_or(fuselage.mass, |mass| fuselage.mass + mass);
-        // from the fuselage's centre, so that equal wheels on both sides of it move nothing, to the last bit
-        let shift = |wheel: &Wheel<R>| scaled(wheel.mass / total, difference(wheel.center, fuselage.center));
-        let center = wheels.iter().map(shift).reduce(sum).map_or(fuselage.center, |shift| sum(fuselage.center, shift));
+        let total = wheel_mass.map_or(body.mass, |mass| body.mass + mass);
+        // from the body's centre, so that equal wheels on both sides of it move nothing, to the last bit
+        let shift = |wheel: &Wheel<R>| scaled(wheel.mass / total, difference(wheel.center, body.center));
+        let center = wheels.iter().map(shift).reduce(sum).map_or(body.center, |shift| sum(body.center, shift));
 
-        let mut inertia_free = fuselage.inertia;
+        let mut inertia_free = body.inertia;
         for wheel in &wheels {
             inertia_free = matrix_sum(inertia_free, wheel.transverse_inertia());
         }
         let point = |index: usize| match index {
-            0 => (fuselage.mass, fuselage.center),
+            0 => (body.mass, body.center),
             _ => (wheels[index - 1].mass, wheels[index - 1].center),
         };
         for i in 0..wheels.len() {
@@ -65,7 +65,7 @@ impl<R: Real> MassProperties<R> {
             }
         }
         let inertia = wheels.iter().fold(inertia_free, |sum, wheel| matrix_sum(sum, wheel.axial_inertia()));
-        MassProperties { fuselage, wheels, debris, total, center, inertia, inertia_free }
+        MassProperties { body, wheels, debris, total, center, inertia, inertia_free }
     }
 
     /// What resists a change of omega, kg m^2, by rows: J*, and the axial inertias of the wheels whose speed is held.
@@ -90,9 +90,9 @@ mod tests {
     #[test]
     fn table_two_gives_the_check_values() {
         let mass = MassProperties::of(&samples::table_two(), 1.0);
-        assert_close("m_s", mass.fuselage.mass, 1982.7715926975181);
-        assert_close("J_s transverse", mass.fuselage.inertia[0][0], 3026.338725586386);
-        assert_close("J_s axial", mass.fuselage.inertia[2][2], 1684.750805384533);
+        assert_close("m_s", mass.body.mass, 1982.7715926975181);
+        assert_close("J_s transverse", mass.body.inertia[0][0], 3026.338725586386);
+        assert_close("J_s axial", mass.body.inertia[2][2], 1684.750805384533);
         for wheel in &mass.wheels {
             assert_close("m_i", wheel.mass, 53.014376029327764);
             assert_close("J_i axial", wheel.axial, 1.6566992509164926);
@@ -118,7 +118,7 @@ mod tests {
         input.body.center_of_mass_m = Some([0.05, -0.02, 1.4]);
         let mass = MassProperties::of(&input, 1.0);
         let about_c = |body_mass: f64, center: [f64; 3]| point_inertia(body_mass, difference(center, mass.center));
-        let mut expected = matrix_sum(mass.fuselage.inertia, about_c(mass.fuselage.mass, mass.fuselage.center));
+        let mut expected = matrix_sum(mass.body.inertia, about_c(mass.body.mass, mass.body.center));
         for wheel in &mass.wheels {
             expected = matrix_sum(expected, matrix_sum(wheel.inertia(), about_c(wheel.mass, wheel.center)));
         }
@@ -147,14 +147,14 @@ mod tests {
     fn a_mass_alone_scales_the_inertia_and_a_missing_wheel_weighs_nothing() {
         let mut input = samples::table_two();
         let nominal = MassProperties::of(&input, 1.0);
-        input.body.mass_kg = Some(2.0 * nominal.fuselage.mass);
+        input.body.mass_kg = Some(2.0 * nominal.body.mass);
         input.wheels.clear();
         let mass = MassProperties::of(&input, 1.0);
-        assert_eq!(mass.fuselage.inertia[0][0], 2.0 * nominal.fuselage.inertia[0][0]);
-        assert_eq!(mass.inertia, mass.fuselage.inertia);
-        assert_eq!(mass.inertia_free, mass.fuselage.inertia);
-        assert_eq!(mass.total, mass.fuselage.mass);
-        assert_eq!(mass.center, mass.fuselage.center);
+        assert_eq!(mass.body.inertia[0][0], 2.0 * nominal.body.inertia[0][0]);
+        assert_eq!(mass.inertia, mass.body.inertia);
+        assert_eq!(mass.inertia_free, mass.body.inertia);
+        assert_eq!(mass.total, mass.body.mass);
+        assert_eq!(mass.center, mass.body.center);
     }
 
     /// Law: a locked wheel is a part of the body; the whole is that with the wheel at rest.
@@ -166,7 +166,7 @@ mod tests {
         let locked = MassProperties::of(&input, 1.0);
         assert_eq!(locked.wheels.len(), 1);
         assert_close("total", locked.total, free.total);
-        assert_close("body", locked.fuselage.mass, free.fuselage.mass + free.wheels[0].mass);
+        assert_close("body", locked.body.mass, free.body.mass + free.wheels[0].mass);
         for i in 0..3 {
             assert_close("inertia", locked.inertia[i][i], free.inertia[i][i]);
         }
@@ -185,7 +185,7 @@ mod tests {
         input.body.inertia_kg_m2 = Some(parts.inertia);
         let whole = MassProperties::of(&input, 1.0);
         assert_close("total", whole.total, parts.total);
-        assert_close("body", whole.fuselage.mass, parts.fuselage.mass);
+        assert_close("body", whole.body.mass, parts.body.mass);
         for i in 0..3 {
             assert_close("inertia", whole.inertia[i][i], parts.inertia[i][i]);
             assert_close("J*", whole.inertia_free[i][i], parts.inertia_free[i][i]);

@@ -6,12 +6,11 @@
 //! - [`solids`]: mass, centre and inertia of homogeneous solids (the report's (60)-(67), in closed form).
 //! - [`body`]: the body of the spacecraft and the debris from their input. [`wheel`]: wheels that turn. `tensor`: inertias by rows.
 //! - [`mass`]: mass properties of the whole.
-//! - [`parameter`]: the numeric keys that can be dispersed; `effect`: where a change of them has an effect.
+//! - [`parameter`]: the numeric keys that can be dispersed.
 //! - [`check`], [`error`]: what makes a scene physical beyond single keys, and the message where it is not.
 //! - [`actuated`]: what acts on a spacecraft at any time of a run.
 //! - [`resolve`]: from an input to a [`Scene`].
 //! - [`thruster`]: force and torque of thrusters. [`alignment`]: axes and directions, and their errors. [`name`]: names.
-//! - [`magnitude`]: the number by which a vector or an attitude is judged. [`outline`]: how far a point is from a part.
 //! - [`unit_quaternion`]: the attitude that is used where one is written.
 //! - [`schedule`]: what the actuators make of the commands, and the arcs of constant actuation.
 
@@ -19,13 +18,10 @@ pub mod actuated;
 pub mod alignment;
 pub mod body;
 pub mod check;
-mod effect;
 pub mod error;
 pub mod input;
-pub mod magnitude;
 pub mod mass;
 pub mod name;
-pub mod outline;
 pub mod parameter;
 #[cfg(test)]
 mod refusals;
@@ -83,9 +79,9 @@ pub struct InitialState {
     pub r_po_e: [f64; 3],
     /// Velocity of p, m/s.
     pub v_po_e: [f64; 3],
-    /// Attitude of the fuselage, F_s -> F_e, unit norm.
+    /// Attitude of the body, F_s -> F_e, unit norm.
     pub q_es: [f64; 4],
-    /// Angular velocity of the fuselage, rad/s.
+    /// Angular velocity of the body, rad/s.
     pub omega_se_s: [f64; 3],
     /// Wheel angles relative to the body, in the order of the wheels, rad; zero beyond.
     pub wheel_angles: [f64; MAX_WHEELS],

@@ -1,7 +1,7 @@
 //! [`Parameter`]: a numeric key of scene or initial state that can be dispersed: a row of [`super::schema`] and an instance of
 //! its table.
 //!
-//! Not here: whether it has an effect in a scene (`effect.rs`); the commands of `[[actuation]]`, which the keys of `[actuators]` distort for all arcs alike, and the errors of an arc for that arc.
+//! Not here: whether a change of it changes a run, which is found by running; the commands of `[[actuation]]`, which the keys of `[actuators]` distort for all arcs alike, and the errors of an arc for that arc.
 
 use super::input::SceneInput;
 use super::name::Name;
@@ -14,7 +14,7 @@ use super::unit_quaternion::{is_unit, unit_quaternion};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Parameter {
     /// Its row in the schema.
-    pub(super) key: Key,
+    key: Key,
     /// Which instance of the row's table.
     instance: u32,
     /// The name of that instance.
@@ -59,7 +59,7 @@ impl Parameter {
         self.key.facts()
     }
 
-    pub(super) fn instance(self) -> usize {
+    fn instance(self) -> usize {
         self.instance as usize
     }
 
@@ -110,10 +110,15 @@ impl Parameter {
         }
     }
 
+    /// Whether `scene` has the key.
+    pub fn exists(self, scene: &SceneInput) -> bool {
+        self.key.read(scene, self.instance()).is_some()
+    }
+
     /// Makes `scene` have the key, if its table is there: an optional value, a way to describe a body. Its numbers are then
     /// not numbers yet.
     pub fn open(self, scene: &mut SceneInput) {
-        if self.key.read(scene, self.instance()).is_none() {
+        if !self.exists(scene) {
             self.key.open(scene, self.instance());
         }
     }
@@ -207,7 +212,7 @@ impl SceneInput {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{ActuationInput, BodyInput, DebrisInput, PrincipalInertia, PrincipalMoments, WheelMode};
+    use crate::scene::{ActuationInput, DebrisInput, PrincipalInertia, PrincipalMoments, WheelMode};
 
     const IDENTITY: [f64; 4] = [1.0, 0.0, 0.0, 0.0];
 
@@ -225,8 +230,6 @@ mod tests {
         let mut other = full();
         other.body.principal = Some(PrincipalInertia { moments: second, axes: IDENTITY });
         list.push(other);
-        // keys of a part have no effect where those of the whole body override them
-        list.push(SceneInput { body: BodyInput::DEFAULT, ..full() });
         list
     }
 
@@ -255,11 +258,11 @@ mod tests {
         for parameter in Parameter::all(&full()) {
             let nominal = variants
                 .iter()
-                .find(|scene| parameter.exists(scene, 0))
+                .find(|scene| parameter.exists(scene))
                 .unwrap_or_else(|| panic!("{} exists nowhere", parameter.name()));
             assert_eq!(Parameter::find(&full(), &parameter.name()), Some((parameter, None)));
             for component in 0..parameter.width() {
-                assert!(parameter.exists(nominal, component), "{}", parameter.name());
+                assert!(parameter.exists(nominal), "{}", parameter.name());
                 let mut scene = nominal.clone();
                 parameter.set(&mut scene, component, 42.5);
                 for other in Parameter::all(&full()) {
@@ -342,6 +345,7 @@ mod tests {
         assert!(changed_by_division > 2000, "{changed_by_division}");
     }
 
+    /// Law: what a scene does not have, and only that, does not exist.
     #[test]
     fn what_is_left_out_does_not_exist() {
         let mut scene = full();
@@ -349,28 +353,26 @@ mod tests {
         scene.debris = None;
         scene.body.mass_kg = None;
         scene.actuation.clear();
-        let exists =
-            |name, component| Parameter::find(&full(), name).expect("in the table").0.exists(&scene, component);
-        assert!(
-            exists("wheels.w1.rate_rad_s", 0) && exists("wheels.w1.radius_m", 0) && exists("wheels.w2.radius_m", 0)
-        );
-        for (name, component) in [
-            ("wheels.w2.rate_rad_s", 0),
-            ("wheels.w2.angle_rad", 0),
-            ("body.mass_kg", 0),
-            ("debris.side_m", 0),
-            ("debris.size_m", 0),
-            ("body.principal_second_moments_kg_m2", 0),
-            ("thrusters.p3.position_m", 0),
-            ("thrusters.p3.thrust_scale", 0),
-            ("wheels.w1.torque_scale", 0),
-            ("actuators.switch_on_delay_s", 0),
-            ("initial.debris_attitude", 0),
+        scene.environment.body_torque_n_m = None;
+        let exists = |name| Parameter::find(&full(), name).expect("in the table").0.exists(&scene);
+        for name in
+            ["wheels.w1.rate_rad_s", "wheels.w2.rate_rad_s", "thrusters.p3.position_m", "actuators.switch_on_delay_s"]
+        {
+            assert!(exists(name), "{name}");
+        }
+        for name in [
+            "body.mass_kg",
+            "debris.side_m",
+            "debris.size_m",
+            "body.principal_second_moments_kg_m2",
+            "actuation.0.thrust_scale",
+            "environment.body_torque_n_m",
+            "initial.debris_attitude",
         ] {
-            assert!(!exists(name, component), "{name}");
+            assert!(!exists(name), "{name}");
         }
         scene.wheels.pop();
         let second = Parameter::find(&full(), "wheels.w2.radius_m").expect("in the table").0;
-        assert!(!second.exists(&scene, 0) && Parameter::find(&scene, "wheels.w2.radius_m").is_none());
+        assert!(!second.exists(&scene) && Parameter::find(&scene, "wheels.w2.radius_m").is_none());
     }
 }

@@ -43,7 +43,7 @@ fn by_mass(axial: f64) -> WheelInput {
         mass_kg: Some(50.0),
         axial_inertia_kg_m2: Some(axial),
         transverse_inertia_kg_m2: Some(1.0),
-        ..WheelInput { name: Name::of("w1"), axis: [0.0, 1.0, 0.0], ..WheelInput::BLANK }
+        ..WheelInput { name: Name::of("w1"), axis: [0.0, 1.0, 0.0], ..WheelInput::DEFAULT }
     }
 }
 

@@ -32,17 +32,6 @@ fn meets_next(input: &SceneInput, index: usize) -> bool {
     input.actuation.get(index + 1).is_some_and(|next| next.start_s == input.actuation[index].end_s)
 }
 
-/// Whether anything is switched at the start of command `index`: by it, or by the one before, which ends there.
-pub(super) fn switches_on(input: &SceneInput, index: usize) -> bool {
-    let is_before = |before: &usize| meets_next(input, *before) && input.actuation[*before].commands_any();
-    input.actuation[index].commands_any() || index.checked_sub(1).filter(is_before).is_some()
-}
-
-/// Whether anything is switched at the end of command `index`, by its own delay.
-pub(super) fn switches_off(input: &SceneInput, index: usize) -> bool {
-    input.actuation[index].commands_any() && !meets_next(input, index)
-}
-
 /// The arc that command `index` of `input` becomes: scales, bias, delays. With ideal actuators, the command itself.
 ///
 /// [`super::check`] checks that the result is a schedule (every arc starts before it ends, no negative thrust).

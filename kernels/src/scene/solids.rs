@@ -13,7 +13,7 @@ use crate::math::Real;
 pub struct Body<R = f64> {
     /// Mass, kg.
     pub mass: R,
-    /// Centre of mass from the frame's origin, m (for the fuselage from p in F_s; zero for the debris).
+    /// Centre of mass from the frame's origin, m (for the body from p in F_s; zero for the debris).
     pub center: [R; 3],
     /// Inertia tensor about the centre of mass, in the body's frame, kg m^2, by rows.
     pub inertia: [[R; 3]; 3],

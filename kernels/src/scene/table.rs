@@ -144,17 +144,6 @@ macro_rules! tables {
                     Table::Control => {}
                 }
             }
-
-            /// Whether a change of a component has an effect, where the scene has the key.
-            pub fn acts(self, $scene: &SceneInput, $instance: usize, component: usize) -> bool {
-                let usage = $scene.usage();
-                match self.table {
-                    $(Table::$Table => $get.is_some_and(|table| {
-                        (row_of($parts, self.row as usize).acts)(&usage, table, $instance, component)
-                    }),)+
-                    Table::Control => true,
-                }
-            }
         }
     };
 }
@@ -267,7 +256,7 @@ impl Key {
 fn with_every_table() -> SceneInput {
     let part = PartInput { name: Name::of("part"), ..PartInput::DEFAULT };
     let scene = SceneInput { parts: vec![part], ..SceneInput::blank() };
-    let scene = scene.with_wheel(WheelInput { name: Name::of("wheel"), ..WheelInput::BLANK });
+    let scene = scene.with_wheel(WheelInput { name: Name::of("wheel"), ..WheelInput::DEFAULT });
     let scene = scene.with_thruster(ThrusterInput { name: Name::of("thruster"), ..ThrusterInput::DEFAULT });
-    scene.with_debris(DebrisInput::default()).with_actuation(ActuationInput::DEFAULT)
+    scene.with_debris(DebrisInput::BLANK).with_actuation(ActuationInput::DEFAULT)
 }

@@ -46,7 +46,7 @@ fn part(part: &PartInput) -> Value {
 
 /// The box that has the mass and the moments of inertia of a body that is given by them: l_x^2 = 6 (I_y + I_z - I_x)/m.
 fn equivalent_box(scene: &Scene) -> Value {
-    let body = &scene.mass.fuselage;
+    let body = &scene.mass.body;
     let (moments, axes) = crate::math::symmetric::principal_axes(body.inertia);
     let sum: f64 = moments.iter().sum();
     let size = moments.map(|moment| libm::sqrt((6.0 * (sum - 2.0 * moment) / body.mass).max(1e-6)));

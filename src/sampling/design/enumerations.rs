@@ -66,21 +66,6 @@ macro_rules! designs {
                 match self { $( Self::$Name(kind) => kind.size(dimensions), )* }
             }
 
-            /// See [`Kind::unvaried`].
-            pub fn unvaried(&self, dimensions: usize, points: u64) -> Vec<usize> {
-                match self { $( Self::$Name(kind) => kind.unvaried(dimensions, points), )* }
-            }
-
-            /// See [`Kind::incomplete`].
-            pub fn incomplete(&self, dimensions: usize, points: u64) -> Vec<usize> {
-                match self { $( Self::$Name(kind) => kind.incomplete(dimensions, points), )* }
-            }
-
-            /// See [`Kind::only_number`].
-            pub fn only_number(&self, dimension: usize) -> Option<f64> {
-                match self { $( Self::$Name(kind) => kind.only_number(dimension), )* }
-            }
-
             /// See [`Kind::HAS_REPLICATES`].
             pub fn has_replicates(&self) -> bool {
                 match self { $( Self::$Name(_) => <$Kind as Kind>::HAS_REPLICATES, )* }

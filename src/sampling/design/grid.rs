@@ -64,21 +64,6 @@ impl Kind for GridDesign {
         product.map_or(Size::TooMany, Size::Points)
     }
 
-    fn unvaried(&self, dimensions: usize, points: u64) -> Vec<usize> {
-        let grid = Grid::new(self.0.clone(), dimensions);
-        (0..dimensions).filter(|k| self.0.count(*k) > 1 && grid.strides[*k] >= points).collect()
-    }
-
-    fn incomplete(&self, dimensions: usize, points: u64) -> Vec<usize> {
-        let grid = Grid::new(self.0.clone(), dimensions);
-        let levels_seen = |k: usize| points.div_ceil(grid.strides[k]);
-        (0..dimensions).filter(|k| (2..self.0.count(*k)).contains(&levels_seen(*k))).collect()
-    }
-
-    fn only_number(&self, dimension: usize) -> Option<f64> {
-        self.0.only_level(dimension)
-    }
-
     fn check(&self, dimensions: Dimensions<'_>, _samples: Option<u64>) -> Result<(), DispersionError> {
         self.0.check(dimensions.names.len())
     }
@@ -102,38 +87,6 @@ mod tests {
         }
         assert_eq!([0, 1, 2, 3].map(|point| grid.number(0, point)), [1.0 / 6.0, 0.5, 5.0 / 6.0, 1.0 / 6.0]);
         assert_eq!([2, 3, 5, 6].map(|point| grid.number(1, point)), [0.25, 0.75, 0.75, 0.25]);
-    }
-
-    #[test]
-    fn a_partial_grid_tells_what_it_does_not_vary() {
-        let design = GridDesign(Levels::Counts(Counts::Each(vec![3, 2, 4, 1])));
-        let varies = |dimension, points| {
-            let grid = Grid::new(design.0.clone(), 4);
-            (1..points).any(|point| grid.number(dimension, point) != grid.number(dimension, 0))
-        };
-        for points in 1..=24 {
-            let unvaried = design.unvaried(4, points);
-            for dimension in 0..3 {
-                assert_eq!(unvaried.contains(&dimension), !varies(dimension, points), "{dimension} {points}");
-            }
-            assert!(!unvaried.contains(&3), "one level never varies");
-        }
-    }
-
-    /// Law: what a part of a grid varies without all levels is what has fewer different numbers than levels.
-    #[test]
-    fn a_partial_grid_tells_what_lacks_levels() {
-        let design = GridDesign(Levels::Counts(Counts::Each(vec![3, 2, 4, 1])));
-        let grid = Grid::new(design.0.clone(), 4);
-        for points in 1..=24 {
-            let incomplete = design.incomplete(4, points);
-            for dimension in 0..4 {
-                let numbers = (0..points).map(|point| grid.number(dimension, point).to_bits());
-                let seen = numbers.collect::<std::collections::HashSet<_>>().len() as u64;
-                let lacks = seen > 1 && seen < design.0.count(dimension);
-                assert_eq!(incomplete.contains(&dimension), lacks, "{dimension} {points}");
-            }
-        }
     }
 
     #[test]

@@ -33,15 +33,6 @@ impl Levels {
         }
     }
 
-    /// The level of a dimension that has no other.
-    pub(super) fn only_level(&self, dimension: usize) -> Option<f64> {
-        let first = self.level(dimension, 0);
-        match self {
-            Levels::Counts(_) => (self.count(dimension) == 1).then_some(first),
-            Levels::Quantiles(list) => list.iter().all(|level| *level == first).then_some(first),
-        }
-    }
-
     /// Reads `levels` or `quantiles`; `None` where something is wrong, which is then noted.
     pub(super) fn read(keys: &mut dyn KeyReader) -> Option<Self> {
         let (has_levels, has_quantiles) = (keys.has("levels"), keys.has("quantiles"));

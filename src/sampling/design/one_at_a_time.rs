@@ -67,21 +67,6 @@ impl Kind for OneAtATimeDesign {
         sum.map_or(Size::TooMany, Size::Points)
     }
 
-    fn unvaried(&self, dimensions: usize, points: u64) -> Vec<usize> {
-        let design = OneAtATime::new(self.0.clone(), dimensions);
-        (0..dimensions).filter(|k| design.starts[*k] >= points).collect()
-    }
-
-    fn incomplete(&self, dimensions: usize, points: u64) -> Vec<usize> {
-        let design = OneAtATime::new(self.0.clone(), dimensions);
-        let levels_seen = |k: usize| points.saturating_sub(design.starts[k]);
-        (0..dimensions).filter(|k| (1..self.0.count(*k)).contains(&levels_seen(*k))).collect()
-    }
-
-    fn only_number(&self, dimension: usize) -> Option<f64> {
-        self.0.only_level(dimension)
-    }
-
     fn check(&self, dimensions: Dimensions<'_>, _samples: Option<u64>) -> Result<(), DispersionError> {
         self.0.check(dimensions.names.len())
     }
@@ -104,21 +89,5 @@ mod tests {
         }
         assert_eq!([2, 3].map(|point| design.number(1, point)), [0.1, 0.9]);
         assert!(design.number(2, 6).is_nan(), "beyond the last point all is nominal");
-    }
-
-    /// Law: a part of the design lacks levels of one dimension at most, the last that varies.
-    #[test]
-    fn a_part_tells_what_lacks_levels() {
-        let design = OneAtATimeDesign(Levels::Quantiles(vec![0.1, 0.5, 0.9]));
-        for (points, incomplete, unvaried) in [
-            (1, vec![0], vec![1]),
-            (2, vec![0], vec![1]),
-            (3, vec![], vec![1]),
-            (4, vec![1], vec![]),
-            (6, vec![], vec![]),
-        ] {
-            assert_eq!(design.incomplete(2, points), incomplete, "{points}");
-            assert_eq!(design.unvaried(2, points), unvaried, "{points}");
-        }
     }
 }

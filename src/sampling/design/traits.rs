@@ -68,21 +68,6 @@ pub trait Kind: Clone + Debug + PartialEq {
         Size::Any
     }
 
-    /// The dimensions that do not vary in the first `points` points, although they vary in all points.
-    fn unvaried(&self, _dimensions: usize, _points: u64) -> Vec<usize> {
-        Vec::new()
-    }
-
-    /// The dimensions that vary in the first `points` points, but have levels that none of these points has.
-    fn incomplete(&self, _dimensions: usize, _points: u64) -> Vec<usize> {
-        Vec::new()
-    }
-
-    /// The number that a dimension has in every point where it is not nominal, if it has only one.
-    fn only_number(&self, _dimension: usize) -> Option<f64> {
-        None
-    }
-
     /// How many designs of the kind it consists of.
     fn replicates(&self) -> u64 {
         1

@@ -20,11 +20,6 @@ pub struct BootstrapMap {
 }
 
 impl BootstrapMap {
-    /// Whether all rows have these numbers.
-    pub fn all_are(&self, numbers: &[f64]) -> bool {
-        self.columns.iter().zip(numbers).all(|(column, number)| column.iter().all(|value| value == number))
-    }
-
     /// The numbers of the row `row`, below [`BootstrapMap::rows`].
     pub fn values_of(&self, row: usize, values: &mut [f64]) {
         for (value, column) in values.iter_mut().zip(&self.columns) {

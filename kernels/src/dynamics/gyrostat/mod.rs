@@ -9,7 +9,7 @@
 //! ```
 //!
 //! A wheel whose motor holds its speed has other constants: its axial inertia stays in the inertia that resists a change of
-//! omega, and its momentum relative to the fuselage, J_i Omega_i, is constant. With K = J* + sum over held wheels of J_i a_i a_i^T (all held: K = J) the same equations hold:
+//! omega, and its momentum relative to the body, J_i Omega_i, is constant. With K = J* + sum over held wheels of J_i a_i a_i^T (all held: K = J) the same equations hold:
 //!
 //! ```text
 //! H = K omega + sum over free wheels h_i a_i + sum over held wheels J_i Omega_i a_i

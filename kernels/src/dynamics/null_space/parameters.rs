@@ -79,7 +79,7 @@ impl<const W: usize> Parameters<W> {
             Body { mass: 1.0, center: [0.0; 3], inertia: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] };
         let mass = &scene.mass;
         let wheels = std::array::from_fn(|i| mass.wheels.get(i).map_or(WheelParameters::MISSING, WheelParameters::of));
-        let fuselage_first = mass.fuselage.first_moment();
+        let fuselage_first = mass.body.first_moment();
         let mut first = fuselage_first;
         for wheel in &wheels {
             for (sum, z) in first.iter_mut().zip(wheel.center) {
@@ -92,9 +92,9 @@ impl<const W: usize> Parameters<W> {
             thrusters.push(*thruster);
         }
         Parameters {
-            fuselage_mass: mass.fuselage.mass,
+            fuselage_mass: mass.body.mass,
             fuselage_first,
-            fuselage_inertia: mass.fuselage.inertia_about_origin(),
+            fuselage_inertia: mass.body.inertia_about_origin(),
             wheels,
             total: mass.total,
             first,

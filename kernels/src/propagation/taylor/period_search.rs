@@ -8,7 +8,8 @@ use crate::dynamics::gyrostat::{ATTITUDE, Gyrostat, OMEGA, WITH_ATTITUDE};
 use crate::math::Real;
 use crate::math::vector::{dcm_from_quaternion, product};
 
-/// The section across the motion of `omega` in a free arc of `run`, per unit of time; `momentum` is that of the wheels.
+/// The section across the motion of `omega` in a free arc, per unit of time: `ratio` and `inverse` are those of the moments of inertia, `momentum` is that
+/// of the wheels.
 pub(super) fn section(
     ratio: [f64; 3],
     inverse: [f64; 3],

@@ -4,23 +4,15 @@
 use super::components::SCALAR;
 use super::limit::Limit;
 use super::numbers::Numbers;
-use super::row::always;
 use super::rows::rows;
-use super::usage::{MAX_THRUSTERS, MAX_WHEELS, Usage};
+use super::{MAX_THRUSTERS, MAX_WHEELS};
 use crate::scene::name::Name;
-
-const THRUST: &str = "name an arc that commands thrust; arcs are called by their name, else by their number from 0";
-const TORQUE: &str =
-    "name an arc that commands a motor torque; arcs are called by their name, else by their number from 0";
-const SWITCH: &str = "name an arc at whose start something is switched";
-const SWITCH_OFF: &str =
-    "name an arc that acts and does not end as the next starts: there is one switch, by switch_on_delay_s of the next";
 
 rows! {
     /// An arc of constant thrust and torque, as commanded.
     pub struct ActuationInput in ActuationInput [table => table] {
-    start_s: f64 = 0.0, "s", "Start", SCALAR, Plain, Limit::Finite, (required "0.0"), always, "";
-    end_s: f64 = 1.0, "s", "End", SCALAR, Plain, Limit::Finite, (required "1.0"), always, "";
+    start_s: f64 = 0.0, "s", "Start", SCALAR, Plain, Limit::Finite, (required "0.0");
+    end_s: f64 = 1.0, "s", "End", SCALAR, Plain, Limit::Finite, (required "1.0");
     } others {
         /// Thrusts in the order of the thrusters, never negative, N; zero beyond. In a file a table by name, `thrust_n = { p1 = 100.0 }`.
         thrust_n: [f64; MAX_THRUSTERS] = [0.0; MAX_THRUSTERS],
@@ -39,14 +31,12 @@ rows! {
     /// add to theirs.
     pub struct ArcErrors in ActuationInput [table => table.errors] {
     thrust_scale: f64 = 1.0, "1", "Factor of the commanded thrusts of this arc", SCALAR, Plain,
-        Limit::Thrust("write zero for an arc that does not ignite"), (optional), thrusts, THRUST;
-    torque_scale: f64 = 1.0, "1", "Factor of the commanded motor torques of this arc", SCALAR, Plain, Limit::Finite, (optional),
-        turns, TORQUE;
-    switch_on_delay_s: f64 = 0.0, "s", "How much later than the others this arc starts", SCALAR, Plain, Limit::Finite, (optional),
-        always, SWITCH;
+        Limit::Thrust("write zero for an arc that does not ignite"), (optional);
+    torque_scale: f64 = 1.0, "1", "Factor of the commanded motor torques of this arc", SCALAR, Plain, Limit::Finite, (optional);
+    switch_on_delay_s: f64 = 0.0, "s", "How much later than the others this arc starts", SCALAR, Plain, Limit::Finite, (optional);
     switch_off_delay_s: f64 = 0.0, "s",
         "How much later than the others this arc ends; no effect where the next arc starts as this one ends", SCALAR, Plain,
-        Limit::Finite, (optional), always, SWITCH_OFF;
+        Limit::Finite, (optional);
     } others {}
 }
 
@@ -55,23 +45,10 @@ impl ArcErrors {
     pub const NONE: ArcErrors = ArcErrors::DEFAULT;
 }
 
-fn thrusts(_: &Usage, arc: &ActuationInput, _: usize, _: usize) -> bool {
-    arc.thrust_n.iter().any(|thrust| *thrust != 0.0)
-}
-
-fn turns(_: &Usage, arc: &ActuationInput, _: usize, _: usize) -> bool {
-    arc.torque_n_m.iter().any(|torque| *torque != 0.0)
-}
-
 impl ActuationInput {
     /// Nothing acts from `start_s` to `end_s`.
     pub const fn idle(start_s: f64, end_s: f64) -> Self {
         ActuationInput { start_s, end_s, ..ActuationInput::DEFAULT }
-    }
-
-    /// Whether any thrust or torque is commanded.
-    pub fn commands_any(&self) -> bool {
-        self.thrust_n != [0.0; MAX_THRUSTERS] || self.torque_n_m != [0.0; MAX_WHEELS]
     }
 
     /// The same with `thrust_n` for the first thrusters.

@@ -4,22 +4,15 @@ use super::components::SCALAR;
 use super::limit::Limit;
 use super::numbers::Numbers;
 use super::rows::rows;
-use super::usage::Usage;
-
-const REMEDY: &str = "let an arc of [[actuation]] command a thrust or a torque that is not zero";
 
 rows! {
     /// How late the actuators are, for all arcs of the schedule. How strong they are is said with each thruster and wheel.
     pub struct ActuatorsInput in ActuatorsInput [table => table] {
     switch_on_delay_s: f64 = 0.0, "s",
         "How much later than commanded arcs start; one that would start before the run starts with it", SCALAR, Plain,
-        Limit::Finite, (optional), is_scheduled, REMEDY;
+        Limit::Finite, (optional);
     switch_off_delay_s: f64 = 0.0, "s",
         "How much later than commanded arcs end; where one arc starts as another ends there is one switch, which is late by switch_on_delay_s",
-        SCALAR, Plain, Limit::Finite, (optional), is_scheduled, REMEDY;
+        SCALAR, Plain, Limit::Finite, (optional);
     } others {}
-}
-
-fn is_scheduled(usage: &Usage, _: &ActuatorsInput, _: usize, _: usize) -> bool {
-    usage.is_scheduled
 }

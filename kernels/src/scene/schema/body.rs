@@ -5,16 +5,9 @@ use super::limit::Limit;
 use super::mass_errors::MassErrors;
 use super::numbers::Numbers;
 use super::principal::{AXES_MEANING, MOMENTS, PrincipalInertia, PrincipalMoments, SECOND};
-use super::row::{Row, always, check_rows};
+use super::row::{Row, check_rows};
 use super::rows::{row, rows};
 use crate::scene::error::Problems;
-
-/// The remedy of a value that the scene does not have.
-macro_rules! given {
-    ($key:literal) => {
-        concat!("give body.", $key, " a nominal value, or disperse the parts that it would come from")
-    };
-}
 
 rows! {
     /// The body: everything of the spacecraft but the wheels that turn.
@@ -23,12 +16,12 @@ rows! {
     /// tensor or principal moments replace it. The errors are applied last.
     pub struct BodyInput in BodyInput [table => table] {
     mass_kg: Option<f64> = None, "kg", "Mass, instead of the one that the parts give", SCALAR, Plain, Limit::Positive,
-        (optional), always, given!("mass_kg");
+        (optional);
     center_of_mass_m: Option<[f64; 3]> = None, "m", "Centre of mass from p in F_s, instead of the one that the parts give",
-        XYZ, Plain, Limit::Finite, (optional), always, given!("center_of_mass_m");
+        XYZ, Plain, Limit::Finite, (optional);
     inertia_kg_m2: Option<[[f64; 3]; 3]> = None, "kg m^2",
         "Inertia tensor about the centre of mass in F_s, by rows, instead of the one that the parts give", SYMMETRIC, Symmetric,
-        Limit::Inertia, (optional), always, given!("inertia_kg_m2");
+        Limit::Inertia, (optional);
     } others {
         /// The same inertia by principal moments and axes; at most one of the two is given.
         principal: Option<PrincipalInertia> = None,
@@ -41,15 +34,15 @@ rows! {
 
 const PRINCIPAL: &[Row<BodyInput>] = &[
     row!(principal_moments_kg_m2, "kg m^2", MOMENTS, AXES, Plain,
-        Limit::PrincipalMoments, (optional), "describe the body's inertia by body.principal_moments_kg_m2",
+        Limit::PrincipalMoments, (optional),
         |body| { body.principal.get_or_insert(PrincipalInertia::BLANK); },
         BodyInput { principal: Some(PrincipalInertia { moments: PrincipalMoments::Inertia(value), .. }), .. } => value),
     row!(principal_second_moments_kg_m2, "kg m^2", SECOND, AXES, Plain,
-        Limit::Positive, (optional), "describe the body's inertia by body.principal_second_moments_kg_m2",
+        Limit::Positive, (optional),
         |body| { body.principal.get_or_insert(PrincipalInertia::BLANK_SECOND); },
         BodyInput { principal: Some(PrincipalInertia { moments: PrincipalMoments::Second(value), .. }), .. } => value),
     row!(principal_axes, "1", AXES_MEANING, WXYZ, Quaternion,
-        Limit::UnitQuaternion, (optional), "describe the body's inertia by body.principal_axes",
+        Limit::UnitQuaternion, (optional),
         |_| {},
         BodyInput { principal: Some(PrincipalInertia { axes: value, .. }), .. } => value),
 ];
@@ -67,15 +60,5 @@ impl BodyInput {
             check_rows(PRINCIPAL, self, problems, name);
         }
         self.errors.check(false, problems, name);
-    }
-
-    /// Whether an inertia is given, by a tensor or by principal moments.
-    pub fn has_inertia(&self) -> bool {
-        self.inertia_kg_m2.is_some() || self.principal.is_some()
-    }
-
-    /// Whether nothing of the mass properties that parts would give is left.
-    pub fn replaces_parts(&self) -> bool {
-        self.mass_kg.is_some() && self.center_of_mass_m.is_some() && self.has_inertia()
     }
 }

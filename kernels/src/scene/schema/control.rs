@@ -28,7 +28,6 @@ impl LawParameter {
             presence: Presence::Required("1.0"),
             needs: Needs::Nothing,
             limit,
-            remedy: "give it a value in [control]",
         };
         LawParameter { facts, default: None }
     }

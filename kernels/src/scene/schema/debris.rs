@@ -41,15 +41,7 @@ pub enum DebrisInput {
     },
 }
 
-impl Default for DebrisInput {
-    /// The report's debris: a cube of 0.2 m, 2700 kg/m^3 (Table II).
-    fn default() -> Self {
-        DebrisInput::Cube { side_m: 0.2, density_kg_m3: 2700.0 }
-    }
-}
-
 const NAN: f64 = f64::NAN;
-const CUBE: DebrisInput = DebrisInput::Cube { side_m: NAN, density_kg_m3: NAN };
 const BOX: DebrisInput = DebrisInput::Box { size_m: [NAN; 3], density_kg_m3: NAN };
 const TENSOR: DebrisInput = DebrisInput::Tensor { mass_kg: NAN, inertia_kg_m2: [[NAN; 3]; 3] };
 
@@ -60,15 +52,14 @@ fn is_irregular(debris: &DebrisInput) -> bool {
 macro_rules! debris {
     ($key:ident, $unit:literal, $meaning:expr, $components:expr, $shape:ident, $limit:expr, ($($presence:tt)+), $open:expr,
         $pattern:pat => $value:ident) => {
-        row!($key, $unit, $meaning, $components, $shape, $limit, ($($presence)+),
-            concat!("describe the debris by debris.", stringify!($key)), $open, $pattern => $value)
+        row!($key, $unit, $meaning, $components, $shape, $limit, ($($presence)+), $open, $pattern => $value)
     };
 }
 
 /// The rows of `[debris]`.
 const ROWS: &[Row<DebrisInput>] = &[
     debris!(side_m, "m", "Side l_d of a cube", SCALAR, Plain, Limit::Positive, (required "0.2"),
-        |debris| *debris = CUBE,
+        |debris| *debris = DebrisInput::BLANK,
         DebrisInput::Cube { side_m: value, .. } => value),
     debris!(size_m, "m", "Sides of a box along d1, d2, d3", XYZ, Plain, Limit::Positive, (optional),
         |debris| *debris = BOX,
@@ -94,6 +85,9 @@ const ROWS: &[Row<DebrisInput>] = &[
 ];
 
 impl DebrisInput {
+    /// A cube whose numbers are not read yet: none is a number.
+    pub const BLANK: DebrisInput = DebrisInput::Cube { side_m: NAN, density_kg_m3: NAN };
+
     /// The rows of the schema.
     pub const ROWS: &'static [Row<DebrisInput>] = ROWS;
 

@@ -3,14 +3,13 @@
 use super::components::XYZ;
 use super::limit::Limit;
 use super::numbers::Numbers;
-use super::row::always;
 use super::rows::rows;
 
 rows! {
     /// Torques of the environment on the spacecraft. A torque that is not written does not act.
     pub struct EnvironmentInput in EnvironmentInput [table => table] {
     body_torque_n_m: Option<[f64; 3]> = None, "N m", "Constant torque on the spacecraft, in F_s", XYZ, Plain, Limit::Finite,
-        (optional), always, "give environment.body_torque_n_m a nominal value, zero if need be";
+        (optional);
     } others {}
 }
 

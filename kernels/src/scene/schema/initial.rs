@@ -3,31 +3,28 @@
 use super::components::{WXYZ, XYZ};
 use super::limit::Limit;
 use super::numbers::Numbers;
-use super::row::always;
 use super::rows::rows;
-
-const DEBRIS: &str = "add a [debris] table";
 
 rows! {
     /// The measurable state at time zero (the report's Sigma, (59), builds the full state from it).
     pub struct InitialInput in InitialInput [table => table] {
     position_m: [f64; 3] = [0.0; 3], "m", "Position of p from the inertial origin, in F_e", XYZ, Plain, Limit::Finite,
-        (optional), always, "";
+        (optional);
     velocity_m_s: [f64; 3] = [0.0; 3], "m/s", "Velocity of p relative to F_e, in F_e", XYZ, Plain, Limit::Finite,
-        (optional), always, "";
+        (optional);
     attitude: [f64; 4] = [1.0, 0.0, 0.0, 0.0], "1", "Attitude quaternion q_es, F_s -> F_e, scalar first", WXYZ, Quaternion,
-        Limit::UnitQuaternion, (optional), always, "";
+        Limit::UnitQuaternion, (optional);
     angular_velocity_rad_s: [f64; 3] = [0.0; 3], "rad/s", "Angular velocity omega^se, in F_s", XYZ, Plain, Limit::Finite,
-        (required "[0.0, 0.0, 1.0]"), always, "";
+        (required "[0.0, 0.0, 1.0]");
     debris_position_m: [f64; 3] = [0.0; 3], "m", "Position of the debris's centre from the inertial origin, in F_e", XYZ, Plain,
-        Limit::Finite, (optional with debris), always, DEBRIS;
+        Limit::Finite, (optional with debris);
     debris_velocity_m_s: [f64; 3] = [0.0; 3], "m/s", "Velocity of the debris's centre relative to F_e, in F_e", XYZ, Plain,
-        Limit::Finite, (optional with debris), always, DEBRIS;
+        Limit::Finite, (optional with debris);
     debris_attitude: [f64; 4] = [1.0, 0.0, 0.0, 0.0], "1",
         "Attitude quaternion q_sd of the debris, F_d -> F_s, scalar first", WXYZ, Quaternion, Limit::UnitQuaternion,
-        (optional with debris), always, DEBRIS;
+        (optional with debris);
     debris_relative_angular_velocity_rad_s: [f64; 3] = [0.0; 3], "rad/s",
         "Angular velocity omega^ds of the debris relative to the spacecraft, in F_d", XYZ, Plain, Limit::Finite,
-        (optional with debris), always, DEBRIS;
+        (optional with debris);
     } others {}
 }

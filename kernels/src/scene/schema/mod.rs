@@ -1,14 +1,12 @@
 //! The schema of scene parameters: one row for each numeric key of a campaign file that describes the scene.
 //!
-//! A row states key, type, unit, meaning, default, limit, whether the key must be written, and when a change of it has an
-//! effect. From it follow the field of the input structure, reading a campaign file, its canonical text, the checks, the
+//! A row states key, type, unit, meaning, default, limit, and whether the key must be written. From it follow the field of the input structure, reading a campaign file, its canonical text, the checks, the
 //! dispersable [`super::Parameter`]s and the table of keys in the documents. To add a parameter, add a row here and use the
 //! field where it acts.
 //!
 //! - [`body`], [`part`], [`mass_errors`], [`wheel`], [`thruster`], [`debris`], [`initial`], [`environment`], [`actuators`], [`actuation`]: the
 //!   rows, table by table; [`control`]: those that a control law declares.
 //! - [`row`]: what a row is. [`limit`]: what a value must satisfy. [`numbers`]: values seen as plain numbers.
-//! - [`usage`]: what a scene has and commands, as far as rows depend on it.
 //!
 //! A row knows its own table only; [`super::table`] says where in a scene the tables are. A table may have several instances.
 //!
@@ -30,7 +28,6 @@ pub mod principal;
 pub mod row;
 mod rows;
 pub mod thruster;
-pub mod usage;
 pub mod wheel;
 
 pub use actuation::{ActuationInput, ArcErrors};
@@ -46,5 +43,9 @@ pub use part::{PartInput, PartShape};
 pub use principal::{PrincipalInertia, PrincipalMoments};
 pub use row::{Facts, Needs, Presence, Row, Shape};
 pub use thruster::ThrusterInput;
-pub use usage::{MAX_THRUSTERS, MAX_WHEELS, Usage};
 pub use wheel::{WheelInput, WheelMode};
+
+/// Largest number of wheels of a spacecraft.
+pub const MAX_WHEELS: usize = 8;
+/// Largest number of thrusters of a spacecraft.
+pub const MAX_THRUSTERS: usize = 16;

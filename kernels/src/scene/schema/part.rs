@@ -4,33 +4,26 @@ use super::components::{SCALAR, WXYZ, XYZ};
 use super::limit::Limit;
 use super::mass_errors::MassErrors;
 use super::numbers::Numbers;
-use super::row::always;
 use super::rows::rows;
 use crate::scene::name::Name;
-
-const REMEDY: &str = "describe the part by that key";
 
 rows! {
     /// A rigid homogeneous part of the body, with its centre of mass at `position_m`.
     pub struct PartInput in PartInput [table => table] {
-    outer_radius_m: Option<f64> = None, "m", "Outer radius of a hollow cylinder", SCALAR, Plain, Limit::Positive, (optional),
-        always, REMEDY;
+    outer_radius_m: Option<f64> = None, "m", "Outer radius of a hollow cylinder", SCALAR, Plain, Limit::Positive, (optional);
     wall_thickness_m: Option<f64> = None, "m", "Wall thickness of shell and end plates of a hollow cylinder", SCALAR, Plain,
-        Limit::Positive, (optional), always, REMEDY;
-    radius_m: Option<f64> = None, "m", "Radius of a solid cylinder or a sphere", SCALAR, Plain, Limit::Positive, (optional),
-        always, REMEDY;
+        Limit::Positive, (optional);
+    radius_m: Option<f64> = None, "m", "Radius of a solid cylinder or a sphere", SCALAR, Plain, Limit::Positive, (optional);
     length_m: Option<f64> = None, "m", "Outer length of a cylinder, along the third axis of the part's frame", SCALAR, Plain,
-        Limit::Positive, (optional), always, REMEDY;
+        Limit::Positive, (optional);
     size_m: Option<[f64; 3]> = None, "m", "Sides of a box along the axes of its frame", XYZ, Plain, Limit::Positive,
-        (optional), always, REMEDY;
-    density_kg_m3: Option<f64> = None, "kg/m^3", "Density", SCALAR, Plain, Limit::Positive, (optional), always, REMEDY;
-    mass_kg: Option<f64> = None, "kg", "Mass, instead of the density", SCALAR, Plain, Limit::Positive, (optional), always,
-        REMEDY;
-    position_m: [f64; 3] = [0.0; 3], "m", "Centre of the part from p, in F_s", XYZ, Plain, Limit::Finite, (optional), always,
-        "";
+        (optional);
+    density_kg_m3: Option<f64> = None, "kg/m^3", "Density", SCALAR, Plain, Limit::Positive, (optional);
+    mass_kg: Option<f64> = None, "kg", "Mass, instead of the density", SCALAR, Plain, Limit::Positive, (optional);
+    position_m: [f64; 3] = [0.0; 3], "m", "Centre of the part from p, in F_s", XYZ, Plain, Limit::Finite, (optional);
     attitude: [f64; 4] = [1.0, 0.0, 0.0, 0.0], "1",
         "Attitude of the part's frame: quaternion that maps its components to those of F_s, scalar first", WXYZ, Quaternion,
-        Limit::UnitQuaternion, (optional), always, "";
+        Limit::UnitQuaternion, (optional);
     } others {
         /// The name.
         name: Name = Name::NONE,

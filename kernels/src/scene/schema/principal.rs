@@ -1,4 +1,4 @@
-//! [`PrincipalInertia`]: an inertia by principal moments and axes, of the fuselage or the debris.
+//! [`PrincipalInertia`]: an inertia by principal moments and axes, of the body or the debris.
 
 /// An inertia about the centre of mass by principal moments and axes.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,6 @@
 //! [`Row`]: one numeric key of one table.
 
 use super::limit::Limit;
-use super::usage::Usage;
 use crate::scene::error::Problems;
 use std::borrow::Cow;
 
@@ -65,8 +64,6 @@ pub struct Facts {
     pub needs: Needs,
     /// What its value must satisfy.
     pub limit: Limit,
-    /// What to write so that a change of the key has an effect, where it has none.
-    pub remedy: &'static str,
 }
 
 /// A row of the schema: one numeric key of the table `T`.
@@ -80,13 +77,6 @@ pub struct Row<T: 'static> {
     pub write: fn(&mut T) -> Option<&mut [f64]>,
     /// Makes the table have the key: an optional value, a way to describe a body.
     pub open: fn(&mut T),
-    /// Whether a change of a component has an effect, where the scene has the key: instance of the table, component.
-    pub acts: fn(&Usage, &T, usize, usize) -> bool,
-}
-
-/// Every change has an effect.
-pub(super) fn always<T>(_: &Usage, _: &T, _: usize, _: usize) -> bool {
-    true
 }
 
 /// Notes which values of the rows that `table` has violate their limits.

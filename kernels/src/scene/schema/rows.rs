@@ -23,7 +23,7 @@ macro_rules! gate {
 /// What a row says of its key, apart from where the value is.
 macro_rules! facts {
     (
-        $key:ident, $unit:expr, $meaning:expr, $components:expr, $shape:ident, $limit:expr, ($($presence:tt)+), $remedy:expr
+        $key:ident, $unit:expr, $meaning:expr, $components:expr, $shape:ident, $limit:expr, ($($presence:tt)+)
     ) => {
         $crate::scene::schema::row::Facts {
             key: stringify!($key),
@@ -34,7 +34,6 @@ macro_rules! facts {
             presence: $crate::scene::schema::rows::presence!($($presence)+),
             needs: $crate::scene::schema::rows::gate!($($presence)+),
             limit: $limit,
-            remedy: $remedy,
         }
     };
 }
@@ -42,7 +41,7 @@ macro_rules! facts {
 /// An input structure from its rows. A row reads
 ///
 /// ```text
-/// key: type = default, "unit", "meaning", components, shape, limit, (presence), acts, "remedy";
+/// key: type = default, "unit", "meaning", components, shape, limit, (presence);
 /// ```
 ///
 /// `in Table [table => table.part]` says where in the structure of the whole table this one is; `others` lists fields that are not
@@ -53,7 +52,7 @@ macro_rules! rows {
         pub struct $Struct:ident in $Table:ident [$table:ident => $get:expr] {
         $(
             $key:ident: $type:ty = $default:expr, $unit:literal, $meaning:literal,
-            $components:expr, $shape:ident, $limit:expr, ($($presence:tt)+), $acts:path, $remedy:expr;
+            $components:expr, $shape:ident, $limit:expr, ($($presence:tt)+);
         )*
         } others { $( $(#[$field_doc:meta])* $field:ident: $field_type:ty = $field_default:expr, )* }
     ) => {
@@ -68,19 +67,18 @@ macro_rules! rows {
         }
 
         impl $Struct {
-            /// Every value at its default; where a key has none in a campaign file, the report's spacecraft (Table II).
+            /// Every value at its default; where a key has none in a campaign file, zero or absent.
             pub const DEFAULT: $Struct = $Struct { $( $key: $default, )* $( $field: $field_default, )* };
 
             /// The rows of the schema.
             pub const ROWS: &'static [$crate::scene::schema::row::Row<$Table>] = &[ $(
                 $crate::scene::schema::row::Row {
                     facts: $crate::scene::schema::rows::facts!(
-                        $key, $unit, $meaning, $components, $shape, $limit, ($($presence)+), $remedy
+                        $key, $unit, $meaning, $components, $shape, $limit, ($($presence)+)
                     ),
                     read: |$table| Numbers::numbers(&$get.$key),
                     write: |$table| Numbers::numbers_mut(&mut $get.$key),
                     open: |$table| Numbers::open(&mut $get.$key),
-                    acts: $acts,
                 },
             )* ];
 
@@ -114,11 +112,11 @@ macro_rules! rows {
 macro_rules! row {
     (
         $key:ident, $unit:literal, $meaning:expr, $components:expr, $shape:ident, $limit:expr,
-        ($($presence:tt)+), $remedy:expr, $open:expr, $pattern:pat => $value:ident
+        ($($presence:tt)+), $open:expr, $pattern:pat => $value:ident
     ) => {
         $crate::scene::schema::row::Row {
             facts: $crate::scene::schema::rows::facts!(
-                $key, $unit, $meaning, $components, $shape, $limit, ($($presence)+), $remedy
+                $key, $unit, $meaning, $components, $shape, $limit, ($($presence)+)
             ),
             read: |table| match table {
                 $pattern => Numbers::numbers($value),
@@ -129,7 +127,6 @@ macro_rules! row {
                 _ => None,
             },
             open: $open,
-            acts: $crate::scene::schema::row::always,
         }
     };
 }

@@ -4,31 +4,24 @@ use super::components::{ACROSS, SCALAR, XYZ};
 use super::limit::Limit;
 use super::numbers::Numbers;
 use super::rows::rows;
-use super::usage::Usage;
 use crate::scene::name::Name;
-
-const REMEDY: &str = "command that thruster in an [[actuation]] table, or disperse only what is commanded";
 
 rows! {
     /// A thruster, fixed in the body; its thrust is never negative.
     pub struct ThrusterInput in ThrusterInput [table => table] {
     position_m: [f64; 3] = [0.0; 3], "m", "Point of application from p, in F_s", XYZ, Plain, Limit::Finite,
-        (required "[0, 0, 0]"), fires, REMEDY;
+        (required "[0, 0, 0]");
     direction: [f64; 3] = [0.0, 0.0, 1.0], "1", "Direction of the force on the spacecraft, in F_s; need not have length one",
-        XYZ, Plain, Limit::Direction, (required "[0, 0, 1]"), fires, REMEDY;
+        XYZ, Plain, Limit::Direction, (required "[0, 0, 1]");
     tilt_rad: [f64; 2] = [0.0; 2], "rad",
         "Alignment error: components of the rotation vector that turns the nominal direction into the true one, along the two axes of F_s across it (of an oblique direction: across it as the documents say)",
-        ACROSS, Plain, Limit::Finite, (optional), fires, REMEDY;
+        ACROSS, Plain, Limit::Finite, (optional);
     thrust_scale: f64 = 1.0, "1", "Factor of the commanded thrust", SCALAR, Plain,
-        Limit::Thrust("write zero for a thruster that does not work"), (optional), fires, REMEDY;
+        Limit::Thrust("write zero for a thruster that does not work"), (optional);
     } others {
         /// The name.
         name: Name = Name::NONE,
     }
-}
-
-fn fires(usage: &Usage, _: &ThrusterInput, instance: usize, _: usize) -> bool {
-    usage.fires[instance]
 }
 
 impl ThrusterInput {

@@ -3,15 +3,8 @@
 use super::components::{ACROSS, SCALAR, XYZ};
 use super::limit::Limit;
 use super::numbers::Numbers;
-use super::row::always;
 use super::rows::rows;
-use super::usage::Usage;
 use crate::scene::name::Name;
-
-const SIZES: &str = "describe the wheel by radius_m, length_m and density_kg_m3";
-const MASS: &str = "describe the wheel by mass_kg, axial_inertia_kg_m2 and transverse_inertia_kg_m2";
-const MOTOR: &str = "command the motor of that wheel in an [[actuation]] table, or disperse only what is commanded";
-const TURNS: &str = "set the mode of the wheel to \"free\" or \"speed_held\"";
 
 rows! {
     /// A balanced axisymmetric wheel that spins about an axis through its centre, which is fixed in the body.
@@ -19,30 +12,24 @@ rows! {
     /// By radius, length and density it is a solid cylinder; otherwise mass and inertias are given.
     pub struct WheelInput in WheelInput [table => table] {
     axis: [f64; 3] = [0.0, 0.0, 1.0], "1", "Spin axis in F_s; need not have length one", XYZ, Plain, Limit::Direction,
-        (required "[0, 0, 1]"), always, "";
-    position_m: [f64; 3] = [0.0; 3], "m", "Centre of the wheel from p, in F_s", XYZ, Plain, Limit::Finite, (optional), always,
-        "";
-    radius_m: Option<f64> = Some(0.25), "m", "Radius", SCALAR, Plain, Limit::Positive, (optional), always, SIZES;
-    length_m: Option<f64> = Some(0.1), "m", "Length along the spin axis", SCALAR, Plain, Limit::Positive, (optional), always,
-        SIZES;
-    density_kg_m3: Option<f64> = Some(2700.0), "kg/m^3", "Density", SCALAR, Plain, Limit::Positive, (optional), always, SIZES;
-    mass_kg: Option<f64> = None, "kg", "Mass", SCALAR, Plain, Limit::Positive, (optional), always, MASS;
+        (required "[0, 0, 1]");
+    position_m: [f64; 3] = [0.0; 3], "m", "Centre of the wheel from p, in F_s", XYZ, Plain, Limit::Finite, (optional);
+    radius_m: Option<f64> = None, "m", "Radius", SCALAR, Plain, Limit::Positive, (optional);
+    length_m: Option<f64> = None, "m", "Length along the spin axis", SCALAR, Plain, Limit::Positive, (optional);
+    density_kg_m3: Option<f64> = None, "kg/m^3", "Density", SCALAR, Plain, Limit::Positive, (optional);
+    mass_kg: Option<f64> = None, "kg", "Mass", SCALAR, Plain, Limit::Positive, (optional);
     axial_inertia_kg_m2: Option<f64> = None, "kg m^2", "Moment of inertia about the spin axis", SCALAR, Plain,
-        Limit::Positive, (optional), always, MASS;
+        Limit::Positive, (optional);
     transverse_inertia_kg_m2: Option<f64> = None, "kg m^2",
-        "Moment of inertia about any axis through the centre across the spin axis", SCALAR, Plain, Limit::Positive, (optional),
-        always, MASS;
+        "Moment of inertia about any axis through the centre across the spin axis", SCALAR, Plain, Limit::Positive, (optional);
     tilt_rad: [f64; 2] = [0.0; 2], "rad",
         "Alignment error of the spin axis: components of the rotation vector that turns the nominal axis into the true one, along the two axes of F_s across it (of an oblique axis: across it as the documents say)",
-        ACROSS, Plain, Limit::Finite, (optional), always, "";
-    rate_rad_s: f64 = 0.0, "rad/s", "Rate relative to the body at the start", SCALAR, Plain, Limit::Finite, (optional), turns,
-        TURNS;
-    angle_rad: f64 = 0.0, "rad", "Angle relative to the body at the start", SCALAR, Plain, Limit::Finite, (optional), turns,
-        TURNS;
-    torque_scale: f64 = 1.0, "1", "Factor of the commanded motor torque", SCALAR, Plain, Limit::Finite, (optional), is_driven,
-        MOTOR;
+        ACROSS, Plain, Limit::Finite, (optional);
+    rate_rad_s: f64 = 0.0, "rad/s", "Rate relative to the body at the start", SCALAR, Plain, Limit::Finite, (optional);
+    angle_rad: f64 = 0.0, "rad", "Angle relative to the body at the start", SCALAR, Plain, Limit::Finite, (optional);
+    torque_scale: f64 = 1.0, "1", "Factor of the commanded motor torque", SCALAR, Plain, Limit::Finite, (optional);
     torque_bias_n_m: f64 = 0.0, "N m", "What the motor gives beyond the scaled torque while a torque other than zero is commanded",
-        SCALAR, Plain, Limit::Finite, (optional), is_driven, MOTOR;
+        SCALAR, Plain, Limit::Finite, (optional);
     } others {
         /// The name.
         name: Name = Name::NONE,
@@ -51,29 +38,26 @@ rows! {
     }
 }
 
-fn turns(_: &Usage, wheel: &WheelInput, _: usize, _: usize) -> bool {
-    wheel.mode != WheelMode::Locked
-}
-
-fn is_driven(usage: &Usage, _: &WheelInput, instance: usize, _: usize) -> bool {
-    usage.drives[instance]
-}
-
 impl WheelInput {
-    /// A wheel without sizes and masses, before it is read.
-    pub const BLANK: WheelInput =
-        WheelInput { radius_m: None, length_m: None, density_kg_m3: None, ..WheelInput::DEFAULT };
     /// The keys of the sizes of a solid cylinder.
     pub const SIZES: [&'static str; 3] = ["radius_m", "length_m", "density_kg_m3"];
     /// The keys of mass and inertias.
     pub const MASSES: [&'static str; 3] = ["mass_kg", "axial_inertia_kg_m2", "transverse_inertia_kg_m2"];
 
-    /// The report's wheel (Table II) called `name` about `axis` with its centre at `position_m`.
+    /// Berdoz's wheel (Table II: 0.25 m, 0.1 m, 2700 kg/m^3) called `name` about `axis` with its centre at `position_m`.
     ///
     /// # Panics
     /// Where `name` is no name.
     pub fn named(name: &str, axis: [f64; 3], position_m: [f64; 3]) -> Self {
-        WheelInput { name: Name::of(name), axis, position_m, ..WheelInput::DEFAULT }
+        WheelInput {
+            name: Name::of(name),
+            axis,
+            position_m,
+            radius_m: Some(0.25),
+            length_m: Some(0.1),
+            density_kg_m3: Some(2700.0),
+            ..WheelInput::DEFAULT
+        }
     }
 }
 

@@ -1,0 +1,245 @@
+//! Files that are refused, one for each kind of refusal: each with one problem, at its line, with key, value, what is allowed and a remedy.
+//!
+//! The cases are in `refusals.txt`: what is changed in a valid file, and parts of what is said.
+
+use spindrift::campaign::{CampaignError, Overrides, Plan, Problem};
+
+use crate::support::campaigns::{DEBRIS, FUSELAGE, WHEEL1, WHEEL1_AT_REST};
+
+const CASES: &str = include_str!("refusals.txt");
+
+/// The valid file up to its scene.
+const HEAD: &str = r#"[campaign]
+name = "bad"
+samples = 10
+seed = 1
+duration_s = 10.0
+[integrator]
+method = "dormand_prince"
+tolerance = 1e-10
+[observe]
+points = 11
+"#;
+
+/// The rest of the file, after its bodies.
+const REST: &str = r#"[initial]
+attitude = [1, 0, 0, 0]
+angular_velocity_rad_s = [0, 3, 31]
+[[thrusters]]
+name = "p1"
+position_m = [0, 0, 0]
+direction = [0, 0, 1]
+[[actuation]]
+start_s = 0.0
+end_s = 3.0
+thrust_n = { p1 = 100 }
+[[disperse]]
+parameter = "body.parts.fuselage.density_kg_m3"
+distribution = "truncated_normal"
+relative_std = 0.02
+sigmas = 3
+"#;
+
+/// A valid file with everything.
+pub fn good() -> String {
+    [HEAD, FUSELAGE, WHEEL1, DEBRIS, REST].concat()
+}
+
+/// Given by mass and tensor, with two wheels and two thrusters.
+const DIRECT: &str = r#"[campaign]
+name = "bad"
+samples = 10
+seed = 1
+duration_s = 10.0
+[body]
+mass_kg = 500.0
+center_of_mass_m = [0, 0, 0.5]
+inertia_kg_m2 = [[120, -3, 1], [-3, 150, 2], [1, 2, 90]]
+includes_wheels = true
+[[wheels]]
+name = "w1"
+axis = [0, 1, 0]
+position_m = [0, 0, 1]
+mass_kg = 5.0
+axial_inertia_kg_m2 = 0.02
+transverse_inertia_kg_m2 = 0.0125
+rate_rad_s = 300.0
+[[wheels]]
+name = "w2"
+axis = [1, 1, 1]
+radius_m = 0.2
+length_m = 0.05
+density_kg_m3 = 2700.0
+[[thrusters]]
+name = "p1"
+position_m = [0, 0, -1]
+direction = [0, 0, 1]
+[[thrusters]]
+name = "p2"
+position_m = [0, 0, 1]
+direction = [0, 0, -1]
+[initial]
+angular_velocity_rad_s = [0, 0, 1]
+[[actuation]]
+start_s = 0.0
+end_s = 3.0
+thrust_n = { p1 = 10.0 }
+torque_n_m = { w1 = 0.1 }
+"#;
+
+/// Given by parts.
+const PARTS: &str = r#"[campaign]
+name = "bad"
+samples = 10
+seed = 1
+duration_s = 10.0
+[[body.parts]]
+name = "tank"
+shape = "hollow_cylinder"
+outer_radius_m = 1.0
+wall_thickness_m = 0.03
+length_m = 3.0
+density_kg_m3 = 2700.0
+[[body.parts]]
+name = "panel"
+shape = "box"
+size_m = [2, 1, 0.01]
+mass_kg = 9.0
+position_m = [0, 2, 0]
+[[body.parts]]
+name = "tip"
+shape = "point_mass"
+mass_kg = 1.0
+[initial]
+angular_velocity_rad_s = [0, 0, 1]
+"#;
+
+/// A valid file without dispersions, of 22 lines: tables are added from line 23 on.
+fn plain() -> String {
+    let head = &HEAD[..HEAD.find("[integrator]").expect("the method")];
+    [head, FUSELAGE, WHEEL1_AT_REST, "[initial]\nangular_velocity_rad_s = [0, 3, 31]\n"].concat()
+}
+
+/// The folder with the files that cases name.
+fn folder() -> std::path::PathBuf {
+    let folder = std::env::temp_dir().join(format!("spindrift-bad-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    for (name, text) in [
+        (
+            "data.csv",
+            "density,name,wheels.w1.radius_m,wheels.w2.radius_m,infinite\n2600,a,0.25,0.25,1\n2700,b,0.26,0.26,inf\n",
+        ),
+        ("data.txt", "density\n2600\n"),
+        ("empty.csv", "density\n"),
+        ("ragged.csv", "density,name\n1,2,3\n"),
+    ] {
+        std::fs::write(folder.join(name), text).expect("written");
+    }
+    folder
+}
+
+/// Law: each case is refused with one problem, at its line, with key and value, what is allowed and a remedy; what is changed is valid.
+#[test]
+fn each_kind_of_refusal_gives_line_key_value_range_and_remedy() {
+    let folder = folder();
+    let read = |text: &str| Plan::from_text_in(&folder, "bad.toml", text, Overrides::default());
+    let (mut base, mut count, mut wrong) = (String::new(), 0, Vec::new());
+    for line in CASES.lines().filter(|line| !line.is_empty() && !line.starts_with('#')) {
+        if let Some(name) = line.strip_prefix("== ") {
+            base = match name {
+                "campaign" => good(),
+                "direct" => DIRECT.to_owned(),
+                "parts" => PARTS.to_owned(),
+                _ => plain(),
+            };
+            read(&base).unwrap_or_else(|error| panic!("{name}: {error}"));
+            continue;
+        }
+        let fields: Vec<String> =
+            line.split(" =>").map(|field| field.strip_prefix(' ').unwrap_or(field).replace("\\n", "\n")).collect();
+        let [from, to, at, allowed, remedy] = &fields[..] else { panic!("five fields: {line}") };
+        assert!(base.contains(from.as_str()), "{from}");
+        let text = if from.is_empty() { format!("{base}{to}") } else { base.replacen(from.as_str(), to, 1) };
+        count += 1;
+        let Err(error) = read(&text) else {
+            wrong.push(format!("accepted: {line}"));
+            continue;
+        };
+        let said = error.to_string().replace(&format!("{}/", folder.display()), "");
+        let at = if at.is_empty() { String::new() } else { format!("bad.toml:{at}") };
+        let Problem { file, line: place, key, allowed: range, remedy: what, .. } = &error.problems[0];
+        let is_told = file == "bad.toml" && place.is_some() && !key.is_empty() && !range.is_empty() && !what.is_empty();
+        let fits = said.starts_with(&at) && said.contains(allowed.as_str()) && said.contains(remedy.as_str());
+        if error.problems.len() != 1 || !is_told || !fits || range.starts_with("must") {
+            wrong.push(format!("{line}\n  said {said}"));
+        }
+    }
+    std::fs::remove_dir_all(&folder).expect("removed");
+    assert!(wrong.is_empty() && count > 150, "{} of {count} wrong:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+fn wheels(count: usize) -> String {
+    let wheel = |k| {
+        format!(
+            "[[wheels]]\nname = \"a{k}\"\naxis = [0, 0, 1]\nradius_m = 0.01\nlength_m = 0.01\ndensity_kg_m3 = 100\n"
+        )
+    };
+    (0..count).map(wheel).collect()
+}
+
+fn thrusters(count: usize) -> String {
+    let thruster = |k| format!("[[thrusters]]\nname = \"a{k}\"\nposition_m = [0, 0, 0]\ndirection = [0, 0, 1]\n");
+    (0..count).map(thruster).collect()
+}
+
+fn points(count: usize) -> String {
+    let point = |k| format!("[[body.parts]]\nname = \"a{k}\"\nshape = \"point_mass\"\nmass_kg = 1\n");
+    (0..count).map(point).collect()
+}
+
+fn refused(text: &str) -> CampaignError {
+    match Plan::from_text("bad.toml", text, Overrides::default()) {
+        Ok(_) => panic!("accepted:\n{text}"),
+        Err(error) => error,
+    }
+}
+
+/// Law: a spacecraft has at most 8 wheels, 16 thrusters and 32 parts; the largest number of each is accepted.
+#[test]
+fn too_many_wheels_thrusters_and_parts_are_refused() {
+    let with_wheels = |count| DIRECT.replacen("[initial]", &format!("{}[initial]", wheels(count)), 1);
+    let with_thrusters = |count| DIRECT.replacen("[initial]", &format!("{}[initial]", thrusters(count)), 1);
+    let with_parts = |count| PARTS.replacen("[initial]", &format!("{}[initial]", points(count)), 1);
+    for (good, bad, key, value, allowed) in [
+        (with_wheels(6), with_wheels(7), "wheels", "9 tables", "at most 8 tables"),
+        (with_thrusters(14), with_thrusters(15), "thrusters", "17 tables", "at most 16 tables"),
+        (with_parts(29), with_parts(30), "body.parts", "33 tables", "at most 32 tables"),
+    ] {
+        if let Err(error) = Plan::from_text("bad.toml", &good, Overrides::default()) {
+            panic!("{key}: {error}");
+        }
+        let error = refused(&bad);
+        assert_eq!(error.problems.len(), 1, "{error}");
+        let problem = &error.problems[0];
+        assert_eq!(
+            (problem.key.as_str(), problem.value.as_deref(), problem.allowed.as_str()),
+            (key, Some(value), allowed)
+        );
+        assert!(problem.line.is_some() && problem.remedy == "delete some of them", "{problem}");
+    }
+}
+
+/// A file without a body asks for one.
+#[test]
+fn a_spacecraft_without_a_body_is_refused() {
+    let start = PARTS.find("[[body.parts]]").expect("parts");
+    let end = PARTS.find("[initial]").expect("the state");
+    let mut text = PARTS.to_owned();
+    text.replace_range(start..end, "");
+    let error = refused(&text);
+    assert_eq!(error.problems.len(), 1, "{error}");
+    assert_eq!(
+        error.to_string(),
+        "bad.toml: body is missing: must be a table with the mass properties of the body, or its parts; add a [body] table, or [[body.parts]] tables"
+    );
+}
