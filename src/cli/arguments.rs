@@ -6,11 +6,12 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 
 use crate::cli::argument_values::{
-    count, fraction, group, method, sbatch_option, seconds, shard, shards, shift, threads, time_limit, tolerance,
+    count, fraction, group, method, sbatch_option, seconds, shard, shards, shift, size, threads, time_limit, tolerance,
 };
 use crate::cli::slurm_script::TimeLimit;
 use crate::observables::Group;
 use crate::propagation::Method;
+use crate::report::image::PlotSize;
 use crate::storage::claim::Shard;
 
 /// Shown at the end of every help text.
@@ -76,6 +77,24 @@ pub enum Command {
     Columns(ColumnsOptions),
 }
 
+/// How large files of figures are.
+#[derive(Args, Clone, Copy, Debug)]
+pub struct SizeOptions {
+    /// Width and height of each figure, mm [default: what its panels need]; texts keep their size.
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    size: Option<[f64; 2]>,
+    /// Dots per inch of PNG files.
+    #[arg(long, value_name = "N", default_value_t = 192, value_parser = clap::value_parser!(u16).range(24..=2400))]
+    dpi: u16,
+}
+
+impl SizeOptions {
+    /// The size that they ask for.
+    pub fn of(self) -> PlotSize {
+        PlotSize { size_mm: self.size, dpi: f64::from(self.dpi) }
+    }
+}
+
 /// Arguments of `campaign`.
 #[derive(Debug, Args)]
 pub struct CampaignOptions {
@@ -120,6 +139,9 @@ pub struct CampaignOptions {
     /// Write each figure of the report as SVG and PNG into this folder.
     #[arg(long, value_name = "DIR", conflicts_with = "no_report")]
     pub figures: Option<PathBuf>,
+    /// How large they are.
+    #[command(flatten)]
+    pub size: SizeOptions,
 }
 
 /// Arguments of `report`.
@@ -131,6 +153,9 @@ pub struct ReportOptions {
     /// Write each figure as SVG and PNG into this folder.
     #[arg(long, value_name = "DIR")]
     pub figures: Option<PathBuf>,
+    /// How large they are.
+    #[command(flatten)]
+    pub size: SizeOptions,
     /// Number of threads, at most four for each core [default: one for each core]; the page does not depend on it.
     #[arg(long, value_name = "N", value_parser = threads)]
     pub threads: Option<std::num::NonZeroUsize>,
@@ -150,6 +175,9 @@ pub struct FinishOptions {
     /// Write each figure of the report as SVG and PNG into this folder.
     #[arg(long, value_name = "DIR", conflicts_with = "no_report")]
     pub figures: Option<PathBuf>,
+    /// How large they are.
+    #[command(flatten)]
+    pub size: SizeOptions,
     /// Number of threads, at most four for each core [default: one for each core].
     #[arg(long, value_name = "N", value_parser = threads)]
     pub threads: Option<std::num::NonZeroUsize>,
@@ -249,6 +277,9 @@ pub struct SimulateOptions {
     /// Plot states, energies and errors to this file (.svg or .png), on a fine grid or at --times.
     #[arg(long, value_name = "FILE")]
     pub plot: Option<PathBuf>,
+    /// How large they are.
+    #[command(flatten)]
+    pub size: SizeOptions,
 }
 
 /// Arguments of `sample`.
@@ -274,6 +305,9 @@ pub struct SampleOptions {
     /// Plot distributions and rank correlations to this file (.svg or .png).
     #[arg(long, value_name = "FILE")]
     pub plot: Option<PathBuf>,
+    /// How large they are.
+    #[command(flatten)]
+    pub size: SizeOptions,
 }
 
 /// Arguments of `precision`.
@@ -306,6 +340,9 @@ pub struct PrecisionOptions {
     /// Folder of the result, whose files are replaced [default: the campaign's name and _precision in results/].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// How large they are.
+    #[command(flatten)]
+    pub size: SizeOptions,
 }
 
 /// Arguments of `columns`.

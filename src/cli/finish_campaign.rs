@@ -24,6 +24,7 @@ use crate::ensemble::runner::threads;
 use crate::ensemble::{Ensemble, Part, PartId};
 use crate::report::audit_summary::cost;
 use crate::report::drivers_text;
+use crate::report::image::PlotSize;
 use crate::report::number::bytes;
 use crate::report::summary::Summary;
 use crate::storage::claim::{Claim, ClaimOptions, Ready, claim, open};
@@ -53,8 +54,8 @@ pub struct Finishing<'a> {
     pub replayed: &'a str,
     /// Where the verdicts go as JUnit XML.
     pub junit: Option<&'a Path>,
-    /// Whether the page is written, and the folder of its figures.
-    pub page: (bool, Option<&'a Path>),
+    /// Whether the page is written, and the folder and the size of its figures.
+    pub page: (bool, Option<(&'a Path, PlotSize)>),
     /// Samples that this process ran, and how long that took.
     pub made: Option<(u64, Duration)>,
     /// CPU time of runs and audits of this process, s.
@@ -287,7 +288,7 @@ pub fn finished(storage: &'static dyn Storage, options: &FinishOptions) -> Resul
         threads: options.threads,
         replayed: &replayed,
         junit: options.junit.as_deref(),
-        page: (!options.no_report, options.figures.as_deref()),
+        page: (!options.no_report, options.figures.as_deref().map(|folder| (folder, options.size.of()))),
         made: None,
         seconds: [0.0; 2],
     };

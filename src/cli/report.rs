@@ -11,9 +11,10 @@ use crate::cli::outputs::refuse_within;
 use crate::cli::screen;
 use crate::cli::shell_word::quoted_path;
 use crate::ensemble::Ensemble;
+use crate::report::image::{self, PlotSize};
 use crate::report::number::bytes;
 use crate::report::page::gather::Analysis;
-use crate::report::page::{Contents, Page, drawing};
+use crate::report::page::{Contents, Page};
 use crate::storage::claim::open;
 use crate::storage::disk::{Disk, Storage};
 use crate::storage::folder::relist;
@@ -58,7 +59,7 @@ pub fn remade(storage: &'static dyn Storage, options: &ReportOptions) -> Result<
     place(storage, &path, page.html.as_bytes()).map_err(Failure::files)?;
     relist(storage, root, (manifest, &found.plan), FileRecord::of(REPORT, page.html.as_bytes()))
         .map_err(Failure::files)?;
-    save_figures(&page, options.figures.as_deref())?;
+    save_figures(&page, options.figures.as_deref().map(|folder| (folder, options.size.of())))?;
     Ok(format!("{}: {}\n", path.display(), bytes(page.html.len() as u64)))
 }
 
@@ -85,13 +86,13 @@ pub fn page(
     Ok(Page::new(ensemble, &contents))
 }
 
-/// Writes the figures of `page` as files into `folder`, if one was named.
+/// Writes the figures of `page` as files of this size into the folder of `place`, if one was named.
 ///
 /// # Errors
 /// Where a file cannot be written.
-pub fn save_figures(page: &Page, folder: Option<&Path>) -> Result<(), Failure> {
-    let Some(folder) = folder else { return Ok(()) };
-    let count = drawing::save(&page.figures, folder).map_err(Failure::files)?;
+pub fn save_figures(page: &Page, place: Option<(&Path, PlotSize)>) -> Result<(), Failure> {
+    let Some((folder, size)) = place else { return Ok(()) };
+    let count = image::save_all(&page.figures, folder, size).map_err(Failure::files)?;
     screen::note(&format!("{}: {count} files of figures", folder.display()));
     Ok(())
 }

@@ -177,7 +177,7 @@ fn run_missing(
         threads: options.threads,
         replayed: &replayed(options, root),
         junit: options.junit.as_deref(),
-        page: (!options.no_report, options.figures.as_deref()),
+        page: (!options.no_report, options.figures.as_deref().map(|folder| (folder, options.size.of()))),
         made: Some((made.samples, made.elapsed)),
         seconds: made.seconds,
     };
