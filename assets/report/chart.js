@@ -113,7 +113,7 @@ function pairs(mark, figure) {
 }
 
 function lineSeries(mark, figure, color) {
-  return { type: "line", data: pairs(mark, figure), showSymbol: false, silent: true, lineStyle: { color, width: 1.6, type: mark.dashed ? [6, 4] : "solid" }, itemStyle: { color }, clip: true };
+  return { type: "line", data: pairs(mark, figure), showSymbol: false, silent: true, lineStyle: { color, width: 1.6, type: mark.dash ?? "solid" }, itemStyle: { color }, clip: true };
 }
 
 function pointSeries(mark, figure, color) {
@@ -217,7 +217,7 @@ export function legendOf(figure, palette) {
   for (const mark of figure.marks) {
     if (!mark.label || mark.kind === "limit" || mark.kind === "matrix" || seen.has(mark.label)) continue;
     seen.add(mark.label);
-    entries.push({ label: mark.label, color: palette.hues[mark.hue], kind: mark.kind, opacity: mark.opacity ?? 0.55, dashed: mark.dashed, crosses: mark.crosses });
+    entries.push({ label: mark.label, color: palette.hues[mark.hue], kind: mark.kind, opacity: mark.opacity ?? 0.55, dash: mark.dash, crosses: mark.crosses });
   }
   return entries.length > 1 || entries.some((entry) => entry.kind !== "bars") ? entries : [];
 }

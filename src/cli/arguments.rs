@@ -7,10 +7,12 @@ use clap::{Args, Parser, Subcommand};
 
 use crate::campaign::Overrides;
 use crate::cli::argument_values::{
-    count, fraction, method, sbatch_option, seconds, setting, shard, shards, shift, threads, time_limit, tolerance,
+    count, fraction, method, sbatch_option, seconds, setting, shard, shards, shift, size, threads, time_limit,
+    tolerance,
 };
 use crate::cli::slurm_script::TimeLimit;
 use crate::propagation::Method;
+use crate::report::image::PlotSize;
 use crate::storage::claim::Shard;
 
 /// Shown at the end of every help text.
@@ -95,6 +97,24 @@ impl Changed {
     }
 }
 
+/// How large files of figures are.
+#[derive(Args, Clone, Copy, Debug)]
+pub struct SizeOptions {
+    /// Width and height of each figure, mm [default: what its panels need]; texts keep their size.
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    size: Option<[f64; 2]>,
+    /// Dots per inch of PNG files.
+    #[arg(long, value_name = "N", default_value_t = 192, value_parser = clap::value_parser!(u16).range(24..=2400))]
+    dpi: u16,
+}
+
+impl SizeOptions {
+    /// The size that they ask for.
+    pub fn of(self) -> PlotSize {
+        PlotSize { size_mm: self.size, dpi: f64::from(self.dpi) }
+    }
+}
+
 /// Arguments of `campaign`.
 #[derive(Debug, Args)]
 pub struct CampaignOptions {
@@ -142,6 +162,9 @@ pub struct CampaignOptions {
     /// Write each figure of the report as SVG and PNG into this folder.
     #[arg(long, value_name = "DIR", conflicts_with = "no_report")]
     pub figures: Option<PathBuf>,
+    /// How large they are.
+    #[command(flatten)]
+    pub size: SizeOptions,
 }
 
 /// Arguments of `report`.
@@ -153,6 +176,9 @@ pub struct ReportOptions {
     /// Write each figure as SVG and PNG into this folder.
     #[arg(long, value_name = "DIR")]
     pub figures: Option<PathBuf>,
+    /// How large they are.
+    #[command(flatten)]
+    pub size: SizeOptions,
     /// Number of threads, at most four for each core [default: one for each core]; the page does not depend on it.
     #[arg(long, value_name = "N", value_parser = threads)]
     pub threads: Option<std::num::NonZeroUsize>,
@@ -172,6 +198,9 @@ pub struct FinishOptions {
     /// Write each figure of the report as SVG and PNG into this folder.
     #[arg(long, value_name = "DIR", conflicts_with = "no_report")]
     pub figures: Option<PathBuf>,
+    /// How large they are.
+    #[command(flatten)]
+    pub size: SizeOptions,
     /// Number of threads, at most four for each core [default: one for each core].
     #[arg(long, value_name = "N", value_parser = threads)]
     pub threads: Option<std::num::NonZeroUsize>,
@@ -280,6 +309,9 @@ pub struct SimulateOptions {
     /// Plot states, energies and errors to this file (.svg or .png), on a fine grid or at --times.
     #[arg(long, value_name = "FILE")]
     pub plot: Option<PathBuf>,
+    /// How large they are.
+    #[command(flatten)]
+    pub size: SizeOptions,
 }
 
 /// Arguments of `sample`.
@@ -308,6 +340,9 @@ pub struct SampleOptions {
     /// Plot distributions and rank correlations to this file (.svg or .png).
     #[arg(long, value_name = "FILE")]
     pub plot: Option<PathBuf>,
+    /// How large they are.
+    #[command(flatten)]
+    pub size: SizeOptions,
 }
 
 /// Arguments of `precision`.
@@ -343,6 +378,9 @@ pub struct PrecisionOptions {
     /// Folder of the result, whose files are replaced [default: the campaign's name and _precision in results/].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// How large they are.
+    #[command(flatten)]
+    pub size: SizeOptions,
 }
 
 /// Arguments of `new`.

@@ -11,8 +11,7 @@ use crate::ensemble::Ensemble;
 use crate::ensemble::precision::{Limits, Precision, States};
 use crate::ensemble::runner::start_threads;
 use crate::propagation::Method;
-use crate::report::canvas::Canvas;
-use crate::report::precision_figure::PrecisionFigure;
+use crate::report::precision_figure::precision_figure;
 use crate::report::precision_text;
 use crate::storage::precision_table;
 use crate::workflow::isa;
@@ -73,9 +72,9 @@ pub fn run(options: &PrecisionOptions) -> Result<CommandOutcome, Failure> {
 
     save(&folder, "parquet", |path| precision_table::save(&measured, &plan, isa.name(), path).map_err(Failure::files))?;
     let title = format!("{}: {} samples, {:?} s", plan.name, precision.samples(), plan.grid.duration());
-    let figure = PrecisionFigure { title, measured: &measured };
+    let figure = precision_figure(title, &measured);
     for format in ["svg", "png"] {
-        save(&folder, format, |path| figure.save(path).map_err(Failure::files))?;
+        save(&folder, format, |path| figure.save(path, options.size.of()).map_err(Failure::files))?;
     }
     Ok(CommandOutcome::Done)
 }

@@ -17,7 +17,8 @@ pub fn run(options: &ReportOptions) -> Result<CommandOutcome, Failure> {
     let watch = Terminal::default();
     refuse_within(&options.folder, &[("--figures", options.figures.as_deref())])?;
     let session = Session::new(&watch)?.on_threads(options.threads);
-    let (path, size) = remade(&session, &options.folder, options.figures.as_deref())?;
+    let (path, size) =
+        remade(&session, &options.folder, options.figures.as_deref().map(|folder| (folder, options.size.of())))?;
     screen::print(&format!("{}: {}\n", path.display(), bytes(size)))?;
     Ok(CommandOutcome::Done)
 }

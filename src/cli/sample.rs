@@ -9,9 +9,9 @@ use crate::cli::outputs::refuse_inputs;
 use crate::cli::workload::{Workload, plotted_samples};
 use crate::cli::{dispersions, screen};
 use crate::ensemble::{DrawnScenes, Percentiles};
-use crate::report::canvas::{Canvas, PlotError, PlotFormat};
 use crate::report::drawn_columns::DrawnColumns;
-use crate::report::drawn_figure::DrawnFigure;
+use crate::report::drawn_figure::drawn_figure;
+use crate::report::image::{PlotError, PlotFormat};
 use crate::sampling::SampleId;
 use crate::storage::drawn_table;
 use crate::storage::table::{TableError, TableFormat};
@@ -70,17 +70,14 @@ pub fn run(options: &SampleOptions) -> Result<CommandOutcome, Failure> {
                 plan.name
             )));
         }
-        let figure = DrawnFigure {
-            title: format!(
-                "{}, {}{} samples, {} design",
-                plan.name,
-                if dispersed.count() as u64 + 1 < plan.samples { "first " } else { "" },
-                dispersed.count(),
-                plan.design.name().replace('_', " ")
-            ),
-            columns: &shown,
-        };
-        figure.save(path).map_err(|error| match error {
+        let title = format!(
+            "{}, {}{} samples, {} design",
+            plan.name,
+            if dispersed.count() as u64 + 1 < plan.samples { "first " } else { "" },
+            dispersed.count(),
+            plan.design.name().replace('_', " ")
+        );
+        drawn_figure(title, &shown).save(path, options.size.of()).map_err(|error| match error {
             PlotError::Format(_) => Failure::Input(error.to_string()),
             _ => Failure::Files(format!("{}: {error}", path.display())),
         })?;

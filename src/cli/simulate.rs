@@ -11,7 +11,7 @@ use crate::cli::{dispersions, screen};
 use crate::ensemble::SingleRun;
 use crate::ensemble::audit::AuditValue;
 use crate::math::Isa;
-use crate::report::canvas::{Canvas, PlotError, PlotFormat};
+use crate::report::image::{PlotError, PlotFormat};
 use crate::report::number::short;
 use crate::report::simulation_figure::simulation_figure;
 use crate::report::time_table::TimeTable;
@@ -173,7 +173,7 @@ fn plot(path: &Path, options: &SimulateOptions, plan: &Plan, series: &TimeSeries
         sample => format!("{}, sample {sample}", plan.name),
     };
     let tolerance = (!plan.method.has_fixed_step()).then_some(plan.tolerance.relative);
-    simulation_figure(&title, series, tolerance).save(path).map_err(|error| match error {
+    simulation_figure(title, series, tolerance).save(path, options.size.of()).map_err(|error| match error {
         PlotError::Format(_) => Failure::Input(error.to_string()),
         _ => Failure::Files(format!("{}: {error}", path.display())),
     })?;

@@ -1,9 +1,5 @@
 //! [`fitted`]: text that is shortened to a width.
 
-use plotters::prelude::*;
-
-use crate::report::canvas::{PlotError, install_font};
-
 /// What stands for letters that are left out.
 const ELLIPSIS: &str = "...";
 
@@ -21,25 +17,6 @@ pub fn fitted(text: &str, width: usize, measure: impl Fn(&str) -> usize) -> Stri
     (0..letters.len()).rev().map(shortened).find(|text| measure(text) <= width).unwrap_or_default()
 }
 
-/// Width of `text` in the font of the figures at this size, pixels.
-///
-/// # Errors
-/// [`PlotError::Drawing`].
-pub(super) fn text_width(text: &str, size: u32) -> Result<usize, PlotError> {
-    install_font()?;
-    let found = ("sans-serif", size).into_font().box_size(text);
-    found.map(|(width, _)| width as usize).map_err(|error| PlotError::Drawing(error.to_string()))
-}
-
-/// `text` as it fits `width` pixels in the font of the figures at this size.
-///
-/// # Errors
-/// [`PlotError::Drawing`].
-pub(super) fn fitted_to_pixels(text: &str, width: u32, size: u32) -> Result<String, PlotError> {
-    text_width(text, size)?; // the font can be read
-    Ok(fitted(text, width as usize, |text| text_width(text, size).unwrap_or(0)))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -53,7 +30,5 @@ mod tests {
         assert_eq!(fitted("ωωωωωω", 5, letters), "ω...ω");
         assert_eq!(fitted("wheel_number_7", 3, letters), "...");
         assert_eq!(fitted("wheel_number_7", 2, letters), "");
-        let pixels = fitted_to_pixels("wheels.a_wheel_with_a_long_name.rate_rad_s", 150, 13).unwrap();
-        assert!(text_width(&pixels, 13).unwrap() <= 150 && pixels.ends_with("_rad_s"), "{pixels}");
     }
 }

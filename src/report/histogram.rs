@@ -1,291 +1,135 @@
-//! [`Histogram`]: bars of one column of drawn samples, with its nominal value and what is expected of the distribution that was asked for.
+//! Histograms: bars of equal width, by decades where values span many; of drawn samples with their nominal value and with what is expected
+//! of the distribution that was asked for.
 
-use plotters::coord::Shift;
-use plotters::coord::types::RangedCoordf64;
-use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
-
-use crate::report::canvas::{COLORS, PlotError, drawing};
 use crate::report::expected_counts::Asked;
-use crate::report::fitted_text::fitted_to_pixels;
+use crate::report::figure::{Axis, Dash, Figure, Hue, Mark, PointShape, Scale};
 use crate::report::number::short;
 
 /// Bars of a histogram.
 const BARS: usize = 40;
 /// A nominal value farther from all samples than this fraction of their span is named at the edge: the samples keep two thirds of the axis.
 const FAR: f64 = 0.5;
-/// A label of a tick is off by less than this fraction of the axis.
-const LEGIBLE: f64 = 0.02;
-/// Half of the gap between the axes of neighbouring histograms, pixels.
-const MARGIN: u32 = 28;
-/// Sizes of labels and of the name, pixels.
-const LABEL: u32 = 12;
-const NAME: u32 = 13;
-/// Where the curve and the bars end, as a fraction of their height; the name of a far nominal value is above.
-const HEADROOM: f64 = 1.05;
-const HEADROOM_WITH_NAME: f64 = 1.25;
+/// Values whose median is below this fraction of the largest are those of a distribution over decades.
+const OVER_DECADES: f64 = 0.05;
 
-type Chart<'a, B> = ChartContext<'a, B, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
-
-/// The histogram of one column.
-#[derive(Clone, Debug)]
-pub(super) struct Histogram<'a> {
-    /// Its name.
-    pub name: &'a str,
-    /// The samples; those that are not finite are left out.
-    pub values: &'a [f64],
-    /// The nominal value.
-    pub nominal: f64,
-    /// The distribution that was asked for.
-    pub asked: Option<&'a Asked<'a>>,
+/// Edges of bars for `values`, and whether they are by decades: where all are positive and their range exceeds 100.
+pub fn bins(values: &[f64]) -> (Vec<f64>, bool) {
+    let (low, high) = ends(values);
+    if low > high {
+        return (Vec::new(), false);
+    }
+    let positive = values.iter().copied().filter(|value| *value > 0.0).fold(f64::INFINITY, f64::min);
+    // zeros are not on a logarithmic axis; where they are many, the axis is linear
+    let is_log = low >= 0.0
+        && positive.is_finite()
+        && high > 100.0 * positive
+        && values.iter().filter(|x| **x == 0.0).count() * 100 < values.len();
+    if !is_log {
+        return (linear_bins(values), false);
+    }
+    let (low, high) = (libm::log10(positive), libm::log10(high));
+    ((0..=BARS).map(|k| libm::pow(10.0, low + part(k) * (high - low))).collect(), true)
 }
 
-/// Style of the samples.
-pub(super) fn of_samples() -> ShapeStyle {
-    COLORS[0].mix(0.75).filled()
+fn ends(values: &[f64]) -> (f64, f64) {
+    values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(*x), high.max(*x)))
 }
 
-/// Style of what is expected.
-pub(super) fn of_expected(scale: u32) -> ShapeStyle {
-    COLORS[1].stroke_width(2 * scale)
+fn part(k: usize) -> f64 {
+    k as f64 / BARS as f64
 }
 
-/// Style of the nominal value.
-pub(super) fn of_nominal(scale: u32) -> ShapeStyle {
-    BLACK.stroke_width(scale)
+/// Edges of equally wide bars; whole numbers have a bar each.
+fn linear_bins(values: &[f64]) -> Vec<f64> {
+    let (low, high) = ends(values);
+    let are_whole = values.iter().all(|value| *value == libm::floor(*value));
+    if are_whole && high - low <= BARS as f64 {
+        return (0..=(high - low) as usize + 1).map(|k| low + k as f64 - 0.5).collect();
+    }
+    let half = if high > low { 0.0 } else { 0.05 * low.abs().max(1e-300) };
+    (0..=BARS).map(|k| (1.0 - part(k)) * (low - half) + part(k) * (high + half)).collect()
 }
 
-/// Dash and gap of the line at the nominal value at scale 1, pixels.
-pub(super) const NOMINAL_DASH: (u32, u32) = (5, 3);
-/// Radius of the head of a probability at scale 1, pixels.
-pub(super) const HEAD: u32 = 3;
-
-/// The axis of a histogram.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Horizontal {
-    low: f64,
-    high: f64,
+/// How many `values` are between neighbouring `edges`; those at the ends count too.
+pub fn counts(values: &[f64], edges: &[f64]) -> Vec<f64> {
+    let bars = edges.len().saturating_sub(1);
+    let mut counts = vec![0.0; bars];
+    for value in values.iter().filter(|_| bars > 0) {
+        let slack = 1e-9 * (edges[bars] - edges[0]);
+        if *value >= edges[0] - slack && *value <= edges[bars] + slack {
+            counts[edges.partition_point(|edge| edge <= value).clamp(1, bars) - 1] += 1.0;
+        }
+    }
+    counts
 }
 
-impl Horizontal {
-    /// From `low` to `high`; a single value, or none, is shown in the middle.
-    fn new(low: f64, high: f64) -> Self {
-        if high > low {
-            return Horizontal { low, high };
+/// The histogram of drawn samples of an input, with its unit; samples that are not finite are left out.
+pub fn of_input(name: &str, unit: &str, samples: &[f64], nominal: f64, asked: Option<&Asked<'_>>) -> Figure {
+    let values: Vec<f64> = samples.iter().copied().filter(|value| value.is_finite()).collect();
+    let count = values.len();
+    let discrete = asked.and_then(Asked::values);
+    // the axis contains each value of a discrete distribution that one sample or more is expected to have
+    let frequent = discrete.iter().flatten().filter(|(_, probability)| count as f64 * probability >= 1.0);
+    let shown: Vec<f64> = values.iter().copied().chain(frequent.map(|(value, _)| *value)).collect();
+    let mut sorted = shown.clone();
+    sorted.sort_by(f64::total_cmp);
+    let is_by_decades = sorted.get(sorted.len() / 2).is_some_and(|median| *median < OVER_DECADES * ends(&shown).1);
+    let (edges, is_log) = if is_by_decades { bins(&shown) } else { (linear_bins(&shown), false) };
+    let mut marks = vec![Mark::Bars {
+        label: "samples".to_owned(),
+        hue: Hue::Body,
+        heights: counts(&values, &edges),
+        edges: edges.clone(),
+    }];
+    match (discrete, asked) {
+        (Some(values), _) => marks.push(stems(&values, count, &edges)),
+        (None, Some(asked)) => {
+            let middle = |ends: &[f64]| {
+                if is_log { libm::sqrt(ends[0] * ends[1]) } else { 0.5 * ends[0] + 0.5 * ends[1] }
+            };
+            let x = edges.windows(2).map(middle).collect();
+            let expected = asked.expected(&edges, count);
+            marks.push(Mark::line("expected of the distribution", Hue::Failed, Dash::Solid, x, expected));
         }
-        let (middle, half) = if low.is_finite() { (low, 0.05 * low.abs().max(1e-3)) } else { (0.0, 1.0) };
-        Horizontal { low: middle - half, high: middle + half }
+        (None, None) => {}
     }
-
-    /// Half of its width, which is finite where the width is not.
-    fn half(&self) -> f64 {
-        0.5 * self.high - 0.5 * self.low
-    }
-
-    /// Position of a value on the axis: 0 and 1 at its ends.
-    fn part(&self, value: f64) -> f64 {
-        (0.5 * value - 0.5 * self.low) / self.half()
-    }
-
-    fn value(&self, part: f64) -> f64 {
-        (1.0 - part) * self.low + part * self.high
-    }
-
-    fn bar(&self, value: f64) -> usize {
-        ((self.part(value) * BARS as f64) as usize).min(BARS - 1)
-    }
-
-    /// The labels of these ticks: short numbers where those say their positions on the axis, else as many digits as that takes.
-    fn labels(&self, parts: [f64; 3]) -> [String; 3] {
-        let is_legible = |value: f64, text: &str| {
-            text.parse::<f64>().is_ok_and(|shown| (shown - value).abs() <= 2.0 * LEGIBLE * self.half())
-        };
-        let values = parts.map(|part| self.value(part));
-        if values.iter().all(|value| is_legible(*value, &short(*value))) {
-            return values.map(short);
+    let scale = if is_log { Scale::Log } else { Scale::Linear };
+    let mut x = Axis { scale, ..Axis::linear("", unit) };
+    let label = match (edges.first(), edges.last()) {
+        (Some(low), Some(high)) if is_far(nominal, ends(&shown)) || (is_log && nominal <= 0.0) => {
+            x = x.within(*low, *high);
+            format!("nominal {}", short(nominal))
         }
-        values.map(|value| {
-            let mut texts = (4..17).map(|digits| digits_of(value, digits));
-            texts.find(|text| is_legible(value, text)).unwrap_or_else(|| digits_of(value, 17))
-        })
+        _ => "nominal".to_owned(),
+    };
+    if nominal.is_finite() {
+        marks.push(Mark::Limit { label, at: nominal, vertical: true });
     }
+    Figure { columns: 3, ..Figure::new(name, x, Axis::linear("", ""), marks) }
 }
 
-/// A number with so many significant digits, without zeros at its end.
-fn digits_of(value: f64, digits: usize) -> String {
-    let text = format!("{value:.*e}", digits - 1);
-    match text.parse::<f64>() {
-        Ok(rounded) if rounded == 0.0 || (1e-4..1e12).contains(&rounded.abs()) => format!("{rounded}"),
-        Ok(rounded) => format!("{rounded:e}"),
-        Err(_) => text,
-    }
+/// Whether the axis of the samples would be mostly empty with the nominal value on it; one value alone has no axis of its own.
+fn is_far(nominal: f64, (low, high): (f64, f64)) -> bool {
+    let reach = FAR * (high - low);
+    high > low && (low - nominal > reach || nominal - high > reach)
 }
 
-impl Histogram<'_> {
-    fn finite(&self) -> impl Iterator<Item = f64> + Clone {
-        self.values.iter().copied().filter(|value| value.is_finite())
-    }
-
-    /// The axis, and whether the nominal value is on it. The axis contains the samples, and each value of a discrete distribution that one
-    /// sample or more is expected to have.
-    fn horizontal(&self) -> (Horizontal, bool) {
-        let count = self.finite().count() as f64;
-        let discrete = self.asked.and_then(|asked| asked.values()).unwrap_or_default();
-        let frequent =
-            discrete.into_iter().filter(|(_, probability)| count * probability >= 1.0).map(|(value, _)| value);
-        let (low, high) = self
-            .finite()
-            .chain(frequent)
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
-        let nominal = self.nominal;
-        if !nominal.is_finite() {
-            return (Horizontal::new(low, high), false);
+/// The probabilities of a discrete distribution as samples that are expected: one stem for each bar that contains a value, at this value, or
+/// at the mean of those that share the bar.
+fn stems(values: &[(f64, f64)], count: usize, edges: &[f64]) -> Mark {
+    let (mut x, mut y) = (Vec::new(), Vec::new());
+    for ends in edges.windows(2) {
+        let is_last = Some(&ends[1]) == edges.last();
+        let inside =
+            values.iter().filter(|(value, _)| *value >= ends[0] && (*value < ends[1] || is_last && *value == ends[1]));
+        let (sum, probability) = inside.fold((0.0, 0.0), |(sum, all), (value, p)| (sum + p * value, all + p));
+        if probability > 0.0 {
+            x.push(sum / probability);
+            y.push(count as f64 * probability);
         }
-        let reach = if high > low { FAR * (high - low) } else { f64::INFINITY };
-        let is_on_axis = !(low - nominal > reach || nominal - high > reach);
-        let (low, high) = if is_on_axis { (low.min(nominal), high.max(nominal)) } else { (low, high) };
-        (Horizontal::new(low, high), is_on_axis)
     }
-
-    /// The probabilities of a discrete distribution as samples that are expected: one stem for each bar that contains a value, at this value, or
-    /// at the mean of those that share the bar.
-    fn stems(&self, horizontal: &Horizontal) -> Option<Vec<(f64, f64)>> {
-        let values = self.asked?.values()?;
-        let count = self.finite().count() as f64;
-        let mut bars = vec![(0.0, 0.0); BARS];
-        for (value, probability) in values {
-            let part = horizontal.part(value);
-            if (horizontal.low..=horizontal.high).contains(&value) {
-                let (sum, expected) = &mut bars[horizontal.bar(value)];
-                *sum += count * probability * part;
-                *expected += count * probability;
-            }
-        }
-        Some(
-            bars.into_iter()
-                .filter(|(_, expected)| *expected > 0.0)
-                .map(|(sum, expected)| (sum / expected, expected))
-                .collect(),
-        )
-    }
-
-    /// The numbers that are expected in the bars of a continuous distribution, at their middles.
-    fn curve(&self, horizontal: &Horizontal) -> Vec<(f64, f64)> {
-        let Some(asked) = self.asked.filter(|asked| asked.values().is_none()) else { return Vec::new() };
-        let edges: Vec<f64> = (0..=BARS).map(|k| horizontal.value(k as f64 / BARS as f64)).collect();
-        let expected = asked.expected(&edges, self.finite().count());
-        expected.into_iter().enumerate().map(|(k, count)| ((k as f64 + 0.5) / BARS as f64, count)).collect()
-    }
-
-    /// Draws it on `area`: bars between minimum and maximum, what is expected, the nominal value.
-    pub(super) fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: u32) -> Result<(), PlotError> {
-        let (horizontal, is_on_axis) = self.horizontal();
-        let mut counts = [0u32; BARS];
-        self.finite().for_each(|x| counts[horizontal.bar(x)] += 1);
-        let (curve, stems) = (self.curve(&horizontal), self.stems(&horizontal).unwrap_or_default());
-        let most = counts.iter().map(|count| f64::from(*count)).chain(curve.iter().chain(&stems).map(|point| point.1));
-        let most = most.fold(1.0, f64::max);
-        let is_named = !is_on_axis && self.nominal.is_finite();
-        let top = if is_named { HEADROOM_WITH_NAME } else { HEADROOM } * most;
-        let name = fitted_to_pixels(self.name, area.dim_in_pixel().0 / scale - MARGIN, NAME)?;
-        let mut chart = ChartBuilder::on(area)
-            .caption(name, ("sans-serif", NAME * scale))
-            .margin(6 * scale)
-            .margin_left(MARGIN * scale)
-            .margin_right(MARGIN * scale)
-            .x_label_area_size(24 * scale)
-            .build_cartesian_2d(0.0..1.0, 0.0..top)
-            .map_err(drawing)?;
-        chart
-            .configure_mesh()
-            .disable_mesh()
-            .disable_y_axis()
-            .x_labels(3)
-            .x_label_formatter(&|_| String::new())
-            .draw()
-            .map_err(drawing)?;
-        let bars = counts.iter().enumerate().map(|(k, count)| {
-            let edge = |k: usize| k as f64 / BARS as f64;
-            Rectangle::new([(edge(k), 0.0), (edge(k + 1), f64::from(*count))], of_samples())
-        });
-        chart.draw_series(bars).map_err(drawing)?;
-        chart.draw_series(LineSeries::new(curve, of_expected(scale))).map_err(drawing)?;
-        for (part, expected) in stems {
-            let line = PathElement::new(vec![(part, 0.0), (part, expected)], of_expected(scale));
-            chart.draw_series([line]).map_err(drawing)?;
-            let head = Circle::new((part, expected), HEAD * scale, COLORS[1].filled());
-            chart.draw_series([head]).map_err(drawing)?;
-        }
-        if is_named {
-            self.name_nominal(&chart, &horizontal, HEADROOM * most, scale)?;
-        } else if is_on_axis {
-            let at = horizontal.part(self.nominal);
-            let line = [(at, 0.0), (at, top)];
-            let (dash, gap) = NOMINAL_DASH;
-            chart
-                .draw_series(DashedLineSeries::new(line, dash * scale, gap * scale, of_nominal(scale)))
-                .map_err(drawing)?;
-        }
-        ticks(&chart, area, &horizontal, scale)
-    }
-
-    /// Names a nominal value that is not on the axis, with an arrow at the edge beyond which it is.
-    fn name_nominal<B: DrawingBackend>(
-        &self,
-        chart: &Chart<'_, B>,
-        horizontal: &Horizontal,
-        above: f64,
-        scale: u32,
-    ) -> Result<(), PlotError> {
-        let is_left = self.nominal < horizontal.low;
-        let (edge, inward, side, align) =
-            if is_left { (0.0, 1, "left", HPos::Left) } else { (1.0, -1, "right", HPos::Right) };
-        let (unit, up) = (inward * scale as i32, 8 * scale as i32);
-        let at = |x: i32, y: i32| (x * unit, y * scale as i32 - up);
-        let style = of_nominal(scale);
-        let arrow = EmptyElement::at((edge, above))
-            + PathElement::new(vec![at(-8, 0), at(8, 0)], style)
-            + PathElement::new(vec![at(-4, -3), at(-8, 0), at(-4, 3)], style);
-        let plotting = chart.plotting_area();
-        plotting.draw(&arrow).map_err(drawing)?;
-        let font = ("sans-serif", LABEL * scale).into_font().color(&BLACK).pos(Pos::new(align, VPos::Center));
-        let text = format!("nominal {}: {side} of this", short(self.nominal));
-        let text = EmptyElement::at((edge, above)) + Text::new(text, at(12, 0), font);
-        plotting.draw(&text).map_err(drawing)
-    }
-}
-
-/// Labels at both ends of the axis and in the middle. A label at an end is shifted where it would leave the histogram's area; that in the middle
-/// is left out where it would meet another.
-fn ticks<B: DrawingBackend>(
-    chart: &Chart<'_, B>,
-    area: &DrawingArea<B, Shift>,
-    horizontal: &Horizontal,
-    scale: u32,
-) -> Result<(), PlotError> {
-    let style = ("sans-serif", LABEL * scale).into_font().color(&BLACK);
-    let plotting = chart.plotting_area();
-    let length = plotting.dim_in_pixel().0 as i32;
-    let (margin, gap) = (((MARGIN - 2) * scale) as i32, (6 * scale) as i32);
-    let mut free = -margin..length + margin;
-    let parts = [0.0, 1.0, 0.5];
-    for (part, text) in parts.into_iter().zip(horizontal.labels(parts)) {
-        let width = area.estimate_text_size(&text, &style).map_err(drawing)?.0 as i32;
-        let at = (part * f64::from(length)) as i32;
-        let left = at - width / 2;
-        let left = if part == 0.5 { left } else { left.min(length + margin - width).max(-margin) };
-        if part == 0.5 && !(free.contains(&left) && free.contains(&(left + width))) {
-            continue;
-        }
-        if part == 0.0 {
-            free.start = left + width + gap;
-        } else if part == 1.0 {
-            free.end = left - gap;
-        }
-        let text = EmptyElement::at((part, 0.0)) + Text::new(text, (left - at, (8 * scale) as i32), style.clone());
-        plotting.draw(&text).map_err(drawing)?;
-    }
-    Ok(())
+    let label = "expected of a discrete value".to_owned();
+    Mark::Points { label, hue: Hue::Failed, shape: PointShape::Stem, x, y, samples: Vec::new() }
 }
 
 #[cfg(test)]
@@ -293,56 +137,67 @@ mod tests {
     use super::*;
     use crate::sampling::Distribution;
     use crate::sampling::distribution::choice::ChoiceQuantile;
+    use crate::sampling::distribution::uniform::UniformQuantile;
 
-    fn histogram<'a>(values: &'a [f64], nominal: f64, asked: Option<&'a Asked<'a>>) -> Histogram<'a> {
-        Histogram { name: "x", values, nominal, asked }
+    /// Law: every value is in one bar, whatever the range; a single value is in the middle of an axis.
+    #[test]
+    fn bars_hold_every_value() {
+        for values in [
+            vec![1.0, 2.0, 3.0],
+            vec![1e-15, 1e-12, 1e-9, 1e-9],
+            vec![5.0; 7],
+            vec![-1.0, 0.0, 1e6],
+            vec![0.0; 3],
+            vec![8.0, 9.0, 9.0, 12.0],
+            vec![-1.5e308, 1.5e308],
+        ] {
+            let (edges, is_log) = bins(&values);
+            let counts = counts(&values, &edges);
+            assert_eq!(counts.iter().sum::<f64>(), values.len() as f64, "{values:?}");
+            assert_eq!(is_log, values[0] == 1e-15, "{values:?}");
+            assert!(edges.is_sorted() && edges.iter().all(|edge| edge.is_finite()), "{edges:?}");
+        }
+        assert!(bins(&[]).0.is_empty());
     }
 
     /// Law: the axis is that of the samples where the nominal value is far from them, and contains it where it is near.
     #[test]
     fn a_far_nominal_value_does_not_widen_the_axis() {
         let values: Vec<f64> = (0..=200).map(|k| 999_999.0 + 0.01 * f64::from(k)).collect();
-        for (nominal, expected) in [(0.0, false), (1e9, false), (1_000_000.5, true), (999_998.5, true)] {
-            let (axis, is_on_axis) = histogram(&values, nominal, None).horizontal();
-            assert_eq!(is_on_axis, expected, "{nominal}");
-            let filled: std::collections::BTreeSet<usize> = values.iter().map(|value| axis.bar(*value)).collect();
-            assert!(filled.len() >= 2 * BARS / 3, "{nominal}: {} bars", filled.len());
+        for (nominal, is_far) in [(0.0, true), (1e9, true), (1_000_000.5, false), (999_998.5, false)] {
+            let figure = of_input("x", "", &values, nominal, None);
+            assert_eq!(figure.x.range.is_some(), is_far, "{nominal}");
+            let Some(Mark::Limit { label, .. }) = figure.marks.last() else { panic!("{figure:?}") };
+            assert_eq!(label.len() > "nominal".len(), is_far, "{label}");
         }
         // one value only: the nominal value is shown however far it is
-        assert!(histogram(&[5.0], 0.0, None).horizontal().1);
-        assert_eq!(histogram(&[], f64::NAN, None).horizontal(), (Horizontal { low: -1.0, high: 1.0 }, false));
+        assert!(of_input("x", "", &[5.0], 0.0, None).x.range.is_none());
+        assert_eq!(of_input("x", "", &[], f64::NAN, None).marks.len(), 1);
     }
 
-    /// Law: labels say where their ticks are, also of a narrow axis far from zero.
+    /// Law: each value of a discrete distribution has a stem of the height that is expected, and values that share a bar one of their sum; a
+    /// continuous one has a curve whose sum is the number of samples.
     #[test]
-    fn labels_are_legible() {
-        let labels = |low, high| Horizontal::new(low, high).labels([0.0, 0.5, 1.0]);
-        assert_eq!(labels(999_999.0, 1_000_001.0), ["999999", "1000000", "1000001"]);
-        assert_eq!(labels(0.0, 179.99), ["0", "90.00", "180.0"]);
-        assert_eq!(labels(1e-9, 3e-9), ["1.000e-9", "2.000e-9", "3.000e-9"]);
-        let narrow = labels(7.0, 7.0 + 1e-12);
-        assert!(narrow[0] != narrow[1] && narrow[1] != narrow[2], "{narrow:?}");
-    }
-
-    /// Law: each value of a discrete distribution has a stem of the height that is expected, and values that share a bar one of their sum.
-    #[test]
-    fn every_value_has_its_probability() {
+    fn what_is_expected_is_drawn() {
         let drawn: Vec<f64> = (0..300).map(|k| [0.01, 0.02, 0.05][k % 3]).collect();
-        let choice = Distribution::Choice(ChoiceQuantile::new(&[0.01, 0.02, 0.05], &[1.0; 3]));
-        let asked = Asked::Number(&choice);
-        let of_drawn = histogram(&drawn, 0.01, Some(&asked));
-        let (axis, _) = of_drawn.horizontal();
-        let stems = of_drawn.stems(&axis).unwrap();
-        let known = [(0.0, 100.0), (0.25, 100.0), (1.0, 100.0)];
-        let is_near = |((x, y), (a, b)): (&(f64, f64), &(f64, f64))| (x - a).abs() < 1e-12 && (y - b).abs() < 1e-9;
-        assert!(stems.len() == 3 && stems.iter().zip(&known).all(is_near), "{stems:?}");
-        assert!(of_drawn.curve(&axis).is_empty());
-        let close = Distribution::Choice(ChoiceQuantile::new(&[0.01, 0.0101, 0.05], &[1.0; 3]));
-        let stems = histogram(&drawn, 0.01, Some(&Asked::Number(&close))).stems(&axis).unwrap();
-        assert!(stems.len() == 2 && (stems[0].1 - 200.0).abs() < 1e-9, "{stems:?}");
+        let of =
+            |distribution: &Distribution| of_input("x", "", &drawn, 0.01, Some(&Asked::Number(distribution))).marks;
+        let stems = |values: &[f64; 3]| match of(&Distribution::Choice(ChoiceQuantile::new(values, &[1.0; 3])))
+            .swap_remove(1)
+        {
+            Mark::Points { shape: PointShape::Stem, x, y, .. } => (x, y),
+            other => panic!("{other:?}"),
+        };
+        let (x, y) = stems(&[0.01, 0.02, 0.05]);
+        assert!(x.iter().zip([0.01, 0.02, 0.05]).all(|(x, known)| (x - known).abs() < 1e-12), "{x:?}");
+        assert!(y.len() == 3 && y.iter().all(|y| (y - 100.0).abs() < 1e-9), "{y:?}");
+        let (x, y) = stems(&[0.01, 0.0101, 0.05]);
+        assert!(x.len() == 2 && (y[0] - 200.0).abs() < 1e-9, "{x:?} {y:?}");
         // a value that was not drawn although samples are expected there is on the axis
-        let wide = Distribution::Choice(ChoiceQuantile::new(&[0.01, 0.02, 9.0], &[1.0; 3]));
-        let (axis, _) = histogram(&drawn, 0.01, Some(&Asked::Number(&wide))).horizontal();
-        assert_eq!(axis, Horizontal { low: 0.01, high: 9.0 });
+        assert_eq!(stems(&[0.01, 0.02, 9.0]).0.last(), Some(&9.0));
+        match &of(&Distribution::Uniform(UniformQuantile { min: 0.01, max: 0.05 }))[1] {
+            Mark::Line { y, .. } => assert!((y.iter().sum::<f64>() - 300.0).abs() < 1e-6, "{y:?}"),
+            other => panic!("{other:?}"),
+        }
     }
 }

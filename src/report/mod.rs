@@ -1,33 +1,38 @@
 //! Layer 7: text and figures for people.
 //!
 //! - [`summary`], [`observable_lines`], [`audit_summary`]: statistics of a campaign. - [`failure_text`]: why runs failed. - [`requirements`]: verdicts, also as JUnit XML. - [`drivers_text`]: what drives an outcome. - [`precision_text`]: work-precision measurements as text.
-//! - [`canvas`]: figures as SVG and PNG. - [`plot`]: curves in panels, with a legend. - [`fitted_text`]: text that is shortened to a width. - [`simulation_figure`], [`drawn_figure`] (of [`drawn_columns`], in histograms, with [`expected_counts`], of numbers drawn together by [`marginal`]), [`precision_figure`]: the figures of the commands.
+//! - [`figure`]: what a figure shows. - [`sheet`]: figures on one picture, drawn with `panel`, `axis`, `legend`, `marks` as `svg`; [`image`]: its files. - [`fitted_text`]: text that is shortened to a width.
+//! - [`simulation_figure`], [`drawn_figure`] (of [`drawn_columns`], in [`histogram`]s, with [`expected_counts`], of numbers drawn together by [`marginal`]), [`precision_figure`]: the figures of the commands; [`relative_errors`]: the axis of errors.
 //! - [`comparison_text`]: two results compared. - [`stopping_text`]: looks of a campaign with `[stop]`.
 //! - [`time_table`]: one run over time on a terminal. - [`number`]: numbers in text. - [`page`]: the report of a campaign as one HTML file.
 
 pub mod audit_summary;
 mod axis;
-mod bitmap;
-pub mod canvas;
 pub mod comparison_text;
 pub mod drawn_columns;
 pub mod drawn_figure;
 pub mod drivers_text;
 pub mod expected_counts;
 pub mod failure_text;
+pub mod figure;
 pub mod fitted_text;
-mod histogram;
+pub mod histogram;
+pub mod image;
 mod legend;
 pub mod marginal;
+mod marks;
 pub mod number;
 pub mod observable_lines;
 pub mod page;
-pub mod plot;
+mod panel;
 pub mod precision_figure;
 pub mod precision_text;
+pub mod relative_errors;
 pub mod requirements;
+pub mod sheet;
 pub mod shell_word;
 pub mod simulation_figure;
 pub mod stopping_text;
 pub mod summary;
+mod svg;
 pub mod time_table;

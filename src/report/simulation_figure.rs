@@ -3,7 +3,11 @@
 //! The panels of the energies are the report's Figures 3 to 5 (body by body, total and its error).
 
 use crate::observables::Series;
-use crate::report::plot::{Curve, Figure, Panel};
+use crate::report::axis::ROUNDING;
+use crate::report::figure::{Axis, Dash, Figure, Hue, Mark};
+use crate::report::number::short;
+use crate::report::relative_errors;
+use crate::report::sheet::Sheet;
 use crate::run::StateField;
 use crate::scene::Name;
 use crate::storage::timeseries::{TimeColumn, TimeSeries};
@@ -73,67 +77,75 @@ const ERRORS: [Column; 3] = [
     (TimeColumn::Series(Series::AngularMomentumError), "angular momentum"),
 ];
 
+/// Label and values.
+type Curve = (String, Vec<f64>);
+
 /// The figure of a run with this relative tolerance, if it follows one. A state or an energy that is zero throughout, as those of a part
 /// that the scene does not have, has no curve; where no wheel turns, there is no panel of the transfer of energy.
-pub fn simulation_figure(title: &str, series: &TimeSeries, tolerance: Option<f64>) -> Figure {
+pub fn simulation_figure(title: String, series: &TimeSeries, tolerance: Option<f64>) -> Sheet {
+    let times = series.column(TimeColumn::Time).map(|(_, times)| times.to_vec()).unwrap_or_default();
     let curves = |columns: &[Column]| -> Vec<Curve> {
-        let curve = |(key, label): &Column| {
-            let values = series.column(*key)?.1.to_vec();
-            values.iter().any(|value| *value != 0.0).then(|| Curve { label: (*label).to_owned(), values })
-        };
-        columns.iter().filter_map(curve).collect()
+        let curve = |(key, label): &Column| Some(((*label).to_owned(), series.column(*key)?.1.to_vec()));
+        let found = columns.iter().filter_map(curve);
+        found.filter(|(_, values)| values.iter().any(|value| *value != 0.0)).collect()
     };
-    let panel = |title: String, unit: &str, curves: Vec<Curve>| Panel {
-        title,
-        unit: unit.to_owned(),
-        curves,
-        size: 0.0,
-        has_errors: false,
-        tolerance: None,
-    };
-    let states = STATES.map(|(title, unit, columns)| panel(title.to_owned(), unit, curves(columns)));
-    let of_wheels = |key: &dyn Fn(usize) -> TimeColumn| -> Vec<Curve> {
-        let curve = |(wheel, name): (usize, &Name)| {
-            Some(Curve { label: format!("wheel {name}"), values: series.column(key(wheel))?.1.to_vec() })
-        };
+    let of_wheels = |prefix: &str, key: &dyn Fn(usize) -> TimeColumn| -> Vec<Curve> {
+        let curve =
+            |(wheel, name): (usize, &Name)| Some((format!("{prefix}{name}"), series.column(key(wheel))?.1.to_vec()));
         series.wheels().iter().enumerate().filter_map(curve).collect()
     };
-    let mut rates = of_wheels(&|wheel| TimeColumn::State(StateField::WheelRates, wheel));
-    for (rate, name) in rates.iter_mut().zip(series.wheels()) {
-        rate.label = name.to_string(); // the title says that these are wheels
-    }
-    let turns = rates.iter().flat_map(|rate| &rate.values).any(|rate| *rate != 0.0);
-    let states = states.into_iter().chain([panel("Wheel rates".to_owned(), "rad/s", rates)]);
+    let panel = |title: &str, unit: &str, curves: Vec<Curve>| {
+        let is_alone = curves.len() == 1; // the title names it
+        let mark = |(index, (label, values)): (usize, Curve)| {
+            let label = if is_alone { String::new() } else { label };
+            Mark::line(label, Hue::Curve(index), Dash::of_curve(index), times.clone(), values)
+        };
+        let marks = curves.into_iter().enumerate().map(mark).collect();
+        Figure { is_over_time: true, ..Figure::new(title, Axis::linear("time", "s"), Axis::linear("", unit), marks) }
+    };
+    let mut panels: Vec<Figure> =
+        STATES.iter().map(|(title, unit, columns)| panel(title, unit, curves(columns))).collect();
+    let rates = of_wheels("", &|wheel| TimeColumn::State(StateField::WheelRates, wheel));
+    let turns = rates.iter().flat_map(|(_, values)| values).any(|rate| *rate != 0.0);
+    panels.push(panel("Wheel rates", "rad/s", rates));
+    panels.extend(MOMENTA.map(|(title, unit, column)| panel(title, unit, curves(&[column]))));
     let bodies: Vec<Curve> = curves(&[(TimeColumn::Series(Series::EnergyBody), "body")])
         .into_iter()
-        .chain(of_wheels(&|wheel| TimeColumn::Series(Series::EnergyWheel.of_wheel(wheel))))
+        .chain(of_wheels("wheel ", &|wheel| TimeColumn::Series(Series::EnergyWheel.of_wheel(wheel))))
         .chain(curves(&[(TimeColumn::Series(Series::EnergyDebris), "debris")]))
         .collect();
-    let energy = |body: &Curve| panel(format!("Kinetic energy, {}", body.label), "J", vec![body.clone()]);
-    let sum = |point: usize| bodies.iter().map(|body| body.values[point]).sum();
-    let total = Curve { label: "total".to_owned(), values: (0..series.points()).map(sum).collect() };
-    let transfer = |body: &Curve| Curve {
-        label: body.label.clone(),
-        values: body.values.iter().map(|value| value - body.values[0]).collect(),
-    };
-    let transfers = bodies.iter().map(transfer).collect();
-    let momenta = MOMENTA.map(|(title, unit, column)| panel(title.to_owned(), unit, curves(&[column])));
-    let mut panels: Vec<Panel> = states.chain(momenta).chain(bodies.iter().map(energy)).collect();
+    let energy = |body: &Curve| panel(&format!("Kinetic energy, {}", body.0), "J", vec![body.clone()]);
+    panels.extend(bodies.iter().map(energy));
     if bodies.len() > 1 {
-        panels.push(panel("Kinetic energy, total".to_owned(), "J", vec![total]));
+        let sum = |point: usize| bodies.iter().map(|(_, values)| values[point]).sum();
+        let total = (0..series.points()).map(sum).collect();
+        panels.push(panel("Kinetic energy, total", "J", vec![(String::new(), total)]));
     }
     if turns {
-        let size = bodies.iter().flat_map(|body| &body.values).fold(0.0, |size: f64, value| value.abs().max(size));
-        let title = "Energy transfer: change of kinetic energy since the start".to_owned();
-        panels.push(Panel { size, ..panel(title, "J", transfers) });
+        let change = |(label, values): &Curve| (label.clone(), values.iter().map(|value| value - values[0]).collect());
+        let mut transfer = panel(
+            "Energy transfer: change of kinetic energy since the start",
+            "J",
+            bodies.iter().map(change).collect(),
+        );
+        let size = bodies.iter().flat_map(|(_, values)| values).fold(0.0, |size: f64, value| value.abs().max(size));
+        if transfer.marks.iter().all(|mark| mark.largest() < ROUNDING * size) {
+            // what rounding makes of constants looks constant
+            transfer.y = transfer.y.within(-100.0 * ROUNDING * size, 100.0 * ROUNDING * size);
+        }
+        panels.push(transfer);
     }
-    let errors = "Relative errors of the balances".to_owned();
-    panels.push(Panel { has_errors: true, tolerance, ..panel(errors, "", curves(&ERRORS)) });
-    panels.retain(|panel| !panel.curves.is_empty());
-    Figure {
-        title: title.to_owned(),
-        abscissa_label: "time / s".to_owned(),
-        abscissa: series.column(TimeColumn::Time).map(|(_, times)| times.to_vec()).unwrap_or_default(),
-        panels,
+    let mut errors = panel("Relative errors of the balances", "", curves(&ERRORS));
+    let largest = errors.marks.iter().map(Mark::largest).fold(0.0, f64::max);
+    errors.title += &format!(" (maximum {})", short(largest));
+    errors.y = relative_errors::limited(&mut errors.marks, tolerance, true);
+    panels.push(errors);
+    panels.retain(Figure::is_visible);
+    if panels.len() % 2 == 1
+        && let Some(last) = panels.last_mut()
+    {
+        last.columns = 12;
     }
+    let width = if panels.len() > 1 { 1280.0 } else { 720.0 };
+    Sheet { title, width, panel_height: 320.0, has_common_legend: false, panels }
 }

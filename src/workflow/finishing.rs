@@ -12,6 +12,7 @@ use crate::analysis::trajectories;
 use crate::campaign::{FilesRead, Plan, data};
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::{Ensemble, Part, PartId};
+use crate::report::image::PlotSize;
 use crate::report::shell_word::quoted_path;
 use crate::report::summary::{Summary, SummaryEnd};
 use crate::storage::claim::{Claim, ClaimOptions, Ready, claim, open};
@@ -36,8 +37,8 @@ use crate::workflow::source::plan_in;
 pub struct Outputs {
     /// Whether the page is left out.
     pub without_page: bool,
-    /// The folder of the figures of the page as files.
-    pub figures: Option<PathBuf>,
+    /// The folder of the figures of the page as files, and their size.
+    pub figures: Option<(PathBuf, PlotSize)>,
     /// The file of the verdicts as JUnit XML.
     pub junit: Option<PathBuf>,
 }
@@ -158,7 +159,8 @@ fn make_page(
     }
     let page = page::page(job.ensemble, reader, analysed, records, job.session.threads)?;
     folder.write(REPORT, page.html.as_bytes()).map_err(WorkflowError::files)?;
-    page::save_figures(&job.session, &page, job.outputs.figures.as_deref())
+    let place = job.outputs.figures.as_ref().map(|(folder, size)| (folder.as_path(), *size));
+    page::save_figures(&job.session, &page, place)
 }
 
 /// Writes the time series that the plan retains.

@@ -4,8 +4,9 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use crate::ensemble::Ensemble;
+use crate::report::image::{self, PlotSize};
 use crate::report::page::gather::Analysis;
-use crate::report::page::{Contents, Page, drawing};
+use crate::report::page::{Contents, Page};
 use crate::report::shell_word::quoted_path;
 use crate::storage::claim::open;
 use crate::storage::folder::relist;
@@ -23,7 +24,11 @@ use crate::workflow::source::plan_of_sound;
 ///
 /// # Errors
 /// Where the folder has no finished result, or files cannot be read or written.
-pub fn remade(session: &Session<'_>, root: &Path, figures: Option<&Path>) -> Result<(PathBuf, u64), WorkflowError> {
+pub fn remade(
+    session: &Session<'_>,
+    root: &Path,
+    figures: Option<(&Path, PlotSize)>,
+) -> Result<(PathBuf, u64), WorkflowError> {
     let (storage, threads) = (session.storage, session.threads);
     let (found, _locks) = open(storage, root, false).map_err(WorkflowError::files)?;
     let Some(manifest) = found.manifests.get(MANIFEST).filter(|_| found.is_finished) else {
@@ -71,13 +76,13 @@ pub fn page(
     Ok(Page::new(ensemble, &contents))
 }
 
-/// Writes the figures of `page` as files into `folder`, if one was named.
+/// Writes the figures of `page` as files of this size into the folder of `place`, if one was named.
 ///
 /// # Errors
 /// Where a file cannot be written.
-pub fn save_figures(session: &Session<'_>, page: &Page, folder: Option<&Path>) -> Result<(), WorkflowError> {
-    let Some(folder) = folder else { return Ok(()) };
-    let count = drawing::save(&page.figures, folder).map_err(WorkflowError::files)?;
+pub fn save_figures(session: &Session<'_>, page: &Page, place: Option<(&Path, PlotSize)>) -> Result<(), WorkflowError> {
+    let Some((folder, size)) = place else { return Ok(()) };
+    let count = image::save_all(&page.figures, folder, size).map_err(WorkflowError::files)?;
     session.watch.note(&format!("{}: {count} files of figures", folder.display()));
     Ok(())
 }

@@ -32,7 +32,7 @@ const CRATES: [(&str, &[&str]); 5] = [
     ("clap", &["cli"]),
     ("fearless_simd", &["math", "dynamics", "ode", "propagation", "observables", "statistics"]),
     ("parquet", &["storage", "campaign/data_columns.rs"]),
-    ("plotters", &["report"]),
+    ("resvg", &["report"]),
     ("rayon", &["ensemble"]),
 ];
 

@@ -1,14 +1,13 @@
 //! Figures of the numerical errors: histograms, exceedance, estimate against audited error, work.
 
-use crate::report::page::figure::{Axis, Figure, Hue, Mark, Section};
+use crate::report::figure::{Axis, Dash, Figure, Hue, Mark, PointShape, Section};
+use crate::report::histogram::{bins, counts};
 use crate::report::page::shown_columns::{CONFIDENCE, ranked, words};
 use crate::report::page::survey::{Outcome, Survey};
 use crate::run::Status;
 use crate::statistics::binomial::interval;
 use crate::statistics::sketch::Sketch;
 
-/// Bars of a histogram.
-const BARS: usize = 40;
 /// Fewer runs than this have no distribution to be seen.
 const FEWEST_RUNS: u64 = 8;
 /// Errors with figures of their own.
@@ -95,47 +94,6 @@ pub fn histogram(survey: &Survey, index: usize, outcome: &Outcome, section: Sect
     }
 }
 
-/// Edges of bars for `values`, and whether they are by decades: where all are positive and their range exceeds 100.
-pub fn bins(values: &[f64]) -> (Vec<f64>, bool) {
-    let (low, high) =
-        values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(*x), high.max(*x)));
-    if low > high {
-        return (Vec::new(), false);
-    }
-    let positive = values.iter().copied().filter(|value| *value > 0.0).fold(f64::INFINITY, f64::min);
-    // zeros are not on a logarithmic axis; where they are many, the axis is linear
-    let is_log = low >= 0.0
-        && positive.is_finite()
-        && high > 100.0 * positive
-        && values.iter().filter(|x| **x == 0.0).count() * 100 < values.len();
-    let edge = |k: usize| k as f64 / BARS as f64;
-    let are_whole = values.iter().all(|value| *value == libm::floor(*value));
-    if are_whole && high - low <= BARS as f64 && !is_log {
-        // counts have a bar each
-        return ((0..=(high - low) as usize + 1).map(|k| low + k as f64 - 0.5).collect(), false);
-    }
-    if is_log {
-        let (low, high) = (libm::log10(positive), libm::log10(high));
-        return ((0..=BARS).map(|k| libm::pow(10.0, low + edge(k) * (high - low))).collect(), true);
-    }
-    let half = if high > low { 0.5 * (high - low) } else { 0.05 * low.abs().max(1e-300) };
-    let middle = 0.5 * (low + high);
-    ((0..=BARS).map(|k| middle - half + 2.0 * half * edge(k)).collect(), false)
-}
-
-/// How many `values` are between neighbouring `edges`; those at the ends count too.
-pub fn counts(values: &[f64], edges: &[f64]) -> Vec<f64> {
-    let bars = edges.len().saturating_sub(1);
-    let mut counts = vec![0.0; bars];
-    for value in values.iter().filter(|_| bars > 0) {
-        let slack = 1e-9 * (edges[bars] - edges[0]);
-        if *value >= edges[0] - slack && *value <= edges[bars] + slack {
-            counts[edges.partition_point(|edge| edge <= value).clamp(1, bars) - 1] += 1.0;
-        }
-    }
-    counts
-}
-
 /// The fraction of runs above a value, on logarithmic axes, at ranks spaced by decades.
 fn exceedance(outcome: &Outcome, has_intervals: bool) -> Figure {
     let (x, y, low, high) = tail(&outcome.sketch);
@@ -147,7 +105,7 @@ fn exceedance(outcome: &Outcome, has_intervals: bool) -> Figure {
     marks.push(Mark::Line {
         label: "fraction of runs above".to_owned(),
         hue: Hue::Total,
-        dashed: false,
+        dash: Dash::Solid,
         x: x.clone(),
         y: y.clone(),
     });
@@ -156,7 +114,7 @@ fn exceedance(outcome: &Outcome, has_intervals: bool) -> Figure {
     marks.push(Mark::Points {
         label: "largest".to_owned(),
         hue: Hue::Total,
-        crosses: false,
+        shape: PointShape::Disc,
         x,
         y,
         samples: outcome.largest.first().map(|(sample, _)| sample.0 as f64).into_iter().collect(),
@@ -233,14 +191,14 @@ fn audits(survey: &Survey) -> Option<Figure> {
             Mark::Line {
                 label: "estimate = truth".to_owned(),
                 hue: Hue::Reference,
-                dashed: true,
+                dash: Dash::Dashed,
                 x: vec![low, high],
                 y: vec![low, high],
             },
             Mark::Points {
                 label: "audited runs".to_owned(),
                 hue: Hue::Total,
-                crosses: false,
+                shape: PointShape::Disc,
                 x: shown.iter().map(|audit| audit[1]).collect(),
                 y: shown.iter().map(|audit| audit[2]).collect(),
                 samples: shown.iter().map(|audit| audit[0]).collect(),
@@ -258,26 +216,6 @@ pub fn sentence(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Law: every value is in one bar, whatever the range; a single value is in the middle of an axis.
-    #[test]
-    fn bars_hold_every_value() {
-        for values in [
-            vec![1.0, 2.0, 3.0],
-            vec![1e-15, 1e-12, 1e-9, 1e-9],
-            vec![5.0; 7],
-            vec![-1.0, 0.0, 1e6],
-            vec![0.0; 3],
-            vec![8.0, 9.0, 9.0, 12.0],
-        ] {
-            let (edges, is_log) = bins(&values);
-            let counts = counts(&values, &edges);
-            assert_eq!(counts.iter().sum::<f64>(), values.len() as f64, "{values:?}");
-            assert_eq!(is_log, values[0] == 1e-15, "{values:?}");
-            assert!(edges.is_sorted() && edges.iter().all(|edge| edge.is_finite()), "{edges:?}");
-        }
-        assert!(bins(&[]).0.is_empty());
-    }
 
     /// Law: the tail falls from 1 to 1/n, its intervals contain it, and it ends at the maximum.
     #[test]

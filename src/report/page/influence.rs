@@ -1,8 +1,8 @@
 //! Figures of what drives the outcome: sensitivities with intervals, scatter plots of the strongest inputs.
 
 use crate::campaign::Plan;
+use crate::report::figure::{Axis, Dash, Figure, Hue, Mark, PointShape, Section};
 use crate::report::page::errors::{sentence, shown_rows};
-use crate::report::page::figure::{Axis, Figure, Hue, Mark, Section};
 use crate::report::page::shown_columns::words;
 use crate::report::page::survey::{Outcome, SCATTER, Survey, chosen};
 use crate::run::Quantity;
@@ -82,22 +82,22 @@ fn scatter(plan: &Plan, survey: &Survey, input: usize, index: usize, outcome: &O
     let shown: Vec<f64> = kept.iter().map(|row| ordinates[*row]).collect();
     let (lowest, highest) = shown.iter().fold((f64::INFINITY, 0.0f64), |(low, high), y| (low.min(*y), high.max(*y)));
     let is_log = lowest > 0.0 && highest > 100.0 * lowest;
-    let points = |rows: &[usize], label: &str, hue, crosses, y: Vec<f64>| Mark::Points {
+    let points = |rows: &[usize], label: &str, hue, shape, y: Vec<f64>| Mark::Points {
         label: label.to_owned(),
         hue,
-        crosses,
+        shape,
         x: rows.iter().map(|row| thinned.inputs[input][*row]).collect(),
         y,
         samples: rows.iter().map(|row| thinned.samples[*row] as f64).collect(),
     };
-    let mut marks = vec![points(&kept, "ok", Hue::Total, false, shown)];
+    let mut marks = vec![points(&kept, "ok", Hue::Total, PointShape::Disc, shown)];
     let failed: Vec<usize> =
         (0..thinned.samples.len()).filter(|row| thinned.statuses[*row] != Status::Done).take(SCATTER).collect();
     if !failed.is_empty() {
         // a run that failed has no outcome: it is marked at the lower edge
         let edge = if lowest.is_finite() { lowest } else { 0.0 };
         let y = vec![edge; failed.len()];
-        marks.push(points(&failed, "failed (at the lower edge)", Hue::Failed, true, y));
+        marks.push(points(&failed, "failed (at the lower edge)", Hue::Failed, PointShape::Cross, y));
     }
     let all = outcome.sketch.count();
     let label = if outcome.is_error { format!("|{}|", words(&outcome.quantity)) } else { words(&outcome.quantity) };
@@ -122,7 +122,7 @@ pub fn convergence(outcome: &Outcome, has_intervals: bool) -> Figure {
     let line = |label: &str, hue, place| Mark::Line {
         label: label.to_owned(),
         hue,
-        dashed: false,
+        dash: Dash::Solid,
         x: column(0),
         y: column(place),
     };

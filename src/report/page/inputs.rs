@@ -3,10 +3,9 @@
 use core::f64::consts::PI;
 
 use crate::campaign::Plan;
-use crate::report::marginal;
-use crate::report::page::errors::{bins, counts};
-use crate::report::page::figure::{Axis, Figure, Hue, Mark, Section};
+use crate::report::figure::{Figure, Section};
 use crate::report::page::survey::Survey;
+use crate::report::{drawn_figure, histogram, marginal};
 use crate::sampling::correlation::{Measure, Numbers};
 use crate::statistics::correlation::{matrix, mid_ranks, standardised};
 
@@ -18,8 +17,7 @@ const MOST_CORRELATED: usize = 24;
 /// Histograms of the inputs, and their correlations as asked and as achieved.
 pub fn figures(plan: &Plan, survey: &Survey) -> Vec<Figure> {
     let columns = survey.thinned.inputs.len();
-    let mut figures: Vec<Figure> =
-        (0..columns.min(MOST_INPUTS)).map(|column| histogram(plan, survey, column)).collect();
+    let mut figures: Vec<Figure> = (0..columns.min(MOST_INPUTS)).map(|column| input(plan, survey, column)).collect();
     figures.extend(correlations(plan, survey));
     figures.retain(Figure::is_visible);
     figures
@@ -30,22 +28,14 @@ fn dispersed(survey: &Survey) -> Vec<usize> {
     (0..survey.thinned.samples.len()).filter(|row| survey.thinned.samples[*row] != 0).collect()
 }
 
-fn histogram(plan: &Plan, survey: &Survey, index: usize) -> Figure {
+fn input(plan: &Plan, survey: &Survey, index: usize) -> Figure {
     let column = &plan.dispersions.columns()[index];
     let name = column.parameter.component_name(column.component);
     let unit = if column.parameter.unit() == "1" { "" } else { column.parameter.unit() };
     let values: Vec<f64> =
         dispersed(survey).into_iter().map(|row| survey.thinned.inputs[index][row]).filter(|x| x.is_finite()).collect();
-    let (edges, is_log) = bins(&values);
-    let mut marks = vec![Mark::Bars {
-        label: "applied".to_owned(),
-        hue: Hue::Body,
-        heights: counts(&values, &edges),
-        edges: edges.clone(),
-    }];
     let transform = plan.dispersions.distribution_of(index);
     let asked = marginal::of_column(plan, index);
-    let asked = asked.map_or_else(Vec::new, |asked| asked.expected(&edges, values.len()));
     let origin = match transform {
         Some(transform) => transform.text(&crate::report::number::short),
         None => plan
@@ -53,30 +43,17 @@ fn histogram(plan: &Plan, survey: &Survey, index: usize) -> Figure {
             .expression_of(index)
             .map_or("given by other inputs or by a table".to_owned(), |text| format!("= {text}")),
     };
-    let line = if asked.is_empty() { "" } else { " Line: runs expected of the distribution that was asked for." };
-    if !asked.is_empty() {
-        let middles =
-            edges.windows(2).map(|pair| if is_log { libm::sqrt(pair[0] * pair[1]) } else { 0.5 * (pair[0] + pair[1]) });
-        marks.push(Mark::Line {
-            label: "asked for".to_owned(),
-            hue: Hue::Nominal,
-            dashed: false,
-            x: middles.collect(),
-            y: asked,
-        });
-    }
-    marks.push(Mark::Limit { label: "nominal".to_owned(), at: column.nominal, vertical: true });
-    let axis = if is_log { Axis::log } else { Axis::linear };
+    let line = match asked.as_ref().map(|asked| asked.values().is_some()) {
+        None => "",
+        Some(false) => " Line: samples expected of the distribution that was asked for.",
+        Some(true) => " Dots: samples expected of each value.",
+    };
     Figure {
         name: format!("input_{}", column.parameter.column_name(column.component)),
         section: Section::Inputs,
-        title: name.clone(),
         caption: format!("{} of {} dispersed samples. {origin}.{line}", values.len(), survey.samples.saturating_sub(1)),
         columns: 4,
-        is_over_time: false,
-        x: axis(name, unit),
-        y: Axis::linear("runs", ""),
-        marks,
+        ..histogram::of_input(&name, unit, &values, column.nominal, asked.as_ref())
     }
 }
 
@@ -99,13 +76,8 @@ fn correlations(plan: &Plan, survey: &Survey) -> Vec<Figure> {
     let figure = |name: &str, title: &str, caption: String, values: Vec<Vec<f64>>| Figure {
         name: name.to_owned(),
         section: Section::Inputs,
-        title: title.to_owned(),
         caption,
-        columns: 6,
-        is_over_time: false,
-        x: Axis::names(names.clone()),
-        y: Axis::names(names.clone()),
-        marks: vec![Mark::Matrix { values: values.into_iter().flatten().collect() }],
+        ..drawn_figure::correlations(title, &names, values)
     };
     let note = if shown.len() < all.len() {
         format!(" The first {} of {} inputs.", shown.len(), all.len())

@@ -3,23 +3,21 @@
 //! It is a pure function of the plan and the rows (and what was computed from them): the same result gives the same bytes.
 //!
 //! - [`survey`]: what is taken from the rows. - `runs`: the runs that are shown in full.
-//! - [`figure`]: what a figure shows; [`over_time`], `errors`, [`influence`], `inputs`: the figures; [`drawing`]: figures as files.
+//! - [`over_time`], `errors`, [`influence`], `inputs`: the figures. - `figure_json`: what the scripts need to draw them.
 //! - [`gather`]: what statistics, verdicts, sensitivities and bands are on the page. - [`cards`], `first_screen`, [`tables`], `document`: the HTML. - `replay`: the 3D replay. - `payload`: numbers in the page.
 //!
 //! The scripts and styles are in `assets/report/`.
 
 pub mod cards;
 mod document;
-pub mod drawing;
 mod errors;
-pub mod figure;
-mod figure_axis;
+mod figure_json;
 mod first_screen;
 pub mod gather;
 pub mod influence;
 mod inputs;
 pub mod over_time;
-mod payload;
+pub mod payload;
 mod readable;
 mod replay;
 mod runs;
@@ -32,7 +30,7 @@ use serde_json::{Value, json};
 
 use self::cards::Card;
 use self::document::{PageSection, document};
-use self::figure::{Figure, Section};
+use self::figure_json::json_of;
 use self::influence::Influence;
 use self::over_time::{Curves, TimeBands};
 use self::payload::Payload;
@@ -40,6 +38,7 @@ use self::survey::Survey;
 use self::tables::StatisticsRow;
 use crate::campaign::Plan;
 use crate::ensemble::Ensemble;
+use crate::report::figure::{Figure, Section};
 use crate::sampling::{Design, SampleId};
 
 /// What the page is made of.
@@ -97,7 +96,7 @@ impl Page {
         figures.retain(Figure::is_visible);
 
         let mut payload = Payload::default();
-        let drawn: Vec<Value> = figures.iter().map(|figure| figure.json(&mut payload)).collect();
+        let drawn: Vec<Value> = figures.iter().map(|figure| json_of(figure, &mut payload)).collect();
         let motions: Vec<Value> = shown.iter().filter_map(|run| replay::motion(plan, run, &mut payload)).collect();
         let has_replay = !motions.is_empty();
         let data = json!({

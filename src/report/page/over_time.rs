@@ -2,9 +2,10 @@
 
 use crate::ensemble::SingleRun;
 use crate::observables::Series;
+use crate::report::figure::{Axis, Dash, Figure, Hue, Mark, Section};
 use crate::report::number::short;
-use crate::report::page::figure::{Axis, Figure, Hue, Mark, Section};
 use crate::report::page::spectrum::{amplitudes, dominant};
+use crate::report::relative_errors;
 use crate::scene::Name;
 
 /// Quantiles of a series over time, of the runs that are ok.
@@ -19,11 +20,6 @@ pub struct TimeBands {
     /// How many runs they are of.
     pub runs: u64,
 }
-
-/// Relative errors below this are rounding: they are shown on the scale of the tolerance, where they do not look like a drift.
-const ROUNDING: f64 = 1e-14;
-/// A limit that is larger than the data by this factor is outside of the axis.
-const FAR: f64 = 30.0;
 
 /// Curves of the nominal run.
 #[derive(Clone, Copy, Debug)]
@@ -82,11 +78,11 @@ impl<'a> Curves<'a> {
             marks.push(area("5 to 95%", p05, p95, 0.15));
             marks.push(area("25 to 75%", p25, p75, 0.3));
             let (x, y) = (bands.times.clone(), p50.clone());
-            marks.push(Mark::Line { label: label("median"), hue, dashed: false, x, y });
+            marks.push(Mark::Line { label: label("median"), hue, dash: Dash::Solid, x, y });
         }
         if nominal.iter().any(|value| *value != 0.0) {
-            let (hue, dashed) = if marks.is_empty() { (hue, false) } else { (Hue::Nominal, true) };
-            marks.push(Mark::Line { label: label("nominal run"), hue, dashed, x: self.times(), y: nominal });
+            let (hue, dash) = if marks.is_empty() { (hue, Dash::Solid) } else { (Hue::Nominal, Dash::Dashed) };
+            marks.push(Mark::Line { label: label("nominal run"), hue, dash, x: self.times(), y: nominal });
         }
         marks
     }
@@ -232,7 +228,7 @@ impl<'a> Curves<'a> {
         if let Some(bands) = self.band("exchange_body_j") {
             for (label, quantile) in [("body, 5% of runs", 0), ("body, 95% of runs", 4)] {
                 let (x, y) = (bands.times.clone(), bands.quantiles[quantile].clone());
-                marks.push(Mark::Line { label: label.to_owned(), hue: Hue::Body, dashed: true, x, y });
+                marks.push(Mark::Line { label: label.to_owned(), hue: Hue::Body, dash: Dash::Dashed, x, y });
             }
         }
         let change = || Axis::linear("change of energy", "J");
@@ -249,7 +245,7 @@ impl<'a> Curves<'a> {
         let phase = named().map(|((index, name), y)| Mark::Line {
             label: format!("wheel {name}"),
             hue: Hue::Wheel(index),
-            dashed: false,
+            dash: Dash::Solid,
             x: body.clone(),
             y: y.clone(),
         });
@@ -284,29 +280,13 @@ impl<'a> Curves<'a> {
                 self.marks(&self.name(*series).0, self.nominal(*series), *hue, of)
             };
             let mut marks: Vec<Mark> = list.iter().flat_map(of).collect();
-            let largest = marks.iter().map(Mark::largest).fold(0.0, f64::max);
-            // a limit far beyond the data would flatten them; it is in the caption
-            let is_rounding = largest < ROUNDING;
-            let scale = tolerance.unwrap_or(ROUNDING);
-            let shown = if is_rounding || scale <= FAR * largest { scale.max(largest) } else { largest };
             let is_signed = list.iter().all(|(series, ..)| *series == Series::EnergyError);
-            // curves beyond the rounding of a double would cover its name, which is in the caption
-            let rounding = if largest <= f64::EPSILON { "rounding of a double" } else { "" };
-            let of_step = tolerance.map(|tolerance| (format!("tolerance {tolerance:e}"), tolerance));
-            for (label, at) in of_step.into_iter().chain([(rounding.to_owned(), f64::EPSILON / 2.0)]) {
-                marks.push(Mark::Limit { label, at, vertical: false });
-                if is_signed {
-                    marks.push(Mark::Limit { label: String::new(), at: -at, vertical: false });
-                }
-            }
+            let axis = relative_errors::limited(&mut marks, tolerance, is_signed);
             let of_step = tolerance.map_or(String::new(), |tolerance| format!("Tolerance of a step: {tolerance:e}; "));
             let caption = format!(
                 "{what}, relative to the largest. {} {of_step}rounding of a double: 1.1e-16.",
                 self.caption(&self.name(list[0].0).0)
             );
-            let axis = Axis::linear("relative error", "");
-            let axis =
-                if largest > 0.0 { axis.within(if is_signed { -1.1 * shown } else { 0.0 }, 1.1 * shown) } else { axis };
             Figure { section: Section::Numerics, ..over_time(name, title, caption, axis, marks) }
         };
         vec![
@@ -371,7 +351,7 @@ fn spectrum(times: &[f64], body: &[f64]) -> Option<Figure> {
     let (frequencies, amplitudes) = amplitudes(times, body)?;
     let peak = dominant(&frequencies, &amplitudes)?;
     let marks = vec![
-        Mark::Line { label: "amplitude".to_owned(), hue: Hue::Body, dashed: false, x: frequencies, y: amplitudes },
+        Mark::Line { label: "amplitude".to_owned(), hue: Hue::Body, dash: Dash::Solid, x: frequencies, y: amplitudes },
         Mark::Limit { label: format!("dominant: {} Hz", short(peak)), at: peak, vertical: true },
     ];
     Some(Figure {

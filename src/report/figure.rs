@@ -1,11 +1,7 @@
-//! [`Figure`]: what a figure of the page shows, without saying how it is drawn.
+//! [`Figure`]: what a figure shows, without saying how it is drawn.
 //!
-//! The page draws it interactively (`assets/report/chart.js`), [`super::drawing`] as SVG and PNG. Both take the same numbers, titles and
-//! captions from here.
-
-use serde_json::{Value, json};
-
-use super::payload::Payload;
+//! The page draws it interactively (`assets/report/chart.js`, what that needs: [`super::page`]), [`super::sheet`] as a file. Both take the same
+//! numbers and names from here.
 
 /// The colour of a mark, by what it belongs to: bodies keep theirs everywhere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,6 +18,8 @@ pub enum Hue {
     Nominal,
     /// Runs that failed.
     Failed,
+    /// One of many curves of a panel, by its index.
+    Curve(usize),
     /// Limits, and what is there for comparison.
     Reference,
 }
@@ -37,9 +35,51 @@ impl Hue {
             Hue::Total => 0,
             Hue::Nominal => 7,
             Hue::Failed => 1,
+            Hue::Curve(index) => [0, 1, 2, 3, 4, 7][index % 6],
             Hue::Reference => 8,
         }
     }
+}
+
+/// How a curve is dashed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dash {
+    /// Not at all.
+    Solid,
+    /// Dashes.
+    Dashed,
+    /// Dots.
+    Dotted,
+    /// Long dashes.
+    Long,
+}
+
+impl Dash {
+    /// Lengths of dash and gap, pixels.
+    pub const fn lengths(self) -> Option<[u32; 2]> {
+        match self {
+            Dash::Solid => None,
+            Dash::Dashed => Some([6, 4]),
+            Dash::Dotted => Some([3, 3]),
+            Dash::Long => Some([14, 4]),
+        }
+    }
+
+    /// That of the curve `index` of a panel with many: two dozen curves differ in colour or dash.
+    pub const fn of_curve(index: usize) -> Self {
+        [Dash::Solid, Dash::Dashed, Dash::Dotted, Dash::Long][(index + index / 12) % 4]
+    }
+}
+
+/// The shape of points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PointShape {
+    /// Discs.
+    Disc,
+    /// Crosses: runs that failed, what is marked.
+    Cross,
+    /// Discs on a line from zero: probabilities.
+    Stem,
 }
 
 /// How values are laid out along an axis.
@@ -64,12 +104,20 @@ pub struct Axis {
     pub scale: Scale,
     /// The range, where it does not follow from the marks.
     pub range: Option<[f64; 2]>,
+    /// Whether values decrease along it.
+    pub is_descending: bool,
 }
 
 impl Axis {
     /// A linear axis.
     pub fn linear(quantity: impl Into<String>, unit: &str) -> Self {
-        Axis { quantity: quantity.into(), unit: unit.to_owned(), scale: Scale::Linear, range: None }
+        Axis {
+            quantity: quantity.into(),
+            unit: unit.to_owned(),
+            scale: Scale::Linear,
+            range: None,
+            is_descending: false,
+        }
     }
 
     /// A logarithmic axis.
@@ -91,12 +139,6 @@ impl Axis {
         assert!(low < high, "the range {low} to {high} of {}", self.quantity);
         Axis { range: Some([low, high]), ..self }
     }
-
-    fn json(&self) -> Value {
-        let names = if let Scale::Names(names) = &self.scale { Some(names) } else { None };
-        let log = self.scale == Scale::Log;
-        json!({ "quantity": self.quantity, "unit": self.unit, "log": log, "names": names, "range": self.range })
-    }
 }
 
 /// What is drawn on a pair of axes.
@@ -108,8 +150,8 @@ pub enum Mark {
         label: String,
         /// Colour.
         hue: Hue,
-        /// Whether it is dashed.
-        dashed: bool,
+        /// How it is dashed.
+        dash: Dash,
         /// Abscissae, ascending.
         x: Vec<f64>,
         /// Ordinates.
@@ -138,8 +180,8 @@ pub enum Mark {
         label: String,
         /// Colour.
         hue: Hue,
-        /// Whether they are crosses (of runs that failed, of what is marked); otherwise discs.
-        crosses: bool,
+        /// Their shape.
+        shape: PointShape,
         /// Abscissae.
         x: Vec<f64>,
         /// Ordinates.
@@ -188,32 +230,21 @@ pub enum Mark {
 }
 
 impl Mark {
-    fn json(&self, payload: &mut Payload) -> Value {
-        let mut array = |values: &[f64]| payload.array(values);
+    /// A curve.
+    pub fn line(label: impl Into<String>, hue: Hue, dash: Dash, x: Vec<f64>, y: Vec<f64>) -> Self {
+        Mark::Line { label: label.into(), hue, dash, x, y }
+    }
+
+    /// Its name in the legend; empty where that does not name it.
+    pub fn legend(&self) -> &str {
         match self {
-            Mark::Line { label, hue, dashed, x, y } => json!({
-                "kind": "line", "label": label, "hue": hue.place(), "dashed": dashed, "x": array(x), "y": array(y)
-            }),
-            Mark::Band { label, hue, opacity, x, low, high, stacked } => json!({
-                "kind": "band", "label": label, "hue": hue.place(), "opacity": opacity, "stacked": stacked,
-                "x": array(x), "low": array(low), "high": array(high)
-            }),
-            Mark::Points { label, hue, crosses, x, y, samples } => json!({
-                "kind": "points", "label": label, "hue": hue.place(), "crosses": crosses,
-                "x": array(x), "y": array(y), "samples": array(samples)
-            }),
-            Mark::Bars { label, hue, edges, heights } => json!({
-                "kind": "bars", "label": label, "hue": hue.place(), "edges": array(edges), "heights": array(heights)
-            }),
-            Mark::Whiskers { label, hue, x, low, high } => json!({
-                "kind": "whiskers", "label": label, "hue": hue.place(), "x": array(x), "low": array(low), "high": array(high)
-            }),
-            Mark::Limit { label, at, vertical } => {
-                json!({ "kind": "limit", "label": label, "at": at, "vertical": vertical })
-            }
-            Mark::Matrix { values } => {
-                json!({ "kind": "matrix", "label": "correlation", "hue": 0, "values": array(values) })
-            }
+            Mark::Line { label, .. }
+            | Mark::Points { label, .. }
+            | Mark::Band { label, .. }
+            | Mark::Bars { label, .. }
+            | Mark::Whiskers { label, .. } => label,
+            Mark::Matrix { .. } => "rank correlation, -1 to 1",
+            Mark::Limit { .. } => "",
         }
     }
 
@@ -296,17 +327,23 @@ pub struct Figure {
 }
 
 impl Figure {
+    /// A figure with a title and marks only; half as wide as the page.
+    pub fn new(title: impl Into<String>, x: Axis, y: Axis, marks: Vec<Mark>) -> Self {
+        Figure {
+            name: String::new(),
+            section: Section::Time,
+            title: title.into(),
+            caption: String::new(),
+            columns: 6,
+            is_over_time: false,
+            x,
+            y,
+            marks,
+        }
+    }
+
     /// Whether it shows anything; a figure that does not is left out of the page.
     pub fn is_visible(&self) -> bool {
         self.marks.iter().any(Mark::is_visible)
-    }
-
-    /// What the page needs to draw it; numbers go to `payload`.
-    pub fn json(&self, payload: &mut Payload) -> Value {
-        let marks: Vec<Value> = self.marks.iter().map(|mark| mark.json(payload)).collect();
-        json!({
-            "name": self.name, "section": self.section.anchor(), "title": self.title, "caption": self.caption,
-            "columns": self.columns, "time": self.is_over_time, "x": self.x.json(), "y": self.y.json(), "marks": marks
-        })
     }
 }

@@ -1,0 +1,116 @@
+//! Figures as files: SVG, and PNG, which is this SVG rendered by `resvg`.
+
+use std::io;
+use std::path::Path;
+
+use resvg::tiny_skia::{Pixmap, Transform};
+use resvg::usvg;
+use thiserror::Error;
+
+use crate::report::figure::Figure;
+use crate::report::sheet::Sheet;
+use crate::storage::atomic;
+
+/// Pixels of SVG to an inch.
+const SVG_DPI: f64 = 96.0;
+/// Millimetres of an inch.
+const INCH: f64 = 25.4;
+
+/// Why a plot could not be made.
+#[derive(Debug, Error)]
+pub enum PlotError {
+    /// The file could not be written.
+    #[error(transparent)]
+    Io(#[from] io::Error),
+    /// The extension is neither SVG nor PNG.
+    #[error("a plot is written as .svg or .png, and `{0}` is neither")]
+    Format(String),
+    /// The picture could not be rendered.
+    #[error("drawing failed: {0}")]
+    Drawing(String),
+}
+
+/// The formats of a plot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlotFormat {
+    /// Scalable vector graphics.
+    Svg,
+    /// Portable network graphics.
+    Png,
+}
+
+impl PlotFormat {
+    /// The format that the extension of `path` names.
+    ///
+    /// # Errors
+    /// [`PlotError::Format`].
+    pub fn of(path: &Path) -> Result<Self, PlotError> {
+        match path.extension().and_then(|extension| extension.to_str()).map(str::to_ascii_lowercase).as_deref() {
+            Some("svg") => Ok(PlotFormat::Svg),
+            Some("png") => Ok(PlotFormat::Png),
+            _ => Err(PlotError::Format(path.display().to_string())),
+        }
+    }
+}
+
+/// How large a picture is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlotSize {
+    /// Width and height, mm; those of the figure where they are not given.
+    pub size_mm: Option<[f64; 2]>,
+    /// Dots per inch of a PNG.
+    pub dpi: f64,
+}
+
+impl Default for PlotSize {
+    fn default() -> Self {
+        PlotSize { size_mm: None, dpi: 2.0 * SVG_DPI }
+    }
+}
+
+impl Sheet {
+    /// Draws the figure to `path`, in the format of its extension; the file is whole or absent.
+    ///
+    /// # Errors
+    /// [`PlotError`].
+    pub fn save(&self, path: &Path, size: PlotSize) -> Result<(), PlotError> {
+        let svg = self.svg(size.size_mm.map(|size| size.map(|side| side / INCH * SVG_DPI)));
+        let bytes = match PlotFormat::of(path)? {
+            PlotFormat::Svg => svg.into_bytes(),
+            PlotFormat::Png => png(&svg, size.dpi)?,
+        };
+        Ok(atomic::write_bytes(path, &bytes)?)
+    }
+}
+
+/// Writes every figure into `folder` as SVG and as PNG; returns the number of files.
+///
+/// # Errors
+/// [`PlotError`].
+pub fn save_all(figures: &[Figure], folder: &Path, size: PlotSize) -> Result<usize, PlotError> {
+    std::fs::create_dir_all(folder)?;
+    for figure in figures {
+        let sheet = Sheet::of(figure);
+        for extension in ["svg", "png"] {
+            sheet.save(&folder.join(format!("{}.{extension}", figure.name)), size)?;
+        }
+    }
+    Ok(2 * figures.len())
+}
+
+/// The pixels of an SVG.
+fn pixels(svg: &str, dpi: f64) -> Result<Pixmap, PlotError> {
+    let failed = |error: &dyn std::fmt::Display| PlotError::Drawing(error.to_string());
+    let tree = usvg::Tree::from_str(svg, &usvg::Options::default()).map_err(|error| failed(&error))?;
+    let scale = (dpi / SVG_DPI) as f32;
+    let [width, height] = [tree.size().width(), tree.size().height()].map(|side| (side * scale).round().max(1.0));
+    let too_large = || PlotError::Drawing(format!("{width} x {height} pixels are too many; a smaller --dpi has fewer"));
+    let mut pixmap = Pixmap::new(width as u32, height as u32).ok_or_else(too_large)?;
+    resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixmap.as_mut());
+    Ok(pixmap)
+}
+
+/// An SVG as PNG.
+fn png(svg: &str, dpi: f64) -> Result<Vec<u8>, PlotError> {
+    pixels(svg, dpi)?.encode_png().map_err(|error| PlotError::Drawing(error.to_string()))
+}

@@ -1,0 +1,178 @@
+//! Marks of a [`Panel`] as shapes, and what stands for each in a legend.
+
+use crate::report::figure::{Hue, Mark, PointShape};
+use crate::report::panel::{INK, LABEL, Panel};
+use crate::report::svg::{Anchor, Stroke, Svg};
+
+/// The palette of Okabe & Ito (2008), text, grey: [`Hue::place`].
+const PALETTE: [&str; 9] =
+    ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#b8a800", "#141414", "#6e6e6e"];
+/// Opacity of bars, and of the bars under whiskers.
+const BAR: f64 = 0.55;
+/// With more points than this they are small and transparent.
+const MANY: usize = 200;
+/// Width of curves, pixels.
+const CURVE: f64 = 1.6;
+/// Length of the piece of a mark in a legend, pixels.
+pub(super) const SWATCH: f64 = 26.0;
+/// Cells of a matrix that are smaller have no number, pixels.
+const NUMBER_CELL: f64 = 32.0;
+
+fn color(hue: Hue) -> &'static str {
+    PALETTE[hue.place() % PALETTE.len()]
+}
+
+/// The colour of a correlation, with its opacity.
+fn shade(r: f64) -> (&'static str, f64) {
+    (PALETTE[usize::from(r < 0.0)], r.abs().min(1.0))
+}
+
+fn stroke(hue: Hue, dash: Option<[u32; 2]>) -> Stroke {
+    Stroke { color: color(hue), width: CURVE, dash }
+}
+
+impl Panel<'_> {
+    /// The places that two columns of values have.
+    fn places(&self, xs: &[f64], ys: &[f64]) -> Vec<[f64; 2]> {
+        let places = xs.iter().zip(ys).map(|(x, y)| [self.x(*x), self.y(*y)]);
+        places.filter(|place| place.iter().all(|value| value.is_finite())).collect()
+    }
+
+    /// Draws a mark; limits are drawn by [`Panel::draw_limits`].
+    pub(super) fn draw_mark(&self, svg: &mut Svg, mark: &Mark) {
+        let bottom = self.edges[3];
+        match mark {
+            Mark::Line { hue, dash, x, y, .. } => svg.line(&self.places(x, y), stroke(*hue, dash.lengths())),
+            Mark::Band { hue, opacity, x, low, high, .. } => {
+                let mut outline = self.places(x, low);
+                outline.extend(self.places(x, high).into_iter().rev());
+                svg.area(&outline, color(*hue), *opacity);
+            }
+            Mark::Points { hue, shape, x, y, .. } => {
+                let places = self.places(x, y);
+                let (size, opacity) = if places.len() > MANY { (1.8, 0.6) } else { (3.0, 1.0) };
+                for place in places {
+                    point(svg, place, (*shape, size, bottom), *hue, opacity);
+                }
+            }
+            Mark::Bars { hue, edges, heights, .. } => {
+                for (ends, height) in edges.windows(2).zip(heights).filter(|(_, height)| **height > 0.0) {
+                    let corners = [[self.x(ends[0]), bottom], [self.x(ends[1]), self.y(*height)]];
+                    svg.rectangle(corners[0], corners[1], color(*hue), BAR);
+                }
+            }
+            Mark::Whiskers { hue, x, low, high, .. } => {
+                for (row, value) in x.iter().enumerate().filter(|(_, value)| value.is_finite()) {
+                    let (height, end) = (self.y(row as f64), self.x(*value));
+                    svg.rectangle([self.x(0.0), height - 6.0], [end, height + 6.0], color(*hue), 0.35);
+                    let ends = [self.x(low[row]), self.x(high[row])];
+                    if ends.iter().all(|end| end.is_finite()) {
+                        svg.line(&ends.map(|x| [x, height]), Stroke { color: INK, width: 1.2, dash: None });
+                    }
+                    svg.disc([end, height], 3.0, color(*hue), 1.0);
+                }
+            }
+            Mark::Matrix { values } => {
+                let names = libm::sqrt(values.len() as f64) as usize;
+                let half = 0.5 * (self.edges[2] - self.edges[0]) / names.max(1) as f64;
+                for (index, r) in values.iter().enumerate() {
+                    let [x, y] = [self.x((index % names) as f64), self.y((index / names) as f64)];
+                    let (color, opacity) = shade(*r);
+                    svg.rectangle([x - half, y - half], [x + half - 1.0, y + half - 1.0], color, opacity);
+                    if 2.0 * half >= NUMBER_CELL {
+                        let text = format!("{r:.2}");
+                        let text = if text == "-0.00" { "0.00" } else { &text };
+                        let color = if opacity > 0.6 { "#ffffff" } else { INK };
+                        svg.text(text, [x, y + 4.0], 11.0, Anchor::Middle, color, false);
+                    }
+                }
+            }
+            Mark::Limit { .. } => {}
+        }
+    }
+
+    /// Limits as lines with their names; one that is outside of the axes is named at the edge beyond which it is, with an arrow.
+    pub(super) fn draw_limits(&self, svg: &mut Svg) {
+        let [left, top, right, bottom] = self.edges;
+        let grey = Stroke { color: PALETTE[8], width: 1.0, dash: None };
+        let mut rows = 0.0;
+        for mark in self.marks() {
+            let Mark::Limit { label, at, vertical } = mark else { continue };
+            let at = if *vertical { self.x(*at) } else { self.y(*at) };
+            let (low, high) = if *vertical { (left, right) } else { (top, bottom) };
+            let width = svg.font.width(label, LABEL);
+            if (low..=high).contains(&at) {
+                let ends = if *vertical { [[at, top], [at, bottom]] } else { [[left, at], [right, at]] };
+                svg.line(&ends, Stroke { dash: Some([4, 4]), ..grey });
+                // beside the line, on the side that has space
+                let (place, anchor) = match *vertical {
+                    true if at + width + 8.0 < right => ([at + 5.0, top + 13.0], Anchor::Start),
+                    true => ([at - 5.0, top + 13.0], Anchor::End),
+                    false if at > top + 18.0 => ([left + 6.0, at - 4.0], Anchor::Start),
+                    false => ([left + 6.0, at + 14.0], Anchor::Start),
+                };
+                svg.text(label, place, LABEL, anchor, grey.color, false);
+            } else if !at.is_nan() && !label.is_empty() {
+                let is_before = at < low;
+                let y = if *vertical || is_before { top + 10.0 + rows } else { bottom - 10.0 - rows };
+                rows += 16.0;
+                let (edge, inward, anchor) = match *vertical && !is_before {
+                    true => (right, -1.0, Anchor::End),
+                    false => (left, 1.0, Anchor::Start),
+                };
+                let sign = if is_before { 1.0 } else { -1.0 };
+                let (tip, step) = match *vertical {
+                    true => ([edge + 3.0 * inward, y], [6.0 * sign, 0.0]),
+                    false => ([edge + 9.0, y - 7.0 * sign], [0.0, 7.0 * sign]),
+                };
+                let wing = |side: f64| {
+                    [tip[0] + 0.7 * step[0] + 0.5 * side * step[1], tip[1] + 0.7 * step[1] + 0.5 * side * step[0]]
+                };
+                svg.line(&[tip, [tip[0] + 2.0 * step[0], tip[1] + 2.0 * step[1]]], grey);
+                svg.line(&[wing(1.0), tip, wing(-1.0)], grey);
+                svg.text(label, [edge + 20.0 * inward, y + 4.0], LABEL, anchor, grey.color, false);
+            }
+        }
+    }
+}
+
+/// A point: shape, size, and the height from which stems rise.
+fn point(svg: &mut Svg, place: [f64; 2], (shape, size, bottom): (PointShape, f64, f64), hue: Hue, opacity: f64) {
+    let [x, y] = place;
+    match shape {
+        PointShape::Disc => svg.disc(place, size, color(hue), opacity),
+        PointShape::Cross => {
+            let stroke = Stroke { width: 1.2, ..stroke(hue, None) };
+            svg.line(&[[x - 3.0, y - 3.0], [x + 3.0, y + 3.0]], stroke);
+            svg.line(&[[x - 3.0, y + 3.0], [x + 3.0, y - 3.0]], stroke);
+        }
+        PointShape::Stem => {
+            svg.line(&[[x, bottom], place], stroke(hue, None));
+            svg.disc(place, 3.0, color(hue), 1.0);
+        }
+    }
+}
+
+/// What stands for a mark in a legend, from `x` on around the height `y`: with the colours that are drawn.
+pub(super) fn draw_swatch(svg: &mut Svg, mark: &Mark, [x, y]: [f64; 2]) {
+    let (end, middle) = (x + SWATCH, [x + 0.5 * SWATCH, y]);
+    let mut bar = |hue: Hue, opacity| svg.rectangle([x, y - 6.0], [end, y + 6.0], color(hue), opacity);
+    match mark {
+        Mark::Line { hue, dash, .. } => svg.line(&[[x, y], [end, y]], stroke(*hue, dash.lengths())),
+        Mark::Band { hue, opacity, .. } => bar(*hue, *opacity),
+        Mark::Bars { hue, .. } => bar(*hue, BAR),
+        Mark::Points { hue, shape, .. } => point(svg, [middle[0], y - 2.0], (*shape, 3.0, y + 6.0), *hue, 1.0),
+        Mark::Whiskers { hue, .. } => {
+            svg.line(&[[x, y], [end, y]], Stroke { color: INK, width: 1.2, dash: None });
+            svg.disc(middle, 3.0, color(*hue), 1.0);
+        }
+        Mark::Matrix { .. } => {
+            for k in 0..=20 {
+                let (color, opacity) = shade(0.1 * f64::from(k) - 1.0);
+                let left = x + SWATCH / 21.0 * f64::from(k);
+                svg.rectangle([left, y - 6.0], [left + SWATCH / 21.0, y + 6.0], color, opacity);
+            }
+        }
+        Mark::Limit { .. } => {}
+    }
+}

@@ -1,0 +1,53 @@
+//! The axis of relative errors over time, with the tolerance of the run and the rounding of a double.
+
+use crate::report::figure::{Axis, Mark};
+
+/// Relative errors below this are rounding: they are shown on the scale of the tolerance, where they do not look like a drift.
+const ROUNDING: f64 = 1e-14;
+/// A limit that is larger than the errors by this factor is outside of the axis, and named at its edge.
+const FAR: f64 = 3.0;
+
+/// Adds the limits of the errors `marks` of a run to them; the axis of both. `is_signed`: whether errors may be negative.
+pub fn limited(marks: &mut Vec<Mark>, tolerance: Option<f64>, is_signed: bool) -> Axis {
+    let largest = marks.iter().map(Mark::largest).fold(0.0, f64::max);
+    let scale = tolerance.unwrap_or(ROUNDING);
+    let shown = if largest < ROUNDING || scale <= FAR * largest { scale.max(largest) } else { largest };
+    let tolerance = tolerance.map(|tolerance| (format!("tolerance {tolerance:e}"), tolerance));
+    // among larger errors nobody sees it
+    let rounding = (shown <= FAR * f64::EPSILON).then(|| ("rounding of a double".to_owned(), f64::EPSILON / 2.0));
+    for (label, at) in tolerance.into_iter().chain(rounding) {
+        marks.push(Mark::Limit { label, at, vertical: false });
+        if is_signed {
+            marks.push(Mark::Limit { label: String::new(), at: -at, vertical: false });
+        }
+    }
+    let axis = Axis::linear("relative error", "");
+    if largest > 0.0 { axis.within(if is_signed { -1.1 * shown } else { 0.0 }, 1.1 * shown) } else { axis }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::figure::{Dash, Hue};
+
+    /// Law: rounding errors are drawn on the scale of the tolerance, larger ones on their own; a tolerance is marked where there is one.
+    #[test]
+    fn errors_have_an_axis_of_their_own_size() {
+        for (error, tolerance, shown) in [
+            (1e-15, Some(1e-10), 1e-10),
+            (1e-15, None, 1e-14),
+            (1e-9, Some(1e-10), 1e-9),
+            (5e-11, Some(1e-10), 1e-10),
+            (1e-12, Some(1e-10), 1e-12),
+            (1e-12, None, 1e-12),
+        ] {
+            for is_signed in [true, false] {
+                let mut marks = vec![Mark::line("e", Hue::Body, Dash::Solid, vec![0.0, 1.0], vec![0.0, -error])];
+                let [low, high] = limited(&mut marks, tolerance, is_signed).range.expect("a range");
+                assert!((high - 1.1 * shown).abs() < 1e-12 * high, "{error} {tolerance:?}: {high}");
+                assert_eq!(low, if is_signed { -high } else { 0.0 });
+                assert_eq!(marks.len() - 1, usize::from(tolerance.is_some()) * (1 + usize::from(is_signed)));
+            }
+        }
+    }
+}
