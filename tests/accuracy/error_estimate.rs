@@ -9,13 +9,13 @@
 //!
 //! Beyond a tenth an error is not linear any more and soon bounded: there it is covered by any estimate above a twentieth.
 
+use crate::support::observed::request;
+use crate::support::plans;
 use crate::support::runs::{adaptive, fixed};
 use crate::support::scenes::{Kind, Uniform, mixed, of_most_wheels, random, set_wheel_rates, speed_held};
-use spindrift::campaign::{Overrides, Plan};
 use spindrift::math::Isa;
 use spindrift::math::symmetric::principal_axes;
-use spindrift::observables::request::wheel_names;
-use spindrift::observables::{Group, Observer, Request};
+use spindrift::observables::{Group, Observer};
 use spindrift::ode::Control;
 use spindrift::ode::Integrator;
 use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE};
@@ -25,7 +25,7 @@ use spindrift::propagation::{
 use spindrift::run::Status;
 use spindrift::run::{Grid, LocalErrors, Outcome, StateField, StateFields};
 use spindrift::sampling::SampleId;
-use spindrift::scene::{Actuated, Scene};
+use spindrift::scene::Scene;
 use spindrift::statistics::binomial::at_most;
 
 /// Chance of rejecting one setting whose coverage is 95%: there are about two hundred settings.
@@ -55,9 +55,6 @@ fn too_large(method: Method, family: &str) -> f64 {
 const FLOOR: f64 = 1e-15;
 /// Largest true error that counts as small.
 const SMALL: f64 = 0.1;
-
-/// Names of the wheels of any scene.
-const NAMES: [&str; 8] = ["w1", "w2", "w3", "w4", "w5", "w6", "w7", "w8"];
 
 /// Scenes of one kind with their reference solutions.
 pub(super) struct Family {
@@ -115,10 +112,7 @@ fn boxes(count: u64) -> Family {
 
 /// The first samples of a shipped campaign.
 fn shipped(name: &'static str, samples: u64) -> Family {
-    let path = format!("{}/campaigns/{name}.toml", env!("CARGO_MANIFEST_DIR"));
-    let text = std::fs::read_to_string(path).expect("a shipped campaign");
-    let plan =
-        Plan::from_text(name, &text, Overrides { samples: Some(samples), ..Overrides::default() }).expect("valid");
+    let plan = plans::shipped(name, Some(samples));
     let mut sampler = plan.dispersions.sampler();
     let mut applied = vec![0.0; plan.dispersions.columns().len()];
     let mut input = plan.nominal.clone();
@@ -216,14 +210,9 @@ fn found_of(
     told: impl Fn(LocalErrors) -> LocalErrors,
 ) -> Vec<Found> {
     let widest = of_most_wheels(&family.scenes);
-    let request = Request {
-        groups: [Group::EnergyConservation, Group::MomentumConservation, Group::Numerics].into_iter().collect(),
-        debris: family.is_debris,
-        actuated: if family.scenes[0].schedule.is_empty() { Actuated::NONE } else { Actuated::ALL },
-        constrained: method == Method::NullSpace,
-        wheels: wheel_names(&NAMES[..widest.mass.wheels.len()]),
-        windows: spindrift::observables::window::NO_WINDOWS,
-    };
+    let groups = [Group::EnergyConservation, Group::MomentumConservation, Group::Numerics].into_iter().collect();
+    let (wheels, forced) = (widest.mass.wheels.len(), !family.scenes[0].schedule.is_empty());
+    let request = request(groups, wheels, family.is_debris, forced, method == Method::NullSpace);
     let blocks = request.fields().union(compared(family.is_debris));
     let plan = PropagationSettings::new(method, control, family.grid.clone(), blocks, widest);
     let mut observer = Observer::new(request, &family.grid);

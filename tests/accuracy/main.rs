@@ -21,7 +21,6 @@ mod golden_truth;
 mod many_wheels;
 mod null_space;
 mod null_space_matrices;
-mod null_space_motion;
 mod order_runge_kutta;
 mod outcomes_runge_kutta;
 mod periodic;

@@ -7,10 +7,11 @@
 use rayon::prelude::*;
 
 use crate::cross_kernel::{HORIZON, TAYLOR_TOLERANCE, TOLERANCE, bound, distance};
+use crate::support::observed::{observed, request};
 use crate::support::runs::{Run, adaptive, everything, fixed, propagate};
 use crate::support::scenes::{COUNTS, many_wheels};
 use spindrift::math::Isa;
-use spindrift::observables::{Groups, Observer, Request};
+use spindrift::observables::{Groups, Request};
 use spindrift::ode::{Control, Integrator};
 use spindrift::propagation::Method;
 use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE as TRUTH_TOLERANCE};
@@ -58,21 +59,14 @@ fn run(scene: &Scene, grid: &Grid, method: Method, control: Control) -> Run {
 /// The largest errors of energy, momentum and angular momentum of a run, as a campaign measures them.
 fn balances(input: &SceneInput, scene: &Scene, grid: &Grid, method: Method, run: &Run) -> [f64; 3] {
     let request = Request {
-        groups: Groups::ALL,
-        debris: false,
         actuated: Actuated::of(input),
-        constrained: method == Method::NullSpace,
         wheels: input.turning_wheels(),
-        windows: spindrift::observables::window::NO_WINDOWS,
+        ..request(Groups::ALL, 0, false, false, method == Method::NullSpace)
     };
-    let mut observer = Observer::new(request, grid);
-    let columns = request.columns();
-    let mut row = vec![0.0; columns.len()];
-    observer.observe(Isa::best(), scene, &run.table, &run.outcome, &mut row);
-    let value = |name: &str| columns.iter().position(|column| column.quantity.name() == name).map(|index| row[index]);
+    let (row, _) = observed(Isa::best(), request, grid, scene, (&run.table, &run.outcome), None);
     // a velocity that nobody integrates has no error
-    let linear = value("linear_momentum_error_max").unwrap_or(0.0);
-    [value("energy_error_max").expect("a column"), linear, value("angular_momentum_error_max").expect("a column")]
+    let linear = row.get("linear_momentum_error_max").copied().unwrap_or(0.0);
+    [row["energy_error_max"], linear, row["angular_momentum_error_max"]]
 }
 
 /// What a method is off by in one scene, over what it may be.

@@ -4,7 +4,8 @@ use std::num::NonZeroUsize;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use spindrift::campaign::{Overrides, Plan};
+use crate::support::plans::{SOMETIMES_IMPOSSIBLE, shipped_with};
+use spindrift::campaign::Plan;
 use spindrift::ensemble::{Ensemble, Part, PartId, Parts, Rows, RunError, Sink, Supervision, run};
 use spindrift::math::Isa;
 use spindrift::run::Status;
@@ -12,15 +13,7 @@ use spindrift::sampling::SampleId;
 
 /// The shipped campaign of that name, with a wheel that is sometimes impossible where `with_failures`.
 fn plan(name: &str, samples: u64, with_failures: bool) -> Plan {
-    let path = format!("{}/campaigns/{name}.toml", env!("CARGO_MANIFEST_DIR"));
-    let mut text = std::fs::read_to_string(path).unwrap();
-    if with_failures {
-        text.push_str(
-            "\n[[disperse]]\nparameter = \"wheels.w2.length_m\"\ndistribution = \"uniform\"\nmin = -0.05\nmax = 0.1\n",
-        );
-    }
-    Plan::from_text(name, &text, Overrides { samples: Some(samples), ..Overrides::default() })
-        .unwrap_or_else(|e| panic!("{e}"))
+    shipped_with(name, Some(samples), if with_failures { SOMETIMES_IMPOSSIBLE } else { "" })
 }
 
 /// A row as bits: status, dispersed values, observables.

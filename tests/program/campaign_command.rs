@@ -7,8 +7,8 @@ use arrow_array::Array;
 use arrow_array::cast::AsArray;
 use arrow_array::types::Int64Type;
 
-use super::small_campaign::{NEGATIVE_WALLS, campaign, folder};
-use crate::support::scratch_folder::{batches, floats};
+use super::small_campaign::{campaign, folder};
+use crate::support::scratch_folder::batches;
 
 /// Law: a printed command is one that a shell takes, whatever the names of the folder and of the file.
 #[test]
@@ -71,20 +71,6 @@ fn another_plan_never_replaces_a_result_without_being_told() {
     scratch.prints("campaign small.toml --samples 20 --seed 8", 0);
 }
 
-/// Law: rows, files and summary are the same bytes for any number of threads; another seed gives others.
-#[test]
-fn threads_do_not_change_a_byte() {
-    let scratch = folder("threads");
-    for threads in [1, 2, 5] {
-        scratch.prints(&format!("campaign small.toml --threads {threads} --out t{threads}"), 0);
-        assert_eq!(scratch.parts("t1"), scratch.parts(&format!("t{threads}")));
-        let summary = |threads| fs::read(scratch.path(&format!("t{threads}/summary.json"))).unwrap();
-        assert_eq!(summary(1), summary(threads));
-    }
-    scratch.prints("campaign small.toml --seed 8 --out other", 0);
-    assert_ne!(scratch.parts("t1"), scratch.parts("other"));
-}
-
 /// Law: an interrupted campaign is recognised, whichever file it was writing, and is never taken for a result.
 #[test]
 fn leftovers_are_recognised() {
@@ -140,53 +126,6 @@ fn a_folder_in_use_is_refused() {
     assert!(said.contains("another process"), "{said}");
     drop(held);
     scratch.prints("campaign small.toml --samples 3 --out out", 0);
-}
-
-/// Law: a failed run is a row with its status and nulls for missing values; other rows do not change.
-#[test]
-fn failed_runs_are_rows() {
-    let scratch = folder("failed");
-    scratch.file("thin.toml", &(campaign() + NEGATIVE_WALLS));
-    scratch.prints("campaign thin.toml --samples 100", 1);
-    let batch = &batches(&scratch.path("results/small/runs/part-000000.parquet"))[0];
-    let statuses: Vec<&str> = batch.column_by_name("status").unwrap().as_string::<i32>().iter().flatten().collect();
-    let walls = floats(batch, "body_parts_fuselage_wall_thickness_m");
-    let errors = batch.column_by_name("energy_error_max").unwrap();
-    assert_eq!(statuses.len(), 100);
-    for row in 0..100 {
-        let physical = walls[row] > 0.0;
-        assert_eq!(statuses[row], if physical { "ok" } else { "invalid_sample" }, "row {row}, wall {}", walls[row]);
-        assert_eq!(errors.is_null(row), !physical);
-    }
-    let invalid = statuses.iter().filter(|status| **status == "invalid_sample").count();
-    assert!((10..60).contains(&invalid), "{invalid} of 100");
-    let summary = fs::read_to_string(scratch.path("results/small/summary.json")).unwrap();
-    assert!(summary.contains(&format!(r#""invalid_sample": {invalid}"#)), "{summary}");
-
-    let row = statuses.iter().position(|status| *status == "invalid_sample").unwrap();
-    let said = scratch.prints(&format!("simulate thin.toml --sample {row}"), 2);
-    assert!(said.contains("invalid_sample") && said.contains("body.parts.fuselage.wall_thickness_m"), "{said}");
-    // and `sample` says the same reason
-    let reason = said.lines().find(|line| line.starts_with("  ")).unwrap();
-    let said = scratch.prints(&format!("sample thin.toml --sample {row}"), 0);
-    assert!(said.contains(&format!("(its status would be invalid_sample):\n{reason}")), "{said}");
-
-    scratch.file("short.toml", &campaign().replace("tolerance = 1e-10", "tolerance = 1e-10\nmax_steps = 1"));
-    scratch.prints("campaign short.toml --samples 5 --out short", 1);
-    let batch = &batches(&scratch.path("short/runs/part-000000.parquet"))[0];
-    for (row, status) in batch.column_by_name("status").unwrap().as_string::<i32>().iter().enumerate() {
-        assert_eq!(status, Some("step_limit"), "row {row}");
-    }
-    assert_eq!(batch.column_by_name("energy_error_max").unwrap().null_count(), 5);
-    scratch.prints("simulate short.toml", 1);
-}
-
-#[test]
-fn a_bare_name_is_looked_up_among_the_campaigns() {
-    let scratch = folder("bare");
-    scratch.file("campaigns/shipped.toml", &campaign());
-    scratch.prints("campaign shipped --samples 2", 0);
-    scratch.prints("campaign shipped.toml --samples 2", 0);
 }
 
 /// Law: the choice of instruction set changes no byte, and an impossible choice is bad input.

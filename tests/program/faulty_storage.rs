@@ -21,6 +21,7 @@ use spindrift::storage::rows_file::identity;
 use spindrift::storage::stored_file::StoredFile;
 
 use super::small_campaign::campaign_without_debris;
+pub use crate::support::scratch_folder::contents;
 
 /// A file that a manifest lists.
 #[derive(Debug)]
@@ -363,20 +364,6 @@ pub fn make_with(
 pub fn reason(failure: &Failure) -> &str {
     let (Failure::Files(reason) | Failure::Input(reason)) = failure;
     reason
-}
-
-/// The files of a dataset by their names: `runs/part-000000.parquet`, `/plan.toml`.
-pub fn contents(root: &Path) -> BTreeMap<String, Vec<u8>> {
-    let mut found = BTreeMap::new();
-    for folder in ["", "runs", "bands", "trajectories", "_delta_log", "versions", "data"] {
-        for entry in fs::read_dir(root.join(folder)).into_iter().flatten().map(Result::unwrap) {
-            if entry.path().is_file() {
-                let name = format!("{folder}/{}", entry.file_name().to_string_lossy());
-                found.insert(name, fs::read(entry.path()).unwrap());
-            }
-        }
-    }
-    found
 }
 
 /// `samples` samples in parts of 256; few columns, since the work is done a thousand times.

@@ -13,7 +13,6 @@ mod campaign_command;
 mod columns_command;
 mod commands;
 mod compare_command;
-mod csv_digits;
 mod derived_files;
 mod exit_codes;
 mod extremes;

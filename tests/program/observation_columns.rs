@@ -29,30 +29,6 @@ fn padding_leaves_no_trace() {
     }
 }
 
-#[test]
-fn bits_depend_neither_on_the_instruction_set_nor_on_what_else_is_observed() {
-    let (golden, scene) = table1();
-    let (grid, table) = golden_table(&golden, &scene);
-    for (debris, actuated) in [(false, false), (true, true)] {
-        let reference = row(Isa::best(), request(Groups::ALL, debris, actuated), &grid, &scene, &table);
-        for isa in Isa::available() {
-            for groups in Group::ALL.map(|group| Groups::NONE.with(group)).into_iter().chain([Groups::ALL]) {
-                let request = request(groups, debris, actuated);
-                // a table with only the needed fields
-                let mut lean = StateTable::new(request.fields(), 2, grid.points());
-                for block in StateField::ALL.into_iter().filter(|block| request.fields().contains(*block)) {
-                    for component in 0..table.width(block) {
-                        lean.column_mut(block, component).copy_from_slice(table.column(block, component));
-                    }
-                }
-                for (name, value) in row(isa, request, &grid, &scene, &lean) {
-                    assert_eq!(value.to_bits(), reference[&name].to_bits(), "{name} on {}", isa.name());
-                }
-            }
-        }
-    }
-}
-
 /// Law: the fraction is the swing over the largest total about the centre of mass, also where the total changes (under thrust), and
 /// net is the last minus the first value, also where the first is not the smallest.
 #[test]

@@ -50,11 +50,15 @@ fn simulate_writes_the_promised_columns() {
     scratch.prints("simulate small.toml --out s.parquet", 0);
     let batch = &batches(&scratch.path("s.parquet"))[0];
     let names: Vec<&str> = text.lines().next().unwrap().split(',').collect();
+    let mut long = 0;
     for (point, line) in text.lines().skip(1).enumerate() {
         for (name, cell) in names.iter().zip(line.split(',')) {
-            assert_eq!(cell.parse::<f64>().unwrap().to_bits(), floats(batch, name)[point].to_bits(), "{name}");
+            let (written, value) = (cell.parse::<f64>().unwrap(), floats(batch, name)[point]);
+            assert_eq!(written.to_bits(), value.to_bits(), "{name}");
+            long += usize::from(format!("{value:.15e}").parse() != Ok(value));
         }
     }
+    assert!(long > 100, "some numbers need all seventeen digits: {long}");
     // the point p starts where the file says, although the states are those of the centre of mass
     let start = |name: &str| floats(batch, name)[0];
     assert_eq!([start("r_po_e_x_m"), start("r_po_e_y_m"), start("r_po_e_z_m")], [0.0; 3]);

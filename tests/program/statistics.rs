@@ -9,7 +9,7 @@ use arrow_array::{Array, RecordBatch};
 use super::small_campaign::{NEGATIVE_WALLS, campaign, folder};
 use crate::support::scratch_folder::{column, ended};
 
-const MORE: &str = r#"
+pub const MORE: &str = r#"
 [[observable]]
 name = "error_ratio"
 expression = "energy_error_max / angular_momentum_error_max"
@@ -122,21 +122,6 @@ fn statistics_are_those_of_the_files() {
     }
     assert_eq!(names.iter().flatten().filter(|name| ["spin", "error_ratio", "half"].contains(name)).count(), 3);
     assert_eq!(checked, table.num_rows());
-}
-
-/// Law: both tables and the summary are the same bytes for any number of threads.
-#[test]
-fn threads_do_not_change_a_byte_of_statistics() {
-    let scratch = folder("statistics-threads");
-    scratch.file("more.toml", &(campaign() + MORE));
-    let files = ["statistics.parquet", "sensitivity.parquet", "summary.json"];
-    let read = |threads: u32| files.map(|file| fs::read(scratch.path(&format!("t{threads}/{file}"))).expect(file));
-    for threads in [1, 2, 3, 7] {
-        scratch.prints(&format!("campaign more.toml --threads {threads} --out t{threads}"), 0);
-        assert!(read(1) == read(threads), "{threads} threads");
-    }
-    scratch.prints("campaign more.toml --seed 8 --out t8", 0);
-    assert!(read(1) != read(8), "the counter-test: another seed");
 }
 
 /// Law: under designs whose samples are not independent there is no interval, and the table says why; estimates are there.

@@ -12,6 +12,7 @@ use spindrift::sampling::{Design, SampleId, Stream};
 use std::collections::BTreeMap;
 
 use crate::support::campaigns::{FUSELAGE, WHEEL1_AT_REST};
+use crate::support::draws;
 
 const HEAD: &str = r#"
 [campaign]
@@ -49,15 +50,10 @@ fn design(kind: &str) -> String {
 
 /// Applied values of samples `ids`, as bits, by column name.
 fn draws(plan: &Plan, ids: impl IntoIterator<Item = u64>) -> Vec<BTreeMap<String, u64>> {
-    let (mut sampler, mut scene) = (plan.dispersions.sampler(), plan.nominal.clone());
-    let columns = plan.dispersions.columns();
-    let mut applied = vec![0.0; columns.len()];
-    let mut row = |id| {
-        sampler.draw(SampleId(id), &mut scene, &mut applied);
-        let name = |k: usize| columns[k].parameter.column_name(columns[k].component);
-        (0..columns.len()).map(|k| (name(k), applied[k].to_bits())).collect()
-    };
-    ids.into_iter().map(&mut row).collect()
+    let names: Vec<String> =
+        plan.dispersions.columns().iter().map(|column| column.parameter.column_name(column.component)).collect();
+    let row = |applied: Vec<f64>| names.iter().cloned().zip(applied.into_iter().map(f64::to_bits)).collect();
+    draws::applied(plan, ids).into_iter().map(row).collect()
 }
 
 fn value(row: &BTreeMap<String, u64>, name: &str) -> f64 {
@@ -92,6 +88,11 @@ fn draws_do_not_depend_on_company() {
             .expect("valid");
         assert_ne!(draws(&other, 1..3), rows[1..3], "{kind}");
     }
+    // a component alone, by name and by number, and any sample
+    let ids = || [1, 9, 4095, 1 << 40];
+    let [whole, y, second] = ["", ".y", "[1]"]
+        .map(|component| draws(&plan(&RATE.replace("rad_s\"", &format!("rad_s{component}\""))), ids()));
+    assert!(y == second && y.iter().zip(&whole).all(|(y, all)| y.iter().all(|(name, value)| all[name] == *value)));
 }
 
 /// Law: with more samples the earlier rows stay; a Latin hypercube says why it cannot.

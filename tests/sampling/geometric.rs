@@ -10,6 +10,7 @@ use spindrift::sampling::SampleId;
 use spindrift::scene::{Scene, SceneInput};
 
 use crate::support::campaigns::{FUSELAGE, WHEEL1};
+use crate::support::draws::{self, distance};
 
 const HEAD: &str = "[campaign]\nname = \"test\"\nsamples = 10\nseed = 11\nduration_s = 1.0\n";
 
@@ -39,30 +40,11 @@ pub fn plan(disperse: &str) -> Plan {
 
 /// What samples 1 to N of a file look like through `seen`.
 fn draws<T>(disperse: &str, seen: impl Fn(&SceneInput) -> T) -> Vec<T> {
-    let plan = plan(disperse);
-    let (mut sampler, mut scene) = (plan.dispersions.sampler(), plan.nominal.clone());
-    let mut applied = vec![0.0; plan.dispersions.columns().len()];
-    let draw = |k: usize| {
-        sampler.draw(SampleId(k as u64 + 1), &mut scene, &mut applied);
-        seen(&scene)
-    };
-    (0..N).map(draw).collect()
+    draws::seen(&plan(disperse), 1..=N as u64, |scene, _| seen(scene))
 }
 
 fn rate(scene: &SceneInput) -> [f64; 3] {
     scene.initial.angular_velocity_rad_s
-}
-
-/// sqrt(n) times the largest distance between the empirical and a given distribution function.
-fn distance(values: impl IntoIterator<Item = f64>, law: impl Fn(f64) -> f64) -> f64 {
-    let mut values: Vec<f64> = values.into_iter().collect();
-    values.sort_by(f64::total_cmp);
-    let n = values.len() as f64;
-    let far = values.iter().enumerate().fold(0.0f64, |far, (k, x)| {
-        let p = law(*x);
-        far.max((p - k as f64 / n).abs()).max(((k + 1) as f64 / n - p).abs())
-    });
-    far * n.sqrt()
 }
 
 /// Rayleigh's statistic of isotropy, 3 n |mean|^2, chi-square with 3 degrees of freedom (K. V. Mardia & P. E. Jupp, *Directional
@@ -311,19 +293,12 @@ fn usual_mistakes_are_caught() {
     assert!(quaternion > 3.0 * KS, "{quaternion}");
 }
 
-/// Draws of a million bodies, and how many of them are impossible.
-fn impossible(dispersions: &str, count: u64) -> u64 {
-    let text = campaign(dispersions);
-    let plan = Plan::from_text("test.toml", &text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
-    let (mut sampler, mut input) = (plan.dispersions.sampler(), plan.nominal.clone());
-    let mut applied = vec![0.0; plan.dispersions.columns().len()];
-    let mut scene = Scene::resolve(&input).expect("the nominal scene is physical");
-    let mut refused = 0;
-    for sample in 1..=count {
-        sampler.draw(SampleId(sample), &mut input, &mut applied);
-        refused += u64::from(scene.resolve_into(&input).is_err());
-    }
-    refused
+/// How many of the bodies that a file draws are impossible.
+fn impossible(text: &str, count: u64) -> usize {
+    let plan = Plan::from_text("test.toml", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
+    let mut scene = Scene::resolve(&plan.nominal).expect("the nominal scene is physical");
+    let refused = draws::seen(&plan, 1..=count, |input, _| scene.resolve_into(input).is_err());
+    refused.into_iter().filter(|is_refused| *is_refused).count()
 }
 
 /// Law: a million draws by log-Cholesky, and by second moments about the principal axes, make a million possible bodies, however wide. Counter-test:
@@ -344,19 +319,13 @@ fn a_million_bodies_and_none_impossible() {
         second.to_owned(),
     ]
     .concat();
-    assert_eq!(impossible(&all, 1_000_000), 0);
+    assert_eq!(impossible(&campaign(&all), 1_000_000), 0);
 
     let free =
         "[[disperse]]\nparameter = \"debris.principal_moments_kg_m2\"\ndistribution = \"normal\"\nrelative_std = 0.1\n";
     let moments = campaign(free)
         .replace("principal_second_moments_kg_m2 = [1.0, 2.0, 3.0]", "principal_moments_kg_m2 = [1.0, 1.5, 2.3]");
-    let plan = Plan::from_text("test.toml", &moments, Overrides::default()).expect("a valid file");
-    let (mut sampler, mut input) = (plan.dispersions.sampler(), plan.nominal.clone());
-    let (mut applied, mut refused) = ([0.0; 3], 0);
-    for sample in 1..=10_000 {
-        sampler.draw(SampleId(sample), &mut input, &mut applied);
-        refused += usize::from(Scene::resolve(&input).is_err());
-    }
+    let refused = impossible(&moments, 10_000);
     println!("free principal moments: {refused} of 10000 impossible");
     // measured: 2415
     assert!(refused > 500, "{refused}");
@@ -385,13 +354,9 @@ fn mean_directions_follow_the_axis_in_all_octants() {
                 campaign(&format!("[[disperse]]\n{RATE}{law}")).replace("[1.0, -2.0, 2.0]", &format!("{axis:?}"));
             let nominal = Plan::from_text("test.toml", &along, Overrides::default());
             for plan in [written, nominal.unwrap_or_else(|error| panic!("{error}"))] {
-                let (mut sampler, mut scene) = (plan.dispersions.sampler(), plan.nominal.clone());
-                let mut applied = [0.0; 3];
                 let mut mean = [0.0; 3];
-                for k in 1..=DRAWS {
-                    sampler.draw(SampleId(k), &mut scene, &mut applied);
-                    let length = norm(rate(&scene));
-                    (0..3).for_each(|i| mean[i] += rate(&scene)[i] / length / DRAWS as f64);
+                for v in draws::seen(&plan, 1..=DRAWS, |scene, _| rate(scene)) {
+                    (0..3).for_each(|i| mean[i] += v[i] / norm(v) / DRAWS as f64);
                 }
                 let expected = scaled(cosine / norm(axis), axis);
                 let off: f64 = (0..3).map(|i| (mean[i] - expected[i]).powi(2)).sum::<f64>().sqrt();

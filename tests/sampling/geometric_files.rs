@@ -104,24 +104,6 @@ fn what_cannot_be_drawn_is_refused() {
     }
 }
 
-/// A geometric distribution survives the way to the plan's text and back.
-#[test]
-fn plans_keep_geometric_distributions() {
-    for disperse in [
-        format!("{RATE}distribution = \"uniform_direction\"\n"),
-        format!("{RATE}distribution = \"cone\"\nhalf_angle_rad = 0.25\naxis = [0, 1, 1]\nmagnitude = {{ distribution = \"truncated_normal\", relative_std = 0.1, sigmas = 3 }}\n"),
-        format!("{RATE}distribution = \"von_mises_fisher\"\nconcentration = 30\n"),
-        format!("parameter = \"wheels.w1.axis\"\ndistribution = \"von_mises_fisher\"\nconcentration = 30\n{WHEEL1}"),
-        "parameter = \"initial.attitude\"\ndistribution = \"attitude_error\"\nstd_rad = 0.1\n".to_owned(),
-        "parameter = \"initial.attitude\"\ndistribution = \"attitude_error\"\ncovariance_rad2 = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\n".to_owned(),
-        "parameter = \"initial.attitude\"\ndistribution = \"about_axis\"\naxis = [0, 0, 1]\nangle_rad = { distribution = \"normal\", std = 0.1 }\n".to_owned(),
-    ] {
-        let plan = plan(&disperse);
-        let again = Plan::from_text("plan.toml", &plan.text(), Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
-        assert_eq!(again, plan);
-    }
-}
-
 /// Law: the text of a geometric distribution gives magnitude, axis and covariance.
 #[test]
 fn texts_say_magnitude_axis_and_covariance() {

@@ -20,5 +20,4 @@ mod geometric_files;
 mod mass_keys;
 mod replay;
 mod replicates;
-mod streams;
 mod structure;

@@ -1,8 +1,7 @@
 //! What is recorded is what is used: the recorded values of a sample, written into a campaign file as its nominal scene, give the
 //! same scene and the same columns, bit for bit.
 
-use std::path::{Path, PathBuf};
-
+use crate::support::plans::files;
 use crate::support::scratch_folder::ScratchFolder;
 use spindrift::campaign::{Overrides, Plan, SceneDraws, draw};
 use spindrift::ensemble::SingleRun;
@@ -13,15 +12,6 @@ use spindrift::sampling::{Design, SampleId};
 const SAMPLES: u64 = 24;
 /// Of these, samples that are run.
 const RUN: u64 = 3;
-
-fn shipped() -> Vec<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns");
-    let mut files: Vec<PathBuf> =
-        std::fs::read_dir(folder).expect("the folder").map(|entry| entry.expect("an entry").path()).collect();
-    files.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
-    files.sort();
-    files
-}
 
 /// The campaign whose nominal scene is written with the recorded values of `sample`, read from its text.
 fn written_again(plan: &Plan, sample: SampleId) -> Plan {
@@ -44,7 +34,7 @@ fn written_again(plan: &Plan, sample: SampleId) -> Plan {
 #[test]
 fn the_attitude_recorded_is_the_attitude_used() {
     let mut seen = 0;
-    for file in shipped() {
+    for file in files() {
         let text = std::fs::read_to_string(&file).expect("a file");
         // a nominal attitude that is a unit quaternion to six digits only
         let rounded = "[initial]\nattitude = [0.6, 0.0, 0.8000004, 0.0]";
@@ -71,7 +61,7 @@ fn the_attitude_recorded_is_the_attitude_used() {
 fn recorded_values_written_as_a_nominal_scene_give_the_same_columns() {
     let isa = Isa::best();
     let mut with_attitude = 0;
-    for file in shipped() {
+    for file in files() {
         let plan = Plan::load(&file, Overrides::default()).expect("a shipped file");
         with_attitude += u32::from(plan.dispersions.columns().iter().any(|column| column.parameter.width() == 4));
         for sample in (1..plan.samples.min(SAMPLES + 1)).map(SampleId) {
@@ -100,7 +90,7 @@ fn recorded_values_written_as_a_nominal_scene_give_the_same_columns() {
 fn recorded_values_as_a_table_make_the_same_scenes() {
     let scratch = ScratchFolder::new("replay");
     let (mut replayed, mut attitudes) = (0, 0);
-    for file in shipped() {
+    for file in files() {
         let plan = Plan::load(&file, Overrides::default()).expect("a shipped file");
         let columns = plan.dispersions.columns();
         if columns.is_empty() {

@@ -1,7 +1,7 @@
 //! Campaigns run in memory: rows by column name.
 
 use std::convert::Infallible;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use spindrift::campaign::{Overrides, Plan};
@@ -9,11 +9,31 @@ use spindrift::ensemble::{Ensemble, Parts, Rows, Sink, Supervision, run};
 use spindrift::math::Isa;
 use spindrift::run::Status;
 
+/// The files of the shipped campaigns.
+pub fn files() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns");
+    let mut files: Vec<PathBuf> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
+    files.sort();
+    files
+}
+
 /// The shipped campaign `name`, with other samples where asked for.
 pub fn shipped(name: &str, samples: Option<u64>) -> Plan {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("campaigns/{name}.toml"));
-    Plan::load(&path, Overrides { samples, ..Overrides::default() }).unwrap_or_else(|error| panic!("{error}"))
+    shipped_with(name, samples, "")
 }
+
+/// The same with more tables.
+pub fn shipped_with(name: &str, samples: Option<u64>, tables: &str) -> Plan {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns");
+    let text = std::fs::read_to_string(folder.join(format!("{name}.toml"))).expect("a shipped campaign") + tables;
+    let overrides = Overrides { samples, ..Overrides::default() };
+    Plan::from_text_in(&folder, name, &text, overrides).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// A wheel of `spin_sweep` that is sometimes impossible.
+pub const SOMETIMES_IMPOSSIBLE: &str =
+    "\n[[disperse]]\nparameter = \"wheels.w2.length_m\"\ndistribution = \"uniform\"\nmin = -0.05\nmax = 0.1\n";
 
 /// The rows of a campaign, in the order of samples.
 pub struct Table {

@@ -248,23 +248,3 @@ impl Law<1, 0> for Switched {
         [(arc + time.splat(1.0)) * (time.splat(3.0) * (time * time))]
     }
 }
-
-/// Integrates all cases one by one, compiled for the instruction set `isa`.
-pub fn scalar_on<M: Method, L: Law<N, P>, const N: usize, const P: usize>(
-    isa: Isa,
-    method: M,
-    law: L,
-    cases: &[Case<N, P>],
-    grid: &Grid,
-    control: &Control,
-) -> Vec<Journey<N>> {
-    struct Integration<'a, M, L, const N: usize, const P: usize>(M, L, &'a [Case<N, P>], &'a Grid, &'a Control);
-    impl<M: Method, L: Law<N, P>, const N: usize, const P: usize> Work for Integration<'_, M, L, N, P> {
-        type Output = Vec<Journey<N>>;
-        #[inline(always)]
-        fn run<S: Simd>(self, _simd: S) -> Vec<Journey<N>> {
-            integrated((self.0, self.1), 0.0_f64, self.2, self.3, self.4)
-        }
-    }
-    isa.run(Integration(method, law, cases, grid, control))
-}
