@@ -10,11 +10,9 @@ use crate::support::scenes::{Kind, keep_wheels, random, set_wheel_rates};
 use rayon::prelude::*;
 use spindrift::math::Isa;
 use spindrift::math::vector::norm;
-use spindrift::propagation::Method;
-use spindrift::propagation::PropagationSettings;
 use spindrift::propagation::taylor::reference_solution::ReferenceSolution;
-use spindrift::run::Status;
-use spindrift::run::{Grid, StateField};
+use spindrift::propagation::{Method, PropagationSettings};
+use spindrift::run::{Grid, StateField, Status};
 use spindrift::scene::{DebrisInput, Scene, SceneInput, WheelMode};
 
 const SECTION: &str = "accuracy_claims";

@@ -12,10 +12,8 @@ use spindrift::math::double_double::DoubleDouble;
 use spindrift::math::vector::{hamilton, norm};
 use spindrift::math::{Isa, Real};
 use spindrift::ode::Integrator;
-use spindrift::propagation::Method;
-use spindrift::propagation::PropagationSettings;
-use spindrift::run::Status;
-use spindrift::run::{Grid, StateField, StateTable};
+use spindrift::propagation::{Method, PropagationSettings};
+use spindrift::run::{Grid, StateField, StateTable, Status};
 use spindrift::scene::{Scene, SceneInput, WheelInput, WheelMode};
 
 const SECTION: &str = "closed_forms";

@@ -17,13 +17,9 @@ use spindrift::campaign::Plan;
 use spindrift::ensemble::{Ensemble, SingleRun};
 use spindrift::math::Isa;
 use spindrift::observables::Observer;
-use spindrift::ode::Integrator;
-use spindrift::ode::Tolerance;
-use spindrift::propagation::CompletedRun;
-use spindrift::propagation::Method;
-use spindrift::propagation::PropagationSettings;
-use spindrift::run::Grid;
-use spindrift::run::Status;
+use spindrift::ode::{Integrator, Tolerance};
+use spindrift::propagation::{CompletedRun, Method, PropagationSettings};
+use spindrift::run::{Grid, Status};
 use spindrift::sampling::SampleId;
 use spindrift::scene::Scene;
 

@@ -3,8 +3,7 @@
 use crate::support::runs::{Run, adaptive, everything, fixed, propagate};
 use crate::support::scenes::{Kind, random};
 use spindrift::math::Isa;
-use spindrift::ode::Control;
-use spindrift::ode::Integrator;
+use spindrift::ode::{Control, Integrator};
 use spindrift::propagation::Method;
 use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE};
 use spindrift::run::{Grid, StateField};

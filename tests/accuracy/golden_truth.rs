@@ -12,11 +12,9 @@ use crate::support::runs::{Run, adaptive, base_point, fixed, propagate, relative
 use spindrift::math::Isa;
 use spindrift::math::vector::{difference, norm};
 use spindrift::observables::{Groups, Series};
-use spindrift::ode::Control;
-use spindrift::ode::Integrator;
+use spindrift::ode::{Control, Integrator};
 use spindrift::propagation::Method;
-use spindrift::run::Status;
-use spindrift::run::{Grid, StateField};
+use spindrift::run::{Grid, StateField, Status};
 use spindrift::scene::Scene;
 
 /// The largest error of each kind at any golden time, relative to the truth (at least to one in its unit); of energies relative to the body's own

@@ -11,7 +11,6 @@ mod accuracy_claims;
 mod at_rest;
 mod bodies;
 mod closed_forms;
-mod cross_kernel;
 mod drift_bounds;
 mod dual_spin;
 mod environment;

@@ -1,13 +1,8 @@
 //! Runge-Kutta methods converge as their order and their tolerance say, at the steps and between them.
 
 use crate::textbook::*;
-use spindrift::ode::Control;
-use spindrift::ode::GaussLegendre;
-use spindrift::ode::RungeKutta4;
-use spindrift::ode::Tolerance;
-use spindrift::ode::{Dop853, DormandPrince};
-use spindrift::run::Grid;
-use spindrift::run::Status;
+use spindrift::ode::{Control, Dop853, DormandPrince, GaussLegendre, RungeKutta4, Tolerance};
+use spindrift::run::{Grid, Status};
 
 /// The horizon of the oscillator, s, and its frequency, rad/s.
 const HORIZON: f64 = 10.0;

@@ -9,8 +9,7 @@ use spindrift::math::Isa;
 use spindrift::math::vector::norm;
 use spindrift::observables::Groups;
 use spindrift::propagation::Method;
-use spindrift::run::Status;
-use spindrift::run::{Grid, StateField, StateTable};
+use spindrift::run::{Grid, StateField, StateTable, Status};
 use spindrift::scene::{Scene, SceneInput};
 
 /// Tolerance of every run here: what remains is rounding.

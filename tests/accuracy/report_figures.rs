@@ -13,8 +13,7 @@ use spindrift::math::Isa;
 use spindrift::observables::Groups;
 use spindrift::ode::Control;
 use spindrift::propagation::Method;
-use spindrift::run::Grid;
-use spindrift::run::StepStatistics;
+use spindrift::run::{Grid, StepStatistics};
 use spindrift::scene::{Actuation, Scene};
 
 /// Horizon of the figures, s.

@@ -16,8 +16,7 @@ use spindrift::math::vector::{difference, norm};
 use spindrift::observables::Groups;
 use spindrift::ode::Integrator;
 use spindrift::propagation::Method;
-use spindrift::run::Status;
-use spindrift::run::{Grid, StateField};
+use spindrift::run::{Grid, StateField, Status};
 use spindrift::sampling::SampleId;
 use spindrift::scene::{Actuated, ActuationInput, Scene, SceneInput, WheelMode};
 

@@ -4,13 +4,8 @@ use std::collections::HashSet;
 
 use crate::textbook::*;
 use spindrift::math::Isa;
-use spindrift::ode::Control;
-use spindrift::ode::GaussLegendre;
-use spindrift::ode::RungeKutta4;
-use spindrift::ode::Tolerance;
-use spindrift::ode::{Dop853, DormandPrince};
-use spindrift::run::Grid;
-use spindrift::run::Status;
+use spindrift::ode::{Control, Dop853, DormandPrince, GaussLegendre, RungeKutta4, Tolerance};
+use spindrift::run::{Grid, Status};
 
 const HORIZON: f64 = 6.0;
 

@@ -7,9 +7,7 @@ use rayon::prelude::*;
 use spindrift::math::Isa;
 use spindrift::observables::{Group, Groups, Observer};
 use spindrift::ode::Integrator;
-use spindrift::propagation::CompletedRun;
-use spindrift::propagation::Method;
-use spindrift::propagation::PropagationSettings;
+use spindrift::propagation::{CompletedRun, Method, PropagationSettings};
 use spindrift::run::{Grid, StateField, StateFields};
 use spindrift::scene::Scene;
 

@@ -1,28 +1,23 @@
 //! `spindrift campaign` from outside: files, exit codes, what it never overwrites.
 
 use std::fs::{self, File};
-use std::process::Command;
-
-use arrow_array::Array;
-use arrow_array::cast::AsArray;
-use arrow_array::types::Int64Type;
 
 use super::small_campaign::{campaign, folder};
-use crate::support::scratch_folder::batches;
+use crate::support::scratch_folder::column;
 
 /// Law: a printed command is one that a shell takes, whatever the names of the folder and of the file.
 #[test]
 fn printed_commands_are_quoted() {
     let scratch = folder("quoted");
     scratch.file("it's small.toml", &campaign());
-    let mut program = Command::new(env!("CARGO_BIN_EXE_spindrift"));
-    program.args(["campaign", "it's small.toml", "--samples", "20", "--out", "r out", "--threads", "1"]);
-    let said = scratch.outputs(&mut program, 0);
+    let run = |options: &[&str]| {
+        let all = [&["campaign", "it's small.toml", "--samples", "20", "--out"], options].concat();
+        scratch.outputs(scratch.command("").args(all), 0)
+    };
+    let said = run(&["r out", "--threads", "1"]);
     let printed = said.lines().find_map(|line| Some(line.split_once("spindrift simulate ")?.1)).expect("a command");
     assert!(printed.starts_with("'r out/plan.toml' --sample "), "{said}");
-    let mut program = Command::new(env!("CARGO_BIN_EXE_spindrift"));
-    let shard = ["campaign", "it's small.toml", "--samples", "20", "--out", "s out", "--shard", "1/1"];
-    let said = scratch.outputs(program.args(shard), 0);
+    let said = run(&["s out", "--shard", "1/1"]);
     assert!(said.contains("spindrift finish 's out'\n"), "{said}");
 }
 
@@ -34,19 +29,15 @@ fn a_campaign_runs_once_and_then_says_so() {
     let parts = scratch.parts("results/small");
     let names: Vec<&str> = parts.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(names, ["part-000000.parquet", "part-000001.parquet", "part-000002.parquet"]);
-    let summary = fs::read_to_string(scratch.path("results/small/summary.json")).unwrap();
-    assert!(summary.contains(r#""ok": 600"#), "{summary}");
+    assert_eq!(scratch.summary("results/small")["statuses"]["ok"], 600);
 
     let said = scratch.prints("campaign small.toml", 0);
     assert!(said.contains("already complete"), "{said}");
     assert_eq!(scratch.parts("results/small"), parts, "nothing was touched");
 
     // every sample once, in order
-    let ids: Vec<i64> = (0..3)
-        .flat_map(|part| batches(&scratch.path(&format!("results/small/runs/part-{part:06}.parquet"))))
-        .flat_map(|batch| batch.column(0).as_primitive::<Int64Type>().values().to_vec())
-        .collect();
-    assert_eq!(ids, (0..600).collect::<Vec<i64>>());
+    let ids = column(&scratch.rows("results/small"), "sample_id");
+    assert_eq!(ids, (0..600).map(f64::from).collect::<Vec<f64>>());
 }
 
 /// Law: the plan in a results folder gives the same result again.
@@ -111,7 +102,7 @@ fn what_is_not_a_result_is_left_alone() {
     // a file where the folder should be
     scratch.file("notes", "precious");
     scratch.prints("campaign small.toml --out notes", 4);
-    assert_eq!(fs::read_to_string(scratch.path("notes")).unwrap(), "precious");
+    assert_eq!(scratch.text("notes"), "precious");
 }
 
 /// Law: two processes never write to one folder.
@@ -132,16 +123,15 @@ fn a_folder_in_use_is_refused() {
 #[test]
 fn instruction_sets_do_not_change_a_byte() {
     let scratch = folder("isa");
-    let run = |isa: &str| {
-        let arguments = ["campaign", "small.toml", "--samples", "20", "--out", isa];
-        let mut command = Command::new(env!("CARGO_BIN_EXE_spindrift"));
-        command.args(arguments).env("SPINDRIFT_ISA", isa).current_dir(&scratch.0).output().unwrap().status.code()
+    let run = |isa: &str, code: i32| {
+        let arguments = format!("campaign small.toml --samples 20 --out {isa}");
+        scratch.outputs(scratch.command(&arguments).env("SPINDRIFT_ISA", isa), code)
     };
     for isa in spindrift::math::Isa::available() {
-        assert_eq!(run(isa.name()), Some(0));
+        run(isa.name(), 0);
     }
     for isa in spindrift::math::Isa::available() {
         assert_eq!(scratch.parts(isa.name()), scratch.parts("plain"), "{}", isa.name());
     }
-    assert_eq!(run("abacus"), Some(2));
+    run("abacus", 2);
 }

@@ -98,7 +98,7 @@ fn with_rate(scratch: &ScratchFolder, nominal: f64, seed: u32, samples: u32) -> 
 /// The comparison of two results as its JSON file has it.
 fn compared(scratch: &ScratchFolder, first: &str, second: &str) -> Value {
     scratch.prints(&format!("compare {first} {second} --out c.json"), 0);
-    serde_json::from_str(&std::fs::read_to_string(scratch.path("c.json")).expect("a file")).expect("JSON")
+    serde_json::from_str(&scratch.text("c.json")).expect("JSON")
 }
 
 /// The row of an observable.

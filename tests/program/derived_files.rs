@@ -1,6 +1,5 @@
 //! The files that follow from the rows of a result are as safe as the rows: whatever happens to one of them is found, and it is made again.
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
@@ -9,8 +8,6 @@ use super::faulty_storage::contents;
 use super::interrupted::is_ignored;
 use super::small_campaign::{campaign, folder};
 use crate::support::scratch_folder::ScratchFolder;
-
-type Files = BTreeMap<String, Vec<u8>>;
 
 /// A campaign with every kind of file: a requirement that fails, retained runs, a file of numbers, an incomplete last part.
 fn everything(name: &str) -> ScratchFolder {

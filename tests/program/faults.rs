@@ -2,9 +2,8 @@
 //! completes the dataset to the same bytes.
 
 use std::collections::BTreeMap;
-use std::fs;
-use std::io;
 use std::path::PathBuf;
+use std::{fs, io};
 
 use spindrift::campaign::Plan;
 use spindrift::storage::disk::Disk;

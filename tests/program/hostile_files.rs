@@ -48,7 +48,7 @@ fn what_is_no_file_of_numbers_is_refused_by_what_it_is() {
     let scratch = folder("numbers");
     table_campaign(&scratch);
     scratch.prints("check table.toml", 0);
-    let text = fs::read_to_string(scratch.path("table.toml")).unwrap();
+    let text = scratch.text("table.toml");
     assert!(Command::new("mkfifo").arg(scratch.path("pipe.csv")).status().unwrap().success());
     fs::create_dir(scratch.path("folder.csv")).unwrap();
     std::os::unix::fs::symlink("/dev/zero", scratch.path("zero.csv")).unwrap();
@@ -180,7 +180,7 @@ fn planted_links_are_not_followed() {
     let before = contents(&scratch.path("runs"));
     scratch.prints("campaign small.toml --samples 3 --seed 5 --out l", 4);
     assert!(contents(&scratch.path("runs")) == before);
-    assert_eq!(fs::read_to_string(scratch.path("precious/file")).unwrap(), "precious");
+    assert_eq!(scratch.text("precious/file"), "precious");
     assert_eq!(fs::read_dir(scratch.path("precious")).unwrap().count(), 1);
 }
 

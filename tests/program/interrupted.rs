@@ -125,7 +125,7 @@ fn other_questions_of_the_same_rows_run_nothing() {
     let said = scratch.prints("campaign strict.toml --out r", 3);
     assert!(said.contains("600 samples are there already, 0 to run") && said.contains("FAIL"), "{said}");
     assert_eq!(scratch.parts("r"), before);
-    assert!(fs::read_to_string(scratch.path("r/plan.toml")).unwrap().contains("strict"));
+    assert!(scratch.text("r/plan.toml").contains("strict"));
     scratch.prints("campaign strict.toml --out r", 3);
 }
 
@@ -134,7 +134,7 @@ fn other_questions_of_the_same_rows_run_nothing() {
 fn a_damaged_manifest_is_recovered() {
     let scratch = folder("manifest");
     scratch.prints("campaign small.toml --out whole", 0);
-    let text = fs::read_to_string(scratch.path("whole/manifest.jsonl")).unwrap();
+    let text = scratch.text("whole/manifest.jsonl");
     let lines = text.lines().count();
     for line in 1..lines {
         let mut changed: Vec<String> = text.lines().map(str::to_owned).collect();
@@ -217,7 +217,7 @@ fn the_old_result_stays_until_the_new_one_is_complete() {
     fs::create_dir(scratch.path("other")).unwrap();
     scratch.file("other/plan.toml", "a plan of another program");
     scratch.prints("campaign small.toml --overwrite --out other", 4);
-    assert_eq!(fs::read_to_string(scratch.path("other/plan.toml")).unwrap(), "a plan of another program");
+    assert_eq!(scratch.text("other/plan.toml"), "a plan of another program");
 }
 
 /// Whether this process ignores a signal.

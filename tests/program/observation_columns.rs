@@ -5,8 +5,7 @@ use super::observed_tables::{Motion, done, free_row, golden_table, motion_table,
 use spindrift::math::Isa;
 use spindrift::math::vector::dcm_from_quaternion;
 use spindrift::observables::{Column, Group, Groups, Observer, Request, Series};
-use spindrift::run::{Grid, StateField, StateFields, StateTable};
-use spindrift::run::{LocalErrors, Outcome, Status, StepStatistics};
+use spindrift::run::{Grid, LocalErrors, Outcome, StateField, StateFields, StateTable, Status, StepStatistics};
 
 #[test]
 fn padding_leaves_no_trace() {

@@ -8,8 +8,7 @@ use spindrift::math::Isa;
 use spindrift::math::vector::{cross, dcm_from_quaternion, product, sum};
 use spindrift::observables::nominal_attitude::NominalAttitude;
 use spindrift::observables::{Group, Groups, Request};
-use spindrift::run::{Grid, StateField, StateFields, StateTable};
-use spindrift::run::{LocalErrors, Outcome, Status, StepStatistics};
+use spindrift::run::{Grid, LocalErrors, Outcome, StateField, StateFields, StateTable, Status, StepStatistics};
 use spindrift::scene::Scene;
 
 /// Energies and momenta of states that are rounded to f64: a few roundings of the state, doubled by squares, and some dozens of

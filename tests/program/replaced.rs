@@ -1,9 +1,8 @@
 //! A result that takes the place of another one: what the folder is, what is beside it, and every interruption.
 
 use std::collections::BTreeSet;
-use std::fs;
-use std::io;
 use std::path::Path;
+use std::{fs, io};
 
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::storage::claim::ClaimOptions;

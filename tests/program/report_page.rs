@@ -10,7 +10,7 @@ use crate::support::scratch_folder::ScratchFolder;
 const LARGEST: usize = 3_000_000;
 
 fn page(scratch: &ScratchFolder, result: &str) -> String {
-    fs::read_to_string(scratch.path(&format!("{result}/report.html"))).expect("a page")
+    scratch.text(&format!("{result}/report.html"))
 }
 
 /// The static part of a page: what a reader sees without scripts.
@@ -47,7 +47,7 @@ fn figures_are_files_too() {
     ] {
         assert!(svg.iter().any(|name| name == expected), "{expected} is not among {svg:?}");
     }
-    let text = fs::read_to_string(scratch.path("figures/drift_energy.svg")).expect("a figure");
+    let text = scratch.text("figures/drift_energy.svg");
     assert!(text.starts_with("<svg") && text.contains("Drift of energy"), "{text}");
     let said = scratch.prints("report campaigns", 4);
     assert!(said.contains("has no result of spindrift"), "{said}");

@@ -85,14 +85,14 @@ fn the_scripts_make_the_campaign() {
         scratch.prints("slurm small.toml --nodes 5 --cpus 2 --time 1:00:00 --out sharded --sbatch=--partition=long", 0);
     assert!(said.contains("3 parts are to be made: 3 of 5 tasks have work"), "{said}");
     assert!(said.contains("sbatch --dependency=afterany:\"$job\" small-finish.sh"), "{said}");
-    let array = fs::read_to_string(scratch.path("small-array.sh")).unwrap();
+    let array = scratch.text("small-array.sh");
     let own = ["--array=1-3", "--signal=B:USR1@60", "--requeue"];
     for line in
         [&own[..], &["--cpus-per-task=2", "--time=1:00:00", "--output=small-%a.log", "--partition=long"]].concat()
     {
         assert!(array.contains(&format!("#SBATCH {line}\n")), "{line} in:\n{array}");
     }
-    let finish = fs::read_to_string(scratch.path("small-finish.sh")).unwrap();
+    let finish = scratch.text("small-finish.sh");
     assert!(finish.contains("#SBATCH --partition=long\n") && !own.iter().any(|line| finish.contains(line)), "{finish}");
     assert_eq!(ends(&scratch, "small-finish.sh", 1), Some(4), "nothing is there");
     // what is asked of the scripts is asked of the campaign
@@ -158,7 +158,7 @@ fn a_task_that_makes_no_part_is_not_put_back_for_ever() {
     let scratch = folder("slurm-no-part");
     program(&scratch, "scontrol", "");
     scratch.prints("slurm small.toml --nodes 2 --cpus 1 --time 10 --out small", 0);
-    let text = fs::read_to_string(scratch.path("small-array.sh")).unwrap();
+    let text = scratch.text("small-array.sh");
     // in the place of the program: one that is stopped before its limit, and has made a part where `grows` is there
     let manifest = scratch.path("small").join(spindrift::storage::names::manifest_of(1, 2));
     fs::create_dir_all(manifest.parent().unwrap()).unwrap();
@@ -212,7 +212,7 @@ fn submission() {
         script("small-array.sh"),
         script("small-finish.sh")
     );
-    let asked = fs::read_to_string(scratch.path("sbatch.log")).unwrap();
+    let asked = scratch.text("sbatch.log");
     assert_eq!(asked.replace(&scratch.0.display().to_string(), &script(".")), expected);
     program(&scratch, "sbatch", "echo 'invalid partition' >&2; exit 1");
     let said = run(4);
@@ -254,5 +254,5 @@ fn refusals() {
     scratch.file("small-finish.sh", "#!/bin/sh\nprecious\n");
     let text = scratch.prints(&format!("slurm small.toml {all}"), 4);
     assert!(text.contains("small-finish.sh: exists"), "{text}");
-    assert_eq!(fs::read_to_string(scratch.path("small-finish.sh")).unwrap(), "#!/bin/sh\nprecious\n");
+    assert_eq!(scratch.text("small-finish.sh"), "#!/bin/sh\nprecious\n");
 }

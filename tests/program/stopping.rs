@@ -69,7 +69,7 @@ fn a_campaign_stops_when_it_is_precise_enough() {
     let said = scratch.prints("campaign stop.toml --out stopped", 0);
     assert!(said.contains("already complete") && said.contains(&format!("({samples} samples")), "{said}");
     assert!(scratch.prints("finish stopped", 0).contains("already finished"));
-    let page = fs::read_to_string(scratch.path("stopped/report.html")).unwrap();
+    let page = scratch.text("stopped/report.html");
     let dispersed = if samples > 1000 { "1,199" } else { "599" };
     for said in [format!("{samples} samples: p50"), format!("{dispersed} dispersed runs")] {
         assert!(page.contains(&said), "the page says how many samples the look had: {said}");
@@ -77,13 +77,13 @@ fn a_campaign_stops_when_it_is_precise_enough() {
     let checked = scratch.prints("verify stopped --fraction 0", 0);
     assert!(checked.contains(&format!(" {samples} rows: checksums compared")), "the manifest: {checked}");
     // an unfinished one is continued by the command that looks
-    let manifest = fs::read_to_string(scratch.path("stopped/manifest.jsonl")).unwrap();
+    let manifest = scratch.text("stopped/manifest.jsonl");
     let unfinished: Vec<&str> = manifest.lines().collect();
     scratch.file("stopped/manifest.jsonl", &(unfinished[..unfinished.len() - 1].join("\n") + "\n"));
     let refused = scratch.prints("finish stopped", 4);
     assert!(refused.contains("spindrift campaign"), "{refused}");
     scratch.prints("campaign stop.toml --out stopped", 0);
-    assert_eq!(fs::read_to_string(scratch.path("stopped/manifest.jsonl")).unwrap(), manifest);
+    assert_eq!(scratch.text("stopped/manifest.jsonl"), manifest);
     assert!(scratch.prints("campaign never.toml --out never", 5).contains("already complete"));
     scratch.prints("verify stopped --fraction 1", 0);
     let before = fs::read(scratch.path("stopped/report.html")).unwrap();

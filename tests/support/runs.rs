@@ -4,11 +4,8 @@ use sha2::{Digest, Sha256};
 use spindrift::math::Isa;
 use spindrift::math::vector::{cross, dcm_from_quaternion, difference, norm, product};
 use spindrift::ode::{Control, Integrator, Tolerance};
-use spindrift::propagation::CompletedRun;
-use spindrift::propagation::Method;
-use spindrift::propagation::PropagationSettings;
-use spindrift::run::Outcome;
-use spindrift::run::{Grid, StateField, StateFields, StateTable};
+use spindrift::propagation::{CompletedRun, Method, PropagationSettings};
+use spindrift::run::{Grid, Outcome, StateField, StateFields, StateTable};
 use spindrift::scene::Scene;
 
 /// The states of one run and how it ended.

@@ -112,12 +112,12 @@ impl ScratchFolder {
     }
 }
 
-/// Every file below `root` with its content, by its name: `runs/part-000000.parquet`, `plan.toml`.
+/// Every file below `root`, which may be absent, with its content, by its name: `runs/part-000000.parquet`, `plan.toml`.
 pub fn contents(root: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut found = BTreeMap::new();
     let mut folders = vec![root.to_owned()];
     while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(&folder).unwrap().map(Result::unwrap) {
+        for entry in fs::read_dir(&folder).into_iter().flatten().map(Result::unwrap) {
             let path = entry.path();
             if path.is_dir() {
                 folders.push(path);
