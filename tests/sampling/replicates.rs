@@ -107,9 +107,6 @@ fn one_replicate_is_the_design() {
         let plan = |extra: &str| read(&text(&format!("[design]\nkind = {kind:?}\n{extra}"))).expect("legal");
         assert_eq!(plan(""), plan("replicates = 1\n"));
         let many = plan("replicates = 16\n");
-        assert_ne!(plan("").hash(), many.hash());
-        assert!(many.text().contains("replicates = 16"), "{}", many.text());
-        assert_eq!(read(&many.text()).expect("legal"), many);
         let replicates = [0, 1, 16, 17].map(|sample| many.design.replicate_of(SampleId(sample)));
         assert_eq!(replicates, [None, Some(0), Some(15), Some(0)]);
     }

@@ -195,10 +195,6 @@ fn cube<R: Real>(x: R, z: R) -> R {
     square * square.sqrt()
 }
 
-/// Arenstorf's orbit: mass, initial state, period.
-pub const ARENSTORF: (f64, [f64; 4], f64) =
-    (0.012277471, [0.994, 0.0, 0.0, -2.001_585_106_379_082_5], 17.065_216_560_157_964);
-
 /// y'' = (1 - y^2) y' - y.
 #[derive(Clone, Copy)]
 pub struct VanDerPol;
