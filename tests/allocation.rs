@@ -9,7 +9,7 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::hint::black_box;
 
-use spindrift::campaign::{Overrides, Plan};
+use spindrift::campaign::Plan;
 use spindrift::dynamics::actuation::Laws;
 use spindrift::dynamics::gyrostat::Gyrostat;
 use spindrift::dynamics::gyrostat::equations::Constants;
@@ -17,15 +17,14 @@ use spindrift::dynamics::null_space::{Kernel, components, sigma};
 use spindrift::ensemble::{Ensemble, Part, PartId, Rows, Supervision};
 use spindrift::math::Isa;
 use spindrift::observables::{Groups, Observer, Request};
-use spindrift::ode::Control;
-use spindrift::ode::Integrator;
-use spindrift::propagation::CompletedRun;
-use spindrift::propagation::Method;
-use spindrift::propagation::PropagationSettings;
+use spindrift::ode::{Control, Integrator};
+use spindrift::propagation::{CompletedRun, Method, PropagationSettings};
 use spindrift::run::Grid;
 use spindrift::sampling::SampleId;
 use spindrift::scene::{Actuated, Scene};
 use support::feedback::law;
+use support::observed::request;
+use support::plans::shipped;
 use support::runs::{adaptive, everything, fixed};
 use support::scenes::mixed;
 
@@ -77,11 +76,9 @@ fn allocations(work: impl FnOnce()) -> u64 {
 }
 
 fn plan(name: &str, method: &str) -> Plan {
-    let path = format!("{}/campaigns/{name}.toml", env!("CARGO_MANIFEST_DIR"));
-    let text = std::fs::read_to_string(path).expect("a shipped campaign");
-    let text = text.replace("method = \"auto\"", &format!("method = \"{method}\""));
-    Plan::from_text(name, &text, Overrides { samples: Some(512), ..Overrides::default() })
-        .unwrap_or_else(|error| panic!("{error}"))
+    let mut plan = shipped(name, Some(512));
+    plan.method = Method::ALL.into_iter().find(|known| known.name() == method).expect("a method");
+    plan
 }
 
 /// Scenes drawn from a shipped campaign.
@@ -180,14 +177,8 @@ fn observation() {
         let actuated = Actuated::of(&plan.nominal);
         let constrained = method == Method::NullSpace;
         let wheels = plan.nominal.turning_wheels();
-        let request = Request {
-            groups: Groups::ALL,
-            debris: plan.nominal.debris.is_some(),
-            actuated,
-            constrained,
-            wheels,
-            windows: spindrift::observables::window::NO_WINDOWS,
-        };
+        let request =
+            Request { actuated, wheels, ..request(Groups::ALL, 0, plan.nominal.debris.is_some(), false, constrained) };
         let mut observer = Observer::new(request, &plan.grid);
         let mut row = vec![0.0; request.columns().len()];
         let control = adaptive(if constrained { 1e-3 } else { 1e-12 });

@@ -8,9 +8,6 @@ use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
 use spindrift::dynamics::null_space;
 use spindrift::dynamics::null_space::state::{PER_BODY, coordinates, speeds};
-use spindrift::ode::{Runs, System, Tolerance};
-use spindrift::propagation::NullSpaceRuns;
-use spindrift::scene::Scene;
 
 /// Wheels of the report.
 const WHEELS: usize = 2;
@@ -27,8 +24,6 @@ pub const BODIES: usize = State::BODIES;
 pub const COORDINATES: usize = coordinates(WHEELS);
 /// Reduced speeds nu-hat.
 pub const SPEEDS: usize = speeds(WHEELS);
-/// States x = [q; nu-hat] (41).
-pub const STATES: usize = null_space::states(WHEELS);
 /// Everything that is integrated.
 pub const COMPONENTS: usize = null_space::components(WHEELS);
 /// Speeds nu before reduction.
@@ -215,63 +210,4 @@ pub fn with_printed_sign(parameters: &Parameters, state: &State, rate: &State) -
         *component += change;
     }
     State::from_components(&components)
-}
-
-/// A-hat_non,s with its correct sign, or as printed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SignOfANon {
-    Corrected,
-    Printed,
-}
-
-/// The runs of [`NullSpaceRuns`] with either sign.
-pub struct SignedRuns<'a> {
-    runs: NullSpaceRuns<'a, WHEELS>,
-    parameters: Parameters,
-    sign: SignOfANon,
-}
-
-impl<'a> SignedRuns<'a> {
-    /// The run of one scene from zero to `duration`, s.
-    pub fn new(scene: &'a Scene, duration: f64, sign: SignOfANon) -> Self {
-        let runs = NullSpaceRuns::new(std::slice::from_ref(scene), duration);
-        SignedRuns { runs, parameters: Parameters::of(scene), sign }
-    }
-}
-
-impl System<f64, COMPONENTS> for SignedRuns<'_> {
-    #[inline(always)]
-    fn derivative(&self, time: f64, x: &[f64; COMPONENTS]) -> [f64; COMPONENTS] {
-        let rate = self.runs.derivative(time, x);
-        match self.sign {
-            SignOfANon::Corrected => rate,
-            SignOfANon::Printed => {
-                let (state, rate) = (State::from_components(x), State::from_components(&rate));
-                with_printed_sign(&self.parameters, &state, &rate).components()
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn error_ratio(
-        &self,
-        error: &[f64; COMPONENTS],
-        old: &[f64; COMPONENTS],
-        new: &[f64; COMPONENTS],
-        tolerance: Tolerance,
-    ) -> f64 {
-        self.runs.error_ratio(error, old, new, tolerance)
-    }
-}
-
-impl Runs<f64, COMPONENTS> for SignedRuns<'_> {
-    fn count(&self) -> usize {
-        1
-    }
-    fn load(&mut self, lane: usize, run: usize) -> [f64; COMPONENTS] {
-        self.runs.load(lane, run)
-    }
-    fn next_arc(&mut self, lane: usize, time: f64, state: &[f64; COMPONENTS]) -> Option<f64> {
-        self.runs.next_arc(lane, time, state)
-    }
 }

@@ -3,13 +3,8 @@
 use crate::support::runs::{adaptive, fixed, propagate};
 use crate::support::scenes::mixed;
 use crate::textbook::*;
-use spindrift::ode::Control;
-use spindrift::ode::GaussLegendre;
-use spindrift::ode::RungeKutta4;
-use spindrift::ode::{Dop853, DormandPrince};
-use spindrift::run::Grid;
-use spindrift::run::Outcome;
-use spindrift::run::Status;
+use spindrift::ode::{Control, Dop853, DormandPrince, GaussLegendre, RungeKutta4};
+use spindrift::run::{Grid, Outcome, Status};
 
 /// Round-off of a sum of some ten steps of order one to ten.
 const ROUND_OFF: f64 = 1e-14;

@@ -2,16 +2,15 @@
 //! zero, of the whole run, or without a period.
 
 use crate::support::golden::Golden;
+use crate::support::observed::{observed, request};
 use crate::support::runs::{Run, adaptive, propagate, rotation_distance};
-use crate::support::scenes::{Kind, Uniform, WHEELS, mixed, random, set_wheel_rates};
+use crate::support::scenes::{Kind, Uniform, mixed, random, set_wheel_rates};
 use spindrift::math::Isa;
 use spindrift::math::vector::norm;
-use spindrift::observables::request::wheel_names;
-use spindrift::observables::{Groups, Observer, Request};
+use spindrift::observables::Groups;
 use spindrift::propagation::Method;
-use spindrift::run::Status;
-use spindrift::run::{Grid, StateField, StateTable};
-use spindrift::scene::{Actuated, Scene, SceneInput};
+use spindrift::run::{Grid, StateField, StateTable, Status};
+use spindrift::scene::{Scene, SceneInput};
 
 /// Tolerance of every run here: what remains is rounding.
 const TOLERANCE: f64 = 1e-16;
@@ -45,22 +44,10 @@ fn table_one(count: u64) -> Vec<Scene> {
 
 /// Largest errors of energy about c (over its size) and of angular momentum, measured from the states.
 fn conservation(scene: &Scene, horizon: f64, run: &Run) -> [f64; 2] {
-    let request = Request {
-        groups: Groups::ALL,
-        debris: false,
-        actuated: Actuated::NONE,
-        constrained: false,
-        wheels: wheel_names(&WHEELS[..scene.mass.wheels.len()]),
-        windows: spindrift::observables::window::NO_WINDOWS,
-    };
-    let mut observer = Observer::new(request, &Grid::uniform(horizon, POINTS));
-    let columns = request.columns();
-    let names: Vec<&str> = columns.iter().map(|column| column.quantity.name()).collect();
-    let mut row = vec![0.0; names.len()];
-    observer.observe(Isa::best(), scene, &run.table, &run.outcome, &mut row);
-    ["energy_com_error_max", "angular_momentum_error_max"].map(|name| {
-        row[names.iter().position(|other| *other == name).unwrap_or_else(|| panic!("no column {name} in {names:?}"))]
-    })
+    let request = request(Groups::ALL, scene.mass.wheels.len(), false, false, false);
+    let grid = Grid::uniform(horizon, POINTS);
+    let (row, _) = observed(Isa::best(), request, &grid, scene, (&run.table, &run.outcome), None);
+    ["energy_com_error_max", "angular_momentum_error_max"].map(|name| row[name])
 }
 
 /// Angle of the body over the horizon, rad.

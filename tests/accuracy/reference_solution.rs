@@ -1,12 +1,11 @@
 //! The reference solution in double-double: compared with solutions in 40 digits, with itself, and by conservation laws.
 
 use crate::support::golden::Golden;
-use spindrift::math::Isa;
-use spindrift::math::Real;
 use spindrift::math::double_double::DoubleDouble;
 use spindrift::math::vector::{
     constant, constant_matrix, dcm_from_quaternion, difference, dot, norm, product, scaled, sum,
 };
+use spindrift::math::{Isa, Real};
 use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE};
 use spindrift::run::{Grid, StateField, StateFields};
 use spindrift::scene::Scene;

@@ -15,10 +15,8 @@ use rayon::prelude::*;
 use spindrift::math::Isa;
 use spindrift::math::double_double::{DoubleDouble, two_sum};
 use spindrift::ode::Control;
-use spindrift::propagation::Method;
-use spindrift::propagation::PropagationSettings;
-use spindrift::run::Status;
-use spindrift::run::{Grid, StateField};
+use spindrift::propagation::{Method, PropagationSettings};
+use spindrift::run::{Grid, StateField, Status};
 use spindrift::scene::Scene;
 
 const SECTION: &str = "round_off";

@@ -2,30 +2,19 @@
 //! arcs flown gives the same run again.
 
 use crate::support::feedback::{Flight, PERIOD, fly, fly_recorded, fly_schedules, fly_under, law};
-use crate::support::runs::{Bits, adaptive, everything, fixed};
+use crate::support::observed::request;
+use crate::support::runs::{Bits, METHODS, everything};
 use crate::support::scenes::{WHEELS, many_wheels, mixed};
 use spindrift::dynamics::actuation::{Actuation, ActuationLaw, BodyState, Laws, WheelState, ZeroOrderHold};
 use spindrift::math::Isa;
-use spindrift::observables::request::wheel_names;
-use spindrift::observables::{Groups, Observer, Request};
+use spindrift::observables::{Groups, Observer};
 use spindrift::ode::Control;
-use spindrift::ode::Integrator;
 use spindrift::propagation::{CompletedRun, Method, PropagationSettings};
 use spindrift::run::Grid;
-use spindrift::scene::{Actuated, Arc, Scene, WheelMode};
+use spindrift::scene::{Arc, Scene, WheelMode};
 
 /// s.
 const HORIZON: f64 = 3.1;
-
-const METHODS: [(Method, Control); 7] = [
-    (Method::Auto, adaptive(1e-12)),
-    (Method::Taylor, adaptive(1e-12)),
-    (Method::Gyrostat(Integrator::DormandPrince), adaptive(1e-8)),
-    (Method::Gyrostat(Integrator::Dop853), adaptive(1e-8)),
-    (Method::Gyrostat(Integrator::RungeKutta4), fixed(0.01)),
-    (Method::Gyrostat(Integrator::GaussLegendre), fixed(0.01)),
-    (Method::NullSpace, adaptive(1e-5)),
-];
 
 fn settings(method: Method, control: Control, scenes: &[Scene]) -> PropagationSettings {
     PropagationSettings::new(method, control, Grid::uniform(HORIZON, 29), everything(method), &scenes[0])
@@ -177,15 +166,7 @@ fn rows(
     is_closed_loop: bool,
     observe: Observe,
 ) -> (Vec<Bits>, Vec<Vec<Arc>>) {
-    let constrained = method == Method::NullSpace;
-    let request = Request {
-        groups: Groups::ALL,
-        debris: true,
-        actuated: Actuated::ALL,
-        constrained,
-        wheels: wheel_names(&WHEELS),
-        windows: spindrift::observables::window::NO_WINDOWS,
-    };
+    let request = request(Groups::ALL, WHEELS.len(), true, true, method == Method::NullSpace);
     let settings = settings(method, control, scenes);
     let mut observer = Observer::new(request, &Grid::uniform(HORIZON, 29));
     let mut row = vec![0.0; request.columns().len()];

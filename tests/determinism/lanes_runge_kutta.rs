@@ -1,14 +1,11 @@
 //! Lane i of eight equals the scalar run bit for bit, on every path, whatever runs are in other lanes or came before it.
 
+use std::collections::HashSet;
+
 use crate::textbook::*;
 use spindrift::math::Isa;
-use spindrift::ode::Control;
-use spindrift::ode::GaussLegendre;
-use spindrift::ode::RungeKutta4;
-use spindrift::ode::Tolerance;
-use spindrift::ode::{Dop853, DormandPrince};
-use spindrift::run::Grid;
-use spindrift::run::Status;
+use spindrift::ode::{Control, Dop853, DormandPrince, GaussLegendre, RungeKutta4, Tolerance};
+use spindrift::run::{Grid, Status};
 
 const HORIZON: f64 = 6.0;
 
@@ -33,23 +30,15 @@ fn cases() -> Vec<Case<4, 1>> {
 fn equal_in_all_lanes<M: Method>(method: M, control: &Control) {
     let (cases, grid) = (cases(), Grid::uniform(HORIZON, 45));
     let truth = scalar(method, ThreeBody, &cases, &grid, control);
+    let bits = |journeys: &[Journey<4>]| journeys.iter().map(Journey::bits).collect::<Vec<_>>();
+    let found = |isa: Isa, cases: &[Case<4, 1>]| bits(&lanes(isa, method, ThreeBody, cases, &grid, control));
+    let truth = bits(&truth);
     for isa in Isa::available() {
-        let found = lanes(isa, method, ThreeBody, &cases, &grid, control);
-        for (run, (found, truth)) in std::iter::zip(&found, &truth).enumerate() {
-            assert_eq!(found.bits(), truth.bits(), "run {run} on {}", isa.name());
-        }
+        assert!(found(isa, &cases) == truth, "{}", isa.name());
     }
-    // Other neighbours, other lanes.
+    // other neighbours, other lanes; fewer runs than lanes
     let backwards: Vec<_> = cases.iter().rev().cloned().collect();
-    let found = lanes(Isa::best(), method, ThreeBody, &backwards, &grid, control);
-    for (found, truth) in std::iter::zip(found.iter().rev(), &truth) {
-        assert_eq!(found.bits(), truth.bits());
-    }
-    // Fewer runs than lanes.
-    let found = lanes(Isa::best(), method, ThreeBody, &cases[..3], &grid, control);
-    for (found, truth) in std::iter::zip(&found, &truth) {
-        assert_eq!(found.bits(), truth.bits());
-    }
+    assert!(found(Isa::best(), &backwards).iter().rev().eq(&truth) && found(Isa::best(), &cases[..3]) == truth[..3]);
 }
 
 fn bounded(max_steps: u64) -> Control {
@@ -57,47 +46,27 @@ fn bounded(max_steps: u64) -> Control {
 }
 
 #[test]
-fn dormand_prince() {
-    equal_in_all_lanes(Adaptive(DormandPrince), &bounded(100_000));
-}
-
-#[test]
-fn dop853() {
-    equal_in_all_lanes(Adaptive(Dop853), &bounded(100_000));
-}
-
-#[test]
-fn runge_kutta_4() {
-    equal_in_all_lanes(Fixed(RungeKutta4), &bounded(100_000));
-}
-
-#[test]
-fn gauss_legendre() {
-    equal_in_all_lanes(Fixed(GaussLegendre), &bounded(100_000));
+fn lanes_are_scalar_runs() {
+    let control = bounded(100_000);
+    equal_in_all_lanes(Adaptive(DormandPrince), &control);
+    equal_in_all_lanes(Adaptive(Dop853), &control);
+    equal_in_all_lanes(Fixed(RungeKutta4), &control);
+    equal_in_all_lanes(Fixed(GaussLegendre), &control);
 }
 
 #[test]
 fn runs_that_fail_beside_runs_that_do_not() {
-    // Half of them: the median of the attempts that they need.
-    let grid = Grid::uniform(HORIZON, 45);
-    let mut attempts: Vec<u64> = scalar(Adaptive(DormandPrince), ThreeBody, &cases(), &grid, &bounded(100_000))
-        .iter()
-        .map(|journey| journey.outcome.effort.steps + journey.outcome.effort.rejected)
-        .collect();
+    // half of them: the median of the attempts that they need
+    let of =
+        |control: &Control| scalar(Adaptive(DormandPrince), ThreeBody, &cases(), &Grid::uniform(HORIZON, 45), control);
+    let whole = of(&bounded(100_000));
+    let steps: HashSet<u64> = whole.iter().map(|journey| journey.outcome.effort.steps).collect();
+    assert!(steps.len() > 15, "runs differ, so that equality says something: {steps:?}");
+    let attempts = |journey: &Journey<4>| journey.outcome.effort.steps + journey.outcome.effort.rejected;
+    let mut attempts: Vec<u64> = whole.iter().map(attempts).collect();
     attempts.sort_unstable();
     let control = bounded(attempts[attempts.len() / 2]);
-    let statuses: Vec<Status> =
-        scalar(Adaptive(DormandPrince), ThreeBody, &cases(), &Grid::uniform(HORIZON, 45), &control)
-            .iter()
-            .map(|journey| journey.outcome.status)
-            .collect();
+    let statuses: Vec<Status> = of(&control).iter().map(|journey| journey.outcome.status).collect();
     assert!(statuses.contains(&Status::Done) && statuses.contains(&Status::StepLimit), "{statuses:?}");
     equal_in_all_lanes(Adaptive(DormandPrince), &control);
-}
-
-#[test]
-fn runs_differ_so_that_equality_says_something() {
-    let truth = scalar(Adaptive(DormandPrince), ThreeBody, &cases(), &Grid::uniform(HORIZON, 45), &bounded(100_000));
-    let steps: std::collections::HashSet<u64> = truth.iter().map(|journey| journey.outcome.effort.steps).collect();
-    assert!(steps.len() > 15, "{steps:?}");
 }

@@ -1,6 +1,7 @@
 //! A panic of the program is the end of one run.
 
-use spindrift::campaign::{Overrides, Plan, SceneDraws};
+use crate::support::plans::shipped;
+use spindrift::campaign::SceneDraws;
 use spindrift::dynamics::actuation::Laws;
 use spindrift::ensemble::{Ensemble, Part, PartId, Rows, Supervision};
 use spindrift::math::Isa;
@@ -31,9 +32,7 @@ impl Engine for Fragile {
 #[test]
 fn a_panic_ends_one_run() {
     const RUNS: usize = 400;
-    let path = format!("{}/campaigns/spin_sweep.toml", env!("CARGO_MANIFEST_DIR"));
-    let text = std::fs::read_to_string(path).unwrap();
-    let plan = Plan::from_text("spin_sweep", &text, Overrides::default()).unwrap();
+    let plan = shipped("spin_sweep", None);
     let part = Part { id: PartId(0), first: SampleId(0), count: RUNS };
     let rows_of = |ensemble: &Ensemble<'_>| {
         let mut rows = ensemble.rows(RUNS);

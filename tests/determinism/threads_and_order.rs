@@ -1,10 +1,10 @@
 //! A row is a pure function of (plan, sample): not of threads, parts, order, or what a worker did before.
 
 use std::num::NonZeroUsize;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use spindrift::campaign::{Overrides, Plan};
+use crate::support::plans::{RowBits, SOMETIMES_IMPOSSIBLE, row_bits, seen, shipped_with};
+use spindrift::campaign::Plan;
 use spindrift::ensemble::{Ensemble, Part, PartId, Parts, Rows, RunError, Sink, Supervision, run};
 use spindrift::math::Isa;
 use spindrift::run::Status;
@@ -12,57 +12,27 @@ use spindrift::sampling::SampleId;
 
 /// The shipped campaign of that name, with a wheel that is sometimes impossible where `with_failures`.
 fn plan(name: &str, samples: u64, with_failures: bool) -> Plan {
-    let path = format!("{}/campaigns/{name}.toml", env!("CARGO_MANIFEST_DIR"));
-    let mut text = std::fs::read_to_string(path).unwrap();
-    if with_failures {
-        text.push_str(
-            "\n[[disperse]]\nparameter = \"wheels.w2.length_m\"\ndistribution = \"uniform\"\nmin = -0.05\nmax = 0.1\n",
-        );
-    }
-    Plan::from_text(name, &text, Overrides { samples: Some(samples), ..Overrides::default() })
-        .unwrap_or_else(|e| panic!("{e}"))
+    shipped_with(name, Some(samples), if with_failures { SOMETIMES_IMPOSSIBLE } else { "" })
 }
 
-/// A row as bits: status, dispersed values, observables.
-type Bits = (Status, Vec<u64>);
-
-fn bits(rows: &Rows, row: usize) -> Bits {
-    let shape = rows.shape();
-    let parameters = (0..shape.parameters).map(|index| rows.parameter(index)[row]);
-    let observables = (0..shape.observables).map(|index| rows.observable(index)[row]);
-    (rows.statuses()[row], parameters.chain(observables).map(f64::to_bits).collect())
+/// Refuses all parts from a given one on, and counts those that are offered.
+struct Full {
+    from: u64,
+    offered: AtomicU64,
 }
 
-/// Keeps rows in memory; refuses all parts from a given one on.
-#[derive(Default)]
-struct Memory {
-    rows: Mutex<Vec<(u64, Bits)>>,
-    parts: AtomicU64,
-    full_from: Option<u64>,
-}
-
-impl Sink for Memory {
+impl Sink for Full {
     type Error = String;
 
     fn take(&self, rows: &Rows) -> Result<(), String> {
-        let part = rows.part();
-        self.parts.fetch_add(1, Ordering::Relaxed);
-        if self.full_from.is_some_and(|first| part.id.0 >= first) {
-            return Err(format!("no space for part {}", part.id.0));
-        }
-        let mut kept = self.rows.lock().unwrap();
-        kept.extend(part.samples().enumerate().map(|(row, sample)| (sample.0, bits(rows, row))));
-        Ok(())
+        self.offered.fetch_add(1, Ordering::Relaxed);
+        let part = rows.part().id.0;
+        if part >= self.from { Err(format!("no space for part {part}")) } else { Ok(()) }
     }
 }
 
-fn whole(campaign: &Ensemble<'_>, threads: usize) -> Vec<(u64, Bits)> {
-    let sink = Memory::default();
-    let parts = Parts::of(campaign.plan().samples);
-    run(campaign, parts, NonZeroUsize::new(threads), &sink, Supervision::progress(&|_| {})).unwrap();
-    let mut rows = sink.rows.into_inner().unwrap();
-    rows.sort_by_key(|(sample, _)| *sample);
-    rows
+fn whole(campaign: &Ensemble<'_>, threads: usize) -> Vec<(u64, RowBits)> {
+    seen(campaign, Some(threads), row_bits)
 }
 
 #[test]
@@ -88,7 +58,7 @@ fn rows_do_not_depend_on_company() {
     for (first, count) in [(999, 1), (0, 1), (517, 1), (3, 300), (250, 13), (998, 2), (0, 129)] {
         worker.run(Part { id: PartId(0), first: SampleId(first), count }, &mut rows, Supervision::progress(&|_| {}));
         for row in 0..count {
-            assert!(bits(&rows, row) == expected[first as usize + row].1, "sample {}", first as usize + row);
+            assert!(row_bits(&rows, row) == expected[first as usize + row].1, "sample {}", first as usize + row);
         }
     }
 }
@@ -114,10 +84,10 @@ fn a_full_sink_stops_the_campaign() {
     let parts = Parts::of(4096);
     assert!(parts.count() > 8);
     let offered = |threads: usize, first_refused: u64| {
-        let sink = Memory { full_from: Some(first_refused), ..Memory::default() };
+        let sink = Full { from: first_refused, offered: AtomicU64::new(0) };
         let ended = run(&ensemble, parts, NonZeroUsize::new(threads), &sink, Supervision::progress(&|_| {}));
         assert!(matches!(ended, Err(RunError::Sink(error)) if error.starts_with("no space for part ")));
-        sink.parts.into_inner()
+        sink.offered.into_inner()
     };
     assert_eq!(offered(1, 1), 2);
     for threads in [2, 7] {
@@ -135,6 +105,13 @@ fn progress_counts_every_sample() {
     let count = |samples| {
         heard.fetch_add(samples, Ordering::Relaxed);
     };
-    run(&campaign, Parts::of(777), None, &Memory::default(), Supervision::progress(&count)).unwrap();
+    run(
+        &campaign,
+        Parts::of(777),
+        None,
+        &Full { from: u64::MAX, offered: AtomicU64::new(0) },
+        Supervision::progress(&count),
+    )
+    .unwrap();
     assert_eq!(heard.into_inner(), 777);
 }

@@ -7,11 +7,12 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
+use crate::support::plans::files;
 use crate::support::scratch_folder::ScratchFolder;
 use arrow_array::cast::AsArray;
-use arrow_array::types::{Float64Type, Int64Type, UInt64Type};
+use arrow_array::types::{Float64Type, Int64Type};
 use arrow_array::{Array, RecordBatch};
 use arrow_schema::DataType;
 use rayon::prelude::*;
@@ -61,10 +62,6 @@ fn add_values(hash: &mut Fnv, column: &dyn Array) {
         DataType::Float64 => {
             let values = column.as_primitive::<Float64Type>();
             each(hash, &|row| values.value(row).to_bits().to_le_bytes().to_vec());
-        }
-        DataType::UInt64 => {
-            let values = column.as_primitive::<UInt64Type>();
-            each(hash, &|row| values.value(row).to_le_bytes().to_vec());
         }
         DataType::Int64 => {
             let values = column.as_primitive::<Int64Type>();
@@ -120,14 +117,6 @@ struct Found {
     nothing: [String; 3],
 }
 
-fn shipped() -> Vec<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns");
-    let mut files: Vec<PathBuf> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
-    files.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
-    files.sort();
-    files
-}
-
 /// Runs a campaign.
 fn run(scratch: &ScratchFolder, file: &Path) -> Found {
     let name = file.file_stem().unwrap().to_string_lossy().into_owned();
@@ -141,11 +130,7 @@ fn run(scratch: &ScratchFolder, file: &Path) -> Found {
         _ => 0,
     };
     scratch.says("campaign", &campaign, &format!("{samples} {audit} --no-report --out {name}"), code);
-    let folder = scratch.0.join(&name);
-    let mut files: Vec<PathBuf> =
-        fs::read_dir(folder.join("runs")).unwrap().map(|entry| entry.unwrap().path()).collect();
-    files.sort();
-    let parts: Vec<RecordBatch> = files.iter().flat_map(|file| crate::support::scratch_folder::batches(file)).collect();
+    let parts = scratch.rows(&name);
     let audited = audited(&parts);
     Found { rows: audited.len(), columns: hashes(&parts), nothing: of_nothing(&audited) }
 }
@@ -173,7 +158,7 @@ fn differences(
 fn shipped_campaigns_keep_their_bits() {
     let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/value_hashes.json");
     let scratch = ScratchFolder::new("value-hashes");
-    let now: BTreeMap<String, Found> = shipped()
+    let now: BTreeMap<String, Found> = files()
         .par_iter()
         .map(|file| (file.file_stem().unwrap().to_string_lossy().into_owned(), run(&scratch, file)))
         .collect();

@@ -13,7 +13,6 @@ use spindrift::scene::Scene;
 use spindrift::storage::rows_file::AUDIT_REASON;
 
 use super::small_campaign::{campaign, folder};
-use crate::support::scratch_folder::batches;
 
 /// The campaign with debris of this rate, rad/s.
 fn with_debris_rate(rate: f64) -> String {
@@ -26,10 +25,18 @@ fn with_debris_rate(rate: f64) -> String {
 #[test]
 fn an_audit_has_a_limit() {
     let scratch = folder("audit-limit");
+    // the limit is of the debris alone, and below it nothing is refused
+    for (rate, is_within) in [(8000.0, true), (40_000.0, false)] {
+        let plan = Plan::from_text("fast", &with_debris_rate(rate), Overrides::default()).unwrap();
+        let scene = Scene::resolve(&plan.nominal).unwrap();
+        let found = Auditor::new(&plan, Isa::best(), &plan.grid).audit(&scene);
+        assert_eq!(found.is_ok(), is_within, "{rate}: {found:?}");
+        assert!(is_within || matches!(found, Err(NoAudit::Limit { units }) if units > 16_384.0));
+    }
     for (rate, is_audited) in [(100.0, true), (1e7, false)] {
         scratch.file("fast.toml", &with_debris_rate(rate));
         scratch.prints("campaign fast.toml --out r --overwrite", 0);
-        let rows = &batches(&scratch.path("r/runs/part-000000.parquet"))[0];
+        let rows = &scratch.table("r/runs/part-000000.parquet");
         let reasons = rows.column_by_name(AUDIT_REASON).unwrap().as_string::<i32>();
         let errors = rows.column_by_name("audit_state_error").unwrap().as_primitive::<Float64Type>();
         for row in 0..6 {
@@ -41,18 +48,6 @@ fn an_audit_has_a_limit() {
             let said = scratch.prints("simulate fast.toml --audit", 0);
             assert!(said.contains("sample 0 has no audit: the debris turns for"), "{said}");
         }
-    }
-}
-
-/// Law: the limit is of the debris alone, and below it nothing is refused.
-#[test]
-fn the_limit_is_of_units_of_time() {
-    for (rate, is_within) in [(8000.0, true), (40_000.0, false)] {
-        let plan = Plan::from_text("fast", &with_debris_rate(rate), Overrides::default()).unwrap();
-        let scene = Scene::resolve(&plan.nominal).unwrap();
-        let found = Auditor::new(&plan, Isa::best(), &plan.grid).audit(&scene);
-        assert_eq!(found.is_ok(), is_within, "{rate}: {found:?}");
-        assert!(is_within || matches!(found, Err(NoAudit::Limit { units }) if units > 16_384.0));
     }
 }
 

@@ -5,7 +5,7 @@ use serde_json::Value;
 use spindrift::statistics::binomial::{lower_bound, upper_bound};
 
 use super::small_campaign::{campaign, folder};
-use crate::support::scratch_folder::{ScratchFolder, batches, floats};
+use crate::support::scratch_folder::{ScratchFolder, floats};
 
 /// Dispersed samples: all but the nominal one.
 const RUNS: usize = 599;
@@ -23,8 +23,7 @@ fn series(scratch: &ScratchFolder) -> (Vec<f64>, Vec<Vec<f64>>) {
 
 /// The requirement in the summary of a result.
 fn entry(scratch: &ScratchFolder, result: &str) -> Value {
-    let summary = std::fs::read(scratch.path(&format!("{result}/summary.json"))).unwrap();
-    serde_json::from_slice::<Value>(&summary).unwrap()["requirements"]["list"][0].clone()
+    scratch.summary(result)["requirements"]["list"][0].clone()
 }
 
 /// Runs the campaign with one requirement; its entry in the summary.
@@ -127,7 +126,7 @@ fn all_times_are_those_of_each_run() {
     let tables: Vec<_> =
         (1..=RUNS).map(|sample| scratch.table(&format!("series/trajectories/sample-{sample:06}.parquet"))).collect();
     let times = floats(&tables[0], "time_s");
-    let plain = scratch.part_files("series").iter().flat_map(|file| batches(file)).collect::<Vec<_>>();
+    let plain = scratch.rows("series");
     let mut seen = Vec::new();
     // rounding errors are largest at another time in each run
     for (series, sides) in [("energy_error", &[true, false][..]), ("spin_axis_angle_rad", &[true])] {
@@ -168,7 +167,7 @@ fn all_times_are_those_of_each_run() {
                 let named = (&found["verdict"], &found["violations"], &found["band"]["at_all_times"]);
                 assert_eq!(named, (&Value::from("FAIL"), &Value::from(RUNS - within), &Value::from(true)), "{found}");
                 let column = found["observable"].as_str().unwrap();
-                let rows = scratch.part_files("all").iter().flat_map(|file| batches(file)).collect::<Vec<_>>();
+                let rows = scratch.rows("all");
                 let shown: Vec<f64> = rows.iter().flat_map(|rows| floats(rows, column)).skip(1).collect();
                 assert!(shown.iter().zip(&runs).all(|(shown, run)| *shown == beyond(run)), "{column}");
                 // without the column a row is as it was

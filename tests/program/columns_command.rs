@@ -3,7 +3,7 @@
 use spindrift::observables::{Group, table};
 
 use super::small_campaign::folder;
-use crate::support::scratch_folder::{ScratchFolder, batches};
+use crate::support::scratch_folder::ScratchFolder;
 
 /// Law: without a campaign every column of the table is there once, with unit and meaning, under its group; with a group, those alone.
 #[test]
@@ -65,7 +65,7 @@ fn a_new_file_runs() {
 fn the_columns_of_a_campaign_are_those_of_its_rows() {
     let scratch = folder("own-columns");
     scratch.prints("campaign small.toml --samples 10 --audit 1 --out r", 0);
-    let rows = &batches(&scratch.path("r/runs/part-000000.parquet"))[0];
+    let rows = &scratch.table("r/runs/part-000000.parquet");
     let names: Vec<String> = rows.schema().fields().iter().map(|field| field.name().clone()).collect();
     let text = scratch.prints("columns --campaign small.toml", 0);
     let shown: Vec<&str> = text.lines().filter_map(|line| line.strip_prefix("  ")?.split_whitespace().next()).collect();

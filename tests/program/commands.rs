@@ -1,13 +1,11 @@
 //! `spindrift sample`, `check`, and what all commands share: bad input, a closed pipe.
 
 use std::fs;
-use std::process::{Command, Stdio};
-
-use arrow_array::RecordBatch;
+use std::process::Stdio;
 
 use super::small_campaign::{NEGATIVE_WALLS, campaign, campaign_without_debris, folder};
 use crate::support::campaigns::SPIN_DISPERSION;
-use crate::support::scratch_folder::{batches, floats};
+use crate::support::scratch_folder::floats;
 
 /// Law: `sample` gives the samples of the campaign, in both formats, and says which of them are invalid.
 #[test]
@@ -21,14 +19,13 @@ fn sample_draws_the_rows_of_the_campaign() {
         assert!(said.contains(expected), "{expected} in:\n{said}");
     }
     scratch.prints("sample thin.toml --out s.parquet --plot s.png", 0);
-    let text = fs::read_to_string(scratch.path("s.csv")).unwrap();
+    let text = scratch.text("s.csv");
     let names: Vec<&str> = text.lines().next().unwrap().split(',').collect();
     assert_eq!(names[..3], ["sample_id", "status", "initial_angular_velocity_x_rad_s"]);
     assert_eq!(text.lines().count(), 601);
-    let parquet = &batches(&scratch.path("s.parquet"))[0];
+    let parquet = &scratch.table("s.parquet");
     scratch.prints("campaign thin.toml --out r", 1);
-    let rows: Vec<RecordBatch> =
-        (0..3).flat_map(|part| batches(&scratch.path(&format!("r/runs/part-{part:06}.parquet")))).collect();
+    let rows = scratch.rows("r");
     // the last columns are the mass properties of what was drawn
     assert_eq!(names[names.len() - 7..][..2], ["mass_kg", "center_of_mass_x_m"]);
     for name in &names[2..names.len() - 7] {
@@ -42,7 +39,7 @@ fn sample_draws_the_rows_of_the_campaign() {
     }
     let invalid = text.lines().filter(|line| line.contains(",invalid_sample,")).count();
     assert!((100..300).contains(&invalid), "a third is thinner than nothing: {invalid}");
-    assert!(fs::read_to_string(scratch.path("s.svg")).unwrap().contains("Rank correlation"));
+    assert!(scratch.text("s.svg").contains("Rank correlation"));
     assert!(fs::read(scratch.path("s.png")).unwrap().starts_with(b"\x89PNG"));
     let statuses: Vec<&str> = text.lines().skip(1).map(|line| line.split(',').nth(1).unwrap()).collect();
     let [mass, a, b, c] = [
@@ -153,7 +150,7 @@ fn check_shows_magnitudes_and_implausible_numbers() {
     let (below, rates) = row("|initial.angular_velocity_rad_s|");
     assert_eq!(below, above + 1, "{said}");
     scratch.prints("sample more.toml --out drawn.csv", 0);
-    let table = fs::read_to_string(scratch.path("drawn.csv")).unwrap();
+    let table = scratch.text("drawn.csv");
     let names: Vec<&str> = table.lines().next().unwrap().split(',').collect();
     let place = ["x", "y", "z"].map(|axis| {
         let name = format!("initial_angular_velocity_{axis}_rad_s");
@@ -222,19 +219,13 @@ fn bad_input_ends_with_code_2_and_says_everything() {
 #[cfg(unix)]
 fn a_closed_pipe_is_no_panic() {
     let scratch = folder("pipe");
-    for arguments in [vec!["simulate", "small.toml"], vec!["check", "small.toml"], vec!["--help"]] {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_spindrift"))
-            .args(&arguments)
-            .current_dir(&scratch.0)
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
+    for arguments in ["simulate small.toml", "check small.toml", "--help"] {
+        let mut child = scratch.command(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
         drop(child.stdout.take());
         let output = child.wait_with_output().unwrap();
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert!(!said.contains("panicked"), "{arguments:?}: {said}");
-        assert_eq!(output.status.code(), Some(0), "{arguments:?}: {said}");
+        assert!(!said.contains("panicked"), "{arguments}: {said}");
+        assert_eq!(output.status.code(), Some(0), "{arguments}: {said}");
     }
 }
 
@@ -249,7 +240,7 @@ fn a_file_of_the_current_folder_comes_first() {
         let said = scratch.prints(&format!("check {name}"), 0);
         assert!(said.contains(&line), "check {name}, {seed}: {said}");
         scratch.prints(&format!("campaign {name} --samples 3 --out r{seed}{name} --no-report"), 0);
-        let plan = fs::read_to_string(scratch.path(&format!("r{seed}{name}/plan.toml"))).unwrap();
+        let plan = scratch.text(&format!("r{seed}{name}/plan.toml"));
         assert!(plan.contains(&line), "campaign {name}, {seed}: {plan}");
     };
     scratch.file("campaigns/x.toml", &with_seed(101));
@@ -280,7 +271,7 @@ fn a_figure_of_samples_is_without_the_nominal_one() {
     }
     let figure = |name: &str, options: &str| {
         scratch.prints(&format!("sample {name}.toml --plot {name}.svg {options}"), 0);
-        let svg = fs::read_to_string(scratch.path(&format!("{name}.svg"))).unwrap();
+        let svg = scratch.text(&format!("{name}.svg"));
         let (notes, lines): (Vec<_>, Vec<_>) =
             svg.lines().map(str::to_owned).partition(|line| line.starts_with("nominal -"));
         assert_eq!(notes.len(), 2, "both nominal values are far left of what is drawn");

@@ -69,12 +69,11 @@ fn exit_codes() {
 fn the_acceptance_campaign_has_every_verdict() {
     let scratch = folder("acceptance");
     let said = scratch.says("campaign", "acceptance.toml", "--out r --junit junit.xml", 3);
-    let summary: serde_json::Value =
-        serde_json::from_str(&fs::read_to_string(scratch.path("r/summary.json")).expect("a summary")).expect("JSON");
+    let summary: serde_json::Value = scratch.summary("r");
     let list = summary["requirements"]["list"].as_array().expect("a list");
     let verdicts: Vec<&str> = list.iter().filter_map(|one| one["verdict"].as_str()).collect();
     assert_eq!(verdicts, ["PASS", "FAIL", "UNDECIDED"]);
-    let xml = fs::read_to_string(scratch.path("junit.xml")).expect("a file");
+    let xml = scratch.text("junit.xml");
     assert!(xml.contains("tests=\"4\" failures=\"1\" errors=\"1\""), "{xml}");
     for one in list {
         let (verdict, sentence) =

@@ -3,7 +3,6 @@
 use std::fs;
 
 use super::small_campaign::{campaign, folder};
-use crate::support::scratch_folder::batches;
 use arrow_array::Array;
 use arrow_array::cast::AsArray;
 
@@ -100,7 +99,7 @@ fn extremes_are_refused_or_answered() {
             }
             Some(0 | 1) => {
                 answered += 1;
-                let rows = &batches(&scratch.path(&format!("r{index}/runs/part-000000.parquet")))[0];
+                let rows = &scratch.table(&format!("r{index}/runs/part-000000.parquet"));
                 let statuses = rows.column_by_name("status").unwrap().as_string::<i32>();
                 assert_eq!(statuses.len(), 5, "{to}");
                 assert!(statuses.iter().flatten().all(|status| status != "internal_error"), "{to}");
@@ -149,7 +148,7 @@ fn what_is_out_of_reach_ends_at_once() {
             "{said}"
         );
         scratch.prints("campaign long.toml --out r --overwrite", 1);
-        let rows = &batches(&scratch.path("r/runs/part-000000.parquet"))[0];
+        let rows = &scratch.table("r/runs/part-000000.parquet");
         let statuses = rows.column_by_name("status").unwrap().as_string::<i32>();
         assert!(statuses.iter().all(|status| status == Some("step_limit")), "{to}: {statuses:?}");
     }
@@ -176,7 +175,7 @@ fn outliers_end_alone() {
     let said = scratch.prints("check outliers.toml", 0);
     assert!(said.contains("cannot be estimated: sample "), "{said}");
     scratch.prints("campaign outliers.toml --out r", 1);
-    let rows = &batches(&scratch.path("r/runs/part-000000.parquet"))[0];
+    let rows = &scratch.table("r/runs/part-000000.parquet");
     let [statuses, reasons] =
         ["status", "reason"].map(|name| rows.column_by_name(name).unwrap().as_string::<i32>().clone());
     let limited: Vec<usize> = (0..40).filter(|row| statuses.value(*row) == "step_limit").collect();

@@ -3,12 +3,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
-use spindrift::run::Status;
-use spindrift::storage::disk::Disk;
-use spindrift::storage::rows_reader::RowsReader;
+use arrow_array::RecordBatch;
 
 use super::small_campaign::{NEGATIVE_WALLS, campaign_without_debris, folder, mixed_failures, table};
-use crate::support::scratch_folder::{ScratchFolder, column, ended};
+use crate::support::scratch_folder::{ScratchFolder, column, contents, ended};
 
 /// The campaign with a method whose steps depend on the sample; so few are allowed that some 7% of the runs do not end.
 fn limited(max_steps: u64) -> String {
@@ -19,38 +17,11 @@ fn limited(max_steps: u64) -> String {
     text.replace(from, &to)
 }
 
-/// Every file below a folder with its content.
-fn contents(scratch: &ScratchFolder, result: &str) -> BTreeMap<String, Vec<u8>> {
-    let root = scratch.path(result);
-    let mut found = BTreeMap::new();
-    let mut folders = vec![root.clone()];
-    while let Some(folder) = folders.pop() {
-        for path in fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()) {
-            if path.is_dir() {
-                folders.push(path);
-            } else {
-                let name = path.strip_prefix(&root).unwrap().to_string_lossy().into_owned();
-                found.insert(name, fs::read(&path).unwrap());
-            }
-        }
-    }
-    found
-}
-
-/// Status and the bits of all numbers of every row, by sample.
-fn rows(scratch: &ScratchFolder, result: &str) -> BTreeMap<u64, (Status, Vec<u64>)> {
-    let reader = RowsReader::new(&Disk, scratch.part_files(result));
-    let mut found = BTreeMap::new();
-    for part in (0..).map_while(|index| reader.part(index)) {
-        let part = part.unwrap();
-        let columns: Vec<Vec<f64>> = part.names().iter().filter_map(|name| part.numbers(name).ok()).collect();
-        assert!(columns.len() > 50);
-        for (row, (sample, status)) in part.samples().unwrap().into_iter().zip(part.statuses().unwrap()).enumerate() {
-            let bits = columns.iter().map(|column| column[row].to_bits()).collect();
-            assert!(found.insert(sample.0, (status, bits)).is_none(), "sample {sample} is there twice");
-        }
-    }
-    found
+/// The row of each sample.
+fn rows(scratch: &ScratchFolder, result: &str) -> BTreeMap<u64, (String, RecordBatch)> {
+    let batches = scratch.rows(result);
+    let rows = batches.iter().flat_map(|batch| (0..batch.num_rows()).map(|row| batch.slice(row, 1)));
+    ended(&batches).into_iter().zip(rows).map(|((sample, status), row)| (sample, (status, row))).collect()
 }
 
 /// A folder with results of 1500 samples: `tight`, with some that fail, and `all` under the plan with enough steps.
@@ -68,8 +39,7 @@ fn results(name: &str) -> ScratchFolder {
 #[test]
 fn failed_samples_run_under_another_plan() {
     let scratch = results("failed-again");
-    let failed: Vec<u64> =
-        rows(&scratch, "tight").iter().filter(|(_, row)| row.0 != Status::Done).map(|(id, _)| *id).collect();
+    let failed: Vec<u64> = rows(&scratch, "tight").iter().filter(|(_, row)| row.0 != "ok").map(|(id, _)| *id).collect();
     assert!((20..750).contains(&failed.len()), "{} failed", failed.len());
     let said = scratch.prints("campaign enough.toml --only-failed-of tight --out again", 0);
     assert!(said.contains(&format!("{} samples", failed.len())), "{said}");
@@ -93,10 +63,10 @@ fn failed_samples_run_under_another_plan() {
         );
     }
     scratch.prints("finish shards", 0);
-    assert!(contents(&scratch, "shards") == contents(&scratch, "again"));
+    assert!(contents(&scratch.path("shards")) == contents(&scratch.path("again")));
     fs::remove_file(scratch.path("shards/runs/part-000000.parquet")).unwrap();
     scratch.prints("verify shards --repair", 0);
-    assert!(contents(&scratch, "shards") == contents(&scratch, "again"));
+    assert!(contents(&scratch.path("shards")) == contents(&scratch.path("again")));
     // no interval of a population
     let require = "\n[[require]]\nobservable = \"energy_error_max\"\nfraction = 0.5\nat_most = 1e-30\n";
     scratch.file("required.toml", &(limited(10_000) + require));
@@ -111,7 +81,7 @@ fn the_same_plan_fails_the_same_way() {
     let scratch = results("failed-same");
     scratch.prints("campaign tight.toml --only-failed-of tight --out same", 1);
     let (same, before) = (rows(&scratch, "same"), rows(&scratch, "tight"));
-    assert!(same.iter().all(|(sample, row)| row.0 != Status::Done && row == &before[sample]));
+    assert!(same.iter().all(|(sample, row)| row.0 != "ok" && row == &before[sample]));
     // another choice of samples is another result
     scratch.file("tighter.toml", &limited(38));
     scratch.prints("campaign tighter.toml --samples 1500 --seed 9 --out tighter", 1);
@@ -137,7 +107,7 @@ fn the_same_plan_fails_the_same_way() {
 #[test]
 fn the_first_failure_ends_the_campaign() {
     let scratch = results("fail-fast");
-    let first = *rows(&scratch, "tight").iter().find(|(_, row)| row.0 != Status::Done).unwrap().0;
+    let first = *rows(&scratch, "tight").iter().find(|(_, row)| row.0 != "ok").unwrap().0;
     let command = "campaign tight.toml --samples 1500 --seed 9 --out r --threads 1";
     for _ in 0..2 {
         let said = scratch.prints(&format!("{command} --fail-fast"), 1);
@@ -149,10 +119,10 @@ fn the_first_failure_ends_the_campaign() {
     scratch.prints("simulate r/plan.toml --sample 0", 0);
     scratch.prints(&format!("simulate r/plan.toml --sample {first}"), 1);
     scratch.prints(command, 1);
-    assert!(contents(&scratch, "r") == contents(&scratch, "tight"));
+    assert!(contents(&scratch.path("r")) == contents(&scratch.path("tight")));
     // where no run fails it changes nothing
     scratch.prints("campaign enough.toml --samples 1500 --seed 9 --out whole --fail-fast", 0);
-    assert!(contents(&scratch, "whole") == contents(&scratch, "all"));
+    assert!(contents(&scratch.path("whole")) == contents(&scratch.path("all")));
 }
 
 /// Law: whatever a run failed with, it is run again, and no run that is ok is.

@@ -2,9 +2,8 @@
 //! completes the dataset to the same bytes.
 
 use std::collections::BTreeMap;
-use std::fs;
-use std::io;
 use std::path::PathBuf;
+use std::{fs, io};
 
 use spindrift::campaign::Plan;
 use spindrift::storage::disk::Disk;
@@ -31,10 +30,10 @@ fn fail_everywhere(scratch: &ScratchFolder, plan: &Plan, has_page: bool, (persis
     make(counted, &scratch.path("whole"), plan, has_page).unwrap();
     let whole = contents(&scratch.path("whole"));
     fs::remove_dir_all(scratch.path("whole")).unwrap();
-    for name in ["/statistics.parquet", "/sensitivity.parquet", "/bands.parquet", "/summary.json", "/_SUCCESS"] {
+    for name in ["statistics.parquet", "sensitivity.parquet", "bands.parquet", "summary.json", "_SUCCESS"] {
         assert!(whole.contains_key(name), "{name}");
     }
-    assert_eq!(whole.contains_key("/report.html"), has_page);
+    assert_eq!(whole.contains_key("report.html"), has_page);
     assert_eq!(whole.keys().filter(|name| name.starts_with("trajectories/")).count(), 2);
     let operations = counted.done().len() as u64;
     assert!(operations > 80, "{operations} operations");
@@ -138,16 +137,16 @@ fn what_is_extended_is_not_marked_complete() {
     };
     let (ended, counted, before, whole) = start("whole", u64::MAX, io::ErrorKind::Other);
     ended.unwrap();
-    assert!(before != whole && before.contains_key("/_SUCCESS") && whole.contains_key("/_SUCCESS"));
+    assert!(before != whole && before.contains_key("_SUCCESS") && whole.contains_key("_SUCCESS"));
     let (mut without, operations) = (0, counted.done().len());
     for fails in (0..operations).step_by(3) {
         let (ended, _, before, now) = start("r", fails as u64, io::ErrorKind::StorageFull);
         assert!(ended.is_err(), "operation {fails}");
-        let is_marked = now.contains_key("/_SUCCESS");
+        let is_marked = now.contains_key("_SUCCESS");
         without += usize::from(!is_marked);
         // the manifest loses its last line first: what it lists is then still everything
         let content = |files: &BTreeMap<String, Vec<u8>>| -> BTreeMap<String, Vec<u8>> {
-            let is_content = |name: &str| name != "/manifest.jsonl" && !name.ends_with(".tmp");
+            let is_content = |name: &str| name != "manifest.jsonl" && !name.ends_with(".tmp");
             files.clone().into_iter().filter(|(name, _)| is_content(name)).collect()
         };
         let is_whole = [&before, &whole].iter().any(|files| content(files) == content(&now));

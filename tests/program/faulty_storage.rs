@@ -21,6 +21,7 @@ use spindrift::workflow::finishing::{Finishing, complete};
 use spindrift::workflow::{Outputs, Quiet, Session, WorkflowError as Failure};
 
 use super::small_campaign::campaign_without_debris;
+pub use crate::support::scratch_folder::contents;
 
 /// A file that a manifest lists.
 #[derive(Debug)]
@@ -366,20 +367,6 @@ pub fn on(
 pub fn reason(failure: &Failure) -> &str {
     let (Failure::Files(reason) | Failure::Input(reason)) = failure;
     reason
-}
-
-/// The files of a dataset by their names: `runs/part-000000.parquet`, `/plan.toml`.
-pub fn contents(root: &Path) -> BTreeMap<String, Vec<u8>> {
-    let mut found = BTreeMap::new();
-    for folder in ["", "runs", "bands", "trajectories", "_delta_log", "versions", "data"] {
-        for entry in fs::read_dir(root.join(folder)).into_iter().flatten().map(Result::unwrap) {
-            if entry.path().is_file() {
-                let name = format!("{folder}/{}", entry.file_name().to_string_lossy());
-                found.insert(name, fs::read(entry.path()).unwrap());
-            }
-        }
-    }
-    found
 }
 
 /// `samples` samples in parts of 256; few columns, since the work is done a thousand times.

@@ -6,7 +6,7 @@ use std::process::Command;
 
 use super::small_campaign::{campaign, folder};
 use crate::support::campaigns::FUSELAGE;
-use crate::support::scratch_folder::ScratchFolder;
+use crate::support::scratch_folder::{ScratchFolder, contents};
 
 /// A campaign whose samples are the rows of `table.csv`.
 fn table_campaign(scratch: &ScratchFolder) {
@@ -48,7 +48,7 @@ fn what_is_no_file_of_numbers_is_refused_by_what_it_is() {
     let scratch = folder("numbers");
     table_campaign(&scratch);
     scratch.prints("check table.toml", 0);
-    let text = fs::read_to_string(scratch.path("table.toml")).unwrap();
+    let text = scratch.text("table.toml");
     assert!(Command::new("mkfifo").arg(scratch.path("pipe.csv")).status().unwrap().success());
     fs::create_dir(scratch.path("folder.csv")).unwrap();
     std::os::unix::fs::symlink("/dev/zero", scratch.path("zero.csv")).unwrap();
@@ -168,7 +168,19 @@ fn planted_links_are_not_followed() {
     symlink("../precious", scratch.path("r/runs")).unwrap();
     let said = scratch.prints("campaign small.toml --samples 3 --out r --overwrite", 4);
     assert!(said.contains("`r` contains `runs`, which is not part of a result"), "{said}");
-    assert_eq!(fs::read_to_string(scratch.path("precious/file")).unwrap(), "precious");
+    // where nothing is yet, and where the rows are those of another result
+    fs::create_dir_all(scratch.path("new/runs")).unwrap();
+    for name in ["manifest.jsonl.tmp", "plan.toml.tmp", "runs/part-000000.parquet.tmp"] {
+        symlink(scratch.path("precious/file"), scratch.path("new").join(name)).unwrap();
+    }
+    let said = scratch.prints("campaign small.toml --samples 3 --out new", 4);
+    assert!(said.contains("not part of a result"), "{said}");
+    fs::create_dir(scratch.path("l")).unwrap();
+    symlink("../runs", scratch.path("l/runs")).unwrap();
+    let before = contents(&scratch.path("runs"));
+    scratch.prints("campaign small.toml --samples 3 --seed 5 --out l", 4);
+    assert!(contents(&scratch.path("runs")) == before);
+    assert_eq!(scratch.text("precious/file"), "precious");
     assert_eq!(fs::read_dir(scratch.path("precious")).unwrap().count(), 1);
 }
 

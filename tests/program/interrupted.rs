@@ -1,15 +1,13 @@
 //! Campaigns that are killed, stopped by signals, divided into shards, damaged or made longer: the dataset is always that of one
 //! uninterrupted process, byte for byte.
 
-use std::collections::BTreeMap;
 use std::fs;
-use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
 use super::faulty_storage::listed_files;
 use super::small_campaign::{campaign, folder};
-use crate::support::scratch_folder::ScratchFolder;
+use crate::support::scratch_folder::{ScratchFolder, contents};
 
 /// Kills of the short version, which runs with all tests.
 const KILLS: u32 = 100;
@@ -19,24 +17,6 @@ const SAMPLES: u64 = 5_000;
 const LATEST_MS: u64 = 90;
 /// After so many kills a campaign may end: on a slow machine its last step alone takes longer than [`LATEST_MS`].
 const OF_ONE: u32 = 12;
-
-/// Every file below `root` with its content, by its name.
-pub fn contents(root: &Path) -> BTreeMap<String, Vec<u8>> {
-    let mut found = BTreeMap::new();
-    let mut folders = vec![root.to_owned()];
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(&folder).unwrap().map(Result::unwrap) {
-            let path = entry.path();
-            if path.is_dir() {
-                folders.push(path);
-            } else {
-                let name = path.strip_prefix(root).unwrap().to_string_lossy().into_owned();
-                found.insert(name, fs::read(&path).unwrap());
-            }
-        }
-    }
-    found
-}
 
 /// Checks that two datasets are the same files with the same bytes.
 pub fn assert_same(scratch: &ScratchFolder, one: &str, other: &str) {
@@ -49,9 +29,7 @@ pub fn assert_same(scratch: &ScratchFolder, one: &str, other: &str) {
 
 /// Starts the program in the background.
 pub fn start(scratch: &ScratchFolder, arguments: &str) -> Child {
-    let mut program = Command::new(env!("CARGO_BIN_EXE_spindrift"));
-    let program = program.args(arguments.split_whitespace()).current_dir(&scratch.0);
-    program.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
+    scratch.command(arguments).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
 }
 
 /// The files that the manifest of an interrupted result lists; each must be there whole.
@@ -107,33 +85,6 @@ fn a_thousand_kills() {
     kill_and_continue(10 * KILLS, 2);
 }
 
-/// Law: any number of shards, made in any order by any number of threads, finish to the bytes of one process.
-#[test]
-fn shards_are_the_campaign() {
-    let scratch = folder("shards");
-    scratch.prints("campaign small.toml --samples 5000 --out whole", 0);
-    for (shards, threads) in [(1, 2), (4, 1), (13, 3)] {
-        let out = format!("of{shards}");
-        for shard in (1..=shards).rev() {
-            if shard == 1 && shards > 1 {
-                let said = scratch.prints(&format!("finish {out}"), 4);
-                assert!(said.contains("missing") && said.contains("spindrift campaign"), "{said}");
-            }
-            let said = scratch.prints(
-                &format!("campaign small.toml --samples 5000 --threads {threads} --shard {shard}/{shards} --out {out}"),
-                0,
-            );
-            assert!(said.contains(&format!("spindrift finish {out}")), "{said}");
-        }
-        scratch.prints(&format!("finish {out}"), 0);
-        assert_same(&scratch, &out, "whole");
-        scratch.prints(&format!("verify {out} --fraction 1"), 0);
-        scratch.prints(&format!("finish {out}"), 0);
-    }
-    let said = scratch.prints("campaign small.toml --shard 0/3", 2);
-    assert!(said.contains("1 <= K <= N"), "{said}");
-}
-
 /// Law: more samples add parts and keep the rows; the result is that of a campaign of so many samples.
 #[test]
 fn a_finished_campaign_is_extended() {
@@ -174,58 +125,8 @@ fn other_questions_of_the_same_rows_run_nothing() {
     let said = scratch.prints("campaign strict.toml --out r", 3);
     assert!(said.contains("600 samples are there already, 0 to run") && said.contains("FAIL"), "{said}");
     assert_eq!(scratch.parts("r"), before);
-    assert!(fs::read_to_string(scratch.path("r/plan.toml")).unwrap().contains("strict"));
+    assert!(scratch.text("r/plan.toml").contains("strict"));
     scratch.prints("campaign strict.toml --out r", 3);
-}
-
-/// Law: a part that was truncated, emptied, swapped, changed in one bit or removed is found by `verify` and by the campaign's command, and
-/// made again.
-#[test]
-fn damaged_parts_are_found_and_made_again() {
-    let scratch = folder("damage");
-    scratch.prints("campaign small.toml --out whole", 0);
-    let part = |number: u32| scratch.path(&format!("r/runs/part-{number:06}.parquet"));
-    let bytes = |number: u32| fs::read(scratch.path(&format!("whole/runs/part-{number:06}.parquet"))).unwrap();
-    /// A way to damage a result.
-    type Damage<'a> = Box<dyn Fn() + 'a>;
-    let damages: [(&str, Damage<'_>); 6] = [
-        ("truncated", Box::new(|| fs::write(part(1), &bytes(1)[..500]).unwrap())),
-        ("emptied", Box::new(|| fs::write(part(0), b"").unwrap())),
-        (
-            "swapped",
-            Box::new(|| {
-                fs::write(part(0), bytes(1)).unwrap();
-                fs::write(part(1), bytes(0)).unwrap();
-            }),
-        ),
-        (
-            "one bit",
-            Box::new(|| {
-                let mut bytes = bytes(2);
-                let middle = bytes.len() / 2;
-                bytes[middle] ^= 1;
-                fs::write(part(2), bytes).unwrap();
-            }),
-        ),
-        ("removed", Box::new(|| fs::remove_file(part(1)).unwrap())),
-        ("bands", Box::new(|| fs::write(scratch.path("r/bands/part-000001.bands"), b"x").unwrap())),
-    ];
-    let files = contents(&scratch.path("whole"));
-    for (name, damage) in damages {
-        for repair in ["verify r --repair", "campaign small.toml --out r"] {
-            let _ = fs::remove_dir_all(scratch.path("r"));
-            for (name, bytes) in &files {
-                let path = scratch.path("r").join(name);
-                fs::create_dir_all(path.parent().unwrap()).unwrap();
-                fs::write(path, bytes).unwrap();
-            }
-            damage();
-            let said = scratch.prints("verify r", 4);
-            assert!(said.contains("part-00000"), "{name}: {said}");
-            scratch.prints(repair, 0);
-            assert_same(&scratch, "r", "whole");
-        }
-    }
 }
 
 /// Law: whichever line of the manifest is damaged, it is said once, and the result is made whole.
@@ -233,7 +134,7 @@ fn damaged_parts_are_found_and_made_again() {
 fn a_damaged_manifest_is_recovered() {
     let scratch = folder("manifest");
     scratch.prints("campaign small.toml --out whole", 0);
-    let text = fs::read_to_string(scratch.path("whole/manifest.jsonl")).unwrap();
+    let text = scratch.text("whole/manifest.jsonl");
     let lines = text.lines().count();
     for line in 1..lines {
         let mut changed: Vec<String> = text.lines().map(str::to_owned).collect();
@@ -316,29 +217,14 @@ fn the_old_result_stays_until_the_new_one_is_complete() {
     fs::create_dir(scratch.path("other")).unwrap();
     scratch.file("other/plan.toml", "a plan of another program");
     scratch.prints("campaign small.toml --overwrite --out other", 4);
-    assert_eq!(fs::read_to_string(scratch.path("other/plan.toml")).unwrap(), "a plan of another program");
+    assert_eq!(scratch.text("other/plan.toml"), "a plan of another program");
 }
 
-/// Law: links that somebody planted are not followed.
+/// Sends a signal by the shell's own command: a program of that name is not on every machine.
 #[cfg(unix)]
-#[test]
-fn planted_links_are_not_followed() {
-    let scratch = folder("links");
-    scratch.file("precious", "precious");
-    fs::create_dir_all(scratch.path("r/runs")).unwrap();
-    for name in ["r/manifest.jsonl.tmp", "r/plan.toml.tmp", "r/runs/part-000000.parquet.tmp"] {
-        std::os::unix::fs::symlink(scratch.path("precious"), scratch.path(name)).unwrap();
-    }
-    let said = scratch.prints("campaign small.toml --out r", 4);
-    assert!(said.contains("not part of a result"), "{said}");
-    assert_eq!(fs::read_to_string(scratch.path("precious")).unwrap(), "precious");
-    // the folder of runs as a link to another result
-    scratch.prints("campaign small.toml --out victim", 0);
-    let before = contents(&scratch.path("victim"));
-    fs::create_dir(scratch.path("l")).unwrap();
-    std::os::unix::fs::symlink(scratch.path("victim/runs"), scratch.path("l/runs")).unwrap();
-    scratch.prints("campaign small.toml --seed 5 --out l", 4);
-    assert_eq!(contents(&scratch.path("victim")), before);
+pub fn send(signal: &str, process: u32) {
+    let command = format!("kill -s {signal} {process}");
+    assert!(Command::new("sh").args(["-c", &command]).status().unwrap().success());
 }
 
 /// Whether this process ignores a signal.
@@ -366,8 +252,7 @@ fn signals_stop_and_the_command_continues() {
         while committed(&scratch, "r") == before && child.try_wait().unwrap().is_none() {
             std::thread::sleep(Duration::from_millis(5));
         }
-        let kill = format!("kill -s {signal} {}", child.id());
-        assert!(Command::new("sh").args(["-c", &kill]).status().unwrap().success());
+        send(signal, child.id());
         let ended = child.wait().unwrap();
         assert_eq!(ended.code(), Some(code), "SIG{signal}");
         assert!(committed(&scratch, "r") > before);

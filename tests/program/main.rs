@@ -14,7 +14,6 @@ mod columns_command;
 mod commands;
 mod compare_command;
 mod control_laws;
-mod csv_digits;
 mod derived_files;
 mod exit_codes;
 mod extremes;

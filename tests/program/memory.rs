@@ -54,13 +54,13 @@ fn sample_holds_no_draws() {
     let is_flat = |[few, many]: &[u64; 2]| *many < few + 8_000;
     let [few, many] = peaks(|command| draw([100_000, 500_000][command]), is_flat);
     assert!(is_flat(&[few, many]), "kB: {few} for 1e5 samples, {many} for 5e5");
-    assert!(fs::read_to_string(scratch.0.join("said.txt")).unwrap().contains("of 499999 draws"));
+    assert!(scratch.text("said.txt").contains("of 499999 draws"));
     let written = peak(&scratch, &format!("sample {small} --samples 400000 --out s.parquet"));
     assert!(written < few + 40_000, "kB: {written}");
     // a figure shows the first 100,000 samples, 2e6 numbers of some 100 bytes; all of them would take 1 GB
     let plotted = peak(&scratch, &format!("sample {small} --samples 500000 --plot s.svg"));
     assert!(plotted < few + 400_000, "kB: {plotted}");
-    assert!(fs::read_to_string(scratch.0.join("s.svg")).unwrap().contains("first "));
+    assert!(scratch.text("s.svg").contains("first "));
 }
 
 /// Law: the memory of a campaign does not grow with its samples, from where parts have their usual size: rows, bands and counts of parts are

@@ -2,35 +2,24 @@
 //! attitude in a campaign. Counter-tests: another nominal run, and none.
 
 use std::collections::HashMap;
-use std::path::Path;
 
-use spindrift::campaign::{Overrides, Plan};
+use spindrift::campaign::Plan;
 use spindrift::ensemble::single::SingleRun;
 use spindrift::math::Isa;
 use spindrift::math::vector::{conjugate, hamilton};
 use spindrift::observables::nominal_attitude::NominalAttitude;
-use spindrift::observables::request::wheel_names;
-use spindrift::observables::{Group, Groups, Observer, Request};
-use spindrift::run::{Grid, LocalErrors, Outcome, StateField, StateFields, StateTable, Status, StepStatistics};
+use spindrift::observables::{Group, Groups};
+use spindrift::run::{Grid, Outcome, StateField, StateTable};
 use spindrift::sampling::SampleId;
-use spindrift::scene::{Actuated, Scene};
+use spindrift::scene::Scene;
 
+use super::observed_tables::{done, motion_table, request, rotation};
 use crate::support::golden::Golden;
+use crate::support::observed::observed;
+use crate::support::plans::shipped;
 
 /// Some roundings of numbers of size one; angles near zero and half a turn are as exact.
 const ROUNDING: f64 = 4e-15;
-
-fn request() -> Request {
-    let groups = Groups::NONE.with(Group::Motion);
-    Request {
-        groups,
-        debris: true,
-        actuated: Actuated::NONE,
-        constrained: false,
-        wheels: wheel_names(&["w1", "w2"]),
-        windows: spindrift::observables::window::NO_WINDOWS,
-    }
-}
 
 /// Attitude, omega, wheel rates, position of c, position of the debris at a time.
 type State = ([f64; 4], [f64; 3], [f64; 2], [f64; 3], [f64; 3]);
@@ -41,16 +30,12 @@ fn grid() -> Grid {
 
 fn table(motion: &dyn Fn(f64) -> State) -> StateTable {
     let grid = grid();
-    let constrained =
-        |field: &StateField| matches!(field, StateField::Dcm | StateField::Residuals | StateField::KineticEnergies);
-    let fields =
-        StateField::ALL.into_iter().filter(|field| !constrained(field)).fold(StateFields::NONE, StateFields::with);
-    let mut table = StateTable::new(fields, 2, grid.points());
+    let mut table = motion_table(&grid, &|t| {
+        let (q, omega, rates, ..) = motion(t);
+        (q, omega, rates, [0.0; 3])
+    });
     for (point, time) in grid.times().iter().enumerate() {
-        let (q, omega, rates, own, debris) = motion(*time);
-        table.set(StateField::Attitude, point, q);
-        table.set(StateField::Rate, point, omega);
-        table.set(StateField::WheelRates, point, rates);
+        let (.., own, debris) = motion(*time);
         table.set(StateField::ComPosition, point, own);
         table.set(StateField::DebrisPosition, point, debris);
     }
@@ -59,41 +44,24 @@ fn table(motion: &dyn Fn(f64) -> State) -> StateTable {
 }
 
 fn outcome(points: usize) -> Outcome {
-    let effort = StepStatistics::default();
-    Outcome {
-        status: Status::Done,
-        time: 2.0,
-        points,
-        effort,
-        local_errors: LocalErrors::default(),
-        debris_errors: spindrift::run::LocalErrors::NONE,
-    }
+    done(points, 2.0)
 }
 
-fn row(scene: &Scene, nominal: Option<NominalAttitude>, motion: &dyn Fn(f64) -> State) -> HashMap<String, f64> {
-    let mut observer = Observer::new(request(), &grid()).with_nominal(nominal);
-    let mut rows: Vec<Vec<f64>> = Vec::new();
+fn row(scene: &Scene, nominal: Option<&NominalAttitude>, motion: &dyn Fn(f64) -> State) -> HashMap<String, f64> {
+    let request = request(Groups::NONE.with(Group::Motion), true, false);
+    let (table, outcome) = (table(motion), outcome(21));
+    let on = |isa| observed(isa, request, &grid(), scene, (&table, &outcome), nominal.cloned()).0;
+    let best = on(Isa::best());
     for isa in Isa::available() {
-        let mut row = vec![0.0; request().columns().len()];
-        observer.observe(isa, scene, &table(motion), &outcome(21), &mut row);
-        rows.push(row);
-    }
-    for (isa, row) in Isa::available().into_iter().zip(&rows) {
-        for ((column, a), b) in request().columns().iter().zip(row).zip(&rows[0]) {
-            assert!(a.to_bits() == b.to_bits(), "{} on {}: {a:e} {b:e}", column.quantity.name(), isa.name());
+        for (name, value) in on(isa) {
+            assert!(value.to_bits() == best[&name].to_bits(), "{name} on {}: {value:e}", isa.name());
         }
     }
-    request().columns().iter().map(|column| column.quantity.name().to_owned()).zip(rows.swap_remove(0)).collect()
+    best
 }
 
 fn scene() -> Scene {
     Scene::resolve(&Golden::load("table1").scene).expect("the report's scene")
-}
-
-/// A rotation by `angle` about the unit vector `axis`, as a quaternion.
-fn rotation(axis: [f64; 3], angle: f64) -> [f64; 4] {
-    let s = libm::sin(0.5 * angle);
-    [libm::cos(0.5 * angle), s * axis[0], s * axis[1], s * axis[2]]
 }
 
 #[track_caller]
@@ -148,24 +116,24 @@ fn attitudes_are_compared_with_the_nominal_run() {
     let state = |q: [f64; 4]| -> State { (q, [0.0; 3], [0.0; 2], [0.0; 3], [1.0, 0.0, 0.0]) };
     let nominal_motion =
         |t: f64| state(hamilton(rotation([0.6, 0.0, 0.8], 3.0 * t), rotation([0.0, 1.0, 0.0], 5.0 * t)));
-    let nominal = || NominalAttitude::of(&table(&nominal_motion), &outcome(21));
+    let nominal = NominalAttitude::of(&table(&nominal_motion), &outcome(21));
     for angle in [1e-9, 0.3, std::f64::consts::PI - 1e-6] {
         let turned = |t: f64| {
             let (q, ..) = nominal_motion(t);
             state(hamilton(q, rotation([0.48, 0.64, 0.6], angle * (1.0 - (t - 1.0).abs() * 0.25))))
         };
-        let found = row(&scene, Some(nominal()), &turned);
+        let found = row(&scene, Some(&nominal), &turned);
         near(found["attitude_from_nominal_max_rad"], angle);
         near(found["attitude_from_nominal_final_rad"], 0.75 * angle);
         // a quaternion and its negative are one attitude
         let negative = |t: f64| state(turned(t).0.map(|x| -x));
-        near(row(&scene, Some(nominal()), &negative)["attitude_from_nominal_max_rad"], angle);
+        near(row(&scene, Some(&nominal), &negative)["attitude_from_nominal_max_rad"], angle);
     }
-    near(row(&scene, Some(nominal()), &nominal_motion)["attitude_from_nominal_max_rad"], 0.0);
+    near(row(&scene, Some(&nominal), &nominal_motion)["attitude_from_nominal_max_rad"], 0.0);
     // unknown where there is no nominal run, or where it did not reach the points
     assert!(row(&scene, None, &nominal_motion)["attitude_from_nominal_max_rad"].is_nan());
     let short = NominalAttitude::of(&table(&nominal_motion), &outcome(20));
-    assert!(row(&scene, Some(short), &nominal_motion)["attitude_from_nominal_final_rad"].is_nan());
+    assert!(row(&scene, Some(&short), &nominal_motion)["attitude_from_nominal_final_rad"].is_nan());
 }
 
 /// Law: the line to the debris makes the angle with s3 that its construction says, at any distance.
@@ -194,8 +162,7 @@ fn the_debris_is_seen_at_its_angle() {
 /// the states of the two runs.
 #[test]
 fn a_campaign_compares_with_its_nominal_run() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns/spin_sweep.toml");
-    let plan = Plan::load(&path, Overrides::default()).expect("a shipped campaign is valid");
+    let plan = shipped("spin_sweep", None);
     assert!(!plan.groups.contains(&Group::Motion), "only where a file names it");
     let plan = Plan { groups: vec![Group::Motion], ..plan };
     let run = |sample| SingleRun::new(&plan, SampleId(sample), plan.grid.clone(), Isa::best()).expect("physical");

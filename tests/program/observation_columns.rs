@@ -5,8 +5,7 @@ use super::observed_tables::{Motion, done, free_row, golden_table, motion_table,
 use spindrift::math::Isa;
 use spindrift::math::vector::dcm_from_quaternion;
 use spindrift::observables::{Column, Group, Groups, Observer, Request, Series};
-use spindrift::run::{Grid, StateField, StateFields, StateTable};
-use spindrift::run::{LocalErrors, Outcome, Status, StepStatistics};
+use spindrift::run::{Grid, LocalErrors, Outcome, StateField, StateFields, StateTable, Status, StepStatistics};
 
 #[test]
 fn padding_leaves_no_trace() {
@@ -25,30 +24,6 @@ fn padding_leaves_no_trace() {
         }
         for (name, value) in free_row(&grid, &scene, &clean) {
             assert_eq!(free_row(&grid, &scene, &dirty)[&name].to_bits(), value.to_bits(), "{name}");
-        }
-    }
-}
-
-#[test]
-fn bits_depend_neither_on_the_instruction_set_nor_on_what_else_is_observed() {
-    let (golden, scene) = table1();
-    let (grid, table) = golden_table(&golden, &scene);
-    for (debris, actuated) in [(false, false), (true, true)] {
-        let reference = row(Isa::best(), request(Groups::ALL, debris, actuated), &grid, &scene, &table);
-        for isa in Isa::available() {
-            for groups in Group::ALL.map(|group| Groups::NONE.with(group)).into_iter().chain([Groups::ALL]) {
-                let request = request(groups, debris, actuated);
-                // a table with only the needed fields
-                let mut lean = StateTable::new(request.fields(), 2, grid.points());
-                for block in StateField::ALL.into_iter().filter(|block| request.fields().contains(*block)) {
-                    for component in 0..table.width(block) {
-                        lean.column_mut(block, component).copy_from_slice(table.column(block, component));
-                    }
-                }
-                for (name, value) in row(isa, request, &grid, &scene, &lean) {
-                    assert_eq!(value.to_bits(), reference[&name].to_bits(), "{name} on {}", isa.name());
-                }
-            }
         }
     }
 }

@@ -3,14 +3,13 @@
 use std::collections::HashMap;
 
 use crate::support::golden::Golden;
+use crate::support::observed;
 use spindrift::math::Isa;
 use spindrift::math::vector::{cross, dcm_from_quaternion, product, sum};
 use spindrift::observables::nominal_attitude::NominalAttitude;
-use spindrift::observables::request::wheel_names;
-use spindrift::observables::{Group, Groups, Observer, Request};
-use spindrift::run::{Grid, StateField, StateFields, StateTable};
-use spindrift::run::{LocalErrors, Outcome, Status, StepStatistics};
-use spindrift::scene::{Actuated, Scene};
+use spindrift::observables::{Group, Groups, Request};
+use spindrift::run::{Grid, LocalErrors, Outcome, StateField, StateFields, StateTable, Status, StepStatistics};
+use spindrift::scene::Scene;
 
 /// Energies and momenta of states that are rounded to f64: a few roundings of the state, doubled by squares, and some dozens of
 /// operations. Measured: 3.5e-16.
@@ -28,14 +27,7 @@ pub fn table1() -> (Golden, Scene) {
 
 /// What is observed of an unconstrained scene.
 pub fn request(groups: Groups, debris: bool, actuated: bool) -> Request {
-    Request {
-        groups,
-        debris,
-        actuated: if actuated { Actuated::ALL } else { Actuated::NONE },
-        constrained: false,
-        wheels: wheel_names(&["w1", "w2"]),
-        windows: spindrift::observables::window::NO_WINDOWS,
-    }
+    observed::request(groups, 2, debris, actuated, false)
 }
 
 /// The balances of a scene whose velocities are integrated: those of the null-space method, which has errors of linear momentum.
@@ -100,13 +92,9 @@ pub fn motion_table(grid: &Grid, motion: Motion<'_>) -> StateTable {
 
 /// The row of a table, by column name.
 pub fn row(isa: Isa, request: Request, grid: &Grid, scene: &Scene, table: &StateTable) -> HashMap<String, f64> {
-    let has_attitude = table.has(StateField::Attitude);
-    let nominal = has_attitude.then(|| NominalAttitude::of(table, &done(grid.points(), grid.duration())));
-    let mut observer = Observer::new(request, grid).with_nominal(nominal);
-    let columns = request.columns();
-    let mut row = vec![0.0; columns.len()];
-    observer.observe(isa, scene, table, &done(grid.points(), grid.duration()), &mut row);
-    columns.iter().map(|column| column.quantity.name().to_owned()).zip(row).collect()
+    let outcome = done(grid.points(), grid.duration());
+    let nominal = table.has(StateField::Attitude).then(|| NominalAttitude::of(table, &outcome));
+    observed::observed(isa, request, grid, scene, (table, &outcome), nominal).0
 }
 
 /// The row of a scene without debris and actuation.

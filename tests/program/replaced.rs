@@ -1,18 +1,17 @@
 //! A result that takes the place of another one: what the folder is, what is beside it, and every interruption.
 
 use std::collections::BTreeSet;
-use std::fs;
-use std::io;
 use std::path::Path;
+use std::{fs, io};
 
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::storage::claim::ClaimOptions;
 use spindrift::storage::disk::{Disk, Storage};
 
 use super::faulty_storage::{self, Fault, Faulty, Operation, make, make_with, plan, reason};
-use super::interrupted::{assert_same, contents, start};
+use super::interrupted::{assert_same, start};
 use super::small_campaign::{campaign_without_debris, folder};
-use crate::support::scratch_folder::ScratchFolder;
+use crate::support::scratch_folder::{ScratchFolder, contents};
 
 /// What is beside the results, by name.
 fn entries(folder: &Path) -> BTreeSet<String> {
@@ -125,7 +124,7 @@ fn names_of_folders_are_flushed() {
     make_with(options, replaced, &root, &plan(30), false).unwrap();
     let [new, renamed, removed] = [1, 1, 1];
     assert_eq!(times(replaced, &scratch.path("a/b")), new + renamed + removed);
-    assert!(faulty_storage::contents(&root).contains_key("/_SUCCESS"));
+    assert!(contents(&root).contains_key("_SUCCESS"));
 }
 
 /// Law: a link that is named as the folder of a result means the folder that it leads to, whether that is there already or not, and stays.

@@ -2,11 +2,9 @@
 //! its own.
 
 use std::collections::BTreeMap;
-use std::fs::{self, File};
+use std::fs::File;
 
 use arrow_array::cast::AsArray;
-use arrow_array::types::{Float64Type, Int64Type};
-use arrow_array::{Array, RecordBatch};
 use parquet::basic::{Compression, ZstdLevel};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use serde_json::Value;
@@ -17,7 +15,7 @@ use spindrift::math::Isa;
 
 use crate::support::campaigns::{FUSELAGE, SPACECRAFT_STATE, SPIN_DISPERSION, WHEEL1, WHEEL2};
 use crate::support::parquet_tables::schema;
-use crate::support::scratch_folder::{ScratchFolder, batches};
+use crate::support::scratch_folder::{ScratchFolder, batches, column, ended};
 
 /// Spins differ from sample to sample, and some 7% of the runs need more steps than they may take.
 const HEAD: &str = r#"
@@ -40,73 +38,46 @@ fn campaign() -> String {
 }
 
 fn run(folder: &ScratchFolder, text: &str, arguments: &str, code: i32) -> String {
-    let file = folder.0.join("own.toml");
-    fs::write(&file, text).unwrap();
-    folder.says("campaign", file.to_str().unwrap(), arguments, code)
+    folder.file("own.toml", text);
+    folder.prints(&format!("campaign own.toml {arguments}"), code)
 }
 
-/// Number, status and the column `name` of every row; counts as numbers, null as `None`.
-fn rows(batch: &RecordBatch, name: &str) -> Vec<(i64, String, Option<f64>)> {
-    let ids = batch.column_by_name("sample_id").unwrap().as_primitive::<Int64Type>().clone();
-    let statuses = batch.column_by_name("status").unwrap().as_string::<i32>().clone();
-    let column = batch.column_by_name(name).unwrap();
-    let value = |row: usize| match column.as_primitive_opt::<Float64Type>() {
-        Some(values) => (!values.is_null(row)).then(|| values.value(row)),
-        None => {
-            let values = column.as_primitive::<Int64Type>();
-            (!values.is_null(row)).then(|| values.value(row) as f64)
-        }
-    };
-    (0..batch.num_rows()).map(|row| (ids.value(row), statuses.value(row).to_owned(), value(row))).collect()
-}
-
-/// Law: each quantile of the summary is that of the column in the files (type 7), over the dispersed samples that are ok; the worst runs and the first failed ones are those of the files.
+/// Law: the summary has the numbers of the table of statistics (`statistics.rs` says whose those are); the worst runs and the first failed ones are
+/// those of the files.
 #[test]
 fn the_summary_is_that_of_the_files() {
     let folder = ScratchFolder::new("statistics");
     let said = run(&folder, &campaign(), "--out r", 1);
     assert!(said.contains("1499 dispersed + nominal"), "{said}");
-    let summary: Value = serde_json::from_str(&fs::read_to_string(folder.0.join("r/summary.json")).unwrap()).unwrap();
-    let tables: Vec<RecordBatch> = folder.part_files("r").iter().flat_map(|file| batches(file)).collect();
-    let column =
-        |name: &str| -> Vec<(i64, String, Option<f64>)> { tables.iter().flat_map(|t| rows(t, name)).collect() };
-
-    let all = column("steps");
-    let failed: Vec<i64> = all.iter().filter(|(_, status, _)| status == "step_limit").map(|(id, ..)| *id).collect();
+    let (summary, rows) = (folder.summary("r"), folder.rows("r"));
+    let ended = ended(&rows);
+    let failed: Vec<u64> = ended.iter().filter(|(_, status)| status == "step_limit").map(|(id, _)| *id).collect();
     assert!(failed.len() > 20 && failed.len() < 750, "{} runs hit the limit", failed.len());
     assert_eq!(summary["statuses"]["step_limit"], failed.len());
     assert_eq!(summary["first_failed"]["step_limit"], Value::from(failed[..3].to_vec()));
     assert!(said.contains(&format!("--sample {}", failed[0])), "{said}");
 
+    let table = folder.table("r/statistics.parquet");
+    let names = table.column_by_name("observable").unwrap().as_string::<i32>();
     let lines = summary["observables"].as_array().unwrap();
     assert!(lines.len() > 5);
     for line in lines {
-        let name = line["name"].as_str().unwrap();
-        let counted = column(name).into_iter().filter(|(id, status, _)| *id > 0 && status == "ok");
-        let mut values: Vec<f64> = counted.filter_map(|(.., value)| value).filter(|value| !value.is_nan()).collect();
-        values.sort_by(f64::total_cmp);
-        let count = values.len();
-        assert_eq!(line["count"], count, "{name}");
-        assert!(count > 700, "{name}: {count}");
+        let row = names.iter().position(|name| name == line["name"].as_str()).unwrap();
+        let of = |name: &str| Some(column(std::slice::from_ref(&table), name)[row]).filter(|value| !value.is_nan());
+        assert_eq!(line["count"].as_f64(), of("count"), "{line}");
         let quantiles = line["quantiles"].as_array().unwrap();
-        assert_eq!(quantiles.len(), 9, "{name}");
+        assert_eq!(quantiles.len(), 9, "{line}");
         for quantile in quantiles {
-            let p = quantile["p"].as_f64().unwrap();
-            // type 7: linear between the order statistics at (n - 1) p, from the nearer end
-            let place = (count - 1) as f64 * p;
-            let (low, part) = (values[place as usize], place.fract());
-            let high = values[(place as usize + 1).min(count - 1)];
-            let exact = if part < 0.5 { low + part * (high - low) } else { high - (1.0 - part) * (high - low) };
-            assert_eq!(quantile["value"].as_f64(), Some(exact), "{name} {p}");
+            let name = format!("p{}", 100.0 * quantile["p"].as_f64().unwrap()).replace('.', "_");
+            assert_eq!(quantile["value"].as_f64(), of(&name), "{name} of {line}");
         }
-        assert_eq!(line["min"].as_f64(), values.first().copied(), "{name}");
-        assert_eq!(line["max"].as_f64(), values.last().copied(), "{name}");
+        assert_eq!((line["min"].as_f64(), line["max"].as_f64()), (of("min"), of("max")), "{line}");
     }
 
-    let errors = ["energy_error_max", "angular_momentum_error_max"].map(column);
+    let errors = ["energy_error_max", "angular_momentum_error_max"].map(|name| column(&rows, name));
     let mut worst: Vec<(f64, u64)> = (1..1500)
-        .filter(|row| errors[0][*row].1 == "ok")
-        .map(|row| (errors.iter().filter_map(|column| column[row].2).fold(0.0, f64::max), row as u64))
+        .filter(|row| ended[*row].1 == "ok")
+        .map(|row| (errors[0][row].max(errors[1][row]), row as u64))
         .collect();
     worst.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
     let listed = summary["worst_runs"]["conservation_error"].as_array().unwrap();
@@ -124,7 +95,7 @@ fn files_say_what_they_contain() {
         let folder = ScratchFolder::new(&format!("codec-{name}"));
         let text = format!("{}[output]\ncompression = \"{name}\"\n", campaign());
         run(&folder, &text, "--samples 600 --out r", 1);
-        let mut next = 0;
+        let mut next = 0.0;
         for (part, file) in folder.part_files("r").iter().enumerate() {
             let reader = SerializedFileReader::new(File::open(file).unwrap()).unwrap();
             let pairs = reader.metadata().file_metadata().key_value_metadata().cloned().unwrap_or_default();
@@ -138,6 +109,8 @@ fn files_say_what_they_contain() {
             }
             let plan = Plan::from_text("r", &text, Overrides::default()).unwrap();
             assert_eq!((says("spindrift.row_plan"), says("spindrift.row_hash")), (plan.row_text(), plan.row_hash()));
+            let digest = Sha256::digest(plan.text().as_bytes());
+            assert_eq!(plan.hash(), digest.iter().map(|byte| format!("{byte:02x}")).collect::<String>());
             let ensemble = Ensemble::new(&plan, Isa::best());
             let columns = ensemble.request().columns();
             for field in schema(&reader).fields() {
@@ -150,45 +123,11 @@ fn files_say_what_they_contain() {
                     );
                 }
             }
-            let table = &batches(file)[0];
-            let ids = table.column_by_name("sample_id").unwrap().as_primitive::<Int64Type>();
-            assert_eq!(ids.value(0), next);
-            assert_eq!(says("spindrift.samples"), table.num_rows().to_string());
-            next += table.num_rows() as i64;
+            let ids = column(&batches(file), "sample_id");
+            assert_eq!(ids[0], next);
+            assert_eq!(says("spindrift.samples"), ids.len().to_string());
+            next += ids.len() as f64;
         }
-        assert_eq!(next, 600);
+        assert_eq!(next, 600.0);
     }
-}
-
-/// Law: the plan's hash is the SHA-256 of its text, and every value in the file changes it.
-#[test]
-fn the_hash_covers_every_key() {
-    let plan = |text: &str| Plan::from_text("own", text, Overrides::default());
-    let text = campaign();
-    let original = plan(&text).unwrap();
-    let digest: String = Sha256::digest(original.text().as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect();
-    assert_eq!(original.hash(), digest);
-    let lines: Vec<&str> = text.lines().collect();
-    let mut changed = 0;
-    for (index, line) in lines.iter().enumerate() {
-        let Some((key, value)) = line.split_once(" = ") else { continue };
-        // another value of the same kind: one more, or the first component doubled
-        let other = match value.parse::<f64>() {
-            Ok(number) if !value.contains('.') && !value.contains('e') => format!("{}", number + 1.0),
-            Ok(number) => format!("{:?}", number * 1.0625),
-            Err(_) if key == "attitude" => "[0, 1, 0, 0]".to_owned(),
-            Err(_) if value.starts_with('[') => {
-                value.replacen('[', "[0.125, ", 1).rsplit_once(',').unwrap().0.to_owned() + "]"
-            }
-            Err(_) if key == "name" => "\"other\"".to_owned(),
-            Err(_) if key == "method" => "\"taylor\"".to_owned(),
-            Err(_) => continue, // the parameter and the distribution of the dispersion
-        };
-        let mut text: Vec<String> = lines.iter().map(|line| (*line).to_owned()).collect();
-        text[index] = format!("{key} = {other}");
-        let other = plan(&text.join("\n")).unwrap_or_else(|error| panic!("{}: {error}", text[index]));
-        assert_ne!(other.hash(), original.hash(), "{key}");
-        changed += 1;
-    }
-    assert!(changed > 25, "{changed} keys were changed");
 }

@@ -12,7 +12,6 @@ use spindrift::analysis::trajectories::{file_name, retained, save};
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::ensemble::Ensemble;
 use spindrift::math::Isa;
-use spindrift::run::Status;
 use spindrift::sampling::SampleId;
 use spindrift::storage::disk::Disk;
 use spindrift::storage::folder::Folder;
@@ -21,7 +20,7 @@ use spindrift::storage::rows_file::identity;
 use spindrift::storage::rows_reader::RowsReader;
 
 use super::small_campaign::{NEGATIVE_WALLS, campaign, folder, table};
-use crate::support::scratch_folder::{ScratchFolder, batches, column, ended, floats};
+use crate::support::scratch_folder::{ScratchFolder, column, ended, floats};
 
 /// A third of the samples is not physical, and one in some runs needs more steps than it may make.
 fn file(retain: &str) -> String {
@@ -37,18 +36,6 @@ fn rows(scratch: &ScratchFolder) -> RowsReader {
     RowsReader::new(&Disk, scratch.part_files("r"))
 }
 
-/// Sample, status and maximum energy error of every row.
-fn all(reader: &RowsReader) -> Vec<(u64, Status, f64)> {
-    let mut all = Vec::new();
-    for part in (0..).map_while(|index| reader.part(index)) {
-        let part = part.unwrap();
-        let rows = part.samples().unwrap().into_iter().zip(part.statuses().unwrap());
-        let errors = part.numbers("energy_error_max").unwrap();
-        all.extend(rows.zip(errors).map(|((sample, status), error)| (sample.0, status, error)));
-    }
-    all
-}
-
 /// Law: each rule chooses the runs that it says, whatever the threads: none, all that were run, the failed, the worst by magnitude, as
 /// many as asked for, without the nominal one.
 #[test]
@@ -57,23 +44,23 @@ fn rules_choose_what_they_say() {
     scratch.file("small.toml", &file("none"));
     scratch.prints("campaign small.toml --out r", 1);
     let reader = rows(&scratch);
-    let all = all(&reader);
+    let table = scratch.rows("r");
+    let all = ended(&table);
     let chosen = |retain: &str| -> Vec<u64> {
         let plan = plan(retain);
         let found = retained(&plan, &reader, None).unwrap();
         assert_eq!(found, retained(&plan, &reader, NonZeroUsize::new(1)).unwrap(), "{retain}");
         found.into_iter().map(|sample| sample.0).collect()
     };
-    let those = |is_meant: &dyn Fn(&Status) -> bool| -> Vec<u64> {
-        all.iter().filter(|(_, status, _)| is_meant(status)).map(|(sample, ..)| *sample).collect()
+    let those = |is_meant: &dyn Fn(&str) -> bool| -> Vec<u64> {
+        all.iter().filter(|(_, status)| is_meant(status)).map(|(sample, _)| *sample).collect()
     };
     assert!(chosen("none").is_empty());
-    assert_eq!(chosen("all"), those(&|status| *status != Status::InvalidSample));
-    let failed = those(&|status| *status == Status::StepLimit);
+    assert_eq!(chosen("all"), those(&|status| status != "invalid_sample"));
+    let failed = those(&|status| status == "step_limit");
     assert!(failed.len() > 3 && failed.len() < 300, "{} runs reach the limit", failed.len());
     assert_eq!(chosen("failed"), failed);
     // greatest magnitudes: of errors, of a number with a sign, and of counts, where many are equal and the first are taken
-    let table = scratch.rows("r");
     for observable in ["energy_error_max", "energy_error_rate_per_s", "steps"] {
         let values = column(&table, observable).into_iter().zip(ended(&table));
         let with_value = values.filter(|(value, (sample, _))| *sample > 0 && !value.is_nan());
@@ -84,7 +71,7 @@ fn rules_choose_what_they_say() {
         assert_eq!(chosen(&format!("worst:20 by {observable}")), worst);
         assert_eq!(chosen(&format!("worst:100000 by {observable}")).len(), sizes.len());
     }
-    let physical: BTreeSet<u64> = those(&|status| *status != Status::InvalidSample).into_iter().collect();
+    let physical: BTreeSet<u64> = those(&|status| status != "invalid_sample").into_iter().collect();
     let some = chosen("sample:100");
     assert!(
         some.len() < 100 && some.len() > 40 && !some.contains(&0),
@@ -175,7 +162,7 @@ fn a_campaign_ends_with_bands() {
         fs::read(scratch.path(&format!("r{threads}/bands.parquet"))).unwrap()
     });
     assert!(files[0] == files[1]);
-    let bands = &batches(&scratch.path("r1/bands.parquet"))[0];
+    let bands = &scratch.table("r1/bands.parquet");
     assert_eq!(bands.num_rows(), 10 * 11, "ten quantities at the eleven points of the grid");
     let file = SerializedFileReader::new(fs::File::open(scratch.path("r1/bands.parquet")).unwrap()).unwrap();
     let metadata = file.metadata().file_metadata().key_value_metadata().unwrap();
@@ -186,8 +173,8 @@ fn a_campaign_ends_with_bands() {
         let numbers = [min[row], low[row], median[row], high[row], max[row]];
         assert!(numbers.is_sorted(), "row {row}: {numbers:?}");
     }
-    let all = all(&RowsReader::new(&Disk, scratch.part_files("r1")));
-    let ok = all.iter().filter(|(sample, status, _)| *sample > 0 && *status == Status::Done);
+    let ended = ended(&scratch.rows("r1"));
+    let ok = ended.iter().filter(|(sample, status)| *sample > 0 && status == "ok");
     let counts = bands.column_by_name("count").unwrap();
     let counts = counts.as_primitive::<Int64Type>().values();
     let ok = ok.count() as i64;

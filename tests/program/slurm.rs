@@ -9,7 +9,8 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use super::small_campaign::folder;
+use super::interrupted::send;
+use super::small_campaign::{campaign, folder};
 use crate::support::scratch_folder::ScratchFolder;
 
 /// Where the programs are that stand for Slurm's.
@@ -46,12 +47,6 @@ fn ends(scratch: &ScratchFolder, script: &str, task: u32) -> Option<i32> {
     start(scratch, script, task, 0).wait().unwrap().code()
 }
 
-fn signal(name: &str, process: u32) {
-    // the shell's own: a program of this name is not on every machine
-    let command = format!("kill -s {name} {process}");
-    assert!(Command::new("sh").args(["-c", &command]).status().unwrap().success());
-}
-
 /// Waits until `what` is there.
 fn wait_for<T>(mut what: impl FnMut() -> Option<T>) -> T {
     let begun = Instant::now();
@@ -85,14 +80,14 @@ fn the_scripts_make_the_campaign() {
         scratch.prints("slurm small.toml --nodes 5 --cpus 2 --time 1:00:00 --out sharded --sbatch=--partition=long", 0);
     assert!(said.contains("3 parts are to be made: 3 of 5 tasks have work"), "{said}");
     assert!(said.contains("sbatch --dependency=afterany:\"$job\" small-finish.sh"), "{said}");
-    let array = fs::read_to_string(scratch.path("small-array.sh")).unwrap();
+    let array = scratch.text("small-array.sh");
     let own = ["--array=1-3", "--signal=B:USR1@60", "--requeue"];
     for line in
         [&own[..], &["--cpus-per-task=2", "--time=1:00:00", "--output=small-%a.log", "--partition=long"]].concat()
     {
         assert!(array.contains(&format!("#SBATCH {line}\n")), "{line} in:\n{array}");
     }
-    let finish = fs::read_to_string(scratch.path("small-finish.sh")).unwrap();
+    let finish = scratch.text("small-finish.sh");
     assert!(finish.contains("#SBATCH --partition=long\n") && !own.iter().any(|line| finish.contains(line)), "{finish}");
     assert_eq!(ends(&scratch, "small-finish.sh", 1), Some(4), "nothing is there");
     // what is asked of the scripts is asked of the campaign
@@ -133,7 +128,7 @@ fn a_task_that_was_stopped_is_put_back() {
     // USR1 to the shell, which passes it on
     let mut task = start(&scratch, "small-array.sh", 1, 0);
     wait_for(|| has_parts(&scratch, manifest));
-    signal("USR1", task.id());
+    send("USR1", task.id());
     assert_eq!(task.wait().unwrap().code(), Some(138));
     assert_eq!(requeued(), "requeue 101\n");
     // SIGKILL and SIGTERM to the program
@@ -145,7 +140,7 @@ fn a_task_that_was_stopped_is_put_back() {
         let before = fs::metadata(scratch.path(manifest)).unwrap().len();
         let mut task = start(&scratch, "small-array.sh", 1, restarts);
         wait_for(|| (fs::metadata(scratch.path(manifest)).unwrap().len() > before).then_some(()));
-        signal(name, wait_for(|| child_of(task.id())));
+        send(name, wait_for(|| child_of(task.id())));
         assert_eq!(task.wait().unwrap().code(), Some(code), "{name}");
         assert_eq!(requeued(), expected, "{name}, {restarts} restarts");
     }
@@ -158,7 +153,7 @@ fn a_task_that_makes_no_part_is_not_put_back_for_ever() {
     let scratch = folder("slurm-no-part");
     program(&scratch, "scontrol", "");
     scratch.prints("slurm small.toml --nodes 2 --cpus 1 --time 10 --out small", 0);
-    let text = fs::read_to_string(scratch.path("small-array.sh")).unwrap();
+    let text = scratch.text("small-array.sh");
     // in the place of the program: one that is stopped before its limit, and has made a part where `grows` is there
     let manifest = scratch.path("small").join(spindrift::storage::names::manifest_of(1, 2));
     fs::create_dir_all(manifest.parent().unwrap()).unwrap();
@@ -212,7 +207,7 @@ fn submission() {
         script("small-array.sh"),
         script("small-finish.sh")
     );
-    let asked = fs::read_to_string(scratch.path("sbatch.log")).unwrap();
+    let asked = scratch.text("sbatch.log");
     assert_eq!(asked.replace(&scratch.0.display().to_string(), &script(".")), expected);
     program(&scratch, "sbatch", "echo 'invalid partition' >&2; exit 1");
     let said = run(4);
@@ -244,15 +239,15 @@ fn refusals() {
         let text = scratch.outputs(&mut command, 2);
         assert!(text.contains("must be a path in UTF-8 without line ends"), "{text}");
     }
-    scratch.file("option.toml", &super::small_campaign::campaign().replace("name = \"small\"", "name = \"-rf\""));
+    scratch.file("option.toml", &campaign().replace("name = \"small\"", "name = \"-rf\""));
     let text = scratch.prints(&format!("slurm option.toml {all}"), 2);
     assert!(text.contains("campaign.name = \"-rf\""), "{text}");
     let stop = "\n[stop]\nobservable = \"energy_error_max\"\nquantile = 0.5\nhalf_width = 1e-12\nmax_samples = 2400\n";
-    scratch.file("stop.toml", &format!("{}{stop}", super::small_campaign::campaign()));
+    scratch.file("stop.toml", &format!("{}{stop}", campaign()));
     let text = scratch.prints(&format!("slurm stop.toml {all}"), 2);
     assert!(text.contains("[stop]"), "{text}");
     scratch.file("small-finish.sh", "#!/bin/sh\nprecious\n");
     let text = scratch.prints(&format!("slurm small.toml {all}"), 4);
     assert!(text.contains("small-finish.sh: exists"), "{text}");
-    assert_eq!(fs::read_to_string(scratch.path("small-finish.sh")).unwrap(), "#!/bin/sh\nprecious\n");
+    assert_eq!(scratch.text("small-finish.sh"), "#!/bin/sh\nprecious\n");
 }

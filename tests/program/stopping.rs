@@ -3,6 +3,7 @@
 use std::fs;
 
 use serde_json::Value;
+use spindrift::statistics::binomial::at_most;
 
 use super::small_campaign::{campaign, folder};
 use crate::support::scratch_folder::{ScratchFolder, column, ended};
@@ -69,7 +70,7 @@ fn a_campaign_stops_when_it_is_precise_enough() {
     let said = scratch.prints("campaign stop.toml --out stopped", 0);
     assert!(said.contains("already complete") && said.contains(&format!("({samples} samples")), "{said}");
     assert!(scratch.prints("finish stopped", 0).contains("already finished"));
-    let page = fs::read_to_string(scratch.path("stopped/report.html")).unwrap();
+    let page = scratch.text("stopped/report.html");
     let dispersed = if samples > 1000 { "1,199" } else { "599" };
     for said in [format!("{samples} samples: p50"), format!("{dispersed} dispersed runs")] {
         assert!(page.contains(&said), "the page says how many samples the look had: {said}");
@@ -77,13 +78,13 @@ fn a_campaign_stops_when_it_is_precise_enough() {
     let checked = scratch.prints("verify stopped --fraction 0", 0);
     assert!(checked.contains(&format!(" {samples} rows: checksums compared")), "the manifest: {checked}");
     // an unfinished one is continued by the command that looks
-    let manifest = fs::read_to_string(scratch.path("stopped/manifest.jsonl")).unwrap();
+    let manifest = scratch.text("stopped/manifest.jsonl");
     let unfinished: Vec<&str> = manifest.lines().collect();
     scratch.file("stopped/manifest.jsonl", &(unfinished[..unfinished.len() - 1].join("\n") + "\n"));
     let refused = scratch.prints("finish stopped", 4);
     assert!(refused.contains("spindrift campaign"), "{refused}");
     scratch.prints("campaign stop.toml --out stopped", 0);
-    assert_eq!(fs::read_to_string(scratch.path("stopped/manifest.jsonl")).unwrap(), manifest);
+    assert_eq!(scratch.text("stopped/manifest.jsonl"), manifest);
     assert!(scratch.prints("campaign never.toml --out never", 5).contains("already complete"));
     scratch.prints("verify stopped --fraction 1", 0);
     let before = fs::read(scratch.path("stopped/report.html")).unwrap();
@@ -95,17 +96,6 @@ fn a_campaign_stops_when_it_is_precise_enough() {
     assert_eq!(scratch.parts("stopped"), scratch.parts("never"));
     let said = scratch.prints("campaign stop.toml --shard 1/2 --out shard", 2);
     assert!(said.contains("[stop]"), "{said}");
-}
-
-/// P(X <= k) of the number of heads of a fair coin, by the logarithms of its terms.
-fn at_most(k: u64, trials: u64) -> f64 {
-    let mut term = -(trials as f64) * std::f64::consts::LN_2;
-    let mut sum = term.exp();
-    for i in 1..=k {
-        term += ((trials + 1 - i) as f64 / i as f64).ln();
-        sum += term.exp();
-    }
-    sum
 }
 
 /// Law: with `when = "decided"` a campaign ends at the first look at which the exact test, at its share of the errors of all looks, decides;
@@ -133,7 +123,7 @@ fn a_campaign_stops_when_its_requirements_are_decided() {
             let trials = samples - 1;
             let within = values[..trials as usize].iter().filter(|value| **value <= limit).count() as u64;
             // of one half both tails are lower ones
-            let [missed, met] = [within, trials - within].map(|count| at_most(count, trials) <= 0.05 / 4.0);
+            let [missed, met] = [within, trials - within].map(|count| at_most(count, trials, 0.5) <= 0.05 / 4.0);
             met.then_some("PASS").or(missed.then_some("FAIL"))
         };
         let expected = looks.iter().find_map(|samples| Some((*samples, decides(*samples)?)));

@@ -3,9 +3,8 @@
 use std::fs;
 use std::path::PathBuf;
 
-use super::interrupted::{assert_same, contents};
 use super::small_campaign::{campaign, folder};
-use crate::support::scratch_folder::ScratchFolder;
+use crate::support::scratch_folder::{ScratchFolder, contents};
 
 /// Names that no file of a result has.
 const STRAYS: [&str; 7] = [
@@ -100,39 +99,5 @@ fn what_no_manifest_lists_is_left_alone() {
         assert_eq!(fs::read_to_string(&stray).unwrap(), "precious");
         fs::remove_file(stray).unwrap();
         assert!(contents(&scratch.path("r")) == before, "{name}");
-    }
-}
-
-/// Law: a copy of a file of numbers in a result that is damaged or gone is made again from the file that the campaign names; a command that has
-/// the copy alone says which command does so.
-#[test]
-fn copies_of_data_are_made_again() {
-    let scratch = folder("strays-data");
-    let text = campaign().replace("samples = 600\n", "");
-    let at = text.find("[[disperse]]").unwrap();
-    scratch.file("table.toml", &format!("{}\n[design]\nkind = \"table\"\nfile = \"table.csv\"\n", &text[..at]));
-    scratch.file("table.csv", "wheels.w1.radius_m\n0.25\n0.26\n0.24\n");
-    scratch.prints("campaign table.toml --out whole", 0);
-    scratch.prints("campaign table.toml --out r", 0);
-    let copy = fs::read_dir(scratch.path("r/data")).unwrap().next().unwrap().unwrap().path();
-    let bytes = fs::read(&copy).unwrap();
-    let damages: [&dyn Fn(); 3] = [
-        &|| {
-            fs::write(&copy, bytes.iter().map(|byte| if *byte == b'4' { b'5' } else { *byte }).collect::<Vec<_>>())
-                .unwrap();
-        },
-        &|| fs::write(&copy, &bytes[..20]).unwrap(),
-        &|| fs::remove_file(&copy).unwrap(),
-    ];
-    for damage in damages {
-        damage();
-        for command in ["verify r", "finish r"] {
-            let said = scratch.prints(command, 4);
-            assert!(said.contains("the campaign's command with its file writes it again"), "{command}: {said}");
-        }
-        let said = scratch.prints("campaign table.toml --out r", 0);
-        assert!(said.contains("damaged, made again: data/"), "{said}");
-        assert_same(&scratch, "r", "whole");
-        scratch.prints("verify r", 0);
     }
 }

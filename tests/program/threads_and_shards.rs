@@ -5,6 +5,7 @@ use std::fs;
 use spindrift::storage::identity::sha256;
 
 use super::small_campaign::{NEGATIVE_WALLS, campaign, folder};
+use super::statistics::MORE;
 use crate::support::scratch_folder::ScratchFolder;
 
 const THREADS: [u32; 4] = [1, 2, 3, 7];
@@ -32,8 +33,12 @@ fn hash(scratch: &ScratchFolder, result: &str, below: &[&str]) -> String {
 fn threads_and_shards_change_no_byte() {
     let scratch = folder("threads-shards");
     // some samples are not physical, and some runs are audited and kept
+    // beside the columns there are expressions
     let rest = "\n[audit]\nfraction = 0.001\n[retain]\ntrajectories = \"worst:3 by energy_error_max\"\n";
-    scratch.file("all.toml", &[&campaign().replace("samples = 600", "samples = 3600"), NEGATIVE_WALLS, rest].concat());
+    scratch.file(
+        "all.toml",
+        &[&campaign().replace("samples = 600", "samples = 3600"), NEGATIVE_WALLS, MORE, rest].concat(),
+    );
     let rows = ["runs", "statistics.parquet"];
     let hashes = |result: &str| [hash(&scratch, result, &rows), hash(&scratch, result, &[""])];
     let mut first: Option<[String; 2]> = None;
@@ -42,7 +47,12 @@ fn threads_and_shards_change_no_byte() {
             if shards == 1 {
                 scratch.prints(&format!("campaign all.toml --threads {threads} --out r"), 1);
             } else {
-                for shard in 1..=shards {
+                // in any order: the first comes last, and until then `finish` says what is missing
+                for shard in (1..=shards).rev() {
+                    if shard == 1 {
+                        let said = scratch.prints("finish r", 4);
+                        assert!(said.contains("missing") && said.contains("spindrift campaign"), "{said}");
+                    }
                     scratch
                         .prints(&format!("campaign all.toml --threads {threads} --shard {shard}/{shards} --out r"), 0);
                 }

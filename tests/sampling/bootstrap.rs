@@ -2,9 +2,9 @@
 //! in every design; the joint distribution is that of the file.
 
 use crate::support::campaigns::{FUSELAGE, WHEEL1_AT_REST};
+use crate::support::draws;
 use crate::support::scratch_folder::ScratchFolder;
-use spindrift::campaign::{Overrides, Plan, SceneDraws};
-use spindrift::sampling::SampleId;
+use spindrift::campaign::{Overrides, Plan};
 use std::collections::BTreeMap;
 
 const HEAD: &str = "[campaign]\nname = \"rows\"\nsamples = 4097\nseed = 11\nduration_s = 1.0\n";
@@ -60,18 +60,11 @@ fn plan(scratch: &ScratchFolder, text: &str) -> Plan {
 
 /// What `samples` apply to the columns called `names`.
 fn drawn<const N: usize>(plan: &Plan, names: [&str; N], samples: std::ops::Range<u64>) -> Vec<[f64; N]> {
-    let mut draws = SceneDraws::new(plan);
-    let columns = plan.dispersions.columns();
-    let place = |name: &str| {
-        let found = columns.iter().position(|column| column.parameter.component_name(column.component) == name);
-        found.unwrap_or_else(|| panic!("{name} is a column"))
-    };
+    let known = draws::names(plan);
+    let place =
+        |name: &str| known.iter().position(|other| other == name).unwrap_or_else(|| panic!("{name} is a column"));
     let places = names.map(place);
-    let row = |sample| {
-        let _ = draws.scene(SampleId(sample)); // what is not physical was drawn all the same
-        places.map(|place| draws.applied()[place])
-    };
-    samples.map(row).collect()
+    draws::seen(plan, samples, |_, applied| places.map(|place| applied[place]))
 }
 
 const NAMES: [&str; 3] =
@@ -97,12 +90,8 @@ fn chi_squared(counts: &[u64], draws: u64) -> f64 {
 }
 
 fn correlation(rows: &[[f64; 3]], a: usize, b: usize) -> f64 {
-    let n = rows.len() as f64;
-    let mean = |k: usize| rows.iter().map(|row| row[k]).sum::<f64>() / n;
-    let (ma, mb) = (mean(a), mean(b));
-    let product =
-        |i: usize, mi: f64, j: usize, mj: f64| rows.iter().map(|row| (row[i] - mi) * (row[j] - mj)).sum::<f64>();
-    product(a, ma, b, mb) / (product(a, ma, a, ma) * product(b, mb, b, mb)).sqrt()
+    let column = |k: usize| rows.iter().map(|row| row[k]).collect::<Vec<f64>>();
+    draws::correlation(&column(a), &column(b))
 }
 
 /// Law: every draw is a row of the file, bit for bit. H0: each row is equally likely; n = 4096, seed 11, alpha = 0.001 for each design
@@ -218,30 +207,6 @@ fn attitudes_and_vectors_are_drawn_as_a_whole() {
         assert_eq!(bits(&row[..4]), bits(&expected));
     }
     assert!([1.0, 4.0, 7.0].iter().all(|rate| rows.iter().any(|row| row[4] == *rate)));
-}
-
-/// Law: the canonical text reads back to the same plan, with the file's checksum; other content is another plan and other rows.
-#[test]
-fn the_content_of_the_file_is_part_of_the_plan() {
-    let scratch = ScratchFolder::new("bootstrap-text");
-    let rows = measured();
-    scratch.file("insertion.csv", &csv(&rows));
-    let first = plan(&scratch, BOOTSTRAP);
-    let text = first.text();
-    for part in
-        ["sha256 = \"", "columns = [\"wx\", \"wy\", \"x\"]", "parameters = [\"initial.angular_velocity_rad_s.x\""]
-    {
-        assert!(text.contains(part), "{part}:\n{text}");
-    }
-    let again = Plan::from_text_in(&scratch.0, "plan.toml", &text, Overrides::default());
-    assert_eq!(again.unwrap_or_else(|error| panic!("{error}")), first);
-    let mut other = rows;
-    other[5][1] += 1e-12;
-    scratch.file("insertion.csv", &csv(&other));
-    let changed = plan(&scratch, BOOTSTRAP);
-    assert!(changed.hash() != first.hash() && changed.row_hash() != first.row_hash());
-    let refused = Plan::from_text_in(&scratch.0, "plan.toml", &text, Overrides::default()).expect_err("another file");
-    assert!(refused.to_string().contains("disperse[0].sha256"), "{refused}");
 }
 
 /// A row counts as one factor: a grid has as many points as it has levels, one at a time and Saltelli's blocks vary it as a whole.

@@ -3,6 +3,7 @@
 //! Seeds are fixed, so each test passes or fails for good. H0 of each: the probability is what is stated; two-sided (or one-sided, where
 //! only a bound is stated) at three standard errors, alpha = 0.0027 (0.0013). Power: what breaks each law on purpose is beside it.
 
+use crate::support::scenes::Uniform;
 use spindrift::math::normal;
 use spindrift::statistics::binomial::{self, Decision, POWER};
 use spindrift::statistics::gate::{Gate, Limit, failing_at, failing_together, fraction_gate, mean_gate};
@@ -13,24 +14,6 @@ use spindrift::statistics::sketch::{RELATIVE_ERROR, Sketch};
 
 const CAMPAIGNS: u32 = 10_000;
 const SIGMAS: f64 = 3.0;
-
-/// SplitMix64 (G. L. Steele, D. Lea & C. H. Flood 2014).
-pub struct Random(pub u64);
-
-impl Random {
-    pub fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ z >> 31
-    }
-
-    /// Uniform in (0, 1).
-    pub fn uniform(&mut self) -> f64 {
-        ((self.bits() >> 12) as f64 + 0.5) / (1_u64 << 52) as f64
-    }
-}
 
 /// A distribution: its quantile function.
 type Distribution = (&'static str, fn(f64) -> f64);
@@ -47,7 +30,7 @@ fn fraction(count: u32) -> f64 {
     f64::from(count) / f64::from(CAMPAIGNS)
 }
 
-fn sample(random: &mut Random, count: usize, quantile: fn(f64) -> f64) -> Vec<f64> {
+fn sample(random: &mut Uniform, count: usize, quantile: fn(f64) -> f64) -> Vec<f64> {
     let mut values: Vec<f64> = (0..count).map(|_| quantile(random.uniform())).collect();
     values.sort_unstable_by(f64::total_cmp);
     values
@@ -55,7 +38,7 @@ fn sample(random: &mut Random, count: usize, quantile: fn(f64) -> f64) -> Vec<f6
 
 /// How often order statistics of these ranks enclose the `p`-quantile.
 fn covered(seed: u64, count: usize, p: f64, ranks: Ranks, of: fn(f64) -> f64) -> f64 {
-    let mut random = Random(seed);
+    let mut random = Uniform::new(seed);
     let truth = of(p);
     let covers = |values: &[f64]| {
         ranks.lower.is_none_or(|rank| values[rank as usize - 1] <= truth)
@@ -97,8 +80,8 @@ fn clopper_pearson_covers_with_its_exact_probability() {
         let term =
             |k: u64| binomial::at_most(k, count, p) - if k == 0 { 0.0 } else { binomial::at_most(k - 1, count, p) };
         let stated: f64 = (0..=count).filter(|k| covers[*k as usize]).map(term).sum();
-        let mut random = Random(21);
-        let campaign = |random: &mut Random| (0..count).filter(|_| random.uniform() < p).count();
+        let mut random = Uniform::new(21);
+        let campaign = |random: &mut Uniform| (0..count).filter(|_| random.uniform() < p).count();
         let found = fraction((0..CAMPAIGNS).map(|_| u32::from(covers[campaign(&mut random)])).sum());
         assert!((found - stated).abs() <= SIGMAS * error(stated), "{count} {p}: {found} for {stated}");
         assert!(stated >= confidence, "{stated}");
@@ -110,7 +93,7 @@ fn clopper_pearson_covers_with_its_exact_probability() {
 fn stopped_campaigns_cover() {
     let runs = looks(40, 640);
     let goal = Goal { quantile: 0.5, half_width: 0.17, confidence: 0.95 };
-    let mut random = Random(41);
+    let mut random = Uniform::new(41);
     let (mut covered, mut uncorrected, mut stopped) = (0, 0, vec![0_u32; runs.len()]);
     for _ in 0..CAMPAIGNS {
         let values: Vec<f64> = (0..640).map(|_| normal::quantile(random.uniform())).collect();
@@ -135,7 +118,7 @@ fn stopped_campaigns_cover() {
 /// silent either.
 #[test]
 fn gates_err_as_seldom_as_stated() {
-    let mut random = Random(51);
+    let mut random = Uniform::new(51);
     let mut counts = [0_u32; 2];
     let fraction_gates: Vec<_> = (0..=300).map(|within| fraction_gate(within, 300, 0.95, 0.95)).collect();
     for _ in 0..CAMPAIGNS {
@@ -157,7 +140,7 @@ fn gates_err_as_seldom_as_stated() {
 /// (successes are whole). Power: the number at which the estimate itself would be decided, as it stands, decides in about half of the campaigns.
 #[test]
 fn nine_of_ten_campaigns_of_the_runs_named_decide() {
-    let mut random = Random(71);
+    let mut random = Uniform::new(71);
     let named = |gate: Gate| match gate.decision {
         Decision::Undecided(Some(runs)) => runs,
         other => panic!("{other:?}"),
@@ -193,7 +176,7 @@ fn nine_of_ten_campaigns_of_the_runs_named_decide() {
 fn sequential_decisions_err_as_seldom_as_stated() {
     let runs = looks(50, 3200);
     let decided = |truth: f64, confidence: f64, seed: u64| {
-        let mut random = Random(seed);
+        let mut random = Uniform::new(seed);
         let limits: Vec<(u64, Vec<Decision>)> = runs
             .iter()
             .map(|n| (*n, (0..=*n).map(|k| fraction_gate(k, *n, 0.9, confidence).decision).collect()))
@@ -240,9 +223,9 @@ fn several_requirements_that_are_met_seldom_fail() {
         (0..=RUNS as u64).map(at).collect()
     };
     let by_count: Vec<Vec<Decision>> = (0..=6).map(|together| gates(together.max(1))).collect();
-    let mut random = Random(91);
+    let mut random = Uniform::new(91);
     let mut fails = |truths: [f64; 6], uncorrected: bool| {
-        let draw = |truth: f64, random: &mut Random| (0..RUNS).filter(|_| random.uniform() < truth).count();
+        let draw = |truth: f64, random: &mut Uniform| (0..RUNS).filter(|_| random.uniform() < truth).count();
         let (mut met, mut missed) = (0, 0);
         for _ in 0..CAMPAIGNS {
             let within = truths.map(|truth| draw(truth, &mut random));
@@ -270,7 +253,7 @@ fn several_requirements_that_are_met_seldom_fail() {
 #[test]
 fn a_sketch_of_ten_million_is_within_its_error() {
     const COUNT: usize = 10_000_000;
-    let mut random = Random(61);
+    let mut random = Uniform::new(61);
     let mut values: Vec<f64> = (0..COUNT).map(|_| libm::exp(8.0 * random.uniform()) - 40.0).collect();
     let mut sketch = Sketch::default();
     values.chunks(16_384).for_each(|part| sketch.add_all(part));

@@ -4,7 +4,7 @@
 //! Seeds are fixed, so each test passes or fails for good. H0 of each: a bound misses with at most the stated probability; one-sided, alpha =
 //! 1e-4. Power: Student's bounds, which the tests count too, miss several times as often, and are found. `--nocapture` prints the tables, `--include-ignored` takes many campaigns.
 
-use super::coverage::Random;
+use crate::support::scenes::Uniform;
 use spindrift::math::normal;
 use spindrift::sampling::design::sobol::Sobol;
 use spindrift::statistics::binomial::{self, Decision};
@@ -17,20 +17,20 @@ use spindrift::statistics::replicates::{self, Step, fraction_bounds, quantile_in
 const ALPHA: f64 = 1e-4;
 
 /// A distribution: name, a number of it, mean, standard deviation.
-type Distribution = (&'static str, fn(&mut Random) -> f64, f64, f64);
+type Distribution = (&'static str, fn(&mut Uniform) -> f64, f64, f64);
 
-fn normal_number(random: &mut Random) -> f64 {
+fn normal_number(random: &mut Uniform) -> f64 {
     normal::quantile(random.uniform())
 }
 
 /// Student's t with three degrees of freedom: a normal number over the root of the mean of three squared ones.
-fn t3(random: &mut Random) -> f64 {
+fn t3(random: &mut Uniform) -> f64 {
     let squares: f64 = (0..3).map(|_| normal_number(random).powi(2)).sum();
     normal_number(random) / (squares / 3.0).sqrt()
 }
 
 /// One in a `one_in`, else zero.
-fn rare(random: &mut Random, one_in: f64) -> f64 {
+fn rare(random: &mut Uniform, one_in: f64) -> f64 {
     f64::from(u8::from(random.uniform() * one_in < 1.0))
 }
 
@@ -39,7 +39,7 @@ const LOGNORMAL: [f64; 2] = [1.648_721_270_700_128_2, 2.161_197_415_895_087_6];
 
 const DISTRIBUTIONS: [Distribution; 8] = [
     ("normal", normal_number, 0.0, 1.0),
-    ("uniform", Random::uniform, 0.5, 0.288_675_134_594_812_9),
+    ("uniform", Uniform::uniform, 0.5, 0.288_675_134_594_812_9),
     ("exponential", |random| -libm::log(random.uniform()), 1.0, 1.0),
     ("lognormal", |random| libm::exp(normal_number(random)), LOGNORMAL[0], LOGNORMAL[1]),
     // beta(1/2, 1/2): most of it at its ends
@@ -93,7 +93,7 @@ fn bounds_of_means(all: Campaigns) {
     const CONFIDENCES: [f64; 3] = [0.95, 0.975, 0.995];
     for (index, (name, draw, mean, deviation)) in DISTRIBUTIONS.into_iter().enumerate() {
         for (runs, campaigns) in all {
-            let mut random = Random(1000 * index as u64 + runs as u64);
+            let mut random = Uniform::new(1000 * index as u64 + runs as u64);
             let (mut misses, mut of_student) = ([[0_u32; 2]; 3], [[0_u32; 2]; 3]);
             let (mut decided, mut wrong) = ([0_u32; 2], [0_u32; 2]);
             let students = CONFIDENCES.map(|confidence| one_sided(confidence, runs as f64 - 1.0));
@@ -159,7 +159,7 @@ fn bounds_of_standard_deviations_miss_as_seldom_as_stated() {
 fn bounds_of_standard_deviations(all: Campaigns) {
     for (index, (name, draw, _, deviation)) in DISTRIBUTIONS.into_iter().enumerate() {
         for (runs, campaigns) in all.into_iter().skip(1) {
-            let mut random = Random(7000 + 1000 * index as u64 + runs as u64);
+            let mut random = Uniform::new(7000 + 1000 * index as u64 + runs as u64);
             let (mut misses, mut of_error, mut unbounded) = ([0_u32; 2], [0_u32; 2], 0_u32);
             for _ in 0..campaigns {
                 let values: Vec<f64> = (0..runs).map(|_| draw(&mut random)).collect();

@@ -15,7 +15,7 @@ use spindrift::statistics::correlation::{Estimate, correlation, mid_ranks, stand
 use spindrift::statistics::regression::Regressors;
 use spindrift::statistics::sensitivity::{Block, Samples, first_order_index, saltelli_indices};
 
-use super::coverage::Random;
+use crate::support::scenes::Uniform;
 
 const PI: f64 = core::f64::consts::PI;
 /// Var e^x of a standard normal x.
@@ -110,14 +110,14 @@ fn covered(model: &Model, campaigns: u64, samples: Samples, mut points: impl FnM
     counts
 }
 
-fn independent(random: &mut Random, runs: u64) -> Vec<[f64; 3]> {
+fn independent(random: &mut Uniform, runs: u64) -> Vec<[f64; 3]> {
     (0..runs).map(|_| [(); 3].map(|()| random.uniform())).collect()
 }
 
 fn first_order_indices_are_covered(sizes: &[(u64, u64)]) {
     for (runs, campaigns) in sizes {
         for (seed, model) in models().iter().enumerate() {
-            let mut random = Random(1000 * runs + seed as u64);
+            let mut random = Uniform::new(1000 * runs + seed as u64);
             let [count, narrow] = covered(model, *campaigns, Samples::Independent, |_| independent(&mut random, *runs));
             let fewest = fewest(*campaigns, model.coverage);
             println!(
@@ -160,7 +160,7 @@ fn first_order_indices_of_designs_are_covered(sizes: &[(u64, u64)]) {
                 (0..*runs).map(|point| [0, 1, 2].map(|dimension| halton.number(dimension, point))).collect()
             };
             let latin = |campaign: u64| {
-                let mut random = Random(seed(campaign));
+                let mut random = Uniform::new(seed(campaign));
                 let strata = [0, 1, 2].map(|dimension| Permutation::new(*runs, random.bits() ^ dimension));
                 (0..*runs)
                     .map(|point| strata.each_ref().map(|of| (of.image(point) as f64 + random.uniform()) / *runs as f64))
@@ -222,7 +222,7 @@ fn linear_models() -> Vec<Linear> {
 fn linear_measures_are_covered(sizes: &[(usize, u64)]) {
     for (runs, campaigns) in sizes {
         for (seed, (name, of, pearson, coefficients, r_squared, coverage)) in linear_models().into_iter().enumerate() {
-            let mut random = Random(77_000 * *runs as u64 + seed as u64);
+            let mut random = Uniform::new(77_000 * *runs as u64 + seed as u64);
             let mut counts = [0; 4];
             for _ in 0..*campaigns {
                 let [x, z] = [(); 2].map(|()| (0..*runs).map(|_| quantile(random.uniform())).collect::<Vec<f64>>());
@@ -276,7 +276,7 @@ fn rank_correlations_are_covered() {
         ("e^normal", |x, z| libm::exp(0.6 * x + 0.8 * z), normal),
     ];
     for (seed, (name, of, truth)) in models.into_iter().enumerate() {
-        let mut random = Random(5_000 + seed as u64);
+        let mut random = Uniform::new(5_000 + seed as u64);
         let mut count = 0;
         for _ in 0..300 {
             let [x, z] = [(); 2].map(|()| (0..100).map(|_| quantile(random.uniform())).collect::<Vec<f64>>());
@@ -314,7 +314,7 @@ fn indices_from_blocks_of_a_sequence_are_covered() {
 #[test]
 fn partial_correlations_are_covered() {
     for (seed, b) in [(1, 0.0), (2, 1.0)] {
-        let mut random = Random(91_000 + seed);
+        let mut random = Uniform::new(91_000 + seed);
         let truth = b / libm::sqrt(b * b + 1.0);
         let mut counts = [0; 2];
         for _ in 0..600 {

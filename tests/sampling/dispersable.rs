@@ -3,20 +3,20 @@
 //! Law: a draw of one key moves the states away from the nominal ones by far more than the tolerance, and the report's form and
 //! the gyrostat agree on where to. The keys come from the table of parameters: a new one is tested as soon as it is there.
 
+use crate::support::observed::{observed, request};
 use crate::support::runs::{adaptive, everything, propagate, relative, up_to_sign};
 use crate::support::scenes::{Kind, misaligned, random};
 use spindrift::math::Isa;
-use spindrift::observables::{Group, Observer, Request};
+use spindrift::observables::{Group, Request};
 use spindrift::propagation::Method;
-use spindrift::run::Status;
-use spindrift::run::{Grid, StateField, StateTable};
+use spindrift::run::{Grid, StateField, StateTable, Status};
 use spindrift::sampling::dispersions::Draws;
 use spindrift::sampling::distribution::normal::{Normal, Spread};
 use spindrift::sampling::{Design, Dispersion, DispersionError, Dispersions, SampleId, Values, WrittenDistribution};
 use spindrift::scene::parameter::Shape as ParameterShape;
 use spindrift::scene::{
-    Actuated, DebrisInput, Name, Parameter, PartInput, PartShape, PrincipalInertia, PrincipalMoments, Scene,
-    SceneInput, WheelInput,
+    DebrisInput, Name, Parameter, PartInput, PartShape, PrincipalInertia, PrincipalMoments, Scene, SceneInput,
+    WheelInput,
 };
 
 /// Horizon, s.
@@ -129,15 +129,13 @@ fn motion(method: Method, input: &SceneInput) -> Motion {
     let run = propagate(method, adaptive(tolerance), &grid, std::slice::from_ref(&scene)).remove(0);
     assert_eq!(run.outcome.status, Status::Done);
     let groups = [Group::Energies, Group::EnergiesCom].into_iter().collect();
-    let wheels = input.turning_wheels();
-    let (constrained, windows) = (method == Method::NullSpace, spindrift::observables::window::NO_WINDOWS);
-    let request = Request { groups, debris: true, actuated: Actuated::ALL, constrained, wheels, windows };
-    let mut observer = Observer::new(request, &grid);
-    let mut row = vec![f64::NAN; request.columns().len()];
-    observer.observe(Isa::best(), &scene, &run.table, &run.outcome, &mut row);
-    let is_energy = |name: &str| name.ends_with("_initial_j") || name.ends_with("_final_j");
-    let energies =
-        request.columns().iter().zip(row).filter(|(c, _)| is_energy(c.quantity.name())).map(|(_, x)| x).collect();
+    let request =
+        Request { wheels: input.turning_wheels(), ..request(groups, 0, true, true, method == Method::NullSpace) };
+    let (row, _) = observed(Isa::best(), request, &grid, &scene, (&run.table, &run.outcome), None);
+    let mut energies: Vec<(String, f64)> =
+        row.into_iter().filter(|(name, _)| name.ends_with("_initial_j") || name.ends_with("_final_j")).collect();
+    energies.sort_by(|(a, _), (b, _)| a.cmp(b));
+    let energies = energies.into_iter().map(|(_, energy)| energy).collect();
     Motion { table: run.table, energies }
 }
 

@@ -2,6 +2,7 @@
 //!
 //! Statistical tests state H0, n, alpha and power; seeds are fixed, so their outcome is.
 
+use crate::support::draws::distance;
 use serde_json::Value;
 use spindrift::math::normal::probability;
 use spindrift::sampling::distribution::Quantile;
@@ -117,25 +118,6 @@ fn quantiles_are_those_of_mpmath() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// Law: numbers near the largest give values all over their range.
-#[test]
-fn extremes_are_finite() {
-    let laws = [
-        law("log_uniform", &[1e-300, 1e300]),
-        law("triangular", &[-1e160, 0.0, 1e160]),
-        law("triangular", &[-1.7e308, 0.0, 1.7e308]),
-        law("uniform", &[-1.7e308, 1.7e308]),
-        law("beta", &[2.0, 3.0, -1.7e308, 1.7e308]),
-        law("pert", &[-1.7e308, 0.0, 1.7e308]),
-        Distribution::Empirical(EmpiricalQuantile::new(&[-1.7e308, 1.7e308], Interpolation::Linear)),
-    ];
-    for law in laws {
-        let values = [1e-16, 1e-3, 0.3, 0.5, 0.7, 0.999, 1.0 - 1e-16].map(|u| law.quantile(u));
-        assert!(values.iter().all(|x| x.is_finite()) && values.is_sorted(), "{law:?} {values:?}");
-        assert!(values[1] < values[2] && values[4] < values[5], "{law:?} {values:?}");
-    }
-}
-
 fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or(f64::INFINITY)
 }
@@ -153,27 +135,17 @@ fn draws(law: &Distribution) -> Vec<f64> {
     values
 }
 
-/// sqrt(n) times the largest distance between empirical and given distribution function; `values` sorted.
-fn distance(values: &[f64], law: impl Fn(f64) -> f64) -> f64 {
-    let n = values.len() as f64;
-    let far = values.iter().enumerate().fold(0.0f64, |far, (k, x)| {
-        let p = law(*x);
-        far.max((p - k as f64 / n).abs()).max(((k + 1) as f64 / n - p).abs())
-    });
-    far * n.sqrt()
-}
-
 /// Distribution functions written independently of the quantiles.
 #[test]
 fn draws_follow_their_distributions() {
     let log_normal = |median: f64| move |x: f64| probability((x / median).ln() / 0.4);
     let values = draws(&Distribution::LogNormal(LogNormalQuantile { median: 2.5, log_std: 0.4 }));
-    assert!(distance(&values, log_normal(2.5)) < CRITICAL);
-    assert!(distance(&values, log_normal(2.5 * 1.02)) > CRITICAL, "a median off by 2% is found");
+    assert!(distance(values.iter().copied(), log_normal(2.5)) < CRITICAL);
+    assert!(distance(values.iter().copied(), log_normal(2.5 * 1.02)) > CRITICAL, "a median off by 2% is found");
 
     let values = draws(&Distribution::LogUniform(LogUniformQuantile::new(0.1, 10.0)));
-    assert!(distance(&values, |x| (x / 0.1).ln() / 100f64.ln()) < CRITICAL);
-    assert!(distance(&values, |x| (x / 0.1).ln() / 103f64.ln()) > CRITICAL, "an end off by 3% is found");
+    assert!(distance(values.iter().copied(), |x| (x / 0.1).ln() / 100f64.ln()) < CRITICAL);
+    assert!(distance(values.iter().copied(), |x| (x / 0.1).ln() / 103f64.ln()) > CRITICAL, "an end off by 3% is found");
 
     let triangle = |mode: f64| {
         move |x: f64| {
@@ -185,25 +157,25 @@ fn draws_follow_their_distributions() {
         }
     };
     let values = draws(&Distribution::Triangular(TriangularQuantile { min: 1.0, mode: 1.5, max: 4.0 }));
-    assert!(distance(&values, triangle(1.5)) < CRITICAL);
-    assert!(distance(&values, triangle(1.55)) > CRITICAL, "a mode off by 2% of the width is found");
+    assert!(distance(values.iter().copied(), triangle(1.5)) < CRITICAL);
+    assert!(distance(values.iter().copied(), triangle(1.55)) > CRITICAL, "a mode off by 2% of the width is found");
 
     // I_x(2, 3) = x^2 (6 - 8 x + 3 x^2)
     let beta = |x: f64| x * x * (6.0 - 8.0 * x + 3.0 * x * x);
-    assert!(distance(&draws(&Distribution::Beta(BetaQuantile::new(2.0, 3.0, 0.0, 1.0))), beta) < CRITICAL);
-    assert!(distance(&draws(&Distribution::Beta(BetaQuantile::new(2.0, 3.06, 0.0, 1.0))), beta) > CRITICAL);
+    assert!(distance(draws(&Distribution::Beta(BetaQuantile::new(2.0, 3.0, 0.0, 1.0))), beta) < CRITICAL);
+    assert!(distance(draws(&Distribution::Beta(BetaQuantile::new(2.0, 3.06, 0.0, 1.0))), beta) > CRITICAL);
     // PERT from 0 to 4 with mode 4/3: shapes 1 + 4/3 and 1 + 8/3; with mode 1: 2 and 4, I_x(2, 4) = 1 - (1-x)^4 (1 + 4 x)
     let pert = |x: f64| 1.0 - (1.0 - x / 4.0).powi(4) * (1.0 + x);
-    assert!(distance(&draws(&Distribution::Pert(PertQuantile::new(0.0, 1.0, 4.0))), pert) < CRITICAL);
+    assert!(distance(draws(&Distribution::Pert(PertQuantile::new(0.0, 1.0, 4.0))), pert) < CRITICAL);
 
     let rayleigh = |scale: f64| move |x: f64| 1.0 - (-0.5 * (x / scale).powi(2)).exp();
     let values = draws(&Distribution::Rayleigh(RayleighQuantile::new(0.02)));
-    assert!(distance(&values, rayleigh(0.02)) < CRITICAL);
-    assert!(distance(&values, rayleigh(0.0204)) > CRITICAL, "a scale off by 2% is found");
+    assert!(distance(values.iter().copied(), rayleigh(0.02)) < CRITICAL);
+    assert!(distance(values.iter().copied(), rayleigh(0.0204)) > CRITICAL, "a scale off by 2% is found");
 
     let lines = EmpiricalQuantile::new(&[0.0, 1.0, 3.0], Interpolation::Linear);
     let values = draws(&Distribution::Empirical(lines));
-    assert!(distance(&values, |x| if x < 1.0 { x / 2.0 } else { 0.5 + (x - 1.0) / 4.0 }) < CRITICAL);
+    assert!(distance(values.iter().copied(), |x| if x < 1.0 { x / 2.0 } else { 0.5 + (x - 1.0) / 4.0 }) < CRITICAL);
 }
 
 /// H0: each value is drawn with its weight. Chi-square with 3 degrees of freedom, n = 200,000, alpha = 1e-3: critical 16.27. Power:
@@ -243,7 +215,20 @@ fn quantiles_rise() {
     for (a, b) in [(0.01, 0.01), (0.01, 1e4), (1e4, 0.01), (1e4, 1e4), (1.0, 3.0), (0.5, 0.02)] {
         laws.push(Distribution::Beta(BetaQuantile::new(a, b, -1.0, 2.0)));
     }
-    for law in laws {
+    // of numbers near the largest too, with values all over their range
+    let extreme = [
+        law("log_uniform", &[1e-300, 1e300]),
+        law("triangular", &[-1e160, 0.0, 1e160]),
+        law("triangular", &[-1.7e308, 0.0, 1.7e308]),
+        law("uniform", &[-1.7e308, 1.7e308]),
+        law("beta", &[2.0, 3.0, -1.7e308, 1.7e308]),
+        law("pert", &[-1.7e308, 0.0, 1.7e308]),
+        Distribution::Empirical(EmpiricalQuantile::new(&[-1.7e308, 1.7e308], Interpolation::Linear)),
+    ];
+    assert!(
+        extreme.iter().all(|law| law.quantile(1e-3) < law.quantile(0.3) && law.quantile(0.7) < law.quantile(0.999))
+    );
+    for law in laws.into_iter().chain(extreme) {
         let ends = [f64::EPSILON / 2.0, 1e-12, 1e-3];
         let u: Vec<f64> = ends.into_iter().chain((1..100).map(|k| f64::from(k) / 100.0)).collect();
         let mut values: Vec<f64> = u.iter().map(|u| law.quantile(*u)).collect();

@@ -10,6 +10,7 @@ use spindrift::sampling::SampleId;
 use spindrift::scene::{Scene, SceneInput};
 
 use crate::support::campaigns::{FUSELAGE, WHEEL1};
+use crate::support::draws::{self, distance};
 
 const HEAD: &str = "[campaign]\nname = \"test\"\nsamples = 10\nseed = 11\nduration_s = 1.0\n";
 
@@ -39,30 +40,11 @@ pub fn plan(disperse: &str) -> Plan {
 
 /// What samples 1 to N of a file look like through `seen`.
 fn draws<T>(disperse: &str, seen: impl Fn(&SceneInput) -> T) -> Vec<T> {
-    let plan = plan(disperse);
-    let (mut sampler, mut scene) = (plan.dispersions.sampler(), plan.nominal.clone());
-    let mut applied = vec![0.0; plan.dispersions.columns().len()];
-    let draw = |k: usize| {
-        sampler.draw(SampleId(k as u64 + 1), &mut scene, &mut applied);
-        seen(&scene)
-    };
-    (0..N).map(draw).collect()
+    draws::seen(&plan(disperse), 1..=N as u64, |scene, _| seen(scene))
 }
 
 fn rate(scene: &SceneInput) -> [f64; 3] {
     scene.initial.angular_velocity_rad_s
-}
-
-/// sqrt(n) times the largest distance between the empirical and a given distribution function.
-fn distance(values: impl IntoIterator<Item = f64>, law: impl Fn(f64) -> f64) -> f64 {
-    let mut values: Vec<f64> = values.into_iter().collect();
-    values.sort_by(f64::total_cmp);
-    let n = values.len() as f64;
-    let far = values.iter().enumerate().fold(0.0f64, |far, (k, x)| {
-        let p = law(*x);
-        far.max((p - k as f64 / n).abs()).max(((k + 1) as f64 / n - p).abs())
-    });
-    far * n.sqrt()
 }
 
 /// Rayleigh's statistic of isotropy, 3 n |mean|^2, chi-square with 3 degrees of freedom (K. V. Mardia & P. E. Jupp, *Directional
@@ -118,49 +100,40 @@ fn directions_are_uniform_on_the_sphere() {
     }
 }
 
-/// H0: in a cone about the nominal the azimuth is uniform and the cosine is uniform.
+/// H0: in a cone about the nominal, or about an axis, the azimuth is uniform and the cosine is uniform: of rates, of axes of wheels, of directions of
+/// thrusters. The length of the nominal vector stays.
 #[test]
 fn cones_are_uniform_in_solid_angle() {
-    for (half_angle, axis) in [(0.2, None), (1e-6, None), (2.5, Some([0.0, 3.0, 4.0])), (PI, None)] {
+    let thruster = "[[thrusters]]\nname = \"a\"\nposition_m = [1, 0, 0]\ndirection = [0, 3, 4]\n\
+        [[actuation]]\nname = \"burn\"\nstart_s = 0\nend_s = 1\nthrust_n = { a = 3 }\n";
+    type Seen = fn(&SceneInput) -> [f64; 3];
+    let cases: [(&str, Seen, f64, Option<[f64; 3]>); 6] = [
+        ("initial.angular_velocity_rad_s", rate, 0.2, None),
+        ("initial.angular_velocity_rad_s", rate, 1e-6, None),
+        ("initial.angular_velocity_rad_s", rate, 2.5, Some([0.0, 3.0, 4.0])),
+        ("initial.angular_velocity_rad_s", rate, PI, None),
+        ("wheels.w1.axis", |scene| scene.wheels[0].axis, 0.2, None),
+        ("thrusters.a.direction", |scene| scene.thrusters[scene.thrusters.len() - 1].direction, 0.2, None),
+    ];
+    for (parameter, seen, half_angle, axis) in cases {
         let written = axis.map_or(String::new(), |axis: [f64; 3]| format!("axis = {axis:?}\n"));
-        let rates = draws(&format!("{RATE}distribution = \"cone\"\nhalf_angle_rad = {half_angle:?}\n{written}"), rate);
-        let axis = axis.unwrap_or([1.0, -2.0, 2.0]);
-        let azimuth = distance(rates.iter().map(|v| about(axis, *v)[1]), |x| x);
+        let disperse = format!(
+            "parameter = {parameter:?}\ndistribution = \"cone\"\nhalf_angle_rad = {half_angle:?}\n{written}{WHEEL1}{thruster}"
+        );
+        let plan = plan(&disperse);
+        let length = norm(seen(&plan.nominal));
+        let axis = axis.unwrap_or(seen(&plan.nominal));
+        let drawn = draws(&disperse, seen);
+        let azimuth = distance(drawn.iter().map(|v| about(axis, *v)[1]), |x| x);
         // 1 - cos from the sine of half the angle: |v/|v| - axis|^2/2, which keeps its digits in a needle
         let versine = |v: &[f64; 3]| {
             let (v, z) = (scaled(1.0 / norm(*v), *v), scaled(1.0 / norm(axis), axis));
             0.5 * (0..3).map(|i| (v[i] - z[i]) * (v[i] - z[i])).sum::<f64>()
         };
         let whole = 2.0 * libm::sin(0.5 * half_angle) * libm::sin(0.5 * half_angle);
-        let cosine = distance(rates.iter().map(versine), |x| x / whole);
-        assert!(azimuth < KS && cosine < KS, "{half_angle}: {azimuth} {cosine}");
-    }
-}
-
-/// H0: the axis of a wheel and the direction of a thruster are vectors as a rate is: uniform in a cone about the nominal one. The
-/// length of the nominal one stays, and each scene is physical.
-#[test]
-fn axes_and_directions_are_drawn_in_cones() {
-    let thruster = "[[thrusters]]\nname = \"a\"\nposition_m = [1, 0, 0]\ndirection = [0, 3, 4]\n\
-        [[actuation]]\nname = \"burn\"\nstart_s = 0\nend_s = 1\nthrust_n = { a = 3 }\n";
-    type Seen = fn(&SceneInput) -> [f64; 3];
-    let seen: [(&str, Seen); 2] = [
-        ("wheels.w1.axis", |scene| scene.wheels[0].axis),
-        ("thrusters.a.direction", |scene| scene.thrusters[scene.thrusters.len() - 1].direction),
-    ];
-    for (parameter, seen) in seen {
-        let disperse =
-            format!("parameter = {parameter:?}\ndistribution = \"cone\"\nhalf_angle_rad = 0.2\n{WHEEL1}{thruster}");
-        let plan = plan(&disperse);
-        let axis = seen(&plan.nominal);
-        let drawn = draws(&disperse, seen);
-        let azimuth = distance(drawn.iter().map(|v| about(axis, *v)[1]), |x| x);
-        let cosine =
-            distance(drawn.iter().map(|v| about(axis, *v)[0]), |x| (x - (0.2f64).cos()) / (1.0 - (0.2f64).cos()));
-        assert!(azimuth < KS && cosine < KS, "{parameter}: {azimuth} {cosine}");
-        for v in &drawn {
-            assert!((norm(*v) / norm(axis) - 1.0).abs() < 1e-14, "the length stays: {v:?}");
-        }
+        let cosine = distance(drawn.iter().map(versine), |x| x / whole);
+        assert!(azimuth < KS && cosine < KS, "{parameter}, {half_angle}: {azimuth} {cosine}");
+        assert!(drawn.iter().all(|v| (norm(*v) / length - 1.0).abs() < 1e-14), "{parameter}: the length stays");
         for sample in 1..10 {
             assert!(spindrift::campaign::draw(&plan, SampleId(sample)).is_ok(), "{parameter} {sample}");
         }
@@ -311,19 +284,12 @@ fn usual_mistakes_are_caught() {
     assert!(quaternion > 3.0 * KS, "{quaternion}");
 }
 
-/// Draws of a million bodies, and how many of them are impossible.
-fn impossible(dispersions: &str, count: u64) -> u64 {
-    let text = campaign(dispersions);
-    let plan = Plan::from_text("test.toml", &text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
-    let (mut sampler, mut input) = (plan.dispersions.sampler(), plan.nominal.clone());
-    let mut applied = vec![0.0; plan.dispersions.columns().len()];
-    let mut scene = Scene::resolve(&input).expect("the nominal scene is physical");
-    let mut refused = 0;
-    for sample in 1..=count {
-        sampler.draw(SampleId(sample), &mut input, &mut applied);
-        refused += u64::from(scene.resolve_into(&input).is_err());
-    }
-    refused
+/// How many of the bodies that a file draws are impossible.
+fn impossible(text: &str, count: u64) -> usize {
+    let plan = Plan::from_text("test.toml", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
+    let mut scene = Scene::resolve(&plan.nominal).expect("the nominal scene is physical");
+    let refused = draws::seen(&plan, 1..=count, |input, _| scene.resolve_into(input).is_err());
+    refused.into_iter().filter(|is_refused| *is_refused).count()
 }
 
 /// Law: a million draws by log-Cholesky, and by second moments about the principal axes, make a million possible bodies, however wide. Counter-test:
@@ -344,19 +310,13 @@ fn a_million_bodies_and_none_impossible() {
         second.to_owned(),
     ]
     .concat();
-    assert_eq!(impossible(&all, 1_000_000), 0);
+    assert_eq!(impossible(&campaign(&all), 1_000_000), 0);
 
     let free =
         "[[disperse]]\nparameter = \"debris.principal_moments_kg_m2\"\ndistribution = \"normal\"\nrelative_std = 0.1\n";
     let moments = campaign(free)
         .replace("principal_second_moments_kg_m2 = [1.0, 2.0, 3.0]", "principal_moments_kg_m2 = [1.0, 1.5, 2.3]");
-    let plan = Plan::from_text("test.toml", &moments, Overrides::default()).expect("a valid file");
-    let (mut sampler, mut input) = (plan.dispersions.sampler(), plan.nominal.clone());
-    let (mut applied, mut refused) = ([0.0; 3], 0);
-    for sample in 1..=10_000 {
-        sampler.draw(SampleId(sample), &mut input, &mut applied);
-        refused += usize::from(Scene::resolve(&input).is_err());
-    }
+    let refused = impossible(&moments, 10_000);
     println!("free principal moments: {refused} of 10000 impossible");
     // measured: 2415
     assert!(refused > 500, "{refused}");
@@ -385,13 +345,9 @@ fn mean_directions_follow_the_axis_in_all_octants() {
                 campaign(&format!("[[disperse]]\n{RATE}{law}")).replace("[1.0, -2.0, 2.0]", &format!("{axis:?}"));
             let nominal = Plan::from_text("test.toml", &along, Overrides::default());
             for plan in [written, nominal.unwrap_or_else(|error| panic!("{error}"))] {
-                let (mut sampler, mut scene) = (plan.dispersions.sampler(), plan.nominal.clone());
-                let mut applied = [0.0; 3];
                 let mut mean = [0.0; 3];
-                for k in 1..=DRAWS {
-                    sampler.draw(SampleId(k), &mut scene, &mut applied);
-                    let length = norm(rate(&scene));
-                    (0..3).for_each(|i| mean[i] += rate(&scene)[i] / length / DRAWS as f64);
+                for v in draws::seen(&plan, 1..=DRAWS, |scene, _| rate(scene)) {
+                    (0..3).for_each(|i| mean[i] += v[i] / norm(v) / DRAWS as f64);
                 }
                 let expected = scaled(cosine / norm(axis), axis);
                 let off: f64 = (0..3).map(|i| (mean[i] - expected[i]).powi(2)).sum::<f64>().sqrt();

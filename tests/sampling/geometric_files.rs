@@ -11,114 +11,67 @@ fn what_cannot_be_drawn_is_refused() {
         let text = campaign(&format!("[[disperse]]\n{disperse}"));
         Plan::from_text("test.toml", &text, Overrides::default()).expect_err(disperse).to_string()
     };
-    let attitude = "parameter = \"initial.attitude\"\n";
-    let speed = "parameter = \"initial.velocity_m_s\"\n";
-    for (disperse, key, says) in [
+    const ATTITUDE: &str = "initial.attitude";
+    const SPEED: &str = "initial.velocity_m_s";
+    const RATES: &str = "initial.angular_velocity_rad_s";
+    let axis = format!("magnitude = {{ distribution = \"uniform\", min = 0, max = 1 }}\n{WHEEL1}");
+    let cone = |keys: &str| format!("half_angle_rad = 1\n{keys}");
+    let [zero, negative, nested, misspelt, number] = [
+        "axis = [0, 0, 0]",
+        "magnitude = { distribution = \"normal\", std = -1 }",
+        "magnitude = { distribution = \"cone\", half_angle_rad = 1 }",
+        "magnitude = { distribution = \"normal\", sd = 1 }",
+        "magnitude = 3",
+    ]
+    .map(cone);
+    // parameter, distribution and its keys; the key that is refused, and what is said of it
+    for (parameter, distribution, keys, key, says) in [
+        (ATTITUDE, "cone", "half_angle_rad = 0.1", "parameter", "a vector (x, y, z) as a whole"),
+        (RATES, "attitude_error", "std_rad = 0.1", "parameter", "an attitude (w, x, y, z)"),
+        ("initial.velocity_m_s.x", "cone", "half_angle_rad = 0.1", "parameter", "write \"initial.velocity_m_s\""),
+        ("body.parts.fuselage.length_m", "uniform_direction", "", "parameter", "a vector"),
+        ("body.shear", "uniform_direction", "", "parameter", "a vector"),
+        ("wheels.w1.axis", "uniform_direction", &axis, "magnitude", "the length of wheels.w1.axis has no effect"),
+        (RATES, "cone", "", "half_angle_rad", "given"),
+        (RATES, "cone", "half_angle_rad = 0", "half_angle_rad", "at most pi"),
+        (RATES, "cone", "half_angle_rad = 3.2", "half_angle_rad", "at most pi"),
+        (RATES, "cone", &zero, "axis", "other than zero"),
+        (RATES, "von_mises_fisher", "concentration = -1", "concentration", "above 0"),
+        (SPEED, "cone", "half_angle_rad = 1", "axis", "nominal vector is zero"),
+        (SPEED, "uniform_direction", "", "magnitude", "nominal vector is zero"),
+        (RATES, "cone", &negative, "magnitude", ">= 0"),
+        (RATES, "cone", &nested, "magnitude", "a distribution of one number"),
+        (RATES, "cone", &misspelt, "magnitude.sd", "std"),
+        (RATES, "cone", &number, "magnitude", "a table"),
+        (ATTITUDE, "attitude_error", "std_rad = [0.1, 0.1]", "std_rad", "3 in an array"),
+        (ATTITUDE, "attitude_error", "std_rad = -0.1", "std_rad", ">= 0"),
         (
-            format!("{attitude}distribution = \"cone\"\nhalf_angle_rad = 0.1\n"),
-            "parameter",
-            "a vector (x, y, z) as a whole",
-        ),
-        (format!("{RATE}distribution = \"attitude_error\"\nstd_rad = 0.1\n"), "parameter", "an attitude (w, x, y, z)"),
-        (
-            "parameter = \"initial.velocity_m_s.x\"\ndistribution = \"cone\"\nhalf_angle_rad = 0.1\n".to_owned(),
-            "parameter",
-            "as a whole with distribution \"cone\"; write \"initial.velocity_m_s\", or",
-        ),
-        (
-            "parameter = \"body.parts.fuselage.length_m\"\ndistribution = \"uniform_direction\"\n".to_owned(),
-            "parameter",
-            "a vector",
-        ),
-        ("parameter = \"body.shear\"\ndistribution = \"uniform_direction\"\n".to_owned(), "parameter", "a vector"),
-        (
-            format!(
-                "parameter = \"wheels.w1.axis\"\ndistribution = \"uniform_direction\"\nmagnitude = {{ distribution = \"uniform\", min = 0, max = 1 }}\n{WHEEL1}"
-            ),
-            "magnitude",
-            "left out: the length of wheels.w1.axis has no effect; delete it",
-        ),
-        (format!("{RATE}distribution = \"cone\"\n"), "half_angle_rad", "given"),
-        (format!("{RATE}distribution = \"cone\"\nhalf_angle_rad = 0\n"), "half_angle_rad", "at most pi"),
-        (format!("{RATE}distribution = \"cone\"\nhalf_angle_rad = 3.2\n"), "half_angle_rad", "at most pi"),
-        (format!("{RATE}distribution = \"cone\"\nhalf_angle_rad = 1\naxis = [0, 0, 0]\n"), "axis", "other than zero"),
-        (format!("{RATE}distribution = \"von_mises_fisher\"\nconcentration = -1\n"), "concentration", "above 0"),
-        (format!("{speed}distribution = \"cone\"\nhalf_angle_rad = 1\n"), "axis", "nominal vector is zero"),
-        (format!("{speed}distribution = \"uniform_direction\"\n"), "magnitude", "nominal vector is zero"),
-        (
-            format!(
-                "{RATE}distribution = \"cone\"\nhalf_angle_rad = 1\nmagnitude = {{ distribution = \"normal\", std = -1 }}\n"
-            ),
-            "magnitude",
-            ">= 0",
-        ),
-        (
-            format!(
-                "{RATE}distribution = \"cone\"\nhalf_angle_rad = 1\nmagnitude = {{ distribution = \"cone\", half_angle_rad = 1 }}\n"
-            ),
-            "magnitude",
-            "a distribution of one number",
-        ),
-        (
-            format!(
-                "{RATE}distribution = \"cone\"\nhalf_angle_rad = 1\nmagnitude = {{ distribution = \"normal\", sd = 1 }}\n"
-            ),
-            "magnitude.sd",
-            "std",
-        ),
-        (format!("{RATE}distribution = \"cone\"\nhalf_angle_rad = 1\nmagnitude = 3\n"), "magnitude", "a table"),
-        (
-            format!("{RATE}distribution = \"cone\"\nhalf_angle_rad = 1\nmagnitude = 3\n"),
-            "magnitude",
-            "write magnitude = { distribution = \"uniform\", min = 0, max = 1 }",
-        ),
-        (format!("{speed}distribution = \"uniform_direction\"\n"), "magnitude", "is missing: must be given"),
-        (format!("{attitude}distribution = \"attitude_error\"\nstd_rad = [0.1, 0.1]\n"), "std_rad", "3 in an array"),
-        (format!("{attitude}distribution = \"attitude_error\"\nstd_rad = -0.1\n"), "std_rad", ">= 0"),
-        (
-            format!(
-                "{attitude}distribution = \"attitude_error\"\ncovariance_rad2 = [[1, 2, 0], [2, 1, 0], [0, 0, 1]]\n"
-            ),
+            ATTITUDE,
+            "attitude_error",
+            "covariance_rad2 = [[1, 2, 0], [2, 1, 0], [0, 0, 1]]",
             "covariance_rad2",
             "positive semidefinite",
         ),
         (
-            format!(
-                "{attitude}distribution = \"attitude_error\"\nstd_rad = 1\ncovariance_rad2 = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\n"
-            ),
+            ATTITUDE,
+            "attitude_error",
+            "std_rad = 1\ncovariance_rad2 = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]",
             "covariance_rad2",
             "the only one",
         ),
-        (format!("{attitude}distribution = \"about_axis\"\naxis = [0, 0, 1]\n"), "angle_rad", "given"),
+        (ATTITUDE, "about_axis", "axis = [0, 0, 1]", "angle_rad", "given"),
         (
-            format!(
-                "{attitude}distribution = \"about_axis\"\naxis = [0, 0, 0]\nangle_rad = {{ distribution = \"normal\", std = 1 }}\n"
-            ),
+            ATTITUDE,
+            "about_axis",
+            "axis = [0, 0, 0]\nangle_rad = { distribution = \"normal\", std = 1 }",
             "axis",
             "other than zero",
         ),
     ] {
+        let disperse = format!("parameter = {parameter:?}\ndistribution = {distribution:?}\n{keys}\n");
         let message = refused(&disperse);
         assert!(message.contains(&format!("disperse[0].{key}")) && message.contains(says), "{disperse}\n{message}");
         assert!(message.contains("test.toml:"), "the line is said: {message}");
-    }
-}
-
-/// A geometric distribution survives the way to the plan's text and back.
-#[test]
-fn plans_keep_geometric_distributions() {
-    for disperse in [
-        format!("{RATE}distribution = \"uniform_direction\"\n"),
-        format!("{RATE}distribution = \"cone\"\nhalf_angle_rad = 0.25\naxis = [0, 1, 1]\nmagnitude = {{ distribution = \"truncated_normal\", relative_std = 0.1, sigmas = 3 }}\n"),
-        format!("{RATE}distribution = \"von_mises_fisher\"\nconcentration = 30\n"),
-        format!("parameter = \"wheels.w1.axis\"\ndistribution = \"von_mises_fisher\"\nconcentration = 30\n{WHEEL1}"),
-        "parameter = \"initial.attitude\"\ndistribution = \"attitude_error\"\nstd_rad = 0.1\n".to_owned(),
-        "parameter = \"initial.attitude\"\ndistribution = \"attitude_error\"\ncovariance_rad2 = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\n".to_owned(),
-        "parameter = \"initial.attitude\"\ndistribution = \"about_axis\"\naxis = [0, 0, 1]\nangle_rad = { distribution = \"normal\", std = 0.1 }\n".to_owned(),
-    ] {
-        let plan = plan(&disperse);
-        let again = Plan::from_text("plan.toml", &plan.text(), Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
-        assert_eq!(again, plan);
     }
 }
 

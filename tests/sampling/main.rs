@@ -19,5 +19,4 @@ mod geometric;
 mod geometric_files;
 mod replay;
 mod replicates;
-mod streams;
 mod structure;

@@ -4,8 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use spindrift::campaign::{Overrides, Plan};
-use spindrift::sampling::{SampleId, WrittenDistribution};
+use spindrift::sampling::WrittenDistribution;
 
+use crate::support::draws;
 use crate::support::every_key::{distribution_tables, without_draws};
 use crate::support::scratch_folder::ScratchFolder;
 
@@ -13,14 +14,8 @@ use crate::support::scratch_folder::ScratchFolder;
 fn draws(folder: &Path, text: &str) -> (Vec<Vec<f64>>, Vec<String>) {
     let plan = Plan::from_text_in(folder, "structure.toml", text, Overrides::default());
     let plan = plan.unwrap_or_else(|error| panic!("{error}\n{text}"));
-    let (mut sampler, mut scene) = (plan.dispersions.sampler(), plan.nominal.clone());
-    let mut applied = vec![0.0; plan.dispersions.columns().len()];
-    let mut draw = |sample| {
-        sampler.draw(SampleId(sample), &mut scene, &mut applied);
-        applied.clone()
-    };
-    let rows = (1..plan.samples).map(&mut draw).collect();
-    (rows, plan.dispersions.columns().iter().map(|column| column.parameter.name()).collect())
+    let columns = plan.dispersions.columns().iter().map(|column| column.parameter.name()).collect();
+    (draws::applied(&plan, 1..plan.samples), columns)
 }
 
 /// Law: of the members of a block, that of a distribution has all numbers of this distribution from the last, and all others from the first, for

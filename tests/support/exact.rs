@@ -5,8 +5,7 @@ use spindrift::math::Isa;
 use spindrift::ode::Control;
 use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE};
 use spindrift::propagation::{Method, PropagationSettings, RotationError, rotation_errors};
-use spindrift::run::Status;
-use spindrift::run::{Grid, StateField, StateTable};
+use spindrift::run::{Grid, StateField, StateTable, Status};
 use spindrift::scene::Scene;
 
 use super::runs::{Run, blocks, propagate_on};

@@ -3,12 +3,13 @@
 
 pub mod campaigns;
 pub mod claims;
+pub mod draws;
 pub mod every_key;
 pub mod exact;
-pub mod extrapolation;
 pub mod feedback;
 pub mod golden;
 pub mod invariants;
+pub mod observed;
 pub mod parquet_tables;
 pub mod plans;
 pub mod runs;

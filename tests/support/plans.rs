@@ -1,19 +1,41 @@
 //! Campaigns run in memory: rows by column name.
 
 use std::convert::Infallible;
-use std::path::Path;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::ensemble::{Ensemble, Parts, Rows, Sink, Supervision, run};
 use spindrift::math::Isa;
 use spindrift::run::Status;
+use spindrift::sampling::SampleId;
+
+/// The files of the shipped campaigns.
+pub fn files() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns");
+    let mut files: Vec<PathBuf> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
+    files.sort();
+    files
+}
 
 /// The shipped campaign `name`, with other samples where asked for.
 pub fn shipped(name: &str, samples: Option<u64>) -> Plan {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("campaigns/{name}.toml"));
-    Plan::load(&path, Overrides { samples, ..Overrides::default() }).unwrap_or_else(|error| panic!("{error}"))
+    shipped_with(name, samples, "")
 }
+
+/// The same with more tables.
+pub fn shipped_with(name: &str, samples: Option<u64>, tables: &str) -> Plan {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns");
+    let text = std::fs::read_to_string(folder.join(format!("{name}.toml"))).expect("a shipped campaign") + tables;
+    let overrides = Overrides { samples, ..Overrides::default() };
+    Plan::from_text_in(&folder, name, &text, overrides).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// A wheel of `spin_sweep` that is sometimes impossible.
+pub const SOMETIMES_IMPOSSIBLE: &str =
+    "\n[[disperse]]\nparameter = \"wheels.w2.length_m\"\ndistribution = \"uniform\"\nmin = -0.05\nmax = 0.1\n";
 
 /// The rows of a campaign, in the order of samples.
 pub struct Table {
@@ -43,30 +65,52 @@ impl Table {
     }
 }
 
-#[derive(Default)]
-struct Memory(Mutex<Vec<(u64, Status, Vec<f64>)>>);
+/// Keeps what is seen of each row.
+struct Seen<S, T>(S, Mutex<Vec<(u64, T)>>);
 
-impl Sink for Memory {
+impl<T: Send, S: Fn(&Rows, usize) -> T + Sync> Sink for Seen<S, T> {
     type Error = Infallible;
 
     fn take(&self, rows: &Rows) -> Result<(), Infallible> {
-        let observables = rows.shape().observables;
-        let mut kept = self.0.lock().expect("no other thread panicked");
-        kept.extend(rows.part().samples().enumerate().map(|(row, sample)| {
-            (sample.0, rows.statuses()[row], (0..observables).map(|index| rows.observable(index)[row]).collect())
-        }));
+        let of_row = |(row, sample): (usize, SampleId)| (sample.0, (self.0)(rows, row));
+        self.1.lock().expect("no other thread panicked").extend(rows.part().samples().enumerate().map(of_row));
         Ok(())
     }
+}
+
+/// What `see` makes of each row of a campaign on so many threads (all cores where none is given), in the order of samples.
+pub fn seen<T: Send>(
+    campaign: &Ensemble<'_>,
+    threads: Option<usize>,
+    see: impl Fn(&Rows, usize) -> T + Sync,
+) -> Vec<(u64, T)> {
+    let sink = Seen(see, Mutex::default());
+    let threads = threads.and_then(NonZeroUsize::new);
+    run(campaign, Parts::of(campaign.plan().samples), threads, &sink, Supervision::progress(&|_| {})).expect("threads");
+    let mut seen = sink.1.into_inner().expect("no thread panicked");
+    seen.sort_by_key(|(sample, _)| *sample);
+    seen
+}
+
+/// A row as bits: status, dispersed values, observables.
+pub type RowBits = (Status, Vec<u64>);
+
+/// The bits of a row.
+pub fn row_bits(rows: &Rows, row: usize) -> RowBits {
+    let shape = rows.shape();
+    let parameters = (0..shape.parameters).map(|index| rows.parameter(index)[row]);
+    let observables = (0..shape.observables).map(|index| rows.observable(index)[row]);
+    (rows.statuses()[row], parameters.chain(observables).map(f64::to_bits).collect())
 }
 
 /// Runs `plan` on all cores.
 pub fn rows(plan: &Plan) -> Table {
     let campaign = Ensemble::new(plan, Isa::best());
     let names = campaign.request().columns().iter().map(|column| column.quantity.name().to_owned()).collect::<Vec<_>>();
-    let sink = Memory::default();
-    run(&campaign, Parts::of(plan.samples), None, &sink, Supervision::progress(&|_| {})).expect("threads");
-    let mut kept = sink.0.into_inner().expect("no thread panicked");
-    kept.sort_by_key(|(sample, ..)| *sample);
-    let values = (0..names.len()).map(|place| kept.iter().map(|(.., row)| row[place]).collect()).collect();
-    Table { names, statuses: kept.iter().map(|(_, status, _)| *status).collect(), values }
+    let kept = seen(&campaign, None, |rows, row| {
+        let values = (0..rows.shape().observables).map(|index| rows.observable(index)[row]);
+        (rows.statuses()[row], values.collect::<Vec<f64>>())
+    });
+    let values = (0..names.len()).map(|place| kept.iter().map(|(_, (_, row))| row[place]).collect()).collect();
+    Table { names, statuses: kept.iter().map(|(_, (status, _))| *status).collect(), values }
 }

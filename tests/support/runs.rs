@@ -3,13 +3,9 @@
 use sha2::{Digest, Sha256};
 use spindrift::math::Isa;
 use spindrift::math::vector::{cross, dcm_from_quaternion, difference, norm, product};
-use spindrift::ode::Control;
-use spindrift::ode::Tolerance;
-use spindrift::propagation::CompletedRun;
-use spindrift::propagation::Method;
-use spindrift::propagation::PropagationSettings;
-use spindrift::run::Outcome;
-use spindrift::run::{Grid, StateField, StateFields, StateTable};
+use spindrift::ode::{Control, Integrator, Tolerance};
+use spindrift::propagation::{CompletedRun, Method, PropagationSettings};
+use spindrift::run::{Grid, Outcome, StateField, StateFields, StateTable};
 use spindrift::scene::Scene;
 
 /// The states of one run and how it ended.
@@ -81,6 +77,22 @@ pub const fn adaptive(tolerance: f64) -> Control {
 /// The control of a method with a fixed step, s.
 pub const fn fixed(step: f64) -> Control {
     Control { step: Some(step), ..adaptive(1e-10) }
+}
+
+/// Every method with a setting at which it is quick.
+pub const METHODS: [(Method, Control); 7] = [
+    (Method::Auto, adaptive(1e-12)),
+    (Method::Taylor, adaptive(1e-12)),
+    (Method::Gyrostat(Integrator::DormandPrince), adaptive(1e-8)),
+    (Method::Gyrostat(Integrator::Dop853), adaptive(1e-8)),
+    (Method::Gyrostat(Integrator::RungeKutta4), fixed(0.01)),
+    (Method::Gyrostat(Integrator::GaussLegendre), fixed(0.01)),
+    (Method::NullSpace, adaptive(1e-5)),
+];
+
+/// The setting of a method in [`METHODS`].
+pub fn control_of(method: Method) -> Control {
+    METHODS.into_iter().find(|(known, _)| *known == method).expect("every method").1
 }
 
 /// The runs of `scenes` in their order.

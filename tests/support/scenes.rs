@@ -37,6 +37,11 @@ impl Uniform {
         low + (high - low) * ((self.bits() >> 11) as f64 / (1u64 << 53) as f64)
     }
 
+    /// In (0, 1).
+    pub fn uniform(&mut self) -> f64 {
+        ((self.bits() >> 12) as f64 + 0.5) / (1_u64 << 52) as f64
+    }
+
     pub fn vector<const N: usize>(&mut self, size: f64) -> [f64; N] {
         std::array::from_fn(|_| self.between(-size, size))
     }

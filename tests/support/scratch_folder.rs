@@ -1,5 +1,6 @@
 //! A folder in which a test runs the program.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -49,9 +50,21 @@ impl ScratchFolder {
         self.0.join(name)
     }
 
+    /// The content of the text file `name`.
+    pub fn text(&self, name: &str) -> String {
+        fs::read_to_string(self.path(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+    }
+
+    /// The program with these arguments, in the folder.
+    pub fn command(&self, arguments: &str) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_spindrift"));
+        command.args(arguments.split_whitespace()).current_dir(&self.0);
+        command
+    }
+
     /// Runs the program in the folder and checks the exit code; returns both output streams.
     pub fn prints(&self, arguments: &str, code: i32) -> String {
-        self.outputs(Command::new(env!("CARGO_BIN_EXE_spindrift")).args(arguments.split_whitespace()), code)
+        self.outputs(&mut self.command(arguments), code)
     }
 
     /// The same with a command on a shipped campaign.
@@ -97,6 +110,24 @@ impl ScratchFolder {
     pub fn table(&self, file: &str) -> RecordBatch {
         batches(&self.0.join(file)).swap_remove(0)
     }
+}
+
+/// Every file below `root`, which may be absent, with its content, by its name: `runs/part-000000.parquet`, `plan.toml`.
+pub fn contents(root: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut found = BTreeMap::new();
+    let mut folders = vec![root.to_owned()];
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(&folder).into_iter().flatten().map(Result::unwrap) {
+            let path = entry.path();
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                let name = path.strip_prefix(root).unwrap().to_string_lossy().into_owned();
+                found.insert(name, fs::read(&path).unwrap());
+            }
+        }
+    }
+    found
 }
 
 /// All batches of a Parquet file: one for each row group.

@@ -195,10 +195,6 @@ fn cube<R: Real>(x: R, z: R) -> R {
     square * square.sqrt()
 }
 
-/// Arenstorf's orbit: mass, initial state, period.
-pub const ARENSTORF: (f64, [f64; 4], f64) =
-    (0.012277471, [0.994, 0.0, 0.0, -2.001_585_106_379_082_5], 17.065_216_560_157_964);
-
 /// y'' = (1 - y^2) y' - y.
 #[derive(Clone, Copy)]
 pub struct VanDerPol;
@@ -247,24 +243,4 @@ impl Law<1, 0> for Switched {
     fn derivative<R: Real>(time: R, _y: &[R; 1], _p: &[R; 0], arc: R) -> [R; 1] {
         [(arc + time.splat(1.0)) * (time.splat(3.0) * (time * time))]
     }
-}
-
-/// Integrates all cases one by one, compiled for the instruction set `isa`.
-pub fn scalar_on<M: Method, L: Law<N, P>, const N: usize, const P: usize>(
-    isa: Isa,
-    method: M,
-    law: L,
-    cases: &[Case<N, P>],
-    grid: &Grid,
-    control: &Control,
-) -> Vec<Journey<N>> {
-    struct Integration<'a, M, L, const N: usize, const P: usize>(M, L, &'a [Case<N, P>], &'a Grid, &'a Control);
-    impl<M: Method, L: Law<N, P>, const N: usize, const P: usize> Work for Integration<'_, M, L, N, P> {
-        type Output = Vec<Journey<N>>;
-        #[inline(always)]
-        fn run<S: Simd>(self, _simd: S) -> Vec<Journey<N>> {
-            integrated((self.0, self.1), 0.0_f64, self.2, self.3, self.4)
-        }
-    }
-    isa.run(Integration(method, law, cases, grid, control))
 }

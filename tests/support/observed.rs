@@ -1,0 +1,36 @@
+//! Runs as an observer sees them.
+
+use std::collections::HashMap;
+
+use spindrift::math::Isa;
+use spindrift::observables::nominal_attitude::NominalAttitude;
+use spindrift::observables::request::wheel_names;
+use spindrift::observables::window::NO_WINDOWS;
+use spindrift::observables::{Groups, Observer, Request};
+use spindrift::run::{Grid, Outcome, StateTable};
+use spindrift::scene::{Actuated, Scene};
+
+/// Names of the wheels of any scene.
+const NAMES: [&str; 8] = ["w1", "w2", "w3", "w4", "w5", "w6", "w7", "w8"];
+
+/// What is observed of spacecraft with `wheels` wheels.
+pub fn request(groups: Groups, wheels: usize, debris: bool, actuated: bool, constrained: bool) -> Request {
+    let actuated = if actuated { Actuated::ALL } else { Actuated::NONE };
+    Request { groups, debris, actuated, constrained, wheels: wheel_names(&NAMES[..wheels]), windows: NO_WINDOWS }
+}
+
+/// The row of a run by column name, and the observer, which has its series.
+pub fn observed(
+    isa: Isa,
+    request: Request,
+    grid: &Grid,
+    scene: &Scene,
+    (table, outcome): (&StateTable, &Outcome),
+    nominal: Option<NominalAttitude>,
+) -> (HashMap<String, f64>, Observer) {
+    let mut observer = Observer::new(request, grid).with_nominal(nominal);
+    let mut row = vec![0.0; request.columns().len()];
+    observer.observe(isa, scene, table, outcome, &mut row);
+    let names = request.columns().iter().map(|column| column.quantity.name().to_owned()).collect::<Vec<_>>();
+    (names.into_iter().zip(row).collect(), observer)
+}
