@@ -8,8 +8,7 @@ use std::time::Duration;
 
 use serde_json::Value;
 
-use crate::analysis::running_counts::Counted;
-use crate::analysis::tally::Tally;
+use crate::analysis::fold::Gathered;
 use crate::analysis::trajectories;
 use crate::campaign::{FilesRead, Plan, data};
 use crate::cli::analysis::{Analysed, analyse, write_junit};
@@ -26,6 +25,7 @@ use crate::report::audit_summary::cost;
 use crate::report::drivers_text;
 use crate::report::number::bytes;
 use crate::report::summary::Summary;
+use crate::sampling::SampleId;
 use crate::storage::claim::{Claim, ClaimOptions, Ready, claim, open};
 use crate::storage::disk::{Disk, Storage};
 use crate::storage::folder::Folder;
@@ -66,8 +66,8 @@ pub struct Finishing<'a> {
 ///
 /// # Errors
 /// Where rows cannot be read or a file operation fails.
-pub fn finish(job: &Finishing<'_>, counted: Option<Counted>) -> Result<CommandOutcome, Failure> {
-    let (outcome, text) = complete(job, counted)?;
+pub fn finish(job: &Finishing<'_>, gathered: Option<Gathered>) -> Result<CommandOutcome, Failure> {
+    let (outcome, text) = complete(job, gathered)?;
     screen::print(&text)?;
     Ok(outcome)
 }
@@ -76,19 +76,20 @@ pub fn finish(job: &Finishing<'_>, counted: Option<Counted>) -> Result<CommandOu
 ///
 /// # Errors
 /// Where parts are missing, rows cannot be read or a file operation fails.
-pub fn complete(job: &Finishing<'_>, counted: Option<Counted>) -> Result<(CommandOutcome, String), Failure> {
+pub fn complete(job: &Finishing<'_>, gathered: Option<Gathered>) -> Result<(CommandOutcome, String), Failure> {
     let (plan, folder) = (job.ensemble.plan(), &job.ready.folder);
     let parts = parts(plan, job.ensemble.isa());
     refuse_missing(&folder.missing(parts.iter()), job.root)?;
     let records = folder.parts();
     let (reader, bands) = rows_of(job.ready);
-    let tally = match &counted {
-        Some(counted) => counted.tally.clone(),
-        None => Tally::of_files(job.ensemble, &reader, job.threads).map_err(Failure::files)?,
+    let gathered = match gathered {
+        Some(gathered) => gathered,
+        None => Gathered::of_files(job.ensemble, (&reader, &bands), job.threads).map_err(Failure::files)?,
     };
-    let analysed = analyse(plan, &reader, &bands, folder, counted, job.threads)?;
-    retain(job, &reader)?;
-    make_page(job, &reader, &analysed, &records)?;
+    let (tally, retained) = (gathered.tally.clone(), gathered.retained.clone());
+    let analysed = analyse(plan, &reader, folder, gathered, job.threads)?;
+    retain(job, &retained)?;
+    make_page(job, &analysed, &records)?;
     write_junit(plan, &analysed, tally.failed(), job.junit)?;
     let (failed, undecided) = (analysed.verdicts.failed(), analysed.verdicts.undecided());
     let is_imprecise = analysed.stopping.as_ref().is_some_and(|found| !found.is_reached());
@@ -123,31 +124,25 @@ pub fn complete(job: &Finishing<'_>, counted: Option<Counted>) -> Result<(Comman
 }
 
 /// Writes the report page and its figures, where they are asked for; else there is none.
-fn make_page(
-    job: &Finishing<'_>,
-    reader: &RowsReader,
-    analysed: &Analysed,
-    records: &[PartRecord],
-) -> Result<(), Failure> {
+fn make_page(job: &Finishing<'_>, analysed: &Analysed, records: &[PartRecord]) -> Result<(), Failure> {
     let folder = &job.ready.folder;
     if job.page.0 {
-        let page = report::page(job.ensemble, reader, analysed, records, job.threads)?;
+        let page = report::page(job.ensemble, analysed, records);
         folder.write(REPORT, page.html.as_bytes()).map_err(Failure::files)?;
         return report::save_figures(&page, job.page.1);
     }
     folder.remove(REPORT).map_err(Failure::files)
 }
 
-/// Writes the time series that the plan retains.
-fn retain(job: &Finishing<'_>, reader: &RowsReader) -> Result<(), Failure> {
+/// Writes the time series of the `samples` that the plan retains.
+fn retain(job: &Finishing<'_>, samples: &[SampleId]) -> Result<(), Failure> {
     let (plan, folder) = (job.ensemble.plan(), &job.ready.folder);
     let path = folder.clear(TRAJECTORIES).map_err(Failure::files)?;
-    let samples = trajectories::retained(plan, reader, job.threads).map_err(Failure::files)?;
     if samples.is_empty() {
         return Ok(());
     }
     folder.storage().create_folder(&path).map_err(|error| Failure::files(format!("{}: {error}", path.display())))?;
-    trajectories::save(plan, &samples, folder, job.ensemble.isa(), job.threads).map_err(Failure::files)
+    trajectories::save(plan, samples, folder, job.ensemble.isa(), job.threads).map_err(Failure::files)
 }
 
 /// The rows of a dataset that are there, and the files of their bands.

@@ -1,8 +1,8 @@
 //! `spindrift report`: makes the page of a finished result again from its rows, and its figures as files.
 
-use std::num::NonZeroUsize;
 use std::path::Path;
 
+use crate::analysis::fold::Gathered;
 use crate::cli::analysis::{Analysed, computed};
 use crate::cli::arguments::ReportOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
@@ -52,8 +52,9 @@ pub fn remade(storage: &'static dyn Storage, options: &ReportOptions) -> Result<
     let records: Vec<PartRecord> = found.parts().into_values().collect();
     let parts = PartsRead::of(&records, |name| root.join(name));
     let reader = RowsReader::new(storage, parts.rows);
-    let analysed = computed(&plan, &reader, &parts.bands, None, options.threads)?;
-    let page = page(&ensemble, &reader, &analysed, &records, options.threads)?;
+    let gathered = Gathered::of_files(&ensemble, (&reader, &parts.bands), options.threads).map_err(Failure::files)?;
+    let analysed = computed(&plan, &reader, gathered, options.threads)?;
+    let page = page(&ensemble, &analysed, &records);
     let path = root.join(REPORT);
     place(storage, &path, page.html.as_bytes()).map_err(Failure::files)?;
     relist(storage, root, (manifest, &found.plan), FileRecord::of(REPORT, page.html.as_bytes()))
@@ -63,16 +64,7 @@ pub fn remade(storage: &'static dyn Storage, options: &ReportOptions) -> Result<
 }
 
 /// The page of a result whose parts are `records`.
-///
-/// # Errors
-/// Where a part cannot be read.
-pub fn page(
-    ensemble: &Ensemble<'_>,
-    reader: &RowsReader,
-    analysed: &Analysed,
-    records: &[PartRecord],
-    threads: Option<NonZeroUsize>,
-) -> Result<Page, Failure> {
+pub fn page(ensemble: &Ensemble<'_>, analysed: &Analysed, records: &[PartRecord]) -> Page {
     let analysis = Analysis {
         statistics: &analysed.statistics,
         verdicts: &analysed.verdicts,
@@ -81,8 +73,8 @@ pub fn page(
         stopping: analysed.stopping.as_ref(),
     };
     let files = records.iter().flat_map(|part| &part.files).map(|file| (file.name.clone(), file.sha256.clone()));
-    let contents = Contents::new(ensemble, reader, analysis, files.collect(), threads).map_err(Failure::files)?;
-    Ok(Page::new(ensemble, &contents))
+    let contents = Contents::new(ensemble.plan(), analysed.survey.clone(), analysis, files.collect());
+    Page::new(ensemble, &contents)
 }
 
 /// Writes the figures of `page` as files into `folder`, if one was named.

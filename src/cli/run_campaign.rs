@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-use crate::analysis::running_counts::RunningCounts;
-use crate::analysis::stopping::stopping;
+use crate::analysis::fold::RunningFold;
+use crate::analysis::stopping::look;
 use crate::campaign::{Overrides, Plan};
 use crate::cli::arguments::CampaignOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
@@ -150,7 +150,7 @@ fn run_missing(
     let mut made = Made::default();
     // what is there already was counted by no one
     let is_whole = ready.folder.parts().is_empty() && options.shard.is_none() && plan.analysis.stop.is_none();
-    let counts = if is_whole { RunningCounts::of(ensemble) } else { None };
+    let counts = if is_whole { RunningFold::of(ensemble) } else { None };
     plan.notes().iter().for_each(|note| screen::note(note));
     let targets = plan.looks();
     let mut samples = targets.last().copied().unwrap_or(plan.samples);
@@ -163,7 +163,7 @@ fn run_missing(
             return Ok(outcome);
         }
         let (rows, bands) = rows_of(&ready);
-        match stopping(plan, (&rows, &bands), target, options.threads, None).map_err(Failure::files)? {
+        match look(plan, (&rows, &bands), target, options.threads).map_err(Failure::files)? {
             Some(found) if !found.ends() => screen::note(&format!("{}: {}", plan.name, stopping_text(plan, &found))),
             _ => break,
         }
@@ -199,7 +199,7 @@ fn run_to(
     ensemble: &Ensemble<'_>,
     (ready, root): (&Ready, &Path),
     parts: Parts,
-    counts: Option<&RunningCounts>,
+    counts: Option<&RunningFold>,
     signals: &Signals,
     made: &mut Made,
 ) -> Result<Option<CommandOutcome>, Failure> {
@@ -247,7 +247,7 @@ fn run_them(
     options: &CampaignOptions,
     ensemble: &Ensemble<'_>,
     (ready, missing): (&Ready, &[Part]),
-    counts: Option<&RunningCounts>,
+    counts: Option<&RunningFold>,
     (signals, first): (&Signals, &Mutex<Option<FailedRun>>),
 ) -> Result<(Duration, [f64; 2]), Failure> {
     let bar = Bar::new(missing.iter().map(|part| part.count as u64).sum());

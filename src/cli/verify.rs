@@ -13,15 +13,15 @@ use crate::cli::signals::{self, Signals};
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::runner::threads;
 use crate::ensemble::{Ensemble, Part, Rows, Sink, Supervision, run as run_parts};
-use crate::storage::bands_file;
 use crate::storage::claim::{Claim, ClaimOptions, claim, lock, open};
 use crate::storage::disk::{Disk, Storage};
+use crate::storage::folder::PartFile;
 use crate::storage::found::{Found, plan_text};
 use crate::storage::manifest::{FileRecord, PartRecord};
-use crate::storage::names::{MANIFEST, PLAN, bands_of, rows_of};
-use crate::storage::part_sink::write_parts;
+use crate::storage::names::{MANIFEST, PLAN, rows_of};
+use crate::storage::part_sink::{PartFiles, write_parts};
 use crate::storage::recovery::{begin_again, is_lost};
-use crate::storage::rows_file::{RowsFile, identity};
+use crate::storage::rows_file::identity;
 use crate::storage::verify::{damaged, derived_damage};
 
 /// Runs the command.
@@ -153,7 +153,7 @@ enum Repair {
 
 /// Encodes rows and remembers the parts whose bytes are not those of the manifest.
 struct Comparison<'a> {
-    file: RowsFile,
+    files: PartFiles,
     records: &'a [PartRecord],
     differing: Mutex<Vec<Part>>,
 }
@@ -163,14 +163,8 @@ impl Sink for Comparison<'_> {
 
     fn take(&self, rows: &Rows) -> Result<(), String> {
         let part = rows.part();
-        let mut bytes = Vec::new();
-        self.file.write(rows, &mut bytes).map_err(|error| error.to_string())?;
-        let mut files = vec![FileRecord::of(&rows_of(part.id), &bytes)];
-        if let Some(bands) = rows.bands() {
-            bytes.clear();
-            bands_file::write(part, bands, &mut bytes);
-            files.push(FileRecord::of(&bands_of(part.id), &bytes));
-        }
+        let files = self.files.encoded(rows, std::iter::empty()).map_err(|error| error.to_string())?;
+        let files: Vec<FileRecord> = files.iter().map(PartFile::record).collect();
         if self.records.iter().find(|record| record.part == part.id.0).is_none_or(|record| record.files != files) {
             self.differing.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push(rows.part());
         }
@@ -185,7 +179,7 @@ fn differing(
     options: &VerifyOptions,
 ) -> Result<Vec<Part>, Failure> {
     let comparison = Comparison {
-        file: RowsFile::new(ensemble).map_err(Failure::files)?,
+        files: PartFiles::new(ensemble).map_err(Failure::files)?,
         records,
         differing: Mutex::new(Vec::new()),
     };

@@ -208,7 +208,7 @@ fn damaged_parts_are_found_and_made_again() {
             }),
         ),
         ("removed", Box::new(|| fs::remove_file(part(1)).unwrap())),
-        ("bands", Box::new(|| fs::write(scratch.path("r/bands/part-000001.bands"), b"x").unwrap())),
+        ("bands", Box::new(|| fs::write(scratch.path("r/bands/part-000001.parquet"), b"x").unwrap())),
     ];
     let files = contents(&scratch.path("whole"));
     for (name, damage) in damages {

@@ -195,7 +195,7 @@ fn a_campaign_ends_with_bands() {
     scratch.file("small.toml", &(campaign() + "[bands]\npoints = 0\n"));
     scratch.prints("campaign small.toml --out none", 0);
     assert!(
-        !scratch.path("none/bands.parquet").exists() && !scratch.path("none/bands").join("part-000000.bands").exists()
+        !scratch.path("none/bands.parquet").exists() && !scratch.path("none/bands").join("part-000000.parquet").exists()
     );
 }
 

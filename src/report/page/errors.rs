@@ -1,8 +1,8 @@
 //! Figures of the numerical errors: histograms, exceedance, estimate against audited error, work.
 
 use crate::report::page::figure::{Axis, Figure, Hue, Mark, Section};
-use crate::report::page::shown_columns::{CONFIDENCE, ranked, words};
-use crate::report::page::survey::{Outcome, Survey};
+use crate::report::page::shown_columns::{ranked, words};
+use crate::analysis::survey::{CONFIDENCE, Survey, SurveyedOutcome};
 use crate::run::Status;
 use crate::statistics::binomial::interval;
 use crate::statistics::sketch::Sketch;
@@ -58,7 +58,7 @@ pub fn shown_rows(survey: &Survey) -> Vec<usize> {
 }
 
 /// The histogram of an outcome over the thinned table; of an error, of its magnitude.
-pub fn histogram(survey: &Survey, index: usize, outcome: &Outcome, section: Section) -> Figure {
+pub fn histogram(survey: &Survey, index: usize, outcome: &SurveyedOutcome, section: Section) -> Figure {
     let rows = shown_rows(survey);
     let column = &survey.thinned.outcomes[index];
     let values: Vec<f64> = rows.iter().map(|row| column[*row]).filter(|value| value.is_finite()).collect();
@@ -137,7 +137,7 @@ pub fn counts(values: &[f64], edges: &[f64]) -> Vec<f64> {
 }
 
 /// The fraction of runs above a value, on logarithmic axes, at ranks spaced by decades.
-fn exceedance(outcome: &Outcome, has_intervals: bool) -> Figure {
+fn exceedance(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
     let (x, y, low, high) = tail(&outcome.sketch);
     let label = format!("{}% interval", (100.0 * CONFIDENCE).round());
     let mut marks = Vec::new();

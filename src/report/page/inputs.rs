@@ -6,7 +6,7 @@ use crate::campaign::Plan;
 use crate::report::marginal;
 use crate::report::page::errors::{bins, counts};
 use crate::report::page::figure::{Axis, Figure, Hue, Mark, Section};
-use crate::report::page::survey::Survey;
+use crate::analysis::survey::Survey;
 use crate::sampling::correlation::{Measure, Numbers};
 use crate::statistics::correlation::{matrix, mid_ranks, standardised};
 

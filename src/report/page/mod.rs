@@ -2,7 +2,7 @@
 //!
 //! It is a pure function of the plan and the rows (and what was computed from them): the same result gives the same bytes.
 //!
-//! - [`survey`]: what is taken from the rows. - `runs`: the runs that are shown in full.
+//! - `runs`: the runs that are shown in full.
 //! - [`figure`]: what a figure shows; [`over_time`], `errors`, [`influence`], `inputs`: the figures; [`drawing`]: figures as files.
 //! - [`gather`]: what statistics, verdicts, sensitivities and bands are on the page. - [`cards`], `first_screen`, [`tables`], `document`: the HTML. - `replay`: the 3D replay. - `payload`: numbers in the page.
 //!
@@ -25,7 +25,6 @@ mod replay;
 mod runs;
 mod shown_columns;
 mod spectrum;
-pub mod survey;
 pub mod tables;
 
 use serde_json::{Value, json};
@@ -36,7 +35,7 @@ use self::figure::{Figure, Section};
 use self::influence::Influence;
 use self::over_time::{Curves, TimeBands};
 use self::payload::Payload;
-use self::survey::Survey;
+use crate::analysis::survey::{self, Survey};
 use self::tables::StatisticsRow;
 use crate::campaign::Plan;
 use crate::ensemble::Ensemble;

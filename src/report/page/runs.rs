@@ -5,7 +5,7 @@ use crate::ensemble::{DrawnScenes, SingleRun};
 use crate::math::Isa;
 use crate::observables::Group;
 use crate::report::page::shown_columns::words;
-use crate::report::page::survey::Survey;
+use crate::analysis::survey::Survey;
 use crate::run::{Grid, Status};
 use crate::sampling::SampleId;
 
