@@ -265,7 +265,7 @@ fn a_worker_with_bands() {
     let campaign = Ensemble::new(&plan, Isa::best());
     let mut worker = campaign.worker();
     let mut rows = campaign.rows(256);
-    let columns = rows.bands().expect("bands").bands().columns().len() as u64;
+    let columns = rows.bands().expect("bands").layout().columns() as u64;
     let mut part = |first| {
         let part = Part { id: PartId(0), first: SampleId(first), count: 256 };
         worker.run(part, &mut rows, Supervision::progress(&|_| {}));

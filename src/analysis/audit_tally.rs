@@ -1,6 +1,6 @@
 //! [`AuditTally`]: statistics of the audits of a campaign, counted part by part.
 
-use crate::ensemble::Rows;
+use crate::ensemble::Audit;
 use crate::propagation::taylor::reference_solution;
 use crate::sampling::SampleId;
 use crate::statistics::spread::Spread;
@@ -61,12 +61,12 @@ impl AuditTally {
     /// Counts the audits of a part, without those of samples that are left out; `indices` are the indices of the observables in a row.
     pub fn add(
         &mut self,
-        rows: &Rows,
+        audits: &[(SampleId, Option<Audit>)],
         indices: impl Iterator<Item = usize> + Clone,
         is_left_out: impl Fn(SampleId) -> bool,
     ) {
-        for (row, audit) in rows.audits() {
-            if is_left_out(rows.samples()[*row]) {
+        for (sample, audit) in audits {
+            if is_left_out(*sample) {
                 continue;
             }
             let Some(audit) = audit else {
@@ -94,15 +94,11 @@ impl AuditTally {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ensemble::audit::Audit;
-    use crate::ensemble::{Part, PartId, Shape};
     use crate::statistics::sketch::RELATIVE_ERROR;
 
     /// The tally of audits with these (error, estimate); `None` is an audit that failed.
     fn tally(audits: &[Option<(f64, f64)>]) -> AuditTally {
-        let mut rows = Rows::new(Shape { parameters: 0, observables: 1 }, audits.len());
-        rows.start(Part { id: PartId(0), first: SampleId(0), count: audits.len() });
-        for (row, audit) in audits.iter().enumerate() {
+        let audits = audits.iter().zip(0..).map(|(audit, sample)| {
             let audit = audit.map(|(error, estimate)| Audit {
                 omega: error,
                 attitude: 0.5 * error,
@@ -112,22 +108,18 @@ mod tests {
                 reference_tolerance: reference_solution::TOLERANCE,
                 observables: vec![f64::NAN],
             });
-            rows.set_audit(row, audit);
-        }
+            (SampleId(sample), audit)
+        });
         let mut tally = AuditTally::new(1);
-        tally.add(&rows, std::iter::once(0), |_| false);
+        tally.add(&audits.collect::<Vec<_>>(), std::iter::once(0), |_| false);
         tally
     }
 
     /// Law: what is left out - the nominal sample, which is not dispersed - is in no count.
     #[test]
     fn the_nominal_sample_is_left_out() {
-        let mut rows = Rows::new(Shape { parameters: 0, observables: 1 }, 3);
-        rows.start(Part { id: PartId(0), first: SampleId(0), count: 3 });
-        rows.set_audit(0, None);
-        rows.set_audit(2, None);
         let mut tally = AuditTally::new(1);
-        tally.add(&rows, std::iter::once(0), |sample| sample == SampleId(0));
+        tally.add(&[0, 2].map(|sample| (SampleId(sample), None)), std::iter::once(0), |sample| sample == SampleId(0));
         assert_eq!((tally.audited, tally.failed), (0, 1));
     }
 
@@ -159,13 +151,10 @@ mod tests {
             reference_tolerance: reference_solution::TOLERANCE,
             observables: vec![f64::NAN],
         };
-        let mut rows = Rows::new(Shape { parameters: 0, observables: 1 }, 3);
-        rows.start(Part { id: PartId(0), first: SampleId(0), count: 3 });
-        for (row, (debris, estimate)) in [(1e-9, 1.5e-12), (1e-9, 4e-9), (f64::NAN, f64::NAN)].into_iter().enumerate() {
-            rows.set_audit(row, Some(audit(debris, estimate)));
-        }
+        let audits = [(1e-9, 1.5e-12), (1e-9, 4e-9), (f64::NAN, f64::NAN)]
+            .map(|(debris, estimate)| (SampleId(0), Some(audit(debris, estimate))));
         let mut tally = AuditTally::new(1);
-        tally.add(&rows, std::iter::once(0), |_| false);
+        tally.add(&audits, std::iter::once(0), |_| false);
         assert_eq!((tally.coverage.covered, tally.debris_coverage.covered), (3, 1));
         assert_eq!((tally.debris.count(), tally.debris_coverage.ratio.count()), (2, 2));
     }

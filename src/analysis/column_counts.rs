@@ -4,16 +4,18 @@
 //! contents of sketches are counts, which have no order: no bit depends on threads.
 
 use std::borrow::Cow;
-use std::num::NonZeroUsize;
 use std::sync::{Mutex, PoisonError};
 
+use crate::analysis::fold::Accumulator;
 use crate::analysis::observed::Observed;
 use crate::analysis::part_columns::PartColumns;
 use crate::analysis::population::Population;
+use crate::analysis::statistics::is_exact;
+use crate::campaign::Plan;
 use crate::run::Status;
 use crate::statistics::moments::Moments;
 use crate::statistics::sketch::Sketch;
-use crate::storage::rows_reader::{PartReader, RowsError, RowsReader};
+use crate::storage::rows_reader::RowsError;
 
 /// The values of one observable.
 #[derive(Clone, Debug, Default)]
@@ -100,6 +102,21 @@ pub fn references<P: PartColumns>(
     Ok(first.into_iter().map(reference).collect())
 }
 
+/// Values that are held at a time: 64 MB.
+const VALUES_AT_A_TIME: u64 = 8 << 20;
+/// Sketches that are held at a time: mostly below 0.1 MB each.
+const SKETCHES_AT_A_TIME: u64 = 512;
+
+/// All observables of `plan`, those together that are counted in one pass over the rows: memory does not depend on their number.
+pub fn batches(plan: &Plan) -> Vec<Vec<Observed>> {
+    let at_a_time = if is_exact(plan) {
+        VALUES_AT_A_TIME / plan.rows().max(1)
+    } else {
+        SKETCHES_AT_A_TIME / Population::of(plan).groups() as u64
+    };
+    Observed::all(plan).chunks(at_a_time.max(1) as usize).map(<[Observed]>::to_vec).collect()
+}
+
 /// Counts observables.
 #[derive(Debug)]
 pub struct Collector {
@@ -120,35 +137,37 @@ impl Collector {
         Collector { observed, population, is_exact, sketches: references.into_iter().map(sketches).collect() }
     }
 
-    /// Reads the parts of `reader` on `threads` threads (`None`: one per core).
-    ///
-    /// # Errors
-    /// Where a file cannot be read.
-    pub fn collect(self, reader: &RowsReader, threads: Option<NonZeroUsize>) -> Result<Collected, RowsError> {
-        let mut collected = self.nothing();
-        reader.visit(
-            threads,
-            |part: &mut PartReader| self.count(part),
-            |part| {
-                collected.merge(part);
-                Ok::<(), RowsError>(())
-            },
-        )?;
-        Ok(self.finish(collected))
+    /// The moments of `values` of group `index`, and the values where they are kept; else they are added to the sketch of the group.
+    fn group(&self, values: Cow<'_, [f64]>, sketches: &Mutex<Vec<Sketch>>, index: usize) -> (Moments, Vec<f64>) {
+        let moments = Moments::of_block(&values);
+        if self.is_exact {
+            return (moments, values.into_owned());
+        }
+        sketches.lock().unwrap_or_else(PoisonError::into_inner)[index].add_block(&values, &moments);
+        (moments, Vec::new())
     }
 
-    /// Nothing counted yet.
-    pub fn nothing(&self) -> Collected {
+    /// What was merged, with the sketches.
+    pub fn finish(self, mut collected: Collected) -> Collected {
+        for (column, sketches) in collected.columns.iter_mut().zip(self.sketches) {
+            let sketches = sketches.into_inner().unwrap_or_else(PoisonError::into_inner);
+            column.groups.iter_mut().zip(sketches).for_each(|(group, sketch)| group.sketch = sketch);
+        }
+        collected
+    }
+}
+
+impl Accumulator for Collector {
+    type Whole = Collected;
+    type OfPart = PartCounts;
+
+    fn nothing(&self) -> Collected {
         let groups = vec![GroupCounts::default(); self.population.groups()];
         let column = ColumnCounts { groups, ..ColumnCounts::default() };
         Collected { statuses: [0; Status::ALL.len()], columns: vec![column; self.observed.len()] }
     }
 
-    /// Counts a part, each once: what it adds must be merged in the order of the parts.
-    ///
-    /// # Errors
-    /// Where a column cannot be read.
-    pub fn count(&self, part: &impl PartColumns) -> Result<PartCounts, RowsError> {
+    fn count(&self, part: &impl PartColumns) -> Result<PartCounts, RowsError> {
         let (samples, ended) = (part.samples()?, part.statuses()?);
         let mut statuses = [0; Status::ALL.len()];
         let mut rows = Vec::with_capacity(part.rows());
@@ -186,39 +205,17 @@ impl Collector {
         Ok(PartCounts { statuses, columns })
     }
 
-    /// The moments of `values` of group `index`, and the values where they are kept; else they are added to the sketch of the group.
-    fn group(&self, values: Cow<'_, [f64]>, sketches: &Mutex<Vec<Sketch>>, index: usize) -> (Moments, Vec<f64>) {
-        let moments = Moments::of_block(&values);
-        if self.is_exact {
-            return (moments, values.into_owned());
-        }
-        sketches.lock().unwrap_or_else(PoisonError::into_inner)[index].add_block(&values, &moments);
-        (moments, Vec::new())
-    }
-
-    /// What was merged, with the sketches.
-    pub fn finish(self, mut collected: Collected) -> Collected {
-        for (column, sketches) in collected.columns.iter_mut().zip(self.sketches) {
-            let sketches = sketches.into_inner().unwrap_or_else(PoisonError::into_inner);
-            column.groups.iter_mut().zip(sketches).for_each(|(group, sketch)| group.sketch = sketch);
-        }
-        collected
-    }
-}
-
-impl Collected {
-    /// Adds the next part.
-    pub fn merge(&mut self, part: PartCounts) {
-        self.statuses.iter_mut().zip(part.statuses).for_each(|(sum, count)| *sum += count);
-        for (column, of_part) in self.columns.iter_mut().zip(part.columns) {
+    fn merge(&self, whole: &mut Collected, part: PartCounts) {
+        whole.statuses.iter_mut().zip(part.statuses).for_each(|(sum, count)| *sum += count);
+        for (column, of_part) in whole.columns.iter_mut().zip(part.columns) {
             column.without_value += of_part.without_value;
-            let mut whole = Moments::default();
+            let mut of_groups = Moments::default();
             for (group, (moments, values)) in column.groups.iter_mut().zip(of_part.groups) {
-                whole.merge(&moments);
+                of_groups.merge(&moments);
                 group.moments.merge(&moments);
                 group.values.extend(values);
             }
-            column.moments.merge(&whole);
+            column.moments.merge(&of_groups);
         }
     }
 }

@@ -1,11 +1,11 @@
 //! Layer 7: what the rows say.
 //!
-//! - [`statistics`]: of every observable ([`observed`], [`population`]), counted by [`column_counts`] from [`part_columns`], or by [`running_counts`] while
-//!   the rows are made; [`tally`], [`audit_tally`]: statuses, worst runs, audits.
+//! - [`fold`]: one pass over the parts, of rows in memory or in files ([`part_columns`]), in which everything that follows gathers what it needs.
+//! - [`statistics`]: of every observable ([`observed`], [`population`], [`column_counts`]); [`tally`], [`audit_tally`]: statuses, worst runs, audits.
 //! - [`verdicts`]: of the requirements, each an [`assessment`] (over time: `band_verdicts`); [`mod@stopping`]: whether the rows are enough.
 //! - [`sensitivity`]: which input matters; [`drivers`]: which of them the rows show. - [`statistics_table`], [`sensitivity_table`]: both as files.
 //! - [`comparison`]: two results, by the samples that both drew ([`pairing`]); [`comparison_table`]: as a file.
-//! - [`trajectories`]: which runs are retained, and their time series.
+//! - [`trajectories`]: which runs are retained, and their time series. - [`survey`]: what the page shows of the rows.
 //!
 //! Not here: files and their protocol (`storage`), formulas of statistics (`statistics`), text and figures (`report`).
 
@@ -16,11 +16,11 @@ pub mod column_counts;
 pub mod comparison;
 pub mod comparison_table;
 pub mod drivers;
+pub mod fold;
 pub mod observed;
 pub mod pairing;
 pub mod part_columns;
 pub mod population;
-pub mod running_counts;
 pub mod sensitivity;
 pub mod sensitivity_table;
 #[cfg(test)]
@@ -28,6 +28,7 @@ mod small_plan;
 pub mod statistics;
 pub mod statistics_table;
 pub mod stopping;
+pub mod survey;
 pub mod tally;
 pub mod trajectories;
 pub mod verdicts;

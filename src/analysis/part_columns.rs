@@ -4,9 +4,11 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 
 use crate::campaign::columns::parameter_quantity;
-use crate::ensemble::{Ensemble, Rows};
+use crate::ensemble::audit::AuditValue;
+use crate::ensemble::{Audit, Ensemble, Rows};
 use crate::run::Status;
 use crate::sampling::SampleId;
+use crate::storage::rows_file::{audit_error_name, audited_observables};
 use crate::storage::rows_reader::{PartReader, RowsError};
 
 /// The columns of one part.
@@ -25,6 +27,12 @@ pub trait PartColumns {
     /// # Errors
     /// Where that cannot be read.
     fn statuses(&self) -> Result<Cow<'_, [Status]>, RowsError>;
+
+    /// Why runs are not `ok`: their rows, and their reasons.
+    ///
+    /// # Errors
+    /// Where that cannot be read.
+    fn reasons(&self) -> Result<Cow<'_, [(usize, String)]>, RowsError>;
 
     /// The numbers of the column `name`, row by row: counts as doubles, NaN where there is none.
     ///
@@ -46,6 +54,11 @@ impl PartColumns for PartReader {
         self.statuses().map(Cow::Owned)
     }
 
+    fn reasons(&self) -> Result<Cow<'_, [(usize, String)]>, RowsError> {
+        let reasons = self.reasons()?.into_iter().enumerate();
+        Ok(reasons.filter_map(|(row, reason)| Some((row, reason?))).collect())
+    }
+
     fn numbers(&self, name: &str) -> Result<Cow<'_, [f64]>, RowsError> {
         self.numbers(name).map(Cow::Owned)
     }
@@ -56,6 +69,9 @@ impl PartColumns for PartReader {
 enum Position {
     Parameter(usize),
     Observable(usize),
+    Audit(AuditValue),
+    /// The error of an observable in audited runs.
+    AuditError(usize),
 }
 
 /// The columns of the rows of a campaign by name.
@@ -74,7 +90,12 @@ impl RowNames {
             .iter()
             .enumerate()
             .map(|(index, column)| (column.quantity.name().to_owned(), Position::Observable(index)));
-        RowNames(parameters.chain(observables).collect())
+        let audits = AuditValue::ALL.map(|value| (value.quantity().name().to_owned(), Position::Audit(value)));
+        let errors = audited_observables(ensemble).into_iter().map(|index| {
+            let name = audit_error_name(columns[index].quantity.name());
+            (name, Position::AuditError(index))
+        });
+        RowNames(parameters.chain(observables).chain(audits).chain(errors).collect())
     }
 
     /// The columns of `rows`.
@@ -103,15 +124,23 @@ impl PartColumns for RowsInMemory<'_> {
         Ok(Cow::Borrowed(self.rows.statuses()))
     }
 
+    fn reasons(&self) -> Result<Cow<'_, [(usize, String)]>, RowsError> {
+        Ok(Cow::Borrowed(self.rows.reasons()))
+    }
+
     fn numbers(&self, name: &str) -> Result<Cow<'_, [f64]>, RowsError> {
-        let found = match self.names.0.get(name) {
-            Some(Position::Parameter(index)) => Some(self.rows.parameter(*index)),
-            Some(Position::Observable(index)) => Some(self.rows.observable(*index)),
-            None => None,
+        let audits = |value: &dyn Fn(&Audit) -> f64| {
+            let mut column = vec![f64::NAN; self.rows.part().count];
+            let audited = self.rows.audits().iter().filter_map(|(row, audit)| Some((*row, audit.as_ref()?)));
+            audited.for_each(|(row, audit)| column[row] = value(audit));
+            Cow::Owned(column)
         };
-        match found {
-            // what is not finite is absent in both
-            Some(values) => Ok(Cow::Borrowed(values)),
+        // what is not finite is absent in memory as in a file
+        match self.names.0.get(name) {
+            Some(Position::Parameter(index)) => Ok(Cow::Borrowed(self.rows.parameter(*index))),
+            Some(Position::Observable(index)) => Ok(Cow::Borrowed(self.rows.observable(*index))),
+            Some(Position::Audit(value)) => Ok(audits(&|audit| audit.value(*value))),
+            Some(Position::AuditError(index)) => Ok(audits(&|audit| audit.observables[*index])),
             None => Err(RowsError { path: "rows".to_owned(), what: format!("there is no column `{name}`") }),
         }
     }

@@ -3,9 +3,13 @@
 //! Correlations, regression and given-data indices from the runs that are `ok`, in the order of their samples; first-order and total indices of
 //! Sobol from the blocks of a `saltelli` design. A pure function of plan and files.
 
+use std::borrow::Cow;
 use std::num::NonZeroUsize;
+use std::sync::atomic::{AtomicBool, Ordering};
 
+use crate::analysis::fold::Accumulator;
 use crate::analysis::observed::Observed;
+use crate::analysis::part_columns::PartColumns;
 use crate::analysis::population::{LISTED, Population};
 use crate::campaign::{Plan, Requirement};
 use crate::observables::headlines::headlines;
@@ -17,7 +21,7 @@ use crate::statistics::correlation::{
 use crate::statistics::regression::{Regressors, independent_inputs};
 use crate::statistics::sensitivity::{Block, Samples, first_order_index_in_order, saltelli_indices};
 use crate::storage::parallel::in_parallel;
-use crate::storage::rows_reader::{PartReader, RowsError, RowsReader};
+use crate::storage::rows_reader::RowsError;
 
 /// Most rows for observables that a campaign file names.
 pub const MOST_ROWS: usize = 65_536;
@@ -78,56 +82,92 @@ fn wanted(plan: &Plan) -> (Vec<String>, usize) {
     (main.collect(), FEWER_ROWS)
 }
 
-/// Numbers row by row, in the order of the samples.
-struct Table {
+/// The first rows of dispersed samples that are `ok`, in the order of the samples.
+#[derive(Clone, Debug, Default)]
+pub struct RowTable {
     samples: Vec<u64>,
     inputs: Vec<Vec<f64>>,
     observables: Vec<Vec<f64>>,
 }
 
-/// The first `most` rows of dispersed samples that are `ok`.
-fn read(reader: &RowsReader, inputs: &[String], observed: &[Observed], most: usize) -> Result<Table, RowsError> {
-    let empty = |count: usize| vec![Vec::new(); count];
-    let mut table = Table { samples: Vec::new(), inputs: empty(inputs.len()), observables: empty(observed.len()) };
-    for index in 0..reader.files().len() {
-        let Some(part) = reader.part(index).filter(|_| table.samples.len() < most) else { break };
-        let part: PartReader = part?;
-        let (samples, statuses) = (part.samples()?, part.statuses()?);
-        let of_population = |row: &usize| samples[*row].0 > 0 && statuses[*row] == Status::Done;
-        let rows: Vec<usize> = (0..part.rows()).filter(of_population).take(most - table.samples.len()).collect();
-        table.samples.extend(rows.iter().map(|row| samples[*row].0));
-        for (column, name) in table.inputs.iter_mut().zip(inputs) {
-            let values = part.numbers(name)?;
-            column.extend(rows.iter().map(|row| values[*row]));
-        }
-        for (column, observed) in table.observables.iter_mut().zip(observed) {
-            let values = observed.values(&part)?;
-            column.extend(rows.iter().map(|row| values[*row]));
-        }
-    }
-    Ok(table)
+/// Keeps the first rows: inputs, and the observables that a campaign file requires or names (the main ones, where it names none).
+#[derive(Debug)]
+pub struct FirstRows {
+    inputs: Vec<String>,
+    observed: Vec<Observed>,
+    most: usize,
+    /// Whether the rows are there, so that no further part adds any.
+    is_full: AtomicBool,
 }
 
-/// What every input of `plan` means for the observables that its file requires or names (the main ones, where it names none).
-///
-/// # Errors
-/// Where a file cannot be read.
-pub fn compute(
-    plan: &Plan,
-    reader: &RowsReader,
-    threads: Option<NonZeroUsize>,
-) -> Result<Vec<InputSensitivity>, RowsError> {
-    let (names, most) = wanted(plan);
-    let observed = Observed::named(plan, names.iter().map(String::as_str));
-    if let Design::Saltelli(_) = plan.design {
-        let table = read(reader, &[], &observed, MOST_ROWS)?;
-        return Ok(of_blocks(plan, &observed, &table));
+impl FirstRows {
+    /// Of the campaign `plan`.
+    pub fn new(plan: &Plan) -> Self {
+        let (names, most) = wanted(plan);
+        let observed = Observed::named(plan, names.iter().map(String::as_str));
+        // the blocks of a `saltelli` design tell inputs by their places
+        let (inputs, most) = match plan.design {
+            Design::Saltelli(_) => (Vec::new(), MOST_ROWS),
+            _ => (inputs(plan), most),
+        };
+        FirstRows { inputs, observed, most, is_full: AtomicBool::new(false) }
     }
+}
+
+/// The names of the observables whose inputs are estimated; none where there are no inputs.
+pub fn explained(plan: &Plan) -> Vec<String> {
+    let observed = if inputs(plan).is_empty() { Vec::new() } else { FirstRows::new(plan).observed };
+    observed.into_iter().map(|one| one.quantity.name().to_owned()).collect()
+}
+
+/// The columns of the inputs: what follows from other inputs by an expression is none.
+fn inputs(plan: &Plan) -> Vec<String> {
     let columns = plan.dispersions.columns().iter().enumerate();
-    // what follows from other inputs by an expression is no input
     let drawn = columns.filter(|(index, _)| plan.dispersions.expression_of(*index).is_none());
-    let inputs: Vec<String> = drawn.map(|(_, column)| column.parameter.column_name(column.component)).collect();
-    let table = read(reader, &inputs, &observed, most)?;
+    drawn.map(|(_, column)| column.parameter.column_name(column.component)).collect()
+}
+
+impl Accumulator for FirstRows {
+    type Whole = RowTable;
+    type OfPart = RowTable;
+
+    fn nothing(&self) -> RowTable {
+        let empty = |count: usize| vec![Vec::new(); count];
+        RowTable { samples: Vec::new(), inputs: empty(self.inputs.len()), observables: empty(self.observed.len()) }
+    }
+
+    fn count(&self, part: &impl PartColumns) -> Result<RowTable, RowsError> {
+        if self.is_full.load(Ordering::Relaxed) {
+            return Ok(self.nothing());
+        }
+        let (samples, statuses) = (part.samples()?, part.statuses()?);
+        let of_population = |row: &usize| samples[*row].0 > 0 && statuses[*row] == Status::Done;
+        let rows: Vec<usize> = (0..samples.len()).filter(of_population).take(self.most).collect();
+        let taken = |column: Cow<'_, [f64]>| rows.iter().map(|row| column[*row]).collect::<Vec<f64>>();
+        Ok(RowTable {
+            samples: rows.iter().map(|row| samples[*row].0).collect(),
+            inputs: self.inputs.iter().map(|name| part.numbers(name).map(taken)).collect::<Result<_, _>>()?,
+            observables: self.observed.iter().map(|one| one.column(part).map(taken)).collect::<Result<_, _>>()?,
+        })
+    }
+
+    fn merge(&self, whole: &mut RowTable, part: RowTable) {
+        let left = self.most - whole.samples.len();
+        whole.samples.extend(part.samples.into_iter().take(left));
+        let columns = whole.inputs.iter_mut().chain(&mut whole.observables);
+        columns
+            .zip(part.inputs.into_iter().chain(part.observables))
+            .for_each(|(mine, theirs)| mine.extend(theirs.into_iter().take(left)));
+        self.is_full.store(whole.samples.len() == self.most, Ordering::Relaxed);
+    }
+}
+
+/// What every input of `plan` means for the observables that its file requires or names (the main ones, where it names none), from its first rows.
+pub fn compute(plan: &Plan, table: &RowTable, threads: Option<NonZeroUsize>) -> Vec<InputSensitivity> {
+    let FirstRows { inputs, observed, .. } = FirstRows::new(plan);
+    if let Design::Saltelli(_) = plan.design {
+        return of_blocks(plan, &observed, table);
+    }
     let prepared = Prepared::new(table.inputs.clone(), threads);
     let of_observable = |(observed, y): (&Observed, &Vec<f64>)| {
         if y.iter().all(|value| value.is_finite()) {
@@ -141,7 +181,7 @@ pub fn compute(
         Prepared::new(table.inputs.iter().map(of_rows).collect(), one).sensitivities(plan, &inputs, observed, &y)
     };
     let work: Vec<_> = observed.iter().zip(&table.observables).collect();
-    Ok(in_parallel(work, threads, of_observable).into_iter().flatten().collect())
+    in_parallel(work, threads, of_observable).into_iter().flatten().collect()
 }
 
 /// Inputs in all forms that are needed.
@@ -310,7 +350,7 @@ fn factor_names(plan: &Plan) -> Vec<String> {
 }
 
 /// Indices from whole blocks of a `saltelli` design.
-fn of_blocks(plan: &Plan, observed: &[Observed], table: &Table) -> Vec<InputSensitivity> {
+fn of_blocks(plan: &Plan, observed: &[Observed], table: &RowTable) -> Vec<InputSensitivity> {
     let factors = factor_names(plan);
     let members = factors.len() + 2;
     let confidence = plan.analysis.confidence;
@@ -368,7 +408,7 @@ mod tests {
         // A = (0, 1), B = (1, 4); the second block lacks sample 6; A = (3, 1), B = (2, 0)
         let rows = [1.0, 2.0, 4.0, 5.0, 9.0, 9.0, 9.0, 4.0, 3.0, 3.0, 2.0];
         let samples = (1..=12).filter(|sample| *sample != 6).collect();
-        let table = Table { samples, inputs: Vec::new(), observables: vec![rows.to_vec()] };
+        let table = RowTable { samples, inputs: Vec::new(), observables: vec![rows.to_vec()] };
         let found = of_blocks(&plan, &observed, &table);
         let inputs: Vec<(&str, u64)> = found.iter().map(|one| (one.input.as_str(), one.rows)).collect();
         let parameter = |axis: &str| format!("initial.angular_velocity_rad_s.{axis}");

@@ -9,7 +9,8 @@
 
 use std::num::NonZeroUsize;
 
-use crate::analysis::column_counts::{Collected, Collector, ColumnCounts, REFERENCE_ROWS, references};
+use crate::analysis::column_counts::{Collected, Collector, ColumnCounts, REFERENCE_ROWS, batches, references};
+use crate::analysis::fold::of_files;
 use crate::analysis::observed::Observed;
 use crate::analysis::population::Population;
 use crate::campaign::{Plan, Statement};
@@ -26,10 +27,6 @@ use crate::storage::rows_reader::{RowsError, RowsReader};
 
 /// Most rows whose quantiles are exact.
 pub const MOST_EXACT: u64 = 100_000;
-/// Lists of values that are held at a time, one for each column and group of samples: 0.8 MB each at most.
-const LISTS_AT_A_TIME: usize = 16;
-/// Sketches that are held at a time: mostly below 0.1 MB each.
-const SKETCHES_AT_A_TIME: usize = 512;
 
 /// A quantile of the runs.
 #[derive(Clone, Debug, PartialEq)]
@@ -122,15 +119,15 @@ impl Statistics {
     }
 }
 
-/// The statistics of `plan`: of what was counted while its rows were made, or else from the files of its rows, on `threads` threads (`None`:
-/// one per core). Both give the same bits.
+/// The statistics of `plan`: of what was counted of the first of the [`batches`] of its observables, if it was, and else from the files of its rows, on
+/// `threads` threads (`None`: one per core).
 ///
 /// # Errors
 /// Where a file cannot be read.
 pub fn compute(
     plan: &Plan,
     reader: &RowsReader,
-    counted: Option<Collected>,
+    mut counted: Option<Collected>,
     threads: Option<NonZeroUsize>,
 ) -> Result<Statistics, RowsError> {
     let population = Population::of(plan);
@@ -144,17 +141,18 @@ pub fn compute(
         let describe = |(observed, counts)| described(plan, population, observed, counts, &common);
         columns.extend(in_parallel(observed.iter().zip(collected.columns).collect(), threads, describe));
     };
-    let observed = Observed::all(plan);
-    if let Some(counted) = counted.filter(|counted| counted.columns.len() == observed.len()) {
-        describe(&observed, counted);
-    } else {
-        let held = if is_exact { LISTS_AT_A_TIME } else { SKETCHES_AT_A_TIME };
-        for batch in observed.chunks((held / population.groups()).max(1)) {
-            // the nominal row is one more
-            let first = || references(batch, population, reader.first_parts(REFERENCE_ROWS + 1));
-            let collector = Collector::new(batch.to_vec(), population, (!is_exact).then(first).transpose()?);
-            describe(batch, collector.collect(reader, threads)?);
-        }
+    for batch in batches(plan) {
+        let of_batch = match counted.take() {
+            Some(counted) => counted,
+            None => {
+                // the nominal row is one more
+                let first = || references(&batch, population, reader.first_parts(REFERENCE_ROWS + 1));
+                let collector = Collector::new(batch.clone(), population, (!is_exact).then(first).transpose()?);
+                let counted = of_files(&collector, reader, threads)?;
+                collector.finish(counted)
+            }
+        };
+        describe(&batch, of_batch);
     }
     let quantile_error = if is_exact { 0.0 } else { RELATIVE_ERROR };
     Ok(Statistics { population, confidence: plan.analysis.confidence, statuses, quantile_error, columns })
@@ -351,6 +349,7 @@ fn of_quantile(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::analysis::fold::Accumulator;
     use crate::analysis::part_columns::PartColumns;
     use crate::analysis::small_plan::small_plan;
     use crate::run::Status;
@@ -374,6 +373,10 @@ mod tests {
             Ok(Cow::Borrowed(&self.0))
         }
 
+        fn reasons(&self) -> Result<Cow<'_, [(usize, String)]>, RowsError> {
+            Ok(Cow::Borrowed(&[]))
+        }
+
         fn numbers(&self, _: &str) -> Result<Cow<'_, [f64]>, RowsError> {
             Ok(Cow::Borrowed(&self.1))
         }
@@ -391,7 +394,7 @@ mod tests {
         // quantiles of 1, 2, 3, 4, 10
         let part = Written(statuses, vec![99.0, 4.0, 1.0, 50.0, 3.0, 2.0, 10.0], 0);
         let mut collected = collector.nothing();
-        collected.merge(collector.count(&part).expect("counted"));
+        collector.merge(&mut collected, collector.count(&part).expect("counted"));
         let counted = collector.finish(collected);
         let found = compute(&plan, &RowsReader::new(&Disk, Vec::new()), Some(counted), None).expect("statistics");
         let column = found.column(&name).expect("the column");
@@ -434,7 +437,7 @@ mod tests {
                 counts.into_iter().map(|index| (index, collector.count(&parts[index]).expect("counted"))).collect();
             counted.sort_by_key(|(index, _)| *index);
             let mut collected = collector.nothing();
-            counted.into_iter().for_each(|(_, part)| collected.merge(part));
+            counted.into_iter().for_each(|(_, part)| collector.merge(&mut collected, part));
             let mut columns = collector.finish(collected).columns;
             let common = CommonRanks::new(&plan, population, columns[0].moments.count());
             described(&plan, population, &observed[0], columns.remove(0), &common)

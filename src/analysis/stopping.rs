@@ -3,14 +3,16 @@
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
+use crate::analysis::fold::{Accumulator, of_files};
 use crate::analysis::observed::Observed;
-use crate::analysis::verdicts::{Verdicts, assess};
+use crate::analysis::part_columns::PartColumns;
+use crate::analysis::verdicts::{RequirementCounter, Verdicts, assess};
 use crate::campaign::Plan;
-use crate::campaign::stop::When;
+use crate::campaign::stop::{Stop, When};
 use crate::run::Status;
-use crate::statistics::looks::{Goal, Look, decision};
-use crate::storage::bands_file::{self, BandsError};
-use crate::storage::rows_reader::{PartReader, RowsError, RowsReader};
+use crate::statistics::looks::{Look, decision};
+use crate::storage::bands_file;
+use crate::storage::rows_reader::{RowsError, RowsReader};
 
 /// What a look at `samples` samples found.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,17 +36,6 @@ pub enum Found {
     Undecided(usize),
 }
 
-/// A look that cannot be taken.
-#[derive(Debug, thiserror::Error)]
-pub enum LookError {
-    /// Rows cannot be read.
-    #[error(transparent)]
-    Rows(#[from] RowsError),
-    /// Bands cannot be read.
-    #[error(transparent)]
-    Bands(#[from] BandsError),
-}
-
 impl Stopping {
     /// Whether the campaign has what it stops for.
     pub fn is_reached(&self) -> bool {
@@ -60,57 +51,86 @@ impl Stopping {
     }
 }
 
-/// Looks at the rows of the campaign `plan`, which are those of the samples below one of its [`Plan::looks`], and the files of their bands; the
-/// `verdicts` on its requirements are made where they are not given. `None` without `[stop]`. Memory is that of one number for each run at most.
+/// The values of one observable in the dispersed runs that are `ok`, in the order of the samples: one number for each run.
+#[derive(Clone, Debug)]
+pub struct ObservedValues {
+    observed: Vec<Observed>,
+    /// Samples below this count.
+    samples: u64,
+}
+
+impl ObservedValues {
+    /// Those of the observable that `[stop]` of `plan` is about, in the first `samples` samples; none without it.
+    pub fn of_stop(plan: &Plan, samples: u64) -> Self {
+        let name = plan.analysis.stop.as_ref().and_then(|stop| match &stop.when {
+            When::Precise { observable, .. } => Some(observable.as_str()),
+            When::Decided => None,
+        });
+        ObservedValues { observed: Observed::named(plan, name.into_iter()), samples }
+    }
+}
+
+impl Accumulator for ObservedValues {
+    type Whole = Vec<f64>;
+    type OfPart = Vec<f64>;
+
+    fn nothing(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    fn count(&self, part: &impl PartColumns) -> Result<Vec<f64>, RowsError> {
+        let mut found = Vec::new();
+        for observed in &self.observed {
+            let (samples, statuses, values) = (part.samples()?, part.statuses()?, observed.column(part)?);
+            let is_counted = |row: &usize| {
+                let sample = samples[*row].0;
+                sample > 0 && sample < self.samples && statuses[*row] == Status::Done
+            };
+            found.extend((0..samples.len()).filter(is_counted).map(|row| values[row]));
+        }
+        Ok(found)
+    }
+
+    fn merge(&self, whole: &mut Vec<f64>, part: Vec<f64>) {
+        whole.extend(part);
+    }
+}
+
+/// Looks at the rows of the campaign `plan`, which are those of the samples below one of its [`Plan::looks`], and the files of their bands. `None`
+/// without `[stop]`.
 ///
 /// # Errors
 /// Where a file cannot be read.
-pub fn stopping(
+pub fn look(
     plan: &Plan,
     (rows, bands): (&RowsReader, &[PathBuf]),
     samples: u64,
     threads: Option<NonZeroUsize>,
-    verdicts: Option<&Verdicts>,
-) -> Result<Option<Stopping>, LookError> {
-    let Some(stop) = &plan.analysis.stop else { return Ok(None) };
-    let looks = plan.looks();
-    let found = match (&stop.when, verdicts) {
-        (When::Precise { observable, goal }, _) => {
-            Found::Precision(precision(plan, rows, (observable, *goal), samples, threads)?)
+) -> Result<Option<Stopping>, RowsError> {
+    match &plan.analysis.stop {
+        None => Ok(None),
+        Some(Stop { when: When::Precise { .. }, .. }) => {
+            let values = of_files(&ObservedValues::of_stop(plan, samples), rows, threads)?;
+            Ok(stopping(plan, samples, &values, &Verdicts::default()))
         }
-        (When::Decided, Some(verdicts)) => Found::Undecided(verdicts.undecided()),
-        (When::Decided, None) => {
+        Some(Stop { when: When::Decided, .. }) => {
             let bands = bands_file::read(rows.storage(), bands, threads)?;
-            Found::Undecided(assess(plan, rows, bands.as_ref(), threads)?.undecided())
+            let counted = of_files(&RequirementCounter::new(plan), rows, threads)?;
+            Ok(stopping(plan, samples, &[], &assess(plan, &counted, bands.as_ref())))
         }
-    };
-    let look = looks.iter().position(|target| *target >= samples).map_or(looks.len(), |index| index + 1);
-    Ok(Some(Stopping { samples, look, looks: looks.len(), found }))
+    }
 }
 
-/// What the dispersed runs of the first `samples` samples say of the `goal` of `observable`.
-fn precision(
-    plan: &Plan,
-    rows: &RowsReader,
-    (observable, goal): (&str, Goal),
-    samples: u64,
-    threads: Option<NonZeroUsize>,
-) -> Result<Look, RowsError> {
-    let observed = Observed::named(plan, std::iter::once(observable));
-    let mut all: Vec<f64> = Vec::new();
-    let read = |part: &mut PartReader| -> Result<Vec<f64>, RowsError> {
-        let (ids, statuses) = (part.samples()?, part.statuses()?);
-        let is_counted = |(sample, status): (u64, Status)| sample > 0 && sample < samples && status == Status::Done;
-        let rows = || ids.iter().map(|sample| sample.0).zip(statuses.iter().copied());
-        let values = observed.iter().map(|one| one.values(part)).collect::<Result<Vec<_>, _>>()?;
-        let values = values.into_iter().flat_map(|values| rows().zip(values));
-        Ok(values.filter(|(row, _)| is_counted(*row)).map(|(_, value)| value).collect())
+/// What a look at `samples` samples finds, of the `values` of the observable that `[stop]` is about, or of the `verdicts` on the requirements. `None`
+/// without `[stop]`.
+pub fn stopping(plan: &Plan, samples: u64, values: &[f64], verdicts: &Verdicts) -> Option<Stopping> {
+    let (stop, looks) = (plan.analysis.stop.as_ref()?, plan.looks());
+    let found = match &stop.when {
+        When::Precise { goal, .. } => Found::Precision(decision(values, *goal, looks.len())),
+        When::Decided => Found::Undecided(verdicts.undecided()),
     };
-    rows.visit(threads, read, |values| {
-        all.extend(values);
-        Ok::<(), RowsError>(())
-    })?;
-    Ok(decision(&all, goal, plan.looks().len()))
+    let look = looks.iter().position(|target| *target >= samples).map_or(looks.len(), |index| index + 1);
+    Some(Stopping { samples, look, looks: looks.len(), found })
 }
 
 #[cfg(test)]

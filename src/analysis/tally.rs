@@ -3,11 +3,14 @@
 //! Only counts, extremes and the numbers of samples are kept and no floating-point sums, so that the statistics do not depend on
 //! the order of the parts. Sample 0 is the nominal scene: where there are others, the statistics are those of the others.
 
-use std::num::NonZeroUsize;
+use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
 
 use crate::analysis::audit_tally::AuditTally;
+use crate::analysis::fold::Accumulator;
+use crate::analysis::part_columns::PartColumns;
 use crate::ensemble::audit::{AuditValue, Selection};
-use crate::ensemble::{Audit, Ensemble, FailureReasons, Part, PartId, Rows};
+use crate::ensemble::{Audit, Ensemble, FailureReasons};
 use crate::observables::accuracy::{BALANCES, STATE_ERRORS};
 use crate::observables::headlines::headlines;
 use crate::observables::{ColumnId, Kind};
@@ -15,7 +18,7 @@ use crate::run::{Quantity, Status};
 use crate::sampling::SampleId;
 use crate::statistics::spread::Spread;
 use crate::storage::rows_file::{audit_error_name, audited_observables};
-use crate::storage::rows_reader::{PartReader, RowsError, RowsReader};
+use crate::storage::rows_reader::RowsError;
 
 /// An observable whose numerical errors the audits measure, with the spread of its values.
 #[derive(Clone, Debug)]
@@ -96,8 +99,33 @@ pub struct Tally {
     audits: Option<AuditTally>,
 }
 
-impl Tally {
-    /// Nothing counted yet.
+/// Counts a [`Tally`].
+#[derive(Debug)]
+pub struct TallyColumns {
+    nothing: Tally,
+    selection: Mutex<Selection>,
+    /// The names of the observables.
+    names: Vec<String>,
+    /// Indices of the observables that are counted, ascending.
+    wanted: Vec<usize>,
+    /// Indices of those whose errors audits have.
+    audited: Vec<usize>,
+    has_debris: bool,
+}
+
+/// What a part adds.
+#[derive(Clone, Debug)]
+pub struct TallyPart {
+    samples: Vec<SampleId>,
+    statuses: Vec<Status>,
+    reasons: Vec<(usize, String)>,
+    /// Observables by their indices.
+    values: BTreeMap<usize, Vec<f64>>,
+    audits: Vec<(SampleId, Option<Audit>)>,
+}
+
+impl TallyColumns {
+    /// Of the campaign `ensemble`.
     pub fn new(ensemble: &Ensemble<'_>) -> Self {
         let columns = ensemble.request().columns();
         let headline = |index: usize| {
@@ -107,99 +135,126 @@ impl Tally {
         let is_audited = ensemble.plan().audit_fraction > 0.0;
         let headlines: Vec<Headline> =
             headlines(ensemble.request()).into_iter().filter(|_| is_audited).map(headline).collect();
-        let audits = is_audited.then(|| AuditTally::new(headlines.len()));
         let index = |id: &ColumnId| ensemble.request().position(*id);
         let worst = [("conservation error", &BALANCES[..]), ("state error estimate", &STATE_ERRORS[..])].map(
             |(name, columns)| Worst { name, indices: columns.iter().filter_map(index).collect(), runs: Vec::new() },
         );
-        Tally {
+        let nothing = Tally {
             without_nominal: ensemble.plan().samples > 1,
             statuses: Default::default(),
             reasons: FailureReasons::default(),
+            audits: is_audited.then(|| AuditTally::new(headlines.len())),
             headlines,
             worst: worst.into_iter().filter(|worst| !worst.indices.is_empty()).collect(),
-            audits,
-        }
-    }
-
-    /// The tally of rows that are in files: `ensemble` is the campaign, `threads` read at the same time (`None`: one per core).
-    ///
-    /// # Errors
-    /// Where a file cannot be read.
-    pub fn of_files(
-        ensemble: &Ensemble<'_>,
-        files: &RowsReader,
-        threads: Option<NonZeroUsize>,
-    ) -> Result<Tally, RowsError> {
-        let mut tally = Tally::new(ensemble);
-        let columns = ensemble.request().columns();
-        let mut wanted: Vec<usize> = tally.headlines.iter().map(|headline| headline.index).collect();
-        wanted.extend(tally.worst.iter().flat_map(|worst| &worst.indices));
+        };
+        let mut wanted: Vec<usize> = nothing.headlines.iter().map(|headline| headline.index).collect();
+        wanted.extend(nothing.worst.iter().flat_map(|worst| &worst.indices));
         wanted.sort_unstable();
         wanted.dedup();
-        let audited: Vec<usize> = audited_observables(ensemble);
-        let read = |part: &mut PartReader| -> Result<Rows, RowsError> {
-            let samples = part.samples()?;
-            let first = samples.first().copied().unwrap_or(SampleId(0));
-            let mut rows = Rows::new(ensemble.shape(), samples.len());
-            rows.start_with(Part { id: PartId(0), first, count: samples.len() }, samples);
-            let values = wanted.iter().map(|index| Ok((*index, part.numbers(columns[*index].quantity.name())?)));
-            let statuses = part.statuses()?;
-            rows.restore(&statuses, values.collect::<Result<Vec<_>, RowsError>>()?);
-            if statuses.iter().any(|status| *status != Status::Done) {
-                let reasons = part.reasons()?.into_iter().enumerate();
-                reasons.for_each(|(row, reason)| reason.into_iter().for_each(|reason| rows.set_reason(row, reason)));
-            }
-            if !audited.is_empty() {
-                audits(ensemble, part, &audited, &mut rows)?;
-            }
-            Ok(rows)
-        };
-        files.visit(threads, read, |rows| {
-            tally.add(&rows);
-            Ok(())
-        })?;
-        Ok(tally)
+        TallyColumns {
+            nothing,
+            selection: Mutex::new(Selection::new(ensemble.plan())),
+            names: columns.iter().map(|column| column.quantity.name().to_owned()).collect(),
+            wanted,
+            audited: audited_observables(ensemble),
+            has_debris: ensemble.request().debris,
+        }
     }
 
+    /// The audits of a part. A sample that is to be audited and was not is an audit that failed.
+    fn audits(
+        &self,
+        part: &impl PartColumns,
+        samples: &[SampleId],
+        statuses: &[Status],
+    ) -> Result<Vec<(SampleId, Option<Audit>)>, RowsError> {
+        if self.nothing.audits.is_none() {
+            return Ok(Vec::new());
+        }
+        let read = |value: AuditValue| part.numbers(value.quantity().name());
+        let (omega, attitude, estimate) =
+            (read(AuditValue::Omega)?, read(AuditValue::Attitude)?, read(AuditValue::Estimate)?);
+        let tolerance = read(AuditValue::Tolerance)?;
+        let of_debris = |value| if self.has_debris { read(value) } else { Ok(vec![f64::NAN; omega.len()].into()) };
+        let (debris, debris_estimate) = (of_debris(AuditValue::Debris)?, of_debris(AuditValue::DebrisEstimate)?);
+        let error = |index: &usize| part.numbers(&audit_error_name(&self.names[*index]));
+        let errors = self.audited.iter().map(error).collect::<Result<Vec<_>, RowsError>>()?;
+        let mut selection = self.selection.lock().unwrap_or_else(PoisonError::into_inner);
+        let rows = samples.iter().zip(statuses).enumerate();
+        let selected = rows
+            .filter(|(_, (sample, status))| **status != Status::InvalidSample && selection.contains(**sample))
+            .map(|(row, (sample, _))| (row, *sample));
+        let audit = |row: usize| {
+            let mut observables = vec![f64::NAN; self.names.len()];
+            self.audited.iter().zip(&errors).for_each(|(index, errors)| observables[*index] = errors[row]);
+            Audit {
+                omega: omega[row],
+                attitude: attitude[row],
+                debris: debris[row],
+                estimate: estimate[row],
+                debris_estimate: debris_estimate[row],
+                reference_tolerance: tolerance[row],
+                observables,
+            }
+        };
+        Ok(selected.map(|(row, sample)| (sample, (!tolerance[row].is_nan()).then(|| audit(row)))).collect())
+    }
+}
+
+impl Accumulator for TallyColumns {
+    type Whole = Tally;
+    type OfPart = TallyPart;
+
+    fn nothing(&self) -> Tally {
+        self.nothing.clone()
+    }
+
+    fn count(&self, part: &impl PartColumns) -> Result<TallyPart, RowsError> {
+        let (samples, statuses) = (part.samples()?, part.statuses()?.into_owned());
+        let has_failed = statuses.iter().any(|status| *status != Status::Done);
+        let values = self.wanted.iter().map(|index| Ok((*index, part.numbers(&self.names[*index])?.into_owned())));
+        Ok(TallyPart {
+            reasons: if has_failed { part.reasons()?.into_owned() } else { Vec::new() },
+            values: values.collect::<Result<_, RowsError>>()?,
+            audits: self.audits(part, &samples, &statuses)?,
+            samples,
+            statuses,
+        })
+    }
+
+    fn merge(&self, whole: &mut Tally, part: TallyPart) {
+        whole.add(&part);
+    }
+}
+
+impl Tally {
     /// Counts the rows of a part.
-    pub fn add(&mut self, rows: &Rows) {
-        for (sample, status) in rows.samples().iter().copied().zip(rows.statuses()) {
-            self.statuses[status_index(*status)].add(sample);
+    fn add(&mut self, part: &TallyPart) {
+        let rows = || part.samples.iter().copied().zip(part.statuses.iter().copied()).enumerate();
+        rows().for_each(|(_, (sample, status))| self.statuses[status_index(status)].add(sample));
+        for (row, text) in &part.reasons {
+            self.reasons.add_run(part.samples[*row], part.statuses[*row], text);
         }
-        self.reasons.add(rows);
-        let is_nominal = |sample: SampleId| self.without_nominal && sample == SampleId(0);
-        let counted = rows.samples().iter().copied().zip(rows.statuses()).enumerate();
-        let counted: Vec<(usize, SampleId)> = counted
-            .filter(|(_, (sample, status))| **status == Status::Done && !is_nominal(*sample))
-            .map(|(row, (sample, _))| (row, sample))
-            .collect();
+        let without_nominal = self.without_nominal;
+        let is_nominal = |sample: SampleId| without_nominal && sample == SampleId(0);
         for headline in &mut self.headlines {
-            let values = rows.observable(headline.index);
-            counted.iter().for_each(|(row, _)| headline.spread.add(values[*row]));
+            let values = &part.values[&headline.index];
+            rows()
+                .filter(|(_, (sample, status))| *status == Status::Done && !is_nominal(*sample))
+                .for_each(|(row, _)| headline.spread.add(values[row]));
         }
-        // runs that are too inaccurate to count are the worst ones
-        let with_errors: Vec<(usize, SampleId)> = rows
-            .samples()
-            .iter()
-            .zip(rows.statuses())
-            .enumerate()
-            .filter(|(_, (sample, status))| {
-                [Status::Done, Status::Inaccurate].contains(status) && !is_nominal(**sample)
-            })
-            .map(|(row, (sample, _))| (row, *sample))
-            .collect();
         for worst in &mut self.worst {
-            let values: Vec<&[f64]> = worst.indices.iter().map(|index| rows.observable(*index)).collect();
-            for (row, sample) in &with_errors {
-                // what is not finite is absent in a file
-                let magnitudes = values.iter().map(|values| values[*row].abs()).filter(|error| error.is_finite());
-                let error = magnitudes.fold(f64::NAN, f64::max);
-                worst.add(*sample, error);
+            let values: Vec<&Vec<f64>> = worst.indices.iter().map(|index| &part.values[index]).collect();
+            for (row, (sample, status)) in rows() {
+                // runs that are too inaccurate to count are the worst ones
+                if [Status::Done, Status::Inaccurate].contains(&status) && !is_nominal(sample) {
+                    let magnitudes = values.iter().map(|values| values[row].abs()).filter(|error| error.is_finite());
+                    worst.add(sample, magnitudes.fold(f64::NAN, f64::max));
+                }
             }
         }
         if let Some(audits) = &mut self.audits {
-            audits.add(rows, self.headlines.iter().map(|headline| headline.index), is_nominal);
+            audits.add(&part.audits, self.headlines.iter().map(|headline| headline.index), is_nominal);
         }
     }
 
@@ -245,40 +300,6 @@ impl Tally {
     }
 }
 
-/// Reads the audits of a part, of the observables `audited`. A sample that is to be audited and was not is an audit that failed.
-fn audits(ensemble: &Ensemble<'_>, part: &PartReader, audited: &[usize], rows: &mut Rows) -> Result<(), RowsError> {
-    let names = ensemble.request().columns();
-    let read = |value: AuditValue| part.numbers(value.quantity().name());
-    let (omega, attitude, estimate) =
-        (read(AuditValue::Omega)?, read(AuditValue::Attitude)?, read(AuditValue::Estimate)?);
-    let tolerance = read(AuditValue::Tolerance)?;
-    let of_debris = |value| if ensemble.request().debris { read(value) } else { Ok(vec![f64::NAN; omega.len()]) };
-    let (debris, debris_estimate) = (of_debris(AuditValue::Debris)?, of_debris(AuditValue::DebrisEstimate)?);
-    let error = |index: &usize| part.numbers(&audit_error_name(names[*index].quantity.name()));
-    let errors = audited.iter().map(error).collect::<Result<Vec<_>, RowsError>>()?;
-    let mut selection = Selection::new(ensemble.plan());
-    let samples: Vec<SampleId> = rows.samples().to_vec();
-    let is_physical: Vec<bool> = rows.statuses().iter().map(|status| *status != Status::InvalidSample).collect();
-    for (row, sample) in samples.into_iter().enumerate() {
-        if !is_physical[row] || !selection.contains(sample) {
-            continue;
-        }
-        let mut observables = vec![f64::NAN; names.len()];
-        audited.iter().zip(&errors).for_each(|(index, errors)| observables[*index] = errors[row]);
-        let audit = Audit {
-            omega: omega[row],
-            attitude: attitude[row],
-            debris: debris[row],
-            estimate: estimate[row],
-            debris_estimate: debris_estimate[row],
-            reference_tolerance: tolerance[row],
-            observables,
-        };
-        rows.set_audit(row, (!tolerance[row].is_nan()).then_some(audit));
-    }
-    Ok(())
-}
-
 fn status_index(status: Status) -> usize {
     Status::ALL.iter().position(|known| *known == status).expect("every status is in the list of all")
 }
@@ -286,7 +307,9 @@ fn status_index(status: Status) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::analysis::part_columns::RowNames;
     use crate::campaign::{Overrides, Plan};
+    use crate::ensemble::{Part, PartId, Rows};
     use crate::math::Isa;
     use crate::propagation::Method;
 
@@ -303,7 +326,8 @@ mod tests {
         // a method whose rows have all balances
         let plan = Plan { method: Method::NullSpace, ..plan };
         let ensemble = Ensemble::new(&plan, Isa::best());
-        let (mut tally, mut first) = (Tally::new(&ensemble), 0);
+        let (columns, names) = (TallyColumns::new(&ensemble), RowNames::new(&ensemble));
+        let (mut tally, mut first) = (columns.nothing(), 0);
         let error = ensemble.request().position(balance).unwrap();
         for (id, part) in parts.iter().enumerate() {
             let mut rows = Rows::new(ensemble.shape(), part.len());
@@ -313,7 +337,7 @@ mod tests {
                 observed[error] = *value;
                 rows.set_result(row, *status, &observed);
             }
-            tally.add(&rows);
+            columns.merge(&mut tally, columns.count(&names.of(&rows)).unwrap());
             first += part.len() as u64;
         }
         tally

@@ -3,7 +3,6 @@
 //! A row is a pure function of plan and sample, so the runs are chosen when the rows are there, and made once more: bit for bit the
 //! run behind the row, in the file that `simulate --sample 12 --out` writes. Runs that nobody asked for cost nothing.
 
-use std::cmp::Ordering;
 use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -11,7 +10,9 @@ use std::path::PathBuf;
 use crate::storage::columnar::EncodingError;
 use thiserror::Error;
 
+use crate::analysis::fold::Accumulator;
 use crate::analysis::observed::Observed;
+use crate::analysis::part_columns::PartColumns;
 use crate::campaign::{Plan, Retention};
 use crate::ensemble::RunError;
 use crate::ensemble::single::run_each;
@@ -22,7 +23,7 @@ use crate::sampling::{SampleId, Stream};
 use crate::storage::disk::StorageError;
 use crate::storage::folder::Folder;
 use crate::storage::names::TRAJECTORIES;
-use crate::storage::rows_reader::{PartReader, RowsError, RowsReader};
+use crate::storage::rows_reader::RowsError;
 use crate::storage::timeseries::TimeSeries;
 
 /// The stream that chooses the runs of `sample:N`: no other draw depends on it.
@@ -55,44 +56,83 @@ pub fn file_name(sample: SampleId) -> String {
     format!("sample-{:06}.parquet", sample.0)
 }
 
-/// The samples of `plan` whose runs are retained, ascending: a function of the plan and its rows. Samples whose scene is not physical
-/// have no run and are left out.
-///
-/// # Errors
-/// Where the rows cannot be read.
-pub fn retained(plan: &Plan, rows: &RowsReader, threads: Option<NonZeroUsize>) -> Result<Vec<SampleId>, RowsError> {
-    let mut samples = match &plan.retention {
-        Retention::None => Vec::new(),
-        Retention::All => those(rows, threads, |status, _| status != Status::InvalidSample)?,
-        Retention::Failed => {
-            those(rows, threads, |status, _| ![Status::Done, Status::InvalidSample].contains(&status))?
-        }
-        Retention::Worst { count, observable } => worst(plan, rows, threads, (*count, observable))?,
-        Retention::Sample(count) => {
-            let chosen = chosen(plan, *count);
-            those(rows, threads, |status, sample| status != Status::InvalidSample && chosen.contains(&sample))?
-        }
-    };
-    samples.sort_unstable();
-    Ok(samples)
+/// Chooses the samples whose runs are retained: a function of the plan and its rows. Samples whose scene is not physical have no run and are left out.
+#[derive(Clone, Debug)]
+pub struct Retained {
+    retention: Retention,
+    /// Of `worst:N`: the observable.
+    observed: Vec<Observed>,
+    /// Of `sample:N`.
+    at_random: BTreeSet<SampleId>,
 }
 
-/// The samples that `is_meant`.
-fn those(
-    rows: &RowsReader,
-    threads: Option<NonZeroUsize>,
-    is_meant: impl Fn(Status, SampleId) -> bool + Sync,
-) -> Result<Vec<SampleId>, RowsError> {
-    let mut all = Vec::new();
-    let read = |part: &mut PartReader| -> Result<Vec<SampleId>, RowsError> {
-        let rows = part.statuses()?.into_iter().zip(part.samples()?);
-        Ok(rows.filter(|(status, sample)| is_meant(*status, *sample)).map(|(_, sample)| sample).collect())
-    };
-    rows.visit(threads, read, |part| {
-        all.extend(part);
-        Ok(())
-    })?;
-    Ok(all)
+impl Retained {
+    /// Those of `plan`.
+    pub fn new(plan: &Plan) -> Self {
+        let observable = match &plan.retention {
+            Retention::Worst { observable, .. } => Some(observable.as_str()),
+            _ => None,
+        };
+        let at_random = match plan.retention {
+            Retention::Sample(count) => chosen(plan, count),
+            _ => BTreeSet::new(),
+        };
+        let observed = Observed::named(plan, observable.into_iter());
+        Retained { retention: plan.retention.clone(), observed, at_random }
+    }
+
+    /// The samples, ascending.
+    pub fn chosen(&self, found: Vec<(f64, SampleId)>) -> Vec<SampleId> {
+        let mut samples: Vec<SampleId> = found.into_iter().map(|(_, sample)| sample).collect();
+        samples.sort_unstable();
+        samples
+    }
+
+    /// Keeps those with the largest magnitudes, of equal ones the first.
+    fn keep(&self, list: &mut Vec<(f64, SampleId)>) {
+        if let Retention::Worst { count, .. } = &self.retention {
+            list.sort_unstable_by(|(a, first), (b, second)| b.total_cmp(a).then(first.cmp(second)));
+            list.truncate(usize::try_from(*count).unwrap_or(usize::MAX));
+        }
+    }
+}
+
+impl Accumulator for Retained {
+    /// Samples with the magnitudes of the observable; zero where there is none.
+    type Whole = Vec<(f64, SampleId)>;
+    type OfPart = Vec<(f64, SampleId)>;
+
+    fn nothing(&self) -> Self::Whole {
+        Vec::new()
+    }
+
+    fn count(&self, part: &impl PartColumns) -> Result<Self::OfPart, RowsError> {
+        if self.retention == Retention::None {
+            return Ok(Vec::new());
+        }
+        let (samples, statuses) = (part.samples()?, part.statuses()?);
+        let magnitudes = match self.observed.first() {
+            Some(observed) => observed.column(part)?.iter().map(|value| value.abs()).collect(),
+            None => vec![0.0; samples.len()],
+        };
+        let is_meant = |(magnitude, sample, status): &(f64, SampleId, Status)| match self.retention {
+            Retention::None => false,
+            Retention::All => *status != Status::InvalidSample,
+            Retention::Failed => ![Status::Done, Status::InvalidSample].contains(status),
+            Retention::Worst { .. } => !magnitude.is_nan() && sample.0 > 0,
+            Retention::Sample(_) => *status != Status::InvalidSample && self.at_random.contains(sample),
+        };
+        let rows = magnitudes.into_iter().zip(samples).zip(statuses.iter());
+        let rows = rows.map(|((magnitude, sample), status)| (magnitude, sample, *status)).filter(is_meant);
+        let mut found = rows.map(|(magnitude, sample, _)| (magnitude, sample)).collect();
+        self.keep(&mut found);
+        Ok(found)
+    }
+
+    fn merge(&self, whole: &mut Self::Whole, part: Self::OfPart) {
+        whole.extend(part);
+        self.keep(whole);
+    }
 }
 
 /// `count` dispersed samples of `plan`, all where there are no more: the first of a random permutation of them.
@@ -101,39 +141,6 @@ fn chosen(plan: &Plan, count: u64) -> BTreeSet<SampleId> {
     let first = plan.rows() - dispersed;
     let permutation = Permutation::new(dispersed, Stream::new(plan.seed, STREAM).bits(SampleId(0)));
     (0..count.min(dispersed)).map(|place| plan.sample(first + permutation.image(place))).collect()
-}
-
-/// The `count` dispersed samples with the largest magnitudes of an observable, of equal ones the first; those that have it.
-fn worst(
-    plan: &Plan,
-    rows: &RowsReader,
-    threads: Option<NonZeroUsize>,
-    (count, observable): (u64, &str),
-) -> Result<Vec<SampleId>, RowsError> {
-    let count = usize::try_from(count).unwrap_or(usize::MAX);
-    let observed = Observed::named(plan, std::iter::once(observable));
-    let [observed] = &observed[..] else { return Ok(Vec::new()) };
-    let order = |(a, first): &(f64, SampleId), (b, second): &(f64, SampleId)| -> Ordering {
-        b.total_cmp(a).then(first.cmp(second))
-    };
-    let keep = |list: &mut Vec<(f64, SampleId)>| {
-        list.sort_unstable_by(order);
-        list.truncate(count);
-    };
-    let read = |part: &mut PartReader| -> Result<Vec<(f64, SampleId)>, RowsError> {
-        let values = observed.values(part)?.into_iter().map(f64::abs).zip(part.samples()?);
-        let mut found: Vec<(f64, SampleId)> =
-            values.filter(|(value, sample)| !value.is_nan() && sample.0 > 0).collect();
-        keep(&mut found);
-        Ok(found)
-    };
-    let mut all: Vec<(f64, SampleId)> = Vec::new();
-    rows.visit(threads, read, |part| {
-        all.extend(part);
-        keep(&mut all);
-        Ok(())
-    })?;
-    Ok(all.into_iter().map(|(_, sample)| sample).collect())
 }
 
 /// Writes the time series of `samples` of `plan` as files of the dataset `folder`. The bytes are those of `simulate --sample K --out`.

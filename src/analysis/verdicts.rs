@@ -7,11 +7,11 @@
 //!
 //! Not here: requirements at each time (`band_verdicts`). Those at all times are about a column of the rows.
 
-use std::num::NonZeroUsize;
-
 use crate::analysis::assessment::Assessment;
 use crate::analysis::band_verdicts::over_time;
+use crate::analysis::fold::Accumulator;
 use crate::analysis::observed::Observed;
+use crate::analysis::part_columns::PartColumns;
 use crate::analysis::population::Population;
 use crate::analysis::statistics::Statistics;
 use crate::campaign::{Plan, Requirement, Statement};
@@ -25,7 +25,7 @@ use crate::statistics::gate::{
 use crate::statistics::looks::adjusted;
 use crate::statistics::mean::MOST_SHARE;
 use crate::statistics::moments::Moments;
-use crate::storage::rows_reader::{PartReader, RowsError, RowsReader};
+use crate::storage::rows_reader::RowsError;
 
 /// What the runs of a campaign say of its requirements.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -100,38 +100,92 @@ impl Counts {
     }
 }
 
-/// What the files of the rows of `plan`, and its `bands`, say of its requirements, on `threads` threads (`None`: one per core).
-///
-/// # Errors
-/// Where a file cannot be read.
-pub fn assess(
-    plan: &Plan,
-    reader: &RowsReader,
-    bands: Option<&Bands>,
-    threads: Option<NonZeroUsize>,
-) -> Result<Verdicts, RowsError> {
+/// What is counted of all requirements of a campaign.
+#[derive(Clone, Debug)]
+pub struct RequirementCounts {
+    list: Vec<Counts>,
+    /// Dispersed samples that are not physical.
+    invalid: u64,
+    /// All dispersed samples.
+    samples: u64,
+}
+
+/// Counts the requirements of a campaign.
+#[derive(Clone, Debug)]
+pub struct RequirementCounter {
+    requirements: Vec<Requirement>,
+    observed: Vec<Observed>,
+    /// For each requirement what it is about, in `observed`; `None` of those over time.
+    of: Vec<Option<usize>>,
+    population: Population,
+}
+
+impl RequirementCounter {
+    /// Of the requirements of `plan`.
+    pub fn new(plan: &Plan) -> Self {
+        let requirements = plan.analysis.requirements.clone();
+        let observed = Observed::named(plan, requirements.iter().filter_map(Requirement::observable));
+        let index = |name: &str| observed.iter().position(|observed| observed.quantity.name() == name);
+        let of = requirements.iter().map(|requirement| requirement.observable().and_then(index)).collect();
+        RequirementCounter { of, requirements, observed, population: Population::of(plan) }
+    }
+}
+
+impl Accumulator for RequirementCounter {
+    type Whole = RequirementCounts;
+    type OfPart = RequirementCounts;
+
+    fn nothing(&self) -> RequirementCounts {
+        let list = vec![Counts::new(self.population.groups()); self.requirements.len()];
+        RequirementCounts { list, invalid: 0, samples: 0 }
+    }
+
+    fn count(&self, part: &impl PartColumns) -> Result<RequirementCounts, RowsError> {
+        let mut found = self.nothing();
+        if self.requirements.is_empty() {
+            return Ok(found);
+        }
+        let columns = self.observed.iter().map(|one| one.column(part)).collect::<Result<Vec<_>, _>>()?;
+        let (samples, statuses) = (part.samples()?, part.statuses()?);
+        let dispersed: Vec<usize> = (0..samples.len()).filter(|row| self.population.contains(samples[*row])).collect();
+        let is_physical = |row: &&usize| statuses[**row] != Status::InvalidSample;
+        for ((requirement, index), counts) in self.requirements.iter().zip(&self.of).zip(&mut found.list) {
+            let mut kept = vec![Vec::new(); self.population.groups()];
+            let has_mean = matches!(requirement.statement, Statement::Mean);
+            for row in dispersed.iter().filter(is_physical) {
+                let value = index.map_or(f64::NAN, |index| columns[index][*row]);
+                let group = self.population.group(samples[*row]);
+                let is_ok = statuses[*row] == Status::Done;
+                counts.groups[group].runs += 1;
+                counts.groups[group].within += u64::from(is_ok && requirement.limit.is_met(value));
+                counts.failed += u64::from(!is_ok);
+                if is_ok && has_mean && !value.is_nan() {
+                    kept[group].push(value);
+                }
+            }
+            for (group, values) in counts.groups.iter_mut().zip(&kept) {
+                group.moments = Moments::of_block(values);
+            }
+        }
+        found.samples = dispersed.len() as u64;
+        found.invalid = found.samples - dispersed.iter().filter(is_physical).count() as u64;
+        Ok(found)
+    }
+
+    fn merge(&self, whole: &mut RequirementCounts, part: RequirementCounts) {
+        whole.list.iter_mut().zip(&part.list).for_each(|(mine, theirs)| mine.merge(theirs));
+        whole.invalid += part.invalid;
+        whole.samples += part.samples;
+    }
+}
+
+/// What was counted of the requirements of `plan`, and its `bands`, say of them.
+pub fn assess(plan: &Plan, counted: &RequirementCounts, bands: Option<&Bands>) -> Verdicts {
     let requirements = &plan.analysis.requirements;
     if requirements.is_empty() {
-        return Ok(Verdicts::default());
+        return Verdicts::default();
     }
-    let population = Population::of(plan);
-    let observed = Observed::named(plan, requirements.iter().filter_map(Requirement::observable));
-    let index = |name: &str| observed.iter().position(|observed| observed.quantity.name() == name);
-    // requirements over time are about no observable
-    let of: Vec<Option<usize>> =
-        requirements.iter().map(|requirement| requirement.observable().and_then(index)).collect();
-    let mut counts = vec![Counts::new(population.groups()); requirements.len()];
-    let (mut invalid, mut samples) = (0, 0);
-    reader.visit(
-        threads,
-        |part| count(part, requirements, &observed, &of, population),
-        |(of_part, invalid_of_part, samples_of_part)| {
-            counts.iter_mut().zip(&of_part).for_each(|(mine, theirs)| mine.merge(theirs));
-            invalid += invalid_of_part;
-            samples += samples_of_part;
-            Ok::<(), RowsError>(())
-        },
-    )?;
+    let RequirementCounter { observed, of, population, .. } = RequirementCounter::new(plan);
     let looks = plan.looks().len();
     let assessed = |(requirement, index, counts): (&Requirement, &Option<usize>, &Counts), open: usize| {
         let confidences = [looks, looks * open].map(|tests| adjusted(requirement.confidence, tests));
@@ -148,50 +202,13 @@ pub fn assess(
             }
         }
     };
-    let all =
-        || requirements.iter().zip(&of).zip(&counts).map(|((requirement, index), counts)| (requirement, index, counts));
+    let all = || {
+        let list = requirements.iter().zip(&of).zip(&counted.list);
+        list.map(|((requirement, index), counts)| (requirement, index, counts))
+    };
     let at = |open: usize| all().map(|one| assessed(one, open)).collect();
     let list = failing_together(requirements.len(), at, |one: &Assessment| one.gate.decision == Decision::Fail);
-    Ok(Verdicts { list, invalid, samples, looks })
-}
-
-/// The counts of a part: for each requirement, then samples that are not physical, and all dispersed ones.
-fn count(
-    part: &PartReader,
-    requirements: &[Requirement],
-    observed: &[Observed],
-    of: &[Option<usize>],
-    population: Population,
-) -> Result<(Vec<Counts>, u64, u64), RowsError> {
-    let columns: Vec<Vec<f64>> = observed.iter().map(|one| one.values(part)).collect::<Result<_, _>>()?;
-    let (samples, statuses) = (part.samples()?, part.statuses()?);
-    let counted = || samples.iter().zip(&statuses).enumerate().filter(|(_, (sample, _))| population.contains(**sample));
-    let of_requirement = |(requirement, index): (&Requirement, &Option<usize>)| {
-        let mut counts = Counts::new(population.groups());
-        let mut kept = vec![Vec::new(); population.groups()];
-        let has_mean = matches!(requirement.statement, Statement::Mean);
-        for (row, (sample, status)) in counted() {
-            if *status == Status::InvalidSample {
-                continue;
-            }
-            let value = index.map_or(f64::NAN, |index| columns[index][row]);
-            let group = population.group(*sample);
-            let is_ok = *status == Status::Done;
-            counts.groups[group].runs += 1;
-            counts.groups[group].within += u64::from(is_ok && requirement.limit.is_met(value));
-            counts.failed += u64::from(!is_ok);
-            if is_ok && has_mean && !value.is_nan() {
-                kept[group].push(value);
-            }
-        }
-        for (group, values) in counts.groups.iter_mut().zip(&kept) {
-            group.moments = Moments::of_block(values);
-        }
-        counts
-    };
-    let counts = requirements.iter().zip(of).map(of_requirement).collect();
-    let invalid = counted().filter(|(_, (_, status))| **status == Status::InvalidSample).count();
-    Ok((counts, invalid as u64, counted().count() as u64))
+    Verdicts { list, invalid: counted.invalid, samples: counted.samples, looks }
 }
 
 /// What `counts` say of a requirement that passes at the first of two confidences and fails at the second; `is_constant`: every run has the

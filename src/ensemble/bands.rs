@@ -6,14 +6,13 @@
 
 use std::sync::Arc;
 
-use crate::ensemble::deviation_columns::DeviationColumns;
-use crate::ensemble::deviation_window::{DeviationSums, DeviationWindow, FULL};
+use crate::ensemble::deviation_window::{DeviationWindow, FULL};
 use crate::math::Isa;
 use crate::observables::Observer;
 use crate::observables::band_reader::{BandColumns, BandReader};
 use crate::observables::band_series::Form;
 use crate::run::{Quantity, StateTable};
-use crate::statistics::deviation::{Code, DeviationCounts, ZERO, ends};
+use crate::statistics::deviation::{Code, ZERO, ends, ranks};
 use crate::statistics::gate::Limit;
 
 /// The runs whose codes are kept before they are counted, so that the counts of a column, which the runs between have driven out of the
@@ -79,8 +78,6 @@ pub struct PartBands {
     min: Vec<f64>,
     max: Vec<f64>,
     windows: Vec<DeviationWindow<u16>>,
-    /// What was counted, after the last run.
-    found: DeviationColumns,
 }
 
 impl PartBands {
@@ -104,7 +101,6 @@ impl PartBands {
             min: vec![f64::INFINITY; columns],
             max: vec![f64::NEG_INFINITY; columns],
             windows: vec![DeviationWindow::default(); columns],
-            found: DeviationColumns::default(),
         }
     }
 
@@ -114,7 +110,6 @@ impl PartBands {
         self.min.fill(f64::INFINITY);
         self.max.fill(f64::NEG_INFINITY);
         self.windows.iter_mut().for_each(DeviationWindow::clear);
-        self.found.clear();
     }
 
     /// Adds the run with the states `table` that `observer` observed last.
@@ -155,8 +150,6 @@ impl PartBands {
     pub fn count(&mut self) {
         self.move_to_columns();
         self.count_columns();
-        self.found.clear();
-        self.windows.iter().for_each(|window| self.found.append(window.parts()));
     }
 
     fn count_columns(&mut self) {
@@ -164,156 +157,6 @@ impl PartBands {
             window.add(&codes[..self.pending]);
         }
         self.pending = 0;
-    }
-
-    /// The bands of the part, after [`PartBands::count`]; of no run before the first.
-    pub fn bands(&self) -> Bands {
-        let column = |index: usize| {
-            let buckets = self.column(index).buckets.collect();
-            let counts = DeviationCounts::of(buckets).expect("windows are in the order of their codes");
-            BandColumn { extremes: self.column(index).extremes, counts }
-        };
-        Bands {
-            layout: self.layout.clone(),
-            runs: self.runs,
-            columns: (0..self.layout.columns()).map(column).collect(),
-        }
-    }
-}
-
-/// What was counted in one column, in memory of any form.
-#[derive(Clone, Debug)]
-pub struct ColumnView<I> {
-    /// The smallest and the largest kept number, exactly; `None` where no run had one.
-    pub extremes: Option<[f64; 2]>,
-    /// The buckets that are not empty, in ascending order of their codes.
-    pub buckets: I,
-}
-
-/// Bands in memory of any form: those of a part that was just run, or those of a file.
-pub trait CountedBands {
-    /// What the bands are of.
-    fn layout(&self) -> &Arc<BandLayout>;
-
-    /// Number of runs: those that are dispersed and `ok`.
-    fn runs(&self) -> u64;
-
-    /// A column: of the series times points.
-    fn column(&self, index: usize) -> ColumnView<impl ExactSizeIterator<Item = (Code, u64)>>;
-}
-
-impl CountedBands for PartBands {
-    fn layout(&self) -> &Arc<BandLayout> {
-        &self.layout
-    }
-
-    fn runs(&self) -> u64 {
-        self.runs
-    }
-
-    /// After [`PartBands::count`].
-    ///
-    /// # Panics
-    /// Where runs are pending.
-    fn column(&self, index: usize) -> ColumnView<impl ExactSizeIterator<Item = (Code, u64)>> {
-        assert_eq!(self.pending + self.recent_runs, 0, "all runs of the part are counted");
-        let extremes = [self.min[index], self.max[index]];
-        ColumnView { extremes: (extremes[0] <= extremes[1]).then_some(extremes), buckets: self.found.column(index) }
-    }
-}
-
-impl CountedBands for Bands {
-    fn layout(&self) -> &Arc<BandLayout> {
-        &self.layout
-    }
-
-    fn runs(&self) -> u64 {
-        self.runs
-    }
-
-    fn column(&self, index: usize) -> ColumnView<impl ExactSizeIterator<Item = (Code, u64)>> {
-        let column = &self.columns[index];
-        ColumnView { extremes: column.extremes, buckets: column.counts.buckets().iter().copied() }
-    }
-}
-
-/// The counts of one series at one point.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct BandColumn {
-    /// The smallest and the largest kept number, exactly; `None` where no run had one.
-    pub extremes: Option<[f64; 2]>,
-    /// Deviations from the nominal run, in the form of the series.
-    pub counts: DeviationCounts,
-}
-
-/// Quantiles over runs of quantities over time: of a part, or of several.
-#[derive(Clone, Debug)]
-pub struct Bands {
-    layout: Arc<BandLayout>,
-    runs: u64,
-    columns: Vec<BandColumn>,
-}
-
-impl PartialEq for Bands {
-    fn eq(&self, other: &Bands) -> bool {
-        self.layout.is(&other.layout) && self.runs == other.runs && self.columns == other.columns
-    }
-}
-
-/// Bands of different campaigns cannot be merged.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("these are bands of another campaign: series, times or nominal run differ")]
-pub struct OtherCampaign;
-
-/// Bands of several parts, in a form in which adding those of one more is cheap.
-#[derive(Clone, Debug)]
-pub struct BandSums {
-    layout: Arc<BandLayout>,
-    runs: u64,
-    columns: Vec<(Option<[f64; 2]>, DeviationSums)>,
-}
-
-impl BandSums {
-    /// Of no run.
-    pub fn new(layout: Arc<BandLayout>) -> Self {
-        BandSums { runs: 0, columns: vec![(None, DeviationSums::default()); layout.columns()], layout }
-    }
-
-    /// Adds the runs of `bands`.
-    ///
-    /// # Errors
-    /// Where the bands are of another campaign; nothing is added then.
-    pub fn add(&mut self, bands: &impl CountedBands) -> Result<(), OtherCampaign> {
-        if !Arc::ptr_eq(&self.layout, bands.layout()) && !self.layout.is(bands.layout()) {
-            return Err(OtherCampaign);
-        }
-        self.runs += bands.runs();
-        for (index, (extremes, counts)) in self.columns.iter_mut().enumerate() {
-            let column = bands.column(index);
-            *extremes = match (*extremes, column.extremes) {
-                (Some([a, b]), Some([c, d])) => Some([a.min(c), b.max(d)]),
-                (mine, theirs) => mine.or(theirs),
-            };
-            counts.add(column.buckets);
-        }
-        Ok(())
-    }
-
-    /// The bands of all runs.
-    pub fn bands(&self) -> Bands {
-        let column = |(extremes, counts): &(Option<[f64; 2]>, DeviationSums)| BandColumn {
-            extremes: *extremes,
-            counts: counts.counted(),
-        };
-        Bands { layout: self.layout.clone(), runs: self.runs, columns: self.columns.iter().map(column).collect() }
-    }
-}
-
-impl Bands {
-    /// Bands of `runs` runs with these columns, series by series and point by point; `None` where there are not as many as the layout
-    /// has.
-    pub fn new(layout: Arc<BandLayout>, runs: u64, columns: Vec<BandColumn>) -> Option<Self> {
-        (columns.len() == layout.columns()).then_some(Bands { layout, runs, columns })
     }
 
     /// What the bands are of.
@@ -326,9 +169,97 @@ impl Bands {
         self.runs
     }
 
-    /// The columns, series by series and point by point.
-    pub fn columns(&self) -> &[BandColumn] {
-        &self.columns
+    /// A column, of the series times points, after [`PartBands::count`]: the smallest and the largest kept number, exactly, `None` where no run had
+    /// one; and the buckets that are not empty, in ascending order of their codes.
+    ///
+    /// # Panics
+    /// Where runs are pending.
+    pub fn column(&self, index: usize) -> (Option<[f64; 2]>, impl Iterator<Item = (Code, u64)>) {
+        assert_eq!(self.pending + self.recent_runs, 0, "all runs of the part are counted");
+        let extremes = [self.min[index], self.max[index]];
+        ((extremes[0] <= extremes[1]).then_some(extremes), self.windows[index].buckets())
+    }
+}
+
+/// The counts of one series at one point.
+#[derive(Clone, Debug, Default)]
+struct BandColumn {
+    /// The smallest and the largest kept number, exactly; `None` where no run had one.
+    extremes: Option<[f64; 2]>,
+    /// Deviations from the nominal run, in the form of the series.
+    counts: DeviationWindow<u64>,
+}
+
+/// Quantiles over runs of quantities over time: of any number of parts, added in any order.
+#[derive(Clone, Debug)]
+pub struct Bands {
+    layout: Arc<BandLayout>,
+    runs: u64,
+    columns: Vec<BandColumn>,
+}
+
+impl PartialEq for Bands {
+    fn eq(&self, other: &Bands) -> bool {
+        let counted = |bands: &Bands| -> Vec<(Option<[f64; 2]>, Vec<(Code, u64)>)> {
+            bands.columns.iter().map(|column| (column.extremes, column.counts.buckets().collect())).collect()
+        };
+        self.layout.is(&other.layout) && self.runs == other.runs && counted(self) == counted(other)
+    }
+}
+
+/// Bands of different campaigns cannot be merged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("these are bands of another campaign: series, times or nominal run differ")]
+pub struct OtherCampaign;
+
+impl Bands {
+    /// Of no run.
+    pub fn new(layout: Arc<BandLayout>) -> Self {
+        Bands { runs: 0, columns: vec![BandColumn::default(); layout.columns()], layout }
+    }
+
+    /// Adds the runs of a part, after [`PartBands::count`].
+    ///
+    /// # Errors
+    /// Where the bands are of another campaign; nothing is added then.
+    pub fn add(&mut self, part: &PartBands) -> Result<(), OtherCampaign> {
+        if !Arc::ptr_eq(&self.layout, part.layout()) && !self.layout.is(part.layout()) {
+            return Err(OtherCampaign);
+        }
+        self.add_runs(part.runs());
+        for index in 0..self.columns.len() {
+            let (extremes, buckets) = part.column(index);
+            self.add_column(index, extremes, buckets);
+        }
+        Ok(())
+    }
+
+    /// Adds to the number of runs.
+    pub fn add_runs(&mut self, runs: u64) {
+        self.runs += runs;
+    }
+
+    /// Adds what was counted in a column, of the series times points; nothing where no deviation was.
+    pub fn add_column(&mut self, index: usize, extremes: Option<[f64; 2]>, buckets: impl Iterator<Item = (Code, u64)>) {
+        let (column, mut buckets) = (&mut self.columns[index], buckets.peekable());
+        if buckets.peek().is_none() {
+            return;
+        }
+        column.extremes = match (column.extremes, extremes) {
+            (Some([a, b]), Some([c, d])) => Some([a.min(c), b.max(d)]),
+            (mine, theirs) => mine.or(theirs),
+        };
+        column.counts.add_buckets(buckets);
+    }
+
+    /// What the bands are of.
+    pub fn layout(&self) -> &Arc<BandLayout> {
+        &self.layout
+    }
+
+    /// Number of runs: those that are dispersed and `ok`.
+    pub fn runs(&self) -> u64 {
+        self.runs
     }
 
     /// The number of the series called `name`.
@@ -361,7 +292,7 @@ impl Bands {
 
     /// How many runs have a value.
     pub fn count(&self, series: usize, point: usize) -> u64 {
-        self.column(series, point).1.counts.count()
+        self.column(series, point).1.counts.buckets().map(|(_, count)| count).sum()
     }
 
     /// The smallest and the largest value, exactly; `None` where no run has one.
@@ -377,7 +308,7 @@ impl Bands {
     pub fn quantile(&self, series: usize, point: usize, p: f64) -> Option<f64> {
         let (index, column) = self.column(series, point);
         let (form, reference) = (self.layout.form(index), self.layout.reference(index));
-        let ([low, high], part) = column.counts.neighbours(p)?;
+        let ([low, high], part) = ranks(&column.counts.buckets().collect::<Vec<_>>()).neighbours(p)?;
         let (low, high) = (form.shown(low), form.shown(high));
         let [min, max] = self.extremes(series, point)?;
         Some((form.shown(reference) + (low + part * (high - low))).clamp(min, max))
@@ -389,15 +320,15 @@ impl Bands {
         let (index, column) = self.column(series, point);
         let (form, reference) = (self.layout.form(index), self.layout.reference(index));
         let Some(extremes) = self.extremes(series, point) else { return [0; 2] };
-        let count = column.counts.count();
+        let count = self.count(series, point);
         match extremes.map(|extreme| limit.is_met(extreme)) {
             [true, true] => return [count; 2],
             [false, false] => return [0; 2],
             _ => {}
         }
         let start = form.shown(reference);
-        let counted = column.counts.buckets().iter().map(|(code, count)| {
-            let [low, high] = ends(*code).map(|end| start + form.shown(end));
+        let counted = column.counts.buckets().map(|(code, count)| {
+            let [low, high] = ends(code).map(|end| start + form.shown(end));
             // rounding of the deviation, and of its sum with the nominal value
             let slack = ROUNDING * (start.abs() + low.abs().min(high.abs()));
             let are_met = [low - slack, high + slack].map(|end| limit.is_met(end));

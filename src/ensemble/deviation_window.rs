@@ -1,7 +1,6 @@
-//! [`DeviationWindow`]: counts of deviations of one column of bands, in a form in which adding is cheap; [`DeviationSums`]: of many parts.
+//! [`DeviationWindow`]: counts of deviations of one column of bands, in a form in which adding is cheap.
 
-use crate::statistics::carries::Carries;
-use crate::statistics::deviation::{Code, DeviationCounts, MANTISSA_BITS, NOT_A_NUMBER, ZERO};
+use crate::statistics::deviation::{Code, MANTISSA_BITS, NOT_A_NUMBER, ZERO};
 
 /// The counts of the buckets between two magnitudes, for one column.
 #[derive(Clone, Debug, Default)]
@@ -18,10 +17,13 @@ pub(super) const FULL: usize = u16::MAX as usize;
 /// Counts in a cache line.
 const CACHE_LINE: usize = 32;
 
+/// Counts that are looked at together: where all are zero, as most are in the outer octaves, none is looked at alone.
+const BLOCK: usize = 16;
+
 /// Windows grow by whole octaves, of both signs.
 const OCTAVE: usize = 2 << MANTISSA_BITS;
 
-impl<C: Copy + Default> DeviationWindow<C> {
+impl<C: Copy + Default + Into<u64>> DeviationWindow<C> {
     /// The counter of a bucket; `None` where the window has to be widened first, and for zero and what is not a number.
     #[inline(always)]
     fn counter(&mut self, code: Code) -> Option<&mut C> {
@@ -58,9 +60,14 @@ impl<C: Copy + Default> DeviationWindow<C> {
         self.counts.resize(length.max(self.counts.len()), C::default());
     }
 
-    /// The count of zero, the code of the first other count, and those counts.
-    pub(super) fn parts(&self) -> (C, Code, &[C]) {
-        (self.zeros, self.first, &self.counts)
+    /// The buckets that are not empty, in ascending order of their codes.
+    pub(super) fn buckets(&self) -> impl Iterator<Item = (Code, u64)> {
+        let is_empty = |block: &[C]| block.iter().fold(0, |any, count| any | (*count).into()) == 0;
+        let blocks = self.counts.chunks(BLOCK).zip((usize::from(self.first)..).step_by(BLOCK));
+        let window = blocks
+            .filter(move |(block, _)| !is_empty(block))
+            .flat_map(|(block, first)| block.iter().zip(first..).map(|(count, code)| (code as Code, (*count).into())));
+        std::iter::once((ZERO, self.zeros.into())).chain(window).filter(|(_, count)| *count > 0)
     }
 }
 
@@ -96,32 +103,17 @@ impl DeviationWindow<u16> {
     }
 }
 
-/// Sums of the counts of a column, of any number of runs.
-#[derive(Clone, Debug, Default)]
-pub(super) struct DeviationSums {
-    window: DeviationWindow<u32>,
-    carries: Carries,
-}
-
-impl DeviationSums {
-    /// Counts all that is in `buckets`.
-    pub(super) fn add(&mut self, buckets: impl Iterator<Item = (Code, u64)>) {
+/// Sums over parts, of any number of runs.
+impl DeviationWindow<u64> {
+    /// Counts all that is in `buckets`; what is not a number is in no bucket.
+    pub(super) fn add_buckets(&mut self, buckets: impl Iterator<Item = (Code, u64)>) {
         for (code, count) in buckets {
-            let counter = match self.window.counter(code) {
+            let counter = match self.counter(code) {
                 Some(counter) => Some(counter),
-                None => self.window.counter_beyond(code),
+                None => self.counter_beyond(code),
             };
-            counter.into_iter().for_each(|counter| self.carries.add(u32::from(code), counter, count));
+            counter.into_iter().for_each(|counter| *counter += count);
         }
-    }
-
-    /// The buckets that are not empty.
-    pub(super) fn counted(&self) -> DeviationCounts {
-        let (zeros, first, counts) = self.window.parts();
-        let window = counts.iter().zip(usize::from(first)..).map(|(count, code)| (code as Code, *count));
-        let buckets = std::iter::once((ZERO, zeros)).chain(window);
-        let whole = buckets.map(|(code, low)| (code, self.carries.whole(u32::from(code), low)));
-        DeviationCounts::of(whole.filter(|(_, count)| *count > 0).collect()).expect("in the order of the codes")
     }
 }
 
@@ -130,13 +122,11 @@ mod tests {
     use super::*;
     use crate::statistics::deviation::code;
 
-    /// What a window has counted.
-    fn counted(window: &DeviationWindow<u16>) -> DeviationCounts {
-        let (zeros, first, counts) = window.parts();
-        let codes = (usize::from(first)..).map(|code| code as Code);
-        let all = std::iter::once((ZERO, zeros)).chain(codes.zip(counts.iter().copied()));
-        DeviationCounts::of(all.filter(|(_, count)| *count > 0).map(|(code, count)| (code, count.into())).collect())
-            .expect("in the order of the codes")
+    /// The same counted one by one.
+    fn expected(codes: &[Code]) -> Vec<(Code, u64)> {
+        let mut codes: Vec<Code> = codes.iter().copied().filter(|code| *code != NOT_A_NUMBER).collect();
+        codes.sort_unstable();
+        codes.chunk_by(|a, b| a == b).map(|run| (run[0], run.len() as u64)).collect()
     }
 
     /// Law: a window counts every code once, in whichever order they come and however it has to grow; zero is counted, what is not a
@@ -146,15 +136,12 @@ mod tests {
         let values = [1.0, -1.0, 1e-9, 0.0, f64::NAN, 1e12, -3e-200, 1.0, 1e77, f64::INFINITY, 0.0, 1e-77, -1e-77];
         for turn in 0..values.len() {
             let mut window = DeviationWindow::<u16>::default();
-            let mut turned = values;
-            turned.rotate_left(turn);
-            window.add(&turned.map(code));
-            let mut codes: Vec<Code> = values.iter().map(|value| code(*value)).filter(|c| *c != NOT_A_NUMBER).collect();
-            codes.sort_unstable();
-            let expected = codes.chunk_by(|a, b| a == b).map(|run| (run[0], run.len() as u64)).collect();
-            assert_eq!(Some(counted(&window)), DeviationCounts::of(expected), "{turn}");
+            let mut codes = values.map(code);
+            codes.rotate_left(turn);
+            window.add(&codes);
+            assert_eq!(window.buckets().collect::<Vec<_>>(), expected(&codes), "{turn}");
             window.clear();
-            assert_eq!(counted(&window), DeviationCounts::default());
+            assert_eq!(window.buckets().count(), 0);
         }
     }
 
@@ -162,28 +149,28 @@ mod tests {
     /// beyond 2^32.
     #[test]
     fn adding_has_no_order() {
-        let values: Vec<f64> = (0..600).map(|k| libm::sin(f64::from(k)) * libm::exp2(f64::from(k % 90 - 60))).collect();
-        let of = |values: &[f64]| {
-            let mut window = DeviationWindow::<u16>::default();
-            window.add(&values.iter().map(|value| code(*value)).collect::<Vec<Code>>());
-            counted(&window)
-        };
-        let sums_of = |parts: &[DeviationCounts]| {
-            let mut sums = DeviationSums::default();
-            parts.iter().for_each(|part| sums.add(part.buckets().iter().copied()));
-            sums.counted()
+        let value = |k: u32| libm::sin(f64::from(k)) * libm::exp2(f64::from(k % 90) - 60.0);
+        let codes: Vec<Code> = (0..600).map(|k| code(value(k))).collect();
+        let sums_of = |parts: &[&[Code]]| {
+            let mut sums = DeviationWindow::<u64>::default();
+            for part in parts {
+                let mut window = DeviationWindow::<u16>::default();
+                window.add(part);
+                sums.add_buckets(window.buckets());
+            }
+            sums.buckets().collect::<Vec<_>>()
         };
         for size in [1, 7, 100, 599] {
-            let mut parts: Vec<DeviationCounts> = values.chunks(size).map(of).collect();
+            let mut parts: Vec<&[Code]> = codes.chunks(size).collect();
             for _ in 0..2 {
-                assert_eq!(sums_of(&parts), of(&values), "parts of {size}");
+                assert_eq!(sums_of(&parts), expected(&codes), "parts of {size}");
                 parts.reverse();
             }
         }
         // counter-test: a part that is added twice
-        assert_ne!(sums_of(&[&values[..300], &values[..300], &values[300..]].map(of)), of(&values));
-        let many = DeviationCounts::of(vec![(ZERO, 3 << 31), (70, (1 << 40) + 1)]).expect("two buckets");
-        let twice = DeviationCounts::of(vec![(ZERO, 3 << 32), (70, (1 << 41) + 2)]);
-        assert_eq!(Some(sums_of(&[many.clone(), many])), twice);
+        assert_ne!(sums_of(&[&codes[..300], &codes[..300], &codes[300..]]), expected(&codes));
+        let mut many = DeviationWindow::<u64>::default();
+        (0..2).for_each(|_| many.add_buckets([(ZERO, 3 << 31), (70, (1 << 40) + 1)].into_iter()));
+        assert_eq!(many.buckets().collect::<Vec<_>>(), [(ZERO, 3 << 32), (70, (1 << 41) + 2)]);
     }
 }

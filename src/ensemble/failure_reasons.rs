@@ -27,14 +27,16 @@ pub struct FailureReasons(BTreeMap<(&'static str, String), FailureReason>);
 impl FailureReasons {
     /// Adds the runs of `rows` that failed.
     pub fn add(&mut self, rows: &Rows) {
-        for (row, text) in rows.reasons() {
-            let (status, sample) = (rows.statuses()[*row], rows.samples()[*row]);
-            let new = || FailureReason { status, count: 0, first: sample, text: text.clone() };
-            let group = self.0.entry((status.name(), without_numbers(text))).or_insert_with(new);
-            group.count += 1;
-            if sample < group.first {
-                (group.first, group.text) = (sample, text.clone());
-            }
+        rows.reasons().iter().for_each(|(row, text)| self.add_run(rows.samples()[*row], rows.statuses()[*row], text));
+    }
+
+    /// Adds a run that failed.
+    pub fn add_run(&mut self, sample: SampleId, status: Status, text: &str) {
+        let new = || FailureReason { status, count: 0, first: sample, text: text.to_owned() };
+        let group = self.0.entry((status.name(), without_numbers(text))).or_insert_with(new);
+        group.count += 1;
+        if sample < group.first {
+            (group.first, group.text) = (sample, text.to_owned());
         }
     }
 

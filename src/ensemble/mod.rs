@@ -3,9 +3,9 @@
 //! - [`mod@parts`]: how samples are divided into parts; [`run_cost`]: their size. - [`rows`]: the rows of a part. - [`sink`]: takes the rows.
 //! - [`worker`]: [`Ensemble`], shared by all threads, and [`Worker`], the memory of one thread.
 //! - [`runner`]: distributes parts to threads; [`supervision`]: what it is told. - [`drawn`]: sampled parameters without runs; [`percentiles`]: theirs.
-//! - [`bands`]: quantiles over time, counted run by run (in `deviation_window` and `deviation_columns`).
+//! - [`bands`]: quantiles over time, counted run by run (in `deviation_window`).
 //! - [`influence`]: which of them change no requested column. [`plausibility`]: numbers that look like a mistake. [`magnitude`]: lengths and angles.
-//! - [`single`]: one run with its states.
+//! - [`single`]: one run with its states. [`flights`]: runs under the control law of the plan.
 //! - [`audit`]: runs compared with a reference solution. - [`precision`]: run time against error for every method.
 //! - [`settings`]: observables and engine of a plan. - [`probe`]: time of a run and of an audit. - [`cpu_clock`]: CPU time of a thread.
 //!
@@ -14,7 +14,6 @@
 pub mod audit;
 pub mod bands;
 pub mod cpu_clock;
-mod deviation_columns;
 mod deviation_window;
 pub mod drawn;
 pub mod failure_reasons;
@@ -36,7 +35,7 @@ pub mod supervision;
 pub mod worker;
 
 pub use audit::{Audit, Auditor, NoAudit};
-pub use bands::{Bands, CountedBands, PartBands};
+pub use bands::{BandLayout, Bands, PartBands};
 pub use drawn::DrawnScenes;
 pub use failure_reasons::{FailureReason, FailureReasons};
 pub use parts::{Part, PartId, Parts};

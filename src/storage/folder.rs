@@ -46,6 +46,11 @@ impl PartFile {
     pub fn new(name: String, bytes: Vec<u8>) -> Self {
         PartFile { sha256: sha256(&bytes), name, bytes }
     }
+
+    /// What a manifest says of it.
+    pub fn record(&self) -> FileRecord {
+        FileRecord { name: self.name.clone(), bytes: self.bytes.len() as u64, sha256: self.sha256.clone() }
+    }
 }
 
 impl FileRecord {

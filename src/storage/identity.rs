@@ -24,7 +24,7 @@ const SEED_KEY: &str = "spindrift.seed";
 /// Hash of the columns.
 const COLUMNS_KEY: &str = "spindrift.columns";
 /// Number of the part.
-const PART_KEY: &str = "spindrift.part";
+pub const PART_KEY: &str = "spindrift.part";
 /// Its first sample.
 const FIRST_KEY: &str = "spindrift.first_sample";
 /// Its number of samples.

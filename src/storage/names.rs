@@ -53,7 +53,7 @@ pub fn rows_of(part: PartId) -> String {
 
 /// The name of the file of bands of `part`, below the folder of the dataset.
 pub fn bands_of(part: PartId) -> String {
-    format!("{PART_BANDS}/part-{:06}.bands", part.0)
+    format!("{PART_BANDS}/part-{:06}.parquet", part.0)
 }
 
 /// The name under which versions of the table list `part` where it has `rows` rows and can have more, below the folder of the dataset.
@@ -113,8 +113,7 @@ pub fn is_ours(folder: &str, name: &str) -> bool {
     };
     match folder {
         "" => TOP_FILES.contains(&name) || name == REPLACEMENT,
-        RUNS => numbered("part-", ".parquet", 6),
-        PART_BANDS => numbered("part-", ".bands", 6),
+        RUNS | PART_BANDS => numbered("part-", ".parquet", 6),
         TRAJECTORIES => numbered("sample-", ".parquet", 6),
         TABLE_LOG => numbered("", ".json", 20),
         VERSIONS => name.rsplit_once('-').is_some_and(|(part, rows)| {

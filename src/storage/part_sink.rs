@@ -3,13 +3,13 @@
 //! Threads encode their own parts; one thread more writes the files and waits for the disk, so that no run waits for it.
 
 use std::sync::mpsc::{SyncSender, sync_channel};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 use parquet::errors::ParquetError;
 use thiserror::Error;
 
 use crate::ensemble::{Ensemble, Part, Rows, Sink};
-use crate::storage::bands_file;
+use crate::storage::bands_file::BandsFile;
 use crate::storage::disk::StorageError;
 use crate::storage::folder::{Folder, PartFile};
 use crate::storage::names::{bands_of, rows_of};
@@ -65,10 +65,56 @@ impl Buffers {
     }
 }
 
+/// Encodes parts.
+#[derive(Debug)]
+pub struct PartFiles {
+    rows: RowsFile,
+    /// Known with the first part that has bands.
+    bands: OnceLock<BandsFile>,
+}
+
+impl PartFiles {
+    /// Of the campaign `ensemble`.
+    ///
+    /// # Errors
+    /// Where two columns have the same name.
+    pub fn new(ensemble: &Ensemble<'_>) -> Result<Self, ParquetError> {
+        Ok(PartFiles { rows: RowsFile::new(ensemble)?, bands: OnceLock::new() })
+    }
+
+    /// The files of the part of `rows`: a function of the part alone. They are written to `buffers`, as long as there are some.
+    ///
+    /// # Errors
+    /// Where encoding fails.
+    pub fn encoded(
+        &self,
+        rows: &Rows,
+        mut buffers: impl Iterator<Item = Vec<u8>>,
+    ) -> Result<Vec<PartFile>, ParquetError> {
+        let part = rows.part();
+        let mut bytes = buffers.next().unwrap_or_default();
+        self.rows.write(rows, &mut bytes)?;
+        let mut files = vec![PartFile::new(rows_of(part.id), bytes)];
+        if let Some(bands) = rows.bands() {
+            let file = match self.bands.get() {
+                Some(file) => file,
+                None => {
+                    let file = BandsFile::new(bands.layout())?;
+                    self.bands.get_or_init(|| file)
+                }
+            };
+            let mut bytes = buffers.next().unwrap_or_default();
+            file.write(part, bands, &mut bytes)?;
+            files.push(PartFile::new(bands_of(part.id), bytes));
+        }
+        Ok(files)
+    }
+}
+
 /// Encodes parts and hands them to the thread that writes.
 #[derive(Debug)]
 pub struct PartSink<'c> {
-    file: RowsFile,
+    files: PartFiles,
     counts: Option<&'c dyn CountRows>,
     buffers: &'c Buffers,
     encoded: SyncSender<Encoded>,
@@ -87,15 +133,7 @@ impl Sink for PartSink<'_> {
 
     fn take(&self, rows: &Rows) -> Result<(), PartError> {
         let part = rows.part();
-        let mut buffers = self.buffers.take();
-        let mut bytes = buffers.next().unwrap_or_default();
-        self.file.write(rows, &mut bytes)?;
-        let mut files = vec![PartFile::new(rows_of(part.id), bytes)];
-        if let Some(bands) = rows.bands() {
-            let mut bytes = buffers.next().unwrap_or_default();
-            bands_file::write(part, bands, &mut bytes);
-            files.push(PartFile::new(bands_of(part.id), bytes));
-        }
+        let files = self.files.encoded(rows, self.buffers.take())?;
         self.counts.into_iter().for_each(|counts| counts.add(rows));
         self.encoded.send((part, files)).map_err(|_| PartError::Ended)?;
         let mut sums = self.seconds.lock().unwrap_or_else(PoisonError::into_inner);
@@ -117,8 +155,8 @@ pub fn write_parts<R>(
 ) -> Result<R, PartError> {
     let (encoded, waiting) = sync_channel::<Encoded>(WAITING);
     let buffers = Buffers::default();
-    let file = RowsFile::new(ensemble)?;
-    let sink = PartSink { file, counts, buffers: &buffers, encoded, seconds: Mutex::new([0.0; 2]) };
+    let files = PartFiles::new(ensemble)?;
+    let sink = PartSink { files, counts, buffers: &buffers, encoded, seconds: Mutex::new([0.0; 2]) };
     std::thread::scope(|scope| {
         let (buffers, waiting) = (&buffers, waiting);
         let write = move || -> Result<(), StorageError> {

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use crate::storage::manifest::PartRecord;
+use crate::storage::names::{PART_BANDS, RUNS};
 
 /// The files of parts, in the order of the parts.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -16,8 +17,8 @@ pub struct PartsRead {
 impl PartsRead {
     /// Those of `parts`; `path` finds a file by its name.
     pub fn of(parts: &[PartRecord], path: impl Fn(&str) -> PathBuf) -> Self {
-        let files = parts.iter().flat_map(|part| &part.files).map(|file| path(&file.name));
-        let (rows, bands) = files.partition(|path| path.extension().is_some_and(|extension| extension == "parquet"));
-        PartsRead { rows, bands }
+        let names = || parts.iter().flat_map(|part| &part.files).map(|file| file.name.as_str());
+        let of = |folder: &str| names().filter(|name| name.starts_with(folder)).map(&path).collect();
+        PartsRead { rows: of(RUNS), bands: of(PART_BANDS) }
     }
 }

@@ -150,6 +150,12 @@ impl PartReader {
         self.rows
     }
 
+    /// What the metadata say of `key`.
+    pub fn metadata(&self, key: &str) -> Option<&str> {
+        let pairs = self.reader.metadata().file_metadata().key_value_metadata()?;
+        pairs.iter().find(|pair| pair.key == key)?.value.as_deref()
+    }
+
     /// The names of the columns, in their order.
     pub fn names(&self) -> Vec<String> {
         let schema = self.reader.metadata().file_metadata().schema_descr();

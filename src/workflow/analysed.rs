@@ -1,12 +1,13 @@
 //! What is made of the rows of a campaign once they are on the disk: statistics, sensitivities, verdicts. It depends on plan and files only.
 
 use std::num::NonZeroUsize;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use crate::analysis::running_counts::Counted;
+use crate::analysis::fold::Gathered;
 use crate::analysis::sensitivity::InputSensitivity;
 use crate::analysis::statistics::Statistics;
 use crate::analysis::stopping::{Stopping, stopping};
+use crate::analysis::survey::Survey;
 use crate::analysis::verdicts::Verdicts;
 use crate::analysis::{sensitivity, sensitivity_table, statistics, statistics_table, verdicts};
 use crate::campaign::Plan;
@@ -15,7 +16,7 @@ use crate::report::{requirements, stopping_text};
 use crate::storage::folder::Folder;
 use crate::storage::names::{BANDS, SENSITIVITY, STATISTICS};
 use crate::storage::rows_reader::RowsReader;
-use crate::storage::{atomic, bands_file, bands_table};
+use crate::storage::{atomic, bands_table};
 use crate::workflow::error::WorkflowError;
 
 /// What the rows say.
@@ -31,21 +32,22 @@ pub struct Analysed {
     pub bands: Option<Bands>,
     /// Whether the campaign has enough samples, where it has `[stop]`.
     pub stopping: Option<Stopping>,
+    /// What the page shows of the rows.
+    pub survey: Survey,
 }
 
-/// Makes the tables of the dataset `folder` of `plan` from its rows, and the files `bands` of its bands.
+/// Makes the tables of the dataset `folder` of `plan` from what was `gathered` from its rows.
 ///
 /// # Errors
 /// Where a file cannot be read or written.
 pub fn analyse(
     plan: &Plan,
     reader: &RowsReader,
-    bands: &[PathBuf],
     folder: &Folder,
-    counted: Option<Counted>,
+    gathered: Gathered,
     threads: Option<NonZeroUsize>,
 ) -> Result<Analysed, WorkflowError> {
-    let found = computed(plan, reader, bands, counted, threads)?;
+    let found = computed(plan, reader, gathered, threads)?;
     write(folder, STATISTICS, statistics_table::encoded(plan, &found.statistics))?;
     write(folder, SENSITIVITY, sensitivity_table::encoded(plan, &found.sensitivities))?;
     if let Some(bands) = &found.bands {
@@ -60,32 +62,26 @@ fn write<E: std::fmt::Display>(folder: &Folder, name: &str, encoded: Result<Vec<
     folder.write(name, &bytes).map_err(WorkflowError::files)
 }
 
-/// What the rows and the files `bands` of the bands of `plan` say, or what was counted while they were made; nothing is written.
+/// What was `gathered` from the rows of `plan` says; nothing is written.
 ///
 /// # Errors
 /// Where a file cannot be read.
 pub fn computed(
     plan: &Plan,
     reader: &RowsReader,
-    bands: &[PathBuf],
-    counted: Option<Counted>,
+    gathered: Gathered,
     threads: Option<NonZeroUsize>,
 ) -> Result<Analysed, WorkflowError> {
-    let (columns, counted_bands) = counted.map(|counted| (counted.columns, counted.bands)).unzip();
-    let of_bands = match counted_bands {
-        Some(bands) => bands,
-        None => bands_file::read(reader.storage(), bands, threads).map_err(WorkflowError::files)?,
-    };
-    let statistics = statistics::compute(plan, reader, columns, threads).map_err(WorkflowError::files)?;
-    let verdicts = verdicts::assess(plan, reader, of_bands.as_ref(), threads).map_err(WorkflowError::files)?;
-    let verdicts = verdicts.with_quantiles(&statistics);
-    let looked = stopping(plan, (reader, bands), plan.samples, threads, Some(&verdicts));
+    let statistics =
+        statistics::compute(plan, reader, Some(gathered.columns), threads).map_err(WorkflowError::files)?;
+    let verdicts = verdicts::assess(plan, &gathered.requirements, gathered.bands.as_ref()).with_quantiles(&statistics);
     Ok(Analysed {
-        sensitivities: sensitivity::compute(plan, reader, threads).map_err(WorkflowError::files)?,
+        sensitivities: sensitivity::compute(plan, &gathered.first_rows, threads),
+        stopping: stopping(plan, plan.samples, &gathered.stop_values, &verdicts),
         verdicts,
         statistics,
-        bands: of_bands,
-        stopping: looked.map_err(WorkflowError::files)?,
+        bands: gathered.bands,
+        survey: gathered.survey,
     })
 }
 

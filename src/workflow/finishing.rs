@@ -5,9 +5,8 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use crate::analysis::running_counts::Counted;
+use crate::analysis::fold::Gathered;
 use crate::analysis::sensitivity::InputSensitivity;
-use crate::analysis::tally::Tally;
 use crate::analysis::trajectories;
 use crate::campaign::{FilesRead, Plan, data};
 use crate::ensemble::run_cost::parts;
@@ -15,6 +14,7 @@ use crate::ensemble::{Ensemble, Part, PartId};
 use crate::report::image::PlotSize;
 use crate::report::shell_word::quoted_path;
 use crate::report::summary::{Summary, SummaryEnd};
+use crate::sampling::SampleId;
 use crate::storage::claim::{Claim, ClaimOptions, Ready, claim, open};
 use crate::storage::folder::Folder;
 use crate::storage::identity;
@@ -103,19 +103,20 @@ pub struct Finishing<'a> {
 ///
 /// # Errors
 /// Where parts are missing, rows cannot be read or a file operation fails.
-pub fn complete(job: &Finishing<'_>, counted: Option<Counted>) -> Result<Completed, WorkflowError> {
+pub fn complete(job: &Finishing<'_>, gathered: Option<Gathered>) -> Result<Completed, WorkflowError> {
     let (plan, folder, threads) = (job.ensemble.plan(), &job.ready.folder, job.session.threads);
     let parts = parts(plan, job.ensemble.isa());
     refuse_missing(&folder.missing(parts.iter()), job.root)?;
     let records = folder.parts();
     let (reader, bands) = rows_of(job.ready);
-    let tally = match &counted {
-        Some(counted) => counted.tally.clone(),
-        None => Tally::of_files(job.ensemble, &reader, threads).map_err(WorkflowError::files)?,
+    let gathered = match gathered {
+        Some(gathered) => gathered,
+        None => Gathered::of_files(job.ensemble, (&reader, &bands), threads).map_err(WorkflowError::files)?,
     };
-    let analysed = analyse(plan, &reader, &bands, folder, counted, threads)?;
-    retain(job, &reader)?;
-    make_page(job, &reader, &analysed, &records)?;
+    let (tally, retained) = (gathered.tally.clone(), gathered.retained.clone());
+    let analysed = analyse(plan, &reader, folder, gathered, threads)?;
+    retain(job, &retained)?;
+    make_page(job, &analysed, &records)?;
     write_junit(plan, &analysed, tally.failed(), job.outputs.junit.as_deref())?;
     let (failed, undecided) = (analysed.verdicts.failed(), analysed.verdicts.undecided());
     let is_imprecise = analysed.stopping.as_ref().is_some_and(|found| !found.is_reached());
@@ -147,33 +148,27 @@ pub fn complete(job: &Finishing<'_>, counted: Option<Counted>) -> Result<Complet
 }
 
 /// Writes the report page and its figures, where they are asked for; else there is none.
-fn make_page(
-    job: &Finishing<'_>,
-    reader: &RowsReader,
-    analysed: &Analysed,
-    records: &[PartRecord],
-) -> Result<(), WorkflowError> {
+fn make_page(job: &Finishing<'_>, analysed: &Analysed, records: &[PartRecord]) -> Result<(), WorkflowError> {
     let folder = &job.ready.folder;
     if job.outputs.without_page {
         return folder.remove(REPORT).map_err(WorkflowError::files);
     }
-    let page = page::page(job.ensemble, reader, analysed, records, job.session.threads)?;
+    let page = page::page(job.ensemble, analysed, records);
     folder.write(REPORT, page.html.as_bytes()).map_err(WorkflowError::files)?;
     let place = job.outputs.figures.as_ref().map(|(folder, size)| (folder.as_path(), *size));
     page::save_figures(&job.session, &page, place)
 }
 
-/// Writes the time series that the plan retains.
-fn retain(job: &Finishing<'_>, reader: &RowsReader) -> Result<(), WorkflowError> {
+/// Writes the time series of the `samples` that the plan retains.
+fn retain(job: &Finishing<'_>, samples: &[SampleId]) -> Result<(), WorkflowError> {
     let (plan, folder, threads) = (job.ensemble.plan(), &job.ready.folder, job.session.threads);
     let path = folder.clear(TRAJECTORIES).map_err(WorkflowError::files)?;
-    let samples = trajectories::retained(plan, reader, threads).map_err(WorkflowError::files)?;
     if samples.is_empty() {
         return Ok(());
     }
     let created = folder.storage().create_folder(&path);
     created.map_err(|error| WorkflowError::files(format!("{}: {error}", path.display())))?;
-    trajectories::save(plan, &samples, folder, job.ensemble.isa(), threads).map_err(WorkflowError::files)
+    trajectories::save(plan, samples, folder, job.ensemble.isa(), threads).map_err(WorkflowError::files)
 }
 
 /// The rows of a dataset that are there, and the files of their bands.

@@ -1,8 +1,8 @@
 //! The report page of a result, made from its rows, and its figures as files.
 
-use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
+use crate::analysis::fold::Gathered;
 use crate::ensemble::Ensemble;
 use crate::report::image::{self, PlotSize};
 use crate::report::page::gather::Analysis;
@@ -43,8 +43,9 @@ pub fn remade(
     let records: Vec<PartRecord> = found.parts().into_values().collect();
     let parts = PartsRead::of(&records, |name| root.join(name));
     let reader = RowsReader::new(storage, parts.rows);
-    let analysed = computed(&plan, &reader, &parts.bands, None, threads)?;
-    let page = page(&ensemble, &reader, &analysed, &records, threads)?;
+    let gathered = Gathered::of_files(&ensemble, (&reader, &parts.bands), threads).map_err(WorkflowError::files)?;
+    let analysed = computed(&plan, &reader, gathered, threads)?;
+    let page = page(&ensemble, &analysed, &records);
     let path = root.join(REPORT);
     place(storage, &path, page.html.as_bytes()).map_err(WorkflowError::files)?;
     relist(storage, root, (manifest, &found.plan), FileRecord::of(REPORT, page.html.as_bytes()))
@@ -54,16 +55,7 @@ pub fn remade(
 }
 
 /// The page of a result whose parts are `records`.
-///
-/// # Errors
-/// Where a part cannot be read.
-pub fn page(
-    ensemble: &Ensemble<'_>,
-    reader: &RowsReader,
-    analysed: &Analysed,
-    records: &[PartRecord],
-    threads: Option<NonZeroUsize>,
-) -> Result<Page, WorkflowError> {
+pub fn page(ensemble: &Ensemble<'_>, analysed: &Analysed, records: &[PartRecord]) -> Page {
     let analysis = Analysis {
         statistics: &analysed.statistics,
         verdicts: &analysed.verdicts,
@@ -72,8 +64,8 @@ pub fn page(
         stopping: analysed.stopping.as_ref(),
     };
     let files = records.iter().flat_map(|part| &part.files).map(|file| (file.name.clone(), file.sha256.clone()));
-    let contents = Contents::new(ensemble, reader, analysis, files.collect(), threads).map_err(WorkflowError::files)?;
-    Ok(Page::new(ensemble, &contents))
+    let contents = Contents::new(ensemble.plan(), analysed.survey.clone(), analysis, files.collect());
+    Page::new(ensemble, &contents)
 }
 
 /// Writes the figures of `page` as files of this size into the folder of `place`, if one was named.

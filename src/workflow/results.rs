@@ -3,12 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use crate::analysis::comparison::{Comparison, compare};
+use crate::analysis::fold::Gathered;
 use crate::analysis::pairing::ResultRows;
 use crate::analysis::sensitivity::InputSensitivity;
 use crate::analysis::statistics::Statistics;
 use crate::analysis::verdicts::Verdicts;
 use crate::campaign::Plan;
-use crate::ensemble::{Bands, SingleRun};
+use crate::ensemble::{Bands, Ensemble, SingleRun};
 use crate::report::summary::SummaryEnd;
 use crate::sampling::SampleId;
 use crate::storage::claim::{FolderError, Locks, open};
@@ -106,7 +107,10 @@ impl<'a> Results<'a> {
     /// # Errors
     /// Where a file cannot be read.
     pub fn analysed(&self) -> Result<Analysed, WorkflowError> {
-        computed(&self.plan, &self.reader, &self.bands, None, self.session.threads)
+        let (ensemble, threads) = (Ensemble::new(&self.plan, self.session.isa), self.session.threads);
+        let gathered =
+            Gathered::of_files(&ensemble, (&self.reader, &self.bands), threads).map_err(WorkflowError::files)?;
+        computed(&self.plan, &self.reader, gathered, threads)
     }
 
     /// Statistics of every observable.

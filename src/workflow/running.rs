@@ -4,8 +4,8 @@ use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-use crate::analysis::running_counts::RunningCounts;
-use crate::analysis::stopping::stopping;
+use crate::analysis::fold::RunningFold;
+use crate::analysis::stopping::look;
 use crate::campaign::Plan;
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::runner::threads;
@@ -38,7 +38,7 @@ pub(super) fn run_missing(job: &Running<'_>) -> Result<CampaignOutcome, Workflow
     let mut made = Made::default();
     // what is there already was counted by no one
     let is_whole = ready.folder.parts().is_empty() && job.shard.is_none() && plan.analysis.stop.is_none();
-    let counts = if is_whole { RunningCounts::of(job.ensemble) } else { None };
+    let counts = if is_whole { RunningFold::of(job.ensemble) } else { None };
     plan.notes().iter().for_each(|note| job.session.watch.note(note));
     let targets = plan.looks();
     let mut samples = targets.last().copied().unwrap_or(plan.samples);
@@ -49,7 +49,7 @@ pub(super) fn run_missing(job: &Running<'_>) -> Result<CampaignOutcome, Workflow
             return Ok(outcome);
         }
         let (rows, bands) = rows_of(ready);
-        match stopping(plan, (&rows, &bands), target, job.session.threads, None).map_err(WorkflowError::files)? {
+        match look(plan, (&rows, &bands), target, job.session.threads).map_err(WorkflowError::files)? {
             Some(found) if !found.ends() => {
                 job.session.watch.note(&format!("{}: {}", plan.name, stopping_text(plan, &found)));
             }
@@ -79,7 +79,7 @@ impl Running<'_> {
     fn run_to(
         &self,
         parts: Parts,
-        counts: Option<&RunningCounts>,
+        counts: Option<&RunningFold>,
         made: &mut Made,
     ) -> Result<Option<CampaignOutcome>, WorkflowError> {
         let folder = &self.ready.folder;
@@ -119,7 +119,7 @@ impl Running<'_> {
     fn run_them(
         &self,
         missing: &[Part],
-        counts: Option<&RunningCounts>,
+        counts: Option<&RunningFold>,
         made: &mut Made,
     ) -> Result<Option<FailedRun>, WorkflowError> {
         let (watch, first) = (self.session.watch, Mutex::new(None));

@@ -5,14 +5,14 @@ use std::sync::Mutex;
 
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::{Ensemble, Part, Rows, Sink, Supervision, run as run_parts};
-use crate::storage::bands_file;
 use crate::storage::claim::{Claim, ClaimOptions, claim, lock, open};
+use crate::storage::folder::PartFile;
 use crate::storage::found::{Found, plan_text};
 use crate::storage::manifest::{FileRecord, PartRecord};
-use crate::storage::names::{MANIFEST, bands_of, rows_of};
-use crate::storage::part_sink::write_parts;
+use crate::storage::names::{MANIFEST, rows_of};
+use crate::storage::part_sink::{PartFiles, write_parts};
 use crate::storage::recovery::{begin_again, is_lost};
-use crate::storage::rows_file::{RowsFile, identity};
+use crate::storage::rows_file::identity;
 use crate::storage::verify::{damaged, derived_damage};
 use crate::workflow::error::WorkflowError;
 use crate::workflow::finishing::{Completed, Finishing, Outputs, complete, keep_data, stop_is_continued};
@@ -143,7 +143,7 @@ enum Repair {
 
 /// Encodes rows and remembers the parts whose bytes are not those of the manifest.
 struct Comparison<'a> {
-    file: RowsFile,
+    files: PartFiles,
     records: &'a [PartRecord],
     differing: Mutex<Vec<Part>>,
 }
@@ -153,14 +153,8 @@ impl Sink for Comparison<'_> {
 
     fn take(&self, rows: &Rows) -> Result<(), String> {
         let part = rows.part();
-        let mut bytes = Vec::new();
-        self.file.write(rows, &mut bytes).map_err(|error| error.to_string())?;
-        let mut files = vec![FileRecord::of(&rows_of(part.id), &bytes)];
-        if let Some(bands) = rows.bands() {
-            bytes.clear();
-            bands_file::write(part, bands, &mut bytes);
-            files.push(FileRecord::of(&bands_of(part.id), &bytes));
-        }
+        let files = self.files.encoded(rows, std::iter::empty()).map_err(|error| error.to_string())?;
+        let files: Vec<FileRecord> = files.iter().map(PartFile::record).collect();
         if self.records.iter().find(|record| record.part == part.id.0).is_none_or(|record| record.files != files) {
             self.differing.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push(rows.part());
         }
@@ -175,7 +169,7 @@ fn differing(
     chosen: &[Part],
 ) -> Result<Vec<Part>, WorkflowError> {
     let comparison = Comparison {
-        file: RowsFile::new(ensemble).map_err(WorkflowError::files)?,
+        files: PartFiles::new(ensemble).map_err(WorkflowError::files)?,
         records,
         differing: Mutex::new(Vec::new()),
     };

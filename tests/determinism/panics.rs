@@ -61,6 +61,6 @@ fn a_panic_ends_one_run() {
         }
     }
     assert!((2..40).contains(&failed), "{failed} of {RUNS}");
-    let counted = |rows: &Rows| rows.bands().unwrap().bands().runs();
+    let counted = |rows: &Rows| rows.bands().unwrap().runs();
     assert_eq!(counted(&fragile) + failed, counted(&sound));
 }

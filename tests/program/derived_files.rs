@@ -187,7 +187,7 @@ fn a_lost_manifest_is_made_again() {
     scratch.prints("campaign small.toml --out r", 0);
     let root = scratch.path("r");
     let whole = contents(&root);
-    for damaged in [None, Some("runs/part-000001.parquet"), Some("bands/part-000002.bands")] {
+    for damaged in [None, Some("runs/part-000001.parquet"), Some("bands/part-000002.parquet")] {
         fs::remove_file(root.join("manifest.jsonl")).unwrap();
         if let Some(name) = damaged {
             let mut bytes = whole[name].clone();

@@ -64,7 +64,7 @@ fn a_part_of_another_seed_is_found() {
         let mut mixed = mine.clone();
         mixed[3] = others[3].clone();
         write(&scratch, "r", &mixed);
-        for file in ["runs/part-000001.parquet", "bands/part-000001.bands"] {
+        for file in ["runs/part-000001.parquet", "bands/part-000001.parquet"] {
             fs::copy(scratch.path("other").join(file), scratch.path("r").join(file)).unwrap();
         }
     };
@@ -90,7 +90,7 @@ fn any_fraction_computes_a_part() {
     for (result, seed) in [("r", 7), ("other", 8)] {
         scratch.prints(&format!("campaign small.toml --samples 20 --seed {seed} --no-report --out {result}"), 0);
     }
-    let bands = |result: &str| fs::read(scratch.path(result).join("bands/part-000000.bands")).unwrap();
+    let bands = |result: &str| fs::read(scratch.path(result).join("bands/part-000000.parquet")).unwrap();
     let of = |bytes: &[u8]| format!("\"bytes\":{},\"sha256\":\"{}\"", bytes.len(), sha256(bytes));
     let whole = lines(&scratch, "r");
     let mut changed = whole.clone();
@@ -98,7 +98,7 @@ fn any_fraction_computes_a_part() {
     changed[2] = line(&body.replace(&of(&bands("r")), &of(&bands("other"))));
     assert_ne!(changed, whole);
     write(&scratch, "r", &changed);
-    fs::write(scratch.path("r/bands/part-000000.bands"), bands("other")).unwrap();
+    fs::write(scratch.path("r/bands/part-000000.parquet"), bands("other")).unwrap();
     for (fraction, code) in [("0", 0), ("1e-9", 4), ("0.4", 4), ("1", 4)] {
         scratch.prints(&format!("verify r --fraction {fraction}"), code);
     }

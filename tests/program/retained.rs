@@ -8,7 +8,8 @@ use std::path::Path;
 use arrow_array::cast::AsArray;
 use arrow_array::types::Int64Type;
 use parquet::file::reader::{FileReader, SerializedFileReader};
-use spindrift::analysis::trajectories::{file_name, retained, save};
+use spindrift::analysis::fold::Gathered;
+use spindrift::analysis::trajectories::{file_name, save};
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::ensemble::Ensemble;
 use spindrift::math::Isa;
@@ -34,6 +35,12 @@ fn plan(retain: &str) -> Plan {
 
 fn rows(scratch: &ScratchFolder) -> RowsReader {
     RowsReader::new(&Disk, scratch.part_files("r"))
+}
+
+/// The samples of `plan` whose runs are retained, by its rows.
+fn retained(plan: &Plan, rows: &RowsReader, threads: Option<NonZeroUsize>) -> Result<Vec<SampleId>, String> {
+    let found = Gathered::of_files(&Ensemble::new(plan, Isa::best()), (rows, &[]), threads);
+    found.map(|found| found.retained).map_err(|error| error.to_string())
 }
 
 /// Law: each rule chooses the runs that it says, whatever the threads: none, all that were run, the failed, the worst by magnitude, as
@@ -182,7 +189,8 @@ fn a_campaign_ends_with_bands() {
     scratch.file("small.toml", &(campaign() + "[bands]\npoints = 0\n"));
     scratch.prints("campaign small.toml --out none", 0);
     assert!(
-        !scratch.path("none/bands.parquet").exists() && !scratch.path("none/bands").join("part-000000.bands").exists()
+        !scratch.path("none/bands.parquet").exists()
+            && !scratch.path("none/bands").join("part-000000.parquet").exists()
     );
 }
 

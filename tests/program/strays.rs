@@ -85,7 +85,7 @@ fn what_no_manifest_lists_is_left_alone() {
     let scratch = folder("strays-part");
     scratch.prints("campaign small.toml --out r", 0);
     let before = contents(&scratch.path("r"));
-    for name in ["runs/part-000003.parquet", "bands/part-000099.bands", "trajectories/sample-000007.parquet"] {
+    for name in ["runs/part-000003.parquet", "bands/part-000099.parquet", "trajectories/sample-000007.parquet"] {
         let stray = plant(&scratch, "r", &[name]).remove(0);
         for command in ["campaign small.toml --out r", "verify r", "finish r", "report r"] {
             let said = scratch.prints(command, 0);

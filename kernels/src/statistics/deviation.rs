@@ -1,11 +1,13 @@
-//! [`DeviationCounts`]: a histogram of deviations from a nominal value, from which quantiles are read.
+//! Buckets of deviations from a nominal value: their [`code`], their [`ends`], and the order statistics ([`ranks`]) of what was counted in them.
 //!
 //! Buckets are the leading bits of the deviation: sign, exponent and the first [`MANTISSA_BITS`] bits of the mantissa, as in
 //! [`super::sketch`], but coarser and in 16 bits, so that hundreds of millions of deviations can be counted while a campaign runs.
 //! A bucket is at most 2^-5 of its value wide; a quantile is answered by the middle of its bucket, hence within
-//! [`RELATIVE_ERROR`] of the deviation. Contents are counts, so merging is addition: the result does not depend on order.
+//! [`RELATIVE_ERROR`] of the deviation.
 //!
 //! Magnitudes below 2^-512 (7e-155) count as zero, those from 2^512 (1.3e154) on are in the last bucket.
+
+use super::sketch::Ranks;
 
 /// Leading mantissa bits that tell buckets apart.
 pub const MANTISSA_BITS: u32 = 5;
@@ -54,77 +56,16 @@ pub fn ends(code: Code) -> [f64; 2] {
     if is_negative(code) { [-far, -near] } else { [near, far] }
 }
 
-/// The middle of a bucket.
-pub fn middle(code: Code) -> f64 {
-    let magnitude = i32::from(code >> 1);
-    if magnitude == 0 {
-        return 0.0;
-    }
-    let end = |leading: i32| f64::from_bits((leading as u64) << (32 + SHIFT));
-    let leading = magnitude + (LOWEST - 1);
-    let middle = 0.5 * (end(leading) + end(leading + 1));
-    if is_negative(code) { -middle } else { middle }
-}
-
 fn is_negative(code: Code) -> bool {
     code & 1 == 1
 }
 
-/// Counts of deviations by bucket.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct DeviationCounts {
-    /// The buckets that are not empty, by code.
-    buckets: Vec<(Code, u64)>,
-    count: u64,
-}
-
-impl DeviationCounts {
-    /// The counts of `buckets`, which come in ascending order of their codes, none of them empty; `None` where they do not, or
-    /// where they count more than 2^64.
-    pub fn of(buckets: Vec<(Code, u64)>) -> Option<Self> {
-        let is_ascending = buckets.windows(2).all(|pair| pair[0].0 < pair[1].0);
-        let is_bucket = |(code, count): &(Code, u64)| *code != NOT_A_NUMBER && *count > 0;
-        if !is_ascending || !buckets.iter().all(is_bucket) {
-            return None;
-        }
-        let count = buckets.iter().try_fold(0_u64, |sum, (_, count)| sum.checked_add(*count))?;
-        Some(DeviationCounts { buckets, count })
-    }
-
-    /// The buckets that are not empty, in ascending order of their codes.
-    pub fn buckets(&self) -> &[(Code, u64)] {
-        &self.buckets
-    }
-
-    /// How many deviations were counted.
-    pub fn count(&self) -> u64 {
-        self.count
-    }
-
-    /// The buckets in ascending order of deviation.
-    fn ascending(&self) -> impl Iterator<Item = (Code, u64)> {
-        let negative = self.buckets.iter().rev().filter(|(code, _)| is_negative(*code));
-        negative.chain(self.buckets.iter().filter(|(code, _)| !is_negative(*code))).copied()
-    }
-
-    /// The deviation of rank `rank`, from 1, within [`RELATIVE_ERROR`]; `None` where there are fewer.
-    fn order_statistic(&self, rank: u64) -> Option<f64> {
-        let mut seen = 0;
-        self.ascending().find_map(|(code, count)| {
-            seen += count;
-            (seen >= rank).then(|| middle(code))
-        })
-    }
-
-    /// The neighbours between which the `p`-quantile of type 7 (R. J. Hyndman & Y. Fan, *Am. Stat.* 50 (1996) 361) is, and its
-    /// part of the way from the first to the second; `None` where nothing was counted.
-    pub fn neighbours(&self, p: f64) -> Option<([f64; 2], f64)> {
-        let last = self.count.checked_sub(1)?;
-        let place = last as f64 * p;
-        let below = (place as u64).min(last);
-        let neighbours = [self.order_statistic(below + 1)?, self.order_statistic((below + 2).min(self.count))?];
-        Some((neighbours, place - below as f64))
-    }
+/// The order statistics of deviations that were counted by their codes, which are in ascending order.
+pub fn ranks(buckets: &[(Code, u64)]) -> Ranks {
+    let negative = buckets.iter().rev().filter(|(code, _)| is_negative(*code));
+    let ascending = negative.chain(buckets.iter().filter(|(code, _)| !is_negative(*code)));
+    // the last bucket has no end, and needs a middle
+    Ranks::of(ascending.map(|(code, count)| (ends(*code).map(|end| end.clamp(f64::MIN, f64::MAX)), *count)))
 }
 
 #[cfg(test)]
@@ -132,11 +73,14 @@ mod tests {
     use super::*;
     use crate::statistics::quantile::quantile;
 
-    fn counted(values: &[f64]) -> DeviationCounts {
+    fn counted(values: &[f64]) -> Ranks {
         let mut codes: Vec<Code> = values.iter().map(|value| code(*value)).filter(|c| *c != NOT_A_NUMBER).collect();
         codes.sort_unstable();
-        let buckets = codes.chunk_by(|a, b| a == b).map(|run| (run[0], run.len() as u64));
-        DeviationCounts::of(buckets.collect()).expect("ascending codes")
+        ranks(&codes.chunk_by(|a, b| a == b).map(|run| (run[0], run.len() as u64)).collect::<Vec<_>>())
+    }
+
+    fn middle(code: Code) -> f64 {
+        ranks(&[(code, 1)]).quantile(0.5).expect("a value")
     }
 
     /// A number that follows from `k`, spread over 80 octaves and both signs.
@@ -176,7 +120,7 @@ mod tests {
         assert_eq!([code(1.35e154), code(f64::INFINITY)], [Code::MAX - 1; 2]);
         assert_eq!((ends(Code::MAX - 1)[1], ends(Code::MAX)[0]), (f64::INFINITY, f64::NEG_INFINITY));
         assert_eq!([code(-1.35e154), code(f64::NEG_INFINITY)], [Code::MAX; 2]);
-        assert!(DeviationCounts::default().neighbours(0.5).is_none());
+        assert!(ranks(&[]).neighbours(0.5).is_none() && middle(Code::MAX).is_finite());
     }
 
     /// Law: neighbours and their part give the quantile of type 7 within the stated error of the larger neighbour.
@@ -196,15 +140,5 @@ mod tests {
         let ([other, _], _) = counts.neighbours(0.52).expect("values");
         let exact = quantile(&values, 0.75).expect("values");
         assert!((other - exact).abs() > RELATIVE_ERROR * exact.abs());
-    }
-
-    #[test]
-    fn what_cannot_be_counts_is_refused() {
-        assert!(DeviationCounts::of(vec![(0, 1), (2, 5), (3, 1)]).is_some());
-        for wrong in
-            [vec![(2, 1), (0, 1)], vec![(2, 1), (2, 1)], vec![(1, 1)], vec![(2, 0)], vec![(2, u64::MAX), (3, 1)]]
-        {
-            assert_eq!(DeviationCounts::of(wrong.clone()), None, "{wrong:?}");
-        }
     }
 }

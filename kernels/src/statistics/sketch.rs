@@ -219,16 +219,14 @@ impl Sketch {
 
     /// Where numbers were counted, in ascending order: for many questions to one sketch.
     pub fn ranks(&self) -> Ranks {
-        let mut seen = 0;
         let mut buckets = Vec::new();
         self.for_each_bucket(|number, bucket, count| {
-            seen += count;
             let [low, high] = self.ends(number, bucket);
             // extremes are known exactly
-            let [low, high] = if low < high { [low.max(self.min), high.min(self.max)] } else { [low, high] };
-            buckets.push(Bucket { low, high, up_to: seen });
+            let ends = if low < high { [low.max(self.min), high.min(self.max)] } else { [low, high] };
+            buckets.push((ends, count));
         });
-        Ranks { buckets, count: self.count }
+        Ranks::of(buckets)
     }
 }
 
@@ -252,6 +250,17 @@ pub struct Ranks {
 }
 
 impl Ranks {
+    /// Those of buckets that are not empty: ends and counts, ascending.
+    pub fn of(buckets: impl IntoIterator<Item = ([f64; 2], u64)>) -> Self {
+        let mut count = 0;
+        let bucket = |([low, high], numbers): ([f64; 2], u64)| {
+            count += numbers;
+            Bucket { low, high, up_to: count }
+        };
+        let buckets = buckets.into_iter().map(bucket).collect();
+        Ranks { buckets, count }
+    }
+
     /// The same where all numbers are whole: a bucket is then as wide as the whole numbers in it, and those below 2048 are exact.
     #[must_use]
     pub fn of_whole_numbers(mut self) -> Self {
@@ -267,14 +276,21 @@ impl Ranks {
         Some([bucket.low, bucket.high])
     }
 
-    /// The `p`-quantile of type 7 ([`super::quantile::quantile`]), 0 <= p <= 1: between two order statistics, each within
-    /// [`RELATIVE_ERROR`] of its magnitude and of its deviation from the reference, and so within that fraction of those of the greater.
-    pub fn quantile(&self, p: f64) -> Option<f64> {
+    /// The middles of the buckets of the two order statistics between which the `p`-quantile of type 7, 0 <= p <= 1, is, and its part of the way
+    /// from the first to the second; `None` where nothing was counted.
+    pub fn neighbours(&self, p: f64) -> Option<([f64; 2], f64)> {
         let last = self.count.checked_sub(1)?;
         let place = last as f64 * p;
         let below = (place.floor() as u64).min(last);
         let near = |rank: u64| self.bounds(rank.min(self.count)).map(middle);
-        super::quantile::quantile(&[near(below + 1)?, near(below + 2)?], place - below as f64)
+        Some(([near(below + 1)?, near(below + 2)?], place - below as f64))
+    }
+
+    /// The `p`-quantile of type 7 ([`super::quantile::quantile`]), 0 <= p <= 1: between two order statistics, each within
+    /// [`RELATIVE_ERROR`] of its magnitude and of its deviation from the reference, and so within that fraction of those of the greater.
+    pub fn quantile(&self, p: f64) -> Option<f64> {
+        let (neighbours, part) = self.neighbours(p)?;
+        super::quantile::quantile(&neighbours, part)
     }
 
     /// At least and at most how many numbers are no greater than `limit`: they differ by the bucket that `limit` is in.

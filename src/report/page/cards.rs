@@ -1,10 +1,10 @@
 //! [`Card`]: what the first screen says about one requirement, or, without requirements, about one outcome.
 
+use crate::analysis::survey::{Survey, SurveyedOutcome};
 use crate::report::page::influence::Influence;
 use crate::report::page::payload::escaped;
 use crate::report::page::readable::{number, with_unit};
 use crate::report::page::shown_columns::words;
-use crate::report::page::survey::{Outcome, Survey};
 use crate::report::page::tables::StatisticsRow;
 
 /// How a requirement was judged.
@@ -99,7 +99,7 @@ pub fn findings(survey: &Survey, statistics: &[StatisticsRow], influences: &[Inf
     FOUND.into_iter().filter_map(card).collect()
 }
 
-fn finding(outcome: &Outcome, row: Option<&StatisticsRow>, title: &str, drivers: String) -> Card {
+fn finding(outcome: &SurveyedOutcome, row: Option<&StatisticsRow>, title: &str, drivers: String) -> Card {
     const P: f64 = 0.99;
     let runs = outcome.sketch.count();
     // the plan may have other quantiles: the highest of them that is not above

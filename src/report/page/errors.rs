@@ -1,9 +1,9 @@
 //! Figures of the numerical errors: histograms, exceedance, estimate against audited error, work.
 
+use crate::analysis::survey::{CONFIDENCE, Survey, SurveyedOutcome};
 use crate::report::figure::{Axis, Dash, Figure, Hue, Mark, PointShape, Section};
 use crate::report::histogram::{bins, counts};
-use crate::report::page::shown_columns::{CONFIDENCE, ranked, words};
-use crate::report::page::survey::{Outcome, Survey};
+use crate::report::page::shown_columns::{ranked, words};
 use crate::run::Status;
 use crate::statistics::binomial::interval;
 use crate::statistics::sketch::Sketch;
@@ -57,7 +57,7 @@ pub fn shown_rows(survey: &Survey) -> Vec<usize> {
 }
 
 /// The histogram of an outcome over the thinned table; of an error, of its magnitude.
-pub fn histogram(survey: &Survey, index: usize, outcome: &Outcome, section: Section) -> Figure {
+pub fn histogram(survey: &Survey, index: usize, outcome: &SurveyedOutcome, section: Section) -> Figure {
     let rows = shown_rows(survey);
     let column = &survey.thinned.outcomes[index];
     let values: Vec<f64> = rows.iter().map(|row| column[*row]).filter(|value| value.is_finite()).collect();
@@ -95,7 +95,7 @@ pub fn histogram(survey: &Survey, index: usize, outcome: &Outcome, section: Sect
 }
 
 /// The fraction of runs above a value, on logarithmic axes, at ranks spaced by decades.
-fn exceedance(outcome: &Outcome, has_intervals: bool) -> Figure {
+fn exceedance(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
     let (x, y, low, high) = tail(&outcome.sketch);
     let label = format!("{}% interval", (100.0 * CONFIDENCE).round());
     let mut marks = Vec::new();

@@ -1,14 +1,13 @@
 //! [`Contents`] from what other modules computed of a result: statistics, verdicts, sensitivities, bands, and a survey of the rows.
 
-use std::num::NonZeroUsize;
-
 use crate::analysis::assessment::Assessment;
 use crate::analysis::sensitivity::InputSensitivity;
 use crate::analysis::statistics::{ColumnStatistics, QuantileStatistic, Statistics};
 use crate::analysis::stopping::Stopping;
+use crate::analysis::survey::Survey;
 use crate::analysis::verdicts::Verdicts;
-use crate::campaign::{Plan, Requirement, Statement};
-use crate::ensemble::{Bands, Ensemble};
+use crate::campaign::{Plan, Statement};
+use crate::ensemble::Bands;
 use crate::report::drivers_text::{self, outcomes};
 use crate::report::page::Contents;
 use crate::report::page::cards::{Card, Judged, driven_by};
@@ -17,14 +16,12 @@ use crate::report::page::influence::Influence;
 use crate::report::page::over_time::TimeBands;
 use crate::report::page::readable::{grouped, number, with_unit};
 use crate::report::page::shown_columns::words;
-use crate::report::page::survey::Survey;
 use crate::report::page::tables::StatisticsRow;
 use crate::report::requirements::{runs_needed, together};
 use crate::report::stopping_text;
 use crate::statistics::binomial::Decision;
 use crate::statistics::correlation::Estimate;
 use crate::statistics::gate::Limit;
-use crate::storage::rows_reader::{RowsError, RowsReader};
 
 /// Quantiles of the bands of the page.
 const BANDS: [f64; 5] = [0.05, 0.25, 0.5, 0.75, 0.95];
@@ -45,31 +42,13 @@ pub struct Analysis<'a> {
 }
 
 impl Contents {
-    /// Reads the rows once more for what only the page shows, and takes the rest from `analysis`. `files`: names and SHA-256.
-    ///
-    /// # Errors
-    /// Where a part cannot be read.
-    pub fn new(
-        ensemble: &Ensemble<'_>,
-        rows: &RowsReader,
-        analysis: Analysis<'_>,
-        files: Vec<(String, String)>,
-        threads: Option<NonZeroUsize>,
-    ) -> Result<Self, RowsError> {
-        let plan = ensemble.plan();
-        let mut named: Vec<String> = Vec::new();
-        let required = plan.analysis.requirements.iter().filter_map(Requirement::observable);
-        for name in required.chain(analysis.sensitivities.iter().map(|one| one.observable.as_str())) {
-            if !named.iter().any(|known| known == name) {
-                named.push(name.to_owned());
-            }
-        }
-        let survey = Survey::new(ensemble, rows, &named, threads)?;
+    /// What `analysis` says of `plan`, and the `survey` of its rows. `files`: names and SHA-256.
+    pub fn new(plan: &Plan, survey: Survey, analysis: Analysis<'_>, files: Vec<(String, String)>) -> Self {
         let influences = influences(plan, analysis.sensitivities, &survey);
         let verdicts = &analysis.verdicts.list;
         let mut said = together(analysis.verdicts);
         said.extend(analysis.stopping.map(|found| stopping_text::text(plan, found)));
-        Ok(Contents {
+        Contents {
             bands: analysis.bands.map_or_else(Vec::new, time_bands),
             statistics: analysis
                 .statistics
@@ -83,7 +62,7 @@ impl Contents {
             influences,
             said,
             files,
-        })
+        }
     }
 }
 

@@ -1,10 +1,10 @@
 //! Figures of what drives the outcome: sensitivities with intervals, scatter plots of the strongest inputs.
 
+use crate::analysis::survey::{SCATTER, Survey, SurveyedOutcome, chosen};
 use crate::campaign::Plan;
 use crate::report::figure::{Axis, Dash, Figure, Hue, Mark, PointShape, Section};
 use crate::report::page::errors::{sentence, shown_rows};
 use crate::report::page::shown_columns::words;
-use crate::report::page::survey::{Outcome, SCATTER, Survey, chosen};
 use crate::run::Quantity;
 use crate::run::Status;
 
@@ -45,7 +45,7 @@ fn position(plan: &Plan, name: &str) -> Option<usize> {
     plan.dispersions.columns().iter().position(|column| column.parameter.column_name(column.component) == name)
 }
 
-fn tornado(influence: &Influence, outcome: &Outcome, inputs: &[(String, [f64; 3])], all: usize) -> Figure {
+fn tornado(influence: &Influence, outcome: &SurveyedOutcome, inputs: &[(String, [f64; 3])], all: usize) -> Figure {
     let column = |place: usize| inputs.iter().map(|(_, value)| value[place]).collect::<Vec<f64>>();
     let note =
         if inputs.len() < all { format!(" The strongest {} of {all} inputs.", inputs.len()) } else { String::new() };
@@ -69,7 +69,7 @@ fn tornado(influence: &Influence, outcome: &Outcome, inputs: &[(String, [f64; 3]
 }
 
 /// An outcome against an input.
-fn scatter(plan: &Plan, survey: &Survey, input: usize, index: usize, outcome: &Outcome) -> Figure {
+fn scatter(plan: &Plan, survey: &Survey, input: usize, index: usize, outcome: &SurveyedOutcome) -> Figure {
     let column = &plan.dispersions.columns()[input];
     let name = column.parameter.component_name(column.component);
     let unit = if column.parameter.unit() == "1" { "" } else { column.parameter.unit() };
@@ -116,7 +116,7 @@ fn scatter(plan: &Plan, survey: &Survey, input: usize, index: usize, outcome: &O
 }
 
 /// Convergence of the median and of a high quantile of an outcome with the number of runs.
-pub fn convergence(outcome: &Outcome, has_intervals: bool) -> Figure {
+pub fn convergence(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
     let growth = &outcome.growth;
     let column = |place: usize| growth.iter().map(|row| row[place]).collect::<Vec<f64>>();
     let line = |label: &str, hue, place| Mark::Line {

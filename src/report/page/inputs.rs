@@ -2,9 +2,9 @@
 
 use core::f64::consts::PI;
 
+use crate::analysis::survey::Survey;
 use crate::campaign::Plan;
 use crate::report::figure::{Figure, Section};
-use crate::report::page::survey::Survey;
 use crate::report::{drawn_figure, histogram, marginal};
 use crate::sampling::correlation::{Measure, Numbers};
 use crate::statistics::correlation::{matrix, mid_ranks, standardised};

@@ -2,7 +2,7 @@
 //!
 //! It is a pure function of the plan and the rows (and what was computed from them): the same result gives the same bytes.
 //!
-//! - [`survey`]: what is taken from the rows. - `runs`: the runs that are shown in full.
+//! - `runs`: the runs that are shown in full.
 //! - [`over_time`], `errors`, [`influence`], `inputs`: the figures. - `figure_json`: what the scripts need to draw them.
 //! - [`gather`]: what statistics, verdicts, sensitivities and bands are on the page. - [`cards`], `first_screen`, [`tables`], `document`: the HTML. - `replay`: the 3D replay. - `payload`: numbers in the page.
 //!
@@ -23,7 +23,6 @@ mod replay;
 mod runs;
 mod shown_columns;
 mod spectrum;
-pub mod survey;
 pub mod tables;
 
 use serde_json::{Value, json};
@@ -34,8 +33,8 @@ use self::figure_json::json_of;
 use self::influence::Influence;
 use self::over_time::{Curves, TimeBands};
 use self::payload::Payload;
-use self::survey::Survey;
 use self::tables::StatisticsRow;
+use crate::analysis::survey::{self, Survey};
 use crate::campaign::Plan;
 use crate::ensemble::Ensemble;
 use crate::report::figure::{Figure, Section};

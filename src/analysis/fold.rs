@@ -1,0 +1,241 @@
+//! [`Accumulator`]: what is gathered from rows in one pass over their parts. [`RowsFold`]: everything that a campaign's end needs, by one fold over
+//! all parts: from the rows in memory while the campaign runs ([`RunningFold`]), or from their files ([`Gathered::of_files`]).
+//!
+//! A part is counted on any thread, and merged in the order of the parts: no bit depends on threads, nor on where the rows were read from.
+
+use std::collections::BTreeMap;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+use std::sync::{Mutex, PoisonError};
+
+use crate::analysis::column_counts::{Collected, Collector, REFERENCE_ROWS, batches, references};
+use crate::analysis::observed::Observed;
+use crate::analysis::part_columns::{PartColumns, RowNames};
+use crate::analysis::population::Population;
+use crate::analysis::sensitivity::{FirstRows, RowTable};
+use crate::analysis::statistics::is_exact;
+use crate::analysis::stopping::ObservedValues;
+use crate::analysis::survey::{Survey, Surveyor};
+use crate::analysis::tally::{Tally, TallyColumns};
+use crate::analysis::trajectories::Retained;
+use crate::analysis::verdicts::{RequirementCounter, RequirementCounts};
+use crate::campaign::Plan;
+use crate::ensemble::{Bands, Ensemble, Part, PartId, Parts, Rows, Supervision};
+use crate::sampling::SampleId;
+use crate::storage::bands_file;
+use crate::storage::part_sink::CountRows;
+use crate::storage::rows_reader::{RowsError, RowsReader};
+
+/// Gathers something from the parts of a campaign.
+pub trait Accumulator: Sync {
+    /// What all parts have.
+    type Whole: Send;
+    /// What one part adds.
+    type OfPart: Send;
+
+    /// What no part has.
+    fn nothing(&self) -> Self::Whole;
+
+    /// What a part adds, on any thread; each part is counted once.
+    ///
+    /// # Errors
+    /// Where a column cannot be read.
+    fn count(&self, part: &impl PartColumns) -> Result<Self::OfPart, RowsError>;
+
+    /// Adds the next part, in the order of the parts.
+    fn merge(&self, whole: &mut Self::Whole, part: Self::OfPart);
+}
+
+/// Two things in one pass.
+impl<A: Accumulator, B: Accumulator> Accumulator for (A, B) {
+    type Whole = (A::Whole, B::Whole);
+    type OfPart = (A::OfPart, B::OfPart);
+
+    fn nothing(&self) -> Self::Whole {
+        (self.0.nothing(), self.1.nothing())
+    }
+
+    fn count(&self, part: &impl PartColumns) -> Result<Self::OfPart, RowsError> {
+        Ok((self.0.count(part)?, self.1.count(part)?))
+    }
+
+    fn merge(&self, whole: &mut Self::Whole, part: Self::OfPart) {
+        self.0.merge(&mut whole.0, part.0);
+        self.1.merge(&mut whole.1, part.1);
+    }
+}
+
+/// What `accumulator` gathers from the files of `reader`, on `threads` threads (`None`: one per core).
+///
+/// # Errors
+/// Where a file cannot be read.
+pub fn of_files<A: Accumulator>(
+    accumulator: &A,
+    reader: &RowsReader,
+    threads: Option<NonZeroUsize>,
+) -> Result<A::Whole, RowsError> {
+    let mut whole = accumulator.nothing();
+    reader.visit(
+        threads,
+        |part| accumulator.count(part),
+        |part| {
+            accumulator.merge(&mut whole, part);
+            Ok::<(), RowsError>(())
+        },
+    )?;
+    Ok(whole)
+}
+
+/// Everything that is gathered: statuses and audits, columns, requirements, the observable of `[stop]`, the first rows, retained runs, the page.
+type Everything =
+    (((TallyColumns, Collector), (RequirementCounter, ObservedValues)), ((FirstRows, Retained), Surveyor));
+
+/// Gathers everything that the end of a campaign needs.
+#[derive(Debug)]
+pub struct RowsFold(Everything);
+
+/// What one fold over the rows of a campaign gathers.
+#[derive(Clone, Debug)]
+pub struct Gathered {
+    /// Statuses, worst runs, audits.
+    pub tally: Tally,
+    /// The observables of the first of the [`batches`].
+    pub columns: Collected,
+    /// Of each requirement.
+    pub requirements: RequirementCounts,
+    /// Of the observable of `[stop]`, run by run; none without.
+    pub stop_values: Vec<f64>,
+    /// Inputs and main observables of the first rows.
+    pub first_rows: RowTable,
+    /// Samples whose runs are retained, ascending.
+    pub retained: Vec<SampleId>,
+    /// What the page shows.
+    pub survey: Survey,
+    /// Quantities over time, where the campaign has bands.
+    pub bands: Option<Bands>,
+}
+
+impl RowsFold {
+    /// Of the campaign `ensemble`; `references`: what values are sketched about, where they are not kept.
+    fn new(ensemble: &Ensemble<'_>, references: Option<Vec<f64>>) -> Self {
+        let plan = ensemble.plan();
+        let columns = Collector::new(first_batch(plan), Population::of(plan), references);
+        RowsFold((
+            (
+                (TallyColumns::new(ensemble), columns),
+                (RequirementCounter::new(plan), ObservedValues::of_stop(plan, plan.samples)),
+            ),
+            ((FirstRows::new(plan), Retained::new(plan)), Surveyor::new(ensemble)),
+        ))
+    }
+
+    fn gathered(self, whole: <Everything as Accumulator>::Whole, bands: Option<Bands>) -> Gathered {
+        let (((tally, columns), (requirements, stop_values)), ((first_rows, retained), survey)) = whole;
+        let (((_, collector), _), ((_, retention), _)) = self.0;
+        Gathered {
+            tally,
+            columns: collector.finish(columns),
+            requirements,
+            stop_values,
+            first_rows,
+            retained: retention.chosen(retained),
+            survey: survey.finished(),
+            bands,
+        }
+    }
+}
+
+fn first_batch(plan: &Plan) -> Vec<Observed> {
+    batches(plan).into_iter().next().unwrap_or_default()
+}
+
+impl Gathered {
+    /// What the files of rows of `ensemble`, and those of its `bands`, have, on `threads` threads (`None`: one per core).
+    ///
+    /// # Errors
+    /// Where a file cannot be read.
+    pub fn of_files(
+        ensemble: &Ensemble<'_>,
+        (reader, bands): (&RowsReader, &[PathBuf]),
+        threads: Option<NonZeroUsize>,
+    ) -> Result<Gathered, RowsError> {
+        let plan = ensemble.plan();
+        let bands = bands_file::read(reader.storage(), bands, threads)?;
+        // the nominal row is one more
+        let first = || references(&first_batch(plan), Population::of(plan), reader.first_parts(REFERENCE_ROWS + 1));
+        let fold = RowsFold::new(ensemble, (!is_exact(plan)).then(first).transpose()?);
+        let whole = of_files(&fold.0, reader, threads)?;
+        Ok(fold.gathered(whole, bands))
+    }
+}
+
+/// Folds rows while they are in memory, part by part in any order, so that they need not be read again when a campaign ends.
+///
+/// Only of a campaign that one process runs from its start: what a resumed one, or shards, have made before is on the disk, and then everything
+/// is read from there.
+#[derive(Debug)]
+pub struct RunningFold {
+    names: RowNames,
+    fold: RowsFold,
+    bands: Mutex<Option<Bands>>,
+    merging: Mutex<Merging>,
+}
+
+/// The parts that were counted.
+#[derive(Debug)]
+struct Merging {
+    whole: <Everything as Accumulator>::Whole,
+    /// Number of parts, from the first, that are merged.
+    merged: u64,
+    /// Parts that were counted before an earlier one.
+    waiting: BTreeMap<u64, <Everything as Accumulator>::OfPart>,
+}
+
+impl RunningFold {
+    /// Of the campaign `ensemble`; `None` where its first rows cannot be made.
+    pub fn of(ensemble: &Ensemble<'_>) -> Option<Self> {
+        let plan = ensemble.plan();
+        let names = RowNames::new(ensemble);
+        let first = || {
+            // run once more: the first part may be counted after others
+            let count = (plan.rows() as usize).min(REFERENCE_ROWS + 1);
+            let mut rows = ensemble.rows(count);
+            let part = Part { id: PartId(0), first: SampleId(0), count };
+            ensemble.worker().run(part, &mut rows, Supervision::progress(&|_| {}));
+            references(&first_batch(plan), Population::of(plan), [Ok(names.of(&rows))])
+        };
+        let fold = RowsFold::new(ensemble, (!is_exact(plan)).then(first).transpose().ok()?);
+        let merging = Merging { whole: fold.0.nothing(), merged: 0, waiting: BTreeMap::new() };
+        Some(RunningFold { names, fold, bands: Mutex::new(None), merging: Mutex::new(merging) })
+    }
+
+    /// What was gathered, where that is of all of `parts`.
+    pub fn whole(self, parts: Parts) -> Option<Gathered> {
+        let merging = self.merging.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let bands = self.bands.into_inner().unwrap_or_else(PoisonError::into_inner);
+        (merging.merged == parts.count()).then(|| self.fold.gathered(merging.whole, bands))
+    }
+}
+
+impl CountRows for RunningFold {
+    /// Counts the rows of a part and its bands, each part once.
+    fn add(&self, rows: &Rows) {
+        // without the part the fold is not whole: the rows are then read again
+        let Ok(of_part) = self.fold.0.count(&self.names.of(rows)) else { return };
+        if let Some(part) = rows.bands() {
+            let mut bands = self.bands.lock().unwrap_or_else(PoisonError::into_inner);
+            if bands.get_or_insert_with(|| Bands::new(part.layout().clone())).add(part).is_err() {
+                return;
+            }
+        }
+        let mut merging = self.merging.lock().unwrap_or_else(PoisonError::into_inner);
+        merging.waiting.insert(rows.part().id.0, of_part);
+        while let Some(next) = {
+            let next = merging.merged;
+            merging.waiting.remove(&next)
+        } {
+            self.fold.0.merge(&mut merging.whole, next);
+            merging.merged += 1;
+        }
+    }
+}

@@ -1,0 +1,457 @@
+//! [`Survey`]: what the page takes from the rows: counts, a thinned table, exceedance of the main outcomes, the worst runs.
+//!
+//! Its memory does not depend on the number of parts. Rows of the thinned table are chosen by a hash of the
+//! sample's number: neither a design's order nor the number of parts matters, and the same samples are chosen of the same campaign.
+
+use std::collections::BTreeMap;
+
+use crate::analysis::fold::Accumulator;
+use crate::analysis::observed::Observed;
+use crate::analysis::part_columns::PartColumns;
+use crate::analysis::sensitivity::explained;
+use crate::campaign::Requirement;
+use crate::ensemble::Ensemble;
+use crate::ensemble::audit::AuditValue;
+use crate::observables::Group;
+use crate::observables::headlines::{STATE_ERROR_ESTIMATE, headlines};
+use crate::run::{Quantity, Status};
+use crate::sampling::SampleId;
+use crate::statistics::quantile::interval_ranks;
+use crate::statistics::sketch::{Ranks, Sketch, middle};
+use crate::storage::rows_reader::RowsError;
+
+/// Confidence of the intervals on the page.
+pub const CONFIDENCE: f64 = 0.95;
+/// Most rows of the thinned table.
+pub const THINNED: u64 = 16_384;
+/// Most points of a scatter plot.
+pub const SCATTER: usize = 2000;
+/// How many of the worst runs are kept for each outcome, and how many that failed for each status.
+const KEPT: usize = 10;
+/// Most columns of outcomes in the thinned table: wheels have some each.
+const MOST_OUTCOMES: usize = 32;
+
+/// Quantiles of fewer runs are not shown.
+const FIRST_GROWTH: u64 = 16;
+
+/// An outcome that the page looks at.
+#[derive(Clone, Debug)]
+pub struct SurveyedOutcome {
+    /// Name, unit, meaning.
+    pub quantity: Quantity,
+    /// Whether a requirement names it.
+    pub is_required: bool,
+    /// Whether it is an error of the computation.
+    pub is_error: bool,
+    /// Its magnitudes if it is an error, else its values, about that of the nominal run; over the dispersed runs that are ok.
+    pub sketch: Sketch,
+    /// The runs with the largest magnitudes, in descending order.
+    pub largest: Vec<(SampleId, f64)>,
+    /// Its value in the nominal run; NaN where that has none.
+    pub nominal: f64,
+    /// Quantiles of the first runs: number of runs, median, 99%-quantile, and the ends of its interval.
+    pub growth: Vec<[f64; 5]>,
+    /// The number of runs at which quantiles are noted next.
+    next_growth: u64,
+}
+
+/// Runs that ended with one status.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct EndedRuns {
+    /// The status.
+    pub status: Status,
+    /// How many there are.
+    pub count: u64,
+    /// The first of them, with their reasons.
+    pub first: Vec<(SampleId, String)>,
+}
+
+/// Rows of some samples.
+#[derive(Clone, Debug, Default)]
+pub struct Thinned {
+    /// The samples, ascending.
+    pub samples: Vec<u64>,
+    /// How each ended.
+    pub statuses: Vec<Status>,
+    /// Inputs as applied, column by column.
+    pub inputs: Vec<Vec<f64>>,
+    /// Outcomes, column by column as [`Survey::outcomes`].
+    pub outcomes: Vec<Vec<f64>>,
+}
+
+/// What the page takes from the rows.
+#[derive(Clone, Debug)]
+pub struct Survey {
+    /// Number of samples.
+    pub samples: u64,
+    /// How the runs ended; those that occur, and `ok`.
+    pub ended: Vec<EndedRuns>,
+    /// The outcomes.
+    pub outcomes: Vec<SurveyedOutcome>,
+    /// Some rows.
+    pub thinned: Thinned,
+    /// Estimated and true error of audited runs, at most [`SCATTER`]: sample, estimate, truth.
+    pub audits: Vec<[f64; 3]>,
+    /// How many runs were audited.
+    pub audited: u64,
+}
+
+/// Whether the column `name` is an error of the computation, which should be small and is never negative.
+fn is_error(name: &str) -> bool {
+    let is_largest =
+        name.contains("_max") && ["_error", "residual_", "orthonormality"].iter().any(|mark| name.contains(mark));
+    is_largest || name.ends_with("error_estimate")
+}
+
+/// The distribution-free interval of the `p`-quantile of `count` numbers (order statistics); NaN where there are too few for an end.
+fn interval(count: u64, ranks: &Ranks, p: f64) -> [f64; 2] {
+    if count == 0 {
+        return [f64::NAN; 2];
+    }
+    let places = interval_ranks(count, p, CONFIDENCE);
+    [places.lower, places.upper].map(|rank| rank.and_then(|rank| ranks.bounds(rank)).map_or(f64::NAN, middle))
+}
+
+/// The hash of a sample's number (the finaliser of SplitMix64, G. L. Steele, D. Lea & C. H. Flood, OOPSLA 2014).
+fn hash(sample: u64) -> u64 {
+    let mut z = sample.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
+
+/// Keeps the `most` indices whose samples have the smallest hashes, in ascending order.
+pub fn chosen(samples: &[u64], most: usize) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..samples.len()).collect();
+    if order.len() > most {
+        order.sort_by_key(|index| hash(samples[*index]));
+        order.truncate(most);
+        order.sort_unstable();
+    }
+    order
+}
+
+/// The names of the outcomes: those that the file requires, those whose inputs are estimated, those of a summary, and the motion's; and how many of
+/// them the first ones are.
+fn wanted(ensemble: &Ensemble<'_>) -> (Vec<String>, usize) {
+    let plan = ensemble.plan();
+    let required = plan.analysis.requirements.iter().filter_map(Requirement::observable).map(str::to_owned);
+    let columns = ensemble.request().columns();
+    let main = headlines(ensemble.request()).into_iter().map(|index| columns[index].quantity.name().to_owned());
+    let motion = columns.iter().filter(|column| column.group == Group::Motion).map(|column| column.quantity.name());
+    let motion = motion.filter(|name| name.contains("_max_")).map(str::to_owned);
+    let mut names: Vec<String> = Vec::new();
+    let mut add = |some: &mut dyn Iterator<Item = String>| {
+        for name in some {
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        }
+        names.len()
+    };
+    let asked = add(&mut required.chain(explained(plan)));
+    add(&mut main.chain(motion));
+    (names, asked)
+}
+
+/// Takes what the page shows from the rows.
+#[derive(Clone, Debug)]
+pub struct Surveyor {
+    observed: Vec<Observed>,
+    /// Names of the columns of all dispersed values.
+    inputs: Vec<String>,
+    nothing: Survey,
+    thinning: Thinning,
+    /// Names of the estimated and the true error of the state, where runs are audited.
+    audited: Option<[&'static str; 2]>,
+    has_dispersed: bool,
+}
+
+/// What a part adds.
+#[derive(Clone, Debug)]
+pub struct SurveyedPart {
+    samples: u64,
+    ended: Vec<EndedRuns>,
+    /// The runs that count.
+    counted: Vec<SampleId>,
+    /// Their outcomes.
+    outcomes: Vec<Vec<f64>>,
+    /// Those of the nominal run.
+    nominal: Option<Vec<f64>>,
+    thinned: Thinned,
+    audits: Vec<[f64; 3]>,
+}
+
+impl Surveyor {
+    /// Of the campaign `ensemble`.
+    pub fn new(ensemble: &Ensemble<'_>) -> Self {
+        let plan = ensemble.plan();
+        let (names, asked) = wanted(ensemble);
+        let mut observed = Observed::named(plan, names.iter().map(String::as_str));
+        observed.sort_by_key(|one| names.iter().position(|name| name == one.quantity.name()));
+        observed.truncate(MOST_OUTCOMES.max(asked));
+        let required: Vec<&str> = plan.analysis.requirements.iter().filter_map(Requirement::observable).collect();
+        let inputs: Vec<String> =
+            plan.dispersions.columns().iter().map(|column| column.parameter.column_name(column.component)).collect();
+        let outcome = |column: &Observed| SurveyedOutcome {
+            quantity: column.quantity.clone(),
+            is_required: required.contains(&column.quantity.name()),
+            is_error: !column.is_count && is_error(column.quantity.name()),
+            sketch: Sketch::default(),
+            largest: Vec::new(),
+            nominal: f64::NAN,
+            growth: Vec::new(),
+            next_growth: FIRST_GROWTH,
+        };
+        let estimate = STATE_ERROR_ESTIMATE.name();
+        let has_estimate = observed.iter().any(|column| column.quantity.name() == estimate);
+        Surveyor {
+            nothing: Survey {
+                samples: 0,
+                ended: no_runs(),
+                outcomes: observed.iter().map(outcome).collect(),
+                thinned: Thinned {
+                    inputs: vec![Vec::new(); inputs.len()],
+                    outcomes: vec![Vec::new(); observed.len()],
+                    ..Thinned::default()
+                },
+                audits: Vec::new(),
+                audited: 0,
+            },
+            audited: (plan.audit_fraction > 0.0 && has_estimate)
+                .then(|| [estimate, AuditValue::State.quantity().name()]),
+            observed,
+            inputs,
+            thinning: Thinning::of(plan.rows()),
+            has_dispersed: plan.samples > 1,
+        }
+    }
+}
+
+/// No run of any status.
+fn no_runs() -> Vec<EndedRuns> {
+    Status::ALL.map(|status| EndedRuns { status, count: 0, first: Vec::new() }).to_vec()
+}
+
+impl Accumulator for Surveyor {
+    type Whole = Survey;
+    type OfPart = SurveyedPart;
+
+    fn nothing(&self) -> Survey {
+        self.nothing.clone()
+    }
+
+    fn count(&self, part: &impl PartColumns) -> Result<SurveyedPart, RowsError> {
+        let (samples, statuses) = (part.samples()?, part.statuses()?);
+        let mut ended = no_runs();
+        for status in statuses.iter() {
+            ended.iter_mut().filter(|ended| ended.status == *status).for_each(|ended| ended.count += 1);
+        }
+        if statuses.iter().any(|status| *status != Status::Done) {
+            let mut reasons: BTreeMap<usize, String> = part.reasons()?.into_owned().into_iter().collect();
+            for ended in ended.iter_mut().filter(|ended| ended.status != Status::Done) {
+                let rows = (0..samples.len()).filter(|row| statuses[*row] == ended.status).take(KEPT);
+                ended.first = rows.map(|row| (samples[row], reasons.remove(&row).unwrap_or_default())).collect();
+            }
+        }
+        let done = |row: &usize| statuses[*row] == Status::Done;
+        let counted: Vec<usize> =
+            (0..samples.len()).filter(done).filter(|row| samples[*row].0 > 0 || !self.has_dispersed).collect();
+        let kept: Vec<usize> = (0..samples.len()).filter(|row| self.thinning.keeps(samples[*row])).collect();
+        let taken = |column: &[f64], rows: &[usize]| rows.iter().map(|row| column[*row]).collect::<Vec<f64>>();
+        let columns = self.observed.iter().map(|one| one.column(part)).collect::<Result<Vec<_>, RowsError>>()?;
+        let nominal = (0..samples.len()).filter(done).find(|row| samples[*row].0 == 0);
+        let inputs = self.inputs.iter().map(|name| Ok(taken(&part.numbers(name)?, &kept)));
+        let audits = match self.audited {
+            None => Vec::new(),
+            Some(names) => {
+                let [estimates, truths] = [part.numbers(names[0])?, part.numbers(names[1])?];
+                let audited = (0..samples.len()).filter(|row| truths[*row].is_finite());
+                audited.map(|row| [samples[row].0 as f64, estimates[row], truths[row]]).collect()
+            }
+        };
+        Ok(SurveyedPart {
+            samples: samples.len() as u64,
+            ended,
+            outcomes: columns.iter().map(|column| taken(column, &counted)).collect(),
+            counted: counted.iter().map(|row| samples[*row]).collect(),
+            nominal: nominal.map(|row| columns.iter().map(|column| column[row]).collect()),
+            thinned: Thinned {
+                samples: kept.iter().map(|row| samples[*row].0).collect(),
+                statuses: kept.iter().map(|row| statuses[*row]).collect(),
+                inputs: inputs.collect::<Result<_, RowsError>>()?,
+                outcomes: columns.iter().map(|column| taken(column, &kept)).collect(),
+            },
+            audits,
+        })
+    }
+
+    fn merge(&self, whole: &mut Survey, part: SurveyedPart) {
+        whole.samples += part.samples;
+        for (ended, more) in whole.ended.iter_mut().zip(part.ended) {
+            ended.count += more.count;
+            ended.first.extend(more.first.into_iter().take(KEPT - ended.first.len()));
+        }
+        for (outcome, value) in whole.outcomes.iter_mut().zip(part.nominal.unwrap_or_default()) {
+            outcome.nominal = value;
+            // the first row of all
+            if !outcome.is_error && value.is_finite() {
+                outcome.sketch = Sketch::about(value);
+            }
+        }
+        for (outcome, values) in whole.outcomes.iter_mut().zip(&part.outcomes) {
+            outcome.add(&part.counted, values);
+        }
+        whole.thinned.extend(part.thinned);
+        whole.audited += part.audits.len() as u64;
+        whole.audits.extend(part.audits);
+        if whole.audits.len() > 2 * SCATTER {
+            whole.thin_audits();
+        }
+    }
+}
+
+impl Thinned {
+    fn extend(&mut self, more: Thinned) {
+        self.samples.extend(more.samples);
+        self.statuses.extend(more.statuses);
+        let columns = self.inputs.iter_mut().chain(&mut self.outcomes);
+        columns.zip(more.inputs.into_iter().chain(more.outcomes)).for_each(|(mine, theirs)| mine.extend(theirs));
+    }
+}
+
+impl Survey {
+    fn thin_audits(&mut self) {
+        let samples: Vec<u64> = self.audits.iter().map(|audit| audit[0] as u64).collect();
+        self.audits = chosen(&samples, SCATTER).into_iter().map(|index| self.audits[index]).collect();
+    }
+
+    /// The same after the last part.
+    #[must_use]
+    pub fn finished(mut self) -> Self {
+        self.thin_audits();
+        self.ended.retain(|ended| ended.count > 0 || ended.status == Status::Done);
+        self.outcomes.iter_mut().for_each(SurveyedOutcome::finish);
+        self
+    }
+
+    /// How many runs are ok.
+    pub fn ok(&self) -> u64 {
+        self.ended.iter().find(|ended| ended.status == Status::Done).map_or(0, |ended| ended.count)
+    }
+
+    /// The outcome called `name`.
+    pub fn outcome(&self, name: &str) -> Option<(usize, &SurveyedOutcome)> {
+        self.outcomes.iter().enumerate().find(|(_, outcome)| outcome.quantity.name() == name)
+    }
+}
+
+impl SurveyedOutcome {
+    /// Adds the values of `samples`; NaN is none.
+    fn add(&mut self, samples: &[SampleId], values: &[f64]) {
+        for (sample, size) in samples.iter().zip(values.iter().map(|value| value.abs())) {
+            let is_large = self.largest.len() < KEPT || self.largest.last().is_some_and(|(_, least)| size > *least);
+            if is_large && !size.is_nan() {
+                let at = self.largest.partition_point(|(_, other)| *other >= size);
+                self.largest.insert(at, (*sample, size));
+                self.largest.truncate(KEPT);
+            }
+        }
+        let shown = |value: &f64| if self.is_error { value.abs() } else { *value };
+        let counted: Vec<f64> = values.iter().map(shown).filter(|value| !value.is_nan()).collect();
+        let mut left = &counted[..];
+        while !left.is_empty() {
+            let until = self.next_growth - self.sketch.count();
+            let (now, later) = left.split_at(left.len().min(until as usize));
+            self.sketch.add_all(now);
+            if self.sketch.count() == self.next_growth {
+                self.grow();
+            }
+            left = later;
+        }
+    }
+
+    fn finish(&mut self) {
+        let is_new = self.growth.last().is_none_or(|last| last[0] < self.sketch.count() as f64);
+        if is_new && self.sketch.count() >= FIRST_GROWTH {
+            self.grow();
+        }
+    }
+
+    /// Notes the quantiles of the runs so far.
+    fn grow(&mut self) {
+        const HIGH: f64 = 0.99;
+        let (count, ranks) = (self.sketch.count(), self.sketch.ranks());
+        let [low, high] = interval(count, &ranks, HIGH);
+        let of = |p: f64| ranks.quantile(p).unwrap_or(f64::NAN);
+        self.growth.push([count as f64, of(0.5), of(HIGH), low, high]);
+        // four steps to a doubling
+        self.next_growth = (count as f64 * libm::pow(2.0, 0.25)) as u64 + 1;
+    }
+}
+
+/// Which samples are kept in the thinned table.
+#[derive(Clone, Copy, Debug)]
+struct Thinning {
+    /// Samples whose hash is at most this.
+    most: u64,
+}
+
+impl Thinning {
+    fn of(samples: u64) -> Self {
+        let most = if samples <= THINNED {
+            u64::MAX
+        } else {
+            // a little fewer than allowed: the number is random with the standard deviation of its square root
+            let aim = THINNED as f64 - 4.0 * libm::sqrt(THINNED as f64);
+            (aim / samples as f64 * 2f64.powi(64)) as u64
+        };
+        Thinning { most }
+    }
+
+    fn keeps(&self, sample: SampleId) -> bool {
+        sample == SampleId(0) || hash(sample.0) <= self.most
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: the interval is made of the order statistics that the binomial distribution names; too few values have no end.
+    #[test]
+    fn intervals_are_order_statistics() {
+        let mut sketch = Sketch::default();
+        (1..=1000).for_each(|value| sketch.add(f64::from(value)));
+        let ranks = interval_ranks(1000, 0.9, CONFIDENCE);
+        let [low, high] = interval(1000, &sketch.ranks(), 0.9);
+        // the sketch answers within 0.05%
+        assert!((low - ranks.lower.unwrap() as f64).abs() < 0.5 && (high - ranks.upper.unwrap() as f64).abs() < 0.5);
+        assert!(interval(1000, &sketch.ranks(), 0.9999)[1].is_nan(), "1000 runs do not bound that quantile from above");
+    }
+
+    /// Law: about as many samples are kept as are allowed, never more; all of a small campaign; the nominal one always.
+    #[test]
+    fn thinning_keeps_what_fits() {
+        let kept = |samples: u64| (0..samples).filter(|id| Thinning::of(samples).keeps(SampleId(*id))).count() as u64;
+        assert_eq!(kept(1000), 1000);
+        let many = kept(1_000_000);
+        assert!((THINNED - 1200..=THINNED).contains(&many), "{many} of {THINNED}");
+        assert!(Thinning::of(1 << 40).keeps(SampleId(0)));
+    }
+
+    /// Law: a chosen subset does not follow the order of a low-discrepancy design: the chosen numbers have no common low bits.
+    #[test]
+    fn chosen_samples_have_no_period() {
+        let samples: Vec<u64> = (0..65_536).collect();
+        let kept = chosen(&samples, SCATTER);
+        assert_eq!(kept.len(), SCATTER);
+        assert!(kept.is_sorted());
+        for bit in 0..8 {
+            let ones = kept.iter().filter(|index| **index >> bit & 1 == 1).count();
+            // five standard deviations of a fair coin
+            assert!(ones.abs_diff(SCATTER / 2) < 112, "bit {bit}: {ones} of {SCATTER}");
+        }
+        assert_eq!(chosen(&samples[..10], SCATTER), (0..10).collect::<Vec<_>>());
+    }
+}
