@@ -2,7 +2,7 @@
 
 use crate::campaign::{Requirement, Statement};
 use crate::statistics::binomial::Decision;
-use crate::statistics::gate::{Gate, Limit};
+use crate::statistics::gate::{Gate, GateLimit};
 use crate::statistics::quantile::percent;
 
 /// What the runs say of one requirement.
@@ -59,8 +59,8 @@ impl Assessment {
         let is_undecided = matches!(self.gate.decision, Decision::Undecided(_));
         is_undecided
             && match (self.requirement.statement, self.requirement.limit) {
-                (Statement::Mean, Limit::AtMost(limit)) => lower > limit,
-                (Statement::Mean, Limit::AtLeast(limit)) => upper < limit,
+                (Statement::Mean, GateLimit::AtMost(limit)) => lower > limit,
+                (Statement::Mean, GateLimit::AtLeast(limit)) => upper < limit,
                 (Statement::Fraction(target), _) => upper < target,
                 (Statement::Quantile(p), limit) => upper < limit.fraction(p),
             }
@@ -71,8 +71,8 @@ impl Assessment {
         let requirement = &self.requirement;
         let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
         let limit = match requirement.limit {
-            Limit::AtMost(limit) => format!("at most {limit:?}{unit}"),
-            Limit::AtLeast(limit) => format!("at least {limit:?}{unit}"),
+            GateLimit::AtMost(limit) => format!("at most {limit:?}{unit}"),
+            GateLimit::AtLeast(limit) => format!("at least {limit:?}{unit}"),
         };
         let (name, confidence) = (requirement.name(), percent(requirement.confidence));
         let limit = format!("{limit}{}", requirement.times());

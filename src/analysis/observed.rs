@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use crate::analysis::part_columns::PartColumns;
 use crate::campaign::Plan;
 use crate::campaign::columns::KnownColumns;
-use crate::observables::Kind;
+use crate::observables::ColumnKind;
 use crate::run::Quantity;
 use crate::sampling::expression::Expression;
 use crate::storage::rows_reader::RowsError;
@@ -27,7 +27,7 @@ impl Observed {
         let request = plan.request();
         let known = KnownColumns::new(request);
         let of_rows = request.columns().into_iter().map(|column| Observed {
-            is_count: column.kind == Kind::Count,
+            is_count: column.kind == ColumnKind::Count,
             quantity: column.quantity,
             derived: None,
         });

@@ -13,7 +13,7 @@ use crate::ensemble::audit::{AuditValue, Selection};
 use crate::ensemble::{Audit, Ensemble, FailureReasons};
 use crate::observables::accuracy::{BALANCES, STATE_ERRORS};
 use crate::observables::headlines::headlines;
-use crate::observables::{ColumnId, Kind};
+use crate::observables::{ColumnId, ColumnKind};
 use crate::run::{Quantity, Status};
 use crate::sampling::SampleId;
 use crate::statistics::spread::Spread;
@@ -27,7 +27,7 @@ pub struct Headline {
     index: usize,
     /// Name, unit and meaning.
     pub quantity: Quantity,
-    kind: Kind,
+    kind: ColumnKind,
     /// Its values over the runs that are `ok`.
     pub spread: Spread,
 }
@@ -36,7 +36,7 @@ impl Headline {
     /// The `p`-quantile, of type 7. A count is rounded to a whole number, which the middle of a bucket need not be.
     pub fn quantile(&self, p: f64) -> Option<f64> {
         let value = self.spread.quantile(p)?;
-        Some(if self.kind == Kind::Count { libm::round(value) } else { value })
+        Some(if self.kind == ColumnKind::Count { libm::round(value) } else { value })
     }
 }
 

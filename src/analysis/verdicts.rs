@@ -19,7 +19,7 @@ use crate::ensemble::Bands;
 use crate::run::Status;
 use crate::statistics::binomial::Decision;
 use crate::statistics::gate::{
-    Gate, Limit, constant_gate, failing_at, failing_together, fraction_gate, mean_gate, replicate_fraction_gate,
+    Gate, GateLimit, constant_gate, failing_at, failing_together, fraction_gate, mean_gate, replicate_fraction_gate,
     replicate_mean_gate,
 };
 use crate::statistics::looks::adjusted;
@@ -284,7 +284,7 @@ fn of_fraction(counts: &Counts, target: f64, confidence: f64, population: Popula
 }
 
 /// The gate on the mean.
-fn of_mean(counts: &Counts, whole: &Moments, limit: Limit, confidence: f64, population: Population) -> Gate {
+fn of_mean(counts: &Counts, whole: &Moments, limit: GateLimit, confidence: f64, population: Population) -> Gate {
     match population {
         Population::Replicated(_) => {
             let means: Vec<f64> = counts.groups.iter().filter_map(|group| group.moments.mean()).collect();
@@ -299,7 +299,7 @@ mod tests {
     use super::*;
     use crate::campaign::requirement::Subject;
 
-    fn requirement(statement: Statement, limit: Limit) -> Requirement {
+    fn requirement(statement: Statement, limit: GateLimit) -> Requirement {
         Requirement { subject: Subject::Observable("x".to_owned()), statement, limit, confidence: 0.95 }
     }
 
@@ -316,7 +316,7 @@ mod tests {
     /// Published: 59 runs within the limit show p95, 58 do not; a violation more and 59 do not.
     #[test]
     fn counts_decide() {
-        let p95 = requirement(Statement::Quantile(0.95), Limit::AtMost(1.0));
+        let p95 = requirement(Statement::Quantile(0.95), GateLimit::AtMost(1.0));
         let of = |runs, within| {
             let counts = counts(&[(runs, within, &[])]);
             assessment((&p95, [0.95; 2]), "J".to_owned(), &counts, Population::Independent, false)
@@ -333,7 +333,7 @@ mod tests {
     /// an observable that need not be constant.
     #[test]
     fn what_numbers_cannot_say_is_not_decided_by_them() {
-        let mean = requirement(Statement::Mean, Limit::AtMost(9.0));
+        let mean = requirement(Statement::Mean, GateLimit::AtMost(9.0));
         let of = |runs, population| {
             let counts = counts(&[(runs, runs, &[1.0, 2.0, 3.0].repeat(10))]);
             assessment((&mean, [0.95; 2]), String::new(), &counts, population, false)
@@ -355,7 +355,7 @@ mod tests {
     /// Law: replicates decide by their spread, and by the least spread of counts where they agree.
     #[test]
     fn replicates_decide_by_their_spread() {
-        let p90 = requirement(Statement::Fraction(0.9), Limit::AtMost(1.0));
+        let p90 = requirement(Statement::Fraction(0.9), GateLimit::AtMost(1.0));
         let of = |groups: &[(u64, u64, &[f64])]| {
             assessment((&p90, [0.95; 2]), String::new(), &counts(groups), Population::Replicated(4), false).word()
         };

@@ -6,7 +6,7 @@ use super::lines::Lines;
 use super::numbers::FINITE;
 use super::section::Section;
 use crate::observables::window::Window;
-use crate::statistics::gate::Limit;
+use crate::statistics::gate::GateLimit;
 
 /// What must be within the limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,7 +63,7 @@ pub struct Requirement {
     /// What of it must be within the limit.
     pub statement: Statement,
     /// The limit, in the unit of the observable or of the quantity over time.
-    pub limit: Limit,
+    pub limit: GateLimit,
     /// With which confidence.
     pub confidence: f64,
 }
@@ -119,7 +119,7 @@ impl Requirement {
             // without its unit a limit cannot be read
             unit?;
             let number = table.number(key, FINITE)?;
-            Some(if key == "at_most" { Limit::AtMost(number) } else { Limit::AtLeast(number) })
+            Some(if key == "at_most" { GateLimit::AtMost(number) } else { GateLimit::AtLeast(number) })
         });
         STATEMENTS.iter().chain(&LIMITS).chain(&SUBJECTS).chain(&INTERVAL).for_each(|key| table.know(key));
         let confidence_passed = !table.has("confidence") || confidence.is_some();
@@ -128,7 +128,7 @@ impl Requirement {
         let confidence = confidence.unwrap_or(DEFAULT_CONFIDENCE);
         let subject = match subject {
             Subject::Band(band) if at_all_times == Some(true) => {
-                let is_highest = matches!(limit, Limit::AtMost(_));
+                let is_highest = matches!(limit, GateLimit::AtMost(_));
                 let (window, column) = known.window(&band.series, is_highest, [band.from_s, band.to_s])?;
                 Subject::AtAllTimes { band, window, column }
             }
@@ -195,8 +195,8 @@ impl Requirement {
             Statement::Mean => lines.key("mean", true),
         }
         match self.limit {
-            Limit::AtMost(limit) => lines.key("at_most", limit),
-            Limit::AtLeast(limit) => lines.key("at_least", limit),
+            GateLimit::AtMost(limit) => lines.key("at_most", limit),
+            GateLimit::AtLeast(limit) => lines.key("at_least", limit),
         }
         lines.key("confidence", self.confidence);
     }

@@ -13,7 +13,7 @@ use crate::observables::band_reader::{BandColumns, BandReader};
 use crate::observables::band_series::Form;
 use crate::run::{Quantity, StateTable};
 use crate::statistics::deviation::{Code, ZERO, ends, ranks};
-use crate::statistics::gate::Limit;
+use crate::statistics::gate::GateLimit;
 
 /// The runs whose codes are kept before they are counted, so that the counts of a column, which the runs between have driven out of the
 /// second-level cache, are fetched seldom.
@@ -316,7 +316,7 @@ impl Bands {
 
     /// At least and at most how many runs are within `limit` at a point. They differ by the runs in the bucket that the limit is in; a run
     /// without a value is not within it.
-    pub fn within(&self, series: usize, point: usize, limit: Limit) -> [u64; 2] {
+    pub fn within(&self, series: usize, point: usize, limit: GateLimit) -> [u64; 2] {
         let (index, column) = self.column(series, point);
         let (form, reference) = (self.layout.form(index), self.layout.reference(index));
         let Some(extremes) = self.extremes(series, point) else { return [0; 2] };

@@ -9,7 +9,7 @@ use crate::analysis::verdicts::Verdicts;
 use crate::campaign::{Plan, Statement};
 use crate::report::number::short;
 use crate::statistics::binomial::{Decision, POWER};
-use crate::statistics::gate::Limit;
+use crate::statistics::gate::GateLimit;
 use crate::statistics::quantile::percent;
 
 /// One line for each requirement, and what was found; nothing where there are none.
@@ -125,8 +125,8 @@ pub fn json(verdicts: &Verdicts) -> Value {
             Statement::Mean => ("mean", None),
         };
         let (side, limit) = match requirement.limit {
-            Limit::AtMost(limit) => ("at_most", limit),
-            Limit::AtLeast(limit) => ("at_least", limit),
+            GateLimit::AtMost(limit) => ("at_most", limit),
+            GateLimit::AtLeast(limit) => ("at_least", limit),
         };
         let needed = match one.gate.decision {
             Decision::Undecided(runs) => runs,

@@ -9,7 +9,7 @@ use crate::campaign::columns::parameter_quantity;
 use crate::campaign::{Compression, Plan};
 use crate::ensemble::audit::AuditValue;
 use crate::ensemble::{Ensemble, Rows};
-use crate::observables::Kind;
+use crate::observables::ColumnKind;
 use crate::observables::headlines::headlines;
 use crate::run::Quantity;
 use crate::storage::columnar::{Cells, Content, Heading, Layout, Packing};
@@ -107,10 +107,10 @@ pub fn parameter_headings(plan: &Plan) -> impl Iterator<Item = Heading> {
     columns.map(|column| Heading::new(parameter_quantity(column.parameter, column.component), Content::Real))
 }
 
-fn content(kind: Kind) -> Content {
+fn content(kind: ColumnKind) -> Content {
     match kind {
-        Kind::Float => Content::Real,
-        Kind::Count => Content::Count,
+        ColumnKind::Float => Content::Real,
+        ColumnKind::Count => Content::Count,
     }
 }
 

@@ -13,7 +13,7 @@ fn oscillator() -> Case<2, 1> {
 }
 
 /// The error at the end of the horizon, the largest at 101 points before it, and the number of steps.
-fn oscillation<M: Method>(method: M, control: &Control) -> (f64, f64, u64) {
+fn oscillation<M: LaneMethod>(method: M, control: &Control) -> (f64, f64, u64) {
     let grid = Grid::uniform(HORIZON, 102);
     let journey = scalar(method, Oscillator, &[oscillator()], &grid, control).remove(0);
     assert_eq!(journey.outcome.status, Status::Done);
@@ -25,7 +25,7 @@ fn oscillation<M: Method>(method: M, control: &Control) -> (f64, f64, u64) {
     (errors[101], between, journey.outcome.effort.steps)
 }
 
-fn fixed_order<M: Method>(method: M, step: f64) -> (f64, f64) {
+fn fixed_order<M: LaneMethod>(method: M, step: f64) -> (f64, f64) {
     let (coarse, coarse_between, _) = oscillation(method, &control(1e-9, step));
     let (fine, fine_between, _) = oscillation(method, &control(1e-9, step / 2.0));
     ((coarse / fine).log2(), (coarse_between / fine_between).log2())
@@ -58,7 +58,7 @@ fn dormand_prince_takes_the_steps_of_ode45() {
 const INVARIANT_ROUND_OFF: f64 = 2e-15;
 
 /// The largest change of |y|^2 and of the energy of a free rigid body.
-fn invariant_drift<M: Method>(method: M) -> f64 {
+fn invariant_drift<M: LaneMethod>(method: M) -> f64 {
     let (state, inertia) = RIGID_BODY;
     let case = Case { state, parameters: inertia, ends: vec![1000.0] };
     let grid = Grid::uniform(1000.0, 777);

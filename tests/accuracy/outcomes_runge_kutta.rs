@@ -9,7 +9,7 @@ use spindrift::run::{Grid, Outcome, Status};
 /// Round-off of a sum of some ten steps of order one to ten.
 const ROUND_OFF: f64 = 1e-14;
 
-fn jumps_are_met<M: Method>(method: M, name: &str) {
+fn jumps_are_met<M: LaneMethod>(method: M, name: &str) {
     // Methods of order four and more integrate a quadratic exactly, if no step straddles a jump.
     let ends = vec![0.3, 0.3, 1.0, 1.7];
     let case = Case { state: [0.0], parameters: [], ends };
@@ -65,7 +65,7 @@ fn an_arc_is_a_run_of_its_own() {
     assert_eq!(steps(&whole[0]), steps(&first[0]) + steps(&second[0]));
 }
 
-fn ends_as<M: Method, L: Law<1, 0>>(method: M, law: L, state: f64, control: &Control, status: Status) {
+fn ends_as<M: LaneMethod, L: Law<1, 0>>(method: M, law: L, state: f64, control: &Control, status: Status) {
     let case = Case { state: [state], parameters: [], ends: vec![2.0] };
     let journey = scalar(method, law, &[case], &Grid::uniform(2.0, 21), control).remove(0);
     let outcome = journey.outcome;

@@ -4,7 +4,7 @@ use crate::refusals::good;
 use spindrift::campaign::requirement::{BandSubject, Subject};
 use spindrift::campaign::stop::When;
 use spindrift::campaign::{Analysis, Overrides, Plan, Requirement, Statement};
-use spindrift::statistics::gate::Limit;
+use spindrift::statistics::gate::GateLimit;
 
 fn plan(more: &str) -> Plan {
     Plan::from_text("good.toml", &(good() + more), Overrides::default()).unwrap_or_else(|error| panic!("{error}"))
@@ -55,12 +55,12 @@ fn every_key_is_read_and_written() {
     let expected = Requirement {
         subject: Subject::Observable("margin_deg".to_owned()),
         statement: Statement::Fraction(0.999),
-        limit: Limit::AtMost(1.5),
+        limit: GateLimit::AtMost(1.5),
         confidence: 0.99,
     };
     assert_eq!(requirements[1], expected);
-    assert_eq!((requirements[0].limit, requirements[0].confidence), (Limit::AtMost(5.0), 0.95));
-    assert_eq!((requirements[2].statement, requirements[2].limit), (Statement::Mean, Limit::AtLeast(3.0)));
+    assert_eq!((requirements[0].limit, requirements[0].confidence), (GateLimit::AtMost(5.0), 0.95));
+    assert_eq!((requirements[2].statement, requirements[2].limit), (Statement::Mean, GateLimit::AtLeast(3.0)));
     let band = BandSubject { series: "energy_body_j".to_owned(), from_s: None, to_s: Some(5.0) };
     assert_eq!((requirements[3].band(), requirements[3].observable()), (Some(&band), None));
     let stop = stop.as_ref().expect("a goal");

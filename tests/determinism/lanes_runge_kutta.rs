@@ -27,7 +27,7 @@ fn cases() -> Vec<Case<4, 1>> {
         .collect()
 }
 
-fn equal_in_all_lanes<M: Method>(method: M, control: &Control) {
+fn equal_in_all_lanes<M: LaneMethod>(method: M, control: &Control) {
     let (cases, grid) = (cases(), Grid::uniform(HORIZON, 45));
     let truth = scalar(method, ThreeBody, &cases, &grid, control);
     let bits = |journeys: &[Journey<4>]| journeys.iter().map(Journey::bits).collect::<Vec<_>>();

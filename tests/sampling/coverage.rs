@@ -6,7 +6,7 @@
 use crate::support::scenes::Uniform;
 use spindrift::math::normal;
 use spindrift::statistics::binomial::{self, Decision, POWER};
-use spindrift::statistics::gate::{Gate, Limit, failing_at, failing_together, fraction_gate, mean_gate};
+use spindrift::statistics::gate::{Gate, GateLimit, failing_at, failing_together, fraction_gate, mean_gate};
 use spindrift::statistics::looks::{Goal, adjusted, decision, looks};
 use spindrift::statistics::moments::Moments;
 use spindrift::statistics::quantile::{Ranks, coverage, interval_ranks, quantile};
@@ -162,9 +162,9 @@ fn nine_of_ten_campaigns_of_the_runs_named_decide() {
     // mean 0.3 and standard deviation 1, exactly
     let unit = libm::sqrt(19.0 / 20.0);
     let seen = Moments::of((0..20).map(|k| 0.3 + if k % 2 == 0 { unit } else { -unit }));
-    let runs = named(mean_gate(&seen, Limit::AtLeast(0.0), 0.95));
+    let runs = named(mean_gate(&seen, GateLimit::AtLeast(0.0), 0.95));
     let mut campaign = || Moments::of((0..runs).map(|_| 0.3 + normal::quantile(random.uniform())));
-    let passes = |moments: Moments| mean_gate(&moments, Limit::AtLeast(0.0), 0.95).decision == Decision::Pass;
+    let passes = |moments: Moments| mean_gate(&moments, GateLimit::AtLeast(0.0), 0.95).decision == Decision::Pass;
     checked((0..CAMPAIGNS).map(|_| u32::from(passes(campaign()))).sum(), "mean");
 }
 

@@ -8,7 +8,7 @@ use crate::support::scenes::Uniform;
 use spindrift::math::normal;
 use spindrift::sampling::design::sobol::Sobol;
 use spindrift::statistics::binomial::{self, Decision};
-use spindrift::statistics::gate::{Limit, mean_gate};
+use spindrift::statistics::gate::{GateLimit, mean_gate};
 use spindrift::statistics::mean::{deviation_bounds, mean_bounds, one_sided};
 use spindrift::statistics::moments::Moments;
 use spindrift::statistics::replicates::{self, Step, fraction_bounds, quantile_interval};
@@ -110,9 +110,9 @@ fn bounds_of_means(all: Campaigns) {
                     of_student[place][1] += u32::from(found + half < mean);
                 }
                 let gate = |limit| mean_gate(&moments, limit, 0.95).decision;
-                decided[0] += u32::from(gate(Limit::AtMost(mean + deviation)) == Decision::Pass);
-                decided[1] += u32::from(gate(Limit::AtMost(mean - deviation)) == Decision::Fail);
-                let at_limit = gate(Limit::AtMost(mean));
+                decided[0] += u32::from(gate(GateLimit::AtMost(mean + deviation)) == Decision::Pass);
+                decided[1] += u32::from(gate(GateLimit::AtMost(mean - deviation)) == Decision::Fail);
+                let at_limit = gate(GateLimit::AtMost(mean));
                 wrong[0] += u32::from(at_limit == Decision::Pass);
                 wrong[1] += u32::from(at_limit == Decision::Fail);
             }

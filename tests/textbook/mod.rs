@@ -5,7 +5,7 @@
 use fearless_simd::Simd;
 use spindrift::math::isa::Work;
 use spindrift::math::{Isa, Lanes, Real};
-pub use spindrift::ode::{Adaptive, Fixed, Method};
+pub use spindrift::ode::{Adaptive, Fixed, LaneMethod};
 use spindrift::ode::{Control, Runs, System, Tolerance, integrate};
 use spindrift::propagation::trajectory_recorder::{LaneTrajectory, TrajectoryRecorder};
 use spindrift::run::{Grid, Outcome, Trajectory};
@@ -92,7 +92,7 @@ fn integrated<M, R, L, const N: usize, const P: usize>(
     control: &Control,
 ) -> Vec<Journey<N>>
 where
-    M: Method,
+    M: LaneMethod,
     R: Real,
     L: Law<N, P>,
 {
@@ -111,7 +111,7 @@ where
 }
 
 /// Integrates all cases one by one.
-pub fn scalar<M: Method, L: Law<N, P>, const N: usize, const P: usize>(
+pub fn scalar<M: LaneMethod, L: Law<N, P>, const N: usize, const P: usize>(
     method: M,
     law: L,
     cases: &[Case<N, P>],
@@ -122,7 +122,7 @@ pub fn scalar<M: Method, L: Law<N, P>, const N: usize, const P: usize>(
 }
 
 /// Integrates all cases in lanes.
-pub fn lanes<M: Method, L: Law<N, P>, const N: usize, const P: usize>(
+pub fn lanes<M: LaneMethod, L: Law<N, P>, const N: usize, const P: usize>(
     isa: Isa,
     method: M,
     law: L,
@@ -131,7 +131,7 @@ pub fn lanes<M: Method, L: Law<N, P>, const N: usize, const P: usize>(
     control: &Control,
 ) -> Vec<Journey<N>> {
     struct Integration<'a, M, L, const N: usize, const P: usize>(M, L, &'a [Case<N, P>], &'a Grid, &'a Control);
-    impl<M: Method, L: Law<N, P>, const N: usize, const P: usize> Work for Integration<'_, M, L, N, P> {
+    impl<M: LaneMethod, L: Law<N, P>, const N: usize, const P: usize> Work for Integration<'_, M, L, N, P> {
         type Output = Vec<Journey<N>>;
         #[inline(always)]
         fn run<S: Simd>(self, simd: S) -> Vec<Journey<N>> {

@@ -184,6 +184,14 @@ pub enum Laws<'a> {
 }
 
 impl Laws<'_> {
+    /// The law of run `run`; `None` where it follows the schedule of its scene.
+    pub fn of(&mut self, run: usize) -> Option<&mut dyn ActuationLaw> {
+        match self {
+            Laws::OpenLoop => None,
+            Laws::Feedback(source) => Some(source.law(run)),
+        }
+    }
+
     /// The same laws, borrowed for a shorter time.
     pub fn reborrow(&mut self) -> Laws<'_> {
         match self {

@@ -11,12 +11,28 @@ pub fn scheduled_arc(scene: &Scene, time: f64, duration: f64) -> Arc {
     Arc::new(time, with_environment(scene, time, applied), duration)
 }
 
+/// The arc that a run of `scene` flies from `time` on: that of its schedule, or what its `law` answers to the `state` there.
+///
+/// # Panics
+/// As [`law_arc`].
+pub fn next_arc(
+    scene: &Scene,
+    law: Option<&mut dyn ActuationLaw>,
+    time: f64,
+    state: impl FnOnce() -> (BodyState, WheelState),
+    duration: f64,
+) -> Arc {
+    let Some(law) = law else { return scheduled_arc(scene, time, duration) };
+    let (body, wheels) = state();
+    law_arc(scene, law, time, (&body, &wheels), duration)
+}
+
 /// The arc that `law` answers at `time`, where the state is `state`. The motor of a wheel that is missing, or whose speed is held,
 /// takes no command.
 ///
 /// # Panics
 /// Where the answer ends before it starts: the run would never end.
-pub fn law_arc(
+fn law_arc(
     scene: &Scene,
     law: &mut dyn ActuationLaw,
     time: f64,

@@ -28,19 +28,19 @@ pub const STATE_ERRORS: [ColumnId; 2] = [STATE_ERROR_ESTIMATE, DEBRIS_STATE_ERRO
 /// nothing.
 #[derive(Clone, Debug)]
 pub struct Accuracy {
-    limits: Vec<Limit>,
+    limits: Vec<AccuracyLimit>,
 }
 
 /// A column that must stay below a limit.
 #[derive(Clone, Copy, Debug)]
-struct Limit {
+struct AccuracyLimit {
     /// Index in the row.
     index: usize,
     name: &'static str,
     limit: f64,
 }
 
-impl Limit {
+impl AccuracyLimit {
     #[inline]
     fn holds(&self, row: &[f64]) -> bool {
         // NaN is not
@@ -53,7 +53,8 @@ impl Accuracy {
     pub fn new(request: &Request) -> Self {
         let balances = BALANCES.into_iter().map(|id| (id, INACCURATE_BALANCE));
         let states = STATE_ERRORS.into_iter().map(|id| (id, INACCURATE_STATE));
-        let limit = |(id, limit): (ColumnId, f64)| Some(Limit { index: request.position(id)?, name: id.name(), limit });
+        let limit =
+            |(id, limit): (ColumnId, f64)| Some(AccuracyLimit { index: request.position(id)?, name: id.name(), limit });
         Accuracy { limits: balances.chain(states).filter_map(limit).collect() }
     }
 
@@ -71,7 +72,7 @@ impl Accuracy {
     /// Which columns of `row` are not below their limits, in words.
     pub fn reason(&self, row: &[f64]) -> String {
         let beyond = self.limits.iter().filter(|limit| !limit.holds(row));
-        let words = beyond.map(|Limit { index, name, limit, .. }| match row[*index] {
+        let words = beyond.map(|AccuracyLimit { index, name, limit, .. }| match row[*index] {
             value if value.is_nan() => format!("{name} is not a number"),
             value => format!("{name} is {value:.1e}, which is {limit} or more"),
         });

@@ -10,7 +10,7 @@ use super::energies::energies;
 use super::momenta::{angular_momentum, debris_momenta, linear_momentum};
 use super::motion::motion;
 use super::points::{Column, MeasuredRun, SeriesTable, needed};
-use super::rows::Source;
+use super::rows::SeriesSource;
 use super::table::Series;
 use crate::run::StateField;
 
@@ -19,13 +19,13 @@ use crate::run::StateField;
 pub(super) fn measure<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     for source in run.sources {
         match source {
-            Source::Energies => energies(simd, run, out),
-            Source::LinearMomentum => linear_momentum(simd, run, out),
-            Source::AngularMomentum => angular_momentum(simd, run, out),
-            Source::Attitude => attitude_series(simd, run, out),
-            Source::DebrisMomenta => debris_momenta(simd, run, out),
-            Source::Residuals => residuals(run, out),
-            Source::Motion => motion(simd, run, out),
+            SeriesSource::Energies => energies(simd, run, out),
+            SeriesSource::LinearMomentum => linear_momentum(simd, run, out),
+            SeriesSource::AngularMomentum => angular_momentum(simd, run, out),
+            SeriesSource::Attitude => attitude_series(simd, run, out),
+            SeriesSource::DebrisMomenta => debris_momenta(simd, run, out),
+            SeriesSource::Residuals => residuals(run, out),
+            SeriesSource::Motion => motion(simd, run, out),
         }
     }
     out.pad(run.observed, run.points);

@@ -54,5 +54,5 @@ pub use group::{Group, Groups};
 pub use observer::Observer;
 pub use reduction::{ChangeStatistic, ErrorStatistic, OrderStatistic, Reduction, ValueStatistic};
 pub use request::Request;
-pub use rows::Kind;
+pub use rows::ColumnKind;
 pub use table::{Column, ColumnId, Series};

@@ -18,7 +18,7 @@ use super::reduce::reduce;
 use super::reduction::{OrderStatistic, Reduction, ValueStatistic};
 use super::request::{Request, SeriesSet, SeriesTask};
 use super::row_plan::{RowPlan, Slot, Statistics};
-use super::rows::Source;
+use super::rows::SeriesSource;
 use super::spectrum::Spectrum;
 use super::table::Series;
 use super::weights::Weights;
@@ -33,7 +33,7 @@ use crate::scene::{Arc, Scene};
 pub struct Observer {
     request: Request,
     observed: SeriesSet,
-    sources: Vec<Source>,
+    sources: Vec<SeriesSource>,
     tasks: Vec<SeriesTask>,
     plan: RowPlan,
     shown: Vec<Series>,
@@ -60,7 +60,7 @@ impl Observer {
         Observer {
             request,
             observed,
-            sources: Source::ALL.into_iter().filter(|source| observed.has_any_of(*source)).collect(),
+            sources: SeriesSource::ALL.into_iter().filter(|source| observed.has_any_of(*source)).collect(),
             tasks: request.tasks(),
             plan: RowPlan::of(&request),
             shown: request.series(),

@@ -8,7 +8,7 @@ use fearless_simd::Simd;
 
 use super::nominal_attitude::NominalAttitude;
 use super::request::SeriesSet;
-use super::rows::Source;
+use super::rows::SeriesSource;
 use super::table::Series;
 use crate::math::lanes::WIDTH;
 use crate::math::{Lanes, Real};
@@ -25,7 +25,7 @@ pub(super) struct MeasuredRun<'a> {
     /// The series to compute.
     pub(super) observed: SeriesSet,
     /// Their sources.
-    pub(super) sources: &'a [Source],
+    pub(super) sources: &'a [SeriesSource],
     /// Mass properties of the spacecraft.
     pub(super) mass: &'a MassProperties,
     /// The debris, where it is observed.

@@ -2,7 +2,7 @@
 
 use super::group::{Group, Groups};
 use super::reduction::{Passes, Reduction, Stored};
-use super::rows::{Scenes, Source};
+use super::rows::{Scenes, SeriesSource};
 use super::table::{self, Column, ColumnId, Series};
 use super::window::Windows;
 use crate::math::list::List;
@@ -54,7 +54,7 @@ impl SeriesSet {
     }
 
     /// Whether the set contains any series of `source`.
-    pub(super) fn has_any_of(self, source: Source) -> bool {
+    pub(super) fn has_any_of(self, source: SeriesSource) -> bool {
         Series::all().any(|series| self.has(series) && series.row().source == source)
     }
 }

@@ -6,7 +6,7 @@ use crate::run::StateField;
 
 /// The kind of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum ColumnKind {
     /// A real number; NaN where the run failed before it was known.
     Float,
     /// A count, an integer of at most 2^53.
@@ -57,7 +57,7 @@ pub(super) struct Need {
 /// Which computation makes a series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(usize)]
-pub(super) enum Source {
+pub(super) enum SeriesSource {
     /// [`super::energies`].
     Energies,
     /// [`super::momenta`].
@@ -74,16 +74,16 @@ pub(super) enum Source {
     Motion,
 }
 
-impl Source {
+impl SeriesSource {
     /// Every source, in the order of the computation.
-    pub(super) const ALL: [Source; 7] = [
-        Source::Energies,
-        Source::LinearMomentum,
-        Source::AngularMomentum,
-        Source::Attitude,
-        Source::DebrisMomenta,
-        Source::Residuals,
-        Source::Motion,
+    pub(super) const ALL: [SeriesSource; 7] = [
+        SeriesSource::Energies,
+        SeriesSource::LinearMomentum,
+        SeriesSource::AngularMomentum,
+        SeriesSource::Attitude,
+        SeriesSource::DebrisMomenta,
+        SeriesSource::Residuals,
+        SeriesSource::Motion,
     ];
 }
 
@@ -110,7 +110,7 @@ macro_rules! series {
         /// The rows, by kind of series.
         static SERIES: [SeriesRow; PLACES.len()] = [
             $(SeriesRow {
-                source: Source::$source,
+                source: SeriesSource::$source,
                 stored: Stored::$stored,
                 scale: $scale,
                 needs: &[$($need),*],
@@ -146,7 +146,7 @@ macro_rules! column {
         Column {
             quantity: Quantity::new(concat!($($name),*), $unit, concat!($($meaning),*)),
             group: Group::$group,
-            kind: Kind::$kind,
+            kind: ColumnKind::$kind,
             scenes: Scenes::$scenes,
             value: $value,
             wheel: None,

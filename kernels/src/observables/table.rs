@@ -2,7 +2,7 @@
 //!
 //! A row of [`Series`] says where a series comes from, what of the state table it needs, and how a time series shows it. A row
 //! of the columns says group, kinds of scene, value, name, unit and meaning. Names, order, documentation and the Parquet schema
-//! follow from here. To add an observable, add its rows, and compute its series in the file of its `Source`.
+//! follow from here. To add an observable, add its rows, and compute its series in the file of its `SeriesSource`.
 //!
 //! The file is longer than others because the table is: some 200 lines of it are rows. The handles ([`ColumnId`], [`Series`]) stay with it, since
 //! where a handle points follows from the rows, and the rows are made of handles.
@@ -16,7 +16,7 @@ use core::ops::Range;
 
 use super::group::Group;
 use super::reduction::{ChangeStatistic, ErrorStatistic, OrderStatistic, Reduction, Stored, ValueStatistic};
-use super::rows::{Kind, Need, Scenes, Source};
+use super::rows::{ColumnKind, Need, Scenes, SeriesSource};
 use crate::run::Quantity;
 use crate::scene::{MAX_WHEELS, Name};
 
@@ -28,7 +28,7 @@ pub struct Column {
     /// The group that it belongs to.
     pub group: Group,
     /// Whether the value is a number or a count.
-    pub kind: Kind,
+    pub kind: ColumnKind,
     /// Which scenes have it.
     pub(super) scenes: Scenes,
     /// What it shows.
@@ -251,7 +251,7 @@ pub const fn direct_id(group: Group, value: DirectValue) -> ColumnId {
 /// What the table says about a series.
 pub(super) struct SeriesRow {
     /// The computation that makes it.
-    pub(super) source: Source,
+    pub(super) source: SeriesSource,
     /// What its numbers are.
     pub(super) stored: Stored,
     /// The series and the statistic that its values are divided by.

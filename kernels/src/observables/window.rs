@@ -6,7 +6,7 @@ use core::ops::Range;
 
 use super::group::Group;
 use super::reduction::Stored;
-use super::rows::{Kind, Scenes};
+use super::rows::{ColumnKind, Scenes};
 use super::table::{Column, ColumnId, Series, Value};
 use crate::math::list::List;
 use crate::run::Quantity;
@@ -59,7 +59,7 @@ impl Window {
         Column {
             quantity: self.quantity(&of),
             group: self.group,
-            kind: Kind::Float,
+            kind: ColumnKind::Float,
             scenes: Scenes::All,
             value: self.id(index).value,
             wheel: None,

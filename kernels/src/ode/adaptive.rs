@@ -5,7 +5,7 @@
 use super::embedded::Embedded;
 use super::error_model::ErrorModel;
 use super::explicit::{Carried, Step, chosen};
-use super::lane_driver::{Attempt, LaneState, Method, Proposal, Stepper};
+use super::lane_driver::{Attempt, LaneMethod, Proposal, Stepper, StepperLane};
 use super::step_control::{Control, shortest_step};
 use super::system::{System, Tolerance};
 use crate::math::{Mask, Real};
@@ -17,7 +17,7 @@ const UNSOUND: f64 = 1e30;
 #[derive(Clone, Copy, Debug)]
 pub struct Adaptive<M>(pub M);
 
-impl<M: Embedded> Method for Adaptive<M> {
+impl<M: Embedded> LaneMethod for Adaptive<M> {
     const ERRORS: ErrorModel = ErrorModel::Estimated(M::ERRORS);
     const HAS_FIXED_STEP: bool = false;
 
@@ -56,7 +56,7 @@ pub struct AdaptiveStepper<M: Embedded, R: Real, const N: usize> {
 impl<M: Embedded, R: Real, const N: usize> AdaptiveStepper<M, R, N> {
     /// The derivative and the first step of the lanes at the start of an arc.
     #[inline(always)]
-    fn start<Q: System<R, N>>(&mut self, system: &Q, lanes: &mut LaneState<R, N>) {
+    fn start<Q: System<R, N>>(&mut self, system: &Q, lanes: &mut StepperLane<R, N>) {
         let (state, starting) = (&lanes.now.state, self.starting);
         let slope = system.derivative(lanes.time, state);
         let longest = (lanes.arc_end - lanes.time) * lanes.time.splat(M::CONTROLLER.longest);
@@ -91,7 +91,7 @@ impl<M: Embedded, R: Real, const N: usize> Stepper<R, N> for AdaptiveStepper<M, 
 
     /// Within its bounds, and to the end of the arc if that is near.
     #[inline(always)]
-    fn propose<Q: System<R, N>>(&mut self, system: &Q, lanes: &mut LaneState<R, N>) -> Proposal<R> {
+    fn propose<Q: System<R, N>>(&mut self, system: &Q, lanes: &mut StepperLane<R, N>) -> Proposal<R> {
         if self.starting.any() {
             self.start(system, lanes);
         }
@@ -110,7 +110,7 @@ impl<M: Embedded, R: Real, const N: usize> Stepper<R, N> for AdaptiveStepper<M, 
         &mut self,
         system: &Q,
         step: Step<R>,
-        lanes: &mut LaneState<R, N>,
+        lanes: &mut StepperLane<R, N>,
         end: &mut Carried<R, N>,
     ) -> Attempt<R> {
         let one = step.time.splat(1.0);
@@ -128,7 +128,7 @@ impl<M: Embedded, R: Real, const N: usize> Stepper<R, N> for AdaptiveStepper<M, 
         step: Step<R>,
         end: &[R; N],
         inside: R::Mask,
-        lanes: &mut LaneState<R, N>,
+        lanes: &mut StepperLane<R, N>,
     ) {
         M::prepare_inside(system, step, &lanes.now, end, &mut self.stages);
         let evaluations = step.time.splat(M::DENSE_EVALUATIONS);
@@ -142,7 +142,7 @@ impl<M: Embedded, R: Real, const N: usize> Stepper<R, N> for AdaptiveStepper<M, 
         step: Step<R>,
         part: Step<R>,
         inside: R::Mask,
-        lanes: &mut LaneState<R, N>,
+        lanes: &mut StepperLane<R, N>,
     ) -> [R; N] {
         let evaluations = step.time.splat(M::POINT_EVALUATIONS);
         lanes.evaluations += R::select(inside, evaluations, evaluations.zero());

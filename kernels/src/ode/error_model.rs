@@ -3,7 +3,7 @@
 /// How the errors of a method's steps follow from what is known after a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ErrorModel {
-    /// The method estimates the error of each step; their sum is [`super::Completion::error_sum`].
+    /// The method estimates the error of each step; their sum is [`super::EndedRun::error_sum`].
     Estimated(StepErrors),
     /// The method does not estimate errors: they follow from the Taylor series of the solution.
     Remainder(Remainder),

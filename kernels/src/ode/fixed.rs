@@ -6,7 +6,7 @@
 
 use super::error_model::{ErrorModel, Remainder};
 use super::explicit::{Carried, Step};
-use super::lane_driver::{Attempt, LaneState, Method, Proposal, Stepper};
+use super::lane_driver::{Attempt, LaneMethod, Proposal, Stepper, StepperLane};
 use super::step_control::Control;
 use super::system::{System, Tolerance};
 use crate::math::Real;
@@ -66,7 +66,7 @@ pub trait FixedStep: Copy {
 #[derive(Clone, Copy, Debug)]
 pub struct Fixed<M>(pub M);
 
-impl<M: FixedStep> Method for Fixed<M> {
+impl<M: FixedStep> LaneMethod for Fixed<M> {
     const ERRORS: ErrorModel = ErrorModel::Remainder(M::REMAINDER);
     const HAS_FIXED_STEP: bool = true;
 
@@ -123,7 +123,7 @@ impl<M: FixedStep, R: Real, const N: usize> Stepper<R, N> for FixedStepper<M, R,
     }
 
     #[inline(always)]
-    fn propose<Q: System<R, N>>(&mut self, _system: &Q, lanes: &mut LaneState<R, N>) -> Proposal<R> {
+    fn propose<Q: System<R, N>>(&mut self, _system: &Q, lanes: &mut StepperLane<R, N>) -> Proposal<R> {
         let taken = self.taken + self.taken.splat(1.0);
         let lands = !taken.lt(self.count);
         let end = R::select(lands, lanes.arc_end, taken.mul_add(self.length, self.start));
@@ -135,7 +135,7 @@ impl<M: FixedStep, R: Real, const N: usize> Stepper<R, N> for FixedStepper<M, R,
         &mut self,
         system: &Q,
         step: Step<R>,
-        lanes: &mut LaneState<R, N>,
+        lanes: &mut StepperLane<R, N>,
         end: &mut Carried<R, N>,
     ) -> Attempt<R> {
         let one = step.time.splat(1.0);
@@ -153,7 +153,7 @@ impl<M: FixedStep, R: Real, const N: usize> Stepper<R, N> for FixedStepper<M, R,
         _step: Step<R>,
         _end: &[R; N],
         _inside: R::Mask,
-        _lanes: &mut LaneState<R, N>,
+        _lanes: &mut StepperLane<R, N>,
     ) {
     }
 
@@ -164,7 +164,7 @@ impl<M: FixedStep, R: Real, const N: usize> Stepper<R, N> for FixedStepper<M, R,
         step: Step<R>,
         part: Step<R>,
         inside: R::Mask,
-        lanes: &mut LaneState<R, N>,
+        lanes: &mut StepperLane<R, N>,
     ) -> [R; N] {
         let fraction = part.length / step.length;
         let mut end = lanes.now;

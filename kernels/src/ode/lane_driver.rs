@@ -8,13 +8,13 @@
 use super::error_model::ErrorModel;
 use super::explicit::{Carried, Step, each};
 use super::lane_slot::{LaneSlots, LoadedRun};
-use super::runs::{Completion, Recorder, Runs, Termination};
+use super::runs::{EndedRun, Recorder, Runs, Termination};
 use super::step_control::{Control, PACE_STEPS, is_out_of_reach};
 use super::system::System;
 use crate::math::{Mask, Real};
 
 /// A method together with its step control.
-pub trait Method: Copy {
+pub trait LaneMethod: Copy {
     /// What it knows about its errors.
     const ERRORS: ErrorModel;
     /// Whether its steps have a given length instead of following the tolerance.
@@ -28,7 +28,7 @@ pub trait Method: Copy {
 }
 
 /// The state of every lane, as far as it is common to all methods.
-pub struct LaneState<R, const N: usize> {
+pub struct StepperLane<R, const N: usize> {
     /// State at the current time.
     pub now: Carried<R, N>,
     /// Current time, s.
@@ -39,7 +39,7 @@ pub struct LaneState<R, const N: usize> {
     arc_start: R,
     /// Attempted steps of the run before it.
     before: R,
-    /// Attempted steps of the run at which it is judged ([`LaneState::gives_up`]).
+    /// Attempted steps of the run at which it is judged ([`StepperLane::gives_up`]).
     judged: R,
     /// Next observation time, s.
     pub next: R,
@@ -84,7 +84,7 @@ pub trait Stepper<R: Real, const N: usize> {
     fn idle(&mut self, lane: usize);
 
     /// The step that every lane takes next.
-    fn propose<Q: System<R, N>>(&mut self, system: &Q, lanes: &mut LaneState<R, N>) -> Proposal<R>;
+    fn propose<Q: System<R, N>>(&mut self, system: &Q, lanes: &mut StepperLane<R, N>) -> Proposal<R>;
 
     /// Attempts the step and puts the state at its end into `end`, which is not returned because every move of a state of many
     /// components is a copy.
@@ -92,7 +92,7 @@ pub trait Stepper<R: Real, const N: usize> {
         &mut self,
         system: &Q,
         step: Step<R>,
-        lanes: &mut LaneState<R, N>,
+        lanes: &mut StepperLane<R, N>,
         end: &mut Carried<R, N>,
     ) -> Attempt<R>;
 
@@ -103,7 +103,7 @@ pub trait Stepper<R: Real, const N: usize> {
         step: Step<R>,
         end: &[R; N],
         inside: R::Mask,
-        lanes: &mut LaneState<R, N>,
+        lanes: &mut StepperLane<R, N>,
     );
 
     /// The state at the end of `part`, the first part of the attempted step `step`; of use in the lanes `inside`.
@@ -113,18 +113,18 @@ pub trait Stepper<R: Real, const N: usize> {
         step: Step<R>,
         part: Step<R>,
         inside: R::Mask,
-        lanes: &mut LaneState<R, N>,
+        lanes: &mut StepperLane<R, N>,
     ) -> [R; N];
 
     /// Chooses the length of the next step; true in the lanes that cannot continue.
     fn advance(&mut self, proposal: &Proposal<R>, attempt: &Attempt<R>) -> R::Mask;
 }
 
-impl<R: Real, const N: usize> LaneState<R, N> {
+impl<R: Real, const N: usize> StepperLane<R, N> {
     #[inline(always)]
     fn new(zero: R) -> Self {
         let state = [zero; N];
-        LaneState {
+        StepperLane {
             now: Carried { state, carry: state },
             time: zero,
             arc_end: zero.splat(f64::INFINITY),
@@ -216,8 +216,8 @@ impl<R: Real, const N: usize> LaneState<R, N> {
 
     /// How the run in lane `lane` ended.
     #[inline(always)]
-    fn completion(&self, lane: usize, termination: Termination) -> Completion {
-        Completion {
+    fn completion(&self, lane: usize, termination: Termination) -> EndedRun {
+        EndedRun {
             termination,
             time: self.time.lane(lane),
             accepted: self.accepted.lane(lane) as u64,
@@ -248,13 +248,13 @@ fn of_lane<R: Real, const N: usize>(state: &[R; N], lane: usize) -> [f64; N] {
 #[inline(always)]
 pub fn integrate<M, R, Q, O, const N: usize>(method: M, zero: R, runs: &mut Q, recorder: &mut O, control: &Control)
 where
-    M: Method,
+    M: LaneMethod,
     R: Real,
     Q: Runs<R, N>,
     O: Recorder<Q, N>,
 {
     let mut stepper = method.stepper::<R, N>(zero, control);
-    let mut lanes = LaneState::<R, N>::new(zero);
+    let mut lanes = StepperLane::<R, N>::new(zero);
     let mut end = lanes.now;
     let mut slots = LaneSlots::new();
     for lane in 0..R::LANES {
@@ -314,7 +314,7 @@ where
 fn record<R, Q, P, O, const N: usize>(
     system: &Q,
     stepper: &mut P,
-    lanes: &mut LaneState<R, N>,
+    lanes: &mut StepperLane<R, N>,
     step: Step<R>,
     limit: R,
     end: &[R; N],

@@ -1,6 +1,6 @@
 //! [`LaneSlots`]: which run is in which lane, and which run is next. No arithmetic of a method.
 
-use super::runs::{Completion, Recorder, Runs, Termination};
+use super::runs::{EndedRun, Recorder, Runs, Termination};
 use crate::math::Real;
 use crate::math::lanes::WIDEST;
 
@@ -71,7 +71,7 @@ impl LaneSlots {
                 self.occupied += 1;
                 return Some(LoadedRun { state, end });
             }
-            let nothing = Completion {
+            let nothing = EndedRun {
                 termination: Termination::Completed,
                 time: 0.0,
                 accepted: 0,

@@ -32,7 +32,7 @@ pub trait Recorder<Q, const N: usize> {
 
     /// Run `run` in lane `lane` has ended; `runs` still has it loaded. Runs end in an order that depends on the number of lanes;
     /// what is reported of each does not.
-    fn finish(&mut self, runs: &Q, lane: usize, run: usize, completion: &Completion);
+    fn finish(&mut self, runs: &Q, lane: usize, run: usize, completion: &EndedRun);
 }
 
 /// Why a run ended.
@@ -50,7 +50,7 @@ pub enum Termination {
 
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Completion {
+pub struct EndedRun {
     /// Why.
     pub termination: Termination,
     /// The time that was reached, s.

@@ -1,7 +1,7 @@
 //! [`ArcSource`]: where the runs of a batch get their arcs from, one at a time.
 
 use crate::dynamics::actuation::Laws;
-use crate::dynamics::applied::law_arc;
+use crate::dynamics::applied::next_arc;
 use crate::dynamics::gyrostat::observed::observed_state;
 use crate::dynamics::gyrostat::{Gyrostat, WITH_THRUST};
 use crate::scene::Scene;
@@ -53,14 +53,13 @@ impl<'a> ArcSource<'a> {
             gyrostat.begin_free_arc(self.duration);
             return;
         };
-        match &mut self.laws {
-            Laws::OpenLoop => gyrostat.begin_scheduled_arc(scene, time, self.duration),
-            Laws::Feedback(source) => {
-                let (body, wheels) = observed_state(gyrostat, time, &components());
-                let arc = law_arc(scene, source.law(run), time, (&body, &wheels), self.duration);
-                gyrostat.begin_arc(scene, arc);
-                gyrostat.note_rate();
-            }
-        }
+        let Some(law) = self.laws.of(run) else {
+            // its arcs were prepared before the run
+            return gyrostat.begin_scheduled_arc(scene, time, self.duration);
+        };
+        let observed = || observed_state(gyrostat, time, &components());
+        let arc = next_arc(scene, Some(law), time, observed, self.duration);
+        gyrostat.begin_arc(scene, arc);
+        gyrostat.note_rate();
     }
 }

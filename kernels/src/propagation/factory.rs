@@ -117,7 +117,7 @@ struct OnGyrostats<'a, S, R> {
 impl<S: Simd, R: Real + Send + 'static> Visitor for OnGyrostats<'_, S, R> {
     type Output = Box<dyn Engine>;
 
-    fn visit<M: ode::Method + Send + 'static>(self, method: M) -> Box<dyn Engine> {
+    fn visit<M: ode::LaneMethod + Send + 'static>(self, method: M) -> Box<dyn Engine> {
         let OnGyrostats { simd, zero, settings } = self;
         Box::new(RungeKuttaEngine::<S, R, M, WITH_THRUST>::new(simd, zero, method, settings))
     }

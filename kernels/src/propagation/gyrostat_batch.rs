@@ -18,12 +18,12 @@ use crate::scene::{Arc, Scene};
 #[derive(Clone, Debug)]
 pub struct GyrostatBatch {
     runs: Vec<Gyrostat<f64>>,
-    completion: Completion,
+    completion: StateCompletion,
 }
 
 /// What completes the runs of a batch.
 #[derive(Clone, Debug)]
-pub struct Completion {
+pub struct StateCompletion {
     grid: Grid,
     observes_debris_rotation: bool,
     debris_runs: Vec<Gyrostat<f64>>,
@@ -40,7 +40,7 @@ impl GyrostatBatch {
     pub fn new(plan: &PropagationSettings) -> Self {
         GyrostatBatch {
             runs: Vec::new(),
-            completion: Completion {
+            completion: StateCompletion {
                 grid: plan.grid.clone(),
                 observes_debris_rotation: observes_debris_rotation(plan.fields),
                 debris_runs: Vec::new(),
@@ -54,7 +54,7 @@ impl GyrostatBatch {
     }
 
     /// The runs of `scenes`, before their first arcs, which are to come from `arcs`; and what completes them.
-    pub fn load(&mut self, scenes: &[Scene], arcs: &ArcSource<'_>) -> (&mut [Gyrostat<f64>], &mut Completion) {
+    pub fn load(&mut self, scenes: &[Scene], arcs: &ArcSource<'_>) -> (&mut [Gyrostat<f64>], &mut StateCompletion) {
         while self.runs.len() < scenes.len() {
             self.runs.push(Gyrostat::blank(0.0));
         }
@@ -69,7 +69,7 @@ impl GyrostatBatch {
     pub fn load_debris(&mut self, scenes: &[Scene]) -> Option<DebrisRuns<'_>> {
         let completion = &mut self.completion;
         let observes = completion.observes_debris_rotation;
-        let Completion { grid, debris_runs, debris_trajectories, debris_outcomes, debris_is_integrated, .. } =
+        let StateCompletion { grid, debris_runs, debris_trajectories, debris_outcomes, debris_is_integrated, .. } =
             completion;
         let general = |scene: &Scene| scene.mass.debris.as_ref().is_some_and(|body| !debris::is_isotropic(body));
         *debris_is_integrated = observes && scenes.iter().any(general);
@@ -100,7 +100,7 @@ pub struct DebrisRuns<'b> {
     pub outcomes: &'b mut [Outcome],
 }
 
-impl Completion {
+impl StateCompletion {
     /// Completes run `index`, `run`, whose integrated components are `trajectory`, to physical states and passes it to `finish`.
     #[expect(clippy::too_many_arguments, reason = "one call per engine; a struct would be taken apart at once")]
     pub fn complete<S: Simd>(
@@ -143,7 +143,7 @@ impl Completion {
         run: &Gyrostat<f64>,
         trajectory: &Trajectory,
     ) {
-        let Completion { grid, debris_runs, debris_trajectories, debris_is_integrated, table, .. } = self;
+        let StateCompletion { grid, debris_runs, debris_trajectories, debris_is_integrated, table, .. } = self;
         // called through closures, which are compiled apart: it enters the instruction set again
         simd.vectorize(
             #[inline(always)]

@@ -2,14 +2,14 @@
 //!
 //! Errors of the rotational state (of omega in rad/s, of the attitude in rad) of all steps, added as if all had the same direction; and rounding, which accumulates as a random walk (H. Brouwer, Astron. J. 46, 1937).
 
-use crate::ode::{Completion, ErrorModel};
+use crate::ode::{EndedRun, ErrorModel};
 use crate::run::LocalErrors;
 
 /// The sums for a run of a method with error model `model`, at the relative tolerance `tolerance`.
 ///
 /// For a method without error estimates only rounding: the rest is [`super::series_remainder`]. Where steps are controlled relative to
 /// the states, truncation is so too: [`in_units`] follows.
-pub fn local_errors(model: &ErrorModel, tolerance: f64, completion: &Completion) -> LocalErrors {
+pub fn local_errors(model: &ErrorModel, tolerance: f64, completion: &EndedRun) -> LocalErrors {
     let rounding = rounding(completion.accepted);
     match model {
         ErrorModel::Remainder(_) => rounding,

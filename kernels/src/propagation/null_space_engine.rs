@@ -9,7 +9,7 @@ use super::settings::PropagationSettings;
 use super::trajectory_recorder::{LaneTrajectory, TrajectoryRecorder};
 use crate::dynamics::actuation::Laws;
 use crate::dynamics::null_space::{complete, components};
-use crate::ode::{Adaptive, DormandPrinceRestepped, Method, integrate};
+use crate::ode::{Adaptive, DormandPrinceRestepped, LaneMethod, integrate};
 use crate::run::{LocalErrors, Outcome, StateField, StateTable, Trajectory};
 use crate::scene::{Arc, MAX_WHEELS, Scene};
 

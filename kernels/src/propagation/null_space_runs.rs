@@ -1,7 +1,7 @@
 //! [`NullSpaceRuns`]: runs of the null-space formulation, one at a time, with kernels of `W` wheels and `N` components.
 
 use crate::dynamics::actuation::Laws;
-use crate::dynamics::applied::{law_arc, scheduled_arc};
+use crate::dynamics::applied::next_arc;
 use crate::dynamics::null_space::{Kernel, State, observed_state, sigma};
 use crate::ode::{Runs, System, Tolerance};
 use crate::scene::{Arc, Scene};
@@ -92,15 +92,13 @@ impl<const W: usize, const N: usize> Runs<f64, N> for NullSpaceRuns<'_, W> {
             return None;
         }
         let scene = &self.scenes[self.run];
-        let arc = match &mut self.laws {
-            Laws::OpenLoop => scheduled_arc(scene, time, self.duration),
-            Laws::Feedback(source) => {
-                let state = State::<W>::from_components(state);
-                let (body, wheels) = observed_state(self.kernel.parameters(), &state, self.q_es);
-                self.q_es = body.q_es;
-                law_arc(scene, source.law(self.run), time, (&body, &wheels), self.duration)
-            }
+        let (kernel, q_es) = (&self.kernel, &mut self.q_es);
+        let observed = || {
+            let (body, wheels) = observed_state(kernel.parameters(), &State::<W>::from_components(state), *q_es);
+            *q_es = body.q_es;
+            (body, wheels)
         };
+        let arc = next_arc(scene, self.laws.of(self.run), time, observed, self.duration);
         self.kernel.drive(&arc.applied);
         self.arcs.push(arc);
         Some(arc.end())

@@ -13,7 +13,7 @@ use super::trajectory_recorder::{LaneTrajectory, TrajectoryRecorder};
 use crate::dynamics::actuation::Laws;
 use crate::dynamics::gyrostat::Gyrostat;
 use crate::math::Real;
-use crate::ode::{Control, ErrorModel, Method, integrate};
+use crate::ode::{Control, ErrorModel, LaneMethod, integrate};
 use crate::run::{Grid, LocalErrors, Outcome, Trajectory};
 use crate::scene::Scene;
 
@@ -28,7 +28,7 @@ pub struct RungeKuttaEngine<S, R, M, const N: usize> {
     remainders: Option<Remainders>,
 }
 
-impl<S: Simd, R: Real, M: Method, const N: usize> RungeKuttaEngine<S, R, M, N> {
+impl<S: Simd, R: Real, M: LaneMethod, const N: usize> RungeKuttaEngine<S, R, M, N> {
     /// Memory for runs with `settings`; `zero` determines the number of lanes.
     pub fn new(simd: S, zero: R, method: M, settings: &PropagationSettings) -> Self {
         let points = settings.grid.points();
@@ -98,7 +98,7 @@ type RunCallback<'a, R> = dyn FnMut(&GyrostatRuns<'_, R>, usize, &Trajectory, &O
 
 /// The integration, compiled for its instruction set. Not inlined: so it is compiled once for spacecraft and debris.
 #[inline(never)]
-fn integrate_on<S: Simd, R: Real, M: Method, const N: usize>(
+fn integrate_on<S: Simd, R: Real, M: LaneMethod, const N: usize>(
     (simd, zero, method): (S, R, M),
     runs: &mut GyrostatRuns<'_, R>,
     (grid, control): (&Grid, &Control),
@@ -115,7 +115,7 @@ fn integrate_on<S: Simd, R: Real, M: Method, const N: usize>(
     );
 }
 
-impl<S: Simd, R: Real + Send, M: Method + Send, const N: usize> Engine for RungeKuttaEngine<S, R, M, N> {
+impl<S: Simd, R: Real + Send, M: LaneMethod + Send, const N: usize> Engine for RungeKuttaEngine<S, R, M, N> {
     fn propagate_under(&mut self, laws: Laws<'_>, scenes: &[Scene], finish: &mut CompletionCallback<'_>) {
         let simd = self.simd;
         simd.vectorize(

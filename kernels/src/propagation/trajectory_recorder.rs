@@ -1,7 +1,7 @@
 //! [`TrajectoryRecorder`]: writes the states of runs in lanes to trajectories, and turns completions into outcomes.
 
 use super::local_error::local_errors;
-use crate::ode::{Completion, ErrorModel, Recorder, Termination};
+use crate::ode::{EndedRun, ErrorModel, Recorder, Termination};
 use crate::run::{Grid, LocalErrors, Outcome, Status, StepStatistics, Trajectory};
 
 /// The trajectory of the run in a lane and its next observation point.
@@ -58,7 +58,7 @@ where
     }
 
     #[inline(always)]
-    fn finish(&mut self, runs: &Q, lane: usize, run: usize, completion: &Completion) {
+    fn finish(&mut self, runs: &Q, lane: usize, run: usize, completion: &EndedRun) {
         let LaneTrajectory { trajectory, point } = &mut self.lanes[lane];
         trajectory.fill_after(*point, f64::NAN);
         trajectory.pad();

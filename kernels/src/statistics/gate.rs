@@ -13,34 +13,34 @@ use super::replicates;
 
 /// On which side of a limit a number must be.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Limit {
+pub enum GateLimit {
     /// At most this.
     AtMost(f64),
     /// At least this.
     AtLeast(f64),
 }
 
-impl Limit {
+impl GateLimit {
     /// Whether `value` is within the limit; NaN is not.
     pub fn is_met(self, value: f64) -> bool {
         match self {
-            Limit::AtMost(limit) => value <= limit,
-            Limit::AtLeast(limit) => value >= limit,
+            GateLimit::AtMost(limit) => value <= limit,
+            GateLimit::AtLeast(limit) => value >= limit,
         }
     }
 
     /// The fraction of runs that must be within the limit where the `p`-quantile must be.
     pub fn fraction(self, p: f64) -> f64 {
         match self {
-            Limit::AtMost(_) => p,
-            Limit::AtLeast(_) => 1.0 - p,
+            GateLimit::AtMost(_) => p,
+            GateLimit::AtLeast(_) => 1.0 - p,
         }
     }
 
     /// The limit itself.
     pub fn value(self) -> f64 {
         match self {
-            Limit::AtMost(limit) | Limit::AtLeast(limit) => limit,
+            GateLimit::AtMost(limit) | GateLimit::AtLeast(limit) => limit,
         }
     }
 }
@@ -141,7 +141,7 @@ pub fn points_gate(points: &[([u64; 2], u64)], target: f64, [confidence, fails_a
 }
 
 /// The gate that the mean of independent runs is within `limit`. Runs without a spread decide nothing: a rare event would not show.
-pub fn mean_gate(moments: &Moments, limit: Limit, confidence: f64) -> Gate {
+pub fn mean_gate(moments: &Moments, limit: GateLimit, confidence: f64) -> Gate {
     let (count, estimate) = (moments.count(), moments.mean().unwrap_or(f64::NAN));
     let bounds = mean_bounds(moments, confidence);
     let is_spread = bounds.iter().any(|bound| bound.is_finite());
@@ -155,7 +155,7 @@ pub fn mean_gate(moments: &Moments, limit: Limit, confidence: f64) -> Gate {
 }
 
 /// The gate on a number that does not depend on the run, and so has no error.
-pub fn constant_gate(value: f64, limit: Limit) -> Gate {
+pub fn constant_gate(value: f64, limit: GateLimit) -> Gate {
     let decision = if limit.is_met(value) { Decision::Pass } else { Decision::Fail };
     Gate { decision, estimate: value, bounds: [value; 2] }
 }
@@ -163,17 +163,17 @@ pub fn constant_gate(value: f64, limit: Limit) -> Gate {
 /// The gate that at least the fraction `target` of runs succeeds, from the fractions of independent replicates of `runs` runs together.
 pub fn replicate_fraction_gate(fractions: &[f64], runs: u64, target: f64, confidence: f64) -> Gate {
     let bounds = replicates::fraction_bounds(fractions, runs, confidence);
-    replicate_gate(fractions, bounds, runs, Limit::AtLeast(target), confidence)
+    replicate_gate(fractions, bounds, runs, GateLimit::AtLeast(target), confidence)
 }
 
 /// The gate that the mean is within `limit`, from the `means` of independent replicates and the moments of all their runs.
-pub fn replicate_mean_gate(means: &[f64], whole: &Moments, limit: Limit, confidence: f64) -> Gate {
+pub fn replicate_mean_gate(means: &[f64], whole: &Moments, limit: GateLimit, confidence: f64) -> Gate {
     let bounds = replicates::mean_bounds(means, whole, confidence);
     replicate_gate(means, bounds, whole.count(), limit, confidence)
 }
 
 /// More runs are more runs of each replicate, whose variance then falls at least in proportion.
-fn replicate_gate(estimates: &[f64], bounds: [f64; 2], runs: u64, limit: Limit, confidence: f64) -> Gate {
+fn replicate_gate(estimates: &[f64], bounds: [f64; 2], runs: u64, limit: GateLimit, confidence: f64) -> Gate {
     let estimate = Moments::of(estimates.iter().copied()).mean().unwrap_or(f64::NAN);
     let distance = (estimate - limit.value()).abs();
     let width = if estimate < limit.value() { bounds[1] - estimate } else { estimate - bounds[0] };
@@ -187,10 +187,10 @@ fn replicate_gate(estimates: &[f64], bounds: [f64; 2], runs: u64, limit: Limit, 
     Gate { decision: decision(bounds, limit, needed), estimate, bounds }
 }
 
-fn decision([lower, upper]: [f64; 2], limit: Limit, needed: impl FnOnce() -> Option<u64>) -> Decision {
+fn decision([lower, upper]: [f64; 2], limit: GateLimit, needed: impl FnOnce() -> Option<u64>) -> Decision {
     let [inside, outside] = match limit {
-        Limit::AtMost(limit) => [upper <= limit, lower > limit],
-        Limit::AtLeast(limit) => [lower >= limit, upper < limit],
+        GateLimit::AtMost(limit) => [upper <= limit, lower > limit],
+        GateLimit::AtLeast(limit) => [lower >= limit, upper < limit],
     };
     match (inside, outside) {
         (true, _) => Decision::Pass,
@@ -220,12 +220,12 @@ mod tests {
     /// Published: 59 runs within the limit show that p95 is (Wilks 1941); the 5% quantile from below is the same by symmetry.
     #[test]
     fn quantile_gates_are_fraction_gates() {
-        for (limit, p) in [(Limit::AtMost(1.0), 0.95), (Limit::AtLeast(1.0), 0.05)] {
+        for (limit, p) in [(GateLimit::AtMost(1.0), 0.95), (GateLimit::AtLeast(1.0), 0.05)] {
             let of = |runs: u64| fraction_gate(runs, runs, limit.fraction(p), 0.95).decision;
             assert_eq!((of(59), of(58)), (Decision::Pass, Decision::Undecided(Some(59))));
         }
-        assert!(Limit::AtMost(1.0).is_met(1.0) && !Limit::AtMost(1.0).is_met(f64::NAN));
-        assert!(Limit::AtLeast(1.0).is_met(1.0) && !Limit::AtLeast(1.0).is_met(0.999));
+        assert!(GateLimit::AtMost(1.0).is_met(1.0) && !GateLimit::AtMost(1.0).is_met(f64::NAN));
+        assert!(GateLimit::AtLeast(1.0).is_met(1.0) && !GateLimit::AtLeast(1.0).is_met(0.999));
     }
 
     /// Law: bounds of the number of successes decide only what every number between them decides.
@@ -262,31 +262,31 @@ mod tests {
         let values = [1.0, 2.0, 3.0, 4.0].repeat(5);
         let moments = Moments::of(values.iter().copied());
         let of = |limit| mean_gate(&moments, limit, 0.95);
-        let [lower, upper] = of(Limit::AtMost(4.1)).bounds;
+        let [lower, upper] = of(GateLimit::AtMost(4.1)).bounds;
         // Student's half width t(0.95, 19) s/sqrt(20) = 1.729 * 0.2565; some more for a skewness that twenty runs may hide
         assert!(upper - 2.5 > 0.4435 && upper - 2.5 < 1.25 * 0.4435 && (upper + lower - 5.0).abs() < 1e-14, "{upper}");
         assert_eq!(
-            (of(Limit::AtMost(4.1)).decision, of(Limit::AtMost(0.9)).decision),
+            (of(GateLimit::AtMost(4.1)).decision, of(GateLimit::AtMost(0.9)).decision),
             (Decision::Pass, Decision::Fail)
         );
         assert_eq!(
-            (of(Limit::AtLeast(0.9)).decision, of(Limit::AtLeast(4.1)).decision),
+            (of(GateLimit::AtLeast(0.9)).decision, of(GateLimit::AtLeast(4.1)).decision),
             (Decision::Pass, Decision::Fail)
         );
-        let Decision::Undecided(Some(needed)) = of(Limit::AtMost(2.6)).decision else { panic!("undecided") };
+        let Decision::Undecided(Some(needed)) = of(GateLimit::AtMost(2.6)).decision else { panic!("undecided") };
         // so many that repeat these have a bound that is nearer than the limit by the 1.2816 standard errors that the mean scatters in nine of ten
         let repeated = Moments::of(values.iter().copied().cycle().take(needed as usize));
-        let upper = mean_gate(&repeated, Limit::AtMost(2.6), 0.95).bounds[1];
+        let upper = mean_gate(&repeated, GateLimit::AtMost(2.6), 0.95).bounds[1];
         let distance = upper - 2.5 + 1.2816 * repeated.mean_error().expect("many");
         // s of 1133 is 2.5% smaller than that of 20 with the same spread
         assert!((distance / 0.1 - 1.0).abs() < 0.05, "{needed}: {distance}");
-        assert_eq!(of(Limit::AtMost(2.5)).decision, Decision::Undecided(None), "at the limit nothing decides");
+        assert_eq!(of(GateLimit::AtMost(2.5)).decision, Decision::Undecided(None), "at the limit nothing decides");
         for few in [&[1.0][..], &[0.0; 100]] {
-            let found = mean_gate(&Moments::of(few.iter().copied()), Limit::AtMost(9.0), 0.95);
+            let found = mean_gate(&Moments::of(few.iter().copied()), GateLimit::AtMost(9.0), 0.95);
             assert_eq!(found.decision, Decision::Undecided(None));
         }
-        assert_eq!(constant_gate(0.0, Limit::AtMost(9.0)).decision, Decision::Pass);
-        assert_eq!(constant_gate(f64::NAN, Limit::AtMost(9.0)).decision, Decision::Fail);
+        assert_eq!(constant_gate(0.0, GateLimit::AtMost(9.0)).decision, Decision::Pass);
+        assert_eq!(constant_gate(f64::NAN, GateLimit::AtMost(9.0)).decision, Decision::Fail);
     }
 
     /// Law: with a long tail above, a limit above the mean takes more runs than one as far below; either number repeated bounds the mean
@@ -298,11 +298,11 @@ mod tests {
         let mean = moments.mean().expect("many");
         let needed = [-1.0, 1.0].map(|side| {
             let limit = mean + side * 2.0;
-            let Decision::Undecided(Some(needed)) = mean_gate(&moments, Limit::AtMost(limit), 0.95).decision else {
+            let Decision::Undecided(Some(needed)) = mean_gate(&moments, GateLimit::AtMost(limit), 0.95).decision else {
                 panic!("undecided at {limit}")
             };
             let repeated = Moments::of(values.iter().copied().cycle().take(needed as usize / 40 * 40));
-            let bounds = mean_gate(&repeated, Limit::AtMost(limit), 0.95).bounds;
+            let bounds = mean_gate(&repeated, GateLimit::AtMost(limit), 0.95).bounds;
             let bound = if side > 0.0 { bounds[1] - mean } else { mean - bounds[0] };
             let distance = bound + 1.2816 * repeated.mean_error().expect("many");
             // whole repetitions, whose spread is 1.3% smaller
@@ -324,7 +324,7 @@ mod tests {
         let mean = Moments::of(means.iter().copied()).mean().expect("many");
         let needed = [-1.0, 1.0].map(|side| {
             let limit = mean + side * 0.2;
-            [Limit::AtMost(limit), Limit::AtLeast(limit)].map(|limit| {
+            [GateLimit::AtMost(limit), GateLimit::AtLeast(limit)].map(|limit| {
                 let gate = replicate_mean_gate(&means, &whole, limit, 0.95);
                 let Decision::Undecided(Some(needed)) = gate.decision else { panic!("undecided at {limit:?}") };
                 let width = if side > 0.0 { gate.bounds[1] - mean } else { mean - gate.bounds[0] };

@@ -21,7 +21,7 @@ use crate::report::requirements::{runs_needed, together};
 use crate::report::stopping_text;
 use crate::statistics::binomial::Decision;
 use crate::statistics::correlation::Estimate;
-use crate::statistics::gate::Limit;
+use crate::statistics::gate::GateLimit;
 
 /// Quantiles of the bands of the page.
 const BANDS: [f64; 5] = [0.05, 0.25, 0.5, 0.75, 0.95];
@@ -157,7 +157,7 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
     let name = of_run.map_or(requirement.name().replace('_', " "), |outcome| words(&outcome.quantity));
     let confidence = number(100.0 * requirement.confidence);
     let percent = |fraction: f64| number(100.0 * fraction);
-    let (limit, is_upper) = (requirement.limit.value(), matches!(requirement.limit, Limit::AtMost(_)));
+    let (limit, is_upper) = (requirement.limit.value(), matches!(requirement.limit, GateLimit::AtMost(_)));
     let (word, text) = (if is_upper { "at most" } else { "at least" }, with_unit(limit, &one.unit));
     let text_of = match requirement.statement {
         Statement::Mean => format!("The mean of the {name} is {word} {text}, with {confidence}% confidence."),

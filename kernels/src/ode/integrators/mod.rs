@@ -11,7 +11,7 @@
 
 use super::adaptive::Adaptive;
 use super::fixed::Fixed;
-use super::lane_driver::Method;
+use super::lane_driver::LaneMethod;
 
 /// Does something with the method of an integrator, whichever it is.
 pub trait Visitor {
@@ -19,7 +19,7 @@ pub trait Visitor {
     type Output;
 
     /// Does it with `method`.
-    fn visit<M: Method + Send + 'static>(self, method: M) -> Self::Output;
+    fn visit<M: LaneMethod + Send + 'static>(self, method: M) -> Self::Output;
 }
 
 /// `Type, file, "name", its method with step control, "what it is";` for each integrator, in the order in which they are listed to a user.
@@ -66,7 +66,7 @@ impl Integrator {
         struct HasFixedStep;
         impl Visitor for HasFixedStep {
             type Output = bool;
-            fn visit<M: Method + Send + 'static>(self, _: M) -> bool {
+            fn visit<M: LaneMethod + Send + 'static>(self, _: M) -> bool {
                 M::HAS_FIXED_STEP
             }
         }

@@ -1,4 +1,4 @@
-//! [`LaneState`]: where one lane is in its run.
+//! [`SeriesLane`]: where one lane is in its run.
 
 use super::period::Period;
 use super::truncation::TruncationSums;
@@ -8,7 +8,7 @@ use crate::run::Grid;
 
 /// Where one lane is in its run.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct LaneState {
+pub(super) struct SeriesLane {
     /// The index of the run.
     pub run: usize,
     /// Unit of time, s: a power of two near the time scale of the motion, so that every conversion is exact.
@@ -50,10 +50,10 @@ pub(super) struct Waiting {
 /// Number of components that have no series of their own.
 pub(super) const QUADRATURES: usize = WITH_THRUST - WITH_ANGLES;
 
-impl LaneState {
+impl SeriesLane {
     /// A lane at the start of run `run`, before its first arc.
     pub(super) fn new(run: usize, unit: f64, clock: usize) -> Self {
-        LaneState {
+        SeriesLane {
             run,
             unit,
             start: 0.0,
@@ -81,7 +81,7 @@ impl LaneState {
         self.steps_before + (until - self.begun) as u64
     }
 
-    /// The step after `clock` at which the lane is examined for [`LaneState::gives_up`].
+    /// The step after `clock` at which the lane is examined for [`SeriesLane::gives_up`].
     pub(super) fn judged(&self, clock: usize, max_steps: u64) -> u64 {
         let begun = self.begun as u64;
         let limit = begun.saturating_add(max_steps.saturating_sub(self.steps_before));

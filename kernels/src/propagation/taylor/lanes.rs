@@ -1,6 +1,6 @@
 //! [`RunLanes`]: which run is in which lane, and how a lane is loaded, begins an arc, waits, and ends.
 
-use super::lane_state::{LaneState, Waiting};
+use super::lane_state::{SeriesLane, Waiting};
 use super::lane_vectors::LaneVectors;
 use super::period::Period;
 use super::period_search::section;
@@ -28,7 +28,7 @@ pub(super) struct RunLanes<'a, R, const N: usize, const J: usize> {
     pub detector: ReturnDetector<R>,
     /// Truncation of the steps of each lane's run.
     pub truncation: Truncation<R>,
-    pub states: [Option<LaneState>; WIDEST],
+    pub states: [Option<SeriesLane>; WIDEST],
     /// The step after which all lanes are examined, whatever happens before.
     pub alarm: usize,
     pub work: &'a mut Workspace<R, J>,
@@ -80,7 +80,7 @@ impl<'a, R: Real, const N: usize, const J: usize> RunLanes<'a, R, N, J> {
                 self.vectors.state[ATTITUDE + i].set_lane(lane, run.q_eb[i]);
             }
         }
-        self.states[lane] = Some(LaneState::new(self.next, unit, self.work.ring.clock));
+        self.states[lane] = Some(SeriesLane::new(self.next, unit, self.work.ring.clock));
         self.next += 1;
         self.begin_arc(lane);
     }
@@ -223,7 +223,7 @@ impl<'a, R: Real, const N: usize, const J: usize> RunLanes<'a, R, N, J> {
     fn pass_on(
         &mut self,
         lane: usize,
-        state: &LaneState,
+        state: &SeriesLane,
         (status, time, points): (Status, f64, usize),
         finish: &mut RunCallback<'_>,
     ) {

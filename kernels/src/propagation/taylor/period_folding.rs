@@ -10,7 +10,7 @@ use fearless_simd::Simd;
 
 use super::dense::{Segment, value_at};
 use super::fold_buffer::FoldBuffer;
-use super::lane_state::LaneState;
+use super::lane_state::SeriesLane;
 use super::lane_vectors::si_factors;
 use super::period::Period;
 use super::series_ring::SeriesRing;
@@ -27,7 +27,7 @@ const SLACK: usize = 8;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FoldedLane {
     pub lane: usize,
-    pub state: LaneState,
+    pub state: SeriesLane,
     pub period: Option<Period>,
     /// The step after the last series.
     pub end: usize,
@@ -42,7 +42,7 @@ pub(super) type FoldedLanes = [Option<FoldedLane>; WIDEST];
 ///
 /// An evaluation costs the same for one lane as for all, so it waits for those that still look for their period, but not for
 /// long, and not beyond the series that are kept.
-pub(super) fn is_due(lanes: &[Option<LaneState>; WIDEST], clock: usize, kept: usize) -> bool {
+pub(super) fn is_due(lanes: &[Option<SeriesLane>; WIDEST], clock: usize, kept: usize) -> bool {
     let (mut waiting, mut searching) = (0, 0);
     let (mut patient, mut now) = (true, false);
     for state in lanes.iter().flatten() {
@@ -62,7 +62,7 @@ pub(super) fn is_due(lanes: &[Option<LaneState>; WIDEST], clock: usize, kept: us
 }
 
 /// The lanes that wait, with the points of their arcs.
-pub(super) fn folded_lanes(lanes: &[Option<LaneState>; WIDEST], grid: &Grid) -> FoldedLanes {
+pub(super) fn folded_lanes(lanes: &[Option<SeriesLane>; WIDEST], grid: &Grid) -> FoldedLanes {
     let mut folded = [None; WIDEST];
     for (lane, state) in lanes.iter().enumerate() {
         if let Some(state) = state

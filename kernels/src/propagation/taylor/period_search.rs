@@ -1,7 +1,7 @@
 //! The return of omega to where an arc began, and the period that follows from it, in one lane.
 
 use super::dense::value_at;
-use super::lane_state::LaneState;
+use super::lane_state::SeriesLane;
 use super::period::{Period, PoincareSection};
 use super::series_ring::SeriesRing;
 use crate::dynamics::gyrostat::{ATTITUDE, Gyrostat, OMEGA, WITH_ATTITUDE};
@@ -32,7 +32,7 @@ pub(super) fn section(
 pub(super) fn return_time<R: Real, const J: usize>(
     section: &PoincareSection,
     ring: &SeriesRing<R, J>,
-    state: &LaneState,
+    state: &SeriesLane,
     lane: usize,
     crossed: bool,
     length: f64,
@@ -53,7 +53,7 @@ pub(super) fn return_time<R: Real, const J: usize>(
 pub(super) fn period<R: Real, const J: usize>(
     run: &Gyrostat<f64>,
     ring: &SeriesRing<R, J>,
-    state: &LaneState,
+    state: &SeriesLane,
     lane: usize,
     within: f64,
     mut momentum_b: [f64; 3],

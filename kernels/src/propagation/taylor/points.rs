@@ -2,7 +2,7 @@
 #![expect(clippy::needless_range_loop, reason = "components are numbered alike in several arrays")]
 
 use super::dense::{Segment, value_at, values};
-use super::lane_state::LaneState;
+use super::lane_state::SeriesLane;
 use super::lane_vectors::si_factors;
 use super::series_ring::SeriesRing;
 use super::thrust::{Quadrature, angle_of};
@@ -66,7 +66,7 @@ pub(super) enum Until {
 #[cold]
 #[inline(never)]
 pub(super) fn evaluate_kept<R: Real, const N: usize, const J: usize>(
-    state: &mut LaneState,
+    state: &mut SeriesLane,
     lane: usize,
     ring: &SeriesRing<R, J>,
     grid: &Grid,

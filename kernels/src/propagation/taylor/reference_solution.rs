@@ -16,7 +16,7 @@ use super::jet::{Reciprocals, Scratch, expand};
 use super::lane_vectors::si_factors;
 use super::step::StepRule;
 use crate::dynamics::actuation::ActuationLaw;
-use crate::dynamics::applied::{law_arc, scheduled_arc};
+use crate::dynamics::applied::next_arc;
 use crate::dynamics::debris;
 use crate::dynamics::gyrostat::equations::Constants;
 use crate::dynamics::gyrostat::observed::observed_state;
@@ -246,15 +246,14 @@ impl Integration<'_, '_> {
             self.run.begin_free_arc(duration);
             return;
         };
-        let arc = match &mut self.law {
-            None => scheduled_arc(scene, time, duration),
-            Some(law) => {
-                let mut components = *state;
-                scale(&mut components, si_factors(1.0 / unit));
-                let (body, wheels) = observed_state(self.run, time, &components);
-                law_arc(scene, &mut **law, time, (&body, &wheels), duration)
-            }
+        let run = &self.run;
+        let observed = || {
+            let mut components = *state;
+            scale(&mut components, si_factors(1.0 / unit));
+            observed_state(run, time, &components)
         };
+        let law = self.law.as_mut().map(|law| &mut **law as &mut dyn ActuationLaw);
+        let arc = next_arc(scene, law, time, observed, duration);
         self.run.begin_arc(scene, arc);
         if self.law.is_some() {
             self.coarse.begin_arc(scene, arc);
