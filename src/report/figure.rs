@@ -111,7 +111,13 @@ pub struct Axis {
 impl Axis {
     /// A linear axis.
     pub fn linear(quantity: impl Into<String>, unit: &str) -> Self {
-        Axis { quantity: quantity.into(), unit: unit.to_owned(), scale: Scale::Linear, range: None, is_descending: false }
+        Axis {
+            quantity: quantity.into(),
+            unit: unit.to_owned(),
+            scale: Scale::Linear,
+            range: None,
+            is_descending: false,
+        }
     }
 
     /// A logarithmic axis.

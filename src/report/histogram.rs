@@ -27,8 +27,12 @@ pub fn bins(values: &[f64]) -> (Vec<f64>, bool) {
     if !is_log {
         return (linear_bins(values), false);
     }
-    let (low, high) = (libm::log10(positive), libm::log10(high));
-    ((0..=BARS).map(|k| libm::pow(10.0, low + part(k) * (high - low))).collect(), true)
+    let edge = |k: usize| match k {
+        0 => positive,
+        BARS => high,
+        _ => positive * libm::pow(high / positive, part(k)),
+    };
+    ((0..=BARS).map(edge).collect(), true)
 }
 
 fn ends(values: &[f64]) -> (f64, f64) {
@@ -120,7 +124,8 @@ fn stems(values: &[(f64, f64)], count: usize, edges: &[f64]) -> Mark {
     let (mut x, mut y) = (Vec::new(), Vec::new());
     for ends in edges.windows(2) {
         let is_last = Some(&ends[1]) == edges.last();
-        let inside = values.iter().filter(|(value, _)| *value >= ends[0] && (*value < ends[1] || is_last && *value == ends[1]));
+        let inside =
+            values.iter().filter(|(value, _)| *value >= ends[0] && (*value < ends[1] || is_last && *value == ends[1]));
         let (sum, probability) = inside.fold((0.0, 0.0), |(sum, all), (value, p)| (sum + p * value, all + p));
         if probability > 0.0 {
             x.push(sum / probability);
@@ -179,8 +184,11 @@ mod tests {
     #[test]
     fn what_is_expected_is_drawn() {
         let drawn: Vec<f64> = (0..300).map(|k| [0.01, 0.02, 0.05][k % 3]).collect();
-        let of = |distribution: &Distribution| of_input("x", "", &drawn, 0.01, Some(&Asked::Number(distribution))).marks;
-        let stems = |values: &[f64; 3]| match of(&Distribution::Choice(ChoiceQuantile::new(values, &[1.0; 3]))).swap_remove(1) {
+        let of =
+            |distribution: &Distribution| of_input("x", "", &drawn, 0.01, Some(&Asked::Number(distribution))).marks;
+        let stems = |values: &[f64; 3]| match of(&Distribution::Choice(ChoiceQuantile::new(values, &[1.0; 3])))
+            .swap_remove(1)
+        {
             Mark::Points { shape: PointShape::Stem, x, y, .. } => (x, y),
             other => panic!("{other:?}"),
         };

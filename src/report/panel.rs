@@ -38,7 +38,7 @@ pub(super) struct Panel<'f> {
 }
 
 impl Figure {
-    /// The finite values that its axes have to show. A limit across the figure widens no axis.
+    /// The finite values that its axes have to show. A limit across the figure does not widen the vertical axis.
     pub(super) fn values(&self) -> [Vec<f64>; 2] {
         let (mut xs, mut ys) = (Vec::new(), Vec::new());
         for mark in &self.marks {
@@ -72,7 +72,8 @@ impl Figure {
         };
         let x = if self.is_over_time { within(&self.x, ends(&xs)) } else { self.x.clone() };
         let has_bars = self.marks.iter().any(|mark| matches!(mark, Mark::Bars { .. }));
-        let y = if has_bars { within(&self.y, [0.0, 1.05 * ends(&ys)[1]]) } else { self.y.clone() };
+        // free height over bars, where limits are named
+        let y = if has_bars { within(&self.y, [0.0, 1.2 * ends(&ys)[1]]) } else { self.y.clone() };
         [DrawnAxis::new(&x, &xs), DrawnAxis::new(&y, &ys)]
     }
 
@@ -136,9 +137,13 @@ impl<'f> Panel<'f> {
             panel.edges = [left, top, left + end, top + end];
         }
         let added = panel.y.start();
-        let room = width - BESIDE - 14.0 - svg.font.width(&added, TITLE);
-        let head = format!("{}{added}", svg.font.fitted(&figure.title, room, TITLE));
-        svg.text(&head, [at[0] + 14.0, at[1] + 21.0], TITLE, Anchor::Start, INK, false);
+        let room = width - BESIDE - 14.0;
+        // a long title is smaller before it is shorter
+        let is_long = svg.font.width(&format!("{}{added}", figure.title), TITLE) > room;
+        let size = if is_long { AXIS_TITLE } else { TITLE };
+        let room = room - svg.font.width(&added, size);
+        let head = format!("{}{added}", svg.font.fitted(&figure.title, room, size));
+        svg.text(&head, [at[0] + 14.0, at[1] + 21.0], size, Anchor::Start, INK, false);
         legend.draw(svg, [at[0] + 16.0, at[1] + HEAD]);
         panel.draw_axes(svg, at, &rows, &title);
         let [left, top, right, bottom] = panel.edges;

@@ -26,8 +26,11 @@ const PANELS: [(&str, Pick); 4] = [
 /// Run time against error; errors that no method has are left out.
 pub fn precision_figure(title: String, measured: &[Measurement]) -> Sheet {
     let panel = |(title, pick): (&str, Pick)| {
-        let marks: Vec<Mark> =
-            Method::ALL.into_iter().enumerate().flat_map(|(index, method)| curve(measured, pick, index, method)).collect();
+        let marks: Vec<Mark> = Method::ALL
+            .into_iter()
+            .enumerate()
+            .flat_map(|(index, method)| curve(measured, pick, index, method))
+            .collect();
         let x = Axis { is_descending: true, ..Axis::log("error, smaller to the right", "") };
         (!marks.is_empty()).then(|| Figure::new(title, x, Axis::log("CPU time of a run", "s"), marks))
     };
@@ -38,13 +41,14 @@ pub fn precision_figure(title: String, measured: &[Measurement]) -> Sheet {
 /// The settings of a method, as a curve with points: it looks the same in all panels.
 fn curve(measured: &[Measurement], pick: Pick, index: usize, method: Method) -> Vec<Mark> {
     let of = measured.iter().filter(|measurement| measurement.method == method);
-    let found = of.filter_map(|m| Some((pick(m)?.max, m.cpu[0]))).filter(|(error, cpu)| error.is_finite() && *cpu > 0.0);
-    let (x, y): (Vec<f64>, Vec<f64>) =
-        found.map(|(error, cpu)| (error.clamp(LEAST_ERROR, MOST_ERROR), cpu)).unzip();
+    let found =
+        of.filter_map(|m| Some((pick(m)?.max, m.cpu[0]))).filter(|(error, cpu)| error.is_finite() && *cpu > 0.0);
+    let (x, y): (Vec<f64>, Vec<f64>) = found.map(|(error, cpu)| (error.clamp(LEAST_ERROR, MOST_ERROR), cpu)).unzip();
     if x.is_empty() {
         return Vec::new();
     }
     let (hue, samples) = (Hue::Curve(index), Vec::new());
-    let points = Mark::Points { label: String::new(), hue, shape: PointShape::Disc, x: x.clone(), y: y.clone(), samples };
+    let points =
+        Mark::Points { label: String::new(), hue, shape: PointShape::Disc, x: x.clone(), y: y.clone(), samples };
     vec![Mark::line(method.name(), hue, Dash::of_curve(index), x, y), points]
 }

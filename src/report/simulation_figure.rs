@@ -90,9 +90,8 @@ pub fn simulation_figure(title: String, series: &TimeSeries, tolerance: Option<f
         found.filter(|(_, values)| values.iter().any(|value| *value != 0.0)).collect()
     };
     let of_wheels = |prefix: &str, key: &dyn Fn(usize) -> TimeColumn| -> Vec<Curve> {
-        let curve = |(wheel, name): (usize, &Name)| {
-            Some((format!("{prefix}{name}"), series.column(key(wheel))?.1.to_vec()))
-        };
+        let curve =
+            |(wheel, name): (usize, &Name)| Some((format!("{prefix}{name}"), series.column(key(wheel))?.1.to_vec()));
         series.wheels().iter().enumerate().filter_map(curve).collect()
     };
     let panel = |title: &str, unit: &str, curves: Vec<Curve>| {
@@ -123,11 +122,12 @@ pub fn simulation_figure(title: String, series: &TimeSeries, tolerance: Option<f
         panels.push(panel("Kinetic energy, total", "J", vec![(String::new(), total)]));
     }
     if turns {
-        let change = |(label, values): &Curve| {
-            (label.clone(), values.iter().map(|value| value - values[0]).collect())
-        };
-        let mut transfer =
-            panel("Energy transfer: change of kinetic energy since the start", "J", bodies.iter().map(change).collect());
+        let change = |(label, values): &Curve| (label.clone(), values.iter().map(|value| value - values[0]).collect());
+        let mut transfer = panel(
+            "Energy transfer: change of kinetic energy since the start",
+            "J",
+            bodies.iter().map(change).collect(),
+        );
         let size = bodies.iter().flat_map(|(_, values)| values).fold(0.0, |size: f64, value| value.abs().max(size));
         if transfer.marks.iter().all(|mark| mark.largest() < ROUNDING * size) {
             // what rounding makes of constants looks constant

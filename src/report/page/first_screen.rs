@@ -1,9 +1,9 @@
 //! The first screen: header, run status, verdicts. Static HTML, readable before any script and without.
 
 use crate::campaign::Plan;
+use crate::report::escaped::escaped;
 use crate::report::page::cards::Card;
 use crate::report::page::errors::sentence;
-use crate::report::page::payload::escaped;
 use crate::report::page::readable::{grouped, number};
 use crate::report::page::survey::Survey;
 use crate::run::Status;

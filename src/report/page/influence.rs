@@ -1,8 +1,8 @@
 //! Figures of what drives the outcome: sensitivities with intervals, scatter plots of the strongest inputs.
 
 use crate::campaign::Plan;
-use crate::report::page::errors::{sentence, shown_rows};
 use crate::report::figure::{Axis, Dash, Figure, Hue, Mark, PointShape, Section};
+use crate::report::page::errors::{sentence, shown_rows};
 use crate::report::page::shown_columns::words;
 use crate::report::page::survey::{Outcome, SCATTER, Survey, chosen};
 use crate::run::Quantity;

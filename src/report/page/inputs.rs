@@ -3,9 +3,9 @@
 use core::f64::consts::PI;
 
 use crate::campaign::Plan;
-use crate::report::figure::{Figure, Section};
-use crate::report::{drawn_figure, histogram, marginal};
+use crate::report::figure::{Axis, Figure, Section};
 use crate::report::page::survey::Survey;
+use crate::report::{drawn_figure, histogram, marginal};
 use crate::sampling::correlation::{Measure, Numbers};
 use crate::statistics::correlation::{matrix, mid_ranks, standardised};
 
@@ -17,8 +17,7 @@ const MOST_CORRELATED: usize = 24;
 /// Histograms of the inputs, and their correlations as asked and as achieved.
 pub fn figures(plan: &Plan, survey: &Survey) -> Vec<Figure> {
     let columns = survey.thinned.inputs.len();
-    let mut figures: Vec<Figure> =
-        (0..columns.min(MOST_INPUTS)).map(|column| input(plan, survey, column)).collect();
+    let mut figures: Vec<Figure> = (0..columns.min(MOST_INPUTS)).map(|column| input(plan, survey, column)).collect();
     figures.extend(correlations(plan, survey));
     figures.retain(Figure::is_visible);
     figures
@@ -49,12 +48,15 @@ fn input(plan: &Plan, survey: &Survey, index: usize) -> Figure {
         Some(false) => " Line: samples expected of the distribution that was asked for.",
         Some(true) => " Dots: samples expected of each value.",
     };
+    let histogram = histogram::of_input(&name, unit, &values, column.nominal, asked.as_ref());
     Figure {
         name: format!("input_{}", column.parameter.column_name(column.component)),
         section: Section::Inputs,
         caption: format!("{} of {} dispersed samples. {origin}.{line}", values.len(), survey.samples.saturating_sub(1)),
         columns: 4,
-        ..histogram::of_input(&name, unit, &values, column.nominal, asked.as_ref())
+        x: Axis { quantity: name, ..histogram.x },
+        y: Axis::linear("samples", ""),
+        ..histogram
     }
 }
 

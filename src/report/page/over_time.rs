@@ -2,10 +2,10 @@
 
 use crate::ensemble::SingleRun;
 use crate::observables::Series;
-use crate::report::number::short;
 use crate::report::figure::{Axis, Dash, Figure, Hue, Mark, Section};
-use crate::report::relative_errors;
+use crate::report::number::short;
 use crate::report::page::spectrum::{amplitudes, dominant};
+use crate::report::relative_errors;
 use crate::scene::Name;
 
 /// Quantiles of a series over time, of the runs that are ok.

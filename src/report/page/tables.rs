@@ -1,7 +1,7 @@
 //! The tables of the page: worst runs, statistics, files, glossary. Static HTML; a script sorts and searches them.
 
 use crate::campaign::Plan;
-use crate::report::page::payload::escaped;
+use crate::report::escaped::escaped;
 use crate::report::page::readable::{grouped, number, with_unit};
 use crate::report::page::runs::ShownRun;
 use crate::report::page::survey::Survey;
