@@ -6,7 +6,7 @@ use std::fs;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use spindrift::cli::arguments::{CompareOptions, FinishOptions, ReportOptions, VerifyOptions};
+use spindrift::cli::arguments::{CompareOptions, FinishOptions, ReportOptions, SizeOptions, VerifyOptions};
 use spindrift::cli::command_outcome::Failure;
 use spindrift::cli::compare::compared;
 use spindrift::cli::finish_campaign::finished;
@@ -69,7 +69,9 @@ fn make_large(storage: &'static dyn Storage, root: &Path) -> Result<(), Failure>
 
 fn finish(storage: &'static dyn Storage, root: &Path) -> Result<(), Failure> {
     let folder = root.to_owned();
-    let options = FinishOptions { folder, junit: None, no_report: true, figures: None, threads: NonZeroUsize::new(1) };
+    let size = SizeOptions { size: None, dpi: 96 };
+    let options =
+        FinishOptions { folder, junit: None, no_report: true, figures: None, size, threads: NonZeroUsize::new(1) };
     finished(storage, &options).map(|_| ())
 }
 
@@ -87,7 +89,8 @@ fn repair(storage: &'static dyn Storage, root: &Path) -> Result<(), Failure> {
 }
 
 fn report(storage: &'static dyn Storage, root: &Path) -> Result<(), Failure> {
-    let options = ReportOptions { folder: root.to_owned(), figures: None, threads: NonZeroUsize::new(1) };
+    let size = SizeOptions { size: None, dpi: 96 };
+    let options = ReportOptions { folder: root.to_owned(), figures: None, size, threads: NonZeroUsize::new(1) };
     remade(storage, &options).map(|_| ())
 }
 
