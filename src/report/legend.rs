@@ -1,9 +1,8 @@
 //! [`Legend`]: names of marks in rows, none of them beyond the width.
 
 use crate::report::figure::Mark;
-use crate::report::marks::{SWATCH, draw_swatch};
-use crate::report::panel::{INK, LABEL};
-use crate::report::svg::{Anchor, Font, Svg};
+use crate::report::shapes::{SWATCH, draw_swatch};
+use crate::report::svg::{Anchor, Font, INK, LABEL, Svg};
 
 /// Height of a row, pixels.
 pub(super) const ROW: f64 = 20.0;

@@ -3,12 +3,11 @@
 use crate::report::axis::DrawnAxis;
 use crate::report::figure::{Axis, Figure, Mark, Scale};
 use crate::report::legend::{self, Legend};
-use crate::report::svg::{Anchor, Font, Stroke, Svg};
+use crate::report::svg::{Anchor, Font, INK, LABEL, Stroke, Svg};
 
-/// Size of titles, of the titles of axes, and of the texts at ticks, pixels.
+/// Size of titles and of the titles of axes, pixels.
 const TITLE: f64 = 16.0;
 const AXIS_TITLE: f64 = 13.0;
-pub(super) const LABEL: f64 = 12.0;
 /// Height of the title; free height over the axes, and under them with texts at ticks and title; free width right of them, pixels.
 const HEAD: f64 = 30.0;
 const ABOVE: f64 = 8.0;
@@ -25,7 +24,6 @@ const NAMES: f64 = 0.4;
 const ROW: f64 = 24.0;
 const CELL: f64 = 48.0;
 
-pub(super) const INK: &str = "#1a1a1a";
 const GRID: &str = "#e4e4e4";
 
 /// A figure that is being drawn.

@@ -2,8 +2,8 @@
 
 use crate::report::figure::Figure;
 use crate::report::legend::Legend;
-use crate::report::panel::{INK, Panel};
-use crate::report::svg::{Anchor, Font, Svg};
+use crate::report::panel::Panel;
+use crate::report::svg::{Anchor, Font, INK, Svg};
 
 /// Size and height of the title, pixels.
 const TITLE: f64 = 19.0;

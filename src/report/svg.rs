@@ -13,6 +13,10 @@ use crate::report::fitted_text::fitted;
 
 static FONT: &[u8] = include_bytes!("../../assets/DejaVuSans-subset.ttf");
 
+/// Colour of texts; size of most of them, pixels.
+pub(super) const INK: &str = "#1a1a1a";
+pub(super) const LABEL: f64 = 12.0;
+
 /// The font of figures.
 pub(super) struct Font {
     face: Option<Face<'static>>,
