@@ -117,6 +117,18 @@ function lineSeries(mark, figure, color) {
 }
 
 function pointSeries(mark, figure, color) {
+  if (mark.stems) {
+    const list = pairs(mark, figure);
+    return drawn(list, { x: 0, y: 1 }, (to) =>
+      list.flatMap(([value, height]) => {
+        const [[x, y], [, bottom]] = [to(value, height), to(value, 0)];
+        return [
+          { type: "line", shape: { x1: x, y1: bottom, x2: x, y2: y }, style: { stroke: color, lineWidth: 1.6 } },
+          { type: "circle", shape: { cx: x, cy: y, r: 3 }, style: { fill: color } },
+        ];
+      }),
+    );
+  }
   const count = mark.x.length;
   const size = count > 600 ? 4 : count > 100 ? 5 : 8;
   const cross = "path://M-1,-0.75L-0.75,-1L0,-0.25L0.75,-1L1,-0.75L0.25,0L1,0.75L0.75,1L0,0.25L-0.75,1L-1,0.75L-0.25,0Z";
@@ -174,11 +186,21 @@ function whiskerSeries(mark, figure, color, palette) {
 
 function limitSeries(mark, figure, palette, [xs, ys]) {
   const middle = (axis) => (axis.type === "category" ? 0 : axis.type === "log" ? Math.sqrt(axis.min * axis.max) : 0.5 * (axis.min + axis.max));
-  const data = [mark.vertical ? [mark.at, middle(ys)] : [middle(xs), mark.at]];
+  // the series has a point within the axes: one outside of them would not be drawn
+  const data = [[middle(xs), middle(ys)]];
   return drawn(data, { x: 0, y: 1 }, (to, box) => {
-    const [x, y] = to(...data[0]);
+    const [x, y] = to(...(mark.vertical ? [mark.at, data[0][1]] : [data[0][0], mark.at]));
     const dash = { stroke: palette.quiet, lineWidth: 1, lineDash: [5, 4] };
     const text = { text: mark.label, fill: palette.quiet, font: `12px ${FONT}` };
+    const [isLow, isHigh] = mark.vertical ? [x < box.x - 1, x > box.x + box.width + 1] : [y > box.y + box.height + 1, y < box.y - 1];
+    if (isLow || isHigh) {
+      // outside of the axes: named at the edge beyond which it is
+      const arrow = mark.vertical ? (isLow ? "←" : "→") : isLow ? "↓" : "↑";
+      const named = { ...text, text: mark.label ? `${arrow} ${mark.label}` : "" };
+      const isRight = mark.vertical && isHigh;
+      const isBottom = !mark.vertical && isLow;
+      return [{ type: "text", x: isRight ? box.x + box.width - 4 : box.x + 4, y: isBottom ? box.y + box.height - 4 : box.y + 4, style: { ...named, align: isRight ? "right" : "left", verticalAlign: isBottom ? "bottom" : "top" } }];
+    }
     if (mark.vertical) {
       const isRight = x > box.x + 0.7 * box.width;
       return [

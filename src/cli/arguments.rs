@@ -102,10 +102,10 @@ impl Changed {
 pub struct SizeOptions {
     /// Width and height of each figure, mm [default: what its panels need]; texts keep their size.
     #[arg(long, value_name = "WxH", value_parser = size)]
-    size: Option<[f64; 2]>,
+    pub size: Option<[f64; 2]>,
     /// Dots per inch of PNG files.
     #[arg(long, value_name = "N", default_value_t = 192, value_parser = clap::value_parser!(u16).range(24..=2400))]
-    dpi: u16,
+    pub dpi: u16,
 }
 
 impl SizeOptions {

@@ -27,8 +27,12 @@ pub fn bins(values: &[f64]) -> (Vec<f64>, bool) {
     if !is_log {
         return (linear_bins(values), false);
     }
-    let (low, high) = (libm::log10(positive), libm::log10(high));
-    ((0..=BARS).map(|k| libm::pow(10.0, low + part(k) * (high - low))).collect(), true)
+    let edge = |k: usize| match k {
+        0 => positive,
+        BARS => high,
+        _ => positive * libm::pow(high / positive, part(k)),
+    };
+    ((0..=BARS).map(edge).collect(), true)
 }
 
 fn ends(values: &[f64]) -> (f64, f64) {

@@ -99,7 +99,7 @@ pub fn save_all(figures: &[Figure], folder: &Path, size: PlotSize) -> Result<usi
 }
 
 /// The pixels of an SVG.
-fn pixels(svg: &str, dpi: f64) -> Result<Pixmap, PlotError> {
+pub(super) fn pixels(svg: &str, dpi: f64) -> Result<Pixmap, PlotError> {
     let failed = |error: &dyn std::fmt::Display| PlotError::Drawing(error.to_string());
     let tree = usvg::Tree::from_str(svg, &usvg::Options::default()).map_err(|error| failed(&error))?;
     let scale = (dpi / SVG_DPI) as f32;
@@ -113,4 +113,37 @@ fn pixels(svg: &str, dpi: f64) -> Result<Pixmap, PlotError> {
 /// An SVG as PNG.
 fn png(svg: &str, dpi: f64) -> Result<Vec<u8>, PlotError> {
     pixels(svg, dpi)?.encode_png().map_err(|error| PlotError::Drawing(error.to_string()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::figure::{Axis, Dash, Hue, Mark};
+
+    /// Law: the pixels of a PNG are its size times the dots per inch, and both formats have the size that is asked for.
+    #[test]
+    fn pictures_have_the_size_that_is_asked_for() {
+        let curve = Mark::line("a", Hue::Body, Dash::Solid, vec![0.0, 1.0], vec![2.0, 3.0]);
+        let figure = Figure::new("Title", Axis::linear("x", "s"), Axis::linear("y", "J"), vec![curve]);
+        let figure = Figure { name: "f".to_owned(), ..figure };
+        let folder = std::env::temp_dir().join(format!("spindrift-image-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        for (size_mm, dpi) in [(Some([101.6, 50.8]), 96.0), (Some([101.6, 50.8]), 300.0), (Some([254.0, 76.2]), 100.0)]
+        {
+            let inches = size_mm.unwrap_or_default().map(|side| side / INCH);
+            save_all(std::slice::from_ref(&figure), &folder, PlotSize { size_mm, dpi }).unwrap();
+            let pixmap = Pixmap::load_png(folder.join("f.png")).unwrap();
+            assert_eq!([pixmap.width(), pixmap.height()], inches.map(|side| (side * dpi).round() as u32));
+            let svg = std::fs::read_to_string(folder.join("f.svg")).unwrap();
+            let [width, height] = inches.map(|side| (side * SVG_DPI).round());
+            assert!(svg.contains(&format!(" width=\"{width}\" height=\"{height}\" viewBox")));
+        }
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn other_formats_are_refused() {
+        let refused = PlotFormat::of(Path::new("x.pdf")).unwrap_err();
+        assert_eq!(refused.to_string(), "a plot is written as .svg or .png, and `x.pdf` is neither");
+    }
 }

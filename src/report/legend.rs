@@ -1,9 +1,8 @@
 //! [`Legend`]: names of marks in rows, none of them beyond the width.
 
 use crate::report::figure::Mark;
-use crate::report::marks::{SWATCH, draw_swatch};
-use crate::report::panel::{INK, LABEL};
-use crate::report::svg::{Anchor, Font, Svg};
+use crate::report::shapes::{SWATCH, draw_swatch};
+use crate::report::svg::{Anchor, Font, INK, LABEL, Svg};
 
 /// Height of a row, pixels.
 pub(super) const ROW: f64 = 20.0;
@@ -76,7 +75,7 @@ mod tests {
         const WIDTH: f64 = 540.0;
         let font = Font::new();
         let long = "a_wheel_whose_name_is_longer_than_the_whole_panel_is_wide_and_which_continues_".repeat(2);
-        for (count, name, rows) in [(1, "x", 1), (3, "x", 1), (8, "wheel_number_", 2), (64, "w", 7), (5, &long, 5)] {
+        for (count, name, rows) in [(1, "x", 1), (3, "x", 1), (8, "wheel_number_", 3), (64, "w", 9), (5, &long, 5)] {
             let curve = |k: usize| Mark::line(format!("{name}{k}"), Hue::Body, Dash::Solid, vec![], vec![]);
             let marks: Vec<Mark> = (0..count).map(curve).collect();
             let found = Legend::new(&font, marks.iter().chain(&marks), WIDTH);

@@ -1,7 +1,7 @@
 //! Layer 7: text and figures for people.
 //!
 //! - [`summary`], [`observable_lines`], [`audit_summary`]: statistics of a campaign. - [`failure_text`]: why runs failed. - [`requirements`]: verdicts, also as JUnit XML. - [`drivers_text`]: what drives an outcome. - [`precision_text`]: work-precision measurements as text.
-//! - [`figure`]: what a figure shows. - [`sheet`]: figures on one picture, drawn with `panel`, `axis`, `legend`, `marks` as `svg`; [`image`]: its files. - [`fitted_text`]: text that is shortened to a width.
+//! - [`figure`]: what a figure shows. - [`sheet`]: figures on one picture, drawn with `panel`, `axis`, `legend`, `marks`, `shapes` as `svg`; [`image`]: its files. - [`fitted_text`]: text that is shortened to a width. - `escaped`: text within markup.
 //! - [`simulation_figure`], [`drawn_figure`] (of [`drawn_columns`], in [`histogram`]s, with [`expected_counts`], of numbers drawn together by [`marginal`]), [`precision_figure`]: the figures of the commands; [`relative_errors`]: the axis of errors.
 //! - [`comparison_text`]: two results compared. - [`stopping_text`]: looks of a campaign with `[stop]`.
 //! - [`time_table`]: one run over time on a terminal. - [`number`]: numbers in text. - [`page`]: the report of a campaign as one HTML file.
@@ -12,6 +12,7 @@ pub mod comparison_text;
 pub mod drawn_columns;
 pub mod drawn_figure;
 pub mod drivers_text;
+mod escaped;
 pub mod expected_counts;
 pub mod failure_text;
 pub mod figure;
@@ -29,6 +30,7 @@ pub mod precision_figure;
 pub mod precision_text;
 pub mod relative_errors;
 pub mod requirements;
+mod shapes;
 pub mod sheet;
 pub mod shell_word;
 pub mod simulation_figure;

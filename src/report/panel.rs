@@ -3,12 +3,11 @@
 use crate::report::axis::DrawnAxis;
 use crate::report::figure::{Axis, Figure, Mark, Scale};
 use crate::report::legend::{self, Legend};
-use crate::report::svg::{Anchor, Font, Stroke, Svg};
+use crate::report::svg::{Anchor, Font, INK, LABEL, Stroke, Svg};
 
-/// Size of titles, of the titles of axes, and of the texts at ticks, pixels.
+/// Size of titles and of the titles of axes, pixels.
 const TITLE: f64 = 16.0;
 const AXIS_TITLE: f64 = 13.0;
-pub(super) const LABEL: f64 = 12.0;
 /// Height of the title; free height over the axes, and under them with texts at ticks and title; free width right of them, pixels.
 const HEAD: f64 = 30.0;
 const ABOVE: f64 = 8.0;
@@ -25,7 +24,6 @@ const NAMES: f64 = 0.4;
 const ROW: f64 = 24.0;
 const CELL: f64 = 48.0;
 
-pub(super) const INK: &str = "#1a1a1a";
 const GRID: &str = "#e4e4e4";
 
 /// A figure that is being drawn.
@@ -38,7 +36,7 @@ pub(super) struct Panel<'f> {
 }
 
 impl Figure {
-    /// The finite values that its axes have to show. A limit across the figure widens no axis.
+    /// The finite values that its axes have to show. A limit across the figure does not widen the vertical axis.
     pub(super) fn values(&self) -> [Vec<f64>; 2] {
         let (mut xs, mut ys) = (Vec::new(), Vec::new());
         for mark in &self.marks {
@@ -72,7 +70,8 @@ impl Figure {
         };
         let x = if self.is_over_time { within(&self.x, ends(&xs)) } else { self.x.clone() };
         let has_bars = self.marks.iter().any(|mark| matches!(mark, Mark::Bars { .. }));
-        let y = if has_bars { within(&self.y, [0.0, 1.05 * ends(&ys)[1]]) } else { self.y.clone() };
+        // free height over bars, where limits are named
+        let y = if has_bars { within(&self.y, [0.0, 1.2 * ends(&ys)[1]]) } else { self.y.clone() };
         [DrawnAxis::new(&x, &xs), DrawnAxis::new(&y, &ys)]
     }
 
@@ -136,9 +135,13 @@ impl<'f> Panel<'f> {
             panel.edges = [left, top, left + end, top + end];
         }
         let added = panel.y.start();
-        let room = width - BESIDE - 14.0 - svg.font.width(&added, TITLE);
-        let head = format!("{}{added}", svg.font.fitted(&figure.title, room, TITLE));
-        svg.text(&head, [at[0] + 14.0, at[1] + 21.0], TITLE, Anchor::Start, INK, false);
+        let room = width - BESIDE - 14.0;
+        // a long title is smaller before it is shorter
+        let is_long = svg.font.width(&format!("{}{added}", figure.title), TITLE) > room;
+        let size = if is_long { AXIS_TITLE } else { TITLE };
+        let room = room - svg.font.width(&added, size);
+        let head = format!("{}{added}", svg.font.fitted(&figure.title, room, size));
+        svg.text(&head, [at[0] + 14.0, at[1] + 21.0], size, Anchor::Start, INK, false);
         legend.draw(svg, [at[0] + 16.0, at[1] + HEAD]);
         panel.draw_axes(svg, at, &rows, &title);
         let [left, top, right, bottom] = panel.edges;

@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 use crate::analysis::assessment::Assessment;
 use crate::analysis::verdicts::Verdicts;
 use crate::campaign::{Plan, Statement};
+use crate::report::escaped::escaped;
 use crate::report::number::short;
 use crate::statistics::binomial::{Decision, POWER};
 use crate::statistics::gate::GateLimit;
@@ -210,31 +211,4 @@ pub fn junit(plan: &Plan, verdicts: &Verdicts, failed: u64, stop: Option<(bool, 
         case("[stop] reaches its goal", (!is_reached).then_some(("error", "stop", text.as_str())));
     }
     xml + "  </testsuite>\n</testsuites>\n"
-}
-
-/// `text` within a double-quoted attribute of XML 1.0: markup as entities, characters that XML cannot have replaced.
-fn escaped(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => escaped += "&amp;",
-            '<' => escaped += "&lt;",
-            '>' => escaped += "&gt;",
-            '"' => escaped += "&quot;",
-            '\t' | '\n' | '\r' => escaped += &format!("&#{};", u32::from(c)),
-            '\0'..='\u{1f}' | '\u{fffe}' | '\u{ffff}' => escaped.push('\u{fffd}'),
-            c => escaped.push(c),
-        }
-    }
-    escaped
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn markup_is_escaped() {
-        assert_eq!(escaped("a<b> & \"c\"\n\u{1}"), "a&lt;b&gt; &amp; &quot;c&quot;&#10;\u{fffd}");
-    }
 }

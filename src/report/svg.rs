@@ -8,10 +8,14 @@ use std::fmt::Write as _;
 
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
+use crate::report::escaped::escaped;
 use crate::report::fitted_text::fitted;
-use crate::report::page::payload::escaped;
 
 static FONT: &[u8] = include_bytes!("../../assets/DejaVuSans-subset.ttf");
+
+/// Colour of texts; size of most of them, pixels.
+pub(super) const INK: &str = "#1a1a1a";
+pub(super) const LABEL: f64 = 12.0;
 
 /// The font of figures.
 pub(super) struct Font {
@@ -166,6 +170,9 @@ impl Svg {
 
     /// A text whose letters stand on the height of the point `at`, or, `upwards`, right-hand side of it.
     pub(super) fn text(&mut self, text: &str, at: [f64; 2], size: f64, anchor: Anchor, color: &str, upwards: bool) {
+        if text.is_empty() {
+            return;
+        }
         let (scale, width) = (size / self.font.units(), self.font.width(text, size));
         let shift = match anchor {
             Anchor::Start => 0.0,
@@ -173,7 +180,7 @@ impl Svg {
             Anchor::End => -width,
         };
         let turn = if upwards { " rotate(-90)" } else { "" };
-        let _ = writeln!(
+        let _ = write!(
             self.body,
             "<g role=\"img\" aria-label=\"{}\" fill=\"{color}\" transform=\"translate({} {}){turn} translate({} 0) scale({scale:.6} -{scale:.6})\">",
             escaped(text),

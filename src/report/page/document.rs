@@ -3,7 +3,8 @@
 
 use serde_json::Value;
 
-use crate::report::page::payload::{encoded, escaped, packed};
+use crate::report::escaped::escaped;
+use crate::report::page::payload::{encoded, packed};
 
 const STYLE: &str = include_str!("../../../assets/report/page.css");
 const LICENCES: &str = include_str!("../../../assets/report/vendor/licences.txt");

@@ -2,9 +2,9 @@
 
 use crate::analysis::survey::Survey;
 use crate::campaign::Plan;
+use crate::report::escaped::escaped;
 use crate::report::page::cards::Card;
 use crate::report::page::errors::sentence;
-use crate::report::page::payload::escaped;
 use crate::report::page::readable::{grouped, number};
 use crate::run::Status;
 

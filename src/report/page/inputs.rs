@@ -4,7 +4,7 @@ use core::f64::consts::PI;
 
 use crate::analysis::survey::Survey;
 use crate::campaign::Plan;
-use crate::report::figure::{Figure, Section};
+use crate::report::figure::{Axis, Figure, Section};
 use crate::report::{drawn_figure, histogram, marginal};
 use crate::sampling::correlation::{Measure, Numbers};
 use crate::statistics::correlation::{matrix, mid_ranks, standardised};
@@ -48,12 +48,15 @@ fn input(plan: &Plan, survey: &Survey, index: usize) -> Figure {
         Some(false) => " Line: samples expected of the distribution that was asked for.",
         Some(true) => " Dots: samples expected of each value.",
     };
+    let histogram = histogram::of_input(&name, unit, &values, column.nominal, asked.as_ref());
     Figure {
         name: format!("input_{}", column.parameter.column_name(column.component)),
         section: Section::Inputs,
         caption: format!("{} of {} dispersed samples. {origin}.{line}", values.len(), survey.samples.saturating_sub(1)),
         columns: 4,
-        ..histogram::of_input(&name, unit, &values, column.nominal, asked.as_ref())
+        x: Axis { quantity: name, ..histogram.x },
+        y: Axis::linear("samples", ""),
+        ..histogram
     }
 }
 

@@ -17,7 +17,7 @@ pub mod gather;
 pub mod influence;
 mod inputs;
 pub mod over_time;
-pub mod payload;
+mod payload;
 mod readable;
 mod replay;
 mod runs;

@@ -1,4 +1,4 @@
-//! [`Payload`]: the numbers of the page as binary, and texts as bytes that HTML cannot misread.
+//! [`Payload`]: the numbers of the page as binary.
 
 use std::io::Write;
 
@@ -51,22 +51,6 @@ pub fn encoded(bytes: &[u8]) -> String {
     STANDARD.encode(bytes)
 }
 
-/// Text as HTML: nothing in it is taken for markup.
-pub fn escaped(text: &str) -> String {
-    let mut safe = String::with_capacity(text.len());
-    for letter in text.chars() {
-        match letter {
-            '&' => safe.push_str("&amp;"),
-            '<' => safe.push_str("&lt;"),
-            '>' => safe.push_str("&gt;"),
-            '"' => safe.push_str("&quot;"),
-            '\'' => safe.push_str("&#39;"),
-            other => safe.push(other),
-        }
-    }
-    safe
-}
-
 #[cfg(test)]
 mod tests {
     use std::io::Read;
@@ -88,13 +72,5 @@ mod tests {
         assert_eq!(bytes[..8], 1.5f64.to_le_bytes());
         assert_eq!(bytes[8..16], 0.0f64.to_le_bytes(), "there is one zero");
         assert_eq!(bytes[16..20], 0.25f32.to_le_bytes());
-    }
-
-    #[test]
-    fn markup_is_escaped() {
-        assert_eq!(
-            escaped("</script><img onerror='x'>&\""),
-            "&lt;/script&gt;&lt;img onerror=&#39;x&#39;&gt;&amp;&quot;"
-        );
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::analysis::survey::Survey;
 use crate::campaign::Plan;
-use crate::report::page::payload::escaped;
+use crate::report::escaped::escaped;
 use crate::report::page::readable::{grouped, number, with_unit};
 use crate::report::page::runs::ShownRun;
 use crate::run::Status;
