@@ -36,7 +36,7 @@ pub fn notes(plan: &Plan, isa: Isa) -> Vec<String> {
         })),
         None if columns.is_empty() => {}
         None => {
-            notes.push("which dispersions change a column was not tried: the runs fail or take too long".to_owned())
+            notes.push("which dispersions change a column was not tried: the runs fail or take too long".to_owned());
         }
     }
     notes

@@ -378,24 +378,17 @@ const GOLDEN: [(&str, [[u64; 2]; 3]); 5] = [
     ),
 ];
 
-/// Law: a part of a grid is told, with the parameters that never vary or have levels that never occur.
+/// Law: a part of a grid is told, with its size.
 #[test]
-fn a_partial_grid_says_what_never_varies() {
+fn a_partial_grid_is_told() {
     let grid = |samples: u64| {
         let overrides = Overrides { samples: Some(samples), ..Overrides::default() };
         planned(&format!("[design]\nkind = \"grid\"\nlevels = 5\n{LENGTH}{RADIUS}"), overrides).expect("legal").notes()
     };
     assert!(grid(26).is_empty() && grid(1).is_empty(), "all points, and none");
-    for (samples, says) in [
-        (25, "25 samples are a part of the grid design (24 of 25 points); leave campaign.samples out for all points"),
-        (22, "(21 of 25 points); leave"),
-        (8, "8 samples are a part of the grid design (7 of 25 points): some levels of wheels.w1.radius_m never occur;"),
-        (21, "(20 of 25 points): some levels of wheels.w1.radius_m never occur;"),
-        (4, "wheels.w1.radius_m is never varied, and some levels of body.parts.fuselage.length_m never occur;"),
-    ] {
+    for samples in [2, 6, 25] {
+        let says = format!("{samples} samples are a part of the grid design ({} of 25 points)", samples - 1);
         let notes = grid(samples);
-        assert!(notes.len() == 1 && notes[0].contains(says), "{notes:?}");
+        assert!(notes.len() == 1 && notes[0].starts_with(&says), "{notes:?}");
     }
-    let notes = grid(6);
-    assert!(notes.len() == 1 && notes[0].contains("wheels.w1.radius_m is never varied"), "{notes:?}");
 }
