@@ -41,7 +41,7 @@ impl Plan {
         };
         (drawn > 0 && points != format!("{drawn} points")).then(|| {
             format!(
-                "{} samples are a part of the {} design ({drawn} of {points}), which has not all levels of all parameters; {remedy}",
+                "{} samples are a part of the {} design ({drawn} of {points}), and levels may be missing; {remedy}",
                 self.samples,
                 self.design.name(),
             )

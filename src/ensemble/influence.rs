@@ -22,21 +22,29 @@ const LONGEST_S: f64 = 3.0;
 pub fn notes(plan: &Plan, isa: Isa) -> Vec<String> {
     let drawn = DrawnScenes::spread(plan, DRAWN);
     let columns = plan.dispersions.columns();
-    let is_constant = |index: &usize| drawn.columns[*index].iter().all(|value| *value == columns[*index].nominal);
-    let constant = (0..if drawn.count() > 0 { columns.len() } else { 0 }).filter(is_constant);
-    let mut notes: Vec<String> = constant
-        .map(|index| {
-            let name = columns[index].parameter.component_name(columns[index].component);
-            format!("{name} is never varied: each of {} draws is the nominal value", drawn.count())
-        })
-        .collect();
+    let is_constant = |index: usize| drawn.columns[index].iter().all(|value| *value == columns[index].nominal);
+    let mut constant: Vec<String> = Vec::new();
+    for index in (0..columns.len()).filter(|index| drawn.count() > 0 && is_constant(*index)) {
+        let column = &columns[index];
+        let mut own = (0..columns.len()).filter(|other| columns[*other].parameter == column.parameter);
+        let name = if own.all(is_constant) {
+            dispersed_name(plan, column.parameter)
+        } else {
+            column.parameter.component_name(column.component)
+        };
+        if !constant.contains(&name) {
+            constant.push(name);
+        }
+    }
+    let never = |name| format!("{name} is never varied: each of {} draws is the nominal value", drawn.count());
+    let mut notes: Vec<String> = constant.into_iter().map(never).collect();
     match without_effect(plan, &drawn, isa) {
         Some(unseen) => notes.extend(unseen.into_iter().map(|parameter| {
             format!("{parameter} does not affect any requested column (observe.groups), in the samples that were tried")
         })),
         None if columns.is_empty() => {}
         None => {
-            notes.push("which dispersions change a column was not tried: the runs fail or take too long".to_owned())
+            notes.push("which dispersions change a column was not tried: the runs fail or take too long".to_owned());
         }
     }
     notes

@@ -50,13 +50,11 @@ fn written(storage: &dyn Storage, path: &Path, bytes: &[u8]) -> Result<PathBuf, 
         Ok(())
     };
     let remove = || storage.remove(&temporary).map_err(at(&temporary));
+    let Err(first) = write() else { return Ok(temporary) };
     // after a failed flush the state of the file is unknown: it is written again, once
-    match write().or_else(|_| remove().and_then(|()| write())) {
-        Ok(()) => Ok(temporary),
-        Err(error) => {
-            // the first error is reported; a file that cannot be removed is recognised by its name
-            let _ = remove();
-            Err(error)
-        }
-    }
+    remove().and_then(|()| write()).map(|()| temporary.clone()).map_err(|_| {
+        // the first error is reported; a file that cannot be removed is recognised by its name
+        let _ = remove();
+        first
+    })
 }

@@ -127,7 +127,7 @@ fn check_has_no_line_about_what_is_not_there() {
         is_computed
     };
     assert!(says_work("start_s = 1"));
-    assert!(!says_work("start_s = 2") && !says_work("start_s = 1\nthrust_scale = 0.0"));
+    assert!(!says_work("start_s = 2"));
 }
 
 /// Law: below the components of a dispersed rate, attitude or alignment error are the percentiles of its magnitude, which are those of the
@@ -180,11 +180,7 @@ fn check_shows_magnitudes_and_implausible_numbers() {
     row("|wheels.w1.tilt_rad|");
     assert!(!said.contains("|wheels.w2") && !said.contains("|initial.debris"), "{said}");
     let notes = said.split("== Notes\n").nth(1).unwrap_or_else(|| panic!("{said}"));
-    assert!(
-        notes.contains("\nwheels.w1.tilt_rad, as dispersed: ")
-            || notes.starts_with("wheels.w1.tilt_rad, as dispersed: "),
-        "{notes}"
-    );
+    assert!(notes.lines().any(|note| note.starts_with("wheels.w1.tilt_rad, as dispersed")), "{notes}");
 }
 
 #[test]

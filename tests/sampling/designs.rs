@@ -311,22 +311,17 @@ const GOLDEN: [(&str, [[u64; 2]; 3]); 5] = [
     ),
 ];
 
-/// Law: a part of a grid is told, with the parameters that never vary or have levels that never occur.
+/// Law: a part of a grid is told, with its size.
 #[test]
-fn a_partial_grid_says_what_never_varies() {
+fn a_partial_grid_is_told() {
     let grid = |samples: u64| {
         let overrides = Overrides { samples: Some(samples), ..Overrides::default() };
         planned(&format!("[design]\nkind = \"grid\"\nlevels = 5\n{LENGTH}{RADIUS}"), overrides).expect("legal").notes()
     };
     assert!(grid(26).is_empty() && grid(1).is_empty(), "all points, and none");
-    for samples in [25, 22, 8, 21, 4, 6] {
+    for samples in [2, 6, 25] {
+        let says = format!("{samples} samples are a part of the grid design ({} of 25 points)", samples - 1);
         let notes = grid(samples);
-        assert!(notes.len() == 1 && notes[0].contains(&format!("({} of 25 points)", samples - 1)), "{notes:?}");
-        assert_eq!(notes[0].contains("wheels.w1.radius_m is never varied"), samples <= 6, "{notes:?}");
-        assert_eq!(
-            notes[0].contains("some levels of wheels.w1.radius_m never occur"),
-            [8, 21].contains(&samples),
-            "{notes:?}"
-        );
+        assert!(notes.len() == 1 && notes[0].starts_with(&says), "{notes:?}");
     }
 }

@@ -189,6 +189,7 @@ fn every_key_moves_the_motion_and_both_kernels_agree_where_to() {
     let variants = variants();
     let nominal_motions: Vec<Motion> = variants.iter().map(|input| motion(Method::Taylor, input)).collect();
     let (mut least, mut most, mut count) = (f64::INFINITY, 0.0_f64, 0);
+    let mut unmoved: Vec<String> = Vec::new();
     for (parameter, places) in parameters(&variants) {
         for component in 0..parameter.width() {
             let name = parameter.component_name(component);
@@ -199,7 +200,10 @@ fn every_key_moves_the_motion_and_both_kernels_agree_where_to() {
                 let moved = distance(&taylor, &nominal_motions[*place]);
                 (moved > CHANGED).then_some((scene, recorded, taylor, moved))
             });
-            let (scene, recorded, taylor, moved) = found.unwrap_or_else(|| panic!("{name} moves no scene"));
+            let Some((scene, recorded, taylor, moved)) = found else {
+                unmoved.push(name);
+                continue;
+            };
             let whole = parameter.shape() == ParameterShape::Quaternion;
             assert_eq!(recorded.len(), if whole { 4 } else { 1 }, "{name}");
             for (parameter, component, value) in recorded {
@@ -215,6 +219,9 @@ fn every_key_moves_the_motion_and_both_kernels_agree_where_to() {
             (least, most, count) = (least.min(moved), most.max(agreed), count + 1);
         }
     }
+    // a point has no attitude and no inertia; the end of an arc at which the next one starts is a switch of that one
+    unmoved.retain(|name| !name.starts_with("body.parts.tip."));
+    assert_eq!(unmoved, ["actuation.0.switch_off_delay_s"]);
     println!("{count} components: moved by at least {least:e}; kernels at most {most:e} apart");
     assert!(count > 100, "{count}");
 }

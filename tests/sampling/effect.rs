@@ -75,7 +75,7 @@ fn what_changes_nothing_is_noted() {
         (UNSEEN, on, arc(0.0) + &late, arc(0.1) + &late),
         (UNSEEN, p3, no_thrust.clone() + &dispersed(p3), arc(0.0) + &dispersed(p3)),
         // a length that is divided out, a key that no requested column shows
-        (UNSEEN, "initial.attitude.w", dispersed("initial.attitude.w"), dispersed(radius)),
+        (CONSTANT, "initial.attitude", dispersed("initial.attitude.w"), dispersed(radius)),
         (UNSEEN, "initial.position_m", dispersed("initial.position_m"), dispersed(rates)),
         (UNSEEN, "initial.position_m.z", dispersed("initial.position_m.z"), dispersed(density)),
         (
