@@ -22,6 +22,7 @@ use spindrift::propagation::{CompletedRun, Method, PropagationSettings};
 use spindrift::run::Grid;
 use spindrift::sampling::SampleId;
 use spindrift::scene::{Actuated, Scene};
+use support::draws;
 use support::feedback::law;
 use support::observed::request;
 use support::plans::shipped;
@@ -81,19 +82,6 @@ fn plan(name: &str, method: &str) -> Plan {
     plan
 }
 
-/// Scenes drawn from a shipped campaign.
-fn drawn(plan: &Plan, samples: std::ops::Range<u64>) -> Vec<Scene> {
-    let mut sampler = plan.dispersions.sampler();
-    let mut applied = vec![0.0; plan.dispersions.columns().len()];
-    let mut input = plan.nominal.clone();
-    samples
-        .map(|sample| {
-            sampler.draw(SampleId(sample), &mut input, &mut applied);
-            Scene::resolve(&input).expect("shipped campaigns draw physical scenes")
-        })
-        .collect()
-}
-
 /// The counter counts; otherwise every test below would pass for any program.
 #[test]
 fn the_counter_counts() {
@@ -111,7 +99,7 @@ fn the_counter_counts() {
 fn engines() {
     for name in ["spin_sweep", "burn"] {
         let plan = plan(name, "auto");
-        let (first, second) = (drawn(&plan, 0..128), drawn(&plan, 128..256));
+        let (first, second) = (draws::scenes(&plan, 0..128), draws::scenes(&plan, 128..256));
         for (method, control) in [
             (Method::Auto, adaptive(1e-12)),
             (Method::Taylor, adaptive(1e-12)),
@@ -173,7 +161,7 @@ fn engines_under_laws() {
 fn observation() {
     for (name, method) in [("spin_sweep", Method::Auto), ("burn", Method::Auto), ("spin_sweep", Method::NullSpace)] {
         let plan = plan(name, "auto");
-        let scenes = drawn(&plan, 0..3);
+        let scenes = draws::scenes(&plan, 0..3);
         let actuated = Actuated::of(&plan.nominal);
         let constrained = method == Method::NullSpace;
         let wheels = plan.nominal.turning_wheels();

@@ -160,7 +160,7 @@ fn measured(count: u64) -> Vec<Measured> {
     for method in Method::ALL {
         for (name, family) in &families {
             for (setting, control) in settings_at_rest(method) {
-                let runs = found(family, &family.scenes, method, control);
+                let runs = found(family, method, control);
                 assert_eq!(runs.len() as u64, count, "{name}, {}: complete runs", method.name());
                 all.push(Measured { method, family: name, setting, runs });
             }
@@ -205,7 +205,7 @@ fn a_slew_that_is_wrong_is_inaccurate() {
         Scene::resolve(&input).expect("physical")
     };
     let family = Family::new("biased slew", Grid::uniform(DURATION, 41), (0..16).map(scene).collect());
-    let runs = found(&family, &family.scenes, Method::Gyrostat(Integrator::RungeKutta4), fixed(0.5));
+    let runs = found(&family, Method::Gyrostat(Integrator::RungeKutta4), fixed(0.5));
     let wrong: Vec<&Found> = runs.iter().filter(|run| run.error > 0.1).collect();
     assert!(wrong.len() >= 8, "the steps are too long: {runs:?}");
     for run in wrong {

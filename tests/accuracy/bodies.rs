@@ -1,13 +1,13 @@
 //! Bodies and actuators as files describe them: what is read, what is refused, and what errors of actuators do.
 
 use crate::support::campaigns::{FUSELAGE, THRUSTERS, WHEEL1_AT_REST};
+use crate::support::draws;
 use crate::support::runs::{Run, adaptive, fixed, propagate};
 use crate::support::scenes::{Kind, random};
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::math::vector::{difference, norm};
 use spindrift::propagation::Method;
 use spindrift::run::{Grid, StateField};
-use spindrift::sampling::SampleId;
 use spindrift::scene::{DebrisInput, Scene};
 
 /// A campaign with a debris of these keys, and tables of its own.
@@ -50,20 +50,13 @@ fn draws_that_pull_or_turn_inside_out_are_invalid() {
         let burn = "[[actuation]]\nstart_s = 0.25\nend_s = 0.5\nthrust_n = { p1 = 10, p2 = 20, p3 = 30 }\n";
         let plan = plan("side_m = 0.2\ndensity_kg_m3 = 2700.0", &format!("{burn}{dispersed}"));
         let plan = plan.unwrap_or_else(|e| panic!("{e}"));
-        let (mut sampler, mut input) = (plan.dispersions.sampler(), plan.nominal.clone());
-        let mut applied = vec![0.0; plan.dispersions.columns().len()];
         const COUNT: u64 = 2000;
-        let mut refused = 0;
-        for sample in 1..=COUNT {
-            sampler.draw(SampleId(sample), &mut input, &mut applied);
-            if let Err(errors) = Scene::resolve(&input) {
-                assert!(keys.contains(&errors[0].key.to_string()), "{}", errors[0].key);
-                refused += 1;
-            }
-        }
+        let refused = draws::seen(&plan, 1..=COUNT, |input, _| Scene::resolve(input).err());
+        let refused: Vec<_> = refused.into_iter().flatten().collect();
+        assert!(refused.iter().all(|errors| keys.contains(&errors[0].key.to_string())), "{:?}", refused[0]);
         // 3.29 standard errors of a share of 2000 draws: two-sided alpha = 1e-3 for each of the two; the seed is fixed
         let sigma = (share * (1.0 - share) / COUNT as f64).sqrt();
-        let found = f64::from(refused) / COUNT as f64;
+        let found = refused.len() as f64 / COUNT as f64;
         assert!((found - share).abs() < 3.29 * sigma, "{keys:?}: {found} {share}");
     }
 }

@@ -9,6 +9,7 @@
 //!
 //! Beyond a tenth an error is not linear any more and soon bounded: there it is covered by any estimate above a twentieth.
 
+use crate::support::draws;
 use crate::support::observed::request;
 use crate::support::plans;
 use crate::support::runs::{adaptive, fixed};
@@ -22,7 +23,6 @@ use spindrift::propagation::{
     CompletedRun, Method, PropagationSettings, RotationError, debris_rotation_errors, rotation_errors,
 };
 use spindrift::run::{Grid, LocalErrors, Outcome, StateField, StateFields, Status};
-use spindrift::sampling::SampleId;
 use spindrift::scene::Scene;
 use spindrift::statistics::binomial::at_most;
 
@@ -111,14 +111,7 @@ fn boxes(count: u64) -> Family {
 /// The first samples of a shipped campaign.
 fn shipped(name: &'static str, samples: u64) -> Family {
     let plan = plans::shipped(name, Some(samples));
-    let mut sampler = plan.dispersions.sampler();
-    let mut applied = vec![0.0; plan.dispersions.columns().len()];
-    let mut input = plan.nominal.clone();
-    let scenes = (0..samples).map(|sample| {
-        sampler.draw(SampleId(sample), &mut input, &mut applied);
-        Scene::resolve(&input).expect("shipped campaigns draw physical scenes")
-    });
-    Family::new(name, plan.grid.clone(), scenes.collect())
+    Family::new(name, plan.grid.clone(), draws::scenes(&plan, 0..samples))
 }
 
 /// Spin about the intermediate axis, 1e-14 to 1e-1 off it, over a minute: with and without wheels, along the axes of F_s and,
@@ -194,15 +187,14 @@ impl Found {
     }
 }
 
-/// Every complete run of a family by `method`; `observed` are the scenes that the observer is given.
-pub(super) fn found(family: &Family, observed: &[Scene], method: Method, control: Control) -> Vec<Found> {
-    found_of(family, observed, method, control, |errors| errors)
+/// Every complete run of a family by `method`.
+pub(super) fn found(family: &Family, method: Method, control: Control) -> Vec<Found> {
+    found_of(family, method, control, |errors| errors)
 }
 
 /// The same, where the observer is told of `told` in place of the errors that the method estimates.
 fn found_of(
     family: &Family,
-    observed: &[Scene],
     method: Method,
     control: Control,
     told: impl Fn(LocalErrors) -> LocalErrors,
@@ -223,11 +215,11 @@ fn found_of(
     };
     assert_eq!(names[own..], expected);
     let mut row = vec![0.0; names.len()];
-    let mut list = vec![None; observed.len()];
-    plan.engine(Isa::best()).propagate(observed, &mut |CompletedRun { index, table, outcome, .. }| {
+    let mut list = vec![None; family.scenes.len()];
+    plan.engine(Isa::best()).propagate(&family.scenes, &mut |CompletedRun { index, table, outcome, .. }| {
         if outcome.status == Status::Done {
             let outcome = Outcome { local_errors: told(outcome.local_errors), ..*outcome };
-            let status = observer.observe(Isa::best(), &observed[index], table, &outcome, &mut row);
+            let status = observer.observe(Isa::best(), &family.scenes[index], table, &outcome, &mut row);
             let truth = &family.truths[index];
             let error = match family.is_debris {
                 true => RotationError::largest(debris_rotation_errors(truth, &family.grid, table)).state(),
@@ -296,7 +288,7 @@ fn measured(count: u64) -> Vec<Measured> {
                 if method == Method::Gyrostat(Integrator::GaussLegendre) && is_long && count < 100 {
                     continue; // 60,000 implicit steps a run, which the long version has
                 }
-                let runs = found(family, &family.scenes, method, control);
+                let runs = found(family, method, control);
                 all.push(Measured { method, family: family.name, setting, runs });
             }
         }
@@ -376,7 +368,7 @@ fn what_rounding_decides_is_ill_conditioned() {
     for axis in 0..3 {
         let scenes: Vec<Scene> = offs.iter().map(|off| spin(axis, *off)).collect();
         let family = Family::new("spin", Grid::uniform(120.0, 401), scenes);
-        let runs = found(&family, &family.scenes, Method::Auto, adaptive(1e-14));
+        let runs = found(&family, Method::Auto, adaptive(1e-14));
         let ill: Vec<bool> = runs.iter().map(|run| run.is_ill).collect();
         assert_eq!(ill, if axis == 1 { [false, false, true, true] } else { [false; 4] }, "axis {axis}");
         if axis == 1 {
@@ -397,7 +389,7 @@ fn what_rounding_decides_is_ill_conditioned() {
 fn the_null_space_estimate_covers_and_includes_what_feeds_back() {
     let family = Family::new("mixed, short", Grid::uniform(1.0, 11), mixed(8, false, 1.0));
     let runs = |told: fn(LocalErrors) -> LocalErrors| {
-        let runs = found_of(&family, &family.scenes, Method::NullSpace, adaptive(1e-10), told);
+        let runs = found_of(&family, Method::NullSpace, adaptive(1e-10), told);
         assert_eq!(runs.len(), 8);
         runs
     };

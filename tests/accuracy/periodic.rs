@@ -301,23 +301,6 @@ fn time_has_no_scale() {
     }
 }
 
-/// Counter-test: states that are periodic, but of a body whose one moment of inertia is off by 1e-8, are noticed:
-/// errors of energy and momentum are measured from the states and never assumed.
-#[test]
-fn a_wrong_moment_of_inertia_is_noticed() {
-    let horizon = 1000.0;
-    let tri = [1000.0, 1500.0, 2000.0];
-    let right = scene(&body(tri, [1.0, -2.0, 0.5]));
-    let wrong = scene(&body([1000.0, 1500.0 * (1.0 + 1e-8), 2000.0], [1.0, -2.0, 0.5]));
-    let own = conservation(&right, horizon, &runs(Method::Auto, horizon, std::slice::from_ref(&right))[0]);
-    let other = conservation(&right, horizon, &runs(Method::Auto, horizon, &[wrong])[0]);
-    println!("right {own:?}, wrong {other:?}");
-    for (own, other) in own.into_iter().zip(other) {
-        // measured: 8.4e-16
-        assert!(own < 5e-15 && other > 1e-9, "{own:e} {other:e}");
-    }
-}
-
 /// Counter-test: a period that is off by 1e-10 keeps energy and momentum (the states are right, only late),
 /// so conservation alone is not sufficient: the comparison with plain propagation notices it.
 #[test]

@@ -248,7 +248,7 @@ fn lines_of_identity_and_plan_belong_together() {
     for (result, seed) in [("r", 7), ("other", 8)] {
         scratch.prints(&format!("campaign small.toml --samples 300 --seed {seed} --no-report --out {result}"), 0);
     }
-    let text = |result: &str| fs::read_to_string(scratch.path(result).join("manifest.jsonl")).unwrap();
+    let text = |result: &str| scratch.text(&format!("{result}/manifest.jsonl"));
     let (mine, other) = (text("r"), text("other"));
     let without =
         |line: usize| mine.lines().enumerate().filter(move |(at, _)| *at != line).map(|(_, line)| format!("{line}\n"));

@@ -13,7 +13,7 @@ fn line(body: &str) -> String {
 }
 
 fn lines(scratch: &ScratchFolder, result: &str) -> Vec<String> {
-    let text = fs::read_to_string(scratch.path(result).join("manifest.jsonl")).unwrap();
+    let text = scratch.text(&format!("{result}/manifest.jsonl"));
     text.lines().map(str::to_owned).collect()
 }
 

@@ -98,7 +98,7 @@ fn a_finished_campaign_is_extended() {
     // table engines see that it grew: the log has a commit more and a copy of the last part before (table_log.rs), which the last line lists
     for result in ["grown", "whole"] {
         scratch.prints(&format!("verify {result}"), 0);
-        let manifest = fs::read_to_string(scratch.path(result).join("manifest.jsonl")).unwrap();
+        let manifest = scratch.text(&format!("{result}/manifest.jsonl"));
         let parts: Vec<&str> = manifest.lines().filter(|line| !line.contains("finished")).collect();
         scratch.file(&format!("{result}/manifest.jsonl"), &parts.join("\n"));
         for log in ["_delta_log", "versions"] {

@@ -3,11 +3,11 @@
 //! Laws: closed-form motions give their closed-form numbers. Counter-test: a balance without the work that is fed in does not close.
 
 use super::observed_tables::{
-    ROUNDING, close, done, free_row, motion_table, request, request_of_balances, rotation, row, table1,
+    ROUNDING, close, free_row, motion_table, observation, request, request_of_balances, rotation, row, table1,
 };
 use spindrift::math::Isa;
 use spindrift::math::vector::hamilton;
-use spindrift::observables::{Group, Groups, Observer, Series};
+use spindrift::observables::{Group, Groups, Series};
 use spindrift::run::{Grid, StateField};
 
 #[test]
@@ -77,17 +77,12 @@ fn the_spin_axis_of_a_free_symmetric_body_moves_on_a_cone() {
         let grid = Grid::uniform(2.5 * std::f64::consts::PI / precession, 101);
         let table = motion_table(&grid, &motion);
         let request = request(Groups::NONE.with(Group::Attitude), false, false);
-        let mut observer = Observer::new(request, &grid);
-        let mut row = vec![0.0; request.columns().len()];
-        observer.observe(Isa::best(), &scene, &table, &done(grid.points(), grid.duration()), &mut row);
-        let value = |name: &str| {
-            row[request.columns().iter().position(|column| column.quantity.name() == name).expect("a column")]
-        };
+        let (row, observer) = observation(Isa::best(), request, &grid, &scene, &table);
         // a few roundings of the attitude
         let near = |found: f64, expected: f64| assert!((found - expected).abs() <= 4e-15, "{found:e} {expected:e}");
-        near(value("spin_axis_angle_max_rad"), 2.0 * nutation);
+        near(row["spin_axis_angle_max_rad"], 2.0 * nutation);
         near(
-            value("spin_axis_angle_final_rad"),
+            row["spin_axis_angle_final_rad"],
             2.0 * libm::asin(libm::sin(nutation) * libm::sin(0.25 * std::f64::consts::PI)),
         );
         let (_, angles) = observer.series().find(|(series, _)| *series == Series::SpinAxisAngle).expect("a series");

@@ -1,7 +1,9 @@
 //! Which columns a row has: skipped groups, padding and the instruction set change no bit of the others; every column of every kind of
 //! scene has a value; a failed run has what is known of it.
 
-use super::observed_tables::{Motion, done, free_row, golden_table, motion_table, request, rotation, row, table1};
+use super::observed_tables::{
+    Motion, done, free_row, golden_table, motion_table, observation, request, rotation, row, table1,
+};
 use spindrift::math::Isa;
 use spindrift::math::vector::dcm_from_quaternion;
 use spindrift::observables::{Column, Group, Groups, Observer, Request, Series};
@@ -40,10 +42,7 @@ fn fraction_and_net_are_relative_to_the_right_points() {
     let table =
         motion_table(&grid, &|t| (rotation([0.0, 0.0, 1.0], t), [0.0, 0.0, spin(t)], [10.0, 20.0 + t], [0.0; 3]));
     let request = request(Groups::ALL, false, true);
-    let row = row(Isa::best(), request, &grid, &scene, &table);
-    let mut observer = Observer::new(request, &grid);
-    let mut ignored = vec![0.0; request.columns().len()];
-    observer.observe(Isa::best(), &scene, &table, &done(grid.points(), grid.duration()), &mut ignored);
+    let (row, observer) = observation(Isa::best(), request, &grid, &scene, &table);
     let series = |of: Series| -> Vec<f64> { observer.series().find(|(series, _)| *series == of).unwrap().1.collect() };
     let total = series(Series::ComTotal);
     let largest = total.iter().copied().fold(0.0, f64::max);

@@ -1,11 +1,11 @@
 //! Observables of golden truth (25 digits): its energies and momenta are those of the equations, point by point, and are conserved to
 //! rounding. Counter-test: a small change of one state or one inertia is seen in the errors.
 
-use super::observed_tables::{ROUNDING, close, done, golden_table, request, request_of_balances, row, table1};
+use super::observed_tables::{ROUNDING, close, golden_table, observation, request, request_of_balances, row, table1};
 use crate::support::golden::Golden;
 use spindrift::math::Isa;
 use spindrift::math::vector::dcm_from_quaternion;
-use spindrift::observables::{Groups, Observer, Request, Series};
+use spindrift::observables::{Groups, Request, Series};
 use spindrift::run::{StateField, StateTable};
 use spindrift::scene::Scene;
 
@@ -16,11 +16,8 @@ fn golden_truth_has_the_energies_of_the_equations_and_conserves() {
         let scene = Scene::resolve(&golden.scene).expect("a physical scene");
         let (grid, table) = golden_table(&golden, &scene);
         let request = request(Groups::ALL, true, false);
-        let mut observer = Observer::new(request, &grid);
-        let mut row = vec![0.0; request.columns().len()];
-        observer.observe(Isa::best(), &scene, &table, &done(grid.points(), grid.duration()), &mut row);
-        let value =
-            |name: &str| row[request.columns().iter().position(|column| column.quantity.name() == name).unwrap()];
+        let (row, observer) = observation(Isa::best(), request, &grid, &scene, &table);
+        let value = |name: &str| row[name];
         let bodies = [
             Series::EnergyBody,
             Series::EnergyWheel.of_wheel(0),

@@ -7,7 +7,7 @@ use crate::support::observed;
 use spindrift::math::Isa;
 use spindrift::math::vector::{cross, dcm_from_quaternion, product, sum};
 use spindrift::observables::nominal_attitude::NominalAttitude;
-use spindrift::observables::{Group, Groups, Request};
+use spindrift::observables::{Group, Groups, Observer, Request};
 use spindrift::run::{Grid, LocalErrors, Outcome, StateField, StateFields, StateTable, Status, StepStatistics};
 use spindrift::scene::Scene;
 
@@ -92,9 +92,20 @@ pub fn motion_table(grid: &Grid, motion: Motion<'_>) -> StateTable {
 
 /// The row of a table, by column name.
 pub fn row(isa: Isa, request: Request, grid: &Grid, scene: &Scene, table: &StateTable) -> HashMap<String, f64> {
+    observation(isa, request, grid, scene, table).0
+}
+
+/// The same, and the observer, which has the series.
+pub fn observation(
+    isa: Isa,
+    request: Request,
+    grid: &Grid,
+    scene: &Scene,
+    table: &StateTable,
+) -> (HashMap<String, f64>, Observer) {
     let outcome = done(grid.points(), grid.duration());
     let nominal = table.has(StateField::Attitude).then(|| NominalAttitude::of(table, &outcome));
-    observed::observed(isa, request, grid, scene, (table, &outcome), nominal).0
+    observed::observed(isa, request, grid, scene, (table, &outcome), nominal)
 }
 
 /// The row of a scene without debris and actuation.

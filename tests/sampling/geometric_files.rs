@@ -1,7 +1,7 @@
 //! How distributions of directions, attitudes and inertias are written: what is refused, the way to a plan's text and back, and what is
 //! said of each.
 
-use crate::geometric::{RATE, campaign, plan};
+use crate::geometric::campaign;
 use crate::support::campaigns::WHEEL1;
 use spindrift::campaign::{Overrides, Plan};
 
@@ -73,26 +73,4 @@ fn what_cannot_be_drawn_is_refused() {
         assert!(message.contains(&format!("disperse[0].{key}")) && message.contains(says), "{disperse}\n{message}");
         assert!(message.contains("test.toml:"), "the line is said: {message}");
     }
-}
-
-/// Law: the text of a geometric distribution gives magnitude, axis and covariance.
-#[test]
-fn texts_say_magnitude_axis_and_covariance() {
-    let text = |disperse: &str| {
-        let plan = plan(disperse);
-        let short = |x: f64| format!("{x:.4}");
-        plan.dispersions.distribution_of(0).expect("a distribution").text(&short)
-    };
-    let said = text(&format!("{RATE}distribution = \"uniform_direction\"\n"));
-    assert!(said.contains("magnitude 3.0000"), "{said}");
-    let said = text(&format!("{RATE}distribution = \"cone\"\nhalf_angle_rad = 0.1\naxis = [0, 3, 4]\n"));
-    assert!(said.contains("0.1000 rad about [0.0000, 0.6000, 0.8000], magnitude 3.0000"), "{said}");
-    let error = "parameter = \"initial.attitude\"\ndistribution = \"attitude_error\"\n";
-    let said = text(&format!("{error}std_rad = [0.1, 0.2, 0.3]\n"));
-    assert!(said.contains("std (rad) [0.1000, 0.2000, 0.3000]") && !said.contains("covariance"), "{said}");
-    let said = text(&format!("{error}covariance_rad2 = [[0.01, 0.01, 0], [0.01, 0.04, 0], [0, 0, 0.09]]\n"));
-    assert!(
-        said.contains("std (rad) [0.1000, 0.2000, 0.3000], correlations xy 0.5000, xz 0.0000, yz 0.0000"),
-        "{said}"
-    );
 }

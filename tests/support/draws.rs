@@ -2,7 +2,7 @@
 
 use spindrift::campaign::Plan;
 use spindrift::sampling::SampleId;
-use spindrift::scene::SceneInput;
+use spindrift::scene::{Scene, SceneInput};
 
 /// What `see` makes of the scenes and the applied values of samples.
 pub fn seen<T>(
@@ -22,6 +22,11 @@ pub fn seen<T>(
 /// The applied values of samples, in the order of [`names`].
 pub fn applied(plan: &Plan, ids: impl IntoIterator<Item = u64>) -> Vec<Vec<f64>> {
     seen(plan, ids, |_, applied| applied.to_vec())
+}
+
+/// The scenes of samples, which are all physical.
+pub fn scenes(plan: &Plan, ids: impl IntoIterator<Item = u64>) -> Vec<Scene> {
+    seen(plan, ids, |input, _| Scene::resolve(input).expect("shipped campaigns draw physical scenes"))
 }
 
 /// What is dispersed, as in a campaign file.
