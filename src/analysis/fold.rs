@@ -230,7 +230,10 @@ impl CountRows for RunningFold {
         }
         let mut merging = self.merging.lock().unwrap_or_else(PoisonError::into_inner);
         merging.waiting.insert(rows.part().id.0, of_part);
-        while let Some(next) = { let next = merging.merged; merging.waiting.remove(&next) } {
+        while let Some(next) = {
+            let next = merging.merged;
+            merging.waiting.remove(&next)
+        } {
             self.fold.0.merge(&mut merging.whole, next);
             merging.merged += 1;
         }

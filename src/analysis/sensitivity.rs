@@ -155,7 +155,9 @@ impl Accumulator for FirstRows {
         let left = self.most - whole.samples.len();
         whole.samples.extend(part.samples.into_iter().take(left));
         let columns = whole.inputs.iter_mut().chain(&mut whole.observables);
-        columns.zip(part.inputs.into_iter().chain(part.observables)).for_each(|(mine, theirs)| mine.extend(theirs.into_iter().take(left)));
+        columns
+            .zip(part.inputs.into_iter().chain(part.observables))
+            .for_each(|(mine, theirs)| mine.extend(theirs.into_iter().take(left)));
         self.is_full.store(whole.samples.len() == self.most, Ordering::Relaxed);
     }
 }

@@ -147,8 +147,7 @@ impl Accumulator for RequirementCounter {
         }
         let columns = self.observed.iter().map(|one| one.column(part)).collect::<Result<Vec<_>, _>>()?;
         let (samples, statuses) = (part.samples()?, part.statuses()?);
-        let dispersed: Vec<usize> =
-            (0..samples.len()).filter(|row| self.population.contains(samples[*row])).collect();
+        let dispersed: Vec<usize> = (0..samples.len()).filter(|row| self.population.contains(samples[*row])).collect();
         let is_physical = |row: &&usize| statuses[**row] != Status::InvalidSample;
         for ((requirement, index), counts) in self.requirements.iter().zip(&self.of).zip(&mut found.list) {
             let mut kept = vec![Vec::new(); self.population.groups()];

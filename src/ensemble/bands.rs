@@ -240,12 +240,7 @@ impl Bands {
     }
 
     /// Adds what was counted in a column, of the series times points; nothing where no deviation was.
-    pub fn add_column(
-        &mut self,
-        index: usize,
-        extremes: Option<[f64; 2]>,
-        buckets: impl Iterator<Item = (Code, u64)>,
-    ) {
+    pub fn add_column(&mut self, index: usize, extremes: Option<[f64; 2]>, buckets: impl Iterator<Item = (Code, u64)>) {
         let (column, mut buckets) = (&mut self.columns[index], buckets.peekable());
         if buckets.peek().is_none() {
             return;

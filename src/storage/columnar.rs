@@ -14,7 +14,7 @@ use parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as Phy
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
 use parquet::errors::{ParquetError, Result};
 use parquet::file::metadata::KeyValue;
-use parquet::file::properties::WriterProperties;
+use parquet::file::properties::{EnabledStatistics, WriterProperties};
 use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
 use parquet::schema::types::{ColumnPath, Type, TypePtr};
 
@@ -140,6 +140,13 @@ impl Layout {
         // without the schema's own metadata, which would be stored twice
         let arrow_schema = arrow_metadata::of(&Schema::new(schema.fields().clone()));
         Ok(Layout { schema, root, properties, arrow_schema })
+    }
+
+    /// The same without the extremes of columns, which readers of the whole file need not know.
+    #[must_use]
+    pub fn without_statistics(self) -> Self {
+        let properties = self.properties.into_builder().set_statistics_enabled(EnabledStatistics::None).build();
+        Layout { properties, ..self }
     }
 
     /// The columns, and the metadata that every file has.

@@ -8,7 +8,8 @@ use std::path::Path;
 use arrow_array::cast::AsArray;
 use arrow_array::types::Int64Type;
 use parquet::file::reader::{FileReader, SerializedFileReader};
-use spindrift::analysis::trajectories::{file_name, retained, save};
+use spindrift::analysis::fold::of_files;
+use spindrift::analysis::trajectories::{Retained, file_name, save};
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::ensemble::Ensemble;
 use spindrift::math::Isa;
@@ -18,7 +19,7 @@ use spindrift::storage::disk::Disk;
 use spindrift::storage::folder::Folder;
 use spindrift::storage::names::MANIFEST;
 use spindrift::storage::rows_file::identity;
-use spindrift::storage::rows_reader::RowsReader;
+use spindrift::storage::rows_reader::{RowsError, RowsReader};
 
 use super::small_campaign::{NEGATIVE_WALLS, campaign, folder, table};
 use crate::support::scratch_folder::{ScratchFolder, batches, column, ended, floats};
@@ -50,6 +51,12 @@ fn all(reader: &RowsReader) -> Vec<(u64, Status, f64)> {
 }
 
 /// Law: each rule chooses the runs that it says, whatever the threads: none, all that were run, the failed, the worst by magnitude, as
+/// The samples whose runs are retained.
+fn retained(plan: &Plan, rows: &RowsReader, threads: Option<NonZeroUsize>) -> Result<Vec<SampleId>, RowsError> {
+    let retained = Retained::new(plan);
+    Ok(retained.chosen(of_files(&retained, rows, threads)?))
+}
+
 /// many as asked for, without the nominal one.
 #[test]
 fn rules_choose_what_they_say() {
@@ -195,7 +202,8 @@ fn a_campaign_ends_with_bands() {
     scratch.file("small.toml", &(campaign() + "[bands]\npoints = 0\n"));
     scratch.prints("campaign small.toml --out none", 0);
     assert!(
-        !scratch.path("none/bands.parquet").exists() && !scratch.path("none/bands").join("part-000000.parquet").exists()
+        !scratch.path("none/bands.parquet").exists()
+            && !scratch.path("none/bands").join("part-000000.parquet").exists()
     );
 }
 

@@ -1,10 +1,10 @@
 //! [`Card`]: what the first screen says about one requirement, or, without requirements, about one outcome.
 
+use crate::analysis::survey::{Survey, SurveyedOutcome};
 use crate::report::page::influence::Influence;
 use crate::report::page::payload::escaped;
 use crate::report::page::readable::{number, with_unit};
 use crate::report::page::shown_columns::words;
-use crate::analysis::survey::{Survey, SurveyedOutcome};
 use crate::report::page::tables::StatisticsRow;
 
 /// How a requirement was judged.

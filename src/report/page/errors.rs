@@ -1,8 +1,8 @@
 //! Figures of the numerical errors: histograms, exceedance, estimate against audited error, work.
 
+use crate::analysis::survey::{CONFIDENCE, Survey, SurveyedOutcome};
 use crate::report::page::figure::{Axis, Figure, Hue, Mark, Section};
 use crate::report::page::shown_columns::{ranked, words};
-use crate::analysis::survey::{CONFIDENCE, Survey, SurveyedOutcome};
 use crate::run::Status;
 use crate::statistics::binomial::interval;
 use crate::statistics::sketch::Sketch;

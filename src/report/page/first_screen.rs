@@ -1,11 +1,11 @@
 //! The first screen: header, run status, verdicts. Static HTML, readable before any script and without.
 
+use crate::analysis::survey::Survey;
 use crate::campaign::Plan;
 use crate::report::page::cards::Card;
 use crate::report::page::errors::sentence;
 use crate::report::page::payload::escaped;
 use crate::report::page::readable::{grouped, number};
-use crate::analysis::survey::Survey;
 use crate::run::Status;
 
 /// A requirement as an example, where the file has none.

@@ -1,10 +1,10 @@
 //! Figures of what drives the outcome: sensitivities with intervals, scatter plots of the strongest inputs.
 
+use crate::analysis::survey::{SCATTER, Survey, SurveyedOutcome, chosen};
 use crate::campaign::Plan;
 use crate::report::page::errors::{sentence, shown_rows};
 use crate::report::page::figure::{Axis, Figure, Hue, Mark, Section};
 use crate::report::page::shown_columns::words;
-use crate::analysis::survey::{SCATTER, Survey, SurveyedOutcome, chosen};
 use crate::run::Quantity;
 use crate::run::Status;
 

@@ -2,11 +2,11 @@
 
 use core::f64::consts::PI;
 
+use crate::analysis::survey::Survey;
 use crate::campaign::Plan;
 use crate::report::marginal;
 use crate::report::page::errors::{bins, counts};
 use crate::report::page::figure::{Axis, Figure, Hue, Mark, Section};
-use crate::analysis::survey::Survey;
 use crate::sampling::correlation::{Measure, Numbers};
 use crate::statistics::correlation::{matrix, mid_ranks, standardised};
 

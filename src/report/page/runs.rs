@@ -1,11 +1,11 @@
 //! [`ShownRun`]: the runs that the page shows in full: the nominal one, those that failed first, those with the largest errors.
 
+use crate::analysis::survey::Survey;
 use crate::campaign::Plan;
 use crate::ensemble::{DrawnScenes, SingleRun};
 use crate::math::Isa;
 use crate::observables::Group;
 use crate::report::page::shown_columns::words;
-use crate::analysis::survey::Survey;
 use crate::run::{Grid, Status};
 use crate::sampling::SampleId;
 

@@ -1,10 +1,10 @@
 //! The tables of the page: worst runs, statistics, files, glossary. Static HTML; a script sorts and searches them.
 
+use crate::analysis::survey::Survey;
 use crate::campaign::Plan;
 use crate::report::page::payload::escaped;
 use crate::report::page::readable::{grouped, number, with_unit};
 use crate::report::page::runs::ShownRun;
-use crate::analysis::survey::Survey;
 use crate::run::Status;
 
 /// Inputs of a run that are listed; those farthest from nominal first.
