@@ -110,24 +110,23 @@ impl BandsFile {
     /// # Errors
     /// Where encoding fails.
     pub fn write(&self, part: Part, bands: &PartBands, out: &mut Vec<u8>) -> Result<(), EncodingError> {
-        let places = 0..bands.layout().columns();
-        let lengths: Vec<usize> = places.clone().map(|place| bands.column(place).1.count()).collect();
-        let mut columns = [(); 2].map(|()| Vec::with_capacity(lengths.iter().sum()));
-        let mut ends = [const { Vec::new() }; 2];
-        for place in places {
-            let (extremes, buckets) = bands.column(place);
+        let (mut buckets, mut counts) = (Vec::new(), Vec::new());
+        let (mut lengths, mut ends) = (Vec::new(), [const { Vec::new() }; 2]);
+        for place in 0..bands.layout().columns() {
+            let (extremes, of_place) = bands.column(place);
             ends.iter_mut().zip(extremes.unwrap_or([f64::NAN; 2])).for_each(|(ends, end)| ends.push(end));
-            for (bucket, count) in buckets {
-                columns[0].push(u64::from(bucket));
-                columns[1].push(count);
-            }
+            let before = counts.len();
+            of_place.for_each(|(bucket, count)| {
+                buckets.push(u64::from(bucket));
+                counts.push(count);
+            });
+            lengths.push((counts.len() - before).to_string());
         }
-        let lengths: Vec<String> = lengths.iter().map(usize::to_string).collect();
         let mut own = vec![(RUNS_KEY, bands.runs().to_string())];
         own.push((ROWS_KEY, lengths.join(" ")));
         own.extend(EXTREMES_KEYS.into_iter().zip(ends.map(|ends| text(&ends))));
         own.extend(part_metadata(part, part.first));
-        self.0.write(out, &own, columns.into_iter().map(|column| Cells::Count(column, None)))
+        self.0.write(out, &own, [buckets, counts].map(|column| Cells::Count(column, None)).into_iter())
     }
 }
 

@@ -179,7 +179,7 @@ impl Layout {
     /// Where writing fails.
     pub fn begin<W: Write + Send>(&self, out: W, own: &[(&str, String)]) -> Result<GroupWriter<'_, W>> {
         let writer = SerializedFileWriter::new(out, self.root.clone(), Arc::new(self.properties(own)))?;
-        Ok(GroupWriter { layout: self, writer, scratch: Scratch::default() })
+        Ok(GroupWriter { layout: self, writer, scratch: ColumnBuffers::default() })
     }
 
     /// The properties of a file with the metadata `own`.
@@ -197,7 +197,7 @@ impl Layout {
 pub struct GroupWriter<'l, W: Write + Send> {
     layout: &'l Layout,
     writer: SerializedFileWriter<W>,
-    scratch: Scratch,
+    scratch: ColumnBuffers,
 }
 
 impl<W: Write + Send> GroupWriter<'_, W> {
@@ -254,13 +254,13 @@ fn properties(schema: &Schema, packing: Packing) -> WriterProperties {
 
 /// Buffers for what Parquet takes separately: which values are present, and those values without gaps.
 #[derive(Default)]
-struct Scratch {
+struct ColumnBuffers {
     levels: Vec<i16>,
     reals: Vec<f64>,
     counts: Vec<i64>,
 }
 
-impl Scratch {
+impl ColumnBuffers {
     fn write(&mut self, column: &mut SerializedColumnWriter<'_>, cells: Cells<'_>, nullable: bool) -> Result<()> {
         match cells {
             Cells::Real(values, mask) => {

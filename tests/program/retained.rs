@@ -8,7 +8,7 @@ use std::path::Path;
 use arrow_array::cast::AsArray;
 use arrow_array::types::Int64Type;
 use parquet::file::reader::{FileReader, SerializedFileReader};
-use spindrift::analysis::fold::of_files;
+use spindrift::analysis::accumulator::of_files;
 use spindrift::analysis::trajectories::{Retained, file_name, save};
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::ensemble::Ensemble;
