@@ -6,11 +6,10 @@
 use std::borrow::Cow;
 use std::sync::{Mutex, PoisonError};
 
-use crate::analysis::fold::Accumulator;
+use crate::analysis::accumulator::Accumulator;
 use crate::analysis::observed::Observed;
 use crate::analysis::part_columns::PartColumns;
 use crate::analysis::population::Population;
-use crate::analysis::statistics::is_exact;
 use crate::campaign::Plan;
 use crate::run::Status;
 use crate::statistics::moments::Moments;
@@ -100,6 +99,14 @@ pub fn references<P: PartColumns>(
         if values[last] - values[0] < CLOSE * median.abs() { median } else { 0.0 }
     };
     Ok(first.into_iter().map(reference).collect())
+}
+
+/// Most rows whose quantiles are exact.
+pub const MOST_EXACT: u64 = 100_000;
+
+/// Whether the quantiles of `plan` are those of the values themselves.
+pub fn is_exact(plan: &Plan) -> bool {
+    plan.dispersed_rows() <= MOST_EXACT
 }
 
 /// Values that are held at a time: 64 MB.

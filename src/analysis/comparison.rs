@@ -2,7 +2,7 @@
 //!
 //! Where both results drew the same samples, about whichever nominal values, they are compared sample by sample (common random numbers): a
 //! difference that is small beside the spread of the runs is then seen. Statistics are of all rows, tests of distributions and of pairs of
-//! the first [`statistics::MOST_EXACT`] samples.
+//! the first [`MOST_EXACT`](crate::analysis::column_counts::MOST_EXACT) samples.
 //!
 //! An observable has two tests, of its mean and of its distribution, and there are many observables: the p-value of an observable is twice the smaller
 //! of both (Bonferroni), and these are adjusted by Holm's method. Where nothing differs, the probability that any observable is called

@@ -1,19 +1,17 @@
-//! [`Accumulator`]: what is gathered from rows in one pass over their parts. [`RowsFold`]: everything that a campaign's end needs, by one fold over
-//! all parts: from the rows in memory while the campaign runs ([`RunningFold`]), or from their files ([`Gathered::of_files`]).
-//!
-//! A part is counted on any thread, and merged in the order of the parts: no bit depends on threads, nor on where the rows were read from.
+//! [`Gathered`]: everything that the end of a campaign needs of its rows, by one fold over the parts: of rows in memory while the campaign runs
+//! ([`RunningFold`]), or of their files ([`Gathered::of_files`]). Both give the same bits.
 
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 
-use crate::analysis::column_counts::{Collected, Collector, REFERENCE_ROWS, batches, references};
+use crate::analysis::accumulator::{Accumulator, of_files};
+use crate::analysis::column_counts::{Collected, Collector, REFERENCE_ROWS, batches, is_exact, references};
 use crate::analysis::observed::Observed;
-use crate::analysis::part_columns::{PartColumns, RowNames};
+use crate::analysis::part_columns::RowNames;
 use crate::analysis::population::Population;
 use crate::analysis::sensitivity::{FirstRows, RowTable};
-use crate::analysis::statistics::is_exact;
 use crate::analysis::stopping::ObservedValues;
 use crate::analysis::survey::{Survey, Surveyor};
 use crate::analysis::tally::{Tally, TallyColumns};
@@ -25,66 +23,6 @@ use crate::sampling::SampleId;
 use crate::storage::bands_file;
 use crate::storage::part_sink::CountRows;
 use crate::storage::rows_reader::{RowsError, RowsReader};
-
-/// Gathers something from the parts of a campaign.
-pub trait Accumulator: Sync {
-    /// What all parts have.
-    type Whole: Send;
-    /// What one part adds.
-    type OfPart: Send;
-
-    /// What no part has.
-    fn nothing(&self) -> Self::Whole;
-
-    /// What a part adds, on any thread; each part is counted once.
-    ///
-    /// # Errors
-    /// Where a column cannot be read.
-    fn count(&self, part: &impl PartColumns) -> Result<Self::OfPart, RowsError>;
-
-    /// Adds the next part, in the order of the parts.
-    fn merge(&self, whole: &mut Self::Whole, part: Self::OfPart);
-}
-
-/// Two things in one pass.
-impl<A: Accumulator, B: Accumulator> Accumulator for (A, B) {
-    type Whole = (A::Whole, B::Whole);
-    type OfPart = (A::OfPart, B::OfPart);
-
-    fn nothing(&self) -> Self::Whole {
-        (self.0.nothing(), self.1.nothing())
-    }
-
-    fn count(&self, part: &impl PartColumns) -> Result<Self::OfPart, RowsError> {
-        Ok((self.0.count(part)?, self.1.count(part)?))
-    }
-
-    fn merge(&self, whole: &mut Self::Whole, part: Self::OfPart) {
-        self.0.merge(&mut whole.0, part.0);
-        self.1.merge(&mut whole.1, part.1);
-    }
-}
-
-/// What `accumulator` gathers from the files of `reader`, on `threads` threads (`None`: one per core).
-///
-/// # Errors
-/// Where a file cannot be read.
-pub fn of_files<A: Accumulator>(
-    accumulator: &A,
-    reader: &RowsReader,
-    threads: Option<NonZeroUsize>,
-) -> Result<A::Whole, RowsError> {
-    let mut whole = accumulator.nothing();
-    reader.visit(
-        threads,
-        |part| accumulator.count(part),
-        |part| {
-            accumulator.merge(&mut whole, part);
-            Ok::<(), RowsError>(())
-        },
-    )?;
-    Ok(whole)
-}
 
 /// Everything that is gathered: statuses and audits, columns, requirements, the observable of `[stop]`, the first rows, retained runs, the page.
 type Everything =

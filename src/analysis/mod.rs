@@ -1,6 +1,7 @@
 //! Layer 7: what the rows say.
 //!
-//! - [`fold`]: one pass over the parts, of rows in memory or in files ([`part_columns`]), in which everything that follows gathers what it needs.
+//! - [`fold`]: one pass over the parts, of rows in memory or in files ([`part_columns`]), in which everything that follows gathers what it needs, each
+//!   by an [`accumulator`].
 //! - [`statistics`]: of every observable ([`observed`], [`population`], [`column_counts`]); [`tally`], [`audit_tally`]: statuses, worst runs, audits.
 //! - [`verdicts`]: of the requirements, each an [`assessment`] (over time: `band_verdicts`); [`mod@stopping`]: whether the rows are enough.
 //! - [`sensitivity`]: which input matters; [`drivers`]: which of them the rows show. - [`statistics_table`], [`sensitivity_table`]: both as files.
@@ -9,6 +10,7 @@
 //!
 //! Not here: files and their protocol (`storage`), formulas of statistics (`statistics`), text and figures (`report`).
 
+pub mod accumulator;
 pub mod assessment;
 pub mod audit_tally;
 mod band_verdicts;

@@ -1,6 +1,6 @@
 //! [`ResultRows`]: the rows of a result. [`pairs`]: those of two results that are of one sample, drawn alike in both.
 
-use crate::analysis::statistics::MOST_EXACT;
+use crate::analysis::column_counts::MOST_EXACT;
 use crate::campaign::Plan;
 use crate::campaign::common_draws::draw_alike;
 use crate::run::Status;

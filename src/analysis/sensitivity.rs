@@ -7,7 +7,7 @@ use std::borrow::Cow;
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use crate::analysis::fold::Accumulator;
+use crate::analysis::accumulator::Accumulator;
 use crate::analysis::observed::Observed;
 use crate::analysis::part_columns::PartColumns;
 use crate::analysis::population::{LISTED, Population};

@@ -11,10 +11,10 @@ use crate::storage::described_table::{self, DescribedColumn};
 type Measure = (&'static str, &'static str, fn(&InputSensitivity) -> Option<Estimate>);
 
 /// A number of an estimate: suffix of its column, what it is, value.
-type Part = (&'static str, &'static str, fn(Estimate) -> f64);
+type EstimatePart = (&'static str, &'static str, fn(Estimate) -> f64);
 
 /// The estimate itself, and the ends of its interval.
-const PARTS: [Part; 3] = [
+const PARTS: [EstimatePart; 3] = [
     ("", "", |estimate| estimate.value),
     ("_lower", ": lower end of its interval", |estimate| estimate.lower),
     ("_upper", ": upper end of its interval", |estimate| estimate.upper),

@@ -1,7 +1,7 @@
 //! [`Statistics`]: what the runs of a campaign say of every observable, from the files of its rows.
 //!
 //! A pure function of plan and files: it can be made again without running anything. Counts and extremes are exact. Moments are merged in
-//! the order of the parts, and the contents of sketches are counts, so that no bit depends on threads. Up to [`MOST_EXACT`] rows quantiles
+//! the order of the parts, and the contents of sketches are counts, so that no bit depends on threads. Up to [`MOST_EXACT`](crate::analysis::column_counts::MOST_EXACT) rows quantiles
 //! are those of the values themselves; beyond, those of sketches, with their bound. A few columns are read at a time: memory
 //! does not depend on the number of rows.
 //!
@@ -9,8 +9,10 @@
 
 use std::num::NonZeroUsize;
 
-use crate::analysis::column_counts::{Collected, Collector, ColumnCounts, REFERENCE_ROWS, batches, references};
-use crate::analysis::fold::of_files;
+use crate::analysis::accumulator::of_files;
+use crate::analysis::column_counts::{
+    Collected, Collector, ColumnCounts, REFERENCE_ROWS, batches, is_exact, references,
+};
 use crate::analysis::observed::Observed;
 use crate::analysis::population::Population;
 use crate::campaign::{Plan, Statement};
@@ -24,9 +26,6 @@ use crate::statistics::replicates::{self, Step};
 use crate::statistics::sketch::{RELATIVE_ERROR, Ranks, Sketch};
 use crate::storage::parallel::in_parallel;
 use crate::storage::rows_reader::{RowsError, RowsReader};
-
-/// Most rows whose quantiles are exact.
-pub const MOST_EXACT: u64 = 100_000;
 
 /// A quantile of the runs.
 #[derive(Clone, Debug, PartialEq)]
@@ -156,11 +155,6 @@ pub fn compute(
     }
     let quantile_error = if is_exact { 0.0 } else { RELATIVE_ERROR };
     Ok(Statistics { population, confidence: plan.analysis.confidence, statuses, quantile_error, columns })
-}
-
-/// Whether the quantiles of `plan` are those of the values themselves.
-pub fn is_exact(plan: &Plan) -> bool {
-    plan.dispersed_rows() <= MOST_EXACT
 }
 
 /// The order statistics of a group of values.
@@ -349,7 +343,7 @@ fn of_quantile(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::fold::Accumulator;
+    use crate::analysis::accumulator::Accumulator;
     use crate::analysis::part_columns::PartColumns;
     use crate::analysis::small_plan::small_plan;
     use crate::run::Status;

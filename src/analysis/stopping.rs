@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use crate::analysis::fold::{Accumulator, of_files};
+use crate::analysis::accumulator::{Accumulator, of_files};
 use crate::analysis::observed::Observed;
 use crate::analysis::part_columns::PartColumns;
 use crate::analysis::verdicts::{RequirementCounter, Verdicts, assess};
@@ -24,12 +24,12 @@ pub struct Stopping {
     /// How many looks there may be.
     pub looks: usize,
     /// What it found.
-    pub found: Found,
+    pub found: LookFound,
 }
 
 /// What a look found.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Found {
+pub enum LookFound {
     /// Of a quantile.
     Precision(Look),
     /// Of requirements: how many are undecided.
@@ -40,8 +40,8 @@ impl Stopping {
     /// Whether the campaign has what it stops for.
     pub fn is_reached(&self) -> bool {
         match &self.found {
-            Found::Precision(look) => look.stops,
-            Found::Undecided(count) => *count == 0,
+            LookFound::Precision(look) => look.stops,
+            LookFound::Undecided(count) => *count == 0,
         }
     }
 
@@ -126,8 +126,8 @@ pub fn look(
 pub fn stopping(plan: &Plan, samples: u64, values: &[f64], verdicts: &Verdicts) -> Option<Stopping> {
     let (stop, looks) = (plan.analysis.stop.as_ref()?, plan.looks());
     let found = match &stop.when {
-        When::Precise { goal, .. } => Found::Precision(decision(values, *goal, looks.len())),
-        When::Decided => Found::Undecided(verdicts.undecided()),
+        When::Precise { goal, .. } => LookFound::Precision(decision(values, *goal, looks.len())),
+        When::Decided => LookFound::Undecided(verdicts.undecided()),
     };
     let look = looks.iter().position(|target| *target >= samples).map_or(looks.len(), |index| index + 1);
     Some(Stopping { samples, look, looks: looks.len(), found })
@@ -141,9 +141,14 @@ mod tests {
     #[test]
     fn the_last_look_ends_the_campaign() {
         let precision = |stops: bool| {
-            Found::Precision(Look { stops, estimate: Some(1.0), interval: [Some(0.9), Some(1.1)], confidence: 0.95 })
+            LookFound::Precision(Look {
+                stops,
+                estimate: Some(1.0),
+                interval: [Some(0.9), Some(1.1)],
+                confidence: 0.95,
+            })
         };
-        for found in [precision, |decided: bool| Found::Undecided(usize::from(!decided))] {
+        for found in [precision, |decided: bool| LookFound::Undecided(usize::from(!decided))] {
             let ends = |look: usize, stops: bool| Stopping { samples: 100, look, looks: 3, found: found(stops) }.ends();
             assert_eq!([1, 2, 3].map(|look| ends(look, false)), [false, false, true]);
             assert_eq!([1, 2, 3].map(|look| ends(look, true)), [true, true, true]);

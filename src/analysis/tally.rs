@@ -6,8 +6,8 @@
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
+use crate::analysis::accumulator::Accumulator;
 use crate::analysis::audit_tally::AuditTally;
-use crate::analysis::fold::Accumulator;
 use crate::analysis::part_columns::PartColumns;
 use crate::ensemble::audit::{AuditValue, Selection};
 use crate::ensemble::{Audit, Ensemble, FailureReasons};

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use crate::storage::columnar::EncodingError;
 use thiserror::Error;
 
-use crate::analysis::fold::Accumulator;
+use crate::analysis::accumulator::Accumulator;
 use crate::analysis::observed::Observed;
 use crate::analysis::part_columns::PartColumns;
 use crate::campaign::{Plan, Retention};

@@ -7,9 +7,9 @@
 //!
 //! Not here: requirements at each time (`band_verdicts`). Those at all times are about a column of the rows.
 
+use crate::analysis::accumulator::Accumulator;
 use crate::analysis::assessment::Assessment;
 use crate::analysis::band_verdicts::over_time;
-use crate::analysis::fold::Accumulator;
 use crate::analysis::observed::Observed;
 use crate::analysis::part_columns::PartColumns;
 use crate::analysis::population::Population;
@@ -66,7 +66,7 @@ impl Verdicts {
 
 /// What is counted of one requirement in a group of samples.
 #[derive(Clone, Debug, Default)]
-struct Counted {
+struct GroupRuns {
     runs: u64,
     within: u64,
     moments: Moments,
@@ -74,18 +74,18 @@ struct Counted {
 
 /// What is counted of one requirement.
 #[derive(Clone, Debug)]
-struct Counts {
-    groups: Vec<Counted>,
+struct RequirementRuns {
+    groups: Vec<GroupRuns>,
     /// Runs that are not `ok`.
     failed: u64,
 }
 
-impl Counts {
+impl RequirementRuns {
     fn new(groups: usize) -> Self {
-        Counts { groups: vec![Counted::default(); groups], failed: 0 }
+        RequirementRuns { groups: vec![GroupRuns::default(); groups], failed: 0 }
     }
 
-    fn merge(&mut self, other: &Counts) {
+    fn merge(&mut self, other: &RequirementRuns) {
         for (mine, theirs) in self.groups.iter_mut().zip(&other.groups) {
             mine.runs += theirs.runs;
             mine.within += theirs.within;
@@ -95,7 +95,7 @@ impl Counts {
     }
 
     /// The sum of a count over the groups.
-    fn sum(&self, count: impl Fn(&Counted) -> u64) -> u64 {
+    fn sum(&self, count: impl Fn(&GroupRuns) -> u64) -> u64 {
         self.groups.iter().map(count).sum()
     }
 }
@@ -103,14 +103,14 @@ impl Counts {
 /// What is counted of all requirements of a campaign.
 #[derive(Clone, Debug)]
 pub struct RequirementCounts {
-    list: Vec<Counts>,
+    list: Vec<RequirementRuns>,
     /// Dispersed samples that are not physical.
     invalid: u64,
     /// All dispersed samples.
     samples: u64,
 }
 
-/// Counts the requirements of a campaign.
+/// RequirementRuns the requirements of a campaign.
 #[derive(Clone, Debug)]
 pub struct RequirementCounter {
     requirements: Vec<Requirement>,
@@ -136,7 +136,7 @@ impl Accumulator for RequirementCounter {
     type OfPart = RequirementCounts;
 
     fn nothing(&self) -> RequirementCounts {
-        let list = vec![Counts::new(self.population.groups()); self.requirements.len()];
+        let list = vec![RequirementRuns::new(self.population.groups()); self.requirements.len()];
         RequirementCounts { list, invalid: 0, samples: 0 }
     }
 
@@ -187,7 +187,7 @@ pub fn assess(plan: &Plan, counted: &RequirementCounts, bands: Option<&Bands>) -
     }
     let RequirementCounter { observed, of, population, .. } = RequirementCounter::new(plan);
     let looks = plan.looks().len();
-    let assessed = |(requirement, index, counts): (&Requirement, &Option<usize>, &Counts), open: usize| {
+    let assessed = |(requirement, index, counts): (&Requirement, &Option<usize>, &RequirementRuns), open: usize| {
         let confidences = [looks, looks * open].map(|tests| adjusted(requirement.confidence, tests));
         match (index, requirement.band()) {
             (None, Some(band)) => {
@@ -216,7 +216,7 @@ pub fn assess(plan: &Plan, counted: &RequirementCounts, bands: Option<&Bands>) -
 fn assessment(
     (requirement, confidences): (&Requirement, [f64; 2]),
     unit: String,
-    counts: &Counts,
+    counts: &RequirementRuns,
     population: Population,
     is_constant: bool,
 ) -> Assessment {
@@ -273,7 +273,7 @@ fn assessment(
 }
 
 /// The gate on the fraction of runs within the limit.
-fn of_fraction(counts: &Counts, target: f64, confidence: f64, population: Population) -> Gate {
+fn of_fraction(counts: &RequirementRuns, target: f64, confidence: f64, population: Population) -> Gate {
     let (runs, within) = (counts.sum(|group| group.runs), counts.sum(|group| group.within));
     if let Population::Replicated(_) = population {
         let groups = counts.groups.iter().filter(|group| group.runs > 0);
@@ -284,7 +284,13 @@ fn of_fraction(counts: &Counts, target: f64, confidence: f64, population: Popula
 }
 
 /// The gate on the mean.
-fn of_mean(counts: &Counts, whole: &Moments, limit: GateLimit, confidence: f64, population: Population) -> Gate {
+fn of_mean(
+    counts: &RequirementRuns,
+    whole: &Moments,
+    limit: GateLimit,
+    confidence: f64,
+    population: Population,
+) -> Gate {
     match population {
         Population::Replicated(_) => {
             let means: Vec<f64> = counts.groups.iter().filter_map(|group| group.moments.mean()).collect();
@@ -303,12 +309,12 @@ mod tests {
         Requirement { subject: Subject::Observable("x".to_owned()), statement, limit, confidence: 0.95 }
     }
 
-    /// Counts of groups: runs, runs within the limit, values.
-    fn counts(groups: &[(u64, u64, &[f64])]) -> Counts {
-        let mut counts = Counts::new(0);
+    /// RequirementRuns of groups: runs, runs within the limit, values.
+    fn counts(groups: &[(u64, u64, &[f64])]) -> RequirementRuns {
+        let mut counts = RequirementRuns::new(0);
         for (runs, within, values) in groups {
             let moments = Moments::of_block(values);
-            counts.groups.push(Counted { runs: *runs, within: *within, moments });
+            counts.groups.push(GroupRuns { runs: *runs, within: *within, moments });
         }
         counts
     }

@@ -18,7 +18,7 @@ use crate::report::number::{bytes, short};
 use crate::sampling::SampleId;
 use crate::storage::claim::Shard;
 use crate::storage::disk::Disk;
-use crate::storage::found::{Contents, contents};
+use crate::storage::found::{FolderContents, contents};
 use crate::storage::rows_file::headings;
 
 /// CPU time beyond which a command asks for `--yes`, s.
@@ -76,7 +76,7 @@ impl Workload {
     ) -> Self {
         let plan = ensemble.plan();
         let there = match root.map(|root| contents(&Disk, root)) {
-            Some(Ok(Contents::Dataset(found))) => found.rows().min(samples),
+            Some(Ok(FolderContents::Dataset(found))) => found.rows().min(samples),
             _ => 0,
         };
         let share = shard.map_or(1.0, |shard| 1.0 / shard.of as f64);

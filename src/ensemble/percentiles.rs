@@ -13,11 +13,11 @@ pub struct Percentiles {
     count: u64,
     invalid: u64,
     nominal: Vec<f64>,
-    columns: Columns,
+    columns: HeldColumns,
 }
 
 #[derive(Clone, Debug)]
-enum Columns {
+enum HeldColumns {
     /// All values.
     Values(Vec<Vec<f64>>),
     /// Sketches about the nominal values.
@@ -31,9 +31,9 @@ impl Percentiles {
         let magnitudes = magnitudes(plan).into_iter().map(|magnitude| magnitude.value(&plan.nominal, &plan.nominal));
         let nominal: Vec<f64> = columns.chain(magnitudes).collect();
         let columns = if plan.samples <= CHUNK {
-            Columns::Values(vec![Vec::new(); nominal.len()])
+            HeldColumns::Values(vec![Vec::new(); nominal.len()])
         } else {
-            Columns::Sketches(nominal.iter().map(|nominal| Sketch::about(*nominal)).collect())
+            HeldColumns::Sketches(nominal.iter().map(|nominal| Sketch::about(*nominal)).collect())
         };
         Percentiles { count: 0, invalid: 0, nominal, columns }
     }
@@ -44,11 +44,11 @@ impl Percentiles {
         let from = usize::from(drawn.first == SampleId(0));
         self.count += drawn.count().saturating_sub(from) as u64;
         match &mut self.columns {
-            Columns::Values(columns) => {
+            HeldColumns::Values(columns) => {
                 let new = drawn.columns.iter().chain(&drawn.magnitudes);
                 columns.iter_mut().zip(new).for_each(|(held, new)| held.extend(&new[from..]));
             }
-            Columns::Sketches(columns) => {
+            HeldColumns::Sketches(columns) => {
                 let new = drawn.columns.iter().chain(&drawn.magnitudes);
                 columns.iter_mut().zip(new).for_each(|(sketch, new)| sketch.add_all(&new[from..]));
             }
@@ -73,7 +73,7 @@ impl Percentiles {
     /// Whether quantiles are those of the values themselves; else they are within 0.05% of their distance from the nominal value
     /// ([`crate::statistics::sketch::RELATIVE_ERROR`]).
     pub fn is_exact(&self) -> bool {
-        matches!(self.columns, Columns::Values(_))
+        matches!(self.columns, HeldColumns::Values(_))
     }
 
     /// Quantiles of each column and magnitude at the fractions `p`, of type 7 of R. J. Hyndman & Y. Fan (*Am. Stat.* 50 (1996) 361): linear
@@ -87,7 +87,7 @@ impl Percentiles {
             Some(found)
         };
         match &self.columns {
-            Columns::Values(columns) => {
+            HeldColumns::Values(columns) => {
                 let sorted = columns.iter().map(|column| {
                     let mut values = column.clone();
                     values.sort_by(f64::total_cmp);
@@ -95,7 +95,7 @@ impl Percentiles {
                 });
                 sorted.map(|values| all(&|p| quantile(&values, p))).collect()
             }
-            Columns::Sketches(columns) => columns.iter().map(|sketch| all(&|p| sketch.quantile(p))).collect(),
+            HeldColumns::Sketches(columns) => columns.iter().map(|sketch| all(&|p| sketch.quantile(p))).collect(),
         }
     }
 }
@@ -104,15 +104,17 @@ impl Percentiles {
 mod tests {
     use super::*;
 
-    fn percentiles(columns: Columns) -> Percentiles {
+    fn percentiles(columns: HeldColumns) -> Percentiles {
         Percentiles { count: 0, invalid: 0, nominal: vec![10.0], columns }
     }
 
     /// Law: sketches give the quantiles of the values, to 0.05% of the distance from the nominal value; sample 0 does not count.
     #[test]
     fn sketches_agree_with_values() {
-        let mut both =
-            [percentiles(Columns::Values(vec![Vec::new()])), percentiles(Columns::Sketches(vec![Sketch::about(10.0)]))];
+        let mut both = [
+            percentiles(HeldColumns::Values(vec![Vec::new()])),
+            percentiles(HeldColumns::Sketches(vec![Sketch::about(10.0)])),
+        ];
         for first in [0, 1000, 2000] {
             let values: Vec<f64> = (first..first + 1000).map(|k| 10.0 + 1e-3 * (f64::from(k) - 1500.0)).collect();
             let drawn = DrawnScenes {
@@ -134,7 +136,7 @@ mod tests {
 
     #[test]
     fn few_samples_have_the_quantiles_of_type_7() {
-        let one = percentiles(Columns::Values(vec![vec![1.0, 8.0, 27.0, 64.0]]));
+        let one = percentiles(HeldColumns::Values(vec![vec![1.0, 8.0, 27.0, 64.0]]));
         let [low, middle, high] = one.quantiles([0.0, 0.5, 0.99])[0].expect("four samples");
         assert_eq!((low, middle), (1.0, 17.5));
         // an ulp of 63; measured: 7.1e-15

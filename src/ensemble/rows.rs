@@ -138,15 +138,6 @@ impl Rows {
         self.scatter(self.shape.parameters, row, observables);
     }
 
-    /// Sets the statuses and some observables of all rows, as they were read from a file.
-    pub fn restore(&mut self, statuses: &[Status], observables: impl IntoIterator<Item = (usize, Vec<f64>)>) {
-        self.statuses[..self.part.count].copy_from_slice(statuses);
-        for (index, values) in observables {
-            let start = (self.shape.parameters + index) * self.stride;
-            self.values[start..start + self.part.count].copy_from_slice(&values);
-        }
-    }
-
     /// Sets the audit of row `row`: `None` where the run or its reference solution did not reach the end.
     pub fn set_audit(&mut self, row: usize, audit: Option<Audit>) {
         assert!(row < self.part.count);

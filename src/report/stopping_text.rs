@@ -1,6 +1,6 @@
 //! What a look at a campaign with `[stop]` found, in words.
 
-use crate::analysis::stopping::{Found, Stopping};
+use crate::analysis::stopping::{LookFound, Stopping};
 use crate::campaign::Plan;
 use crate::campaign::stop::When;
 use crate::report::number::short;
@@ -9,7 +9,7 @@ use crate::report::number::short;
 pub fn text(plan: &Plan, stopping: &Stopping) -> String {
     let Some(stop) = &plan.analysis.stop else { return String::new() };
     let (what, goal) = match (&stopping.found, &stop.when) {
-        (Found::Precision(look), When::Precise { observable, goal }) => {
+        (LookFound::Precision(look), When::Precise { observable, goal }) => {
             let [lower, upper] = look.interval.map(|end| end.map_or("not bounded".to_owned(), short));
             let found = format!(
                 "p{} of {observable} = {} in [{lower}, {upper}] at {:.4} confidence, wanted half width {}",
@@ -20,10 +20,10 @@ pub fn text(plan: &Plan, stopping: &Stopping) -> String {
             );
             (found, "precise enough")
         }
-        (Found::Undecided(undecided), _) => {
+        (LookFound::Undecided(undecided), _) => {
             (format!("{undecided} of {} requirements undecided", plan.analysis.requirements.len()), "decided")
         }
-        (Found::Precision(_), When::Decided) => (String::new(), "decided"),
+        (LookFound::Precision(_), When::Decided) => (String::new(), "decided"),
     };
     let reached = match (stopping.is_reached(), stopping.ends()) {
         (true, _) => goal.to_owned(),

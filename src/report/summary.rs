@@ -5,7 +5,7 @@ use std::fmt::{self, Display, Formatter};
 use serde_json::{Map, Value, json};
 
 use crate::analysis::statistics::Statistics;
-use crate::analysis::stopping::{Found, Stopping};
+use crate::analysis::stopping::{LookFound, Stopping};
 use crate::analysis::tally::{Ended, Tally, Worst};
 use crate::analysis::verdicts::Verdicts;
 use crate::campaign::Plan;
@@ -126,8 +126,8 @@ impl Summary {
         }
         if let Some((stopping, _)) = &self.stopping {
             let (look, undecided) = match &stopping.found {
-                Found::Precision(look) => (Some(look), None),
-                Found::Undecided(count) => (None, Some(count)),
+                LookFound::Precision(look) => (Some(look), None),
+                LookFound::Undecided(count) => (None, Some(count)),
             };
             value["stop"] = json!({
                 "look": stopping.look,

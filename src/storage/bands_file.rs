@@ -5,7 +5,7 @@
 use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::{iter, num::NonZeroUsize, path::Path};
+use std::{num::NonZeroUsize, path::Path};
 
 use serde::{Deserialize, Serialize};
 
@@ -23,24 +23,24 @@ use crate::storage::rows_reader::{PartReader, RowsError};
 const LAYOUT_KEY: &str = "spindrift.bands";
 /// Number of runs.
 const RUNS_KEY: &str = "spindrift.bands.runs";
+/// Of every place, which is a point of a series, series by series: the smallest and the largest kept number, NaN where no run has one.
+const EXTREMES_KEYS: [&str; 2] = ["spindrift.bands.min", "spindrift.bands.max"];
+/// And the number of its rows.
+const ROWS_KEY: &str = "spindrift.bands.rows";
 
 /// The columns, each with its meaning.
-const PLACE: (&str, &str) =
-    ("place", "Which series and point: number of the series times the number of points, and the number of the point.");
 const BUCKET: (&str, &str) = (
     "bucket",
     "The bucket of the deviations from the nominal run: twice the leading bits of the magnitude (32 to an octave, 1 at 2^-512), and 1 where it is negative; 0: zero.",
 );
 const COUNT: (&str, &str) = ("count", "Number of runs in it.");
-const MIN: (&str, &str) = ("min", "Smallest kept number of the place, in its first row.");
-const MAX: (&str, &str) = ("max", "Largest kept number of the place, in its first row.");
 
 /// What bands are of, as text; numbers are written so that they are read back bit for bit.
 #[derive(Deserialize, Serialize)]
 struct LayoutText {
     series: Vec<SeriesText>,
-    times_s: Vec<String>,
-    nominal: Vec<String>,
+    times_s: String,
+    nominal: String,
 }
 
 #[derive(Deserialize, Serialize)]
@@ -52,6 +52,15 @@ struct SeriesText {
     is_half_tangent: bool,
 }
 
+/// Numbers as text, and back.
+fn text(numbers: &[f64]) -> String {
+    numbers.iter().map(|number| format!("{number:?}")).collect::<Vec<_>>().join(" ")
+}
+
+fn numbers(text: &str) -> Option<Vec<f64>> {
+    text.split_whitespace().map(|number| number.parse().ok()).collect()
+}
+
 fn text_of(layout: &BandLayout) -> String {
     let series = |(quantity, form): &(Quantity, Form)| SeriesText {
         name: quantity.name().to_owned(),
@@ -59,24 +68,22 @@ fn text_of(layout: &BandLayout) -> String {
         meaning: quantity.meaning().to_owned(),
         is_half_tangent: *form == Form::HalfTangent,
     };
-    let numbers = |numbers: &[f64]| numbers.iter().map(|number| format!("{number:?}")).collect();
-    let text = LayoutText {
+    let layout = LayoutText {
         series: layout.series.iter().map(series).collect(),
-        times_s: numbers(&layout.times),
-        nominal: numbers(&layout.nominal),
+        times_s: text(&layout.times),
+        nominal: text(&layout.nominal),
     };
-    serde_json::to_string(&text).expect("texts are JSON")
+    serde_json::to_string(&layout).expect("texts are JSON")
 }
 
 fn layout_of(text: &str) -> Option<BandLayout> {
-    let text: LayoutText = serde_json::from_str(text).ok()?;
+    let layout: LayoutText = serde_json::from_str(text).ok()?;
     let series = |one: SeriesText| {
         let form = if one.is_half_tangent { Form::HalfTangent } else { Form::Value };
         (Quantity::named(one.name, one.unit, one.meaning), form)
     };
-    let numbers = |texts: &[String]| texts.iter().map(|text| text.parse().ok()).collect::<Option<Vec<f64>>>();
-    let (times, nominal) = (numbers(&text.times_s)?, numbers(&text.nominal)?);
-    let layout = BandLayout { series: text.series.into_iter().map(series).collect(), times, nominal };
+    let (times, nominal) = (numbers(&layout.times_s)?, numbers(&layout.nominal)?);
+    let layout = BandLayout { series: layout.series.into_iter().map(series).collect(), times, nominal };
     (layout.series.len().checked_mul(layout.times.len()) == Some(layout.nominal.len())).then_some(layout)
 }
 
@@ -93,11 +100,9 @@ impl BandsFile {
         let heading = |(name, meaning): (&'static str, &'static str), content| {
             Heading::new(Quantity::new(name, "", meaning), content)
         };
-        let counts = [PLACE, BUCKET, COUNT].map(|column| heading(column, Content::Count));
-        let headings: Vec<Heading> =
-            counts.into_iter().chain([MIN, MAX].map(|column| heading(column, Content::Real))).collect();
+        let headings = [BUCKET, COUNT].map(|column| heading(column, Content::Count));
         let metadata = HashMap::from([(LAYOUT_KEY.to_owned(), text_of(layout))]);
-        Ok(BandsFile(Layout::new(&headings, metadata, Packing::Lz4)?))
+        Ok(BandsFile(Layout::new(&headings, metadata, Packing::Lz4)?.without_statistics()))
     }
 
     /// Appends to `out` the file of the `bands` of `part`: a function of the part alone.
@@ -105,25 +110,23 @@ impl BandsFile {
     /// # Errors
     /// Where encoding fails.
     pub fn write(&self, part: Part, bands: &PartBands, out: &mut Vec<u8>) -> Result<(), EncodingError> {
-        let (mut places, mut buckets, mut counts) = (Vec::new(), Vec::new(), Vec::new());
-        let (mut min, mut max) = (Vec::new(), Vec::new());
+        let (mut buckets, mut counts) = (Vec::new(), Vec::new());
+        let (mut lengths, mut ends) = (Vec::new(), [const { Vec::new() }; 2]);
         for place in 0..bands.layout().columns() {
             let (extremes, of_place) = bands.column(place);
-            let start = counts.len();
-            for (bucket, count) in of_place {
+            ends.iter_mut().zip(extremes.unwrap_or([f64::NAN; 2])).for_each(|(ends, end)| ends.push(end));
+            let before = counts.len();
+            of_place.for_each(|(bucket, count)| {
                 buckets.push(u64::from(bucket));
                 counts.push(count);
-            }
-            places.resize(counts.len(), place as u64);
-            for (column, end) in [&mut min, &mut max].into_iter().zip(extremes.unwrap_or([f64::NAN; 2])) {
-                column.extend(iter::once(end).take(counts.len() - start));
-                column.resize(counts.len(), f64::NAN);
-            }
+            });
+            lengths.push((counts.len() - before).to_string());
         }
-        let own: Vec<(&str, String)> =
-            part_metadata(part, part.first).into_iter().chain([(RUNS_KEY, bands.runs().to_string())]).collect();
-        let of_counts = [places, buckets, counts].map(|values| Cells::Count(values, None));
-        self.0.write(out, &own, of_counts.into_iter().chain([&min, &max].map(|values| Cells::Real(values, None))))
+        let mut own = vec![(RUNS_KEY, bands.runs().to_string())];
+        own.push((ROWS_KEY, lengths.join(" ")));
+        own.extend(EXTREMES_KEYS.into_iter().zip(ends.map(|ends| text(&ends))));
+        own.extend(part_metadata(part, part.first));
+        self.0.write(out, &own, [buckets, counts].map(|column| Cells::Count(column, None)).into_iter())
     }
 }
 
@@ -132,49 +135,52 @@ struct StoredBands {
     part: u64,
     layout: BandLayout,
     runs: u64,
-    /// Place, bucket and count, row by row.
-    rows: Vec<(usize, Code, u64)>,
+    /// Bucket and count, row by row.
+    rows: Vec<(Code, u64)>,
+    /// The number of rows of each place.
+    lengths: Vec<usize>,
+    /// The smallest and the largest kept numbers, place by place.
     extremes: [Vec<f64>; 2],
 }
 
 impl StoredBands {
     fn open(storage: &dyn Storage, path: &Path) -> Result<Self, RowsError> {
         let file = PartReader::open(storage, path)?;
-        let numbers = |(name, _): (&str, &str)| file.numbers(name);
-        let columns = [numbers(PLACE)?, numbers(BUCKET)?, numbers(COUNT)?];
-        let extremes = [numbers(MIN)?, numbers(MAX)?];
+        let (buckets, counts) = (file.numbers(BUCKET.0)?, file.numbers(COUNT.0)?);
         let found = || -> Option<StoredBands> {
             let number = |key: &str| file.metadata(key)?.parse().ok();
-            let layout = layout_of(file.metadata(LAYOUT_KEY)?)?;
             let whole = |value: f64| (value >= 0.0 && value.fract() == 0.0).then_some(value as u64);
-            let row = |row: usize| {
-                let [place, bucket, count] = [0, 1, 2].map(|column| columns[column].get(row).copied().and_then(whole));
-                Some((usize::try_from(place?).ok()?, Code::try_from(bucket?).ok()?, count?))
+            let row = |(bucket, count): (&f64, &f64)| Some((Code::try_from(whole(*bucket)?).ok()?, whole(*count)?));
+            let [min, max] = EXTREMES_KEYS.map(|key| file.metadata(key).and_then(numbers));
+            let lengths = file.metadata(ROWS_KEY)?.split_whitespace().map(|length| length.parse().ok());
+            let found = StoredBands {
+                part: number(PART_KEY)?,
+                layout: layout_of(file.metadata(LAYOUT_KEY)?)?,
+                runs: number(RUNS_KEY)?,
+                rows: buckets.iter().zip(&counts).map(row).collect::<Option<_>>()?,
+                lengths: lengths.collect::<Option<_>>()?,
+                extremes: [min?, max?],
             };
-            let rows = (0..file.rows()).map(row).collect::<Option<Vec<_>>>()?;
-            let found = StoredBands { part: number(PART_KEY)?, layout, runs: number(RUNS_KEY)?, rows, extremes };
             found.makes_sense().then_some(found)
         };
-        let damaged = || RowsError { path: path.display().to_string(), what: "is no file of bands".to_owned() };
-        found().ok_or_else(damaged)
+        found().ok_or_else(|| RowsError { path: path.display().to_string(), what: "is no file of bands".to_owned() })
     }
 
     fn makes_sense(&self) -> bool {
-        let is_row = |(place, bucket, count): &(usize, Code, u64)| {
-            *place < self.layout.columns() && *bucket != NOT_A_NUMBER && *count > 0 && *count <= self.runs
-        };
-        let ascend = self.rows.windows(2).all(|pair| (pair[0].0, pair[0].1) < (pair[1].0, pair[1].1));
-        self.rows.iter().all(is_row) && ascend
+        let places = self.layout.columns();
+        let are_whole = self.lengths.len() == places && self.extremes.iter().all(|ends| ends.len() == places);
+        let rows = self.lengths.iter().try_fold(0_usize, |sum, length| sum.checked_add(*length));
+        let is_row = |(bucket, count): &(Code, u64)| *bucket != NOT_A_NUMBER && *count > 0 && *count <= self.runs;
+        are_whole && rows == Some(self.rows.len()) && self.rows.iter().all(is_row)
     }
 
     fn add_to(&self, bands: &mut Bands) {
         bands.add_runs(self.runs);
         let mut first = 0;
-        for rows in self.rows.chunk_by(|a, b| a.0 == b.0) {
-            let extremes = Some([&self.extremes[0], &self.extremes[1]].map(|column| column[first]));
-            let extremes = extremes.filter(|[min, max]| min <= max);
-            bands.add_column(rows[0].0, extremes, rows.iter().map(|(_, bucket, count)| (*bucket, *count)));
-            first += rows.len();
+        for (place, length) in self.lengths.iter().enumerate() {
+            let extremes = Some([self.extremes[0][place], self.extremes[1][place]]).filter(|[min, max]| min <= max);
+            bands.add_column(place, extremes, self.rows[first..first + length].iter().copied());
+            first += length;
         }
     }
 }
@@ -212,4 +218,75 @@ pub fn read(
         },
     )?;
     Ok(merged.map(|(_, bands)| bands))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ensemble::PartId;
+    use crate::storage::disk::Disk;
+
+    fn layout(nominal: f64) -> BandLayout {
+        let angle = Quantity::new("angle_rad", "rad", "An angle; with letters beyond ASCII: \u{3b1}.");
+        let series = vec![(Quantity::new("x_j", "J", "An energy."), Form::Value), (angle, Form::HalfTangent)];
+        BandLayout { series, times: vec![0.0, 1.5], nominal: vec![nominal, -2.0, f64::NAN, 1e300] }
+    }
+
+    /// Law: what bands are of is read back bit for bit; what is no such text is refused.
+    #[test]
+    fn layouts_come_back() {
+        let layout = layout(0.1 + 0.2);
+        assert!(layout_of(&text_of(&layout)).is_some_and(|found| found.is(&layout)));
+        for wrong in ["", "{}", &text_of(&layout).replace("0.0 1.5", "0.0"), &text_of(&layout).replace("1.5", "x")] {
+            assert!(layout_of(wrong).is_none(), "{wrong}");
+        }
+    }
+
+    /// A file of runs of part `part` with these rows and extremes.
+    fn file(folder: &Path, part: u64, nominal: f64, rows: &[[u64; 2]], lengths: &str, extremes: [&str; 2]) -> PathBuf {
+        let column = |index: usize| Cells::Count(rows.iter().map(|row| row[index]).collect(), None);
+        let part = Part { id: PartId(part), first: crate::sampling::SampleId(0), count: 9 };
+        let mut own = vec![(RUNS_KEY, "9".to_owned())];
+        own.push((ROWS_KEY, lengths.to_owned()));
+        own.extend(EXTREMES_KEYS.into_iter().zip(extremes.map(str::to_owned)));
+        own.extend(part_metadata(part, part.first));
+        let mut bytes = Vec::new();
+        BandsFile::new(&layout(nominal)).unwrap().0.write(&mut bytes, &own, [0, 1].map(column).into_iter()).unwrap();
+        let path = folder.join(format!("part-{:06}-{}.parquet", part.id.0, crate::storage::names::unique()));
+        std::fs::write(&path, bytes).unwrap();
+        path
+    }
+
+    /// Law: files are merged in their order; one that makes no sense, is damaged, of another campaign or there twice is refused by its name.
+    #[test]
+    fn files_are_merged_or_refused_by_name() {
+        let folder = std::env::temp_dir().join(format!("spindrift-bands-file-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let ends = ["1.0 NaN NaN -3.0", "2.5 NaN NaN 4.0"];
+        let (sound, lengths) = ([[0, 4], [700, 5], [9, 1]], "2 0 0 1");
+        let [first, second] = [0, 1].map(|part| file(&folder, part, 1.0, &sound, lengths, ends));
+        let of = |files: &[&PathBuf]| read(&Disk, &files.iter().map(|file| (*file).clone()).collect::<Vec<_>>(), None);
+        let both = of(&[&first, &second]).unwrap().unwrap();
+        assert_eq!((both.runs(), both.count(0, 0), both.count(0, 1), both.count(1, 1)), (18, 18, 0, 2));
+        assert_eq!((both.extremes(0, 0), both.extremes(0, 1)), (Some([1.0, 2.5]), None));
+        assert_eq!(of(&[]).unwrap(), None);
+        let refused = |files: &[&PathBuf]| of(files).unwrap_err().to_string();
+        assert!(refused(&[&second, &first]).contains("part 0 does not follow part 1"));
+        assert!(refused(&[&first, &first]).contains("part 0 does not follow part 0"));
+        let other = file(&folder, 2, 1.5, &sound, lengths, ends);
+        assert!(
+            refused(&[&first, &other])
+                .ends_with("these are bands of another campaign: series, times or nominal run differ")
+        );
+        for (row, lengths) in
+            [([7, 0], "1 0 0 0"), ([7, 10], "1 0 0 0"), ([1, 1], "1 0 0 0"), ([7, 1], "1 0 0"), ([7, 1], "1 0 0 1")]
+        {
+            let wrong = file(&folder, 0, 1.0, &[row], lengths, ends);
+            assert!(refused(&[&wrong]).ends_with("is no file of bands"), "{row:?} {lengths}");
+        }
+        assert!(refused(&[&file(&folder, 0, 1.0, &sound, lengths, ["1.0", "2.5"])]).ends_with("is no file of bands"));
+        std::fs::write(&first, b"PAR1").unwrap();
+        assert!(refused(&[&first]).starts_with(first.to_str().unwrap()));
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
 }

@@ -10,7 +10,7 @@ use crate::storage::disk::{Storage, at, meant, new_folder, no_link};
 use crate::storage::folder::{Folder, MOST_MANIFEST, MOST_SUMMARY, begin};
 pub use crate::storage::folder_error::FolderError;
 use crate::storage::folder_error::{occupied, row_differences};
-use crate::storage::found::{Contents, Found, contents};
+use crate::storage::found::{FolderContents, Found, contents};
 use crate::storage::manifest::{Identity, Manifest, PartRecord};
 use crate::storage::names::{MANIFEST, SUMMARY, TABLE_LOG, manifest_of};
 use crate::storage::recovery::is_lost;
@@ -154,18 +154,18 @@ fn locked(storage: &dyn Storage, root: &Path, options: ClaimOptions) -> Result<(
     let mut locks = Locks::default();
     locks.add(storage, root, options.shard.is_some())?;
     let mut found = contents(storage, root)?;
-    if matches!(found, Contents::Foreign(_)) {
+    if matches!(found, FolderContents::Foreign(_)) {
         // a shard that begins at the same time has written files since its manifest was looked for
         found = contents(storage, root)?;
     }
-    if matches!(found, Contents::Foreign(_)) && is_lost(storage, root)? {
+    if matches!(found, FolderContents::Foreign(_)) && is_lost(storage, root)? {
         return Err(FolderError::Lost { folder: root.display().to_string() });
     }
     let foreign = |entry| FolderError::Foreign { folder: root.display().to_string(), entry };
     let mut found = match found {
-        Contents::Foreign(entry) => return Err(foreign(entry)),
-        Contents::Blank => Found::default(),
-        Contents::Dataset(found) => *found,
+        FolderContents::Foreign(entry) => return Err(foreign(entry)),
+        FolderContents::Blank => Found::default(),
+        FolderContents::Dataset(found) => *found,
     };
     found.foreign.take().map_or(Ok((locks, found)), |entry| Err(foreign(entry)))
 }
@@ -308,7 +308,7 @@ pub fn open(storage: &'static dyn Storage, root: &Path, is_shared: bool) -> Resu
     let mut locks = Locks::default();
     locks.add(storage, root, is_shared)?;
     match contents(storage, root)? {
-        Contents::Dataset(found) => match &found.conflict {
+        FolderContents::Dataset(found) => match &found.conflict {
             Some(conflict) => Err(FolderError::Mixed { folder, conflict: conflict.clone() }),
             None => Ok((*found, locks)),
         },

@@ -14,7 +14,7 @@ use parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as Phy
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
 use parquet::errors::{ParquetError, Result};
 use parquet::file::metadata::KeyValue;
-use parquet::file::properties::WriterProperties;
+use parquet::file::properties::{EnabledStatistics, WriterProperties};
 use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
 use parquet::schema::types::{ColumnPath, Type, TypePtr};
 
@@ -142,6 +142,13 @@ impl Layout {
         Ok(Layout { schema, root, properties, arrow_schema })
     }
 
+    /// The same without the extremes of columns, which readers of the whole file need not know.
+    #[must_use]
+    pub fn without_statistics(self) -> Self {
+        let properties = self.properties.into_builder().set_statistics_enabled(EnabledStatistics::None).build();
+        Layout { properties, ..self }
+    }
+
     /// The columns, and the metadata that every file has.
     pub fn schema(&self) -> &Schema {
         &self.schema
@@ -172,7 +179,7 @@ impl Layout {
     /// Where writing fails.
     pub fn begin<W: Write + Send>(&self, out: W, own: &[(&str, String)]) -> Result<GroupWriter<'_, W>> {
         let writer = SerializedFileWriter::new(out, self.root.clone(), Arc::new(self.properties(own)))?;
-        Ok(GroupWriter { layout: self, writer, scratch: Scratch::default() })
+        Ok(GroupWriter { layout: self, writer, scratch: ColumnBuffers::default() })
     }
 
     /// The properties of a file with the metadata `own`.
@@ -190,7 +197,7 @@ impl Layout {
 pub struct GroupWriter<'l, W: Write + Send> {
     layout: &'l Layout,
     writer: SerializedFileWriter<W>,
-    scratch: Scratch,
+    scratch: ColumnBuffers,
 }
 
 impl<W: Write + Send> GroupWriter<'_, W> {
@@ -247,13 +254,13 @@ fn properties(schema: &Schema, packing: Packing) -> WriterProperties {
 
 /// Buffers for what Parquet takes separately: which values are present, and those values without gaps.
 #[derive(Default)]
-struct Scratch {
+struct ColumnBuffers {
     levels: Vec<i16>,
     reals: Vec<f64>,
     counts: Vec<i64>,
 }
 
-impl Scratch {
+impl ColumnBuffers {
     fn write(&mut self, column: &mut SerializedColumnWriter<'_>, cells: Cells<'_>, nullable: bool) -> Result<()> {
         match cells {
             Cells::Real(values, mask) => {

@@ -70,11 +70,11 @@ pub struct Folder {
     plan: String,
     /// Name of the manifest that this process appends to.
     manifest: String,
-    state: Mutex<State>,
+    state: Mutex<FolderState>,
 }
 
 #[derive(Debug, Default)]
-struct State {
+struct FolderState {
     /// Length of the manifest up to its last whole line, bytes; `None` where it does not exist yet.
     length: Option<u64>,
     /// All parts that are whole, those of other manifests too.
@@ -96,7 +96,7 @@ impl Folder {
         (manifest, own): (String, Option<Manifest>),
         others: BTreeMap<u64, PartRecord>,
     ) -> Result<Folder, StorageError> {
-        let state = Mutex::new(State::default());
+        let state = Mutex::new(FolderState::default());
         let mut folder = Folder { storage, root: root.to_owned(), identity, plan, manifest, state };
         let what = (folder.plan.as_str(), &folder.identity);
         let own = own.map_or_else(|| begin(storage, root, what, &folder.manifest), Ok)?;
@@ -110,7 +110,7 @@ impl Folder {
         let length = storage.read(&path, MOST_MANIFEST).map_err(at(&path))?.len() as u64;
         let mut parts = others;
         parts.extend(own.parts);
-        folder.state = Mutex::new(State { length: Some(length), parts, derived: BTreeMap::new() });
+        folder.state = Mutex::new(FolderState { length: Some(length), parts, derived: BTreeMap::new() });
         Ok(folder)
     }
 
@@ -155,7 +155,7 @@ impl Folder {
         Ok(path)
     }
 
-    fn state(&self) -> MutexGuard<'_, State> {
+    fn state(&self) -> MutexGuard<'_, FolderState> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 

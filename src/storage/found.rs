@@ -18,7 +18,7 @@ pub(super) const MOST_PLAN: u64 = 1 << 28;
 
 /// What a folder of results has in it.
 #[derive(Debug)]
-pub enum Contents {
+pub enum FolderContents {
     /// Nothing, or only what a campaign left that was stopped before it wrote its manifest.
     Blank,
     /// A dataset.
@@ -114,7 +114,7 @@ impl Found {
 ///
 /// # Errors
 /// Where a file operation fails.
-pub fn contents(storage: &dyn Storage, root: &Path) -> Result<Contents, StorageError> {
+pub fn contents(storage: &dyn Storage, root: &Path) -> Result<FolderContents, StorageError> {
     let top = storage.list(root).map_err(at(root))?;
     let mut found = Found::default();
     let mut names: Vec<String> =
@@ -159,8 +159,8 @@ pub fn contents(storage: &dyn Storage, root: &Path) -> Result<Contents, StorageE
                 .or(whole)
                 .or_else(|| files.into_iter().find(|file| !file.ends_with(UNFINISHED)))
             {
-                Some(entry) => Contents::Foreign(entry),
-                None => Contents::Blank,
+                Some(entry) => FolderContents::Foreign(entry),
+                None => FolderContents::Blank,
             },
         );
     }
@@ -183,7 +183,7 @@ pub fn contents(storage: &dyn Storage, root: &Path) -> Result<Contents, StorageE
         (found.foreign_commits, found.unlisted) = files.partition(|name| name.starts_with(TABLE_LOG));
     }
     (found.plan, found.plan_damage) = plan_of(&found.manifests, plan_text(storage, root)?);
-    Ok(Contents::Dataset(Box::new(found)))
+    Ok(FolderContents::Dataset(Box::new(found)))
 }
 
 /// Which of `manifests` has something else than the first that has it, and the keys in which their plans differ.
@@ -264,11 +264,11 @@ mod tests {
         let runs = root.join(crate::storage::names::RUNS);
         std::fs::create_dir_all(&runs).expect("a folder");
         let found = || contents(&Disk, &root).expect("readable");
-        assert!(matches!(found(), Contents::Blank), "an empty folder");
+        assert!(matches!(found(), FolderContents::Blank), "an empty folder");
         std::fs::write(runs.join("part-000000.parquet.tmp"), b"half").expect("written");
-        assert!(matches!(found(), Contents::Blank), "an unfinished part");
+        assert!(matches!(found(), FolderContents::Blank), "an unfinished part");
         std::fs::write(runs.join("part-000001.parquet"), b"whole").expect("written");
-        assert!(matches!(found(), Contents::Foreign(name) if name == "runs/part-000001.parquet"), "a whole part");
+        assert!(matches!(found(), FolderContents::Foreign(name) if name == "runs/part-000001.parquet"), "a whole part");
         std::fs::remove_dir_all(&root).expect("removed");
     }
 }

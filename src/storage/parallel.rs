@@ -56,7 +56,7 @@ pub fn in_order<T: Send, E: Send>(
 ) -> Result<(), E> {
     let cores = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
     let threads = threads.map_or_else(cores, NonZeroUsize::get).min(items);
-    let state = State { next: 0, merged: 0, waiting: Vec::new(), merge, error: None };
+    let state = QueueState { next: 0, merged: 0, waiting: Vec::new(), merge, error: None };
     let queue = Queue { state: Mutex::new(state), moved: Condvar::new() };
     if threads <= 1 {
         queue.work(items, usize::MAX, &read);
@@ -71,12 +71,12 @@ pub fn in_order<T: Send, E: Send>(
 
 /// What the threads of [`in_order`] share.
 struct Queue<T, E, M> {
-    state: Mutex<State<T, E, M>>,
+    state: Mutex<QueueState<T, E, M>>,
     /// An item was merged, or one has failed.
     moved: Condvar,
 }
 
-struct State<T, E, M> {
+struct QueueState<T, E, M> {
     /// The next item to be read.
     next: usize,
     /// How many items were merged.
@@ -89,7 +89,7 @@ struct State<T, E, M> {
 }
 
 impl<T, E, M: FnMut(T) -> Result<(), E>> Queue<T, E, M> {
-    fn lock(&self) -> MutexGuard<'_, State<T, E, M>> {
+    fn lock(&self) -> MutexGuard<'_, QueueState<T, E, M>> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -134,7 +134,7 @@ impl<T, E, M: FnMut(T) -> Result<(), E>> Drop for Guard<'_, T, E, M> {
     }
 }
 
-impl<T, E, M: FnMut(T) -> Result<(), E>> State<T, E, M> {
+impl<T, E, M: FnMut(T) -> Result<(), E>> QueueState<T, E, M> {
     fn fail(&mut self, index: usize, error: E) {
         if self.error.as_ref().is_none_or(|(first, _)| index < *first) {
             self.error = Some((index, error));

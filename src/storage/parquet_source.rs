@@ -46,10 +46,10 @@ impl Length for ParquetSource {
 }
 
 impl ChunkReader for ParquetSource {
-    type T = BufReader<Section>;
+    type T = BufReader<FileRest>;
 
     fn get_read(&self, start: u64) -> Result<Self::T, ParquetError> {
-        Ok(BufReader::new(Section { source: self.clone(), offset: start }))
+        Ok(BufReader::new(FileRest { source: self.clone(), offset: start }))
     }
 
     fn get_bytes(&self, start: u64, length: usize) -> Result<Bytes, ParquetError> {
@@ -61,19 +61,19 @@ impl ChunkReader for ParquetSource {
             )));
         }
         let mut bytes = vec![0; length];
-        Section { source: self.clone(), offset: start }.read_exact(&mut bytes)?;
+        FileRest { source: self.clone(), offset: start }.read_exact(&mut bytes)?;
         Ok(bytes.into())
     }
 }
 
 /// The rest of a file, read from the start to the end.
 #[derive(Debug)]
-pub struct Section {
+pub struct FileRest {
     source: ParquetSource,
     offset: u64,
 }
 
-impl Read for Section {
+impl Read for FileRest {
     fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
         let source = &self.source;
         let found = match read_some(&*source.file, self.offset, bytes) {

@@ -12,10 +12,10 @@ use crate::storage::columnar::{Cells, Content, Heading, Layout, Packing};
 use crate::storage::provenance::provenance;
 
 /// A column of numbers: what it is, and its value.
-type Column = (Quantity, fn(&Measurement) -> Option<f64>);
+type NumberColumn = (Quantity, fn(&Measurement) -> Option<f64>);
 
 /// The columns of numbers.
-static COLUMNS: [Column; 17] = [
+static COLUMNS: [NumberColumn; 17] = [
     (Quantity::new("tolerance", "", "Relative and absolute tolerance; absent for a fixed step."), |m| {
         tolerance(m.setting)
     }),

@@ -13,7 +13,7 @@ use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
 use crate::storage::disk::{Storage, StorageError, above, at, entries_in, is_absent, no_link};
-use crate::storage::found::{Contents, Found, contents};
+use crate::storage::found::{FolderContents, Found, contents};
 use crate::storage::manifest::{Identity, PartRecord};
 use crate::storage::names::{
     FOLDERS, MANIFEST, REPLACEMENT, SUCCESS, UNFINISHED, is_of_parts, is_ours, is_unique, unique,
@@ -75,14 +75,14 @@ pub(super) fn begin(
     for digits in begun(storage, root)? {
         let new = beside(root, &digits, "new");
         match contents(storage, &new)? {
-            Contents::Foreign(_) => {}
-            Contents::Dataset(found)
+            FolderContents::Foreign(_) => {}
+            FolderContents::Dataset(found)
                 if kept.is_none() && found.identity.as_ref() == Some(identity) && found.extent() <= most =>
             {
                 kept = Some(new);
             }
-            Contents::Dataset(found) => remove(storage, &new, &found)?,
-            Contents::Blank => remove(storage, &new, &Found::default())?,
+            FolderContents::Dataset(found) => remove(storage, &new, &found)?,
+            FolderContents::Blank => remove(storage, &new, &Found::default())?,
         }
     }
     if let Some(kept) = kept {
@@ -126,7 +126,7 @@ pub(super) fn check_replaceable(storage: &dyn Storage, new: &Path, root: &Path) 
         }
     };
     check().inspect_err(|_| {
-        if let Ok(Contents::Blank) = contents(storage, new) {
+        if let Ok(FolderContents::Blank) = contents(storage, new) {
             // the first error is reported; what is left has a proof, and the next replacement removes it
             let _ = remove(storage, new, &Found::default());
         }
@@ -180,9 +180,9 @@ pub fn replace(storage: &dyn Storage, new: &Path, root: &Path) -> Result<(), Sto
     let digits = proof(storage, new)?.ok_or_else(|| at(new)(io::Error::other("its file _REPLACEMENT is gone")))?;
     no_link(root).map_err(at(root))?;
     let not_ours = match contents(storage, root)? {
-        Contents::Dataset(found) => found.not_its_own().cloned(),
-        Contents::Foreign(entry) => Some(entry),
-        Contents::Blank => None,
+        FolderContents::Dataset(found) => found.not_its_own().cloned(),
+        FolderContents::Foreign(entry) => Some(entry),
+        FolderContents::Blank => None,
     };
     if let Some(entry) = not_ours {
         let why =
@@ -204,9 +204,9 @@ pub(super) fn remove_replaced(storage: &dyn Storage, root: &Path) -> Result<(), 
     let Some(digits) = proof(storage, root)? else { return Ok(()) };
     let old = beside(root, &digits, "old");
     match contents(storage, &old)? {
-        Contents::Dataset(found) => remove(storage, &old, &found)?,
-        Contents::Blank => remove(storage, &old, &Found::default())?,
-        Contents::Foreign(_) => {}
+        FolderContents::Dataset(found) => remove(storage, &old, &found)?,
+        FolderContents::Blank => remove(storage, &old, &Found::default())?,
+        FolderContents::Foreign(_) => {}
     }
     storage.sync_folder(above(root)).map_err(at(above(root)))?;
     let path = root.join(REPLACEMENT);
@@ -243,7 +243,7 @@ pub(super) fn interrupted(storage: &dyn Storage, root: &Path) -> Result<Option<P
 /// Where a file operation fails.
 pub(super) fn complete(storage: &dyn Storage, new: &Path, root: &Path) -> Result<(), StorageError> {
     let Some(digits) = proof(storage, new)? else { return Ok(()) };
-    let is_new_whole = matches!(contents(storage, new)?, Contents::Dataset(found) if found.is_finished);
+    let is_new_whole = matches!(contents(storage, new)?, FolderContents::Dataset(found) if found.is_finished);
     let old = beside(root, &digits, "old");
     let from = if is_new_whole { new } else { &old };
     storage.rename(from, root).map_err(at(from))?;

@@ -169,7 +169,9 @@ impl PartReader {
     pub fn samples(&self) -> Result<Vec<SampleId>, RowsError> {
         let cells = self.cells(SAMPLE_ID)?;
         match cells {
-            Cells::Count(values, None) => Ok(values.into_iter().map(|id| SampleId(id.cast_unsigned())).collect()),
+            DecodedColumn::Count(values, None) => {
+                Ok(values.into_iter().map(|id| SampleId(id.cast_unsigned())).collect())
+            }
             _ => Err(self.failed(format!("`{SAMPLE_ID}` is not a column of whole numbers without gaps"))),
         }
     }
@@ -179,7 +181,7 @@ impl PartReader {
     /// # Errors
     /// Where the column is missing or damaged, or has a status that this version does not know.
     pub fn statuses(&self) -> Result<Vec<Status>, RowsError> {
-        let Cells::Text(texts, None) = self.cells(STATUS)? else {
+        let DecodedColumn::Text(texts, None) = self.cells(STATUS)? else {
             return Err(self.failed(format!("`{STATUS}` is not a column of texts without gaps")));
         };
         let status = |text: &ByteArray| {
@@ -194,7 +196,7 @@ impl PartReader {
     /// # Errors
     /// Where the column is missing or damaged.
     pub fn reasons(&self) -> Result<Vec<Option<String>>, RowsError> {
-        let Cells::Text(texts, present) = self.cells(REASON)? else {
+        let DecodedColumn::Text(texts, present) = self.cells(REASON)? else {
             return Err(self.failed(format!("`{REASON}` is not a column of texts")));
         };
         let mut texts = texts.iter().map(|text| String::from_utf8_lossy(text.data()).into_owned());
@@ -212,16 +214,16 @@ impl PartReader {
     /// Where the column is missing, damaged, or has no numbers.
     pub fn numbers(&self, name: &str) -> Result<Vec<f64>, RowsError> {
         match self.cells(name)? {
-            Cells::Real(values, None) => Ok(values),
-            Cells::Real(values, Some(present)) => Ok(spread(values.into_iter(), &present)),
-            Cells::Count(values, present) => {
+            DecodedColumn::Real(values, None) => Ok(values),
+            DecodedColumn::Real(values, Some(present)) => Ok(spread(values.into_iter(), &present)),
+            DecodedColumn::Count(values, present) => {
                 let values = values.into_iter().map(|value| value.cast_unsigned() as f64);
                 Ok(match present {
                     None => values.collect(),
                     Some(present) => spread(values, &present),
                 })
             }
-            Cells::Text(..) => Err(self.failed(format!("`{name}` is not a column of numbers"))),
+            DecodedColumn::Text(..) => Err(self.failed(format!("`{name}` is not a column of numbers"))),
         }
     }
 
@@ -229,16 +231,16 @@ impl PartReader {
         RowsError { path: self.path.clone(), what }
     }
 
-    fn cells(&self, name: &str) -> Result<Cells, RowsError> {
+    fn cells(&self, name: &str) -> Result<DecodedColumn, RowsError> {
         caught(&self.path, &self.source, || {
             let schema = self.reader.metadata().file_metadata().schema_descr_ptr();
             let index = schema.columns().iter().position(|column| column.name() == name);
             let Some(index) = index else { return Err(general(format!("there is no column `{name}`"))) };
             let column = schema.column(index);
             let mut cells = match column.physical_type() {
-                Type::DOUBLE => Cells::Real(Vec::with_capacity(self.rows), None),
-                Type::INT64 => Cells::Count(Vec::with_capacity(self.rows), None),
-                Type::BYTE_ARRAY => Cells::Text(Vec::with_capacity(self.rows), None),
+                Type::DOUBLE => DecodedColumn::Real(Vec::with_capacity(self.rows), None),
+                Type::INT64 => DecodedColumn::Count(Vec::with_capacity(self.rows), None),
+                Type::BYTE_ARRAY => DecodedColumn::Text(Vec::with_capacity(self.rows), None),
                 other => return Err(general(format!("`{name}` has the type {other}, which no file of rows has"))),
             };
             let is_optional = match column.max_def_level() {
@@ -251,13 +253,13 @@ impl PartReader {
                 let group = self.reader.get_row_group(group)?;
                 let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
                 match (group.get_column_reader(index)?, &mut cells) {
-                    (ColumnReader::DoubleColumnReader(reader), Cells::Real(values, _)) => {
+                    (ColumnReader::DoubleColumnReader(reader), DecodedColumn::Real(values, _)) => {
                         column_values(reader, rows, &mut levels, values)
                     }
-                    (ColumnReader::Int64ColumnReader(reader), Cells::Count(values, _)) => {
+                    (ColumnReader::Int64ColumnReader(reader), DecodedColumn::Count(values, _)) => {
                         column_values(reader, rows, &mut levels, values)
                     }
-                    (ColumnReader::ByteArrayColumnReader(reader), Cells::Text(values, _)) => {
+                    (ColumnReader::ByteArrayColumnReader(reader), DecodedColumn::Text(values, _)) => {
                         column_values(reader, rows, &mut levels, values)
                     }
                     _ => Err(general(format!("`{name}` changes its type within the file"))),
@@ -270,17 +272,19 @@ impl PartReader {
 }
 
 /// The values of a column without gaps, and which rows have one (1); `None` where all have.
-enum Cells {
+enum DecodedColumn {
     Real(Vec<f64>, Option<Vec<i16>>),
     Count(Vec<i64>, Option<Vec<i16>>),
     Text(Vec<ByteArray>, Option<Vec<i16>>),
 }
 
-impl Cells {
+impl DecodedColumn {
     fn set_levels(&mut self, levels: Option<Vec<i16>>) {
         let levels = levels.filter(|levels| levels.contains(&0));
         match self {
-            Cells::Real(_, present) | Cells::Count(_, present) | Cells::Text(_, present) => *present = levels,
+            DecodedColumn::Real(_, present) | DecodedColumn::Count(_, present) | DecodedColumn::Text(_, present) => {
+                *present = levels
+            }
         }
     }
 }
@@ -312,7 +316,7 @@ fn spread(mut values: impl Iterator<Item = f64>, present: &[i16]) -> Vec<f64> {
 mod tests {
     use super::*;
     use crate::run::Quantity;
-    use crate::storage::columnar::{Cells as Written, Content, Heading, Layout, Packing};
+    use crate::storage::columnar::{Cells, Content, Heading, Layout, Packing};
     use crate::storage::disk::Disk;
     use std::collections::HashMap;
 
@@ -352,19 +356,19 @@ mod tests {
         let mut writer = layout.begin(out, &[]).expect("begun");
         let x = [first as f64 + 0.5, f64::NAN];
         let of_two = [
-            Written::Count(vec![first, first + 1], None),
-            Written::Word(vec!["ok", "step_limit"]),
-            Written::Text(vec![None, Some("too long")]),
-            Written::Real(&x, Some(&[true, false])),
-            Written::Count(vec![7, 0], Some(&[true, false])),
+            Cells::Count(vec![first, first + 1], None),
+            Cells::Word(vec!["ok", "step_limit"]),
+            Cells::Text(vec![None, Some("too long")]),
+            Cells::Real(&x, Some(&[true, false])),
+            Cells::Count(vec![7, 0], Some(&[true, false])),
         ];
         writer.group(of_two.into_iter()).expect("written");
         let of_one = [
-            Written::Count(vec![first + 2], None),
-            Written::Word(vec!["ok"]),
-            Written::Text(vec![None]),
-            Written::Real(&[41.5], None),
-            Written::Count(vec![9], None),
+            Cells::Count(vec![first + 2], None),
+            Cells::Word(vec!["ok"]),
+            Cells::Text(vec![None]),
+            Cells::Real(&[41.5], None),
+            Cells::Count(vec![9], None),
         ];
         writer.group(of_one.into_iter()).expect("written");
         writer.finish().expect("finished");

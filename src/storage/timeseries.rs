@@ -50,7 +50,7 @@ impl TimeSeries {
     /// The points of `run` (sample `sample` of `plan`) that the run reached and whose time `shown` accepts.
     pub fn new(plan: &Plan, sample: SampleId, run: &SingleRun, shown: impl Fn(f64) -> bool) -> Self {
         let points: Vec<usize> = (0..run.outcome.points).filter(|point| shown(run.grid.times()[*point])).collect();
-        let mut table = Columns { points: &points, headings: Vec::new(), keys: Vec::new(), columns: Vec::new() };
+        let mut table = SeriesColumns { points: &points, headings: Vec::new(), keys: Vec::new(), columns: Vec::new() };
         let time = Quantity::new("time_s", "s", "Time since the start.");
         table.push(TimeColumn::Time, time, |point| run.grid.times()[point]);
         spacecraft(run, &mut table);
@@ -141,14 +141,14 @@ impl TimeSeries {
 }
 
 /// A table built column by column.
-struct Columns<'a> {
+struct SeriesColumns<'a> {
     points: &'a [usize],
     headings: Vec<Heading>,
     keys: Vec<TimeColumn>,
     columns: Vec<Vec<f64>>,
 }
 
-impl Columns<'_> {
+impl SeriesColumns<'_> {
     fn push(&mut self, key: TimeColumn, quantity: Quantity, value: impl Fn(usize) -> f64) {
         self.headings.push(Heading::new(quantity, Content::Real));
         self.keys.push(key);
@@ -177,7 +177,7 @@ impl Columns<'_> {
     }
 }
 
-fn spacecraft(run: &SingleRun, table: &mut Columns<'_>) {
+fn spacecraft(run: &SingleRun, table: &mut SeriesColumns<'_>) {
     let (states, center) = (&run.table, run.scene.mass.center);
     let rotated = |point, vector| product(dcm_from_quaternion(states.at(StateField::Attitude, point)), vector);
     table.push_vector::<3>(
@@ -223,7 +223,7 @@ fn spacecraft(run: &SingleRun, table: &mut Columns<'_>) {
     }
 }
 
-fn debris(run: &SingleRun, table: &mut Columns<'_>) {
+fn debris(run: &SingleRun, table: &mut SeriesColumns<'_>) {
     let states = &run.table;
     table.push_vector::<3>(
         StateField::DebrisPosition,

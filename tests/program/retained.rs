@@ -8,8 +8,8 @@ use std::path::Path;
 use arrow_array::cast::AsArray;
 use arrow_array::types::Int64Type;
 use parquet::file::reader::{FileReader, SerializedFileReader};
-use spindrift::analysis::fold::Gathered;
-use spindrift::analysis::trajectories::{file_name, save};
+use spindrift::analysis::accumulator::of_files;
+use spindrift::analysis::trajectories::{Retained, file_name, save};
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::ensemble::Ensemble;
 use spindrift::math::Isa;
@@ -18,7 +18,7 @@ use spindrift::storage::disk::Disk;
 use spindrift::storage::folder::Folder;
 use spindrift::storage::names::MANIFEST;
 use spindrift::storage::rows_file::identity;
-use spindrift::storage::rows_reader::RowsReader;
+use spindrift::storage::rows_reader::{RowsError, RowsReader};
 
 use super::small_campaign::{NEGATIVE_WALLS, campaign, folder, table};
 use crate::support::scratch_folder::{ScratchFolder, column, ended, floats};
@@ -37,10 +37,10 @@ fn rows(scratch: &ScratchFolder) -> RowsReader {
     RowsReader::new(&Disk, scratch.part_files("r"))
 }
 
-/// The samples of `plan` whose runs are retained, by its rows.
-fn retained(plan: &Plan, rows: &RowsReader, threads: Option<NonZeroUsize>) -> Result<Vec<SampleId>, String> {
-    let found = Gathered::of_files(&Ensemble::new(plan, Isa::best()), (rows, &[]), threads);
-    found.map(|found| found.retained).map_err(|error| error.to_string())
+/// The samples whose runs are retained.
+fn retained(plan: &Plan, rows: &RowsReader, threads: Option<NonZeroUsize>) -> Result<Vec<SampleId>, RowsError> {
+    let retained = Retained::new(plan);
+    Ok(retained.chosen(of_files(&retained, rows, threads)?))
 }
 
 /// Law: each rule chooses the runs that it says, whatever the threads: none, all that were run, the failed, the worst by magnitude, as
