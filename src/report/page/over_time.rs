@@ -29,13 +29,17 @@ pub struct Curves<'a> {
     wheels: &'a [Name],
 }
 
-/// What figures of one series are called, and whose colour they have.
-struct Shown {
-    series: Series,
-    title: &'static str,
-    quantity: &'static str,
-    hue: Hue,
-}
+/// A series with the title of its figure, its quantity, and whose colour it has.
+type Shown = (Series, &'static str, &'static str, Hue);
+
+/// The series of the motion.
+const MOTION: [Shown; 5] = [
+    (Series::RateSquare, "Angular rate of the body", "|omega|", Hue::Body),
+    (Series::SpinAxisAngle, "Angle of s3 from its initial direction", "angle", Hue::Body),
+    (Series::Nutation, "Nutation angle: s3 from the angular momentum", "angle", Hue::Body),
+    (Series::FromNominal, "Attitude relative to the nominal run", "angle", Hue::Body),
+    (Series::DebrisDirection, "Angle between s3 and the line to the debris", "angle", Hue::Debris),
+];
 
 impl<'a> Curves<'a> {
     /// Of the nominal run, where it could be run, and bands of the ensemble; `wheels` are those that turn.
@@ -105,52 +109,20 @@ impl<'a> Curves<'a> {
 
     /// Every figure of the section.
     pub fn figures(&self) -> Vec<Figure> {
-        let motion = [
-            Shown {
-                series: Series::RateSquare,
-                title: "Angular rate of the body",
-                quantity: "|omega|",
-                hue: Hue::Body,
-            },
-            Shown {
-                series: Series::SpinAxisAngle,
-                title: "Angle of s3 from its initial direction",
-                quantity: "angle",
-                hue: Hue::Body,
-            },
-            Shown {
-                series: Series::Nutation,
-                title: "Nutation angle: s3 from the angular momentum",
-                quantity: "angle",
-                hue: Hue::Body,
-            },
-            Shown {
-                series: Series::FromNominal,
-                title: "Attitude relative to the nominal run",
-                quantity: "angle",
-                hue: Hue::Body,
-            },
-            Shown {
-                series: Series::DebrisDirection,
-                title: "Angle between s3 and the line to the debris",
-                quantity: "angle",
-                hue: Hue::Debris,
-            },
-        ];
         // the nominal run does not differ from itself
         let is_shown =
-            |shown: &&Shown| shown.series != Series::FromNominal || self.band(&self.name(shown.series).0).is_some();
-        let mut figures: Vec<Figure> = motion.iter().filter(is_shown).map(|shown| self.single(shown)).collect();
+            |(series, ..): &&Shown| *series != Series::FromNominal || self.band(&self.name(*series).0).is_some();
+        let mut figures: Vec<Figure> = MOTION.iter().filter(is_shown).map(|shown| self.single(shown)).collect();
         figures.extend(self.wheel_speeds());
         figures.extend(self.energies());
         figures.extend(self.transfer());
         figures
     }
 
-    fn single(&self, shown: &Shown) -> Figure {
-        let (name, unit) = self.name(shown.series);
-        let marks = self.marks(&name, self.nominal(shown.series), shown.hue, "");
-        over_time(&name, shown.title, self.caption(&name), Axis::linear(shown.quantity, &unit), marks)
+    fn single(&self, (series, title, quantity, hue): &Shown) -> Figure {
+        let (name, unit) = self.name(*series);
+        let marks = self.marks(&name, self.nominal(*series), *hue, "");
+        over_time(&name, title, self.caption(&name), Axis::linear(*quantity, &unit), marks)
     }
 
     fn wheel_speeds(&self) -> Vec<Figure> {
