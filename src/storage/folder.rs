@@ -217,16 +217,11 @@ impl Folder {
         for folder in &folders {
             self.storage.sync_folder(folder).map_err(at(folder))?;
         }
-        let records = files.iter().map(|file| FileRecord {
-            name: file.name.clone(),
-            bytes: file.bytes.len() as u64,
-            sha256: file.sha256.clone(),
-        });
         let record = PartRecord {
             part: part.id.0,
             first_sample: part.first.0,
             rows: part.count as u64,
-            files: records.collect(),
+            files: files.iter().map(PartFile::record).collect(),
         };
         self.append(&Record::Part(record.clone()))?;
         self.state().parts.insert(record.part, record);
