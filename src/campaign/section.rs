@@ -291,9 +291,22 @@ impl<'d, 'a> Section<'d, 'a> {
     }
 }
 
+/// Names that other programs have for what is called otherwise here.
+const SYNONYMS: [(&str, &str); 7] = [
+    ("gaussian", "normal"),
+    ("gauss", "normal"),
+    ("lhs", "latin_hypercube"),
+    ("monte_carlo", "random"),
+    ("rk4", "runge_kutta_4"),
+    ("rk45", "dormand_prince"),
+    ("ode45", "dormand_prince"),
+];
+
 /// What a name must be, and which one was probably meant.
 pub fn choice(written: &str, names: &[&str]) -> (String, String) {
-    let remedy = match nearest(written, names.iter().copied()) {
+    let synonym = SYNONYMS.iter().find(|(other, name)| written.eq_ignore_ascii_case(other) && names.contains(name));
+    let meant = synonym.map(|(_, name)| *name).or_else(|| nearest(written, names.iter().copied()));
+    let remedy = match meant {
         Some(meant) => format!("did you mean {meant:?}?"),
         None => "choose one of these".to_owned(),
     };

@@ -424,7 +424,7 @@ mod tests {
         // `help` is clap's own
         let ours = command.get_subcommands_mut().filter(|command| command.get_name() != "help");
         helps.extend(ours.map(|command| command.render_help().to_string()));
-        assert_eq!(helps.len(), 12);
+        assert_eq!(helps.len(), 13);
         for help in helps {
             for code in ["0  done", "1  ran", "2  bad input", "3  ran", "4  input/output", "5  ran"] {
                 assert!(help.contains(code), "{help}");

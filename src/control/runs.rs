@@ -2,7 +2,7 @@
 
 use std::sync::Arc as Shared;
 
-use super::law::LawContext;
+use super::context::LawContext;
 use crate::dynamics::actuation::{Actuation, ActuationLaw, BodyState, LawSource, OpenLoop, WheelState, sum};
 use crate::scene::Arc;
 

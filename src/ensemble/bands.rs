@@ -200,10 +200,10 @@ pub struct Bands {
 
 impl PartialEq for Bands {
     fn eq(&self, other: &Bands) -> bool {
-        let counted = |bands: &Bands| -> Vec<(Option<[f64; 2]>, Vec<(Code, u64)>)> {
-            bands.columns.iter().map(|column| (column.extremes, column.counts.buckets().collect())).collect()
-        };
-        self.layout.is(&other.layout) && self.runs == other.runs && counted(self) == counted(other)
+        let is_same =
+            |(a, b): (&BandColumn, &BandColumn)| a.extremes == b.extremes && a.counts.buckets().eq(b.counts.buckets());
+        let columns = || self.columns.iter().zip(&other.columns);
+        self.layout.is(&other.layout) && self.runs == other.runs && columns().all(is_same)
     }
 }
 

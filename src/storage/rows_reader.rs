@@ -283,7 +283,7 @@ impl DecodedColumn {
         let levels = levels.filter(|levels| levels.contains(&0));
         match self {
             DecodedColumn::Real(_, present) | DecodedColumn::Count(_, present) | DecodedColumn::Text(_, present) => {
-                *present = levels
+                *present = levels;
             }
         }
     }

@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 
 use crate::campaign::{FilesRead, Overrides, Plan};
 use crate::ensemble::Ensemble;
-use crate::report::summary::SummaryEnd;
 use crate::storage::claim::{Claim, ClaimOptions, Shard, claim};
 use crate::storage::rows_file::identity;
 use crate::workflow::error::WorkflowError;
-use crate::workflow::failed_samples::{FailedRun, plan_of_failed};
-use crate::workflow::finishing::{Completed, Made, Outputs, end_of, keep_data, say_notes};
+use crate::workflow::failed_samples::plan_of_failed;
+use crate::workflow::finishing::{Outputs, end_of, keep_data, say_notes};
+use crate::workflow::outcome::CampaignOutcome;
 use crate::workflow::results::Results;
 use crate::workflow::running::{Running, run_missing};
 use crate::workflow::session::Session;
@@ -47,31 +47,6 @@ pub struct Campaign<'a> {
     overwrite: bool,
     fail_fast: bool,
     outputs: Outputs,
-}
-
-/// How a campaign ended that could run.
-#[derive(Clone, Debug)]
-pub enum CampaignOutcome {
-    /// All rows are there, and so is everything that follows from them.
-    Finished(Box<Completed>),
-    /// Everything of the same plan was there already.
-    AlreadyFinished(SummaryEnd),
-    /// The parts of a shard are there.
-    ShardDone {
-        /// The shard.
-        shard: Shard,
-        /// What this process has run.
-        made: Made,
-    },
-    /// It was stopped; the same campaign continues.
-    Stopped {
-        /// Samples of the campaign.
-        samples: u64,
-        /// Samples that are not there yet.
-        left: u64,
-    },
-    /// A run failed, where that ends the campaign.
-    FailedFast(FailedRun),
 }
 
 impl<'a> Campaign<'a> {
@@ -139,7 +114,7 @@ impl<'a> Campaign<'a> {
         self
     }
 
-    /// Only the parts of one of several processes; [`Results::finish`] then finishes.
+    /// Only the parts of one of several processes; [`super::finish`] then finishes.
     #[must_use]
     pub fn shard(mut self, shard: Shard) -> Self {
         self.shard = Some(shard);

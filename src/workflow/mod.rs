@@ -1,6 +1,6 @@
 //! Layer 9: campaigns and results, as a program works with them; the command line is one such program.
 //!
-//! - [`campaign`]: [`Campaign`], a file and where its result goes; `running`: the samples that are not there yet. - [`results`]: [`Results`], a finished
+//! - [`campaign`]: [`Campaign`], a file and where its result goes; [`outcome`]: how it ended; `running`: the samples that are not there yet. - [`results`]: [`Results`], a finished
 //!   result to be read.
 //! - [`finishing`]: what is made once all rows are there: [`analysed`], [`page`]. - [`verification`]: whether a result is what was written.
 //! - [`failed_samples`]: samples that failed, again or as the end. - [`source`]: where plans come from. - [`session`]: disk, threads, control law, and who
@@ -13,6 +13,7 @@ pub mod campaign;
 pub mod error;
 pub mod failed_samples;
 pub mod finishing;
+pub mod outcome;
 pub mod page;
 pub mod results;
 mod running;
@@ -21,9 +22,10 @@ pub mod source;
 pub mod verification;
 
 pub use analysed::Analysed;
-pub use campaign::{Campaign, CampaignOutcome, PreparedCampaign};
+pub use campaign::{Campaign, PreparedCampaign};
 pub use error::WorkflowError;
-pub use finishing::{Completed, Finished, Made, Outputs};
+pub use finishing::{Completed, Finished, Made, Outputs, finish};
+pub use outcome::CampaignOutcome;
 pub use results::Results;
 pub use session::{Quiet, Session, Watch, isa};
 pub use verification::{Verification, Verified, verify};

@@ -20,7 +20,6 @@ use crate::storage::parts_read::PartsRead;
 use crate::storage::rows_reader::RowsReader;
 use crate::workflow::analysed::{Analysed, computed, write_junit};
 use crate::workflow::error::WorkflowError;
-use crate::workflow::finishing::{Finished, Outputs, finish};
 use crate::workflow::session::Session;
 use crate::workflow::source::plan_of_sound;
 
@@ -54,18 +53,6 @@ impl<'a> Results<'a> {
         let read = PartsRead::of(&parts, |name| root.join(name));
         let reader = RowsReader::new(session.storage, read.rows);
         Ok(Results { session, root, plan, parts, reader, bands: read.bands, _locks: locks })
-    }
-
-    /// Makes what follows from the rows of the result in `root`, whose parts are all there: after shards.
-    ///
-    /// # Errors
-    /// Where parts are missing or damaged, or a file operation fails.
-    pub fn finish(
-        root: impl Into<PathBuf>,
-        session: Session<'a>,
-        outputs: &Outputs,
-    ) -> Result<Finished, WorkflowError> {
-        finish(&session, &root.into(), outputs, &|_| Ok(()))
     }
 
     /// Its folder.

@@ -14,10 +14,10 @@ use crate::report::stopping_text::text as stopping_text;
 use crate::storage::claim::{Ready, Shard};
 use crate::storage::manifest::PartRecord;
 use crate::storage::part_sink::{CountRows, PartSink, write_parts};
-use crate::workflow::campaign::CampaignOutcome;
 use crate::workflow::error::WorkflowError;
 use crate::workflow::failed_samples::{FailFast, FailedRun, first_failed};
 use crate::workflow::finishing::{Finishing, Made, Outputs, complete, rows_of, say_notes};
+use crate::workflow::outcome::CampaignOutcome;
 use crate::workflow::session::Session;
 
 /// A campaign whose folder is claimed.

@@ -56,6 +56,20 @@ fn wrong_settings_are_named() {
     assert!(both.contains("--set campaign.seed: campaign.seed = -1"), "{both}");
 }
 
+/// Law: the names that other programs have lead to those of this one.
+#[test]
+fn names_of_other_programs_are_understood() {
+    let text = shipped();
+    for (key, value, meant) in [
+        ("disperse[0].distribution", "gaussian", "normal"),
+        ("design.kind", "LHS", "latin_hypercube"),
+        ("integrator.method", "ode45", "dormand_prince"),
+    ] {
+        let said = set(&text, &[(key, value)]).unwrap_err().to_string();
+        assert!(said.contains(&format!("did you mean \"{meant}\"?")), "{said}");
+    }
+}
+
 /// Law: a file that extends another has the keys of both, its own first; tables of lists by their names; the plan is that of one file with all of it. Paths
 /// count from the folder of the file that has them, and errors name file and line.
 #[test]

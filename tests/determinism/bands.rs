@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
 use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::ensemble::{Bands, Ensemble, Parts, Rows, SingleRun, Sink, Supervision, run};
@@ -61,7 +62,9 @@ fn files(plan: &Plan, threads: usize) -> Vec<Vec<u8>> {
 }
 
 fn merged<'a>(files: impl IntoIterator<Item = &'a Vec<u8>>) -> Bands {
-    let folder = ScratchFolder::new("bands");
+    // tests run side by side
+    static FOLDERS: AtomicUsize = AtomicUsize::new(0);
+    let folder = ScratchFolder::new(&format!("bands-{}", FOLDERS.fetch_add(1, Ordering::Relaxed)));
     let written = files.into_iter().zip(0..).map(|(bytes, number)| {
         let path = folder.path(&format!("part-{number:06}.parquet"));
         std::fs::write(&path, bytes).unwrap();

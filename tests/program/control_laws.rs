@@ -13,7 +13,8 @@ use spindrift::sampling::SampleId;
 use spindrift::scene::Actuated;
 use spindrift::storage::claim::Shard;
 use spindrift::workflow::{
-    Campaign, CampaignOutcome, Finished, Outputs, Quiet, Results, Session, Verification, Watch, WorkflowError, verify,
+    Campaign, CampaignOutcome, Finished, Outputs, Quiet, Results, Session, Verification, Watch, WorkflowError, finish,
+    verify,
 };
 
 #[path = "../../examples/control_campaign.rs"]
@@ -95,7 +96,7 @@ fn a_campaign_under_a_law_is_a_function_of_its_plan() {
         let shard = campaign(session, &of("shards")).shard(Shard { number, of: 3 }).prepare().unwrap().unwrap();
         assert!(matches!(shard.run(), Ok(CampaignOutcome::ShardDone { .. })));
     }
-    let finished = Results::finish(of("shards"), session, &Outputs::default()).unwrap();
+    let finished = finish(&session, &of("shards"), &Outputs::default(), &|_| Ok(())).unwrap();
     assert!(matches!(finished, Finished::Now(_)));
     assert!(files(&of("shards")) == expected, "three shards");
 

@@ -14,7 +14,7 @@ pub fn scheduled_arc(scene: &Scene, time: f64, duration: f64) -> Arc {
 /// The arc that a run of `scene` flies from `time` on: that of its schedule, or what its `law` answers to the `state` there.
 ///
 /// # Panics
-/// As [`law_arc`].
+/// Where the answer of a law ends before it starts: the run would never end.
 pub fn next_arc(
     scene: &Scene,
     law: Option<&mut dyn ActuationLaw>,

@@ -1,0 +1,52 @@
+//! [`LawContext`]: what the law of a run is made from at its start.
+
+use crate::sampling::{Noise, SampleId};
+use crate::scene::{ControlInput, Scene};
+
+/// What the law of one run is made from.
+///
+/// A law is to know what flight software knows: the nominal scene, its own parameters, and what its sensors measure. The drawn scene is the truth,
+/// for models of sensors and actuators only.
+#[derive(Clone, Copy, Debug)]
+pub struct LawContext<'a> {
+    /// The scene without dispersions.
+    pub nominal: &'a Scene,
+    /// The scene that is flown.
+    pub drawn: &'a Scene,
+    /// The parameters that the law declares, as drawn for this run.
+    pub parameters: &'a ControlInput,
+    /// The sample; 0 is the nominal run.
+    pub sample: SampleId,
+    /// The seed of the campaign.
+    pub seed: u64,
+}
+
+impl LawContext<'_> {
+    /// The number of the parameter called `key`.
+    ///
+    /// # Panics
+    /// Where the law does not declare it as a number.
+    pub fn number(&self, key: &str) -> f64 {
+        match self.parameters.named(key) {
+            Some([number]) => *number,
+            _ => panic!("the law declares no number {key}"),
+        }
+    }
+
+    /// The three numbers of the parameter called `key`.
+    ///
+    /// # Panics
+    /// Where the law does not declare it as three numbers.
+    pub fn vector(&self, key: &str) -> [f64; 3] {
+        match self.parameters.named(key) {
+            Some(&[x, y, z]) => [x, y, z],
+            _ => panic!("the law declares no vector {key}"),
+        }
+    }
+
+    /// Random numbers of this run for the purpose `name` (`gyro.noise.x`), tick by tick: the same for the same seed, sample, name and tick,
+    /// whatever else is drawn.
+    pub fn noise(&self, name: &str) -> Noise {
+        Noise::new(self.seed, name, self.sample)
+    }
+}
