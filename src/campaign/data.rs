@@ -5,7 +5,7 @@
 //! so that a plan's identity includes its data. Only the columns that are used are read, and how much memory they take is known before
 //! anything is decompressed.
 
-use super::data_columns::{Cells, ReadError, csv_columns, parquet_columns};
+use super::data_columns::{ReadError, TextCells, csv_columns, parquet_columns};
 use super::input_file::{self, InputError};
 use sha2::{Digest, Sha256};
 use std::io::{Read, Seek};
@@ -44,7 +44,7 @@ pub struct DataFile {
     /// The names of the columns.
     pub names: Vec<String>,
     /// What was read of each; `None` of those that are not used.
-    columns: Vec<Option<Cells>>,
+    columns: Vec<Option<TextCells>>,
     /// The number of the first row of data as people count them in this format.
     first_row: usize,
 }
@@ -128,7 +128,7 @@ impl DataFile {
     /// The first cell that is not a finite number, or that there is none.
     pub fn column(&self, name: &str) -> Option<Result<Vec<f64>, Refusal>> {
         let index = self.names.iter().position(|known| known == name)?;
-        let Cells { numbers, text, other } = self.columns[index].as_ref()?;
+        let TextCells { numbers, text, other } = self.columns[index].as_ref()?;
         if let Some(other) = other {
             let allowed = format!("a column of finite numbers ({name:?})");
             return Some(Err(((*other).to_owned(), allowed, "write its numbers as numbers".to_owned())));

@@ -20,7 +20,7 @@ const MOST_BYTES_OF_A_ROW: u64 = 24;
 const MOST_BYTES_OF_HEADERS: u64 = 1 << 20;
 /// The cells of a column.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Cells {
+pub(super) struct TextCells {
     /// Numbers; NaN for a text that is none.
     pub numbers: Vec<f64>,
     /// The first text that is no number.
@@ -29,7 +29,7 @@ pub(super) struct Cells {
     pub other: Option<&'static str>,
 }
 
-impl Cells {
+impl TextCells {
     fn push(&mut self, cell: Result<f64, String>) {
         if let (Err(text), None) = (&cell, &self.text) {
             self.text = Some((self.numbers.len(), text.clone()));
@@ -50,7 +50,7 @@ pub(super) enum ReadError {
 }
 
 /// Names and columns of cells.
-pub(super) type Columns = (Vec<String>, Vec<Option<Cells>>);
+pub(super) type Columns = (Vec<String>, Vec<Option<TextCells>>);
 
 /// That `rows` rows of `columns` columns are no more than `most` numbers.
 fn fits(rows: u64, columns: usize, most: u64) -> Result<(), ReadError> {
@@ -84,7 +84,7 @@ pub(super) fn csv_columns(bytes: &[u8], most: u64, used: &dyn Fn(&str) -> bool) 
     let rows = Rows { bytes, left: &left };
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(rows);
     let names: Vec<String> = reader.headers().map_err(format)?.iter().map(str::to_owned).collect();
-    let mut columns: Vec<_> = names.iter().map(|name| used(name).then(Cells::default)).collect();
+    let mut columns: Vec<_> = names.iter().map(|name| used(name).then(TextCells::default)).collect();
     let count = columns.iter().flatten().count();
     for (row, record) in reader.records().enumerate() {
         left.set(LONGEST_ROW);
@@ -118,10 +118,11 @@ pub(super) fn parquet_columns(
     let schema = reader.metadata().file_metadata().schema_descr_ptr();
     let fields = schema.root_schema().get_fields();
     let names: Vec<String> = fields.iter().map(|field| field.name().to_owned()).collect();
-    let cells =
-        |field: &TypePtr| used(field.name()).then(|| Cells { other: other_than_numbers(field), ..Cells::default() });
+    let cells = |field: &TypePtr| {
+        used(field.name()).then(|| TextCells { other: other_than_numbers(field), ..TextCells::default() })
+    };
     let mut columns: Vec<_> = fields.iter().map(cells).collect();
-    let is_read = |column: &Option<Cells>| column.as_ref().is_some_and(|cells| cells.other.is_none());
+    let is_read = |column: &Option<TextCells>| column.as_ref().is_some_and(|cells| cells.other.is_none());
     let read: Vec<TypePtr> =
         fields.iter().zip(&columns).filter(|(_, column)| is_read(column)).map(|(field, _)| field.clone()).collect();
     if read.is_empty() {

@@ -7,7 +7,7 @@
 use super::excerpt::Excerpt;
 use super::problem::{CampaignError, Problem, SHOWN};
 use super::size;
-use super::sources::{Source, Sources, lay_over, moved_table, put, value_at};
+use super::sources::{SourceText, Sources, lay_over, moved_table, put, value_at};
 use crate::control::ControlLaw;
 use crate::scene::SceneInput;
 use std::collections::BTreeMap;
@@ -127,7 +127,7 @@ impl<'a> Document<'a> {
     }
 
     /// Parses one file.
-    fn parse_file(&self, source: &'a Source) -> Result<DeTable<'a>, CampaignError> {
+    fn parse_file(&self, source: &'a SourceText) -> Result<DeTable<'a>, CampaignError> {
         let (file, text) = (&source.name, &self.text[source.range.clone()]);
         if let Some(problem) = size::of_text(file, text) {
             return Err(CampaignError::of(problem));

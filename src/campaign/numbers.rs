@@ -3,12 +3,12 @@
 use super::section::Section;
 use super::units::{self, UnitProblem};
 use crate::sampling::Values;
-use crate::scene::schema::Limit as SceneLimit;
+use crate::scene::schema::Limit;
 use toml::de::DeValue;
 
 /// What a number may be.
 #[derive(Clone, Copy, Debug)]
-pub struct Limit {
+pub struct NumberLimit {
     /// In words, to follow `must be`.
     pub allowed: &'static str,
     /// What to do otherwise.
@@ -18,11 +18,11 @@ pub struct Limit {
 }
 
 /// Any finite number.
-pub const FINITE: Limit =
-    Limit { allowed: "a finite number", remedy: "write a number such as 1.5", test: |x| x.is_finite() };
+pub const FINITE: NumberLimit =
+    NumberLimit { allowed: "a finite number", remedy: "write a number such as 1.5", test: |x| x.is_finite() };
 /// A number above zero.
-pub const POSITIVE: Limit =
-    Limit { allowed: "a number > 0", remedy: "write a positive number", test: |x| x.is_finite() && x > 0.0 };
+pub const POSITIVE: NumberLimit =
+    NumberLimit { allowed: "a number > 0", remedy: "write a positive number", test: |x| x.is_finite() && x > 0.0 };
 
 /// Keys of distributions whose values are in the unit of what is dispersed.
 const DISTANCES: [&str; 14] = [
@@ -68,7 +68,7 @@ impl Section<'_, '_> {
     }
 
     /// A number, if it was written and is allowed.
-    pub fn number(&mut self, key: &str, limit: Limit) -> Option<f64> {
+    pub fn number(&mut self, key: &str, limit: NumberLimit) -> Option<f64> {
         let value = self.take(key)?;
         let unit = self.unit_of(key);
         match number(value.get_ref(), unit) {
@@ -105,7 +105,7 @@ impl Section<'_, '_> {
 
     /// Fills `numbers` with the finite numbers of `key`: one, a list, or for nine of them three rows; whether the key was
     /// written. What is wrong is noted, with numbers as `limit` allows them for example, and the numbers are then NaN.
-    pub(super) fn fill(&mut self, key: &str, numbers: &mut [f64], limit: SceneLimit) -> bool {
+    pub(super) fn fill(&mut self, key: &str, numbers: &mut [f64], limit: Limit) -> bool {
         let Some(value) = self.take(key) else { return false };
         let unit = self.unit_of(key);
         let found = match numbers.len() {
@@ -131,13 +131,13 @@ impl Section<'_, '_> {
     /// The three finite numbers of a direction, if they were written; NaN each where they are wrong.
     pub fn direction(&mut self, key: &str) -> Option<[f64; 3]> {
         let mut vector = [f64::NAN; 3];
-        self.fill(key, &mut vector, SceneLimit::Direction).then_some(vector)
+        self.fill(key, &mut vector, Limit::Direction).then_some(vector)
     }
 
     /// A 3x3 matrix of finite numbers by rows, if it was written; NaN where it is wrong.
     pub fn matrix(&mut self, key: &str) -> Option<[[f64; 3]; 3]> {
         let mut matrix = [[f64::NAN; 3]; 3];
-        self.fill(key, matrix.as_flattened_mut(), SceneLimit::Finite).then_some(matrix)
+        self.fill(key, matrix.as_flattened_mut(), Limit::Finite).then_some(matrix)
     }
 
     /// One finite number, or an array of them, if written.

@@ -14,7 +14,7 @@ const MOST_FILES: usize = 8;
 
 /// One text.
 #[derive(Clone, Debug)]
-pub(super) struct Source {
+pub(super) struct SourceText {
     /// Its name in messages.
     pub name: String,
     /// The folder from which its paths count.
@@ -28,7 +28,7 @@ pub(super) struct Source {
 /// All of them, what is laid over the others first.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Sources {
-    pub list: Vec<Source>,
+    pub list: Vec<SourceText>,
     /// Their texts, one after the other.
     pub text: String,
     /// The files that the campaign file extends.
@@ -83,12 +83,12 @@ impl Sources {
     fn add(&mut self, name: String, folder: PathBuf, key: Option<String>, text: &str) {
         let start = self.text.len();
         self.text.push_str(text);
-        self.list.push(Source { name, folder, key, range: start..self.text.len() });
+        self.list.push(SourceText { name, folder, key, range: start..self.text.len() });
         self.text.push('\n');
     }
 
     /// The text that has the byte `offset`.
-    pub fn at(&self, offset: usize) -> &Source {
+    pub fn at(&self, offset: usize) -> &SourceText {
         let found = self.list.iter().rfind(|source| source.range.start <= offset);
         found.unwrap_or(&self.list[0])
     }

@@ -41,7 +41,7 @@ pub fn run(options: &ColumnsOptions) -> Result<CommandOutcome, Failure> {
 }
 
 /// The group called `word`; or of all groups the columns with the word in their name, their unit or their meaning. `None` where there is none.
-fn found(sections: &[Section], word: &str) -> Option<Vec<Section>> {
+fn found(sections: &[ColumnSection], word: &str) -> Option<Vec<ColumnSection>> {
     if let Some(group) = sections.iter().find(|section| section.title == word) {
         return Some(vec![group.clone()]);
     }
@@ -52,24 +52,25 @@ fn found(sections: &[Section], word: &str) -> Option<Vec<Section>> {
     let has = |(quantity, _): &&(Quantity, &'static str)| {
         [quantity.name(), quantity.unit(), quantity.meaning()].iter().any(|text| text.to_lowercase().contains(&word))
     };
-    let columns = |section: &Section| Section {
+    let columns = |section: &ColumnSection| ColumnSection {
         title: section.title.clone(),
         columns: section.columns.iter().filter(has).cloned().collect(),
     };
-    let found: Vec<Section> = sections.iter().map(columns).filter(|section| !section.columns.is_empty()).collect();
+    let found: Vec<ColumnSection> =
+        sections.iter().map(columns).filter(|section| !section.columns.is_empty()).collect();
     (!found.is_empty()).then_some(found)
 }
 
 /// Columns with a title.
 #[derive(Clone)]
-struct Section {
+struct ColumnSection {
     title: String,
     columns: Vec<(Quantity, &'static str)>,
 }
 
 /// The columns of every group; those of wheels once, with the place of the name.
-fn of_all_campaigns() -> Vec<Section> {
-    let section = |group: Group| Section {
+fn of_all_campaigns() -> Vec<ColumnSection> {
+    let section = |group: Group| ColumnSection {
         title: group.name().to_owned(),
         columns: table::all()
             .filter(|column| column.group == group)
@@ -80,19 +81,19 @@ fn of_all_campaigns() -> Vec<Section> {
 }
 
 /// The columns of the rows of `plan`: what is of the sample, its groups, and audits.
-fn of_campaign(plan: &Plan) -> Result<Vec<Section>, Failure> {
+fn of_campaign(plan: &Plan) -> Result<Vec<ColumnSection>, Failure> {
     let ensemble = Ensemble::new(plan, isa()?);
     let observed = ensemble.request().columns();
     let title = |quantity: &Quantity| {
         observed.iter().find(|column| column.quantity.name() == quantity.name()).map(|column| column.group.name())
     };
-    let mut sections: Vec<Section> = Vec::new();
+    let mut sections: Vec<ColumnSection> = Vec::new();
     for heading in headings(&ensemble) {
         let is_first = sections.iter().all(|section| section.title == SAMPLE);
         let title = title(&heading.quantity).unwrap_or(if is_first { SAMPLE } else { AUDIT });
         match sections.last_mut().filter(|section| section.title == title) {
             Some(section) => section.columns.push((heading.quantity, "")),
-            None => sections.push(Section { title: title.to_owned(), columns: vec![(heading.quantity, "")] }),
+            None => sections.push(ColumnSection { title: title.to_owned(), columns: vec![(heading.quantity, "")] }),
         }
     }
     Ok(sections)
@@ -103,7 +104,7 @@ const SAMPLE: &str = "the sample and what it applies";
 /// Title of the columns after them.
 const AUDIT: &str = "audit";
 
-fn text(sections: &[Section]) -> String {
+fn text(sections: &[ColumnSection]) -> String {
     let all = || sections.iter().flat_map(|section| &section.columns);
     let width = |text: fn(&Quantity) -> &str| all().map(|(q, _)| text(q).chars().count()).max().unwrap_or(0);
     let (names, units) = (width(Quantity::name), width(Quantity::unit));

@@ -277,7 +277,7 @@ impl Mark {
 
 /// The sections of the page that have figures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Section {
+pub enum FigureSection {
     /// What happened over time.
     Time,
     /// Numerical errors and work.
@@ -290,15 +290,15 @@ pub enum Section {
     Statistics,
 }
 
-impl Section {
+impl FigureSection {
     /// The anchor of the section.
     pub const fn anchor(self) -> &'static str {
         match self {
-            Section::Time => "time",
-            Section::Numerics => "numerics",
-            Section::Influence => "influence",
-            Section::Inputs => "inputs",
-            Section::Statistics => "statistics",
+            FigureSection::Time => "time",
+            FigureSection::Numerics => "numerics",
+            FigureSection::Influence => "influence",
+            FigureSection::Inputs => "inputs",
+            FigureSection::Statistics => "statistics",
         }
     }
 }
@@ -309,7 +309,7 @@ pub struct Figure {
     /// Its anchor in the page and its name as a file.
     pub name: String,
     /// Where it is.
-    pub section: Section,
+    pub section: FigureSection,
     /// What it shows.
     pub title: String,
     /// What bands, marks and N mean.
@@ -331,7 +331,7 @@ impl Figure {
     pub fn new(title: impl Into<String>, x: Axis, y: Axis, marks: Vec<Mark>) -> Self {
         Figure {
             name: String::new(),
-            section: Section::Time,
+            section: FigureSection::Time,
             title: title.into(),
             caption: String::new(),
             columns: 6,

@@ -61,21 +61,21 @@ impl TimeTable {
             Some(points.iter().map(|point| digits.text(values[*point])).collect())
         };
         let main = COLUMNS.into_iter().filter_map(|(key, name, below, digits)| {
-            Some(Column { name: name.to_owned(), below, cells: cells(key, digits)? })
+            Some(TimeTableColumn { name: name.to_owned(), below, cells: cells(key, digits)? })
         });
         let wheels = series.wheels().iter().enumerate().filter_map(|(wheel, name)| {
             let cells = cells(TimeColumn::State(StateField::WheelRates, wheel), Digits::Short)?;
-            Some(Column { name: name.to_string(), below: "rad/s", cells })
+            Some(TimeTableColumn { name: name.to_string(), below: "rad/s", cells })
         });
         TimeTable::of(main.collect(), wheels.collect(), points.len(), width)
     }
 
-    fn of(mut main: Vec<Column>, mut wheels: Vec<Column>, points: usize, width: usize) -> Self {
+    fn of(mut main: Vec<TimeTableColumn>, mut wheels: Vec<TimeTableColumn>, points: usize, width: usize) -> Self {
         let names = wheels.iter().map(|wheel| wheel.name.clone()).collect::<Vec<_>>();
         let headers = distinct(&names.iter().map(|name| format!("rate {name}")).collect::<Vec<_>>());
         wheels.iter_mut().zip(headers).for_each(|(wheel, header)| wheel.name = header);
         let mut used = 0;
-        let mut fits = |column: &Column| {
+        let mut fits = |column: &TimeTableColumn| {
             used += column.width() + usize::from(used > 0);
             used <= width
         };
@@ -85,9 +85,9 @@ impl TimeTable {
         let mut left_out: Vec<String> = main.drain(shown_main..).map(|column| column.title()).collect();
         left_out.extend(of_wheels(&names[shown_wheels..], names.len()));
         wheels.truncate(shown_wheels);
-        let columns: Vec<Column> = main.into_iter().chain(wheels).collect();
+        let columns: Vec<TimeTableColumn> = main.into_iter().chain(wheels).collect();
         let mut text = String::new();
-        let mut line = |cell: &dyn Fn(&Column) -> String| {
+        let mut line = |cell: &dyn Fn(&TimeTableColumn) -> String| {
             let cells: Vec<String> =
                 columns.iter().map(|column| format!("{:>width$}", cell(column), width = column.width())).collect();
             let _ = writeln!(text, "{}", cells.join(" ")); // writing to a String does not fail
@@ -101,14 +101,14 @@ impl TimeTable {
 
 /// A column in text.
 #[derive(Clone, Debug)]
-struct Column {
+struct TimeTableColumn {
     name: String,
     /// The second line of the header.
     below: &'static str,
     cells: Vec<String>,
 }
 
-impl Column {
+impl TimeTableColumn {
     fn width(&self) -> usize {
         let letters = |text: &str| text.chars().count();
         let header = letters(&self.name).max(letters(self.below));
@@ -165,12 +165,12 @@ mod tests {
 
     /// A table of the main columns, with numbers as long as they become, and of wheels with these names.
     fn table(names: &[&str], width: usize) -> TimeTable {
-        let main = COLUMNS.map(|(_, name, below, digits)| Column {
+        let main = COLUMNS.map(|(_, name, below, digits)| TimeTableColumn {
             name: name.to_owned(),
             below,
             cells: [0.0, -0.012_345].map(|value| digits.text(value)).to_vec(),
         });
-        let wheels = names.iter().map(|name| Column {
+        let wheels = names.iter().map(|name| TimeTableColumn {
             name: (*name).to_owned(),
             below: "rad/s",
             cells: vec!["209.4".to_owned(), "-1047.2".to_owned()],

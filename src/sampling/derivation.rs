@@ -34,14 +34,14 @@ pub struct Derived {
     /// How.
     expression: Expression,
     /// What each variable of the expression is.
-    sources: Vec<Source>,
+    sources: Vec<DerivedInput>,
     /// The expression as written.
     pub text: String,
 }
 
 /// Where a variable's value comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Source {
+enum DerivedInput {
     /// A column of the draw.
     Column(usize),
     /// A value that is the same in every sample.
@@ -53,8 +53,8 @@ impl Derived {
     #[inline]
     pub fn value(&self, column: impl Fn(usize) -> f64) -> f64 {
         self.expression.value(|index| match self.sources[index] {
-            Source::Column(index) => column(index),
-            Source::Nominal(value) => value,
+            DerivedInput::Column(index) => column(index),
+            DerivedInput::Nominal(value) => value,
         })
     }
 }
@@ -147,8 +147,8 @@ pub(super) fn derived(
             .iter()
             .filter_map(|name| variable(name, nominal).ok())
             .map(|(target, value)| match columns.find(target) {
-                Some(column) => Source::Column(column),
-                None => Source::Nominal(value),
+                Some(column) => DerivedInput::Column(column),
+                None => DerivedInput::Nominal(value),
             })
             .collect();
         let column = columns.add(parameter, component, nominal);

@@ -1,7 +1,7 @@
 //! Figures of the numerical errors: histograms, exceedance, estimate against audited error, work.
 
 use crate::analysis::survey::{CONFIDENCE, Survey, SurveyedOutcome};
-use crate::report::figure::{Axis, Dash, Figure, Hue, Mark, PointShape, Section};
+use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointShape};
 use crate::report::histogram::{bins, counts};
 use crate::report::page::shown_columns::{ranked, words};
 use crate::run::Status;
@@ -28,12 +28,12 @@ pub fn figures(survey: &Survey, has_intervals: bool) -> Vec<Figure> {
     let errors = survey.outcomes.iter().enumerate();
     let errors = errors.filter(|(_, outcome)| outcome.is_error && outcome.sketch.max().is_some_and(|max| max > 0.0));
     for (index, outcome) in errors.take(MOST_ERRORS) {
-        figures.push(histogram(survey, index, outcome, Section::Numerics));
+        figures.push(histogram(survey, index, outcome, FigureSection::Numerics));
         figures.push(exceedance(outcome, has_intervals));
     }
     figures.extend(audits(survey));
     let steps = survey.outcome("steps");
-    figures.extend(steps.map(|(index, outcome)| histogram(survey, index, outcome, Section::Numerics)));
+    figures.extend(steps.map(|(index, outcome)| histogram(survey, index, outcome, FigureSection::Numerics)));
     figures.retain(Figure::is_visible);
     figures
 }
@@ -57,7 +57,7 @@ pub fn shown_rows(survey: &Survey) -> Vec<usize> {
 }
 
 /// The histogram of an outcome over the thinned table; of an error, of its magnitude.
-pub fn histogram(survey: &Survey, index: usize, outcome: &SurveyedOutcome, section: Section) -> Figure {
+pub fn histogram(survey: &Survey, index: usize, outcome: &SurveyedOutcome, section: FigureSection) -> Figure {
     let rows = shown_rows(survey);
     let column = &survey.thinned.outcomes[index];
     let values: Vec<f64> = rows.iter().map(|row| column[*row]).filter(|value| value.is_finite()).collect();
@@ -126,7 +126,7 @@ fn exceedance(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
     };
     Figure {
         name: format!("tail_{}", outcome.quantity.name()),
-        section: Section::Numerics,
+        section: FigureSection::Numerics,
         title: format!("Tail of {}", words(&outcome.quantity)),
         caption: format!(
             "Fraction of all {} runs that are ok whose value is at least this; shown at ranks spaced by decades.{interval}",
@@ -176,7 +176,7 @@ fn audits(survey: &Survey) -> Option<Figure> {
     let [low, high] = [0.5 * ends[0], 2.0 * ends[1]];
     Some(Figure {
         name: "audits".to_owned(),
-        section: Section::Numerics,
+        section: FigureSection::Numerics,
         title: "Estimated error against the true one".to_owned(),
         caption: format!(
             "{} of {} audited runs, each compared with a reference solution. Above the diagonal the estimate is too small: {below} of those shown.",

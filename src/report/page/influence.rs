@@ -2,7 +2,7 @@
 
 use crate::analysis::survey::{SCATTER, Survey, SurveyedOutcome, chosen};
 use crate::campaign::Plan;
-use crate::report::figure::{Axis, Dash, Figure, Hue, Mark, PointShape, Section};
+use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointShape};
 use crate::report::page::errors::{sentence, shown_rows};
 use crate::report::page::shown_columns::words;
 use crate::run::Quantity;
@@ -51,7 +51,7 @@ fn tornado(influence: &Influence, outcome: &SurveyedOutcome, inputs: &[(String, 
         if inputs.len() < all { format!(" The strongest {} of {all} inputs.", inputs.len()) } else { String::new() };
     Figure {
         name: format!("influence_{}", outcome.quantity.name()),
-        section: Section::Influence,
+        section: FigureSection::Influence,
         title: format!("What drives {}", words(&outcome.quantity)),
         caption: format!("{}{note}", influence.meaning),
         columns: 4,
@@ -104,7 +104,7 @@ fn scatter(plan: &Plan, survey: &Survey, input: usize, index: usize, outcome: &S
     let axis = if is_log { Axis::log } else { Axis::linear };
     Figure {
         name: format!("scatter_{}_{}", outcome.quantity.name(), column.parameter.column_name(column.component)),
-        section: Section::Influence,
+        section: FigureSection::Influence,
         title: format!("{} against {name}", sentence(&words(&outcome.quantity))),
         caption: format!("{}.", crate::report::page::errors::of_runs(kept.len(), all)),
         columns: 4,
@@ -145,7 +145,7 @@ pub fn convergence(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
     let (quantity, unit): (&Quantity, &str) = (&outcome.quantity, outcome.quantity.unit());
     Figure {
         name: format!("convergence_{}", quantity.name()),
-        section: Section::Statistics,
+        section: FigureSection::Statistics,
         title: format!("Convergence of {}", words(quantity)),
         caption: "Quantiles of the first N dispersed runs that are ok, in the order of their numbers; where the band begins, N bounds the \
                   quantile from both sides."

@@ -4,7 +4,7 @@ use core::f64::consts::PI;
 
 use crate::analysis::survey::Survey;
 use crate::campaign::Plan;
-use crate::report::figure::{Axis, Figure, Section};
+use crate::report::figure::{Axis, Figure, FigureSection};
 use crate::report::{drawn_figure, histogram, marginal};
 use crate::sampling::correlation::{Measure, Numbers};
 use crate::statistics::correlation::{matrix, mid_ranks, standardised};
@@ -51,7 +51,7 @@ fn input(plan: &Plan, survey: &Survey, index: usize) -> Figure {
     let histogram = histogram::of_input(&name, unit, &values, column.nominal, asked.as_ref());
     Figure {
         name: format!("input_{}", column.parameter.column_name(column.component)),
-        section: Section::Inputs,
+        section: FigureSection::Inputs,
         caption: format!("{} of {} dispersed samples. {origin}.{line}", values.len(), survey.samples.saturating_sub(1)),
         columns: 4,
         x: Axis { quantity: name, ..histogram.x },
@@ -78,7 +78,7 @@ fn correlations(plan: &Plan, survey: &Survey) -> Vec<Figure> {
     let chance = (1.96 / libm::sqrt((rows.len() - 1) as f64)).min(1.0);
     let figure = |name: &str, title: &str, caption: String, values: Vec<Vec<f64>>| Figure {
         name: name.to_owned(),
-        section: Section::Inputs,
+        section: FigureSection::Inputs,
         caption,
         ..drawn_figure::correlations(title, &names, values)
     };

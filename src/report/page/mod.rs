@@ -37,7 +37,7 @@ use self::tables::StatisticsRow;
 use crate::analysis::survey::{self, Survey};
 use crate::campaign::Plan;
 use crate::ensemble::Ensemble;
-use crate::report::figure::{Figure, Section};
+use crate::report::figure::{Figure, FigureSection};
 use crate::sampling::{Design, SampleId};
 
 /// What the page is made of.
@@ -114,7 +114,7 @@ impl Page {
             first_screen::status(survey),
             first_screen::verdicts(&cards, !contents.verdicts.is_empty(), &contents.said),
         ];
-        let has = |section: Section| figures.iter().any(|figure| figure.section == section);
+        let has = |section: FigureSection| figures.iter().any(|figure| figure.section == section);
         let sections = sections(plan, contents, &shown, has_replay, &has);
         Page { html: document(&plan.name, &first.concat(), &sections, &data, &payload.text()), figures }
     }
@@ -126,9 +126,9 @@ fn sections(
     contents: &Contents,
     shown: &[runs::ShownRun],
     has_replay: bool,
-    has: &dyn Fn(Section) -> bool,
+    has: &dyn Fn(FigureSection) -> bool,
 ) -> Vec<PageSection> {
-    let figures = |section: Section, title, lead: &str, html: &str| {
+    let figures = |section: FigureSection, title, lead: &str, html: &str| {
         let shown = PageSection {
             anchor: section.anchor(),
             title,
@@ -145,13 +145,13 @@ fn sections(
     let replay = "<div class=\"replay\"><p>The replay needs JavaScript and WebGL.</p></div>";
     let table = tables::statistics(&contents.statistics);
     [
-        figures(Section::Time, "Over time", "How the spacecraft moves and where the energy is. Drag the time slider of the replay to move a cursor through these figures.", ""),
-        figures(Section::Numerics, "Numerics", "How large the numerical errors are. Small and without a trend is good.", ""),
-        figures(Section::Influence, "What drives it", "Which uncertain input makes the difference.", pairs),
+        figures(FigureSection::Time, "Over time", "How the spacecraft moves and where the energy is. Drag the time slider of the replay to move a cursor through these figures.", ""),
+        figures(FigureSection::Numerics, "Numerics", "How large the numerical errors are. Small and without a trend is good.", ""),
+        figures(FigureSection::Influence, "What drives it", "Which uncertain input makes the difference.", pairs),
         plain("worst", "Worst runs", "The nominal run, runs that failed, and those with the largest errors. Each is replayed bit for bit by its command.", tables::worst_runs(plan, shown)),
         plain("replay", "Replay", "The nominal run and the worst ones in three dimensions.", replay.to_owned()).filter(|_| has_replay),
-        figures(Section::Inputs, "Inputs", "What was applied, against what the campaign file asks for.", ""),
-        Some(PageSection { anchor: "statistics", title: "Statistics", lead: String::new(), html: table, has_figures: has(Section::Statistics) }),
+        figures(FigureSection::Inputs, "Inputs", "What was applied, against what the campaign file asks for.", ""),
+        Some(PageSection { anchor: "statistics", title: "Statistics", lead: String::new(), html: table, has_figures: has(FigureSection::Statistics) }),
         plain("provenance", "Provenance", "", tables::provenance(plan, &contents.survey, &contents.files)),
     ]
     .into_iter()

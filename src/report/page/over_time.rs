@@ -2,7 +2,7 @@
 
 use crate::ensemble::SingleRun;
 use crate::observables::Series;
-use crate::report::figure::{Axis, Dash, Figure, Hue, Mark, Section};
+use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark};
 use crate::report::number::short;
 use crate::report::page::spectrum::{amplitudes, dominant};
 use crate::report::relative_errors;
@@ -223,7 +223,7 @@ impl<'a> Curves<'a> {
         });
         let phase = Figure {
             name: "energy_phase".to_owned(),
-            section: Section::Time,
+            section: FigureSection::Time,
             title: "Energy of each wheel against that of the body".to_owned(),
             caption: "Changes since the start, nominal run: a straight line of slope -1 is a transfer between this wheel and the body alone."
                 .to_owned(),
@@ -259,7 +259,7 @@ impl<'a> Curves<'a> {
                 "{what}, relative to the largest. {} {of_step}rounding of a double: 1.1e-16.",
                 self.caption(&self.name(list[0].0).0)
             );
-            Figure { section: Section::Numerics, ..over_time(name, title, caption, axis, marks) }
+            Figure { section: FigureSection::Numerics, ..over_time(name, title, caption, axis, marks) }
         };
         vec![
             figure("drift_energy", "Drift of energy", "Change of energy minus work", &energy),
@@ -282,7 +282,7 @@ impl<'a> Curves<'a> {
 fn over_time(name: &str, title: &str, caption: String, y: Axis, marks: Vec<Mark>) -> Figure {
     Figure {
         name: name.to_owned(),
-        section: Section::Time,
+        section: FigureSection::Time,
         title: title.to_owned(),
         caption,
         columns: 6,
@@ -328,7 +328,7 @@ fn spectrum(times: &[f64], body: &[f64]) -> Option<Figure> {
     ];
     Some(Figure {
         name: "energy_spectrum".to_owned(),
-        section: Section::Time,
+        section: FigureSection::Time,
         title: "Spectrum of the energy transfer".to_owned(),
         caption: "Amplitude of the energy of the body, nominal run (Hann window; the mean is removed).".to_owned(),
         columns: 6,
