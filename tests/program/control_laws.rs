@@ -6,8 +6,11 @@ use std::num::NonZeroUsize;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
+use spindrift::campaign::{Overrides, Plan};
 use spindrift::control::{ControlLaw, LawContext};
 use spindrift::dynamics::actuation::{Actuation, BodyState, WheelState};
+use spindrift::ensemble::SingleRun;
+use spindrift::math::Isa;
 use spindrift::run::Status;
 use spindrift::sampling::SampleId;
 use spindrift::scene::Actuated;
@@ -21,6 +24,7 @@ use spindrift::workflow::{
 #[expect(dead_code, reason = "the example runs in tests/project")]
 mod example;
 
+use super::small_campaign::campaign_without_debris;
 use crate::support::scratch_folder::ScratchFolder;
 
 /// A campaign of six hundred of these: some parts, some audits.
@@ -179,4 +183,35 @@ fn the_law_is_part_of_the_plan() {
     );
     let Err(WorkflowError::Input(reason)) = negative.prepare() else { panic!("refused") };
     assert!(reason.contains("control.damping_n_m_s = -6.0"), "{reason}");
+}
+
+/// Law: a law knows the nominal scene, and models of sensors the drawn one: each is what it says, in the nominal run and in a dispersed one. The schedule of
+/// the scene adds to the law.
+#[test]
+fn a_law_has_the_nominal_and_the_drawn_scene() {
+    let make = |context: &LawContext<'_>| {
+        let torque = [context.drawn.mass.total, context.nominal.mass.total, context.sample.0 as f64];
+        move |_: f64, _: &BodyState, _: &WheelState| Actuation { body_torque: torque, ..Actuation::none(f64::INFINITY) }
+    };
+    let law = ControlLaw::new("scenes", Actuated { body_torque: true, ..Actuated::NONE }, &[], make);
+    let overrides = Overrides { law: Some(law), ..Overrides::default() };
+    let text = campaign_without_debris()
+        + "[[disperse]]\nparameter = \"body.parts.fuselage.mass_scale\"\ndistribution = \"uniform\"\nmin = 0.5\nmax = 1.5\n";
+    let scheduled = text.clone() + "[[actuation]]\nstart_s = 0.25\nend_s = 0.5\ntorque_n_m = { w1 = 3.0 }\n";
+    let plan = |text: &str| Plan::from_text("scenes.toml", text, overrides.clone()).unwrap();
+    let run = |text: &str, sample: u64| {
+        let plan = plan(text);
+        SingleRun::new(&plan, SampleId(sample), plan.grid.clone(), Isa::best()).unwrap()
+    };
+    let nominal = run(&text, 0).scene.mass.total;
+    for sample in [0, 3, 9] {
+        let run = run(&text, sample);
+        assert_eq!(run.arcs.len(), 1);
+        assert_eq!(run.arcs[0].applied.body_torque, [run.scene.mass.total, nominal, sample as f64]);
+        assert_eq!(run.scene.mass.total == nominal, sample == 0, "the mass of sample {sample} is drawn");
+    }
+    let arcs = run(&scheduled, 3).arcs;
+    let shown: Vec<(f64, f64, bool)> =
+        arcs.iter().map(|arc| (arc.start, arc.applied.motor_torque[0], arc.applied.body_torque[2] == 3.0)).collect();
+    assert_eq!(shown, [(0.0, 0.0, true), (0.25, 3.0, true), (0.5, 0.0, true)]);
 }
