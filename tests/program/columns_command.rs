@@ -50,6 +50,17 @@ fn a_new_file_runs() {
     assert!(said.contains("PASS"), "{said}");
     scratch.prints("new mine.toml", 4);
     assert_eq!(std::fs::read_to_string(scratch.path("mine.toml")).unwrap(), text);
+    // a wheel across the spin: its momentum tilts the spin axis, and a faster spin holds it
+    let across = "--set wheels.w1.axis=[0,1,0] --set require[0].at_most=4";
+    let said = scratch.prints(&format!("campaign mine.toml {across} --no-report --out across"), 0);
+    let drivers = said.lines().find(|line| line.contains("share of the variance")).expect(&said);
+    let (of_spin, of_wheel) = drivers
+        .split_once("initial_angular_velocity_z_rad_s (")
+        .unwrap()
+        .1
+        .split_once("wheels_w1_rate_rad_s (")
+        .unwrap();
+    assert!(of_spin.contains("falls with it") && of_wheel.contains("rises with it"), "{drivers}");
     // the same campaign again says how it ended, and writes the verdicts where they are asked for
     let again = scratch.prints("campaign mine.toml --out r --junit v.xml", 0);
     assert!(again.contains("PASS") && again.contains("r/report.html"), "{again}");

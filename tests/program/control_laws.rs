@@ -135,6 +135,12 @@ fn rows_under_a_law_are_its_runs() {
     let audited: Vec<f64> =
         results.column("audit_state_error").unwrap().into_iter().filter(|error| !error.is_nan()).collect();
     assert!(audited.len() > 3 && audited.iter().all(|error| *error < 1e-11), "{audited:?}");
+    // what is audited is the run of the row: it estimates the same error
+    let [own, of_audit] =
+        ["state_error_estimate", "audit_state_error_estimate"].map(|name| results.column(name).unwrap());
+    for (own, of_audit) in own.iter().zip(&of_audit).filter(|(_, of_audit)| !of_audit.is_nan()) {
+        assert_eq!(own, of_audit);
+    }
     let [work, energy, momentum] = ["work_motors_final_j", "energy_error_max", "angular_momentum_error_max"]
         .map(|name| results.column(name).unwrap());
     assert!(work.iter().skip(1).all(|work| work.abs() > 1e-6), "motors work in each run that is dispersed");
