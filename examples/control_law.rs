@@ -9,7 +9,7 @@ use spindrift::dynamics::actuation::{Actuation, ActuationLaw, BodyState, Laws, W
 use spindrift::math::Isa;
 use spindrift::propagation::PropagationSettings;
 use spindrift::run::{StateField, StateFields, Status};
-use spindrift::scene::Scene;
+use spindrift::scene::{Actuated, Scene};
 
 /// A spacecraft without wheels that tumbles slowly. Keys that are not given have defaults.
 const SCENE: &str = r#"
@@ -71,7 +71,8 @@ pub fn main() {
 
     let fields = StateFields::NONE.with(StateField::Rate).with(StateField::Attitude);
     let control = spindrift::ode::Control { tolerance: plan.tolerance, step: None, max_steps: plan.max_steps };
-    let settings = PropagationSettings::new(plan.method, control, plan.grid.clone(), fields, &scene).with_feedback();
+    let settings =
+        PropagationSettings::new(plan.method, control, plan.grid.clone(), fields, &scene).with_feedback(Actuated::ALL);
     let scenes = [scene];
     settings.engine(Isa::best()).propagate_under(Laws::Feedback(&mut laws), &scenes, &mut |run| {
         assert_eq!(run.outcome.status, Status::Done);

@@ -147,7 +147,7 @@ fn engines_under_laws() {
         let scenes = &scenes[..count];
         let grid = Grid::uniform(2.0, 21);
         let settings = PropagationSettings::new(method, adaptive(tolerance), grid, everything(method), &scenes[0]);
-        let mut engine = settings.with_feedback().engine(Isa::best());
+        let mut engine = settings.with_feedback(Actuated::ALL).engine(Isa::best());
         let laws = || scenes.iter().map(law).collect::<Vec<_>>();
         let (mut first, mut second) = (laws(), laws());
         engine.propagate_under(Laws::Feedback(&mut first), scenes, &mut |_| {});

@@ -236,10 +236,14 @@ function matrixSeries(mark, figure, palette) {
 export function legendOf(figure, palette) {
   const seen = new Set();
   const entries = [];
+  const beneath = new Map();
   for (const mark of figure.marks) {
+    // a band on top of others of its colour is as dark as all of them together
+    const left = mark.kind === "band" && !mark.stacked ? (beneath.get(mark.hue) ?? 1) * (1 - mark.opacity) : 1 - (mark.opacity ?? 0.55);
+    if (mark.kind === "band" && !mark.stacked) beneath.set(mark.hue, left);
     if (!mark.label || mark.kind === "limit" || mark.kind === "matrix" || seen.has(mark.label)) continue;
     seen.add(mark.label);
-    entries.push({ label: mark.label, color: palette.hues[mark.hue], kind: mark.kind, opacity: mark.opacity ?? 0.55, dash: mark.dash, crosses: mark.crosses });
+    entries.push({ label: mark.label, color: palette.hues[mark.hue], kind: mark.kind, opacity: 1 - left, dash: mark.dash, crosses: mark.crosses });
   }
   return entries.length > 1 || entries.some((entry) => entry.kind !== "bars") ? entries : [];
 }

@@ -4,8 +4,9 @@ import { chartOption, heightOf, legendOf } from "./chart.js";
 import { described } from "./hover.js";
 import { readable } from "./numbers.js";
 import { saveButtons } from "./save.js";
-import { colors, onTheme } from "./theme.js";
+import { colors, isOnPaper, onTheme } from "./theme.js";
 
+const PAPER_WIDTH = 360;
 const views = [];
 
 function element(tag, className, text) {
@@ -61,8 +62,15 @@ export class FigureView {
     views.push(this);
   }
 
+  // Takes the room that the drawn figure needs: its legend, and the height of its plot.
+  reserve() {
+    this.legend.replaceChildren(legendElement(this.figure));
+    this.plot.style.height = `${heightOf(this.figure, Math.max(240, Math.floor(this.plot.clientWidth || 560)))}px`;
+  }
+
   draw() {
-    const width = Math.max(240, Math.floor(this.plot.clientWidth));
+    // on paper two figures share the width: so wide that their text has the size of the text around
+    const width = isOnPaper() ? PAPER_WIDTH : Math.max(240, Math.floor(this.plot.clientWidth));
     if (this.chart && width === this.width && this.palette === colors().background) return;
     [this.width, this.palette] = [width, colors().background];
     const height = heightOf(this.figure, width);
@@ -152,9 +160,10 @@ export function showFigures(figures, echarts) {
   );
   for (const figure of figures) {
     const view = new FigureView(figure, echarts);
-    document.querySelector(`#${figure.section} > .figures`).append(view.box);
-    view.plot.style.height = `${heightOf(figure, 560)}px`;
+    document.querySelector(`#${figure.section} .figures`).append(view.box);
   }
+  // so that nothing moves when they are drawn: links land where they point
+  for (const view of views) view.reserve();
   for (const view of views) near.observe(view.plot);
   const redraw = () => views.filter((view) => view.chart).forEach((view) => view.draw());
   new ResizeObserver(() => requestAnimationFrame(redraw)).observe(document.querySelector("main"));

@@ -67,7 +67,7 @@ export class Replay {
     for (const { group } of [...this.wheels, ...this.thrusters]) inner.add(group);
     this.craft.add(inner, axes(three, 0.75 * size, palette.hues[HUE_PLACES.body]));
     this.world.add(this.craft, axes(three, 1.5 * size, palette.quiet), sphere(three, 1.6 * size, palette.quiet));
-    this.arrows = { s3: palette.hues[6], momentum: palette.hues[7], omega: palette.hues[3] };
+    this.arrows = { s3: palette.hues[6], momentum: palette.hues[7], omega: palette.hues[HUE_PLACES.omega] };
     for (const [name, color] of Object.entries(this.arrows)) {
       this.arrows[name] = arrow(three, color, 0.012);
       this.world.add(this.arrows[name]);
@@ -119,8 +119,8 @@ export class Replay {
     this.notes = control("p", { className: "caption" });
     const legend = control("ul", { className: "legend" });
     const entries = [
-      ["s3, spin axis, with its trail on the sphere", 6], ["H, angular momentum", 7], ["omega, angular velocity", 3], ["body, axes of F_s", HUE_PLACES.body],
-      ...this.data.scene.wheels.map((wheel, index) => [`wheel ${wheel.name}`, HUE_PLACES.wheels[index % 4]]),
+      ["s3, spin axis, with its trail on the sphere", 6], ["H, angular momentum", 7], ["omega, angular velocity", HUE_PLACES.omega], ["body, axes of F_s", HUE_PLACES.body],
+      ...this.data.scene.wheels.map((wheel, index) => [`wheel ${wheel.name}`, HUE_PLACES.wheels[index % HUE_PLACES.wheels.length]]),
       ...(this.data.scene.debris ? [["debris", HUE_PLACES.debris]] : []), ["axes of F_e", 8],
     ];
     const paint = () => legend.replaceChildren(...entries.map(([text, hue]) => {
@@ -130,7 +130,10 @@ export class Replay {
     }));
     paint();
     onTheme(paint);
-    this.place.replaceChildren(bar, this.stage, this.slider, this.clock, legend, this.notes);
+    this.numbers = control("dl", { className: "numbers" });
+    const beside = control("div", { className: "beside" });
+    beside.append(this.stage, this.numbers);
+    this.place.replaceChildren(bar, beside, this.slider, this.clock, legend, this.notes);
     this.stage.addEventListener("keydown", (event) => this.key(event));
     this.resize();
   }
@@ -177,6 +180,7 @@ export class Replay {
     if (this.data.scene.thrusters.length > 0) notes.push("Plumes show the nominal schedule.");
     notes.push("Arrows show directions only; the sphere shows where s3 points in F_e.");
     this.notes.textContent = notes.join(" ");
+    this.numbers.replaceChildren(...run.numbers.flatMap(([name, value]) => [control("dt", {}, name), control("dd", {}, value)]));
     this.drawTrail();
     this.goTo(Math.min(this.time, this.motion.last));
   }

@@ -1,6 +1,6 @@
 //! [`Assessment`]: what the runs of a campaign say of one requirement.
 
-use crate::campaign::{Requirement, Statement};
+use crate::campaign::{Requirement, ShownUnit, Statement};
 use crate::statistics::binomial::Decision;
 use crate::statistics::gate::{Gate, GateLimit};
 use crate::statistics::quantile::percent;
@@ -14,6 +14,8 @@ pub struct Assessment {
     pub confidences: [f64; 2],
     /// Unit of its limit; empty for a pure number.
     pub unit: String,
+    /// The unit in which people see it.
+    pub shown: ShownUnit,
     /// What is decided, and from which estimate with which one-sided bounds: of the fraction of runs within the limit, or of the mean.
     pub gate: Gate,
     /// The quantile, as in the statistics, or the mean over the runs that have a value; `None` for fractions.
@@ -69,10 +71,11 @@ impl Assessment {
     /// The requirement in words.
     pub fn sentence(&self) -> String {
         let requirement = &self.requirement;
-        let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
+        let unit = if self.shown.unit.is_empty() { String::new() } else { format!(" {}", self.shown.unit) };
+        let limit = self.shown.written(requirement.limit.value());
         let limit = match requirement.limit {
-            GateLimit::AtMost(limit) => format!("at most {limit:?}{unit}"),
-            GateLimit::AtLeast(limit) => format!("at least {limit:?}{unit}"),
+            GateLimit::AtMost(_) => format!("at most {limit:?}{unit}"),
+            GateLimit::AtLeast(_) => format!("at least {limit:?}{unit}"),
         };
         let (name, confidence) = (requirement.name(), percent(requirement.confidence));
         let limit = format!("{limit}{}", requirement.times());

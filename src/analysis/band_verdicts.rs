@@ -6,7 +6,7 @@
 use crate::analysis::assessment::{Assessment, WorstPoint};
 use crate::analysis::population::Population;
 use crate::campaign::requirement::BandSubject;
-use crate::campaign::{Requirement, Statement};
+use crate::campaign::{Requirement, ShownUnit, Statement};
 use crate::ensemble::Bands;
 use crate::statistics::binomial::Decision;
 use crate::statistics::gate::{Gate, points_gate};
@@ -51,10 +51,12 @@ pub(super) fn over_time(
         _ => None,
     });
     let [least, most] = worst.map_or([0; 2], |worst| within[worst].0);
+    let unit = found.map_or_else(String::new, |(bands, series)| bands.quantity(series).unit().to_owned());
     Assessment {
         requirement: requirement.clone(),
         confidences,
-        unit: found.map_or_else(String::new, |(bands, series)| bands.quantity(series).unit().to_owned()),
+        shown: ShownUnit::own(&unit),
+        unit,
         gate,
         value,
         runs,

@@ -1,4 +1,4 @@
-//! Layer 7: what the rows say.
+//! Layer 8: what the rows say.
 //!
 //! - [`fold`]: one pass over the parts, of rows in memory or in files ([`part_columns`]), in which everything that follows gathers what it needs, each
 //!   by an [`accumulator`].
@@ -17,9 +17,11 @@ mod band_verdicts;
 pub mod column_counts;
 pub mod comparison;
 pub mod comparison_table;
+pub mod derived_table;
 pub mod drivers;
 pub mod fold;
 pub mod observed;
+pub mod outcomes;
 pub mod pairing;
 pub mod part_columns;
 pub mod population;

@@ -9,9 +9,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::analysis::accumulator::Accumulator;
 use crate::analysis::observed::Observed;
+use crate::analysis::outcomes::{named, outcomes};
 use crate::analysis::part_columns::PartColumns;
 use crate::analysis::population::{LISTED, Population};
-use crate::campaign::{Plan, Requirement};
+use crate::campaign::Plan;
 use crate::observables::headlines::headlines;
 use crate::run::Status;
 use crate::sampling::Design;
@@ -67,19 +68,19 @@ pub struct InputSensitivity {
 
 /// The names of the observables, and how many rows they are from.
 fn wanted(plan: &Plan) -> (Vec<String>, usize) {
-    let required = plan.analysis.requirements.iter().filter_map(Requirement::observable);
-    let mut names: Vec<String> = Vec::new();
-    for name in required.chain(plan.analysis.summary_columns.iter().map(String::as_str)) {
-        if !names.iter().any(|known| known == name) {
-            names.push(name.to_owned());
-        }
-    }
-    if !names.is_empty() {
-        return (names, MOST_ROWS);
+    let named = named(plan);
+    if !named.is_empty() {
+        return (named, MOST_ROWS);
     }
     let columns = plan.request().columns();
     let main = headlines(&plan.request()).into_iter().map(|index| columns[index].quantity.name().to_owned());
-    (main.collect(), FEWER_ROWS)
+    let of_motion = outcomes(plan).into_iter().chain(main).fold(Vec::new(), |mut names: Vec<String>, name| {
+        if !names.contains(&name) {
+            names.push(name);
+        }
+        names
+    });
+    (of_motion, FEWER_ROWS)
 }
 
 /// The first rows of dispersed samples that are `ok`, in the order of the samples.

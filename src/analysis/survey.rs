@@ -7,9 +7,9 @@ use std::collections::BTreeMap;
 
 use crate::analysis::accumulator::Accumulator;
 use crate::analysis::observed::Observed;
+use crate::analysis::outcomes::{is_worst_when_low, outcomes};
 use crate::analysis::part_columns::PartColumns;
 use crate::analysis::sensitivity::explained;
-use crate::campaign::Requirement;
 use crate::ensemble::Ensemble;
 use crate::ensemble::audit::AuditValue;
 use crate::observables::Group;
@@ -39,14 +39,16 @@ const FIRST_GROWTH: u64 = 16;
 pub struct SurveyedOutcome {
     /// Name, unit, meaning.
     pub quantity: Quantity,
-    /// Whether a requirement names it.
-    pub is_required: bool,
+    /// Whether the campaign is about it.
+    pub is_outcome: bool,
+    /// Whether its small values are the bad ones.
+    pub is_worst_when_low: bool,
     /// Whether it is an error of the computation.
     pub is_error: bool,
     /// Its magnitudes if it is an error, else its values, about that of the nominal run; over the dispersed runs that are ok.
     pub sketch: Sketch,
-    /// The runs with the largest magnitudes, in descending order.
-    pub largest: Vec<(SampleId, f64)>,
+    /// The runs with the largest magnitudes, in descending order; where small values are bad, those with the smallest values, in ascending order.
+    pub worst: Vec<(SampleId, f64)>,
     /// Its value in the nominal run; NaN where that has none.
     pub nominal: f64,
     /// Quantiles of the first runs: number of runs, median, 99%-quantile, and the ends of its interval.
@@ -131,11 +133,10 @@ pub fn chosen(samples: &[u64], most: usize) -> Vec<usize> {
     order
 }
 
-/// The names of the outcomes: those that the file requires, those whose inputs are estimated, those of a summary, and the motion's; and how many of
+/// The names of the outcomes: those that the campaign is about, those whose inputs are estimated, those of a summary, and the motion's; and how many of
 /// them the first ones are.
 fn wanted(ensemble: &Ensemble<'_>) -> (Vec<String>, usize) {
     let plan = ensemble.plan();
-    let required = plan.analysis.requirements.iter().filter_map(Requirement::observable).map(str::to_owned);
     let columns = ensemble.request().columns();
     let main = headlines(ensemble.request()).into_iter().map(|index| columns[index].quantity.name().to_owned());
     let motion = columns.iter().filter(|column| column.group == Group::Motion).map(|column| column.quantity.name());
@@ -149,7 +150,7 @@ fn wanted(ensemble: &Ensemble<'_>) -> (Vec<String>, usize) {
         }
         names.len()
     };
-    let asked = add(&mut required.chain(explained(plan)));
+    let asked = add(&mut outcomes(plan).into_iter().chain(explained(plan)));
     add(&mut main.chain(motion));
     (names, asked)
 }
@@ -190,15 +191,16 @@ impl Surveyor {
         let mut observed = Observed::named(plan, names.iter().map(String::as_str));
         observed.sort_by_key(|one| names.iter().position(|name| name == one.quantity.name()));
         observed.truncate(MOST_OUTCOMES.max(asked));
-        let required: Vec<&str> = plan.analysis.requirements.iter().filter_map(Requirement::observable).collect();
+        let outcomes = outcomes(plan);
         let inputs: Vec<String> =
             plan.dispersions.columns().iter().map(|column| column.parameter.column_name(column.component)).collect();
         let outcome = |column: &Observed| SurveyedOutcome {
             quantity: column.quantity.clone(),
-            is_required: required.contains(&column.quantity.name()),
+            is_outcome: outcomes.iter().any(|name| name == column.quantity.name()),
+            is_worst_when_low: is_worst_when_low(plan, column.quantity.name()),
             is_error: !column.is_count && is_error(column.quantity.name()),
             sketch: Sketch::default(),
-            largest: Vec::new(),
+            worst: Vec::new(),
             nominal: f64::NAN,
             growth: Vec::new(),
             next_growth: FIRST_GROWTH,
@@ -349,12 +351,15 @@ impl Survey {
 impl SurveyedOutcome {
     /// Adds the values of `samples`; NaN is none.
     fn add(&mut self, samples: &[SampleId], values: &[f64]) {
-        for (sample, size) in samples.iter().zip(values.iter().map(|value| value.abs())) {
-            let is_large = self.largest.len() < KEPT || self.largest.last().is_some_and(|(_, least)| size > *least);
-            if is_large && !size.is_nan() {
-                let at = self.largest.partition_point(|(_, other)| *other >= size);
-                self.largest.insert(at, (*sample, size));
-                self.largest.truncate(KEPT);
+        let is_low = self.is_worst_when_low;
+        let badness = |value: f64| if is_low { -value } else { value.abs() };
+        for (sample, value) in samples.iter().zip(values) {
+            let size = badness(*value);
+            let is_bad = self.worst.len() < KEPT || self.worst.last().is_some_and(|(_, last)| size > badness(*last));
+            if is_bad && !size.is_nan() {
+                let at = self.worst.partition_point(|(_, other)| badness(*other) >= size);
+                self.worst.insert(at, (*sample, *value));
+                self.worst.truncate(KEPT);
             }
         }
         let shown = |value: &f64| if self.is_error { value.abs() } else { *value };

@@ -14,7 +14,7 @@ use crate::analysis::observed::Observed;
 use crate::analysis::part_columns::PartColumns;
 use crate::analysis::population::Population;
 use crate::analysis::statistics::Statistics;
-use crate::campaign::{Plan, Requirement, Statement};
+use crate::campaign::{Plan, Requirement, ShownUnit, Statement};
 use crate::ensemble::Bands;
 use crate::run::Status;
 use crate::statistics::binomial::Decision;
@@ -207,7 +207,10 @@ pub fn assess(plan: &Plan, counted: &RequirementCounts, bands: Option<&Bands>) -
         list.map(|((requirement, index), counts)| (requirement, index, counts))
     };
     let at = |open: usize| all().map(|one| assessed(one, open)).collect();
-    let list = failing_together(requirements.len(), at, |one: &Assessment| one.gate.decision == Decision::Fail);
+    let mut list = failing_together(requirements.len(), at, |one: &Assessment| one.gate.decision == Decision::Fail);
+    for one in &mut list {
+        one.shown = plan.analysis.display.of(one.requirement.name(), &one.unit);
+    }
     Verdicts { list, invalid: counted.invalid, samples: counted.samples, looks }
 }
 
@@ -260,6 +263,7 @@ fn assessment(
     Assessment {
         requirement: requirement.clone(),
         confidences,
+        shown: ShownUnit::own(&unit),
         unit,
         gate,
         value,

@@ -1,7 +1,8 @@
-//! [`Analysis`]: what is made of the rows: `[statistics]`, `[summary]`, `[[observable]]`, `[[require]]`, `[stop]`. No row depends on it.
+//! [`Analysis`]: what is made of the rows: `[statistics]`, `[summary]`, `[[observable]]`, `[[require]]`, `[stop]`, `[display]`. No row depends on it.
 
 use super::columns::KnownColumns;
 use super::derived_observable::DerivedObservable;
+use super::display::Display;
 use super::document::Document;
 use super::limits::{CONFIDENCE, MAX_SAMPLES};
 use super::lines::Lines;
@@ -27,6 +28,8 @@ pub struct Analysis {
     pub requirements: Vec<Requirement>,
     /// When it has enough samples; `None`: after `campaign.samples`.
     pub stop: Option<Stop>,
+    /// In which units its numbers are shown.
+    pub display: Display,
 }
 
 /// The quantiles of a file that does not name any.
@@ -43,6 +46,7 @@ impl Default for Analysis {
             derived: Vec::new(),
             requirements: Vec::new(),
             stop: None,
+            display: Display::default(),
         }
     }
 }
@@ -70,6 +74,8 @@ impl Analysis {
         section.finish();
         let requirements = root.sections("require", |table| Requirement::read(table, &known));
         let stop = Stop::read(&mut root.section("stop"), &known);
+        let written = std::mem::take(&mut root.document.units);
+        let display = Display::read(&mut root.section("display"), &written, &known);
         let default = Analysis::default();
         Analysis {
             quantiles: quantiles.unwrap_or(default.quantiles),
@@ -78,6 +84,7 @@ impl Analysis {
             derived: derived.into_iter().flatten().collect(),
             requirements: requirements.into_iter().flatten().collect(),
             stop,
+            display,
         }
     }
 
@@ -164,6 +171,7 @@ impl Analysis {
         if let Some(stop) = &self.stop {
             stop.write(lines);
         }
+        self.display.write(lines);
     }
 }
 

@@ -9,6 +9,7 @@
 use super::canonical_draws::{correlation_lines, derivation_lines, design_lines, dispersion_lines};
 use super::lines::Lines;
 use super::plan::Plan;
+use crate::observables::request::NutationAxis;
 use crate::scene::table::Table;
 use crate::scene::{ArcErrors, Name};
 use sha2::{Digest, Sha256};
@@ -34,7 +35,7 @@ impl Plan {
     }
 
     /// The keys that do not change rows, by the beginning of their path.
-    pub const OUTSIDE_ROWS: [&'static str; 9] = [
+    pub const OUTSIDE_ROWS: [&'static str; 10] = [
         "retain.",
         "campaign.description",
         "campaign.name",
@@ -44,6 +45,7 @@ impl Plan {
         "observable[",
         "require[",
         "stop.",
+        "display.",
     ];
 
     /// The canonical text: `whole`, or the row plan.
@@ -75,6 +77,11 @@ impl Plan {
         lines.table("[observe]");
         lines.key("points", self.grid.points());
         lines.key("groups", self.groups.iter().map(|group| group.name()).collect::<Vec<_>>());
+        match self.nutation_axis {
+            NutationAxis::SpinAxis => {}
+            NutationAxis::Principal => lines.key("nutation_axis", "principal"),
+            NutationAxis::Along(axis) => lines.key("nutation_axis", axis),
+        }
         self.write_scene(&mut lines);
         design_lines(&self.design, &mut lines);
         for dispersion in &self.dispersed {

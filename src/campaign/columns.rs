@@ -4,8 +4,9 @@ use super::problem::nearest;
 use super::units;
 use crate::control::ControlLaw;
 use crate::observables::band_series::band_series;
+use crate::observables::request::NutationAxis;
 use crate::observables::window::{NO_WINDOWS, Window};
-use crate::observables::{Group, Request, table};
+use crate::observables::{Group, LawColumns, Request, table};
 use crate::propagation::Method;
 use crate::run::Quantity;
 use crate::scene::{Actuated, Parameter, SceneInput};
@@ -20,6 +21,8 @@ pub fn request(groups: &[Group], acting: &SceneInput, method: Method, law: Optio
         actuated: Actuated::of(acting).and(commanded),
         constrained: method == Method::NullSpace,
         wheels: acting.turning_wheels(),
+        nutation_axis: NutationAxis::SpinAxis,
+        of_law: law.map_or(LawColumns::NONE, ControlLaw::columns),
         windows: NO_WINDOWS,
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! How a distribution is written is in its own file ([`crate::sampling::distribution`]).
 
+use super::numbers::DISTANCES;
 use super::parameter::parameter;
 use super::section::Section;
 use super::units;
@@ -16,6 +17,11 @@ pub fn read(table: &mut Section<'_, '_>) -> Option<Dispersion> {
     // where the name is wrong, that is told; nobody can say which units were meant
     table.describes(target.map_or(units::UNKNOWN, |(parameter, _)| parameter.unit()));
     let distribution = WrittenDistribution::read(table);
+    if let (Some((parameter, _)), Some(unit)) = (target, DISTANCES.iter().find_map(|key| table.unit_written(key)))
+        && unit != parameter.unit()
+    {
+        table.document.units.push((parameter.name(), unit));
+    }
     // without a distribution nobody can say which other keys belong here
     if distribution.is_some() || table.is_name_of("distribution", WrittenDistribution::NAMES) {
         table.finish();

@@ -57,6 +57,8 @@ pub struct Document<'a> {
     pub(super) scene: SceneInput,
     /// The control law that the program brings.
     pub(super) law: Option<ControlLaw>,
+    /// The units in which limits and dispersions are written, by the name of the column or parameter.
+    pub(super) units: Vec<(String, &'static str)>,
 }
 
 /// Where a key is in the text, bytes.
@@ -84,6 +86,7 @@ impl<'a> Document<'a> {
             data: (0, 0),
             scene: SceneInput::blank(),
             law: None,
+            units: Vec::new(),
         }
     }
 

@@ -22,6 +22,11 @@ impl Lines {
         self.0.push_str(&format!("{key} = {value:?}\n"));
     }
 
+    /// A key with its value as TOML has it.
+    pub(super) fn raw(&mut self, key: &str, value: &str) {
+        self.0.push_str(&format!("{key} = {value}\n"));
+    }
+
     /// A key with a text of people: any letters.
     pub(super) fn text_key(&mut self, key: &str, text: &str) {
         self.0.push_str(&format!("{key} = {}\n", toml::Value::from(text)));
@@ -40,7 +45,7 @@ impl Lines {
 
     /// Every key of a table that `scene` has.
     pub(super) fn keys(&mut self, table: Table, instance: usize, scene: &SceneInput) {
-        for key in table.keys_in(scene) {
+        for key in table.keys_in(scene, instance) {
             if let Some(numbers) = key.read(scene, instance) {
                 self.0.push_str(&format!("{} = {}\n", key.facts().key, shown(numbers)));
             }

@@ -1,4 +1,4 @@
-//! Layer 4: campaign files. What was written ([`Spec`]) -> what will run ([`Plan`]), or every reason why not ([`CampaignError`]).
+//! Layer 5: campaign files. What was written ([`Spec`]) -> what will run ([`Plan`]), or every reason why not ([`CampaignError`]).
 //!
 //! - [`problem`]: one reason, with file, line, key, value, allowed range and remedy. [`excerpt`]: the line with a mark.
 //! - [`input_file`]: regular files of bounded size. [`size`]: how large a campaign file may be.
@@ -36,6 +36,7 @@ mod description;
 pub mod design;
 pub mod difference;
 pub mod disperse;
+mod display;
 pub mod document;
 pub mod draw;
 mod draw_tables;
@@ -65,6 +66,7 @@ mod units;
 pub use analysis::Analysis;
 pub use compression::Compression;
 pub use derived_observable::DerivedObservable;
+pub use display::{Display, ShownUnit};
 pub use draw::{SceneDraws, draw};
 pub use find::find;
 pub use plan::{FilesRead, Overrides, Plan};

@@ -25,13 +25,14 @@ pub const POSITIVE: NumberLimit =
     NumberLimit { allowed: "a number > 0", remedy: "write a positive number", test: |x| x.is_finite() && x > 0.0 };
 
 /// Keys of distributions whose values are in the unit of what is dispersed.
-const DISTANCES: [&str; 14] = [
+pub(super) const DISTANCES: [&str; 15] = [
     "min",
     "max",
     "mode",
     "mean",
     "median",
     "std",
+    "three_sigma",
     "half_width",
     "lower",
     "upper",

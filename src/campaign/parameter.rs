@@ -19,11 +19,17 @@ pub(super) fn parameter(table: &mut Section<'_, '_>, key: &'static str) -> Optio
 /// What is said of a name that is no parameter: what is allowed, and what was probably meant.
 pub(super) fn unknown_parameter(scene: &SceneInput, name: &str) -> (String, String) {
     let names: Vec<String> = Parameter::all(scene).map(Parameter::name).collect();
-    let remedy = match nearest(name, names.iter().map(String::as_str)) {
+    // a component by its index: its name is said
+    let indexed = name.strip_suffix(']').and_then(|rest| rest.split_once('[')).and_then(|(stem, index)| {
+        let (parameter, _) = Parameter::find(scene, stem)?;
+        let component = index.parse().ok().filter(|index: &usize| *index < parameter.width())?;
+        Some(format!("components have names: write {:?}", parameter.component_name(component)))
+    });
+    let remedy = indexed.unwrap_or_else(|| match nearest(name, names.iter().map(String::as_str)) {
         Some(meant) => format!("did you mean {meant:?}?"),
         None => "write table and key as in this file, \"wheels.w1.radius_m\"".to_owned(),
-    };
-    ("a numeric key of scene or initial state, as a whole or with a component ([0] or .x)".to_owned(), remedy)
+    });
+    ("a numeric key of scene or initial state, as a whole or with a component (.x)".to_owned(), remedy)
 }
 
 /// The component that a name means: dotted, or as a column of rows.

@@ -16,6 +16,7 @@ use super::size;
 use super::sources::Sources;
 use super::spec::Spec;
 use crate::control::ControlLaw;
+use crate::observables::request::NutationAxis;
 use crate::observables::window::MAX_WINDOWS;
 use crate::observables::{Group, Request};
 use crate::ode::Tolerance;
@@ -53,6 +54,8 @@ pub struct Plan {
     pub max_steps: u64,
     /// What is observed, in the order of the columns.
     pub groups: Vec<Group>,
+    /// Whose angle from the angular momentum nutation is.
+    pub nutation_axis: NutationAxis,
     /// The nominal scene.
     pub nominal: SceneInput,
     /// The design as written.
@@ -191,6 +194,7 @@ impl Plan {
     pub fn request_over(&self, duration: f64) -> Request {
         let acting = acting_scene(duration, &self.nominal, &self.dispersions);
         let mut request = request(&self.groups, &acting, self.method, self.law.as_ref());
+        request.nutation_axis = self.nutation_axis;
         self.analysis.windows().take(MAX_WINDOWS).for_each(|window| request.windows.push(window));
         request
     }
@@ -346,6 +350,7 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
         step_s: spec.step_s,
         max_steps: spec.max_steps.unwrap_or(MAX_STEPS),
         groups,
+        nutation_axis: spec.nutation_axis,
         nominal: spec.scene,
         design: spec.design?,
         dispersed: drawn.dispersed.1,

@@ -119,6 +119,19 @@ impl Requirement {
             // without its unit a limit cannot be read
             unit?;
             let number = table.number(key, FINITE)?;
+            if let (Some(written), Some(quantity)) = (table.unit_written(key), quantity)
+                && written != quantity.unit()
+            {
+                let name = quantity.name().to_owned();
+                // the quantity over time of an extreme, mean or last value, too
+                let statistic = ["_max_", "_min_", "_mean_", "_final_"].into_iter().find(|word| name.contains(word));
+                let over_time = statistic.map(|word| name.replacen(word, "_", 1));
+                table
+                    .document
+                    .units
+                    .extend(over_time.filter(|name| known.band(name).is_some()).map(|name| (name, written)));
+                table.document.units.push((name, written));
+            }
             Some(if key == "at_most" { GateLimit::AtMost(number) } else { GateLimit::AtLeast(number) })
         });
         STATEMENTS.iter().chain(&LIMITS).chain(&SUBJECTS).chain(&INTERVAL).for_each(|key| table.know(key));

@@ -83,12 +83,12 @@ fn read_law(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
 /// Reads the keys of one table into the scene.
 fn read_keys(section: &mut Section<'_, '_>, table: Table, instance: usize, scene: &mut SceneInput) {
     // a key that is written may be another way to describe a body
-    for key in table.keys_in(scene).filter(|key| section.has(key.facts().key)) {
+    for key in table.keys_in(scene, instance).filter(|key| section.has(key.facts().key)) {
         if key.read(scene, instance).is_none() {
             key.open(scene, instance);
         }
     }
-    for key in table.keys_in(scene) {
+    for key in table.keys_in(scene, instance) {
         let (name, example) = (key.facts().key, key.required());
         let Some(numbers) = key.write(scene, instance) else {
             section.know(name);

@@ -158,6 +158,18 @@ impl<'d, 'a> Section<'d, 'a> {
         }
     }
 
+    /// The unit that the text of `key`, or the first text in it, is written in.
+    pub(super) fn unit_written(&self, key: &str) -> Option<&'static str> {
+        let value = self.value(key)?.get_ref();
+        let first = value.as_array().and_then(|list| list.iter().find_map(|item| item.get_ref().as_str()));
+        units::written(value.as_str().or(first)?)
+    }
+
+    /// Whether `key` was written as a text.
+    pub(super) fn is_text(&self, key: &str) -> bool {
+        self.value(key).is_some_and(|value| value.get_ref().as_str().is_some())
+    }
+
     /// Whether `key` was written as a table.
     pub(super) fn is_table(&self, key: &str) -> bool {
         self.value(key).is_some_and(|value| value.get_ref().as_table().is_some())

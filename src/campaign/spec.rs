@@ -13,7 +13,9 @@ use super::numbers::POSITIVE;
 use super::retention::Retention;
 use super::section::Section;
 use super::{bands, dependence, description, design, disperse, scene};
+use crate::math::vector::norm;
 use crate::observables::Group;
+use crate::observables::request::NutationAxis;
 use crate::propagation::Method;
 use crate::sampling::{Correlation, Derivation, Design, Dispersion};
 use crate::scene::SceneInput;
@@ -50,6 +52,8 @@ pub struct Spec {
     pub points: Option<u64>,
     /// `observe.groups`.
     pub groups: Option<Vec<Group>>,
+    /// `observe.nutation_axis`.
+    pub nutation_axis: NutationAxis,
     /// The scene; NaN where a number is missing or wrong.
     pub scene: SceneInput,
     /// `[design]`; `None` where it is wrong.
@@ -76,13 +80,9 @@ impl Spec {
     /// Reads the parsed text of a document; what is wrong is noted there.
     pub fn read<'a>(document: &mut Document<'a>, table: &DeTable<'a>) -> Spec {
         let mut root = Section::root(document, table);
-        for (key, content) in [
-            ("campaign", "a table with name, samples, seed, duration_s"),
-            ("initial", "a table with the state at time zero"),
-        ] {
-            if !root.has(key) {
-                root.document.add(key, None, content, format!("add a [{key}] table"));
-            }
+        if !root.has("campaign") {
+            let content = "a table with name, samples, seed, duration_s";
+            root.document.add("campaign", None, content, "add a [campaign] table");
         }
 
         let scene = scene::read(&mut root);
@@ -116,6 +116,7 @@ impl Spec {
         let mut section = root.section("observe");
         let points = section.count("points", 2..=MAX_POINTS);
         let groups = section.names("groups", &Group::ALL.map(Group::name), Group::from_name, &default_groups());
+        let nutation_axis = nutation_axis(&mut section);
         section.finish();
 
         let dispersions = root.sections("disperse", disperse::read);
@@ -160,6 +161,7 @@ impl Spec {
             max_steps,
             points,
             groups,
+            nutation_axis,
             scene,
             design,
             dispersions,
@@ -173,6 +175,30 @@ impl Spec {
         }
     }
 }
+
+/// The axis of nutation: "s3", "principal", or a direction in F_s.
+fn nutation_axis(section: &mut Section<'_, '_>) -> NutationAxis {
+    const KEY: &str = "nutation_axis";
+    if section.is_text(KEY) {
+        let parse = |text: &str| NUTATION_AXES.iter().find(|(name, _)| *name == text).map(|(_, axis)| *axis);
+        return section.name(KEY, &NUTATION_AXES.map(|(name, _)| name), parse).unwrap_or_default();
+    }
+    let Some(direction) = section.direction(KEY) else { return NutationAxis::default() };
+    let length = norm(direction);
+    if !(length > 0.0 && length.is_finite()) {
+        if direction.iter().all(|x| x.is_finite()) {
+            section.refuse(KEY, "\"s3\", \"principal\" or a direction in F_s", "write it like [0.0, 0.0, 1.0]");
+        }
+        return NutationAxis::default();
+    }
+    // a unit vector stays as it is, bit for bit
+    let is_unit = (length - 1.0).abs() <= 4.0 * f64::EPSILON;
+    NutationAxis::Along(if is_unit { direction } else { direction.map(|x| x / length) })
+}
+
+/// The axes of nutation that have names.
+pub(super) const NUTATION_AXES: [(&str, NutationAxis); 2] =
+    [("s3", NutationAxis::SpinAxis), ("principal", NutationAxis::Principal)];
 
 /// The groups of a campaign that names none, in words.
 fn default_groups() -> String {

@@ -1,4 +1,4 @@
-//! Units in values: `"5 deg/s"` where a key asks for rad/s. Plain numbers are in the unit of the key, and need none.
+//! Units in values: `"5 deg/s"` where a key asks for rad/s, `"5 deg/s / 3"` too. Plain numbers are in the unit of the key, and need none.
 
 use core::f64::consts::PI;
 
@@ -41,6 +41,38 @@ const UNITS: &[(&str, &str, f64, f64)] = &[
 /// SI units of columns that have no other names here.
 const MORE: [&str; 7] = ["J", "W", "N s", "N m s", "Hz", "1/s", "m/s^2"];
 
+/// A unit that texts know.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Unit {
+    /// Its name.
+    pub name: &'static str,
+    /// The SI unit that it measures in; itself, of one.
+    pub of: &'static str,
+    /// Its size in that unit, as a fraction.
+    pub size: [f64; 2],
+}
+
+/// The unit called `name`, where texts know it.
+pub(super) fn named(name: &str) -> Option<Unit> {
+    let listed = UNITS.iter().find(|(unit, ..)| *unit == name);
+    let listed = listed.map(|(name, of, numerator, denominator)| Unit { name, of, size: [*numerator, *denominator] });
+    let si = || known(name).filter(|name| *name != "1").map(|name| Unit { name, of: name, size: [1.0; 2] });
+    listed.or_else(si)
+}
+
+/// The names of all units.
+pub(super) fn names() -> impl Iterator<Item = &'static str> {
+    let si = UNITS.iter().enumerate().filter(|(at, unit)| UNITS[..*at].iter().all(|other| other.1 != unit.1));
+    let si = si.map(|(_, unit)| unit.1).filter(|name| *name != "1");
+    UNITS.iter().map(|unit| unit.0).chain(si).chain(MORE)
+}
+
+/// The unit that `text`, a number and a unit, is written in.
+pub(super) fn written(text: &str) -> Option<&'static str> {
+    let (head, _) = factors(text);
+    named(split(head).1).map(|unit| unit.name)
+}
+
 /// The unit `unit`, where a value can be written in it; of a pure number "1".
 pub(super) fn known(unit: &str) -> Option<&'static str> {
     let names = UNITS.iter().flat_map(|(name, si, ..)| [*name, *si]);
@@ -82,18 +114,58 @@ pub(super) const UNKNOWN: &str = "";
 /// # Errors
 /// What is wrong, where it is no number and unit of that kind.
 pub(super) fn parsed(text: &str, unit: &str) -> Result<f64, UnitProblem> {
-    let text = text.trim();
+    let (head, factors) = factors(text.trim());
+    let value = single(head, unit, !factors.is_empty())?;
+    let apply =
+        |value: f64, (is_quotient, factor): &(bool, f64)| if *is_quotient { value / factor } else { value * factor };
+    let value = factors.iter().fold(value, apply);
+    if value.is_finite() {
+        return Ok(value);
+    }
+    Err(UnitProblem { allowed: allowed(unit), remedy: "do not divide by zero".to_owned() })
+}
+
+/// The quantity at the start of a text, and the numbers by which it is then multiplied or (`true`) divided, in their order.
+fn factors(text: &str) -> (&str, Vec<(bool, f64)>) {
+    let (mut head, mut found) = (text.trim(), Vec::new());
+    while let Some(at) = head.rfind(['*', '/'])
+        && let Ok(factor) = head[at + 1..].trim().parse::<f64>()
+    {
+        found.push((head[at..].starts_with('/'), factor));
+        head = head[..at].trim_end();
+    }
+    if let Some((factor, rest)) = head.split_once('*')
+        && let Ok(factor) = factor.trim().parse()
+    {
+        found.push((false, factor));
+        head = rest.trim_start();
+    }
+    found.reverse();
+    (head, found)
+}
+
+/// Number and unit of a text.
+fn split(text: &str) -> (&str, &str) {
     let end = text.char_indices().find(|(at, c)| !is_of_number(text, *at, *c)).map_or(text.len(), |(at, _)| at);
-    let (number, written) = (&text[..end], text[end..].trim());
+    (&text[..end], text[end..].trim())
+}
+
+/// The same of a text without arithmetic; `may_be_plain`: it needs no unit.
+fn single(text: &str, unit: &str, may_be_plain: bool) -> Result<f64, UnitProblem> {
+    let (number, written) = split(text);
     let problem = |remedy: String| Err(UnitProblem { allowed: allowed(unit), remedy });
     let Some(number) = number.parse::<f64>().ok().filter(|number| number.is_finite()) else {
         return problem(format!("write a number, or a number with its unit in quotes, {}", example(unit)));
     };
+    if written.is_empty() && may_be_plain || written == unit {
+        return Ok(number);
+    }
     if written.is_empty() {
         return problem("write it without quotes, or add the unit".to_owned());
     }
-    if written == unit {
-        return Ok(number);
+    if let Some((_, of, numerator, denominator)) = UNITS.iter().find(|(name, ..)| *name == unit) {
+        // of an observable that is in another unit than SI
+        return single(text, of, false).map(|value| value * denominator / numerator);
     }
     let is_unknown = unit == UNKNOWN;
     match UNITS.iter().find(|(name, ..)| *name == written) {
@@ -157,6 +229,16 @@ mod tests {
             ("2.7 g/cm^3", "kg/m^3", 2700.0),
             ("180 deg", UNKNOWN, PI),
             ("7 kg", UNKNOWN, 7.0),
+            ("540 deg / 3", "rad", PI),
+            ("540 deg/s/3", "rad/s", PI),
+            ("2 * 90 deg", "rad", PI),
+            ("2 * 270 deg / 3", "rad", PI),
+            ("1 / 3", "1", 1.0 / 3.0),
+            ("1e-1 rad/s * 2", "rad/s", 0.2),
+            // of an observable in degrees
+            ("0.5 rad", "deg", 90.0 / PI),
+            ("3600 arcsec", "deg", 1.0),
+            ("2 deg", "deg", 2.0),
         ] {
             let found = parsed(text, unit).expect(text);
             // one rounding of the product and one of the quotient; none is measured
@@ -174,6 +256,9 @@ mod tests {
             ("five deg", "rad", "write a number"),
             ("inf deg", "rad", "write a number"),
             ("5 deg", "1", "unit of other quantities"),
+            ("5 deg / 0", "rad", "divide by zero"),
+            ("5 deg / s", "rad", "no unit that is known"),
+            ("5 rad/s", "deg", "unit of other quantities"),
             ("5 degs", UNKNOWN, "no unit that is known"),
         ] {
             let problem = parsed(text, unit).expect_err(text);

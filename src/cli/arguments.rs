@@ -25,7 +25,7 @@ Exit codes:
   4  input/output error, or the folder has a result that may not be overwritten
   5  ran, and no requirement failed, but one is undecided, or [stop] did not reach its precision
   129, 130, 138, 143  stopped by SIGHUP, SIGINT, SIGUSR1, SIGTERM; the same command continues
-Of several codes the first of 2, 4, that of a signal, 3, 5, 1, 0 is returned.
+Where several apply, the first of 2, 4, that of a signal, 3, 5, 1, 0 is returned.
 
 A FILE without a folder, with or without .toml, is also looked for in campaigns/.
 SPINDRIFT_ISA=avx512|avx2|plain selects an instruction set; results do not depend on it.";

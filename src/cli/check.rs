@@ -5,20 +5,18 @@ use std::fmt::Write as _;
 use crate::cli::arguments::CheckOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::workload::Workload;
-use crate::cli::{dispersions, screen};
+use crate::cli::{dispersions, scene_text, screen};
 use crate::ensemble::Ensemble;
 use crate::ensemble::influence;
 use crate::ensemble::plausibility::implausible;
 use crate::ensemble::probe::{AuditProbe, LongRun, RunProbe};
 use crate::ensemble::run_cost::parts;
-use crate::math::symmetric::principal_axes;
 use crate::observables::{Group, Request};
 use crate::ode::{PACE_STEPS, is_out_of_reach};
 use crate::report::failure_text;
 use crate::report::number::{bytes, short};
 use crate::run::StateField;
-use crate::scene::mass::{Body, Wheel};
-use crate::scene::{MassProperties, Scene, SceneInput, WheelMode};
+use crate::scene::{Scene, WheelMode};
 use crate::storage::rows_file::headings;
 use crate::workflow::isa;
 use crate::workflow::source::plan;
@@ -37,7 +35,10 @@ pub fn run(options: &CheckOptions) -> Result<CommandOutcome, Failure> {
     let written = (|| {
         section(&mut text, &format!("Plan (hash {})", plan.hash()))?;
         text.push_str(&plan.text());
-        masses(&mut text, &plan.nominal, &scene.mass)?;
+        section(&mut text, "Mass properties of the nominal scene")?;
+        scene_text::masses(&mut text, &plan.nominal, &scene.mass)?;
+        section(&mut text, "Momenta and torques of the nominal scene")?;
+        scene_text::momenta(&mut text, &plan.nominal, &scene)?;
         section(&mut text, "Dispersions")?;
         dispersions::table(&mut text, &plan)?;
         let unseen = influence::notes(&plan, ensemble.isa());
@@ -72,62 +73,6 @@ fn failures(probe: &RunProbe) -> String {
 fn section(text: &mut String, title: &str) -> std::fmt::Result {
     let gap = if text.is_empty() { "" } else { "\n" };
     writeln!(text, "{gap}== {title}")
-}
-
-/// Masses, centre of mass, inertia, principal axes, with the convention, and what contributes most.
-fn masses(text: &mut String, input: &SceneInput, mass: &MassProperties) -> std::fmt::Result {
-    section(text, "Mass properties of the nominal scene")?;
-    let names = input.turning_wheels();
-    let wheels = names.iter().zip(&mass.wheels).map(|(name, wheel)| (format!("wheel {name}"), wheel.mass));
-    let debris = mass.debris.as_ref().map(|debris| ("debris".to_owned(), debris.mass));
-    let body = [("body".to_owned(), mass.body.mass)];
-    let all = body.into_iter().chain(wheels).chain([("spacecraft".to_owned(), mass.total)]).chain(debris);
-    for (body, mass) in all {
-        writeln!(text, "{body:<24}{mass:>24?} kg")?;
-    }
-    let [x, y, z] = mass.center;
-    writeln!(text, "centre of mass of the spacecraft, from p in F_s: [{x:?}, {y:?}, {z:?}] m")?;
-    let locked = if input.wheels.is_empty() { "" } else { ", wheels locked," };
-    tensor(text, &format!("inertia of the spacecraft{locked} about its centre of mass"), mass.inertia)?;
-    let (moments, axes) = principal_axes(mass.inertia);
-    writeln!(text, "its principal moments {moments:?} kg m^2; principal axes in F_s, by columns:")?;
-    rows(text, axes)?;
-    if !mass.wheels.is_empty() {
-        tensor(text, "the same minus the wheels' axial inertias (J*, wheels free)", mass.inertia_free)?;
-        tensor(text, "inertia of the body about its own centre of mass", mass.body.inertia)?;
-    }
-    for (name, wheel) in names.iter().zip(&mass.wheels) {
-        let (axial, transverse, mode) = (wheel.axial, wheel.transverse, wheel.mode.name());
-        writeln!(
-            text,
-            "wheel {name}: axial {axial:?}, transverse {transverse:?} kg m^2, {mode}, axis {:?} in F_s",
-            wheel.axis
-        )?;
-    }
-    if let Some((name, share)) = largest_part(input, mass) {
-        writeln!(text, "largest part: {name}, {:.1} % of the mass of the spacecraft", 100.0 * share)?;
-    }
-    writeln!(
-        text,
-        "Convention: tensors in F_s, whose origin is p; off-diagonal entries are those of the tensor, J_xy = -integral of x y dm."
-    )
-}
-
-/// The part of the body, or the wheel, with the largest mass, and its share of the total.
-fn largest_part(input: &SceneInput, mass: &MassProperties) -> Option<(String, f64)> {
-    let parts = input.parts.iter().map(|part| (format!("body.parts.{}", part.name), Body::part(part, 1.0).mass));
-    let wheels = input.wheels.iter().map(|wheel| (format!("wheels.{}", wheel.name), Wheel::new(wheel, 1.0).mass));
-    let largest = parts.chain(wheels).max_by(|(_, a), (_, b)| a.total_cmp(b))?;
-    (!input.parts.is_empty()).then_some((largest.0, largest.1 / mass.total))
-}
-
-fn tensor(text: &mut String, name: &str, rows: [[f64; 3]; 3]) -> std::fmt::Result {
-    writeln!(text, "{name}, kg m^2:")?;
-    self::rows(text, rows)
-}
-
-fn rows(text: &mut String, rows: [[f64; 3]; 3]) -> std::fmt::Result {
-    rows.iter().try_for_each(|[x, y, z]| writeln!(text, "  {x:>24?}{y:>24?}{z:>24?}"))
 }
 
 /// What is integrated and why, and what is not; nothing of what scene and method do not have.

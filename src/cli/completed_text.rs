@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::cli::screen::width;
 use crate::report::audit_summary::cost;
 use crate::report::drivers_text;
 use crate::report::number::bytes;
@@ -19,23 +20,27 @@ pub fn text(completed: &Completed, replayed: &str) -> String {
         String::new()
     };
     format!(
-        "{}\n{summary}{audits}{}\n{}\n  {}: {} file{} of rows, {}\n",
+        "{}\n{}{audits}\n  {}: {} file{} of rows, {}\n{}",
         headline(completed),
-        drivers_text::text(plan, &completed.sensitivities),
-        summary.replay(replayed),
+        summary.text(&drivers_text::text(plan, &completed.sensitivities), replayed, width()),
         completed.root.display(),
         completed.files,
         if completed.files == 1 { "" } else { "s" },
         bytes(completed.bytes),
+        page(&completed.root),
     )
 }
 
 /// The verdicts of a finished result in `root`, and its page.
 pub fn of_end(end: &SummaryEnd, root: &Path) -> String {
     let verdicts: String = end.verdicts.iter().map(|(one, verdict)| format!("  {verdict:<10}{one}\n")).collect();
+    verdicts + &page(root)
+}
+
+/// The name of the page in `root`, where there is one.
+fn page(root: &Path) -> String {
     let page = root.join(REPORT);
-    let page = if page.is_file() { format!("  {}\n", page.display()) } else { String::new() };
-    verdicts + &page
+    if page.is_file() { format!("  {}\n", page.display()) } else { String::new() }
 }
 
 fn headline(completed: &Completed) -> String {

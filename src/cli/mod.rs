@@ -1,4 +1,4 @@
-//! Layer 10: the command line.
+//! Layer 11: the command line.
 //!
 //! - [`arguments`]: commands and options; [`argument_values`]: their values. - [`outputs`]: which files a command may write. - [`workload`]: what a command would
 //!   compute and write, refused where it cannot be done; [`machine`]: what is left of memory and disk.
@@ -25,6 +25,7 @@ pub mod precision;
 pub mod report;
 pub mod run_campaign;
 pub mod sample;
+mod scene_text;
 pub mod screen;
 pub mod signals;
 pub mod simulate;

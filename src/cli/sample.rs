@@ -77,10 +77,12 @@ pub fn run(options: &SampleOptions) -> Result<CommandOutcome, Failure> {
             dispersed.count(),
             plan.design.name().replace('_', " ")
         );
-        drawn_figure(title, &shown).save(path, options.size.of()).map_err(|error| match error {
-            PlotError::Format(_) => Failure::Input(error.to_string()),
-            _ => Failure::Files(format!("{}: {error}", path.display())),
-        })?;
+        drawn_figure(title, &shown).in_units(&plan.analysis.display).save(path, options.size.of()).map_err(
+            |error| match error {
+                PlotError::Format(_) => Failure::Input(error.to_string()),
+                _ => Failure::Files(format!("{}: {error}", path.display())),
+            },
+        )?;
         let (numbers, samples) = (columns.len(), dispersed.count());
         let [of_numbers, of_samples] = [numbers, samples].map(|count| if count == 1 { "" } else { "s" });
         screen::note(&format!("{}: {numbers} number{of_numbers} of {samples} sample{of_samples}", path.display()));

@@ -173,10 +173,13 @@ fn plot(path: &Path, options: &SimulateOptions, plan: &Plan, series: &TimeSeries
         sample => format!("{}, sample {sample}", plan.name),
     };
     let tolerance = (!plan.method.has_fixed_step()).then_some(plan.tolerance.relative);
-    simulation_figure(title, series, tolerance).save(path, options.size.of()).map_err(|error| match error {
-        PlotError::Format(_) => Failure::Input(error.to_string()),
-        _ => Failure::Files(format!("{}: {error}", path.display())),
-    })?;
+    simulation_figure(title, series, tolerance)
+        .in_units(&plan.analysis.display)
+        .save(path, options.size.of())
+        .map_err(|error| match error {
+            PlotError::Format(_) => Failure::Input(error.to_string()),
+            _ => Failure::Files(format!("{}: {error}", path.display())),
+        })?;
     screen::note(&format!("{}: states, energies and errors at {} points", path.display(), series.points()));
     Ok(())
 }

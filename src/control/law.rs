@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::context::LawContext;
 use super::runs::{LawRuns, Runs};
 use crate::dynamics::actuation::ActuationLaw;
+use crate::observables::{LawColumn, LawColumns};
 use crate::scene::{Actuated, LawParameter};
 
 /// A control law that a campaign flies.
@@ -18,6 +19,7 @@ pub struct ControlLaw {
     name: &'static str,
     commands: Actuated,
     parameters: &'static [LawParameter],
+    columns: LawColumns,
     runs: Arc<dyn Fn() -> Box<dyn LawRuns> + Send + Sync>,
 }
 
@@ -49,7 +51,14 @@ impl ControlLaw {
         make: impl Fn(&LawContext<'_>) -> L + Send + Sync + 'static,
     ) -> Self {
         let make = Arc::new(make);
-        ControlLaw { name, commands, parameters, runs: Arc::new(move || Box::new(Runs::new(make.clone()))) }
+        let runs = Arc::new(move || Box::new(Runs::new(make.clone())) as Box<dyn LawRuns>);
+        ControlLaw { name, commands, parameters, columns: LawColumns::NONE, runs }
+    }
+
+    /// The same law, which reports `columns` at the end of a run ([`ActuationLaw::report`]): columns of the rows.
+    #[must_use]
+    pub fn reporting(self, columns: &'static [LawColumn]) -> Self {
+        ControlLaw { columns: LawColumns(columns), ..self }
     }
 
     /// Its name, as in `control.law` of a plan.
@@ -60,6 +69,11 @@ impl ControlLaw {
     /// What it commands at some time of a run: which columns of work and impulse a row has.
     pub fn commands(&self) -> Actuated {
         self.commands
+    }
+
+    /// The columns of a row that it reports.
+    pub fn columns(&self) -> LawColumns {
+        self.columns
     }
 
     /// The parameters that it declares: keys of `[control]`.

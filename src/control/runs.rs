@@ -10,6 +10,12 @@ use crate::scene::Arc;
 pub trait LawRuns: LawSource + Send {
     /// Makes the law of run `run`, which starts. Indices are given from zero on, without a gap.
     fn begin(&mut self, run: usize, context: &LawContext<'_>);
+
+    /// Writes what the law of run `run`, which has ended, reports: the values of [`super::ControlLaw::columns`], NaN where it has none.
+    fn report(&mut self, run: usize, values: &mut [f64]) {
+        values.fill(f64::NAN);
+        self.law(run).report(values);
+    }
 }
 
 /// Laws made by `make`; what an earlier run has left in a place is replaced.
@@ -66,5 +72,9 @@ impl<L: ActuationLaw> ActuationLaw for BesideSchedule<L> {
             *of_law = self.law.arc(time, body, wheels);
         }
         sum(scheduled, of_law)
+    }
+
+    fn report(&self, values: &mut [f64]) {
+        self.law.report(values);
     }
 }

@@ -46,6 +46,13 @@ impl<'p> Flights<'p> {
         self.engine.propagate_under(Laws::Feedback(&mut **laws), scenes, finish);
     }
 
+    /// Writes what the law of run `run` of the last flight reports, where the plan has a law.
+    pub fn report(&mut self, run: usize, values: &mut [f64]) {
+        if let Some((laws, _)) = &mut self.laws {
+            laws.report(run, values);
+        }
+    }
+
     /// Flies the nominal run.
     pub fn fly_nominal(&mut self, finish: &mut CompletionCallback<'_>) {
         let draw = LawDraw { sample: SampleId(0), parameters: self.plan.nominal.control.clone() };

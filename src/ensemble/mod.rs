@@ -1,4 +1,4 @@
-//! Layer 5: many runs on all cores. A row is a pure function of (plan, sample).
+//! Layer 6: many runs on all cores. A row is a pure function of (plan, sample).
 //!
 //! - [`mod@parts`]: how samples are divided into parts; [`run_cost`]: their size. - [`rows`]: the rows of a part. - [`sink`]: takes the rows.
 //! - [`worker`]: [`Ensemble`], shared by all threads, and [`Worker`], the memory of one thread.

@@ -6,6 +6,9 @@
 use std::f64::consts::TAU;
 
 use crate::campaign::{Plan, SceneDraws};
+use crate::math::vector::norm;
+use crate::observables::Group;
+use crate::observables::request::{NutationAxis, nearest_principal_axis};
 use crate::sampling::{KeyWriter, SampleId};
 use crate::scene::{Parameter, Scene, SceneInput, WheelMode};
 use crate::statistics::quantile::quantile;
@@ -18,6 +21,8 @@ const FEW: f64 = 0.01;
 const FAST_WHEEL: f64 = 12_000.0 * TAU / 60.0;
 /// A mass of the spacecraft from which on it is noted, kg. The largest satellites have some tons.
 const HEAVY: f64 = 3000.0;
+/// How far the principal axis may be off s3 without a note, degrees.
+const OBLIQUE_DEG: f64 = 0.1;
 /// A relative spread from which on it is noted.
 const WIDE: f64 = 0.5;
 
@@ -64,6 +69,8 @@ pub fn implausible(plan: &Plan) -> Vec<String> {
             format!("{name}, {spread}: a spread of half of the nominal value and more; percent are written with their unit, \"2 %\"")
         })
     }));
+    notes.extend(nutation(plan));
+    notes.extend(coarse_grid(plan));
     let duration = plan.grid.duration();
     let late = plan.nominal.actuation.iter().position(|arc| arc.start_s >= duration);
     notes.extend(late.map(|arc| {
@@ -73,6 +80,37 @@ pub fn implausible(plan: &Plan) -> Vec<String> {
         )
     }));
     notes
+}
+
+/// That nutation about s3 has a part that is no motion: the principal axis is another one.
+fn nutation(plan: &Plan) -> Option<String> {
+    if !plan.groups.contains(&Group::Motion) || plan.nutation_axis != NutationAxis::SpinAxis {
+        return None;
+    }
+    let inertia = Scene::resolve(&plan.nominal).ok()?.mass.inertia;
+    let [x, y, z] = nearest_principal_axis(inertia);
+    let angle = libm::atan2(libm::hypot(x, y), z).to_degrees();
+    (angle > OBLIQUE_DEG).then(|| {
+        format!(
+            "the principal axis is {} deg off s3: a steady spin about it has that nutation angle; observe.nutation_axis = \"principal\" measures from the axis itself",
+            digits(angle)
+        )
+    })
+}
+
+/// That extremes between the observation points are missed: the body turns half a turn or more from one to the next.
+fn coarse_grid(plan: &Plan) -> Option<String> {
+    let step = plan.grid.duration() / (plan.grid.points().max(2) - 1) as f64;
+    let rate = norm(plan.nominal.initial.angular_velocity_rad_s);
+    let turn = rate * step;
+    (turn >= core::f64::consts::PI).then(|| {
+        let enough = libm::ceil(rate * plan.grid.duration() / core::f64::consts::PI * 4.0) as u64 + 1;
+        format!(
+            "observe.points = {}: the body makes {} turns from one point to the next, and extremes in between are missed; {enough} points see an eighth of a turn",
+            plan.grid.points(),
+            digits(turn / TAU)
+        )
+    })
 }
 
 /// The rows of the table, of the nominal scene or as they are dispersed.

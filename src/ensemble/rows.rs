@@ -138,6 +138,12 @@ impl Rows {
         self.scatter(self.shape.parameters, row, observables);
     }
 
+    /// Sets the observables of row `row` from the one of index `first` on.
+    pub fn set_observables(&mut self, row: usize, first: usize, values: &[f64]) {
+        assert!(first + values.len() <= self.shape.observables);
+        self.scatter(self.shape.parameters + first, row, values);
+    }
+
     /// Sets the audit of row `row`: `None` where the run or its reference solution did not reach the end.
     pub fn set_audit(&mut self, row: usize, audit: Option<Audit>) {
         assert!(row < self.part.count);

@@ -10,7 +10,10 @@ use crate::scene::Scene;
 pub fn propagator(plan: &Plan, grid: Grid, fields: StateFields) -> PropagationSettings {
     let control = Control { tolerance: plan.tolerance, step: plan.step_s, max_steps: plan.max_steps };
     let settings = PropagationSettings::new(plan.method, control, grid, fields, &nominal(plan));
-    if plan.law.is_some() { settings.with_feedback() } else { settings }
+    match &plan.law {
+        Some(law) => settings.with_feedback(law.commands()),
+        None => settings,
+    }
 }
 
 /// The nominal scene of `plan`.

@@ -21,8 +21,14 @@ use crate::sampling::SampleId;
 use crate::scene::{Arc, Scene, SceneError};
 
 /// The groups whose series a time series shows.
-const GROUPS: [Group; 5] =
-    [Group::EnergyConservation, Group::MomentumConservation, Group::Attitude, Group::Constraints, Group::Energies];
+const GROUPS: [Group; 6] = [
+    Group::EnergyConservation,
+    Group::MomentumConservation,
+    Group::Attitude,
+    Group::Constraints,
+    Group::Energies,
+    Group::EnergiesCom,
+];
 
 /// One run with its states.
 #[derive(Clone, Debug)]
@@ -142,6 +148,7 @@ impl<'p> SingleRuns<'p> {
             reason = observer.reason(status, run.outcome, &row);
             result = Some((run.table.clone(), run.arcs.to_vec(), Outcome { status, ..*run.outcome }));
         });
+        self.flights.report(0, &mut row[self.request.places_of_law()]);
         let (table, arcs, outcome) = result.expect("the propagator finishes every scene that it is given");
         let series = self.series_observer.series().map(|(series, values)| (series, values.collect())).collect();
         Ok(SingleRun {

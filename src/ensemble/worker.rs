@@ -142,6 +142,7 @@ impl<'p> Ensemble<'p> {
             draws_of_laws: Vec::new(),
             flown: Vec::new(),
             flights: self.flights(),
+            places_of_law: self.request.places_of_law(),
             observer,
             observed: vec![0.0; self.shape().observables],
             audits: (self.plan.audit_fraction > 0.0)
@@ -166,6 +167,8 @@ pub struct Worker<'c> {
     /// The arcs flown by the scenes of the batch that are audited; empty without a law.
     flown: Vec<Vec<crate::scene::Arc>>,
     flights: Flights<'c>,
+    /// Where a row has what the law reports.
+    places_of_law: std::ops::Range<usize>,
     observer: Observer,
     observed: Vec<f64>,
     audits: Option<(Selection, Auditor)>,
@@ -225,7 +228,7 @@ impl Worker<'_> {
         match self.draws_of_laws.get_mut(self.rows_of_scenes.len()) {
             Some(place) => {
                 place.sample = sample;
-                place.parameters.values.clone_from(&parameters.values);
+                place.parameters.take_values(parameters);
             }
             None => self.draws_of_laws.push(LawDraw { sample, parameters: parameters.clone() }),
         }
@@ -263,7 +266,9 @@ impl Worker<'_> {
         self.is_done.clear();
         self.is_done.resize(self.rows_of_scenes.len(), false);
         let all = 0..self.rows_of_scenes.len();
-        if catch_unwind(AssertUnwindSafe(|| self.propagate_some(all.clone(), rows, report))).is_ok() {
+        let ended = catch_unwind(AssertUnwindSafe(|| self.propagate_some(all.clone(), rows, report)));
+        self.report_laws(0, rows);
+        if ended.is_ok() {
             return;
         }
         for scene in all {
@@ -277,10 +282,28 @@ impl Worker<'_> {
                 let row = self.rows_of_scenes[scene];
                 rows.set_result(row, Status::InternalError, &vec![f64::NAN; self.observed.len()]);
                 rows.set_reason(row, message(panic.as_ref()));
+            } else {
+                self.report_laws(scene, rows);
             }
         }
         self.flights = self.campaign.flights();
         self.observer = self.campaign.observer();
+    }
+
+    /// Writes what the laws of the runs that have just ended report; the first was scene `first` of the batch.
+    fn report_laws(&mut self, first: usize, rows: &mut Rows) {
+        let place = self.places_of_law.clone();
+        if place.is_empty() {
+            return;
+        }
+        for (run, scene) in (first..self.is_done.len()).enumerate().filter(|(_, scene)| self.is_done[*scene]) {
+            let row = self.rows_of_scenes[scene];
+            if matches!(rows.statuses()[row], Status::Done | Status::Inaccurate) {
+                let values = &mut self.observed[place.clone()];
+                self.flights.report(run, values);
+                rows.set_observables(row, place.start, values);
+            }
+        }
     }
 
     /// Runs some scenes of the batch.

@@ -18,6 +18,8 @@ const ROUNDING_DEG: f64 = 1e-6;
 pub struct DrawnColumns<'p> {
     /// Their names.
     pub names: Vec<String>,
+    /// The parameter that each is of, with its unit; both empty of an angle, which its name has.
+    pub parameters: Vec<(String, String)>,
     /// Their nominal values.
     pub nominal: Vec<f64>,
     /// The distribution that was asked for, where a column has one that is known.
@@ -30,7 +32,13 @@ impl<'p> DrawnColumns<'p> {
     /// Those of the samples `drawn` of `plan`.
     pub fn new(plan: &'p Plan, drawn: &DrawnScenes) -> Self {
         let empty = DrawnScenes { columns: Vec::new(), mass: Vec::new(), ..drawn.clone() };
-        let mut shown = DrawnColumns { names: Vec::new(), nominal: Vec::new(), asked: Vec::new(), drawn: empty };
+        let mut shown = DrawnColumns {
+            names: Vec::new(),
+            parameters: Vec::new(),
+            nominal: Vec::new(),
+            asked: Vec::new(),
+            drawn: empty,
+        };
         let columns = plan.dispersions.columns();
         let mut index = 0;
         while let Some(column) = columns.get(index) {
@@ -58,21 +66,31 @@ impl<'p> DrawnColumns<'p> {
                     [("rotation from nominal", of_turn, turn), ("tilt of axis 3", of_tilt, tilt)]
                 {
                     if values.iter().any(|angle| *angle >= ROUNDING_DEG) {
-                        shown.push(format!("{name}: {what} / deg"), 0.0, asked, values);
+                        shown.push(format!("{name}: {what} / deg"), Default::default(), 0.0, asked, values);
                     }
                 }
                 index += QUATERNION;
                 continue;
             }
             let name = column.parameter.component_name(column.component);
-            shown.push(name, column.nominal, marginal::of_column(plan, index), drawn.columns[index].clone());
+            let unit = if column.parameter.unit() == "1" { "" } else { column.parameter.unit() };
+            let parameter = (column.parameter.name(), unit.to_owned());
+            shown.push(name, parameter, column.nominal, marginal::of_column(plan, index), drawn.columns[index].clone());
             index += 1;
         }
         shown
     }
 
-    fn push(&mut self, name: String, nominal: f64, asked: Option<Asked<'p>>, values: Vec<f64>) {
+    fn push(
+        &mut self,
+        name: String,
+        parameter: (String, String),
+        nominal: f64,
+        asked: Option<Asked<'p>>,
+        values: Vec<f64>,
+    ) {
         self.names.push(name);
+        self.parameters.push(parameter);
         self.nominal.push(nominal);
         self.asked.push(asked);
         self.drawn.columns.push(values);

@@ -11,8 +11,11 @@ const FEW: usize = 200;
 /// The picture of drawn samples.
 pub fn drawn_figure(title: String, columns: &DrawnColumns<'_>) -> Sheet {
     let inputs = columns.names.iter().zip(&columns.drawn.columns).zip(columns.nominal.iter().zip(&columns.asked));
-    let histograms = inputs
-        .map(|((name, values), (nominal, asked))| histogram::of_input(name, "", values, *nominal, asked.as_ref()));
+    let inputs = inputs.zip(&columns.parameters);
+    let histograms = inputs.map(|(((name, values), (nominal, asked)), (parameter, unit))| {
+        let figure = histogram::of_input(name, unit, values, *nominal, asked.as_ref());
+        Figure { x: figure.x.clone().showing(parameter), ..figure }
+    });
     let title_of_matrix = format!("Rank correlation{}", caution(columns.drawn.count()));
     let matrix = correlations(&title_of_matrix, &columns.names, columns.drawn.rank_correlations());
     let panels = histograms.chain([Figure { columns: 12, ..matrix }]).collect();

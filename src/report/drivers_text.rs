@@ -8,19 +8,14 @@ use crate::statistics::correlation::Estimate;
 /// Inputs that are named.
 const NAMED: usize = 2;
 
-/// The observables whose drivers are shown where the file names none: few are enough.
-const MAIN: [&str; 4] =
-    ["energy_error_max", "angular_momentum_error_max", "state_error_estimate", "exchange_body_peak_to_peak_j"];
-
-/// The observables of `all` whose drivers are shown: those that the file requires or names, else the main ones.
+/// The observables of `all` whose drivers are shown: the outcomes of the campaign.
 pub fn outcomes<'a>(plan: &Plan, all: &'a [InputSensitivity]) -> Vec<&'a str> {
     let mut names: Vec<&str> = all.iter().map(|one| one.observable.as_str()).collect();
     names.dedup();
-    if plan.analysis.requirements.is_empty() && plan.analysis.summary_columns.is_empty() {
-        let place = |name: &&str| MAIN.iter().position(|main| main == name);
-        names.retain(|name| place(name).is_some());
-        names.sort_by_key(place);
-    }
+    let order = crate::analysis::outcomes::outcomes(plan);
+    let place = |name: &&str| order.iter().position(|outcome| outcome == name);
+    names.retain(|name| place(name).is_some());
+    names.sort_by_key(place);
     names
 }
 

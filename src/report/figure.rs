@@ -3,6 +3,8 @@
 //! The page draws it interactively (`assets/report/chart.js`, what that needs: [`super::page`]), [`super::sheet`] as a file. Both take the same
 //! numbers and names from here.
 
+use crate::campaign::{Display, ShownUnit};
+
 /// The colour of a mark, by what it belongs to: bodies keep theirs everywhere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hue {
@@ -26,11 +28,11 @@ pub enum Hue {
 
 impl Hue {
     /// The place in the palette of Okabe & Ito (2008): blue, vermilion, green, purple, sky blue, orange, yellow; 7 is the colour of text,
-    /// 8 a grey.
+    /// 8 a grey, from 9 on are four more for wheels.
     pub const fn place(self) -> usize {
         match self {
             Hue::Body => 0,
-            Hue::Wheel(index) => [1, 2, 3, 4][index % 4],
+            Hue::Wheel(index) => [1, 2, 3, 4, 9, 10, 11, 12][index % 8],
             Hue::Debris => 5,
             Hue::Total => 0,
             Hue::Nominal => 7,
@@ -106,6 +108,8 @@ pub struct Axis {
     pub range: Option<[f64; 2]>,
     /// Whether values decrease along it.
     pub is_descending: bool,
+    /// The column or parameter that it shows; empty where it shows none, or several.
+    pub column: String,
 }
 
 impl Axis {
@@ -117,6 +121,7 @@ impl Axis {
             scale: Scale::Linear,
             range: None,
             is_descending: false,
+            column: String::new(),
         }
     }
 
@@ -128,6 +133,20 @@ impl Axis {
     /// An axis of names.
     pub fn names(names: Vec<String>) -> Self {
         Axis { scale: Scale::Names(names), ..Axis::linear("", "") }
+    }
+
+    /// The same of the column or parameter `column`.
+    #[must_use]
+    pub fn showing(self, column: impl Into<String>) -> Self {
+        Axis { column: column.into(), ..self }
+    }
+
+    /// The unit in which `display` shows it; the axis has it from now on.
+    fn take_unit(&mut self, display: &Display) -> ShownUnit {
+        let shown = display.of(&self.column, &self.unit);
+        self.unit.clone_from(&shown.unit);
+        self.range = self.range.map(|ends| ends.map(|end| shown.value(end)));
+        shown
     }
 
     /// The same with a fixed range.
@@ -230,6 +249,30 @@ pub enum Mark {
 }
 
 impl Mark {
+    /// Changes abscissae by `x` and ordinates by `y`.
+    fn change(&mut self, x: &dyn Fn(f64) -> f64, y: &dyn Fn(f64) -> f64) {
+        let change =
+            |values: &mut Vec<f64>, by: &dyn Fn(f64) -> f64| values.iter_mut().for_each(|value| *value = by(*value));
+        match self {
+            Mark::Line { x: xs, y: ys, .. } | Mark::Points { x: xs, y: ys, .. } => {
+                change(xs, x);
+                change(ys, y);
+            }
+            Mark::Band { x: xs, low, high, .. } => {
+                change(xs, x);
+                change(low, y);
+                change(high, y);
+            }
+            Mark::Bars { edges, heights, .. } => {
+                change(edges, x);
+                change(heights, y);
+            }
+            Mark::Whiskers { x: xs, low, high, .. } => [xs, low, high].into_iter().for_each(|values| change(values, x)),
+            Mark::Limit { at, vertical, .. } => *at = if *vertical { x(*at) } else { y(*at) },
+            Mark::Matrix { .. } => {}
+        }
+    }
+
     /// A curve.
     pub fn line(label: impl Into<String>, hue: Hue, dash: Dash, x: Vec<f64>, y: Vec<f64>) -> Self {
         Mark::Line { label: label.into(), hue, dash, x, y }
@@ -278,6 +321,8 @@ impl Mark {
 /// The sections of the page that have figures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FigureSection {
+    /// What the campaign is about.
+    Outcome,
     /// What happened over time.
     Time,
     /// Numerical errors and work.
@@ -294,6 +339,7 @@ impl FigureSection {
     /// The anchor of the section.
     pub const fn anchor(self) -> &'static str {
         match self {
+            FigureSection::Outcome => "outcome",
             FigureSection::Time => "time",
             FigureSection::Numerics => "numerics",
             FigureSection::Influence => "influence",
@@ -327,6 +373,16 @@ pub struct Figure {
 }
 
 impl Figure {
+    /// The same in the units of `display`.
+    #[must_use]
+    pub fn in_units(mut self, display: &Display) -> Self {
+        let [x, y] = [self.x.take_unit(display), self.y.take_unit(display)];
+        if !(x.is_own() && y.is_own()) {
+            self.marks.iter_mut().for_each(|mark| mark.change(&|value| x.value(value), &|value| y.value(value)));
+        }
+        self
+    }
+
     /// A figure with a title and marks only; half as wide as the page.
     pub fn new(title: impl Into<String>, x: Axis, y: Axis, marks: Vec<Mark>) -> Self {
         Figure {

@@ -109,7 +109,7 @@ pub fn of_input(name: &str, unit: &str, samples: &[f64], nominal: f64, asked: Op
     if nominal.is_finite() {
         marks.push(Mark::Limit { label, at: nominal, vertical: true });
     }
-    Figure { columns: 3, ..Figure::new(name, x, Axis::linear("", ""), marks) }
+    Figure { columns: 3, ..Figure::new(name, x, Axis::linear("samples", ""), marks) }
 }
 
 /// Whether the axis of the samples would be mostly empty with the nominal value on it; one value alone has no axis of its own.

@@ -1,4 +1,4 @@
-//! Layer 7: text and figures for people.
+//! Layer 9: text and figures for people.
 //!
 //! - [`summary`], [`observable_lines`], [`audit_summary`]: statistics of a campaign. - [`failure_text`]: why runs failed. - [`requirements`]: verdicts, also as JUnit XML. - [`drivers_text`]: what drives an outcome. - [`precision_text`]: work-precision measurements as text.
 //! - [`figure`]: what a figure shows. - [`sheet`]: figures on one picture, drawn with `panel`, `axis`, `legend`, `marks`, `shapes` as `svg`; [`image`]: its files. - [`fitted_text`]: text that is shortened to a width. - `escaped`: text within markup.
@@ -36,5 +36,7 @@ pub mod shell_word;
 pub mod simulation_figure;
 pub mod stopping_text;
 pub mod summary;
+mod summary_text;
 mod svg;
 pub mod time_table;
+mod wrapped;

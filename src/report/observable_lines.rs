@@ -1,11 +1,10 @@
 //! [`ObservableLine`]: the statistics of an observable for `summary.json`, and those of several as a table on the screen.
 
-use std::fmt::{self, Formatter};
-
 use serde::Serialize;
 
+use crate::analysis::outcomes::{OF_MOTION, named};
 use crate::analysis::statistics::{ColumnStatistics, QuantileStatistic, Statistics};
-use crate::campaign::{Plan, Requirement};
+use crate::campaign::{Plan, ShownUnit};
 use crate::observables::Group;
 use crate::observables::headlines::headlines;
 use crate::report::audit_summary::Numerics;
@@ -33,6 +32,9 @@ pub struct ObservableLine {
     pub name: String,
     /// Its unit; empty for a pure number.
     pub unit: String,
+    /// The unit in which the screen shows it.
+    #[serde(skip)]
+    pub shown: ShownUnit,
     /// Number of values.
     pub count: u64,
     /// Runs that are `ok` and have none.
@@ -65,7 +67,7 @@ pub struct ObservableLine {
 const SHOWN: [f64; 3] = [0.5, 0.95, 0.999];
 
 impl ObservableLine {
-    fn new(column: &ColumnStatistics, numerical_error: Option<Numerics>) -> Self {
+    fn new(column: &ColumnStatistics, shown: ShownUnit, numerical_error: Option<Numerics>) -> Self {
         let finite = |value: Option<f64>| value.filter(|value| value.is_finite());
         let quantile = |one: &QuantileStatistic| QuantileLine {
             p: one.p,
@@ -76,6 +78,7 @@ impl ObservableLine {
         ObservableLine {
             name: column.quantity.name().to_owned(),
             unit: column.quantity.unit().to_owned(),
+            shown,
             count: column.moments.count(),
             without_value: column.without_value,
             mean: finite(column.moments.mean()),
@@ -109,22 +112,30 @@ pub fn lines(plan: &Plan, statistics: &Statistics, numerics: impl Fn(&str) -> Op
     let columns = plan.request().columns();
     let main = headlines(&plan.request()).into_iter().map(|index| &columns[index]);
     let last = columns.iter().filter(|column| column.group == Group::FinalState);
-    let asked = plan.analysis.summary_columns.iter().map(String::as_str);
-    let required = plan.analysis.requirements.iter().filter_map(Requirement::observable);
-    let derived = plan.analysis.derived.iter().map(|derived| derived.name.as_str());
-    let mut names: Vec<&str> = Vec::new();
-    let usual = main.chain(last).map(|column| column.quantity.name());
-    for name in usual.chain(derived).chain(asked).chain(required) {
+    let usual = main.chain(last).map(|column| column.quantity.name().to_owned());
+    let of_motion = OF_MOTION.iter().map(|name| (*name).to_owned());
+    let found =
+        distinct(usual.chain(of_motion).chain(named(plan))).into_iter().filter_map(|name| statistics.column(&name));
+    let line = |column: &ColumnStatistics| {
+        let (name, unit) = (column.quantity.name(), column.quantity.unit());
+        ObservableLine::new(column, plan.analysis.display.of(name, unit), numerics(name))
+    };
+    found.map(line).collect()
+}
+
+/// Names in their order, each once.
+fn distinct(all: impl Iterator<Item = String>) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for name in all {
         if !names.contains(&name) {
             names.push(name);
         }
     }
-    let found = names.into_iter().filter_map(|name| statistics.column(name));
-    found.map(|column| ObservableLine::new(column, numerics(column.quantity.name()))).collect()
+    names
 }
 
 /// The quantiles that `lines` show: the usual ones where they have them, else the last of theirs.
-fn shown(lines: &[ObservableLine]) -> Vec<f64> {
+fn shown(lines: &[&ObservableLine]) -> Vec<f64> {
     let all: Vec<f64> = lines.first().map_or(Vec::new(), |line| line.quantiles.iter().map(|one| one.p).collect());
     let usual: Vec<f64> = SHOWN.into_iter().filter(|p| all.contains(p)).collect();
     if usual.is_empty() { all[all.len().saturating_sub(SHOWN.len())..].to_vec() } else { usual }
@@ -139,46 +150,57 @@ fn end(value: Option<f64>) -> String {
     }
 }
 
-/// Writes `lines` as a table: values, and below them the ends of their intervals at `confidence`; `title` is that of the first column.
-///
-/// # Errors
-/// What `f` returns.
-pub fn write_table(f: &mut Formatter<'_>, lines: &[ObservableLine], title: &str, confidence: f64) -> fmt::Result {
-    let width = lines.iter().map(|line| line.name.len()).max().unwrap_or(0).max(title.len());
+/// From this width on the name of an observable stands beside its numbers, and not above them.
+const WIDE: usize = 120;
+/// Width of a quantile with its interval, characters.
+const QUANTILE: usize = 22;
+
+/// `lines` as a table for lines of `width` characters: values, and below them the ends of their intervals at `confidence`; `title` is that
+/// of the first column.
+pub fn table(lines: &[&ObservableLine], title: &str, confidence: f64, width: usize) -> String {
+    let unit =
+        |line: &ObservableLine| if line.shown.unit.is_empty() { "-".to_owned() } else { line.shown.unit.clone() };
+    let is_wide = width >= WIDE;
+    let names = lines.iter().map(|line| line.name.len()).chain([title.len()]).max().unwrap_or(0);
+    let first = if is_wide { names + 8 } else { 0 };
     let ps = shown(lines);
-    write!(f, "\n  {title:<width$}  {:>6}", "unit")?;
-    for p in &ps {
-        let name = if *p == 0.5 { "median".to_owned() } else { format!("p{}", percent(*p)) };
-        write!(f, "{name:>24}")?;
-    }
-    writeln!(f, "{:>12}", "max")?;
+    let of_p = |p: &f64| if *p == 0.5 { "median".to_owned() } else { format!("p{}", percent(*p)) };
+    let cells = |texts: Vec<String>, last: &str| {
+        let cells: String = texts.iter().map(|text| format!("{text:>QUANTILE$}")).collect();
+        format!("{cells}{last:>12}").trim_end().to_owned() + "\n"
+    };
+    let heads = cells(ps.iter().map(of_p).collect(), "max");
+    let mut text = match is_wide {
+        true => format!("\n  {title:<names$}  {:>6}{heads}", "unit"),
+        false => format!("\n  {title}\n{heads}"),
+    };
     for line in lines {
-        write!(f, "  {:<width$}  {:>6}", line.name, if line.unit.is_empty() { "-" } else { &line.unit })?;
         let quantiles: Vec<Option<&QuantileLine>> = ps.iter().map(|p| line.quantile(*p)).collect();
-        for quantile in &quantiles {
-            let value = quantile.and_then(|quantile| quantile.value);
-            write!(f, "{:>24}", value.map_or("-".to_owned(), short))?;
-        }
-        writeln!(f, "{:>12}", line.max.map_or("-".to_owned(), short))?;
-        let has_interval = |quantile: &&&QuantileLine| quantile.interval.iter().any(Option::is_some);
-        if quantiles.iter().flatten().any(|quantile| has_interval(&quantile)) {
-            write!(f, "  {:<width$}  {:>6}", "", "")?;
-            for quantile in &quantiles {
-                let [lower, upper] = quantile.map_or([None; 2], |quantile| quantile.interval);
-                write!(f, "{:>24}", format!("[{}, {}]", end(lower), end(upper)))?;
-            }
-            writeln!(f)?;
+        let value = |value: Option<f64>| value.map_or("-".to_owned(), |value| short(line.shown.value(value)));
+        let values = quantiles.iter().map(|quantile| value(quantile.and_then(|one| one.value))).collect();
+        let values = cells(values, &value(line.max));
+        text += &match is_wide {
+            true => format!("  {:<names$}  {:>6}{values}", line.name, unit(line)),
+            false => format!("  {}, {}\n{values}", line.name, unit(line)).replace(", -\n", "\n"),
+        };
+        if quantiles.iter().flatten().any(|quantile| quantile.interval.iter().any(Option::is_some)) {
+            let interval = |quantile: &Option<&QuantileLine>| {
+                let ends = quantile.map_or([None; 2], |quantile| quantile.interval);
+                let [lower, upper] = ends.map(|value| end(value.map(|value| line.shown.value(value))));
+                format!("[{lower}, {upper}]")
+            };
+            text += &format!("{:first$}  {}", "", cells(quantiles.iter().map(interval).collect(), ""));
         }
     }
     let has_intervals = lines.iter().flat_map(|line| &line.quantiles).any(|one| one.interval != [None; 2]);
     if has_intervals {
-        writeln!(f, "  in brackets: {}% confidence; ?: not bounded by so few runs", percent(confidence))?;
+        text += &format!("  in brackets: {}% confidence; ?: not bounded by so few runs\n", percent(confidence));
     }
     for p in ps {
         let notes = lines.iter().filter_map(|line| line.quantile(p).and_then(|quantile| quantile.note.as_ref()));
         if let Some(note) = notes.max_by_key(|note| note.len()) {
-            writeln!(f, "  {note}")?;
+            text += &format!("  {note}\n");
         }
     }
-    Ok(())
+    text
 }

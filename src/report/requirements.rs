@@ -69,6 +69,8 @@ pub fn runs_needed(runs: &str) -> String {
 /// What was found, in words: the estimate with its bounds, and how many runs would decide.
 fn finding(one: &Assessment) -> String {
     let [lower, upper] = one.gate.bounds;
+    let unit = if one.shown.unit.is_empty() { String::new() } else { format!(" {}", one.shown.unit) };
+    let shown = |value: f64| format!("{}{unit}", short(one.shown.value(value)));
     let in_percent = |fraction: f64| format!("{:.4}%", 100.0 * fraction);
     let bounds = |show: &dyn Fn(f64) -> String| {
         let shown = |end: f64| if end.is_finite() { show(end) } else { "no bound".to_owned() };
@@ -83,9 +85,9 @@ fn finding(one: &Assessment) -> String {
         }
     };
     let found = match one.requirement.statement {
-        Statement::Mean => format!("mean {}{}", short(one.gate.estimate), bounds(&short)),
+        Statement::Mean => format!("mean {}{}", shown(one.gate.estimate), bounds(&shown)),
         _ => {
-            let value = one.value.map_or(String::new(), |value| format!("{}; ", short(value)));
+            let value = one.value.map_or(String::new(), |value| format!("{}; ", shown(value)));
             let within = one.runs - one.violations;
             let at = one.worst.map_or(String::new(), |worst| {
                 let unresolved = match worst.unresolved {

@@ -4,8 +4,10 @@ use crate::report::figure::{Hue, Mark, PointShape};
 use crate::report::svg::{INK, Stroke, Svg};
 
 /// The palette of Okabe & Ito (2008), text, grey: [`Hue::place`].
-pub(super) const PALETTE: [&str; 9] =
-    ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#b8a800", "#141414", "#6e6e6e"];
+pub(super) const PALETTE: [&str; 13] = [
+    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#b8a800", "#141414", "#6e6e6e", "#882255",
+    "#117733", "#999933", "#6a3d9a",
+];
 /// Opacity of bars, and of the bars under whiskers.
 pub(super) const BAR: f64 = 0.55;
 /// Width of curves, pixels.

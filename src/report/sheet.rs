@@ -1,5 +1,6 @@
 //! [`Sheet`]: figures on one picture, in rows of twelve columns as on the page.
 
+use crate::campaign::Display;
 use crate::report::figure::Figure;
 use crate::report::legend::Legend;
 use crate::report::panel::Panel;
@@ -34,6 +35,12 @@ pub struct Sheet {
 type Place = ([f64; 2], [f64; 2]);
 
 impl Sheet {
+    /// The same in the units of `display`.
+    #[must_use]
+    pub fn in_units(self, display: &Display) -> Self {
+        Sheet { panels: self.panels.into_iter().map(|panel| panel.in_units(display)).collect(), ..self }
+    }
+
     /// A picture of one figure.
     pub fn of(figure: &Figure) -> Self {
         let [width, panel_height] = ALONE;

@@ -122,13 +122,18 @@ pub fn simulation_figure(title: String, series: &TimeSeries, tolerance: Option<f
         panels.push(panel("Kinetic energy, total", "J", vec![(String::new(), total)]));
     }
     if turns {
+        let about_center: Vec<Curve> = curves(&[(TimeColumn::Series(Series::ComBody), "body")])
+            .into_iter()
+            .chain(of_wheels("wheel ", &|wheel| TimeColumn::Series(Series::ComWheel.of_wheel(wheel))))
+            .collect();
         let change = |(label, values): &Curve| (label.clone(), values.iter().map(|value| value - values[0]).collect());
         let mut transfer = panel(
-            "Energy transfer: change of kinetic energy since the start",
+            "Energy transfer: change of kinetic energy about the centre of mass since the start",
             "J",
-            bodies.iter().map(change).collect(),
+            about_center.iter().map(change).collect(),
         );
-        let size = bodies.iter().flat_map(|(_, values)| values).fold(0.0, |size: f64, value| value.abs().max(size));
+        let size =
+            about_center.iter().flat_map(|(_, values)| values).fold(0.0, |size: f64, value| value.abs().max(size));
         if transfer.marks.iter().all(|mark| mark.largest() < ROUNDING * size) {
             // what rounding makes of constants looks constant
             transfer.y = transfer.y.within(-100.0 * ROUNDING * size, 100.0 * ROUNDING * size);

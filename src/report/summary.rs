@@ -1,9 +1,8 @@
-//! [`Summary`]: the statistics of a campaign, as `summary.json` and as text on the screen.
-
-use std::fmt::{self, Display, Formatter};
+//! [`Summary`]: the statistics of a campaign, as `summary.json`; as text on the screen: `summary_text`.
 
 use serde_json::{Map, Value, json};
 
+use crate::analysis::outcomes::named;
 use crate::analysis::statistics::Statistics;
 use crate::analysis::stopping::{LookFound, Stopping};
 use crate::analysis::tally::{Ended, Tally, Worst};
@@ -11,36 +10,39 @@ use crate::analysis::verdicts::Verdicts;
 use crate::campaign::Plan;
 use crate::ensemble::FailureReason;
 use crate::report::audit_summary::{AuditSummary, Numerics};
-use crate::report::number::short;
-use crate::report::observable_lines::{ObservableLine, lines, write_table};
-use crate::report::{failure_text, requirements, stopping_text};
+use crate::report::observable_lines::{ObservableLine, lines};
+use crate::report::{requirements, stopping_text};
 use crate::run::Status;
-use crate::sampling::{Replaced, SampleId};
+use crate::sampling::Replaced;
 use crate::storage::folder::IS_FINISHED;
 
 /// The statistics of a campaign.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Summary {
-    name: String,
-    seed: u64,
-    samples: u64,
-    plan_hash: String,
-    without_nominal: bool,
-    statuses: Vec<(&'static str, Ended)>,
+    pub(super) name: String,
+    pub(super) seed: u64,
+    pub(super) samples: u64,
+    pub(super) plan_hash: String,
+    pub(super) without_nominal: bool,
+    pub(super) statuses: Vec<(&'static str, Ended)>,
     /// Why runs failed, the most frequent first.
-    reasons: Vec<FailureReason>,
-    worst: Vec<Worst>,
-    lines: Vec<ObservableLine>,
-    verdicts: Verdicts,
+    pub(super) reasons: Vec<FailureReason>,
+    pub(super) worst: Vec<Worst>,
+    pub(super) lines: Vec<ObservableLine>,
+    /// The observables that the file requires, names or derives.
+    pub(super) named: Vec<String>,
+    /// Number of columns with statistics.
+    pub(super) columns: usize,
+    pub(super) verdicts: Verdicts,
     /// How statistics were made.
-    intervals: String,
-    treatment: String,
-    confidence: f64,
-    quantile_error: f64,
-    audit: Option<AuditSummary>,
-    replaced: Vec<Replaced>,
+    pub(super) intervals: String,
+    pub(super) treatment: String,
+    pub(super) confidence: f64,
+    pub(super) quantile_error: f64,
+    pub(super) audit: Option<AuditSummary>,
+    pub(super) replaced: Vec<Replaced>,
     /// The last look of a campaign with `[stop]`, and in words.
-    stopping: Option<(Stopping, String)>,
+    pub(super) stopping: Option<(Stopping, String)>,
 }
 
 impl Summary {
@@ -60,6 +62,8 @@ impl Summary {
             without_nominal: tally.without_nominal(),
             worst: tally.worst().to_vec(),
             lines: lines(plan, statistics, numerics),
+            named: named(plan),
+            columns: statistics.columns.len(),
             verdicts,
             intervals: statistics.population.intervals(),
             treatment: statistics.treatment(),
@@ -193,153 +197,11 @@ impl Summary {
             "nominal sample".to_owned()
         }
     }
-
-    /// The runs with the greatest errors and the first that failed, with the command that shows one; `file` is the campaign as
-    /// a word of that command. Empty where there are none.
-    pub fn replay(&self, file: &str) -> String {
-        let mut text = String::new();
-        for worst in self.worst.iter().filter(|worst| !worst.runs.is_empty()) {
-            text += &format!("  worst {}\n", worst.name);
-            for (sample, error) in &worst.runs {
-                text += &format!("    {:<9} spindrift simulate {file} --sample {sample}\n", short(*error));
-            }
-        }
-        let failed = self.statuses.iter().filter(|(name, _)| *name != Status::Done.name());
-        for (name, ended) in failed {
-            if let Some(sample) = ended.first.first() {
-                text += &format!("  the first {name}\n    {:<9} spindrift simulate {file} --sample {sample}\n", "");
-            }
-        }
-        text
-    }
-}
-
-/// Numbers of samples, separated by commas.
-fn numbers(samples: &[SampleId]) -> String {
-    samples.iter().map(SampleId::to_string).collect::<Vec<_>>().join(", ")
-}
-
-impl Display for Summary {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let ok = Status::Done.name();
-        let statuses = self.statuses.iter().filter(|(name, ended)| ended.count > 0 || *name == ok);
-        for (name, ended) in statuses {
-            write!(f, "  {name:<16}{:>12}", ended.count)?;
-            if *name != ok {
-                let more = if ended.count > ended.first.len() as u64 { ", ..." } else { "" };
-                write!(f, "   samples {}{more}", numbers(&ended.first))?;
-            }
-            writeln!(f)?;
-        }
-        if !self.reasons.is_empty() {
-            let groups: Vec<&FailureReason> = self.reasons.iter().collect();
-            write!(f, "  why runs failed:\n{}", failure_text::text(&groups))?;
-        }
-        if self.lines.is_empty() {
-            return Ok(());
-        }
-        let width = self.lines.iter().map(|line| line.name.len()).max().unwrap_or(0);
-        let counted = if self.without_nominal { "dispersed samples" } else { "nominal sample" };
-        if self.lines.iter().all(ObservableLine::is_empty) {
-            let is_nominal_ok = self.statuses.iter().any(|(name, ended)| *name == ok && ended.count > 0);
-            writeln!(f, "\n  no {} is ok: no statistics", if is_nominal_ok { "dispersed run" } else { "run" })?;
-        } else {
-            write_table(f, &self.lines, counted, self.confidence)?;
-            if self.intervals.starts_with("none") {
-                writeln!(f, "  intervals: {}", self.intervals)?;
-            }
-        }
-        if let Some((_, text)) = &self.stopping {
-            writeln!(f, "\n  stop: {text}")?;
-        }
-        f.write_str(&requirements::text(&self.verdicts))?;
-        let Some(audit) = &self.audit else { return Ok(()) };
-        write!(f, "\n{audit}")?;
-        let audited = self.lines.iter().filter_map(|line| Some((line, line.numerical_error.as_ref()?)));
-        let title = "numerical error, and how much of the spread (p95 - p5) it is";
-        writeln!(
-            f,
-            "\n  {title}\n  {:<width$}  {:>6}{:>12}{:>12}{:>12}{:>12}",
-            "", "unit", "median", "p95", "max", "share"
-        )?;
-        for (line, numerics) in audited {
-            write!(f, "  {:<width$}  {:>6}", line.name, if line.unit.is_empty() { "-" } else { &line.unit })?;
-            for value in [numerics.median, numerics.p95, numerics.max, numerics.share_of_spread] {
-                write!(f, "{:>12}", value.map_or("-".to_owned(), short))?;
-            }
-            writeln!(f)?;
-        }
-        Ok(())
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Five runs are ok and eight are not, without observables.
-    fn summary() -> Summary {
-        let ended = |count: u64, first: &[u64]| Ended { count, first: first.iter().map(|id| SampleId(*id)).collect() };
-        Summary {
-            name: "x".to_owned(),
-            seed: 1,
-            samples: 13,
-            plan_hash: String::new(),
-            without_nominal: true,
-            statuses: vec![
-                (Status::Done.name(), ended(5, &[])),
-                (Status::StepLimit.name(), ended(2, &[3, 4])),
-                (Status::NonFinite.name(), ended(0, &[])),
-                (Status::Inaccurate.name(), ended(6, &[5, 6])),
-            ],
-            reasons: Vec::new(),
-            worst: Vec::new(),
-            lines: Vec::new(),
-            verdicts: Verdicts::default(),
-            intervals: String::new(),
-            treatment: String::new(),
-            confidence: 0.95,
-            quantile_error: 0.0,
-            audit: None,
-            replaced: Vec::new(),
-            stopping: None,
-        }
-    }
-
-    /// Law: the screen counts the runs of each status that occurs, and names the first samples of those that are not ok.
-    #[test]
-    fn statuses_are_counted_and_failures_named() {
-        let summary = summary();
-        let lines = ["  ok                         5", "  step_limit                 2   samples 3, 4"];
-        let more = "  inaccurate                 6   samples 5, 6, ...";
-        assert_eq!(summary.to_string(), format!("{}\n{}\n{more}\n", lines[0], lines[1]));
-    }
-
-    /// Law: where no run is ok there is one line in place of a table of dashes.
-    #[test]
-    fn without_runs_that_are_ok_there_is_no_table() {
-        let line = |count: u64| ObservableLine {
-            name: "attitude_error".to_owned(),
-            unit: String::new(),
-            count,
-            without_value: 0,
-            mean: None,
-            mean_interval: [None; 2],
-            standard_deviation: None,
-            standard_deviation_interval: [None; 2],
-            mean_note: None,
-            skewness: None,
-            min: None,
-            max: None,
-            quantiles: Vec::new(),
-            numerical_error: None,
-        };
-        let text = |lines: Vec<ObservableLine>| Summary { lines, ..summary() }.to_string();
-        let none = text(vec![line(0), line(0)]);
-        assert!(none.ends_with("\n\n  no dispersed run is ok: no statistics\n"), "{none}");
-        let some = text(vec![line(0), line(5)]);
-        assert!(some.contains("attitude_error") && !some.contains("no statistics"), "{some}");
-    }
 
     #[test]
     fn failed_runs_are_read_from_a_summary() {

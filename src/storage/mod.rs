@@ -1,4 +1,4 @@
-//! Layer 6: results on disk.
+//! Layer 7: results on disk.
 //!
 //! - [`found`]: what is in the folder of a result. - [`mod@claim`]: whether a campaign may write there, [`folder_error`]: and if not, why.
 //! - [`folder`]: the dataset, and the protocol by which parts are added, [`whole_file`]: and each file. [`manifest`]: what it consists of,

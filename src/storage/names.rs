@@ -15,6 +15,8 @@ pub const SUCCESS: &str = "_SUCCESS";
 pub const SUMMARY: &str = "summary.json";
 /// Statistics of every observable.
 pub const STATISTICS: &str = "statistics.parquet";
+/// The observables that the file derives, sample by sample.
+pub const OBSERVABLES: &str = "observables.parquet";
 /// What drives the observables.
 pub const SENSITIVITY: &str = "sensitivity.parquet";
 /// Quantiles over time.
@@ -41,7 +43,8 @@ pub const UNFINISHED: &str = ".tmp";
 pub const REPLACEMENT: &str = "_REPLACEMENT";
 
 /// The files at the top of a dataset.
-pub const TOP_FILES: [&str; 8] = [PLAN, MANIFEST, SUCCESS, SUMMARY, STATISTICS, SENSITIVITY, BANDS, REPORT];
+pub const TOP_FILES: [&str; 9] =
+    [PLAN, MANIFEST, SUCCESS, SUMMARY, STATISTICS, OBSERVABLES, SENSITIVITY, BANDS, REPORT];
 
 /// The folders of a dataset.
 pub const FOLDERS: [&str; 7] = [RUNS, PART_BANDS, SHARDS, TRAJECTORIES, TABLE_LOG, VERSIONS, DATA];

@@ -9,12 +9,12 @@ use crate::analysis::statistics::Statistics;
 use crate::analysis::stopping::{Stopping, stopping};
 use crate::analysis::survey::Survey;
 use crate::analysis::verdicts::Verdicts;
-use crate::analysis::{sensitivity, sensitivity_table, statistics, statistics_table, verdicts};
+use crate::analysis::{derived_table, sensitivity, sensitivity_table, statistics, statistics_table, verdicts};
 use crate::campaign::Plan;
 use crate::ensemble::Bands;
 use crate::report::{requirements, stopping_text};
 use crate::storage::folder::Folder;
-use crate::storage::names::{BANDS, SENSITIVITY, STATISTICS};
+use crate::storage::names::{BANDS, OBSERVABLES, SENSITIVITY, STATISTICS};
 use crate::storage::rows_reader::RowsReader;
 use crate::storage::{atomic, bands_table};
 use crate::workflow::error::WorkflowError;
@@ -50,6 +50,10 @@ pub fn analyse(
     let found = computed(plan, reader, gathered, threads)?;
     write(folder, STATISTICS, statistics_table::encoded(plan, &found.statistics))?;
     write(folder, SENSITIVITY, sensitivity_table::encoded(plan, &found.sensitivities))?;
+    match derived_table::encoded(plan, reader).transpose() {
+        Some(encoded) => write(folder, OBSERVABLES, encoded)?,
+        None => folder.remove(OBSERVABLES).map_err(WorkflowError::files)?,
+    }
     if let Some(bands) = &found.bands {
         write(folder, BANDS, bands_table::encoded(plan, bands))?;
     }

@@ -8,7 +8,7 @@ use spindrift::ode::{Control, Integrator};
 use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE};
 use spindrift::propagation::{Method, PropagationSettings};
 use spindrift::run::{Grid, StateField, Status};
-use spindrift::scene::Scene;
+use spindrift::scene::{Actuated, Scene};
 
 /// Some control periods, and some quarter turns of the slowest scene, s.
 const HORIZON: f64 = 3.1;
@@ -73,8 +73,8 @@ fn all_methods_fly_the_same_closed_loop() {
     let mut report = String::new();
     let mut failed = false;
     for (method, control, bound) in BOUNDS {
-        let settings =
-            PropagationSettings::new(method, control, grid.clone(), everything(method), &scenes[0]).with_feedback();
+        let settings = PropagationSettings::new(method, control, grid.clone(), everything(method), &scenes[0])
+            .with_feedback(Actuated::ALL);
         let flown = fly(Isa::best(), &settings, &scenes);
         for (scene, flight) in flown.iter().enumerate() {
             assert_eq!(flight.run.outcome.status, Status::Done, "{}, scene {scene}", method.name());

@@ -44,7 +44,9 @@ fn largest_error(what: &str, table: &Table) -> f64 {
     let mut worst = 0.0_f64;
     for (name, values) in table.columns() {
         for (sample, value) in values.iter().enumerate() {
-            assert!(value.is_finite(), "{what}: {name} of sample {sample} is {value}");
+            // a motion without exchange, or too slow for one, has no frequency
+            let may_be_absent = name == "exchange_frequency_hz";
+            assert!(value.is_finite() || may_be_absent, "{what}: {name} of sample {sample} is {value}");
             if ERRORS.contains(&name) {
                 worst = worst.max(*value);
             }

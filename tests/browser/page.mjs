@@ -90,7 +90,10 @@ async function screenshots(page, stem) {
 
 // Draws every figure and checks it; and that the browser shows more than an empty plot.
 async function checkFigures(page, name, stem) {
-  await page.evaluate(() => globalThis.spindriftPage.drawAll());
+  await page.evaluate(() => {
+    for (const fold of document.querySelectorAll("details.fold")) fold.open = true;
+    globalThis.spindriftPage.drawAll();
+  });
   const figures = await page.evaluate(() =>
     Array.from(document.querySelectorAll("figure"), (figure) => {
       const plot = figure.querySelector(".plot");
@@ -114,6 +117,43 @@ async function checkFigures(page, name, stem) {
   const width = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
   if (width > 0) problems.push(`${name}: the page is ${width} pixels wider than the window`);
   return figures.length;
+}
+
+// Each link of the menu ends with the heading of its section below the menu, though figures above are drawn on the way; and the menu is one line.
+async function checkLinks(page, name) {
+  const menu = await page.$eval("nav", (nav) => nav.getBoundingClientRect().height);
+  if (menu > 60) problems.push(`${name}: the menu is ${menu} pixels high`);
+  for (const link of await page.$$("nav a")) {
+    const anchor = await link.evaluate((element) => element.hash.slice(1));
+    await link.evaluate((element) => element.click());
+    let top = Infinity;
+    for (let tries = 0; tries < 40; tries += 1) {
+      await new Promise((resolve) => setTimeout(resolve, 100));
+      const now = await page.$eval(`#${anchor}`, (section) => section.getBoundingClientRect().top);
+      if (Math.abs(now - top) < 0.5) break;
+      top = now;
+    }
+    const isEnd = await page.evaluate(() => scrollY + innerHeight > document.documentElement.scrollHeight - 4);
+    const below = await page.$eval("nav", (nav) => (nav.getBoundingClientRect().top < 2 ? nav.getBoundingClientRect().bottom : 0));
+    const heading = await page.$eval(`#${anchor} h2`, (element) => element.getBoundingClientRect().top);
+    if (!isEnd && (heading < below - 1 || heading > below + 120)) problems.push(`${name}: the link to ${anchor} ends ${Math.round(heading - below)} pixels below the menu`);
+  }
+}
+
+// The numbers beside the replay are those of the run that is shown.
+async function checkNumbers(page, name) {
+  const shown = await page.evaluate(async () => {
+    const replay = await globalThis.spindriftPage.replay();
+    if (!replay) return [];
+    return replay.data.runs.map((run, index) => {
+      replay.choose(index);
+      const text = (tag) => Array.from(document.querySelectorAll(`.numbers ${tag}`), (element) => element.textContent);
+      return { expected: run.numbers, names: text("dt"), values: text("dd") };
+    });
+  });
+  for (const { expected, names, values } of shown) {
+    if (expected.length === 0 || expected.some(([of, value], k) => names[k] !== of || values[k] !== value)) problems.push(`${name}: ${names} = ${values} beside a run with ${expected}`);
+  }
 }
 
 async function checkHover(page, name) {
@@ -189,6 +229,7 @@ async function checked(browser, file) {
   await checkHover(page, name);
   await checkTables(page, name);
   await checkReplay(page, name);
+  await checkNumbers(page, name);
   await page.mouse.move(0, 0);
   await page.pdf({ path: join(folder, `${name}_print.pdf`), format: "A4", printBackground: true });
   await page.close();
@@ -197,6 +238,9 @@ async function checked(browser, file) {
   await dark.evaluate(async () => globalThis.spindriftPage.replay());
   await screenshots(dark, shot("dark"));
   await dark.close();
+  const middle = await opened(browser, file, { width: 800, height: 900 }, "light");
+  await checkLinks(middle, `${name}, 800 pixels`);
+  await middle.close();
   const narrow = await opened(browser, file, { width: 390, height: 800 }, "light");
   await checkFigures(narrow, `${name}, narrow`, shot("narrow"));
   await narrow.close();

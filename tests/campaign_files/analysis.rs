@@ -3,7 +3,7 @@
 use crate::refusals::good;
 use spindrift::campaign::requirement::{BandSubject, Subject};
 use spindrift::campaign::stop::When;
-use spindrift::campaign::{Analysis, Overrides, Plan, Requirement, Statement};
+use spindrift::campaign::{Analysis, Display, Overrides, Plan, Requirement, Statement};
 use spindrift::statistics::gate::GateLimit;
 
 fn plan(more: &str) -> Plan {
@@ -49,7 +49,9 @@ max_samples = 5000
 #[test]
 fn every_key_is_read_and_written() {
     let plan = plan(FULL);
-    let Analysis { quantiles, confidence, summary_columns, derived, requirements, stop } = &plan.analysis;
+    let Analysis { quantiles, confidence, summary_columns, derived, requirements, stop, display } = &plan.analysis;
+    // the limit in joules is one of a column in joules: nothing to convert
+    assert_eq!(*display, Display::default());
     assert_eq!((quantiles.as_slice(), *confidence), (&[0.05, 0.5, 0.9987][..], 0.9));
     assert_eq!((summary_columns.len(), derived.len(), requirements.len()), (2, 1, 4));
     let expected = Requirement {
@@ -349,4 +351,54 @@ fn an_observable_is_derived_once() {
     let error = Plan::from_text("bad.toml", &(good() + OBSERVABLE + OBSERVABLE), Overrides::default());
     let said = error.expect_err("twice").to_string();
     assert!(said.contains("observable[1].name = \"twice\": must be a name of its own"), "{said}");
+}
+
+/// Law: the unit in which a limit or a dispersion is written is that in which it is shown, after `[display]`; the limit itself is in the unit of
+/// the column, whatever unit it is written in.
+#[test]
+fn units_that_are_written_come_back() {
+    let text = "[[observable]]\nname = \"rate_deg_s\"\nunit = \"deg/s\"\nexpression = \"57.29577951308232 * omega_se_s_x_final_rad_s\"\n\
+        [[require]]\nobservable = \"rate_deg_s\"\nfraction = 0.9\nat_most = \"0.1 rad/s\"\n\
+        [[require]]\nobservable = \"omega_se_s_x_final_rad_s\"\nfraction = 0.9\nat_most = \"5 deg/s / 2\"\n\
+        [[require]]\nobservable = \"spin_axis_angle_max_rad\"\nfraction = 0.9\nat_most = 0.5\n\
+        [[disperse]]\nparameter = \"wheels.w1.rate_rad_s\"\ndistribution = \"normal\"\nthree_sigma = \"30 rpm\"\n\
+        [display]\nunits = [\"arcsec\"]\ncolumns = { omega_se_s_y_final_rad_s = \"rpm\" }\n";
+    let plan = plan(text);
+    let degrees = core::f64::consts::PI / 180.0;
+    let limits: Vec<f64> = plan.analysis.requirements.iter().map(|one| one.limit.value()).collect();
+    assert!((limits[0] - 0.1 / degrees).abs() < 1e-14 && (limits[1] - 2.5 * degrees).abs() < 1e-16, "{limits:?}");
+    let shown = |name: &str, unit: &str| plan.analysis.display.of(name, unit).unit;
+    assert_eq!(shown("rate_deg_s", "deg/s"), "rad/s");
+    assert_eq!(shown("omega_se_s_x_final_rad_s", "rad/s"), "deg/s");
+    assert_eq!(shown("omega_se_s_y_final_rad_s", "rad/s"), "rpm");
+    assert_eq!(shown("omega_se_s_z_final_rad_s", "rad/s"), "rad/s");
+    assert_eq!(shown("spin_axis_angle_max_rad", "rad"), "arcsec");
+    assert_eq!(shown("wheels.w1.rate_rad_s", "rad/s"), "rpm");
+    let written = plan.analysis.display.of("omega_se_s_x_final_rad_s", "rad/s").written(limits[1]);
+    assert_eq!(written, 2.5);
+    // a third of three sigma
+    let std =
+        plan.text().lines().rfind(|line| line.starts_with("std = ")).and_then(|line| line[6..].parse::<f64>().ok());
+    assert!((std.expect("a standard deviation") - core::f64::consts::PI / 3.0).abs() < 1e-15);
+    // in the plan, and in no row
+    let again = Plan::from_text("plan.toml", &plan.text(), Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!((&again, again.text()), (&plan, plan.text()));
+    let other = self::plan(&text.replace("arcsec", "deg"));
+    assert_eq!((other.row_hash(), other.hash() == plan.hash()), (plan.row_hash(), false));
+}
+
+/// Law: a unit of another kind, a column that is not there, and a second unit of one kind are refused.
+#[test]
+fn units_that_show_nothing_are_refused() {
+    for (text, told) in [
+        ("units = [\"degs\"]", "must be one of deg"),
+        ("units = [\"deg\", \"arcsec\"]", "of different quantities"),
+        ("columns = { energy_error_max = \"deg\" }", "a unit in place of 1"),
+        ("columns = { omega_se_s_x_final_rad_s = \"deg\" }", "a unit in place of rad/s"),
+        ("columns = { omega_se_s_q = \"deg\" }", "a unit of a column of the rows"),
+    ] {
+        let text = format!("{}[display]\n{text}\n", good());
+        let error = Plan::from_text("x.toml", &text, Overrides::default()).expect_err(&text).to_string();
+        assert!(error.contains(told), "{text}: {error}");
+    }
 }

@@ -11,14 +11,14 @@ use spindrift::observables::{Groups, Observer};
 use spindrift::ode::Control;
 use spindrift::propagation::{CompletedRun, Method, PropagationSettings};
 use spindrift::run::Grid;
-use spindrift::scene::{Arc, Scene, WheelMode};
+use spindrift::scene::{Actuated, Arc, Scene, WheelMode};
 
 /// s.
 const HORIZON: f64 = 3.1;
 
 fn settings(method: Method, control: Control, scenes: &[Scene]) -> PropagationSettings {
     PropagationSettings::new(method, control, Grid::uniform(HORIZON, 29), everything(method), &scenes[0])
-        .with_feedback()
+        .with_feedback(Actuated::ALL)
 }
 
 fn bits(flights: &[Flight]) -> Vec<Bits> {

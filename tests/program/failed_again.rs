@@ -181,7 +181,7 @@ fn printed_commands_give_the_rows() {
         let drawn = axes.map(|axis| column(&rows, &format!("initial_angular_velocity_{axis}_rad_s")));
         let printed: BTreeSet<&str> =
             said.lines().filter_map(|line| Some(line.split_once("spindrift simulate ")?.1)).collect();
-        assert!(printed.len() > 2, "{options}: {said}");
+        assert!(!printed.is_empty(), "{options}: {said}");
         for command in printed {
             let run = scratch.prints(&format!("simulate {command}"), 0);
             let sample: u64 = command.split_whitespace().last().unwrap().parse().unwrap();

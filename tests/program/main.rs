@@ -32,6 +32,7 @@ mod observation;
 mod observation_columns;
 mod observation_golden;
 mod observed_tables;
+mod page_numbers;
 #[cfg(target_os = "linux")]
 mod power_loss;
 mod precision;

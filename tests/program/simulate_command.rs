@@ -42,7 +42,8 @@ fn simulate_writes_the_promised_columns() {
         omega_se_s_x_rad_s,omega_se_s_y_rad_s,omega_se_s_z_rad_s,angle_w1_rad,rate_w1_rad_s,angle_w2_rad,rate_w2_rad_s,\
         r_gdo_e_x_m,r_gdo_e_y_m,r_gdo_e_z_m,v_gdo_e_x_m_s,v_gdo_e_y_m_s,v_gdo_e_z_m_s,q_ed_w,q_ed_x,q_ed_y,q_ed_z,\
         omega_de_d_x_rad_s,omega_de_d_y_rad_s,omega_de_d_z_rad_s,\
-        energy_body_j,energy_w1_j,energy_w2_j,energy_debris_j,energy_error,";
+        energy_body_j,energy_w1_j,energy_w2_j,energy_debris_j,\
+        energy_com_body_j,energy_com_w1_j,energy_com_w2_j,energy_com_wheels_j,energy_com_total_j,energy_error,";
     assert!(text.starts_with(expected), "{}", text.lines().next().unwrap());
     assert_eq!(text.lines().count(), 12);
 

@@ -67,10 +67,20 @@ fn blocks(document: &str) -> Vec<Block> {
     blocks
 }
 
-/// What is wrong with a campaign file, or with a part of one added to `spin_sweep.toml`.
-fn campaign_problem(block: &Block) -> Option<String> {
+/// The file that a part of a campaign file in `document` is added to: in the README that of `spindrift new` before its dispersions, elsewhere
+/// `spin_sweep.toml`.
+fn base_of_fragments(document: &Path) -> String {
+    if document.ends_with("README.md") {
+        let start = text(&root().join("assets/start.toml"));
+        return start.split("[[disperse]]").next().expect("a beginning").to_owned();
+    }
+    text(&root().join("campaigns/spin_sweep.toml"))
+}
+
+/// What is wrong with a campaign file, or with a part of one added to `base`.
+fn campaign_problem(block: &Block, base: &str) -> Option<String> {
     let folder = root().join("campaigns");
-    let base = if block.is_fragment { text(&folder.join("spin_sweep.toml")) } else { String::new() };
+    let base = if block.is_fragment { base } else { "" };
     let whole = format!("{base}\n{}", block.text);
     match Plan::from_text_in(&folder, "block.toml", &whole, Overrides::default()) {
         Err(error) => Some(error.to_string()),
@@ -172,7 +182,7 @@ fn every_campaign_file_is_valid() {
     for file in documents() {
         for block in blocks(&text(&file)).into_iter().filter(|block| block.language == "toml") {
             count += 1;
-            let problem = campaign_problem(&block);
+            let problem = campaign_problem(&block, &base_of_fragments(&file));
             assert!(problem.is_none(), "{}: {}\n{}", file.display(), problem.unwrap_or_default(), block.text);
         }
     }
@@ -238,8 +248,10 @@ fn every_name_is_documented() {
     let mut names: Vec<String> = vec![".ci/run".to_owned(), "cargo test --release".to_owned()];
     for command in command.get_subcommands() {
         names.push(format!("`{}", command.get_name()));
-        names
-            .extend(command.get_arguments().filter_map(|argument| argument.get_long()).map(|long| format!("--{long}")));
+        // its options are in `--help`
+        for argument in command.get_arguments() {
+            assert!(argument.get_help().is_some(), "{}: no help of {argument}", command.get_name());
+        }
     }
     names.extend(Method::ALL.map(|method| format!("`{}`", method.name())));
     names.extend(Status::ALL.map(|status| format!("`{}`", status.name())));
@@ -259,8 +271,8 @@ fn the_checks_can_fail() {
     let document = "a\n<!-- fragment -->\n\n```toml\n[design]\nkind = \"sobol\"\n```\n```toml\n[design]\n```\n";
     let found = blocks(document);
     assert_eq!(found.len(), 2);
-    assert!(campaign_problem(&found[0]).is_none());
-    assert!(campaign_problem(&found[1]).is_some(), "a part of a file is no campaign");
+    assert!(campaign_problem(&found[0], &text(&root().join("campaigns/spin_sweep.toml"))).is_none());
+    assert!(campaign_problem(&found[1], "").is_some(), "a part of a file is no campaign");
     for wrong in [
         "spindrift campaign no_such_file.toml",
         "spindrift campaign spin_sweep.toml --no-such-option",

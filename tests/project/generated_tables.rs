@@ -92,6 +92,8 @@ fn quantities_over_time() -> String {
         actuated: Actuated::ALL,
         constrained: false,
         wheels: wheel_names(&["w1"]),
+        nutation_axis: spindrift::observables::request::NutationAxis::SpinAxis,
+        of_law: spindrift::observables::LawColumns::NONE,
         windows: spindrift::observables::window::NO_WINDOWS,
     };
     let mut table = String::from("| series | unit | what it is |\n| --- | --- | --- |\n");

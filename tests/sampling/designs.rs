@@ -88,11 +88,11 @@ fn draws_do_not_depend_on_company() {
             .expect("valid");
         assert_ne!(draws(&other, 1..3), rows[1..3], "{kind}");
     }
-    // a component alone, by name and by number, and any sample
+    // a component alone, and any sample
     let ids = || [1, 9, 4095, 1 << 40];
-    let [whole, y, second] = ["", ".y", "[1]"]
-        .map(|component| draws(&plan(&RATE.replace("rad_s\"", &format!("rad_s{component}\""))), ids()));
-    assert!(y == second && y.iter().zip(&whole).all(|(y, all)| y.iter().all(|(name, value)| all[name] == *value)));
+    let [whole, y] =
+        ["", ".y"].map(|component| draws(&plan(&RATE.replace("rad_s\"", &format!("rad_s{component}\""))), ids()));
+    assert!(y.iter().zip(&whole).all(|(y, all)| y.iter().all(|(name, value)| all[name] == *value)));
 }
 
 /// Law: with more samples the earlier rows stay; a Latin hypercube says why it cannot.

@@ -117,7 +117,7 @@ fn what_changes_nothing_is_noted() {
 /// Law: what has an effect in some draws alone, or through a derived parameter, or where other draws move it, has one.
 #[test]
 fn what_acts_in_some_draws_is_not_noted() {
-    let tilt = dispersed("thrusters.p3.tilt_rad[0]");
+    let tilt = dispersed("thrusters.p3.tilt_rad.1");
     let on = with("actuation.0.thrust_scale", "distribution = \"bernoulli\"\nvalue = 1.0\nprobability = 0.3");
     let derived = "[[derive]]\nparameter = \"wheels.w1.radius_m\"\nexpression = \"0.25 * thrusters.p2.thrust_scale\"\n";
     let off = with("actuators.switch_off_delay_s", "distribution = \"uniform\"\nhalf_width = 0.5");

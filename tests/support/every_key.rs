@@ -15,6 +15,7 @@ max_steps = 100000
 
 [observe]
 points = 11
+nutation_axis = "principal"
 groups = ["effort", "energy_conservation"]
 
 [body]
@@ -192,7 +193,9 @@ pub fn distribution_tables() -> Vec<(&'static str, String)> {
     let scalar = [
         ("normal", "std = 0.01"),
         ("normal", "relative_std = 0.02"),
+        ("normal", "three_sigma = 0.06"),
         ("truncated_normal", "std = 0.1\nsigmas = 3.0"),
+        ("truncated_normal", "three_sigma = 0.9\nsigmas = 3.0"),
         ("truncated_normal", "std = 0.1\nlower = 0.05\nupper = 0.5"),
         ("truncated_normal", "relative_std = 0.02\nrelative_lower = -0.1\nrelative_upper = 0.1"),
         ("truncated_normal", "std = 0.01\nlower_sigmas = 2.0\nupper_sigmas = 1.5"),
@@ -239,6 +242,10 @@ pub fn distribution_tables() -> Vec<(&'static str, String)> {
 
 /// Files that together have every number that a scene can have, each with two arcs with names.
 pub fn every_scene() -> Vec<String> {
+    const RELATIVE_DEBRIS: &str =
+        "debris_attitude = [1, 0, 0, 0]\ndebris_relative_angular_velocity_rad_s = [100, 0, 0]\n";
+    const INERTIAL_DEBRIS: &str =
+        "debris_attitude_inertial = [1, 0, 0, 0]\ndebris_angular_velocity_rad_s = [0.01, 0.02, 0.03]\n";
     let plain = without_draws();
     let (debris, initial) = (plain.find("[debris]").expect("a debris"), plain.find("[initial]").expect("a state"));
     let arc = "[[actuation]]\nname = \"later\"\nstart_s = 4.0\nend_s = 6.0\nthrust_n = { p1 = 3.0 }\n";
@@ -262,6 +269,6 @@ pub fn every_scene() -> Vec<String> {
         with(&body, "", "size_m = [0.1, 0.2, 0.3]\ndensity_kg_m3 = 2700.0"),
         with(&moments[0].replace(".0", "00.0"), "", &format!("mass_kg = 3.0\n{tensor}")),
         with(&moments[1].replace(".0", "00.0"), "", &format!("mass_kg = 3.0\n{}", moments[0])),
-        with("", "", &format!("mass_kg = 3.0\n{}", moments[1])),
+        with("", "", &format!("mass_kg = 3.0\n{}", moments[1])).replace(RELATIVE_DEBRIS, INERTIAL_DEBRIS),
     ]
 }

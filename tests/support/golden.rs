@@ -125,6 +125,7 @@ fn scene(scene: &Value) -> SceneInput {
         debris_velocity_m_s: numbers(&initial["debris_velocity"]),
         debris_attitude: numbers(&initial["debris_attitude"]),
         debris_relative_angular_velocity_rad_s: numbers(&initial["debris_relative_angular_velocity"]),
+        ..InitialInput::DEFAULT
     };
     input
 }

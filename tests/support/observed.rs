@@ -4,9 +4,9 @@ use std::collections::HashMap;
 
 use spindrift::math::Isa;
 use spindrift::observables::nominal_attitude::NominalAttitude;
-use spindrift::observables::request::wheel_names;
+use spindrift::observables::request::{NutationAxis, wheel_names};
 use spindrift::observables::window::NO_WINDOWS;
-use spindrift::observables::{Groups, Observer, Request};
+use spindrift::observables::{Groups, LawColumns, Observer, Request};
 use spindrift::run::{Grid, Outcome, StateTable};
 use spindrift::scene::{Actuated, Scene};
 
@@ -16,7 +16,16 @@ const NAMES: [&str; 8] = ["w1", "w2", "w3", "w4", "w5", "w6", "w7", "w8"];
 /// What is observed of spacecraft with `wheels` wheels.
 pub fn request(groups: Groups, wheels: usize, debris: bool, actuated: bool, constrained: bool) -> Request {
     let actuated = if actuated { Actuated::ALL } else { Actuated::NONE };
-    Request { groups, debris, actuated, constrained, wheels: wheel_names(&NAMES[..wheels]), windows: NO_WINDOWS }
+    Request {
+        groups,
+        debris,
+        actuated,
+        constrained,
+        wheels: wheel_names(&NAMES[..wheels]),
+        nutation_axis: NutationAxis::SpinAxis,
+        of_law: LawColumns::NONE,
+        windows: NO_WINDOWS,
+    }
 }
 
 /// The row of a run by column name, and the observer, which has its series.

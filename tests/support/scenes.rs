@@ -144,6 +144,7 @@ pub fn random(kind: Kind, seed: u64, horizon: f64) -> SceneInput {
         debris_velocity_m_s: u.vector(10.0),
         debris_attitude: u.unit_quaternion(),
         debris_relative_angular_velocity_rad_s: u.vector(5.0),
+        ..InitialInput::DEFAULT
     };
     if kind.forced {
         let mut interval = |start_s: f64, end_s: f64| {

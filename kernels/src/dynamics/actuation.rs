@@ -54,6 +54,10 @@ pub trait ActuationLaw {
     /// another source or the end of the run ends it. Called at time zero and at the end of every arc, in ascending order;
     /// `until` must be after `time`.
     fn arc(&mut self, time: f64, body: &BodyState, wheels: &WheelState) -> Actuation;
+
+    /// Writes what the law has to report when its run has ended: the values of the columns that it declares, in their order. All are NaN
+    /// before, which is a value that the run does not have.
+    fn report(&self, _values: &mut [f64]) {}
 }
 
 impl<F: FnMut(f64, &BodyState, &WheelState) -> Actuation> ActuationLaw for F {
@@ -121,6 +125,10 @@ impl<L: ActuationLaw> ActuationLaw for ZeroOrderHold<L> {
         }
         self.held
     }
+
+    fn report(&self, values: &mut [f64]) {
+        self.law.report(values);
+    }
 }
 
 /// Two sources at once: their thrusts and torques add, the earlier `until` ends the arc. More by nesting.
@@ -160,6 +168,7 @@ pub fn sum(first: &Actuation, second: &Actuation) -> Actuation {
         thrust: std::array::from_fn(|i| first.thrust[i] + second.thrust[i]),
         motor_torque: std::array::from_fn(|i| first.motor_torque[i] + second.motor_torque[i]),
         body_torque: std::array::from_fn(|i| first.body_torque[i] + second.body_torque[i]),
+        ends_run: first.ends_run || second.ends_run,
     }
 }
 

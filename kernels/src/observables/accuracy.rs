@@ -95,6 +95,8 @@ mod tests {
             actuated: Actuated::NONE,
             constrained: true,
             wheels: wheel_names(&[]),
+            nutation_axis: crate::observables::request::NutationAxis::SpinAxis,
+            of_law: crate::observables::law_columns::LawColumns::NONE,
             windows: crate::observables::window::NO_WINDOWS,
         };
         let accuracy = Accuracy::new(&request);

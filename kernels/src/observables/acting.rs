@@ -31,6 +31,11 @@ impl<'a> Acting<'a> {
         self.scene
     }
 
+    /// The time at which a law has ended the run, s.
+    pub(super) fn end(&self) -> Option<f64> {
+        self.arcs.last().filter(|arc| arc.applied.ends_run).map(|arc| arc.start)
+    }
+
     /// Whether nothing acts in the first `duration` seconds.
     pub(super) fn is_free(&self, duration: f64) -> bool {
         !self.scene.environment.acts() && self.arcs.iter().all(|arc| arc.start >= duration)

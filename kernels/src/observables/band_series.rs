@@ -160,6 +160,8 @@ mod tests {
             actuated: thrusters,
             constrained: false,
             wheels: wheel_names(wheels),
+            nutation_axis: crate::observables::request::NutationAxis::SpinAxis,
+            of_law: crate::observables::law_columns::LawColumns::NONE,
             windows: crate::observables::window::NO_WINDOWS,
         };
         band_series(&request).iter().map(|band| band.quantity.name().to_owned()).collect()

@@ -53,12 +53,11 @@ pub(super) fn exchange<'w, S: Simd>(
         }
     }
     let frequency = match spectrum {
-        Some(_) if !varies(body) => 0.0,
-        Some(spectrum) => {
+        Some(spectrum) if varies(body) => {
             let slope = slope(simd, weights, body.column, body.mean);
             spectrum.peak(simd, body.column, body.mean, slope)
         }
-        None => f64::NAN,
+        _ => f64::NAN,
     };
     Exchange { correlations, frequency }
 }
@@ -112,7 +111,9 @@ mod tests {
             exchanged(3.0, |time| 1.0 + 0.5 * libm::sin(core::f64::consts::TAU * 1.5 * time));
         // of a mean and a sum of 64 terms; the frequency lies between two bins of 1/4 Hz
         assert!((correlation + 1.0).abs() < 1e-14 && (frequency - 1.5).abs() < 0.25, "{correlation} {frequency}");
-        assert_eq!(exchanged(0.0, |_| 0.0), (0.0, 0.0), "at rest");
-        assert_eq!(exchanged(3.0, |_| 1.0), (0.0, 0.0), "a steady spin");
+        for (total, energy, what) in [(0.0, 0.0, "at rest"), (3.0, 1.0, "a steady spin")] {
+            let (correlation, frequency) = exchanged(total, |_| energy);
+            assert!(correlation == 0.0 && frequency.is_nan(), "{what}: {correlation} {frequency}");
+        }
     }
 }

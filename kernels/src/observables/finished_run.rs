@@ -15,6 +15,10 @@ const MEANINGLESS: f64 = 1e-3;
 pub(super) struct FinishedRun<'a> {
     pub(super) table: &'a StateTable,
     pub(super) outcome: &'a Outcome,
+    /// The time that the run reached, s.
+    pub(super) time_reached: f64,
+    /// Number of points that it reached.
+    pub(super) filled: usize,
     /// Times of the points, s.
     pub(super) times: &'a [f64],
     /// The last point with finite rotational states, where there is one and the final state is observed.
@@ -59,7 +63,7 @@ impl FinishedRun<'_> {
             DirectValue::WorkMotors => self.last(StateField::Work, 1),
             DirectValue::Correlation => self.exchange.correlations[wheel],
             DirectValue::ExchangeFrequency => self.exchange.frequency,
-            DirectValue::TimeReached => self.outcome.time,
+            DirectValue::TimeReached => self.time_reached,
             DirectValue::TimeFinal => self.final_point.map_or(f64::NAN, |point| self.times[point]),
             DirectValue::AttitudeW => self.final_state(StateField::Attitude, 0),
             DirectValue::AttitudeX => self.final_state(StateField::Attitude, 1),
@@ -89,7 +93,7 @@ impl FinishedRun<'_> {
     }
 
     fn last(&self, field: StateField, component: usize) -> f64 {
-        self.table.column(field, component)[self.table.points() - 1]
+        self.filled.checked_sub(1).map_or(f64::NAN, |last| self.table.column(field, component)[last])
     }
 
     #[inline]

@@ -27,11 +27,14 @@ pub enum Group {
     /// campaign names it.
     Motion,
     /// Mass, centre of mass and principal moments of inertia of the spacecraft, as dispersed. Only where a campaign names it.
+    /// campaign names it.
     MassProperties,
+    /// What the control law of the campaign reports at the end of a run. There where the law has columns; a campaign cannot name it.
+    Control,
 }
 
 impl Group {
-    /// All groups, in the order of the columns.
+    /// All groups that a campaign can name, in the order of the columns.
     pub const ALL: [Group; 12] = [
         Group::EnergyConservation,
         Group::MomentumConservation,
@@ -71,6 +74,7 @@ impl Group {
             Group::Numerics => "numerics",
             Group::Motion => "motion",
             Group::MassProperties => "mass_properties",
+            Group::Control => "control",
         }
     }
 

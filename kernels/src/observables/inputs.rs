@@ -17,7 +17,7 @@ impl Value {
         match self {
             Value::Of(series, reduction) => Value::Of(series.of_wheel(wheel), reduction),
             Value::Direct(value, _) => Value::Direct(value, wheel as u8),
-            Value::Window(..) => self,
+            Value::Window(..) | Value::Law(_) => self,
         }
     }
 
@@ -26,7 +26,7 @@ impl Value {
         match self {
             Value::Of(_, Reduction::Fraction) => Some(FRACTION_SCALE),
             Value::Of(series, _) | Value::Window(series, _) => series.row().scale,
-            Value::Direct(..) => None,
+            Value::Direct(..) | Value::Law(_) => None,
         }
     }
 
@@ -42,6 +42,7 @@ impl Value {
             Value::Direct(value, wheel) => (None, value.row().inputs, usize::from(wheel)),
             // the cheapest statistic: the extreme is made of the series itself
             Value::Window(series, _) => (Some((series, Reduction::Order(OrderStatistic::Initial))), [].as_slice(), 0),
+            Value::Law(_) => (None, [].as_slice(), 0),
         };
         let direct = direct.iter().map(move |(series, reduction)| (series.of_wheel(wheel), *reduction));
         own.into_iter().chain(self.scale()).chain(direct)
@@ -50,7 +51,7 @@ impl Value {
     /// Every field that the value is computed from.
     pub(super) fn needs(self) -> impl Iterator<Item = Need> {
         let direct = match self {
-            Value::Of(..) | Value::Window(..) => [].as_slice(),
+            Value::Of(..) | Value::Window(..) | Value::Law(_) => [].as_slice(),
             Value::Direct(value, _) => value.row().needs,
         };
         let of_series = self.inputs().flat_map(|(series, _)| series.row().needs.iter().copied().flatten());
@@ -60,7 +61,7 @@ impl Value {
     /// Whether the value is known of a run that failed.
     pub(super) fn is_known_after_failure(self) -> bool {
         match self {
-            Value::Of(..) | Value::Window(..) => false,
+            Value::Of(..) | Value::Window(..) | Value::Law(_) => false,
             Value::Direct(value, _) => value.row().after_failure,
         }
     }

@@ -9,6 +9,7 @@
 //! - `measure`: states to series, by `energies`, `momenta`, `attitude` and `motion`, eight points at a time (`points`).
 //! - [`nominal_attitude`]: the attitude of the nominal run, with which those of the others are compared.
 //! - `conditioning`, `error_sums`, `rotor`, `acting`: how much the motion amplifies errors of its state.
+//! - [`law_columns`]: the columns that a control law reports.
 //! - [`band_series`]: the quantities over time that have bands; [`band_reader`]: theirs of a run; [`window`]: their extremes in an interval of time.
 //! - `exchange`, `spectrum`: the exchange of energy between the bodies, and its frequency.
 //!
@@ -32,6 +33,7 @@ mod finished_run;
 pub mod group;
 pub mod headlines;
 mod inputs;
+pub mod law_columns;
 mod measure;
 mod momenta;
 mod motion;
@@ -51,6 +53,7 @@ mod weights;
 pub mod window;
 
 pub use group::{Group, Groups};
+pub use law_columns::{LawColumn, LawColumns};
 pub use observer::Observer;
 pub use reduction::{ChangeStatistic, ErrorStatistic, OrderStatistic, Reduction, ValueStatistic};
 pub use request::Request;

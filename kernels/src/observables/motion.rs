@@ -49,7 +49,7 @@ fn rate<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     }
 }
 
-/// The angle of s3 from the angular momentum, squares of the wheels' rates and of their momenta J_i (Omega_i + a_i . omega).
+/// The angle of s3, or of another axis, from the angular momentum, squares of the wheels' rates and of their momenta J_i (Omega_i + a_i . omega).
 #[inline(always)]
 fn momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let (mass, table, vectors) = (run.mass, run.table, run.vectors());
@@ -67,6 +67,7 @@ fn momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     };
     let [nutation, speeds, momenta] = out.blocks(blocks);
     let nutation = only(nutation, vectors);
+    let axis = run.nutation_axis.map(|axis| constant(simd, axis));
     for at in 0..vectors {
         let omega = three(simd, omega, at);
         let mut total = product(inertia, omega);
@@ -77,8 +78,13 @@ fn momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
             (rate * rate).store(&mut speeds[wheel][at]);
             (own * own).store(&mut momenta[wheel][at]);
         }
-        let [x, y, z] = total;
-        angle(x.mul_add(x, y * y).sqrt(), z, &mut nutation[at]);
+        match axis {
+            None => {
+                let [x, y, z] = total;
+                angle(x.mul_add(x, y * y).sqrt(), z, &mut nutation[at]);
+            }
+            Some(axis) => angle(norm(cross(axis, total)), dot(axis, total), &mut nutation[at]),
+        }
     }
 }
 

@@ -39,6 +39,8 @@ pub struct Observer {
     shown: Vec<Series>,
     times: Vec<f64>,
     weights: Weights,
+    /// Those of the run that was observed last, where its law ended it before the last point.
+    ended_weights: Option<Weights>,
     spectrum: Option<Spectrum>,
     series: SeriesTable,
     statistics: Statistics,
@@ -66,6 +68,7 @@ impl Observer {
             shown: request.series(),
             times: grid.times().to_vec(),
             weights: Weights::of(grid),
+            ended_weights: None,
             spectrum: if request.groups.contains(Group::Exchange) { Spectrum::of(grid) } else { None },
             series: SeriesTable::new(grid.points()),
             statistics: Statistics::unknown(),
@@ -95,6 +98,8 @@ impl Observer {
     ///
     /// Returns the status of the run: that of `outcome`, or [`Status::Inaccurate`] of a run that reached its end with errors beyond any
     /// use ([`super::accuracy`]); all of its columns have values.
+    ///
+    /// A run that its law has ended ([`crate::scene::Actuation::ends_run`]) is one of the points up to there.
     ///
     /// Of a run that is not [`Status::Done`] only step statistics, mass properties and final state are numbers, the last at the last point with
     /// finite values; everything else is NaN. Counts are whole numbers.
@@ -141,7 +146,11 @@ impl Observer {
         assert_eq!(table.points(), self.times.len(), "the table has the points of the grid");
         let has_debris = acting.scene().mass.debris.is_some();
         assert!(has_debris || !self.request.debris, "a scene whose debris is observed has one");
-        self.filled = outcome.points.min(table.points());
+        let end = acting.end();
+        let observed = end.map_or(self.times.len(), |end| self.times.partition_point(|time| *time <= end));
+        self.filled = outcome.points.min(observed);
+        let is_ended = self.filled == observed && observed < self.times.len();
+        self.ended_weights = is_ended.then(|| Weights::at(&self.times[..observed]));
         if self.filled > 0 {
             isa.run(Observation { observer: self, acting, table, outcome });
         }
@@ -151,6 +160,8 @@ impl Observer {
         let run = FinishedRun {
             table,
             outcome,
+            time_reached: end.map_or(outcome.time, |end| end.min(outcome.time)),
+            filled: self.filled,
             times: &self.times,
             final_point: if is_final_observed { final_point(table, self.filled) } else { None },
             exchange: self.exchange,
@@ -164,7 +175,7 @@ impl Observer {
         for (value, (window, points)) in row[of_windows..].iter_mut().zip(&self.windows) {
             let scale = window.series().row().scale.map_or(1.0, |scale| self.statistics.scale(Slot::of(scale)));
             let column = &self.series.column(window.series())[..self.filled];
-            *value = window.extreme(column, points.clone(), scale);
+            *value = window.extreme(column, points.start..points.end.min(self.filled), scale);
         }
         if outcome.status != Status::Done {
             self.plan.clear_unknown(row);
@@ -208,10 +219,11 @@ impl Observer {
     /// Reduces the observed series to statistics.
     #[inline(always)]
     fn reduce<S: Simd>(&mut self, simd: S) {
+        let weights = self.ended_weights.as_ref().unwrap_or(&self.weights);
         for task in &self.tasks {
             let scale = task.scale.map_or(1.0, |scale| self.statistics.scale(Slot::of(scale)));
             let out = self.statistics.of(task.series);
-            reduce(simd, &self.weights, self.series.column(task.series), (task.passes, task.stored, scale), out);
+            reduce(simd, weights, self.series.column(task.series), (task.passes, task.stored, scale), out);
         }
     }
 
@@ -226,8 +238,10 @@ impl Observer {
         };
         let total = values.get(Slot::of((Series::ComTotal, Reduction::Order(OrderStatistic::Max))));
         let wheels = (0..self.request.wheels.len()).map(|wheel| body(Series::ComWheel.of_wheel(wheel)));
-        let spectrum = self.spectrum.as_mut();
-        self.exchange = exchange(simd, &self.weights, spectrum, total, body(Series::ComBody), wheels);
+        // a spectrum is that of the whole grid
+        let spectrum = self.spectrum.as_mut().filter(|_| self.ended_weights.is_none());
+        let weights = self.ended_weights.as_ref().unwrap_or(&self.weights);
+        self.exchange = exchange(simd, weights, spectrum, total, body(Series::ComBody), wheels);
     }
 }
 
@@ -248,8 +262,10 @@ impl Work for Observation<'_> {
         let debris = scene.mass.debris.as_ref().filter(|_| observer.request.debris);
         let (observed, points) = (observer.observed, observer.filled);
         let nominal = observer.nominal.as_ref();
-        let run =
-            MeasuredRun { observed, sources: &observer.sources, mass: &scene.mass, debris, nominal, table, points };
+        let nutation_axis =
+            if observed.has(Series::Nutation) { observer.request.nutation_axis.of(scene.mass.inertia) } else { None };
+        let (sources, mass) = (&observer.sources, &scene.mass);
+        let run = MeasuredRun { observed, sources, mass, debris, nominal, nutation_axis, table, points };
         measure(simd, &run, &mut observer.series);
         observer.reduce(simd);
         if observer.request.groups.contains(Group::Exchange) {

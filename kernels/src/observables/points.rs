@@ -32,6 +32,8 @@ pub(super) struct MeasuredRun<'a> {
     pub(super) debris: Option<&'a Body>,
     /// The attitude of the nominal run, where it is known.
     pub(super) nominal: Option<&'a NominalAttitude>,
+    /// The axis of nutation in F_s, where it is not s3.
+    pub(super) nutation_axis: Option<[f64; 3]>,
     /// The states.
     pub(super) table: &'a StateTable,
     /// Number of filled points, at least one.

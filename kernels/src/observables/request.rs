@@ -1,11 +1,15 @@
 //! [`Request`]: what a campaign observes of scenes of one kind: which columns, which series, which state fields and why.
 
+use core::ops::Range;
+
 use super::group::{Group, Groups};
+use super::law_columns::LawColumns;
 use super::reduction::{Passes, Reduction, Stored};
 use super::rows::{Scenes, SeriesSource};
 use super::table::{self, Column, ColumnId, Series};
 use super::window::Windows;
 use crate::math::list::List;
+use crate::math::symmetric::principal_axes;
 use crate::run::{StateField, StateFields};
 use crate::scene::{Actuated, MAX_WHEELS, Name};
 
@@ -22,8 +26,44 @@ pub struct Request {
     pub constrained: bool,
     /// The names of the wheels that turn.
     pub wheels: List<Name, MAX_WHEELS>,
+    /// Whose angle from the angular momentum nutation is.
+    pub nutation_axis: NutationAxis,
+    /// What the control law reports at the end of a run, in the columns before the last.
+    pub of_law: LawColumns,
     /// Extremes over intervals of time, in the last columns.
     pub windows: Windows,
+}
+
+/// The axis whose angle from the angular momentum of the spacecraft is called nutation.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum NutationAxis {
+    /// s3.
+    #[default]
+    SpinAxis,
+    /// The principal axis of the spacecraft (its wheels locked) that is nearest to s3, of each run its own.
+    Principal,
+    /// A unit vector in F_s.
+    Along([f64; 3]),
+}
+
+impl NutationAxis {
+    /// The axis in F_s of a spacecraft with the inertia `inertia`; `None` where it is s3.
+    pub fn of(self, inertia: [[f64; 3]; 3]) -> Option<[f64; 3]> {
+        match self {
+            NutationAxis::SpinAxis => None,
+            NutationAxis::Along(axis) => Some(axis),
+            NutationAxis::Principal => Some(nearest_principal_axis(inertia)),
+        }
+    }
+}
+
+/// The principal axis of `inertia` that is nearest to s3, in its direction.
+pub fn nearest_principal_axis(inertia: [[f64; 3]; 3]) -> [f64; 3] {
+    let (_, columns) = principal_axes(inertia);
+    let axis = |k: usize| columns.map(|row| row[k]);
+    let nearest = (0..3).max_by(|a, b| axis(*a)[2].abs().total_cmp(&axis(*b)[2].abs())).unwrap_or(2);
+    let found = axis(nearest);
+    if found[2] < 0.0 { found.map(|x| -x) } else { found }
 }
 
 /// The names of wheels.
@@ -77,7 +117,13 @@ impl Request {
             None => column.clone(),
         };
         let windows = self.windows.iter().enumerate().map(|(index, window)| window.column(&self.wheels, index));
-        self.rows().into_iter().map(shown).chain(windows).collect()
+        self.rows().into_iter().map(shown).chain(self.of_law.columns()).chain(windows).collect()
+    }
+
+    /// Where a row has what the control law reports.
+    pub fn places_of_law(&self) -> Range<usize> {
+        let start = self.rows().len();
+        start..start + self.of_law.0.len()
     }
 
     /// The place of a column in a row; `None` where the row does not have it.
@@ -108,7 +154,7 @@ impl Request {
             Some(index) => ColumnId { value: column.value.of_wheel(index), ..column.id() },
             None => column.id(),
         });
-        rows.chain(self.windows.iter().enumerate().map(|(index, window)| window.id(index)))
+        rows.chain(self.of_law.ids()).chain(self.windows.iter().enumerate().map(|(index, window)| window.id(index)))
     }
 
     /// The columns of a time series, in order: the series behind [`Request::columns`] that have one.
@@ -215,6 +261,8 @@ mod tests {
             actuated: if actuated { Actuated::ALL } else { Actuated::NONE },
             constrained,
             wheels: wheel_names(&["w1", "w2"]),
+            nutation_axis: crate::observables::request::NutationAxis::SpinAxis,
+            of_law: crate::observables::law_columns::LawColumns::NONE,
             windows: crate::observables::window::NO_WINDOWS,
         }
     }
@@ -285,6 +333,8 @@ mod tests {
             actuated: Actuated::ALL,
             constrained: true,
             wheels: wheel_names(&["w1", "w2"]),
+            nutation_axis: crate::observables::request::NutationAxis::SpinAxis,
+            of_law: crate::observables::law_columns::LawColumns::NONE,
             windows: crate::observables::window::NO_WINDOWS,
         };
         let reasons = request.reasons();

@@ -69,7 +69,7 @@ impl RowPlan {
                     plan.direct_values.push((place, value, wheel));
                     Slot(0)
                 }
-                Value::Window(..) => Slot(0),
+                Value::Window(..) | Value::Law(_) => Slot(0),
             });
         }
         plan
@@ -103,6 +103,7 @@ impl RowPlan {
 mod tests {
     use super::*;
     use crate::observables::group::Groups;
+    use crate::observables::law_columns::LawColumns;
     use crate::observables::request::wheel_names;
     use crate::scene::Actuated;
 
@@ -124,6 +125,8 @@ mod tests {
                 actuated: if actuated { Actuated::ALL } else { Actuated::NONE },
                 constrained,
                 wheels: wheel_names(&["w1", "w2", "w3"]),
+                nutation_axis: crate::observables::request::NutationAxis::SpinAxis,
+                of_law: LawColumns::NONE,
                 windows: crate::observables::window::NO_WINDOWS,
             };
             let plan = RowPlan::of(&request);
@@ -134,7 +137,7 @@ mod tests {
                 let expected = match column.value {
                     Value::Of(series, reduction) => statistics.of(series)[reduction.index()],
                     Value::Direct(value, wheel) => number(value, wheel),
-                    Value::Window(..) => unreachable!("the requests have none"),
+                    Value::Window(..) | Value::Law(_) => unreachable!("the requests have none"),
                 };
                 assert_eq!(*shown, expected, "{}", column.quantity.name());
             }

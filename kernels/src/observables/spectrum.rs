@@ -182,7 +182,7 @@ impl Spectrum {
         }
     }
 
-    /// The frequency of the largest ordinate, Hz.
+    /// The frequency of the largest ordinate, Hz; NaN where it is at an end of the spectrum, and so no peak.
     #[inline(always)]
     fn highest(&self) -> f64 {
         let bin = 1.0 / (2.0 * self.size as f64 * self.step);
@@ -193,7 +193,10 @@ impl Spectrum {
                 peak = k;
             }
         }
-        if peak == self.size || self.power[peak - 1] >= self.power[peak] || self.power[peak + 1] <= 0.0 {
+        if peak == self.size || self.power[peak - 1] >= self.power[peak] {
+            return f64::NAN;
+        }
+        if self.power[peak + 1] <= 0.0 {
             return bin * peak as f64;
         }
         let [a, b, c] = [peak - 1, peak, peak + 1].map(|k| libm::log(self.power[k]));
@@ -279,6 +282,20 @@ mod tests {
         }
         // measured: 0.016
         assert!(worst > 2e-3, "the bound is meant to be near what is measured");
+    }
+
+    /// Law: ordinates that only fall, or only rise, have no peak.
+    #[test]
+    fn an_end_of_the_spectrum_is_no_peak() {
+        let mut spectrum = Spectrum::of(&Grid::uniform(1.0, 65)).expect("an even grid");
+        let highest = |spectrum: &mut Spectrum, of: &dyn Fn(f64) -> f64| {
+            spectrum.power.iter_mut().enumerate().for_each(|(k, power)| *power = of(k as f64));
+            spectrum.highest()
+        };
+        assert!(highest(&mut spectrum, &|k| 1.0 / (1.0 + k)).is_nan());
+        assert!(highest(&mut spectrum, &|k| 1.0 + k).is_nan());
+        let peak = highest(&mut spectrum, &|k| 1.0 / (1.0 + (k - 20.0) * (k - 20.0)));
+        assert!((peak * 2.0 * spectrum.size as f64 * spectrum.step - 20.0).abs() < 1e-9, "{peak}");
     }
 
     #[test]

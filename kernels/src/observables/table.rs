@@ -84,6 +84,8 @@ pub enum Value {
     Direct(DirectValue, u8),
     /// The extreme of a series in an interval of time: the place among those of the request.
     Window(Series, u8),
+    /// What a control law reports at the end of a run: the place among its columns. The observer does not know it.
+    Law(u8),
 }
 
 /// The handle of a column: a value of a group. [`super::Request::position`] finds its place in a row.
@@ -394,7 +396,7 @@ series! {
     ResidualCollocation [1]: Residuals, Quantity, None, [RESIDUALS], Some(("residual_collocation_m", "m")), "Residual of the collocation constraints (tilts of wheel axes as sines).";
     ResidualAttitude [1]: Residuals, Quantity, None, [RESIDUALS], Some(("residual_attitude", "")), "Residual of the attitude constraints.";
     RateSquare [1]: Motion, Square, None, [RATE], Some(("angular_rate_rad_s", "rad/s")), "Magnitude of the angular velocity of the body relative to F_e.";
-    Nutation [1]: Motion, Quantity, None, [SPIN], Some(("nutation_angle_rad", "rad")), "Angle between s3 and the angular momentum of the spacecraft about its centre of mass.";
+    Nutation [1]: Motion, Quantity, None, [SPIN], Some(("nutation_angle_rad", "rad")), "Angle between s3 (or observe.nutation_axis) and the angular momentum of the spacecraft about its centre of mass.";
     FromNominal [1]: Motion, HalfTangentSquare, None, [FROM_NOMINAL], Some(("attitude_from_nominal_rad", "rad")), "Angle of the rotation between the attitude and that of the nominal run at the same time.";
     FromInitial [1]: Motion, HalfTangentSquare, None, [FROM_INITIAL], Some(("attitude_from_initial_rad", "rad")), "Angle of the rotation between the attitude and the initial one of the run.";
     WheelSpeed [MAX_WHEELS]: Motion, Square, None, [SPIN], Some(("speed_{wheel}_rad_s", "rad/s")), "Magnitude of the rate of wheel {wheel} relative to the body.";
@@ -477,7 +479,7 @@ static FAMILIES: &[&[Column]] = &[
     exchange!(ComWheels, SeveralWheels, "wheels", "all wheels together"),
     &[direct!(Exchange, Wheels, Float, Correlation, "exchange_{wheel}_correlation", "", "Correlation over the points of the energies of body and wheel {wheel} about the centre of mass (0 where one of them is constant).")],
     &[
-        direct!(Exchange, Wheels, Float, ExchangeFrequency, "exchange_frequency_hz", "Hz", "Dominant frequency of the body's energy about the centre of mass (0 where it is constant; none on uneven grids)."),
+        direct!(Exchange, Wheels, Float, ExchangeFrequency, "exchange_frequency_hz", "Hz", "Dominant frequency of the body's energy about the centre of mass (none where it is constant, where its spectrum has no peak, and on uneven grids)."),
         direct!(FinalState, All, Float, TimeReached, "time_reached_s", "s", "Time that the integration reached."),
         direct!(FinalState, All, Float, TimeFinal, "time_final_s", "s", "Time of the last finite state at an observation point; the other columns of this group show that state."),
         direct!(FinalState, All, Float, AttitudeW, "q_es_w_final", "", "Attitude quaternion, scalar part, at the final time."),
@@ -503,9 +505,9 @@ static FAMILIES: &[&[Column]] = &[
     &[
         of!(Motion, All, RateSquare, Order(OrderStatistic::Max), ["angular_rate_max_rad_s"], "rad/s", ["Maximum magnitude of the angular velocity of the body relative to F_e."]),
         of!(Motion, All, RateSquare, Order(OrderStatistic::Final), ["angular_rate_final_rad_s"], "rad/s", ["Magnitude of the angular velocity of the body relative to F_e at the last point."]),
-        of!(Motion, All, Nutation, Value(ValueStatistic::Max), ["nutation_angle_max_rad"], "rad", ["Maximum angle between s3 and the angular momentum of the spacecraft about its centre of mass."]),
-        of!(Motion, All, Nutation, Value(ValueStatistic::Min), ["nutation_angle_min_rad"], "rad", ["Minimum angle between s3 and the angular momentum of the spacecraft about its centre of mass."]),
-        of!(Motion, All, Nutation, Value(ValueStatistic::Mean), ["nutation_angle_mean_rad"], "rad", ["Mean over the points of the angle between s3 and the angular momentum of the spacecraft about its centre of mass."]),
+        of!(Motion, All, Nutation, Value(ValueStatistic::Max), ["nutation_angle_max_rad"], "rad", ["Maximum angle between s3 (or observe.nutation_axis) and the angular momentum of the spacecraft about its centre of mass."]),
+        of!(Motion, All, Nutation, Value(ValueStatistic::Min), ["nutation_angle_min_rad"], "rad", ["Minimum angle between s3 (or observe.nutation_axis) and the angular momentum of the spacecraft about its centre of mass."]),
+        of!(Motion, All, Nutation, Value(ValueStatistic::Mean), ["nutation_angle_mean_rad"], "rad", ["Mean over the points of the angle between s3 (or observe.nutation_axis) and the angular momentum of the spacecraft about its centre of mass."]),
         of!(Motion, All, FromNominal, Order(OrderStatistic::Max), ["attitude_from_nominal_max_rad"], "rad", ["Maximum angle of the rotation between the attitude and that of the nominal run at the same time."]),
         of!(Motion, All, FromNominal, Order(OrderStatistic::Final), ["attitude_from_nominal_final_rad"], "rad", ["Angle of the rotation between the attitude and that of the nominal run at the last point."]),
         of!(Motion, All, FromInitial, Order(OrderStatistic::Max), ["attitude_from_initial_max_rad"], "rad", ["Maximum angle of the rotation between the attitude and the initial one of the run."]),

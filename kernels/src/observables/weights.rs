@@ -22,7 +22,11 @@ pub(super) struct Weights {
 impl Weights {
     /// For series on `grid`.
     pub(super) fn of(grid: &Grid) -> Self {
-        let times = grid.times();
+        Self::at(grid.times())
+    }
+
+    /// For series at `times`.
+    pub(super) fn at(times: &[f64]) -> Self {
         let points = times.len();
         let mean = times.iter().sum::<f64>() / points as f64;
         let centered: Vec<f64> = times.iter().map(|t| t - mean).collect();

@@ -2,11 +2,11 @@
 
 use super::method::Method;
 use crate::dynamics::actuation::Laws;
-use crate::dynamics::gyrostat::WITH_THRUST;
 use crate::dynamics::gyrostat::completion::components;
+use crate::dynamics::gyrostat::{WITH_ANGLES, WITH_THRUST};
 use crate::ode::Control;
 use crate::run::{Grid, StateField, StateFields};
-use crate::scene::Scene;
+use crate::scene::{Actuated, Scene};
 
 /// What a campaign's runs have in common: how they are integrated and what is kept.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,11 +44,12 @@ impl PropagationSettings {
         }
     }
 
-    /// The same settings for runs that have laws of their own: anything may act, and every component is integrated, because a law
-    /// sees the whole state.
+    /// The same settings for runs that have laws of their own, which command `commands` in addition to the schedules. A law sees the
+    /// whole state; integrals of thrust are made only where thrust or a torque on the body may act.
     #[must_use]
-    pub fn with_feedback(self) -> Self {
-        PropagationSettings { thrust: true, motors: true, feedback: true, ..self }
+    pub fn with_feedback(self, commands: Actuated) -> Self {
+        let thrust = self.thrust || commands.external();
+        PropagationSettings { thrust, motors: self.motors || commands.motors, feedback: true, ..self }
     }
 
     /// Checks that runs of these settings can be flown under `laws`.
@@ -61,10 +62,13 @@ impl PropagationSettings {
 
     /// Number of components that the gyrostat kernel integrates.
     pub fn components(&self) -> usize {
-        if self.feedback {
-            return WITH_THRUST;
+        let needed = components(|field| self.fields.contains(field), self.thrust, self.motors);
+        match (self.feedback, self.thrust) {
+            (false, _) => needed,
+            (true, true) => WITH_THRUST,
+            // attitude, and the angles of the wheels
+            (true, false) => needed.max(WITH_ANGLES),
         }
-        components(|field| self.fields.contains(field), self.thrust, self.motors)
     }
 }
 

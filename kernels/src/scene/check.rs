@@ -8,9 +8,10 @@ use super::input::SceneInput;
 use super::mass::{Body, MassProperties};
 use super::schedule::applied;
 use super::schema::limit::{INERTIA_SLACK, shown};
-use super::schema::{ArcErrors, PartInput, WheelInput, WheelMode};
+use super::schema::{ArcErrors, InitialInput, PartInput, WheelInput, WheelMode};
 use super::table::Table;
 use crate::math::symmetric::{is_positive_definite, principal_axes};
+use crate::math::vector::{difference, norm};
 
 /// Collects what is wrong with the numbers as written.
 pub(super) fn written(input: &SceneInput, problems: &mut Problems) {
@@ -33,6 +34,9 @@ pub(super) fn written(input: &SceneInput, problems: &mut Problems) {
         debris.check(problems);
     }
     input.initial.check(has_debris, problems, |key| format!("initial.{key}").into());
+    if has_debris {
+        debris_state(&input.initial, problems);
+    }
     input.environment.check(has_debris, problems, |key| format!("environment.{key}").into());
     input.control.check(problems);
     if input.actuation.is_empty() {
@@ -43,6 +47,23 @@ pub(super) fn written(input: &SceneInput, problems: &mut Problems) {
     input.actuators.check(has_debris, problems, |key| format!("actuators.{key}").into());
     if problems.0.len() == before {
         switches(input, problems);
+    }
+}
+
+/// Collects what the debris has twice: relative to the spacecraft, and in F_e.
+fn debris_state(initial: &InitialInput, problems: &mut Problems) {
+    let default = InitialInput::DEFAULT;
+    let mut refuse = |key: &str, numbers: &[f64], other: &str| {
+        let allowed = format!("left out where {other} is written");
+        problems.add(format!("initial.{key}"), shown(numbers), allowed, "write one of both");
+    };
+    if initial.debris_attitude_inertial.is_some() && initial.debris_attitude != default.debris_attitude {
+        refuse("debris_attitude", &initial.debris_attitude, "debris_attitude_inertial");
+    }
+    let relative = initial.debris_relative_angular_velocity_rad_s;
+    let is_relative = relative != default.debris_relative_angular_velocity_rad_s;
+    if initial.debris_angular_velocity_rad_s.is_some() && is_relative {
+        refuse("debris_relative_angular_velocity_rad_s", &relative, "debris_angular_velocity_rad_s");
     }
 }
 
@@ -205,7 +226,7 @@ pub(super) fn derived(input: &SceneInput, mass: &MassProperties, problems: &mut 
         passed &= body(&|| "debris".to_owned(), debris.mass, diagonal(debris.inertia));
     }
     if passed && input.body.includes_wheels {
-        passed &= without_wheels(own, inertia, problems);
+        passed &= without_wheels(input, own, inertia, problems);
     }
     if passed {
         free_inertia(input.body.inertia_kg_m2.is_some(), mass, problems);
@@ -213,7 +234,7 @@ pub(super) fn derived(input: &SceneInput, mass: &MassProperties, problems: &mut 
 }
 
 /// What is left of mass properties that include the wheels is a body.
-fn without_wheels(own: f64, inertia: [[f64; 3]; 3], problems: &mut Problems) -> bool {
+fn without_wheels(input: &SceneInput, own: f64, inertia: [[f64; 3]; 3], problems: &mut Problems) -> bool {
     if !(own.is_finite() && own > 0.0) {
         let allowed = "such that the body without its wheels has a mass above zero (the value shown, kg)";
         let remedy = "check the masses of body and wheels, or set body.includes_wheels = false";
@@ -225,6 +246,14 @@ fn without_wheels(own: f64, inertia: [[f64; 3]; 3], problems: &mut Problems) -> 
     let smallest = moments.iter().copied().fold(f64::INFINITY, f64::min);
     let total = moments.iter().sum::<f64>();
     if !(smallest > 0.0 && largest <= (total - largest) + 2.0 * INERTIA_SLACK * total) {
+        if let Some((centre, arm)) = distant_centre(input) {
+            let allowed = format!(
+                "within a body's size of the wheels: it is {arm:.3} m from one of them, and what is left without the wheels is no inertia of a body"
+            );
+            let remedy = "check its unit (\"12 mm\"), the positions of the wheels, or set body.includes_wheels = false";
+            problems.add("body.center_of_mass_m", shown(&centre), allowed, remedy);
+            return false;
+        }
         let allowed =
             "such that what is left without the wheels is the inertia of a body (the principal moments shown, kg m^2)";
         let remedy = "check the inertias of body and wheels and the positions of the wheels, or set body.includes_wheels = false";
@@ -232,6 +261,17 @@ fn without_wheels(own: f64, inertia: [[f64; 3]; 3], problems: &mut Problems) -> 
         return false;
     }
     true
+}
+
+/// The centre of mass as written, with its distance from the farthest wheel, m, where that is beyond the size of any body of that mass and inertia:
+/// three times the largest radius of gyration.
+fn distant_centre(input: &SceneInput) -> Option<([f64; 3], f64)> {
+    let (centre, mass, tensor) = (input.body.center_of_mass_m?, input.body.mass_kg?, input.body.inertia_kg_m2?);
+    let (moments, _) = principal_axes(tensor);
+    let gyration = (moments.iter().copied().fold(0.0, f64::max) / mass).sqrt();
+    let arms = input.wheels.iter().map(|wheel| norm(difference(wheel.position_m, centre)));
+    let arm = arms.fold(0.0, f64::max);
+    (arm > 3.0 * gyration).then_some((centre, arm))
 }
 
 /// J* resists every change of omega, or the motion is not determined.

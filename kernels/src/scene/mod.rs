@@ -46,9 +46,9 @@ pub use name::Name;
 pub use parameter::Parameter;
 pub use schedule::{Actuation, Arc};
 pub use schema::{
-    ActuationInput, ActuatorsInput, ArcErrors, BodyInput, ControlInput, DebrisInput, EnvironmentInput, InitialInput,
-    LawParameter, MAX_THRUSTERS, MAX_WHEELS, MassErrors, PartInput, PartShape, PrincipalInertia, PrincipalMoments,
-    ThrusterInput, WheelInput, WheelMode,
+    ActuationInput, ActuatorsInput, ArcErrors, BodyInput, ControlInput, DebrisInput, DeclaredTable, EnvironmentInput,
+    InitialInput, LawParameter, MAX_THRUSTERS, MAX_WHEELS, MassErrors, PartInput, PartShape, PrincipalInertia,
+    PrincipalMoments, ThrusterInput, WheelInput, WheelMode,
 };
 
 pub use thruster::Thruster;
@@ -70,6 +70,40 @@ pub struct Scene {
     pub commands_thrust: bool,
     /// The same of motor torque.
     pub commands_torque: bool,
+    /// What actuators make of the commands of a control law; those of the schedule have it.
+    pub actuator_errors: ActuatorErrors,
+}
+
+/// What the actuators make of the commands of a control law.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ActuatorErrors {
+    /// Factors of the commanded thrusts, in the order of the thrusters.
+    pub thrust_scale: [f64; MAX_THRUSTERS],
+    /// Factors of the commanded motor torques, in the order of the wheels that turn.
+    pub torque_scale: [f64; MAX_WHEELS],
+    /// What a motor gives beyond the scaled torque while a torque other than zero is commanded, N m.
+    pub torque_bias: [f64; MAX_WHEELS],
+}
+
+impl ActuatorErrors {
+    /// Ideal actuators.
+    pub const NONE: ActuatorErrors = ActuatorErrors {
+        thrust_scale: [1.0; MAX_THRUSTERS],
+        torque_scale: [1.0; MAX_WHEELS],
+        torque_bias: [0.0; MAX_WHEELS],
+    };
+
+    /// Those of `input`.
+    fn of(input: &SceneInput) -> Self {
+        let mut errors = Self::NONE;
+        for (scale, thruster) in errors.thrust_scale.iter_mut().zip(&input.thrusters) {
+            *scale = thruster.thrust_scale;
+        }
+        for (place, wheel) in input.wheels.iter().filter(|wheel| wheel.mode != WheelMode::Locked).enumerate() {
+            (errors.torque_scale[place], errors.torque_bias[place]) = (wheel.torque_scale, wheel.torque_bias_n_m);
+        }
+        errors
+    }
 }
 
 /// The full state at time zero, in the frames that the kernels use.

@@ -5,8 +5,8 @@ use super::input::SceneInput;
 use super::mass::MassProperties;
 use super::schema::{InitialInput, MAX_WHEELS, WheelMode};
 use super::unit_quaternion::unit_quaternion;
-use super::{InitialState, Scene, SceneError, check, schedule};
-use crate::math::vector::{dcm_from_quaternion, hamilton, sum, transposed_product};
+use super::{ActuatorErrors, InitialState, Scene, SceneError, check, schedule};
+use crate::math::vector::{conjugate, dcm_from_quaternion, hamilton, sum, transposed_product};
 
 impl Scene {
     /// The scene that `input` describes.
@@ -24,6 +24,7 @@ impl Scene {
             environment: input.environment,
             commands_thrust: false,
             commands_torque: false,
+            actuator_errors: ActuatorErrors::NONE,
         };
         scene.take(input, &mass);
         Ok(scene)
@@ -51,6 +52,7 @@ impl Scene {
         self.environment = input.environment;
         self.commands_thrust = input.actuation.iter().any(|arc| arc.thrust_n.iter().any(|thrust| *thrust != 0.0));
         self.commands_torque = input.actuation.iter().any(|arc| arc.torque_n_m.iter().any(|torque| *torque != 0.0));
+        self.actuator_errors = ActuatorErrors::of(input);
     }
 }
 
@@ -69,7 +71,7 @@ fn checked(input: &SceneInput, mass: &MassProperties) -> Result<(), Vec<SceneErr
     if problems.0.is_empty() { Ok(()) } else { Err(problems.0) }
 }
 
-/// The state at time zero (59): debris q_ed = q_es (x) q_sd, omega^de = omega^ds + C_ds omega^se.
+/// The state at time zero (59): debris q_ed = q_es (x) q_sd, omega^de = omega^ds + C_ds omega^se, where they are not written themselves.
 ///
 /// What belongs to debris that the scene does not have is zero (attitude: identity).
 fn initial_state(input: &SceneInput) -> InitialState {
@@ -82,6 +84,8 @@ fn initial_state(input: &SceneInput) -> InitialState {
         debris_velocity_m_s,
         debris_attitude,
         debris_relative_angular_velocity_rad_s,
+        debris_attitude_inertial,
+        debris_angular_velocity_rad_s,
     } = input.initial;
     let (mut wheel_angles, mut wheel_rates) = ([0.0; MAX_WHEELS], [0.0; MAX_WHEELS]);
     let turning = input.wheels.iter().filter(|wheel| wheel.mode != WheelMode::Locked);
@@ -102,12 +106,20 @@ fn initial_state(input: &SceneInput) -> InitialState {
         omega_de_d: [0.0; 3],
     };
     if input.debris.is_some() {
-        let q_sd = unit_quaternion(debris_attitude);
+        let (q_sd, q_ed) = match debris_attitude_inertial.map(unit_quaternion) {
+            None => {
+                let q_sd = unit_quaternion(debris_attitude);
+                (q_sd, hamilton(q_es, q_sd))
+            }
+            Some(q_ed) => (hamilton(conjugate(q_es), q_ed), q_ed),
+        };
         state.r_gdo_e = debris_position_m;
         state.v_gdo_e = debris_velocity_m_s;
-        state.q_ed = hamilton(q_es, q_sd);
-        let omega_se_d = transposed_product(dcm_from_quaternion(q_sd), angular_velocity_rad_s);
-        state.omega_de_d = sum(debris_relative_angular_velocity_rad_s, omega_se_d);
+        state.q_ed = q_ed;
+        state.omega_de_d = debris_angular_velocity_rad_s.unwrap_or_else(|| {
+            let omega_se_d = transposed_product(dcm_from_quaternion(q_sd), angular_velocity_rad_s);
+            sum(debris_relative_angular_velocity_rad_s, omega_se_d)
+        });
     }
     state
 }
@@ -181,6 +193,26 @@ mod tests {
         input.debris = None;
         let state = Scene::resolve(&input).expect("a legal scene").initial;
         assert_eq!((state.q_ed, state.omega_de_d), ([1.0, 0.0, 0.0, 0.0], [0.0; 3]));
+    }
+
+    /// Law: the motion of the debris in F_e is that which is written there, whatever that of the spacecraft is; written twice it is refused.
+    #[test]
+    fn debris_can_be_given_in_the_inertial_frame() {
+        let mut input = samples::table_two();
+        input.initial.attitude = [0.5, 0.5, -0.5, 0.5];
+        input.initial.debris_attitude_inertial = Some([0.0, 0.0, 1.0, 0.0]);
+        input.initial.debris_angular_velocity_rad_s = Some([0.01, 0.02, -0.03]);
+        let refused = Scene::resolve(&input).expect_err("the rate is written twice");
+        assert_eq!(refused[0].key, "initial.debris_relative_angular_velocity_rad_s");
+        input.initial.debris_relative_angular_velocity_rad_s = [0.0; 3];
+        let state = Scene::resolve(&input).expect("a legal scene").initial;
+        assert_eq!((state.q_ed, state.omega_de_d), ([0.0, 0.0, 1.0, 0.0], [0.01, 0.02, -0.03]));
+        // the attitude alone: the rate is relative to the spacecraft's, seen in F_d
+        input.initial.debris_angular_velocity_rad_s = None;
+        let state = Scene::resolve(&input).expect("a legal scene").initial;
+        let c_ed = dcm_from_quaternion(state.q_ed);
+        let omega_se_e = crate::math::vector::product(dcm_from_quaternion(state.q_es), state.omega_se_s);
+        assert_eq!(state.omega_de_d, transposed_product(c_ed, omega_se_e));
     }
 
     proptest! {

@@ -16,6 +16,8 @@ pub struct Actuation {
     pub motor_torque: [f64; MAX_WHEELS],
     /// External torque on the spacecraft beside that of the thrusters, in F_s, N m.
     pub body_torque: [f64; 3],
+    /// Whether the run is over where these values begin to act: nothing after is observed.
+    pub ends_run: bool,
 }
 
 /// An interval of constant actuation: from `start` to the actuation's `until`.
@@ -53,6 +55,7 @@ pub fn applied(input: &SceneInput, index: usize) -> Arc {
             thrust: thrusts(input, index),
             motor_torque: motor_torques(input, index),
             body_torque: [0.0; 3],
+            ends_run: false,
         },
     }
 }
@@ -106,7 +109,18 @@ pub fn actuation_at(schedule: &[Arc], time: f64) -> Actuation {
 impl Actuation {
     /// Nothing acts until `until`.
     pub const fn none(until: f64) -> Self {
-        Actuation { until, thrust: [0.0; MAX_THRUSTERS], motor_torque: [0.0; MAX_WHEELS], body_torque: [0.0; 3] }
+        Actuation {
+            until,
+            thrust: [0.0; MAX_THRUSTERS],
+            motor_torque: [0.0; MAX_WHEELS],
+            body_torque: [0.0; 3],
+            ends_run: false,
+        }
+    }
+
+    /// The end of a run: nothing acts, and nothing after is observed.
+    pub const fn end_of_run() -> Self {
+        Actuation { ends_run: true, ..Actuation::none(f64::INFINITY) }
     }
 
     /// The same with `thrust` (N) for the first thrusters, and none of the others.

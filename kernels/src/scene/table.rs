@@ -9,8 +9,8 @@ use super::input::SceneInput;
 use super::name::Name;
 use super::schema::limit::shown;
 use super::schema::{
-    ActuationInput, ActuatorsInput, ArcErrors, BodyInput, DebrisInput, EnvironmentInput, Facts, InitialInput,
-    LawParameter, MassErrors, PartInput, Presence, Row, ThrusterInput, WheelInput,
+    ActuationInput, ActuatorsInput, ArcErrors, BodyInput, DebrisInput, DeclaredTable, EnvironmentInput, Facts,
+    InitialInput, LawParameter, MassErrors, PartInput, Presence, Row, ThrusterInput, WheelInput,
 };
 
 /// A key of a table of the schema.
@@ -87,6 +87,10 @@ macro_rules! tables {
             $(#[doc = concat!("The table with the rows `", stringify!($parts), "`.")] $Table,)+
             /// The parameters of the scene's control law, which the law declares.
             Control,
+            /// The parameters of its sensors, which they declare.
+            Sensors,
+            /// The parameters of the phases of its guidance, which they declare.
+            Guidance,
         }
 
         impl Table {
@@ -95,17 +99,25 @@ macro_rules! tables {
 
             /// The name of the table in a campaign file.
             pub const fn header(self) -> &'static str {
-                match self { $(Table::$Table => $header,)+ Table::Control => "control" }
+                match self {
+                    $(Table::$Table => $header,)+
+                    Table::Control => "control",
+                    Table::Sensors => "sensors",
+                    Table::Guidance => "guidance",
+                }
             }
 
             /// Whether its keys can be dispersed.
             pub const fn is_dispersable(self) -> bool {
-                match self { $(Table::$Table => $dispersable,)+ Table::Control => true }
+                match self { $(Table::$Table => $dispersable,)+ Table::Control | Table::Sensors | Table::Guidance => true }
             }
 
             /// Number of its keys that every scene has.
             pub const fn count(self) -> usize {
-                match self { $(Table::$Table => const { count_of($parts) },)+ Table::Control => 0 }
+                match self {
+                    $(Table::$Table => const { count_of($parts) },)+
+                    Table::Control | Table::Sensors | Table::Guidance => 0,
+                }
             }
         }
 
@@ -114,7 +126,7 @@ macro_rules! tables {
             fn facts_at(self, row: usize) -> &'static Facts {
                 match self {
                     $(Table::$Table => &row_of($parts, row).facts,)+
-                    Table::Control => unreachable!("its keys are those of a scene"),
+                    Table::Control | Table::Sensors | Table::Guidance => unreachable!("its keys are those of a scene"),
                 }
             }
         }
@@ -125,7 +137,7 @@ macro_rules! tables {
             fn in_table(self, $scene: &SceneInput, $instance: usize) -> Option<&[f64]> {
                 match self.table {
                     $(Table::$Table => (row_of($parts, self.row as usize).read)($get?),)+
-                    Table::Control => $scene.control.numbers(self.row as usize),
+                    declared => declared.declared($scene, $instance)?.numbers(self.row as usize),
                 }
             }
 
@@ -133,7 +145,7 @@ macro_rules! tables {
             fn in_table_mut(self, $scene: &mut SceneInput, $instance: usize) -> Option<&mut [f64]> {
                 match self.table {
                     $(Table::$Table => (row_of($parts, self.row as usize).write)($get_mut?),)+
-                    Table::Control => $scene.control.numbers_mut(self.row as usize),
+                    declared => declared.declared_mut($scene, $instance)?.numbers_mut(self.row as usize),
                 }
             }
 
@@ -141,7 +153,7 @@ macro_rules! tables {
             pub fn open(self, $scene: &mut SceneInput, $instance: usize) {
                 match self.table {
                     $(Table::$Table => if let Some(table) = $get_mut { (row_of($parts, self.row as usize).open)(table) },)+
-                    Table::Control => {}
+                    Table::Control | Table::Sensors | Table::Guidance => {}
                 }
             }
         }
@@ -167,6 +179,31 @@ tables! {
 }
 
 impl Table {
+    /// The tables whose keys a control law and its parts declare.
+    pub const DECLARED: [Table; 3] = [Table::Control, Table::Sensors, Table::Guidance];
+
+    /// Instance `instance` of a table whose keys are declared.
+    #[inline]
+    fn declared(self, scene: &SceneInput, instance: usize) -> Option<&DeclaredTable> {
+        match self {
+            Table::Control => Some(&scene.control.law),
+            Table::Sensors => scene.control.sensors.get(instance),
+            Table::Guidance => scene.control.guidance.get(instance),
+            _ => None,
+        }
+    }
+
+    /// The same, to be changed.
+    #[inline]
+    fn declared_mut(self, scene: &mut SceneInput, instance: usize) -> Option<&mut DeclaredTable> {
+        match self {
+            Table::Control => Some(&mut scene.control.law),
+            Table::Sensors => scene.control.sensors.get_mut(instance),
+            Table::Guidance => scene.control.guidance.get_mut(instance),
+            _ => None,
+        }
+    }
+
     /// The dotted name of `key` in the table, in that of `owner` where it is one of a list.
     pub fn name(self, owner: Name, key: &str) -> String {
         let header = self.header();
@@ -180,6 +217,8 @@ impl Table {
             Table::Wheel => scene.wheels.iter().map(|wheel| wheel.name).collect(),
             Table::Thruster => scene.thrusters.iter().map(|thruster| thruster.name).collect(),
             Table::Actuation => vec![Name::NONE; scene.actuation.len()],
+            Table::Sensors => scene.control.sensors.iter().map(|sensor| sensor.name).collect(),
+            Table::Guidance => scene.control.guidance.iter().map(|phase| phase.name).collect(),
             Table::ArcErrors => {
                 let name = |(index, name): (usize, Name)| if name == Name::NONE { Name::number(index) } else { name };
                 scene.actuation.iter().map(|arc| arc.name).enumerate().map(name).collect()
@@ -193,11 +232,11 @@ impl Table {
         (0..self.count()).map(move |row| Key { table: self, row: row as u8, facts: self.facts_at(row) })
     }
 
-    /// The keys of the table in `scene`: those of [`Table::keys`], or what the control law of the scene declares.
-    pub fn keys_in(self, scene: &SceneInput) -> impl Iterator<Item = Key> + use<> {
-        let declared = if self == Table::Control { scene.control.declared.0 } else { &[] };
-        let of_law = |(row, parameter): (usize, &'static LawParameter)| Key {
-            table: Table::Control,
+    /// The keys of instance `instance` of the table in `scene`: those of [`Table::keys`], or what is declared there.
+    pub fn keys_in(self, scene: &SceneInput, instance: usize) -> impl Iterator<Item = Key> + use<> {
+        let declared = self.declared(scene, instance).map_or(&[][..], |table| table.declared.0);
+        let of_law = move |(row, parameter): (usize, &'static LawParameter)| Key {
+            table: self,
             row: row as u8,
             facts: &parameter.facts,
         };

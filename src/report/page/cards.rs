@@ -1,7 +1,9 @@
 //! [`Card`]: what the first screen says about one requirement, or, without requirements, about one outcome.
 
 use crate::analysis::survey::{Survey, SurveyedOutcome};
+use crate::campaign::{Display, ShownUnit};
 use crate::report::escaped::escaped;
+use crate::report::page::errors::sentence as sentence_case;
 use crate::report::page::influence::Influence;
 use crate::report::page::readable::{number, with_unit};
 use crate::report::page::shown_columns::words;
@@ -83,23 +85,25 @@ pub struct Card {
     pub drivers: String,
 }
 
-/// Cards of a campaign without requirements: drift of energy and of momentum, numerical error; with the quantiles of the table `statistics`
-/// at the bottom of the page.
-pub fn findings(survey: &Survey, statistics: &[StatisticsRow], influences: &[Influence]) -> Vec<Card> {
-    const FOUND: [(&str, &str); 3] = [
-        ("energy_error_max", "Energy drift"),
-        ("angular_momentum_error_max", "Momentum drift"),
-        ("state_error_estimate", "Numerical error"),
-    ];
-    let card = |(name, title): (&str, &str)| {
-        let (_, outcome) = survey.outcome(name)?;
+/// Cards of a campaign without requirements, of its first outcomes; with the quantiles of the table `statistics` at the bottom of the page.
+pub fn findings(
+    survey: &Survey,
+    statistics: &[StatisticsRow],
+    influences: &[Influence],
+    display: &Display,
+) -> Vec<Card> {
+    const MOST: usize = 6;
+    let outcomes = survey.outcomes.iter().filter(|outcome| outcome.is_outcome);
+    let card = |outcome: &SurveyedOutcome| {
+        let name = outcome.quantity.name();
         let row = statistics.iter().find(|row| row.name == name);
-        Some(finding(outcome, row, title, driven_by(name, influences)))
+        let shown = display.of(name, outcome.quantity.unit());
+        finding(outcome, row, &shown, driven_by(name, influences))
     };
-    FOUND.into_iter().filter_map(card).collect()
+    outcomes.take(MOST).map(card).collect()
 }
 
-fn finding(outcome: &SurveyedOutcome, row: Option<&StatisticsRow>, title: &str, drivers: String) -> Card {
+fn finding(outcome: &SurveyedOutcome, row: Option<&StatisticsRow>, shown: &ShownUnit, drivers: String) -> Card {
     const P: f64 = 0.99;
     let runs = outcome.sketch.count();
     // the plan may have other quantiles: the highest of them that is not above
@@ -108,18 +112,29 @@ fn finding(outcome: &SurveyedOutcome, row: Option<&StatisticsRow>, title: &str, 
     let [p, estimate, low, high] = quantile.copied().unwrap_or([P, f64::NAN, f64::NAN, f64::NAN]);
     let percent = number(100.0 * p);
     let what = words(&outcome.quantity);
-    let text = |value: f64| with_unit(value, outcome.quantity.unit());
+    let text = |value: f64| with_unit(shown.value(value), &shown.unit);
+    let (min, max) = (outcome.sketch.min().unwrap_or(f64::NAN), outcome.sketch.max().unwrap_or(f64::NAN));
+    let [lower, upper] = [0.05, 0.95].map(|p| quantiles.iter().find(|quantile| quantile[0] == p));
     let statistic = if runs > 1 { format!("{percent}%-quantile") } else { "value".to_owned() };
     let (sentence, note) = if runs == 0 {
         ("No dispersed run ended ok: nothing can be said.".to_owned(), String::new())
     } else if runs == 1 {
         (format!("The only run that is ok: {what} {}.", text(estimate)), String::new())
     } else {
-        let sentence = format!(
-            "{percent}% of the runs keep the {what} below {}; the largest is {}.",
-            text(estimate),
-            text(outcome.sketch.max().unwrap_or(f64::NAN))
-        );
+        let sentence = match (lower, upper) {
+            (Some(lower), Some(upper)) if min < 0.0 => format!(
+                "90% of the runs have a {what} between {} and {}; the extremes are {} and {}.",
+                text(lower[1]),
+                text(upper[1]),
+                text(min),
+                text(max)
+            ),
+            _ => format!(
+                "{percent}% of the runs keep the {what} below {}; the largest is {}.",
+                text(estimate),
+                text(max)
+            ),
+        };
         let confidence = row.map_or(f64::NAN, |row| row.confidence);
         let note = match confidence.is_nan() {
             true => "The design's runs are not independent: no interval.".to_owned(),
@@ -133,15 +148,15 @@ fn finding(outcome: &SurveyedOutcome, row: Option<&StatisticsRow>, title: &str, 
     };
     Card {
         judged: Judged::Finding,
-        quantity: title.to_owned(),
+        quantity: sentence_case(&what),
         sentence,
         statistic,
-        estimate,
-        interval: [low, high],
+        estimate: shown.value(estimate),
+        interval: [low, high].map(|end| shown.value(end)),
         confidence: row.map_or(f64::NAN, |row| row.confidence),
         is_one_sided: false,
         limit: None,
-        unit: outcome.quantity.unit().to_owned(),
+        unit: shown.unit.clone(),
         note,
         drivers,
     }

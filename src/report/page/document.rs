@@ -43,6 +43,8 @@ pub struct PageSection {
     pub html: String,
     /// Whether figures are put into it.
     pub has_figures: bool,
+    /// Whether its figures are folded away, and then whether that is open at first.
+    pub fold: Option<bool>,
 }
 
 /// The modules as one script.
@@ -69,6 +71,13 @@ pub fn document(name: &str, first_screen: &str, sections: &[PageSection], data: 
             let lead =
                 if section.lead.is_empty() { String::new() } else { format!("<p class=\"lead\">{}</p>", section.lead) };
             let figures = if section.has_figures { "<div class=\"figures\"></div>" } else { "" };
+            let figures = match section.fold {
+                None => figures.to_owned(),
+                Some(is_open) => format!(
+                    "<details class=\"fold\"{}><summary>Show the figures</summary>{figures}</details>",
+                    if is_open { " open" } else { "" }
+                ),
+            };
             format!(
                 "<section id=\"{}\"><h2><a href=\"#{}\">{}</a></h2>{lead}{figures}{}</section>\n",
                 section.anchor,

@@ -26,7 +26,9 @@ pub fn figures(survey: &Survey, has_intervals: bool) -> Vec<Figure> {
         return figures;
     }
     let errors = survey.outcomes.iter().enumerate();
-    let errors = errors.filter(|(_, outcome)| outcome.is_error && outcome.sketch.max().is_some_and(|max| max > 0.0));
+    let errors = errors.filter(|(_, outcome)| {
+        outcome.is_error && !outcome.is_outcome && outcome.sketch.max().is_some_and(|max| max > 0.0)
+    });
     for (index, outcome) in errors.take(MOST_ERRORS) {
         figures.push(histogram(survey, index, outcome, FigureSection::Numerics));
         figures.push(exceedance(outcome, has_intervals));
@@ -88,7 +90,7 @@ pub fn histogram(survey: &Survey, index: usize, outcome: &SurveyedOutcome, secti
         caption,
         columns: 6,
         is_over_time: false,
-        x: axis(what, outcome.quantity.unit()),
+        x: axis(what, outcome.quantity.unit()).showing(outcome.quantity.name()),
         y: Axis::linear("runs", ""),
         marks,
     }
@@ -117,7 +119,7 @@ fn exceedance(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
         shape: PointShape::Disc,
         x,
         y,
-        samples: outcome.largest.first().map(|(sample, _)| sample.0 as f64).into_iter().collect(),
+        samples: outcome.worst.first().map(|(sample, _)| sample.0 as f64).into_iter().collect(),
     });
     let interval = if has_intervals {
         " Band: Clopper-Pearson interval of the fraction (95%)."
@@ -134,7 +136,8 @@ fn exceedance(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
         ),
         columns: 6,
         is_over_time: false,
-        x: Axis::log(format!("|{}|", words(&outcome.quantity)), outcome.quantity.unit()),
+        x: Axis::log(format!("|{}|", words(&outcome.quantity)), outcome.quantity.unit())
+            .showing(outcome.quantity.name()),
         y: Axis::log("fraction of runs", ""),
         marks,
     }

@@ -57,7 +57,7 @@ fn words(status: Status) -> &'static str {
 }
 
 /// The stacked bar of statuses with their counts, the first reason, and the command that replays it.
-pub fn status(survey: &Survey) -> String {
+pub fn status(plan: &Plan, survey: &Survey) -> String {
     let total = survey.samples.max(1) as f64;
     let (mut x, mut bars, mut legend) = (0.0, String::new(), String::new());
     for ended in &survey.ended {
@@ -102,8 +102,42 @@ pub fn status(survey: &Survey) -> String {
         (ok, all) => format!("{} of {} runs are ok; the statistics below are of these.", grouped(ok), grouped(all)),
     };
     format!(
-        "<section id=\"status\"><h2>Did it run?</h2><p class=\"lead\">{verdict}</p><svg class=\"statusbar\" role=\"img\" aria-label=\"{verdict}\" preserveAspectRatio=\"none\" height=\"22\" width=\"100%\">{bars}</svg><ul class=\"legend\">{legend}</ul>{reasons}</section>\n"
+        "<section id=\"status\"><h2>Did it run?</h2><p class=\"lead\">{verdict}{}</p><svg class=\"statusbar\" role=\"img\" aria-label=\"{verdict}\" preserveAspectRatio=\"none\" height=\"22\" width=\"100%\">{bars}</svg><ul class=\"legend\">{legend}</ul>{reasons}</section>\n",
+        numerics(plan, survey)
     )
+}
+
+/// The errors of the balances and of the state that are named in a sentence, each with what it is of.
+const ERRORS: [(&str, &str); 3] = [
+    ("energy_error_max", "energy"),
+    ("angular_momentum_error_max", "angular momentum"),
+    ("state_error_estimate", "the state, as estimated,"),
+];
+
+/// How well it was computed, in a sentence; empty where no error was observed.
+fn numerics(plan: &Plan, survey: &Survey) -> String {
+    let largest = |(name, of): &(&str, &str)| Some(format!("{of} {}", number(survey.outcome(name)?.1.sketch.max()?)));
+    let errors: Vec<String> = ERRORS.iter().filter_map(largest).collect();
+    if errors.is_empty() {
+        return String::new();
+    }
+    let judged = if is_above_tolerance(plan, survey) {
+        ": <b>above the tolerance</b>, see <a href=\"#numerics\">Numerics</a>"
+    } else {
+        ""
+    };
+    format!(" Largest relative errors: {}{judged}.", errors.join(", "))
+}
+
+/// Whether the balance of any run is off by more than the tolerance that its method follows, or the error of its state is estimated to be seen.
+pub fn is_above_tolerance(plan: &Plan, survey: &Survey) -> bool {
+    /// A thousandth of a degree.
+    const SEEN: f64 = 2e-5;
+    let tolerance = if plan.method.has_fixed_step() { SEEN } else { plan.tolerance.relative };
+    survey.outcomes.iter().filter(|outcome| outcome.is_error).any(|outcome| {
+        let limit = if outcome.quantity.name().ends_with("estimate") { SEEN } else { tolerance };
+        outcome.sketch.max().is_some_and(|max| max > limit)
+    })
 }
 
 /// The cards, and what they `said` together; an example of a requirement where there is none.

@@ -158,7 +158,8 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
     let confidence = number(100.0 * requirement.confidence);
     let percent = |fraction: f64| number(100.0 * fraction);
     let (limit, is_upper) = (requirement.limit.value(), matches!(requirement.limit, GateLimit::AtMost(_)));
-    let (word, text) = (if is_upper { "at most" } else { "at least" }, with_unit(limit, &one.unit));
+    let shown = &one.shown;
+    let (word, text) = (if is_upper { "at most" } else { "at least" }, with_unit(shown.written(limit), &shown.unit));
     let text_of = match requirement.statement {
         Statement::Mean => format!("The mean of the {name} is {word} {text}, with {confidence}% confidence."),
         Statement::Quantile(share) | Statement::Fraction(share) => {
@@ -195,12 +196,21 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
         _ => {}
     }
     let (statistic, estimate, ends, limit, unit) = match requirement.statement {
-        Statement::Mean => ("mean".to_owned(), one.gate.estimate, one.gate.bounds, limit, one.unit.clone()),
+        Statement::Mean => (
+            "mean".to_owned(),
+            shown.value(one.gate.estimate),
+            one.gate.bounds.map(|end| shown.value(end)),
+            shown.written(limit),
+            shown.unit.clone(),
+        ),
         Statement::Quantile(p) => {
             let quantile =
                 requirement.observable().and_then(|name| statistics.required(name, p, requirement.confidence));
-            let ends = quantile.map_or([None; 2], |quantile| quantile.interval).map(|end| end.unwrap_or(f64::NAN));
-            (format!("{}%-quantile", percent(p)), one.value.unwrap_or(f64::NAN), ends, limit, one.unit.clone())
+            let ends = quantile
+                .map_or([None; 2], |quantile| quantile.interval)
+                .map(|end| shown.value(end.unwrap_or(f64::NAN)));
+            let value = shown.value(one.value.unwrap_or(f64::NAN));
+            (format!("{}%-quantile", percent(p)), value, ends, shown.written(limit), shown.unit.clone())
         }
         Statement::Fraction(fraction) => {
             let hundred = |value: f64| 100.0 * value;

@@ -109,8 +109,8 @@ fn scatter(plan: &Plan, survey: &Survey, input: usize, index: usize, outcome: &S
         caption: format!("{}.", crate::report::page::errors::of_runs(kept.len(), all)),
         columns: 4,
         is_over_time: false,
-        x: Axis::linear(name, unit),
-        y: axis(label, outcome.quantity.unit()),
+        x: Axis::linear(name, unit).showing(column.parameter.name()),
+        y: axis(label, outcome.quantity.unit()).showing(outcome.quantity.name()),
         marks,
     }
 }
@@ -153,7 +153,7 @@ pub fn convergence(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
         columns: 6,
         is_over_time: false,
         x: Axis::log("runs N", ""),
-        y: Axis::linear(words(quantity), unit),
+        y: Axis::linear(words(quantity), unit).showing(quantity.name()),
         marks,
     }
 }

@@ -54,7 +54,7 @@ fn input(plan: &Plan, survey: &Survey, index: usize) -> Figure {
         section: FigureSection::Inputs,
         caption: format!("{} of {} dispersed samples. {origin}.{line}", values.len(), survey.samples.saturating_sub(1)),
         columns: 4,
-        x: Axis { quantity: name, ..histogram.x },
+        x: Axis { quantity: name, column: column.parameter.name(), ..histogram.x },
         y: Axis::linear("samples", ""),
         ..histogram
     }

@@ -16,6 +16,7 @@ mod first_screen;
 pub mod gather;
 pub mod influence;
 mod inputs;
+mod outcomes;
 pub mod over_time;
 mod payload;
 mod readable;
@@ -82,7 +83,8 @@ impl Page {
         let nominal = shown.iter().find(|run| run.sample == SampleId(0)).and_then(|run| run.run.as_ref());
         let wheels = ensemble.request().wheels.to_vec();
         let curves = Curves::new(nominal, &contents.bands, &wheels);
-        let mut figures = curves.figures();
+        let mut figures = outcomes::figures(plan, survey, &contents.statistics, has_intervals);
+        figures.extend(curves.figures());
         figures.extend(curves.drift((!plan.method.has_fixed_step()).then_some(plan.tolerance.relative)));
         figures.extend(errors::figures(survey, has_intervals));
         figures.extend(influence::figures(plan, survey, &contents.influences));
@@ -93,6 +95,7 @@ impl Page {
             .filter(|outcome| contents.influences.iter().any(|influence| influence.outcome == outcome.quantity.name()));
         figures.extend(main.map(|outcome| influence::convergence(outcome, has_intervals)));
         figures.retain(Figure::is_visible);
+        let figures: Vec<Figure> = figures.into_iter().map(|figure| figure.in_units(&plan.analysis.display)).collect();
 
         let mut payload = Payload::default();
         let drawn: Vec<Value> = figures.iter().map(|figure| json_of(figure, &mut payload)).collect();
@@ -105,13 +108,13 @@ impl Page {
             "pairs": pairs(plan, survey, &mut payload),
         });
         let cards = if contents.verdicts.is_empty() {
-            cards::findings(survey, &contents.statistics, &contents.influences)
+            cards::findings(survey, &contents.statistics, &contents.influences, &plan.analysis.display)
         } else {
             contents.verdicts.clone()
         };
         let first = [
             first_screen::header(plan),
-            first_screen::status(survey),
+            first_screen::status(plan, survey),
             first_screen::verdicts(&cards, !contents.verdicts.is_empty(), &contents.said),
         ];
         let has = |section: FigureSection| figures.iter().any(|figure| figure.section == section);
@@ -135,23 +138,27 @@ fn sections(
             lead: lead.to_owned(),
             html: html.to_owned(),
             has_figures: true,
+            fold: None,
         };
         has(section).then_some(shown)
     };
     let plain = |anchor, title, lead: &str, html: String| {
-        Some(PageSection { anchor, title, lead: lead.to_owned(), html, has_figures: false })
+        Some(PageSection { anchor, title, lead: lead.to_owned(), html, has_figures: false, fold: None })
     };
     let pairs = "<details id=\"pairs\"><summary>Plot any two columns against each other</summary><div></div></details>";
     let replay = "<div class=\"replay\"><p>The replay needs JavaScript and WebGL.</p></div>";
-    let table = tables::statistics(&contents.statistics);
+    let table = tables::statistics(&contents.statistics, &plan.analysis.display);
+    let is_off = first_screen::is_above_tolerance(plan, &contents.survey);
     [
+        figures(FigureSection::Outcome, "Outcome", "What the runs end with: how it is distributed, and which part of the runs stays within a value.", ""),
         figures(FigureSection::Time, "Over time", "How the spacecraft moves and where the energy is. Drag the time slider of the replay to move a cursor through these figures.", ""),
-        figures(FigureSection::Numerics, "Numerics", "How large the numerical errors are. Small and without a trend is good.", ""),
+        figures(FigureSection::Numerics, "Numerics", "How large the numerical errors are. Small and without a trend is good.", "")
+            .map(|section| PageSection { fold: Some(is_off), ..section }),
         figures(FigureSection::Influence, "What drives it", "Which uncertain input makes the difference.", pairs),
-        plain("worst", "Worst runs", "The nominal run, runs that failed, and those with the largest errors. Each is replayed bit for bit by its command.", tables::worst_runs(plan, shown)),
+        plain("worst", "Worst runs", "The nominal run, runs that failed, and those with the worst outcomes. Each is replayed bit for bit by its command.", tables::worst_runs(plan, shown)),
         plain("replay", "Replay", "The nominal run and the worst ones in three dimensions.", replay.to_owned()).filter(|_| has_replay),
         figures(FigureSection::Inputs, "Inputs", "What was applied, against what the campaign file asks for.", ""),
-        Some(PageSection { anchor: "statistics", title: "Statistics", lead: String::new(), html: table, has_figures: has(FigureSection::Statistics) }),
+        Some(PageSection { anchor: "statistics", title: "Statistics", lead: String::new(), html: table, has_figures: has(FigureSection::Statistics), fold: None }),
         plain("provenance", "Provenance", "", tables::provenance(plan, &contents.survey, &contents.files)),
     ]
     .into_iter()
@@ -167,13 +174,18 @@ fn pairs(plan: &Plan, survey: &Survey, payload: &mut Payload) -> Value {
         return Value::Null;
     }
     let mut of = |column: &[f64]| payload.singles(&rows.iter().map(|row| column[*row]).collect::<Vec<f64>>());
+    let display = &plan.analysis.display;
     let inputs = plan.dispersions.columns().iter().zip(&thinned.inputs).map(|(column, values)| {
         let unit = if column.parameter.unit() == "1" { "" } else { column.parameter.unit() };
-        json!({ "name": column.parameter.component_name(column.component), "unit": unit, "input": true, "values": of(values) })
+        let shown = display.of(&column.parameter.name(), unit);
+        let values = of(&values.iter().map(|value| shown.value(*value)).collect::<Vec<f64>>());
+        json!({ "name": column.parameter.component_name(column.component), "unit": shown.unit, "input": true, "values": values })
     });
     let inputs: Vec<Value> = inputs.collect();
     let outcomes = survey.outcomes.iter().zip(&thinned.outcomes).map(|(outcome, values)| {
-        json!({ "name": outcome.quantity.name(), "unit": outcome.quantity.unit(), "input": false, "values": of(values) })
+        let shown = display.of(outcome.quantity.name(), outcome.quantity.unit());
+        let values = of(&values.iter().map(|value| shown.value(*value)).collect::<Vec<f64>>());
+        json!({ "name": outcome.quantity.name(), "unit": shown.unit, "input": false, "values": values })
     });
     let columns: Vec<Value> = inputs.into_iter().chain(outcomes).collect();
     let samples: Vec<f64> = rows.iter().map(|row| thinned.samples[*row] as f64).collect();

@@ -29,6 +29,15 @@ pub struct Curves<'a> {
     wheels: &'a [Name],
 }
 
+/// Angles that are rounding, rad: some hundred roundings of a turn.
+const NO_ANGLE_RAD: f64 = 1e-12;
+/// How often a curve may turn back until it is drawn as its envelope: some ten pixels for each swing.
+const MOST_TURNS: usize = 110;
+/// The fraction of the width of the bands from which on a swing is seen beside them.
+const SEEN_SWING: f64 = 0.05;
+/// Intervals of an envelope.
+const ENVELOPE: usize = 60;
+
 /// A series with the title of its figure, its quantity, and whose colour it has.
 type Shown = (Series, &'static str, &'static str, Hue);
 
@@ -84,22 +93,54 @@ impl<'a> Curves<'a> {
             let (x, y) = (bands.times.clone(), p50.clone());
             marks.push(Mark::Line { label: label("median"), hue, dash: Dash::Solid, x, y });
         }
-        if nominal.iter().any(|value| *value != 0.0) {
+        let floor = if name.ends_with("_rad") { NO_ANGLE_RAD } else { 0.0 };
+        if nominal.iter().any(|value| value.abs() > floor) {
             let (hue, dash) = if marks.is_empty() { (hue, Dash::Solid) } else { (Hue::Nominal, Dash::Dashed) };
-            marks.push(Mark::Line { label: label("nominal run"), hue, dash, x: self.times(), y: nominal });
+            let times = self.times();
+            marks.push(match envelope(&times, &nominal) {
+                Some([x, low, high]) => {
+                    let label = label("nominal run, its envelope");
+                    Mark::Band { label, hue, opacity: 0.4, x, low, high, stacked: false }
+                }
+                None => Mark::Line { label: label("nominal run"), hue, dash, x: times, y: nominal },
+            });
         }
         marks
     }
 
     /// What the bands of a quantity mean.
     fn caption(&self, name: &str) -> String {
-        match self.band(name) {
-            Some(bands) => format!(
-                "Bands: 5 to 95% and 25 to 75% of {} dispersed runs that are ok, at each time; solid line: median; dashed: nominal run.",
-                bands.runs
-            ),
-            None => "The nominal run.".to_owned(),
-        }
+        let Some(bands) = self.band(name) else { return "The nominal run.".to_owned() };
+        let points = self.run.map_or(0, |run| run.grid.points());
+        let swings = self.run.and_then(|run| {
+            let wheels = self.wheels;
+            let of = |series: &&(Series, Vec<f64>)| {
+                series.0.quantity(wheels).is_some_and(|quantity| quantity.name() == name)
+            };
+            let ends = |values: &[f64]| {
+                values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(*x), high.max(*x)])
+            };
+            let swing = |values: &[f64]| {
+                let [low, high] = ends(values);
+                high - low
+            };
+            run.series.iter().find(of).map(|(_, values)| (turns(values), swing(values)))
+        });
+        let width =
+            bands.quantiles[0].iter().zip(&bands.quantiles[4]).map(|(low, high)| high - low).fold(0.0, f64::max);
+        let is_seen = swings.is_some_and(|(turns, swing)| turns + 1 >= bands.times.len() && swing > SEEN_SWING * width);
+        let aliased = if is_seen && points > bands.times.len() {
+            format!(
+                " The nominal run turns back more often than there are times with bands ({}): what the bands do in between is not seen; more [bands] points show it.",
+                bands.times.len()
+            )
+        } else {
+            String::new()
+        };
+        format!(
+            "Bands: 5 to 95% and 25 to 75% of {} dispersed runs that are ok, at each time; solid line: median; dashed: nominal run.{aliased}",
+            bands.runs
+        )
     }
 
     fn name(&self, series: Series) -> (String, String) {
@@ -121,8 +162,12 @@ impl<'a> Curves<'a> {
 
     fn single(&self, (series, title, quantity, hue): &Shown) -> Figure {
         let (name, unit) = self.name(*series);
-        let marks = self.marks(&name, self.nominal(*series), *hue, "");
-        over_time(&name, title, self.caption(&name), Axis::linear(*quantity, &unit), marks)
+        let mut marks = self.marks(&name, self.nominal(*series), *hue, "");
+        if unit == "rad" && marks.iter().all(|mark| mark.largest() < NO_ANGLE_RAD) {
+            // an angle below rounding is none
+            marks.clear();
+        }
+        over_time(&name, title, self.caption(&name), Axis::linear(*quantity, &unit).showing(&name), marks)
     }
 
     fn wheel_speeds(&self) -> Vec<Figure> {
@@ -133,7 +178,7 @@ impl<'a> Curves<'a> {
                 &name,
                 &format!("Speed of wheel {wheel}"),
                 self.caption(&name),
-                Axis::linear("speed", &unit),
+                Axis::linear("speed", &unit).showing(&name),
                 marks,
             )
         };
@@ -309,6 +354,36 @@ fn stacked<'v>(times: &[f64], bodies: impl Iterator<Item = (String, Hue, &'v Vec
     bodies.map(&mut mark).collect()
 }
 
+/// How often a series turns back.
+fn turns(values: &[f64]) -> usize {
+    let steps = values.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step != 0.0);
+    let signs: Vec<bool> = steps.map(|step| step > 0.0).collect();
+    signs.windows(2).filter(|pair| pair[0] != pair[1]).count()
+}
+
+/// Times, smallest and largest values of a series that is too fast to be drawn, over short intervals; `None` of one that is not.
+fn envelope(times: &[f64], values: &[f64]) -> Option<[Vec<f64>; 3]> {
+    let count = values.len().min(times.len());
+    if turns(values) <= MOST_TURNS && 3 * turns(values) <= count.max(60) {
+        return None;
+    }
+    let width = count.div_ceil(ENVELOPE).max(4);
+    let mut found = [Vec::new(), Vec::new(), Vec::new()];
+    for start in (0..count.saturating_sub(1)).step_by(width) {
+        // neighbours share a point, so that the area has no gap
+        let part = start..(start + width + 1).min(count);
+        let ends = values[part.clone()]
+            .iter()
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(*x), high.max(*x)]);
+        for time in [times[part.start], times[part.end - 1]] {
+            found[0].push(time);
+            found[1].push(ends[0]);
+            found[2].push(ends[1]);
+        }
+    }
+    Some(found)
+}
+
 /// Differences from the first value.
 fn changes(values: &[f64]) -> Vec<f64> {
     values.iter().map(|value| value - values[0]).collect()
@@ -344,6 +419,30 @@ mod tests {
     use super::*;
 
     /// Law: gains are on top of each other, losses below each other, and the height of each is its value.
+    #[test]
+    fn fast_curves_have_envelopes() {
+        let times: Vec<f64> = (0..=600).map(|k| 0.01 * f64::from(k)).collect();
+        let wave = |hertz: f64| {
+            times.iter().map(|t| (1.0 + t) * libm::sin(core::f64::consts::TAU * hertz * t)).collect::<Vec<_>>()
+        };
+        assert_eq!((turns(&wave(1.0)), envelope(&times, &wave(1.0))), (12, None));
+        // eighty swings: the envelope is the amplitude, which grows from 1 to 7, within an interval
+        let [x, low, high] = envelope(&times, &wave(80.0 / 6.0)).expect("too fast");
+        assert!(x.is_sorted() && x[0] == 0.0 && *x.last().unwrap() == 6.0);
+        for k in 0..x.len() {
+            assert!(
+                (high[k] - (1.0 + x[k])).abs() < 0.6 && (low[k] + 1.0 + x[k]).abs() < 0.6,
+                "{}: {} {}",
+                x[k],
+                low[k],
+                high[k]
+            );
+        }
+        // one that turns at every point
+        let aliased: Vec<f64> = (0..101).map(|k| if k % 2 == 0 { 1.0 } else { -1.0 }).collect();
+        assert!(envelope(&times[..101], &aliased).is_some());
+    }
+
     #[test]
     fn gains_and_losses_are_stacked() {
         let values = [vec![1.0, -2.0], vec![3.0, 5.0], vec![-4.0, -3.0]];

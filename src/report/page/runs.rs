@@ -5,6 +5,7 @@ use crate::campaign::Plan;
 use crate::ensemble::{DrawnScenes, SingleRun};
 use crate::math::Isa;
 use crate::observables::Group;
+use crate::report::page::readable::with_unit;
 use crate::report::page::shown_columns::words;
 use crate::run::{Grid, Status};
 use crate::sampling::SampleId;
@@ -52,7 +53,7 @@ pub struct ShownRun {
 pub fn shown_runs(plan: &Plan, survey: &Survey, isa: Isa) -> Vec<ShownRun> {
     let grid = grid(plan, isa);
     let mut list = vec![(SampleId(0), "nominal".to_owned())];
-    for (sample, why) in worst(survey) {
+    for (sample, why) in worst(plan, survey) {
         if !list.iter().any(|(other, _)| *other == sample) && list.len() <= WORST {
             list.push((sample, why));
         }
@@ -90,8 +91,8 @@ fn shown(plan: &Plan, sample: SampleId, why: String, grid: &Grid, isa: Isa) -> S
     }
 }
 
-/// Failed runs, the first of each kind first, then the largest values of each outcome in turn.
-fn worst(survey: &Survey) -> Vec<(SampleId, String)> {
+/// Failed runs, the first of each kind first, then the worst values of each outcome in turn; of the errors where the campaign has no outcome.
+fn worst(plan: &Plan, survey: &Survey) -> Vec<(SampleId, String)> {
     let failed = survey.ended.iter().filter(|ended| ended.status != Status::Done);
     let mut first: Vec<(usize, SampleId, String)> = Vec::new();
     for ended in failed {
@@ -101,16 +102,23 @@ fn worst(survey: &Survey) -> Vec<(SampleId, String)> {
     first.sort_by_key(|(place, sample, _)| (*place, *sample));
     let mut list: Vec<(SampleId, String)> =
         first.into_iter().take(MOST_FAILED).map(|(_, sample, why)| (sample, why)).collect();
-    let outcomes: Vec<_> = survey.outcomes.iter().filter(|outcome| outcome.is_error || outcome.is_required).collect();
-    let deepest = outcomes.iter().map(|outcome| outcome.largest.len()).max().unwrap_or(0);
+    let outcomes: Vec<_> = survey.outcomes.iter().filter(|outcome| outcome.is_outcome).collect();
+    let errors: Vec<_> = survey.outcomes.iter().filter(|outcome| outcome.is_error && !outcome.is_outcome).collect();
+    let outcomes = if outcomes.is_empty() { errors } else { outcomes };
+    let deepest = outcomes.iter().map(|outcome| outcome.worst.len()).max().unwrap_or(0);
     for place in 0..deepest {
         for outcome in &outcomes {
-            if let Some((sample, size)) = outcome.largest.get(place).filter(|(_, size)| *size > 0.0) {
-                let rank = if place == 0 { "largest".to_owned() } else { format!("no. {} in", place + 1) };
-                list.push((
-                    *sample,
-                    format!("{rank} {} ({})", words(&outcome.quantity), crate::report::number::short(*size)),
-                ));
+            let is_low = outcome.is_worst_when_low;
+            if let Some((sample, value)) = outcome.worst.get(place).filter(|(_, value)| is_low || *value != 0.0) {
+                let rank = match (place, is_low) {
+                    (0, false) => "largest".to_owned(),
+                    (0, true) => "smallest".to_owned(),
+                    _ => format!("no. {} in", place + 1),
+                };
+                let quantity = &outcome.quantity;
+                let shown = plan.analysis.display.of(quantity.name(), quantity.unit());
+                let value = with_unit(shown.value(*value), &shown.unit);
+                list.push((*sample, format!("{rank} {} ({value})", words(quantity))));
             }
         }
     }

@@ -22,6 +22,11 @@ pub fn words(quantity: &Quantity) -> String {
     .into_iter()
     .find_map(|(suffix, words)| Some((name.strip_suffix(suffix)?, words)))
     .unwrap_or((name, ""));
+    let axis = [("_x", "s1"), ("_y", "s2"), ("_z", "s3")].into_iter();
+    let mut of_rate = axis.filter_map(|(end, axis)| (stem == format!("omega_se_s{end}")).then_some(axis));
+    if let Some(axis) = of_rate.next() {
+        return format!("{statistic}angular velocity about {axis}");
+    }
     let stem = stem.strip_prefix("exchange_").map_or(stem.to_owned(), |rest| format!("energy transfer of {rest}"));
     format!("{statistic}{}", stem.replace('_', " "))
 }
@@ -41,6 +46,7 @@ mod tests {
         assert_eq!(words("energy_error_max", ""), "maximum energy error");
         assert_eq!(words("exchange_body_peak_to_peak_j", "J"), "peak-to-peak energy transfer of body");
         assert_eq!(words("angular_rate_max_rad_s", "rad/s"), "maximum angular rate");
+        assert_eq!(words("omega_se_s_y_final_rad_s", "rad/s"), "final angular velocity about s2");
         assert_eq!(words("steps", ""), "steps");
     }
 }

@@ -35,14 +35,15 @@ pub fn amplitudes(times: &[f64], values: &[f64]) -> Option<(Vec<f64>, Vec<f64>)>
     Some((bins.clone().map(|bin| bin as f64 / duration).collect(), bins.map(amplitude).collect()))
 }
 
-/// The frequency of the largest amplitude, by a parabola through it and its neighbours; `None` where all are zero.
+/// The frequency of the largest amplitude, by a parabola through it and its neighbours; `None` where all are zero, and where it is at an end of
+/// the spectrum, and so no peak.
 pub fn dominant(frequencies: &[f64], amplitudes: &[f64]) -> Option<f64> {
     let peak = (0..amplitudes.len()).max_by(|a, b| amplitudes[*a].total_cmp(&amplitudes[*b]))?;
     if amplitudes[peak] <= 0.0 || !amplitudes[peak].is_finite() {
         return None;
     }
     let (Some(before), Some(after)) = (peak.checked_sub(1), amplitudes.get(peak + 1)) else {
-        return Some(frequencies[peak]);
+        return None;
     };
     let (a, b, c) = (amplitudes[before], amplitudes[peak], *after);
     let curvature = a - 2.0 * b + c;
@@ -66,6 +67,10 @@ mod tests {
         let largest = found.iter().copied().fold(0.0, f64::max);
         assert!((largest - 3.0).abs() < 1e-9, "{largest}");
         let (frequencies, found) = amplitudes(&times, &vec![7.0; 801]).unwrap();
+        assert_eq!(dominant(&frequencies, &found), None);
+        // half a period over all times
+        let slow: Vec<f64> = times.iter().map(|t| libm::cos(TAU * t / 16.0)).collect();
+        let (frequencies, found) = amplitudes(&times, &slow).unwrap();
         assert_eq!(dominant(&frequencies, &found), None);
         assert!(amplitudes(&times[..5], &values[..5]).is_none());
     }

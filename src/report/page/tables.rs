@@ -1,7 +1,7 @@
 //! The tables of the page: worst runs, statistics, files, glossary. Static HTML; a script sorts and searches them.
 
 use crate::analysis::survey::Survey;
-use crate::campaign::Plan;
+use crate::campaign::{Display, Plan};
 use crate::report::escaped::escaped;
 use crate::report::page::readable::{grouped, number, with_unit};
 use crate::report::page::runs::ShownRun;
@@ -45,7 +45,7 @@ fn cell(value: f64) -> String {
 }
 
 /// The statistics of every observable.
-pub fn statistics(rows: &[StatisticsRow]) -> String {
+pub fn statistics(rows: &[StatisticsRow], display: &Display) -> String {
     let Some(first) = rows.first() else { return "<p>No run is ok: there are no statistics.</p>".to_owned() };
     let heads: String =
         first.quantiles.iter().map(|quantile| format!("<th>{}%</th>", number(100.0 * quantile[0]))).collect();
@@ -59,26 +59,30 @@ pub fn statistics(rows: &[StatisticsRow]) -> String {
     };
     let mut body = String::new();
     for row in rows {
+        let shown = display.of(&row.name, &row.unit);
+        let cell = |value: f64| cell(shown.value(value));
         let quantile = |[_, value, low, high]: &[f64; 4]| {
             if !value.is_finite() {
                 return "<td>-</td>".to_owned();
             }
-            let ends = [low, high].map(|end| if end.is_finite() { number(*end) } else { "not bounded".to_owned() });
+            let value = shown.value(*value);
+            let end = |end: &f64| if end.is_finite() { number(shown.value(*end)) } else { "not bounded".to_owned() };
+            let ends = [low, high].map(end);
             let interval = if low.is_finite() || high.is_finite() {
                 format!(" title=\"{confidence}% interval: {} to {}\"", ends[0], ends[1])
             } else {
                 String::new()
             };
             let mark = if low.is_finite() && high.is_finite() { "" } else { "<sup>*</sup>" };
-            format!("<td data-value=\"{value:e}\"{interval}>{}{mark}</td>", number(*value))
+            format!("<td data-value=\"{value:e}\"{interval}>{}{mark}</td>", number(value))
         };
         let quantiles: String = row.quantiles.iter().map(quantile).collect();
         body += &format!(
             "<tr><th scope=\"row\" title=\"{}\">{}</th><td class=\"unit\">{}</td>{}{}{}{}{quantiles}{}</tr>\n",
             escaped(&row.meaning),
             escaped(&row.name),
-            escaped(&row.unit),
-            cell(row.count as f64),
+            escaped(&shown.unit),
+            self::cell(row.count as f64),
             cell(row.mean),
             cell(row.deviation),
             cell(row.min),
@@ -100,9 +104,11 @@ pub fn worst_runs(plan: &Plan, runs: &[ShownRun]) -> String {
             .zip(&shown.inputs)
             .map(|(column, value)| {
                 let unit = if column.parameter.unit() == "1" { "" } else { column.parameter.unit() };
+                let shown = plan.analysis.display.of(&column.parameter.name(), unit);
                 let name = column.parameter.component_name(column.component);
                 let scale = column.nominal.abs().max(1e-300);
-                ((value - column.nominal).abs() / scale, format!("{name} = {}", with_unit(*value, unit)))
+                let text = format!("{name} = {}", with_unit(shown.value(*value), &shown.unit));
+                ((value - column.nominal).abs() / scale, text)
             })
             .collect();
         inputs.sort_by(|a, b| b.0.total_cmp(&a.0));

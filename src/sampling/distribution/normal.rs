@@ -1,4 +1,4 @@
-//! `normal`: normal about the nominal value, with standard deviation `std` or `relative_std`.
+//! `normal`: normal about the nominal value, with standard deviation `std` or `relative_std`, or a third of `three_sigma`.
 
 use super::target::{Numbers, Target};
 use super::traits::{Quantile, Scalar, each_score};
@@ -16,10 +16,14 @@ pub enum Spread {
 }
 
 impl Spread {
-    /// Reads `std` or `relative_std`.
+    /// Reads `std`, `relative_std` or `three_sigma`, three times the standard deviation.
     pub(super) fn read(keys: &mut dyn KeyReader) -> Option<Self> {
-        let one = keys.is_one_of(&["std", "relative_std"], "0.1");
+        let one = keys.is_one_of(&["std", "relative_std", "three_sigma"], "0.1");
         let (absolute, relative) = (keys.values("std"), keys.values("relative_std"));
+        let absolute = absolute.or(keys.values("three_sigma").map(|three| match three {
+            Values::All(value) => Values::All(value / 3.0),
+            Values::Each(list) => Values::Each(list.into_iter().map(|value| value / 3.0).collect()),
+        }));
         if one { absolute.map(Spread::Absolute).or(relative.map(Spread::Relative)) } else { None }
     }
 

@@ -1,4 +1,4 @@
-//! `[control]`: the parameters of a control law, as the law declares them.
+//! `[control]`, `[[sensors]]`, `[[guidance]]`: the parameters of a control law, as the law and its parts declare them.
 //!
 //! A law is a part of a program (`dynamics::actuation`); which numbers it has, it says itself, in the terms of every other key of a scene:
 //! unit, meaning, limit, default. So they are read, checked, dispersed and written as those are, under names such as `control.gain_n_m`.
@@ -6,6 +6,7 @@
 use super::limit::Limit;
 use super::row::{Facts, Needs, Presence, Shape};
 use crate::scene::error::Problems;
+use crate::scene::name::Name;
 
 /// A parameter that a control law declares.
 #[derive(Debug)]
@@ -60,26 +61,29 @@ impl PartialEq for LawParameters {
     }
 }
 
-/// The parameters of a control law and their values.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct ControlInput {
-    /// What the law declares.
+/// A table of parameters that a part of a control law declares, and their values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DeclaredTable {
+    /// The name of the table among others of its kind; [`Name::NONE`] where there is one.
+    pub name: Name,
+    /// What is declared.
     pub declared: LawParameters,
     /// The numbers of all parameters, one after the other.
     pub values: Vec<f64>,
 }
 
-impl ControlInput {
-    /// No law.
-    pub const NONE: ControlInput = ControlInput { declared: LawParameters(&[]), values: Vec::new() };
+impl DeclaredTable {
+    /// Nothing is declared.
+    pub const NONE: DeclaredTable =
+        DeclaredTable { name: Name::NONE, declared: LawParameters(&[]), values: Vec::new() };
 
-    /// The parameters `declared` at their defaults; NaN where there is none.
-    pub fn of(declared: &'static [LawParameter]) -> Self {
+    /// The parameters `declared` of the table called `name` at their defaults; NaN where there is none.
+    pub fn of(name: Name, declared: &'static [LawParameter]) -> Self {
         let default = |parameter: &LawParameter| match parameter.default {
             Some(default) => default.to_vec(),
             None => vec![f64::NAN; parameter.facts.components.len()],
         };
-        ControlInput { declared: LawParameters(declared), values: declared.iter().flat_map(default).collect() }
+        DeclaredTable { name, declared: LawParameters(declared), values: declared.iter().flat_map(default).collect() }
     }
 
     /// Where the numbers of parameter `index` are.
@@ -100,19 +104,76 @@ impl ControlInput {
         self.values.get_mut(place)
     }
 
-    /// The numbers of the parameter called `key`; `None` where the law declares no such parameter.
+    /// The numbers of the parameter called `key`; `None` where no such parameter is declared.
     pub fn named(&self, key: &str) -> Option<&[f64]> {
         self.numbers(self.declared.0.iter().position(|parameter| parameter.facts.key == key)?)
     }
 
-    /// Notes which numbers violate their limits.
-    pub(in crate::scene) fn check(&self, problems: &mut Problems) {
+    /// Notes which numbers violate their limits; `header` is that of the table.
+    fn check(&self, header: &str, problems: &mut Problems) {
         for (index, parameter) in self.declared.0.iter().enumerate() {
             if let Some(numbers) = self.numbers(index) {
                 let facts = &parameter.facts;
-                facts.limit.check(|| format!("control.{}", facts.key).into(), numbers, problems);
+                let name = || match self.name {
+                    Name::NONE => format!("{header}.{}", facts.key).into(),
+                    name => format!("{header}.{name}.{}", facts.key).into(),
+                };
+                facts.limit.check(name, numbers, problems);
             }
         }
+    }
+}
+
+/// The parameters of a control law and their values: its own, those of its sensors, and those of the phases of its guidance.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ControlInput {
+    /// `[control]`.
+    pub law: DeclaredTable,
+    /// `[[sensors]]`.
+    pub sensors: Vec<DeclaredTable>,
+    /// `[[guidance]]`.
+    pub guidance: Vec<DeclaredTable>,
+}
+
+impl Default for ControlInput {
+    fn default() -> Self {
+        Self::NONE
+    }
+}
+
+impl ControlInput {
+    /// No law.
+    pub const NONE: ControlInput = ControlInput { law: DeclaredTable::NONE, sensors: Vec::new(), guidance: Vec::new() };
+
+    /// The parameters `declared` of `[control]` at their defaults; NaN where there is none.
+    pub fn of(declared: &'static [LawParameter]) -> Self {
+        ControlInput { law: DeclaredTable::of(Name::NONE, declared), ..Self::NONE }
+    }
+
+    /// All tables with their headers.
+    pub fn tables(&self) -> impl Iterator<Item = (&'static str, &DeclaredTable)> {
+        let sensors = self.sensors.iter().map(|table| ("sensors", table));
+        let guidance = self.guidance.iter().map(|table| ("guidance", table));
+        std::iter::once(("control", &self.law)).chain(sensors).chain(guidance)
+    }
+
+    /// The numbers of the parameter of `[control]` called `key`; `None` where the law declares no such parameter.
+    pub fn named(&self, key: &str) -> Option<&[f64]> {
+        self.law.named(key)
+    }
+
+    /// Takes the values of `other`, which has the same tables, without allocating.
+    pub fn take_values(&mut self, other: &ControlInput) {
+        self.law.values.clone_from(&other.law.values);
+        let own = self.sensors.iter_mut().chain(&mut self.guidance);
+        for (table, of_other) in own.zip(other.sensors.iter().chain(&other.guidance)) {
+            table.values.clone_from(&of_other.values);
+        }
+    }
+
+    /// Notes which numbers violate their limits.
+    pub(in crate::scene) fn check(&self, problems: &mut Problems) {
+        self.tables().for_each(|(header, table)| table.check(header, problems));
     }
 }
 
@@ -139,7 +200,7 @@ mod tests {
         let missing = Scene::resolve(&scene).expect_err("the gain has no default");
         assert!(missing.iter().any(|error| error.key == "control.gain_n_m"), "{missing:?}");
         scene = scene.with("control.gain_n_m", &[2.0]).with("control.bias_rad_s.y", &[0.5]);
-        assert_eq!(scene.control.values, [2.0, 0.0, 0.5, 0.0, 0.7]);
+        assert_eq!(scene.control.law.values, [2.0, 0.0, 0.5, 0.0, 0.7]);
         assert_eq!(scene.control.named("bias_rad_s"), Some(&[0.0, 0.5, 0.0][..]));
         let (ratio, _) = Parameter::find(&scene, "control.ratio").expect("declared");
         assert_eq!((ratio.value(&scene, 0), ratio.column_name(0)), (Some(0.7), "control_ratio".to_owned()));
@@ -148,5 +209,20 @@ mod tests {
         Scene::resolve(&scene).expect("all within their limits");
         let wrong = Scene::resolve(&scene.with("control.gain_n_m", &[-1.0])).expect_err("below zero");
         assert_eq!(wrong[0].key, "control.gain_n_m");
+    }
+
+    /// Law: tables of a list have keys of their own, by the name of the table.
+    #[test]
+    fn parameters_of_sensors_are_found_by_the_name_of_the_sensor() {
+        let sensor = |name: &str| DeclaredTable::of(Name::of(name), &DECLARED[1..]);
+        let control = ControlInput { sensors: vec![sensor("gyro"), sensor("spare")], ..ControlInput::NONE };
+        let mut scene = SceneInput { control, ..SceneInput::default() };
+        scene = scene.with("sensors.spare.bias_rad_s.z", &[0.25]).with("sensors.gyro.ratio", &[2.0]);
+        assert_eq!(scene.control.sensors[0].values, [0.0, 0.0, 0.0, 2.0]);
+        assert_eq!(scene.control.sensors[1].values, [0.0, 0.0, 0.25, 0.7]);
+        let (bias, _) = Parameter::find(&scene, "sensors.spare.bias_rad_s").expect("declared");
+        assert_eq!(bias.column_name(2), "sensors_spare_bias_z_rad_s");
+        let wrong = Scene::resolve(&scene.with("sensors.gyro.ratio", &[-1.0])).expect_err("below zero");
+        assert_eq!(wrong[0].key, "sensors.gyro.ratio");
     }
 }

@@ -15,7 +15,7 @@ rows! {
     attitude: [f64; 4] = [1.0, 0.0, 0.0, 0.0], "1", "Attitude quaternion q_es, F_s -> F_e, scalar first", WXYZ, Quaternion,
         Limit::UnitQuaternion, (optional);
     angular_velocity_rad_s: [f64; 3] = [0.0; 3], "rad/s", "Angular velocity omega^se, in F_s", XYZ, Plain, Limit::Finite,
-        (required "[0.0, 0.0, 1.0]");
+        (optional);
     debris_position_m: [f64; 3] = [0.0; 3], "m", "Position of the debris's centre from the inertial origin, in F_e", XYZ, Plain,
         Limit::Finite, (optional with debris);
     debris_velocity_m_s: [f64; 3] = [0.0; 3], "m/s", "Velocity of the debris's centre relative to F_e, in F_e", XYZ, Plain,
@@ -26,5 +26,11 @@ rows! {
     debris_relative_angular_velocity_rad_s: [f64; 3] = [0.0; 3], "rad/s",
         "Angular velocity omega^ds of the debris relative to the spacecraft, in F_d", XYZ, Plain, Limit::Finite,
         (optional with debris);
+    debris_attitude_inertial: Option<[f64; 4]> = None, "1",
+        "Attitude quaternion q_ed of the debris, F_d -> F_e, scalar first, in place of debris_attitude", WXYZ, Quaternion,
+        Limit::UnitQuaternion, (optional with debris);
+    debris_angular_velocity_rad_s: Option<[f64; 3]> = None, "rad/s",
+        "Angular velocity omega^de of the debris relative to F_e, in F_d, in place of debris_relative_angular_velocity_rad_s", XYZ,
+        Plain, Limit::Finite, (optional with debris);
     } others {}
 }

@@ -33,7 +33,7 @@ pub mod wheel;
 pub use actuation::{ActuationInput, ArcErrors};
 pub use actuators::ActuatorsInput;
 pub use body::BodyInput;
-pub use control::{ControlInput, LawParameter};
+pub use control::{ControlInput, DeclaredTable, LawParameter};
 pub use debris::DebrisInput;
 pub use environment::EnvironmentInput;
 pub use initial::InitialInput;

@@ -1,0 +1,59 @@
+//! `observables.parquet`: the values of the observables that the file derives (`[[observable]]`), sample by sample.
+//!
+//! They follow from the rows: a changed expression makes this file anew, and runs nothing again.
+
+use crate::analysis::observed::Observed;
+use crate::campaign::Plan;
+use crate::run::{Quantity, Status};
+use crate::storage::columnar::{Cells, Content, EncodingError, Heading, Layout, Packing};
+use crate::storage::provenance::provenance;
+use crate::storage::rows_file::{SAMPLE_ID, STATUS};
+use crate::storage::rows_reader::{PartReader, RowsError, RowsReader};
+
+/// Why the table could not be made.
+#[derive(Debug, thiserror::Error)]
+pub enum DerivedTableError {
+    /// The rows could not be read.
+    #[error(transparent)]
+    Rows(#[from] RowsError),
+    /// It could not be encoded.
+    #[error(transparent)]
+    Encoding(#[from] EncodingError),
+}
+
+/// The file of the campaign `plan`, from the files of its rows, part by part; `None` where its file derives nothing.
+///
+/// # Errors
+/// [`DerivedTableError`].
+pub fn encoded(plan: &Plan, reader: &RowsReader) -> Result<Option<Vec<u8>>, DerivedTableError> {
+    let names = plan.analysis.derived.iter().map(|derived| derived.name.as_str());
+    let derived = Observed::named(plan, names);
+    if derived.is_empty() {
+        return Ok(None);
+    }
+    let fixed = [
+        (SAMPLE_ID, "Number of the sample within the campaign; 0 is the nominal scene.", Content::Count),
+        (STATUS, "How the run ended, as in the rows.", Content::Word),
+    ];
+    let fixed = fixed.map(|(name, meaning, content)| Heading::new(Quantity::new(name, "", meaning), content));
+    let of_derived = derived.iter().map(|one| Heading::new(one.quantity.clone(), Content::Real).nullable());
+    let headings: Vec<Heading> = fixed.into_iter().chain(of_derived).collect();
+    let layout = Layout::new(&headings, provenance(plan), Packing::Zstd)?;
+    let mut bytes = Vec::new();
+    let mut writer = layout.begin(&mut bytes, &[])?;
+    for part in (0..).map_while(|index| reader.part(index)) {
+        let part: PartReader = part?;
+        let samples = part.samples()?.into_iter().map(|sample| sample.0).collect();
+        let statuses: Vec<Status> = part.statuses()?;
+        let columns = derived.iter().map(|one| one.values(&part)).collect::<Result<Vec<_>, _>>()?;
+        let is_present = |column: &Vec<f64>| -> Vec<bool> {
+            column.iter().zip(&statuses).map(|(value, status)| value.is_finite() && *status == Status::Done).collect()
+        };
+        let present: Vec<Vec<bool>> = columns.iter().map(is_present).collect();
+        let fixed = [Cells::Count(samples, None), Cells::Word(statuses.iter().map(|status| status.name()).collect())];
+        let values = columns.iter().zip(&present).map(|(column, present)| Cells::Real(column, Some(present)));
+        writer.group(fixed.into_iter().chain(values))?;
+    }
+    writer.finish()?;
+    Ok(Some(bytes))
+}

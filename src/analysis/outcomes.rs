@@ -1,0 +1,51 @@
+//! What a campaign is about: the observables that its file requires or names, else those of the motion.
+
+use crate::campaign::{Plan, Requirement};
+use crate::statistics::gate::GateLimit;
+
+/// The outcomes of a campaign whose file names none, in the order of their worth: how energy moved, how the axis moved, what the body ends with.
+pub const OF_MOTION: [&str; 8] = [
+    "exchange_body_peak_to_peak_j",
+    "nutation_angle_max_rad",
+    "spin_axis_angle_max_rad",
+    "angular_rate_final_rad_s",
+    "omega_se_s_z_final_rad_s",
+    "omega_se_s_x_final_rad_s",
+    "omega_se_s_y_final_rad_s",
+    "energy_error_max",
+];
+
+/// How many of them are the outcomes.
+const FEW: usize = 3;
+
+/// The observables that the file of `plan` requires, names for the summary, or derives; each once, in this order.
+pub fn named(plan: &Plan) -> Vec<String> {
+    let required = plan.analysis.requirements.iter().filter_map(Requirement::observable).map(str::to_owned);
+    let asked = plan.analysis.summary_columns.iter().cloned();
+    let derived = plan.analysis.derived.iter().map(|derived| derived.name.clone());
+    let mut names: Vec<String> = Vec::new();
+    for name in required.chain(asked).chain(derived) {
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    names
+}
+
+/// The outcomes of `plan`: those that its file names, else the first of the motion's that its rows have.
+pub fn outcomes(plan: &Plan) -> Vec<String> {
+    let named = named(plan);
+    if !named.is_empty() {
+        return named;
+    }
+    let columns = plan.request().columns();
+    let has = |name: &&&str| columns.iter().any(|column| column.quantity.name() == **name);
+    OF_MOTION.iter().filter(has).take(FEW).map(|name| (*name).to_owned()).collect()
+}
+
+/// Whether small values of the observable `name` are the bad ones: every limit on it is a lower one.
+pub fn is_worst_when_low(plan: &Plan, name: &str) -> bool {
+    let mut of =
+        plan.analysis.requirements.iter().filter(|requirement| requirement.observable() == Some(name)).peekable();
+    of.peek().is_some() && of.all(|requirement| matches!(requirement.limit, GateLimit::AtLeast(_)))
+}

@@ -1,0 +1,176 @@
+//! [`Display`]: in which units numbers are shown: `[display]`, and the units in which limits and dispersions are written.
+//!
+//! Rows, and every file of numbers, stay in the units of their columns; the screen, verdicts, cards, JUnit and figures show these.
+
+use std::collections::BTreeMap;
+
+use super::columns::KnownColumns;
+use super::lines::Lines;
+use super::section::Section;
+use super::units;
+use crate::scene::Parameter;
+
+/// In which units numbers are shown.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Display {
+    /// Units, each in place of the SI unit that it measures in.
+    units: Vec<&'static str>,
+    /// The units of single columns and parameters, by name.
+    columns: BTreeMap<String, &'static str>,
+}
+
+/// The unit in which a quantity is shown, and its size in the unit of the column.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ShownUnit {
+    /// The unit; empty of a pure number.
+    pub unit: String,
+    /// Its size in the unit of the column, as a fraction.
+    size: [f64; 2],
+}
+
+impl ShownUnit {
+    /// The unit of a column itself.
+    pub fn own(unit: &str) -> Self {
+        ShownUnit { unit: unit.to_owned(), size: [1.0; 2] }
+    }
+
+    /// Whether numbers are shown as they are.
+    pub fn is_own(&self) -> bool {
+        self.size[0] == self.size[1]
+    }
+
+    /// A number of the column, in this unit.
+    pub fn value(&self, value: f64) -> f64 {
+        if self.is_own() { value } else { value * self.size[1] / self.size[0] }
+    }
+
+    /// The same with the rounding of the way there and back taken away: what was written as 5 deg is 5.
+    pub fn written(&self, value: f64) -> f64 {
+        if self.is_own() { value } else { format!("{:.13e}", self.value(value)).parse().unwrap_or(value) }
+    }
+}
+
+/// A list of units that texts know.
+const EXAMPLE: &str = "[\"deg\", \"deg/s\"]";
+
+impl Display {
+    /// Reads `[display]`; `written` are units in which limits and dispersions are written, by the name of what they are of, `known` the columns
+    /// of the file.
+    pub(super) fn read(
+        section: &mut Section<'_, '_>,
+        written: &[(String, &'static str)],
+        known: &KnownColumns,
+    ) -> Self {
+        let mut units: Vec<&'static str> = Vec::new();
+        for text in section.texts("units", EXAMPLE).unwrap_or_default() {
+            match units::named(&text) {
+                None => section.refuse_value("units", format!("{text:?}"), allowed(), "choose one of these"),
+                Some(unit)
+                    if units.iter().any(|other| units::named(other).is_some_and(|other| other.of == unit.of)) =>
+                {
+                    let allowed = "of different quantities";
+                    section.refuse_value("units", format!("{text:?}"), allowed, "delete one of both");
+                }
+                Some(unit) => units.push(unit.name),
+            }
+        }
+        let mut columns: BTreeMap<String, &'static str> = written.iter().cloned().collect();
+        let names: Vec<String> = section.entries("columns").into_iter().map(|(name, _)| name).collect();
+        let scene = section.document.scene.clone();
+        let mut table = section.section("columns");
+        for name in names {
+            let Some(text) = table.text(&name) else { continue };
+            let quantity =
+                known.observable(&name).or_else(|| known.band(&name)).map(|quantity| quantity.unit().to_owned());
+            let own = quantity.or_else(|| Some(Parameter::find(&scene, &name)?.0.unit().to_owned()));
+            match (own, units::named(text)) {
+                (None, _) => {
+                    let (_, remedy) = known.refusal(&name);
+                    table.refuse(&name, "a unit of a column of the rows or of bands, or of a parameter", remedy);
+                }
+                (_, None) => table.refuse(&name, allowed(), "choose one of these"),
+                (Some(own), Some(unit)) if units::named(&own).is_none_or(|own| own.of != unit.of) => {
+                    let own = if own.is_empty() { "1".to_owned() } else { own };
+                    table.refuse(
+                        &name,
+                        format!("a unit in place of {own}"),
+                        "delete this entry, or choose another unit",
+                    );
+                }
+                (_, Some(unit)) => drop(columns.insert(name, unit.name)),
+            }
+        }
+        table.finish();
+        section.finish();
+        Display { units, columns }
+    }
+
+    /// The unit in which the column or parameter `name`, of unit `unit`, is shown.
+    pub fn of(&self, name: &str, unit: &str) -> ShownUnit {
+        let own = units::named(unit);
+        let wanted = self
+            .columns
+            .get(name)
+            .or_else(|| self.units.iter().find(|name| units::named(name).is_some_and(|wanted| wanted.of == unit)));
+        match (own, wanted.and_then(|name| units::named(name))) {
+            (Some(own), Some(wanted)) if own.of == wanted.of => ShownUnit {
+                unit: wanted.name.to_owned(),
+                size: [wanted.size[0] * own.size[1], wanted.size[1] * own.size[0]],
+            },
+            _ => ShownUnit::own(unit),
+        }
+    }
+
+    /// Writes the table, where there is anything to say.
+    pub(super) fn write(&self, lines: &mut Lines) {
+        if *self == Display::default() {
+            return;
+        }
+        lines.table("[display]");
+        if !self.units.is_empty() {
+            lines.key("units", &self.units);
+        }
+        if !self.columns.is_empty() {
+            let entry = |(name, unit): (&String, &&str)| format!("{} = {unit:?}", toml::Value::from(name.as_str()));
+            let entries: Vec<String> = self.columns.iter().map(entry).collect();
+            lines.raw("columns", &format!("{{ {} }}", entries.join(", ")));
+        }
+    }
+}
+
+fn allowed() -> String {
+    format!("one of {}", units::names().collect::<Vec<_>>().join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: a unit of a column comes before one of its kind; other kinds stay; a number comes back as it was written.
+    #[test]
+    fn columns_come_before_kinds() {
+        let columns = BTreeMap::from([("rate_w1".to_owned(), "rpm"), ("tilt".to_owned(), "arcsec")]);
+        let display = Display { units: vec!["deg", "deg/s"], columns };
+        for (name, unit, shown) in [
+            ("any", "rad", "deg"),
+            ("any", "rad/s", "deg/s"),
+            ("rate_w1", "rad/s", "rpm"),
+            ("tilt", "rad", "arcsec"),
+            // a unit that is not of the kind of the column
+            ("tilt", "kg", "kg"),
+            // a column that is in degrees already
+            ("pointing", "deg", "deg"),
+            ("any", "J", "J"),
+            ("any", "", ""),
+        ] {
+            assert_eq!(display.of(name, unit).unit, shown, "{name} {unit}");
+        }
+        let degrees = display.of("any", "rad");
+        assert!((degrees.value(core::f64::consts::PI) - 180.0).abs() < 1e-12);
+        assert_eq!(degrees.written(5.0 * core::f64::consts::PI / 180.0), 5.0);
+        // a derived observable in degrees, shown in arcseconds
+        let display = Display { columns: BTreeMap::from([("pointing".to_owned(), "arcsec")]), ..Display::default() };
+        assert!((display.of("pointing", "deg").value(1.0) - 3600.0).abs() < 1e-9);
+        assert_eq!(Display::default().of("x", "rad").value(0.1), 0.1);
+    }
+}

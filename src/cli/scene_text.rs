@@ -1,0 +1,156 @@
+//! What `spindrift check` says of the nominal scene: masses and inertias, momenta, and the torques of its thrusters.
+
+use std::fmt::{Result, Write};
+
+use crate::math::symmetric::principal_axes;
+use crate::math::vector::{cross, difference, norm, product, scaled, sum};
+use crate::scene::mass::{Body, Wheel};
+use crate::scene::{MassProperties, Scene, SceneInput};
+
+/// A number with six significant digits.
+fn six(value: f64) -> String {
+    let size = value.abs();
+    if size == 0.0 || !(1e-3..1e7).contains(&size) {
+        return if size == 0.0 { "0".to_owned() } else { format!("{value:.5e}") };
+    }
+    let before = libm::floor(libm::log10(size)) as i32;
+    let text = format!("{value:.*}", (5 - before).max(0) as usize);
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+/// A vector with six significant digits each.
+fn vector(v: [f64; 3]) -> String {
+    format!("[{}]", v.map(six).join(", "))
+}
+
+/// Masses, centre of mass, inertia, principal axes, with the convention, and what contributes most.
+pub fn masses(text: &mut String, input: &SceneInput, mass: &MassProperties) -> Result {
+    let names = input.turning_wheels();
+    let wheels = names.iter().zip(&mass.wheels).map(|(name, wheel)| (format!("wheel {name}"), wheel.mass));
+    let debris = mass.debris.as_ref().map(|debris| ("debris".to_owned(), debris.mass));
+    let body = [("body".to_owned(), mass.body.mass)];
+    let all = body.into_iter().chain(wheels).chain([("spacecraft".to_owned(), mass.total)]).chain(debris);
+    for (body, mass) in all {
+        writeln!(text, "{body:<24}{:>14} kg", six(mass))?;
+    }
+    writeln!(text, "centre of mass of the spacecraft, from p in F_s: {} m", vector(mass.center))?;
+    let locked = if input.wheels.is_empty() { "" } else { ", wheels locked," };
+    tensor(text, &format!("inertia of the spacecraft{locked} about its centre of mass"), mass.inertia)?;
+    let (moments, axes) = principal_axes(mass.inertia);
+    writeln!(text, "its principal moments {} kg m^2; principal axes in F_s, by columns:", vector(moments))?;
+    rows(text, axes)?;
+    if !mass.wheels.is_empty() {
+        tensor(text, "the same minus the wheels' axial inertias (J*, wheels free)", mass.inertia_free)?;
+        tensor(text, "inertia of the body about its own centre of mass", mass.body.inertia)?;
+    }
+    for (name, wheel) in names.iter().zip(&mass.wheels) {
+        let (axial, transverse, mode) = (six(wheel.axial), six(wheel.transverse), wheel.mode.name());
+        let axis = vector(wheel.axis);
+        writeln!(text, "wheel {name}: axial {axial}, transverse {transverse} kg m^2, {mode}, axis {axis} in F_s")?;
+    }
+    if let Some((name, share)) = largest_part(input, mass) {
+        writeln!(text, "largest part: {name}, {:.1} % of the mass of the spacecraft", 100.0 * share)?;
+    }
+    writeln!(
+        text,
+        "Convention: tensors in F_s, whose origin is p; off-diagonal entries are those of the tensor, J_xy = -integral of x y dm."
+    )
+}
+
+/// Angular momenta at the start about the centre of mass, those of the wheels, and the torque of each thruster at one newton.
+pub fn momenta(text: &mut String, input: &SceneInput, scene: &Scene) -> Result {
+    let (mass, initial) = (&scene.mass, &scene.initial);
+    let mut total = product(mass.inertia, initial.omega_se_s);
+    let wheels: Vec<f64> =
+        mass.wheels.iter().zip(initial.wheel_rates).map(|(wheel, rate)| wheel.axial * rate).collect();
+    for (wheel, momentum) in mass.wheels.iter().zip(&wheels) {
+        total = sum(total, scaled(*momentum, wheel.axis));
+    }
+    writeln!(
+        text,
+        "angular momentum of the spacecraft about its centre of mass, in F_s: {} N m s, of magnitude {}",
+        vector(total),
+        six(norm(total))
+    )?;
+    for ((name, momentum), rate) in input.turning_wheels().iter().zip(&wheels).zip(initial.wheel_rates) {
+        writeln!(text, "wheel {name}: {} N m s relative to the body, at {} rad/s", six(*momentum), six(rate))?;
+    }
+    for (written, thruster) in input.thrusters.iter().zip(&scene.thrusters) {
+        let torque = cross(difference(thruster.position, mass.center), thruster.direction);
+        let (force, torque) = (vector(thruster.direction), vector(torque));
+        writeln!(
+            text,
+            "thruster {}: at 1 N the force {force} N and the torque {torque} N m about the centre of mass",
+            written.name
+        )?;
+    }
+    Ok(())
+}
+
+/// The part of the body, or the wheel, with the largest mass, and its share of the total.
+fn largest_part(input: &SceneInput, mass: &MassProperties) -> Option<(String, f64)> {
+    let parts = input.parts.iter().map(|part| (format!("body.parts.{}", part.name), Body::part(part, 1.0).mass));
+    let wheels = input.wheels.iter().map(|wheel| (format!("wheels.{}", wheel.name), Wheel::new(wheel, 1.0).mass));
+    let largest = parts.chain(wheels).max_by(|(_, a), (_, b)| a.total_cmp(b))?;
+    (!input.parts.is_empty()).then_some((largest.0, largest.1 / mass.total))
+}
+
+fn tensor(text: &mut String, name: &str, rows: [[f64; 3]; 3]) -> Result {
+    writeln!(text, "{name}, kg m^2:")?;
+    self::rows(text, rows)
+}
+
+fn rows(text: &mut String, rows: [[f64; 3]; 3]) -> Result {
+    rows.iter().try_for_each(|row| {
+        let [x, y, z] = row.map(six);
+        writeln!(text, "  {x:>14}{y:>14}{z:>14}")
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{SceneInput, ThrusterInput};
+
+    #[test]
+    fn numbers_have_six_digits() {
+        for (value, text) in [
+            (0.0, "0"),
+            (1_982.771_592_697, "1982.77"),
+            (-0.012_345_678, "-0.0123457"),
+            (1_234_567.8, "1234568"),
+            (3.0, "3"),
+            (1.234_567_8e-9, "1.23457e-9"),
+        ] {
+            assert_eq!(six(value), text);
+        }
+    }
+
+    /// Law: the momentum is J omega + sum J_i rate_i a_i, and a thruster's torque is its arm from the centre of mass times its direction.
+    #[test]
+    fn momenta_and_torques_are_those_of_the_scene() {
+        let mut input = SceneInput::report();
+        input.initial.angular_velocity_rad_s = [0.0, 0.0, 2.0];
+        input.wheels[0].rate_rad_s = 100.0;
+        input.thrusters = vec![ThrusterInput::named("side", [1.0, 0.0, 0.0], [0.0, 1.0, 0.0])];
+        let scene = Scene::resolve(&input).expect("a legal scene");
+        let mut text = String::new();
+        momenta(&mut text, &input, &scene).expect("text");
+        let axial = scene.mass.wheels[0].axial;
+        let spin = [0.0, 100.0 * axial, 2.0 * scene.mass.inertia[2][2]];
+        assert!(text.contains(&format!("in F_s: {} N m s, of magnitude {}", vector(spin), six(norm(spin)))), "{text}");
+        assert!(
+            text.contains(&format!("wheel w1: {} N m s relative to the body, at 100 rad/s", six(100.0 * axial))),
+            "{text}"
+        );
+        // from the centre of mass at (0, 0, z) to (1, 0, 0), pushed along s2: the torque (z, 0, 1)
+        let [.., z] = scene.mass.center;
+        assert!(
+            text.contains(&format!(
+                "thruster side: at 1 N the force [0, 1, 0] N and the torque {} N m",
+                vector([z, 0.0, 1.0])
+            )),
+            "{text}"
+        );
+    }
+}

@@ -1,0 +1,1 @@
+//! Models of actuators: what they make of a command.

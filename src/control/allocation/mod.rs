@@ -1,0 +1,1 @@
+//! From a wanted torque and force to commands of wheels and thrusters.

@@ -1,0 +1,72 @@
+//! Rotations as vectors and as modified Rodrigues parameters, beside the quaternions of [`crate::math::vector`] (scalar first, Hamilton product).
+
+use crate::math::vector::{cross, dot, norm, scaled, sum};
+
+/// The quaternion of the rotation vector `v`, rad: angle times axis.
+pub fn quaternion_of(v: [f64; 3]) -> [f64; 4] {
+    let half = 0.5 * norm(v);
+    // sin(x)/x, without a division by zero
+    let sinc = if half < 1e-4 { 1.0 - half * half / 6.0 } else { libm::sin(half) / half };
+    let [x, y, z] = scaled(0.5 * sinc, v);
+    [libm::cos(half), x, y, z]
+}
+
+/// The rotation vector of the quaternion `q`, rad, of the shorter rotation: its length is at most pi.
+pub fn vector_of(q: [f64; 4]) -> [f64; 3] {
+    let [w, x, y, z] = if q[0] < 0.0 { q.map(|component| -component) } else { q };
+    let sine = norm([x, y, z]);
+    let angle = 2.0 * libm::atan2(sine, w);
+    let factor = if sine < 1e-8 { 2.0 } else { angle / sine };
+    scaled(factor, [x, y, z])
+}
+
+/// The modified Rodrigues parameters of `q`, of length at most one: tan(angle/4) times the axis, of the shorter rotation, which is the shadow set
+/// where the other is longer (H. Schaub & J. L. Junkins, *Analytical Mechanics of Space Systems*, 2018, section 3.5).
+pub fn mrp_of(q: [f64; 4]) -> [f64; 3] {
+    let [w, x, y, z] = if q[0] < 0.0 { q.map(|component| -component) } else { q };
+    scaled(1.0 / (1.0 + w), [x, y, z])
+}
+
+/// `v` turned by the rotation vector `by`: with components in the frame before the turn, those in the frame after it are by the opposite vector.
+/// Rodrigues's formula.
+pub fn turned(v: [f64; 3], by: [f64; 3]) -> [f64; 3] {
+    let angle = norm(by);
+    if angle == 0.0 {
+        return v;
+    }
+    let axis = scaled(1.0 / angle, by);
+    let (sine, cosine) = (libm::sin(angle), libm::cos(angle));
+    let along = scaled((1.0 - cosine) * dot(axis, v), axis);
+    sum(sum(scaled(cosine, v), scaled(sine, cross(axis, v))), along)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::vector::{dcm_from_quaternion, difference, hamilton, product};
+
+    /// Law: vector and quaternion are one rotation, of any angle up to half a turn; so are the MRP, and a turned vector.
+    #[test]
+    fn a_rotation_has_one_meaning() {
+        let axis = scaled(1.0 / norm([1.0, -2.0, 0.5]), [1.0, -2.0, 0.5]);
+        for angle in [0.0, 1e-12, 1e-5, 0.3, 1.7, 3.1] {
+            let v = scaled(angle, axis);
+            let q = quaternion_of(v);
+            assert!((q.iter().map(|x| x * x).sum::<f64>() - 1.0).abs() < 4e-16);
+            assert!(norm(difference(vector_of(q), v)) <= 1e-15 * (1.0 + angle), "{angle}");
+            // the other sign of the quaternion is the same rotation
+            assert_eq!(vector_of(q.map(|x| -x)), vector_of(q));
+            assert!((norm(mrp_of(q)) - libm::tan(0.25 * angle)).abs() < 1e-15);
+            let u = [0.3, 0.1, -2.0];
+            let by_matrix = product(dcm_from_quaternion(q), u);
+            assert!(norm(difference(turned(u, v), by_matrix)) < 2e-15, "{angle}");
+        }
+        // beyond half a turn: the shadow set, and the shorter way
+        let q = quaternion_of(scaled(4.0, axis));
+        assert!((norm(mrp_of(q)) - libm::tan(0.25 * (2.0 * core::f64::consts::PI - 4.0))).abs() < 1e-15);
+        assert!(norm(sum(vector_of(q), scaled(2.0 * core::f64::consts::PI - 4.0, axis))) < 1e-14);
+        // two turns about one axis add
+        let both = hamilton(quaternion_of(scaled(0.4, axis)), quaternion_of(scaled(0.7, axis)));
+        assert!(norm(difference(vector_of(both), scaled(1.1, axis))) < 1e-15);
+    }
+}

@@ -1,0 +1,1 @@
+//! Models of sensors: from the true state to measurements.

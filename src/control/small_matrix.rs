@@ -1,0 +1,92 @@
+//! Matrices of fixed size, by rows: products, Cholesky factors, inverses. For filters and allocation, without allocation.
+
+/// The inverse of a 3x3 matrix, by cofactors.
+pub fn inverse(m: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
+    let minor = |i: usize, j: usize| {
+        let (a, b, c, d) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);
+        m[a][c] * m[b][d] - m[a][d] * m[b][c]
+    };
+    let determinant: f64 = (0..3).map(|j| m[0][j] * minor(0, j)).sum();
+    std::array::from_fn(|i| std::array::from_fn(|j| minor(j, i) / determinant))
+}
+
+/// a b.
+pub fn multiplied<const N: usize, const K: usize, const M: usize>(
+    a: &[[f64; K]; N],
+    b: &[[f64; M]; K],
+) -> [[f64; M]; N] {
+    std::array::from_fn(|i| std::array::from_fn(|j| (0..K).map(|k| a[i][k] * b[k][j]).sum()))
+}
+
+/// The transpose.
+pub fn transposed<const N: usize, const M: usize>(a: &[[f64; M]; N]) -> [[f64; N]; M] {
+    std::array::from_fn(|i| std::array::from_fn(|j| a[j][i]))
+}
+
+/// a + b.
+pub fn added<const N: usize, const M: usize>(a: &[[f64; M]; N], b: &[[f64; M]; N]) -> [[f64; M]; N] {
+    std::array::from_fn(|i| std::array::from_fn(|j| a[i][j] + b[i][j]))
+}
+
+/// The diagonal matrix of `entries`.
+pub fn diagonal<const N: usize>(entries: [f64; N]) -> [[f64; N]; N] {
+    std::array::from_fn(|i| std::array::from_fn(|j| if i == j { entries[i] } else { 0.0 }))
+}
+
+/// The lower factor L of a = L L^T; `None` where `a` is not positive definite.
+pub fn cholesky<const N: usize>(a: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
+    let mut l = [[0.0; N]; N];
+    for i in 0..N {
+        for j in 0..=i {
+            let rest = a[i][j] - (0..j).map(|k| l[i][k] * l[j][k]).sum::<f64>();
+            if i == j {
+                // not: rest <= 0, which a NaN would pass
+                if !(rest > 0.0) {
+                    return None;
+                }
+                l[i][i] = rest.sqrt();
+            } else {
+                l[i][j] = rest / l[j][j];
+            }
+        }
+    }
+    Some(l)
+}
+
+/// x with a x = b, where `l` is the factor of `a`.
+pub fn solved<const N: usize>(l: &[[f64; N]; N], b: [f64; N]) -> [f64; N] {
+    let mut y = b;
+    for i in 0..N {
+        y[i] = (y[i] - (0..i).map(|k| l[i][k] * y[k]).sum::<f64>()) / l[i][i];
+    }
+    for i in (0..N).rev() {
+        y[i] = (y[i] - (i + 1..N).map(|k| l[k][i] * y[k]).sum::<f64>()) / l[i][i];
+    }
+    y
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: an inverse times its matrix is one; a factor times its transpose is the matrix, and solves it.
+    #[test]
+    fn factors_and_inverses() {
+        let a = [[4.0, 1.0, -0.5], [1.0, 3.0, 0.25], [-0.5, 0.25, 2.0]];
+        let one = multiplied(&a, &inverse(a));
+        for (i, row) in one.iter().enumerate() {
+            for (j, entry) in row.iter().enumerate() {
+                assert!((entry - f64::from(u8::from(i == j))).abs() < 1e-15);
+            }
+        }
+        let l = cholesky(&a).expect("positive definite");
+        let back = multiplied(&l, &transposed(&l));
+        let x = solved(&l, [1.0, -2.0, 0.5]);
+        for i in 0..3 {
+            assert!((0..3).all(|j| (back[i][j] - a[i][j]).abs() < 1e-15));
+            let b: f64 = (0..3).map(|j| a[i][j] * x[j]).sum();
+            assert!((b - [1.0, -2.0, 0.5][i]).abs() < 1e-15);
+        }
+        assert!(cholesky(&[[1.0, 2.0], [2.0, 1.0]]).is_none());
+    }
+}

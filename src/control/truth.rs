@@ -1,0 +1,138 @@
+//! [`Truth`]: the true state of a run at a tick, for models of sensors and actuators only.
+
+use crate::control::rotation::quaternion_of;
+use crate::dynamics::actuation::{BodyState, WheelState};
+use crate::dynamics::debris::is_isotropic;
+use crate::math::vector::{cross, difference, hamilton, product, scaled, sum};
+use crate::scene::Scene;
+
+/// The true state of a run at a time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Truth {
+    /// Time since the start of the run, s.
+    pub time: f64,
+    /// The motion of the body.
+    pub body: BodyState,
+    /// Position of the base point p in F_e, m.
+    pub r_po_e: [f64; 3],
+    /// Velocity of p relative to F_e, in F_e, m/s.
+    pub v_po_e: [f64; 3],
+    /// The motion of the wheels.
+    pub wheels: WheelState,
+    /// The debris, where the scene has one.
+    pub debris: Option<DebrisState>,
+}
+
+/// The motion of the debris.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DebrisState {
+    /// Position of its centre of mass in F_e, m.
+    pub r_gdo_e: [f64; 3],
+    /// Velocity of its centre of mass relative to F_e, in F_e, m/s.
+    pub v_gdo_e: [f64; 3],
+    /// Attitude quaternion, F_d -> F_e, scalar first.
+    pub q_ed: [f64; 4],
+    /// Angular velocity of F_d relative to F_e, in F_d, rad/s.
+    pub omega_de_d: [f64; 3],
+}
+
+/// The motion of the debris of a run over time: a free rigid body in uniform translation, read at ascending times.
+#[derive(Clone, Debug)]
+pub struct DebrisMotion {
+    inertia: [[f64; 3]; 3],
+    inverse: [[f64; 3]; 3],
+    is_isotropic: bool,
+    start: DebrisState,
+    /// Where the integration of a body that is not isotropic is.
+    time: f64,
+    now: DebrisState,
+}
+
+/// Order of the series of the free rotation, and the largest |omega| h of a step: the first neglected term is (1/4)^13/13!, far below rounding.
+const ORDER: usize = 12;
+const LARGEST_TURN: f64 = 0.25;
+
+impl DebrisMotion {
+    /// That of `scene`; `None` where it has no debris.
+    pub fn of(scene: &Scene) -> Option<Self> {
+        let body = scene.mass.debris.as_ref()?;
+        let initial = &scene.initial;
+        let start = DebrisState {
+            r_gdo_e: initial.r_gdo_e,
+            v_gdo_e: initial.v_gdo_e,
+            q_ed: initial.q_ed,
+            omega_de_d: initial.omega_de_d,
+        };
+        let inverse = crate::control::small_matrix::inverse(body.inertia);
+        let is_isotropic = is_isotropic(body);
+        Some(DebrisMotion { inertia: body.inertia, inverse, is_isotropic, start, time: 0.0, now: start })
+    }
+
+    /// The state at `time`, s, which is not before that of the last call.
+    pub fn at(&mut self, time: f64) -> DebrisState {
+        let start = self.start;
+        if self.is_isotropic {
+            let turn = quaternion_of(scaled(time, start.omega_de_d));
+            self.now.q_ed = hamilton(start.q_ed, turn);
+        } else {
+            while self.time < time {
+                let rate = crate::math::vector::norm(self.now.omega_de_d);
+                let longest = if rate > 0.0 { LARGEST_TURN / rate } else { f64::INFINITY };
+                let left = time - self.time;
+                let steps = (left / longest).ceil().max(1.0);
+                self.step(left / steps);
+                self.time = if steps > 1.0 { self.time + left / steps } else { time };
+            }
+        }
+        self.now.r_gdo_e = sum(start.r_gdo_e, scaled(time, start.v_gdo_e));
+        self.now
+    }
+
+    /// A step of the series of I omega' = I omega x omega and q' = q (x) omega/2.
+    fn step(&mut self, h: f64) {
+        let mut omega = [[0.0; 3]; ORDER + 1];
+        let mut q = [[0.0; 4]; ORDER + 1];
+        (omega[0], q[0]) = (self.now.omega_de_d, self.now.q_ed);
+        for n in 0..ORDER {
+            let (mut torque, mut slope) = ([0.0; 3], [0.0; 4]);
+            for k in 0..=n {
+                torque = sum(torque, cross(product(self.inertia, omega[k]), omega[n - k]));
+                let [x, y, z] = omega[n - k];
+                let part = hamilton(q[k], [0.0, x, y, z]);
+                slope = std::array::from_fn(|i| slope[i] + part[i]);
+            }
+            omega[n + 1] = scaled(1.0 / (n + 1) as f64, product(self.inverse, torque));
+            q[n + 1] = slope.map(|x| 0.5 * x / (n + 1) as f64);
+        }
+        let (mut rate, mut turned) = (omega[ORDER], q[ORDER]);
+        for n in (0..ORDER).rev() {
+            rate = sum(scaled(h, rate), omega[n]);
+            turned = std::array::from_fn(|i| turned[i].mul_add(h, q[n][i]));
+        }
+        let length = turned.iter().map(|x| x * x).sum::<f64>().sqrt();
+        self.now.omega_de_d = rate;
+        self.now.q_ed = turned.map(|x| x / length);
+    }
+}
+
+impl Truth {
+    /// The truth at `time` of a run of `scene` with the motion `body`, `wheels`.
+    pub fn new(
+        scene: &Scene,
+        time: f64,
+        body: &BodyState,
+        wheels: &WheelState,
+        debris: Option<&mut DebrisMotion>,
+    ) -> Self {
+        let c_es = crate::math::vector::dcm_from_quaternion(body.q_es);
+        let arm = scene.mass.center;
+        Truth {
+            time,
+            body: *body,
+            r_po_e: difference(body.r_co_e, product(c_es, arm)),
+            v_po_e: difference(body.v_co_e, product(c_es, cross(body.omega_se_s, arm))),
+            wheels: *wheels,
+            debris: debris.map(|motion| motion.at(time)),
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! Figures of the outcomes: how each is distributed, and how many runs stay below a value, with limits, quantiles and their intervals.
+
+use crate::analysis::survey::{CONFIDENCE, Survey, SurveyedOutcome};
+use crate::campaign::{Plan, Requirement, Statement};
+use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointShape};
+use crate::report::page::errors::{histogram, sentence};
+use crate::report::page::readable::{number, with_unit};
+use crate::report::page::shown_columns::{ranked, words};
+use crate::report::page::tables::StatisticsRow;
+use crate::statistics::binomial::interval;
+use crate::statistics::gate::GateLimit;
+use crate::statistics::sketch::Sketch;
+
+/// Points of a cumulative curve, at most.
+const MOST_POINTS: u64 = 400;
+/// Fewer runs than this have no distribution to be seen.
+const FEWEST_RUNS: u64 = 8;
+
+/// Distribution and cumulative curve of each outcome.
+pub fn figures(plan: &Plan, survey: &Survey, statistics: &[StatisticsRow], has_intervals: bool) -> Vec<Figure> {
+    let outcomes = survey.outcomes.iter().enumerate().filter(|(_, outcome)| outcome.is_outcome);
+    let shown = outcomes.filter(|(_, outcome)| outcome.sketch.count() >= FEWEST_RUNS);
+    let both = shown.flat_map(|(index, outcome)| {
+        let row = statistics.iter().find(|row| row.name == outcome.quantity.name());
+        let mut distribution = histogram(survey, index, outcome, FigureSection::Outcome);
+        distribution.marks.extend(limits(plan, outcome));
+        [distribution, cumulative(plan, outcome, row, has_intervals)]
+    });
+    both.collect()
+}
+
+/// The limits on an outcome.
+fn limits(plan: &Plan, outcome: &SurveyedOutcome) -> Vec<Mark> {
+    let of = |requirement: &&Requirement| requirement.observable() == Some(outcome.quantity.name());
+    let shown = plan.analysis.display.of(outcome.quantity.name(), outcome.quantity.unit());
+    let mark = |requirement: &Requirement| {
+        let word = if matches!(requirement.limit, GateLimit::AtMost(_)) { "at most" } else { "at least" };
+        let at = requirement.limit.value();
+        Mark::Limit { label: format!("{word} {}", with_unit(shown.written(at), &shown.unit)), at, vertical: true }
+    };
+    let mut marks: Vec<Mark> = Vec::new();
+    for one in plan.analysis.requirements.iter().filter(of).map(mark) {
+        if !marks.contains(&one) {
+            marks.push(one);
+        }
+    }
+    marks
+}
+
+/// The quantiles that are marked: those that the file requires, else the median and the highest up to 99%.
+fn marked(plan: &Plan, outcome: &SurveyedOutcome, row: Option<&StatisticsRow>) -> Vec<[f64; 4]> {
+    let all = row.map_or(&[][..], |row| &row.quantiles);
+    let required = plan.analysis.requirements.iter().filter(|one| one.observable() == Some(outcome.quantity.name()));
+    let required: Vec<f64> =
+        required.filter_map(|one| if let Statement::Quantile(p) = one.statement { Some(p) } else { None }).collect();
+    let asked: Vec<[f64; 4]> = all.iter().filter(|quantile| required.contains(&quantile[0])).copied().collect();
+    if !asked.is_empty() {
+        return asked;
+    }
+    let median = all.iter().find(|quantile| quantile[0] == 0.5);
+    let high = all.iter().rfind(|quantile| quantile[0] <= 0.99 && quantile[0] > 0.5);
+    median.into_iter().chain(high).copied().collect()
+}
+
+/// The fraction of runs up to a value.
+fn cumulative(plan: &Plan, outcome: &SurveyedOutcome, row: Option<&StatisticsRow>, has_intervals: bool) -> Figure {
+    let (x, y, low, high) = curve(&outcome.sketch);
+    let mut marks = Vec::new();
+    if has_intervals {
+        let label = format!("{}% interval", (100.0 * CONFIDENCE).round());
+        marks.push(Mark::Band { label, hue: Hue::Total, opacity: 0.15, x: x.clone(), low, high, stacked: false });
+    }
+    marks.push(Mark::line("fraction of runs", Hue::Total, Dash::Solid, x, y));
+    for (place, [p, value, from, to]) in marked(plan, outcome, row).into_iter().enumerate() {
+        let hue = Hue::Curve(place + 1);
+        let label = if p == 0.5 { "median".to_owned() } else { format!("{}%-quantile", number(100.0 * p)) };
+        if has_intervals && from.is_finite() && to.is_finite() {
+            marks.push(Mark::line(format!("its interval, {label}"), hue, Dash::Solid, vec![from, to], vec![p, p]));
+        }
+        let (x, y, samples) = (vec![value], vec![p], Vec::new());
+        marks.push(Mark::Points { label, hue, shape: PointShape::Disc, x, y, samples });
+    }
+    marks.extend(limits(plan, outcome));
+    let what = if outcome.is_error { format!("|{}|", words(&outcome.quantity)) } else { words(&outcome.quantity) };
+    let is_log = outcome.is_error && outcome.sketch.min().is_some_and(|min| min > 0.0);
+    let axis = if is_log { Axis::log } else { Axis::linear };
+    let interval = if has_intervals {
+        "Band: Clopper-Pearson interval of the fraction (95%)."
+    } else {
+        "The design's runs are not independent: no interval."
+    };
+    Figure {
+        name: format!("cumulative_{}", outcome.quantity.name()),
+        section: FigureSection::Outcome,
+        title: format!("{}: runs up to a value", sentence(&words(&outcome.quantity))),
+        caption: format!(
+            "Fraction of the {} runs that are ok whose value is at most this. {interval}",
+            outcome.sketch.count()
+        ),
+        columns: 6,
+        is_over_time: false,
+        x: axis(what, outcome.quantity.unit()).showing(outcome.quantity.name()),
+        y: Axis::linear("fraction of runs", "").within(0.0, 1.0),
+        marks,
+    }
+}
+
+/// Values of ascending size, the fraction of runs up to each, and the ends of its interval.
+fn curve(sketch: &Sketch) -> (Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>) {
+    let count = sketch.count();
+    let steps = count.min(MOST_POINTS);
+    let mut found = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    for step in 1..=steps {
+        let rank = (step * count).div_ceil(steps);
+        let Some(value) = ranked(sketch, rank) else { continue };
+        let [low, high] = interval(rank, count, CONFIDENCE);
+        found.0.push(value);
+        found.1.push(rank as f64 / count as f64);
+        found.2.push(low);
+        found.3.push(high);
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: the curve rises from one run to all of them; a fraction is that of the runs up to its value, within the width of a bucket, and lies
+    /// in its interval.
+    #[test]
+    fn the_curve_is_the_distribution() {
+        let mut sketch = Sketch::default();
+        (1..=5000).for_each(|k| sketch.add(f64::from(k)));
+        let (x, y, low, high) = curve(&sketch);
+        assert_eq!((x.len(), *y.last().unwrap(), *x.last().unwrap()), (400, 1.0, 5000.0));
+        for k in 0..x.len() {
+            assert!((x[k] / 5000.0 / y[k] - 1.0).abs() < 0.02, "{} of runs up to {}", y[k], x[k]);
+            assert!(low[k] <= y[k] && y[k] <= high[k]);
+        }
+        let mut few = Sketch::default();
+        [3.0, 1.0, 2.0].into_iter().for_each(|value| few.add(value));
+        let (x, y, ..) = curve(&few);
+        assert!(x.is_sorted() && y == [1.0 / 3.0, 2.0 / 3.0, 1.0], "{x:?} {y:?}");
+    }
+}

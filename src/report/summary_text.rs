@@ -1,0 +1,246 @@
+//! A summary on the screen: the verdicts first, then what was found, then how well it was computed, in some thirty lines.
+
+use super::audit_summary::Numerics;
+use super::number::short;
+use super::observable_lines::{ObservableLine, table};
+use super::summary::Summary;
+use super::wrapped::wrapped;
+use super::{failure_text, requirements};
+use crate::analysis::outcomes::OF_MOTION;
+use crate::ensemble::FailureReason;
+use crate::run::Status;
+use crate::sampling::SampleId;
+
+/// Most observables in the table beside those that the file names.
+const MOST_MAIN: usize = 6;
+
+/// The observables of the table after those of the motion.
+const MAIN: [&str; 4] =
+    ["angular_momentum_error_max", "linear_momentum_error_max", "state_error_estimate", "dcm_orthonormality_max"];
+
+/// The errors in the sentence on numerics, each with what it is of.
+const ERRORS: [(&str, &str); 4] = [
+    ("energy_error_max", "energy"),
+    ("angular_momentum_error_max", "angular momentum"),
+    ("linear_momentum_error_max", "linear momentum"),
+    ("state_error_estimate", "estimated error of the state"),
+];
+
+/// Numbers of samples, separated by commas.
+fn numbers(samples: &[SampleId]) -> String {
+    samples.iter().map(SampleId::to_string).collect::<Vec<_>>().join(", ")
+}
+
+impl Summary {
+    /// The text for lines of `width` characters. `drivers` are what drives the outcomes, `file` is the campaign as a word of the commands that
+    /// show a run.
+    pub fn text(&self, drivers: &str, file: &str, width: usize) -> String {
+        let mut text = wrapped(&requirements::text(&self.verdicts), width);
+        if let Some((_, stop)) = &self.stopping {
+            text += &wrapped(&format!("\n  stop: {stop}\n"), width);
+        }
+        text += &self.ended();
+        text += &self.found(width);
+        text += &wrapped(drivers, width);
+        text += &wrapped(&self.numerics(), width);
+        // commands stay whole, to be copied
+        text + &self.replay(file)
+    }
+
+    /// How the runs ended.
+    fn ended(&self) -> String {
+        let ok = Status::Done.name();
+        let (runs, good) = self.statuses.iter().fold((0, 0), |(runs, good), (name, ended)| {
+            (runs + ended.count, if *name == ok { ended.count } else { good })
+        });
+        if runs == good {
+            return if runs == 1 { "\n  the run is ok\n".to_owned() } else { format!("\n  all {runs} runs are ok\n") };
+        }
+        let mut text = format!("\n  {good} of {runs} runs are ok\n");
+        for (name, ended) in self.statuses.iter().filter(|(name, ended)| ended.count > 0 && *name != ok) {
+            let more = if ended.count > ended.first.len() as u64 { ", ..." } else { "" };
+            text += &format!("  {name:<16}{:>12}   samples {}{more}\n", ended.count, numbers(&ended.first));
+        }
+        if !self.reasons.is_empty() {
+            let groups: Vec<&FailureReason> = self.reasons.iter().collect();
+            text += &format!("  why runs failed:\n{}", failure_text::text(&groups));
+        }
+        text
+    }
+
+    /// The observables of the table: those that the file requires, names or derives, then the main ones.
+    fn shown(&self) -> Vec<&ObservableLine> {
+        let line = |name: &str| self.lines.iter().find(|line| line.name == name);
+        let mut shown: Vec<&ObservableLine> = self.named.iter().filter_map(|name| line(name)).collect();
+        let others = OF_MOTION.iter().chain(&MAIN).filter(|name| !self.named.iter().any(|named| named == *name));
+        shown.extend(others.filter_map(|name| line(name)).take(MOST_MAIN));
+        shown
+    }
+
+    /// The table of what was found.
+    fn found(&self, width: usize) -> String {
+        let shown = self.shown();
+        if shown.is_empty() {
+            return String::new();
+        }
+        if shown.iter().all(|line| line.is_empty()) {
+            let is_nominal_ok =
+                self.statuses.iter().any(|(name, ended)| *name == Status::Done.name() && ended.count > 0);
+            return format!("\n  no {} is ok: no statistics\n", if is_nominal_ok { "dispersed run" } else { "run" });
+        }
+        let title = if self.without_nominal { "dispersed runs" } else { "nominal run" };
+        let mut text = table(&shown, title, self.confidence, width);
+        if self.treatment != EVERY_RUN_IS_OK {
+            text += &format!("  {}\n", self.treatment);
+        }
+        for line in shown.iter().filter(|line| line.without_value > 0) {
+            text +=
+                &format!("  {}: {} runs that are ok have no value and are left out\n", line.name, line.without_value);
+        }
+        if self.intervals.starts_with("none") {
+            text += &format!("  intervals: {}\n", self.intervals);
+        }
+        match self.columns.saturating_sub(shown.len()) {
+            0 => {}
+            more => text += &format!("  {more} more in statistics.parquet\n"),
+        }
+        text
+    }
+
+    /// How well it was computed: a sentence, and the audits.
+    fn numerics(&self) -> String {
+        let largest = |(name, of): &(&str, &str)| {
+            let line = self.lines.iter().find(|line| line.name == *name)?;
+            Some(format!("{of} {}", short(line.max?)))
+        };
+        let errors: Vec<String> = ERRORS.iter().filter_map(largest).collect();
+        let mut text = String::new();
+        if !errors.is_empty() {
+            text += &format!("\n  largest errors, relative: {}\n", errors.join(", "));
+        }
+        let Some(audit) = &self.audit else { return text };
+        text += &format!("\n{audit}");
+        let shown = self.shown();
+        let audited: Vec<(&&ObservableLine, &Numerics)> =
+            shown.iter().filter_map(|line| Some((line, line.numerical_error.as_ref()?))).collect();
+        if audited.is_empty() {
+            return text;
+        }
+        let width = audited.iter().map(|(line, _)| line.name.len()).max().unwrap_or(0);
+        text += &format!(
+            "\n  numerical error, and how much of the spread (p95 - p5) it is\n  {:<width$}  {:>6}{:>12}{:>12}{:>12}{:>12}\n",
+            "", "unit", "median", "p95", "max", "share"
+        );
+        for (line, numerics) in audited {
+            let unit = if line.unit.is_empty() { "-" } else { &line.unit };
+            text += &format!("  {:<width$}  {unit:>6}", line.name);
+            for value in [numerics.median, numerics.p95, numerics.max, numerics.share_of_spread] {
+                text += &format!("{:>12}", value.map_or("-".to_owned(), short));
+            }
+            text.push('\n');
+        }
+        text
+    }
+
+    /// The runs with the greatest errors and the first that failed, with the command that shows one; `file` is the campaign as
+    /// a word of that command. Empty where there are none.
+    fn replay(&self, file: &str) -> String {
+        let mut text = String::new();
+        let worst = self.worst.iter().filter_map(|worst| Some((format!("worst {}", worst.name), worst.runs.first()?)));
+        for (why, (sample, error)) in worst {
+            text += &format!("  {why} {}: spindrift simulate {file} --sample {sample}\n", short(*error));
+        }
+        for (name, ended) in self.statuses.iter().filter(|(name, _)| *name != Status::Done.name()) {
+            if let Some(sample) = ended.first.first() {
+                text += &format!("  the first {name}: spindrift simulate {file} --sample {sample}\n");
+            }
+        }
+        if text.is_empty() { text } else { format!("\n{text}") }
+    }
+}
+
+/// What [`crate::analysis::statistics::Statistics::treatment`] says where nothing is left out.
+const EVERY_RUN_IS_OK: &str = "every run is ok";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::tally::Ended;
+    use crate::analysis::verdicts::Verdicts;
+    use crate::campaign::ShownUnit;
+
+    /// Five runs are ok and eight are not, without observables.
+    fn summary() -> Summary {
+        let ended = |count: u64, first: &[u64]| Ended { count, first: first.iter().map(|id| SampleId(*id)).collect() };
+        Summary {
+            name: "x".to_owned(),
+            seed: 1,
+            samples: 13,
+            plan_hash: String::new(),
+            without_nominal: true,
+            statuses: vec![
+                (Status::Done.name(), ended(5, &[])),
+                (Status::StepLimit.name(), ended(2, &[3, 4])),
+                (Status::NonFinite.name(), ended(0, &[])),
+                (Status::Inaccurate.name(), ended(6, &[5, 6])),
+            ],
+            reasons: Vec::new(),
+            worst: Vec::new(),
+            lines: Vec::new(),
+            named: Vec::new(),
+            columns: 0,
+            verdicts: Verdicts::default(),
+            intervals: String::new(),
+            treatment: String::new(),
+            confidence: 0.95,
+            quantile_error: 0.0,
+            audit: None,
+            replaced: Vec::new(),
+            stopping: None,
+        }
+    }
+
+    /// Law: the screen counts the runs of each status that occurs, and names the first samples of those that are not ok.
+    #[test]
+    fn statuses_are_counted_and_failures_named() {
+        let summary = summary();
+        let lines = ["  5 of 13 runs are ok", "  step_limit                 2   samples 3, 4"];
+        let more = "  inaccurate                 6   samples 5, 6, ...";
+        assert_eq!(summary.ended(), format!("\n{}\n{}\n{more}\n", lines[0], lines[1]));
+        // the command that shows the first of each
+        let text = summary.text("", "plan.toml", 100);
+        for (status, sample) in [("step_limit", 3), ("inaccurate", 5)] {
+            assert!(
+                text.contains(&format!("the first {status}: spindrift simulate plan.toml --sample {sample}\n")),
+                "{text}"
+            );
+        }
+    }
+
+    /// Law: where no run is ok there is one line in place of a table of dashes.
+    #[test]
+    fn without_runs_that_are_ok_there_is_no_table() {
+        let line = |count: u64| ObservableLine {
+            name: "energy_error_max".to_owned(),
+            unit: String::new(),
+            shown: ShownUnit::own(""),
+            count,
+            without_value: 0,
+            mean: None,
+            mean_interval: [None; 2],
+            standard_deviation: None,
+            standard_deviation_interval: [None; 2],
+            mean_note: None,
+            skewness: None,
+            min: None,
+            max: None,
+            quantiles: Vec::new(),
+            numerical_error: None,
+        };
+        let text = |lines: Vec<ObservableLine>| Summary { lines, ..summary() }.found(100);
+        let none = text(vec![line(0)]);
+        assert!(none.ends_with("\n  no dispersed run is ok: no statistics\n"), "{none}");
+        let some = text(vec![line(5)]);
+        assert!(some.contains("energy_error_max") && !some.contains("no statistics"), "{some}");
+    }
+}

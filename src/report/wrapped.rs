@@ -1,0 +1,58 @@
+//! Lines that fit a terminal.
+
+/// `text` with each line that is longer than `width` characters broken at spaces; what is broken off is indented as far as the text after the
+/// last gap of several spaces in the first half of the line is, else two characters more than the line.
+pub fn wrapped(text: &str, width: usize) -> String {
+    let mut lines = String::with_capacity(text.len());
+    for line in text.split_inclusive('\n') {
+        let (content, end) = line.strip_suffix('\n').map_or((line, ""), |content| (content, "\n"));
+        if content.chars().count() <= width {
+            lines += line;
+            continue;
+        }
+        let indent = content.len() - content.trim_start().len();
+        let gap =
+            content.char_indices().filter(|(at, _)| *at > indent && *at <= width / 2 && content[..*at].ends_with("  "));
+        let column = gap.filter(|(_, letter)| *letter != ' ').map(|(at, _)| at).next_back();
+        let hanging = " ".repeat(column.unwrap_or(indent + 2).min(width / 2));
+        let mut current = content[..indent].to_owned();
+        let mut is_empty = true;
+        for word in content[indent..].split(' ') {
+            if !is_empty && current.chars().count() + 1 + word.chars().count() > width {
+                lines += current.trim_end();
+                lines.push('\n');
+                current.clone_from(&hanging);
+                is_empty = true;
+            }
+            if !is_empty {
+                current.push(' ');
+            }
+            current += word;
+            is_empty = false;
+        }
+        lines += &current;
+        lines += end;
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: no line with spaces to break at is longer than the width; words keep their order; what fits stays as it is.
+    #[test]
+    fn long_lines_are_broken_at_spaces() {
+        let text = "  PASS   p99 of energy\n  one two three four five six seven\nshort\n";
+        let broken = wrapped(text, 16);
+        assert_eq!(broken, "  PASS   p99 of\n    energy\n  one two three\n    four five\n    six seven\nshort\n");
+        assert_eq!(wrapped("  PASS   p99 of energy", 20), "  PASS   p99 of\n         energy");
+        for width in 8..60 {
+            let broken = wrapped(text, width);
+            assert!(broken.lines().all(|line| line.len() <= width.max(10)), "{width}: {broken}");
+            let words = |text: &str| text.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
+            assert_eq!(words(&broken), words(text));
+        }
+        assert_eq!(wrapped(text, 100), text);
+    }
+}
