@@ -1,10 +1,13 @@
 //! [`Eigenaxis`]: a slew about one axis fixed in the body and in space.
 
-use super::KnownBody;
-use crate::math::vector::{cross, norm, product, scaled, sum};
+use super::{AttitudeLaw, KnownBody, LawInput, LawKind, limit, number};
+use crate::math::vector::{norm, product, scaled, sum};
+use crate::scene::LawParameter;
+use crate::scene::schema::Limit;
 
 /// u = omega x H - k K q_v - c K omega from rest turns about a fixed axis, with theta'' = -c theta' - k sin(theta/2) (B. Wie, H. Weiss & A. Arapostathis,
-/// *J. Guidance* 12(3), 1989). With a limit of the rate the error is cut so that the body coasts at that rate (cascade saturation; Wie, section 7.3).
+/// *J. Guidance* 12(3), 1989). With a limit of the rate the error is cut so that the body coasts at that rate (cascade saturation; Wie, *Space Vehicle
+/// Dynamics and Control*, 2008, section 7.3).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Eigenaxis {
     /// k, 1/s^2.
@@ -13,23 +16,48 @@ pub struct Eigenaxis {
     pub damping: f64,
     /// Largest rate, rad/s; infinite without a limit.
     pub largest_rate: f64,
-    /// Largest torque on the body beside omega x H, N m; infinite without a limit. Beyond it the torque keeps its direction.
+    /// Largest torque on the body beside what its own momentum and a target that turns take, N m; infinite without a limit. Beyond it the torque keeps its
+    /// direction.
     pub largest_torque: f64,
 }
 
+/// Its keys in campaign files.
+pub static PARAMETERS: [LawParameter; 4] = [
+    LawParameter::number("bandwidth_rad_s", "rad/s", "Natural frequency w of small errors: k = 2 w^2", Limit::Positive),
+    LawParameter::number("damping", "1", "Damping ratio z of small errors: c = 2 z w", Limit::Positive),
+    LawParameter::number("max_rate_rad_s", "rad/s", "Largest rate of a slew; zero: no limit", Limit::NotNegative)
+        .or(&[0.0]),
+    LawParameter::number("max_torque_n_m", "N m", "Largest torque of a slew; zero: no limit", Limit::NotNegative)
+        .or(&[0.0]),
+];
+
+/// Its place in the list of laws.
+pub const KIND: LawKind = LawKind {
+    name: "eigenaxis",
+    parameters: &PARAMETERS,
+    make: |table| {
+        let (bandwidth, damping) = (number(table, "bandwidth_rad_s"), number(table, "damping"));
+        AttitudeLaw::Eigenaxis(Eigenaxis {
+            stiffness: 2.0 * bandwidth * bandwidth,
+            damping: 2.0 * damping * bandwidth,
+            largest_rate: limit(table, "max_rate_rad_s"),
+            largest_torque: limit(table, "max_torque_n_m"),
+        })
+    },
+};
+
 impl Eigenaxis {
-    /// The torque on the body, F_s, N m; arguments as of [`super::QuaternionFeedback::torque`].
-    pub fn torque(&self, craft: &KnownBody, q_ts: [f64; 4], omega: [f64; 3], momentum: [f64; 3]) -> [f64; 3] {
-        let [w, x, y, z] = q_ts;
-        let error = scaled(if w < 0.0 { -self.stiffness } else { self.stiffness }, [x, y, z]);
+    /// The torque on the body, F_s, N m.
+    pub fn torque(&self, craft: &KnownBody, input: &LawInput) -> [f64; 3] {
+        let error = scaled(self.stiffness, input.error_vector());
         // where damping balances the error, the rate is error/c
         let size = norm(error);
         let most = self.damping * self.largest_rate;
         let error = if size > most { scaled(most / size, error) } else { error };
-        let wanted = product(craft.inertia, scaled(-1.0, sum(error, scaled(self.damping, omega))));
+        let wanted = product(craft.inertia, scaled(-1.0, sum(error, scaled(self.damping, input.omega_st_s()))));
         let size = norm(wanted);
         let limited = if size > self.largest_torque { scaled(self.largest_torque / size, wanted) } else { wanted };
-        sum(limited, cross(omega, momentum))
+        sum(limited, input.feedforward(craft))
     }
 }
 
@@ -38,6 +66,7 @@ mod tests {
     use super::*;
     use crate::control::laws::plant::Body;
     use crate::control::rotation::{quaternion_of, vector_of};
+    use crate::math::vector::cross;
 
     const AXIS: [f64; 3] = [0.48, -0.6, 0.64];
     const START: f64 = 2.4;
@@ -51,7 +80,7 @@ mod tests {
         let (mut off, mut fastest) = (0.0_f64, 0.0_f64);
         let ticks = (time / period).round() as usize;
         for _ in 0..ticks {
-            let torque = law.torque(&craft, body.q_es, body.omega, product(craft.inertia, body.omega));
+            let torque = law.torque(&craft, &body.input());
             body.step(torque, period, 4);
             off = off.max(norm(cross(vector_of(body.q_es), AXIS)));
             fastest = fastest.max(norm(body.omega));

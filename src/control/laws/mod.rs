@@ -4,17 +4,121 @@
 //! free wheels are driven by motors, H the angular momentum with the wheels, and u the torque on the body, F_s.
 
 mod eigenaxis;
+pub mod momentum_unloading;
 mod mrp_feedback;
 mod quaternion_feedback;
 mod rate_damping;
 
 pub use eigenaxis::Eigenaxis;
-pub use mrp_feedback::{MrpFeedback, MrpReference};
+pub use momentum_unloading::MomentumUnloading;
+pub use mrp_feedback::MrpFeedback;
 pub use quaternion_feedback::QuaternionFeedback;
-pub use rate_damping::rate_damping;
+pub use rate_damping::RateDamping;
 
-use crate::math::vector::{product, scaled, sum};
-use crate::scene::MassProperties;
+use crate::math::vector::{cross, difference, product, scaled, sum};
+use crate::scene::{DeclaredTable, LawParameter, MassProperties};
+
+/// The laws of attitude that a campaign can name.
+pub static KINDS: &[LawKind] = &[rate_damping::KIND, quaternion_feedback::KIND, mrp_feedback::KIND, eigenaxis::KIND];
+
+/// A law of attitude that a campaign can name.
+#[derive(Clone, Copy, Debug)]
+pub struct LawKind {
+    /// Its name, as in `kind` of a campaign file.
+    pub name: &'static str,
+    /// The keys of its table.
+    pub parameters: &'static [LawParameter],
+    /// Makes the law of a run from the table of its parameters.
+    pub make: fn(&DeclaredTable) -> AttitudeLaw,
+}
+
+/// A law of attitude in a run, with what it remembers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AttitudeLaw {
+    /// No torque.
+    None,
+    /// Against the rate.
+    RateDamping(RateDamping),
+    /// From quaternion and rate.
+    QuaternionFeedback(QuaternionFeedback),
+    /// From MRP, rate and an integral.
+    MrpFeedback(MrpFeedback),
+    /// A slew about one axis.
+    Eigenaxis(Eigenaxis),
+}
+
+impl AttitudeLaw {
+    /// The wanted torque on the body, F_s, N m, at a tick `period` seconds after the last one (zero at the first).
+    pub fn torque(&mut self, body: &KnownBody, input: &LawInput, period: f64) -> [f64; 3] {
+        match self {
+            AttitudeLaw::None => [0.0; 3],
+            AttitudeLaw::RateDamping(law) => law.torque(input),
+            AttitudeLaw::QuaternionFeedback(law) => law.torque(body, input),
+            AttitudeLaw::MrpFeedback(law) => law.torque(body, input, period),
+            AttitudeLaw::Eigenaxis(law) => law.torque(body, input),
+        }
+    }
+}
+
+/// What a law of attitude knows at a tick. F_t is the target's frame: the attitude that F_s is to have.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LawInput {
+    /// Attitude quaternion F_s -> F_t, scalar first, of either sign.
+    pub q_ts: [f64; 4],
+    /// Rate of F_s relative to F_e, in F_s, rad/s.
+    pub omega_se_s: [f64; 3],
+    /// Rate of F_t relative to F_e, in F_s, rad/s.
+    pub omega_te_s: [f64; 3],
+    /// Derivative of that rate in F_e, in F_s, rad/s^2.
+    pub acceleration_te_s: [f64; 3],
+    /// H, with the wheels, in F_s, N m s: [`KnownBody::momentum`].
+    pub momentum_s: [f64; 3],
+}
+
+impl LawInput {
+    /// At rest at a target at rest, without momentum.
+    pub const AT_TARGET: LawInput = LawInput {
+        q_ts: [1.0, 0.0, 0.0, 0.0],
+        omega_se_s: [0.0; 3],
+        omega_te_s: [0.0; 3],
+        acceleration_te_s: [0.0; 3],
+        momentum_s: [0.0; 3],
+    };
+
+    /// Rate of F_s relative to F_t, in F_s, rad/s.
+    pub fn omega_st_s(&self) -> [f64; 3] {
+        difference(self.omega_se_s, self.omega_te_s)
+    }
+
+    /// The vector part of the attitude, of the shorter rotation: q_v sign(q_0).
+    fn error_vector(&self) -> [f64; 3] {
+        let [w, x, y, z] = self.q_ts;
+        if w < 0.0 { [-x, -y, -z] } else { [x, y, z] }
+    }
+
+    /// omega x H + K (omega_te' - omega x omega_te): the torque that keeps the rate relative to the target, F_s, N m.
+    fn feedforward(&self, body: &KnownBody) -> [f64; 3] {
+        let carried = difference(self.acceleration_te_s, cross(self.omega_se_s, self.omega_te_s));
+        sum(product(body.inertia, carried), cross(self.omega_se_s, self.momentum_s))
+    }
+}
+
+/// The number of the parameter `key` of a law.
+///
+/// # Panics
+/// Where `table` does not declare it as a number.
+fn number(table: &DeclaredTable, key: &str) -> f64 {
+    match table.named(key) {
+        Some([number]) => *number,
+        _ => panic!("the law declares no number {key}"),
+    }
+}
+
+/// The limit `key` of a law: zero is none.
+fn limit(table: &DeclaredTable, key: &str) -> f64 {
+    let limit = number(table, key);
+    if limit == 0.0 { f64::INFINITY } else { limit }
+}
 
 /// The constants of the spacecraft that a law knows: of the nominal scene.
 #[derive(Clone, Copy, Debug)]
@@ -41,6 +145,7 @@ impl KnownBody {
 pub(super) mod plant {
     //! A rigid body in small steps: what the laws are tested on.
 
+    use super::LawInput;
     use crate::control::rotation::quaternion_of;
     use crate::math::vector::{cross, hamilton, product, scaled, sum};
 
@@ -56,6 +161,12 @@ pub(super) mod plant {
         pub fn matrix(&self) -> [[f64; 3]; 3] {
             let [a, b, c] = self.inertia;
             [[a, 0.0, 0.0], [0.0, b, 0.0], [0.0, 0.0, c]]
+        }
+
+        /// What a law knows of it, with F_e as target.
+        pub fn input(&self) -> LawInput {
+            let momentum_s = product(self.matrix(), self.omega);
+            LawInput { q_ts: self.q_es, omega_se_s: self.omega, momentum_s, ..LawInput::AT_TARGET }
         }
 
         fn acceleration(&self, omega: [f64; 3], torque: [f64; 3]) -> [f64; 3] {
@@ -81,6 +192,71 @@ pub(super) mod plant {
                 self.q_es = self.q_es.map(|x| x / length);
                 self.omega = after;
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::plant::Body;
+    use super::*;
+    use crate::control::rotation::{quaternion_of, vector_of};
+    use crate::math::vector::{conjugate, dcm_from_quaternion, hamilton, norm, transposed_product};
+    use crate::scene::Name;
+
+    /// Law: every law of the list is made from its table, has units and names of its own, and takes energy out of a body that turns at its target.
+    #[test]
+    fn every_law_is_made_and_damps() {
+        let body = Body { inertia: [30.0, 45.0, 20.0], q_es: [1.0, 0.0, 0.0, 0.0], omega: [0.02, -0.01, 0.03] };
+        let craft = KnownBody { inertia: body.matrix() };
+        for (index, kind) in KINDS.iter().enumerate() {
+            assert!(KINDS[..index].iter().all(|other| other.name != kind.name));
+            let mut table = DeclaredTable::of(Name::NONE, kind.parameters);
+            for (value, parameter) in table.values.iter_mut().zip(kind.parameters) {
+                *value = parameter.default.map_or(0.5, |default| default[0]);
+            }
+            let mut law = (kind.make)(&table);
+            let torque = law.torque(&craft, &body.input(), 0.1);
+            assert!(crate::math::vector::dot(torque, body.omega) < -1e-6, "{}: {torque:?}", kind.name);
+        }
+    }
+
+    /// Law: laws that follow a target follow one that turns at a rate that changes, to an error of first order in the period; without the target's rate
+    /// and its derivative they lag behind.
+    #[test]
+    fn a_target_that_turns_is_followed() {
+        let free = f64::INFINITY;
+        let slew = Eigenaxis { stiffness: 0.3, damping: 0.7, largest_rate: free, largest_torque: free };
+        let laws = [
+            AttitudeLaw::QuaternionFeedback(QuaternionFeedback { bandwidth: 0.4, damping: 0.9 }),
+            AttitudeLaw::Eigenaxis(slew),
+            AttitudeLaw::MrpFeedback(MrpFeedback::new(20.0, 25.0)),
+        ];
+        let follow = |mut law: AttitudeLaw, period: f64, is_told: bool| {
+            let mut body = Body { inertia: [30.0, 45.0, 20.0], q_es: [1.0, 0.0, 0.0, 0.0], omega: [0.0; 3] };
+            let craft = KnownBody { inertia: body.matrix() };
+            let axis = [0.48, -0.6, 0.64];
+            for tick in 0..(60.0 / period).round() as usize {
+                // about an axis fixed in F_e by 0.1 t + 0.0005 t^2
+                let time = tick as f64 * period;
+                let q_et = quaternion_of(scaled(0.1 * time + 0.0005 * time * time, axis));
+                let c_es = dcm_from_quaternion(body.q_es);
+                let [rate, acceleration] = [0.1 + 0.001 * time, 0.001].map(|size| if is_told { size } else { 0.0 });
+                let input = LawInput {
+                    q_ts: hamilton(conjugate(q_et), body.q_es),
+                    omega_te_s: transposed_product(c_es, scaled(rate, axis)),
+                    acceleration_te_s: transposed_product(c_es, scaled(acceleration, axis)),
+                    ..body.input()
+                };
+                body.step(law.torque(&craft, &input, period), period, 4);
+            }
+            let q_et = quaternion_of(scaled(0.1 * 60.0 + 0.0005 * 3600.0, axis));
+            norm(vector_of(hamilton(conjugate(q_et), body.q_es)))
+        };
+        for law in laws {
+            let (coarse, fine) = (follow(law, 0.1, true), follow(law, 0.05, true));
+            assert!(fine < 2e-3 && coarse / fine > 1.8, "{coarse} {fine}");
+            assert!(follow(law, 0.1, false) > 0.1);
         }
     }
 }

@@ -1,10 +1,14 @@
 //! [`MrpFeedback`]: proportional to the modified Rodrigues parameters of the error, to the rate, and to an integral.
 
-use super::KnownBody;
+use super::{AttitudeLaw, KnownBody, LawInput, LawKind, limit, number};
+use crate::control::rotation::mrp_of;
 use crate::math::vector::{cross, difference, norm, product, scaled, sum};
+use crate::scene::LawParameter;
+use crate::scene::schema::Limit;
 
-/// u = -K s - P d_omega - P Ki z + (omega_r + Ki z) x H - J (omega x omega_r - omega_r'), with z = K int s dt + J (d_omega - d_omega(0)) and H with the
-/// wheels (H. Schaub & J. L. Junkins, *Analytical Mechanics of Space Systems*, 2018, section 8.4; the form of Basilisk's module `mrpFeedback`).
+/// u = -K s - P omega_st - P Ki z + (omega_te + Ki z) x H - J (omega x omega_te - omega_te'), with s the attitude relative to the target, z = K int s dt + J
+/// omega_st and H with the wheels (H. Schaub & J. L. Junkins, *Analytical Mechanics of Space Systems*, 2018, section 8.4; the form of Basilisk's module
+/// `mrpFeedback`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MrpFeedback {
     /// K, N m.
@@ -19,14 +23,30 @@ pub struct MrpFeedback {
     summed: [f64; 3],
 }
 
-/// What the attitude is to follow.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct MrpReference {
-    /// Rate of the reference relative to F_e, in F_s, rad/s.
-    pub omega_re_s: [f64; 3],
-    /// Its inertial derivative, in F_s, rad/s^2.
-    pub acceleration_s: [f64; 3],
-}
+/// Its keys in campaign files.
+pub static PARAMETERS: [LawParameter; 4] = [
+    LawParameter::number("stiffness_n_m", "N m", "Torque against an MRP of one: K", Limit::Positive),
+    LawParameter::number("damping_n_m_s", "N m s", "Torque against a rate of 1 rad/s: P", Limit::NotNegative),
+    LawParameter::number("integral_1_n_m_s", "1/(N m s)", "Gain of the integral: Ki", Limit::NotNegative).or(&[0.0]),
+    LawParameter::number(
+        "integral_limit_n_m_s",
+        "N m s",
+        "Largest magnitude of each component of the integral of K s; zero: no limit",
+        Limit::NotNegative,
+    )
+    .or(&[0.0]),
+];
+
+/// Its place in the list of laws.
+pub const KIND: LawKind = LawKind {
+    name: "mrp_feedback",
+    parameters: &PARAMETERS,
+    make: |table| {
+        let law = MrpFeedback::new(number(table, "stiffness_n_m"), number(table, "damping_n_m_s"));
+        let integral = number(table, "integral_1_n_m_s");
+        AttitudeLaw::MrpFeedback(law.with_integral(integral, limit(table, "integral_limit_n_m_s")))
+    },
+};
 
 impl MrpFeedback {
     /// Without an integral.
@@ -40,18 +60,11 @@ impl MrpFeedback {
         MrpFeedback { integral, integral_limit: limit, ..self }
     }
 
-    /// The torque on the body, F_s, N m, at a tick `period` seconds after the last one (zero at the first). `mrp` is the attitude relative to the
-    /// reference, `omega` the rate of F_s relative to F_e and `momentum` H, both in F_s.
-    pub fn torque(
-        &mut self,
-        craft: &KnownBody,
-        (mrp, omega, reference): ([f64; 3], [f64; 3], &MrpReference),
-        momentum: [f64; 3],
-        period: f64,
-    ) -> [f64; 3] {
-        let relative = difference(omega, reference.omega_re_s);
+    /// The torque on the body, F_s, N m, at a tick `period` seconds after the last one (zero at the first).
+    pub fn torque(&mut self, craft: &KnownBody, input: &LawInput, period: f64) -> [f64; 3] {
+        let (mrp, relative) = (mrp_of(input.q_ts), input.omega_st_s());
         let mut torque = sum(scaled(self.stiffness, mrp), scaled(self.damping, relative));
-        let mut rate = reference.omega_re_s;
+        let mut rate = input.omega_te_s;
         if self.integral > 0.0 {
             let added = sum(self.summed, scaled(self.stiffness * period, mrp));
             self.summed = added.map(|x| x.clamp(-self.integral_limit, self.integral_limit));
@@ -59,12 +72,12 @@ impl MrpFeedback {
             torque = sum(torque, scaled(self.damping * self.integral, z));
             rate = sum(rate, scaled(self.integral, z));
         }
-        let carried = difference(cross(omega, reference.omega_re_s), reference.acceleration_s);
-        let feedforward = difference(product(craft.inertia, carried), cross(rate, momentum));
+        let carried = difference(cross(input.omega_se_s, input.omega_te_s), input.acceleration_te_s);
+        let feedforward = difference(product(craft.inertia, carried), cross(rate, input.momentum_s));
         scaled(-1.0, sum(torque, feedforward))
     }
 
-    /// The Lyapunov function omega' K omega/2 + 2 K ln(1 + s's) of a reference at rest, whose derivative is -P |omega|^2 (Schaub & Junkins, eq. 8.53).
+    /// The Lyapunov function omega' K omega/2 + 2 K ln(1 + s's) of a target at rest, whose derivative is -P |omega|^2 (Schaub & Junkins, eq. 8.53).
     pub fn lyapunov(&self, craft: &KnownBody, mrp: [f64; 3], omega: [f64; 3]) -> f64 {
         let kinetic: f64 = product(craft.inertia, omega).iter().zip(omega).map(|(h, w)| 0.5 * h * w).sum();
         kinetic + 2.0 * self.stiffness * libm::log1p(norm(mrp) * norm(mrp))
@@ -75,7 +88,7 @@ impl MrpFeedback {
 mod tests {
     use super::*;
     use crate::control::laws::plant::Body;
-    use crate::control::rotation::{mrp_of, quaternion_of};
+    use crate::control::rotation::quaternion_of;
     use crate::math::vector::dot;
 
     /// Law: V falls at -P |omega|^2 to first order in the period, also where the MRP switch to the shadow set, at which V does not jump.
@@ -92,8 +105,7 @@ mod tests {
             let mut before = mrp_of(one.q_es);
             for _ in 0..(40.0 / period) as usize {
                 let v = law.lyapunov(&craft, mrp_of(one.q_es), one.omega);
-                let momentum = product(craft.inertia, one.omega);
-                let torque = law.torque(&craft, (mrp_of(one.q_es), one.omega, &MrpReference::default()), momentum, 0.0);
+                let torque = law.torque(&craft, &one.input(), 0.0);
                 let expected = -30.0 * dot(one.omega, one.omega);
                 one.step(torque, period, 4);
                 let slope = (law.lyapunov(&craft, mrp_of(one.q_es), one.omega) - v) / period;
@@ -108,5 +120,67 @@ mod tests {
         assert!(switches >= 1, "the MRP switch");
         assert!((worst[0] / worst[1]).log2() > 0.8, "first order: {worst:?}");
         assert!(body.omega.iter().all(|rate| rate.abs() < 0.1));
+    }
+
+    /// Basilisk babdff7, src/fswAlgorithms/attControl/mrpFeedback/_UnitTest/test_mrpFeedback.py: the torques of the module (bsk 2.12.1) at its first three
+    /// calls, control law 0, less its known torque of 1 N m along each axis. To the tolerance of the test.
+    #[test]
+    fn torques_are_those_of_basilisk() {
+        let mrp = [0.3, -0.5, 0.7];
+        let square = dot(mrp, mrp);
+        let [x, y, z] = scaled(2.0 / (1.0 + square), mrp);
+        let (omega_st, omega_te_s) = ([0.010, -0.020, 0.015], [-0.02, -0.01, 0.005]);
+        let omega_se_s = sum(omega_st, omega_te_s);
+        let craft = KnownBody { inertia: [[1000.0, 0.0, 0.0], [0.0, 800.0, 0.0], [0.0, 0.0, 800.0]] };
+        let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.577350269190; 3]];
+        let with_wheels = axes.iter().zip([10.0, 25.0, 50.0, 100.0]).fold([0.0; 3], |momentum, (axis, rate)| {
+            sum(momentum, scaled(0.1 * (dot(omega_se_s, *axis) + rate), *axis))
+        });
+        let at_first = [-19.980451627443838, 24.0494926211355, -22.682200993691666];
+        let later = [-20.015983854866544, 24.09802349694307, -22.765700842076527];
+        let without = [[-17.115, 24.065, -24.495], [-17.115, 24.065, -24.495], [-17.14215, 24.1124, -24.5829]];
+        let proportional = [-2.5840975403785, 3.1143559006308337, -2.592678360252333];
+        let alone = [-2.435, 2.865, -2.495];
+        for (integral, limit, momentum, expected) in [
+            (0.01, 0.0, with_wheels, [at_first; 3]),
+            (0.01, 20.0, with_wheels, [at_first, at_first, later]),
+            (0.01, 20.0, [0.0; 3], without),
+            (0.0, 0.0, with_wheels, [proportional; 3]),
+            (0.0, 0.0, [0.0; 3], [alone; 3]),
+        ] {
+            let mut law = MrpFeedback::new(0.15, 150.0).with_integral(integral, limit);
+            let input = LawInput {
+                q_ts: [(1.0 - square) / (1.0 + square), x, y, z],
+                omega_se_s,
+                omega_te_s,
+                acceleration_te_s: [0.0002, 0.0003, 0.0001],
+                momentum_s: sum(product(craft.inertia, omega_se_s), momentum),
+            };
+            for (period, expected) in [0.0, 0.0, 0.5].into_iter().zip(expected) {
+                let found = law.torque(&craft, &input, period);
+                let difference = norm(difference(found, expected.map(|torque| torque + 1.0)));
+                assert!(difference < 1e-8, "{integral} {limit} {period}: {found:?} for {expected:?}");
+            }
+        }
+    }
+
+    /// Law: the integral removes what a constant torque leaves without it, in a loop of its own.
+    #[test]
+    fn the_integral_removes_the_offset() {
+        let left = |integral: f64| {
+            let mut law = MrpFeedback::new(1.0, 10.0).with_integral(integral, f64::INFINITY);
+            let mut body = Body { inertia: [30.0, 45.0, 20.0], q_es: [1.0, 0.0, 0.0, 0.0], omega: [0.0; 3] };
+            let craft = KnownBody { inertia: body.matrix() };
+            for tick in 0..8000 {
+                let period = if tick == 0 { 0.0 } else { 0.2 };
+                let torque = law.torque(&craft, &body.input(), period);
+                body.step(sum(torque, [0.02, -0.01, 0.03]), 0.2, 1);
+            }
+            norm(mrp_of(body.q_es))
+        };
+        // K s balances the torque
+        let offset = norm([0.02, -0.01, 0.03]);
+        assert!((left(0.0) / offset - 1.0).abs() < 1e-6, "{}", left(0.0));
+        assert!(left(0.005) < 1e-6, "{}", left(0.005));
     }
 }

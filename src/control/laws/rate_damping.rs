@@ -1,8 +1,32 @@
-//! [`rate_damping`]: a torque against the rate.
+//! [`RateDamping`]: a torque against the rate.
 
-/// The torque u = -gain omega against the rate `omega` (rad/s, F_s); `gain` in N m s. The energy of rotation falls at -gain |omega|^2.
-pub fn rate_damping(gain: f64, omega: [f64; 3]) -> [f64; 3] {
-    omega.map(|rate| -gain * rate)
+use super::{AttitudeLaw, LawInput, LawKind, number};
+use crate::scene::LawParameter;
+use crate::scene::schema::Limit;
+
+/// The torque u = -gain omega against the rate relative to F_e. The energy of rotation falls at -gain |omega|^2.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RateDamping {
+    /// Gain, N m s.
+    pub gain: f64,
+}
+
+/// Its keys in campaign files.
+pub static PARAMETERS: [LawParameter; 1] =
+    [LawParameter::number("gain_n_m_s", "N m s", "Torque against a rate of 1 rad/s", Limit::Positive)];
+
+/// Its place in the list of laws.
+pub const KIND: LawKind = LawKind {
+    name: "rate_damping",
+    parameters: &PARAMETERS,
+    make: |table| AttitudeLaw::RateDamping(RateDamping { gain: number(table, "gain_n_m_s") }),
+};
+
+impl RateDamping {
+    /// The torque on the body, F_s, N m.
+    pub fn torque(&self, input: &LawInput) -> [f64; 3] {
+        input.omega_se_s.map(|rate| -self.gain * rate)
+    }
 }
 
 #[cfg(test)]
@@ -18,7 +42,7 @@ mod tests {
         let energy = |body: &Body| 0.5 * dot(body.omega, product(body.matrix(), body.omega));
         for period in [0.1, 0.01] {
             let mut body = start;
-            body.step(rate_damping(4.0, body.omega), period, 4);
+            body.step(RateDamping { gain: 4.0 }.torque(&body.input()), period, 4);
             let (slope, law) = ((energy(&body) - energy(&start)) / period, -4.0 * dot(start.omega, start.omega));
             assert!((slope / law - 1.0).abs() < 0.2 * period, "{slope} for {law}");
         }

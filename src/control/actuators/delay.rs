@@ -1,0 +1,63 @@
+//! [`DelayQueue`]: commands on their way to the actuators.
+
+use std::collections::VecDeque;
+
+/// Commands that act from a later time on, each until the next one does. A command computed at a tick acts after the delay, which has any length.
+#[derive(Clone, Debug)]
+pub struct DelayQueue<C> {
+    acting: C,
+    /// The commands that do not act yet, with the time from which they do, s, ascending.
+    waiting: VecDeque<(f64, C)>,
+}
+
+impl<C: Copy> DelayQueue<C> {
+    /// `initial` acts until the first command does. Has room for what is on its way at a delay of `delay` seconds and a command every `period` seconds, so
+    /// that nothing is allocated later.
+    pub fn new(initial: C, delay: f64, period: f64) -> Self {
+        let room = (delay / period).ceil() as usize + 2;
+        DelayQueue { acting: initial, waiting: VecDeque::with_capacity(room) }
+    }
+
+    /// Adds `command`, which acts from `time` on, s: not before those that were added earlier.
+    pub fn push(&mut self, time: f64, command: C) {
+        debug_assert!(self.waiting.back().is_none_or(|(before, _)| *before <= time), "commands in order");
+        self.waiting.push_back((time, command));
+    }
+
+    /// The command that acts at `time`, and when the next one takes its place: infinite where none is on its way. Times ascend from call to call.
+    pub fn at(&mut self, time: f64) -> (C, f64) {
+        while let Some((_, command)) = self.waiting.pop_front_if(|(from, _)| *from <= time) {
+            self.acting = command;
+        }
+        (self.acting, self.waiting.front().map_or(f64::INFINITY, |(from, _)| *from))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: at any time that command acts which is the latest whose time has come, for any ratio of delay and period; and the room suffices.
+    #[test]
+    fn the_latest_command_whose_time_has_come_acts() {
+        for (delay, period) in [(0.0, 0.1), (0.1, 0.1), (0.25, 0.1), (0.03, 0.1), (1.7, 0.3)] {
+            let mut queue = DelayQueue::new(-1, delay, period);
+            let room = queue.waiting.capacity();
+            let from = |tick: i32| f64::from(tick) * period + delay;
+            for tick in 0..50 {
+                queue.push(from(tick), tick);
+                let end = f64::from(tick + 1) * period;
+                let mut time = f64::from(tick) * period;
+                while time < end {
+                    let (acting, next) = queue.at(time);
+                    let expected = (0..=tick).rev().find(|earlier| from(*earlier) <= time).unwrap_or(-1);
+                    assert_eq!(acting, expected, "at {time}");
+                    let later = (0..=tick).map(from).find(|from| *from > time);
+                    assert_eq!(next, later.unwrap_or(f64::INFINITY));
+                    time = next.min(end);
+                }
+            }
+            assert_eq!(queue.waiting.capacity(), room, "nothing was allocated");
+        }
+    }
+}

@@ -1,0 +1,171 @@
+//! [`ThrusterDrive`]: what a thruster makes of a wanted mean thrust over a control period.
+
+/// How a thruster is driven.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ThrustMode {
+    /// To any thrust up to its largest.
+    Throttled,
+    /// On or off, for a share of the period that makes the mean. What is too short for a pulse is kept and added in the next period, so that no impulse is
+    /// lost (Basilisk's `thrFiringRemainder`).
+    Remainder,
+    /// On or off. What is too short for a pulse makes one of the least length from the share `on` of it upwards, none from `off` downwards, and what the last
+    /// period made in between (a Schmitt trigger; Basilisk's `thrFiringSchmitt`).
+    Hysteresis {
+        /// Share of the least length at which a pulse starts.
+        on: f64,
+        /// The share at which it stops; below `on`.
+        off: f64,
+    },
+}
+
+/// A thruster's valve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ThrusterDrive {
+    /// How it is driven.
+    pub mode: ThrustMode,
+    /// Largest thrust, N; that while it is on, where it is on or off. Infinite only of one that is throttled without a limit.
+    pub most: f64,
+    /// Least length of a pulse, s: the minimum impulse bit over the thrust. Not above the control period. Of no effect where it is throttled.
+    pub least_on: f64,
+}
+
+/// What a thruster remembers from one period to the next.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PulseState {
+    /// The length of pulse that was too short to be made, s.
+    pub remainder: f64,
+    /// Whether it was on in the last period.
+    pub was_on: bool,
+}
+
+/// The thrust over a period.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pulse {
+    /// Thrust from the start of the period on, N.
+    pub thrust: f64,
+    /// How long, s: the period itself where it does not end before.
+    pub on_time: f64,
+    /// The wanted mean thrust beyond the largest, N.
+    pub excess: f64,
+}
+
+impl ThrusterDrive {
+    /// The thrust over a period of `period` seconds in which the mean thrust `wanted` (N; below zero as zero) is wanted.
+    pub fn over(&self, wanted: f64, period: f64, state: &mut PulseState) -> Pulse {
+        let wanted = wanted.max(0.0);
+        let excess = (wanted - self.most).max(0.0);
+        let length = wanted / self.most * period;
+        let on_time = match self.mode {
+            ThrustMode::Throttled => {
+                let thrust = wanted.min(self.most);
+                return Pulse { thrust, on_time: if thrust > 0.0 { period } else { 0.0 }, excess };
+            }
+            ThrustMode::Remainder => {
+                let length = length + std::mem::take(&mut state.remainder);
+                if length < self.least_on {
+                    state.remainder = length;
+                    0.0
+                } else {
+                    length
+                }
+            }
+            ThrustMode::Hysteresis { on, off } => {
+                if length >= self.least_on {
+                    length
+                } else {
+                    let share = length / self.least_on;
+                    let is_on = share >= on || (share > off && state.was_on);
+                    if is_on { self.least_on } else { 0.0 }
+                }
+            }
+        };
+        state.was_on = on_time > 0.0;
+        Pulse { thrust: if state.was_on { self.most } else { 0.0 }, on_time: on_time.min(period), excess }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The thruster of Basilisk's tests: 0.5 N, 0.2 s at least, a period of 0.5 s.
+    const PERIOD: f64 = 0.5;
+    const THRUSTER: ThrusterDrive = ThrusterDrive { mode: ThrustMode::Remainder, most: 0.5, least_on: 0.2 };
+
+    /// The lengths of the pulses of each thruster over the periods, in which `wanted` is wanted.
+    fn assert_pulses<const P: usize>(drive: ThrusterDrive, wanted: [[f64; 8]; P], expected: [[f64; 8]; P]) {
+        let mut states = [PulseState::default(); 8];
+        for (wanted, expected) in wanted.iter().zip(expected) {
+            for (one, state) in states.iter_mut().enumerate() {
+                let pulse = drive.over(wanted[one], PERIOD, state);
+                // Basilisk writes 1.1 periods where the pulse does not end within it
+                let expected = expected[one].min(PERIOD);
+                assert!((pulse.on_time - expected).abs() < 1e-12, "{one}: {pulse:?} for {expected}");
+                assert_eq!(pulse.thrust, if pulse.on_time > 0.0 { 0.5 } else { 0.0 });
+            }
+        }
+    }
+
+    /// Basilisk babdff7, src/fswAlgorithms/effectorInterfaces/thrFiringRemainder/_UnitTest/test_thrFiringRemainder.py, to its tolerance; its first two
+    /// rows are before the module knows a period. Off-pulsing is a thrust less than the largest.
+    #[test]
+    fn pulses_with_remainder_are_those_of_basilisk() {
+        let wanted = [0.5, 0.05, 0.1, 0.15, 0.19, 0.0, 0.2, 0.49];
+        let odd = [0.55, 0.0, 0.0, 0.0, 0.0, 0.0, 0.2, 0.49];
+        let second = [0.55, 0.0, 0.2, 0.3, 0.38, 0.0, 0.2, 0.49];
+        let fourth = [0.55, 0.2, 0.2, 0.3, 0.38, 0.0, 0.2, 0.49];
+        assert_pulses(THRUSTER, [wanted; 5], [odd, second, odd, fourth, odd]);
+        let less = [-0.5, 0.0, -0.1, -0.2, -0.3, -0.34, -0.39, -0.44].map(|less| 0.5 + less);
+        let odd = [0.0, 0.55, 0.4, 0.3, 0.2, 0.0, 0.0, 0.0];
+        let second = [0.0, 0.55, 0.4, 0.3, 0.2, 0.32, 0.22, 0.0];
+        let fourth = [0.0, 0.55, 0.4, 0.3, 0.2, 0.32, 0.22, 0.24];
+        assert_pulses(THRUSTER, [less; 5], [odd, second, odd, fourth, odd]);
+    }
+
+    /// Basilisk babdff7, src/fswAlgorithms/effectorInterfaces/thrFiringSchmitt/_UnitTest/test_thrFiringSchmitt.py, to its tolerance.
+    #[test]
+    fn pulses_with_hysteresis_are_those_of_basilisk() {
+        let drive = ThrusterDrive { mode: ThrustMode::Hysteresis { on: 0.75, off: 0.25 }, ..THRUSTER };
+        let last = |last: f64| [0.5, 0.05, 0.09, 0.11, 0.16, 0.18, 0.2, last];
+        let on = |last: f64| [0.55, 0.0, 0.0, 0.0, 0.2, 0.2, 0.2, last];
+        let wanted = [last(0.49), last(0.11), last(0.11), last(0.01), last(0.11)];
+        assert_pulses(drive, wanted, [on(0.49), on(0.2), on(0.2), on(0.0), on(0.0)]);
+        let fifth = |less: f64| [0.0, -0.1, -0.2, -0.3, less, -0.351, -0.451, -0.5].map(|less| 0.5 + less);
+        let on = |fifth: f64| [0.55, 0.4, 0.3, 0.2, fifth, 0.0, 0.0, 0.0];
+        let wanted = [fifth(-0.349), fifth(-0.351), fifth(-0.351), fifth(-0.5), fifth(-0.351)];
+        assert_pulses(drive, wanted, [on(0.2), on(0.2), on(0.2), on(0.0), on(0.0)]);
+    }
+
+    /// Law: with remainder, the impulse is the wanted one within one minimum bit at the end of every period, whatever is wanted within reach; with
+    /// hysteresis it is not, which is what the remainder is for.
+    #[test]
+    fn no_impulse_is_lost() {
+        let error = |drive: ThrusterDrive| {
+            let (mut state, mut wanted, mut given, mut worst) = (PulseState::default(), 0.0, 0.0, 0.0_f64);
+            for tick in 0..5000 {
+                let mean = 0.02 + 0.018 * libm::sin(0.37 * f64::from(tick));
+                wanted += mean * PERIOD;
+                let pulse = drive.over(mean, PERIOD, &mut state);
+                given += pulse.thrust * pulse.on_time;
+                worst = worst.max((wanted - given).abs());
+            }
+            worst
+        };
+        let bit = 0.5 * 0.2;
+        assert!(error(THRUSTER) <= bit * (1.0 + 1e-9));
+        let hysteresis = ThrusterDrive { mode: ThrustMode::Hysteresis { on: 0.75, off: 0.25 }, ..THRUSTER };
+        assert!(error(hysteresis) > 10.0 * bit);
+    }
+
+    /// Law: a throttled thruster gives what is wanted up to its largest thrust, and says what is beyond.
+    #[test]
+    fn a_throttled_thruster_follows() {
+        let drive = ThrusterDrive { mode: ThrustMode::Throttled, ..THRUSTER };
+        let mut state = PulseState::default();
+        for (wanted, thrust, on_time, excess) in [(0.2, 0.2, 0.5, 0.0), (0.75, 0.5, 0.5, 0.25), (-1.0, 0.0, 0.0, 0.0)] {
+            assert_eq!(drive.over(wanted, PERIOD, &mut state), Pulse { thrust, on_time, excess });
+        }
+        let free = ThrusterDrive { most: f64::INFINITY, ..drive };
+        assert_eq!(free.over(1e3, PERIOD, &mut state), Pulse { thrust: 1e3, on_time: 0.5, excess: 0.0 });
+    }
+}

@@ -1,0 +1,213 @@
+//! [`WheelDrive`]: the torque on a wheel over an arc, of its motor within limits and of friction.
+//!
+//! All of it is held over the arc, so that friction and limits are right to first order in the arc's length. The rate at the end is predicted from the
+//! torque on the wheel alone: what else turns the body changes it, which the next arc sees.
+
+use crate::math::vector::{dot, product};
+
+/// A wheel's motor and bearing. Torques are about the wheel's axis and act on the wheel; the body takes the opposite.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WheelDrive {
+    /// What resists a change of the wheel's rate relative to the body, kg m^2: [`relative_inertia`].
+    pub inertia: f64,
+    /// Largest torque of the motor, N m; infinite without a limit.
+    pub torque_limit: f64,
+    /// Largest rate relative to the body to which the motor accelerates, rad/s; infinite without a limit.
+    pub speed_limit: f64,
+    /// Coulomb friction, N m.
+    pub coulomb: f64,
+    /// Viscous friction, N m s.
+    pub viscous: f64,
+    /// Factor of the commanded torque.
+    pub torque_scale: f64,
+    /// What the motor gives beyond it while a torque other than zero is commanded, N m.
+    pub torque_bias: f64,
+}
+
+/// What acts on a wheel over an arc.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Driven {
+    /// Torque on the wheel, of motor and friction, N m.
+    pub torque: f64,
+    /// That of the motor, N m.
+    pub motor: f64,
+    /// What the motor would give beyond that without limits, in magnitude, N m.
+    pub excess: f64,
+    /// Whether the limit of the torque cuts it.
+    pub is_torque_limited: bool,
+    /// Whether the limit of the rate does.
+    pub is_speed_limited: bool,
+}
+
+/// What resists a change of the rate relative to the body of a wheel with the axial inertia `axial` (kg m^2) about `axis` (in F_s): its motor turns the
+/// body too, omega' = -K^-1 a tau, so that Omega' = tau (1/J + a.K^-1 a). `inverse` is K^-1, 1/(kg m^2), F_s.
+pub fn relative_inertia(axial: f64, axis: [f64; 3], inverse: [[f64; 3]; 3]) -> f64 {
+    axial / (1.0 + axial * dot(axis, product(inverse, axis)))
+}
+
+impl WheelDrive {
+    /// Without limits, friction and errors.
+    pub const fn ideal(inertia: f64) -> Self {
+        WheelDrive {
+            inertia,
+            torque_limit: f64::INFINITY,
+            speed_limit: f64::INFINITY,
+            coulomb: 0.0,
+            viscous: 0.0,
+            torque_scale: 1.0,
+            torque_bias: 0.0,
+        }
+    }
+
+    /// What acts over an arc of `length` > 0 seconds at whose start the wheel has the rate `rate` relative to the body (rad/s), where the torque
+    /// `commanded` (N m) is commanded.
+    ///
+    /// The motor accelerates the wheel no further than to the limit of the rate; beyond the limit it leaves the wheel to friction, or brakes as
+    /// commanded. Viscous friction has its value at the start, Coulomb friction too, against the motion; but neither turns the wheel back: where it would, it is
+    /// what stops the wheel at the end. A wheel at rest stays at rest where its motor is weaker than Coulomb friction.
+    pub fn over(&self, commanded: f64, rate: f64, length: f64) -> Driven {
+        let bias = if commanded == 0.0 { 0.0 } else { self.torque_bias };
+        let asked = self.torque_scale * commanded + bias;
+        let within = asked.clamp(-self.torque_limit, self.torque_limit);
+        // the torque that changes the rate by 1 rad/s over the arc
+        let per_rate = self.inertia / length;
+        // the most that the motor may do along a direction in which the rate is `along`: up to the limit, and against friction
+        let friction = |along: f64| if along > 0.0 { self.coulomb + self.viscous * along } else { 0.0 };
+        let most = |along: f64| (per_rate * (self.speed_limit - along) + friction(along)).max(0.0);
+        let motor = within.clamp(-most(-rate), most(rate));
+        // where the motor turns the wheel round, viscous friction changes sign on the way
+        let to_stop = rate * per_rate + motor;
+        let viscous =
+            if to_stop * rate > 0.0 { (self.viscous * rate).abs().min(to_stop.abs()).copysign(-rate) } else { 0.0 };
+        let friction = viscous - (to_stop + viscous).clamp(-self.coulomb, self.coulomb);
+        Driven {
+            torque: motor + friction,
+            motor,
+            excess: (asked - motor).abs(),
+            is_torque_limited: within != asked,
+            is_speed_limited: motor != within,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WHEEL: WheelDrive = WheelDrive::ideal(0.5);
+
+    /// The rates after each of `arcs` arcs of `length` seconds with the commands `command`.
+    fn rates(
+        wheel: &WheelDrive,
+        start: f64,
+        length: f64,
+        arcs: usize,
+        mut command: impl FnMut(f64) -> f64,
+    ) -> Vec<f64> {
+        let mut rate = start;
+        let mut next = || {
+            rate += wheel.over(command(rate), rate, length).torque * length / wheel.inertia;
+            rate
+        };
+        (0..arcs).map(|_| next()).collect()
+    }
+
+    /// Law: under Coulomb friction the rate falls linearly; the wheel stops, from either side, and stays, also under a motor that is weaker.
+    #[test]
+    fn coulomb_friction_stops_a_wheel() {
+        let wheel = WheelDrive { coulomb: 0.02, ..WHEEL };
+        for start in [3.0, -3.0, 2.9997] {
+            // 3 rad/s at 0.04 rad/s^2: 75 s
+            let found = rates(&wheel, start, 0.7, 200, |_| 0.0);
+            assert!((found[99].abs() - (start.abs() - 0.04 * 70.0)).abs() < 1e-13);
+            assert!(found[..106].iter().all(|rate| rate * start > 0.0), "{start}");
+            // rounding of the torque that stops it
+            assert!(found[108..].iter().all(|rate| rate.abs() < 1e-15), "{:?}", &found[104..110]);
+        }
+        let at_rest = rates(&wheel, 0.0, 0.7, 10, |_| 0.0199);
+        assert!(at_rest.iter().all(|rate| *rate == 0.0));
+        let pushed = rates(&wheel, 0.0, 0.7, 10, |_| 0.03);
+        assert!((pushed[9] - 0.01 / 0.5 * 7.0).abs() < 1e-15, "{pushed:?}");
+        // where the motor carries it through zero, friction is against the motion at the end
+        let through = wheel.over(-2.0, 0.4, 0.7);
+        assert!((through.torque + 1.98).abs() < 1e-15);
+    }
+
+    /// Law: under viscous friction the rate decays exponentially, with an error of first order in the arc's length; over an arc far longer than the time
+    /// constant it stops, and does not turn back.
+    #[test]
+    fn viscous_friction_decays() {
+        let wheel = WheelDrive { viscous: 0.05, ..WHEEL };
+        let expected = 4.0 * libm::exp(-0.1 * 12.0);
+        let [coarse, fine] = [0.2, 0.1].map(|length| {
+            let arcs = (12.0_f64 / length).round() as usize;
+            rates(&wheel, 4.0, length, arcs, |_| 0.0)[arcs - 1] - expected
+        });
+        assert!(((coarse / fine).log2() - 1.0).abs() < 0.02, "{coarse} and {fine}");
+        assert!(rates(&wheel, 4.0, 1000.0, 1, |_| 0.0)[0].abs() < 1e-15);
+    }
+
+    /// Law: whatever is commanded, the motor stays within its limit and the rate within its own; the excess is what is missing; and what is within both
+    /// limits is given as it is.
+    #[test]
+    fn limits_hold() {
+        let wheel = WheelDrive { torque_limit: 0.3, speed_limit: 2.0, coulomb: 0.01, viscous: 0.004, ..WHEEL };
+        let mut state = 1_u64;
+        let mut random = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        };
+        let (mut rate, mut met) = (0.0, [0_u32; 4]);
+        for _ in 0..20_000 {
+            let (commanded, length) = (0.5 * random() + 0.1, 0.05 + 2.0 * random().abs());
+            let found = wheel.over(commanded, rate, length);
+            assert!(found.motor.abs() <= 0.3 && (found.excess - (commanded - found.motor).abs()).abs() < 1e-16);
+            assert_eq!(found.is_torque_limited || found.is_speed_limited, found.motor != commanded);
+            assert!(found.motor * commanded >= 0.0, "a limit turns no torque round");
+            rate += found.torque * length / wheel.inertia;
+            assert!(rate.abs() <= 2.0 * (1.0 + 1e-15), "{rate}");
+            met[usize::from(found.is_torque_limited) + 2 * usize::from(found.is_speed_limited)] += 1;
+        }
+        assert!(met.iter().all(|count| *count > 300), "{met:?}");
+        // held at the limit against friction; above it, left to friction
+        let at_limit = wheel.over(0.3, 2.0, 0.1);
+        assert!(at_limit.torque.abs() < 1e-16 && (at_limit.motor - 0.018).abs() < 1e-16, "{at_limit:?}");
+        assert_eq!(wheel.over(0.3, 3.0, 0.1).motor, 0.0);
+        assert_eq!(wheel.over(-0.3, 3.0, 0.1).motor, -0.3);
+    }
+
+    /// Basilisk babdff7, src/simulation/dynamics/reactionWheels/_UnitTest/test_reactionWheelStateEffector_ConfigureRWRequests.py: cases saturation and
+    /// speedSaturation, u_current exactly.
+    #[test]
+    fn limits_are_those_of_basilisk() {
+        for (limit, commanded, expected) in [(1.0, -1.2, -1.0), (2.0, 1.5, 1.5), (2.0, 2.5, 2.0)] {
+            let wheel = WheelDrive { torque_limit: limit, ..WHEEL };
+            assert_eq!(wheel.over(commanded, 0.0, 0.1).torque, expected);
+        }
+        for (rate, expected) in [(49.0, 1.5), (51.0, 0.0), (-52.0, 1.5)] {
+            let wheel = WheelDrive { speed_limit: 50.0, ..WHEEL };
+            assert_eq!(wheel.over(1.5, rate, 0.1).torque, expected);
+        }
+    }
+
+    /// Law: scale and bias act as on the commands of a schedule: the bias only while a torque is commanded.
+    #[test]
+    fn scale_and_bias_act() {
+        let wheel = WheelDrive { torque_scale: 0.9, torque_bias: 0.01, ..WHEEL };
+        assert_eq!([1.0, 0.0].map(|commanded| wheel.over(commanded, 0.0, 0.1).torque), [0.91, 0.0]);
+        assert_eq!(WheelDrive { torque_scale: 0.0, torque_bias: 0.0, ..wheel }.over(1.0, 0.0, 0.1).torque, 0.0);
+    }
+
+    /// Law: the torque that stops a wheel on a body stops it: its rate relative to the body, which takes the opposite torque.
+    #[test]
+    fn the_body_is_part_of_the_inertia() {
+        let (axial, axis, moments) = (0.8, [0.6, 0.0, 0.8], [3.0, 2.0, 5.0]);
+        let inverse = std::array::from_fn(|i| std::array::from_fn(|j| if i == j { 1.0 / moments[i] } else { 0.0 }));
+        let wheel = WheelDrive { coulomb: 10.0, ..WheelDrive::ideal(relative_inertia(axial, axis, inverse)) };
+        let (rate, length) = (1.5, 0.25);
+        let torque = wheel.over(0.0, rate, length).torque;
+        // h' = tau and omega' = -K^-1 a tau, from rest
+        let of_body: f64 = (0..3).map(|i| -axis[i] * axis[i] / moments[i] * torque * length).sum();
+        assert!((rate + torque * length / axial - of_body).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,122 @@
+//! [`WheelTorque`]: torques of wheels' motors that give a wanted torque on the body, with the least norm.
+
+use crate::math::list::List;
+use crate::math::symmetric::principal_axes;
+use crate::math::vector::{dot, product, scaled, sum};
+use crate::scene::MAX_WHEELS;
+
+/// Axes of wheels whose products with a direction have squares below this, relative to the largest such sum, do not reach it: between the rounding of
+/// directions, 1e-32, and an alignment that anybody uses, 1e-6.
+const NOT_REACHED: f64 = 1e-18;
+
+/// What is known of the wheels' axes, made once per run.
+///
+/// A motor's torque tau on a wheel acts as -tau on the body: u = -A tau, with the axes as columns of A. tau = -A^T (A A^T)^+ u has the least norm of
+/// all that give the part of u within the span of the axes (the pseudo-inverse of R. Penrose, Proc. Cambridge Phil. Soc. 51, 1955).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WheelTorque {
+    /// Torques of the motors for a unit torque on the body along each axis of F_s, by wheels.
+    gains: List<[f64; 3], MAX_WHEELS>,
+    /// The projection onto the span of the axes, F_s: torques on the body that the wheels can give.
+    pub reachable: [[f64; 3]; 3],
+}
+
+impl WheelTorque {
+    /// That of wheels with the axes `axes`, unit vectors in F_s.
+    ///
+    /// # Panics
+    /// With more than [`MAX_WHEELS`] wheels.
+    pub fn new(axes: &[[f64; 3]]) -> Self {
+        let gram = std::array::from_fn(|i| std::array::from_fn(|j| axes.iter().map(|axis| axis[i] * axis[j]).sum()));
+        let (moments, c_sb) = principal_axes::<f64>(gram);
+        let least = NOT_REACHED * moments.iter().copied().fold(0.0, f64::max);
+        let (mut inverse, mut reachable) = ([[0.0; 3]; 3], [[0.0; 3]; 3]);
+        for (column, moment) in moments.iter().enumerate().filter(|(_, moment)| **moment > least) {
+            let direction = c_sb.map(|row| row[column]);
+            for i in 0..3 {
+                inverse[i] = sum(inverse[i], scaled(direction[i] / moment, direction));
+                reachable[i] = sum(reachable[i], scaled(direction[i], direction));
+            }
+        }
+        let mut gains = List::empty([0.0; 3]);
+        axes.iter().for_each(|axis| gains.push(scaled(-1.0, product(inverse, *axis))));
+        WheelTorque { gains, reachable }
+    }
+
+    /// The torques of the motors on the wheels (N m, in the order of the axes) for the torque `torque_s` on the body, F_s, N m: of its part within reach.
+    pub fn motors(&self, torque_s: [f64; 3]) -> [f64; MAX_WHEELS] {
+        let mut found = [0.0; MAX_WHEELS];
+        found.iter_mut().zip(&self.gains).for_each(|(motor, gain)| *motor = dot(*gain, torque_s));
+        found
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::vector::{cross, difference, norm};
+
+    fn on_body(axes: &[[f64; 3]], motors: [f64; MAX_WHEELS]) -> [f64; 3] {
+        axes.iter().zip(motors).fold([0.0; 3], |total, (axis, motor)| sum(total, scaled(-motor, *axis)))
+    }
+
+    const WANTED: [f64; 3] = [1.0, -0.5, 0.7];
+
+    /// Basilisk babdff7, src/fswAlgorithms/effectorInterfaces/rwMotorTorque: four wheels from _UnitTest/test_rwMotorTorque.py; six random ones from the
+    /// module itself (bsk 2.12.1). To the tolerance of its test.
+    #[test]
+    fn torques_are_those_of_basilisk() {
+        let third = 0.5773502691896258;
+        let four = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [third; 3]];
+        let six = [
+            [0.36815599414605404, 0.8625369005707553, 0.3471185087662796],
+            [-0.7881538574271424, 0.5517077001989997, 0.27282248910939544],
+            [-0.620402839460086, 0.6663586053460183, 0.4136018929733907],
+            [0.4658672107634492, 0.04819315973414992, 0.8835412617927487],
+            [-0.8254898842683464, -0.17848429930126408, -0.5354528979037922],
+            [0.8987314371357156, 0.05991542914238104, -0.4343868612822625],
+        ];
+        let of_six = [
+            0.24762878001693794,
+            0.3674036531700312,
+            0.29795129903024253,
+            -0.7656263714059923,
+            0.49084120900520845,
+            0.16147103315296474,
+        ];
+        let of_four = [-0.8, 0.7000000000000001, -0.5, -0.3464101615137755];
+        for (axes, expected) in [(&four[..], &of_four[..]), (&six[..], &of_six[..])] {
+            let found = WheelTorque::new(axes).motors(WANTED);
+            for (found, expected) in found.iter().zip(expected) {
+                assert!((found - expected).abs() < 1e-12, "{found} for {expected}");
+            }
+        }
+    }
+
+    /// Law: two wheels give the part of the torque in their plane, with torques of the least norm; one wheel gives the part along it; parallel wheels
+    /// share.
+    #[test]
+    fn the_part_within_reach_is_given() {
+        let a = scaled(1.0 / norm([1.0, 2.0, 2.0]), [1.0, 2.0, 2.0]);
+        let b = scaled(1.0 / norm([2.0, -1.0, 0.5]), [2.0, -1.0, 0.5]);
+        for axes in [&[a, b][..], &[a][..], &[a, a, scaled(-1.0, a)][..], &[a, b, scaled(-1.0, b)][..]] {
+            let wheels = WheelTorque::new(axes);
+            let motors = wheels.motors(WANTED);
+            let given = on_body(axes, motors);
+            let off = norm(difference(given, product(wheels.reachable, WANTED)));
+            // two inversions of the axes' products. Measured: XX
+            assert!(off < 1e-15, "{off:e}");
+            // what is not given no wheel could give
+            let most = axes.iter().map(|axis| dot(difference(WANTED, given), *axis).abs()).fold(0.0, f64::max);
+            assert!(most < 4e-16, "{most:e}");
+        }
+        let shared = WheelTorque::new(&[a, a, scaled(-1.0, a)]).motors(WANTED);
+        assert!((shared[0] - shared[1]).abs() < 1e-16 && (shared[0] + shared[2]).abs() < 1e-16);
+        // the trace of a projection is the number of axes
+        let plane = WheelTorque::new(&[a, b]);
+        let normal = cross(a, b);
+        assert!(((0..3).map(|i| plane.reachable[i][i]).sum::<f64>() - 2.0).abs() < 1e-15);
+        assert!(norm(product(plane.reachable, normal)) < 1e-15);
+        assert_eq!(WheelTorque::new(&[]).motors(WANTED), [0.0; MAX_WHEELS]);
+    }
+}

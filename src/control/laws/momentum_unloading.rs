@@ -1,0 +1,99 @@
+//! [`MomentumUnloading`]: a torque of thrusters that takes momentum out of the wheels.
+
+use super::number;
+use crate::math::vector::{norm, product, scaled};
+use crate::scene::schema::Limit;
+use crate::scene::{DeclaredTable, LawParameter};
+
+/// The torque -(|h| - h_0)/T h/|h| on the body for the momentum h of the wheels along the axes on which thrusters have torque; none where |h| is within the
+/// dead band h_0. The law of attitude then asks the wheels for as much less, so that they give their momentum to it: h decays to the dead band with the time
+/// constant T. Momentum across those axes stays: it needs a turn first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MomentumUnloading {
+    /// Momentum h_0 that may stay in the wheels, N m s.
+    pub dead_band: f64,
+    /// Time constant T, s.
+    pub time_constant: f64,
+}
+
+/// Its keys in campaign files.
+pub static PARAMETERS: [LawParameter; 2] = [
+    LawParameter::number(
+        "unloading_time_s",
+        "s",
+        "Time constant with which momentum leaves the wheels",
+        Limit::Positive,
+    ),
+    LawParameter::number(
+        "unloading_dead_band_n_m_s",
+        "N m s",
+        "Momentum that may stay in the wheels",
+        Limit::NotNegative,
+    )
+    .or(&[0.0]),
+];
+
+impl MomentumUnloading {
+    /// With the parameters of `table`.
+    ///
+    /// # Panics
+    /// Where `table` does not declare them.
+    pub fn of(table: &DeclaredTable) -> Self {
+        let dead_band = number(table, "unloading_dead_band_n_m_s");
+        MomentumUnloading { dead_band, time_constant: number(table, "unloading_time_s") }
+    }
+
+    /// The wanted change of the momentum `wheels_s` of the wheels relative to the body, sum J_i Omega_i a_i, both in F_s, N m s: to the dead band.
+    pub fn change(&self, wheels_s: [f64; 3]) -> [f64; 3] {
+        let size = norm(wheels_s);
+        if size <= self.dead_band { [0.0; 3] } else { scaled(-(size - self.dead_band) / size, wheels_s) }
+    }
+
+    /// The torque on the body that thrusters are to give, F_s, N m. `two_sided` is the projection onto the torques that they can give in both directions
+    /// ([`crate::control::allocation::ThrustAllocation::two_sided_torques`]).
+    pub fn torque(&self, wheels_s: [f64; 3], two_sided: [[f64; 3]; 3]) -> [f64; 3] {
+        scaled(1.0 / self.time_constant, self.change(product(two_sided, wheels_s)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::vector::{difference, sum};
+
+    const ALL: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+    /// Basilisk babdff7, src/fswAlgorithms/attControl/thrMomentumManagement/_UnitTest/test_thrMomentumManagement.py, to its tolerance.
+    #[test]
+    fn changes_are_those_of_basilisk() {
+        let fourth = scaled(0.1 * 100.0, [0.5773502691896258; 3]);
+        let wheels = sum([0.1 * 10.0, 0.1 * -25.0, 0.1 * 50.0], fourth);
+        let cases = [
+            (100.0 / 6000.0 * 100.0, [-5.914369484146579, -2.858300248464629, -9.407020039211664]),
+            (1000.0 / 6000.0 * 100.0, [0.0; 3]),
+        ];
+        for (dead_band, expected) in cases {
+            let found = MomentumUnloading { dead_band, time_constant: 1.0 }.change(wheels);
+            assert!(norm(difference(found, expected)) < 1e-12, "{found:?}");
+        }
+    }
+
+    /// Law: the momentum along the axes within reach decays to the dead band with the time constant, to first order in the period; across them it stays.
+    #[test]
+    fn momentum_decays_to_the_dead_band() {
+        let law = MomentumUnloading { dead_band: 0.5, time_constant: 40.0 };
+        let two_sided = [ALL[0], [0.0; 3], [0.0; 3]];
+        let after = |period: f64| {
+            let mut wheels = [-2.5, 3.0, -1.0];
+            for _ in 0..(80.0 / period).round() as usize {
+                wheels = sum(wheels, scaled(period, law.torque(wheels, two_sided)));
+            }
+            assert_eq!(wheels[1..], [3.0, -1.0]);
+            wheels[0] + 0.5 + 2.0 * libm::exp(-2.0)
+        };
+        let (coarse, fine) = (after(2.0), after(1.0));
+        assert!(((coarse / fine).log2() - 1.0).abs() < 0.03, "{coarse} and {fine}");
+        assert_eq!(law.torque([0.4, 9.0, 0.0], two_sided), [0.0; 3]);
+        assert!(norm(law.torque([0.4, 9.0, 0.0], ALL)) > 0.2);
+    }
+}
