@@ -2,6 +2,15 @@
 
 use crate::scene::MAX_WHEELS;
 
+/// Position and velocity of a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointMotion {
+    /// Position in F_e, m.
+    pub r_e: [f64; 3],
+    /// Velocity relative to F_e, in F_e, m/s.
+    pub v_e: [f64; 3],
+}
+
 /// What a sensor delivers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Measurement {
@@ -19,16 +28,12 @@ pub enum Measurement {
         /// How long ago, s.
         age: f64,
     },
-    /// Of a ground radar: positions and velocities in F_e, m and m/s, of the base point p and of the debris's centre of mass.
+    /// Of a ground radar: motion in F_e of the base point p, and of the debris's centre of mass where there is one.
     Radar {
-        /// Position of p.
-        r_po_e: [f64; 3],
-        /// Velocity of p.
-        v_po_e: [f64; 3],
-        /// Position of the debris.
-        r_gdo_e: [f64; 3],
-        /// Velocity of the debris.
-        v_gdo_e: [f64; 3],
+        /// Of p.
+        base: PointMotion,
+        /// Of the debris.
+        debris: Option<PointMotion>,
         /// How long ago, s.
         age: f64,
     },
@@ -47,4 +52,18 @@ pub enum Measurement {
         /// The rates, in the order of the wheels that turn.
         rates: [f64; MAX_WHEELS],
     },
+}
+
+impl Measurement {
+    /// The same of `age` seconds ago; rotations of gyros and rates of wheels are delivered at once.
+    #[must_use]
+    pub fn aged(mut self, new: f64) -> Self {
+        match &mut self {
+            Measurement::Attitude { age, .. } | Measurement::Radar { age, .. } | Measurement::Camera { age, .. } => {
+                *age = new
+            }
+            Measurement::Rotation { .. } | Measurement::WheelRates { .. } => {}
+        }
+        self
+    }
 }

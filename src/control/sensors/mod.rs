@@ -1,1 +1,257 @@
-//! Models of sensors: from the true state to measurements.
+//! Models of sensors: from the true state to measurements. One file for each kind, one line for each in [`KINDS`].
+//!
+//! A sensor measures at its own period; [`Instrument`] says when, and delivers each measurement after the latency. Noise is addressed by the sensor's own
+//! count, so that it depends neither on other sensors nor on measurements that were lost. The nominal run has no noise; biases, scales and
+//! misalignments stay.
+//!
+//! Not here: what is made of a measurement ([`super::estimators`]).
+
+mod ground_radar;
+mod instrument;
+mod rate_gyro;
+mod relative_camera;
+mod star_tracker;
+mod tachometers;
+
+pub use instrument::Instrument;
+pub use rate_gyro::RateGyro;
+
+use super::measurement::Measurement;
+use super::truth::Truth;
+use crate::sampling::{Noise, SampleId};
+use crate::scene::schema::Limit;
+use crate::scene::{DeclaredTable, LawParameter, Scene};
+
+/// A model of a sensor in one run.
+pub trait Sensor: Send {
+    /// What it measures of `truth`; `None` where it gives nothing. `count` is the number of its samples before this one: 0 at the start of the run.
+    fn measure(&mut self, count: u64, truth: &Truth) -> Option<Measurement>;
+
+    /// The true bias of a gyro at its last sample, in F_s, rad/s: what an estimate of it is judged by.
+    fn bias_s(&self) -> Option<[f64; 3]> {
+        None
+    }
+}
+
+/// What the sensor of one run is made from.
+#[derive(Clone, Copy, Debug)]
+pub struct SensorContext<'a> {
+    /// Its parameters as drawn; the name of the table is that of the sensor.
+    pub parameters: &'a DeclaredTable,
+    /// The scene that is flown.
+    pub drawn: &'a Scene,
+    /// Time from sample to sample, s.
+    pub period: f64,
+    /// The sample; 0 is the nominal run.
+    pub sample: SampleId,
+    /// The seed of the campaign.
+    pub seed: u64,
+}
+
+impl SensorContext<'_> {
+    /// The number of the parameter called `key`.
+    ///
+    /// # Panics
+    /// Where the sensor does not declare it as a number.
+    pub fn number(&self, key: &str) -> f64 {
+        number(self.parameters, key)
+    }
+
+    /// The three numbers of the parameter called `key`.
+    ///
+    /// # Panics
+    /// Where the sensor does not declare it as three numbers.
+    pub fn vector(&self, key: &str) -> [f64; 3] {
+        vector(self.parameters, key)
+    }
+
+    /// Standard normal numbers of this run for the error called `error`, one for each of `components`.
+    pub fn normal<const N: usize>(&self, error: &str, components: [&str; N]) -> NormalErrors<N> {
+        let stream = |component: &str| {
+            Noise::new(self.seed, &format!("sensors.{}.{error}.{component}", self.parameters.name), self.sample)
+        };
+        NormalErrors { noise: (self.sample != SampleId(0)).then(|| components.map(stream)) }
+    }
+}
+
+/// Standard normal numbers, addressed by count; zeros in the nominal run.
+#[derive(Debug)]
+pub struct NormalErrors<const N: usize> {
+    noise: Option<[Noise; N]>,
+}
+
+impl<const N: usize> NormalErrors<N> {
+    /// Those of `count`, each times its factor of `deviations`; where that is zero nothing is drawn.
+    pub fn scaled(&mut self, count: u64, deviations: [f64; N]) -> [f64; N] {
+        let mut errors = [0.0; N];
+        if let Some(noise) = &mut self.noise {
+            for ((error, noise), deviation) in errors.iter_mut().zip(noise).zip(deviations) {
+                if deviation != 0.0 {
+                    *error = deviation * noise.normal(count);
+                }
+            }
+        }
+        errors
+    }
+}
+
+/// A kind of sensor.
+#[derive(Debug)]
+pub struct SensorKind {
+    /// As in `kind` of `[[sensors]]`.
+    pub name: &'static str,
+    /// The keys of its table, with [`PERIOD`] and, where a measurement has an age, [`LATENCY`].
+    pub parameters: &'static [LawParameter],
+    /// The sensor of a run.
+    pub make: fn(&SensorContext<'_>) -> Box<dyn Sensor>,
+}
+
+/// All kinds.
+pub static KINDS: [SensorKind; 5] =
+    [rate_gyro::KIND, star_tracker::KIND, ground_radar::KIND, relative_camera::KIND, tachometers::KIND];
+
+/// The kind called `name`.
+pub fn kind(name: &str) -> Option<&'static SensorKind> {
+    KINDS.iter().find(|kind| kind.name == name)
+}
+
+/// When a sensor measures: the loop reads it.
+pub const PERIOD: LawParameter = LawParameter::number("period_s", "s", "Time from sample to sample", Limit::Positive);
+
+/// When a measurement is delivered: the loop reads it.
+pub const LATENCY: LawParameter =
+    LawParameter::number("latency_s", "s", "Time from a measurement to its delivery", Limit::NotNegative).or(&[0.0]);
+
+/// The names of the components of a vector.
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// A vector in F_s or F_d that a campaign file may leave out: zeros.
+const fn axes(key: &'static str, unit: &'static str, meaning: &'static str, limit: Limit) -> LawParameter {
+    LawParameter::number(key, unit, meaning, limit).with_components(&AXES).or(&[0.0; 3])
+}
+
+/// A number that a campaign file may leave out: zero.
+const fn optional(key: &'static str, unit: &'static str, meaning: &'static str) -> LawParameter {
+    LawParameter::number(key, unit, meaning, Limit::NotNegative).or(&[0.0])
+}
+
+/// The number of the parameter of `table` called `key`.
+///
+/// # Panics
+/// Where it does not declare it as a number.
+pub(super) fn number(table: &DeclaredTable, key: &str) -> f64 {
+    match table.named(key) {
+        Some([number]) => *number,
+        _ => panic!("{} declares no number {key}", table.name),
+    }
+}
+
+/// The three numbers of the parameter of `table` called `key`.
+///
+/// # Panics
+/// Where it does not declare it as three numbers.
+pub(super) fn vector(table: &DeclaredTable, key: &str) -> [f64; 3] {
+    match table.named(key) {
+        Some(&[x, y, z]) => [x, y, z],
+        _ => panic!("{} declares no vector {key}", table.name),
+    }
+}
+
+#[cfg(test)]
+pub(super) mod bench {
+    //! What tests of sensors and of estimators have in common.
+
+    use super::*;
+    use crate::dynamics::actuation::{BodyState, WheelState};
+    use crate::math::normal;
+    use crate::scene::{MAX_WHEELS, Name, SceneInput};
+
+    /// The table of the sensor `name` with these numbers, and the defaults of the others.
+    pub fn table(name: &str, declared: &'static [LawParameter], values: &[(&str, &[f64])]) -> DeclaredTable {
+        let mut table = DeclaredTable::of(Name::of(name), declared);
+        for (key, numbers) in values {
+            let index = declared.iter().position(|parameter| parameter.facts.key == *key).expect("a declared key");
+            table.numbers_mut(index).expect("numbers").copy_from_slice(numbers);
+        }
+        table
+    }
+
+    /// The sensor of the kind called `kind` in the run of `sample`.
+    pub fn sensor(kind: &str, values: &[(&str, &[f64])], period: f64, sample: u64) -> Box<dyn Sensor> {
+        let kind = super::kind(kind).expect("a kind");
+        let parameters = &table("unit", kind.parameters, values);
+        let drawn = &Scene::resolve(&SceneInput::default()).expect("a valid scene");
+        (kind.make)(&SensorContext { parameters, drawn, period, sample: SampleId(sample), seed: 5 })
+    }
+
+    /// A body at `time` with this motion about its centre of mass, which rests at the origin; no debris.
+    pub fn truth(time: f64, q_es: [f64; 4], omega_se_s: [f64; 3]) -> Truth {
+        let zero = [0.0; MAX_WHEELS];
+        Truth {
+            time,
+            body: BodyState { omega_se_s, q_es, r_co_e: [0.0; 3], v_co_e: [0.0; 3] },
+            r_po_e: [0.0; 3],
+            v_po_e: [0.0; 3],
+            wheels: WheelState { rates: zero, momenta: zero, angles: zero },
+            debris: None,
+        }
+    }
+
+    /// The quantile of chi-square with `degrees` degrees of freedom at `p`: E. B. Wilson & M. M. Hilferty, 1931; to 1e-4 above 100 degrees.
+    pub fn chi_square(p: f64, degrees: f64) -> f64 {
+        let spread = 2.0 / (9.0 * degrees);
+        degrees * (1.0 - spread + normal::quantile(p) * spread.sqrt()).powi(3)
+    }
+
+    /// Fails where `numbers`, which H0 says are independent and normal with mean zero and this standard deviation, have a mean or a mean square that H0
+    /// gives with a probability below `alpha` each. With 4,000 numbers and alpha = 1e-3 a deviation that is wrong by 10% is found with a probability
+    /// above 0.999.
+    pub fn assert_normal(numbers: &[f64], deviation: f64, alpha: f64) {
+        let n = numbers.len() as f64;
+        let mean = numbers.iter().sum::<f64>() / n;
+        let bound = -normal::quantile(0.5 * alpha) * deviation / n.sqrt();
+        assert!(mean.abs() <= bound, "mean {mean} beyond {bound}");
+        let square = numbers.iter().map(|x| (x / deviation).powi(2)).sum::<f64>();
+        let (low, high) = (chi_square(0.5 * alpha, n), chi_square(1.0 - 0.5 * alpha, n));
+        assert!((low..=high).contains(&square), "sum of squares {square} not in {low} to {high}");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::bench::{sensor, truth};
+    use super::*;
+
+    /// Law: every kind has a period, and a name of its own; every other key has a default, and its components a number each.
+    #[test]
+    fn kinds_declare_what_the_loop_reads() {
+        for (index, one) in KINDS.iter().enumerate() {
+            assert!(KINDS[..index].iter().all(|other| other.name != one.name));
+            assert_eq!(one.parameters[0].facts.key, PERIOD.facts.key, "{}", one.name);
+            for parameter in &one.parameters[1..] {
+                let default = parameter.default.map(<[f64]>::len);
+                assert_eq!(default, Some(parameter.facts.components.len()), "{} {}", one.name, parameter.facts.key);
+            }
+            assert!(kind(one.name).is_some());
+        }
+        assert!(kind("sextant").is_none());
+    }
+
+    /// Law: the noise of a sample depends on its count alone, not on samples that were lost before it or read after it; runs have noise of their own,
+    /// the nominal one none.
+    #[test]
+    fn noise_is_addressed_by_count() {
+        let noise: [(&str, &[f64]); 1] = [("noise_rad", &[1e-3, 2e-3, 3e-3])];
+        let at = truth(0.0, [1.0, 0.0, 0.0, 0.0], [0.0; 3]);
+        let mut tracker = sensor("star_tracker", &noise, 0.5, 3);
+        let all: Vec<_> = (0..20).map(|count| tracker.measure(count, &at)).collect();
+        let mut late = sensor("star_tracker", &noise, 0.5, 3);
+        for count in [7, 19, 2, 2] {
+            assert_eq!(late.measure(count, &at), all[count as usize]);
+        }
+        let mut other = sensor("star_tracker", &noise, 0.5, 4);
+        assert!((0..20).all(|count| other.measure(count, &at) != all[count as usize]));
+        let mut nominal = sensor("star_tracker", &noise, 0.5, 0);
+        assert_eq!(nominal.measure(7, &at), Some(Measurement::Attitude { q_es: at.body.q_es, age: 0.0 }));
+    }
+}

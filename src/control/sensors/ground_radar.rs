@@ -1,0 +1,109 @@
+//! A radar on the ground: positions and velocities in F_e of the base point p and, where there is one, of the debris's centre of mass.
+
+use super::{AXES, LATENCY, NormalErrors, PERIOD, Sensor, SensorContext, SensorKind, optional};
+use crate::control::measurement::{Measurement, PointMotion};
+use crate::control::truth::Truth;
+use crate::math::vector::sum;
+use crate::scene::LawParameter;
+
+pub(super) const KIND: SensorKind =
+    SensorKind { name: "ground_radar", parameters: &PARAMETERS, make: |context| Box::new(GroundRadar::new(context)) };
+
+static PARAMETERS: [LawParameter; 4] = [
+    PERIOD,
+    LATENCY,
+    optional("position_noise_m", "m", "Standard deviation of each component of a position"),
+    optional("velocity_noise_m_s", "m/s", "Standard deviation of each component of a velocity"),
+];
+
+/// Noise of one point.
+struct PointNoise {
+    position: NormalErrors<3>,
+    velocity: NormalErrors<3>,
+}
+
+struct GroundRadar {
+    /// Standard deviations of positions, m, and of velocities, m/s.
+    position: f64,
+    velocity: f64,
+    base: PointNoise,
+    debris: PointNoise,
+}
+
+impl GroundRadar {
+    fn new(context: &SensorContext<'_>) -> Self {
+        let noise = |point: &str| PointNoise {
+            position: context.normal(&format!("{point}_position"), AXES),
+            velocity: context.normal(&format!("{point}_velocity"), AXES),
+        };
+        GroundRadar {
+            position: context.number("position_noise_m"),
+            velocity: context.number("velocity_noise_m_s"),
+            base: noise("base"),
+            debris: noise("debris"),
+        }
+    }
+}
+
+impl Sensor for GroundRadar {
+    fn measure(&mut self, count: u64, truth: &Truth) -> Option<Measurement> {
+        let (position, velocity) = ([self.position; 3], [self.velocity; 3]);
+        let measured = |noise: &mut PointNoise, r_e, v_e| PointMotion {
+            r_e: sum(r_e, noise.position.scaled(count, position)),
+            v_e: sum(v_e, noise.velocity.scaled(count, velocity)),
+        };
+        let base = measured(&mut self.base, truth.r_po_e, truth.v_po_e);
+        let debris = truth.debris.map(|debris| measured(&mut self.debris, debris.r_gdo_e, debris.v_gdo_e));
+        Some(Measurement::Radar { base, debris, age: 0.0 })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::bench::{assert_normal, sensor, truth};
+    use super::*;
+    use crate::control::truth::DebrisState;
+    use crate::math::vector::difference;
+
+    /// Law: all twelve errors are normal with their deviations, and each is independent of the one before it: 4,000 samples, alpha 1e-4 each, seed 5.
+    #[test]
+    fn the_noise_of_each_component_is_its_own() {
+        let mut at = truth(0.0, [1.0, 0.0, 0.0, 0.0], [0.0; 3]);
+        (at.r_po_e, at.v_po_e) = ([1.0, 2.0, 3.0], [0.1, 0.2, 0.3]);
+        let debris = DebrisState {
+            r_gdo_e: [30.0, 0.0, 0.0],
+            v_gdo_e: [0.0, 1.0, 0.0],
+            q_ed: [1.0, 0.0, 0.0, 0.0],
+            omega_de_d: [0.0; 3],
+        };
+        at.debris = Some(debris);
+        let mut radar =
+            sensor("ground_radar", &[("position_noise_m", &[0.5]), ("velocity_noise_m_s", &[0.01])], 1.0, 3);
+        let mut errors: [Vec<f64>; 12] = Default::default();
+        for count in 0..4_000 {
+            let Some(Measurement::Radar { base, debris: Some(seen), .. }) = radar.measure(count, &at) else {
+                panic!("both points are seen")
+            };
+            let parts = [
+                scaled_errors(base.r_e, at.r_po_e, 0.5),
+                scaled_errors(base.v_e, at.v_po_e, 0.01),
+                scaled_errors(seen.r_e, debris.r_gdo_e, 0.5),
+                scaled_errors(seen.v_e, debris.v_gdo_e, 0.01),
+            ];
+            for (list, error) in errors.iter_mut().zip(parts.concat()) {
+                list.push(error);
+            }
+        }
+        for (index, list) in errors.iter().enumerate() {
+            assert_normal(list, 1.0, 1e-4);
+            let both: Vec<f64> = list.iter().zip(&errors[(index + 1) % 12]).map(|(a, b)| a + b).collect();
+            assert_normal(&both, std::f64::consts::SQRT_2, 1e-4);
+        }
+        at.debris = None;
+        assert!(matches!(radar.measure(0, &at), Some(Measurement::Radar { debris: None, .. })));
+    }
+
+    fn scaled_errors(measured: [f64; 3], real: [f64; 3], deviation: f64) -> [f64; 3] {
+        difference(measured, real).map(|error| error / deviation)
+    }
+}

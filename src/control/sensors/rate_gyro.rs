@@ -1,0 +1,204 @@
+//! A rate-integrating gyro: the rotation vector from sample to sample, so that a slew adds no error of a held rate.
+//!
+//! Source of the noise: R. L. Farrenkopf, J. Guidance and Control 1(4), 1978; F. L. Markley & J. L. Crassidis, *Fundamentals of Spacecraft Attitude
+//! Determination and Control*, 2014, section 4.7. Over a period T the bias walks by N(0, su^2 T), and the rotation has the variance
+//! sv^2 T + su^2 T^3/12 about the mean of the biases at both ends.
+
+use super::NormalErrors;
+use super::{AXES, PERIOD, Sensor, SensorContext, SensorKind, axes, optional};
+use crate::control::measurement::Measurement;
+use crate::control::rotation::{turned, vector_of};
+use crate::control::truth::Truth;
+use crate::math::vector::{conjugate, hamilton, scaled, sum};
+use crate::scene::LawParameter;
+use crate::scene::schema::Limit;
+
+pub(super) const KIND: SensorKind =
+    SensorKind { name: "rate_gyro", parameters: &PARAMETERS, make: |context| Box::new(RateGyro::new(context)) };
+
+static PARAMETERS: [LawParameter; 8] = [
+    PERIOD,
+    optional(
+        "angular_random_walk_rad_sqrt_s",
+        "rad/sqrt(s)",
+        "Deviation of the angle after a second, of white noise of the rate",
+    ),
+    optional(
+        "bias_random_walk_rad_s_sqrt_s",
+        "rad/s/sqrt(s)",
+        "Deviation of the bias after a second, of its random walk",
+    ),
+    axes("bias_rad_s", "rad/s", "Bias at the start of the run", Limit::Finite),
+    LawParameter::number("scale", "1", "Measured over true rotation about each axis", Limit::Finite)
+        .with_components(&AXES)
+        .or(&[1.0; 3]),
+    axes("misalignment_rad", "rad", "Rotation vector from the body to the axes of the gyro", Limit::Finite),
+    optional("quantization_rad", "rad", "Angle of one count; what is below it waits for the next sample; 0: none"),
+    optional("max_rate_rad_s", "rad/s", "Largest mean rate about each axis that it measures; 0: no limit"),
+];
+
+/// A rate-integrating gyro in one run.
+#[derive(Debug)]
+pub struct RateGyro {
+    period: f64,
+    /// Deviations of the rotation about that of the mean bias, rad, and of the bias from sample to sample, rad/s.
+    white_deviation: f64,
+    walk_deviation: f64,
+    bias: [f64; 3],
+    scale: [f64; 3],
+    misalignment: [f64; 3],
+    count_angle: f64,
+    max_rate: f64,
+    white: NormalErrors<3>,
+    walk: NormalErrors<3>,
+    /// Attitude at the sample before.
+    before: Option<[f64; 4]>,
+    /// Angle that is not counted yet, rad.
+    rest: [f64; 3],
+}
+
+impl RateGyro {
+    /// That of `context`.
+    pub fn new(context: &SensorContext<'_>) -> Self {
+        let period = context.period;
+        let white = context.number("angular_random_walk_rad_sqrt_s");
+        let walk = context.number("bias_random_walk_rad_s_sqrt_s");
+        RateGyro {
+            period,
+            white_deviation: (white * white * period + walk * walk * period.powi(3) / 12.0).sqrt(),
+            walk_deviation: walk * period.sqrt(),
+            bias: context.vector("bias_rad_s"),
+            scale: context.vector("scale"),
+            misalignment: context.vector("misalignment_rad"),
+            count_angle: context.number("quantization_rad"),
+            max_rate: context.number("max_rate_rad_s"),
+            white: context.normal("angular_random_walk", AXES),
+            walk: context.normal("bias_random_walk", AXES),
+            before: None,
+            rest: [0.0; 3],
+        }
+    }
+
+    /// What it makes of the rotation about one of its axes, rad: limited, then counted.
+    fn counted(&mut self, axis: usize, rotation: f64) -> f64 {
+        let largest = if self.max_rate > 0.0 { self.max_rate * self.period } else { f64::INFINITY };
+        let limited = rotation.clamp(-largest, largest);
+        if self.count_angle == 0.0 {
+            return limited;
+        }
+        let total = self.rest[axis] + limited;
+        let counted = self.count_angle * (total / self.count_angle).round();
+        self.rest[axis] = total - counted;
+        counted
+    }
+}
+
+impl Sensor for RateGyro {
+    /// The rotation since the sample before; nothing at the first sample.
+    fn measure(&mut self, count: u64, truth: &Truth) -> Option<Measurement> {
+        let now = truth.body.q_es;
+        let before = self.before.replace(now)?;
+        let rotation = turned(vector_of(hamilton(conjugate(before), now)), self.misalignment.map(|angle| -angle));
+        let after = sum(self.bias, self.walk.scaled(count, [self.walk_deviation; 3]));
+        let of_bias = scaled(0.5 * self.period, sum(self.bias, after));
+        self.bias = after;
+        let noise = self.white.scaled(count, [self.white_deviation; 3]);
+        let errors = sum(of_bias, noise);
+        let rotation_s = std::array::from_fn(|i| self.counted(i, self.scale[i] * rotation[i] + errors[i]));
+        Some(Measurement::Rotation { rotation_s, interval: self.period })
+    }
+
+    fn bias_s(&self) -> Option<[f64; 3]> {
+        Some(self.bias)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::bench::{assert_normal, sensor, truth};
+    use super::*;
+    use crate::control::rotation::quaternion_of;
+    use crate::math::vector::difference;
+
+    /// The rotations that a gyro measures of a turn at the constant rate `omega`, and its bias after each.
+    fn measured(values: &[(&str, &[f64])], sample: u64, omega: [f64; 3], samples: u64) -> Vec<([f64; 3], [f64; 3])> {
+        let period = 0.1;
+        let mut gyro = sensor("rate_gyro", values, period, sample);
+        let mut q = [1.0, 0.0, 0.0, 0.0];
+        let mut all = Vec::new();
+        for count in 0..=samples {
+            match gyro.measure(count, &truth(period * count as f64, q, omega)) {
+                Some(Measurement::Rotation { rotation_s, interval }) => {
+                    assert_eq!(interval, period);
+                    all.push((rotation_s, gyro.bias_s().expect("a bias")));
+                }
+                _ => assert_eq!(count, 0, "a rotation at every sample but the first"),
+            }
+            q = hamilton(q, quaternion_of(scaled(period, omega)));
+        }
+        all
+    }
+
+    const WHITE: f64 = 1e-4;
+    const WALK: f64 = 4e-3;
+    const SLEW: [f64; 3] = [0.3, -0.2, 0.1];
+
+    /// Law: rotation and bias have Farrenkopf's statistics, in a slew too: H0 of means and variances of 4,000 samples, alpha 1e-3 each, seed 5. The walk is
+    /// as large as the white noise here, so that su^2 T^3/12 counts: without it the variance would be 12% too small.
+    #[test]
+    fn the_noise_is_farrenkopfs() {
+        let (period, values): (f64, [(&str, &[f64]); 2]) =
+            (0.1, [("angular_random_walk_rad_sqrt_s", &[WHITE]), ("bias_random_walk_rad_s_sqrt_s", &[WALK])]);
+        let all = measured(&values, 9, SLEW, 4_000);
+        let deviation = (WHITE * WHITE * period + WALK * WALK * period.powi(3) / 12.0).sqrt();
+        for axis in 0..3 {
+            let (mut bias, mut rotations, mut walks) = (0.0, Vec::new(), Vec::new());
+            for (rotation, after) in &all {
+                let mean = 0.5 * (bias + after[axis]);
+                rotations.push(rotation[axis] - period * SLEW[axis] - period * mean);
+                walks.push(after[axis] - bias);
+                bias = after[axis];
+            }
+            assert_normal(&rotations, deviation, 1e-3);
+            assert_normal(&walks, WALK * period.sqrt(), 1e-3);
+            let both: Vec<f64> =
+                rotations.iter().zip(&walks).map(|(a, b)| a / deviation + b / (WALK * period.sqrt())).collect();
+            assert_normal(&both, std::f64::consts::SQRT_2, 1e-3);
+        }
+    }
+
+    /// Law: without random noise the rotation is that of the scaled, misaligned axes plus bias times period, to rounding.
+    #[test]
+    fn fixed_errors_act_on_the_rotation() {
+        let (bias, scale, misalignment) = ([1e-3, -2e-3, 3e-3], [1.01, 0.98, 1.0], [0.0, 0.0, 0.02]);
+        let all =
+            measured(&[("bias_rad_s", &bias), ("scale", &scale), ("misalignment_rad", &misalignment)], 0, SLEW, 5);
+        let (sine, cosine) = (libm::sin(0.02), libm::cos(0.02));
+        let [x, y, z] = SLEW;
+        let seen = [cosine * x + sine * y, cosine * y - sine * x, z];
+        for (rotation, _) in all {
+            for i in 0..3 {
+                let expected = 0.1 * (scale[i] * seen[i] + bias[i]);
+                assert!((rotation[i] - expected).abs() < 4e-16, "{} for {expected}", rotation[i]);
+            }
+        }
+    }
+
+    /// Law: rotations are whole counts, and their sum is within half a count of the true angle; beyond the largest rate it reads that rate.
+    #[test]
+    fn counts_add_up_and_rates_saturate() {
+        let count = 7e-4;
+        let mut sums = [0.0; 3];
+        for (k, (rotation, _)) in measured(&[("quantization_rad", &[count])], 2, SLEW, 60).iter().enumerate() {
+            sums = sum(sums, *rotation);
+            let total = scaled(0.1 * (k + 1) as f64, SLEW);
+            assert!(difference(sums, total).iter().all(|error| error.abs() <= 0.5 * count + 1e-12));
+            assert!(rotation.iter().all(|angle| ((angle / count) - (angle / count).round()).abs() < 1e-12));
+        }
+        for (rotation, _) in measured(&[("max_rate_rad_s", &[0.15])], 2, SLEW, 3) {
+            for (angle, expected) in rotation.iter().zip([0.015, -0.015, 0.01]) {
+                assert!((angle - expected).abs() < 2e-16, "{angle}");
+            }
+        }
+    }
+}

@@ -1,0 +1,68 @@
+//! Tachometers of the wheels: their rates relative to the body.
+
+use super::{NormalErrors, PERIOD, Sensor, SensorContext, SensorKind, optional};
+use crate::control::measurement::Measurement;
+use crate::control::truth::Truth;
+use crate::scene::schema::Limit;
+use crate::scene::{LawParameter, MAX_WHEELS};
+
+pub(super) const KIND: SensorKind =
+    SensorKind { name: "tachometers", parameters: &PARAMETERS, make: |context| Box::new(Tachometers::new(context)) };
+
+static PARAMETERS: [LawParameter; 3] = [
+    PERIOD,
+    optional("noise_rad_s", "rad/s", "Standard deviation of each rate"),
+    LawParameter::number("scale", "1", "Measured over true rate", Limit::Finite).or(&[1.0]),
+];
+
+struct Tachometers {
+    deviations: [f64; MAX_WHEELS],
+    scale: f64,
+    noise: NormalErrors<MAX_WHEELS>,
+}
+
+impl Tachometers {
+    fn new(context: &SensorContext<'_>) -> Self {
+        let names: [String; MAX_WHEELS] = std::array::from_fn(|wheel| (wheel + 1).to_string());
+        let mut deviations = [0.0; MAX_WHEELS];
+        deviations[..context.drawn.mass.wheels.len()].fill(context.number("noise_rad_s"));
+        Tachometers {
+            deviations,
+            scale: context.number("scale"),
+            noise: context.normal("noise", std::array::from_fn(|wheel| names[wheel].as_str())),
+        }
+    }
+}
+
+impl Sensor for Tachometers {
+    fn measure(&mut self, count: u64, truth: &Truth) -> Option<Measurement> {
+        let errors = self.noise.scaled(count, self.deviations);
+        let rates = std::array::from_fn(|wheel| self.scale * truth.wheels.rates[wheel] + errors[wheel]);
+        Some(Measurement::WheelRates { rates })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::bench::{assert_normal, sensor, truth};
+    use super::*;
+
+    /// Law: each rate is scaled and has noise of its own (4,000 samples, alpha 1e-3, seed 5); a wheel that is not there reads zero.
+    #[test]
+    fn rates_have_scale_and_noise() {
+        let mut at = truth(0.0, [1.0, 0.0, 0.0, 0.0], [0.0; 3]);
+        at.wheels.rates[0] = 100.0;
+        at.wheels.rates[1] = -50.0;
+        let mut tachometers = sensor("tachometers", &[("noise_rad_s", &[0.2]), ("scale", &[1.01])], 0.1, 2);
+        let mut errors = [Vec::new(), Vec::new()];
+        for count in 0..4_000 {
+            let Some(Measurement::WheelRates { rates }) = tachometers.measure(count, &at) else { panic!("rates") };
+            errors[0].push(rates[0] - 101.0);
+            errors[1].push(rates[1] + 50.5);
+            assert_eq!(rates[2..], [0.0; MAX_WHEELS][2..]);
+        }
+        errors.iter().for_each(|errors| assert_normal(errors, 0.2, 1e-3));
+        let both: Vec<f64> = errors[0].iter().zip(&errors[1]).map(|(a, b)| a + b).collect();
+        assert_normal(&both, 0.2 * std::f64::consts::SQRT_2, 1e-3);
+    }
+}
