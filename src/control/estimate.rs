@@ -1,6 +1,8 @@
 //! [`Estimate`]: what flight software believes of the state at a tick.
 
-use super::truth::DebrisState;
+use super::rotation::vector_of;
+use super::truth::{DebrisState, Truth};
+use crate::math::vector::{conjugate, difference, hamilton, norm};
 use crate::scene::MAX_WHEELS;
 
 /// The estimated state at a tick.
@@ -20,4 +22,51 @@ pub struct Estimate {
     pub wheel_rates: [f64; MAX_WHEELS],
     /// The debris, where the nominal scene has one.
     pub debris: Option<DebrisState>,
+}
+
+/// How far an estimate is from the truth; the debris's errors are NaN where there is none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EstimateErrors {
+    /// Angle between estimated and true attitude, rad.
+    pub attitude: f64,
+    /// Magnitude of the error of omega_se_s, rad/s.
+    pub rate: f64,
+    /// Distance between estimated and true centre of mass, m.
+    pub position: f64,
+    /// Magnitude of the error of its velocity, m/s.
+    pub velocity: f64,
+    /// Magnitude of the error of its position relative to the debris, m.
+    pub relative_position: f64,
+    /// Magnitude of the error of its velocity relative to the debris, m/s.
+    pub relative_velocity: f64,
+    /// Angle between estimated and true attitude of the debris, rad.
+    pub debris_attitude: f64,
+    /// Magnitude of the error of omega_de_d, rad/s.
+    pub debris_rate: f64,
+}
+
+impl Estimate {
+    /// Its errors where the state is `truth`.
+    pub fn errors(&self, truth: &Truth) -> EstimateErrors {
+        let angle = |a, b| norm(vector_of(hamilton(conjugate(a), b)));
+        let body = &truth.body;
+        let (position, velocity) = (difference(self.r_co_e, body.r_co_e), difference(self.v_co_e, body.v_co_e));
+        let mut errors = EstimateErrors {
+            attitude: angle(self.q_es, body.q_es),
+            rate: norm(difference(self.omega_se_s, body.omega_se_s)),
+            position: norm(position),
+            velocity: norm(velocity),
+            relative_position: f64::NAN,
+            relative_velocity: f64::NAN,
+            debris_attitude: f64::NAN,
+            debris_rate: f64::NAN,
+        };
+        if let (Some(believed), Some(debris)) = (&self.debris, &truth.debris) {
+            errors.relative_position = norm(difference(position, difference(believed.r_gdo_e, debris.r_gdo_e)));
+            errors.relative_velocity = norm(difference(velocity, difference(believed.v_gdo_e, debris.v_gdo_e)));
+            errors.debris_attitude = angle(believed.q_ed, debris.q_ed);
+            errors.debris_rate = norm(difference(believed.omega_de_d, debris.omega_de_d));
+        }
+        errors
+    }
 }

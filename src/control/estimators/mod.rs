@@ -1,1 +1,136 @@
-//! From measurements to an estimate of the state.
+//! From measurements to an estimate of the state. One file for each kind, one line for each in [`KINDS`].
+//!
+//! - `perfect`: the true state. `raw`: the last measurements. `mekf`: filters.
+//! - [`attitude_filter`], [`rigid_body_filter`], [`translation_filter`]: the filters, with [`kalman`], and [`delayed`] for measurements that come late.
+//!
+//! An estimator knows the nominal scene, its own parameters, and the nominal parameters of the sensors; only `perfect` reads the truth.
+
+pub mod attitude_filter;
+pub mod delayed;
+pub mod kalman;
+mod mekf;
+mod perfect;
+mod raw;
+pub mod rigid_body_filter;
+pub mod translation_filter;
+
+use super::estimate::Estimate;
+use super::measurement::{Measurement, PointMotion};
+use super::truth::{DebrisState, Truth};
+use crate::math::vector::{cross, dcm_from_quaternion, product, sum};
+use crate::scene::{DeclaredTable, LawParameter, MAX_WHEELS, Scene};
+use kalman::NormalizedSquare;
+
+/// What an estimator is told at a tick.
+#[derive(Clone, Copy, Debug)]
+pub struct Update<'a> {
+    /// Time since the tick before, s; 0 at the first.
+    pub interval: f64,
+    /// What was delivered, each with the index of its sensor.
+    pub measurements: &'a [(usize, Measurement)],
+    /// Mean acceleration by the thrust that was commanded since the tick before, in F_s, m/s^2.
+    pub acceleration_s: [f64; 3],
+    /// Mean torque on the body that was commanded since the tick before, by thrusters and by the reaction of motors, in F_s, N m.
+    pub torque_s: [f64; 3],
+    /// Torques of the motors on the wheels that were commanded since the tick before, N m.
+    pub motor_torques: [f64; MAX_WHEELS],
+    /// The truth.
+    pub truth: &'a Truth,
+}
+
+/// How well the errors of a filter agree with its covariance: normalised squares of errors (NEES) and of the innovations of this tick; `None` where the
+/// filter does not have it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Consistency {
+    /// NEES of the attitude and, where it is estimated and known, the gyro's bias or the rate.
+    pub attitude: Option<NormalizedSquare>,
+    /// Innovation of the attitude.
+    pub attitude_innovation: Option<NormalizedSquare>,
+    /// NEES of position and velocity of the spacecraft's centre of mass.
+    pub motion: Option<NormalizedSquare>,
+    /// Innovation of them.
+    pub motion_innovation: Option<NormalizedSquare>,
+    /// NEES of position and velocity of the debris.
+    pub debris_motion: Option<NormalizedSquare>,
+    /// Innovation of them.
+    pub debris_motion_innovation: Option<NormalizedSquare>,
+    /// NEES of attitude and rate of the debris.
+    pub debris: Option<NormalizedSquare>,
+    /// Innovation of them.
+    pub debris_innovation: Option<NormalizedSquare>,
+}
+
+/// An estimator in one run.
+pub trait Estimator: Send {
+    /// The estimate at this tick. Called once for each tick, in order.
+    fn update(&mut self, update: &Update<'_>) -> Estimate;
+
+    /// How well its errors agree with its covariance, after the update of the same tick; `gyro_bias_s` is the true bias, where there is a gyro, rad/s.
+    fn consistency(&self, _truth: &Truth, _gyro_bias_s: Option<[f64; 3]>) -> Consistency {
+        Consistency::default()
+    }
+}
+
+/// What the estimator of one run is made from.
+#[derive(Clone, Copy, Debug)]
+pub struct EstimatorContext<'a> {
+    /// The scene without dispersions.
+    pub nominal: &'a Scene,
+    /// Its own parameters.
+    pub parameters: &'a DeclaredTable,
+    /// Kind and nominal parameters of each sensor, in their order.
+    pub sensors: &'a [(&'a str, &'a DeclaredTable)],
+    /// Time from tick to tick, s.
+    pub tick: f64,
+}
+
+impl EstimatorContext<'_> {
+    /// The nominal state at the start.
+    pub fn start(&self) -> Estimate {
+        let initial = &self.nominal.initial;
+        let base = PointMotion { r_e: initial.r_po_e, v_e: initial.v_po_e };
+        let center = center_of(base, self.nominal.mass.center, initial.q_es, initial.omega_se_s);
+        Estimate {
+            q_es: initial.q_es,
+            omega_se_s: initial.omega_se_s,
+            gyro_bias_s: [0.0; 3],
+            r_co_e: center.r_e,
+            v_co_e: center.v_e,
+            wheel_rates: initial.wheel_rates,
+            debris: self.nominal.mass.debris.as_ref().map(|_| DebrisState {
+                r_gdo_e: initial.r_gdo_e,
+                v_gdo_e: initial.v_gdo_e,
+                q_ed: initial.q_ed,
+                omega_de_d: initial.omega_de_d,
+            }),
+        }
+    }
+}
+
+/// The motion of the centre of mass, at `center` from p in F_s (m), where that of p is `base`.
+fn center_of(base: PointMotion, center: [f64; 3], q_es: [f64; 4], omega_se_s: [f64; 3]) -> PointMotion {
+    let c_es = dcm_from_quaternion(q_es);
+    PointMotion {
+        r_e: sum(base.r_e, product(c_es, center)),
+        v_e: sum(base.v_e, product(c_es, cross(omega_se_s, center))),
+    }
+}
+
+/// A kind of estimator.
+#[derive(Debug)]
+pub struct EstimatorKind {
+    /// As in `estimator` of `[control]`.
+    pub name: &'static str,
+    /// Its keys.
+    pub parameters: &'static [LawParameter],
+    /// The estimator of a run.
+    pub make: fn(&EstimatorContext<'_>) -> Box<dyn Estimator>,
+}
+
+/// All kinds.
+pub static KINDS: [EstimatorKind; 3] = [perfect::KIND, raw::KIND, mekf::KIND];
+
+/// The kind called `name`.
+pub fn kind(name: &str) -> Option<&'static EstimatorKind> {
+    KINDS.iter().find(|kind| kind.name == name)
+}

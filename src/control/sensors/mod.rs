@@ -180,7 +180,7 @@ pub(super) mod bench {
     pub fn sensor(kind: &str, values: &[(&str, &[f64])], period: f64, sample: u64) -> Box<dyn Sensor> {
         let kind = super::kind(kind).expect("a kind");
         let parameters = &table("unit", kind.parameters, values);
-        let drawn = &Scene::resolve(&SceneInput::default()).expect("a valid scene");
+        let drawn = &Scene::resolve(&SceneInput::report()).expect("a valid scene");
         (kind.make)(&SensorContext { parameters, drawn, period, sample: SampleId(sample), seed: 5 })
     }
 

@@ -1,0 +1,148 @@
+//! [`RigidBodyFilter`]: attitude and rate of a rigid body of known inertia, by a multiplicative extended Kalman filter: of the debris, and of a spacecraft
+//! without gyro.
+//!
+//! The body follows Euler's equation K omega' = H x omega + u, H = K omega + h, with known torque u and momentum h of its wheels; what is not known of them is
+//! white noise, a random walk of the rate. Errors as in [`super::attitude_filter`]: a rotation vector in the frame of the body, and true minus estimated rate.
+
+use super::attitude_filter::{ATTITUDE_ONLY, AttitudeObservation, normalized};
+use super::delayed::Filter;
+use super::kalman::{Gain, NormalizedSquare, blocks, halves, normalized_square, symmetric, transported};
+use crate::control::rotation::{quaternion_of, vector_of};
+use crate::control::small_matrix::{added, diagonal, inverse, multiplied};
+use crate::math::vector::{conjugate, cross, dcm_from_quaternion, difference, hamilton, norm, product, scaled, sum};
+
+/// A step under a known torque.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BodyStep {
+    /// Torque on the body in its frame, constant over the step, N m.
+    pub torque: [f64; 3],
+    /// Momentum of its wheels in its frame, constant over the step, N m s.
+    pub momentum: [f64; 3],
+    /// Its duration, s.
+    pub interval: f64,
+}
+
+/// What is measured of a body: the attitude, and where it is seen the rate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum BodyObservation {
+    /// The attitude of the body relative to F_e, with the covariance of its error in the body's frame.
+    Attitude(AttitudeObservation),
+    /// The same, and the rate relative to F_e in the body's frame with its covariance, rad/s.
+    AttitudeAndRate(AttitudeObservation, [f64; 3], [[f64; 3]; 3]),
+}
+
+/// Attitude, rate and their covariance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RigidBodyFilter {
+    /// Attitude quaternion, body -> F_e, scalar first.
+    pub q: [f64; 4],
+    /// Angular velocity relative to F_e in the body's frame, rad/s.
+    pub omega: [f64; 3],
+    /// Covariance of the errors of attitude (rad) and rate (rad/s).
+    pub covariance: [[f64; 6]; 6],
+    inertia: [[f64; 3]; 3],
+    inverse: [[f64; 3]; 3],
+    /// Random walk of the rate, rad/s/sqrt(s).
+    rate_random_walk: f64,
+}
+
+/// The largest |omega| h of a step of the integration, rad (the error of a step is some 0.05^5/100 of a radian), and the largest number of steps.
+const LARGEST_TURN: f64 = 0.05;
+const MOST_STEPS: f64 = 64.0;
+
+impl RigidBodyFilter {
+    /// A body of the inertia K (kg m^2, about its centre of mass, in its frame) with the attitude `q` and the rate `omega` to the standard deviations `sigmas`,
+    /// rad and rad/s, about each axis.
+    pub fn new(inertia: [[f64; 3]; 3], q: [f64; 4], omega: [f64; 3], sigmas: [f64; 2], rate_random_walk: f64) -> Self {
+        let [a, b] = sigmas.map(|sigma| sigma * sigma);
+        let covariance = diagonal([a, a, a, b, b, b]);
+        RigidBodyFilter { q, omega, covariance, inertia, inverse: inverse(inertia), rate_random_walk }
+    }
+
+    /// The normalised square of the error (NEES).
+    pub fn error_square(&self, q: [f64; 4], omega: [f64; 3]) -> Option<NormalizedSquare> {
+        let ([x, y, z], [u, v, w]) = (vector_of(hamilton(conjugate(self.q), q)), difference(omega, self.omega));
+        normalized_square(&self.covariance, [x, y, z, u, v, w])
+    }
+
+    /// omega' at the rate `omega`.
+    fn acceleration(&self, omega: [f64; 3], step: &BodyStep) -> [f64; 3] {
+        let momentum = sum(product(self.inertia, omega), step.momentum);
+        product(self.inverse, sum(cross(momentum, omega), step.torque))
+    }
+
+    /// d omega'/d omega = K^-1 ([H x] - [omega x] K), by columns turned into rows.
+    fn slope(&self, omega: [f64; 3], step: &BodyStep) -> [[f64; 3]; 3] {
+        let momentum = sum(product(self.inertia, omega), step.momentum);
+        let columns: [[f64; 3]; 3] = std::array::from_fn(|j| {
+            let of_rate: [f64; 3] = std::array::from_fn(|i| f64::from(u8::from(i == j)));
+            let of_momentum: [f64; 3] = std::array::from_fn(|i| self.inertia[i][j]);
+            product(self.inverse, sum(cross(momentum, of_rate), cross(of_momentum, omega)))
+        });
+        crate::control::small_matrix::transposed(&columns)
+    }
+
+    /// Moves on by `h` seconds: the rate by the classical Runge-Kutta method, the attitude by the rotation vector to fourth order, the covariance with the
+    /// transition of the attitude as it turned, that of the rate to second order, and the trapezoidal rule between them.
+    fn step(&mut self, h: f64, step: &BodyStep) {
+        let before = self.omega;
+        let k1 = self.acceleration(before, step);
+        let k2 = self.acceleration(sum(before, scaled(0.5 * h, k1)), step);
+        let k3 = self.acceleration(sum(before, scaled(0.5 * h, k2)), step);
+        let k4 = self.acceleration(sum(before, scaled(h, k3)), step);
+        let after = sum(before, scaled(h / 6.0, sum(sum(k1, k4), scaled(2.0, sum(k2, k3)))));
+        let bend = difference(k1, self.acceleration(after, step));
+        let middle = sum(scaled(0.5, sum(before, after)), scaled(0.125 * h, bend));
+        let mean = scaled(1.0 / 6.0, sum(sum(before, after), scaled(4.0, middle)));
+        let turn = quaternion_of(sum(scaled(h, mean), scaled(h * h / 12.0, cross(before, after))));
+        self.q = normalized(hamilton(self.q, turn));
+        self.omega = after;
+
+        let attitude = dcm_from_quaternion(conjugate(turn));
+        let slope = self.slope(middle, step).map(|row| scaled(h, row));
+        let second = multiplied(&slope, &slope).map(|row| scaled(0.5, row));
+        let rate = added(&diagonal([1.0; 3]), &added(&slope, &second));
+        let across = added(&attitude, &rate).map(|row| scaled(0.5 * h, row));
+        let transition = blocks(attitude, across, diagonal([0.0; 3]), rate);
+        let walk = self.rate_random_walk * self.rate_random_walk * h;
+        let both = diagonal([0.5 * walk * h; 3]);
+        let noise = blocks(diagonal([walk * h * h / 3.0; 3]), both, both, diagonal([walk; 3]));
+        self.covariance = symmetric(&added(&transported(&transition, &self.covariance), &noise));
+    }
+}
+
+impl Filter for RigidBodyFilter {
+    type Step = BodyStep;
+    type Observation = BodyObservation;
+
+    fn propagate(&mut self, step: &BodyStep) {
+        let steps = (norm(self.omega) * step.interval / LARGEST_TURN).ceil().clamp(1.0, MOST_STEPS);
+        let h = step.interval / steps;
+        for _ in 0..steps as usize {
+            self.step(h, step);
+        }
+    }
+
+    fn update(&mut self, observation: &BodyObservation) -> Option<NormalizedSquare> {
+        let (BodyObservation::Attitude(attitude) | BodyObservation::AttitudeAndRate(attitude, ..)) = observation;
+        let [x, y, z] = vector_of(hamilton(conjugate(self.q), attitude.q_es));
+        let (correction, square) = match observation {
+            BodyObservation::Attitude(_) => {
+                let gain = Gain::of(&mut self.covariance, &ATTITUDE_ONLY, &attitude.covariance)?;
+                (gain.correction([x, y, z]), gain.square([x, y, z]))
+            }
+            BodyObservation::AttitudeAndRate(_, omega, of_rate) => {
+                let [u, v, w] = difference(*omega, self.omega);
+                let zero = diagonal([0.0; 3]);
+                let noise = blocks(attitude.covariance, zero, zero, *of_rate);
+                let gain = Gain::of(&mut self.covariance, &diagonal([1.0; 6]), &noise)?;
+                let innovation = [x, y, z, u, v, w];
+                (gain.correction(innovation), gain.square(innovation))
+            }
+        };
+        let (turn, rate) = halves(correction);
+        self.q = normalized(hamilton(self.q, quaternion_of(turn)));
+        self.omega = sum(self.omega, rate);
+        Some(square)
+    }
+}
