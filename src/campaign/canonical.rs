@@ -6,6 +6,7 @@
 //! The row plan is the part of it that changes rows or their encoding: without the campaign's name, and with the number of samples only
 //! where the design's points depend on it. Two campaigns with the same row hash have the same rows, sample by sample.
 
+use super::control;
 use super::canonical_draws::{correlation_lines, derivation_lines, design_lines, dispersion_lines};
 use super::lines::Lines;
 use super::plan::Plan;
@@ -166,7 +167,9 @@ impl Plan {
         if !self.nominal.actuation.is_empty() {
             lines.keys_of("[actuators]", Table::Actuators, 0, &self.nominal);
         }
-        if let Some(law) = &self.law {
+        if let Some(spec) = self.law.as_ref().and_then(|law| law.spec()) {
+            control::write(spec, scene, lines);
+        } else if let Some(law) = &self.law {
             lines.table("[control]");
             lines.key("law", law.name());
             lines.keys(Table::Control, 0, scene);

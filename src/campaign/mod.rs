@@ -26,6 +26,7 @@ pub mod canonical_draws;
 pub mod chosen;
 pub mod columns;
 pub mod common_draws;
+mod control;
 pub mod compression;
 pub mod data;
 mod data_columns;

@@ -3,6 +3,7 @@
 //! Here is what no single row can say: names, which ways to describe a body exclude each other, what belongs to a body that is not
 //! there, and keys that are no numbers.
 
+use super::control;
 use super::section::Section;
 use crate::scene::body::MAX_PARTS;
 use crate::scene::schema::Limit;
@@ -60,14 +61,10 @@ pub(super) fn read(root: &mut Section<'_, '_>) -> SceneInput {
     scene
 }
 
-/// Reads the parameters of the control law that the program brings.
+/// Reads the parameters of the control law that the program brings, or the control loop of the file.
 fn read_law(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
     let Some(law) = root.document.law.clone() else {
-        if root.has("control") {
-            let remedy = "open it with the program whose control law it names, or delete this table";
-            root.refuse("control", "left out: this program brings no control law", remedy);
-        }
-        return;
+        return read_loop(root, scene);
     };
     scene.control = ControlInput::of(law.parameters());
     let mut section = root.section("control");
@@ -80,8 +77,38 @@ fn read_law(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
     section.finish();
 }
 
+/// Reads the control loop, where the file has one; refuses what only a loop has where it has none.
+fn read_loop(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
+    if root.has("control") {
+        root.document.law = control::read(root, scene);
+        return;
+    }
+    for key in ["sensors", "guidance"] {
+        if root.has(key) {
+            root.refuse(key, "left out without [control]", "add a [control] table, or delete this one");
+        }
+    }
+    let wheels = scene.wheels.iter().map(|wheel| {
+        let values = [wheel.torque_limit_n_m, wheel.speed_limit_rad_s, wheel.coulomb_friction_n_m, wheel.viscous_friction_n_m_s];
+        ("wheels", wheel.name, WheelInput::DRIVE.into_iter().zip(values).collect::<Vec<_>>())
+    });
+    let thrusters = scene.thrusters.iter().map(|thruster| {
+        let values = [thruster.max_thrust_n, thruster.min_on_time_s];
+        ("thrusters", thruster.name, ThrusterInput::DRIVE.into_iter().zip(values).collect::<Vec<_>>())
+    });
+    for (header, name, keys) in wheels.chain(thrusters) {
+        for (key, value) in keys {
+            if let Some(value) = value {
+                let remedy = "delete it, or add a [control] table";
+                let path = format!("{header}.{name}.{key}");
+                root.document.add(&path, Some(format!("{value:?}")), "left out without [control]: a schedule commands what is applied", remedy);
+            }
+        }
+    }
+}
+
 /// Reads the keys of one table into the scene.
-fn read_keys(section: &mut Section<'_, '_>, table: Table, instance: usize, scene: &mut SceneInput) {
+pub(super) fn read_keys(section: &mut Section<'_, '_>, table: Table, instance: usize, scene: &mut SceneInput) {
     // a key that is written may be another way to describe a body
     for key in table.keys_in(scene, instance).filter(|key| section.has(key.facts().key)) {
         if key.read(scene, instance).is_none() {
@@ -104,7 +131,7 @@ fn read_keys(section: &mut Section<'_, '_>, table: Table, instance: usize, scene
 }
 
 /// The name of one of a list of tables, different from `taken`; the table is called by it from now on.
-fn read_name(section: &mut Section<'_, '_>, table: Table, taken: &[Name]) -> Name {
+pub(super) fn read_name(section: &mut Section<'_, '_>, table: Table, taken: &[Name]) -> Name {
     section.require("name", Name::ALLOWED, "\"a1\"");
     let Some(text) = section.text("name") else { return Name::of("unnamed") };
     let Some(name) = Name::new(text) else {

@@ -15,6 +15,8 @@ const UNITS: &[(&str, &str, f64, f64)] = &[
     ("mrad/s", "rad/s", 1.0, 1e3),
     ("rpm", "rad/s", PI, 30.0),
     ("rev/s", "rad/s", 2.0 * PI, 1.0),
+    ("deg/sqrt(h)", "rad/sqrt(s)", PI, 10_800.0),
+    ("arcsec/sqrt(s)", "rad/sqrt(s)", PI, 648_000.0),
     ("ms", "s", 1.0, 1e3),
     ("min", "s", 60.0, 1.0),
     ("h", "s", 3600.0, 1.0),
@@ -39,7 +41,20 @@ const UNITS: &[(&str, &str, f64, f64)] = &[
 ];
 
 /// SI units of columns that have no other names here.
-const MORE: [&str; 7] = ["J", "W", "N s", "N m s", "Hz", "1/s", "m/s^2"];
+const MORE: [&str; 12] = [
+    "J",
+    "W",
+    "N s",
+    "N m s",
+    "Hz",
+    "1/s",
+    "m/s^2",
+    "rad/s^2",
+    "rad/sqrt(s)",
+    "rad/s/sqrt(s)",
+    "m/s/sqrt(s)",
+    "1/(N m s)",
+];
 
 /// A unit that texts know.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,7 +96,14 @@ pub(super) fn known(unit: &str) -> Option<&'static str> {
 
 /// The unit at the end of a key; `1` where there is none.
 pub(super) fn in_name(key: &str) -> &'static str {
-    const ENDINGS: [(&str, &str); 11] = [
+    const ENDINGS: [(&str, &str); 18] = [
+        ("_rad_s_sqrt_s", "rad/s/sqrt(s)"),
+        ("_rad_sqrt_s", "rad/sqrt(s)"),
+        ("_m_s_sqrt_s", "m/s/sqrt(s)"),
+        ("_1_n_m_s", "1/(N m s)"),
+        ("_n_m_s", "N m s"),
+        ("_n_s", "N s"),
+        ("_rad_s2", "rad/s^2"),
         ("_rad_s", "rad/s"),
         ("_kg_m3", "kg/m^3"),
         ("_kg_m2", "kg m^2"),

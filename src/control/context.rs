@@ -15,10 +15,14 @@ pub struct LawContext<'a> {
     pub drawn: &'a Scene,
     /// The parameters that the law declares, as drawn for this run.
     pub parameters: &'a ControlInput,
+    /// The same without dispersions.
+    pub nominal_parameters: &'a ControlInput,
     /// The sample; 0 is the nominal run.
     pub sample: SampleId,
     /// The seed of the campaign.
     pub seed: u64,
+    /// Whether the law is to record what it does ([`crate::dynamics::actuation::ActuationLaw::telemetry`]).
+    pub records: bool,
 }
 
 impl LawContext<'_> {

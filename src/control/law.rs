@@ -4,7 +4,10 @@ use std::fmt;
 use std::sync::Arc;
 
 use super::context::LawContext;
+use super::control_loop::ControlLoop;
+use super::outcome::OutcomeColumns;
 use super::runs::{LawRuns, Runs};
+use super::spec::LoopSpec;
 use crate::dynamics::actuation::ActuationLaw;
 use crate::observables::{LawColumn, LawColumns};
 use crate::scene::{Actuated, LawParameter};
@@ -21,6 +24,8 @@ pub struct ControlLaw {
     parameters: &'static [LawParameter],
     columns: LawColumns,
     runs: Arc<dyn Fn() -> Box<dyn LawRuns> + Send + Sync>,
+    /// What the law consists of, where it is the loop of a campaign file.
+    spec: Option<Arc<LoopSpec>>,
 }
 
 impl ControlLaw {
@@ -52,7 +57,22 @@ impl ControlLaw {
     ) -> Self {
         let make = Arc::new(make);
         let runs = Arc::new(move || Box::new(Runs::new(make.clone())) as Box<dyn LawRuns>);
-        ControlLaw { name, commands, parameters, columns: LawColumns::NONE, runs }
+        ControlLaw { name, commands, parameters, columns: LawColumns::NONE, runs, spec: None }
+    }
+
+    /// The loop `spec` of a campaign file. Its parameters are tables of the scene.
+    pub fn closed_loop(spec: LoopSpec) -> Self {
+        let spec = Arc::new(spec);
+        let columns = Arc::new(OutcomeColumns::of(&spec));
+        let commands = Actuated { thrusters: !spec.thrusters.is_empty(), motors: !spec.wheels.is_empty(), body_torque: false };
+        let (reported, own) = (columns.columns(), spec.clone());
+        let law = ControlLaw::new("closed_loop", commands, &[], move |context| ControlLoop::new(&own, &columns, context));
+        ControlLaw { columns: reported, spec: Some(spec), ..law }
+    }
+
+    /// What the law consists of, where it is the loop of a campaign file; `None` of a law that a program brings.
+    pub fn spec(&self) -> Option<&LoopSpec> {
+        self.spec.as_deref()
     }
 
     /// The same law, which reports `columns` at the end of a run ([`ActuationLaw::report`]): columns of the rows.
@@ -93,9 +113,9 @@ impl fmt::Debug for ControlLaw {
     }
 }
 
-/// Laws of one name are one law.
+/// Laws of one name are one law; loops of campaign files are what they consist of.
 impl PartialEq for ControlLaw {
     fn eq(&self, other: &Self) -> bool {
-        self.name == other.name
+        self.name == other.name && self.spec == other.spec
     }
 }

@@ -3,8 +3,11 @@
 //! - [`law`]: [`ControlLaw`], a law that a plan can fly: its name, its parameters, and how it is made for a run from a [`LawContext`]
 //!   (in [`context`]).
 //! - [`runs`]: the laws of the runs that an engine propagates together.
+//! - [`spec`]: what a loop of a campaign file consists of; [`parameters`]: its numbers. [`control_loop`]: it in a run. [`outcome`]: what comes of a run;
+//!   [`recorder`]: its telemetry.
 //! - [`truth`]: the true state at a tick. [`sensors`]: what is measured of it ([`measurement`]).
 //! - [`estimators`]: from measurements to an [`estimate`].
+//! - [`guidance`]: which phase a run is in, and the attitude and the maneuver that it wants.
 //! - [`laws`]: from an estimate to a wanted torque.
 //! - [`allocation`]: from a wanted torque and force to wheels and thrusters. [`actuators`]: what these make of it.
 //! - [`rotation`], [`small_matrix`]: what all of them compute with.
@@ -14,15 +17,21 @@
 pub mod actuators;
 pub mod allocation;
 pub mod context;
+pub mod control_loop;
 pub mod estimate;
 pub mod estimators;
+pub mod guidance;
 pub mod law;
 pub mod laws;
 pub mod measurement;
+pub mod outcome;
+pub mod parameters;
+pub mod recorder;
 pub mod rotation;
 pub mod runs;
 pub mod sensors;
 pub mod small_matrix;
+pub mod spec;
 pub mod truth;
 
 pub use context::LawContext;

@@ -4,6 +4,7 @@ use std::sync::Arc as Shared;
 
 use super::context::LawContext;
 use crate::dynamics::actuation::{Actuation, ActuationLaw, BodyState, LawSource, OpenLoop, WheelState, sum};
+use crate::run::Telemetry;
 use crate::scene::Arc;
 
 /// The laws of the runs of a worker, by the index of the run.
@@ -15,6 +16,11 @@ pub trait LawRuns: LawSource + Send {
     fn report(&mut self, run: usize, values: &mut [f64]) {
         values.fill(f64::NAN);
         self.law(run).report(values);
+    }
+
+    /// What the law of run `run` has recorded.
+    fn telemetry(&mut self, run: usize) -> Option<&Telemetry> {
+        self.law(run).telemetry()
     }
 }
 
@@ -76,5 +82,9 @@ impl<L: ActuationLaw> ActuationLaw for BesideSchedule<L> {
 
     fn report(&self, values: &mut [f64]) {
         self.law.report(values);
+    }
+
+    fn telemetry(&self) -> Option<&Telemetry> {
+        self.law.telemetry()
     }
 }

@@ -9,7 +9,7 @@ use crate::observables::nominal_attitude::NominalAttitude;
 use crate::observables::{Group, Observer, Request};
 use crate::propagation::engine::CompletionCallback;
 use crate::propagation::{CompletedRun, Engine};
-use crate::run::{Grid, StateField, StateFields, Status};
+use crate::run::{Grid, StateField, StateFields, Status, Telemetry};
 use crate::sampling::SampleId;
 use crate::scene::{Arc, ControlInput, EnvironmentInput, Scene};
 
@@ -28,12 +28,23 @@ pub struct Flights<'p> {
     engine: Box<dyn Engine>,
     /// The laws, and the nominal scene that they know; where the plan has a law.
     laws: Option<(Box<dyn LawRuns>, Scene)>,
+    records: bool,
 }
 
 impl<'p> Flights<'p> {
     /// Runs of `plan` by `engine`, which is for its settings.
     pub fn new(plan: &'p Plan, engine: Box<dyn Engine>) -> Self {
-        Flights { plan, engine, laws: plan.law.as_ref().map(|law| (law.runs(), nominal(plan))) }
+        Flights { plan, engine, laws: plan.law.as_ref().map(|law| (law.runs(), nominal(plan))), records: false }
+    }
+
+    /// The same, with laws that record what they do.
+    pub fn recording(self) -> Self {
+        Flights { records: true, ..self }
+    }
+
+    /// What the law of run `run` of the last flight has recorded.
+    pub fn telemetry(&mut self, run: usize) -> Option<&Telemetry> {
+        self.laws.as_mut()?.0.telemetry(run)
     }
 
     /// Flies `scenes` and passes each to `finish`. `draws` are those of the laws, one for each scene, and nothing where the plan has no law.
@@ -41,7 +52,9 @@ impl<'p> Flights<'p> {
         let Some((laws, nominal)) = &mut self.laws else { return self.engine.propagate(scenes, finish) };
         assert_eq!(scenes.len(), draws.len(), "each run has a law");
         for (run, (drawn, LawDraw { sample, parameters })) in scenes.iter().zip(draws).enumerate() {
-            laws.begin(run, &LawContext { nominal, drawn, parameters, sample: *sample, seed: self.plan.seed });
+            let nominal_parameters = &self.plan.nominal.control;
+            let (sample, seed, records) = (*sample, self.plan.seed, self.records);
+            laws.begin(run, &LawContext { nominal, drawn, parameters, nominal_parameters, sample, seed, records });
         }
         self.engine.propagate_under(Laws::Feedback(&mut **laws), scenes, finish);
     }

@@ -15,8 +15,7 @@ use crate::ensemble::runner::RunError;
 use crate::ensemble::settings::propagator;
 use crate::math::Isa;
 use crate::observables::{Group, Observer, Request, Series};
-use crate::run::Outcome;
-use crate::run::{Grid, StateField, StateFields, StateTable};
+use crate::run::{Grid, Outcome, StateField, StateFields, StateTable, Telemetry};
 use crate::sampling::SampleId;
 use crate::scene::{Arc, Scene, SceneError};
 
@@ -47,6 +46,8 @@ pub struct SingleRun {
     pub reason: String,
     /// Energies and conservation errors at the points that were reached.
     pub series: Vec<(Series, Vec<f64>)>,
+    /// What the control law of the plan has recorded; empty without one.
+    pub telemetry: Telemetry,
     /// The row of the sample, as a campaign on this grid has it, with the columns of [`SingleRun::request`].
     pub row: Vec<f64>,
     /// What the row holds.
@@ -123,7 +124,7 @@ impl<'p> SingleRuns<'p> {
             plan,
             isa,
             request,
-            flights: Flights::new(plan, propagator(plan, grid.clone(), fields).engine(isa)),
+            flights: Flights::new(plan, propagator(plan, grid.clone(), fields).engine(isa)).recording(),
             observer: Observer::new(request, &grid).with_nominal(nominal(&request)),
             series_observer: Observer::new(shown, &grid).with_nominal(nominal(&shown)),
             ignored: vec![f64::NAN; shown.columns().len()],
@@ -149,7 +150,11 @@ impl<'p> SingleRuns<'p> {
             result = Some((run.table.clone(), run.arcs.to_vec(), Outcome { status, ..*run.outcome }));
         });
         self.flights.report(0, &mut row[self.request.places_of_law()]);
-        let (table, arcs, outcome) = result.expect("the propagator finishes every scene that it is given");
+        let (table, arcs, mut outcome) = result.expect("the propagator finishes every scene that it is given");
+        if let Some(end) = arcs.last().filter(|arc| arc.applied.ends_run).map(|arc| arc.start) {
+            outcome.points = outcome.points.min(self.grid.times().partition_point(|time| *time <= end));
+        }
+        let telemetry = self.flights.telemetry(0).cloned().unwrap_or_default();
         let series = self.series_observer.series().map(|(series, values)| (series, values.collect())).collect();
         Ok(SingleRun {
             scene,
@@ -159,6 +164,7 @@ impl<'p> SingleRuns<'p> {
             outcome,
             reason,
             series,
+            telemetry,
             row,
             request: self.request,
         })

@@ -7,7 +7,7 @@
 //!
 //! | | |
 //! | --- | --- |
-//! | operators, weakest first | `< <= > >= == !=` (1 or 0), `+ -`, `* /`, unary `-`, `^` (from the right) |
+//! | operators, weakest first | `or`, `and` (1 or 0; a number other than 0 counts as true), `< <= > >= == !=` (1 or 0), `+ -`, `* /`, unary `-`, `^` (from the right) |
 //! | functions | `sqrt exp ln log10 sin cos tan asin acos atan atan2 abs min max`, `if(condition, yes, no)` |
 //! | constants | `pi`, numbers such as `2`, `0.5`, `1e-3` |
 
@@ -28,6 +28,8 @@ enum Step {
 /// An operator between two numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Binary {
+    Or,
+    And,
     Add,
     Subtract,
     Multiply,
@@ -163,6 +165,8 @@ impl Binary {
     fn value(self, a: f64, b: f64) -> f64 {
         let truth = |is: bool| if is { 1.0 } else { 0.0 };
         match self {
+            Binary::Or => truth(a != 0.0 || b != 0.0),
+            Binary::And => truth(a != 0.0 && b != 0.0),
             Binary::Add => a + b,
             Binary::Subtract => a - b,
             Binary::Multiply => a * b,
@@ -179,21 +183,23 @@ impl Binary {
 }
 
 /// The operators: text, meaning, how strongly they bind what is left and right of them. Longer texts first.
-const OPERATORS: [(&str, Binary, u8, u8); 11] = [
-    ("<=", Binary::LessOrEqual, 1, 2),
-    (">=", Binary::GreaterOrEqual, 1, 2),
-    ("==", Binary::Equal, 1, 2),
-    ("!=", Binary::NotEqual, 1, 2),
-    ("<", Binary::Less, 1, 2),
-    (">", Binary::Greater, 1, 2),
-    ("+", Binary::Add, 3, 4),
-    ("-", Binary::Subtract, 3, 4),
-    ("*", Binary::Multiply, 5, 6),
-    ("/", Binary::Divide, 5, 6),
-    ("^", Binary::Power, 10, 9),
+const OPERATORS: [(&str, Binary, u8, u8); 13] = [
+    ("or", Binary::Or, 1, 2),
+    ("and", Binary::And, 3, 4),
+    ("<=", Binary::LessOrEqual, 5, 6),
+    (">=", Binary::GreaterOrEqual, 5, 6),
+    ("==", Binary::Equal, 5, 6),
+    ("!=", Binary::NotEqual, 5, 6),
+    ("<", Binary::Less, 5, 6),
+    (">", Binary::Greater, 5, 6),
+    ("+", Binary::Add, 7, 8),
+    ("-", Binary::Subtract, 7, 8),
+    ("*", Binary::Multiply, 9, 10),
+    ("/", Binary::Divide, 9, 10),
+    ("^", Binary::Power, 14, 13),
 ];
 /// How strongly a sign binds: -x^2 is -(x^2), -x*y is (-x)*y.
-const SIGN: u8 = 7;
+const SIGN: u8 = 11;
 /// Parentheses and signs within each other: deeper, the parser itself would run out of stack.
 const DEEPEST_TEXT: usize = 1000;
 
@@ -237,7 +243,12 @@ impl Parser<'_> {
         self.operand()?;
         loop {
             self.space();
-            let operator = OPERATORS.iter().find(|(text, ..)| self.rest().starts_with(text));
+            let is_word = |text: &str| text.starts_with(|letter: char| letter.is_ascii_alphabetic());
+            let goes_on = |text: &str| {
+                self.rest()[text.len()..].starts_with(|letter: char| letter.is_ascii_alphanumeric() || letter == '_')
+            };
+            let is_next = |text: &str| self.rest().starts_with(text) && !(is_word(text) && goes_on(text));
+            let operator = OPERATORS.iter().find(|(text, ..)| is_next(text));
             let Some(&(text, operator, _, right)) = operator.filter(|(_, _, left, _)| *left >= least) else {
                 return Ok(());
             };
@@ -360,6 +371,10 @@ mod tests {
             ("-2 * 3 + 1", -5.0),
             ("a.b * x[1] + wheel1.y_m", 11.0),
             ("a + a * a", 6.0),
+            ("1 < 2 and 3 > 2 or 0", 1.0),
+            ("1 > 2 and 3 > 2 or 2", 1.0),
+            ("1 and (0 or 2 - 2)", 0.0),
+            ("0 or 1 and 0", 0.0),
             ("1.5e-3*1E+3", 1.5),
             (".5", 0.5),
             ("max(1, min(4, 3))", 3.0),

@@ -33,6 +33,8 @@ pub enum TimeColumn {
     State(StateField, usize),
     /// A series of the observables.
     Series(Series),
+    /// What a control law has recorded: the place among its quantities.
+    Recorded(usize),
 }
 
 /// A table over time.
@@ -61,6 +63,10 @@ impl TimeSeries {
             if let Some(quantity) = series.quantity(&run.request.wheels).filter(|_| *series != LEFT_OUT) {
                 table.push(TimeColumn::Series(*series), quantity, |point| values[point]);
             }
+        }
+        let recorded = run.telemetry.held_at(run.grid.times());
+        for (place, (quantity, values)) in run.telemetry.quantities.iter().zip(&recorded).enumerate() {
+            table.push(TimeColumn::Recorded(place), quantity.clone(), |point| values[point]);
         }
         let mut origin = provenance(plan);
         origin.insert("spindrift.sample_id".to_owned(), sample.to_string());

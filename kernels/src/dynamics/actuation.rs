@@ -12,6 +12,7 @@
 //! Values are *applied* values: scales, delays and limits of actuators are the law's own matter. Not here: sensors, estimators
 //! and control laws proper, and the equations on which the values act.
 
+use crate::run::Telemetry;
 use crate::scene::schedule::actuation_at;
 pub use crate::scene::{Actuation, Arc, MAX_THRUSTERS, MAX_WHEELS};
 
@@ -58,6 +59,11 @@ pub trait ActuationLaw {
     /// Writes what the law has to report when its run has ended: the values of the columns that it declares, in their order. All are NaN
     /// before, which is a value that the run does not have.
     fn report(&self, _values: &mut [f64]) {}
+
+    /// What the law has recorded of its run, where it was made to record.
+    fn telemetry(&self) -> Option<&Telemetry> {
+        None
+    }
 }
 
 impl<F: FnMut(f64, &BodyState, &WheelState) -> Actuation> ActuationLaw for F {

@@ -68,6 +68,14 @@ impl<R: Real> MassProperties<R> {
         MassProperties { body, wheels, debris, total, center, inertia, inertia_free }
     }
 
+    /// The same spacecraft with the inertia `inertia` about c, wheels locked, F_s, kg m^2; the axial inertias of the wheels stay.
+    #[must_use]
+    pub fn with_inertia(self, inertia: [[R; 3]; 3]) -> Self {
+        let less = |sum: [[R; 3]; 3], part: [[R; 3]; 3]| std::array::from_fn(|i| difference(sum[i], part[i]));
+        let inertia_free = self.wheels.iter().fold(inertia, |sum, wheel| less(sum, wheel.axial_inertia()));
+        MassProperties { inertia, inertia_free, ..self }
+    }
+
     /// What resists a change of omega, kg m^2, by rows: J*, and the axial inertias of the wheels whose speed is held.
     pub fn inertia_rotating(&self) -> [[R; 3]; 3] {
         let held = self.wheels.iter().filter(|wheel| wheel.mode == WheelMode::SpeedHeld);

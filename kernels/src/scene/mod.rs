@@ -71,38 +71,92 @@ pub struct Scene {
     /// The same of motor torque.
     pub commands_torque: bool,
     /// What actuators make of the commands of a control law; those of the schedule have it.
-    pub actuator_errors: ActuatorErrors,
+    pub actuators: ActuatorModels,
 }
 
 /// What the actuators make of the commands of a control law.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ActuatorErrors {
-    /// Factors of the commanded thrusts, in the order of the thrusters.
-    pub thrust_scale: [f64; MAX_THRUSTERS],
-    /// Factors of the commanded motor torques, in the order of the wheels that turn.
-    pub torque_scale: [f64; MAX_WHEELS],
-    /// What a motor gives beyond the scaled torque while a torque other than zero is commanded, N m.
-    pub torque_bias: [f64; MAX_WHEELS],
+pub struct ActuatorModels {
+    /// Those of the thrusters, in their order; ideal beyond.
+    pub thrusters: [ThrusterModel; MAX_THRUSTERS],
+    /// Those of the wheels that turn, in their order; ideal beyond.
+    pub wheels: [WheelModel; MAX_WHEELS],
 }
 
-impl ActuatorErrors {
+/// What a thruster makes of a command.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ThrusterModel {
+    /// Factor of the commanded thrust.
+    pub thrust_scale: f64,
+    /// Largest thrust that is commanded, N; infinite without a limit.
+    pub max_thrust: f64,
+    /// Shortest firing, s.
+    pub min_on_time: f64,
+}
+
+/// What a motor and its bearing make of a command.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WheelModel {
+    /// Factor of the commanded torque.
+    pub torque_scale: f64,
+    /// What the motor gives beyond the scaled torque while a torque other than zero is commanded, N m.
+    pub torque_bias: f64,
+    /// Largest torque, N m; infinite without a limit.
+    pub torque_limit: f64,
+    /// Largest rate relative to the body, rad/s; infinite without a limit.
+    pub speed_limit: f64,
+    /// Coulomb friction, N m.
+    pub coulomb_friction: f64,
+    /// Viscous friction, N m s.
+    pub viscous_friction: f64,
+}
+
+impl ThrusterModel {
+    /// An ideal thruster.
+    pub const IDEAL: ThrusterModel = ThrusterModel { thrust_scale: 1.0, max_thrust: f64::INFINITY, min_on_time: 0.0 };
+}
+
+impl WheelModel {
+    /// An ideal motor without friction.
+    pub const IDEAL: WheelModel = WheelModel {
+        torque_scale: 1.0,
+        torque_bias: 0.0,
+        torque_limit: f64::INFINITY,
+        speed_limit: f64::INFINITY,
+        coulomb_friction: 0.0,
+        viscous_friction: 0.0,
+    };
+}
+
+impl ActuatorModels {
     /// Ideal actuators.
-    pub const NONE: ActuatorErrors = ActuatorErrors {
-        thrust_scale: [1.0; MAX_THRUSTERS],
-        torque_scale: [1.0; MAX_WHEELS],
-        torque_bias: [0.0; MAX_WHEELS],
+    pub const IDEAL: ActuatorModels = ActuatorModels {
+        thrusters: [ThrusterModel::IDEAL; MAX_THRUSTERS],
+        wheels: [WheelModel::IDEAL; MAX_WHEELS],
     };
 
     /// Those of `input`.
     fn of(input: &SceneInput) -> Self {
-        let mut errors = Self::NONE;
-        for (scale, thruster) in errors.thrust_scale.iter_mut().zip(&input.thrusters) {
-            *scale = thruster.thrust_scale;
+        let mut models = Self::IDEAL;
+        for (model, thruster) in models.thrusters.iter_mut().zip(&input.thrusters) {
+            *model = ThrusterModel {
+                thrust_scale: thruster.thrust_scale,
+                max_thrust: thruster.max_thrust_n.unwrap_or(f64::INFINITY),
+                min_on_time: thruster.min_on_time_s.unwrap_or(0.0),
+            };
         }
-        for (place, wheel) in input.wheels.iter().filter(|wheel| wheel.mode != WheelMode::Locked).enumerate() {
-            (errors.torque_scale[place], errors.torque_bias[place]) = (wheel.torque_scale, wheel.torque_bias_n_m);
+        let turning = input.wheels.iter().filter(|wheel| wheel.mode != WheelMode::Locked);
+        for (model, wheel) in models.wheels.iter_mut().zip(turning) {
+            *model = WheelModel {
+                torque_scale: wheel.torque_scale,
+                torque_bias: wheel.torque_bias_n_m,
+                torque_limit: wheel.torque_limit_n_m.unwrap_or(f64::INFINITY),
+                speed_limit: wheel.speed_limit_rad_s.unwrap_or(f64::INFINITY),
+                coulomb_friction: wheel.coulomb_friction_n_m.unwrap_or(0.0),
+                viscous_friction: wheel.viscous_friction_n_m_s.unwrap_or(0.0),
+            };
         }
-        errors
+        models
     }
 }
 

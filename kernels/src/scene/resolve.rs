@@ -5,7 +5,7 @@ use super::input::SceneInput;
 use super::mass::MassProperties;
 use super::schema::{InitialInput, MAX_WHEELS, WheelMode};
 use super::unit_quaternion::unit_quaternion;
-use super::{ActuatorErrors, InitialState, Scene, SceneError, check, schedule};
+use super::{ActuatorModels, InitialState, Scene, SceneError, check, schedule};
 use crate::math::vector::{conjugate, dcm_from_quaternion, hamilton, sum, transposed_product};
 
 impl Scene {
@@ -24,7 +24,7 @@ impl Scene {
             environment: input.environment,
             commands_thrust: false,
             commands_torque: false,
-            actuator_errors: ActuatorErrors::NONE,
+            actuators: ActuatorModels::IDEAL,
         };
         scene.take(input, &mass);
         Ok(scene)
@@ -52,7 +52,7 @@ impl Scene {
         self.environment = input.environment;
         self.commands_thrust = input.actuation.iter().any(|arc| arc.thrust_n.iter().any(|thrust| *thrust != 0.0));
         self.commands_torque = input.actuation.iter().any(|arc| arc.torque_n_m.iter().any(|torque| *torque != 0.0));
-        self.actuator_errors = ActuatorErrors::of(input);
+        self.actuators = ActuatorModels::of(input);
     }
 }
 

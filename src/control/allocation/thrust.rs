@@ -13,7 +13,7 @@ use super::simplex::{COLUMNS, Column, ROWS, least};
 use crate::math::list::List;
 use crate::math::vector::{cross, difference, norm, scaled, sum};
 use crate::scene::thruster::report_offset;
-use crate::scene::{MAX_THRUSTERS, Thruster};
+use crate::scene::{MAX_THRUSTERS, Scene, Thruster};
 
 /// Directions that differ by less, relative to their length, are one: far above the rounding of positions, far below any alignment.
 const SAME: f64 = 1e-9;
@@ -69,6 +69,20 @@ impl ThrustAllocation {
         let mut most = [0.0; MAX_THRUSTERS];
         most[..given.len()].copy_from_slice(given);
         ThrustAllocation { wrenches, most, rows, scales, lever }
+    }
+
+    /// That of the thrusters at the places `used` of `scene`, as a control loop needs it: controlled are the torques that they give in both directions, and
+    /// the forces that any of them gives.
+    pub fn of_loop(scene: &Scene, used: &[usize]) -> Self {
+        let models = &scene.actuators.thrusters;
+        let limit = |place: usize| if used.contains(&place) { models[place].max_thrust } else { 0.0 };
+        let most: Vec<f64> = (0..scene.thrusters.len()).map(limit).collect();
+        let center = scene.mass.center;
+        let all = Self::new(&scene.thrusters, center, &most, [true; 6]);
+        let two_sided = all.two_sided_torques();
+        let gives = |row: usize| used.iter().any(|place| all.wrenches[*place][row].abs() > SAME);
+        let axes = std::array::from_fn(|row| if row < 3 { gives(row) } else { two_sided[row - 3][row - 3] > 0.5 });
+        Self::new(&scene.thrusters, center, &most, axes)
     }
 
     /// The thrusts for the force `force_s` (N) and the torque `torque_s` about c (N m), both in F_s; without any where these are not finite.

@@ -1,17 +1,15 @@
 //! A radar on the ground: positions and velocities in F_e of the base point p and, where there is one, of the debris's centre of mass.
 
-use super::{AXES, LATENCY, NormalErrors, PERIOD, Sensor, SensorContext, SensorKind, optional};
+use super::{AXES, NormalErrors, Sensor, SensorContext, SensorKind, optional};
 use crate::control::measurement::{Measurement, PointMotion};
 use crate::control::truth::Truth;
 use crate::math::vector::sum;
 use crate::scene::LawParameter;
 
 pub(super) const KIND: SensorKind =
-    SensorKind { name: "ground_radar", parameters: &PARAMETERS, make: |context| Box::new(GroundRadar::new(context)) };
+    SensorKind { name: "ground_radar", has_latency: true, parameters: &PARAMETERS, make: |context| Box::new(GroundRadar::new(context)) };
 
-static PARAMETERS: [LawParameter; 4] = [
-    PERIOD,
-    LATENCY,
+static PARAMETERS: [LawParameter; 2] = [
     optional("position_noise_m", "m", "Standard deviation of each component of a position"),
     optional("velocity_noise_m_s", "m/s", "Standard deviation of each component of a velocity"),
 ];

@@ -100,7 +100,9 @@ impl<const N: usize> NormalErrors<N> {
 pub struct SensorKind {
     /// As in `kind` of `[[sensors]]`.
     pub name: &'static str,
-    /// The keys of its table, with [`PERIOD`] and, where a measurement has an age, [`LATENCY`].
+    /// Whether a measurement may be delivered later, with its age.
+    pub has_latency: bool,
+    /// The keys of its table; `period_s` and `latency_s` are those of every sensor.
     pub parameters: &'static [LawParameter],
     /// The sensor of a run.
     pub make: fn(&SensorContext<'_>) -> Box<dyn Sensor>,
@@ -114,13 +116,6 @@ pub static KINDS: [SensorKind; 5] =
 pub fn kind(name: &str) -> Option<&'static SensorKind> {
     KINDS.iter().find(|kind| kind.name == name)
 }
-
-/// When a sensor measures: the loop reads it.
-pub const PERIOD: LawParameter = LawParameter::number("period_s", "s", "Time from sample to sample", Limit::Positive);
-
-/// When a measurement is delivered: the loop reads it.
-pub const LATENCY: LawParameter =
-    LawParameter::number("latency_s", "s", "Time from a measurement to its delivery", Limit::NotNegative).or(&[0.0]);
 
 /// The names of the components of a vector.
 const AXES: [&str; 3] = ["x", "y", "z"];
@@ -222,13 +217,12 @@ mod tests {
     use super::bench::{sensor, truth};
     use super::*;
 
-    /// Law: every kind has a period, and a name of its own; every other key has a default, and its components a number each.
+    /// Law: every kind has a name of its own; every key has a default, and its components a number each.
     #[test]
-    fn kinds_declare_what_the_loop_reads() {
+    fn kinds_have_names_and_defaults() {
         for (index, one) in KINDS.iter().enumerate() {
             assert!(KINDS[..index].iter().all(|other| other.name != one.name));
-            assert_eq!(one.parameters[0].facts.key, PERIOD.facts.key, "{}", one.name);
-            for parameter in &one.parameters[1..] {
+            for parameter in one.parameters {
                 let default = parameter.default.map(<[f64]>::len);
                 assert_eq!(default, Some(parameter.facts.components.len()), "{} {}", one.name, parameter.facts.key);
             }

@@ -5,7 +5,7 @@
 //! sv^2 T + su^2 T^3/12 about the mean of the biases at both ends.
 
 use super::NormalErrors;
-use super::{AXES, PERIOD, Sensor, SensorContext, SensorKind, axes, optional};
+use super::{AXES, Sensor, SensorContext, SensorKind, axes, optional};
 use crate::control::measurement::Measurement;
 use crate::control::rotation::{turned, vector_of};
 use crate::control::truth::Truth;
@@ -14,10 +14,9 @@ use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
 
 pub(super) const KIND: SensorKind =
-    SensorKind { name: "rate_gyro", parameters: &PARAMETERS, make: |context| Box::new(RateGyro::new(context)) };
+    SensorKind { name: "rate_gyro", has_latency: false, parameters: &PARAMETERS, make: |context| Box::new(RateGyro::new(context)) };
 
-static PARAMETERS: [LawParameter; 8] = [
-    PERIOD,
+static PARAMETERS: [LawParameter; 7] = [
     optional(
         "angular_random_walk_rad_sqrt_s",
         "rad/sqrt(s)",

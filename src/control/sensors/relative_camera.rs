@@ -1,6 +1,6 @@
 //! A camera on the spacecraft: attitude and rate of the debris relative to the spacecraft, within a range.
 
-use super::{AXES, LATENCY, NormalErrors, PERIOD, Sensor, SensorContext, SensorKind, optional};
+use super::{AXES, NormalErrors, Sensor, SensorContext, SensorKind, optional};
 use crate::control::measurement::Measurement;
 use crate::control::rotation::quaternion_of;
 use crate::control::truth::Truth;
@@ -8,14 +8,12 @@ use crate::math::vector::{conjugate, dcm_from_quaternion, difference, hamilton, 
 use crate::scene::LawParameter;
 
 pub(super) const KIND: SensorKind = SensorKind {
-    name: "relative_camera",
+    name: "relative_camera", has_latency: true,
     parameters: &PARAMETERS,
     make: |context| Box::new(RelativeCamera::new(context)),
 };
 
-static PARAMETERS: [LawParameter; 5] = [
-    PERIOD,
-    LATENCY,
+static PARAMETERS: [LawParameter; 3] = [
     optional(
         "attitude_noise_rad",
         "rad",

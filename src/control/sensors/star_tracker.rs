@@ -1,6 +1,6 @@
 //! A star tracker: the attitude, with noise about each axis of the body; nothing above a rate of the body.
 
-use super::{AXES, LATENCY, NormalErrors, PERIOD, Sensor, SensorContext, SensorKind, axes, optional};
+use super::{AXES, NormalErrors, Sensor, SensorContext, SensorKind, axes, optional};
 use crate::control::measurement::Measurement;
 use crate::control::rotation::quaternion_of;
 use crate::control::truth::Truth;
@@ -9,11 +9,9 @@ use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
 
 pub(super) const KIND: SensorKind =
-    SensorKind { name: "star_tracker", parameters: &PARAMETERS, make: |context| Box::new(StarTracker::new(context)) };
+    SensorKind { name: "star_tracker", has_latency: true, parameters: &PARAMETERS, make: |context| Box::new(StarTracker::new(context)) };
 
-static PARAMETERS: [LawParameter; 5] = [
-    PERIOD,
-    LATENCY,
+static PARAMETERS: [LawParameter; 3] = [
     axes("noise_rad", "rad", "Standard deviation about each axis of the body", Limit::NotNegative),
     axes("bias_rad", "rad", "Constant rotation vector from the body to the body as measured", Limit::Finite),
     optional("max_rate_rad_s", "rad/s", "Rate of the body above which it gives nothing; 0: no limit"),

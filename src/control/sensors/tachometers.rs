@@ -1,16 +1,15 @@
 //! Tachometers of the wheels: their rates relative to the body.
 
-use super::{NormalErrors, PERIOD, Sensor, SensorContext, SensorKind, optional};
+use super::{NormalErrors, Sensor, SensorContext, SensorKind, optional};
 use crate::control::measurement::Measurement;
 use crate::control::truth::Truth;
 use crate::scene::schema::Limit;
 use crate::scene::{LawParameter, MAX_WHEELS};
 
 pub(super) const KIND: SensorKind =
-    SensorKind { name: "tachometers", parameters: &PARAMETERS, make: |context| Box::new(Tachometers::new(context)) };
+    SensorKind { name: "tachometers", has_latency: false, parameters: &PARAMETERS, make: |context| Box::new(Tachometers::new(context)) };
 
-static PARAMETERS: [LawParameter; 3] = [
-    PERIOD,
+static PARAMETERS: [LawParameter; 2] = [
     optional("noise_rad_s", "rad/s", "Standard deviation of each rate"),
     LawParameter::number("scale", "1", "Measured over true rate", Limit::Finite).or(&[1.0]),
 ];

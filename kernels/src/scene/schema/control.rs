@@ -3,13 +3,15 @@
 //! A law is a part of a program (`dynamics::actuation`); which numbers it has, it says itself, in the terms of every other key of a scene:
 //! unit, meaning, limit, default. So they are read, checked, dispersed and written as those are, under names such as `control.gain_n_m`.
 
+use std::sync::{Mutex, PoisonError};
+
 use super::limit::Limit;
 use super::row::{Facts, Needs, Presence, Shape};
 use crate::scene::error::Problems;
 use crate::scene::name::Name;
 
 /// A parameter that a control law declares.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct LawParameter {
     /// What is known of its key in `[control]`.
     pub facts: Facts,
@@ -48,6 +50,24 @@ impl LawParameter {
         self.default = Some(default);
         self
     }
+}
+
+/// The list of the parameters of `parts`, one after the other, which is known at run time only. Each list is kept once and for good: a program has
+/// as many as there are kinds of tables.
+pub fn kept(parts: &[&[LawParameter]]) -> &'static [LawParameter] {
+    static KEPT: Mutex<Vec<&'static [LawParameter]>> = Mutex::new(Vec::new());
+    let list: Vec<LawParameter> = parts.concat();
+    let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
+    let is_same = |known: &[LawParameter]| {
+        let what = |parameter: &LawParameter| (parameter.facts.key, parameter.facts.meaning, parameter.default);
+        known.iter().map(what).eq(list.iter().map(what))
+    };
+    if let Some(known) = kept.iter().find(|known| is_same(known)) {
+        return known;
+    }
+    let list: &'static [LawParameter] = Vec::leak(list);
+    kept.push(list);
+    list
 }
 
 /// The parameters of the control law of a scene; none where it has no law.

@@ -18,6 +18,10 @@ rows! {
         ACROSS, Plain, Limit::Finite, (optional);
     thrust_scale: f64 = 1.0, "1", "Factor of the commanded thrust", SCALAR, Plain,
         Limit::Thrust("write zero for a thruster that does not work"), (optional);
+    max_thrust_n: Option<f64> = None, "N", "Largest thrust that a control loop commands; of a thruster that is on or off, its thrust", SCALAR,
+        Plain, Limit::Positive, (optional);
+    min_on_time_s: Option<f64> = None, "s", "Shortest firing of a thruster that is on or off, under a control loop", SCALAR, Plain,
+        Limit::NotNegative, (optional);
     } others {
         /// The name.
         name: Name = Name::NONE,
@@ -25,6 +29,9 @@ rows! {
 }
 
 impl ThrusterInput {
+    /// The keys that act under a control loop alone.
+    pub const DRIVE: [&'static str; 2] = ["max_thrust_n", "min_on_time_s"];
+
     /// The ideal thruster called `name` at `position_m` that pushes along `direction`.
     ///
     /// # Panics

@@ -30,6 +30,14 @@ rows! {
     torque_scale: f64 = 1.0, "1", "Factor of the commanded motor torque", SCALAR, Plain, Limit::Finite, (optional);
     torque_bias_n_m: f64 = 0.0, "N m", "What the motor gives beyond the scaled torque while a torque other than zero is commanded",
         SCALAR, Plain, Limit::Finite, (optional);
+    torque_limit_n_m: Option<f64> = None, "N m", "Largest torque of the motor, either way, under a control loop", SCALAR, Plain,
+        Limit::Positive, (optional);
+    speed_limit_rad_s: Option<f64> = None, "rad/s", "Largest rate relative to the body, either way, to which a control loop drives the wheel",
+        SCALAR, Plain, Limit::Positive, (optional);
+    coulomb_friction_n_m: Option<f64> = None, "N m", "Friction of the bearing that does not depend on the rate, under a control loop",
+        SCALAR, Plain, Limit::NotNegative, (optional);
+    viscous_friction_n_m_s: Option<f64> = None, "N m s", "Friction of the bearing in proportion to the rate, under a control loop",
+        SCALAR, Plain, Limit::NotNegative, (optional);
     } others {
         /// The name.
         name: Name = Name::NONE,
@@ -43,6 +51,10 @@ impl WheelInput {
     pub const SIZES: [&'static str; 3] = ["radius_m", "length_m", "density_kg_m3"];
     /// The keys of mass and inertias.
     pub const MASSES: [&'static str; 3] = ["mass_kg", "axial_inertia_kg_m2", "transverse_inertia_kg_m2"];
+
+    /// The keys that act under a control loop alone.
+    pub const DRIVE: [&'static str; 4] =
+        ["torque_limit_n_m", "speed_limit_rad_s", "coulomb_friction_n_m", "viscous_friction_n_m_s"];
 
     /// Berdoz's wheel (Table II: 0.25 m, 0.1 m, 2700 kg/m^3) called `name` about `axis` with its centre at `position_m`.
     ///

@@ -1,0 +1,585 @@
+//! [`ControlLoop`]: sensors, estimator, guidance, law, allocation and actuators of one run, tick by tick.
+//!
+//! At a tick the sensors that are due measure the true state, the estimator updates, guidance may change the phase, the law wants a torque and the
+//! maneuver a force, and allocation makes commands of them. A command acts `delay_s` later, until the next one (zero-order hold), or as pulses; what the
+//! actuators make of it is held over an arc, with friction and limits by the state at its start.
+//!
+//! Flight software knows the nominal scene as it is believed ([`LoopSpec::believed`]) and its own drawn numbers; the truth reaches it through sensors.
+
+use std::sync::Arc;
+
+use super::actuators::wheel_drive::relative_inertia;
+use super::actuators::{DelayQueue, PulseState, ThrusterDrive, WheelDrive, modulation};
+use super::allocation::thrust::ThrustAllocation;
+use super::allocation::wheel_torque::WheelTorque;
+use super::context::LawContext;
+use super::estimate::Estimate;
+use super::estimators::{Consistency, Estimator, EstimatorContext, Update};
+use super::guidance::geometry::{Centers, LaunchGeometry, LaunchState, transfer};
+use super::guidance::phase::{Maneuver, Phase};
+use super::guidance::situation::{Situation, s3_of};
+use super::guidance::target::{AttitudeError, Target};
+use super::guidance::{Failure, Guidance, Progress};
+use super::laws::{AttitudeLaw, KnownBody, LawInput, MomentumUnloading};
+use super::measurement::Measurement;
+use super::outcome::{ArcApplied, Judgement, MissionOutcome, OutcomeColumns, centers_of};
+use super::recorder::Recorder;
+use super::sensors::{Instrument, SensorContext};
+use super::small_matrix::inverse;
+use super::spec::LoopSpec;
+use super::truth::{DebrisMotion, Truth};
+use crate::dynamics::actuation::{Actuation, ActuationLaw, BodyState, WheelState};
+use crate::math::vector::{dcm_from_quaternion, difference, dot, norm, product, scaled, sum};
+use crate::run::Telemetry;
+use crate::scene::{DeclaredTable, MAX_THRUSTERS, MAX_WHEELS, Scene, WheelMode};
+
+/// What acts from a time on: as commanded, before the actuators.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Command {
+    /// When it begins to act, s.
+    begin: f64,
+    /// Motor torques, N m, by wheel.
+    motor_torque: [f64; MAX_WHEELS],
+    /// Thrusts while they last, N, by thruster.
+    thrust: [f64; MAX_THRUSTERS],
+    /// How long each lasts, s.
+    on_time: [f64; MAX_THRUSTERS],
+}
+
+/// Nothing is commanded.
+const IDLE: Command = Command {
+    begin: 0.0,
+    motor_torque: [0.0; MAX_WHEELS],
+    thrust: [0.0; MAX_THRUSTERS],
+    on_time: [0.0; MAX_THRUSTERS],
+};
+
+/// Times that differ by less than this share of a period are one: rounding of the products that they are.
+const SAME_TIME: f64 = 1e-9;
+
+/// The loop of one run.
+pub struct ControlLoop {
+    spec: Arc<LoopSpec>,
+    columns: Arc<OutcomeColumns>,
+    // the truth
+    drawn: Scene,
+    debris: Option<DebrisMotion>,
+    instruments: Vec<Instrument>,
+    wheel_drives: [WheelDrive; MAX_WHEELS],
+    // flight software
+    believed: Scene,
+    known: KnownBody,
+    estimator: Box<dyn Estimator>,
+    phases: Vec<Phase>,
+    /// The law of the phase, and those of all phases as they begin.
+    law: AttitudeLaw,
+    laws: Vec<AttitudeLaw>,
+    guidance: Guidance,
+    wheels: Option<WheelTorque>,
+    thrusters: Option<ThrustAllocation>,
+    /// The projection onto the torques that the thrusters give in both directions.
+    two_sided: [[f64; 3]; 3],
+    thruster_drives: [ThrusterDrive; MAX_THRUSTERS],
+    pulses: [PulseState; MAX_THRUSTERS],
+    launch: LaunchState,
+    /// Limits of time at the limit of speed and without the target, s; infinite where there is none.
+    timeouts: [f64; 2],
+    delay: f64,
+    // time
+    tick: u64,
+    /// Ticks of sensors in a control period, and in a second.
+    ticks_per_period: u64,
+    tick_period: f64,
+    next_tick: f64,
+    // memory
+    measurements: Vec<(usize, Measurement)>,
+    commands: DelayQueue<Command>,
+    /// The command of the last control tick.
+    latest: Command,
+    /// Impulses of force and torque commanded since the last tick, in F_s, N s and N m s.
+    commanded: [[f64; 3]; 2],
+    /// The same of the motors, N m s.
+    commanded_motors: [f64; MAX_WHEELS],
+    /// When the debris was last measured, s.
+    debris_seen: f64,
+    saturated_since: f64,
+    last_update: f64,
+    estimate: Option<Estimate>,
+    // what comes of it
+    judgement: Judgement,
+    outcome: MissionOutcome,
+    recorder: Option<Recorder>,
+    has_ended: bool,
+}
+
+/// The number called `key` of `table`; `otherwise` where it has none.
+fn number_or(table: &DeclaredTable, key: &str, otherwise: f64) -> f64 {
+    table.named(key).map_or(otherwise, |numbers| numbers[0])
+}
+
+/// The same, where zero stands for no limit.
+fn limit(table: &DeclaredTable, key: &str) -> f64 {
+    let number = number_or(table, key, 0.0);
+    if number > 0.0 { number } else { f64::INFINITY }
+}
+
+/// The motors and bearings of the wheels of `scene`.
+fn wheel_drives(scene: &Scene) -> [WheelDrive; MAX_WHEELS] {
+    let inverse = inverse(scene.mass.inertia_rotating());
+    std::array::from_fn(|i| {
+        let Some(wheel) = scene.mass.wheels.get(i) else { return WheelDrive::ideal(1.0) };
+        let model = &scene.actuators.wheels[i];
+        WheelDrive {
+            inertia: relative_inertia(wheel.axial, wheel.axis, inverse),
+            torque_limit: model.torque_limit,
+            speed_limit: model.speed_limit,
+            coulomb: model.coulomb_friction,
+            viscous: model.viscous_friction,
+            torque_scale: model.torque_scale,
+            torque_bias: model.torque_bias,
+        }
+    })
+}
+
+/// The momentum of the wheels of `scene` relative to the body at the estimated rates, in F_s, N m s.
+fn stored_momentum(scene: &Scene, estimate: &Estimate) -> [f64; 3] {
+    let wheels = scene.mass.wheels.iter().zip(estimate.wheel_rates);
+    wheels.fold([0.0; 3], |total, (wheel, rate)| sum(total, scaled(wheel.axial * rate, wheel.axis)))
+}
+
+/// The launch state of the numbers of `[control]`.
+fn launch_state(table: &DeclaredTable) -> LaunchState {
+    let axis = match table.named("approach_axis") {
+        Some(&[x, y, z]) => [x, y, z],
+        _ => [0.0; 3],
+    };
+    let length = norm(axis);
+    LaunchState {
+        distance: number_or(table, "launch_distance_m", 0.0),
+        least_speed: number_or(table, "least_debris_speed_m_s", 0.0),
+        approach_axis: if length > 0.0 { scaled(1.0 / length, axis) } else { axis },
+    }
+}
+
+/// The phases of `spec` with the numbers of `tables`.
+fn phases(spec: &LoopSpec, tables: &[DeclaredTable]) -> Vec<Phase> {
+    let phase = |(phase, table): (&super::spec::PhaseSpec, &DeclaredTable)| Phase {
+        until: phase.until.clone(),
+        next: phase.next,
+        otherwise: phase.otherwise,
+        hold: number_or(table, "hold_s", 0.0),
+        timeout: limit(table, "timeout_s"),
+        target: match (phase.target, table.named("attitude")) {
+            (Target::Attitude(_), Some(&[w, x, y, z])) => Target::Attitude([w, x, y, z]),
+            (target, _) => target,
+        },
+        thrust: phase.thrust,
+        transfer_time: number_or(table, "transfer_time_s", 0.0),
+        unloading: Some(MomentumUnloading {
+            dead_band: number_or(table, "unloading_dead_band_n_m_s", 0.0),
+            time_constant: number_or(table, "unloading_time_s", 0.0),
+        })
+        .filter(|unloading| unloading.time_constant > 0.0),
+    };
+    spec.phases.iter().zip(tables).map(phase).collect()
+}
+
+impl ControlLoop {
+    /// The loop of the run of `context`, which reports `columns`.
+    pub fn new(spec: &Arc<LoopSpec>, columns: &Arc<OutcomeColumns>, context: &LawContext<'_>) -> Self {
+        let (drawn, numbers) = (context.drawn.clone(), &context.parameters.law);
+        let believed = spec.believed(context.nominal);
+        let fastest = spec.sensors.iter().map(|sensor| sensor.period).fold(spec.period, f64::min);
+        let ticks_per_period = (spec.period / fastest).round() as u64;
+        let tick_period = spec.period / ticks_per_period as f64;
+        let instrument = |(sensor, parameters): (&super::spec::SensorSpec, &DeclaredTable)| {
+            let of_run = SensorContext {
+                parameters,
+                drawn: &drawn,
+                period: sensor.period,
+                sample: context.sample,
+                seed: context.seed,
+            };
+            let ticks = |time: f64| (time / tick_period).round() as u64;
+            let made = (super::sensors::KINDS[sensor.kind].make)(&of_run);
+            Instrument::new(made, ticks(sensor.period).max(1), ticks(sensor.latency), tick_period)
+        };
+        let instruments = spec.sensors.iter().zip(&context.parameters.sensors).map(instrument).collect();
+        let tables = spec.sensors.iter().zip(&context.nominal_parameters.sensors);
+        let sensors: Vec<_> = tables.map(|(sensor, table)| (super::sensors::KINDS[sensor.kind].name, table)).collect();
+        let estimator = (super::estimators::KINDS[spec.estimator].make)(&EstimatorContext {
+            nominal: &believed,
+            parameters: &context.nominal_parameters.law,
+            sensors: &sensors,
+            tick: tick_period,
+        });
+        let phases = phases(spec, &context.parameters.guidance);
+        let law = |(phase, table): (&super::spec::PhaseSpec, &DeclaredTable)| {
+            phase.law.map_or(AttitudeLaw::None, |law| (super::laws::KINDS[law].make)(table))
+        };
+        let laws: Vec<AttitudeLaw> = spec.phases.iter().zip(&context.parameters.guidance).map(law).collect();
+        let launch = launch_state(numbers);
+        let thrusters = (!spec.thrusters.is_empty()).then(|| ThrustAllocation::of_loop(&believed, &spec.thrusters));
+        let delay = number_or(numbers, "delay_s", 0.0);
+        ControlLoop {
+            debris: DebrisMotion::of(&drawn),
+            instruments,
+            wheel_drives: wheel_drives(&drawn),
+            known: KnownBody::of(&believed.mass),
+            estimator,
+            guidance: Guidance::new(&phases),
+            law: laws[0],
+            laws,
+            phases,
+            wheels: (!spec.wheels.is_empty()).then(|| {
+                let axes: Vec<[f64; 3]> = spec.wheels.iter().map(|place| believed.mass.wheels[*place].axis).collect();
+                WheelTorque::new(&axes)
+            }),
+            two_sided: thrusters.as_ref().map_or([[0.0; 3]; 3], ThrustAllocation::two_sided_torques),
+            thrusters,
+            thruster_drives: believed.actuators.thrusters.map(|model| ThrusterDrive {
+                mode: modulation::mode(spec.modulation, numbers),
+                most: model.max_thrust,
+                least_on: model.min_on_time,
+            }),
+            pulses: [PulseState::default(); MAX_THRUSTERS],
+            timeouts: [limit(numbers, "saturation_timeout_s"), limit(numbers, "lost_target_timeout_s")],
+            delay,
+            tick: 0,
+            ticks_per_period,
+            tick_period,
+            next_tick: 0.0,
+            measurements: Vec::with_capacity(spec.sensors.len()),
+            commands: DelayQueue::new(IDLE, delay, spec.period),
+            latest: IDLE,
+            commanded: [[0.0; 3]; 2],
+            commanded_motors: [0.0; MAX_WHEELS],
+            debris_seen: 0.0,
+            saturated_since: f64::NAN,
+            last_update: 0.0,
+            estimate: None,
+            judgement: Judgement {
+                launch,
+                keep_out: number_or(numbers, "keep_out_m", 0.0),
+                plume: [number_or(numbers, "plume_range_m", 0.0), number_or(numbers, "plume_half_angle_rad", 0.0)],
+                settling_band: number_or(numbers, "settling_band_rad", 0.0),
+                isp: number_or(numbers, "isp_s", 0.0),
+            },
+            launch,
+            outcome: MissionOutcome::new(),
+            recorder: context.records.then(|| Recorder::new(spec)),
+            has_ended: false,
+            believed,
+            drawn,
+            spec: spec.clone(),
+            columns: columns.clone(),
+        }
+    }
+
+    /// Tick number [`ControlLoop::tick`] at the true state `truth`.
+    fn at_tick(&mut self, truth: &Truth) {
+        self.measurements.clear();
+        for (sensor, instrument) in self.instruments.iter_mut().enumerate() {
+            self.measurements.extend(instrument.deliver(self.tick, truth).map(|measurement| (sensor, measurement)));
+        }
+        let sees_debris = |(_, measurement): &(usize, Measurement)| {
+            matches!(measurement, Measurement::Camera { .. } | Measurement::Radar { debris: Some(_), .. })
+        };
+        if self.spec.knows_the_truth() || self.measurements.iter().any(sees_debris) {
+            self.debris_seen = truth.time;
+        }
+        let interval = truth.time - self.last_update;
+        let mean = |impulse: [f64; 3]| if interval > 0.0 { scaled(1.0 / interval, impulse) } else { [0.0; 3] };
+        let motor_torques = self.commanded_motors.map(|impulse| if interval > 0.0 { impulse / interval } else { 0.0 });
+        let estimate = self.estimator.update(&Update {
+            interval,
+            measurements: &self.measurements,
+            acceleration_s: scaled(1.0 / self.believed.mass.total, mean(self.commanded[0])),
+            torque_s: mean(self.commanded[1]),
+            motor_torques,
+            truth,
+        });
+        (self.last_update, self.commanded, self.commanded_motors) = (truth.time, [[0.0; 3]; 2], [0.0; MAX_WHEELS]);
+        if self.tick.is_multiple_of(self.ticks_per_period) {
+            self.control(truth, &estimate);
+        }
+        self.estimate = Some(estimate);
+        self.tick += 1;
+        self.next_tick = self.tick as f64 * self.tick_period;
+    }
+
+    /// A control tick: guidance, law, allocation.
+    fn control(&mut self, truth: &Truth, estimate: &Estimate) {
+        let geometry = self.geometry_of(estimate);
+        let mut situation = self.situation(truth.time, estimate, geometry);
+        let begins = self.guidance.has_changed;
+        let (mut error, mut velocity_to_go) = self.wanted(estimate, geometry.as_ref(), truth.time);
+        (situation.pointing_error, situation.velocity_to_go) = (error.angle(), velocity_to_go);
+        let progress = match self.failure(truth, estimate, geometry.is_some()) {
+            Some(failure) => Progress::Fails(failure),
+            None => self.guidance.decide(&self.phases, &situation),
+        };
+        if self.guidance.has_changed {
+            self.law = self.laws[self.guidance.phase];
+            (error, velocity_to_go) = self.wanted(estimate, geometry.as_ref(), truth.time);
+        }
+        self.judge(truth, estimate, begins || self.guidance.has_changed);
+        match progress {
+            Progress::Flies => {
+                self.command(truth.time, estimate, &error, velocity_to_go, situation.s3_e);
+                self.record(truth.time, estimate, error.angle());
+            }
+            Progress::Launches => self.end(truth, Failure::None),
+            Progress::Fails(failure) => self.end(truth, failure),
+        }
+    }
+
+    /// Records the tick, where this run is to be recorded.
+    fn record(&mut self, time: f64, estimate: &Estimate, pointing_error: f64) {
+        if let Some(recorder) = &mut self.recorder {
+            let command = self.latest;
+            let mean = |i: usize| command.thrust[i] * (command.on_time[i] / self.spec.period).min(1.0);
+            let commanded = (command.motor_torque, std::array::from_fn(mean));
+            recorder.tick(time, self.guidance.phase, pointing_error, estimate, commanded, &self.measurements);
+        }
+    }
+
+    /// The run has launched, or failed.
+    fn end(&mut self, truth: &Truth, failure: Failure) {
+        self.outcome.ends(&self.drawn, truth, failure, &self.launch);
+        self.has_ended = true;
+    }
+
+    fn geometry_of(&self, estimate: &Estimate) -> Option<LaunchGeometry> {
+        let debris = estimate.debris.as_ref()?;
+        self.launch.geometry(&Centers {
+            r_co_e: estimate.r_co_e,
+            v_co_e: estimate.v_co_e,
+            r_gdo_e: debris.r_gdo_e,
+            v_gdo_e: debris.v_gdo_e,
+        })
+    }
+
+    /// The impulse per mass that is left of the maneuver of the phase, in F_e, m/s.
+    fn velocity_to_go(&self, geometry: Option<&LaunchGeometry>, time: f64) -> [f64; 3] {
+        let Some(geometry) = geometry else { return [0.0; 3] };
+        let phase = &self.phases[self.guidance.phase];
+        match phase.maneuver() {
+            Maneuver::None => [0.0; 3],
+            Maneuver::Stop => scaled(-1.0, geometry.relative_velocity),
+            Maneuver::Transfer => {
+                // before the burn the whole time of the transfer is ahead; within it, what is left of it
+                let left = if phase.thrust == Maneuver::Transfer {
+                    (self.guidance.arrival - time).max(self.spec.period)
+                } else {
+                    phase.transfer_time
+                };
+                transfer(geometry.from_station, geometry.relative_velocity, left)
+            }
+        }
+    }
+
+    /// The attitude relative to the target of the phase, and the velocity to go.
+    fn wanted(&self, estimate: &Estimate, geometry: Option<&LaunchGeometry>, time: f64) -> (AttitudeError, [f64; 3]) {
+        let velocity_to_go = self.velocity_to_go(geometry, time);
+        let target = self.phases[self.guidance.phase].target;
+        (target.error(estimate.q_es, geometry, velocity_to_go), velocity_to_go)
+    }
+
+    fn situation(&self, time: f64, estimate: &Estimate, geometry: Option<LaunchGeometry>) -> Situation {
+        let rates = &estimate.wheel_rates[..self.believed.mass.wheels.len()];
+        Situation {
+            time,
+            time_in_phase: time - self.guidance.since,
+            body_rate: norm(estimate.omega_se_s),
+            pointing_error: 0.0,
+            wheel_speed: rates.iter().fold(0.0, |most, rate| most.max(rate.abs())),
+            wheel_momentum: norm(stored_momentum(&self.believed, estimate)),
+            geometry,
+            velocity_to_go: [0.0; 3],
+            s3_e: s3_of(dcm_from_quaternion(estimate.q_es)),
+            time_to_station: self.guidance.arrival - time,
+            debris_age: if self.spec.has_debris { time - self.debris_seen } else { f64::NAN },
+            debris_rate: estimate.debris.map_or(f64::NAN, |debris| norm(debris.omega_de_d)),
+        }
+    }
+
+    /// What ends the mission whatever the phase.
+    fn failure(&self, truth: &Truth, estimate: &Estimate, has_axis: bool) -> Option<Failure> {
+        let numbers = estimate.q_es.iter().chain(&estimate.omega_se_s).chain(&estimate.r_co_e).chain(&estimate.v_co_e);
+        if !numbers.fold(0.0, |sum: f64, number| sum + number).is_finite() {
+            return Some(Failure::Diverged);
+        }
+        if self.spec.approaches() {
+            if !has_axis {
+                return Some(Failure::NoAxis);
+            }
+            if let Some(debris) = &truth.debris
+                && norm(difference(debris.r_gdo_e, truth.body.r_co_e)) < self.judgement.keep_out
+            {
+                return Some(Failure::KeepOut);
+            }
+            if truth.time - self.debris_seen > self.timeouts[1] {
+                return Some(Failure::LostTarget);
+            }
+        }
+        (truth.time - self.saturated_since > self.timeouts[0]).then_some(Failure::WheelSaturated)
+    }
+
+    /// Takes the truth of a tick into the outcome.
+    fn judge(&mut self, truth: &Truth, estimate: &Estimate, begins: bool) {
+        let target = self.phases[self.guidance.phase].target;
+        let geometry = centers_of(truth).and_then(|centers| self.launch.geometry(&centers));
+        let error = (target != Target::None).then(|| {
+            let to_go = self.velocity_to_go(geometry.as_ref(), truth.time);
+            target.error(truth.body.q_es, geometry.as_ref(), to_go)
+        });
+        let consistency = if self.spec.has_filter() {
+            let bias = self.instruments.iter().find_map(|instrument| instrument.sensor().bias_s());
+            self.estimator.consistency(truth, bias)
+        } else {
+            Consistency::default()
+        };
+        let errors = estimate.errors(truth);
+        self.outcome.tick(&self.drawn, truth, (error.as_ref(), begins), (&errors, &consistency), &self.judgement);
+    }
+
+    /// Commands what the law and the maneuver want.
+    fn command(
+        &mut self,
+        time: f64,
+        estimate: &Estimate,
+        error: &AttitudeError,
+        velocity_to_go: [f64; 3],
+        s3_e: [f64; 3],
+    ) {
+        let mass = &self.believed.mass;
+        let mut momenta = [0.0; MAX_WHEELS];
+        for (i, wheel) in mass.wheels.iter().enumerate() {
+            momenta[i] = wheel.axial * (dot(wheel.axis, estimate.omega_se_s) + estimate.wheel_rates[i]);
+        }
+        let input = LawInput {
+            q_ts: error.q_ts,
+            omega_se_s: estimate.omega_se_s,
+            omega_te_s: error.omega_te_s,
+            acceleration_te_s: [0.0; 3],
+            momentum_s: self.known.momentum(mass, estimate.omega_se_s, &momenta[..mass.wheels.len()]),
+        };
+        let phase = &self.phases[self.guidance.phase];
+        let torque = self.law.torque(&self.known, &input, self.spec.period);
+        let mut command = Command { begin: time + self.delay, ..IDLE };
+        let mut by_thrusters = [0.0; 3];
+        if let Some(allocation) = &self.thrusters {
+            let by_wheels = self.wheels.as_ref().map_or([0.0; 3], |wheels| product(wheels.reachable, torque));
+            let mut wanted = difference(torque, by_wheels);
+            if let Some(unloading) = &phase.unloading {
+                let stored = stored_momentum(&self.believed, estimate);
+                wanted = sum(wanted, unloading.torque(stored, self.two_sided));
+            }
+            let mut along = match phase.thrust {
+                Maneuver::None => 0.0,
+                _ => mass.total * dot(velocity_to_go, s3_e) / self.spec.period,
+            };
+            if matches!(phase.target, Target::Transfer | Target::Stop) {
+                // s3 is turned there for the thruster that pushes along it
+                along = along.max(0.0);
+            }
+            let allocated = allocation.allocate([0.0, 0.0, along], wanted);
+            for &i in &self.spec.thrusters {
+                let period = self.spec.period;
+                let pulse = self.thruster_drives[i].over(allocated.thrust[i], period, &mut self.pulses[i]);
+                (command.thrust[i], command.on_time[i]) = (pulse.thrust, pulse.on_time);
+            }
+            let mean = std::array::from_fn(|i| command.thrust[i] * command.on_time[i] / self.spec.period);
+            by_thrusters = self.believed.thruster_torque_s(mean);
+        }
+        if let Some(allocation) = &self.wheels {
+            let motors = allocation.motors(difference(torque, by_thrusters));
+            self.spec.wheels.iter().zip(motors).for_each(|(place, motor)| command.motor_torque[*place] = motor);
+        }
+        let numbers = command.motor_torque.iter().chain(&command.thrust).chain(&command.on_time);
+        if !numbers.fold(0.0, |sum: f64, number| sum + number).is_finite() {
+            self.has_ended = true;
+            self.outcome.diverges(time);
+            return;
+        }
+        self.commands.push(command.begin, command);
+        self.latest = command;
+    }
+
+    /// What the actuators make of the command from `time` on, and until when.
+    fn applied(&mut self, time: f64, body: &BodyState, wheels: &WheelState) -> Actuation {
+        let same = SAME_TIME * self.spec.period;
+        let (command, next_command) = self.commands.at(time + same);
+        let mut until = self.next_tick.min(next_command);
+        let mut thrust = [0.0; MAX_THRUSTERS];
+        for &i in &self.spec.thrusters {
+            let end = command.begin + command.on_time[i];
+            if command.thrust[i] > 0.0 && end > time + same {
+                thrust[i] = command.thrust[i];
+                until = until.min(end);
+            }
+        }
+        let length = until - time;
+        let mut actuation = Actuation::none(until);
+        let (mut saturated, mut excess) = ([false; 2], 0.0_f64);
+        // a wheel whose speed is held has a motor of its own
+        for (i, drive) in self.wheel_drives[..self.drawn.mass.wheels.len()].iter().enumerate() {
+            if self.drawn.mass.wheels[i].mode != WheelMode::Free {
+                continue;
+            }
+            let driven = drive.over(command.motor_torque[i], wheels.rates[i], length);
+            actuation.motor_torque[i] = driven.torque;
+            saturated[0] |= driven.is_torque_limited;
+            saturated[1] |= driven.is_speed_limited;
+            excess = excess.max(driven.excess);
+        }
+        if !saturated[1] {
+            self.saturated_since = f64::NAN;
+        } else if self.saturated_since.is_nan() {
+            self.saturated_since = time;
+        }
+        let mut hits = false;
+        if thrust != [0.0; MAX_THRUSTERS] {
+            for &i in &self.spec.thrusters {
+                actuation.thrust[i] = self.drawn.actuators.thrusters[i].thrust_scale * thrust[i];
+            }
+            self.commanded[0] = sum(self.commanded[0], scaled(length, self.believed.thruster_force_s(thrust)));
+            self.commanded[1] = sum(self.commanded[1], scaled(length, self.believed.thruster_torque_s(thrust)));
+            if self.spec.approaches() {
+                let truth = Truth::new(&self.drawn, time, body, wheels, self.debris.as_mut());
+                hits = self.outcome.plume_hits(&self.drawn, &truth, &actuation.thrust, &self.judgement);
+            }
+        }
+        for (wheel, torque) in self.believed.mass.wheels.iter().zip(command.motor_torque) {
+            self.commanded[1] = difference(self.commanded[1], scaled(length * torque, wheel.axis));
+        }
+        for (impulse, torque) in self.commanded_motors.iter_mut().zip(command.motor_torque) {
+            *impulse = torque.mul_add(length, *impulse);
+        }
+        let applied = ArcApplied { length, thrust: actuation.thrust, hits, saturated, torque_excess: excess };
+        self.outcome.arc(&self.drawn, &applied);
+        actuation
+    }
+}
+
+impl ActuationLaw for ControlLoop {
+    fn arc(&mut self, time: f64, body: &BodyState, wheels: &WheelState) -> Actuation {
+        if !self.has_ended && time >= self.next_tick - SAME_TIME * self.tick_period {
+            let truth = Truth::new(&self.drawn, time, body, wheels, self.debris.as_mut());
+            self.at_tick(&truth);
+        }
+        if self.has_ended {
+            return Actuation::end_of_run();
+        }
+        self.applied(time, body, wheels)
+    }
+
+    fn report(&self, values: &mut [f64]) {
+        self.columns.report(&self.outcome, &self.guidance, &self.judgement, values);
+    }
+
+    fn telemetry(&self) -> Option<&Telemetry> {
+        self.recorder.as_ref().map(Recorder::telemetry)
+    }
+}

@@ -1,0 +1,129 @@
+//! [`Situation`]: what guidance knows at a tick, and the quantities by which its conditions ask for it.
+
+use super::geometry::LaunchGeometry;
+use crate::math::vector::{norm, product};
+use crate::sampling::expression::Expression;
+
+/// What guidance knows at a tick: of the estimate, never of the truth.
+#[derive(Clone, Copy, Debug)]
+pub struct Situation {
+    /// Time since the start of the run, s.
+    pub time: f64,
+    /// Time since the phase began, s.
+    pub time_in_phase: f64,
+    /// Magnitude of the angular velocity of the body relative to F_e, rad/s.
+    pub body_rate: f64,
+    /// Angle of the rotation to the target of the phase, rad; zero without a target.
+    pub pointing_error: f64,
+    /// Largest magnitude of a wheel's rate relative to the body, rad/s.
+    pub wheel_speed: f64,
+    /// Magnitude of the wheels' momentum relative to the body, N m s.
+    pub wheel_momentum: f64,
+    /// Relative to the launch state, with debris that has an axis.
+    pub geometry: Option<LaunchGeometry>,
+    /// Impulse per mass that is left of the maneuver of the phase, in F_e, m/s.
+    pub velocity_to_go: [f64; 3],
+    /// Direction of s3 in F_e.
+    pub s3_e: [f64; 3],
+    /// Time until the station is reached in the transfer that is flown, s; NaN without one.
+    pub time_to_station: f64,
+    /// Time since the debris was last measured, s; NaN without debris.
+    pub debris_age: f64,
+    /// Magnitude of the angular velocity of the debris relative to F_e, rad/s; NaN without debris.
+    pub debris_rate: f64,
+}
+
+/// A quantity that conditions may name.
+pub struct GuidanceQuantity {
+    /// Its name, unit last.
+    pub name: &'static str,
+    /// What it is.
+    pub meaning: &'static str,
+    /// Whether the scene must have debris.
+    pub needs_debris: bool,
+    value: fn(&Situation) -> f64,
+}
+
+/// The value of `of` at the launch geometry; NaN without one, which fulfils no condition.
+fn with_geometry(situation: &Situation, of: impl Fn(&LaunchGeometry) -> f64) -> f64 {
+    situation.geometry.as_ref().map_or(f64::NAN, of)
+}
+
+const fn own(name: &'static str, meaning: &'static str, value: fn(&Situation) -> f64) -> GuidanceQuantity {
+    GuidanceQuantity { name, meaning, needs_debris: false, value }
+}
+
+const fn of_debris(name: &'static str, meaning: &'static str, value: fn(&Situation) -> f64) -> GuidanceQuantity {
+    GuidanceQuantity { name, meaning, needs_debris: true, value }
+}
+
+/// The quantities of conditions, all of them estimates.
+pub static QUANTITIES: [GuidanceQuantity; 16] = [
+    own("time_s", "Time since the start of the run", |s| s.time),
+    own("time_in_phase_s", "Time since the phase began", |s| s.time_in_phase),
+    own("body_rate_rad_s", "Magnitude of the angular velocity of the body relative to F_e", |s| s.body_rate),
+    own("pointing_error_rad", "Angle of the rotation to the target of the phase", |s| s.pointing_error),
+    own("wheel_speed_rad_s", "Largest magnitude of the rate of a wheel relative to the body", |s| s.wheel_speed),
+    own("wheel_momentum_n_m_s", "Magnitude of the momentum of the wheels relative to the body", |s| s.wheel_momentum),
+    of_debris("debris_distance_m", "Distance from the debris", |s| with_geometry(s, |g| norm(g.to_debris))),
+    of_debris("axis_offset_m", "Distance from the line through the debris along its velocity", |s| {
+        with_geometry(s, LaunchGeometry::axis_offset)
+    }),
+    of_debris("distance_error_m", "Distance behind the debris along that line, less control.launch_distance_m", |s| {
+        with_geometry(s, LaunchGeometry::distance_error)
+    }),
+    of_debris("position_error_m", "Distance from the station", |s| with_geometry(s, LaunchGeometry::position_error)),
+    of_debris("relative_speed_m_s", "Speed relative to the debris", |s| {
+        with_geometry(s, |g| norm(g.relative_velocity))
+    }),
+    of_debris("velocity_to_go_m_s", "Magnitude of the impulse per mass that is left of the maneuver of the phase", |s| {
+        norm(s.velocity_to_go)
+    }),
+    of_debris("velocity_to_go_along_m_s", "Component along s3 of the impulse per mass that is left of the maneuver of the phase", |s| {
+        crate::math::vector::dot(s.velocity_to_go, s.s3_e)
+    }),
+    of_debris("time_to_station_s", "Time until the station is reached in the transfer that is flown", |s| s.time_to_station),
+    of_debris("debris_age_s", "Time since the debris was last measured", |s| s.debris_age),
+    of_debris("debris_rate_rad_s", "Magnitude of the angular velocity of the debris relative to F_e", |s| s.debris_rate),
+];
+
+/// A condition of a phase: an expression over [`QUANTITIES`] that is other than zero where it is met.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Condition {
+    /// As written.
+    pub text: String,
+    expression: Expression,
+    /// The index in [`QUANTITIES`] of each variable.
+    quantities: Vec<usize>,
+}
+
+impl Condition {
+    /// Reads `text`, of a scene with debris or without.
+    ///
+    /// # Errors
+    /// What it must be, to follow "must be".
+    pub fn parse(text: &str, has_debris: bool) -> Result<Self, String> {
+        let expression = Expression::parse(text)?;
+        let is_there = |quantity: &GuidanceQuantity| has_debris || !quantity.needs_debris;
+        let place = |name: &String| {
+            QUANTITIES.iter().position(|quantity| quantity.name == name && is_there(quantity)).ok_or_else(|| {
+                let names: Vec<_> =
+                    QUANTITIES.iter().filter(|quantity| is_there(quantity)).map(|quantity| quantity.name).collect();
+                format!("an expression of estimated quantities ({}), not {name:?}", names.join(", "))
+            })
+        };
+        let quantities = expression.variables().iter().map(place).collect::<Result<_, _>>()?;
+        Ok(Condition { text: text.to_owned(), expression, quantities })
+    }
+
+    /// Whether it is met. A value that is not known (NaN) meets no condition.
+    pub fn is_met(&self, situation: &Situation) -> bool {
+        let value = self.expression.value(|variable| (QUANTITIES[self.quantities[variable]].value)(situation));
+        value != 0.0 && !value.is_nan()
+    }
+}
+
+/// s3 in F_e at the attitude `c_es`.
+pub fn s3_of(c_es: [[f64; 3]; 3]) -> [f64; 3] {
+    product(c_es, [0.0, 0.0, 1.0])
+}

@@ -1,0 +1,115 @@
+//! [`LoopSpec`]: what a control loop consists of, as a campaign file says it; its numbers, which can be dispersed, are parameters of the scene.
+
+use super::guidance::phase::{Maneuver, Next};
+use super::guidance::situation::Condition;
+use super::guidance::target::Target;
+use crate::scene::{Name, Scene};
+
+/// A control loop.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoopSpec {
+    /// Control period, s.
+    pub period: f64,
+    /// The estimator, by its place in the list of estimators.
+    pub estimator: usize,
+    /// The wheels that the loop drives, by their places among the wheels that turn.
+    pub wheels: Vec<usize>,
+    /// The thrusters that it fires, by their places.
+    pub thrusters: Vec<usize>,
+    /// How thrusters are fired, by its place in the list.
+    pub modulation: usize,
+    /// The sensors.
+    pub sensors: Vec<SensorSpec>,
+    /// The phases; there is at least one.
+    pub phases: Vec<PhaseSpec>,
+    /// What flight software believes instead of the nominal scene.
+    pub model: ModelSpec,
+    /// Whether the scene has debris.
+    pub has_debris: bool,
+    /// The names of the wheels that turn.
+    pub wheel_names: Vec<Name>,
+    /// The names of the thrusters.
+    pub thruster_names: Vec<Name>,
+}
+
+/// A sensor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SensorSpec {
+    /// Its name.
+    pub name: Name,
+    /// Its kind, by its place in the list.
+    pub kind: usize,
+    /// Time between measurements, s.
+    pub period: f64,
+    /// Time from a measurement to its delivery, s.
+    pub latency: f64,
+}
+
+/// A phase of guidance.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PhaseSpec {
+    /// Its name.
+    pub name: Name,
+    /// Its control law, by its place in the list; `None` for no torque.
+    pub law: Option<usize>,
+    /// The attitude that it wants; the quaternion of an attitude is a parameter.
+    pub target: Target,
+    /// What thrust is for.
+    pub thrust: Maneuver,
+    /// The condition that ends it.
+    pub until: Option<Condition>,
+    /// What follows.
+    pub next: Next,
+    /// What follows at once where the condition is not met.
+    pub otherwise: Option<usize>,
+}
+
+/// What flight software believes of the spacecraft where that is not the nominal scene.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ModelSpec {
+    /// Mass, kg.
+    pub mass: Option<f64>,
+    /// Centre of mass from p in F_s, m.
+    pub center: Option<[f64; 3]>,
+    /// Inertia about the centre of mass with wheels locked, F_s, kg m^2.
+    pub inertia: Option<[[f64; 3]; 3]>,
+}
+
+impl LoopSpec {
+    /// Whether a phase leads to the launch of a net.
+    pub fn launches(&self) -> bool {
+        self.phases.iter().any(|phase| phase.next == Next::Launch)
+    }
+
+    /// Whether a phase wants an attitude.
+    pub fn points(&self) -> bool {
+        self.phases.iter().any(|phase| phase.target != Target::None)
+    }
+
+    /// Whether the estimator has filters.
+    pub fn has_filter(&self) -> bool {
+        super::estimators::KINDS[self.estimator].name == "mekf"
+    }
+
+    /// Whether the state is known without sensors.
+    pub fn knows_the_truth(&self) -> bool {
+        super::estimators::KINDS[self.estimator].name == "perfect"
+    }
+
+    /// Whether the launch state plays a part.
+    pub fn approaches(&self) -> bool {
+        self.has_debris && self.phases.iter().any(|phase| phase.target.needs_debris() || phase.thrust != Maneuver::None)
+    }
+
+    /// The nominal scene as flight software believes it.
+    pub fn believed(&self, nominal: &Scene) -> Scene {
+        let mut scene = nominal.clone();
+        let mass = &mut scene.mass;
+        mass.total = self.model.mass.unwrap_or(mass.total);
+        mass.center = self.model.center.unwrap_or(mass.center);
+        if let Some(inertia) = self.model.inertia {
+            *mass = mass.with_inertia(inertia);
+        }
+        scene
+    }
+}
