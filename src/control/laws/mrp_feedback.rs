@@ -123,7 +123,7 @@ mod tests {
         let [coarse, fine] =
             [0.1, 0.025].map(|period| (0..40).map(|run| error(start(run), period)).fold(0.0, f64::max));
         let order = 0.5 * (coarse / fine).log2();
-        assert!((order - 1.0).abs() < 0.1 && coarse < 0.1, "first order: {order} of {coarse} and {fine}");
+        assert!((order - 1.0).abs() < 0.03 && coarse < 0.1, "first order: {order} of {coarse} and {fine}");
     }
 
     /// Basilisk babdff7, src/fswAlgorithms/attControl/mrpFeedback/_UnitTest/test_mrpFeedback.py: the torques of the module (bsk 2.12.1) at its first three
@@ -184,7 +184,7 @@ mod tests {
         };
         // K s balances the torque
         let offset = norm([0.02, -0.01, 0.03]);
-        assert!((left(0.0) / offset - 1.0).abs() < 1e-6, "{}", left(0.0));
-        assert!(left(0.005) < 1e-6, "{}", left(0.005));
+        assert!((left(0.0) / offset - 1.0).abs() < 1e-13, "{}", left(0.0));
+        assert!(left(0.005) < 3e-8, "{}", left(0.005));
     }
 }
