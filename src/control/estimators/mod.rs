@@ -134,3 +134,6 @@ pub static KINDS: [EstimatorKind; 3] = [perfect::KIND, raw::KIND, mekf::KIND];
 pub fn kind(name: &str) -> Option<&'static EstimatorKind> {
     KINDS.iter().find(|kind| kind.name == name)
 }
+
+#[cfg(test)]
+mod tests;

@@ -102,8 +102,13 @@ mod tests {
         let [coarse, fine] = [0.4, 0.2].map(|period| slew(LAW, period, time));
         let errors = [coarse, fine].map(|found| (found[0] - angle).abs());
         let order = (errors[0] / errors[1]).log2();
-        assert!((order - 1.0).abs() < 0.15, "order {order}: {errors:?}");
-        assert!(coarse[1] / fine[1] > 1.7 && fine[1] < 0.02, "off the axis {} and {}", coarse[1], fine[1]);
+        assert!((order - 1.0).abs() < 0.03, "order {order}: {errors:?}");
+        assert!(
+            (coarse[1] / fine[1] - 2.0).abs() < 0.05 && fine[1] < 0.005,
+            "off the axis {} and {}",
+            coarse[1],
+            fine[1]
+        );
     }
 
     /// Law: the rate stays within its limit, and the slew ends at the target with limits of rate and torque.

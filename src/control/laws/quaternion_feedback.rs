@@ -101,7 +101,8 @@ mod tests {
             let last = settled(&|tick| angles[tick]).expect("it starts at one");
             // sampled: between two ticks the lowest angle is lower by a few 1e-4 of it
             assert!((found / overshoot(poles.0, poles.1) - 1.0).abs() < 1e-3, "{z}: {found}");
-            assert_eq!(settled(&|tick| response(poles.0, poles.1, tick as f64 * period)), Some(last), "{z}");
+            let exact = settled(&|tick| response(poles.0, poles.1, tick as f64 * period)).expect("it starts at one");
+            assert!(exact.abs_diff(last) <= 1, "{z}: {last} for {exact}");
             assert!((found - overshoot(decay, damped)).abs() < 0.02, "{z}: {found}");
             // at 0.7 the overshoot of 4.6% is all that leaves the band of 2%: its end moves more than the poles do
             if z < 0.7 {
