@@ -14,7 +14,7 @@ use super::allocation::thrust::ThrustAllocation;
 use super::allocation::wheel_torque::WheelTorque;
 use super::context::LawContext;
 use super::estimate::Estimate;
-use super::estimators::{Consistency, Estimator, EstimatorContext, Update};
+use super::estimators::{Consistency, Estimator, EstimatorContext, KnownSensor, Update};
 use super::guidance::geometry::{Centers, LaunchGeometry, LaunchState, transfer};
 use super::guidance::phase::{Maneuver, Phase};
 use super::guidance::situation::{Situation, s3_of};
@@ -206,7 +206,13 @@ impl ControlLoop {
         };
         let instruments = spec.sensors.iter().zip(&context.parameters.sensors).map(instrument).collect();
         let tables = spec.sensors.iter().zip(&context.nominal_parameters.sensors);
-        let sensors: Vec<_> = tables.map(|(sensor, table)| (super::sensors::KINDS[sensor.kind].name, table)).collect();
+        let known = |(sensor, parameters): (&super::spec::SensorSpec, _)| KnownSensor {
+            kind: super::sensors::KINDS[sensor.kind].name,
+            period: sensor.period,
+            latency: sensor.latency,
+            parameters,
+        };
+        let sensors: Vec<KnownSensor<'_>> = tables.map(known).collect();
         let estimator = (super::estimators::KINDS[spec.estimator].make)(&EstimatorContext {
             nominal: &believed,
             parameters: &context.nominal_parameters.law,

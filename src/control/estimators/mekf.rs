@@ -121,11 +121,12 @@ impl Mekf {
         let mut gyro = None;
         let mut believed = Vec::new();
         let mut oldest = 0;
-        for (kind, table) in context.sensors {
+        for sensor in context.sensors {
+            let table = sensor.parameters;
             let square = |key: &str| number(table, key) * number(table, key);
-            believed.push(match *kind {
+            believed.push(match sensor.kind {
                 "rate_gyro" if gyro.is_none() => {
-                    gyro = Some(*table);
+                    gyro = Some(sensor);
                     Believed::Gyro
                 }
                 "star_tracker" => Believed::Tracker(diagonal(vector(table, "noise_rad").map(|sigma| sigma * sigma))),
@@ -135,19 +136,18 @@ impl Mekf {
                 "relative_camera" => Believed::Camera([square("attitude_noise_rad"), square("rate_noise_rad_s")]),
                 _ => Believed::Other,
             });
-            if let Some([latency]) = table.named("latency_s") {
-                oldest = oldest.max(ticks(*latency, context.tick));
-            }
+            oldest = oldest.max(ticks(sensor.latency, context.tick));
         }
         let sigma = own("initial_attitude_sigma_rad");
         let attitude = match gyro {
-            Some(table) => {
+            Some(sensor) => {
+                let table = sensor.parameters;
                 let angular_random_walk = number(table, "angular_random_walk_rad_sqrt_s");
                 let noise =
                     GyroNoise { angular_random_walk, bias_random_walk: number(table, "bias_random_walk_rad_s_sqrt_s") };
                 let mut filter = AttitudeFilter::new(start.q_es, sigma, own("initial_bias_sigma_rad_s"), noise);
                 filter.rate_s = start.omega_se_s;
-                let variance = angular_random_walk * angular_random_walk / number(table, "period_s");
+                let variance = angular_random_walk * angular_random_walk / sensor.period;
                 let turned = Turned { predicted: [1.0, 0.0, 0.0, 0.0], rate: start.omega_se_s, variance };
                 Attitude::WithGyro(Delayed::new(filter, oldest), turned)
             }

@@ -71,6 +71,19 @@ pub trait Estimator: Send {
     }
 }
 
+/// What an estimator knows of a sensor.
+#[derive(Clone, Copy, Debug)]
+pub struct KnownSensor<'a> {
+    /// Its kind.
+    pub kind: &'a str,
+    /// Time from sample to sample, s.
+    pub period: f64,
+    /// Time from a measurement to its delivery, s.
+    pub latency: f64,
+    /// Its nominal parameters.
+    pub parameters: &'a DeclaredTable,
+}
+
 /// What the estimator of one run is made from.
 #[derive(Clone, Copy, Debug)]
 pub struct EstimatorContext<'a> {
@@ -78,8 +91,8 @@ pub struct EstimatorContext<'a> {
     pub nominal: &'a Scene,
     /// Its own parameters.
     pub parameters: &'a DeclaredTable,
-    /// Kind and nominal parameters of each sensor, in their order.
-    pub sensors: &'a [(&'a str, &'a DeclaredTable)],
+    /// The sensors, in their order.
+    pub sensors: &'a [KnownSensor<'a>],
     /// Time from tick to tick, s.
     pub tick: f64,
 }

@@ -26,7 +26,7 @@ impl Raw {
         Raw {
             estimate: context.start(),
             center: context.nominal.mass.center,
-            has_gyro: context.sensors.iter().any(|(kind, _)| *kind == "rate_gyro"),
+            has_gyro: context.sensors.iter().any(|sensor| sensor.kind == "rate_gyro"),
             time: 0.0,
             last: None,
         }
