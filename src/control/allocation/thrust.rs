@@ -119,9 +119,9 @@ impl ThrustAllocation {
                 spanning.push(controlled);
             }
         }
+        let largest = spanning.iter().map(|vector| norm(halves(vector).1)).fold(0.0, f64::max);
         without_force(&mut spanning);
         let mut projection = [[0.0; 3]; 3];
-        let largest = spanning.iter().map(|vector| norm(halves(vector).1)).fold(0.0, f64::max);
         for vector in &spanning {
             let torque = halves(vector).1;
             let along = crate::math::vector::product(projection, torque);
@@ -443,6 +443,13 @@ mod tests {
         (without_first.most[0], without_first.lever) = (0.0, None);
         assert!(close(without_first.two_sided_torques(), [0.0; 3]));
         assert!(close(eight([0.0; 3], TORQUE).two_sided_torques(), [1.0; 3]));
+        // two opposite thrusters beside c: no torque without a force
+        let position = [0.3, 0.7, 0.11];
+        let beside = [1.0, -1.0].map(|to| Thruster { position, direction: scaled(to, [0.48, -0.6, 0.64]) });
+        let of_pair = |axes| ThrustAllocation::new(&beside, [0.0; 3], &[1.0; 2], axes).two_sided_torques();
+        assert!(close(of_pair([true; 6]), [0.0; 3]));
+        let trace: f64 = (0..3).map(|i| of_pair(TORQUE)[i][i]).sum();
+        assert!((trace - 1.0).abs() < 1e-12, "with the force free, about one axis: {trace}");
         // a set that turns about one oblique axis
         let axis = scaled(1.0 / norm([1.0, 2.0, -2.0]), [1.0, 2.0, -2.0]);
         let arm = [2.0, -1.0, 0.0];
