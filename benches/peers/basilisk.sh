@@ -1,8 +1,9 @@
 #!/bin/sh
 # Runs spindrift and Basilisk on the same spacecraft with four wheels, one after the other on one core. Fails if they do not agree.
-# See benches/README.md.
+# With `attitude` as the first word: the same spacecraft with three wheels under a control loop. See benches/README.md.
 #
 #   benches/peers/basilisk.sh [options of basilisk.py, for example --samples 32 --repeats 3 --limit 1e-9]
+#   benches/peers/basilisk.sh attitude [options of basilisk_attitude.py, for example --steps history,speed]
 #
 # The scratch environment is PEERS (default: a folder in the system's temporary folder) and is reused. It is apart from that of run.sh,
 # so that neither decides the other's versions. SPINDRIFT=program takes this program instead of building one.
@@ -11,6 +12,11 @@ here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
 scratch=${PEERS:-${TMPDIR:-/tmp}/spindrift-peers}
 python=${PYTHON:-python3}
+script=basilisk.py
+if [ "${1:-}" = attitude ]; then
+    script=basilisk_attitude.py
+    shift
+fi
 
 mkdir -p "$scratch/basilisk"
 [ -x "$scratch/venv-basilisk/bin/python" ] || "$python" -m venv "$scratch/venv-basilisk"
@@ -24,4 +30,4 @@ fi
 # one core for everybody, the last one: interrupts prefer the first
 pin=
 if command -v taskset >/dev/null; then pin="taskset -c $(($(nproc) - 1))"; fi
-exec $pin "$scratch/venv-basilisk/bin/python" "$here/basilisk.py" --spindrift "$SPINDRIFT" --scratch "$scratch/basilisk" "$@"
+exec $pin "$scratch/venv-basilisk/bin/python" "$here/$script" --spindrift "$SPINDRIFT" --scratch "$scratch/basilisk" "$@"

@@ -60,7 +60,7 @@ impl Measurement {
     pub fn aged(mut self, new: f64) -> Self {
         match &mut self {
             Measurement::Attitude { age, .. } | Measurement::Radar { age, .. } | Measurement::Camera { age, .. } => {
-                *age = new
+                *age = new;
             }
             Measurement::Rotation { .. } | Measurement::WheelRates { .. } => {}
         }

@@ -15,17 +15,36 @@ pub fn multiplied<const N: usize, const K: usize, const M: usize>(
     a: &[[f64; K]; N],
     b: &[[f64; M]; K],
 ) -> [[f64; M]; N] {
-    std::array::from_fn(|i| std::array::from_fn(|j| (0..K).map(|k| a[i][k] * b[k][j]).sum()))
+    // rows of b side by side, which the compiler makes vectors of; closures of from_fn become calls
+    let mut product = [[0.0; M]; N];
+    for (row, of_a) in product.iter_mut().zip(a) {
+        for (factor, of_b) in of_a.iter().zip(b) {
+            for (entry, b) in row.iter_mut().zip(of_b) {
+                *entry += factor * b;
+            }
+        }
+    }
+    product
 }
 
 /// The transpose.
 pub fn transposed<const N: usize, const M: usize>(a: &[[f64; M]; N]) -> [[f64; N]; M] {
-    std::array::from_fn(|i| std::array::from_fn(|j| a[j][i]))
+    let mut turned = [[0.0; N]; M];
+    for (j, row) in a.iter().enumerate() {
+        for (turned, entry) in turned.iter_mut().zip(row) {
+            turned[j] = *entry;
+        }
+    }
+    turned
 }
 
 /// a + b.
 pub fn added<const N: usize, const M: usize>(a: &[[f64; M]; N], b: &[[f64; M]; N]) -> [[f64; M]; N] {
-    std::array::from_fn(|i| std::array::from_fn(|j| a[i][j] + b[i][j]))
+    let mut sum = *a;
+    for (row, of_b) in sum.iter_mut().zip(b) {
+        row.iter_mut().zip(of_b).for_each(|(entry, b)| *entry += b);
+    }
+    sum
 }
 
 /// The diagonal matrix of `entries`.
@@ -40,8 +59,7 @@ pub fn cholesky<const N: usize>(a: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
         for j in 0..=i {
             let rest = a[i][j] - (0..j).map(|k| l[i][k] * l[j][k]).sum::<f64>();
             if i == j {
-                // not: rest <= 0, which a NaN would pass
-                if !(rest > 0.0) {
+                if rest.is_nan() || rest <= 0.0 {
                     return None;
                 }
                 l[i][i] = rest.sqrt();

@@ -63,8 +63,9 @@ impl WheelDrive {
     /// `commanded` (N m) is commanded.
     ///
     /// The motor accelerates the wheel no further than to the limit of the rate; beyond the limit it leaves the wheel to friction, or brakes as
-    /// commanded. Viscous friction has its value at the start, Coulomb friction too, against the motion; but neither turns the wheel back: where it would, it is
-    /// what stops the wheel at the end. A wheel at rest stays at rest where its motor is weaker than Coulomb friction.
+    /// commanded. Friction has its value at the start, but does not turn the wheel back: where it would, it is what stops the wheel at the end. Where
+    /// the motor turns the wheel round, Coulomb friction is against the motion at the end and viscous friction is zero. A wheel at rest stays at
+    /// rest where its motor is weaker than Coulomb friction.
     pub fn over(&self, commanded: f64, rate: f64, length: f64) -> Driven {
         let bias = if commanded == 0.0 { 0.0 } else { self.torque_bias };
         let asked = self.torque_scale * commanded + bias;
@@ -128,7 +129,7 @@ mod tests {
         assert!(at_rest.iter().all(|rate| *rate == 0.0));
         let pushed = rates(&wheel, 0.0, 0.7, 10, |_| 0.03);
         assert!((pushed[9] - 0.01 / 0.5 * 7.0).abs() < 1e-15, "{pushed:?}");
-        // where the motor carries it through zero, friction is against the motion at the end
+        // where the motor turns it round, friction is against the motion at the end
         let through = wheel.over(-2.0, 0.4, 0.7);
         assert!((through.torque + 1.98).abs() < 1e-15);
     }
@@ -144,6 +145,8 @@ mod tests {
             rates(&wheel, 4.0, length, arcs, |_| 0.0)[arcs - 1] - expected
         });
         assert!(((coarse / fine).log2() - 1.0).abs() < 0.02, "{coarse} and {fine}");
+        // and does not help a motor that turns the wheel round
+        assert_eq!(wheel.over(-2.0, 0.4, 0.7).torque, -2.0);
         assert!(rates(&wheel, 4.0, 1000.0, 1, |_| 0.0)[0].abs() < 1e-15);
     }
 

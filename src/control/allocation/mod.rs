@@ -5,6 +5,7 @@
 
 mod simplex;
 pub mod thrust;
+mod two_sided;
 pub mod wheel_torque;
 
 pub use thrust::{Allocated, ThrustAllocation};

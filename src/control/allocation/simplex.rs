@@ -92,8 +92,8 @@ impl<'a> Tableau<'a> {
     fn missing(&self, mut wanted: [f64; ROWS]) -> [f64; ROWS] {
         for (j, column) in self.columns.iter().enumerate().filter(|(j, _)| self.is_at_most[*j] && !self.is_basic[*j]) {
             debug_assert!(column.most.is_finite(), "variable {j} is at its limit");
-            for row in 0..self.rows {
-                wanted[row] -= column.entries[row] * column.most;
+            for (wanted, entry) in wanted.iter_mut().zip(column.entries).take(self.rows) {
+                *wanted -= entry * column.most;
             }
         }
         wanted
@@ -173,8 +173,8 @@ impl<'a> Tableau<'a> {
     fn refine(&mut self, units: usize, wanted: [f64; ROWS]) {
         let mut missing = self.missing(wanted);
         for (basic, value) in self.basis.iter().zip(self.values).take(self.rows) {
-            for row in 0..self.rows {
-                missing[row] -= self.columns[*basic].entries[row] * value;
+            for (missing, entry) in missing.iter_mut().zip(self.columns[*basic].entries).take(self.rows) {
+                *missing -= entry * value;
             }
         }
         // what became of the unit matrix is the inverse of the basis

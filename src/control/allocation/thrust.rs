@@ -11,25 +11,22 @@
 
 use super::simplex::{COLUMNS, Column, ROWS, least};
 use crate::math::list::List;
-use crate::math::vector::{cross, difference, norm, scaled, sum};
+use crate::math::vector::{cross, difference};
 use crate::scene::thruster::report_offset;
 use crate::scene::{MAX_THRUSTERS, Scene, Thruster};
-
-/// Directions that differ by less, relative to their length, are one: far above the rounding of positions, far below any alignment.
-const SAME: f64 = 1e-9;
 
 /// What is known of the thrusters, made once per run.
 #[derive(Clone, Copy, Debug)]
 pub struct ThrustAllocation {
     /// Force and torque about c of each thruster at 1 N, in F_s, N and N m.
-    wrenches: List<[f64; 6], MAX_THRUSTERS>,
+    pub(super) wrenches: List<[f64; 6], MAX_THRUSTERS>,
     /// The largest thrusts, N.
-    most: [f64; MAX_THRUSTERS],
+    pub(super) most: [f64; MAX_THRUSTERS],
     /// The components of force and torque that are controlled, and the largest entry of each.
-    rows: List<usize, ROWS>,
-    scales: [f64; ROWS],
+    pub(super) rows: List<usize, ROWS>,
+    pub(super) scales: [f64; ROWS],
     /// P1, P2, P3 with the controlled components that the closed form needs: the lever, m.
-    lever: Option<f64>,
+    pub(super) lever: Option<f64>,
 }
 
 /// Thrusts, and what they do not give.
@@ -114,41 +111,6 @@ impl ThrustAllocation {
         total
     }
 
-    /// The projection onto the torques (F_s) that the thrusters give in both directions in the controlled components, without a force in those: along
-    /// which they can take momentum out of wheels. Of P1, P2, P3 it is s1 s1^T.
-    pub fn two_sided_torques(&self) -> [[f64; 3]; 3] {
-        // what a cone of wrenches has in both directions is spanned by those of its generators whose opposite is in it
-        let mut spanning = List::<[f64; 6], MAX_THRUSTERS>::empty([0.0; 6]);
-        for (wrench, most) in self.wrenches.iter().zip(self.most) {
-            let mut controlled = [0.0; 6];
-            self.rows.iter().for_each(|row| controlled[*row] = wrench[*row]);
-            let opposite = controlled.map(|entry| -entry);
-            let found = self.given(&self.nearest(&opposite));
-            let is_reached = self
-                .rows
-                .iter()
-                .zip(self.scales)
-                .all(|(row, scale)| (found[*row] - opposite[*row]).abs() <= SAME * scale);
-            if is_reached && most > 0.0 {
-                spanning.push(controlled);
-            }
-        }
-        without_force(&mut spanning);
-        let mut projection = [[0.0; 3]; 3];
-        let largest = spanning.iter().map(|vector| norm(halves(vector).1)).fold(0.0, f64::max);
-        for vector in &spanning {
-            let torque = halves(vector).1;
-            let along = crate::math::vector::product(projection, torque);
-            let new = difference(torque, along);
-            let length = norm(new);
-            if length > SAME * largest {
-                let axis = scaled(1.0 / length, new);
-                projection = std::array::from_fn(|i| sum(projection[i], scaled(axis[i], axis)));
-            }
-        }
-        projection
-    }
-
     /// P2 and P3 turn about s1 with opposite signs: P2 - P3 = D makes the torque, P1 - P2 - P3 the force F. The smaller of P2, P3 is zero unless that
     /// leaves P1 below zero; then P1 is, and P2 + P3 = -F.
     fn closed_form(&self, lever: f64, wanted: &[f64; 6]) -> [f64; MAX_THRUSTERS] {
@@ -195,7 +157,7 @@ impl ThrustAllocation {
     }
 
     /// The thrusts without limits that come nearest to `wanted`, with the least total.
-    fn nearest(&self, wanted: &[f64; 6]) -> [f64; MAX_THRUSTERS] {
+    pub(super) fn nearest(&self, wanted: &[f64; 6]) -> [f64; MAX_THRUSTERS] {
         let size = self.size(wanted);
         if size == 0.0 || !size.is_finite() {
             return [0.0; MAX_THRUSTERS];
@@ -250,31 +212,18 @@ impl ThrustAllocation {
     }
 }
 
-/// Eliminates the forces of `vectors`: of the space that they span, vectors that span the part without a force.
-fn without_force(vectors: &mut [[f64; 6]]) {
-    for component in 0..3 {
-        let largest = vectors.iter().map(|v| norm(halves(v).0)).fold(0.0, f64::max);
-        let pivot = vectors.iter().copied().max_by(|a, b| a[component].abs().total_cmp(&b[component].abs()));
-        let Some(pivot) = pivot.filter(|pivot| pivot[component].abs() > SAME * largest) else { continue };
-        for vector in vectors.iter_mut() {
-            let factor = vector[component] / pivot[component];
-            *vector = std::array::from_fn(|i| vector[i] - factor * pivot[i]);
-        }
-    }
-}
-
 fn joined([a, b, c]: [f64; 3], [d, e, f]: [f64; 3]) -> [f64; 6] {
     [a, b, c, d, e, f]
 }
 
-fn halves([a, b, c, d, e, f]: &[f64; 6]) -> ([f64; 3], [f64; 3]) {
+pub(super) fn halves([a, b, c, d, e, f]: &[f64; 6]) -> ([f64; 3], [f64; 3]) {
     ([*a, *b, *c], [*d, *e, *f])
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
-    use crate::math::vector::product;
+    use crate::math::vector::norm;
     use crate::scene::thruster::REPORT_DIRECTIONS;
 
     /// Numbers from -1 to 1 in thousandths, as in tests/golden/thrust_allocation.py.
@@ -291,8 +240,8 @@ mod tests {
         }
     }
 
-    const TORQUE: [bool; 6] = [false, false, false, true, true, true];
-    const REPORT_AXES: [bool; 6] = [false, false, true, true, false, false];
+    pub const TORQUE: [bool; 6] = [false, false, false, true, true, true];
+    pub const REPORT_AXES: [bool; 6] = [false, false, true, true, false, false];
     const FREE: f64 = f64::INFINITY;
 
     fn total(allocated: &Allocated) -> f64 {
@@ -352,7 +301,7 @@ mod tests {
         }
     }
 
-    fn report(center: [f64; 3], most: f64, axes: [bool; 6]) -> ThrustAllocation {
+    pub fn report(center: [f64; 3], most: f64, axes: [bool; 6]) -> ThrustAllocation {
         let positions = [[0.0; 3], [0.0, -0.8, 3.0], [0.0, 0.8, 3.0]];
         let thrusters: Vec<Thruster> = std::iter::zip(positions, REPORT_DIRECTIONS)
             .map(|(position, direction)| Thruster { position, direction })
@@ -408,7 +357,7 @@ mod tests {
     }
 
     /// Eight thrusters as in Basilisk's test of thrForceMapping: four at the top, the same at the bottom.
-    fn eight(center: [f64; 3], axes: [bool; 6]) -> ThrustAllocation {
+    pub fn eight(center: [f64; 3], axes: [bool; 6]) -> ThrustAllocation {
         let top = [[-0.8636, -0.8255], [-0.8255, -0.8636], [0.8255, 0.8636], [0.8636, 0.8255]];
         let directions = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0], [-1.0, 0.0, 0.0]];
         let at = |z: f64| {
@@ -436,42 +385,6 @@ mod tests {
             let found = allocation.allocate([0.0; 3], [1.0, -0.5, 0.7]);
             assert!(found.missing.iter().all(|missing| missing.abs() < 1e-14), "{found:?}");
             assert!(total(&found) <= of_basilisk * (1.0 + 1e-12), "{} of {of_basilisk}", total(&found));
-        }
-    }
-
-    /// Law: torque in both directions without a force: about s1 of P1, P2, P3, about all axes of eight thrusters, about none of P2 and P3 alone. Of
-    /// torques in that space nothing is missing, in either direction.
-    #[test]
-    fn two_sided_torques_can_be_given() {
-        let close = |found: [[f64; 3]; 3], expected: [f64; 3]| {
-            (0..3).all(|i| (0..3).all(|j| (found[i][j] - if i == j { expected[i] } else { 0.0 }).abs() < 1e-12))
-        };
-        for axes in [REPORT_AXES, [true; 6]] {
-            let found = report([0.0, 0.0, 1.5], 1.0, axes).two_sided_torques();
-            assert!(close(found, [1.0, 0.0, 0.0]), "{found:?}");
-        }
-        // with the force free, P2 and P3 alone turn in both directions; with the force controlled they only brake
-        let about_s1 = [false, false, false, true, false, false];
-        assert!(close(report([0.0; 3], 1.0, about_s1).two_sided_torques(), [1.0, 0.0, 0.0]));
-        let mut without_first = report([0.0; 3], 1.0, REPORT_AXES);
-        (without_first.most[0], without_first.lever) = (0.0, None);
-        assert!(close(without_first.two_sided_torques(), [0.0; 3]));
-        assert!(close(eight([0.0; 3], TORQUE).two_sided_torques(), [1.0; 3]));
-        // a set that turns about one oblique axis
-        let axis = scaled(1.0 / norm([1.0, 2.0, -2.0]), [1.0, 2.0, -2.0]);
-        let arm = [2.0, -1.0, 0.0];
-        let thrusters: Vec<Thruster> = [(1.0, 1.0), (-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0)]
-            .map(|(at, to)| Thruster { position: scaled(at, arm), direction: scaled(to, cross(axis, arm)) })
-            .to_vec();
-        let oblique = ThrustAllocation::new(&thrusters, [0.0; 3], &[1.0; 4], [true; 6]);
-        let projection = oblique.two_sided_torques();
-        for (i, row) in projection.iter().enumerate() {
-            assert!((0..3).all(|j| (row[j] - axis[i] * axis[j]).abs() < 1e-12), "{projection:?}");
-        }
-        for sign in [1.0, -1.0] {
-            let torque = product(projection, [0.3 * sign, 0.1, -0.2 * sign]);
-            let found = oblique.allocate([0.0; 3], torque);
-            assert!(found.missing.iter().all(|missing| missing.abs() < 1e-12), "{found:?}");
         }
     }
 }

@@ -8,7 +8,7 @@
 //! Not here: measurements that come late ([`super::delayed`]).
 
 use super::delayed::Filter;
-use super::kalman::{Gain, NormalizedSquare, blocks, halves, normalized_square, symmetric, transported};
+use super::kalman::{Gain, NormalizedSquare, blocks, corners, halves, normalized_square, symmetric};
 use crate::control::rotation::{quaternion_of, vector_of};
 use crate::control::small_matrix::{added, diagonal, multiplied, transposed};
 use crate::math::vector::{conjugate, cross, dcm_from_quaternion, difference, hamilton, norm, scaled, sum};
@@ -75,7 +75,7 @@ impl AttitudeFilter {
 
     /// Covariance of the attitude, in F_s, rad^2.
     pub fn attitude_covariance(&self) -> [[f64; 3]; 3] {
-        std::array::from_fn(|i| std::array::from_fn(|j| self.covariance[i][j]))
+        corners(&self.covariance)[0]
     }
 
     /// The normalised square of the error (NEES) of attitude and, where the true bias is known, bias.
@@ -103,19 +103,20 @@ impl Filter for AttitudeFilter {
         self.rate_s = step.rate_s;
         let jacobian = right_jacobian(rotation);
         let of_bias = jacobian.map(|row| scaled(-t, row));
-        let [one, zero] = [diagonal([1.0; 3]), diagonal([0.0; 3])];
-        let transition = blocks(dcm_from_quaternion(conjugate(turn)), of_bias, zero, one);
+        let of_attitude = dcm_from_quaternion(conjugate(turn));
         let white = self.noise.angular_random_walk * self.noise.angular_random_walk;
         let walk = self.noise.bias_random_walk * self.noise.bias_random_walk;
-        let across = jacobian.map(|row| scaled(-0.5 * walk * t * t, row));
-        let attitude = multiplied(&jacobian, &transposed(&jacobian));
-        let noise = blocks(
-            attitude.map(|row| scaled(white * t + walk * t * t * t / 3.0, row)),
-            across,
-            transposed(&across),
-            diagonal([walk * t; 3]),
-        );
-        self.covariance = symmetric(&added(&transported(&transition, &self.covariance), &noise));
+        // the transition is [[of_attitude, of_bias], [0, 1]]: by its blocks, a third of the products
+        let [tt, tb, bb] = corners(&self.covariance);
+        let to_attitude = added(&multiplied(&of_attitude, &tt), &multiplied(&of_bias, &transposed(&tb)));
+        let to_bias = added(&multiplied(&of_attitude, &tb), &multiplied(&of_bias, &bb));
+        let moved =
+            added(&multiplied(&to_attitude, &transposed(&of_attitude)), &multiplied(&to_bias, &transposed(&of_bias)));
+        let noise = multiplied(&jacobian, &transposed(&jacobian));
+        let attitude = added(&moved, &noise.map(|row| scaled(white * t + walk * t * t * t / 3.0, row)));
+        let across = added(&to_bias, &jacobian.map(|row| scaled(-0.5 * walk * t * t, row)));
+        self.covariance =
+            blocks(symmetric(&attitude), across, transposed(&across), added(&bb, &diagonal([walk * t; 3])));
     }
 
     fn update(&mut self, observation: &AttitudeObservation) -> Option<NormalizedSquare> {

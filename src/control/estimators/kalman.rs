@@ -64,15 +64,31 @@ pub fn transported<const N: usize>(a: &[[f64; N]; N], p: &[[f64; N]; N]) -> [[f6
 
 /// The symmetric part.
 pub fn symmetric<const N: usize>(p: &[[f64; N]; N]) -> [[f64; N]; N] {
-    std::array::from_fn(|i| std::array::from_fn(|j| 0.5 * (p[i][j] + p[j][i])))
+    let mut half = added(p, &transposed(p));
+    half.iter_mut().flatten().for_each(|entry| *entry *= 0.5);
+    half
 }
 
 /// The matrix of the blocks [[a, b], [c, d]].
 pub fn blocks(a: [[f64; 3]; 3], b: [[f64; 3]; 3], c: [[f64; 3]; 3], d: [[f64; 3]; 3]) -> [[f64; 6]; 6] {
-    std::array::from_fn(|i| {
+    let mut whole = [[0.0; 6]; 6];
+    for (i, row) in whole.iter_mut().enumerate() {
         let (left, right) = if i < 3 { (a[i], b[i]) } else { (c[i - 3], d[i - 3]) };
-        std::array::from_fn(|j| if j < 3 { left[j] } else { right[j - 3] })
-    })
+        row[..3].copy_from_slice(&left);
+        row[3..].copy_from_slice(&right);
+    }
+    whole
+}
+
+/// The blocks a, b, d of the symmetric matrix [[a, b], [b^T, d]].
+pub fn corners(p: &[[f64; 6]; 6]) -> [[[f64; 3]; 3]; 3] {
+    let mut all = [[[0.0; 3]; 3]; 3];
+    for i in 0..3 {
+        all[0][i].copy_from_slice(&p[i][..3]);
+        all[1][i].copy_from_slice(&p[i][3..]);
+        all[2][i].copy_from_slice(&p[i + 3][3..]);
+    }
+    all
 }
 
 /// The first three and the last three of six numbers.

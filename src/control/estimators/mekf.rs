@@ -9,7 +9,7 @@
 
 use super::attitude_filter::{AttitudeFilter, AttitudeObservation, GyroNoise, GyroStep};
 use super::delayed::Delayed;
-use super::kalman::NormalizedSquare;
+use super::kalman::{NormalizedSquare, corners};
 use super::rigid_body_filter::{BodyObservation, BodyStep, RigidBodyFilter};
 use super::translation_filter::{MotionObservation, TranslationFilter, TranslationStep};
 use super::{Consistency, Estimator, EstimatorContext, EstimatorKind, Update, center_of};
@@ -19,7 +19,7 @@ use crate::control::rotation::{quaternion_of, vector_of};
 use crate::control::sensors::{number, vector};
 use crate::control::small_matrix::{added, diagonal, multiplied, transposed};
 use crate::control::truth::{DebrisState, Truth};
-use crate::math::vector::{conjugate, dcm_from_quaternion, dot, hamilton, product, scaled, sum};
+use crate::math::vector::{conjugate, dcm_from_quaternion, difference, dot, hamilton, product, scaled, sum};
 use crate::scene::schema::Limit;
 use crate::scene::{LawParameter, MAX_WHEELS, MassProperties};
 
@@ -186,18 +186,24 @@ impl Mekf {
         }
     }
 
-    /// Attitude and rate of the spacecraft `age` ticks ago, with the covariances of both, in F_s.
-    fn attitude_at(&self, age: usize) -> ([f64; 4], [f64; 3], [[f64; 3]; 3], [[f64; 3]; 3]) {
-        let corner = |p: &[[f64; 6]; 6], at: usize| std::array::from_fn(|i| std::array::from_fn(|j| p[at + i][at + j]));
+    /// Attitude and rate of the spacecraft `age` ticks ago.
+    fn attitude_at(&self, age: usize) -> ([f64; 4], [f64; 3]) {
+        match &self.attitude {
+            Attitude::WithGyro(filter, _) => (filter.at(age).q_es, filter.at(age).omega_se_s()),
+            Attitude::WithoutGyro(filter) => (filter.at(age).q, filter.at(age).omega),
+        }
+    }
+
+    /// Covariances of attitude and rate of the spacecraft `age` ticks ago, in F_s.
+    fn covariances_at(&self, age: usize) -> [[[f64; 3]; 3]; 2] {
         match &self.attitude {
             Attitude::WithGyro(filter, turned) => {
-                let then = filter.at(age);
-                let of_rate = added(&corner(&then.covariance, 3), &diagonal([turned.variance; 3]));
-                (then.q_es, then.omega_se_s(), corner(&then.covariance, 0), of_rate)
+                let [of_turn, _, of_bias] = corners(&filter.at(age).covariance);
+                [of_turn, added(&of_bias, &diagonal([turned.variance; 3]))]
             }
             Attitude::WithoutGyro(filter) => {
-                let then = filter.at(age);
-                (then.q, then.omega, corner(&then.covariance, 0), corner(&then.covariance, 3))
+                let [of_turn, _, of_rate] = corners(&filter.at(age).covariance);
+                [of_turn, of_rate]
             }
         }
     }
@@ -223,9 +229,12 @@ impl Mekf {
             }
         }
         let after = self.attitude_at(0);
-        // mean of both ends: the body turns during a burn
-        let [at_start, at_end] = [before.0, after.0].map(|q| product(dcm_from_quaternion(q), update.acceleration_s));
-        let acceleration_e = scaled(0.5, sum(at_start, at_end));
+        let mut acceleration_e = [0.0; 3];
+        if update.acceleration_s != [0.0; 3] {
+            // mean of both ends: the body turns during a burn
+            let at = |q| product(dcm_from_quaternion(q), update.acceleration_s);
+            acceleration_e = scaled(0.5, sum(at(before.0), at(after.0)));
+        }
         self.motion.propagate(TranslationStep { acceleration_e, interval });
         if let Some(filter) = &mut self.debris_motion {
             filter.propagate(TranslationStep { acceleration_e: [0.0; 3], interval });
@@ -233,9 +242,10 @@ impl Mekf {
         if let Some(filter) = &mut self.debris {
             filter.propagate(BodyStep { torque: [0.0; 3], momentum: [0.0; 3], interval });
         }
+        let of_body = difference(after.1, before.1);
         for (index, wheel) in self.mass.wheels.iter().enumerate() {
-            let of_body = dot(wheel.axis, after.1) - dot(wheel.axis, before.1);
-            self.wheel_rates[index] += interval * update.motor_torques[index] / wheel.axial - of_body;
+            let of_motor = interval * update.motor_torques[index] / wheel.axial;
+            self.wheel_rates[index] += of_motor - dot(wheel.axis, of_body);
         }
     }
 
@@ -244,7 +254,7 @@ impl Mekf {
         match (*measurement, believed) {
             (Measurement::Radar { base, debris, age }, Believed::Radar(sigmas)) => {
                 let age = ticks(age, self.tick);
-                let (q_es, omega, ..) = self.attitude_at(age);
+                let (q_es, omega) = self.attitude_at(age);
                 let motion = center_of(base, self.mass.center, q_es, omega);
                 self.innovations.motion_innovation = self.motion.update(MotionObservation { motion, sigmas }, age);
                 if let (Some(motion), Some(filter)) = (debris, &mut self.debris_motion) {
@@ -254,7 +264,8 @@ impl Mekf {
             }
             (Measurement::Camera { q_sd, omega_ds_d, age }, Believed::Camera([of_turn, of_rate])) => {
                 let age = ticks(age, self.tick);
-                let (q_es, omega, turn_covariance, rate_covariance) = self.attitude_at(age);
+                let (q_es, omega) = self.attitude_at(age);
+                let [turn_covariance, rate_covariance] = self.covariances_at(age);
                 let c_ds = dcm_from_quaternion(conjugate(q_sd));
                 let in_debris = |p: [[f64; 3]; 3]| multiplied(&multiplied(&c_ds, &p), &transposed(&c_ds));
                 let noise = |variance| diagonal([variance; 3]);
@@ -320,7 +331,7 @@ impl Estimator for Mekf {
         for (sensor, measurement) in update.measurements {
             self.take(measurement, self.believed[*sensor]);
         }
-        let (q_es, omega_se_s, ..) = self.attitude_at(0);
+        let (q_es, omega_se_s) = self.attitude_at(0);
         let motion = self.motion.now().motion;
         let debris = self.debris.as_ref().zip(self.debris_motion.as_ref()).map(|(body, point)| DebrisState {
             r_gdo_e: point.now().motion.r_e,

@@ -148,7 +148,7 @@ fn translation_and_debris_are_consistent() {
     let (walk, sigmas, noise, acceleration) = (2e-3, [0.5, 0.02], [0.3, 0.05], [0.01, -0.02, 0.005]);
     let (body_walk, body_sigmas, body_noise) = (1e-4, [0.02, 2e-3], [5e-3, 2e-3]);
     let start = Body { inertia: [300.0, 420.0, 180.0], q_es: [0.5, 0.5, -0.5, 0.5], omega: [0.08, -0.05, 0.1] };
-    let mut sums = [[0.0; TIMES]; 4];
+    let mut all = [[0.0; 4]; TIMES];
     for run in 1..=runs {
         let mut draws = Draws::of(run);
         let zero = PointMotion { r_e: [0.0; 3], v_e: [0.0; 3] };
@@ -158,7 +158,7 @@ fn translation_and_debris_are_consistent() {
         body.q_es = hamilton(body.q_es, quaternion_of(draws.vector(body_sigmas[0])));
         body.omega = sum(body.omega, draws.vector(body_sigmas[1]));
         let mut body_filter = RigidBodyFilter::new(start.matrix(), start.q_es, start.omega, body_sigmas, body_walk);
-        for time in 0..TIMES {
+        for (time, sums) in all.iter_mut().enumerate() {
             // white noise of the acceleration over t: walk of the velocity, and what of it is in the position
             let (of_velocity, apart) = (draws.vector(walk * t.sqrt()), draws.vector(walk * t * (t / 12.0).sqrt()));
             let moved = sum(scaled(t, point.v_e), scaled(0.5 * t * t, acceleration));
@@ -170,8 +170,8 @@ fn translation_and_debris_are_consistent() {
                 v_e: sum(point.v_e, draws.vector(noise[1])),
             };
             let square = filter.update(&MotionObservation { motion: seen, sigmas: noise });
-            sums[0][time] += filter.error_square(&point).expect("NEES").value;
-            sums[1][time] += square.expect("an innovation").value;
+            sums[0] += filter.error_square(&point).expect("NEES").value;
+            sums[1] += square.expect("an innovation").value;
 
             body.step([0.0; 3], t, 4);
             let (of_rate, apart) =
@@ -185,13 +185,13 @@ fn translation_and_debris_are_consistent() {
                 let [of_turn, of_rate] = body_noise.map(|sigma| diagonal([sigma * sigma; 3]));
                 let attitude = attitude_filter::AttitudeObservation { q_es, covariance: of_turn };
                 let square = body_filter.update(&BodyObservation::AttitudeAndRate(attitude, rate, of_rate));
-                sums[3][time] += square.expect("an innovation").value;
+                sums[3] += square.expect("an innovation").value;
             }
-            sums[2][time] += body_filter.error_square(body.q_es, body.omega).expect("NEES").value;
+            sums[2] += body_filter.error_square(body.q_es, body.omega).expect("NEES").value;
         }
     }
-    for (index, sums) in sums.iter().enumerate() {
-        for (time, sum) in sums.iter().enumerate().filter(|(_, sum)| **sum > 0.0) {
+    for (time, sums) in all.iter().enumerate() {
+        for (index, sum) in sums.iter().enumerate().filter(|(_, sum)| **sum > 0.0) {
             assert!(is_chi_square(*sum, 6.0 * runs as f64), "{index}: {sum} at {time}");
         }
     }
@@ -324,4 +324,56 @@ fn kinds_have_names_and_defaults() {
             assert_eq!(default, Some(parameter.facts.components.len()), "{} {}", one.name, parameter.facts.key);
         }
     }
+}
+
+/// Law: without torque on the whole, the momentum in F_e and the energy of rotation stay where wheels have a constant momentum in the body, to 2e-9 (measured: 2.9e-10
+/// over 600 steps of 0.014 rad).
+#[test]
+fn a_body_with_wheels_keeps_momentum_and_energy() {
+    let inertia = diagonal([300.0, 420.0, 180.0]);
+    let momentum = [5.0, -12.0, 8.0];
+    let mut filter = RigidBodyFilter::new(inertia, [0.5, 0.5, -0.5, 0.5], [0.08, -0.05, 0.1], [0.0; 2], 0.0);
+    let invariants = |filter: &RigidBodyFilter| {
+        let of_body = product(inertia, filter.omega);
+        let in_space = product(dcm_from_quaternion(filter.q), sum(of_body, momentum));
+        (in_space, 0.5 * crate::math::vector::dot(filter.omega, of_body))
+    };
+    let before = invariants(&filter);
+    for _ in 0..600 {
+        filter.propagate(&BodyStep { torque: [0.0; 3], momentum, interval: 0.1 });
+    }
+    let after = invariants(&filter);
+    let error = norm(difference(after.0, before.0)) / norm(before.0);
+    assert!(error < 2e-9 && (after.1 / before.1 - 1.0).abs() < 2e-11, "{error} and {}", after.1 / before.1 - 1.0);
+}
+
+/// Law: between tachometer readings the axial momentum of a wheel grows by the commanded torque of its motor, whatever the body does; the rotations of a gyro
+/// that is faster than the loop are joined in their order.
+#[test]
+fn wheels_follow_their_motors_and_fast_gyros_are_joined() {
+    let nominal = &Scene::resolve(&SceneInput::report()).expect("a valid scene");
+    let mekf = kind("mekf").expect("a kind");
+    let parameters = &table("mekf", mekf.parameters, &[]);
+    let at = &truth(0.0, [1.0, 0.0, 0.0, 0.0], [0.0; 3]);
+    let mut estimator = (mekf.make)(&EstimatorContext { nominal, parameters, sensors: &[], tick: 0.1 });
+    let wheel = nominal.mass.wheels[0];
+    let (torque_s, mut motor_torques) = (scaled(-0.4, wheel.axis), [0.0; MAX_WHEELS]);
+    motor_torques[0] = 0.4;
+    let mut last = None;
+    for tick in 0..=50 {
+        last = Some(estimator.update(&Update { torque_s, motor_torques, ..update(tick, 0.1, &[], at) }));
+    }
+    let last = last.expect("ticks");
+    let of_body = crate::math::vector::dot(wheel.axis, last.omega_se_s);
+    let momentum = wheel.axial * (last.wheel_rates[0] + of_body);
+    assert!((momentum - 0.4 * 5.0).abs() < 1e-12 && of_body < 0.0, "{momentum}");
+
+    let gyro = &table("gyro", sensors::kind("rate_gyro").expect("a kind").parameters, &[("period_s", &[0.05])]);
+    let context = EstimatorContext { nominal, parameters, sensors: &[("rate_gyro", gyro)], tick: 0.1 };
+    let mut estimator = (mekf.make)(&context);
+    let rotations = [[0.3, 0.0, 0.1], [0.0, -0.4, 0.2]];
+    let measurements = rotations.map(|rotation_s| (0, Measurement::Rotation { rotation_s, interval: 0.05 }));
+    let estimate = estimator.update(&update(1, 0.1, &measurements, at));
+    let q = rotations.iter().fold(nominal.initial.q_es, |q, rotation| hamilton(q, quaternion_of(*rotation)));
+    assert!(estimate.q_es.iter().zip(q).all(|(a, b)| (a - b).abs() < 4e-16), "{:?} for {q:?}", estimate.q_es);
 }

@@ -2,7 +2,7 @@
 //!
 //! Source of the noise: R. L. Farrenkopf, J. Guidance and Control 1(4), 1978; F. L. Markley & J. L. Crassidis, *Fundamentals of Spacecraft Attitude
 //! Determination and Control*, 2014, section 4.7. Over a period T the bias walks by N(0, su^2 T), and the rotation has the variance
-//! sv^2 T + su^2 T^3/12 about the mean of the biases at both ends.
+//! sv^2 T + su^2 T^3/12 about the mean of the biases at both ends. A turn of more than half a revolution between samples reads as the shorter one.
 
 use super::NormalErrors;
 use super::{AXES, Sensor, SensorContext, SensorKind, axes, optional};
