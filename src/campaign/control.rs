@@ -31,7 +31,8 @@ pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput) -> Option
     section.require("period_s", POSITIVE.allowed, "0.1");
     let period = section.number("period_s", POSITIVE);
     let names = estimators::KINDS.iter().map(|kind| kind.name).collect::<Vec<_>>();
-    let estimator = section.name("estimator", &names, |name| names.iter().position(|known| *known == name)).unwrap_or(0);
+    let estimator =
+        section.name("estimator", &names, |name| names.iter().position(|known| *known == name)).unwrap_or(0);
     let modulation = section
         .name("modulation", &modulation::NAMES, |name| modulation::NAMES.iter().position(|known| *known == name))
         .unwrap_or(0);
@@ -61,7 +62,8 @@ pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput) -> Option
     let phases = root.sections("guidance", |section| read_phase(section, scene, !thrusters.is_empty(), &mut taken));
     if phases.is_empty() && !root.has("guidance") {
         let content = "the phases of the mission, at least one";
-        let remedy = "add a [[guidance]] table with phase = \"hold\", law = \"quaternion_feedback\", target = \"attitude\"";
+        let remedy =
+            "add a [[guidance]] table with phase = \"hold\", law = \"quaternion_feedback\", target = \"attitude\"";
         root.document.add("guidance", None, content, remedy);
     }
     let phases = connected(root, phases, &taken);
@@ -75,7 +77,12 @@ pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput) -> Option
         phases: phases?,
         model,
         has_debris,
-        wheel_names: scene.wheels.iter().filter(|wheel| wheel.mode != WheelMode::Locked).map(|wheel| wheel.name).collect(),
+        wheel_names: scene
+            .wheels
+            .iter()
+            .filter(|wheel| wheel.mode != WheelMode::Locked)
+            .map(|wheel| wheel.name)
+            .collect(),
         thruster_names: scene.thrusters.iter().map(|thruster| thruster.name).collect(),
     };
     (!spec.phases.is_empty()).then(|| ControlLaw::closed_loop(spec))
@@ -195,7 +202,11 @@ fn read_phase(
             None
         }
         Some(_) => {
-            section.refuse("phase", "another name than that of the other phases, and than \"launch\"", "give each its own name");
+            section.refuse(
+                "phase",
+                "another name than that of the other phases, and than \"launch\"",
+                "give each its own name",
+            );
             None
         }
         None => None,
@@ -212,7 +223,8 @@ fn read_phase(
     let targets: Vec<(&str, Target)> =
         TARGETS.into_iter().filter(|(_, target)| has_debris || !target.needs_debris()).collect();
     let names: Vec<&str> = targets.iter().map(|(name, _)| *name).collect();
-    let target = section.name("target", &names, |name| targets.iter().find(|(known, _)| *known == name).map(|one| one.1));
+    let target =
+        section.name("target", &names, |name| targets.iter().find(|(known, _)| *known == name).map(|one| one.1));
     let target = target.unwrap_or(Target::None);
     let thrust = section.name("thrust", &MANEUVERS.map(|(name, _)| name), |name| {
         MANEUVERS.iter().find(|(known, _)| *known == name).map(|one| one.1)
@@ -220,7 +232,11 @@ fn read_phase(
     let thrust = thrust.unwrap_or(Maneuver::None);
     if thrust != Maneuver::None && !(has_thrusters && has_debris) {
         let allowed = "\"none\" in a loop without thrusters, or without debris";
-        section.refuse("thrust", allowed, "add thrusters = [...] to [control] and a [debris] table, or delete this line");
+        section.refuse(
+            "thrust",
+            allowed,
+            "add thrusters = [...] to [control] and a [debris] table, or delete this line",
+        );
     }
     let until = section.text("until");
     let until = until.and_then(|text| match Condition::parse(text, has_debris) {
@@ -328,8 +344,14 @@ pub(super) fn write(spec: &LoopSpec, scene: &SceneInput, lines: &mut Lines) {
         if let Some(law) = phase.law {
             lines.key("law", laws::KINDS[law].name);
         }
-        lines.key("target", TARGETS.iter().find(|(_, target)| same_kind(*target, phase.target)).map_or("none", |one| one.0));
-        lines.key("thrust", MANEUVERS.iter().find(|(_, maneuver)| *maneuver == phase.thrust).map_or("none", |one| one.0));
+        lines.key(
+            "target",
+            TARGETS.iter().find(|(_, target)| same_kind(*target, phase.target)).map_or("none", |one| one.0),
+        );
+        lines.key(
+            "thrust",
+            MANEUVERS.iter().find(|(_, maneuver)| *maneuver == phase.thrust).map_or("none", |one| one.0),
+        );
         if let Some(until) = &phase.until {
             lines.text_key("until", &until.text);
             match phase.next {

@@ -89,7 +89,8 @@ fn read_loop(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
         }
     }
     let wheels = scene.wheels.iter().map(|wheel| {
-        let values = [wheel.torque_limit_n_m, wheel.speed_limit_rad_s, wheel.coulomb_friction_n_m, wheel.viscous_friction_n_m_s];
+        let values =
+            [wheel.torque_limit_n_m, wheel.speed_limit_rad_s, wheel.coulomb_friction_n_m, wheel.viscous_friction_n_m_s];
         ("wheels", wheel.name, WheelInput::DRIVE.into_iter().zip(values).collect::<Vec<_>>())
     });
     let thrusters = scene.thrusters.iter().map(|thruster| {
@@ -101,7 +102,12 @@ fn read_loop(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
             if let Some(value) = value {
                 let remedy = "delete it, or add a [control] table";
                 let path = format!("{header}.{name}.{key}");
-                root.document.add(&path, Some(format!("{value:?}")), "left out without [control]: a schedule commands what is applied", remedy);
+                root.document.add(
+                    &path,
+                    Some(format!("{value:?}")),
+                    "left out without [control]: a schedule commands what is applied",
+                    remedy,
+                );
             }
         }
     }

@@ -64,9 +64,11 @@ impl ControlLaw {
     pub fn closed_loop(spec: LoopSpec) -> Self {
         let spec = Arc::new(spec);
         let columns = Arc::new(OutcomeColumns::of(&spec));
-        let commands = Actuated { thrusters: !spec.thrusters.is_empty(), motors: !spec.wheels.is_empty(), body_torque: false };
+        let commands =
+            Actuated { thrusters: !spec.thrusters.is_empty(), motors: !spec.wheels.is_empty(), body_torque: false };
         let (reported, own) = (columns.columns(), spec.clone());
-        let law = ControlLaw::new("closed_loop", commands, &[], move |context| ControlLoop::new(&own, &columns, context));
+        let law =
+            ControlLaw::new("closed_loop", commands, &[], move |context| ControlLoop::new(&own, &columns, context));
         ControlLaw { columns: reported, spec: Some(spec), ..law }
     }
 

@@ -177,7 +177,13 @@ impl MissionOutcome {
     }
 
     /// Whether the plume of a thruster that fires at `thrust` in the state `truth` hits the debris.
-    pub fn plume_hits(&self, scene: &Scene, truth: &Truth, thrust: &[f64; MAX_THRUSTERS], judgement: &Judgement) -> bool {
+    pub fn plume_hits(
+        &self,
+        scene: &Scene,
+        truth: &Truth,
+        thrust: &[f64; MAX_THRUSTERS],
+        judgement: &Judgement,
+    ) -> bool {
         let firing = scene.thrusters.iter().zip(thrust).filter(|(_, thrust)| **thrust > 0.0);
         firing.into_iter().any(|(thruster, _)| plume_hits(truth, thruster.direction, judgement.plume))
     }
@@ -337,7 +343,9 @@ fn mission(spec: &LoopSpec, add: &mut Add<'_>) {
         spec.phases.iter().enumerate().map(|(place, phase)| format!("{place} {}", phase.name)).collect();
     let meaning = format!("The phase in which the run ended: {}.", names.join(", "));
     add("phase_final".into(), "", meaning, Box::new(|_, guidance, _| guidance.phase as f64));
-    plain(add, "end_time_s", "s", "Time at which the mission launched or failed; null where it did neither.", |o| o.end);
+    plain(add, "end_time_s", "s", "Time at which the mission launched or failed; null where it did neither.", |o| {
+        o.end
+    });
     for (place, phase) in spec.phases.iter().enumerate() {
         let meaning = format!("Time at which phase {} first began; null where it did not.", phase.name);
         let value: Value = Box::new(move |_, guidance, _| guidance.first_begun[place]);
@@ -346,15 +354,39 @@ fn mission(spec: &LoopSpec, add: &mut Add<'_>) {
 }
 
 fn pointing(add: &mut Add<'_>) {
-    plain(add, "pointing_error_final_rad", "rad", "Angle of the rotation from the true attitude to the target of the last phase that had one, at the last tick.", |o| o.pointing_error);
-    plain(add, "settling_time_s", "s", "Time from the beginning of the last phase with a target until the pointing error stayed within control.settling_band_rad; null where it did not.", |o| o.settled_since - o.pointing_since);
-    plain(add, "overshoot_rad", "rad", "Largest angle beyond the target, against the direction of the error with which the last phase with a target began.", |o| {
-        if o.pointing_since.is_nan() { f64::NAN } else { o.overshoot }
-    });
+    plain(
+        add,
+        "pointing_error_final_rad",
+        "rad",
+        "Angle of the rotation from the true attitude to the target of the last phase that had one, at the last tick.",
+        |o| o.pointing_error,
+    );
+    plain(
+        add,
+        "settling_time_s",
+        "s",
+        "Time from the beginning of the last phase with a target until the pointing error stayed within control.settling_band_rad; null where it did not.",
+        |o| o.settled_since - o.pointing_since,
+    );
+    plain(
+        add,
+        "overshoot_rad",
+        "rad",
+        "Largest angle beyond the target, against the direction of the error with which the last phase with a target began.",
+        |o| {
+            if o.pointing_since.is_nan() { f64::NAN } else { o.overshoot }
+        },
+    );
 }
 
 fn approach(spec: &LoopSpec, add: &mut Add<'_>) {
-    plain(add, "debris_distance_min_m", "m", "Smallest distance between the centres of mass of spacecraft and debris at the ticks.", |o| finite(o.debris_distance));
+    plain(
+        add,
+        "debris_distance_min_m",
+        "m",
+        "Smallest distance between the centres of mass of spacecraft and debris at the ticks.",
+        |o| finite(o.debris_distance),
+    );
     if !spec.launches() {
         return;
     }
@@ -363,13 +395,35 @@ fn approach(spec: &LoopSpec, add: &mut Add<'_>) {
         add(name.to_owned(), unit, format!("{meaning} at the launch; null without one."), value);
     };
     at("pointing_error_launch_rad", "rad", "Angle between s3 and the line to the debris", |l| l.pointing_error);
-    at("axis_offset_launch_m", "m", "Distance of the centre of mass from the line through the debris along its velocity", |l| l.axis_offset);
-    at("distance_error_launch_m", "m", "Distance behind the debris along that line less control.launch_distance_m", |l| l.distance_error);
+    at(
+        "axis_offset_launch_m",
+        "m",
+        "Distance of the centre of mass from the line through the debris along its velocity",
+        |l| l.axis_offset,
+    );
+    at(
+        "distance_error_launch_m",
+        "m",
+        "Distance behind the debris along that line less control.launch_distance_m",
+        |l| l.distance_error,
+    );
     at("relative_speed_launch_m_s", "m/s", "Speed relative to the debris", |l| l.relative_speed);
-    at("body_rate_launch_rad_s", "rad/s", "Magnitude of the angular velocity of the body relative to F_e", |l| l.body_rate);
-    at("tumble_axis_angle_launch_rad", "rad", "Angle, 0 to pi/2, between the angular momentum of the debris and the launch axis", |l| l.momentum_angle);
+    at("body_rate_launch_rad_s", "rad/s", "Magnitude of the angular velocity of the body relative to F_e", |l| {
+        l.body_rate
+    });
+    at(
+        "tumble_axis_angle_launch_rad",
+        "rad",
+        "Angle, 0 to pi/2, between the angular momentum of the debris and the launch axis",
+        |l| l.momentum_angle,
+    );
     if !spec.wheels.is_empty() {
-        at("wheel_speed_margin_launch_rad_s", "rad/s", "Smallest difference between the limit of a wheel's speed and its speed", |l| finite(l.speed_margin));
+        at(
+            "wheel_speed_margin_launch_rad_s",
+            "rad/s",
+            "Smallest difference between the limit of a wheel's speed and its speed",
+            |l| finite(l.speed_margin),
+        );
     }
 }
 
@@ -381,13 +435,20 @@ fn thrust(spec: &LoopSpec, add: &mut Add<'_>) {
     }
     plain(add, "impulse_total_n_s", "N s", "Sum of the impulses of all thrusters.", |o| o.impulse.iter().sum());
     plain(add, "delta_v_m_s", "m/s", "Integral of the magnitude of the acceleration by thrust.", |o| o.velocity_change);
-    let meaning = "Propellant used at control.isp_s; null where that is not known. The mass of the spacecraft is constant.";
+    let meaning =
+        "Propellant used at control.isp_s; null where that is not known. The mass of the spacecraft is constant.";
     let propellant = |o: &MissionOutcome, _: &Guidance, judgement: &Judgement| {
         finite(o.impulse.iter().sum::<f64>() / (STANDARD_GRAVITY * judgement.isp))
     };
     add("propellant_kg".into(), "kg", meaning.into(), Box::new(propellant));
     if spec.approaches() {
-        plain(add, "plume_time_s", "s", "Time in which a thruster fired at debris within control.plume_range_m and control.plume_half_angle_rad of its plume's axis, by the state at the start of each arc.", |o| o.plume_time);
+        plain(
+            add,
+            "plume_time_s",
+            "s",
+            "Time in which a thruster fired at debris within control.plume_range_m and control.plume_half_angle_rad of its plume's axis, by the state at the start of each arc.",
+            |o| o.plume_time,
+        );
     }
 }
 
@@ -397,31 +458,86 @@ fn wheel(spec: &LoopSpec, add: &mut Add<'_>) {
         let meaning = format!("Largest magnitude of the rate of wheel {name} relative to the body at the ticks.");
         add(format!("speed_peak_{name}_rad_s"), "rad/s", meaning, Box::new(move |o, _, _| o.speed_peak[i]));
     }
-    plain(add, "wheel_momentum_peak_n_m_s", "N m s", "Largest magnitude of the wheels' momentum relative to the body at the ticks.", |o| o.momentum_peak);
-    plain(add, "torque_saturated_s", "s", "Time in which a motor gave less than was commanded because of its limit of torque.", |o| o.saturated[0]);
-    plain(add, "speed_saturated_s", "s", "Time in which a motor gave less than was commanded because of the limit of its wheel's speed.", |o| o.saturated[1]);
-    plain(add, "torque_excess_max_n_m", "N m", "Largest commanded torque beyond the limit of its motor.", |o| o.torque_excess);
+    plain(
+        add,
+        "wheel_momentum_peak_n_m_s",
+        "N m s",
+        "Largest magnitude of the wheels' momentum relative to the body at the ticks.",
+        |o| o.momentum_peak,
+    );
+    plain(
+        add,
+        "torque_saturated_s",
+        "s",
+        "Time in which a motor gave less than was commanded because of its limit of torque.",
+        |o| o.saturated[0],
+    );
+    plain(
+        add,
+        "speed_saturated_s",
+        "s",
+        "Time in which a motor gave less than was commanded because of the limit of its wheel's speed.",
+        |o| o.saturated[1],
+    );
+    plain(add, "torque_excess_max_n_m", "N m", "Largest commanded torque beyond the limit of its motor.", |o| {
+        o.torque_excess
+    });
 }
 
 fn estimation(spec: &LoopSpec, add: &mut Add<'_>) {
-    plain(add, "attitude_estimate_error_final_rad", "rad", "Angle between estimated and true attitude at the last tick.", |o| o.attitude_error[0]);
-    plain(add, "attitude_estimate_error_max_rad", "rad", "Largest angle between estimated and true attitude at the ticks.", |o| o.attitude_error[1]);
+    plain(
+        add,
+        "attitude_estimate_error_final_rad",
+        "rad",
+        "Angle between estimated and true attitude at the last tick.",
+        |o| o.attitude_error[0],
+    );
+    plain(
+        add,
+        "attitude_estimate_error_max_rad",
+        "rad",
+        "Largest angle between estimated and true attitude at the ticks.",
+        |o| o.attitude_error[1],
+    );
     if spec.approaches() {
-        plain(add, "relative_position_estimate_error_final_m", "m", "Distance between estimated and true position relative to the debris at the last tick.", |o| o.relative_error[0]);
-        plain(add, "relative_velocity_estimate_error_final_m_s", "m/s", "Magnitude of the error of the estimated velocity relative to the debris at the last tick.", |o| o.relative_error[1]);
+        plain(
+            add,
+            "relative_position_estimate_error_final_m",
+            "m",
+            "Distance between estimated and true position relative to the debris at the last tick.",
+            |o| o.relative_error[0],
+        );
+        plain(
+            add,
+            "relative_velocity_estimate_error_final_m_s",
+            "m/s",
+            "Magnitude of the error of the estimated velocity relative to the debris at the last tick.",
+            |o| o.relative_error[1],
+        );
     }
     if !spec.has_filter() {
         return;
     }
     // what the covariance of a filter says of its errors: normalised squares, over their degrees of freedom
     let mut of_filter = |name: &str, what: &str, value: fn(&Consistency) -> Option<NormalizedSquare>| {
-        let meaning = format!("Normalised square of {what} at the last tick, over its degrees of freedom: 1 on average where the filter is right; null where it is not known.");
-        add(format!("{name}_final"), "", meaning, Box::new(move |o, _, _| value(&o.consistency).map_or(f64::NAN, |square| square.value / square.degrees as f64)));
+        let meaning = format!(
+            "Normalised square of {what} at the last tick, over its degrees of freedom: 1 on average where the filter is right; null where it is not known."
+        );
+        add(
+            format!("{name}_final"),
+            "",
+            meaning,
+            Box::new(move |o, _, _| {
+                value(&o.consistency).map_or(f64::NAN, |square| square.value / square.degrees as f64)
+            }),
+        );
     };
     of_filter("attitude_nees", "the estimation error of attitude and gyro bias (or rate)", |c| c.attitude);
     if spec.approaches() {
         of_filter("motion_nees", "the estimation error of position and velocity", |c| c.motion);
-        of_filter("debris_motion_nees", "the estimation error of position and velocity of the debris", |c| c.debris_motion);
+        of_filter("debris_motion_nees", "the estimation error of position and velocity of the debris", |c| {
+            c.debris_motion
+        });
         of_filter("debris_attitude_nees", "the estimation error of attitude and rate of the debris", |c| c.debris);
     }
 }

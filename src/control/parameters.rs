@@ -12,8 +12,18 @@ const fn number(key: &'static str, unit: &'static str, meaning: &'static str, de
 /// Of every loop.
 pub static LOOP: [LawParameter; 3] = [
     number("delay_s", "s", "Time from a tick to the effect of its commands", &[0.0]),
-    number("settling_band_rad", "rad", "Pointing error within which the attitude counts as settled", &[0.017_453_292_519_943_295]),
-    number("saturation_timeout_s", "s", "How long a wheel may be at its limit of speed before the mission fails; 0: for ever", &[0.0]),
+    number(
+        "settling_band_rad",
+        "rad",
+        "Pointing error within which the attitude counts as settled",
+        &[0.017_453_292_519_943_295],
+    ),
+    number(
+        "saturation_timeout_s",
+        "s",
+        "How long a wheel may be at its limit of speed before the mission fails; 0: for ever",
+        &[0.0],
+    ),
 ];
 
 /// Of a loop with thrusters.
@@ -39,8 +49,18 @@ pub static DEBRIS: [LawParameter; 7] = [
     .with_components(&["x", "y", "z"])
     .or(&[0.0; 3]),
     number("keep_out_m", "m", "Distance from the debris below which the mission fails", &[0.0]),
-    number("lost_target_timeout_s", "s", "How long the debris may be unmeasured before the mission fails; 0: for ever", &[0.0]),
-    number("plume_range_m", "m", "Distance to the debris within which the plume of a thruster counts as hitting it", &[0.0]),
+    number(
+        "lost_target_timeout_s",
+        "s",
+        "How long the debris may be unmeasured before the mission fails; 0: for ever",
+        &[0.0],
+    ),
+    number(
+        "plume_range_m",
+        "m",
+        "Distance to the debris within which the plume of a thruster counts as hitting it",
+        &[0.0],
+    ),
     number("plume_half_angle_rad", "rad", "Half angle of the cone of a plume", &[0.0]),
 ];
 
@@ -52,7 +72,12 @@ pub static PHASE: [LawParameter; 2] = [
 
 /// Of a phase in a loop with thrusters.
 pub static UNLOADING: [LawParameter; 2] = [
-    number("unloading_time_s", "s", "Time constant with which thrusters take momentum out of the wheels; 0: not at all", &[0.0]),
+    number(
+        "unloading_time_s",
+        "s",
+        "Time constant with which thrusters take momentum out of the wheels; 0: not at all",
+        &[0.0],
+    ),
     number("unloading_dead_band_n_m_s", "N m s", "Momentum that may stay in the wheels", &[0.0]),
 ];
 

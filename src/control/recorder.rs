@@ -26,7 +26,11 @@ impl Recorder {
             quantities.push(Quantity::named(name, unit.to_owned(), meaning.to_owned()));
         };
         add("phase".into(), "", "Place of the phase of guidance.");
-        add("estimated_pointing_error_rad".into(), "rad", "Angle of the rotation from the estimated attitude to the target.");
+        add(
+            "estimated_pointing_error_rad".into(),
+            "rad",
+            "Angle of the rotation from the estimated attitude to the target.",
+        );
         for component in ["w", "x", "y", "z"] {
             add(format!("estimated_q_es_{component}"), "", "Estimated attitude quaternion, F_s -> F_e.");
         }
@@ -36,12 +40,26 @@ impl Recorder {
         vector("estimated_omega_se_s", "rad/s", "rad_s", "Estimated angular velocity of F_s relative to F_e, in F_s.");
         vector("estimated_gyro_bias_s", "rad/s", "rad_s", "Estimated bias of the gyro, in F_s.");
         if spec.has_debris {
-            vector("estimated_to_debris_e", "m", "m", "Estimated position of the debris relative to the centre of mass, in F_e.");
+            vector(
+                "estimated_to_debris_e",
+                "m",
+                "m",
+                "Estimated position of the debris relative to the centre of mass, in F_e.",
+            );
             vector("estimated_relative_velocity_e", "m/s", "m_s", "Estimated velocity relative to the debris, in F_e.");
         }
-        vector("measured_rate_s", "rad/s", "rad_s", "Rotation measured by a gyro over its interval, in F_s; null where none was delivered.");
+        vector(
+            "measured_rate_s",
+            "rad/s",
+            "rad_s",
+            "Rotation measured by a gyro over its interval, in F_s; null where none was delivered.",
+        );
         for component in ["w", "x", "y", "z"] {
-            add(format!("measured_q_es_{component}"), "", "Attitude quaternion measured by a star tracker; null where none was delivered.");
+            add(
+                format!("measured_q_es_{component}"),
+                "",
+                "Attitude quaternion measured by a star tracker; null where none was delivered.",
+            );
         }
         for place in &spec.wheels {
             let name = spec.wheel_names[*place];
@@ -52,7 +70,12 @@ impl Recorder {
             add(format!("commanded_thrust_{name}_n"), "N", "Commanded mean thrust over the control period.");
         }
         let telemetry = Telemetry { quantities, times: Vec::new(), rows: Vec::new() };
-        Recorder { telemetry, wheels: spec.wheels.clone(), thrusters: spec.thrusters.clone(), has_debris: spec.has_debris }
+        Recorder {
+            telemetry,
+            wheels: spec.wheels.clone(),
+            thrusters: spec.thrusters.clone(),
+            has_debris: spec.has_debris,
+        }
     }
 
     /// What was recorded.

@@ -130,10 +130,8 @@ impl WheelModel {
 
 impl ActuatorModels {
     /// Ideal actuators.
-    pub const IDEAL: ActuatorModels = ActuatorModels {
-        thrusters: [ThrusterModel::IDEAL; MAX_THRUSTERS],
-        wheels: [WheelModel::IDEAL; MAX_WHEELS],
-    };
+    pub const IDEAL: ActuatorModels =
+        ActuatorModels { thrusters: [ThrusterModel::IDEAL; MAX_THRUSTERS], wheels: [WheelModel::IDEAL; MAX_WHEELS] };
 
     /// Those of `input`.
     fn of(input: &SceneInput) -> Self {

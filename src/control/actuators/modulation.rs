@@ -9,8 +9,15 @@ pub const NAMES: [&str; 3] = ["throttled", "pulse_width", "hysteresis"];
 
 /// Of hysteresis.
 static LEVELS: [LawParameter; 2] = [
-    LawParameter::number("level_on", "1", "Share of the shortest firing from which a thruster fires", Limit::NotNegative).or(&[0.75]),
-    LawParameter::number("level_off", "1", "Share of the shortest firing down to which it goes on", Limit::NotNegative).or(&[0.25]),
+    LawParameter::number(
+        "level_on",
+        "1",
+        "Share of the shortest firing from which a thruster fires",
+        Limit::NotNegative,
+    )
+    .or(&[0.75]),
+    LawParameter::number("level_off", "1", "Share of the shortest firing down to which it goes on", Limit::NotNegative)
+        .or(&[0.25]),
 ];
 
 /// What the modulation of place `place` declares.

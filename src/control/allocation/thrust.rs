@@ -15,6 +15,9 @@ use crate::math::vector::{cross, difference};
 use crate::scene::thruster::report_offset;
 use crate::scene::{MAX_THRUSTERS, Scene, Thruster};
 
+/// A component of a thruster's direction below this is rounding: far below any alignment.
+const NO_PUSH: f64 = 1e-9;
+
 /// What is known of the thrusters, made once per run.
 #[derive(Clone, Copy, Debug)]
 pub struct ThrustAllocation {
@@ -77,7 +80,7 @@ impl ThrustAllocation {
         let center = scene.mass.center;
         let all = Self::new(&scene.thrusters, center, &most, [true; 6]);
         let two_sided = all.two_sided_torques();
-        let gives = |row: usize| used.iter().any(|place| all.wrenches[*place][row].abs() > SAME);
+        let gives = |row: usize| used.iter().any(|place| all.wrenches[*place][row].abs() > NO_PUSH);
         let axes = std::array::from_fn(|row| if row < 3 { gives(row) } else { two_sided[row - 3][row - 3] > 0.5 });
         Self::new(&scene.thrusters, center, &most, axes)
     }

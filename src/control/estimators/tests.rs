@@ -38,8 +38,8 @@ impl Draws {
     }
 }
 
-const GYRO: [(&str, &[f64]); 3] =
-    [("period_s", &[1.0]), ("angular_random_walk_rad_sqrt_s", &[1e-4]), ("bias_random_walk_rad_s_sqrt_s", &[2e-5])];
+const GYRO: [(&str, &[f64]); 2] =
+    [("angular_random_walk_rad_sqrt_s", &[1e-4]), ("bias_random_walk_rad_s_sqrt_s", &[2e-5])];
 const TRACKER_NOISE: [f64; 3] = [2e-4, 3e-4, 1e-3];
 const START: [f64; 2] = [5e-3, 1e-3];
 
@@ -60,14 +60,15 @@ fn attitude_runs(runs: u64, omega: [f64; 3], told: f64) -> Found {
     let gyro = &table("gyro", declared("rate_gyro"), &GYRO);
     let believed = TRACKER_NOISE.map(|noise| told * noise);
     let tracker = &table("tracker", declared("star_tracker"), &[("noise_rad", &believed)]);
-    let sensors: [(&str, _); 2] = [("rate_gyro", gyro), ("star_tracker", tracker)];
+    let known = |kind, parameters| KnownSensor { kind, period: 1.0, latency: 0.0, parameters };
+    let sensors = [known("rate_gyro", gyro), known("star_tracker", tracker)];
     let context = EstimatorContext { nominal, parameters, sensors: &sensors, tick: 1.0 };
     let mut found = Found { errors: [0.0; TIMES], innovations: [0.0; TIMES], bias: 0.0 };
     for run in 1..=runs {
         let mut draws = Draws::of(run);
         let mut q = hamilton(nominal.initial.q_es, quaternion_of(draws.vector(START[0])));
         let bias = draws.vector(START[1]);
-        let mut gyro = sensor("rate_gyro", &[GYRO[0], GYRO[1], GYRO[2], ("bias_rad_s", &bias)], 1.0, run);
+        let mut gyro = sensor("rate_gyro", &[GYRO[0], GYRO[1], ("bias_rad_s", &bias)], 1.0, run);
         let mut tracker = sensor("star_tracker", &[("noise_rad", &TRACKER_NOISE)], 2.0, run);
         let mut filter = (kind("mekf").expect("a kind").make)(&context);
         let mut error = 0.0;
@@ -200,21 +201,17 @@ fn translation_and_debris_are_consistent() {
 /// The sensors of a nominal run, which have no noise, with what the filters believe of it; the period of the gyro in ticks of 0.1 s, 0 for none.
 struct Nominal {
     names: Vec<&'static str>,
+    /// Period and latency, s.
+    times: Vec<[f64; 2]>,
     tables: Vec<crate::scene::DeclaredTable>,
     instruments: Vec<sensors::Instrument>,
 }
 
 impl Nominal {
     fn new(gyro_period: u64) -> Self {
-        let mut all = Nominal { names: Vec::new(), tables: Vec::new(), instruments: Vec::new() };
+        let mut all = Nominal { names: Vec::new(), times: Vec::new(), tables: Vec::new(), instruments: Vec::new() };
         if gyro_period > 0 {
-            let period = 0.1 * gyro_period as f64;
-            all.add(
-                "rate_gyro",
-                gyro_period,
-                0,
-                &[("period_s", &[period]), GYRO[1], ("bias_rad_s", &[2e-4, 0.0, -1e-4])],
-            );
+            all.add("rate_gyro", gyro_period, 0, &[GYRO[0], ("bias_rad_s", &[2e-4, 0.0, -1e-4])]);
         }
         all.add("star_tracker", 5, 2, &[("noise_rad", &[1e-5, 1e-5, 1e-5])]);
         all.add("ground_radar", 10, 3, &[("position_noise_m", &[0.1]), ("velocity_noise_m_s", &[0.001])]);
@@ -223,13 +220,9 @@ impl Nominal {
     }
 
     fn add(&mut self, kind: &'static str, every: u64, latency: u64, values: &[(&str, &[f64])]) {
-        let late = [latency as f64 * 0.1];
-        let mut of_filter = values.to_vec();
-        if latency > 0 {
-            of_filter.push(("latency_s", &late));
-        }
         self.names.push(kind);
-        self.tables.push(table("nominal", sensors::kind(kind).expect("a kind").parameters, &of_filter));
+        self.times.push([every, latency].map(|ticks| 0.1 * ticks as f64));
+        self.tables.push(table("nominal", sensors::kind(kind).expect("a kind").parameters, values));
         let model: Box<dyn Sensor> = sensor(kind, values, 0.1 * every as f64, 0);
         self.instruments.push(sensors::Instrument::new(model, every, latency, 0.1));
     }
@@ -243,7 +236,14 @@ fn errors_without_noise(name: &str, gyro_period: u64) -> (crate::control::estima
     let mut sensors = Nominal::new(gyro_period);
     let kind = kind(name).expect("a kind");
     let parameters = &table("estimator", kind.parameters, &[]);
-    let tables: Vec<_> = sensors.names.iter().copied().zip(&sensors.tables).collect();
+    let known = |((kind, [period, latency]), parameters): ((&'static str, [f64; 2]), _)| KnownSensor {
+        kind,
+        period,
+        latency,
+        parameters,
+    };
+    let names = sensors.names.iter().copied().zip(sensors.times.iter().copied());
+    let tables: Vec<_> = names.zip(&sensors.tables).map(known).collect();
     let mut estimator = (kind.make)(&EstimatorContext { nominal, parameters, sensors: &tables, tick: 0.1 });
     let body = nominal.mass.debris.as_ref().expect("debris").inertia;
     let mut debris =
@@ -368,8 +368,13 @@ fn wheels_follow_their_motors_and_fast_gyros_are_joined() {
     let momentum = wheel.axial * (last.wheel_rates[0] + of_body);
     assert!((momentum - 0.4 * 5.0).abs() < 1e-12 && of_body < 0.0, "{momentum}");
 
-    let gyro = &table("gyro", sensors::kind("rate_gyro").expect("a kind").parameters, &[("period_s", &[0.05])]);
-    let context = EstimatorContext { nominal, parameters, sensors: &[("rate_gyro", gyro)], tick: 0.1 };
+    let gyro = &table("gyro", sensors::kind("rate_gyro").expect("a kind").parameters, &[]);
+    let context = EstimatorContext {
+        nominal,
+        parameters,
+        sensors: &[KnownSensor { kind: "rate_gyro", period: 0.05, latency: 0.0, parameters: gyro }],
+        tick: 0.1,
+    };
     let mut estimator = (mekf.make)(&context);
     let rotations = [[0.3, 0.0, 0.1], [0.0, -0.4, 0.2]];
     let measurements = rotations.map(|rotation_s| (0, Measurement::Rotation { rotation_s, interval: 0.05 }));

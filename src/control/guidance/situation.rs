@@ -76,15 +76,23 @@ pub static QUANTITIES: [GuidanceQuantity; 16] = [
     of_debris("relative_speed_m_s", "Speed relative to the debris", |s| {
         with_geometry(s, |g| norm(g.relative_velocity))
     }),
-    of_debris("velocity_to_go_m_s", "Magnitude of the impulse per mass that is left of the maneuver of the phase", |s| {
-        norm(s.velocity_to_go)
+    of_debris(
+        "velocity_to_go_m_s",
+        "Magnitude of the impulse per mass that is left of the maneuver of the phase",
+        |s| norm(s.velocity_to_go),
+    ),
+    of_debris(
+        "velocity_to_go_along_m_s",
+        "Component along s3 of the impulse per mass that is left of the maneuver of the phase",
+        |s| crate::math::vector::dot(s.velocity_to_go, s.s3_e),
+    ),
+    of_debris("time_to_station_s", "Time until the station is reached in the transfer that is flown", |s| {
+        s.time_to_station
     }),
-    of_debris("velocity_to_go_along_m_s", "Component along s3 of the impulse per mass that is left of the maneuver of the phase", |s| {
-        crate::math::vector::dot(s.velocity_to_go, s.s3_e)
-    }),
-    of_debris("time_to_station_s", "Time until the station is reached in the transfer that is flown", |s| s.time_to_station),
     of_debris("debris_age_s", "Time since the debris was last measured", |s| s.debris_age),
-    of_debris("debris_rate_rad_s", "Magnitude of the angular velocity of the debris relative to F_e", |s| s.debris_rate),
+    of_debris("debris_rate_rad_s", "Magnitude of the angular velocity of the debris relative to F_e", |s| {
+        s.debris_rate
+    }),
 ];
 
 /// A condition of a phase: an expression over [`QUANTITIES`] that is other than zero where it is met.

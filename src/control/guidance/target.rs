@@ -58,12 +58,7 @@ impl Target {
     }
 
     /// The attitude `q_es` relative to the target, where the spacecraft is at `geometry`; `velocity_to_go` is the impulse of the maneuver (m/s, F_e).
-    pub fn error(
-        self,
-        q_es: [f64; 4],
-        geometry: Option<&LaunchGeometry>,
-        velocity_to_go: [f64; 3],
-    ) -> AttitudeError {
+    pub fn error(self, q_es: [f64; 4], geometry: Option<&LaunchGeometry>, velocity_to_go: [f64; 3]) -> AttitudeError {
         let fixed = |direction: [f64; 3]| pointing(q_es, direction, [0.0; 3]);
         match (self, geometry) {
             (Target::Attitude(q_et), _) => {
@@ -140,7 +135,8 @@ mod tests {
         let error = Target::LineToDebris.error([1.0, 0.0, 0.0, 0.0], Some(&geometry(line, velocity)), [0.0; 3]);
         let unit = |v: [f64; 3]| scaled(1.0 / norm(v), v);
         // the spacecraft moves with the velocity, so that the line changes against it
-        let slope = scaled(0.5 / h, difference(unit(sum(line, scaled(-h, velocity))), unit(sum(line, scaled(h, velocity)))));
+        let slope =
+            scaled(0.5 / h, difference(unit(sum(line, scaled(-h, velocity))), unit(sum(line, scaled(h, velocity)))));
         assert!(norm(difference(cross(error.omega_te_s, unit(line)), slope)) < 1e-9);
     }
 

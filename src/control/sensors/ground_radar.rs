@@ -6,8 +6,12 @@ use crate::control::truth::Truth;
 use crate::math::vector::sum;
 use crate::scene::LawParameter;
 
-pub(super) const KIND: SensorKind =
-    SensorKind { name: "ground_radar", has_latency: true, parameters: &PARAMETERS, make: |context| Box::new(GroundRadar::new(context)) };
+pub(super) const KIND: SensorKind = SensorKind {
+    name: "ground_radar",
+    has_latency: true,
+    parameters: &PARAMETERS,
+    make: |context| Box::new(GroundRadar::new(context)),
+};
 
 static PARAMETERS: [LawParameter; 2] = [
     optional("position_noise_m", "m", "Standard deviation of each component of a position"),

@@ -13,8 +13,12 @@ use crate::math::vector::{conjugate, hamilton, scaled, sum};
 use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
 
-pub(super) const KIND: SensorKind =
-    SensorKind { name: "rate_gyro", has_latency: false, parameters: &PARAMETERS, make: |context| Box::new(RateGyro::new(context)) };
+pub(super) const KIND: SensorKind = SensorKind {
+    name: "rate_gyro",
+    has_latency: false,
+    parameters: &PARAMETERS,
+    make: |context| Box::new(RateGyro::new(context)),
+};
 
 static PARAMETERS: [LawParameter; 7] = [
     optional(

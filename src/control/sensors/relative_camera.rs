@@ -8,7 +8,8 @@ use crate::math::vector::{conjugate, dcm_from_quaternion, difference, hamilton, 
 use crate::scene::LawParameter;
 
 pub(super) const KIND: SensorKind = SensorKind {
-    name: "relative_camera", has_latency: true,
+    name: "relative_camera",
+    has_latency: true,
     parameters: &PARAMETERS,
     make: |context| Box::new(RelativeCamera::new(context)),
 };

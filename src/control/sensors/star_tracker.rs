@@ -8,8 +8,12 @@ use crate::math::vector::{hamilton, norm};
 use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
 
-pub(super) const KIND: SensorKind =
-    SensorKind { name: "star_tracker", has_latency: true, parameters: &PARAMETERS, make: |context| Box::new(StarTracker::new(context)) };
+pub(super) const KIND: SensorKind = SensorKind {
+    name: "star_tracker",
+    has_latency: true,
+    parameters: &PARAMETERS,
+    make: |context| Box::new(StarTracker::new(context)),
+};
 
 static PARAMETERS: [LawParameter; 3] = [
     axes("noise_rad", "rad", "Standard deviation about each axis of the body", Limit::NotNegative),

@@ -6,8 +6,12 @@ use crate::control::truth::Truth;
 use crate::scene::schema::Limit;
 use crate::scene::{LawParameter, MAX_WHEELS};
 
-pub(super) const KIND: SensorKind =
-    SensorKind { name: "tachometers", has_latency: false, parameters: &PARAMETERS, make: |context| Box::new(Tachometers::new(context)) };
+pub(super) const KIND: SensorKind = SensorKind {
+    name: "tachometers",
+    has_latency: false,
+    parameters: &PARAMETERS,
+    make: |context| Box::new(Tachometers::new(context)),
+};
 
 static PARAMETERS: [LawParameter; 2] = [
     optional("noise_rad_s", "rad/s", "Standard deviation of each rate"),
