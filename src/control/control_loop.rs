@@ -18,7 +18,7 @@ use super::estimators::{Consistency, Estimator, EstimatorContext, KnownSensor, U
 use super::guidance::geometry::{Centers, LaunchGeometry, LaunchState, transfer};
 use super::guidance::phase::{Maneuver, Phase};
 use super::guidance::situation::{Situation, s3_of};
-use super::guidance::target::{AttitudeError, Target};
+use super::guidance::target::{AttitudeError, Target, VelocityToGo};
 use super::guidance::{Failure, Guidance, Progress};
 use super::laws::{AttitudeLaw, KnownBody, LawInput, MomentumUnloading};
 use super::measurement::Measurement;
@@ -366,30 +366,34 @@ impl ControlLoop {
         })
     }
 
-    /// The impulse per mass that is left of the maneuver of the phase, in F_e, m/s.
-    fn velocity_to_go(&self, geometry: Option<&LaunchGeometry>, time: f64) -> [f64; 3] {
-        let Some(geometry) = geometry else { return [0.0; 3] };
+    /// The impulse per mass that is left of the maneuver of the phase.
+    fn velocity_to_go(&self, geometry: Option<&LaunchGeometry>, time: f64) -> VelocityToGo {
+        let Some(geometry) = geometry else { return VelocityToGo::default() };
         let phase = &self.phases[self.guidance.phase];
         match phase.maneuver() {
-            Maneuver::None => [0.0; 3],
-            Maneuver::Stop => scaled(-1.0, geometry.relative_velocity),
-            Maneuver::Transfer => {
-                // before the burn the whole time of the transfer is ahead; within it, what is left of it
-                let left = if phase.thrust == Maneuver::Transfer {
-                    (self.guidance.arrival - time).max(self.spec.period)
-                } else {
-                    phase.transfer_time
-                };
-                transfer(geometry.from_station, geometry.relative_velocity, left)
+            Maneuver::None => VelocityToGo::default(),
+            Maneuver::Stop => {
+                VelocityToGo { velocity_e: scaled(-1.0, geometry.relative_velocity), ..VelocityToGo::default() }
             }
+            // within the burn what is left of the time of the transfer is ahead, and the impulse keeps its direction
+            Maneuver::Transfer if phase.thrust == Maneuver::Transfer => {
+                let left = (self.guidance.arrival - time).max(self.spec.period);
+                let velocity_e = transfer(geometry.from_station, geometry.relative_velocity, left);
+                VelocityToGo { velocity_e, ..VelocityToGo::default() }
+            }
+            // before it, all of it
+            Maneuver::Transfer => VelocityToGo {
+                velocity_e: transfer(geometry.from_station, geometry.relative_velocity, phase.transfer_time),
+                change_e: scaled(-1.0 / phase.transfer_time, geometry.relative_velocity),
+            },
         }
     }
 
-    /// The attitude relative to the target of the phase, and the velocity to go.
+    /// The attitude relative to the target of the phase, and the velocity to go (m/s, F_e).
     fn wanted(&self, estimate: &Estimate, geometry: Option<&LaunchGeometry>, time: f64) -> (AttitudeError, [f64; 3]) {
-        let velocity_to_go = self.velocity_to_go(geometry, time);
+        let to_go = self.velocity_to_go(geometry, time);
         let target = self.phases[self.guidance.phase].target;
-        (target.error(estimate.q_es, geometry, velocity_to_go), velocity_to_go)
+        (target.error(estimate.q_es, geometry, &to_go), to_go.velocity_e)
     }
 
     fn situation(&self, time: f64, estimate: &Estimate, geometry: Option<LaunchGeometry>) -> Situation {
@@ -438,7 +442,7 @@ impl ControlLoop {
         let geometry = centers_of(truth).and_then(|centers| self.launch.geometry(&centers));
         let error = (target != Target::None).then(|| {
             let to_go = self.velocity_to_go(geometry.as_ref(), truth.time);
-            target.error(truth.body.q_es, geometry.as_ref(), to_go)
+            target.error(truth.body.q_es, geometry.as_ref(), &to_go)
         });
         let consistency = if self.spec.has_filter() {
             let bias = self.instruments.iter().find_map(|instrument| instrument.sensor().bias_s());

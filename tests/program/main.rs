@@ -10,6 +10,7 @@ mod audit;
 mod audit_limit;
 mod band_requirements;
 mod campaign_command;
+mod closed_loops;
 mod columns_command;
 mod commands;
 mod compare_command;

@@ -19,16 +19,19 @@ pub enum Target {
     Transfer,
     /// s3 against the velocity relative to the debris.
     Stop,
+    /// s3 along the velocity relative to the debris.
+    Velocity,
 }
 
 /// The names of the targets in campaign files; an attitude has a key of its own.
-pub const TARGETS: [(&str, Target); 6] = [
+pub const TARGETS: [(&str, Target); 7] = [
     ("none", Target::None),
     ("attitude", Target::Attitude([1.0, 0.0, 0.0, 0.0])),
     ("line_to_debris", Target::LineToDebris),
     ("launch_axis", Target::LaunchAxis),
     ("transfer", Target::Transfer),
     ("stop", Target::Stop),
+    ("velocity", Target::Velocity),
 ];
 
 /// The attitude relative to a target.
@@ -38,6 +41,15 @@ pub struct AttitudeError {
     pub q_ts: [f64; 4],
     /// Angular velocity of the target relative to F_e, in F_s, rad/s.
     pub omega_te_s: [f64; 3],
+}
+
+/// The impulse per mass that is left of a maneuver.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct VelocityToGo {
+    /// In F_e, m/s.
+    pub velocity_e: [f64; 3],
+    /// How it changes without thrust, in F_e, m/s^2.
+    pub change_e: [f64; 3],
 }
 
 impl AttitudeError {
@@ -57,8 +69,8 @@ impl Target {
         !matches!(self, Target::None | Target::Attitude(_))
     }
 
-    /// The attitude `q_es` relative to the target, where the spacecraft is at `geometry`; `velocity_to_go` is the impulse of the maneuver (m/s, F_e).
-    pub fn error(self, q_es: [f64; 4], geometry: Option<&LaunchGeometry>, velocity_to_go: [f64; 3]) -> AttitudeError {
+    /// The attitude `q_es` relative to the target, where the spacecraft is at `geometry`; `to_go` is the impulse of the maneuver.
+    pub fn error(self, q_es: [f64; 4], geometry: Option<&LaunchGeometry>, to_go: &VelocityToGo) -> AttitudeError {
         let fixed = |direction: [f64; 3]| pointing(q_es, direction, [0.0; 3]);
         match (self, geometry) {
             (Target::Attitude(q_et), _) => {
@@ -66,19 +78,23 @@ impl Target {
             }
             (Target::LineToDebris, Some(geometry)) => {
                 let line = geometry.to_debris;
-                let square = dot(line, line);
-                if square == 0.0 {
-                    return AttitudeError::NONE;
-                }
-                // the line turns with the part of the relative velocity across it
-                let turn = scaled(-1.0 / square, cross(line, geometry.relative_velocity));
-                pointing(q_es, line, turn)
+                // the spacecraft moves with the relative velocity, and the line against it
+                pointing(q_es, line, turn_of(line, scaled(-1.0, geometry.relative_velocity)))
             }
             (Target::LaunchAxis, Some(geometry)) => fixed(geometry.axis),
-            (Target::Transfer | Target::Stop, Some(_)) => fixed(velocity_to_go),
+            (Target::Transfer | Target::Stop, Some(_)) => {
+                pointing(q_es, to_go.velocity_e, turn_of(to_go.velocity_e, to_go.change_e))
+            }
+            (Target::Velocity, Some(geometry)) => fixed(geometry.relative_velocity),
             _ => AttitudeError::NONE,
         }
     }
+}
+
+/// How fast the direction of `vector` turns that changes by `change` a second, rad/s.
+fn turn_of(vector: [f64; 3], change: [f64; 3]) -> [f64; 3] {
+    let square = dot(vector, vector);
+    if square == 0.0 { [0.0; 3] } else { scaled(1.0 / square, cross(vector, change)) }
 }
 
 /// The attitude relative to the one that points s3 along `direction` (F_e, any length) by the shortest rotation, and turns at `turn` (rad/s, F_e).
@@ -116,7 +132,7 @@ mod tests {
     fn the_error_leads_to_the_target() {
         for q_es in [[1.0, 0.0, 0.0, 0.0], quaternion_of([0.3, -1.0, 2.0]), quaternion_of([3.0, 0.5, 0.0])] {
             for line in [[1.0, 2.0, -0.5], [0.0, 0.0, -3.0], [0.0, 0.0, 4.0], [-1.0, 1e-9, 0.0]] {
-                let error = Target::LineToDebris.error(q_es, Some(&geometry(line, [0.0; 3])), [0.0; 3]);
+                let error = Target::LineToDebris.error(q_es, Some(&geometry(line, [0.0; 3])), &VelocityToGo::default());
                 let q_et = hamilton(q_es, conjugate(error.q_ts));
                 let s3 = product(dcm_from_quaternion(q_et), [0.0, 0.0, 1.0]);
                 let wanted = scaled(1.0 / norm(line), line);
@@ -132,7 +148,8 @@ mod tests {
     #[test]
     fn the_line_turns_with_the_relative_velocity() {
         let (line, velocity, h) = ([3.0, 4.0, 1.0], [0.1, -0.05, 0.2], 1e-4);
-        let error = Target::LineToDebris.error([1.0, 0.0, 0.0, 0.0], Some(&geometry(line, velocity)), [0.0; 3]);
+        let error =
+            Target::LineToDebris.error([1.0, 0.0, 0.0, 0.0], Some(&geometry(line, velocity)), &VelocityToGo::default());
         let unit = |v: [f64; 3]| scaled(1.0 / norm(v), v);
         // the spacecraft moves with the velocity, so that the line changes against it
         let slope =
@@ -144,9 +161,10 @@ mod tests {
     #[test]
     fn an_attitude_is_its_own_target() {
         let q = quaternion_of([0.2, 0.1, -0.4]);
-        assert!(Target::Attitude(q).error(q, None, [0.0; 3]).angle() < 1e-15);
-        let off = Target::Attitude(q).error(hamilton(q, quaternion_of([0.0, 0.01, 0.0])), None, [0.0; 3]);
+        assert!(Target::Attitude(q).error(q, None, &VelocityToGo::default()).angle() < 1e-15);
+        let off =
+            Target::Attitude(q).error(hamilton(q, quaternion_of([0.0, 0.01, 0.0])), None, &VelocityToGo::default());
         assert!((off.angle() - 0.01).abs() < 1e-15 && off.q_ts[2] > 0.0);
-        assert_eq!(Target::None.error(q, None, [0.0; 3]), AttitudeError::NONE);
+        assert_eq!(Target::None.error(q, None, &VelocityToGo::default()), AttitudeError::NONE);
     }
 }
