@@ -2,8 +2,8 @@
 
 use super::lines::Lines;
 use super::numbers::{NumberLimit, POSITIVE};
-use super::scene::{read_keys, read_name};
 use super::section::Section;
+use super::tables::{read_keys, read_name};
 use crate::control::actuators::modulation;
 use crate::control::guidance::phase::{MANEUVERS, Maneuver, Next};
 use crate::control::guidance::situation::Condition;
@@ -102,6 +102,7 @@ fn actuators(section: &mut Section<'_, '_>, key: &str, known: &[Option<Name>], w
     }
     let names: Vec<&str> = known.iter().flatten().map(Name::as_str).collect();
     if names.is_empty() {
+        section.know(key);
         section.refuse(key, format!("left out where the scene has no {what}"), "delete it");
         return Vec::new();
     }

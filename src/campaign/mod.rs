@@ -62,6 +62,7 @@ pub mod size;
 mod sources;
 pub mod spec;
 pub mod stop;
+mod tables;
 mod units;
 
 pub use analysis::Analysis;

@@ -205,7 +205,8 @@ impl<'d, 'a> Section<'d, 'a> {
             .collect();
         self.document.spans.extend(inner);
         self.path = path;
-        self.title = Some(format!("[[{header}]] with name = \"{name}\""));
+        let key = if header == "guidance" { "phase" } else { "name" };
+        self.title = Some(format!("[[{header}]] with {key} = \"{name}\""));
     }
 
     /// Text, if it was written.

@@ -11,7 +11,7 @@ use spindrift::scene::Parameter;
 use spindrift::scene::parameter::Shape;
 use toml::Value;
 
-use crate::support::every_key::{EVERY_TABLE, distribution_tables, every_scene, without_draws};
+use crate::support::every_key::{EVERY_TABLE, distribution_tables, every_loop, every_scene, without_draws};
 use crate::support::scratch_folder::ScratchFolder;
 
 /// A word that is no key.
@@ -311,7 +311,7 @@ fn is_of_scene(table: &str) -> bool {
 fn every_number_of_a_scene_is_in_the_plan() {
     let (mut rows, mut seen) = (BTreeSet::new(), BTreeSet::new());
     let folder = Path::new("");
-    for text in every_scene() {
+    for text in every_scene().into_iter().chain(every_loop()) {
         let plan = read(folder, &text).unwrap_or_else(|error| panic!("{error}\n{text}"));
         for parameter in Parameter::all(&plan.nominal) {
             // of a row its place in memory: two tables may have a key of one name

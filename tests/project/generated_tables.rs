@@ -15,7 +15,7 @@ use spindrift::observables::{Group, Groups, Request, table};
 use spindrift::sampling::SampleId;
 use spindrift::scene::schema::Presence;
 use spindrift::scene::table::Table;
-use spindrift::scene::{Actuated, SceneInput};
+use spindrift::scene::{Actuated, LawParameter, SceneInput};
 use spindrift::storage::rows_file::{headings, parameter_headings};
 use spindrift::storage::timeseries::TimeSeries;
 
@@ -186,6 +186,60 @@ fn parameters() -> String {
     text
 }
 
+/// The keys that parts of control loops declare: a table for each list.
+fn keys_of_loops() -> String {
+    use spindrift::control::{actuators::modulation, estimators, laws, parameters, sensors};
+    let mut lists: Vec<(String, &[LawParameter])> =
+        vec![("`[control]`".into(), &parameters::LOOP), ("`[control]` with thrusters".into(), &parameters::THRUSTERS)];
+    for (place, name) in modulation::NAMES.iter().enumerate() {
+        lists.push((format!("`[control]`, `modulation = \"{name}\"`"), modulation::parameters(place)));
+    }
+    lists.push(("`[control]` with debris".into(), &parameters::DEBRIS));
+    let named = |table: &str, key: &str, name: &str| format!("`{table}`, `{key} = \"{name}\"`");
+    lists.extend(estimators::KINDS.iter().map(|kind| (named("[control]", "estimator", kind.name), kind.parameters)));
+    lists.extend(sensors::KINDS.iter().map(|kind| (named("[[sensors]]", "kind", kind.name), kind.parameters)));
+    lists.extend(laws::KINDS.iter().map(|kind| (named("[[guidance]]", "law", kind.name), kind.parameters)));
+    lists.push(("`[[guidance]]`".into(), &parameters::PHASE));
+    lists.push(("`[[guidance]]` with thrusters".into(), &parameters::UNLOADING));
+    lists.push(("`[[guidance]]`, target or thrust \"transfer\"".into(), &parameters::TRANSFER));
+    lists.push(("`[[guidance]]`, `target = \"attitude\"`".into(), &parameters::ATTITUDE));
+    let mut text = String::from("| table | key | unit | default | meaning |\n| --- | --- | --- | --- | --- |\n");
+    for (table, list) in lists {
+        for parameter in list {
+            let facts = &parameter.facts;
+            let default = match parameter.default {
+                None => "required".to_owned(),
+                Some([number]) => format!("`{number:?}`"),
+                Some(numbers) => format!("`{numbers:?}`"),
+            };
+            let _ =
+                writeln!(text, "| {table} | `{}` | {} | {default} | {} |", facts.key, facts.unit, cell(facts.meaning));
+        }
+    }
+    text
+}
+
+/// The quantities of conditions.
+fn quantities_of_conditions() -> String {
+    let mut text = String::from("| name | meaning | only |\n| --- | --- | --- |\n");
+    for quantity in &spindrift::control::guidance::situation::QUANTITIES {
+        let only = if quantity.needs_debris { "with debris" } else { "" };
+        let _ = writeln!(text, "| `{}` | {} | {only} |", quantity.name, cell(quantity.meaning));
+    }
+    text
+}
+
+/// The columns of a loop that has all.
+fn columns_of_loops() -> String {
+    let plan = plan("net_launch.toml");
+    let mut text = String::from("| column | unit | what it is |\n| --- | --- | --- |\n");
+    for column in plan.request().columns().iter().filter(|column| column.group == Group::Control) {
+        let quantity = &column.quantity;
+        let _ = writeln!(text, "| `{}` | {} | {} |", quantity.name(), quantity.unit(), cell(quantity.meaning()));
+    }
+    text
+}
+
 /// Whether a file may have several of these tables.
 fn is_list(table: Table) -> bool {
     table.owners(&SceneInput::blank()).is_empty()
@@ -205,7 +259,13 @@ fn the_generated_tables_are_up_to_date() {
     let columns = [("columns", columns_of_rows()), ("series", columns_of_series()), ("bands", quantities_over_time())];
     let dependencies = [("dependencies", dependencies())];
     let parameters = [("parameters", parameters())];
+    let loops = [
+        ("keys of loops", keys_of_loops()),
+        ("quantities", quantities_of_conditions()),
+        ("columns of loops", columns_of_loops()),
+    ];
     for (file, tables) in [
+        ("docs/control.md", &loops[..]),
         ("docs/columns.md", &columns[..]),
         ("ARCHITECTURE.md", &dependencies[..]),
         ("docs/parameters.md", &parameters[..]),

@@ -272,3 +272,56 @@ pub fn every_scene() -> Vec<String> {
         with("", "", &format!("mass_kg = 3.0\n{}", moments[1])).replace(RELATIVE_DEBRIS, INERTIAL_DEBRIS),
     ]
 }
+
+/// Files with a control loop each: every estimator, modulation, sensor, law, target and maneuver, with each of the keys that they declare.
+pub fn every_loop() -> Vec<String> {
+    let base = every_table_of_loops();
+    let mut sensors = String::new();
+    for kind in &spindrift::control::sensors::KINDS {
+        let name = kind.name;
+        sensors += &format!("[[sensors]]\nname = \"a_{name}\"\nkind = \"{name}\"\nperiod_s = 0.5\n");
+        sensors += if kind.has_latency { "latency_s = 0.25\n" } else { "" };
+    }
+    let laws = spindrift::control::laws::KINDS.iter().map(|kind| (kind.name, numbers(kind.parameters)));
+    let laws: Vec<_> = laws.collect();
+    let mut phases = String::new();
+    let targets = spindrift::control::guidance::target::TARGETS.iter().map(|(name, _)| *name);
+    let maneuvers = spindrift::control::guidance::phase::MANEUVERS.iter().map(|(name, _)| *name);
+    let pairs: Vec<_> = targets.flat_map(|target| maneuvers.clone().map(move |thrust| (target, thrust))).collect();
+    for (place, (target, thrust)) in pairs.into_iter().enumerate() {
+        let (law, own) = &laws[place % laws.len()];
+        phases += &format!(
+            "[[guidance]]\nphase = \"p{place}\"\nlaw = \"{law}\"\n{own}target = \"{target}\"\nthrust = \"{thrust}\"\n\
+             until = \"time_s > {place} and body_rate_rad_s < 1\"\nnext = \"launch\"\notherwise = \"p0\"\n"
+        );
+        phases += if target == "attitude" { "attitude = [1, 0, 0, 0]\n" } else { "" };
+        phases += if target == "transfer" || thrust == "transfer" { "transfer_time_s = 60\n" } else { "" };
+    }
+    let mut files = Vec::new();
+    for estimator in &spindrift::control::estimators::KINDS {
+        for modulation in spindrift::control::actuators::modulation::NAMES {
+            let estimator = estimator.name;
+            files.push(format!(
+                "{base}[control]\nperiod_s = 0.25\nestimator = \"{estimator}\"\nwheels = [\"w1\"]\nthrusters = [\"p1\"]\n\
+                 modulation = \"{modulation}\"\n[control.model]\nmass_kg = 2000.0\ncenter_of_mass_m = [0, 0, 1.5]\n\
+                 inertia_kg_m2 = [[3000, 0, 0], [0, 3000, 0], [0, 0, 1700]]\n{sensors}{phases}"
+            ));
+        }
+    }
+    files
+}
+
+/// The required keys of a list of parameters, with numbers that they allow.
+fn numbers(parameters: &[spindrift::scene::LawParameter]) -> String {
+    let required = parameters.iter().filter(|parameter| parameter.default.is_none());
+    required.map(|parameter| format!("{} = 0.5\n", parameter.facts.key)).collect()
+}
+
+/// [`EVERY_TABLE`] without draws, and with what acts under a loop alone.
+fn every_table_of_loops() -> String {
+    let drive = "torque_limit_n_m = 2.0\nspeed_limit_rad_s = 400.0\ncoulomb_friction_n_m = 0.01\nviscous_friction_n_m_s = 0.001\n";
+    without_draws().replace("rate_rad_s = 314.0\n", &format!("rate_rad_s = 314.0\n{drive}")).replace(
+        "direction = [0, 0, 1]\n\n[debris]",
+        "direction = [0, 0, 1]\nmax_thrust_n = 20.0\nmin_on_time_s = 0.02\n\n[debris]",
+    )
+}
