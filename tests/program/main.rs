@@ -33,6 +33,7 @@ mod observation_columns;
 mod observation_golden;
 mod observed_tables;
 mod page_numbers;
+mod page_runs;
 #[cfg(target_os = "linux")]
 mod power_loss;
 mod precision;
