@@ -323,6 +323,16 @@ fn an_undecided_requirement_is_an_error() {
     let case = junit.split("<testcase").find(|case| case.contains("p50 of")).expect("the case");
     assert!(case.contains("<error type=\"undecided\"") && !case.contains("<failure"), "{case}");
     assert!(found.said.contains("UNDECIDED  p50 of"), "{}", found.said);
+    // the heads count what is below them
+    let count = |element: &str| junit.matches(element).count();
+    let heads = format!(
+        "tests=\"{}\" failures=\"{}\" errors=\"{}\"",
+        count("<testcase "),
+        count("<failure "),
+        count("<error ")
+    );
+    assert_eq!(junit.matches(&heads).count(), 2, "{heads}: {junit}");
+    assert_ne!(count("<failure "), count("<error "), "an exchange would be seen");
 }
 
 /// A number of the page: `1.23 x 10^-4` with superscripts, `1,234`.
