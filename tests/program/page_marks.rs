@@ -200,5 +200,7 @@ fn energies_are_of_their_bodies() {
         let curve = found.array(&found.mark(&format!("energy_{body}_j"), "nominal run")["y"]);
         let top = curve.into_iter().fold(0.0, f64::max);
         assert!(top >= largest * (1.0 - 1e-6) && top < 1.05 * largest, "{body}: {top} for {largest}");
+        let title = found.figure(&format!("energy_{body}_j"))["title"].as_str().expect("a title").to_owned();
+        assert!(title.ends_with(&format!(" {body}")), "{title} of energy_{body}_j");
     }
 }

@@ -5,11 +5,11 @@ use crate::campaign::{Plan, Requirement, Statement};
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointShape, Scale};
 use crate::report::page::errors::{histogram, sentence};
 use crate::report::page::readable::{number, with_unit};
-use crate::report::page::shown_columns::{ranked, words};
+use crate::report::page::shown_columns::words;
 use crate::report::page::tables::StatisticsRow;
 use crate::statistics::binomial::interval;
 use crate::statistics::gate::GateLimit;
-use crate::statistics::sketch::Sketch;
+use crate::statistics::sketch::{Sketch, middle};
 
 /// Points of a cumulative curve, at most.
 const MOST_POINTS: u64 = 400;
@@ -137,11 +137,11 @@ fn cumulative(plan: &Plan, outcome: &SurveyedOutcome, row: Option<&StatisticsRow
 /// Values of ascending size, the fraction of runs up to each, and the ends of its interval.
 fn curve(sketch: &Sketch) -> (Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>) {
     let count = sketch.count();
-    let steps = count.min(MOST_POINTS);
+    let (steps, ranks) = (count.min(MOST_POINTS), sketch.ranks());
     let mut found = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for step in 1..=steps {
         let rank = (step * count).div_ceil(steps);
-        let Some(value) = ranked(sketch, rank) else { continue };
+        let Some(value) = ranks.bounds(rank).map(middle) else { continue };
         let [low, high] = interval(rank, count, CONFIDENCE);
         found.0.push(value);
         found.1.push(rank as f64 / count as f64);
