@@ -142,7 +142,7 @@ fn chain<R: Real>(zero: R, run: &Gyrostat<f64>) -> f64 {
 
 fn right_hand_side(criterion: &mut Criterion) {
     let spin_sweep = plan("spin_sweep.toml");
-    let scene = Scene::resolve(&spin_sweep.nominal).expect("the report's scene is physical");
+    let scene = Scene::resolve(&spin_sweep.nominal).expect("Berdoz's scene is physical");
     let kernel = Kernel::<2>::new(&scene);
     let gyrostat = Gyrostat::new(0.0, &scene, 10.0);
     let mut group = criterion.benchmark_group("right-hand side");

@@ -3,6 +3,8 @@
 import { readable, superscript, tickScale, tickText } from "./numbers.js";
 import { colors } from "./theme.js";
 
+const LETTER = 6.6; // width of a letter of 12 pixels, about
+const DIGIT = 7.6; // that of a digit, of the widest fonts
 const FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', sans-serif";
 
 // The finite values that an axis has to show.
@@ -17,7 +19,7 @@ function extent(figure, which) {
   };
   const isLog = figure[which].log;
   for (const mark of figure.marks) {
-    if (mark.kind === "limit" && which === "x" && mark.vertical) take([mark.at]);
+    if (mark.kind === "limit" && which === "x" && mark.vertical && !(isLog && mark.at <= 0)) take([mark.at]);
     for (const name of which === "x" ? ["x", "edges"] : ["y", "heights"]) if (mark[name] && !(mark.kind === "whiskers" && which === "y")) take(isLog ? mark[name].filter((value) => value > 0) : mark[name]);
     const ends = mark.kind === "whiskers" ? "x" : "y";
     if (which === ends && mark.low) for (const name of ["low", "high"]) take(isLog ? mark[name].filter((value) => value > 0) : mark[name]);
@@ -55,7 +57,8 @@ function linearAxis(axis, [low, high], isTime, count, room) {
   const [first, last] = [Math.floor(low / step + 1e-9) * step, Math.ceil(high / step - 1e-9) * step];
   // a run ends where it ends: the last tick may be before it
   const [min, max] = isTime ? [first, high] : [first, last];
-  return { type: "value", min, max, interval: step, name, axisLabel: { formatter: text, hideOverlap: true, showMaxLabel: last - max < 1e-6 * step } };
+  const texts = Array.from({ length: Math.floor((max - first) / step + 1e-6) + 1 }, (_, k) => text(first + k * step));
+  return { type: "value", min, max, interval: step, name, texts, axisLabel: { formatter: text, hideOverlap: true, showMaxLabel: last - max < 1e-6 * step } };
 }
 
 // Ticks of a logarithmic axis: decades, no more than nine; where there are fewer than two, also 2 and 5 times a decade, and if need be
@@ -82,7 +85,7 @@ function logAxis(axis, [low, high], room) {
     const power = Math.round(Math.log10(value));
     return Math.abs(Math.log10(value) - power) < 1e-9 ? `10${superscript(power)}` : readable(value, 3);
   };
-  return { type: "log", min, max, name, axisTick: { customValues }, axisLabel: { formatter: text, customValues, hideOverlap: true } };
+  return { type: "log", min, max, name, texts: customValues.map(text), axisTick: { customValues }, axisLabel: { formatter: text, customValues, hideOverlap: true } };
 }
 
 function axisOption(figure, which, palette, width) {
@@ -90,7 +93,7 @@ function axisOption(figure, which, palette, width) {
   const style = { axisLine: { onZero: false, lineStyle: { color: palette.quiet } }, axisTick: { lineStyle: { color: palette.quiet } }, splitLine: { lineStyle: { color: palette.grid } }, nameTextStyle: { color: palette.text, fontFamily: FONT, fontSize: 13 }, nameLocation: "middle" };
   const label = { color: palette.quiet, fontFamily: FONT, fontSize: 12 };
   if (axis.names) {
-    const longest = width < 500 ? 22 : 34;
+    const longest = Math.max(14, Math.min(34, Math.floor((0.5 * width - 16) / LETTER)));
     const short = (name) => (name.length > longest ? `…${name.slice(1 - longest)}` : name);
     const names = which === "x" ? axis.names.map((_, index) => String(index + 1)) : axis.names.map((name, index) => (figure.x.names ? `${short(name)}  ${index + 1}` : short(name)));
     return { ...style, type: "category", data: names, inverse: which === "y", splitLine: { show: false }, axisLabel: { ...label, interval: 0 }, axisTick: { show: false } };
@@ -99,7 +102,10 @@ function axisOption(figure, which, palette, width) {
   const range = given ?? extent(figure, which);
   const room = which === "x" ? width - 84 : heightOf(figure, width) - 58;
   const found = axis.log ? logAxis(axis, range, room) : linearAxis(axis, range, which === "x" && figure.time, which === "x" ? Math.max(3, width / 90) : 5, room);
-  return { ...style, ...found, axisTick: { ...style.axisTick, ...found.axisTick }, nameGap: which === "x" ? 28 : 56, nameMoveOverlap: false, axisLabel: { ...label, ...found.axisLabel } };
+  // the title of a vertical axis is beside the longest of its numbers
+  const widest = DIGIT * Math.max(0, ...found.texts.map((text) => text.length));
+  const beside = Math.max(56, Math.ceil(widest) + 20);
+  return { ...style, ...found, axisTick: { ...style.axisTick, ...found.axisTick }, nameGap: which === "x" ? 28 : beside, nameMoveOverlap: false, axisLabel: { ...label, ...found.axisLabel } };
 }
 
 // Pairs [x, y] that can be shown.
@@ -184,6 +190,21 @@ function whiskerSeries(mark, figure, color, palette) {
   );
 }
 
+// The row of the name of a vertical limit: the first in which it does not cover the name of a limit before it. `place` gives where a limit is, pixels.
+function rowOf(mark, figure, place, box) {
+  const rows = [];
+  for (const other of figure.marks) {
+    if (other.kind !== "limit" || !other.vertical || !other.label) continue;
+    const [x, width] = [place(other.at), LETTER * (other.label.length + 3)];
+    const start = !(x >= box.x - 1) ? box.x : x > box.x + 0.7 * box.width ? Math.min(x, box.x + box.width) - width : x;
+    let row = 0;
+    while (rows[row]?.some(([from, to]) => start < to && start + width > from)) row += 1;
+    (rows[row] ??= []).push([start, start + width]);
+    if (other === mark) return row;
+  }
+  return 0;
+}
+
 function limitSeries(mark, figure, palette, [xs, ys]) {
   const middle = (axis) => (axis.type === "category" ? 0 : axis.type === "log" ? Math.sqrt(axis.min * axis.max) : 0.5 * (axis.min + axis.max));
   // the series has a point within the axes: one outside of them would not be drawn
@@ -192,20 +213,21 @@ function limitSeries(mark, figure, palette, [xs, ys]) {
     const [x, y] = to(...(mark.vertical ? [mark.at, data[0][1]] : [data[0][0], mark.at]));
     const dash = { stroke: palette.quiet, lineWidth: 1, lineDash: [5, 4] };
     const text = { text: mark.label, fill: palette.quiet, font: `12px ${FONT}` };
-    const [isLow, isHigh] = mark.vertical ? [x < box.x - 1, x > box.x + box.width + 1] : [y > box.y + box.height + 1, y < box.y - 1];
+    const lower = 15 * (mark.vertical ? rowOf(mark, figure, (at) => to(at, data[0][1])[0], box) : 0);
+    const [isLow, isHigh] = mark.vertical ? [!(x >= box.x - 1), x > box.x + box.width + 1] : [y > box.y + box.height + 1, y < box.y - 1];
     if (isLow || isHigh) {
       // outside of the axes: named at the edge beyond which it is
       const arrow = mark.vertical ? (isLow ? "←" : "→") : isLow ? "↓" : "↑";
       const named = { ...text, text: mark.label ? `${arrow} ${mark.label}` : "" };
       const isRight = mark.vertical && isHigh;
       const isBottom = !mark.vertical && isLow;
-      return [{ type: "text", x: isRight ? box.x + box.width - 4 : box.x + 4, y: isBottom ? box.y + box.height - 4 : box.y + 4, style: { ...named, align: isRight ? "right" : "left", verticalAlign: isBottom ? "bottom" : "top" } }];
+      return [{ type: "text", x: isRight ? box.x + box.width - 4 : box.x + 4, y: isBottom ? box.y + box.height - 4 : box.y + 4 + lower, style: { ...named, align: isRight ? "right" : "left", verticalAlign: isBottom ? "bottom" : "top" } }];
     }
     if (mark.vertical) {
       const isRight = x > box.x + 0.7 * box.width;
       return [
         { type: "line", shape: { x1: x, y1: box.y, x2: x, y2: box.y + box.height }, style: dash },
-        { type: "text", x: x + (isRight ? -4 : 4), y: box.y + 3, style: { ...text, align: isRight ? "right" : "left", verticalAlign: "top" } },
+        { type: "text", x: x + (isRight ? -4 : 4), y: box.y + 3 + lower, style: { ...text, align: isRight ? "right" : "left", verticalAlign: "top" } },
       ];
     }
     const isTop = y < box.y + 20;
@@ -268,12 +290,13 @@ export function chartOption(figure, width, palette = colors()) {
     limit: (mark) => limitSeries(mark, figure, palette, axes),
     matrix: (mark) => matrixSeries(mark, figure, palette),
   };
-  const names = figure.y.names ? Math.min(0.5 * width, 16 + 6.6 * Math.max(...axes[1].data.map((name) => name.length))) : 76;
+  const names = figure.y.names ? Math.min(0.5 * width, 16 + LETTER * Math.max(...axes[1].data.map((name) => name.length))) : axes[1].nameGap + 20;
+  const last = axes[0].texts?.at(-1) ?? "";
   const zoom = figure.x.names || figure.y.names ? [] : [{ type: "inside", xAxisIndex: 0, filterMode: "none", zoomOnMouseWheel: "ctrl", moveOnMouseMove: "ctrl", moveOnMouseWheel: false, preventDefaultMouseMove: false }];
   return {
     animation: false,
     backgroundColor: "transparent",
-    grid: { left: names, right: 18, top: 12, bottom: 46, outerBoundsMode: "none" },
+    grid: { left: names, right: Math.max(18, Math.ceil(0.5 * DIGIT * last.length) + 2), top: 12, bottom: 46, outerBoundsMode: "none" },
     xAxis: axes[0],
     yAxis: axes[1],
     dataZoom: zoom,

@@ -76,4 +76,11 @@ impl Observed {
     pub fn values(&self, part: &impl PartColumns) -> Result<Vec<f64>, RowsError> {
         self.column(part).map(Cow::into_owned)
     }
+
+    /// Its value in a row whose column of a name has the value `of`; `None` where the row has no such column.
+    pub fn value(&self, of: impl Fn(&str) -> Option<f64>) -> Option<f64> {
+        let Some((expression, columns)) = &self.derived else { return of(self.quantity.name()) };
+        let values: Vec<f64> = columns.iter().map(|name| of(name)).collect::<Option<_>>()?;
+        Some(if values.iter().any(|value| value.is_nan()) { f64::NAN } else { expression.value(|place| values[place]) })
+    }
 }

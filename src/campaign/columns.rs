@@ -70,6 +70,12 @@ impl KnownColumns {
         self.bands.iter().find(|quantity| quantity.name() == name)
     }
 
+    /// The quantity over time, which has bands, whose largest, smallest, mean or last value the observable `name` is.
+    pub fn over_time(&self, name: &str) -> Option<String> {
+        let word = ["_max_", "_min_", "_mean_", "_final_"].into_iter().find(|word| name.contains(word))?;
+        Some(name.replacen(word, "_", 1)).filter(|name| self.band(name).is_some())
+    }
+
     /// The extreme of the quantity called `name`, which has bands, over `times`, and the name of its column.
     pub fn window(&self, name: &str, is_highest: bool, times: [Option<f64>; 2]) -> Option<(Window, String)> {
         let band = band_series(&self.request).into_iter().find(|band| band.quantity.name() == name)?;

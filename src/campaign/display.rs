@@ -78,7 +78,7 @@ impl Display {
         let names: Vec<String> = section.entries("columns").into_iter().map(|(name, _)| name).collect();
         let scene = section.document.scene.clone();
         let mut table = section.section("columns");
-        for name in names {
+        for name in names.clone() {
             let Some(text) = table.text(&name) else { continue };
             let quantity =
                 known.observable(&name).or_else(|| known.band(&name)).map(|quantity| quantity.unit().to_owned());
@@ -97,7 +97,11 @@ impl Display {
                         "delete this entry, or choose another unit",
                     );
                 }
-                (_, Some(unit)) => drop(columns.insert(name, unit.name)),
+                (_, Some(unit)) => {
+                    let over_time = known.over_time(&name).filter(|other| !names.contains(other));
+                    columns.extend(over_time.map(|other| (other, unit.name)));
+                    columns.insert(name, unit.name);
+                }
             }
         }
         table.finish();

@@ -123,13 +123,7 @@ impl Requirement {
                 && written != quantity.unit()
             {
                 let name = quantity.name().to_owned();
-                // the quantity over time of an extreme, mean or last value, too
-                let statistic = ["_max_", "_min_", "_mean_", "_final_"].into_iter().find(|word| name.contains(word));
-                let over_time = statistic.map(|word| name.replacen(word, "_", 1));
-                table
-                    .document
-                    .units
-                    .extend(over_time.filter(|name| known.band(name).is_some()).map(|name| (name, written)));
+                table.document.units.extend(known.over_time(&name).map(|name| (name, written)));
                 table.document.units.push((name, written));
             }
             Some(if key == "at_most" { GateLimit::AtMost(number) } else { GateLimit::AtLeast(number) })

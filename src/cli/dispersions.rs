@@ -2,12 +2,13 @@
 
 use std::fmt::Write as _;
 
-use crate::campaign::{Plan, SceneDraws};
+use crate::campaign::{Plan, SceneDraws, ShownUnit};
 use crate::ensemble::drawn::{MASS_COLUMNS, magnitudes, mass_properties};
 use crate::ensemble::magnitude::Magnitude;
 use crate::ensemble::{DrawnScenes, Percentiles};
 use crate::report::number::short;
-use crate::sampling::{Design, Dispersions, Replaced, SampleId};
+use crate::report::origin_text::{origin, unit_of};
+use crate::sampling::{Design, Replaced, SampleId};
 
 /// Draws behind the percentiles: the 1% and 99% lie within a tenth of the distribution's width of their true places.
 const DRAWS: u64 = 10_000;
@@ -39,15 +40,25 @@ pub fn table_of(text: &mut String, plan: &Plan, drawn: &Percentiles) -> std::fmt
     let of_columns = columns.iter().map(|column| column.parameter.component_name(column.component));
     let magnitudes = magnitudes(plan);
     let names: Vec<String> = of_columns.chain(magnitudes.iter().map(|magnitude| magnitude.name())).collect();
+    let column_of = |magnitude: &Magnitude| columns.iter().position(|column| column.parameter == magnitude.parameter);
+    let of_magnitudes = magnitudes.iter().map(|magnitude| column_of(magnitude).unwrap_or(0));
+    let units: Vec<ShownUnit> = (0..columns.len()).chain(of_magnitudes).map(|column| unit_of(plan, column)).collect();
+    let widest = units.iter().map(|shown| shown.unit.len()).max().unwrap_or(0).max(4);
     let title = format!("parameter, of {} draws (sample 0 is nominal)", drawn.count());
     let width = names.iter().map(String::len).chain([title.len()]).max().unwrap_or(0);
-    writeln!(text, "{title:<width$}  {:>12}  {:>12}{:>12}{:>12}  distribution", "nominal", "1%", "50%", "99%")?;
+    writeln!(
+        text,
+        "{title:<width$}  {:<widest$}{:>12}  {:>12}{:>12}{:>12}  distribution",
+        "unit", "nominal", "1%", "50%", "99%"
+    )?;
     let percentiles = drawn.quantiles([0.01, 0.5, 0.99]);
     for row in order(plan, &magnitudes) {
-        write!(text, "{:<width$}  {:>12}  ", names[row], short(drawn.nominal()[row]))?;
+        let shown = &units[row];
+        let unit = if shown.unit.is_empty() { "-" } else { &shown.unit };
+        write!(text, "{:<width$}  {unit:<widest$}{:>12}  ", names[row], short(shown.value(drawn.nominal()[row])))?;
         let none = ["-".to_owned(), "-".to_owned(), "-".to_owned()];
-        let [low, middle, high] = percentiles[row].map_or(none, |values| values.map(short));
-        let origin = if row < columns.len() { origin(&plan.dispersions, row) } else { "of the components".to_owned() };
+        let [low, middle, high] = percentiles[row].map_or(none, |values| values.map(|value| short(shown.value(value))));
+        let origin = if row < columns.len() { origin(plan, row) } else { "of the components".to_owned() };
         writeln!(text, "{low:>12}{middle:>12}{high:>12}  {origin}")?;
     }
     if !drawn.is_exact() {
@@ -118,17 +129,4 @@ pub fn nearest(replaced: &Replaced) -> String {
         });
     }
     text
-}
-
-/// Where the values of a column come from, in words.
-fn origin(dispersions: &Dispersions, column: usize) -> String {
-    if let Some(distribution) = dispersions.distribution_of(column) {
-        distribution.text(&short)
-    } else if let Some(expression) = dispersions.expression_of(column) {
-        format!("= {expression}")
-    } else if dispersions.is_tabled(column) {
-        "rows of a file".to_owned()
-    } else {
-        "follows the other components".to_owned()
-    }
 }

@@ -4,6 +4,7 @@
 //! numbers and names from here.
 
 use crate::campaign::{Display, ShownUnit};
+use crate::report::number::short;
 
 /// The colour of a mark, by what it belongs to: bodies keep theirs everywhere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -378,7 +379,15 @@ impl Figure {
     pub fn in_units(mut self, display: &Display) -> Self {
         let [x, y] = [self.x.take_unit(display), self.y.take_unit(display)];
         if !(x.is_own() && y.is_own()) {
-            self.marks.iter_mut().for_each(|mark| mark.change(&|value| x.value(value), &|value| y.value(value)));
+            for mark in &mut self.marks {
+                // a name that ends with the value has that of the unit
+                if let Mark::Limit { label, at, vertical: true } = mark
+                    && let Some(name) = label.strip_suffix(&short(*at))
+                {
+                    *label = format!("{name}{}", short(x.value(*at)));
+                }
+                mark.change(&|value| x.value(value), &|value| y.value(value));
+            }
         }
         self
     }
@@ -401,5 +410,37 @@ impl Figure {
     /// Whether it shows anything; a figure that does not is left out of the page.
     pub fn is_visible(&self) -> bool {
         self.marks.iter().any(Mark::is_visible)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::campaign::{Overrides, Plan};
+
+    /// Law: in another unit values, range and the number in a name change, and nothing that is not of the axis.
+    #[test]
+    fn a_figure_changes_as_a_whole() {
+        let text = include_str!("../../assets/start.toml");
+        let display = Plan::from_text("start", text, Overrides::default()).expect("valid").analysis.display;
+        let half = core::f64::consts::FRAC_PI_2;
+        let limit = |label: String, vertical| Mark::Limit { label, at: half, vertical };
+        let marks = vec![
+            Mark::Bars { label: "runs".to_owned(), hue: Hue::Total, edges: vec![0.0, half], heights: vec![7.0] },
+            limit(format!("nominal {}", short(half)), true),
+            limit("at most 90\u{a0}deg".to_owned(), true),
+            limit(short(half), false),
+        ];
+        let x = Axis::linear("angle", "rad").within(0.0, 2.0 * half);
+        let figure = Figure::new("", x, Axis::linear("runs", ""), marks).in_units(&display);
+        assert_eq!((figure.x.unit.as_str(), figure.x.range), ("deg", Some([0.0, 180.0])));
+        let Mark::Bars { edges, heights, .. } = &figure.marks[0] else { panic!("{figure:?}") };
+        assert_eq!((&edges[..], &heights[..]), (&[0.0, 90.0][..], &[7.0][..]));
+        let names = [1, 2, 3].map(|k| match &figure.marks[k] {
+            Mark::Limit { label, at, .. } => (label.clone(), *at),
+            mark => panic!("{mark:?}"),
+        });
+        let expected = [("nominal 90".to_owned(), 90.0), ("at most 90\u{a0}deg".to_owned(), 90.0), (short(half), half)];
+        assert_eq!(names, expected);
     }
 }

@@ -75,6 +75,8 @@ impl Panel<'_> {
         let [left, top, right, bottom] = self.edges;
         let grey = Stroke { color: PALETTE[8], width: 1.0, dash: None };
         let mut rows = 0.0;
+        // names in rows from the top, none over another
+        let mut named: Vec<(usize, [f64; 2])> = Vec::new();
         for mark in self.marks() {
             let Mark::Limit { label, at, vertical } = mark else { continue };
             let at = if *vertical { self.x(*at) } else { self.y(*at) };
@@ -84,9 +86,19 @@ impl Panel<'_> {
                 let ends = if *vertical { [[at, top], [at, bottom]] } else { [[left, at], [right, at]] };
                 svg.line(&ends, Stroke { dash: Some([4, 4]), ..grey });
                 // beside the line, on the side that has space
+                let is_right = at + width + 8.0 < right;
+                let ends = if is_right { [at, at + width + 10.0] } else { [at - width - 10.0, at] };
+                let is_free = |row: &usize| {
+                    named.iter().all(|(other, [from, to])| other != row || ends[1] <= *from || ends[0] >= *to)
+                };
+                let row = (0..).find(is_free).unwrap_or(0);
+                if *vertical && !label.is_empty() {
+                    named.push((row, ends));
+                }
+                let below = top + 13.0 + 15.0 * row as f64;
                 let (place, anchor) = match *vertical {
-                    true if at + width + 8.0 < right => ([at + 5.0, top + 13.0], Anchor::Start),
-                    true => ([at - 5.0, top + 13.0], Anchor::End),
+                    true if is_right => ([at + 5.0, below], Anchor::Start),
+                    true => ([at - 5.0, below], Anchor::End),
                     false if at > top + 18.0 => ([left + 6.0, at - 4.0], Anchor::Start),
                     false => ([left + 6.0, at + 14.0], Anchor::Start),
                 };

@@ -2,16 +2,16 @@
 
 use crate::report::figure::{Axis, Mark};
 
-/// Relative errors below this are rounding: they are shown on the scale of the tolerance, where they do not look like a drift.
-const ROUNDING: f64 = 1e-14;
+/// The axis is not shorter: the rounding of some operations does not look like a drift.
+const ROUNDING: f64 = 10.0 * f64::EPSILON;
 /// A limit that is larger than the errors by this factor is outside of the axis, and named at its edge.
 const FAR: f64 = 3.0;
 
 /// Adds the limits of the errors `marks` of a run to them; the axis of both. `is_signed`: whether errors may be negative.
 pub fn limited(marks: &mut Vec<Mark>, tolerance: Option<f64>, is_signed: bool) -> Axis {
     let largest = marks.iter().map(Mark::largest).fold(0.0, f64::max);
-    let scale = tolerance.unwrap_or(ROUNDING);
-    let shown = if largest < ROUNDING || scale <= FAR * largest { scale.max(largest) } else { largest };
+    let own = largest.max(ROUNDING);
+    let shown = tolerance.filter(|tolerance| *tolerance <= FAR * own).map_or(own, |tolerance| tolerance.max(own));
     let tolerance = tolerance.map(|tolerance| (format!("tolerance {tolerance:e}"), tolerance));
     // among larger errors nobody sees it
     let rounding = (shown <= FAR * f64::EPSILON).then(|| ("rounding of a double".to_owned(), f64::EPSILON / 2.0));
@@ -30,12 +30,13 @@ mod tests {
     use super::*;
     use crate::report::figure::{Dash, Hue};
 
-    /// Law: rounding errors are drawn on the scale of the tolerance, larger ones on their own; a tolerance is marked where there is one.
+    /// Law: errors are drawn on a scale of their own, with a tolerance that is near; that of rounding is not finer than doubles are.
     #[test]
     fn errors_have_an_axis_of_their_own_size() {
         for (error, tolerance, shown) in [
-            (1e-15, Some(1e-10), 1e-10),
-            (1e-15, None, 1e-14),
+            (1e-15, Some(1e-10), ROUNDING),
+            (1e-15, None, ROUNDING),
+            (1e-15, Some(5e-15), 5e-15),
             (1e-9, Some(1e-10), 1e-9),
             (5e-11, Some(1e-10), 1e-10),
             (1e-12, Some(1e-10), 1e-12),

@@ -38,10 +38,11 @@ pub fn text(verdicts: &Verdicts) -> String {
 pub fn together(verdicts: &Verdicts) -> Vec<String> {
     let mut said = Vec::new();
     let least = verdicts.list.iter().map(|one| one.requirement.confidence).fold(1.0, f64::min);
-    let level = percent(least);
+    // without the rounding of the difference
+    let error = percent(libm::round(1e12 * (1.0 - least)) / 1e12);
     if verdicts.list.len() > 1 {
         said.push(format!(
-            "of the {} requirements together: with {level}% confidence none that is met FAILs (Holm), nor do all PASS where one is missed",
+            "of the {} requirements together: the chance that one which is met FAILs is at most {error}% (Holm), and so is the chance that all PASS while one is missed",
             verdicts.list.len()
         ));
     }

@@ -1,6 +1,6 @@
 //! [`simulation_figure`]: one run over time: rates, attitude, wheel rates, momenta, energies, errors.
 //!
-//! The panels of the energies are the report's Figures 3 to 5 (body by body, total and its error).
+//! The panels of the energies are Figures 3 to 5 of the paper (body by body, total and its error).
 
 use crate::observables::Series;
 use crate::report::axis::ROUNDING;
@@ -103,18 +103,39 @@ pub fn simulation_figure(title: String, series: &TimeSeries, tolerance: Option<f
         let marks = curves.into_iter().enumerate().map(mark).collect();
         Figure { is_over_time: true, ..Figure::new(title, Axis::linear("time", "s"), Axis::linear("", unit), marks) }
     };
+    // bodies keep their colour
+    let in_colors = |mut panel: Figure, hues: &mut dyn Iterator<Item = Hue>| {
+        for (mark, own) in panel.marks.iter_mut().zip(hues) {
+            if let Mark::Line { hue, .. } = mark {
+                *hue = own;
+            }
+        }
+        panel
+    };
+    let wheels = || (0..series.wheels().len()).map(Hue::Wheel);
     let mut panels: Vec<Figure> =
         STATES.iter().map(|(title, unit, columns)| panel(title, unit, curves(columns))).collect();
     let rates = of_wheels("", &|wheel| TimeColumn::State(StateField::WheelRates, wheel));
     let turns = rates.iter().flat_map(|(_, values)| values).any(|rate| *rate != 0.0);
-    panels.push(panel("Wheel rates", "rad/s", rates));
+    panels.push(in_colors(panel("Wheel rates", "rad/s", rates), &mut wheels()));
     panels.extend(MOMENTA.map(|(title, unit, column)| panel(title, unit, curves(&[column]))));
     let bodies: Vec<Curve> = curves(&[(TimeColumn::Series(Series::EnergyBody), "body")])
         .into_iter()
         .chain(of_wheels("wheel ", &|wheel| TimeColumn::Series(Series::EnergyWheel.of_wheel(wheel))))
         .chain(curves(&[(TimeColumn::Series(Series::EnergyDebris), "debris")]))
         .collect();
-    let energy = |body: &Curve| panel(&format!("Kinetic energy, {}", body.0), "J", vec![body.clone()]);
+    let hue_of = |body: &Curve| match body.0.as_str() {
+        "body" => Hue::Body,
+        "debris" => Hue::Debris,
+        wheel => {
+            let is_it = |name: &Name| wheel.strip_prefix("wheel ") == Some(&name.to_string());
+            Hue::Wheel(series.wheels().iter().position(is_it).unwrap_or(0))
+        }
+    };
+    let energy = |body: &Curve| {
+        let panel = panel(&format!("Kinetic energy, {}", body.0), "J", vec![body.clone()]);
+        in_colors(panel, &mut std::iter::once(hue_of(body)))
+    };
     panels.extend(bodies.iter().map(energy));
     if bodies.len() > 1 {
         let sum = |point: usize| bodies.iter().map(|(_, values)| values[point]).sum();
@@ -127,11 +148,12 @@ pub fn simulation_figure(title: String, series: &TimeSeries, tolerance: Option<f
             .chain(of_wheels("wheel ", &|wheel| TimeColumn::Series(Series::ComWheel.of_wheel(wheel))))
             .collect();
         let change = |(label, values): &Curve| (label.clone(), values.iter().map(|value| value - values[0]).collect());
-        let mut transfer = panel(
+        let transfer = panel(
             "Energy transfer: change of kinetic energy about the centre of mass since the start",
             "J",
             about_center.iter().map(change).collect(),
         );
+        let mut transfer = in_colors(transfer, &mut about_center.iter().map(hue_of));
         let size =
             about_center.iter().flat_map(|(_, values)| values).fold(0.0, |size: f64, value| value.abs().max(size));
         if transfer.marks.iter().all(|mark| mark.largest() < ROUNDING * size) {

@@ -34,7 +34,7 @@ pub use correlation::{Correlation, Measure, Numbers, Replaced};
 pub use derivation::Derivation;
 pub use design::{Design, Points};
 pub use dispersions::{Dispersion, Dispersions, Draws};
-pub use distribution::{Distribution, Joint, WrittenDistribution};
+pub use distribution::{Distribution, Joint, NumberWords, WrittenDistribution};
 pub use error::{DispersionError, Table};
 pub use keys::{DataColumn, KeyWriter, Values};
 pub use noise::Noise;

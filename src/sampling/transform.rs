@@ -1,6 +1,6 @@
 //! [`Transform`]: from numbers u in (0, 1) to values; [`Assigned`]: which u it takes, and which columns it writes.
 
-use super::distribution::{Distribution, Joint, Map, Quantile};
+use super::distribution::{Distribution, Joint, Map, NumberWords, Quantile};
 
 /// A distribution with the numbers u that it takes, and the columns that it writes.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,11 +33,11 @@ impl Transform {
         }
     }
 
-    /// In words; `short` writes a number.
-    pub fn text(&self, short: &dyn Fn(f64) -> String) -> String {
+    /// In words; `words` writes its numbers.
+    pub fn text(&self, words: NumberWords<'_>) -> String {
         match self {
-            Transform::Scalar(distribution) => distribution.text(short),
-            Transform::Joint(joint) => joint.text(short),
+            Transform::Scalar(distribution) => distribution.text(words),
+            Transform::Joint(joint) => joint.text(words),
         }
     }
 }

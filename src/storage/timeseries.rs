@@ -1,6 +1,6 @@
 //! [`TimeSeries`]: one run as a table over time, for Parquet, CSV, the screen and the plot.
 //!
-//! The state table has the spacecraft's centre of mass c; the series gives the point p (the origin of F_s), as the report's
+//! The state table has the spacecraft's centre of mass c; the series gives the point p (the origin of F_s), as the paper's
 //! state does: r_p = r_c - C_es c, v_p = v_c - C_es (omega x c).
 
 use std::collections::HashMap;

@@ -144,7 +144,8 @@ fn check_shows_magnitudes_and_implausible_numbers() {
     let row = |name: &str| {
         let line = said.lines().position(|line| line.starts_with(name)).unwrap_or_else(|| panic!("{name} in:\n{said}"));
         let text = said.lines().nth(line).unwrap().strip_prefix(name).unwrap();
-        let numbers: Vec<f64> = text.split_whitespace().map_while(|word| word.parse().ok()).collect();
+        // the unit comes first
+        let numbers: Vec<f64> = text.split_whitespace().skip(1).map_while(|word| word.parse().ok()).collect();
         (line, numbers)
     };
     let (above, _) = row("initial.angular_velocity_rad_s.z");

@@ -33,7 +33,9 @@ mod observation;
 mod observation_columns;
 mod observation_golden;
 mod observed_tables;
+mod page_marks;
 mod page_numbers;
+mod page_runs;
 #[cfg(target_os = "linux")]
 mod power_loss;
 mod precision;

@@ -42,7 +42,7 @@ fn columns_are_those_of_the_scene() {
     let names: Vec<String> =
         ensemble.request().columns().iter().map(|column| column.quantity.name().to_owned()).collect();
     assert_eq!(names.len(), 7, "{names:?}");
-    // the check values of the report's model, without dispersions
+    // the check values of Berdoz's model, without dispersions
     let nominal: Vec<f64> = (4..7).map(|index| rows.observable(index)[0]).collect();
     for (value, expected) in nominal.into_iter().zip([1687.2800329075988, 3054.590970145349, 3055.375141124116]) {
         assert!((value / expected - 1.0).abs() < 1e-15, "{value} {expected}");

@@ -61,7 +61,7 @@ fn row(scene: &Scene, nominal: Option<&NominalAttitude>, motion: &dyn Fn(f64) ->
 }
 
 fn scene() -> Scene {
-    Scene::resolve(&Golden::load("table1").scene).expect("the report's scene")
+    Scene::resolve(&Golden::load("table1").scene).expect("Berdoz's scene")
 }
 
 #[track_caller]

@@ -21,7 +21,7 @@ pub type Motion<'a> = &'a dyn Fn(f64) -> ([f64; 4], [f64; 3], [f64; 2], [f64; 3]
 /// Golden truth of Table I and its scene.
 pub fn table1() -> (Golden, Scene) {
     let golden = Golden::load("table1");
-    let scene = Scene::resolve(&golden.scene).expect("the report's scene");
+    let scene = Scene::resolve(&golden.scene).expect("Berdoz's scene");
     (golden, scene)
 }
 

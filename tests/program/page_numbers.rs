@@ -32,10 +32,10 @@ at_most = 40
 "#;
 
 /// A finished campaign, its page's data, and its rows.
-struct Found {
-    scratch: ScratchFolder,
-    said: String,
-    data: Value,
+pub(super) struct Found {
+    pub scratch: ScratchFolder,
+    pub said: String,
+    pub data: Value,
     bytes: Vec<u8>,
 }
 
@@ -48,20 +48,25 @@ fn unpacked(page: &str, id: &str) -> Vec<u8> {
     bytes
 }
 
-fn found(name: &str, text: &str) -> Found {
+pub(super) fn found(name: &str, text: &str) -> Found {
     let scratch = ScratchFolder::new(&format!("page-{name}"));
     scratch.file("c.toml", text);
     let mut command = scratch.command("campaign c.toml --out r --junit junit.xml");
     let output = command.env("COLUMNS", "200").output().expect("the program starts");
     let said = format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
-    let page = scratch.text("r/report.html");
-    let data = serde_json::from_slice(&unpacked(&page, "data")).expect("JSON");
-    let bytes = unpacked(&page, "numbers");
-    Found { scratch, said, data, bytes }
+    Found::read(scratch, said)
 }
 
 impl Found {
-    fn array(&self, place: &Value) -> Vec<f64> {
+    /// The page of the result `r` in a folder, and what the program `said`.
+    pub fn read(scratch: ScratchFolder, said: String) -> Self {
+        let page = scratch.text("r/report.html");
+        let data = serde_json::from_slice(&unpacked(&page, "data")).expect("JSON");
+        let bytes = unpacked(&page, "numbers");
+        Found { scratch, said, data, bytes }
+    }
+
+    pub fn array(&self, place: &Value) -> Vec<f64> {
         let [at, count, width] = [0, 1, 2].map(|k| usize::try_from(place[k].as_u64().expect("a place")).unwrap());
         let bytes = &self.bytes[at..at + count * width];
         match width {
@@ -70,36 +75,40 @@ impl Found {
         }
     }
 
-    fn figure(&self, name: &str) -> &Value {
+    pub fn figure(&self, name: &str) -> &Value {
         let figures = self.data["figures"].as_array().expect("figures");
         figures.iter().find(|figure| figure["name"] == name).unwrap_or_else(|| panic!("no figure {name}"))
     }
 
-    fn mark(&self, figure: &str, label: &str) -> &Value {
+    pub fn mark(&self, figure: &str, label: &str) -> &Value {
         let marks = self.figure(figure)["marks"].as_array().expect("marks");
         marks.iter().find(|mark| mark["label"] == label).unwrap_or_else(|| panic!("no {label} in {figure}: {marks:?}"))
     }
 
     /// The column of the dispersed runs that are ok.
-    fn column(&self, name: &str) -> Vec<f64> {
+    pub fn column(&self, name: &str) -> Vec<f64> {
         self.rows(&[name]).into_iter().map(|(_, row)| row[0]).collect()
     }
 
-    /// Sample and columns of the dispersed runs that are ok.
-    fn rows(&self, names: &[&str]) -> Vec<(u64, Vec<f64>)> {
+    /// The columns of every row, in the order of the samples.
+    pub fn all(&self, names: &[&str]) -> Vec<Vec<f64>> {
         let watch = Quiet::default();
         let results =
             Results::open(self.scratch.path("r"), Session::new(&watch).expect("a session")).expect("a result");
-        let columns: Vec<Vec<f64>> = names.iter().map(|name| results.column(name).expect("a column")).collect();
-        let ok: Vec<bool> =
-            results.column("energy_error_max").expect("a column").iter().map(|x| x.is_finite()).collect();
+        names.iter().map(|name| results.column(name).expect("a column")).collect()
+    }
+
+    /// Sample and columns of the dispersed runs that are ok.
+    pub fn rows(&self, names: &[&str]) -> Vec<(u64, Vec<f64>)> {
+        let columns = self.all(names);
+        let ok: Vec<bool> = self.all(&["energy_error_max"])[0].iter().map(|x| x.is_finite()).collect();
         let dispersed = (1..ok.len()).filter(|row| ok[*row]);
         dispersed.map(|row| (row as u64, columns.iter().map(|column| column[row]).collect())).collect()
     }
 }
 
 /// The type-7 quantile (Hyndman & Fan 1996).
-fn quantile(values: &[f64], p: f64) -> f64 {
+pub(super) fn quantile(values: &[f64], p: f64) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     let at = p * (sorted.len() - 1) as f64;
@@ -107,11 +116,11 @@ fn quantile(values: &[f64], p: f64) -> f64 {
     sorted[low] + part * (sorted[(low + 1).min(sorted.len() - 1)] - sorted[low])
 }
 
-fn degrees(value: f64) -> f64 {
+pub(super) fn degrees(value: f64) -> f64 {
     value * 180.0 / core::f64::consts::PI
 }
 
-fn motion() -> String {
+pub(super) fn motion() -> String {
     let groups = "groups = [\"energy_conservation\", \"momentum_conservation\", \"final_state\", \"numerics\", \"motion\", \"energies_com\", \"exchange\"]";
     campaign().replace("samples = 600", "samples = 300").replace("points = 11", &format!("points = 11\n{groups}"))
         + MORE
@@ -314,10 +323,20 @@ fn an_undecided_requirement_is_an_error() {
     let case = junit.split("<testcase").find(|case| case.contains("p50 of")).expect("the case");
     assert!(case.contains("<error type=\"undecided\"") && !case.contains("<failure"), "{case}");
     assert!(found.said.contains("UNDECIDED  p50 of"), "{}", found.said);
+    // the heads count what is below them
+    let count = |element: &str| junit.matches(element).count();
+    let heads = format!(
+        "tests=\"{}\" failures=\"{}\" errors=\"{}\"",
+        count("<testcase "),
+        count("<failure "),
+        count("<error ")
+    );
+    assert_eq!(junit.matches(&heads).count(), 2, "{heads}: {junit}");
+    assert_ne!(count("<failure "), count("<error "), "an exchange would be seen");
 }
 
 /// A number of the page: `1.23 x 10^-4` with superscripts, `1,234`.
-fn read_number(text: &str) -> f64 {
+pub(super) fn read_number(text: &str) -> f64 {
     let plain = text.trim().replace([',', '\u{202f}', '\u{a0}'], "").replace("\u{d7}10", "e");
     let digits = "⁰¹²³⁴⁵⁶⁷⁸⁹";
     let letter = |c: char| match digits.chars().position(|digit| digit == c) {

@@ -189,7 +189,10 @@ impl Card {
             } else {
                 String::new()
             };
-            row(&format!("{}:", self.statistic), &format!("{}{interval}", with_unit(self.estimate, &self.unit)));
+            row(
+                &format!("{}:", sentence_case(&self.statistic)),
+                &format!("{}{interval}", with_unit(self.estimate, &self.unit)),
+            );
         }
         row("Driven by", &self.drivers);
         row("Note:", &self.note);

@@ -3,10 +3,10 @@
 use crate::analysis::survey::{CONFIDENCE, Survey, SurveyedOutcome};
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointShape};
 use crate::report::histogram::{bins, counts};
-use crate::report::page::shown_columns::{ranked, words};
+use crate::report::page::shown_columns::words;
 use crate::run::Status;
 use crate::statistics::binomial::interval;
-use crate::statistics::sketch::Sketch;
+use crate::statistics::sketch::{Sketch, middle};
 
 /// Fewer runs than this have no distribution to be seen.
 const FEWEST_RUNS: u64 = 8;
@@ -152,10 +152,13 @@ fn tail(sketch: &Sketch) -> (Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>) {
         .collect();
     ranks.push(count);
     ranks.dedup();
+    let ranks_of = sketch.ranks();
     let smallest = sketch.max().unwrap_or(0.0) / TAIL_RANGE;
     let mut found = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for rank in ranks.into_iter().rev() {
-        let Some(value) = ranked(sketch, count + 1 - rank).filter(|value| *value > smallest) else { continue };
+        let Some(value) = ranks_of.bounds(count + 1 - rank).map(middle).filter(|value| *value > smallest) else {
+            continue;
+        };
         let [low, high] = interval(rank, count, CONFIDENCE);
         found.0.push(value);
         found.1.push(rank as f64 / count as f64);

@@ -5,6 +5,7 @@ use core::f64::consts::PI;
 use crate::analysis::survey::Survey;
 use crate::campaign::Plan;
 use crate::report::figure::{Axis, Figure, FigureSection};
+use crate::report::origin_text::origin;
 use crate::report::{drawn_figure, histogram, marginal};
 use crate::sampling::correlation::{Measure, Numbers};
 use crate::statistics::correlation::{matrix, mid_ranks, standardised};
@@ -34,15 +35,7 @@ fn input(plan: &Plan, survey: &Survey, index: usize) -> Figure {
     let unit = if column.parameter.unit() == "1" { "" } else { column.parameter.unit() };
     let values: Vec<f64> =
         dispersed(survey).into_iter().map(|row| survey.thinned.inputs[index][row]).filter(|x| x.is_finite()).collect();
-    let transform = plan.dispersions.distribution_of(index);
     let asked = marginal::of_column(plan, index);
-    let origin = match transform {
-        Some(transform) => transform.text(&crate::report::number::short),
-        None => plan
-            .dispersions
-            .expression_of(index)
-            .map_or("given by other inputs or by a table".to_owned(), |text| format!("= {text}")),
-    };
     let line = match asked.as_ref().map(|asked| asked.values().is_some()) {
         None => "",
         Some(false) => " Line: samples expected of the distribution that was asked for.",
@@ -52,7 +45,12 @@ fn input(plan: &Plan, survey: &Survey, index: usize) -> Figure {
     Figure {
         name: format!("input_{}", column.parameter.column_name(column.component)),
         section: FigureSection::Inputs,
-        caption: format!("{} of {} dispersed samples. {origin}.{line}", values.len(), survey.samples.saturating_sub(1)),
+        caption: format!(
+            "{} of {} dispersed samples; {}.{line}",
+            values.len(),
+            survey.samples.saturating_sub(1),
+            origin(plan, index)
+        ),
         columns: 4,
         x: Axis { quantity: name, column: column.parameter.name(), ..histogram.x },
         y: Axis::linear("samples", ""),

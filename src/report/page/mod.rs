@@ -155,7 +155,7 @@ fn sections(
         figures(FigureSection::Numerics, "Numerics", "How large the numerical errors are. Small and without a trend is good.", "")
             .map(|section| PageSection { fold: Some(is_off), ..section }),
         figures(FigureSection::Influence, "What drives it", "Which uncertain input makes the difference.", pairs),
-        plain("worst", "Worst runs", "The nominal run, runs that failed, and those with the worst outcomes. Each is replayed bit for bit by its command.", tables::worst_runs(plan, shown)),
+        plain("worst", "Worst runs", "The nominal run, runs that failed, and those with the worst outcomes. Each is replayed bit for bit by its command.", tables::worst_runs(plan, &contents.survey, shown)),
         plain("replay", "Replay", "The nominal run and the worst ones in three dimensions.", replay.to_owned()).filter(|_| has_replay),
         figures(FigureSection::Inputs, "Inputs", "What was applied, against what the campaign file asks for.", ""),
         Some(PageSection { anchor: "statistics", title: "Statistics", lead: String::new(), html: table, has_figures: has(FigureSection::Statistics), fold: None }),

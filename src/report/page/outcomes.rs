@@ -2,14 +2,14 @@
 
 use crate::analysis::survey::{CONFIDENCE, Survey, SurveyedOutcome};
 use crate::campaign::{Plan, Requirement, Statement};
-use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointShape};
+use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointShape, Scale};
 use crate::report::page::errors::{histogram, sentence};
 use crate::report::page::readable::{number, with_unit};
-use crate::report::page::shown_columns::{ranked, words};
+use crate::report::page::shown_columns::words;
 use crate::report::page::tables::StatisticsRow;
 use crate::statistics::binomial::interval;
 use crate::statistics::gate::GateLimit;
-use crate::statistics::sketch::Sketch;
+use crate::statistics::sketch::{Sketch, middle};
 
 /// Points of a cumulative curve, at most.
 const MOST_POINTS: u64 = 400;
@@ -24,7 +24,7 @@ pub fn figures(plan: &Plan, survey: &Survey, statistics: &[StatisticsRow], has_i
         let row = statistics.iter().find(|row| row.name == outcome.quantity.name());
         let mut distribution = histogram(survey, index, outcome, FigureSection::Outcome);
         distribution.marks.extend(limits(plan, outcome));
-        [distribution, cumulative(plan, outcome, row, has_intervals)]
+        [distribution, cumulative(plan, outcome, row, has_intervals)].map(near_limits)
     });
     both.collect()
 }
@@ -45,6 +45,35 @@ fn limits(plan: &Plan, outcome: &SurveyedOutcome) -> Vec<Mark> {
         }
     }
     marks
+}
+
+/// The same with an axis that leaves out the limits that are far from the runs: they are named at its edge, and the runs keep a third of it.
+fn near_limits(mut figure: Figure) -> Figure {
+    const REACH: f64 = 2.0;
+    const MARGIN: f64 = 0.04;
+    if figure.x.scale != Scale::Linear {
+        return figure;
+    }
+    let (mut values, mut limits) = (Vec::new(), Vec::new());
+    for mark in &figure.marks {
+        match mark {
+            Mark::Bars { edges, .. } => values.extend(edges),
+            Mark::Line { x, .. } => values.extend(x),
+            Mark::Limit { at, .. } => limits.push(*at),
+            _ => {}
+        }
+    }
+    let ends =
+        |values: &[f64]| values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(*x), b.max(*x)]);
+    let [low, high] = ends(&values);
+    let reach = REACH * (high - low);
+    let (near, far): (Vec<f64>, Vec<f64>) = limits.iter().partition(|at| low - **at <= reach && **at - high <= reach);
+    if reach > 0.0 && !far.is_empty() {
+        values.extend(near);
+        let [low, high] = ends(&values);
+        figure.x = figure.x.within(low - MARGIN * (high - low), high + MARGIN * (high - low));
+    }
+    figure
 }
 
 /// The quantiles that are marked: those that the file requires, else the median and the highest up to 99%.
@@ -75,7 +104,7 @@ fn cumulative(plan: &Plan, outcome: &SurveyedOutcome, row: Option<&StatisticsRow
         let hue = Hue::Curve(place + 1);
         let label = if p == 0.5 { "median".to_owned() } else { format!("{}%-quantile", number(100.0 * p)) };
         if has_intervals && from.is_finite() && to.is_finite() {
-            marks.push(Mark::line(format!("its interval, {label}"), hue, Dash::Solid, vec![from, to], vec![p, p]));
+            marks.push(Mark::line(format!("interval of the {label}"), hue, Dash::Solid, vec![from, to], vec![p, p]));
         }
         let (x, y, samples) = (vec![value], vec![p], Vec::new());
         marks.push(Mark::Points { label, hue, shape: PointShape::Disc, x, y, samples });
@@ -108,11 +137,11 @@ fn cumulative(plan: &Plan, outcome: &SurveyedOutcome, row: Option<&StatisticsRow
 /// Values of ascending size, the fraction of runs up to each, and the ends of its interval.
 fn curve(sketch: &Sketch) -> (Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>) {
     let count = sketch.count();
-    let steps = count.min(MOST_POINTS);
+    let (steps, ranks) = (count.min(MOST_POINTS), sketch.ranks());
     let mut found = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for step in 1..=steps {
         let rank = (step * count).div_ceil(steps);
-        let Some(value) = ranked(sketch, rank) else { continue };
+        let Some(value) = ranks.bounds(rank).map(middle) else { continue };
         let [low, high] = interval(rank, count, CONFIDENCE);
         found.0.push(value);
         found.1.push(rank as f64 / count as f64);
@@ -125,6 +154,21 @@ fn curve(sketch: &Sketch) -> (Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Law: an axis has the limits that are near the runs; one that is far would squeeze them, and is outside.
+    #[test]
+    fn far_limits_are_outside_of_the_axis() {
+        let figure = |limits: &[f64]| {
+            let mut marks = vec![Mark::line("runs", Hue::Total, Dash::Solid, vec![10.0, 11.0], vec![0.0, 1.0])];
+            let limit = |at: &f64| Mark::Limit { label: String::new(), at: *at, vertical: true };
+            marks.extend(limits.iter().map(limit));
+            near_limits(Figure::new("", Axis::linear("x", ""), Axis::linear("y", ""), marks)).x.range
+        };
+        assert_eq!([figure(&[]), figure(&[12.9]), figure(&[8.1])], [None; 3]);
+        assert_eq!(figure(&[1000.0]), Some([9.96, 11.04]));
+        let [low, high] = figure(&[-5.0, 12.0]).expect("a range");
+        assert!((low - 9.92).abs() < 1e-12 && (high - 12.08).abs() < 1e-12, "{low} {high}");
+    }
 
     /// Law: the curve rises from one run to all of them; a fraction is that of the runs up to its value, within the width of a bucket, and lies
     /// in its interval.

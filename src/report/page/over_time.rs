@@ -2,6 +2,7 @@
 
 use crate::ensemble::SingleRun;
 use crate::observables::Series;
+use crate::observables::request::NutationAxis;
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark};
 use crate::report::number::short;
 use crate::report::page::spectrum::{amplitudes, dominant};
@@ -138,8 +139,9 @@ impl<'a> Curves<'a> {
             String::new()
         };
         format!(
-            "Bands: 5 to 95% and 25 to 75% of {} dispersed runs that are ok, at each time; solid line: median; dashed: nominal run.{aliased}",
-            bands.runs
+            "Bands: 5 to 95% and 25 to 75% of {} dispersed runs that are ok, at each of {} times; solid line: median; dashed: nominal run.{aliased}",
+            bands.runs,
+            bands.times.len()
         )
     }
 
@@ -167,6 +169,12 @@ impl<'a> Curves<'a> {
             // an angle below rounding is none
             marks.clear();
         }
+        let axis = self.run.map(|run| run.request.nutation_axis).filter(|_| *series == Series::Nutation);
+        let title = match axis {
+            Some(NutationAxis::Principal) => "Nutation angle: the principal axis nearest s3 from the angular momentum",
+            Some(NutationAxis::Along(_)) => "Nutation angle: observe.nutation_axis from the angular momentum",
+            _ => *title,
+        };
         over_time(&name, title, self.caption(&name), Axis::linear(*quantity, &unit).showing(&name), marks)
     }
 

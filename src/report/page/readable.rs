@@ -28,7 +28,11 @@ pub fn number(value: f64) -> String {
 
 /// A number with its unit.
 pub fn with_unit(value: f64, unit: &str) -> String {
-    if unit.is_empty() || value.is_nan() { number(value) } else { format!("{}\u{a0}{unit}", number(value)) }
+    match unit {
+        _ if unit.is_empty() || value.is_nan() => number(value),
+        "%" => format!("{}%", number(value)),
+        _ => format!("{}\u{a0}{unit}", number(value)),
+    }
 }
 
 /// A whole number with its thousands apart.

@@ -2,6 +2,7 @@
 
 use serde_json::{Value, json};
 
+use crate::analysis::observed::Observed;
 use crate::analysis::outcomes::outcomes;
 use crate::campaign::Plan;
 use crate::ensemble::SingleRun;
@@ -121,31 +122,31 @@ pub fn motion(plan: &Plan, shown: &ShownRun, payload: &mut Payload) -> Option<Va
     let name = if is_nominal { "nominal run".to_owned() } else { format!("sample {}", shown.sample) };
     Some(json!({
         "sample": shown.sample.0, "name": name, "why": shown.why, "status": shown.status.name(), "reason": shown.reason,
-        "numbers": numbers(plan, run), "duration": plan.grid.duration(), "times": payload.singles(&run.grid.times()[..points]),
+        "numbers": numbers(plan, shown), "duration": plan.grid.duration(), "times": payload.singles(&run.grid.times()[..points]),
         "attitude": payload.singles(&attitude), "omega": payload.singles(&omega), "momentum": payload.singles(&momentum),
         "angles": payload.singles(&angles), "debris": debris
     }))
 }
 
 /// What the run is about: names and values of the outcomes, and of the body's motion at the end, as they are shown.
-fn numbers(plan: &Plan, run: &SingleRun) -> Vec<[String; 2]> {
+fn numbers(plan: &Plan, shown: &ShownRun) -> Vec<[String; 2]> {
     const FINAL: [&str; 4] = [
         "angular_rate_final_rad_s",
         "omega_se_s_x_final_rad_s",
         "omega_se_s_y_final_rad_s",
         "omega_se_s_z_final_rad_s",
     ];
-    let columns = run.request.columns();
     let outcomes = outcomes(plan);
-    let others =
-        FINAL.iter().filter(|name| !outcomes.iter().any(|outcome| outcome == *name)).map(|name| (*name).to_owned());
-    let value = |name: String| {
-        let place = columns.iter().position(|column| column.quantity.name() == name)?;
-        let quantity = &columns[place].quantity;
-        let shown = plan.analysis.display.of(&name, quantity.unit());
-        Some([sentence(&words(quantity)), with_unit(shown.value(run.row[place]), &shown.unit)])
+    let others = FINAL.into_iter().filter(|name| !outcomes.iter().any(|outcome| outcome == name));
+    let names: Vec<&str> = outcomes.iter().map(String::as_str).chain(others).collect();
+    let observed = Observed::named(plan, names.iter().copied());
+    let number = |column: &str| shown.row.iter().find(|(name, _)| name == column).map(|(_, value)| *value);
+    let value = |name: &&str| {
+        let one = observed.iter().find(|one| one.quantity.name() == *name)?;
+        let unit = plan.analysis.display.of(name, one.quantity.unit());
+        Some([sentence(&words(&one.quantity)), with_unit(unit.value(one.value(number)?), &unit.unit)])
     };
-    outcomes.iter().cloned().chain(others).filter_map(value).collect()
+    names.iter().filter_map(value).collect()
 }
 
 /// The angular momentum of the spacecraft about its centre of mass in F_e, N m s: J omega + sum J_i rate_i a_i, turned to F_e.

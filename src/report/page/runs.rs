@@ -18,6 +18,8 @@ const MOST_FAILED: usize = 5;
 const FEWEST: usize = 240;
 /// Intervals of a run in the page, at most.
 const MOST: usize = 600;
+/// Points of a campaign's grid up to which a shown run has its row: the memory of more is not worth a few numbers.
+const MOST_OF_ROW: usize = 20_000;
 /// A turn between two pictures, rad: enough pictures that a motion is seen as such.
 const TURN: f64 = 0.6;
 
@@ -45,6 +47,8 @@ pub struct ShownRun {
     pub reason: String,
     /// Its inputs as applied.
     pub inputs: Vec<f64>,
+    /// The numbers of its row, by the names of their columns, as the campaign has them: the run may be shown at other times. Empty where it has none.
+    pub row: Vec<(String, f64)>,
     /// The run itself; `None` where its scene is not physical.
     pub run: Option<SingleRun>,
 }
@@ -64,7 +68,7 @@ pub fn shown_runs(plan: &Plan, survey: &Survey, isa: Isa) -> Vec<ShownRun> {
         // a run that ended in a panic would do so again
         Some((_, reason)) => {
             let (inputs, reason) = (inputs(plan, sample), reason.clone());
-            ShownRun { sample, why, status: Status::InternalError, reason, inputs, run: None }
+            ShownRun { sample, why, status: Status::InternalError, reason, inputs, row: Vec::new(), run: None }
         }
         None => shown(plan, sample, why, &grid, isa),
     };
@@ -82,13 +86,31 @@ fn shown(plan: &Plan, sample: SampleId, why: String, grid: &Grid, isa: Isa) -> S
     match SingleRun::with_series(plan, sample, grid.clone(), isa, &GROUPS) {
         Ok(run) => {
             let (status, reason) = (run.outcome.status, run.reason.clone());
-            ShownRun { sample, why, status, reason, inputs, run: Some(run) }
+            let row = row(plan, &run, &inputs, isa, sample);
+            ShownRun { sample, why, status, reason, inputs, row, run: Some(run) }
         }
         Err(errors) => {
             let reason = errors.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ");
-            ShownRun { sample, why, status: Status::InvalidSample, reason, inputs, run: None }
+            ShownRun { sample, why, status: Status::InvalidSample, reason, inputs, row: Vec::new(), run: None }
         }
     }
+}
+
+/// The row of a sample, which is shown as `run`: of a campaign with other times, from another run, where that is not too large.
+fn row(plan: &Plan, run: &SingleRun, inputs: &[f64], isa: Isa, sample: SampleId) -> Vec<(String, f64)> {
+    let another = if plan.grid == run.grid || plan.grid.points() > MOST_OF_ROW {
+        None
+    } else {
+        SingleRun::new(plan, sample, plan.grid.clone(), isa).ok()
+    };
+    let has_row = another.is_some() || plan.grid == run.grid;
+    let run = another.as_ref().unwrap_or(run);
+    let names = run.request.columns().into_iter().map(|column| column.quantity.name().to_owned());
+    // what depends on the times between is not known then
+    let of_run = names.zip(run.row.iter().copied()).filter(|(name, _)| has_row || name.contains("_final"));
+    let columns = plan.dispersions.columns().iter().zip(inputs);
+    let of_inputs = columns.map(|(column, value)| (column.parameter.column_name(column.component), *value));
+    of_run.chain(of_inputs).collect()
 }
 
 /// Failed runs, the first of each kind first, then the worst values of each outcome in turn; of the errors where the campaign has no outcome.

@@ -1,7 +1,6 @@
 //! What names of columns mean to a reader of the page: which are errors, what they are called, which interval a quantile has.
 
 use crate::run::Quantity;
-use crate::statistics::sketch::{Sketch, middle};
 
 /// The name of a column as words: `energy_error_max` is "maximum energy error"; the unit is left out.
 pub fn words(quantity: &Quantity) -> String {
@@ -29,11 +28,6 @@ pub fn words(quantity: &Quantity) -> String {
     }
     let stem = stem.strip_prefix("exchange_").map_or(stem.to_owned(), |rest| format!("energy transfer of {rest}"));
     format!("{statistic}{}", stem.replace('_', " "))
-}
-
-/// The value of rank `rank` from 1.
-pub fn ranked(sketch: &Sketch, rank: u64) -> Option<f64> {
-    sketch.ranks().bounds(rank).map(middle)
 }
 
 #[cfg(test)]

@@ -3,11 +3,12 @@
 use crate::analysis::survey::Survey;
 use crate::campaign::{Display, Plan};
 use crate::report::escaped::escaped;
+use crate::report::origin_text::unit_of;
 use crate::report::page::readable::{grouped, number, with_unit};
 use crate::report::page::runs::ShownRun;
 use crate::run::Status;
 
-/// Inputs of a run that are listed; those farthest from nominal first.
+/// Inputs of a run that are listed; those farthest from nominal first, as multiples of their spread.
 const MOST_INPUTS: usize = 4;
 
 /// Statistics of one observable.
@@ -94,21 +95,28 @@ pub fn statistics(rows: &[StatisticsRow], display: &Display) -> String {
     )
 }
 
+/// Root mean square of the distances of `values` from the nominal one: by what an input is judged to be far from it.
+fn spread(values: &[f64], nominal: f64) -> f64 {
+    let squares: Vec<f64> = values.iter().map(|value| (value - nominal).powi(2)).filter(|x| x.is_finite()).collect();
+    libm::sqrt(squares.iter().sum::<f64>() / squares.len().max(1) as f64).max(f64::MIN_POSITIVE)
+}
+
 /// The nominal run and the worst ones, with inputs, outcome, reason and the command that replays each.
-pub fn worst_runs(plan: &Plan, runs: &[ShownRun]) -> String {
+pub fn worst_runs(plan: &Plan, survey: &Survey, runs: &[ShownRun]) -> String {
     let columns = plan.dispersions.columns();
+    let spreads: Vec<f64> =
+        columns.iter().zip(&survey.thinned.inputs).map(|(column, values)| spread(values, column.nominal)).collect();
     let mut body = String::new();
     for shown in runs {
         let mut inputs: Vec<(f64, String)> = columns
             .iter()
             .zip(&shown.inputs)
-            .map(|(column, value)| {
-                let unit = if column.parameter.unit() == "1" { "" } else { column.parameter.unit() };
-                let shown = plan.analysis.display.of(&column.parameter.name(), unit);
+            .enumerate()
+            .map(|(index, (column, value))| {
+                let shown = unit_of(plan, index);
                 let name = column.parameter.component_name(column.component);
-                let scale = column.nominal.abs().max(1e-300);
                 let text = format!("{name} = {}", with_unit(shown.value(*value), &shown.unit));
-                ((value - column.nominal).abs() / scale, text)
+                ((value - column.nominal).abs() / spreads[index], text)
             })
             .collect();
         inputs.sort_by(|a, b| b.0.total_cmp(&a.0));

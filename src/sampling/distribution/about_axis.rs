@@ -2,7 +2,7 @@
 //! (`[disperse.angle_rad]`).
 
 use super::target::JointTarget;
-use super::traits::{Map, Nested, Quantile, Together};
+use super::traits::{Map, Nested, NumberWords, Quantile, Together};
 use crate::math::vector::{hamilton, norm, scaled};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{KeyReader, KeyWriter};
@@ -64,8 +64,8 @@ impl<Q: Quantile> Map for AboutAxisMap<Q> {
         values[..4].copy_from_slice(&hamilton(self.nominal, [cosine, x, y, z]));
     }
 
-    fn text(&self, short: &dyn Fn(f64) -> String) -> String {
-        let [x, y, z] = self.axis.map(short);
-        format!("nominal attitude turned about [{x}, {y}, {z}], angle (rad): {}", self.angle.text(short))
+    fn text(&self, words: NumberWords<'_>) -> String {
+        let [x, y, z] = self.axis.map(words.number);
+        format!("nominal attitude turned about [{x}, {y}, {z}], angle (rad): {}", self.angle.text(words))
     }
 }

@@ -2,7 +2,7 @@
 //! `covariance_rad2`.
 
 use super::target::JointTarget;
-use super::traits::{Map, Together};
+use super::traits::{Map, NumberWords, Together};
 use crate::math::normal::quantile;
 use crate::math::vector::{dot, hamilton, norm, scaled};
 use crate::sampling::error::{DispersionError, error};
@@ -81,17 +81,17 @@ impl Map for AttitudeErrorMap {
         values[..4].copy_from_slice(&hamilton(self.nominal, rotation(theta)));
     }
 
-    fn text(&self, short: &dyn Fn(f64) -> String) -> String {
+    fn text(&self, words: NumberWords<'_>) -> String {
         // the covariance is L L^T
         let covariance = |i: usize, j: usize| dot(self.factor[i], self.factor[j]);
         let std: [f64; 3] = core::array::from_fn(|i| covariance(i, i).sqrt());
-        let [x, y, z] = std.map(short);
+        let [x, y, z] = std.map(words.number);
         let mut text = format!("normal rotation vector from the nominal attitude, std (rad) [{x}, {y}, {z}]");
         let pairs = [(0, 1, "xy"), (0, 2, "xz"), (1, 2, "yz")];
         if pairs.iter().any(|(i, j, _)| covariance(*i, *j) != 0.0) {
             let of = |(i, j, name): (usize, usize, &str)| {
                 let product = std[i] * std[j];
-                format!("{name} {}", short(if product > 0.0 { covariance(i, j) / product } else { 0.0 }))
+                format!("{name} {}", (words.number)(if product > 0.0 { covariance(i, j) / product } else { 0.0 }))
             };
             text += &format!(", correlations {}", pairs.map(of).join(", "));
         }

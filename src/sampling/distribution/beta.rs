@@ -3,7 +3,7 @@
 
 use super::of_score::OfScore;
 use super::target::Target;
-use super::traits::{Quantile, Scalar, each_score};
+use super::traits::{NumberWords, Quantile, Scalar, each_score};
 use crate::math::incomplete_beta::logit_quantile;
 use crate::math::normal::quantile;
 use crate::sampling::error::DispersionError;
@@ -95,8 +95,9 @@ impl Quantile for BetaQuantile {
         each_score(z, values, |z| self.at_score(z))
     }
 
-    fn text(&self, short: &dyn Fn(f64) -> String) -> String {
-        let [alpha, beta, min, max] = [self.alpha, self.beta, self.min, self.max].map(short);
+    fn text(&self, words: NumberWords<'_>) -> String {
+        let [alpha, beta] = [self.alpha, self.beta].map(words.number);
+        let [min, max] = [self.min, self.max].map(words.amount);
         format!("beta({alpha}, {beta}), {min} to {max}")
     }
 }

@@ -2,7 +2,7 @@
 //! (1979) 1). Numbers of a draw are those of one observation: their joint distribution is that of the file.
 
 use super::target::JointTarget;
-use super::traits::{Map, Together};
+use super::traits::{Map, NumberWords, Together};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{DataColumn, KeyReader, KeyWriter};
 use std::sync::Arc;
@@ -81,7 +81,7 @@ impl Map for BootstrapMap {
         self.values_of(((u[0] * rows as f64) as usize).min(rows - 1), values);
     }
 
-    fn text(&self, _short: &dyn Fn(f64) -> String) -> String {
+    fn text(&self, _words: NumberWords<'_>) -> String {
         let together = match self.columns.len() {
             1 => String::new(),
             count => format!(", {count} numbers together"),
@@ -107,6 +107,9 @@ mod tests {
         assert_eq!([f64::MIN_POSITIVE, 0.33].map(row), [[5.0, -5.0]; 2]);
         assert_eq!([0.34, 0.66].map(row), [[1.0, -1.0]; 2]);
         assert_eq!([0.67, 1.0 - 0.5 * f64::EPSILON].map(row), [[2.0, -2.0]; 2]);
-        assert_eq!(map.text(&|x| x.to_string()), "one of the 3 rows of data.csv, 2 numbers together");
+        assert_eq!(
+            map.text(NumberWords { amount: &|x| x.to_string(), number: &|x| x.to_string() }),
+            "one of the 3 rows of data.csv, 2 numbers together"
+        );
     }
 }

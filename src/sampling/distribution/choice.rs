@@ -2,7 +2,7 @@
 //! rank correlation is one of values.
 
 use super::target::Target;
-use super::traits::{Quantile, Scalar};
+use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{KeyReader, KeyWriter};
 use std::sync::Arc;
@@ -97,8 +97,8 @@ impl Quantile for ChoiceQuantile {
         Some((0..self.values.len()).filter(last).map(|k| self.cumulative[k]).collect())
     }
 
-    fn text(&self, short: &dyn Fn(f64) -> String) -> String {
-        let [low, high] = [f64::EPSILON, 1.0 - f64::EPSILON].map(|u| short(self.quantile(u)));
+    fn text(&self, words: NumberWords<'_>) -> String {
+        let [low, high] = [f64::EPSILON, 1.0 - f64::EPSILON].map(|u| (words.amount)(self.quantile(u)));
         format!("one of {} values, {low} to {high}", self.values.len())
     }
 }

@@ -6,7 +6,7 @@
 //! the axis, is not isotropic (test `usual_mistakes_are_caught` in `tests/sampling/geometric.rs`).
 
 use super::target::JointTarget;
-use super::traits::{Map, Nested, Quantile, Together};
+use super::traits::{Map, Nested, NumberWords, Quantile, Together};
 use crate::math::vector::{cross, norm, scaled};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{KeyReader, KeyWriter};
@@ -243,20 +243,20 @@ impl<Q: Quantile> Map for DirectionMap<Q> {
         }
     }
 
-    fn text(&self, short: &dyn Fn(f64) -> String) -> String {
-        let [x, y, z] = self.frame[2].map(short);
+    fn text(&self, words: NumberWords<'_>) -> String {
+        let [x, y, z] = self.frame[2].map(words.number);
         let direction = match self.spread {
             DirectionSpread::Sphere => "direction uniform over the sphere".to_owned(),
             DirectionSpread::Cone { half_angle_rad } => {
-                format!("direction uniform in a cone of {} rad about [{x}, {y}, {z}]", short(half_angle_rad))
+                format!("direction uniform in a cone of {} rad about [{x}, {y}, {z}]", (words.number)(half_angle_rad))
             }
             DirectionSpread::Fisher { concentration } => {
-                format!("direction von Mises-Fisher, kappa {}, about [{x}, {y}, {z}]", short(concentration))
+                format!("direction von Mises-Fisher, kappa {}, about [{x}, {y}, {z}]", (words.number)(concentration))
             }
         };
         match &self.magnitude {
-            Magnitude::Fixed(length) => format!("{direction}, magnitude {}", short(*length)),
-            Magnitude::Drawn(quantile) => format!("{direction}, magnitude {}", quantile.text(short)),
+            Magnitude::Fixed(length) => format!("{direction}, magnitude {}", (words.amount)(*length)),
+            Magnitude::Drawn(quantile) => format!("{direction}, magnitude {}", quantile.text(words)),
         }
     }
 }

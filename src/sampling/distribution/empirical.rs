@@ -1,7 +1,7 @@
 //! `empirical`: as a `column` of a `file`, with `interpolation` between its values or none.
 
 use super::target::Target;
-use super::traits::{Quantile, Scalar};
+use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{DataColumn, KeyReader, KeyWriter};
 use std::sync::Arc;
@@ -101,8 +101,8 @@ impl Quantile for EmpiricalQuantile {
         (self.interpolation == Interpolation::None).then(|| below.collect())
     }
 
-    fn text(&self, short: &dyn Fn(f64) -> String) -> String {
-        let [low, high] = [f64::EPSILON, 1.0 - f64::EPSILON].map(|u| short(self.quantile(u)));
+    fn text(&self, words: NumberWords<'_>) -> String {
+        let [low, high] = [f64::EPSILON, 1.0 - f64::EPSILON].map(|u| (words.amount)(self.quantile(u)));
         format!("as {} values of a file, {low} to {high}", self.values.len())
     }
 }

@@ -127,8 +127,8 @@ macro_rules! distributions {
                 match self { $( Self::$Scalar(ready) => ready.steps(), )* }
             }
 
-            fn text(&self, short: &dyn Fn(f64) -> String) -> String {
-                match self { $( Self::$Scalar(ready) => ready.text(short), )* }
+            fn text(&self, words: NumberWords<'_>) -> String {
+                match self { $( Self::$Scalar(ready) => ready.text(words), )* }
             }
         }
 
@@ -158,8 +158,8 @@ macro_rules! distributions {
                 match self { $( Self::$Name(map) => map.values(u, values), )* }
             }
 
-            fn text(&self, short: &dyn Fn(f64) -> String) -> String {
-                match self { $( Self::$Name(map) => map.text(short), )* }
+            fn text(&self, words: NumberWords<'_>) -> String {
+                match self { $( Self::$Name(map) => map.text(words), )* }
             }
         }
     };

@@ -2,7 +2,7 @@
 //! event. Mean `min` + `scale`.
 
 use super::target::Target;
-use super::traits::{Quantile, Scalar};
+use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{KeyReader, KeyWriter, Values};
 
@@ -51,7 +51,7 @@ impl Quantile for ExponentialQuantile {
         self.min - self.scale * libm::log1p(-u)
     }
 
-    fn text(&self, short: &dyn Fn(f64) -> String) -> String {
-        format!("exponential, scale {}, from {}", short(self.scale), short(self.min))
+    fn text(&self, words: NumberWords<'_>) -> String {
+        format!("exponential, scale {}, from {}", (words.amount)(self.scale), (words.amount)(self.min))
     }
 }

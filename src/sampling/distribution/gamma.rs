@@ -3,7 +3,7 @@
 
 use super::of_score::OfScore;
 use super::target::Target;
-use super::traits::{Quantile, Scalar, each_score};
+use super::traits::{NumberWords, Quantile, Scalar, each_score};
 use crate::math::incomplete_gamma::log_quantile;
 use crate::math::normal::quantile;
 use crate::sampling::error::DispersionError;
@@ -82,7 +82,12 @@ impl Quantile for GammaQuantile {
         each_score(z, values, |z| self.at_score(z))
     }
 
-    fn text(&self, short: &dyn Fn(f64) -> String) -> String {
-        format!("gamma, shape {}, scale {}, from {}", short(self.shape), short(self.scale), short(self.min))
+    fn text(&self, words: NumberWords<'_>) -> String {
+        format!(
+            "gamma, shape {}, scale {}, from {}",
+            (words.number)(self.shape),
+            (words.amount)(self.scale),
+            (words.amount)(self.min)
+        )
     }
 }

@@ -1,7 +1,7 @@
 //! `log_normal`: normal in the natural logarithm, with standard deviation `log_std` and `median`, else the nominal value.
 
 use super::target::Target;
-use super::traits::{Quantile, Scalar, each_score};
+use super::traits::{NumberWords, Quantile, Scalar, each_score};
 use crate::math::normal::{quantile, quantiles};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{KeyReader, KeyWriter, Values};
@@ -64,7 +64,7 @@ impl Quantile for LogNormalQuantile {
         each_score(z, values, |z| self.median * libm::exp(self.log_std * z))
     }
 
-    fn text(&self, short: &dyn Fn(f64) -> String) -> String {
-        format!("log-normal, std of the logarithm {}", short(self.log_std))
+    fn text(&self, words: NumberWords<'_>) -> String {
+        format!("log-normal, std of the logarithm {}", (words.number)(self.log_std))
     }
 }

@@ -1,7 +1,7 @@
 //! `log_uniform`: uniform in the logarithm, between `min` and `max`, or about the nominal value by `factor`.
 
 use super::target::Target;
-use super::traits::{Quantile, Scalar};
+use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{KeyReader, KeyWriter, Values};
 
@@ -94,8 +94,8 @@ impl Quantile for LogUniformQuantile {
         value.clamp(self.min, self.max)
     }
 
-    fn text(&self, short: &dyn Fn(f64) -> String) -> String {
-        format!("log-uniform, {} to {}", short(self.min), short(self.max))
+    fn text(&self, words: NumberWords<'_>) -> String {
+        format!("log-uniform, {} to {}", (words.amount)(self.min), (words.amount)(self.max))
     }
 }
 

@@ -35,7 +35,7 @@ pub mod uniform;
 pub mod uniform_attitude;
 pub mod weibull;
 
-pub use traits::{Map, Nested, Quantile, Scalar, Together};
+pub use traits::{Map, Nested, NumberWords, Quantile, Scalar, Together};
 
 use self::about_axis::AboutAxis;
 use self::attitude_error::AttitudeError;

@@ -1,7 +1,7 @@
 //! `normal`: normal about the nominal value, with standard deviation `std` or `relative_std`, or a third of `three_sigma`.
 
 use super::target::{Numbers, Target};
-use super::traits::{Quantile, Scalar, each_score};
+use super::traits::{NumberWords, Quantile, Scalar, each_score};
 use crate::math::normal::{quantile, quantiles};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{KeyReader, KeyWriter, Values};
@@ -98,7 +98,7 @@ impl Quantile for NormalQuantile {
         Some(self.std)
     }
 
-    fn text(&self, short: &dyn Fn(f64) -> String) -> String {
-        format!("normal, std {}", short(self.std))
+    fn text(&self, words: NumberWords<'_>) -> String {
+        format!("normal, std {}", (words.amount)(self.std))
     }
 }

@@ -1,7 +1,7 @@
 //! `offset`: the same difference from the nominal value in every sample but the nominal one, `offset` or `relative_offset`.
 
 use super::target::Target;
-use super::traits::{Quantile, Scalar};
+use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{KeyReader, KeyWriter, Values};
 
@@ -59,7 +59,7 @@ impl Quantile for Fixed {
         0
     }
 
-    fn text(&self, _short: &dyn Fn(f64) -> String) -> String {
+    fn text(&self, _words: NumberWords<'_>) -> String {
         "fixed".to_owned()
     }
 }

@@ -7,7 +7,7 @@
 //! falls), so each step after the first comes from the left and none overshoots; no bracket is needed.
 
 use super::target::Target;
-use super::traits::{Quantile, Scalar};
+use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{KeyReader, KeyWriter, Values};
 
@@ -89,8 +89,9 @@ impl Quantile for PertQuantile {
         value.clamp(self.min, self.max)
     }
 
-    fn text(&self, short: &dyn Fn(f64) -> String) -> String {
-        let [alpha, beta, min, max] = [self.alpha, self.beta, self.min, self.max].map(short);
+    fn text(&self, words: NumberWords<'_>) -> String {
+        let [alpha, beta] = [self.alpha, self.beta].map(words.number);
+        let [min, max] = [self.min, self.max].map(words.amount);
         format!("PERT, beta({alpha}, {beta}), {min} to {max}")
     }
 }

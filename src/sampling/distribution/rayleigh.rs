@@ -2,7 +2,7 @@
 //! Rayleigh, *Phil. Mag.* 10 (1880) 73): an off-axis angle, a lateral offset.
 
 use super::target::Target;
-use super::traits::{Quantile, Scalar};
+use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{KeyReader, KeyWriter, Values};
 
@@ -48,7 +48,7 @@ impl Quantile for RayleighQuantile {
         self.scale * (-2.0 * libm::log1p(-u)).sqrt()
     }
 
-    fn text(&self, short: &dyn Fn(f64) -> String) -> String {
-        format!("Rayleigh, scale {}", short(self.scale))
+    fn text(&self, words: NumberWords<'_>) -> String {
+        format!("Rayleigh, scale {}", (words.amount)(self.scale))
     }
 }

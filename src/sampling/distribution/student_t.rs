@@ -3,7 +3,7 @@
 
 use super::of_score::OfScore;
 use super::target::Target;
-use super::traits::{Quantile, Scalar, each_score};
+use super::traits::{NumberWords, Quantile, Scalar, each_score};
 use crate::math::incomplete_beta::logit_quantile;
 use crate::math::normal::quantile;
 use crate::sampling::error::DispersionError;
@@ -116,7 +116,11 @@ impl Quantile for StudentTQuantile {
         each_score(z, values, |z| self.at_score(z))
     }
 
-    fn text(&self, short: &dyn Fn(f64) -> String) -> String {
-        format!("Student's t, {} degrees of freedom, scale {}", short(self.degrees_of_freedom), short(self.scale))
+    fn text(&self, words: NumberWords<'_>) -> String {
+        format!(
+            "Student's t, {} degrees of freedom, scale {}",
+            (words.number)(self.degrees_of_freedom),
+            (words.amount)(self.scale)
+        )
     }
 }

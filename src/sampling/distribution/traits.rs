@@ -5,6 +5,15 @@ use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{DataColumn, KeyReader, KeyWriter};
 use std::fmt::Debug;
 
+/// How a distribution in words writes its numbers.
+#[derive(Clone, Copy)]
+pub struct NumberWords<'a> {
+    /// Those in the unit of the parameter.
+    pub amount: &'a dyn Fn(f64) -> String,
+    /// Those of a unit of their own, or of none: shapes, angles, components of a direction.
+    pub number: &'a dyn Fn(f64) -> String,
+}
+
 /// A distribution of one number, as written; of a parameter with components, each has it.
 pub trait Scalar: Clone + Debug + PartialEq {
     /// The name in campaign files.
@@ -70,8 +79,8 @@ pub trait Quantile: Clone + Debug + PartialEq {
         None
     }
 
-    /// In words; `short` writes a number.
-    fn text(&self, short: &dyn Fn(f64) -> String) -> String;
+    /// In words; `words` writes its numbers.
+    fn text(&self, words: NumberWords<'_>) -> String;
 }
 
 /// A distribution of all components of a vector or an attitude together, or of the numbers that it names itself, as written.
@@ -117,8 +126,8 @@ pub trait Map: Clone + Debug + PartialEq {
     /// The values for `u` ([`Map::dimensions`] numbers), into the first [`Map::components`] of `values`.
     fn values(&self, u: &[f64], values: &mut [f64]);
 
-    /// In words; `short` writes a number.
-    fn text(&self, short: &dyn Fn(f64) -> String) -> String;
+    /// In words; `words` writes its numbers.
+    fn text(&self, words: NumberWords<'_>) -> String;
 }
 
 /// Largest number of u of one distribution.

@@ -1,7 +1,7 @@
 //! `triangular`: between `min` and `max`, most likely at `mode`, else at the nominal value.
 
 use super::target::Target;
-use super::traits::{Quantile, Scalar};
+use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{KeyReader, KeyWriter, Values};
 
@@ -63,8 +63,13 @@ impl Quantile for TriangularQuantile {
         if u * width < rise { self.min + mean(u, rise) } else { self.max - mean(1.0 - u, fall) }
     }
 
-    fn text(&self, short: &dyn Fn(f64) -> String) -> String {
-        format!("triangular, {} to {}, mode {}", short(self.min), short(self.max), short(self.mode))
+    fn text(&self, words: NumberWords<'_>) -> String {
+        format!(
+            "triangular, {} to {}, mode {}",
+            (words.amount)(self.min),
+            (words.amount)(self.max),
+            (words.amount)(self.mode)
+        )
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::normal::Spread;
 use super::target::Target;
-use super::traits::{Quantile, Scalar};
+use super::traits::{NumberWords, Quantile, Scalar};
 use crate::math::normal::{probability, quantile, quantiles};
 use crate::sampling::error::{DispersionError, error};
 use crate::sampling::keys::{KeyReader, KeyWriter, Values};
@@ -254,8 +254,8 @@ impl Quantile for TruncatedNormalQuantile {
         }
     }
 
-    fn text(&self, short: &dyn Fn(f64) -> String) -> String {
-        let [low, high] = [f64::EPSILON, 1.0 - f64::EPSILON].map(|u| short(self.quantile(u)));
+    fn text(&self, words: NumberWords<'_>) -> String {
+        let [low, high] = [f64::EPSILON, 1.0 - f64::EPSILON].map(|u| (words.amount)(self.quantile(u)));
         format!("truncated normal, {low} to {high}")
     }
 }

@@ -1,7 +1,7 @@
 //! `uniform`: between `min` and `max`, or about the nominal value by `half_width` or `relative_half_width`.
 
 use super::target::Target;
-use super::traits::{Quantile, Scalar};
+use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{KeyReader, KeyWriter, Values};
 
@@ -84,8 +84,8 @@ impl Quantile for UniformQuantile {
         if width.is_finite() { self.min + u * width } else { (1.0 - u) * self.min + u * self.max }
     }
 
-    fn text(&self, short: &dyn Fn(f64) -> String) -> String {
-        format!("uniform, {} to {}", short(self.min), short(self.max))
+    fn text(&self, words: NumberWords<'_>) -> String {
+        format!("uniform, {} to {}", (words.amount)(self.min), (words.amount)(self.max))
     }
 }
 

@@ -1,7 +1,7 @@
 //! `uniform_attitude`: an attitude uniform over all rotations.
 
 use super::target::JointTarget;
-use super::traits::{Map, Together};
+use super::traits::{Map, NumberWords, Together};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{KeyReader, KeyWriter};
 use core::f64::consts::TAU;
@@ -38,7 +38,7 @@ impl Map for UniformAttitude {
         values[..4].copy_from_slice(&uniform_attitude([u[0], u[1], u[2]]));
     }
 
-    fn text(&self, _short: &dyn Fn(f64) -> String) -> String {
+    fn text(&self, _words: NumberWords<'_>) -> String {
         "attitude uniform over all rotations".to_owned()
     }
 }

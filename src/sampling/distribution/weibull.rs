@@ -2,7 +2,7 @@
 //! Mech.* 18 (1951) 293): times to failure, extremes.
 
 use super::target::Target;
-use super::traits::{Quantile, Scalar};
+use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{KeyReader, KeyWriter, Values};
 
@@ -64,7 +64,12 @@ impl Quantile for WeibullQuantile {
         self.min + self.scale * libm::pow(-libm::log1p(-u), 1.0 / self.shape)
     }
 
-    fn text(&self, short: &dyn Fn(f64) -> String) -> String {
-        format!("Weibull, shape {}, scale {}, from {}", short(self.shape), short(self.scale), short(self.min))
+    fn text(&self, words: NumberWords<'_>) -> String {
+        format!(
+            "Weibull, shape {}, scale {}, from {}",
+            (words.number)(self.shape),
+            (words.amount)(self.scale),
+            (words.amount)(self.min)
+        )
     }
 }
