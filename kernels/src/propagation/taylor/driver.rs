@@ -245,8 +245,7 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> Drive
         let RunLanes { states, grid, work, vectors, .. } = &mut self.lanes;
         let folded = folded_lanes(states, grid);
         let Workspace { ring, folds, trajectories, .. } = &mut **work;
-        let zero = vectors.time.zero();
-        let mut folding = PeriodFolding::<S, R, J> { simd, zero, grid, ring, folds, trajectories };
+        let mut folding = PeriodFolding::<S, R, J> { simd, grid, ring, folds, trajectories };
         folding.evaluate(&folded);
         for share in folded.iter().flatten() {
             if N > J {
