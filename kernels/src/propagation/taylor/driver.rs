@@ -14,7 +14,7 @@ use super::period_search::{period, return_time};
 use super::points::{StepSeries, Until};
 use super::workspace::Workspace;
 use crate::dynamics::gyrostat::equations::Constants;
-use crate::dynamics::gyrostat::{ANGLE, Gyrostat, WITH_THRUST};
+use crate::dynamics::gyrostat::{ANGLE, Gyrostat};
 use crate::math::sums::{fast_two_sum, two_sum};
 use crate::math::{Mask, Real};
 use crate::propagation::arc_source::ArcSource;
@@ -119,16 +119,8 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> Drive
         let left = (vectors.length - vectors.time) - vectors.time_low;
         let continues = zero.lt(left);
         let covered = R::select(finite, R::select(continues, time, infinite), -infinite);
-        let mut many = zero.never();
-        if FORCED && N >= WITH_THRUST {
-            many = self.lanes.vectors.many_points.lt(covered);
-            if many.any() {
-                let work = &mut *self.lanes.work;
-                work.thrust_series.expand(&constants, &work.ring.last().jet[..=order], length);
-            }
-        }
         while self.lanes.vectors.next_point.lt(covered).any() {
-            self.observe(&constants, (&begin, order, many), covered);
+            self.observe(&constants, (&begin, order), covered);
         }
 
         let back = self.lanes.detector.passes(omega);
@@ -141,12 +133,11 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> Drive
 
     /// Evaluates the next observation point of every lane that has one before `covered`.
     #[inline(always)]
-    fn observe(&mut self, constants: &Constants<R>, (begin, order, many): (&[R; N], usize, R::Mask), covered: R) {
+    fn observe(&mut self, constants: &Constants<R>, (begin, order): (&[R; N], usize), covered: R) {
         let RunLanes { vectors, work, .. } = &mut self.lanes;
         let due = vectors.next_point.lt(covered);
         let (segment, quadrature) = (work.ring.last(), &work.quadrature);
-        let thrust = (&work.thrust_series, many);
-        let series = StepSeries { segment, order, quadrature, thrust, constants, begin, per_unit: vectors.per_unit };
+        let series = StepSeries { segment, order, quadrature, constants, begin, per_unit: vectors.per_unit };
         let rows = series.components::<FORCED>(vectors.next_point, due);
         self.lanes.write_points(&rows, due);
     }

@@ -96,11 +96,9 @@ impl SeriesLane {
         steps >= max_steps || is_judged && is_out_of_reach(max_steps - self.steps_before, time, self.length)
     }
 
-    /// Time of the observation point of the arc that is `later` after the next one since its start, units; infinite where there is none or a return is
-    /// looked for.
-    #[inline(always)]
-    pub(super) fn next_point(&self, grid: &Grid, later: usize) -> f64 {
-        match grid.times().get(self.point + later) {
+    /// Time of the next observation point of the arc since its start, units; infinite where there is none or a return is looked for.
+    pub(super) fn next_point(&self, grid: &Grid) -> f64 {
+        match grid.times().get(self.point) {
             Some(time) if !self.is_searching && (self.is_last || *time <= self.end) => (time - self.start) / self.unit,
             _ => f64::INFINITY,
         }

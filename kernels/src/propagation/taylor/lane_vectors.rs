@@ -18,8 +18,6 @@ pub(super) struct LaneVectors<R, const N: usize> {
     pub length: R,
     /// Time of the next observation point of the arc, units; infinite where there is none or a return is looked for.
     pub next_point: R,
-    /// That of the point after which a step has many; infinite where there are no more so many.
-    pub many_points: R,
     /// One over the unit of time, 1/s.
     pub per_unit: R,
     /// One where the arc may be flown in one step of a lower order, else zero.
@@ -37,7 +35,6 @@ impl<R: Real, const N: usize> LaneVectors<R, N> {
             time_low: zero,
             length: zero,
             next_point: zero,
-            many_points: zero,
             per_unit: zero,
             may_be_brief: zero,
         }
@@ -55,7 +52,6 @@ impl<R: Real, const N: usize> LaneVectors<R, N> {
     pub fn idle(&mut self, lane: usize) {
         self.length.set_lane(lane, f64::INFINITY);
         self.next_point.set_lane(lane, f64::INFINITY);
-        self.many_points.set_lane(lane, f64::INFINITY);
         self.may_be_brief.set_lane(lane, 0.0);
     }
 

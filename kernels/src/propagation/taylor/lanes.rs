@@ -9,11 +9,10 @@ use super::period::Period;
 use super::period_search::section;
 use super::points::{Until, evaluate_kept};
 use super::return_detector::ReturnDetector;
-use super::thrust_series::MANY;
 use super::truncation::{Truncation, TruncationSums};
 use super::workspace::Workspace;
 use crate::dynamics::gyrostat::equations::Constants;
-use crate::dynamics::gyrostat::{ATTITUDE, Gyrostat, OMEGA, WITH_ATTITUDE, WITH_THRUST};
+use crate::dynamics::gyrostat::{ATTITUDE, Gyrostat, OMEGA, WITH_ATTITUDE};
 use crate::math::lanes::WIDEST;
 use crate::math::{Mask, Real};
 use crate::propagation::arc_source::ArcSource;
@@ -182,10 +181,7 @@ impl<'a, S: Simd, R: Real, const N: usize, const J: usize> RunLanes<'a, S, R, N,
     #[inline(always)]
     pub(super) fn set_next_point(&mut self, lane: usize) {
         let Some(state) = &self.states[lane] else { return };
-        self.vectors.next_point.set_lane(lane, state.next_point(self.grid, 0));
-        if N >= WITH_THRUST {
-            self.vectors.many_points.set_lane(lane, state.next_point(self.grid, MANY - 1));
-        }
+        self.vectors.next_point.set_lane(lane, state.next_point(self.grid));
     }
 
     /// Writes a point of the lanes that are `due`.

@@ -1,6 +1,6 @@
 //! Taylor series of the gyrostat in lanes, with periodic propagation of what is free of torque.
 //!
-//! - [`jet`]: the recurrences. [`step`]: order and step size. [`thrust`], [`thrust_series`]: integrals of the thrust along a step.
+//! - [`jet`]: the recurrences. [`step`]: order and step size. [`thrust`]: integrals of the thrust along a step.
 //!   `brief`: the order of arcs much shorter than a step. `truncation`: estimates of what the steps leave out. [`dense`]: evaluation of series.
 //! - [`driver`]: the steps of all lanes and what happens to them; `lanes`: which run is in which lane; `lane_state`, `lane_vectors`:
 //!   where each is in its run; `points`: observation points during a step; [`workspace`], `series_ring`: memory.
@@ -31,6 +31,5 @@ pub mod return_detector;
 pub mod series_ring;
 pub mod step;
 pub mod thrust;
-pub mod thrust_series;
 mod truncation;
 pub mod workspace;

@@ -5,22 +5,19 @@ use super::dense::{Segment, value_at, values};
 use super::lane_state::SeriesLane;
 use super::lane_vectors::si_factors;
 use super::series_ring::SeriesRing;
-use super::thrust::{Quadrature, angle_of, grown};
-use super::thrust_series::ThrustSeries;
+use super::thrust::{Quadrature, angle_of};
+use crate::dynamics::gyrostat::ANGLE;
 use crate::dynamics::gyrostat::equations::Constants;
-use crate::dynamics::gyrostat::{ANGLE, WITH_THRUST};
+use crate::math::Real;
 use crate::math::lanes::WIDEST;
-use crate::math::{Mask, Real};
 use crate::run::{Grid, Trajectory};
 
 /// A step whose points are evaluated.
-pub(super) struct StepSeries<'a, R: Real, const N: usize, const J: usize> {
+pub(super) struct StepSeries<'a, R, const N: usize, const J: usize> {
     pub segment: &'a Segment<R, J>,
     /// The order of its series.
     pub order: usize,
     pub quadrature: &'a Quadrature,
-    /// The integrals of thrust along the step, for the lanes in which it has many points.
-    pub thrust: (&'a ThrustSeries<R>, R::Mask),
     /// The constants at the start of the step.
     pub constants: &'a Constants<R>,
     /// The state there.
@@ -45,17 +42,7 @@ impl<R: Real, const N: usize, const J: usize> StepSeries<'_, R, N, J> {
             for i in 0..3 {
                 turned[i] -= jet[0][ANGLE + i];
             }
-            let (thrust, many) = self.thrust;
-            let mut growth = [zero; N];
-            if N < WITH_THRUST || (due & !many).any() {
-                growth = self.quadrature.growth(self.constants, jet, self.begin, turned, x);
-            }
-            if N >= WITH_THRUST && many.any() {
-                let other: [R; N] = grown(self.constants, self.begin, turned, x, thrust.growth::<N>(self.begin, x));
-                for i in J..N {
-                    growth[i] = R::select(many, other[i], growth[i]);
-                }
-            }
+            let growth = self.quadrature.growth(self.constants, jet, self.begin, turned, x);
             for i in J..N {
                 all[i] = self.begin[i] + growth[i];
             }

@@ -16,7 +16,7 @@ use crate::math::Real;
 use crate::math::vector::{dcm_from_quaternion, dot, product};
 
 /// Error of the quadrature, as a share of the tolerance.
-pub(super) const SHARE: f64 = 0.1;
+const SHARE: f64 = 0.1;
 /// Largest number of nodes: more than the tightest tolerance in `f64` needs.
 const MOST_NODES: usize = 12;
 
@@ -60,10 +60,15 @@ impl Quadrature {
         angle: [R; 3],
         x: R,
     ) -> [R; N] {
-        if N < WITH_THRUST {
-            return grown(constants, start, angle, x, [[x.zero(); 3]; 3]);
-        }
         let zero = x.zero();
+        let half = x.splat(0.5);
+        let mut grown = [zero; N];
+        // tau_i Omega_i = tau_i h_i/J_i - tau_i a_i . omega: the first term is linear in time
+        let driven = (half * constants.motor_power_rate).mul_add(x, constants.motor_power);
+        grown[MOTOR_WORK] = driven.mul_add(x, -dot(constants.momentum_rate, angle));
+        if N < WITH_THRUST {
+            return grown;
+        }
         let (mut force_sum, mut force_moment, mut torque_sum) = ([zero; 3], [zero; 3], [zero; 3]);
         for (node, weight) in &self.nodes {
             let q = attitude(jet, x.splat(*node) * x);
@@ -76,49 +81,24 @@ impl Quadrature {
                 torque_sum[i] = weight.mul_add(torque_e[i], torque_sum[i]);
             }
         }
-        let mut integrals = [[zero; 3]; 3];
+        let mut velocity = constants.velocity;
         for i in 0..3 {
-            integrals[0][i] = x * force_sum[i];
-            integrals[1][i] = x * x.mul_add(force_moment[i], start[IMPULSE + i]);
-            integrals[2][i] = x * torque_sum[i];
+            let pushed = x * force_sum[i];
+            let before = start[IMPULSE + i];
+            grown[IMPULSE + i] = pushed;
+            grown[IMPULSE_INTEGRAL + i] = x * x.mul_add(force_moment[i], before);
+            grown[ANGULAR_IMPULSE + i] = x * torque_sum[i];
+            velocity[i] = constants.inverse_mass.mul_add(half.mul_add(pushed, before), velocity[i]);
         }
-        grown(constants, start, angle, x, integrals)
+        let pushed = [grown[IMPULSE], grown[IMPULSE + 1], grown[IMPULSE + 2]];
+        grown[THRUST_WORK] = dot(pushed, velocity) + dot(constants.torque, angle);
+        grown
     }
-}
-
-/// The increase of the components from [`MOTOR_WORK`] on until `x` after the start of a step, as [`Quadrature::growth`], given those of the impulse, of its
-/// integral, and of the angular impulse, F_e.
-#[inline(always)]
-pub(super) fn grown<R: Real, const N: usize>(
-    constants: &Constants<R>,
-    start: &[R; N],
-    angle: [R; 3],
-    x: R,
-    [pushed, path, turned]: [[R; 3]; 3],
-) -> [R; N] {
-    let half = x.splat(0.5);
-    let mut grown = [x.zero(); N];
-    // tau_i Omega_i = tau_i h_i/J_i - tau_i a_i . omega: the first term is linear in time
-    let driven = (half * constants.motor_power_rate).mul_add(x, constants.motor_power);
-    grown[MOTOR_WORK] = driven.mul_add(x, -dot(constants.momentum_rate, angle));
-    if N < WITH_THRUST {
-        return grown;
-    }
-    let mut velocity = constants.velocity;
-    for i in 0..3 {
-        let before = start[IMPULSE + i];
-        grown[IMPULSE + i] = pushed[i];
-        grown[IMPULSE_INTEGRAL + i] = path[i];
-        grown[ANGULAR_IMPULSE + i] = turned[i];
-        velocity[i] = constants.inverse_mass.mul_add(half.mul_add(pushed[i], before), velocity[i]);
-    }
-    grown[THRUST_WORK] = dot(pushed, velocity) + dot(constants.torque, angle);
-    grown
 }
 
 /// The attitude's series at `x`.
 #[inline(always)]
-pub(super) fn attitude<R: Real, const J: usize>(jet: &[[R; J]], x: R) -> [R; 4] {
+fn attitude<R: Real, const J: usize>(jet: &[[R; J]], x: R) -> [R; 4] {
     let last = &jet[jet.len() - 1];
     let mut q = [last[ATTITUDE], last[ATTITUDE + 1], last[ATTITUDE + 2], last[ATTITUDE + 3]];
     for coefficients in jet[..jet.len() - 1].iter().rev() {
@@ -144,7 +124,7 @@ fn error(m: usize, turn: f64) -> f64 {
 }
 
 /// Node `i` of the m-point rule on [0, 1] and its weight: Newton's method on the Legendre polynomial.
-pub(super) fn node(m: usize, i: usize) -> (f64, f64) {
+fn node(m: usize, i: usize) -> (f64, f64) {
     let legendre = |x: f64| {
         let (mut before, mut value) = (1.0, x);
         for n in 1..m {

@@ -6,7 +6,6 @@ use super::jet::{Reciprocals, Scratch};
 use super::series_ring::SeriesRing;
 use super::step::StepRule;
 use super::thrust::Quadrature;
-use super::thrust_series::ThrustSeries;
 use crate::dynamics::arc_record::ArcRecord;
 use crate::math::Real;
 use crate::run::Trajectory;
@@ -33,8 +32,6 @@ pub struct Workspace<R, const J: usize> {
     pub settings: Settings,
     /// Nodes of the integrals of thrust.
     pub quadrature: Quadrature,
-    /// The same integrals as series, of a step with many points.
-    pub thrust_series: ThrustSeries<R>,
     /// 1/n.
     pub reciprocals: Reciprocals<R>,
     /// Intermediate series of the recurrences.
@@ -58,7 +55,6 @@ impl<R: Real, const J: usize> Workspace<R, J> {
             brief: BriefRule::new(settings.tolerance, rule.order),
             settings,
             quadrature: Quadrature::new(&rule, settings.tolerance),
-            thrust_series: ThrustSeries::new(zero, &rule, settings.tolerance),
             reciprocals: Reciprocals::new(zero, rule.order),
             scratch: Scratch::new(zero),
             ring: SeriesRing::new(zero, rule.order),
