@@ -329,7 +329,7 @@ impl Worker<'_> {
             let is_audited = is_selected.get(first_scene + index).is_some_and(|selected| *selected);
             if is_audited && let Some(flown) = flown.get_mut(first_scene + index) {
                 flown.clear();
-                flown.extend_from_slice(arcs);
+                flown.extend(arcs.iter());
             }
             if !is_audited {
                 report.add(outcome.effort.evaluations);

@@ -106,6 +106,44 @@ fn the_environment_acts_beside_a_law() {
     }
 }
 
+/// Law: arcs much shorter than a step, of another length and order in every lane, beside lanes with longer ones and with nothing that acts: bits are a
+/// run's own, and its record replayed gives them again.
+#[test]
+fn bits_of_brief_arcs_are_a_run_s_own() {
+    let mut scenes = mixed(13, false, HORIZON);
+    for (k, scene) in scenes.iter_mut().enumerate() {
+        // from almost at rest to some rad/s
+        let slower = (-2.0 * (k % 6) as f64).exp2();
+        scene.initial.omega_se_s = scene.initial.omega_se_s.map(|rate| slower * rate);
+        scene.initial.wheel_rates = scene.initial.wheel_rates.map(|rate| slower * rate);
+    }
+    let period = |k: usize| [0.01, 0.02, 0.005, 1.0, 0.04][k % 5];
+    let idle = |k: usize| k % 4 == 3;
+    let single = |k: usize| {
+        let mut law = law(&scenes[k]);
+        ZeroOrderHold::new(period(k), move |time: f64, body: &BodyState, wheels: &WheelState| {
+            if idle(k) { Actuation::none(f64::INFINITY) } else { law.arc(time, body, wheels) }
+        })
+    };
+    for (method, control) in METHODS.into_iter().filter(|(method, _)| matches!(method, Method::Auto | Method::Taylor)) {
+        let settings = settings(method, control, &scenes);
+        let alone = (0..scenes.len()).map(|k| fly_under(&mut vec![single(k)], Isa::best(), &settings, &scenes[k..=k]));
+        let alone: Vec<Flight> = alone.map(|mut flights| flights.remove(0)).collect();
+        for isa in Isa::available() {
+            let mut laws: Vec<_> = (0..scenes.len()).map(single).collect();
+            let together = fly_under(&mut laws, isa, &settings, &scenes);
+            assert!(bits(&together) == bits(&alone), "{} on {}", method.name(), isa.name());
+        }
+        let records: Vec<_> = alone.iter().map(|flight| flight.arcs.clone()).collect();
+        assert!(records.iter().any(|record| record.len() > 600), "{} arcs", records[2].len());
+        let mut replayed = scenes.clone();
+        for (scene, record) in replayed.iter_mut().zip(&records) {
+            scene.schedule = record.clone();
+        }
+        assert!(bits(&fly_schedules(Isa::best(), &settings, &replayed)) == bits(&alone), "{}", method.name());
+    }
+}
+
 /// A law, with a motor torque of its own on some wheels.
 struct Pushing<L>(L, Vec<bool>, f64);
 

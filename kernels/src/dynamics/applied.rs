@@ -32,7 +32,8 @@ pub fn next_arc(
 ///
 /// # Panics
 /// Where the answer ends before it starts: the run would never end.
-fn law_arc(
+#[inline]
+pub fn law_arc(
     scene: &Scene,
     law: &mut dyn ActuationLaw,
     time: f64,
@@ -41,8 +42,10 @@ fn law_arc(
 ) -> Arc {
     let mut applied = law.arc(time, body, wheels);
     assert!(applied.until > time, "a law's arc from {time} s ends at {} s", applied.until);
-    for (index, torque) in applied.motor_torque.iter_mut().enumerate() {
-        if scene.mass.wheels.get(index).is_none_or(|wheel| wheel.mode != WheelMode::Free) {
+    let wheels = scene.mass.wheels.len();
+    applied.motor_torque[wheels..].fill(0.0);
+    for (wheel, torque) in scene.mass.wheels.iter().zip(&mut applied.motor_torque) {
+        if wheel.mode != WheelMode::Free {
             *torque = 0.0;
         }
     }

@@ -2,6 +2,7 @@
 //!
 //! - [`actuation`]: the interface by which a run is asked for its arcs of constant actuation.
 //! - [`applied`]: the arc that a run flies next.
+//! - [`arc_record`]: the arcs that a run has flown.
 //! - [`debris`]: the free body beside the spacecraft.
 //! - [`environment`]: torques of the environment.
 //! - [`gyrostat`]: the reduced form, fast: three rates, an attitude, and further components where a scene needs them.
@@ -9,6 +10,7 @@
 
 pub mod actuation;
 pub mod applied;
+pub mod arc_record;
 pub mod debris;
 pub mod environment;
 pub mod gyrostat;

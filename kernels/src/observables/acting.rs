@@ -1,5 +1,6 @@
 //! [`Acting`]: when anything acts on a run, and how much torque that is at most.
 
+use crate::dynamics::arc_record::ArcRecord;
 use crate::dynamics::environment::with_environment;
 use crate::math::Real;
 use crate::math::vector::dot;
@@ -9,21 +10,27 @@ use crate::scene::{Actuation, Arc, Scene};
 #[derive(Clone, Copy)]
 pub(super) struct Acting<'a> {
     scene: &'a Scene,
-    /// The arcs of the actuators.
-    arcs: &'a [Arc],
-    /// Whether the arcs contain the torque of the environment.
-    has_environment: bool,
+    arcs: Arcs<'a>,
+}
+
+/// The arcs of the actuators.
+#[derive(Clone, Copy)]
+enum Arcs<'a> {
+    /// Those of a schedule, which may have gaps; the environment acts beside them.
+    Scheduled(&'a [Arc]),
+    /// Those flown, without a gap; they contain the torque of the environment.
+    Flown(&'a ArcRecord),
 }
 
 impl<'a> Acting<'a> {
     /// The schedule of `scene` and its environment.
     pub(super) fn scheduled(scene: &'a Scene) -> Self {
-        Acting { scene, arcs: &scene.schedule, has_environment: false }
+        Acting { scene, arcs: Arcs::Scheduled(&scene.schedule) }
     }
 
     /// The arcs that a run of `scene` has flown, which contain its environment.
-    pub(super) fn flown(scene: &'a Scene, arcs: &'a [Arc]) -> Self {
-        Acting { scene, arcs, has_environment: true }
+    pub(super) fn flown(scene: &'a Scene, arcs: &'a ArcRecord) -> Self {
+        Acting { scene, arcs: Arcs::Flown(arcs) }
     }
 
     /// The scene.
@@ -33,38 +40,52 @@ impl<'a> Acting<'a> {
 
     /// The time at which a law has ended the run, s.
     pub(super) fn end(&self) -> Option<f64> {
-        self.arcs.last().filter(|arc| arc.applied.ends_run).map(|arc| arc.start)
+        let last = match self.arcs {
+            Arcs::Scheduled(arcs) => arcs.last(),
+            Arcs::Flown(arcs) => arcs.last(),
+        };
+        last.filter(|arc| arc.applied.ends_run).map(|arc| arc.start)
     }
 
     /// Whether nothing acts in the first `duration` seconds.
     pub(super) fn is_free(&self, duration: f64) -> bool {
-        !self.scene.environment.acts() && self.arcs.iter().all(|arc| arc.start >= duration)
+        match self.arcs {
+            Arcs::Scheduled(arcs) => !self.scene.environment.acts() && arcs.iter().all(|arc| arc.start >= duration),
+            Arcs::Flown(arcs) => arcs.is_empty() || duration <= 0.0,
+        }
     }
 
     /// Whether anything acts at `time`.
     #[inline(always)]
     pub(super) fn acts(&self, time: f64) -> bool {
-        self.scene.environment.acts() || self.arcs.iter().any(|arc| arc.start <= time && time <= arc.end())
+        match self.arcs {
+            Arcs::Scheduled(arcs) => {
+                self.scene.environment.acts() || arcs.iter().any(|arc| arc.start <= time && time <= arc.end())
+            }
+            Arcs::Flown(arcs) => arcs.last().is_some_and(|last| time <= last.end()),
+        }
     }
 
     /// Upper bound of the torque on the body, N m: the magnitudes of thrusters, motors, environment and the arcs' own torque on
     /// the body added.
     #[inline(always)]
     pub(super) fn largest_torque(&self) -> f64 {
-        let environment = if self.has_environment {
-            0.0
-        } else {
-            let torque = with_environment(self.scene, 0.0, Actuation::none(f64::INFINITY)).body_torque;
-            dot(torque, torque).sqrt()
-        };
-        let mut largest = environment;
-        for arc in self.arcs {
-            let applied = &arc.applied;
-            let thrust = self.scene.thruster_torque_s(applied.thrust);
-            let thrust = dot(thrust, thrust).sqrt();
-            let actuators = applied.motor_torque.iter().fold(thrust, |sum, torque| sum + torque.abs()) + environment;
-            largest = largest.larger(actuators + dot(applied.body_torque, applied.body_torque).sqrt());
+        match self.arcs {
+            Arcs::Scheduled(arcs) => {
+                let torque = with_environment(self.scene, 0.0, Actuation::none(f64::INFINITY)).body_torque;
+                let environment = dot(torque, torque).sqrt();
+                arcs.iter().fold(environment, |largest, arc| largest.larger(self.torque(arc, environment)))
+            }
+            Arcs::Flown(arcs) => arcs.iter().fold(0.0, |largest, arc| largest.larger(self.torque(&arc, 0.0))),
         }
-        largest
+    }
+
+    /// That in `arc`, beside `environment`.
+    fn torque(&self, arc: &Arc, environment: f64) -> f64 {
+        let applied = &arc.applied;
+        let thrust = self.scene.thruster_torque_s(applied.thrust);
+        let thrust = dot(thrust, thrust).sqrt();
+        let actuators = applied.motor_torque.iter().fold(thrust, |sum, torque| sum + torque.abs()) + environment;
+        actuators + dot(applied.body_torque, applied.body_torque).sqrt()
     }
 }

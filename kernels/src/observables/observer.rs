@@ -23,10 +23,11 @@ use super::spectrum::Spectrum;
 use super::table::Series;
 use super::weights::Weights;
 use super::window::Window;
+use crate::dynamics::arc_record::ArcRecord;
 use crate::math::Isa;
 use crate::math::isa::Work;
 use crate::run::{Grid, Outcome, StateTable, Status};
-use crate::scene::{Arc, Scene};
+use crate::scene::Scene;
 
 /// Observes runs on one grid; one per worker, reused from run to run without allocating.
 #[derive(Clone, Debug)]
@@ -126,7 +127,7 @@ impl Observer {
     pub fn observe_flown(
         &mut self,
         isa: Isa,
-        (scene, arcs): (&Scene, &[Arc]),
+        (scene, arcs): (&Scene, &ArcRecord),
         table: &StateTable,
         outcome: &Outcome,
         row: &mut [f64],

@@ -1,9 +1,10 @@
 //! [`ArcSource`]: where the runs of a batch get their arcs from, one at a time.
 
 use crate::dynamics::actuation::Laws;
-use crate::dynamics::applied::next_arc;
+use crate::dynamics::applied::law_arc;
 use crate::dynamics::gyrostat::observed::observed_state;
 use crate::dynamics::gyrostat::{Gyrostat, WITH_THRUST};
+use crate::run::Grid;
 use crate::scene::Scene;
 
 /// The arcs of the runs of a batch.
@@ -12,17 +13,19 @@ pub struct ArcSource<'a> {
     scenes: &'a [Scene],
     laws: Laws<'a>,
     duration: f64,
+    /// The observation times of runs under laws, s.
+    times: &'a [f64],
 }
 
 impl<'a> ArcSource<'a> {
-    /// Runs of `scenes` under `laws`, up to `duration` seconds.
-    pub fn new(scenes: &'a [Scene], laws: Laws<'a>, duration: f64) -> Self {
-        ArcSource { scenes, laws, duration }
+    /// Runs of `scenes` under `laws`, observed on `grid`.
+    pub fn new(scenes: &'a [Scene], laws: Laws<'a>, grid: &'a Grid) -> Self {
+        ArcSource { scenes, laws, duration: grid.duration(), times: grid.times() }
     }
 
     /// Runs of bodies on which nothing acts: one arc each.
     pub fn free(duration: f64) -> Self {
-        ArcSource { scenes: &[], laws: Laws::OpenLoop, duration }
+        ArcSource { scenes: &[], laws: Laws::OpenLoop, duration, times: &[] }
     }
 
     /// The end of the last arc, s.
@@ -42,6 +45,7 @@ impl<'a> ArcSource<'a> {
     ///
     /// # Panics
     /// Where a law's answer ends before it starts.
+    #[inline(always)]
     pub fn begin_arc(
         &mut self,
         run: usize,
@@ -57,9 +61,10 @@ impl<'a> ArcSource<'a> {
             // its arcs were prepared before the run
             return gyrostat.begin_scheduled_arc(scene, time, self.duration);
         };
-        let observed = || observed_state(gyrostat, time, &components());
-        let arc = next_arc(scene, Some(law), time, observed, self.duration);
-        gyrostat.begin_arc(scene, arc);
+        let wheels = gyrostat.wheels_at(time);
+        let (body, rates) = observed_state(gyrostat, time, &components(), &wheels);
+        let arc = law_arc(scene, law, time, (&body, &rates), self.duration);
+        gyrostat.begin_flown_arc(scene, arc, wheels, self.times);
         gyrostat.note_rate();
     }
 }

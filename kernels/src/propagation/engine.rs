@@ -1,8 +1,9 @@
 //! [`Engine`]: what every method offers to a worker.
 
 use crate::dynamics::actuation::Laws;
+use crate::dynamics::arc_record::ArcRecord;
 use crate::run::{Outcome, StateTable};
-use crate::scene::{Arc, Scene};
+use crate::scene::Scene;
 
 /// A run that has ended.
 #[derive(Clone, Copy, Debug)]
@@ -15,7 +16,7 @@ pub struct CompletedRun<'a> {
     pub outcome: &'a Outcome,
     /// The arcs that were flown, in order, from time zero without a gap, with the torques of the environment. As the schedule of a scene
     /// without environment they give the same run.
-    pub arcs: &'a [Arc],
+    pub arcs: &'a ArcRecord,
 }
 
 /// Receives a run that has ended.

@@ -8,11 +8,12 @@ use fearless_simd::Simd;
 use super::arc_source::ArcSource;
 use super::engine::{CompletedRun, CompletionCallback};
 use super::settings::{PropagationSettings, observes_debris_rotation};
+use crate::dynamics::arc_record::ArcRecord;
 use crate::dynamics::debris;
 use crate::dynamics::gyrostat::completion::complete;
 use crate::dynamics::gyrostat::{Gyrostat, WITH_ATTITUDE};
 use crate::run::{Grid, Outcome, StateTable, Trajectory};
-use crate::scene::{Arc, Scene};
+use crate::scene::Scene;
 
 /// The runs of a batch in buffers that are reused.
 #[derive(Clone, Debug)]
@@ -31,8 +32,8 @@ pub struct StateCompletion {
     debris_outcomes: Vec<Outcome>,
     debris_is_integrated: bool,
     table: StateTable,
-    /// The arcs of the run that has just ended.
-    arcs: Vec<Arc>,
+    /// The arcs of the run that has just ended, where it followed a schedule.
+    arcs: ArcRecord,
 }
 
 impl GyrostatBatch {
@@ -48,7 +49,7 @@ impl GyrostatBatch {
                 debris_outcomes: Vec::new(),
                 debris_is_integrated: false,
                 table: StateTable::new(plan.fields, plan.wheels, plan.grid.points()),
-                arcs: Vec::new(),
+                arcs: ArcRecord::default(),
             },
         }
     }
@@ -114,10 +115,15 @@ impl StateCompletion {
         finish: &mut CompletionCallback<'_>,
     ) {
         self.fill_table(simd, &scenes[index], index, run, trajectory);
-        self.arcs.clear();
-        self.arcs.extend(run.arcs.iter().map(|arc| arc.arc));
+        let arcs = if run.flown.is_empty() {
+            self.arcs.clear();
+            self.arcs.extend(run.arcs.iter().map(|arc| arc.arc));
+            &self.arcs
+        } else {
+            &run.flown
+        };
         let outcome = self.with_debris(outcome, &scenes[index], index);
-        finish(CompletedRun { index, table: &self.table, outcome: &outcome, arcs: &self.arcs });
+        finish(CompletedRun { index, table: &self.table, outcome: &outcome, arcs });
     }
 
     /// The outcome of run `index` with its debris: the run ends where the first of both bodies does.

@@ -8,10 +8,11 @@ use super::null_space_runs::NullSpaceRuns;
 use super::settings::PropagationSettings;
 use super::trajectory_recorder::{LaneTrajectory, TrajectoryRecorder};
 use crate::dynamics::actuation::Laws;
+use crate::dynamics::arc_record::ArcRecord;
 use crate::dynamics::null_space::{complete, components};
 use crate::ode::{Adaptive, DormandPrinceRestepped, LaneMethod, integrate};
 use crate::run::{LocalErrors, Outcome, StateField, StateTable, Trajectory};
-use crate::scene::{Arc, MAX_WHEELS, Scene};
+use crate::scene::{MAX_WHEELS, Scene};
 
 /// The method: points inside a step by a step of their own, which costs little beside the right-hand side.
 type Pair = Adaptive<DormandPrinceRestepped>;
@@ -27,7 +28,7 @@ pub struct NullSpaceEngine<S, const W: usize, const N: usize> {
     settings: PropagationSettings,
     lanes: Vec<LaneTrajectory>,
     table: StateTable,
-    arcs: Vec<Arc>,
+    arcs: ArcRecord,
 }
 
 impl<S: Simd, const W: usize, const N: usize> NullSpaceEngine<S, W, N> {
@@ -39,7 +40,7 @@ impl<S: Simd, const W: usize, const N: usize> NullSpaceEngine<S, W, N> {
             settings: settings.clone(),
             lanes: LaneTrajectory::for_lanes(1, N, points),
             table: StateTable::new(settings.fields, settings.wheels, points),
-            arcs: Vec::new(),
+            arcs: ArcRecord::default(),
         }
     }
 

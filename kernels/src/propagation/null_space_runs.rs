@@ -2,9 +2,10 @@
 
 use crate::dynamics::actuation::Laws;
 use crate::dynamics::applied::next_arc;
+use crate::dynamics::arc_record::ArcRecord;
 use crate::dynamics::null_space::{Kernel, State, observed_state, sigma};
 use crate::ode::{Runs, System, Tolerance};
-use crate::scene::{Arc, Scene};
+use crate::scene::Scene;
 
 /// Runs of the null-space formulation for the scenes of a batch, each of at most `W` wheels; `f64`, one lane.
 pub struct NullSpaceRuns<'a, const W: usize> {
@@ -15,7 +16,7 @@ pub struct NullSpaceRuns<'a, const W: usize> {
     kernel: Kernel<W>,
     /// The attitude quaternion at the start of the arc: the next one has the nearer sign.
     q_es: [f64; 4],
-    arcs: Vec<Arc>,
+    arcs: ArcRecord,
 }
 
 impl<'a, const W: usize> NullSpaceRuns<'a, W> {
@@ -32,23 +33,23 @@ impl<'a, const W: usize> NullSpaceRuns<'a, W> {
             run: 0,
             kernel,
             q_es: [1.0, 0.0, 0.0, 0.0],
-            arcs: Vec::new(),
+            arcs: ArcRecord::default(),
         }
     }
 
     /// The same runs under `laws`, their arcs recorded in the memory of `arcs`.
     #[must_use]
-    pub fn under(self, laws: Laws<'a>, arcs: Vec<Arc>) -> Self {
+    pub fn under(self, laws: Laws<'a>, arcs: ArcRecord) -> Self {
         NullSpaceRuns { laws, arcs, ..self }
     }
 
     /// The arcs of the run in the lane, so far.
-    pub fn arcs(&self) -> &[Arc] {
+    pub fn arcs(&self) -> &ArcRecord {
         &self.arcs
     }
 
     /// Gives the memory of the arcs back.
-    pub fn into_arcs(self) -> Vec<Arc> {
+    pub fn into_arcs(self) -> ArcRecord {
         self.arcs
     }
 }
@@ -100,7 +101,7 @@ impl<const W: usize, const N: usize> Runs<f64, N> for NullSpaceRuns<'_, W> {
         };
         let arc = next_arc(scene, self.laws.of(self.run), time, observed, self.duration);
         self.kernel.drive(&arc.applied);
-        self.arcs.push(arc);
+        self.arcs.push(&arc);
         Some(arc.end())
     }
 }

@@ -66,7 +66,7 @@ impl<S: Simd, R: Real, M: LaneMethod, const N: usize> RungeKuttaEngine<S, R, M, 
                     errors_of(remainders, runs.run(index), trajectory, (grid, threshold), outcome);
             });
         }
-        let arcs = ArcSource::new(scenes, laws.reborrow(), duration);
+        let arcs = ArcSource::new(scenes, laws.reborrow(), grid);
         let (runs, completion) = batch.load(scenes, &arcs);
         let mut runs = GyrostatRuns::new(*zero, runs, arcs);
         integrate(&mut runs, &mut |runs, index, trajectory, outcome| {

@@ -69,8 +69,7 @@ impl<R: Real> Constants<R> {
     #[inline(always)]
     pub fn set_arc(&mut self, lane: usize, run: &Gyrostat<f64>, arc: usize, unit: f64) {
         let arc = &run.arcs[arc];
-        let momentum = run.wheel_momentum_b(arc);
-        let rate = run.motor_torque_b(arc);
+        let (momentum, rate) = (arc.momentum_b, arc.motor_torque_b);
         for i in 0..3 {
             self.momentum[i].set_lane(lane, momentum[i] * unit);
             self.momentum_rate[i].set_lane(lane, rate[i] * unit * unit);
@@ -102,8 +101,8 @@ impl<R: Real> Constants<R> {
         }
         constants.velocity = scaled(unit, run.v_co_e);
         constants.inverse_mass = one / run.mass;
-        constants.momentum = scaled(unit, run.wheel_momentum_b(arc));
-        constants.momentum_rate = scaled(unit2, run.motor_torque_b(arc));
+        constants.momentum = scaled(unit, arc.momentum_b);
+        constants.momentum_rate = scaled(unit2, arc.motor_torque_b);
         constants.torque = scaled(unit2, arc.torque_b);
         constants.force = scaled(unit2, arc.force_b);
         constants.motor_power = power * unit2 * unit;

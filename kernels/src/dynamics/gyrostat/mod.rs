@@ -35,6 +35,7 @@ mod time_scale;
 pub mod wheel;
 
 use crate::dynamics::applied::scheduled_arc;
+use crate::dynamics::arc_record::ArcRecord;
 use crate::math::Real;
 use crate::math::symmetric::principal_axes;
 use crate::math::vector::{
@@ -82,6 +83,10 @@ pub struct GyrostatArc<R> {
     pub torque_b: [R; 3],
     /// The wheels at the start, as many as the run has; zero beyond.
     pub wheels: [WheelMotion<R>; MAX_WHEELS],
+    /// The wheels' momenta beside K omega at the start as one vector, B, N m s.
+    pub momentum_b: [R; 3],
+    /// The motor torques on the wheels as one vector, B, N m.
+    pub motor_torque_b: [R; 3],
 }
 
 /// One run of the gyrostat: constants in the principal frame B of K, the initial state and the arcs flown so far.
@@ -105,8 +110,13 @@ pub struct Gyrostat<R> {
     pub r_co_e: [R; 3],
     /// Velocity of c at time zero, m/s.
     pub v_co_e: [R; 3],
-    /// The arcs flown so far, which cover the time from zero to the end of the last without a gap.
+    /// The arcs flown so far, which cover the time from zero to the end of the last without a gap; under a law only those with observation
+    /// points, and the last.
     pub arcs: Vec<GyrostatArc<R>>,
+    /// All arcs flown under a law.
+    pub flown: ArcRecord,
+    /// Under a law, the number of observation points up to the start of the last arc.
+    passed: usize,
     /// All arcs of the schedule, where it was laid out for the time scale: they need not be computed again.
     scheduled: Vec<GyrostatArc<R>>,
     /// Largest rate of the run's motion so far known, rad/s, from which [`Gyrostat::time_unit`] follows.
@@ -136,6 +146,8 @@ impl<R: Real> Gyrostat<R> {
             r_co_e: z3,
             v_co_e: z3,
             arcs: Vec::new(),
+            flown: ArcRecord::default(),
+            passed: 0,
             scheduled: Vec::new(),
             rate: 0.0,
         }
@@ -182,6 +194,8 @@ impl<R: Real> Gyrostat<R> {
         self.q_eb = q_eb;
         self.rate = time_scale::largest(omega_b);
         self.arcs.clear();
+        self.flown.clear();
+        self.passed = 0;
         self.scheduled.clear();
     }
 
@@ -211,6 +225,33 @@ impl<R: Real> Gyrostat<R> {
 
     /// Starts the next arc of a run of `scene`.
     pub fn begin_arc(&mut self, scene: &Scene, arc: Arc) {
+        let wheels = self.wheels_at(arc.start);
+        let arc = self.arc_from(scene, arc, wheels);
+        self.arcs.push(arc);
+    }
+
+    /// Starts the next arc of a run of `scene` under a law, observed at `times`; `wheels` are its wheels there.
+    #[inline(always)]
+    pub fn begin_flown_arc(&mut self, scene: &Scene, arc: Arc, wheels: [WheelMotion<R>; MAX_WHEELS], times: &[f64]) {
+        self.flown.push(&arc);
+        let next = self.arc_from(scene, arc, wheels);
+        let before = self.passed;
+        if let Some(last) = self.arcs.last_mut() {
+            while times.get(self.passed).is_some_and(|time| *time <= arc.start) {
+                self.passed += 1;
+            }
+            if self.passed == before {
+                // nobody asks for the last one any more
+                *last = next;
+                return;
+            }
+        }
+        self.arcs.push(next);
+    }
+
+    /// `arc` of a run of `scene`, at whose start its wheels are `wheels`.
+    #[inline(always)]
+    fn arc_from(&self, scene: &Scene, arc: Arc, wheels: [WheelMotion<R>; MAX_WHEELS]) -> GyrostatArc<R> {
         let zero = self.mass.zero();
         let applied = &arc.applied;
         let mut torque_s = scene.thruster_torque_s(applied.thrust);
@@ -218,12 +259,14 @@ impl<R: Real> Gyrostat<R> {
             // apart from the common case, in which a sum with zero could still turn -0 into 0
             torque_s = sum(torque_s, applied.body_torque);
         }
-        self.arcs.push(GyrostatArc {
+        GyrostatArc {
             force_b: self.into_b(constant(zero, scene.thruster_force_s(applied.thrust))),
             torque_b: self.into_b(constant(zero, torque_s)),
             arc,
-            wheels: self.wheels_at(arc.start),
-        });
+            momentum_b: self.along_axes_b(|index| wheels[index].momentum),
+            motor_torque_b: self.along_axes_b(|index| zero.splat(applied.motor_torque[index])),
+            wheels,
+        }
     }
 
     /// Starts an arc without any actuation until `end`, for a body without actuators.
@@ -231,7 +274,9 @@ impl<R: Real> Gyrostat<R> {
         let zero = [self.mass.zero(); 3];
         let start = self.arcs.last().map_or(0.0, |last| last.arc.end());
         let arc = Arc { start, applied: Actuation::none(end) };
-        self.arcs.push(GyrostatArc { arc, force_b: zero, torque_b: zero, wheels: self.wheels_at(start) });
+        let wheels = self.wheels_at(start);
+        let momentum_b = self.along_axes_b(|index| wheels[index].momentum);
+        self.arcs.push(GyrostatArc { arc, force_b: zero, torque_b: zero, wheels, momentum_b, motor_torque_b: zero });
     }
 
     /// Starts all arcs of the schedule of `scene` up to `duration` seconds.
@@ -246,11 +291,13 @@ impl<R: Real> Gyrostat<R> {
     }
 
     /// The motions of the wheels at `time` in the last arc (or zero before the first); zero beyond the wheels of the run.
+    #[inline(always)]
     pub fn wheels_at(&self, time: f64) -> [WheelMotion<R>; MAX_WHEELS] {
         let zero = self.mass.zero();
         let mut motions = [WheelMotion { momentum: zero, turn: zero }; MAX_WHEELS];
-        for (index, (wheel, motion)) in self.wheels.iter().zip(&mut motions).enumerate() {
-            *motion = match self.arcs.last() {
+        let last = self.arcs.last();
+        for (index, wheel) in self.wheels.iter().enumerate() {
+            motions[index] = match last {
                 Some(last) => self.wheel_at(last, index, time),
                 None => wheel.start(),
             };
@@ -286,42 +333,37 @@ impl<R: Real> Gyrostat<R> {
     }
 
     /// Sum of tau_i h_i/J_i at the start of `arc`, W, and its rate, W/s.
+    #[inline(always)]
     pub fn motor_power(&self, arc: &GyrostatArc<R>) -> [R; 2] {
         let zero = self.mass.zero();
-        let motions = self.wheels.iter().zip(&arc.wheels).zip(&arc.arc.applied.motor_torque);
-        let of = |((wheel, motion), torque): ((&GyrostatWheel<R>, &WheelMotion<R>), &f64)| {
-            let torque = zero.splat(*torque);
+        let mut total = [zero; 2];
+        for (index, wheel) in self.wheels.iter().enumerate() {
+            let torque = zero.splat(arc.arc.applied.motor_torque[index]);
             let per_momentum = torque * wheel.inverse_axial;
-            [per_momentum * motion.momentum, per_momentum * torque]
-        };
-        motions.map(of).reduce(|a, b| [a[0] + b[0], a[1] + b[1]]).unwrap_or([zero; 2])
+            let own = [per_momentum * arc.wheels[index].momentum, per_momentum * torque];
+            // the first as it is: a sum with zero would turn -0 into 0
+            total = if index == 0 { own } else { [total[0] + own[0], total[1] + own[1]] };
+        }
+        total
     }
 
     /// The sum of m_i a_i over the wheels, in B, for a number of each wheel: its momentum, N m s, or its torque, N m.
     #[inline(always)]
-    pub fn along_axes_b(&self, numbers: impl Iterator<Item = R>) -> [R; 3] {
-        let zero = self.mass.zero();
-        self.wheels.iter().zip(numbers).map(|(wheel, m)| scaled(m, wheel.axis_b)).reduce(sum).unwrap_or([zero; 3])
-    }
-
-    /// The wheels' momenta beside K omega at the start of `arc` as one vector in B, N m s.
-    #[inline(always)]
-    pub fn wheel_momentum_b(&self, arc: &GyrostatArc<R>) -> [R; 3] {
-        self.along_axes_b(arc.wheels.iter().map(|wheel| wheel.momentum))
-    }
-
-    /// The motor torques of `arc` on the wheels as one vector in B, N m.
-    #[inline(always)]
-    pub fn motor_torque_b(&self, arc: &GyrostatArc<R>) -> [R; 3] {
-        let zero = self.mass.zero();
-        self.along_axes_b(arc.arc.applied.motor_torque.iter().map(|torque| zero.splat(*torque)))
+    fn along_axes_b(&self, number: impl Fn(usize) -> R) -> [R; 3] {
+        let mut total = [self.mass.zero(); 3];
+        for (index, wheel) in self.wheels.iter().enumerate() {
+            let own = scaled(number(index), wheel.axis_b);
+            // the first as it is: a sum with zero would turn -0 into 0
+            total = if index == 0 { own } else { sum(total, own) };
+        }
+        total
     }
 
     /// Prepares the time scale of a run that will fly the schedule of `scene`, which is known before it starts.
     pub fn expect_schedule(&mut self, scene: &Scene, duration: f64) {
         if scene.schedule.is_empty() && !scene.environment.acts() {
             // one arc without torque: no need to lay it out for its rate
-            let momentum_b = self.along_axes_b(self.wheels.iter().map(|wheel| wheel.momentum));
+            let momentum_b = self.along_axes_b(|index| self.wheels[index].momentum);
             self.rate = self.rate.max(time_scale::rate_of_momentum(self.moments, momentum_b));
             return;
         }
@@ -338,10 +380,11 @@ impl<R: Real> Gyrostat<R> {
     }
 
     /// Takes the last arc into account in the time scale, for a run whose arcs are not known before it starts.
+    #[inline(always)]
     pub fn note_rate(&mut self) {
         if let Some(last) = self.arcs.last() {
-            let rate = time_scale::rate_of_momentum(self.moments, self.wheel_momentum_b(last));
-            let torque = time_scale::rate_of_torques(self.moments, [last.torque_b, self.motor_torque_b(last)]);
+            let rate = time_scale::rate_of_momentum(self.moments, last.momentum_b);
+            let torque = time_scale::rate_of_torques(self.moments, [last.torque_b, last.motor_torque_b]);
             self.rate = self.rate.max(rate.max(torque));
         }
     }

@@ -1,13 +1,22 @@
 //! [`observed_state`]: the state of a gyrostat that an actuation law sees.
 
+use super::wheel::WheelMotion;
 use super::{ANGLE, ATTITUDE, Gyrostat, IMPULSE, IMPULSE_INTEGRAL, OMEGA, WITH_THRUST};
 use crate::dynamics::actuation::{BodyState, WheelState};
 use crate::math::Real;
 use crate::math::vector::{conjugate, hamilton, product, scaled, sum};
+use crate::scene::MAX_WHEELS;
 
 /// The state of `run` at `time`, the end of its last arc (or zero before the first), from the integrated components there, SI, in the
 /// order of the indices of the parent module.
-pub fn observed_state<R: Real>(run: &Gyrostat<R>, time: f64, components: &[R; WITH_THRUST]) -> (BodyState, WheelState) {
+/// `motions` are those of the wheels there.
+#[inline(always)]
+pub fn observed_state<R: Real>(
+    run: &Gyrostat<R>,
+    time: f64,
+    components: &[R; WITH_THRUST],
+    motions: &[WheelMotion<R>; MAX_WHEELS],
+) -> (BodyState, WheelState) {
     let three = |first: usize| [components[first], components[first + 1], components[first + 2]];
     let (omega_b, turned_b) = (three(OMEGA), three(ANGLE));
     let [x, y, z] = three(ATTITUDE + 1);
@@ -26,7 +35,8 @@ pub fn observed_state<R: Real>(run: &Gyrostat<R>, time: f64, components: &[R; WI
         v_co_e: first_lane(sum(run.v_co_e, scaled(inverse_mass, three(IMPULSE)))),
     };
     let mut wheels = WheelState::AT_REST;
-    for (i, (wheel, motion)) in run.wheels.iter().zip(run.wheels_at(time)).enumerate() {
+    for (i, wheel) in run.wheels.iter().enumerate() {
+        let motion = &motions[i];
         wheels.rates[i] = wheel.rate(motion.momentum, omega_b).lane(0);
         wheels.momenta[i] = wheel.absolute_momentum(motion.momentum, omega_b).lane(0);
         wheels.angles[i] = wheel.angle(now, motion.turn, turned_b).lane(0);
@@ -35,6 +45,11 @@ pub fn observed_state<R: Real>(run: &Gyrostat<R>, time: f64, components: &[R; WI
 }
 
 /// The components rounded to `f64`.
+#[inline(always)]
 fn first_lane<R: Real, const K: usize>(v: [R; K]) -> [f64; K] {
-    v.map(|component| component.lane(0))
+    let mut values = [0.0; K];
+    for (value, component) in values.iter_mut().zip(&v) {
+        *value = component.lane(0);
+    }
+    values
 }

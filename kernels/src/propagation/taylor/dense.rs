@@ -5,7 +5,9 @@
     reason = "components are numbered alike in several arrays; a copy by slices leaves the registers"
 )]
 
-use crate::math::Real;
+use fearless_simd::Simd;
+
+use crate::math::{Lanes, Real};
 
 /// The series of one step in lanes, and when it began: time since the start of the arc as an unevaluated sum.
 #[derive(Clone, Debug)]
@@ -82,4 +84,55 @@ pub fn value_at<R: Real, const J: usize>(jet: &[[R; J]], component: usize, lane:
         sum = sum.mul_add(x, jet[n][component].lane(lane));
     }
     sum
+}
+
+/// All components of the series in lane `lane`, each at eight times of this one lane in each of the `U` vectors `x`: a coefficient is broadcast from where
+/// it is among those of the other lanes. The operations are those of [`values`].
+#[inline(always)]
+pub fn values_in_lane<S: Simd, R: Real, const J: usize, const U: usize>(
+    jet: &[[R; J]],
+    lane: usize,
+    x: [Lanes<S>; U],
+) -> [[Lanes<S>; J]; U] {
+    let mut all = [[x[0]; J]; U];
+    group_in_lane::<S, R, J, 3, U>(jet, lane, 0, x, &mut all);
+    if J > 3 {
+        group_in_lane::<S, R, J, 4, U>(jet, lane, 3, x, &mut all);
+    }
+    if J > 7 {
+        group_in_lane::<S, R, J, 3, U>(jet, lane, 7, x, &mut all);
+    }
+    all
+}
+
+/// Horner's scheme for `G` components from `first` on.
+#[inline(always)]
+fn group_in_lane<S: Simd, R: Real, const J: usize, const G: usize, const U: usize>(
+    jet: &[[R; J]],
+    lane: usize,
+    first: usize,
+    x: [Lanes<S>; U],
+    all: &mut [[Lanes<S>; J]; U],
+) {
+    let Some((last, lower)) = jet.split_last() else { return };
+    let mut sums = [[x[0]; G]; U];
+    for i in 0..G {
+        let coefficient = Lanes::broadcast(x[0].simd(), last[first + i].lane(lane));
+        for u in 0..U {
+            sums[u][i] = coefficient;
+        }
+    }
+    for coefficients in lower.iter().rev() {
+        for i in 0..G {
+            let coefficient = Lanes::broadcast(x[0].simd(), coefficients[first + i].lane(lane));
+            for u in 0..U {
+                sums[u][i] = sums[u][i].mul_add(x[u], coefficient);
+            }
+        }
+    }
+    for u in 0..U {
+        for i in 0..G {
+            all[u][first + i] = sums[u][i];
+        }
+    }
 }

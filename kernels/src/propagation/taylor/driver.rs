@@ -33,8 +33,8 @@ pub fn integrate<'a, S: Simd, R: Real, const N: usize, const J: usize, const FOR
     workspace: &'a mut Workspace<R, J>,
     finish: &mut RunCallback<'_>,
 ) {
-    let lanes = RunLanes::new(zero, runs, arcs, grid, workspace);
-    let mut driver = Driver::<S, R, N, J, FORCED> { simd, lanes };
+    let lanes = RunLanes::new((simd, zero), runs, arcs, grid, workspace);
+    let mut driver = Driver::<S, R, N, J, FORCED> { lanes };
     for lane in 0..R::LANES {
         driver.lanes.load_lane(lane);
     }
@@ -45,14 +45,14 @@ pub fn integrate<'a, S: Simd, R: Real, const N: usize, const J: usize, const FOR
 
 /// Steps the lanes and decides what happens to them.
 struct Driver<'a, S, R, const N: usize, const J: usize, const FORCED: bool> {
-    simd: S,
-    lanes: RunLanes<'a, R, N, J>,
+    lanes: RunLanes<'a, S, R, N, J>,
 }
 
 impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> Driver<'_, S, R, N, J, FORCED> {
     /// One step of every lane.
     #[inline(always)]
     fn step(&mut self, finish: &mut RunCallback<'_>) {
+        let has_begun = FORCED && core::mem::take(&mut self.lanes.has_begun);
         let RunLanes { vectors, work, truncation, .. } = &mut self.lanes;
         let zero = vectors.time.zero();
         let infinite = zero.splat(f64::INFINITY);
@@ -70,12 +70,32 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> Drive
         }
         segment.start = vectors.time;
         segment.start_low = vectors.time_low;
-        let order = work.rule.order;
+        let full = work.rule.order;
+        let brief = if has_begun {
+            let omega = [begin[0], begin[1], begin[2]];
+            work.brief.orders(&constants, omega, (vectors.length, vectors.time, vectors.may_be_brief))
+        } else {
+            None
+        };
+        let order = brief.as_ref().map_or(full, |brief| brief.most);
         expand::<R, J, FORCED>(&constants, &work.reciprocals, order, &mut work.scratch, &mut segment.jet);
-        let proposed = work.rule.step(&segment.jet, if FORCED { Some(constants.torque_acceleration()) } else { None });
         let left = (vectors.length - vectors.time) - vectors.time_low;
-        let length = R::select(left.lt(proposed), left, proposed);
-        truncation.add(&segment.jet, length);
+        let mut length = zero;
+        if order == full {
+            let alpha = if FORCED { Some(constants.torque_acceleration()) } else { None };
+            let proposed = work.rule.step(&segment.jet, alpha);
+            length = R::select(left.lt(proposed), left, proposed);
+        }
+        if let Some(brief) = &brief {
+            brief.truncate(&mut segment.jet);
+            if brief.is_mixed(full) {
+                truncation.add(&segment.jet, R::select(brief.lanes, zero, length));
+            }
+            length = R::select(brief.lanes, left, length);
+            truncation.add_brief(&segment.jet, length, brief);
+        } else {
+            truncation.add(&segment.jet, length);
+        }
         // the increment first, then the state with its carry
         let [slope] = values(&segment.jet[1..=order], [length]);
         for i in 0..J {
@@ -84,7 +104,7 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> Drive
         }
         if FORCED {
             let turned = [slope[ANGLE] * length, slope[ANGLE + 1] * length, slope[ANGLE + 2] * length];
-            let growth = work.quadrature.growth(&constants, &segment.jet, &begin, turned, length);
+            let growth = work.quadrature.growth(&constants, &segment.jet[..=order], &begin, turned, length);
             for i in J..N {
                 (vectors.state[i], vectors.state_low[i]) = two_sum(vectors.state[i], growth[i] + vectors.state_low[i]);
             }
@@ -100,7 +120,7 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> Drive
         let continues = zero.lt(left);
         let covered = R::select(finite, R::select(continues, time, infinite), -infinite);
         while self.lanes.vectors.next_point.lt(covered).any() {
-            self.observe(&constants, &begin, covered);
+            self.observe(&constants, (&begin, order), covered);
         }
 
         let back = self.lanes.detector.passes(omega);
@@ -113,11 +133,11 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> Drive
 
     /// Evaluates the next observation point of every lane that has one before `covered`.
     #[inline(always)]
-    fn observe(&mut self, constants: &Constants<R>, begin: &[R; N], covered: R) {
+    fn observe(&mut self, constants: &Constants<R>, (begin, order): (&[R; N], usize), covered: R) {
         let RunLanes { vectors, work, .. } = &mut self.lanes;
         let due = vectors.next_point.lt(covered);
         let (segment, quadrature) = (work.ring.last(), &work.quadrature);
-        let series = StepSeries { segment, quadrature, constants, begin, per_unit: vectors.per_unit };
+        let series = StepSeries { segment, order, quadrature, constants, begin, per_unit: vectors.per_unit };
         let rows = series.components::<FORCED>(vectors.next_point, due);
         self.lanes.write_points(&rows, due);
     }
@@ -125,7 +145,7 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> Drive
     /// Examines the lanes to which something happened: those that are not `calm`, and all of them at an alarm.
     #[inline(never)]
     fn examine(&mut self, calm: R::Mask, back: R::Mask, length: R, finish: &mut RunCallback<'_>) {
-        self.simd.vectorize(
+        self.lanes.simd.vectorize(
             #[inline(always)]
             || self.examine_lanes(calm, back, length, finish),
         );
@@ -221,12 +241,11 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> Drive
     /// Evaluates all points of the arcs in the lanes that wait, and lets those lanes continue.
     #[inline(never)]
     fn fold(&mut self, finish: &mut RunCallback<'_>) {
-        let simd = self.simd;
+        let simd = self.lanes.simd;
         let RunLanes { states, grid, work, vectors, .. } = &mut self.lanes;
         let folded = folded_lanes(states, grid);
         let Workspace { ring, folds, trajectories, .. } = &mut **work;
-        let zero = vectors.time.zero();
-        let mut folding = PeriodFolding::<S, R, J> { simd, zero, grid, ring, folds, trajectories };
+        let mut folding = PeriodFolding::<S, R, J> { simd, grid, ring, folds, trajectories };
         folding.evaluate(&folded);
         for share in folded.iter().flatten() {
             if N > J {

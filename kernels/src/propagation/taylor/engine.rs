@@ -62,7 +62,7 @@ impl<S: Simd, R: Real + Send + 'static, const N: usize, const J: usize, const FO
                 },
             );
         }
-        let arcs = ArcSource::new(scenes, laws.reborrow(), grid.duration());
+        let arcs = ArcSource::new(scenes, laws.reborrow(), grid);
         let (runs, completion) = batch.load(scenes, &arcs);
         integrate_on::<S, R, N, J, FORCED>(
             *simd,

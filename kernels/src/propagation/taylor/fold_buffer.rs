@@ -1,63 +1,66 @@
-//! [`FoldBuffer`]: the folded observation points of several lanes, sorted by series and evaluated together.
-#![expect(clippy::needless_range_loop, reason = "components are numbered alike in several arrays")]
+//! [`FoldBuffer`]: the folded observation points of several lanes, sorted by series and evaluated.
 
-use super::dense::{Segment, values};
+use fearless_simd::Simd;
+
+use super::dense::{Segment, values_in_lane};
 use super::series_ring::LARGEST;
-use crate::math::Real;
-use crate::math::lanes::{WIDEST, WIDTH};
+use crate::math::lanes::WIDTH;
+use crate::math::{Lanes, Real};
 
 /// Observation points of the runs in the lanes that wait with a known period: the time of each within the period, and
-/// the components there. Rows are per lane or per vector, as documented.
+/// the components there. Rows are per lane.
 #[derive(Clone, Debug)]
 pub struct FoldBuffer {
-    /// Points of a lane with padding: the length of a row of `rest`, `whole`, `segment`, `vector`.
+    /// Points of a lane with padding: the length of a row of `rest`, `whole`, `segment`, `place`.
     pub stride: usize,
-    /// Largest number of vectors of `x` and `values`.
-    pub capacity: usize,
-    /// Time since the start of the arc minus whole periods, a row per lane.
+    /// The length of a row of `x`: the points of each series are padded to whole vectors.
+    capacity: usize,
+    /// How many places of it each lane uses: the length of a component in a row of `values`.
+    used: Vec<usize>,
+    /// Time since the start of the arc minus whole periods.
     pub rest: Vec<f64>,
-    /// Whole periods before each point, a row per lane.
+    /// Whole periods before each point.
     pub whole: Vec<f64>,
-    /// The series of a point, counted from the oldest of all lanes, a row per lane.
+    /// The series of a point, counted from the oldest of all lanes.
     pub segment: Vec<u32>,
-    /// The vector of `values` with a point (before numbering: its number within its series), a row per lane.
-    pub vector: Vec<u32>,
+    /// The place of a point in `x` and `values` (before [`FoldBuffer::sort`]: its number within its series).
+    pub place: Vec<u32>,
     /// Points of a lane in a series, series by series.
     pub count: Vec<u32>,
-    /// First vector of each series.
-    pub first: Vec<u32>,
+    /// First place of each series.
+    first: Vec<u32>,
     /// Starts of the series, high and low part, series by series.
     pub start: [Vec<f64>; 2],
-    /// Time since the start of the series, vector by vector.
-    pub x: Vec<f64>,
-    /// Components, lane by lane, vector by vector.
-    pub values: Vec<f64>,
+    /// Time since the start of the series.
+    x: Vec<f64>,
+    /// Components, one after another.
+    values: Vec<f64>,
 }
+
+/// Most series of all lanes together.
+const SERIES: usize = 2 * LARGEST;
 
 impl FoldBuffer {
     /// Memory for `lanes` lanes of `components` components at `points` points.
     pub fn new(lanes: usize, components: usize, points: usize) -> Self {
         let stride = points.next_multiple_of(WIDTH) + WIDTH;
-        // one lane alone never needs more than a vector a point
-        let capacity = 2 * points + 64;
-        let series = 2 * LARGEST;
+        let capacity = stride + LARGEST * WIDTH;
         FoldBuffer {
             stride,
             capacity,
+            used: vec![0; lanes],
             rest: vec![0.0; lanes * stride],
             whole: vec![0.0; lanes * stride],
             segment: vec![0; lanes * stride],
-            vector: vec![0; lanes * stride],
-            count: vec![0; lanes * series],
-            first: vec![0; series + 1],
-            start: [vec![0.0; lanes * series], vec![0.0; lanes * series]],
+            place: vec![0; lanes * stride],
+            count: vec![0; lanes * SERIES],
+            first: vec![0; lanes * (SERIES + 1)],
+            start: [vec![0.0; lanes * SERIES], vec![0.0; lanes * SERIES]],
             x: vec![0.0; lanes * capacity],
             values: vec![0.0; lanes * capacity * components],
         }
     }
-}
 
-impl FoldBuffer {
     /// Notes when `series` series start, and clears all counts.
     #[inline(always)]
     pub(super) fn note_starts<'a, R: Real + 'a, const J: usize>(
@@ -73,69 +76,84 @@ impl FoldBuffer {
         self.count[..series * R::LANES].fill(0);
     }
 
-    /// Numbers the vectors: as many for a series as the lane with the most points in it has. `None` where they exceed the capacity.
+    /// Gives the `points` points of `lane`, whose series are numbered `series`, their places: those of a series are adjacent.
     #[inline(always)]
-    pub(super) fn number_vectors<R: Real>(&mut self, series: usize) -> Option<usize> {
-        let mut vectors = 0;
-        for number in 0..series {
-            self.first[number] = vectors as u32;
-            let counts = &self.count[number * R::LANES..(number + 1) * R::LANES];
-            let mut most = 0;
-            for count in counts {
-                most = if *count > most { *count } else { most };
-            }
-            vectors += most as usize;
+    pub(super) fn sort<R: Real>(&mut self, lane: usize, points: usize, series: core::ops::Range<usize>) {
+        let first = &mut self.first[lane * (SERIES + 1)..];
+        let mut next = 0;
+        for number in series.clone() {
+            first[number] = next;
+            next += self.count[number * R::LANES + lane].next_multiple_of(WIDTH as u32);
         }
-        self.first[series] = vectors as u32;
-        (vectors <= self.capacity).then_some(vectors)
-    }
-
-    /// Puts the points of `lane` into their vectors.
-    #[inline(always)]
-    pub(super) fn assign_points<R: Real>(&mut self, lane: usize, points: usize) {
-        let range = lane * self.stride..lane * self.stride + points;
+        first[series.end] = next;
+        self.used[lane] = next as usize;
         // slices: the compiler then knows that a store does not change them
-        let (first, x) = (self.first.as_slice(), self.x.as_mut_slice());
+        let first = &first[..=series.end];
+        let x = &mut self.x[lane * self.capacity..][..next as usize];
+        x.fill(0.0);
         let (start, start_low) = (&self.start[0][lane..], &self.start[1][lane..]);
-        let entries = self.vector[range.clone()].iter_mut().zip(&self.segment[range.clone()]).zip(&self.rest[range]);
-        for ((vector, number), rest) in entries {
+        let range = lane * self.stride..lane * self.stride + points;
+        let entries = self.place[range.clone()].iter_mut().zip(&self.segment[range.clone()]).zip(&self.rest[range]);
+        for ((place, number), rest) in entries {
             let number = *number as usize;
-            let index = (first[number] + *vector) as usize;
-            x[index * R::LANES + lane] = (rest - start[number * R::LANES]) - start_low[number * R::LANES];
-            *vector = index as u32;
+            *place += first[number];
+            x[*place as usize] = (rest - start[number * R::LANES]) - start_low[number * R::LANES];
         }
     }
 
-    /// Evaluates series `number`, which is `jet`, at its vectors of points, two at a time.
+    /// Evaluates series `number` of `lane`, which is `jet`, at its points: eight are a vector, two vectors share a coefficient.
     #[inline(always)]
-    pub(super) fn evaluate<R: Real, const J: usize>(&mut self, zero: R, number: usize, jet: &[[R; J]]) {
-        let (mut vector, end) = (self.first[number] as usize, self.first[number + 1] as usize);
-        while vector + 2 <= end {
-            let at = vector * R::LANES;
-            let found = values(jet, [zero.read(&self.x[at..]), zero.read(&self.x[at + R::LANES..])]);
-            self.note_values(vector, &found[0]);
-            self.note_values(vector + 1, &found[1]);
-            vector += 2;
+    pub(super) fn evaluate<S: Simd, R: Real, const J: usize>(
+        &mut self,
+        simd: S,
+        (lane, number): (usize, usize),
+        jet: &[[R; J]],
+    ) {
+        let first = &self.first[lane * (SERIES + 1)..];
+        let (mut at, end) = (first[number] as usize, first[number + 1] as usize);
+        let used = self.used[lane];
+        let x = &self.x[lane * self.capacity..][..used];
+        let values = &mut self.values[lane * self.capacity * J..][..used * J];
+        while at + 2 * WIDTH <= end {
+            let x = [Lanes::from_slice(simd, &x[at..]), Lanes::from_slice(simd, &x[at + WIDTH..])];
+            let found = values_in_lane::<S, R, J, 2>(jet, lane, x);
+            note(values, used, at, &found[0]);
+            note(values, used, at + WIDTH, &found[1]);
+            at += 2 * WIDTH;
         }
-        if vector < end {
-            let [found] = values(jet, [zero.read(&self.x[vector * R::LANES..])]);
-            self.note_values(vector, &found);
+        if at < end {
+            let [found] = values_in_lane::<S, R, J, 1>(jet, lane, [Lanes::from_slice(simd, &x[at..])]);
+            note(values, used, at, &found);
         }
     }
 
-    /// Writes a vector of components lane by lane, so that the values which one run reads later are adjacent.
+    /// The components of the eight points of `lane` at `places`.
     #[inline(always)]
-    fn note_values<R: Real, const J: usize>(&mut self, vector: usize, found: &[R; J]) {
-        let mut columns = [[0.0; WIDEST]; J];
-        for i in 0..J {
-            found[i].write(&mut columns[i]);
-        }
-        for lane in 0..R::LANES {
-            let at = (lane * self.capacity + vector) * J;
-            let values = &mut self.values[at..at + J];
-            for i in 0..J {
-                values[i] = columns[i][lane];
+    pub(super) fn at_places<S: Simd, const J: usize>(
+        &self,
+        simd: S,
+        lane: usize,
+        places: &[u32; WIDTH],
+    ) -> [Lanes<S>; J] {
+        let used = self.used[lane];
+        let values = &self.values[lane * self.capacity * J..][..used * J];
+        let mut found = [Lanes::broadcast(simd, 0.0); J];
+        for (component, found) in found.iter_mut().enumerate() {
+            let column = &values[component * used..][..used];
+            let mut gathered = [0.0; WIDTH];
+            for (value, place) in gathered.iter_mut().zip(places) {
+                *value = column[*place as usize];
             }
+            *found = Lanes::load(simd, &gathered);
         }
+        found
+    }
+}
+
+/// Writes the components of the eight points from place `at` on, where a component has `used` places.
+#[inline(always)]
+fn note<S: Simd, const J: usize>(values: &mut [f64], used: usize, at: usize, found: &[Lanes<S>; J]) {
+    for (component, value) in found.iter().enumerate() {
+        value.store(&mut values[component * used + at..]);
     }
 }

@@ -20,6 +20,8 @@ pub(super) struct LaneVectors<R, const N: usize> {
     pub next_point: R,
     /// One over the unit of time, 1/s.
     pub per_unit: R,
+    /// One where the arc may be flown in one step of a lower order, else zero.
+    pub may_be_brief: R,
 }
 
 impl<R: Real, const N: usize> LaneVectors<R, N> {
@@ -34,6 +36,7 @@ impl<R: Real, const N: usize> LaneVectors<R, N> {
             length: zero,
             next_point: zero,
             per_unit: zero,
+            may_be_brief: zero,
         }
     }
 
@@ -49,6 +52,7 @@ impl<R: Real, const N: usize> LaneVectors<R, N> {
     pub fn idle(&mut self, lane: usize) {
         self.length.set_lane(lane, f64::INFINITY);
         self.next_point.set_lane(lane, f64::INFINITY);
+        self.may_be_brief.set_lane(lane, 0.0);
     }
 
     /// The angular velocity in `lane`, per unit.

@@ -1,5 +1,8 @@
 //! [`RunLanes`]: which run is in which lane, and how a lane is loaded, begins an arc, waits, and ends.
 
+use fearless_simd::Simd;
+
+use super::brief::turn_squared;
 use super::lane_state::{SeriesLane, Waiting};
 use super::lane_vectors::LaneVectors;
 use super::period::Period;
@@ -8,6 +11,7 @@ use super::points::{Until, evaluate_kept};
 use super::return_detector::ReturnDetector;
 use super::truncation::{Truncation, TruncationSums};
 use super::workspace::Workspace;
+use crate::dynamics::gyrostat::equations::Constants;
 use crate::dynamics::gyrostat::{ATTITUDE, Gyrostat, OMEGA, WITH_ATTITUDE};
 use crate::math::lanes::WIDEST;
 use crate::math::{Mask, Real};
@@ -18,10 +22,13 @@ use crate::run::{Grid, LocalErrors, Outcome, Status, StepStatistics, Trajectory}
 pub(super) type RunCallback<'a> = dyn FnMut(usize, &Gyrostat<f64>, &mut Trajectory, &Outcome) + 'a;
 
 /// Runs in lanes: `N` components; the first `J` have series.
-pub(super) struct RunLanes<'a, R, const N: usize, const J: usize> {
+pub(super) struct RunLanes<'a, S, R, const N: usize, const J: usize> {
+    pub simd: S,
     pub runs: &'a mut [Gyrostat<f64>],
     pub arcs: ArcSource<'a>,
     pub grid: &'a Grid,
+    /// Whether an arc has begun since the last step.
+    pub has_begun: bool,
     /// The next run that has no lane yet.
     pub next: usize,
     pub vectors: LaneVectors<R, N>,
@@ -34,11 +41,11 @@ pub(super) struct RunLanes<'a, R, const N: usize, const J: usize> {
     pub work: &'a mut Workspace<R, J>,
 }
 
-impl<'a, R: Real, const N: usize, const J: usize> RunLanes<'a, R, N, J> {
+impl<'a, S: Simd, R: Real, const N: usize, const J: usize> RunLanes<'a, S, R, N, J> {
     /// Empty lanes for `runs`, whose arcs come from `arcs`.
     #[inline(always)]
     pub(super) fn new(
-        zero: R,
+        (simd, zero): (S, R),
         runs: &'a mut [Gyrostat<f64>],
         arcs: ArcSource<'a>,
         grid: &'a Grid,
@@ -46,9 +53,11 @@ impl<'a, R: Real, const N: usize, const J: usize> RunLanes<'a, R, N, J> {
     ) -> Self {
         work.ring.clock = 0;
         RunLanes {
+            simd,
             runs,
             arcs,
             grid,
+            has_begun: false,
             next: 0,
             vectors: LaneVectors::new(zero),
             detector: ReturnDetector::none(zero),
@@ -71,6 +80,9 @@ impl<'a, R: Real, const N: usize, const J: usize> RunLanes<'a, R, N, J> {
         };
         let unit = run.time_unit();
         self.set_unit(lane, self.next, unit);
+        // the memory of its arcs is that of the lane
+        core::mem::swap(&mut self.runs[self.next].flown, &mut self.work.records[lane]);
+        self.runs[self.next].flown.clear();
         let run = &self.runs[self.next];
         for i in 0..3 {
             self.vectors.state[OMEGA + i].set_lane(lane, run.omega_b[i] * unit);
@@ -100,6 +112,15 @@ impl<'a, R: Real, const N: usize, const J: usize> RunLanes<'a, R, N, J> {
     /// Begins the arc that follows the last one in `lane`.
     #[inline(never)]
     pub(super) fn begin_arc(&mut self, lane: usize) {
+        self.simd.vectorize(
+            #[inline(always)]
+            || self.begin_arc_vectorized(lane),
+        );
+    }
+
+    /// The same, compiled for the instruction set.
+    #[inline(always)]
+    fn begin_arc_vectorized(&mut self, lane: usize) {
         let Some(mut state) = self.states[lane] else { return };
         let vectors = &self.vectors;
         let run = &mut self.runs[state.run];
@@ -121,7 +142,10 @@ impl<'a, R: Real, const N: usize, const J: usize> RunLanes<'a, R, N, J> {
         state.length = (state.end - state.start) / unit;
         state.begun = self.work.ring.clock;
         state.waiting = None;
-        state.is_searching = self.work.settings.periodic && !bounds.applied.acts();
+        state.is_searching =
+            self.work.settings.periodic && !bounds.applied.acts() && (N == J || self.may_return(lane, state.length));
+        self.vectors.may_be_brief.set_lane(lane, if state.is_searching { 0.0 } else { 1.0 });
+        self.has_begun = true;
         for i in J..N {
             state.quadratures[i - J] = self.vectors.state[i].lane(lane);
         }
@@ -141,6 +165,16 @@ impl<'a, R: Real, const N: usize, const J: usize> RunLanes<'a, R, N, J> {
         self.set_next_point(lane);
         // a body that does not move at all has found its period with the first step
         self.alarm = self.work.ring.clock + 1;
+    }
+
+    /// Whether omega may come back to where it is in a free arc of length `length` that begins in `lane`: not where it does not turn by a radian.
+    #[inline(always)]
+    fn may_return(&self, lane: usize, length: f64) -> bool {
+        let LaneVectors { constants, .. } = &self.vectors;
+        let three = |v: &[R; 3]| [v[0].lane(lane), v[1].lane(lane), v[2].lane(lane)];
+        let (inverse, momentum) = (three(&constants.inverse), three(&constants.momentum));
+        let alone = Constants { inverse, momentum, ..Constants::zero(0.0) };
+        turn_squared(&alone, self.vectors.omega(lane), length) >= 1.0
     }
 
     /// Sets the time of the next observation point of the arc in `lane`.
@@ -237,6 +271,7 @@ impl<'a, R: Real, const N: usize, const J: usize> RunLanes<'a, R, N, J> {
             debris_errors: LocalErrors::NONE,
         };
         finish(state.run, &self.runs[state.run], &mut self.work.trajectories[lane], &outcome);
+        core::mem::swap(&mut self.runs[state.run].flown, &mut self.work.records[lane]);
         self.load_lane(lane);
     }
 

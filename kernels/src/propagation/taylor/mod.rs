@@ -1,7 +1,7 @@
 //! Taylor series of the gyrostat in lanes, with periodic propagation of what is free of torque.
 //!
 //! - [`jet`]: the recurrences. [`step`]: order and step size. [`thrust`]: integrals of the thrust along a step.
-//!   `truncation`: estimates of what the steps leave out. [`dense`]: evaluation of series.
+//!   `brief`: the order of arcs much shorter than a step. `truncation`: estimates of what the steps leave out. [`dense`]: evaluation of series.
 //! - [`driver`]: the steps of all lanes and what happens to them; `lanes`: which run is in which lane; `lane_state`, `lane_vectors`:
 //!   where each is in its run; `points`: observation points during a step; [`workspace`], `series_ring`: memory.
 //! - [`period`], `period_search`: the period of omega and time folded by it; [`return_detector`]: its search in all lanes at once;
@@ -13,6 +13,7 @@
 //! length costs one period and the observation points. Where no period shows up (near the separatrix, or with torque), the
 //! same steps are the Taylor integration of the whole run.
 
+mod brief;
 pub mod dense;
 pub mod driver;
 pub mod engine;

@@ -1,9 +1,8 @@
 //! The points of runs that wait with a known period: folded into it, evaluated together, unfolded.
 //!
-//! The points of a run, folded by its period, are scattered over the few steps of that period. All lanes that wait are evaluated
-//! together, series by series, each lane at its own points: a coefficient of all lanes is one load for several points.
-//! What follows is one run at a time again, eight points to a vector in order of time: the rotation by whole periods
-//! and the growth of the integrals.
+//! The points of a run, folded by its period, are scattered over the few steps of that period. They are sorted by series and evaluated
+//! eight at a time, one run after another; series by series for all lanes that wait, so that a series stays in the first-level cache.
+//! What follows is in order of time again, eight points to a vector: the rotation by whole periods and the growth of the integrals.
 #![expect(clippy::needless_range_loop, reason = "components are numbered alike in several arrays")]
 
 use fearless_simd::Simd;
@@ -79,8 +78,6 @@ pub(super) fn folded_lanes(lanes: &[Option<SeriesLane>; WIDEST], grid: &Grid) ->
 /// What a folding reads and writes.
 pub(super) struct PeriodFolding<'a, S, R, const J: usize> {
     pub simd: S,
-    /// Says how many lanes.
-    pub zero: R,
     pub grid: &'a Grid,
     pub ring: &'a SeriesRing<R, J>,
     pub folds: &'a mut FoldBuffer,
@@ -88,51 +85,37 @@ pub(super) struct PeriodFolding<'a, S, R, const J: usize> {
 }
 
 impl<S: Simd, R: Real, const J: usize> PeriodFolding<'_, S, R, J> {
-    /// Fills the first `J` columns of the trajectories of `folded`: of all lanes together, or one after another where the buffer is
-    /// too small for all.
-    pub(super) fn evaluate(&mut self, folded: &FoldedLanes) {
-        if !self.evaluate_vectorized(folded) {
-            for lane in 0..R::LANES {
-                let mut alone = [None; WIDEST];
-                alone[lane] = folded[lane];
-                self.evaluate_vectorized(&alone);
-            }
-        }
-    }
-
-    /// [`Self::evaluate_together`], compiled for its instruction set. Not inlined: so it is compiled once for both calls.
+    /// Fills the first `J` columns of the trajectories of `folded`. Not inlined: so it is compiled once for all numbers of components.
     #[inline(never)]
-    fn evaluate_vectorized(&mut self, folded: &FoldedLanes) -> bool {
+    pub(super) fn evaluate(&mut self, folded: &FoldedLanes) {
         self.simd.vectorize(
             #[inline(always)]
-            || self.evaluate_together(folded),
-        )
+            || self.evaluate_vectorized(folded),
+        );
     }
 
-    /// Fills the trajectories of `folded`; false, with nothing done, where together they need more vectors than the buffer has,
-    /// which one lane alone never does.
+    /// The same, compiled for its instruction set.
     #[inline(always)]
-    fn evaluate_together(&mut self, folded: &FoldedLanes) -> bool {
-        let Some(oldest) = folded.iter().flatten().map(|share| share.state.begun).min() else { return true };
+    fn evaluate_vectorized(&mut self, folded: &FoldedLanes) {
+        let Some(oldest) = folded.iter().flatten().map(|share| share.state.begun).min() else { return };
         let series = folded.iter().flatten().map(|share| share.end).max().unwrap_or(oldest) - oldest;
-        let ring = self.ring;
+        let (ring, simd) = (self.ring, self.simd);
         self.folds.note_starts(series, |number| ring.segment(oldest + number));
         for share in folded.iter().flatten() {
             self.assign(share, oldest);
-        }
-        let folds = &mut *self.folds;
-        let Some(vectors) = folds.number_vectors::<R>(series) else { return false };
-        folds.x[..vectors * R::LANES].fill(0.0);
-        for share in folded.iter().flatten() {
-            folds.assign_points::<R>(share.lane, share.points);
+            self.folds.sort::<R>(share.lane, share.points, share.state.begun - oldest..share.end - oldest);
         }
         for number in 0..series {
-            folds.evaluate(self.zero, number, &ring.segment(oldest + number).jet);
+            let jet = &ring.segment(oldest + number).jet;
+            for share in folded.iter().flatten() {
+                if (share.state.begun - oldest..share.end - oldest).contains(&number) {
+                    self.folds.evaluate(simd, (share.lane, number), jet);
+                }
+            }
         }
         for share in folded.iter().flatten() {
             self.unfold(share);
         }
-        true
     }
 
     /// Folds the points of a lane by its period, and counts them by series.
@@ -144,13 +127,13 @@ impl<S: Simd, R: Real, const J: usize> PeriodFolding<'_, S, R, J> {
         let padded = self.grid.padded_times();
         let start = Lanes::broadcast(simd, state.start);
         let inverse = Lanes::broadcast(simd, 1.0 / state.unit);
-        let FoldBuffer { stride, rest, whole, segment, vector, count, start: [starts, _], .. } = &mut *self.folds;
+        let FoldBuffer { stride, rest, whole, segment, place, count, start: [starts, _], .. } = &mut *self.folds;
         let row = lane * *stride;
         // slices: the compiler then knows that a store does not change them
         let (starts, count) = (starts.as_slice(), &mut count[*lane..]);
         let row_end = row + points.next_multiple_of(WIDTH);
         let (rest, whole) = (&mut rest[row..row_end], &mut whole[row..row_end]);
-        let (segment, vector) = (&mut segment[row..row_end], &mut vector[row..row_end]);
+        let (segment, place) = (&mut segment[row..row_end], &mut place[row..row_end]);
         let (first_series, end_series) = (state.begun - oldest, end - oldest);
         for first in (0..*points).step_by(WIDTH) {
             let time = times_from(simd, padded, state.point + first);
@@ -172,7 +155,7 @@ impl<S: Simd, R: Real, const J: usize> PeriodFolding<'_, S, R, J> {
                 *entry = number.to_bits() as u32;
             }
         }
-        for (number, entry) in segment[..*points].iter().zip(&mut vector[..*points]) {
+        for (number, entry) in segment[..*points].iter().zip(&mut place[..*points]) {
             let count = &mut count[*number as usize * lanes];
             *entry = *count;
             *count += 1;
@@ -195,22 +178,14 @@ impl<S: Simd, R: Real, const J: usize> PeriodFolding<'_, S, R, J> {
         let trajectory = &mut self.trajectories[*lane];
         let row = lane * folds.stride;
         for first in (0..*points).step_by(WIDTH) {
-            let mut gathered = [[0.0; WIDTH]; J];
-            let numbers = &folds.vector[row + first..row + first + WIDTH];
+            let numbers = &folds.place[row + first..row + first + WIDTH];
             let left = points - first;
+            let mut places = [0; WIDTH];
             for k in 0..WIDTH {
-                let vector = numbers[if k < left { k } else { 0 }] as usize;
-                let at = (lane * folds.capacity + vector) * J;
-                let values = &folds.values[at..at + J];
-                for i in 0..J {
-                    gathered[i][k] = values[i];
-                }
+                places[k] = numbers[if k < left { k } else { 0 }];
             }
             let whole = Lanes::from_slice(simd, &folds.whole[row + first..]);
-            let mut components = [whole; J];
-            for i in 0..J {
-                components[i] = Lanes::load(simd, &gathered[i]);
-            }
+            let mut components: [Lanes<S>; J] = folds.at_places(simd, *lane, &places);
             for i in 0..3 {
                 components[i] = components[i] * Lanes::broadcast(simd, factors[i]);
             }

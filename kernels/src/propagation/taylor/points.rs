@@ -15,6 +15,8 @@ use crate::run::{Grid, Trajectory};
 /// A step whose points are evaluated.
 pub(super) struct StepSeries<'a, R, const N: usize, const J: usize> {
     pub segment: &'a Segment<R, J>,
+    /// The order of its series.
+    pub order: usize,
     pub quadrature: &'a Quadrature,
     /// The constants at the start of the step.
     pub constants: &'a Constants<R>,
@@ -30,16 +32,17 @@ impl<R: Real, const N: usize, const J: usize> StepSeries<'_, R, N, J> {
     pub(super) fn components<const FORCED: bool>(&self, at: R, due: R::Mask) -> [[f64; WIDEST]; N] {
         let zero = at.zero();
         let segment = self.segment;
+        let jet = &segment.jet[..=self.order];
         let x = R::select(due, (at - segment.start) - segment.start_low, zero);
-        let [found] = values(&segment.jet, [x]);
+        let [found] = values(jet, [x]);
         let mut all = [zero; N];
         all[..J].copy_from_slice(&found);
         if FORCED {
             let mut turned = angle_of(&found);
             for i in 0..3 {
-                turned[i] -= segment.jet[0][ANGLE + i];
+                turned[i] -= jet[0][ANGLE + i];
             }
-            let growth = self.quadrature.growth(self.constants, &segment.jet, self.begin, turned, x);
+            let growth = self.quadrature.growth(self.constants, jet, self.begin, turned, x);
             for i in J..N {
                 all[i] = self.begin[i] + growth[i];
             }

@@ -250,7 +250,7 @@ impl Integration<'_, '_> {
         let observed = || {
             let mut components = *state;
             scale(&mut components, si_factors(1.0 / unit));
-            observed_state(run, time, &components)
+            observed_state(run, time, &components, &run.wheels_at(time))
         };
         let law = self.law.as_mut().map(|law| &mut **law as &mut dyn ActuationLaw);
         let arc = next_arc(scene, law, time, observed, duration);

@@ -1,5 +1,6 @@
 //! [`Truncation`]: the truncation errors of Taylor steps, from the last term that they keep.
 
+use super::brief::{Brief, LEAST};
 use crate::dynamics::gyrostat::{ATTITUDE, OMEGA, WITH_ATTITUDE};
 use crate::math::Real;
 use crate::math::vector::norm;
@@ -77,6 +78,28 @@ impl<R: Real> Truncation<R> {
         } else {
             length.splat(self.factor) * raised_to(length.splat(0.5) * (size(&jet[0]) * length), order + 1)
         };
+    }
+}
+
+impl<R: Real> Truncation<R> {
+    /// Adds the step of length `length` of the lanes in `brief`, along the series `jet`: what they leave out is bounded by their last two terms.
+    #[inline(always)]
+    pub(super) fn add_brief<const N: usize>(&mut self, jet: &[[R; N]], length: R, brief: &Brief<R>) {
+        let zero = length.zero();
+        let (mut before, mut last) = ([zero; 2], [zero; 2]);
+        let mut power = raised_to(length, LEAST - 1);
+        for (n, term) in jet.iter().enumerate().take(brief.most + 1).skip(LEAST - 1) {
+            let beyond = brief.order.lt(zero.splat(n as f64));
+            let sizes = [size(term) * power, if N >= WITH_ATTITUDE { turn(term) * power } else { zero }];
+            for i in 0..2 {
+                before[i] = R::select(beyond, before[i], last[i]);
+                last[i] = R::select(beyond, last[i], sizes[i]);
+            }
+            power = power * length;
+        }
+        let (rate, turn) = (last[0].larger(before[0] * brief.turn), last[1].larger(before[1] * brief.turn));
+        self.rate += R::select(brief.lanes, rate, zero);
+        self.turn += R::select(brief.lanes, length.splat(2.0) * (turn * brief.turn), zero);
     }
 }
 

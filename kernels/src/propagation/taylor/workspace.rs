@@ -1,10 +1,12 @@
 //! [`Workspace`]: the memory of a Taylor integration, reused from batch to batch.
 
+use super::brief::BriefRule;
 use super::fold_buffer::FoldBuffer;
 use super::jet::{Reciprocals, Scratch};
 use super::series_ring::SeriesRing;
 use super::step::StepRule;
 use super::thrust::Quadrature;
+use crate::dynamics::arc_record::ArcRecord;
 use crate::math::Real;
 use crate::run::Trajectory;
 
@@ -24,6 +26,8 @@ pub struct Settings {
 pub struct Workspace<R, const J: usize> {
     /// Order and step size.
     pub rule: StepRule,
+    /// The order of brief arcs.
+    pub(super) brief: BriefRule,
     /// What is asked for.
     pub settings: Settings,
     /// Nodes of the integrals of thrust.
@@ -36,6 +40,8 @@ pub struct Workspace<R, const J: usize> {
     pub ring: SeriesRing<R, J>,
     /// The run in each lane at its points.
     pub trajectories: Vec<Trajectory>,
+    /// Memory of the arcs that the run in each lane flies.
+    pub records: Vec<ArcRecord>,
     /// Points of runs whose period is known.
     pub folds: FoldBuffer,
 }
@@ -46,12 +52,14 @@ impl<R: Real, const J: usize> Workspace<R, J> {
         let rule = StepRule::in_f64(settings.tolerance);
         Workspace {
             rule,
+            brief: BriefRule::new(settings.tolerance, rule.order),
             settings,
             quadrature: Quadrature::new(&rule, settings.tolerance),
             reciprocals: Reciprocals::new(zero, rule.order),
             scratch: Scratch::new(zero),
             ring: SeriesRing::new(zero, rule.order),
             trajectories: (0..R::LANES).map(|_| Trajectory::new(components, points)).collect(),
+            records: vec![ArcRecord::default(); R::LANES],
             folds: FoldBuffer::new(R::LANES, J, points),
         }
     }

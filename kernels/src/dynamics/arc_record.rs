@@ -1,0 +1,161 @@
+//! [`ArcRecord`]: the arcs that a run has flown, as what changes from each to the next.
+//!
+//! A control loop flies an arc a tick, and of the numbers of an actuation few change: forty bytes an arc for three wheels, where an [`Arc`] has 240.
+
+use crate::scene::{Actuation, Arc, MAX_THRUSTERS, MAX_WHEELS};
+
+/// Numbers of an actuation beside its end.
+const NUMBERS: usize = MAX_THRUSTERS + MAX_WHEELS + 3;
+
+/// The bit of [`Actuation::ends_run`] beside those of the numbers.
+const ENDS_RUN: u64 = 1 << NUMBERS;
+
+/// The arcs of a run in order, from time zero without a gap.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ArcRecord {
+    /// Of each arc: one bit for each number that is another than before, the end, and these numbers.
+    words: Vec<u64>,
+    count: usize,
+    last: Arc,
+}
+
+/// Before the first arc.
+const START: Arc = Arc { start: 0.0, applied: Actuation::none(0.0) };
+
+impl Default for ArcRecord {
+    fn default() -> Self {
+        ArcRecord { words: Vec::new(), count: 0, last: START }
+    }
+}
+
+impl ArcRecord {
+    /// Forgets all arcs; the memory is kept.
+    pub fn clear(&mut self) {
+        self.words.clear();
+        (self.count, self.last) = (0, START);
+    }
+
+    /// Adds an arc, which starts where the last one ends.
+    #[inline]
+    pub fn push(&mut self, arc: &Arc) {
+        let (old, new) = (&self.last.applied, &arc.applied);
+        let thrusts = changes(&old.thrust, &new.thrust);
+        let motors = changes(&old.motor_torque, &new.motor_torque);
+        let body = changes(&old.body_torque, &new.body_torque);
+        let all = thrusts | motors << MAX_THRUSTERS | body << (MAX_THRUSTERS + MAX_WHEELS);
+        let ends_run = if new.ends_run { ENDS_RUN } else { 0 };
+        self.words.extend([all | ends_run, new.until.to_bits()]);
+        for (changed, numbers) in
+            [(thrusts, &new.thrust[..]), (motors, &new.motor_torque[..]), (body, &new.body_torque[..])]
+        {
+            let mut left = changed;
+            while left != 0 {
+                self.words.push(numbers[left.trailing_zeros() as usize].to_bits());
+                left &= left - 1;
+            }
+        }
+        self.count += 1;
+        self.last = *arc;
+    }
+
+    /// Number of arcs.
+    pub fn len(&self) -> usize {
+        self.count
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+
+    /// The last arc.
+    pub fn last(&self) -> Option<&Arc> {
+        (self.count > 0).then_some(&self.last)
+    }
+
+    /// The arcs in order.
+    pub fn iter(&self) -> impl Iterator<Item = Arc> + '_ {
+        let (mut words, mut arc) = (self.words.iter().copied(), START);
+        std::iter::from_fn(move || {
+            let mut changed = words.next()?;
+            arc.start = arc.end();
+            arc.applied.until = f64::from_bits(words.next()?);
+            arc.applied.ends_run = changed & ENDS_RUN != 0;
+            changed &= !ENDS_RUN;
+            while changed != 0 {
+                let number = changed.trailing_zeros() as usize;
+                *number_mut(&mut arc.applied, number) = f64::from_bits(words.next()?);
+                changed &= changed - 1;
+            }
+            Some(arc)
+        })
+    }
+
+    /// The arcs in order, each as it is.
+    pub fn to_vec(&self) -> Vec<Arc> {
+        self.iter().collect()
+    }
+}
+
+impl Extend<Arc> for ArcRecord {
+    fn extend<I: IntoIterator<Item = Arc>>(&mut self, arcs: I) {
+        arcs.into_iter().for_each(|arc| self.push(&arc));
+    }
+}
+
+/// One bit for each number of `new` that differs from that of `old`, by its bits.
+#[inline]
+fn changes<const K: usize>(old: &[f64; K], new: &[f64; K]) -> u64 {
+    let mut changed = 0;
+    for (i, (old, new)) in old.iter().zip(new).enumerate() {
+        changed |= u64::from(old.to_bits() != new.to_bits()) << i;
+    }
+    changed
+}
+
+/// Number `number` of an actuation.
+fn number_mut(applied: &mut Actuation, number: usize) -> &mut f64 {
+    const BODY: usize = MAX_THRUSTERS + MAX_WHEELS;
+    match number {
+        BODY.. => &mut applied.body_torque[number - BODY],
+        MAX_THRUSTERS..BODY => &mut applied.motor_torque[number - MAX_THRUSTERS],
+        _ => &mut applied.thrust[number],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_record_is_its_arcs_bit_for_bit() {
+        let end_of_run = Actuation { until: 9.0, ..Actuation::end_of_run() };
+        let body = Actuation { body_torque: [0.0, -0.0, 7.0], ..Actuation::none(3.5) };
+        let answers = [
+            Actuation::none(1.0),
+            Actuation::none(2.0).with_thrust(&[1.0, 0.0, 3.0]).with_motor_torque(&[0.5; MAX_WHEELS]),
+            Actuation::none(3.0).with_thrust(&[1.0; MAX_THRUSTERS]).with_motor_torque(&[-0.0]),
+            body,
+            body,
+            end_of_run,
+        ];
+        let mut start = 0.0;
+        let mut record = ArcRecord::default();
+        for turn in 0..2 {
+            record.clear();
+            assert!(record.is_empty() && record.last().is_none() && record.iter().next().is_none());
+            let mut arcs = Vec::new();
+            for (k, applied) in answers.iter().enumerate().skip(turn) {
+                let arc = Arc { start: if arcs.is_empty() { 0.0 } else { start }, applied: *applied };
+                start = arc.end();
+                arcs.push(arc);
+                record.push(&arc);
+                assert_eq!((record.len(), record.last()), (k + 1 - turn, Some(&arc)));
+            }
+            let words = |arcs: &[Arc]| format!("{arcs:?}");
+            // as text, in which -0 differs from 0
+            assert_eq!(words(&record.to_vec()), words(&arcs));
+            assert!(record.words.len() < 27 * answers.len(), "{} words", record.words.len());
+        }
+    }
+}
