@@ -10,12 +10,14 @@
 //! - [`guidance`]: which phase a run is in, and the attitude and the maneuver that it wants.
 //! - [`laws`]: from an estimate to a wanted torque.
 //! - [`allocation`]: from a wanted torque and force to wheels and thrusters. [`actuators`]: what these make of it.
+//! - [`capacity`]: whether the momentum of a scene fits into the wheels of its loop.
 //! - [`rotation`], [`small_matrix`]: what all of them compute with.
 //!
 //! Not here: the interface by which an engine asks a law ([`crate::dynamics::actuation`]), and which campaign flies which law (`campaign`).
 
 pub mod actuators;
 pub mod allocation;
+pub mod capacity;
 pub mod context;
 pub mod control_loop;
 pub mod estimate;

@@ -6,6 +6,7 @@
 use std::f64::consts::TAU;
 
 use crate::campaign::{Plan, SceneDraws};
+use crate::control::capacity::Capacity;
 use crate::math::vector::norm;
 use crate::observables::Group;
 use crate::observables::request::{NutationAxis, nearest_principal_axis};
@@ -71,6 +72,9 @@ pub fn implausible(plan: &Plan) -> Vec<String> {
     }));
     notes.extend(nutation(plan));
     notes.extend(coarse_grid(plan));
+    if let (Some(spec), Ok(scene)) = (plan.law.as_ref().and_then(|law| law.spec()), Scene::resolve(&plan.nominal)) {
+        notes.extend(Capacity::of(spec, &scene).notes(spec));
+    }
     let duration = plan.grid.duration();
     let late = plan.nominal.actuation.iter().position(|arc| arc.start_s >= duration);
     notes.extend(late.map(|arc| {
