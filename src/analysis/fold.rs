@@ -8,6 +8,7 @@ use std::sync::{Mutex, PoisonError};
 
 use crate::analysis::accumulator::{Accumulator, of_files};
 use crate::analysis::column_counts::{Collected, Collector, REFERENCE_ROWS, batches, is_exact, references};
+use crate::analysis::missions::{MissionCounter, Missions};
 use crate::analysis::observed::Observed;
 use crate::analysis::part_columns::RowNames;
 use crate::analysis::population::Population;
@@ -25,8 +26,10 @@ use crate::storage::part_sink::CountRows;
 use crate::storage::rows_reader::{RowsError, RowsReader};
 
 /// Everything that is gathered: statuses and audits, columns, requirements, the observable of `[stop]`, the first rows, retained runs, the page.
-type Everything =
-    (((TallyColumns, Collector), (RequirementCounter, ObservedValues)), ((FirstRows, Retained), Surveyor));
+type Everything = (
+    ((TallyColumns, Collector), (RequirementCounter, ObservedValues)),
+    ((FirstRows, Retained), (Surveyor, MissionCounter)),
+);
 
 /// Gathers everything that the end of a campaign needs.
 #[derive(Debug)]
@@ -49,6 +52,8 @@ pub struct Gathered {
     pub retained: Vec<SampleId>,
     /// What the page shows.
     pub survey: Survey,
+    /// How missions ended, of a campaign under a control loop.
+    pub missions: Missions,
     /// Quantities over time, where the campaign has bands.
     pub bands: Option<Bands>,
 }
@@ -63,13 +68,13 @@ impl RowsFold {
                 (TallyColumns::new(ensemble), columns),
                 (RequirementCounter::new(plan), ObservedValues::of_stop(plan, plan.samples)),
             ),
-            ((FirstRows::new(plan), Retained::new(plan)), Surveyor::new(ensemble)),
+            ((FirstRows::new(plan), Retained::new(plan)), (Surveyor::new(ensemble), MissionCounter::new(plan))),
         ))
     }
 
     fn gathered(self, whole: <Everything as Accumulator>::Whole, bands: Option<Bands>) -> Gathered {
-        let (((tally, columns), (requirements, stop_values)), ((first_rows, retained), survey)) = whole;
-        let (((_, collector), _), ((_, retention), _)) = self.0;
+        let (((tally, columns), (requirements, stop_values)), ((first_rows, retained), (survey, missions))) = whole;
+        let (((_, collector), _), ((_, retention), (_, counter))) = self.0;
         Gathered {
             tally,
             columns: collector.finish(columns),
@@ -78,6 +83,7 @@ impl RowsFold {
             first_rows,
             retained: retention.chosen(retained),
             survey: survey.finished(),
+            missions: counter.finished(&missions),
             bands,
         }
     }

@@ -20,6 +20,7 @@ pub mod comparison_table;
 pub mod derived_table;
 pub mod drivers;
 pub mod fold;
+pub mod missions;
 pub mod observed;
 pub mod outcomes;
 pub mod pairing;

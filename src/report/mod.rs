@@ -22,6 +22,7 @@ pub mod image;
 mod legend;
 pub mod marginal;
 mod marks;
+pub mod mission_text;
 pub mod number;
 pub mod observable_lines;
 pub mod origin_text;

@@ -2,6 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
+use crate::analysis::missions::{MissionShare, Missions};
 use crate::analysis::outcomes::named;
 use crate::analysis::statistics::Statistics;
 use crate::analysis::stopping::{LookFound, Stopping};
@@ -34,6 +35,7 @@ pub struct Summary {
     /// Number of columns with statistics.
     pub(super) columns: usize,
     pub(super) verdicts: Verdicts,
+    pub(super) missions: Missions,
     /// How statistics were made.
     pub(super) intervals: String,
     pub(super) treatment: String,
@@ -72,7 +74,14 @@ impl Summary {
             audit: tally.audits().map(|audits| AuditSummary::new(audits, plan.audit_fraction)),
             replaced: plan.dispersions.replaced_correlations().to_vec(),
             stopping: None,
+            missions: Missions::new(),
         }
+    }
+
+    /// The same, with how the missions of a control loop ended.
+    #[must_use]
+    pub fn with_missions(self, missions: Missions) -> Self {
+        Summary { missions, ..self }
     }
 
     /// The same, with the look that ended the campaign of `plan`.
@@ -124,6 +133,10 @@ impl Summary {
             let list = self.replaced.iter();
             let list = list.map(|one| json!({ "parameters": one.names, "asked": one.asked, "used": one.used }));
             value["nearest_correlations_of_scores"] = Value::Array(list.collect());
+        }
+        if !self.missions.is_empty() {
+            let one = |share: &MissionShare| json!({ "end": share.end, "count": share.count, "runs": share.runs, "interval": share.interval });
+            value["missions"] = Value::Array(self.missions.iter().map(one).collect());
         }
         if let Some(audit) = &self.audit {
             value["audit"] = json!(audit);

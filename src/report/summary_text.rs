@@ -5,7 +5,7 @@ use super::number::short;
 use super::observable_lines::{ObservableLine, table};
 use super::summary::Summary;
 use super::wrapped::wrapped;
-use super::{failure_text, requirements};
+use super::{failure_text, mission_text, requirements};
 use crate::analysis::outcomes::OF_MOTION;
 use crate::ensemble::FailureReason;
 use crate::run::Status;
@@ -40,6 +40,7 @@ impl Summary {
             text += &wrapped(&format!("\n  stop: {stop}\n"), width);
         }
         text += &self.ended();
+        text += &wrapped(&mission_text::text(&self.missions), width);
         text += &self.found(width);
         text += &wrapped(drivers, width);
         text += &wrapped(&self.numerics(), width);

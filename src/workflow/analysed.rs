@@ -4,6 +4,7 @@ use std::num::NonZeroUsize;
 use std::path::Path;
 
 use crate::analysis::fold::Gathered;
+use crate::analysis::missions::Missions;
 use crate::analysis::sensitivity::InputSensitivity;
 use crate::analysis::statistics::Statistics;
 use crate::analysis::stopping::{Stopping, stopping};
@@ -34,6 +35,8 @@ pub struct Analysed {
     pub stopping: Option<Stopping>,
     /// What the page shows of the rows.
     pub survey: Survey,
+    /// How missions ended, under a control loop.
+    pub missions: Missions,
 }
 
 /// Makes the tables of the dataset `folder` of `plan` from what was `gathered` from its rows.
@@ -86,6 +89,7 @@ pub fn computed(
         statistics,
         bands: gathered.bands,
         survey: gathered.survey,
+        missions: gathered.missions,
     })
 }
 

@@ -60,6 +60,7 @@ pub fn page(ensemble: &Ensemble<'_>, analysed: &Analysed, records: &[PartRecord]
         statistics: &analysed.statistics,
         verdicts: &analysed.verdicts,
         sensitivities: &analysed.sensitivities,
+        missions: &analysed.missions,
         bands: analysed.bands.as_ref(),
         stopping: analysed.stopping.as_ref(),
     };

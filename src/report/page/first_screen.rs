@@ -1,8 +1,10 @@
 //! The first screen: header, run status, verdicts. Static HTML, readable before any script and without.
 
+use crate::analysis::missions::Missions;
 use crate::analysis::survey::Survey;
 use crate::campaign::Plan;
 use crate::report::escaped::escaped;
+use crate::report::mission_text;
 use crate::report::page::cards::Card;
 use crate::report::page::errors::sentence;
 use crate::report::page::readable::{grouped, number};
@@ -104,6 +106,36 @@ pub fn status(plan: &Plan, survey: &Survey) -> String {
     format!(
         "<section id=\"status\"><h2>Did it run?</h2><p class=\"lead\">{verdict}{}</p><svg class=\"statusbar\" role=\"img\" aria-label=\"{verdict}\" preserveAspectRatio=\"none\" height=\"22\" width=\"100%\">{bars}</svg><ul class=\"legend\">{legend}</ul>{reasons}</section>\n",
         numerics(plan, survey)
+    )
+}
+
+/// How the missions of a control loop ended: a bar for each way, with its interval; nothing without a loop.
+pub fn missions(missions: &Missions) -> String {
+    let mut lines = String::new();
+    for one in missions {
+        let at = |share: f64| format!("{:.3}%", 100.0 * share);
+        let share = one.count as f64 / one.runs.max(1) as f64;
+        let class = if one.end == "launched" { "ok" } else { "failed" };
+        let [low, high] = one.interval;
+        let whisker = if low.is_finite() {
+            format!("<line class=\"whisker\" x1=\"{}\" x2=\"{}\" y1=\"11\" y2=\"11\"/>", at(low), at(high))
+        } else {
+            String::new()
+        };
+        lines += &format!(
+            "<tr><th scope=\"row\">{}</th><td class=\"number\">{}</td><td class=\"number\">{}</td><td class=\"bar\"><svg width=\"100%\" height=\"22\" role=\"img\" aria-label=\"{}\"><rect class=\"mission {class}\" x=\"0\" y=\"3\" width=\"{}\" height=\"16\"/>{whisker}</svg></td></tr>",
+            escaped(mission_text::words(one.end)),
+            grouped(one.count),
+            mission_text::share(one),
+            escaped(&mission_text::share(one)),
+            at(share),
+        );
+    }
+    if lines.is_empty() {
+        return lines;
+    }
+    format!(
+        "<section id=\"missions\"><h2>How did the missions end?</h2><table class=\"missions\"><thead><tr><th>end</th><th>runs</th><th>share, with its interval</th><th></th></tr></thead><tbody>{lines}</tbody></table></section>\n"
     )
 }
 

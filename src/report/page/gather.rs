@@ -1,6 +1,7 @@
 //! [`Contents`] from what other modules computed of a result: statistics, verdicts, sensitivities, bands, and a survey of the rows.
 
 use crate::analysis::assessment::Assessment;
+use crate::analysis::missions::Missions;
 use crate::analysis::sensitivity::InputSensitivity;
 use crate::analysis::statistics::{ColumnStatistics, QuantileStatistic, Statistics};
 use crate::analysis::stopping::Stopping;
@@ -35,6 +36,8 @@ pub struct Analysis<'a> {
     pub verdicts: &'a Verdicts,
     /// What every input means for the main observables.
     pub sensitivities: &'a [InputSensitivity],
+    /// How missions ended, under a control loop.
+    pub missions: &'a Missions,
     /// Quantiles over time, where they were kept.
     pub bands: Option<&'a Bands>,
     /// The look that ended the campaign, where it has `[stop]`.
@@ -59,6 +62,7 @@ impl Contents {
                 .collect(),
             verdicts: verdicts.iter().map(|one| card(one, &survey, analysis.statistics, &influences)).collect(),
             survey,
+            missions: analysis.missions.clone(),
             influences,
             said,
             files,

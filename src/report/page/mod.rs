@@ -35,6 +35,7 @@ use self::influence::Influence;
 use self::over_time::{Curves, TimeBands};
 use self::payload::Payload;
 use self::tables::StatisticsRow;
+use crate::analysis::missions::Missions;
 use crate::analysis::survey::{self, Survey};
 use crate::campaign::Plan;
 use crate::ensemble::Ensemble;
@@ -46,6 +47,8 @@ use crate::sampling::{Design, SampleId};
 pub struct Contents {
     /// What was taken from the rows.
     pub survey: Survey,
+    /// How missions ended, under a control loop.
+    pub missions: Missions,
     /// Quantiles over time; empty where they were not made.
     pub bands: Vec<TimeBands>,
     /// Statistics of the observables.
@@ -115,6 +118,7 @@ impl Page {
         let first = [
             first_screen::header(plan),
             first_screen::status(plan, survey),
+            first_screen::missions(&contents.missions),
             first_screen::verdicts(&cards, !contents.verdicts.is_empty(), &contents.said),
         ];
         let has = |section: FigureSection| figures.iter().any(|figure| figure.section == section);

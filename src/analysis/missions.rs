@@ -1,0 +1,102 @@
+//! [`Missions`]: how the missions of a campaign under a control loop ended: launched, failed for a reason, or neither, each a share of the runs with its interval.
+
+use crate::analysis::accumulator::Accumulator;
+use crate::analysis::part_columns::PartColumns;
+use crate::analysis::population::Population;
+use crate::campaign::Plan;
+use crate::control::guidance::Failure;
+use crate::run::Status;
+use crate::statistics::binomial::interval;
+use crate::storage::rows_reader::RowsError;
+
+/// One way in which missions ended.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MissionShare {
+    /// `launched`, the name of a failure, or `flying` where the run ended before either.
+    pub end: &'static str,
+    /// Number of runs.
+    pub count: u64,
+    /// Number of all runs that are `ok`.
+    pub runs: u64,
+    /// The interval of the share at the confidence of the statistics; NaN where samples are not independent.
+    pub interval: [f64; 2],
+}
+
+/// Counts how missions ended.
+#[derive(Clone, Debug)]
+pub struct MissionCounter {
+    has_loop: bool,
+    launches: bool,
+    population: Population,
+    confidence: f64,
+}
+
+/// How many runs that are `ok` ended in each way: launched, flying, then by failure.
+pub type MissionCounts = [u64; 2 + Failure::NAMES.len()];
+
+/// How the missions of a campaign ended, those that occur, in the order of the codes.
+pub type Missions = Vec<MissionShare>;
+
+impl MissionCounter {
+    /// Of the runs of `plan`.
+    pub fn new(plan: &Plan) -> Self {
+        let spec = plan.law.as_ref().and_then(|law| law.spec());
+        MissionCounter {
+            has_loop: spec.is_some(),
+            launches: spec.is_some_and(|spec| spec.launches()),
+            population: Population::of(plan),
+            confidence: plan.analysis.confidence,
+        }
+    }
+
+    /// What was counted.
+    pub fn finished(&self, counts: &MissionCounts) -> Missions {
+        let runs: u64 = counts.iter().sum();
+        let names = ["launched", "flying"].into_iter().chain(Failure::NAMES);
+        let has_intervals = self.population == Population::Independent;
+        let share = |(end, count): (&'static str, &u64)| MissionShare {
+            end,
+            count: *count,
+            runs,
+            interval: if has_intervals { interval(*count, runs, self.confidence) } else { [f64::NAN; 2] },
+        };
+        names.zip(counts).filter(|(_, count)| **count > 0).map(share).collect()
+    }
+}
+
+impl Accumulator for MissionCounter {
+    type Whole = MissionCounts;
+    type OfPart = MissionCounts;
+
+    fn nothing(&self) -> MissionCounts {
+        [0; 2 + Failure::NAMES.len()]
+    }
+
+    fn count(&self, part: &impl PartColumns) -> Result<MissionCounts, RowsError> {
+        let mut found = self.nothing();
+        if !self.has_loop {
+            return Ok(found);
+        }
+        let failures = part.numbers("failure")?;
+        let launched = if self.launches { Some(part.numbers("launched")?) } else { None };
+        let (samples, statuses) = (part.samples()?, part.statuses()?);
+        let rows =
+            (0..part.rows()).filter(|row| statuses[*row] == Status::Done && self.population.contains(samples[*row]));
+        for row in rows {
+            let has_launched = launched.as_ref().is_some_and(|launched| launched[row] == 1.0);
+            let failure = failures[row] as usize;
+            found[if has_launched {
+                0
+            } else if failure == 0 {
+                1
+            } else {
+                2 + failure
+            }] += 1;
+        }
+        Ok(found)
+    }
+
+    fn merge(&self, whole: &mut MissionCounts, part: MissionCounts) {
+        whole.iter_mut().zip(part).for_each(|(mine, theirs)| *mine += theirs);
+    }
+}

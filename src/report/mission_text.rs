@@ -1,0 +1,52 @@
+//! How the missions of a control loop ended, in words.
+
+use crate::analysis::missions::{MissionShare, Missions};
+use crate::report::number::short;
+
+/// How a mission ended, in words.
+pub fn words(end: &str) -> &str {
+    match end {
+        "flying" => "still flying at the end of the run",
+        "timeout" => "failed: a phase took too long",
+        "wheel_saturated" => "failed: a wheel was saturated",
+        "lost_target" => "failed: the debris was lost",
+        "keep_out" => "failed: too close to the debris",
+        "no_axis" => "failed: the debris has no axis",
+        "diverged" => "failed: diverged",
+        other => other,
+    }
+}
+
+/// The share in per cent, and its interval where there is one.
+pub fn share(share: &MissionShare) -> String {
+    let percent = |share: f64| short(100.0 * share);
+    let of_all = percent(share.count as f64 / share.runs.max(1) as f64);
+    match share.interval {
+        [low, high] if low.is_finite() => format!("{of_all}% [{}, {}]", percent(low), percent(high)),
+        _ => format!("{of_all}%"),
+    }
+}
+
+/// A line for each way in which missions ended; nothing without a loop.
+pub fn text(missions: &Missions) -> String {
+    let mut text = String::new();
+    for one in missions {
+        text += &format!("  {:>8} of {} runs {}: {}\n", one.count, one.runs, words(one.end), share(one));
+    }
+    if text.is_empty() { text } else { format!("\n{text}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: each way is named with its count, its share and the ends of its interval in order.
+    #[test]
+    fn ends_are_counted() {
+        let share = |end, count, interval| MissionShare { end, count, runs: 200, interval };
+        let found = text(&vec![share("launched", 190, [0.91, 0.975]), share("keep_out", 10, [f64::NAN; 2])]);
+        assert!(found.contains("190 of 200 runs launched: 95.00% [91.00, 97.50]"), "{found}");
+        assert!(found.contains("10 of 200 runs failed: too close to the debris: 5.000%\n"), "{found}");
+        assert_eq!(text(&Missions::new()), "");
+    }
+}
