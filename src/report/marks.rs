@@ -7,6 +7,8 @@ use crate::report::svg::{Anchor, INK, LABEL, Stroke, Svg};
 
 /// With more points than this they are small and transparent.
 const MANY: usize = 200;
+/// Height of a row of names of limits, pixels.
+const ROW: f64 = 16.0;
 /// Cells of a matrix that are smaller have no number, pixels.
 const NUMBER_CELL: f64 = 32.0;
 
@@ -74,7 +76,7 @@ impl Panel<'_> {
     pub(super) fn draw_limits(&self, svg: &mut Svg) {
         let [left, top, right, bottom] = self.edges;
         let grey = Stroke { color: PALETTE[8], width: 1.0, dash: None };
-        let mut rows = 0.0;
+        let mut rows = 0;
         // names in rows from the top, none over another
         let mut named: Vec<(usize, [f64; 2])> = Vec::new();
         for mark in self.marks() {
@@ -88,14 +90,8 @@ impl Panel<'_> {
                 // beside the line, on the side that has space
                 let is_right = at + width + 8.0 < right;
                 let ends = if is_right { [at, at + width + 10.0] } else { [at - width - 10.0, at] };
-                let is_free = |row: &usize| {
-                    named.iter().all(|(other, [from, to])| other != row || ends[1] <= *from || ends[0] >= *to)
-                };
-                let row = (0..).find(is_free).unwrap_or(0);
-                if *vertical && !label.is_empty() {
-                    named.push((row, ends));
-                }
-                let below = top + 13.0 + 15.0 * row as f64;
+                let row = if *vertical { row_of(&mut named, ends) } else { 0 };
+                let below = top + 13.0 + ROW * row as f64;
                 let (place, anchor) = match *vertical {
                     true if is_right => ([at + 5.0, below], Anchor::Start),
                     true => ([at - 5.0, below], Anchor::End),
@@ -105,8 +101,15 @@ impl Panel<'_> {
                 svg.text(label, place, LABEL, anchor, grey.color, false);
             } else if !at.is_nan() && !label.is_empty() {
                 let is_before = at < low;
-                let y = if *vertical || is_before { top + 10.0 + rows } else { bottom - 10.0 - rows };
-                rows += 16.0;
+                let y = if *vertical {
+                    let reach = width + 24.0;
+                    let ends = if is_before { [left, left + reach] } else { [right - reach, right] };
+                    top + 10.0 + ROW * row_of(&mut named, ends) as f64
+                } else {
+                    rows += 1;
+                    let place = 10.0 + ROW * f64::from(rows - 1);
+                    if is_before { top + place } else { bottom - place }
+                };
                 let (edge, inward, anchor) = match *vertical && !is_before {
                     true => (right, -1.0, Anchor::End),
                     false => (left, 1.0, Anchor::Start),
@@ -124,5 +127,27 @@ impl Panel<'_> {
                 svg.text(label, [edge + 20.0 * inward, y + 4.0], LABEL, anchor, grey.color, false);
             }
         }
+    }
+}
+
+/// The first row in which a name from `ends[0]` to `ends[1]` covers none of those in `named`, where it is noted.
+fn row_of(named: &mut Vec<(usize, [f64; 2])>, ends: [f64; 2]) -> usize {
+    let is_free =
+        |row: &usize| named.iter().all(|(other, [from, to])| other != row || ends[1] <= *from || ends[0] >= *to);
+    let row = (0..).find(is_free).unwrap_or(0);
+    named.push((row, ends));
+    row
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: names in one row do not cover each other, and a name is in the first row that has space.
+    #[test]
+    fn names_of_limits_do_not_meet() {
+        let mut named = Vec::new();
+        let rows = [[0.0, 50.0], [40.0, 90.0], [50.0, 80.0], [45.0, 60.0]].map(|ends| row_of(&mut named, ends));
+        assert_eq!(rows, [0, 1, 0, 2]);
     }
 }

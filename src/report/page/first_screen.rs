@@ -192,9 +192,43 @@ pub fn verdicts(cards: &[Card], has_requirements: bool, said: &[String]) -> Stri
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::analysis::survey::{EndedRuns, Thinned};
     use crate::campaign::Overrides;
     use crate::ode::Integrator;
     use crate::propagation::Method;
+    use crate::report::page::runs::ShownRun;
+    use crate::report::page::tables::worst_runs;
+    use crate::sampling::SampleId;
+
+    /// Law: a reason is text, whatever is in it, at the head of the page and in the list of worst runs.
+    #[test]
+    fn reasons_are_text() {
+        const REASON: &str = "a law said: rate < 0 & <img src=x onerror=alert(1)>";
+        const ESCAPED: &str = "a law said: rate &lt; 0 &amp; &lt;img src=x onerror=alert(1)&gt;";
+        let text = include_str!("../../../campaigns/spin_sweep.toml");
+        let plan = Plan::from_text("spin_sweep", text, Overrides::default()).expect("valid");
+        let first = vec![(SampleId(3), REASON.to_owned())];
+        let survey = Survey {
+            samples: 10,
+            ended: vec![EndedRuns { status: Status::InternalError, count: 2, first }],
+            outcomes: Vec::new(),
+            thinned: Thinned::default(),
+            audits: Vec::new(),
+            audited: 0,
+        };
+        let run = ShownRun {
+            sample: SampleId(3),
+            why: "failed".to_owned(),
+            status: Status::InternalError,
+            reason: REASON.to_owned(),
+            inputs: Vec::new(),
+            row: Vec::new(),
+            run: None,
+        };
+        for html in [status(&plan, &survey), worst_runs(&plan, &survey, &[run])] {
+            assert!(html.contains(ESCAPED) && !html.contains("<img"), "{html}");
+        }
+    }
 
     /// Law: the facts of a campaign name its tolerance, or the length of its steps where these are fixed.
     #[test]
