@@ -2,7 +2,7 @@
 
 use super::allocation::{ThrustAllocation, WheelTorque};
 use super::spec::LoopSpec;
-use crate::math::vector::{difference, norm, product, scaled, sum};
+use crate::control::vector::{difference, norm, product, scaled, sum};
 use crate::scene::Scene;
 
 /// What a loop can do about the angular momentum of the nominal scene about its centre of mass.

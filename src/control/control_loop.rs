@@ -13,7 +13,7 @@ use super::actuators::{DelayQueue, PulseState, ThrusterDrive, WheelDrive, modula
 use super::allocation::thrust::ThrustAllocation;
 use super::allocation::wheel_torque::WheelTorque;
 use super::context::LawContext;
-use super::estimate::Estimate;
+use super::estimate::{Estimate, EstimateErrors};
 use super::estimators::{Consistency, Estimator, EstimatorContext, KnownSensor, Update};
 use super::guidance::geometry::{Centers, LaunchGeometry, LaunchState, transfer};
 use super::guidance::phase::{Maneuver, Phase};
@@ -28,31 +28,27 @@ use super::sensors::{Instrument, SensorContext};
 use super::small_matrix::inverse;
 use super::spec::LoopSpec;
 use super::truth::{DebrisMotion, Truth};
+use crate::control::vector::{dcm_from_quaternion, difference, dot, norm, product, scaled, sum};
 use crate::dynamics::actuation::{Actuation, ActuationLaw, BodyState, WheelState};
-use crate::math::vector::{dcm_from_quaternion, difference, dot, norm, product, scaled, sum};
 use crate::run::Telemetry;
 use crate::scene::{DeclaredTable, MAX_THRUSTERS, MAX_WHEELS, Scene, WheelMode};
 
-/// What acts from a time on: as commanded, before the actuators.
+/// What the motors are commanded, N m, by wheel.
+type MotorCommand = [f64; MAX_WHEELS];
+
+/// What the thrusters are commanded.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Command {
-    /// When it begins to act, s.
+struct Pulses {
+    /// When they begin, s.
     begin: f64,
-    /// Motor torques, N m, by wheel.
-    motor_torque: [f64; MAX_WHEELS],
     /// Thrusts while they last, N, by thruster.
     thrust: [f64; MAX_THRUSTERS],
     /// How long each lasts, s.
     on_time: [f64; MAX_THRUSTERS],
 }
 
-/// Nothing is commanded.
-const IDLE: Command = Command {
-    begin: 0.0,
-    motor_torque: [0.0; MAX_WHEELS],
-    thrust: [0.0; MAX_THRUSTERS],
-    on_time: [0.0; MAX_THRUSTERS],
-};
+/// No thruster fires.
+const NO_PULSES: Pulses = Pulses { begin: 0.0, thrust: [0.0; MAX_THRUSTERS], on_time: [0.0; MAX_THRUSTERS] };
 
 /// Times that differ by less than this share of a period are one: rounding of the products that they are.
 const SAME_TIME: f64 = 1e-9;
@@ -93,9 +89,11 @@ pub struct ControlLoop {
     next_tick: f64,
     // memory
     measurements: Vec<(usize, Measurement)>,
-    commands: DelayQueue<Command>,
-    /// The command of the last control tick.
-    latest: Command,
+    motor_commands: DelayQueue<MotorCommand>,
+    /// Nothing is pushed in a loop without thrusters.
+    thrust_commands: DelayQueue<Pulses>,
+    /// What was commanded at the last control tick: motor torques, N m, and mean thrusts, N; where this run is recorded.
+    latest: (MotorCommand, [f64; MAX_THRUSTERS]),
     /// Impulses of force and torque commanded since the last tick, in F_s, N s and N m s.
     commanded: [[f64; 3]; 2],
     /// The same of the motors, N m s.
@@ -104,7 +102,6 @@ pub struct ControlLoop {
     debris_seen: f64,
     saturated_since: f64,
     last_update: f64,
-    estimate: Option<Estimate>,
     // what comes of it
     judgement: Judgement,
     outcome: MissionOutcome,
@@ -256,14 +253,14 @@ impl ControlLoop {
             tick_period,
             next_tick: 0.0,
             measurements: Vec::with_capacity(spec.sensors.len()),
-            commands: DelayQueue::new(IDLE, delay, spec.period),
-            latest: IDLE,
+            motor_commands: DelayQueue::new([0.0; MAX_WHEELS], delay, spec.period),
+            thrust_commands: DelayQueue::new(NO_PULSES, delay, spec.period),
+            latest: ([0.0; MAX_WHEELS], [0.0; MAX_THRUSTERS]),
             commanded: [[0.0; 3]; 2],
             commanded_motors: [0.0; MAX_WHEELS],
             debris_seen: 0.0,
             saturated_since: f64::NAN,
             last_update: 0.0,
-            estimate: None,
             judgement: Judgement {
                 launch,
                 keep_out: number_or(numbers, "keep_out_m", 0.0),
@@ -309,7 +306,6 @@ impl ControlLoop {
         if self.tick.is_multiple_of(self.ticks_per_period) {
             self.control(truth, &estimate);
         }
-        self.estimate = Some(estimate);
         self.tick += 1;
         self.next_tick = self.tick as f64 * self.tick_period;
     }
@@ -320,7 +316,7 @@ impl ControlLoop {
         let mut situation = self.situation(truth.time, estimate, geometry);
         let begins = self.guidance.has_changed;
         let (mut error, mut velocity_to_go) = self.wanted(estimate, geometry.as_ref(), truth.time);
-        (situation.pointing_error, situation.velocity_to_go) = (error.angle(), velocity_to_go);
+        (situation.error, situation.velocity_to_go) = (error, velocity_to_go);
         let progress = match self.failure(truth, estimate, geometry.is_some()) {
             Some(failure) => Progress::Fails(failure),
             None => self.guidance.decide(&self.phases, &situation),
@@ -329,11 +325,11 @@ impl ControlLoop {
             self.law = self.laws[self.guidance.phase];
             (error, velocity_to_go) = self.wanted(estimate, geometry.as_ref(), truth.time);
         }
-        self.judge(truth, estimate, begins || self.guidance.has_changed);
+        self.judge(truth, estimate, begins || self.guidance.has_changed, &error);
         match progress {
             Progress::Flies => {
                 self.command(truth.time, estimate, &error, velocity_to_go, situation.s3_e);
-                self.record(truth.time, estimate, error.angle());
+                self.record(truth.time, estimate, &error);
             }
             Progress::Launches => self.end(truth, Failure::None),
             Progress::Fails(failure) => self.end(truth, failure),
@@ -341,12 +337,9 @@ impl ControlLoop {
     }
 
     /// Records the tick, where this run is to be recorded.
-    fn record(&mut self, time: f64, estimate: &Estimate, pointing_error: f64) {
+    fn record(&mut self, time: f64, estimate: &Estimate, error: &AttitudeError) {
         if let Some(recorder) = &mut self.recorder {
-            let command = self.latest;
-            let mean = |i: usize| command.thrust[i] * (command.on_time[i] / self.spec.period).min(1.0);
-            let commanded = (command.motor_torque, std::array::from_fn(mean));
-            recorder.tick(time, self.guidance.phase, pointing_error, estimate, commanded, &self.measurements);
+            recorder.tick(time, self.guidance.phase, error.angle(), estimate, self.latest, &self.measurements);
         }
     }
 
@@ -402,7 +395,7 @@ impl ControlLoop {
             time,
             time_in_phase: time - self.guidance.since,
             body_rate: norm(estimate.omega_se_s),
-            pointing_error: 0.0,
+            error: AttitudeError::NONE,
             wheel_speed: rates.iter().fold(0.0, |most, rate| most.max(rate.abs())),
             wheel_momentum: norm(stored_momentum(&self.believed, estimate)),
             geometry,
@@ -437,10 +430,15 @@ impl ControlLoop {
     }
 
     /// Takes the truth of a tick into the outcome.
-    fn judge(&mut self, truth: &Truth, estimate: &Estimate, begins: bool) {
+    fn judge(&mut self, truth: &Truth, estimate: &Estimate, begins: bool, believed: &AttitudeError) {
         let target = self.phases[self.guidance.phase].target;
-        let geometry = centers_of(truth).and_then(|centers| self.launch.geometry(&centers));
+        // of perfect knowledge the believed error is the true one
+        let knows = self.spec.knows_the_truth();
+        let geometry = if knows { None } else { centers_of(truth).and_then(|centers| self.launch.geometry(&centers)) };
         let error = (target != Target::None).then(|| {
+            if knows {
+                return *believed;
+            }
             let to_go = self.velocity_to_go(geometry.as_ref(), truth.time);
             target.error(truth.body.q_es, geometry.as_ref(), &to_go)
         });
@@ -450,7 +448,7 @@ impl ControlLoop {
         } else {
             Consistency::default()
         };
-        let errors = estimate.errors(truth);
+        let errors = if knows { EstimateErrors::NONE } else { estimate.errors(truth) };
         self.outcome.tick(&self.drawn, truth, (error.as_ref(), begins), (&errors, &consistency), &self.judgement);
     }
 
@@ -477,8 +475,8 @@ impl ControlLoop {
         };
         let phase = &self.phases[self.guidance.phase];
         let torque = self.law.torque(&self.known, &input, self.spec.period);
-        let mut command = Command { begin: time + self.delay, ..IDLE };
-        let mut by_thrusters = [0.0; 3];
+        let begin = time + self.delay;
+        let (mut by_thrusters, mut mean) = ([0.0; 3], [0.0; MAX_THRUSTERS]);
         if let Some(allocation) = &self.thrusters {
             let by_wheels = self.wheels.as_ref().map_or([0.0; 3], |wheels| product(wheels.reachable, torque));
             let mut wanted = difference(torque, by_wheels);
@@ -495,39 +493,50 @@ impl ControlLoop {
                 along = along.max(0.0);
             }
             let allocated = allocation.allocate([0.0, 0.0, along], wanted);
+            let mut pulses = Pulses { begin, ..NO_PULSES };
             for &i in &self.spec.thrusters {
                 let period = self.spec.period;
                 let pulse = self.thruster_drives[i].over(allocated.thrust[i], period, &mut self.pulses[i]);
-                (command.thrust[i], command.on_time[i]) = (pulse.thrust, pulse.on_time);
+                (pulses.thrust[i], pulses.on_time[i]) = (pulse.thrust, pulse.on_time);
+                mean[i] = pulse.thrust * pulse.on_time / period;
             }
-            let mean = std::array::from_fn(|i| command.thrust[i] * command.on_time[i] / self.spec.period);
             by_thrusters = self.believed.thruster_torque_s(mean);
+            self.thrust_commands.push(begin, pulses);
         }
+        let mut motor_torque = [0.0; MAX_WHEELS];
         if let Some(allocation) = &self.wheels {
             let motors = allocation.motors(difference(torque, by_thrusters));
-            self.spec.wheels.iter().zip(motors).for_each(|(place, motor)| command.motor_torque[*place] = motor);
+            self.spec.wheels.iter().zip(motors).for_each(|(place, motor)| motor_torque[*place] = motor);
         }
-        let numbers = command.motor_torque.iter().chain(&command.thrust).chain(&command.on_time);
-        if !numbers.fold(0.0, |sum: f64, number| sum + number).is_finite() {
+        let total =
+            motor_torque.iter().sum::<f64>() + self.spec.thrusters.iter().map(|place| mean[*place]).sum::<f64>();
+        if !total.is_finite() {
             self.has_ended = true;
             self.outcome.diverges(time);
             return;
         }
-        self.commands.push(command.begin, command);
-        self.latest = command;
+        self.motor_commands.push(begin, motor_torque);
+        if self.recorder.is_some() {
+            self.latest = (motor_torque, mean);
+        }
     }
 
     /// What the actuators make of the command from `time` on, and until when.
     fn applied(&mut self, time: f64, body: &BodyState, wheels: &WheelState) -> Actuation {
         let same = SAME_TIME * self.spec.period;
-        let (command, next_command) = self.commands.at(time + same);
-        let mut until = self.next_tick.min(next_command);
+        let (motor_torque, next_motors) = self.motor_commands.at(time + same);
+        let motor_torque = *motor_torque;
+        let mut until = self.next_tick.min(next_motors);
         let mut thrust = [0.0; MAX_THRUSTERS];
-        for &i in &self.spec.thrusters {
-            let end = command.begin + command.on_time[i];
-            if command.thrust[i] > 0.0 && end > time + same {
-                thrust[i] = command.thrust[i];
-                until = until.min(end);
+        if !self.spec.thrusters.is_empty() {
+            let (pulses, next_pulses) = self.thrust_commands.at(time + same);
+            until = until.min(next_pulses);
+            for &i in &self.spec.thrusters {
+                let end = pulses.begin + pulses.on_time[i];
+                if pulses.thrust[i] > 0.0 && end > time + same {
+                    thrust[i] = pulses.thrust[i];
+                    until = until.min(end);
+                }
             }
         }
         let length = until - time;
@@ -538,7 +547,7 @@ impl ControlLoop {
             if self.drawn.mass.wheels[i].mode != WheelMode::Free {
                 continue;
             }
-            let driven = drive.over(command.motor_torque[i], wheels.rates[i], length);
+            let driven = drive.over(motor_torque[i], wheels.rates[i], length);
             actuation.motor_torque[i] = driven.torque;
             saturated[0] |= driven.is_torque_limited;
             saturated[1] |= driven.is_speed_limited;
@@ -561,14 +570,18 @@ impl ControlLoop {
                 hits = self.outcome.plume_hits(&self.drawn, &truth, &actuation.thrust, &self.judgement);
             }
         }
-        for (wheel, torque) in self.believed.mass.wheels.iter().zip(command.motor_torque) {
-            self.commanded[1] = difference(self.commanded[1], scaled(length * torque, wheel.axis));
-        }
-        for (impulse, torque) in self.commanded_motors.iter_mut().zip(command.motor_torque) {
-            *impulse = torque.mul_add(length, *impulse);
-        }
         let applied = ArcApplied { length, thrust: actuation.thrust, hits, saturated, torque_excess: excess };
         self.outcome.arc(&self.drawn, &applied);
+        if self.spec.knows_the_truth() {
+            // only filters ask what was commanded
+            return actuation;
+        }
+        for (wheel, torque) in self.believed.mass.wheels.iter().zip(motor_torque) {
+            self.commanded[1] = difference(self.commanded[1], scaled(length * torque, wheel.axis));
+        }
+        for (impulse, torque) in self.commanded_motors.iter_mut().zip(motor_torque) {
+            *impulse += torque * length;
+        }
         actuation
     }
 }

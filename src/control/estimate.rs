@@ -2,7 +2,7 @@
 
 use super::rotation::vector_of;
 use super::truth::{DebrisState, Truth};
-use crate::math::vector::{conjugate, difference, hamilton, norm};
+use crate::control::vector::{conjugate, difference, hamilton, norm};
 use crate::scene::MAX_WHEELS;
 
 /// The estimated state at a tick.
@@ -43,6 +43,20 @@ pub struct EstimateErrors {
     pub debris_attitude: f64,
     /// Magnitude of the error of omega_de_d, rad/s.
     pub debris_rate: f64,
+}
+
+impl EstimateErrors {
+    /// Of perfect knowledge.
+    pub const NONE: EstimateErrors = EstimateErrors {
+        attitude: 0.0,
+        rate: 0.0,
+        position: 0.0,
+        velocity: 0.0,
+        relative_position: 0.0,
+        relative_velocity: 0.0,
+        debris_attitude: 0.0,
+        debris_rate: 0.0,
+    };
 }
 
 impl Estimate {

@@ -11,7 +11,7 @@
 //! - [`laws`]: from an estimate to a wanted torque.
 //! - [`allocation`]: from a wanted torque and force to wheels and thrusters. [`actuators`]: what these make of it.
 //! - [`capacity`]: whether the momentum of a scene fits into the wheels of its loop.
-//! - [`rotation`], [`small_matrix`]: what all of them compute with.
+//! - [`vector`], [`rotation`], [`small_matrix`]: what all of them compute with.
 //!
 //! Not here: the interface by which an engine asks a law ([`crate::dynamics::actuation`]), and which campaign flies which law (`campaign`).
 
@@ -35,6 +35,7 @@ pub mod sensors;
 pub mod small_matrix;
 pub mod spec;
 pub mod truth;
+pub mod vector;
 
 pub use context::LawContext;
 pub use law::ControlLaw;

@@ -9,7 +9,7 @@ use super::guidance::{Failure, Guidance};
 use super::spec::LoopSpec;
 use super::truth::Truth;
 use crate::control::rotation::vector_of;
-use crate::math::vector::{cross, dcm_from_quaternion, dot, norm, product, scaled};
+use crate::control::vector::{cross, dcm_from_quaternion, dot, norm, product, scaled};
 use crate::observables::{ColumnKind, LawColumn, LawColumns};
 use crate::run::Quantity;
 use crate::scene::{MAX_THRUSTERS, MAX_WHEELS, Scene};
@@ -129,11 +129,11 @@ impl MissionOutcome {
         for (i, wheel) in scene.mass.wheels.iter().enumerate() {
             let rate = truth.wheels.rates[i];
             self.speed_peak[i] = self.speed_peak[i].max(rate.abs());
-            momentum = std::array::from_fn(|k| wheel.axial.mul_add(rate * wheel.axis[k], momentum[k]));
+            momentum = crate::control::vector::sum(momentum, scaled(wheel.axial * rate, wheel.axis));
         }
         self.momentum_peak = self.momentum_peak.max(norm(momentum));
         if let Some(debris) = &truth.debris {
-            let apart = crate::math::vector::difference(debris.r_gdo_e, truth.body.r_co_e);
+            let apart = crate::control::vector::difference(debris.r_gdo_e, truth.body.r_co_e);
             self.debris_distance = self.debris_distance.min(norm(apart));
         }
         self.attitude_error = [errors.attitude, self.attitude_error[1].max(errors.attitude)];
@@ -169,7 +169,7 @@ impl MissionOutcome {
             return;
         }
         for (impulse, thrust) in self.impulse.iter_mut().zip(applied.thrust) {
-            *impulse = thrust.mul_add(applied.length, *impulse);
+            *impulse += thrust * applied.length;
         }
         let force = norm(scene.thruster_force_s(applied.thrust));
         self.velocity_change += force * applied.length / scene.mass.total;
@@ -206,7 +206,7 @@ impl MissionOutcome {
 /// Whether the plume of a thruster that pushes along `direction` (F_s) hits the debris: it leaves against its push.
 fn plume_hits(truth: &Truth, direction: [f64; 3], [range, half_angle]: [f64; 2]) -> bool {
     let Some(debris) = &truth.debris else { return false };
-    let to_debris = crate::math::vector::difference(debris.r_gdo_e, truth.body.r_co_e);
+    let to_debris = crate::control::vector::difference(debris.r_gdo_e, truth.body.r_co_e);
     let distance = norm(to_debris);
     let plume = scaled(-1.0, product(dcm_from_quaternion(truth.body.q_es), direction));
     distance < range && libm::atan2(norm(cross(plume, to_debris)), dot(plume, to_debris)) < half_angle

@@ -96,7 +96,7 @@ impl Recorder {
         let mut row = vec![phase as f64, pointing_error];
         row.extend(estimate.q_es.iter().chain(&estimate.omega_se_s).chain(&estimate.gyro_bias_s));
         if self.has_debris {
-            let of = |debris: [f64; 3], own: [f64; 3]| crate::math::vector::difference(debris, own);
+            let of = |debris: [f64; 3], own: [f64; 3]| crate::control::vector::difference(debris, own);
             let apart = estimate.debris.map_or([f64::NAN; 3], |debris| of(debris.r_gdo_e, estimate.r_co_e));
             let velocity = estimate.debris.map_or([f64::NAN; 3], |debris| of(estimate.v_co_e, debris.v_gdo_e));
             row.extend(apart.into_iter().chain(velocity));

@@ -1,6 +1,6 @@
-//! Rotations as vectors and as modified Rodrigues parameters, beside the quaternions of [`crate::math::vector`] (scalar first, Hamilton product).
+//! Rotations as vectors and as modified Rodrigues parameters, beside the quaternions of [`super::vector`] (scalar first, Hamilton product).
 
-use crate::math::vector::{cross, dot, norm, scaled, sum};
+use crate::control::vector::{cross, dot, norm, scaled, sum};
 
 /// The quaternion of the rotation vector `v`, rad: angle times axis.
 pub fn quaternion_of(v: [f64; 3]) -> [f64; 4] {
@@ -43,7 +43,7 @@ pub fn turned(v: [f64; 3], by: [f64; 3]) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::vector::{dcm_from_quaternion, difference, hamilton, product};
+    use crate::control::vector::{dcm_from_quaternion, difference, hamilton, product};
 
     /// Law: vector and quaternion are one rotation, of any angle up to half a turn; so are the MRP, and a turned vector.
     #[test]

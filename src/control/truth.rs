@@ -1,9 +1,9 @@
 //! [`Truth`]: the true state of a run at a tick, for models of sensors and actuators only.
 
 use crate::control::rotation::quaternion_of;
+use crate::control::vector::{cross, difference, hamilton, product, scaled, sum};
 use crate::dynamics::actuation::{BodyState, WheelState};
 use crate::dynamics::debris::is_isotropic;
-use crate::math::vector::{cross, difference, hamilton, product, scaled, sum};
 use crate::scene::Scene;
 
 /// The true state of a run at a time.
@@ -76,7 +76,7 @@ impl DebrisMotion {
             self.now.q_ed = hamilton(start.q_ed, turn);
         } else {
             while self.time < time {
-                let rate = crate::math::vector::norm(self.now.omega_de_d);
+                let rate = crate::control::vector::norm(self.now.omega_de_d);
                 let longest = if rate > 0.0 { LARGEST_TURN / rate } else { f64::INFINITY };
                 let left = time - self.time;
                 let steps = (left / longest).ceil().max(1.0);
@@ -124,7 +124,7 @@ impl Truth {
         wheels: &WheelState,
         debris: Option<&mut DebrisMotion>,
     ) -> Self {
-        let c_es = crate::math::vector::dcm_from_quaternion(body.q_es);
+        let c_es = crate::control::vector::dcm_from_quaternion(body.q_es);
         let arm = scene.mass.center;
         Truth {
             time,

@@ -32,6 +32,9 @@ pub fn report_offset(thrusters: &[Thruster]) -> Option<f64> {
 
 /// The force of `thrusters` at the thrusts `thrust` (N, in their order) in F_s, N.
 pub fn force_s(thrusters: &[Thruster], thrust: [f64; MAX_THRUSTERS]) -> [f64; 3] {
+    if thrusters.is_empty() {
+        return [0.0; 3];
+    }
     if report_offset(thrusters).is_some() {
         return [0.0, 0.0, thrust[0] - thrust[1] - thrust[2]];
     }
@@ -40,6 +43,9 @@ pub fn force_s(thrusters: &[Thruster], thrust: [f64; MAX_THRUSTERS]) -> [f64; 3]
 
 /// The torque of `thrusters` at the thrusts `thrust` (N, in their order) about the point `center` (from p in F_s, m), in F_s, N m.
 pub fn torque_s(thrusters: &[Thruster], thrust: [f64; MAX_THRUSTERS], center: [f64; 3]) -> [f64; 3] {
+    if thrusters.is_empty() {
+        return [0.0; 3];
+    }
     if let Some(offset) = report_offset(thrusters) {
         let force = thrust[0] - thrust[1] - thrust[2];
         // about p, minus center x F

@@ -25,11 +25,11 @@ impl<C: Copy> DelayQueue<C> {
     }
 
     /// The command that acts at `time`, and when the next one takes its place: infinite where none is on its way. Times ascend from call to call.
-    pub fn at(&mut self, time: f64) -> (C, f64) {
+    pub fn at(&mut self, time: f64) -> (&C, f64) {
         while let Some((_, command)) = self.waiting.pop_front_if(|(from, _)| *from <= time) {
             self.acting = command;
         }
-        (self.acting, self.waiting.front().map_or(f64::INFINITY, |(from, _)| *from))
+        (&self.acting, self.waiting.front().map_or(f64::INFINITY, |(from, _)| *from))
     }
 }
 
@@ -51,7 +51,7 @@ mod tests {
                 while time < end {
                     let (acting, next) = queue.at(time);
                     let expected = (0..=tick).rev().find(|earlier| from(*earlier) <= time).unwrap_or(-1);
-                    assert_eq!(acting, expected, "at {time}");
+                    assert_eq!(*acting, expected, "at {time}");
                     let later = (0..=tick).map(from).find(|from| *from > time);
                     assert_eq!(next, later.unwrap_or(f64::INFINITY));
                     time = next.min(end);

@@ -3,7 +3,7 @@
 //! All of it is held over the arc, so that friction and limits are right to first order in the arc's length. The rate at the end is predicted from the
 //! torque on the wheel alone: what else turns the body changes it, which the next arc sees.
 
-use crate::math::vector::{dot, product};
+use crate::control::vector::{dot, product};
 
 /// A wheel's motor and bearing. Torques are about the wheel's axis and act on the wheel; the body takes the opposite.
 #[derive(Clone, Copy, Debug, PartialEq)]

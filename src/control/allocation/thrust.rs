@@ -10,8 +10,8 @@
 //! force: attitude comes first. Then the force, in its direction. Then the total is made least.
 
 use super::simplex::{COLUMNS, Column, ROWS, least};
+use crate::control::vector::{cross, difference};
 use crate::math::list::List;
-use crate::math::vector::{cross, difference};
 use crate::scene::thruster::report_offset;
 use crate::scene::{MAX_THRUSTERS, Scene, Thruster};
 
@@ -226,7 +226,7 @@ pub(super) fn halves([a, b, c, d, e, f]: &[f64; 6]) -> ([f64; 3], [f64; 3]) {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
-    use crate::math::vector::norm;
+    use crate::control::vector::norm;
     use crate::scene::thruster::REPORT_DIRECTIONS;
 
     /// Numbers from -1 to 1 in thousandths, as in tests/golden/thrust_allocation.py.

@@ -1,8 +1,8 @@
 //! Torques that thrusters can give in both directions.
 
 use super::thrust::{ThrustAllocation, halves};
+use crate::control::vector::{difference, norm, product, scaled, sum};
 use crate::math::list::List;
-use crate::math::vector::{difference, norm, product, scaled, sum};
 use crate::scene::MAX_THRUSTERS;
 
 /// Directions that differ by less, relative to their length, are one: far above the rounding of positions, far below any alignment.

@@ -1,8 +1,8 @@
 //! [`WheelTorque`]: torques of wheels' motors that give a wanted torque on the body, with the least norm.
 
+use crate::control::vector::{dot, product, scaled, sum};
 use crate::math::list::List;
 use crate::math::symmetric::principal_axes;
-use crate::math::vector::{dot, product, scaled, sum};
 use crate::scene::MAX_WHEELS;
 
 /// A direction along which the sum of the squares of the axes' components is less than this, relative to the largest such sum, is not reached: above the
@@ -54,7 +54,7 @@ impl WheelTorque {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::vector::{cross, difference, norm};
+    use crate::control::vector::{cross, difference, norm};
 
     fn on_body(axes: &[[f64; 3]], motors: [f64; MAX_WHEELS]) -> [f64; 3] {
         axes.iter().zip(motors).fold([0.0; 3], |total, (axis, motor)| sum(total, scaled(-motor, *axis)))

@@ -11,7 +11,7 @@ use super::delayed::Filter;
 use super::kalman::{Gain, NormalizedSquare, blocks, corners, halves, normalized_square, symmetric};
 use crate::control::rotation::{quaternion_of, vector_of};
 use crate::control::small_matrix::{added, diagonal, multiplied, transposed};
-use crate::math::vector::{conjugate, cross, dcm_from_quaternion, difference, hamilton, norm, scaled, sum};
+use crate::control::vector::{conjugate, cross, dcm_from_quaternion, difference, hamilton, norm, scaled, sum};
 
 /// The noise of a gyro, as the filter believes it: Farrenkopf's sv, rad/sqrt(s), and su, rad/s/sqrt(s).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -210,7 +210,7 @@ mod tests {
         for size in [0.0, 1e-3, 0.0999, 0.1001, 1.0, 2.5] {
             let v = scaled(size / 3.0, [1.0, -2.0, 2.0]);
             let e = [3e-7, 2e-7, -4e-7];
-            let by_jacobian = crate::math::vector::product(right_jacobian(v), e);
+            let by_jacobian = crate::control::vector::product(right_jacobian(v), e);
             let [back, ahead] = [-1.0, 1.0].map(|sign| quaternion_of(sum(v, scaled(sign, e))));
             let difference_of = vector_of(hamilton(conjugate(back), ahead));
             // central difference: 1e-18 of truncation, 1e-16 of rounding (measured: 7.3e-17)

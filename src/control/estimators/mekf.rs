@@ -19,7 +19,7 @@ use crate::control::rotation::{quaternion_of, vector_of};
 use crate::control::sensors::{number, vector};
 use crate::control::small_matrix::{added, diagonal, multiplied, transposed};
 use crate::control::truth::{DebrisState, Truth};
-use crate::math::vector::{conjugate, dcm_from_quaternion, difference, dot, hamilton, product, scaled, sum};
+use crate::control::vector::{conjugate, dcm_from_quaternion, difference, dot, hamilton, product, scaled, sum};
 use crate::scene::schema::Limit;
 use crate::scene::{LawParameter, MAX_WHEELS, MassProperties};
 

@@ -17,7 +17,7 @@ pub mod translation_filter;
 use super::estimate::Estimate;
 use super::measurement::{Measurement, PointMotion};
 use super::truth::{DebrisState, Truth};
-use crate::math::vector::{cross, dcm_from_quaternion, product, sum};
+use crate::control::vector::{cross, dcm_from_quaternion, product, sum};
 use crate::scene::{DeclaredTable, LawParameter, MAX_WHEELS, Scene};
 use kalman::NormalizedSquare;
 

@@ -6,7 +6,7 @@ use super::{Estimator, EstimatorContext, EstimatorKind, Update, center_of};
 use crate::control::estimate::Estimate;
 use crate::control::measurement::Measurement;
 use crate::control::rotation::vector_of;
-use crate::math::vector::{conjugate, dcm_from_quaternion, hamilton, product, scaled, sum};
+use crate::control::vector::{conjugate, dcm_from_quaternion, hamilton, product, scaled, sum};
 
 pub(super) const KIND: EstimatorKind =
     EstimatorKind { name: "raw", parameters: &[], make: |context| Box::new(Raw::new(context)) };

@@ -9,7 +9,7 @@ use super::delayed::Filter;
 use super::kalman::{Gain, NormalizedSquare, blocks, halves, normalized_square, symmetric, transported};
 use crate::control::rotation::{quaternion_of, vector_of};
 use crate::control::small_matrix::{added, diagonal, inverse, multiplied};
-use crate::math::vector::{conjugate, cross, dcm_from_quaternion, difference, hamilton, norm, product, scaled, sum};
+use crate::control::vector::{conjugate, cross, dcm_from_quaternion, difference, hamilton, norm, product, scaled, sum};
 
 /// A step under a known torque.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -9,7 +9,7 @@ use crate::control::rotation::quaternion_of;
 use crate::control::sensors::bench::{chi_square, sensor, table, truth};
 use crate::control::sensors::{self, Sensor};
 use crate::control::small_matrix::diagonal;
-use crate::math::vector::{difference, hamilton, norm, scaled};
+use crate::control::vector::{difference, hamilton, norm, scaled};
 use crate::sampling::{Noise, SampleId};
 use crate::scene::{DebrisInput, SceneInput};
 
@@ -336,7 +336,7 @@ fn a_body_with_wheels_keeps_momentum_and_energy() {
     let invariants = |filter: &RigidBodyFilter| {
         let of_body = product(inertia, filter.omega);
         let in_space = product(dcm_from_quaternion(filter.q), sum(of_body, momentum));
-        (in_space, 0.5 * crate::math::vector::dot(filter.omega, of_body))
+        (in_space, 0.5 * crate::control::vector::dot(filter.omega, of_body))
     };
     let before = invariants(&filter);
     for _ in 0..600 {
@@ -364,7 +364,7 @@ fn wheels_follow_their_motors_and_fast_gyros_are_joined() {
         last = Some(estimator.update(&Update { torque_s, motor_torques, ..update(tick, 0.1, &[], at) }));
     }
     let last = last.expect("ticks");
-    let of_body = crate::math::vector::dot(wheel.axis, last.omega_se_s);
+    let of_body = crate::control::vector::dot(wheel.axis, last.omega_se_s);
     let momentum = wheel.axial * (last.wheel_rates[0] + of_body);
     assert!((momentum - 0.4 * 5.0).abs() < 1e-12 && of_body < 0.0, "{momentum}");
 

@@ -8,7 +8,7 @@ use super::delayed::Filter;
 use super::kalman::{Gain, NormalizedSquare, normalized_square, symmetric, transported};
 use crate::control::measurement::PointMotion;
 use crate::control::small_matrix::{added, diagonal};
-use crate::math::vector::{difference, scaled, sum};
+use crate::control::vector::{difference, scaled, sum};
 
 /// A step with known acceleration.
 #[derive(Clone, Copy, Debug, PartialEq)]

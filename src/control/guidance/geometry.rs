@@ -4,7 +4,7 @@
 //! is on A_d behind the debris (on the side of -v_d) at a constant distance L, at rest relative to the debris, and s3, the axis of the net launcher, points
 //! at it: with e the unit vector of v_d, position r_d - L e, velocity v_d, s3 = e.
 
-use crate::math::vector::{difference, dot, norm, scaled, sum};
+use crate::control::vector::{difference, dot, norm, scaled, sum};
 
 /// The centres of mass of spacecraft and debris, as they are or as they are estimated.
 #[derive(Clone, Copy, Debug, PartialEq)]

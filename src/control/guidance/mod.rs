@@ -145,7 +145,7 @@ mod tests {
             time,
             time_in_phase: 0.0,
             body_rate,
-            pointing_error: 0.0,
+            error: target::AttitudeError::NONE,
             wheel_speed: 0.0,
             wheel_momentum: 0.0,
             geometry: None,

@@ -1,7 +1,8 @@
 //! [`Situation`]: what guidance knows at a tick, and the quantities by which its conditions ask for it.
 
 use super::geometry::LaunchGeometry;
-use crate::math::vector::{norm, product};
+use super::target::AttitudeError;
+use crate::control::vector::{norm, product};
 use crate::sampling::expression::Expression;
 
 /// What guidance knows at a tick: of the estimate, never of the truth.
@@ -13,8 +14,8 @@ pub struct Situation {
     pub time_in_phase: f64,
     /// Magnitude of the angular velocity of the body relative to F_e, rad/s.
     pub body_rate: f64,
-    /// Angle of the rotation to the target of the phase, rad; zero without a target.
-    pub pointing_error: f64,
+    /// The attitude relative to the target of the phase.
+    pub error: AttitudeError,
     /// Largest magnitude of a wheel's rate relative to the body, rad/s.
     pub wheel_speed: f64,
     /// Magnitude of the wheels' momentum relative to the body, N m s.
@@ -62,7 +63,7 @@ pub static QUANTITIES: [GuidanceQuantity; 16] = [
     own("time_s", "Time since the start of the run", |s| s.time),
     own("time_in_phase_s", "Time since the phase began", |s| s.time_in_phase),
     own("body_rate_rad_s", "Magnitude of the angular velocity of the body relative to F_e", |s| s.body_rate),
-    own("pointing_error_rad", "Angle of the rotation to the target of the phase", |s| s.pointing_error),
+    own("pointing_error_rad", "Angle of the rotation to the target of the phase", |s| s.error.angle()),
     own("wheel_speed_rad_s", "Largest magnitude of the rate of a wheel relative to the body", |s| s.wheel_speed),
     own("wheel_momentum_n_m_s", "Magnitude of the momentum of the wheels relative to the body", |s| s.wheel_momentum),
     of_debris("debris_distance_m", "Distance from the debris", |s| with_geometry(s, |g| norm(g.to_debris))),
@@ -84,7 +85,7 @@ pub static QUANTITIES: [GuidanceQuantity; 16] = [
     of_debris(
         "velocity_to_go_along_m_s",
         "Component along s3 of the impulse per mass that is left of the maneuver of the phase",
-        |s| crate::math::vector::dot(s.velocity_to_go, s.s3_e),
+        |s| crate::control::vector::dot(s.velocity_to_go, s.s3_e),
     ),
     of_debris("time_to_station_s", "Time until the station is reached in the transfer that is flown", |s| {
         s.time_to_station

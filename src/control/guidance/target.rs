@@ -2,7 +2,7 @@
 
 use super::geometry::LaunchGeometry;
 use crate::control::rotation::quaternion_of;
-use crate::math::vector::{conjugate, cross, dcm_from_quaternion, dot, hamilton, norm, scaled, transposed_product};
+use crate::control::vector::{conjugate, cross, dcm_from_quaternion, dot, hamilton, norm, scaled, transposed_product};
 
 /// The attitude that a phase wants.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -121,7 +121,7 @@ fn pointing(q_es: [f64; 4], direction: [f64; 3], turn: [f64; 3]) -> AttitudeErro
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::vector::{difference, product, sum};
+    use crate::control::vector::{difference, product, sum};
 
     fn geometry(to_debris: [f64; 3], relative_velocity: [f64; 3]) -> LaunchGeometry {
         LaunchGeometry { axis: [0.0, 0.0, 1.0], to_debris, from_station: [0.0; 3], relative_velocity }

@@ -1,7 +1,7 @@
 //! [`Eigenaxis`]: a slew about one axis fixed in the body and in space.
 
 use super::{AttitudeLaw, KnownBody, LawInput, LawKind, limit, number};
-use crate::math::vector::{norm, product, scaled, sum};
+use crate::control::vector::{norm, product, scaled, sum};
 use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
 
@@ -66,7 +66,7 @@ mod tests {
     use super::*;
     use crate::control::laws::plant::Body;
     use crate::control::rotation::{quaternion_of, vector_of};
-    use crate::math::vector::cross;
+    use crate::control::vector::cross;
 
     const AXIS: [f64; 3] = [0.48, -0.6, 0.64];
     const START: f64 = 2.4;

@@ -15,7 +15,7 @@ pub use mrp_feedback::MrpFeedback;
 pub use quaternion_feedback::QuaternionFeedback;
 pub use rate_damping::RateDamping;
 
-use crate::math::vector::{cross, difference, product, scaled, sum};
+use crate::control::vector::{cross, difference, product, scaled, sum};
 use crate::scene::{DeclaredTable, LawParameter, MassProperties};
 
 /// The laws of attitude that a campaign can name.
@@ -147,7 +147,7 @@ pub(super) mod plant {
 
     use super::LawInput;
     use crate::control::rotation::quaternion_of;
-    use crate::math::vector::{cross, hamilton, product, scaled, sum};
+    use crate::control::vector::{cross, hamilton, product, scaled, sum};
 
     /// A body with the diagonal inertia `inertia`, kg m^2.
     #[derive(Clone, Copy, Debug)]
@@ -201,7 +201,7 @@ mod tests {
     use super::plant::Body;
     use super::*;
     use crate::control::rotation::{quaternion_of, vector_of};
-    use crate::math::vector::{conjugate, dcm_from_quaternion, hamilton, norm, transposed_product};
+    use crate::control::vector::{conjugate, dcm_from_quaternion, hamilton, norm, transposed_product};
     use crate::scene::Name;
 
     /// Law: every law of the list is made from its table, has units and names of its own, and takes energy out of a body that turns at its target.
@@ -217,7 +217,7 @@ mod tests {
             }
             let mut law = (kind.make)(&table);
             let torque = law.torque(&craft, &body.input(), 0.1);
-            assert!(crate::math::vector::dot(torque, body.omega) < -1e-6, "{}: {torque:?}", kind.name);
+            assert!(crate::control::vector::dot(torque, body.omega) < -1e-6, "{}: {torque:?}", kind.name);
         }
     }
 

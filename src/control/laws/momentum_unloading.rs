@@ -1,7 +1,7 @@
 //! [`MomentumUnloading`]: a torque of thrusters that takes momentum out of the wheels.
 
 use super::number;
-use crate::math::vector::{norm, product, scaled};
+use crate::control::vector::{norm, product, scaled};
 use crate::scene::schema::Limit;
 use crate::scene::{DeclaredTable, LawParameter};
 
@@ -59,7 +59,7 @@ impl MomentumUnloading {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::vector::{difference, sum};
+    use crate::control::vector::{difference, sum};
 
     const ALL: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 

@@ -2,7 +2,7 @@
 
 use super::{AttitudeLaw, KnownBody, LawInput, LawKind, limit, number};
 use crate::control::rotation::mrp_of;
-use crate::math::vector::{cross, difference, norm, product, scaled, sum};
+use crate::control::vector::{cross, difference, norm, product, scaled, sum};
 use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
 
@@ -89,7 +89,7 @@ mod tests {
     use super::*;
     use crate::control::laws::plant::Body;
     use crate::control::rotation::quaternion_of;
-    use crate::math::vector::dot;
+    use crate::control::vector::dot;
 
     /// Law: V falls by P times the integral of |omega|^2, with an error of first order in the period, also where the MRP switch to the shadow set, at
     /// which V does not jump.

@@ -1,7 +1,7 @@
 //! [`QuaternionFeedback`]: proportional to the quaternion of the error, and to the rate.
 
 use super::{AttitudeLaw, KnownBody, LawInput, LawKind, number};
-use crate::math::vector::{product, scaled, sum};
+use crate::control::vector::{product, scaled, sum};
 use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
 

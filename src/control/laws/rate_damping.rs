@@ -33,7 +33,7 @@ impl RateDamping {
 mod tests {
     use super::*;
     use crate::control::laws::plant::Body;
-    use crate::math::vector::{dot, product};
+    use crate::control::vector::{dot, product};
 
     /// Law: the energy falls at -gain |omega|^2, to first order in the period.
     #[test]

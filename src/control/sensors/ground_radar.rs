@@ -3,7 +3,7 @@
 use super::{AXES, NormalErrors, Sensor, SensorContext, SensorKind, optional};
 use crate::control::measurement::{Measurement, PointMotion};
 use crate::control::truth::Truth;
-use crate::math::vector::sum;
+use crate::control::vector::sum;
 use crate::scene::LawParameter;
 
 pub(super) const KIND: SensorKind = SensorKind {
@@ -65,7 +65,7 @@ mod tests {
     use super::super::bench::{assert_normal, sensor, truth};
     use super::*;
     use crate::control::truth::DebrisState;
-    use crate::math::vector::difference;
+    use crate::control::vector::difference;
 
     /// Law: all twelve errors are normal with their deviations, and each is independent of the one before it: 4,000 samples, alpha 1e-4 each, seed 5.
     #[test]

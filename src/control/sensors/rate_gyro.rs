@@ -9,7 +9,7 @@ use super::{AXES, Sensor, SensorContext, SensorKind, axes, optional};
 use crate::control::measurement::Measurement;
 use crate::control::rotation::{turned, vector_of};
 use crate::control::truth::Truth;
-use crate::math::vector::{conjugate, hamilton, scaled, sum};
+use crate::control::vector::{conjugate, hamilton, scaled, sum};
 use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
 
@@ -121,7 +121,7 @@ mod tests {
     use super::super::bench::{assert_normal, sensor, truth};
     use super::*;
     use crate::control::rotation::quaternion_of;
-    use crate::math::vector::difference;
+    use crate::control::vector::difference;
 
     /// The rotations that a gyro measures of a turn at the constant rate `omega`, and its bias after each.
     fn measured(values: &[(&str, &[f64])], sample: u64, omega: [f64; 3], samples: u64) -> Vec<([f64; 3], [f64; 3])> {

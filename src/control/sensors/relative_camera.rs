@@ -4,7 +4,7 @@ use super::{AXES, NormalErrors, Sensor, SensorContext, SensorKind, optional};
 use crate::control::measurement::Measurement;
 use crate::control::rotation::quaternion_of;
 use crate::control::truth::Truth;
-use crate::math::vector::{conjugate, dcm_from_quaternion, difference, hamilton, norm, product, sum};
+use crate::control::vector::{conjugate, dcm_from_quaternion, difference, hamilton, norm, product, sum};
 use crate::scene::LawParameter;
 
 pub(super) const KIND: SensorKind = SensorKind {

@@ -4,7 +4,7 @@ use super::{AXES, NormalErrors, Sensor, SensorContext, SensorKind, axes, optiona
 use crate::control::measurement::Measurement;
 use crate::control::rotation::quaternion_of;
 use crate::control::truth::Truth;
-use crate::math::vector::{hamilton, norm};
+use crate::control::vector::{hamilton, norm};
 use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
 
@@ -55,7 +55,7 @@ mod tests {
     use super::super::bench::{assert_normal, sensor, truth};
     use super::*;
     use crate::control::rotation::vector_of;
-    use crate::math::vector::conjugate;
+    use crate::control::vector::conjugate;
 
     const NOISE: [f64; 3] = [1e-5, 2e-5, 2e-4];
 
