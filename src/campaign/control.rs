@@ -21,6 +21,11 @@ const NOT_NEGATIVE: NumberLimit = NumberLimit {
     test: |x| x.is_finite() && x >= 0.0,
 };
 
+/// Most ticks of a sensor in a control period, and of a latency.
+const MOST_TICKS: f64 = 1000.0;
+/// Most phases.
+const MOST_PHASES: usize = 64;
+
 /// The word that stands for the launch of the net where a phase stands else.
 const LAUNCH: &str = "launch";
 
@@ -44,6 +49,14 @@ pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput) -> Option
         let path = section.path("wheels");
         section.document.add(&path, None, "the names of the wheels that the loop drives, or thrusters", remedy);
     }
+    if thrusters.is_empty() && section.has("modulation") {
+        section.refuse(
+            "modulation",
+            "left out in a loop without thrusters",
+            "add thrusters = [...], or delete this line",
+        );
+    }
+    check_valves(&mut section, scene, (&thrusters, modulation), period);
     let mut lists = vec![&parameters::LOOP[..], estimators::KINDS[estimator].parameters];
     if !thrusters.is_empty() {
         lists.extend([&parameters::THRUSTERS[..], modulation::parameters(modulation)]);
@@ -57,7 +70,7 @@ pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput) -> Option
     section.finish();
 
     let sensors = root.sections("sensors", |section| read_sensor(section, scene, period));
-    check_sensors(root, &sensors, estimator, has_debris);
+    check_sensors(root, &sensors, estimator, [has_debris, !wheels.is_empty()]);
     let mut taken = Vec::new();
     let phases = root.sections("guidance", |section| read_phase(section, scene, !thrusters.is_empty(), &mut taken));
     if phases.is_empty() && !root.has("guidance") {
@@ -65,6 +78,10 @@ pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput) -> Option
         let remedy =
             "add a [[guidance]] table with phase = \"hold\", law = \"quaternion_feedback\", target = \"attitude\"";
         root.document.add("guidance", None, content, remedy);
+    }
+    if phases.len() > MOST_PHASES {
+        let allowed = format!("at most {MOST_PHASES} tables");
+        root.document.add("guidance", Some(format!("{} tables", phases.len())), allowed, "delete some of them");
     }
     let phases = connected(root, phases, &taken);
     let spec = LoopSpec {
@@ -112,6 +129,37 @@ fn actuators(section: &mut Section<'_, '_>, key: &str, known: &[Option<Name>], w
     places
 }
 
+/// Notes which thrusters cannot be driven as `modulation` says.
+fn check_valves(
+    section: &mut Section<'_, '_>,
+    scene: &SceneInput,
+    (thrusters, modulation): (&[usize], usize),
+    period: Option<f64>,
+) {
+    if !modulation::is_on_off(modulation) {
+        return;
+    }
+    for thruster in thrusters.iter().map(|place| &scene.thrusters[*place]) {
+        let path = |key: &str| format!("thrusters.{}.{key}", thruster.name);
+        if thruster.max_thrust_n.is_none() {
+            let allowed =
+                format!("the thrust while it is on, where control.modulation is {:?}", modulation::NAMES[modulation]);
+            section.document.add(&path("max_thrust_n"), None, allowed, "add max_thrust_n = 10.0 to this thruster");
+        }
+        if let (Some(least), Some(period)) = (thruster.min_on_time_s, period)
+            && least > period
+        {
+            let allowed = format!("at most control.period_s ({period:?})");
+            section.document.add(
+                &path("min_on_time_s"),
+                Some(format!("{least:?}")),
+                allowed,
+                "write a shorter time, or a longer period",
+            );
+        }
+    }
+}
+
 /// `[control.model]`.
 fn read_model(section: &mut Section<'_, '_>) -> ModelSpec {
     let mut model = section.section("model");
@@ -131,7 +179,9 @@ fn read_sensor(section: &mut Section<'_, '_>, scene: &mut SceneInput, period: Op
     let name = read_name(section, Table::Sensors, &taken);
     let names: Vec<&str> = sensors::KINDS.iter().map(|kind| kind.name).collect();
     section.require("kind", &format!("one of {}", names.join(", ")), "\"rate_gyro\"");
-    let kind = section.name("kind", &names, |name| names.iter().position(|known| *known == name));
+    let seen: Vec<&str> =
+        names.iter().copied().filter(|name| scene.debris.is_some() || *name != "relative_camera").collect();
+    let kind = section.name("kind", &seen, |name| names.iter().position(|known| *known == name));
     let own_period = section.number("period_s", POSITIVE).or(period);
     let latency = section.number("latency_s", NOT_NEGATIVE).unwrap_or(0.0);
     scene.control.sensors.push(DeclaredTable::of(name, kind.map_or(&[], |kind| sensors::KINDS[kind].parameters)));
@@ -144,7 +194,8 @@ fn read_sensor(section: &mut Section<'_, '_>, scene: &mut SceneInput, period: Op
     section.finish();
     let (period, own) = (period?, own_period?);
     let is_whole = |ratio: f64| (ratio - ratio.round()).abs() < 1e-9 * ratio.max(1.0) && ratio.round() >= 1.0;
-    if !is_whole(own / period) && !is_whole(period / own) {
+    let is_near = period / own <= MOST_TICKS && own / period <= 1e9;
+    if !is_near || !is_whole(own / period) && !is_whole(period / own) {
         let allowed = format!("a whole multiple of control.period_s ({period:?}), or a whole fraction of it");
         section.refuse("period_s", allowed, format!("write {:?}", (own / period).round().max(1.0) * period));
         return None;
@@ -153,8 +204,8 @@ fn read_sensor(section: &mut Section<'_, '_>, scene: &mut SceneInput, period: Op
         section.refuse("latency_s", "left out: this sensor delivers at once", "delete this line");
         return None;
     }
-    if latency > 0.0 && !is_whole(latency / period) {
-        let allowed = format!("a whole multiple of control.period_s ({period:?})");
+    if latency > 0.0 && !(is_whole(latency / period) && latency / period <= MOST_TICKS) {
+        let allowed = format!("a whole multiple of control.period_s ({period:?}), at most {MOST_TICKS} of it");
         section.refuse("latency_s", allowed, format!("write {:?}", (latency / period).round().max(1.0) * period));
         return None;
     }
@@ -162,18 +213,31 @@ fn read_sensor(section: &mut Section<'_, '_>, scene: &mut SceneInput, period: Op
 }
 
 /// Notes what the estimator lacks.
-fn check_sensors(root: &mut Section<'_, '_>, sensors: &[Option<SensorSpec>], estimator: usize, has_debris: bool) {
+fn check_sensors(
+    root: &mut Section<'_, '_>,
+    sensors: &[Option<SensorSpec>],
+    estimator: usize,
+    [has_debris, has_wheels]: [bool; 2],
+) {
     let kinds: Vec<&str> = sensors.iter().flatten().map(|sensor| sensors::KINDS[sensor.kind].name).collect();
     if sensors.iter().any(Option::is_none) {
         return;
     }
-    let needed: &[&str] = match (estimators::KINDS[estimator].name, has_debris) {
-        ("perfect", _) => &[],
-        (_, false) => &["star_tracker"],
-        (_, true) => &["star_tracker", "ground_radar"],
-    };
+    let name = estimators::KINDS[estimator].name;
+    let mut needed = if name == "perfect" { Vec::new() } else { vec!["star_tracker"] };
+    needed.extend((name != "perfect" && has_debris).then_some("ground_radar"));
+    needed.extend((name == "raw" && has_wheels).then_some("tachometers"));
+    // ticks of all sensors are those of the fastest
+    let fastest = sensors.iter().flatten().map(|sensor| sensor.period).fold(f64::INFINITY, f64::min);
+    for sensor in sensors.iter().flatten() {
+        let ratio = sensor.period / fastest;
+        if (ratio - ratio.round()).abs() > 1e-9 * ratio {
+            let allowed = format!("a whole multiple of the shortest period of a sensor ({fastest:?} s)");
+            let path = format!("sensors.{}.period_s", sensor.name);
+            root.document.add(&path, Some(format!("{:?}", sensor.period)), allowed, "write another period");
+        }
+    }
     for kind in needed.iter().filter(|kind| !kinds.contains(kind)) {
-        let name = estimators::KINDS[estimator].name;
         let allowed = format!("\"perfect\" without a sensor of kind {kind:?}, which this estimator needs");
         let remedy = format!("add a [[sensors]] table with kind = {kind:?}, or write estimator = \"perfect\"");
         root.document.add("control.estimator", Some(format!("{name:?}")), allowed, remedy);
@@ -239,6 +303,17 @@ fn read_phase(
             "add thrusters = [...] to [control] and a [debris] table, or delete this line",
         );
     }
+    if matches!((target, thrust), (Target::Transfer, Maneuver::Stop) | (Target::Stop, Maneuver::Transfer)) {
+        section.refuse(
+            "thrust",
+            "\"none\", or what the target is for",
+            "write the same word, or target = \"velocity\"",
+        );
+    }
+    if section.has("hold_s") && !section.has("until") {
+        section.know("hold_s");
+        section.refuse("hold_s", "left out without `until`", "add until = \"...\", or delete this line");
+    }
     let until = section.text("until");
     let until = until.and_then(|text| match Condition::parse(text, has_debris) {
         Ok(condition) => Some(condition),
@@ -254,7 +329,7 @@ fn read_phase(
             section.refuse(key, "left out without `until`", "add until = \"...\", or delete this line");
         }
     }
-    let mut lists = parameters::of_phase(target, thrust, has_thrusters);
+    let mut lists = parameters::of_phase(target, thrust, [section.has("until"), has_thrusters]);
     lists.extend(law.map(|law| laws::KINDS[law].parameters));
     scene.control.guidance.push(DeclaredTable::of(own, kept(&lists)));
     let place = scene.control.guidance.len() - 1;

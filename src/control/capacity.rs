@@ -66,11 +66,14 @@ impl Capacity {
                 self.across
             ));
         }
-        if !spec.wheels.is_empty() && (1..3).contains(&self.unloaded_axes) {
-            let axes = if self.unloaded_axes == 1 { "one axis" } else { "two axes" };
+        if !spec.wheels.is_empty() && !spec.thrusters.is_empty() && self.unloaded_axes < 3 {
+            let axes = ["no axis", "one axis", "two axes"][self.unloaded_axes];
             notes.push(format!(
                 "the thrusters of the loop have torque in both directions about {axes} alone: momentum of the wheels about the others cannot be unloaded without a turn"
             ));
+        }
+        if spec.knows_the_truth() && !spec.sensors.is_empty() {
+            notes.push("estimator = \"perfect\" reads no sensor: [[sensors]] has no effect on the runs".to_owned());
         }
         notes
     }

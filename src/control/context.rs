@@ -21,6 +21,8 @@ pub struct LawContext<'a> {
     pub sample: SampleId,
     /// The seed of the campaign.
     pub seed: u64,
+    /// The end of the run, s.
+    pub duration: f64,
     /// Whether the law is to record what it does ([`crate::dynamics::actuation::ActuationLaw::telemetry`]).
     pub records: bool,
 }

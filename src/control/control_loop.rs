@@ -77,10 +77,12 @@ pub struct ControlLoop {
     two_sided: [[f64; 3]; 3],
     thruster_drives: [ThrusterDrive; MAX_THRUSTERS],
     pulses: [PulseState; MAX_THRUSTERS],
+    is_on_off: bool,
     launch: LaunchState,
     /// Limits of time at the limit of speed and without the target, s; infinite where there is none.
     timeouts: [f64; 2],
     delay: f64,
+    duration: f64,
     // time
     tick: u64,
     /// Ticks of sensors in a control period, and in a second.
@@ -100,6 +102,7 @@ pub struct ControlLoop {
     commanded_motors: [f64; MAX_WHEELS],
     /// When the debris was last measured, s.
     debris_seen: f64,
+    has_camera: bool,
     saturated_since: f64,
     last_update: f64,
     // what comes of it
@@ -246,8 +249,10 @@ impl ControlLoop {
                 least_on: model.min_on_time,
             }),
             pulses: [PulseState::default(); MAX_THRUSTERS],
+            is_on_off: modulation::is_on_off(spec.modulation),
             timeouts: [limit(numbers, "saturation_timeout_s"), limit(numbers, "lost_target_timeout_s")],
             delay,
+            duration: context.duration,
             tick: 0,
             ticks_per_period,
             tick_period,
@@ -259,6 +264,7 @@ impl ControlLoop {
             commanded: [[0.0; 3]; 2],
             commanded_motors: [0.0; MAX_WHEELS],
             debris_seen: 0.0,
+            has_camera: spec.has_camera(),
             saturated_since: f64::NAN,
             last_update: 0.0,
             judgement: Judgement {
@@ -285,11 +291,18 @@ impl ControlLoop {
         for (sensor, instrument) in self.instruments.iter_mut().enumerate() {
             self.measurements.extend(instrument.deliver(self.tick, truth).map(|measurement| (sensor, measurement)));
         }
-        let sees_debris = |(_, measurement): &(usize, Measurement)| {
-            matches!(measurement, Measurement::Camera { .. } | Measurement::Radar { debris: Some(_), .. })
-        };
-        if self.spec.knows_the_truth() || self.measurements.iter().any(sees_debris) {
+        if self.spec.knows_the_truth() {
             self.debris_seen = truth.time;
+        }
+        for (_, measurement) in &self.measurements {
+            // where there is a camera, it has to see the debris; elsewhere the radar
+            match measurement {
+                Measurement::Camera { age, .. } => self.debris_seen = truth.time - age,
+                Measurement::Radar { debris: Some(_), age, .. } if !self.has_camera => {
+                    self.debris_seen = truth.time - age;
+                }
+                _ => {}
+            }
         }
         let interval = truth.time - self.last_update;
         let mean = |impulse: [f64; 3]| if interval > 0.0 { scaled(1.0 / interval, impulse) } else { [0.0; 3] };
@@ -314,18 +327,21 @@ impl ControlLoop {
     fn control(&mut self, truth: &Truth, estimate: &Estimate) {
         let geometry = self.geometry_of(estimate);
         let mut situation = self.situation(truth.time, estimate, geometry);
-        let begins = self.guidance.has_changed;
+        // a phase begins with the run, or where guidance has changed it
+        let starts = self.tick == 0;
         let (mut error, mut velocity_to_go) = self.wanted(estimate, geometry.as_ref(), truth.time);
         (situation.error, situation.velocity_to_go) = (error, velocity_to_go);
-        let progress = match self.failure(truth, estimate, geometry.is_some()) {
+        let has_axis = geometry.is_some_and(|geometry| geometry.has_axis());
+        let progress = match self.failure(truth, estimate, has_axis) {
             Some(failure) => Progress::Fails(failure),
-            None => self.guidance.decide(&self.phases, &situation),
+            None => self.guidance.decide(&self.phases, &situation, SAME_TIME * self.spec.period),
         };
-        if self.guidance.has_changed {
+        let begins = starts || std::mem::take(&mut self.guidance.has_changed);
+        if begins {
             self.law = self.laws[self.guidance.phase];
             (error, velocity_to_go) = self.wanted(estimate, geometry.as_ref(), truth.time);
         }
-        self.judge(truth, estimate, begins || self.guidance.has_changed, &error);
+        self.judge(truth, estimate, begins, &error);
         match progress {
             Progress::Flies => {
                 self.command(truth.time, estimate, &error, velocity_to_go, situation.s3_e);
@@ -351,12 +367,13 @@ impl ControlLoop {
 
     fn geometry_of(&self, estimate: &Estimate) -> Option<LaunchGeometry> {
         let debris = estimate.debris.as_ref()?;
-        self.launch.geometry(&Centers {
+        let centers = Centers {
             r_co_e: estimate.r_co_e,
             v_co_e: estimate.v_co_e,
             r_gdo_e: debris.r_gdo_e,
             v_gdo_e: debris.v_gdo_e,
-        })
+        };
+        Some(self.launch.geometry(&centers))
     }
 
     /// The impulse per mass that is left of the maneuver of the phase.
@@ -370,7 +387,11 @@ impl ControlLoop {
             }
             // within the burn what is left of the time of the transfer is ahead, and the impulse keeps its direction
             Maneuver::Transfer if phase.thrust == Maneuver::Transfer => {
-                let left = (self.guidance.arrival - time).max(self.spec.period);
+                let left = self.guidance.arrival - time;
+                if left < self.spec.period {
+                    // the time of the transfer is over: what is left is for the stop
+                    return VelocityToGo::default();
+                }
                 let velocity_e = transfer(geometry.from_station, geometry.relative_velocity, left);
                 VelocityToGo { velocity_e, ..VelocityToGo::default() }
             }
@@ -382,10 +403,28 @@ impl ControlLoop {
         }
     }
 
+    /// The impulse per mass, in F_e, m/s, of thrust that is commanded and has not acted yet at `time`, at the attitude `q_es`.
+    fn on_its_way(&self, q_es: [f64; 4], time: f64) -> [f64; 3] {
+        let (acting, waiting) = self.thrust_commands.all();
+        let mut impulse = [0.0; MAX_THRUSTERS];
+        for &i in &self.spec.thrusters {
+            let left = (acting.begin + acting.on_time[i] - time).clamp(0.0, acting.on_time[i]);
+            impulse[i] = acting.thrust[i] * left;
+        }
+        for pulses in waiting {
+            self.spec.thrusters.iter().for_each(|i| impulse[*i] += pulses.thrust[*i] * pulses.on_time[*i]);
+        }
+        let impulse_s = self.believed.thruster_force_s(impulse);
+        scaled(1.0 / self.believed.mass.total, product(dcm_from_quaternion(q_es), impulse_s))
+    }
+
     /// The attitude relative to the target of the phase, and the velocity to go (m/s, F_e).
     fn wanted(&self, estimate: &Estimate, geometry: Option<&LaunchGeometry>, time: f64) -> (AttitudeError, [f64; 3]) {
-        let to_go = self.velocity_to_go(geometry, time);
-        let target = self.phases[self.guidance.phase].target;
+        let mut to_go = self.velocity_to_go(geometry, time);
+        let Phase { target, thrust, .. } = self.phases[self.guidance.phase];
+        if thrust != Maneuver::None {
+            to_go.velocity_e = difference(to_go.velocity_e, self.on_its_way(estimate.q_es, time));
+        }
         (target.error(estimate.q_es, geometry, &to_go), to_go.velocity_e)
     }
 
@@ -409,22 +448,26 @@ impl ControlLoop {
 
     /// What ends the mission whatever the phase.
     fn failure(&self, truth: &Truth, estimate: &Estimate, has_axis: bool) -> Option<Failure> {
-        let numbers = estimate.q_es.iter().chain(&estimate.omega_se_s).chain(&estimate.r_co_e).chain(&estimate.v_co_e);
-        if !numbers.fold(0.0, |sum: f64, number| sum + number).is_finite() {
+        let own =
+            estimate.q_es.iter().chain(&estimate.omega_se_s).chain(&estimate.gyro_bias_s).chain(&estimate.wheel_rates);
+        let own: f64 = own.chain(&estimate.r_co_e).chain(&estimate.v_co_e).sum();
+        let of_debris: f64 = estimate.debris.as_ref().map_or(0.0, |debris| {
+            let motion = debris.r_gdo_e.iter().chain(&debris.v_gdo_e);
+            motion.chain(&debris.q_ed).chain(&debris.omega_de_d).sum()
+        });
+        if !(own + of_debris).is_finite() {
             return Some(Failure::Diverged);
         }
-        if self.spec.approaches() {
-            if !has_axis {
-                return Some(Failure::NoAxis);
-            }
-            if let Some(debris) = &truth.debris
-                && norm(difference(debris.r_gdo_e, truth.body.r_co_e)) < self.judgement.keep_out
-            {
-                return Some(Failure::KeepOut);
-            }
-            if truth.time - self.debris_seen > self.timeouts[1] {
-                return Some(Failure::LostTarget);
-            }
+        if let Some(debris) = &truth.debris
+            && norm(difference(debris.r_gdo_e, truth.body.r_co_e)) < self.judgement.keep_out
+        {
+            return Some(Failure::KeepOut);
+        }
+        if self.spec.needs_axis() && !has_axis {
+            return Some(Failure::NoAxis);
+        }
+        if self.spec.has_debris && truth.time - self.debris_seen > self.timeouts[1] {
+            return Some(Failure::LostTarget);
         }
         (truth.time - self.saturated_since > self.timeouts[0]).then_some(Failure::WheelSaturated)
     }
@@ -434,7 +477,7 @@ impl ControlLoop {
         let target = self.phases[self.guidance.phase].target;
         // of perfect knowledge the believed error is the true one
         let knows = self.spec.knows_the_truth();
-        let geometry = if knows { None } else { centers_of(truth).and_then(|centers| self.launch.geometry(&centers)) };
+        let geometry = if knows { None } else { centers_of(truth).map(|centers| self.launch.geometry(&centers)) };
         let error = (target != Target::None).then(|| {
             if knows {
                 return *believed;
@@ -474,7 +517,9 @@ impl ControlLoop {
             momentum_s: self.known.momentum(mass, estimate.omega_se_s, &momenta[..mass.wheels.len()]),
         };
         let phase = &self.phases[self.guidance.phase];
-        let torque = self.law.torque(&self.known, &input, self.spec.period);
+        // zero at the first tick of a phase
+        let since = if self.guidance.since == time { 0.0 } else { self.spec.period };
+        let torque = self.law.torque(&self.known, &input, since);
         let begin = time + self.delay;
         let (mut by_thrusters, mut mean) = ([0.0; 3], [0.0; MAX_THRUSTERS]);
         if let Some(allocation) = &self.thrusters {
@@ -527,19 +572,26 @@ impl ControlLoop {
         let (motor_torque, next_motors) = self.motor_commands.at(time + same);
         let motor_torque = *motor_torque;
         let mut until = self.next_tick.min(next_motors);
-        let mut thrust = [0.0; MAX_THRUSTERS];
+        let (mut thrust, mut commanded) = ([0.0; MAX_THRUSTERS], [0.0; MAX_THRUSTERS]);
         if !self.spec.thrusters.is_empty() {
             let (pulses, next_pulses) = self.thrust_commands.at(time + same);
             until = until.min(next_pulses);
             for &i in &self.spec.thrusters {
-                let end = pulses.begin + pulses.on_time[i];
+                let valve = &self.drawn.actuators.thrusters[i];
+                let (level, least) = if self.is_on_off {
+                    (valve.max_thrust, valve.min_on_time)
+                } else {
+                    (pulses.thrust[i].min(valve.max_thrust), 0.0)
+                };
+                let end = pulses.begin + pulses.on_time[i].max(least);
                 if pulses.thrust[i] > 0.0 && end > time + same {
-                    thrust[i] = pulses.thrust[i];
+                    (thrust[i], commanded[i]) = (level, pulses.thrust[i]);
                     until = until.min(end);
                 }
             }
         }
-        let length = until - time;
+        // the run ends an arc too
+        let length = until.min(self.duration) - time;
         let mut actuation = Actuation::none(until);
         let (mut saturated, mut excess) = ([false; 2], 0.0_f64);
         // a wheel whose speed is held has a motor of its own
@@ -563,8 +615,8 @@ impl ControlLoop {
             for &i in &self.spec.thrusters {
                 actuation.thrust[i] = self.drawn.actuators.thrusters[i].thrust_scale * thrust[i];
             }
-            self.commanded[0] = sum(self.commanded[0], scaled(length, self.believed.thruster_force_s(thrust)));
-            self.commanded[1] = sum(self.commanded[1], scaled(length, self.believed.thruster_torque_s(thrust)));
+            self.commanded[0] = sum(self.commanded[0], scaled(length, self.believed.thruster_force_s(commanded)));
+            self.commanded[1] = sum(self.commanded[1], scaled(length, self.believed.thruster_torque_s(commanded)));
             if self.spec.approaches() {
                 let truth = Truth::new(&self.drawn, time, body, wheels, self.debris.as_mut());
                 hits = self.outcome.plume_hits(&self.drawn, &truth, &actuation.thrust, &self.judgement);
@@ -576,11 +628,11 @@ impl ControlLoop {
             // only filters ask what was commanded
             return actuation;
         }
-        for (wheel, torque) in self.believed.mass.wheels.iter().zip(motor_torque) {
-            self.commanded[1] = difference(self.commanded[1], scaled(length * torque, wheel.axis));
-        }
-        for (impulse, torque) in self.commanded_motors.iter_mut().zip(motor_torque) {
-            *impulse += torque * length;
+        for (i, wheel) in self.believed.mass.wheels.iter().enumerate() {
+            let most = self.believed.actuators.wheels[i].torque_limit;
+            let impulse = length * motor_torque[i].clamp(-most, most);
+            self.commanded[1] = difference(self.commanded[1], scaled(impulse, wheel.axis));
+            self.commanded_motors[i] += impulse;
         }
         actuation
     }

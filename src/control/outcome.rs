@@ -3,7 +3,7 @@
 use super::estimate::EstimateErrors;
 use super::estimators::Consistency;
 use super::estimators::kalman::NormalizedSquare;
-use super::guidance::geometry::{Centers, LaunchGeometry, LaunchState};
+use super::guidance::geometry::{Centers, LaunchState};
 use super::guidance::target::AttitudeError;
 use super::guidance::{Failure, Guidance};
 use super::spec::LoopSpec;
@@ -225,7 +225,7 @@ pub fn centers_of(truth: &Truth) -> Option<Centers> {
 }
 
 fn at_launch(scene: &Scene, truth: &Truth, launch: &LaunchState) -> Option<AtLaunch> {
-    let geometry: LaunchGeometry = launch.geometry(&centers_of(truth)?)?;
+    let geometry = launch.geometry(&centers_of(truth)?);
     let (body, debris) = (scene.mass.debris.as_ref()?, truth.debris.as_ref()?);
     let s3 = product(dcm_from_quaternion(truth.body.q_es), [0.0, 0.0, 1.0]);
     let momentum = product(dcm_from_quaternion(debris.q_ed), product(body.inertia, debris.omega_de_d));
@@ -479,9 +479,13 @@ fn wheel(spec: &LoopSpec, add: &mut Add<'_>) {
         "Time in which a motor gave less than was commanded because of the limit of its wheel's speed.",
         |o| o.saturated[1],
     );
-    plain(add, "torque_excess_max_n_m", "N m", "Largest commanded torque beyond the limit of its motor.", |o| {
-        o.torque_excess
-    });
+    plain(
+        add,
+        "torque_excess_max_n_m",
+        "N m",
+        "Largest torque that was commanded beyond what a motor gave, because of its limit of torque or of its wheel's speed.",
+        |o| o.torque_excess,
+    );
 }
 
 fn estimation(spec: &LoopSpec, add: &mut Add<'_>) {

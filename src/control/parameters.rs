@@ -21,7 +21,7 @@ pub static LOOP: [LawParameter; 3] = [
     number(
         "saturation_timeout_s",
         "s",
-        "How long a wheel may be at its limit of speed before the mission fails; 0: for ever",
+        "How long the limit of a wheel's speed may cut its motor before the mission fails; 0: for ever",
         &[0.0],
     ),
 ];
@@ -65,10 +65,12 @@ pub static DEBRIS: [LawParameter; 7] = [
 ];
 
 /// Of every phase.
-pub static PHASE: [LawParameter; 2] = [
-    number("hold_s", "s", "How long the condition of the phase must be met", &[0.0]),
-    number("timeout_s", "s", "Time in the phase after which the mission fails; 0: never", &[0.0]),
-];
+pub static PHASE: [LawParameter; 1] =
+    [number("timeout_s", "s", "Time in the phase after which the mission fails; 0: never", &[0.0])];
+
+/// Of a phase with a condition.
+pub static CONDITION: [LawParameter; 1] =
+    [number("hold_s", "s", "How long the condition of the phase must be met", &[0.0])];
 
 /// Of a phase in a loop with thrusters.
 pub static UNLOADING: [LawParameter; 2] = [
@@ -100,9 +102,16 @@ pub static ATTITUDE: [LawParameter; 1] = [LawParameter {
     default: None,
 }];
 
-/// The lists of a phase with the target `target` and the maneuver `thrust`, in a loop with thrusters or without.
-pub fn of_phase(target: Target, thrust: Maneuver, has_thrusters: bool) -> Vec<&'static [LawParameter]> {
+/// The lists of a phase with the target `target` and the maneuver `thrust`, with a condition or without, in a loop with thrusters or without.
+pub fn of_phase(
+    target: Target,
+    thrust: Maneuver,
+    [has_condition, has_thrusters]: [bool; 2],
+) -> Vec<&'static [LawParameter]> {
     let mut lists: Vec<&'static [LawParameter]> = vec![&PHASE];
+    if has_condition {
+        lists.push(&CONDITION);
+    }
     if has_thrusters {
         lists.push(&UNLOADING);
     }

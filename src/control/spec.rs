@@ -96,6 +96,19 @@ impl LoopSpec {
         super::estimators::KINDS[self.estimator].name == "perfect"
     }
 
+    /// Whether a camera sees the debris.
+    pub fn has_camera(&self) -> bool {
+        self.sensors.iter().any(|sensor| super::sensors::KINDS[sensor.kind].name == "relative_camera")
+    }
+
+    /// Whether the launch axis plays a part.
+    pub fn needs_axis(&self) -> bool {
+        let needs = |phase: &PhaseSpec| {
+            matches!(phase.target, Target::LaunchAxis | Target::Transfer) || phase.thrust == Maneuver::Transfer
+        };
+        self.launches() || self.phases.iter().any(needs)
+    }
+
     /// Whether the launch state plays a part.
     pub fn approaches(&self) -> bool {
         self.has_debris && self.phases.iter().any(|phase| phase.target.needs_debris() || phase.thrust != Maneuver::None)

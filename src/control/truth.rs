@@ -51,6 +51,8 @@ pub struct DebrisMotion {
 /// Order of the series of the free rotation, and the largest |omega| h of a step: the first neglected term is (1/4)^13/13!, far below rounding.
 const ORDER: usize = 12;
 const LARGEST_TURN: f64 = 0.25;
+/// Steps between two readings beyond which the debris is not followed: a hundred thousand radians.
+const MOST_STEPS: f64 = 4e5;
 
 impl DebrisMotion {
     /// That of `scene`; `None` where it has no debris.
@@ -80,6 +82,11 @@ impl DebrisMotion {
                 let longest = if rate > 0.0 { LARGEST_TURN / rate } else { f64::INFINITY };
                 let left = time - self.time;
                 let steps = (left / longest).ceil().max(1.0);
+                if !(steps <= MOST_STEPS) {
+                    // no rotation that anything can follow: what depends on it diverges
+                    (self.now.omega_de_d, self.now.q_ed, self.time) = ([f64::NAN; 3], [f64::NAN; 4], time);
+                    break;
+                }
                 self.step(left / steps);
                 self.time = if steps > 1.0 { self.time + left / steps } else { time };
             }

@@ -54,7 +54,11 @@ impl<'p> Flights<'p> {
         for (run, (drawn, LawDraw { sample, parameters })) in scenes.iter().zip(draws).enumerate() {
             let nominal_parameters = &self.plan.nominal.control;
             let (sample, seed, records) = (*sample, self.plan.seed, self.records);
-            laws.begin(run, &LawContext { nominal, drawn, parameters, nominal_parameters, sample, seed, records });
+            let duration = self.plan.grid.duration();
+            laws.begin(
+                run,
+                &LawContext { nominal, drawn, parameters, nominal_parameters, sample, seed, duration, records },
+            );
         }
         self.engine.propagate_under(Laws::Feedback(&mut **laws), scenes, finish);
     }

@@ -15,7 +15,7 @@ use crate::ensemble::runner::RunError;
 use crate::ensemble::settings::propagator;
 use crate::math::Isa;
 use crate::observables::{Group, Observer, Request, Series};
-use crate::run::{Grid, Outcome, StateField, StateFields, StateTable, Telemetry};
+use crate::run::{Grid, Outcome, StateField, StateFields, StateTable, Status, Telemetry};
 use crate::sampling::SampleId;
 use crate::scene::{Arc, Scene, SceneError};
 
@@ -149,10 +149,12 @@ impl<'p> SingleRuns<'p> {
             reason = observer.reason(status, run.outcome, &row);
             result = Some((run.table.clone(), run.arcs.to_vec(), Outcome { status, ..*run.outcome }));
         });
-        self.flights.report(0, &mut row[self.request.places_of_law()]);
         let (table, arcs, mut outcome) = result.expect("the propagator finishes every scene that it is given");
         if let Some(end) = arcs.last().filter(|arc| arc.applied.ends_run).map(|arc| arc.start) {
             outcome.points = outcome.points.min(self.grid.times().partition_point(|time| *time <= end));
+        }
+        if matches!(outcome.status, Status::Done | Status::Inaccurate) {
+            self.flights.report(0, &mut row[self.request.places_of_law()]);
         }
         let telemetry = self.flights.telemetry(0).cloned().unwrap_or_default();
         let series = self.series_observer.series().map(|(series, values)| (series, values.collect())).collect();

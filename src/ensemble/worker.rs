@@ -263,11 +263,12 @@ impl Worker<'_> {
     /// Runs the scenes of the batch. Where the program panics, those that had not ended are run again one by one in new memory, so that
     /// the panic is the end of one run only.
     fn propagate(&mut self, rows: &mut Rows, report: &mut Report<'_>) {
+        self.flown.iter_mut().for_each(Vec::clear);
         self.is_done.clear();
         self.is_done.resize(self.rows_of_scenes.len(), false);
         let all = 0..self.rows_of_scenes.len();
         let ended = catch_unwind(AssertUnwindSafe(|| self.propagate_some(all.clone(), rows, report)));
-        self.report_laws(0, rows);
+        self.report_laws(all.clone(), rows);
         if ended.is_ok() {
             return;
         }
@@ -283,20 +284,20 @@ impl Worker<'_> {
                 rows.set_result(row, Status::InternalError, &vec![f64::NAN; self.observed.len()]);
                 rows.set_reason(row, message(panic.as_ref()));
             } else {
-                self.report_laws(scene, rows);
+                self.report_laws(scene..scene + 1, rows);
             }
         }
         self.flights = self.campaign.flights();
         self.observer = self.campaign.observer();
     }
 
-    /// Writes what the laws of the runs that have just ended report; the first was scene `first` of the batch.
-    fn report_laws(&mut self, first: usize, rows: &mut Rows) {
+    /// Writes what the laws of the runs that have just ended report: those of the scenes `which` of the batch, flown together.
+    fn report_laws(&mut self, which: std::ops::Range<usize>, rows: &mut Rows) {
         let place = self.places_of_law.clone();
         if place.is_empty() {
             return;
         }
-        for (run, scene) in (first..self.is_done.len()).enumerate().filter(|(_, scene)| self.is_done[*scene]) {
+        for (run, scene) in which.enumerate().filter(|(_, scene)| self.is_done[*scene]) {
             let row = self.rows_of_scenes[scene];
             if matches!(rows.statuses()[row], Status::Done | Status::Inaccurate) {
                 let values = &mut self.observed[place.clone()];

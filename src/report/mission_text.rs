@@ -45,8 +45,8 @@ mod tests {
     fn ends_are_counted() {
         let share = |end, count, interval| MissionShare { end, count, runs: 200, interval };
         let found = text(&vec![share("launched", 190, [0.91, 0.975]), share("keep_out", 10, [f64::NAN; 2])]);
-        assert!(found.contains("190 of 200 runs launched: 95.00% [91.00, 97.50]"), "{found}");
-        assert!(found.contains("10 of 200 runs failed: too close to the debris: 5.000%\n"), "{found}");
+        assert!(found.contains("190 of 200 runs launched: 95% [91, 97.50]"), "{found}");
+        assert!(found.contains("10 of 200 runs failed: too close to the debris: 5%\n"), "{found}");
         assert_eq!(text(&Missions::new()), "");
     }
 }

@@ -174,6 +174,7 @@ mod tests {
     fn summary() -> Summary {
         let ended = |count: u64, first: &[u64]| Ended { count, first: first.iter().map(|id| SampleId(*id)).collect() };
         Summary {
+            missions: Vec::new(),
             name: "x".to_owned(),
             seed: 1,
             samples: 13,

@@ -200,6 +200,7 @@ fn keys_of_loops() -> String {
     lists.extend(sensors::KINDS.iter().map(|kind| (named("[[sensors]]", "kind", kind.name), kind.parameters)));
     lists.extend(laws::KINDS.iter().map(|kind| (named("[[guidance]]", "law", kind.name), kind.parameters)));
     lists.push(("`[[guidance]]`".into(), &parameters::PHASE));
+    lists.push(("`[[guidance]]` with `until`".into(), &parameters::CONDITION));
     lists.push(("`[[guidance]]` with thrusters".into(), &parameters::UNLOADING));
     lists.push(("`[[guidance]]`, target or thrust \"transfer\"".into(), &parameters::TRANSFER));
     lists.push(("`[[guidance]]`, `target = \"attitude\"`".into(), &parameters::ATTITUDE));

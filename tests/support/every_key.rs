@@ -288,7 +288,8 @@ pub fn every_loop() -> Vec<String> {
     let targets = spindrift::control::guidance::target::TARGETS.iter().map(|(name, _)| *name);
     let maneuvers = spindrift::control::guidance::phase::MANEUVERS.iter().map(|(name, _)| *name);
     let pairs: Vec<_> = targets.flat_map(|target| maneuvers.clone().map(move |thrust| (target, thrust))).collect();
-    for (place, (target, thrust)) in pairs.into_iter().enumerate() {
+    let opposed = [("transfer", "stop"), ("stop", "transfer")];
+    for (place, (target, thrust)) in pairs.into_iter().filter(|pair| !opposed.contains(pair)).enumerate() {
         let (law, own) = &laws[place % laws.len()];
         phases += &format!(
             "[[guidance]]\nphase = \"p{place}\"\nlaw = \"{law}\"\n{own}target = \"{target}\"\nthrust = \"{thrust}\"\n\

@@ -81,7 +81,17 @@ impl ThrustAllocation {
         let all = Self::new(&scene.thrusters, center, &most, [true; 6]);
         let two_sided = all.two_sided_torques();
         let gives = |row: usize| used.iter().any(|place| all.wrenches[*place][row].abs() > NO_PUSH);
-        let axes = std::array::from_fn(|row| if row < 3 { gives(row) } else { two_sided[row - 3][row - 3] > 0.5 });
+        // as many components as there are such torques: those that they have most of
+        let count = (0..3).map(|i| two_sided[i][i]).sum::<f64>().round() as usize;
+        let rank = |row: usize| {
+            (0..3)
+                .filter(|other| {
+                    two_sided[*other][*other] > two_sided[row][row]
+                        || (two_sided[*other][*other] == two_sided[row][row] && *other < row)
+                })
+                .count()
+        };
+        let axes = std::array::from_fn(|row| if row < 3 { gives(row) } else { rank(row - 3) < count });
         Self::new(&scene.thrusters, center, &most, axes)
     }
 

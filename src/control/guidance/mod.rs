@@ -100,9 +100,9 @@ impl Guidance {
         }
     }
 
-    /// Decides at a tick whether the phase goes on, from `situation`, which is that of the phase. At most one change a tick, so that a phase lasts at
+    /// Decides at a tick whether the phase goes on, from `situation`, which is that of the phase; `same` is a time below which ticks are one, s. At most one change a tick, so that a phase lasts at
     /// least one, and no list of phases makes a circle within a tick.
-    pub fn decide(&mut self, phases: &[Phase], situation: &Situation) -> Progress {
+    pub fn decide(&mut self, phases: &[Phase], situation: &Situation, same: f64) -> Progress {
         self.has_changed = false;
         let phase = &phases[self.phase];
         let time = situation.time;
@@ -113,7 +113,7 @@ impl Guidance {
             self.met_since = f64::NAN;
         }
         // a hold that ends at a tick ends there in spite of rounding
-        if is_met && time - self.met_since >= phase.hold * (1.0 - 1e-12) {
+        if is_met && time - self.met_since >= phase.hold - same {
             return match phase.next {
                 Next::Launch => Progress::Launches,
                 Next::Phase(next) => {
@@ -127,7 +127,7 @@ impl Guidance {
             self.begin(phases, other, time);
             return Progress::Flies;
         }
-        if time - self.since >= phase.timeout {
+        if time - self.since >= phase.timeout - same {
             return Progress::Fails(Failure::Timeout);
         }
         Progress::Flies
@@ -182,7 +182,7 @@ mod tests {
         let rates = [2.0, 0.5, 0.5, 2.0, 0.5, 0.5, 0.5, 0.5, 0.5];
         for (tick, rate) in rates.into_iter().enumerate() {
             let time = 0.1 * tick as f64;
-            assert_eq!(guidance.decide(&phases, &situation(time, rate)), Progress::Flies);
+            assert_eq!(guidance.decide(&phases, &situation(time, rate), 1e-9), Progress::Flies);
             assert_eq!(guidance.phase, usize::from(tick >= 7), "tick {tick}");
             assert_eq!(guidance.has_changed, tick == 7);
         }
@@ -200,16 +200,16 @@ mod tests {
         (again.thrust, again.transfer_time) = (Maneuver::Transfer, 30.0);
         let phases = [check, again];
         let mut guidance = Guidance::new(&phases);
-        assert_eq!(guidance.decide(&phases, &situation(0.0, 2.0)), Progress::Flies);
+        assert_eq!(guidance.decide(&phases, &situation(0.0, 2.0), 1e-9), Progress::Flies);
         assert_eq!((guidance.phase, guidance.arrival), (1, 30.0));
-        assert_eq!(guidance.decide(&phases, &situation(1.0, 2.0)), Progress::Flies);
+        assert_eq!(guidance.decide(&phases, &situation(1.0, 2.0), 1e-9), Progress::Flies);
         assert_eq!(guidance.phase, 1);
-        assert_eq!(guidance.clone().decide(&phases, &situation(6.0, 2.0)), Progress::Flies);
+        assert_eq!(guidance.clone().decide(&phases, &situation(6.0, 2.0), 1e-9), Progress::Flies);
         let mut late = guidance.clone();
         late.since = -5.0;
-        assert_eq!(late.decide(&phases, &situation(5.0, 2.0)), Progress::Fails(Failure::Timeout));
-        guidance.decide(&phases, &situation(6.0, 2.0));
-        assert_eq!(guidance.decide(&phases, &situation(6.1, 0.5)), Progress::Launches);
+        assert_eq!(late.decide(&phases, &situation(5.0, 2.0), 1e-9), Progress::Fails(Failure::Timeout));
+        guidance.decide(&phases, &situation(6.0, 2.0), 1e-9);
+        assert_eq!(guidance.decide(&phases, &situation(6.1, 0.5), 1e-9), Progress::Launches);
         assert_eq!(Failure::NAMES[Failure::KeepOut as usize], "keep_out");
     }
 
