@@ -103,11 +103,11 @@ mod tests {
     fn momenta_fit_or_not() {
         let (found, notes) = capacity(&[]);
         let [x, y, z] = [0.5, 0.8, -1.0].map(|rate: f64| rate.to_radians());
-        let expected = (3055.375_141_124_116 * y).hypot(1_687.280_032_907_598_8 * z);
+        let expected = (3_055.375_141_124_116 * y).hypot(1_687.280_032_907_598_8 * z);
         assert!((found.within_reach / expected - 1.0).abs() < 1e-12);
         assert!((found.across / (3_054.590_970_145_349 * x) - 1.0).abs() < 1e-12);
         // w1 is the first at its limit: it has the larger share
-        let most = 1.656_699_250_916_492_6 * 40.0 * core::f64::consts::PI * expected / (3055.375_141_124_116 * y);
+        let most = 1.656_699_250_916_492_6 * 40.0 * core::f64::consts::PI * expected / (3_055.375_141_124_116 * y);
         assert!((found.wheels / most - 1.0).abs() < 1e-12);
         assert_eq!((found.unloaded_axes, notes.len()), (1, 1), "{notes:?}");
         let (_, fast) = capacity(&[("\"0.8 deg/s\"", "\"40 deg/s\"")]);

@@ -257,7 +257,7 @@ struct OutcomeColumn {
     quantity: Quantity,
     kind: ColumnKind,
     codes: &'static [&'static str],
-    value: Box<dyn Fn(&MissionOutcome, &Guidance, &Judgement) -> f64 + Send + Sync>,
+    value: Value,
 }
 
 /// The columns of the runs of a loop.

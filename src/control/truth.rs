@@ -82,7 +82,7 @@ impl DebrisMotion {
                 let longest = if rate > 0.0 { LARGEST_TURN / rate } else { f64::INFINITY };
                 let left = time - self.time;
                 let steps = (left / longest).ceil().max(1.0);
-                if !(steps <= MOST_STEPS) {
+                if steps.is_nan() || steps > MOST_STEPS {
                     // no rotation that anything can follow: what depends on it diverges
                     (self.now.omega_de_d, self.now.q_ed, self.time) = ([f64::NAN; 3], [f64::NAN; 4], time);
                     break;

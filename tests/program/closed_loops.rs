@@ -248,8 +248,8 @@ fn an_eigenaxis_slew_is_its_equation() {
         let (mut theta, mut rate, steps) = (start, 0.0_f64, 1000);
         let h = 0.25 / f64::from(steps);
         let mut worst = 0.0_f64;
-        for point in 0..run.grid.points() {
-            worst = worst.max((2.0 * along(point).atan2(q[0][point]) - theta).abs());
+        for (point, w) in q[0][..run.grid.points()].iter().enumerate() {
+            worst = worst.max((2.0 * along(point).atan2(*w) - theta).abs());
             for _ in 0..steps {
                 let slope = |theta: f64, rate: f64| -c * rate - k * (0.5 * theta).sin();
                 let middle = (theta + 0.5 * h * rate, rate + 0.5 * h * slope(theta, rate));
