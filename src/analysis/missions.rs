@@ -12,7 +12,7 @@ use crate::storage::rows_reader::RowsError;
 /// One way in which missions ended.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MissionShare {
-    /// `launched`, the name of a failure, or `flying` where the run ended before either.
+    /// `launched`, the name of a failure, or `flying` where the run ended before either; `not_failed` in a loop that launches nothing.
     pub end: &'static str,
     /// Number of runs.
     pub count: u64,
@@ -52,7 +52,8 @@ impl MissionCounter {
     /// What was counted.
     pub fn finished(&self, counts: &MissionCounts) -> Missions {
         let runs: u64 = counts.iter().sum();
-        let names = ["launched", "flying"].into_iter().chain(Failure::NAMES);
+        let neither = if self.launches { "flying" } else { "not_failed" };
+        let names = ["launched", neither].into_iter().chain(Failure::NAMES);
         let has_intervals = self.population == Population::Independent;
         let share = |(end, count): (&'static str, &u64)| MissionShare {
             end,

@@ -7,6 +7,7 @@ use crate::report::number::short;
 pub fn words(end: &str) -> &str {
     match end {
         "flying" => "still flying at the end of the run",
+        "not_failed" => "did not fail",
         "timeout" => "failed: a phase took too long",
         "wheel_saturated" => "failed: a wheel was saturated",
         "lost_target" => "failed: the debris was lost",

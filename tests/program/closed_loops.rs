@@ -313,7 +313,7 @@ fn missions_end_with_a_reason() {
     case(
         &[
             ("period_s = 2.0\nlatency_s = 1.0", "period_s = 2000.0\nlatency_s = 1.0"),
-            ("max_range_m = 40.0", "max_range_m = 1.0"),
+            ("max_range_m = 100.0", "max_range_m = 1.0"),
         ],
         "lost_target",
         60.0..62.0,
