@@ -74,6 +74,10 @@ export class Replay {
     }
     this.debris = data.scene.debris ? debrisGroup(three, data.scene.debris, palette) : null;
     if (this.debris) this.world.add(this.debris);
+    // the line of sight, and the launch axis through the debris
+    this.sight = this.debris ? arrow(three, palette.quiet, 0.006) : null;
+    this.launchAxis = this.debris && data.runs.some((run) => run.loop && run.loop.axis) ? arrow(three, palette.hues[HUE_PLACES.debris], 0.008) : null;
+    for (const line of [this.sight, this.launchAxis]) if (line) this.world.add(line);
     this.trailGroup = new three.Group();
     this.world.add(this.trailGroup);
     this.renderer.setClearColor(palette.background);
@@ -177,7 +181,8 @@ export class Replay {
     if (run.status !== "ok") notes.push(`It ended with ${run.status}: ${run.reason}; shown until ${readable(this.motion.last)} s.`);
     if (this.slowed > 1) notes.push(`Wheels turn at their true ratio, but ${this.slowed} times slower than they are, so that they can be seen.`);
     if (this.data.scene.is_equivalent) notes.push("The body is given by its inertia: it is shown as the box of the same mass and inertia.");
-    if (this.data.scene.thrusters.length > 0) notes.push("Plumes show the nominal schedule.");
+    if (this.data.scene.thrusters.length > 0) notes.push(run.loop ? "Plumes show thrusters that the loop fires." : "Plumes show the nominal schedule.");
+    if (this.launchAxis && run.loop && run.loop.axis) notes.push("The grey line is the line of sight, the line at the debris the launch axis A_d.");
     notes.push("Arrows show directions only; the sphere shows where s3 points in F_e.");
     this.notes.textContent = notes.join(" ");
     this.numbers.replaceChildren(...run.numbers.flatMap(([name, value]) => [control("dt", {}, name), control("dd", {}, value)]));
@@ -230,7 +235,9 @@ export class Replay {
   goTo(time) {
     this.time = time;
     this.slider.value = String(time);
-    this.clock.textContent = `${time.toFixed(this.motion.last < 100 ? 3 : 1)} s of ${readable(this.motion.run.duration)} s`;
+    const { loop } = this.motion.run;
+    const phase = loop ? `, phase ${loop.phases[loop.phase[this.motion.place(time)[0]]]}` : "";
+    this.clock.textContent = `${time.toFixed(this.motion.last < 100 ? 3 : 1)} s of ${readable(this.motion.run.duration)} s${phase}`;
     moveCursors(time);
     this.show();
   }
@@ -247,7 +254,10 @@ export class Replay {
     this.craft.quaternion.copy(quaternionOf(three, state.attitude));
     this.wheels.forEach(({ spinning }, index) => spinning.rotation.set(0, 0, state.angles[index] / this.slowed));
     const arc = this.data.scene.arcs.find((each) => each.start <= this.time && this.time < each.end);
-    this.thrusters.forEach(({ plume }, index) => (plume.visible = Boolean(arc && arc.thrust[index] > 0)));
+    const { loop } = motion.run;
+    const first = motion.place(this.time)[0] * this.thrusters.length;
+    const fires = (index) => (loop ? loop.firing[first + index] > 0 : Boolean(arc && arc.thrust[index] > 0));
+    this.thrusters.forEach(({ plume }, index) => (plume.visible = fires(index)));
     pointTo(three, this.arrows.s3, state.s3, 1.6 * size);
     pointTo(three, this.arrows.momentum, state.momentum, 1.45 * size);
     pointTo(three, this.arrows.omega, state.omega, 1.3 * size);
@@ -263,6 +273,13 @@ export class Replay {
     const place = isFar ? state.debris.map((value) => (value / distance) * 2.2 * this.size) : state.debris;
     this.debris.position.set(...place);
     this.debris.quaternion.copy(quaternionOf(this.three, state.debrisAttitude));
+    if (distance > 0) pointTo(this.three, this.sight, state.debris, Math.hypot(...place));
+    if (this.launchAxis) {
+      const { loop } = this.motion.run;
+      this.launchAxis.visible = Boolean(loop && loop.axis);
+      if (this.launchAxis.visible) pointTo(this.three, this.launchAxis, loop.axis, this.size);
+      this.launchAxis.position.set(...place);
+    }
     this.clock.dataset.debris = isFar ? `debris ${readable(distance, 4)} m away, shown nearer` : "";
   }
 

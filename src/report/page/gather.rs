@@ -78,6 +78,7 @@ fn time_bands(bands: &Bands) -> Vec<TimeBands> {
         quantiles: BANDS
             .map(|p| (0..points).map(|point| bands.quantile(series, point, p).unwrap_or(f64::NAN)).collect()),
         runs: bands.runs(),
+        left: points.checked_sub(1).map_or(0, |last| bands.count(series, last)),
     };
     let series = (0..bands.layout().series.len()).map(of_series);
     series.filter(|series| series.quantiles[2].iter().any(|value| value.is_finite())).collect()

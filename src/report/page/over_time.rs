@@ -20,6 +20,8 @@ pub struct TimeBands {
     pub quantiles: [Vec<f64>; 5],
     /// How many runs they are of.
     pub runs: u64,
+    /// How many of them are left at the last time: those that a mission has ended before are not.
+    pub left: u64,
 }
 
 /// Curves of the nominal run.
@@ -138,8 +140,13 @@ impl<'a> Curves<'a> {
         } else {
             String::new()
         };
+        let left = if bands.left < bands.runs {
+            format!(" A run leaves the bands where its mission ends: {} are left at the last time.", bands.left)
+        } else {
+            String::new()
+        };
         format!(
-            "Bands: 5 to 95% and 25 to 75% of {} dispersed runs that are ok, at each of {} times; solid line: median; dashed: nominal run.{aliased}",
+            "Bands: 5 to 95% and 25 to 75% of {} dispersed runs that are ok, at each of {} times; solid line: median; dashed: nominal run.{left}{aliased}",
             bands.runs,
             bands.times.len()
         )

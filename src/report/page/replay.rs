@@ -124,7 +124,34 @@ pub fn motion(plan: &Plan, shown: &ShownRun, payload: &mut Payload) -> Option<Va
         "sample": shown.sample.0, "name": name, "why": shown.why, "status": shown.status.name(), "reason": shown.reason,
         "numbers": numbers(plan, shown), "duration": plan.grid.duration(), "times": payload.singles(&run.grid.times()[..points]),
         "attitude": payload.singles(&attitude), "omega": payload.singles(&omega), "momentum": payload.singles(&momentum),
-        "angles": payload.singles(&angles), "debris": debris
+        "angles": payload.singles(&angles), "debris": debris, "loop": control(plan, run, points, payload)
+    }))
+}
+
+/// What a control loop did in `run`: the phase and the mean commanded thrusts at each point, and the launch axis in F_e; `None` without a loop.
+fn control(plan: &Plan, run: &SingleRun, points: usize, payload: &mut Payload) -> Option<Value> {
+    let spec = plan.law.as_ref()?.spec()?;
+    let held = run.telemetry.held_at(&run.grid.times()[..points]);
+    let column = |name: &str| {
+        let place = run.telemetry.quantities.iter().position(|quantity| quantity.name() == name)?;
+        held.get(place)
+    };
+    let phase = column("phase")?;
+    let thrusts: Vec<Option<&Vec<f64>>> =
+        spec.thruster_names.iter().map(|name| column(&format!("commanded_thrust_{name}_n"))).collect();
+    let thrust: Vec<f64> = (0..points)
+        .flat_map(|point| thrusts.iter().map(move |thrust| thrust.map_or(0.0, |thrust| thrust[point])))
+        .collect();
+    let axis = (spec.needs_axis() && points > 0).then(|| {
+        let start = |key: &str| plan.nominal.control.named(key).map(<[f64]>::to_vec).unwrap_or_default();
+        let velocity: [f64; 3] = run.table.at(StateField::DebrisVelocity, 0);
+        let speed = crate::math::vector::norm(velocity);
+        let least = start("least_debris_speed_m_s").first().copied().unwrap_or(0.0);
+        if speed >= least && speed > 0.0 { velocity.map(|v| v / speed).to_vec() } else { start("approach_axis") }
+    });
+    let phases: Vec<&str> = spec.phases.iter().map(|phase| phase.name.as_str()).collect();
+    Some(json!({
+        "phases": phases, "phase": payload.singles(phase), "firing": payload.singles(&thrust), "axis": axis
     }))
 }
 
