@@ -23,7 +23,7 @@ use super::guidance::{Failure, Guidance, Progress};
 use super::laws::{AttitudeLaw, KnownBody, LawInput, MomentumUnloading};
 use super::measurement::Measurement;
 use super::outcome::{ArcApplied, Judgement, MissionOutcome, OutcomeColumns, centers_of};
-use super::recorder::Recorder;
+use super::recorder::{Recorder, Tick};
 use super::sensors::{Instrument, SensorContext};
 use super::small_matrix::inverse;
 use super::spec::LoopSpec;
@@ -345,7 +345,7 @@ impl ControlLoop {
         match progress {
             Progress::Flies => {
                 self.command(truth.time, estimate, &error, velocity_to_go, situation.s3_e);
-                self.record(truth.time, estimate, &error);
+                self.record(truth, estimate, &error);
             }
             Progress::Launches => self.end(truth, Failure::None),
             Progress::Fails(failure) => self.end(truth, failure),
@@ -353,9 +353,18 @@ impl ControlLoop {
     }
 
     /// Records the tick, where this run is to be recorded.
-    fn record(&mut self, time: f64, estimate: &Estimate, error: &AttitudeError) {
+    fn record(&mut self, truth: &Truth, estimate: &Estimate, error: &AttitudeError) {
         if let Some(recorder) = &mut self.recorder {
-            recorder.tick(time, self.guidance.phase, error.angle(), estimate, self.latest, &self.measurements);
+            let bias = self.instruments.iter().find_map(|instrument| instrument.sensor().bias_s());
+            recorder.tick(&Tick {
+                time: truth.time,
+                phase: self.guidance.phase,
+                pointing_error: error.angle(),
+                estimate,
+                consistency: &self.estimator.consistency(truth, bias),
+                commanded: self.latest,
+                measurements: &self.measurements,
+            });
         }
     }
 
