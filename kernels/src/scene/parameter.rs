@@ -229,6 +229,15 @@ mod tests {
         inertial.initial.debris_attitude_inertial = Some(IDENTITY);
         inertial.initial.debris_angular_velocity_rad_s = Some([0.0; 3]);
         list.push(inertial);
+        let mut driven = full();
+        for wheel in &mut driven.wheels {
+            (wheel.torque_limit_n_m, wheel.speed_limit_rad_s) = (Some(1.0), Some(1.0));
+            (wheel.coulomb_friction_n_m, wheel.viscous_friction_n_m_s) = (Some(1.0), Some(1.0));
+        }
+        for thruster in &mut driven.thrusters {
+            (thruster.max_thrust_n, thruster.min_on_time_s) = (Some(1.0), Some(1.0));
+        }
+        list.push(driven);
         list
     }
 
