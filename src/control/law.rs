@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::context::LawContext;
 use super::control_loop::ControlLoop;
-use super::outcome::OutcomeColumns;
+use super::outcome::columns::OutcomeColumns;
 use super::runs::{LawRuns, Runs};
 use super::spec::LoopSpec;
 use crate::dynamics::actuation::ActuationLaw;

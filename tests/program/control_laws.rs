@@ -75,26 +75,47 @@ impl Watch for StopAfter {
     }
 }
 
+/// `net_launch.toml`, with all its sensors and filters, for its first 20 s.
+fn net_launch<'a>(session: Session<'a>, root: &Path) -> Campaign<'a> {
+    let text = include_str!("../../campaigns/net_launch.toml").replace("duration_s = 2400.0", "duration_s = 20.0");
+    Campaign::from_text("net_launch.toml", &text, session).samples(600).audit(0.02).store(root)
+}
+
 /// Law: one and two threads, a campaign that is stopped in the midst of a part and continued, and shards give the same bytes; they are verified by
-/// computing every row again.
+/// computing every row again. So it is under a law of the program's own and under a loop of the file.
 #[test]
 fn a_campaign_under_a_law_is_a_function_of_its_plan() {
-    let scratch = ScratchFolder::new("law-bytes");
-    let (quiet, law) = (Quiet::default(), example::law());
-    let session = Session::new(&quiet).unwrap().under(&law);
+    is_a_function_of_its_plan("own", Some(&example::law()), campaign);
+    is_a_function_of_its_plan("loop", None, net_launch);
+}
+
+fn session<'a>(watch: &'a dyn Watch, law: Option<&'a ControlLaw>) -> Session<'a> {
+    let session = Session::new(watch).unwrap();
+    law.map_or(session, |law| session.under(law))
+}
+
+fn is_a_function_of_its_plan(
+    which: &str,
+    law: Option<&ControlLaw>,
+    campaign: for<'a> fn(Session<'a>, &Path) -> Campaign<'a>,
+) {
+    let scratch = ScratchFolder::new(&format!("law-bytes-{which}"));
+    let quiet = Quiet::default();
+    let session_of = session;
+    let session = session_of(&quiet, law);
     let of = |name: &str| scratch.path(name);
     campaign(threads(session, 1), &of("one")).results().unwrap();
     let expected = files(&of("one"));
 
     campaign(threads(session, 2), &of("two")).results().unwrap();
-    assert!(files(&of("two")) == expected, "two threads");
+    assert!(files(&of("two")) == expected, "{which}: two threads");
 
     let stopping = StopAfter { runs: 300, done: AtomicU64::new(0), stop: AtomicBool::new(false) };
-    let stopped = campaign(threads(Session::new(&stopping).unwrap().under(&law), 1), &of("stopped")).prepare().unwrap();
+    let stopped = campaign(threads(session_of(&stopping, law), 1), &of("stopped")).prepare().unwrap();
     let Ok(CampaignOutcome::Stopped { samples: 600, left }) = stopped.unwrap().run() else { panic!("it is stopped") };
     assert!((1..600).contains(&left), "{left} left");
     campaign(session, &of("stopped")).results().unwrap();
-    assert!(files(&of("stopped")) == expected, "stopped and continued");
+    assert!(files(&of("stopped")) == expected, "{which}: stopped and continued");
 
     for number in 1..=3 {
         let shard = campaign(session, &of("shards")).shard(Shard { number, of: 3 }).prepare().unwrap().unwrap();
@@ -102,7 +123,7 @@ fn a_campaign_under_a_law_is_a_function_of_its_plan() {
     }
     let finished = finish(&session, &of("shards"), &Outputs::default(), &|_| Ok(())).unwrap();
     assert!(matches!(finished, Finished::Now(_)));
-    assert!(files(&of("shards")) == expected, "three shards");
+    assert!(files(&of("shards")) == expected, "{which}: three shards");
 
     let verified = verify(&session, &of("one"), Verification { fraction: 1.0, repair: false }).unwrap().unwrap();
     assert_eq!(verified.problems, 0);

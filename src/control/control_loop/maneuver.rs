@@ -1,0 +1,104 @@
+//! What guidance has before it at a tick: geometry, the maneuver that is left, the attitude that is wanted.
+
+use super::ControlLoop;
+use crate::control::estimate::Estimate;
+use crate::control::guidance::geometry::{Centers, LaunchGeometry, transfer};
+use crate::control::guidance::phase::{Maneuver, Phase};
+use crate::control::guidance::situation::{Situation, s3_of};
+use crate::control::guidance::target::{AttitudeError, VelocityToGo};
+use crate::control::vector::{dcm_from_quaternion, difference, norm, product, scaled, sum};
+use crate::scene::{MAX_THRUSTERS, Scene};
+
+/// The momentum of the wheels of `scene` relative to the body at the estimated rates, in F_s, N m s.
+pub(super) fn stored_momentum(scene: &Scene, estimate: &Estimate) -> [f64; 3] {
+    let wheels = scene.mass.wheels.iter().zip(estimate.wheel_rates);
+    wheels.fold([0.0; 3], |total, (wheel, rate)| sum(total, scaled(wheel.axial * rate, wheel.axis)))
+}
+
+impl ControlLoop {
+    pub(super) fn geometry_of(&self, estimate: &Estimate) -> Option<LaunchGeometry> {
+        let debris = estimate.debris.as_ref()?;
+        let centers = Centers {
+            r_co_e: estimate.r_co_e,
+            v_co_e: estimate.v_co_e,
+            r_gdo_e: debris.r_gdo_e,
+            v_gdo_e: debris.v_gdo_e,
+        };
+        Some(self.launch.geometry(&centers))
+    }
+
+    /// The impulse per mass that is left of the maneuver of the phase.
+    pub(super) fn velocity_to_go(&self, geometry: Option<&LaunchGeometry>, time: f64) -> VelocityToGo {
+        let Some(geometry) = geometry else { return VelocityToGo::default() };
+        let phase = &self.phases[self.guidance.phase];
+        match phase.maneuver() {
+            Maneuver::None => VelocityToGo::default(),
+            Maneuver::Stop => {
+                VelocityToGo { velocity_e: scaled(-1.0, geometry.relative_velocity), ..VelocityToGo::default() }
+            }
+            // within the burn what is left of the time of the transfer is ahead, and the impulse keeps its direction
+            Maneuver::Transfer if phase.thrust == Maneuver::Transfer => {
+                let left = self.guidance.arrival - time;
+                if left < self.spec.period {
+                    // the time of the transfer is over: what is left is for the stop
+                    return VelocityToGo::default();
+                }
+                let velocity_e = transfer(geometry.from_station, geometry.relative_velocity, left);
+                VelocityToGo { velocity_e, ..VelocityToGo::default() }
+            }
+            // before it, all of it
+            Maneuver::Transfer => VelocityToGo {
+                velocity_e: transfer(geometry.from_station, geometry.relative_velocity, phase.transfer_time),
+                change_e: scaled(-1.0 / phase.transfer_time, geometry.relative_velocity),
+            },
+        }
+    }
+
+    /// The impulse per mass, in F_e, m/s, of thrust that is commanded and has not acted yet at `time`, at the attitude `q_es`.
+    fn on_its_way(&self, q_es: [f64; 4], time: f64) -> [f64; 3] {
+        let (acting, waiting) = self.thrust_commands.all();
+        let mut impulse = [0.0; MAX_THRUSTERS];
+        for &i in &self.spec.thrusters {
+            let left = (acting.begin + acting.on_time[i] - time).clamp(0.0, acting.on_time[i]);
+            impulse[i] = acting.thrust[i] * left;
+        }
+        for pulses in waiting {
+            self.spec.thrusters.iter().for_each(|i| impulse[*i] += pulses.thrust[*i] * pulses.on_time[*i]);
+        }
+        let impulse_s = self.believed.thruster_force_s(impulse);
+        scaled(1.0 / self.believed.mass.total, product(dcm_from_quaternion(q_es), impulse_s))
+    }
+
+    /// The attitude relative to the target of the phase, and the velocity to go (m/s, F_e).
+    pub(super) fn wanted(
+        &self,
+        estimate: &Estimate,
+        geometry: Option<&LaunchGeometry>,
+        time: f64,
+    ) -> (AttitudeError, [f64; 3]) {
+        let mut to_go = self.velocity_to_go(geometry, time);
+        let Phase { target, thrust, .. } = self.phases[self.guidance.phase];
+        if thrust != Maneuver::None {
+            to_go.velocity_e = difference(to_go.velocity_e, self.on_its_way(estimate.q_es, time));
+        }
+        (target.error(estimate.q_es, geometry, &to_go), to_go.velocity_e)
+    }
+
+    pub(super) fn situation(&self, time: f64, estimate: &Estimate, geometry: Option<LaunchGeometry>) -> Situation {
+        let rates = &estimate.wheel_rates[..self.believed.mass.wheels.len()];
+        Situation {
+            time,
+            time_in_phase: time - self.guidance.since,
+            body_rate: norm(estimate.omega_se_s),
+            error: AttitudeError::NONE,
+            wheel_speed: rates.iter().fold(0.0, |most, rate| most.max(rate.abs())),
+            wheel_momentum: norm(stored_momentum(&self.believed, estimate)),
+            geometry,
+            velocity_to_go: [0.0; 3],
+            s3_e: s3_of(dcm_from_quaternion(estimate.q_es)),
+            time_to_station: self.guidance.arrival - time,
+            debris_age: if self.spec.has_debris { time - self.debris_seen } else { f64::NAN },
+            debris_rate: estimate.debris.map_or(f64::NAN, |debris| norm(debris.omega_de_d)),
+        }
+    }
+}

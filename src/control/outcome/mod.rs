@@ -1,0 +1,251 @@
+//! [`MissionOutcome`]: what a run under a loop has come to, from the true state at every tick. [`columns`]: the columns that say it.
+
+pub mod columns;
+
+use super::estimate::EstimateErrors;
+use super::estimators::Consistency;
+use super::guidance::Failure;
+use super::guidance::geometry::{Centers, LaunchState};
+use super::guidance::target::AttitudeError;
+use super::truth::Truth;
+use crate::control::rotation::vector_of;
+use crate::control::vector::{cross, dcm_from_quaternion, dot, norm, product, scaled};
+use crate::scene::{MAX_THRUSTERS, MAX_WHEELS, Scene};
+
+/// The numbers of a run with which its outcome is judged.
+#[derive(Clone, Copy, Debug)]
+pub struct Judgement {
+    /// The launch state.
+    pub launch: LaunchState,
+    /// Distance from the debris below which the mission fails, m.
+    pub keep_out: f64,
+    /// Distance and half angle of a plume that hits the debris, m and rad.
+    pub plume: [f64; 2],
+    /// Pointing error of an attitude that has settled, rad.
+    pub settling_band: f64,
+    /// Specific impulse, s; zero where it is not known.
+    pub isp: f64,
+}
+
+/// Standard gravity, by which a specific impulse is an exhaust velocity, m/s^2 (ISO 80000-3).
+const STANDARD_GRAVITY: f64 = 9.806_65;
+
+/// What is true at the launch.
+#[derive(Clone, Copy, Debug)]
+struct AtLaunch {
+    pointing_error: f64,
+    axis_offset: f64,
+    distance_error: f64,
+    relative_speed: f64,
+    body_rate: f64,
+    momentum_angle: f64,
+    speed_margin: f64,
+}
+
+/// What a run has come to.
+#[derive(Clone, Debug)]
+pub struct MissionOutcome {
+    failure: Failure,
+    end: f64,
+    at_launch: Option<AtLaunch>,
+    /// Largest rotation to the target after it was first passed, rad, and the direction of the error with which the phase began.
+    overshoot: f64,
+    first_error: Option<[f64; 3]>,
+    /// Since when the pointing error has been within the band, s; NaN while it is not.
+    settled_since: f64,
+    pointing_since: f64,
+    pointing_error: f64,
+    /// N s, by thruster.
+    impulse: [f64; MAX_THRUSTERS],
+    velocity_change: f64,
+    debris_distance: f64,
+    plume_time: f64,
+    speed_peak: [f64; MAX_WHEELS],
+    momentum_peak: f64,
+    /// Time in which a motor gave less than was commanded: by its limit of torque, by that of speed, s.
+    saturated: [f64; 2],
+    torque_excess: f64,
+    attitude_error: [f64; 2],
+    relative_error: [f64; 2],
+    /// How the errors of the filters compare with their covariances, at the last tick.
+    pub consistency: Consistency,
+}
+
+/// What an arc has applied, for the sums of a run.
+#[derive(Clone, Copy, Debug)]
+pub struct ArcApplied {
+    /// Its length, s.
+    pub length: f64,
+    /// Thrusts, N.
+    pub thrust: [f64; MAX_THRUSTERS],
+    /// Whether the plume of one that fires hits the debris.
+    pub hits: bool,
+    /// Whether a motor was limited by its torque, and by the speed of its wheel.
+    pub saturated: [bool; 2],
+    /// Largest commanded torque beyond a limit, N m.
+    pub torque_excess: f64,
+}
+
+impl MissionOutcome {
+    /// At the start.
+    pub fn new() -> Self {
+        MissionOutcome {
+            failure: Failure::None,
+            end: f64::NAN,
+            at_launch: None,
+            overshoot: 0.0,
+            first_error: None,
+            settled_since: f64::NAN,
+            pointing_since: f64::NAN,
+            pointing_error: f64::NAN,
+            impulse: [0.0; MAX_THRUSTERS],
+            velocity_change: 0.0,
+            debris_distance: f64::INFINITY,
+            plume_time: 0.0,
+            speed_peak: [0.0; MAX_WHEELS],
+            momentum_peak: 0.0,
+            saturated: [0.0; 2],
+            torque_excess: 0.0,
+            attitude_error: [0.0; 2],
+            relative_error: [f64::NAN; 2],
+            consistency: Consistency::default(),
+        }
+    }
+
+    /// Takes the truth of a tick. `error` is the true attitude relative to the target of the phase, `None` without one; `begins`: the phase has just begun.
+    pub fn tick(
+        &mut self,
+        scene: &Scene,
+        truth: &Truth,
+        (error, begins): (Option<&AttitudeError>, bool),
+        errors: &EstimateErrors,
+        judgement: &Judgement,
+    ) {
+        if let Some(error) = error {
+            self.pointing(truth.time, error, begins, judgement.settling_band);
+        }
+        let mut momentum = [0.0; 3];
+        for (i, wheel) in scene.mass.wheels.iter().enumerate() {
+            let rate = truth.wheels.rates[i];
+            self.speed_peak[i] = self.speed_peak[i].max(rate.abs());
+            momentum = crate::control::vector::sum(momentum, scaled(wheel.axial * rate, wheel.axis));
+        }
+        self.momentum_peak = self.momentum_peak.max(norm(momentum));
+        if let Some(debris) = &truth.debris {
+            let apart = crate::control::vector::difference(debris.r_gdo_e, truth.body.r_co_e);
+            self.debris_distance = self.debris_distance.min(norm(apart));
+        }
+        self.attitude_error = [errors.attitude, self.attitude_error[1].max(errors.attitude)];
+        self.relative_error = [errors.relative_position, errors.relative_velocity];
+    }
+
+    fn pointing(&mut self, time: f64, error: &AttitudeError, begins: bool, band: f64) {
+        let vector = vector_of(error.q_ts);
+        let angle = norm(vector);
+        if begins || self.first_error.is_none() {
+            self.first_error = (angle > 0.0).then(|| scaled(1.0 / angle, vector));
+            (self.overshoot, self.settled_since, self.pointing_since) = (0.0, f64::NAN, time);
+        }
+        if let Some(first) = self.first_error {
+            self.overshoot = self.overshoot.max(-dot(first, vector));
+        }
+        self.pointing_error = angle;
+        if angle > band {
+            self.settled_since = f64::NAN;
+        } else if self.settled_since.is_nan() {
+            self.settled_since = time;
+        }
+    }
+
+    /// Takes an arc of a run of `scene`.
+    pub fn arc(&mut self, scene: &Scene, applied: &ArcApplied) {
+        for (which, is_saturated) in applied.saturated.into_iter().enumerate() {
+            self.saturated[which] += if is_saturated { applied.length } else { 0.0 };
+        }
+        self.torque_excess = self.torque_excess.max(applied.torque_excess);
+        if applied.thrust == [0.0; MAX_THRUSTERS] {
+            return;
+        }
+        for (impulse, thrust) in self.impulse.iter_mut().zip(applied.thrust) {
+            *impulse += thrust * applied.length;
+        }
+        let force = norm(scene.thruster_force_s(applied.thrust));
+        self.velocity_change += force * applied.length / scene.mass.total;
+        self.plume_time += if applied.hits { applied.length } else { 0.0 };
+    }
+
+    /// Whether the plume of a thruster that fires at `thrust` in the state `truth` hits the debris.
+    pub fn plume_hits(
+        &self,
+        scene: &Scene,
+        truth: &Truth,
+        thrust: &[f64; MAX_THRUSTERS],
+        judgement: &Judgement,
+    ) -> bool {
+        let firing = scene.thrusters.iter().zip(thrust).filter(|(_, thrust)| **thrust > 0.0);
+        firing.into_iter().any(|(thruster, _)| plume_hits(truth, thruster.direction, judgement.plume))
+    }
+
+    /// A command is no finite number at `time`, s.
+    pub fn diverges(&mut self, time: f64) {
+        (self.end, self.failure) = (time, Failure::Diverged);
+    }
+
+    /// The run ends at `truth`, launched or failed.
+    pub fn ends(&mut self, scene: &Scene, truth: &Truth, failure: Failure, launch: &LaunchState) {
+        self.end = truth.time;
+        self.failure = failure;
+        if failure == Failure::None {
+            self.at_launch = at_launch(scene, truth, launch);
+        }
+    }
+}
+
+/// Whether the plume of a thruster that pushes along `direction` (F_s) hits the debris: it leaves against its push.
+fn plume_hits(truth: &Truth, direction: [f64; 3], [range, half_angle]: [f64; 2]) -> bool {
+    let Some(debris) = &truth.debris else { return false };
+    let to_debris = crate::control::vector::difference(debris.r_gdo_e, truth.body.r_co_e);
+    let distance = norm(to_debris);
+    let plume = scaled(-1.0, product(dcm_from_quaternion(truth.body.q_es), direction));
+    distance < range && libm::atan2(norm(cross(plume, to_debris)), dot(plume, to_debris)) < half_angle
+}
+
+/// The angle between two vectors, rad.
+fn angle_between(a: [f64; 3], b: [f64; 3]) -> f64 {
+    libm::atan2(norm(cross(a, b)), dot(a, b))
+}
+
+/// The centres of mass at `truth`; `None` without debris.
+pub fn centers_of(truth: &Truth) -> Option<Centers> {
+    let debris = truth.debris.as_ref()?;
+    let body = &truth.body;
+    Some(Centers { r_co_e: body.r_co_e, v_co_e: body.v_co_e, r_gdo_e: debris.r_gdo_e, v_gdo_e: debris.v_gdo_e })
+}
+
+fn at_launch(scene: &Scene, truth: &Truth, launch: &LaunchState) -> Option<AtLaunch> {
+    let geometry = launch.geometry(&centers_of(truth)?);
+    let (body, debris) = (scene.mass.debris.as_ref()?, truth.debris.as_ref()?);
+    let s3 = product(dcm_from_quaternion(truth.body.q_es), [0.0, 0.0, 1.0]);
+    let momentum = product(dcm_from_quaternion(debris.q_ed), product(body.inertia, debris.omega_de_d));
+    let margin = |(i, model): (usize, &crate::scene::WheelModel)| model.speed_limit - truth.wheels.rates[i].abs();
+    let wheels = scene.actuators.wheels[..scene.mass.wheels.len()].iter().enumerate();
+    Some(AtLaunch {
+        pointing_error: angle_between(s3, geometry.to_debris),
+        axis_offset: geometry.axis_offset(),
+        distance_error: geometry.distance_error(),
+        relative_speed: norm(geometry.relative_velocity),
+        body_rate: norm(truth.body.omega_se_s),
+        // a line has no direction: 0 to pi/2
+        momentum_angle: {
+            let angle = angle_between(momentum, geometry.axis);
+            if momentum == [0.0; 3] { f64::NAN } else { angle.min(core::f64::consts::PI - angle) }
+        },
+        speed_margin: wheels.map(margin).fold(f64::INFINITY, f64::min),
+    })
+}
+
+impl Default for MissionOutcome {
+    fn default() -> Self {
+        Self::new()
+    }
+}
