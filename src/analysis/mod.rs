@@ -4,7 +4,7 @@
 //!   by an [`accumulator`].
 //! - [`statistics`]: of every observable ([`observed`], [`population`], [`column_counts`]); [`tally`], [`audit_tally`]: statuses, worst runs, audits.
 //! - [`verdicts`]: of the requirements, each an [`assessment`] (over time: `band_verdicts`); [`mod@stopping`]: whether the rows are enough.
-//! - [`sensitivity`]: which input matters; [`drivers`]: which of them the rows show. - [`statistics_table`], [`sensitivity_table`]: both as files.
+//! - [`sensitivity`]: which input matters; [`drivers`]: which of them the rows show; [`noise_share`]: what noise within loops does. - [`statistics_table`], [`sensitivity_table`]: both as files.
 //! - [`comparison`]: two results, by the samples that both drew ([`pairing`]); [`comparison_table`]: as a file.
 //! - [`trajectories`]: which runs are retained, and their time series. - [`survey`]: what the page shows of the rows.
 //!
@@ -21,6 +21,7 @@ pub mod derived_table;
 pub mod drivers;
 pub mod fold;
 pub mod missions;
+pub mod noise_share;
 pub mod observed;
 pub mod outcomes;
 pub mod pairing;

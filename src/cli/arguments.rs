@@ -179,6 +179,9 @@ pub struct ReportOptions {
     /// How large they are.
     #[command(flatten)]
     pub size: SizeOptions,
+    /// Fly so many scenes of a campaign with a control loop twice, with other noise of the sensors, and say which share of the variance is noise.
+    #[arg(long, value_name = "SCENES", value_parser = clap::value_parser!(u64).range(2..))]
+    pub noise: Option<u64>,
     /// Number of threads, at most four for each core [default: one for each core]; the page does not depend on it.
     #[arg(long, value_name = "N", value_parser = threads)]
     pub threads: Option<std::num::NonZeroUsize>,

@@ -137,12 +137,20 @@ impl<'p> SingleRuns<'p> {
     /// # Errors
     /// Why the drawn scene is not physical.
     pub fn run(&mut self, sample: SampleId) -> Result<SingleRun, Vec<SceneError>> {
+        self.run_with_noise_of(sample, sample)
+    }
+
+    /// Runs the scene of `sample`, with the noise within its control loop of the sample `noise`.
+    ///
+    /// # Errors
+    /// Why the drawn scene is not physical.
+    pub fn run_with_noise_of(&mut self, sample: SampleId, noise: SampleId) -> Result<SingleRun, Vec<SceneError>> {
         let scene = self.draws.scene(sample)?;
         let mut row = vec![f64::NAN; self.request.columns().len()];
         let (mut result, mut reason) = (None, String::new());
         let (isa, observer, series_observer) = (self.isa, &mut self.observer, &mut self.series_observer);
         let (plan, ignored) = (self.plan, &mut self.ignored);
-        let draw = plan.law.as_ref().map(|_| LawDraw { sample, parameters: self.draws.drawn().control.clone() });
+        let draw = plan.law.as_ref().map(|_| LawDraw { sample: noise, parameters: self.draws.drawn().control.clone() });
         self.flights.fly(std::slice::from_ref(&scene), draw.as_slice(), &mut |run| {
             let status = observe(plan, observer, isa, &scene, &run, &mut row);
             observe(plan, series_observer, isa, &scene, &run, ignored);

@@ -154,7 +154,7 @@ fn make_page(job: &Finishing<'_>, analysed: &Analysed, records: &[PartRecord]) -
     if job.outputs.without_page {
         return folder.remove(REPORT).map_err(WorkflowError::files);
     }
-    let page = page::page(job.ensemble, analysed, records);
+    let page = page::page(job.ensemble, analysed, records, &[]);
     folder.write(REPORT, page.html.as_bytes()).map_err(WorkflowError::files)?;
     let place = job.outputs.figures.as_ref().map(|(folder, size)| (folder.as_path(), *size));
     page::save_figures(&job.session, &page, place)

@@ -3,6 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use crate::analysis::fold::Gathered;
+use crate::analysis::noise_share::{NoiseShare, noise_shares};
+use crate::analysis::outcomes::outcomes;
 use crate::ensemble::Ensemble;
 use crate::report::image::{self, PlotSize};
 use crate::report::page::gather::Analysis;
@@ -20,15 +22,28 @@ use crate::workflow::error::WorkflowError;
 use crate::workflow::session::Session;
 use crate::workflow::source::plan_of_sound;
 
-/// Makes the page of the finished result in `root` again, and its figures as files in the folder `figures`; its path and its size, bytes.
+/// A page that was made again.
+#[derive(Clone, Debug)]
+pub struct Remade {
+    /// Its path.
+    pub path: PathBuf,
+    /// Its size, bytes.
+    pub size: u64,
+    /// The share of noise in the outcomes, where it was asked for.
+    pub noise: Vec<NoiseShare>,
+}
+
+/// Makes the page of the finished result in `root` again, and its figures as files in the folder `figures`. `noise`: how many scenes are flown twice to
+/// tell noise within control loops from what was drawn.
 ///
 /// # Errors
-/// Where the folder has no finished result, or files cannot be read or written.
+/// Where the folder has no finished result, its campaign has no loop whose noise was asked for, or files cannot be read or written.
 pub fn remade(
     session: &Session<'_>,
     root: &Path,
     figures: Option<(&Path, PlotSize)>,
-) -> Result<(PathBuf, u64), WorkflowError> {
+    noise: Option<u64>,
+) -> Result<Remade, WorkflowError> {
     let (storage, threads) = (session.storage, session.threads);
     let (found, _locks) = open(storage, root, false).map_err(WorkflowError::files)?;
     let Some(manifest) = found.manifests.get(MANIFEST).filter(|_| found.is_finished) else {
@@ -39,28 +54,41 @@ pub fn remade(
         )));
     };
     let plan = plan_of_sound(session, (root, &found), Some(REPORT))?;
+    if noise.is_some() && plan.law.is_none() {
+        return Err(WorkflowError::Input(format!(
+            "campaign {} has no control loop, and without one a run has no noise: leave out --noise",
+            plan.name
+        )));
+    }
     let ensemble = Ensemble::new(&plan, session.isa);
     let records: Vec<PartRecord> = found.parts().into_values().collect();
     let parts = PartsRead::of(&records, |name| root.join(name));
     let reader = RowsReader::new(storage, parts.rows);
     let gathered = Gathered::of_files(&ensemble, (&reader, &parts.bands), threads).map_err(WorkflowError::files)?;
     let analysed = computed(&plan, &reader, gathered, threads)?;
-    let page = page(&ensemble, &analysed, &records);
+    let noise = match noise {
+        None => Vec::new(),
+        Some(scenes) => {
+            noise_shares(&plan, &outcomes(&plan), scenes, (session.isa, threads)).map_err(WorkflowError::files)?
+        }
+    };
+    let page = page(&ensemble, &analysed, &records, &noise);
     let path = root.join(REPORT);
     place(storage, &path, page.html.as_bytes()).map_err(WorkflowError::files)?;
     relist(storage, root, (manifest, &found.plan), FileRecord::of(REPORT, page.html.as_bytes()))
         .map_err(WorkflowError::files)?;
     save_figures(session, &page, figures)?;
-    Ok((path, page.html.len() as u64))
+    Ok(Remade { path, size: page.html.len() as u64, noise })
 }
 
-/// The page of a result whose parts are `records`.
-pub fn page(ensemble: &Ensemble<'_>, analysed: &Analysed, records: &[PartRecord]) -> Page {
+/// The page of a result whose parts are `records`; `noise`: the share of noise in its outcomes, where it was measured.
+pub fn page(ensemble: &Ensemble<'_>, analysed: &Analysed, records: &[PartRecord], noise: &[NoiseShare]) -> Page {
     let analysis = Analysis {
         statistics: &analysed.statistics,
         verdicts: &analysed.verdicts,
         sensitivities: &analysed.sensitivities,
         missions: &analysed.missions,
+        noise,
         bands: analysed.bands.as_ref(),
         stopping: analysed.stopping.as_ref(),
     };

@@ -80,7 +80,7 @@ fn repair(storage: &'static dyn Storage, root: &Path) -> Result<(), Failure> {
 }
 
 fn report(storage: &'static dyn Storage, root: &Path) -> Result<(), Failure> {
-    on(storage, |session| remade(session, root, None).map(|_| ()))
+    on(storage, |session| remade(session, root, None, None).map(|_| ()))
 }
 
 fn compare(storage: &'static dyn Storage, root: &Path) -> Result<(), Failure> {

@@ -1,6 +1,6 @@
 //! Layer 2: statistics of many runs: pure functions of numbers.
 //!
-//! - [`moments`], [`quantile`], [`sketch`] (on [`carries`]), [`spread`]: what describes one column. - [`student`], [`mean`], [`jackknife`], [`binomial`], [`replicates`]: intervals.
+//! - [`moments`], [`quantile`], [`sketch`] (on [`carries`]), [`spread`]: what describes one column. - [`student`], [`mean`], [`jackknife`], [`binomial`], [`replicates`]: intervals; [`share_within`]: of repetition.
 //! - [`gate`]: requirements decided. - [`looks`]: when to stop. - [`two_sample`]: two campaigns compared.
 //! - [`correlation`], [`regression`], [`sensitivity`]: which input matters.
 
@@ -17,6 +17,7 @@ pub mod quantile;
 pub mod regression;
 pub mod replicates;
 pub mod sensitivity;
+pub mod share_within;
 pub mod sketch;
 pub mod spread;
 pub mod student;

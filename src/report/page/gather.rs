@@ -2,6 +2,7 @@
 
 use crate::analysis::assessment::Assessment;
 use crate::analysis::missions::Missions;
+use crate::analysis::noise_share::NoiseShare;
 use crate::analysis::sensitivity::InputSensitivity;
 use crate::analysis::statistics::{ColumnStatistics, QuantileStatistic, Statistics};
 use crate::analysis::stopping::Stopping;
@@ -10,6 +11,7 @@ use crate::analysis::verdicts::Verdicts;
 use crate::campaign::{Plan, Statement};
 use crate::ensemble::Bands;
 use crate::report::drivers_text::{self, outcomes};
+use crate::report::noise_text;
 use crate::report::page::Contents;
 use crate::report::page::cards::{Card, Judged, driven_by};
 use crate::report::page::errors::sentence;
@@ -38,6 +40,8 @@ pub struct Analysis<'a> {
     pub sensitivities: &'a [InputSensitivity],
     /// How missions ended, under a control loop.
     pub missions: &'a Missions,
+    /// What noise within the loop makes of the outcomes, where that was measured.
+    pub noise: &'a [NoiseShare],
     /// Quantiles over time, where they were kept.
     pub bands: Option<&'a Bands>,
     /// The look that ended the campaign, where it has `[stop]`.
@@ -47,7 +51,7 @@ pub struct Analysis<'a> {
 impl Contents {
     /// What `analysis` says of `plan`, and the `survey` of its rows. `files`: names and SHA-256.
     pub fn new(plan: &Plan, survey: Survey, analysis: Analysis<'_>, files: Vec<(String, String)>) -> Self {
-        let influences = influences(plan, analysis.sensitivities, &survey);
+        let influences = influences(plan, analysis.sensitivities, analysis.noise, &survey);
         let verdicts = &analysis.verdicts.list;
         let mut said = together(analysis.verdicts);
         said.extend(analysis.stopping.map(|found| stopping_text::text(plan, found)));
@@ -103,7 +107,14 @@ fn row(column: &ColumnStatistics, statistics: &Statistics) -> StatisticsRow {
 }
 
 /// The influences on each outcome, the strongest first.
-fn influences(plan: &Plan, all: &[InputSensitivity], survey: &Survey) -> Vec<Influence> {
+fn influences(plan: &Plan, all: &[InputSensitivity], noise: &[NoiseShare], survey: &Survey) -> Vec<Influence> {
+    let of_noise = |name: &str| match noise.iter().find(|one| one.observable == name) {
+        Some(share) => format!(" {}.", sentence(&noise_text::words(share))),
+        None if plan.law.is_some() => {
+            " Noise within the loop is no input: `spindrift report DIR --noise 256` measures its share.".to_owned()
+        }
+        None => String::new(),
+    };
     let of_outcome = |name: &str| {
         let mut of: Vec<(&InputSensitivity, Estimate)> =
             all.iter().filter(|one| one.observable == name).filter_map(|one| Some((one, one.influence()?))).collect();
@@ -113,7 +124,7 @@ fn influences(plan: &Plan, all: &[InputSensitivity], survey: &Survey) -> Vec<Inf
         Some(Influence {
             outcome: name.to_owned(),
             measure: if is_total { "total Sobol index".to_owned() } else { "share of the variance".to_owned() },
-            meaning: meaning(plan, first, all),
+            meaning: meaning(plan, first, all) + &of_noise(name),
             inputs: of.iter().map(|(one, e)| (one.input.clone(), [e.value, e.lower, e.upper])).collect(),
             drivers: drivers_text::driven_by(all, name),
         })
@@ -170,7 +181,10 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
         Statement::Quantile(share) | Statement::Fraction(share) => {
             let is_quantile = matches!(requirement.statement, Statement::Quantile(_));
             let share = percent(if is_quantile { requirement.limit.fraction(share) } else { share });
-            let kept = format!("{share}% of the runs keep the {name} {word} {text}");
+            let kept = match requirement.observable() {
+                Some("launched") if !is_upper => format!("{share}% of the runs launch the net"),
+                _ => format!("{share}% of the runs keep the {name} {word} {text}"),
+            };
             match (requirement.band(), requirement.window()) {
                 (Some(_), None) => format!(
                     "{}, {kept}, with {confidence}% confidence; at another time these may be other runs.",

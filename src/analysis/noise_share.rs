@@ -1,0 +1,75 @@
+//! Which share of the variance of the outcomes the noise within control loops makes: scenes of a campaign, each flown twice with noise of its own.
+//!
+//! Noise is no input: it is part of no first-order index, and of every total one.
+
+use std::num::NonZeroUsize;
+
+use rayon::ThreadPoolBuilder;
+use rayon::prelude::*;
+
+use crate::analysis::observed::Observed;
+use crate::campaign::Plan;
+use crate::ensemble::single::{SingleRun, SingleRuns};
+use crate::math::Isa;
+use crate::run::Status;
+use crate::sampling::SampleId;
+use crate::statistics::jackknife::Estimate;
+use crate::statistics::share_within::share_within;
+
+/// The share of an outcome.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NoiseShare {
+    /// The outcome.
+    pub observable: String,
+    /// Scenes of which both runs have a value.
+    pub scenes: usize,
+    /// Noise as a share of the variance; `None` where these scenes do not vary.
+    pub share: Option<Estimate>,
+}
+
+/// Samples of noise of which no campaign has scenes: those of the second flights.
+const SECOND: u64 = 1 << 63;
+
+/// The shares of the outcomes `names` of `plan`, by `scenes` of its dispersed samples, evenly spaced (all, where it has no more).
+///
+/// # Errors
+/// Where threads could not be started.
+pub fn noise_shares(
+    plan: &Plan,
+    names: &[String],
+    scenes: u64,
+    (isa, threads): (Isa, Option<NonZeroUsize>),
+) -> Result<Vec<NoiseShare>, rayon::ThreadPoolBuildError> {
+    let dispersed = plan.samples.saturating_sub(1);
+    let count = scenes.min(dispersed);
+    let samples: Vec<u64> =
+        (0..count).map(|k| 1 + (u128::from(k) * u128::from(dispersed) / u128::from(count)) as u64).collect();
+    let outcomes = Observed::named(plan, names.iter().map(String::as_str));
+    let columns = plan.request().columns();
+    // the values of the outcomes in a run; NaN where it has none
+    let values = |run: SingleRun| -> Vec<f64> {
+        let of = |name: &str| Some(run.row[columns.iter().position(|column| column.quantity.name() == name)?]);
+        let is_ok = run.outcome.status == Status::Done;
+        outcomes.iter().map(|outcome| outcome.value(of).filter(|_| is_ok).unwrap_or(f64::NAN)).collect()
+    };
+    let both = |runs: &mut SingleRuns<'_>, sample: u64| {
+        let first = runs.run(SampleId(sample)).ok().map(values)?;
+        let second = runs.run_with_noise_of(SampleId(sample), SampleId(SECOND + sample)).ok().map(values)?;
+        Some([first, second])
+    };
+    let pool = ThreadPoolBuilder::new().num_threads(threads.map_or(0, NonZeroUsize::get)).build()?;
+    let flown: Vec<[Vec<f64>; 2]> = pool.install(|| {
+        let runs = || SingleRuns::new(plan, plan.grid.clone(), isa);
+        samples.par_iter().map_init(runs, |runs, sample| both(runs, *sample)).flatten().collect()
+    });
+    let share = |(place, outcome): (usize, &Observed)| {
+        let pairs = flown.iter().map(|[first, second]| [first[place], second[place]]);
+        let pairs: Vec<[f64; 2]> = pairs.filter(|pair| pair.iter().all(|value| value.is_finite())).collect();
+        NoiseShare {
+            observable: outcome.quantity.name().to_owned(),
+            scenes: pairs.len(),
+            share: share_within(&pairs, plan.analysis.confidence),
+        }
+    };
+    Ok(outcomes.iter().enumerate().map(share).collect())
+}
