@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use crate::analysis::observed::Observed;
 use crate::campaign::Plan;
-use crate::ensemble::single::{SingleRun, SingleRuns};
+use crate::ensemble::single::SingleRuns;
 use crate::math::Isa;
 use crate::run::Status;
 use crate::sampling::SampleId;
@@ -46,16 +46,20 @@ pub fn noise_shares(
         (0..count).map(|k| 1 + (u128::from(k) * u128::from(dispersed) / u128::from(count)) as u64).collect();
     let outcomes = Observed::named(plan, names.iter().map(String::as_str));
     let columns = plan.request().columns();
+    let inputs = plan.dispersions.columns();
     // the values of the outcomes in a run; NaN where it has none
-    let values = |run: SingleRun| -> Vec<f64> {
-        let of = |name: &str| Some(run.row[columns.iter().position(|column| column.quantity.name() == name)?]);
+    let values = |runs: &mut SingleRuns<'_>, sample: u64, noise: u64| -> Option<Vec<f64>> {
+        let run = runs.run_with_noise_of(SampleId(sample), SampleId(noise)).ok()?;
+        let of = |name: &str| {
+            let place = columns.iter().position(|column| column.quantity.name() == name).map(|place| run.row[place]);
+            let input = || inputs.iter().position(|input| input.parameter.column_name(input.component) == name);
+            place.or_else(|| input().map(|place| runs.applied()[place]))
+        };
         let is_ok = run.outcome.status == Status::Done;
-        outcomes.iter().map(|outcome| outcome.value(of).filter(|_| is_ok).unwrap_or(f64::NAN)).collect()
+        Some(outcomes.iter().map(|outcome| outcome.value(of).filter(|_| is_ok).unwrap_or(f64::NAN)).collect())
     };
     let both = |runs: &mut SingleRuns<'_>, sample: u64| {
-        let first = runs.run(SampleId(sample)).ok().map(values)?;
-        let second = runs.run_with_noise_of(SampleId(sample), SampleId(SECOND + sample)).ok().map(values)?;
-        Some([first, second])
+        Some([values(runs, sample, sample)?, values(runs, sample, SECOND + sample)?])
     };
     let pool = ThreadPoolBuilder::new().num_threads(threads.map_or(0, NonZeroUsize::get)).build()?;
     let flown: Vec<[Vec<f64>; 2]> = pool.install(|| {

@@ -140,6 +140,11 @@ impl<'p> SingleRuns<'p> {
         self.run_with_noise_of(sample, sample)
     }
 
+    /// The values that were drawn for the last run, as [`crate::sampling::Dispersions::columns`] lists them.
+    pub fn applied(&self) -> &[f64] {
+        self.draws.applied()
+    }
+
     /// Runs the scene of `sample`, with the noise within its control loop of the sample `noise`.
     ///
     /// # Errors

@@ -1,0 +1,103 @@
+//! The share of the variance that noise within a control loop makes, as `report --noise` says it.
+
+use super::page_numbers::{Found, found};
+
+/// A damped body whose star tracker is believed as it is: its error is noise alone, the drawn scale is none, `of_both` has a known share of it.
+const NOISY: &str = r#"
+[campaign]
+name = "noisy"
+samples = 401
+seed = 5
+duration_s = 4
+[observe]
+points = 3
+[body]
+mass_kg = 100
+center_of_mass_m = [0, 0, 0]
+inertia_kg_m2 = [[30, 0, 0], [0, 36, 0], [0, 0, 24]]
+includes_wheels = true
+[[wheels]]
+name = "w1"
+axis = [1, 0, 0]
+mass_kg = 1
+axial_inertia_kg_m2 = 0.01
+transverse_inertia_kg_m2 = 0.006
+[control]
+period_s = 0.5
+estimator = "raw"
+wheels = ["w1"]
+[[sensors]]
+name = "tracker"
+kind = "star_tracker"
+noise_rad = [1e-3, 0, 0]
+[[sensors]]
+name = "tachometers"
+kind = "tachometers"
+[[guidance]]
+phase = "damp"
+law = "rate_damping"
+gain_n_m_s = 0.1
+[[disperse]]
+parameter = "body.inertia_scale"
+distribution = "normal"
+std = 0.001
+[summary]
+columns = ["attitude_estimate_error_final_rad"]
+[[observable]]
+name = "of_scene"
+expression = "body.inertia_scale"
+[[observable]]
+name = "of_both"
+expression = "body.inertia_scale + attitude_estimate_error_final_rad"
+"#;
+
+/// Share and ends of the interval of `outcome`, per cent.
+fn said(text: &str, outcome: &str) -> [f64; 3] {
+    let line = text
+        .lines()
+        .find(|line| line.trim_start().starts_with(&format!("{outcome} ")))
+        .unwrap_or_else(|| panic!("{text}"));
+    let (_, numbers) = line.split_once("noise within the loop is ").unwrap();
+    let mut numbers = numbers.split(['%', '[', ',', ']']).filter_map(|word| word.trim().parse::<f64>().ok());
+    std::array::from_fn(|_| numbers.next().unwrap())
+}
+
+fn variance(values: &[f64]) -> f64 {
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
+    values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / values.len() as f64
+}
+
+/// Law: what the scene alone decides has no noise, what a sensor alone decides is all noise, and a sum has the share that the variances of its parts say; the
+/// page says the same as the screen; without a loop there is no noise to ask for.
+#[test]
+fn noise_is_told_from_scenes() {
+    let run = found("noise", NOISY);
+    let parts = run.rows(&["attitude_estimate_error_final_rad", "body_inertia_scale"]);
+    let [of_noise, of_scene] = [0, 1].map(|k| variance(&parts.iter().map(|(_, row)| row[k]).collect::<Vec<f64>>()));
+    let page_before = run.data.to_string();
+    assert!(page_before.contains("report DIR --noise 256"), "the page says how");
+    let text = run.scratch.prints("report r --noise 400", 0);
+    assert_eq!(said(&text, "of_scene"), [0.0; 3]);
+    let [share, low, high] = said(&text, "attitude_estimate_error_final_rad");
+    assert!(share > 90.0 && low < 100.0 && high == 100.0, "{text}");
+    let [share, low, high] = said(&text, "of_both");
+    let expected = 100.0 * of_noise / (of_noise + of_scene);
+    assert!((20.0..60.0).contains(&expected) && (low..high).contains(&expected), "{expected}: {text}");
+    assert!((share / expected - 1.0).abs() < 0.2 && high - low < 20.0, "{expected}: {text}");
+    let again = Found::read(run.scratch, String::new());
+    let caption = again.figure("influence_of_both")["caption"].as_str().unwrap();
+    let words = format!(
+        "oise within the loop is {}",
+        text.split_once("of_both").unwrap().1.split_once("loop is ").unwrap().1.lines().next().unwrap()
+    );
+    assert!(caption.contains(&words), "{caption} does not say {words}");
+
+    let scratch = again.scratch;
+    let start = NOISY.find("[control]").unwrap();
+    let end = NOISY.find("[[disperse]]").unwrap();
+    let text = NOISY.replace(&NOISY[start..end], "").replace("attitude_estimate_error_final_rad", "energy_error_max");
+    scratch.file("open.toml", &text);
+    scratch.prints("campaign open.toml --out open", 0);
+    let refused = scratch.prints("report open --noise 8", 2);
+    assert!(refused.contains("no control loop") && refused.contains("leave out --noise"), "{refused}");
+}
