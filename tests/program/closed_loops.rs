@@ -14,19 +14,19 @@ use spindrift::workflow::{Campaign, Quiet, Session};
 use crate::support::scratch_folder::ScratchFolder;
 
 const NET_LAUNCH: &str = include_str!("../../campaigns/net_launch.toml");
-const SLEW_CLOSED: &str = include_str!("../../campaigns/slew_closed.toml");
+pub(super) const SLEW_CLOSED: &str = include_str!("../../campaigns/slew_closed.toml");
 const DETUMBLE: &str = include_str!("../../campaigns/detumble.toml");
 
-fn plan(text: &str) -> Plan {
+pub(super) fn plan(text: &str) -> Plan {
     Plan::from_text("loop.toml", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn run(plan: &Plan, sample: u64) -> SingleRun {
+pub(super) fn run(plan: &Plan, sample: u64) -> SingleRun {
     SingleRun::new(plan, SampleId(sample), plan.grid.clone(), Isa::best()).expect("a physical scene")
 }
 
 /// The value of the column `name` of the row of `run`.
-fn value(run: &SingleRun, name: &str) -> f64 {
+pub(super) fn value(run: &SingleRun, name: &str) -> f64 {
     let columns = run.request.columns();
     let place = columns.iter().position(|column| column.quantity.name() == name);
     run.row[place.unwrap_or_else(|| panic!("no column {name}"))]

@@ -112,6 +112,8 @@ struct Mekf {
     debris: Option<Delayed<RigidBodyFilter>>,
     wheel_rates: [f64; MAX_WHEELS],
     innovations: Consistency,
+    /// Sum and number of the normalised squares of the innovations since the start, over their degrees of freedom.
+    innovation_sums: [[f64; 2]; 4],
 }
 
 impl Mekf {
@@ -183,6 +185,7 @@ impl Mekf {
             debris,
             wheel_rates: start.wheel_rates,
             innovations: Consistency::default(),
+            innovation_sums: [[0.0; 2]; 4],
         }
     }
 
@@ -331,6 +334,14 @@ impl Estimator for Mekf {
         for (sensor, measurement) in update.measurements {
             self.take(measurement, self.believed[*sensor]);
         }
+        let now = &self.innovations;
+        let squares =
+            [now.attitude_innovation, now.motion_innovation, now.debris_motion_innovation, now.debris_innovation];
+        for ([sum, count], square) in self.innovation_sums.iter_mut().zip(squares) {
+            if let Some(square) = square {
+                (*sum, *count) = (*sum + square.value / square.degrees as f64, *count + 1.0);
+            }
+        }
         let (q_es, omega_se_s) = self.attitude_at(0);
         let motion = self.motion.now().motion;
         let debris = self.debris.as_ref().zip(self.debris_motion.as_ref()).map(|(body, point)| DebrisState {
@@ -365,6 +376,7 @@ impl Estimator for Mekf {
             debris: debris
                 .zip(self.debris.as_ref())
                 .and_then(|(debris, filter)| filter.now().error_square(debris.q_ed, debris.omega_de_d)),
+            mean_innovations: self.innovation_sums.map(|[sum, count]| (count > 0.0).then(|| sum / count)),
             ..self.innovations
         }
     }

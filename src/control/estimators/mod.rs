@@ -58,6 +58,9 @@ pub struct Consistency {
     pub debris: Option<NormalizedSquare>,
     /// Innovation of them.
     pub debris_innovation: Option<NormalizedSquare>,
+    /// Means since the start of the normalised squares of the innovations, each over its degrees of freedom, in the order above; `None` where nothing was
+    /// measured.
+    pub mean_innovations: [Option<f64>; 4],
 }
 
 /// An estimator in one run.

@@ -279,25 +279,27 @@ fn estimation(spec: &LoopSpec, add: &mut Add<'_>) {
         return;
     }
     // what the covariance of a filter says of its errors: normalised squares, over their degrees of freedom
-    let mut of_filter = |name: &str, what: &str, value: fn(&Consistency) -> Option<NormalizedSquare>| {
-        let meaning = format!(
-            "Normalised square of {what} at the last tick, over its degrees of freedom: 1 on average where the filter is right; null where it is not known."
-        );
+    let mut of_filter = |place: usize, name: &str, what: &str, value: fn(&Consistency) -> Option<NormalizedSquare>| {
+        let is = "over its degrees of freedom: 1 on average where the filter is right; null where it is not known";
         add(
-            format!("{name}_final"),
+            format!("{name}_nees_final"),
             "",
-            meaning,
+            format!("Normalised square of the estimation error of {what} at the last tick, {is}."),
             Box::new(move |o, _, _| {
                 value(&o.consistency).map_or(f64::NAN, |square| square.value / square.degrees as f64)
             }),
         );
+        add(
+            format!("{name}_innovation_mean"),
+            "",
+            format!("Mean normalised square of the innovations of {what}, {is}."),
+            Box::new(move |o, _, _| o.consistency.mean_innovations[place].unwrap_or(f64::NAN)),
+        );
     };
-    of_filter("attitude_nees", "the estimation error of attitude and gyro bias (or rate)", |c| c.attitude);
+    of_filter(0, "attitude", "attitude and gyro bias (or rate)", |c| c.attitude);
     if spec.approaches() {
-        of_filter("motion_nees", "the estimation error of position and velocity", |c| c.motion);
-        of_filter("debris_motion_nees", "the estimation error of position and velocity of the debris", |c| {
-            c.debris_motion
-        });
-        of_filter("debris_attitude_nees", "the estimation error of attitude and rate of the debris", |c| c.debris);
+        of_filter(1, "motion", "position and velocity", |c| c.motion);
+        of_filter(2, "debris_motion", "position and velocity of the debris", |c| c.debris_motion);
+        of_filter(3, "debris_attitude", "attitude and rate of the debris", |c| c.debris);
     }
 }
