@@ -269,8 +269,8 @@ export class Replay {
   // The debris to scale; where it is out of the picture, at the edge of the sphere in its direction.
   placeDebris(state) {
     const distance = Math.hypot(...state.debris);
-    const isFar = distance > 3.2 * this.size;
-    const place = isFar ? state.debris.map((value) => (value / distance) * 2.2 * this.size) : state.debris;
+    const isFar = distance > 1.75 * this.size;
+    const place = isFar ? state.debris.map((value) => (value / distance) * 1.75 * this.size) : state.debris;
     this.debris.position.set(...place);
     this.debris.quaternion.copy(quaternionOf(this.three, state.debrisAttitude));
     if (distance > 0) pointTo(this.three, this.sight, state.debris, Math.hypot(...place));

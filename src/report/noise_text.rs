@@ -7,6 +7,10 @@ use crate::report::number::short;
 pub fn words(one: &NoiseShare) -> String {
     let scenes = one.scenes;
     match one.share {
+        // no interval: of what never happened the differences are unknown
+        Some(share) if share.value == 0.0 => {
+            format!("noise within the loop changes it in none of {scenes} scenes, each flown twice")
+        }
         Some(share) => {
             let [value, lower, upper] =
                 [share.value, share.lower, share.upper].map(|part| short(100.0 * part.clamp(0.0, 1.0)));
