@@ -186,10 +186,10 @@ fn approach(spec: &LoopSpec, add: &mut Add<'_>) {
 fn thrust(spec: &LoopSpec, add: &mut Add<'_>) {
     for &i in &spec.thrusters {
         let name = spec.thruster_names[i];
-        let meaning = format!("Impulse of thruster {name}.");
+        let meaning = format!("Impulse of thruster {name}, fired by the loop.");
         add(format!("impulse_{name}_n_s"), "N s", meaning, Box::new(move |o, _, _| o.impulse[i]));
     }
-    plain(add, "impulse_total_n_s", "N s", "Sum of the impulses of all thrusters.", |o| o.impulse.iter().sum());
+    plain(add, "impulse_total_n_s", "N s", "Sum of the impulses of all thrusters, fired by the loop.", |o| o.impulse.iter().sum());
     plain(add, "delta_v_m_s", "m/s", "Integral of the magnitude of the acceleration by thrust.", |o| o.velocity_change);
     let meaning =
         "Propellant used at control.isp_s; null where that is not known. The mass of the spacecraft is constant.";
