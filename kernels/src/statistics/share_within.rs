@@ -18,7 +18,7 @@ pub fn share_within(pairs: &[[f64; 2]], confidence: f64) -> Option<Estimate> {
     if whole.is_nan() || whole <= 0.0 {
         return None;
     }
-    let shares = pairs.iter().map(|pair| parts(pair)).map(|[x, y]| [x / within, y / whole]);
+    let shares = pairs.iter().map(parts).map(|[x, y]| [x / within, y / whole]);
     let between = explained_share(within / whole, count, shares, confidence);
     Some(Estimate { value: 1.0 - between.value, lower: 1.0 - between.upper, upper: 1.0 - between.lower })
 }

@@ -189,7 +189,9 @@ fn thrust(spec: &LoopSpec, add: &mut Add<'_>) {
         let meaning = format!("Impulse of thruster {name}, fired by the loop.");
         add(format!("impulse_{name}_n_s"), "N s", meaning, Box::new(move |o, _, _| o.impulse[i]));
     }
-    plain(add, "impulse_total_n_s", "N s", "Sum of the impulses of all thrusters, fired by the loop.", |o| o.impulse.iter().sum());
+    plain(add, "impulse_total_n_s", "N s", "Sum of the impulses of all thrusters, fired by the loop.", |o| {
+        o.impulse.iter().sum()
+    });
     plain(add, "delta_v_m_s", "m/s", "Integral of the magnitude of the acceleration by thrust.", |o| o.velocity_change);
     let meaning =
         "Propellant used at control.isp_s; null where that is not known. The mass of the spacecraft is constant.";

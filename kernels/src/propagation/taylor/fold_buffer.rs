@@ -23,7 +23,7 @@ pub struct FoldBuffer {
     pub whole: Vec<f64>,
     /// The series of a point, counted from the oldest of all lanes.
     pub segment: Vec<u32>,
-    /// The place of a point in `x` and `values` (before [`FoldBuffer::sort`]: its number within its series).
+    /// The place of a point in `x` and `values` (before `FoldBuffer::sort`: its number within its series).
     pub place: Vec<u32>,
     /// Points of a lane in a series, series by series.
     pub count: Vec<u32>,
