@@ -1,6 +1,6 @@
 //! From a wanted torque and force to commands of wheels and thrusters.
 //!
-//! - [`thrust`]: to thrusts, none negative, with the least total, by a [`simplex`] of fixed size.
+//! - [`thrust`]: to thrusts, none negative, with the least total, by a `simplex` of fixed size.
 //! - [`wheel_torque`]: to torques of wheels' motors, with the least norm.
 
 mod simplex;

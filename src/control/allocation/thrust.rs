@@ -1,7 +1,7 @@
 //! [`ThrustAllocation`]: thrusts, none negative, that give a wanted force and torque with the least total thrust.
 //!
 //! - Berdoz's P1, P2, P3, where the force along s3 and the torque about s1 are controlled: closed form, in three cases.
-//! - Any other set: a linear program ([`super::simplex`]).
+//! - Any other set: a linear program (`super::simplex`).
 //!
 //! **Out of reach.** Where no thrusts give what is wanted, those are chosen that miss least of the torque (the sum of the magnitudes of its controlled
 //! components in F_s), then least of the force, then have the least total.
