@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::page_numbers::{Found, degrees, found, motion, quantile, read_number};
+use super::page_numbers::{Found, degrees, found, motion, read_number};
 use super::small_campaign::mixed_failures;
 use crate::support::scratch_folder::ScratchFolder;
 
@@ -48,8 +48,8 @@ fn numbers_beside_the_replay_are_of_the_row() {
     }
 }
 
-/// Law: what is across is across and what is upwards is upwards: an outcome against its input, the energy of a wheel against that of the body,
-/// the tail of an error; each point is a run.
+/// Law: what is across is across and what is upwards is upwards: an outcome against its input, the energy of a wheel against that of the
+/// body; each point is a run.
 #[test]
 fn axes_are_not_exchanged() {
     let found = found("axes", &motion());
@@ -73,16 +73,6 @@ fn axes_are_not_exchanged() {
         let [low, high] = ends(&found.array(&wheel[key]));
         assert!(high - low >= 0.999 * peak && high - low < 1.2 * peak, "{key}: {} for {peak}", high - low);
     }
-
-    let errors = found.column("energy_error_max");
-    let tail = found.mark("tail_energy_error_max", "fraction of runs above");
-    let (x, y) = (found.array(&tail["x"]), found.array(&tail["y"]));
-    for (value, fraction) in x.iter().zip(&y) {
-        let above = |by: f64| errors.iter().filter(|error| **error >= value * by).count() as f64 / errors.len() as f64;
-        assert!(above(1.02) <= *fraction && *fraction <= above(0.98), "{fraction} from {value} on");
-    }
-    // within a bucket of the sketch
-    near(last(&x), ends(&errors)[1], 2e-3, "the largest error");
 }
 
 /// Law: the nominal run is sample 0, at the end of its curves and in the histograms; an input has the unit in which it was written.
@@ -187,32 +177,10 @@ fn every_line_of_the_screen_is_the_summary() {
     }
 }
 
-/// Law: the card of a requirement has estimate and interval of the summary, lower end first; hovering over a quantile shows its own interval.
+/// Law: hovering over a quantile of the table shows its own interval, lower end first.
 #[test]
 fn intervals_are_in_order() {
-    let found = found("intervals", &motion());
-    let page = found.scratch.text("r/report.html");
-    let visible = page.split_once("<script").expect("scripts").0;
-    let summary = found.scratch.summary("r");
-    let card = visible.split("<article").find(|card| card.contains("<b>95%-quantile:</b>")).expect("a card");
-    let detail = card.split_once("<b>95%-quantile:</b>").unwrap().1.split("</p>").next().unwrap();
-    let rates: Vec<f64> = found.column("angular_rate_final_rad_s").into_iter().map(degrees).collect();
-    let parts: Vec<f64> = detail
-        .replace("(95% interval:", "|")
-        .replace(" to ", "|")
-        .replace(')', "")
-        .split('|')
-        .map(|part| read_number(part.trim().trim_end_matches("deg/s")))
-        .collect();
-    near(parts[0], quantile(&rates, 0.95), 1e-3, "estimate");
-    let list = summary["observables"].as_array().unwrap();
-    let rate = list.iter().find(|one| one["name"] == "angular_rate_final_rad_s").unwrap();
-    let quantiles = rate["quantiles"].as_array().unwrap();
-    let of = |p: f64| quantiles.iter().find(|one| one["p"] == p).unwrap();
-    for (part, end) in parts[1..].iter().zip(of(0.95)["interval"].as_array().unwrap()) {
-        near(*part, degrees(end.as_f64().unwrap()), 2e-3, "end");
-    }
-    assert!(parts[1] < parts[0] && parts[0] < parts[2], "{parts:?}");
+    let visible = found("intervals", &motion()).visible();
     let row = visible.split("<tr>").find(|row| row.contains(">angular_rate_final_rad_s</th>")).expect("a row");
     let cells: Vec<&str> = row.split("<td data-value").filter(|cell| cell.contains("% interval: ")).collect();
     assert!(cells.len() >= 5, "{row}");
@@ -225,15 +193,6 @@ fn intervals_are_in_order() {
         let is_outside = low > value * 1.0005 || high < value * 0.9995;
         assert!(!is_outside, "{value} in {low} to {high}");
     }
-    // a mean lies between its bounds
-    let card = visible.split("<article").find(|card| card.contains("<b>Mean:</b>")).expect("a card");
-    let detail = card.split_once("<b>Mean:</b>").unwrap().1.split("</p>").next().unwrap();
-    let bounds = detail.split_once("bounds: ").unwrap().1.split_once(", each").unwrap().0;
-    let (low, high) = bounds.split_once(" and ").unwrap();
-    let mean = read_number(detail.split('(').next().unwrap().trim().trim_end_matches("deg/s"));
-    let [low, high] = [low, high].map(|end| read_number(end.trim_end_matches("deg/s")));
-    near(mean, rates.iter().sum::<f64>() / 299.0, 1e-3, "mean");
-    assert!(low < mean && mean < high, "{low} {mean} {high}");
 }
 
 /// Law: the strongest input stands first, with the share that the screen says; the bars descend.

@@ -1,0 +1,193 @@
+//! Every series of every figure of an outcome, an error, an input and a quantity over time against rows and summary.
+
+use std::collections::BTreeMap;
+
+use serde_json::Value;
+
+use super::page_cards::same;
+use super::page_numbers::{Found, degrees, failing, found, motion, quantile};
+
+/// The unit of an axis over that of the column.
+fn scale(axis: &Value) -> f64 {
+    if axis["unit"].as_str().expect("a unit").starts_with("deg") { degrees(1.0) } else { 1.0 }
+}
+
+fn text<'v>(value: &'v Value, key: &str) -> &'v str {
+    value[key].as_str().unwrap_or_default()
+}
+
+fn near(found: f64, expected: f64, tolerance: f64, what: &str) {
+    assert!((found - expected).abs() <= tolerance * expected.abs(), "{what}: {found} for {expected}");
+}
+
+/// Relative error of a value within its bucket.
+const BUCKET: f64 = 2e-3;
+
+/// How many values are at most `limit`, as a share.
+fn share(values: &[f64], limit: f64) -> f64 {
+    values.iter().filter(|value| **value <= limit).count() as f64 / values.len() as f64
+}
+
+/// The probability that the label of a series names.
+fn probability(label: &str) -> Option<f64> {
+    if label == "median" { Some(0.5) } else { Some(label.strip_suffix("%-quantile")?.parse::<f64>().ok()? / 100.0) }
+}
+
+/// The bars are of the values: all of them, each within its edges.
+fn bars_are(found: &Found, mark: &Value, values: &[f64], what: &str) {
+    let [edges, heights] = ["edges", "heights"].map(|key| found.array(&mark[key]));
+    assert_eq!(heights.iter().sum::<f64>(), values.len() as f64, "{what}");
+    let slack = 1e-9 * (edges[edges.len() - 1] - edges[0]);
+    let up_to = |edge: f64| values.iter().filter(|value| **value <= edge).count() as f64;
+    for (ends, height) in edges.windows(2).zip(heights) {
+        let [least, most] = [slack, -slack].map(|by| up_to(ends[1] - by) - up_to(ends[0] + by));
+        assert!(least <= height && height <= most + 1.0, "{what}: {height} for {least} to {most} in {ends:?}");
+    }
+}
+
+/// A series of a figure of one column: the distribution, its curve, its tail, its convergence.
+fn series_is(found: &Found, kind: &str, column: &str, (mark, factor): (&Value, f64), values: &[f64], nominal: f64) {
+    let label = text(mark, "label");
+    let what = format!("{label} of {kind}{column}");
+    let of = |key: &str| found.array(&mark[key]);
+    let interval_of = |p: f64| {
+        let interval = found.quantile(column, &p.into())["interval"].clone();
+        [0, 1].map(|end| factor * interval[end].as_f64().unwrap_or(f64::NAN))
+    };
+    let count = values.len() as f64;
+    let (low, high) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(*x), b.max(*x)));
+    match (kind, text(mark, "kind"), label) {
+        ("histogram_", "bars", "runs") => bars_are(found, mark, values, &what),
+        ("histogram_", "limit", "nominal") => near(mark["at"].as_f64().expect("a place"), nominal, 1e-9, &what),
+        ("histogram_" | "cumulative_", "limit", _) => {
+            let at = mark["at"].as_f64().expect("a place") / factor;
+            let (side, value) = label.split_at(if label.starts_with("at most") { 7 } else { 8 });
+            same(value.trim_start(), &at.into(), &what);
+            let summary = found.scratch.summary("r");
+            let of_column = |one: &&Value| one["observable"] == column && one[side.replace(' ', "_")].is_number();
+            let list = summary["requirements"]["list"].as_array().expect("requirements");
+            let limits = list.iter().filter(of_column).map(|one| one[side.replace(' ', "_")].as_f64().unwrap());
+            assert!(limits.into_iter().any(|limit| (limit / at - 1.0).abs() < 1e-9), "{what}: {at}");
+        }
+        ("cumulative_", "line", "fraction of runs") => {
+            let width = 5e-3 * (high - low);
+            for (x, y) in of("x").into_iter().zip(of("y")) {
+                let [least, most] = [-width, width].map(|by| share(values, x + by));
+                assert!(least <= y && y <= most, "{what}: {y} up to {x}, {least} to {most}");
+            }
+            assert_eq!((of("y")[0], of("y").last()), (1.0 / count, Some(&1.0)));
+        }
+        ("tail_", "line", "fraction of runs above") => {
+            for (x, y) in of("x").into_iter().zip(of("y")) {
+                let [most, least] = [1.0 - BUCKET, 1.0 + BUCKET].map(|by| 1.0 - share(values, x * by));
+                assert!(least - 1e-12 <= y && y <= most + 1e-12, "{what}: {y} from {x} on, {least} to {most}");
+            }
+        }
+        ("tail_", "points", "largest") => {
+            near(of("x")[0], high, BUCKET, &what);
+            let rows = found.rows(&[column]);
+            let largest = rows.iter().max_by(|a, b| a.1[0].abs().total_cmp(&b.1[0].abs())).expect("rows");
+            assert_eq!((of("y"), of("samples")), (vec![1.0 / count], vec![largest.0 as f64]), "{what}");
+        }
+        ("cumulative_" | "tail_", "band", "95% interval") => {
+            assert!(of("low").iter().zip(of("high")).all(|(low, high)| *low < high), "{what}");
+        }
+        ("convergence_", "band", "95% interval") => {
+            let [low, high] = ["low", "high"].map(|key| *of(key).last().expect("values"));
+            let [from, to] = interval_of(0.99);
+            near(low, from, BUCKET, &what);
+            near(high, to, BUCKET, &what);
+        }
+        ("convergence_", "line", _) => {
+            let p = probability(label).expect("a quantile");
+            for (runs, y) in of("x").into_iter().zip(of("y")) {
+                near(y, quantile(&values[..runs as usize], p), BUCKET, &format!("{what} from {runs} runs"));
+            }
+            assert_eq!(of("x").last(), Some(&count));
+        }
+        ("cumulative_", "points", _) => {
+            let p = probability(label).expect("a quantile");
+            near(of("x")[0], quantile(values, p), BUCKET, &what);
+            assert_eq!(of("y"), [p]);
+        }
+        ("cumulative_", "line", _) => {
+            let p = label.strip_prefix("interval of the ").and_then(probability).expect("a quantile");
+            let [from, to] = interval_of(p);
+            assert_eq!((of("y"), from < to), (vec![p; 2], true), "{what}");
+            near(of("x")[0], from, BUCKET, &what);
+            near(of("x")[1], to, BUCKET, &what);
+        }
+        other => panic!("nothing is known of {other:?} in {kind}{column}"),
+    }
+}
+
+/// Quantities over time, and the columns that have their last values.
+const LAST: [(&str, &str); 3] = [
+    ("angular_rate_rad_s", "angular_rate_final_rad_s"),
+    ("speed_w1_rad_s", "rate_w1_final_rad_s"),
+    ("speed_w2_rad_s", "rate_w2_final_rad_s"),
+];
+
+/// Bands and medians of quantities over time: each contains the narrower one at every time, and ends as the rows do.
+fn bands_are(found: &Found, figure: &Value) {
+    let name = text(figure, "name");
+    let marks = figure["marks"].as_array().expect("marks");
+    let named = |label: &str, key: &str| -> Vec<f64> {
+        let mark = marks.iter().find(|mark| text(mark, "label").ends_with(label));
+        found.array(&mark.unwrap_or_else(|| panic!("no {label} in {name}"))[key])
+    };
+    let five =
+        [("5 to 95%", "low"), ("25 to 75%", "low"), ("median", "y"), ("25 to 75%", "high"), ("5 to 95%", "high")];
+    let five = five.map(|(label, key)| named(label, key));
+    for point in 0..five[0].len() {
+        assert!(five.windows(2).all(|pair| pair[0][point] <= pair[1][point]), "{name}, point {point}");
+    }
+    let Some((_, last)) = LAST.iter().find(|(one, _)| *one == name) else { return };
+    let values: Vec<f64> = found.column(last).into_iter().map(|value| value * scale(&figure["y"])).collect();
+    let spread = quantile(&values, 0.95) - quantile(&values, 0.05);
+    for (series, p) in five.iter().zip([0.05, 0.25, 0.5, 0.75, 0.95]) {
+        let (end, known) = (*series.last().expect("points"), quantile(&values, p));
+        assert!((end - known).abs() < 1e-2 * spread, "{p} of {name}: {end} for {known}");
+    }
+}
+
+/// Law: every series is what its label says, of the dispersed runs that are ok, in the unit of its axis.
+#[test]
+fn every_series_is_of_its_label() {
+    let failing = failing();
+    let bounded = motion().replace("samples = 300", "samples = 400");
+    for (campaign, text_of, least) in [("series", bounded, 8), ("series-failing", failing, 8)] {
+        let found = found(campaign, &text_of);
+        let mut seen: BTreeMap<&str, usize> = BTreeMap::new();
+        for figure in found.data["figures"].as_array().expect("figures") {
+            let name = text(figure, "name");
+            let marks = figure["marks"].as_array().expect("marks");
+            if marks.iter().any(|mark| text(mark, "label").ends_with("5 to 95%")) {
+                bands_are(&found, figure);
+                *seen.entry("bands").or_default() += 1;
+            }
+            for kind in ["histogram_", "cumulative_", "tail_", "convergence_"] {
+                let Some(column) = name.strip_prefix(kind) else { continue };
+                let factor = scale(&figure[if kind == "convergence_" { "y" } else { "x" }]);
+                let is_error = column.contains("error") || column.contains("orthonormality");
+                let shown = |value: &f64| factor * if is_error { value.abs() } else { *value };
+                let values: Vec<f64> = found.column(column).iter().map(shown).collect();
+                let nominal = shown(&found.all(&[column])[0][0]);
+                let count = format!("{} runs that are ok", values.len());
+                assert!(kind == "convergence_" || text(figure, "caption").contains(&count), "{figure}");
+                for mark in marks {
+                    series_is(&found, kind, column, (mark, factor), &values, nominal);
+                }
+                *seen.entry(kind).or_default() += marks.len();
+            }
+            if let Some(column) = name.strip_prefix("input_") {
+                let mut values = found.all(&[column]).swap_remove(0).split_off(1);
+                values.iter_mut().for_each(|value| *value *= scale(&figure["x"]));
+                bars_are(&found, &marks[0], &values, name);
+                *seen.entry("input_").or_default() += 1;
+            }
+        }
+        let kinds = ["bands", "histogram_", "cumulative_", "tail_", "convergence_", "input_"];
+        assert!(kinds.iter().all(|kind| seen.contains_key(kind)) && seen["histogram_"] >= least, "{seen:?}");
+    }
+}
