@@ -28,6 +28,7 @@ mod interrupted;
 mod judged_columns;
 mod mass_properties;
 mod memory;
+mod missions;
 mod motion;
 mod observation;
 mod observation_columns;

@@ -3,6 +3,7 @@
 use serde_json::Value;
 
 use super::page_numbers::{Found, degrees, failing, found, motion, read_number};
+use super::screen_numbers::says;
 
 /// What is between two texts.
 pub(super) fn between<'t>(text: &'t str, from: &str, to: &str) -> &'t str {
@@ -164,6 +165,11 @@ fn cards_of_outcomes_are_the_summary() {
     let (summary, page) = (found.scratch.summary("r"), found.visible());
     let cards = cards(&page);
     assert_eq!(cards.len(), SHOWN.len());
+    says(
+        &page,
+        "# dispersed runs and the nominal one \u{b7} design random \u{b7} seed # \u{b7} # s each",
+        &[299.0, 7.0, 1.0],
+    );
     let mut seen = [0; 2];
     for (card, (words, name, _)) in cards.into_iter().zip(SHOWN) {
         let of = |p: f64| found.quantile(name, &p.into());

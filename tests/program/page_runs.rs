@@ -3,8 +3,10 @@
 use serde_json::Value;
 
 use super::page_numbers::{Found, degrees, found, motion, read_number};
+use super::screen_numbers::{numbers, says, template};
 use super::small_campaign::mixed_failures;
-use crate::support::scratch_folder::ScratchFolder;
+use crate::support::scratch_folder::{ScratchFolder, floats};
+use arrow_array::cast::AsArray as _;
 
 fn near(found: f64, expected: f64, tolerance: f64, what: &str) {
     assert!((found - expected).abs() <= tolerance * expected.abs().max(1e-300), "{what}: {found} for {expected}");
@@ -121,12 +123,6 @@ fn nominal_is_nominal() {
     assert!(row.ends_with("normal, std 90 deg/s"), "{row}");
 }
 
-/// The numbers of a line of text; brackets, commas and question marks are none.
-fn numbers(text: &str) -> Vec<f64> {
-    let cleaned = text.replace(['[', ']', ','], " ");
-    cleaned.split_whitespace().filter_map(|word| word.parse().ok()).collect()
-}
-
 /// Law: on a screen of any width each observable has its values under their heads, and the ends of each interval in order around its value.
 #[test]
 fn every_line_of_the_screen_is_the_summary() {
@@ -145,7 +141,7 @@ fn every_line_of_the_screen_is_the_summary() {
             let Some(one) = observables.iter().find(|one| one["name"] == name) else { continue };
             seen.push(name.to_owned());
             let below = usize::from(width == "80");
-            let (values, ends) = (numbers(lines[place + below]), numbers(lines[place + below + 1]));
+            let [values, ends] = [lines[place + below], lines[place + below + 1]].map(|line| template(line).1);
             let is_in_degrees = line.contains("deg");
             let shown = |value: &Value| {
                 let value = value.as_f64().expect("a number");
@@ -207,6 +203,15 @@ fn bars_of_influence_descend() {
         let line = found.said.lines().find(|line| line.trim_start().starts_with(outcome) && line.contains("with it"));
         let line = line.unwrap_or_else(|| panic!("{outcome}: {}", found.said));
         assert!(line.contains(&format!("{first} ({:.2},", shares[0])), "{line}");
+        // what a regression explains, in percent, and of how many runs
+        let table = found.scratch.table("r/sensitivity.parquet");
+        let observables = table.column_by_name("observable").expect("names").as_string::<i32>();
+        let row = observables.iter().position(|name| name == Some(outcome)).expect("a row");
+        let known = [299.0, 100.0 * floats(&table, "r_squared")[row]];
+        let meaning = found.figure(&figure)["caption"].as_str().expect("a caption");
+        says(meaning, "of # runs", &known[..1]);
+        let share = numbers(meaning, "A regression on all inputs explains #% of the variance")[0];
+        assert!((share - known[1]).abs() < 0.051, "{share}% for {known:?}");
     }
 }
 
@@ -228,12 +233,16 @@ fn two_statuses_are_told_apart() {
         let share =
             visible.split("<li>").skip(1).find(|item| item.contains(words) && item.contains("<b>")).expect(status);
         assert!(share.contains(&format!("<b>{count}</b>")), "{status}: {share}");
+        says(share, "(#%)", &[count as f64 / 3.0]);
         let reasons = summary["failure_reasons"].as_array().unwrap();
         let of = reasons.iter().filter(|one| one["status"] == status);
         let sample = of.map(|one| one["sample"].as_u64().expect("a sample")).min().expect("a reason");
         let row = rows.iter().find(|row| row.contains(&format!("failed: {status}"))).expect("a row");
         assert!(row.contains(&format!("<b>{status}</b>: ")), "{row}");
         assert!(row.starts_with(&format!("<th scope=\"row\">{sample}</th>")), "{sample}: {row}");
+        let first = format!("first in sample {sample}: ");
+        let said = visible.split("<p class=\"reason\">").find(|said| said.contains(words) && said.contains(&first));
+        assert!(said.expect("the reason").contains(&format!("--sample {sample}</code>")), "{sample}");
         // each replay command is that of its own row
         assert!(row.contains(&format!("--sample {sample}</code>")), "{row}");
     }

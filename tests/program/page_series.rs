@@ -142,6 +142,12 @@ fn bands_are(found: &Found, figure: &Value) {
     for point in 0..five[0].len() {
         assert!(five.windows(2).all(|pair| pair[0][point] <= pair[1][point]), "{name}, point {point}");
     }
+    let caption = format!(
+        "of {} dispersed runs that are ok, at each of {} times",
+        found.column("energy_error_max").len(),
+        five[0].len()
+    );
+    assert!(text(figure, "caption").contains(&caption), "{figure}");
     let Some((_, last)) = LAST.iter().find(|(one, _)| *one == name) else { return };
     let values: Vec<f64> = found.column(last).into_iter().map(|value| value * scale(&figure["y"])).collect();
     let spread = quantile(&values, 0.95) - quantile(&values, 0.05);
@@ -187,6 +193,23 @@ fn every_series_is_of_its_label() {
                 *seen.entry("input_").or_default() += 1;
             }
         }
+        // the transfer beside the nominal run is the band of the body, and each body's part of it that body's change
+        for (label, key) in [("body, 5% of runs", "low"), ("body, 95% of runs", "high")] {
+            let band = found.array(&found.mark("exchange_body_j", "5 to 95%")[key]);
+            assert_eq!(found.array(&found.mark("energy_transfer", label)["y"]), band, "{label}");
+        }
+        for (label, own) in [("body", "exchange_body_j"), ("wheel w1", "exchange_w1_j"), ("wheel w2", "exchange_w2_j")]
+        {
+            let part = found.mark("energy_transfer", label);
+            let [low, high] = ["low", "high"].map(|key| found.array(&part[key]));
+            let change = found.array(&found.mark(own, "nominal run")["y"]);
+            let most = change.iter().fold(0.0, |most: f64, change| most.max(change.abs()));
+            let heights = low.iter().zip(high).map(|(low, high)| high - low);
+            assert!(heights.zip(change).all(|(height, change)| (height - change.abs()).abs() < 1e-5 * most), "{label}");
+        }
+        let audited = found.all(&["audit_state_error"])[0].iter().filter(|error| error.is_finite()).count();
+        let caption = format!("{audited} of {audited} audited runs, each compared");
+        assert!(text(found.figure("audits"), "caption").starts_with(&caption), "{audited}");
         let kinds = ["bands", "histogram_", "cumulative_", "tail_", "convergence_", "input_"];
         assert!(kinds.iter().all(|kind| seen.contains_key(kind)) && seen["histogram_"] >= least, "{seen:?}");
     }

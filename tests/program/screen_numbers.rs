@@ -93,6 +93,10 @@ fn a_campaign_counts_what_it_has() {
     let rounded = 0.0051 + 0.51 * seconds / rate;
     assert!((now / rate - seconds).abs() < rounded && seconds > 0.015, "{now} in {seconds} s, {rate} per second");
 
+    says(&said, "small: # samples are there already, # to run", &[samples - now, now]);
+    let [_, share] = numbers(&said, "audits: # s of CPU time, #% of the total")[..] else { panic!("{said}") };
+    assert!((50.0..100.0).contains(&share), "an audit takes a hundred times a run: {share}");
+
     says(&said, "# of # runs are ok", &[ok, 600.0]);
     says(&said, "# of # runs are not ok and are left out", &[600.0 - ok, 599.0]);
     says(&said, "# of # samples (#%) are not physical", &[invalid, 599.0, 100.0 * invalid / 599.0]);
@@ -126,6 +130,21 @@ fn a_campaign_counts_what_it_has() {
         for text in [&said, &junit] {
             says(text.split_once(sentence).expect("the requirement").1, pattern, &known);
         }
+    }
+
+    // the worst runs, among all that have a row
+    let of_row = |names: &[&str]| -> Vec<f64> {
+        let columns: Vec<Vec<f64>> = names.iter().map(|name| column(&rows, name)).collect();
+        (0..600).map(|row| columns.iter().map(|values| values[row].abs()).fold(0.0, f64::max)).collect()
+    };
+    let balances = ["energy_error_max", "angular_momentum_error_max"];
+    for (name, errors) in
+        [("conservation error", of_row(&balances)), ("state error estimate", of_row(&["state_error_estimate"]))]
+    {
+        // of equal ones the first
+        let worst = (0..600).rev().max_by(|a, b| errors[*a].total_cmp(&errors[*b])).expect("rows");
+        let pattern = format!("worst {name} #: spindrift simulate c.toml --sample #");
+        says(&said, &pattern, &[errors[worst], worst as f64]);
     }
 
     // errors and audits
@@ -236,13 +255,43 @@ fn samples_and_points_are_counted() {
     says(&said, "s.svg: # numbers of # samples", &[numbers_drawn as f64, 299.0]);
 
     for points in [5, 200] {
-        let said = scratch.prints(&format!("simulate c.toml --set observe.points={points}"), 0);
-        let shown = said.lines().filter(|line| line.split_whitespace().all(|word| word.parse::<f64>().is_ok())).count();
+        let mut command = scratch.command(&format!("simulate c.toml --set observe.points={points}"));
+        let said = scratch.outputs(command.env("COLUMNS", "200"), 0);
+        let rows: Vec<Vec<f64>> =
+            said.lines().filter_map(|line| line.split_whitespace().map(|word| word.parse().ok()).collect()).collect();
+        let shown = rows.len();
+        let heads: Vec<&str> =
+            said.lines().next().expect("heads").split_whitespace().filter(|word| *word != "rate").collect();
         says(&said, "(# of # points;", &[shown as f64, f64::from(points)]);
         let said = scratch.prints(&format!("simulate c.toml --set observe.points={points} --out t.csv"), 0);
         let table = scratch.text("t.csv");
         let columns = table.lines().next().expect("a head").split(',').count();
         assert_eq!(table.lines().count(), points as usize + 1);
         says(&said, "t.csv: # points, # columns", &[f64::from(points), columns as f64]);
+        // each number of the table is that of the file at its time, under its head, in the digits that are shown
+        let names: Vec<&str> = table.lines().next().expect("a head").split(',').collect();
+        let name_of = |head: &str| match head {
+            "time" => "time_s".to_owned(),
+            "energy" => "energy_error".to_owned(),
+            "ang.mom." => "angular_momentum_error".to_owned(),
+            wheel if wheel.starts_with('w') => format!("rate_{wheel}_rad_s"),
+            _ => head.strip_prefix("omega_").map_or(head.to_owned(), |axis| format!("omega_se_s_{axis}_rad_s")),
+        };
+        let file: Vec<Vec<f64>> = table
+            .lines()
+            .skip(1)
+            .map(|line| line.split(',').map(|cell| cell.parse().unwrap_or(f64::NAN)).collect())
+            .collect();
+        for row in &rows {
+            let point =
+                file.iter().min_by(|a, b| (a[0] - row[0]).abs().total_cmp(&(b[0] - row[0]).abs())).expect("points");
+            assert_eq!(heads.len(), row.len(), "{said}");
+            for (head, value) in heads.iter().zip(row) {
+                let name = name_of(head);
+                let known = point[names.iter().position(|one| *one == name).unwrap_or_else(|| panic!("{name}"))];
+                let digits = if name.ends_with("error") { 0.051 } else { 6e-4 };
+                assert!((value - known).abs() <= digits * known.abs() + 6e-5, "{head}: {value} for {known}");
+            }
+        }
     }
 }
