@@ -29,6 +29,17 @@ fn numbers_beside_the_replay_are_of_the_row() {
     let columns = found.all(&names);
     let runs = found.data["replay"]["runs"].as_array().expect("runs");
     assert_eq!(runs.len(), 11, "the nominal run and ten");
+    let sizes = |list: &str, key: &str| -> Vec<Value> {
+        let list = found.data["replay"]["scene"][list].as_array().expect("shapes").iter();
+        list.map(|shape| shape[key].clone()).collect()
+    };
+    // radius and length of the fuselage, of the wheels, and the sides of the debris, as the file has them
+    assert_eq!(sizes("parts", "size"), [serde_json::json!([1.0, 3.0])]);
+    assert_eq!(
+        [sizes("wheels", "radius"), sizes("wheels", "length")],
+        [0.25, 0.1].map(|size| vec![Value::from(size); 2])
+    );
+    assert_eq!(found.data["replay"]["scene"]["debris"], serde_json::json!([0.2, 0.2, 0.2]));
     for run in runs {
         let row = run["sample"].as_u64().expect("a sample") as usize;
         let [rate, nutation, spin] = [0, 1, 2].map(|column| columns[column][row]);
@@ -228,12 +239,18 @@ fn two_statuses_are_told_apart() {
     let visible = page.split_once("<script").expect("scripts").0;
     let worst = &visible[visible.find("id=\"worst\"").unwrap()..visible.find("id=\"replay\"").unwrap()];
     let rows: Vec<&str> = worst.split("<tr>").collect();
+    // the bars are side by side
+    let mut end = summary["statuses"]["ok"].as_f64().expect("a count") / 3.0;
     for (status, words) in [("invalid_sample", "invalid: not physical"), ("inaccurate", "inaccurate")] {
         let count = summary["statuses"][status].as_u64().expect("a count");
         let share =
             visible.split("<li>").skip(1).find(|item| item.contains(words) && item.contains("<b>")).expect(status);
         assert!(share.contains(&format!("<b>{count}</b>")), "{status}: {share}");
         says(share, "(#%)", &[count as f64 / 3.0]);
+        let bar =
+            numbers(&visible.replace("<rect", "\n<rect"), &format!("status {status}\" x=\"#%\" y=\"#\" width=\"#%"));
+        assert!((bar[0] - end).abs() < 2e-3 && (bar[2] - count as f64 / 3.0).abs() < 1e-3, "{bar:?} from {end} on");
+        end += bar[2];
         let reasons = summary["failure_reasons"].as_array().unwrap();
         let of = reasons.iter().filter(|one| one["status"] == status);
         let sample = of.map(|one| one["sample"].as_u64().expect("a sample")).min().expect("a reason");

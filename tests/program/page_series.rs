@@ -6,6 +6,7 @@ use serde_json::Value;
 
 use super::page_cards::same;
 use super::page_numbers::{Found, degrees, failing, found, motion, quantile};
+use super::screen_numbers::says;
 
 /// The unit of an axis over that of the column.
 fn scale(axis: &Value) -> f64 {
@@ -157,6 +158,69 @@ fn bands_are(found: &Found, figure: &Value) {
     }
 }
 
+/// Points of an outcome against an input: each is the run of its sample, and one that failed is at the lower edge.
+fn scatter_is(found: &Found, figure: &Value, outcomes: &[&str]) {
+    let name = text(figure, "name").strip_prefix("scatter_").expect("a scatter plot");
+    let is_of = |outcome: &&&str| name.strip_prefix(**outcome).is_some_and(|rest| rest.starts_with('_'));
+    let outcome = outcomes.iter().filter(is_of).max_by_key(|outcome| outcome.len()).expect("an outcome");
+    let columns = found.all(&[&name[outcome.len() + 1..], outcome]);
+    let ok: Vec<f64> = found.rows(&[]).into_iter().map(|(sample, _)| sample as f64).collect();
+    let scales = ["x", "y"].map(|axis| scale(&figure[axis]));
+    let mut lowest = f64::INFINITY;
+    let mut all = Vec::new();
+    for mark in figure["marks"].as_array().expect("marks") {
+        let is_ok = text(mark, "label") == "ok";
+        let [samples, x, y] = ["samples", "x", "y"].map(|key| found.array(&mark[key]));
+        for (k, sample) in samples.iter().enumerate() {
+            let row = *sample as usize;
+            assert_eq!(ok.contains(sample), is_ok, "{row} of {name}");
+            near(x[k], columns[0][row] * scales[0], 1e-12, name);
+            if is_ok {
+                let value = columns[1][row] * scales[1];
+                near(y[k], if *outcome == "energy_error_max" { value.abs() } else { value }, 1e-12, name);
+                lowest = lowest.min(y[k]);
+            } else {
+                assert_eq!(y[k], lowest, "{name}");
+            }
+        }
+        all.extend(samples);
+    }
+    assert_eq!(all.len(), columns[0].len() - 1, "every dispersed run once");
+}
+
+/// Law: any two columns that a reader may choose are those of the rows, in the unit that is shown, and those of runs that failed are marked.
+#[test]
+fn chosen_columns_are_of_the_rows() {
+    let found = found("series-chosen", &failing());
+    let pairs = &found.data["pairs"];
+    let [samples, failed] = ["samples", "failed"].map(|key| found.array(&pairs[key]));
+    assert_eq!((samples.len(), &pairs["all"]), (600, &600.into()));
+    let ok = found.rows(&[]);
+    for (sample, failed) in samples.iter().zip(failed) {
+        let is_ok = *sample == 0.0 || ok.iter().any(|(one, _)| *one as f64 == *sample);
+        assert_eq!(failed, f64::from(u8::from(!is_ok)), "{sample}");
+    }
+    let columns = pairs["columns"].as_array().expect("columns");
+    for column in columns {
+        let name = match text(column, "name").rsplit_once("_rad_s.") {
+            Some((stem, axis)) => format!("{}_{axis}_rad_s", stem.replace('.', "_")),
+            None => text(column, "name").replace('.', "_"),
+        };
+        let (values, rows) = (found.array(&column["values"]), found.all(&[&name]).swap_remove(0));
+        for (sample, value) in samples.iter().zip(values) {
+            let known = (rows[*sample as usize] * scale(column)) as f32;
+            // of inputs and outcomes at a time that a run has not reached there is none
+            assert!(
+                value == f64::from(known)
+                    || value.is_nan() && known.is_nan()
+                    || (value / f64::from(known) - 1.0).abs() < 1e-6,
+                "{name} of {sample}: {value} for {known}"
+            );
+        }
+    }
+    assert!(columns.len() > 10 && columns.iter().any(|column| column["unit"] == "deg/s"));
+}
+
 /// Law: every series is what its label says, of the dispersed runs that are ok, in the unit of its axis.
 #[test]
 fn every_series_is_of_its_label() {
@@ -165,12 +229,19 @@ fn every_series_is_of_its_label() {
     for (campaign, text_of, least) in [("series", bounded, 8), ("series-failing", failing, 8)] {
         let found = found(campaign, &text_of);
         let mut seen: BTreeMap<&str, usize> = BTreeMap::new();
+        let summary = found.scratch.summary("r");
+        let outcomes: Vec<&str> =
+            summary["observables"].as_array().expect("observables").iter().map(|one| text(one, "name")).collect();
         for figure in found.data["figures"].as_array().expect("figures") {
             let name = text(figure, "name");
             let marks = figure["marks"].as_array().expect("marks");
             if marks.iter().any(|mark| text(mark, "label").ends_with("5 to 95%")) {
                 bands_are(&found, figure);
                 *seen.entry("bands").or_default() += 1;
+            }
+            if name.starts_with("scatter_") {
+                scatter_is(&found, figure, &outcomes);
+                *seen.entry("scatter_").or_default() += 1;
             }
             for kind in ["histogram_", "cumulative_", "tail_", "convergence_"] {
                 let Some(column) = name.strip_prefix(kind) else { continue };
@@ -210,7 +281,11 @@ fn every_series_is_of_its_label() {
         let audited = found.all(&["audit_state_error"])[0].iter().filter(|error| error.is_finite()).count();
         let caption = format!("{audited} of {audited} audited runs, each compared");
         assert!(text(found.figure("audits"), "caption").starts_with(&caption), "{audited}");
-        let kinds = ["bands", "histogram_", "cumulative_", "tail_", "convergence_", "input_"];
+        let rows = found.all(&["energy_error_max"])[0].len();
+        let caption = format!("coefficient of {} dispersed samples", rows - 1);
+        assert!(text(found.figure("correlation_achieved"), "caption").contains(&caption));
+        says(&found.visible(), "<p># samples of plan", &[rows as f64]);
+        let kinds = ["bands", "histogram_", "cumulative_", "tail_", "convergence_", "input_", "scatter_"];
         assert!(kinds.iter().all(|kind| seen.contains_key(kind)) && seen["histogram_"] >= least, "{seen:?}");
     }
 }

@@ -1,11 +1,14 @@
 //! Every number in a sentence of the screen is counted again: from rows, files, tables and the summary.
 
+use std::path::PathBuf;
+
 use serde_json::Value;
 
 use super::page_numbers::{failing, quantile};
+use super::small_campaign::mixed_failures;
 use crate::support::scratch_folder::{ScratchFolder, batches, column, ended};
 
-/// A line with `#` in place of each number, and the numbers; digits within a word are none.
+/// A line with `#` in place of each number, and the numbers; digits within a word are none, and a `#` of the line itself is `@`.
 pub(super) fn template(line: &str) -> (String, Vec<f64>) {
     let (mut text, mut numbers) = (String::new(), Vec::new());
     let mut rest = line;
@@ -22,7 +25,7 @@ pub(super) fn template(line: &str) -> (String, Vec<f64>) {
             text.push('#');
             rest = &rest[end..];
         } else {
-            text.push(first);
+            text.push(if first == '#' { '@' } else { first });
             rest = &rest[first.len_utf8()..];
         }
     }
@@ -294,4 +297,47 @@ fn samples_and_points_are_counted() {
             }
         }
     }
+}
+
+/// Law: other commands on a result count its parts, rows, failures and bytes, and those of its shards.
+#[test]
+fn other_commands_count_what_is_there() {
+    let scratch = ScratchFolder::new("screen-others");
+    scratch.file("c.toml", &mixed_failures());
+    scratch.prints("campaign c.toml --out r", 1);
+    let failed = ended(&scratch.rows("r")).iter().filter(|(_, status)| status != "ok").count() as f64;
+    let parts = scratch.part_files("r");
+    let rows = |file: &PathBuf| batches(file).iter().map(|batch| batch.num_rows()).sum::<usize>() as f64;
+    assert!(parts.len() > 1 && failed > 100.0);
+    let (count, all) = (parts.len() as f64, parts.iter().map(rows).sum::<f64>());
+    let size = std::fs::metadata(scratch.path("r/report.html")).expect("a page").len() as f64;
+    for (command, code, pattern, known) in [
+        (
+            "verify r --fraction 1",
+            0,
+            "# parts, # rows: checksums compared; # parts with # rows",
+            vec![count, all, count, all],
+        ),
+        (
+            "verify r --fraction 0",
+            0,
+            "# parts, # rows: checksums compared; # parts with # rows",
+            vec![count, all, 0.0, 0.0],
+        ),
+        ("campaign c.toml --out r", 1, "already complete in r (# samples, # of them failed)", vec![all, failed]),
+        ("campaign c.toml --out s --shard 1/2", 0, "shard #/# is complete", vec![1.0, 2.0]),
+        ("campaign c.toml --out s --shard 2/2", 0, "shard #/# is complete", vec![2.0, 2.0]),
+        ("finish s", 1, "small: # samples (# dispersed + nominal)", vec![all, all - 1.0]),
+    ] {
+        says(&scratch.prints(command, code), pattern, &known);
+    }
+    let shown = numbers(&scratch.prints("report r", 0), "r/report.html: # kB")[0];
+    assert!((shown - size / 1e3).abs() < 0.051, "{shown} kB of {size} bytes");
+    // the samples of shards are those of their parts
+    scratch.prints("campaign c.toml --out t --shard 1/2", 0);
+    let first: f64 = scratch.part_files("t").iter().map(rows).sum();
+    let said = scratch.prints("campaign c.toml --out t --shard 2/2", 0);
+    let second = scratch.part_files("t").iter().map(rows).sum::<f64>() - first;
+    assert_eq!(numbers(&said, "is complete (# samples in # s)")[0], second, "{said}");
+    assert!(first > 0.0 && second > 0.0 && first + second == all);
 }
