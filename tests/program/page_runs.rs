@@ -214,6 +214,9 @@ fn bars_of_influence_descend() {
         let line = found.said.lines().find(|line| line.trim_start().starts_with(outcome) && line.contains("with it"));
         let line = line.unwrap_or_else(|| panic!("{outcome}: {}", found.said));
         assert!(line.contains(&format!("{first} ({:.2},", shares[0])), "{line}");
+        // what the numbers are, in the same words in both places
+        assert!(line.ends_with("; share of the variance"), "{line}");
+        assert_eq!(found.figure(&figure)["x"]["quantity"], "share of the variance");
         // what a regression explains, in percent, and of how many runs
         let table = found.scratch.table("r/sensitivity.parquet");
         let observables = table.column_by_name("observable").expect("names").as_string::<i32>();
