@@ -18,3 +18,31 @@ pub fn text(groups: &[&FailureReason]) -> String {
     }
     text
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::Status;
+    use crate::sampling::SampleId;
+
+    /// Law: every run is counted once, in the line of its reason or in that of the others; a run that is alone is not the first of several.
+    #[test]
+    fn every_run_is_counted() {
+        for groups in [1, 8, 9, 12] {
+            let of = |k: u64| FailureReason {
+                status: Status::StepLimit,
+                count: k,
+                first: SampleId(100 + k),
+                text: "too many".to_owned(),
+            };
+            let all: Vec<FailureReason> = (1..=groups).map(of).collect();
+            let text = text(&all.iter().collect::<Vec<_>>());
+            let counts =
+                text.lines().map(|line| line.split_whitespace().next().and_then(|word| word.parse::<u64>().ok()));
+            assert_eq!(counts.map(Option::unwrap_or_default).sum::<u64>(), groups * (groups + 1) / 2, "{text}");
+            assert_eq!(text.contains(&format!("for {} other reasons", groups.saturating_sub(8))), groups > 8, "{text}");
+            let first = text.lines().filter(|line| line.contains("(first sample ")).count() as u64;
+            assert!(text.contains("(sample 101)") && first == groups.min(8) - 1, "{text}");
+        }
+    }
+}

@@ -180,7 +180,7 @@ mod tests {
     }
 
     /// Law: each value of a discrete distribution has a stem of the height that is expected, and values that share a bar one of their sum; a
-    /// continuous one has a curve whose sum is the number of samples.
+    /// continuous one has a curve whose sum is the number of samples, at the middle of each bar as the axis shows it.
     #[test]
     fn what_is_expected_is_drawn() {
         let drawn: Vec<f64> = (0..300).map(|k| [0.01, 0.02, 0.05][k % 3]).collect();
@@ -199,9 +199,22 @@ mod tests {
         assert!(x.len() == 2 && (y[0] - 200.0).abs() < 1e-9, "{x:?} {y:?}");
         // a value that was not drawn although samples are expected there is on the axis
         assert_eq!(stems(&[0.01, 0.02, 9.0]).0.last(), Some(&9.0));
-        match &of(&Distribution::Uniform(UniformQuantile { min: 0.01, max: 0.05 }))[1] {
-            Mark::Line { y, .. } => assert!((y.iter().sum::<f64>() - 300.0).abs() < 1e-6, "{y:?}"),
-            other => panic!("{other:?}"),
+        let decades: Vec<f64> = (0..300).map(|k| 1e-3 * libm::pow(1e4, f64::from(k) / 299.0)).collect();
+        for (samples, scale, [min, max]) in
+            [(&drawn, Scale::Linear, [0.01, 0.05]), (&decades, Scale::Log, [1e-3, 10.0])]
+        {
+            let uniform = Distribution::Uniform(UniformQuantile { min, max });
+            let figure = of_input("x", "", samples, min, Some(&Asked::Number(&uniform)));
+            let [Mark::Bars { edges, .. }, Mark::Line { x, y, .. }, ..] = &figure.marks[..] else {
+                panic!("{figure:?}")
+            };
+            assert!((y.iter().sum::<f64>() - 300.0).abs() < 1e-6, "{y:?}");
+            assert_eq!((&figure.x.scale, x.len()), (&scale, edges.len() - 1));
+            let place = |value: f64| if scale == Scale::Log { libm::log(value) } else { value };
+            for (x, ends) in x.iter().zip(edges.windows(2)) {
+                let part = (place(*x) - place(ends[0])) / (place(ends[1]) - place(ends[0]));
+                assert!((part - 0.5).abs() < 1e-9, "{x} in {ends:?}");
+            }
         }
     }
 }

@@ -142,6 +142,35 @@ fn row_of(named: &mut Vec<(usize, [f64; 2])>, ends: [f64; 2]) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::report::figure::{Axis, Dash, Figure, Hue};
+    use crate::report::sheet::Sheet;
+
+    /// Law: the arrow of a limit that is beyond an axis points to where the limit is, from within the panel.
+    #[test]
+    fn arrows_point_to_their_limits() {
+        for (vertical, at) in [(true, -50.0), (true, 90.0), (false, -50.0), (false, 90.0)] {
+            let ends = vec![1.0, 40.0];
+            let curve = Mark::line("", Hue::Body, Dash::Solid, ends.clone(), ends);
+            let limit = Mark::Limit { label: "limit".to_owned(), at, vertical };
+            let axis = || Axis::linear("", "").within(0.0, 41.0);
+            let svg = Sheet::of(&Figure::new("", axis(), axis(), vec![curve, limit])).svg(None);
+            let points = |line: &str| -> Vec<[f64; 2]> {
+                let pair =
+                    |text: &str| text.split_once(',').map(|(x, y)| [x, y].map(|one| one.parse().unwrap())).unwrap();
+                line.split("points=\"").nth(1).unwrap().split('"').next().unwrap().split(' ').map(pair).collect()
+            };
+            let lines: Vec<Vec<[f64; 2]>> = svg.lines().filter(|line| line.contains("points=")).map(points).collect();
+            let is_small = |line: &[[f64; 2]]| (0..2).all(|k| (line[0][k] - line[1][k]).abs() < 20.0);
+            let head = lines.iter().find(|line| line.len() == 3 && is_small(line)).expect("wings that meet at the tip");
+            let tip = head[1];
+            let shaft = lines.iter().find(|line| line.len() == 2 && line[0] == tip).expect("a shaft");
+            // upwards on the screen is down in pixels
+            let outwards = |point: [f64; 2]| if vertical { point[0] } else { -point[1] } * f64::signum(at);
+            for inner in [head[0], head[2], shaft[1]] {
+                assert!(outwards(tip) > outwards(inner), "{vertical} {at}: {head:?} {shaft:?}");
+            }
+        }
+    }
 
     /// Law: names in one row do not cover each other, and a name is in the first row that has space.
     #[test]

@@ -3,6 +3,7 @@
 use std::fs;
 use std::process::Stdio;
 
+use super::screen_numbers::numbers;
 use super::small_campaign::{NEGATIVE_WALLS, campaign, campaign_without_debris, folder};
 use crate::support::campaigns::SPIN_DISPERSION;
 use crate::support::scratch_folder::floats;
@@ -97,6 +98,15 @@ fn check_shows_what_would_run() {
             && !said.contains("not computed: there is no"),
         "{said}"
     );
+    // masses add up, and the largest part has its share of them
+    let kg = |body: &str| {
+        let line = said.lines().find(|line| line.starts_with(&format!("{body} "))).expect(body);
+        line.split_whitespace().rev().nth(1).expect("a mass").parse::<f64>().expect("a number")
+    };
+    let [body, whole] = ["body", "spacecraft"].map(kg);
+    assert!((body + kg("wheel w1") + kg("wheel w2") - whole).abs() < 0.02, "{said}");
+    let share = numbers(&said, "largest part: body.parts.fuselage, # % of the mass of the spacecraft")[0];
+    assert!((share - 100.0 * body / whole).abs() < 0.051, "{share}: {said}");
     let said = scratch.prints("check no_debris.toml", 0);
     assert!(said.contains("wheel rates  ") && !said.contains("of the debris"), "{said}");
     assert!(!scratch.path("results").exists(), "check writes nothing");

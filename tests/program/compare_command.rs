@@ -4,6 +4,7 @@ use arrow_array::cast::AsArray;
 use serde_json::Value;
 use spindrift::statistics::two_sample::kolmogorov_smirnov;
 
+use super::screen_numbers::{numbers, says, template};
 use super::small_campaign::{NEGATIVE_WALLS, campaign, campaign_without_debris, folder, mixed_failures};
 use crate::support::scratch_folder::{ScratchFolder, column, ended, floats};
 
@@ -282,6 +283,53 @@ fn verdicts_and_scales_are_those_of_their_result() {
         assert!((number("largest_shift") - expected).abs() < 1e-9 * expected, "{first}, {second}: {row}");
     }
     assert!(deviation("wide") > 1.5 * deviation("plain"));
+}
+
+/// Law: each number on the screen is that of the file, of the result that is named: runs that are ok of each, keys, tests, and of each observable
+/// in a table its mean in the first result, shift, interval, p-values and largest shift.
+#[test]
+fn the_screen_is_the_file() {
+    let scratch = folder("compare-screen");
+    scratch.file("first.toml", &mixed_failures().replace("samples = 600", "samples = 300"));
+    scratch.file(
+        "second.toml",
+        &mixed_failures().replace("samples = 600", "samples = 400").replace("0.5, 15]", "0.5, 5]"),
+    );
+    for (first, second) in [("first", "second"), ("second", "first")] {
+        for side in [first, second] {
+            scratch.prints(&format!("campaign {side}.toml --out {side} --no-report --overwrite"), 1);
+        }
+        let mut command = scratch.command(&format!("compare {first} {second} --tolerance 0.01 --out c.json"));
+        let said = scratch.outputs(command.env("COLUMNS", "250"), 3);
+        let found: Value = serde_json::from_str(&scratch.text("c.json")).expect("JSON");
+        let runs = [first, second].map(|side| {
+            let ended = ended(&scratch.rows(side));
+            [ended[1..].iter().filter(|(_, status)| status == "ok").count() as f64, ended.len() as f64 - 1.0]
+        });
+        says(&said, "runs: # of # ok | # of # ok", &runs.concat());
+        let observables = found["observables"].as_array().expect("observables");
+        let count = |is: &dyn Fn(&Value) -> bool| observables.iter().filter(|one| is(one)).count() as f64;
+        let shifted = count(&|one| one["is_shifted"] == 1);
+        let counts =
+            numbers(&said, "# of # observables have the same statistics; # are shifted: p adjusted for # tests");
+        assert_eq!(counts[1..], [observables.len() as f64, shifted, count(&|one| !one["p_value"].is_null())]);
+        says(&said, "plans: # keys differ", &[found["differing_keys"].as_array().expect("keys").len() as f64]);
+        let mut listed = 0;
+        for line in said.lines().filter(|line| line.contains(" of the spread") && !line.contains("FAIL")) {
+            let name = line.trim_start().trim_start_matches("* ").split_whitespace().next().expect("a name");
+            let one = observables.iter().find(|one| one["observable"] == name).unwrap_or_else(|| panic!("{name}"));
+            let keys = ["mean_first", "mean_shift", "mean_shift_lower", "mean_shift_upper", "p_value_mean"];
+            let keys = keys.into_iter().chain(["p_value_distribution", "adjusted_p_value", "largest_shift"]);
+            let known: Vec<f64> = keys.filter_map(|key| one[key].as_f64()).collect();
+            let found = template(line).1;
+            let is_same = |(found, known): (&f64, &f64)| (found - known).abs() <= 6e-3 * known.abs();
+            assert!(found.len() == known.len() && found.iter().zip(&known).all(is_same), "{line}: {known:?}");
+            assert!(line.contains(&format!(" {} by ", one["largest_shift_of"].as_str().expect("a name"))), "{line}");
+            assert_eq!(line.contains("(beyond)"), known.last() > Some(&0.01), "{line}");
+            listed += 1;
+        }
+        assert!(listed > 10, "{said}");
+    }
 }
 
 /// Law: a campaign that `[stop]` made longer than its file says is paired in all the samples that both have, either way.

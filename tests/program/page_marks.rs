@@ -1,6 +1,6 @@
 //! Marks of the page that a reader compares with each other: intervals around curves, the motion of the replay, correlations, directions, shares.
 
-use super::page_numbers::{Found, degrees, found, motion, read_number};
+use super::page_numbers::{Found, found, motion};
 
 /// Ranks from 0; equal values do not occur.
 fn ranks(values: &[f64]) -> Vec<f64> {
@@ -163,32 +163,6 @@ fn the_dominant_frequency_is_that_of_the_peak() {
     }
     let said = limit["label"].as_str().expect("a label").trim_start_matches("dominant: ").trim_end_matches(" Hz");
     assert!((said.parse::<f64>().expect("a number") / at - 1.0).abs() < 1e-3, "{said} for {at}");
-}
-
-/// Law: the card of a fraction shows the share of the runs within the limit; the list of worst runs the outcome in the unit that is shown.
-#[test]
-fn shares_and_worst_values_are_of_the_rows() {
-    let found = found("shares", &motion().replace("\"1e-4 deg\"", "\"9 deg\""));
-    let page = found.scratch.text("r/report.html");
-    let visible = page.split_once("<script").expect("scripts").0;
-    let nutation: Vec<f64> = found.column("nutation_angle_min_rad").into_iter().map(degrees).collect();
-    let within = 100.0 * nutation.iter().filter(|angle| **angle >= 9.0).count() as f64 / nutation.len() as f64;
-    assert!((2.0..98.0).contains(&within), "{within}");
-    let card = visible.split("<article").find(|card| card.contains("<b>Runs within the limit:</b>")).expect("a card");
-    let shown = card.split_once("<b>Runs within the limit:</b>").unwrap().1.split('%').next().unwrap();
-    assert!((read_number(shown) - within).abs() < 0.01, "{shown} for {within}");
-    for (title, worst, unit) in [
-        (
-            "largest final angular rate (",
-            found.column("angular_rate_final_rad_s").into_iter().map(degrees).fold(0.0, f64::max),
-            "deg/s",
-        ),
-        ("smallest minimum nutation angle (", nutation.iter().copied().fold(f64::INFINITY, f64::min), "deg"),
-    ] {
-        let text = visible.split_once(title).unwrap_or_else(|| panic!("{title}")).1.split(')').next().unwrap();
-        let value = read_number(text.strip_suffix(unit).unwrap_or_else(|| panic!("{text}")));
-        assert!((value / worst - 1.0).abs() < 1e-3, "{title}{value} for {worst}");
-    }
 }
 
 /// Law: the energy of a body over time reaches the largest value of its row, and no more than its points between see.

@@ -2,9 +2,11 @@
 
 use serde_json::Value;
 
-use super::page_numbers::{Found, degrees, found, motion, quantile, read_number};
+use super::page_numbers::{Found, degrees, found, motion, read_number};
+use super::screen_numbers::{numbers, says, template};
 use super::small_campaign::mixed_failures;
-use crate::support::scratch_folder::ScratchFolder;
+use crate::support::scratch_folder::{ScratchFolder, floats};
+use arrow_array::cast::AsArray as _;
 
 fn near(found: f64, expected: f64, tolerance: f64, what: &str) {
     assert!((found - expected).abs() <= tolerance * expected.abs().max(1e-300), "{what}: {found} for {expected}");
@@ -27,6 +29,17 @@ fn numbers_beside_the_replay_are_of_the_row() {
     let columns = found.all(&names);
     let runs = found.data["replay"]["runs"].as_array().expect("runs");
     assert_eq!(runs.len(), 11, "the nominal run and ten");
+    let sizes = |list: &str, key: &str| -> Vec<Value> {
+        let list = found.data["replay"]["scene"][list].as_array().expect("shapes").iter();
+        list.map(|shape| shape[key].clone()).collect()
+    };
+    // radius and length of the fuselage, of the wheels, and the sides of the debris, as the file has them
+    assert_eq!(sizes("parts", "size"), [serde_json::json!([1.0, 3.0])]);
+    assert_eq!(
+        [sizes("wheels", "radius"), sizes("wheels", "length")],
+        [0.25, 0.1].map(|size| vec![Value::from(size); 2])
+    );
+    assert_eq!(found.data["replay"]["scene"]["debris"], serde_json::json!([0.2, 0.2, 0.2]));
     for run in runs {
         let row = run["sample"].as_u64().expect("a sample") as usize;
         let [rate, nutation, spin] = [0, 1, 2].map(|column| columns[column][row]);
@@ -48,8 +61,8 @@ fn numbers_beside_the_replay_are_of_the_row() {
     }
 }
 
-/// Law: what is across is across and what is upwards is upwards: an outcome against its input, the energy of a wheel against that of the body,
-/// the tail of an error; each point is a run.
+/// Law: what is across is across and what is upwards is upwards: an outcome against its input, the energy of a wheel against that of the
+/// body; each point is a run.
 #[test]
 fn axes_are_not_exchanged() {
     let found = found("axes", &motion());
@@ -73,16 +86,6 @@ fn axes_are_not_exchanged() {
         let [low, high] = ends(&found.array(&wheel[key]));
         assert!(high - low >= 0.999 * peak && high - low < 1.2 * peak, "{key}: {} for {peak}", high - low);
     }
-
-    let errors = found.column("energy_error_max");
-    let tail = found.mark("tail_energy_error_max", "fraction of runs above");
-    let (x, y) = (found.array(&tail["x"]), found.array(&tail["y"]));
-    for (value, fraction) in x.iter().zip(&y) {
-        let above = |by: f64| errors.iter().filter(|error| **error >= value * by).count() as f64 / errors.len() as f64;
-        assert!(above(1.02) <= *fraction && *fraction <= above(0.98), "{fraction} from {value} on");
-    }
-    // within a bucket of the sketch
-    near(last(&x), ends(&errors)[1], 2e-3, "the largest error");
 }
 
 /// Law: the nominal run is sample 0, at the end of its curves and in the histograms; an input has the unit in which it was written.
@@ -131,12 +134,6 @@ fn nominal_is_nominal() {
     assert!(row.ends_with("normal, std 90 deg/s"), "{row}");
 }
 
-/// The numbers of a line of text; brackets, commas and question marks are none.
-fn numbers(text: &str) -> Vec<f64> {
-    let cleaned = text.replace(['[', ']', ','], " ");
-    cleaned.split_whitespace().filter_map(|word| word.parse().ok()).collect()
-}
-
 /// Law: on a screen of any width each observable has its values under their heads, and the ends of each interval in order around its value.
 #[test]
 fn every_line_of_the_screen_is_the_summary() {
@@ -155,7 +152,7 @@ fn every_line_of_the_screen_is_the_summary() {
             let Some(one) = observables.iter().find(|one| one["name"] == name) else { continue };
             seen.push(name.to_owned());
             let below = usize::from(width == "80");
-            let (values, ends) = (numbers(lines[place + below]), numbers(lines[place + below + 1]));
+            let [values, ends] = [lines[place + below], lines[place + below + 1]].map(|line| template(line).1);
             let is_in_degrees = line.contains("deg");
             let shown = |value: &Value| {
                 let value = value.as_f64().expect("a number");
@@ -187,32 +184,10 @@ fn every_line_of_the_screen_is_the_summary() {
     }
 }
 
-/// Law: the card of a requirement has estimate and interval of the summary, lower end first; hovering over a quantile shows its own interval.
+/// Law: hovering over a quantile of the table shows its own interval, lower end first.
 #[test]
 fn intervals_are_in_order() {
-    let found = found("intervals", &motion());
-    let page = found.scratch.text("r/report.html");
-    let visible = page.split_once("<script").expect("scripts").0;
-    let summary = found.scratch.summary("r");
-    let card = visible.split("<article").find(|card| card.contains("<b>95%-quantile:</b>")).expect("a card");
-    let detail = card.split_once("<b>95%-quantile:</b>").unwrap().1.split("</p>").next().unwrap();
-    let rates: Vec<f64> = found.column("angular_rate_final_rad_s").into_iter().map(degrees).collect();
-    let parts: Vec<f64> = detail
-        .replace("(95% interval:", "|")
-        .replace(" to ", "|")
-        .replace(')', "")
-        .split('|')
-        .map(|part| read_number(part.trim().trim_end_matches("deg/s")))
-        .collect();
-    near(parts[0], quantile(&rates, 0.95), 1e-3, "estimate");
-    let list = summary["observables"].as_array().unwrap();
-    let rate = list.iter().find(|one| one["name"] == "angular_rate_final_rad_s").unwrap();
-    let quantiles = rate["quantiles"].as_array().unwrap();
-    let of = |p: f64| quantiles.iter().find(|one| one["p"] == p).unwrap();
-    for (part, end) in parts[1..].iter().zip(of(0.95)["interval"].as_array().unwrap()) {
-        near(*part, degrees(end.as_f64().unwrap()), 2e-3, "end");
-    }
-    assert!(parts[1] < parts[0] && parts[0] < parts[2], "{parts:?}");
+    let visible = found("intervals", &motion()).visible();
     let row = visible.split("<tr>").find(|row| row.contains(">angular_rate_final_rad_s</th>")).expect("a row");
     let cells: Vec<&str> = row.split("<td data-value").filter(|cell| cell.contains("% interval: ")).collect();
     assert!(cells.len() >= 5, "{row}");
@@ -225,15 +200,6 @@ fn intervals_are_in_order() {
         let is_outside = low > value * 1.0005 || high < value * 0.9995;
         assert!(!is_outside, "{value} in {low} to {high}");
     }
-    // a mean lies between its bounds
-    let card = visible.split("<article").find(|card| card.contains("<b>Mean:</b>")).expect("a card");
-    let detail = card.split_once("<b>Mean:</b>").unwrap().1.split("</p>").next().unwrap();
-    let bounds = detail.split_once("bounds: ").unwrap().1.split_once(", each").unwrap().0;
-    let (low, high) = bounds.split_once(" and ").unwrap();
-    let mean = read_number(detail.split('(').next().unwrap().trim().trim_end_matches("deg/s"));
-    let [low, high] = [low, high].map(|end| read_number(end.trim_end_matches("deg/s")));
-    near(mean, rates.iter().sum::<f64>() / 299.0, 1e-3, "mean");
-    assert!(low < mean && mean < high, "{low} {mean} {high}");
 }
 
 /// Law: the strongest input stands first, with the share that the screen says; the bars descend.
@@ -248,6 +214,18 @@ fn bars_of_influence_descend() {
         let line = found.said.lines().find(|line| line.trim_start().starts_with(outcome) && line.contains("with it"));
         let line = line.unwrap_or_else(|| panic!("{outcome}: {}", found.said));
         assert!(line.contains(&format!("{first} ({:.2},", shares[0])), "{line}");
+        // what the numbers are, in the same words in both places
+        assert!(line.ends_with("; share of the variance"), "{line}");
+        assert_eq!(found.figure(&figure)["x"]["quantity"], "share of the variance");
+        // what a regression explains, in percent, and of how many runs
+        let table = found.scratch.table("r/sensitivity.parquet");
+        let observables = table.column_by_name("observable").expect("names").as_string::<i32>();
+        let row = observables.iter().position(|name| name == Some(outcome)).expect("a row");
+        let known = [299.0, 100.0 * floats(&table, "r_squared")[row]];
+        let meaning = found.figure(&figure)["caption"].as_str().expect("a caption");
+        says(meaning, "of # runs", &known[..1]);
+        let share = numbers(meaning, "A regression on all inputs explains #% of the variance")[0];
+        assert!((share - known[1]).abs() < 0.051, "{share}% for {known:?}");
     }
 }
 
@@ -264,17 +242,27 @@ fn two_statuses_are_told_apart() {
     let visible = page.split_once("<script").expect("scripts").0;
     let worst = &visible[visible.find("id=\"worst\"").unwrap()..visible.find("id=\"replay\"").unwrap()];
     let rows: Vec<&str> = worst.split("<tr>").collect();
+    // the bars are side by side
+    let mut end = summary["statuses"]["ok"].as_f64().expect("a count") / 3.0;
     for (status, words) in [("invalid_sample", "invalid: not physical"), ("inaccurate", "inaccurate")] {
         let count = summary["statuses"][status].as_u64().expect("a count");
         let share =
             visible.split("<li>").skip(1).find(|item| item.contains(words) && item.contains("<b>")).expect(status);
         assert!(share.contains(&format!("<b>{count}</b>")), "{status}: {share}");
+        says(share, "(#%)", &[count as f64 / 3.0]);
+        let bar =
+            numbers(&visible.replace("<rect", "\n<rect"), &format!("status {status}\" x=\"#%\" y=\"#\" width=\"#%"));
+        assert!((bar[0] - end).abs() < 2e-3 && (bar[2] - count as f64 / 3.0).abs() < 1e-3, "{bar:?} from {end} on");
+        end += bar[2];
         let reasons = summary["failure_reasons"].as_array().unwrap();
         let of = reasons.iter().filter(|one| one["status"] == status);
         let sample = of.map(|one| one["sample"].as_u64().expect("a sample")).min().expect("a reason");
         let row = rows.iter().find(|row| row.contains(&format!("failed: {status}"))).expect("a row");
         assert!(row.contains(&format!("<b>{status}</b>: ")), "{row}");
         assert!(row.starts_with(&format!("<th scope=\"row\">{sample}</th>")), "{sample}: {row}");
+        let first = format!("first in sample {sample}: ");
+        let said = visible.split("<p class=\"reason\">").find(|said| said.contains(words) && said.contains(&first));
+        assert!(said.expect("the reason").contains(&format!("--sample {sample}</code>")), "{sample}");
         // each replay command is that of its own row
         assert!(row.contains(&format!("--sample {sample}</code>")), "{row}");
     }

@@ -20,6 +20,31 @@ fn errors_follow_the_settings() {
     let wall = start.elapsed().as_secs_f64();
     assert!(said.contains("3 samples") && said.contains("us/run"), "{said}");
     let table = scratch.table("p/precision.parquet");
+    // the screen has the numbers of the file, under their heads
+    let head = said.lines().position(|line| line.starts_with("method ")).expect("heads");
+    let heads: Vec<&str> = said.lines().nth(head).expect("heads").split_whitespace().collect();
+    for (row, line) in said.lines().skip(head + 1).take(table.num_rows()).enumerate() {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let number = |name: &str| floats(&table, name)[row];
+        for (head, known) in [
+            (
+                "setting",
+                [number("tolerance"), number("step_s")].into_iter().find(|value| !value.is_nan()).expect("one"),
+            ),
+            ("us/run", 1e6 * number("cpu_s")),
+            ("runs/s", 1.0 / number("cpu_s")),
+            ("steps", number("steps_mean")),
+            ("rate", number("rate_error_max")),
+            ("attitude", number("attitude_error_max_rad")),
+            ("energy", number("energy_error_max")),
+            ("momentum", number("angular_momentum_error_max")),
+        ] {
+            let place = heads.iter().position(|other| *other == head).expect(head);
+            let found: f64 = words[place].trim_end_matches('s').parse().expect("a number");
+            // two digits of errors, whole steps, three digits of times
+            assert!((found - known).abs() <= 0.051 * known.abs(), "{head} {found} for {known}: {line}");
+        }
+    }
     let methods: Vec<&str> = table.column(0).as_string::<i32>().iter().flatten().collect();
     assert_eq!(methods[..4], ["auto", "auto", "auto", "dop853"]);
     assert_eq!(methods.len(), 9);

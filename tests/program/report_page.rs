@@ -72,7 +72,8 @@ fn text_of_the_file_is_escaped() {
     const ATTACK: &str = "</script><img src=x onerror=alert(1)><!-- & \\\"quoted\\\"";
     let scratch = folder("page-escaped");
     let text = campaign().replace("name = \"small\"", &format!("name = \"small\"\ndescription = \"{ATTACK}\""));
-    scratch.file("attack.toml", &text);
+    let compared = "[[observable]]\nname = \"is_seen\"\nunit = \"<i>u\"\nexpression = \"1e-16<energy_error_max\"\n";
+    scratch.file("attack.toml", &(text + compared));
     scratch.prints("campaign attack.toml --samples 20 --out attack", 0);
     let attacked = page(&scratch, "attack");
     assert!(!attacked.contains("<img src=x") && !attacked.contains("<!-- &"), "markup of the description");
@@ -80,6 +81,10 @@ fn text_of_the_file_is_escaped() {
         visible(&attacked)
             .contains("&lt;/script&gt;&lt;img src=x onerror=alert(1)&gt;&lt;!-- &amp; &quot;quoted&quot;")
     );
+    // a unit is in cards, in the list of worst runs and in the table of statistics
+    assert!(!attacked.contains("<i>u") && visible(&attacked).matches("&lt;i&gt;u").count() >= 3);
+    // in the plan, among the meanings of columns and in the table of statistics
+    assert!(!attacked.contains("<energy_error_max") && visible(&attacked).matches("&lt;energy_error_max").count() >= 3);
     // the counter-test: the same page without it has as many scripts
     scratch.prints("campaign small.toml --samples 20 --out plain", 0);
     let scripts = |page: &str| (page.matches("<script").count(), page.matches("</script>").count());

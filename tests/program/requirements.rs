@@ -1,8 +1,10 @@
-//! How many runs would decide a requirement that is undecided.
+//! How many runs would decide a requirement that is undecided, and at which confidence one that fails alone would.
 
 use serde_json::Value;
 
+use super::screen_numbers::says;
 use super::small_campaign::{campaign_without_debris, folder};
+use crate::support::scratch_folder::column;
 
 /// Law: half the distance between estimate and limit takes four times as many runs, of means and fractions, of independent samples and of
 /// replicates.
@@ -39,5 +41,30 @@ fn half_the_distance_takes_four_times_the_runs() {
                 "{design}: {runs:?} runs, {found:?}"
             );
         }
+    }
+}
+
+/// Law: a requirement that fails by itself and not at its share of the error of both is undecided, and the confidences that are named are the one at
+/// which it is missed and then the one at which it is not.
+#[test]
+fn a_requirement_may_fail_alone() {
+    let scratch = folder("fails-alone");
+    let observable = "[[observable]]\nname = \"spin\"\nexpression = \"initial.angular_velocity_rad_s.x\"\n";
+    let text = campaign_without_debris().replace("samples = 600", "samples = 300") + observable;
+    scratch.file("drawn.toml", &text);
+    scratch.prints("campaign drawn.toml --out drawn --no-report", 0);
+    let mut drawn = column(&scratch.rows("drawn"), "initial_angular_velocity_x_rad_s").split_off(1);
+    drawn.sort_by(f64::total_cmp);
+    // of 299 at least one half has to be within; exact lower tails of 1/2: 134 within have 4.1%, 133 3.2%, 132 2.5%
+    let require = |limit: f64| format!("[[require]]\nobservable = \"spin\"\nfraction = 0.5\nat_most = {limit:?}\n");
+    scratch.file("asked.toml", &(text + &require(0.5 * (drawn[132] + drawn[133])) + &require(1e3)));
+    let mut command = scratch.command("campaign asked.toml --out r --no-report --junit junit.xml");
+    let said = scratch.outputs(command.env("COLUMNS", "300"), 5);
+    let one = &scratch.summary("r")["requirements"]["list"][0];
+    assert_eq!((&one["verdict"], &one["violations"]), (&"UNDECIDED".into(), &166.into()));
+    let known = ["confidence_of_pass_and_bounds", "confidence_of_fail"].map(|key| 100.0 * one[key].as_f64().unwrap());
+    assert!((known[0] - 95.0).abs() < 1e-9 && (known[1] - 97.5).abs() < 1e-9, "{known:?}");
+    for said in [said, scratch.text("junit.xml")] {
+        says(&said, "missed at #%, not at the #% of all together", &known);
     }
 }

@@ -5,6 +5,7 @@ use std::fs;
 use serde_json::Value;
 use spindrift::statistics::binomial::at_most;
 
+use super::screen_numbers::{junit_counts, numbers, says};
 use super::small_campaign::{campaign, folder};
 use crate::support::scratch_folder::{ScratchFolder, column, ended};
 
@@ -40,14 +41,23 @@ fn a_campaign_stops_when_it_is_precise_enough() {
     let scratch = folder("stop");
     // the interval of all four looks, from a campaign that never stops
     scratch.file("never.toml", &stopping("1e-30"));
-    let said = scratch.prints("campaign never.toml --out never --junit never.xml", 5);
+    let mut command = scratch.command("campaign never.toml --out never --junit never.xml");
+    let said = scratch.outputs(command.env("COLUMNS", "250"), 5);
     assert!(said.contains("not precise enough"), "{said}");
     let junit = |name: &str| fs::read_to_string(scratch.path(name)).unwrap();
     let missed = junit("never.xml");
-    assert!(missed.contains("errors=\"1\"") && missed.contains("<error type=\"stop\""), "{missed}");
+    assert!(junit_counts(&missed) == [2, 0, 1] && missed.contains("<error type=\"stop\""), "{missed}");
     let never = scratch.summary("never");
     assert_eq!((&never["samples"], &never["stop"]["look"]), (&Value::from(2400), &Value::from(4)));
     assert_eq!(never["stop"]["precise_enough"], false);
+    for said in [&said, &missed] {
+        let at = |key: &str| never["stop"][key].as_f64().expect("a number");
+        let found = numbers(said, "look # of at most #, # samples: p50 of ");
+        assert_eq!(found, ["look", "looks", "samples"].map(at));
+        let [low, high] = [0, 1].map(|end| never["stop"]["interval"][end].as_f64().expect("an end"));
+        let known = [at("estimate"), low, high, at("confidence"), 1e-30];
+        says(said, "_peak_to_peak_j = # in [#, #] at # confidence, wanted half width #", &known);
+    }
     assert!((never["stop"]["confidence"].as_f64().unwrap() - (1.0 - 0.05 / 4.0)).abs() < 1e-12);
 
     // twice the last width is reached after about a quarter of the samples, at the second look
@@ -55,7 +65,7 @@ fn a_campaign_stops_when_it_is_precise_enough() {
     scratch.file("stop.toml", &stopping(&format!("{wanted:?}")));
     scratch.prints("campaign stop.toml --out stopped --junit stopped.xml", 0);
     let reached = junit("stopped.xml");
-    assert!(reached.contains("errors=\"0\"") && reached.contains("[stop] reaches its goal\"/>"), "{reached}");
+    assert!(junit_counts(&reached) == [2, 0, 0] && reached.contains("[stop] reaches its goal\"/>"), "{reached}");
     let stopped = scratch.summary("stopped");
     let samples = stopped["samples"].as_u64().unwrap();
     assert!([600, 1200].contains(&samples), "{samples} samples");
