@@ -20,7 +20,8 @@ use crate::run::{Quantity, Status};
 use crate::statistics::mean::{MOST_SHARE, deviation_bounds, mean_bounds};
 use crate::statistics::moments::Moments;
 use crate::statistics::quantile::{
-    Ranks as IntervalRanks, interval_ranks, percent, quantile, runs_for_bound, runs_for_interval,
+    Ranks as IntervalRanks, interval_ranks, percent, place_order_statistics, quantile, runs_for_bound,
+    runs_for_interval,
 };
 use crate::statistics::replicates::{self, Step};
 use crate::statistics::sketch::{RELATIVE_ERROR, Ranks, Sketch};
@@ -159,6 +160,7 @@ pub fn compute(
 
 /// The order statistics of a group of values.
 enum Order {
+    /// The values; those that quantiles ask for are at their places in ascending order.
     Exact(Vec<f64>),
     Sketched(Ranks),
 }
@@ -166,7 +168,7 @@ enum Order {
 impl Order {
     fn quantile(&self, p: f64) -> Option<f64> {
         match self {
-            Order::Exact(ascending) => quantile(ascending, p),
+            Order::Exact(values) => quantile(values, p),
             Order::Sketched(ranks) => ranks.quantile(p),
         }
     }
@@ -174,7 +176,7 @@ impl Order {
     /// Bounds of the number of rank `rank`, from 1.
     fn bounds(&self, rank: u64) -> Option<[f64; 2]> {
         match self {
-            Order::Exact(ascending) => ascending.get(rank as usize - 1).map(|value| [*value; 2]),
+            Order::Exact(values) => values.get(rank as usize - 1).map(|value| [*value; 2]),
             Order::Sketched(ranks) => ranks.bounds(rank),
         }
     }
@@ -182,8 +184,8 @@ impl Order {
     /// The steps of the distribution function of replicate `replicate`.
     fn steps(&self, replicate: usize) -> Vec<Step> {
         match self {
-            Order::Exact(ascending) => {
-                ascending.iter().map(|value| Step { value: *value, lower: *value, replicate, count: 1 }).collect()
+            Order::Exact(values) => {
+                values.iter().map(|value| Step { value: *value, lower: *value, replicate, count: 1 }).collect()
             }
             Order::Sketched(ranks) => {
                 let counts = std::iter::once(0).chain(ranks.buckets.iter().map(|bucket| bucket.up_to));
@@ -216,9 +218,28 @@ impl CommonRanks {
         CommonRanks { count, confidence: plan.analysis.confidence, ranks: ranks.collect() }
     }
 
-    fn of(&self, count: u64, p: f64, confidence: f64) -> Option<IntervalRanks> {
+    fn of(&self, count: u64, p: f64, confidence: f64) -> IntervalRanks {
         let mut known = self.ranks.iter().filter(|_| count == self.count && confidence == self.confidence);
-        known.find(|(of, _)| *of == p).map(|(_, ranks)| *ranks)
+        let known = known.find(|(of, _)| *of == p).map(|(_, ranks)| *ranks);
+        known.unwrap_or_else(|| interval_ranks(count, p, confidence))
+    }
+}
+
+/// A quantile that is asked for.
+struct AskedQuantile {
+    p: f64,
+    confidence: f64,
+    /// Of its interval, where the population has intervals.
+    ranks: Option<IntervalRanks>,
+}
+
+impl AskedQuantile {
+    /// The places, from zero, of the order statistics that it needs of `count` values; some may be beyond the last.
+    fn places(&self, count: usize) -> impl Iterator<Item = usize> {
+        let below = (count as f64 * self.p) as usize;
+        // (count - 1) p, rounded, is between below - 1 and below + 1
+        let ends = self.ranks.into_iter().flat_map(|ranks| [ranks.lower, ranks.upper]).flatten();
+        (below.saturating_sub(1)..=below + 1).chain(ends.map(|rank| rank as usize - 1))
     }
 }
 
@@ -250,12 +271,33 @@ fn described(
                 if is_sketched { Order::Sketched(ranks(&group.sketch)) } else { Order::Exact(group.values.clone()) };
             steps.extend(order.steps(replicate));
         }
-        values.extend(group.values);
+        if values.is_empty() {
+            values = group.values;
+        } else {
+            values.extend(group.values);
+        }
     }
     steps.sort_by(|a, b| a.value.total_cmp(&b.value));
-    values.sort_unstable_by(f64::total_cmp);
-    let order = if is_sketched { Order::Sketched(ranks(&whole)) } else { Order::Exact(values) };
     let moments = collected.moments;
+    let asked = |p: f64, confidence: f64| {
+        let ranks = population.has_intervals().then(|| common.of(moments.count(), p, confidence));
+        AskedQuantile { p, confidence, ranks }
+    };
+    let requirements =
+        plan.analysis.requirements.iter().filter(|one| one.observable() == Some(observed.quantity.name()));
+    let required = requirements.filter_map(|one| match one.statement {
+        Statement::Quantile(p) => Some(asked(p, one.confidence)),
+        _ => None,
+    });
+    let required: Vec<AskedQuantile> = required.collect();
+    let quantiles: Vec<AskedQuantile> = plan.analysis.quantiles.iter().map(|p| asked(*p, confidence)).collect();
+    let order = if is_sketched {
+        Order::Sketched(ranks(&whole))
+    } else {
+        let count = values.len();
+        place_order_statistics(&mut values, quantiles.iter().chain(&required).flat_map(|one| one.places(count)));
+        Order::Exact(values)
+    };
     let one_sided = 0.5 + 0.5 * confidence;
     let (mean, mean_error) = match population {
         Population::Independent => (Some(mean_bounds(&moments, one_sided)), moments.mean_error()),
@@ -268,19 +310,13 @@ fn described(
     let ends = |bounds: [f64; 2]| bounds.map(|end| Some(end).filter(|end| end.is_finite()));
     let mean_interval = mean.map_or([None; 2], ends);
     let deviation = deviation_bounds(&moments, one_sided);
-    let quantile = |p: f64, confidence: f64| {
-        let mut found = of_quantile(population, &order, moments.count(), (p, confidence), common);
+    let quantile = |asked: &AskedQuantile| {
+        let mut found = of_quantile(&order, asked);
         if matches!(population, Population::Replicated(_)) && found.note.is_none() {
-            found.interval = replicates::quantile_interval(&steps, &sizes, p, confidence);
+            found.interval = replicates::quantile_interval(&steps, &sizes, asked.p, asked.confidence);
         }
         found
     };
-    let requirements =
-        plan.analysis.requirements.iter().filter(|one| one.observable() == Some(observed.quantity.name()));
-    let required = requirements.filter_map(|one| match one.statement {
-        Statement::Quantile(p) => Some(quantile(p, one.confidence)),
-        _ => None,
-    });
     ColumnStatistics {
         quantity: observed.quantity.clone(),
         is_count: observed.is_count,
@@ -290,8 +326,8 @@ fn described(
         mean_error,
         deviation_interval: mean.map_or([None; 2], |_| ends(deviation)),
         note: mean.and_then(|_| note(&moments, mean_interval)),
-        quantiles: plan.analysis.quantiles.iter().map(|p| quantile(*p, confidence)).collect(),
-        required: required.collect(),
+        quantiles: quantiles.iter().map(quantile).collect(),
+        required: required.iter().map(quantile).collect(),
     }
 }
 
@@ -314,18 +350,10 @@ fn note(moments: &Moments, mean_interval: [Option<f64>; 2]) -> Option<String> {
 }
 
 /// A quantile with the interval of independent samples, where they are.
-fn of_quantile(
-    population: Population,
-    order: &Order,
-    count: u64,
-    (p, confidence): (f64, f64),
-    common: &CommonRanks,
-) -> QuantileStatistic {
+fn of_quantile(order: &Order, asked: &AskedQuantile) -> QuantileStatistic {
+    let AskedQuantile { p, confidence, ranks } = *asked;
     let mut found = QuantileStatistic { p, confidence, value: order.quantile(p), interval: [None; 2], note: None };
-    if !population.has_intervals() {
-        return found;
-    }
-    let ranks = common.of(count, p, confidence).unwrap_or_else(|| interval_ranks(count, p, confidence));
+    let Some(ranks) = ranks else { return found };
     let end = |rank: Option<u64>, which: usize| rank.and_then(|rank| order.bounds(rank)).map(|bounds| bounds[which]);
     found.interval = [end(ranks.lower, 0), end(ranks.upper, 1)];
     if found.interval.contains(&None) {

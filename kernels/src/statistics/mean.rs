@@ -40,7 +40,9 @@ pub fn mean_bounds(moments: &Moments, confidence: f64) -> [f64; 2] {
     let Some((mean, error)) = moments.mean().zip(spread_error(moments)) else {
         return [f64::NEG_INFINITY, f64::INFINITY];
     };
-    let [below, above] = [-1.0, 1.0].map(|side| reach(moments.count(), side * skewness(moments), confidence));
+    // both sides have one t, whose root costs more than all else
+    let (count, t) = (moments.count(), one_sided(confidence, moments.count() as f64 - 1.0));
+    let [below, above] = [-1.0, 1.0].map(|side| reach(count, side * skewness(moments), t));
     [mean - below * error, mean + above * error]
 }
 
@@ -48,7 +50,11 @@ pub fn mean_bounds(moments: &Moments, confidence: f64) -> [f64; 2] {
 pub fn distance_towards(limit: f64, moments: &Moments, count: u64, confidence: f64) -> f64 {
     let Some((mean, deviation)) = moments.mean().zip(moments.standard_deviation()) else { return f64::INFINITY };
     let side = if mean < limit { 1.0 } else { -1.0 };
-    reach(count, side * skewness(moments), confidence) * deviation / libm::sqrt(count as f64)
+    if count < 3 {
+        return f64::INFINITY;
+    }
+    let t = one_sided(confidence, count as f64 - 1.0);
+    reach(count, side * skewness(moments), t) * deviation / libm::sqrt(count as f64)
 }
 
 /// One-sided bounds of the standard deviation of the population, each at `confidence`: those of the mean of the squared deviations, whose
@@ -81,14 +87,12 @@ fn skewness(moments: &Moments) -> f64 {
     moments.skewness().map_or(0.0, |skewness| skewness * libm::sqrt(n * (n - 1.0)) / (n - 2.0).max(1.0))
 }
 
-/// How many standard errors the bound of a mean of `count` numbers is away from it, on the side to which they have the `skewness`.
-fn reach(count: u64, skewness: f64, confidence: f64) -> f64 {
+/// How many standard errors the bound of a mean of `count` numbers is away from it, on the side to which they have the `skewness`; `t` is
+/// Student's.
+fn reach(count: u64, skewness: f64, t: f64) -> f64 {
     let n = count as f64;
-    if count < 3 {
-        return f64::INFINITY;
-    }
     let skewness = SKEWNESS_FACTOR * skewness + SKEWNESS_ERRORS * libm::sqrt(6.0 / n);
-    unskewed(one_sided(confidence, n - 1.0), skewness / libm::sqrt(n))
+    unskewed(t, skewness / libm::sqrt(n))
 }
 
 /// The larger one of `t` and -T at the bound for the skewness `r` over sqrt(n); infinite where there is none.

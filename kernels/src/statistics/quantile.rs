@@ -10,7 +10,8 @@
 
 use super::binomial::{at_least, at_most, lower_rank, upper_rank};
 
-/// The `p`-quantile, 0 <= p <= 1, of values in ascending order (type 7); `None` where there is no value.
+/// The `p`-quantile, 0 <= p <= 1, of values in ascending order (type 7); `None` where there is no value. Only the two between which it is
+/// have to be at their places ([`place_order_statistics`]).
 ///
 /// Between x_(k) and x_(k+1), with (n-1) p = k - 1 + t: x_(k) + t (x_(k+1) - x_(k)), from the nearer end.
 pub fn quantile(ascending: &[f64], p: f64) -> Option<f64> {
@@ -24,6 +25,24 @@ pub fn quantile(ascending: &[f64], p: f64) -> Option<f64> {
     }
     let width = high - low;
     Some(if part < 0.5 { low + part * width } else { high - (1.0 - part) * width })
+}
+
+/// Moves values so that those at `places` (from zero, in any order; those beyond the last are left out) are where they are in ascending order
+/// ([`f64::total_cmp`]); no value between two places is smaller than the one or larger than the other. For a few places a third of a sort.
+pub fn place_order_statistics(values: &mut [f64], places: impl IntoIterator<Item = usize>) {
+    let mut places: Vec<usize> = places.into_iter().filter(|place| *place < values.len()).collect();
+    places.sort_unstable();
+    places.dedup();
+    place_ascending(values, 0, &places);
+}
+
+/// The same for ascending `places` of a list whose part from `first` on is `values`.
+fn place_ascending(values: &mut [f64], first: usize, places: &[usize]) {
+    let (before, from) = places.split_at(places.len() / 2);
+    let Some((place, after)) = from.split_first() else { return };
+    let (smaller, _, larger) = values.select_nth_unstable_by(place - first, f64::total_cmp);
+    place_ascending(smaller, first, before);
+    place_ascending(larger, place + 1, after);
 }
 
 /// `p` in percent, in the digits that `p` has: "99.9" for 0.999.
@@ -111,6 +130,27 @@ fn smallest(estimate: f64, enough: impl Fn(u64) -> bool) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Law: what is at a place is what a sort puts there, to the bit, whichever places are asked for, in whichever order; the values stay the same.
+    #[test]
+    fn order_statistics_are_those_of_a_sort() {
+        let numbers = [0.0, -0.0, 1.5, f64::INFINITY, -3.0, 1e-310, 2.0];
+        for count in [0, 1, 2, 7, 100, 3001] {
+            let values: Vec<f64> = (0..count).map(|k| numbers[k * k % 7] * libm::sin((k % 50) as f64)).collect();
+            let bits = |values: &[f64]| values.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
+            let mut sorted = values.clone();
+            sorted.sort_by(f64::total_cmp);
+            for places in [vec![], vec![0], vec![count / 2, 0, 3, count, 4, count / 2], (0..count).collect()] {
+                let mut placed = values.clone();
+                place_order_statistics(&mut placed, places.iter().copied());
+                for place in places.into_iter().filter(|place| *place < count) {
+                    assert_eq!(placed[place].to_bits(), sorted[place].to_bits(), "{place} of {count}");
+                }
+                placed.sort_by(f64::total_cmp);
+                assert_eq!(bits(&placed), bits(&sorted), "{count}");
+            }
+        }
+    }
 
     #[test]
     fn type_seven_interpolates() {
