@@ -2,14 +2,13 @@
 //!
 //! Noise is no input: it is part of no first-order index, and of every total one.
 
+use std::convert::Infallible;
 use std::num::NonZeroUsize;
-
-use rayon::ThreadPoolBuilder;
-use rayon::prelude::*;
 
 use crate::analysis::observed::Observed;
 use crate::campaign::Plan;
-use crate::ensemble::single::SingleRuns;
+use crate::ensemble::runner::RunError;
+use crate::ensemble::single::{SingleRuns, each};
 use crate::math::Isa;
 use crate::run::Status;
 use crate::sampling::SampleId;
@@ -39,7 +38,7 @@ pub fn noise_shares(
     names: &[String],
     scenes: u64,
     (isa, threads): (Isa, Option<NonZeroUsize>),
-) -> Result<Vec<NoiseShare>, rayon::ThreadPoolBuildError> {
+) -> Result<Vec<NoiseShare>, RunError<Infallible>> {
     let dispersed = plan.samples.saturating_sub(1);
     let count = scenes.min(dispersed);
     let samples: Vec<u64> =
@@ -61,11 +60,8 @@ pub fn noise_shares(
     let both = |runs: &mut SingleRuns<'_>, sample: u64| {
         Some([values(runs, sample, sample)?, values(runs, sample, SECOND + sample)?])
     };
-    let pool = ThreadPoolBuilder::new().num_threads(threads.map_or(0, NonZeroUsize::get)).build()?;
-    let flown: Vec<[Vec<f64>; 2]> = pool.install(|| {
-        let runs = || SingleRuns::new(plan, plan.grid.clone(), isa);
-        samples.par_iter().map_init(runs, |runs, sample| both(runs, *sample)).flatten().collect()
-    });
+    let flown = each(plan, &samples, (isa, threads), &both)?;
+    let flown: Vec<[Vec<f64>; 2]> = flown.into_iter().flatten().collect();
     let share = |(place, outcome): (usize, &Observed)| {
         let pairs = flown.iter().map(|[first, second]| [first[place], second[place]]);
         let pairs: Vec<[f64; 2]> = pairs.filter(|pair| pair.iter().all(|value| value.is_finite())).collect();

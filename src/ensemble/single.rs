@@ -2,11 +2,13 @@
 //!
 //! The scene is drawn and propagated by the code that runs campaigns, so that the states are those behind the row.
 
+use std::convert::Infallible;
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use rayon::ThreadPoolBuilder;
+use rayon::prelude::*;
 
 use crate::campaign::{Plan, SceneDraws};
 use crate::ensemble::audit::{Audit, Auditor, NoAudit};
@@ -214,6 +216,21 @@ pub fn run_each<E: Send>(
         Some(error) => Err(RunError::Sink(error)),
         None => Ok(()),
     }
+}
+
+/// What `job` makes of each of `samples`, in their order, with memory for runs of `plan` on its own grid; on `threads` threads (`None`: one per core).
+///
+/// # Errors
+/// Where threads could not be started.
+pub fn each<T: Send>(
+    plan: &Plan,
+    samples: &[u64],
+    (isa, threads): (Isa, Option<NonZeroUsize>),
+    job: &(dyn Fn(&mut SingleRuns<'_>, u64) -> T + Sync),
+) -> Result<Vec<T>, RunError<Infallible>> {
+    let pool = ThreadPoolBuilder::new().num_threads(threads.map_or(0, NonZeroUsize::get)).build()?;
+    let runs = || SingleRuns::new(plan, plan.grid.clone(), isa);
+    Ok(pool.install(|| samples.par_iter().map_init(runs, |runs, sample| job(runs, *sample)).collect()))
 }
 
 /// Every state of scenes of the kind of `request`.
