@@ -153,4 +153,27 @@ mod tests {
             "{text}"
         );
     }
+
+    /// Law: each column of the principal axes is an eigenvector of the inertia for its moment, to the six digits shown.
+    #[test]
+    fn principal_axes_are_columns() {
+        let mut input = SceneInput::report();
+        input.body.inertia_kg_m2 = Some([[3000.0, 400.0, -100.0], [400.0, 2500.0, 200.0], [-100.0, 200.0, 1500.0]]);
+        let mass = Scene::resolve(&input).expect("a legal scene").mass;
+        let mut text = String::new();
+        masses(&mut text, &input, &mass).expect("text");
+        let (_, after) = text.split_once("its principal moments [").expect("the moments");
+        let numbers = |line: &str| -> Vec<f64> {
+            line.split([' ', ',', ']']).filter_map(|word| word.trim().parse().ok()).collect()
+        };
+        let mut lines = after.lines();
+        let moments = numbers(lines.next().expect("a line"));
+        let shown: Vec<Vec<f64>> = lines.take(3).map(numbers).collect();
+        for (axis, moment) in moments.iter().take(3).enumerate() {
+            for row in 0..3 {
+                let product: f64 = (0..3).map(|k| mass.inertia[row][k] * shown[k][axis]).sum();
+                assert!((product - moment * shown[row][axis]).abs() < 1e-4 * moments[2], "axis {axis}: {text}");
+            }
+        }
+    }
 }

@@ -433,7 +433,29 @@ fn spectrum(times: &[f64], body: &[f64]) -> Option<Figure> {
 mod tests {
     use super::*;
 
-    /// Law: gains are on top of each other, losses below each other, and the height of each is its value.
+    /// Law: a curve of the drift has the name of its quantity.
+    #[test]
+    fn drifts_have_their_names() {
+        let series = [Series::AngularMomentumError, Series::LinearMomentumError];
+        let curves = Curves::new(None, &[], &[]);
+        let band = |(k, series): (usize, &Series)| TimeBands {
+            name: curves.name(*series).0,
+            times: vec![0.0, 1.0],
+            quantiles: [1, 2, 3, 4, 5].map(|p| vec![0.0, f64::from(p) * (1.0 + k as f64)]),
+            runs: 9,
+            left: 9,
+        };
+        let bands: Vec<TimeBands> = series.iter().enumerate().map(band).collect();
+        let figures = Curves::new(None, &bands, &[]).drift(None);
+        let figure = figures.iter().find(|figure| figure.name == "drift_momentum").expect("the figure");
+        for (word, median) in [("angular", 3.0), ("linear", 6.0)] {
+            let label = format!("{word}, median");
+            let mark = figure.marks.iter().find(|mark| mark.legend() == label).expect("its median");
+            assert!(matches!(mark, Mark::Line { y, .. } if y[1] == median), "{mark:?}");
+        }
+    }
+
+    /// Law: a curve that turns too often is drawn as its envelope, which is its amplitude.
     #[test]
     fn fast_curves_have_envelopes() {
         let times: Vec<f64> = (0..=600).map(|k| 0.01 * f64::from(k)).collect();
@@ -458,6 +480,7 @@ mod tests {
         assert!(envelope(&times[..101], &aliased).is_some());
     }
 
+    /// Law: gains are on top of each other, losses below each other, and the height of each is its value.
     #[test]
     fn gains_and_losses_are_stacked() {
         let values = [vec![1.0, -2.0], vec![3.0, 5.0], vec![-4.0, -3.0]];
