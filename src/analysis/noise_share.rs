@@ -8,7 +8,7 @@ use std::num::NonZeroUsize;
 use crate::analysis::observed::Observed;
 use crate::campaign::Plan;
 use crate::ensemble::runner::RunError;
-use crate::ensemble::single::{SingleRuns, each};
+use crate::ensemble::single::{SingleRuns, run_each};
 use crate::math::Isa;
 use crate::run::Status;
 use crate::sampling::SampleId;
@@ -41,14 +41,14 @@ pub fn noise_shares(
 ) -> Result<Vec<NoiseShare>, RunError<Infallible>> {
     let dispersed = plan.samples.saturating_sub(1);
     let count = scenes.min(dispersed);
-    let samples: Vec<u64> =
-        (0..count).map(|k| 1 + (u128::from(k) * u128::from(dispersed) / u128::from(count)) as u64).collect();
+    let spaced = |k: u64| SampleId(1 + (u128::from(k) * u128::from(dispersed) / u128::from(count)) as u64);
+    let samples: Vec<SampleId> = (0..count).map(spaced).collect();
     let outcomes = Observed::named(plan, names.iter().map(String::as_str));
     let columns = plan.request().columns();
     let inputs = plan.dispersions.columns();
     // the values of the outcomes in a run; NaN where it has none
-    let values = |runs: &mut SingleRuns<'_>, sample: u64, noise: u64| -> Option<Vec<f64>> {
-        let run = runs.run_with_noise_of(SampleId(sample), SampleId(noise)).ok()?;
+    let values = |runs: &mut SingleRuns<'_>, sample: SampleId, noise: SampleId| -> Option<Vec<f64>> {
+        let run = runs.run_with_noise_of(sample, noise).ok()?;
         let of = |name: &str| {
             let place = columns.iter().position(|column| column.quantity.name() == name).map(|place| run.row[place]);
             let input = || inputs.iter().position(|input| input.parameter.column_name(input.component) == name);
@@ -57,10 +57,11 @@ pub fn noise_shares(
         let is_ok = run.outcome.status == Status::Done;
         Some(outcomes.iter().map(|outcome| outcome.value(of).filter(|_| is_ok).unwrap_or(f64::NAN)).collect())
     };
-    let both = |runs: &mut SingleRuns<'_>, sample: u64| {
-        Some([values(runs, sample, sample)?, values(runs, sample, SECOND + sample)?])
+    let both = |runs: &mut SingleRuns<'_>, sample: SampleId| {
+        let first = values(runs, sample, sample);
+        Ok(first.zip(values(runs, sample, SampleId(SECOND + sample.0))).map(<[Vec<f64>; 2]>::from))
     };
-    let flown = each(plan, &samples, (isa, threads), &both)?;
+    let flown = run_each(plan, &samples, (isa, threads), &both)?;
     let flown: Vec<[Vec<f64>; 2]> = flown.into_iter().flatten().collect();
     let share = |(place, outcome): (usize, &Observed)| {
         let pairs = flown.iter().map(|[first, second]| [first[place], second[place]]);

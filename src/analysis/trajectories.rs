@@ -154,14 +154,15 @@ pub fn save(
     isa: Isa,
     threads: Option<NonZeroUsize>,
 ) -> Result<(), TrajectoryError> {
-    run_each(plan, samples, (isa, threads), &|sample, run| {
+    run_each(plan, samples, (isa, threads), &|runs, sample| {
         // a sample without a run has no file
-        let Ok(run) = run else { return Ok(()) };
+        let Ok(run) = runs.run(sample) else { return Ok(()) };
         let name = format!("{TRAJECTORIES}/{}", file_name(sample));
         let encoded = TimeSeries::new(plan, sample, &run, |_| true).encoded();
         let bytes = encoded.map_err(|source| TrajectoryError::Encoding { path: folder.path(&name), source })?;
         Ok(folder.write(&name, &bytes)?)
     })
+    .map(|_| ())
     .map_err(|error| match error {
         RunError::Threads(error) => TrajectoryError::Threads(error.to_string()),
         RunError::Sink(error) => error,

@@ -2,13 +2,11 @@
 //!
 //! The scene is drawn and propagated by the code that runs campaigns, so that the states are those behind the row.
 
-use std::convert::Infallible;
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use rayon::ThreadPoolBuilder;
-use rayon::prelude::*;
 
 use crate::campaign::{Plan, SceneDraws};
 use crate::ensemble::audit::{Audit, Auditor, NoAudit};
@@ -142,11 +140,6 @@ impl<'p> SingleRuns<'p> {
         self.run_with_noise_of(sample, sample)
     }
 
-    /// The values that were drawn for the last run, as [`crate::sampling::Dispersions::columns`] lists them.
-    pub fn applied(&self) -> &[f64] {
-        self.draws.applied()
-    }
-
     /// Runs the scene of `sample`, with the noise within its control loop of the sample `noise`.
     ///
     /// # Errors
@@ -186,51 +179,48 @@ impl<'p> SingleRuns<'p> {
             request: self.request,
         })
     }
-}
 
-/// Runs `samples` of `plan` on its own grid, on `threads` threads (`None`: one per core), and shows each run to `seen`, on any thread
-/// and in any order; one whose scene is not physical as an error.
-///
-/// # Errors
-/// Where threads could not be started, or the first error of `seen`, after which no run is started.
-pub fn run_each<E: Send>(
-    plan: &Plan,
-    samples: &[SampleId],
-    (isa, threads): (Isa, Option<NonZeroUsize>),
-    seen: &(dyn Fn(SampleId, Result<SingleRun, Vec<SceneError>>) -> Result<(), E> + Sync),
-) -> Result<(), RunError<E>> {
-    let pool = ThreadPoolBuilder::new().num_threads(threads.map_or(0, NonZeroUsize::get)).build()?;
-    let next = AtomicUsize::new(0);
-    let failure: Mutex<Option<E>> = Mutex::new(None);
-    pool.broadcast(|_| {
-        let mut runs = None;
-        while let Some(sample) = samples.get(next.fetch_add(1, Ordering::Relaxed)) {
-            let runs = runs.get_or_insert_with(|| SingleRuns::new(plan, plan.grid.clone(), isa));
-            if let Err(error) = seen(*sample, runs.run(*sample)) {
-                next.store(samples.len(), Ordering::Relaxed);
-                failure.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
-            }
-        }
-    });
-    match failure.into_inner().unwrap_or_else(PoisonError::into_inner) {
-        Some(error) => Err(RunError::Sink(error)),
-        None => Ok(()),
+    /// The values that were drawn for the last run, as [`crate::sampling::Dispersions::columns`] lists them.
+    pub fn applied(&self) -> &[f64] {
+        self.draws.applied()
     }
 }
 
-/// What `job` makes of each of `samples`, in their order, with memory for runs of `plan` on its own grid; on `threads` threads (`None`: one per core).
+/// What `job` makes of each of `samples`, in their order, with memory for runs of `plan` on its own grid; on `threads` threads (`None`: one per core),
+/// in any order.
 ///
 /// # Errors
-/// Where threads could not be started.
-pub fn each<T: Send>(
+/// Where threads could not be started, or the first error of `job`, after which none is started.
+pub fn run_each<T: Send, E: Send>(
     plan: &Plan,
-    samples: &[u64],
+    samples: &[SampleId],
     (isa, threads): (Isa, Option<NonZeroUsize>),
-    job: &(dyn Fn(&mut SingleRuns<'_>, u64) -> T + Sync),
-) -> Result<Vec<T>, RunError<Infallible>> {
+    job: &(dyn Fn(&mut SingleRuns<'_>, SampleId) -> Result<T, E> + Sync),
+) -> Result<Vec<T>, RunError<E>> {
     let pool = ThreadPoolBuilder::new().num_threads(threads.map_or(0, NonZeroUsize::get)).build()?;
-    let runs = || SingleRuns::new(plan, plan.grid.clone(), isa);
-    Ok(pool.install(|| samples.par_iter().map_init(runs, |runs, sample| job(runs, *sample)).collect()))
+    let next = AtomicUsize::new(0);
+    let made: Mutex<Result<Vec<(usize, T)>, E>> = Mutex::new(Ok(Vec::with_capacity(samples.len())));
+    pool.broadcast(|_| {
+        let mut runs = None;
+        loop {
+            let place = next.fetch_add(1, Ordering::Relaxed);
+            let Some(sample) = samples.get(place) else { break };
+            let runs = runs.get_or_insert_with(|| SingleRuns::new(plan, plan.grid.clone(), isa));
+            let result = job(runs, *sample);
+            let mut made = made.lock().unwrap_or_else(PoisonError::into_inner);
+            match (&mut *made, result) {
+                (Ok(list), Ok(one)) => list.push((place, one)),
+                (Ok(_), Err(error)) => {
+                    next.store(samples.len(), Ordering::Relaxed);
+                    *made = Err(error);
+                }
+                (Err(_), _) => {}
+            }
+        }
+    });
+    let mut list = made.into_inner().unwrap_or_else(PoisonError::into_inner).map_err(RunError::Sink)?;
+    list.sort_unstable_by_key(|(place, _)| *place);
+    Ok(list.into_iter().map(|(_, one)| one).collect())
 }
 
 /// Every state of scenes of the kind of `request`.
