@@ -2,7 +2,7 @@
 //!
 //! - [`fold`]: one pass over the parts, of rows in memory or in files ([`part_columns`]), in which everything that follows gathers what it needs, each
 //!   by an [`accumulator`].
-//! - [`statistics`]: of every observable ([`observed`], [`population`], [`column_counts`]); [`tally`], [`audit_tally`]: statuses, worst runs, audits.
+//! - [`statistics`]: of every observable ([`observed`], [`population`], [`column_counts`], [`order_statistics`]); [`tally`], [`audit_tally`]: statuses, worst runs, audits.
 //! - [`verdicts`]: of the requirements, each an [`assessment`] (over time: `band_verdicts`); [`mod@stopping`]: whether the rows are enough.
 //! - [`sensitivity`]: which input matters; [`drivers`]: which of them the rows show; [`noise_share`]: what noise within loops does. - [`statistics_table`], [`sensitivity_table`]: both as files.
 //! - [`comparison`]: two results, by the samples that both drew ([`pairing`]); [`comparison_table`]: as a file.
@@ -23,6 +23,7 @@ pub mod fold;
 pub mod missions;
 pub mod noise_share;
 pub mod observed;
+pub mod order_statistics;
 pub mod outcomes;
 pub mod pairing;
 pub mod part_columns;

@@ -2,7 +2,8 @@
 
 use crate::storage::columnar::EncodingError;
 
-use crate::analysis::statistics::{ColumnStatistics, QuantileStatistic, Statistics};
+use crate::analysis::order_statistics::QuantileStatistic;
+use crate::analysis::statistics::{ColumnStatistics, Statistics};
 use crate::campaign::Plan;
 use crate::run::Status;
 use crate::statistics::quantile::percent;

@@ -2,8 +2,9 @@
 
 use serde::Serialize;
 
+use crate::analysis::order_statistics::QuantileStatistic;
 use crate::analysis::outcomes::{OF_MOTION, named};
-use crate::analysis::statistics::{ColumnStatistics, QuantileStatistic, Statistics};
+use crate::analysis::statistics::{ColumnStatistics, Statistics};
 use crate::campaign::{Plan, ShownUnit};
 use crate::observables::Group;
 use crate::observables::headlines::headlines;

@@ -3,8 +3,9 @@
 use crate::analysis::assessment::Assessment;
 use crate::analysis::missions::Missions;
 use crate::analysis::noise_share::NoiseShare;
+use crate::analysis::order_statistics::QuantileStatistic;
 use crate::analysis::sensitivity::InputSensitivity;
-use crate::analysis::statistics::{ColumnStatistics, QuantileStatistic, Statistics};
+use crate::analysis::statistics::{ColumnStatistics, Statistics};
 use crate::analysis::stopping::Stopping;
 use crate::analysis::survey::Survey;
 use crate::analysis::verdicts::Verdicts;

@@ -3,13 +3,14 @@
 //! It is a pure function of the plan and the rows (and what was computed from them): the same result gives the same bytes.
 //!
 //! - `runs`: the runs that are shown in full.
-//! - [`over_time`], `errors`, [`influence`], `inputs`: the figures. - `figure_json`: what the scripts need to draw them.
+//! - [`over_time`] (with `envelope`), `errors`, [`influence`], `inputs`: the figures. - `figure_json`: what the scripts need to draw them.
 //! - [`gather`]: what statistics, verdicts, sensitivities and bands are on the page. - [`cards`], `first_screen`, [`tables`], `document`: the HTML. - `replay`: the 3D replay. - `payload`: numbers in the page.
 //!
 //! The scripts and styles are in `assets/report/`.
 
 pub mod cards;
 mod document;
+mod envelope;
 mod errors;
 mod figure_json;
 mod first_screen;

@@ -1,0 +1,66 @@
+//! [`envelope`]: what is drawn of a curve that turns too often to be drawn itself.
+
+/// How often a curve may turn back until it is drawn as its envelope: some ten pixels for each swing.
+const MOST_TURNS: usize = 110;
+/// Intervals of an envelope.
+const ENVELOPE: usize = 60;
+
+/// How often a series turns back.
+pub fn turns(values: &[f64]) -> usize {
+    let steps = values.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step != 0.0);
+    let signs: Vec<bool> = steps.map(|step| step > 0.0).collect();
+    signs.windows(2).filter(|pair| pair[0] != pair[1]).count()
+}
+
+/// Times, smallest and largest values of a series that is too fast to be drawn, over short intervals; `None` of one that is not.
+pub fn envelope(times: &[f64], values: &[f64]) -> Option<[Vec<f64>; 3]> {
+    let count = values.len().min(times.len());
+    if turns(values) <= MOST_TURNS && 3 * turns(values) <= count.max(60) {
+        return None;
+    }
+    let width = count.div_ceil(ENVELOPE).max(4);
+    let mut found = [Vec::new(), Vec::new(), Vec::new()];
+    for start in (0..count.saturating_sub(1)).step_by(width) {
+        // neighbours share a point, so that the area has no gap
+        let part = start..(start + width + 1).min(count);
+        let ends = values[part.clone()]
+            .iter()
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(*x), high.max(*x)]);
+        for time in [times[part.start], times[part.end - 1]] {
+            found[0].push(time);
+            found[1].push(ends[0]);
+            found[2].push(ends[1]);
+        }
+    }
+    Some(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: a curve that turns too often is drawn as its envelope, which is its amplitude.
+    #[test]
+    fn fast_curves_have_envelopes() {
+        let times: Vec<f64> = (0..=600).map(|k| 0.01 * f64::from(k)).collect();
+        let wave = |hertz: f64| {
+            times.iter().map(|t| (1.0 + t) * libm::sin(core::f64::consts::TAU * hertz * t)).collect::<Vec<_>>()
+        };
+        assert_eq!((turns(&wave(1.0)), envelope(&times, &wave(1.0))), (12, None));
+        // eighty swings: the envelope is the amplitude, which grows from 1 to 7, within an interval
+        let [x, low, high] = envelope(&times, &wave(80.0 / 6.0)).expect("too fast");
+        assert!(x.is_sorted() && x[0] == 0.0 && *x.last().unwrap() == 6.0);
+        for k in 0..x.len() {
+            assert!(
+                (high[k] - (1.0 + x[k])).abs() < 0.6 && (low[k] + 1.0 + x[k]).abs() < 0.6,
+                "{}: {} {}",
+                x[k],
+                low[k],
+                high[k]
+            );
+        }
+        // one that turns at every point
+        let aliased: Vec<f64> = (0..101).map(|k| if k % 2 == 0 { 1.0 } else { -1.0 }).collect();
+        assert!(envelope(&times[..101], &aliased).is_some());
+    }
+}
