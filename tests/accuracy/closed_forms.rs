@@ -35,7 +35,7 @@ fn body(moments: [f64; 3], omega: [f64; 3]) -> SceneInput {
     let mut input = Golden::load("table1").scene;
     let [a, b, c] = moments;
     input.body.inertia_kg_m2 = Some([[a, 0.0, 0.0], [0.0, b, 0.0], [0.0, 0.0, c]]);
-    // about its own centre of mass also in the report's form, whose states are those of the base point
+    // about its own centre of mass also in Berdoz's form, whose states are those of the base point
     input.body.center_of_mass_m = Some([0.0; 3]);
     input.wheels.clear();
     input.debris = None;

@@ -1,7 +1,7 @@
 //! Any number of wheels, anywhere, about any axis, in any mode, with up to sixteen thrusters: every kernel and method against the
 //! double-double solution.
 //!
-//! Laws: null space, gyrostat with each method and the double-double solution agree: the report's form with its redundant states and the
+//! Laws: null space, gyrostat with each method and the double-double solution agree: Berdoz's form with its redundant states and the
 //! gyrostat share no equation; Taylor, periodic and Runge-Kutta propagation share no integrator. Energy minus work,
 //! momentum minus impulse and angular momentum minus angular impulse are constant; tables have columns only for wheels that turn.
 

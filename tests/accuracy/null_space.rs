@@ -271,7 +271,7 @@ proptest! {
 fn the_printed_sign_feeds_energy_from_nowhere() {
     let mut input = Golden::load("table1").scene;
     input.body.center_of_mass_m = Some([0.1, 0.0, 1.5]);
-    let scene = Scene::resolve(&input).expect("the report's scene");
+    let scene = Scene::resolve(&input).expect("Berdoz's scene");
     let (parameters, state, coast): (_, State, _) = (Parameters::of(&scene), sigma(&scene), Actuation::none(1.0));
     let relative = |rate: &State| {
         let (rate, size) = energy_rate(&parameters, &state, rate);

@@ -1,7 +1,7 @@
-//! The report's matrices whole, as printed (and corrected): Gamma, Pi, Pi-dot, M, M-dot, Omega, a_non, B; and its equations of
+//! Berdoz's matrices whole, as printed (and corrected): Gamma, Pi, Pi-dot, M, M-dot, Omega, a_non, B; and its equations of
 //! motion with the sign that it prints.
 //!
-//! Dense and slow: the proof that the block form of `dynamics::null_space` is the report's form. Rows of nu are, per body,
+//! Dense and slow: the proof that the block form of `dynamics::null_space` is Berdoz's form. Rows of nu are, per body,
 //! [velocity in F_e, angular velocity in the body's frame]; of nu-hat [v_p, omega_s, alpha-dot, beta-dot, v_gd, omega_d].
 
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
@@ -9,13 +9,13 @@ use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use spindrift::dynamics::null_space;
 use spindrift::dynamics::null_space::state::{PER_BODY, coordinates, speeds};
 
-/// Wheels of the report.
+/// Wheels of the paper.
 const WHEELS: usize = 2;
-/// The state with the report's two wheels.
+/// The state with Berdoz's two wheels.
 pub type State = null_space::State<WHEELS>;
-/// The constants with the report's two wheels.
+/// The constants with Berdoz's two wheels.
 pub type Parameters = null_space::Parameters<WHEELS>;
-/// The kernel of the report's two wheels.
+/// The kernel of Berdoz's two wheels.
 pub type Kernel = null_space::Kernel<WHEELS>;
 
 /// Bodies: fuselage, wheels, debris.

@@ -246,7 +246,7 @@ fn equilibria_stand_still() {
 const REFERENCE: f64 = 1e-10;
 const REFERENCE_ERROR: f64 = 3e-9;
 
-/// Law: the report's own equations agree in the special cases as well, those at rates it can follow.
+/// Law: Berdoz's own equations agree in the special cases as well, those at rates it can follow.
 #[test]
 fn special_cases_are_those_of_the_null_space_form() {
     for Special { name, input, amplification, .. } in specials() {

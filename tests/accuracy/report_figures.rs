@@ -1,4 +1,4 @@
-//! Figures 3 to 5 of the report: the total kinetic energy of its own 62-state form with Dormand-Prince 5(4).
+//! Figures 3 to 5 of the paper: the total kinetic energy of its own 62-state form with Dormand-Prince 5(4).
 //!
 //! Source: Berdoz, *Final Report - ADR Spacecraft*, Figures 3-5; the numbers from an independent run of the same form over
 //! two seconds, observed at 201 points. Law: the error of the energy follows the tolerance. Counter-test: with the printed
@@ -24,7 +24,7 @@ const POINTS: usize = 201;
 const FACTOR: f64 = 3.0;
 
 fn table_one() -> Scene {
-    Scene::resolve(&Golden::load("table1").scene).expect("the report's scene")
+    Scene::resolve(&Golden::load("table1").scene).expect("Berdoz's scene")
 }
 
 /// Every published series of the null-space kernel's run, and its effort.
@@ -47,14 +47,14 @@ fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()))
 }
 
-/// Figures 3 and 4: at most the error of the report at its tolerance, and in proportion to the tolerance.
+/// Figures 3 and 4: at most the error of the paper at its tolerance, and in proportion to the tolerance.
 #[test]
 fn the_error_of_the_energy_follows_the_tolerance() {
     let errors = [(1e-6, 6.2e-7), (1e-8, 6.6e-9)].map(|(tolerance, expected)| {
         let (all, effort) = figures(adaptive(tolerance));
         let error = largest(&series(&all, "energy_error"));
         println!("tolerance {tolerance:e}: energy error {error:e}, {} steps", effort.steps);
-        // the report's own figure, eleven times the measured one: it controlled the root mean square of a step's error
+        // Berdoz's own figure, eleven times the measured one: it controlled the root mean square of a step's error
         assert!(error < expected, "{error:e} at {tolerance:e}");
         error
     });

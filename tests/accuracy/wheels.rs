@@ -54,7 +54,7 @@ fn a_held_wheel_keeps_its_rate_and_its_angle_is_a_line() {
     }
 }
 
-/// The report's body with wheel 1 turned onto s1, so that P2 against P3 turns the body about the wheel's own axis, and P1
+/// Berdoz's body with wheel 1 turned onto s1, so that P2 against P3 turns the body about the wheel's own axis, and P1
 /// against their push.
 fn rotor(mode: WheelMode) -> SceneInput {
     let mut input = Golden::load("table1").scene;

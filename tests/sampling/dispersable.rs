@@ -1,6 +1,6 @@
 //! Every number that can be dispersed changes the motion, in both kernels alike, and what is recorded is what was applied.
 //!
-//! Law: a draw of one key moves the states away from the nominal ones by far more than the tolerance, and the report's form and
+//! Law: a draw of one key moves the states away from the nominal ones by far more than the tolerance, and Berdoz's form and
 //! the gyrostat agree on where to. The keys come from the table of parameters: a new one is tested as soon as it is there.
 
 use crate::support::observed::{observed, request};
@@ -21,7 +21,7 @@ use spindrift::scene::{
 
 /// Horizon, s.
 const HORIZON: f64 = 1.0;
-/// Tolerance of both kernels; a step of the report's form may add it a few hundred times.
+/// Tolerance of both kernels; a step of Berdoz's form may add it a few hundred times.
 const TOLERANCE: f64 = 1e-11;
 /// Distance of two kernels at this tolerance; measured at most 2e-11.
 const AGREED: f64 = 2e-10;

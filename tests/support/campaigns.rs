@@ -1,4 +1,4 @@
-//! Parts of campaign files, to be put together: the report's spacecraft, table by table.
+//! Parts of campaign files, to be put together: Berdoz's spacecraft, table by table.
 
 /// The fuselage.
 pub const FUSELAGE: &str = "\

@@ -6,7 +6,7 @@
 //! - [`debris`]: the free body beside the spacecraft.
 //! - [`environment`]: torques of the environment.
 //! - [`gyrostat`]: the reduced form, fast: three rates, an attitude, and further components where a scene needs them.
-//! - [`null_space`]: the report's 62-state null-space form.
+//! - [`null_space`]: Berdoz's 62-state null-space form.
 
 pub mod actuation;
 pub mod applied;

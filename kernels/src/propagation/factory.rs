@@ -65,7 +65,7 @@ impl NarrowWork for BuildNullSpace<'_> {
     }
 
     fn in_scalars<S: Simd>(self, simd: S) -> Self::Output {
-        // a kernel for the report's two wheels, and one for any number
+        // a kernel for Berdoz's two wheels, and one for any number
         if self.0.wheels <= 2 {
             Box::new(NullSpaceEngine::<S, 2, TWO_WHEELS>::new(simd, self.0))
         } else {

@@ -11,7 +11,7 @@ pub enum Method {
     Taylor,
     /// Gyrostat, an integrator of the list in [`crate::ode::integrators`].
     Gyrostat(Integrator),
-    /// The report's 62-state null-space formulation, Dormand-Prince 5(4).
+    /// Berdoz's 62-state null-space formulation, Dormand-Prince 5(4).
     NullSpace,
 }
 

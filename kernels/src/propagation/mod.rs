@@ -5,7 +5,7 @@
 //!
 //! - [`PropagationSettings`]: what is decided once per plan; `factory` makes an [`Engine`] of them.
 //! - [`taylor`]: Taylor series with periodic folding, and the double-double reference solution.
-//! - [`runge_kutta_engine`]: Runge-Kutta methods on the gyrostat. [`null_space_engine`]: the report's formulation.
+//! - [`runge_kutta_engine`]: Runge-Kutta methods on the gyrostat. [`null_space_engine`]: Berdoz's formulation.
 //! - [`arc_source`]: the arcs of constant actuation. [`gyrostat_batch`]: what all methods on the gyrostat share. [`trajectory_recorder`]: from integrators to trajectories.
 //! - [`local_error`], [`series_remainder`]: the errors of the steps of a run.
 

@@ -1,4 +1,4 @@
-//! The report's null-space formulation with Dormand-Prince 5(4), as an [`Engine`].
+//! Berdoz's null-space formulation with Dormand-Prince 5(4), as an [`Engine`].
 
 use fearless_simd::Simd;
 
@@ -17,7 +17,7 @@ use crate::scene::{MAX_WHEELS, Scene};
 /// The method: points inside a step by a step of their own, which costs little beside the right-hand side.
 type Pair = Adaptive<DormandPrinceRestepped>;
 
-/// Number of components of the report's two wheels.
+/// Number of components of Berdoz's two wheels.
 pub const TWO_WHEELS: usize = components(2);
 /// Number of components of as many wheels as a spacecraft may have.
 pub const ALL_WHEELS: usize = components(MAX_WHEELS);

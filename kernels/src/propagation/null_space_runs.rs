@@ -114,7 +114,7 @@ mod tests {
 
     #[test]
     fn the_error_norm_is_that_of_ode45() {
-        let scenes = [Scene::resolve(&samples::table_two()).expect("the report's scene")];
+        let scenes = [Scene::resolve(&samples::table_two()).expect("Berdoz's scene")];
         const COMPONENTS: usize = components(2);
         let runs = NullSpaceRuns::<2>::new(&scenes, 1.0);
         let tolerance = Tolerance { relative: 1e-3, absolute: 1e-6 };

@@ -81,7 +81,7 @@ impl SceneInput {
         }
     }
 
-    /// The spacecraft of the report (F. Berdoz, *Final Report - ADR Spacecraft*, Table II) at rest: a hollow cylinder, the wheels w1
+    /// The spacecraft of the paper (F. Berdoz, *Final Report - ADR Spacecraft*, Table II) at rest: a hollow cylinder, the wheels w1
     /// about s2 and w2 about s3, the thrusters p1, p2, p3; without debris.
     pub fn report() -> Self {
         let fuselage = PartInput {

@@ -3,7 +3,7 @@
 //! - [`schema`]: one row for each numeric key: unit, meaning, default, limit, where it is.
 //! - [`input`]: the scene as written. [`table`]: where in it the tables of the schema are.
 //! - [`second_moment`]: inertia by second moments of mass, and errors of a distribution of mass.
-//! - [`solids`]: mass, centre and inertia of homogeneous solids (the report's (60)-(67), in closed form).
+//! - [`solids`]: mass, centre and inertia of homogeneous solids (Berdoz's (60)-(67), in closed form).
 //! - [`body`]: the body of the spacecraft and the debris from their input. [`wheel`]: wheels that turn. `tensor`: inertias by rows.
 //! - [`mass`]: mass properties of the whole.
 //! - [`parameter`]: the numeric keys that can be dispersed.

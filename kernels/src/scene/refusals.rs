@@ -4,7 +4,7 @@ use super::input::SceneInput;
 use super::schema::{ActuationInput, DebrisInput, PrincipalInertia, PrincipalMoments, WheelInput, WheelMode};
 use super::{Name, Scene, samples};
 
-/// A change of the report's scene.
+/// A change of Berdoz's scene.
 type Change = fn(&mut SceneInput);
 
 fn changed(change: Change) -> SceneInput {

@@ -1,4 +1,4 @@
-//! From what a person wrote to a [`Scene`]: check everything, derive, normalise; the report's Sigma (59) in quaternions.
+//! From what a person wrote to a [`Scene`]: check everything, derive, normalise; Berdoz's Sigma (59) in quaternions.
 
 use super::error::Problems;
 use super::input::SceneInput;
@@ -132,7 +132,7 @@ mod tests {
     use crate::scene::{ActuationInput, samples};
     use proptest::prelude::*;
 
-    /// A change of the report's scene.
+    /// A change of Berdoz's scene.
     type Change = fn(&mut SceneInput);
 
     fn changed(change: Change) -> SceneInput {
@@ -149,7 +149,7 @@ mod tests {
     #[test]
     fn all_problems_come_at_once_and_leave_the_scene_alone() {
         let mut input = samples::table_two();
-        let mut scene = Scene::resolve(&input).expect("the report's scene");
+        let mut scene = Scene::resolve(&input).expect("Berdoz's scene");
         let before = scene.clone();
         input.parts[0].wall_thickness_m = Some(2.0);
         input.wheels[1].radius_m = Some(0.0);

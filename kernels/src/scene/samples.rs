@@ -1,10 +1,10 @@
-//! Scenes for the tests of this crate: the report's Tables I and II.
+//! Scenes for the tests of this crate: Berdoz's Tables I and II.
 
 use super::input::SceneInput;
 use super::schema::{DebrisInput, InitialInput};
 use core::f64::consts::PI;
 
-/// The report's scene: bodies of Table II, initial state of Table I, no force.
+/// Berdoz's scene: bodies of Table II, initial state of Table I, no force.
 pub(crate) fn table_two() -> SceneInput {
     let mut scene = SceneInput::report().with_debris(DebrisInput::Cube { side_m: 0.2, density_kg_m3: 2700.0 });
     scene.wheels[0].rate_rad_s = 100.0 * PI;

@@ -129,7 +129,7 @@ mod tests {
         })
     }
 
-    /// The report's integrals over a piece of a body: mass, first moment and -integral of r^x r^x, about the origin.
+    /// Berdoz's integrals over a piece of a body: mass, first moment and -integral of r^x r^x, about the origin.
     #[derive(Default)]
     struct Moments {
         mass: f64,

@@ -1,4 +1,4 @@
-//! [`Thruster`]: where a thruster pushes and in which direction; force and torque of several (the report's (72)).
+//! [`Thruster`]: where a thruster pushes and in which direction; force and torque of several (Berdoz's (72)).
 
 use super::schema::MAX_THRUSTERS;
 use crate::math::vector::{cross, difference, scaled, sum};
@@ -12,10 +12,10 @@ pub struct Thruster {
     pub direction: [f64; 3],
 }
 
-/// The directions of the report's thrusters P1, P2, P3 in F_s (72).
+/// The directions of Berdoz's thrusters P1, P2, P3 in F_s (72).
 pub const REPORT_DIRECTIONS: [[f64; 3]; 3] = [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [0.0, 0.0, -1.0]];
 
-/// The distance rho_p of P2 and P3 from s3, m, where `thrusters` are the report's, without alignment errors: P1 along s3 at p, P2 and
+/// The distance rho_p of P2 and P3 from s3, m, where `thrusters` are Berdoz's, without alignment errors: P1 along s3 at p, P2 and
 /// P3 along -s3 at (0, -rho_p, l) and (0, +rho_p, l).
 ///
 /// Force and torque of this arrangement are written out as in (72), so that equal thrusts P2 and P3 add up to exactly zero torque.

@@ -1,7 +1,7 @@
 //! Non-inertial terms and actuators, body by body: -M-dot nu - Omega M nu + a_non (39), and B u (26), (72)-(74).
 //!
-//! The three non-inertial terms are separate, as in the report, although for the fuselage their sum is -omega x J omega and
-//! C omega x (c x omega): so each can be compared with the report's.
+//! The three non-inertial terms are separate, as in the paper, although for the fuselage their sum is -omega x J omega and
+//! C omega x (c x omega): so each can be compared with Berdoz's.
 
 use super::kinematics::WheelMotion;
 use super::parameters::{Parameters, WheelParameters};

@@ -85,7 +85,7 @@ impl WheelMotion {
 
 /// Calls `body` with the index of each of `W` wheels, in order.
 ///
-/// Two wheels, the report's, are written out: the compiler does not unroll a loop over so large a body, and what a loop indexes
+/// Two wheels, Berdoz's, are written out: the compiler does not unroll a loop over so large a body, and what a loop indexes
 /// stays in memory.
 #[inline(always)]
 pub fn for_each_wheel<const W: usize>(mut body: impl FnMut(usize)) {

@@ -19,7 +19,7 @@ pub const fn speeds(wheels: usize) -> usize {
     12 + wheels
 }
 
-/// Number of states x = [q; nu-hat] (41) with `wheels` wheels; 62 with the report's two.
+/// Number of states x = [q; nu-hat] (41) with `wheels` wheels; 62 with Berdoz's two.
 pub const fn states(wheels: usize) -> usize {
     coordinates(wheels) + speeds(wheels)
 }

@@ -6,7 +6,7 @@ use super::numbers::Numbers;
 use super::rows::rows;
 
 rows! {
-    /// The measurable state at time zero (the report's Sigma, (59), builds the full state from it).
+    /// The measurable state at time zero (Berdoz's Sigma, (59), builds the full state from it).
     pub struct InitialInput in InitialInput [table => table] {
     position_m: [f64; 3] = [0.0; 3], "m", "Position of p from the inertial origin, in F_e", XYZ, Plain, Limit::Finite,
         (optional);
