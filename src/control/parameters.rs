@@ -43,7 +43,7 @@ pub static DEBRIS: [LawParameter; 7] = [
     LawParameter::number(
         "approach_axis",
         "1",
-        "The axis then, a direction in F_e along which s3 points at the launch; zero: the mission fails",
+        "Launch axis below that speed, a direction in F_e along which s3 points; zero: the mission fails",
         Limit::Finite,
     )
     .with_components(&["x", "y", "z"])

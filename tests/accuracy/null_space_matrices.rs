@@ -9,7 +9,7 @@ use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use spindrift::dynamics::null_space;
 use spindrift::dynamics::null_space::state::{PER_BODY, coordinates, speeds};
 
-/// Wheels of the report.
+/// Wheels of the paper.
 const WHEELS: usize = 2;
 /// The state with Berdoz's two wheels.
 pub type State = null_space::State<WHEELS>;

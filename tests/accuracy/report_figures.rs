@@ -1,4 +1,4 @@
-//! Figures 3 to 5 of the report: the total kinetic energy of its own 62-state form with Dormand-Prince 5(4).
+//! Figures 3 to 5 of the paper: the total kinetic energy of its own 62-state form with Dormand-Prince 5(4).
 //!
 //! Source: Berdoz, *Final Report - ADR Spacecraft*, Figures 3-5; the numbers from an independent run of the same form over
 //! two seconds, observed at 201 points. Law: the error of the energy follows the tolerance. Counter-test: with the printed

@@ -221,8 +221,8 @@ macro_rules! exchange {
             of!(Exchange, $scenes, $series, Value(ValueStatistic::PeakToPeak), ["exchange_", $body, "_peak_to_peak_j"], "J", ["Maximum minus minimum of the kinetic energy of ", $what, " about the centre of mass."]),
             of!(Exchange, $scenes, $series, Fraction, ["exchange_", $body, "_fraction"], "", ["Maximum minus minimum of the kinetic energy of ", $what, ", relative to the largest total about the centre of mass (0 where that is 0)."]),
             of!(Exchange, $scenes, $series, Value(ValueStatistic::Net), ["exchange_", $body, "_net_j"], "J", ["Last minus first kinetic energy of ", $what, " about the centre of mass."]),
-            of!(Exchange, $scenes, $series, Change(ChangeStatistic::Gross), ["exchange_", $body, "_gross_j"], "J", ["Sum of |dT| between neighbouring points of ", $what, " about the centre of mass."]),
-            of!(Exchange, $scenes, $series, Change(ChangeStatistic::Power), ["exchange_", $body, "_power_max_w"], "W", ["Maximum of |dT/dt| between neighbouring points of ", $what, " about the centre of mass."]),
+            of!(Exchange, $scenes, $series, Change(ChangeStatistic::Gross), ["exchange_", $body, "_gross_j"], "J", ["Sum of |dT| from point to point, T the kinetic energy of ", $what, " about the centre of mass."]),
+            of!(Exchange, $scenes, $series, Change(ChangeStatistic::Power), ["exchange_", $body, "_power_max_w"], "W", ["Maximum of |dT/dt| from point to point, T the kinetic energy of ", $what, " about the centre of mass."]),
         ]
     };
 }

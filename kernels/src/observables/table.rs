@@ -372,7 +372,7 @@ series! {
     EnergyBody [1]: Energies, Quantity, None, [SPIN, BODIES, REDUNDANT], Some(("energy_body_j", "J")), "Kinetic energy of the body in F_e.";
     EnergyWheel [MAX_WHEELS]: Energies, Quantity, None, [SPIN, BODIES, REDUNDANT], Some(("energy_{wheel}_j", "J")), "Kinetic energy of wheel {wheel} in F_e.";
     EnergyDebris [1]: Energies, Quantity, None, [SPIN, DEBRIS_ENERGY], Some(("energy_debris_j", "J")), "Kinetic energy of the debris in F_e.";
-    EnergyTotal [1]: Energies, Quantity, None, [SPIN, TOTAL, REDUNDANT, DEBRIS_ENERGY], Some(("energy_total_j", "J")), "Total kinetic energy in F_e, debris included.";
+    EnergyTotal [1]: Energies, Quantity, None, [SPIN, TOTAL, REDUNDANT, DEBRIS_ENERGY], Some(("energy_total_j", "J")), "Total kinetic energy, debris included, in F_e.";
     ComBody [1]: Energies, Quantity, None, [SPIN], Some(("energy_com_body_j", "J")), "Kinetic energy of the body about the spacecraft's centre of mass.";
     ComWheel [MAX_WHEELS]: Energies, Quantity, None, [SPIN], Some(("energy_com_{wheel}_j", "J")), "Kinetic energy of wheel {wheel} about the spacecraft's centre of mass.";
     ComWheels [1]: Energies, Quantity, None, [SPIN], Some(("energy_com_wheels_j", "J")), "Kinetic energy of all wheels together about the spacecraft's centre of mass.";
@@ -445,7 +445,7 @@ direct_values! {
 #[rustfmt::skip]
 static FAMILIES: &[&[Column]] = &[
     errors!(EnergyConservation, All, EnergyError, "energy_error", "the error of total kinetic energy minus the work of actuators and torques on the body, relative to the largest sum of the energies of all bodies and the magnitudes of work."),
-    scales!(EnergyConservation, All, EnergyTotal, "energy_total", ["J", "_j"], "total kinetic energy in F_e, debris included"),
+    scales!(EnergyConservation, All, EnergyTotal, "energy_total", ["J", "_j"], "total kinetic energy, debris included, in F_e"),
     &[
         direct!(EnergyConservation, ExternalTorque, Float, WorkThrusters, "work_thrusters_final_j", "J", "Work done until the last point by the thrusters and, where the environment or a control law applies one, by torques on the body."),
         direct!(EnergyConservation, Motors, Float, WorkMotors, "work_motors_final_j", "J", "Work done by the wheel motors until the last point."),

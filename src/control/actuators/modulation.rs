@@ -12,11 +12,11 @@ static LEVELS: [LawParameter; 2] = [
     LawParameter::number(
         "level_on",
         "1",
-        "Share of the shortest firing from which a thruster fires",
+        "Share of the shortest firing at which a thruster turns on",
         Limit::NotNegative,
     )
     .or(&[0.75]),
-    LawParameter::number("level_off", "1", "Share of the shortest firing down to which it goes on", Limit::NotNegative)
+    LawParameter::number("level_off", "1", "Share of the shortest firing at which it turns off", Limit::NotNegative)
         .or(&[0.25]),
 ];
 

@@ -36,7 +36,7 @@ static PARAMETERS: [LawParameter; 7] = [
         .with_components(&AXES)
         .or(&[1.0; 3]),
     axes("misalignment_rad", "rad", "Rotation vector from the body to the axes of the gyro", Limit::Finite),
-    optional("quantization_rad", "rad", "Angle of one count; what is below it waits for the next sample; 0: none"),
+    optional("quantization_rad", "rad", "Angle of one count; the remainder is carried to the next sample; 0: none"),
     optional("max_rate_rad_s", "rad/s", "Largest mean rate about each axis that it measures; 0: no limit"),
 ];
 

@@ -14,7 +14,7 @@ rows! {
     direction: [f64; 3] = [0.0, 0.0, 1.0], "1", "Direction of the force on the spacecraft, in F_s; need not have length one",
         XYZ, Plain, Limit::Direction, (required "[0, 0, 1]");
     tilt_rad: [f64; 2] = [0.0; 2], "rad",
-        "Alignment error: components of the rotation vector that turns the nominal direction into the true one, along the two axes of F_s across it (of an oblique direction: across it as the documents say)",
+        "Alignment error: components of the rotation vector that turns the nominal direction into the true one, along the two axes of F_s perpendicular to it (oblique directions: docs/campaign-files.md)",
         ACROSS, Plain, Limit::Finite, (optional);
     thrust_scale: f64 = 1.0, "1", "Factor of the commanded thrust", SCALAR, Plain,
         Limit::Thrust("write zero for a thruster that does not work"), (optional);

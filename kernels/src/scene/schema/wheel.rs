@@ -23,7 +23,7 @@ rows! {
     transverse_inertia_kg_m2: Option<f64> = None, "kg m^2",
         "Moment of inertia about any axis through the centre across the spin axis", SCALAR, Plain, Limit::Positive, (optional);
     tilt_rad: [f64; 2] = [0.0; 2], "rad",
-        "Alignment error of the spin axis: components of the rotation vector that turns the nominal axis into the true one, along the two axes of F_s across it (of an oblique axis: across it as the documents say)",
+        "Alignment error of the spin axis: components of the rotation vector that turns the nominal axis into the true one, along the two axes of F_s perpendicular to it (oblique axes: docs/campaign-files.md)",
         ACROSS, Plain, Limit::Finite, (optional);
     rate_rad_s: f64 = 0.0, "rad/s", "Rate relative to the body at the start", SCALAR, Plain, Limit::Finite, (optional);
     angle_rad: f64 = 0.0, "rad", "Angle relative to the body at the start", SCALAR, Plain, Limit::Finite, (optional);
