@@ -255,6 +255,7 @@ mod tests {
     use crate::analysis::small_plan::small_plan;
     use crate::run::Status;
     use crate::sampling::SampleId;
+    use crate::statistics::quantile::quantile;
     use crate::storage::disk::Disk;
     use std::borrow::Cow;
 

@@ -93,7 +93,7 @@ pub fn findings(
     display: &Display,
 ) -> Vec<Card> {
     const MOST: usize = 6;
-    let outcomes = survey.outcomes.iter().filter(|outcome| outcome.is_outcome);
+    let outcomes = survey.outcomes.iter().filter(|outcome| outcome.is_outcome && outcome.sketch.count() > 0);
     let card = |outcome: &SurveyedOutcome| {
         let name = outcome.quantity.name();
         let row = statistics.iter().find(|row| row.name == name);
@@ -116,9 +116,7 @@ fn finding(outcome: &SurveyedOutcome, row: Option<&StatisticsRow>, shown: &Shown
     let (min, max) = (outcome.sketch.min().unwrap_or(f64::NAN), outcome.sketch.max().unwrap_or(f64::NAN));
     let [lower, upper] = [0.05, 0.95].map(|p| quantiles.iter().find(|quantile| quantile[0] == p));
     let statistic = if runs > 1 { format!("{percent}%-quantile") } else { "value".to_owned() };
-    let (sentence, note) = if runs == 0 {
-        ("No dispersed run ended ok: nothing can be said.".to_owned(), String::new())
-    } else if runs == 1 {
+    let (sentence, note) = if runs == 1 {
         (format!("The only run that is ok: {what} {}.", text(estimate)), String::new())
     } else {
         let sentence = match (lower, upper) {

@@ -174,7 +174,10 @@ pub fn is_above_tolerance(plan: &Plan, survey: &Survey) -> bool {
 
 /// The cards, and what they `said` together; an example of a requirement where there is none.
 pub fn verdicts(cards: &[Card], has_requirements: bool, said: &[String]) -> String {
-    let cards: String = cards.iter().map(Card::html).collect();
+    let cards = match cards {
+        [] => "<p>Nothing: no dispersed run has a value of an outcome.</p>".to_owned(),
+        cards => cards.iter().map(Card::html).collect(),
+    };
     let said: String =
         said.iter().map(|text| format!("<p class=\"quiet\">{}.</p>", escaped(&sentence(text)))).collect();
     let (title, example) = if has_requirements {
@@ -199,6 +202,13 @@ mod tests {
     use crate::report::page::runs::ShownRun;
     use crate::report::page::tables::worst_runs;
     use crate::sampling::SampleId;
+
+    /// Law: where no run has an outcome there is no card, and the page says so.
+    #[test]
+    fn without_outcomes_there_is_no_card() {
+        let text = verdicts(&[], false, &[]);
+        assert!(text.contains("Nothing: no dispersed run") && !text.contains("<article"), "{text}");
+    }
 
     /// Law: a reason is text, whatever is in it, at the head of the page and in the list of worst runs.
     #[test]
