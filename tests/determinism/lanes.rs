@@ -123,12 +123,12 @@ const GOLDEN: [(Method, &str, &str); 7] = [
     (
         Method::Auto,
         "9eb26cf84029ce4db8bbbbdb7548e22d1bb15db9592b07f0e3efb948953063d1",
-        "02a24c28c6a24eb36cbc819d08ba61523dd80b16caac54e3c68ca5049cd7232c",
+        "954f6d7f52f878b6440c8f144ff71383ce55c89b1658066d82e0c2f9dab44f2f",
     ),
     (
         Method::Taylor,
         "deaeeafe6a10e6518c5a1c3c83a1afa23b4c391f4940c41b5f018f23fac336d3",
-        "734625bee8aaeb0ec0983c683d6a54cd867b700a859434b64bcf52c09d761622",
+        "989b43afa08162fc2aeadd8337e404dfef701c2b9d54cac8190909f231280ec1",
     ),
     (
         Method::Gyrostat(Integrator::DormandPrince),

@@ -12,9 +12,10 @@ use super::lanes::{RunCallback, RunLanes};
 use super::period_folding::{PeriodFolding, folded_lanes, is_due};
 use super::period_search::{period, return_time};
 use super::points::{StepSeries, Until};
+use super::thrust::Push;
 use super::workspace::Workspace;
 use crate::dynamics::gyrostat::equations::Constants;
-use crate::dynamics::gyrostat::{ANGLE, Gyrostat};
+use crate::dynamics::gyrostat::{ANGLE, Gyrostat, WITH_THRUST};
 use crate::math::sums::{fast_two_sum, two_sum};
 use crate::math::{Mask, Real};
 use crate::propagation::arc_source::ArcSource;
@@ -102,9 +103,13 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> Drive
             let increment = slope[i].mul_add(length, vectors.state_low[i]);
             (vectors.state[i], vectors.state_low[i]) = fast_two_sum(vectors.state[i], increment);
         }
+        let mut push = Push::none(zero);
         if FORCED {
+            if N >= WITH_THRUST {
+                push = work.quadrature.over_step(&constants, &segment.jet[..=order], length);
+            }
             let turned = [slope[ANGLE] * length, slope[ANGLE + 1] * length, slope[ANGLE + 2] * length];
-            let growth = work.quadrature.growth(&constants, &segment.jet[..=order], &begin, turned, length);
+            let growth = push.growth(&constants, &begin, turned, length);
             for i in J..N {
                 (vectors.state[i], vectors.state_low[i]) = two_sum(vectors.state[i], growth[i] + vectors.state_low[i]);
             }
@@ -120,7 +125,7 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> Drive
         let continues = zero.lt(left);
         let covered = R::select(finite, R::select(continues, time, infinite), -infinite);
         while self.lanes.vectors.next_point.lt(covered).any() {
-            self.observe(&constants, (&begin, order), covered);
+            self.observe(&constants, (&begin, order), (length, &push), covered);
         }
 
         let back = self.lanes.detector.passes(omega);
@@ -133,11 +138,19 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> Drive
 
     /// Evaluates the next observation point of every lane that has one before `covered`.
     #[inline(always)]
-    fn observe(&mut self, constants: &Constants<R>, (begin, order): (&[R; N], usize), covered: R) {
+    fn observe(
+        &mut self,
+        constants: &Constants<R>,
+        (begin, order): (&[R; N], usize),
+        (length, push): (R, &Push<R>),
+        covered: R,
+    ) {
         let RunLanes { vectors, work, .. } = &mut self.lanes;
         let due = vectors.next_point.lt(covered);
-        let (segment, quadrature) = (work.ring.last(), &work.quadrature);
-        let series = StepSeries { segment, order, quadrature, constants, begin, per_unit: vectors.per_unit };
+        let Workspace { ring, quadrature, .. } = &mut **work;
+        let segment = ring.last();
+        let per_unit = vectors.per_unit;
+        let mut series = StepSeries { segment, order, quadrature, length, push, constants, begin, per_unit };
         let rows = series.components::<FORCED>(vectors.next_point, due);
         self.lanes.write_points(&rows, due);
     }

@@ -194,11 +194,16 @@ impl<'a, S: Simd, R: Real, const N: usize, const J: usize> RunLanes<'a, S, R, N,
             let Some(state) = &mut self.states[lane] else { continue };
             let point = state.point;
             state.point += 1;
-            for (i, row) in rows.iter().enumerate() {
-                self.work.trajectories[lane].column_mut(i)[point] = row[lane];
-            }
+            let Workspace { points, trajectories, .. } = &mut *self.work;
+            points.push(lane, point, rows, &mut trajectories[lane]);
             self.set_next_point(lane);
         }
+    }
+
+    /// Writes the points of `lane` that have not reached its trajectory.
+    fn flush_points(&mut self, lane: usize) {
+        let Workspace { points, trajectories, .. } = &mut *self.work;
+        points.flush::<N>(lane, &mut trajectories[lane]);
     }
 
     /// Lets `lane` wait for its points to be evaluated together with those of other lanes.
@@ -223,6 +228,7 @@ impl<'a, S: Simd, R: Real, const N: usize, const J: usize> RunLanes<'a, S, R, N,
 
     /// Begins the next arc of `lane`, or passes its run to `finish` and loads the next.
     pub(super) fn end_arc(&mut self, lane: usize, finish: &mut RunCallback<'_>) {
+        self.flush_points(lane);
         let Some(state) = &mut self.states[lane] else { return };
         let steps = state.steps(self.work.ring.clock);
         if let Some(waiting) = &state.waiting {
@@ -242,6 +248,7 @@ impl<'a, S: Simd, R: Real, const N: usize, const J: usize> RunLanes<'a, S, R, N,
     /// Passes on a run that cannot continue.
     #[cold]
     pub(super) fn fail(&mut self, lane: usize, status: Status, finish: &mut RunCallback<'_>) {
+        self.flush_points(lane);
         let Some(state) = self.states[lane] else { return };
         let start = self.work.ring.last().start.lane(lane);
         let reached = if status == Status::NonFinite { start } else { self.vectors.time.lane(lane) };

@@ -3,7 +3,7 @@
 //! - [`jet`]: the recurrences. [`step`]: order and step size. [`thrust`]: integrals of the thrust along a step.
 //!   `brief`: the order of arcs much shorter than a step. `truncation`: estimates of what the steps leave out. [`dense`]: evaluation of series.
 //! - [`driver`]: the steps of all lanes and what happens to them; `lanes`: which run is in which lane; `lane_state`, `lane_vectors`:
-//!   where each is in its run; `points`: observation points during a step; [`workspace`], `series_ring`: memory.
+//!   where each is in its run; `points`, `point_rows`: observation points during a step; [`workspace`], `series_ring`: memory.
 //! - [`period`], `period_search`: the period of omega and time folded by it; [`return_detector`]: its search in all lanes at once;
 //!   `period_folding`, `fold_buffer`: the points of runs whose period is known.
 //! - [`reference_solution`]: reference solutions of any scene by the same recurrences in double-double.
@@ -25,6 +25,7 @@ mod lanes;
 pub mod period;
 mod period_folding;
 mod period_search;
+mod point_rows;
 mod points;
 pub mod reference_solution;
 pub mod return_detector;

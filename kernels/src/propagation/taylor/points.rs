@@ -5,9 +5,9 @@ use super::dense::{Segment, value_at, values};
 use super::lane_state::SeriesLane;
 use super::lane_vectors::si_factors;
 use super::series_ring::SeriesRing;
-use super::thrust::{Quadrature, angle_of};
-use crate::dynamics::gyrostat::ANGLE;
+use super::thrust::{Push, Quadrature, angle_of};
 use crate::dynamics::gyrostat::equations::Constants;
+use crate::dynamics::gyrostat::{ANGLE, WITH_THRUST};
 use crate::math::Real;
 use crate::math::lanes::WIDEST;
 use crate::run::{Grid, Trajectory};
@@ -17,7 +17,10 @@ pub(super) struct StepSeries<'a, R, const N: usize, const J: usize> {
     pub segment: &'a Segment<R, J>,
     /// The order of its series.
     pub order: usize,
-    pub quadrature: &'a Quadrature,
+    pub quadrature: &'a mut Quadrature<R>,
+    /// Its length, and what the thrust adds over it.
+    pub length: R,
+    pub push: &'a Push<R>,
     /// The constants at the start of the step.
     pub constants: &'a Constants<R>,
     /// The state there.
@@ -29,7 +32,7 @@ pub(super) struct StepSeries<'a, R, const N: usize, const J: usize> {
 impl<R: Real, const N: usize, const J: usize> StepSeries<'_, R, N, J> {
     /// The components at the times `at` since the start of the arc, SI, lane by lane. The quadrature states only where `FORCED`.
     #[inline(always)]
-    pub(super) fn components<const FORCED: bool>(&self, at: R, due: R::Mask) -> [[f64; WIDEST]; N] {
+    pub(super) fn components<const FORCED: bool>(&mut self, at: R, due: R::Mask) -> [[f64; WIDEST]; N] {
         let zero = at.zero();
         let segment = self.segment;
         let jet = &segment.jet[..=self.order];
@@ -42,17 +45,22 @@ impl<R: Real, const N: usize, const J: usize> StepSeries<'_, R, N, J> {
             for i in 0..3 {
                 turned[i] -= jet[0][ANGLE + i];
             }
-            let growth = self.quadrature.growth(self.constants, jet, self.begin, turned, x);
+            let push = if N < WITH_THRUST {
+                *self.push
+            } else {
+                self.quadrature.until(self.constants, jet, (self.length, self.push), x)
+            };
+            let growth = push.growth(self.constants, self.begin, turned, x);
             for i in J..N {
                 all[i] = self.begin[i] + growth[i];
             }
         }
         let factors = si_factors::<R, N>(self.per_unit);
-        let mut rows = [[0.0; WIDEST]; N];
-        for i in 0..N {
-            (all[i] * factors[i]).write(&mut rows[i]);
-        }
-        rows
+        core::array::from_fn(|i| {
+            let mut row = [0.0; WIDEST];
+            (all[i] * factors[i]).write(&mut row);
+            row
+        })
     }
 }
 

@@ -5,7 +5,10 @@
 //! attitude is known as a polynomial, exact to the tolerance, so the integrals are taken from it at the nodes of
 //! Gauss-Legendre quadrature: m nodes integrate exp(i Omega t) over h to (Omega h)^2m (m!)^4/((2m+1) (2m)!^3)
 //! (P. J. Davis & P. Rabinowitz, *Methods of Numerical Integration*, 2nd ed. 1984, section 2.7), and m is chosen from the
-//! largest turn that a step may have. An observation point inside a step is the end of a shorter one.
+//! largest turn that a step may have. Force and torque are constant in B, so that it is the direction cosine matrix that is
+//! integrated: ten sums of products of the quaternion's components.
+//!
+//! An observation point inside a step is reached from whichever end of the step is nearer, with the nodes that half a step needs.
 
 use super::step::StepRule;
 use crate::dynamics::gyrostat::equations::Constants;
@@ -13,7 +16,7 @@ use crate::dynamics::gyrostat::{
     ANGLE, ANGULAR_IMPULSE, ATTITUDE, IMPULSE, IMPULSE_INTEGRAL, MOTOR_WORK, THRUST_WORK, WITH_THRUST,
 };
 use crate::math::Real;
-use crate::math::vector::{dcm_from_quaternion, dot, product};
+use crate::math::vector::{dot, product};
 
 /// Error of the quadrature, as a share of the tolerance.
 const SHARE: f64 = 0.1;
@@ -22,77 +25,180 @@ const MOST_NODES: usize = 12;
 
 /// Nodes and weights of Gauss-Legendre quadrature on [0, 1].
 #[derive(Clone, Debug, PartialEq)]
-pub struct Quadrature {
-    /// Node and weight.
-    nodes: Vec<(f64, f64)>,
+pub struct Quadrature<R> {
+    /// Node and weight, for a whole step.
+    step: Vec<(f64, f64)>,
+    /// The same for half a step.
+    half: Vec<(f64, f64)>,
+    /// The attitude at each node: memory.
+    attitudes: Vec<[R; 4]>,
 }
 
-impl Quadrature {
-    /// The smallest number of nodes that integrates a turning vector over the largest step of `rule` to the tolerance.
-    pub fn new(rule: &StepRule, tolerance: f64) -> Self {
-        let turn = rule.largest_turn();
-        let mut count = 2;
-        while count < MOST_NODES && error(count, turn) > SHARE * tolerance {
-            count += 1;
-        }
-        Quadrature { nodes: (0..count).map(|i| node(count, i)).collect() }
+/// What the thrust adds over an interval, F_e.
+#[derive(Clone, Copy, Debug)]
+pub struct Push<R> {
+    /// Integral of the force.
+    pub impulse: [R; 3],
+    /// Integral of the impulse since the start of the interval.
+    pub path: [R; 3],
+    /// Integral of the torque.
+    pub angular: [R; 3],
+}
+
+impl<R: Real> Quadrature<R> {
+    /// The smallest number of nodes that integrates a turning vector over the largest step of `rule` to the tolerance; `zero` says in how many lanes.
+    pub fn new(zero: R, rule: &StepRule, tolerance: f64) -> Self {
+        let nodes = |turn: f64| -> Vec<(f64, f64)> {
+            let enough = (2..MOST_NODES).find(|m| error(*m, turn) <= SHARE * tolerance).unwrap_or(MOST_NODES);
+            (0..enough).map(|i| node(enough, i)).collect()
+        };
+        let (step, half) = (nodes(rule.largest_turn()), nodes(0.5 * rule.largest_turn()));
+        let attitudes = vec![[zero; 4]; step.len()];
+        Quadrature { step, half, attitudes }
     }
 
-    /// Number of nodes.
+    /// Number of nodes of a whole step.
     pub fn count(&self) -> usize {
-        self.nodes.len()
+        self.step.len()
+    }
+
+    /// What the thrust adds over a step of length `x` along the series `jet`.
+    #[inline(always)]
+    pub fn over_step<const J: usize>(&mut self, constants: &Constants<R>, jet: &[[R; J]], x: R) -> Push<R> {
+        push((&self.step, &mut self.attitudes), constants, jet, [x.zero(), x])
+    }
+
+    /// What it adds until `x` after the start of a step of length `length`, over which it adds `whole`.
+    #[inline(always)]
+    pub fn until<const J: usize>(
+        &mut self,
+        constants: &Constants<R>,
+        jet: &[[R; J]],
+        (length, whole): (R, &Push<R>),
+        x: R,
+    ) -> Push<R> {
+        let rest = length - x;
+        let late = rest.lt(x);
+        let from = R::select(late, x, x.zero());
+        let part = push((&self.half, &mut self.attitudes), constants, jet, [from, R::select(late, rest, x)]);
+        let mut until = part;
+        for i in 0..3 {
+            let impulse = whole.impulse[i] - part.impulse[i];
+            // whole.path = path + rest impulse + part.path
+            let path = rest.neg_mul_add(impulse, whole.path[i] - part.path[i]);
+            until.impulse[i] = R::select(late, impulse, part.impulse[i]);
+            until.path[i] = R::select(late, path, part.path[i]);
+            until.angular[i] = R::select(late, whole.angular[i] - part.angular[i], part.angular[i]);
+        }
+        until
+    }
+}
+
+impl<R: Real> Push<R> {
+    /// No thrust.
+    pub fn none(zero: R) -> Self {
+        Push { impulse: [zero; 3], path: [zero; 3], angular: [zero; 3] }
     }
 
     /// The increase of the components from [`MOTOR_WORK`] on from the start of a step to `x` after it, zero in the others.
     ///
-    /// `jet` has at least the series of rate, attitude and angle; `start` is the whole state at the start of the step, and
-    /// `angle` the increase of the angle until `x`. `constants` are those of the start of the step.
+    /// `start` is the whole state at the start of the step, and `angle` the increase of the angle until `x`. `constants` are those of
+    /// the start of the step.
     ///
     /// Only `N` = [`WITH_THRUST`] has the components of thrust. Their work needs no quadrature of its own: Gauss collocation
     /// conserves quadratic invariants (J. M. Sanz-Serna, BIT 28, 1988), so that the sum over the nodes of force times
     /// impulse is half the change of the impulse's square.
     #[inline(always)]
-    pub fn growth<R: Real, const N: usize, const J: usize>(
-        &self,
-        constants: &Constants<R>,
-        jet: &[[R; J]],
-        start: &[R; N],
-        angle: [R; 3],
-        x: R,
-    ) -> [R; N] {
-        let zero = x.zero();
+    pub fn growth<const N: usize>(&self, constants: &Constants<R>, start: &[R; N], angle: [R; 3], x: R) -> [R; N] {
         let half = x.splat(0.5);
-        let mut grown = [zero; N];
+        let mut grown = [x.zero(); N];
         // tau_i Omega_i = tau_i h_i/J_i - tau_i a_i . omega: the first term is linear in time
         let driven = (half * constants.motor_power_rate).mul_add(x, constants.motor_power);
         grown[MOTOR_WORK] = driven.mul_add(x, -dot(constants.momentum_rate, angle));
         if N < WITH_THRUST {
             return grown;
         }
-        let (mut force_sum, mut force_moment, mut torque_sum) = ([zero; 3], [zero; 3], [zero; 3]);
-        for (node, weight) in &self.nodes {
-            let q = attitude(jet, x.splat(*node) * x);
-            let c_eb = dcm_from_quaternion(q);
-            let (force_e, torque_e) = (product(c_eb, constants.force), product(c_eb, constants.torque));
-            let (weight, moment) = (x.splat(*weight), x.splat(weight * (1.0 - node)));
-            for i in 0..3 {
-                force_sum[i] = weight.mul_add(force_e[i], force_sum[i]);
-                force_moment[i] = moment.mul_add(force_e[i], force_moment[i]);
-                torque_sum[i] = weight.mul_add(torque_e[i], torque_sum[i]);
-            }
-        }
         let mut velocity = constants.velocity;
         for i in 0..3 {
-            let pushed = x * force_sum[i];
             let before = start[IMPULSE + i];
-            grown[IMPULSE + i] = pushed;
-            grown[IMPULSE_INTEGRAL + i] = x * x.mul_add(force_moment[i], before);
-            grown[ANGULAR_IMPULSE + i] = x * torque_sum[i];
-            velocity[i] = constants.inverse_mass.mul_add(half.mul_add(pushed, before), velocity[i]);
+            grown[IMPULSE + i] = self.impulse[i];
+            grown[IMPULSE_INTEGRAL + i] = x.mul_add(before, self.path[i]);
+            grown[ANGULAR_IMPULSE + i] = self.angular[i];
+            velocity[i] = constants.inverse_mass.mul_add(half.mul_add(self.impulse[i], before), velocity[i]);
         }
-        let pushed = [grown[IMPULSE], grown[IMPULSE + 1], grown[IMPULSE + 2]];
-        grown[THRUST_WORK] = dot(pushed, velocity) + dot(constants.torque, angle);
+        grown[THRUST_WORK] = dot(self.impulse, velocity) + dot(constants.torque, angle);
         grown
+    }
+}
+
+/// What the thrust adds over `length` from `from` on, with the quadrature `nodes`.
+#[inline(always)]
+fn push<R: Real, const J: usize>(
+    (nodes, attitudes): (&[(f64, f64)], &mut [[R; 4]]),
+    constants: &Constants<R>,
+    jet: &[[R; J]],
+    [from, length]: [R; 2],
+) -> Push<R> {
+    let zero = length.zero();
+    for ((node, _), q) in nodes.iter().zip(&mut *attitudes) {
+        *q = attitude(jet, length.splat(*node).mul_add(length, from));
+    }
+    let (mut turned, mut moment) = (AttitudeProducts::none(zero), AttitudeProducts::none(zero));
+    for ((_, weight), q) in nodes.iter().zip(&*attitudes) {
+        turned.add(zero.splat(*weight), q);
+    }
+    for ((node, weight), q) in nodes.iter().zip(&*attitudes) {
+        moment.add(zero.splat(weight * (1.0 - node)), q);
+    }
+    let (turned, moment) = (turned.dcm(), moment.dcm());
+    let scaled = |v: [R; 3], factor: R| [v[0] * factor, v[1] * factor, v[2] * factor];
+    Push {
+        impulse: scaled(product(turned, constants.force), length),
+        path: scaled(product(moment, constants.force), length * length),
+        angular: scaled(product(turned, constants.torque), length),
+    }
+}
+
+/// Weighted sums of the products of a quaternion's components.
+struct AttitudeProducts<R> {
+    /// q0^2, q1^2, q2^2, q3^2.
+    squares: [R; 4],
+    /// q0 q1, q0 q2, q0 q3.
+    scalar: [R; 3],
+    /// q2 q3, q3 q1, q1 q2.
+    vector: [R; 3],
+}
+
+impl<R: Real> AttitudeProducts<R> {
+    fn none(zero: R) -> Self {
+        AttitudeProducts { squares: [zero; 4], scalar: [zero; 3], vector: [zero; 3] }
+    }
+
+    /// Adds those of `q`, times `weight`.
+    #[inline(always)]
+    fn add(&mut self, weight: R, q: &[R; 4]) {
+        let weighted = [weight * q[0], weight * q[1], weight * q[2], weight * q[3]];
+        for i in 0..4 {
+            self.squares[i] = weighted[i].mul_add(q[i], self.squares[i]);
+        }
+        for i in 0..3 {
+            let (a, b) = (1 + (i + 1) % 3, 1 + (i + 2) % 3);
+            self.scalar[i] = weighted[0].mul_add(q[1 + i], self.scalar[i]);
+            self.vector[i] = weighted[a].mul_add(q[b], self.vector[i]);
+        }
+    }
+
+    /// The weighted sum of the direction cosine matrices, by rows; see [`crate::math::vector::dcm_from_quaternion`].
+    #[inline(always)]
+    fn dcm(&self) -> [[R; 3]; 3] {
+        let [ww, xx, yy, zz] = self.squares;
+        let ([wx, wy, wz], [yz, zx, xy]) = (self.scalar, self.vector);
+        let two = ww.splat(2.0);
+        [
+            [(ww + xx) - (yy + zz), two * (xy - wz), two * (zx + wy)],
+            [two * (xy + wz), (ww + yy) - (xx + zz), two * (yz - wx)],
+            [two * (zx - wy), two * (yz + wx), (ww + zz) - (xx + yy)],
+        ]
     }
 }
 
@@ -165,8 +271,7 @@ mod tests {
     #[test]
     fn the_error_of_a_turning_vector_is_the_stated_one() {
         for (m, turn) in [(3, 1.0), (5, 2.0), (6, 3.0)] {
-            let rule = Quadrature { nodes: (0..m).map(|i| node(m, i)).collect() };
-            let sum: f64 = rule.nodes.iter().map(|(x, w)| w * libm::cos(turn * (x - 0.5))).sum();
+            let sum: f64 = (0..m).map(|i| node(m, i)).map(|(x, w)| w * libm::cos(turn * (x - 0.5))).sum();
             let exact = 2.0 / turn * libm::sin(0.5 * turn);
             let ratio = (sum - exact).abs() / error(m, turn);
             assert!((0.5..1.1).contains(&ratio), "{m} nodes over {turn}: {ratio}");
@@ -177,7 +282,7 @@ mod tests {
     fn nodes_follow_the_tolerance() {
         for (tolerance, count) in [(1e-4, 4), (1e-8, 6), (1e-12, 7), (1e-16, 9)] {
             let rule = StepRule::new(tolerance);
-            assert_eq!(Quadrature::new(&rule, tolerance).count(), count, "{tolerance}");
+            assert_eq!(Quadrature::new(0.0, &rule, tolerance).count(), count, "{tolerance}");
         }
     }
 }

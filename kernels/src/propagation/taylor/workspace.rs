@@ -3,6 +3,7 @@
 use super::brief::BriefRule;
 use super::fold_buffer::FoldBuffer;
 use super::jet::{Reciprocals, Scratch};
+use super::point_rows::PointRows;
 use super::series_ring::SeriesRing;
 use super::step::StepRule;
 use super::thrust::Quadrature;
@@ -31,13 +32,15 @@ pub struct Workspace<R, const J: usize> {
     /// What is asked for.
     pub settings: Settings,
     /// Nodes of the integrals of thrust.
-    pub quadrature: Quadrature,
+    pub quadrature: Quadrature<R>,
     /// 1/n.
     pub reciprocals: Reciprocals<R>,
     /// Intermediate series of the recurrences.
     pub scratch: Scratch<R>,
     /// Series of the last steps.
     pub ring: SeriesRing<R, J>,
+    /// The last points of the run in each lane.
+    pub(super) points: PointRows,
     /// The run in each lane at its points.
     pub trajectories: Vec<Trajectory>,
     /// Memory of the arcs that the run in each lane flies.
@@ -54,10 +57,11 @@ impl<R: Real, const J: usize> Workspace<R, J> {
             rule,
             brief: BriefRule::new(settings.tolerance, rule.order),
             settings,
-            quadrature: Quadrature::new(&rule, settings.tolerance),
+            quadrature: Quadrature::new(zero, &rule, settings.tolerance),
             reciprocals: Reciprocals::new(zero, rule.order),
             scratch: Scratch::new(zero),
             ring: SeriesRing::new(zero, rule.order),
+            points: PointRows::new(R::LANES, components),
             trajectories: (0..R::LANES).map(|_| Trajectory::new(components, points)).collect(),
             records: vec![ArcRecord::default(); R::LANES],
             folds: FoldBuffer::new(R::LANES, J, points),
