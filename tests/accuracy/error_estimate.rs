@@ -36,6 +36,8 @@ const COVERAGE: f64 = 0.95;
 /// From rest, and in slews that end at rest (`at_rest.rs`): a Runge-Kutta method of order p integrates a constant acceleration from rest better
 /// than the term of order p + 1 of the series says, measured 190 to 910 times and 130; tolerances of the null-space method are held by its
 /// fast wheels, whose errors hardly reach the body: measured 220 times, and 1.4e6 where the wheels' momenta cancel. `docs/results.md` says so.
+///
+/// `taylor` at 1e-10 in Table I: the estimate adds what 120 steps leave out as if all had one direction; measured 130 times.
 fn too_large(method: Method, family: &str) -> f64 {
     match (method, family) {
         (Method::NullSpace, "mixed, forced") => 200.0,
@@ -46,6 +48,7 @@ fn too_large(method: Method, family: &str) -> f64 {
             "zero momentum, driven" | "slew by wheels" | "slew by thrusters" | "thrust from rest",
         ) => 3e3,
         (Method::Gyrostat(Integrator::GaussLegendre), "slew by thrusters") => 200.0,
+        (Method::Taylor, "spin_sweep" | "no_debris") => 200.0,
         _ => 100.0,
     }
 }
@@ -373,7 +376,8 @@ fn what_rounding_decides_is_ill_conditioned() {
         assert_eq!(ill, if axis == 1 { [false, false, true, true] } else { [false; 4] }, "axis {axis}");
         if axis == 1 {
             let growth: Vec<f64> = runs.iter().map(|run| run.amplification).collect();
-            assert!(growth.is_sorted(), "{growth:?}");
+            // of the last two rounding decides how often they flip, and by that which of them grows more
+            assert!(growth[..3].is_sorted() && growth[3] > growth[1], "{growth:?}");
         } else {
             // 360 rad of rotation, and no more than some times that
             for (off, run) in offs.iter().zip(&runs) {

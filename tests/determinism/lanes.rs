@@ -122,13 +122,13 @@ fn runs_that_fail_beside_runs_that_do_not() {
 const GOLDEN: [(Method, &str, &str); 7] = [
     (
         Method::Auto,
-        "9eb26cf84029ce4db8bbbbdb7548e22d1bb15db9592b07f0e3efb948953063d1",
-        "954f6d7f52f878b6440c8f144ff71383ce55c89b1658066d82e0c2f9dab44f2f",
+        "d50ff790ae91ea577c8081db87a55bb1f45f10ca77b30e9dd1998223749f742e",
+        "1ea1a21bc85d540252d694031c319bb394c97d27c93865bbe97a520f44a119e3",
     ),
     (
         Method::Taylor,
-        "deaeeafe6a10e6518c5a1c3c83a1afa23b4c391f4940c41b5f018f23fac336d3",
-        "989b43afa08162fc2aeadd8337e404dfef701c2b9d54cac8190909f231280ec1",
+        "946cf90aedee39ca6def1edd8a49843191a30cb359c8e0026c06c427bb11b27d",
+        "116e9773de473632fc6495a6b50b30d710c2a2b2206a53b919bc3429dbdfb59e",
     ),
     (
         Method::Gyrostat(Integrator::DormandPrince),

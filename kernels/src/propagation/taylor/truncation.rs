@@ -1,20 +1,20 @@
 //! [`Truncation`]: the truncation errors of Taylor steps, from the last term that they keep.
 
 use super::brief::{Brief, LEAST};
+use super::step::StepRule;
 use crate::dynamics::gyrostat::{ATTITUDE, OMEGA, WITH_ATTITUDE};
 use crate::math::Real;
 use crate::math::vector::norm;
 use crate::propagation::local_error::rounding;
 use crate::run::LocalErrors;
 
-/// Share of the last kept term of omega's series that the rest of it amounts to: terms fall by e^-2 or more at the steps of
-/// Jorba & Zou (2005).
-const REST: f64 = 0.15;
+/// What the rest of omega's series amounts to in a brief step, as a share of the last term that it keeps: terms fall by e^-2 or more.
+const BRIEF_REST: f64 = 0.15;
 
 /// The sums of one run.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct TruncationSums {
-    /// Last terms of omega, added up, rad per unit of time.
+    /// What is left out of omega, added up, rad per unit of time.
     rate: f64,
     /// First terms left out of the attitude, added up, rad.
     turn: f64,
@@ -22,26 +22,29 @@ pub(super) struct TruncationSums {
 
 /// Sums over the steps of a run, in lanes.
 ///
-/// Of the attitude the first term left out is estimated from its own series: the last one kept, times the root of what that is of
+/// The first term left out of a series is estimated from the series: the last one kept, times the root of what that is of
 /// the term two orders before; or the one before the last, times what that is of the term two orders before it, whichever is larger: from
-/// rest at a constant acceleration all terms of odd order are zero. Where only rates are integrated it counts as turning with constant omega,
-/// (|omega| h/2)^(p+1)/(p+1)!.
+/// rest at a constant acceleration all terms of odd order of the attitude are zero. Where only rates are integrated the attitude counts as turning
+/// with constant omega, (|omega| h/2)^(p+1)/(p+1)!.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Truncation<R> {
     order: usize,
     /// 2/(p+1)!.
     factor: f64,
-    /// Last terms of omega, added up, rad per unit of time.
+    /// What is left out of omega's series over the first term of that.
+    all: f64,
+    /// What is left out of omega, added up, rad per unit of time.
     rate: R,
     /// First terms left out of the attitude, added up, rad.
     turn: R,
 }
 
 impl<R: Real> Truncation<R> {
-    /// No steps yet, of order `order`; `zero` says how many lanes.
-    pub(super) fn new(zero: R, order: usize) -> Self {
+    /// No steps yet, by `rule`; `zero` says how many lanes.
+    pub(super) fn new(zero: R, rule: &StepRule) -> Self {
+        let order = rule.order;
         let factorial: f64 = (1..=order + 1).map(|n| n as f64).product();
-        Truncation { order, factor: 2.0 / factorial, rate: zero, turn: zero }
+        Truncation { order, factor: 2.0 / factorial, all: 1.0 + rule.rest(), rate: zero, turn: zero }
     }
 
     /// The sums of the run in `lane`.
@@ -64,17 +67,10 @@ impl<R: Real> Truncation<R> {
     #[inline(always)]
     pub(super) fn add<const N: usize>(&mut self, jet: &[[R; N]], length: R) {
         let order = self.order;
-        let tiny = length.splat(f64::MIN_POSITIVE);
-        let (power, square) = (raised_to(length, order - 1), length * length);
-        // the share that a term is of the one two orders before
-        let share = |term: R, before: R| (term * square / before.larger(tiny)).smaller(length.splat(1.0));
-        let (last, before) = (size(&jet[order]) * length, size(&jet[order - 1]));
-        self.rate += power * last.larger(before * share(before, size(&jet[order - 3])).sqrt());
+        let power = raised_to(length, order - 1);
+        self.rate += length.splat(self.all) * (power * left_out(jet, order, length, size));
         self.turn += if N >= WITH_ATTITUDE {
-            let (last, before) = (turn(&jet[order]), turn(&jet[order - 1]));
-            let from_last = last * length * share(last, turn(&jet[order - 2])).sqrt();
-            let from_before = before * share(before, turn(&jet[order - 3]));
-            length.splat(2.0) * (power * from_last.larger(from_before))
+            length.splat(2.0) * (power * left_out(jet, order, length, turn))
         } else {
             length.splat(self.factor) * raised_to(length.splat(0.5) * (size(&jet[0]) * length), order + 1)
         };
@@ -98,7 +94,7 @@ impl<R: Real> Truncation<R> {
             power = power * length;
         }
         let (rate, turn) = (last[0].larger(before[0] * brief.turn), last[1].larger(before[1] * brief.turn));
-        self.rate += R::select(brief.lanes, rate, zero);
+        self.rate += R::select(brief.lanes, zero.splat(BRIEF_REST) * rate, zero);
         self.turn += R::select(brief.lanes, length.splat(2.0) * (turn * brief.turn), zero);
     }
 }
@@ -107,9 +103,21 @@ impl TruncationSums {
     /// The errors after `steps` steps, whose rotation is repeated `periods` times; the unit of time is `unit` seconds.
     pub(super) fn errors(&self, steps: u64, periods: f64, unit: f64) -> LocalErrors {
         let LocalErrors { rounding, attitude, .. } = rounding(steps);
-        let truncation = REST * self.rate / unit;
+        let truncation = self.rate / unit;
         LocalErrors { truncation, rounding, feedback: 0.0, attitude: periods * (attitude + self.turn) }
     }
+}
+
+/// The first term left out of the series `jet` of order `order` in a step of length `length`, over `length` to the power `order` - 1;
+/// `size` is that of a coefficient.
+#[inline(always)]
+fn left_out<R: Real, const N: usize>(jet: &[[R; N]], order: usize, length: R, size: impl Fn(&[R; N]) -> R) -> R {
+    let (tiny, square) = (length.splat(f64::MIN_POSITIVE), length * length);
+    // the share that a term is of the one two orders before
+    let share = |term: R, before: R| (term * square / before.larger(tiny)).smaller(length.splat(1.0));
+    let (last, before) = (size(&jet[order]), size(&jet[order - 1]));
+    let from_last = last * length * share(last, size(&jet[order - 2])).sqrt();
+    from_last.larger(before * share(before, size(&jet[order - 3])))
 }
 
 /// |omega| of one order of a series.
