@@ -130,11 +130,14 @@ const LONG: &[(&str, &str)] = &[
 fn what_is_out_of_reach_ends_at_once() {
     let scratch = folder("out-of-reach");
     for (from, to) in LONG {
-        let text = campaign().replace("samples = 600", "samples = 3").replacen(from, to, 1);
+        // `auto` finds the period of such rates, and is done at once
+        let text =
+            campaign().replace("samples = 600", "samples = 3").replace("\"auto\"", "\"taylor\"").replacen(from, to, 1);
         scratch.file("long.toml", &text);
         let said = scratch.prints("check long.toml", 0);
-        let (_, why) =
-            said.split_once("cannot be estimated: sample 0 needs more than 20000 steps, which lead to ").unwrap();
+        let (_, why) = said
+            .split_once("cannot be estimated: sample 0 needs more than 20000 steps, which lead to ")
+            .unwrap_or_else(|| panic!("{to}: {said}"));
         assert!(
             why.contains("s of 1.0 s; at that pace integrator.max_steps (10000000) does not suffice"),
             "{to}: {why}"
@@ -154,6 +157,9 @@ fn what_is_out_of_reach_ends_at_once() {
     }
     let fast = campaign().replace("[0, 3.141592653589793, 31.41592653589793]", "[1e9, 1e9, 0]");
     for method in spindrift::propagation::Method::ALL {
+        if method == spindrift::propagation::Method::Auto {
+            continue;
+        }
         let step = if method.has_fixed_step() { "\nstep_s = 1e-10" } else { "" };
         let written = format!("method = \"{}\"\ntolerance = 1e-10{step}", method.name());
         scratch.file("fast.toml", &fast.replace("method = \"auto\"\ntolerance = 1e-10", &written));

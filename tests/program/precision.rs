@@ -42,7 +42,8 @@ fn errors_follow_the_settings() {
             let place = heads.iter().position(|other| *other == head).expect(head);
             let found: f64 = words[place].trim_end_matches('s').parse().expect("a number");
             // two digits of errors, whole steps, three digits of times
-            assert!((found - known).abs() <= 0.051 * known.abs(), "{head} {found} for {known}: {line}");
+            let rounding = if head == "steps" { 0.5 } else { 0.0 };
+            assert!((found - known).abs() <= 0.051 * known.abs() + rounding, "{head} {found} for {known}: {line}");
         }
     }
     let methods: Vec<&str> = table.column(0).as_string::<i32>().iter().flatten().collect();

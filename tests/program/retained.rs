@@ -25,7 +25,7 @@ use crate::support::scratch_folder::{ScratchFolder, column, ended, floats};
 
 /// A third of the samples is not physical, and one in some runs needs more steps than it may make.
 fn file(retain: &str) -> String {
-    let few_steps = campaign().replace("tolerance = 1e-10", "tolerance = 1e-10\nmax_steps = 28");
+    let few_steps = campaign().replace("tolerance = 1e-10", "tolerance = 1e-10\nmax_steps = 17");
     format!("{few_steps}{NEGATIVE_WALLS}\n[retain]\ntrajectories = \"{retain}\"\n")
 }
 

@@ -57,11 +57,6 @@ impl<R: Real> Quadrature<R> {
         Quadrature { step, half, attitudes }
     }
 
-    /// Number of nodes of a whole step.
-    pub fn count(&self) -> usize {
-        self.step.len()
-    }
-
     /// What the thrust adds over a step of length `x` along the series `jet`.
     #[inline(always)]
     pub fn over_step<const J: usize>(&mut self, constants: &Constants<R>, jet: &[[R; J]], x: R) -> Push<R> {
@@ -252,6 +247,7 @@ fn node(m: usize, i: usize) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dynamics::gyrostat::WITH_ATTITUDE;
 
     #[test]
     fn rules_integrate_polynomials_of_degree_2m_minus_1() {
@@ -280,9 +276,49 @@ mod tests {
 
     #[test]
     fn nodes_follow_the_tolerance() {
-        for (tolerance, count) in [(1e-4, 4), (1e-8, 6), (1e-12, 7), (1e-16, 9)] {
-            let rule = StepRule::new(tolerance);
-            assert_eq!(Quadrature::new(0.0, &rule, tolerance).count(), count, "{tolerance}");
+        for (tolerance, step, half) in [(1e-4, 5, 4), (1e-8, 7, 5), (1e-12, 9, 7), (1e-15, 10, 8), (1e-16, 9, 7)] {
+            let quadrature = Quadrature::new(0.0, &StepRule::in_f64(tolerance), tolerance);
+            assert_eq!([quadrature.step.len(), quadrature.half.len()], [step, half], "{tolerance}");
+        }
+    }
+
+    /// Law: what the thrust adds until a point is the same from either end of the step.
+    #[test]
+    fn a_point_is_reached_from_the_nearer_end() {
+        let (tolerance, zero) = (1e-14, 0.0_f64);
+        let rule = StepRule::in_f64(tolerance);
+        let mut quadrature = Quadrature::new(zero, &rule, tolerance);
+        let force = [3.0, -1.0, 2.0];
+        let constants = Constants { force, torque: [0.5, 2.0, -1.0], ..Constants::zero(zero) };
+        // the body turns about s1 at a constant rate: q = (cos, sin, 0, 0) of half the angle, in one series
+        let rate = 3.0;
+        let mut jet = vec![[zero; WITH_ATTITUDE]; rule.order + 1];
+        for (n, coefficients) in jet.iter_mut().enumerate() {
+            let size = libm::pow(0.5 * rate, n as f64) / (1..=n).map(|k| k as f64).product::<f64>();
+            let sign = if n % 4 < 2 { 1.0 } else { -1.0 };
+            coefficients[ATTITUDE + n % 2] = sign * size;
+        }
+        let length = rule.largest_turn() / rate;
+        let whole = quadrature.over_step(&constants, &jet, length);
+        for share in [0.1, 0.4, 0.6, 0.9, 1.0] {
+            let x = share * length;
+            let found = quadrature.until(&constants, &jet, (length, &whole), x);
+            let alone = quadrature.over_step(&constants, &jet, x);
+            // the integral of the rotation about s1 by rate t, and that integral again
+            let (sine, cosine) = (libm::sin(rate * x) / rate, (1.0 - libm::cos(rate * x)) / rate);
+            let exact = [force[0] * x, force[1] * sine - force[2] * cosine, force[1] * cosine + force[2] * sine];
+            let again = (x - sine) / rate;
+            let path = [
+                force[0] * x * x / 2.0,
+                force[1] * cosine / rate - force[2] * again,
+                force[1] * again + force[2] * cosine / rate,
+            ];
+            for i in 0..3 {
+                // roundings of sums of some ten terms of size four
+                assert!((found.impulse[i] - exact[i]).abs() < 2e-14, "{share} {i}: {}", found.impulse[i] - exact[i]);
+                assert!((found.path[i] - path[i]).abs() < 2e-14, "{share} {i}: {}", found.path[i] - path[i]);
+                assert!((found.angular[i] - alone.angular[i]).abs() < 2e-14, "{share} {i}");
+            }
         }
     }
 }
