@@ -1,14 +1,14 @@
 //! Order and step size from the tolerance (A. Jorba & M. Zou, Experimental Mathematics 14, 2005, sections 3.1 and 3.2).
 //!
 //! The order of Jorba & Zou, 1 - ln(tolerance)/2, costs least where a step costs as much as its Cauchy products. Here it does not: points,
-//! integrals of thrust and the search for a period cost the same at any order. [`MORE_ORDERS`] make the steps longer at the
+//! integrals of thrust and the search for a period cost the same at any order. `MORE_ORDERS` make the steps longer at the
 //! same truncation.
 //!
 //! **The attitude.** Where omega is below w/(1 - t/rho) coefficient by coefficient, with rho the radius of convergence, q' = q (x) omega/2 gives
 //! q below (1 - t/rho)^(-s), s = w rho/2, whose coefficient n is binomial(s + n - 1, n)/rho^n. The root of order n of that binomial is
 //! at most 1.04 (1 + s/(n!)^(1/n)) up to n = 27, and near that for s > 3. So the first neglected term, of order n, meets the tolerance where
 //! tolerance^(1/n)/h = 1/rho + w/(2 (n!)^(1/n)): the reciprocals of the step that the radius allows and of the one that turning at a
-//! constant rate allows add up. The coefficients of omega are below the majorant's: a share of [`RADIUS_SHARE`] of the first is enough.
+//! constant rate allows add up. The coefficients of omega are below the majorant's: a share of `RADIUS_SHARE` of the first is enough.
 //!
 //! Decided from the angular velocity alone, so that a campaign that asks for the attitude and one that does not take the same
 //! steps and get the same bits.
